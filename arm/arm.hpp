@@ -1,0 +1,54 @@
+#pragma once
+
+#include "arm/beam.hpp"
+#include "arm/damping.hpp"
+#include "arm/effects.hpp"
+#include "arm/hub.hpp"
+#include "arm/payload.hpp"
+
+#include <string>
+
+namespace flexarm::arm {
+
+/// A single-link flexible manipulator: a uniform beam turned about its root by a motor, with a
+/// payload at its tip.
+///
+/// y(x, t) is the displacement of the beam at x from the line that the arm rests on, hub rotation
+/// included; theta = y'(0, t); tau the torque on the hub; [0, l] the beam:
+///
+///     EI (1 + kv d/dt) y'''' + m y_tt = 0
+///     y(0) = 0
+///     Ih theta_tt + c theta_t - EI (1 + kv d/dt) y''(0) = tau
+///     EI (1 + kv d/dt) y'''(l) = Mp y_tt(l)
+///     EI (1 + kv d/dt) y''(l) = -Ip y'_tt(l)
+struct Arm {
+  std::string name;
+  Beam beam;
+  Hub hub;
+  Payload payload;
+  Damping damping;
+  Effects effects;
+
+  bool operator==(const Arm&) const = default;
+};
+
+/// Throws InputError for the first value that is not finite or out of its range.
+void require_valid(const Arm& arm);
+
+/// I_T, the inertia of the rigid arm about the motor axis: Ih + m l^3/3 + Mp l^2 + Ip [kg m^2].
+double total_inertia_kg_m2(const Arm& arm);
+
+/// sqrt(EI/(m l^4)): omega = lambda^2 times this, with lambda = beta l [rad/s].
+double omega_scale_rad_per_s(const Arm& arm);
+
+/// epsilon = Ih/(m l^3), equation (20) of the paper without its factor 3.
+double hub_inertia_ratio(const Arm& arm);
+/// eta = Mp/(m l), equation (20).
+double payload_mass_ratio(const Arm& arm);
+/// Ip/(m l^3).
+double payload_inertia_ratio(const Arm& arm);
+
+/// The arm of the paper's Table 1: aluminium link, no payload, no damping.
+Arm paper_arm();
+
+}  // namespace flexarm::arm

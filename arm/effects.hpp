@@ -1,0 +1,52 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace flexarm::arm {
+
+/// One parameter of an effect, with the range that an arm file may give it.
+struct EffectParameter {
+  std::string name;
+  std::string unit;
+  double minimum;  ///< allowed values are >= minimum (> where `exclusive_minimum`)
+  bool exclusive_minimum;
+  bool required;  ///< must be given in the arm file
+};
+
+/// One entry of the vocabulary of causes (docs/formats.md).
+struct EffectDefinition {
+  std::string name;
+  std::vector<EffectParameter> parameters;
+};
+
+/// The whole vocabulary, in the order of docs/formats.md.
+const std::vector<EffectDefinition>& effect_vocabulary();
+
+/// The vocabulary's entry of that name, or null.
+const EffectDefinition* find_effect(std::string_view name);
+
+/// An effect that is switched on: its numbers by parameter name, and the sensor it acts on where
+/// it acts on one (sensor_lag only; empty means the vocabulary's default).
+struct Effect {
+  std::map<std::string, double> parameters;
+  std::string sensor;
+
+  bool operator==(const Effect&) const = default;
+};
+
+/// The effects that extend an arm, by name. A formulation honours each or refuses it by name.
+using Effects = std::map<std::string, Effect>;
+
+/// Throws InputError for an unknown effect, an unknown or missing parameter, or a value out of
+/// range.
+void require_valid(const Effects& effects);
+
+/// Throws InputError that names the first effect which `formulation` cannot honour; `honoured`
+/// lists the names it can.
+void require_honoured(const Effects& effects, std::string_view formulation,
+                      const std::vector<std::string_view>& honoured);
+
+}  // namespace flexarm::arm

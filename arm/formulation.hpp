@@ -1,0 +1,100 @@
+#pragma once
+
+#include "arm/arm.hpp"
+#include "arm/sensor.hpp"
+
+#include <complex>
+#include <concepts>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace flexarm::arm {
+
+/// What an iterative search says of itself.
+struct SolveSummary {
+  std::string method;             ///< in the field's terms: "Wittrick-Williams count, TOMS 748"
+  int iterations = 0;             ///< iterations, or function values where those are counted
+  double largest_residual = 0.0;  ///< in the sense that `method` states; 0 when none is formed
+  bool converged = true;
+};
+
+/// How many roots were found beside how many there are; `expected` < 0 when nothing counted them.
+struct RootCount {
+  int found = 0;
+  int expected = -1;
+  std::string method;  ///< "Wittrick-Williams", "argument principle", "Sylvester inertia"
+};
+
+/// Undamped flexible poles s = +-i omega.
+struct PoleSet {
+  std::vector<double> omega_rad_per_s;  ///< ascending, the rigid-body poles at s = 0 left out
+  int rigid_body_modes = 1;
+  RootCount count;
+  SolveSummary summary;
+};
+
+/// A root of a discrete zero problem that is not a zero of the arm, and why.
+struct RejectedZero {
+  std::complex<double> s_rad_per_s;
+  double relative_change = 0.0;  ///< distance to the nearest root on the checking discretisation
+  std::string reason;
+};
+
+/// Undamped zeros of torque to a sensor, those at s = 0 and at infinity left out.
+struct ZeroSet {
+  /// One of each pair +-s or quadruple +-s, +-conj(s): Re >= 0, Im >= 0; ascending in |s|.
+  std::vector<std::complex<double>> s_rad_per_s;
+  std::vector<RejectedZero> rejected;  ///< ascending in |s|
+  int infinite = 0;  ///< infinite roots of a discrete problem; 0 for the exact one
+  RootCount count;
+  SolveSummary summary;
+};
+
+/// One flexible mode of the undamped arm. phi is scaled to the modal mass I_T,
+///
+///     int m phi_i phi_j dx + Ih phi_i'(0) phi_j'(0) + Mp phi_i(l) phi_j(l) + Ip phi_i'(l)
+///     phi_j'(l)
+///         = I_T delta_ij,
+///
+/// equation (24) of the paper put right, so that the rigid-body mode is phi_0(x) = x; its sign is
+/// that of a positive hub slope.
+struct Mode {
+  double omega_rad_per_s = 0.0;
+  double hub_slope = 0.0;              ///< phi'(0) [1]
+  double damping_ratio = 0.0;          ///< projected: (kv omega^2 + c phi'(0)^2/I_T)/(2 omega)
+  std::vector<double> sensor_values;   ///< per sensor, before time derivatives: phi'(0), phi(l),
+                                       ///< phi(l) - l phi'(0) or thickness/2 phi''(X)
+  std::vector<double> displacement_m;  ///< phi at the stations asked for
+};
+
+/// A formulation is a model of an arm that answers the questions below, each from its own
+/// equations.
+///
+/// - `poles(n)`, `modes(n, ...)`: the n lowest flexible ones, undamped, in ascending order; fewer
+///   only where the model has fewer degrees of freedom. n >= 1.
+/// - `zeros(sensor, n)`: the n finite non-zero roots smallest in |s| of the undamped
+/// torque-to-sensor
+///   numerator; a discrete model leaves out those it can tell to be spurious and reports them.
+/// - `transfer_function(sensor, s)`: response per unit of torque on the hub, damping included, at
+///   complex s [rad/s]; s = 0 is a std::domain_error, at a pole the value is not finite or huge.
+/// - `degrees_of_freedom()`: generalised coordinates, the hub rotation included; 0 for exact_tf.
+///
+/// All throw InputError for a sensor that the arm cannot carry. Constructors throw InputError for
+/// an invalid arm and for an effect that the formulation does not honour, by name. Objects are
+/// immutable: concurrent calls are safe.
+template <class F>
+concept Formulation = requires(const F& f, int count, const Sensor& sensor,
+                               std::span<const Sensor> sensors, std::span<const double> stations_m,
+                               std::complex<double> s_rad_per_s) {
+  { F::kName } -> std::convertible_to<std::string_view>;
+  { f.arm() } -> std::same_as<const Arm&>;
+  { f.degrees_of_freedom() } -> std::same_as<int>;
+  { f.poles(count) } -> std::same_as<PoleSet>;
+  { f.zeros(sensor, count) } -> std::same_as<ZeroSet>;
+  { f.modes(count, sensors, stations_m) } -> std::same_as<std::vector<Mode>>;
+  { f.transfer_function(sensor, s_rad_per_s) } -> std::same_as<std::complex<double>>;
+};
+
+}  // namespace flexarm::arm

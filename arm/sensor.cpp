@@ -1,0 +1,99 @@
+#include "arm/sensor.hpp"
+
+#include "arm/input_error.hpp"
+#include "arm/nearest_name.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <stdexcept>
+#include <system_error>
+
+namespace flexarm::arm {
+
+namespace {
+
+struct KindEntry {
+  SensorKind kind;
+  std::string_view name;
+  std::string_view unit;
+  int derivative_order;
+};
+
+constexpr std::array<KindEntry, 6> kKinds = {{
+    {SensorKind::hub_angle, "hub_angle", "rad", 0},
+    {SensorKind::hub_velocity, "hub_velocity", "rad/s", 1},
+    {SensorKind::tip_acceleration, "tip_acceleration", "m/s^2", 2},
+    {SensorKind::tip_displacement, "tip_displacement", "m", 0},
+    {SensorKind::tip_deflection, "tip_deflection", "m", 0},
+    {SensorKind::strain, "strain", "1", 0},
+}};
+
+const KindEntry& entry_of(SensorKind kind) {
+  for (const auto& entry : kKinds) {
+    if (entry.kind == kind) return entry;
+  }
+  throw std::logic_error("sensor kind outside its enumeration");
+}
+
+}  // namespace
+
+Sensor parse_sensor(std::string_view name) {
+  constexpr std::string_view kStrain = "strain@";
+  if (name.starts_with(kStrain)) {
+    const std::string_view digits = name.substr(kStrain.size());
+    double position_m = 0.0;
+    const auto [end, error] =
+        std::from_chars(digits.data(), digits.data() + digits.size(), position_m);
+    if (error != std::errc() || end != digits.data() + digits.size() ||
+        !std::isfinite(position_m)) {
+      throw InputError(fmt::format(
+          "sensor {}: the position after strain@ must be a number of metres, as in strain@0.05",
+          name));
+    }
+    return {SensorKind::strain, position_m};
+  }
+  std::vector<std::string> names;
+  for (const auto& entry : kKinds) {
+    if (entry.kind == SensorKind::strain) continue;
+    if (entry.name == name) return {entry.kind, 0.0};
+    names.emplace_back(entry.name);
+  }
+  names.emplace_back("strain@X");
+  throw InputError(fmt::format("sensor {}: unknown{}; allowed: {} (X in metres from the hub)", name,
+                               did_you_mean(name, names), fmt::join(names, ", ")));
+}
+
+std::string to_string(const Sensor& sensor) {
+  const std::string name(entry_of(sensor.kind).name);
+  return sensor.kind == SensorKind::strain ? fmt::format("{}@{}", name, sensor.position_m) : name;
+}
+
+std::string_view unit(const Sensor& sensor) {
+  return entry_of(sensor.kind).unit;
+}
+
+int derivative_order(const Sensor& sensor) {
+  return entry_of(sensor.kind).derivative_order;
+}
+
+bool is_collocated(const Sensor& sensor) {
+  return sensor.kind == SensorKind::hub_angle || sensor.kind == SensorKind::hub_velocity;
+}
+
+void require_valid(const Sensor& sensor, const Arm& arm) {
+  if (sensor.kind != SensorKind::strain) return;
+  if (!(sensor.position_m >= 0.0 && sensor.position_m <= arm.beam.length_m)) {
+    throw InputError(fmt::format("sensor {}: position must be from 0 to the beam's length, {} m",
+                                 to_string(sensor), arm.beam.length_m));
+  }
+  if (!arm.beam.thickness_m) {
+    throw InputError(fmt::format("sensor {}: needs beam.thickness, which the arm does not give",
+                                 to_string(sensor)));
+  }
+}
+
+}  // namespace flexarm::arm

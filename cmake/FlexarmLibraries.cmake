@@ -1,0 +1,37 @@
+# Outside libraries, each as one target; scripts/packages names the Debian package of each.
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(Boost 1.74 REQUIRED)
+find_package(fmt REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(tomlplusplus REQUIRED)
+find_package(CLI11 REQUIRED)
+
+# Header-only: used as SYSTEM so that its warnings are not ours.
+find_path(SPECTRA_INCLUDE_DIR Spectra/SymGEigsShiftSolver.h REQUIRED)
+add_library(flexarm_spectra INTERFACE)
+target_include_directories(flexarm_spectra SYSTEM INTERFACE "${SPECTRA_INCLUDE_DIR}")
+target_link_libraries(flexarm_spectra INTERFACE Eigen3::Eigen)
+
+find_path(SUITESPARSE_INCLUDE_DIR umfpack.h PATH_SUFFIXES suitesparse REQUIRED)
+add_library(flexarm_suitesparse INTERFACE)
+target_include_directories(flexarm_suitesparse SYSTEM INTERFACE "${SUITESPARSE_INCLUDE_DIR}")
+foreach(part umfpack klu cholmod btf amd colamd suitesparseconfig)
+  find_library(SUITESPARSE_${part}_LIBRARY ${part} REQUIRED)
+  target_link_libraries(flexarm_suitesparse INTERFACE "${SUITESPARSE_${part}_LIBRARY}")
+endforeach()
+
+find_path(ARB_INCLUDE_DIR acb.h REQUIRED)
+find_path(FLINT_INCLUDE_DIR flint/flint.h REQUIRED)
+find_library(ARB_LIBRARY NAMES flint-arb arb REQUIRED)
+find_library(FLINT_LIBRARY flint REQUIRED)
+add_library(flexarm_arb INTERFACE)
+target_include_directories(flexarm_arb SYSTEM INTERFACE "${ARB_INCLUDE_DIR}" "${FLINT_INCLUDE_DIR}")
+target_link_libraries(flexarm_arb INTERFACE "${ARB_LIBRARY}" "${FLINT_LIBRARY}")
+
+if(FLEXARM_TESTS)
+  find_package(GTest REQUIRED)
+  include(GoogleTest)
+endif()
+if(FLEXARM_BENCHMARKS)
+  find_package(benchmark REQUIRED)
+endif()

@@ -1,0 +1,40 @@
+# flexarm_room(NAME SOURCES ... HEADERS ... USES ... LIBRARIES ...)
+#   One static library `flexarm_NAME` (alias flexarm::NAME) a folder. USES names other rooms,
+#   LIBRARIES outside libraries; both are visible to whoever links the room.
+function(flexarm_room name)
+  cmake_parse_arguments(ROOM "" "" "SOURCES;HEADERS;USES;LIBRARIES" ${ARGN})
+  set(target flexarm_${name})
+  add_library(${target} STATIC ${ROOM_SOURCES})
+  add_library(flexarm::${name} ALIAS ${target})
+  target_sources(${target} PUBLIC FILE_SET HEADERS BASE_DIRS "${PROJECT_SOURCE_DIR}"
+                 FILES ${ROOM_HEADERS})
+  list(TRANSFORM ROOM_USES PREPEND flexarm::)
+  target_link_libraries(${target} PUBLIC ${ROOM_USES} ${ROOM_LIBRARIES} PRIVATE flexarm_flags)
+  install(TARGETS ${target} FILE_SET HEADERS DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/flexarm")
+endfunction()
+
+# flexarm_test(NAME SOURCES ... USES ... LIBRARIES ...)
+#   One GoogleTest program; every TEST in it is a test of ctest.
+function(flexarm_test name)
+  cmake_parse_arguments(CHECK "" "" "SOURCES;USES;LIBRARIES" ${ARGN})
+  add_executable(${name} ${CHECK_SOURCES})
+  list(TRANSFORM CHECK_USES PREPEND flexarm::)
+  target_link_libraries(${name} PRIVATE ${CHECK_USES} ${CHECK_LIBRARIES} GTest::gtest_main
+                        GTest::gmock flexarm_flags)
+  target_compile_definitions(${name} PRIVATE FLEXARM_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST PROPERTIES TIMEOUT 300)
+endfunction()
+
+# Warnings are errors in our own code; libraries come in as SYSTEM.
+add_library(flexarm_flags INTERFACE)
+target_compile_options(flexarm_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion
+                       -Wsign-conversion -Wnon-virtual-dtor -Woverloaded-virtual -Werror)
+if(FLEXARM_SANITIZE)
+  add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=all
+                      -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=address,undefined)
+endif()
+if(FLEXARM_COVERAGE)
+  add_compile_options(--coverage)
+  add_link_options(--coverage)
+endif()

@@ -1,0 +1,113 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+using Rooms = std::set<std::string>;
+
+/// The rooms and whom each may include. The three formulations may include `arm` alone: that they
+/// agree is evidence only while they share nothing else.
+const std::map<std::string, Rooms>& allowed_arrows() {
+  static const std::map<std::string, Rooms> arrows = [] {
+    std::map<std::string, Rooms> map;
+    map["arm"] = {};
+    map["exact_tf"] = {"arm"};
+    map["fem"] = {"arm"};
+    map["assumed_modes"] = {"arm"};
+    map["measured"] = {"arm"};
+    map["response"] = {"arm", "exact_tf", "fem", "assumed_modes"};
+    map["compare"] = {"arm", "exact_tf", "fem", "assumed_modes", "response", "measured"};
+    map["report"] = {"arm", "response", "compare", "measured"};
+    map["app"] = {"arm",      "exact_tf", "fem",     "assumed_modes",
+                  "measured", "response", "compare", "report"};
+    return map;
+  }();
+  return arrows;
+}
+
+struct Include {
+  std::string file;
+  std::string line;
+  std::string from_room;
+  std::string to_room;
+};
+
+std::vector<Include> includes_of(const fs::path& root, const std::string& room) {
+  static const std::regex own_include("^\\s*#\\s*include\\s+\"([^/\"]+)/[^\"]*\"");
+  std::vector<Include> includes;
+  for (const auto& entry : fs::recursive_directory_iterator(root / room)) {
+    const auto extension = entry.path().extension();
+    if (extension != ".hpp" && extension != ".cpp" && extension != ".in") continue;
+    std::ifstream file(entry.path());
+    for (std::string line; std::getline(file, line);) {
+      std::smatch match;
+      if (std::regex_search(line, match, own_include)) {
+        includes.push_back({entry.path().string(), line, room, match[1].str()});
+      }
+    }
+  }
+  return includes;
+}
+
+bool is_allowed(const Include& include) {
+  return include.from_room == include.to_room ||
+         allowed_arrows().at(include.from_room).contains(include.to_room);
+}
+
+TEST(Structure, EveryIncludeFollowsAnAllowedArrow) {
+  const fs::path root = FLEXARM_SOURCE_DIR;
+  int seen = 0;
+  for (const auto& [room, targets] : allowed_arrows()) {
+    if (!fs::exists(root / room)) continue;
+    for (const auto& include : includes_of(root, room)) {
+      ++seen;
+      EXPECT_TRUE(is_allowed(include))
+          << include.file << ": " << include.line << " is not an arrow of the house";
+    }
+  }
+  EXPECT_GT(seen, 10) << "the include pattern matches nothing";
+}
+
+TEST(Structure, OneFormulationIncludingAnotherIsCaught) {
+  for (const std::string from : {"fem", "assumed_modes", "exact_tf"}) {
+    for (const std::string to : {"fem", "assumed_modes", "exact_tf", "response", "compare"}) {
+      EXPECT_EQ(is_allowed({"", "", from, to}), from == to);
+    }
+  }
+}
+
+TEST(Structure, EverySourceFolderIsARoomOfTheHouse) {
+  const Rooms not_rooms = {"tests", "benchmarks", "docs",  "data", "scripts",
+                           "cmake", "python",     "build", "out"};
+  for (const auto& entry : fs::directory_iterator(FLEXARM_SOURCE_DIR)) {
+    const std::string name = entry.path().filename().string();
+    if (!entry.is_directory() || name.starts_with(".") || not_rooms.contains(name)) continue;
+    EXPECT_TRUE(allowed_arrows().contains(name)) << name << " is no room of the house";
+  }
+}
+
+TEST(Structure, FilesStayReadableInOneSitting) {
+  constexpr int kMostLines = 450;
+  for (const auto& [room, targets] : allowed_arrows()) {
+    const fs::path folder = fs::path(FLEXARM_SOURCE_DIR) / room;
+    if (!fs::exists(folder)) continue;
+    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+      if (entry.path().extension() != ".hpp" && entry.path().extension() != ".cpp") continue;
+      std::ifstream file(entry.path());
+      int lines = 0;
+      for (std::string line; std::getline(file, line);) ++lines;
+      EXPECT_LE(lines, kMostLines) << entry.path();
+    }
+  }
+}
+
+}  // namespace

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "arm/range.hpp"
+
 #include <map>
 #include <string>
 #include <string_view>
@@ -11,8 +13,7 @@ namespace flexarm::arm {
 struct EffectParameter {
   std::string name;
   std::string unit;
-  double minimum;  ///< allowed values are >= minimum (> where `exclusive_minimum`)
-  bool exclusive_minimum;
+  Range range;
   bool required;  ///< must be given in the arm file
 };
 
@@ -20,6 +21,7 @@ struct EffectParameter {
 struct EffectDefinition {
   std::string name;
   std::vector<EffectParameter> parameters;
+  std::string meaning;  ///< half a sentence for the reader of an arm file
 };
 
 /// The whole vocabulary, in the order of docs/formats.md.

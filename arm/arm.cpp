@@ -25,11 +25,11 @@ void require_on_beam(const Arm& arm) {
                          fmt::format("from 0 to the beam's length, {} m", arm.beam.length_m));
     }
   }
-  if (const auto lag = arm.effects.find("sensor_lag");
-      lag != arm.effects.end() && !lag->second.sensor.empty()) {
-    const std::string key = "effects.sensor_lag.sensor";
+  for (const auto& [name, effect] : arm.effects) {
+    if (effect.sensor.empty()) continue;
+    const std::string key = fmt::format("effects.{}.sensor", name);
     try {
-      require_valid(parse_sensor(lag->second.sensor), arm);
+      require_valid(parse_sensor(effect.sensor), arm);
     } catch (const InputError& error) {
       throw InputError(fmt::format("{}: {}", key, error.what()), key);
     }

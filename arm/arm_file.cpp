@@ -28,23 +28,18 @@ std::vector<std::string> leaves_of(const std::string& table) {
   return leaves;
 }
 
-/// The keys that `typed` names exactly but for their table: by their last part, or by the symbol
-/// of the equations.
-std::vector<std::string> named_elsewhere(const std::string& typed) {
+/// " (did you mean ...?)" for the unknown key `typed` of `table`, or "". It may be the symbol of
+/// the equations, right but in another table, or misspelt.
+std::string meant(const std::string& table, const std::string& typed,
+                  const std::vector<std::string>& allowed) {
   std::vector<std::string> names;
   for (const auto& key : arm_keys()) {
-    if (key.leaf == typed || key.symbol == typed) names.push_back(key.name());
+    if (key.table == table && key.symbol == typed) names.push_back(key.leaf);
+    if (key.leaf == typed) names.push_back(key.name());
   }
   if (find_effect(typed) != nullptr) names.push_back("effects." + typed);
-  return names;
-}
-
-/// " (did you mean ...?)" for `typed` where `allowed` are the names of its place, or "".
-std::string meant(const std::string& typed, const std::vector<std::string>& allowed) {
-  if (const auto names = named_elsewhere(typed); !names.empty()) {
-    return fmt::format(" (did you mean {}?)", fmt::join(names, " or "));
-  }
-  return did_you_mean(typed, allowed);
+  return names.empty() ? did_you_mean(typed, allowed)
+                       : fmt::format(" (did you mean {}?)", fmt::join(names, " or "));
 }
 
 std::string_view kind_of(const toml::node& node) {
@@ -80,7 +75,8 @@ class Reader {
   explicit Reader(const std::string& file_name) : file_name_(file_name) {}
 
   Arm read(const toml::table& document) {
-    for (const auto& [key, node] : document) read_top_level(std::string(key.str()), node);
+    for (const auto& [key, node] : document) read_top_level(shown(key.str()), node);
+    throw_first_fault();
     require_all_given();
     throw_first_fault();
     try {
@@ -111,18 +107,18 @@ class Reader {
     } else if (name == "effects" || std::ranges::count(arm_tables(), name) > 0) {
       const auto* table = node.as_table();
       if (table == nullptr) {
-        wrong_type(name, node, fmt::format("a table, with one line [{}]", name));
+        wrong_type(name, node, fmt::format("a table: one line [{}], then its keys", name));
       } else if (name == "effects") {
-        for (const auto& [key, effect] : *table) read_effect(std::string(key.str()), effect);
+        for (const auto& [key, effect] : *table) read_effect(shown(key.str()), effect);
       } else {
-        for (const auto& [key, value] : *table) read_number(name, std::string(key.str()), value);
+        for (const auto& [key, value] : *table) read_number(name, shown(key.str()), value);
       }
     } else {
       std::vector<std::string> names = {"name"};
       names.insert(names.end(), arm_tables().begin(), arm_tables().end());
       names.emplace_back("effects");
       fault(name, fmt::format(": unknown {}{}; allowed: name, [{}], [effects.NAME]",
-                              node.is_table() ? "table" : "key", meant(name, names),
+                              node.is_table() ? "table" : "key", meant("", name, names),
                               fmt::join(arm_tables(), "], [")));
     }
   }
@@ -133,8 +129,8 @@ class Reader {
     const auto key = std::ranges::find(arm_keys(), name, &ArmKey::name);
     if (key == arm_keys().end()) {
       const auto leaves = leaves_of(table);
-      fault(name, fmt::format(": unknown key{}; allowed in [{}]: {}", meant(leaf, leaves), table,
-                              fmt::join(leaves, ", ")));
+      fault(name, fmt::format(": unknown key{}; allowed in [{}]: {}", meant(table, leaf, leaves),
+                              table, fmt::join(leaves, ", ")));
     } else if (const auto value = number(name, node, key->range, key->unit)) {
       key->set(arm_, *value);
     }
@@ -148,15 +144,15 @@ class Reader {
     if (definition != nullptr && table == nullptr) {
       std::vector<std::string> parameters;
       for (const auto& parameter : definition->parameters) parameters.push_back(parameter.name);
-      wrong_type(
-          key, node,
-          fmt::format("a table, with one line [{}] and then {}", key, fmt::join(parameters, ", ")));
+      wrong_type(key, node,
+                 fmt::format("a table: one line [{}], then its keys {}", key,
+                             fmt::join(parameters, ", ")));
       return;
     }
     Effect& effect = arm_.effects[name];
     if (definition == nullptr) return;  // require_valid(Effects) names it
     for (const auto& [leaf, value] : *table) {
-      read_parameter(*definition, std::string(leaf.str()), value, effect);
+      read_parameter(*definition, shown(leaf.str()), value, effect);
     }
   }
 
@@ -164,7 +160,7 @@ class Reader {
                       const toml::node& node, Effect& effect) {
     const std::string key = "effects." + definition.name + "." + leaf;
     note_line(key, node);
-    if (leaf == "sensor" && definition.name == "sensor_lag") {
+    if (leaf == "sensor" && definition.acts_on_sensor) {
       if (const auto* text = node.as_string(); text != nullptr && !text->get().empty()) {
         effect.sensor = text->get();
       } else {
@@ -182,11 +178,17 @@ class Reader {
 
   std::optional<double> number(const std::string& key, const toml::node& node, const Range& range,
                                const std::string& unit) {
-    if (const auto* value = node.as_floating_point()) return value->get();
-    if (const auto* value = node.as_integer()) return static_cast<double>(value->get());
-    wrong_type(key, node,
-               fmt::format("{} [{}]{}", to_string(range), unit,
-                           node.is_string() ? ", without quotes or unit" : ""));
+    const auto* integer = node.as_integer();
+    const auto* floating = node.as_floating_point();
+    if (integer == nullptr && floating == nullptr) {
+      wrong_type(key, node,
+                 fmt::format("{} [{}]{}", to_string(range), unit,
+                             node.is_string() ? ", without quotes or unit" : ""));
+      return std::nullopt;
+    }
+    const double value = integer != nullptr ? static_cast<double>(integer->get()) : floating->get();
+    if (range.contains(value)) return value;
+    faults_.emplace(line_of(key), out_of_range(key, value, unit, to_string(range)).what());
     return std::nullopt;
   }
 
@@ -207,12 +209,12 @@ class Reader {
     lines_[key] = static_cast<int>(node.source().begin.line);
   }
 
-  /// The line of a key, else of the table that it belongs in, else 0.
+  /// The line of a key, else of the table that it belongs in, else the first.
   int line_of(std::string key) const {
     while (true) {
       if (const auto line = lines_.find(key); line != lines_.end()) return line->second;
       const auto dot = key.rfind('.');
-      if (dot == std::string::npos) return 0;
+      if (dot == std::string::npos) return 1;
       key.resize(dot);
     }
   }
@@ -227,9 +229,9 @@ class Reader {
 
 Arm parse_arm(std::string_view toml, const std::string& file_name) {
   if (toml.find_first_not_of(" \t\r\n") == std::string_view::npos) {
-    throw InputError(fmt::format(
-        "{}: empty; an arm file needs at least [beam] and [hub]; flexarm new writes an example",
-        file_name));
+    throw located(InputError("empty; an arm file needs at least [beam] and [hub]; flexarm new "
+                             "writes an example"),
+                  file_name, 1);
   }
   return Reader(file_name).read(parse_toml(toml, file_name));
 }

@@ -13,7 +13,8 @@ namespace flexarm::arm {
 /// Throws InputError with one line `FILE:LINE: KEY = VALUE UNIT: what is wrong; what is allowed`:
 /// for a file that cannot be read or is not TOML, an unknown key (with the name that was probably
 /// meant), a value of the wrong type or out of its range, a missing key, and an arm that
-/// `require_valid` refuses. Of several faults the first in the file is reported.
+/// `require_valid` refuses. Of several keys that are wrong in themselves, the first in the file is
+/// reported; what is missing or does not fit together comes after those.
 Arm read_arm_file(const std::filesystem::path& path);
 
 /// The same for the text of a file; `file_name` stands in the errors.

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <charconv>
 #include <iterator>
 
 namespace flexarm::arm {
@@ -38,7 +40,9 @@ void append_effect(std::string& out, const std::string& name, const Effect& effe
 }  // namespace
 
 std::string toml_number(double value) {
-  std::string text = fmt::format("{}", value);
+  std::array<char, 32> buffer;
+  char* const end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
+  std::string text(buffer.data(), end);
   if (text.find_first_of(".en") == std::string::npos) text += ".0";
   return text;
 }

@@ -38,25 +38,23 @@ constexpr auto damping = row<&Arm::damping, Member>;
 const std::vector<ArmKey>& arm_keys() {
   static const std::vector<ArmKey> keys = {
       beam<&Beam::length_m>("beam", "length", "l", "m", kPositive, kRequired,
-                            "from the motor axis, or from the end of the hub radius, to the tip"),
+                            "from the motor axis, or the end of the hub radius, to the tip"),
       beam<&Beam::width_m>("beam", "width", "w", "m", kPositive, kMayBeAbsent,
-                           "of the cross-section, out of the bending plane"),
-      beam<&Beam::thickness_m>(
-          "beam", "thickness", "t", "m", kPositive, kMayBeAbsent,
-          "of the cross-section, in the bending plane; strain sensors need it"),
+                           "out of the bending plane"),
+      beam<&Beam::thickness_m>("beam", "thickness", "t", "m", kPositive, kMayBeAbsent,
+                               "in the bending plane; strain sensors need it"),
       beam<&Beam::density_kg_per_m3>("beam", "density", "rho", "kg/m^3", kPositive, kMayBeAbsent,
                                      "of the material"),
       beam<&Beam::youngs_modulus_Pa>("beam", "youngs_modulus", "E", "Pa", kPositive, kMayBeAbsent,
                                      "of the material"),
       beam<&Beam::shear_modulus_Pa>("beam", "shear_modulus", "G", "Pa", kPositive, kMayBeAbsent,
-                                    "of the material; only effects.shear_and_rotary_inertia needs "
-                                    "it"),
+                                    "only effects.shear_and_rotary_inertia needs it"),
       beam<&Beam::given_flexural_rigidity_N_m2>(
           "beam", "flexural_rigidity", "EI", "N m^2", kPositive, kMayBeAbsent,
-          "in place of youngs_modulus with width and thickness, or equal to E w t^3/12"),
-      beam<&Beam::given_linear_density_kg_per_m>(
-          "beam", "linear_density", "m", "kg/m", kPositive, kMayBeAbsent,
-          "in place of density with width and thickness, or equal to rho w t"),
+          "in place of youngs_modulus, or equal to E w t^3/12"),
+      beam<&Beam::given_linear_density_kg_per_m>("beam", "linear_density", "m", "kg/m", kPositive,
+                                                 kMayBeAbsent,
+                                                 "in place of density, or equal to rho w t"),
       hub<&Hub::inertia_kg_m2>("hub", "inertia", "Ih", "kg m^2", kNotNegative, kRequired,
                                "of rotor and clamp about the motor axis"),
       hub<&Hub::viscous_friction_N_m_s_per_rad>("hub", "viscous_friction", "c", "N m s/rad",
@@ -66,9 +64,9 @@ const std::vector<ArmKey>& arm_keys() {
                                  "of a rigid body fixed to the tip"),
       payload<&Payload::inertia_kg_m2>("payload", "inertia", "Ip", "kg m^2", kNotNegative,
                                        kMayBeAbsent, "of that body about the tip"),
-      damping<&Damping::kelvin_voigt_s>(
-          "damping", "kelvin_voigt", "kv", "s", kNotNegative, kMayBeAbsent,
-          "material damping: bending moment = EI (y'' + kelvin_voigt d/dt y'')"),
+      damping<&Damping::kelvin_voigt_s>("damping", "kelvin_voigt", "kv", "s", kNotNegative,
+                                        kMayBeAbsent,
+                                        "bending moment = EI (y'' + kelvin_voigt d/dt y'')"),
   };
   return keys;
 }

@@ -31,8 +31,8 @@ void require_agreement(const char* key, std::optional<double> given,
   if (std::abs(*given - *of_section) > kDescriptionAgreement * *of_section) {
     throw InputError(
         fmt::format("{} = {} {} disagrees with {:.6g} {} from dimensions and material: "
-                    "give one of them, or two that agree within {}",
-                    key, *given, unit, *of_section, unit, kDescriptionAgreement),
+                    "give one of them, or two that agree within {:g} %",
+                    key, *given, unit, *of_section, unit, 100.0 * kDescriptionAgreement),
         key);
   }
 }

@@ -33,7 +33,7 @@ std::vector<std::string> names_of(const std::vector<EffectParameter>& parameters
 
 void require_valid(const std::string& key, const EffectDefinition& definition,
                    const Effect& effect) {
-  if (!effect.sensor.empty() && definition.name != "sensor_lag") {
+  if (!effect.sensor.empty() && !definition.acts_on_sensor) {
     throw InputError(fmt::format("{}.sensor: unknown key; only sensor_lag acts on one sensor", key),
                      key + ".sensor");
   }
@@ -41,7 +41,7 @@ void require_valid(const std::string& key, const EffectDefinition& definition,
     const auto parameter = std::ranges::find(definition.parameters, name, &EffectParameter::name);
     if (parameter == definition.parameters.end()) {
       auto names = names_of(definition.parameters);
-      if (definition.name == "sensor_lag") names.emplace_back("sensor");
+      if (definition.acts_on_sensor) names.emplace_back("sensor");
       throw InputError(fmt::format("{}.{}: unknown key{}; allowed: {}", key, name,
                                    did_you_mean(name, names), fmt::join(names, ", ")),
                        key + "." + name);
@@ -127,7 +127,8 @@ const std::vector<EffectDefinition>& effect_vocabulary() {
        "the torque follows its command after the delay"},
       {"sensor_lag",
        {not_negative("time_constant", "s")},
-       "one sensor, tip_acceleration unless named, reads through 1 / (1 + time_constant s)"},
+       "one sensor, tip_acceleration unless named, reads through 1 / (1 + time_constant s)",
+       true},
   };
   return vocabulary;
 }

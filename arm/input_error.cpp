@@ -4,8 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <cstddef>
-
 namespace flexarm::arm {
 
 InputError::InputError(const std::string& line, const std::string& key)
@@ -29,8 +27,7 @@ InputError located(const InputError& error, const std::string& file, int line) {
                     error.key());
 }
 
-std::string shown(std::string_view text) {
-  constexpr std::size_t kLongest = 60;
+std::string shown(std::string_view text, std::size_t longest) {
   std::string out;
   while (!text.empty()) {
     const std::size_t length = utf8_sequence_length(text);
@@ -41,7 +38,7 @@ std::string shown(std::string_view text) {
       out += text.substr(0, length);
     }
     text.remove_prefix(length == 0 ? 1 : length);
-    if (out.size() >= kLongest && !text.empty()) return out + "...";
+    if (out.size() >= longest && !text.empty()) return out + "...";
   }
   return out;
 }

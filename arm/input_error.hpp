@@ -2,6 +2,7 @@
 
 #include "arm/range.hpp"
 
+#include <cstddef>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -37,7 +38,7 @@ void require_in_range(const std::string& key, double value, const std::string& u
 InputError located(const InputError& error, const std::string& file, int line);
 
 /// Text from a file as it may stand in an error: control characters and bytes outside ASCII that
-/// are not UTF-8 as \xNN, and no longer than 60 bytes.
-std::string shown(std::string_view text);
+/// are not UTF-8 as \xNN, cut off with "..." after about `longest` bytes.
+std::string shown(std::string_view text, std::size_t longest = 60);
 
 }  // namespace flexarm::arm

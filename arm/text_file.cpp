@@ -38,6 +38,7 @@ std::string nearest_file(const fs::path& path) {
 }  // namespace
 
 std::string read_text_file(const fs::path& path, std::size_t largest_bytes) {
+  if (path.empty()) throw InputError("the name of a file is empty");
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (status.type() == fs::file_type::not_found) {

@@ -16,15 +16,24 @@ struct Slip {
   const char* advice;
 };
 
-constexpr std::array<Slip, 7> kSlips = {{
-    {R"(=\s*[-+]?\d+,\d)", "write a decimal point, not a comma"},
+// In order: the first that matches is given.
+constexpr std::array<Slip, 15> kSlips = {{
+    {"\r", "end lines with a line feed"},
+    {"\xc2\xa0", "there is a no-break space; write a plain one"},
+    {"\xe2\x88\x92", "write the minus sign as -"},
+    {"\xe2\x80[\x9c-\x9f]", "write straight quotes"},
+    {R"(=\s*[-+]?\d+,\d)", "write numbers with a decimal point and no comma"},
     {R"(=\s*[-+]?\.\d)", "write a digit before the point, as in 0.5"},
-    {R"(=\s*[-+]?\d+\.(\D|$))", "write a digit after the point, as in 1.0"},
+    {R"(=\s*[-+]?\d+\.([^\d]|$))", "write a digit after the point, as in 1.0"},
     {R"(=\s*[-+]?[\d.]+[dD][-+]?\d)", "write the exponent with e, as in 1e-3"},
-    {R"(=\s*[-+]?\d[\d.]*([eE][-+]?\d+)?\s*[^\s\d.,#])",
+    {R"(=\s*[-+\d.eE]+\s*(%|//))", "a comment begins with #"},
+    {R"(=\s*[-+\d.eE]+\s*[*/^])", "write one number, not an expression"},
+    {R"(=\s*[-+\d.eE]+\s*;)", "end the line without a semicolon"},
+    {R"(=\s*[-+]?\d[\d.]*([eE][-+]?\d+)?\s*(?![eE][-+]?\d)[^\s\d.,#])",
      "write the number alone; its unit may follow as a comment, after #"},
-    {R"(^\s*[\w-]+\s*:)", "write key = value, with an equals sign"},
-    {R"(^\s*[\w-]+\s+[-+\d])", "write key = value, with an equals sign"},
+    {R"(=\s*[A-Za-z])", "write text in quotes"},
+    {R"(=\s*"[^"]*$)", "close the quotes on the same line"},
+    {R"(^\s*[\w-]+(\s*:|\s+[-+\d]))", "write key = value, with an equals sign"},
 }};
 
 std::string_view line_of(std::string_view text, int line) {
@@ -58,7 +67,8 @@ std::string complaint_of(const toml::parse_error& error) {
   if (complaint.ends_with(kSawEnd)) {
     complaint.replace(complaint.size() - kSawEnd.size(), kSawEnd.size(), "the line ended");
   }
-  return complaint;
+  constexpr std::size_t kLongest = 200;
+  return shown(complaint, kLongest);
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ int run(int argc, const char* const* argv) {
       "measurements.\n",
       "flexarm");
   program.require_subcommand(0, 1);
-  program.set_version_flag("--version", version_text(), "Print version, build and libraries");
+  program.set_version_flag("-V,--version", version_text(), "Print version, build and libraries");
   program.footer(
       "\nA first session:\n"
       "  flexarm new rig.toml      an arm file to edit\n"
@@ -48,8 +48,7 @@ int run(int argc, const char* const* argv) {
     print(program.help());
     return kSuccess;
   } catch (const CLI::CallForHelp&) {
-    const auto chosen = program.get_subcommands();
-    print((chosen.empty() ? &program : chosen.front())->help());
+    print(program.help());  // of the subcommand, where one was typed
     return kSuccess;
   } catch (const CLI::CallForVersion& version) {
     print(version.what());

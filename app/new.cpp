@@ -6,11 +6,14 @@
 #include "arm/input_error.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <filesystem>
 #include <iterator>
 #include <memory>
 #include <string>
+#include <system_error>
+#include <vector>
 
 namespace flexarm::app {
 
@@ -26,12 +29,12 @@ arm::Arm starter_arm() {
   return starter;
 }
 
-/// Values for the keys that the starter explains but leaves out.
+/// Values for the keys that the starter explains but leaves out; all of them together are an arm.
 arm::Arm example_values() {
   arm::Arm example = starter_arm();
   example.beam.shear_modulus_Pa = 2.67e10;
-  example.beam.given_flexural_rigidity_N_m2 = example.beam.flexural_rigidity_N_m2();
-  example.beam.given_linear_density_kg_per_m = example.beam.linear_density_kg_per_m();
+  example.beam.given_flexural_rigidity_N_m2 = 3.6918;
+  example.beam.given_linear_density_kg_per_m = 0.16486;
   example.hub.viscous_friction_N_m_s_per_rad = 0.002;
   example.payload.mass_kg = 0.06;
   example.payload.inertia_kg_m2 = 1e-5;
@@ -46,21 +49,32 @@ void append_key(std::string& out, const arm::ArmKey& key, const arm::Arm& starte
   const std::string line = fmt::format("{}{} = {}", given ? "" : "# ", key.leaf,
                                        arm::toml_number(given ? *value : *key.get(example)));
   const auto otherwise = key.default_value();
-  fmt::format_to(std::back_inserter(out), "{:<36}  # {}: {}{}\n", line, key.unit, key.meaning,
+  fmt::format_to(std::back_inserter(out), "{:<28} # [{}] {}{}\n", line, key.unit, key.meaning,
                  key.required || !otherwise ? "" : fmt::format("; {} if not given", *otherwise));
+}
+
+/// "torque [N m], static_torque [N m]"
+std::string parameters_of(const arm::EffectDefinition& effect) {
+  std::vector<std::string> parameters;
+  for (const auto& parameter : effect.parameters) {
+    parameters.push_back(fmt::format("{} [{}]{}", parameter.name, parameter.unit,
+                                     parameter.required ? "" : ", optional"));
+  }
+  if (effect.acts_on_sensor) parameters.emplace_back("sensor, optional");
+  return fmt::format("{}", fmt::join(parameters, ", "));
 }
 
 std::string effects_text() {
   std::string out =
-      "\n# Effects beyond the ideal arm, each switched on by its table (docs/formats.md), as in\n"
+      "\n# Effects that an ideal arm leaves out, each switched on by a table of its own:\n"
+      "#\n"
       "# [effects.coulomb_friction]\n"
-      "# torque = 0.012                      # N m\n#\n";
+      "# torque = 0.012             # [N m]\n"
+      "#\n"
+      "# These are known, with their keys:\n"
+      "#\n";
   for (const auto& effect : arm::effect_vocabulary()) {
-    out += fmt::format("# {}: {}\n", effect.name, effect.meaning);
-    for (const auto& parameter : effect.parameters) {
-      out += fmt::format("#     {} [{}]{}\n", parameter.name, parameter.unit,
-                         parameter.required ? "" : ", optional");
-    }
+    out += fmt::format("# {}: {}\n#     {}\n", effect.name, parameters_of(effect), effect.meaning);
   }
   return out;
 }
@@ -69,8 +83,9 @@ std::string starter_text() {
   const arm::Arm starter = starter_arm();
   const arm::Arm example = example_values();
   std::string out = fmt::format(
-      "# An arm for flexarm: SI units. A line that begins with # is a comment; take the # away to\n"
-      "# switch an optional key on.\n"
+      "# An arm for flexarm, in SI units. What follows # is a comment; a key that stands in one "
+      "is\n"
+      "# optional, with an example value: take the # away to give it.\n"
       "name = {}\n",
       arm::toml_string(starter.name));
   for (const auto& table : arm::arm_tables()) {

@@ -1,6 +1,10 @@
 #include "arm/arm.hpp"
 
+#include "arm/arm_keys.hpp"
 #include "arm/input_error.hpp"
+#include "arm/sensor.hpp"
+
+#include <fmt/format.h>
 
 #include <cmath>
 
@@ -8,26 +12,37 @@ namespace flexarm::arm {
 
 namespace {
 
-void require_not_negative(const char* key, double value, const char* unit) {
-  if (!(std::isfinite(value) && value >= 0.0)) {
-    throw out_of_range(key, value, unit, "a finite number, 0 or more");
-  }
-}
-
 double beam_inertia_kg_m2(const Beam& beam) {
   return beam.linear_density_kg_per_m() * std::pow(beam.length_m, 3);
+}
+
+/// What the effects say about places must fit the beam.
+void require_on_beam(const Arm& arm) {
+  if (const auto crack = arm.effects.find("local_stiffness_loss"); crack != arm.effects.end()) {
+    const double position_m = crack->second.parameters.at("position");
+    if (position_m > arm.beam.length_m) {
+      throw out_of_range("effects.local_stiffness_loss.position", position_m, "m",
+                         fmt::format("from 0 to the beam's length, {} m", arm.beam.length_m));
+    }
+  }
+  for (const auto& [name, effect] : arm.effects) {
+    if (effect.sensor.empty()) continue;
+    const std::string key = fmt::format("effects.{}.sensor", name);
+    try {
+      require_valid(parse_sensor(effect.sensor), arm);
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("{}: {}", key, error.what()), key);
+    }
+  }
 }
 
 }  // namespace
 
 void require_valid(const Arm& arm) {
   require_valid(arm.beam);
-  require_not_negative("hub.inertia", arm.hub.inertia_kg_m2, "kg m^2");
-  require_not_negative("hub.viscous_friction", arm.hub.viscous_friction_N_m_s_per_rad, "N m s/rad");
-  require_not_negative("payload.mass", arm.payload.mass_kg, "kg");
-  require_not_negative("payload.inertia", arm.payload.inertia_kg_m2, "kg m^2");
-  require_not_negative("damping.kelvin_voigt", arm.damping.kelvin_voigt_s, "s");
+  for (const auto& table : arm_tables()) require_in_range(arm, table);
   require_valid(arm.effects);
+  require_on_beam(arm);
 }
 
 double total_inertia_kg_m2(const Arm& arm) {

@@ -1,5 +1,6 @@
 #include "arm/beam.hpp"
 
+#include "arm/arm_keys.hpp"
 #include "arm/input_error.hpp"
 
 #include <fmt/format.h>
@@ -24,20 +25,15 @@ std::optional<double> density_of_section(const Beam& beam) {
   return *beam.density_kg_per_m3 * *beam.width_m * *beam.thickness_m;
 }
 
-void require_positive(const char* key, std::optional<double> value, const char* unit) {
-  if (value && !(std::isfinite(*value) && *value > 0.0)) {
-    throw out_of_range(key, *value, unit, "a finite number above 0");
-  }
-}
-
 void require_agreement(const char* key, std::optional<double> given,
                        std::optional<double> of_section, const char* unit) {
   if (!given || !of_section) return;
   if (std::abs(*given - *of_section) > kDescriptionAgreement * *of_section) {
     throw InputError(
         fmt::format("{} = {} {} disagrees with {:.6g} {} from dimensions and material: "
-                    "give one of them, or two that agree within {}",
-                    key, *given, unit, *of_section, unit, kDescriptionAgreement));
+                    "give one of them, or two that agree within {:g} %",
+                    key, *given, unit, *of_section, unit, 100.0 * kDescriptionAgreement),
+        key);
   }
 }
 
@@ -68,30 +64,28 @@ double Beam::flexural_rigidity_N_m2() const {
   if (const auto rigidity = rigidity_of_section(*this)) return *rigidity;
   throw InputError(
       "beam.flexural_rigidity: missing; give it [N m^2], or width, thickness and "
-      "youngs_modulus");
+      "youngs_modulus",
+      "beam.flexural_rigidity");
 }
 
 double Beam::linear_density_kg_per_m() const {
   if (given_linear_density_kg_per_m) return *given_linear_density_kg_per_m;
   if (const auto density = density_of_section(*this)) return *density;
-  throw InputError("beam.linear_density: missing; give it [kg/m], or width, thickness and density");
+  throw InputError("beam.linear_density: missing; give it [kg/m], or width, thickness and density",
+                   "beam.linear_density");
 }
 
 void require_valid(const Beam& beam) {
-  require_positive("beam.length", beam.length_m, "m");
-  require_positive("beam.width", beam.width_m, "m");
-  require_positive("beam.thickness", beam.thickness_m, "m");
-  require_positive("beam.density", beam.density_kg_per_m3, "kg/m^3");
-  require_positive("beam.youngs_modulus", beam.youngs_modulus_Pa, "Pa");
-  require_positive("beam.shear_modulus", beam.shear_modulus_Pa, "Pa");
-  require_positive("beam.flexural_rigidity", beam.given_flexural_rigidity_N_m2, "N m^2");
-  require_positive("beam.linear_density", beam.given_linear_density_kg_per_m, "kg/m");
+  Arm arm;
+  arm.beam = beam;
+  require_in_range(arm, "beam");
   require_agreement("beam.flexural_rigidity", beam.given_flexural_rigidity_N_m2,
                     rigidity_of_section(beam), "N m^2");
   require_agreement("beam.linear_density", beam.given_linear_density_kg_per_m,
                     density_of_section(beam), "kg/m");
-  require_positive("beam.flexural_rigidity", beam.flexural_rigidity_N_m2(), "N m^2");
-  require_positive("beam.linear_density", beam.linear_density_kg_per_m(), "kg/m");
+  // A product of allowed dimensions may still overflow or underflow.
+  require_in_range("beam.flexural_rigidity", beam.flexural_rigidity_N_m2(), "N m^2", kPositive);
+  require_in_range("beam.linear_density", beam.linear_density_kg_per_m(), "kg/m", kPositive);
 }
 
 }  // namespace flexarm::arm

@@ -7,26 +7,22 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 namespace flexarm::arm {
 
 namespace {
 
-constexpr double kAny = -std::numeric_limits<double>::infinity();
-
 EffectParameter positive(const char* name, const char* unit) {
-  return {name, unit, 0.0, true, true};
+  return {name, unit, kPositive, true};
 }
 EffectParameter not_negative(const char* name, const char* unit) {
-  return {name, unit, 0.0, false, true};
+  return {name, unit, kNotNegative, true};
 }
 EffectParameter any(const char* name, const char* unit) {
-  return {name, unit, kAny, false, true};
+  return {name, unit, kAnyFinite, true};
 }
 EffectParameter optional_positive(const char* name, const char* unit) {
-  return {name, unit, 0.0, true, false};
+  return {name, unit, kPositive, false};
 }
 
 std::vector<std::string> names_of(const std::vector<EffectParameter>& parameters) {
@@ -37,33 +33,27 @@ std::vector<std::string> names_of(const std::vector<EffectParameter>& parameters
 
 void require_valid(const std::string& key, const EffectDefinition& definition,
                    const Effect& effect) {
+  if (!effect.sensor.empty() && !definition.acts_on_sensor) {
+    throw InputError(fmt::format("{}.sensor: unknown key; only sensor_lag acts on one sensor", key),
+                     key + ".sensor");
+  }
   for (const auto& [name, value] : effect.parameters) {
     const auto parameter = std::ranges::find(definition.parameters, name, &EffectParameter::name);
     if (parameter == definition.parameters.end()) {
-      const auto names = names_of(definition.parameters);
+      auto names = names_of(definition.parameters);
+      if (definition.acts_on_sensor) names.emplace_back("sensor");
       throw InputError(fmt::format("{}.{}: unknown key{}; allowed: {}", key, name,
-                                   did_you_mean(name, names), fmt::join(names, ", ")));
+                                   did_you_mean(name, names), fmt::join(names, ", ")),
+                       key + "." + name);
     }
-    const bool inside =
-        parameter->exclusive_minimum ? value > parameter->minimum : value >= parameter->minimum;
-    if (!std::isfinite(value) || !inside) {
-      const std::string allowed =
-          parameter->minimum == kAny ? "a finite number"
-          : parameter->exclusive_minimum
-              ? fmt::format("a finite number above {}", parameter->minimum)
-              : fmt::format("a finite number, {} or more", parameter->minimum);
-      throw out_of_range(key + "." + name, value, parameter->unit, allowed);
-    }
+    require_in_range(key + "." + name, value, parameter->unit, parameter->range);
   }
   for (const auto& parameter : definition.parameters) {
     if (parameter.required && !effect.parameters.contains(parameter.name)) {
-      throw InputError(
-          fmt::format("{}.{}: missing; a number [{}]", key, parameter.name, parameter.unit));
+      throw InputError(fmt::format("{}.{}: missing; must be {} [{}]", key, parameter.name,
+                                   to_string(parameter.range), parameter.unit),
+                       key + "." + parameter.name);
     }
-  }
-  if (!effect.sensor.empty() && definition.name != "sensor_lag") {
-    throw InputError(
-        fmt::format("{}.sensor: unknown key; only sensor_lag acts on one sensor", key));
   }
 }
 
@@ -71,35 +61,74 @@ void require_valid(const std::string& key, const EffectDefinition& definition,
 
 const std::vector<EffectDefinition>& effect_vocabulary() {
   static const std::vector<EffectDefinition> vocabulary = {
-      {"hub_inertia", {positive("factor", "1")}},
-      {"flexural_rigidity", {positive("factor", "1")}},
-      {"linear_density", {positive("factor", "1")}},
-      {"payload_mass", {not_negative("mass", "kg")}},
-      {"payload_inertia", {not_negative("inertia", "kg m^2")}},
-      {"payload_offset", {any("offset", "m")}},
-      {"hub_radius", {not_negative("radius", "m")}},
-      {"root_compliance", {positive("stiffness", "N m/rad")}},
-      {"local_stiffness_loss", {not_negative("position", "m"), positive("stiffness", "N m/rad")}},
-      {"hub_spring", {not_negative("stiffness", "N m/rad")}},
-      {"gravity", {any("acceleration", "m/s^2")}},
-      {"shear_and_rotary_inertia", {optional_positive("shear_coefficient", "1")}},
-      {"hub_viscous_friction", {not_negative("coefficient", "N m s/rad")}},
-      {"structural_damping", {not_negative("time", "s")}},
-      {"air_damping", {not_negative("coefficient", "N s/m^2")}},
-      {"quadratic_drag", {not_negative("coefficient", "N s^2/m^3")}},
-      {"coulomb_friction", {not_negative("torque", "N m")}},
+      {"hub_inertia", {positive("factor", "1")}, "hub inertia is factor times the arm file's"},
+      {"flexural_rigidity", {positive("factor", "1")}, "EI is factor times the arm file's"},
+      {"linear_density",
+       {positive("factor", "1")},
+       "mass per length is factor times the arm file's"},
+      {"payload_mass", {not_negative("mass", "kg")}, "a further mass at the tip, payload or none"},
+      {"payload_inertia",
+       {not_negative("inertia", "kg m^2")},
+       "a further rotary inertia at the tip"},
+      {"payload_offset",
+       {any("offset", "m")},
+       "the payload's centre of mass lies this far beyond the tip"},
+      {"hub_radius",
+       {not_negative("radius", "m")},
+       "the beam starts at this distance from the axis: y(0) = radius theta"},
+      {"root_compliance",
+       {positive("stiffness", "N m/rad")},
+       "a rotational spring between hub and beam root"},
+      {"local_stiffness_loss",
+       {not_negative("position", "m"), positive("stiffness", "N m/rad")},
+       "a crack: a massless rotational spring in the beam at this place"},
+      {"hub_spring",
+       {not_negative("stiffness", "N m/rad")},
+       "a spring from the hub to ground (a cable)"},
+      {"gravity",
+       {any("acceleration", "m/s^2")},
+       "the arm hangs along gravity, its beam under tension; negative stands up"},
+      {"shear_and_rotary_inertia",
+       {optional_positive("shear_coefficient", "1")},
+       "Timoshenko beam instead of Euler-Bernoulli"},
+      {"hub_viscous_friction",
+       {not_negative("coefficient", "N m s/rad")},
+       "further torque -coefficient theta' at the hub"},
+      {"structural_damping", {not_negative("time", "s")}, "further Kelvin-Voigt time"},
+      {"air_damping",
+       {not_negative("coefficient", "N s/m^2")},
+       "force per length -coefficient dy/dt"},
+      {"quadratic_drag",
+       {not_negative("coefficient", "N s^2/m^3")},
+       "force per length -coefficient abs(v) v, v = dy/dt"},
+      {"coulomb_friction",
+       {not_negative("torque", "N m")},
+       "hub friction of constant size against the motion; holds the hub at rest below it"},
       {"stribeck_friction",
        {not_negative("torque", "N m"), not_negative("static_torque", "N m"),
-        positive("velocity", "rad/s")}},
-      {"torque_gain", {any("factor", "1")}},
-      {"torque_bias", {any("torque", "N m")}},
-      {"torque_saturation", {positive("limit", "N m")}},
-      {"torque_dead_zone", {not_negative("width", "N m")}},
+        positive("velocity", "rad/s")},
+       "hub friction that falls from static_torque to torque as the hub speeds up"},
+      {"torque_gain",
+       {any("factor", "1")},
+       "the torque that reaches the hub is factor times the commanded one"},
+      {"torque_bias", {any("torque", "N m")}, "a constant torque is added"},
+      {"torque_saturation", {positive("limit", "N m")}, "the torque is clipped to +-limit"},
+      {"torque_dead_zone",
+       {not_negative("width", "N m")},
+       "no torque while the command is within +-width, less by width beyond"},
       {"torque_ripple",
-       {any("amplitude", "N m"), positive("cycles", "1/rev"), any("phase", "rad")}},
-      {"actuator_lag", {not_negative("time_constant", "s")}},
-      {"time_delay", {not_negative("delay", "s")}},
-      {"sensor_lag", {not_negative("time_constant", "s")}},
+       {any("amplitude", "N m"), positive("cycles", "1/rev"), any("phase", "rad")},
+       "torque amplitude sin(cycles theta + phase) is added"},
+      {"actuator_lag",
+       {not_negative("time_constant", "s")},
+       "the torque follows its command through 1 / (1 + time_constant s)"},
+      {"time_delay",
+       {not_negative("delay", "s")},
+       "the torque follows its command after the delay"},
+      {"sensor_lag",
+       {not_negative("time_constant", "s")},
+       "one sensor, tip_acceleration unless named, reads through 1 / (1 + time_constant s)",
+       true},
   };
   return vocabulary;
 }
@@ -117,7 +146,8 @@ void require_valid(const Effects& effects) {
       std::vector<std::string> names;
       for (const auto& entry : effect_vocabulary()) names.push_back(entry.name);
       throw InputError(fmt::format("effects.{}: unknown effect{}; allowed: {}", name,
-                                   did_you_mean(name, names), fmt::join(names, ", ")));
+                                   did_you_mean(name, names), fmt::join(names, ", ")),
+                       "effects." + name);
     }
     require_valid("effects." + name, *definition, effect);
   }
@@ -130,7 +160,8 @@ void require_honoured(const Effects& effects, std::string_view formulation,
       throw InputError(
           fmt::format("effects.{}: {} does not honour this effect; {}", name, formulation,
                       honoured.empty() ? std::string("it honours none yet")
-                                       : fmt::format("it honours {}", fmt::join(honoured, ", "))));
+                                       : fmt::format("it honours {}", fmt::join(honoured, ", "))),
+          "effects." + name);
     }
   }
 }

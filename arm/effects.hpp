@@ -1,5 +1,7 @@
 #pragma once
 
+#include "arm/range.hpp"
+
 #include <map>
 #include <string>
 #include <string_view>
@@ -11,8 +13,7 @@ namespace flexarm::arm {
 struct EffectParameter {
   std::string name;
   std::string unit;
-  double minimum;  ///< allowed values are >= minimum (> where `exclusive_minimum`)
-  bool exclusive_minimum;
+  Range range;
   bool required;  ///< must be given in the arm file
 };
 
@@ -20,6 +21,9 @@ struct EffectParameter {
 struct EffectDefinition {
   std::string name;
   std::vector<EffectParameter> parameters;
+  std::string meaning;  ///< half a sentence for the reader of an arm file
+  /// Takes the key `sensor` too, the name of the sensor it acts on; tip_acceleration unless given.
+  bool acts_on_sensor = false;
 };
 
 /// The whole vocabulary, in the order of docs/formats.md.
@@ -29,7 +33,7 @@ const std::vector<EffectDefinition>& effect_vocabulary();
 const EffectDefinition* find_effect(std::string_view name);
 
 /// An effect that is switched on: its numbers by parameter name, and the sensor it acts on where
-/// it acts on one (sensor_lag only; empty means the vocabulary's default).
+/// it acts on one (empty means the vocabulary's default).
 struct Effect {
   std::map<std::string, double> parameters;
   std::string sensor;

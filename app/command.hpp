@@ -1,0 +1,30 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <functional>
+#include <string>
+
+namespace flexarm::app {
+
+/// Exit statuses of the program; 1 is also a comparison that disagrees.
+inline constexpr int kSuccess = 0;
+inline constexpr int kFailure = 1;
+inline constexpr int kInputError = 2;
+inline constexpr int kOutputClosed = 141;  // as a shell reports an end by SIGPIPE
+
+/// One subcommand of `flexarm`. Each file app/NAME.cpp declares its options and what it does in
+/// one function, `Command add_NAME(CLI::App& program)`; app/main.cpp lists them.
+struct Command {
+  CLI::App* parser = nullptr;
+  /// Does the work when `parser` was the subcommand typed, and returns the exit status. Throws
+  /// arm::InputError for input that cannot be used.
+  std::function<int()> run;
+};
+
+/// The text under a command's options: an example line that works as it stands.
+std::string example(const std::string& line);
+
+Command add_new(CLI::App& program);
+
+}  // namespace flexarm::app

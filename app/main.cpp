@@ -1,0 +1,83 @@
+#include "app/command.hpp"
+#include "app/standard_output.hpp"
+#include "app/suggestion.hpp"
+#include "app/version.hpp"
+#include "arm/input_error.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <new>
+
+namespace flexarm::app {
+
+std::string example(const std::string& line) {
+  return fmt::format("\nExample:\n  {}\n", line);
+}
+
+namespace {
+
+void complain(std::string_view line) {
+  fmt::print(stderr, "flexarm: {}\n", line);
+}
+
+int run(int argc, const char* const* argv) {
+  CLI::App program(
+      "Models a single-link flexible manipulator in three independent ways (exact transfer\n"
+      "function, finite elements, assumed modes) and compares them with each other and with\n"
+      "measurements.\n",
+      "flexarm");
+  program.require_subcommand(0, 1);
+  program.set_version_flag("-V,--version", version_text(), "Print version, build and libraries");
+  program.footer(
+      "\nA first session:\n"
+      "  flexarm new rig.toml      an arm file to edit\n"
+      "\nExit status: 0 success; 1 failure; 2 input that cannot be used, with one line on\n"
+      "standard error.");
+  // In the order of a first session.
+  const std::array commands = {add_new(program)};
+
+  try {
+    program.parse(argc, argv);
+    for (const auto& command : commands) {
+      if (command.parser->parsed()) return command.run();
+    }
+    print(program.help());
+    return kSuccess;
+  } catch (const CLI::CallForHelp&) {
+    print(program.help());  // of the subcommand, where one was typed
+    return kSuccess;
+  } catch (const CLI::CallForVersion& version) {
+    print(version.what());
+    return kSuccess;
+  } catch (const CLI::ParseError& error) {
+    complain(explain(program, error));
+    return kInputError;
+  }
+}
+
+}  // namespace
+}  // namespace flexarm::app
+
+int main(int argc, char** argv) {
+  using namespace flexarm;
+  // A closed pipe shows as EPIPE, so that it ends the program where it prints and nowhere else.
+  std::signal(SIGPIPE, SIG_IGN);
+  try {
+    return app::run(argc, argv);
+  } catch (const app::OutputClosed&) {
+    return app::kOutputClosed;
+  } catch (const arm::InputError& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return app::kInputError;
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "flexarm: out of memory\n");
+    return app::kFailure;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "flexarm: {}\n", error.what());
+    return app::kFailure;
+  }
+}

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+namespace flexarm::arm {
+
+/// Writes `content` to `path` so that the file is afterwards the old one or the new one, never a
+/// part: into a temporary file of the same folder, synchronised to disk, then renamed. SIGINT,
+/// SIGTERM and SIGHUP are held off meanwhile and take effect afterwards. The mode of an existing
+/// file is kept; a symbolic link is followed; a device or a pipe is written to directly.
+///
+/// Throws InputError "PATH: cannot be written: reason"; no temporary file is left then.
+void write_atomically(const std::filesystem::path& path, std::string_view content);
+
+/// Makes the folder and those above it; does nothing when it is there.
+/// Throws InputError "PATH: cannot be made: reason".
+void make_folder(const std::filesystem::path& path);
+
+}  // namespace flexarm::arm

@@ -1,0 +1,88 @@
+#include "arm/toml_document.hpp"
+
+#include "arm/input_error.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <regex>
+
+namespace flexarm::arm {
+
+namespace {
+
+struct Slip {
+  const char* pattern;  ///< of the line that the parser stopped at
+  const char* advice;
+};
+
+// In order: the first that matches is given.
+constexpr std::array<Slip, 15> kSlips = {{
+    {"\r", "end lines with a line feed"},
+    {"\xc2\xa0", "there is a no-break space; write a plain one"},
+    {"\xe2\x88\x92", "write the minus sign as -"},
+    {"\xe2\x80[\x9c-\x9f]", "write straight quotes"},
+    {R"(=\s*[-+]?\d+,\d)", "write numbers with a decimal point and no comma"},
+    {R"(=\s*[-+]?\.\d)", "write a digit before the point, as in 0.5"},
+    {R"(=\s*[-+]?\d+\.([^\d]|$))", "write a digit after the point, as in 1.0"},
+    {R"(=\s*[-+]?[\d.]+[dD][-+]?\d)", "write the exponent with e, as in 1e-3"},
+    {R"(=\s*[-+\d.eE]+\s*(%|//))", "a comment begins with #"},
+    {R"(=\s*[-+\d.eE]+\s*[*/^])", "write one number, not an expression"},
+    {R"(=\s*[-+\d.eE]+\s*;)", "end the line without a semicolon"},
+    {R"(=\s*[-+]?\d[\d.]*([eE][-+]?\d+)?\s*(?![eE][-+]?\d)[^\s\d.,#])",
+     "write the number alone; its unit may follow as a comment, after #"},
+    {R"(=\s*[A-Za-z])", "write text in quotes"},
+    {R"(=\s*"[^"]*$)", "close the quotes on the same line"},
+    {R"(^\s*[\w-]+(\s*:|\s+[-+\d]))", "write key = value, with an equals sign"},
+}};
+
+std::string_view line_of(std::string_view text, int line) {
+  for (int skipped = 1; skipped < line; ++skipped) {
+    const auto end = text.find('\n');
+    if (end == std::string_view::npos) return {};
+    text.remove_prefix(end + 1);
+  }
+  text = text.substr(0, text.find('\n'));
+  if (text.ends_with('\r')) text.remove_suffix(1);
+  return text;
+}
+
+/// "; write ..." for a slip that is recognised, else "".
+std::string advice_on(const std::string& line) {
+  constexpr std::size_t kLongestExamined = 200;  // std::regex recurses once a character
+  if (line.size() > kLongestExamined) return "";
+  for (const auto& slip : kSlips) {
+    if (std::regex_search(line, std::regex(slip.pattern))) return fmt::format("; {}", slip.advice);
+  }
+  return "";
+}
+
+std::string complaint_of(const toml::parse_error& error) {
+  constexpr std::string_view kPrefix = "Error while parsing ";
+  std::string_view description = error.description();
+  if (description.starts_with(kPrefix)) description.remove_prefix(kPrefix.size());
+  // The parser shows what it saw as '\n' where the line ends too early.
+  std::string complaint(description);
+  constexpr std::string_view kSawEnd = R"(saw '\n')";
+  if (complaint.ends_with(kSawEnd)) {
+    complaint.replace(complaint.size() - kSawEnd.size(), kSawEnd.size(), "the line ended");
+  }
+  constexpr std::size_t kLongest = 200;
+  return shown(complaint, kLongest);
+}
+
+}  // namespace
+
+toml::table parse_toml(std::string_view text, const std::string& file_name) {
+  try {
+    return toml::parse(text, std::string_view(file_name));
+  } catch (const toml::parse_error& error) {
+    const int line = static_cast<int>(error.source().begin.line);
+    const std::string content(line_of(text, line));
+    throw located(InputError(fmt::format("not TOML: {}{}; the line reads: {}", complaint_of(error),
+                                         advice_on(content), shown(content))),
+                  file_name, line);
+  }
+}
+
+}  // namespace flexarm::arm

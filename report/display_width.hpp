@@ -1,0 +1,12 @@
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+
+namespace flexarm::report {
+
+/// Terminal columns that UTF-8 `text` takes: two for wide East Asian characters, none for combining
+/// marks. A byte that is not UTF-8, and a control character, counts as one.
+std::size_t display_width(std::string_view text);
+
+}  // namespace flexarm::report

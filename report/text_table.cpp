@@ -1,6 +1,6 @@
 #include "report/text_table.hpp"
 
-#include "report/display_width.hpp"
+#include "report/utf8_text.hpp"
 
 #include <fmt/format.h>
 

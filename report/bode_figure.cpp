@@ -1,0 +1,134 @@
+#include "report/bode_figure.hpp"
+
+#include "report/overlay_style.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+
+namespace flexarm::report {
+namespace {
+
+constexpr double kWrapFrom_deg = -225.0;
+constexpr double kSmallestDrawnDifference = 0x1p-53;
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+/// The angle that differs from `angle_deg` by whole turns and lies in [from_deg, from_deg + 360).
+double turned_into(double angle_deg, double from_deg) {
+  return angle_deg - 360.0 * std::floor((angle_deg - from_deg) / 360.0);
+}
+
+/// The phase curve, with a gap wherever it wraps: no line is drawn across the panel.
+Series phase_series(const BodePlot& plot, std::size_t index) {
+  const std::vector<double> phase = phase_deg(plot.curves[index].response, plot.phase);
+  Series series{plot.curves[index].name, {}, {}, overlay_style(index)};
+  for (std::size_t i = 0; i < phase.size(); ++i) {
+    if (i > 0 && std::abs(phase[i] - phase[i - 1]) > 225.0) {
+      series.x.push_back(plot.frequency_Hz[i]);
+      series.y.push_back(kNaN);
+    }
+    series.x.push_back(plot.frequency_Hz[i]);
+    series.y.push_back(phase[i]);
+  }
+  return series;
+}
+
+Panel magnitude_panel(const BodePlot& plot) {
+  const bool decibel = plot.magnitude == Magnitude::decibel;
+  Panel panel;
+  panel.y.label = "magnitude";
+  panel.y.unit = decibel ? "dB re 1 " + plot.unit : plot.unit;
+  panel.y.scale = decibel ? Scale::linear : Scale::logarithmic;
+  panel.height = 1.8;
+  for (std::size_t c = 0; c < plot.curves.size(); ++c) {
+    Series series{plot.curves[c].name, plot.frequency_Hz, {}, overlay_style(c)};
+    for (const auto& value : plot.curves[c].response) {
+      const double magnitude = std::abs(value);
+      series.y.push_back(decibel ? 20.0 * std::log10(magnitude) : magnitude);
+    }
+    panel.series.push_back(std::move(series));
+  }
+  return panel;
+}
+
+Panel phase_panel(const BodePlot& plot) {
+  Panel panel;
+  panel.y = {.label = "phase", .unit = "deg"};
+  panel.height = 1.2;
+  double lowest = std::numeric_limits<double>::infinity();
+  double highest = -lowest;
+  for (std::size_t c = 0; c < plot.curves.size(); ++c) {
+    panel.series.push_back(phase_series(plot, c));
+    for (const double phase : panel.series.back().y) {
+      lowest = std::fmin(lowest, phase);
+      highest = std::fmax(highest, phase);
+    }
+  }
+  if (!(lowest <= highest)) return panel;  // nothing to draw, which lay_out refuses by name
+  // Ticks a quarter turn apart, more where an unwrapped phase runs over several turns.
+  const double first = std::floor(lowest / 90.0 + 0.25);
+  const double last = std::ceil(highest / 90.0 - 0.25);
+  const double step = std::max(1.0, std::ceil((last - first) / 5.0));
+  for (double quarter = first; quarter <= last + step / 2; quarter += step) {
+    const double angle_deg = 90.0 * quarter;
+    panel.y.ticks.push_back(
+        {angle_deg, fmt::format("{}{}", angle_deg < 0 ? "−" : "", std::abs(angle_deg))});
+  }
+  panel.y.minimum = std::min(lowest, panel.y.ticks.front().position) - 20.0;
+  panel.y.maximum = std::max(highest, panel.y.ticks.back().position) + 20.0;
+  return panel;
+}
+
+Panel difference_panel(const BodePlot& plot) {
+  Panel panel;
+  panel.y = {.label = "relative difference", .scale = Scale::logarithmic};
+  panel.height = 1.5;
+  const auto& reference = plot.curves.front().response;
+  for (std::size_t c = 1; c < plot.curves.size(); ++c) {
+    Series series{plot.curves[c].name, plot.frequency_Hz, {}, overlay_style(c)};
+    series.style.line = Line::solid;  // noise would hide the breaks of a broken line
+    series.style.line_width_px = 1.2;
+    for (std::size_t i = 0; i < reference.size(); ++i) {
+      const double difference =
+          std::abs(plot.curves[c].response[i] - reference[i]) / std::abs(reference[i]);
+      series.y.push_back(difference < kSmallestDrawnDifference ? kSmallestDrawnDifference
+                                                               : difference);
+    }
+    panel.series.push_back(std::move(series));
+  }
+  return panel;
+}
+
+}  // namespace
+
+std::vector<double> phase_deg(const std::vector<std::complex<double>>& response, Phase phase) {
+  std::vector<double> angles;
+  double from_deg = kWrapFrom_deg;
+  for (const auto& value : response) {
+    const double angle = turned_into(std::arg(value) * 180.0 / std::numbers::pi, from_deg);
+    angles.push_back(angle);
+    if (phase == Phase::unwrapped && std::isfinite(angle)) from_deg = angle - 180.0;
+  }
+  return angles;
+}
+
+Figure bode_figure(const BodePlot& plot) {
+  for (const BodeCurve& curve : plot.curves) {
+    if (curve.response.size() != plot.frequency_Hz.size()) {
+      throw std::invalid_argument(fmt::format("{}: {} responses at {} frequencies", curve.name,
+                                              curve.response.size(), plot.frequency_Hz.size()));
+    }
+  }
+  PanelStack stack;
+  stack.x = {.label = "frequency", .unit = "Hz", .scale = Scale::logarithmic};
+  stack.panels = {magnitude_panel(plot), phase_panel(plot)};
+  if (plot.curves.size() > 1) stack.panels.push_back(difference_panel(plot));
+  return {.title = plot.title, .stacks = {std::move(stack)}};
+}
+
+}  // namespace flexarm::report

@@ -1,0 +1,41 @@
+#pragma once
+
+#include "report/figure.hpp"
+
+#include <complex>
+#include <string>
+#include <vector>
+
+namespace flexarm::report {
+
+/// The frequency response that one formulation gives.
+struct BodeCurve {
+  std::string name;
+  std::vector<std::complex<double>> response;  ///< one a frequency; NaN where there is none
+};
+
+enum class Magnitude { logarithmic, decibel };
+
+enum class Phase {
+  wrapped,    ///< in [-225, 135) deg, so that the multiples of 90 deg of light damping never wrap
+  unwrapped,  ///< without jumps of more than 180 deg from one frequency to the next
+};
+
+struct BodePlot {
+  std::string title;
+  std::string unit;  ///< of the response: "rad/(N m)"
+  std::vector<double> frequency_Hz;
+  std::vector<BodeCurve> curves;  ///< the first is the reference
+  Magnitude magnitude = Magnitude::logarithmic;
+  Phase phase = Phase::wrapped;
+};
+
+/// Magnitude and phase over frequency, and, for two curves and more, the relative difference
+/// |G - G_ref|/|G_ref| from the first below them; a difference below half an epsilon is drawn at
+/// it. Throws std::invalid_argument when a response has not one value a frequency.
+Figure bode_figure(const BodePlot& plot);
+
+/// Phase of each value [deg].
+std::vector<double> phase_deg(const std::vector<std::complex<double>>& response, Phase phase);
+
+}  // namespace flexarm::report

@@ -1,0 +1,206 @@
+#include "report/figure_layout.hpp"
+
+#include "report/utf8_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+namespace flexarm::report {
+namespace {
+
+constexpr double kCharacter_px = 0.6 * kFontSize_px;  // mean advance of a broad sans-serif face
+constexpr double kLine_px = 1.45 * kFontSize_px;
+constexpr double kEdge_px = 16.0;
+constexpr double kTitle_px = 44.0;
+constexpr double kPanelTitle_px = 24.0;
+constexpr double kPanelGap_px = 14.0;
+constexpr double kAxisLabel_px = 56.0;  // tick labels and axis label under a stack
+constexpr double kTickNumber_px = 7.0 * kCharacter_px;
+constexpr double kLegendSample_px = 54.0;
+constexpr double kLegendRow_px = 20.5;
+constexpr double kLegendGap_px = 14.0;
+constexpr double kDataMargin = 0.04;  // of an axis, so that no curve runs along its edge
+
+double to_scale(double value, const Axis& axis) {
+  return axis.scale == Scale::logarithmic ? std::log10(value) : value;
+}
+
+double from_scale(double value, const Axis& axis) {
+  return axis.scale == Scale::logarithmic ? std::pow(10.0, value) : value;
+}
+
+/// The smallest range, on the axis' scale, that holds all that was taken in.
+struct Extent {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -std::numeric_limits<double>::infinity();
+
+  void take_in(double value, const Axis& axis) {
+    low = std::min(low, to_scale(value, axis));
+    high = std::max(high, to_scale(value, axis));
+  }
+};
+
+Range range_of(const Extent& extent, const Axis& axis, double margin) {
+  double low = extent.low;
+  double high = extent.high;
+  if (low == high) {  // one value only: some room around it
+    const double room = low == 0.0 || axis.scale == Scale::logarithmic ? 0.5 : std::abs(low) / 2;
+    low -= room;
+    high += room;
+  }
+  const double margin_width = margin * (high - low);
+  const Range range{axis.minimum.value_or(from_scale(low - margin_width, axis)),
+                    axis.maximum.value_or(from_scale(high + margin_width, axis))};
+  if (!(range.from < range.to) || !is_drawable(range.from, axis) || !is_drawable(range.to, axis)) {
+    throw std::invalid_argument(
+        fmt::format("axis \"{}\": {} to {} is no range", axis.label, range.from, range.to));
+  }
+  return range;
+}
+
+/// Takes the drawable points of a panel into both extents.
+void take_in(const Panel& panel, const Axis& x_axis, Extent& x, Extent& y) {
+  bool anything = false;
+  for (const Series& series : panel.series) {
+    if (series.x.empty() || series.x.size() != series.y.size()) {
+      throw std::invalid_argument(fmt::format("series \"{}\": {} values of x and {} of y",
+                                              series.name, series.x.size(), series.y.size()));
+    }
+    for (std::size_t i = 0; i < series.x.size(); ++i) {
+      if (!is_drawable(series.x[i], x_axis) || !is_drawable(series.y[i], panel.y)) continue;
+      x.take_in(series.x[i], x_axis);
+      y.take_in(series.y[i], panel.y);
+      anything = true;
+    }
+  }
+  if (!anything) {
+    throw std::invalid_argument(
+        fmt::format("panel \"{}\": no series has a point to draw", panel.y.label));
+  }
+}
+
+std::vector<LegendEntry> legend_of(const Figure& figure) {
+  if (!figure.legend.empty()) return figure.legend;
+  std::vector<LegendEntry> legend;
+  for (const PanelStack& stack : figure.stacks) {
+    for (const Panel& panel : stack.panels) {
+      for (const Series& series : panel.series) {
+        const auto has_name = [&](const LegendEntry& e) { return e.text == series.name; };
+        if (!series.name.empty() && std::ranges::none_of(legend, has_name)) {
+          legend.push_back({series.name, series.style});
+        }
+      }
+    }
+  }
+  return legend;
+}
+
+double text_px(const std::string& text) {
+  return kCharacter_px * static_cast<double>(display_width(text));
+}
+
+/// Room on the left of a stack for its axis labels and tick labels.
+double left_margin_px(const PanelStack& stack) {
+  double widest_tick = kTickNumber_px;
+  for (const Panel& panel : stack.panels) {
+    for (const Tick& tick : panel.y.ticks) widest_tick = std::max(widest_tick, text_px(tick.label));
+  }
+  return kEdge_px + kLine_px + widest_tick;
+}
+
+/// Shares the height between `bottom_px` and `top_px` out among the panels, the first on top.
+void stack_panels(const PanelStack& stack, double bottom_px, double top_px,
+                  std::vector<PanelBox>& boxes) {
+  const auto above_px = [&](std::size_t i) {
+    return (i > 0 ? kPanelGap_px : 0.0) + (stack.panels[i].title.empty() ? 0.0 : kPanelTitle_px);
+  };
+  double room = top_px - bottom_px;
+  double total_height = 0.0;
+  for (std::size_t i = 0; i < stack.panels.size(); ++i) {
+    room -= above_px(i);
+    total_height += stack.panels[i].height;
+  }
+  // A blank panel takes what the last panel takes.
+  const std::size_t last = stack.panels.size() - 1;
+  room -= stack.blank_panels * (kPanelGap_px + above_px(last) - (last > 0 ? kPanelGap_px : 0.0));
+  total_height += stack.blank_panels * stack.panels[last].height;
+
+  double top = top_px;
+  for (std::size_t i = 0; i < stack.panels.size(); ++i) {
+    boxes[i].top_px = top -= above_px(i);
+    boxes[i].bottom_px = top -= room * stack.panels[i].height / total_height;
+  }
+}
+
+/// Shortens the longer sides, from below and from the right.
+void make_square(PanelBox& box) {
+  const double side = std::min(box.top_px - box.bottom_px, box.right_px - box.left_px);
+  box.bottom_px = box.top_px - side;
+  box.right_px = box.left_px + side;
+}
+
+}  // namespace
+
+bool is_drawable(double value, const Axis& axis) {
+  return std::isfinite(value) && (axis.scale == Scale::linear || value > 0.0);
+}
+
+FigureLayout lay_out(const Figure& figure) {
+  const bool has_panels =
+      !figure.stacks.empty() &&
+      std::ranges::all_of(figure.stacks, [](const auto& stack) { return !stack.panels.empty(); });
+  if (!has_panels) {
+    throw std::invalid_argument(fmt::format("figure \"{}\" has no panels", figure.title));
+  }
+
+  FigureLayout layout;
+  layout.legend = legend_of(figure);
+  const double top_px = figure.height_px - (figure.title.empty() ? kEdge_px : kTitle_px);
+  const double bottom_px = kAxisLabel_px;
+
+  layout.legend_rows = std::max(1, static_cast<int>((top_px - kEdge_px) / kLegendRow_px));
+  double widest_entry = 0.0;
+  for (const LegendEntry& entry : layout.legend) {
+    widest_entry = std::max(widest_entry, text_px(entry.text));
+  }
+  const auto entries = static_cast<int>(layout.legend.size());
+  const int legend_columns = (entries + layout.legend_rows - 1) / layout.legend_rows;
+  layout.legend_left_px =
+      figure.width_px - kEdge_px / 2 - legend_columns * (widest_entry + kLegendSample_px);
+  layout.legend_top_px = top_px;
+
+  double room = layout.legend_left_px - (entries > 0 ? kLegendGap_px : kEdge_px / 2);
+  double total_width = 0.0;
+  for (const PanelStack& stack : figure.stacks) {
+    room -= left_margin_px(stack);
+    total_width += stack.width;
+  }
+  double right = 0.0;
+  for (const PanelStack& stack : figure.stacks) {
+    const double left = right + left_margin_px(stack);
+    right = left + room * stack.width / total_width;
+
+    Extent x;
+    std::vector<PanelBox> boxes(stack.panels.size());
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      Extent y;
+      take_in(stack.panels[i], stack.x, x, y);
+      boxes[i].y = range_of(y, stack.panels[i].y, kDataMargin);
+      boxes[i].left_px = left;
+      boxes[i].right_px = right;
+      boxes[i].label_px = left_margin_px(stack) - kLine_px;
+    }
+    for (PanelBox& box : boxes) box.x = range_of(x, stack.x, kDataMargin / 2);
+    stack_panels(stack, bottom_px, top_px, boxes);
+    if (stack.square) make_square(boxes.front());
+    layout.boxes.push_back(std::move(boxes));
+  }
+  return layout;
+}
+
+}  // namespace flexarm::report

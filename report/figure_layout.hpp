@@ -1,0 +1,44 @@
+#pragma once
+
+#include "report/figure.hpp"
+
+#include <vector>
+
+namespace flexarm::report {
+
+struct Range {
+  double from = 0.0;
+  double to = 1.0;
+};
+
+/// A panel's plotting area in pixels from the lower left corner of the figure, and what it shows.
+struct PanelBox {
+  double left_px = 0.0;
+  double right_px = 0.0;
+  double bottom_px = 0.0;
+  double top_px = 0.0;
+  double label_px = 0.0;  ///< from the left side out to the middle of the axis label
+  Range x;
+  Range y;
+};
+
+/// Where everything stands: `boxes[stack][panel]`.
+struct FigureLayout {
+  std::vector<std::vector<PanelBox>> boxes;
+  std::vector<LegendEntry> legend;
+  double legend_left_px = 0.0;
+  double legend_top_px = 0.0;
+  int legend_rows = 0;
+};
+
+/// The font of everything but titles; widths and heights of text follow from it.
+inline constexpr double kFontSize_px = 13.0;
+
+/// Whether a point of a series is drawn: finite, and positive on a logarithmic axis.
+bool is_drawable(double value, const Axis& axis);
+
+/// Throws std::invalid_argument for a figure without panels, a series without points or with x and
+/// y of different lengths, a panel with no point to draw, and limits that make no range.
+FigureLayout lay_out(const Figure& figure);
+
+}  // namespace flexarm::report

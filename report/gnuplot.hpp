@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace flexarm::report {
+
+/// Runs `gnuplot` on `script` and returns what it writes to its standard output. No shell is
+/// involved and no file is left behind. Throws std::runtime_error when gnuplot is not on PATH,
+/// naming the Debian package that has it, and when it fails, with its own message.
+std::string run_gnuplot(std::string_view script);
+
+}  // namespace flexarm::report

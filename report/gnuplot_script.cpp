@@ -1,0 +1,213 @@
+#include "report/gnuplot_script.hpp"
+
+#include "report/logarithmic_ticks.hpp"
+#include "report/utf8_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <string_view>
+
+namespace flexarm::report {
+namespace {
+
+struct Rgb {
+  int red, green, blue;
+};
+
+/// Okabe & Ito, "Color Universal Design" (2008), without the yellow that is lost on white.
+constexpr std::array<Rgb, kColours> kPalette{{{0, 0, 0},
+                                              {0, 114, 178},
+                                              {213, 94, 0},
+                                              {0, 158, 115},
+                                              {204, 121, 167},
+                                              {230, 159, 0},
+                                              {86, 180, 233},
+                                              {128, 128, 128}}};
+
+constexpr double kLegendSpacing = 1.05;
+constexpr double kPixelsPerTickLabel = 26.0;  // at least, along a vertical axis
+
+std::string hex_colour(const Style& style) {
+  const Rgb rgb = kPalette[static_cast<std::size_t>(style.colour) % kPalette.size()];
+  const auto tinted = [&](int part) {
+    return static_cast<int>(std::lround(part + (255 - part) * style.tint));
+  };
+  return fmt::format("'#{:02x}{:02x}{:02x}'", tinted(rgb.red), tinted(rgb.green), tinted(rgb.blue));
+}
+
+/// A gnuplot string. Nothing is special between single quotes but the quote itself, which is
+/// doubled; a line feed is joined in from a double-quoted string.
+std::string quoted(std::string_view text) {
+  std::string string = "'";
+  for (const char c : printable(text)) {
+    if (c == '\n') {
+      string += "'.\"\\n\".'";
+    } else {
+      string += c;
+      if (c == '\'') string += c;
+    }
+  }
+  return string + "'";
+}
+
+std::string axis_text(const Axis& axis) {
+  return axis.unit.empty() ? axis.label : fmt::format("{} [{}]", axis.label, axis.unit);
+}
+
+/// "with lines ..." for a series or a line of the legend.
+std::string drawing(const Style& style) {
+  const bool has_line = style.line != Line::none;
+  const bool has_marker = style.marker != Marker::none;
+  std::string text =
+      fmt::format("with {} linecolor rgb {} linewidth {}",
+                  has_line && has_marker ? "linespoints" : (has_marker ? "points" : "lines"),
+                  hex_colour(style), style.line_width_px);
+  switch (style.line) {
+    case Line::none:
+    case Line::solid:
+      break;
+    case Line::dashed:
+      text += " dashtype (8,5)";
+      break;
+    case Line::dotted:
+      text += " dashtype (2,4)";
+      break;
+    case Line::dash_dotted:
+      text += " dashtype (10,4,2,4)";
+      break;
+  }
+  if (has_marker) {  // the enumeration has gnuplot's order of point types
+    text += fmt::format(" pointtype {} pointsize {}", static_cast<int>(style.marker),
+                        style.marker_size);
+  }
+  return text;
+}
+
+/// The points as a named data block; a blank line breaks the curve. False: no point is drawable.
+bool append_data(std::string& script, std::size_t block, const Series& series, const Axis& x,
+                 const Axis& y) {
+  fmt::format_to(std::back_inserter(script), "$data{} << EOD\n", block);
+  bool gap = true;
+  bool anything = false;
+  for (std::size_t i = 0; i < series.x.size(); ++i) {
+    if (is_drawable(series.x[i], x) && is_drawable(series.y[i], y)) {
+      if (gap && anything) script += '\n';
+      fmt::format_to(std::back_inserter(script), "{} {}\n", series.x[i], series.y[i]);
+      gap = false;
+      anything = true;
+    } else {
+      gap = true;
+    }
+  }
+  script += "EOD\n";
+  return anything;
+}
+
+/// Ticks of one axis; `labelled` is false for the panels of a stack above the lowest.
+std::string tick_commands(char axis_name, const Axis& axis, const Range& range, double length_px,
+                          bool labelled) {
+  const bool logarithmic = axis.scale == Scale::logarithmic;
+  std::string text = logarithmic ? fmt::format("set logscale {}\n", axis_name) : "";
+  if (axis.ticks.empty() && !logarithmic) {
+    return labelled ? text : text + fmt::format("set format {} ''\n", axis_name);
+  }
+  const std::vector<Tick> ticks =
+      axis.ticks.empty()
+          ? logarithmic_ticks(range, static_cast<int>(length_px / kPixelsPerTickLabel))
+          : axis.ticks;
+  text += fmt::format("set {}tics (", axis_name);
+  for (const Tick& tick : ticks) {
+    // Level 0 is a full tick with its grid line, level 1 a short one.
+    text += fmt::format("{}{} {} {}", &tick == &ticks.front() ? "" : ", ",
+                        quoted(labelled ? tick.label : std::string()), tick.position,
+                        tick.label.empty() ? 1 : 0);
+  }
+  return text + ")\n";
+}
+
+std::string panel_frame(const Figure& figure, const PanelStack& stack, const Panel& panel,
+                        const PanelBox& box, bool lowest) {
+  const double width = figure.width_px;
+  const double height = figure.height_px;
+  std::string text = fmt::format(
+      "reset\n"
+      "unset key\n"
+      "set minussign\n"
+      "set border 3 linecolor rgb '#555555' linewidth 0.8\n"
+      "set tics nomirror out scale 0.5,0.25 textcolor rgb '#222222'\n"
+      "set grid xtics ytics linetype 1 linecolor rgb '#e2e2e2' linewidth 0.8\n"
+      "set lmargin at screen {}\nset rmargin at screen {}\n"
+      "set bmargin at screen {}\nset tmargin at screen {}\n"
+      "set xrange [{}:{}]\nset yrange [{}:{}]\n",
+      box.left_px / width, box.right_px / width, box.bottom_px / height, box.top_px / height,
+      box.x.from, box.x.to, box.y.from, box.y.to);
+  text += tick_commands('x', stack.x, box.x, box.right_px - box.left_px, lowest);
+  text += tick_commands('y', panel.y, box.y, box.top_px - box.bottom_px, true);
+  if (lowest) text += fmt::format("set xlabel {} offset 0,0.5\n", quoted(axis_text(stack.x)));
+  // A label in place of ylabel, which stands elsewhere in each panel with the width of its ticks.
+  text += fmt::format("set label {} at graph 0,0.5 center rotate offset screen {},0\n",
+                      quoted(axis_text(panel.y)), -box.label_px / width);
+  if (!panel.title.empty()) {
+    text += fmt::format("set title {} offset 0,-0.5\n", quoted(panel.title));
+  }
+  for (const Annotation& a : panel.annotations) {
+    text += fmt::format("set label {} at first {},{} left offset 0.5,0.5  front\n", quoted(a.text),
+                        a.x, a.y);
+  }
+  return text;
+}
+
+std::string legend(const Figure& figure, const FigureLayout& layout) {
+  std::string text = fmt::format(
+      "reset\n"
+      "set margins 0,0,0,0\nunset border\nunset tics\nset xrange [0:1]\nset yrange [0:1]\n"
+      "set key at screen {},{} left top Left reverse vertical maxrows {} samplen 2.2 "
+      "spacing 1.25\n"
+      "plot NaN notitle",
+      layout.legend_left_px / figure.width_px, layout.legend_top_px / figure.height_px,
+      layout.legend_rows, kLegendSpacing);
+  for (const LegendEntry& entry : layout.legend) {
+    text += fmt::format(", keyentry {} title {}", entry.style ? drawing(*entry.style) : "",
+                        quoted(entry.text));
+  }
+  return text + "\n";
+}
+
+}  // namespace
+
+GnuplotScript gnuplot_script(const Figure& figure, const FigureLayout& layout) {
+  GnuplotScript script;
+  script.text = fmt::format(
+      "set encoding utf8\n"
+      "set terminal svg size {},{} noenhanced font 'sans-serif,{}' background '#ffffff'\n"
+      "set multiplot title {} font ',{}'\n",
+      figure.width_px, figure.height_px, kFontSize_px, quoted(figure.title), kFontSize_px + 3);
+  std::size_t block = 0;
+  for (std::size_t s = 0; s < figure.stacks.size(); ++s) {
+    const PanelStack& stack = figure.stacks[s];
+    for (std::size_t p = 0; p < stack.panels.size(); ++p) {
+      const Panel& panel = stack.panels[p];
+      const bool lowest = p + 1 == stack.panels.size();
+      script.text += panel_frame(figure, stack, panel, layout.boxes[s][p], lowest);
+      std::string plot;
+      for (const Series& series : panel.series) {
+        ++block;
+        if (!append_data(script.text, block, series, stack.x, panel.y)) continue;
+        plot += fmt::format("{}$data{} using 1:2 {} notitle", plot.empty() ? "plot " : ", ", block,
+                            drawing(series.style));
+        script.series_names.push_back(series.name);
+      }
+      script.text += plot + "\n";
+    }
+  }
+  if (!layout.legend.empty()) script.text += legend(figure, layout);
+  script.text += "unset multiplot\n";
+  return script;
+}
+
+}  // namespace flexarm::report

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <mutex>
+#include <string>
+
+namespace flexarm::report {
+
+struct ProgressOptions {
+  int descriptor = 2;  ///< where to: standard error
+  std::chrono::steady_clock::duration quiet_for = std::chrono::seconds(1);
+  std::chrono::steady_clock::duration interval = std::chrono::milliseconds(100);
+};
+
+/// A line "label  12 of 40" that is rewritten while work goes on, and wiped when it ends. Nothing
+/// at all is written where `descriptor` is not a terminal, or before `quiet_for` has passed.
+class Progress {
+ public:
+  Progress(std::string label, std::int64_t total, const ProgressOptions& options = {});
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  /// Counts `steps` more as done. Safe from any thread.
+  void advance(std::int64_t steps = 1);
+
+ private:
+  const std::string label_;
+  const std::int64_t total_;
+  const ProgressOptions options_;
+  const bool on_terminal_;
+  std::atomic<std::int64_t> done_{0};
+  std::mutex drawing_;
+  std::chrono::steady_clock::time_point next_;  ///< guarded by `drawing_`, as is `drawn_`
+  bool drawn_ = false;
+};
+
+}  // namespace flexarm::report

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace flexarm::report {
+
+/// One value of a table: missing, a number, a count, or text. NaN counts as missing.
+using Cell = std::variant<std::monostate, double, std::int64_t, std::string>;
+
+/// How a terminal table prints a number; CSV always carries full double precision.
+enum class Notation {
+  general,     ///< as many digits as asked for, an exponent only where the number needs one
+  scientific,  ///< always with an exponent: errors, tolerances
+};
+
+struct Column {
+  std::string name;
+  std::string unit = {};  ///< empty: none is shown
+  int significant_digits = 6;
+  Notation notation = Notation::general;
+};
+
+/// A column of errors: two digits, scientific notation.
+Column error_column(std::string name, std::string unit = "");
+
+/// Rows of cells under named columns; `to_text` and `to_csv` are two views of one table.
+struct Table {
+  std::string caption;  ///< the line above the table on a terminal; empty: none
+  std::vector<Column> columns;
+  std::vector<std::vector<Cell>> rows = {};
+
+  /// Throws std::invalid_argument unless `row` has one cell a column.
+  void add_row(std::vector<Cell> row);
+};
+
+/// True for a missing cell and for NaN.
+bool is_missing(const Cell& cell);
+
+}  // namespace flexarm::report

@@ -1,0 +1,114 @@
+#include "report/text_table.hpp"
+
+#include "report/utf8_text.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+namespace flexarm::report {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+Table poles() {
+  Table table{"Poles of the paper's arm", {{"pole"}, {"exact", "Hz"}, error_column("fem")}};
+  table.add_row({1, 11.8618286444625395, 3.25e-11});
+  table.add_row({2, 102.643324121179547, 0.0});
+  table.add_row({10, 1.5, kNaN});
+  return table;
+}
+
+TEST(TextTable, IsCaptionNamesUnitsRuleAndRowsAlignedOnTheDecimalPoint) {
+  EXPECT_EQ(to_text(poles()),
+            "Poles of the paper's arm\n"
+            "pole      exact      fem\n"
+            "           [Hz]\n"
+            "------------------------\n"
+            "   1   11.8618   3.2e-11\n"
+            "   2  102.643    0\n"
+            "  10    1.50000        -\n");
+}
+
+TEST(TextTable, TextIsLeftAlignedAndWithoutUnitsThereIsNoUnitLine) {
+  Table table{"", {{"what"}, {"why"}}};
+  table.add_row({"a", "long enough"});
+  table.add_row({std::monostate{}, "b"});
+  EXPECT_EQ(to_text(table),
+            "what  why\n"
+            "-----------------\n"
+            "a     long enough\n"
+            "-     b\n");
+}
+
+TEST(TextTable, WidthIsThatOfCharactersNotOfBytes) {
+  EXPECT_EQ(display_width("plain"), 5U);
+  EXPECT_EQ(display_width("λ² größer"), 9U);
+  EXPECT_EQ(display_width("e\u0301"), 1U);
+  EXPECT_EQ(display_width("梁"), 2U);
+  EXPECT_EQ(display_width("\xff\xce"), 2U);  // not UTF-8, and a character cut short
+
+  Table table{"", {{"Größe"}, {"λ"}}};
+  table.add_row({"梁", 1.5});
+  table.add_row({"beam", 2.5});
+  EXPECT_EQ(to_text(table),
+            "Größe        λ\n"
+            "--------------\n"
+            "梁     1.50000\n"
+            "beam   2.50000\n");
+}
+
+TEST(TextTable, ColumnsThatDoNotFitGoBelowBehindTheKeyColumn) {
+  Table table{"wide", {{"mode"}}};
+  std::vector<Cell> row{1};
+  for (int i = 0; i < 20; ++i) {
+    table.columns.push_back({"quantity " + std::to_string(i), "Hz"});
+    row.emplace_back(10.0 + i);
+  }
+  table.add_row(row);
+  int blocks = 0;
+  for (const std::string& line : lines_of(to_text(table))) {
+    EXPECT_LE(display_width(line), TextOptions{}.max_width);
+    blocks += line.starts_with("mode") ? 1 : 0;
+  }
+  EXPECT_EQ(blocks, 3);
+  for (const Column& column : table.columns) {
+    EXPECT_THAT(to_text(table), testing::HasSubstr(column.name));
+  }
+}
+
+TEST(TextTable, NumbersKeepTheDigitsAskedFor) {
+  EXPECT_EQ(format_number(12.0, 6, Notation::general), "12.0000");
+  EXPECT_EQ(format_number(123456.0, 6, Notation::general), "123456");
+  EXPECT_EQ(format_number(3e7, 1, Notation::general), "3e+07");
+  EXPECT_EQ(format_number(-2.0 / 3.0, 3, Notation::general), "-0.667");
+  EXPECT_EQ(format_number(1.26e-13, 2, Notation::scientific), "1.3e-13");
+  EXPECT_EQ(format_number(4e-9, 1, Notation::scientific), "4e-09");
+  EXPECT_EQ(format_number(0.0, 2, Notation::scientific), "0");
+  EXPECT_EQ(format_number(kNaN, 2, Notation::general), "-");
+  EXPECT_EQ(format_number(-std::numeric_limits<double>::infinity(), 2, Notation::general), "-inf");
+}
+
+TEST(TextTable, AnEmptyTableStillShowsItsColumns) {
+  EXPECT_EQ(to_text({"none found", {{"zero", "Hz"}}, {}}), "none found\nzero\n[Hz]\n----\n");
+  EXPECT_EQ(to_text({"nothing", {}, {}}), "nothing\n");
+}
+
+TEST(TextTable, ARowOfTheWrongLengthIsRefused) {
+  Table table{"", {{"a"}, {"b"}}};
+  EXPECT_THROW(table.add_row({1}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace flexarm::report

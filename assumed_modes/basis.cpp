@@ -1,0 +1,39 @@
+#include "assumed_modes/basis.hpp"
+
+#include "arm/input_error.hpp"
+#include "arm/nearest_name.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace flexarm::assumed_modes {
+
+std::string_view to_string(Basis basis) {
+  switch (basis) {
+    case Basis::legendre:
+      return "legendre";
+    case Basis::clamped_free:
+      return "clamped_free";
+    case Basis::pinned_free:
+      return "pinned_free";
+    case Basis::clamped_with_payload:
+      return "clamped_with_payload";
+  }
+  throw std::logic_error("basis outside its enumeration");
+}
+
+Basis parse_basis(std::string_view name) {
+  std::vector<std::string> names;
+  for (const Basis basis : kAllBases) {
+    if (to_string(basis) == name) return basis;
+    names.emplace_back(to_string(basis));
+  }
+  throw arm::InputError(fmt::format("basis {}: unknown{}; allowed: {}", name,
+                                    arm::did_you_mean(name, names), fmt::join(names, ", ")));
+}
+
+}  // namespace flexarm::assumed_modes

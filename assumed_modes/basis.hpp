@@ -1,0 +1,26 @@
+#pragma once
+
+#include <array>
+#include <string_view>
+
+namespace flexarm::assumed_modes {
+
+/// Which admissible functions stand beside the rigid rotation.
+enum class Basis {
+  legendre,              ///< second derivatives are Legendre polynomials
+  clamped_free,          ///< shapes of the cantilever without payload
+  pinned_free,           ///< shapes of the pinned-free beam, without hub inertia and payload
+  clamped_with_payload,  ///< shapes of the clamped beam that carries this arm's payload
+};
+
+inline constexpr std::array<Basis, 4> kAllBases = {Basis::legendre, Basis::clamped_free,
+                                                   Basis::pinned_free, Basis::clamped_with_payload};
+
+/// "legendre", "clamped_free", "pinned_free", "clamped_with_payload".
+std::string_view to_string(Basis basis);
+
+/// Reads what `to_string` writes. Throws InputError with the names allowed, and the one that was
+/// probably meant.
+Basis parse_basis(std::string_view name);
+
+}  // namespace flexarm::assumed_modes

@@ -1,0 +1,163 @@
+#include "assumed_modes/basis_report.hpp"
+
+#include "assumed_modes/assumed_modes_arm.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string_view>
+
+namespace flexarm::assumed_modes {
+
+namespace {
+
+constexpr std::array kSeries = {12, 16, 20, 24, 32, 40, 48, 64};
+constexpr int kLargestRoot = 8;
+/// Legendre functions that give the first eight roots to rounding, payload or none.
+constexpr int kReferenceFunctions = 44;
+/// Errors below this are rounding of omega to double, 1e-16, to more than a percent.
+constexpr double kRoundingFloor = 1e-14;
+constexpr double kInfiniteOrder = std::numeric_limits<double>::infinity();
+/// Orders up to this make a basis slow: ten times the functions gain three digits at most.
+constexpr double kSlowOrder = 3.0;
+
+/// p of c_i ~ lambda_i^-p for what the functions lack.
+int coefficient_decay(UnmetCondition condition) {
+  switch (condition) {
+    case UnmetCondition::root_moment:
+    case UnmetCondition::tip_moment:
+      return 1;
+    case UnmetCondition::tip_shear:
+      return 2;
+    case UnmetCondition::root_rotation:
+      return 4;
+  }
+  throw std::logic_error("condition outside its enumeration");
+}
+
+std::string_view reason(UnmetCondition condition) {
+  switch (condition) {
+    case UnmetCondition::root_moment:
+      return "the moment at the hub is zero in every function, but the hub needs "
+             "EI y'' = Ih y'_tt - tau";
+    case UnmetCondition::tip_moment:
+      return "the moment at the tip is zero in every function, but the payload needs "
+             "EI y'' = -Ip y'_tt";
+    case UnmetCondition::tip_shear:
+      return "shear at the tip is zero in every function, but the payload needs EI y''' = Mp y_tt";
+    case UnmetCondition::root_rotation:
+      return "y''''' at the hub is zero in every function, but a hub that turns needs "
+             "EI y''''' = -m y'_tt";
+  }
+  throw std::logic_error("condition outside its enumeration");
+}
+
+enum class Root { pole, hub_zero };
+
+/// Slowest first.
+std::vector<UnmetCondition> unmet_conditions(const arm::Arm& arm, Basis basis, Root root) {
+  std::vector<UnmetCondition> unmet;
+  const bool shapes_without_payload = basis == Basis::clamped_free || basis == Basis::pinned_free;
+  if (basis == Basis::pinned_free && (root == Root::hub_zero || arm.hub.inertia_kg_m2 > 0.0)) {
+    unmet.push_back(UnmetCondition::root_moment);
+  }
+  if (shapes_without_payload && arm.payload.inertia_kg_m2 > 0.0) {
+    unmet.push_back(UnmetCondition::tip_moment);
+  }
+  if (shapes_without_payload && arm.payload.mass_kg > 0.0) {
+    unmet.push_back(UnmetCondition::tip_shear);
+  }
+  if ((basis == Basis::clamped_free || basis == Basis::clamped_with_payload) &&
+      root == Root::pole) {
+    unmet.push_back(UnmetCondition::root_rotation);
+  }
+  return unmet;
+}
+
+double frequency_rad_per_s(const AssumedModesArm& model, Root kind, int root) {
+  const auto index = static_cast<std::size_t>(root) - 1;
+  return kind == Root::pole
+             ? model.poles(root).omega_rad_per_s[index]
+             : model.zeros({arm::SensorKind::hub_angle}, root).s_rad_per_s[index].imag();
+}
+
+/// -slope of log error over log n, by least squares on the errors above rounding.
+double fitted_order(const RootConvergence& series) {
+  double count = 0.0;
+  double sum_x = 0.0;
+  double sum_y = 0.0;
+  double sum_xx = 0.0;
+  double sum_xy = 0.0;
+  for (std::size_t i = 0; i < series.functions.size(); ++i) {
+    if (series.relative_error[i] <= kRoundingFloor) continue;
+    const double x = std::log(series.functions[i]);
+    const double y = std::log(series.relative_error[i]);
+    count += 1.0;
+    sum_x += x;
+    sum_y += y;
+    sum_xx += x * x;
+    sum_xy += x * y;
+  }
+  if (count < 3.0) return std::numeric_limits<double>::quiet_NaN();
+  return -(count * sum_xy - sum_x * sum_y) / (count * sum_xx - sum_x * sum_x);
+}
+
+std::string sentence(Basis basis, const RootConvergence& series) {
+  const std::string subject = fmt::format("{}: the error of {}", to_string(basis), series.root);
+  const std::string last = fmt::format("{:.1e} with {} functions", series.relative_error.back(),
+                                       series.functions.back());
+  if (series.unmet.empty()) {
+    return basis == Basis::legendre
+               ? fmt::format(
+                     "{} falls faster than any power of n ({}): no end condition of the "
+                     "arm is ruled out by the functions",
+                     subject, last)
+               : fmt::format("{} is rounding ({}): the functions are the shapes asked for", subject,
+                             last);
+  }
+  const std::string measured = std::isnan(series.measured_order)
+                                   ? "too small to measure"
+                                   : fmt::format("measured n^-{:.1f}", series.measured_order);
+  const std::string advice = series.predicted_order <= kSlowOrder
+                                 ? "; use legendre or clamped_with_payload"
+                                 : "; fast enough for most uses";
+  return fmt::format("{} falls as n^-{:.0f} ({}, {}): {}{}", subject, series.predicted_order,
+                     measured, last, reason(series.unmet.front()), advice);
+}
+
+RootConvergence convergence(const std::vector<AssumedModesArm>& models,
+                            const AssumedModesArm& reference, Root kind, int root) {
+  const Basis basis = models.front().options().basis;
+  RootConvergence result;
+  result.root = fmt::format("{} {}", kind == Root::pole ? "pole" : "hub zero", root);
+  result.unmet = unmet_conditions(reference.arm(), basis, kind);
+  result.predicted_order =
+      result.unmet.empty() ? kInfiniteOrder : 2.0 * coefficient_decay(result.unmet.front()) - 1.0;
+  const double exact = frequency_rad_per_s(reference, kind, root);
+  for (const AssumedModesArm& model : models) {
+    result.functions.push_back(model.degrees_of_freedom());
+    result.relative_error.push_back(std::abs(frequency_rad_per_s(model, kind, root) / exact - 1.0));
+  }
+  result.measured_order = fitted_order(result);
+  result.sentence = sentence(basis, result);
+  return result;
+}
+
+}  // namespace
+
+BasisReport describe_convergence(const arm::Arm& arm, Basis basis, int root) {
+  if (root < 1 || root > kLargestRoot) {
+    throw std::invalid_argument(fmt::format("root must be from 1 to {}", kLargestRoot));
+  }
+  const AssumedModesArm reference(arm, {Basis::legendre, kReferenceFunctions});
+  std::vector<AssumedModesArm> models;
+  for (const int functions : kSeries)
+    models.emplace_back(arm, AssumedModesOptions{basis, functions});
+  return {basis, convergence(models, reference, Root::pole, root),
+          convergence(models, reference, Root::hub_zero, root)};
+}
+
+}  // namespace flexarm::assumed_modes

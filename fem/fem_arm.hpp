@@ -1,0 +1,85 @@
+#pragma once
+
+#include "arm/formulation.hpp"
+#include "fem/mesh.hpp"
+
+#include <Eigen/SparseCore>
+
+#include <complex>
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace flexarm::fem {
+
+class Discretisation;
+
+/// An arm by Euler-Bernoulli beam finite elements with a continuous slope.
+///
+/// The error of a frequency or a zero falls as h^(2p-2), or exponentially with the degree p, down
+/// to some epsilon. It does not rise again on fine meshes: the stiffness is kept factored in the
+/// natural deformations of the elements (see discretisation.hpp).
+///
+///     const fem::FemArm model(arm::paper_arm(), {.mesh = {.elements = 4}, .degree = 13});
+///     const arm::PoleSet poles = model.poles(10);
+class FemArm {
+ public:
+  static constexpr std::string_view kName = "fem";
+
+  struct Options {
+    MeshOptions mesh;
+    int degree = 13;  ///< of the shape functions, 3 to 25
+    /// Iterative eigensolvers stop at |residual| <= eigen_tolerance |eigenvalue|.
+    double eigen_tolerance = 1e-12;
+    /// A zero s of a non-collocated sensor is trusted when the same mesh with `checking_degrees`
+    /// more degrees has a zero s' of its own with |s - s'| <= zero_agreement |s'|.
+    double zero_agreement = 1e-2;
+    int checking_degrees = 2;  ///< 1 or more
+  };
+
+  /// Throws arm::InputError for an invalid arm, for any effect, and for options out of range.
+  explicit FemArm(arm::Arm arm);
+  FemArm(arm::Arm arm, Options options);
+
+  const arm::Arm& arm() const { return arm_; }
+  const Options& options() const { return options_; }
+  /// n = 1 + elements (degree - 1): the hub rotation and, for each element, its degree - 3
+  /// bubbles, and deflection and slope at its outer end.
+  int degrees_of_freedom() const;
+
+  /// `count.expected` is by Sylvester inertia where rounding of the assembled stiffness permits.
+  arm::PoleSet poles(int count) const;
+  /// Collocated: frequencies of the arm with its hub clamped. Others: finite roots of the
+  /// Rosenbrock pencil, of which those are rejected that the checking mesh does not confirm; fewer
+  /// than `count` are returned when no more can be trusted. With `count` = degrees_of_freedom() all
+  /// roots of a small model are sorted into trusted and rejected. Strain at the tip of an arm
+  /// without payload inertia is zero at all times; it has no zeros.
+  arm::ZeroSet zeros(const arm::Sensor& sensor, int count) const;
+  /// Stations in metres from the motor axis, each from 0 to the beam's length.
+  std::vector<arm::Mode> modes(int count, std::span<const arm::Sensor> sensors,
+                               std::span<const double> stations_m) const;
+  /// Sparse complex LU along the arm, linear in the number of elements; the error is some epsilon
+  /// times the number of elements, times the condition of the response at s.
+  std::complex<double> transfer_function(const arm::Sensor& sensor,
+                                         std::complex<double> s_rad_per_s) const;
+
+  /// Consistent mass [kg m^2] and stiffness [N m] for the coordinates theta [rad] and, for each
+  /// element, l y'' amplitudes of the bubbles, y/l and y' at the outer end; n x n, symmetric. For
+  /// use outside; eigenvalues of the assembled stiffness carry errors of order epsilon h^-4.
+  Eigen::SparseMatrix<double> mass_kg_m2() const;
+  Eigen::SparseMatrix<double> stiffness_N_m() const;
+
+ private:
+  arm::ZeroSet clamped_zeros(int count) const;
+  arm::ZeroSet transmission_zeros(const arm::Sensor& sensor, int count) const;
+
+  arm::Arm arm_;
+  Options options_;
+  double omega_scale_rad_per_s_;
+  std::shared_ptr<const Discretisation> model_;
+};
+
+static_assert(arm::Formulation<FemArm>);
+
+}  // namespace flexarm::fem

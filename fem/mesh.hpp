@@ -1,0 +1,28 @@
+#pragma once
+
+#include <vector>
+
+namespace flexarm::fem {
+
+/// Where a graded mesh has its short elements.
+enum class Grading { uniform, towards_root, towards_tip, towards_both };
+
+/// How the beam is divided into elements.
+struct MeshOptions {
+  int elements = 4;  ///< 1 or more
+  Grading grading = Grading::uniform;
+  /// Length of an element over that of its shorter neighbour, 1 or more; unused where uniform.
+  double grading_ratio = 1.5;
+  /// Ends of the elements, root and tip included, ascending from 0 to the beam's length; when not
+  /// empty it replaces the three values above.
+  std::vector<double> nodes_m;
+};
+
+/// The shortest element allowed, as a part of the beam's length.
+inline constexpr double kShortestElement = 1e-9;
+
+/// Lengths of the elements from root to tip as parts of the beam's length, their sum 1. Throws
+/// arm::InputError for options out of their range.
+std::vector<double> element_lengths(const MeshOptions& options, double beam_length_m);
+
+}  // namespace flexarm::fem

@@ -1,0 +1,221 @@
+#include "fem/vibration_modes.hpp"
+
+#include "fem/static_flexibility.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/SVD>
+#include <Eigen/SparseCholesky>
+#include <Spectra/SymGEigsShiftSolver.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace flexarm::fem {
+
+namespace {
+
+/// Up to this many coordinates the dense problem costs no more than a few milliseconds.
+constexpr int kDenseSize = 160;
+
+/// A displacement, and the deformations that it came from.
+struct Deformed {
+  Eigen::VectorXd u;
+  Eigen::VectorXd d;
+};
+
+/// K^-1 on the flexible subspace, in all n coordinates.
+class FlexibleSolve {
+ public:
+  FlexibleSolve(const Discretisation& model, HubSupport support)
+      : model_(model), support_(support), flexibility_(model) {}
+
+  const StaticFlexibility& flexibility() const { return flexibility_; }
+
+  /// Loads less the part that accelerates the rigid arm: f - M r (r^T f)/(r^T M r).
+  Eigen::VectorXd self_equilibrated(const Eigen::VectorXd& f) const {
+    if (support_ == HubSupport::clamped) return f;
+    const double angular = model_.rigid_rotation().dot(f) / model_.total_inertia();
+    return f - angular * model_.rigid_momentum();
+  }
+
+  /// The response to the loads `f` that is M-orthogonal to the rigid rotation.
+  Deformed operator()(const Eigen::VectorXd& f) const {
+    Deformed result;
+    result.d = flexibility_.deformations(self_equilibrated(f).tail(model_.clamped_size()));
+    result.u.resize(model_.size());
+    result.u[0] = 0.0;
+    result.u.tail(model_.clamped_size()) = flexibility_.displacements(result.d);
+    if (support_ == HubSupport::free) {
+      const double angle = model_.rigid_momentum().dot(result.u) / model_.total_inertia();
+      result.u -= angle * model_.rigid_rotation();
+    }
+    return result;
+  }
+
+ private:
+  const Discretisation& model_;
+  HubSupport support_;
+  StaticFlexibility flexibility_;
+};
+
+/// Spectra's (A - sigma B)^-1, fixed at sigma = 0.
+class ShiftSolveAtZero {
+ public:
+  using Scalar = double;
+
+  explicit ShiftSolveAtZero(const FlexibleSolve& solve, Eigen::Index size)
+      : solve_(solve), size_(size) {}
+
+  Eigen::Index rows() const { return size_; }
+  Eigen::Index cols() const { return size_; }
+  void set_shift(double) {}
+  void perform_op(const double* f, double* u) const {
+    Eigen::VectorXd::MapType(u, size_) = solve_(Eigen::VectorXd::ConstMapType(f, size_)).u;
+    ++applications_;
+  }
+  int applications() const { return applications_; }
+
+ private:
+  const FlexibleSolve& solve_;
+  Eigen::Index size_;
+  mutable int applications_ = 0;
+};
+
+class MassProduct {
+ public:
+  using Scalar = double;
+
+  MassProduct(const Discretisation& model, HubSupport support) : model_(model), support_(support) {}
+
+  Eigen::Index rows() const { return model_.size(); }
+  Eigen::Index cols() const { return model_.size(); }
+  void perform_op(const double* x, double* y) const {
+    Eigen::VectorXd::MapType result(y, rows());
+    result = model_.mass() * Eigen::VectorXd::ConstMapType(x, rows());
+    if (support_ == HubSupport::clamped) result[0] = x[0];
+  }
+
+ private:
+  const Discretisation& model_;
+  HubSupport support_;
+};
+
+/// Right singular vectors of D^-1/2 B^-T P L, M = L L^T, taken back to coordinates; P takes the
+/// rigid acceleration out of the loads.
+Eigen::MatrixXd dense_shapes(const Discretisation& model, HubSupport support,
+                             const FlexibleSolve& solve, int count) {
+  const int held = support == HubSupport::clamped ? 1 : 0;
+  const int free_size = model.size() - held;
+  const Eigen::MatrixXd mass =
+      Eigen::MatrixXd(model.mass()).bottomRightCorner(free_size, free_size);
+  const Eigen::LLT<Eigen::MatrixXd> cholesky(mass);
+  const Eigen::MatrixXd lower = cholesky.matrixL();
+  const Eigen::VectorXd root = solve.flexibility().natural_stiffness().cwiseSqrt();
+  Eigen::MatrixXd strains(model.clamped_size(), free_size);
+  Eigen::VectorXd load = Eigen::VectorXd::Zero(model.size());
+  for (int j = 0; j < free_size; ++j) {
+    load.tail(free_size) = lower.col(j);
+    const Eigen::VectorXd d =
+        solve.flexibility().deformations(solve.self_equilibrated(load).tail(model.clamped_size()));
+    strains.col(j) = d.cwiseProduct(root);
+  }
+  const Eigen::BDCSVD<Eigen::MatrixXd> svd(strains, Eigen::ComputeThinV);
+  Eigen::MatrixXd shapes = Eigen::MatrixXd::Zero(model.size(), count);
+  shapes.bottomRows(free_size) = cholesky.matrixU().solve(svd.matrixV().leftCols(count));
+  return shapes;
+}
+
+Eigen::MatrixXd iterated_shapes(const Discretisation& model, HubSupport support,
+                                const FlexibleSolve& solve, int count, double tolerance,
+                                VibrationModes& modes) {
+  constexpr Eigen::Index kMaximumRestarts = 1000;
+  ShiftSolveAtZero shift_solve(solve, model.size());
+  MassProduct mass(model, support);
+  // Spectra's own recommendation for the dimension of the Krylov space.
+  const int krylov = std::min(model.size(), std::max(2 * count + 1, 20));
+  Spectra::SymGEigsShiftSolver<ShiftSolveAtZero, MassProduct, Spectra::GEigsMode::ShiftInvert>
+      solver(shift_solve, mass, count, krylov, 0.0);
+  // A start in the flexible subspace: the response to a unit force at the tip.
+  Eigen::VectorXd tip_force = Eigen::VectorXd::Zero(model.size());
+  tip_force[model.tip_deflection_index()] = 1.0;
+  const Eigen::VectorXd start = solve(tip_force).u;
+  solver.init(start.data());
+  const Eigen::Index found = solver.compute(Spectra::SortRule::LargestMagn, kMaximumRestarts,
+                                            tolerance, Spectra::SortRule::SmallestAlge);
+  modes.converged = found == count;
+  modes.iterations = shift_solve.applications();
+  return solver.eigenvectors(count);
+}
+
+/// Two steps of inverse iteration, each mode kept M-orthogonal to those below it.
+void refine(const Discretisation& model, const FlexibleSolve& solve, const Eigen::MatrixXd& raw,
+            VibrationModes& modes) {
+  constexpr int kSteps = 2;
+  const Eigen::Index count = raw.cols();
+  modes.omega_squared.resize(count);
+  modes.shapes.resize(model.size(), count);
+  Eigen::MatrixXd momenta(model.size(), count);
+  Eigen::MatrixXd deformations(model.clamped_size(), count);
+  for (Eigen::Index j = 0; j < count; ++j) {
+    Eigen::VectorXd u = raw.col(j);
+    double omega_squared = 0.0;
+    double change = 0.0;
+    for (int step = 0; step < kSteps; ++step) {
+      Deformed next = solve(model.mass() * u);
+      const Eigen::VectorXd below = momenta.leftCols(j).transpose() * next.u;
+      next.u -= modes.shapes.leftCols(j) * below;
+      next.d -= deformations.leftCols(j) * below;
+      const Eigen::VectorXd momentum = model.mass() * next.u;
+      const double norm = std::sqrt(next.u.dot(momentum));
+      const double quotient = solve.flexibility().twice_strain_energy(next.d) / (norm * norm);
+      change = std::abs(quotient - omega_squared) / quotient;
+      omega_squared = quotient;
+      u = next.u / norm;
+      modes.shapes.col(j) = u;
+      momenta.col(j) = momentum / norm;
+      deformations.col(j) = next.d / norm;
+    }
+    modes.omega_squared[j] = omega_squared;
+    modes.largest_change = std::max(modes.largest_change, change);
+  }
+}
+
+}  // namespace
+
+VibrationModes vibration_modes(const Discretisation& discretisation, HubSupport support, int count,
+                               double tolerance) {
+  VibrationModes modes;
+  const int available = discretisation.clamped_size();
+  count = std::min(count, available);
+  const FlexibleSolve solve(discretisation, support);
+  modes.dense = discretisation.size() <= kDenseSize || 4 * count > available;
+  const Eigen::MatrixXd raw =
+      modes.dense ? dense_shapes(discretisation, support, solve, count)
+                  : iterated_shapes(discretisation, support, solve, count, tolerance, modes);
+  refine(discretisation, solve, raw, modes);
+  return modes;
+}
+
+int eigenvalues_below(const Discretisation& discretisation, HubSupport support,
+                      double omega_squared) {
+  // A count at a value between two eigenvalues stands while K's rounding is well below their gap.
+  constexpr double kRoundingAllowed = 1e-4;
+  const double shortest =
+      *std::min_element(discretisation.lengths().begin(), discretisation.lengths().end());
+  const double rounding =
+      12.0 * std::numeric_limits<double>::epsilon() / std::pow(shortest, 4) / omega_squared;
+  if (rounding > kRoundingAllowed) return -1;
+  const Eigen::SparseMatrix<double> shifted =
+      discretisation.stiffness() - omega_squared * discretisation.mass();
+  const int size =
+      support == HubSupport::clamped ? discretisation.clamped_size() : discretisation.size();
+  const Eigen::SparseMatrix<double> block = shifted.bottomRightCorner(size, size);
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower,
+                              Eigen::NaturalOrdering<int>>
+      factor(block);
+  if (factor.info() != Eigen::Success) return -1;
+  return static_cast<int>((factor.vectorD().array() < 0.0).count());
+}
+
+}  // namespace flexarm::fem

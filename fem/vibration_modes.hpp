@@ -1,0 +1,41 @@
+#pragma once
+
+#include "fem/discretisation.hpp"
+
+#include <Eigen/Core>
+
+namespace flexarm::fem {
+
+/// What holds the hub while the arm vibrates.
+enum class HubSupport {
+  free,     ///< nothing: the poles
+  clamped,  ///< theta = 0: the zeros of a collocated sensor
+};
+
+/// The lowest flexible modes of K u = omega^2 M u, dimensionless.
+struct VibrationModes {
+  Eigen::VectorXd omega_squared;  ///< ascending
+  Eigen::MatrixXd shapes;         ///< n x count, u^T M u = 1; row 0 is theta (0 where clamped)
+  int iterations = 0;             ///< operator applications of the iterative solver, else 0
+  bool converged = true;
+  bool dense = false;  ///< by singular values of the whole factored problem
+  /// Largest relative change of an omega^2 at the last refinement.
+  double largest_change = 0.0;
+};
+
+/// The `count` lowest modes, all of them where there are fewer. Of a small model (or when nearly
+/// all modes are asked for) 1/omega are the singular values of D^-1/2 B^-T L with M = L L^T; else
+/// Spectra's Lanczos iteration finds 1/omega^2 as eigenvalues of the flexibility, shift 0, to
+/// `tolerance` (Spectra's residual bound |r| <= tolerance max(eps^(2/3), 1/omega^2)). The
+/// rigid-body mode is projected out. Each mode is then refined by inverse iteration, orthogonal to
+/// those below it, and omega^2 = d^T D d/u^T M u is summed in element deformations.
+VibrationModes vibration_modes(const Discretisation& discretisation, HubSupport support, int count,
+                               double tolerance);
+
+/// How many eigenvalues of K u = omega^2 M u lie below `omega_squared`, the rigid-body mode
+/// included: negative pivots of L D L^T = K - omega^2 M (Sylvester's law of inertia). Returns -1
+/// where rounding of K, about epsilon 12/h^4 of omega^2, could change the count.
+int eigenvalues_below(const Discretisation& discretisation, HubSupport support,
+                      double omega_squared);
+
+}  // namespace flexarm::fem

@@ -25,6 +25,7 @@ struct Command {
 /// The text under a command's options: an example line that works as it stands.
 std::string example(const std::string& line);
 
+Command add_compare(CLI::App& program);
 Command add_new(CLI::App& program);
 
 }  // namespace flexarm::app

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "arm/arm.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace flexarm::app {
+
+/// The arm that a command works on: a file, or the paper's arm, with numbers changed on the command
+/// line.
+struct ArmChoice {
+  std::string file;                             ///< empty: the paper's arm
+  std::vector<double> payload_masses_kg;        ///< empty: the arm's own
+  std::optional<double> payload_inertia_kg_m2;  ///< empty: the arm's own
+  std::optional<double> hub_inertia_kg_m2;      ///< empty: the arm's own
+
+  /// One arm a payload mass asked for, at least one. Throws InputError.
+  std::vector<arm::Arm> arms() const;
+};
+
+/// Adds `ARM` and the options that change its numbers to a command.
+void add_arm_choice(CLI::App& parser, ArmChoice& choice);
+
+/// Name, rigidity, density, inertias and their ratios: two lines for the head of an output.
+std::string describe(const arm::Arm& arm);
+
+}  // namespace flexarm::app

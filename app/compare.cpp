@@ -1,0 +1,175 @@
+#include "app/arm_choice.hpp"
+#include "app/command.hpp"
+#include "app/standard_output.hpp"
+#include "arm/atomic_file.hpp"
+#include "compare/comparison.hpp"
+#include "compare/measured.hpp"
+#include "measured/modal_table.hpp"
+#include "report/comparison_json.hpp"
+#include "report/comparison_plots.hpp"
+#include "report/comparison_tables.hpp"
+#include "report/csv.hpp"
+#include "report/progress.hpp"
+#include "report/text_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace flexarm::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Arguments {
+  ArmChoice arm;
+  std::string measured_file;
+  std::vector<std::string> sensors;
+  compare::Options options;
+  bool quick = false;
+  bool full = false;
+  std::string out;
+  std::string json;
+};
+
+compare::Options options_of(const Arguments& arguments, const measured::ModalTable& measured) {
+  compare::Options options = arguments.options;
+  options.refinements = !arguments.quick;
+  const auto add = [&](const arm::Sensor& sensor) {
+    if (std::ranges::find(options.sensors, sensor) == options.sensors.end()) {
+      options.sensors.push_back(sensor);
+    }
+  };
+  for (const auto& name : arguments.sensors) add(arm::parse_sensor(name));
+  for (const auto& sensor : compare::sensors_with_zeros(measured)) add(sensor);
+  return options;
+}
+
+compare::Comparison compare_with_progress(const arm::Arm& arm, compare::Options options) {
+  std::unique_ptr<report::Progress> progress;
+  options.progress = [&progress](int, int total) {
+    if (!progress) progress = std::make_unique<report::Progress>("comparing", total);
+    progress->advance();
+  };
+  return compare::compare(arm, options);
+}
+
+void print_table(const report::Table& table) {
+  print(report::to_text(table) + "\n");
+}
+
+void print_comparison(const compare::Comparison& comparison,
+                      const std::vector<compare::MeasuredRow>& measured, bool full) {
+  print(describe(comparison.arm) + "\n");
+  print_table(report::subjects_table(comparison));
+  for (const auto& table : report::root_tables(comparison)) print_table(table);
+  if (!measured.empty()) print_table(report::measured_table(measured));
+  if (full) print_table(report::notes_table(comparison));
+  for (const auto& table : report::convergence_tables(comparison)) print_table(table);
+  if (full && !comparison.refinements.empty()) {
+    print_table(report::convergence_listing(comparison));
+  }
+  print_table(report::shapes_table(comparison));
+  print_table(report::responses_table(comparison));
+  print(report::verdict_line(comparison) + "\n");
+}
+
+void write_folder(const fs::path& folder, const compare::Comparison& comparison,
+                  const std::vector<compare::MeasuredRow>& measured) {
+  arm::make_folder(folder);
+  const auto write_csv = [&](const char* name, const report::Table& table) {
+    arm::write_atomically(folder / name, report::to_csv(table));
+  };
+  write_csv("roots.csv", report::root_listing(comparison));
+  write_csv("shapes.csv", report::shapes_listing(comparison));
+  write_csv("responses.csv", report::responses_listing(comparison));
+  if (!measured.empty()) write_csv("measured.csv", report::measured_table(measured));
+  if (!comparison.refinements.empty()) {
+    write_csv("convergence.csv", report::convergence_listing(comparison));
+    write_csv("refinement.csv", report::refinement_listing(comparison));
+  }
+  for (const auto& [name, svg] : report::comparison_plots(comparison)) {
+    arm::write_atomically(folder / name, svg);
+  }
+}
+
+std::string next_step(const Arguments& arguments) {
+  const std::string arm = arguments.arm.file.empty() ? "" : " " + arguments.arm.file;
+  if (arguments.out.empty()) {
+    return fmt::format("next: plots and tables as files with  flexarm compare{} --out compared\n",
+                       arm);
+  }
+  return fmt::format("wrote {}\nnext: the modes of this arm with  flexarm modes{}\n", arguments.out,
+                     arm);
+}
+
+int run(const Arguments& arguments) {
+  const auto measured = arguments.measured_file.empty()
+                            ? measured::ModalTable{}
+                            : measured::read_modal_table(arguments.measured_file);
+  const auto options = options_of(arguments, measured);
+  const auto arms = arguments.arm.arms();
+  if (!arguments.out.empty()) arm::make_folder(arguments.out);
+
+  bool agree = true;
+  std::vector<report::ComparedArm> results;
+  for (const auto& arm : arms) {
+    const auto comparison = compare_with_progress(arm, options);
+    const auto rows = compare::beside_model(measured, comparison);
+    print_comparison(comparison, rows, arguments.full);
+    if (arms.size() > 1) print("\n");
+    if (!arguments.out.empty()) {
+      const fs::path folder =
+          arms.size() == 1
+              ? fs::path(arguments.out)
+              : fs::path(arguments.out) / fmt::format("payload-{}kg", arm.payload.mass_kg);
+      write_folder(folder, comparison, rows);
+    }
+    agree = agree && comparison.verdict.agree;
+    results.push_back({comparison, rows});
+  }
+  if (!arguments.json.empty()) {
+    arm::write_atomically(arguments.json, report::comparison_json(results));
+  }
+  print(next_step(arguments));
+  return agree ? kSuccess : kFailure;
+}
+
+}  // namespace
+
+Command add_compare(CLI::App& program) {
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App* parser = program.add_subcommand(
+      "compare", "Poles, zeros, shapes and responses of the three formulations, side by side");
+  add_arm_choice(*parser, arguments->arm);
+  parser->add_option("--measured", arguments->measured_file,
+                     "Measured poles and zeros (modal CSV), shown beside the model's");
+  parser
+      ->add_option("--sensor", arguments->sensors,
+                   "Further sensors whose zeros and responses are compared, as in strain@0.05")
+      ->delimiter(',');
+  parser->add_option("--poles", arguments->options.poles, "How many poles and hub zeros")
+      ->capture_default_str();
+  parser
+      ->add_option("--tolerance", arguments->options.root_tolerance,
+                   "Poles and zeros agree within this, relative")
+      ->capture_default_str();
+  parser
+      ->add_option("--accuracy", arguments->options.wanted_accuracy,
+                   "Look for the cheapest setting that is this accurate, relative")
+      ->capture_default_str();
+  parser->add_flag("--quick", arguments->quick, "Leave the refinement series out");
+  parser->add_flag("--full", arguments->full, "Print every root's convergence and the root counts");
+  parser->add_option("--out", arguments->out, "Folder for CSV tables and SVG plots");
+  parser->add_option("--json", arguments->json, "File for everything in full precision");
+  parser->footer("\nExit status: 0 the formulations agree; 1 they do not; 2 unusable input.\n" +
+                 example("flexarm compare rig.toml --poles 6 --out compared"));
+  return {parser, [arguments] { return run(*arguments); }};
+}
+
+}  // namespace flexarm::app

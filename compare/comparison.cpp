@@ -1,0 +1,222 @@
+#include "compare/comparison.hpp"
+
+#include "arm/input_error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+
+namespace flexarm::compare {
+
+namespace {
+
+constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
+
+void require_valid(const Options& options) {
+  if (options.poles < 1) throw arm::out_of_range("poles", options.poles, "", "1 or more");
+  if (!(options.root_tolerance > 0.0)) {
+    throw arm::out_of_range("tolerance", options.root_tolerance, "", "above 0");
+  }
+  if (!(options.wanted_accuracy > 0.0)) {
+    throw arm::out_of_range("accuracy", options.wanted_accuracy, "", "above 0");
+  }
+}
+
+/// Counts steps and tells the caller.
+class Steps {
+ public:
+  Steps(const Options& options, int total) : tell_(options.progress), total_(total) {}
+  void advance() {
+    ++done_;
+    if (tell_) tell_(done_, total_);
+  }
+
+ private:
+  std::function<void(int, int)> tell_;
+  int total_;
+  int done_ = 0;
+};
+
+/// The families and the exact roots that refinement curves are held against.
+struct ReferenceFamily {
+  FeatureFamily family;
+  std::vector<std::complex<double>> s_rad_per_s;
+};
+
+double frequency_Hz(std::complex<double> s_rad_per_s) {
+  return std::abs(s_rad_per_s) / (2.0 * std::numbers::pi);
+}
+
+void add_roots(const std::vector<Subject>& subjects, const FeatureFamily& family,
+               const Options& options, Comparison& comparison, Steps& steps) {
+  std::vector<FeatureRoots> found;
+  for (const auto& subject : subjects) {
+    found.push_back(roots(subject.formulation, family));
+    comparison.notes.push_back({subject.name, family,
+                                static_cast<int>(found.back().s_rad_per_s.size()),
+                                found.back().rejected, found.back().infinite, found.back().count});
+    steps.advance();
+  }
+  const auto& reference = found.front().s_rad_per_s;
+  std::vector<std::vector<std::optional<std::complex<double>>>> matched;
+  for (const auto& each : found) matched.push_back(match(family, reference, each.s_rad_per_s));
+
+  for (std::size_t i = 0; i < reference.size(); ++i) {
+    RootRow row{family, static_cast<int>(i) + 1, {}, {}};
+    for (const auto& values : matched) {
+      row.s_rad_per_s.push_back(values[i]);
+      row.distance.push_back(values[i] ? relative_distance(*values[i], reference[i]) : kMissing);
+    }
+    for (std::size_t a = 0; a < subjects.size(); ++a) {
+      for (std::size_t b = a + 1; b < subjects.size(); ++b) {
+        const bool both = matched[a][i] && matched[b][i];
+        comparison.findings.push_back(
+            {fmt::format("{} {}", label(family), i + 1), subjects[a].name, subjects[b].name,
+             both ? relative_distance(*matched[b][i], *matched[a][i]) : kMissing,
+             options.root_tolerance});
+      }
+    }
+    comparison.roots.push_back(std::move(row));
+  }
+}
+
+void add_shapes(const std::vector<Subject>& subjects, const Options& options,
+                Comparison& comparison, Steps& steps) {
+  comparison.stations_m = shape_stations_m(comparison.arm.beam.length_m);
+  for (const auto& subject : subjects) {
+    comparison.modes.push_back(
+        response::modes(subject.formulation, options.poles, {}, comparison.stations_m));
+    steps.advance();
+  }
+  for (std::size_t b = 1; b < subjects.size(); ++b) {
+    const auto rows =
+        compare_shapes(subjects[b].name, comparison.modes.front(), comparison.modes[b]);
+    comparison.shapes.insert(comparison.shapes.end(), rows.begin(), rows.end());
+    for (const auto& row : rows) {
+      comparison.findings.push_back({fmt::format("mode shape {}", row.order), subjects.front().name,
+                                     row.formulation, row.largest_error, options.shape_tolerance});
+    }
+  }
+}
+
+void add_response(const std::vector<Subject>& subjects, const arm::Sensor& sensor,
+                  const Options& options, Comparison& comparison, Steps& steps) {
+  std::vector<double> poles_Hz;
+  std::vector<double> features_Hz;
+  for (const auto& row : comparison.roots) {
+    const auto s = *row.s_rad_per_s.front();
+    if (!row.family.zeros_of) poles_Hz.push_back(frequency_Hz(s));
+    const bool imaginary_zero = row.family.zeros_of == sensor && s.imag() > 0.0;
+    if (!row.family.zeros_of || imaginary_zero) features_Hz.push_back(frequency_Hz(s));
+  }
+  std::vector<response::AnyFormulation> formulations;
+  for (const auto& subject : subjects) formulations.push_back(subject.formulation);
+  auto response = compare_responses(
+      formulations, sensor, response_grid_Hz(poles_Hz, options.response_points), features_Hz);
+  for (std::size_t b = 1; b < subjects.size(); ++b) {
+    comparison.findings.push_back({fmt::format("{} response at {:.4g} Hz", arm::to_string(sensor),
+                                               response.largest_error_frequency_Hz[b]),
+                                   subjects.front().name, subjects[b].name,
+                                   response.largest_error[b], options.response_tolerance});
+  }
+  comparison.responses.push_back(std::move(response));
+  steps.advance();
+}
+
+Comparison compare_subjects(const std::vector<Subject>& subjects, const Options& options,
+                            Steps& steps) {
+  if (subjects.size() < 2) throw std::invalid_argument("a comparison needs two models or more");
+  require_valid(options);
+  Comparison comparison;
+  comparison.arm = response::arm_of(subjects.front().formulation);
+  for (const auto& sensor : options.sensors) arm::require_valid(sensor, comparison.arm);
+  for (const auto& subject : subjects) {
+    comparison.subjects.push_back(subject.name);
+    comparison.settings.push_back(subject.settings);
+    comparison.degrees_of_freedom.push_back(response::degrees_of_freedom(subject.formulation));
+  }
+  for (const auto& family : families(options)) {
+    add_roots(subjects, family, options, comparison, steps);
+  }
+  add_shapes(subjects, options, comparison, steps);
+  for (const auto& sensor : options.sensors) {
+    add_response(subjects, sensor, options, comparison, steps);
+  }
+  comparison.verdict = judge(comparison.findings);
+  return comparison;
+}
+
+int steps_of(const Options& options, std::size_t subjects, std::size_t refinements) {
+  const std::size_t family_count = options.sensors.size() + 1;
+  return static_cast<int>(subjects * (family_count + 1) + options.sensors.size() +
+                          refinements * family_count);
+}
+
+}  // namespace
+
+std::vector<FeatureFamily> families(const Options& options) {
+  const int non_collocated =
+      options.non_collocated_zeros > 0 ? options.non_collocated_zeros : (3 * options.poles + 4) / 5;
+  std::vector<FeatureFamily> asked = {{std::nullopt, options.poles}};
+  for (const auto& sensor : options.sensors) {
+    asked.push_back({sensor, arm::is_collocated(sensor) ? options.poles : non_collocated});
+  }
+  return asked;
+}
+
+std::vector<Subject> standard_subjects(const arm::Arm& arm, int roots) {
+  fem::FemArm::Options fem_options;
+  fem_options.degree = 11;
+  fem_options.mesh.elements = std::max(3, (2 * roots + 4) / 5);
+  assumed_modes::AssumedModesOptions ritz_options;
+  ritz_options.basis = assumed_modes::Basis::legendre;
+  ritz_options.functions = 2 * roots + 16;
+  return {
+      {"exact_tf", "", exact_tf::ExactArm(arm)},
+      {"fem",
+       fmt::format("{} elements of degree {}", fem_options.mesh.elements, fem_options.degree),
+       fem::FemArm(arm, fem_options)},
+      {"assumed_modes", fmt::format("{} Legendre polynomials", ritz_options.functions),
+       assumed_modes::AssumedModesArm(arm, ritz_options)},
+  };
+}
+
+Comparison compare(const std::vector<Subject>& subjects, const Options& options) {
+  Steps steps(options, steps_of(options, subjects.size(), 0));
+  return compare_subjects(subjects, options, steps);
+}
+
+Comparison compare(const arm::Arm& arm, const Options& options) {
+  require_valid(options);
+  const auto subjects = standard_subjects(arm, options.poles);
+  const auto refinements =
+      options.refinements ? standard_refinements(options.poles) : std::vector<Refinement>{};
+  Steps steps(options, steps_of(options, subjects.size(), refinements.size()));
+  Comparison comparison = compare_subjects(subjects, options, steps);
+
+  std::vector<ReferenceFamily> references;
+  for (const auto& family : families(options)) {
+    // Velocity is the angle's derivative: the same zeros, so the same curves.
+    if (family.zeros_of && family.zeros_of->kind == arm::SensorKind::hub_velocity) continue;
+    references.push_back({family, {}});
+    for (const auto& row : comparison.roots) {
+      if (row.family == family) references.back().s_rad_per_s.push_back(*row.s_rad_per_s.front());
+    }
+  }
+  for (const auto& refinement : refinements) {
+    for (const auto& reference : references) {
+      auto curves =
+          refine(arm, refinement, reference.family, reference.s_rad_per_s, options.wanted_accuracy);
+      std::ranges::move(curves, std::back_inserter(comparison.refinements));
+      steps.advance();
+    }
+  }
+  return comparison;
+}
+
+}  // namespace flexarm::compare

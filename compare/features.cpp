@@ -1,0 +1,60 @@
+#include "compare/features.hpp"
+
+#include <cmath>
+#include <cstddef>
+
+namespace flexarm::compare {
+
+std::string label(const FeatureFamily& family) {
+  return family.zeros_of ? arm::to_string(*family.zeros_of) + " zero" : "pole";
+}
+
+FeatureRoots roots(const response::AnyFormulation& formulation, const FeatureFamily& family) {
+  FeatureRoots found;
+  if (family.zeros_of) {
+    arm::ZeroSet zeros = response::zeros(formulation, *family.zeros_of, family.count);
+    found.s_rad_per_s = std::move(zeros.s_rad_per_s);
+    found.rejected = std::move(zeros.rejected);
+    found.infinite = zeros.infinite;
+    found.count = std::move(zeros.count);
+  } else {
+    arm::PoleSet poles = response::poles(formulation, family.count);
+    for (const double omega : poles.omega_rad_per_s) found.s_rad_per_s.emplace_back(0.0, omega);
+    found.count = std::move(poles.count);
+  }
+  return found;
+}
+
+double relative_distance(std::complex<double> s, std::complex<double> reference) {
+  return std::abs(s - reference) / std::abs(reference);
+}
+
+std::vector<std::optional<std::complex<double>>> match(
+    const FeatureFamily& family, std::span<const std::complex<double>> reference,
+    std::span<const std::complex<double>> found) {
+  std::vector<std::optional<std::complex<double>>> matched(reference.size());
+  const bool ordered = !family.zeros_of || arm::is_collocated(*family.zeros_of);
+  if (ordered) {
+    for (std::size_t i = 0; i < reference.size() && i < found.size(); ++i) matched[i] = found[i];
+    return matched;
+  }
+  std::vector<bool> taken(found.size(), false);
+  for (std::size_t i = 0; i < reference.size(); ++i) {
+    double nearest = kNearest;
+    std::optional<std::size_t> choice;
+    for (std::size_t j = 0; j < found.size(); ++j) {
+      const double distance = relative_distance(found[j], reference[i]);
+      if (!taken[j] && distance < nearest) {
+        nearest = distance;
+        choice = j;
+      }
+    }
+    if (choice) {
+      taken[*choice] = true;
+      matched[i] = found[*choice];
+    }
+  }
+  return matched;
+}
+
+}  // namespace flexarm::compare

@@ -1,0 +1,49 @@
+#pragma once
+
+#include "arm/sensor.hpp"
+#include "response/any_formulation.hpp"
+
+#include <complex>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace flexarm::compare {
+
+/// The poles, or the zeros of one sensor.
+struct FeatureFamily {
+  std::optional<arm::Sensor> zeros_of;  ///< empty: the poles
+  int count = 10;
+
+  bool operator==(const FeatureFamily&) const = default;
+};
+
+/// "pole", "hub_angle zero".
+std::string label(const FeatureFamily& family);
+
+/// The roots s [rad/s] that a formulation gives for the family: poles as i omega; zeros as in
+/// arm::ZeroSet.
+struct FeatureRoots {
+  std::vector<std::complex<double>> s_rad_per_s;
+  std::vector<arm::RejectedZero> rejected;
+  int infinite = 0;
+  arm::RootCount count;
+};
+FeatureRoots roots(const response::AnyFormulation& formulation, const FeatureFamily& family);
+
+/// For each reference root the root of `found` that stands for it, or empty: by order where roots
+/// are ordered by the theory (poles, zeros of a collocated sensor: Rayleigh-Ritz bounds), else the
+/// nearest one not taken, at most `kNearest` of its modulus away.
+std::vector<std::optional<std::complex<double>>> match(
+    const FeatureFamily& family, std::span<const std::complex<double>> reference,
+    std::span<const std::complex<double>> found);
+
+/// A non-collocated zero further than this from a reference zero, relative to its modulus, is not
+/// taken for it: neighbouring tip zeros are a factor 1.9 or more apart.
+inline constexpr double kNearest = 0.3;
+
+/// |s - reference|/|reference|.
+double relative_distance(std::complex<double> s, std::complex<double> reference);
+
+}  // namespace flexarm::compare

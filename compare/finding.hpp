@@ -1,0 +1,26 @@
+#pragma once
+
+#include <span>
+#include <string>
+
+namespace flexarm::compare {
+
+/// How far two formulations are apart in one quantity, and how far they may be.
+struct Finding {
+  std::string quantity;    ///< "hub_angle zero 3", "mode shape 2", "tip_acceleration at 40.1 Hz"
+  std::string first;       ///< formulation
+  std::string second;      ///< formulation
+  double distance = 0.0;   ///< relative; NaN when one of the two has no value
+  double tolerance = 0.0;  ///< they agree when distance <= tolerance
+};
+
+/// Agree, or not and where it is worst.
+struct Verdict {
+  bool agree = true;
+  Finding worst;  ///< the finding with the largest distance/tolerance; one without a value is worst
+};
+
+/// Throws std::invalid_argument when there is nothing to judge.
+Verdict judge(std::span<const Finding> findings);
+
+}  // namespace flexarm::compare

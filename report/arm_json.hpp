@@ -1,0 +1,18 @@
+#pragma once
+
+#include "arm/arm.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <complex>
+#include <optional>
+
+namespace flexarm::report {
+
+/// The numbers that define an arm, and those that follow from them, units in the keys.
+nlohmann::ordered_json arm_json(const arm::Arm& arm);
+
+/// {"re": ..., "im": ...}, or null.
+nlohmann::ordered_json complex_json(const std::optional<std::complex<double>>& value);
+
+}  // namespace flexarm::report

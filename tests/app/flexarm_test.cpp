@@ -8,7 +8,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
-#include <regex>
+#include <sstream>
 #include <sys/stat.h>
 
 namespace flexarm::testing_app {
@@ -97,8 +97,13 @@ TEST_F(Flexarm, NewWritesThePapersArmAndSaysWhatIsNext) {
 
 TEST_F(Flexarm, TheStarterFileStaysValidWithEveryOptionalKeyGiven) {
   run({"new", "rig.toml"});
-  const std::string all =
-      std::regex_replace(text_of("rig.toml"), std::regex("\n# (\\w+ +=|\\[)"), "\n$1");
+  std::istringstream lines(text_of("rig.toml"));
+  std::string all;
+  for (std::string line; std::getline(lines, line);) {
+    const bool is_key = line.starts_with("# [") ||
+                        (line.find(" = ") != std::string::npos && !line.starts_with("#  "));
+    all += (line.starts_with("# ") && is_key ? line.substr(2) : line) + "\n";
+  }
   const arm::Arm arm = arm::parse_arm(all, "rig.toml");
   EXPECT_TRUE(arm.beam.given_linear_density_kg_per_m.has_value());
   EXPECT_GT(arm.damping.kelvin_voigt_s, 0.0);

@@ -1,6 +1,7 @@
 #include "measured/modal_table.hpp"
 
 #include "arm/input_error.hpp"
+#include "arm/text_file.hpp"
 
 #include <gtest/gtest.h>
 
@@ -62,6 +63,34 @@ TEST(ModalTable, WhatIsWrittenReadsBackEqual) {
   }
   EXPECT_EQ(parse_modal_table(format_modal_table(table), "m"), table);
   EXPECT_EQ(parse_modal_table(format_modal_table({}), "m"), ModalTable{});
+}
+
+TEST(ModalTable, TheExampleOfTheFormatsDocumentIsRead) {
+  const std::string text = arm::read_text_file(FLEXARM_SOURCE_DIR "/docs/formats.md", 1 << 20);
+  const auto begin = text.find('\n', text.find("```csv")) + 1;
+  const ModalTable table =
+      parse_modal_table(text.substr(begin, text.find("```", begin) - begin), "docs/formats.md");
+  ASSERT_EQ(table.size(), 2U);
+  EXPECT_EQ(table[0].damping_ratio, 0.006);
+  EXPECT_EQ(table[1].frequency_std_Hz, std::nullopt);
+}
+
+TEST(ModalTable, BytesAtRandomGiveATableOrOneLine) {
+  std::mt19937_64 random(20261121);
+  const std::string good =
+      kHeader + "\n\"strain@0.05\",zero,1,2.87,0.01,0.006,0.001\n# x\nhub_angle,pole,1,11.86,,,\n";
+  constexpr int kFiles = 20000;
+  for (int i = 0; i < kFiles; ++i) {
+    std::string text = good;
+    for (auto changes = 1 + random() % 4; changes > 0; --changes) {
+      text[random() % text.size()] = static_cast<char>(random() % 256);
+    }
+    try {
+      parse_modal_table(text, "m");
+    } catch (const arm::InputError& error) {
+      EXPECT_EQ(std::string(error.what()).find_first_of("\r\n"), std::string::npos);
+    }
+  }
 }
 
 struct Mistake {

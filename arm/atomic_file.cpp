@@ -127,11 +127,12 @@ void write_atomically(const fs::path& path, std::string_view content) {
   const std::scoped_lock lock(one_at_a_time);
   static std::atomic<unsigned> serial = 0;
 
+  if (path.empty()) throw InputError("the name of a file is empty");
   struct stat status = {};
   const bool exists = ::stat(path.c_str(), &status) == 0;
   if (!exists && errno != ENOENT) throw not_written(path, reason_of(errno));
   if (exists && S_ISDIR(status.st_mode)) throw not_written(path, "is a folder");
-  if (path.empty() || !path.has_filename()) throw not_written(path, "names no file");
+  if (!path.has_filename()) throw not_written(path, "names no file");
   if (exists && !S_ISREG(status.st_mode)) return write_directly(path, content);
   // A rename asks only the folder for permission; a file that is read-only is meant to stay.
   if (exists && ::access(path.c_str(), W_OK) != 0) throw not_written(path, reason_of(errno));

@@ -52,7 +52,7 @@ Sensor parse_sensor(std::string_view name) {
         !std::isfinite(position_m)) {
       throw InputError(fmt::format(
           "sensor {}: the position after strain@ must be a number of metres, as in strain@0.05",
-          name));
+          shown(name)));
     }
     return {SensorKind::strain, position_m};
   }
@@ -63,8 +63,8 @@ Sensor parse_sensor(std::string_view name) {
     names.emplace_back(entry.name);
   }
   names.emplace_back("strain@X");
-  throw InputError(fmt::format("sensor {}: unknown{}; allowed: {} (X in metres from the hub)", name,
-                               did_you_mean(name, names), fmt::join(names, ", ")));
+  throw InputError(fmt::format("sensor {}: unknown{}; allowed: {} (X in metres from the hub)",
+                               shown(name), did_you_mean(name, names), fmt::join(names, ", ")));
 }
 
 std::string to_string(const Sensor& sensor) {

@@ -5,14 +5,15 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <regex>
+#include <regex.h>
+#include <stdexcept>
 
 namespace flexarm::arm {
 
 namespace {
 
 struct Slip {
-  const char* pattern;  ///< of the line that the parser stopped at
+  const char* pattern;  ///< POSIX extended expression, of the line that the parser stopped at
   const char* advice;
 };
 
@@ -21,20 +22,40 @@ constexpr std::array<Slip, 15> kSlips = {{
     {"\r", "end lines with a line feed"},
     {"\xc2\xa0", "there is a no-break space; write a plain one"},
     {"\xe2\x88\x92", "write the minus sign as -"},
-    {"\xe2\x80[\x9c-\x9f]", "write straight quotes"},
-    {R"(=\s*[-+]?\d+,\d)", "write numbers with a decimal point and no comma"},
-    {R"(=\s*[-+]?\.\d)", "write a digit before the point, as in 0.5"},
-    {R"(=\s*[-+]?\d+\.([^\d]|$))", "write a digit after the point, as in 1.0"},
-    {R"(=\s*[-+]?[\d.]+[dD][-+]?\d)", "write the exponent with e, as in 1e-3"},
-    {R"(=\s*[-+\d.eE]+\s*(%|//))", "a comment begins with #"},
-    {R"(=\s*[-+\d.eE]+\s*[*/^])", "write one number, not an expression"},
-    {R"(=\s*[-+\d.eE]+\s*;)", "end the line without a semicolon"},
-    {R"(=\s*[-+]?\d[\d.]*([eE][-+]?\d+)?\s*(?![eE][-+]?\d)[^\s\d.,#])",
+    {"\xe2\x80(\x9c|\x9d|\x9e)", "write straight quotes"},
+    {"= *[-+]?[0-9]+,[0-9]", "write numbers with a decimal point and no comma"},
+    {"= *[-+]?\\.[0-9]", "write a digit before the point, as in 0.5"},
+    {"= *[-+]?[0-9]+\\.([^0-9]|$)", "write a digit after the point, as in 1.0"},
+    {"= *[-+]?[0-9.]+[dD][-+]?[0-9]", "write the exponent with e, as in 1e-3"},
+    {"= *[-+0-9.eE]+ *(%|//)", "a comment begins with #"},
+    {"= *[-+0-9.eE]+ *[*/^]", "write one number, not an expression"},
+    {"= *[-+0-9.eE]+ *;", "end the line without a semicolon"},
+    {"= *[-+]?[0-9][0-9.]*([eE][-+]?[0-9]+)? *([^] 0-9.,#eE]|[eE][^-+0-9])",
      "write the number alone; its unit may follow as a comment, after #"},
-    {R"(=\s*[A-Za-z])", "write text in quotes"},
-    {R"(=\s*"[^"]*$)", "close the quotes on the same line"},
-    {R"(^\s*[\w-]+(\s*:|\s+[-+\d]))", "write key = value, with an equals sign"},
+    {"= *[A-Za-z]", "write text in quotes"},
+    {"= *\"[^\"]*$", "close the quotes on the same line"},
+    {"^ *[A-Za-z0-9_-]+( *:| +[-+0-9])", "write key = value, with an equals sign"},
 }};
+
+/// A compiled expression that frees itself. std::regex recurses once a character of the line.
+class Expression {
+ public:
+  explicit Expression(const char* pattern) {
+    if (::regcomp(&compiled_, pattern, REG_EXTENDED | REG_NOSUB) != 0) {
+      throw std::logic_error(fmt::format("bad expression {}", pattern));
+    }
+  }
+  ~Expression() { ::regfree(&compiled_); }
+  Expression(const Expression&) = delete;
+  Expression& operator=(const Expression&) = delete;
+
+  bool matches(const std::string& line) const {
+    return ::regexec(&compiled_, line.c_str(), 0, nullptr, 0) == 0;
+  }
+
+ private:
+  regex_t compiled_ = {};
+};
 
 std::string_view line_of(std::string_view text, int line) {
   for (int skipped = 1; skipped < line; ++skipped) {
@@ -49,10 +70,8 @@ std::string_view line_of(std::string_view text, int line) {
 
 /// "; write ..." for a slip that is recognised, else "".
 std::string advice_on(const std::string& line) {
-  constexpr std::size_t kLongestExamined = 200;  // std::regex recurses once a character
-  if (line.size() > kLongestExamined) return "";
   for (const auto& slip : kSlips) {
-    if (std::regex_search(line, std::regex(slip.pattern))) return fmt::format("; {}", slip.advice);
+    if (Expression(slip.pattern).matches(line)) return fmt::format("; {}", slip.advice);
   }
   return "";
 }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <ostream>
+#include <random>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -305,6 +306,36 @@ TEST(ArmFileErrors, BytesThatAreNoTextGiveOnePrintableLine) {
       const std::string_view line = error.what();
       EXPECT_TRUE(line.starts_with("blob:1: not TOML: ")) << line;
       for (const char c : line) EXPECT_TRUE(c >= 0x20 && c < 0x7f) << line;
+    }
+  }
+}
+
+TEST(ArmFileErrors, BytesAtRandomGiveAnArmOrOneLine) {
+  std::mt19937_64 random(20261120);
+  const std::string good = std::string(kGood) + "[effects.sensor_lag]\ntime_constant = 1e-3\n" +
+                           "sensor = \"strain@0.05\"\n";
+  constexpr int kFiles = 5000;
+  for (int i = 0; i < kFiles; ++i) {
+    std::string text = good;
+    for (auto changes = 1 + random() % 4; changes > 0; --changes) {
+      const std::size_t place = random() % text.size();
+      switch (random() % 3) {
+        case 0:
+          text[place] = static_cast<char>(random() % 256);
+          break;
+        case 1:
+          text.erase(place, 1 + random() % 8);
+          break;
+        default:
+          text.insert(place, good, random() % good.size(), 1 + random() % 8);
+      }
+    }
+    try {
+      parse_arm(text, "rig.toml");
+    } catch (const InputError& error) {
+      const std::string line = error.what();
+      EXPECT_EQ(line.find_first_of("\r\n"), std::string::npos) << line;
+      EXPECT_TRUE(line.starts_with("rig.toml:")) << line;
     }
   }
 }

@@ -95,7 +95,9 @@ TEST_F(AtomicFile, EachReasonIsNamedWithThePath) {
             folder + "/file/a: cannot be written: Not a directory");
   EXPECT_EQ(error_of([&] { make_folder(folder_ / "file"); }),
             folder + "/file: cannot be made: Not a directory");
-  EXPECT_THAT(error_of([] { write_atomically("", "x"); }), HasSubstr("names no file"));
+  EXPECT_EQ(error_of([] { write_atomically("", "x"); }), "the name of a file is empty");
+  EXPECT_EQ(error_of([&] { write_atomically(folder_ / "none" / "", "x"); }),
+            folder + "/none/: cannot be written: names no file");
 }
 
 TEST_F(AtomicFile, AReadOnlyFileIsLeftAlone) {

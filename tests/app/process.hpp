@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace flexarm::testing_app {
+
+/// How a program ended, and what it printed.
+struct Ended {
+  int status = -1;  ///< exit status; 128 + signal when a signal ended it, as a shell says
+  std::string output;
+  std::string errors;
+};
+
+/// Where a program's standard output goes.
+enum class Output { captured, closed_pipe, full_disk };
+
+/// Runs the program `flexarm` that this build made, with `arguments`, in `folder`, to its end.
+Ended run_flexarm(const std::vector<std::string>& arguments, const std::string& folder = ".",
+                  Output output = Output::captured);
+
+/// The same, with `signal` sent as soon as the program has been blocked for a while.
+Ended interrupt_flexarm(const std::vector<std::string>& arguments, int signal);
+
+}  // namespace flexarm::testing_app

@@ -1,0 +1,58 @@
+#include "measured/csv.hpp"
+
+#include "arm/input_error.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace flexarm::measured {
+namespace {
+
+using testing::ElementsAre;
+
+TEST(Csv, CellsAreTrimmedAndEmptyOnesKept) {
+  const auto rows = parse_csv(" a ,b\tc,,\" d \"\n,\n", "f");
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_THAT(rows[0].cells, ElementsAre("a", "b\tc", "", " d "));
+  EXPECT_THAT(rows[1].cells, ElementsAre("", ""));
+}
+
+TEST(Csv, QuotedCellsHoldCommasQuotesAndLineEnds) {
+  const auto rows = parse_csv("\"a,b\",\"say \"\"x\"\"\",\"two\nlines\" ,c\nd\n", "f");
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_THAT(rows[0].cells, ElementsAre("a,b", "say \"x\"", "two\nlines", "c"));
+  EXPECT_EQ(rows[1].line, 3);
+}
+
+TEST(Csv, BlankLinesCommentsAndTheByteOrderMarkAreNoRows) {
+  const auto rows = parse_csv("\xef\xbb\xbf# bench\r\n\r\na,b\r\n  # c\r\n \t\r\n1,2", "f");
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_THAT(rows[0].cells, ElementsAre("a", "b"));
+  EXPECT_EQ(rows[0].line, 3);
+  EXPECT_THAT(rows[1].cells, ElementsAre("1", "2"));
+  EXPECT_EQ(rows[1].line, 6);
+  EXPECT_TRUE(parse_csv("", "f").empty());
+}
+
+TEST(Csv, LinesMayEndInCarriageReturnsAlone) {
+  const auto rows = parse_csv("a\rb\r", "f");
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_EQ(rows[1].line, 2);
+}
+
+TEST(Csv, QuotesThatDoNotMatchAreLocated) {
+  const auto error_of = [](std::string_view text) -> std::string {
+    try {
+      parse_csv(text, "f.csv");
+    } catch (const arm::InputError& error) {
+      return error.what();
+    }
+    return "no error";
+  };
+  EXPECT_EQ(error_of("a\n\"b\nc\n"), "f.csv:2: a quote is not closed; end the cell with \"");
+  EXPECT_EQ(error_of("a\nb,\"c\" d\n"),
+            "f.csv:2: text after a closing quote; write a quote within quotes twice, as \"\"");
+}
+
+}  // namespace
+}  // namespace flexarm::measured

@@ -16,27 +16,6 @@ std::vector<double> rounded(const std::vector<Real>& values) {
   return {values.begin(), values.end()};
 }
 
-/// The factor in front of a numerator, see exact_tf/numerator.hpp.
-Complex numerator_factor(const arm::Arm& arm, const arm::Sensor& sensor, const Complex& s,
-                         const Complex& z) {
-  const Real l = arm.beam.length_m;
-  switch (sensor.kind) {
-    case arm::SensorKind::hub_angle:
-      return 1.0L;
-    case arm::SensorKind::hub_velocity:
-      return s;
-    case arm::SensorKind::tip_displacement:
-      return l;
-    case arm::SensorKind::tip_acceleration:
-      return l * (s * s);
-    case arm::SensorKind::tip_deflection:
-      return l * z;
-    case arm::SensorKind::strain:
-      return 0.5L * arm.beam.thickness_m.value() / l * z;
-  }
-  throw std::logic_error("sensor kind outside its enumeration");
-}
-
 /// What a sensor shows of phi, before time derivatives.
 Real sensor_value(const arm::Arm& arm, const arm::Sensor& sensor, const ModeShape& shape) {
   switch (sensor.kind) {
@@ -143,7 +122,7 @@ std::complex<double> ExactArm::transfer_function(const arm::Sensor& sensor,
   const Complex denominator =
       beam_inertia * (s * s) * frequency.at_z(pole_value(ratios_, products)) +
       friction * s * frequency.at_z(hub_angle_value(ratios_, products));
-  const Complex value = numerator_factor(arm_, sensor, s, frequency.z) *
+  const Complex value = sensor_factor(arm_, sensor, s, frequency.z) *
                         frequency.at_z(numerator.value) / denominator *
                         std::exp(numerator.log_scale - products.log_scale);
   return {static_cast<double>(value.real()), static_cast<double>(value.imag())};

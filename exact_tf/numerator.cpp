@@ -191,6 +191,26 @@ Scaled<T> sensor_numerator(const arm::Arm& arm, const arm::Sensor& sensor, const
   throw std::logic_error("sensor kind outside its enumeration");
 }
 
+Complex sensor_factor(const arm::Arm& arm, const arm::Sensor& sensor, const Complex& s,
+                      const Complex& z) {
+  const Real l = arm.beam.length_m;
+  switch (sensor.kind) {
+    case arm::SensorKind::hub_angle:
+      return 1.0L;
+    case arm::SensorKind::hub_velocity:
+      return s;
+    case arm::SensorKind::tip_displacement:
+      return l;
+    case arm::SensorKind::tip_acceleration:
+      return l * (s * s);
+    case arm::SensorKind::tip_deflection:
+      return l * z;
+    case arm::SensorKind::strain:
+      return 0.5L * arm.beam.thickness_m.value() / l * z;
+  }
+  throw std::logic_error("sensor kind outside its enumeration");
+}
+
 template Scaled<Real> hub_angle_numerator(const InertiaRatios&, const Real&);
 template Scaled<Complex> hub_angle_numerator(const InertiaRatios&, const Complex&);
 template Scaled<Real> pole_characteristic(const InertiaRatios&, const Real&);

@@ -33,7 +33,8 @@ InertiaRatios inertia_ratios(const arm::Arm& arm);
 ///     (y(l) - l theta)/tau = l z N_deflection(z)/D
 ///     y''(X)/tau          = z N_curvature(z; X)/(l D)
 ///
-/// A power of s or z in front is left out of a numerator, so that N(0) > 0 always. Poles of the
+/// A power of s or z in front is left out of a numerator, so that N(0) > 0, but for the curvature
+/// at the tip without payload inertia, which is 0 for every z. Poles of the
 /// arm without friction are the roots of E, zeros of a sensor those of its N. On the imaginary
 /// axis of s (undamped) lambda is real; on the real axis arg lambda = pi/4; N(conj z) = conj N(z).
 ///
@@ -82,12 +83,12 @@ Scaled<T> tip_numerator(const InertiaRatios& ratios, const T& lambda);
 template <class T>
 Scaled<T> tip_deflection_numerator(const InertiaRatios& ratios, const T& lambda);
 
-/// N_curvature = y''(X)/z at X = position (1 - xi), `from_tip` = xi = 1 - X/l in [0, 1];
+/// N_curvature = y''(X)/z, `from_tip` = xi = 1 - X/l in [0, 1];
 /// log_scale = a + b xi.
 template <class T>
 Scaled<T> curvature_numerator(const InertiaRatios& ratios, const T& lambda, Real from_tip);
 
-/// y at 1 - xi; log_scale = a + b xi. Accurate relative to the largest |y|.
+/// y at x = 1 - xi, `from_tip` = xi; log_scale = a + b xi. Accurate relative to the largest |y|.
 template <class T>
 Scaled<T> displacement_numerator(const InertiaRatios& ratios, const T& lambda, Real from_tip);
 
@@ -98,5 +99,10 @@ Real distance_from_tip(const arm::Arm& arm, double position_m);
 /// tip_displacement -> N_tip; tip_deflection -> N_deflection; strain -> N_curvature.
 template <class T>
 Scaled<T> sensor_numerator(const arm::Arm& arm, const arm::Sensor& sensor, const T& lambda);
+
+/// What stands in front of that numerator in the list above, time derivatives and half the
+/// thickness included: tau to sensor is sensor_factor N/D. `z` belongs to `s` [rad/s].
+Complex sensor_factor(const arm::Arm& arm, const arm::Sensor& sensor, const Complex& s,
+                      const Complex& z);
 
 }  // namespace flexarm::exact_tf

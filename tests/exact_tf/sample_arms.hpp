@@ -2,8 +2,18 @@
 
 #include "arm/arm.hpp"
 
+#include <ostream>
 #include <string>
 #include <vector>
+
+namespace flexarm::arm {
+
+/// How GoogleTest shows an arm.
+inline void PrintTo(const Arm& arm, std::ostream* out) {
+  *out << arm.name;
+}
+
+}  // namespace flexarm::arm
 
 namespace flexarm::exact_tf {
 

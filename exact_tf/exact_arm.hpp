@@ -1,0 +1,52 @@
+#pragma once
+
+#include "arm/formulation.hpp"
+#include "exact_tf/numerator.hpp"
+
+#include <complex>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace flexarm::exact_tf {
+
+/// The arm as its boundary value problem states it: the transcendental transfer function from hub
+/// torque to every sensor, with no discretisation. See exact_tf/numerator.hpp for the equations.
+///
+///     const ExactArm exact(arm::paper_arm());
+///     const double first_Hz = exact.poles(1).omega_rad_per_s[0] / (2 * std::numbers::pi);
+///
+/// Kelvin-Voigt damping and hub friction are in the transfer function without approximation. No
+/// effect of arm::effect_vocabulary() is honoured; each is refused by name.
+class ExactArm {
+ public:
+  static constexpr std::string_view kName = "exact_tf";
+
+  /// Throws arm::InputError for an invalid arm and for any effect.
+  explicit ExactArm(arm::Arm arm);
+
+  const arm::Arm& arm() const { return arm_; }
+  const InertiaRatios& ratios() const { return ratios_; }
+  int degrees_of_freedom() const { return 0; }
+
+  /// The `count` lowest lambda of the flexible poles, ascending, within an ulp or so. The poles are
+  /// s = +-i lambda^2 omega_scale. Throws std::invalid_argument for count < 1, as do all below.
+  std::vector<double> pole_lambdas(int count) const;
+  /// The same for the hub-angle zeros.
+  std::vector<double> hub_zero_lambdas(int count) const;
+
+  arm::PoleSet poles(int count) const;
+  arm::ZeroSet zeros(const arm::Sensor& sensor, int count) const;
+  std::vector<arm::Mode> modes(int count, std::span<const arm::Sensor> sensors,
+                               std::span<const double> stations_m) const;
+  std::complex<double> transfer_function(const arm::Sensor& sensor,
+                                         std::complex<double> s_rad_per_s) const;
+
+ private:
+  arm::Arm arm_;
+  InertiaRatios ratios_;
+};
+
+static_assert(arm::Formulation<ExactArm>);
+
+}  // namespace flexarm::exact_tf

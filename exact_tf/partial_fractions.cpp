@@ -1,0 +1,60 @@
+#include "exact_tf/partial_fractions.hpp"
+
+#include "exact_tf/scaled.hpp"
+
+#include <array>
+#include <ranges>
+#include <stdexcept>
+
+namespace flexarm::exact_tf {
+
+namespace {
+
+Real rigid_value(const arm::Arm& arm, const arm::Sensor& sensor) {
+  switch (sensor.kind) {
+    case arm::SensorKind::hub_angle:
+    case arm::SensorKind::hub_velocity:
+      return 1.0;
+    case arm::SensorKind::tip_displacement:
+    case arm::SensorKind::tip_acceleration:
+      return arm.beam.length_m;
+    case arm::SensorKind::tip_deflection:
+    case arm::SensorKind::strain:
+      return 0.0;
+  }
+  throw std::logic_error("sensor kind outside its enumeration");
+}
+
+}  // namespace
+
+PartialFractions::PartialFractions(const ExactArm& arm, const arm::Sensor& sensor, int order)
+    : arm_(arm.arm()),
+      derivative_order_(derivative_order(sensor)),
+      rigid_value_(rigid_value(arm_, sensor)),
+      modes_(arm.modes(order, std::array{sensor}, {})) {}
+
+std::complex<double> PartialFractions::operator()(std::complex<double> s_rad_per_s) const {
+  if (s_rad_per_s == 0.0) throw std::domain_error("partial fractions: double pole at s = 0");
+  const Complex s(s_rad_per_s.real(), s_rad_per_s.imag());
+  const Real damping = arm_.damping.kelvin_voigt_s;
+  const Real friction = arm_.hub.viscous_friction_N_m_s_per_rad;
+  const Real inertia = arm::total_inertia_kg_m2(arm_);
+  Complex sensor_sum = 0.0L;
+  Complex hub_sum = 0.0L;
+  // From the smallest term to the largest.
+  for (const auto& mode : std::views::reverse(modes_)) {
+    const Real stiffness = static_cast<Real>(mode.omega_rad_per_s) * mode.omega_rad_per_s;
+    const Real slope = mode.hub_slope;
+    const Real sensor_value = mode.sensor_values.front();
+    const Complex participation = slope / (s * s + stiffness * (1.0L + damping * s));
+    sensor_sum += sensor_value * participation;
+    hub_sum += slope * participation;
+  }
+  sensor_sum = (rigid_value_ / (s * s) + sensor_sum) / inertia;
+  hub_sum = (1.0L / (s * s) + hub_sum) / inertia;
+  Complex value = sensor_sum / (1.0L + friction * (s * hub_sum));
+  for (int i = 0; i < derivative_order_; ++i) value *= s;
+  return {static_cast<double>(value.real()), static_cast<double>(value.imag())};
+}
+
+}  // namespace flexarm::exact_tf

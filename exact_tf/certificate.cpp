@@ -1,0 +1,287 @@
+#include "exact_tf/certificate.hpp"
+
+#include "arm/input_error.hpp"
+#include "exact_tf/ball_boundary_value_problem.hpp"
+#include "exact_tf/ball_enclosure.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <optional>
+
+namespace flexarm::exact_tf {
+
+namespace {
+
+using ball::Complex;
+using ball::DimensionlessArm;
+using ball::LastRow;
+using ball::Precision;
+using ball::Real;
+using ball::RootFunction;
+
+/// Half-width of the enclosures in ulp of |lambda|.
+const double kReachUlp = std::ldexp(1.0, -12);
+
+/// Where lambda of a root lies: z > 0, z < 0 or off the real axis.
+enum class Locus { positive_axis, negative_axis, inside };
+
+struct Enclosed {
+  Locus locus;
+  Real modulus;
+  Complex lambda;
+};
+
+double ulp_of(double modulus) {
+  return std::nextafter(modulus, std::numeric_limits<double>::infinity()) - modulus;
+}
+
+/// Runs `attempt` at rising precision until it returns a value; notes the highest precision used.
+template <class Attempt>
+auto at_rising_precision(const CertificateOptions& options, long& highest, Attempt attempt)
+    -> decltype(attempt()) {
+  for (long bits = options.precision_bits; bits <= options.max_precision_bits; bits *= 2) {
+    const Precision scope(bits);
+    highest = std::max(highest, bits);
+    if (auto result = attempt()) return result;
+  }
+  return std::nullopt;
+}
+
+/// One root problem of one arm, rebuilt at whatever precision is set.
+class Problem {
+ public:
+  Problem(const arm::Arm& arm, LastRow last_row, double position_m = 0.0)
+      : arm_(arm), last_row_(last_row), position_m_(position_m) {
+    arm::require_valid(arm);
+    arm::require_honoured(arm.effects, "the exact roots' certificate", {});
+  }
+
+  const arm::Arm& arm() const { return arm_; }
+
+  RootFunction function() const {
+    return RootFunction(DimensionlessArm(arm_), last_row_,
+                        Real(position_m_) / Real(arm_.beam.length_m));
+  }
+
+ private:
+  arm::Arm arm_;
+  LastRow last_row_;
+  double position_m_;
+};
+
+using GivenLambda = std::function<Complex()>;
+
+/// Encloses the root near `given` and says how far from it that is.
+std::optional<Enclosed> enclose(const Problem& problem, Locus locus, const GivenLambda& given,
+                                const CertificateOptions& options, Certificate& certificate,
+                                RootEnclosure& report) {
+  const auto attempt = [&]() -> std::optional<Enclosed> {
+    const RootFunction function = problem.function();
+    const Complex start = given();
+    const Real start_modulus = abs(start);
+    const double reach = kReachUlp * ulp_of(start_modulus.nearest_double());
+    Enclosed result{locus, {}, {}};
+    if (locus == Locus::inside) {
+      const auto lambda = ball::enclose_complex_zero(
+          [&](const Complex& at) { return function.determinant(at); }, start, reach);
+      // Off both axes, so that the zero and its conjugate in z are two.
+      if (!lambda || lambda->imag().sign() <= 0 || (lambda->real() - lambda->imag()).sign() <= 0) {
+        return std::nullopt;
+      }
+      result.lambda = *lambda;
+      result.modulus = abs(*lambda);
+    } else {
+      const bool positive = locus == Locus::positive_axis;
+      const auto modulus = ball::enclose_sign_change(
+          [&](const Real& at) {
+            return positive ? function.on_positive_axis(at) : function.on_negative_axis(at);
+          },
+          start_modulus, reach);
+      if (!modulus) return std::nullopt;
+      result.modulus = *modulus;
+      result.lambda = positive ? Complex(*modulus)
+                               : Complex(*modulus) * Complex::unit_at_half_turns(Real(1) / Real(4));
+    }
+    return result;
+  };
+  auto enclosed = at_rising_precision(options, certificate.precision_bits, attempt);
+  if (!enclosed) {
+    report.distance_ulp = std::numeric_limits<double>::infinity();
+    return std::nullopt;
+  }
+  const Precision scope(options.precision_bits);
+  const std::complex<double> midpoint = enclosed->lambda.nearest_double();
+  const Complex exact_midpoint(Real(midpoint.real()), Real(midpoint.imag()));
+  report.enclosed = true;
+  report.lambda = midpoint;
+  report.radius = abs(enclosed->lambda - exact_midpoint).upper_bound();
+  report.distance_ulp =
+      abs(enclosed->lambda - given()).upper_bound() / ulp_of(enclosed->modulus.nearest_double());
+  return enclosed;
+}
+
+/// The reason why the enclosures are not the ascending, disjoint neighbours of what was given.
+std::string fault_of(const std::vector<std::optional<Enclosed>>& enclosed,
+                     const Certificate& certificate, const CertificateOptions& options) {
+  for (std::size_t i = 0; i < enclosed.size(); ++i) {
+    if (!enclosed[i]) return fmt::format("root {}: no root is proved near it", i + 1);
+    const double distance = certificate.roots[i].distance_ulp;
+    if (!(distance <= options.max_distance_ulp)) {
+      return fmt::format("root {} lies {:.3g} ulp from the root enclosed; allowed: {:.3g}", i + 1,
+                         distance, options.max_distance_ulp);
+    }
+  }
+  for (std::size_t i = 0; i < enclosed.size(); ++i) {
+    if (i > 0 && enclosed[i]->modulus.is_below(enclosed[i - 1]->modulus)) {
+      return fmt::format("roots {} and {} are not in ascending order", i, i + 1);
+    }
+    // Only roots of overlapping modulus can be the same.
+    for (std::size_t j = i; j > 0 && enclosed[j - 1]->modulus.overlaps(enclosed[i]->modulus); --j) {
+      if (enclosed[j - 1]->lambda.overlaps(enclosed[i]->lambda)) {
+        return fmt::format("roots {} and {} share an enclosure", j, i + 1);
+      }
+    }
+  }
+  return {};
+}
+
+/// An exact modulus just above every enclosure.
+Real beyond(const std::vector<std::optional<Enclosed>>& enclosed) {
+  Real largest;
+  for (const auto& root : enclosed) {
+    const Real end = root->modulus.upper_end();
+    if (largest.is_below(end)) largest = end;
+  }
+  return largest;
+}
+
+/// Roots counted in z with conjugates, as the argument principle does.
+long weight_of(const std::vector<std::optional<Enclosed>>& enclosed) {
+  long weight = 0;
+  for (const auto& root : enclosed) weight += root->locus == Locus::inside ? 2 : 1;
+  return weight;
+}
+
+/// Fills in everything: `count` is asked for the number of roots up to a modulus, and may decline
+/// at the precision set.
+Certificate certify(const Problem& problem, const std::vector<Locus>& loci,
+                    const std::vector<GivenLambda>& given, const CertificateOptions& options,
+                    const std::function<std::optional<long>(const Real&)>& count) {
+  Certificate certificate;
+  certificate.given = static_cast<int>(given.size());
+  certificate.roots.resize(given.size());
+  std::vector<std::optional<Enclosed>> enclosed(given.size());
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    enclosed[i] = enclose(problem, loci[i], given[i], options, certificate, certificate.roots[i]);
+    certificate.largest_distance_ulp =
+        std::max(certificate.largest_distance_ulp, certificate.roots[i].distance_ulp);
+  }
+  certificate.failure = fault_of(enclosed, certificate, options);
+  if (std::any_of(enclosed.begin(), enclosed.end(), [](const auto& root) { return !root; })) {
+    return certificate;
+  }
+
+  const auto counted = at_rising_precision(options, certificate.precision_bits,
+                                           [&] { return count(beyond(enclosed)); });
+  if (!counted) {
+    if (certificate.failure.empty()) {
+      certificate.failure =
+          fmt::format("the count is not certain at {} bits", options.max_precision_bits);
+    }
+    return certificate;
+  }
+  certificate.counted = *counted;
+  if (certificate.failure.empty() && *counted != weight_of(enclosed)) {
+    certificate.failure =
+        fmt::format("the problem has {} roots up to the last one given, the list has {}", *counted,
+                    weight_of(enclosed));
+  }
+  certificate.proved = certificate.failure.empty();
+  return certificate;
+}
+
+Certificate certify_self_adjoint(const arm::Arm& arm, LastRow last_row,
+                                 std::span<const double> lambdas,
+                                 const CertificateOptions& options) {
+  const Problem problem(arm, last_row);
+  std::vector<GivenLambda> given;
+  given.reserve(lambdas.size());
+  for (const double lambda : lambdas) {
+    given.push_back([lambda] { return Complex(Real(lambda)); });
+  }
+  const auto count = [&](const Real& beyond) -> std::optional<long> {
+    const auto found = ball::wittrick_williams(DimensionlessArm(arm), beyond);
+    if (!found) return std::nullopt;
+    constexpr long kRigidBodyModes = 1;
+    return last_row == LastRow::hub_torque ? found->poles - kRigidBodyModes : found->hub_zeros;
+  };
+  Certificate certificate =
+      certify(problem, std::vector(lambdas.size(), Locus::positive_axis), given, options, count);
+  certificate.method = "change of sign and Wittrick-Williams count in ball arithmetic";
+  return certificate;
+}
+
+LastRow last_row_of(const arm::Sensor& sensor) {
+  switch (sensor.kind) {
+    case arm::SensorKind::hub_angle:
+    case arm::SensorKind::hub_velocity:
+      return LastRow::hub_angle;
+    case arm::SensorKind::tip_acceleration:
+    case arm::SensorKind::tip_displacement:
+      return LastRow::tip_displacement;
+    case arm::SensorKind::tip_deflection:
+      return LastRow::tip_deflection;
+    case arm::SensorKind::strain:
+      return LastRow::strain;
+  }
+  return LastRow::hub_angle;
+}
+
+}  // namespace
+
+Certificate certify_poles(const arm::Arm& arm, std::span<const double> lambdas,
+                          const CertificateOptions& options) {
+  return certify_self_adjoint(arm, LastRow::hub_torque, lambdas, options);
+}
+
+Certificate certify_hub_zeros(const arm::Arm& arm, std::span<const double> lambdas,
+                              const CertificateOptions& options) {
+  return certify_self_adjoint(arm, LastRow::hub_angle, lambdas, options);
+}
+
+Certificate certify_zeros(const arm::Arm& arm, const arm::Sensor& sensor,
+                          std::span<const std::complex<double>> s_rad_per_s,
+                          const CertificateOptions& options) {
+  const Problem problem(arm, last_row_of(sensor), sensor.position_m);
+  arm::require_valid(sensor, arm);
+  if (sensor.kind == arm::SensorKind::strain && sensor.position_m == arm.beam.length_m &&
+      arm.payload.inertia_kg_m2 == 0.0) {
+    throw arm::InputError(fmt::format(
+        "sensor {}: is zero at every s on a tip without payload inertia, so it has no zeros",
+        to_string(sensor)));
+  }
+  std::vector<Locus> loci;
+  std::vector<GivenLambda> given;
+  for (const std::complex<double> s : s_rad_per_s) {
+    loci.push_back(s.real() == 0.0   ? Locus::positive_axis
+                   : s.imag() == 0.0 ? Locus::negative_axis
+                                     : Locus::inside);
+    // s^2 = -lambda^4 omega_scale^2, on the branch 0 <= arg lambda <= pi/4.
+    given.push_back([&arm, s] {
+      return sqrt(Complex(Real(s.imag()), Real(s.real())) /
+                  Complex(DimensionlessArm(arm).omega_scale));
+    });
+  }
+  const auto count = [&](const Real& beyond) { return problem.function().count_within(beyond); };
+  Certificate certificate = certify(problem, loci, given, options, count);
+  certificate.method =
+      "change of sign, winding number about each complex zero, argument principle on |lambda| = "
+      "const, all in ball arithmetic";
+  return certificate;
+}
+
+}  // namespace flexarm::exact_tf

@@ -106,26 +106,27 @@ double fitted_order(const RootConvergence& series) {
 }
 
 std::string sentence(Basis basis, const RootConvergence& series) {
+  const auto at = [&](std::size_t i) {
+    return fmt::format("{:.1e} with {} functions", series.relative_error[i], series.functions[i]);
+  };
+  const std::size_t last = series.functions.size() - 1;
   const std::string subject = fmt::format("{}: the error of {}", to_string(basis), series.root);
-  const std::string last = fmt::format("{:.1e} with {} functions", series.relative_error.back(),
-                                       series.functions.back());
   if (series.unmet.empty()) {
     return basis == Basis::legendre
                ? fmt::format(
-                     "{} falls faster than any power of n ({}): no end condition of the "
-                     "arm is ruled out by the functions",
-                     subject, last)
+                     "{} falls faster than any power of n ({}, {}): the functions leave every end "
+                     "condition of the arm free",
+                     subject, at(0), at(1))
                : fmt::format("{} is rounding ({}): the functions are the shapes asked for", subject,
-                             last);
+                             at(0));
   }
   const std::string measured = std::isnan(series.measured_order)
                                    ? "too small to measure"
                                    : fmt::format("measured n^-{:.1f}", series.measured_order);
-  const std::string advice = series.predicted_order <= kSlowOrder
-                                 ? "; use legendre or clamped_with_payload"
-                                 : "; fast enough for most uses";
-  return fmt::format("{} falls as n^-{:.0f} ({}, {}): {}{}", subject, series.predicted_order,
-                     measured, last, reason(series.unmet.front()), advice);
+  return fmt::format(
+      "{} falls as n^-{:.0f} ({}, {}): {}{}", subject, series.predicted_order, measured, at(last),
+      reason(series.unmet.front()),
+      series.predicted_order <= kSlowOrder ? "; use legendre or clamped_with_payload" : "");
 }
 
 RootConvergence convergence(const std::vector<AssumedModesArm>& models,

@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <cstdint>
-#include <stdexcept>
 
 namespace flexarm::assumed_modes {
 
@@ -13,32 +12,34 @@ namespace {
 
 constexpr Real kPi = boost::math::constants::pi<Real>();
 
-/// The one root of `f` in [lower, upper]. Where rounding hides the change of sign, the root lies
-/// at an end within rounding, and that end is returned.
+/// The one root of `f` in [lower, upper], where it changes sign.
 template <class F>
 Real root_between(const F& f, Real lower, Real upper) {
-  const Real at_lower = f(lower);
-  const Real at_upper = f(upper);
-  if (at_lower == 0 || at_upper == 0 || std::signbit(at_lower) == std::signbit(at_upper)) {
-    return std::abs(at_lower) < std::abs(at_upper) ? lower : upper;
-  }
-  // Each step of TOMS 748 gains digits; bisection alone would need 64 + log2(pi).
-  constexpr std::uintmax_t kMaximumCalls = 200;
-  std::uintmax_t calls = kMaximumCalls;
+  std::uintmax_t calls = 200;  // bisection alone would need 64 + log2(upper)
   const auto [left, right] = boost::math::tools::toms748_solve(
-      f, lower, upper, at_lower, at_upper, boost::math::tools::eps_tolerance<Real>(), calls);
-  if (calls >= kMaximumCalls) throw std::runtime_error("frequency of a beam shape: no convergence");
+      f, lower, upper, boost::math::tools::eps_tolerance<Real>(), calls);
   return (left + right) / 2;
 }
 
-/// One root between consecutive members of 0, frequencies[0], frequencies[1], ...
+/// The roots of a beam to which inertia is added at the tip, one between consecutive members of 0
+/// and the `frequencies` before. The determinant `f` is positive at 0 and alternates in sign from
+/// one frequency to the next; where rounding hides its sign there, that root has not moved.
 template <class F>
 std::vector<Real> interlaced_roots(const F& f, const std::vector<Real>& frequencies) {
+  // Steps off a root before that has not moved and would hide the sign at the lower end.
+  constexpr Real kStepOff = 1e-3L;
   std::vector<Real> roots;
   Real lower = 0;
+  Real sign = 1;
   for (const Real upper : frequencies) {
-    roots.push_back(root_between(f, lower, upper));
+    if (sign * f(upper) >= 0) {
+      roots.push_back(upper);
+    } else {
+      const bool hidden = sign * f(lower) <= 0;
+      roots.push_back(root_between(f, hidden ? lower + kStepOff * (upper - lower) : lower, upper));
+    }
     lower = upper;
+    sign = -sign;
   }
   return roots;
 }

@@ -26,9 +26,13 @@ MassMatrix mass_matrix(const Integrals& integrals, const InertiaRatios& ratios) 
   mass.rigid = Real{1} / 3 + ratios.hub + ratios.payload_mass + ratios.payload_inertia;
   mass.coupling = integrals.moment + ratios.hub * root + ratios.payload_mass * tip +
                   ratios.payload_inertia * slope;
-  mass.flexible = integrals.mass + ratios.hub * root * root.transpose() +
-                  ratios.payload_mass * tip * tip.transpose() +
-                  ratios.payload_inertia * slope * slope.transpose();
+  // One triangle, mirrored: symmetric to the last bit.
+  Matrix lower = integrals.mass;
+  lower.selfadjointView<Eigen::Lower>()
+      .rankUpdate(root, ratios.hub)
+      .rankUpdate(tip, ratios.payload_mass)
+      .rankUpdate(slope, ratios.payload_inertia);
+  mass.flexible = lower.selfadjointView<Eigen::Lower>();
   return mass;
 }
 

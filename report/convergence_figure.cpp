@@ -9,7 +9,9 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <stdexcept>
+#include <utility>
 
 namespace flexarm::report {
 namespace {
@@ -51,8 +53,10 @@ Series curve_series(const ConvergenceCurve& curve, const Style& style) {
   return series;
 }
 
-/// error = level x^-order, with the smallest `level` that clears the falling part of every curve.
-Series slope_series(const ReferenceSlope& slope, const std::vector<ConvergenceCurve>& curves) {
+/// error = level x^-order, with the smallest `level` that clears the falling part of every curve;
+/// empty when no curve of the formulation has one.
+std::optional<Series> slope_series(const ReferenceSlope& slope,
+                                   const std::vector<ConvergenceCurve>& curves) {
   double level = 0.0;
   double first_x = std::numeric_limits<double>::infinity();
   double last_x = 0.0;
@@ -66,23 +70,25 @@ Series slope_series(const ReferenceSlope& slope, const std::vector<ConvergenceCu
       first_x = std::min(first_x, x);
       last_x = std::max(last_x, x);
       smallest_error = std::min(smallest_error, error);
-      if (i > 0 && curve.relative_error[i] >= curve.relative_error[i - 1]) break;  // rounding
+      if (i > 0 && curve.relative_error[i] >
+                       curve.relative_error[i - 1] *
+                           std::pow(curve.degrees_of_freedom[i - 1] / x, slope.order / 2)) {
+        break;  // less than half the order from one point to the next: rounding has taken over
+      }
       level = std::max(level, kSlopeAboveCurves * error * std::pow(x, slope.order));
     }
   }
-  if (level == 0.0) {
-    throw std::invalid_argument(fmt::format("reference slope {} of \"{}\": no error below {}",
-                                            slope.order, slope.formulation, kAsymptoticError));
-  }
+  if (level == 0.0) return {};
   const auto x_of = [&](double error) { return std::pow(level / error, 1.0 / slope.order); };
   const double begin = std::max(first_x, x_of(kSlopeTop));
   const double end = std::max(begin, std::min(last_x, x_of(smallest_error)));
   const auto error_of = [&](double x) { return level * std::pow(x, -slope.order); };
   Style style;
   style.colour = grey;
-  style.line = Line::dashed;
-  return {
-      fmt::format("order {}", slope.order), {begin, end}, {error_of(begin), error_of(end)}, style};
+  return Series{fmt::format("order {} ({})", slope.order, slope.formulation),
+                {begin, end},
+                {error_of(begin), error_of(end)},
+                style};
 }
 
 }  // namespace
@@ -127,10 +133,13 @@ Figure convergence_figure(const ConvergencePlot& plot) {
   for (std::size_t i = 0; i < features.size(); ++i) {
     figure.legend.push_back({features[i], feature_style(i, features.size())});
   }
-  figure.legend.push_back({" ", {}});
-  for (const ReferenceSlope& slope : plot.slopes) {
-    panel.series.push_back(slope_series(slope, plot.curves));
-    figure.legend.push_back({panel.series.back().name, panel.series.back().style});
+  if (!plot.slopes.empty() || plot.rounding_level) figure.legend.push_back({" ", {}});
+  for (std::size_t i = 0; i < plot.slopes.size(); ++i) {
+    if (std::optional<Series> series = slope_series(plot.slopes[i], plot.curves)) {
+      series->style.line = i % 2 == 0 ? Line::dashed : Line::dash_dotted;
+      figure.legend.push_back({series->name, series->style});
+      panel.series.push_back(std::move(*series));
+    }
   }
   if (plot.rounding_level) {
     Style style;

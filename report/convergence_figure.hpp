@@ -16,7 +16,8 @@ struct ConvergenceCurve {
   std::vector<double> relative_error;
 };
 
-/// A dashed line error ~ degrees_of_freedom^-order above the curves of one formulation.
+/// A broken line error ~ degrees_of_freedom^-order above the curves of one formulation; left out
+/// where these never fall at half that order below an error of 1e-2.
 struct ReferenceSlope {
   std::string formulation;
   double order = 0.0;
@@ -33,8 +34,7 @@ struct ConvergencePlot {
 inline constexpr double kSmallestDrawnError = 0x1p-53;
 
 /// Relative error over degrees of freedom, both logarithmic, with the legend beside the plot.
-/// Throws std::invalid_argument for a curve whose two vectors differ in length, and for a slope of
-/// a formulation without a point to lie above.
+/// Throws std::invalid_argument for a curve whose two vectors differ in length.
 Figure convergence_figure(const ConvergencePlot& plot);
 
 }  // namespace flexarm::report

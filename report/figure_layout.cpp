@@ -22,7 +22,6 @@ constexpr double kPanelGap_px = 14.0;
 constexpr double kAxisLabel_px = 56.0;  // tick labels and axis label under a stack
 constexpr double kTickNumber_px = 7.0 * kCharacter_px;
 constexpr double kLegendSample_px = 54.0;
-constexpr double kLegendRow_px = 20.5;
 constexpr double kLegendGap_px = 14.0;
 constexpr double kDataMargin = 0.04;  // of an axis, so that no curve runs along its edge
 

@@ -33,6 +33,8 @@ struct FigureLayout {
 
 /// The font of everything but titles; widths and heights of text follow from it.
 inline constexpr double kFontSize_px = 13.0;
+/// From one line of the legend to the next.
+inline constexpr double kLegendRow_px = 20.5;
 
 /// Whether a point of a series is drawn: finite, and positive on a logarithmic axis.
 bool is_drawable(double value, const Axis& axis);

@@ -29,7 +29,7 @@ constexpr std::array<Rgb, kColours> kPalette{{{0, 0, 0},
                                               {86, 180, 233},
                                               {128, 128, 128}}};
 
-constexpr double kLegendSpacing = 1.05;
+constexpr double kLegendSpacing = kLegendRow_px / (1.5 * kFontSize_px);  // gnuplot's unit of rows
 constexpr double kPixelsPerTickLabel = 26.0;  // at least, along a vertical axis
 
 std::string hex_colour(const Style& style) {
@@ -156,26 +156,28 @@ std::string panel_frame(const Figure& figure, const PanelStack& stack, const Pan
     text += fmt::format("set title {} offset 0,-0.5\n", quoted(panel.title));
   }
   for (const Annotation& a : panel.annotations) {
-    text += fmt::format("set label {} at first {},{} left offset 0.5,0.5  front\n", quoted(a.text),
+    text += fmt::format("set label {} at first {},{} left offset 0.5,0.5 front\n", quoted(a.text),
                         a.x, a.y);
   }
   return text;
 }
 
-std::string legend(const Figure& figure, const FigureLayout& layout) {
-  std::string text = fmt::format(
+void append_legend(GnuplotScript& script, const Figure& figure, const FigureLayout& layout) {
+  script.text += fmt::format(
       "reset\n"
       "set margins 0,0,0,0\nunset border\nunset tics\nset xrange [0:1]\nset yrange [0:1]\n"
       "set key at screen {},{} left top Left reverse vertical maxrows {} samplen 2.2 "
-      "spacing 1.25\n"
+      "spacing {}\n"
       "plot NaN notitle",
       layout.legend_left_px / figure.width_px, layout.legend_top_px / figure.height_px,
       layout.legend_rows, kLegendSpacing);
+  script.group_names.emplace_back("legend");
   for (const LegendEntry& entry : layout.legend) {
-    text += fmt::format(", keyentry {} title {}", entry.style ? drawing(*entry.style) : "",
-                        quoted(entry.text));
+    script.text += fmt::format(", keyentry {} title {}", entry.style ? drawing(*entry.style) : "",
+                               quoted(entry.text));
+    script.group_names.push_back(entry.text);
   }
-  return text + "\n";
+  script.text += "\n";
 }
 
 }  // namespace
@@ -200,12 +202,12 @@ GnuplotScript gnuplot_script(const Figure& figure, const FigureLayout& layout) {
         if (!append_data(script.text, block, series, stack.x, panel.y)) continue;
         plot += fmt::format("{}$data{} using 1:2 {} notitle", plot.empty() ? "plot " : ", ", block,
                             drawing(series.style));
-        script.series_names.push_back(series.name);
+        script.group_names.push_back(series.name);
       }
       script.text += plot + "\n";
     }
   }
-  if (!layout.legend.empty()) script.text += legend(figure, layout);
+  if (!layout.legend.empty()) append_legend(script, figure, layout);
   script.text += "unset multiplot\n";
   return script;
 }

@@ -10,7 +10,8 @@ namespace flexarm::report {
 
 struct GnuplotScript {
   std::string text;
-  std::vector<std::string> series_names;  ///< of the series drawn, in the order of drawing
+  /// What gnuplot's groups stand for, in their order: the series drawn, then the legend's lines.
+  std::vector<std::string> group_names;
 };
 
 /// The gnuplot 5.4 commands and data that write `figure` as SVG to standard output. All text of

@@ -10,16 +10,16 @@
 namespace flexarm::report {
 namespace {
 
-constexpr int kSmallestPlainExponent = -2;
+constexpr int kSmallestPlainExponent = -3;
 constexpr int kLargestPlainExponent = 4;
 constexpr int kMostDecadesWithDigits = 12;  // ticks for the digits are noise beyond
 
 }  // namespace
 
-std::string decade_label(int exponent) {
+std::string decade_label(int exponent, bool plain) {
   static constexpr std::array<std::string_view, 10> kSuperscripts{"⁰", "¹", "²", "³", "⁴",
                                                                   "⁵", "⁶", "⁷", "⁸", "⁹"};
-  if (exponent >= kSmallestPlainExponent && exponent <= kLargestPlainExponent) {
+  if (plain) {
     return fmt::format("{:.{}f}", std::pow(10.0, exponent), std::max(0, -exponent));
   }
   std::string label = exponent < 0 ? "10⁻" : "10";
@@ -35,6 +35,8 @@ std::vector<Tick> logarithmic_ticks(const Range& range, int most_labels) {
   const int whole_decades = last - static_cast<int>(std::ceil(std::log10(range.from))) + 1;
   const int step = std::max(1, (whole_decades + most_labels - 1) / std::max(1, most_labels));
 
+  const bool plain = first >= kSmallestPlainExponent && last <= kLargestPlainExponent;
+
   std::vector<Tick> ticks;
   for (int exponent = first; exponent <= last; ++exponent) {
     const double decade = std::pow(10.0, exponent);
@@ -43,7 +45,7 @@ std::vector<Tick> logarithmic_ticks(const Range& range, int most_labels) {
       const double position = digit * decade;
       if (position < range.from || position > range.to) continue;
       std::string label;
-      if (digit == 1 && exponent % step == 0) label = decade_label(exponent);
+      if (digit == 1 && exponent % step == 0) label = decade_label(exponent, plain);
       if (whole_decades < 2 && (digit == 2 || digit == 5)) label = fmt::format("{:g}", position);
       ticks.push_back({position, std::move(label)});
     }

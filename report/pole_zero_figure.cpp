@@ -20,8 +20,11 @@ constexpr int kWidth_px = 1100;
 constexpr double kLinearPart = 1.0 / 3.0;  // v0 over the smallest root
 constexpr double kFirstTick = 0.45;        // closer to the origin its label would touch "0"
 constexpr double kPlaneMargin = 1.08;      // of the s-plane's half side
-constexpr double kLargestMarker = 1.3;     // relative to gnuplot's standard
-constexpr double kNestedMarker = 0.62;     // size of each formulation's marker over the last's
+constexpr double kLargestPlain = 1e5;      // rad/s: ticks read 1000 rather than 10³ below it
+constexpr double kLargestMarker = 1.4;     // relative to gnuplot's standard
+constexpr double kMarkerStep = 0.45;       // by which each further formulation's is smaller
+constexpr double kSmallestMarker = 0.3;
+constexpr double kOffRow = 0.12;  // poles above their row's line, zeros below: none hides another
 
 bool is_shown(const Root& s) {
   return std::isfinite(std::abs(s)) && s != 0.0;
@@ -62,13 +65,14 @@ struct PlaneScale {
   double operator()(double v) const { return std::copysign(std::log10(1.0 + std::abs(v) / v0), v); }
 
   std::vector<Tick> ticks(double largest) const {
+    const bool plain = v0 >= 1.0 && largest < kLargestPlain;
     std::vector<Tick> ticks{{0.0, "0"}};
     for (int exponent = static_cast<int>(std::floor(std::log10(v0)));
          std::pow(10.0, exponent) <= largest; ++exponent) {
       const double position = (*this)(std::pow(10.0, exponent));
       if (position < kFirstTick) continue;
-      ticks.push_back({position, decade_label(exponent)});
-      ticks.insert(ticks.begin(), {-position, "−" + decade_label(exponent)});
+      ticks.push_back({position, decade_label(exponent, plain)});
+      ticks.insert(ticks.begin(), {-position, "−" + decade_label(exponent, plain)});
     }
     return ticks;
   }
@@ -93,7 +97,8 @@ PanelStack plane(const PoleZeroPlot& plot, double smallest, double largest) {
   panel.series.push_back({"", {-half_side, half_side}, {0.0, 0.0}, axis_line});
   panel.series.push_back({"", {0.0, 0.0}, {-half_side, half_side}, axis_line});
   for_each_list(plot, [&](std::size_t set, bool pole, const std::vector<Root>& roots) {
-    const double size = kLargestMarker * std::pow(kNestedMarker, static_cast<double>(set));
+    const double size =
+        std::max(kSmallestMarker, kLargestMarker - kMarkerStep * static_cast<double>(set));
     Series series{series_name(plot.sets[set], pole), {}, {}, root_style(pole, set, size)};
     for (const Root& s : roots) {
       if (!is_shown(s)) continue;
@@ -118,7 +123,7 @@ Panel rows(const PoleZeroPlot& plot, bool imaginary) {
     for (const Root& s : roots) {
       if (!is_shown(s) || is_nearer_imaginary_axis(s) != imaginary) continue;
       series.x.push_back(std::abs(s));
-      series.y.push_back(row);
+      series.y.push_back(row + (pole ? kOffRow : -kOffRow));
     }
     if (!series.x.empty()) panel.series.push_back(std::move(series));
   });

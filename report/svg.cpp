@@ -55,12 +55,11 @@ std::string to_svg(const Figure& figure) {
   // gnuplot states its version, which would make the bytes depend on it.
   replace_between(svg, "<title>Gnuplot</title>", "</desc>",
                   "<title>" + escaped(figure.title) + "</title>", 0);
-  // Its groups come in the order of the script; those without a key entry bear a number.
   std::size_t place = 0;
-  for (const std::string& name : script.series_names) {
+  for (const std::string& name : script.group_names) {
     place = replace_between(svg, "<title>gnuplot_plot_", "</title>",
                             "<title>" + escaped(name) + "</title>", place);
-    if (place == std::string::npos) throw std::runtime_error("gnuplot left out series " + name);
+    if (place == std::string::npos) throw std::runtime_error("gnuplot left out " + name);
   }
   return svg;
 }

@@ -1,0 +1,49 @@
+#include "report/gnuplot.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <stdexcept>
+#include <string>
+
+namespace flexarm::report {
+namespace {
+
+using testing::HasSubstr;
+
+std::string failure(const std::string& script) {
+  try {
+    run_gnuplot(script);
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Gnuplot, ReturnsWhatTheScriptPrints) {
+  EXPECT_EQ(run_gnuplot("set print '-'\nprint 6*7\n"), "42\n");
+}
+
+TEST(Gnuplot, LongOutputDoesNotBlock) {
+  // Ten times what a pipe holds.
+  const std::string printed =
+      run_gnuplot("set print '-'\ndo for [i=1:65536] { print '123456789' }\n");
+  EXPECT_EQ(printed.size(), 655360U);
+}
+
+TEST(Gnuplot, AnErrorInTheScriptCarriesGnuplotsMessage) {
+  EXPECT_THAT(failure("plot no_such_variable\n"), HasSubstr("undefined variable"));
+}
+
+TEST(Gnuplot, NamesThePackageWhenItIsNotInstalled) {
+  const char* set = std::getenv("PATH");
+  const std::string path = set ? set : "";
+  setenv("PATH", FLEXARM_SOURCE_DIR, 1);
+  const std::string message = failure("print 1\n");
+  setenv("PATH", path.c_str(), 1);
+  EXPECT_THAT(message, HasSubstr("gnuplot-nox"));
+}
+
+}  // namespace
+}  // namespace flexarm::report

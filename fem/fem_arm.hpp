@@ -26,6 +26,8 @@ class Discretisation;
 class FemArm {
  public:
   static constexpr std::string_view kName = "fem";
+  static constexpr int kHighestDegree = 25;
+  static constexpr int kMostCheckingDegrees = 4;
 
   struct Options {
     MeshOptions mesh;
@@ -33,9 +35,10 @@ class FemArm {
     /// Iterative eigensolvers stop at |residual| <= eigen_tolerance |eigenvalue|.
     double eigen_tolerance = 1e-12;
     /// A zero s of a non-collocated sensor is trusted when the same mesh with `checking_degrees`
-    /// more degrees has a zero s' of its own with |s - s'| <= zero_agreement |s'|.
+    /// more degrees has a zero s' with |s - s'| <= zero_agreement |s'|, and with twice as many
+    /// more a zero s'' with |s' - s''| <= |s - s'|/10 (see trusted_zeros.hpp).
     double zero_agreement = 1e-2;
-    int checking_degrees = 2;  ///< 1 or more
+    int checking_degrees = 2;  ///< 1 to 4
   };
 
   /// Throws arm::InputError for an invalid arm, for any effect, and for options out of range.

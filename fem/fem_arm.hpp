@@ -21,7 +21,7 @@ class Discretisation;
 /// to some epsilon. It does not rise again on fine meshes: the stiffness is kept factored in the
 /// natural deformations of the elements (see discretisation.hpp).
 ///
-///     const fem::FemArm model(arm::paper_arm(), {.mesh = {.elements = 4}, .degree = 13});
+///     const fem::FemArm model(arm::paper_arm(), {.mesh = {.elements = 4}, .degree = 15});
 ///     const arm::PoleSet poles = model.poles(10);
 class FemArm {
  public:
@@ -31,7 +31,7 @@ class FemArm {
 
   struct Options {
     MeshOptions mesh;
-    int degree = 13;  ///< of the shape functions, 3 to 25
+    int degree = 15;  ///< of the shape functions, 3 to 25
     /// Iterative eigensolvers stop at |residual| <= eigen_tolerance |eigenvalue|.
     double eigen_tolerance = 1e-12;
     /// A zero s of a non-collocated sensor is trusted when the same mesh with `checking_degrees`

@@ -124,11 +124,7 @@ int run(const Arguments& arguments) {
     print_comparison(comparison, rows, arguments.full);
     if (arms.size() > 1) print("\n");
     if (!arguments.out.empty()) {
-      const fs::path folder =
-          arms.size() == 1
-              ? fs::path(arguments.out)
-              : fs::path(arguments.out) / fmt::format("payload-{}kg", arm.payload.mass_kg);
-      write_folder(folder, comparison, rows);
+      write_folder(folder_of(arguments.out, arm, arms.size()), comparison, rows);
     }
     agree = agree && comparison.verdict.agree;
     results.push_back({comparison, rows});

@@ -34,11 +34,13 @@ int run(int argc, const char* const* argv) {
   program.set_version_flag("-V,--version", version_text(), "Print version, build and libraries");
   program.footer(
       "\nA first session:\n"
+      "  flexarm compare           the paper's arm by three formulations, side by side\n"
       "  flexarm new rig.toml      an arm file to edit\n"
+      "  flexarm modes rig.toml    its poles, zeros, slopes and shapes\n"
       "\nExit status: 0 success; 1 failure; 2 input that cannot be used, with one line on\n"
       "standard error.");
   // In the order of a first session.
-  const std::array commands = {add_compare(program), add_new(program)};
+  const std::array commands = {add_new(program), add_modes(program), add_compare(program)};
 
   try {
     program.parse(argc, argv);

@@ -1,6 +1,7 @@
 #include "compare/comparison.hpp"
 
 #include "arm/input_error.hpp"
+#include "response/settings.hpp"
 
 #include <fmt/format.h>
 
@@ -170,18 +171,12 @@ std::vector<FeatureFamily> families(const Options& options) {
 }
 
 std::vector<Subject> standard_subjects(const arm::Arm& arm, int roots) {
-  fem::FemArm::Options fem_options;
-  fem_options.degree = 11;
-  fem_options.mesh.elements = std::max(3, (2 * roots + 4) / 5);
-  assumed_modes::AssumedModesOptions ritz_options;
-  ritz_options.basis = assumed_modes::Basis::legendre;
-  ritz_options.functions = 2 * roots + 16;
+  const auto fem_options = response::fem_settings(roots);
+  const auto ritz_options = response::assumed_modes_settings(roots);
   return {
       {"exact_tf", "", exact_tf::ExactArm(arm)},
-      {"fem",
-       fmt::format("{} elements of degree {}", fem_options.mesh.elements, fem_options.degree),
-       fem::FemArm(arm, fem_options)},
-      {"assumed_modes", fmt::format("{} Legendre polynomials", ritz_options.functions),
+      {"fem", response::describe(fem_options), fem::FemArm(arm, fem_options)},
+      {"assumed_modes", response::describe(ritz_options),
        assumed_modes::AssumedModesArm(arm, ritz_options)},
   };
 }

@@ -8,8 +8,8 @@ namespace flexarm::response {
 
 fem::FemArm::Options fem_settings(int roots) {
   fem::FemArm::Options options;
-  options.degree = 11;
-  options.mesh.elements = std::max(3, (2 * roots + 4) / 5);
+  options.degree = 15;
+  options.mesh.elements = std::max(3, (roots + 1) / 2);
   return options;
 }
 

@@ -8,7 +8,7 @@
 namespace flexarm::response {
 
 /// Settings at which the lowest `roots` poles and zeros of an arm are within 1e-10 or so of exact:
-/// two elements of degree 11 for every five roots, three at least.
+/// an element of degree 15 for every two roots, three at least.
 fem::FemArm::Options fem_settings(int roots);
 
 /// The same for assumed modes: 2 roots + 16 Legendre polynomials.

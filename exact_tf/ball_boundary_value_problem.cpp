@@ -64,7 +64,12 @@ ComplexBall RootFunction::determinant(const ComplexBall& lambda) const {
   const ComplexBall lambda3 = lambda * lambda * lambda;
 
   // y''' + eta z y = 0 and y'' - J z y' = 0 at the tip.
-  const Row tip_shear = sum(differentiated(tip, 3), ComplexBall(arm_.payload_mass) * lambda, tip);
+  // A tip that does not move leaves the payload's mass without force, and the row without a
+  // multiple of the last one that would only widen the balls.
+  const Row shear = differentiated(tip, 3);
+  const Row tip_shear = last_row_ == LastRow::tip_displacement
+                            ? shear
+                            : sum(shear, ComplexBall(arm_.payload_mass) * lambda, tip);
   const Row tip_moment = sum(differentiated(tip, 2), -ComplexBall(arm_.payload_inertia) * lambda3,
                              differentiated(tip, 1));
 

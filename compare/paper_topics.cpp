@@ -2,10 +2,10 @@
 
 namespace flexarm::compare::paper {
 
-std::vector<Topic> check_paper() {
-  return {check_motion(),         check_mode_shapes(),
-          check_state_space(),    check_transfer_functions(),
-          check_identification(), check_tables()};
+Findings check_paper() {
+  return {.topics = {check_motion(), check_mode_shapes(), check_state_space(),
+                     check_transfer_functions(), check_identification(), check_tables()},
+          .cells = check_cells()};
 }
 
 }  // namespace flexarm::compare::paper

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "compare/paper_cells.hpp"
 #include "compare/paper_check.hpp"
 
 #include <vector>
@@ -19,8 +20,14 @@ Topic check_identification();
 /// Tables 1-7 against the paper's own equations.
 Topic check_tables();
 
-/// All of them, in the paper's order. Takes about a second.
-std::vector<Topic> check_paper();
+/// All topics in the paper's order, and the cells of its tables.
+struct Findings {
+  std::vector<Topic> topics;
+  std::vector<CellCheck> cells;
+};
+
+/// Takes less than a second.
+Findings check_paper();
 
 /// Frequency at which transfer functions are compared: between the first hub zero and the first
 /// pole of the paper's arm.

@@ -29,13 +29,13 @@ Real hub_angle_at_pole(const InertiaRatios& ratios, const BeamProducts<Real>& k,
 }  // namespace
 
 ModeShape::ModeShape(const arm::Arm& arm, const InertiaRatios& ratios, Real pole_lambda)
-    : arm_(&arm), ratios_(ratios), lambda_(pole_lambda) {
+    : length_m_(arm.beam.length_m), ratios_(ratios), lambda_(pole_lambda) {
   const auto k = beam_products(lambda_);
   const Real hub_angle = hub_angle_at_pole(ratios, k, lambda_);
   const Real modal_mass = 0.25L * hub_angle * pole_derivative(ratios, k);
   const Real total_mass = 1.0L / 3.0L + ratios.hub_inertia + ratios.payload_mass +
                           ratios.payload_inertia;  // I_T/(m l^3)
-  const Real l = arm.beam.length_m;
+  const Real l = length_m_;
   amplitude_m_ = std::copysign(l * std::sqrt(total_mass / modal_mass), hub_angle);
   hub_slope_ = amplitude_m_ * hub_angle / l;
 }
@@ -50,13 +50,14 @@ Real ModeShape::tip_displacement_m() const {
 }
 
 Real ModeShape::displacement_m(double position_m) const {
-  return scaled_m(displacement_numerator(ratios_, lambda_, distance_from_tip(*arm_, position_m)));
+  return scaled_m(
+      displacement_numerator(ratios_, lambda_, distance_from_tip(length_m_, position_m)));
 }
 
 Real ModeShape::curvature_per_m(double position_m) const {
-  const Real l = arm_->beam.length_m;
+  const Real l = length_m_;
   const Real square = lambda_ * lambda_;
-  return scaled_m(curvature_numerator(ratios_, lambda_, distance_from_tip(*arm_, position_m))) *
+  return scaled_m(curvature_numerator(ratios_, lambda_, distance_from_tip(length_m_, position_m))) *
          (square * square) / (l * l);
 }
 

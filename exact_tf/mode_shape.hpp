@@ -23,7 +23,7 @@ class ModeShape {
   /// phi for a value of y as the numerators give it.
   Real scaled_m(const Scaled<Real>& y) const;
 
-  const arm::Arm* arm_;
+  double length_m_;
   InertiaRatios ratios_;
   Real lambda_;
   Real amplitude_m_;  ///< phi = amplitude_m y exp(-lambda)

@@ -83,9 +83,9 @@ InertiaRatios inertia_ratios(const arm::Arm& arm) {
           arm.payload.inertia_kg_m2 / (mass * l * l)};
 }
 
-Real distance_from_tip(const arm::Arm& arm, double position_m) {
-  const Real l = arm.beam.length_m;
-  return (l - static_cast<Real>(position_m)) / l;
+Real distance_from_tip(double length_m, double position_m) {
+  const Real l = length_m;
+  return (l - position_m) / l;
 }
 
 template <class T>
@@ -186,7 +186,8 @@ Scaled<T> sensor_numerator(const arm::Arm& arm, const arm::Sensor& sensor, const
     case arm::SensorKind::tip_deflection:
       return tip_deflection_numerator(ratios, lambda);
     case arm::SensorKind::strain:
-      return curvature_numerator(ratios, lambda, distance_from_tip(arm, sensor.position_m));
+      return curvature_numerator(ratios, lambda,
+                                 distance_from_tip(arm.beam.length_m, sensor.position_m));
   }
   throw std::logic_error("sensor kind outside its enumeration");
 }

@@ -34,9 +34,9 @@ InertiaRatios inertia_ratios(const arm::Arm& arm);
 ///     y''(X)/tau          = z N_curvature(z; X)/(l D)
 ///
 /// A power of s or z in front is left out of a numerator, so that N(0) > 0, but for the curvature
-/// at the tip without payload inertia, which is 0 for every z. Poles of the
-/// arm without friction are the roots of E, zeros of a sensor those of its N. On the imaginary
-/// axis of s (undamped) lambda is real; on the real axis arg lambda = pi/4; N(conj z) = conj N(z).
+/// at the tip without payload inertia, which is 0 for every z. Poles of the arm without friction
+/// are the roots of E, zeros of a sensor those of its N. On the imaginary axis of s (undamped)
+/// lambda is real; on the real axis arg lambda = pi/4; N(conj z) = conj N(z).
 ///
 /// All are evaluated for lambda real (T = Real) or in the closed sector 0 <= arg lambda <= pi/4
 /// (T = Complex) without overflow or cancellation, as value * exp(log_scale) with a real
@@ -83,8 +83,7 @@ Scaled<T> tip_numerator(const InertiaRatios& ratios, const T& lambda);
 template <class T>
 Scaled<T> tip_deflection_numerator(const InertiaRatios& ratios, const T& lambda);
 
-/// N_curvature = y''(X)/z, `from_tip` = xi = 1 - X/l in [0, 1];
-/// log_scale = a + b xi.
+/// N_curvature = y''(X)/z, `from_tip` = xi = 1 - X/l in [0, 1]; log_scale = a + b xi.
 template <class T>
 Scaled<T> curvature_numerator(const InertiaRatios& ratios, const T& lambda, Real from_tip);
 
@@ -92,8 +91,8 @@ Scaled<T> curvature_numerator(const InertiaRatios& ratios, const T& lambda, Real
 template <class T>
 Scaled<T> displacement_numerator(const InertiaRatios& ratios, const T& lambda, Real from_tip);
 
-/// 1 - X/l for a strain sensor at X; formed so that no digit is lost near the tip.
-Real distance_from_tip(const arm::Arm& arm, double position_m);
+/// xi = 1 - X/l, formed so that no digit is lost near the tip.
+Real distance_from_tip(double length_m, double position_m);
 
 /// The numerator of a sensor, by its kind: hub_angle, hub_velocity -> N_hub; tip_acceleration,
 /// tip_displacement -> N_tip; tip_deflection -> N_deflection; strain -> N_curvature.

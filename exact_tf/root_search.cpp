@@ -34,12 +34,12 @@ RealRoots find_roots(CountBelow count_below, Characteristic characteristic,
   const auto value = [&](Real lambda) { return characteristic(ratios, lambda).value; };
 
   RealRoots roots;
-  roots.summary.method = "Wittrick-Williams count, TOMS 748";
+  roots.summary.method = "Wittrick-Williams count, TOMS 748; residual: widest bracket over lambda";
   roots.count.method = "Wittrick-Williams";
   Real above_last = 0.0L;
   // The clamped beam alone has more than lambda/pi - 2 roots below lambda, the arm no fewer than
   // one less.
-  const Real end = (count + 3) * kPi;
+  const Real end = (static_cast<Real>(count) + 3.0L) * kPi;
   std::vector<Bracket> open = {{0.0L, 0, end, count_below(ratios, end)}};
   while (!open.empty() && std::ssize(roots.lambda) < count) {
     const Bracket bracket = open.back();
@@ -61,7 +61,9 @@ RealRoots find_roots(CountBelow count_below, Characteristic characteristic,
     }
     const Real middle = 0.5L * (bracket.low + bracket.high);
     if (bracket.high - bracket.low <= kNarrowest * bracket.high) {
-      roots.lambda.insert(roots.lambda.end(), static_cast<std::size_t>(inside), middle);
+      // Roots that the arithmetic cannot tell apart.
+      const int wanted = std::min(inside, count - static_cast<int>(std::ssize(roots.lambda)));
+      roots.lambda.insert(roots.lambda.end(), static_cast<std::size_t>(wanted), middle);
       above_last = bracket.high;
       continue;
     }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <complex>
+#include <limits>
 
 namespace flexarm::exact_tf {
 
@@ -9,6 +10,7 @@ namespace flexarm::exact_tf {
 /// sin(lambda) keeps 13 digits, where double would keep 10.
 using Real = long double;
 using Complex = std::complex<Real>;
+static_assert(std::numeric_limits<Real>::digits >= 64);
 
 /// A number too large or too small to be held: value * exp(log_scale). The factor is positive and
 /// real, so that `value` has the argument and the sign of the number meant.

@@ -127,8 +127,8 @@ Eigen::VectorXd Discretisation::ramp_momentum(double position) const {
       moments[0] = h * ((left - position) + h / 2.0);
       moments[1] = h * h / 6.0;
     } else {
-      // 15 Gauss points are exact to degree 29; the integrand's is p + 1 <= 26.
-      using Gauss = boost::math::quadrature::gauss<double, 15>;
+      // 20 Gauss points are exact to degree 39; the integrand's is p + 1 <= 34.
+      using Gauss = boost::math::quadrature::gauss<double, 20>;
       for (int k = 0; k <= degree; ++k) {
         moments[k] = Gauss::integrate(
             [&](double x) {

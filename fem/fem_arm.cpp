@@ -64,8 +64,13 @@ FemArm::FemArm(arm::Arm arm, Options options)
       options_(std::move(options)),
       omega_scale_rad_per_s_(arm::omega_scale_rad_per_s(arm_)),
       model_(std::make_shared<const Discretisation>(arm_, options_.mesh, options_.degree)) {
-  if (options_.checking_degrees < 1) {
-    throw arm::out_of_range("checking_degrees", options_.checking_degrees, "", "1 or more");
+  if (options_.degree > kHighestDegree) {
+    throw arm::out_of_range("degree", options_.degree, "",
+                            fmt::format("{} to {}", HermiteElement::kLowestDegree, kHighestDegree));
+  }
+  if (options_.checking_degrees < 1 || options_.checking_degrees > kMostCheckingDegrees) {
+    throw arm::out_of_range("checking_degrees", options_.checking_degrees, "",
+                            fmt::format("1 to {}", kMostCheckingDegrees));
   }
 }
 
@@ -103,7 +108,11 @@ arm::ZeroSet FemArm::clamped_zeros(int count) const {
 }
 
 arm::ZeroSet FemArm::transmission_zeros(const arm::Sensor& sensor, int count) const {
-  const Discretisation checking(arm_, options_.mesh, options_.degree + options_.checking_degrees);
+  const auto finer = [&](int degrees) {
+    return Discretisation(arm_, options_.mesh, options_.degree + degrees);
+  };
+  const CheckingModels checking{finer(options_.checking_degrees),
+                                finer(2 * options_.checking_degrees)};
   arm::ZeroSet zeros = trusted_zeros(*model_, checking, arm_, sensor, count,
                                      {options_.eigen_tolerance, options_.zero_agreement});
   for (Complex& s : zeros.s_rad_per_s) s *= omega_scale_rad_per_s_;

@@ -21,21 +21,24 @@ class Discretisation;
 /// to some epsilon. It does not rise again on fine meshes: the stiffness is kept factored in the
 /// natural deformations of the elements (see discretisation.hpp).
 ///
-///     const fem::FemArm model(arm::paper_arm(), {.mesh = {.elements = 4}, .degree = 13});
+///     const fem::FemArm model(arm::paper_arm(), {.mesh = {.elements = 4}, .degree = 15});
 ///     const arm::PoleSet poles = model.poles(10);
 class FemArm {
  public:
   static constexpr std::string_view kName = "fem";
+  static constexpr int kHighestDegree = 25;
+  static constexpr int kMostCheckingDegrees = 4;
 
   struct Options {
     MeshOptions mesh;
-    int degree = 13;  ///< of the shape functions, 3 to 25
+    int degree = 15;  ///< of the shape functions, 3 to 25
     /// Iterative eigensolvers stop at |residual| <= eigen_tolerance |eigenvalue|.
     double eigen_tolerance = 1e-12;
     /// A zero s of a non-collocated sensor is trusted when the same mesh with `checking_degrees`
-    /// more degrees has a zero s' of its own with |s - s'| <= zero_agreement |s'|.
+    /// more degrees has a zero s' with |s - s'| <= zero_agreement |s'|, and with twice as many
+    /// more a zero s'' with |s' - s''| <= |s - s'|/10 (see trusted_zeros.hpp).
     double zero_agreement = 1e-2;
-    int checking_degrees = 2;  ///< 1 or more
+    int checking_degrees = 2;  ///< 1 to 4
   };
 
   /// Throws arm::InputError for an invalid arm, for any effect, and for options out of range.

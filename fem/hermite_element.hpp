@@ -23,7 +23,7 @@ class HermiteElement {
  public:
   static constexpr int kLowestDegree = 3;
   /// Above this the bubbles add nothing but rounding for any beam of practical interest.
-  static constexpr int kHighestDegree = 25;
+  static constexpr int kHighestDegree = 33;
 
   /// Throws arm::InputError for a degree outside the range above.
   explicit HermiteElement(int degree);

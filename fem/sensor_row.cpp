@@ -20,6 +20,7 @@ SensorRow sensor_row(const Discretisation& discretisation, const arm::Arm& arm,
     case arm::SensorKind::tip_deflection:
       row.c = discretisation.mass() * discretisation.tip_force_shape();
       row.by_inertia = true;
+      row.infinite_roots = 3;
       break;
     case arm::SensorKind::strain:
       row.c = discretisation.ramp_momentum(sensor.position_m / arm.beam.length_m);

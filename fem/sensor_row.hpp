@@ -23,6 +23,9 @@ namespace flexarm::fem {
 struct SensorRow {
   Eigen::VectorXd c;  ///< n
   bool by_inertia = false;
+  /// Roots at infinity of the Rosenbrock pencil, of order n + 1, with this row: 2, and one more
+  /// where c^T M^-1 e0 = 0, the influence shape having no hub rotation.
+  int infinite_roots = 2;
 };
 
 /// `sensor` is valid for `arm`.

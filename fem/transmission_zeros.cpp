@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
+#include <utility>
 
 namespace flexarm::fem {
 
@@ -17,7 +19,6 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 /// Up to this many coordinates the dense eigenproblem costs no more than some ten milliseconds.
 constexpr int kDenseSize = 160;
 
@@ -115,7 +116,9 @@ FollowedRoot newton(const Discretisation& model, const Eigen::VectorXd& c, Compl
     const Complex step = 1.0 / log_derivative;
     if (!std::isfinite(std::abs(step))) return root;
     const double size = std::abs(step) / std::abs(root.w);
-    // Quadratic convergence has ended when a small step is no longer shrinking.
+    // Quadratic convergence: a step of kLast leaves an error of about its square. It has ended
+    // early, by rounding, when a small step is no longer shrinking.
+    constexpr double kLast = 1e-9;
     constexpr double kSmall = 1e-7;
     if (size < kSmall && size >= root.last_step) {
       root.converged = true;
@@ -123,7 +126,7 @@ FollowedRoot newton(const Discretisation& model, const Eigen::VectorXd& c, Compl
     }
     root.w -= step;
     root.last_step = size;
-    if (size <= kEpsilon) {
+    if (size <= kLast) {
       root.converged = true;
       return root;
     }
@@ -134,8 +137,9 @@ FollowedRoot newton(const Discretisation& model, const Eigen::VectorXd& c, Compl
 }  // namespace
 
 FollowedRoot follow_root(const Discretisation& discretisation, const Eigen::VectorXd& c,
-                         std::complex<double> w, int steps_allowed) {
-  return newton(discretisation, c, w, steps_allowed, Eigen::VectorXd(), {});
+                         std::complex<double> w) {
+  constexpr int kStepsAllowed = 30;
+  return newton(discretisation, c, w, kStepsAllowed, Eigen::VectorXd(), {});
 }
 
 PencilRoots pencil_roots(const Discretisation& discretisation, const Eigen::VectorXd& c, int count,
@@ -146,18 +150,23 @@ PencilRoots pencil_roots(const Discretisation& discretisation, const Eigen::Vect
   const Eigen::VectorXcd mu = inverse_eigenvalues(inverse, count, tolerance);
   std::vector<Complex> guesses;
   for (const Complex value : mu) {
-    if (value.imag() >= 0.0 && value != 0.0) guesses.push_back(-1.0 / value);
+    if (value != 0.0) guesses.push_back(-1.0 / value);
   }
-  std::ranges::sort(guesses, {}, [](Complex w) { return std::abs(w); });
+  // A conjugate pair is of one modulus; the member with Im > 0 comes first.
+  std::ranges::sort(guesses, {}, [](Complex w) { return std::pair(std::abs(w), -w.imag()); });
   const VibrationModes clamped =
       vibration_modes(discretisation, HubSupport::clamped, count + 4, tolerance);
 
   std::vector<Complex> divided_out;
+  bool conjugate_found = false;
   for (const Complex guess : guesses) {
-    if (static_cast<int>(roots.w.size()) >= count) break;
+    if (static_cast<int>(divided_out.size()) >= count) break;
+    if (conjugate_found && guess.imag() < 0.0) continue;
     FollowedRoot root =
         newton(discretisation, c, guess, kStepsAllowed, clamped.omega_squared, divided_out);
     roots.newton_steps += root.newton_steps;
+    // Rounding makes pairs of guesses for real roots that lie close; each then leads to its own.
+    conjugate_found = root.converged && guess.imag() > 0.0 && !is_real(root.w);
     if (!root.converged) {
       roots.converged = false;
       continue;
@@ -165,16 +174,55 @@ PencilRoots pencil_roots(const Discretisation& discretisation, const Eigen::Vect
     roots.largest_step = std::max(roots.largest_step, root.last_step);
     if (is_real(root.w)) {
       root.w = root.w.real();
-      divided_out.push_back(root.w);
     } else {
       root.w.imag(std::abs(root.w.imag()));
-      divided_out.push_back(root.w);
       divided_out.push_back(std::conj(root.w));
     }
+    divided_out.push_back(root.w);
     roots.w.push_back(root.w);
   }
   std::ranges::sort(roots.w, {}, [](Complex w) { return std::abs(w); });
   return roots;
+}
+
+int roots_inside(const Discretisation& discretisation, const Eigen::VectorXd& c, double radius,
+                 double tolerance) {
+  constexpr double kPi = std::numbers::pi;
+  constexpr double kLargestTurn = kPi / 4.0;  // of N from one point to the next
+  constexpr double kShortestArc = kPi / 4096.0;
+  VibrationModes clamped;
+  // Poles up to twice the radius are taken out of F; those farther out turn it but little.
+  for (int count = 16;; count *= 2) {
+    clamped = vibration_modes(discretisation, HubSupport::clamped, count, tolerance);
+    const Eigen::Index found = clamped.omega_squared.size();
+    if (found < count || clamped.omega_squared[found - 1] > 2.0 * radius) break;
+  }
+  const auto numerator = [&](double angle) {
+    const Complex w = std::polar(radius, angle);
+    Complex value = hub_transmission(discretisation, c, w).value;
+    for (const double pole : clamped.omega_squared) value *= 1.0 + w / pole;
+    return value / std::abs(value);
+  };
+  // N(conj w) = conj N(w): half the circle turns half as often.
+  double angle = 0.0;
+  double arc = kPi / 8.0;
+  double turned = 0.0;
+  Complex here = numerator(angle);
+  while (angle < kPi) {
+    const double next_angle = std::min(angle + arc, kPi);
+    const Complex next = numerator(next_angle);
+    const double turn = std::arg(next / here);
+    if (!(std::abs(turn) <= kLargestTurn)) {
+      arc = (next_angle - angle) / 2.0;
+      if (arc < kShortestArc) return -1;
+      continue;
+    }
+    turned += turn;
+    angle = next_angle;
+    here = next;
+    if (std::abs(turn) < kLargestTurn / 2.0) arc *= 2.0;
+  }
+  return static_cast<int>(std::lround(turned / kPi));
 }
 
 }  // namespace flexarm::fem

@@ -19,17 +19,16 @@ namespace flexarm::fem {
 /// then the arm turns rigidly until c^T u = 0, which is possible since c^T r != 0.
 struct PencilRoots {
   std::vector<std::complex<double>> w;  ///< ascending in |w|; of a conjugate pair that with Im > 0
-  int infinite = 0;                     ///< roots at infinity of the pencil of order n + 1
   int newton_steps = 0;
   bool converged = true;
   double largest_step = 0.0;  ///< largest last Newton step, relative to |w|
 };
 
-/// The `count` roots smallest in |w| that can be found (conjugates count once), all where there
-/// are fewer. First guesses are eigenvalues of the inverse pencil at w = 0: of the dense matrix
-/// for a small model, else by Spectra's Arnoldi iteration to `tolerance`. The eigenproblem is far
-/// from normal (its n-th real root has a condition of about exp(n pi)), so each guess is then
-/// polished by Newton's method on
+/// The `count` roots smallest in |w| (a conjugate pair counts as two and is not parted). First
+/// guesses are eigenvalues of the inverse pencil at w = 0: of the dense matrix for a small model,
+/// else by Spectra's Arnoldi iteration to `tolerance`. The eigenproblem is far from normal (its
+/// n-th real root has a condition of about exp(n pi)), so each guess is then polished by Newton's
+/// method on
 ///
 ///     N(w) = F(w) prod_i (1 + w/omega_i^2),   F(w) = c^T u(w) for theta = 1,
 ///
@@ -38,8 +37,7 @@ struct PencilRoots {
 PencilRoots pencil_roots(const Discretisation& discretisation, const Eigen::VectorXd& c, int count,
                          double tolerance);
 
-/// The root of F to which Newton's method goes from `w`; `converged` says whether it did so
-/// within `steps_allowed`.
+/// Where Newton's method on F goes from `w`.
 struct FollowedRoot {
   std::complex<double> w;
   bool converged = false;
@@ -47,6 +45,11 @@ struct FollowedRoot {
   double last_step = 0.0;  ///< relative to |w|
 };
 FollowedRoot follow_root(const Discretisation& discretisation, const Eigen::VectorXd& c,
-                         std::complex<double> w, int steps_allowed);
+                         std::complex<double> w);
+
+/// How many roots lie in |w| < `radius`, conjugates counted apart: the turns of N(w) around that
+/// circle (argument principle). Returns -1 when the turns cannot be told.
+int roots_inside(const Discretisation& discretisation, const Eigen::VectorXd& c, double radius,
+                 double tolerance);
 
 }  // namespace flexarm::fem

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdlib>
 #include <limits>
 #include <numbers>
 #include <stdexcept>
@@ -71,13 +72,12 @@ Panel phase_panel(const BodePlot& plot) {
   }
   if (!(lowest <= highest)) return panel;  // nothing to draw, which lay_out refuses by name
   // Ticks a quarter turn apart, more where an unwrapped phase runs over several turns.
-  const double first = std::floor(lowest / 90.0 + 0.25);
-  const double last = std::ceil(highest / 90.0 - 0.25);
-  const double step = std::max(1.0, std::ceil((last - first) / 5.0));
-  for (double quarter = first; quarter <= last + step / 2; quarter += step) {
-    const double angle_deg = 90.0 * quarter;
+  const int first = static_cast<int>(std::floor(lowest / 90.0 + 0.25));
+  const int last = static_cast<int>(std::ceil(highest / 90.0 - 0.25));
+  const int step = std::max(1, (last - first + 4) / 5);
+  for (int quarter = first; quarter <= last; quarter += step) {
     panel.y.ticks.push_back(
-        {angle_deg, fmt::format("{}{}", angle_deg < 0 ? "−" : "", std::abs(angle_deg))});
+        {90.0 * quarter, fmt::format("{}{}", quarter < 0 ? "−" : "", std::abs(90 * quarter))});
   }
   panel.y.minimum = std::min(lowest, panel.y.ticks.front().position) - 20.0;
   panel.y.maximum = std::max(highest, panel.y.ticks.back().position) + 20.0;

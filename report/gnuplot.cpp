@@ -29,7 +29,7 @@ class MemoryFile {
   MemoryFile(const MemoryFile&) = delete;
   MemoryFile& operator=(const MemoryFile&) = delete;
 
-  int descriptor() const { return descriptor_; }
+  [[nodiscard]] int descriptor() const { return descriptor_; }
 
   void fill(std::string_view text) {
     while (!text.empty()) {
@@ -53,7 +53,7 @@ class MemoryFile {
   }
 
  private:
-  void rewind() {
+  void rewind() const {
     if (lseek(descriptor_, 0, SEEK_SET) != 0) fail(errno, "lseek");
   }
   int descriptor_;

@@ -22,7 +22,7 @@ void Table::add_row(std::vector<Cell> row) {
 
 bool is_missing(const Cell& cell) {
   const double* number = std::get_if<double>(&cell);
-  return std::holds_alternative<std::monostate>(cell) || (number && std::isnan(*number));
+  return std::holds_alternative<std::monostate>(cell) || (number != nullptr && std::isnan(*number));
 }
 
 }  // namespace flexarm::report

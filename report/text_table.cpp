@@ -112,7 +112,7 @@ std::string block(const std::vector<const RenderedColumn*>& columns, std::size_t
 std::string format_number(double value, int significant_digits, Notation notation) {
   if (std::isnan(value)) return std::string(kMissing);
   if (value == 0.0) return "0";
-  const std::string scientific = fmt::format("{:.{}e}", value, significant_digits - 1);
+  std::string scientific = fmt::format("{:.{}e}", value, significant_digits - 1);
   if (notation == Notation::scientific || !std::isfinite(value)) return scientific;
   // The exponent after rounding says how many of the digits stand in front of the point.
   const int exponent = std::stoi(scientific.substr(scientific.find('e') + 1));

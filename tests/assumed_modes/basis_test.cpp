@@ -36,7 +36,7 @@ TEST(AssumedModesArm, RefusesEveryEffectByName) {
     arm::Arm arm = arm::paper_arm();
     arm::Effect effect;
     for (const auto& parameter : definition.parameters) {
-      effect.parameters[parameter.name] = parameter.minimum + 0.5;
+      effect.parameters[parameter.name] = 0.5;
     }
     arm.effects[definition.name] = effect;
     EXPECT_THAT(refusal([&] { const AssumedModesArm model(arm); }), HasSubstr(definition.name));

@@ -67,9 +67,9 @@ std::string topic_block(const Topic& topic) {
   std::string findings;
   Table values;
   for (const auto& check : topic.checks) {
-    findings += fmt::format("- **{}** {}: *{}.* {}\n", escaped(check.label),
-                            escaped(check.statement), to_string(check.verdict),
-                            escaped(check.finding));
+    findings +=
+        fmt::format("- **{}** {}: *{}.* {}\n", escaped(check.label), escaped(check.statement),
+                    to_string(check.verdict), escaped(check.finding));
     Table own = paper_values(check);
     if (values.columns.empty()) {
       values.columns = own.columns;

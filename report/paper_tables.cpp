@@ -209,9 +209,9 @@ bool names_part(const std::string& label, const std::string& part) {
   const auto numbers = numbers_in(label);
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     if (numbers[i] == wanted) return true;
-    const bool range = i + 1 < numbers.size() &&
-                       label.find(fmt::format("({})-({})", numbers[i], numbers[i + 1])) !=
-                           std::string::npos;
+    const bool range =
+        i + 1 < numbers.size() &&
+        label.find(fmt::format("({})-({})", numbers[i], numbers[i + 1])) != std::string::npos;
     if (range && numbers[i] < wanted && wanted < numbers[i + 1]) return true;
   }
   return false;

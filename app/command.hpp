@@ -28,5 +28,6 @@ std::string example(const std::string& line);
 Command add_compare(CLI::App& program);
 Command add_modes(CLI::App& program);
 Command add_new(CLI::App& program);
+Command add_paper(CLI::App& program);
 
 }  // namespace flexarm::app

@@ -1,0 +1,86 @@
+#include "app/command.hpp"
+#include "app/standard_output.hpp"
+#include "arm/atomic_file.hpp"
+#include "arm/input_error.hpp"
+#include "compare/paper_topics.hpp"
+#include "report/csv.hpp"
+#include "report/paper_json.hpp"
+#include "report/paper_markdown.hpp"
+#include "report/paper_tables.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <string>
+
+namespace flexarm::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Arguments {
+  std::string part;
+  std::string json;
+  std::string out;
+  std::string document;
+};
+
+void write_folder(const fs::path& folder, const compare::paper::Findings& findings) {
+  arm::make_folder(folder);
+  arm::write_atomically(folder / "comparisons.csv",
+                        report::to_csv(report::paper_listing(findings)));
+  arm::write_atomically(folder / "cells.csv", report::to_csv(report::paper_cells(findings)));
+  arm::write_atomically(folder / "paper.json", report::paper_json(findings));
+  arm::write_atomically(folder / "paper.txt", report::paper_text(findings, ""));
+}
+
+void update_document(const std::string& path, const compare::paper::Findings& findings) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw arm::InputError(fmt::format("{}: cannot be read", path));
+  const std::string document{std::istreambuf_iterator<char>(file), {}};
+  try {
+    arm::write_atomically(path, report::updated_paper_document(document, findings));
+  } catch (const arm::InputError& error) {
+    throw arm::located(error, path, 0);
+  }
+}
+
+int run(const Arguments& arguments) {
+  const auto findings = compare::paper::check_paper();
+  const std::string text = report::paper_text(findings, arguments.part);
+  if (text.empty()) {
+    throw arm::InputError(fmt::format(
+        "no part \"{}\": give the number of an equation (22), or a word of a heading (\"Table 6\")",
+        arguments.part));
+  }
+  if (!arguments.json.empty()) arm::write_atomically(arguments.json, report::paper_json(findings));
+  if (!arguments.out.empty()) write_folder(arguments.out, findings);
+  if (!arguments.document.empty()) update_document(arguments.document, findings);
+  print(text);
+  print(arguments.part.empty()
+            ? "next: one equation alone with  flexarm paper 22\n"
+            : "next: the paper's arm in three formulations with  flexarm compare\n");
+  return kSuccess;
+}
+
+}  // namespace
+
+Command add_paper(CLI::App& program) {
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App* parser = program.add_subcommand(
+      "paper", "Check each equation and table of the paper against the three formulations");
+  parser->add_option("PART", arguments->part,
+                     "Only this: the number of an equation, or words such as \"Table 6\"");
+  parser->add_option("--json", arguments->json, "Write all values to this file");
+  parser->add_option("--out", arguments->out, "Write text, CSV and JSON to this folder");
+  parser->add_option("--update", arguments->document,
+                     "Make the marked blocks of this document anew (docs/paper.md)");
+  parser->footer(example("flexarm paper 22"));
+  return {parser, [arguments] { return run(*arguments); }};
+}
+
+}  // namespace flexarm::app

@@ -190,8 +190,8 @@ Certificate certify(const Problem& problem, const std::vector<Locus>& loci,
                                            [&] { return count(beyond(enclosed)); });
   if (!counted) {
     if (certificate.failure.empty()) {
-      certificate.failure =
-          fmt::format("the count is not certain at {} bits", options.max_precision_bits);
+      certificate.failure = fmt::format("the count is not certain with {} values at up to {} bits",
+                                        options.max_function_values, options.max_precision_bits);
     }
     return certificate;
   }
@@ -272,8 +272,9 @@ Certificate certify_zeros(const arm::Arm& arm, const arm::Sensor& sensor,
                   ComplexBall(DimensionlessArm(arm).omega_scale));
     });
   }
+  long values_left = options.max_function_values;
   const auto count = [&](const RealBall& beyond) {
-    return problem.function().count_within(beyond);
+    return problem.function().count_within(beyond, values_left);
   };
   Certificate certificate = certify(problem, loci, given, options, count);
   certificate.method =

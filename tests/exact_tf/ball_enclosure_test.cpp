@@ -19,9 +19,11 @@ ComplexBall cubic(const ComplexBall& w) {
 }
 
 std::optional<long> winding_number(double x, double y, double radius) {
-  const auto change = argument_change(cubic, [=](const RealBall& t) {
+  long values_left = 10'000;
+  const auto circle = [=](const RealBall& t) {
     return number(x, y) + number(radius) * ComplexBall::unit_at_half_turns(t + t);
-  });
+  };
+  const auto change = argument_change(cubic, circle, values_left);
   if (!change) return std::nullopt;
   return (*change / (RealBall(2) * RealBall::pi())).unique_integer();
 }

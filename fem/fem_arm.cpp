@@ -40,8 +40,8 @@ arm::SolveSummary summary_of(const VibrationModes& modes) {
 /// Eigenvalues up to the highest of `modes`, by Sylvester inertia.
 arm::RootCount count_of(const Discretisation& model, HubSupport support,
                         const VibrationModes& modes) {
-  // Above the highest mode by less than the gap to the next, which for mode n is about 4/n.
-  constexpr double kAbove = 1.0 + 1e-3;
+  // Just above the highest mode: far more than its rounding, far less than the gap to the next.
+  constexpr double kAbove = 1.0 + 1e-6;
   const Eigen::Index found = modes.omega_squared.size();
   const int rigid = support == HubSupport::free ? 1 : 0;
   const int below = eigenvalues_below(model, support, modes.omega_squared[found - 1] * kAbove);

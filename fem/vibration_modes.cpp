@@ -199,8 +199,8 @@ VibrationModes vibration_modes(const Discretisation& discretisation, HubSupport 
 
 int eigenvalues_below(const Discretisation& discretisation, HubSupport support,
                       double omega_squared) {
-  // A count at a value between two eigenvalues stands while K's rounding is well below their gap.
-  constexpr double kRoundingAllowed = 1e-4;
+  // Callers count at 1 + 1e-6 times an eigenvalue.
+  constexpr double kRoundingAllowed = 1e-7;
   const double shortest =
       *std::min_element(discretisation.lengths().begin(), discretisation.lengths().end());
   const double rounding =

@@ -177,6 +177,9 @@ Complex FemArm::transfer_function(const arm::Sensor& sensor, Complex s_rad_per_s
   if (s_rad_per_s == 0.0) {
     throw std::domain_error("transfer function: s = 0 is the pole of the rigid arm");
   }
+  if (!std::isfinite(std::norm(s_rad_per_s / omega_scale_rad_per_s_))) {
+    throw std::domain_error("transfer function: the square of s is not finite");
+  }
   const double rigidity = arm_.beam.flexural_rigidity_N_m2();
   const Complex s = s_rad_per_s / omega_scale_rad_per_s_;
   const Complex stiffness_factor = 1.0 + arm_.damping.kelvin_voigt_s * s_rad_per_s;

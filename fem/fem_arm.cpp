@@ -32,8 +32,10 @@ void require_count(int count) {
 }
 
 arm::SolveSummary summary_of(const VibrationModes& modes) {
-  return {modes.dense ? "singular values of the factored stiffness, inverse iteration"
-                      : "Lanczos iteration on the factored flexibility, inverse iteration",
+  return {modes.dense ? "singular values of the factored stiffness, inverse iteration (residual: "
+                        "last change of omega^2)"
+                      : "Lanczos on the factored flexibility, inverse iteration (residual: last "
+                        "change of omega^2)",
           modes.iterations, modes.largest_change, modes.converged};
 }
 

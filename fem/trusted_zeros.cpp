@@ -136,8 +136,9 @@ arm::ZeroSet trusted_zeros(const Discretisation& model, const CheckingModels& ch
     zeros.count.found = static_cast<int>(looked_at);
   }
   zeros.infinite = row.infinite_roots;
-  zeros.summary = {"Rosenbrock pencil by eigenvalues at s = 0, Newton's method", roots.newton_steps,
-                   roots.largest_step, roots.converged};
+  zeros.summary = {
+      "Rosenbrock pencil by eigenvalues at s = 0, Newton's method (residual: last step in s^2)",
+      roots.newton_steps, roots.largest_step, roots.converged};
   return zeros;
 }
 

@@ -113,15 +113,14 @@ PencilRoots pencil_roots(const Discretisation& discretisation, const Numerator& 
     conjugate_found = result.converged && guess.imag() > 0.0 && !is_real(result.w);
     if (result.converged) add(result, roots, divided_out);
   }
-  // Searches that end beyond the largest root found have nothing left to find inside. They start
-  // near zero and towards either end of the real axis, but off it, so that they can reach complex
-  // roots.
+  // Three searches that end beyond the largest root found, or nowhere, have nothing left to find
+  // inside. They start near zero and towards either end of the real axis, but off it, so that they
+  // can reach complex roots.
   constexpr double kOffAxis = std::numbers::pi / 20.0;
   const int all = discretisation.clamped_size();
-  for (int beyond = 0;
-       beyond < 3 && !roots.w.empty() && static_cast<int>(divided_out.size()) < all;) {
-    const double smallest = modulus(std::ranges::min(roots.w, {}, modulus));
-    const double largest = modulus(std::ranges::max(roots.w, {}, modulus));
+  for (int beyond = 0; beyond < 3 && static_cast<int>(divided_out.size()) < all;) {
+    const double smallest = roots.w.empty() ? 1.0 : modulus(std::ranges::min(roots.w, {}, modulus));
+    const double largest = roots.w.empty() ? 1.0 : modulus(std::ranges::max(roots.w, {}, modulus));
     const std::array<Complex, 3> starts = {std::polar(1e-3 * smallest, std::numbers::pi / 4.0),
                                            std::polar(largest / 2.0, kOffAxis),
                                            std::polar(largest / 2.0, std::numbers::pi - kOffAxis)};
@@ -129,7 +128,8 @@ PencilRoots pencil_roots(const Discretisation& discretisation, const Numerator& 
         numerator.root_near(starts[static_cast<std::size_t>(beyond)], divided_out, kStepsAllowed);
     roots.newton_steps += result.steps;
     if (result.converged) add(result, roots, divided_out);
-    if (!result.converged || modulus(result.w) >= largest) ++beyond;
+    const bool enough = static_cast<int>(divided_out.size()) >= count;
+    if (!result.converged || (enough && modulus(result.w) >= largest)) ++beyond;
   }
   roots.converged = static_cast<int>(divided_out.size()) >= count;
   std::ranges::sort(roots.w, {}, modulus);

@@ -59,7 +59,7 @@ bool same(Complex a, Complex b) {
 std::string reason_against(const Candidate& candidate, const std::vector<Candidate>& all,
                            double agreement) {
   constexpr double kConvergence = 0.1;
-  constexpr double kRounding = 1e-8;
+  constexpr double kNegligible = 1e-3;
   if (!candidate.counterpart) return "has no counterpart on a finer model";
   if (!(candidate.change <= agreement)) {
     return fmt::format("moves by more than {} on a finer model", agreement);
@@ -71,7 +71,8 @@ std::string reason_against(const Candidate& candidate, const std::vector<Candida
   if (std::ranges::any_of(all, has_nearer_claim)) {
     return "a nearer root has the same counterpart on a finer model";
   }
-  if (!(candidate.further_change <= std::max(kConvergence * candidate.change, kRounding))) {
+  if (!(candidate.further_change <=
+        std::max(kConvergence * candidate.change, kNegligible * agreement))) {
     return "does not converge on finer models";
   }
   return {};
@@ -135,8 +136,9 @@ arm::ZeroSet trusted_zeros(const Discretisation& model, const CheckingModels& ch
     zeros.count.found = static_cast<int>(looked_at);
   }
   zeros.infinite = row.infinite_roots;
-  zeros.summary = {"Rosenbrock pencil by eigenvalues at s = 0, Newton's method", roots.newton_steps,
-                   roots.largest_step, roots.converged};
+  zeros.summary = {
+      "Rosenbrock pencil by eigenvalues at s = 0, Newton's method (residual: last step in s^2)",
+      roots.newton_steps, roots.largest_step, roots.converged};
   return zeros;
 }
 

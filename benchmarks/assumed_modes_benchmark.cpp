@@ -23,7 +23,8 @@ void tip_zeros(benchmark::State& state, Basis basis, const arm::Arm& arm) {
       state, [&] { return model_of(state, basis, arm); }, kTipZeros);
 }
 
-void tip_zeros_of_default_model(benchmark::State& state) {
+/// How the error grows from zero to zero with the default options.
+void more_tip_zeros(benchmark::State& state) {
   score_tip_zeros(
       state, [] { return AssumedModesArm(arm::paper_arm()); }, static_cast<int>(state.range(0)));
 }
@@ -69,7 +70,7 @@ BENCHMARK_CAPTURE(tip_zeros, clamped_free_loaded, Basis::clamped_free, loaded_ar
 BENCHMARK_CAPTURE(tip_zeros, pinned_free_loaded, Basis::pinned_free, loaded_arm())
     ->Apply(few_sizes);
 
-BENCHMARK(tip_zeros_of_default_model)->ArgName("zeros")->DenseRange(2, 10, 2)->Apply(repeated);
+BENCHMARK(more_tip_zeros)->ArgName("zeros")->DenseRange(2, 10, 2)->Apply(repeated);
 
 BENCHMARK_CAPTURE(response, hub_angle, "hub_angle")->Apply(repeated);
 BENCHMARK_CAPTURE(response, tip_displacement, "tip_displacement")->Apply(repeated);

@@ -65,7 +65,7 @@ void ScoreTable::ReportRuns(const std::vector<Run>& runs) {
   series.values["time"].push_back(best.GetAdjustedCPUTime());
   for (const auto& [counter, value] : best.counters) {
     // An error ends at its rounding floor and follows no power of n.
-    if (counter != "error") series.values[counter].push_back(value.value);
+    if (!counter.starts_with("error")) series.values[counter].push_back(value.value);
   }
 }
 

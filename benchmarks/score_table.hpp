@@ -11,7 +11,7 @@ namespace flexarm::benchmarks {
 /// Prints one line a benchmark: its processor time, the least of its repetitions (what other
 /// programs on the machine take only adds), then its counters. Of a benchmark that calls
 /// SetComplexityN for three sizes or more it prints at the end the slope of the logarithms of time
-/// and of the counters but "error" over that of the size, by least squares.
+/// and of the counters, errors left out, over that of the size, by least squares.
 class ScoreTable : public benchmark::BenchmarkReporter {
  public:
   bool ReportContext(const Context& context) override;

@@ -10,6 +10,13 @@ namespace {
 using assumed_modes::AssumedModesArm;
 using assumed_modes::Basis;
 
+/// The paper's arm with a payload of 0.3 of the beam's mass.
+arm::Arm loaded_arm() {
+  arm::Arm arm = arm::paper_arm();
+  arm.payload.mass_kg = 0.3 * arm.beam.linear_density_kg_per_m() * arm.beam.length_m;
+  return arm;
+}
+
 AssumedModesArm model_of(const benchmark::State& state, Basis basis, const arm::Arm& arm) {
   return AssumedModesArm(arm, {.basis = basis, .functions = static_cast<int>(state.range(0))});
 }

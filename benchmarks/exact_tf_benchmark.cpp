@@ -7,8 +7,13 @@
 #include <benchmark/benchmark.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <complex>
 #include <fstream>
+#include <limits>
 #include <map>
+#include <utility>
+#include <vector>
 
 namespace flexarm::benchmarks {
 namespace {

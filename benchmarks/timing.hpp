@@ -1,6 +1,6 @@
 #pragma once
 
-#include "benchmarks/errors.hpp"
+#include "benchmarks/yardstick.hpp"
 
 #include <benchmark/benchmark.h>
 

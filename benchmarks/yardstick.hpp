@@ -12,6 +12,8 @@
 
 namespace flexarm::benchmarks {
 
+// What every formulation is asked for, and its errors against exact_tf on the same arm.
+
 inline constexpr arm::Sensor kHubAngle{arm::SensorKind::hub_angle};
 inline constexpr arm::Sensor kTipAcceleration{arm::SensorKind::tip_acceleration};
 
@@ -19,13 +21,6 @@ inline constexpr arm::Sensor kTipAcceleration{arm::SensorKind::tip_acceleration}
 inline constexpr int kPoles = 10;
 inline constexpr int kHubZeros = 10;
 inline constexpr int kTipZeros = 6;
-
-/// The paper's arm with a payload of 0.3 of the beam's mass.
-inline arm::Arm loaded_arm() {
-  arm::Arm arm = arm::paper_arm();
-  arm.payload.mass_kg = 0.3 * arm.beam.linear_density_kg_per_m() * arm.beam.length_m;
-  return arm;
-}
 
 /// The paper's arm with both dampings, whose response has no pole on the imaginary axis.
 inline arm::Arm damped_arm() {
@@ -45,8 +40,6 @@ double worst_relative_error(const std::vector<Number>& found, const std::vector<
   }
   return worst;
 }
-
-/// The errors below are against exact_tf on the model's arm.
 
 template <arm::Formulation Model>
 double error_of_poles(const Model& model) {

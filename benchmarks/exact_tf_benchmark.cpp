@@ -1,0 +1,133 @@
+// The exact transfer function: time a root with its certified distance, time of the certificate,
+// time a value with its error against 30 digits.
+#include "benchmarks/timing.hpp"
+#include "exact_tf/certificate.hpp"
+#include "exact_tf/exact_arm.hpp"
+
+#include <benchmark/benchmark.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <complex>
+#include <fstream>
+#include <limits>
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace flexarm::benchmarks {
+namespace {
+
+using exact_tf::Certificate;
+using exact_tf::ExactArm;
+
+/// Largest distance of a root from the true one, in ulp of lambda; infinite where nothing is
+/// proved.
+double worst_ulp(const Certificate& certificate) {
+  return certificate.proved ? certificate.largest_distance_ulp
+                            : std::numeric_limits<double>::infinity();
+}
+
+Certificate pole_certificate(int count) {
+  const ExactArm exact(arm::paper_arm());
+  return exact_tf::certify_poles(exact.arm(), exact.pole_lambdas(count));
+}
+
+Certificate hub_zero_certificate(int count) {
+  const ExactArm exact(arm::paper_arm());
+  return exact_tf::certify_hub_zeros(exact.arm(), exact.hub_zero_lambdas(count));
+}
+
+/// A list is certified once, however often its search is timed.
+double worst_ulp_of(Certificate (*certified)(int), int count) {
+  static std::map<std::pair<Certificate (*)(int), int>, double> known;
+  const auto key = std::pair(certified, count);
+  if (!known.contains(key)) known[key] = worst_ulp(certified(count));
+  return known[key];
+}
+
+void poles_and_hub_zeros(benchmark::State& state) {
+  time_poles_and_hub_zeros(state, [] { return ExactArm(arm::paper_arm()); });
+  state.counters["ulp"] = std::max(worst_ulp_of(pole_certificate, kPoles),
+                                   worst_ulp_of(hub_zero_certificate, kHubZeros));
+}
+
+void tip_zeros(benchmark::State& state) {
+  time_tip_zeros(
+      state, [] { return ExactArm(arm::paper_arm()); }, kTipZeros);
+  const ExactArm exact(arm::paper_arm());
+  state.counters["ulp"] = worst_ulp(exact_tf::certify_zeros(
+      exact.arm(), kTipAcceleration, exact.zeros(kTipAcceleration, kTipZeros).s_rad_per_s));
+}
+
+void poles(benchmark::State& state) {
+  const auto count = static_cast<int>(state.range(0));
+  for (auto _ : state) benchmark::DoNotOptimize(ExactArm(arm::paper_arm()).poles(count));
+  state.counters["s_per_root"] = seconds_each(count);
+  state.counters["ulp"] = worst_ulp_of(pole_certificate, count);
+}
+
+void hub_zeros(benchmark::State& state) {
+  const auto count = static_cast<int>(state.range(0));
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(ExactArm(arm::paper_arm()).zeros(kHubAngle, count));
+  }
+  state.counters["s_per_root"] = seconds_each(count);
+  state.counters["ulp"] = worst_ulp_of(hub_zero_certificate, count);
+}
+
+void certificate_of_poles(benchmark::State& state) {
+  const auto count = static_cast<int>(state.range(0));
+  const ExactArm exact(arm::paper_arm());
+  const auto lambdas = exact.pole_lambdas(count);
+  for (auto _ : state) benchmark::DoNotOptimize(exact_tf::certify_poles(exact.arm(), lambdas));
+  state.counters["s_per_root"] = seconds_each(count);
+}
+
+/// Largest relative error at the four frequencies of the reference's case "paper", whose `key`
+/// times `unit` is what the sensor reads.
+double reference_error(const arm::Sensor& sensor, const char* key, double unit) {
+  std::ifstream file(FLEXARM_SOURCE_DIR "/tests/exact_tf/reference.json");
+  const auto reference = nlohmann::json::parse(file).at("paper");
+  const auto number = [](const nlohmann::json& text) { return std::stod(text.get<std::string>()); };
+  const auto complex = [&](const nlohmann::json& pair) {
+    return std::complex<double>(number(pair.at(0)), number(pair.at(1)));
+  };
+  const ExactArm exact(arm::paper_arm());
+  std::vector<std::complex<double>> found;
+  std::vector<std::complex<double>> digits;
+  for (const auto& point : reference.at("transfer")) {
+    found.push_back(exact.transfer_function(sensor, complex(point.at("s"))));
+    digits.push_back(unit * complex(point.at(key)));
+  }
+  return worst_relative_error(found, digits);
+}
+
+void response(benchmark::State& state, const char* sensor, const char* key, double unit) {
+  time_responses(state, ExactArm(damped_arm()), sensor);
+  state.counters["error"] = reference_error(arm::parse_sensor(sensor), key, unit);
+}
+
+void repeated(benchmark::internal::Benchmark* benchmark) {
+  benchmark->Repetitions(kRepetitions)->MinTime(kMinimumTime_s)->Unit(benchmark::kMicrosecond);
+}
+
+void many_roots(benchmark::internal::Benchmark* benchmark) {
+  benchmark->ArgName("roots")->Arg(10)->Arg(1000)->Arg(10000);
+  repeated(benchmark);
+}
+
+BENCHMARK(poles_and_hub_zeros)->Apply(repeated);
+BENCHMARK(tip_zeros)->Apply(repeated);
+BENCHMARK(poles)->Apply(many_roots);
+BENCHMARK(hub_zeros)->Apply(many_roots);
+BENCHMARK(certificate_of_poles)->Apply(many_roots);
+BENCHMARK_CAPTURE(response, hub_angle, "hub_angle", "hub_angle", 1.0)->Apply(repeated);
+BENCHMARK_CAPTURE(response, tip_displacement, "tip_displacement", "tip_displacement", 1.0)
+    ->Apply(repeated);
+BENCHMARK_CAPTURE(response, strain_at_quarter, "strain@0.24", "curvature_quarter",
+                  arm::paper_arm().beam.thickness_m.value() / 2.0)
+    ->Apply(repeated);
+
+}  // namespace
+}  // namespace flexarm::benchmarks

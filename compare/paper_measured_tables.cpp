@@ -158,6 +158,7 @@ Check accelerometer_gains(const ThreeModels& bare) {
   const auto& t = tables().accelerometer_model;
   const auto slopes = values(tables().hub_model.gain), gains = values(t.gain);
   const double l = bare.exact_tf.arm().beam.length_m;
+  const auto tip = modal_data(bare.exact_tf, 2).tip_m;
   const auto zeros = squared_zeros(l, {slopes[0] * gains[0], slopes[1] * gains[1]},
                                    {from_Hz(t.pole_Hz[0].value), from_Hz(t.pole_Hz[1].value)});
   Check check{
@@ -165,16 +166,16 @@ Check accelerometer_gains(const ThreeModels& bare) {
       .statement = "accelerometer's modal gains by (52)",
       .verdict = Verdict::does_not_follow,
       .finding = fmt::format(
-          "The gains alternate in sign as phi_i(l) do, so that (52) was used with the minus sign "
-          "that it lacks; their sizes are 2 to 4 times phi_i(l), whose limit for a light hub is "
-          "2 l/3^(1/2) = {:.3f} m in every mode. As phi_i''(l) they would have to be 0.",
-          2.0 * l / std::sqrt(3.0)),
+          "The gains alternate in sign as phi_i(l) do, so that the sign was taken with the minus "
+          "that (52) lacks; their sizes are {:.1f} and {:.1f} times phi_i(l), whose limit for a "
+          "light hub is 2 l/3^(1/2) = {:.3f} m in every mode. As phi_i''(l) they would have to be "
+          "0.",
+          gains[0] / tip[0], gains[1] / tip[1], 2.0 * l / std::sqrt(3.0)),
       .comparisons = {}};
   for (const int order : {1, 2}) {
     check.comparisons.push_back(against_print(
         fmt::format("phi_{}(l) of Table 1's arm", order), "m",
-        t.gain[static_cast<std::size_t>(order) - 1],
-        mode_value(bare.exact_tf, order, kTipDisplacement),
+        t.gain[static_cast<std::size_t>(order) - 1], tip[static_cast<std::size_t>(order) - 1],
         bare.ask([order](const auto& m) { return mode_value(m, order, kTipDisplacement); })));
   }
   check.comparisons.push_back(

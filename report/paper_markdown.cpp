@@ -2,6 +2,7 @@
 
 #include "arm/input_error.hpp"
 #include "arm/nearest_name.hpp"
+#include "compare/paper_models.hpp"
 #include "report/paper_tables.hpp"
 #include "report/text_table.hpp"
 
@@ -15,9 +16,10 @@ namespace {
 
 using namespace compare::paper;
 
-constexpr std::string_view kOpen = "<!-- flexarm paper: ";
+// A mark stands at the start of a line.
+constexpr std::string_view kOpen = "\n<!-- flexarm paper: ";
 constexpr std::string_view kClose = " -->";
-constexpr std::string_view kEnd = "<!-- end -->";
+constexpr std::string_view kEnd = "\n<!-- end -->";
 
 /// Text of the checks as Markdown shows it: a bar would end a cell, and signs of emphasis and of
 /// HTML mean themselves.
@@ -88,7 +90,9 @@ std::string topic_block(const Topic& topic) {
 }  // namespace
 
 std::string paper_block(const Findings& findings, const std::string& name) {
-  if (name == "overview") return paper_verdict_line(findings) + '\n';
+  if (name == "overview") {
+    return fmt::format("{}\n\n{}\n", paper_verdict_line(findings), escaped(describe_arms()));
+  }
   if (name == "cells") {
     return paper_cells_line(findings) + "\n\n" + markdown(paper_cells(findings));
   }
@@ -115,8 +119,8 @@ std::string updated_paper_document(const std::string& document, const Findings& 
     }
     const std::size_t body = close + kClose.size();
     out += document.substr(at, body - at) + "\n" +
-           paper_block(findings, document.substr(name, close - name)) + std::string(kEnd);
-    at = end + kEnd.size();
+           paper_block(findings, document.substr(name, close - name));
+    at = end + 1;  // kEnd begins with the line's end that the block has written
   }
 }
 

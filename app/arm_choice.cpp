@@ -33,6 +33,11 @@ void add_arm_choice(CLI::App& parser, ArmChoice& choice) {
                     "Hub inertia [kg m^2] in place of the file's");
 }
 
+std::filesystem::path folder_of(const std::filesystem::path& out, const arm::Arm& arm,
+                                std::size_t arms) {
+  return arms == 1 ? out : out / fmt::format("payload-{}kg", arm.payload.mass_kg);
+}
+
 std::string describe(const arm::Arm& arm) {
   return fmt::format(
       "{}: l {:g} m, EI {:.6g} N m^2, m {:.6g} kg/m, I_T {:.6g} kg m^2\n"

@@ -4,6 +4,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include <cstddef>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,6 +26,10 @@ struct ArmChoice {
 
 /// Adds `ARM` and the options that change its numbers to a command.
 void add_arm_choice(CLI::App& parser, ArmChoice& choice);
+
+/// Where the files of one of `arms` arms go: `out` itself, or a folder in it named for the payload.
+std::filesystem::path folder_of(const std::filesystem::path& out, const arm::Arm& arm,
+                                std::size_t arms);
 
 /// Name, rigidity, density, inertias and their ratios: two lines for the head of an output.
 std::string describe(const arm::Arm& arm);

@@ -26,6 +26,7 @@ struct Command {
 std::string example(const std::string& line);
 
 Command add_compare(CLI::App& program);
+Command add_modes(CLI::App& program);
 Command add_new(CLI::App& program);
 Command add_paper(CLI::App& program);
 

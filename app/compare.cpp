@@ -71,6 +71,11 @@ void print_comparison(const compare::Comparison& comparison,
   if (!measured.empty()) print_table(report::measured_table(measured));
   if (full) print_table(report::notes_table(comparison));
   for (const auto& table : report::convergence_tables(comparison)) print_table(table);
+  if (!comparison.basis_notes.empty()) {
+    print("Bases of assumed_modes\n");
+    for (const auto& note : comparison.basis_notes) print(note + "\n");
+    print("\n");
+  }
   if (full && !comparison.refinements.empty()) {
     print_table(report::convergence_listing(comparison));
   }
@@ -124,11 +129,7 @@ int run(const Arguments& arguments) {
     print_comparison(comparison, rows, arguments.full);
     if (arms.size() > 1) print("\n");
     if (!arguments.out.empty()) {
-      const fs::path folder =
-          arms.size() == 1
-              ? fs::path(arguments.out)
-              : fs::path(arguments.out) / fmt::format("payload-{}kg", arm.payload.mass_kg);
-      write_folder(folder, comparison, rows);
+      write_folder(folder_of(arguments.out, arm, arms.size()), comparison, rows);
     }
     agree = agree && comparison.verdict.agree;
     results.push_back({comparison, rows});
@@ -154,6 +155,10 @@ Command add_compare(CLI::App& program) {
                    "Further sensors whose zeros and responses are compared, as in strain@0.05")
       ->delimiter(',');
   parser->add_option("--poles", arguments->options.poles, "How many poles and hub zeros")
+      ->capture_default_str();
+  parser
+      ->add_option("--zeros", arguments->options.non_collocated_zeros,
+                   "How many zeros of each sensor away from the hub")
       ->capture_default_str();
   parser
       ->add_option("--tolerance", arguments->options.root_tolerance,

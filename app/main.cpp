@@ -10,18 +10,21 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
-#include <new>
+#include <string>
+#include <string_view>
 
 namespace flexarm::app {
 
 std::string example(const std::string& line) {
-  return fmt::format("\nExample:\n  {}\n", line);
+  return fmt::format("Example:\n  {}", line);
 }
 
 namespace {
 
+/// Writes one line to standard error; when that fails there is nobody left to tell.
 void complain(std::string_view line) {
-  fmt::print(stderr, "flexarm: {}\n", line);
+  const std::string text = fmt::format("{}\n", line);
+  std::fwrite(text.data(), 1, text.size(), stderr);
 }
 
 int run(int argc, const char* const* argv) {
@@ -33,12 +36,16 @@ int run(int argc, const char* const* argv) {
   program.require_subcommand(0, 1);
   program.set_version_flag("-V,--version", version_text(), "Print version, build and libraries");
   program.footer(
-      "\nA first session:\n"
+      "A first session:\n"
+      "  flexarm compare           the paper's arm by three formulations, side by side\n"
       "  flexarm new rig.toml      an arm file to edit\n"
+      "  flexarm modes rig.toml    its poles, zeros, slopes and shapes\n"
+      "  flexarm paper             the paper's equations and tables, recomputed\n"
       "\nExit status: 0 success; 1 failure; 2 input that cannot be used, with one line on\n"
       "standard error.");
   // In the order of a first session.
-  const std::array commands = {add_compare(program), add_new(program), add_paper(program)};
+  const std::array commands = {add_new(program), add_modes(program), add_compare(program),
+                               add_paper(program)};
 
   try {
     program.parse(argc, argv);
@@ -54,7 +61,7 @@ int run(int argc, const char* const* argv) {
     print(version.what());
     return kSuccess;
   } catch (const CLI::ParseError& error) {
-    complain(explain(program, error));
+    complain(fmt::format("flexarm: {}", explain(program, error)));
     return kInputError;
   }
 }
@@ -71,13 +78,10 @@ int main(int argc, char** argv) {
   } catch (const app::OutputClosed&) {
     return app::kOutputClosed;
   } catch (const arm::InputError& error) {
-    fmt::print(stderr, "{}\n", error.what());
+    app::complain(error.what());
     return app::kInputError;
-  } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "flexarm: out of memory\n");
-    return app::kFailure;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "flexarm: {}\n", error.what());
+    app::complain(fmt::format("flexarm: {}", error.what()));
     return app::kFailure;
   }
 }

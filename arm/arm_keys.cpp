@@ -11,15 +11,15 @@ constexpr bool kMayBeAbsent = false;
 
 /// A row whose value is the member `Member` of the part `Part` of an arm.
 template <auto Part, auto Member>
-ArmKey row(std::string table, std::string leaf, std::string symbol, std::string unit, Range range,
-           bool required, std::string meaning) {
-  return {.table = std::move(table),
-          .leaf = std::move(leaf),
-          .symbol = std::move(symbol),
-          .unit = std::move(unit),
+ArmKey row(const char* table, const char* leaf, const char* symbol, const char* unit, Range range,
+           bool required, const char* meaning) {
+  return {.table = table,
+          .leaf = leaf,
+          .symbol = symbol,
+          .unit = unit,
           .range = range,
           .required = required,
-          .meaning = std::move(meaning),
+          .meaning = meaning,
           .get = [](const Arm& arm) -> std::optional<double> { return arm.*Part.*Member; },
           .set = [](Arm& arm, double value) { arm.*Part.*Member = value; }};
 }

@@ -4,10 +4,12 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 namespace flexarm::arm {
 
-InputError::InputError(const std::string& line, const std::string& key)
-    : std::runtime_error(line), key_(key) {}
+InputError::InputError(const std::string& line, std::string key)
+    : std::runtime_error(line), key_(std::move(key)) {}
 
 InputError out_of_range(const std::string& key, double value, const std::string& unit,
                         const std::string& allowed) {

@@ -16,7 +16,7 @@ namespace flexarm::arm {
 class InputError : public std::runtime_error {
  public:
   /// `key` is the dotted key that the line is about, where there is one.
-  explicit InputError(const std::string& line, const std::string& key = "");
+  explicit InputError(const std::string& line, std::string key = "");
 
   /// The dotted key by which a file's reader finds the line: `beam.length`; may be empty.
   const std::string& key() const noexcept { return key_; }

@@ -32,8 +32,11 @@ std::optional<std::string> nearest_name(std::string_view typed,
   std::optional<std::string> nearest;
   std::size_t smallest = 0;
   for (const auto& name : names) {
+    // The distance is at least the difference in length, which spares the table for long input.
+    const auto [shorter, longer] = std::minmax({typed.size(), name.size()});
+    if (3 * (longer - shorter) > longer) continue;
     const std::size_t distance = edit_distance(typed, name);
-    if (3 * distance > std::max(typed.size(), name.size())) continue;
+    if (3 * distance > longer) continue;
     if (!nearest || distance < smallest) {
       nearest = name;
       smallest = distance;

@@ -18,15 +18,20 @@ namespace flexarm::assumed_modes {
 struct AssumedModesOptions {
   Basis basis = Basis::legendre;
 
-  /// Generalised coordinates n, the rigid rotation included; 2 <= n <= kMaximumFunctions.
+  /// Generalised coordinates n, the rigid rotation included; 2 <= n <= kMaximumFunctions. With
+  /// Legendre functions 36 give ten poles and ten hub zeros to rounding and six tip zeros to 1e-9
+  /// for payloads of up to 10 m l and 0.1 m l^3 and hubs of up to 100 m l^3; 28 give 1e-10 on the
+  /// paper's arm.
   int functions = 36;
 
   /// A zero s of a sensor away from the hub is trusted when the nearest zeros s' with n + 2 and
-  /// with n + 4 functions both have |s - s'| <= zero_change |s|.
+  /// with n + 4 functions both have |s - s'| <= zero_change |s|. At 1e-3 no false zero of the tip
+  /// passes for any basis and n up to 60; at 1e-2 an eighth of those that pass is false with
+  /// Legendre functions, and more with the others.
   double zero_change = 1e-3;
 };
 
-/// Cost grows as n^3: the construction takes about a second at this n.
+/// Cost grows as n^3: at this n the construction takes 0.3 s and the zeros of a sensor 1 s.
 inline constexpr int kMaximumFunctions = 200;
 
 /// The arm by Lagrange's equations on admissible functions (assumed modes, Rayleigh-Ritz):
@@ -39,7 +44,12 @@ inline constexpr int kMaximumFunctions = 200;
 ///
 /// All bases are orthonormal in strain energy, K = diag(0, 1, ..., 1), and all integrals are closed
 /// forms: nothing is left to quadrature. Ritz values of poles and hub zeros converge from above.
-/// Meirovitch, Analytical Methods in Vibrations (1967), 6.2 and 6.4.
+///
+/// Real zeros of the tip are exponentially ill-conditioned in any discrete model, since the motion
+/// at a zero dies out from one end of the link to the other: each keeps 1.6 digits fewer than the
+/// one before, 1e-13 the fourth, 1e-9 the sixth, 1e-5 the tenth. The summary's residual shows it.
+///
+/// Meirovitch, Analytical Methods in Vibrations (1967), ch. 6.
 class AssumedModesArm {
  public:
   using Options = AssumedModesOptions;
@@ -52,7 +62,7 @@ class AssumedModesArm {
   const Options& options() const { return options_; }
   int degrees_of_freedom() const { return options_.functions; }
 
-  /// n - 1 at most; the upper third of them is not converged.
+  /// n - 1 at most, of which the upper third is off by more than a percent.
   arm::PoleSet poles(int count) const;
   /// Hub angle and velocity: Ritz values, all kept. Others: those that `zero_change` trusts.
   /// Strain at the tip of an arm without payload inertia is zero at every frequency: no zeros.

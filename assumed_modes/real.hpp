@@ -5,7 +5,7 @@
 namespace flexarm::assumed_modes {
 
 /// Arithmetic of this room: 64-bit mantissa on x86. The tenth eigenvalue of a link with a payload
-/// of ten times its mass is 1e-7 of the first, which would leave double with eight digits.
+/// of ten times its mass is 1e-7 of the first, which would leave double with nine digits.
 using Real = long double;
 using Vector = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
 using Matrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;

@@ -1,10 +1,13 @@
 #include "compare/comparison.hpp"
 
 #include "arm/input_error.hpp"
+#include "assumed_modes/basis_report.hpp"
+#include "response/settings.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -19,6 +22,9 @@ constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
 void require_valid(const Options& options) {
   if (options.poles < 1) throw arm::out_of_range("poles", options.poles, "", "1 or more");
+  if (options.non_collocated_zeros < 1) {
+    throw arm::out_of_range("zeros", options.non_collocated_zeros, "", "1 or more");
+  }
   if (!(options.root_tolerance > 0.0)) {
     throw arm::out_of_range("tolerance", options.root_tolerance, "", "above 0");
   }
@@ -42,7 +48,7 @@ class Steps {
   int done_ = 0;
 };
 
-/// The families and the exact roots that refinement curves are held against.
+/// A family and its exact roots, which refinement curves are held against.
 struct ReferenceFamily {
   FeatureFamily family;
   std::vector<std::complex<double>> s_rad_per_s;
@@ -151,10 +157,34 @@ Comparison compare_subjects(const std::vector<Subject>& subjects, const Options&
   return comparison;
 }
 
+/// The families whose convergence is studied: velocity is the angle's derivative and has its zeros.
+std::vector<FeatureFamily> refined_families(const Options& options) {
+  auto refined = families(options);
+  std::erase_if(refined, [](const FeatureFamily& family) {
+    return family.zeros_of && family.zeros_of->kind == arm::SensorKind::hub_velocity;
+  });
+  return refined;
+}
+
+/// The basis and the root whose convergence its note describes.
+constexpr std::array kBases = {assumed_modes::Basis::legendre, assumed_modes::Basis::clamped_free,
+                               assumed_modes::Basis::pinned_free,
+                               assumed_modes::Basis::clamped_with_payload};
+constexpr int kNotedRoot = 3;
+
+std::vector<std::string> basis_notes(const arm::Arm& arm) {
+  std::vector<std::string> notes;
+  for (const auto basis : kBases) {
+    const auto report = assumed_modes::describe_convergence(arm, basis, kNotedRoot);
+    notes.push_back(report.pole.sentence);
+    notes.push_back(report.hub_zero.sentence);
+  }
+  return notes;
+}
+
 int steps_of(const Options& options, std::size_t subjects, std::size_t refinements) {
-  const std::size_t family_count = options.sensors.size() + 1;
-  return static_cast<int>(subjects * (family_count + 1) + options.sensors.size() +
-                          refinements * family_count);
+  return static_cast<int>(subjects * (families(options).size() + 1) + options.sensors.size() +
+                          refinements * refined_families(options).size());
 }
 
 }  // namespace
@@ -170,18 +200,12 @@ std::vector<FeatureFamily> families(const Options& options) {
 }
 
 std::vector<Subject> standard_subjects(const arm::Arm& arm, int roots) {
-  fem::FemArm::Options fem_options;
-  fem_options.degree = 11;
-  fem_options.mesh.elements = std::max(3, (2 * roots + 4) / 5);
-  assumed_modes::AssumedModesOptions ritz_options;
-  ritz_options.basis = assumed_modes::Basis::legendre;
-  ritz_options.functions = 2 * roots + 16;
+  const auto fem_options = response::fem_settings(roots);
+  const auto ritz_options = response::assumed_modes_settings(roots);
   return {
       {"exact_tf", "", exact_tf::ExactArm(arm)},
-      {"fem",
-       fmt::format("{} elements of degree {}", fem_options.mesh.elements, fem_options.degree),
-       fem::FemArm(arm, fem_options)},
-      {"assumed_modes", fmt::format("{} Legendre polynomials", ritz_options.functions),
+      {"fem", response::describe(fem_options), fem::FemArm(arm, fem_options)},
+      {"assumed_modes", response::describe(ritz_options),
        assumed_modes::AssumedModesArm(arm, ritz_options)},
   };
 }
@@ -200,9 +224,7 @@ Comparison compare(const arm::Arm& arm, const Options& options) {
   Comparison comparison = compare_subjects(subjects, options, steps);
 
   std::vector<ReferenceFamily> references;
-  for (const auto& family : families(options)) {
-    // Velocity is the angle's derivative: the same zeros, so the same curves.
-    if (family.zeros_of && family.zeros_of->kind == arm::SensorKind::hub_velocity) continue;
+  for (const auto& family : refined_families(options)) {
     references.push_back({family, {}});
     for (const auto& row : comparison.roots) {
       if (row.family == family) references.back().s_rad_per_s.push_back(*row.s_rad_per_s.front());
@@ -216,6 +238,7 @@ Comparison compare(const arm::Arm& arm, const Options& options) {
       steps.advance();
     }
   }
+  if (options.refinements) comparison.basis_notes = basis_notes(arm);
   return comparison;
 }
 

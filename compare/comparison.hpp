@@ -26,8 +26,10 @@ struct Subject {
 
 struct Options {
   int poles = 10;  ///< poles, collocated zeros and modes compared, 1 or more
-  /// Zeros of non-collocated sensors compared, 0: six for ten poles, in proportion.
-  int non_collocated_zeros = 0;
+  /// Zeros of each non-collocated sensor compared, 1 or more; never more than poles. Beyond about
+  /// ten the tip zeros sink below the rounding of a Ritz model: the tip's response to torque at
+  /// real s falls as exp(-lambda/sqrt 2).
+  int non_collocated_zeros = 6;
   /// Sensors whose zeros and responses are compared.
   std::vector<arm::Sensor> sensors = {{arm::SensorKind::hub_angle, 0.0},
                                       {arm::SensorKind::hub_velocity, 0.0},
@@ -72,6 +74,7 @@ struct Comparison {
   std::vector<ShapeAgreement> shapes;         ///< of every subject but the first
   std::vector<ResponseComparison> responses;  ///< one a sensor
   std::vector<RefinementCurve> refinements;
+  std::vector<std::string> basis_notes;  ///< why a basis of assumed_modes is slow on this arm
   std::vector<Finding> findings;  ///< every pair of subjects in every root, shape and response
   Verdict verdict;
 };

@@ -72,8 +72,8 @@ std::vector<Refinement> standard_refinements(int roots) {
   const int elements = roots / 2 > 3 ? roots / 2 : 3;
   const std::vector<int> shapes = stepping(4, 3 * roots + 30, 4);
   return {
-      fem_elements("fem, cubic elements", 3, 1024),
-      fem_elements("fem, quintic elements", 5, 256),
+      fem_elements("fem, cubic elements", 3, 8192),
+      fem_elements("fem, quintic elements", 5, 512),
       fem_degree(elements),
       functions_of("Legendre polynomials", Basis::legendre, Decay::exponential,
                    stepping(4, 2 * roots + 24, 2)),

@@ -27,31 +27,31 @@ class Precision {
 };
 
 /// A real ball: every result contains every value that the operands allow.
-class Real {
+class RealBall {
  public:
-  Real() { arb_init(x_); }
-  Real(double exact) : Real() { arb_set_d(x_, exact); }
-  Real(int exact) : Real() { arb_set_si(x_, exact); }
-  Real(const Real& other) : Real() { arb_set(x_, other.x_); }
-  Real(Real&& other) noexcept : Real() { arb_swap(x_, other.x_); }
-  Real& operator=(Real other) noexcept {
+  RealBall() { arb_init(x_); }
+  RealBall(double exact) : RealBall() { arb_set_d(x_, exact); }
+  RealBall(int exact) : RealBall() { arb_set_si(x_, exact); }
+  RealBall(const RealBall& other) : RealBall() { arb_set(x_, other.x_); }
+  RealBall(RealBall&& other) noexcept : RealBall() { arb_swap(x_, other.x_); }
+  RealBall& operator=(RealBall other) noexcept {
     arb_swap(x_, other.x_);
     return *this;
   }
-  ~Real() { arb_clear(x_); }
+  ~RealBall() { arb_clear(x_); }
 
   arb_ptr get() { return x_; }
   arb_srcptr get() const { return x_; }
 
-  static Real pi() {
-    Real result;
+  static RealBall pi() {
+    RealBall result;
     arb_const_pi(result.x_, Precision::bits());
     return result;
   }
 
   /// [low, high] as one ball.
-  static Real hull(const Real& low, const Real& high) {
-    Real result;
+  static RealBall hull(const RealBall& low, const RealBall& high) {
+    RealBall result;
     arb_union(result.x_, low.x_, high.x_, Precision::bits());
     return result;
   }
@@ -69,66 +69,66 @@ class Real {
     return result;
   }
 
-  Real midpoint() const {
-    Real result;
+  RealBall midpoint() const {
+    RealBall result;
     arb_get_mid_arb(result.x_, x_);
     return result;
   }
   double nearest_double() const { return arf_get_d(arb_midref(x_), ARF_RND_NEAR); }
 
   /// An exact number that no value of the ball exceeds.
-  Real upper_end() const {
-    Real result;
+  RealBall upper_end() const {
+    RealBall result;
     arb_get_ubound_arf(arb_midref(result.x_), x_, Precision::bits());
     return result;
   }
   /// A double that no value of the ball exceeds.
   double upper_bound() const { return arf_get_d(arb_midref(upper_end().x_), ARF_RND_CEIL); }
 
-  bool is_below(const Real& other) const { return arb_lt(x_, other.x_) != 0; }
-  bool overlaps(const Real& other) const { return arb_overlaps(x_, other.x_) != 0; }
+  bool is_below(const RealBall& other) const { return arb_lt(x_, other.x_) != 0; }
+  bool overlaps(const RealBall& other) const { return arb_overlaps(x_, other.x_) != 0; }
 
-  friend Real operator-(const Real& a) {
-    Real result;
+  friend RealBall operator-(const RealBall& a) {
+    RealBall result;
     arb_neg(result.x_, a.x_);
     return result;
   }
-  friend Real operator+(const Real& a, const Real& b) {
-    Real result;
+  friend RealBall operator+(const RealBall& a, const RealBall& b) {
+    RealBall result;
     arb_add(result.x_, a.x_, b.x_, Precision::bits());
     return result;
   }
-  friend Real operator-(const Real& a, const Real& b) {
-    Real result;
+  friend RealBall operator-(const RealBall& a, const RealBall& b) {
+    RealBall result;
     arb_sub(result.x_, a.x_, b.x_, Precision::bits());
     return result;
   }
-  friend Real operator*(const Real& a, const Real& b) {
-    Real result;
+  friend RealBall operator*(const RealBall& a, const RealBall& b) {
+    RealBall result;
     arb_mul(result.x_, a.x_, b.x_, Precision::bits());
     return result;
   }
-  friend Real operator/(const Real& a, const Real& b) {
-    Real result;
+  friend RealBall operator/(const RealBall& a, const RealBall& b) {
+    RealBall result;
     arb_div(result.x_, a.x_, b.x_, Precision::bits());
     return result;
   }
-  friend Real sqrt(const Real& a) {
-    Real result;
+  friend RealBall sqrt(const RealBall& a) {
+    RealBall result;
     arb_sqrt(result.x_, a.x_, Precision::bits());
     return result;
   }
-  friend Real exp(const Real& a) {
-    Real result;
+  friend RealBall exp(const RealBall& a) {
+    RealBall result;
     arb_exp(result.x_, a.x_, Precision::bits());
     return result;
   }
-  friend Real floor(const Real& a) {
-    Real result;
+  friend RealBall floor(const RealBall& a) {
+    RealBall result;
     arb_floor(result.x_, a.x_, Precision::bits());
     return result;
   }
-  friend void sin_cos(Real& sine, Real& cosine, const Real& a) {
+  friend void sin_cos(RealBall& sine, RealBall& cosine, const RealBall& a) {
     arb_sin_cos(sine.x_, cosine.x_, a.x_, Precision::bits());
   }
 
@@ -137,42 +137,42 @@ class Real {
 };
 
 /// A complex ball, a rectangle; real values are held and multiplied as such.
-class Complex {
+class ComplexBall {
  public:
-  Complex() { acb_init(z_); }
-  Complex(int exact) : Complex() { acb_set_si(z_, exact); }
-  Complex(const Real& real) : Complex() { acb_set_arb(z_, real.get()); }
-  Complex(const Real& real, const Real& imaginary) : Complex() {
+  ComplexBall() { acb_init(z_); }
+  ComplexBall(int exact) : ComplexBall() { acb_set_si(z_, exact); }
+  ComplexBall(const RealBall& real) : ComplexBall() { acb_set_arb(z_, real.get()); }
+  ComplexBall(const RealBall& real, const RealBall& imaginary) : ComplexBall() {
     acb_set_arb_arb(z_, real.get(), imaginary.get());
   }
-  Complex(const Complex& other) : Complex() { acb_set(z_, other.z_); }
-  Complex(Complex&& other) noexcept : Complex() { acb_swap(z_, other.z_); }
-  Complex& operator=(Complex other) noexcept {
+  ComplexBall(const ComplexBall& other) : ComplexBall() { acb_set(z_, other.z_); }
+  ComplexBall(ComplexBall&& other) noexcept : ComplexBall() { acb_swap(z_, other.z_); }
+  ComplexBall& operator=(ComplexBall other) noexcept {
     acb_swap(z_, other.z_);
     return *this;
   }
-  ~Complex() { acb_clear(z_); }
+  ~ComplexBall() { acb_clear(z_); }
 
   /// e^{i pi t}.
-  static Complex unit_at_half_turns(const Real& t) {
-    Complex result;
+  static ComplexBall unit_at_half_turns(const RealBall& t) {
+    ComplexBall result;
     acb_set_arb(result.z_, t.get());
     acb_exp_pi_i(result.z_, result.z_, Precision::bits());
     return result;
   }
 
-  Real real() const {
-    Real result;
+  RealBall real() const {
+    RealBall result;
     arb_set(result.get(), acb_realref(z_));
     return result;
   }
-  Real imag() const {
-    Real result;
+  RealBall imag() const {
+    RealBall result;
     arb_set(result.get(), acb_imagref(z_));
     return result;
   }
-  Complex midpoint() const {
-    Complex result;
+  ComplexBall midpoint() const {
+    ComplexBall result;
     acb_get_mid(result.z_, z_);
     return result;
   }
@@ -180,53 +180,53 @@ class Complex {
     return {real().nearest_double(), imag().nearest_double()};
   }
   bool contains_zero() const { return acb_contains_zero(z_) != 0; }
-  bool overlaps(const Complex& other) const { return acb_overlaps(z_, other.z_) != 0; }
+  bool overlaps(const ComplexBall& other) const { return acb_overlaps(z_, other.z_) != 0; }
 
-  friend Complex operator-(const Complex& a) {
-    Complex result;
+  friend ComplexBall operator-(const ComplexBall& a) {
+    ComplexBall result;
     acb_neg(result.z_, a.z_);
     return result;
   }
-  friend Complex operator+(const Complex& a, const Complex& b) {
-    Complex result;
+  friend ComplexBall operator+(const ComplexBall& a, const ComplexBall& b) {
+    ComplexBall result;
     acb_add(result.z_, a.z_, b.z_, Precision::bits());
     return result;
   }
-  friend Complex operator-(const Complex& a, const Complex& b) {
-    Complex result;
+  friend ComplexBall operator-(const ComplexBall& a, const ComplexBall& b) {
+    ComplexBall result;
     acb_sub(result.z_, a.z_, b.z_, Precision::bits());
     return result;
   }
-  friend Complex operator*(const Complex& a, const Complex& b) {
-    Complex result;
+  friend ComplexBall operator*(const ComplexBall& a, const ComplexBall& b) {
+    ComplexBall result;
     acb_mul(result.z_, a.z_, b.z_, Precision::bits());
     return result;
   }
-  friend Complex operator/(const Complex& a, const Complex& b) {
-    Complex result;
+  friend ComplexBall operator/(const ComplexBall& a, const ComplexBall& b) {
+    ComplexBall result;
     acb_div(result.z_, a.z_, b.z_, Precision::bits());
     return result;
   }
-  friend Complex exp(const Complex& a) {
-    Complex result;
+  friend ComplexBall exp(const ComplexBall& a) {
+    ComplexBall result;
     acb_exp(result.z_, a.z_, Precision::bits());
     return result;
   }
-  friend Complex sqrt(const Complex& a) {
-    Complex result;
+  friend ComplexBall sqrt(const ComplexBall& a) {
+    ComplexBall result;
     acb_sqrt(result.z_, a.z_, Precision::bits());
     return result;
   }
-  friend void sin_cos(Complex& sine, Complex& cosine, const Complex& a) {
+  friend void sin_cos(ComplexBall& sine, ComplexBall& cosine, const ComplexBall& a) {
     acb_sin_cos(sine.z_, cosine.z_, a.z_, Precision::bits());
   }
-  friend Real abs(const Complex& a) {
-    Real result;
+  friend RealBall abs(const ComplexBall& a) {
+    RealBall result;
     acb_abs(result.get(), a.z_, Precision::bits());
     return result;
   }
-  friend Real arg(const Complex& a) {
-    Real result;
+  friend RealBall arg(const ComplexBall& a) {
+    RealBall result;
     acb_arg(result.get(), a.z_, Precision::bits());
     return result;
   }

@@ -8,10 +8,10 @@ namespace flexarm::exact_tf::ball {
 
 namespace {
 
-using Row = std::array<Complex, 4>;
+using Row = std::array<ComplexBall, 4>;
 
 /// det of the rows a, b, c, d by Laplace's expansion over the first two.
-Complex determinant_of_rows(const Row& a, const Row& b, const Row& c, const Row& d) {
+ComplexBall determinant_of_rows(const Row& a, const Row& b, const Row& c, const Row& d) {
   const auto minor = [](const Row& p, const Row& q, std::size_t i, std::size_t j) {
     return p[i] * q[j] - p[j] * q[i];
   };
@@ -23,25 +23,25 @@ Complex determinant_of_rows(const Row& a, const Row& b, const Row& c, const Row&
 }  // namespace
 
 DimensionlessArm::DimensionlessArm(const arm::Arm& arm) {
-  const Real length(arm.beam.length_m);
-  const Real density(arm.beam.linear_density_kg_per_m());
-  const Real rigidity(arm.beam.flexural_rigidity_N_m2());
-  const Real beam_mass = density * length;
-  const Real beam_inertia = beam_mass * length * length;
-  hub_inertia = Real(arm.hub.inertia_kg_m2) / beam_inertia;
-  payload_mass = Real(arm.payload.mass_kg) / beam_mass;
-  payload_inertia = Real(arm.payload.inertia_kg_m2) / beam_inertia;
+  const RealBall length(arm.beam.length_m);
+  const RealBall density(arm.beam.linear_density_kg_per_m());
+  const RealBall rigidity(arm.beam.flexural_rigidity_N_m2());
+  const RealBall beam_mass = density * length;
+  const RealBall beam_inertia = beam_mass * length * length;
+  hub_inertia = RealBall(arm.hub.inertia_kg_m2) / beam_inertia;
+  payload_mass = RealBall(arm.payload.mass_kg) / beam_mass;
+  payload_inertia = RealBall(arm.payload.inertia_kg_m2) / beam_inertia;
   omega_scale = sqrt(rigidity / density) / (length * length);
 }
 
-RootFunction::RootFunction(const DimensionlessArm& arm, LastRow last_row, const Real& position)
+RootFunction::RootFunction(const DimensionlessArm& arm, LastRow last_row, const RealBall& position)
     : arm_(arm), last_row_(last_row), position_(position) {}
 
-Complex RootFunction::determinant(const Complex& lambda) const {
-  const Complex i(Real(0), Real(1));
-  const Complex one(1);
+ComplexBall RootFunction::determinant(const ComplexBall& lambda) const {
+  const ComplexBall i(RealBall(0), RealBall(1));
+  const ComplexBall one(1);
   const Row factor = {i, -i, -one, one};  // of one derivative, over lambda
-  const auto values = [&](const Complex& along, const Complex& across) -> Row {
+  const auto values = [&](const ComplexBall& along, const ComplexBall& across) -> Row {
     return {exp(i * along), exp(i * across), exp(-along), exp(-across)};
   };
   const auto differentiated = [&](Row row, int order) {
@@ -50,23 +50,28 @@ Complex RootFunction::determinant(const Complex& lambda) const {
     }
     return row;
   };
-  const auto sum = [](const Row& a, const Complex& weight, const Row& b) {
+  const auto sum = [](const Row& a, const ComplexBall& weight, const Row& b) {
     Row row;
     for (std::size_t j = 0; j < 4; ++j) row[j] = a[j] + weight * b[j];
     return row;
   };
 
-  const Complex turned = exp(i * lambda);
-  const Complex decayed = exp(-lambda);
+  const ComplexBall turned = exp(i * lambda);
+  const ComplexBall decayed = exp(-lambda);
   const Row root = {one, turned, one, decayed};
   const Row tip = {turned, one, decayed, one};
   const Row root_slope = differentiated(root, 1);
-  const Complex lambda3 = lambda * lambda * lambda;
+  const ComplexBall lambda3 = lambda * lambda * lambda;
 
   // y''' + eta z y = 0 and y'' - J z y' = 0 at the tip.
-  const Row tip_shear = sum(differentiated(tip, 3), Complex(arm_.payload_mass) * lambda, tip);
-  const Row tip_moment =
-      sum(differentiated(tip, 2), -Complex(arm_.payload_inertia) * lambda3, differentiated(tip, 1));
+  // A tip that does not move leaves the payload's mass without force, and the row without a
+  // multiple of the last one that would only widen the balls.
+  const Row shear = differentiated(tip, 3);
+  const Row tip_shear = last_row_ == LastRow::tip_displacement
+                            ? shear
+                            : sum(shear, ComplexBall(arm_.payload_mass) * lambda, tip);
+  const Row tip_moment = sum(differentiated(tip, 2), -ComplexBall(arm_.payload_inertia) * lambda3,
+                             differentiated(tip, 1));
 
   const auto with_last = [&](const Row& last) {
     return determinant_of_rows(root, last, tip_shear, tip_moment);
@@ -74,7 +79,7 @@ Complex RootFunction::determinant(const Complex& lambda) const {
   switch (last_row_) {
     case LastRow::hub_torque:  // y'' + epsilon z y' = 0 at the root
       return with_last(
-          sum(differentiated(root, 2), Complex(arm_.hub_inertia) * lambda3, root_slope));
+          sum(differentiated(root, 2), ComplexBall(arm_.hub_inertia) * lambda3, root_slope));
     case LastRow::hub_angle:
       return with_last(root_slope);
     case LastRow::tip_displacement:
@@ -82,41 +87,44 @@ Complex RootFunction::determinant(const Complex& lambda) const {
     case LastRow::tip_deflection:  // y(1) - y'(0)
       return with_last(sum(tip, -lambda, root_slope));
     case LastRow::strain: {  // y''(X)
-      const Complex position(position_);
+      const ComplexBall position(position_);
       return with_last(differentiated(values(lambda * position, lambda * (one - position)), 2));
     }
   }
   return one;
 }
 
-Real RootFunction::on_axis(const Real& modulus, const Complex& direction) const {
-  const Complex lambda = Complex(modulus) * direction;
+RealBall RootFunction::on_axis(const RealBall& modulus, const ComplexBall& direction) const {
+  const ComplexBall lambda = ComplexBall(modulus) * direction;
   // lambda^(q-1) e^((1 - i) lambda)/i but for its modulus.
-  Complex phase = exp(Complex(Real(0), lambda.imag() - lambda.real()));
-  phase = phase * Complex(Real(0), Real(-1));
+  ComplexBall phase = exp(ComplexBall(RealBall(0), lambda.imag() - lambda.real()));
+  phase = phase * ComplexBall(RealBall(0), RealBall(-1));
   for (int k = 0; k < power_of_lambda(); ++k) phase = phase * direction;
   if (power_of_lambda() < 0) phase = phase / direction;
   return (determinant(lambda) * phase).real();
 }
 
-Real RootFunction::on_positive_axis(const Real& modulus) const {
-  return on_axis(modulus, Complex(1));
+RealBall RootFunction::on_positive_axis(const RealBall& modulus) const {
+  return on_axis(modulus, ComplexBall(1));
 }
 
-Real RootFunction::on_negative_axis(const Real& modulus) const {
-  return on_axis(modulus, Complex::unit_at_half_turns(Real(1) / Real(4)));
+RealBall RootFunction::on_negative_axis(const RealBall& modulus) const {
+  return on_axis(modulus, ComplexBall::unit_at_half_turns(RealBall(1) / RealBall(4)));
 }
 
-std::optional<long> RootFunction::count_within(const Real& modulus) const {
-  const auto change = argument_change(
-      [&](const Complex& at) { return determinant(at); },
-      [&](const Real& t) { return Complex(modulus) * Complex::unit_at_half_turns(t / Real(4)); });
+std::optional<long> RootFunction::count_within(const RealBall& modulus) const {
+  const auto change = argument_change([&](const ComplexBall& at) { return determinant(at); },
+                                      [&](const RealBall& t) {
+                                        return ComplexBall(modulus) *
+                                               ComplexBall::unit_at_half_turns(t / RealBall(4));
+                                      });
   if (!change) return std::nullopt;
-  const Complex end = Complex(modulus) * Complex::unit_at_half_turns(Real(1) / Real(4));
-  const Real rest =
-      end.imag() - end.real() + modulus + Real(power_of_lambda()) * Real::pi() / Real(4);
+  const ComplexBall end =
+      ComplexBall(modulus) * ComplexBall::unit_at_half_turns(RealBall(1) / RealBall(4));
+  const RealBall rest = end.imag() - end.real() + modulus +
+                        RealBall(power_of_lambda()) * RealBall::pi() / RealBall(4);
   // N(conj z) = conj N(z): the lower half of the circle doubles the change.
-  const auto zeros = ((*change + rest) / Real::pi()).unique_integer();
+  const auto zeros = ((*change + rest) / RealBall::pi()).unique_integer();
   if (!zeros) return std::nullopt;
   return *zeros - order_at_zero();
 }
@@ -149,18 +157,19 @@ int RootFunction::order_at_zero() const {
   return 0;
 }
 
-std::optional<EigenvalueCount> wittrick_williams(const DimensionlessArm& arm, const Real& lambda) {
+std::optional<EigenvalueCount> wittrick_williams(const DimensionlessArm& arm,
+                                                 const RealBall& lambda) {
   // Hyperbolic functions times 2 e^(-lambda).
-  const Real decay = exp(-lambda);
-  const Real sinh_scaled = Real(1) - decay * decay;
-  const Real cosh_scaled = Real(1) + decay * decay;
-  const Real scale = decay + decay;
-  Real sine;
-  Real cosine;
+  const RealBall decay = exp(-lambda);
+  const RealBall sinh_scaled = RealBall(1) - decay * decay;
+  const RealBall cosh_scaled = RealBall(1) + decay * decay;
+  const RealBall scale = decay + decay;
+  RealBall sine;
+  RealBall cosine;
   sin_cos(sine, cosine, lambda);
 
-  const Real divisor = scale - cosh_scaled * cosine;  // 1 - cosh lambda cos lambda
-  const auto half_turns = floor(lambda / Real::pi()).unique_integer();
+  const RealBall divisor = scale - cosh_scaled * cosine;  // 1 - cosh lambda cos lambda
+  const auto half_turns = floor(lambda / RealBall::pi()).unique_integer();
   if (!half_turns || divisor.sign() == 0) return std::nullopt;
   // cosh lambda cos lambda = 1 once in each interval (i pi, (i + 1) pi), i >= 1, and not below pi;
   // 1 - cosh lambda cos lambda has the sign (-1)^(i + 1) before that root and (-1)^i after it,
@@ -169,29 +178,29 @@ std::optional<EigenvalueCount> wittrick_williams(const DimensionlessArm& arm, co
   const long clamped_clamped =
       *half_turns == 0 ? 0 : (divisor.sign() == sign_before ? *half_turns - 1 : *half_turns);
 
-  const Real lambda2 = lambda * lambda;
-  const Real lambda3 = lambda2 * lambda;
-  const Real lambda4 = lambda2 * lambda2;
+  const RealBall lambda2 = lambda * lambda;
+  const RealBall lambda3 = lambda2 * lambda;
+  const RealBall lambda4 = lambda2 * lambda2;
   // Forces at the ends for unit displacement or unit slope at one of them.
-  const Real shear_here = lambda3 * (cosine * sinh_scaled + sine * cosh_scaled) / divisor;
-  const Real moment_here = lambda * (sine * cosh_scaled - cosine * sinh_scaled) / divisor;
-  const Real moment_of_displacement_here = lambda2 * sine * sinh_scaled / divisor;
-  const Real moment_of_displacement_across = lambda2 * (cosh_scaled - cosine * scale) / divisor;
-  const Real moment_across = lambda * (sinh_scaled - sine * scale) / divisor;
+  const RealBall shear_here = lambda3 * (cosine * sinh_scaled + sine * cosh_scaled) / divisor;
+  const RealBall moment_here = lambda * (sine * cosh_scaled - cosine * sinh_scaled) / divisor;
+  const RealBall moment_of_displacement_here = lambda2 * sine * sinh_scaled / divisor;
+  const RealBall moment_of_displacement_across = lambda2 * (cosh_scaled - cosine * scale) / divisor;
+  const RealBall moment_across = lambda * (sinh_scaled - sine * scale) / divisor;
 
   // Pivots in the order tip displacement, tip slope, root slope.
-  const Real tip_tip = shear_here - arm.payload_mass * lambda4;
-  const Real tip_turn = -moment_of_displacement_here;
-  const Real tip_root = -moment_of_displacement_across;
-  const Real turn_turn = moment_here - arm.payload_inertia * lambda4;
-  const Real turn_root = moment_across;
-  const Real root_root = moment_here - arm.hub_inertia * lambda4;
+  const RealBall tip_tip = shear_here - arm.payload_mass * lambda4;
+  const RealBall tip_turn = -moment_of_displacement_here;
+  const RealBall tip_root = -moment_of_displacement_across;
+  const RealBall turn_turn = moment_here - arm.payload_inertia * lambda4;
+  const RealBall turn_root = moment_across;
+  const RealBall root_root = moment_here - arm.hub_inertia * lambda4;
 
   if (tip_tip.sign() == 0) return std::nullopt;
-  const Real second_pivot = turn_turn - tip_turn * tip_turn / tip_tip;
+  const RealBall second_pivot = turn_turn - tip_turn * tip_turn / tip_tip;
   if (second_pivot.sign() == 0) return std::nullopt;
-  const Real coupling = turn_root - tip_turn * tip_root / tip_tip;
-  const Real third_pivot =
+  const RealBall coupling = turn_root - tip_turn * tip_root / tip_tip;
+  const RealBall third_pivot =
       root_root - tip_root * tip_root / tip_tip - coupling * coupling / second_pivot;
   if (third_pivot.sign() == 0) return std::nullopt;
 

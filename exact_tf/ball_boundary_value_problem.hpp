@@ -13,10 +13,10 @@ namespace flexarm::exact_tf::ball {
 /// The arm without dimensions, formed in balls from its doubles, which count as exact:
 /// lambda^4 = m l^4 omega^2/(EI), lengths in l, displacements in l.
 struct DimensionlessArm {
-  Real hub_inertia;      ///< Ih/(m l^3)
-  Real payload_mass;     ///< Mp/(m l)
-  Real payload_inertia;  ///< Ip/(m l^3)
-  Real omega_scale;      ///< sqrt(EI/(m l^4)) [rad/s]
+  RealBall hub_inertia;      ///< Ih/(m l^3)
+  RealBall payload_mass;     ///< Mp/(m l)
+  RealBall payload_inertia;  ///< Ip/(m l^3)
+  RealBall omega_scale;      ///< sqrt(EI/(m l^4)) [rad/s]
 
   explicit DimensionlessArm(const arm::Arm& arm);
 };
@@ -37,21 +37,22 @@ enum class LastRow { hub_torque, hub_angle, tip_displacement, tip_deflection, st
 class RootFunction {
  public:
   /// `position` is X/l, used by LastRow::strain alone.
-  RootFunction(const DimensionlessArm& arm, LastRow last_row, const Real& position = Real(0));
+  RootFunction(const DimensionlessArm& arm, LastRow last_row,
+               const RealBall& position = RealBall(0));
 
-  Complex determinant(const Complex& lambda) const;
+  ComplexBall determinant(const ComplexBall& lambda) const;
 
   /// N(lambda^4) but for a positive factor, for lambda = modulus (z > 0).
-  Real on_positive_axis(const Real& modulus) const;
+  RealBall on_positive_axis(const RealBall& modulus) const;
   /// N(lambda^4) but for a positive factor, for lambda = modulus e^(i pi/4) (z < 0).
-  Real on_negative_axis(const Real& modulus) const;
+  RealBall on_negative_axis(const RealBall& modulus) const;
 
   /// Zeros of N with 0 < |z| < modulus^4, conjugates counted, by the argument principle; empty
   /// where the working precision leaves the number open.
-  std::optional<long> count_within(const Real& modulus) const;
+  std::optional<long> count_within(const RealBall& modulus) const;
 
  private:
-  Real on_axis(const Real& modulus, const Complex& direction) const;
+  RealBall on_axis(const RealBall& modulus, const ComplexBall& direction) const;
   /// q - 1 above.
   int power_of_lambda() const;
   /// Order of N's zero at z = 0: 1 where the rigid arm's y = x gives no output.
@@ -59,7 +60,7 @@ class RootFunction {
 
   DimensionlessArm arm_;
   LastRow last_row_;
-  Real position_;
+  RealBall position_;
 };
 
 /// Numbers of eigenvalues below lambda; the poles' count includes the rigid-body mode.
@@ -71,6 +72,7 @@ struct EigenvalueCount {
 /// Wittrick and Williams's count (Q. J. Mech. Appl. Math. 24, 1971) at the real `lambda` > 0, from
 /// the beam's dynamic stiffness for slope and displacement at its ends: clamped-clamped eigenvalues
 /// below lambda plus negative pivots. Empty where the working precision leaves a sign open.
-std::optional<EigenvalueCount> wittrick_williams(const DimensionlessArm& arm, const Real& lambda);
+std::optional<EigenvalueCount> wittrick_williams(const DimensionlessArm& arm,
+                                                 const RealBall& lambda);
 
 }  // namespace flexarm::exact_tf::ball

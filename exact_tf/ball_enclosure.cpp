@@ -16,20 +16,21 @@ const double kRelativeDifference = std::ldexp(1.0, -40);
 constexpr int kMaxHalvings = 80;
 
 struct ArgumentChange {
-  const std::function<Complex(const Complex&)>& value;
-  const std::function<Complex(const Real&)>& path;
+  const std::function<ComplexBall(const ComplexBall&)>& value;
+  const std::function<ComplexBall(const RealBall&)>& path;
 
-  std::optional<Real> between(const Real& from, const Complex& value_from, const Real& to,
-                              const Complex& value_to, int halvings_left) const {
-    const Complex image = value(path(Real::hull(from, to)));
+  std::optional<RealBall> between(const RealBall& from, const ComplexBall& value_from,
+                                  const RealBall& to, const ComplexBall& value_to,
+                                  int halvings_left) const {
+    const ComplexBall image = value(path(RealBall::hull(from, to)));
     if (!image.contains_zero()) {
       // The image is convex and excludes zero, so the change is less than half a turn.
-      const Complex ratio = value_to / value_from;
+      const ComplexBall ratio = value_to / value_from;
       if (ratio.real().sign() > 0) return arg(ratio);
     }
     if (halvings_left == 0) return std::nullopt;
-    const Real middle = ((from + to) / Real(2)).midpoint();
-    const Complex value_middle = value(path(middle));
+    const RealBall middle = ((from + to) / RealBall(2)).midpoint();
+    const ComplexBall value_middle = value(path(middle));
     const auto first = between(from, value_from, middle, value_middle, halvings_left - 1);
     if (!first) return std::nullopt;
     const auto second = between(middle, value_middle, to, value_to, halvings_left - 1);
@@ -40,51 +41,52 @@ struct ArgumentChange {
 
 }  // namespace
 
-std::optional<Real> enclose_sign_change(const std::function<Real(const Real&)>& value,
-                                        const Real& start, double reach) {
-  Real at = start.midpoint();
-  const Real difference = (at * Real(kRelativeDifference)).midpoint();
+std::optional<RealBall> enclose_sign_change(const std::function<RealBall(const RealBall&)>& value,
+                                            const RealBall& start, double reach) {
+  RealBall at = start.midpoint();
+  const RealBall difference = (at * RealBall(kRelativeDifference)).midpoint();
   for (int step = 0; step < kNewtonSteps; ++step) {
-    const Real here = value(at).midpoint();
-    const Real slope = (value(at + difference) - here) / difference;
+    const RealBall here = value(at).midpoint();
+    const RealBall slope = (value(at + difference) - here) / difference;
     at = (at - here / slope.midpoint()).midpoint();
     if (at.sign() <= 0) return std::nullopt;
-    const Real low = at - Real(reach);
-    const Real high = at + Real(reach);
-    if (value(low).sign() * value(high).sign() < 0) return Real::hull(low, high);
+    const RealBall low = at - RealBall(reach);
+    const RealBall high = at + RealBall(reach);
+    if (value(low).sign() * value(high).sign() < 0) return RealBall::hull(low, high);
   }
   return std::nullopt;
 }
 
-std::optional<Complex> enclose_complex_zero(const std::function<Complex(const Complex&)>& value,
-                                            const Complex& start, double reach) {
-  Complex at = start.midpoint();
-  const Complex difference(abs(at * Complex(Real(kRelativeDifference))).midpoint());
-  const Real near(reach / 16.0);
+std::optional<ComplexBall> enclose_complex_zero(
+    const std::function<ComplexBall(const ComplexBall&)>& value, const ComplexBall& start,
+    double reach) {
+  ComplexBall at = start.midpoint();
+  const ComplexBall difference(abs(at * ComplexBall(RealBall(kRelativeDifference))).midpoint());
+  const RealBall near(reach / 16.0);
   for (int step = 0; step < kNewtonSteps; ++step) {
-    const Complex here = value(at).midpoint();
-    const Complex slope = (value(at + difference) - here) / difference;
-    const Complex next = (at - here / slope.midpoint()).midpoint();
+    const ComplexBall here = value(at).midpoint();
+    const ComplexBall slope = (value(at + difference) - here) / difference;
+    const ComplexBall next = (at - here / slope.midpoint()).midpoint();
     const bool arrived = abs(next - at).is_below(near);
     at = next;
     if (!arrived) continue;
-    const auto circle = [&](const Real& t) {
-      return at + Complex(Real(reach)) * Complex::unit_at_half_turns(t + t);
+    const auto circle = [&](const RealBall& t) {
+      return at + ComplexBall(RealBall(reach)) * ComplexBall::unit_at_half_turns(t + t);
     };
     const auto change = argument_change(value, circle);
     if (!change) return std::nullopt;
-    const auto winding_number = (*change / (Real(2) * Real::pi())).unique_integer();
+    const auto winding_number = (*change / (RealBall(2) * RealBall::pi())).unique_integer();
     if (winding_number != 1) return std::nullopt;
-    const Real half_width = Real::hull(Real(-reach), Real(reach));
-    return at + Complex(half_width, half_width);
+    const RealBall half_width = RealBall::hull(RealBall(-reach), RealBall(reach));
+    return at + ComplexBall(half_width, half_width);
   }
   return std::nullopt;
 }
 
-std::optional<Real> argument_change(const std::function<Complex(const Complex&)>& value,
-                                    const std::function<Complex(const Real&)>& path) {
-  const Real from(0);
-  const Real to(1);
+std::optional<RealBall> argument_change(const std::function<ComplexBall(const ComplexBall&)>& value,
+                                        const std::function<ComplexBall(const RealBall&)>& path) {
+  const RealBall from(0);
+  const RealBall to(1);
   return ArgumentChange{value, path}.between(from, value(path(from)), to, value(path(to)),
                                              kMaxHalvings);
 }

@@ -12,17 +12,18 @@ namespace flexarm::exact_tf::ball {
 /// An interval of half-width `reach` about the limit of Newton's iteration from `start` > 0, at
 /// whose ends `value` has opposite signs for certain; empty where the iteration or the signs fail
 /// at the working precision.
-std::optional<Real> enclose_sign_change(const std::function<Real(const Real&)>& value,
-                                        const Real& start, double reach);
+std::optional<RealBall> enclose_sign_change(const std::function<RealBall(const RealBall&)>& value,
+                                            const RealBall& start, double reach);
 
 /// A square of half-width `reach` about the limit of Newton's iteration from `start`, in whose
 /// inscribed circle the analytic `value` has exactly one zero.
-std::optional<Complex> enclose_complex_zero(const std::function<Complex(const Complex&)>& value,
-                                            const Complex& start, double reach);
+std::optional<ComplexBall> enclose_complex_zero(
+    const std::function<ComplexBall(const ComplexBall&)>& value, const ComplexBall& start,
+    double reach);
 
 /// Change of arg value(path(t)) as t goes from 0 to 1, from arcs whose images in balls exclude
 /// zero; empty where the path runs too close to a zero for the working precision.
-std::optional<Real> argument_change(const std::function<Complex(const Complex&)>& value,
-                                    const std::function<Complex(const Real&)>& path);
+std::optional<RealBall> argument_change(const std::function<ComplexBall(const ComplexBall&)>& value,
+                                        const std::function<ComplexBall(const RealBall&)>& path);
 
 }  // namespace flexarm::exact_tf::ball

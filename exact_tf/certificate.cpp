@@ -1,8 +1,8 @@
 #include "exact_tf/certificate.hpp"
 
-#include "arm/input_error.hpp"
 #include "exact_tf/ball_boundary_value_problem.hpp"
 #include "exact_tf/ball_enclosure.hpp"
+#include "exact_tf/sensor_zeros.hpp"
 
 #include <fmt/format.h>
 
@@ -16,11 +16,11 @@ namespace flexarm::exact_tf {
 
 namespace {
 
-using ball::Complex;
+using ball::ComplexBall;
 using ball::DimensionlessArm;
 using ball::LastRow;
 using ball::Precision;
-using ball::Real;
+using ball::RealBall;
 using ball::RootFunction;
 
 /// Half-width of the enclosures in ulp of |lambda|.
@@ -31,8 +31,8 @@ enum class Locus { positive_axis, negative_axis, inside };
 
 struct Enclosed {
   Locus locus;
-  Real modulus;
-  Complex lambda;
+  RealBall modulus;
+  ComplexBall lambda;
 };
 
 double ulp_of(double modulus) {
@@ -64,7 +64,7 @@ class Problem {
 
   RootFunction function() const {
     return RootFunction(DimensionlessArm(arm_), last_row_,
-                        Real(position_m_) / Real(arm_.beam.length_m));
+                        RealBall(position_m_) / RealBall(arm_.beam.length_m));
   }
 
  private:
@@ -73,7 +73,7 @@ class Problem {
   double position_m_;
 };
 
-using GivenLambda = std::function<Complex()>;
+using GivenLambda = std::function<ComplexBall()>;
 
 /// Encloses the root near `given` and says how far from it that is.
 std::optional<Enclosed> enclose(const Problem& problem, Locus locus, const GivenLambda& given,
@@ -81,13 +81,13 @@ std::optional<Enclosed> enclose(const Problem& problem, Locus locus, const Given
                                 RootEnclosure& report) {
   const auto attempt = [&]() -> std::optional<Enclosed> {
     const RootFunction function = problem.function();
-    const Complex start = given();
-    const Real start_modulus = abs(start);
+    const ComplexBall start = given();
+    const RealBall start_modulus = abs(start);
     const double reach = kReachUlp * ulp_of(start_modulus.nearest_double());
     Enclosed result{locus, {}, {}};
     if (locus == Locus::inside) {
       const auto lambda = ball::enclose_complex_zero(
-          [&](const Complex& at) { return function.determinant(at); }, start, reach);
+          [&](const ComplexBall& at) { return function.determinant(at); }, start, reach);
       // Off both axes, so that the zero and its conjugate in z are two.
       if (!lambda || lambda->imag().sign() <= 0 || (lambda->real() - lambda->imag()).sign() <= 0) {
         return std::nullopt;
@@ -97,14 +97,15 @@ std::optional<Enclosed> enclose(const Problem& problem, Locus locus, const Given
     } else {
       const bool positive = locus == Locus::positive_axis;
       const auto modulus = ball::enclose_sign_change(
-          [&](const Real& at) {
+          [&](const RealBall& at) {
             return positive ? function.on_positive_axis(at) : function.on_negative_axis(at);
           },
           start_modulus, reach);
       if (!modulus) return std::nullopt;
       result.modulus = *modulus;
-      result.lambda = positive ? Complex(*modulus)
-                               : Complex(*modulus) * Complex::unit_at_half_turns(Real(1) / Real(4));
+      result.lambda = positive ? ComplexBall(*modulus)
+                               : ComplexBall(*modulus) *
+                                     ComplexBall::unit_at_half_turns(RealBall(1) / RealBall(4));
     }
     return result;
   };
@@ -115,7 +116,7 @@ std::optional<Enclosed> enclose(const Problem& problem, Locus locus, const Given
   }
   const Precision scope(options.precision_bits);
   const std::complex<double> midpoint = enclosed->lambda.nearest_double();
-  const Complex exact_midpoint(Real(midpoint.real()), Real(midpoint.imag()));
+  const ComplexBall exact_midpoint(RealBall(midpoint.real()), RealBall(midpoint.imag()));
   report.enclosed = true;
   report.lambda = midpoint;
   report.radius = abs(enclosed->lambda - exact_midpoint).upper_bound();
@@ -150,10 +151,10 @@ std::string fault_of(const std::vector<std::optional<Enclosed>>& enclosed,
 }
 
 /// An exact modulus just above every enclosure.
-Real beyond(const std::vector<std::optional<Enclosed>>& enclosed) {
-  Real largest;
+RealBall beyond(const std::vector<std::optional<Enclosed>>& enclosed) {
+  RealBall largest;
   for (const auto& root : enclosed) {
-    const Real end = root->modulus.upper_end();
+    const RealBall end = root->modulus.upper_end();
     if (largest.is_below(end)) largest = end;
   }
   return largest;
@@ -170,7 +171,7 @@ long weight_of(const std::vector<std::optional<Enclosed>>& enclosed) {
 /// at the precision set.
 Certificate certify(const Problem& problem, const std::vector<Locus>& loci,
                     const std::vector<GivenLambda>& given, const CertificateOptions& options,
-                    const std::function<std::optional<long>(const Real&)>& count) {
+                    const std::function<std::optional<long>(const RealBall&)>& count) {
   Certificate certificate;
   certificate.given = static_cast<int>(given.size());
   certificate.roots.resize(given.size());
@@ -211,9 +212,9 @@ Certificate certify_self_adjoint(const arm::Arm& arm, LastRow last_row,
   std::vector<GivenLambda> given;
   given.reserve(lambdas.size());
   for (const double lambda : lambdas) {
-    given.push_back([lambda] { return Complex(Real(lambda)); });
+    given.push_back([lambda] { return ComplexBall(RealBall(lambda)); });
   }
-  const auto count = [&](const Real& beyond) -> std::optional<long> {
+  const auto count = [&](const RealBall& beyond) -> std::optional<long> {
     const auto found = ball::wittrick_williams(DimensionlessArm(arm), beyond);
     if (!found) return std::nullopt;
     constexpr long kRigidBodyModes = 1;
@@ -258,12 +259,7 @@ Certificate certify_zeros(const arm::Arm& arm, const arm::Sensor& sensor,
                           const CertificateOptions& options) {
   const Problem problem(arm, last_row_of(sensor), sensor.position_m);
   arm::require_valid(sensor, arm);
-  if (sensor.kind == arm::SensorKind::strain && sensor.position_m == arm.beam.length_m &&
-      arm.payload.inertia_kg_m2 == 0.0) {
-    throw arm::InputError(fmt::format(
-        "sensor {}: is zero at every s on a tip without payload inertia, so it has no zeros",
-        to_string(sensor)));
-  }
+  require_not_identically_zero(sensor, arm);
   std::vector<Locus> loci;
   std::vector<GivenLambda> given;
   for (const std::complex<double> s : s_rad_per_s) {
@@ -272,11 +268,13 @@ Certificate certify_zeros(const arm::Arm& arm, const arm::Sensor& sensor,
                                      : Locus::inside);
     // s^2 = -lambda^4 omega_scale^2, on the branch 0 <= arg lambda <= pi/4.
     given.push_back([&arm, s] {
-      return sqrt(Complex(Real(s.imag()), Real(s.real())) /
-                  Complex(DimensionlessArm(arm).omega_scale));
+      return sqrt(ComplexBall(RealBall(s.imag()), RealBall(s.real())) /
+                  ComplexBall(DimensionlessArm(arm).omega_scale));
     });
   }
-  const auto count = [&](const Real& beyond) { return problem.function().count_within(beyond); };
+  const auto count = [&](const RealBall& beyond) {
+    return problem.function().count_within(beyond);
+  };
   Certificate certificate = certify(problem, loci, given, options, count);
   certificate.method =
       "change of sign, winding number about each complex zero, argument principle on |lambda| = "

@@ -3,6 +3,7 @@
 #include "exact_tf/complex_frequency.hpp"
 #include "exact_tf/mode_shape.hpp"
 #include "exact_tf/root_search.hpp"
+#include "exact_tf/sensor_zeros.hpp"
 
 #include <cmath>
 #include <stdexcept>
@@ -62,10 +63,7 @@ arm::PoleSet ExactArm::poles(int count) const {
 }
 
 arm::ZeroSet ExactArm::zeros(const arm::Sensor& sensor, int count) const {
-  require_valid(sensor, arm_);
-  if (!is_collocated(sensor)) {
-    throw std::logic_error("exact_tf: zeros of " + to_string(sensor) + " are not available");
-  }
+  if (!is_collocated(sensor)) return find_sensor_zeros(arm_, sensor, count);
   auto roots = find_hub_zeros(ratios_, count);
   const Real scale = frequency_scale_rad_per_s(arm_);
   arm::ZeroSet set;

@@ -68,6 +68,13 @@ FemArm::FemArm(arm::Arm arm, Options options)
     throw arm::out_of_range("degree", options_.degree, "",
                             fmt::format("{} to {}", HermiteElement::kLowestDegree, kHighestDegree));
   }
+  const auto require_fraction = [](const char* key, double value) {
+    if (!(value > 0.0 && value < 1.0)) {
+      throw arm::out_of_range(key, value, "", "above 0 and below 1");
+    }
+  };
+  require_fraction("eigen_tolerance", options_.eigen_tolerance);
+  require_fraction("zero_agreement", options_.zero_agreement);
   if (options_.checking_degrees < 1 || options_.checking_degrees > kMostCheckingDegrees) {
     throw arm::out_of_range("checking_degrees", options_.checking_degrees, "",
                             fmt::format("1 to {}", kMostCheckingDegrees));

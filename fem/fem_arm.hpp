@@ -30,7 +30,7 @@ class FemArm {
   static constexpr int kMostCheckingDegrees = 4;
 
   struct Options {
-    MeshOptions mesh;
+    MeshOptions mesh = {};
     int degree = 15;  ///< of the shape functions, 3 to 25
     /// Iterative eigensolvers stop at |residual| <= eigen_tolerance |eigenvalue|.
     double eigen_tolerance = 1e-12;

@@ -42,7 +42,9 @@ HermiteElement::HermiteElement(int degree) : degree_(degree) {
       Eigen::VectorXd::LinSpaced(degree + 1, 0.0, degree).unaryExpr([](double k) {
         return 2.0 / (2.0 * k + 1.0);
       });
-  unit_mass_ = unit_coefficients_ * norms.asDiagonal() * unit_coefficients_.transpose();
+  const Eigen::MatrixXd product =
+      unit_coefficients_ * norms.asDiagonal() * unit_coefficients_.transpose();
+  unit_mass_ = (product + product.transpose()) / 2.0;  // symmetric to the last bit
 }
 
 Eigen::VectorXd HermiteElement::scale(double h) const {
@@ -57,7 +59,7 @@ Eigen::MatrixXd HermiteElement::legendre_coefficients(double h) const {
 
 Eigen::MatrixXd HermiteElement::mass(double h) const {
   const Eigen::VectorXd s = scale(h);
-  return (h / 2.0) * (s.asDiagonal() * unit_mass_ * s.asDiagonal());
+  return (h / 2.0) * (s * s.transpose()).cwiseProduct(unit_mass_);
 }
 
 Eigen::MatrixXd HermiteElement::stiffness(double h) const {

@@ -15,7 +15,7 @@ struct MeshOptions {
   double grading_ratio = 1.5;
   /// Ends of the elements, root and tip included, ascending from 0 to the beam's length; when not
   /// empty it replaces the three values above.
-  std::vector<double> nodes_m;
+  std::vector<double> nodes_m = {};
 };
 
 /// The shortest element allowed, as a part of the beam's length.

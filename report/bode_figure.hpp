@@ -26,7 +26,8 @@ struct BodePlot {
   std::string unit;  ///< of the response: "rad/(N m)"
   std::vector<double> frequency_Hz;
   std::vector<BodeCurve> curves;  ///< the first is the reference
-  /// One a frequency, drawn beside the differences: 1 - |sum G|^2/(n sum |G|^2) of the n curves.
+  /// One a frequency: 1 - |sum G|^2/(n sum |G|^2) of the n curves; its root, an amplitude as they
+  /// are, is drawn beside the differences.
   std::vector<double> one_minus_coherence = {};
   Magnitude magnitude = Magnitude::logarithmic;
   Phase phase = Phase::wrapped;

@@ -164,6 +164,7 @@ Json compared_json(const ComparedArm& compared) {
       {"roots", roots_json(comparison)},
       {"counts", counts_json(comparison)},
       {"refinements", refinements_json(comparison)},
+      {"basis_notes", comparison.basis_notes},
       {"shapes", shapes_json(comparison)},
       {"responses", responses_json(comparison)},
       {"measured", measured_json(compared.measured)},

@@ -67,11 +67,14 @@ struct SeriesSummary {
     any = &curve;
   }
 
-  Cell rate_text() const {
-    if (!(lowest_rate <= highest_rate)) return std::monostate{};
-    const char* unit =
-        any->decay == compare::Decay::algebraic ? "" : " decades a degree of freedom";
-    return fmt::format("{:.2f} to {:.2f}{}", lowest_rate, highest_rate, unit);
+  /// "3.96 to 4.00" when the series decays like that, else missing.
+  Cell rate_text(compare::Decay decay) const {
+    if (any->decay != decay || !(lowest_rate <= highest_rate)) return std::monostate{};
+    return fmt::format("{:.2f} to {:.2f}", lowest_rate, highest_rate);
+  }
+
+  Cell smallest_error_cell() const {
+    return std::isfinite(smallest_error) ? Cell(smallest_error) : Cell(std::monostate{});
   }
 };
 
@@ -154,12 +157,14 @@ std::vector<Table> convergence_tables(const compare::Comparison& comparison) {
     Table table{"Convergence: " + title_of(family),
                 {{"refined"},
                  {"setting"},
-                 {"order of convergence"},
-                 error_column("smallest error"),
-                 {"rounding from", "dof"},
-                 {"accurate from", "dof"}}};
+                 {"order"},
+                 {"decades", "1/dof"},
+                 error_column("smallest"),
+                 {"rounding", "dof"},
+                 {"accurate", "dof"}}};
     for (const auto& [name, summary] : series) {
-      table.add_row({name, summary.any->setting_name, summary.rate_text(), summary.smallest_error,
+      table.add_row({name, summary.any->setting_name, summary.rate_text(compare::Decay::algebraic),
+                     summary.rate_text(compare::Decay::exponential), summary.smallest_error_cell(),
                      count_or_missing(summary.rounding_from), count_or_missing(summary.cheapest)});
     }
     tables.push_back(std::move(table));

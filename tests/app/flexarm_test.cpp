@@ -62,7 +62,7 @@ TEST_F(Flexarm, VersionNamesBuildAndLibraries) {
   EXPECT_EQ(version.status, 0);
   EXPECT_THAT(version.output, StartsWith("flexarm " FLEXARM_VERSION "\n"));
   EXPECT_THAT(version.output, HasSubstr("\nbuild: "));
-  EXPECT_THAT(version.output, HasSubstr("\nlibraries: CLI11 "));
+  EXPECT_THAT(version.output, HasSubstr("\nnumerics: Eigen "));
 }
 
 TEST_F(Flexarm, AMistypedCommandLineGetsOneLineAndStatusTwo) {

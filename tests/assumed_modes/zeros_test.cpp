@@ -1,6 +1,7 @@
 #include "arms.hpp"
 #include "assumed_modes/assumed_modes_arm.hpp"
 
+#include <boost/math/constants/constants.hpp>
 #include <gtest/gtest.h>
 
 #include <array>
@@ -72,6 +73,37 @@ TEST(Zeros, SpuriousOnesAreReportedWithWhatGaveThemAway) {
   EXPECT_LE(zeros.summary.largest_residual, 1e-9);
   EXPECT_TRUE(zeros.summary.converged);
   EXPECT_EQ(zeros.count.found, 6);
+}
+
+/// The k-th tip zero of an arm without payload inertia: s = 2 beta^2, tan beta = -tanh beta (half
+/// the symmetric free-free beam's), by Newton from its asymptote.
+double exact_tip_zero(int k) {
+  const double asymptote = (k - 0.25) * boost::math::constants::pi<double>();
+  double beta = asymptote;
+  for (int step = 0; step < 5; ++step) {
+    const double slope = std::pow(std::cos(beta), -2) + std::pow(std::cosh(beta), -2);
+    beta -= (std::tan(beta) + std::tanh(beta)) / slope;
+  }
+  return 2 * beta * beta;
+}
+
+TEST(Zeros, NoFalseOneIsTrustedAndNoneIsSkippedInAnyBasis) {
+  // A trusted zero may be off by the slow bases' own error, far below the gap to the next, 2/k.
+  constexpr double kOwnError = 0.03;
+  const arm::Arm arm = testing_arms::unit_arm(0.1, 0.0, 0.0);
+  int trusted = 0;
+  for (const Basis basis : kAllBases) {
+    for (int functions = 6; functions <= 48; functions += 3) {
+      const auto zeros =
+          AssumedModesArm(arm, {basis, functions}).zeros(kTipAcceleration, functions).s_rad_per_s;
+      for (std::size_t i = 0; i < zeros.size(); ++i) {
+        EXPECT_LE(std::abs(zeros[i] / exact_tip_zero(static_cast<int>(i) + 1) - 1.0), kOwnError)
+            << to_string(basis) << ' ' << functions << " zero " << i + 1;
+      }
+      trusted += static_cast<int>(zeros.size());
+    }
+  }
+  EXPECT_GE(trusted, 150);
 }
 
 TEST(Zeros, ALooserBoundTrustsMore) {

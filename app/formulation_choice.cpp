@@ -1,0 +1,64 @@
+#include "app/formulation_choice.hpp"
+
+#include "arm/input_error.hpp"
+#include "arm/nearest_name.hpp"
+#include "response/settings.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+
+namespace flexarm::app {
+
+namespace {
+
+template <class T>
+void refuse(const char* option, const std::optional<T>& value, const std::string& formulation) {
+  if (value) {
+    throw arm::InputError(fmt::format("{}: {} has no such setting", option, formulation));
+  }
+}
+
+}  // namespace
+
+ChosenFormulation FormulationChoice::make(const arm::Arm& arm, int roots) const {
+  if (name == exact_tf::ExactArm::kName) {
+    refuse("--elements", elements, name);
+    refuse("--degree", degree, name);
+    refuse("--basis", basis, name);
+    refuse("--functions", functions, name);
+    return {name, "", exact_tf::ExactArm(arm)};
+  }
+  if (name == fem::FemArm::kName) {
+    refuse("--basis", basis, name);
+    refuse("--functions", functions, name);
+    auto options = response::fem_settings(roots);
+    options.mesh.elements = elements.value_or(options.mesh.elements);
+    options.degree = degree.value_or(options.degree);
+    return {name, response::describe(options), fem::FemArm(arm, options)};
+  }
+  if (name == assumed_modes::AssumedModesArm::kName) {
+    refuse("--elements", elements, name);
+    refuse("--degree", degree, name);
+    auto options = response::assumed_modes_settings(roots);
+    if (basis) options.basis = assumed_modes::parse_basis(*basis);
+    options.functions = functions.value_or(options.functions);
+    return {name, response::describe(options), assumed_modes::AssumedModesArm(arm, options)};
+  }
+  const std::array<std::string, 3> names = {"exact_tf", "fem", "assumed_modes"};
+  throw arm::InputError(
+      fmt::format("--formulation {}: unknown{}; allowed: exact_tf, fem, assumed_modes", name,
+                  arm::did_you_mean(name, names)));
+}
+
+void add_formulation_choice(CLI::App& parser, FormulationChoice& choice) {
+  parser.add_option("--formulation", choice.name, "exact_tf, fem or assumed_modes")
+      ->capture_default_str();
+  parser.add_option("--elements", choice.elements, "fem: number of elements");
+  parser.add_option("--degree", choice.degree, "fem: degree of the shape functions");
+  parser.add_option("--basis", choice.basis,
+                    "assumed_modes: legendre, clamped_free, pinned_free, clamped_with_payload");
+  parser.add_option("--functions", choice.functions, "assumed_modes: number of functions");
+}
+
+}  // namespace flexarm::app

@@ -1,0 +1,169 @@
+#include "app/arm_choice.hpp"
+#include "app/command.hpp"
+#include "app/formulation_choice.hpp"
+#include "app/standard_output.hpp"
+#include "arm/atomic_file.hpp"
+#include "arm/input_error.hpp"
+#include "compare/shapes.hpp"
+#include "exact_tf/certificate.hpp"
+#include "report/arm_json.hpp"
+#include "report/csv.hpp"
+#include "report/json_document.hpp"
+#include "report/modes_report.hpp"
+#include "report/text_table.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace flexarm::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Arguments {
+  ArmChoice arm;
+  FormulationChoice formulation;
+  int count = 5;
+  std::vector<std::string> sensors = {"hub_angle", "tip_acceleration"};
+  bool certificate = false;
+  std::string out;
+  std::string json;
+};
+
+/// One list of roots that ball arithmetic was asked about.
+struct CertifiedList {
+  std::string roots;  ///< "poles", "zeros of hub_angle"
+  exact_tf::Certificate certificate;
+};
+
+/// Certificates of the poles and of every sensor's zeros.
+std::vector<CertifiedList> certify(const arm::Arm& arm, const response::ModalSummary& summary,
+                                   int count) {
+  const exact_tf::ExactArm exact(arm);
+  std::vector<CertifiedList> lists;
+  lists.push_back({"poles", exact_tf::certify_poles(arm, exact.pole_lambdas(count))});
+  for (const auto& [sensor, zeros] : summary.zeros) {
+    lists.push_back({"zeros of " + arm::to_string(sensor),
+                     arm::is_collocated(sensor)
+                         ? exact_tf::certify_hub_zeros(arm, exact.hub_zero_lambdas(count))
+                         : exact_tf::certify_zeros(arm, sensor, zeros.s_rad_per_s)});
+  }
+  return lists;
+}
+
+report::Table certificate_table(const std::vector<CertifiedList>& lists) {
+  report::Table table{"Certificate by ball arithmetic",
+                      {{"roots"},
+                       {"given"},
+                       {"counted"},
+                       {"farthest", "ulp of lambda", 2},
+                       {"precision", "bit"},
+                       {"proved"}}};
+  for (const auto& [roots, certificate] : lists) {
+    table.add_row({roots, std::int64_t{certificate.given}, std::int64_t{certificate.counted},
+                   certificate.largest_distance_ulp, std::int64_t{certificate.precision_bits},
+                   certificate.proved ? std::string("yes") : "no: " + certificate.failure});
+  }
+  return table;
+}
+
+nlohmann::ordered_json certificate_json(const std::vector<CertifiedList>& lists) {
+  nlohmann::ordered_json entries = nlohmann::ordered_json::array();
+  for (const auto& [roots, certificate] : lists) {
+    nlohmann::ordered_json entry = {{"roots", roots},
+                                    {"proved", certificate.proved},
+                                    {"failure", certificate.failure},
+                                    {"given", certificate.given},
+                                    {"counted", certificate.counted},
+                                    {"method", certificate.method},
+                                    {"largest_distance_ulp", certificate.largest_distance_ulp},
+                                    {"precision_bits", certificate.precision_bits}};
+    for (const auto& root : certificate.roots) {
+      entry["enclosures"].push_back({{"lambda", report::complex_json(root.lambda)},
+                                     {"radius", root.radius},
+                                     {"distance_ulp", root.distance_ulp}});
+    }
+    entries.push_back(std::move(entry));
+  }
+  return entries;
+}
+
+int run(const Arguments& arguments) {
+  if (arguments.count < 1) throw arm::out_of_range("--modes", arguments.count, "", "1 or more");
+  std::vector<arm::Sensor> sensors;
+  for (const auto& name : arguments.sensors) sensors.push_back(arm::parse_sensor(name));
+
+  bool proved = true;
+  nlohmann::ordered_json documents = nlohmann::ordered_json::array();
+  const auto arms = arguments.arm.arms();
+  for (const auto& arm : arms) {
+    const auto chosen = arguments.formulation.make(arm, arguments.count);
+    const auto summary = response::summarise(chosen.formulation, arguments.count, sensors,
+                                             compare::shape_stations_m(arm.beam.length_m));
+    print(describe(arm));
+    print(fmt::format("by {}{}{}\n\n", chosen.name, chosen.settings.empty() ? "" : ", ",
+                      chosen.settings));
+    print(report::to_text(report::poles_table(arm, summary)) + "\n");
+    print(report::to_text(report::zeros_table(summary)) + "\n");
+
+    nlohmann::ordered_json document = {
+        {"arm", report::arm_json(arm)}, {"model", chosen.name}, {"settings", chosen.settings}};
+    document.update(report::modes_json(arm, summary));
+    if (arguments.certificate) {
+      const auto lists = certify(arm, summary, arguments.count);
+      print(report::to_text(certificate_table(lists)) + "\n");
+      document["certificate"] = certificate_json(lists);
+      for (const auto& list : lists) proved = proved && list.certificate.proved;
+    }
+    documents.push_back(std::move(document));
+
+    if (!arguments.out.empty()) {
+      const fs::path folder = folder_of(arguments.out, arm, arms.size());
+      arm::make_folder(folder);
+      arm::write_atomically(folder / "modes.csv",
+                            report::to_csv(report::poles_table(arm, summary)));
+      arm::write_atomically(folder / "zeros.csv", report::to_csv(report::zeros_table(summary)));
+      arm::write_atomically(folder / "shapes.csv",
+                            report::to_csv(report::shapes_over_x_table(summary)));
+      arm::write_atomically(folder / "shapes.svg", report::shapes_svg(chosen.name, summary));
+    }
+  }
+  if (!arguments.json.empty()) {
+    arm::write_atomically(arguments.json,
+                          report::json_document("flexarm.modes/1", {{"arms", documents}}));
+  }
+  if (!arguments.out.empty()) print(fmt::format("wrote {}\n", arguments.out));
+  print(fmt::format("next: see the three formulations agree with  flexarm compare{}\n",
+                    arguments.arm.file.empty() ? "" : " " + arguments.arm.file));
+  return proved ? kSuccess : kFailure;
+}
+
+}  // namespace
+
+Command add_modes(CLI::App& program) {
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App* parser =
+      program.add_subcommand("modes", "Poles, zeros, hub slopes and mode shapes of one arm");
+  add_arm_choice(*parser, arguments->arm);
+  add_formulation_choice(*parser, arguments->formulation);
+  parser->add_option("--modes", arguments->count, "How many modes, and zeros a sensor")
+      ->capture_default_str();
+  parser
+      ->add_option("--sensor", arguments->sensors,
+                   "Sensors whose zeros are shown, separated by commas")
+      ->delimiter(',')
+      ->capture_default_str();
+  parser->add_flag("--certificate", arguments->certificate,
+                   "Prove the roots of exact_tf and their number by ball arithmetic");
+  parser->add_option("--out", arguments->out, "Folder for CSV tables and the shapes as SVG");
+  parser->add_option("--json", arguments->json, "File for everything in full precision");
+  parser->footer(example("flexarm modes rig.toml --sensor hub_angle,strain@0.05 --certificate"));
+  return {parser, [arguments] { return run(*arguments); }};
+}
+
+}  // namespace flexarm::app

@@ -1,0 +1,69 @@
+#include "exact_tf/sensor_zeros.hpp"
+
+#include "arm/input_error.hpp"
+#include "exact_tf/complex_frequency.hpp"
+#include "exact_tf/numerator.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace flexarm::exact_tf {
+
+namespace {
+
+/// s with Re s >= 0, Im s >= 0 of the pair or quadruple that belongs to a zero in z.
+std::complex<double> s_of(const AnalyticZero& zero, Real scale_rad_per_s) {
+  const Real modulus = std::abs(zero.lambda);
+  const Complex square = zero.lambda * zero.lambda;
+  switch (zero.locus) {
+    case ZeroLocus::positive_axis:
+      return {0.0, static_cast<double>(modulus * modulus * scale_rad_per_s)};
+    case ZeroLocus::negative_axis:
+      return {static_cast<double>(modulus * modulus * scale_rad_per_s), 0.0};
+    case ZeroLocus::off_axis:
+      break;
+  }
+  // i lambda^2 mirrored in the imaginary axis.
+  return {static_cast<double>(square.imag() * scale_rad_per_s),
+          static_cast<double>(square.real() * scale_rad_per_s)};
+}
+
+}  // namespace
+
+void require_not_identically_zero(const arm::Sensor& sensor, const arm::Arm& arm) {
+  if (sensor.kind == arm::SensorKind::strain && sensor.position_m == arm.beam.length_m &&
+      arm.payload.inertia_kg_m2 == 0.0) {
+    throw arm::InputError(
+        fmt::format("sensor {}: the strain at the tip is zero at every s without payload.inertia, "
+                    "so it has no zeros to look for; place it below {} m",
+                    to_string(sensor), arm.beam.length_m));
+  }
+}
+
+arm::ZeroSet find_sensor_zeros(const arm::Arm& arm, const arm::Sensor& sensor, int count,
+                               const AnalyticZeroOptions& options) {
+  require_valid(sensor, arm);
+  require_not_identically_zero(sensor, arm);
+  const auto numerator = [&](const Complex& lambda) {
+    return sensor_numerator(arm, sensor, lambda).value;
+  };
+  const AnalyticZeros found = find_analytic_zeros(numerator, count, options);
+
+  const Real scale = frequency_scale_rad_per_s(arm);
+  const auto wanted = std::min(found.zeros.size(), static_cast<std::size_t>(count));
+  arm::ZeroSet set;
+  for (std::size_t i = 0; i < wanted; ++i) {
+    set.s_rad_per_s.push_back(s_of(found.zeros[i], scale));
+  }
+  set.count.found = static_cast<int>(wanted);
+  set.count.expected = set.count.found + found.missing();
+  set.count.method = "argument principle";
+  set.summary.method = "changes of sign on both axes, TOMS 748; argument principle, secant method";
+  set.summary.iterations = static_cast<int>(found.function_values);
+  set.summary.converged = found.converged;
+  return set;
+}
+
+}  // namespace flexarm::exact_tf

@@ -1,0 +1,31 @@
+#include "response/settings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace flexarm::response {
+
+fem::FemArm::Options fem_settings(int roots) {
+  fem::FemArm::Options options;
+  options.degree = 15;
+  options.mesh.elements = std::max(3, (roots + 1) / 2);
+  return options;
+}
+
+assumed_modes::AssumedModesOptions assumed_modes_settings(int roots) {
+  assumed_modes::AssumedModesOptions options;
+  options.functions = std::min(2 * roots + 16, assumed_modes::kMaximumFunctions);
+  return options;
+}
+
+std::string describe(const fem::FemArm::Options& options) {
+  return fmt::format("{} elements of degree {}", options.mesh.elements, options.degree);
+}
+
+std::string describe(const assumed_modes::AssumedModesOptions& options) {
+  return fmt::format("{} functions, basis {}", options.functions,
+                     assumed_modes::to_string(options.basis));
+}
+
+}  // namespace flexarm::response

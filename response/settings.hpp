@@ -1,0 +1,22 @@
+#pragma once
+
+#include "assumed_modes/assumed_modes_arm.hpp"
+#include "fem/fem_arm.hpp"
+
+#include <string>
+
+namespace flexarm::response {
+
+/// Settings at which the lowest `roots` poles and zeros of an arm are within 1e-10 or so of exact:
+/// an element of degree 15 for every two roots, three at least.
+fem::FemArm::Options fem_settings(int roots);
+
+/// The same for assumed modes: 2 roots + 16 Legendre polynomials.
+assumed_modes::AssumedModesOptions assumed_modes_settings(int roots);
+
+/// "4 elements of degree 11".
+std::string describe(const fem::FemArm::Options& options);
+/// "36 functions, basis legendre".
+std::string describe(const assumed_modes::AssumedModesOptions& options);
+
+}  // namespace flexarm::response

@@ -1,0 +1,35 @@
+#include "arm/nearest_name.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+namespace flexarm::arm {
+namespace {
+
+const std::vector<std::string> kNames = {"length", "width", "thickness", "density"};
+
+TEST(NearestName, OneSlipOfAKeyIsForgiven) {
+  EXPECT_EQ(nearest_name("lenght", kNames), "length");       // two letters swapped
+  EXPECT_EQ(nearest_name("widht", kNames), "width");         // two letters swapped
+  EXPECT_EQ(nearest_name("thicknes", kNames), "thickness");  // one left out
+  EXPECT_EQ(nearest_name("densitty", kNames), "density");    // one too many
+  EXPECT_EQ(nearest_name("Width", kNames), "width");         // one other
+  EXPECT_EQ(did_you_mean("lenght", kNames), " (did you mean length?)");
+}
+
+TEST(NearestName, AWordThatIsFarFromAllIsNotGuessed) {
+  EXPECT_EQ(nearest_name("mass", kNames), std::nullopt);
+  EXPECT_EQ(nearest_name("", kNames), std::nullopt);
+  EXPECT_EQ(did_you_mean("mass", kNames), "");
+}
+
+TEST(NearestName, LongInputCostsNothing) {
+  // A table of edit distances for this word would not fit into memory.
+  constexpr std::size_t kLong = std::size_t{1} << 28;
+  EXPECT_EQ(nearest_name(std::string(kLong, 'x'), kNames), std::nullopt);
+}
+
+}  // namespace
+}  // namespace flexarm::arm

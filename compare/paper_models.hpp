@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <complex>
 #include <numbers>
-#include <string>
 #include <vector>
 
 namespace flexarm::compare::paper {
@@ -26,9 +25,6 @@ arm::Arm arm_with_damping();
 arm::Arm arm_with_hub_friction();
 /// The paper's arm with another hub inertia.
 arm::Arm arm_with_hub_inertia(double inertia_kg_m2);
-
-/// What "payload", "damped" and the like stand for in the checks' quantities, one sentence each.
-std::string describe_arms();
 
 /// One arm in the three formulations, each with its default options.
 struct ThreeModels {

@@ -2,7 +2,6 @@
 
 #include "arm/input_error.hpp"
 #include "arm/nearest_name.hpp"
-#include "compare/paper_models.hpp"
 #include "report/paper_tables.hpp"
 #include "report/text_table.hpp"
 
@@ -47,7 +46,6 @@ std::string row_line(const std::vector<std::string>& cells) {
   return line + '\n';
 }
 
-/// A Markdown table; `part` goes before each row as a column of its own, on the first row only.
 std::string markdown(const Table& table) {
   std::vector<std::string> names, rule;
   for (const auto& column : table.columns) {

@@ -1,6 +1,5 @@
 #include "report/paper_tables.hpp"
 
-#include "compare/paper_models.hpp"
 #include "report/text_table.hpp"
 
 #include <fmt/format.h>
@@ -32,10 +31,6 @@ Cell value_cell(const std::optional<double>& value, const Comparison& row) {
   if (!value) return {};
   const bool zero = std::abs(row.corrected) <= row.tolerance && std::abs(*value) <= row.tolerance;
   return zero ? 0.0 : *value;
-}
-
-Cell text(const std::string& s) {
-  return s.empty() ? Cell{} : Cell{s};
 }
 
 std::string with_unit(const Comparison& row) {
@@ -175,9 +170,9 @@ Table paper_listing(const Findings& findings) {
     for (const auto& check : topic.checks) {
       for (const auto& row : check.comparisons) {
         const auto& from = row.formulations;
-        table.add_row({check.label, std::string(to_string(check.verdict)), row.quantity,
-                       text(row.unit), cell(row.printed), row.corrected, cell(from.exact_tf),
-                       cell(from.fem), cell(from.assumed_modes), row.tolerance});
+        table.add_row({check.label, std::string(to_string(check.verdict)), row.quantity, row.unit,
+                       cell(row.printed), row.corrected, cell(from.exact_tf), cell(from.fem),
+                       cell(from.assumed_modes), row.tolerance});
       }
     }
   }

@@ -2,7 +2,6 @@
 
 #include "exact_tf/argument_principle.hpp"
 
-#include <string>
 #include <vector>
 
 namespace flexarm::exact_tf {

@@ -86,7 +86,6 @@ class RealBall {
   double upper_bound() const { return arf_get_d(arb_midref(upper_end().x_), ARF_RND_CEIL); }
 
   bool is_below(const RealBall& other) const { return arb_lt(x_, other.x_) != 0; }
-  bool overlaps(const RealBall& other) const { return arb_overlaps(x_, other.x_) != 0; }
 
   friend RealBall operator-(const RealBall& a) {
     RealBall result;

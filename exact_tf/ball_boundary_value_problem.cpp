@@ -112,12 +112,13 @@ RealBall RootFunction::on_negative_axis(const RealBall& modulus) const {
   return on_axis(modulus, ComplexBall::unit_at_half_turns(RealBall(1) / RealBall(4)));
 }
 
-std::optional<long> RootFunction::count_within(const RealBall& modulus) const {
+std::optional<long> RootFunction::count_within(const RealBall& modulus, long& values_left) const {
   const auto change = argument_change([&](const ComplexBall& at) { return determinant(at); },
                                       [&](const RealBall& t) {
                                         return ComplexBall(modulus) *
                                                ComplexBall::unit_at_half_turns(t / RealBall(4));
-                                      });
+                                      },
+                                      values_left);
   if (!change) return std::nullopt;
   const ComplexBall end =
       ComplexBall(modulus) * ComplexBall::unit_at_half_turns(RealBall(1) / RealBall(4));

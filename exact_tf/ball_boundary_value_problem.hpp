@@ -48,8 +48,8 @@ class RootFunction {
   RealBall on_negative_axis(const RealBall& modulus) const;
 
   /// Zeros of N with 0 < |z| < modulus^4, conjugates counted, by the argument principle; empty
-  /// where the working precision leaves the number open.
-  std::optional<long> count_within(const RealBall& modulus) const;
+  /// where the working precision or `values_left` (see `argument_change`) leaves the number open.
+  std::optional<long> count_within(const RealBall& modulus, long& values_left) const;
 
  private:
   RealBall on_axis(const RealBall& modulus, const ComplexBall& direction) const;

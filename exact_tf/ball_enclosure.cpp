@@ -18,6 +18,7 @@ constexpr int kMaxHalvings = 80;
 struct ArgumentChange {
   const std::function<ComplexBall(const ComplexBall&)>& value;
   const std::function<ComplexBall(const RealBall&)>& path;
+  long& values_left;
 
   std::optional<RealBall> between(const RealBall& from, const ComplexBall& value_from,
                                   const RealBall& to, const ComplexBall& value_to,
@@ -28,7 +29,8 @@ struct ArgumentChange {
       const ComplexBall ratio = value_to / value_from;
       if (ratio.real().sign() > 0) return arg(ratio);
     }
-    if (halvings_left == 0) return std::nullopt;
+    values_left -= 2;
+    if (halvings_left == 0 || values_left < 0) return std::nullopt;
     const RealBall middle = ((from + to) / RealBall(2)).midpoint();
     const ComplexBall value_middle = value(path(middle));
     const auto first = between(from, value_from, middle, value_middle, halvings_left - 1);
@@ -38,6 +40,9 @@ struct ArgumentChange {
     return *first + *second;
   }
 };
+
+/// A simple zero needs some tens of them.
+constexpr long kMostValuesOnSmallCircle = 10'000;
 
 }  // namespace
 
@@ -73,7 +78,8 @@ std::optional<ComplexBall> enclose_complex_zero(
     const auto circle = [&](const RealBall& t) {
       return at + ComplexBall(RealBall(reach)) * ComplexBall::unit_at_half_turns(t + t);
     };
-    const auto change = argument_change(value, circle);
+    long values_left = kMostValuesOnSmallCircle;
+    const auto change = argument_change(value, circle, values_left);
     if (!change) return std::nullopt;
     const auto winding_number = (*change / (RealBall(2) * RealBall::pi())).unique_integer();
     if (winding_number != 1) return std::nullopt;
@@ -84,11 +90,12 @@ std::optional<ComplexBall> enclose_complex_zero(
 }
 
 std::optional<RealBall> argument_change(const std::function<ComplexBall(const ComplexBall&)>& value,
-                                        const std::function<ComplexBall(const RealBall&)>& path) {
+                                        const std::function<ComplexBall(const RealBall&)>& path,
+                                        long& values_left) {
   const RealBall from(0);
   const RealBall to(1);
-  return ArgumentChange{value, path}.between(from, value(path(from)), to, value(path(to)),
-                                             kMaxHalvings);
+  return ArgumentChange{value, path, values_left}.between(from, value(path(from)), to,
+                                                          value(path(to)), kMaxHalvings);
 }
 
 }  // namespace flexarm::exact_tf::ball

@@ -22,8 +22,10 @@ std::optional<ComplexBall> enclose_complex_zero(
     double reach);
 
 /// Change of arg value(path(t)) as t goes from 0 to 1, from arcs whose images in balls exclude
-/// zero; empty where the path runs too close to a zero for the working precision.
+/// zero; empty where the path runs too close to a zero for the working precision, or where it needs
+/// more than `values_left` values, from which those used are taken.
 std::optional<RealBall> argument_change(const std::function<ComplexBall(const ComplexBall&)>& value,
-                                        const std::function<ComplexBall(const RealBall&)>& path);
+                                        const std::function<ComplexBall(const RealBall&)>& path,
+                                        long& values_left);
 
 }  // namespace flexarm::exact_tf::ball

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <map>
 #include <optional>
 
 namespace flexarm::exact_tf {
@@ -26,11 +27,8 @@ using ball::RootFunction;
 /// Half-width of the enclosures in ulp of |lambda|.
 const double kReachUlp = std::ldexp(1.0, -12);
 
-/// Where lambda of a root lies: z > 0, z < 0 or off the real axis.
-enum class Locus { positive_axis, negative_axis, inside };
-
 struct Enclosed {
-  Locus locus;
+  ZeroLocus locus;
   RealBall modulus;
   ComplexBall lambda;
 };
@@ -60,8 +58,6 @@ class Problem {
     arm::require_honoured(arm.effects, "the exact roots' certificate", {});
   }
 
-  const arm::Arm& arm() const { return arm_; }
-
   RootFunction function() const {
     return RootFunction(DimensionlessArm(arm_), last_row_,
                         RealBall(position_m_) / RealBall(arm_.beam.length_m));
@@ -76,7 +72,7 @@ class Problem {
 using GivenLambda = std::function<ComplexBall()>;
 
 /// Encloses the root near `given` and says how far from it that is.
-std::optional<Enclosed> enclose(const Problem& problem, Locus locus, const GivenLambda& given,
+std::optional<Enclosed> enclose(const Problem& problem, ZeroLocus locus, const GivenLambda& given,
                                 const CertificateOptions& options, Certificate& certificate,
                                 RootEnclosure& report) {
   const auto attempt = [&]() -> std::optional<Enclosed> {
@@ -85,7 +81,7 @@ std::optional<Enclosed> enclose(const Problem& problem, Locus locus, const Given
     const RealBall start_modulus = abs(start);
     const double reach = kReachUlp * ulp_of(start_modulus.nearest_double());
     Enclosed result{locus, {}, {}};
-    if (locus == Locus::inside) {
+    if (locus == ZeroLocus::off_axis) {
       const auto lambda = ball::enclose_complex_zero(
           [&](const ComplexBall& at) { return function.determinant(at); }, start, reach);
       // Off both axes, so that the zero and its conjugate in z are two.
@@ -95,7 +91,7 @@ std::optional<Enclosed> enclose(const Problem& problem, Locus locus, const Given
       result.lambda = *lambda;
       result.modulus = abs(*lambda);
     } else {
-      const bool positive = locus == Locus::positive_axis;
+      const bool positive = locus == ZeroLocus::positive_axis;
       const auto modulus = ball::enclose_sign_change(
           [&](const RealBall& at) {
             return positive ? function.on_positive_axis(at) : function.on_negative_axis(at);
@@ -140,12 +136,20 @@ std::string fault_of(const std::vector<std::optional<Enclosed>>& enclosed,
     if (i > 0 && enclosed[i]->modulus.is_below(enclosed[i - 1]->modulus)) {
       return fmt::format("roots {} and {} are not in ascending order", i, i + 1);
     }
-    // Only roots of overlapping modulus can be the same.
-    for (std::size_t j = i; j > 0 && enclosed[j - 1]->modulus.overlaps(enclosed[i]->modulus); --j) {
-      if (enclosed[j - 1]->lambda.overlaps(enclosed[i]->lambda)) {
-        return fmt::format("roots {} and {} share an enclosure", j, i + 1);
-      }
+  }
+  // On an axis each enclosure must end below the next, which keeps all of them apart; off the axes
+  // there are few, and each is compared with each.
+  std::map<ZeroLocus, std::vector<std::size_t>> earlier;
+  for (std::size_t i = 0; i < enclosed.size(); ++i) {
+    auto& others = earlier[enclosed[i]->locus];
+    for (auto other = others.rbegin(); other != others.rend(); ++other) {
+      const bool on_axis = enclosed[i]->locus != ZeroLocus::off_axis;
+      const bool apart = on_axis ? enclosed[*other]->modulus.is_below(enclosed[i]->modulus)
+                                 : !enclosed[*other]->lambda.overlaps(enclosed[i]->lambda);
+      if (!apart) return fmt::format("roots {} and {} share an enclosure", *other + 1, i + 1);
+      if (on_axis) break;
     }
+    others.push_back(i);
   }
   return {};
 }
@@ -163,13 +167,13 @@ RealBall beyond(const std::vector<std::optional<Enclosed>>& enclosed) {
 /// Roots counted in z with conjugates, as the argument principle does.
 long weight_of(const std::vector<std::optional<Enclosed>>& enclosed) {
   long weight = 0;
-  for (const auto& root : enclosed) weight += root->locus == Locus::inside ? 2 : 1;
+  for (const auto& root : enclosed) weight += root->locus == ZeroLocus::off_axis ? 2 : 1;
   return weight;
 }
 
 /// Fills in everything: `count` is asked for the number of roots up to a modulus, and may decline
 /// at the precision set.
-Certificate certify(const Problem& problem, const std::vector<Locus>& loci,
+Certificate certify(const Problem& problem, const std::vector<ZeroLocus>& loci,
                     const std::vector<GivenLambda>& given, const CertificateOptions& options,
                     const std::function<std::optional<long>(const RealBall&)>& count) {
   Certificate certificate;
@@ -190,8 +194,8 @@ Certificate certify(const Problem& problem, const std::vector<Locus>& loci,
                                            [&] { return count(beyond(enclosed)); });
   if (!counted) {
     if (certificate.failure.empty()) {
-      certificate.failure =
-          fmt::format("the count is not certain at {} bits", options.max_precision_bits);
+      certificate.failure = fmt::format("the count is not certain with {} values at up to {} bits",
+                                        options.max_function_values, options.max_precision_bits);
     }
     return certificate;
   }
@@ -220,8 +224,8 @@ Certificate certify_self_adjoint(const arm::Arm& arm, LastRow last_row,
     constexpr long kRigidBodyModes = 1;
     return last_row == LastRow::hub_torque ? found->poles - kRigidBodyModes : found->hub_zeros;
   };
-  Certificate certificate =
-      certify(problem, std::vector(lambdas.size(), Locus::positive_axis), given, options, count);
+  Certificate certificate = certify(problem, std::vector(lambdas.size(), ZeroLocus::positive_axis),
+                                    given, options, count);
   certificate.method = "change of sign and Wittrick-Williams count in ball arithmetic";
   return certificate;
 }
@@ -260,20 +264,21 @@ Certificate certify_zeros(const arm::Arm& arm, const arm::Sensor& sensor,
   const Problem problem(arm, last_row_of(sensor), sensor.position_m);
   arm::require_valid(sensor, arm);
   require_not_identically_zero(sensor, arm);
-  std::vector<Locus> loci;
+  std::vector<ZeroLocus> loci;
   std::vector<GivenLambda> given;
   for (const std::complex<double> s : s_rad_per_s) {
-    loci.push_back(s.real() == 0.0   ? Locus::positive_axis
-                   : s.imag() == 0.0 ? Locus::negative_axis
-                                     : Locus::inside);
+    loci.push_back(s.real() == 0.0   ? ZeroLocus::positive_axis
+                   : s.imag() == 0.0 ? ZeroLocus::negative_axis
+                                     : ZeroLocus::off_axis);
     // s^2 = -lambda^4 omega_scale^2, on the branch 0 <= arg lambda <= pi/4.
     given.push_back([&arm, s] {
       return sqrt(ComplexBall(RealBall(s.imag()), RealBall(s.real())) /
                   ComplexBall(DimensionlessArm(arm).omega_scale));
     });
   }
+  long values_left = options.max_function_values;
   const auto count = [&](const RealBall& beyond) {
-    return problem.function().count_within(beyond);
+    return problem.function().count_within(beyond, values_left);
   };
   Certificate certificate = certify(problem, loci, given, options, count);
   certificate.method =

@@ -17,6 +17,10 @@ struct CertificateOptions {
   /// Precision starts here and doubles until all signs are certain, precision <= the second.
   long precision_bits = 128;
   long max_precision_bits = 2048;
+  /// The argument principle gives up after this many values of the numerator (some 10 us each). It
+  /// needs a few hundred for each zero, but more where balls overestimate: for strain within some
+  /// hundredths of the length from a tip without payload inertia.
+  long max_function_values = 1'000'000;
 };
 
 /// A disc (an interval of its real diameter where the root is known to lie on an axis) that is

@@ -32,16 +32,18 @@ void require_count(int count) {
 }
 
 arm::SolveSummary summary_of(const VibrationModes& modes) {
-  return {modes.dense ? "singular values of the factored stiffness, inverse iteration"
-                      : "Lanczos iteration on the factored flexibility, inverse iteration",
+  return {modes.dense ? "singular values of the factored stiffness, inverse iteration (residual: "
+                        "last change of omega^2)"
+                      : "Lanczos on the factored flexibility, inverse iteration (residual: last "
+                        "change of omega^2)",
           modes.iterations, modes.largest_change, modes.converged};
 }
 
 /// Eigenvalues up to the highest of `modes`, by Sylvester inertia.
 arm::RootCount count_of(const Discretisation& model, HubSupport support,
                         const VibrationModes& modes) {
-  // Above the highest mode by less than the gap to the next, which for mode n is about 4/n.
-  constexpr double kAbove = 1.0 + 1e-3;
+  // Just above the highest mode: far more than its rounding, far less than the gap to the next.
+  constexpr double kAbove = 1.0 + 1e-6;
   const Eigen::Index found = modes.omega_squared.size();
   const int rigid = support == HubSupport::free ? 1 : 0;
   const int below = eigenvalues_below(model, support, modes.omega_squared[found - 1] * kAbove);
@@ -176,6 +178,9 @@ Complex FemArm::transfer_function(const arm::Sensor& sensor, Complex s_rad_per_s
   arm::require_valid(sensor, arm_);
   if (s_rad_per_s == 0.0) {
     throw std::domain_error("transfer function: s = 0 is the pole of the rigid arm");
+  }
+  if (!std::isfinite(std::norm(s_rad_per_s / omega_scale_rad_per_s_))) {
+    throw std::domain_error("transfer function: the square of s is not finite");
   }
   const double rigidity = arm_.beam.flexural_rigidity_N_m2();
   const Complex s = s_rad_per_s / omega_scale_rad_per_s_;

@@ -1,15 +1,13 @@
 #include "fem/transmission_zeros.hpp"
 
-#include "fem/hub_driven_response.hpp"
 #include "fem/static_flexibility.hpp"
-#include "fem/vibration_modes.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <Spectra/GenEigsSolver.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -79,150 +77,63 @@ Eigen::VectorXcd inverse_eigenvalues(const InversePencil& inverse, int count, do
   return solver.eigenvalues();
 }
 
-/// F(w) and F'(w)/F(w).
-struct HubTransmission {
-  Complex value;
-  Complex log_derivative;
-  bool singular = false;
-};
-
-HubTransmission hub_transmission(const Discretisation& model, const Eigen::VectorXd& c, Complex w) {
-  const HubDrivenResponse response(model, 1.0, w);
-  if (response.singular()) return {0.0, 0.0, true};
-  const Eigen::VectorXcd u = response.to_unit_rotation();
-  const Eigen::VectorXcd inertia = model.mass() * u;
-  const Eigen::VectorXcd derivative = response.to_loads(-inertia);
-  const Complex value = c.cast<Complex>().cwiseProduct(u).sum();
-  const Complex slope = c.cast<Complex>().cwiseProduct(derivative).sum();
-  return {value, slope / value, false};
-}
-
-/// Newton's method on F prod(1 + w/poles)/prod(w - found).
-FollowedRoot newton(const Discretisation& model, const Eigen::VectorXd& c, Complex w,
-                    int steps_allowed, const Eigen::VectorXd& poles,
-                    const std::vector<Complex>& found) {
-  FollowedRoot root;
-  root.w = w;
-  root.last_step = std::numeric_limits<double>::infinity();
-  for (; root.newton_steps < steps_allowed; ++root.newton_steps) {
-    const HubTransmission f = hub_transmission(model, c, root.w);
-    if (f.value == 0.0 && !f.singular) {
-      root.converged = true;
-      return root;
-    }
-    Complex log_derivative = f.log_derivative;
-    for (const double pole : poles) log_derivative += 1.0 / (root.w + pole);
-    for (const Complex other : found) log_derivative -= 1.0 / (root.w - other);
-    const Complex step = 1.0 / log_derivative;
-    if (!std::isfinite(std::abs(step))) return root;
-    const double size = std::abs(step) / std::abs(root.w);
-    // Quadratic convergence: a step of kLast leaves an error of about its square. It has ended
-    // early, by rounding, when a small step is no longer shrinking.
-    constexpr double kLast = 1e-9;
-    constexpr double kSmall = 1e-7;
-    if (size < kSmall && size >= root.last_step) {
-      root.converged = true;
-      return root;
-    }
-    root.w -= step;
-    root.last_step = size;
-    if (size <= kLast) {
-      root.converged = true;
-      return root;
-    }
-  }
-  return root;
+/// Adds what Newton's method found to the roots; `divided_out` takes both of a conjugate pair.
+void add(const NewtonResult& result, PencilRoots& roots, std::vector<Complex>& divided_out) {
+  const Complex w = is_real(result.w) ? Complex(result.w.real(), 0.0)
+                                      : Complex(result.w.real(), std::abs(result.w.imag()));
+  roots.w.push_back(w);
+  roots.largest_step = std::max(roots.largest_step, result.last_step);
+  divided_out.push_back(w);
+  if (w.imag() != 0.0) divided_out.push_back(std::conj(w));
 }
 
 }  // namespace
 
-FollowedRoot follow_root(const Discretisation& discretisation, const Eigen::VectorXd& c,
-                         std::complex<double> w) {
-  constexpr int kStepsAllowed = 30;
-  return newton(discretisation, c, w, kStepsAllowed, Eigen::VectorXd(), {});
-}
-
-PencilRoots pencil_roots(const Discretisation& discretisation, const Eigen::VectorXd& c, int count,
-                         double tolerance) {
+PencilRoots pencil_roots(const Discretisation& discretisation, const Numerator& numerator,
+                         int count, double tolerance) {
   constexpr int kStepsAllowed = 100;
+  const auto modulus = [](Complex w) { return std::abs(w); };
   PencilRoots roots;
-  const InversePencil inverse(discretisation, c);
-  const Eigen::VectorXcd mu = inverse_eigenvalues(inverse, count, tolerance);
+  const Eigen::VectorXcd mu =
+      inverse_eigenvalues(InversePencil(discretisation, numerator.row()), count, tolerance);
   std::vector<Complex> guesses;
   for (const Complex value : mu) {
     if (value != 0.0) guesses.push_back(-1.0 / value);
   }
   // A conjugate pair is of one modulus; the member with Im > 0 comes first.
   std::ranges::sort(guesses, {}, [](Complex w) { return std::pair(std::abs(w), -w.imag()); });
-  const VibrationModes clamped =
-      vibration_modes(discretisation, HubSupport::clamped, count + 4, tolerance);
-
   std::vector<Complex> divided_out;
   bool conjugate_found = false;
   for (const Complex guess : guesses) {
     if (static_cast<int>(divided_out.size()) >= count) break;
     if (conjugate_found && guess.imag() < 0.0) continue;
-    FollowedRoot root =
-        newton(discretisation, c, guess, kStepsAllowed, clamped.omega_squared, divided_out);
-    roots.newton_steps += root.newton_steps;
+    const NewtonResult result = numerator.root_near(guess, divided_out, kStepsAllowed);
+    roots.newton_steps += result.steps;
     // Rounding makes pairs of guesses for real roots that lie close; each then leads to its own.
-    conjugate_found = root.converged && guess.imag() > 0.0 && !is_real(root.w);
-    if (!root.converged) {
-      roots.converged = false;
-      continue;
-    }
-    roots.largest_step = std::max(roots.largest_step, root.last_step);
-    if (is_real(root.w)) {
-      root.w = root.w.real();
-    } else {
-      root.w.imag(std::abs(root.w.imag()));
-      divided_out.push_back(std::conj(root.w));
-    }
-    divided_out.push_back(root.w);
-    roots.w.push_back(root.w);
+    conjugate_found = result.converged && guess.imag() > 0.0 && !is_real(result.w);
+    if (result.converged) add(result, roots, divided_out);
   }
-  std::ranges::sort(roots.w, {}, [](Complex w) { return std::abs(w); });
+  // Three searches that end beyond the largest root found, or nowhere, have nothing left to find
+  // inside. They start near zero and towards either end of the real axis, but off it, so that they
+  // can reach complex roots.
+  constexpr double kOffAxis = std::numbers::pi / 20.0;
+  const int all = discretisation.clamped_size();
+  for (int beyond = 0; beyond < 3 && static_cast<int>(divided_out.size()) < all;) {
+    const double smallest = roots.w.empty() ? 1.0 : modulus(std::ranges::min(roots.w, {}, modulus));
+    const double largest = roots.w.empty() ? 1.0 : modulus(std::ranges::max(roots.w, {}, modulus));
+    const std::array<Complex, 3> starts = {std::polar(1e-3 * smallest, std::numbers::pi / 4.0),
+                                           std::polar(largest / 2.0, kOffAxis),
+                                           std::polar(largest / 2.0, std::numbers::pi - kOffAxis)};
+    const NewtonResult result =
+        numerator.root_near(starts[static_cast<std::size_t>(beyond)], divided_out, kStepsAllowed);
+    roots.newton_steps += result.steps;
+    if (result.converged) add(result, roots, divided_out);
+    const bool enough = static_cast<int>(divided_out.size()) >= count;
+    if (!result.converged || (enough && modulus(result.w) >= largest)) ++beyond;
+  }
+  roots.converged = static_cast<int>(divided_out.size()) >= count;
+  std::ranges::sort(roots.w, {}, modulus);
   return roots;
-}
-
-int roots_inside(const Discretisation& discretisation, const Eigen::VectorXd& c, double radius,
-                 double tolerance) {
-  constexpr double kPi = std::numbers::pi;
-  constexpr double kLargestTurn = kPi / 4.0;  // of N from one point to the next
-  constexpr double kShortestArc = kPi / 4096.0;
-  VibrationModes clamped;
-  // Poles up to twice the radius are taken out of F; those farther out turn it but little.
-  for (int count = 16;; count *= 2) {
-    clamped = vibration_modes(discretisation, HubSupport::clamped, count, tolerance);
-    const Eigen::Index found = clamped.omega_squared.size();
-    if (found < count || clamped.omega_squared[found - 1] > 2.0 * radius) break;
-  }
-  const auto numerator = [&](double angle) {
-    const Complex w = std::polar(radius, angle);
-    Complex value = hub_transmission(discretisation, c, w).value;
-    for (const double pole : clamped.omega_squared) value *= 1.0 + w / pole;
-    return value / std::abs(value);
-  };
-  // N(conj w) = conj N(w): half the circle turns half as often.
-  double angle = 0.0;
-  double arc = kPi / 8.0;
-  double turned = 0.0;
-  Complex here = numerator(angle);
-  while (angle < kPi) {
-    const double next_angle = std::min(angle + arc, kPi);
-    const Complex next = numerator(next_angle);
-    const double turn = std::arg(next / here);
-    if (!(std::abs(turn) <= kLargestTurn)) {
-      arc = (next_angle - angle) / 2.0;
-      if (arc < kShortestArc) return -1;
-      continue;
-    }
-    turned += turn;
-    angle = next_angle;
-    here = next;
-    if (std::abs(turn) < kLargestTurn / 2.0) arc *= 2.0;
-  }
-  return static_cast<int>(std::lround(turned / kPi));
 }
 
 }  // namespace flexarm::fem

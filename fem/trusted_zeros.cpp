@@ -1,5 +1,6 @@
 #include "fem/trusted_zeros.hpp"
 
+#include "fem/numerator.hpp"
 #include "fem/sensor_row.hpp"
 #include "fem/transmission_zeros.hpp"
 
@@ -33,18 +34,18 @@ struct Candidate {
   double further_change = std::numeric_limits<double>::infinity();  ///< |s' - s''|/|s''|
 };
 
-Candidate follow(Complex w, const CheckingModels& checking, const Eigen::VectorXd& fine_row,
-                 const Eigen::VectorXd& finer_row) {
+Candidate follow(Complex w, const Numerator& fine, const Numerator& finer) {
+  constexpr int kStepsAllowed = 30;
   Candidate candidate;
   candidate.s = first_quadrant_root(w);
-  const FollowedRoot fine = follow_root(checking.fine, fine_row, w);
-  if (!fine.converged) return candidate;
-  candidate.counterpart = first_quadrant_root(fine.w);
+  const NewtonResult first = fine.root_near(w, {}, kStepsAllowed);
+  if (!first.converged) return candidate;
+  candidate.counterpart = first_quadrant_root(first.w);
   candidate.change =
       std::abs(candidate.s - *candidate.counterpart) / std::abs(*candidate.counterpart);
-  const FollowedRoot finer = follow_root(checking.finer, finer_row, fine.w);
-  if (!finer.converged) return candidate;
-  const Complex last = first_quadrant_root(finer.w);
+  const NewtonResult second = finer.root_near(first.w, {}, kStepsAllowed);
+  if (!second.converged) return candidate;
+  const Complex last = first_quadrant_root(second.w);
   candidate.further_change = std::abs(*candidate.counterpart - last) / std::abs(last);
   return candidate;
 }
@@ -58,7 +59,7 @@ bool same(Complex a, Complex b) {
 std::string reason_against(const Candidate& candidate, const std::vector<Candidate>& all,
                            double agreement) {
   constexpr double kConvergence = 0.1;
-  constexpr double kRounding = 1e-8;
+  constexpr double kNegligible = 1e-3;
   if (!candidate.counterpart) return "has no counterpart on a finer model";
   if (!(candidate.change <= agreement)) {
     return fmt::format("moves by more than {} on a finer model", agreement);
@@ -70,26 +71,25 @@ std::string reason_against(const Candidate& candidate, const std::vector<Candida
   if (std::ranges::any_of(all, has_nearer_claim)) {
     return "a nearer root has the same counterpart on a finer model";
   }
-  if (!(candidate.further_change <= std::max(kConvergence * candidate.change, kRounding))) {
+  if (!(candidate.further_change <=
+        std::max(kConvergence * candidate.change, kNegligible * agreement))) {
     return "does not converge on finer models";
   }
   return {};
 }
 
-/// Fills `count` of `zeros` for the roots w(0) ... w(looked_at - 1) by the argument principle.
-arm::RootCount count_roots(const Discretisation& model, const Eigen::VectorXd& c,
-                           const std::vector<Complex>& w, std::size_t looked_at, double tolerance) {
-  // A count takes some fifty factorisations; for larger models that is dearer than the search.
-  constexpr int kLargestCounted = 250;
+/// The roots w(0) ... w(looked_at - 1) beside what the argument principle counts.
+arm::RootCount count_of(const std::vector<Complex>& w, std::size_t looked_at,
+                        const Numerator& numerator) {
   arm::RootCount count;
   count.found = static_cast<int>(looked_at);
-  if (looked_at == w.size() || model.size() > kLargestCounted) return count;
+  if (looked_at == 0 || looked_at == w.size()) return count;
   const double radius = std::sqrt(std::abs(w[looked_at - 1]) * std::abs(w[looked_at]));
-  const int inside = roots_inside(model, c, radius, tolerance);
-  count.method = "argument principle";
+  const int inside = numerator.roots_inside(radius);
   const auto pairs = std::count_if(w.begin(), w.begin() + static_cast<std::ptrdiff_t>(looked_at),
                                    [](Complex root) { return root.imag() != 0.0; });
   if (inside >= 0) count.expected = inside - static_cast<int>(pairs);
+  count.method = "argument principle";
   return count;
 }
 
@@ -103,16 +103,20 @@ arm::ZeroSet trusted_zeros(const Discretisation& model, const CheckingModels& ch
   arm::ZeroSet zeros;
   const SensorRow row = sensor_row(model, arm, sensor);
   if (row.c.isZero(0.0)) return zeros;
-  const Eigen::VectorXd fine_row = sensor_row(checking.fine, arm, sensor).c;
-  const Eigen::VectorXd finer_row = sensor_row(checking.finer, arm, sensor).c;
-
   const int finite = model.size() + 1 - row.infinite_roots;
-  const PencilRoots roots =
-      pencil_roots(model, row.c, std::min(count + kSpare, finite), options.eigen_tolerance);
+  const int wanted = std::min(count + kSpare, finite);
+  // There are up to sqrt(2) poles for a root.
+  const int poles = 2 * wanted;
+  const auto numerator_of = [&](const Discretisation& discretisation) {
+    return Numerator(discretisation, sensor_row(discretisation, arm, sensor).c, poles,
+                     options.eigen_tolerance);
+  };
+  const Numerator numerator = numerator_of(model);
+  const Numerator fine = numerator_of(checking.fine);
+  const Numerator finer = numerator_of(checking.finer);
+  const PencilRoots roots = pencil_roots(model, numerator, wanted, options.eigen_tolerance);
   std::vector<Candidate> candidates;
-  for (const Complex w : roots.w) {
-    candidates.push_back(follow(w, checking, fine_row, finer_row));
-  }
+  for (const Complex w : roots.w) candidates.push_back(follow(w, fine, finer));
   std::size_t looked_at = 0;
   for (const Candidate& candidate : candidates) {
     if (static_cast<int>(zeros.s_rad_per_s.size()) == count) break;
@@ -124,12 +128,17 @@ arm::ZeroSet trusted_zeros(const Discretisation& model, const CheckingModels& ch
       zeros.rejected.push_back({candidate.s, candidate.change, std::move(reason)});
     }
   }
-  if (looked_at > 0) {
-    zeros.count = count_roots(model, row.c, roots.w, looked_at, options.eigen_tolerance);
+  // The count takes some hundred factorisations; for a large model that is dearer than the search.
+  constexpr int kLargestCounted = 500;
+  if (model.size() <= kLargestCounted) {
+    zeros.count = count_of(roots.w, looked_at, numerator);
+  } else {
+    zeros.count.found = static_cast<int>(looked_at);
   }
   zeros.infinite = row.infinite_roots;
-  zeros.summary = {"Rosenbrock pencil by eigenvalues at s = 0, Newton's method", roots.newton_steps,
-                   roots.largest_step, roots.converged};
+  zeros.summary = {
+      "Rosenbrock pencil by eigenvalues at s = 0, Newton's method (residual: last step in s^2)",
+      roots.newton_steps, roots.largest_step, roots.converged};
   return zeros;
 }
 

@@ -25,7 +25,7 @@ struct CheckingModels {
 /// has no counterpart, or lands on some other root, which then moves in its turn. So s is trusted
 /// when
 ///
-///     |s - s'| <= agreement |s'|   and   |s' - s''| <= |s - s'|/10 or is rounding,
+///     |s - s'| <= agreement |s'|   and   |s' - s''| <= max(|s - s'|/10, agreement |s''|/1000),
 ///
 /// and no nearer root has the same counterpart. `count` of the result: roots found, trusted or not,
 /// up to the last that was looked at, beside the number there are by the argument principle (small

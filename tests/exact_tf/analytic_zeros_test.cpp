@@ -269,6 +269,39 @@ TEST(AnalyticZeros, NeedAFunctionThatIsNotZeroAtTheOrigin) {
   EXPECT_THROW(find_analytic_zeros(tip_function(0.0L), 0), std::invalid_argument);
 }
 
+TEST(ArgumentPrinciple, CountsDoubleZerosBesideTheContour) {
+  // A double zero turns the argument by almost a whole turn between two samples.
+  constexpr Real kModulus = 20.0L;
+  const int without = 4;  // tip_zero(4) is below 20, tip_zero(5) above
+  for (Real angle = 0.1L; angle < 0.7L; angle += 0.0371L) {
+    const Complex zero = z_at(kModulus, angle);
+    const auto function = with_zeros(tip_function(0.0L), {zero, zero});
+    for (const Real distance : {0.1L, 1e-3L, 1e-6L}) {
+      ArgumentPrinciple principle(function, {});
+      EXPECT_EQ(principle.count({0.0L, kModulus - distance}), without);
+      EXPECT_EQ(principle.count({0.0L, kModulus + distance}), without + 4);
+      EXPECT_EQ(principle.count({kModulus - distance, kModulus + distance}), 4);
+    }
+  }
+}
+
+TEST(ArgumentPrinciple, CountsInBoxesWithTheirMirrorImages) {
+  const auto function =
+      with_zeros(tip_function(0.0L), {z_at(5.0L, 0.3L), std::pow(6.0L, 4.0L), negative_z(6.5L)});
+  ArgumentPrinciple principle(function, {});
+  EXPECT_EQ(principle.count({4.0L, 7.0L}), 4);
+  EXPECT_EQ(principle.count({4.0L, 7.0L, 0.2L, 0.4L}), 2);
+  EXPECT_EQ(principle.count({4.0L, 7.0L, 0.0L, 0.2L}), 1);
+  EXPECT_EQ(principle.count({4.0L, 7.0L, 0.4L, kSectorAngle}), 1);
+  EXPECT_EQ(principle.count({4.0L, 5.5L, 0.0L, 0.25L}), 0);
+}
+
+TEST(ArgumentPrinciple, DeclinesOnAZero) {
+  const auto function = with_zeros(tip_function(0.0L), {z_at(5.0L, 0.3L)});
+  ArgumentPrinciple principle(function, {});
+  EXPECT_EQ(principle.count({4.0L, 5.0L}), std::nullopt);
+}
+
 /// Strain and deflection numerators of arms over the whole range of payloads: the coarse and the
 /// fine search end at the same zeros.
 TEST(AnalyticZeros, DoNotDependOnTheStepOfTheSearch) {

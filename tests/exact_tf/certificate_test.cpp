@@ -247,6 +247,15 @@ TEST(Certificate, KeepsItsWordAtLowPrecision) {
   EXPECT_GT(raised.precision_bits, 32);
 }
 
+TEST(Certificate, GivesUpWithinItsBudget) {
+  const arm::Arm arm = unit_arm(0.1, 0.0, 0.0);
+  const arm::Sensor close_to_tip{arm::SensorKind::strain, 1.0 - 1e-7};
+  CertificateOptions options;
+  options.max_function_values = 10'000;
+  const auto zeros = ExactArm(arm).zeros(close_to_tip, 5).s_rad_per_s;
+  expect_refuted(certify_zeros(arm, close_to_tip, zeros, options), "count is not certain");
+}
+
 TEST(Certificate, IsRefusedWhereItWouldNotHold) {
   arm::Arm arm = arm::paper_arm();
   const std::vector<std::complex<double>> s = {{1.0, 0.0}};

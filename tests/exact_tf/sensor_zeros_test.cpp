@@ -8,9 +8,9 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <fstream>
+#include <limits>
 
 namespace flexarm::exact_tf {
 namespace {
@@ -158,7 +158,10 @@ TEST_P(ZerosOfSensors, AreCompleteAndMakeTheTransferFunctionVanish) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Arms, ZerosOfSensors, testing::ValuesIn(undamped_arms()));
+// Arms whose poles keep away from their zeros; certificate_test.cpp judges the extremes.
+INSTANTIATE_TEST_SUITE_P(Arms, ZerosOfSensors,
+                         testing::Values(arm::paper_arm(), unit_arm(0.1, 0.5, 0.02),
+                                         unit_arm(1.0, 0.0, 0.0), unit_arm(0.3, 2.0, 0.0)));
 
 TEST(SensorZeros, OfStrainAtTheTipNeedPayloadInertia) {
   const arm::Sensor at_tip{arm::SensorKind::strain, 1.0};

@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace flexarm::fem {
@@ -147,6 +149,39 @@ INSTANTIATE_TEST_SUITE_P(Reference, CubicConvergence, ::testing::ValuesIn(kRefer
                          testing::name_of_case);
 INSTANTIATE_TEST_SUITE_P(Reference, SmallModel, ::testing::ValuesIn(kReferenceCases),
                          testing::name_of_case);
+
+TEST(HeavyPayload, LeavesTenPolesAndTenHubZerosExact) {
+  // Payload mass 10 m l and inertia 0.1 m l^3: the clamped frequencies span a factor of 1300, the
+  // eigenvalues one of 1.8e6. lambda from the characteristic equations with 40 digits.
+  constexpr std::array<double, 10> kLightHub = {
+      2.2316525621679791245, 4.1155741259806501844, 7.1110305299410267184, 10.229285634872230717,
+      13.363403762577657257, 16.501615182262838516, 19.641340988678628951, 22.781763441795856002,
+      25.922556585287608155, 29.063568464909966909};
+  constexpr std::array<double, 10> kHeavyHub = {
+      0.75007790625103401002, 2.4614603500918937027, 4.8453658993926576181, 7.8865638311272272997,
+      11.012157157145535067,  14.147731166598983179, 17.286452697896098243, 20.426399840302725966,
+      23.566935508124681337,  26.707793500284759457};
+  constexpr std::array<double, 10> kClamped = {
+      0.73177923001917690492, 2.4612351066374028965, 4.8452836028217074839, 7.8865436391633970599,
+      11.012149690300866636,  14.147727639642683797, 17.286450763287275398, 20.426398667440570818,
+      23.566934744339594803,  26.707792975477125138};
+  constexpr double kFewHundredEpsilon = 1e-13;
+  arm::Arm arm = testing::arm_of(kReferenceCases[4]);
+  arm.payload = {10.0, 0.1};
+  for (const auto& [hub_inertia, lambdas] :
+       {std::pair(0.0, kLightHub), std::pair(100.0, kHeavyHub)}) {
+    arm.hub.inertia_kg_m2 = hub_inertia;
+    const FemArm model(arm);
+    const arm::PoleSet poles = model.poles(10);
+    const arm::ZeroSet zeros = model.zeros(kHubAngle, 10);
+    for (std::size_t i = 0; i < 10; ++i) {
+      const double pole = lambdas[i] * lambdas[i];
+      const double zero = kClamped[i] * kClamped[i];
+      EXPECT_NEAR(poles.omega_rad_per_s[i], pole, kFewHundredEpsilon * pole);
+      EXPECT_NEAR(zeros.s_rad_per_s[i].imag(), zero, kFewHundredEpsilon * zero);
+    }
+  }
+}
 
 TEST(GradedMesh, ConvergesToTheSameNumbersAsAUniformOne) {
   const ReferenceCase& reference = kReferenceCases[0];

@@ -103,6 +103,20 @@ TEST(TransferFunction, HasBothDampings) {
   }
 }
 
+TEST(TransferFunction, OfStrainInsideAnElementIsOfOrderFour) {
+  // By inertia forces; the second derivative of cubic shape functions would be of order two.
+  // At 0.25 an odd number of elements has no node.
+  constexpr double kOrder = 4.0;
+  constexpr double kOrderTolerance = 0.1;
+  const DampedResponse& exact = kDampedResponses[2];
+  const auto error = [&](int elements) {
+    const FemArm model(damped_arm(), {.mesh = {.elements = elements}, .degree = 3});
+    return std::abs(model.transfer_function(arm::parse_sensor("strain@0.25"), exact.s) -
+                    exact.strain_quarter);
+  };
+  EXPECT_NEAR(std::log(error(17) / error(51)) / std::log(3.0), kOrder, kOrderTolerance);
+}
+
 TEST(TransferFunction, OfAFineCubicMeshKeepsItsDigits) {
   // At 2000 elements the discretisation error is below 1e-12, that of an assembled stiffness
   // would be epsilon h^-4 = 4e-3.
@@ -151,6 +165,7 @@ TEST(TransferFunction, VanishesAtTheZerosOfTheHubAngle) {
 TEST(TransferFunction, RefusesTheOriginAndImpossibleSensors) {
   const FemArm model(damped_arm());
   EXPECT_THROW(model.transfer_function({arm::SensorKind::hub_angle}, 0.0), std::domain_error);
+  EXPECT_THROW(model.transfer_function({arm::SensorKind::hub_angle}, 1e200), std::domain_error);
   EXPECT_THROW(model.transfer_function({arm::SensorKind::strain, 1.5}, Complex(0.0, 1.0)),
                arm::InputError);
 }

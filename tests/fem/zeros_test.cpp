@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <complex>
+#include <numbers>
 #include <vector>
 
 namespace flexarm::fem {
@@ -91,6 +92,22 @@ TEST(TransmissionZeros, OfTheTipWithPayloadInertiaHaveAnImaginaryPairBesideTheRe
   }
 }
 
+TEST(TransmissionZeros, OfTheTipAreAllFoundFarBeyondTheReachOfTheEigensolver) {
+  // s_n l^2 sqrt(m/EI) tends to 2 (n - 1/4)^2 pi^2 like exp(-2 n pi). The eigenvalue problem's
+  // condition is about exp(n pi), 10^27 for the twentieth.
+  constexpr int kCount = 20;
+  constexpr double kTolerance = 1e-8;
+  const FemArm model(testing::arm_of(testing::kReferenceCases[4]),
+                     {.mesh = {.elements = 10}, .degree = 13});
+  const arm::ZeroSet zeros = model.zeros(arm::parse_sensor("tip_displacement"), kCount);
+  ASSERT_EQ(zeros.s_rad_per_s.size(), static_cast<std::size_t>(kCount));
+  EXPECT_EQ(zeros.count.found, zeros.count.expected);
+  for (std::size_t i = 5; i < kCount; ++i) {
+    const double exact = 2.0 * std::pow((static_cast<double>(i) + 0.75) * std::numbers::pi, 2);
+    EXPECT_LE(std::abs(zeros.s_rad_per_s[i] - exact), kTolerance * exact) << "zero " << i + 1;
+  }
+}
+
 TEST(TransmissionZeros, OfStrainAtATipWithoutPayloadInertiaDoNotExist) {
   const FemArm model(testing::arm_of(testing::kReferenceCases[0]));
   const arm::ZeroSet zeros = model.zeros(arm::parse_sensor("strain@0.96"), 3);
@@ -143,7 +160,8 @@ TEST(PencilRoots, AreThoseOfTheDensePencilOfASmallModel) {
   const Discretisation model(loaded_arm(), {.elements = 2}, 3);
   const SensorRow row = sensor_row(model, loaded_arm(), arm::parse_sensor("tip_displacement"));
   const int n = model.size();
-  const PencilRoots roots = pencil_roots(model, row.c, n - 1, 1e-12);
+  const PencilRoots roots =
+      pencil_roots(model, Numerator(model, row.c, n - 1, 1e-12), n - 1, 1e-12);
   ASSERT_EQ(roots.w.size(), static_cast<std::size_t>(n - 1));
   const Eigen::MatrixXd stiffness(model.stiffness());
   const Eigen::MatrixXd mass(model.mass());

@@ -61,6 +61,9 @@ int run(const Arguments& arguments) {
   if (!arguments.out.empty()) write_folder(arguments.out, findings);
   if (!arguments.document.empty()) update_document(arguments.document, findings);
   print(text);
+  for (const auto& written : {arguments.json, arguments.out, arguments.document}) {
+    if (!written.empty()) print(fmt::format("wrote {}\n", written));
+  }
   print(arguments.part.empty()
             ? "next: one equation alone with  flexarm paper 22\n"
             : "next: the paper's arm in three formulations with  flexarm compare\n");

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <stdexcept>
 #include <utility>
 
@@ -121,6 +122,18 @@ Check damping_law() {
           .comparisons = {comparison("xi_2/xi_1, at most", "1", ratio, w[1] / w[0], {}, 0.01)}};
 }
 
+/// phi_i'(0) by (50) from (47) at that resonance, with the damping ratios of the table; I_T
+/// cancels.
+double slope_with_damping(const ModelTable& t, std::size_t mode) {
+  const std::complex<double> s{0.0, t.pole_Hz[mode].value};
+  std::complex<double> g = 1.0 / (s * s);
+  for (std::size_t i = 0; i < t.pole_Hz.size(); ++i) {
+    const double w = t.pole_Hz[i].value, z = t.zero_Hz[i].value, xi = t.damping_ratio[i].value;
+    g *= (s * s / (z * z) + 2.0 * xi * s / z + 1.0) / (s * s / (w * w) + 2.0 * xi * s / w + 1.0);
+  }
+  return std::sqrt(2.0 * t.damping_ratio[mode].value * std::norm(s) * std::abs(g));
+}
+
 Check hub_slopes(const ThreeModels& bare) {
   const auto& t = tables().hub_model;
   const auto poles = values(t.pole_Hz), zeros = values(t.zero_Hz), slopes = values(t.gain);
@@ -132,11 +145,13 @@ Check hub_slopes(const ThreeModels& bare) {
       .statement = "hub modal slopes from (47), (48) and Table 4",
       .verdict = Verdict::does_not_follow,
       .finding = fmt::format(
-          "(47) and (48) with two modes determine both slopes: they are the residues. {} for mode "
+          "(47) and (48) with two modes determine both slopes, whatever I_T: they are the "
+          "residues. "
+          "With the damping of the table, by (50), they come to {:.3f} and {:.3f}. {} for mode "
           "2 happens to be the quotient of the two, {:.3f}; {} for mode 1 is near what one mode "
           "alone would give, {:.3f}.",
-          t.gain[1].value, second / first, t.gain[0].value,
-          std::sqrt(squared_slopes({poles[0]}, {zeros[0]})[0])),
+          slope_with_damping(t, 0), slope_with_damping(t, 1), t.gain[1].value, second / first,
+          t.gain[0].value, std::sqrt(squared_slopes({poles[0]}, {zeros[0]})[0])),
       .comparisons = {
           against_print("phi_1'(0) from the roots of Table 6", "1", t.gain[0], first, {}),
           against_print("phi_2'(0) from the roots of Table 6", "1", t.gain[1], second, {}),
@@ -158,6 +173,7 @@ Check accelerometer_gains(const ThreeModels& bare) {
   const auto& t = tables().accelerometer_model;
   const auto slopes = values(tables().hub_model.gain), gains = values(t.gain);
   const double l = bare.exact_tf.arm().beam.length_m;
+  const auto tip = modal_data(bare.exact_tf, 2).tip_m;
   const auto zeros = squared_zeros(l, {slopes[0] * gains[0], slopes[1] * gains[1]},
                                    {from_Hz(t.pole_Hz[0].value), from_Hz(t.pole_Hz[1].value)});
   Check check{
@@ -165,16 +181,16 @@ Check accelerometer_gains(const ThreeModels& bare) {
       .statement = "accelerometer's modal gains by (52)",
       .verdict = Verdict::does_not_follow,
       .finding = fmt::format(
-          "The gains alternate in sign as phi_i(l) do, so that (52) was used with the minus sign "
-          "that it lacks; their sizes are 2 to 4 times phi_i(l), whose limit for a light hub is "
-          "2 l/3^(1/2) = {:.3f} m in every mode. As phi_i''(l) they would have to be 0.",
-          2.0 * l / std::sqrt(3.0)),
+          "The gains alternate in sign as phi_i(l) do, so that the sign was taken with the minus "
+          "that (52) lacks; their sizes are {:.1f} and {:.1f} times phi_i(l), whose limit for a "
+          "light hub is 2 l/3^(1/2) = {:.3f} m in every mode. As phi_i''(l) they would have to be "
+          "0.",
+          gains[0] / tip[0], gains[1] / tip[1], 2.0 * l / std::sqrt(3.0)),
       .comparisons = {}};
   for (const int order : {1, 2}) {
     check.comparisons.push_back(against_print(
         fmt::format("phi_{}(l) of Table 1's arm", order), "m",
-        t.gain[static_cast<std::size_t>(order) - 1],
-        mode_value(bare.exact_tf, order, kTipDisplacement),
+        t.gain[static_cast<std::size_t>(order) - 1], tip[static_cast<std::size_t>(order) - 1],
         bare.ask([order](const auto& m) { return mode_value(m, order, kTipDisplacement); })));
   }
   check.comparisons.push_back(

@@ -1,6 +1,5 @@
 #include "compare/paper_forms.hpp"
 #include "compare/paper_models.hpp"
-#include "compare/paper_tables.hpp"
 #include "compare/paper_topics.hpp"
 
 #include <cmath>

@@ -1,8 +1,10 @@
 #include "compare/paper_models.hpp"
 
 #include "compare/paper_tables.hpp"
+#include "compare/paper_topics.hpp"
 
 #include <boost/math/quadrature/gauss.hpp>
+#include <fmt/format.h>
 
 namespace flexarm::compare::paper {
 
@@ -43,6 +45,16 @@ arm::Arm arm_with_hub_inertia(double inertia_kg_m2) {
   arm::Arm arm = arm::paper_arm();
   arm.hub.inertia_kg_m2 = inertia_kg_m2;
   return arm;
+}
+
+std::string describe_arms() {
+  return fmt::format(
+      "All on the arm of Table 1. \"Payload mass\": {} kg at its tip; \"payload\": that mass and "
+      "{} kg m^2; \"hub friction\": {} N m s/rad; \"damped\": the Kelvin-Voigt time {:.3g} s, "
+      "which "
+      "gives mode 1 the damping ratio of Table 6. Sums and products have {} terms.",
+      kPayloadMass_kg, kPayloadInertia_kg_m2, kHubFriction_N_m_s_per_rad,
+      arm_with_damping().damping.kelvin_voigt_s, kTerms);
 }
 
 Stations stations(double length_m) {

@@ -8,6 +8,7 @@
 #include "exact_tf/exact_arm.hpp"
 #include "fem/fem_arm.hpp"
 
+#include <algorithm>
 #include <complex>
 #include <numbers>
 #include <vector>
@@ -78,6 +79,16 @@ template <arm::Formulation F>
 double magnitude(const F& model, const arm::Sensor& sensor, double omega_rad_per_s) {
   return std::abs(model.transfer_function(sensor, {0.0, omega_rad_per_s}));
 }
+
+/// I_T of the undamped arm from 1/(s^2 G(s)) well below its first hub zero, at Omega_1/10^4: the
+/// next term of the series is smaller by 10^-8 or so.
+template <arm::Formulation F>
+double low_frequency_inertia_kg_m2(const F& model) {
+  const arm::Sensor hub_angle{arm::SensorKind::hub_angle};
+  const double omega = 1e-4 * std::abs(model.zeros(hub_angle, 1).s_rad_per_s.at(0));
+  return 1.0 / (omega * omega * magnitude(model, hub_angle, omega));
+}
+inline constexpr double kLowFrequencyTolerance = 1e-6;
 
 inline constexpr arm::Sensor kHubAngle{arm::SensorKind::hub_angle};
 inline constexpr arm::Sensor kHubVelocity{arm::SensorKind::hub_velocity};

@@ -1,7 +1,6 @@
 #include "compare/paper_forms.hpp"
 #include "compare/paper_modal_sums.hpp"
 #include "compare/paper_models.hpp"
-#include "compare/paper_tables.hpp"
 #include "compare/paper_topics.hpp"
 
 #include <Eigen/Core>

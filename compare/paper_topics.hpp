@@ -3,6 +3,7 @@
 #include "compare/paper_cells.hpp"
 #include "compare/paper_check.hpp"
 
+#include <string>
 #include <vector>
 
 namespace flexarm::compare::paper {
@@ -29,6 +30,9 @@ struct Findings {
 /// Takes less than a second.
 Findings check_paper();
 
+/// What "payload", "damped" and the like stand for in the quantities' names.
+std::string describe_arms();
+
 /// Frequency at which transfer functions are compared: between the first hub zero and the first
 /// pole of the paper's arm.
 inline constexpr double kTestFrequency_Hz = 5.0;
@@ -36,7 +40,7 @@ inline constexpr double kTestFrequency_Hz = 5.0;
 /// Relative tolerances: for roots and transfer functions that each formulation finds on its own
 /// (the formulations reach 1e-10; the paper prints 5 digits), for integrals over modes (the second
 /// derivatives of discretised modes are good to 1e-8), and for sums and products cut at `kTerms`
-/// modes (the parts left out fall as the fourth power of the number).
+/// modes (what is left out falls at least as the third power of the number).
 inline constexpr double kRootTolerance = 1e-9;
 inline constexpr double kIntegralTolerance = 1e-7;
 inline constexpr double kSeriesTolerance = 1e-5;

@@ -15,9 +15,10 @@ namespace {
 
 using namespace compare::paper;
 
-constexpr std::string_view kOpen = "<!-- flexarm paper: ";
+// A mark stands at the start of a line.
+constexpr std::string_view kOpen = "\n<!-- flexarm paper: ";
 constexpr std::string_view kClose = " -->";
-constexpr std::string_view kEnd = "<!-- end -->";
+constexpr std::string_view kEnd = "\n<!-- end -->";
 
 /// Text of the checks as Markdown shows it: a bar would end a cell, and signs of emphasis and of
 /// HTML mean themselves.
@@ -45,7 +46,6 @@ std::string row_line(const std::vector<std::string>& cells) {
   return line + '\n';
 }
 
-/// A Markdown table; `part` goes before each row as a column of its own, on the first row only.
 std::string markdown(const Table& table) {
   std::vector<std::string> names, rule;
   for (const auto& column : table.columns) {
@@ -88,7 +88,9 @@ std::string topic_block(const Topic& topic) {
 }  // namespace
 
 std::string paper_block(const Findings& findings, const std::string& name) {
-  if (name == "overview") return paper_verdict_line(findings) + '\n';
+  if (name == "overview") {
+    return fmt::format("{}\n\n{}\n", paper_verdict_line(findings), escaped(describe_arms()));
+  }
   if (name == "cells") {
     return paper_cells_line(findings) + "\n\n" + markdown(paper_cells(findings));
   }
@@ -115,8 +117,8 @@ std::string updated_paper_document(const std::string& document, const Findings& 
     }
     const std::size_t body = close + kClose.size();
     out += document.substr(at, body - at) + "\n" +
-           paper_block(findings, document.substr(name, close - name)) + std::string(kEnd);
-    at = end + kEnd.size();
+           paper_block(findings, document.substr(name, close - name));
+    at = end + 1;  // kEnd begins with the line's end that the block has written
   }
 }
 

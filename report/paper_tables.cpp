@@ -17,18 +17,20 @@ namespace {
 
 using namespace compare::paper;
 
-constexpr std::array kVerdicts = {Verdict::holds, Verdict::harmless_misprint,
-                                  Verdict::slip_of_print, Verdict::slip_of_algebra,
-                                  Verdict::does_not_follow};
+struct CountedVerdict {
+  Verdict verdict;
+  const char* several;
+};
+constexpr std::array kVerdicts = {CountedVerdict{Verdict::holds, "hold"},
+                                  CountedVerdict{Verdict::harmless_misprint, "harmless misprints"},
+                                  CountedVerdict{Verdict::slip_of_print, "slips of print"},
+                                  CountedVerdict{Verdict::slip_of_algebra, "slips of algebra"},
+                                  CountedVerdict{Verdict::does_not_follow, "do not follow"}};
 
 Cell value_cell(const std::optional<double>& value, const Comparison& row) {
   if (!value) return {};
   const bool zero = std::abs(row.corrected) <= row.tolerance && std::abs(*value) <= row.tolerance;
   return zero ? 0.0 : *value;
-}
-
-Cell text(const std::string& s) {
-  return s.empty() ? Cell{} : Cell{s};
 }
 
 std::string with_unit(const Comparison& row) {
@@ -87,13 +89,14 @@ std::string indented(const std::string& lines, std::size_t indent) {
 
 constexpr std::size_t kWidth = 100;
 constexpr std::size_t kIndent = 4;
+constexpr std::size_t kValuesWidth = 110;  // the longest quantity beside five numbers
 
 std::string check_text(const Check& check) {
   std::string out = filled(
       fmt::format("{} {}: {}.", check.label, check.statement, to_string(check.verdict)), kWidth, 0);
   out += filled(check.finding, kWidth, kIndent);
   if (!check.comparisons.empty()) {
-    out += indented(to_text(paper_values(check), {.max_width = kWidth - kIndent}), kIndent);
+    out += indented(to_text(paper_values(check), {.max_width = kValuesWidth}), kIndent);
   }
   return out + '\n';
 }
@@ -167,9 +170,9 @@ Table paper_listing(const Findings& findings) {
     for (const auto& check : topic.checks) {
       for (const auto& row : check.comparisons) {
         const auto& from = row.formulations;
-        table.add_row({check.label, std::string(to_string(check.verdict)), row.quantity,
-                       text(row.unit), cell(row.printed), row.corrected, cell(from.exact_tf),
-                       cell(from.fem), cell(from.assumed_modes), row.tolerance});
+        table.add_row({check.label, std::string(to_string(check.verdict)), row.quantity, row.unit,
+                       cell(row.printed), row.corrected, cell(from.exact_tf), cell(from.fem),
+                       cell(from.assumed_modes), row.tolerance});
       }
     }
   }
@@ -188,13 +191,13 @@ std::string paper_cells_line(const Findings& findings) {
 std::string paper_verdict_line(const Findings& findings) {
   int checks = 0;
   std::string counts;
-  for (const auto verdict : kVerdicts) {
+  for (const auto& [verdict, several] : kVerdicts) {
     int count = 0;
     for (const auto& topic : findings.topics) {
-      for (const auto& check : topic.checks) count += check.verdict == verdict;
+      for (const auto& check : topic.checks) count += check.verdict == verdict ? 1 : 0;
     }
     checks += count;
-    counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", count, to_string(verdict));
+    counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", count, several);
   }
   return fmt::format("{} checks: {}.", checks, counts);
 }
@@ -218,7 +221,8 @@ bool names_part(const std::string& label, const std::string& part) {
 }
 
 std::string paper_text(const Findings& findings, const std::string& part) {
-  std::string out;
+  std::string out = filled(describe_arms(), kWidth, 0) + '\n';
+  const std::size_t nothing = out.size();
   for (const auto& topic : findings.topics) {
     std::string checks;
     for (const auto& check : topic.checks) {
@@ -228,7 +232,7 @@ std::string paper_text(const Findings& findings, const std::string& part) {
       out += fmt::format("{}\n{:=<{}}\n\n", topic.title, "", topic.title.size()) + checks;
     }
   }
-  if (!part.empty()) return out;
+  if (!part.empty()) return out.size() == nothing ? "" : out;
   out += filled(paper_cells_line(findings), kWidth, 0);
   out += to_text(paper_cells(findings), {.max_width = kWidth}) + '\n';
   return out + to_text(paper_overview(findings), {.max_width = kWidth}) +

@@ -20,17 +20,18 @@ Table paper_cells(const compare::paper::Findings& findings);
 /// Every quantity in one table with full precision, for CSV.
 Table paper_listing(const compare::paper::Findings& findings);
 
-/// "12 of 108 cells ... do not follow ...", one sentence.
+/// How many cells there are, and how many do not follow, one sentence.
 std::string paper_cells_line(const compare::paper::Findings& findings);
 
-/// "45 checks: 12 hold, ...", one sentence.
+/// How many checks there are of each verdict, one sentence.
 std::string paper_verdict_line(const compare::paper::Findings& findings);
 
 /// True when `label` names `part`: a number of an equation, within a range too ("(21)-(23)" names
 /// 22), or any part of the label's text, in either case ("table 6").
 bool names_part(const std::string& label, const std::string& part);
 
-/// Everything for a terminal; only checks that `names_part` when `part` is not empty.
+/// Everything for a terminal; when `part` is not empty only the checks that `names_part`, and empty
+/// when there are none.
 std::string paper_text(const compare::paper::Findings& findings, const std::string& part);
 
 }  // namespace flexarm::report

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <span>
 
@@ -22,10 +23,10 @@ enum class Decay {
 struct Convergence {
   /// Algebraic: the order p of error ~ setting^-p. Exponential: decades gained per degree of
   /// freedom. Least squares over the points that lie between kPreAsymptotic and the rounding floor;
-  /// empty with fewer than `kFewestPoints` of them.
+  /// empty with fewer than `kFewestPoints` of them, and where they do not fall along a line.
   std::optional<double> rate;
   int points_fitted = 0;
-  double smallest_error = 0.0;
+  double smallest_error = std::numeric_limits<double>::quiet_NaN();  ///< NaN: no setting has one
   /// The setting from which refinement no longer lowers the error: rounding has taken over. Empty
   /// when the series ends before that.
   std::optional<RefinementPoint> rounding_onset;

@@ -70,14 +70,13 @@ void print_comparison(const compare::Comparison& comparison,
   for (const auto& table : report::root_tables(comparison)) print_table(table);
   if (!measured.empty()) print_table(report::measured_table(measured));
   if (full) print_table(report::notes_table(comparison));
-  for (const auto& table : report::convergence_tables(comparison)) print_table(table);
-  if (!comparison.basis_notes.empty()) {
+  if (!comparison.refinements.empty()) {
+    print(report::convergence_legend(comparison) + "\n");
+    for (const auto& table : report::convergence_tables(comparison)) print_table(table);
     print("Bases of assumed_modes\n");
-    for (const auto& note : comparison.basis_notes) print(note + "\n");
+    for (const auto& note : comparison.basis_notes) print(report::to_paragraph(note, 2));
     print("\n");
-  }
-  if (full && !comparison.refinements.empty()) {
-    print_table(report::convergence_listing(comparison));
+    if (full) print_table(report::convergence_listing(comparison));
   }
   print_table(report::shapes_table(comparison));
   print_table(report::responses_table(comparison));

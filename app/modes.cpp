@@ -82,7 +82,8 @@ nlohmann::ordered_json certificate_json(const std::vector<CertifiedList>& lists)
                                     {"counted", certificate.counted},
                                     {"method", certificate.method},
                                     {"largest_distance_ulp", certificate.largest_distance_ulp},
-                                    {"precision_bits", certificate.precision_bits}};
+                                    {"precision_bits", certificate.precision_bits},
+                                    {"enclosures", nlohmann::ordered_json::array()}};
     for (const auto& root : certificate.roots) {
       entry["enclosures"].push_back({{"lambda", report::complex_json(root.lambda)},
                                      {"radius", root.radius},

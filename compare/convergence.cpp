@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <limits>
 #include <vector>
 
@@ -114,13 +115,14 @@ Convergence observe_convergence(std::span<const RefinementPoint> series, Decay d
     }
   }
 
+  std::vector<RefinementPoint> asymptotic;
+  std::ranges::copy_if(series.first(onset), std::back_inserter(asymptotic), [&](const auto& point) {
+    return is_asymptotic(point.relative_error, floor);
+  });
   Line line;
-  for (const auto& point : series.first(onset)) {
-    if (is_asymptotic(point.relative_error, floor)) line.add(point, decay);
-  }
-  if (decay == Decay::algebraic && line.x.size() > kMostAlgebraicPoints) {
-    line.x.erase(line.x.begin(), line.x.end() - kMostAlgebraicPoints);
-    line.y.erase(line.y.begin(), line.y.end() - kMostAlgebraicPoints);
+  for (const auto& point : asymptotic) {
+    const bool is_fine = point.setting * kWidestRange >= asymptotic.back().setting;
+    if (decay == Decay::exponential || is_fine) line.add(point, decay);
   }
   result.points_fitted = static_cast<int>(line.x.size());
   if (result.points_fitted >= kFewestPoints) {

@@ -39,8 +39,9 @@ struct Convergence {
 inline constexpr double kPreAsymptotic = 1e-2;
 /// Two points fix a slope; the third tests it.
 inline constexpr int kFewestPoints = 3;
-/// Algebraic orders are read off the finest points above the floor, at most this many.
-inline constexpr int kMostAlgebraicPoints = 4;
+/// Algebraic orders are read off the finest points above the floor: those whose setting is at most
+/// this factor below the finest.
+inline constexpr int kWidestRange = 8;
 
 /// Reads order, floor and cheapest setting off a series ordered by setting.
 Convergence observe_convergence(std::span<const RefinementPoint> series, Decay decay,

@@ -52,6 +52,20 @@ TEST_F(Modes, ACertificateIsPrintedAndWritten) {
   }
 }
 
+TEST_F(Modes, TheCertificateIsOfTheExactRootsWhicheverFormulationIsShown) {
+  const Ended ended = run({"modes", "--certificate", "--formulation", "assumed_modes"});
+  EXPECT_EQ(ended.status, 0) << ended.output;
+}
+
+TEST_F(Modes, RootsThatAModelDoesNotHaveAreCounted) {
+  const Ended ended = run({"modes", "--formulation", "assumed_modes", "--functions", "4", "--modes",
+                           "9", "--sensor", "hub_angle,tip_acceleration"});
+  EXPECT_EQ(ended.status, 0) << ended.errors;
+  EXPECT_THAT(ended.output, AllOf(HasSubstr("\n3 of 9 modes: assumed_modes has 4 degrees of "
+                                            "freedom\n3 of 9 zeros of hub_angle: "),
+                                  HasSubstr("of 9 zeros of tip_acceleration: ")));
+}
+
 TEST_F(Modes, TheFolderHoldsTablesAndShapes) {
   const Ended ended = run({"modes", "--out", "out", "--payload-mass", "0.06"});
   EXPECT_EQ(ended.status, 0) << ended.errors;

@@ -2,7 +2,6 @@
 
 #include "arm/arm_file.hpp"
 #include "arm/input_error.hpp"
-#include "report/text_table.hpp"
 
 #include <fmt/format.h>
 
@@ -40,17 +39,16 @@ std::filesystem::path folder_of(const std::filesystem::path& out, const arm::Arm
 }
 
 std::string describe(const arm::Arm& arm) {
-  return report::to_paragraph(
-             fmt::format("{}: l {:g} m, EI {:.6g} N m^2, m {:.6g} kg/m, I_T {:.6g} kg m^2",
-                         arm.name.empty() ? "arm" : arm.name, arm.beam.length_m,
-                         arm.beam.flexural_rigidity_N_m2(), arm.beam.linear_density_kg_per_m(),
-                         arm::total_inertia_kg_m2(arm))) +
-         report::to_paragraph(fmt::format(
-             "Ih {:g} kg m^2 (epsilon {:.4g}), Mp {:g} kg (eta {:.4g}), Ip {:g} kg m^2, kv {:g} s, "
-             "c {:g} N m s/rad",
-             arm.hub.inertia_kg_m2, arm::hub_inertia_ratio(arm), arm.payload.mass_kg,
-             arm::payload_mass_ratio(arm), arm.payload.inertia_kg_m2, arm.damping.kelvin_voigt_s,
-             arm.hub.viscous_friction_N_m_s_per_rad));
+  return fmt::format(
+      "{}\n"
+      "l {:g} m, EI {:.6g} N m^2, m {:.6g} kg/m, I_T {:.6g} kg m^2\n"
+      "Ih {:g} kg m^2 (epsilon {:.4g}), Mp {:g} kg (eta {:.4g}), Ip {:g} kg m^2\n"
+      "kv {:g} s, c {:g} N m s/rad\n",
+      arm.name.empty() ? "arm" : arm.name, arm.beam.length_m, arm.beam.flexural_rigidity_N_m2(),
+      arm.beam.linear_density_kg_per_m(), arm::total_inertia_kg_m2(arm), arm.hub.inertia_kg_m2,
+      arm::hub_inertia_ratio(arm), arm.payload.mass_kg, arm::payload_mass_ratio(arm),
+      arm.payload.inertia_kg_m2, arm.damping.kelvin_voigt_s,
+      arm.hub.viscous_friction_N_m_s_per_rad);
 }
 
 }  // namespace flexarm::app

@@ -120,7 +120,7 @@ int run(const Arguments& arguments) {
   const auto arms = arguments.arm.arms();
   if (!arguments.out.empty()) arm::make_folder(arguments.out);
 
-  bool agree = true;
+  std::size_t disagreeing = 0;
   std::vector<report::ComparedArm> results;
   for (const auto& arm : arms) {
     const auto comparison = compare_with_progress(arm, options);
@@ -130,14 +130,18 @@ int run(const Arguments& arguments) {
     if (!arguments.out.empty()) {
       write_folder(folder_of(arguments.out, arm, arms.size()), comparison, rows);
     }
-    agree = agree && comparison.verdict.agree;
+    if (!comparison.verdict.agree) ++disagreeing;
     results.push_back({comparison, rows});
   }
   if (!arguments.json.empty()) {
     arm::write_atomically(arguments.json, report::comparison_json(results));
   }
+  if (arms.size() > 1) {
+    print(disagreeing == 0 ? fmt::format("All {} arms: agree.\n", arms.size())
+                           : fmt::format("{} of {} arms: DISAGREE.\n", disagreeing, arms.size()));
+  }
   print(next_step(arguments));
-  return agree ? kSuccess : kFailure;
+  return disagreeing == 0 ? kSuccess : kFailure;
 }
 
 }  // namespace

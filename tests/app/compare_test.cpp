@@ -39,7 +39,7 @@ TEST_F(Compare, WithoutArgumentsItIsThePapersArmAndAgrees) {
   const Ended ended = run({"compare", "--quick"});
   EXPECT_EQ(ended.status, 0) << ended.errors;
   EXPECT_EQ(ended.errors, "");
-  EXPECT_THAT(ended.output, AllOf(StartsWith("aluminium link of the paper's Table 1: "),
+  EXPECT_THAT(ended.output, AllOf(StartsWith("aluminium link of the paper's Table 1\nl 0.96 m, "),
                                   HasSubstr("11.8618286445"), HasSubstr("2.87337494784"),
                                   HasSubstr("\nVerdict: agree. Worst pair: ")));
   EXPECT_THAT(ended.output, HasSubstr("\nnext: plots and tables as files with  flexarm compare"));
@@ -155,6 +155,7 @@ TEST_F(Compare, SeveralPayloadsAreComparedOneByOne) {
   const Ended ended = run({"compare", "--quick", "--poles", "2", "--payload-mass", "0,0.06",
                            "--out", "out", "--json", "out.json"});
   EXPECT_EQ(ended.status, 0) << ended.errors;
+  EXPECT_THAT(ended.output, HasSubstr("\nAll 2 arms: agree.\n"));
   EXPECT_THAT(names_in("out"), ElementsAre("payload-0.06kg", "payload-0kg"));
   const auto document = Json::parse(text_of("out.json"));
   ASSERT_EQ(document["comparisons"].size(), 2U);

@@ -40,9 +40,10 @@ std::filesystem::path folder_of(const std::filesystem::path& out, const arm::Arm
 
 std::string describe(const arm::Arm& arm) {
   return fmt::format(
-      "{}: l {:g} m, EI {:.6g} N m^2, m {:.6g} kg/m, I_T {:.6g} kg m^2\n"
-      "Ih {:g} kg m^2 (epsilon {:.4g}), Mp {:g} kg (eta {:.4g}), Ip {:g} kg m^2, kv {:g} s, "
-      "c {:g} N m s/rad\n",
+      "{}\n"
+      "l {:g} m, EI {:.6g} N m^2, m {:.6g} kg/m, I_T {:.6g} kg m^2\n"
+      "Ih {:g} kg m^2 (epsilon {:.4g}), Mp {:g} kg (eta {:.4g}), Ip {:g} kg m^2\n"
+      "kv {:g} s, c {:g} N m s/rad\n",
       arm.name.empty() ? "arm" : arm.name, arm.beam.length_m, arm.beam.flexural_rigidity_N_m2(),
       arm.beam.linear_density_kg_per_m(), arm::total_inertia_kg_m2(arm), arm.hub.inertia_kg_m2,
       arm::hub_inertia_ratio(arm), arm.payload.mass_kg, arm::payload_mass_ratio(arm),

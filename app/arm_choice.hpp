@@ -31,7 +31,7 @@ void add_arm_choice(CLI::App& parser, ArmChoice& choice);
 std::filesystem::path folder_of(const std::filesystem::path& out, const arm::Arm& arm,
                                 std::size_t arms);
 
-/// Name, rigidity, density, inertias and their ratios: two lines for the head of an output.
+/// Name, rigidity, density, inertias and their ratios: lines for the head of an output.
 std::string describe(const arm::Arm& arm);
 
 }  // namespace flexarm::app

@@ -70,14 +70,13 @@ void print_comparison(const compare::Comparison& comparison,
   for (const auto& table : report::root_tables(comparison)) print_table(table);
   if (!measured.empty()) print_table(report::measured_table(measured));
   if (full) print_table(report::notes_table(comparison));
-  for (const auto& table : report::convergence_tables(comparison)) print_table(table);
-  if (!comparison.basis_notes.empty()) {
+  if (!comparison.refinements.empty()) {
+    print(report::convergence_legend(comparison) + "\n");
+    for (const auto& table : report::convergence_tables(comparison)) print_table(table);
     print("Bases of assumed_modes\n");
-    for (const auto& note : comparison.basis_notes) print(note + "\n");
+    for (const auto& note : comparison.basis_notes) print(report::to_paragraph(note, 2));
     print("\n");
-  }
-  if (full && !comparison.refinements.empty()) {
-    print_table(report::convergence_listing(comparison));
+    if (full) print_table(report::convergence_listing(comparison));
   }
   print_table(report::shapes_table(comparison));
   print_table(report::responses_table(comparison));
@@ -121,7 +120,7 @@ int run(const Arguments& arguments) {
   const auto arms = arguments.arm.arms();
   if (!arguments.out.empty()) arm::make_folder(arguments.out);
 
-  bool agree = true;
+  std::size_t disagreeing = 0;
   std::vector<report::ComparedArm> results;
   for (const auto& arm : arms) {
     const auto comparison = compare_with_progress(arm, options);
@@ -131,14 +130,18 @@ int run(const Arguments& arguments) {
     if (!arguments.out.empty()) {
       write_folder(folder_of(arguments.out, arm, arms.size()), comparison, rows);
     }
-    agree = agree && comparison.verdict.agree;
+    if (!comparison.verdict.agree) ++disagreeing;
     results.push_back({comparison, rows});
   }
   if (!arguments.json.empty()) {
     arm::write_atomically(arguments.json, report::comparison_json(results));
   }
+  if (arms.size() > 1) {
+    print(disagreeing == 0 ? fmt::format("All {} arms: agree.\n", arms.size())
+                           : fmt::format("{} of {} arms: DISAGREE.\n", disagreeing, arms.size()));
+  }
   print(next_step(arguments));
-  return agree ? kSuccess : kFailure;
+  return disagreeing == 0 ? kSuccess : kFailure;
 }
 
 }  // namespace

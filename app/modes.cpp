@@ -15,6 +15,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <string>
 #include <vector>
@@ -41,19 +42,37 @@ struct CertifiedList {
   exact_tf::Certificate certificate;
 };
 
-/// Certificates of the poles and of every sensor's zeros.
-std::vector<CertifiedList> certify(const arm::Arm& arm, const response::ModalSummary& summary,
+/// Certificates of the poles and of every sensor's zeros, as exact_tf gives them.
+std::vector<CertifiedList> certify(const arm::Arm& arm, const std::vector<arm::Sensor>& sensors,
                                    int count) {
   const exact_tf::ExactArm exact(arm);
   std::vector<CertifiedList> lists;
   lists.push_back({"poles", exact_tf::certify_poles(arm, exact.pole_lambdas(count))});
-  for (const auto& [sensor, zeros] : summary.zeros) {
-    lists.push_back({"zeros of " + arm::to_string(sensor),
-                     arm::is_collocated(sensor)
-                         ? exact_tf::certify_hub_zeros(arm, exact.hub_zero_lambdas(count))
-                         : exact_tf::certify_zeros(arm, sensor, zeros.s_rad_per_s)});
+  for (const auto& sensor : sensors) {
+    lists.push_back(
+        {"zeros of " + arm::to_string(sensor),
+         arm::is_collocated(sensor)
+             ? exact_tf::certify_hub_zeros(arm, exact.hub_zero_lambdas(count))
+             : exact_tf::certify_zeros(arm, sensor, exact.zeros(sensor, count).s_rad_per_s)});
   }
   return lists;
+}
+
+/// A line for each list that is shorter than was asked for, and why.
+std::string shortfalls(const ChosenFormulation& chosen, const response::ModalSummary& summary,
+                       int count) {
+  std::string lines;
+  if (std::ssize(summary.modes) < count) {
+    lines += fmt::format("{} of {} modes: {} has {} degrees of freedom\n", summary.modes.size(),
+                         count, chosen.name, response::degrees_of_freedom(chosen.formulation));
+  }
+  for (const auto& [sensor, zeros] : summary.zeros) {
+    if (std::ssize(zeros.s_rad_per_s) == count) continue;
+    lines +=
+        fmt::format("{} of {} zeros of {}: {} further roots rejected\n", zeros.s_rad_per_s.size(),
+                    count, arm::to_string(sensor), zeros.rejected.size());
+  }
+  return lines.empty() ? "" : lines + "\n";
 }
 
 report::Table certificate_table(const std::vector<CertifiedList>& lists) {
@@ -61,7 +80,7 @@ report::Table certificate_table(const std::vector<CertifiedList>& lists) {
                       {{"roots"},
                        {"given"},
                        {"counted"},
-                       {"farthest", "ulp of lambda", 2},
+                       {"largest error", "ulp of lambda", 2},
                        {"precision", "bit"},
                        {"proved"}}};
   for (const auto& [roots, certificate] : lists) {
@@ -82,7 +101,8 @@ nlohmann::ordered_json certificate_json(const std::vector<CertifiedList>& lists)
                                     {"counted", certificate.counted},
                                     {"method", certificate.method},
                                     {"largest_distance_ulp", certificate.largest_distance_ulp},
-                                    {"precision_bits", certificate.precision_bits}};
+                                    {"precision_bits", certificate.precision_bits},
+                                    {"enclosures", nlohmann::ordered_json::array()}};
     for (const auto& root : certificate.roots) {
       entry["enclosures"].push_back({{"lambda", report::complex_json(root.lambda)},
                                      {"radius", root.radius},
@@ -110,12 +130,13 @@ int run(const Arguments& arguments) {
                       chosen.settings));
     print(report::to_text(report::poles_table(arm, summary)) + "\n");
     print(report::to_text(report::zeros_table(summary)) + "\n");
+    print(shortfalls(chosen, summary, arguments.count));
 
     nlohmann::ordered_json document = {
         {"arm", report::arm_json(arm)}, {"model", chosen.name}, {"settings", chosen.settings}};
     document.update(report::modes_json(arm, summary));
     if (arguments.certificate) {
-      const auto lists = certify(arm, summary, arguments.count);
+      const auto lists = certify(arm, sensors, arguments.count);
       print(report::to_text(certificate_table(lists)) + "\n");
       document["certificate"] = certificate_json(lists);
       for (const auto& list : lists) proved = proved && list.certificate.proved;

@@ -20,17 +20,22 @@ namespace {
 
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
+void require_at_least(const char* key, int value, int least) {
+  if (value < least) throw arm::out_of_range(key, value, "", fmt::format("{} or more", least));
+}
+
+void require_at_most(const char* key, int value, int most) {
+  if (value > most) throw arm::out_of_range(key, value, "", fmt::format("{} or less", most));
+}
+
 void require_valid(const Options& options) {
-  if (options.poles < 1) throw arm::out_of_range("poles", options.poles, "", "1 or more");
-  if (options.non_collocated_zeros < 1) {
-    throw arm::out_of_range("zeros", options.non_collocated_zeros, "", "1 or more");
-  }
-  if (!(options.root_tolerance > 0.0)) {
-    throw arm::out_of_range("tolerance", options.root_tolerance, "", "above 0");
-  }
-  if (!(options.wanted_accuracy > 0.0)) {
-    throw arm::out_of_range("accuracy", options.wanted_accuracy, "", "above 0");
-  }
+  require_at_least("poles", options.poles, 1);
+  require_at_least("zeros", options.non_collocated_zeros, 1);
+  require_at_least("response_points", options.response_points, 2);
+  arm::require_in_range("tolerance", options.root_tolerance, "", arm::kPositive);
+  arm::require_in_range("shape_tolerance", options.shape_tolerance, "", arm::kPositive);
+  arm::require_in_range("response_tolerance", options.response_tolerance, "", arm::kPositive);
+  arm::require_in_range("accuracy", options.wanted_accuracy, "", arm::kPositive);
 }
 
 /// Counts steps and tells the caller.
@@ -110,16 +115,30 @@ void add_shapes(const std::vector<Subject>& subjects, const Options& options,
   }
 }
 
+/// Frequencies [Hz] of a sensor's zeros on the imaginary axis, at least those up to `highest_Hz`.
+std::vector<double> imaginary_zeros_Hz(const response::AnyFormulation& formulation,
+                                       const arm::Sensor& sensor, double highest_Hz, int count) {
+  auto zeros = response::zeros(formulation, sensor, count).s_rad_per_s;
+  while (std::ssize(zeros) == count && frequency_Hz(zeros.back()) < highest_Hz) {
+    count *= 2;
+    zeros = response::zeros(formulation, sensor, count).s_rad_per_s;
+  }
+  std::vector<double> frequencies_Hz;
+  for (const auto s : zeros) {
+    if (s.real() == 0.0) frequencies_Hz.push_back(frequency_Hz(s));
+  }
+  return frequencies_Hz;
+}
+
 void add_response(const std::vector<Subject>& subjects, const arm::Sensor& sensor,
                   const Options& options, Comparison& comparison, Steps& steps) {
   std::vector<double> poles_Hz;
-  std::vector<double> features_Hz;
   for (const auto& row : comparison.roots) {
-    const auto s = *row.s_rad_per_s.front();
-    if (!row.family.zeros_of) poles_Hz.push_back(frequency_Hz(s));
-    const bool imaginary_zero = row.family.zeros_of == sensor && s.imag() > 0.0;
-    if (!row.family.zeros_of || imaginary_zero) features_Hz.push_back(frequency_Hz(s));
+    if (!row.family.zeros_of) poles_Hz.push_back(frequency_Hz(*row.s_rad_per_s.front()));
   }
+  auto features_Hz =
+      imaginary_zeros_Hz(subjects.front().formulation, sensor, poles_Hz.back(), options.poles + 2);
+  features_Hz.insert(features_Hz.end(), poles_Hz.begin(), poles_Hz.end());
   std::vector<response::AnyFormulation> formulations;
   for (const auto& subject : subjects) formulations.push_back(subject.formulation);
   auto response = compare_responses(
@@ -140,6 +159,7 @@ Comparison compare_subjects(const std::vector<Subject>& subjects, const Options&
   require_valid(options);
   Comparison comparison;
   comparison.arm = response::arm_of(subjects.front().formulation);
+  comparison.wanted_accuracy = options.wanted_accuracy;
   for (const auto& sensor : options.sensors) arm::require_valid(sensor, comparison.arm);
   for (const auto& subject : subjects) {
     comparison.subjects.push_back(subject.name);
@@ -190,11 +210,10 @@ int steps_of(const Options& options, std::size_t subjects, std::size_t refinemen
 }  // namespace
 
 std::vector<FeatureFamily> families(const Options& options) {
-  const int non_collocated =
-      options.non_collocated_zeros > 0 ? options.non_collocated_zeros : (3 * options.poles + 4) / 5;
   std::vector<FeatureFamily> asked = {{std::nullopt, options.poles}};
   for (const auto& sensor : options.sensors) {
-    asked.push_back({sensor, arm::is_collocated(sensor) ? options.poles : non_collocated});
+    asked.push_back(
+        {sensor, arm::is_collocated(sensor) ? options.poles : options.non_collocated_zeros});
   }
   return asked;
 }
@@ -217,9 +236,12 @@ Comparison compare(const std::vector<Subject>& subjects, const Options& options)
 
 Comparison compare(const arm::Arm& arm, const Options& options) {
   require_valid(options);
-  const auto subjects = standard_subjects(arm, options.poles);
+  require_at_most("poles", options.poles, response::kMostRoots);
+  require_at_most("zeros", options.non_collocated_zeros, response::kMostRoots);
+  const int roots = std::max(options.poles, options.non_collocated_zeros);
+  const auto subjects = standard_subjects(arm, roots);
   const auto refinements =
-      options.refinements ? standard_refinements(options.poles) : std::vector<Refinement>{};
+      options.refinements ? standard_refinements(roots) : std::vector<Refinement>{};
   Steps steps(options, steps_of(options, subjects.size(), refinements.size()));
   Comparison comparison = compare_subjects(subjects, options, steps);
 

@@ -26,9 +26,9 @@ struct Subject {
 
 struct Options {
   int poles = 10;  ///< poles, collocated zeros and modes compared, 1 or more
-  /// Zeros of each non-collocated sensor compared, 1 or more; never more than poles. Beyond about
-  /// ten the tip zeros sink below the rounding of a Ritz model: the tip's response to torque at
-  /// real s falls as exp(-lambda/sqrt 2).
+  /// Zeros of each non-collocated sensor compared, 1 or more. Beyond about ten the tip zeros sink
+  /// below the rounding of a Ritz model: the tip's response to torque at real s falls as
+  /// exp(-lambda/sqrt 2).
   int non_collocated_zeros = 6;
   /// Sensors whose zeros and responses are compared.
   std::vector<arm::Sensor> sensors = {{arm::SensorKind::hub_angle, 0.0},
@@ -39,7 +39,7 @@ struct Options {
   double response_tolerance = 1e-7;  ///< responses agree when |dG|/|G| <= response_tolerance
   double wanted_accuracy = 1e-9;     ///< the cheapest setting reaches error <= wanted_accuracy
   bool refinements = true;           ///< run the refinement series
-  int response_points = 800;
+  int response_points = 800;         ///< frequencies of each response, 2 or more
   /// Called after each step with the steps done and the steps there are.
   std::function<void(int done, int total)> progress;
 };
@@ -73,6 +73,7 @@ struct Comparison {
   std::vector<std::vector<arm::Mode>> modes;  ///< [subject][order], displacements at stations_m
   std::vector<ShapeAgreement> shapes;         ///< of every subject but the first
   std::vector<ResponseComparison> responses;  ///< one a sensor
+  double wanted_accuracy = 0.0;               ///< as in Options
   std::vector<RefinementCurve> refinements;
   std::vector<std::string> basis_notes;  ///< why a basis of assumed_modes is slow on this arm
   std::vector<Finding> findings;  ///< every pair of subjects in every root, shape and response
@@ -83,7 +84,7 @@ struct Comparison {
 std::vector<Subject> standard_subjects(const arm::Arm& arm, int roots);
 
 /// Compares the standard subjects of an arm. Throws InputError for an unusable arm, sensor or
-/// option.
+/// option, and for more roots than response::kMostRoots.
 Comparison compare(const arm::Arm& arm, const Options& options);
 
 /// Compares any two or more models with each other (no refinement series). The arm of the first is

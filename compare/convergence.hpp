@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <span>
 
@@ -22,10 +23,10 @@ enum class Decay {
 struct Convergence {
   /// Algebraic: the order p of error ~ setting^-p. Exponential: decades gained per degree of
   /// freedom. Least squares over the points that lie between kPreAsymptotic and the rounding floor;
-  /// empty with fewer than `kFewestPoints` of them.
+  /// empty with fewer than `kFewestPoints` of them, and where they do not fall along a line.
   std::optional<double> rate;
   int points_fitted = 0;
-  double smallest_error = 0.0;
+  double smallest_error = std::numeric_limits<double>::quiet_NaN();  ///< NaN: no setting has one
   /// The setting from which refinement no longer lowers the error: rounding has taken over. Empty
   /// when the series ends before that.
   std::optional<RefinementPoint> rounding_onset;
@@ -38,8 +39,9 @@ struct Convergence {
 inline constexpr double kPreAsymptotic = 1e-2;
 /// Two points fix a slope; the third tests it.
 inline constexpr int kFewestPoints = 3;
-/// Algebraic orders are read off the finest points above the floor, at most this many.
-inline constexpr int kMostAlgebraicPoints = 4;
+/// Algebraic orders are read off the finest points above the floor: those whose setting is at most
+/// this factor below the finest.
+inline constexpr int kWidestRange = 8;
 
 /// Reads order, floor and cheapest setting off a series ordered by setting.
 Convergence observe_convergence(std::span<const RefinementPoint> series, Decay decay,

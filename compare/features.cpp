@@ -1,7 +1,9 @@
 #include "compare/features.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <vector>
 
 namespace flexarm::compare {
 
@@ -38,21 +40,24 @@ std::vector<std::optional<std::complex<double>>> match(
     for (std::size_t i = 0; i < reference.size() && i < found.size(); ++i) matched[i] = found[i];
     return matched;
   }
-  std::vector<bool> taken(found.size(), false);
+  struct Pair {
+    double distance;
+    std::size_t reference;
+    std::size_t found;
+  };
+  std::vector<Pair> pairs;
   for (std::size_t i = 0; i < reference.size(); ++i) {
-    double nearest = kNearest;
-    std::optional<std::size_t> choice;
     for (std::size_t j = 0; j < found.size(); ++j) {
       const double distance = relative_distance(found[j], reference[i]);
-      if (!taken[j] && distance < nearest) {
-        nearest = distance;
-        choice = j;
-      }
+      if (distance <= kNearest) pairs.push_back({distance, i, j});
     }
-    if (choice) {
-      taken[*choice] = true;
-      matched[i] = found[*choice];
-    }
+  }
+  std::ranges::stable_sort(pairs, {}, &Pair::distance);
+  std::vector<bool> taken(found.size(), false);
+  for (const Pair& pair : pairs) {
+    if (matched[pair.reference] || taken[pair.found]) continue;
+    taken[pair.found] = true;
+    matched[pair.reference] = found[pair.found];
   }
   return matched;
 }

@@ -33,14 +33,14 @@ struct FeatureRoots {
 FeatureRoots roots(const response::AnyFormulation& formulation, const FeatureFamily& family);
 
 /// For each reference root the root of `found` that stands for it, or empty: by order where roots
-/// are ordered by the theory (poles, zeros of a collocated sensor: Rayleigh-Ritz bounds), else the
-/// nearest one not taken, at most `kNearest` of its modulus away.
+/// are ordered by the theory (poles, zeros of a collocated sensor: Rayleigh-Ritz bounds), else
+/// nearest pairs first, each root once, at most `kNearest` of the reference's modulus apart.
 std::vector<std::optional<std::complex<double>>> match(
     const FeatureFamily& family, std::span<const std::complex<double>> reference,
     std::span<const std::complex<double>> found);
 
 /// A non-collocated zero further than this from a reference zero, relative to its modulus, is not
-/// taken for it: neighbouring tip zeros are a factor 1.9 or more apart.
+/// taken for it.
 inline constexpr double kNearest = 0.3;
 
 /// |s - reference|/|reference|.

@@ -7,7 +7,8 @@ namespace flexarm::compare {
 
 /// How far two formulations are apart in one quantity, and how far they may be.
 struct Finding {
-  std::string quantity;    ///< "hub_angle zero 3", "mode shape 2", "tip_acceleration at 40.1 Hz"
+  std::string
+      quantity;  ///< "hub_angle zero 3", "mode shape 2", "tip_acceleration response at 40.1 Hz"
   std::string first;       ///< formulation
   std::string second;      ///< formulation
   double distance = 0.0;   ///< relative; NaN when one of the two has no value

@@ -19,8 +19,8 @@ struct MeasuredRow {
   double error_percent = 0.0;
 };
 
-/// Looks each measured feature up among the roots of the comparison's first model, which must hold
-/// the families that `families_of` names.
+/// Looks each measured feature up among the roots of the comparison's first model, which has zeros
+/// of the sensors compared only (see `sensors_with_zeros`).
 std::vector<MeasuredRow> beside_model(const measured::ModalTable& measured,
                                       const Comparison& comparison);
 

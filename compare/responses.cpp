@@ -20,7 +20,7 @@ bool is_off_resonance(double frequency_Hz, const std::vector<double>& features_H
 
 std::vector<double> response_grid_Hz(const std::vector<double>& pole_frequency_Hz, int points) {
   const double first = std::log(0.1 * pole_frequency_Hz.front());
-  const double last = std::log(1.2 * pole_frequency_Hz.back());
+  const double last = std::log(pole_frequency_Hz.back());
   std::vector<double> grid;
   for (int i = 0; i < points; ++i) {
     grid.push_back(std::exp(first + (last - first) * i / (points - 1)));
@@ -47,7 +47,9 @@ ResponseComparison compare_responses(const std::vector<response::AnyFormulation>
     const auto& reference = result.values.empty() ? values : result.values.front();
     for (std::size_t k = 0; k < values.size(); ++k) {
       error.push_back(std::abs(values[k] - reference[k]) / std::abs(reference[k]));
-      if (!(error[k] <= largest) && is_off_resonance(frequency_Hz[k], features_Hz)) {
+      // NaN is worse than any number, and stays.
+      if (!std::isnan(largest) && !(error[k] <= largest) &&
+          is_off_resonance(frequency_Hz[k], features_Hz)) {
         largest = error[k];
         largest_at_Hz = frequency_Hz[k];
       }

@@ -19,7 +19,8 @@ Eigen::Map<const Eigen::VectorXd> as_vector(const std::vector<double>& values) {
 std::vector<double> shape_stations_m(double length_m) {
   std::vector<double> stations;
   for (int i = 0; i < kShapeStations; ++i) {
-    stations.push_back(length_m * i / (kShapeStations - 1));
+    // The quotient first: it is 1 at the tip, where no station may lie beyond the beam.
+    stations.push_back(length_m * (static_cast<double>(i) / (kShapeStations - 1)));
   }
   return stations;
 }

@@ -24,8 +24,8 @@ inline constexpr int kShapeStations = 201;
 /// The stations x [m] of an arm of that length.
 std::vector<double> shape_stations_m(double length_m);
 
-/// Compares `count` modes; `reference` and `model` are modes with displacements at the same
-/// stations.
+/// One row for each mode that both have; `reference` and `model` are modes with displacements at
+/// the same stations.
 std::vector<ShapeAgreement> compare_shapes(const std::string& formulation,
                                            const std::vector<arm::Mode>& reference,
                                            const std::vector<arm::Mode>& model);

@@ -14,9 +14,12 @@ Json optional_json(const std::optional<T>& value) {
   return value ? Json(*value) : Json(nullptr);
 }
 
+Json sensor_json(const std::optional<arm::Sensor>& sensor) {
+  return sensor ? Json(arm::to_string(*sensor)) : Json(nullptr);
+}
+
 Json family_json(const compare::FeatureFamily& family) {
-  return {{"feature", family.zeros_of ? "zero" : "pole"},
-          {"sensor", family.zeros_of ? Json(arm::to_string(*family.zeros_of)) : Json(nullptr)}};
+  return {{"feature", family.zeros_of ? "zero" : "pole"}, {"sensor", sensor_json(family.zeros_of)}};
 }
 
 Json models_json(const compare::Comparison& comparison) {
@@ -143,7 +146,7 @@ Json measured_json(const std::vector<compare::MeasuredRow>& rows) {
   Json measured = Json::array();
   for (const auto& row : rows) {
     measured.push_back({{"feature", measured::to_string(row.measured.feature)},
-                        {"sensor", row.measured.sensor ? arm::to_string(*row.measured.sensor) : ""},
+                        {"sensor", sensor_json(row.measured.sensor)},
                         {"order", row.measured.order},
                         {"measured_Hz", optional_json(row.measured.frequency_Hz)},
                         {"model_Hz", optional_json(row.model_frequency_Hz)},

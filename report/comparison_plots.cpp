@@ -45,7 +45,13 @@ ConvergenceCurve convergence_curve(const compare::RefinementCurve& curve) {
   return drawn;
 }
 
-/// One picture a family of the refinement curves that `choose` takes.
+/// Zero and NaN have no place on a logarithmic axis.
+bool has_a_point(const compare::RefinementCurve& curve) {
+  return std::ranges::any_of(curve.points,
+                             [](const auto& point) { return point.relative_error > 0.0; });
+}
+
+/// One picture a family of the refinement curves that `choose` takes, where they have a point.
 template <class Choose>
 void add_convergence(const compare::Comparison& comparison, const std::string& prefix,
                      const std::string& title, Choose choose, std::vector<NamedPlot>& plots) {
@@ -56,10 +62,12 @@ void add_convergence(const compare::Comparison& comparison, const std::string& p
     ConvergencePlot plot;
     plot.title = fmt::format("{}: {}", title, plural(first.family));
     for (const auto& curve : comparison.refinements) {
-      if (curve.family == first.family && is_shown(curve.order) && choose(curve)) {
+      if (curve.family == first.family && is_shown(curve.order) && choose(curve) &&
+          has_a_point(curve)) {
         plot.curves.push_back(convergence_curve(curve));
       }
     }
+    if (plot.curves.empty()) continue;
     plots.push_back(
         {prefix + "-" + file_part(first.family) + ".svg", to_svg(convergence_figure(plot))});
   }

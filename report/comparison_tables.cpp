@@ -1,5 +1,7 @@
 #include "report/comparison_tables.hpp"
 
+#include "report/text_table.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -47,7 +49,7 @@ struct SeriesSummary {
   const compare::RefinementCurve* any = nullptr;
   double lowest_rate = std::numeric_limits<double>::infinity();
   double highest_rate = -std::numeric_limits<double>::infinity();
-  double smallest_error = 0.0;  ///< of the root that is worst off
+  double smallest_error = 0.0;  ///< of the root that is worst off; infinite: a root is missing
   int rounding_from = 0;        ///< degrees of freedom at the first floor met; 0: none met
   int cheapest = 0;             ///< degrees of freedom at which every root is accurate; 0: never
 
@@ -57,7 +59,10 @@ struct SeriesSummary {
       lowest_rate = std::min(lowest_rate, *seen.rate);
       highest_rate = std::max(highest_rate, *seen.rate);
     }
-    smallest_error = std::max(smallest_error, seen.smallest_error);
+    // A root that no setting has is worse than any error.
+    smallest_error = std::isnan(seen.smallest_error)
+                         ? std::numeric_limits<double>::infinity()
+                         : std::max(smallest_error, seen.smallest_error);
     if (seen.rounding_onset) {
       const int from = seen.rounding_onset->degrees_of_freedom;
       rounding_from = rounding_from == 0 ? from : std::min(rounding_from, from);
@@ -159,9 +164,9 @@ std::vector<Table> convergence_tables(const compare::Comparison& comparison) {
                  {"setting"},
                  {"order"},
                  {"decades", "1/dof"},
-                 error_column("smallest"),
+                 error_column("least"),
                  {"rounding", "dof"},
-                 {"accurate", "dof"}}};
+                 {fmt::format("{:.0e}", comparison.wanted_accuracy), "dof"}}};
     for (const auto& [name, summary] : series) {
       table.add_row({name, summary.any->setting_name, summary.rate_text(compare::Decay::algebraic),
                      summary.rate_text(compare::Decay::exponential), summary.smallest_error_cell(),
@@ -216,6 +221,15 @@ Table measured_table(const std::vector<compare::MeasuredRow>& rows) {
                    row.model_frequency_Hz.value_or(kMissing), row.error_percent});
   }
   return table;
+}
+
+std::string convergence_legend(const compare::Comparison& comparison) {
+  return to_paragraph(fmt::format(
+      "Refinement series against {0}. Over the roots of a family: the range of orders p in error ~ "
+      "setting^-p, or of decades gained per degree of freedom (dof); the least error of the worst "
+      "root; the dof from which rounding takes over in the first root that it reaches; the dof "
+      "from which every root is within {1:.0e}.",
+      comparison.subjects.front(), comparison.wanted_accuracy));
 }
 
 std::string verdict_line(const compare::Comparison& comparison) {

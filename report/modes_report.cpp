@@ -103,7 +103,8 @@ nlohmann::ordered_json modes_json(const arm::Arm& arm, const response::ModalSumm
                   {"omega_rad_per_s", mode.omega_rad_per_s},
                   {"lambda", response::lambda_of(arm, mode.omega_rad_per_s)},
                   {"hub_slope", mode.hub_slope},
-                  {"damping_ratio", mode.damping_ratio}};
+                  {"damping_ratio", mode.damping_ratio},
+                  {"sensor_values", Json::object()}};
     for (std::size_t k = 0; k < summary.sensors.size(); ++k) {
       entry["sensor_values"][arm::to_string(summary.sensors[k])] = mode.sensor_values[k];
     }

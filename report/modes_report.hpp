@@ -23,7 +23,7 @@ Table shapes_over_x_table(const response::ModalSummary& summary);
 /// The shapes as one SVG document.
 std::string shapes_svg(const std::string& formulation, const response::ModalSummary& summary);
 
-/// Members `poles`, `modes`, `zeros` of schema `flexarm.modes/1` (docs/json.md).
+/// Members `stations_m`, `modes`, `zeros` of an arm in schema `flexarm.modes/1` (docs/json.md).
 nlohmann::ordered_json modes_json(const arm::Arm& arm, const response::ModalSummary& summary);
 
 }  // namespace flexarm::report

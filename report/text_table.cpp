@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <sstream>
 #include <string_view>
 #include <vector>
 
@@ -145,6 +146,23 @@ std::string to_text(const Table& table, const TextOptions& options) {
     if (!shown.empty()) text += block(shown, table.rows.size());
   } while (next < columns.size());
   return text;
+}
+
+std::string to_paragraph(std::string_view text, std::size_t indent, std::size_t max_width) {
+  std::istringstream words{std::string(text)};
+  std::string lines;
+  std::string line;
+  for (std::string word; words >> word;) {
+    if (line.empty()) {
+      line = word;
+    } else if (display_width(line) + 1 + display_width(word) <= max_width) {
+      line += " " + word;
+    } else {
+      lines += line + "\n";
+      line = std::string(indent, ' ') + word;
+    }
+  }
+  return lines + line + "\n";
 }
 
 }  // namespace flexarm::report

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 
 namespace flexarm::report {
 
@@ -20,5 +21,10 @@ std::string to_text(const Table& table, const TextOptions& options = {});
 
 /// `value` with exactly `significant_digits`, trailing zeros included ("12.0000"); 0 is "0".
 std::string format_number(double value, int significant_digits, Notation notation);
+
+/// A paragraph for a terminal: `text` broken at blanks into lines of at most `max_width` columns
+/// where its words allow it, all but the first indented; each line ends in '\n'.
+std::string to_paragraph(std::string_view text, std::size_t indent = 0,
+                         std::size_t max_width = TextOptions{}.max_width);
 
 }  // namespace flexarm::report

@@ -1,5 +1,6 @@
 #include "arm/arm_file.hpp"
 #include "arm/text_file.hpp"
+#include "tests/app/flexarm_fixture.hpp"
 #include "tests/app/process.hpp"
 
 #include <gmock/gmock.h>
@@ -17,30 +18,6 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::StartsWith;
-
-class Flexarm : public testing::Test {
- protected:
-  Flexarm() {
-    std::string name = (fs::temp_directory_path() / "flexarm-test-XXXXXX").string();
-    folder_ = ::mkdtemp(name.data());
-  }
-  ~Flexarm() override { fs::remove_all(folder_); }
-
-  Ended run(const std::vector<std::string>& arguments) const {
-    return run_flexarm(arguments, folder_.string());
-  }
-  std::string text_of(const std::string& name) const {
-    return arm::read_text_file(folder_ / name, 1 << 20);
-  }
-
-  fs::path folder_;
-};
-
-void expect_refused(const Ended& ended, const std::string& line) {
-  EXPECT_EQ(ended.status, 2);
-  EXPECT_EQ(ended.errors, line + "\n");
-  EXPECT_EQ(ended.output, "");
-}
 
 TEST_F(Flexarm, AloneItPrintsItsHelp) {
   const Ended alone = run({});

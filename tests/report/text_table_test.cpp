@@ -110,5 +110,16 @@ TEST(TextTable, ARowOfTheWrongLengthIsRefused) {
   EXPECT_THROW(table.add_row({1}), std::invalid_argument);
 }
 
+TEST(Paragraph, BreaksAtBlanksAndIndentsWhatFollows) {
+  EXPECT_EQ(to_paragraph("one two three four", 2, 9), "one two\n  three\n  four\n");
+  EXPECT_EQ(to_paragraph("one two", 2, 7), "one two\n");
+  EXPECT_EQ(to_paragraph("one  two\nthree", 0, 80), "one two three\n");
+}
+
+TEST(Paragraph, AWordThatIsTooLongStandsAlone) {
+  EXPECT_EQ(to_paragraph("a abcdefgh b", 1, 4), "a\n abcdefgh\n b\n");
+  EXPECT_EQ(to_paragraph("", 2, 4), "\n");
+}
+
 }  // namespace
 }  // namespace flexarm::report

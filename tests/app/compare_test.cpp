@@ -1,0 +1,215 @@
+#include "tests/app/flexarm_fixture.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <csignal>
+#include <sys/resource.h>
+
+namespace flexarm::testing_app {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::IsSupersetOf;
+using testing::StartsWith;
+
+using Compare = Flexarm;
+
+constexpr const char* kArm =
+    "name = \"rig\"\n"
+    "[beam]\nlength = 0.8\nwidth = 0.02\nthickness = 0.003\ndensity = 2700.0\n"
+    "youngs_modulus = 7e10\n"
+    "[hub]\ninertia = 1e-3\n";
+
+/// The user's CPU seconds of all programs run so far.
+double cpu_s() {
+  rusage usage{};
+  ::getrusage(RUSAGE_CHILDREN, &usage);
+  return static_cast<double>(usage.ru_utime.tv_sec) +
+         1e-6 * static_cast<double>(usage.ru_utime.tv_usec);
+}
+
+TEST_F(Compare, WithoutArgumentsItIsThePapersArmAndAgrees) {
+  const Ended ended = run({"compare", "--quick"});
+  EXPECT_EQ(ended.status, 0) << ended.errors;
+  EXPECT_EQ(ended.errors, "");
+  EXPECT_THAT(ended.output, AllOf(StartsWith("aluminium link of the paper's Table 1\nl 0.96 m, "),
+                                  HasSubstr("11.8618286445"), HasSubstr("2.87337494784"),
+                                  HasSubstr("\nVerdict: agree. Worst pair: ")));
+  EXPECT_THAT(ended.output, HasSubstr("\nnext: plots and tables as files with  flexarm compare"));
+  EXPECT_TRUE(names_in().empty());
+}
+
+TEST_F(Compare, QuickTakesLessThanASecond) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "the sanitizers take their own time";
+#endif
+  const double before = cpu_s();
+  EXPECT_EQ(run({"compare", "--quick"}).status, 0);
+  EXPECT_LT(cpu_s() - before, 1.0);
+}
+
+TEST_F(Compare, NoLineIsWiderThanATerminal) {
+  constexpr std::size_t kColumns = 100;
+  const Ended ended = run({"compare", "--poles", "2", "--zeros", "2", "--sensor", "strain@0.25"});
+  EXPECT_EQ(ended.status, 0) << ended.errors;
+  std::istringstream lines(ended.output);
+  for (std::string line; std::getline(lines, line);) {
+    EXPECT_LE(line.size(), kColumns) << line;
+  }
+}
+
+TEST_F(Compare, FormulationsThatDisagreeGiveStatusOneAndTheWorstPair) {
+  // No formulation is right to 1e-18.
+  const Ended ended = run({"compare", "--quick", "--poles", "2", "--tolerance", "1e-18"});
+  EXPECT_EQ(ended.status, 1);
+  EXPECT_EQ(ended.errors, "");
+  EXPECT_THAT(ended.output, HasSubstr("\nVerdict: DISAGREE. Worst pair: "));
+}
+
+TEST_F(Compare, BadInputIsOneLineAndStatusTwo) {
+  expect_refused(run({"compare", "none.toml"}), "none.toml: no such file");
+  write("bad.toml", "[beam]\nlenght = 1.0\n");
+  EXPECT_THAT(run({"compare", "bad.toml"}).errors,
+              StartsWith("bad.toml:2: beam.lenght: unknown key (did you mean length?)"));
+  expect_refused(run({"compare", "--sensor", "hub_angel"}),
+                 "sensor hub_angel: unknown (did you mean hub_angle?); allowed: hub_angle, "
+                 "hub_velocity, tip_acceleration, tip_displacement, tip_deflection, strain@X (X in "
+                 "metres from the hub)");
+  expect_refused(run({"compare", "--sensor", "strain@3"}),
+                 "sensor strain@3: position must be from 0 to the beam's length, 0.96 m");
+  expect_refused(run({"compare", "--poels", "3"}),
+                 "flexarm: --poels: unknown option (did you mean --poles?); "
+                 "see flexarm compare --help");
+  expect_refused(run({"compare", "--poles", "0"}), "poles = 0: must be 1 or more");
+  expect_refused(run({"compare", "--poles", "1000000"}), "poles = 1000000: must be 92 or less");
+  expect_refused(run({"compare", "--payload-mass", "-1"}),
+                 "payload.mass = -1 kg: must be a finite number, 0 or more");
+  EXPECT_EQ(names_in(), (std::vector<std::string>{"bad.toml"}));
+}
+
+TEST_F(Compare, AMeasuredTableWithAnErrorIsNamedByFileAndLine) {
+  write("modal.csv",
+        "sensor,feature,order,frequency [Hz]\nhub_angle,pole,1,12\nhub_angle,pol,2,3\n");
+  const Ended ended = run({"compare", "--quick", "--measured", "modal.csv"});
+  EXPECT_EQ(ended.status, 2);
+  EXPECT_EQ(ended.output, "");
+  EXPECT_THAT(ended.errors, StartsWith("modal.csv:3: "));
+  EXPECT_THAT(run({"compare", "--measured", "none.csv"}).errors,
+              HasSubstr("none.csv: no such file"));
+}
+
+TEST_F(Compare, AnEffectInTheArmFileIsRefusedByName) {
+  write("rig.toml", std::string(kArm) + "[effects.hub_spring]\nstiffness = 1.0\n");
+  for (const std::string command : {"compare", "modes"}) {
+    const Ended ended = run({command, "rig.toml"});
+    EXPECT_EQ(ended.status, 2);
+    EXPECT_EQ(ended.output, "");
+    EXPECT_THAT(ended.errors, AllOf(HasSubstr("hub_spring"), HasSubstr("exact_tf")));
+  }
+}
+
+TEST_F(Compare, MeasuredFrequenciesStandBesideTheModels) {
+  write("modal.csv",
+        "sensor,feature,order,frequency [Hz]\nhub_angle,pole,1,12.00\n"
+        "strain@0.25,zero,1,20.508\n");
+  const Ended ended = run({"compare", "--quick", "--measured", "modal.csv", "--json", "out.json"});
+  EXPECT_EQ(ended.status, 0) << ended.errors;
+  EXPECT_THAT(ended.output, HasSubstr("Measured beside exact_tf"));
+  const auto rows = Json::parse(text_of("out.json"))["comparisons"][0]["measured"];
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_NEAR(rows[0]["model_Hz"].get<double>(), 11.8618, 1e-4);
+  EXPECT_NEAR(rows[0]["error_percent"].get<double>(), 1.165, 1e-3);
+  EXPECT_NEAR(rows[1]["model_Hz"].get<double>(), 20.3793, 1e-4) << "of a sensor not asked for";
+}
+
+TEST_F(Compare, TheFolderHoldsTablesAndPlots) {
+  write("modal.csv", "sensor,feature,order,frequency [Hz]\nhub_angle,pole,1,12.00\n");
+  const Ended ended = run({"compare", "--poles", "2", "--zeros", "2", "--measured", "modal.csv",
+                           "--out", "new/compared"});
+  EXPECT_EQ(ended.status, 0) << ended.errors;
+  EXPECT_THAT(ended.output, HasSubstr("\nwrote new/compared\n"));
+  EXPECT_THAT(names_in("new/compared"),
+              IsSupersetOf({"roots.csv", "shapes.csv", "responses.csv", "measured.csv",
+                            "convergence.csv", "refinement.csv", "convergence-poles.svg",
+                            "convergence-zeros-tip_acceleration.svg", "bases-poles.svg",
+                            "pole-zero-hub_angle.svg", "bode-hub_angle.svg",
+                            "bode-tip_acceleration.svg", "mode-shapes.svg"}));
+  for (const auto& name : names_in("new/compared")) {
+    const std::string text = text_of("new/compared/" + name);
+    if (name.ends_with(".svg")) {
+      EXPECT_THAT(text, AllOf(HasSubstr("<svg"), EndsWith("</svg>\n"))) << name;
+    } else {
+      EXPECT_GE(std::ranges::count(text, '\n'), 2) << name;
+    }
+  }
+}
+
+TEST_F(Compare, SeveralPayloadsAreComparedOneByOne) {
+  const Ended ended = run({"compare", "--quick", "--poles", "2", "--payload-mass", "0,0.06",
+                           "--out", "out", "--json", "out.json"});
+  EXPECT_EQ(ended.status, 0) << ended.errors;
+  EXPECT_THAT(ended.output, HasSubstr("\nAll 2 arms: agree.\n"));
+  EXPECT_THAT(names_in("out"), ElementsAre("payload-0.06kg", "payload-0kg"));
+  const auto document = Json::parse(text_of("out.json"));
+  ASSERT_EQ(document["comparisons"].size(), 2U);
+  EXPECT_EQ(document["comparisons"][0]["arm"]["payload_mass_kg"], 0.0);
+  EXPECT_EQ(document["comparisons"][1]["arm"]["payload_mass_kg"], 0.06);
+  EXPECT_EQ(document["verdict"], "agree");
+}
+
+TEST_F(Compare, JsonThatCannotBeWrittenIsReportedAndLeavesNothing) {
+  const Ended ended = run({"compare", "--quick", "--poles", "1", "--json", "none/out.json"});
+  EXPECT_EQ(ended.status, 2);
+  EXPECT_EQ(ended.errors, "none/out.json: cannot be written: there is no folder none\n");
+  EXPECT_TRUE(names_in().empty());
+}
+
+TEST_F(Compare, AnOldJsonFileIsReplacedWhole) {
+  write("out.json", "old");
+  fs::create_symlink("out.json", folder_ / "link.json");
+  EXPECT_EQ(run({"compare", "--quick", "--poles", "1", "--json", "link.json"}).status, 0);
+  EXPECT_EQ(Json::parse(text_of("out.json"))["schema"], "flexarm.compare/1");
+  EXPECT_TRUE(fs::is_symlink(folder_ / "link.json"));
+  EXPECT_THAT(names_in(), ElementsAre("link.json", "out.json"));
+}
+
+TEST_F(Compare, AClosedPipeEndsItWithoutAWord) {
+  for (const std::string command : {"compare", "modes"}) {
+    std::vector<std::string> arguments = {command};
+    if (command == "compare") arguments.emplace_back("--quick");
+    const Ended ended = run_flexarm(arguments, folder_.string(), Output::closed_pipe);
+    EXPECT_EQ(ended.status, 128 + SIGPIPE);
+    EXPECT_EQ(ended.errors, "");
+  }
+}
+
+TEST_F(Compare, CtrlCLeavesNothingHalfWritten) {
+  const Ended ended =
+      interrupt_flexarm({"compare", "--poles", "40", "--out", (folder_ / "out").string(), "--json",
+                         (folder_ / "out.json").string()},
+                        SIGINT);
+  EXPECT_EQ(ended.status, 128 + SIGINT);
+  EXPECT_EQ(ended.errors, "");
+  EXPECT_FALSE(fs::exists(folder_ / "out.json"));
+  EXPECT_TRUE(!fs::exists(folder_ / "out") || names_in("out").empty());
+}
+
+TEST_F(Compare, TheExampleInItsHelpWorks) {
+  const Ended help = run({"compare", "--help"});
+  EXPECT_EQ(help.status, 0);
+  EXPECT_THAT(help.output, AllOf(HasSubstr("Usage: flexarm compare"), HasSubstr("Exit status: ")));
+  run({"new", "rig.toml"});
+  const Ended ended = run(example_in(help.output));
+  EXPECT_EQ(ended.status, 0) << ended.errors;
+  EXPECT_THAT(names_in(), ElementsAre("compared", "rig.toml"));
+}
+
+}  // namespace
+}  // namespace flexarm::testing_app

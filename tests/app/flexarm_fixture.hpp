@@ -1,0 +1,66 @@
+#pragma once
+
+#include "arm/text_file.hpp"
+#include "tests/app/process.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace flexarm::testing_app {
+
+/// The program, run in a folder of its own that is removed afterwards.
+class Flexarm : public testing::Test {
+ protected:
+  Flexarm() {
+    std::string name = (std::filesystem::temp_directory_path() / "flexarm-test-XXXXXX").string();
+    folder_ = ::mkdtemp(name.data());
+  }
+  ~Flexarm() override { std::filesystem::remove_all(folder_); }
+
+  Ended run(const std::vector<std::string>& arguments) const {
+    return run_flexarm(arguments, folder_.string());
+  }
+  std::string text_of(const std::string& name) const {
+    return arm::read_text_file(folder_ / name, 1 << 26);
+  }
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name) << text;
+  }
+  /// Names of the files and folders in `folder`, sorted.
+  std::vector<std::string> names_in(const std::string& folder = ".") const {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(folder_ / folder)) {
+      names.push_back(entry.path().filename());
+    }
+    std::ranges::sort(names);
+    return names;
+  }
+
+  std::filesystem::path folder_;
+};
+
+/// One line on standard error, nothing on standard output, status 2.
+inline void expect_refused(const Ended& ended, const std::string& line) {
+  EXPECT_EQ(ended.status, 2);
+  EXPECT_EQ(ended.errors, line + "\n");
+  EXPECT_EQ(ended.output, "");
+}
+
+/// The command line under "Example:" in a command's help, without the program's name.
+inline std::vector<std::string> example_in(const std::string& help) {
+  constexpr std::string_view kHeading = "Example:\n  flexarm ";
+  const auto begin = help.find(kHeading) + kHeading.size();
+  std::istringstream words(help.substr(begin, help.find('\n', begin) - begin));
+  return {std::istream_iterator<std::string>(words), {}};
+}
+
+}  // namespace flexarm::testing_app

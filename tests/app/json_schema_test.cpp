@@ -1,0 +1,132 @@
+#include "tests/app/flexarm_fixture.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace flexarm::testing_app {
+namespace {
+
+using Json = nlohmann::json;
+using JsonSchema = Flexarm;
+
+/// The types seen, or allowed, for the value at each path.
+using Types = std::map<std::string, std::set<std::string>>;
+
+std::string type_of(const Json& value) {
+  if (value.is_number_integer()) return "integer";
+  return value.type_name();
+}
+
+bool is_named_for_sensors(const std::string& path) {
+  return path.ends_with(".sensor_values");
+}
+
+/// Adds every path below `value` and the type of what is there. Arrays of plain values are one
+/// entry: "array of number".
+void walk(const Json& value, const std::string& path, Types& seen) {
+  const std::string dot = path.empty() ? "" : ".";
+  if (value.is_object()) {
+    if (!path.ends_with("[]") && !path.empty()) seen[path].insert("object");
+    for (const auto& [key, member] : value.items()) {
+      walk(member, path + dot + (is_named_for_sensors(path) ? "SENSOR" : key), seen);
+    }
+  } else if (value.is_array()) {
+    seen[path].insert("array");
+    for (const auto& element : value) walk(element, path + "[]", seen);
+  } else {
+    seen[path].insert(type_of(value));
+  }
+}
+
+/// "array of number or null" is an array of numbers and nulls.
+void allow(const std::string& path, const std::string& type, Types& documented) {
+  constexpr std::string_view kArrayOf = "array of ";
+  const bool is_array = type.starts_with(kArrayOf);
+  if (is_array) documented[path].insert("array");
+  auto& allowed = documented[is_array ? path + "[]" : path];
+  std::istringstream words(is_array ? type.substr(kArrayOf.size()) : type);
+  for (std::string word; words >> word;) {
+    if (word != "or") allowed.insert(word);
+  }
+}
+
+/// The table under the heading `schema` in docs/json.md.
+Types documented(const std::string& schema) {
+  const std::string text = arm::read_text_file(FLEXARM_SOURCE_DIR "/docs/json.md", 1 << 20);
+  const auto begin = text.find("## `" + schema + "`");
+  std::istringstream lines(text.substr(begin, text.find("\n## ", begin) - begin));
+  Types keys;
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with("| `")) continue;
+    const auto key_end = line.find("` | ");
+    const auto type_end = line.find(" |", key_end + 4);
+    allow(line.substr(3, key_end - 3), line.substr(key_end + 4, type_end - key_end - 4), keys);
+  }
+  return keys;
+}
+
+/// `documents` are of one schema and show all of its keys together.
+void expect_as_documented(const std::vector<Json>& documents, const std::string& schema) {
+  const Types allowed = documented(schema);
+  ASSERT_FALSE(allowed.empty());
+  Types seen;
+  for (const auto& document : documents) {
+    EXPECT_EQ(document["schema"], schema);
+    walk(document, "", seen);
+  }
+  for (const auto& [path, types] : seen) {
+    const auto row = allowed.find(path);
+    if (row == allowed.end()) {
+      ADD_FAILURE() << path << " is written, but not in docs/json.md";
+      continue;
+    }
+    for (const auto& type : types) {
+      EXPECT_TRUE(row->second.contains(type)) << path << " is written as " << type;
+    }
+  }
+  for (const auto& [path, types] : allowed) {
+    EXPECT_TRUE(seen.contains(path)) << path << " is in docs/json.md, but not written";
+  }
+}
+
+TEST_F(JsonSchema, WhatCompareWritesIsWhatTheDocumentSays) {
+  write("modal.csv", "sensor,feature,order,frequency [Hz]\n,pole,1,12.00\nhub_angle,zero,1,\n");
+  const Ended ended = run({"compare", "--poles", "2", "--zeros", "2", "--sensor", "strain@0.25",
+                           "--measured", "modal.csv", "--json", "out.json"});
+  EXPECT_EQ(ended.status, 0) << ended.errors;
+  expect_as_documented({Json::parse(text_of("out.json"))}, "flexarm.compare/1");
+}
+
+TEST_F(JsonSchema, WhatModesWritesIsWhatTheDocumentSays) {
+  const auto written_by = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "modes");
+    arguments.insert(arguments.end(), {"--json", "out.json"});
+    const Ended ended = run(arguments);
+    EXPECT_EQ(ended.status, 0) << ended.errors;
+    return Json::parse(text_of("out.json"));
+  };
+  expect_as_documented({written_by({"--certificate"}),
+                        written_by({"--formulation", "assumed_modes", "--functions", "12",
+                                    "--modes", "9", "--sensor", "strain@0.25"})},
+                       "flexarm.modes/1");
+}
+
+TEST(JsonSchemaWalk, SeesEveryKeyAndType) {
+  Types seen;
+  walk(Json::parse(R"({"a": [{"b": 1}, {"b": null}], "c": [1.5], "d": {"e": "x"}})"), "", seen);
+  EXPECT_EQ(seen, (Types{{"a", {"array"}},
+                         {"a[].b", {"integer", "null"}},
+                         {"c", {"array"}},
+                         {"c[]", {"number"}},
+                         {"d", {"object"}},
+                         {"d.e", {"string"}}}));
+}
+
+}  // namespace
+}  // namespace flexarm::testing_app

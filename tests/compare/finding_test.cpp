@@ -1,0 +1,59 @@
+#include "compare/finding.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <stdexcept>
+#include <vector>
+
+namespace flexarm::compare {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+
+TEST(Judge, AgreesWhenEveryDistanceIsWithinItsTolerance) {
+  const std::vector<Finding> findings = {{"a", "x", "y", 1e-12, 1e-9}, {"b", "x", "y", 1e-7, 1e-7}};
+  const auto verdict = judge(findings);
+  EXPECT_TRUE(verdict.agree) << "a distance equal to the tolerance agrees";
+  EXPECT_EQ(verdict.worst.quantity, "b");
+}
+
+TEST(Judge, TheWorstIsMeasuredByItsOwnTolerance) {
+  const std::vector<Finding> findings = {{"large", "x", "y", 1e-3, 1.0},
+                                         {"small", "x", "y", 2e-9, 1e-9}};
+  const auto verdict = judge(findings);
+  EXPECT_FALSE(verdict.agree);
+  EXPECT_EQ(verdict.worst.quantity, "small");
+}
+
+TEST(Judge, AMissingValueIsWorseThanAnyDistance) {
+  const std::vector<Finding> before = {{"huge", "x", "y", 1e200, 1e-9},
+                                       {"missing", "x", "y", kNaN, 1e-9}};
+  const std::vector<Finding> after = {before[1], before[0]};
+  for (const auto& findings : {before, after}) {
+    const auto verdict = judge(findings);
+    EXPECT_FALSE(verdict.agree);
+    EXPECT_EQ(verdict.worst.quantity, "missing");
+  }
+}
+
+TEST(Judge, AnInfiniteDistanceDisagrees) {
+  const std::vector<Finding> findings = {{"a", "x", "y", kInfinite, 1e-9}};
+  EXPECT_FALSE(judge(findings).agree);
+}
+
+TEST(Judge, OfEqualsTheFirstIsNamed) {
+  const std::vector<Finding> findings = {{"first", "x", "y", 0.0, 1e-9},
+                                         {"second", "x", "y", 0.0, 1e-9}};
+  const auto verdict = judge(findings);
+  EXPECT_TRUE(verdict.agree);
+  EXPECT_EQ(verdict.worst.quantity, "first");
+}
+
+TEST(Judge, NothingToJudgeIsAMistakeOfTheCaller) {
+  EXPECT_THROW(judge({}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace flexarm::compare

@@ -1,0 +1,89 @@
+#include "compare/measured.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace flexarm::compare {
+namespace {
+
+using measured::Feature;
+using measured::ModalEntry;
+
+const arm::Sensor kHub{arm::SensorKind::hub_angle, 0.0};
+const arm::Sensor kStrain{arm::SensorKind::strain, 0.25};
+
+std::complex<double> at_Hz(double frequency_Hz) {
+  return {0.0, 2.0 * std::numbers::pi * frequency_Hz};
+}
+
+/// Two models; only the first is held against measurements.
+Comparison model() {
+  Comparison comparison;
+  const auto add = [&](std::optional<arm::Sensor> sensor, int order, std::complex<double> s) {
+    comparison.roots.push_back({{sensor, 3}, order, {s, 1.5 * s}, {0.0, 0.5}});
+  };
+  add(std::nullopt, 1, at_Hz(12.0));
+  add(std::nullopt, 2, at_Hz(32.0));
+  add(kHub, 1, at_Hz(3.0));
+  add(kStrain, 1, at_Hz(20.0));
+  add(kStrain, 2, {373.0, 0.0});
+  add(kStrain, 3, at_Hz(73.0));
+  return comparison;
+}
+
+ModalEntry measured_at(std::optional<arm::Sensor> sensor, Feature feature, int order,
+                       std::optional<double> frequency_Hz) {
+  ModalEntry entry;
+  entry.sensor = sensor;
+  entry.feature = feature;
+  entry.order = order;
+  entry.frequency_Hz = frequency_Hz;
+  return entry;
+}
+
+MeasuredRow row_of(const ModalEntry& entry) {
+  const auto rows = beside_model({entry}, model());
+  EXPECT_EQ(rows.size(), 1U);
+  return rows.at(0);
+}
+
+TEST(Measured, APoleIsTheModelsWhicheverSensorSawIt) {
+  for (const auto& sensor : {std::optional<arm::Sensor>{}, std::optional{kHub}}) {
+    const auto row = row_of(measured_at(sensor, Feature::pole, 2, 40.0));
+    EXPECT_DOUBLE_EQ(row.model_frequency_Hz.value(), 32.0);
+    EXPECT_DOUBLE_EQ(row.error_percent, 25.0);
+  }
+}
+
+TEST(Measured, ZerosAreThoseOfTheirSensor) {
+  EXPECT_DOUBLE_EQ(row_of(measured_at(kHub, Feature::zero, 1, 3.0)).model_frequency_Hz.value(),
+                   3.0);
+  EXPECT_DOUBLE_EQ(row_of(measured_at(kHub, Feature::zero, 1, 2.7)).error_percent, -10.0);
+}
+
+TEST(Measured, RealZerosAreNotCountedAmongAntiresonances) {
+  EXPECT_DOUBLE_EQ(row_of(measured_at(kStrain, Feature::zero, 2, 73.0)).model_frequency_Hz.value(),
+                   73.0);
+  EXPECT_FALSE(row_of(measured_at(kStrain, Feature::zero, 3, 100.0)).model_frequency_Hz);
+}
+
+TEST(Measured, WhatIsNotThereHasNoError) {
+  EXPECT_TRUE(std::isnan(row_of(measured_at(kHub, Feature::zero, 2, 18.0)).error_percent));
+  const auto unknown = row_of(measured_at(std::nullopt, Feature::pole, 1, std::nullopt));
+  EXPECT_DOUBLE_EQ(unknown.model_frequency_Hz.value(), 12.0);
+  EXPECT_TRUE(std::isnan(unknown.error_percent));
+}
+
+TEST(Measured, SensorsWithZerosAreNamedOnceInTheirOrder) {
+  const measured::ModalTable table = {
+      measured_at(std::nullopt, Feature::pole, 1, 12.0),
+      measured_at(kStrain, Feature::zero, 1, 20.0), measured_at(kHub, Feature::zero, 1, 3.0),
+      measured_at(kHub, Feature::pole, 1, 12.0), measured_at(kStrain, Feature::zero, 2, 73.0)};
+  EXPECT_EQ(sensors_with_zeros(table), (std::vector<arm::Sensor>{kStrain, kHub}));
+  EXPECT_TRUE(sensors_with_zeros({}).empty());
+}
+
+}  // namespace
+}  // namespace flexarm::compare

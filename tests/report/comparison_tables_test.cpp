@@ -1,0 +1,94 @@
+#include "report/comparison_tables.hpp"
+
+#include "report/csv.hpp"
+#include "report/text_table.hpp"
+#include "tests/report/comparison_sample.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace flexarm::report {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+const ComparedArm kSample = sample_comparison();
+const compare::Comparison& kComparison = kSample.comparison;
+
+TEST(ComparisonTables, OneTableAFamilyAndOneRowARoot) {
+  const auto tables = root_tables(kComparison);
+  ASSERT_EQ(tables.size(), 4U);
+  EXPECT_EQ(tables[0].caption, "Poles, on the imaginary axis [Hz]");
+  EXPECT_EQ(tables[0].rows.size(), 2U);
+  EXPECT_EQ(tables[1].caption, "Zeros of torque to hub_angle, on the imaginary axis [Hz]");
+  EXPECT_EQ(tables[1].rows.size(), 1U);
+  EXPECT_EQ(tables[2].caption, "Zeros of torque to tip_acceleration, on the real axis [rad/s]");
+  EXPECT_EQ(tables[2].rows.size(), 1U);
+  EXPECT_EQ(tables[3].caption, "Zeros of torque to strain@0.25");
+  EXPECT_EQ(tables[3].rows.size(), 2U);
+}
+
+TEST(ComparisonTables, RootsOffTheAxesSayWhatIsShown) {
+  const std::string text = to_text(root_tables(kComparison)[3]);
+  EXPECT_THAT(text, AllOf(HasSubstr("imaginary, Hz"), HasSubstr("complex, |s| Hz")));
+}
+
+TEST(ComparisonTables, WhatAModelDoesNotHaveIsADash) {
+  const auto table = root_tables(kComparison)[0];
+  EXPECT_TRUE(is_missing(table.rows[1][2]));
+  EXPECT_TRUE(is_missing(table.rows[1][3]));
+  EXPECT_THAT(to_csv(root_listing(kComparison)), testing::Not(HasSubstr("nan")));
+}
+
+TEST(ComparisonTables, ListingsHaveOneRowAValue) {
+  EXPECT_EQ(root_listing(kComparison).rows.size(), 6U * 2U);
+  EXPECT_EQ(notes_table(kComparison).rows.size(), 4U * 2U);
+  EXPECT_EQ(convergence_listing(kComparison).rows.size(), 3U);
+  EXPECT_EQ(refinement_listing(kComparison).rows.size(), 9U);
+  EXPECT_EQ(shapes_table(kComparison).rows.size(), 1U);
+  EXPECT_EQ(shapes_listing(kComparison).rows.size(), 3U * 3U);
+  EXPECT_EQ(responses_table(kComparison).rows.size(), 3U);
+  EXPECT_EQ(responses_listing(kComparison).rows.size(), 3U * 2U * 3U);
+  EXPECT_EQ(measured_table(kSample.measured).rows.size(), 2U);
+  EXPECT_EQ(subjects_table(kComparison).rows.size(), 2U);
+}
+
+TEST(ComparisonTables, CsvHasTheBitsOfEveryRoot) {
+  EXPECT_THAT(to_csv(root_listing(kComparison)), HasSubstr("0.30000000000000004"));
+}
+
+TEST(ComparisonTables, ConvergenceIsTheWorstRootsAndRangesOverAll) {
+  const auto tables = convergence_tables(kComparison);
+  ASSERT_EQ(tables.size(), 2U) << "families without a series have no table";
+  ASSERT_EQ(tables[0].rows.size(), 1U);
+  const auto& row = tables[0].rows[0];
+  EXPECT_EQ(std::get<std::string>(row[2]), "4.00 to 4.00");
+  EXPECT_EQ(std::get<double>(row[4]), 1e-3);
+  EXPECT_TRUE(is_missing(row[6])) << "no root is within 1e-9";
+  EXPECT_TRUE(is_missing(tables[1].rows[0][4])) << "a zero that no setting has";
+}
+
+TEST(ComparisonTables, TheVerdictNamesTheWorstPair) {
+  EXPECT_EQ(verdict_line(kComparison),
+            "Verdict: DISAGREE. Worst pair: pole 2: exact_tf or fem has none.");
+  compare::Comparison other = kComparison;
+  other.findings.pop_back();
+  other.verdict = compare::judge(other.findings);
+  EXPECT_EQ(verdict_line(other),
+            "Verdict: DISAGREE. Worst pair: pole 1: exact_tf and fem are 1.0e-02 apart, tolerance "
+            "1e-09.");
+  other.findings = {{"pole 1", "exact_tf", "fem", 1e-16, 1e-9}};
+  other.verdict = compare::judge(other.findings);
+  EXPECT_THAT(verdict_line(other), StartsWith("Verdict: agree. Worst pair: pole 1: "));
+}
+
+TEST(ComparisonTables, TheLegendNamesTheAccuracy) {
+  EXPECT_THAT(convergence_legend(kComparison), HasSubstr("1e-09"));
+}
+
+}  // namespace
+}  // namespace flexarm::report

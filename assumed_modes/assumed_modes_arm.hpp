@@ -45,9 +45,10 @@ inline constexpr int kMaximumFunctions = 200;
 /// All bases are orthonormal in strain energy, K = diag(0, 1, ..., 1), and all integrals are closed
 /// forms: nothing is left to quadrature. Ritz values of poles and hub zeros converge from above.
 ///
-/// Real zeros of the tip are exponentially ill-conditioned in any discrete model, since the motion
-/// at a zero dies out from one end of the link to the other: each keeps 1.6 digits fewer than the
-/// one before, 1e-13 the fourth, 1e-9 the sixth, 1e-5 the tenth. The summary's residual shows it.
+/// Real zeros of the tip are exponentially ill-conditioned in coordinates that span the link, since
+/// the motion at a zero dies out from one end of it to the other: each keeps 1.6 digits fewer than
+/// the one before, about 1e-13 the fourth, 1e-9 the sixth, 1e-4 the tenth. The summary's residual
+/// shows it.
 ///
 /// Meirovitch, Analytical Methods in Vibrations (1967), ch. 6.
 class AssumedModesArm {

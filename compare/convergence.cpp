@@ -13,10 +13,11 @@ namespace flexarm::compare {
 
 namespace {
 
-/// Rounding of the root itself: errors below ten times epsilon are the same to us, and no slope is
-/// read below a hundred times.
+/// Rounding of the root itself: errors below ten times epsilon are the same to us. What a model
+/// sums over its degrees of freedom may round as often: no slope is read below a hundred times
+/// epsilon times their number.
 constexpr double kSameError = 10.0 * std::numeric_limits<double>::epsilon();
-constexpr double kRootRounding = 100.0 * std::numeric_limits<double>::epsilon();
+constexpr double kSumRounding = 100.0 * std::numeric_limits<double>::epsilon();
 /// A stall at larger errors is not rounding.
 constexpr double kFloorMayStartBelow = 1e-9;
 /// Refinement has stalled when it gains less than the first factor all told where the decay seen so
@@ -60,8 +61,8 @@ LineFit fit(const Line& line) {
           covariance * covariance / (dx.square().sum() * dy.square().sum())};
 }
 
-bool is_asymptotic(double error, double floor) {
-  return error > floor && error < kPreAsymptotic;
+bool is_asymptotic(const RefinementPoint& point, double floor) {
+  return point.relative_error > floor && point.relative_error < kPreAsymptotic;
 }
 
 /// Whether refinement beyond point `i` no longer lowers the error, although it should.
@@ -81,7 +82,7 @@ bool is_stalled(std::span<const RefinementPoint> series, std::size_t i, Decay de
   if (rises) return true;
   Line before;
   for (const auto& point : series.first(i + 1)) {
-    if (is_asymptotic(point.relative_error, kSameError)) before.add(point, decay);
+    if (is_asymptotic(point, kSameError)) before.add(point, decay);
   }
   if (before.x.size() < 2) return false;
   const double step = abscissa_of(series.back(), decay) - abscissa_of(series[i], decay);
@@ -107,7 +108,7 @@ Convergence observe_convergence(std::span<const RefinementPoint> series, Decay d
   }
 
   const std::size_t onset = rounding_onset(series, decay);
-  double floor = kRootRounding;
+  double floor = 0.0;
   if (onset < series.size()) {
     result.rounding_onset = series[onset];
     for (const auto& point : series.subspan(onset)) {
@@ -117,7 +118,7 @@ Convergence observe_convergence(std::span<const RefinementPoint> series, Decay d
 
   std::vector<RefinementPoint> asymptotic;
   std::ranges::copy_if(series.first(onset), std::back_inserter(asymptotic), [&](const auto& point) {
-    return is_asymptotic(point.relative_error, floor);
+    return is_asymptotic(point, std::max(floor, kSumRounding * point.degrees_of_freedom));
   });
   Line line;
   for (const auto& point : asymptotic) {

@@ -26,7 +26,8 @@ void add_arm_choice(CLI::App& parser, ArmChoice& choice) {
   parser
       .add_option("--payload-mass", choice.payload_masses_kg,
                   "Payload mass [kg] in place of the file's; several separated by commas")
-      ->delimiter(',');
+      ->delimiter(',')
+      ->allow_extra_args(false);
   parser.add_option("--payload-inertia", choice.payload_inertia_kg_m2,
                     "Payload inertia about the tip [kg m^2] in place of the file's");
   parser.add_option("--hub-inertia", choice.hub_inertia_kg_m2,

@@ -59,8 +59,8 @@ compare::Comparison compare_with_progress(const arm::Arm& arm, compare::Options 
   return compare::compare(arm, options);
 }
 
-void print_table(const report::Table& table) {
-  print(report::to_text(table) + "\n");
+void print_table(const report::Table& table, const report::TextOptions& options = {}) {
+  print(report::to_text(table, options) + "\n");
 }
 
 void print_comparison(const compare::Comparison& comparison,
@@ -76,7 +76,10 @@ void print_comparison(const compare::Comparison& comparison,
     print("Bases of assumed_modes\n");
     for (const auto& note : comparison.basis_notes) print(report::to_paragraph(note, 2));
     print("\n");
-    if (full) print_table(report::convergence_listing(comparison));
+    if (full) {
+      constexpr report::TextOptions kRootAndSeries{.key_columns = 3};
+      print_table(report::convergence_listing(comparison), kRootAndSeries);
+    }
   }
   print_table(report::shapes_table(comparison));
   print_table(report::responses_table(comparison));
@@ -156,7 +159,8 @@ Command add_compare(CLI::App& program) {
   parser
       ->add_option("--sensor", arguments->sensors,
                    "Further sensors whose zeros and responses are compared, as in strain@0.05")
-      ->delimiter(',');
+      ->delimiter(',')
+      ->allow_extra_args(false);
   parser->add_option("--poles", arguments->options.poles, "How many poles and hub zeros")
       ->capture_default_str();
   parser

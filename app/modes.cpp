@@ -178,6 +178,7 @@ Command add_modes(CLI::App& program) {
       ->add_option("--sensor", arguments->sensors,
                    "Sensors whose zeros are shown, separated by commas")
       ->delimiter(',')
+      ->allow_extra_args(false)
       ->capture_default_str();
   parser->add_flag("--certificate", arguments->certificate,
                    "Prove the roots of exact_tf and their number by ball arithmetic");

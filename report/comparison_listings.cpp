@@ -62,7 +62,7 @@ Table convergence_listing(const compare::Comparison& comparison) {
     const auto [cheapest_setting, cheapest_dof] = setting_cells(seen.cheapest);
     table.add_row({compare::label(curve.family), std::int64_t{curve.order}, curve.refinement,
                    curve.setting_name,
-                   curve.decay == compare::Decay::algebraic ? "algebraic" : "decades per dof",
+                   curve.decay == compare::Decay::algebraic ? "algebraic" : "exponential",
                    number_or_missing(seen.rate), std::int64_t{seen.points_fitted},
                    seen.smallest_error, onset_setting, onset_dof, cheapest_setting, cheapest_dof});
   }

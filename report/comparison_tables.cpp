@@ -139,7 +139,7 @@ Table notes_table(const compare::Comparison& comparison) {
               {{"family"}, {"model"}, {"found"}, {"counted"}, {"by"}, {"rejected"}, {"infinite"}}};
   for (const auto& note : comparison.notes) {
     const bool counted = note.count.expected >= 0;
-    table.add_row({title_of(note.family), note.subject, std::int64_t{note.found},
+    table.add_row({compare::label(note.family), note.subject, std::int64_t{note.found},
                    counted ? Cell(std::int64_t{note.count.expected}) : Cell(std::monostate{}),
                    counted ? Cell(note.count.method) : Cell(std::monostate{}),
                    std::int64_t(note.rejected.size()), std::int64_t{note.infinite}});

@@ -15,7 +15,7 @@ fem::FemArm::Options fem_settings(int roots) {
 
 assumed_modes::AssumedModesOptions assumed_modes_settings(int roots) {
   assumed_modes::AssumedModesOptions options;
-  options.functions = std::clamp(2 * roots + 16, 36, assumed_modes::kMaximumFunctions);
+  options.functions = std::clamp(2 * roots + 20, 40, assumed_modes::kMaximumFunctions);
   return options;
 }
 

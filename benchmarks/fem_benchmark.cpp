@@ -96,7 +96,7 @@ BENCHMARK_CAPTURE(response, hub_angle, "hub_angle")->Apply(repeated);
 BENCHMARK_CAPTURE(response, tip_displacement, "tip_displacement")->Apply(repeated);
 BENCHMARK_CAPTURE(response, strain_at_quarter, "strain@0.24")->Apply(repeated);
 
-/// Construction and ten poles; the figure is an error of 1e-9 at 100,000 elements, and time
+/// Construction and ten poles; the project's figure is an error of 1e-9 at 100,000 elements, and time
 /// and memory linear in their number.
 void poles_of_cubic_elements(benchmark::State& state) {
   const auto elements = static_cast<int>(state.range(0));

@@ -186,15 +186,16 @@ std::vector<FeatureFamily> refined_families(const Options& options) {
   return refined;
 }
 
-/// The basis and the root whose convergence its note describes.
-constexpr std::array kBases = {assumed_modes::Basis::legendre, assumed_modes::Basis::clamped_free,
-                               assumed_modes::Basis::pinned_free,
-                               assumed_modes::Basis::clamped_with_payload};
+/// The pole and the hub zero whose convergence the notes describe.
 constexpr int kNotedRoot = 3;
 
 std::vector<std::string> basis_notes(const arm::Arm& arm) {
   std::vector<std::string> notes;
-  for (const auto basis : kBases) {
+  for (const auto basis : assumed_modes::kAllBases) {
+    // Without a payload these are the clamped-free shapes.
+    if (basis == assumed_modes::Basis::clamped_with_payload && arm.payload == arm::Payload{}) {
+      continue;
+    }
     const auto report = assumed_modes::describe_convergence(arm, basis, kNotedRoot);
     notes.push_back(report.pole.sentence);
     notes.push_back(report.hub_zero.sentence);
@@ -241,7 +242,7 @@ Comparison compare(const arm::Arm& arm, const Options& options) {
   const int roots = std::max(options.poles, options.non_collocated_zeros);
   const auto subjects = standard_subjects(arm, roots);
   const auto refinements =
-      options.refinements ? standard_refinements(roots) : std::vector<Refinement>{};
+      options.refinements ? standard_refinements(arm, roots) : std::vector<Refinement>{};
   Steps steps(options, steps_of(options, subjects.size(), refinements.size()));
   Comparison comparison = compare_subjects(subjects, options, steps);
 

@@ -66,12 +66,12 @@ Refinement functions_of(const char* name, assumed_modes::Basis basis, Decay deca
 
 }  // namespace
 
-std::vector<Refinement> standard_refinements(int roots) {
+std::vector<Refinement> standard_refinements(const arm::Arm& arm, int roots) {
   using assumed_modes::Basis;
   // Half a wavelength an element: mode n of a beam has about n half waves.
   const int elements = roots / 2 > 3 ? roots / 2 : 3;
   const std::vector<int> shapes = stepping(4, 3 * roots + 30, 4);
-  return {
+  std::vector<Refinement> refinements = {
       fem_elements("fem, cubic elements", 3, 4096),
       fem_elements("fem, quintic elements", 5, 512),
       fem_degree(elements),
@@ -79,9 +79,13 @@ std::vector<Refinement> standard_refinements(int roots) {
                    stepping(4, 2 * roots + 24, 2)),
       functions_of("clamped-free shapes", Basis::clamped_free, Decay::algebraic, shapes),
       functions_of("pinned-free shapes", Basis::pinned_free, Decay::algebraic, shapes),
-      functions_of("clamped shapes with payload", Basis::clamped_with_payload, Decay::algebraic,
-                   shapes),
   };
+  // Without a payload these are the clamped-free shapes.
+  if (arm.payload != arm::Payload{}) {
+    refinements.push_back(functions_of("clamped shapes with payload", Basis::clamped_with_payload,
+                                       Decay::algebraic, shapes));
+  }
+  return refinements;
 }
 
 std::vector<RefinementCurve> refine(const arm::Arm& arm, const Refinement& refinement,

@@ -25,8 +25,9 @@ struct Refinement {
 };
 
 /// The series that the comparison runs: fem over elements (degree 3 and 5) and over degree,
-/// assumed_modes over functions in each basis; long enough for `roots` roots.
-std::vector<Refinement> standard_refinements(int roots);
+/// assumed_modes over functions in each basis, clamped shapes with payload only where the arm has
+/// one; long enough for `roots` roots.
+std::vector<Refinement> standard_refinements(const arm::Arm& arm, int roots);
 
 /// The error of one root over a refinement series.
 struct RefinementCurve {

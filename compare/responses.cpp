@@ -20,7 +20,7 @@ bool is_off_resonance(double frequency_Hz, const std::vector<double>& features_H
 
 std::vector<double> response_grid_Hz(const std::vector<double>& pole_frequency_Hz, int points) {
   const double first = std::log(0.1 * pole_frequency_Hz.front());
-  const double last = std::log(pole_frequency_Hz.back());
+  const double last = std::log((1.0 - kOffResonance) * pole_frequency_Hz.back());
   std::vector<double> grid;
   for (int i = 0; i < points; ++i) {
     grid.push_back(std::exp(first + (last - first) * i / (points - 1)));

@@ -29,8 +29,8 @@ struct ResponseComparison {
 /// distance.
 inline constexpr double kOffResonance = 0.02;
 
-/// Log-spaced frequencies [Hz] from a tenth of the lowest pole to the highest one: the range that
-/// the poles compared speak for.
+/// Log-spaced frequencies [Hz] from a tenth of the lowest pole to just below the highest one, where
+/// it is off resonance: the range that the poles compared speak for.
 std::vector<double> response_grid_Hz(const std::vector<double>& pole_frequency_Hz, int points);
 
 /// `features_Hz`: the undamped poles and imaginary zeros of this sensor, for `kOffResonance`.

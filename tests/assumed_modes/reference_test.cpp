@@ -17,7 +17,7 @@ constexpr double kRounding = 1e-15;
 /// Zeros away from the hub: each next one is 40 times worse conditioned (a motion that dies out
 /// from tip to hub is to be told from zero); the sixth is left with 1e-9 of 64 bits.
 constexpr double kTipZeroRounding = 1e-9;
-/// Table of the issue.
+/// The project's figures.
 constexpr double kIssuePoles = 1e-10;
 constexpr double kIssueTipZeros = 1e-8;
 constexpr double kIssueTransfer = 1e-9;

@@ -11,11 +11,11 @@
 namespace flexarm::compare {
 namespace {
 
-/// The issue's figure.
+/// How close to the theory's order a fitted one must come.
 constexpr double kOrderTolerance = 0.1;
 
 Refinement named(const std::string& name) {
-  for (auto& refinement : standard_refinements(5)) {
+  for (auto& refinement : standard_refinements(arm::paper_arm(), 5)) {
     if (refinement.name == name) return refinement;
   }
   throw std::invalid_argument(name);
@@ -54,7 +54,7 @@ TEST(Order, CubicElementsConvergeInTipZerosWithOrderFour) {
 }
 
 TEST(Order, TenPolesAreReachedWithinTheIssuesDegreesOfFreedom) {
-  // The issue's figures: at most 60 degrees of freedom of fem, at most 36 functions, for 1e-10.
+  // The project's figures: at most 60 degrees of freedom of fem, at most 36 functions, for 1e-10.
   const FeatureFamily family{std::nullopt, 10};
   const auto exact = roots(exact_tf::ExactArm(arm::paper_arm()), family);
   const auto most_needed = [&](const Refinement& refinement) {
@@ -68,7 +68,7 @@ TEST(Order, TenPolesAreReachedWithinTheIssuesDegreesOfFreedom) {
     }
     return dof;
   };
-  for (const auto& refinement : standard_refinements(10)) {
+  for (const auto& refinement : standard_refinements(arm::paper_arm(), 10)) {
     if (refinement.name == "Legendre polynomials") {
       EXPECT_LE(most_needed(refinement), 36);
     } else if (refinement.name == "fem, 5 elements") {

@@ -9,7 +9,7 @@
 namespace flexarm::compare {
 namespace {
 
-/// The figure.
+/// The project's figure.
 constexpr double kAgreement = 1e-9;
 
 /// The pair that is furthest apart so far.

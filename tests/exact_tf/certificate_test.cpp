@@ -16,7 +16,7 @@ namespace {
 
 const arm::Sensor kTip{arm::SensorKind::tip_acceleration};
 
-constexpr double kUlps = 4.0;  // the figure
+constexpr double kUlps = 4.0;  // the project's figure
 
 double moved_by_ulps(double x, int ulps) {
   return x + ulps * (std::nextafter(x, 2.0 * x) - x);

@@ -13,7 +13,7 @@
 namespace flexarm::exact_tf {
 namespace {
 
-/// The figure; the file has 25 digits or more.
+/// The project's figure; the file has 25 digits or more.
 constexpr double kRelativeTolerance = 1e-13;
 
 double number(const nlohmann::json& text) {

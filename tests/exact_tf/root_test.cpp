@@ -44,7 +44,7 @@ double moved_by_ulps(double x, int ulps) {
   return x + ulps * (std::nextafter(x, 2.0 * x) - x);
 }
 
-/// The figure.
+/// The project's figure.
 constexpr int kUlps = 4;
 
 template <class Function>

@@ -47,7 +47,7 @@ std::vector<double> real_ones(const arm::ZeroSet& set) {
 }
 
 TEST(SensorZeros, OfTheTipAgreeWithTheReferenceInAllCases) {
-  constexpr double kRelativeTolerance = 1e-13;  // the figure
+  constexpr double kRelativeTolerance = 1e-13;  // the project's figure
   std::ifstream file(FLEXARM_SOURCE_DIR "/tests/exact_tf/reference.json");
   const auto cases = nlohmann::json::parse(file);
   ASSERT_EQ(cases.size(), 7u);

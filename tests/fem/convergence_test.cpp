@@ -85,7 +85,7 @@ class CubicConvergence : public ::testing::TestWithParam<ReferenceCase> {
   /// Every mode has at least 10 elements a half wave at the coarsest; errors stay above 1e-12,
   /// a hundred times the rounding of the finest.
   static inline const std::vector<double> kElements = {48, 68, 96, 136};
-  /// The figure: order 4.0 +- 0.1.
+  /// The project's figure: order 4.0 +- 0.1.
   static constexpr double kOrder = 4.0;
   static constexpr double kOrderTolerance = 0.1;
 

@@ -110,7 +110,7 @@ Eigen::MatrixXd dense_shapes(const Discretisation& model, HubSupport support,
 /// Lanczos: `count` modes M-orthogonal to the `known` ones.
 Eigen::MatrixXd lanczos_shapes(const Discretisation& model, HubSupport support,
                                const FlexibleSolve& solve, const Eigen::MatrixXd& known, int count,
-                               double tolerance, VibrationModes& modes) {
+                               double tolerance, int& iterations) {
   constexpr Eigen::Index kMaximumRestarts = 1000;
   ShiftSolveAtZero shift_solve(model, solve, known);
   MassProduct mass(model, support);
@@ -125,22 +125,24 @@ Eigen::MatrixXd lanczos_shapes(const Discretisation& model, HubSupport support,
     solver.init(start.data());
     const Eigen::Index found = solver.compute(Spectra::SortRule::LargestMagn, kMaximumRestarts,
                                               tolerance, Spectra::SortRule::SmallestAlge);
-    modes.converged = found == count;
-    modes.iterations = shift_solve.applications();
-    return solver.eigenvectors(count);
+    if (found < count) throw std::runtime_error("no convergence");
   } catch (const std::runtime_error&) {
     throw eigensolver_failure("Lanczos iteration", model, support, count);
   }
+  iterations = shift_solve.applications();
+  return solver.eigenvectors(count);
 }
 
 Eigen::MatrixXd iterated_shapes(const Discretisation& model, HubSupport support,
                                 const FlexibleSolve& solve, int count, double tolerance,
-                                VibrationModes& modes) {
+                                int& iterations) {
   const Eigen::MatrixXd known = payload_modes(model, solve);
   const int rest = count - static_cast<int>(known.cols());
   if (rest <= 0) return known.leftCols(count);
+  const Eigen::MatrixXd others =
+      lanczos_shapes(model, support, solve, known, rest, tolerance, iterations);
   Eigen::MatrixXd shapes(model.size(), count);
-  shapes << known, lanczos_shapes(model, support, solve, known, rest, tolerance, modes);
+  shapes << known, others;
   return shapes;
 }
 
@@ -186,13 +188,13 @@ VibrationModes vibration_modes(const Discretisation& discretisation, HubSupport 
   count = std::min(count, available);
   const FlexibleSolve solve(discretisation, support);
   modes.dense = discretisation.size() <= kDenseSize || 4 * count > available;
-  const Eigen::MatrixXd raw =
-      modes.dense ? dense_shapes(discretisation, support, solve, count)
-                  : iterated_shapes(discretisation, support, solve, count, tolerance, modes);
+  const Eigen::MatrixXd raw = modes.dense ? dense_shapes(discretisation, support, solve, count)
+                                          : iterated_shapes(discretisation, support, solve, count,
+                                                            tolerance, modes.iterations);
   refine(discretisation, solve, raw, modes);
   // A mode that the last step of refinement still moved was not one.
   constexpr double kSettled = 1e-8;
-  modes.converged = modes.converged && modes.largest_change <= std::max(kSettled, tolerance);
+  modes.converged = modes.largest_change <= std::max(kSettled, tolerance);
   return modes;
 }
 

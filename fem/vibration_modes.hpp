@@ -12,8 +12,7 @@ struct VibrationModes {
   Eigen::VectorXd omega_squared;  ///< ascending
   Eigen::MatrixXd shapes;         ///< n x count, u^T M u = 1; row 0 is theta (0 where clamped)
   int iterations = 0;             ///< operator applications of the iterative solver, else 0
-  /// The iteration ended as it should and the refinement moved no omega^2 by more than 1e-8 (or
-  /// `tolerance` where that is larger).
+  /// largest_change <= max(1e-8, tolerance).
   bool converged = true;
   bool dense = false;  ///< by singular values of the whole factored problem
   /// Largest relative change of an omega^2 at the last refinement.
@@ -27,7 +26,8 @@ struct VibrationModes {
 /// rigid-body mode is projected out, and so are the modes of a heavy payload (see payload_modes).
 /// Each mode is then refined by inverse iteration, orthogonal to those below it, and omega^2 = d^T
 /// D d/u^T M u is summed in element deformations. Throws std::runtime_error, which names the model,
-/// when an eigensolver breaks down.
+/// when an eigensolver breaks down or
+/// does not converge.
 VibrationModes vibration_modes(const Discretisation& discretisation, HubSupport support, int count,
                                double tolerance);
 

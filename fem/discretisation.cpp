@@ -1,6 +1,7 @@
 #include "fem/discretisation.hpp"
 
 #include <boost/math/quadrature/gauss.hpp>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -170,6 +171,13 @@ double Discretisation::deflection(const Eigen::VectorXd& u, double x) const {
     if (index(e, i) >= 0) y += u[index(e, i)] * shapes[i];
   }
   return y;
+}
+
+std::string describe(const Discretisation& discretisation) {
+  return fmt::format(
+      "{} elements of degree {}, payload mass {:.4g} m l, payload inertia {:.4g} m l^3",
+      discretisation.elements(), discretisation.element().degree(), discretisation.payload_mass(),
+      discretisation.payload_inertia());
 }
 
 }  // namespace flexarm::fem

@@ -6,6 +6,7 @@
 
 #include <Eigen/SparseCore>
 
+#include <string>
 #include <vector>
 
 namespace flexarm::fem {
@@ -52,6 +53,10 @@ class Discretisation {
   /// r^T M r: 1/3 + hub inertia + payload.
   double total_inertia() const { return total_inertia_; }
 
+  /// In units of m l and m l^3.
+  double payload_mass() const { return payload_mass_; }
+  double payload_inertia() const { return payload_inertia_; }
+
   /// M k for the influence shape k(x) = max(x - position, 0), position in [0, 1].
   Eigen::VectorXd ramp_momentum(double position) const;
   /// k(x) = x^2 (3 - x)/6, the clamped arm under a unit force at the tip.
@@ -77,5 +82,8 @@ class Discretisation {
   Eigen::VectorXd rigid_momentum_;
   double total_inertia_;
 };
+
+/// "200 elements of degree 3, payload mass 1.5 m l, payload inertia 0 m l^3", for errors.
+std::string describe(const Discretisation& discretisation);
 
 }  // namespace flexarm::fem

@@ -31,12 +31,13 @@ void require_count(int count) {
   if (count < 1) throw arm::out_of_range("count", count, "", "1 or more");
 }
 
-arm::SolveSummary summary_of(const VibrationModes& modes) {
+arm::SolveSummary summary_of(const VibrationModes& modes, const arm::RootCount& count) {
   return {modes.dense ? "singular values of the factored stiffness, inverse iteration (residual: "
                         "last change of omega^2)"
                       : "Lanczos on the factored flexibility, inverse iteration (residual: last "
                         "change of omega^2)",
-          modes.iterations, modes.largest_change, modes.converged};
+          modes.iterations, modes.largest_change,
+          modes.converged && (count.expected < 0 || count.found == count.expected)};
 }
 
 /// Eigenvalues up to the highest of `modes`, by Sylvester inertia.
@@ -94,7 +95,7 @@ arm::PoleSet FemArm::poles(int count) const {
   arm::PoleSet poles;
   poles.omega_rad_per_s = frequencies(modes, omega_scale_rad_per_s_);
   poles.count = count_of(*model_, HubSupport::free, modes);
-  poles.summary = summary_of(modes);
+  poles.summary = summary_of(modes, poles.count);
   return poles;
 }
 
@@ -112,7 +113,7 @@ arm::ZeroSet FemArm::clamped_zeros(int count) const {
     zeros.s_rad_per_s.emplace_back(0.0, omega);
   }
   zeros.count = count_of(*model_, HubSupport::clamped, modes);
-  zeros.summary = summary_of(modes);
+  zeros.summary = summary_of(modes, zeros.count);
   return zeros;
 }
 

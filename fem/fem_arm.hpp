@@ -62,7 +62,8 @@ class FemArm {
   /// without payload inertia is zero at all times; it has no zeros. With a payload inertia the tip
   /// has an imaginary pair of zeros beside its real ones. `count` of a non-collocated sensor: roots
   /// of the pencil looked at, rejected ones included, beside their number by the argument
-  /// principle (up to 500 coordinates).
+  /// principle, -1 where rounding hides it. Should one be missing in spite of further searches,
+  /// `summary.converged` is false and the roots beyond the gap are rejected.
   arm::ZeroSet zeros(const arm::Sensor& sensor, int count) const;
   /// Stations in metres from the motor axis, each from 0 to the beam's length.
   std::vector<arm::Mode> modes(int count, std::span<const arm::Sensor> sensors,

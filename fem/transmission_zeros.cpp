@@ -1,14 +1,17 @@
 #include "fem/transmission_zeros.hpp"
 
+#include "fem/root_audit.hpp"
 #include "fem/static_flexibility.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <Spectra/GenEigsSolver.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 #include <utility>
 
 namespace flexarm::fem {
@@ -59,7 +62,15 @@ class InversePencil {
   Eigen::VectorXd scale_;
 };
 
-Eigen::VectorXcd inverse_eigenvalues(const InversePencil& inverse, int count, double tolerance) {
+std::runtime_error eigensolver_failure(const char* method, const Discretisation& model, int count) {
+  return std::runtime_error(
+      fmt::format("fem: {} iteration failed for first guesses at the {} smallest zeros of {}",
+                  method, count, describe(model)));
+}
+
+Eigen::VectorXcd inverse_eigenvalues(const Discretisation& model, const Eigen::VectorXd& c,
+                                     int count, double tolerance) {
+  const InversePencil inverse(model, c);
   const Eigen::Index n = inverse.rows();
   if (n <= kDenseSize || 4 * count > n) {
     Eigen::MatrixXd matrix(n, n);
@@ -67,14 +78,26 @@ Eigen::VectorXcd inverse_eigenvalues(const InversePencil& inverse, int count, do
     for (Eigen::Index j = 0; j < n; ++j) {
       inverse.perform_op(unit.col(j).data(), matrix.col(j).data());
     }
-    return Eigen::EigenSolver<Eigen::MatrixXd>(matrix, false).eigenvalues();
+    const Eigen::EigenSolver<Eigen::MatrixXd> solver(matrix, false);
+    if (solver.info() != Eigen::Success) throw eigensolver_failure("QR", model, count);
+    return solver.eigenvalues();
   }
   constexpr Eigen::Index kMaximumRestarts = 300;
   const Eigen::Index krylov = std::min<Eigen::Index>(n, std::max(2 * count + 1, 20));
   Spectra::GenEigsSolver<const InversePencil> solver(inverse, count, krylov);
-  solver.init();
-  solver.compute(Spectra::SortRule::LargestMagn, kMaximumRestarts, tolerance);
+  try {
+    solver.init();
+    solver.compute(Spectra::SortRule::LargestMagn, kMaximumRestarts, tolerance);
+  } catch (const std::runtime_error&) {
+    throw eigensolver_failure("Arnoldi", model, count);
+  }
   return solver.eigenvalues();
+}
+
+constexpr int kStepsAllowed = 100;
+
+double modulus(Complex w) {
+  return std::abs(w);
 }
 
 /// Adds what Newton's method found to the roots; `divided_out` takes both of a conjugate pair.
@@ -91,11 +114,9 @@ void add(const NewtonResult& result, PencilRoots& roots, std::vector<Complex>& d
 
 PencilRoots pencil_roots(const Discretisation& discretisation, const Numerator& numerator,
                          int count, double tolerance) {
-  constexpr int kStepsAllowed = 100;
-  const auto modulus = [](Complex w) { return std::abs(w); };
   PencilRoots roots;
   const Eigen::VectorXcd mu =
-      inverse_eigenvalues(InversePencil(discretisation, numerator.row()), count, tolerance);
+      inverse_eigenvalues(discretisation, numerator.row(), count, tolerance);
   std::vector<Complex> guesses;
   for (const Complex value : mu) {
     if (value != 0.0) guesses.push_back(-1.0 / value);
@@ -134,6 +155,30 @@ PencilRoots pencil_roots(const Discretisation& discretisation, const Numerator& 
   roots.converged = static_cast<int>(divided_out.size()) >= count;
   std::ranges::sort(roots.w, {}, modulus);
   return roots;
+}
+
+bool search_beside(std::size_t k, const Numerator& numerator, PencilRoots& roots) {
+  constexpr int kDirections = 8;  // of the upper half plane, both ends of the real axis included
+  std::vector<Complex> divided_out;
+  for (const Complex w : roots.w) {
+    divided_out.push_back(w);
+    if (w.imag() != 0.0) divided_out.push_back(std::conj(w));
+  }
+  const double inner = radius_before(roots.w, k);
+  const double outer = radius_before(roots.w, k + 1);
+  bool found = false;
+  for (const double radius : {outer, std::sqrt(inner * outer), inner}) {
+    for (int i = 0; i <= kDirections && !found; ++i) {
+      const Complex start = std::polar(radius, std::numbers::pi * i / kDirections);
+      const NewtonResult result = numerator.root_near(start, divided_out, kStepsAllowed);
+      roots.newton_steps += result.steps;
+      if (!result.converged) continue;
+      add(result, roots, divided_out);
+      found = std::abs(result.w) >= inner && std::abs(result.w) <= outer;
+    }
+  }
+  std::ranges::sort(roots.w, {}, modulus);
+  return found;
 }
 
 }  // namespace flexarm::fem

@@ -4,6 +4,7 @@
 #include "fem/numerator.hpp"
 
 #include <complex>
+#include <cstddef>
 #include <vector>
 
 namespace flexarm::fem {
@@ -29,8 +30,15 @@ struct PencilRoots {
 /// eigenproblem is far from normal (its n-th real root has a condition of about exp(n pi)), so each
 /// guess is polished by Newton's method on the numerator, with the roots already found divided
 /// out. Last searches from three more places, repeated until none ends inside the largest root
-/// found, bring in those that the guesses missed.
+/// found, bring in those that the guesses missed. Throws std::runtime_error, which names the model,
+/// when an eigensolver breaks down.
 PencilRoots pencil_roots(const Discretisation& discretisation, const Numerator& numerator,
                          int count, double tolerance);
+
+/// Searches for a root that is missing beside roots.w[k] in |w|: nearer to it (in ratio) than the
+/// known neighbours on either side. Newton's method starts from points all around that ring and
+/// divides out the known roots; whatever it finds is added to `roots`. True once it found one in
+/// the ring.
+bool search_beside(std::size_t k, const Numerator& numerator, PencilRoots& roots);
 
 }  // namespace flexarm::fem

@@ -1,8 +1,7 @@
 #include "fem/trusted_zeros.hpp"
 
-#include "fem/numerator.hpp"
+#include "fem/root_audit.hpp"
 #include "fem/sensor_row.hpp"
-#include "fem/transmission_zeros.hpp"
 
 #include <fmt/format.h>
 
@@ -78,68 +77,81 @@ std::string reason_against(const Candidate& candidate, const std::vector<Candida
   return {};
 }
 
-/// The roots w(0) ... w(looked_at - 1) beside what the argument principle counts.
-arm::RootCount count_of(const std::vector<Complex>& w, std::size_t looked_at,
-                        const Numerator& numerator) {
-  arm::RootCount count;
-  count.found = static_cast<int>(looked_at);
-  if (looked_at == 0 || looked_at == w.size()) return count;
-  const double radius = std::sqrt(std::abs(w[looked_at - 1]) * std::abs(w[looked_at]));
-  const int inside = numerator.roots_inside(radius);
-  const auto pairs = std::count_if(w.begin(), w.begin() + static_cast<std::ptrdiff_t>(looked_at),
-                                   [](Complex root) { return root.imag() != 0.0; });
-  if (inside >= 0) count.expected = inside - static_cast<int>(pairs);
-  count.method = "argument principle";
-  return count;
-}
-
-}  // namespace
-
-arm::ZeroSet trusted_zeros(const Discretisation& model, const CheckingModels& checking,
-                           const arm::Arm& arm, const arm::Sensor& sensor, int count,
-                           const TrustOptions& options) {
-  // Some spurious roots may lie between the zeros, and the last root counted needs one beyond it.
-  constexpr int kSpare = 4;
-  arm::ZeroSet zeros;
-  const SensorRow row = sensor_row(model, arm, sensor);
-  if (row.c.isZero(0.0)) return zeros;
-  const int finite = model.size() + 1 - row.infinite_roots;
-  const int wanted = std::min(count + kSpare, finite);
-  // There are up to sqrt(2) poles for a root.
-  const int poles = 2 * wanted;
-  const auto numerator_of = [&](const Discretisation& discretisation) {
-    return Numerator(discretisation, sensor_row(discretisation, arm, sensor).c, poles,
-                     options.eigen_tolerance);
-  };
-  const Numerator numerator = numerator_of(model);
-  const Numerator fine = numerator_of(checking.fine);
-  const Numerator finer = numerator_of(checking.finer);
-  const PencilRoots roots = pencil_roots(model, numerator, wanted, options.eigen_tolerance);
-  std::vector<Candidate> candidates;
-  for (const Complex w : roots.w) candidates.push_back(follow(w, fine, finer));
+/// Sorts the roots into trusted and rejected, in ascending order, until `count` are trusted;
+/// returns how many it looked at. Those from number `complete` on are rejected.
+std::size_t sort_out(const std::vector<Candidate>& candidates, std::size_t complete, int count,
+                     double agreement, arm::ZeroSet& zeros) {
+  zeros.s_rad_per_s.clear();
+  zeros.rejected.clear();
   std::size_t looked_at = 0;
   for (const Candidate& candidate : candidates) {
     if (static_cast<int>(zeros.s_rad_per_s.size()) == count) break;
+    std::string reason = looked_at < complete ? reason_against(candidate, candidates, agreement)
+                                              : "lies beyond a root that the search missed";
     ++looked_at;
-    std::string reason = reason_against(candidate, candidates, options.agreement);
     if (reason.empty()) {
       zeros.s_rad_per_s.push_back(candidate.s);
     } else {
       zeros.rejected.push_back({candidate.s, candidate.change, std::move(reason)});
     }
   }
-  // The count takes some hundred factorisations; for a large model that is dearer than the search.
-  constexpr int kLargestCounted = 500;
-  if (model.size() <= kLargestCounted) {
-    zeros.count = count_of(roots.w, looked_at, numerator);
-  } else {
-    zeros.count.found = static_cast<int>(looked_at);
+  return looked_at;
+}
+
+}  // namespace
+
+CheckedNumerators::CheckedNumerators(const Discretisation& discretisation,
+                                     const CheckingModels& checking, const arm::Arm& arm,
+                                     const arm::Sensor& sensor, int poles, double tolerance)
+    : model(discretisation, sensor_row(discretisation, arm, sensor).c, poles, tolerance),
+      fine(checking.fine, sensor_row(checking.fine, arm, sensor).c, poles, tolerance),
+      finer(checking.finer, sensor_row(checking.finer, arm, sensor).c, poles, tolerance) {}
+
+JudgedZeros judge(const PencilRoots& roots, const CheckedNumerators& numerators, int count,
+                  double agreement) {
+  JudgedZeros judged;
+  arm::ZeroSet& zeros = judged.zeros;
+  std::vector<Candidate> candidates;
+  for (const Complex w : roots.w) {
+    candidates.push_back(follow(w, numerators.fine, numerators.finer));
   }
-  zeros.infinite = row.infinite_roots;
+  const std::size_t looked_at = sort_out(candidates, candidates.size(), count, agreement, zeros);
+  judged.complete = looked_at;
+  zeros.count = {static_cast<int>(looked_at), -1, "argument principle"};
+  if (looked_at > 0) {
+    const RootAudit counted = audit(roots.w, looked_at, numerators.model);
+    zeros.count.expected = counted.expected;
+    judged.complete = counted.complete;
+  }
+  judged.gap = judged.complete < looked_at;
+  if (judged.gap) sort_out(candidates, judged.complete, count, agreement, zeros);
   zeros.summary = {
       "Rosenbrock pencil by eigenvalues at s = 0, Newton's method (residual: last step in s^2)",
-      roots.newton_steps, roots.largest_step, roots.converged};
-  return zeros;
+      roots.newton_steps, roots.largest_step, roots.converged && !judged.gap};
+  return judged;
+}
+
+arm::ZeroSet trusted_zeros(const Discretisation& model, const CheckingModels& checking,
+                           const arm::Arm& arm, const arm::Sensor& sensor, int count,
+                           const TrustOptions& options) {
+  // Some spurious roots may lie between the zeros, and the last root counted needs one beyond it.
+  constexpr int kSpare = 4;
+  const SensorRow row = sensor_row(model, arm, sensor);
+  if (row.c.isZero(0.0)) return {};
+  const int finite = model.size() + 1 - row.infinite_roots;
+  const int wanted = std::min(count + kSpare, finite);
+  // There are up to sqrt(2) poles for a root.
+  const CheckedNumerators numerators(model, checking, arm, sensor, 2 * wanted,
+                                     options.eigen_tolerance);
+  PencilRoots roots = pencil_roots(model, numerators.model, wanted, options.eigen_tolerance);
+  JudgedZeros judged = judge(roots, numerators, count, options.agreement);
+  const auto missing = [&] { return judged.zeros.count.expected > judged.zeros.count.found; };
+  for (int search = 0; search < wanted && missing(); ++search) {
+    if (!search_beside(judged.complete, numerators.model, roots)) break;
+    judged = judge(roots, numerators, count, options.agreement);
+  }
+  judged.zeros.infinite = row.infinite_roots;
+  return std::move(judged.zeros);
 }
 
 }  // namespace flexarm::fem

@@ -1,15 +1,17 @@
 #include "fem/vibration_modes.hpp"
 
-#include "fem/static_flexibility.hpp"
+#include "fem/payload_modes.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/SVD>
 #include <Eigen/SparseCholesky>
 #include <Spectra/SymGEigsShiftSolver.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 namespace flexarm::fem {
 
@@ -18,67 +20,36 @@ namespace {
 /// Up to this many coordinates the dense problem costs no more than a few milliseconds.
 constexpr int kDenseSize = 160;
 
-/// A displacement, and the deformations that it came from.
-struct Deformed {
-  Eigen::VectorXd u;
-  Eigen::VectorXd d;
-};
-
-/// K^-1 on the flexible subspace, in all n coordinates.
-class FlexibleSolve {
- public:
-  FlexibleSolve(const Discretisation& model, HubSupport support)
-      : model_(model), support_(support), flexibility_(model) {}
-
-  const StaticFlexibility& flexibility() const { return flexibility_; }
-
-  /// Loads less the part that accelerates the rigid arm: f - M r (r^T f)/(r^T M r).
-  Eigen::VectorXd self_equilibrated(const Eigen::VectorXd& f) const {
-    if (support_ == HubSupport::clamped) return f;
-    const double angular = model_.rigid_rotation().dot(f) / model_.total_inertia();
-    return f - angular * model_.rigid_momentum();
-  }
-
-  /// The response to the loads `f` that is M-orthogonal to the rigid rotation.
-  Deformed operator()(const Eigen::VectorXd& f) const {
-    Deformed result;
-    result.d = flexibility_.deformations(self_equilibrated(f).tail(model_.clamped_size()));
-    result.u.resize(model_.size());
-    result.u[0] = 0.0;
-    result.u.tail(model_.clamped_size()) = flexibility_.displacements(result.d);
-    if (support_ == HubSupport::free) {
-      const double angle = model_.rigid_momentum().dot(result.u) / model_.total_inertia();
-      result.u -= angle * model_.rigid_rotation();
-    }
-    return result;
-  }
-
- private:
-  const Discretisation& model_;
-  HubSupport support_;
-  StaticFlexibility flexibility_;
-};
-
-/// Spectra's (A - sigma B)^-1, fixed at sigma = 0.
+/// Spectra's (A - sigma B)^-1, fixed at sigma = 0, on what is M-orthogonal to `known` modes.
 class ShiftSolveAtZero {
  public:
   using Scalar = double;
 
-  explicit ShiftSolveAtZero(const FlexibleSolve& solve, Eigen::Index size)
-      : solve_(solve), size_(size) {}
+  ShiftSolveAtZero(const Discretisation& model, const FlexibleSolve& solve,
+                   const Eigen::MatrixXd& known)
+      : solve_(solve), known_(known), momenta_(model.mass() * known) {}
 
-  Eigen::Index rows() const { return size_; }
-  Eigen::Index cols() const { return size_; }
+  Eigen::Index rows() const { return known_.rows(); }
+  Eigen::Index cols() const { return known_.rows(); }
   void set_shift(double) {}
-  void perform_op(const double* f, double* u) const {
-    Eigen::VectorXd::MapType(u, size_) = solve_(Eigen::VectorXd::ConstMapType(f, size_)).u;
+  /// Projected on both sides: the loads lose what excites a known mode, the response what rounding
+  /// brings back.
+  Eigen::VectorXd operator()(Eigen::VectorXd f) const {
+    f -= momenta_ * (known_.transpose() * f);
+    Eigen::VectorXd u = solve_(f).u;
+    u -= known_ * (momenta_.transpose() * u);
     ++applications_;
+    return u;
+  }
+  void perform_op(const double* f, double* u) const {
+    Eigen::VectorXd::MapType(u, rows()) = (*this)(Eigen::VectorXd::ConstMapType(f, rows()));
   }
   int applications() const { return applications_; }
 
  private:
   const FlexibleSolve& solve_;
-  Eigen::Index size_;
+  const Eigen::MatrixXd& known_;
+  Eigen::MatrixXd momenta_;
   mutable int applications_ = 0;
 };
 
@@ -101,6 +72,13 @@ class MassProduct {
   HubSupport support_;
 };
 
+std::runtime_error eigensolver_failure(const char* method, const Discretisation& model,
+                                       HubSupport support, int count) {
+  return std::runtime_error(
+      fmt::format("fem: {} failed for the {} lowest modes with the hub {} of {}", method, count,
+                  support == HubSupport::clamped ? "clamped" : "free", describe(model)));
+}
+
 /// Right singular vectors of D^-1/2 B^-T P L, M = L L^T, taken back to coordinates; P takes the
 /// rigid acceleration out of the loads.
 Eigen::MatrixXd dense_shapes(const Discretisation& model, HubSupport support,
@@ -121,31 +99,51 @@ Eigen::MatrixXd dense_shapes(const Discretisation& model, HubSupport support,
     strains.col(j) = d.cwiseProduct(root);
   }
   const Eigen::BDCSVD<Eigen::MatrixXd> svd(strains, Eigen::ComputeThinV);
+  if (svd.info() != Eigen::Success) {
+    throw eigensolver_failure("singular value decomposition", model, support, count);
+  }
   Eigen::MatrixXd shapes = Eigen::MatrixXd::Zero(model.size(), count);
   shapes.bottomRows(free_size) = cholesky.matrixU().solve(svd.matrixV().leftCols(count));
   return shapes;
 }
 
-Eigen::MatrixXd iterated_shapes(const Discretisation& model, HubSupport support,
-                                const FlexibleSolve& solve, int count, double tolerance,
-                                VibrationModes& modes) {
+/// Lanczos: `count` modes M-orthogonal to the `known` ones.
+Eigen::MatrixXd lanczos_shapes(const Discretisation& model, HubSupport support,
+                               const FlexibleSolve& solve, const Eigen::MatrixXd& known, int count,
+                               double tolerance, int& iterations) {
   constexpr Eigen::Index kMaximumRestarts = 1000;
-  ShiftSolveAtZero shift_solve(solve, model.size());
+  ShiftSolveAtZero shift_solve(model, solve, known);
   MassProduct mass(model, support);
   // Spectra's own recommendation for the dimension of the Krylov space.
   const int krylov = std::min(model.size(), std::max(2 * count + 1, 20));
   Spectra::SymGEigsShiftSolver<ShiftSolveAtZero, MassProduct, Spectra::GEigsMode::ShiftInvert>
       solver(shift_solve, mass, count, krylov, 0.0);
-  // A start in the flexible subspace with a part in every mode. The response to a tip force alone
-  // would be the first mode of an arm with a heavy payload, from which no Krylov space grows.
+  // A start in the flexible subspace with a part in every mode.
   const Eigen::VectorXd loads = Eigen::VectorXd::LinSpaced(model.size(), 1.0, 7919.0).array().sin();
-  const Eigen::VectorXd start = solve(loads).u;
-  solver.init(start.data());
-  const Eigen::Index found = solver.compute(Spectra::SortRule::LargestMagn, kMaximumRestarts,
-                                            tolerance, Spectra::SortRule::SmallestAlge);
-  modes.converged = found == count;
-  modes.iterations = shift_solve.applications();
+  const Eigen::VectorXd start = shift_solve(loads);
+  try {
+    solver.init(start.data());
+    const Eigen::Index found = solver.compute(Spectra::SortRule::LargestMagn, kMaximumRestarts,
+                                              tolerance, Spectra::SortRule::SmallestAlge);
+    if (found < count) throw std::runtime_error("no convergence");
+  } catch (const std::runtime_error&) {
+    throw eigensolver_failure("Lanczos iteration", model, support, count);
+  }
+  iterations = shift_solve.applications();
   return solver.eigenvectors(count);
+}
+
+Eigen::MatrixXd iterated_shapes(const Discretisation& model, HubSupport support,
+                                const FlexibleSolve& solve, int count, double tolerance,
+                                int& iterations) {
+  const Eigen::MatrixXd known = payload_modes(model, solve);
+  const int rest = count - static_cast<int>(known.cols());
+  if (rest <= 0) return known.leftCols(count);
+  const Eigen::MatrixXd others =
+      lanczos_shapes(model, support, solve, known, rest, tolerance, iterations);
+  Eigen::MatrixXd shapes(model.size(), count);
+  shapes << known, others;
+  return shapes;
 }
 
 /// Two steps of inverse iteration, each mode kept M-orthogonal to those below it.
@@ -190,10 +188,13 @@ VibrationModes vibration_modes(const Discretisation& discretisation, HubSupport 
   count = std::min(count, available);
   const FlexibleSolve solve(discretisation, support);
   modes.dense = discretisation.size() <= kDenseSize || 4 * count > available;
-  const Eigen::MatrixXd raw =
-      modes.dense ? dense_shapes(discretisation, support, solve, count)
-                  : iterated_shapes(discretisation, support, solve, count, tolerance, modes);
+  const Eigen::MatrixXd raw = modes.dense ? dense_shapes(discretisation, support, solve, count)
+                                          : iterated_shapes(discretisation, support, solve, count,
+                                                            tolerance, modes.iterations);
   refine(discretisation, solve, raw, modes);
+  // A mode that the last step of refinement still moved was not one.
+  constexpr double kSettled = 1e-8;
+  modes.converged = modes.largest_change <= std::max(kSettled, tolerance);
   return modes;
 }
 

@@ -1,22 +1,18 @@
 #pragma once
 
 #include "fem/discretisation.hpp"
+#include "fem/flexible_solve.hpp"
 
 #include <Eigen/Core>
 
 namespace flexarm::fem {
-
-/// What holds the hub while the arm vibrates.
-enum class HubSupport {
-  free,     ///< nothing: the poles
-  clamped,  ///< theta = 0: the zeros of a collocated sensor
-};
 
 /// The lowest flexible modes of K u = omega^2 M u, dimensionless.
 struct VibrationModes {
   Eigen::VectorXd omega_squared;  ///< ascending
   Eigen::MatrixXd shapes;         ///< n x count, u^T M u = 1; row 0 is theta (0 where clamped)
   int iterations = 0;             ///< operator applications of the iterative solver, else 0
+  /// largest_change <= max(1e-8, tolerance).
   bool converged = true;
   bool dense = false;  ///< by singular values of the whole factored problem
   /// Largest relative change of an omega^2 at the last refinement.
@@ -27,8 +23,11 @@ struct VibrationModes {
 /// all modes are asked for) 1/omega are the singular values of D^-1/2 B^-T L with M = L L^T; else
 /// Spectra's Lanczos iteration finds 1/omega^2 as eigenvalues of the flexibility, shift 0, to
 /// `tolerance` (Spectra's residual bound |r| <= tolerance max(eps^(2/3), 1/omega^2)). The
-/// rigid-body mode is projected out. Each mode is then refined by inverse iteration, orthogonal to
-/// those below it, and omega^2 = d^T D d/u^T M u is summed in element deformations.
+/// rigid-body mode is projected out, and so are the modes of a heavy payload (see payload_modes).
+/// Each mode is then refined by inverse iteration, orthogonal to those below it, and omega^2 = d^T
+/// D d/u^T M u is summed in element deformations. Throws std::runtime_error, which names the model,
+/// when an eigensolver breaks down or
+/// does not converge.
 VibrationModes vibration_modes(const Discretisation& discretisation, HubSupport support, int count,
                                double tolerance);
 

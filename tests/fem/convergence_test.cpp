@@ -183,6 +183,81 @@ TEST(HeavyPayload, LeavesTenPolesAndTenHubZerosExact) {
   }
 }
 
+TEST(HeavyPayload, OfHundredMillionKilogramsLeavesPolesAndHubZerosExact) {
+  // The paper's arm. The first eigenvalue of the clamped arm's flexibility is up to 5e10 times the
+  // second. Numbers of exact_tf.
+  struct Case {
+    double payload_mass_kg;
+    std::array<double, 6> omega_rad_per_s;
+    std::array<double, 6> hub_zero_rad_per_s;
+  };
+  constexpr std::array<Case, 3> kCases = {
+      {{1e4,
+        {48.68988536505403, 168.89995874754757, 318.33640883800246, 563.8938715355362,
+         930.9417583015712, 1406.6620763084118},
+        {0.03538114136159767, 79.16909391552757, 256.55840524569874, 535.2885454756904,
+         915.3750291963117, 1396.8179083851794}},
+       {1e6,
+        {48.68980890002281, 168.89990060958831, 318.3363508037802, 563.893797981067,
+         930.9416800258757, 1406.6619967396298},
+        {0.0035381206696279556, 79.16901782707062, 256.5583245996347, 535.2884650319479,
+         915.3749487438192, 1396.8178279330543}},
+       {1e8,
+        {48.68980813537018, 168.89990002820784, 318.33635022343736, 563.8937972455217,
+         930.9416792431183, 1406.6619959439415},
+        {0.00035381207349628133, 79.16901706618441, 256.5583237931731, 535.2884642275098,
+         915.3749479392937, 1396.8178271285328}}}};
+  constexpr double kRounding = 1e-12;
+  // (lambda h)^4/1440 of the sixth, 3.2e-8, and a little.
+  constexpr double kCubic = 4e-8;
+  const struct {
+    MeshOptions mesh;
+    int degree;
+    double tolerance;
+  } kModels[] = {{{.elements = 4}, 15, kRounding},
+                 {{.elements = 40}, 8, kRounding},
+                 {{.elements = 200}, 3, kCubic}};
+  for (const Case& heavy : kCases) {
+    arm::Arm arm = arm::paper_arm();
+    arm.payload.mass_kg = heavy.payload_mass_kg;
+    for (const auto& options : kModels) {
+      SCOPED_TRACE(::testing::Message()
+                   << heavy.payload_mass_kg << " kg, degree " << options.degree);
+      const FemArm model(arm, {.mesh = options.mesh, .degree = options.degree});
+      const arm::PoleSet poles = model.poles(6);
+      const arm::ZeroSet zeros = model.zeros(kHubAngle, 6);
+      EXPECT_TRUE(poles.summary.converged);
+      EXPECT_TRUE(zeros.summary.converged);
+      EXPECT_EQ(zeros.count.expected, 6);
+      for (std::size_t i = 0; i < 6; ++i) {
+        const double pole = heavy.omega_rad_per_s[i];
+        const double zero = heavy.hub_zero_rad_per_s[i];
+        EXPECT_NEAR(poles.omega_rad_per_s[i], pole, options.tolerance * pole);
+        EXPECT_NEAR(zeros.s_rad_per_s[i].imag(), zero, options.tolerance * zero);
+      }
+    }
+  }
+}
+
+TEST(HeavyPayload, WithHeavyInertiaAndHubLeavesTheSameModesOnAnyMesh) {
+  // With mass and inertia two modes swing on the beam as on a spring. The dense solver of the small
+  // model and the iteration of the large one share no step but the refinement.
+  constexpr double kTolerance = 1e-10;
+  for (const double mass_kg : {0.0, 1e8}) {
+    arm::Arm arm = arm::paper_arm();
+    arm.hub.inertia_kg_m2 = 1e8;
+    arm.payload = {mass_kg, 1e8};
+    const FemArm small(arm, {.mesh = {.elements = 6}, .degree = 15});
+    const FemArm large(arm, {.mesh = {.elements = 40}, .degree = 8});
+    const arm::PoleSet a = small.poles(6);
+    const arm::PoleSet b = large.poles(6);
+    EXPECT_TRUE(b.summary.converged);
+    for (std::size_t i = 0; i < 6; ++i) {
+      EXPECT_NEAR(b.omega_rad_per_s[i], a.omega_rad_per_s[i], kTolerance * a.omega_rad_per_s[i]);
+    }
+  }
+}
+
 TEST(GradedMesh, ConvergesToTheSameNumbersAsAUniformOne) {
   const ReferenceCase& reference = kReferenceCases[0];
   for (const Grading grading :

@@ -1,6 +1,8 @@
 #include "fem/fem_arm.hpp"
+#include "fem/root_audit.hpp"
 #include "fem/sensor_row.hpp"
 #include "fem/transmission_zeros.hpp"
+#include "fem/trusted_zeros.hpp"
 #include "tests/fem/reference_cases.hpp"
 
 #include <Eigen/SVD>
@@ -10,6 +12,7 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <string>
 #include <vector>
 
 namespace flexarm::fem {
@@ -108,6 +111,40 @@ TEST(TransmissionZeros, OfTheTipAreAllFoundFarBeyondTheReachOfTheEigensolver) {
   }
 }
 
+TEST(TransmissionZeros, OfTheTipHaveNoHoleOnModelsFinerThanTheZerosNeed) {
+  // Numbers of exact_tf for the paper's arm.
+  const std::vector<double> exact = {
+      57.44089324679096,  310.40585583618173, 766.507747425493,   1425.3243134023264,
+      2286.853676147276,  3351.095830143743,  4618.050775377672,  6087.718511849031,
+      7760.099039557817,  9635.192358504033,  11712.998468687676, 13993.51737010875,
+      16476.749062767252, 19162.69354666318,  22051.35082179654,  25142.72088816733};
+  // What six elements of degree 15 leave of the twelfth, eight of the sixteenth.
+  constexpr double kTolerance = 1e-11;
+  const struct {
+    int elements, degree, count;
+  } kModels[] = {{8, 15, 12}, {6, 15, 12}, {8, 23, 12}, {8, 15, 16}};
+  for (const auto& [elements, degree, count] : kModels) {
+    SCOPED_TRACE(::testing::Message() << elements << " x " << degree);
+    const FemArm model(arm::paper_arm(), {.mesh = {.elements = elements}, .degree = degree});
+    const arm::ZeroSet zeros = model.zeros(arm::parse_sensor("tip_acceleration"), count);
+    ASSERT_EQ(zeros.s_rad_per_s.size(), static_cast<std::size_t>(count));
+    EXPECT_EQ(zeros.count.found, count);
+    EXPECT_EQ(zeros.count.expected, count);
+    EXPECT_TRUE(zeros.summary.converged);
+    for (std::size_t i = 0; i < zeros.s_rad_per_s.size(); ++i) {
+      EXPECT_LE(std::abs(zeros.s_rad_per_s[i] - exact[i]), kTolerance * exact[i])
+          << "zero " << i + 1;
+    }
+  }
+}
+
+TEST(TransmissionZeros, OfALargeModelAreCountedToo) {
+  const FemArm model(arm::paper_arm(), {.mesh = {.elements = 400}, .degree = 3});
+  const arm::ZeroSet zeros = model.zeros(arm::parse_sensor("tip_acceleration"), 4);
+  EXPECT_EQ(zeros.count.found, 4);
+  EXPECT_EQ(zeros.count.expected, 4);
+}
+
 TEST(TransmissionZeros, OfStrainAtATipWithoutPayloadInertiaDoNotExist) {
   const FemArm model(testing::arm_of(testing::kReferenceCases[0]));
   const arm::ZeroSet zeros = model.zeros(arm::parse_sensor("strain@0.96"), 3);
@@ -154,6 +191,63 @@ TEST(SpuriousZeros, AreNeverServedToFillARequest) {
     }
   }
 }
+
+/// Ten cubic elements have spurious complex roots from the fourth pair on.
+struct MissingRoot : ::testing::TestWithParam<std::string> {
+  static constexpr int kDegree = 3;
+  static constexpr int kPoles = 19;
+  static constexpr int kRoots = 10;
+  static constexpr int kCount = 3;
+  static constexpr double kAgreement = 1e-2;
+  static constexpr double kEigenTolerance = 1e-12;
+  static Discretisation of_degree(int degree) {
+    return Discretisation(loaded_arm(), {.elements = 10}, degree);
+  }
+  const Discretisation model = of_degree(kDegree);
+  const CheckingModels checking{of_degree(kDegree + 2), of_degree(kDegree + 4)};
+  const CheckedNumerators numerators{
+      model, checking, loaded_arm(), arm::parse_sensor(GetParam()), kPoles, kEigenTolerance};
+  const PencilRoots whole = pencil_roots(model, numerators.model, kRoots, kEigenTolerance);
+};
+
+TEST_P(MissingRoot, IsTold) {
+  const JudgedZeros known = judge(whole, numerators, kCount, kAgreement);
+  ASSERT_FALSE(known.gap);
+  ASSERT_TRUE(known.zeros.summary.converged);
+  for (std::size_t k = 0; k < static_cast<std::size_t>(kCount); ++k) {
+    PencilRoots gapped = whole;
+    gapped.w.erase(gapped.w.begin() + static_cast<std::ptrdiff_t>(k));
+    const JudgedZeros judged = judge(gapped, numerators, kCount, kAgreement);
+    EXPECT_TRUE(judged.gap) << k;
+    EXPECT_LE(judged.complete, k);
+    EXPECT_GT(judged.zeros.count.expected, judged.zeros.count.found);
+    EXPECT_FALSE(judged.zeros.summary.converged);
+    EXPECT_LE(judged.zeros.s_rad_per_s.size(), k);
+    for (std::size_t i = 0; i < judged.zeros.s_rad_per_s.size(); ++i) {
+      EXPECT_EQ(judged.zeros.s_rad_per_s[i], known.zeros.s_rad_per_s[i]);
+    }
+  }
+}
+
+TEST_P(MissingRoot, IsFoundBesideTheGap) {
+  for (std::size_t k = 0; k + 1 < whole.w.size(); ++k) {
+    PencilRoots gapped = whole;
+    gapped.w.erase(gapped.w.begin() + static_cast<std::ptrdiff_t>(k));
+    const RootAudit before = audit(gapped.w, gapped.w.size() - 1, numerators.model);
+    ASSERT_LE(before.complete, k);
+    EXPECT_TRUE(search_beside(before.complete, numerators.model, gapped)) << k;
+    EXPECT_THAT(gapped.w, ::testing::Contains(::testing::Truly([&](Complex w) {
+                  return std::abs(w - whole.w[k]) <= kRounding * std::abs(w);
+                })))
+        << "root " << k + 1 << ", " << whole.w[k];
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Sensors, MissingRoot,
+                         ::testing::Values("tip_displacement", "tip_deflection", "strain@0.25"),
+                         [](const auto& sensor) {
+                           return sensor.param.substr(0, sensor.param.find('@'));
+                         });
 
 TEST(PencilRoots, AreThoseOfTheDensePencilOfASmallModel) {
   // Two cubic elements: n = 5. The finite roots w are where det [K + wM, -e0; c^T, 0] vanishes.

@@ -4,6 +4,8 @@
 #include "arm/arm_keys.hpp"
 #include "arm/atomic_file.hpp"
 #include "arm/input_error.hpp"
+#include "report/arm_json.hpp"
+#include "report/json_document.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -97,13 +99,18 @@ std::string starter_text() {
   return out + effects_text();
 }
 
-int write_starter(const fs::path& path, bool force) {
+int write_starter(const fs::path& path, bool force, const std::string& json) {
   std::error_code ignored;
   if (!force && fs::exists(fs::symlink_status(path, ignored))) {
     throw arm::InputError(
         fmt::format("{}: exists already; --force replaces it", arm::shown(path.string())));
   }
   arm::write_atomically(path, starter_text());
+  if (!json.empty()) {
+    arm::write_atomically(
+        json, report::json_document("flexarm.new/1", {{"file", path.string()},
+                                                      {"arm", report::arm_json(starter_arm())}}));
+  }
   print(fmt::format("wrote {}\nnext: edit its numbers, then  flexarm modes {}\n",
                     arm::shown(path.string()), arm::shown(path.string())));
   return kSuccess;
@@ -115,13 +122,16 @@ Command add_new(CLI::App& program) {
   struct Options {
     std::string path;
     bool force = false;
+    std::string json;
   };
   const auto options = std::make_shared<Options>();
   CLI::App* parser = program.add_subcommand("new", "Write a commented arm file to start from");
   parser->add_option("FILE", options->path, "The arm file to write, as in rig.toml")->required();
   parser->add_flag("--force", options->force, "Replace a file that exists already");
+  parser->add_option("--json", options->json, "File for the arm's numbers in full precision");
   parser->footer(example("flexarm new rig.toml"));
-  return {parser, [options] { return write_starter(options->path, options->force); }};
+  return {parser,
+          [options] { return write_starter(options->path, options->force, options->json); }};
 }
 
 }  // namespace flexarm::app

@@ -117,6 +117,16 @@ TEST_F(JsonSchema, WhatModesWritesIsWhatTheDocumentSays) {
                        "flexarm.modes/1");
 }
 
+TEST_F(JsonSchema, WhatNewWritesIsWhatTheDocumentSays) {
+  EXPECT_EQ(run({"new", "rig.toml", "--json", "out.json"}).status, 0);
+  expect_as_documented({Json::parse(text_of("out.json"))}, "flexarm.new/1");
+}
+
+TEST_F(JsonSchema, WhatPaperWritesIsWhatTheDocumentSays) {
+  EXPECT_EQ(run({"paper", "--json", "out.json"}).status, 0);
+  expect_as_documented({Json::parse(text_of("out.json"))}, "flexarm.paper/1");
+}
+
 TEST(JsonSchemaWalk, SeesEveryKeyAndType) {
   Types seen;
   walk(Json::parse(R"({"a": [{"b": 1}, {"b": null}], "c": [1.5], "d": {"e": "x"}})"), "", seen);

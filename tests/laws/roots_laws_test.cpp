@@ -122,18 +122,15 @@ TEST_P(RootLaws, HubZerosAreTheCantileversFrequencies) {
 }
 
 TEST_P(RootLaws, AHeavyPayloadGivesClampedPinnedZeros) {
-  // A million times the beam: beyond it the first zero, sqrt(3 EI/(Mp l^3)), is so far below the
-  // others that an iterative eigensolver loses these.
-  constexpr double kHeavy = 1e6;
-  constexpr double kHeavyTolerance = 10.0 / kHeavy;
   Arm arm = unit_arm(0.1);
-  arm.payload.mass_kg = kHeavy;
+  arm.payload.mass_kg = kNearLimit;
   const auto zeros = hub_zeros(arm);
   ASSERT_EQ(zeros.size(), static_cast<std::size_t>(kRoots));
-  EXPECT_NEAR(zeros.front() / std::sqrt(3.0 / kHeavy), 1.0, kHeavyTolerance);
+  // The first is the payload on a massless spring: omega^2 = 3 EI/(Mp l^3).
+  EXPECT_NEAR(zeros.front() / std::sqrt(3.0 / kNearLimit), 1.0, kLimitTolerance);
   for (std::size_t i = 1; i < zeros.size(); ++i) {
     EXPECT_NEAR(zeros[i] / (kPinnedFree[i - 1] * kPinnedFree[i - 1]), 1.0,
-                tolerance() + kHeavyTolerance);
+                tolerance() + kLimitTolerance);
   }
 }
 

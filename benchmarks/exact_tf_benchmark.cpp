@@ -3,13 +3,12 @@
 #include "benchmarks/timing.hpp"
 #include "exact_tf/certificate.hpp"
 #include "exact_tf/exact_arm.hpp"
+#include "tests/reference/reference_cases.hpp"
 
 #include <benchmark/benchmark.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <complex>
-#include <fstream>
 #include <limits>
 #include <map>
 #include <utility>
@@ -20,6 +19,8 @@ namespace {
 
 using exact_tf::Certificate;
 using exact_tf::ExactArm;
+
+using Output = std::complex<double> reference::ReferenceResponse::*;
 
 /// Largest distance of a root from the true one, in ulp of lambda; infinite where nothing is
 /// proved.
@@ -84,28 +85,22 @@ void certificate_of_poles(benchmark::State& state) {
   state.counters["s_per_root"] = seconds_each(count);
 }
 
-/// Largest relative error at the four frequencies of the reference's case "paper", whose `key`
-/// times `unit` is what the sensor reads.
-double reference_error(const arm::Sensor& sensor, const char* key, double unit) {
-  std::ifstream file(FLEXARM_SOURCE_DIR "/tests/exact_tf/reference.json");
-  const auto reference = nlohmann::json::parse(file).at("paper");
-  const auto number = [](const nlohmann::json& text) { return std::stod(text.get<std::string>()); };
-  const auto complex = [&](const nlohmann::json& pair) {
-    return std::complex<double>(number(pair.at(0)), number(pair.at(1)));
-  };
+/// Largest relative error at the four frequencies of the reference's case "paper", whose
+/// `output` times `unit` is what the sensor reads.
+double reference_error(const arm::Sensor& sensor, Output output, double unit) {
   const ExactArm exact(arm::paper_arm());
   std::vector<std::complex<double>> found;
   std::vector<std::complex<double>> digits;
-  for (const auto& point : reference.at("transfer")) {
-    found.push_back(exact.transfer_function(sensor, complex(point.at("s"))));
-    digits.push_back(unit * complex(point.at(key)));
+  for (const auto& point : reference::case_named("paper").responses) {
+    found.push_back(exact.transfer_function(sensor, point.s_rad_per_s));
+    digits.push_back(unit * point.*output);
   }
   return worst_relative_error(found, digits);
 }
 
-void response(benchmark::State& state, const char* sensor, const char* key, double unit) {
+void response(benchmark::State& state, const char* sensor, Output output, double unit) {
   time_responses(state, ExactArm(damped_arm()), sensor);
-  state.counters["error"] = reference_error(arm::parse_sensor(sensor), key, unit);
+  state.counters["error"] = reference_error(arm::parse_sensor(sensor), output, unit);
 }
 
 void repeated(benchmark::internal::Benchmark* benchmark) {
@@ -122,10 +117,13 @@ BENCHMARK(tip_zeros)->Apply(repeated);
 BENCHMARK(poles)->Apply(many_roots);
 BENCHMARK(hub_zeros)->Apply(many_roots);
 BENCHMARK(certificate_of_poles)->Apply(many_roots);
-BENCHMARK_CAPTURE(response, hub_angle, "hub_angle", "hub_angle", 1.0)->Apply(repeated);
-BENCHMARK_CAPTURE(response, tip_displacement, "tip_displacement", "tip_displacement", 1.0)
+BENCHMARK_CAPTURE(response, hub_angle, "hub_angle", &reference::ReferenceResponse::hub_angle, 1.0)
     ->Apply(repeated);
-BENCHMARK_CAPTURE(response, strain_at_quarter, "strain@0.24", "curvature_quarter",
+BENCHMARK_CAPTURE(response, tip_displacement, "tip_displacement",
+                  &reference::ReferenceResponse::tip_displacement, 1.0)
+    ->Apply(repeated);
+BENCHMARK_CAPTURE(response, strain_at_quarter, "strain@0.24",
+                  &reference::ReferenceResponse::curvature_quarter,
                   arm::paper_arm().beam.thickness_m.value() / 2.0)
     ->Apply(repeated);
 

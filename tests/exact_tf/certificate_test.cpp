@@ -3,13 +3,13 @@
 #include "arm/input_error.hpp"
 #include "exact_tf/exact_arm.hpp"
 #include "sample_arms.hpp"
+#include "tests/reference/reference_cases.hpp"
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include <cmath>
-#include <fstream>
 #include <limits>
+#include <span>
 
 namespace flexarm::exact_tf {
 namespace {
@@ -41,38 +41,8 @@ void expect_refuted(const Certificate& certificate, const std::string& reason) {
   EXPECT_NE(certificate.failure.find(reason), std::string::npos) << certificate.failure;
 }
 
-struct ReferenceCase {
-  std::string name;
-  arm::Arm arm;
-  std::vector<std::string> poles, hub_zeros, tip_zeros;
-};
-
-std::vector<ReferenceCase> reference_cases() {
-  std::ifstream file(FLEXARM_SOURCE_DIR "/tests/exact_tf/reference.json");
-  const auto all = nlohmann::json::parse(file);
-  std::vector<ReferenceCase> cases;
-  for (const auto& [name, each] : all.items()) {
-    const auto number = [&, &entry = each](const char* key) {
-      return std::stod(entry.at(key).get<std::string>());
-    };
-    arm::Arm arm;
-    arm.beam = arm::Beam::from_rigidity(number("l"), number("EI"), number("rho"));
-    arm.hub.inertia_kg_m2 = number("Ih");
-    arm.payload = {number("Mp"), number("Ip")};
-    cases.push_back({name, arm, each.at("pole_lambda"), each.at("hub_zero_lambda"),
-                     each.at("tip_zero_alpha_rad_s")});
-  }
-  return cases;
-}
-
-std::vector<double> doubles(const std::vector<std::string>& digits) {
-  std::vector<double> values;
-  for (const auto& text : digits) values.push_back(std::stod(text));
-  return values;
-}
-
 /// The reference's arms have decimal values, ours their doubles: lambda differs by a part of 2^-53.
-void expect_to_enclose(const Certificate& certificate, const std::vector<std::string>& digits) {
+void expect_to_enclose(const Certificate& certificate, std::span<const std::string> digits) {
   for (std::size_t i = 0; i < digits.size(); ++i) {
     const long double exact = std::stold(digits[i]);
     const auto& root = certificate.roots[i];
@@ -82,24 +52,26 @@ void expect_to_enclose(const Certificate& certificate, const std::vector<std::st
 }
 
 TEST(Certificate, ProvesTheReference) {
-  for (const auto& each : reference_cases()) {
+  for (const auto& each : reference::reference_cases()) {
     SCOPED_TRACE(each.name);
-    const auto poles = certify_poles(each.arm, doubles(each.poles));
-    expect_proved(poles, std::ssize(each.poles));
-    expect_to_enclose(poles, each.poles);
-    const auto zeros = certify_hub_zeros(each.arm, doubles(each.hub_zeros));
-    expect_proved(zeros, std::ssize(each.hub_zeros));
-    expect_to_enclose(zeros, each.hub_zeros);
+    const arm::Arm arm = arm_of(each);
+    const auto poles = certify_poles(arm, each.pole_lambda);
+    expect_proved(poles, std::ssize(each.pole_lambda));
+    expect_to_enclose(poles, each.pole_lambda_digits);
+    const auto zeros = certify_hub_zeros(arm, each.hub_zero_lambda);
+    expect_proved(zeros, std::ssize(each.hub_zero_lambda));
+    expect_to_enclose(zeros, each.hub_zero_lambda_digits);
   }
 }
 
 TEST(Certificate, ProvesTheTipZerosOfTheReferenceWhereItsListIsComplete) {
-  for (const auto& each : reference_cases()) {
+  for (const auto& each : reference::reference_cases()) {
     SCOPED_TRACE(each.name);
+    const arm::Arm arm = arm_of(each);
     std::vector<std::complex<double>> s;
-    for (const double value : doubles(each.tip_zeros)) s.emplace_back(value, 0.0);
-    const auto certificate = certify_zeros(each.arm, kTip, s);
-    if (each.arm.payload.inertia_kg_m2 == 0.0) {
+    for (const double value : each.real_tip_zero_rad_per_s) s.emplace_back(value, 0.0);
+    const auto certificate = certify_zeros(arm, kTip, s);
+    if (each.payload_inertia_kg_m2 == 0.0) {
       expect_proved(certificate, std::ssize(s));
     } else {
       // The list leaves the imaginary pair out.

@@ -3,13 +3,12 @@
 #include "arm/input_error.hpp"
 #include "exact_tf/exact_arm.hpp"
 #include "sample_arms.hpp"
+#include "tests/reference/reference_cases.hpp"
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <limits>
 
 namespace flexarm::exact_tf {
@@ -48,27 +47,18 @@ std::vector<double> real_ones(const arm::ZeroSet& set) {
 
 TEST(SensorZeros, OfTheTipAgreeWithTheReferenceInAllCases) {
   constexpr double kRelativeTolerance = 1e-13;  // the project's figure
-  std::ifstream file(FLEXARM_SOURCE_DIR "/tests/exact_tf/reference.json");
-  const auto cases = nlohmann::json::parse(file);
-  ASSERT_EQ(cases.size(), 7u);
-  for (const auto& [name, each] : cases.items()) {
-    const auto number = [&, &entry = each](const char* key) {
-      return std::stod(entry.at(key).get<std::string>());
-    };
-    arm::Arm arm;
-    arm.beam = arm::Beam::from_rigidity(number("l"), number("EI"), number("rho"));
-    arm.hub.inertia_kg_m2 = number("Ih");
-    arm.payload = {number("Mp"), number("Ip")};
-    const auto& expected = each.at("tip_zero_alpha_rad_s");
+  ASSERT_EQ(reference::reference_cases().size(), 7u);
+  for (const auto& each : reference::reference_cases()) {
+    const auto& expected = each.real_tip_zero_rad_per_s;
     // One imaginary pair comes among the real ones of the list with payload inertia.
     const int count = static_cast<int>(expected.size()) + 1;
-    const auto set = ExactArm(arm).zeros(kTip, count);
+    const auto set = ExactArm(arm_of(each)).zeros(kTip, count);
     expect_complete(set, count);
     const auto real = real_ones(set);
-    ASSERT_GE(real.size(), expected.size()) << name;
+    ASSERT_GE(real.size(), expected.size()) << each.name;
     for (std::size_t i = 0; i < expected.size(); ++i) {
-      const double value = std::stod(expected.at(i).get<std::string>());
-      EXPECT_NEAR(real[i], value, kRelativeTolerance * value) << name << ", zero " << i + 1;
+      EXPECT_NEAR(real[i], expected[i], kRelativeTolerance * expected[i])
+          << each.name << ", zero " << i + 1;
     }
   }
 }

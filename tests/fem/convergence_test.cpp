@@ -1,6 +1,6 @@
 // Orders of convergence, fitted above the rounding floor, against exact numbers.
 #include "fem/fem_arm.hpp"
-#include "tests/fem/reference_cases.hpp"
+#include "tests/reference/reference_cases.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,18 +13,17 @@
 namespace flexarm::fem {
 namespace {
 
-using testing::kReferenceCases;
-using testing::ReferenceCase;
+using reference::ReferenceCase;
 
 constexpr arm::Sensor kHubAngle{arm::SensorKind::hub_angle};
 constexpr arm::Sensor kTipAcceleration{arm::SensorKind::tip_acceleration};
 
 double exact_omega(const ReferenceCase& reference, double lambda) {
-  return lambda * lambda * arm::omega_scale_rad_per_s(testing::arm_of(reference));
+  return lambda * lambda * arm::omega_scale_rad_per_s(reference::arm_of(reference));
 }
 
 FemArm model_of(const ReferenceCase& reference, int elements, int degree) {
-  return FemArm(testing::arm_of(reference), {.mesh = {.elements = elements}, .degree = degree});
+  return FemArm(reference::arm_of(reference), {.mesh = {.elements = elements}, .degree = degree});
 }
 
 std::vector<double> relative_pole_errors(const FemArm& model, const ReferenceCase& reference,
@@ -122,7 +121,7 @@ TEST_P(SmallModel, TheDefaultFindsTenPolesTenHubZerosAndSixTipZerosWithinRoundin
   // Measured: at most 6e-15, but for heavy payloads, whose zeros lie far apart.
   constexpr double kFewHundredEpsilon = 1e-13;
   constexpr int kFigure = 60;
-  const FemArm model(testing::arm_of(GetParam()));
+  const FemArm model(reference::arm_of(GetParam()));
   EXPECT_LE(model.degrees_of_freedom(), kFigure);
   EXPECT_LE(largest(relative_pole_errors(model, GetParam(), 10)), kFewHundredEpsilon);
   EXPECT_LE(largest(relative_hub_zero_errors(model, GetParam(), 10)), kFewHundredEpsilon);
@@ -145,10 +144,11 @@ TEST_P(SmallModel, ErrorsFallExponentiallyWithTheDegree) {
   EXPECT_LE(before, kFloor);
 }
 
-INSTANTIATE_TEST_SUITE_P(Reference, CubicConvergence, ::testing::ValuesIn(kReferenceCases),
-                         testing::name_of_case);
-INSTANTIATE_TEST_SUITE_P(Reference, SmallModel, ::testing::ValuesIn(kReferenceCases),
-                         testing::name_of_case);
+INSTANTIATE_TEST_SUITE_P(Reference, CubicConvergence,
+                         ::testing::ValuesIn(reference::reference_cases()),
+                         reference::name_of_case);
+INSTANTIATE_TEST_SUITE_P(Reference, SmallModel, ::testing::ValuesIn(reference::reference_cases()),
+                         reference::name_of_case);
 
 TEST(HeavyPayload, LeavesTenPolesAndTenHubZerosExact) {
   // Payload mass 10 m l and inertia 0.1 m l^3: the clamped frequencies span a factor of 1300, the
@@ -166,7 +166,7 @@ TEST(HeavyPayload, LeavesTenPolesAndTenHubZerosExact) {
       11.012149690300866636,  14.147727639642683797, 17.286450763287275398, 20.426398667440570818,
       23.566934744339594803,  26.707792975477125138};
   constexpr double kFewHundredEpsilon = 1e-13;
-  arm::Arm arm = testing::arm_of(kReferenceCases[4]);
+  arm::Arm arm = reference::arm_of(reference::case_named("unit_pinned_free"));
   arm.payload = {10.0, 0.1};
   for (const auto& [hub_inertia, lambdas] :
        {std::pair(0.0, kLightHub), std::pair(100.0, kHeavyHub)}) {
@@ -259,11 +259,11 @@ TEST(HeavyPayload, WithHeavyInertiaAndHubLeavesTheSameModesOnAnyMesh) {
 }
 
 TEST(GradedMesh, ConvergesToTheSameNumbersAsAUniformOne) {
-  const ReferenceCase& reference = kReferenceCases[0];
+  const ReferenceCase& reference = reference::case_named("paper");
   for (const Grading grading :
        {Grading::towards_root, Grading::towards_tip, Grading::towards_both}) {
     const FemArm model(
-        testing::arm_of(reference),
+        reference::arm_of(reference),
         {.mesh = {.elements = 8, .grading = grading, .grading_ratio = 1.3}, .degree = 14});
     // The longest element, a quarter of the beam, decides.
     constexpr double kTolerance = 1e-10;

@@ -1,7 +1,7 @@
 // Laws of the assembled matrices and of the modes built on them.
 #include "fem/discretisation.hpp"
 #include "fem/fem_arm.hpp"
-#include "tests/fem/reference_cases.hpp"
+#include "tests/reference/reference_cases.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -19,10 +19,10 @@ namespace {
 using Complex = std::complex<double>;
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
-class Laws : public ::testing::TestWithParam<testing::ReferenceCase> {
+class Laws : public ::testing::TestWithParam<reference::ReferenceCase> {
  protected:
   static FemArm model() {
-    return FemArm(testing::arm_of(GetParam()), {.mesh = {.elements = 5}, .degree = 7});
+    return FemArm(reference::arm_of(GetParam()), {.mesh = {.elements = 5}, .degree = 7});
   }
 };
 
@@ -46,7 +46,7 @@ TEST_P(Laws, StiffnessIsSymmetricAndHasExactlyOneRigidBodyMode) {
 }
 
 TEST_P(Laws, RigidRotationHasTheTotalInertiaAndNoStrain) {
-  const arm::Arm arm = testing::arm_of(GetParam());
+  const arm::Arm arm = reference::arm_of(GetParam());
   const Discretisation discretisation(arm, {.elements = 5}, 7);
   const double unit = arm.beam.linear_density_kg_per_m() * std::pow(arm.beam.length_m, 3);
   const double exact = arm::total_inertia_kg_m2(arm);
@@ -57,7 +57,7 @@ TEST_P(Laws, RigidRotationHasTheTotalInertiaAndNoStrain) {
 }
 
 TEST_P(Laws, FactorsMultiplyToTheStiffness) {
-  const Discretisation model(testing::arm_of(GetParam()), {.elements = 5}, 7);
+  const Discretisation model(reference::arm_of(GetParam()), {.elements = 5}, 7);
   const Eigen::SparseMatrix<double> b = model.kinematics();
   const Eigen::MatrixXd product =
       Eigen::MatrixXd(b.transpose() * model.natural_stiffness().asDiagonal() * b);
@@ -69,7 +69,7 @@ TEST_P(Laws, FactorsMultiplyToTheStiffness) {
 }
 
 TEST_P(Laws, PolesAndHubZerosInterlaceAndNoneIsMissing) {
-  const FemArm fem(testing::arm_of(GetParam()));
+  const FemArm fem(reference::arm_of(GetParam()));
   const arm::PoleSet poles = fem.poles(10);
   const arm::ZeroSet zeros = fem.zeros({arm::SensorKind::hub_angle}, 10);
   EXPECT_EQ(poles.count.expected, 10);
@@ -107,14 +107,14 @@ TEST_P(Laws, AllModesTogetherAreTheTransferFunction) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Reference, Laws, ::testing::ValuesIn(testing::kReferenceCases),
-                         testing::name_of_case);
+INSTANTIATE_TEST_SUITE_P(Reference, Laws, ::testing::ValuesIn(reference::reference_cases()),
+                         reference::name_of_case);
 
 /// Some hundred operations.
 constexpr double kRounding = 1e-12;
 
 TEST(Modes, OfAHeavyHubAreThoseOfACantilever) {
-  arm::Arm arm = testing::arm_of(testing::kReferenceCases[4]);
+  arm::Arm arm = reference::arm_of(reference::case_named("unit_pinned_free"));
   arm.hub.inertia_kg_m2 = 1e9;
   const std::vector<double> stations = {0.0, 0.5, 1.0};
   const std::vector<arm::Sensor> sensors = {arm::parse_sensor("tip_displacement"),
@@ -140,7 +140,7 @@ TEST(Modes, OfAHeavyHubAreThoseOfACantilever) {
 }
 
 TEST(Modes, HaveTheProjectedDampingOfBeamAndHub) {
-  arm::Arm arm = testing::arm_of(testing::kReferenceCases[0]);
+  arm::Arm arm = reference::arm_of(reference::case_named("paper"));
   arm.damping.kelvin_voigt_s = 1e-5;
   arm.hub.viscous_friction_N_m_s_per_rad = 1e-3;
   const FemArm model(arm);
@@ -157,8 +157,8 @@ TEST(Modes, HaveTheProjectedDampingOfBeamAndHub) {
 
 TEST(Modes, HaveTheSameNumbersInOtherUnits) {
   // Lengths in mm and masses in g: EI becomes 10^12 times, m (g/mm) once, inertias 10^9 times.
-  const testing::ReferenceCase& reference = testing::kReferenceCases[2];
-  const arm::Arm metres = testing::arm_of(reference);
+  const reference::ReferenceCase& reference = reference::case_named("paper_payload_50g_inertia");
+  const arm::Arm metres = reference::arm_of(reference);
   arm::Arm millimetres = metres;
   millimetres.beam = arm::Beam::from_rigidity(metres.beam.length_m * 1e3,
                                               metres.beam.flexural_rigidity_N_m2() * 1e12,

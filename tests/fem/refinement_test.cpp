@@ -1,6 +1,6 @@
 // Fine meshes: no rising of the error, cost linear in the number of elements.
 #include "fem/fem_arm.hpp"
-#include "tests/fem/reference_cases.hpp"
+#include "tests/reference/reference_cases.hpp"
 
 #include <gtest/gtest.h>
 
@@ -20,8 +20,8 @@ struct Errors {
 
 /// Largest relative errors of the first ten of the paper's arm, cubic elements.
 Errors errors_of(int elements) {
-  const testing::ReferenceCase& reference = testing::kReferenceCases[0];
-  const FemArm model(testing::arm_of(reference), {.mesh = {.elements = elements}, .degree = 3});
+  const reference::ReferenceCase& reference = reference::case_named("paper");
+  const FemArm model(reference::arm_of(reference), {.mesh = {.elements = elements}, .degree = 3});
   const double scale = arm::omega_scale_rad_per_s(model.arm());
   const arm::PoleSet poles = model.poles(10);
   const arm::ZeroSet zeros = model.zeros(kHubAngle, 10);

@@ -1,6 +1,6 @@
 #include "arm/input_error.hpp"
 #include "fem/fem_arm.hpp"
-#include "tests/fem/reference_cases.hpp"
+#include "tests/reference/reference_cases.hpp"
 
 #include <gtest/gtest.h>
 
@@ -18,15 +18,15 @@ void expect_close(Complex value, Complex exact, double tolerance) {
   EXPECT_LE(std::abs(value - exact), tolerance * std::abs(exact)) << value << ", exact " << exact;
 }
 
-class ReferenceResponses : public ::testing::TestWithParam<testing::ReferenceCase> {};
+class ReferenceResponses : public ::testing::TestWithParam<reference::ReferenceCase> {};
 
 TEST_P(ReferenceResponses, AreMetByTheDefaultModel) {
   // The last frequency lies past the tenth pole of some cases and close to one of others, where
   // the response is ill-conditioned.
   constexpr double kTolerance = 1e-12;
-  const FemArm model(testing::arm_of(GetParam()));
+  const FemArm model(reference::arm_of(GetParam()));
   const arm::Sensor strain{arm::SensorKind::strain, GetParam().length_m / 4.0};
-  for (const testing::ReferenceResponse& exact : GetParam().responses) {
+  for (const reference::ReferenceResponse& exact : GetParam().responses) {
     const Complex s = exact.s_rad_per_s;
     const auto response = [&](const arm::Sensor& sensor) {
       return model.transfer_function(sensor, s);
@@ -43,7 +43,8 @@ TEST_P(ReferenceResponses, AreMetByTheDefaultModel) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Reference, ReferenceResponses,
-                         ::testing::ValuesIn(testing::kReferenceCases), testing::name_of_case);
+                         ::testing::ValuesIn(reference::reference_cases()),
+                         reference::name_of_case);
 
 /// A unit arm with both dampings.
 arm::Arm damped_arm() {
@@ -149,7 +150,7 @@ TEST(TransferFunction, TendsToThatOfTheRigidArmAtLowFrequency) {
 }
 
 TEST(TransferFunction, VanishesAtTheZerosOfTheHubAngle) {
-  const FemArm model(testing::arm_of(testing::kReferenceCases[4]));
+  const FemArm model(reference::arm_of(reference::case_named("unit_pinned_free")));
   const arm::Sensor hub{arm::SensorKind::hub_angle};
   for (const Complex zero : model.zeros(hub, 4).s_rad_per_s) {
     const Complex at = model.transfer_function(hub, zero);

@@ -3,7 +3,7 @@
 #include "fem/sensor_row.hpp"
 #include "fem/transmission_zeros.hpp"
 #include "fem/trusted_zeros.hpp"
-#include "tests/fem/reference_cases.hpp"
+#include "tests/reference/reference_cases.hpp"
 
 #include <Eigen/SVD>
 #include <gmock/gmock.h>
@@ -100,7 +100,7 @@ TEST(TransmissionZeros, OfTheTipAreAllFoundFarBeyondTheReachOfTheEigensolver) {
   // condition is about exp(n pi), 10^27 for the twentieth.
   constexpr int kCount = 20;
   constexpr double kTolerance = 1e-8;
-  const FemArm model(testing::arm_of(testing::kReferenceCases[4]),
+  const FemArm model(reference::arm_of(reference::case_named("unit_pinned_free")),
                      {.mesh = {.elements = 10}, .degree = 13});
   const arm::ZeroSet zeros = model.zeros(arm::parse_sensor("tip_displacement"), kCount);
   ASSERT_EQ(zeros.s_rad_per_s.size(), static_cast<std::size_t>(kCount));
@@ -146,15 +146,15 @@ TEST(TransmissionZeros, OfALargeModelAreCountedToo) {
 }
 
 TEST(TransmissionZeros, OfStrainAtATipWithoutPayloadInertiaDoNotExist) {
-  const FemArm model(testing::arm_of(testing::kReferenceCases[0]));
+  const FemArm model(reference::arm_of(reference::case_named("paper")));
   const arm::ZeroSet zeros = model.zeros(arm::parse_sensor("strain@0.96"), 3);
   EXPECT_TRUE(zeros.s_rad_per_s.empty());
   EXPECT_TRUE(zeros.rejected.empty());
 }
 
 TEST(SpuriousZeros, OfSixteenCubicElementsSevenOfThirtyTwoTipZerosAreTrusted) {
-  const testing::ReferenceCase& reference = testing::kReferenceCases[0];
-  const FemArm model(testing::arm_of(reference), {.mesh = {.elements = 16}, .degree = 3});
+  const reference::ReferenceCase& reference = reference::case_named("paper");
+  const FemArm model(reference::arm_of(reference), {.mesh = {.elements = 16}, .degree = 3});
   const arm::ZeroSet zeros =
       model.zeros(arm::parse_sensor("tip_displacement"), model.degrees_of_freedom());
   EXPECT_EQ(model.degrees_of_freedom(), 33);
@@ -175,9 +175,9 @@ TEST(SpuriousZeros, OfSixteenCubicElementsSevenOfThirtyTwoTipZerosAreTrusted) {
 
 TEST(SpuriousZeros, AreNeverServedToFillARequest) {
   for (const char* sensor : {"tip_acceleration", "tip_deflection", "strain@0.24"}) {
-    const testing::ReferenceCase& reference = testing::kReferenceCases[0];
-    const FemArm coarse(testing::arm_of(reference), {.mesh = {.elements = 10}, .degree = 3});
-    const FemArm fine(testing::arm_of(reference), {.mesh = {.elements = 8}, .degree = 13});
+    const reference::ReferenceCase& reference = reference::case_named("paper");
+    const FemArm coarse(reference::arm_of(reference), {.mesh = {.elements = 10}, .degree = 3});
+    const FemArm fine(reference::arm_of(reference), {.mesh = {.elements = 8}, .degree = 13});
     const arm::ZeroSet trusted =
         coarse.zeros(arm::parse_sensor(sensor), coarse.degrees_of_freedom());
     const arm::ZeroSet known = fine.zeros(arm::parse_sensor(sensor), 20);

@@ -1,9 +1,12 @@
 #include "app/arm_choice.hpp"
 
+#include "app/command.hpp"
 #include "arm/arm_file.hpp"
 #include "arm/input_error.hpp"
 
 #include <fmt/format.h>
+
+#include <algorithm>
 
 namespace flexarm::app {
 
@@ -14,6 +17,9 @@ std::vector<arm::Arm> ArmChoice::arms() const {
   std::vector<arm::Arm> arms;
   if (payload_masses_kg.empty()) arms.push_back(base);
   for (const double mass : payload_masses_kg) {
+    const bool again = std::ranges::any_of(
+        arms, [mass](const arm::Arm& arm) { return arm.payload.mass_kg == mass; });
+    if (again) throw arm::InputError(fmt::format("--payload-mass: {} is given twice", mass));
     arms.push_back(base);
     arms.back().payload.mass_kg = mass;
   }
@@ -22,11 +28,13 @@ std::vector<arm::Arm> ArmChoice::arms() const {
 }
 
 void add_arm_choice(CLI::App& parser, ArmChoice& choice) {
-  parser.add_option("ARM", choice.file, "Arm file; the paper's arm when left out");
+  parser.add_option("ARM", choice.file, "Arm file; the paper's arm when left out")
+      ->check(not_empty());
   parser
       .add_option("--payload-mass", choice.payload_masses_kg,
                   "Payload mass [kg] in place of the file's; several separated by commas")
       ->delimiter(',')
+      ->check(not_empty())
       ->allow_extra_args(false);
   parser.add_option("--payload-inertia", choice.payload_inertia_kg_m2,
                     "Payload inertia about the tip [kg m^2] in place of the file's");

@@ -25,6 +25,9 @@ struct Command {
 /// The text under a command's options: an example line that works as it stands.
 std::string example(const std::string& line);
 
+/// Refuses an empty value, such as a script's variable that was never set.
+CLI::Validator not_empty();
+
 Command add_compare(CLI::App& program);
 Command add_modes(CLI::App& program);
 Command add_new(CLI::App& program);

@@ -1,5 +1,6 @@
 #include "app/arm_choice.hpp"
 #include "app/command.hpp"
+#include "app/output_choice.hpp"
 #include "app/standard_output.hpp"
 #include "arm/atomic_file.hpp"
 #include "compare/comparison.hpp"
@@ -33,8 +34,7 @@ struct Arguments {
   compare::Options options;
   bool quick = false;
   bool full = false;
-  std::string out;
-  std::string json;
+  OutputChoice output;
 };
 
 compare::Options options_of(const Arguments& arguments, const measured::ModalTable& measured) {
@@ -107,12 +107,12 @@ void write_folder(const fs::path& folder, const compare::Comparison& comparison,
 
 std::string next_step(const Arguments& arguments) {
   const std::string arm = arguments.arm.file.empty() ? "" : " " + arguments.arm.file;
-  if (arguments.out.empty()) {
+  if (arguments.output.folder.empty()) {
     return fmt::format("next: plots and tables as files with  flexarm compare{} --out compared\n",
                        arm);
   }
-  return fmt::format("wrote {}\nnext: the modes of this arm with  flexarm modes{}\n", arguments.out,
-                     arm);
+  return fmt::format("wrote {}\nnext: the modes of this arm with  flexarm modes{}\n",
+                     arguments.output.folder, arm);
 }
 
 int run(const Arguments& arguments) {
@@ -121,7 +121,7 @@ int run(const Arguments& arguments) {
                             : measured::read_modal_table(arguments.measured_file);
   const auto options = options_of(arguments, measured);
   const auto arms = arguments.arm.arms();
-  if (!arguments.out.empty()) arm::make_folder(arguments.out);
+  arguments.output.prepare();
 
   std::size_t disagreeing = 0;
   std::vector<report::ComparedArm> results;
@@ -130,14 +130,14 @@ int run(const Arguments& arguments) {
     const auto rows = compare::beside_model(measured, comparison);
     print_comparison(comparison, rows, arguments.full);
     if (arms.size() > 1) print("\n");
-    if (!arguments.out.empty()) {
-      write_folder(folder_of(arguments.out, arm, arms.size()), comparison, rows);
+    if (!arguments.output.folder.empty()) {
+      write_folder(folder_of(arguments.output.folder, arm, arms.size()), comparison, rows);
     }
     if (!comparison.verdict.agree) ++disagreeing;
     results.push_back({comparison, rows});
   }
-  if (!arguments.json.empty()) {
-    arm::write_atomically(arguments.json, report::comparison_json(results));
+  if (!arguments.output.json_file.empty()) {
+    arm::write_atomically(arguments.output.json_file, report::comparison_json(results));
   }
   if (arms.size() > 1) {
     print(disagreeing == 0 ? fmt::format("All {} arms: agree.\n", arms.size())
@@ -154,8 +154,10 @@ Command add_compare(CLI::App& program) {
   CLI::App* parser = program.add_subcommand(
       "compare", "Poles, zeros, shapes and responses of the three formulations, side by side");
   add_arm_choice(*parser, arguments->arm);
-  parser->add_option("--measured", arguments->measured_file,
-                     "Measured poles and zeros (modal CSV), shown beside the model's");
+  parser
+      ->add_option("--measured", arguments->measured_file,
+                   "Measured poles and zeros (modal CSV), shown beside the model's")
+      ->check(not_empty());
   parser
       ->add_option("--sensor", arguments->sensors,
                    "Further sensors whose zeros and responses are compared, as in strain@0.05")
@@ -177,9 +179,8 @@ Command add_compare(CLI::App& program) {
       ->capture_default_str();
   parser->add_flag("--quick", arguments->quick, "Leave the refinement series out");
   parser->add_flag("--full", arguments->full, "Print every root's convergence and the root counts");
-  parser->add_option("--out", arguments->out, "Folder for CSV tables and SVG plots");
-  parser->add_option("--json", arguments->json, "File for everything in full precision");
-  parser->footer("\nExit status: 0 the formulations agree; 1 they do not; 2 unusable input.\n" +
+  add_output_choice(*parser, arguments->output, "Folder for CSV tables and SVG plots");
+  parser->footer("Exit status: 0 the formulations agree; 1 they do not; 2 unusable input.\n" +
                  example("flexarm compare rig.toml --poles 6 --out compared"));
   return {parser, [arguments] { return run(*arguments); }};
 }

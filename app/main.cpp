@@ -19,6 +19,10 @@ std::string example(const std::string& line) {
   return fmt::format("Example:\n  {}", line);
 }
 
+CLI::Validator not_empty() {
+  return {[](const std::string& value) { return value.empty() ? "is empty" : std::string(); }, ""};
+}
+
 namespace {
 
 /// Writes one line to standard error; when that fails there is nobody left to tell.

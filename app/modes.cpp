@@ -1,6 +1,7 @@
 #include "app/arm_choice.hpp"
 #include "app/command.hpp"
 #include "app/formulation_choice.hpp"
+#include "app/output_choice.hpp"
 #include "app/standard_output.hpp"
 #include "arm/atomic_file.hpp"
 #include "arm/input_error.hpp"
@@ -32,8 +33,7 @@ struct Arguments {
   int count = 5;
   std::vector<std::string> sensors = {"hub_angle", "tip_acceleration"};
   bool certificate = false;
-  std::string out;
-  std::string json;
+  OutputChoice output;
 };
 
 /// One list of roots that ball arithmetic was asked about.
@@ -122,6 +122,10 @@ int run(const Arguments& arguments) {
   nlohmann::ordered_json documents = nlohmann::ordered_json::array();
   const auto arms = arguments.arm.arms();
   for (const auto& arm : arms) {
+    for (const auto& sensor : sensors) arm::require_valid(sensor, arm);
+  }
+  arguments.output.prepare();
+  for (const auto& arm : arms) {
     const auto chosen = arguments.formulation.make(arm, arguments.count);
     const auto summary = response::summarise(chosen.formulation, arguments.count, sensors,
                                              compare::shape_stations_m(arm.beam.length_m));
@@ -143,8 +147,8 @@ int run(const Arguments& arguments) {
     }
     documents.push_back(std::move(document));
 
-    if (!arguments.out.empty()) {
-      const fs::path folder = folder_of(arguments.out, arm, arms.size());
+    if (!arguments.output.folder.empty()) {
+      const fs::path folder = folder_of(arguments.output.folder, arm, arms.size());
       arm::make_folder(folder);
       arm::write_atomically(folder / "modes.csv",
                             report::to_csv(report::poles_table(arm, summary)));
@@ -154,11 +158,11 @@ int run(const Arguments& arguments) {
       arm::write_atomically(folder / "shapes.svg", report::shapes_svg(chosen.name, summary));
     }
   }
-  if (!arguments.json.empty()) {
-    arm::write_atomically(arguments.json,
+  if (!arguments.output.json_file.empty()) {
+    arm::write_atomically(arguments.output.json_file,
                           report::json_document("flexarm.modes/1", {{"arms", documents}}));
   }
-  if (!arguments.out.empty()) print(fmt::format("wrote {}\n", arguments.out));
+  if (!arguments.output.folder.empty()) print(fmt::format("wrote {}\n", arguments.output.folder));
   print(fmt::format("next: see the three formulations agree with  flexarm compare{}\n",
                     arguments.arm.file.empty() ? "" : " " + arguments.arm.file));
   return proved ? kSuccess : kFailure;
@@ -182,8 +186,7 @@ Command add_modes(CLI::App& program) {
       ->capture_default_str();
   parser->add_flag("--certificate", arguments->certificate,
                    "Prove the roots of exact_tf and their number by ball arithmetic");
-  parser->add_option("--out", arguments->out, "Folder for CSV tables and the shapes as SVG");
-  parser->add_option("--json", arguments->json, "File for everything in full precision");
+  add_output_choice(*parser, arguments->output, "Folder for CSV tables and the shapes as SVG");
   parser->footer(example("flexarm modes rig.toml --sensor hub_angle,strain@0.05 --certificate"));
   return {parser, [arguments] { return run(*arguments); }};
 }

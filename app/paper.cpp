@@ -30,7 +30,6 @@ struct Arguments {
 };
 
 void write_folder(const fs::path& folder, const compare::paper::Findings& findings) {
-  arm::make_folder(folder);
   arm::write_atomically(folder / "comparisons.csv",
                         report::to_csv(report::paper_listing(findings)));
   arm::write_atomically(folder / "cells.csv", report::to_csv(report::paper_cells(findings)));
@@ -50,6 +49,8 @@ void update_document(const std::string& path, const compare::paper::Findings& fi
 }
 
 int run(const Arguments& arguments) {
+  if (!arguments.out.empty()) arm::make_folder(arguments.out);
+  if (!arguments.json.empty()) arm::require_writable(arguments.json);
   const auto findings = compare::paper::check_paper();
   const std::string text = report::paper_text(findings, arguments.part);
   if (text.empty()) {
@@ -78,8 +79,10 @@ Command add_paper(CLI::App& program) {
       "paper", "Check each equation and table of the paper against the three formulations");
   parser->add_option("PART", arguments->part,
                      "Only this: the number of an equation, or words such as \"Table 6\"");
-  parser->add_option("--json", arguments->json, "Write all values to this file");
-  parser->add_option("--out", arguments->out, "Write text, CSV and JSON to this folder");
+  parser->add_option("--json", arguments->json, "Write all values to this file")
+      ->check(not_empty());
+  parser->add_option("--out", arguments->out, "Write text, CSV and JSON to this folder")
+      ->check(not_empty());
   parser->add_option("--update", arguments->document,
                      "Make the marked blocks of this document anew (docs/paper.md)");
   parser->footer(example("flexarm paper 22"));

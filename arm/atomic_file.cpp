@@ -120,30 +120,46 @@ void synchronise_folder(const fs::path& folder) {
   if (descriptor.is_open()) ::fsync(descriptor.get());
 }
 
+/// The file that `path` leads to by symbolic links.
+fs::path target_of(const fs::path& path) {
+  std::error_code ignored;
+  return fs::is_symlink(path, ignored) ? fs::weakly_canonical(path, ignored) : path;
+}
+
+fs::path folder_of(const fs::path& target) {
+  return target.has_parent_path() ? target.parent_path() : fs::path(".");
+}
+
 }  // namespace
 
-void write_atomically(const fs::path& path, std::string_view content) {
-  static std::mutex one_at_a_time;  // the handlers of signals belong to the whole program
-  const std::scoped_lock lock(one_at_a_time);
-  static std::atomic<unsigned> serial = 0;
-
+void require_writable(const fs::path& path) {
   if (path.empty()) throw InputError("the name of a file is empty");
   struct stat status = {};
   const bool exists = ::stat(path.c_str(), &status) == 0;
   if (!exists && errno != ENOENT) throw not_written(path, reason_of(errno));
   if (exists && S_ISDIR(status.st_mode)) throw not_written(path, "is a folder");
   if (!path.has_filename()) throw not_written(path, "names no file");
-  if (exists && !S_ISREG(status.st_mode)) return write_directly(path, content);
   // A rename asks only the folder for permission; a file that is read-only is meant to stay.
   if (exists && ::access(path.c_str(), W_OK) != 0) throw not_written(path, reason_of(errno));
-
+  const fs::path folder = folder_of(target_of(path));
   std::error_code ignored;
-  const fs::path target =
-      fs::is_symlink(path, ignored) ? fs::weakly_canonical(path, ignored) : path;
-  const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
   if (!fs::is_directory(folder, ignored)) {
     throw not_written(path, fmt::format("there is no folder {}", shown(folder.string())));
   }
+}
+
+void write_atomically(const fs::path& path, std::string_view content) {
+  static std::mutex one_at_a_time;  // the handlers of signals belong to the whole program
+  const std::scoped_lock lock(one_at_a_time);
+  static std::atomic<unsigned> serial = 0;
+
+  require_writable(path);
+  struct stat status = {};
+  const bool exists = ::stat(path.c_str(), &status) == 0;
+  if (exists && !S_ISREG(status.st_mode)) return write_directly(path, content);
+
+  const fs::path target = target_of(path);
+  const fs::path folder = folder_of(target);
   const fs::path temporary = folder / fmt::format(".flexarm-{}-{}", ::getpid(), serial++);
 
   const SignalsHeldOff held_off;

@@ -13,6 +13,10 @@ namespace flexarm::arm {
 /// Throws InputError "PATH: cannot be written: reason"; no temporary file is left then.
 void write_atomically(const std::filesystem::path& path, std::string_view content);
 
+/// Throws what `write_atomically` would throw, as far as that is known before there is something to
+/// write: for use in front of work that takes time.
+void require_writable(const std::filesystem::path& path);
+
 /// Makes the folder and those above it; does nothing when it is there.
 /// Throws InputError "PATH: cannot be made: reason".
 void make_folder(const std::filesystem::path& path);

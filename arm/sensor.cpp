@@ -63,8 +63,12 @@ Sensor parse_sensor(std::string_view name) {
     names.emplace_back(entry.name);
   }
   names.emplace_back("strain@X");
+  // A place is compared as X, so that its digits do not count as typing errors.
+  const auto at = name.find('@');
+  const std::string typed =
+      at == std::string_view::npos ? std::string(name) : std::string(name.substr(0, at)) + "@X";
   throw InputError(fmt::format("sensor {}: unknown{}; allowed: {} (X in metres from the hub)",
-                               shown(name), did_you_mean(name, names), fmt::join(names, ", ")));
+                               shown(name), did_you_mean(typed, names), fmt::join(names, ", ")));
 }
 
 std::string to_string(const Sensor& sensor) {

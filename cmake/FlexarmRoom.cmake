@@ -1,6 +1,7 @@
 # flexarm_room(NAME SOURCES ... HEADERS ... USES ... LIBRARIES ...)
 #   One static library `flexarm_NAME` (alias flexarm::NAME) a folder. USES names other rooms,
-#   LIBRARIES outside libraries; both are visible to whoever links the room.
+#   LIBRARIES outside libraries; both are visible to whoever links the room, here or from an
+#   installed flexarm.
 function(flexarm_room name)
   cmake_parse_arguments(ROOM "" "" "SOURCES;HEADERS;USES;LIBRARIES" ${ARGN})
   set(target flexarm_${name})
@@ -9,8 +10,12 @@ function(flexarm_room name)
   target_sources(${target} PUBLIC FILE_SET HEADERS BASE_DIRS "${PROJECT_SOURCE_DIR}"
                  FILES ${ROOM_HEADERS})
   list(TRANSFORM ROOM_USES PREPEND flexarm::)
-  target_link_libraries(${target} PUBLIC ${ROOM_USES} ${ROOM_LIBRARIES} PRIVATE flexarm_flags)
-  install(TARGETS ${target} FILE_SET HEADERS DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/flexarm")
+  target_link_libraries(${target} PUBLIC ${ROOM_USES} ${ROOM_LIBRARIES}
+                        PRIVATE "$<BUILD_INTERFACE:flexarm_flags>")
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
+  install(TARGETS ${target} EXPORT flexarmTargets
+          FILE_SET HEADERS DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/flexarm")
 endfunction()
 
 # flexarm_test(NAME SOURCES ... USES ... LIBRARIES ...)

@@ -27,6 +27,24 @@ arm::Arm checked(arm::Arm arm) {
   return arm;
 }
 
+FemArm::Options checked(FemArm::Options options) {
+  const auto require_from = [](const char* key, int value, int lowest, int highest) {
+    if (value < lowest || value > highest) {
+      throw arm::out_of_range(key, value, "", fmt::format("{} to {}", lowest, highest));
+    }
+  };
+  const auto require_fraction = [](const char* key, double value) {
+    if (!(value > 0.0 && value < 1.0)) {
+      throw arm::out_of_range(key, value, "", "above 0 and below 1");
+    }
+  };
+  require_from("degree", options.degree, HermiteElement::kLowestDegree, FemArm::kHighestDegree);
+  require_from("checking_degrees", options.checking_degrees, 1, FemArm::kMostCheckingDegrees);
+  require_fraction("eigen_tolerance", options.eigen_tolerance);
+  require_fraction("zero_agreement", options.zero_agreement);
+  return options;
+}
+
 void require_count(int count) {
   if (count < 1) throw arm::out_of_range("count", count, "", "1 or more");
 }
@@ -64,25 +82,9 @@ FemArm::FemArm(arm::Arm arm) : FemArm(std::move(arm), Options{}) {}
 
 FemArm::FemArm(arm::Arm arm, Options options)
     : arm_(checked(std::move(arm))),
-      options_(std::move(options)),
+      options_(checked(std::move(options))),
       omega_scale_rad_per_s_(arm::omega_scale_rad_per_s(arm_)),
-      model_(std::make_shared<const Discretisation>(arm_, options_.mesh, options_.degree)) {
-  if (options_.degree > kHighestDegree) {
-    throw arm::out_of_range("degree", options_.degree, "",
-                            fmt::format("{} to {}", HermiteElement::kLowestDegree, kHighestDegree));
-  }
-  const auto require_fraction = [](const char* key, double value) {
-    if (!(value > 0.0 && value < 1.0)) {
-      throw arm::out_of_range(key, value, "", "above 0 and below 1");
-    }
-  };
-  require_fraction("eigen_tolerance", options_.eigen_tolerance);
-  require_fraction("zero_agreement", options_.zero_agreement);
-  if (options_.checking_degrees < 1 || options_.checking_degrees > kMostCheckingDegrees) {
-    throw arm::out_of_range("checking_degrees", options_.checking_degrees, "",
-                            fmt::format("1 to {}", kMostCheckingDegrees));
-  }
-}
+      model_(std::make_shared<const Discretisation>(arm_, options_.mesh, options_.degree)) {}
 
 int FemArm::degrees_of_freedom() const {
   return model_->size();

@@ -48,8 +48,9 @@ std::vector<double> element_lengths(const MeshOptions& options, double beam_leng
   if (!options.nodes_m.empty()) {
     lengths = lengths_between(options.nodes_m, beam_length_m);
   } else {
-    if (options.elements < 1) {
-      throw arm::out_of_range("mesh.elements", options.elements, "", "1 or more");
+    if (options.elements < 1 || options.elements > kMostElements) {
+      throw arm::out_of_range("mesh.elements", options.elements, "",
+                              fmt::format("1 to {}", kMostElements));
     }
     if (!(options.grading_ratio >= 1.0 && std::isfinite(options.grading_ratio))) {
       throw arm::out_of_range("mesh.grading_ratio", options.grading_ratio, "",

@@ -9,7 +9,7 @@ enum class Grading { uniform, towards_root, towards_tip, towards_both };
 
 /// How the beam is divided into elements.
 struct MeshOptions {
-  int elements = 4;  ///< 1 or more
+  int elements = 4;  ///< 1 to kMostElements
   Grading grading = Grading::uniform;
   /// Length of an element over that of its shorter neighbour, 1 or more; unused where uniform.
   double grading_ratio = 1.5;
@@ -17,6 +17,9 @@ struct MeshOptions {
   /// empty it replaces the three values above.
   std::vector<double> nodes_m = {};
 };
+
+/// Where a matrix of the highest degree still fits into a small machine's memory.
+inline constexpr int kMostElements = 100000;
 
 /// The shortest element allowed, as a part of the beam's length.
 inline constexpr double kShortestElement = 1e-9;

@@ -1,5 +1,7 @@
 #include "report/gnuplot.hpp"
 
+#include "arm/input_error.hpp"
+
 #include <fmt/format.h>
 
 #include <array>
@@ -75,7 +77,7 @@ int run(const MemoryFile& in, const MemoryFile& out, const MemoryFile& err) {
       posix_spawnp(&child, program.c_str(), &actions, nullptr, arguments.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
   if (error == ENOENT) {
-    throw std::runtime_error(
+    throw arm::InputError(
         "figures need gnuplot, which is not on PATH (Debian package gnuplot-nox)");
   }
   if (error != 0) fail(error, "cannot start gnuplot");

@@ -6,8 +6,8 @@
 namespace flexarm::report {
 
 /// Runs `gnuplot` on `script` and returns what it writes to its standard output. No shell is
-/// involved and no file is left behind. Throws std::runtime_error when gnuplot is not on PATH,
-/// naming the Debian package that has it, and when it fails, with its own message.
+/// involved and no file is left behind. Throws arm::InputError when gnuplot is not on PATH, naming
+/// the Debian package that has it, and std::runtime_error when it fails, with its own message.
 std::string run_gnuplot(std::string_view script);
 
 }  // namespace flexarm::report

@@ -104,6 +104,9 @@ std::string paper_block(const Findings& findings, const std::string& name) {
 }
 
 std::string updated_paper_document(const std::string& document, const Findings& findings) {
+  if (document.find(kOpen) == std::string::npos) {
+    throw arm::InputError(fmt::format("has no block {}NAME -->", kOpen.substr(1)));
+  }
   std::string out;
   std::size_t at = 0;
   while (true) {

@@ -24,6 +24,8 @@ constexpr double kLargestPlain = 1e5;      // rad/s: ticks read 1000 rather than
 constexpr double kLargestMarker = 1.4;     // relative to gnuplot's standard
 constexpr double kMarkerStep = 0.45;       // by which each further formulation's is smaller
 constexpr double kSmallestMarker = 0.3;
+constexpr double kRoom = 0.04;  // of the decades of |s|, so that no marker is cut
+constexpr double kLeastRoom = 1.1;
 constexpr double kOffRow = 0.12;  // poles above their row's line, zeros below: none hides another
 
 bool is_shown(const Root& s) {
@@ -161,7 +163,12 @@ Figure pole_zero_figure(const PoleZeroPlot& plot) {
   figure.width_px = kWidth_px;
   figure.stacks.push_back(plane(plot, smallest, largest));
   PanelStack strips;
-  strips.x = {.label = "|s|", .unit = "rad/s", .scale = Scale::logarithmic};
+  const double room = std::max(kLeastRoom, std::pow(largest / smallest, kRoom));
+  strips.x = {.label = "|s|",
+              .unit = "rad/s",
+              .scale = Scale::logarithmic,
+              .minimum = smallest / room,
+              .maximum = largest * room};
   for (const bool imaginary : {true, false}) {
     Panel panel = rows(plot, imaginary);
     if (!panel.series.empty()) strips.panels.push_back(std::move(panel));

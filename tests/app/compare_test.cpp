@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include <csignal>
+#include <cstdlib>
 #include <sys/resource.h>
 
 namespace flexarm::testing_app {
@@ -177,10 +178,42 @@ TEST_F(Compare, AnArmFileMayFollowAList) {
   EXPECT_EQ(run({"modes", "--sensor", "hub_angle", "rig.toml"}).status, 0);
 }
 
-TEST_F(Compare, JsonThatCannotBeWrittenIsReportedAndLeavesNothing) {
-  const Ended ended = run({"compare", "--quick", "--poles", "1", "--json", "none/out.json"});
-  EXPECT_EQ(ended.status, 2);
-  EXPECT_EQ(ended.errors, "none/out.json: cannot be written: there is no folder none\n");
+TEST_F(Compare, WhatCannotBeWrittenIsRefusedBeforeTheWork) {
+  write("file", "");
+  for (const std::string command : {"compare", "modes"}) {
+    expect_refused(run({command, "--json", "none/out.json"}),
+                   "none/out.json: cannot be written: there is no folder none");
+    expect_refused(run({command, "--json", "."}), ".: cannot be written: is a folder");
+    expect_refused(run({command, "--out", "file"}), "file: cannot be made: Not a directory");
+  }
+  EXPECT_THAT(names_in(), ElementsAre("file"));
+  // The folder is there once it is made.
+  EXPECT_EQ(run({"modes", "--out", "out", "--json", "out/modes.json"}).status, 0);
+}
+
+TEST_F(Compare, WithoutGnuplotAFolderIsRefusedAndTablesArePrinted) {
+  const std::string path = std::getenv("PATH");
+  ::setenv("PATH", folder_.c_str(), 1);
+  for (const std::string command : {"compare", "modes"}) {
+    expect_refused(run({command, "--out", "out"}),
+                   "figures need gnuplot, which is not on PATH (Debian package gnuplot-nox)");
+  }
+  EXPECT_EQ(run({"compare", "--quick", "--poles", "1"}).status, 0);
+  ::setenv("PATH", path.c_str(), 1);
+  EXPECT_TRUE(names_in().empty());
+}
+
+TEST_F(Compare, AnEmptyValueIsNotTheDefault) {
+  for (const std::string option : {"--json", "--out", "--payload-mass", "--measured"}) {
+    expect_refused(run({"compare", option, ""}),
+                   "flexarm: " + option + ": is empty; see flexarm compare --help");
+  }
+  expect_refused(run({"modes", ""}), "flexarm: ARM: is empty; see flexarm modes --help");
+}
+
+TEST_F(Compare, APayloadGivenTwiceIsRefused) {
+  expect_refused(run({"compare", "--payload-mass", "0.05,0,5e-2", "--out", "out"}),
+                 "--payload-mass: 0.05 is given twice");
   EXPECT_TRUE(names_in().empty());
 }
 

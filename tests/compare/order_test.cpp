@@ -71,7 +71,7 @@ TEST(Order, TenPolesAreReachedWithinTheIssuesDegreesOfFreedom) {
   for (const auto& refinement : standard_refinements(arm::paper_arm(), 10)) {
     if (refinement.name == "Legendre polynomials") {
       EXPECT_LE(most_needed(refinement), 36);
-    } else if (refinement.name == "fem, 5 elements") {
+    } else if (refinement.name == "fem, 5 elements of rising degree") {
       EXPECT_LE(most_needed(refinement), 60);
     }
   }

@@ -50,6 +50,10 @@ TEST(PaperDocument, AChangedNumberIsPutBack) {
   EXPECT_EQ(report::updated_paper_document(before + after, findings()), before + block + after);
 }
 
+TEST(PaperDocument, ADocumentWithoutABlockIsRefused) {
+  EXPECT_THROW(report::updated_paper_document("name = \"rig\"\n", findings()), arm::InputError);
+}
+
 TEST(PaperDocument, AnUnknownBlockIsRefusedWithTheNearestName) {
   try {
     report::updated_paper_document("\n<!-- flexarm paper: motoin -->\n<!-- end -->\n", findings());

@@ -38,6 +38,8 @@ TEST(FemArm, RefusesBadArmsOptionsAndQuestions) {
   EXPECT_THROW(FemArm(arm::paper_arm(), {.degree = 2}), arm::InputError);
   EXPECT_THROW(FemArm(arm::paper_arm(), {.degree = FemArm::kHighestDegree + 1}), arm::InputError);
   EXPECT_THROW(FemArm(arm::paper_arm(), {.mesh = {.elements = 0}}), arm::InputError);
+  EXPECT_THROW(FemArm(arm::paper_arm(), {.mesh = {.elements = kMostElements + 1}}),
+               arm::InputError);
   EXPECT_THROW(FemArm(arm::paper_arm(), {.checking_degrees = 0}), arm::InputError);
   EXPECT_THROW(FemArm(arm::paper_arm(), {.zero_agreement = 0.0}), arm::InputError);
   EXPECT_THROW(FemArm(arm::paper_arm(), {.eigen_tolerance = -1.0}), arm::InputError);
@@ -46,6 +48,15 @@ TEST(FemArm, RefusesBadArmsOptionsAndQuestions) {
   EXPECT_THROW(model.zeros(arm::parse_sensor("strain@2"), 1), arm::InputError);
   const std::vector<double> beyond = {1.0};
   EXPECT_THROW(model.modes(1, {}, beyond), arm::InputError);
+}
+
+TEST(FemArm, NamesTheDegreesItAllows) {
+  try {
+    FemArm(arm::paper_arm(), {.degree = 99});
+    FAIL();
+  } catch (const arm::InputError& error) {
+    EXPECT_STREQ(error.what(), "degree = 99: must be 3 to 25");
+  }
 }
 
 TEST(FemArm, HasNoMorePolesThanDegreesOfFreedom) {

@@ -65,6 +65,12 @@ TEST(PoleZeroFigure, RowsPartTheRootsByTheNearerAxis) {
   EXPECT_EQ(series_named(strips.panels[1], "fem, zeros").x.front(), 57.0);
 }
 
+TEST(PoleZeroFigure, NoMarkerIsCutAtTheEndsOfTheRows) {
+  const Axis x = pole_zero_figure(plot()).stacks.at(1).x;
+  EXPECT_LT(x.minimum.value(), 0.95 * 57.0);
+  EXPECT_GT(x.maximum.value(), 1.05 * 4600.0);
+}
+
 TEST(PoleZeroFigure, RootsAtTheOriginAndAtInfinityAreLeftOut) {
   PoleZeroPlot odd = plot();
   odd.sets[0].zeros_rad_per_s = {{0, 0}, {std::numeric_limits<double>::infinity(), 0}, {0, 9}};

@@ -1,0 +1,7 @@
+include(CMakeFindDependencyMacro)
+find_dependency(Eigen3 3.4 NO_MODULE)
+find_dependency(Boost 1.74)
+find_dependency(fmt)
+find_dependency(nlohmann_json)
+find_dependency(tomlplusplus)
+include("${CMAKE_CURRENT_LIST_DIR}/flexarmTargets.cmake")

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numeric>
 
 namespace flexarm::fem {
@@ -16,6 +17,9 @@ std::vector<double> lengths_between(const std::vector<double>& nodes_m, double b
   if (nodes_m.size() < 2 || nodes_m.front() != 0.0 || nodes_m.back() != beam_length_m) {
     throw arm::InputError(fmt::format(
         "mesh.nodes: must start at 0 m and end at the beam's length, {} m", beam_length_m));
+  }
+  if (nodes_m.size() - 1 > static_cast<std::size_t>(kMostElements)) {
+    throw arm::InputError(fmt::format("mesh.nodes: must be {} or fewer", kMostElements + 1));
   }
   std::vector<double> lengths;
   lengths.reserve(nodes_m.size() - 1);
@@ -48,8 +52,9 @@ std::vector<double> element_lengths(const MeshOptions& options, double beam_leng
   if (!options.nodes_m.empty()) {
     lengths = lengths_between(options.nodes_m, beam_length_m);
   } else {
-    if (options.elements < 1) {
-      throw arm::out_of_range("mesh.elements", options.elements, "", "1 or more");
+    if (options.elements < 1 || options.elements > kMostElements) {
+      throw arm::out_of_range("mesh.elements", options.elements, "",
+                              fmt::format("from 1 to {}", kMostElements));
     }
     if (!(options.grading_ratio >= 1.0 && std::isfinite(options.grading_ratio))) {
       throw arm::out_of_range("mesh.grading_ratio", options.grading_ratio, "",

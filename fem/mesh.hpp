@@ -7,9 +7,13 @@ namespace flexarm::fem {
 /// Where a graded mesh has its short elements.
 enum class Grading { uniform, towards_root, towards_tip, towards_both };
 
+/// Ten times the finest mesh that the accuracy of fem is measured on; numbers of coordinates stay
+/// far within int.
+inline constexpr int kMostElements = 1'000'000;
+
 /// How the beam is divided into elements.
 struct MeshOptions {
-  int elements = 4;  ///< 1 or more
+  int elements = 4;  ///< 1 to kMostElements
   Grading grading = Grading::uniform;
   /// Length of an element over that of its shorter neighbour, 1 or more; unused where uniform.
   double grading_ratio = 1.5;

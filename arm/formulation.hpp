@@ -54,9 +54,8 @@ struct ZeroSet {
 
 /// One flexible mode of the undamped arm. phi is scaled to the modal mass I_T,
 ///
-///     int m phi_i phi_j dx + Ih phi_i'(0) phi_j'(0) + Mp phi_i(l) phi_j(l) + Ip phi_i'(l)
-///     phi_j'(l)
-///         = I_T delta_ij,
+///     int m phi_i phi_j dx + Ih phi_i'(0) phi_j'(0)
+///         + Mp phi_i(l) phi_j(l) + Ip phi_i'(l) phi_j'(l) = I_T delta_ij,
 ///
 /// equation (24) of the paper put right, so that the rigid-body mode is phi_0(x) = x; its sign is
 /// that of a positive hub slope.
@@ -69,21 +68,45 @@ struct Mode {
   std::vector<double> displacement_m;  ///< phi at the stations asked for
 };
 
+/// Payload mass over m l, and payload inertia over m l^3, that every formulation takes. The heavier
+/// the payload, the further the lowest root lies below the others, which drown in its rounding: at
+/// this bound assumed_modes keeps 8 digits of poles and 6 of zeros, at 1e6 it keeps 9.
+inline constexpr double kLargestPayloadRatio = 1e9;
+
+/// Sizes of m l, m l^3, EI/l and sqrt(EI/(m l^4)) in SI units, and of Ih/(m l^3), whose squares a
+/// double holds with room to spare.
+inline constexpr double kSmallestScale = 1e-100;
+inline constexpr double kLargestScale = 1e100;
+
+/// Throws InputError for an arm that is not valid (`require_valid`) or whose numbers, each valid by
+/// itself, lie outside the bounds above together.
+void require_computable(const Arm& arm);
+
+/// Throws InputError unless `count`, a number of roots or modes, is 1 or more.
+void require_count(int count);
+
+/// Throws InputError for a station that is not on the beam, from 0 to its length.
+void require_stations(std::span<const double> stations_m, const Arm& arm);
+
 /// A formulation is a model of an arm that answers the questions below, each from its own
 /// equations.
 ///
 /// - `poles(n)`, `modes(n, ...)`: the n lowest flexible ones, undamped, in ascending order; fewer
-///   only where the model has fewer degrees of freedom. n >= 1.
-/// - `zeros(sensor, n)`: the n finite non-zero roots smallest in |s| of the undamped
-/// torque-to-sensor
-///   numerator; a discrete model leaves out those it can tell to be spurious and reports them.
+///   only where the model has fewer degrees of freedom.
+/// - `zeros(sensor, n)`: the n finite non-zero roots smallest in |s| of the undamped numerator of
+///   torque to sensor; a discrete model leaves out those it can tell to be spurious and reports
+///   them.
 /// - `transfer_function(sensor, s)`: response per unit of torque on the hub, damping included, at
-///   complex s [rad/s]; s = 0 is a std::domain_error, at a pole the value is not finite or huge.
+///   complex s [rad/s]; s = 0 and an s that is not finite are a std::domain_error, at a pole the
+///   value is not finite or huge.
 /// - `degrees_of_freedom()`: generalised coordinates, the hub rotation included; 0 for exact_tf.
 ///
-/// All throw InputError for a sensor that the arm cannot carry. Constructors throw InputError for
-/// an invalid arm and for an effect that the formulation does not honour, by name. Objects are
-/// immutable: concurrent calls are safe.
+/// All throw InputError for a sensor that the arm cannot carry (`require_valid`), for a count below
+/// 1 or above what the formulation states as its limit, and for a station off the beam; `zeros`
+/// also for a sensor that reads zero at every s (`require_responsive`). Constructors throw
+/// InputError for an arm that is invalid or not `require_computable`, and for an effect that the
+/// formulation does not honour, by name.
+/// Objects are immutable: concurrent calls are safe.
 template <class F>
 concept Formulation = requires(const F& f, int count, const Sensor& sensor,
                                std::span<const Sensor> sensors, std::span<const double> stations_m,

@@ -100,4 +100,14 @@ void require_valid(const Sensor& sensor, const Arm& arm) {
   }
 }
 
+void require_responsive(const Sensor& sensor, const Arm& arm) {
+  if (sensor.kind == SensorKind::strain && sensor.position_m == arm.beam.length_m &&
+      arm.payload.inertia_kg_m2 == 0.0) {
+    throw InputError(
+        fmt::format("sensor {}: the strain at the tip is zero at every s without payload.inertia, "
+                    "so it has no zeros to look for; place it below {} m",
+                    to_string(sensor), arm.beam.length_m));
+  }
+}
+
 }  // namespace flexarm::arm

@@ -21,7 +21,7 @@ static_assert(arm::Formulation<AssumedModesArm>);
 namespace {
 
 arm::Arm checked(arm::Arm arm) {
-  arm::require_valid(arm);
+  arm::require_computable(arm);
   arm::require_honoured(arm.effects, AssumedModesArm::kName, {});
   return arm;
 }
@@ -31,8 +31,8 @@ AssumedModesOptions checked(AssumedModesOptions options) {
     throw arm::out_of_range("functions", options.functions, "",
                             fmt::format("from 2 to {}", kMaximumFunctions));
   }
-  if (!(options.zero_change > 0)) {
-    throw arm::out_of_range("zero_change", options.zero_change, "", "above 0");
+  if (!(options.zero_change > 0 && std::isfinite(options.zero_change))) {
+    throw arm::out_of_range("zero_change", options.zero_change, "", "a finite number above 0");
   }
   return options;
 }
@@ -43,7 +43,7 @@ InertiaRatios ratios_of(const arm::Arm& arm) {
 }
 
 int kept(int count, Eigen::Index available) {
-  if (count < 1) throw std::invalid_argument("a count of roots must be 1 or more");
+  arm::require_count(count);
   return std::min(count, static_cast<int>(available));
 }
 
@@ -85,7 +85,9 @@ arm::PoleSet AssumedModesArm::poles(int count) const {
 }
 
 arm::ZeroSet AssumedModesArm::zeros(const arm::Sensor& sensor, int count) const {
+  arm::require_count(count);
   arm::require_valid(sensor, arm_);
+  arm::require_responsive(sensor, arm_);
   return arm::is_collocated(sensor) ? hub_zeros(count) : output_zeros(sensor, count);
 }
 
@@ -105,12 +107,6 @@ arm::ZeroSet AssumedModesArm::hub_zeros(int count) const {
 }
 
 arm::ZeroSet AssumedModesArm::output_zeros(const arm::Sensor& sensor, int count) const {
-  if (sensor.kind == arm::SensorKind::strain && sensor.position_m == arm_.beam.length_m &&
-      arm_.payload.inertia_kg_m2 == 0.0) {
-    arm::ZeroSet none;
-    none.summary.method = "no bending moment at a tip without payload inertia: reads zero always";
-    return none;
-  }
   // A zero keeps the tip still, so that the payload mass drops out; left in it would cancel.
   const bool tip_held = sensor.kind == arm::SensorKind::tip_acceleration ||
                         sensor.kind == arm::SensorKind::tip_displacement;
@@ -140,12 +136,9 @@ std::vector<arm::Mode> AssumedModesArm::modes(int count, std::span<const arm::Se
   for (const arm::Sensor& sensor : sensors) {
     sensor_rows.push_back(output_row(sensor, arm_, functions_));
   }
+  arm::require_stations(stations_m, arm_);
   std::vector<OutputRow> station_rows;
   for (const double station_m : stations_m) {
-    if (!(station_m >= 0.0 && station_m <= arm_.beam.length_m)) {
-      throw arm::out_of_range("station", station_m, "m",
-                              fmt::format("from 0 to {}", arm_.beam.length_m));
-    }
     station_rows.push_back({length, station_m / length, functions_.values(station_m / length, 0)});
   }
 
@@ -182,6 +175,9 @@ std::vector<arm::Mode> AssumedModesArm::modes(int count, std::span<const arm::Se
 std::complex<double> AssumedModesArm::transfer_function(const arm::Sensor& sensor,
                                                         std::complex<double> s_rad_per_s) const {
   if (s_rad_per_s == 0.0) throw std::domain_error("transfer function at s = 0: a double pole");
+  if (!std::isfinite(s_rad_per_s.real()) || !std::isfinite(s_rad_per_s.imag())) {
+    throw std::domain_error("transfer function: s must be finite");
+  }
   using Complex = std::complex<Real>;
   const OutputRow row = output_row(sensor, arm_, functions_);
   const Vector flexible = modes_.vectors.transpose() * row.without_rigid_mode(mass_);

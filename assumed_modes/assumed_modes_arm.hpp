@@ -46,9 +46,9 @@ inline constexpr int kMaximumFunctions = 200;
 /// forms: nothing is left to quadrature. Ritz values of poles and hub zeros converge from above.
 ///
 /// Real zeros of the tip are exponentially ill-conditioned in coordinates that span the link, since
-/// the motion at a zero dies out from one end of it to the other: each keeps 1.6 digits fewer than
-/// the one before, about 1e-13 the fourth, 1e-9 the sixth, 1e-4 the tenth. The summary's residual
-/// shows it.
+/// the motion at a zero dies out from one end of it to the other: each keeps some 1.5 digits fewer
+/// than the one before, about 1e-13 the fourth, 1e-10 the sixth, 1e-4 the tenth. The summary's
+/// residual shows it.
 ///
 /// Meirovitch, Analytical Methods in Vibrations (1967), ch. 6.
 class AssumedModesArm {
@@ -66,7 +66,6 @@ class AssumedModesArm {
   /// n - 1 at most, of which the upper third is off by more than a percent.
   arm::PoleSet poles(int count) const;
   /// Hub angle and velocity: Ritz values, all kept. Others: those that `zero_change` trusts.
-  /// Strain at the tip of an arm without payload inertia is zero at every frequency: no zeros.
   arm::ZeroSet zeros(const arm::Sensor& sensor, int count) const;
   std::vector<arm::Mode> modes(int count, std::span<const arm::Sensor> sensors,
                                std::span<const double> stations_m) const;

@@ -42,13 +42,13 @@ struct BasisReport {
 ///
 /// The coefficient of y on a shape psi_i of frequency lambda_i, both in strain energy, is by parts
 ///
-///     c_i (1 - mu/lambda_i^4) = [y'' psi_i' - y''' psi_i] + mu/lambda_i^4 [y psi_i''' - y'
-///     psi_i'']
+///     c_i (1 - mu/lambda_i^4) = [y'' psi_i' - y''' psi_i]
+///         + mu/lambda_i^4 [y psi_i''' - y' psi_i'']
 ///
-/// at the ends. With unit strain energy psi_i ~ 1/lambda_i^2, so that a moment the shapes lack
-/// leaves c_i ~ 1/lambda_i, a shear 1/lambda_i^2, and the hub's turning 1/lambda_i^4. A Ritz
-/// value's error is the sum of c_i^2 beyond n: order 2 p - 1 for c_i ~ i^-p (Strang and Fix, An
-/// Analysis of the Finite Element Method (1973), ch. 6).
+/// between the ends, with y'''' = mu y. With unit strain energy psi_i ~ 1/lambda_i^2, so that a
+/// moment the shapes lack leaves c_i ~ 1/lambda_i, a shear 1/lambda_i^2, and the hub's turning
+/// 1/lambda_i^4. A Ritz value's error is the sum of c_i^2 beyond n: order 2 p - 1 for c_i ~ i^-p
+/// (Strang and Fix, An Analysis of the Finite Element Method (1973), ch. 6).
 ///
 /// 1 <= root <= 8. Throws InputError for an invalid arm or an effect.
 BasisReport describe_convergence(const arm::Arm& arm, Basis basis, int root = 3);

@@ -7,8 +7,8 @@ namespace flexarm::assumed_modes {
 RitzPairs ritz_pairs(const Matrix& mass) {
   const Eigen::SelfAdjointEigenSolver<Matrix> solver(mass);
   RitzPairs pairs;
-  pairs.converged = solver.info() == Eigen::Success;
   const Vector inverse = solver.eigenvalues().reverse();
+  pairs.converged = solver.info() == Eigen::Success && (inverse.array() > 0).all();
   pairs.vectors = solver.eigenvectors().rowwise().reverse();
   pairs.eigenvalues = inverse.cwiseInverse();
   pairs.largest_residual =

@@ -11,7 +11,7 @@ struct RitzPairs {
   Vector eigenvalues;         ///< mu, ascending
   Matrix vectors;             ///< columns, orthonormal in strain energy: q^T q = 1
   Real largest_residual = 0;  ///< max over pairs of |M q - q/mu| mu_1
-  bool converged = false;
+  bool converged = false;     ///< the eigensolver did, and every eigenvalue is positive
 };
 
 /// All pairs of `mass`. The large eigenvalues 1/mu of M are the accurate ones, and they are the

@@ -64,6 +64,7 @@ class ZeroSearch {
   long values_ = 0;
   Real radius_ = 0.0L;  // zeros are searched for and counted up to here
   int counted_ = 0;
+  bool narrowed_ = true;  // every bracket, to options_.significand_bits
 };
 
 Complex ZeroSearch::continued(const Complex& lambda) {
@@ -76,10 +77,12 @@ Complex ZeroSearch::continued(const Complex& lambda) {
 }
 
 void ZeroSearch::solve(ZeroLocus axis, const Bracket& bracket) {
-  std::uintmax_t values = 200;
+  constexpr std::uintmax_t kMostValues = 200;
+  std::uintmax_t values = kMostValues;
   const auto [below, above] = boost::math::tools::toms748_solve(
       [&](Real modulus) { return on_axis(axis, modulus); }, bracket.low, bracket.high,
       boost::math::tools::eps_tolerance<Real>(options_.significand_bits), values);
+  narrowed_ = narrowed_ && values < kMostValues;
   zeros_.push_back({axis, on_ray(0.5L * (below + above), angle_of(axis))});
 }
 
@@ -187,7 +190,7 @@ bool ZeroSearch::cut(const PolarBox& box, PolarBox& first, PolarBox& second, int
 
 /// Finds what is missing in a box whose zeros, mirror images included, are `counted`.
 void ZeroSearch::resolve(const PolarBox& box, int counted) {
-  /// Boxes of this size in lambda, below half the usual distance of zeros, are worth a try.
+  // Boxes of this size in lambda, below half the usual distance of zeros, are worth a try.
   constexpr Real kTryBelow = 1.0L;
   const int missing = counted - found_in(box);
   if (missing <= 0 || out_of_budget()) return;
@@ -277,7 +280,7 @@ AnalyticZeros ZeroSearch::run(int count) {
   result.radius = radius_;
   result.counted = counted_;
   for (const auto& zero : zeros_) result.found += zero.multiplicity();
-  result.converged = resolved && result.missing() == 0 && std::ssize(zeros_) >= count;
+  result.converged = resolved && narrowed_ && result.missing() == 0 && std::ssize(zeros_) >= count;
   result.function_values = function_values();
   return result;
 }

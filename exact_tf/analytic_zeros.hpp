@@ -41,7 +41,8 @@ struct AnalyticZeros {
   Real radius = 0.0L;               ///< |lambda| of the contour along which they are counted
   int counted = 0;  ///< zeros in |z| < radius^4 by the argument principle, conjugates included
   int found = 0;    ///< sum of multiplicity() over `zeros`
-  bool converged = false;    ///< found == counted, and every contour was resolved
+  /// found == counted, as many zeros as asked for, every contour resolved, every bracket narrowed.
+  bool converged = false;
   long function_values = 0;  ///< of N
 
   int missing() const { return counted - found; }

@@ -63,7 +63,7 @@ ComplexBall RootFunction::determinant(const ComplexBall& lambda) const {
   const Row root_slope = differentiated(root, 1);
   const ComplexBall lambda3 = lambda * lambda * lambda;
 
-  // y''' + eta z y = 0 and y'' - J z y' = 0 at the tip.
+  // y''' + eta z y = 0 and y'' - mu z y' = 0 at the tip.
   // A tip that does not move leaves the payload's mass without force, and the row without a
   // multiple of the last one that would only widen the balls.
   const Row shear = differentiated(tip, 3);

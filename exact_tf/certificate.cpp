@@ -1,8 +1,8 @@
 #include "exact_tf/certificate.hpp"
 
+#include "exact_tf/analytic_zeros.hpp"
 #include "exact_tf/ball_boundary_value_problem.hpp"
 #include "exact_tf/ball_enclosure.hpp"
-#include "exact_tf/sensor_zeros.hpp"
 
 #include <fmt/format.h>
 
@@ -263,7 +263,7 @@ Certificate certify_zeros(const arm::Arm& arm, const arm::Sensor& sensor,
                           const CertificateOptions& options) {
   const Problem problem(arm, last_row_of(sensor), sensor.position_m);
   arm::require_valid(sensor, arm);
-  require_not_identically_zero(sensor, arm);
+  arm::require_responsive(sensor, arm);
   std::vector<ZeroLocus> loci;
   std::vector<GivenLambda> given;
   for (const std::complex<double> s : s_rad_per_s) {

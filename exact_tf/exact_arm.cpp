@@ -1,9 +1,11 @@
 #include "exact_tf/exact_arm.hpp"
 
+#include "arm/input_error.hpp"
 #include "exact_tf/complex_frequency.hpp"
 #include "exact_tf/mode_shape.hpp"
-#include "exact_tf/root_search.hpp"
 #include "exact_tf/sensor_zeros.hpp"
+
+#include <fmt/format.h>
 
 #include <cmath>
 #include <stdexcept>
@@ -12,6 +14,13 @@
 namespace flexarm::exact_tf {
 
 namespace {
+
+void require_count(int count) {
+  arm::require_count(count);
+  if (count > kMostRoots) {
+    throw arm::out_of_range("count", count, "", fmt::format("from 1 to {}", kMostRoots));
+  }
+}
 
 std::vector<double> rounded(const std::vector<Real>& values) {
   return {values.begin(), values.end()};
@@ -37,20 +46,23 @@ Real sensor_value(const arm::Arm& arm, const arm::Sensor& sensor, const ModeShap
 }  // namespace
 
 ExactArm::ExactArm(arm::Arm arm) : arm_(std::move(arm)) {
-  require_valid(arm_);
+  require_computable(arm_);
   require_honoured(arm_.effects, kName, {});
   ratios_ = inertia_ratios(arm_);
 }
 
 std::vector<double> ExactArm::pole_lambdas(int count) const {
+  require_count(count);
   return rounded(find_poles(ratios_, count).lambda);
 }
 
 std::vector<double> ExactArm::hub_zero_lambdas(int count) const {
+  require_count(count);
   return rounded(find_hub_zeros(ratios_, count).lambda);
 }
 
 arm::PoleSet ExactArm::poles(int count) const {
+  require_count(count);
   auto roots = find_poles(ratios_, count);
   const Real scale = frequency_scale_rad_per_s(arm_);
   arm::PoleSet set;
@@ -63,6 +75,8 @@ arm::PoleSet ExactArm::poles(int count) const {
 }
 
 arm::ZeroSet ExactArm::zeros(const arm::Sensor& sensor, int count) const {
+  require_count(count);
+  require_valid(sensor, arm_);
   if (!is_collocated(sensor)) return find_sensor_zeros(arm_, sensor, count);
   auto roots = find_hub_zeros(ratios_, count);
   const Real scale = frequency_scale_rad_per_s(arm_);
@@ -77,7 +91,9 @@ arm::ZeroSet ExactArm::zeros(const arm::Sensor& sensor, int count) const {
 
 std::vector<arm::Mode> ExactArm::modes(int count, std::span<const arm::Sensor> sensors,
                                        std::span<const double> stations_m) const {
+  require_count(count);
   for (const auto& sensor : sensors) require_valid(sensor, arm_);
+  require_stations(stations_m, arm_);
   const auto roots = find_poles(ratios_, count);
   const Real scale = frequency_scale_rad_per_s(arm_);
   std::vector<arm::Mode> modes;
@@ -109,6 +125,9 @@ std::complex<double> ExactArm::transfer_function(const arm::Sensor& sensor,
   require_valid(sensor, arm_);
   if (s_rad_per_s == 0.0) {
     throw std::domain_error("exact_tf: the transfer function has a double pole at s = 0");
+  }
+  if (!std::isfinite(s_rad_per_s.real()) || !std::isfinite(s_rad_per_s.imag())) {
+    throw std::domain_error("exact_tf: s must be finite");
   }
   const Complex s(s_rad_per_s.real(), s_rad_per_s.imag());
   const auto frequency = complex_frequency(arm_, s_rad_per_s);

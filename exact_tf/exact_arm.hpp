@@ -2,6 +2,7 @@
 
 #include "arm/formulation.hpp"
 #include "exact_tf/numerator.hpp"
+#include "exact_tf/root_search.hpp"
 
 #include <complex>
 #include <span>
@@ -30,7 +31,8 @@ class ExactArm {
   int degrees_of_freedom() const { return 0; }
 
   /// The `count` lowest lambda of the flexible poles, ascending, within an ulp or so. The poles are
-  /// s = +-i lambda^2 omega_scale. Throws std::invalid_argument for count < 1, as do all below.
+  /// s = +-i lambda^2 omega_scale. Throws arm::InputError unless
+  /// 1 <= count <= kMostRoots, as do all below.
   std::vector<double> pole_lambdas(int count) const;
   /// The same for the hub-angle zeros.
   std::vector<double> hub_zero_lambdas(int count) const;

@@ -10,9 +10,9 @@ namespace flexarm::exact_tf {
 /// The transfer function as a sum over the rigid-body mode and the first `order` flexible ones,
 /// (48) and (49) of the paper put right: a gain of the accelerometer is phi_i(l), not phi_i''(l),
 ///
-///     theta/tau = 1/(I_T s^2) + 1/I_T sum phi_i'(0)^2/(s^2 + kv omega_i^2 s + omega_i^2)
-///     alpha/tau =     l/I_T   + 1/I_T sum phi_i(l) phi_i'(0) s^2/(s^2 + kv omega_i^2 s +
-///     omega_i^2),
+///     theta/tau = 1/(I_T s^2) + 1/I_T sum phi_i'(0)^2/d_i
+///     alpha/tau =     l/I_T   + 1/I_T sum phi_i(l) phi_i'(0) s^2/d_i,
+///     d_i = s^2 + kv omega_i^2 s + omega_i^2,
 ///
 /// and likewise for the other sensors. Kelvin-Voigt damping leaves the modes uncoupled, so its
 /// projection is exact. Hub friction couples them; it is a torque -c s theta, so that with T and

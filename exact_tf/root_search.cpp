@@ -27,7 +27,9 @@ struct Bracket {
 
 RealRoots find_roots(CountBelow count_below, Characteristic characteristic,
                      const InertiaRatios& ratios, int count, const RootSearchOptions& options) {
-  if (count < 1) throw std::invalid_argument("count of roots must be 1 or more");
+  if (count < 1 || count > kMostRoots) {
+    throw std::invalid_argument("count of roots must be from 1 to kMostRoots");
+  }
   constexpr Real kPi = std::numbers::pi_v<Real>;
   constexpr Real kNarrowest = 4.0L * std::numeric_limits<Real>::epsilon();
   const boost::math::tools::eps_tolerance<Real> tolerance(options.significand_bits);

@@ -1,10 +1,7 @@
 #include "exact_tf/sensor_zeros.hpp"
 
-#include "arm/input_error.hpp"
 #include "exact_tf/complex_frequency.hpp"
 #include "exact_tf/numerator.hpp"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -32,20 +29,10 @@ std::complex<double> s_of(const AnalyticZero& zero, Real scale_rad_per_s) {
 
 }  // namespace
 
-void require_not_identically_zero(const arm::Sensor& sensor, const arm::Arm& arm) {
-  if (sensor.kind == arm::SensorKind::strain && sensor.position_m == arm.beam.length_m &&
-      arm.payload.inertia_kg_m2 == 0.0) {
-    throw arm::InputError(
-        fmt::format("sensor {}: the strain at the tip is zero at every s without payload.inertia, "
-                    "so it has no zeros to look for; place it below {} m",
-                    to_string(sensor), arm.beam.length_m));
-  }
-}
-
 arm::ZeroSet find_sensor_zeros(const arm::Arm& arm, const arm::Sensor& sensor, int count,
                                const AnalyticZeroOptions& options) {
   require_valid(sensor, arm);
-  require_not_identically_zero(sensor, arm);
+  require_responsive(sensor, arm);
   const auto numerator = [&](const Complex& lambda) -> Complex {
     // Real lambda costs half as much.
     if (lambda.imag() == 0.0L) return sensor_numerator(arm, sensor, lambda.real()).value;

@@ -5,17 +5,14 @@
 
 namespace flexarm::exact_tf {
 
-/// Throws arm::InputError for strain at the tip of an arm without payload inertia: the tip's
-/// bending moment is zero at every s, so no s is a zero more than another.
-void require_not_identically_zero(const arm::Sensor& sensor, const arm::Arm& arm);
-
 /// The `count` zeros of the undamped arm from hub torque to `sensor` that are smallest in |s|, s =
 /// 0 and infinity left out: s^2 = -z omega_scale^2 at the zeros z of the sensor's numerator in
 /// exact_tf/numerator.hpp. A zero of the numerator that is a pole too is among them: all those of
 /// strain at the root without hub inertia, which follows the torque. `count.expected` is
 /// `count.found` plus what the argument principle counts beyond the zeros found;
-/// `summary.iterations` are values of the numerator. Throws arm::InputError as above and for a
-/// sensor that the arm cannot carry, and std::invalid_argument for count < 1.
+/// `summary.iterations` are values of the numerator. Throws arm::InputError for a sensor
+/// that the arm cannot carry or that reads zero at every s, and std::invalid_argument for count
+/// < 1.
 arm::ZeroSet find_sensor_zeros(const arm::Arm& arm, const arm::Sensor& sensor, int count,
                                const AnalyticZeroOptions& options = {});
 

@@ -22,7 +22,7 @@ namespace {
 using Complex = std::complex<double>;
 
 arm::Arm checked(arm::Arm arm) {
-  arm::require_valid(arm);
+  arm::require_computable(arm);
   arm::require_honoured(arm.effects, FemArm::kName, {});
   return arm;
 }
@@ -43,10 +43,6 @@ FemArm::Options checked(FemArm::Options options) {
   require_fraction("eigen_tolerance", options.eigen_tolerance);
   require_fraction("zero_agreement", options.zero_agreement);
   return options;
-}
-
-void require_count(int count) {
-  if (count < 1) throw arm::out_of_range("count", count, "", "1 or more");
 }
 
 arm::SolveSummary summary_of(const VibrationModes& modes, const arm::RootCount& count) {
@@ -91,7 +87,7 @@ int FemArm::degrees_of_freedom() const {
 }
 
 arm::PoleSet FemArm::poles(int count) const {
-  require_count(count);
+  arm::require_count(count);
   const VibrationModes modes =
       vibration_modes(*model_, HubSupport::free, count, options_.eigen_tolerance);
   arm::PoleSet poles;
@@ -102,8 +98,11 @@ arm::PoleSet FemArm::poles(int count) const {
 }
 
 arm::ZeroSet FemArm::zeros(const arm::Sensor& sensor, int count) const {
-  require_count(count);
+  arm::require_count(count);
   arm::require_valid(sensor, arm_);
+  arm::require_responsive(sensor, arm_);
+  // A model has fewer roots than coordinates.
+  count = std::min(count, degrees_of_freedom());
   return arm::is_collocated(sensor) ? clamped_zeros(count) : transmission_zeros(sensor, count);
 }
 
@@ -134,19 +133,14 @@ arm::ZeroSet FemArm::transmission_zeros(const arm::Sensor& sensor, int count) co
 
 std::vector<arm::Mode> FemArm::modes(int count, std::span<const arm::Sensor> sensors,
                                      std::span<const double> stations_m) const {
-  require_count(count);
+  arm::require_count(count);
   std::vector<SensorRow> rows;
   for (const arm::Sensor& sensor : sensors) {
     arm::require_valid(sensor, arm_);
     rows.push_back(sensor_row(*model_, arm_, sensor));
   }
   const double length_m = arm_.beam.length_m;
-  for (const double station_m : stations_m) {
-    if (!(station_m >= 0.0 && station_m <= length_m)) {
-      throw arm::out_of_range("station", station_m, "m",
-                              fmt::format("from 0 to the beam's length, {} m", length_m));
-    }
-  }
+  arm::require_stations(stations_m, arm_);
   const VibrationModes vibration =
       vibration_modes(*model_, HubSupport::free, count, options_.eigen_tolerance);
   const double friction = arm_.hub.viscous_friction_N_m_s_per_rad / arm::total_inertia_kg_m2(arm_);

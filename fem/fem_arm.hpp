@@ -58,8 +58,7 @@ class FemArm {
   /// Collocated: frequencies of the arm with its hub clamped. Others: finite roots of the
   /// Rosenbrock pencil, of which those are rejected that the checking mesh does not confirm; fewer
   /// than `count` are returned when no more can be trusted. With `count` = degrees_of_freedom() all
-  /// roots of a small model are sorted into trusted and rejected. Strain at the tip of an arm
-  /// without payload inertia is zero at all times; it has no zeros. With a payload inertia the tip
+  /// roots of a small model are sorted into trusted and rejected. With a payload inertia the tip
   /// has an imaginary pair of zeros beside its real ones. `count` of a non-collocated sensor: roots
   /// of the pencil looked at, rejected ones included, beside their number by the argument
   /// principle, -1 where rounding hides it. Should one be missing in spite of further searches,

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numeric>
 
 namespace flexarm::fem {
@@ -16,6 +17,9 @@ std::vector<double> lengths_between(const std::vector<double>& nodes_m, double b
   if (nodes_m.size() < 2 || nodes_m.front() != 0.0 || nodes_m.back() != beam_length_m) {
     throw arm::InputError(fmt::format(
         "mesh.nodes: must start at 0 m and end at the beam's length, {} m", beam_length_m));
+  }
+  if (nodes_m.size() - 1 > static_cast<std::size_t>(kMostElements)) {
+    throw arm::InputError(fmt::format("mesh.nodes: must be {} or fewer", kMostElements + 1));
   }
   std::vector<double> lengths;
   lengths.reserve(nodes_m.size() - 1);

@@ -7,6 +7,10 @@ namespace flexarm::fem {
 /// Where a graded mesh has its short elements.
 enum class Grading { uniform, towards_root, towards_tip, towards_both };
 
+/// The finest mesh that the accuracy of fem is measured on; a matrix of the highest degree on it
+/// still fits into a small machine's memory.
+inline constexpr int kMostElements = 100'000;
+
 /// How the beam is divided into elements.
 struct MeshOptions {
   int elements = 4;  ///< 1 to kMostElements
@@ -17,9 +21,6 @@ struct MeshOptions {
   /// empty it replaces the three values above.
   std::vector<double> nodes_m = {};
 };
-
-/// Where a matrix of the highest degree still fits into a small machine's memory.
-inline constexpr int kMostElements = 100000;
 
 /// The shortest element allowed, as a part of the beam's length.
 inline constexpr double kShortestElement = 1e-9;

@@ -9,13 +9,14 @@ namespace flexarm::response {
 fem::FemArm::Options fem_settings(int roots) {
   fem::FemArm::Options options;
   options.degree = 15;
-  options.mesh.elements = std::max(3, (roots + 1) / 2);
+  options.mesh.elements = std::max(3, roots / 2 + roots % 2);
   return options;
 }
 
 assumed_modes::AssumedModesOptions assumed_modes_settings(int roots) {
   assumed_modes::AssumedModesOptions options;
-  options.functions = std::clamp(2 * roots + 20, 40, assumed_modes::kMaximumFunctions);
+  options.functions =
+      std::clamp(2 * std::min(roots, kMostRoots) + 20, 40, assumed_modes::kMaximumFunctions);
   return options;
 }
 

@@ -79,7 +79,7 @@ TEST(AssumedModesArm, GivesNoMoreRootsThanItHasFlexibleCoordinates) {
   EXPECT_EQ(model.degrees_of_freedom(), 5);
   EXPECT_EQ(model.poles(10).omega_rad_per_s.size(), 4U);
   EXPECT_EQ(model.zeros(testing_arms::kHubAngle, 10).s_rad_per_s.size(), 4U);
-  EXPECT_THROW(model.poles(0), std::invalid_argument);
+  EXPECT_THROW(model.poles(0), arm::InputError);
 }
 
 }  // namespace

@@ -126,13 +126,6 @@ TEST(Zeros, ADecouplingZeroAtTheOriginIsLeftOut) {
   }
 }
 
-TEST(Zeros, AStrainSensorThatReadsNothingHasNone) {
-  const AssumedModesArm model(testing_arms::unit_arm(0.1, 0.5, 0.0));
-  const auto zeros = model.zeros(strain_at(1.0), 4);
-  EXPECT_TRUE(zeros.s_rad_per_s.empty());
-  EXPECT_NE(zeros.summary.method.find("reads zero"), std::string::npos);
-}
-
 TEST(Zeros, EveryBasisFindsTheFirstTipZeros) {
   // Hub and tip are both ends where some basis is slow: order 1 in n at worst.
   constexpr double kSlowest = 0.05;

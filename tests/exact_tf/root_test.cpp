@@ -113,6 +113,7 @@ INSTANTIATE_TEST_SUITE_P(AllArms, Roots, testing::ValuesIn(undamped_arms()),
 TEST(HubZeros, OfABareBeamAreThoseOfACantilever) {
   // One root of 1 + cos cosh in each ((n - 1) pi, n pi): a count that owes nothing to the pivots.
   const auto lambdas = ExactArm(unit_arm(0.1, 0.0, 0.0)).hub_zero_lambdas(1000);
+  ASSERT_EQ(lambdas.size(), 1000U);
   for (std::size_t i = 0; i < lambdas.size(); ++i) {
     EXPECT_EQ(static_cast<std::size_t>(lambdas[i] / std::numbers::pi), i);
   }

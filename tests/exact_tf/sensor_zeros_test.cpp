@@ -161,7 +161,7 @@ TEST(SensorZeros, OfStrainAtTheTipNeedPayloadInertia) {
 
 TEST(SensorZeros, RefuseWhatCannotBeAsked) {
   const ExactArm exact(arm::paper_arm());
-  EXPECT_THROW(exact.zeros(kTip, 0), std::invalid_argument);
+  EXPECT_THROW(exact.zeros(kTip, 0), arm::InputError);
   EXPECT_THROW(exact.zeros({arm::SensorKind::strain, 2.0}, 3), arm::InputError);
 }
 

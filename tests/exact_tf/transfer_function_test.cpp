@@ -178,7 +178,7 @@ INSTANTIATE_TEST_SUITE_P(AllArms, TransferFunction, testing::ValuesIn(all_arms()
 TEST(ExactArm, RefusesWhatItCannotAnswer) {
   EXPECT_THROW(ExactArm(arm::paper_arm()).transfer_function({SensorKind::hub_angle}, 0.0),
                std::domain_error);
-  EXPECT_THROW(ExactArm(arm::paper_arm()).poles(0), std::invalid_argument);
+  EXPECT_THROW(ExactArm(arm::paper_arm()).poles(0), arm::InputError);
   EXPECT_THROW(ExactArm(arm::paper_arm()).transfer_function({SensorKind::strain, 2.0}, 1.0),
                arm::InputError);
   arm::Arm arm = arm::paper_arm();

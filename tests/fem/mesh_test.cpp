@@ -42,6 +42,7 @@ TEST(Mesh, NodesAreTakenAsGiven) {
 
 TEST(Mesh, WhatIsNoMeshIsRefused) {
   EXPECT_THROW(element_lengths({.elements = 0}, 1.0), arm::InputError);
+  EXPECT_THROW(element_lengths({.elements = kMostElements + 1}, 1.0), arm::InputError);
   EXPECT_THROW(element_lengths({.grading = Grading::towards_tip, .grading_ratio = 0.5}, 1.0),
                arm::InputError);
   EXPECT_THROW(element_lengths(

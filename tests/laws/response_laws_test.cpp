@@ -140,33 +140,54 @@ TEST_P(ResponseLaws, PartialFractionsWithManyModesTendToTheExactValue) {
   }
 }
 
-TEST_P(ResponseLaws, ModesCarryTheModalMassOfTheRigidArmAndTheirStrainEnergy) {
+/// A shape of the arm: its values at equal distances from root to tip, and its slopes at the ends.
+struct Shape {
+  std::vector<double> y_m;
+  double hub_slope = 0.0;
+  double tip_slope = 0.0;
+};
+
+/// int m a b dx + Ih a'(0) b'(0) + Mp a(l) b(l) + Ip a'(l) b'(l), by Simpson's rule.
+double modal_mass(const Arm& arm, const Shape& a, const Shape& b) {
+  const std::size_t n = a.y_m.size() - 1;
+  double sum = 0.0;
+  for (std::size_t i = 0; i <= n; ++i) {
+    const bool end = i == 0 || i == n;
+    sum += (end ? 1.0 : (i % 2 == 1 ? 4.0 : 2.0)) * a.y_m[i] * b.y_m[i];
+  }
+  const double h = arm.beam.length_m / static_cast<double>(n);
+  return arm.beam.linear_density_kg_per_m() * sum * h / 3.0 +
+         arm.hub.inertia_kg_m2 * a.hub_slope * b.hub_slope +
+         arm.payload.mass_kg * a.y_m[n] * b.y_m[n] +
+         arm.payload.inertia_kg_m2 * a.tip_slope * b.tip_slope;
+}
+
+TEST_P(ResponseLaws, ModesAndTheRigidRotationAreOrthogonalWithTheModalMassOfTheRigidArm) {
+  constexpr std::size_t kIntervals = 2000;
   for (const auto& arm : varied_arms()) {
-    constexpr int kIntervals = 2000;
+    const double h = arm.beam.length_m / static_cast<double>(kIntervals);
     std::vector<double> stations;
-    for (int i = 0; i <= kIntervals; ++i) {
-      stations.push_back(arm.beam.length_m * i / kIntervals);
-    }
-    const double h = arm.beam.length_m / kIntervals;
-    const double inertia = arm::total_inertia_kg_m2(arm);
+    for (std::size_t i = 0; i < kIntervals; ++i) stations.push_back(h * static_cast<double>(i));
+    stations.push_back(arm.beam.length_m);
+
+    std::vector<Shape> shapes = {{stations, 1.0, 1.0}};
     for (const auto& mode : response::modes(GetParam().make(arm), 3, {}, stations)) {
-      const auto& phi = mode.displacement_m;
-      double sum = 0.0;  // Simpson's rule
-      for (std::size_t i = 0; i < phi.size(); ++i) {
-        const bool end = i == 0 || i + 1 == phi.size();
-        sum += (end ? 1.0 : (i % 2 == 1 ? 4.0 : 2.0)) * phi[i] * phi[i];
-      }
-      const std::size_t n = phi.size() - 1;
-      // Third-order one-sided difference for the slope at the tip.
-      const double tip_slope =
-          (11.0 * phi[n] - 18.0 * phi[n - 1] + 9.0 * phi[n - 2] - 2.0 * phi[n - 3]) / (6.0 * h);
-      const double mass = arm.beam.linear_density_kg_per_m() * sum * h / 3.0 +
-                          arm.hub.inertia_kg_m2 * mode.hub_slope * mode.hub_slope +
-                          arm.payload.mass_kg * phi[n] * phi[n] +
-                          arm.payload.inertia_kg_m2 * tip_slope * tip_slope;
-      // Simpson: (lambda h)^4/180, below 1e-8; the discrete shapes' own error beside it.
-      EXPECT_NEAR(mass / inertia, 1.0, 1e-7 + 100.0 * GetParam().root_tolerance);
       EXPECT_GT(mode.hub_slope, 0.0);
+      const auto& y = mode.displacement_m;
+      const std::size_t n = kIntervals;
+      // Third-order one-sided difference.
+      const double tip_slope =
+          (11.0 * y[n] - 18.0 * y[n - 1] + 9.0 * y[n - 2] - 2.0 * y[n - 3]) / (6.0 * h);
+      shapes.push_back({y, mode.hub_slope, tip_slope});
+    }
+    const double inertia = arm::total_inertia_kg_m2(arm);
+    for (std::size_t i = 0; i < shapes.size(); ++i) {
+      for (std::size_t j = 0; j <= i; ++j) {
+        // Simpson: (lambda h)^4/180, below 1e-8; the discrete shapes' own error beside it.
+        EXPECT_NEAR(modal_mass(arm, shapes[i], shapes[j]) / inertia, i == j ? 1.0 : 0.0,
+                    1e-7 + 100.0 * GetParam().root_tolerance)
+            << "shapes " << i << " and " << j;
+      }
     }
   }
 }

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 
 namespace flexarm::app {
@@ -22,12 +23,23 @@ void refuse(const char* option, const std::optional<T>& value, const std::string
 }  // namespace
 
 ChosenFormulation FormulationChoice::make(const arm::Arm& arm, int roots) const {
+  const std::array<std::string, 3> names = {"exact_tf", "fem", "assumed_modes"};
+  if (std::ranges::find(names, name) == names.end()) {
+    throw arm::InputError(
+        fmt::format("--formulation {}: unknown{}; allowed: exact_tf, fem, assumed_modes", name,
+                    arm::did_you_mean(name, names)));
+  }
   if (name == exact_tf::ExactArm::kName) {
     refuse("--elements", elements, name);
     refuse("--degree", degree, name);
     refuse("--basis", basis, name);
     refuse("--functions", functions, name);
     return {name, "", exact_tf::ExactArm(arm)};
+  }
+  if (roots > response::kMostRoots) {
+    throw arm::out_of_range(
+        "--modes", roots, "",
+        fmt::format("{} or less by {}; exact_tf has no such bound", response::kMostRoots, name));
   }
   if (name == fem::FemArm::kName) {
     refuse("--basis", basis, name);
@@ -37,18 +49,12 @@ ChosenFormulation FormulationChoice::make(const arm::Arm& arm, int roots) const 
     options.degree = degree.value_or(options.degree);
     return {name, response::describe(options), fem::FemArm(arm, options)};
   }
-  if (name == assumed_modes::AssumedModesArm::kName) {
-    refuse("--elements", elements, name);
-    refuse("--degree", degree, name);
-    auto options = response::assumed_modes_settings(roots);
-    if (basis) options.basis = assumed_modes::parse_basis(*basis);
-    options.functions = functions.value_or(options.functions);
-    return {name, response::describe(options), assumed_modes::AssumedModesArm(arm, options)};
-  }
-  const std::array<std::string, 3> names = {"exact_tf", "fem", "assumed_modes"};
-  throw arm::InputError(
-      fmt::format("--formulation {}: unknown{}; allowed: exact_tf, fem, assumed_modes", name,
-                  arm::did_you_mean(name, names)));
+  refuse("--elements", elements, name);
+  refuse("--degree", degree, name);
+  auto options = response::assumed_modes_settings(roots);
+  if (basis) options.basis = assumed_modes::parse_basis(*basis);
+  options.functions = functions.value_or(options.functions);
+  return {name, response::describe(options), assumed_modes::AssumedModesArm(arm, options)};
 }
 
 void add_formulation_choice(CLI::App& parser, FormulationChoice& choice) {

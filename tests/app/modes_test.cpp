@@ -57,6 +57,12 @@ TEST_F(Modes, TheCertificateIsOfTheExactRootsWhicheverFormulationIsShown) {
   EXPECT_EQ(ended.status, 0) << ended.output;
 }
 
+TEST_F(Modes, MoreModesThanADiscreteModelIsMadeForAreRefused) {
+  const Ended ended = run({"modes", "--formulation", "fem", "--modes", "1000"});
+  EXPECT_EQ(ended.status, 2);
+  EXPECT_THAT(ended.errors, HasSubstr("--modes = 1000: must be 90 or less by fem"));
+}
+
 TEST_F(Modes, RootsThatAModelDoesNotHaveAreCounted) {
   const Ended ended = run({"modes", "--formulation", "assumed_modes", "--functions", "4", "--modes",
                            "9", "--sensor", "hub_angle,tip_acceleration"});

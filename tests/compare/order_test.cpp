@@ -68,13 +68,17 @@ TEST(Order, TenPolesAreReachedWithinTheIssuesDegreesOfFreedom) {
     }
     return dof;
   };
-  for (const auto& refinement : standard_refinements(arm::paper_arm(), 10)) {
-    if (refinement.name == "Legendre polynomials") {
-      EXPECT_LE(most_needed(refinement), 36);
-    } else if (refinement.name == "fem, 5 elements of rising degree") {
-      EXPECT_LE(most_needed(refinement), 60);
-    }
-  }
+  const auto series = standard_refinements(arm::paper_arm(), 10);
+  const auto named_series = [&](const std::string& name) {
+    const auto found = std::ranges::find(series, name, &Refinement::name);
+    EXPECT_NE(found, series.end()) << name;
+    return found;
+  };
+  const auto legendre = named_series("Legendre polynomials");
+  const auto fem = named_series("fem, 5 elements of rising degree");
+  ASSERT_TRUE(legendre != series.end() && fem != series.end());
+  EXPECT_LE(most_needed(*legendre), 36);
+  EXPECT_LE(most_needed(*fem), 60);
 }
 
 TEST(Order, ASettingTooCoarseForARootHasNoError) {

@@ -2,6 +2,7 @@
 
 #include "arm/arm_keys.hpp"
 #include "arm/input_error.hpp"
+#include "arm/linear_arm.hpp"
 #include "arm/sensor.hpp"
 
 #include <fmt/format.h>
@@ -12,17 +13,18 @@ namespace flexarm::arm {
 
 namespace {
 
-double beam_inertia_kg_m2(const Beam& beam) {
-  return beam.linear_density_kg_per_m() * std::pow(beam.length_m, 3);
+double beam_inertia_kg_m2(const LinearArm& arm) {
+  return arm.linear_density_kg_per_m * std::pow(arm.length_m, 3);
 }
 
 /// What the effects say about places must fit the beam.
 void require_on_beam(const Arm& arm) {
   if (const auto crack = arm.effects.find("local_stiffness_loss"); crack != arm.effects.end()) {
     const double position_m = crack->second.parameters.at("position");
-    if (position_m > arm.beam.length_m) {
-      throw out_of_range("effects.local_stiffness_loss.position", position_m, "m",
-                         fmt::format("from 0 to the beam's length, {} m", arm.beam.length_m));
+    if (position_m >= arm.beam.length_m) {
+      throw out_of_range(
+          "effects.local_stiffness_loss.position", position_m, "m",
+          fmt::format("0 or more and less than the beam's length, {} m", arm.beam.length_m));
     }
   }
   for (const auto& [name, effect] : arm.effects) {
@@ -46,27 +48,26 @@ void require_valid(const Arm& arm) {
 }
 
 double total_inertia_kg_m2(const Arm& arm) {
-  const double l = arm.beam.length_m;
-  return arm.hub.inertia_kg_m2 + beam_inertia_kg_m2(arm.beam) / 3.0 + arm.payload.mass_kg * l * l +
-         arm.payload.inertia_kg_m2;
+  return total_inertia_kg_m2(linear_arm(arm));
 }
 
 double omega_scale_rad_per_s(const Arm& arm) {
-  const double l = arm.beam.length_m;
-  return std::sqrt(arm.beam.flexural_rigidity_N_m2() / arm.beam.linear_density_kg_per_m()) /
-         (l * l);
+  return omega_scale_rad_per_s(linear_arm(arm));
 }
 
 double hub_inertia_ratio(const Arm& arm) {
-  return arm.hub.inertia_kg_m2 / beam_inertia_kg_m2(arm.beam);
+  const LinearArm linear = linear_arm(arm);
+  return linear.hub_inertia_kg_m2 / beam_inertia_kg_m2(linear);
 }
 
 double payload_mass_ratio(const Arm& arm) {
-  return arm.payload.mass_kg / (arm.beam.linear_density_kg_per_m() * arm.beam.length_m);
+  const LinearArm linear = linear_arm(arm);
+  return linear.payload_mass_kg / (linear.linear_density_kg_per_m * linear.length_m);
 }
 
 double payload_inertia_ratio(const Arm& arm) {
-  return arm.payload.inertia_kg_m2 / beam_inertia_kg_m2(arm.beam);
+  const LinearArm linear = linear_arm(arm);
+  return linear.payload_tip_inertia_kg_m2 / beam_inertia_kg_m2(linear);
 }
 
 Arm paper_arm() {

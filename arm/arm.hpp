@@ -35,7 +35,10 @@ struct Arm {
 /// Throws InputError for the first value that is not finite or out of its range.
 void require_valid(const Arm& arm);
 
-/// I_T, the inertia of the rigid arm about the motor axis: Ih + m l^3/3 + Mp l^2 + Ip [kg m^2].
+/// The figures below are those of the arm with its linear effects applied (arm/linear_arm.hpp).
+
+/// I_T, the inertia of the rigid arm about the motor axis; without effects
+/// Ih + m l^3/3 + Mp l^2 + Ip [kg m^2].
 double total_inertia_kg_m2(const Arm& arm);
 
 /// sqrt(EI/(m l^4)): omega = lambda^2 times this, with lambda = beta l [rad/s].

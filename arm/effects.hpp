@@ -17,9 +17,18 @@ struct EffectParameter {
   bool required;  ///< must be given in the arm file
 };
 
+/// What an effect changes, and with it who honours it.
+enum class EffectPlace {
+  linear_arm,     ///< the linear equations of the arm: arm/linear_arm.hpp, every formulation
+  nonlinear_arm,  ///< forces on hub or beam that are not linear: simulation in time
+  actuator,       ///< between the commanded torque and the hub
+  sensor,         ///< between a sensor and its reading
+};
+
 /// One entry of the vocabulary of causes (docs/formats.md).
 struct EffectDefinition {
   std::string name;
+  EffectPlace place;
   std::vector<EffectParameter> parameters;
   std::string meaning;  ///< half a sentence for the reader of an arm file
   /// Takes the key `sensor` too, the name of the sensor it acts on; tip_acceleration unless given.

@@ -28,10 +28,29 @@ struct RootCount {
 };
 
 /// Undamped flexible poles s = +-i omega.
+///
+/// The lowest mode of an arm that turns freely is its rigid-body mode, at s = 0. A hub spring or
+/// gravity turns it into one of finite frequency, which remains the lowest and is counted apart:
+/// flexible poles keep their orders whatever holds the hub.
 struct PoleSet {
-  std::vector<double> omega_rad_per_s;  ///< ascending, the rigid-body poles at s = 0 left out
-  int rigid_body_modes = 1;
+  std::vector<double> omega_rad_per_s;            ///< ascending, the lowest mode's left out
+  double lowest_omega_squared_rad2_per_s2 = 0.0;  ///< below 0 for an arm that stands up and falls
   RootCount count;
+  SolveSummary summary;
+};
+
+/// The two roots of the damped characteristic equation that one undamped pair +-i omega becomes as
+/// all damping grows from zero to its value: conjugates, `first` with Im > 0; or two real ones,
+/// `first` the nearer to 0.
+struct PolePair {
+  std::complex<double> first_rad_per_s;
+  std::complex<double> second_rad_per_s;
+};
+
+/// Poles of the damped arm, none twice.
+struct DampedPoleSet {
+  PolePair lowest;                 ///< of the lowest mode; both 0 for a free hub without friction
+  std::vector<PolePair> flexible;  ///< in the order of PoleSet
   SolveSummary summary;
 };
 
@@ -52,20 +71,36 @@ struct ZeroSet {
   SolveSummary summary;
 };
 
-/// One flexible mode of the undamped arm. phi is scaled to the modal mass I_T,
+/// One mode of the undamped arm. phi is scaled to the modal mass I_T; for the plain arm
 ///
 ///     int m phi_i phi_j dx + Ih phi_i'(0) phi_j'(0)
 ///         + Mp phi_i(l) phi_j(l) + Ip phi_i'(l) phi_j'(l) = I_T delta_ij,
 ///
-/// equation (24) of the paper put right, so that the rigid-body mode is phi_0(x) = x; its sign is
-/// that of a positive hub slope.
+/// equation (24) of the paper put right, and with effects 2 T of arm/linear_arm.hpp, so that the
+/// rigid-body mode is phi_0(x) = a + x; its sign is that of a positive hub slope.
 struct Mode {
-  double omega_rad_per_s = 0.0;
-  double hub_slope = 0.0;              ///< phi'(0) [1]
-  double damping_ratio = 0.0;          ///< projected: (kv omega^2 + c phi'(0)^2/I_T)/(2 omega)
-  std::vector<double> sensor_values;   ///< per sensor, before time derivatives: phi'(0), phi(l),
-                                       ///< phi(l) - l phi'(0) or thickness/2 phi''(X)
+  double omega_rad_per_s = 0.0;  ///< 0 for a lowest mode that nothing holds, or that falls
+  double hub_slope = 0.0;        ///< rotation of the hub [1]: phi'(0) where the root is rigid
+  double damping_ratio = 0.0;    ///< projected, D_ii/(2 omega) of ModalModel; 0 where omega is 0
+  std::vector<double>
+      sensor_values;  ///< per sensor, before time derivatives: hub rotation, phi(l),
+                      ///< phi(l) - (a + l) hub rotation, thickness/2 psi'(X)
   std::vector<double> displacement_m;  ///< phi at the stations asked for
+};
+
+/// The arm in its modes, which are those of the undamped arm: with phi = sum phi_i q_i and the
+/// torque tau on the hub,
+///
+///     q_i'' + sum_j D_ij q_j' + omega_i^2 q_i = hub_slope_i tau/I_T,
+///     D_ij = (2 R)_ij/I_T of arm/linear_arm.hpp,
+///
+/// equation (33) of the paper put right. Without shear (2 R)_ij is
+/// kv EI int phi_i'' phi_j'' dx + c theta_i theta_j + ca int phi_i phi_j dx.
+struct ModalModel {
+  double modal_mass_kg_m2 = 0.0;  ///< I_T
+  std::vector<Mode> modes;        ///< n: the lowest (rigid-body) mode, then the flexible ones
+  double lowest_omega_squared_rad2_per_s2 = 0.0;  ///< of modes[0], as in PoleSet
+  std::vector<double> damping_rad_per_s;          ///< D, n x n, symmetric, by rows
 };
 
 /// Payload mass over m l, and payload inertia over m l^3, that every formulation takes. The heavier
@@ -77,6 +112,14 @@ inline constexpr double kLargestPayloadRatio = 1e9;
 /// double holds with room to spare.
 inline constexpr double kSmallestScale = 1e-100;
 inline constexpr double kLargestScale = 1e100;
+
+/// Sizes of effects, each relative to the beam's own: lengths to l, rotational springs to EI/l, the
+/// weight beyond the root to EI/l^2, k G A to EI/l^2.
+inline constexpr double kLargestLengthRatio = 100.0;
+inline constexpr double kSmallestSpringRatio = 1e-6;
+inline constexpr double kLargestSpringRatio = 1e9;
+inline constexpr double kLargestWeightRatio = 1e4;
+inline constexpr double kSmallestShearRatio = 10.0;
 
 /// Throws InputError for an arm that is not valid (`require_valid`) or whose numbers, each valid by
 /// itself, lie outside the bounds above together.
@@ -93,19 +136,22 @@ void require_stations(std::span<const double> stations_m, const Arm& arm);
 ///
 /// - `poles(n)`, `modes(n, ...)`: the n lowest flexible ones, undamped, in ascending order; fewer
 ///   only where the model has fewer degrees of freedom.
+/// - `damped_poles(n)`: what the lowest pair and the n lowest flexible ones become with damping, to
+///   rounding and discretisation; not projected on undamped modes.
+/// - `modal_model(n, ...)`: the lowest mode and `modes(n, ...)`, and how damping couples them.
 /// - `zeros(sensor, n)`: the n finite non-zero roots smallest in |s| of the undamped numerator of
 ///   torque to sensor; a discrete model leaves out those it can tell to be spurious and reports
 ///   them.
 /// - `transfer_function(sensor, s)`: response per unit of torque on the hub, damping included, at
-///   complex s [rad/s]; s = 0 and an s that is not finite are a std::domain_error, at a pole the
-///   value is not finite or huge.
+///   complex s [rad/s]; s = 0 of an arm that turns freely and an s that is not finite are a
+///   std::domain_error, at a pole the value is not finite or huge.
 /// - `degrees_of_freedom()`: generalised coordinates, the hub rotation included; 0 for exact_tf.
 ///
 /// All throw InputError for a sensor that the arm cannot carry (`require_valid`), for a count below
 /// 1 or above what the formulation states as its limit, and for a station off the beam; `zeros`
 /// also for a sensor that reads zero at every s (`require_responsive`). Constructors throw
-/// InputError for an arm that is invalid or not `require_computable`, and for an effect that the
-/// formulation does not honour, by name.
+/// InputError for an arm that is invalid or not `require_computable`, for an effect that is not in
+/// `linear_effect_names()`, by name, and for an arm that stands up and whose flexible modes buckle.
 /// Objects are immutable: concurrent calls are safe.
 template <class F>
 concept Formulation = requires(const F& f, int count, const Sensor& sensor,

@@ -103,8 +103,8 @@ const std::vector<Mistake> kMistakes = {
      "[N m], without quotes or unit"},
     {"CrackBeyondTheBeam", "# end\n",
      "[effects.local_stiffness_loss]\nposition = 1.5\nstiffness = 10\n",
-     "11: effects.local_stiffness_loss.position = 1.5 m: must be from 0 to the beam's length, 0.96 "
-     "m"},
+     "11: effects.local_stiffness_loss.position = 1.5 m: must be 0 or more and less than the "
+     "beam's length, 0.96 m"},
     {"SensorMisspelt", "# end\n",
      "[effects.sensor_lag]\ntime_constant = 1e-3\nsensor = 'hub_angel'\n",
      "12: effects.sensor_lag.sensor: sensor hub_angel: unknown (did you mean hub_angle?)" +

@@ -1,0 +1,96 @@
+#pragma once
+
+#include "arm/arm.hpp"
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace flexarm::arm {
+
+/// A massless rotational spring in the beam: its slope jumps by moment/stiffness there.
+struct RotationalSpring {
+  double position_m = 0.0;  ///< from the beam's root, above 0 and below its length
+  double stiffness_N_m_per_rad = 0.0;
+
+  bool operator==(const RotationalSpring&) const = default;
+};
+
+/// What a Timoshenko beam has besides EI and m.
+struct ShearAndRotaryInertia {
+  double shear_rigidity_N = 0.0;     ///< k G A
+  double rotary_inertia_kg_m = 0.0;  ///< rho I = m thickness^2/12
+
+  bool operator==(const ShearAndRotaryInertia&) const = default;
+};
+
+/// The numbers in the equations of a linear arm, its linear effects folded in. Every formulation
+/// starts from these.
+///
+/// x is measured along the beam from its root, a = hub radius, theta the hub angle, y(x, t) the
+/// displacement of the beam's axis from the resting line, psi the rotation of its cross-section,
+/// [psi] the jump at the crack X. Hub and root: y(0) = a theta. Without shear psi = y', without
+/// root compliance psi(0) = theta.
+///
+///     2 T = Ih theta_t^2 + int (m y_t^2 + rho I psi_t^2) dx
+///           + Mp y_t(l)^2 + 2 Sp y_t(l) psi_t(l) + Jp psi_t(l)^2
+///     2 V = ks theta^2 + kr (psi(0) - theta)^2 + kc [psi]^2
+///           + int (EI psi'^2 + kGA (y' - psi)^2) dx
+///           + g (P(0) a theta^2 + int P y'^2 dx + Sp psi(l)^2),   P(x) = Mp + m (l - x)
+///     2 R = c theta_t^2 + int (kv EI psi'_t^2 + ca y_t^2) dx   (half the power lost)
+///
+/// and the torque does the work tau theta. The springs and the shear lose no energy. The terms in g
+/// are the potential of the mass beyond each place, the hub's arm a and the payload's offset
+/// included.
+struct LinearArm {
+  double length_m = 0.0;                 ///< l, of the beam alone
+  double flexural_rigidity_N_m2 = 0.0;   ///< EI
+  double linear_density_kg_per_m = 0.0;  ///< m
+  std::optional<double> thickness_m;     ///< strain sensors need it
+  std::optional<ShearAndRotaryInertia> shear;
+  std::optional<RotationalSpring> crack;  ///< kc at X
+  double kelvin_voigt_s = 0.0;            ///< kv
+  double air_damping_N_s_per_m2 = 0.0;    ///< ca
+
+  double hub_inertia_kg_m2 = 0.0;                    ///< Ih
+  double hub_radius_m = 0.0;                         ///< a
+  double hub_viscous_friction_N_m_s_per_rad = 0.0;   ///< c
+  double hub_spring_N_m_per_rad = 0.0;               ///< ks
+  std::optional<double> root_stiffness_N_m_per_rad;  ///< kr; empty: the root is rigid
+
+  double payload_mass_kg = 0.0;            ///< Mp
+  double payload_first_moment_kg_m = 0.0;  ///< Sp = Mp times its centre's distance beyond the tip
+  double payload_tip_inertia_kg_m2 = 0.0;  ///< Jp, about the tip: own inertia + Mp distance^2
+  double gravity_m_per_s2 = 0.0;           ///< g
+
+  /// An Euler-Bernoulli beam in one piece that is rigidly fixed to a hub of no radius, with a
+  /// payload at the tip and no restoring force but its own stiffness: the arm of arm/arm.hpp.
+  bool is_plain() const;
+  /// Nothing holds the hub: y = (a + x) theta costs no energy.
+  bool turns_freely() const;
+  /// Some damping is not zero.
+  bool is_damped() const;
+
+  bool operator==(const LinearArm&) const = default;
+};
+
+/// The arm's own numbers with its linear effects applied; actuator, sensor and nonlinear effects
+/// do not enter. A crack at the root is a root compliance, in series with another. Payload inertias
+/// are about the payload's centre of mass, which is at the tip unless `payload_offset` moves it.
+///
+/// Throws InputError for an invalid arm, and for a Timoshenko beam without shear modulus, width or
+/// thickness.
+LinearArm linear_arm(const Arm& arm);
+
+/// Names of the effects that `linear_arm` applies, in the vocabulary's order: what a formulation
+/// honours.
+const std::vector<std::string_view>& linear_effect_names();
+
+/// I_T, the inertia of the rigid arm about the motor axis:
+/// Ih + m ((a + l)^3 - a^3)/3 + rho I l + Mp (a + l)^2 + 2 Sp (a + l) + Jp [kg m^2].
+double total_inertia_kg_m2(const LinearArm& arm);
+
+/// sqrt(EI/(m l^4)): omega = lambda^2 times this, with lambda = beta l [rad/s].
+double omega_scale_rad_per_s(const LinearArm& arm);
+
+}  // namespace flexarm::arm

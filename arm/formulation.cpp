@@ -65,6 +65,7 @@ void require_moderate_effects(const LinearArm& arm) {
 }  // namespace
 
 void require_computable(const Arm& arm) {
+  require_valid(arm);
   const LinearArm linear = linear_arm(arm);
   const double l = linear.length_m;
   const double mass_kg = linear.linear_density_kg_per_m * l;

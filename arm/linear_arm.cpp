@@ -69,7 +69,6 @@ bool LinearArm::is_damped() const {
 }
 
 LinearArm linear_arm(const Arm& arm) {
-  require_valid(arm);
   const auto value = [&arm](const char* effect, const char* parameter, double otherwise) {
     return value_of(arm.effects, effect, parameter, otherwise);
   };

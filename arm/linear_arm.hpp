@@ -78,8 +78,8 @@ struct LinearArm {
 /// do not enter. A crack at the root is a root compliance, in series with another. Payload inertias
 /// are about the payload's centre of mass, which is at the tip unless `payload_offset` moves it.
 ///
-/// Throws InputError for an invalid arm, and for a Timoshenko beam without shear modulus, width or
-/// thickness.
+/// For a valid arm (`require_valid`). Throws InputError for a beam that is not known well enough,
+/// and for a Timoshenko beam without shear modulus, width or thickness.
 LinearArm linear_arm(const Arm& arm);
 
 /// Names of the effects that `linear_arm` applies, in the vocabulary's order: what a formulation

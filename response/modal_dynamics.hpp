@@ -55,7 +55,9 @@ struct ModalDynamics {
 
   Eigen::Index size() const { return turning.a.rows(); }
   double hub_angle(const Eigen::VectorXd& x) const;
-  double hub_velocity(const Eigen::VectorXd& x) const { return hub_slope.dot(x.segment(modes, modes)); }
+  double hub_velocity(const Eigen::VectorXd& x) const {
+    return hub_slope.dot(x.segment(modes, modes));
+  }
   auto velocity(const Eigen::VectorXd& x) const { return x.segment(modes, modes); }
   /// Modal velocities that leave the hub at rest, and nearest to those of `x`.
   void stop_hub(Eigen::VectorXd& x) const;

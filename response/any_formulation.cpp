@@ -1,5 +1,7 @@
 #include "response/any_formulation.hpp"
 
+#include "arm/input_error.hpp"
+
 namespace flexarm::response {
 
 std::string_view name(const AnyFormulation& formulation) {
@@ -27,6 +29,20 @@ std::vector<arm::Mode> modes(const AnyFormulation& formulation, int count,
                              std::span<const double> stations_m) {
   return std::visit([&](const auto& f) { return f.modes(count, sensors, stations_m); },
                     formulation);
+}
+
+arm::ModalModel modal_model(const AnyFormulation& formulation, int count,
+                            std::span<const arm::Sensor> sensors,
+                            std::span<const double> stations_m) {
+  return std::visit(
+      [&](const auto& f) -> arm::ModalModel {
+        if constexpr (requires { f.modal_model(count, sensors, stations_m); }) {
+          return f.modal_model(count, sensors, stations_m);
+        } else {
+          throw arm::InputError("no modal model");
+        }
+      },
+      formulation);
 }
 
 std::complex<double> transfer_function(const AnyFormulation& formulation, const arm::Sensor& sensor,

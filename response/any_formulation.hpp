@@ -29,6 +29,9 @@ arm::ZeroSet zeros(const AnyFormulation& formulation, const arm::Sensor& sensor,
 std::vector<arm::Mode> modes(const AnyFormulation& formulation, int count,
                              std::span<const arm::Sensor> sensors,
                              std::span<const double> stations_m);
+arm::ModalModel modal_model(const AnyFormulation& formulation, int count,
+                            std::span<const arm::Sensor> sensors,
+                            std::span<const double> stations_m);
 std::complex<double> transfer_function(const AnyFormulation& formulation, const arm::Sensor& sensor,
                                        std::complex<double> s_rad_per_s);
 

@@ -133,11 +133,13 @@ double singularity(const arm::ModalModel& modal, Complex s) {
   const auto n = static_cast<Eigen::Index>(modal.modes.size());
   Eigen::MatrixXcd dynamic =
       s * Eigen::Map<const Eigen::MatrixXd>(modal.damping_rad_per_s.data(), n, n).cast<Complex>();
-  dynamic(0, 0) += s * s + modal.lowest_omega_squared_rad2_per_s2;
+  Eigen::VectorXd square(n);
+  square(0) = modal.lowest_omega_squared_rad2_per_s2;
   for (Eigen::Index k = 1; k < n; ++k) {
-    dynamic(k, k) += s * s + std::pow(modal.modes[static_cast<std::size_t>(k)].omega_rad_per_s, 2);
+    square(k) = std::pow(modal.modes[static_cast<std::size_t>(k)].omega_rad_per_s, 2);
   }
-  const Eigen::VectorXd size = dynamic.cwiseAbs().rowwise().maxCoeff().cwiseSqrt().cwiseInverse();
+  dynamic.diagonal().array() += s * s + square.array().cast<Complex>();
+  const Eigen::VectorXd size = (square.array().abs() + std::norm(s)).sqrt().inverse();
   const Eigen::MatrixXcd scaled =
       size.cast<Complex>().asDiagonal() * dynamic * size.cast<Complex>().asDiagonal();
   const auto values = Eigen::JacobiSVD<Eigen::MatrixXcd>(scaled).singularValues();

@@ -92,16 +92,16 @@ PanelStack whole_locus(const NyquistPlot& plot) {
   Panel panel;
   panel.title = "all frequencies, modulus compressed";
   const auto axis = [&](const char* label) {
-    Axis axis{.label = label, .unit = plot.unit, .minimum = -half_side, .maximum = half_side};
-    axis.ticks = {{0.0, "0"}};
+    Axis made{.label = label, .unit = plot.unit, .minimum = -half_side, .maximum = half_side};
+    made.ticks = {{0.0, "0"}};
     for (int exponent = static_cast<int>(std::ceil(std::log10(compressed.g0)));
          std::pow(10.0, exponent) <= largest * kRoomAroundLocus; ++exponent) {
       const double size = std::pow(10.0, exponent);
       const std::string text = decade_label(exponent, exponent >= 0 && exponent <= 4);
-      axis.ticks.push_back({compressed.modulus(size), text});
-      axis.ticks.insert(axis.ticks.begin(), {-compressed.modulus(size), "−" + text});
+      made.ticks.push_back({compressed.modulus(size), text});
+      made.ticks.insert(made.ticks.begin(), {-compressed.modulus(size), "−" + text});
     }
-    return axis;
+    return made;
   };
   panel.y = axis("Im G");
   for (const Tick& tick : panel.y.ticks) {

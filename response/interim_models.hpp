@@ -4,9 +4,9 @@
 #include "response/any_formulation.hpp"
 
 namespace flexarm::response {
-inline arm::ModalModel modal_model(const AnyFormulation& f, int count,
-                                   std::span<const arm::Sensor> sensors,
-                                   std::span<const double> stations_m) {
+inline arm::ModalModel plain_modal_model(const AnyFormulation& f, int count,
+                                         std::span<const arm::Sensor> sensors,
+                                         std::span<const double> stations_m) {
   arm::ModalModel model;
   const auto lin = arm::linear_arm(arm_of(f));
   model.modal_mass_kg_m2 = arm::total_inertia_kg_m2(lin);
@@ -36,9 +36,9 @@ inline arm::ModalModel modal_model(const AnyFormulation& f, int count,
   return model;
 }
 
-inline arm::DampedPoleSet damped_poles(const AnyFormulation& f, int count) {
+inline arm::DampedPoleSet plain_damped_poles(const AnyFormulation& f, int count) {
   arm::DampedPoleSet set;
-  const auto model = modal_model(f, count, {}, {});
+  const auto model = plain_modal_model(f, count, {}, {});
   const std::size_t n = model.modes.size();
   for (std::size_t i = 0; i < n; ++i) {
     const double w = model.modes[i].omega_rad_per_s;
@@ -53,5 +53,27 @@ inline arm::DampedPoleSet damped_poles(const AnyFormulation& f, int count) {
     (i == 0 ? set.lowest : set.flexible.emplace_back()) = p;
   }
   return set;
+}
+inline arm::ModalModel modal_model(const AnyFormulation& any, int count,
+                                   std::span<const arm::Sensor> sensors,
+                                   std::span<const double> stations_m) {
+  return std::visit(
+      [&](const auto& f) {
+        if constexpr (requires { f.modal_model(count, sensors, stations_m); })
+          return f.modal_model(count, sensors, stations_m);
+        else
+          return plain_modal_model(any, count, sensors, stations_m);
+      },
+      any);
+}
+inline arm::DampedPoleSet damped_poles(const AnyFormulation& any, int count) {
+  return std::visit(
+      [&](const auto& f) {
+        if constexpr (requires { f.damped_poles(count); })
+          return f.damped_poles(count);
+        else
+          return plain_damped_poles(any, count);
+      },
+      any);
 }
 }  // namespace flexarm::response

@@ -122,17 +122,23 @@ ResponseStudy study_response(const arm::Arm& arm, const AnyFormulation& formulat
   return study;
 }
 
-std::vector<double> state_space_errors(const ResponseStudy& study) {
-  std::vector<double> errors;
+std::vector<StateSpaceError> state_space_errors(const ResponseStudy& study) {
+  std::vector<StateSpaceError> errors;
   if (!study.state_space_response) return errors;
   for (std::size_t k = 0; k < study.response.values.size(); ++k) {
-    double largest = 0.0;
+    std::vector<double> relative;
     for (std::size_t i = 0; i < study.response.frequency_Hz.size(); ++i) {
       const Complex exact = study.response.values[k][i];
-      largest = std::max(
-          largest, std::abs(study.state_space_response->values[k][i] - exact) / std::abs(exact));
+      const double error =
+          std::abs(study.state_space_response->values[k][i] - exact) / std::abs(exact);
+      if (std::isfinite(error)) relative.push_back(error);
     }
-    errors.push_back(largest);
+    std::ranges::sort(relative);
+    if (relative.empty()) {
+      errors.emplace_back();
+    } else {
+      errors.push_back({relative.back(), relative[relative.size() / 2]});
+    }
   }
   return errors;
 }

@@ -54,7 +54,13 @@ int roots_needed(const arm::Arm& arm, const ResponseOptions& options);
 ResponseStudy study_response(const arm::Arm& arm, const AnyFormulation& formulation,
                              const ResponseOptions& options);
 
-/// Largest |G_ss - G|/|G| over the frequencies, one a sensor; empty without state space.
-std::vector<double> state_space_errors(const ResponseStudy& study);
+/// |G_ss - G|/|G| of a state space over the frequencies.
+struct StateSpaceError {
+  double largest = 0.0;  ///< at or near a zero or a pole as a rule
+  double median = 0.0;
+};
+
+/// One a sensor; empty without state space.
+std::vector<StateSpaceError> state_space_errors(const ResponseStudy& study);
 
 }  // namespace flexarm::response

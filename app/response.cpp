@@ -14,7 +14,6 @@
 #include "report/response_plots.hpp"
 #include "report/response_tables.hpp"
 #include "report/text_table.hpp"
-#include "response/arm_parts.hpp"
 #include "response/response_study.hpp"
 #include "response/settings.hpp"
 
@@ -73,7 +72,7 @@ response::ResponseOptions options_of(const Arguments& arguments) {
   return options;
 }
 
-/// Of the arm's linear effects, fine enough for the modes and for the highest frequency.
+/// Fine enough for the modes and for the highest frequency.
 ChosenFormulation make_formulation(const Arguments& arguments, const arm::Arm& arm,
                                    const response::ResponseOptions& options) {
   const int roots = response::roots_needed(arm, options);
@@ -84,7 +83,7 @@ ChosenFormulation make_formulation(const Arguments& arguments, const arm::Arm& a
                     "has no such bound",
                     roots - 1, response::kMostRoots - 1, arguments.formulation.name));
   }
-  return arguments.formulation.make(response::take_apart(arm).linear, roots);
+  return arguments.formulation.make(arm, roots);
 }
 
 void print_table(const report::Table& table) {
@@ -96,9 +95,11 @@ void print_study(const response::ResponseStudy& study, const response::ResponseO
   if (!report::chain_notes(study).empty()) print("\n");
   print_table(report::damped_poles_table(study, static_cast<std::size_t>(options.modes)));
   for (std::size_t k = 0; k < study.response.sensors.size(); ++k) {
-    print_table(report::factors_table(study, k));
+    auto factors = report::factors_table(study, k);
+    print(factors.caption + "\n");
+    factors.caption.clear();
     for (const auto& formula : report::formulas(study, k)) print("  " + formula + "\n");
-    print("\n");
+    print_table(factors);
   }
   const auto frequencies = study.response.frequency_Hz.size();
   const bool listed = !options.frequency_Hz.empty();
@@ -135,8 +136,15 @@ std::string next_step(const Arguments& arguments) {
   if (!arguments.state_space_file.empty()) {
     lines += fmt::format("wrote {}\n", arguments.state_space_file);
   }
-  if (!arguments.output.folder.empty()) {
-    lines += fmt::format("wrote {}\n", arguments.output.folder);
+  const bool drawn = !arguments.output.folder.empty();
+  if (drawn) lines += fmt::format("wrote {}\n", arguments.output.folder);
+  if (drawn && !arguments.state_space_file.empty()) {
+    return lines + fmt::format(
+                       "next: the three formulations side by side with  flexarm "
+                       "compare{}\n",
+                       arm);
+  }
+  if (drawn) {
     return lines + fmt::format(
                        "next: a model for control with  flexarm response{} --state-space "
                        "arm.mat\n",

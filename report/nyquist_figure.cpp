@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 #include <numbers>
 #include <stdexcept>
@@ -15,8 +16,9 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr int kWidth_px = 1200;
-constexpr int kHeight_px = 640;
+constexpr int kWidth_px = 1400;
+constexpr int kHeight_px = 660;
+constexpr double kLocusWidth = 2.3;  // relative to a circle's, so that it fills the height
 constexpr std::size_t kMostCircles = 4;
 constexpr std::size_t kCirclesInAColumn = 2;
 constexpr double kRoomAroundCircle = 0.66;  // half side over diameter
@@ -44,6 +46,9 @@ Style point(int colour, Marker marker, double size) {
   return style;
 }
 
+constexpr const char* kPoleName = "pole's frequency";
+constexpr const char* kHalfPowerName = "half power";
+constexpr double kTextLeft = 0.3;  // of the centre, in diameters
 const Style kLocus{.colour = blue, .line_width_px = 1.6};
 const Style kAtPole = point(vermillion, Marker::disc, 0.9);
 const Style kHalfPower = point(vermillion, Marker::circle, 0.9);
@@ -116,19 +121,31 @@ PanelStack whole_locus(const NyquistPlot& plot) {
     locus.y.push_back(drawn.imag());
   }
   panel.series.push_back(std::move(locus));
-  Series poles{"at a pole's frequency", {}, {}, kAtPole};
+  Series poles{kPoleName, {}, {}, kAtPole};
   for (const auto& circle : plot.circles) {
     const Complex drawn = compressed(circle.at_pole);
     poles.x.push_back(drawn.real());
     poles.y.push_back(drawn.imag());
   }
   panel.series.push_back(std::move(poles));
-  return {.x = axis("Re G"), .panels = {std::move(panel)}, .width = 1.9, .square = true};
+  return {.x = axis("Re G"), .panels = {std::move(panel)}, .width = kLocusWidth, .square = true};
 }
 
-/// Three or four round numbers across [from, to], and how to write them.
+/// Power of ten, a multiple of three, in which numbers up to `largest` have few digits; 0 where
+/// they have few without.
+int exponent_for(double largest) {
+  const double decade = std::log10(largest);
+  return decade >= -1.0 && decade < 4.0 ? 0 : 3 * static_cast<int>(std::floor(decade / 3.0));
+}
+
+/// "10⁻³ rad/(N m)".
+std::string scaled_unit(int exponent, const std::string& unit) {
+  return exponent == 0 ? unit : fmt::format("{} {}", decade_label(exponent, false), unit);
+}
+
+/// Two or three round numbers across [from, to].
 std::vector<Tick> round_ticks(double from, double to) {
-  const double raw = (to - from) / 3.0;
+  const double raw = (to - from) / 2.4;
   const double decade = std::pow(10.0, std::floor(std::log10(raw)));
   double step = decade;
   for (const double factor : {2.0, 5.0, 10.0}) {
@@ -145,12 +162,16 @@ std::vector<Tick> round_ticks(double from, double to) {
 }
 
 Panel circle_panel(const NyquistPlot& plot, const NyquistCircle& circle) {
-  const Complex centre = (circle.below + circle.above) / 2.0;
-  const double diameter = std::abs(circle.above - circle.below);
+  const double largest =
+      std::max({std::abs(circle.at_pole), std::abs(circle.below), std::abs(circle.above)});
+  const int exponent = exponent_for(largest);
+  const double scale = std::pow(10.0, -exponent);
+  const Complex centre = scale * (circle.below + circle.above) / 2.0;
+  const double diameter = scale * std::abs(circle.above - circle.below);
   const double half_side = kRoomAroundCircle * diameter;
   const auto axis = [&](const char* label, double middle) {
     return Axis{.label = label,
-                .unit = plot.unit,
+                .unit = scaled_unit(exponent, plot.unit),
                 .minimum = middle - half_side,
                 .maximum = middle + half_side,
                 .ticks = round_ticks(middle - half_side, middle + half_side)};
@@ -162,16 +183,21 @@ Panel circle_panel(const NyquistPlot& plot, const NyquistCircle& circle) {
   add_axes(panel, *panel.x->minimum, *panel.x->maximum, *panel.y.minimum, *panel.y.maximum);
   Series locus{"response", {}, {}, kLocus};
   for (const auto& value : circle.values) {
-    locus.x.push_back(value.real());
-    locus.y.push_back(value.imag());
+    locus.x.push_back(scale * value.real());
+    locus.y.push_back(scale * value.imag());
   }
   panel.series.push_back(std::move(locus));
-  panel.series.push_back(
-      {"at a pole's frequency", {circle.at_pole.real()}, {circle.at_pole.imag()}, kAtPole});
-  panel.series.push_back({"half a peak's width away",
-                          {circle.below.real(), circle.above.real()},
-                          {circle.below.imag(), circle.above.imag()},
-                          kHalfPower});
+  const auto mark = [&](const char* name, std::initializer_list<Complex> values, Style style) {
+    Series series{name, {}, {}, style};
+    for (const auto& value : values) {
+      series.x.push_back(scale * value.real());
+      series.y.push_back(scale * value.imag());
+    }
+    panel.series.push_back(std::move(series));
+  };
+  mark(kPoleName, {circle.at_pole}, kAtPole);
+  mark(kHalfPowerName, {circle.below, circle.above}, kHalfPower);
+  panel.annotations.push_back({centre.real() - kTextLeft * diameter, centre.imag(), circle.remark});
   return panel;
 }
 
@@ -191,9 +217,7 @@ Figure nyquist_figure(const NyquistPlot& plot) {
   }
   auto& last = figure.stacks.back();
   last.blank_panels = static_cast<int>(rows - last.panels.size());
-  figure.legend = {{"response", kLocus},
-                   {"at a pole's frequency", kAtPole},
-                   {"half a peak's width away", kHalfPower}};
+  figure.legend = {{"response", kLocus}, {kPoleName, kAtPole}, {kHalfPowerName, kHalfPower}};
   return figure;
 }
 

@@ -10,7 +10,8 @@ namespace flexarm::report {
 
 /// A response around one damped pole, and three points of its circle.
 struct NyquistCircle {
-  std::string label;  ///< "pole 1: 11.86 Hz"
+  std::string label;   ///< above the panel: "pole 1: 11.86 Hz"
+  std::string remark;  ///< inside the circle: "ζ = 0.012"
   std::vector<std::complex<double>> values;
   std::complex<double> at_pole;
   std::complex<double> below;  ///< half a width of the peak below the pole's frequency

@@ -86,6 +86,7 @@ Json response_json(const response::ResponseStudy& study) {
     sensors.back()["state_space"] = {
         {"feedthrough", study.state_space->d(static_cast<Eigen::Index>(k), 0)},
         {"largest_error", errors[k].largest},
+        {"largest_error_frequency_Hz", errors[k].largest_at_Hz},
         {"median_error", errors[k].median},
         {"response", values_json(study.state_space_response->values[k])}};
   }

@@ -7,8 +7,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace flexarm::report {
 
@@ -35,7 +37,30 @@ NamedPlot bode(const std::string& formulation, const response::ResponseStudy& st
   for (const auto& zero : study.products[k].zeros_rad_per_s) {
     if (zero.real() == 0.0) plot.zeros_Hz.push_back(zero.imag() / kTwoPi);
   }
-  return {fmt::format("bode-{}.svg", arm::to_string(sensor)), to_svg(bode_figure(plot))};
+  Figure figure = bode_figure(plot);
+  figure.height_px = study.state_space_response ? 760 : 640;  // room for the unit of a sensor
+  return {fmt::format("bode-{}.svg", arm::to_string(sensor)), to_svg(figure)};
+}
+
+/// The response at all frequencies it is known at, those around the poles among them.
+std::vector<std::complex<double>> values_in_order(const response::ResponseStudy& study,
+                                                  std::size_t k) {
+  std::vector<std::pair<double, std::complex<double>>> points;
+  const auto add = [&](const std::vector<double>& frequency_Hz,
+                       const std::vector<std::complex<double>>& values) {
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      points.emplace_back(frequency_Hz[i], values[i]);
+    }
+  };
+  add(study.response.frequency_Hz, study.response.values[k]);
+  for (const auto& resonance : study.resonances[k]) add(resonance.frequency_Hz, resonance.values);
+  std::ranges::stable_sort(points, {}, [](const auto& point) { return point.first; });
+  const double highest_Hz = study.response.frequency_Hz.back();
+  std::vector<std::complex<double>> values;
+  for (const auto& [frequency_Hz, value] : points) {
+    if (frequency_Hz <= highest_Hz) values.push_back(value);
+  }
+  return values;
 }
 
 NamedPlot nyquist(const response::ResponseStudy& study, std::size_t k) {
@@ -43,13 +68,14 @@ NamedPlot nyquist(const response::ResponseStudy& study, std::size_t k) {
   NyquistPlot plot;
   plot.title = "Torque to " + arm::to_string(sensor);
   plot.unit = response_unit(sensor);
-  plot.response = study.response.values[k];
+  plot.response = values_in_order(study, k);
   for (const auto& resonance : study.resonances[k]) {
     const double damping_ratio =
         -resonance.pole_rad_per_s.real() / std::abs(resonance.pole_rad_per_s);
-    plot.circles.push_back({fmt::format("pole {}: {:.5g} Hz, damping ratio {:.3g}", resonance.order,
-                                        resonance.pole_rad_per_s.imag() / kTwoPi, damping_ratio),
-                            resonance.values, resonance.at_pole, resonance.below, resonance.above});
+    plot.circles.push_back({fmt::format("pole {}: {:.5g} Hz", resonance.order,
+                                        resonance.pole_rad_per_s.imag() / kTwoPi),
+                            fmt::format("ζ = {:.3g}", damping_ratio), resonance.values,
+                            resonance.at_pole, resonance.below, resonance.above});
   }
   return {fmt::format("nyquist-{}.svg", arm::to_string(sensor)), to_svg(nyquist_figure(plot))};
 }

@@ -94,9 +94,9 @@ std::vector<std::string> formulas(const response::ResponseStudy& study, std::siz
   return {
       fmt::format("G = {:.10g}{} prod (1 - s^2/z_i^2)/(1 + s^2/omega_i^2), undamped", product.gain,
                   power),
-      fmt::format("G = {}sum r_i/(s^2 + d_i s + omega_i^2), r_i = value of the sensor times hub "
-                  "slope over I_T",
-                  factor)};
+      fmt::format(
+          "G = {}sum r_i/(s^2 + d_i s + omega_i^2), r_i = sensor value times hub slope over I_T",
+          factor)};
 }
 
 Table factors_table(const response::ResponseStudy& study, std::size_t index) {
@@ -214,12 +214,14 @@ Table state_space_table(const response::ResponseStudy& study) {
                {"feedthrough D", "", kDigits},
                {"unit"},
                error_column("largest error"),
+               {"at", "Hz", 5},
                error_column("median error")}};
   const auto errors = response::state_space_errors(study);
   for (std::size_t k = 0; k < errors.size(); ++k) {
     const auto& sensor = study.response.sensors[k];
     table.add_row({arm::to_string(sensor), study.state_space->d(static_cast<Eigen::Index>(k), 0),
-                   response_unit(sensor), errors[k].largest, errors[k].median});
+                   response_unit(sensor), errors[k].largest, errors[k].largest_at_Hz,
+                   errors[k].median});
   }
   return table;
 }

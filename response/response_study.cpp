@@ -2,7 +2,6 @@
 
 #include "arm/input_error.hpp"
 #include "response/arm_parts.hpp"
-#include "response/interim_models.hpp"
 #include "response/modal_response.hpp"
 #include "response/residual_mode.hpp"
 
@@ -127,18 +126,20 @@ std::vector<StateSpaceError> state_space_errors(const ResponseStudy& study) {
   if (!study.state_space_response) return errors;
   for (std::size_t k = 0; k < study.response.values.size(); ++k) {
     std::vector<double> relative;
+    StateSpaceError found;
     for (std::size_t i = 0; i < study.response.frequency_Hz.size(); ++i) {
       const Complex exact = study.response.values[k][i];
       const double error =
           std::abs(study.state_space_response->values[k][i] - exact) / std::abs(exact);
-      if (std::isfinite(error)) relative.push_back(error);
+      if (!std::isfinite(error)) continue;
+      relative.push_back(error);
+      if (error < found.largest) continue;
+      found.largest = error;
+      found.largest_at_Hz = study.response.frequency_Hz[i];
     }
     std::ranges::sort(relative);
-    if (relative.empty()) {
-      errors.emplace_back();
-    } else {
-      errors.push_back({relative.back(), relative[relative.size() / 2]});
-    }
+    if (!relative.empty()) found.median = relative[relative.size() / 2];
+    errors.push_back(found);
   }
   return errors;
 }

@@ -56,7 +56,8 @@ ResponseStudy study_response(const arm::Arm& arm, const AnyFormulation& formulat
 
 /// |G_ss - G|/|G| of a state space over the frequencies.
 struct StateSpaceError {
-  double largest = 0.0;  ///< at or near a zero or a pole as a rule
+  double largest = 0.0;
+  double largest_at_Hz = 0.0;
   double median = 0.0;
 };
 

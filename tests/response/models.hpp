@@ -3,7 +3,6 @@
 #include "arm/linear_arm.hpp"
 #include "response/any_formulation.hpp"
 #include "response/formulation_maker.hpp"
-#include "response/interim_models.hpp"
 
 #include <vector>
 

@@ -1,7 +1,5 @@
 #include "response/any_formulation.hpp"
 
-#include "arm/input_error.hpp"
-
 namespace flexarm::response {
 
 std::string_view name(const AnyFormulation& formulation) {
@@ -20,6 +18,10 @@ arm::PoleSet poles(const AnyFormulation& formulation, int count) {
   return std::visit([&](const auto& f) { return f.poles(count); }, formulation);
 }
 
+arm::DampedPoleSet damped_poles(const AnyFormulation& formulation, int count) {
+  return std::visit([&](const auto& f) { return f.damped_poles(count); }, formulation);
+}
+
 arm::ZeroSet zeros(const AnyFormulation& formulation, const arm::Sensor& sensor, int count) {
   return std::visit([&](const auto& f) { return f.zeros(sensor, count); }, formulation);
 }
@@ -34,15 +36,8 @@ std::vector<arm::Mode> modes(const AnyFormulation& formulation, int count,
 arm::ModalModel modal_model(const AnyFormulation& formulation, int count,
                             std::span<const arm::Sensor> sensors,
                             std::span<const double> stations_m) {
-  return std::visit(
-      [&](const auto& f) -> arm::ModalModel {
-        if constexpr (requires { f.modal_model(count, sensors, stations_m); }) {
-          return f.modal_model(count, sensors, stations_m);
-        } else {
-          throw arm::InputError("no modal model");
-        }
-      },
-      formulation);
+  return std::visit([&](const auto& f) { return f.modal_model(count, sensors, stations_m); },
+                    formulation);
 }
 
 std::complex<double> transfer_function(const AnyFormulation& formulation, const arm::Sensor& sensor,

@@ -25,6 +25,7 @@ std::string_view name(const AnyFormulation& formulation);
 const arm::Arm& arm_of(const AnyFormulation& formulation);
 int degrees_of_freedom(const AnyFormulation& formulation);
 arm::PoleSet poles(const AnyFormulation& formulation, int count);
+arm::DampedPoleSet damped_poles(const AnyFormulation& formulation, int count);
 arm::ZeroSet zeros(const AnyFormulation& formulation, const arm::Sensor& sensor, int count);
 std::vector<arm::Mode> modes(const AnyFormulation& formulation, int count,
                              std::span<const arm::Sensor> sensors,

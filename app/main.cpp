@@ -50,9 +50,8 @@ int run(int argc, const char* const* argv) {
       "\nExit status: 0 success; 1 failure; 2 input that cannot be used, with one line on\n"
       "standard error.");
   // In the order of a first session.
-  const std::array commands = {add_new(program),      add_modes(program),
-                               add_response(program), add_simulate(program),
-                               add_compare(program),  add_paper(program)};
+  const std::array commands = {add_new(program),      add_modes(program),   add_response(program),
+                               add_simulate(program), add_compare(program), add_paper(program)};
 
   try {
     program.parse(argc, argv);

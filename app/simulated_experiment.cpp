@@ -19,7 +19,6 @@ namespace flexarm::app {
 
 namespace {
 
-constexpr std::int64_t kProgressSteps = 1000;
 constexpr int kFinerSteps = 10;
 constexpr std::uint32_t kStreamsOfARun = 1000;
 
@@ -65,11 +64,12 @@ class Models {
 response::Simulation simulate(const PayloadModel& arm, const std::vector<arm::Sensor>& sensors,
                               const PlannedRun& run, const response::SimulationOptions& options,
                               const std::string& label) {
-  report::Progress progress(label, kProgressSteps);
+  const auto samples = static_cast<std::int64_t>(run.time_s.size());
+  report::Progress progress(label, samples);
   std::int64_t shown = 0;
   return response::simulate(
       arm.model, arm.parts, sensors, run.torque.torque_N_m, options, [&](double fraction) {
-        const auto done = static_cast<std::int64_t>(fraction * kProgressSteps);
+        const auto done = static_cast<std::int64_t>(fraction * static_cast<double>(samples));
         progress.advance(done - std::exchange(shown, done));
         return true;
       });
@@ -122,14 +122,13 @@ SimulatedExperiment simulate_experiment(const arm::Arm& arm, const std::vector<P
     stepping.sample_time_s = measured::sampling_period_s(run.record);
     stepping.hold = options.hold;
     stepping.substeps = options.substeps;
-    run.simulation =
-        simulate(model, sensors, plan, stepping, fmt::format("{}, per mille", plan.id));
+    run.simulation = simulate(model, sensors, plan, stepping, fmt::format("{}, samples", plan.id));
     if (options.check_step) {
       stepping.substeps = kFinerSteps * std::max(1, run.simulation.summary.substeps);
       stepping.energy = false;
       run.step_error = relative_errors(
           run.simulation, simulate(model, sensors, plan, stepping,
-                                   fmt::format("{} in smaller steps, per mille", plan.id)));
+                                   fmt::format("{} in smaller steps, samples", plan.id)));
     }
     for (std::size_t j = 0; j < sensors.size(); ++j) {
       auto reading = run.simulation.channels[j];

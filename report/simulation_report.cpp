@@ -28,14 +28,6 @@ Peak peak_of(const std::vector<double>& values) {
   return peak;
 }
 
-std::string numbers_of(const SimulatedRun& run) {
-  std::string text = run.excitation;
-  for (const auto& key : run.keys) {
-    text += fmt::format(", {} {}{}{}", key.name, key.value, key.unit.empty() ? "" : " ", key.unit);
-  }
-  return text;
-}
-
 std::string panel_label(const arm::Sensor& sensor) {
   switch (sensor.kind) {
     case arm::SensorKind::hub_angle:
@@ -127,7 +119,7 @@ Table torque_table(const std::vector<SimulatedRun>& runs) {
     table.add_row({run.id, static_cast<std::int64_t>(torque.size()), period_s,
                    period_s * static_cast<double>(torque.size()), response::peak_N_m(torque),
                    response::rms_N_m(torque), response::crest_factor(torque), run.payload.mass_kg,
-                   numbers_of(run)});
+                   response::describe(run.excitation, run.keys)});
   }
   return table;
 }

@@ -169,9 +169,9 @@ void set_key(Excitation& excitation, std::string_view key, std::string_view valu
                                arm::did_you_mean(key, allowed), fmt::join(allowed, ", ")));
 }
 
-std::string describe(const Excitation& excitation) {
-  std::string text(name(excitation));
-  for (const auto& key : keys_of(excitation)) {
+std::string describe(std::string_view excitation, const std::vector<ExcitationKey>& keys) {
+  std::string text(excitation);
+  for (const auto& key : keys) {
     text += fmt::format(", {} {}{}{}", key.name, key.value, key.unit.empty() ? "" : " ", key.unit);
   }
   return text;

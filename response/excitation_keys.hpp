@@ -31,6 +31,6 @@ void set_key(Excitation& excitation, std::string_view name, std::string_view val
              const std::vector<std::string>& further = {});
 
 /// "bang-bang, amplitude 0.3 N m, pulse 0.3 s, ..."
-std::string describe(const Excitation& excitation);
+std::string describe(std::string_view excitation, const std::vector<ExcitationKey>& keys);
 
 }  // namespace flexarm::response

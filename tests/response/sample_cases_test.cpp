@@ -142,8 +142,9 @@ TEST_P(SampleCase, WithoutItsEffectsMuchMoreIsLeftInEveryChannel) {
   }
 }
 
-// The simulator of the cases solves friction in steps of 0.1 ms, so that the hub's stops lie up to
-// one step off; the angle adds these errors up.
+// The simulator of the cases takes friction as constant over each of its steps of 0.1 ms. Those
+// errors of first order add up in the hub angle; a stepping of that kind, out of step as above,
+// leaves 0.40 to 0.42 % in every run of sample-2.
 INSTANTIATE_TEST_SUITE_P(, SampleCase,
                          testing::Values(Case{"sample-1", 0.0050, 0.015},
                                          Case{"sample-2", 0.03, 0.03},

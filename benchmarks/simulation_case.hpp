@@ -32,8 +32,7 @@ inline SimulationCase simulation_case(int flexible_modes,
   for (const char* name : {"hub_angle", "hub_velocity", "tip_acceleration", "strain@0.05"}) {
     made.sensors.push_back(arm::parse_sensor(name));
   }
-  made.model =
-      exact_tf::ExactArm(made.arm).modal_model(flexible_modes, made.sensors, stations_m);
+  made.model = exact_tf::ExactArm(made.arm).modal_model(flexible_modes, made.sensors, stations_m);
   std::mt19937 random(1);
   std::uniform_real_distribution<double> torque(-0.05, 0.05);
   while (made.torque_N_m.size() < kSamples) {

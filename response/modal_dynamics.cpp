@@ -33,10 +33,12 @@ void require_complete(const arm::ModalModel& model, std::size_t sensors) {
 /// Where Z and W stand in X.
 struct Layout {
   Index n = 0;
-  Index forces = 0;
+  bool modal_forces = false;  // f is n modal forces, else one torque on the hub
   std::optional<Index> lagged_torque;
   std::optional<Index> lagged_reading;
   Index size = 0;
+
+  Index forces() const { return modal_forces ? n : 1; }
 };
 
 /// The equations of motion without lags: modal accelerations p' = state X + actuator u + force f.
@@ -64,26 +66,27 @@ Accelerations accelerations(const ModalDynamics& arm, const Layout& layout) {
   } else {
     made.actuator = per_torque;
   }
-  if (layout.forces == 1) {
-    made.force = per_torque;
-  } else {
+  if (layout.modal_forces) {
     made.force.setIdentity(layout.n, layout.n);
+  } else {
+    made.force = per_torque;
   }
   return made;
 }
 
-Accelerations held_hub(const Accelerations& free, const Eigen::VectorXd& hub_slope) {
-  const Index n = hub_slope.size();
+Accelerations held_hub(const Accelerations& free, const Eigen::VectorXd& hub_slope,
+                       const Layout& layout) {
+  const Index n = layout.n;
   const Eigen::VectorXd b = hub_slope.normalized();
   const Eigen::MatrixXd project = Eigen::MatrixXd::Identity(n, n) - b * b.transpose();
   // Torque on the hub is taken out to the last bit, not to rounding.
   return {project * free.state, Eigen::VectorXd::Zero(n),
-          free.force.cols() == 1 ? Eigen::MatrixXd::Zero(n, 1).eval()
-                                 : Eigen::MatrixXd(project * free.force)};
+          layout.modal_forces ? Eigen::MatrixXd(project * free.force)
+                              : Eigen::MatrixXd::Zero(n, 1).eval()};
 }
 
 Reading zero_reading(const Layout& layout) {
-  return {Eigen::RowVectorXd::Zero(layout.size), 0.0, Eigen::RowVectorXd::Zero(layout.forces)};
+  return {Eigen::RowVectorXd::Zero(layout.size), 0.0, Eigen::RowVectorXd::Zero(layout.forces())};
 }
 
 /// What a sensor with these modal values reads before its lag.
@@ -110,7 +113,7 @@ LinearSystem assemble(const ModalDynamics& arm, const ArmParts& parts, const Lay
   system.a.middleRows(layout.n, layout.n) = motion.state;
   system.actuator.setZero(layout.size);
   system.actuator.segment(layout.n, layout.n) = motion.actuator;
-  system.force.setZero(layout.size, layout.forces);
+  system.force.setZero(layout.size, layout.forces());
   system.force.middleRows(layout.n, layout.n) = motion.force;
   if (layout.lagged_torque) {
     const double rate = 1.0 / parts.actuator.lag_s;
@@ -147,7 +150,7 @@ Layout layout_of(const arm::ModalModel& model, const ArmParts& parts,
                  std::span<const arm::Sensor> sensors, bool modal_forces) {
   Layout layout;
   layout.n = static_cast<Index>(model.modes.size());
-  layout.forces = modal_forces ? layout.n : 1;
+  layout.modal_forces = modal_forces;
   layout.size = 2 * layout.n;
   if (parts.actuator.lag_s > 0.0) layout.lagged_torque = layout.size++;
   if (parts.sensor_lag && parts.sensor_lag->time_constant_s > 0.0 &&
@@ -206,11 +209,11 @@ ModalDynamics modal_dynamics(const arm::ModalModel& model, const ArmParts& parts
   const Layout layout = layout_of(model, parts, sensors, modal_forces);
   ModalDynamics arm = coordinates(model, layout);
   const Accelerations turning = accelerations(arm, layout);
-  const Accelerations held = held_hub(turning, arm.hub_slope);
+  const Accelerations held = held_hub(turning, arm.hub_slope, layout);
   arm.turning = assemble(arm, parts, layout, turning, sensors, model);
   arm.held = assemble(arm, parts, layout, held, sensors, model);
-  arm.hub_force =
-      layout.forces == 1 ? Eigen::VectorXd::Ones(1) : (arm.hub_slope / arm.modal_mass_kg_m2).eval();
+  arm.hub_force.setOnes(1);
+  if (modal_forces) arm.hub_force = arm.hub_slope / arm.modal_mass_kg_m2;
   const double inertia = arm.modal_mass_kg_m2 / arm.hub_slope.squaredNorm();
   arm.reaction = arm.turning.hub_acceleration;
   arm.reaction.state *= inertia;

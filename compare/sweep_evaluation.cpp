@@ -1,4 +1,5 @@
 #include "arm/input_error.hpp"
+#include "compare/for_each_index.hpp"
 #include "compare/sweep.hpp"
 #include "compare/sweep_checkpoint.hpp"
 
@@ -8,10 +9,6 @@
 #include <limits>
 #include <mutex>
 #include <optional>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 namespace flexarm::compare {
 
 namespace {
@@ -37,14 +34,8 @@ class Evaluation {
   }
 
   SweepValues run() {
-    tbb::task_arena arena(run_.threads > 0 ? run_.threads : tbb::task_arena::automatic);
-    arena.execute([this] {
-      tbb::parallel_for(tbb::blocked_range<std::size_t>(0, task_.points()),
-                        [this](const auto& range) {
-                          for (std::size_t point = range.begin(); point != range.end(); ++point) {
-                            if (is_wanted(point)) compute(point);
-                          }
-                        });
+    for_each_index(task_.points(), run_.threads, [this](std::size_t point) {
+      if (is_wanted(point)) compute(point);
     });
     if (failure_) throw arm::InputError(failure_->what(), failure_->key());
     if (count_done() < task_.points()) {

@@ -176,6 +176,10 @@ void judge_modes(const char* quantity, const SweepTable& table, double tolerance
 
 }  // namespace
 
+bool SweepResult::agrees() const {
+  return std::ranges::all_of(agreement, &SweepAgreement::agrees);
+}
+
 SweepResult assemble(const SweepTask& task, SweepValues values, const SweepRun& run,
                      const SweepTolerances& tolerances) {
   SweepResult result;

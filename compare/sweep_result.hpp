@@ -24,7 +24,7 @@ struct SweepCurve {
   std::vector<std::vector<std::optional<std::complex<double>>>> s_rad_per_s;
 };
 
-/// Number of poles of a damped arm, and of modes: [model][order][point], NaN where there is none.
+/// [model][order][point], NaN where there is none.
 using SweepTable = std::vector<std::vector<std::vector<double>>>;
 
 /// What belongs to each pole beside it. Empty where it was not asked for.
@@ -35,7 +35,8 @@ struct SweepModes {
   /// real ones; projected on undamped modes where `damping_is_projected`.
   SweepTable damping_ratio;
   bool damping_is_projected = false;
-  std::vector<std::vector<std::vector<arm::PolePair>>> damped_poles;  ///< [model][order][point]
+  /// [model][order][point]; empty for an arm without damping anywhere.
+  std::vector<std::vector<std::vector<std::optional<arm::PolePair>>>> damped_poles;
 };
 
 /// Something that happens to a track of zeros, between two places of the last axis.
@@ -82,6 +83,8 @@ struct SweepResult {
   std::vector<SweepEvent> events;
   std::vector<SweepAgreement> agreement;
   std::size_t further_evaluations = 0;  ///< of zeros between grid points, to follow tracks
+
+  bool agrees() const;  ///< every model in every quantity
 };
 
 struct SweepTolerances {

@@ -1,6 +1,7 @@
 #include "compare/sweep_tracks.hpp"
 
 #include "arm/linear_arm.hpp"
+#include "compare/for_each_index.hpp"
 #include "compare/root_tracks.hpp"
 
 #include <algorithm>
@@ -35,12 +36,9 @@ class GridTracker {
 
   GridTracks track() {
     std::vector<Row> rows(rows_);
-    tbb::task_arena arena(run_.threads > 0 ? run_.threads : tbb::task_arena::automatic);
-    arena.execute([&] {
-      tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t i) {
-        rows[i].tracks = track_roots(
-            lists_of_row(i), [this, i](double place) { return zeros_at(i, place); }, options_);
-      });
+    for_each_index(rows.size(), run_.threads, [&](std::size_t i) {
+      rows[i].tracks = track_roots(
+          lists_of_row(i), [this, i](double place) { return zeros_at(i, place); }, options_);
     });
     name(rows);
     GridTracks result = gather(rows);

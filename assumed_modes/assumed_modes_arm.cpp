@@ -2,6 +2,7 @@
 
 #include "arm/effects.hpp"
 #include "arm/input_error.hpp"
+#include "assumed_modes/damped_poles.hpp"
 #include "assumed_modes/output_row.hpp"
 #include "assumed_modes/pencil_zeros.hpp"
 #include "assumed_modes/trusted_zeros.hpp"
@@ -22,7 +23,9 @@ namespace {
 
 arm::Arm checked(arm::Arm arm) {
   arm::require_computable(arm);
-  arm::require_honoured(arm.effects, AssumedModesArm::kName, {});
+  arm::require_honoured(arm.effects, AssumedModesArm::kName,
+                        {"hub_inertia", "flexural_rigidity", "linear_density", "payload_mass",
+                         "payload_inertia", "hub_viscous_friction", "structural_damping"});
   return arm;
 }
 
@@ -66,6 +69,7 @@ arm::SolveSummary summary_of(const RitzPairs& pairs, const AssumedModesOptions& 
 
 AssumedModesArm::AssumedModesArm(arm::Arm arm, Options options)
     : arm_(checked(std::move(arm))),
+      linear_(arm::linear_arm(arm_)),
       options_(checked(options)),
       ratios_(ratios_of(arm_)),
       functions_(options_.basis, options_.functions - 1, ratios_),
@@ -78,7 +82,7 @@ AssumedModesArm::AssumedModesArm(arm::Arm arm, Options options)
 arm::PoleSet AssumedModesArm::poles(int count) const {
   arm::PoleSet result;
   result.omega_rad_per_s = frequencies_rad_per_s(modes_, kept(count, modes_.eigenvalues.size()),
-                                                 arm::omega_scale_rad_per_s(arm_));
+                                                 arm::omega_scale_rad_per_s(linear_));
   result.count.found = static_cast<int>(result.omega_rad_per_s.size());
   result.summary = summary_of(modes_, options_);
   return result;
@@ -97,7 +101,7 @@ arm::ZeroSet AssumedModesArm::hub_zeros(int count) const {
   const RitzPairs pairs = ritz_pairs(clamped_root_mass(without_hub, integrals_.root_slope));
   arm::ZeroSet result;
   for (const double omega : frequencies_rad_per_s(pairs, kept(count, pairs.eigenvalues.size()),
-                                                  arm::omega_scale_rad_per_s(arm_))) {
+                                                  arm::omega_scale_rad_per_s(linear_))) {
     result.s_rad_per_s.emplace_back(0.0, omega);
   }
   result.infinite = 2;
@@ -120,7 +124,7 @@ arm::ZeroSet AssumedModesArm::output_zeros(const arm::Sensor& sensor, int count)
   const std::array checks = {with_more_functions(2), with_more_functions(4)};
   arm::ZeroSet result =
       trusted_zeros(with_more_functions(0), checks, options_.zero_change,
-                    kept(count, modes_.eigenvalues.size()), arm::omega_scale_rad_per_s(arm_));
+                    kept(count, modes_.eigenvalues.size()), arm::omega_scale_rad_per_s(linear_));
   result.summary.method = fmt::format(
       "Rosenbrock pencil on {0} functions ({1}); residual: relative change with {2} and {3}",
       options_.functions, to_string(options_.basis), options_.functions + 2,
@@ -130,8 +134,15 @@ arm::ZeroSet AssumedModesArm::output_zeros(const arm::Sensor& sensor, int count)
 
 std::vector<arm::Mode> AssumedModesArm::modes(int count, std::span<const arm::Sensor> sensors,
                                               std::span<const double> stations_m) const {
+  std::vector<arm::Mode> result = modal_model(count, sensors, stations_m).modes;
+  result.erase(result.begin());
+  return result;
+}
+
+arm::ModalModel AssumedModesArm::modal_model(int count, std::span<const arm::Sensor> sensors,
+                                             std::span<const double> stations_m) const {
   const int available = kept(count, modes_.eigenvalues.size());
-  const Real length = arm_.beam.length_m;
+  const Real length = linear_.length_m;
   std::vector<OutputRow> sensor_rows;
   for (const arm::Sensor& sensor : sensors) {
     sensor_rows.push_back(output_row(sensor, arm_, functions_));
@@ -142,8 +153,15 @@ std::vector<arm::Mode> AssumedModesArm::modes(int count, std::span<const arm::Se
     station_rows.push_back({length, station_m / length, functions_.values(station_m / length, 0)});
   }
 
-  const double inertia_kg_m2 = arm::total_inertia_kg_m2(arm_);
-  std::vector<arm::Mode> result;
+  arm::ModalModel model;
+  model.modal_mass_kg_m2 = arm::total_inertia_kg_m2(linear_);
+  arm::Mode& rigid = model.modes.emplace_back();
+  rigid.hub_slope = 1.0;
+  const auto shown_by_rigid = [](const OutputRow& row) {
+    return static_cast<double>(row.unit * row.rigid);
+  };
+  std::ranges::transform(sensor_rows, std::back_inserter(rigid.sensor_values), shown_by_rigid);
+  std::ranges::transform(station_rows, std::back_inserter(rigid.displacement_m), shown_by_rigid);
   for (Eigen::Index k = 0; k < available; ++k) {
     // A vector with q^T q = 1 has the modal mass 1/mu; the mode is to have the rigid rotation's.
     const Real sign = hub_slopes_(k) < 0 ? -1 : 1;
@@ -158,18 +176,42 @@ std::vector<arm::Mode> AssumedModesArm::modes(int count, std::span<const arm::Se
     };
     arm::Mode mode;
     mode.omega_rad_per_s =
-        static_cast<double>(std::sqrt(modes_.eigenvalues(k)) * arm::omega_scale_rad_per_s(arm_));
+        static_cast<double>(std::sqrt(modes_.eigenvalues(k)) * arm::omega_scale_rad_per_s(linear_));
     mode.hub_slope = static_cast<double>(scale * hub_slopes_(k));
-    mode.damping_ratio =
-        (arm_.damping.kelvin_voigt_s * mode.omega_rad_per_s * mode.omega_rad_per_s +
-         arm_.hub.viscous_friction_N_m_s_per_rad * mode.hub_slope * mode.hub_slope /
-             inertia_kg_m2) /
-        (2.0 * mode.omega_rad_per_s);
     mode.sensor_values = values(sensor_rows);
     mode.displacement_m = values(station_rows);
-    result.push_back(std::move(mode));
+    model.modes.push_back(std::move(mode));
   }
-  return result;
+  for (const arm::Mode& i : model.modes) {
+    for (const arm::Mode& j : model.modes) {
+      const double bending =
+          &i == &j ? linear_.kelvin_voigt_s * i.omega_rad_per_s * i.omega_rad_per_s : 0.0;
+      model.damping_rad_per_s.push_back(bending + linear_.hub_viscous_friction_N_m_s_per_rad /
+                                                      model.modal_mass_kg_m2 *
+                                                      (i.hub_slope * j.hub_slope));
+    }
+  }
+  for (std::size_t k = 1; k < model.modes.size(); ++k) {
+    model.modes[k].damping_ratio = model.damping_rad_per_s[k * (model.modes.size() + 1)] /
+                                   (2.0 * model.modes[k].omega_rad_per_s);
+  }
+  return model;
+}
+
+arm::DampedPoleSet AssumedModesArm::damped_poles(int count) const {
+  const int available = kept(count, modes_.eigenvalues.size());
+  const Eigen::Index n = modes_.eigenvalues.size() + 1;
+  const Real scale = arm::omega_scale_rad_per_s(linear_);
+  const Real torsion_N_m = linear_.flexural_rigidity_N_m2 / linear_.length_m;
+  Vector hub = Vector::Ones(n);
+  hub.tail(n - 1) = hub_slopes_;
+  QuadraticPencil pencil{
+      Vector::Constant(n, mass_.rigid), Vector::Ones(n),
+      linear_.hub_viscous_friction_N_m_s_per_rad * scale / torsion_N_m * hub * hub.transpose()};
+  pencil.mass.tail(n - 1) = modes_.eigenvalues.cwiseInverse();
+  pencil.stiffness(0) = 0;
+  pencil.damping.diagonal().tail(n - 1).array() += linear_.kelvin_voigt_s * scale;
+  return assumed_modes::damped_poles(pencil, available, static_cast<double>(scale));
 }
 
 std::complex<double> AssumedModesArm::transfer_function(const arm::Sensor& sensor,
@@ -185,9 +227,9 @@ std::complex<double> AssumedModesArm::transfer_function(const arm::Sensor& senso
   // Without hub friction K (1 + kv s) + sigma^2 M is diagonal in the modes; friction adds
   // c s a a^T, whose inverse the Sherman-Morrison formula gives.
   const Complex s(s_rad_per_s);
-  const Real scale = arm::omega_scale_rad_per_s(arm_);
+  const Real scale = arm::omega_scale_rad_per_s(linear_);
   const Complex sigma_squared = (s / scale) * (s / scale);
-  const Complex stiffness = Real{1} + static_cast<Real>(arm_.damping.kelvin_voigt_s) * s;
+  const Complex stiffness = Real{1} + static_cast<Real>(linear_.kelvin_voigt_s) * s;
   const Complex rigid = Real{1} / (sigma_squared * mass_.rigid);
   Complex hub_response = rigid;
   Complex response = row.rigid * rigid;
@@ -197,22 +239,22 @@ std::complex<double> AssumedModesArm::transfer_function(const arm::Sensor& senso
     response += flexible(k) * per_torque;
   }
   const Real compliance =
-      static_cast<Real>(arm_.beam.length_m) / static_cast<Real>(arm_.beam.flexural_rigidity_N_m2());
+      static_cast<Real>(linear_.length_m) / static_cast<Real>(linear_.flexural_rigidity_N_m2);
   const Complex friction =
-      static_cast<Real>(arm_.hub.viscous_friction_N_m_s_per_rad) * s * compliance;
+      static_cast<Real>(linear_.hub_viscous_friction_N_m_s_per_rad) * s * compliance;
   response *= row.unit * compliance / (Real{1} + friction * hub_response);
   for (int order = arm::derivative_order(sensor); order > 0; --order) response *= s;
   return std::complex<double>(response);
 }
 
 Eigen::MatrixXd AssumedModesArm::mass_matrix_kg_m2() const {
-  const Real unit = static_cast<Real>(arm_.beam.linear_density_kg_per_m()) *
-                    std::pow(static_cast<Real>(arm_.beam.length_m), 3);
+  const Real unit = static_cast<Real>(linear_.linear_density_kg_per_m) *
+                    std::pow(static_cast<Real>(linear_.length_m), 3);
   return (unit * mass_.assembled()).cast<double>();
 }
 
 Eigen::MatrixXd AssumedModesArm::stiffness_matrix_N_m() const {
-  const double unit = arm_.beam.flexural_rigidity_N_m2() / arm_.beam.length_m;
+  const double unit = linear_.flexural_rigidity_N_m2 / linear_.length_m;
   Eigen::VectorXd diagonal = Eigen::VectorXd::Constant(options_.functions, unit);
   diagonal(0) = 0.0;
   return diagonal.asDiagonal();

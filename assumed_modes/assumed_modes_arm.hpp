@@ -1,6 +1,7 @@
 #pragma once
 
 #include "arm/formulation.hpp"
+#include "arm/linear_arm.hpp"
 #include "assumed_modes/admissible_functions.hpp"
 #include "assumed_modes/basis.hpp"
 #include "assumed_modes/mass_matrix.hpp"
@@ -69,6 +70,10 @@ class AssumedModesArm {
   arm::ZeroSet zeros(const arm::Sensor& sensor, int count) const;
   std::vector<arm::Mode> modes(int count, std::span<const arm::Sensor> sensors,
                                std::span<const double> stations_m) const;
+  /// Of the whole quadratic eigenproblem; conventions in assumed_modes/damped_poles.hpp.
+  arm::DampedPoleSet damped_poles(int count) const;
+  arm::ModalModel modal_model(int count, std::span<const arm::Sensor> sensors,
+                              std::span<const double> stations_m) const;
   std::complex<double> transfer_function(const arm::Sensor& sensor,
                                          std::complex<double> s_rad_per_s) const;
 
@@ -84,6 +89,7 @@ class AssumedModesArm {
   arm::ZeroSet output_zeros(const arm::Sensor& sensor, int count) const;
 
   arm::Arm arm_;
+  arm::LinearArm linear_;
   Options options_;
   InertiaRatios ratios_;
   AdmissibleFunctions functions_;

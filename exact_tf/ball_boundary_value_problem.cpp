@@ -22,15 +22,15 @@ ComplexBall determinant_of_rows(const Row& a, const Row& b, const Row& c, const 
 
 }  // namespace
 
-DimensionlessArm::DimensionlessArm(const arm::Arm& arm) {
-  const RealBall length(arm.beam.length_m);
-  const RealBall density(arm.beam.linear_density_kg_per_m());
-  const RealBall rigidity(arm.beam.flexural_rigidity_N_m2());
+DimensionlessArm::DimensionlessArm(const arm::LinearArm& arm) {
+  const RealBall length(arm.length_m);
+  const RealBall density(arm.linear_density_kg_per_m);
+  const RealBall rigidity(arm.flexural_rigidity_N_m2);
   const RealBall beam_mass = density * length;
   const RealBall beam_inertia = beam_mass * length * length;
-  hub_inertia = RealBall(arm.hub.inertia_kg_m2) / beam_inertia;
-  payload_mass = RealBall(arm.payload.mass_kg) / beam_mass;
-  payload_inertia = RealBall(arm.payload.inertia_kg_m2) / beam_inertia;
+  hub_inertia = RealBall(arm.hub_inertia_kg_m2) / beam_inertia;
+  payload_mass = RealBall(arm.payload_mass_kg) / beam_mass;
+  payload_inertia = RealBall(arm.payload_tip_inertia_kg_m2) / beam_inertia;
   omega_scale = sqrt(rigidity / density) / (length * length);
 }
 

@@ -2,7 +2,7 @@
 
 // Private to exact_tf: the boundary-value problem in ball arithmetic. Not installed.
 
-#include "arm/arm.hpp"
+#include "arm/linear_arm.hpp"
 #include "arm/sensor.hpp"
 #include "exact_tf/ball.hpp"
 
@@ -18,7 +18,7 @@ struct DimensionlessArm {
   RealBall payload_inertia;  ///< Ip/(m l^3)
   RealBall omega_scale;      ///< sqrt(EI/(m l^4)) [rad/s]
 
-  explicit DimensionlessArm(const arm::Arm& arm);
+  explicit DimensionlessArm(const arm::LinearArm& arm);
 };
 
 /// What is zero at a root beside y(0), the tip's shear force and the tip's bending moment.

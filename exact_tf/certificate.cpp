@@ -3,6 +3,7 @@
 #include "exact_tf/analytic_zeros.hpp"
 #include "exact_tf/ball_boundary_value_problem.hpp"
 #include "exact_tf/ball_enclosure.hpp"
+#include "exact_tf/plain_arm.hpp"
 
 #include <fmt/format.h>
 
@@ -53,18 +54,23 @@ auto at_rising_precision(const CertificateOptions& options, long& highest, Attem
 class Problem {
  public:
   Problem(const arm::Arm& arm, LastRow last_row, double position_m = 0.0)
-      : arm_(arm), last_row_(last_row), position_m_(position_m) {
-    arm::require_valid(arm);
-    arm::require_honoured(arm.effects, "the exact roots' certificate", {});
-  }
+      : arm_(plain(arm)), last_row_(last_row), position_m_(position_m) {}
+
+  const arm::LinearArm& arm() const { return arm_; }
 
   RootFunction function() const {
     return RootFunction(DimensionlessArm(arm_), last_row_,
-                        RealBall(position_m_) / RealBall(arm_.beam.length_m));
+                        RealBall(position_m_) / RealBall(arm_.length_m));
   }
 
  private:
-  arm::Arm arm_;
+  static arm::LinearArm plain(const arm::Arm& arm) {
+    arm::require_valid(arm);
+    arm::require_honoured(arm.effects, "the exact roots' certificate", plain_effect_names());
+    return linear_arm(arm);
+  }
+
+  arm::LinearArm arm_;
   LastRow last_row_;
   double position_m_;
 };
@@ -219,7 +225,7 @@ Certificate certify_self_adjoint(const arm::Arm& arm, LastRow last_row,
     given.push_back([lambda] { return ComplexBall(RealBall(lambda)); });
   }
   const auto count = [&](const RealBall& beyond) -> std::optional<long> {
-    const auto found = ball::wittrick_williams(DimensionlessArm(arm), beyond);
+    const auto found = ball::wittrick_williams(DimensionlessArm(problem.arm()), beyond);
     if (!found) return std::nullopt;
     constexpr long kRigidBodyModes = 1;
     return last_row == LastRow::hub_torque ? found->poles - kRigidBodyModes : found->hub_zeros;
@@ -271,9 +277,9 @@ Certificate certify_zeros(const arm::Arm& arm, const arm::Sensor& sensor,
                    : s.imag() == 0.0 ? ZeroLocus::negative_axis
                                      : ZeroLocus::off_axis);
     // s^2 = -lambda^4 omega_scale^2, on the branch 0 <= arg lambda <= pi/4.
-    given.push_back([&arm, s] {
+    given.push_back([&problem, s] {
       return sqrt(ComplexBall(RealBall(s.imag()), RealBall(s.real())) /
-                  ComplexBall(DimensionlessArm(arm).omega_scale));
+                  ComplexBall(DimensionlessArm(problem.arm()).omega_scale));
     });
   }
   long values_left = options.max_function_values;

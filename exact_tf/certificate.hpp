@@ -51,11 +51,10 @@ struct Certificate {
 };
 
 /// Certifies that `lambdas` are the lowest flexible poles of the undamped arm, ascending, none left
-/// out: lambda^4 = m l^4 omega^2/(EI). The arm's doubles count as exact numbers, and so do the
-/// doubles of arm.beam.flexural_rigidity_N_m2() and linear_density_kg_per_m(). Roots are enclosed
-/// by a change of sign and counted by Wittrick and Williams's algorithm in balls. Cost is linear in
-/// the number of roots.
-/// Throws arm::InputError for an invalid arm and for an effect, which it does not model.
+/// out: lambda^4 = m l^4 omega^2/(EI). The doubles of arm::linear_arm(arm) count as exact numbers.
+/// Roots are enclosed by a change of sign and counted by Wittrick and Williams's algorithm in
+/// balls. Cost is linear in the number of roots. Throws arm::InputError for an invalid arm, and by
+/// name for an effect that is not in `plain_effect_names()`, which it does not model.
 Certificate certify_poles(const arm::Arm& arm, std::span<const double> lambdas,
                           const CertificateOptions& options = {});
 

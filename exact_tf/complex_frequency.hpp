@@ -1,9 +1,7 @@
 #pragma once
 
-#include "arm/arm.hpp"
+#include "arm/linear_arm.hpp"
 #include "exact_tf/scaled.hpp"
-
-#include <complex>
 
 namespace flexarm::exact_tf {
 
@@ -17,10 +15,12 @@ struct ComplexFrequency {
   Complex at_z(const Complex& at_lambda) const;
 };
 
-/// Not finite at s = -1/kv, where the poles of a Kelvin-Voigt beam accumulate.
-ComplexFrequency complex_frequency(const arm::Arm& arm, std::complex<double> s_rad_per_s);
+/// With the damping times `damping`. Not finite at s = -1/kv, where the poles of a Kelvin-Voigt
+/// beam accumulate.
+ComplexFrequency complex_frequency(const arm::LinearArm& arm, const Complex& s_rad_per_s,
+                                   const Complex& damping = 1.0L);
 
 /// sqrt(EI/(m l^4)) in long double: omega = lambda^2 times this [rad/s].
-Real frequency_scale_rad_per_s(const arm::Arm& arm);
+Real frequency_scale_rad_per_s(const arm::LinearArm& arm);
 
 }  // namespace flexarm::exact_tf

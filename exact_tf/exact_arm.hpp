@@ -1,8 +1,8 @@
 #pragma once
 
 #include "arm/formulation.hpp"
-#include "exact_tf/numerator.hpp"
-#include "exact_tf/root_search.hpp"
+#include "arm/linear_arm.hpp"
+#include "exact_tf/plain_arm.hpp"
 
 #include <complex>
 #include <span>
@@ -17,17 +17,19 @@ namespace flexarm::exact_tf {
 ///     const ExactArm exact(arm::paper_arm());
 ///     const double first_Hz = exact.poles(1).omega_rad_per_s[0] / (2 * std::numbers::pi);
 ///
-/// Kelvin-Voigt damping and hub friction are in the transfer function without approximation. No
-/// effect of arm::effect_vocabulary() is honoured; each is refused by name.
+/// Damping is in the transfer function and in the damped poles without approximation. Honours the
+/// effects of `plain_effect_names()` and refuses others by name.
 class ExactArm {
  public:
   static constexpr std::string_view kName = "exact_tf";
 
-  /// Throws arm::InputError for an invalid arm and for any effect.
+  /// Throws arm::InputError for an invalid arm and for an effect that is not honoured.
   explicit ExactArm(arm::Arm arm);
 
   const arm::Arm& arm() const { return arm_; }
-  const InertiaRatios& ratios() const { return ratios_; }
+  /// What the equations are made of: the arm with its effects.
+  const arm::LinearArm& linear() const { return linear_; }
+  const InertiaRatios& ratios() const { return engine_.ratios(); }
   int degrees_of_freedom() const { return 0; }
 
   /// The `count` lowest lambda of the flexible poles, ascending, within an ulp or so. The poles are
@@ -38,15 +40,19 @@ class ExactArm {
   std::vector<double> hub_zero_lambdas(int count) const;
 
   arm::PoleSet poles(int count) const;
+  arm::DampedPoleSet damped_poles(int count) const;
   arm::ZeroSet zeros(const arm::Sensor& sensor, int count) const;
   std::vector<arm::Mode> modes(int count, std::span<const arm::Sensor> sensors,
                                std::span<const double> stations_m) const;
+  arm::ModalModel modal_model(int count, std::span<const arm::Sensor> sensors,
+                              std::span<const double> stations_m) const;
   std::complex<double> transfer_function(const arm::Sensor& sensor,
                                          std::complex<double> s_rad_per_s) const;
 
  private:
   arm::Arm arm_;
-  InertiaRatios ratios_;
+  arm::LinearArm linear_;
+  PlainArm engine_;
 };
 
 static_assert(arm::Formulation<ExactArm>);

@@ -28,8 +28,8 @@ Real hub_angle_at_pole(const InertiaRatios& ratios, const BeamProducts<Real>& k,
 
 }  // namespace
 
-ModeShape::ModeShape(const arm::Arm& arm, const InertiaRatios& ratios, Real pole_lambda)
-    : length_m_(arm.beam.length_m), ratios_(ratios), lambda_(pole_lambda) {
+ModeShape::ModeShape(const arm::LinearArm& arm, const InertiaRatios& ratios, Real pole_lambda)
+    : length_m_(arm.length_m), ratios_(ratios), lambda_(pole_lambda) {
   const auto k = beam_products(lambda_);
   const Real hub_angle = hub_angle_at_pole(ratios, k, lambda_);
   const Real modal_mass = 0.25L * hub_angle * pole_derivative(ratios, k);

@@ -12,7 +12,7 @@ namespace flexarm::exact_tf {
 class ModeShape {
  public:
   /// `pole_lambda` is a root of E as `find_poles` gives it.
-  ModeShape(const arm::Arm& arm, const InertiaRatios& ratios, Real pole_lambda);
+  ModeShape(const arm::LinearArm& arm, const InertiaRatios& ratios, Real pole_lambda);
 
   Real hub_slope() const { return hub_slope_; }   ///< phi'(0) [1]
   Real tip_displacement_m() const;                ///< phi(l)

@@ -76,11 +76,11 @@ KrylovValues<T> krylov_values(const T& z, Real xi) {
 
 }  // namespace
 
-InertiaRatios inertia_ratios(const arm::Arm& arm) {
-  const Real l = arm.beam.length_m;
-  const Real mass = arm.beam.linear_density_kg_per_m() * l;
-  return {arm.hub.inertia_kg_m2 / (mass * l * l), arm.payload.mass_kg / mass,
-          arm.payload.inertia_kg_m2 / (mass * l * l)};
+InertiaRatios inertia_ratios(const arm::LinearArm& arm) {
+  const Real l = arm.length_m;
+  const Real mass = arm.linear_density_kg_per_m * l;
+  return {arm.hub_inertia_kg_m2 / (mass * l * l), arm.payload_mass_kg / mass,
+          arm.payload_tip_inertia_kg_m2 / (mass * l * l)};
 }
 
 Real distance_from_tip(double length_m, double position_m) {
@@ -174,7 +174,7 @@ Scaled<T> displacement_numerator(const InertiaRatios& ratios, const T& lambda, R
 }
 
 template <class T>
-Scaled<T> sensor_numerator(const arm::Arm& arm, const arm::Sensor& sensor, const T& lambda) {
+Scaled<T> sensor_numerator(const arm::LinearArm& arm, const arm::Sensor& sensor, const T& lambda) {
   const InertiaRatios ratios = inertia_ratios(arm);
   switch (sensor.kind) {
     case arm::SensorKind::hub_angle:
@@ -187,14 +187,14 @@ Scaled<T> sensor_numerator(const arm::Arm& arm, const arm::Sensor& sensor, const
       return tip_deflection_numerator(ratios, lambda);
     case arm::SensorKind::strain:
       return curvature_numerator(ratios, lambda,
-                                 distance_from_tip(arm.beam.length_m, sensor.position_m));
+                                 distance_from_tip(arm.length_m, sensor.position_m));
   }
   throw std::logic_error("sensor kind outside its enumeration");
 }
 
-Complex sensor_factor(const arm::Arm& arm, const arm::Sensor& sensor, const Complex& s,
+Complex sensor_factor(const arm::LinearArm& arm, const arm::Sensor& sensor, const Complex& s,
                       const Complex& z) {
-  const Real l = arm.beam.length_m;
+  const Real l = arm.length_m;
   switch (sensor.kind) {
     case arm::SensorKind::hub_angle:
       return 1.0L;
@@ -207,7 +207,7 @@ Complex sensor_factor(const arm::Arm& arm, const arm::Sensor& sensor, const Comp
     case arm::SensorKind::tip_deflection:
       return l * z;
     case arm::SensorKind::strain:
-      return 0.5L * arm.beam.thickness_m.value() / l * z;
+      return 0.5L * arm.thickness_m.value() / l * z;
   }
   throw std::logic_error("sensor kind outside its enumeration");
 }
@@ -224,7 +224,8 @@ template Scaled<Real> curvature_numerator(const InertiaRatios&, const Real&, Rea
 template Scaled<Complex> curvature_numerator(const InertiaRatios&, const Complex&, Real);
 template Scaled<Real> displacement_numerator(const InertiaRatios&, const Real&, Real);
 template Scaled<Complex> displacement_numerator(const InertiaRatios&, const Complex&, Real);
-template Scaled<Real> sensor_numerator(const arm::Arm&, const arm::Sensor&, const Real&);
-template Scaled<Complex> sensor_numerator(const arm::Arm&, const arm::Sensor&, const Complex&);
+template Scaled<Real> sensor_numerator(const arm::LinearArm&, const arm::Sensor&, const Real&);
+template Scaled<Complex> sensor_numerator(const arm::LinearArm&, const arm::Sensor&,
+                                          const Complex&);
 
 }  // namespace flexarm::exact_tf

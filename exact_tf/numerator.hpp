@@ -1,6 +1,6 @@
 #pragma once
 
-#include "arm/arm.hpp"
+#include "arm/linear_arm.hpp"
 #include "arm/sensor.hpp"
 #include "exact_tf/krylov.hpp"
 #include "exact_tf/scaled.hpp"
@@ -15,9 +15,11 @@ struct InertiaRatios {
   Real payload_inertia = 0.0L;  ///< mu = Ip/(m l^3)
 };
 
-InertiaRatios inertia_ratios(const arm::Arm& arm);
+/// For an arm that `is_plain`.
+InertiaRatios inertia_ratios(const arm::LinearArm& arm);
 
-/// The boundary value problem of arm/arm.hpp, with x in units of l and
+/// The boundary value problem of arm/arm.hpp, which is that of a plain arm, with x in units of l
+/// and
 ///
 ///     kappa = EI (1 + kv s),   z = lambda^4 = -m s^2 l^4/kappa:
 ///
@@ -97,11 +99,11 @@ Real distance_from_tip(double length_m, double position_m);
 /// The numerator of a sensor, by its kind: hub_angle, hub_velocity -> N_hub; tip_acceleration,
 /// tip_displacement -> N_tip; tip_deflection -> N_deflection; strain -> N_curvature.
 template <class T>
-Scaled<T> sensor_numerator(const arm::Arm& arm, const arm::Sensor& sensor, const T& lambda);
+Scaled<T> sensor_numerator(const arm::LinearArm& arm, const arm::Sensor& sensor, const T& lambda);
 
 /// What stands in front of that numerator in the list above, time derivatives and half the
 /// thickness included: tau to sensor is sensor_factor N/D. `z` belongs to `s` [rad/s].
-Complex sensor_factor(const arm::Arm& arm, const arm::Sensor& sensor, const Complex& s,
+Complex sensor_factor(const arm::LinearArm& arm, const arm::Sensor& sensor, const Complex& s,
                       const Complex& z);
 
 }  // namespace flexarm::exact_tf

@@ -10,14 +10,14 @@ namespace flexarm::exact_tf {
 
 namespace {
 
-Real rigid_value(const arm::Arm& arm, const arm::Sensor& sensor) {
+Real rigid_value(const arm::LinearArm& arm, const arm::Sensor& sensor) {
   switch (sensor.kind) {
     case arm::SensorKind::hub_angle:
     case arm::SensorKind::hub_velocity:
       return 1.0;
     case arm::SensorKind::tip_displacement:
     case arm::SensorKind::tip_acceleration:
-      return arm.beam.length_m;
+      return arm.length_m;
     case arm::SensorKind::tip_deflection:
     case arm::SensorKind::strain:
       return 0.0;
@@ -28,7 +28,7 @@ Real rigid_value(const arm::Arm& arm, const arm::Sensor& sensor) {
 }  // namespace
 
 PartialFractions::PartialFractions(const ExactArm& arm, const arm::Sensor& sensor, int order)
-    : arm_(arm.arm()),
+    : arm_(arm.linear()),
       derivative_order_(derivative_order(sensor)),
       rigid_value_(rigid_value(arm_, sensor)),
       modes_(arm.modes(order, std::array{sensor}, {})) {}
@@ -36,8 +36,8 @@ PartialFractions::PartialFractions(const ExactArm& arm, const arm::Sensor& senso
 std::complex<double> PartialFractions::operator()(std::complex<double> s_rad_per_s) const {
   if (s_rad_per_s == 0.0) throw std::domain_error("partial fractions: double pole at s = 0");
   const Complex s(s_rad_per_s.real(), s_rad_per_s.imag());
-  const Real damping = arm_.damping.kelvin_voigt_s;
-  const Real friction = arm_.hub.viscous_friction_N_m_s_per_rad;
+  const Real damping = arm_.kelvin_voigt_s;
+  const Real friction = arm_.hub_viscous_friction_N_m_s_per_rad;
   const Real inertia = arm::total_inertia_kg_m2(arm_);
   Complex sensor_sum = 0.0L;
   Complex hub_sum = 0.0L;

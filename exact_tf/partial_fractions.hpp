@@ -23,14 +23,14 @@ namespace flexarm::exact_tf {
 /// tip alternate in sign: n^-6 and n^-3.
 class PartialFractions {
  public:
-  /// Throws as ExactArm::modes does.
+  /// For a plain arm. Throws as ExactArm::modes does.
   PartialFractions(const ExactArm& arm, const arm::Sensor& sensor, int order);
 
   /// Response per unit of torque at s [rad/s]; s = 0 is a std::domain_error.
   std::complex<double> operator()(std::complex<double> s_rad_per_s) const;
 
  private:
-  arm::Arm arm_;
+  arm::LinearArm arm_;
   int derivative_order_;
   Real rigid_value_;  ///< the sensor's value of phi_0 = x
   std::vector<arm::Mode> modes_;

@@ -35,10 +35,10 @@ Complex product(const std::vector<Complex>& inverse_roots, const Complex& z) {
 }  // namespace
 
 ProductForm::ProductForm(const ExactArm& arm, const arm::Sensor& sensor, int order)
-    : arm_(arm.arm()), sensor_(sensor) {
+    : arm_(arm.linear()), sensor_(sensor) {
   const Real scale = frequency_scale_rad_per_s(arm_);
   zeros_ = inverse_roots(arm.zeros(sensor, order), scale);
-  if (arm_.hub.viscous_friction_N_m_s_per_rad > 0.0) {
+  if (arm_.hub_viscous_friction_N_m_s_per_rad > 0.0) {
     hub_ = inverse_roots(arm.zeros({arm::SensorKind::hub_angle}, order), scale);
   }
   for (const double omega : arm.poles(order).omega_rad_per_s) {
@@ -50,9 +50,9 @@ ProductForm::ProductForm(const ExactArm& arm, const arm::Sensor& sensor, int ord
 std::complex<double> ProductForm::operator()(std::complex<double> s_rad_per_s) const {
   if (s_rad_per_s == 0.0) throw std::domain_error("product form: double pole at s = 0");
   const Complex s(s_rad_per_s.real(), s_rad_per_s.imag());
-  const Complex z = complex_frequency(arm_, s_rad_per_s).z;
+  const Complex z = complex_frequency(arm_, s).z;
   const Real inertia = arm::total_inertia_kg_m2(arm_);
-  const Real friction = arm_.hub.viscous_friction_N_m_s_per_rad;
+  const Real friction = arm_.hub_viscous_friction_N_m_s_per_rad;
   const Complex denominator =
       inertia * (s * s) * product(poles_, z) + friction * s * product(hub_, z);
   const Complex value =

@@ -24,14 +24,14 @@ namespace flexarm::exact_tf {
 /// then a pole and its zero are some 1/(epsilon lambda^3) apart.
 class ProductForm {
  public:
-  /// Throws as ExactArm::poles and ExactArm::zeros do.
+  /// For a plain arm. Throws as ExactArm::poles and ExactArm::zeros do.
   ProductForm(const ExactArm& arm, const arm::Sensor& sensor, int order);
 
   /// Response per unit of torque at s [rad/s]; s = 0 is a std::domain_error.
   std::complex<double> operator()(std::complex<double> s_rad_per_s) const;
 
  private:
-  arm::Arm arm_;
+  arm::LinearArm arm_;
   arm::Sensor sensor_;
   Real value_at_rest_;          ///< N(0) of the sensor
   std::vector<Complex> zeros_;  ///< 1/z_i of the sensor's numerator

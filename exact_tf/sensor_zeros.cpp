@@ -29,10 +29,8 @@ std::complex<double> s_of(const AnalyticZero& zero, Real scale_rad_per_s) {
 
 }  // namespace
 
-arm::ZeroSet find_sensor_zeros(const arm::Arm& arm, const arm::Sensor& sensor, int count,
+arm::ZeroSet find_sensor_zeros(const arm::LinearArm& arm, const arm::Sensor& sensor, int count,
                                const AnalyticZeroOptions& options) {
-  require_valid(sensor, arm);
-  require_responsive(sensor, arm);
   const auto numerator = [&](const Complex& lambda) -> Complex {
     // Real lambda costs half as much.
     if (lambda.imag() == 0.0L) return sensor_numerator(arm, sensor, lambda.real()).value;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "arm/formulation.hpp"
+#include "arm/linear_arm.hpp"
 #include "exact_tf/analytic_zeros.hpp"
 
 namespace flexarm::exact_tf {
@@ -10,10 +11,10 @@ namespace flexarm::exact_tf {
 /// exact_tf/numerator.hpp. A zero of the numerator that is a pole too is among them: all those of
 /// strain at the root without hub inertia, which follows the torque. `count.expected` is
 /// `count.found` plus what the argument principle counts beyond the zeros found;
-/// `summary.iterations` are values of the numerator. Throws arm::InputError for a sensor
-/// that the arm cannot carry or that reads zero at every s, and std::invalid_argument for count
-/// < 1.
-arm::ZeroSet find_sensor_zeros(const arm::Arm& arm, const arm::Sensor& sensor, int count,
+/// `summary.iterations` are values of the numerator. For a plain arm and a sensor that it carries
+/// (`require_valid`) and that does not read zero at every s (`require_responsive`). Throws
+/// std::invalid_argument for count < 1.
+arm::ZeroSet find_sensor_zeros(const arm::LinearArm& arm, const arm::Sensor& sensor, int count,
                                const AnalyticZeroOptions& options = {});
 
 }  // namespace flexarm::exact_tf

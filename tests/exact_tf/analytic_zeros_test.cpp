@@ -315,7 +315,7 @@ TEST(AnalyticZeros, DoNotDependOnTheStepOfTheSearch) {
                                    ? arm::Sensor{arm::SensorKind::tip_deflection}
                                    : arm::Sensor{arm::SensorKind::strain, uniform(generator)};
     const auto numerator = [&](const Complex& lambda) {
-      return sensor_numerator(arm, sensor, lambda).value;
+      return sensor_numerator(linear_arm(arm), sensor, lambda).value;
     };
     AnalyticZeroOptions coarse;
     coarse.axis_step = 6.0L;

@@ -233,8 +233,17 @@ TEST(Certificate, IsRefusedWhereItWouldNotHold) {
   const std::vector<std::complex<double>> s = {{1.0, 0.0}};
   const arm::Sensor at_tip{arm::SensorKind::strain, arm.beam.length_m};
   EXPECT_THROW(certify_zeros(arm, at_tip, s), arm::InputError);
-  arm.effects["hub_inertia"] = {{{"factor", 2.0}}, ""};
+  arm.effects["hub_spring"] = {{{"stiffness", 2.0}}, ""};
   EXPECT_THROW(certify_poles(arm, std::vector{1.0}), arm::InputError);
+}
+
+TEST(Certificate, HoldsForAnArmWithTheEffectsOfAPlainOne) {
+  arm::Arm arm = arm::paper_arm();
+  arm.effects["hub_inertia"] = {{{"factor", 2.0}}, ""};
+  arm.effects["flexural_rigidity"] = {{{"factor", 0.9}}, ""};
+  const ExactArm exact(arm);
+  expect_proved(certify_poles(arm, exact.pole_lambdas(5)), 5);
+  expect_refuted(certify_poles(arm, ExactArm(arm::paper_arm()).pole_lambdas(5)), "root 1");
 }
 
 }  // namespace

@@ -43,8 +43,9 @@ TestMode rigid_body_mode(const arm::Arm& arm) {
 }
 
 TestMode flexible_mode(const arm::Arm& arm, Real lambda) {
-  const ModeShape shape(arm, inertia_ratios(arm), lambda);
-  const double omega = static_cast<double>(lambda * lambda * frequency_scale_rad_per_s(arm));
+  const ModeShape shape(linear_arm(arm), inertia_ratios(linear_arm(arm)), lambda);
+  const double omega =
+      static_cast<double>(lambda * lambda * frequency_scale_rad_per_s(linear_arm(arm)));
   const double l = arm.beam.length_m;
   // From EI phi''(l) = omega^2 Ip phi'(l); without payload inertia no formula below asks for it.
   const double inertia = arm.payload.inertia_kg_m2;
@@ -86,7 +87,7 @@ TEST_P(Modes, AreOrthogonalAndScaledToTheTotalInertia) {
   const double inertia = arm::total_inertia_kg_m2(arm);
   constexpr int kCount = 12;
   std::vector<TestMode> modes = {rigid_body_mode(arm)};
-  for (const Real lambda : find_poles(inertia_ratios(arm), kCount).lambda) {
+  for (const Real lambda : find_poles(inertia_ratios(linear_arm(arm)), kCount).lambda) {
     modes.push_back(flexible_mode(arm, lambda));
   }
   for (std::size_t i = 0; i < modes.size(); ++i) {
@@ -108,7 +109,7 @@ TEST_P(Modes, MeetTheHubsEquationOfMotionUpToMode10000) {
   // -Ih omega^2 phi'(0) = EI phi''(0), either side by a formula of its own.
   const arm::Arm& arm = GetParam();
   const double rigidity = arm.beam.flexural_rigidity_N_m2();
-  const auto lambdas = find_poles(inertia_ratios(arm), 10000).lambda;
+  const auto lambdas = find_poles(inertia_ratios(linear_arm(arm)), 10000).lambda;
   for (const std::size_t i : {0U, 1U, 2U, 9U, 99U, 999U, 9998U, 9999U}) {
     const TestMode mode = flexible_mode(arm, lambdas[i]);
     const double moment = rigidity * mode.curvature(0.0);
@@ -131,7 +132,7 @@ INSTANTIATE_TEST_SUITE_P(AllArms, Modes, testing::ValuesIn(undamped_arms()),
 TEST(Modes, Number10000IsNormalisedAndVanishesAtTheHub) {
   const arm::Arm arm = unit_arm(0.1, 0.5, 0.02);
   constexpr int kMode = 10000;
-  const auto lambdas = find_poles(inertia_ratios(arm), kMode).lambda;
+  const auto lambdas = find_poles(inertia_ratios(linear_arm(arm)), kMode).lambda;
   const TestMode last = flexible_mode(arm, lambdas.back());
   const TestMode before = flexible_mode(arm, lambdas[kMode - 2]);
   const double inertia = arm::total_inertia_kg_m2(arm);

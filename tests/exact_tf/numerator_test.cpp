@@ -61,7 +61,7 @@ constexpr double kUnit = 0x1p-64;  // unit roundoff of long double
 class Numerators : public testing::TestWithParam<arm::Arm> {};
 
 TEST_P(Numerators, AgreeWithTheBoundaryValueProblemInBalls) {
-  const InertiaRatios ratios = inertia_ratios(GetParam());
+  const InertiaRatios ratios = inertia_ratios(linear_arm(GetParam()));
   std::mt19937 random(20240711);
   std::uniform_real_distribution<double> log_magnitude(-6.0, 2.7);
   std::uniform_real_distribution<double> angle(0.0, std::numbers::pi / 4);
@@ -109,7 +109,7 @@ TEST_P(Numerators, AgreeWithTheBoundaryValueProblemInBalls) {
 }
 
 TEST_P(Numerators, AreRealAndEqualOnTheRealAxis) {
-  const InertiaRatios ratios = inertia_ratios(GetParam());
+  const InertiaRatios ratios = inertia_ratios(linear_arm(GetParam()));
   for (const Real lambda : {1e-3L, 0.7L, 1.99L, 2.01L, 17.3L, 4321.0L}) {
     const auto real = curvature_numerator(ratios, lambda, 0.3L);
     const auto complex = curvature_numerator(ratios, Complex(lambda), 0.3L);
@@ -121,7 +121,7 @@ TEST_P(Numerators, AreRealAndEqualOnTheRealAxis) {
 }
 
 TEST_P(Numerators, AtZeroFrequencyAreThoseOfARigidArm) {
-  const InertiaRatios ratios = inertia_ratios(GetParam());
+  const InertiaRatios ratios = inertia_ratios(linear_arm(GetParam()));
   const double unit = std::numeric_limits<double>::epsilon();
   EXPECT_DOUBLE_EQ(static_cast<double>(hub_angle_numerator(ratios, 0.0L).value), 1.0);
   EXPECT_DOUBLE_EQ(static_cast<double>(tip_numerator(ratios, 0.0L).value), 1.0);

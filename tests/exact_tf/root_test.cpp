@@ -72,7 +72,7 @@ TEST_P(Roots, AreWithinFourUlpsUpToMode10000) {
 }
 
 TEST_P(Roots, AreAllThereByTheCount) {
-  const InertiaRatios ratios = inertia_ratios(GetParam());
+  const InertiaRatios ratios = inertia_ratios(linear_arm(GetParam()));
   for (const auto& roots : {find_poles(ratios, kModes), find_hub_zeros(ratios, kModes)}) {
     EXPECT_EQ(roots.count.found, kModes);
     EXPECT_EQ(roots.count.expected, kModes);
@@ -82,7 +82,7 @@ TEST_P(Roots, AreAllThereByTheCount) {
 }
 
 TEST_P(Roots, InterlaceOnTheImaginaryAxis) {
-  const InertiaRatios ratios = inertia_ratios(GetParam());
+  const InertiaRatios ratios = inertia_ratios(linear_arm(GetParam()));
   const auto poles = find_poles(ratios, kModes).lambda;
   const auto zeros = find_hub_zeros(ratios, kModes + 1).lambda;
   // A hub of 1e6 m l^3 leaves some poles nearer to a zero than a bracket is wide.
@@ -94,7 +94,7 @@ TEST_P(Roots, InterlaceOnTheImaginaryAxis) {
 }
 
 TEST_P(Roots, CountStepsByOneAtEachRootAndNowhereElse) {
-  const InertiaRatios ratios = inertia_ratios(GetParam());
+  const InertiaRatios ratios = inertia_ratios(linear_arm(GetParam()));
   const auto poles = find_poles(ratios, 60).lambda;
   // Multiples of pi/2, where one or other pivot is all but singular, are among the grid points;
   // multiples of pi/4, where a bare pinned beam has its poles, are not.

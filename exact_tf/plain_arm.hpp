@@ -1,0 +1,47 @@
+#pragma once
+
+#include "arm/formulation.hpp"
+#include "arm/linear_arm.hpp"
+#include "exact_tf/numerator.hpp"
+
+#include <complex>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace flexarm::exact_tf {
+
+/// Names of the effects that only change the numbers of the plain arm's equations.
+const std::vector<std::string_view>& plain_effect_names();
+
+/// A plain arm (LinearArm::is_plain) by the closed forms of exact_tf/numerator.hpp. Kelvin-Voigt
+/// damping and hub friction are in the transfer function and the damped poles without
+/// approximation. Questions, counts and errors are those of ExactArm.
+class PlainArm {
+ public:
+  explicit PlainArm(const arm::LinearArm& arm);
+
+  const InertiaRatios& ratios() const { return ratios_; }
+
+  std::vector<double> pole_lambdas(int count) const;
+  std::vector<double> hub_zero_lambdas(int count) const;
+
+  arm::PoleSet poles(int count) const;
+  /// s^2 + kv omega_i^2 s + omega_i^2 = 0 without hub friction, else by continuation.
+  arm::DampedPoleSet damped_poles(int count) const;
+  arm::ZeroSet hub_zeros(int count) const;
+  arm::ZeroSet zeros(const arm::Sensor& sensor, int count) const;
+  std::vector<arm::Mode> modes(int count, std::span<const arm::Sensor> sensors,
+                               std::span<const double> stations_m) const;
+  /// D_ij = kv omega_i^2 delta_ij + c theta_i theta_j/I_T.
+  arm::ModalModel modal_model(int count, std::span<const arm::Sensor> sensors,
+                              std::span<const double> stations_m) const;
+  std::complex<double> transfer_function(const arm::Sensor& sensor,
+                                         std::complex<double> s_rad_per_s) const;
+
+ private:
+  arm::LinearArm arm_;
+  InertiaRatios ratios_;
+};
+
+}  // namespace flexarm::exact_tf

@@ -57,6 +57,20 @@ void require_effective(const SweepTask& task, std::size_t axis) {
   }
 }
 
+/// What the flexible poles of a damped arm become; empty without damping.
+std::vector<arm::PolePair> damped_poles(const response::AnyFormulation& formulation, int count) {
+  if (!arm::linear_arm(response::arm_of(formulation)).is_damped()) return {};
+  return std::visit(
+      [count](const auto& f) -> std::vector<arm::PolePair> {
+        if constexpr (requires { f.damped_poles(count); }) {
+          return f.damped_poles(count).flexible;
+        } else {
+          return {};
+        }
+      },
+      formulation);
+}
+
 arm::InputError at_point(const SweepTask& task, std::size_t point, const arm::InputError& error) {
   return arm::InputError(fmt::format("at {}: {}", task.describe(point), error.what()), error.key());
 }
@@ -92,16 +106,19 @@ std::vector<double> SweepTask::places_of(std::size_t point) const {
   return places;
 }
 
+double SweepTask::value(std::size_t axis, std::size_t point) const {
+  return axes[axis].at(places_of(point)[axis]);
+}
+
 arm::Arm SweepTask::arm_of(std::size_t point) const {
   return arm_at(arm, axes, places_of(point));
 }
 
 std::string SweepTask::describe(std::size_t point) const {
-  const auto places = places_of(point);
   std::string text;
   for (std::size_t k = 0; k < axes.size(); ++k) {
-    const auto& [parameter, values, logarithmic, typed] = axes[k];
-    text += fmt::format("{}{} = {}{}", k > 0 ? ", " : "", parameter.name, axes[k].at(places[k]),
+    const SweepParameter& parameter = axes[k].parameter;
+    text += fmt::format("{}{} = {}{}", k > 0 ? ", " : "", parameter.name, value(k, point),
                         parameter.unit == "1" ? "" : " " + parameter.unit);
   }
   return text;
@@ -155,8 +172,8 @@ SweepPoint evaluate_point(const SweepModel& model, const arm::Arm& arm,
     for (const auto& mode : response::modes(formulation, questions.poles, {}, tip_m)) {
       point.hub_slope.push_back(mode.hub_slope);
       point.tip_value_m.push_back(mode.displacement_m.front());
-      point.projected_damping_ratio.push_back(mode.damping_ratio);
     }
+    point.damped_poles = damped_poles(formulation, questions.poles);
   }
   for (const auto& sensor : questions.sensors) {
     point.zeros_rad_per_s.push_back(

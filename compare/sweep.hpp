@@ -41,8 +41,7 @@ struct SweepPoint {
   std::vector<double> omega_rad_per_s;  ///< undamped poles, ascending
   std::vector<double> hub_slope;        ///< of the modes, as in arm::Mode; empty without `modes`
   std::vector<double> tip_value_m;      ///< phi(l)
-  std::vector<double> projected_damping_ratio;  ///< of the modes; 0 without damping
-  std::vector<arm::PolePair> damped_poles;      ///< of a damped arm, in the order of the undamped
+  std::vector<arm::PolePair> damped_poles;  ///< in the order of the undamped; empty without damping
   std::vector<std::vector<std::complex<double>>> zeros_rad_per_s;  ///< [sensor]
 };
 
@@ -57,6 +56,8 @@ struct SweepTask {
   std::size_t points() const;
   /// The places on the axes of a point.
   std::vector<double> places_of(std::size_t point) const;
+  /// The value of a parameter at a point.
+  double value(std::size_t axis, std::size_t point) const;
   arm::Arm arm_of(std::size_t point) const;
   /// "payload.mass = 0.1 kg, hub.inertia = 0.002 kg m^2".
   std::string describe(std::size_t point) const;

@@ -106,7 +106,6 @@ void for_each_member(Point& point, Visit visit) {
   visit(point.omega_rad_per_s);
   visit(point.hub_slope);
   visit(point.tip_value_m);
-  visit(point.projected_damping_ratio);
   visit(point.damped_poles);
   visit(point.zeros_rad_per_s);
 }

@@ -83,13 +83,43 @@ SweepTable table_of(const SweepTask& task, const Values& points,
   return table;
 }
 
+double damping_ratio(const arm::PolePair& pair) {
+  const double product = (pair.first_rad_per_s * pair.second_rad_per_s).real();
+  return -(pair.first_rad_per_s + pair.second_rad_per_s).real() / (2.0 * std::sqrt(product));
+}
+
+void add_damped_poles(const SweepTask& task, const Values& points, SweepModes& modes) {
+  const auto has_damping = [](const SweepPoint& point) { return !point.damped_poles.empty(); };
+  const bool damped = std::ranges::any_of(
+      points, [&](const auto& of_model) { return std::ranges::any_of(of_model, has_damping); });
+  if (!damped) return;
+  const auto orders = static_cast<std::size_t>(task.questions.poles);
+  modes.damping_ratio.assign(points.size(),
+                             std::vector(orders, std::vector(task.points(), kMissing)));
+  modes.damped_poles.resize(points.size());
+  for (std::size_t m = 0; m < points.size(); ++m) {
+    modes.damped_poles[m].resize(orders);
+    for (auto& order : modes.damped_poles[m]) order.resize(task.points());
+    for (std::size_t p = 0; p < task.points(); ++p) {
+      const SweepPoint& point = points[m][p];
+      for (std::size_t k = 0; k < std::min(orders, point.omega_rad_per_s.size()); ++k) {
+        const bool undamped = point.damped_poles.empty();
+        if (!undamped && k >= point.damped_poles.size()) continue;
+        const std::complex<double> pole(0.0, point.omega_rad_per_s[k]);
+        const auto pair = undamped ? arm::PolePair{pole, std::conj(pole)} : point.damped_poles[k];
+        modes.damped_poles[m][k][p] = pair;
+        modes.damping_ratio[m][k][p] = damping_ratio(pair);
+      }
+    }
+  }
+}
+
 SweepModes modes_of(const SweepTask& task, const Values& points) {
   SweepModes modes;
   if (!task.questions.modes) return modes;
   modes.hub_slope = table_of(task, points, &SweepPoint::hub_slope);
   modes.tip_value_m = table_of(task, points, &SweepPoint::tip_value_m);
-  modes.damping_ratio = table_of(task, points, &SweepPoint::projected_damping_ratio);
-  modes.damping_is_projected = true;
+  add_damped_poles(task, points, modes);
   return modes;
 }
 

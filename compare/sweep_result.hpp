@@ -31,11 +31,9 @@ using SweepTable = std::vector<std::vector<std::vector<double>>>;
 struct SweepModes {
   SweepTable hub_slope;
   SweepTable tip_value_m;  ///< phi(l)
-  /// Of a damped arm, from its own poles s1, s2: -(s1 + s2)/(2 sqrt(s1 s2)), more than 1 for two
-  /// real ones; projected on undamped modes where `damping_is_projected`.
+  /// Of the damped poles s1, s2: -(s1 + s2)/(2 sqrt(s1 s2)), more than 1 for two real ones. Empty
+  /// for an arm without damping anywhere on the grid, as is `damped_poles`.
   SweepTable damping_ratio;
-  bool damping_is_projected = false;
-  /// [model][order][point]; empty for an arm without damping anywhere.
   std::vector<std::vector<std::vector<std::optional<arm::PolePair>>>> damped_poles;
 };
 

@@ -251,23 +251,11 @@ Group modes_group(const compare::SweepTable& table, const char* label, const cha
   return group;
 }
 
-/// Empty for an arm without damping.
-compare::SweepTable shown_damping(const compare::SweepModes& modes) {
-  for (const auto& of_model : modes.damping_ratio) {
-    for (const auto& order : of_model) {
-      if (std::ranges::any_of(order, [](double zeta) { return zeta > 0.0; })) {
-        return modes.damping_ratio;
-      }
-    }
-  }
-  return {};
-}
-
 /// In a family of curves each panel holds one mode: its title says which kind of number.
 std::vector<Group> modes_groups(const SweepResult& result) {
   return {modes_group(result.modes.hub_slope, "hub slope", ""),
           modes_group(result.modes.tip_value_m, "end-point value", "m"),
-          modes_group(shown_damping(result.modes), "damping ratio", "")};
+          modes_group(result.modes.damping_ratio, "damping ratio", "")};
 }
 
 }  // namespace
@@ -293,19 +281,18 @@ std::vector<NamedPlot> sweep_plots(const SweepResult& result) {
   return plots;
 }
 
-Figure frequencies_figure(const SweepResult& result, bool zeros, const std::string& title,
-                          const std::vector<SweepMark>& limits,
-                          const std::vector<SweepMark>& measured) {
+Figure paper_sweep_figure(const compare::PaperSweep& sweep, const SweepResult& result) {
   const auto& axis = result.task.axes.back();
-  const Group group = zeros ? zeros_groups(result, result.task.questions.sensors.front()).front()
-                            : poles_group(result);
-  Figure figure = over_one(result, title, {group});
+  const Group group = sweep.zeros
+                          ? zeros_groups(result, result.task.questions.sensors.front()).front()
+                          : poles_group(result);
+  Figure figure = over_one(result, sweep.title, {group});
   Panel& panel = figure.stacks.front().panels.front();
   panel.y.minimum = 0.0;
   Style limit_style;
   limit_style.colour = grey;
   limit_style.line = Line::dash_dotted;
-  for (const SweepMark& limit : limits) {
+  for (const auto& limit : sweep.limits) {
     panel.series.push_back(
         {limit.name, {axis.values.front(), axis.values.back()}, {limit.y, limit.y}, limit_style});
   }
@@ -313,7 +300,7 @@ Figure frequencies_figure(const SweepResult& result, bool zeros, const std::stri
   measured_style.colour = vermillion;
   measured_style.line = Line::none;
   measured_style.marker = Marker::filled_diamond;
-  for (const SweepMark& mark : measured) {
+  for (const auto& mark : sweep.measured) {
     panel.series.push_back({mark.name, {mark.x}, {mark.y}, measured_style});
   }
   return figure;

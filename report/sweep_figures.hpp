@@ -1,10 +1,10 @@
 #pragma once
 
+#include "compare/paper_sweeps.hpp"
 #include "compare/sweep_result.hpp"
 #include "report/comparison_plots.hpp"
 #include "report/figure.hpp"
 
-#include <string>
 #include <vector>
 
 namespace flexarm::report {
@@ -15,17 +15,8 @@ namespace flexarm::report {
 /// each of the first few poles or zeros.
 std::vector<NamedPlot> sweep_plots(const compare::SweepResult& result);
 
-/// A level that a curve goes to, drawn across the picture, and a measured value, drawn as a marker.
-struct SweepMark {
-  std::string name;
-  double x = 0.0;  ///< of a marker
-  double y = 0.0;
-};
-
-/// One panel: the poles, or the zeros of the first sensor, of a sweep over one parameter [Hz], with
-/// limits and measured values beside them. Figures 18 and 19 of the paper.
-Figure frequencies_figure(const compare::SweepResult& result, bool zeros, const std::string& title,
-                          const std::vector<SweepMark>& limits,
-                          const std::vector<SweepMark>& measured);
+/// The figure of the paper that `result` was computed for: `sweep.task` with any models. One panel,
+/// frequencies with their limits and what was measured.
+Figure paper_sweep_figure(const compare::PaperSweep& sweep, const compare::SweepResult& result);
 
 }  // namespace flexarm::report

@@ -61,9 +61,9 @@ Json poles_json(const SweepResult& result) {
       if (!result.modes.hub_slope.empty()) {
         values["hub_slope"] = result.modes.hub_slope[m][k];
         values["tip_value_m"] = result.modes.tip_value_m[m][k];
-        values["damping_ratio"] = result.modes.damping_ratio[m][k];
       }
       if (!result.modes.damped_poles.empty()) {
+        values["damping_ratio"] = result.modes.damping_ratio[m][k];
         OptionalPoles first;
         OptionalPoles second;
         for (const auto& pair : result.modes.damped_poles[m][k]) {
@@ -113,10 +113,9 @@ Json events_json(const SweepResult& result) {
 
 /// The values of the parameters at a grid point.
 Json place_json(const SweepResult& result, std::size_t point) {
-  const auto places = result.task.places_of(point);
   Json place = Json::array();
-  for (std::size_t k = 0; k < places.size(); ++k) {
-    place.push_back(result.task.axes[k].at(places[k]));
+  for (std::size_t k = 0; k < result.task.axes.size(); ++k) {
+    place.push_back(result.task.value(k, point));
   }
   return place;
 }
@@ -144,17 +143,15 @@ Json agreement_json(const SweepResult& result) {
 }  // namespace
 
 std::string sweep_json(const SweepResult& result) {
-  return json_document("flexarm.sweep/1",
-                       {{"verdict", result.agrees() ? "agree" : "disagree"},
-                        {"arm", arm_json(result.task.arm)},
-                        {"parameters", parameters_json(result)},
-                        {"models", models_json(result)},
-                        {"damping_is_projected", result.modes.damping_is_projected},
-                        {"poles", poles_json(result)},
-                        {"zeros", zeros_json(result)},
-                        {"events", events_json(result)},
-                        {"agreement", agreement_json(result)},
-                        {"further_evaluations", result.further_evaluations}});
+  return json_document("flexarm.sweep/1", {{"verdict", result.agrees() ? "agree" : "disagree"},
+                                           {"arm", arm_json(result.task.arm)},
+                                           {"parameters", parameters_json(result)},
+                                           {"models", models_json(result)},
+                                           {"poles", poles_json(result)},
+                                           {"zeros", zeros_json(result)},
+                                           {"events", events_json(result)},
+                                           {"agreement", agreement_json(result)},
+                                           {"further_evaluations", result.further_evaluations}});
 }
 
 }  // namespace flexarm::report

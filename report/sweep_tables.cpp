@@ -24,6 +24,13 @@ std::string unit_of(const compare::SweepAxis& axis) {
   return axis.parameter.unit == "1" ? "" : axis.parameter.unit;
 }
 
+/// The count, or nothing.
+Cell count_if(bool given, int count) {
+  Cell cell;
+  if (given) cell = std::int64_t{count};
+  return cell;
+}
+
 /// The grid points at which one row of numbers is smallest and largest; NaN is no number.
 struct Extremes {
   std::optional<std::size_t> lowest;
@@ -58,10 +65,9 @@ class RangeTable {
     std::vector<Cell> row = {std::int64_t{number}, values.front(), values.back()};
     const Extremes extremes(values);
     for (const auto& point : {extremes.lowest, extremes.highest}) {
-      row.push_back(point ? Cell(values[*point]) : Cell());
+      row.emplace_back(point ? values[*point] : NAN);
       for (std::size_t k = 0; k < result_.task.axes.size(); ++k) {
-        row.push_back(point ? Cell(result_.task.axes[k].at(result_.task.places_of(*point)[k]))
-                            : Cell());
+        row.emplace_back(point ? result_.task.value(k, *point) : NAN);
       }
     }
     if (!remark.empty()) {
@@ -128,12 +134,6 @@ Table modes_table(const SweepResult& result, const char* caption, const char* un
   return table.table();
 }
 
-bool is_damped(const compare::SweepTable& damping) {
-  return !damping.empty() && std::ranges::any_of(damping.front(), [](const auto& order) {
-    return std::ranges::any_of(order, [](double zeta) { return zeta > 0.0; });
-  });
-}
-
 }  // namespace
 
 std::string_view word_for(SweepEvent::Kind kind) {
@@ -174,7 +174,7 @@ Table sweep_models_table(const SweepResult& result) {
   for (std::size_t m = 0; m < result.task.models.size(); ++m) {
     const int freedoms = result.degrees_of_freedom[m];
     table.add_row({result.task.models[m].name, result.task.models[m].settings,
-                   freedoms > 0 ? Cell(std::int64_t{freedoms}) : Cell()});
+                   count_if(freedoms > 0, freedoms)});
   }
   return table;
 }
@@ -191,12 +191,9 @@ std::vector<Table> sweep_range_tables(const SweepResult& result) {
     tables.push_back(
         modes_table(result, "End-point value phi(l) at modal mass I_T", "m", modes.tip_value_m));
   }
-  if (is_damped(modes.damping_ratio)) {
-    tables.push_back(modes_table(result,
-                                 modes.damping_is_projected
-                                     ? "Damping ratio, projected on the undamped modes"
-                                     : "Damping ratio of the damped poles",
-                                 "", modes.damping_ratio));
+  if (!modes.damping_ratio.empty()) {
+    tables.push_back(
+        modes_table(result, "Damping ratio of the damped poles", "", modes.damping_ratio));
   }
   return tables;
 }
@@ -213,9 +210,9 @@ Table sweep_events_table(const SweepResult& result, std::size_t most) {
   table.columns.push_back({"to", unit_of(last), kPlaceDigits});
   for (const SweepEvent& event : result.events) {
     if (table.rows.size() == most) break;
-    const auto number = [](int track) { return track > 0 ? Cell(std::int64_t{track}) : Cell(); };
-    std::vector<Cell> row = {arm::to_string(event.sensor), number(event.track),
-                             std::string(word_for(event.kind)), number(event.other)};
+    std::vector<Cell> row = {arm::to_string(event.sensor), count_if(event.track > 0, event.track),
+                             std::string(word_for(event.kind)),
+                             count_if(event.other > 0, event.other)};
     if (has_rows) row.emplace_back(result.task.axes.front().values[event.row]);
     row.emplace_back(event.from_value);
     row.emplace_back(event.to_value);
@@ -235,11 +232,10 @@ Table sweep_agreement_table(const SweepResult& result) {
   table.columns.push_back({"missing"});
   for (const auto& row : result.agreement) {
     const bool any = row.compared > 0;
-    std::vector<Cell> cells = {row.quantity, row.model, any ? Cell(row.worst) : Cell(),
-                               any ? Cell(std::int64_t{row.worst_number}) : Cell()};
-    const auto places = result.task.places_of(row.worst_point);
+    std::vector<Cell> cells = {row.quantity, row.model, any ? row.worst : NAN,
+                               count_if(any, row.worst_number)};
     for (std::size_t k = 0; k < result.task.axes.size(); ++k) {
-      cells.push_back(any ? Cell(result.task.axes[k].at(places[k])) : Cell());
+      cells.emplace_back(any ? result.task.value(k, row.worst_point) : NAN);
     }
     cells.emplace_back(static_cast<std::int64_t>(row.compared));
     cells.emplace_back(static_cast<std::int64_t>(row.missing));

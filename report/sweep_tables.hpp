@@ -4,13 +4,13 @@
 #include "report/table.hpp"
 
 #include <cstddef>
-#include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace flexarm::report {
 
-/// "payload.mass from 0 to 0.5 kg in 200 equal steps"; one line an axis.
+/// "payload.mass from 0 to 0.5 kg, 200 values"; one line an axis.
 std::string sweep_axes_lines(const compare::SweepResult& result);
 
 /// The models of a sweep: name, settings, degrees of freedom.
@@ -30,11 +30,10 @@ Table sweep_agreement_table(const compare::SweepResult& result);
 /// Whether the models agree, in one line.
 std::string sweep_verdict_line(const compare::SweepResult& result);
 
-/// Every value in long form, one row a point, model and root, as CSV: handed over in parts.
-void write_sweep_csv(const compare::SweepResult& result,
-                     const std::function<void(std::string_view)>& write);
+/// Every value in long form as CSV: one row a point, model and root.
+std::string sweep_csv(const compare::SweepResult& result);
 
-/// "appears from beyond", "meets", in words.
+/// "comes from beyond", "meets": what happens to a track, in words.
 std::string_view word_for(compare::SweepEvent::Kind kind);
 
 }  // namespace flexarm::report

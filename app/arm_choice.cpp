@@ -2,13 +2,33 @@
 
 #include "app/command.hpp"
 #include "arm/arm_file.hpp"
+#include "arm/effects.hpp"
 #include "arm/input_error.hpp"
+#include "arm/linear_arm.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
 namespace flexarm::app {
+
+namespace {
+
+/// "with root_compliance: stiffness 30 N m/rad".
+std::string describe(const std::string& name, const arm::Effect& effect) {
+  std::vector<std::string> parts;
+  for (const auto& parameter : arm::find_effect(name)->parameters) {
+    const auto value = effect.parameters.find(parameter.name);
+    if (value == effect.parameters.end()) continue;
+    const std::string unit = parameter.unit == "1" ? "" : " " + parameter.unit;
+    parts.push_back(fmt::format("{} {:g}{}", parameter.name, value->second, unit));
+  }
+  if (!effect.sensor.empty()) parts.push_back(effect.sensor);
+  return fmt::format("with {}{}{}", name, parts.empty() ? "" : ": ", fmt::join(parts, ", "));
+}
+
+}  // namespace
 
 std::vector<arm::Arm> ArmChoice::arms() const {
   arm::Arm base = file.empty() ? arm::paper_arm() : arm::read_arm_file(file);
@@ -48,16 +68,30 @@ std::filesystem::path folder_of(const std::filesystem::path& out, const arm::Arm
 }
 
 std::string describe(const arm::Arm& arm) {
-  return fmt::format(
+  const arm::LinearArm linear = arm::linear_arm(arm);
+  std::string lines = fmt::format(
       "{}\n"
       "l {:g} m, EI {:.6g} N m^2, m {:.6g} kg/m, I_T {:.6g} kg m^2\n"
       "Ih {:g} kg m^2 (epsilon {:.4g}), Mp {:g} kg (eta {:.4g}), Ip {:g} kg m^2\n"
       "kv {:g} s, c {:g} N m s/rad\n",
-      arm.name.empty() ? "arm" : arm.name, arm.beam.length_m, arm.beam.flexural_rigidity_N_m2(),
-      arm.beam.linear_density_kg_per_m(), arm::total_inertia_kg_m2(arm), arm.hub.inertia_kg_m2,
-      arm::hub_inertia_ratio(arm), arm.payload.mass_kg, arm::payload_mass_ratio(arm),
-      arm.payload.inertia_kg_m2, arm.damping.kelvin_voigt_s,
-      arm.hub.viscous_friction_N_m_s_per_rad);
+      arm.name.empty() ? "arm" : arm.name, linear.length_m, linear.flexural_rigidity_N_m2,
+      linear.linear_density_kg_per_m, arm::total_inertia_kg_m2(linear), linear.hub_inertia_kg_m2,
+      arm::hub_inertia_ratio(arm), linear.payload_mass_kg, arm::payload_mass_ratio(arm),
+      linear.payload_tip_inertia_kg_m2, linear.kelvin_voigt_s,
+      linear.hub_viscous_friction_N_m_s_per_rad);
+  for (const auto& [name, effect] : arm.effects) lines += describe(name, effect) + "\n";
+  if (!arm.effects.empty()) lines += "(the numbers above include the linear effects)\n";
+  return lines;
+}
+
+std::string left_out_of_roots(const arm::Arm& arm) {
+  std::vector<std::string> names;
+  for (const auto& [name, effect] : arm.effects) {
+    if (arm::find_effect(name)->place != arm::EffectPlace::linear_arm) names.push_back(name);
+  }
+  if (names.empty()) return "";
+  return fmt::format("left out, since not part of the arm's linear equations: {}\n",
+                     fmt::join(names, ", "));
 }
 
 }  // namespace flexarm::app

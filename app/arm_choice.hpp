@@ -31,7 +31,11 @@ void add_arm_choice(CLI::App& parser, ArmChoice& choice);
 std::filesystem::path folder_of(const std::filesystem::path& out, const arm::Arm& arm,
                                 std::size_t arms);
 
-/// Name, rigidity, density, inertias and their ratios: lines for the head of an output.
+/// Name, rigidity, density, inertias and their ratios, effects: lines for the head of an output.
 std::string describe(const arm::Arm& arm);
+
+/// A line that names the arm's effects that its poles, zeros and modes leave out, since they act
+/// outside its linear equations; empty where there are none.
+std::string left_out_of_roots(const arm::Arm& arm);
 
 }  // namespace flexarm::app

@@ -73,9 +73,11 @@ void print_comparison(const compare::Comparison& comparison,
   if (!comparison.refinements.empty()) {
     print(report::convergence_legend(comparison) + "\n");
     for (const auto& table : report::convergence_tables(comparison)) print_table(table);
-    print("Bases of assumed_modes\n");
-    for (const auto& note : comparison.basis_notes) print(report::to_paragraph(note, 2));
-    print("\n");
+    if (!comparison.basis_notes.empty()) {
+      print("Bases of assumed_modes\n");
+      for (const auto& note : comparison.basis_notes) print(report::to_paragraph(note, 2));
+      print("\n");
+    }
     if (full) {
       constexpr report::TextOptions kRootAndSeries{.key_columns = 3};
       print_table(report::convergence_listing(comparison), kRootAndSeries);
@@ -128,6 +130,7 @@ int run(const Arguments& arguments) {
   for (const auto& arm : arms) {
     const auto comparison = compare_with_progress(arm, options);
     const auto rows = compare::beside_model(measured, comparison);
+    print(left_out_of_roots(arm));
     print_comparison(comparison, rows, arguments.full);
     if (arms.size() > 1) print("\n");
     if (!arguments.output.folder.empty()) {

@@ -2,6 +2,7 @@
 
 #include "arm/input_error.hpp"
 #include "arm/nearest_name.hpp"
+#include "response/arm_parts.hpp"
 #include "response/settings.hpp"
 
 #include <fmt/format.h>
@@ -22,7 +23,8 @@ void refuse(const char* option, const std::optional<T>& value, const std::string
 
 }  // namespace
 
-ChosenFormulation FormulationChoice::make(const arm::Arm& arm, int roots) const {
+ChosenFormulation FormulationChoice::make(const arm::Arm& whole, int roots) const {
+  const arm::Arm arm = response::take_apart(whole).linear;
   const std::array<std::string, 3> names = {"exact_tf", "fem", "assumed_modes"};
   if (std::ranges::find(names, name) == names.end()) {
     throw arm::InputError(

@@ -24,9 +24,10 @@ struct FormulationChoice {
   std::optional<std::string> basis;
   std::optional<int> functions;
 
-  /// At settings fine enough for `roots` roots unless the command line says otherwise. Throws
-  /// InputError for an option that the formulation does not have.
-  ChosenFormulation make(const arm::Arm& arm, int roots) const;
+  /// Of the arm with its linear effects alone, at settings fine enough for `roots` roots unless the
+  /// command line says otherwise. Throws InputError for an option that the formulation does not
+  /// have.
+  ChosenFormulation make(const arm::Arm& whole, int roots) const;
 };
 
 /// Adds `--formulation` and the settings of the discrete ones to a command.

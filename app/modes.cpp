@@ -130,6 +130,7 @@ int run(const Arguments& arguments) {
     const auto summary = response::summarise(chosen.formulation, arguments.count, sensors,
                                              compare::shape_stations_m(arm.beam.length_m));
     print(describe(arm));
+    print(left_out_of_roots(arm));
     print(fmt::format("by {}{}{}\n\n", chosen.name, chosen.settings.empty() ? "" : ", ",
                       chosen.settings));
     print(report::to_text(report::poles_table(arm, summary)) + "\n");

@@ -1,6 +1,7 @@
 #include "arm/sensor.hpp"
 
 #include "arm/input_error.hpp"
+#include "arm/linear_arm.hpp"
 #include "arm/nearest_name.hpp"
 
 #include <fmt/format.h>
@@ -102,7 +103,7 @@ void require_valid(const Sensor& sensor, const Arm& arm) {
 
 void require_responsive(const Sensor& sensor, const Arm& arm) {
   if (sensor.kind == SensorKind::strain && sensor.position_m == arm.beam.length_m &&
-      arm.payload.inertia_kg_m2 == 0.0) {
+      linear_arm(arm).payload_tip_inertia_kg_m2 == 0.0) {
     throw InputError(
         fmt::format("sensor {}: the strain at the tip is zero at every s without payload.inertia, "
                     "so it has no zeros to look for; place it below {} m",

@@ -1,38 +1,59 @@
 #include "assumed_modes/admissible_functions.hpp"
 
-#include <stdexcept>
-
 namespace flexarm::assumed_modes {
 
 namespace {
 
-std::variant<LegendreFunctions, BeamShapes> made(Basis basis, int count,
-                                                 const InertiaRatios& payload) {
-  switch (basis) {
-    case Basis::legendre:
-      return LegendreFunctions(count);
-    case Basis::clamped_free:
-      return BeamShapes::clamped(count, 0, 0);
-    case Basis::pinned_free:
-      return BeamShapes::pinned_free(count);
-    case Basis::clamped_with_payload:
-      return BeamShapes::clamped(count, payload.payload_mass, payload.payload_inertia);
+std::variant<StrainFunctions, ShapeFunctions> made(Basis basis, const ScaledArm& arm, int functions,
+                                                   int more) {
+  if (basis == Basis::legendre) {
+    return StrainFunctions(arm, {.on_whole_beam = functions - 1, .more = more});
   }
-  throw std::logic_error("basis outside its enumeration");
+  return ShapeFunctions(basis, arm, functions - 1 + more);
 }
 
 }  // namespace
 
-AdmissibleFunctions::AdmissibleFunctions(Basis basis, int count, const InertiaRatios& payload)
-    : functions_(made(basis, count, payload)) {}
+AdmissibleFunctions::AdmissibleFunctions(Basis basis, const ScaledArm& arm, int functions, int more)
+    : functions_(made(basis, arm, functions, more)) {}
 
-Integrals AdmissibleFunctions::integrals() const {
-  return std::visit([](const auto& functions) { return functions.integrals(); }, functions_);
+Eigen::Index AdmissibleFunctions::size() const {
+  return std::visit([](const auto& functions) { return functions.size(); }, functions_);
 }
 
-Vector AdmissibleFunctions::values(Real xi, int derivative) const {
-  return std::visit([&](const auto& functions) { return functions.values(xi, derivative); },
+const Vector& AdmissibleFunctions::bends() const {
+  return std::visit([](const auto& functions) -> const Vector& { return functions.bends(); },
                     functions_);
+}
+
+Vector AdmissibleFunctions::hub_rotation() const {
+  return std::visit([](const auto& functions) { return functions.hub_rotation(); }, functions_);
+}
+
+Vector AdmissibleFunctions::displacement(Real xi) const {
+  return std::visit([xi](const auto& functions) { return functions.displacement(xi); }, functions_);
+}
+
+Vector AdmissibleFunctions::rotation(Real xi) const {
+  return std::visit([xi](const auto& functions) { return functions.rotation(xi); }, functions_);
+}
+
+Vector AdmissibleFunctions::curvature(Real xi) const {
+  return std::visit([xi](const auto& functions) { return functions.curvature(xi); }, functions_);
+}
+
+Matrix AdmissibleFunctions::displacement_products() const {
+  return std::visit([](const auto& functions) { return functions.displacement_products(); },
+                    functions_);
+}
+
+Matrix AdmissibleFunctions::rotation_products() const {
+  return std::get<StrainFunctions>(functions_).rotation_products();
+}
+
+Matrix AdmissibleFunctions::slope_products(Real at_root, Real at_tip) const {
+  return std::visit(
+      [&](const auto& functions) { return functions.slope_products(at_root, at_tip); }, functions_);
 }
 
 }  // namespace flexarm::assumed_modes

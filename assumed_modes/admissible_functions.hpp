@@ -1,34 +1,43 @@
 #pragma once
 
 #include "assumed_modes/basis.hpp"
-#include "assumed_modes/beam_shapes.hpp"
-#include "assumed_modes/integrals.hpp"
-#include "assumed_modes/legendre_functions.hpp"
 #include "assumed_modes/real.hpp"
+#include "assumed_modes/scaled_arm.hpp"
+#include "assumed_modes/shape_functions.hpp"
+#include "assumed_modes/strain_functions.hpp"
 
 #include <variant>
 
 namespace flexarm::assumed_modes {
 
-/// The lumped inertias beside the link's own: Ih/(m l^3), Mp/(m l), Ip/(m l^3).
-struct InertiaRatios {
-  Real hub = 0;
-  Real payload_mass = 0;
-  Real payload_inertia = 0;
-};
-
-/// The flexible functions psi_i of a basis; the rigid rotation xi is not among them.
+/// The functions of a basis, the rigid rotation first: y and psi in units of l and 1. The strain
+/// energy matrix over EI/l is diag(0, 1, ..., 1).
 class AdmissibleFunctions {
  public:
-  /// `payload` matters to `clamped_with_payload` only. count >= 1.
-  AdmissibleFunctions(Basis basis, int count, const InertiaRatios& payload);
+  /// `functions` generalised coordinates on a beam that is whole and bends only, the rotation
+  /// included, 2 or more; each family of functions gets `more` on top. The arm must not have an
+  /// effect that the basis cannot represent (assumed_modes/basis.hpp).
+  AdmissibleFunctions(Basis basis, const ScaledArm& arm, int functions, int more = 0);
 
-  Integrals integrals() const;
-  /// psi_i, psi_i' or psi_i'' (derivative 0, 1, 2) at xi in [0, 1].
-  Vector values(Real xi, int derivative) const;
+  Eigen::Index size() const;
+  /// 1 where the strain energy is bending, 0 for the rotation, springs and shear.
+  const Vector& bends() const;
+  /// theta.
+  Vector hub_rotation() const;
+  /// y, psi, psi' at xi in [0, 1].
+  Vector displacement(Real xi) const;
+  Vector rotation(Real xi) const;
+  Vector curvature(Real xi) const;
+
+  /// int y_i y_j.
+  Matrix displacement_products() const;
+  /// int psi_i psi_j, of an arm with shear.
+  Matrix rotation_products() const;
+  /// int p y_i' y_j' with p linear between its values at root and tip.
+  Matrix slope_products(Real at_root, Real at_tip) const;
 
  private:
-  std::variant<LegendreFunctions, BeamShapes> functions_;
+  std::variant<StrainFunctions, ShapeFunctions> functions_;
 };
 
 }  // namespace flexarm::assumed_modes

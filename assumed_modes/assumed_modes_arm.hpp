@@ -4,8 +4,10 @@
 #include "arm/linear_arm.hpp"
 #include "assumed_modes/admissible_functions.hpp"
 #include "assumed_modes/basis.hpp"
-#include "assumed_modes/mass_matrix.hpp"
 #include "assumed_modes/ritz.hpp"
+#include "assumed_modes/scaled_arm.hpp"
+#include "assumed_modes/symmetric_pencil.hpp"
+#include "assumed_modes/undamped_modes.hpp"
 
 #include <Eigen/Core>
 
@@ -19,16 +21,18 @@ namespace flexarm::assumed_modes {
 struct AssumedModesOptions {
   Basis basis = Basis::legendre;
 
-  /// Generalised coordinates n, the rigid rotation included; 2 <= n <= kMaximumFunctions. With
-  /// Legendre functions 36 give ten poles and ten hub zeros to rounding and six tip zeros to 1e-9
-  /// for payloads of up to 10 m l and 0.1 m l^3 and hubs of up to 100 m l^3; 28 give 1e-10 on the
-  /// paper's arm.
+  /// Generalised coordinates n of a beam that is whole and bends only, the rigid rotation included;
+  /// 2 <= n <= kMaximumFunctions. Effects add their own with `legendre`: a soft root one, a crack
+  /// one and up to 15 more for its second piece, shear as many as bending has (StrainFunctions).
+  /// With Legendre functions 36 give ten poles and ten hub zeros to rounding and six tip zeros to
+  /// 1e-9 for payloads of up to 10 m l and 0.1 m l^3 and hubs of up to 100 m l^3; 28 give 1e-10 on
+  /// the paper's arm.
   int functions = 36;
 
-  /// A zero s of a sensor away from the hub is trusted when the nearest zeros s' with n + 2 and
-  /// with n + 4 functions both have |s - s'| <= zero_change |s|. At 1e-3 no false zero of the tip
-  /// passes for any basis and n up to 60; at 1e-2 an eighth of those that pass is false with
-  /// Legendre functions, and more with the others.
+  /// A zero s of a sensor away from the hub is trusted when the nearest zeros s' with 2 and
+  /// with 4 more functions in every family both have |s - s'| <= zero_change |s|. At 1e-3 no false
+  /// zero of the tip passes for any basis and n up to 60; at 1e-2 an eighth of those that pass is
+  /// false with Legendre functions, and more with the others.
   double zero_change = 1e-3;
 };
 
@@ -37,14 +41,23 @@ inline constexpr int kMaximumFunctions = 200;
 
 /// The arm by Lagrange's equations on admissible functions (assumed modes, Rayleigh-Ritz):
 ///
-///     y(x, t) = q_0 x + l sum q_i psi_i(x/l),   psi_i(0) = 0,
+///     y(x, t) = q_0 (a + x) + l sum q_i y_i(x/l),   psi(x, t) = q_0 + sum q_i psi_i(x/l),
 ///
-/// with q in radians. Torque tau on the hub gives
+/// with q in radians and psi_i = y_i' on a beam without shear. From the energies of
+/// arm/linear_arm.hpp, torque tau on the hub gives
 ///
-///     m l^3 M q'' + (EI/l) K (q + kv q') + c a a^T q' = a tau,   a = (1, psi_i'(0)).
+///     m l^3 M q'' + C q' + (EI/l) K q = h tau,   theta = h . q.
 ///
-/// All bases are orthonormal in strain energy, K = diag(0, 1, ..., 1), and all integrals are closed
-/// forms: nothing is left to quadrature. Ritz values of poles and hub zeros converge from above.
+/// Every linear effect is honoured. `legendre` bends at a crack and at a soft root and shears, by
+/// functions made for each (StrainFunctions): Ritz values of poles and hub zeros converge from
+/// above and faster than any power of n whatever the effects. The other bases refuse
+/// root_compliance, local_stiffness_loss and shear_and_rotary_inertia by name. All bases are
+/// orthonormal in strain energy, springs and shear included: K is diag(0, 1, ..., 1), to which a
+/// hub spring adds rank one and gravity a full matrix. All integrals are closed forms but gravity's
+/// on beam shapes, which is quadrature to rounding.
+///
+/// An arm that stands up (gravity below 0) has a lowest mode that falls, omega^2 < 0; it is refused
+/// when another does, which means that its flexible modes buckle. Its hub zeros may be real.
 ///
 /// Real zeros of the tip are exponentially ill-conditioned in coordinates that span the link, since
 /// the motion at a zero dies out from one end of it to the other: each keeps some 1.5 digits fewer
@@ -57,14 +70,15 @@ class AssumedModesArm {
   using Options = AssumedModesOptions;
   static constexpr std::string_view kName = "assumed_modes";
 
-  /// Throws InputError for an invalid arm, any effect, or options out of their range.
+  /// Throws InputError for an invalid arm, an effect that is not linear or that the basis cannot
+  /// represent, an arm that buckles, or options out of their range.
   explicit AssumedModesArm(arm::Arm arm, Options options = {});
 
   const arm::Arm& arm() const { return arm_; }
   const Options& options() const { return options_; }
-  int degrees_of_freedom() const { return options_.functions; }
+  int degrees_of_freedom() const { return static_cast<int>(modes_.mass.size()); }
 
-  /// n - 1 at most, of which the upper third is off by more than a percent.
+  /// All but the lowest at most, of which the upper third is off by more than a percent.
   arm::PoleSet poles(int count) const;
   /// Hub angle and velocity: Ritz values, all kept. Others: those that `zero_change` trusts.
   arm::ZeroSet zeros(const arm::Sensor& sensor, int count) const;
@@ -77,26 +91,29 @@ class AssumedModesArm {
   std::complex<double> transfer_function(const arm::Sensor& sensor,
                                          std::complex<double> s_rad_per_s) const;
 
-  /// m l^3 M, symmetric positive definite, n by n; the rigid rotation comes first.
+  /// m l^3 M, symmetric positive definite; the rigid rotation comes first.
   Eigen::MatrixXd mass_matrix_kg_m2() const;
-  /// (EI/l) K, n by n.
+  /// (EI/l) K, symmetric.
   Eigen::MatrixXd stiffness_matrix_N_m() const;
+  /// C, symmetric positive semidefinite.
+  Eigen::MatrixXd damping_matrix_N_m_s() const;
   /// Condition number of the mass matrix scaled to a unit diagonal.
-  double mass_condition_number() const { return scaled_condition_number(mass_); }
+  double mass_condition_number() const { return scaled_condition_number(pencil_.mass()); }
 
  private:
   arm::ZeroSet hub_zeros(int count) const;
   arm::ZeroSet output_zeros(const arm::Sensor& sensor, int count) const;
+  arm::SolveSummary summary_of(const RitzPairs& pairs) const;
+  Real torsion_N_m() const;
 
   arm::Arm arm_;
   arm::LinearArm linear_;
   Options options_;
-  InertiaRatios ratios_;
+  ScaledArm scaled_;
   AdmissibleFunctions functions_;
-  Integrals integrals_;
-  MassMatrix mass_;
-  RitzPairs modes_;    ///< of the functions freed of rigid-body motion
-  Vector hub_slopes_;  ///< psi'(0) of those modes
+  SymmetricPencil pencil_;
+  RitzPairs modes_;
+  ModalDamping damping_;
 };
 
 }  // namespace flexarm::assumed_modes

@@ -36,4 +36,16 @@ Basis parse_basis(std::string_view name) {
                                     arm::did_you_mean(name, names), fmt::join(names, ", ")));
 }
 
+void require_representable(Basis basis, const arm::Arm& arm) {
+  if (basis == Basis::legendre) return;
+  for (const char* effect :
+       {"root_compliance", "local_stiffness_loss", "shear_and_rotary_inertia"}) {
+    if (!arm.effects.contains(effect)) continue;
+    throw arm::InputError(
+        fmt::format("effects.{}: basis {} cannot represent this effect; --basis legendre can",
+                    effect, to_string(basis)),
+        fmt::format("effects.{}", effect));
+  }
+}
+
 }  // namespace flexarm::assumed_modes

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "arm/arm.hpp"
+
 #include <array>
 #include <string_view>
 
@@ -22,5 +24,10 @@ std::string_view to_string(Basis basis);
 /// Reads what `to_string` writes. Throws InputError with the names allowed, and the one that was
 /// probably meant.
 Basis parse_basis(std::string_view name);
+
+/// Throws InputError for the effect of the arm that no function of the basis can follow, by name:
+/// shapes of a beam that is whole, fixed to the hub and rigid in shear neither bend at a crack or
+/// at a soft root nor shear.
+void require_representable(Basis basis, const arm::Arm& arm);
 
 }  // namespace flexarm::assumed_modes

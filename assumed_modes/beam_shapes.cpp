@@ -91,20 +91,21 @@ BeamShapes BeamShapes::pinned_free(int count) {
 
 Integrals BeamShapes::integrals() const {
   Integrals result;
-  result.root_slope = values(0, 1);
-  result.tip = values(1, 0);
-  result.tip_slope = values(1, 1);
+  const Vector tip = values(1, 0);
+  const Vector tip_slope = values(1, 1);
   const Vector inverse_eigenvalue = Vector::NullaryExpr(
       static_cast<Eigen::Index>(shapes_.size()),
       [this](Eigen::Index i) { return std::pow(shapes_[static_cast<std::size_t>(i)].lambda, -4); });
   // The kinetic energy of the shapes' own problem is diagonal and its product with the rigid
   // rotation xi is psi''(0)/lambda^4 (integrate psi''''/lambda^4 by parts); the payload's share is
   // taken out of both.
-  result.mass = -payload_mass_ratio_ * result.tip * result.tip.transpose() -
-                payload_inertia_ratio_ * result.tip_slope * result.tip_slope.transpose();
+  result.mass = -payload_mass_ratio_ * tip * tip.transpose() -
+                payload_inertia_ratio_ * tip_slope * tip_slope.transpose();
   result.mass.diagonal() += inverse_eigenvalue;
-  result.moment = inverse_eigenvalue.cwiseProduct(values(0, 2)) - payload_mass_ratio_ * result.tip -
-                  payload_inertia_ratio_ * result.tip_slope;
+  result.moment = inverse_eigenvalue.cwiseProduct(values(0, 2)) - payload_mass_ratio_ * tip -
+                  payload_inertia_ratio_ * tip_slope;
+  // psi'''' = lambda^4 psi, and psi'''(1) = -lambda^4 eta psi(1).
+  result.mean = -inverse_eigenvalue.cwiseProduct(values(0, 3)) - payload_mass_ratio_ * tip;
   return result;
 }
 

@@ -4,10 +4,6 @@
 
 namespace flexarm::assumed_modes {
 
-Vector OutputRow::without_rigid_mode(const MassMatrix& mass) const {
-  return flexible - rigid * mass.coupling / mass.rigid;
-}
-
 OutputRow output_row(const arm::Sensor& sensor, const arm::Arm& arm,
                      const AdmissibleFunctions& functions) {
   arm::require_valid(sensor, arm);
@@ -15,15 +11,19 @@ OutputRow output_row(const arm::Sensor& sensor, const arm::Arm& arm,
   switch (sensor.kind) {
     case arm::SensorKind::hub_angle:
     case arm::SensorKind::hub_velocity:
-      return {1, 1, functions.values(0, 1)};
+      return {1, functions.hub_rotation()};
     case arm::SensorKind::tip_acceleration:
     case arm::SensorKind::tip_displacement:
-      return {length, 1, functions.values(1, 0)};
-    case arm::SensorKind::tip_deflection:
-      return {length, 0, functions.values(1, 0) - functions.values(0, 1)};
+      return {length, functions.displacement(1)};
+    case arm::SensorKind::tip_deflection: {
+      const Vector tip = functions.displacement(1);
+      OutputRow deflection{length, tip - tip(0) * functions.hub_rotation()};
+      deflection.row(0) = 0;
+      return deflection;
+    }
     case arm::SensorKind::strain:
-      return {static_cast<Real>(arm.beam.thickness_m.value()) / (2 * length), 0,
-              functions.values(sensor.position_m / length, 2)};
+      return {static_cast<Real>(arm.beam.thickness_m.value()) / (2 * length),
+              functions.curvature(sensor.position_m / length)};
   }
   throw std::logic_error("sensor kind outside its enumeration");
 }

@@ -1,40 +1,110 @@
 #include "assumed_modes/pencil_zeros.hpp"
 
+#include "assumed_modes/symmetric_pencil.hpp"
+
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <Eigen/QR>
 
 #include <limits>
 
 namespace flexarm::assumed_modes {
 
-PencilZeros pencil_zeros(const MassMatrix& mass, const Vector& root_slope,
-                         const OutputRow& output) {
-  // Rows of M on the left null space (-root_slope, I) of the input, K on it being the identity:
-  //     q + sigma^2 (rigid_column q_0 + rows q) = 0,   output.rigid q_0 + output.flexible . q = 0.
-  const Vector rigid_column = mass.coupling - mass.rigid * root_slope;
-  const Matrix rows = mass.flexible - root_slope * mass.coupling.transpose();
-  Matrix reduced = rows;
-  if (output.rigid != 0) {
-    reduced -= rigid_column * output.flexible.transpose() / output.rigid;
-  } else {
-    // output.flexible . q = 0 turns the first equation into one for q_0.
-    const Vector output_of_rows = rows.transpose() * output.flexible;
-    reduced -= rigid_column * output_of_rows.transpose() / output.flexible.dot(rigid_column);
-  }
+namespace {
 
-  const Eigen::EigenSolver<Matrix> solver(reduced, false);
+/// Between the first zeros of a beam, and on none of them by accident.
+constexpr Real kShift = 37.3L;
+
+/// The rows of `matrix` on the left null space (-root, I) of the hub's row (1, root).
+Matrix rows_beside_hub(const Matrix& matrix, const Vector& hub) {
+  const Eigen::Index n = hub.size() - 1;
+  return matrix.bottomRows(n) - hub.tail(n) * matrix.row(0);
+}
+
+/// R_M before its columns are reduced, (n - 1) x n.
+Matrix mass_rows(const AdmissibleFunctions& functions, const ScaledArm& arm, bool tip_is_held) {
+  const Vector hub = functions.hub_rotation();
+  const Vector tip = functions.displacement(1);
+  const Vector tip_rotation = functions.rotation(1);
+  const Vector arm_of_centre = arm.payload_offset * tip_rotation;
+  const Vector centre = tip + arm_of_centre;
+  Matrix mass = functions.displacement_products();
+  if (arm.shear) mass += arm.shear->rotary_inertia * functions.rotation_products();
+  mass += arm.payload_mass * centre * (tip_is_held ? arm_of_centre : centre).transpose() +
+          arm.payload_own_inertia * tip_rotation * tip_rotation.transpose();
+  return rows_beside_hub(mass, hub);
+}
+
+/// Columns of `rows` on the right null space of b, b_0 != 0, which gives q_0 by the others.
+Matrix without_first(const Matrix& rows, const Vector& output) {
+  const Eigen::Index n = output.size() - 1;
+  return rows.rightCols(n) - rows.col(0) * output.tail(n).transpose() / output(0);
+}
+
+/// Columns of `rows` on the right null space of b, b_0 = 0: q_0 itself, and the complement of b.
+Matrix with_first(const Matrix& rows, const Vector& output) {
+  const Eigen::Index n = output.size() - 1;
+  const Vector flexible = output.tail(n);
+  Matrix turned = rows.rightCols(n);
+  turned.applyOnTheRight(Eigen::HouseholderQR<Matrix>(flexible).householderQ());
+  Matrix columns(rows.rows(), n);
+  columns << rows.col(0), turned.rightCols(n - 1);
+  return columns;
+}
+
+/// The reduced problem: eigenvalues w of `matrix`, sigma^2 = shift - 1/w.
+struct Reduced {
+  Matrix matrix;
+  Real shift = 0;
+  int at_origin = 0;
+};
+
+Reduced reduced_problem(const AdmissibleFunctions& functions, const ScaledArm& arm,
+                        const Vector& output, const Matrix& mass) {
+  const Eigen::Index n = output.size() - 1;
+  if (arm.weight == 0) {
+    // R_K = (0, I): the strain energy, on the functions beside the rotation.
+    if (output(0) != 0) return {without_first(mass, output)};
+    // b . q = 0 turns the product of b with the rows into an equation for q_0.
+    const Vector flexible = output.tail(n);
+    const Vector output_of_rows = mass.rightCols(n).transpose() * flexible;
+    return {
+        mass.rightCols(n) - mass.col(0) * output_of_rows.transpose() / flexible.dot(mass.col(0)), 0,
+        1};
+  }
+  SymmetricPencil pencil = equations_of(functions, arm);
+  pencil.lumped.clear();
+  const Matrix stiffness = rows_beside_hub(pencil.stiffness(), functions.hub_rotation());
+  if (output(0) != 0) {
+    return {Eigen::PartialPivLU<Matrix>(without_first(stiffness, output))
+                .solve(without_first(mass, output))};
+  }
+  const Matrix moving = with_first(mass, output);
+  return {
+      Eigen::PartialPivLU<Matrix>(with_first(stiffness, output) + kShift * moving).solve(moving),
+      kShift};
+}
+
+}  // namespace
+
+PencilZeros pencil_zeros(const AdmissibleFunctions& functions, const ScaledArm& arm,
+                         const Vector& output, bool tip_is_held) {
+  const Reduced reduced =
+      reduced_problem(functions, arm, output, mass_rows(functions, arm, tip_is_held));
+  const Eigen::EigenSolver<Matrix> solver(reduced.matrix, false);
   PencilZeros zeros;
   zeros.converged = solver.info() == Eigen::Success;
   const auto& eigenvalues = solver.eigenvalues();
+  const auto order = reduced.matrix.rows();
   const Real rounding =
-      static_cast<Real>(reduced.rows()) * std::numeric_limits<Real>::epsilon() * reduced.norm();
+      static_cast<Real>(order) * std::numeric_limits<Real>::epsilon() * reduced.matrix.norm();
   int finite = 0;
   for (const std::complex<Real>& w : eigenvalues) {
     if (std::abs(w) <= rounding) continue;
     ++finite;
-    if (w.imag() >= 0) zeros.sigma_squared.push_back(Real{-1} / w);
+    if (w.imag() >= 0) zeros.sigma_squared.push_back(reduced.shift - Real{1} / w);
   }
-  const int at_origin = output.rigid != 0 ? 0 : 1;
-  zeros.infinite = static_cast<int>(reduced.rows()) + 2 - at_origin - finite;
+  zeros.infinite = static_cast<int>(order) + 2 - reduced.at_origin - finite;
   return zeros;
 }
 

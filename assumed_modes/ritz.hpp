@@ -1,26 +1,30 @@
 #pragma once
 
-#include "assumed_modes/mass_matrix.hpp"
 #include "assumed_modes/real.hpp"
+#include "assumed_modes/symmetric_pencil.hpp"
 
 namespace flexarm::assumed_modes {
 
-/// Solutions of q = mu M q for a symmetric positive definite M (the stiffness matrix is the
-/// identity), mu = lambda^4 = m l^4 omega^2/EI.
+/// Solutions of K q = mu M q, mu = lambda^4 = m l^4 omega^2/EI, in ascending order.
 struct RitzPairs {
-  Vector eigenvalues;         ///< mu, ascending
-  Matrix vectors;             ///< columns, orthonormal in strain energy: q^T q = 1
-  Real largest_residual = 0;  ///< max over pairs of |M q - q/mu| mu_1
-  bool converged = false;     ///< the eigensolver did, and every eigenvalue is positive
+  Vector eigenvalues;         ///< mu
+  Vector mass;                ///< q^T M q
+  Vector stiffness;           ///< q^T K q = mu q^T M q; stiffness + shift mass = 1
+  Matrix vectors;             ///< columns q
+  Real largest_residual = 0;  ///< |C z - nu z| over the largest nu, see ritz_pairs
+  bool converged = false;     ///< the eigensolver did, and every q^T M q is positive
 };
 
-/// All pairs of `mass`. The large eigenvalues 1/mu of M are the accurate ones, and they are the
-/// low frequencies.
-RitzPairs ritz_pairs(const Matrix& mass);
-
-/// Mass matrix of psi_i - xi psi_i'(0), the functions that keep the root from turning; its Ritz
-/// values are the zeros of the hub angle. `mass` may be with or without hub inertia, which drops
-/// out; without it nothing cancels.
-Matrix clamped_root_mass(const MassMatrix& mass, const Vector& root_slope);
+/// All pairs of the pencil; M positive definite, K of any sign.
+///
+/// With a shift S = K + shift M = L L^T and q = L^-T z the problem is C z = nu z,
+/// C = L^-1 M L^-T and nu = 1/(mu + shift): low frequencies are the large eigenvalues and the
+/// accurate ones, off by the unit of rounding times mu/shift. The shift, 500 or what makes S
+/// positive definite, is of the size of a beam's first eigenvalues. Below it mu is the Rayleigh
+/// quotient of its vector, whose error is the square of the vector's: a pendulum's or a soft root's
+/// frequency may be as low as it pleases and has all its digits. Lumped terms are rotated into the
+/// first coordinates, the greatest first, where Cholesky's method leaves their rounding: whatever
+/// their size, they do not drown the beam.
+RitzPairs ritz_pairs(const SymmetricPencil& pencil);
 
 }  // namespace flexarm::assumed_modes

@@ -1,7 +1,9 @@
 #include "compare/comparison.hpp"
 
 #include "arm/input_error.hpp"
+#include "arm/linear_arm.hpp"
 #include "assumed_modes/basis_report.hpp"
+#include "response/arm_parts.hpp"
 #include "response/settings.hpp"
 
 #include <fmt/format.h>
@@ -219,7 +221,8 @@ std::vector<FeatureFamily> families(const Options& options) {
   return asked;
 }
 
-std::vector<Subject> standard_subjects(const arm::Arm& arm, int roots) {
+std::vector<Subject> standard_subjects(const arm::Arm& whole, int roots) {
+  const arm::Arm arm = response::take_apart(whole).linear;
   const auto fem_options = response::fem_settings(roots);
   const auto ritz_options = response::assumed_modes_settings(roots);
   return {
@@ -235,8 +238,9 @@ Comparison compare(const std::vector<Subject>& subjects, const Options& options)
   return compare_subjects(subjects, options, steps);
 }
 
-Comparison compare(const arm::Arm& arm, const Options& options) {
+Comparison compare(const arm::Arm& whole, const Options& options) {
   require_valid(options);
+  const arm::Arm arm = response::take_apart(whole).linear;
   require_at_most("poles", options.poles, response::kMostRoots);
   require_at_most("zeros", options.non_collocated_zeros, response::kMostRoots);
   const int roots = std::max(options.poles, options.non_collocated_zeros);
@@ -261,7 +265,9 @@ Comparison compare(const arm::Arm& arm, const Options& options) {
       steps.advance();
     }
   }
-  if (options.refinements) comparison.basis_notes = basis_notes(arm);
+  if (options.refinements && arm::linear_arm(arm).is_plain()) {
+    comparison.basis_notes = basis_notes(arm);
+  }
   return comparison;
 }
 

@@ -80,12 +80,14 @@ struct Comparison {
   Verdict verdict;
 };
 
-/// exact_tf, fem and assumed_modes of the arm, at settings fine enough for `roots` roots.
-std::vector<Subject> standard_subjects(const arm::Arm& arm, int roots);
+/// exact_tf, fem and assumed_modes of the arm with its linear effects, at settings fine enough for
+/// `roots` roots.
+std::vector<Subject> standard_subjects(const arm::Arm& whole, int roots);
 
-/// Compares the standard subjects of an arm. Throws InputError for an unusable arm, sensor or
-/// option, and for more roots than response::kMostRoots.
-Comparison compare(const arm::Arm& arm, const Options& options);
+/// Compares the standard subjects of an arm; its nonlinear, actuator and sensor effects are left
+/// out, and `Comparison::arm` is the arm without them. Throws InputError for an unusable arm,
+/// sensor or option, and for more roots than response::kMostRoots.
+Comparison compare(const arm::Arm& whole, const Options& options);
 
 /// Compares any two or more models with each other (no refinement series). The arm of the first is
 /// the comparison's.

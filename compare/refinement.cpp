@@ -1,5 +1,7 @@
 #include "compare/refinement.hpp"
 
+#include "arm/linear_arm.hpp"
+
 #include <limits>
 
 namespace flexarm::compare {
@@ -77,9 +79,13 @@ std::vector<Refinement> standard_refinements(const arm::Arm& arm, int roots) {
       fem_degree(elements),
       functions_of("Legendre polynomials", Basis::legendre, Decay::exponential,
                    stepping(4, 2 * roots + 24, 2)),
-      functions_of("clamped-free shapes", Basis::clamped_free, Decay::algebraic, shapes),
-      functions_of("pinned-free shapes", Basis::pinned_free, Decay::algebraic, shapes),
   };
+  // Shapes of a plain beam cannot bend at a crack or a soft root.
+  if (!arm::linear_arm(arm).is_plain()) return refinements;
+  refinements.push_back(
+      functions_of("clamped-free shapes", Basis::clamped_free, Decay::algebraic, shapes));
+  refinements.push_back(
+      functions_of("pinned-free shapes", Basis::pinned_free, Decay::algebraic, shapes));
   // Without a payload these are the clamped-free shapes.
   if (arm.payload != arm::Payload{}) {
     refinements.push_back(functions_of("clamped shapes with payload", Basis::clamped_with_payload,

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <complex>
 #include <cstddef>
 #include <numeric>
 
@@ -12,6 +13,15 @@ namespace flexarm::fem {
 namespace {
 
 using Triplets = std::vector<Eigen::Triplet<double>>;
+
+double beam_mass_kg(const arm::LinearArm& arm) {
+  return arm.linear_density_kg_per_m * arm.length_m;
+}
+
+/// m l^3, the unit of inertia.
+double beam_inertia_kg_m2(const arm::LinearArm& arm) {
+  return beam_mass_kg(arm) * arm.length_m * arm.length_m;
+}
 
 std::vector<double> positions(const std::vector<double>& lengths) {
   std::vector<double> nodes(lengths.size() + 1, 0.0);
@@ -22,15 +32,18 @@ std::vector<double> positions(const std::vector<double>& lengths) {
 
 }  // namespace
 
-Discretisation::Discretisation(const arm::Arm& arm, const MeshOptions& mesh, int degree)
+Discretisation::Discretisation(const arm::LinearArm& arm, const MeshOptions& mesh, int degree)
     : element_(degree),
-      lengths_(element_lengths(mesh, arm.beam.length_m)),
+      lengths_(element_lengths(mesh, arm.length_m)),
       nodes_(positions(lengths_)),
-      payload_mass_(arm::payload_mass_ratio(arm)),
-      payload_inertia_(arm::payload_inertia_ratio(arm)) {
+      payload_mass_(arm.payload_mass_kg / beam_mass_kg(arm)),
+      payload_inertia_(arm.payload_tip_inertia_kg_m2 / beam_inertia_kg_m2(arm)),
+      kelvin_voigt_(arm.kelvin_voigt_s * arm::omega_scale_rad_per_s(arm)),
+      hub_friction_(arm.hub_viscous_friction_N_m_s_per_rad * arm::omega_scale_rad_per_s(arm) *
+                    arm.length_m / arm.flexural_rigidity_N_m2) {
   mass_ = assemble([this](double h) { return element_.mass(h); });
   const int n = size();
-  mass_.coeffRef(0, 0) += arm::hub_inertia_ratio(arm);
+  mass_.coeffRef(0, 0) += arm.hub_inertia_kg_m2 / beam_inertia_kg_m2(arm);
   mass_.coeffRef(n - 2, n - 2) += payload_mass_;
   mass_.coeffRef(n - 1, n - 1) += payload_inertia_;
 
@@ -172,6 +185,29 @@ double Discretisation::deflection(const Eigen::VectorXd& u, double x) const {
   }
   return y;
 }
+
+template <class Scalar>
+Columns<Scalar> Discretisation::stiffness_products(const Columns<Scalar>&,
+                                                   const Columns<Scalar>& d) const {
+  return d.transpose() * (natural_stiffness().template cast<Scalar>().asDiagonal() * d);
+}
+
+template <class Scalar>
+Columns<Scalar> Discretisation::damping_products(const Columns<Scalar>& u,
+                                                 const Columns<Scalar>& d) const {
+  return kelvin_voigt_ * stiffness_products(u, d) +
+         hub_friction_ * (u.row(0).transpose() * u.row(0));
+}
+
+using Complex = std::complex<double>;
+template Columns<double> Discretisation::stiffness_products(const Columns<double>&,
+                                                            const Columns<double>&) const;
+template Columns<Complex> Discretisation::stiffness_products(const Columns<Complex>&,
+                                                             const Columns<Complex>&) const;
+template Columns<double> Discretisation::damping_products(const Columns<double>&,
+                                                          const Columns<double>&) const;
+template Columns<Complex> Discretisation::damping_products(const Columns<Complex>&,
+                                                           const Columns<Complex>&) const;
 
 std::string describe(const Discretisation& discretisation) {
   return fmt::format(

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "arm/arm.hpp"
+#include "arm/linear_arm.hpp"
 #include "fem/hermite_element.hpp"
 #include "fem/mesh.hpp"
 
@@ -10,6 +10,9 @@
 #include <vector>
 
 namespace flexarm::fem {
+
+template <class Scalar>
+using Columns = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
 
 /// The arm divided into finite elements, dimensionless: lengths in l, times in sqrt(m l^4/EI),
 /// forces in EI/l^2. With n generalised coordinates u,
@@ -26,8 +29,8 @@ namespace flexarm::fem {
 /// K gives a rigid rotation, rounded, strain energy of the order h^-4 times epsilon.
 class Discretisation {
  public:
-  /// Throws arm::InputError for options out of their range. `arm` is valid.
-  Discretisation(const arm::Arm& arm, const MeshOptions& mesh, int degree);
+  /// Throws arm::InputError for options out of their range.
+  Discretisation(const arm::LinearArm& arm, const MeshOptions& mesh, int degree);
 
   int size() const { return static_cast<int>(mass_.rows()); }
   int clamped_size() const { return size() - 1; }
@@ -57,6 +60,20 @@ class Discretisation {
   double payload_mass() const { return payload_mass_; }
   double payload_inertia() const { return payload_inertia_; }
 
+  /// K r = 0.
+  bool turns_freely() const { return true; }
+  /// C = kv K, kv = 0 included.
+  bool is_damped_in_proportion() const { return hub_friction_ == 0.0; }
+  /// Kelvin-Voigt time, and friction of the hub as (2 R)/theta_t^2.
+  double kelvin_voigt() const { return kelvin_voigt_; }
+  double hub_friction() const { return hub_friction_; }
+  /// u^T K u and u^T C u (without conjugation) for shapes and their natural deformations by
+  /// columns, summed in deformations.
+  template <class Scalar>
+  Columns<Scalar> stiffness_products(const Columns<Scalar>& u, const Columns<Scalar>& d) const;
+  template <class Scalar>
+  Columns<Scalar> damping_products(const Columns<Scalar>& u, const Columns<Scalar>& d) const;
+
   /// M k for the influence shape k(x) = max(x - position, 0), position in [0, 1].
   Eigen::VectorXd ramp_momentum(double position) const;
   /// k(x) = x^2 (3 - x)/6, the clamped arm under a unit force at the tip.
@@ -77,6 +94,8 @@ class Discretisation {
   std::vector<double> nodes_;
   double payload_mass_;
   double payload_inertia_;
+  double kelvin_voigt_;
+  double hub_friction_;
   Eigen::SparseMatrix<double> mass_;
   Eigen::VectorXd rigid_rotation_;
   Eigen::VectorXd rigid_momentum_;

@@ -1,8 +1,10 @@
 #include "fem/fem_arm.hpp"
 
 #include "arm/input_error.hpp"
+#include "fem/damped_poles.hpp"
 #include "fem/discretisation.hpp"
 #include "fem/hub_driven_response.hpp"
+#include "fem/modal_model.hpp"
 #include "fem/sensor_row.hpp"
 #include "fem/trusted_zeros.hpp"
 #include "fem/vibration_modes.hpp"
@@ -23,7 +25,9 @@ using Complex = std::complex<double>;
 
 arm::Arm checked(arm::Arm arm) {
   arm::require_computable(arm);
-  arm::require_honoured(arm.effects, FemArm::kName, {});
+  arm::require_honoured(arm.effects, FemArm::kName,
+                        {"hub_inertia", "flexural_rigidity", "linear_density", "payload_mass",
+                         "payload_inertia", "hub_viscous_friction", "structural_damping"});
   return arm;
 }
 
@@ -79,8 +83,9 @@ FemArm::FemArm(arm::Arm arm) : FemArm(std::move(arm), Options{}) {}
 FemArm::FemArm(arm::Arm arm, Options options)
     : arm_(checked(std::move(arm))),
       options_(checked(std::move(options))),
-      omega_scale_rad_per_s_(arm::omega_scale_rad_per_s(arm_)),
-      model_(std::make_shared<const Discretisation>(arm_, options_.mesh, options_.degree)) {}
+      linear_(arm::linear_arm(arm_)),
+      omega_scale_rad_per_s_(arm::omega_scale_rad_per_s(linear_)),
+      model_(std::make_shared<const Discretisation>(linear_, options_.mesh, options_.degree)) {}
 
 int FemArm::degrees_of_freedom() const {
   return model_->size();
@@ -120,11 +125,11 @@ arm::ZeroSet FemArm::clamped_zeros(int count) const {
 
 arm::ZeroSet FemArm::transmission_zeros(const arm::Sensor& sensor, int count) const {
   const auto finer = [&](int degrees) {
-    return Discretisation(arm_, options_.mesh, options_.degree + degrees);
+    return Discretisation(linear_, options_.mesh, options_.degree + degrees);
   };
   const CheckingModels checking{finer(options_.checking_degrees),
                                 finer(2 * options_.checking_degrees)};
-  arm::ZeroSet zeros = trusted_zeros(*model_, checking, arm_, sensor, count,
+  arm::ZeroSet zeros = trusted_zeros(*model_, checking, linear_, sensor, count,
                                      {options_.eigen_tolerance, options_.zero_agreement});
   for (Complex& s : zeros.s_rad_per_s) s *= omega_scale_rad_per_s_;
   for (arm::RejectedZero& zero : zeros.rejected) zero.s_rad_per_s *= omega_scale_rad_per_s_;
@@ -133,42 +138,37 @@ arm::ZeroSet FemArm::transmission_zeros(const arm::Sensor& sensor, int count) co
 
 std::vector<arm::Mode> FemArm::modes(int count, std::span<const arm::Sensor> sensors,
                                      std::span<const double> stations_m) const {
-  arm::require_count(count);
-  std::vector<SensorRow> rows;
-  for (const arm::Sensor& sensor : sensors) {
-    arm::require_valid(sensor, arm_);
-    rows.push_back(sensor_row(*model_, arm_, sensor));
-  }
-  const double length_m = arm_.beam.length_m;
-  arm::require_stations(stations_m, arm_);
-  const VibrationModes vibration =
-      vibration_modes(*model_, HubSupport::free, count, options_.eigen_tolerance);
-  const double friction = arm_.hub.viscous_friction_N_m_s_per_rad / arm::total_inertia_kg_m2(arm_);
+  arm::ModalModel model = modal_model(count, sensors, stations_m);
+  model.modes.erase(model.modes.begin());
+  return std::move(model.modes);
+}
 
-  std::vector<arm::Mode> modes;
-  for (Eigen::Index j = 0; j < vibration.omega_squared.size(); ++j) {
-    const double omega_squared = vibration.omega_squared[j];
-    // Unit modal mass to total inertia; a positive hub slope.
-    const double size = std::sqrt(model_->total_inertia());
-    const Eigen::VectorXd phi =
-        vibration.shapes.col(j) * (vibration.shapes(0, j) < 0.0 ? -size : size);
-    arm::Mode mode;
-    mode.omega_rad_per_s = omega_scale_rad_per_s_ * std::sqrt(omega_squared);
-    mode.hub_slope = phi[0];
-    const double omega = mode.omega_rad_per_s;
-    mode.damping_ratio =
-        (arm_.damping.kelvin_voigt_s * omega * omega + friction * mode.hub_slope * mode.hub_slope) /
-        (2.0 * omega);
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      const double reading = rows[i].c.dot(phi) * (rows[i].by_inertia ? omega_squared : 1.0);
-      mode.sensor_values.push_back(reading * si_reading(arm_, sensors[i]));
-    }
-    for (const double station_m : stations_m) {
-      mode.displacement_m.push_back(length_m * model_->deflection(phi, station_m / length_m));
-    }
-    modes.push_back(std::move(mode));
+arm::ModalModel FemArm::modal_model(int count, std::span<const arm::Sensor> sensors,
+                                    std::span<const double> stations_m) const {
+  arm::require_count(count);
+  for (const arm::Sensor& sensor : sensors) arm::require_valid(sensor, arm_);
+  arm::require_stations(stations_m, arm_);
+  return fem::modal_model(
+      *model_, linear_, vibration_modes(*model_, HubSupport::free, count, options_.eigen_tolerance),
+      sensors, stations_m);
+}
+
+arm::DampedPoleSet FemArm::damped_poles(int count) const {
+  arm::require_count(count);
+  const DampedRoots roots = damped_roots(*model_, count, options_.eigen_tolerance);
+  const auto in_SI = [&](const RootPair& pair) {
+    return arm::PolePair{pair.first * omega_scale_rad_per_s_, pair.second * omega_scale_rad_per_s_};
+  };
+  arm::DampedPoleSet poles;
+  poles.lowest = in_SI(roots.pairs.front());
+  for (std::size_t i = 1; i < roots.pairs.size(); ++i) {
+    poles.flexible.push_back(in_SI(roots.pairs[i]));
   }
-  return modes;
+  poles.summary = {
+      "continuation in damping on projected modes, inverse iteration on the quadratic pencil "
+      "(residual: last change of s)",
+      roots.iterations, roots.largest_change, roots.converged};
+  return poles;
 }
 
 Complex FemArm::transfer_function(const arm::Sensor& sensor, Complex s_rad_per_s) const {
@@ -179,35 +179,33 @@ Complex FemArm::transfer_function(const arm::Sensor& sensor, Complex s_rad_per_s
   if (!std::isfinite(std::norm(s_rad_per_s / omega_scale_rad_per_s_))) {
     throw std::domain_error("transfer function: the square of s is not finite");
   }
-  const double rigidity = arm_.beam.flexural_rigidity_N_m2();
+  const double rigidity = linear_.flexural_rigidity_N_m2;
   const Complex s = s_rad_per_s / omega_scale_rad_per_s_;
-  const Complex stiffness_factor = 1.0 + arm_.damping.kelvin_voigt_s * s_rad_per_s;
-  const double friction = arm_.hub.viscous_friction_N_m_s_per_rad * omega_scale_rad_per_s_ *
-                          arm_.beam.length_m / rigidity;
+  const Complex stiffness_factor = 1.0 + linear_.kelvin_voigt_s * s_rad_per_s;
   const HubDrivenResponse response(*model_, stiffness_factor, s * s);
   if (response.singular()) {
     // Exactly at a zero of the hub angle parts of the ratios below are infinite; beside it not.
     constexpr double kBeside = 1.0 + 4.0 * std::numeric_limits<double>::epsilon();
     return transfer_function(sensor, s_rad_per_s * kBeside);
   }
-  const Eigen::VectorXcd u = response.to_unit_rotation();
+  const Eigen::VectorXcd u = response.to_unit_rotation().u;
   // Angular momentum about the axis: no stress enters, so nothing cancels as s tends to 0.
-  const Complex torque =
-      s * s * model_->rigid_momentum().cast<Complex>().cwiseProduct(u).sum() + friction * s;
-  const SensorRow row = sensor_row(*model_, arm_, sensor);
+  const Complex torque = s * s * model_->rigid_momentum().cast<Complex>().cwiseProduct(u).sum() +
+                         model_->hub_friction() * s;
+  const SensorRow row = sensor_row(*model_, linear_, sensor);
   Complex reading = row.c.cast<Complex>().cwiseProduct(u).sum();
   if (row.by_inertia) reading *= -s * s / stiffness_factor;
-  const double torque_unit_N_m = rigidity / arm_.beam.length_m;
-  return reading / torque * si_reading(arm_, sensor) / torque_unit_N_m *
+  const double torque_unit_N_m = rigidity / linear_.length_m;
+  return reading / torque * si_reading(linear_, sensor) / torque_unit_N_m *
          std::pow(s_rad_per_s, arm::derivative_order(sensor));
 }
 
 Eigen::SparseMatrix<double> FemArm::mass_kg_m2() const {
-  return model_->mass() * (arm_.beam.linear_density_kg_per_m() * std::pow(arm_.beam.length_m, 3));
+  return model_->mass() * (linear_.linear_density_kg_per_m * std::pow(linear_.length_m, 3));
 }
 
 Eigen::SparseMatrix<double> FemArm::stiffness_N_m() const {
-  return model_->stiffness() * (arm_.beam.flexural_rigidity_N_m2() / arm_.beam.length_m);
+  return model_->stiffness() * (linear_.flexural_rigidity_N_m2 / linear_.length_m);
 }
 
 }  // namespace flexarm::fem

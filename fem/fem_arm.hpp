@@ -1,6 +1,7 @@
 #pragma once
 
 #include "arm/formulation.hpp"
+#include "arm/linear_arm.hpp"
 #include "fem/mesh.hpp"
 
 #include <Eigen/SparseCore>
@@ -55,6 +56,8 @@ class FemArm {
 
   /// `count.expected` is by Sylvester inertia where rounding of the assembled stiffness permits.
   arm::PoleSet poles(int count) const;
+  /// Roots of the whole quadratic pencil (see damped_poles.hpp), not of its projection.
+  arm::DampedPoleSet damped_poles(int count) const;
   /// Collocated: frequencies of the arm with its hub clamped. Others: finite roots of the
   /// Rosenbrock pencil, of which those are rejected that the checking mesh does not confirm; fewer
   /// than `count` are returned when no more can be trusted. With `count` = degrees_of_freedom() all
@@ -67,6 +70,8 @@ class FemArm {
   /// Stations in metres from the motor axis, each from 0 to the beam's length.
   std::vector<arm::Mode> modes(int count, std::span<const arm::Sensor> sensors,
                                std::span<const double> stations_m) const;
+  arm::ModalModel modal_model(int count, std::span<const arm::Sensor> sensors,
+                              std::span<const double> stations_m) const;
   /// Sparse complex LU along the arm, linear in the number of elements. Rounding grows with the
   /// number of elements, not with the condition of the stiffness: some 1e-15 for the default, 1e-11
   /// at 100,000 elements, times the condition of the response at s. Throws std::domain_error also
@@ -86,6 +91,7 @@ class FemArm {
 
   arm::Arm arm_;
   Options options_;
+  arm::LinearArm linear_;
   double omega_scale_rad_per_s_;
   std::shared_ptr<const Discretisation> model_;
 };

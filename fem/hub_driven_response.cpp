@@ -1,5 +1,6 @@
 #include "fem/hub_driven_response.hpp"
 
+#include <limits>
 #include <vector>
 
 namespace flexarm::fem {
@@ -69,19 +70,26 @@ Eigen::SparseMatrix<Complex> mixed_matrix(const Discretisation& model, Complex s
 HubDrivenResponse::HubDrivenResponse(const Discretisation& discretisation, Complex stiffness_factor,
                                      Complex s_squared)
     : model_(discretisation),
+      stiffness_factor_(stiffness_factor),
       s_squared_(s_squared),
       factor_(mixed_matrix(discretisation, stiffness_factor, s_squared),
               PivotOrder::natural_partial) {}
 
-Eigen::VectorXcd HubDrivenResponse::solve(Eigen::VectorXcd mixed, Complex theta) const {
+DynamicShape HubDrivenResponse::solve(Eigen::VectorXcd mixed, Complex theta) const {
   factor_.solve(mixed);
-  Eigen::VectorXcd u(model_.size());
-  u[0] = theta;
-  for (int i = 0; i < model_.clamped_size(); ++i) u[i + 1] = mixed[mixed_index(model_, i)];
-  return u;
+  const Eigen::VectorXd stiffness = model_.natural_stiffness();
+  DynamicShape shape{Eigen::VectorXcd(model_.size()), Eigen::VectorXcd(model_.clamped_size())};
+  shape.u[0] = theta;
+  for (int i = 0; i < model_.clamped_size(); ++i) {
+    shape.u[i + 1] = mixed[mixed_index(model_, i)];
+    const int kinematic = kinematic_index(model_, i);
+    shape.d[i] =
+        kinematic < 0 ? shape.u[i + 1] : mixed[kinematic] / (stiffness_factor_ * stiffness[i]);
+  }
+  return shape;
 }
 
-Eigen::VectorXcd HubDrivenResponse::to_unit_rotation() const {
+DynamicShape HubDrivenResponse::to_unit_rotation() const {
   Eigen::VectorXcd mixed = Eigen::VectorXcd::Zero(mixed_size(model_));
   // theta's column of B stands in the first element: d1 has h/2 of it, d0 has -1.
   mixed[0] = -model_.lengths().front() / 2.0;
@@ -94,10 +102,29 @@ Eigen::VectorXcd HubDrivenResponse::to_unit_rotation() const {
   return solve(std::move(mixed), 1.0);
 }
 
-Eigen::VectorXcd HubDrivenResponse::to_loads(const Eigen::VectorXcd& f) const {
+DynamicShape HubDrivenResponse::to_loads(const Eigen::VectorXcd& f) const {
   Eigen::VectorXcd mixed = Eigen::VectorXcd::Zero(mixed_size(model_));
   for (int i = 0; i < model_.clamped_size(); ++i) mixed[mixed_index(model_, i)] = f[i + 1];
   return solve(std::move(mixed), 0.0);
+}
+
+DynamicShape free_response(const Discretisation& discretisation, Complex s,
+                           const Eigen::VectorXcd& f) {
+  const HubDrivenResponse response(discretisation, 1.0 + discretisation.kelvin_voigt() * s, s * s);
+  if (response.singular()) {
+    constexpr double kBeside = 1.0 + 4.0 * std::numeric_limits<double>::epsilon();
+    return free_response(discretisation, s * kBeside, f);
+  }
+  const DynamicShape turned = response.to_unit_rotation();
+  DynamicShape loaded = response.to_loads(f);
+  // Reciprocity: what of the loads the hub feels.
+  const Complex felt = turned.u.cwiseProduct(f).sum();
+  const Complex torque =
+      s * s * discretisation.rigid_momentum().cast<Complex>().cwiseProduct(turned.u).sum() +
+      discretisation.hub_friction() * s;
+  loaded.u += felt / torque * turned.u;
+  loaded.d += felt / torque * turned.d;
+  return loaded;
 }
 
 }  // namespace flexarm::fem

@@ -9,6 +9,12 @@
 
 namespace flexarm::fem {
 
+/// A shape of complex amplitudes, n, and its natural deformations, n - 1.
+struct DynamicShape {
+  Eigen::VectorXcd u;
+  Eigen::VectorXcd d;
+};
+
 /// The arm at one complex frequency while its hub rotation is prescribed, dimensionless:
 ///
 ///     (1 + kv s) K_c u_c + s^2 (M u)_c = f_c,   u(0) = theta given.
@@ -31,17 +37,22 @@ class HubDrivenResponse {
                     Complex s_squared);
 
   bool singular() const { return factor_.singular(); }
-  /// All n coordinates for theta = 1 and no other load.
-  Eigen::VectorXcd to_unit_rotation() const;
-  /// All n coordinates for theta = 0 and the loads `f`, n; f(0) is not used.
-  Eigen::VectorXcd to_loads(const Eigen::VectorXcd& f) const;
+  /// For theta = 1 and no other load.
+  DynamicShape to_unit_rotation() const;
+  /// For theta = 0 and the loads `f`, n; f(0) is not used.
+  DynamicShape to_loads(const Eigen::VectorXcd& f) const;
 
  private:
-  Eigen::VectorXcd solve(Eigen::VectorXcd mixed, Complex theta) const;
+  DynamicShape solve(Eigen::VectorXcd mixed, Complex theta) const;
 
   const Discretisation& model_;
+  Complex stiffness_factor_;
   Complex s_squared_;
   KluFactor<Complex> factor_;
 };
+
+/// y of (s^2 M + s C + K) y = f with the hub free, damping included; not finite at a pole.
+DynamicShape free_response(const Discretisation& discretisation, std::complex<double> s,
+                           const Eigen::VectorXcd& f);
 
 }  // namespace flexarm::fem

@@ -24,8 +24,8 @@ Numerator::Value Numerator::operator()(Complex w) const {
   const HubDrivenResponse response(model_, 1.0, w);
   // Exactly at a pole of F; a neighbour serves as well.
   if (response.singular()) return (*this)(w * (1.0 + std::numeric_limits<double>::epsilon()));
-  const Eigen::VectorXcd u = response.to_unit_rotation();
-  const Eigen::VectorXcd du_dw = response.to_loads(-(model_.mass() * u));
+  const Eigen::VectorXcd u = response.to_unit_rotation().u;
+  const Eigen::VectorXcd du_dw = response.to_loads(-(model_.mass() * u)).u;
   const Complex f = c_.cast<Complex>().cwiseProduct(u).sum();
   if (f == 0.0) return {1.0, 0.0, true};
   Value value{f / std::abs(f), c_.cast<Complex>().cwiseProduct(du_dw).sum() / f};

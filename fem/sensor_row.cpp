@@ -4,7 +4,7 @@
 
 namespace flexarm::fem {
 
-SensorRow sensor_row(const Discretisation& discretisation, const arm::Arm& arm,
+SensorRow sensor_row(const Discretisation& discretisation, const arm::LinearArm& arm,
                      const arm::Sensor& sensor) {
   SensorRow row;
   row.c = Eigen::VectorXd::Zero(discretisation.size());
@@ -23,14 +23,14 @@ SensorRow sensor_row(const Discretisation& discretisation, const arm::Arm& arm,
       row.infinite_roots = 3;
       break;
     case arm::SensorKind::strain:
-      row.c = discretisation.ramp_momentum(sensor.position_m / arm.beam.length_m);
+      row.c = discretisation.ramp_momentum(sensor.position_m / arm.length_m);
       row.by_inertia = true;
       break;
   }
   return row;
 }
 
-double si_reading(const arm::Arm& arm, const arm::Sensor& sensor) {
+double si_reading(const arm::LinearArm& arm, const arm::Sensor& sensor) {
   switch (sensor.kind) {
     case arm::SensorKind::hub_angle:
     case arm::SensorKind::hub_velocity:
@@ -38,9 +38,9 @@ double si_reading(const arm::Arm& arm, const arm::Sensor& sensor) {
     case arm::SensorKind::tip_acceleration:
     case arm::SensorKind::tip_displacement:
     case arm::SensorKind::tip_deflection:
-      return arm.beam.length_m;
+      return arm.length_m;
     case arm::SensorKind::strain:
-      return *arm.beam.thickness_m / (2.0 * arm.beam.length_m);
+      return *arm.thickness_m / (2.0 * arm.length_m);
   }
   throw std::logic_error("sensor kind outside its enumeration");
 }

@@ -28,11 +28,11 @@ struct SensorRow {
   int infinite_roots = 2;
 };
 
-/// `sensor` is valid for `arm`.
-SensorRow sensor_row(const Discretisation& discretisation, const arm::Arm& arm,
+/// `sensor` is valid for the arm.
+SensorRow sensor_row(const Discretisation& discretisation, const arm::LinearArm& arm,
                      const arm::Sensor& sensor);
 
 /// Factor from the dimensionless reading (rotation 1, displacement l, curvature 1/l) to SI.
-double si_reading(const arm::Arm& arm, const arm::Sensor& sensor);
+double si_reading(const arm::LinearArm& arm, const arm::Sensor& sensor);
 
 }  // namespace flexarm::fem

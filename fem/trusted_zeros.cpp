@@ -101,7 +101,7 @@ std::size_t sort_out(const std::vector<Candidate>& candidates, std::size_t compl
 }  // namespace
 
 CheckedNumerators::CheckedNumerators(const Discretisation& discretisation,
-                                     const CheckingModels& checking, const arm::Arm& arm,
+                                     const CheckingModels& checking, const arm::LinearArm& arm,
                                      const arm::Sensor& sensor, int poles, double tolerance)
     : model(discretisation, sensor_row(discretisation, arm, sensor).c, poles, tolerance),
       fine(checking.fine, sensor_row(checking.fine, arm, sensor).c, poles, tolerance),
@@ -132,7 +132,7 @@ JudgedZeros judge(const PencilRoots& roots, const CheckedNumerators& numerators,
 }
 
 arm::ZeroSet trusted_zeros(const Discretisation& model, const CheckingModels& checking,
-                           const arm::Arm& arm, const arm::Sensor& sensor, int count,
+                           const arm::LinearArm& arm, const arm::Sensor& sensor, int count,
                            const TrustOptions& options) {
   // Some spurious roots may lie between the zeros, and the last root counted needs one beyond it.
   constexpr int kSpare = 4;

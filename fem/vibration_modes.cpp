@@ -153,8 +153,8 @@ void refine(const Discretisation& model, const FlexibleSolve& solve, const Eigen
   const Eigen::Index count = raw.cols();
   modes.omega_squared.resize(count);
   modes.shapes.resize(model.size(), count);
+  modes.deformations.resize(model.clamped_size(), count);
   Eigen::MatrixXd momenta(model.size(), count);
-  Eigen::MatrixXd deformations(model.clamped_size(), count);
   for (Eigen::Index j = 0; j < count; ++j) {
     Eigen::VectorXd u = raw.col(j);
     double omega_squared = 0.0;
@@ -163,7 +163,7 @@ void refine(const Discretisation& model, const FlexibleSolve& solve, const Eigen
       Deformed next = solve(model.mass() * u);
       const Eigen::VectorXd below = momenta.leftCols(j).transpose() * next.u;
       next.u -= modes.shapes.leftCols(j) * below;
-      next.d -= deformations.leftCols(j) * below;
+      next.d -= modes.deformations.leftCols(j) * below;
       const Eigen::VectorXd momentum = model.mass() * next.u;
       const double norm = std::sqrt(next.u.dot(momentum));
       const double quotient = solve.flexibility().twice_strain_energy(next.d) / (norm * norm);
@@ -172,7 +172,7 @@ void refine(const Discretisation& model, const FlexibleSolve& solve, const Eigen
       u = next.u / norm;
       modes.shapes.col(j) = u;
       momenta.col(j) = momentum / norm;
-      deformations.col(j) = next.d / norm;
+      modes.deformations.col(j) = next.d / norm;
     }
     modes.omega_squared[j] = omega_squared;
     modes.largest_change = std::max(modes.largest_change, change);
@@ -184,6 +184,10 @@ void refine(const Discretisation& model, const FlexibleSolve& solve, const Eigen
 VibrationModes vibration_modes(const Discretisation& discretisation, HubSupport support, int count,
                                double tolerance) {
   VibrationModes modes;
+  if (support == HubSupport::free) {
+    modes.lowest = {discretisation.rigid_rotation() / std::sqrt(discretisation.total_inertia()),
+                    Eigen::VectorXd::Zero(discretisation.clamped_size())};
+  }
   const int available = discretisation.clamped_size();
   count = std::min(count, available);
   const FlexibleSolve solve(discretisation, support);

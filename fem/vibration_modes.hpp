@@ -7,11 +7,15 @@
 
 namespace flexarm::fem {
 
-/// The lowest flexible modes of K u = omega^2 M u, dimensionless.
+/// The lowest modes of K u = omega^2 M u, dimensionless: the flexible ones, and with a free hub the
+/// one below them.
 struct VibrationModes {
-  Eigen::VectorXd omega_squared;  ///< ascending
-  Eigen::MatrixXd shapes;         ///< n x count, u^T M u = 1; row 0 is theta (0 where clamped)
-  int iterations = 0;             ///< operator applications of the iterative solver, else 0
+  double lowest_omega_squared = 0.0;  ///< of the rigid-body mode
+  Deformed lowest;                    ///< its shape, u^T M u = 1; empty where clamped
+  Eigen::VectorXd omega_squared;      ///< ascending
+  Eigen::MatrixXd shapes;             ///< n x count, u^T M u = 1; row 0 is theta (0 where clamped)
+  Eigen::MatrixXd deformations;       ///< (n - 1) x count, the natural ones
+  int iterations = 0;                 ///< operator applications of the iterative solver, else 0
   /// largest_change <= max(1e-8, tolerance).
   bool converged = true;
   bool dense = false;  ///< by singular values of the whole factored problem

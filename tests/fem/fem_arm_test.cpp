@@ -16,8 +16,9 @@ using ::testing::HasSubstr;
 
 constexpr arm::Sensor kHubAngle{arm::SensorKind::hub_angle};
 
-TEST(FemArm, RefusesEveryEffectByName) {
+TEST(FemArm, RefusesEveryOtherEffectByName) {
   for (const arm::EffectDefinition& effect : arm::effect_vocabulary()) {
+    if (effect.place == arm::EffectPlace::linear_arm) continue;
     arm::Arm arm = arm::paper_arm();
     for (const auto& parameter : effect.parameters) {
       arm.effects[effect.name].parameters[parameter.name] = 0.1;

@@ -47,7 +47,7 @@ TEST_P(Laws, StiffnessIsSymmetricAndHasExactlyOneRigidBodyMode) {
 
 TEST_P(Laws, RigidRotationHasTheTotalInertiaAndNoStrain) {
   const arm::Arm arm = reference::arm_of(GetParam());
-  const Discretisation discretisation(arm, {.elements = 5}, 7);
+  const Discretisation discretisation(arm::linear_arm(arm), {.elements = 5}, 7);
   const double unit = arm.beam.linear_density_kg_per_m() * std::pow(arm.beam.length_m, 3);
   const double exact = arm::total_inertia_kg_m2(arm);
   EXPECT_NEAR(discretisation.total_inertia() * unit, exact, 20.0 * kEpsilon * exact);
@@ -57,7 +57,7 @@ TEST_P(Laws, RigidRotationHasTheTotalInertiaAndNoStrain) {
 }
 
 TEST_P(Laws, FactorsMultiplyToTheStiffness) {
-  const Discretisation model(reference::arm_of(GetParam()), {.elements = 5}, 7);
+  const Discretisation model(arm::linear_arm(reference::arm_of(GetParam())), {.elements = 5}, 7);
   const Eigen::SparseMatrix<double> b = model.kinematics();
   const Eigen::MatrixXd product =
       Eigen::MatrixXd(b.transpose() * model.natural_stiffness().asDiagonal() * b);

@@ -200,12 +200,13 @@ struct MissingRoot : ::testing::TestWithParam<std::string> {
   static constexpr double kAgreement = 1e-2;
   static constexpr double kEigenTolerance = 1e-12;
   static Discretisation of_degree(int degree) {
-    return Discretisation(loaded_arm(), {.elements = 10}, degree);
+    return Discretisation(arm::linear_arm(loaded_arm()), {.elements = 10}, degree);
   }
   const Discretisation model = of_degree(kDegree);
   const CheckingModels checking{of_degree(kDegree + 2), of_degree(kDegree + 4)};
   const CheckedNumerators numerators{
-      model, checking, loaded_arm(), arm::parse_sensor(GetParam()), kPoles, kEigenTolerance};
+      model,  checking,       arm::linear_arm(loaded_arm()), arm::parse_sensor(GetParam()),
+      kPoles, kEigenTolerance};
   const PencilRoots whole = pencil_roots(model, numerators.model, kRoots, kEigenTolerance);
 };
 
@@ -250,8 +251,9 @@ INSTANTIATE_TEST_SUITE_P(Sensors, MissingRoot,
 
 TEST(PencilRoots, AreThoseOfTheDensePencilOfASmallModel) {
   // Two cubic elements: n = 5. The finite roots w are where det [K + wM, -e0; c^T, 0] vanishes.
-  const Discretisation model(loaded_arm(), {.elements = 2}, 3);
-  const SensorRow row = sensor_row(model, loaded_arm(), arm::parse_sensor("tip_displacement"));
+  const Discretisation model(arm::linear_arm(loaded_arm()), {.elements = 2}, 3);
+  const SensorRow row =
+      sensor_row(model, arm::linear_arm(loaded_arm()), arm::parse_sensor("tip_displacement"));
   const int n = model.size();
   const PencilRoots roots =
       pencil_roots(model, Numerator(model, row.c, n - 1, 1e-12), n - 1, 1e-12);

@@ -1,0 +1,51 @@
+#include "assumed_modes/scaled_arm.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace flexarm::assumed_modes {
+
+ScaledArm scaled(const arm::LinearArm& arm) {
+  const Real l = arm.length_m;
+  const Real density = arm.linear_density_kg_per_m;
+  const Real torsion_N_m = static_cast<Real>(arm.flexural_rigidity_N_m2) / l;
+  const Real mass_kg = density * l;
+  const Real inertia_kg_m2 = mass_kg * l * l;
+  const Real omega_rad_per_s = std::sqrt(torsion_N_m / inertia_kg_m2);
+
+  ScaledArm scaled;
+  scaled.hub_inertia = arm.hub_inertia_kg_m2 / inertia_kg_m2;
+  scaled.hub_radius = arm.hub_radius_m / l;
+  scaled.hub_spring = arm.hub_spring_N_m_per_rad / torsion_N_m;
+  if (arm.root_stiffness_N_m_per_rad) {
+    scaled.root_stiffness = *arm.root_stiffness_N_m_per_rad / torsion_N_m;
+  }
+  if (arm.crack) {
+    scaled.crack = {arm.crack->position_m / l, arm.crack->stiffness_N_m_per_rad / torsion_N_m};
+  }
+  if (arm.shear) {
+    scaled.shear = {arm.shear->shear_rigidity_N * l / torsion_N_m,
+                    arm.shear->rotary_inertia_kg_m / (mass_kg * l)};
+  }
+  scaled.payload_mass = arm.payload_mass_kg / mass_kg;
+  scaled.payload_tip_inertia = arm.payload_tip_inertia_kg_m2 / inertia_kg_m2;
+  scaled.payload_own_inertia = scaled.payload_tip_inertia;
+  if (arm.payload_mass_kg > 0.0) {
+    scaled.payload_offset =
+        static_cast<Real>(arm.payload_first_moment_kg_m) / arm.payload_mass_kg / l;
+    scaled.payload_own_inertia -=
+        scaled.payload_mass * scaled.payload_offset * scaled.payload_offset;
+    // Jp was rounded when Mp offset^2 was added to the inertia about the centre.
+    constexpr Real kRounding = 4 * std::numeric_limits<double>::epsilon();
+    if (scaled.payload_own_inertia <= kRounding * scaled.payload_tip_inertia) {
+      scaled.payload_own_inertia = 0;
+    }
+  }
+  scaled.weight = arm.gravity_m_per_s2 * mass_kg * l / torsion_N_m;
+  scaled.kelvin_voigt = arm.kelvin_voigt_s * omega_rad_per_s;
+  scaled.hub_friction = arm.hub_viscous_friction_N_m_s_per_rad * omega_rad_per_s / torsion_N_m;
+  scaled.air_damping = arm.air_damping_N_s_per_m2 / (density * omega_rad_per_s);
+  return scaled;
+}
+
+}  // namespace flexarm::assumed_modes

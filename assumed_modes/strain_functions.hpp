@@ -1,0 +1,70 @@
+#pragma once
+
+#include "assumed_modes/real.hpp"
+#include "assumed_modes/scaled_arm.hpp"
+
+#include <vector>
+
+namespace flexarm::assumed_modes {
+
+/// How many functions a beam that is whole and bends only is given, and how many more each family
+/// on each piece gets.
+struct StrainFunctionCount {
+  int on_whole_beam = 1;  ///< N, 1 or more
+  int more = 0;
+};
+
+/// Admissible functions given by their strains: one strain at a time, the others zero, and y and
+/// psi follow by integration from the hub. In units of l, they are
+///
+///     the rigid rotation     y = a + xi, psi = 1: no strain
+///     the soft root          psi = 1/sqrt(kr) behind it
+///     the crack              psi = 1/sqrt(kc) behind it
+///     bending of a piece     psi' = orthonormal Legendre polynomial there, zero elsewhere
+///     shear of a piece       y' - psi = orthonormal Legendre polynomial over sqrt(k G A)
+///
+/// in this order, each present where the arm has what it stands for; the beam is one piece, or two
+/// that meet at the crack. The strain energy matrix is diag(0, 1, ..., 1): a beam that is stiff in
+/// shear cannot lock, for y' = psi is among the functions. Every end value is left free and every
+/// solution is smooth on each piece, so that Ritz values converge faster than any power.
+///
+/// A piece of length h gets c + ceil((N - c) h) functions of each family, c = min(N, 14):
+/// polynomials resolve waves in proportion to the length, and need some to begin with. Spaces grow
+/// with N.
+class StrainFunctions {
+ public:
+  StrainFunctions(const ScaledArm& arm, StrainFunctionCount count);
+
+  Eigen::Index size() const { return bends_.size(); }
+  /// 1 where the strain energy of a function is bending, 0 for the rotation, springs and shear.
+  const Vector& bends() const { return bends_; }
+  Vector hub_rotation() const { return Vector::Unit(size(), 0); }
+  Vector displacement(Real xi) const;
+  Vector rotation(Real xi) const;
+  /// psi'; at the crack that on the side of the hub.
+  Vector curvature(Real xi) const;
+
+  /// int y_i y_j.
+  Matrix displacement_products() const;
+  /// int psi_i psi_j.
+  Matrix rotation_products() const;
+  /// int p y_i' y_j' with p linear between its values at root and tip.
+  Matrix slope_products(Real at_root, Real at_tip) const;
+
+ private:
+  /// Legendre series of every function on one piece.
+  struct Piece {
+    Real start = 0;
+    Real length = 0;
+    Matrix displacement;
+    Matrix slope;
+    Matrix rotation;
+    Matrix curvature;
+  };
+  const Piece& piece_at(Real xi) const;
+
+  std::vector<Piece> pieces_;
+  Vector bends_;
+};
+
+}  // namespace flexarm::assumed_modes

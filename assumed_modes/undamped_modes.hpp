@@ -1,0 +1,34 @@
+#pragma once
+
+#include "assumed_modes/real.hpp"
+#include "assumed_modes/ritz.hpp"
+#include "assumed_modes/symmetric_pencil.hpp"
+
+namespace flexarm::assumed_modes {
+
+/// The modes of the undamped arm, the lowest (rigid-body) one first, in all coordinates. Without a
+/// restoring force the lowest is the rigid rotation itself, its stiffness exactly 0.
+RitzPairs undamped_modes(const SymmetricPencil& pencil, bool turns_freely);
+
+/// The zeros of the hub angle as Ritz values of the arm whose hub is held.
+RitzPairs hub_held_modes(const SymmetricPencil& pencil);
+
+/// What takes energy out of the arm, in coordinates that make `mass` and `stiffness` of RitzPairs
+/// diagonal: Q^T (2 R) Q over m l^3 sqrt(EI/(m l^4)).
+struct ModalDamping {
+  /// Kelvin-Voigt and air.
+  Matrix of_beam;
+  /// It is diagonal, to the last bit: Kelvin-Voigt damping alone, and nothing but bending
+  /// stiffness.
+  bool is_diagonal = true;
+  Real hub_friction = 0;
+  Vector hub_rotation;  ///< of each mode
+
+  /// of_beam + hub_friction hub_rotation hub_rotation^T.
+  Matrix whole() const;
+};
+
+ModalDamping modal_damping(const AdmissibleFunctions& functions, const ScaledArm& arm,
+                           const RitzPairs& modes);
+
+}  // namespace flexarm::assumed_modes

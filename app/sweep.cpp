@@ -150,19 +150,17 @@ compare::SweepResult run_task(const compare::SweepTask& task, const Arguments& a
 
 void say_interrupted(const compare::SweepInterrupted& interrupted, const fs::path& checkpoint) {
   const std::string how =
-      checkpoint.empty()
-          ? "nothing is kept without --out or --json"
-          : fmt::format("the same command with --resume goes on from {}", checkpoint.string());
+      checkpoint.empty() ? "nothing is kept without --out or --json"
+      : fs::exists(checkpoint)
+          ? fmt::format("the same command with --resume goes on from {}", checkpoint.string())
+          : "nothing is kept of so short a run";
   const std::string line = fmt::format("flexarm: {}; {}\n", interrupted.what(), how);
   std::fwrite(line.data(), 1, line.size(), stderr);
 }
 
 void print_result(const compare::SweepResult& result, const arm::Arm& full_arm) {
-  print(describe(result.task.arm));
-  for (const auto& [name, effect] : full_arm.effects) {
-    if (result.task.arm.effects.contains(name)) continue;
-    print(fmt::format("effects.{} is left out: it is no part of the linear arm\n", name));
-  }
+  print(describe(full_arm));
+  print(left_out_of_roots(full_arm));
   print("\n" + report::sweep_axes_lines(result) + "\n");
   print(report::to_text(report::sweep_models_table(result)) + "\n");
   for (const auto& table : report::sweep_range_tables(result)) print(report::to_text(table) + "\n");
@@ -180,24 +178,21 @@ void print_result(const compare::SweepResult& result, const arm::Arm& full_arm) 
   print(report::sweep_verdict_line(result) + "\n");
 }
 
-void write_folder(const fs::path& folder, const std::optional<compare::PaperSweep>& figure,
-                  const compare::SweepResult& result, int figure_number) {
-  const std::string name = figure ? fmt::format("figure-{}", figure_number) : "sweep";
+void write_figure(const fs::path& folder, int number, const compare::PaperSweep& figure,
+                  const compare::SweepResult& result) {
+  const std::string name = fmt::format("figure-{}", number);
   arm::write_atomically(folder / (name + ".csv"), report::sweep_csv(result));
-  if (!result.events.empty()) {
-    const auto all = std::numeric_limits<std::size_t>::max();
-    arm::write_atomically(folder / "events.csv",
-                          report::to_csv(report::sweep_events_table(result, all)));
-  }
-  if (!result.agreement.empty()) {
-    arm::write_atomically(folder / "agreement.csv",
-                          report::to_csv(report::sweep_agreement_table(result)));
-  }
-  if (figure) {
-    arm::write_atomically(folder / (name + ".svg"),
-                          report::to_svg(report::paper_sweep_figure(*figure, result)));
-    return;
-  }
+  arm::write_atomically(folder / (name + ".svg"),
+                        report::to_svg(report::paper_sweep_figure(figure, result)));
+}
+
+void write_folder(const fs::path& folder, const compare::SweepResult& result) {
+  constexpr auto kAll = std::numeric_limits<std::size_t>::max();
+  arm::write_atomically(folder / "sweep.csv", report::sweep_csv(result));
+  arm::write_atomically(folder / "events.csv",
+                        report::to_csv(report::sweep_events_table(result, kAll)));
+  arm::write_atomically(folder / "agreement.csv",
+                        report::to_csv(report::sweep_agreement_table(result)));
   for (const auto& [file, svg] : report::sweep_plots(result)) {
     arm::write_atomically(folder / file, svg);
   }
@@ -243,7 +238,11 @@ int run(const Arguments& arguments) {
     interruption.end_program();
   }
   if (!arguments.output.folder.empty()) {
-    write_folder(arguments.output.folder, figure, result, arguments.figure.value_or(0));
+    if (figure) {
+      write_figure(arguments.output.folder, *arguments.figure, *figure, result);
+    } else {
+      write_folder(arguments.output.folder, result);
+    }
   }
   if (!arguments.output.json_file.empty()) {
     arm::write_atomically(arguments.output.json_file, report::sweep_json(result));

@@ -60,15 +60,7 @@ void require_effective(const SweepTask& task, std::size_t axis) {
 /// What the flexible poles of a damped arm become; empty without damping.
 std::vector<arm::PolePair> damped_poles(const response::AnyFormulation& formulation, int count) {
   if (!arm::linear_arm(response::arm_of(formulation)).is_damped()) return {};
-  return std::visit(
-      [count](const auto& f) -> std::vector<arm::PolePair> {
-        if constexpr (requires { f.damped_poles(count); }) {
-          return f.damped_poles(count).flexible;
-        } else {
-          return {};
-        }
-      },
-      formulation);
+  return std::visit([count](const auto& f) { return f.damped_poles(count).flexible; }, formulation);
 }
 
 arm::InputError at_point(const SweepTask& task, std::size_t point, const arm::InputError& error) {

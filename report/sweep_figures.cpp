@@ -152,6 +152,22 @@ std::vector<std::size_t> spread(std::size_t count, std::size_t most) {
   return chosen;
 }
 
+/// A few round values: panels side by side have no room for more.
+std::vector<Tick> few_ticks(const compare::SweepAxis& axis) {
+  const double low = std::min(axis.values.front(), axis.values.back());
+  const double high = std::max(axis.values.front(), axis.values.back());
+  constexpr double kMost = 5.0;
+  double step = std::pow(10.0, std::floor(std::log10((high - low) / kMost)));
+  for (const double factor : {2.0, 2.5, 2.0}) {
+    if ((high - low) / step > kMost) step *= factor;
+  }
+  std::vector<Tick> ticks;
+  for (double i = std::ceil(low / step); i * step <= high * (1.0 + 1e-12); ++i) {
+    ticks.push_back({i * step, fmt::format("{:.6g}", i * step)});
+  }
+  return ticks;
+}
+
 /// A panel a curve; in it a colour a value of the first axis.
 Figure over_two(const SweepResult& result, const std::string& title, const Group& group) {
   const auto& first = result.task.axes.front();
@@ -176,7 +192,10 @@ Figure over_two(const SweepResult& result, const std::string& title, const Group
         if (!has_a_value(panel.series.back().y)) panel.series.pop_back();
       }
     }
-    if (k % in_a_stack == 0) figure.stacks.push_back({.x = x_axis(last)});
+    if (k % in_a_stack == 0) {
+      figure.stacks.push_back({.x = x_axis(last)});
+      if (!last.logarithmic && columns > 1) figure.stacks.back().x.ticks = few_ticks(last);
+    }
     figure.stacks.back().panels.push_back(std::move(panel));
   }
   if (!figure.stacks.empty()) {
@@ -297,7 +316,7 @@ Figure paper_sweep_figure(const compare::PaperSweep& sweep, const SweepResult& r
         {limit.name, {axis.values.front(), axis.values.back()}, {limit.y, limit.y}, limit_style});
   }
   Style measured_style;
-  measured_style.colour = vermillion;
+  measured_style.colour = purple;
   measured_style.line = Line::none;
   measured_style.marker = Marker::filled_diamond;
   for (const auto& mark : sweep.measured) {

@@ -24,6 +24,12 @@ std::string unit_of(const compare::SweepAxis& axis) {
   return axis.parameter.unit == "1" ? "" : axis.parameter.unit;
 }
 
+/// "at", or of two parameters "at mass".
+std::string place_column(const SweepResult& result, std::size_t axis) {
+  const std::string& name = result.task.axes[axis].parameter.name;
+  return result.task.axes.size() == 1 ? "at" : "at " + name.substr(name.find_last_of('.') + 1);
+}
+
 /// The count, or nothing.
 Cell count_if(bool given, int count) {
   Cell cell;
@@ -49,31 +55,35 @@ struct Extremes {
 class RangeTable {
  public:
   RangeTable(const SweepResult& result, std::string caption, const char* row_name,
-             const std::string& unit)
+             const std::string& unit, bool has_remarks = false)
       : result_(result) {
     table_.caption = std::move(caption);
-    table_.columns = {{row_name}, {"first", unit, kDigits}, {"last", unit, kDigits}};
+    table_.columns = {{row_name}};
+    if (has_remarks) table_.columns.push_back({"axis"});
+    table_.columns.push_back({"first", unit, kDigits});
+    table_.columns.push_back({"last", unit, kDigits});
     for (const char* extreme : {"lowest", "highest"}) {
       table_.columns.push_back({extreme, unit, kDigits});
-      for (const auto& axis : result.task.axes) {
-        table_.columns.push_back({"at " + axis.parameter.name, unit_of(axis), kPlaceDigits});
+      for (std::size_t k = 0; k < result.task.axes.size(); ++k) {
+        table_.columns.push_back(
+            {place_column(result, k), unit_of(result.task.axes[k]), kPlaceDigits});
       }
     }
   }
 
   void add(int number, const std::vector<double>& values, const std::string& remark = "") {
-    std::vector<Cell> row = {std::int64_t{number}, values.front(), values.back()};
+    std::vector<Cell> row;
+    row.reserve(table_.columns.size());
+    row.emplace_back(std::int64_t{number});
+    if (!remark.empty()) row.emplace_back(remark);
+    row.emplace_back(values.front());
+    row.emplace_back(values.back());
     const Extremes extremes(values);
     for (const auto& point : {extremes.lowest, extremes.highest}) {
       row.emplace_back(point ? values[*point] : NAN);
       for (std::size_t k = 0; k < result_.task.axes.size(); ++k) {
         row.emplace_back(point ? result_.task.value(k, *point) : NAN);
       }
-    }
-    if (!remark.empty()) {
-      if (!has_remarks_) table_.columns.push_back({"axis"});
-      has_remarks_ = true;
-      row.emplace_back(remark);
     }
     table_.add_row(std::move(row));
   }
@@ -83,7 +93,6 @@ class RangeTable {
  private:
   const SweepResult& result_;
   Table table_;
-  bool has_remarks_ = false;
 };
 
 /// Frequencies [Hz] of a curve of the first model, or |s| [rad/s].
@@ -116,7 +125,7 @@ Table curves_table(const SweepResult& result, const std::optional<arm::Sensor>& 
                    !zeros_of ? "pole"
                    : ordered ? "zero"
                              : "track",
-                   ordered ? "Hz" : "rad/s");
+                   ordered ? "Hz" : "rad/s", !ordered);
   for (const SweepCurve& curve : result.curves) {
     if (curve.zeros_of != zeros_of) continue;
     table.add(curve.number, moduli(curve, ordered ? 2.0 * std::numbers::pi : 1.0),
@@ -225,10 +234,9 @@ Table sweep_agreement_table(const SweepResult& result) {
   Table table{"Largest difference from " + result.task.models.front().name,
               {{"quantity"}, {"model"}, error_column("worst")}};
   table.columns.push_back({"no."});
-  for (const auto& axis : result.task.axes) {
-    table.columns.push_back({"at " + axis.parameter.name, unit_of(axis), kPlaceDigits});
+  for (std::size_t k = 0; k < result.task.axes.size(); ++k) {
+    table.columns.push_back({place_column(result, k), unit_of(result.task.axes[k]), kPlaceDigits});
   }
-  table.columns.push_back({"compared"});
   table.columns.push_back({"missing"});
   for (const auto& row : result.agreement) {
     const bool any = row.compared > 0;
@@ -237,7 +245,6 @@ Table sweep_agreement_table(const SweepResult& result) {
     for (std::size_t k = 0; k < result.task.axes.size(); ++k) {
       cells.emplace_back(any ? result.task.value(k, row.worst_point) : NAN);
     }
-    cells.emplace_back(static_cast<std::int64_t>(row.compared));
     cells.emplace_back(static_cast<std::int64_t>(row.missing));
     table.add_row(std::move(cells));
   }
@@ -254,16 +261,13 @@ std::string sweep_verdict_line(const SweepResult& result) {
     if (worst == nullptr || severity(row) > severity(*worst)) worst = &row;
   }
   if (worst->missing > 0) {
-    return fmt::format("DISAGREE: {} by {}: {} of {} are missing, the first at {}\n",
-                       worst->quantity, worst->model, worst->missing,
-                       worst->missing + worst->compared,
+    return fmt::format("DISAGREE: {} by {}: {} of {} missing, the first at {}\n", worst->quantity,
+                       worst->model, worst->missing, worst->missing + worst->compared,
                        result.task.describe(worst->first_missing_point));
   }
-  return fmt::format(
-      "{}: largest difference over tolerance in {} by {}: {:.2g}, tolerance {:g}, "
-      "at {}\n",
-      worst->agrees() ? "Agree" : "DISAGREE", worst->quantity, worst->model, worst->worst,
-      worst->tolerance, result.task.describe(worst->worst_point));
+  return fmt::format("{}: {} by {} differ most, by {:.2g} (tolerance {:g}) at {}\n",
+                     worst->agrees() ? "Agree" : "DISAGREE", worst->quantity, worst->model,
+                     worst->worst, worst->tolerance, result.task.describe(worst->worst_point));
 }
 
 }  // namespace flexarm::report

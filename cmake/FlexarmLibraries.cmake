@@ -21,6 +21,12 @@ foreach(part umfpack klu cholmod btf amd colamd suitesparseconfig)
   target_link_libraries(flexarm_suitesparse INTERFACE "${SUITESPARSE_${part}_LIBRARY}")
 endforeach()
 
+find_path(MATIO_INCLUDE_DIR matio.h REQUIRED)
+find_library(MATIO_LIBRARY matio REQUIRED)
+add_library(flexarm_matio INTERFACE)
+target_include_directories(flexarm_matio SYSTEM INTERFACE "${MATIO_INCLUDE_DIR}")
+target_link_libraries(flexarm_matio INTERFACE "${MATIO_LIBRARY}")
+
 find_path(ARB_INCLUDE_DIR acb.h REQUIRED)
 find_path(FLINT_INCLUDE_DIR flint/flint.h REQUIRED)
 find_library(ARB_LIBRARY NAMES flint-arb arb REQUIRED)

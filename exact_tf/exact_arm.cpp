@@ -29,66 +29,82 @@ void require_observable(const arm::Arm& arm, std::span<const arm::Sensor> sensor
 /// The arm's numbers, where this formulation can answer for it.
 arm::LinearArm honoured(const arm::Arm& arm) {
   require_computable(arm);
-  require_honoured(arm.effects, ExactArm::kName, plain_effect_names());
+  require_honoured(arm.effects, ExactArm::kName, arm::linear_effect_names());
   return linear_arm(arm);
+}
+
+std::variant<PlainArm, TransferMatrixArm> engine_for(const arm::LinearArm& arm) {
+  if (arm.is_plain()) return PlainArm(arm);
+  return TransferMatrixArm(arm);
+}
+
+/// Throws InputError by the name of an effect that leaves an arm without closed form.
+const PlainArm& plain(const std::variant<PlainArm, TransferMatrixArm>& engine,
+                      const arm::Arm& arm) {
+  if (const auto* plain_arm = std::get_if<PlainArm>(&engine)) return *plain_arm;
+  require_honoured(arm.effects, "the closed form", plain_effect_names());
+  throw std::logic_error("an arm that is not plain without an effect");
 }
 
 }  // namespace
 
 ExactArm::ExactArm(arm::Arm arm)
-    : arm_(std::move(arm)), linear_(honoured(arm_)), engine_(linear_) {}
+    : arm_(std::move(arm)), linear_(honoured(arm_)), engine_(engine_for(linear_)) {}
 
 std::vector<double> ExactArm::pole_lambdas(int count) const {
   require_count(count);
-  return engine_.pole_lambdas(count);
+  return plain(engine_, arm_).pole_lambdas(count);
 }
 
 std::vector<double> ExactArm::hub_zero_lambdas(int count) const {
   require_count(count);
-  return engine_.hub_zero_lambdas(count);
+  return plain(engine_, arm_).hub_zero_lambdas(count);
 }
 
 arm::PoleSet ExactArm::poles(int count) const {
   require_count(count);
-  return engine_.poles(count);
+  return std::visit([&](const auto& engine) { return engine.poles(count); }, engine_);
 }
 
 arm::DampedPoleSet ExactArm::damped_poles(int count) const {
   require_count(count);
-  return engine_.damped_poles(count);
+  return std::visit([&](const auto& engine) { return engine.damped_poles(count); }, engine_);
 }
 
 arm::ZeroSet ExactArm::zeros(const arm::Sensor& sensor, int count) const {
   require_count(count);
   require_valid(sensor, arm_);
   require_responsive(sensor, arm_);
-  return engine_.zeros(sensor, count);
+  return std::visit([&](const auto& engine) { return engine.zeros(sensor, count); }, engine_);
 }
 
 std::vector<arm::Mode> ExactArm::modes(int count, std::span<const arm::Sensor> sensors,
                                        std::span<const double> stations_m) const {
   require_count(count);
   require_observable(arm_, sensors, stations_m);
-  return engine_.modes(count, sensors, stations_m);
+  return std::visit([&](const auto& engine) { return engine.modes(count, sensors, stations_m); },
+                    engine_);
 }
 
 arm::ModalModel ExactArm::modal_model(int count, std::span<const arm::Sensor> sensors,
                                       std::span<const double> stations_m) const {
   require_count(count);
   require_observable(arm_, sensors, stations_m);
-  return engine_.modal_model(count, sensors, stations_m);
+  return std::visit(
+      [&](const auto& engine) { return engine.modal_model(count, sensors, stations_m); }, engine_);
 }
 
 std::complex<double> ExactArm::transfer_function(const arm::Sensor& sensor,
                                                  std::complex<double> s_rad_per_s) const {
   require_valid(sensor, arm_);
-  if (s_rad_per_s == 0.0) {
-    throw std::domain_error("exact_tf: the transfer function has a double pole at s = 0");
+  if (s_rad_per_s == 0.0 && linear_.turns_freely()) {
+    throw std::domain_error("exact_tf: the transfer function of a free arm has a pole at s = 0");
   }
   if (!std::isfinite(s_rad_per_s.real()) || !std::isfinite(s_rad_per_s.imag())) {
     throw std::domain_error("exact_tf: s must be finite");
   }
-  return engine_.transfer_function(sensor, s_rad_per_s);
+  return std::visit(
+      [&](const auto& engine) { return engine.transfer_function(sensor, s_rad_per_s); }, engine_);
 }
 
 }  // namespace flexarm::exact_tf

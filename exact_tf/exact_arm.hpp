@@ -3,10 +3,12 @@
 #include "arm/formulation.hpp"
 #include "arm/linear_arm.hpp"
 #include "exact_tf/plain_arm.hpp"
+#include "exact_tf/transfer_matrix_arm.hpp"
 
 #include <complex>
 #include <span>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 namespace flexarm::exact_tf {
@@ -17,24 +19,29 @@ namespace flexarm::exact_tf {
 ///     const ExactArm exact(arm::paper_arm());
 ///     const double first_Hz = exact.poles(1).omega_rad_per_s[0] / (2 * std::numbers::pi);
 ///
-/// Damping is in the transfer function and in the damped poles without approximation. Honours the
-/// effects of `plain_effect_names()` and refuses others by name.
+/// Every effect of arm::linear_effect_names() is honoured, damping without approximation in the
+/// transfer function and in the damped poles; others are refused by name. A plain arm
+/// (LinearArm::is_plain) is answered by closed forms, any other by transfer matrices of segments:
+/// exact_tf/plain_arm.hpp, exact_tf/transfer_matrix_arm.hpp.
 class ExactArm {
  public:
   static constexpr std::string_view kName = "exact_tf";
 
-  /// Throws arm::InputError for an invalid arm and for an effect that is not honoured.
+  /// Throws arm::InputError for an invalid arm, for an effect that is not honoured, and for an arm
+  /// that stands up and whose flexible modes buckle.
   explicit ExactArm(arm::Arm arm);
 
   const arm::Arm& arm() const { return arm_; }
   /// What the equations are made of: the arm with its effects.
   const arm::LinearArm& linear() const { return linear_; }
-  const InertiaRatios& ratios() const { return engine_.ratios(); }
+  /// Of a plain arm; for others std::bad_variant_access.
+  const InertiaRatios& ratios() const { return std::get<PlainArm>(engine_).ratios(); }
   int degrees_of_freedom() const { return 0; }
 
   /// The `count` lowest lambda of the flexible poles, ascending, within an ulp or so. The poles are
   /// s = +-i lambda^2 omega_scale. Throws arm::InputError unless
-  /// 1 <= count <= kMostRoots, as do all below.
+  /// 1 <= count <= kMostRoots (TransferMatrixArm::kMostRoots where the arm is not plain), as do all
+  /// below, and for an arm that is not plain, as does hub_zero_lambdas.
   std::vector<double> pole_lambdas(int count) const;
   /// The same for the hub-angle zeros.
   std::vector<double> hub_zero_lambdas(int count) const;
@@ -52,7 +59,7 @@ class ExactArm {
  private:
   arm::Arm arm_;
   arm::LinearArm linear_;
-  PlainArm engine_;
+  std::variant<PlainArm, TransferMatrixArm> engine_;
 };
 
 static_assert(arm::Formulation<ExactArm>);

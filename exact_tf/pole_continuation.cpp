@@ -221,7 +221,7 @@ void Continuation::place(const std::vector<UndampedMode>& modes) {
     Pair pair;
     // Without restoring force one root stays at 0, and the other moves at twice the speed.
     const Real decay = u == 0.0L ? mode.damping_rad_per_s : 0.5L * mode.damping_rad_per_s;
-    Real nearest = std::abs(u) + decay;
+    Real nearest = std::abs(u) + std::abs(decay);
     for (const Complex& other : all) {
       if (other != u) nearest = std::min(nearest, std::abs(other - u));
     }

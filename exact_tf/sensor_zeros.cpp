@@ -29,20 +29,13 @@ std::complex<double> s_of(const AnalyticZero& zero, Real scale_rad_per_s) {
 
 }  // namespace
 
-arm::ZeroSet find_sensor_zeros(const arm::LinearArm& arm, const arm::Sensor& sensor, int count,
-                               const AnalyticZeroOptions& options) {
-  const auto numerator = [&](const Complex& lambda) -> Complex {
-    // Real lambda costs half as much.
-    if (lambda.imag() == 0.0L) return sensor_numerator(arm, sensor, lambda.real()).value;
-    return sensor_numerator(arm, sensor, lambda).value;
-  };
+arm::ZeroSet find_sensor_zeros(const SectorFunction& numerator, Real omega_scale_rad_per_s,
+                               int count, const AnalyticZeroOptions& options) {
   const AnalyticZeros found = find_analytic_zeros(numerator, count, options);
-
-  const Real scale = frequency_scale_rad_per_s(arm);
   const auto wanted = std::min(found.zeros.size(), static_cast<std::size_t>(count));
   arm::ZeroSet set;
   for (std::size_t i = 0; i < wanted; ++i) {
-    set.s_rad_per_s.push_back(s_of(found.zeros[i], scale));
+    set.s_rad_per_s.push_back(s_of(found.zeros[i], omega_scale_rad_per_s));
   }
   set.count.found = static_cast<int>(wanted);
   set.count.expected = set.count.found + found.missing();
@@ -51,6 +44,16 @@ arm::ZeroSet find_sensor_zeros(const arm::LinearArm& arm, const arm::Sensor& sen
   set.summary.iterations = static_cast<int>(found.function_values);
   set.summary.converged = found.converged;
   return set;
+}
+
+arm::ZeroSet find_sensor_zeros(const arm::LinearArm& arm, const arm::Sensor& sensor, int count,
+                               const AnalyticZeroOptions& options) {
+  const auto numerator = [&](const Complex& lambda) -> Complex {
+    // Real lambda costs half as much.
+    if (lambda.imag() == 0.0L) return sensor_numerator(arm, sensor, lambda.real()).value;
+    return sensor_numerator(arm, sensor, lambda).value;
+  };
+  return find_sensor_zeros(numerator, frequency_scale_rad_per_s(arm), count, options);
 }
 
 }  // namespace flexarm::exact_tf

@@ -1,0 +1,80 @@
+#include "exact_tf/beam_units.hpp"
+
+#include <cmath>
+
+namespace flexarm::exact_tf {
+
+namespace {
+
+/// ks + g P(0) a, in units of EI/l.
+Real hub_stiffness(const ArmInBeamUnits& arm) {
+  return arm.hub_spring + arm.tension(0.0L) * arm.hub_radius;
+}
+
+template <class T>
+BeamAtFrequency<T> undamped(const ArmInBeamUnits& arm, const T& omega_squared) {
+  const T square = -omega_squared;
+  return {square, square, arm.rotary_inertia * square, T(1.0L),
+          arm.hub_inertia * square + hub_stiffness(arm)};
+}
+
+}  // namespace
+
+Real ArmInBeamUnits::total_inertia() const {
+  const Real reach = hub_radius + 1.0L;
+  return hub_inertia + hub_radius * reach + 1.0L / 3.0L + rotary_inertia +
+         payload_mass * reach * reach + 2.0L * payload_moment * reach + payload_inertia;
+}
+
+ArmInBeamUnits in_beam_units(const arm::LinearArm& arm) {
+  const Real l = arm.length_m;
+  const Real rigidity = arm.flexural_rigidity_N_m2;
+  const Real density = arm.linear_density_kg_per_m;
+  const Real mass = density * l;
+  ArmInBeamUnits units;
+  units.omega_scale_rad_per_s = std::sqrt(rigidity / density) / (l * l);
+  units.length_m = l;
+  units.torque_scale_N_m = rigidity / l;
+  const Real omega = units.omega_scale_rad_per_s;
+
+  units.hub_inertia = arm.hub_inertia_kg_m2 / (mass * l * l);
+  units.hub_radius = arm.hub_radius_m / l;
+  units.hub_friction = arm.hub_viscous_friction_N_m_s_per_rad * omega / units.torque_scale_N_m;
+  units.hub_spring = arm.hub_spring_N_m_per_rad / units.torque_scale_N_m;
+  if (arm.root_stiffness_N_m_per_rad) {
+    units.root_flexibility = units.torque_scale_N_m / *arm.root_stiffness_N_m_per_rad;
+  }
+  units.payload_mass = arm.payload_mass_kg / mass;
+  units.payload_moment = arm.payload_first_moment_kg_m / (mass * l);
+  units.payload_inertia = arm.payload_tip_inertia_kg_m2 / (mass * l * l);
+  if (arm.crack) {
+    units.crack_position = arm.crack->position_m / l;
+    units.crack_flexibility = units.torque_scale_N_m / arm.crack->stiffness_N_m_per_rad;
+  }
+  if (arm.shear) {
+    units.shear_flexibility = rigidity / (arm.shear->shear_rigidity_N * l * l);
+    units.rotary_inertia = arm.shear->rotary_inertia_kg_m / (mass * l);
+  }
+  units.gravity = arm.gravity_m_per_s2 * mass * l * l / rigidity;
+  units.kelvin_voigt = arm.kelvin_voigt_s * omega;
+  units.air_damping = arm.air_damping_N_s_per_m2 / (density * omega);
+  return units;
+}
+
+BeamAtFrequency<Real> undamped_at(const ArmInBeamUnits& arm, Real omega_squared) {
+  return undamped(arm, omega_squared);
+}
+
+BeamAtFrequency<Complex> undamped_at(const ArmInBeamUnits& arm, const Complex& omega_squared) {
+  return undamped(arm, omega_squared);
+}
+
+BeamAtFrequency<Complex> damped_at(const ArmInBeamUnits& arm, const Complex& s,
+                                   const Complex& damping) {
+  const Complex square = s * s;
+  return {square, square + arm.air_damping * damping * s, arm.rotary_inertia * square,
+          1.0L / (1.0L + arm.kelvin_voigt * damping * s),
+          arm.hub_inertia * square + arm.hub_friction * damping * s + hub_stiffness(arm)};
+}
+
+}  // namespace flexarm::exact_tf

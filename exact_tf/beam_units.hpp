@@ -1,0 +1,89 @@
+#pragma once
+
+#include "arm/linear_arm.hpp"
+#include "exact_tf/scaled.hpp"
+
+#include <optional>
+
+namespace flexarm::exact_tf {
+
+/// The equations of a linear arm with every effect, from the energies of arm/linear_arm.hpp by
+/// Hamilton's principle, in the Laplace variable s. With the bending moment M and the transverse
+/// force Q along y,
+///
+///     M = EI (1 + kv s) psi',   Q = kGA (y' - psi) + g P(x) y',
+///
+/// the variations of psi and y on the beam leave
+///
+///     M' = rho I s^2 psi - Q + g P y',   Q' = (m s^2 + ca s) y,
+///
+/// so that with phi = 1/kGA the state (y, psi, M, Q) obeys
+///
+///     (1 + phi g P) y' = psi + phi Q
+///     psi' = M/(EI (1 + kv s))
+///     M' = rho I s^2 psi - Q + g P y'
+///     Q' = (m s^2 + ca s) y,
+///
+/// an Euler-Bernoulli beam having phi = rho I = 0. Variations at the tip, the crack, the root and
+/// the hub:
+///
+///     Q(l) = -s^2 (Mp y + Sp psi),   M(l) = -s^2 (Sp y + Jp psi) - g Sp psi
+///     psi(X+) - psi(X-) = M(X)/kc,   y, M, Q continuous
+///     y(0) = a theta,   psi(0) - theta = M(0)/kr
+///     tau = (Ih s^2 + c s + ks + g P(0) a) theta - M(0) - a Q(0).
+///
+/// The numbers of these equations in units of the beam: lengths in l, time in
+/// sqrt(m l^4/EI), moments in EI/l, forces in EI/l^2.
+struct ArmInBeamUnits {
+  Real omega_scale_rad_per_s = 0.0L;  ///< sqrt(EI/(m l^4))
+  Real length_m = 0.0L;               ///< l
+  Real torque_scale_N_m = 0.0L;       ///< EI/l
+
+  Real hub_inertia = 0.0L;       ///< Ih/(m l^3)
+  Real hub_radius = 0.0L;        ///< a/l
+  Real hub_friction = 0.0L;      ///< c omega_scale l/EI
+  Real hub_spring = 0.0L;        ///< ks l/EI
+  Real root_flexibility = 0.0L;  ///< EI/(l kr), 0 for a rigid root
+
+  Real payload_mass = 0.0L;     ///< Mp/(m l)
+  Real payload_moment = 0.0L;   ///< Sp/(m l^2)
+  Real payload_inertia = 0.0L;  ///< Jp/(m l^3)
+
+  std::optional<Real> crack_position;  ///< X/l
+  Real crack_flexibility = 0.0L;       ///< EI/(l kc)
+
+  Real shear_flexibility = 0.0L;  ///< EI/(kGA l^2)
+  Real rotary_inertia = 0.0L;     ///< rho I/(m l^2)
+  Real gravity = 0.0L;            ///< g m l^3/EI
+  Real kelvin_voigt = 0.0L;       ///< kv omega_scale
+  Real air_damping = 0.0L;        ///< ca/(m omega_scale)
+
+  bool turns_freely() const { return hub_spring == 0.0L && gravity == 0.0L; }
+  /// g P at x in units of l, the axial tension.
+  Real tension(Real x) const { return gravity * (payload_mass + (1.0L - x)); }
+  /// I_T/(m l^3).
+  Real total_inertia() const;
+};
+
+/// Formed in long double from the arm's doubles, which count as exact.
+ArmInBeamUnits in_beam_units(const arm::LinearArm& arm);
+
+/// What of these equations depends on s, in the same units.
+template <class T>
+struct BeamAtFrequency {
+  T square;         ///< s^2
+  T inertia;        ///< s^2 + ca s: Q' over y
+  T rotary;         ///< rho I s^2
+  T flexibility;    ///< 1/(1 + kv s): psi' over M
+  T hub_impedance;  ///< (tau + M(0) + a Q(0))/theta
+};
+
+/// The undamped arm at s^2 = -omega_squared, of either sign.
+BeamAtFrequency<Real> undamped_at(const ArmInBeamUnits& arm, Real omega_squared);
+/// The undamped arm at complex s^2 = -omega_squared.
+BeamAtFrequency<Complex> undamped_at(const ArmInBeamUnits& arm, const Complex& omega_squared);
+/// The arm with all its damping times `damping`, at s in units of omega_scale.
+BeamAtFrequency<Complex> damped_at(const ArmInBeamUnits& arm, const Complex& s,
+                                   const Complex& damping = 1.0L);
+
+}  // namespace flexarm::exact_tf

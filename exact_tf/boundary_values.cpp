@@ -1,0 +1,148 @@
+#include "exact_tf/boundary_values.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace flexarm::exact_tf {
+
+namespace {
+
+template <std::size_t N, class T>
+Real norm_of(const std::array<T, N>& values) {
+  Real sum = 0.0L;
+  for (const T& value : values) sum += std::norm(value);
+  return std::sqrt(sum);
+}
+
+/// y(l) - (a + l) theta from the departure V of the plane's two states from the rigid rod's
+/// (1, 0, 0, 0) and (x - 1, 1, 0, 0). With f1 = psi - M/kr, f2 = y - a f1 taken at the root and
+/// c = (1 + a - f2 V2, 1 + f2 V1), the motion is V c and the rigid one, and the deflection
+///
+///     -f2 V2 - (1 + a) (f2 V1 + f1 V c).
+template <class T>
+T slight_deflection(const TransferChain<T>& chain) {
+  auto departure = chain.tip_states();
+  departure[0][kDisplacement] = departure[1][kRotation] = T(0.0L);
+  for (const auto& link : chain.links()) {
+    const auto& transfer = chain.transfer(link);
+    const Real from_tip = 1.0L - link.segment.right;
+    std::array<BeamState<T>, 2> next{};
+    for (std::size_t i = 0; i < 4; ++i) {
+      for (std::size_t k = 0; k < 2; ++k) {
+        for (std::size_t j = 0; j < 4; ++j) {
+          next[k][i] += transfer.columns[j][i] * departure[k][j];
+        }
+      }
+      next[0][i] += transfer.bending[0][i];
+      next[1][i] += transfer.bending[1][i] - from_tip * transfer.bending[0][i];
+    }
+    departure = next;
+  }
+  const Real radius = chain.arm().hub_radius;
+  const Real flexibility = chain.arm().root_flexibility;
+  const auto f1 = [&](const BeamState<T>& v) { return v[kRotation] - flexibility * v[kMoment]; };
+  const auto f2 = [&](const BeamState<T>& v) { return v[kDisplacement] - radius * f1(v); };
+  const T along_first = f2(departure[0]);
+  const T along_second = f2(departure[1]);
+  const Real reach = 1.0L + radius;
+  const T root_rotation =
+      (reach - along_second) * f1(departure[0]) + (1.0L + along_first) * f1(departure[1]);
+  return -along_second - reach * (along_first + root_rotation);
+}
+
+template <class T>
+SensorValue<T> tip_value(const TransferChain<T>& chain) {
+  const auto functional = chain.tip_functional();
+  const auto state = state_in_plane(functional.functional, chain.tip_plane().plane);
+  return {state[kDisplacement], functional.log_scale, norm_of(functional.functional)};
+}
+
+template <class T>
+SensorValue<T> deflection_value(const TransferChain<T>& chain) {
+  // Up to here no term of either form outgrows the others.
+  constexpr Real kSlightGrowth = 3.0L;
+  const auto root = root_values(chain);
+  if (chain.growth() <= kSlightGrowth) return {slight_deflection(chain), 0.0L, root.size};
+  const auto tip = tip_value(chain);
+  const Real log_scale = std::max(root.log_scale, tip.log_scale);
+  const Real root_factor = std::exp(root.log_scale - log_scale);
+  const Real tip_factor = std::exp(tip.log_scale - log_scale);
+  const Real reach = 1.0L + chain.arm().hub_radius;
+  return {tip_factor * tip.value - reach * root_factor * root.hub_angle, log_scale,
+          tip_factor * tip.size + root_factor * root.size};
+}
+
+template <class T>
+SensorValue<T> curvature_value(const TransferChain<T>& chain, Real x) {
+  const auto& links = chain.links();
+  const std::size_t place = link_at(chain, x);
+  auto plane = chain.tip_plane();
+  for (std::size_t i = 0; i < place; ++i) chain.to_left(links[i], plane);
+  auto functional = chain.root_functional();
+  for (std::size_t i = links.size(); i-- > place;) chain.to_right(links[i], functional);
+  const Segment& segment = links[place].segment;
+  const SegmentSeries<T> series(chain.arm(), chain.beam(), segment,
+                                state_in_plane(functional.functional, plane.plane));
+  const auto state = series.at((segment.right - x) / segment.length);
+  return {chain.beam().flexibility * state[kMoment], plane.log_scale + functional.log_scale,
+          norm_of(plane.plane.minors) * norm_of(functional.functional)};
+}
+
+}  // namespace
+
+template <class T>
+RootValues<T> root_values(const TransferChain<T>& chain, const Bivector<T>& p, Real log_scale) {
+  const Real radius = chain.arm().hub_radius;
+  const Real flexibility = chain.arm().root_flexibility;
+  const T hub_angle = p.displacement_rotation() - flexibility * p.displacement_moment();
+  const T torque = chain.beam().hub_impedance * hub_angle - p.displacement_moment() +
+                   radius * (p.rotation_moment() - p.displacement_force() +
+                             radius * (p.rotation_force() - flexibility * p.moment_force()));
+  return {hub_angle, torque, log_scale, norm_of(p.minors)};
+}
+
+template <class T>
+RootValues<T> root_values(const TransferChain<T>& chain) {
+  const auto root = chain.root_plane();
+  return root_values(chain, root.plane, root.log_scale);
+}
+
+template <class T>
+SensorValue<T> sensor_value(const TransferChain<T>& chain, arm::SensorKind kind, Real position) {
+  switch (kind) {
+    case arm::SensorKind::hub_angle:
+    case arm::SensorKind::hub_velocity: {
+      const auto root = root_values(chain);
+      return {root.hub_angle, root.log_scale, root.size};
+    }
+    case arm::SensorKind::tip_displacement:
+    case arm::SensorKind::tip_acceleration:
+      return tip_value(chain);
+    case arm::SensorKind::tip_deflection:
+      return deflection_value(chain);
+    case arm::SensorKind::strain:
+      return curvature_value(chain, position);
+  }
+  throw std::logic_error("sensor kind outside its enumeration");
+}
+
+template <class T>
+std::size_t link_at(const TransferChain<T>& chain, Real x) {
+  const auto& links = chain.links();
+  const auto found = std::ranges::find_if(
+      links, [x](const auto& link) { return !link.is_crack && link.segment.left() <= x; });
+  return found == links.end() ? links.size() - 1 : static_cast<std::size_t>(found - links.begin());
+}
+
+template RootValues<Real> root_values(const TransferChain<Real>&, const Bivector<Real>&, Real);
+template RootValues<Complex> root_values(const TransferChain<Complex>&, const Bivector<Complex>&,
+                                         Real);
+template RootValues<Real> root_values(const TransferChain<Real>&);
+template RootValues<Complex> root_values(const TransferChain<Complex>&);
+template SensorValue<Real> sensor_value(const TransferChain<Real>&, arm::SensorKind, Real);
+template SensorValue<Complex> sensor_value(const TransferChain<Complex>&, arm::SensorKind, Real);
+template std::size_t link_at(const TransferChain<Real>&, Real);
+template std::size_t link_at(const TransferChain<Complex>&, Real);
+
+}  // namespace flexarm::exact_tf

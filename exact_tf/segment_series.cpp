@@ -1,0 +1,188 @@
+#include "exact_tf/segment_series.hpp"
+
+#include "exact_tf/uniform_segment.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace flexarm::exact_tf {
+
+namespace {
+
+Real size_of(Real x) {
+  return std::abs(x);
+}
+/// Within a factor sqrt(2) of the modulus.
+Real size_of(const Complex& x) {
+  return std::abs(x.real()) + std::abs(x.imag());
+}
+
+/// One step of the recursion after the other.
+template <class T>
+class Recursion {
+ public:
+  Recursion(const ArmInBeamUnits& arm, const BeamAtFrequency<T>& beam, const Segment& segment,
+            const BeamState<T>& at_right)
+      : shear_(arm.shear_flexibility),
+        tension_(arm.tension(segment.right)),
+        tension_slope_(arm.gravity * segment.length),
+        bending_(-segment.length * beam.flexibility),
+        rotary_(-segment.length * beam.rotary),
+        inertia_(-segment.length * beam.inertia),
+        minus_length_(-segment.length),
+        stretch_(1.0L + shear_ * tension_),
+        stretch_slope_(shear_ * tension_slope_),
+        term_(at_right) {}
+
+  const BeamState<T>& term() const { return term_; }
+
+  /// From term n to n + 1.
+  void advance() {
+    const T& y = term_[kDisplacement];
+    const T& psi = term_[kRotation];
+    const T& moment = term_[kMoment];
+    const T& force = term_[kForce];
+    const T slope =
+        shear_ == 0.0L ? psi : (psi + shear_ * force - stretch_slope_ * slope_before_) / stretch_;
+    T moment_change = rotary_ * psi - minus_length_ * force;
+    if (tension_ != 0.0L || tension_slope_ != 0.0L) {
+      moment_change += minus_length_ * (tension_ * slope + tension_slope_ * slope_before_);
+    }
+    const Real next = 1.0L / static_cast<Real>(++order_);
+    term_ = {minus_length_ * next * slope, next * (bending_ * moment), next * moment_change,
+             next * (inertia_ * y)};
+    slope_before_ = slope;
+  }
+
+ private:
+  Real shear_;
+  Real tension_;
+  Real tension_slope_;
+  T bending_;
+  T rotary_;
+  T inertia_;
+  Real minus_length_;
+  Real stretch_;
+  Real stretch_slope_;
+  BeamState<T> term_;
+  T slope_before_{};
+  int order_ = 0;
+};
+
+constexpr int kMostTerms = 400;
+constexpr Real kNegligible = 0.01L * std::numeric_limits<Real>::epsilon();
+
+/// Terms of exp(K h) that are needed: before that none is examined.
+template <class T>
+int likely_terms(const ArmInBeamUnits& arm, const BeamAtFrequency<T>& beam,
+                 const Segment& segment) {
+  const Real size = wave_number(arm, beam, segment) * segment.length;
+  int n = 1;
+  for (Real term = size; term > kNegligible; term *= size / static_cast<Real>(n)) ++n;
+  return n;
+}
+
+/// Sums the series at u = 1, handing each term from the first on to `take`.
+template <class T, class Take>
+BeamState<T> summed(Recursion<T>& recursion, int likely, Take take) {
+  constexpr int kPeriod = 4;  // the equations link each component with itself after four terms
+  BeamState<T> sum = recursion.term();
+  int negligible = 0;
+  for (int n = 1; negligible < kPeriod; ++n) {
+    if (n > kMostTerms) throw std::logic_error("segment too long for its power series");
+    recursion.advance();
+    const BeamState<T>& term = recursion.term();
+    take(n, term);
+    for (std::size_t i = 0; i < 4; ++i) sum[i] += term[i];
+    if (n < likely) continue;
+    bool changes = false;
+    for (std::size_t i = 0; i < 4; ++i) {
+      changes = changes || size_of(term[i]) > kNegligible * size_of(sum[i]);
+    }
+    negligible = changes ? 0 : negligible + 1;
+  }
+  return sum;
+}
+
+}  // namespace
+
+template <class T>
+Real wave_number(const ArmInBeamUnits& arm, const BeamAtFrequency<T>& beam,
+                 const Segment& segment) {
+  const Real flexibility = std::abs(beam.flexibility);
+  const Real inertia = std::abs(beam.inertia);
+  const Real tension =
+      std::max(std::abs(arm.tension(segment.left())), std::abs(arm.tension(segment.right)));
+  return std::sqrt(std::sqrt(inertia * flexibility) + inertia * arm.shear_flexibility +
+                   (std::abs(beam.rotary) + tension) * flexibility);
+}
+
+template <class T>
+SegmentSeries<T>::SegmentSeries(const ArmInBeamUnits& arm, const BeamAtFrequency<T>& beam,
+                                const Segment& segment, const BeamState<T>& at_right)
+    : coefficients_{at_right} {
+  Recursion<T> recursion(arm, beam, segment, at_right);
+  const int likely = likely_terms(arm, beam, segment);
+  coefficients_.reserve(static_cast<std::size_t>(likely) + 8);
+  summed(recursion, likely,
+         [this](int, const BeamState<T>& term) { coefficients_.push_back(term); });
+}
+
+template <class T>
+BeamState<T> SegmentSeries<T>::at(Real u) const {
+  BeamState<T> sum{};
+  for (auto term = coefficients_.rbegin(); term != coefficients_.rend(); ++term) {
+    for (std::size_t i = 0; i < 4; ++i) sum[i] = sum[i] * u + (*term)[i];
+  }
+  return sum;
+}
+
+template <class T>
+SegmentTransfer<T> segment_transfer(const ArmInBeamUnits& arm, const BeamAtFrequency<T>& beam,
+                                    const Segment& segment) {
+  if (arm.gravity == 0.0L) return uniform_transfer(arm, beam, segment.length);
+  const int likely = likely_terms(arm, beam, segment);
+  SegmentTransfer<T> transfer{};
+  for (std::size_t j = 0; j < 4; ++j) {
+    BeamState<T> unit{};
+    unit[j] = T(1.0L);
+    Recursion<T> recursion(arm, beam, segment, unit);
+    if (j > kRotation) {
+      transfer.columns[j] = summed(recursion, likely, [](int, const BeamState<T>&) {});
+      continue;
+    }
+    BeamState<T>& bending = transfer.bending[j];
+    transfer.columns[j] = summed(recursion, likely, [&](int n, const BeamState<T>& term) {
+      for (std::size_t i = 0; i < 4; ++i) bending[i] += term[i];
+      if (n != 1 || j != kRotation) return;
+      // y' = psi/(1 + phi g P) of a rod that does not bend, less psi.
+      const Real tension = arm.tension(segment.right);
+      const Real lag = arm.shear_flexibility * tension;
+      bending[kDisplacement] = T(segment.length * lag / (1.0L + lag));
+    });
+  }
+  return transfer;
+}
+
+template <class T>
+SegmentTransfer<T> crack_transfer(const ArmInBeamUnits& arm) {
+  SegmentTransfer<T> transfer{};
+  for (std::size_t j = 0; j < 4; ++j) transfer.columns[j][j] = T(1.0L);
+  transfer.columns[kMoment][kRotation] = T(-arm.crack_flexibility);
+  return transfer;
+}
+
+template Real wave_number(const ArmInBeamUnits&, const BeamAtFrequency<Real>&, const Segment&);
+template Real wave_number(const ArmInBeamUnits&, const BeamAtFrequency<Complex>&, const Segment&);
+template class SegmentSeries<Real>;
+template class SegmentSeries<Complex>;
+template SegmentTransfer<Real> segment_transfer(const ArmInBeamUnits&, const BeamAtFrequency<Real>&,
+                                                const Segment&);
+template SegmentTransfer<Complex> segment_transfer(const ArmInBeamUnits&,
+                                                   const BeamAtFrequency<Complex>&, const Segment&);
+template SegmentTransfer<Real> crack_transfer(const ArmInBeamUnits&);
+template SegmentTransfer<Complex> crack_transfer(const ArmInBeamUnits&);
+
+}  // namespace flexarm::exact_tf

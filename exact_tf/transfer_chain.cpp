@@ -1,0 +1,142 @@
+#include "exact_tf/transfer_chain.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace flexarm::exact_tf {
+
+namespace {
+
+constexpr Real kLongestSegment = 3.0L;
+constexpr Real kLargestStretch = 0.25L;
+constexpr Real kMostSegments = 1e6L;
+
+/// Beyond this a factor is taken out; products of two such numbers are still held.
+constexpr Real kLarge = 1e1000L;
+
+template <std::size_t N, class T>
+void keep_in_range(std::array<T, N>& values, Real& log_scale) {
+  const bool large = std::ranges::any_of(values, [](const T& value) {
+    return std::abs(real_part(value)) > kLarge || std::abs(imaginary_part(value)) > kLarge;
+  });
+  if (!large) return;
+  for (T& value : values) value *= 1.0L / kLarge;
+  log_scale += std::log(kLarge);
+}
+
+}  // namespace
+
+template <class T>
+TransferChain<T>::TransferChain(const ArmInBeamUnits& arm, const BeamAtFrequency<T>& beam,
+                                bool with_planes)
+    : arm_(arm), beam_(beam), with_planes_(with_planes) {
+  cut(beam);
+}
+
+template <class T>
+TransferChain<T>::TransferChain(const ArmInBeamUnits& arm, const BeamAtFrequency<T>& beam,
+                                const BeamAtFrequency<T>& cut_for)
+    : arm_(arm), beam_(beam), with_planes_(true) {
+  cut(cut_for);
+}
+
+template <class T>
+void TransferChain<T>::cut(const BeamAtFrequency<T>& cut_for) {
+  const Real crack = arm_.crack_position.value_or(0.0L);
+  add_piece(cut_for, crack, 1.0L);
+  if (!arm_.crack_position) return;
+  links_.push_back({{crack, 0.0L}, true, add_transfer(crack_transfer<T>(arm_))});
+  add_piece(cut_for, 0.0L, crack);
+}
+
+template <class T>
+std::size_t TransferChain<T>::add_transfer(const SegmentTransfer<T>& columns) {
+  transfers_.push_back({columns, {}});
+  if (with_planes_) transfers_.back().compound = compound_of(columns.columns);
+  return transfers_.size() - 1;
+}
+
+template <class T>
+void TransferChain<T>::add_piece(const BeamAtFrequency<T>& cut_for, Real left, Real right) {
+  const Real shear = arm_.shear_flexibility;
+  const Real stretch = 1.0L + shear * std::min({0.0L, arm_.tension(left), arm_.tension(right)});
+  const Real length = right - left;
+  const Real waves = wave_number(arm_, cut_for, {right, length}) * length;
+  const Real wanted =
+      std::max(waves / (kLongestSegment * std::sqrt(stretch)),
+               shear * std::abs(arm_.gravity) * length / (kLargestStretch * stretch));
+  if (!(wanted < kMostSegments)) throw std::domain_error("exact_tf: s is too near to -1/kv");
+  growth_ += waves;
+  const long count = std::max(1L, std::lround(std::ceil(wanted)));
+  const Real step = length / static_cast<Real>(count);
+  const bool uniform = arm_.gravity == 0.0L;
+  for (long i = 0; i < count; ++i) {
+    Segment segment{right - static_cast<Real>(i) * step, step};
+    if (i + 1 == count) segment.length = segment.right - left;
+    if (i == 0 || !uniform) add_transfer(segment_transfer(arm_, beam_, {segment.right, step}));
+    links_.push_back({segment, false, transfers_.size() - 1});
+  }
+}
+
+template <class T>
+std::array<BeamState<T>, 2> TransferChain<T>::tip_states() const {
+  const T square = beam_.square;
+  const T coupling = -square * arm_.payload_moment;
+  return {{{T(1.0L), T(0.0L), coupling, -square * arm_.payload_mass},
+           {T(0.0L), T(1.0L),
+            -square * arm_.payload_inertia - T(arm_.gravity * arm_.payload_moment), coupling}}};
+}
+
+template <class T>
+ScaledPlane<T> TransferChain<T>::tip_plane() const {
+  const auto [a, b] = tip_states();
+  ScaledPlane<T> result;
+  for (std::size_t k = 0; k < 6; ++k) {
+    const auto [i, j] = kPairs[k];
+    result.plane.minors[k] = a[i] * b[j] - a[j] * b[i];
+  }
+  return result;
+}
+
+template <class T>
+ScaledFunctional<T> TransferChain<T>::root_functional() const {
+  const Real radius = arm_.hub_radius;
+  return {{T(1.0L), T(-radius), T(radius * arm_.root_flexibility), T(0.0L)}, 0.0L};
+}
+
+template <class T>
+void TransferChain<T>::to_left(const Link& link, ScaledPlane<T>& plane) const {
+  plane.plane = transfers_[link.transfer].compound * plane.plane;
+  keep_in_range(plane.plane.minors, plane.log_scale);
+}
+
+template <class T>
+void TransferChain<T>::to_right(const Link& link, ScaledFunctional<T>& functional) const {
+  const auto& columns = transfers_[link.transfer].columns.columns;
+  BeamState<T> result{};
+  for (std::size_t j = 0; j < 4; ++j) {
+    for (std::size_t i = 0; i < 4; ++i) result[j] += functional.functional[i] * columns[j][i];
+  }
+  functional.functional = result;
+  keep_in_range(functional.functional, functional.log_scale);
+}
+
+template <class T>
+ScaledPlane<T> TransferChain<T>::root_plane() const {
+  ScaledPlane<T> plane = tip_plane();
+  for (const auto& link : links_) to_left(link, plane);
+  return plane;
+}
+
+template <class T>
+ScaledFunctional<T> TransferChain<T>::tip_functional() const {
+  ScaledFunctional<T> functional = root_functional();
+  for (auto link = links_.rbegin(); link != links_.rend(); ++link) to_right(*link, functional);
+  return functional;
+}
+
+template class TransferChain<Real>;
+template class TransferChain<Complex>;
+
+}  // namespace flexarm::exact_tf

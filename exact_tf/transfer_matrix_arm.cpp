@@ -1,0 +1,233 @@
+#include "exact_tf/transfer_matrix_arm.hpp"
+
+#include "arm/input_error.hpp"
+#include "exact_tf/boundary_values.hpp"
+#include "exact_tf/chain_eigenvalues.hpp"
+#include "exact_tf/chain_modes.hpp"
+#include "exact_tf/pole_continuation.hpp"
+#include "exact_tf/sensor_zeros.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+namespace flexarm::exact_tf {
+
+namespace {
+
+void require_count(int count) {
+  if (count > TransferMatrixArm::kMostRoots) {
+    throw arm::out_of_range(
+        "count", count, "",
+        fmt::format("from 1 to {} with these effects", TransferMatrixArm::kMostRoots));
+  }
+}
+
+/// A standing beam buckles at some acceleration below 0; found to four digits.
+double buckling_acceleration(ArmInBeamUnits units, double acceleration_m_per_s2) {
+  const Real given = units.gravity;
+  Real stable = 0.0L;
+  Real unstable = 1.0L;
+  while (unstable - stable > 1e-4L * unstable) {
+    const Real middle = 0.5L * (stable + unstable);
+    units.gravity = given * middle;
+    (flexible_modes_are_stable(units) ? stable : unstable) = middle;
+  }
+  return acceleration_m_per_s2 * static_cast<double>(stable);
+}
+
+double rounded(Real value) {
+  return static_cast<double>(value);
+}
+
+/// No power of s is left in front of a sensor's numerator: what shows no rigid motion starts with
+/// s^2, unless gravity bends the beam at rest.
+bool vanishes_at_rest(const ArmInBeamUnits& arm, arm::SensorKind kind) {
+  return arm.gravity == 0.0L &&
+         (kind == arm::SensorKind::tip_deflection || kind == arm::SensorKind::strain);
+}
+
+/// What turns a value in units of the beam into the sensor's reading before time derivatives.
+Real sensor_unit(const arm::LinearArm& arm, arm::SensorKind kind) {
+  switch (kind) {
+    case arm::SensorKind::hub_angle:
+    case arm::SensorKind::hub_velocity:
+      return 1.0L;
+    case arm::SensorKind::tip_displacement:
+    case arm::SensorKind::tip_acceleration:
+    case arm::SensorKind::tip_deflection:
+      return arm.length_m;
+    case arm::SensorKind::strain:
+      return 0.5L * arm.thickness_m.value() / arm.length_m;
+  }
+  throw std::logic_error("sensor kind outside its enumeration");
+}
+
+Real modal_value(const ChainModes& modes, std::size_t i, arm::SensorKind kind, Real position,
+                 Real reach) {
+  switch (kind) {
+    case arm::SensorKind::hub_angle:
+    case arm::SensorKind::hub_velocity:
+      return modes.hub_angle(i);
+    case arm::SensorKind::tip_displacement:
+    case arm::SensorKind::tip_acceleration:
+      return modes.tip_displacement(i);
+    case arm::SensorKind::tip_deflection:
+      return modes.tip_displacement(i) - reach * modes.hub_angle(i);
+    case arm::SensorKind::strain:
+      return modes.curvature(i, position);
+  }
+  throw std::logic_error("sensor kind outside its enumeration");
+}
+
+}  // namespace
+
+TransferMatrixArm::TransferMatrixArm(const arm::LinearArm& arm)
+    : arm_(arm), units_(in_beam_units(arm)) {
+  if (!flexible_modes_are_stable(units_)) {
+    throw arm::out_of_range("effects.gravity.acceleration", arm.gravity_m_per_s2, "m/s^2",
+                            fmt::format("above {:.4g} m/s^2, where the standing arm's beam buckles",
+                                        buckling_acceleration(units_, arm.gravity_m_per_s2)));
+  }
+}
+
+arm::PoleSet TransferMatrixArm::poles(int count) const {
+  require_count(count);
+  auto roots = find_chain_poles(units_, count);
+  const Real scale = units_.omega_scale_rad_per_s;
+  arm::PoleSet set;
+  set.lowest_omega_squared_rad2_per_s2 = rounded(roots.omega_squared.front() * scale * scale);
+  for (std::size_t i = 1; i < roots.omega_squared.size(); ++i) {
+    set.omega_rad_per_s.push_back(rounded(std::sqrt(roots.omega_squared[i]) * scale));
+  }
+  set.count = std::move(roots.count);
+  set.summary = std::move(roots.summary);
+  return set;
+}
+
+arm::DampedPoleSet TransferMatrixArm::damped_poles(int count) const {
+  require_count(count);
+  const auto roots = find_chain_poles(units_, count);
+  const Real scale = units_.omega_scale_rad_per_s;
+  const ChainModes shapes(units_, roots.omega_squared);
+  std::vector<UndampedMode> modes;
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    const Real omega_squared = roots.omega_squared[i];
+    modes.push_back({omega_squared * scale * scale,
+                     (shapes.damping(i, i) - units_.kelvin_voigt * omega_squared) * scale});
+  }
+  const auto characteristic = [&](const Complex& s, const Complex& damping) -> Scaled<Complex> {
+    const Complex in_units = s / scale;
+    try {
+      const TransferChain<Complex> chain(units_, damped_at(units_, in_units, damping));
+      const auto values = root_values(chain);
+      return {units_.turns_freely() ? values.torque / in_units : values.torque, values.log_scale};
+    } catch (const std::domain_error&) {
+      return {std::numeric_limits<Real>::quiet_NaN(), 0.0L};
+    }
+  };
+  return follow_damping(characteristic, arm_.kelvin_voigt_s, modes);
+}
+
+arm::ZeroSet TransferMatrixArm::hub_zeros(int count) const {
+  // One eigenvalue at most is negative, and another may be nearer to 0.
+  const int looked_for = arm_.gravity_m_per_s2 < 0.0 ? count + 1 : count;
+  auto roots = find_chain_hub_zeros(units_, looked_for);
+  std::ranges::sort(roots.omega_squared, {}, [](Real square) { return std::abs(square); });
+  roots.omega_squared.resize(static_cast<std::size_t>(count));
+  const Real scale = units_.omega_scale_rad_per_s;
+  arm::ZeroSet set;
+  for (const Real square : roots.omega_squared) {
+    const double size = rounded(std::sqrt(std::abs(square)) * scale);
+    set.s_rad_per_s.push_back(square < 0.0L ? std::complex(size, 0.0) : std::complex(0.0, size));
+  }
+  set.count = std::move(roots.count);
+  set.count.found -= looked_for - count;
+  set.count.expected -= looked_for - count;
+  set.summary = std::move(roots.summary);
+  return set;
+}
+
+arm::ZeroSet TransferMatrixArm::zeros(const arm::Sensor& sensor, int count) const {
+  require_count(count);
+  if (is_collocated(sensor)) return hub_zeros(count);
+  const Real position = in_units(sensor.position_m);
+  const bool divided = vanishes_at_rest(units_, sensor.kind);
+  const bool with_planes = derivative_order(sensor) == 0;
+  const auto value_at = [&](const auto& z) {
+    using T = std::remove_cvref_t<decltype(z)>;
+    const TransferChain<T> chain(units_, undamped_at(units_, z), with_planes);
+    const auto value = sensor_value(chain, sensor.kind, position);
+    return value.value / (divided ? z * value.size : T(value.size));
+  };
+  const auto numerator = [&](const Complex& lambda) -> Complex {
+    const Complex square = lambda * lambda;
+    const Complex z = square * square;
+    return z.imag() == 0.0L ? Complex(value_at(z.real())) : value_at(z);
+  };
+  return find_sensor_zeros(numerator, units_.omega_scale_rad_per_s, count);
+}
+
+arm::ModalModel TransferMatrixArm::modal_model(int count, std::span<const arm::Sensor> sensors,
+                                               std::span<const double> stations_m) const {
+  require_count(count);
+  const auto roots = find_chain_poles(units_, count);
+  const ChainModes shapes(units_, roots.omega_squared);
+  const Real scale = units_.omega_scale_rad_per_s;
+  const Real reach = 1.0L + units_.hub_radius;
+  arm::ModalModel model;
+  model.modal_mass_kg_m2 = arm::total_inertia_kg_m2(arm_);
+  model.lowest_omega_squared_rad2_per_s2 = rounded(roots.omega_squared.front() * scale * scale);
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    arm::Mode mode;
+    mode.omega_rad_per_s = rounded(std::sqrt(std::max(0.0L, roots.omega_squared[i])) * scale);
+    mode.hub_slope = rounded(shapes.hub_angle(i));
+    if (mode.omega_rad_per_s > 0.0) {
+      mode.damping_ratio =
+          rounded(shapes.damping(i, i) / (2.0L * std::sqrt(roots.omega_squared[i])));
+    }
+    for (const auto& sensor : sensors) {
+      mode.sensor_values.push_back(
+          rounded(sensor_unit(arm_, sensor.kind) *
+                  modal_value(shapes, i, sensor.kind, in_units(sensor.position_m), reach)));
+    }
+    for (const double station_m : stations_m) {
+      mode.displacement_m.push_back(
+          rounded(units_.length_m * shapes.displacement(i, in_units(station_m))));
+    }
+    model.modes.push_back(std::move(mode));
+  }
+  model.damping_rad_per_s.resize(shapes.size() * shapes.size());
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    for (std::size_t j = 0; j <= i; ++j) {
+      model.damping_rad_per_s[i * shapes.size() + j] =
+          model.damping_rad_per_s[j * shapes.size() + i] = rounded(shapes.damping(i, j) * scale);
+    }
+  }
+  return model;
+}
+
+std::vector<arm::Mode> TransferMatrixArm::modes(int count, std::span<const arm::Sensor> sensors,
+                                                std::span<const double> stations_m) const {
+  auto model = modal_model(count, sensors, stations_m);
+  model.modes.erase(model.modes.begin());
+  return std::move(model.modes);
+}
+
+std::complex<double> TransferMatrixArm::transfer_function(const arm::Sensor& sensor,
+                                                          std::complex<double> s_rad_per_s) const {
+  const Complex s(s_rad_per_s.real(), s_rad_per_s.imag());
+  const TransferChain<Complex> chain(units_, damped_at(units_, s / units_.omega_scale_rad_per_s));
+  const auto root = root_values(chain);
+  const auto output = sensor_value(chain, sensor.kind, in_units(sensor.position_m));
+  Complex value = sensor_unit(arm_, sensor.kind) / units_.torque_scale_N_m *
+                  std::exp(output.log_scale - root.log_scale) * output.value / root.torque;
+  for (int i = 0; i < derivative_order(sensor); ++i) value *= s;
+  return {rounded(value.real()), rounded(value.imag())};
+}
+
+}  // namespace flexarm::exact_tf

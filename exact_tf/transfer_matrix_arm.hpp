@@ -1,0 +1,44 @@
+#pragma once
+
+#include "arm/formulation.hpp"
+#include "arm/linear_arm.hpp"
+#include "exact_tf/beam_units.hpp"
+
+#include <complex>
+#include <span>
+#include <vector>
+
+namespace flexarm::exact_tf {
+
+/// A linear arm with every effect, by transfer matrices of segments: exact_tf/beam_units.hpp has
+/// the equations, exact_tf/transfer_chain.hpp how they are solved. Questions and errors are those
+/// of ExactArm, the counts bounded by `kMostRoots`.
+class TransferMatrixArm {
+ public:
+  /// Values take time in proportion to the number of waves, searches to its square: 2,000 poles
+  /// some seconds.
+  static constexpr int kMostRoots = 2000;
+
+  /// Throws arm::InputError for an arm that stands up and whose flexible modes buckle.
+  explicit TransferMatrixArm(const arm::LinearArm& arm);
+
+  arm::PoleSet poles(int count) const;
+  arm::DampedPoleSet damped_poles(int count) const;
+  arm::ZeroSet zeros(const arm::Sensor& sensor, int count) const;
+  std::vector<arm::Mode> modes(int count, std::span<const arm::Sensor> sensors,
+                               std::span<const double> stations_m) const;
+  arm::ModalModel modal_model(int count, std::span<const arm::Sensor> sensors,
+                              std::span<const double> stations_m) const;
+  /// s = 0 where something holds the arm.
+  std::complex<double> transfer_function(const arm::Sensor& sensor,
+                                         std::complex<double> s_rad_per_s) const;
+
+ private:
+  arm::ZeroSet hub_zeros(int count) const;
+  Real in_units(double position_m) const { return position_m / units_.length_m; }
+
+  arm::LinearArm arm_;
+  ArmInBeamUnits units_;
+};
+
+}  // namespace flexarm::exact_tf

@@ -158,6 +158,21 @@ TEST_F(JsonSchema, WhatPaperWritesIsWhatTheDocumentSays) {
   expect_as_documented({Json::parse(text_of("out.json"))}, "flexarm.paper/1");
 }
 
+TEST_F(JsonSchema, WhatSweepWritesIsWhatTheDocumentSays) {
+  const auto written_by = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "sweep");
+    arguments.insert(arguments.end(), {"--json", "out.json"});
+    EXPECT_NE(run(arguments).status, 2);
+    return Json::parse(text_of("out.json"));
+  };
+  // An assumed mode cannot tell the fourteenth zero of the tip from rounding.
+  expect_as_documented(
+      {written_by({"--over", "damping.kelvin_voigt=0:1e-4:2", "--over", "payload.inertia=0:0.002:3",
+                   "--zeros", "14"}),
+       written_by({"--over", "payload.mass=log:0.01:1:2", "--roots-only", "--formulation", "fem"})},
+      "flexarm.sweep/1");
+}
+
 TEST(JsonSchemaWalk, SeesEveryKeyAndType) {
   Types seen;
   walk(Json::parse(R"({"a": [{"b": 1}, {"b": null}], "c": [1.5], "d": {"e": "x"}})"), "", seen);

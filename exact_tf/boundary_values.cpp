@@ -85,8 +85,11 @@ SensorValue<T> curvature_value(const TransferChain<T>& chain, Real x) {
   const SegmentSeries<T> series(chain.arm(), chain.beam(), segment,
                                 state_in_plane(functional.functional, plane.plane));
   const auto state = series.at((segment.right - x) / segment.length);
-  return {chain.beam().flexibility * state[kMoment], plane.log_scale + functional.log_scale,
-          norm_of(plane.plane.minors) * norm_of(functional.functional)};
+  const Real log_scale = plane.log_scale + functional.log_scale;
+  // Sizes here would jump with the cuts between segments; that at the root does not.
+  for (std::size_t i = place; i < links.size(); ++i) chain.to_left(links[i], plane);
+  return {chain.beam().flexibility * state[kMoment], log_scale,
+          norm_of(plane.plane.minors) * std::exp(plane.log_scale - log_scale)};
 }
 
 }  // namespace

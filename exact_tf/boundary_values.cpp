@@ -25,7 +25,7 @@ T slight_deflection(const TransferChain<T>& chain) {
   auto departure = chain.tip_states();
   departure[0][kDisplacement] = departure[1][kRotation] = T(0.0L);
   for (const auto& link : chain.links()) {
-    const auto& transfer = chain.transfer(link);
+    const auto transfer = chain.transfer(link);
     const Real from_tip = 1.0L - link.segment.right;
     std::array<BeamState<T>, 2> next{};
     for (std::size_t i = 0; i < 4; ++i) {

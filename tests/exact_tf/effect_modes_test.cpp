@@ -136,13 +136,17 @@ class EffectModalModel : public testing::TestWithParam<arm::Arm> {};
 TEST_P(EffectModalModel, AnswersAsTheTransferFunctionDoes) {
   const ExactArm exact(GetParam());
   const std::vector<arm::Sensor> sensors = {kHub, kTip, {SensorKind::tip_deflection}};
-  constexpr int kModes = 60;
-  const auto model = exact.modal_model(kModes, sensors, {});
+  const auto half = exact.modal_model(30, sensors, {});
+  const auto model = exact.modal_model(60, sensors, {});
   for (const std::complex<double> s : {std::complex(-0.2, 1.3), {0.0, 9.0}, {0.5, 0.0}}) {
     for (std::size_t k = 0; k < sensors.size(); ++k) {
       const auto wanted = exact.transfer_function(sensors[k], s);
-      // The tail of terms of order i^-5 with hub and payload inertia: 60^-4 times a factor.
-      EXPECT_LE(std::abs(modal_sum(model, s, k) - wanted), 1e-6 * std::abs(wanted))
+      // Kelvin-Voigt damping beside springs that lose nothing gives the moment at the spring
+      // another phase than any mode has: the tail then falls as 1/n, otherwise faster.
+      const double coarse = std::abs(modal_sum(half, s, k) - wanted);
+      const double error = std::abs(modal_sum(model, s, k) - wanted);
+      EXPECT_LE(error, 1e-5 * std::abs(wanted)) << to_string(sensors[k]) << " at s = " << s;
+      EXPECT_LE(error, 0.6 * coarse + 1e-11 * std::abs(wanted))
           << to_string(sensors[k]) << " at s = " << s;
     }
   }

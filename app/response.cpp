@@ -78,10 +78,10 @@ ChosenFormulation make_formulation(const Arguments& arguments, const arm::Arm& a
   const int roots = response::roots_needed(arm, options);
   const bool discrete = arguments.formulation.name != "exact_tf";
   if (discrete && roots > response::kMostRoots && options.modes < response::kMostRoots) {
-    throw arm::InputError(
-        fmt::format("{} poles lie below the highest frequency: must be {} or less by {}; exact_tf "
-                    "has no such bound",
-                    roots - 1, response::kMostRoots - 1, arguments.formulation.name));
+    throw arm::InputError(fmt::format(
+        "some {} roots lie below the highest frequency: must be {} or less by {}; exact_tf "
+        "has no such bound",
+        roots, response::kMostRoots, arguments.formulation.name));
   }
   return arguments.formulation.make(arm, roots);
 }

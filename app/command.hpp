@@ -32,5 +32,8 @@ Command add_compare(CLI::App& program);
 Command add_modes(CLI::App& program);
 Command add_new(CLI::App& program);
 Command add_paper(CLI::App& program);
+Command add_response(CLI::App& program);
+Command add_simulate(CLI::App& program);
+Command add_sweep(CLI::App& program);
 
 }  // namespace flexarm::app

@@ -5,6 +5,7 @@
 #include "app/standard_output.hpp"
 #include "arm/atomic_file.hpp"
 #include "arm/input_error.hpp"
+#include "arm/linear_arm.hpp"
 #include "compare/shapes.hpp"
 #include "exact_tf/certificate.hpp"
 #include "report/arm_json.hpp"
@@ -134,6 +135,11 @@ int run(const Arguments& arguments) {
     print(fmt::format("by {}{}{}\n\n", chosen.name, chosen.settings.empty() ? "" : ", ",
                       chosen.settings));
     print(report::to_text(report::poles_table(arm, summary)) + "\n");
+    const std::string lowest = report::lowest_mode_line(summary);
+    if (!lowest.empty()) print(lowest + "\n");
+    if (arm::linear_arm(arm).is_damped()) {
+      print(report::to_text(report::damped_poles_table(summary)) + "\n");
+    }
     print(report::to_text(report::zeros_table(summary)) + "\n");
     print(shortfalls(chosen, summary, arguments.count));
 
@@ -153,6 +159,8 @@ int run(const Arguments& arguments) {
       arm::make_folder(folder);
       arm::write_atomically(folder / "modes.csv",
                             report::to_csv(report::poles_table(arm, summary)));
+      arm::write_atomically(folder / "damped_poles.csv",
+                            report::to_csv(report::damped_poles_table(summary)));
       arm::write_atomically(folder / "zeros.csv", report::to_csv(report::zeros_table(summary)));
       arm::write_atomically(folder / "shapes.csv",
                             report::to_csv(report::shapes_over_x_table(summary)));

@@ -162,7 +162,9 @@ concept Formulation = requires(const F& f, int count, const Sensor& sensor,
   { f.degrees_of_freedom() } -> std::same_as<int>;
   { f.poles(count) } -> std::same_as<PoleSet>;
   { f.zeros(sensor, count) } -> std::same_as<ZeroSet>;
+  { f.damped_poles(count) } -> std::same_as<DampedPoleSet>;
   { f.modes(count, sensors, stations_m) } -> std::same_as<std::vector<Mode>>;
+  { f.modal_model(count, sensors, stations_m) } -> std::same_as<ModalModel>;
   { f.transfer_function(sensor, s_rad_per_s) } -> std::same_as<std::complex<double>>;
 };
 

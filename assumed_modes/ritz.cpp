@@ -5,6 +5,7 @@
 #include <Eigen/QR>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <stdexcept>
 #include <vector>
@@ -60,7 +61,7 @@ Rotated rotated(const SymmetricPencil& pencil) {
   return result;
 }
 
-/// Pairs at one shift; the eigenvalues of vectors.size() 0 say that K + shift M is not definite.
+/// Pairs at one shift; none where K + shift M is not positive definite.
 struct Shifted {
   Vector nu;       ///< 1/(mu + shift), descending
   Matrix vectors;  ///< in rotated coordinates
@@ -110,6 +111,15 @@ Real rayleigh_quotient(const SymmetricPencil& pencil, const Vector& q) {
   return stiffness / mass;
 }
 
+/// The lowest pair's vector after a step of inverse iteration without shift, K q' = M q, which
+/// takes out what rounding has left of the others in it.
+Vector iterated(const SymmetricPencil& pencil, const Vector& q) {
+  Vector momentum = pencil.spread * q;
+  for (const Lumped& at : pencil.lumped) momentum += at.inertia * at.row.dot(q) * at.row;
+  const Vector next = Eigen::LDLT<Matrix>(pencil.stiffness()).solve(momentum);
+  return next * (q.norm() / next.norm()) * (next.dot(q) < 0 ? -1 : 1);
+}
+
 }  // namespace
 
 RitzPairs ritz_pairs(const SymmetricPencil& pencil) {
@@ -130,6 +140,10 @@ RitzPairs ritz_pairs(const SymmetricPencil& pencil) {
   pairs.converged = found.converged;
   pairs.mass = found.nu;
   pairs.eigenvalues = found.nu.cwiseInverse().array() - shift;
+  constexpr Real kVeryLow = 1e-9L;
+  if (std::abs(pairs.eigenvalues(0)) < kVeryLow * shift) {
+    pairs.vectors.col(0) = iterated(pencil, pairs.vectors.col(0));
+  }
   for (Eigen::Index k = 0; k < pencil.size() && pairs.eigenvalues(k) < shift; ++k) {
     pairs.eigenvalues(k) = rayleigh_quotient(pencil, pairs.vectors.col(k));
   }

@@ -22,7 +22,8 @@ struct RitzPairs {
 /// accurate ones, off by the unit of rounding times mu/shift. The shift, 500 or what makes S
 /// positive definite, is of the size of a beam's first eigenvalues. Below it mu is the Rayleigh
 /// quotient of its vector, whose error is the square of the vector's: a pendulum's or a soft root's
-/// frequency may be as low as it pleases and has all its digits. Lumped terms are rotated into the
+/// frequency may be as low as it pleases and has all its digits (the lowest vector, where it lies
+/// far below the shift, after a step of inverse iteration). Lumped terms are rotated into the
 /// first coordinates, the greatest first, where Cholesky's method leaves their rounding: whatever
 /// their size, they do not drown the beam.
 RitzPairs ritz_pairs(const SymmetricPencil& pencil);

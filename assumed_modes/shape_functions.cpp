@@ -27,6 +27,7 @@ BeamShapes shapes_of(Basis basis, const ScaledArm& arm, int count) {
 ShapeFunctions::ShapeFunctions(Basis basis, const ScaledArm& arm, int shapes)
     : shapes_(shapes_of(basis, arm, shapes)),
       hub_radius_(arm.hub_radius),
+      offset_(hub_radius_ * shapes_.values(0, 1)),
       bends_(Vector::Ones(shapes + 1)) {
   bends_(0) = 0;
 }
@@ -38,7 +39,7 @@ Vector ShapeFunctions::with_rotation(Real rigid, const Vector& shapes) const {
 }
 
 Vector ShapeFunctions::displacement(Real xi) const {
-  return with_rotation(hub_radius_ + xi, shapes_.values(xi, 0));
+  return with_rotation(hub_radius_ + xi, shapes_.values(xi, 0) + offset_);
 }
 
 Vector ShapeFunctions::rotation(Real xi) const {
@@ -53,12 +54,14 @@ Matrix ShapeFunctions::displacement_products() const {
   const Integrals integrals = shapes_.integrals();
   const Real a = hub_radius_;
   const Eigen::Index shapes = size() - 1;
-  const Vector coupling = a * integrals.mean + integrals.moment;
+  const Vector coupling = a * integrals.mean + integrals.moment + (a + Real{0.5L}) * offset_;
   Matrix products(size(), size());
   products(0, 0) = a * (a + 1) + Real{1} / 3;
   products.row(0).tail(shapes) = coupling.transpose();
   products.col(0).tail(shapes) = coupling;
-  products.bottomRightCorner(shapes, shapes) = integrals.mass;
+  products.bottomRightCorner(shapes, shapes) = integrals.mass +
+                                               offset_ * integrals.mean.transpose() +
+                                               (integrals.mean + offset_) * offset_.transpose();
   return products;
 }
 

@@ -7,8 +7,9 @@
 
 namespace flexarm::assumed_modes {
 
-/// The rigid rotation a + xi and the first shapes of a classical beam, in units of l. The strain
-/// energy matrix is diag(0, 1, ..., 1). No shape bends at a crack or at a soft root, nor shears.
+/// The rigid rotation a + xi and the first shapes of a classical beam, y_i = psi_i + a psi_i'(0),
+/// in units of l. The strain energy matrix is diag(0, 1, ..., 1). No shape bends at a crack or at a
+/// soft root, nor shears.
 class ShapeFunctions {
  public:
   /// `basis` is any but legendre; `shapes` >= 1.
@@ -34,6 +35,7 @@ class ShapeFunctions {
 
   BeamShapes shapes_;
   Real hub_radius_;
+  Vector offset_;  ///< y_i(0) = a psi_i'(0): a shape that turns the hub moves the root along
   Vector bends_;
 };
 

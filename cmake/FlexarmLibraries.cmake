@@ -5,6 +5,7 @@ find_package(fmt REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(tomlplusplus REQUIRED)
 find_package(CLI11 REQUIRED)
+find_package(TBB REQUIRED)
 
 # Header-only: used as SYSTEM so that its warnings are not ours.
 find_path(SPECTRA_INCLUDE_DIR Spectra/SymGEigsShiftSolver.h REQUIRED)
@@ -19,6 +20,12 @@ foreach(part umfpack klu cholmod btf amd colamd suitesparseconfig)
   find_library(SUITESPARSE_${part}_LIBRARY ${part} REQUIRED)
   target_link_libraries(flexarm_suitesparse INTERFACE "${SUITESPARSE_${part}_LIBRARY}")
 endforeach()
+
+find_path(MATIO_INCLUDE_DIR matio.h REQUIRED)
+find_library(MATIO_LIBRARY matio REQUIRED)
+add_library(flexarm_matio INTERFACE)
+target_include_directories(flexarm_matio SYSTEM INTERFACE "${MATIO_INCLUDE_DIR}")
+target_link_libraries(flexarm_matio INTERFACE "${MATIO_LIBRARY}")
 
 find_path(ARB_INCLUDE_DIR acb.h REQUIRED)
 find_path(FLINT_INCLUDE_DIR flint/flint.h REQUIRED)

@@ -24,10 +24,16 @@ double turned_into(double angle_deg, double from_deg) {
   return angle_deg - 360.0 * std::floor((angle_deg - from_deg) / 360.0);
 }
 
+/// One curve alone needs no broad band below others.
+Style curve_style(const BodePlot& plot, std::size_t index) {
+  return plot.curves.size() == 1 ? Style{.colour = blue, .line_width_px = 1.6}
+                                 : overlay_style(index);
+}
+
 /// The phase curve, with a gap wherever it wraps: no line is drawn across the panel.
 Series phase_series(const BodePlot& plot, std::size_t index) {
   const std::vector<double> phase = phase_deg(plot.curves[index].response, plot.phase);
-  Series series{plot.curves[index].name, {}, {}, overlay_style(index)};
+  Series series{plot.curves[index].name, {}, {}, curve_style(plot, index)};
   for (std::size_t i = 0; i < phase.size(); ++i) {
     if (i > 0 && std::abs(phase[i] - phase[i - 1]) > 225.0) {
       series.x.push_back(plot.frequency_Hz[i]);
@@ -39,6 +45,45 @@ Series phase_series(const BodePlot& plot, std::size_t index) {
   return series;
 }
 
+Style root_style(bool pole) {
+  Style style;
+  style.colour = pole ? vermillion : green;
+  style.line = Line::none;
+  style.marker = pole ? Marker::cross : Marker::circle;
+  style.marker_size = 0.9;
+  return style;
+}
+
+/// Crosses for poles, circles for zeros, below the curves.
+void add_roots(const BodePlot& plot, Panel& panel) {
+  if (plot.poles_Hz.empty() && plot.zeros_Hz.empty()) return;
+  const bool decibel = plot.magnitude == Magnitude::decibel;
+  double lowest = std::numeric_limits<double>::infinity();
+  double highest = -lowest;
+  for (const Series& series : panel.series) {
+    for (const double value : series.y) {
+      const double drawn = decibel ? value : std::log10(value);
+      if (!std::isfinite(drawn)) continue;
+      lowest = std::min(lowest, drawn);
+      highest = std::max(highest, drawn);
+    }
+  }
+  if (!(lowest < highest)) return;
+  constexpr double kBelow = 0.08;  // of the curves' height
+  const double place = lowest - kBelow * (highest - lowest);
+  for (const bool pole : {true, false}) {
+    Series series{pole ? "poles" : "zeros", {}, {}, root_style(pole)};
+    for (const double frequency : pole ? plot.poles_Hz : plot.zeros_Hz) {
+      if (!(frequency >= plot.frequency_Hz.front() && frequency <= plot.frequency_Hz.back())) {
+        continue;
+      }
+      series.x.push_back(frequency);
+      series.y.push_back(decibel ? place : std::pow(10.0, place));
+    }
+    if (!series.x.empty()) panel.series.push_back(std::move(series));
+  }
+}
+
 Panel magnitude_panel(const BodePlot& plot) {
   const bool decibel = plot.magnitude == Magnitude::decibel;
   Panel panel;
@@ -47,13 +92,14 @@ Panel magnitude_panel(const BodePlot& plot) {
   panel.y.scale = decibel ? Scale::linear : Scale::logarithmic;
   panel.height = 1.8;
   for (std::size_t c = 0; c < plot.curves.size(); ++c) {
-    Series series{plot.curves[c].name, plot.frequency_Hz, {}, overlay_style(c)};
+    Series series{plot.curves[c].name, plot.frequency_Hz, {}, curve_style(plot, c)};
     for (const auto& value : plot.curves[c].response) {
       const double magnitude = std::abs(value);
       series.y.push_back(decibel ? 20.0 * std::log10(magnitude) : magnitude);
     }
     panel.series.push_back(std::move(series));
   }
+  add_roots(plot, panel);
   return panel;
 }
 
@@ -74,8 +120,10 @@ Panel phase_panel(const BodePlot& plot) {
   // Ticks a quarter turn apart, more where an unwrapped phase runs over several turns.
   const int first = static_cast<int>(std::floor(lowest / 90.0 + 0.25));
   const int last = static_cast<int>(std::ceil(highest / 90.0 - 0.25));
-  const int step = std::max(1, (last - first + 4) / 5);
-  for (int quarter = first; quarter <= last; quarter += step) {
+  int step = 1;
+  while (5 * step < last - first) step *= 2;
+  const int lowest_tick = step * static_cast<int>(std::ceil(static_cast<double>(first) / step));
+  for (int quarter = lowest_tick; quarter <= last; quarter += step) {
     panel.y.ticks.push_back(
         {90.0 * quarter, fmt::format("{}{}", quarter < 0 ? "−" : "", std::abs(90 * quarter))});
   }

@@ -29,6 +29,9 @@ struct BodePlot {
   /// One a frequency: 1 - |sum G|^2/(n sum |G|^2) of the n curves; its root, an amplitude as they
   /// are, is drawn beside the differences.
   std::vector<double> one_minus_coherence = {};
+  /// Marked along the lower edge of the magnitude, those within the frequencies.
+  std::vector<double> poles_Hz = {};
+  std::vector<double> zeros_Hz = {};
   Magnitude magnitude = Magnitude::logarithmic;
   Phase phase = Phase::wrapped;
 };

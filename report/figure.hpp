@@ -75,18 +75,19 @@ struct Annotation {
 
 struct Panel {
   std::string title = {};
+  std::optional<Axis> x = {};  ///< empty: the stack's, shown under its lowest panel
   Axis y = {};
   std::vector<Series> series = {};
   std::vector<Annotation> annotations = {};
   double height = 1.0;  ///< relative to the other panels of its stack
 };
 
-/// Panels one above the other on one x axis.
+/// Panels one above the other, on one x axis unless they have their own.
 struct PanelStack {
   Axis x = {};
   std::vector<Panel> panels = {};
   double width = 1.0;    ///< relative to the other stacks of the figure
-  bool square = false;   ///< a single panel with sides of equal length
+  bool square = false;   ///< panels with sides of equal length
   int blank_panels = 0;  ///< room left below, so that stacks of unlike length have equal panels
 };
 

@@ -115,8 +115,14 @@ double left_margin_px(const PanelStack& stack) {
 /// Shares the height between `bottom_px` and `top_px` out among the panels, the first on top.
 void stack_panels(const PanelStack& stack, double bottom_px, double top_px,
                   std::vector<PanelBox>& boxes) {
+  const auto title_px = [&](std::size_t i) {
+    return stack.panels[i].title.empty() ? 0.0 : kPanelTitle_px;
+  };
+  const auto gap_below_px = [&](std::size_t i) {
+    return kPanelGap_px + (stack.panels[i].x ? kAxisLabel_px : 0.0);
+  };
   const auto above_px = [&](std::size_t i) {
-    return (i > 0 ? kPanelGap_px : 0.0) + (stack.panels[i].title.empty() ? 0.0 : kPanelTitle_px);
+    return (i > 0 ? gap_below_px(i - 1) : 0.0) + title_px(i);
   };
   double room = top_px - bottom_px;
   double total_height = 0.0;
@@ -126,7 +132,7 @@ void stack_panels(const PanelStack& stack, double bottom_px, double top_px,
   }
   // A blank panel takes what the last panel takes.
   const std::size_t last = stack.panels.size() - 1;
-  room -= stack.blank_panels * (kPanelGap_px + above_px(last) - (last > 0 ? kPanelGap_px : 0.0));
+  room -= stack.blank_panels * (gap_below_px(last) + title_px(last));
   total_height += stack.blank_panels * stack.panels[last].height;
 
   double top = top_px;
@@ -184,19 +190,24 @@ FigureLayout lay_out(const Figure& figure) {
     const double left = right + left_margin_px(stack);
     right = left + room * stack.width / total_width;
 
-    Extent x;
+    Extent shared_x;
     std::vector<PanelBox> boxes(stack.panels.size());
     for (std::size_t i = 0; i < boxes.size(); ++i) {
+      const Panel& panel = stack.panels[i];
+      Extent own_x;
       Extent y;
-      take_in(stack.panels[i], stack.x, x, y);
-      boxes[i].y = range_of(y, stack.panels[i].y, kDataMargin);
+      take_in(panel, panel.x.value_or(stack.x), panel.x ? own_x : shared_x, y);
+      if (panel.x) boxes[i].x = range_of(own_x, *panel.x, kDataMargin / 2);
+      boxes[i].y = range_of(y, panel.y, kDataMargin);
       boxes[i].left_px = left;
       boxes[i].right_px = right;
       boxes[i].label_px = left_margin_px(stack) - kLine_px;
     }
-    for (PanelBox& box : boxes) box.x = range_of(x, stack.x, kDataMargin / 2);
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      if (!stack.panels[i].x) boxes[i].x = range_of(shared_x, stack.x, kDataMargin / 2);
+    }
     stack_panels(stack, bottom_px, top_px, boxes);
-    if (stack.square) make_square(boxes.front());
+    if (stack.square) std::ranges::for_each(boxes, make_square);
     layout.boxes.push_back(std::move(boxes));
   }
   return layout;

@@ -146,9 +146,11 @@ std::string panel_frame(const Figure& figure, const PanelStack& stack, const Pan
       "set xrange [{}:{}]\nset yrange [{}:{}]\n",
       box.left_px / width, box.right_px / width, box.bottom_px / height, box.top_px / height,
       box.x.from, box.x.to, box.y.from, box.y.to);
-  text += tick_commands('x', stack.x, box.x, box.right_px - box.left_px, lowest);
+  const Axis& x_axis = panel.x ? *panel.x : stack.x;
+  const bool labelled = lowest || panel.x;
+  text += tick_commands('x', x_axis, box.x, box.right_px - box.left_px, labelled);
   text += tick_commands('y', panel.y, box.y, box.top_px - box.bottom_px, true);
-  if (lowest) text += fmt::format("set xlabel {} offset 0,0.5\n", quoted(axis_text(stack.x)));
+  if (labelled) text += fmt::format("set xlabel {} offset 0,0.5\n", quoted(axis_text(x_axis)));
   // A label in place of ylabel, which stands elsewhere in each panel with the width of its ticks.
   text += fmt::format("set label {} at graph 0,0.5 center rotate offset screen {},0\n",
                       quoted(axis_text(panel.y)), -box.label_px / width);
@@ -199,7 +201,8 @@ GnuplotScript gnuplot_script(const Figure& figure, const FigureLayout& layout) {
       std::string plot;
       for (const Series& series : panel.series) {
         ++block;
-        if (!append_data(script.text, block, series, stack.x, panel.y)) continue;
+        const Axis& x_axis = panel.x ? *panel.x : stack.x;
+        if (!append_data(script.text, block, series, x_axis, panel.y)) continue;
         plot += fmt::format("{}$data{} using 1:2 {} notitle", plot.empty() ? "plot " : ", ", block,
                             drawing(series.style));
         script.group_names.push_back(series.name);

@@ -6,7 +6,10 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <complex>
 #include <cstdint>
+#include <limits>
 #include <numbers>
 
 namespace flexarm::report {
@@ -48,6 +51,40 @@ Table poles_table(const arm::Arm& arm, const response::ModalSummary& summary) {
     }
   }
   return table;
+}
+
+Table damped_poles_table(const response::ModalSummary& summary) {
+  Table table{"Poles with damping, two a mode; mode 0 is the lowest, of the rigid arm",
+              {{"mode"},
+               {"Re s", "rad/s", kDigits},
+               {"Im s", "rad/s", kDigits},
+               {"abs(s)/2 pi", "Hz", kDigits},
+               {"damping ratio", "", 6}}};
+  const auto add = [&table](std::int64_t mode, std::complex<double> s) {
+    const double size = std::abs(s);
+    Cell damping_ratio;
+    if (size > 0.0) damping_ratio = -s.real() / size;
+    table.add_row({mode, s.real(), s.imag(), frequency_Hz(size), damping_ratio});
+  };
+  const auto& poles = summary.damped_poles;
+  add(0, poles.lowest.first_rad_per_s);
+  add(0, poles.lowest.second_rad_per_s);
+  for (std::size_t i = 0; i < poles.flexible.size(); ++i) {
+    add(std::int64_t(i) + 1, poles.flexible[i].first_rad_per_s);
+    add(std::int64_t(i) + 1, poles.flexible[i].second_rad_per_s);
+  }
+  return table;
+}
+
+std::string lowest_mode_line(const response::ModalSummary& summary) {
+  const double omega_squared = summary.poles.lowest_omega_squared_rad2_per_s2;
+  if (omega_squared == 0.0) return "";
+  const double size = std::sqrt(std::abs(omega_squared));
+  if (omega_squared > 0.0) {
+    return fmt::format("The hub does not turn freely: lowest mode, undamped, at {:.12g} Hz\n",
+                       frequency_Hz(size));
+  }
+  return fmt::format("The arm stands up and falls: undamped poles at s = +-{:.12g} rad/s\n", size);
 }
 
 Table zeros_table(const response::ModalSummary& summary) {
@@ -124,7 +161,20 @@ nlohmann::ordered_json modes_json(const arm::Arm& arm, const response::ModalSumm
     entry["infinite"] = set.infinite;
     zeros.push_back(std::move(entry));
   }
-  return {{"stations_m", summary.stations_m}, {"modes", modes}, {"zeros", zeros}};
+  const auto pair = [](const arm::PolePair& poles) {
+    return Json::array({complex_json(poles.first_rad_per_s), complex_json(poles.second_rad_per_s)});
+  };
+  Json flexible = Json::array();
+  for (const auto& poles : summary.damped_poles.flexible) {
+    flexible.push_back({{"s_rad_per_s", pair(poles)}});
+  }
+  return {
+      {"lowest_omega_squared_rad2_per_s2", summary.poles.lowest_omega_squared_rad2_per_s2},
+      {"damped_poles",
+       {{"lowest", {{"s_rad_per_s", pair(summary.damped_poles.lowest)}}}, {"flexible", flexible}}},
+      {"stations_m", summary.stations_m},
+      {"modes", modes},
+      {"zeros", zeros}};
 }
 
 }  // namespace flexarm::report

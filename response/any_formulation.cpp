@@ -18,6 +18,10 @@ arm::PoleSet poles(const AnyFormulation& formulation, int count) {
   return std::visit([&](const auto& f) { return f.poles(count); }, formulation);
 }
 
+arm::DampedPoleSet damped_poles(const AnyFormulation& formulation, int count) {
+  return std::visit([&](const auto& f) { return f.damped_poles(count); }, formulation);
+}
+
 arm::ZeroSet zeros(const AnyFormulation& formulation, const arm::Sensor& sensor, int count) {
   return std::visit([&](const auto& f) { return f.zeros(sensor, count); }, formulation);
 }
@@ -26,6 +30,13 @@ std::vector<arm::Mode> modes(const AnyFormulation& formulation, int count,
                              std::span<const arm::Sensor> sensors,
                              std::span<const double> stations_m) {
   return std::visit([&](const auto& f) { return f.modes(count, sensors, stations_m); },
+                    formulation);
+}
+
+arm::ModalModel modal_model(const AnyFormulation& formulation, int count,
+                            std::span<const arm::Sensor> sensors,
+                            std::span<const double> stations_m) {
+  return std::visit([&](const auto& f) { return f.modal_model(count, sensors, stations_m); },
                     formulation);
 }
 

@@ -25,10 +25,14 @@ std::string_view name(const AnyFormulation& formulation);
 const arm::Arm& arm_of(const AnyFormulation& formulation);
 int degrees_of_freedom(const AnyFormulation& formulation);
 arm::PoleSet poles(const AnyFormulation& formulation, int count);
+arm::DampedPoleSet damped_poles(const AnyFormulation& formulation, int count);
 arm::ZeroSet zeros(const AnyFormulation& formulation, const arm::Sensor& sensor, int count);
 std::vector<arm::Mode> modes(const AnyFormulation& formulation, int count,
                              std::span<const arm::Sensor> sensors,
                              std::span<const double> stations_m);
+arm::ModalModel modal_model(const AnyFormulation& formulation, int count,
+                            std::span<const arm::Sensor> sensors,
+                            std::span<const double> stations_m);
 std::complex<double> transfer_function(const AnyFormulation& formulation, const arm::Sensor& sensor,
                                        std::complex<double> s_rad_per_s);
 

@@ -9,6 +9,7 @@ ModalSummary summarise(const AnyFormulation& formulation, int count,
   for (const auto& sensor : sensors) arm::require_valid(sensor, arm_of(formulation));
   ModalSummary summary;
   summary.poles = poles(formulation, count);
+  summary.damped_poles = damped_poles(formulation, count);
   summary.sensors.assign(sensors.begin(), sensors.end());
   summary.modes = modes(formulation, count, sensors, stations_m);
   summary.stations_m.assign(stations_m.begin(), stations_m.end());

@@ -16,6 +16,7 @@ struct SensorZeros {
 /// What one formulation says of an arm: poles, modes, and the zeros of the sensors asked for.
 struct ModalSummary {
   arm::PoleSet poles;
+  arm::DampedPoleSet damped_poles;
   std::vector<arm::Sensor> sensors;
   std::vector<arm::Mode> modes;    ///< sensor values in the order of `sensors`
   std::vector<double> stations_m;  ///< where the modes' displacements are

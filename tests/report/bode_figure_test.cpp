@@ -70,6 +70,17 @@ TEST(BodeFigure, DecibelsAreTwentyTimesTheLogarithm) {
   EXPECT_THAT(panel.series[0].y, ElementsAre(20.0, 0.0, DoubleNear(-20.0, 1e-13)));
 }
 
+TEST(BodeFigure, PolesAndZerosWithinTheFrequenciesAreMarkedBelowTheCurves) {
+  BodePlot marked = plot();
+  marked.poles_Hz = {0.5, 11.0, 200.0};
+  marked.zeros_Hz = {3.0};
+  const auto series = bode_figure(marked).stacks[0].panels[0].series;
+  ASSERT_EQ(series.size(), 4U);
+  EXPECT_THAT(series[2].x, ElementsAre(11.0));
+  EXPECT_THAT(series[3].x, ElementsAre(3.0));
+  EXPECT_LT(series[2].y[0], 0.1);
+}
+
 TEST(BodeFigure, AWrapIsAGap) {
   BodePlot wrapping = plot();
   wrapping.curves = {{"a", at_angles({100, 130, 140})}};

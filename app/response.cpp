@@ -1,0 +1,241 @@
+#include "app/arm_choice.hpp"
+#include "app/command.hpp"
+#include "app/formulation_choice.hpp"
+#include "app/output_choice.hpp"
+#include "app/standard_output.hpp"
+#include "app/state_space_file.hpp"
+#include "arm/atomic_file.hpp"
+#include "arm/input_error.hpp"
+#include "report/arm_json.hpp"
+#include "report/csv.hpp"
+#include "report/json_document.hpp"
+#include "report/modes_report.hpp"
+#include "report/response_json.hpp"
+#include "report/response_plots.hpp"
+#include "report/response_tables.hpp"
+#include "report/text_table.hpp"
+#include "response/response_study.hpp"
+#include "response/settings.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace flexarm::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kPrintedFrequencies = 25;
+
+struct Arguments {
+  ArmChoice arm;
+  FormulationChoice formulation;
+  std::vector<std::string> sensors = {"hub_angle", "tip_acceleration"};
+  response::ResponseOptions options;
+  std::string state_space_file;
+  bool modes_alone = false;
+  OutputChoice output;
+};
+
+/// The options as the library takes them. Throws InputError for what is wrong in itself.
+response::ResponseOptions options_of(const Arguments& arguments) {
+  response::ResponseOptions options = arguments.options;
+  if (options.modes < 1) throw arm::out_of_range("--modes", options.modes, "", "1 or more");
+  for (const auto& name : arguments.sensors) options.sensors.push_back(arm::parse_sensor(name));
+  const bool grid = options.from_Hz || options.to_Hz;
+  if (!options.frequency_Hz.empty()) {
+    if (grid) throw arm::InputError("--frequencies: not beside --from-Hz or --to-Hz");
+    response::require_ascending(options.frequency_Hz, "--frequencies");
+  }
+  if (options.from_Hz && !(*options.from_Hz > 0.0)) {
+    throw arm::out_of_range("--from-Hz", *options.from_Hz, "Hz", "above 0");
+  }
+  if (options.to_Hz && !(*options.to_Hz > options.from_Hz.value_or(0.0))) {
+    throw arm::out_of_range("--to-Hz", *options.to_Hz, "Hz",
+                            fmt::format("above {} Hz", options.from_Hz.value_or(0.0)));
+  }
+  if (options.points < 2 || options.points > response::kMostFrequencies) {
+    throw arm::out_of_range("--points", options.points, "",
+                            fmt::format("2 to {}", response::kMostFrequencies));
+  }
+  options.state_space = !arguments.state_space_file.empty();
+  options.static_correction = !arguments.modes_alone;
+  if (arguments.modes_alone && !options.state_space) {
+    throw arm::InputError("--modes-alone: needs --state-space FILE");
+  }
+  return options;
+}
+
+/// Fine enough for the modes and for the highest frequency.
+ChosenFormulation make_formulation(const Arguments& arguments, const arm::Arm& arm,
+                                   const response::ResponseOptions& options) {
+  const int roots = response::roots_needed(arm, options);
+  const bool discrete = arguments.formulation.name != "exact_tf";
+  if (discrete && roots > response::kMostRoots && options.modes < response::kMostRoots) {
+    throw arm::InputError(fmt::format(
+        "some {} roots lie below the highest frequency: must be {} or less by {}; exact_tf "
+        "has no such bound",
+        roots, response::kMostRoots, arguments.formulation.name));
+  }
+  return arguments.formulation.make(arm, roots);
+}
+
+void print_table(const report::Table& table) {
+  print(report::to_text(table) + "\n");
+}
+
+void print_study(const response::ResponseStudy& study, const response::ResponseOptions& options) {
+  for (const auto& note : report::chain_notes(study)) print(report::to_paragraph(note, 2));
+  if (!report::chain_notes(study).empty()) print("\n");
+  print_table(report::response_poles_table(study, static_cast<std::size_t>(options.modes)));
+  for (std::size_t k = 0; k < study.response.sensors.size(); ++k) {
+    auto factors = report::factors_table(study, k);
+    print(factors.caption + "\n");
+    factors.caption.clear();
+    for (const auto& formula : report::formulas(study, k)) print("  " + formula + "\n");
+    print_table(factors);
+  }
+  const auto frequencies = study.response.frequency_Hz.size();
+  const bool listed = !options.frequency_Hz.empty();
+  auto table = report::response_table(study.response, listed ? 0 : kPrintedFrequencies);
+  table.caption = table.rows.size() == frequencies
+                      ? fmt::format("Response at {} frequencies", frequencies)
+                      : fmt::format("Response at {} of {} frequencies; all with --out and --json",
+                                    table.rows.size(), frequencies);
+  print_table(table);
+  if (study.state_space) print_table(report::state_space_table(study));
+}
+
+void write_folder(const fs::path& folder, const std::string& formulation,
+                  const response::ResponseStudy& study) {
+  arm::make_folder(folder);
+  const auto write_csv = [&](const std::string& name, const report::Table& table) {
+    arm::write_atomically(folder / name, report::to_csv(table));
+  };
+  write_csv("poles.csv", report::response_poles_table(study, study.poles.omega_rad_per_s.size()));
+  write_csv("response.csv", report::response_listing(study.response));
+  write_csv("frf.csv", report::frf_listing(study.response));
+  for (std::size_t k = 0; k < study.response.sensors.size(); ++k) {
+    write_csv(fmt::format("factors-{}.csv", arm::to_string(study.response.sensors[k])),
+              report::factors_table(study, k));
+  }
+  for (const auto& [name, svg] : report::response_plots(formulation, study)) {
+    arm::write_atomically(folder / name, svg);
+  }
+}
+
+std::string next_step(const Arguments& arguments) {
+  const std::string arm = arguments.arm.file.empty() ? "" : " " + arguments.arm.file;
+  std::string lines;
+  if (!arguments.state_space_file.empty()) {
+    lines += fmt::format("wrote {}\n", arguments.state_space_file);
+  }
+  const bool drawn = !arguments.output.folder.empty();
+  if (drawn) lines += fmt::format("wrote {}\n", arguments.output.folder);
+  if (drawn && !arguments.state_space_file.empty()) {
+    return lines + fmt::format(
+                       "next: the three formulations side by side with  flexarm "
+                       "compare{}\n",
+                       arm);
+  }
+  if (drawn) {
+    return lines + fmt::format(
+                       "next: a model for control with  flexarm response{} --state-space "
+                       "arm.mat\n",
+                       arm);
+  }
+  return lines + fmt::format(
+                     "next: Bode and Nyquist diagrams with  flexarm response{} --out "
+                     "response\n",
+                     arm);
+}
+
+int run(const Arguments& arguments) {
+  const auto options = options_of(arguments);
+  const auto arms = arguments.arm.arms();
+  for (const auto& arm : arms) {
+    for (const auto& sensor : options.sensors) arm::require_responsive(sensor, arm);
+  }
+  if (options.state_space) {
+    require_state_space_file(arguments.state_space_file);
+    if (arms.size() > 1) {
+      throw arm::InputError("--state-space: takes one arm; --payload-mass has several");
+    }
+  }
+  arguments.output.prepare();
+
+  nlohmann::ordered_json documents = nlohmann::ordered_json::array();
+  for (const auto& arm : arms) {
+    const auto chosen = make_formulation(arguments, arm, options);
+    const auto study = response::study_response(arm, chosen.formulation, options);
+    print(describe(arm));
+    print(fmt::format("by {}{}{}\n\n", chosen.name, chosen.settings.empty() ? "" : ", ",
+                      chosen.settings));
+    print_study(study, options);
+
+    nlohmann::ordered_json document = {
+        {"arm", report::arm_json(arm)}, {"model", chosen.name}, {"settings", chosen.settings}};
+    document.update(report::response_json(study));
+    documents.push_back(std::move(document));
+    if (options.state_space) write_state_space(study, arguments.state_space_file);
+    if (!arguments.output.folder.empty()) {
+      write_folder(folder_of(arguments.output.folder, arm, arms.size()), chosen.name, study);
+    }
+  }
+  if (!arguments.output.json_file.empty()) {
+    arm::write_atomically(arguments.output.json_file,
+                          report::json_document("flexarm.response/1", {{"arms", documents}}));
+  }
+  print(next_step(arguments));
+  return kSuccess;
+}
+
+}  // namespace
+
+Command add_response(CLI::App& program) {
+  const auto arguments = std::make_shared<Arguments>();
+  auto& options = arguments->options;
+  CLI::App* parser = program.add_subcommand(
+      "response", "Frequency response, pole and zero forms, state space of one arm");
+  add_arm_choice(*parser, arguments->arm);
+  add_formulation_choice(*parser, arguments->formulation);
+  parser->add_option("--sensor", arguments->sensors, "Sensors, separated by commas")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->capture_default_str();
+  parser->add_option("--from-Hz", options.from_Hz,
+                     "Lowest frequency; a twentieth of the first pole when left out");
+  parser->add_option("--to-Hz", options.to_Hz,
+                     "Highest frequency; beyond the last of --modes poles when left out");
+  parser
+      ->add_option("--points", options.points,
+                   "Frequencies on a logarithmic scale; poles and zeros get more around them")
+      ->capture_default_str();
+  parser
+      ->add_option("--frequencies", options.frequency_Hz,
+                   "A list [Hz] in place of those, separated by commas")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  parser
+      ->add_option("--modes", options.modes,
+                   "Poles, zeros a sensor, and flexible modes of the state space")
+      ->capture_default_str();
+  parser
+      ->add_option("--state-space", arguments->state_space_file,
+                   "File for A, B, C, D and their response: .json, .csv or .mat (MATLAB 5)")
+      ->check(not_empty());
+  parser->add_flag("--modes-alone", arguments->modes_alone,
+                   "State space without the static correction for the modes left out");
+  add_output_choice(*parser, arguments->output,
+                    "Folder for CSV tables, Bode and Nyquist diagrams as SVG");
+  parser->footer(example("flexarm response rig.toml --sensor hub_angle,strain@0.05 --to-Hz 200"));
+  return {parser, [arguments] { return run(*arguments); }};
+}
+
+}  // namespace flexarm::app

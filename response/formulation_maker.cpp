@@ -1,0 +1,60 @@
+#include "response/formulation_maker.hpp"
+
+#include "arm/input_error.hpp"
+#include "arm/nearest_name.hpp"
+#include "response/arm_parts.hpp"
+#include "response/settings.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <string>
+#include <type_traits>
+
+namespace flexarm::response {
+
+AnyFormulation make_formulation(std::string_view formulation, const arm::Arm& arm, int roots) {
+  arm::require_count(roots);
+  arm::Arm linear = take_apart(arm).linear;
+  if (formulation == exact_tf::ExactArm::kName) return exact_tf::ExactArm(std::move(linear));
+  const bool is_fem = formulation == fem::FemArm::kName;
+  if (!is_fem && formulation != assumed_modes::AssumedModesArm::kName) {
+    const std::array<std::string, 3> names = {"exact_tf", "fem", "assumed_modes"};
+    throw arm::InputError(
+        fmt::format("formulation {}: unknown{}; allowed: exact_tf, fem, assumed_modes",
+                    arm::shown(formulation), arm::did_you_mean(std::string(formulation), names)));
+  }
+  if (roots > kMostRoots) {
+    throw arm::out_of_range(
+        "roots", roots, "",
+        fmt::format("{} or less by {}; exact_tf has no such bound", kMostRoots, formulation));
+  }
+  if (is_fem) return fem::FemArm(std::move(linear), fem_settings(roots));
+  return assumed_modes::AssumedModesArm(std::move(linear), assumed_modes_settings(roots));
+}
+
+AnyFormulation with_arm(const AnyFormulation& formulation, const arm::Arm& arm) {
+  const arm::Arm linear = take_apart(arm).linear;
+  return std::visit(
+      [&linear](const auto& f) -> AnyFormulation {
+        using F = std::decay_t<decltype(f)>;
+        if constexpr (std::is_same_v<F, exact_tf::ExactArm>) {
+          return F(linear);
+        } else {
+          return F(linear, f.options());
+        }
+      },
+      formulation);
+}
+
+arm::Arm without_damping(const arm::Arm& arm) {
+  arm::Arm undamped = arm;
+  undamped.damping = {};
+  undamped.hub.viscous_friction_N_m_s_per_rad = 0.0;
+  for (const char* effect : {"hub_viscous_friction", "structural_damping", "air_damping"}) {
+    undamped.effects.erase(effect);
+  }
+  return undamped;
+}
+
+}  // namespace flexarm::response

@@ -1,0 +1,32 @@
+#include "response/frequency_response.hpp"
+
+#include "response/frequency_grid.hpp"
+
+#include <numbers>
+
+namespace flexarm::response {
+
+FrequencyResponse frequency_response(const AnyFormulation& formulation, const LinearChain& chain,
+                                     std::span<const arm::Sensor> sensors,
+                                     std::span<const double> frequency_Hz) {
+  for (const auto& sensor : sensors) arm::require_valid(sensor, arm_of(formulation));
+  require_ascending(frequency_Hz, "frequency");
+  FrequencyResponse response;
+  response.frequency_Hz.assign(frequency_Hz.begin(), frequency_Hz.end());
+  response.sensors.assign(sensors.begin(), sensors.end());
+  for (const auto& sensor : sensors) {
+    auto& values = response.values.emplace_back();
+    for (const double frequency : frequency_Hz) {
+      const auto s = on_imaginary_axis(frequency);
+      values.push_back(transfer_function(formulation, sensor, s) * actuator_response(chain, s) *
+                       reading_response(chain, sensor, s));
+    }
+  }
+  return response;
+}
+
+std::complex<double> on_imaginary_axis(double frequency_Hz) {
+  return {0.0, 2.0 * std::numbers::pi * frequency_Hz};
+}
+
+}  // namespace flexarm::response

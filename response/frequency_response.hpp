@@ -1,0 +1,29 @@
+#pragma once
+
+#include "response/any_formulation.hpp"
+#include "response/linear_chain.hpp"
+
+#include <complex>
+#include <span>
+#include <vector>
+
+namespace flexarm::response {
+
+/// Readings of sensors per commanded torque, at s = i 2 pi f.
+struct FrequencyResponse {
+  std::vector<double> frequency_Hz;
+  std::vector<arm::Sensor> sensors;
+  std::vector<std::vector<std::complex<double>>> values;  ///< per sensor, one a frequency
+};
+
+/// `transfer_function` of the formulation with the linear part of the actuator and of the sensors,
+/// the same for every formulation. Not finite where a frequency is a pole of an undamped arm.
+/// Throws InputError for a sensor that the arm cannot carry, and unless `require_ascending`.
+FrequencyResponse frequency_response(const AnyFormulation& formulation, const LinearChain& chain,
+                                     std::span<const arm::Sensor> sensors,
+                                     std::span<const double> frequency_Hz);
+
+/// s = i 2 pi f.
+std::complex<double> on_imaginary_axis(double frequency_Hz);
+
+}  // namespace flexarm::response

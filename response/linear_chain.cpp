@@ -1,0 +1,19 @@
+#include "response/linear_chain.hpp"
+
+namespace flexarm::response {
+
+LinearChain linear_chain(const ArmParts& parts) {
+  return {parts.actuator.gain, parts.actuator.delay_s, parts.actuator.lag_s, parts.sensor_lag};
+}
+
+std::complex<double> actuator_response(const LinearChain& chain, std::complex<double> s_rad_per_s) {
+  return chain.gain * std::exp(-s_rad_per_s * chain.delay_s) / (1.0 + chain.lag_s * s_rad_per_s);
+}
+
+std::complex<double> reading_response(const LinearChain& chain, const arm::Sensor& sensor,
+                                      std::complex<double> s_rad_per_s) {
+  if (!chain.sensor_lag || chain.sensor_lag->sensor != sensor) return 1.0;
+  return 1.0 / (1.0 + chain.sensor_lag->time_constant_s * s_rad_per_s);
+}
+
+}  // namespace flexarm::response

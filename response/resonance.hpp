@@ -1,0 +1,33 @@
+#pragma once
+
+#include "response/any_formulation.hpp"
+#include "response/linear_chain.hpp"
+
+#include <complex>
+#include <span>
+#include <vector>
+
+namespace flexarm::response {
+
+/// A response close to one damped pole, for a Nyquist diagram.
+struct Resonance {
+  int order = 0;  ///< of the flexible pole, from 1
+  std::complex<double> pole_rad_per_s;
+  std::vector<double> frequency_Hz;
+  std::vector<std::complex<double>> values;
+  /// G at Im s, and at Im s -+ |Re s|: a quarter turn of the circle to either side.
+  std::complex<double> at_pole;
+  std::complex<double> below;
+  std::complex<double> above;
+};
+
+/// The response of one sensor around each of `poles` whose frequency |Im s| lies strictly between
+/// `from_Hz` and `to_Hz`. The frequencies stand at equal angles on the circle that a single pole
+/// would draw, Im s + |Re s| tan(angle/2), as far as the geometric mean with the neighbouring
+/// poles. Poles on the imaginary and on the real axis draw no circle and are left out.
+std::vector<Resonance> resonances(const AnyFormulation& formulation, const LinearChain& chain,
+                                  const arm::Sensor& sensor,
+                                  std::span<const arm::PolePair> flexible_poles, double from_Hz,
+                                  double to_Hz);
+
+}  // namespace flexarm::response

@@ -161,7 +161,6 @@ concept Formulation = requires(const F& f, int count, const Sensor& sensor,
   { f.arm() } -> std::same_as<const Arm&>;
   { f.degrees_of_freedom() } -> std::same_as<int>;
   { f.poles(count) } -> std::same_as<PoleSet>;
-  { f.damped_poles(count) } -> std::same_as<DampedPoleSet>;
   { f.zeros(sensor, count) } -> std::same_as<ZeroSet>;
   { f.damped_poles(count) } -> std::same_as<DampedPoleSet>;
   { f.modes(count, sensors, stations_m) } -> std::same_as<std::vector<Mode>>;

@@ -95,7 +95,7 @@ Refined refine(const Discretisation& model, Complex s, Eigen::VectorXcd x) {
   Refined refined{s};
   while (refined.iterations < kMost) {
     ++refined.iterations;
-    const DynamicShape y = free_response(model, refined.s, model.mass() * x);
+    const ShapeOf<Complex> y = free_response(model, refined.s, model.mass() * x);
     const double size = y.u.cwiseAbs().maxCoeff();
     if (!std::isfinite(size) || size == 0.0) break;
     const Eigen::VectorXcd u = y.u / size;

@@ -1,0 +1,167 @@
+#include "assumed_modes/strain_functions.hpp"
+
+#include <boost/math/quadrature/gauss.hpp>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace flexarm::assumed_modes {
+namespace {
+
+constexpr int kCount = 12;
+/// Integrands of degree 2 (kCount + 1) + 1 are exact with 20 points; the rest is rounding.
+constexpr Real kRounding = 1000 * std::numeric_limits<Real>::epsilon();
+constexpr Real kCrack = 0.3L;
+
+ScaledArm arm_with_everything() {
+  ScaledArm arm;
+  arm.hub_radius = 0.2L;
+  arm.root_stiffness = 4;
+  arm.crack = {kCrack, 2};
+  arm.shear = {50, 0.01L};
+  return arm;
+}
+
+/// Where the rule's 20 points lie on both sides of the crack, and their weights.
+struct Points {
+  std::vector<Real> xi;
+  std::vector<Real> weight;
+};
+
+Points gauss_points() {
+  using Rule = boost::math::quadrature::gauss<Real, 20>;
+  Points points;
+  for (const auto& [start, end] : {std::pair<Real, Real>{0, kCrack}, {kCrack, 1}}) {
+    for (std::size_t i = 0; i < Rule::abscissa().size(); ++i) {
+      for (const Real sign : {Real{-1}, Real{1}}) {
+        points.xi.push_back((start + end + sign * (end - start) * Rule::abscissa()[i]) / 2);
+        points.weight.push_back((end - start) / 2 * Rule::weights()[i]);
+      }
+    }
+  }
+  return points;
+}
+
+template <class Values, class Weight>
+Matrix gram(const Values& values, const Weight& weight) {
+  const Points points = gauss_points();
+  Matrix sum;
+  for (std::size_t i = 0; i < points.xi.size(); ++i) {
+    const Vector at = values(points.xi[i]);
+    if (sum.size() == 0) sum = Matrix::Zero(at.size(), at.size());
+    sum += points.weight[i] * weight(points.xi[i]) * at * at.transpose();
+  }
+  return sum;
+}
+
+const auto kEven = [](Real) { return Real{1}; };
+
+/// y' by the difference of two values on one piece, exact for polynomials up to the rounding of
+/// 1/step.
+Vector slope(const StrainFunctions& functions, Real xi) {
+  // Eighth-order central difference; the ninth derivative of what kCount gives is below 1e16.
+  constexpr Real kStep = 2e-3L;
+  const auto y = [&](int k) { return functions.displacement(xi + static_cast<Real>(k) * kStep); };
+  return ((y(1) - y(-1)) * 672 - (y(2) - y(-2)) * 168 + (y(3) - y(-3)) * 32 - (y(4) - y(-4)) * 3) /
+         (840 * kStep);
+}
+
+TEST(StrainFunctions, OnAPlainBeamBendInOrthonormalPolynomials) {
+  const StrainFunctions functions(ScaledArm{}, {.on_whole_beam = kCount});
+  ASSERT_EQ(functions.size(), kCount + 1);
+  Matrix expected = Matrix::Identity(kCount + 1, kCount + 1);
+  expected(0, 0) = 0;
+  const Matrix strain = gram([&](Real xi) { return functions.curvature(xi); }, kEven);
+  EXPECT_LE((strain - expected).cwiseAbs().maxCoeff(), kRounding);
+  EXPECT_EQ(functions.bends(), Vector(expected.diagonal()));
+  // The rotation comes first: y = xi, psi = 1.
+  EXPECT_EQ(functions.displacement(0.7L)(0), 0.7L);
+  EXPECT_EQ(functions.rotation(0.7L)(0), 1);
+  EXPECT_LE(functions.displacement(0).cwiseAbs().maxCoeff(), kRounding);
+}
+
+TEST(StrainFunctions, HaveAStrainEnergyOfOneEach) {
+  const ScaledArm arm = arm_with_everything();
+  const StrainFunctions functions(arm, {.on_whole_beam = kCount});
+  // One rotation, root, crack, and kCount of bending and of shear on either side.
+  ASSERT_EQ(functions.size(), 3 + 4 * kCount);
+  Matrix energy = gram([&](Real xi) { return functions.curvature(xi); }, kEven);
+  EXPECT_LE((energy.diagonal() - functions.bends()).cwiseAbs().maxCoeff(), kRounding);
+  const Vector turn = functions.rotation(0) - functions.hub_rotation();
+  energy += *arm.root_stiffness * turn * turn.transpose();
+  constexpr Real kBeside = 1e-12L;
+  const Vector jump =
+      functions.rotation(kCrack + kBeside) - functions.rotation(kCrack - kBeside) -
+      kBeside * (functions.curvature(kCrack + kBeside) + functions.curvature(kCrack - kBeside));
+  energy += arm.crack->stiffness * jump * jump.transpose();
+  // Shear strain away from the crack's ends of the difference formula.
+  const Real at = 0.6L;
+  const Vector strain = slope(functions, at) - functions.rotation(at);
+  constexpr Real kDifference = 1e-9L;
+  EXPECT_LE(strain.head(3 + 2 * kCount).cwiseAbs().maxCoeff(), kDifference);
+  EXPECT_NEAR(static_cast<double>(strain(3 + 3 * kCount)),
+              static_cast<double>(1 / std::sqrt(arm.shear->rigidity * (1 - kCrack))), 1e-9);
+  Matrix expected = Matrix::Zero(functions.size(), functions.size());
+  expected.diagonal().segment(1, 2 + 2 * kCount).setOnes();
+  EXPECT_LE((energy - expected).cwiseAbs().maxCoeff(), 1e-9L);
+}
+
+TEST(StrainFunctions, StartAtTheHubAndAreWholeAtTheCrack) {
+  const StrainFunctions functions(arm_with_everything(), {.on_whole_beam = kCount});
+  Vector start = Vector::Zero(functions.size());
+  start(0) = 0.2L;
+  EXPECT_LE((functions.displacement(0) - start).cwiseAbs().maxCoeff(), kRounding);
+  constexpr Real kBeside = 1e-15L;
+  const Vector before = functions.displacement(kCrack - kBeside);
+  const Vector behind = functions.displacement(kCrack + kBeside);
+  EXPECT_LE((behind - before).cwiseAbs().maxCoeff(), 1e-13L);
+}
+
+TEST(StrainFunctions, ProductsMatchGaussQuadratureOfExactDegree) {
+  const StrainFunctions functions(arm_with_everything(), {.on_whole_beam = kCount});
+  const Matrix displacement = gram([&](Real xi) { return functions.displacement(xi); }, kEven);
+  EXPECT_LE((functions.displacement_products() - displacement).cwiseAbs().maxCoeff(),
+            kRounding * displacement.norm());
+  const Matrix rotation = gram([&](Real xi) { return functions.rotation(xi); }, kEven);
+  EXPECT_LE((functions.rotation_products() - rotation).cwiseAbs().maxCoeff(),
+            kRounding * rotation.norm());
+  for (const Matrix& matrix : {functions.displacement_products(), functions.rotation_products(),
+                               functions.slope_products(3, 1)}) {
+    EXPECT_EQ(matrix, matrix.transpose());
+  }
+}
+
+TEST(StrainFunctions, SlopeProductsOfABeamWithoutShearAreThoseOfItsRotation) {
+  ScaledArm arm = arm_with_everything();
+  arm.shear.reset();
+  const StrainFunctions functions(arm, {.on_whole_beam = kCount});
+  const auto tension = [](Real xi) { return 3 - 2 * xi; };
+  const Matrix expected = gram([&](Real xi) { return functions.rotation(xi); }, tension);
+  EXPECT_LE((functions.slope_products(3, 1) - expected).cwiseAbs().maxCoeff(),
+            kRounding * expected.norm());
+  const StrainFunctions sheared(arm_with_everything(), {.on_whole_beam = kCount});
+  // int y' p of the rigid rotation with a shear function: the function's own integral.
+  const Matrix products = sheared.slope_products(1, 1);
+  for (Eigen::Index i = 0; i < sheared.size(); ++i) {
+    const Real rise = sheared.displacement(1)(i) - sheared.displacement(0)(i);
+    EXPECT_NEAR(static_cast<double>(products(0, i)), static_cast<double>(rise), 1e-15);
+  }
+}
+
+TEST(StrainFunctions, ShortPiecesGetFewerAndSpacesGrow) {
+  ScaledArm arm;
+  arm.crack = {0.07L, 2};
+  Eigen::Index before = 0;
+  for (int n = 1; n < 60; ++n) {
+    const Eigen::Index size = StrainFunctions(arm, {.on_whole_beam = n}).size();
+    EXPECT_GT(size, before);
+    EXPECT_LE(size, 2 + n + std::min(n, 15) + 1);
+    before = size;
+    EXPECT_EQ(StrainFunctions(arm, {.on_whole_beam = n, .more = 3}).size(), size + 6);
+  }
+}
+
+}  // namespace
+}  // namespace flexarm::assumed_modes

@@ -25,7 +25,7 @@ T slight_deflection(const TransferChain<T>& chain) {
   auto departure = chain.tip_states();
   departure[0][kDisplacement] = departure[1][kRotation] = T(0.0L);
   for (const auto& link : chain.links()) {
-    const auto& transfer = chain.transfer(link);
+    const auto transfer = chain.transfer(link);
     const Real from_tip = 1.0L - link.segment.right;
     std::array<BeamState<T>, 2> next{};
     for (std::size_t i = 0; i < 4; ++i) {
@@ -85,8 +85,11 @@ SensorValue<T> curvature_value(const TransferChain<T>& chain, Real x) {
   const SegmentSeries<T> series(chain.arm(), chain.beam(), segment,
                                 state_in_plane(functional.functional, plane.plane));
   const auto state = series.at((segment.right - x) / segment.length);
-  return {chain.beam().flexibility * state[kMoment], plane.log_scale + functional.log_scale,
-          norm_of(plane.plane.minors) * norm_of(functional.functional)};
+  const Real log_scale = plane.log_scale + functional.log_scale;
+  // Sizes here would jump with the cuts between segments; that at the root does not.
+  for (std::size_t i = place; i < links.size(); ++i) chain.to_left(links[i], plane);
+  return {chain.beam().flexibility * state[kMoment], log_scale,
+          norm_of(plane.plane.minors) * std::exp(plane.log_scale - log_scale)};
 }
 
 }  // namespace

@@ -128,7 +128,7 @@ std::optional<Root> Path::newton(const Complex& from, Real t, Real radius) {
     const Real size = std::abs(here.newton_step);
     // Within the rounding of F a step no longer falls, and is not taken.
     const bool stalled = size >= 0.5L * last && size <= 1e-12L * std::abs(root.u);
-    if (!stalled && size > last) return std::nullopt;
+    if (!stalled && (size > last || std::abs(root.u - from) > radius)) return std::nullopt;
     root.radius =
         std::min(std::isfinite(here.radius) ? here.radius : 2.0L * root.radius, 2.0L * root.radius);
     if (!stalled) root.u += here.newton_step;
@@ -161,7 +161,7 @@ std::optional<Root> Path::follow(const Start& start) {
     const Complex predicted = at.u + velocity_now * (next - t);
     const auto root = newton(predicted, next, at.radius);
     const Real allowed = options_.largest_correction / caution_;
-    if (!root || std::abs(root->u - predicted) > allowed * root->radius) {
+    if (!root || std::abs(root->u - predicted) > allowed * std::min(at.radius, root->radius)) {
       step *= 0.5L;
       continue;
     }

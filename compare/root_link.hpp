@@ -16,7 +16,7 @@ struct RootLink {
   bool clear = true;                           ///< no other pairing is nearly as good
 };
 
-/// Pairs predictions with roots, both z = s^2/scale^2 unfolded; `from` holds the roots that the
+/// Pairs predictions with roots, both unfolded z; `from` holds the roots that the
 /// predictions are of, in the same order.
 RootLink link_step(std::span<const std::complex<double>> from,
                    std::span<const std::complex<double>> predicted,

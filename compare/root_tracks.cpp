@@ -14,9 +14,9 @@ using Complex = std::complex<double>;
 
 constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
-/// On the real or the imaginary axis, so that it has one mirror image only.
-bool is_on_axis(Complex s) {
-  return s.real() == 0.0 || s.imag() == 0.0;
+/// Its z is real.
+bool is_single(Complex s, RootPlane plane) {
+  return s.imag() == 0.0 || (plane == RootPlane::squared && s.real() == 0.0);
 }
 
 /// A root at a place, and where its track was before.
@@ -34,14 +34,14 @@ class Tracker {
 
   void start(double place, const RootList& roots) {
     place_ = place;
-    for (const Complex z : unfold(roots, options_.scale_rad_per_s)) {
+    for (const Complex z : unfold(roots, options_)) {
       heads_.push_back({begin_track(TrackEnd::grid, {place, place}), z, std::nullopt, place});
     }
   }
 
   void step(double place, const RootList& roots) {
     left_ = options_.most_evaluations;
-    advance(place, unfold(roots, options_.scale_rad_per_s), 0);
+    advance(place, unfold(roots, options_), 0);
   }
 
   /// The heads in the order of the list at the present place.
@@ -71,7 +71,7 @@ class Tracker {
       --left_;
       const double middle = place_ + (place - place_) / 2.0;
       ++result_.further_evaluations;
-      advance(middle, unfold(roots_at_(middle), options_.scale_rad_per_s), halvings + 1);
+      advance(middle, unfold(roots_at_(middle), options_), halvings + 1);
       advance(place, std::move(roots), halvings + 1);
       return;
     }
@@ -161,20 +161,22 @@ void drop_tracks_without_points(RootTracks& result) {
 
 }  // namespace
 
-std::vector<Complex> unfold(const RootList& roots, double scale_rad_per_s) {
+std::vector<Complex> unfold(const RootList& roots, const TrackOptions& options) {
   std::vector<Complex> unfolded;
   for (const Complex s : roots) {
-    const Complex z = (s / scale_rad_per_s) * (s / scale_rad_per_s);
-    unfolded.emplace_back(z.real(), is_on_axis(s) ? 0.0 : z.imag());
-    if (!is_on_axis(s)) unfolded.push_back(std::conj(z));
+    const Complex scaled = s / options.scale_rad_per_s;
+    const Complex z = options.plane == RootPlane::squared ? scaled * scaled : scaled;
+    const bool single = is_single(s, options.plane);
+    unfolded.emplace_back(z.real(), single ? 0.0 : z.imag());
+    if (!single) unfolded.push_back(std::conj(unfolded.back()));
   }
   return unfolded;
 }
 
-std::vector<std::size_t> unfolded_sources(const RootList& roots) {
+std::vector<std::size_t> unfolded_sources(const RootList& roots, RootPlane plane) {
   std::vector<std::size_t> sources;
   for (std::size_t i = 0; i < roots.size(); ++i) {
-    sources.insert(sources.end(), is_on_axis(roots[i]) ? 1 : 2, i);
+    sources.insert(sources.end(), is_single(roots[i], plane) ? 1 : 2, i);
   }
   return sources;
 }
@@ -190,7 +192,7 @@ RootTracks track_roots(const std::vector<RootList>& at_grid,
     } else {
       tracker.step(place, at_grid[k]);
     }
-    const auto sources = unfolded_sources(at_grid[k]);
+    const auto sources = unfolded_sources(at_grid[k], options.plane);
     const auto& heads = tracker.heads();
     for (std::size_t j = 0; j < heads.size(); ++j) {
       RootTrack& track = tracker.result().tracks[heads[j].track];
@@ -215,7 +217,7 @@ std::vector<std::optional<std::size_t>> link_roots(
   for (std::size_t j = 0; j < tracker.heads().size(); ++j) {
     links[tracker.heads()[j].track] = j;
   }
-  links.resize(unfold(from, options.scale_rad_per_s).size());
+  links.resize(unfold(from, options).size());
   further_evaluations += tracker.result().further_evaluations;
   return links;
 }

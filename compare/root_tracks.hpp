@@ -8,8 +8,14 @@
 
 namespace flexarm::compare {
 
-/// Roots at one place, as in arm::ZeroSet: one of each pair +-s or quadruple, Re >= 0, Im >= 0.
+/// Roots at one place, one of each set of mirror images.
 using RootList = std::vector<std::complex<double>>;
+
+/// In which plane roots move smoothly, and which mirror images one stands for.
+enum class RootPlane {
+  squared,  ///< z = s^2; +-s, +-conj(s): zeros of an undamped arm, as in arm::ZeroSet
+  plain,    ///< z = s; s, conj(s): poles of a damped arm, Im >= 0
+};
 
 /// Why a track begins or ends.
 enum class TrackEnd {
@@ -37,12 +43,12 @@ struct RootTrack {
   Between ends;
 };
 
-/// Two tracks that meet on an axis and leave it as one quadruple, or that return to an axis from
-/// one. Which of the two is which beyond the quadruple is a matter of naming.
+/// Two tracks of real z that meet and become conjugate, or that return to the real axis of z.
+/// Which of the two is which beyond is a matter of naming.
 struct TrackMeeting {
   std::size_t first = 0;
   std::size_t second = 0;
-  bool to_quadruple = true;
+  bool to_conjugates = true;
   Between where;
 };
 
@@ -57,7 +63,8 @@ struct RootTracks {
 struct TrackOptions {
   /// A track that came and goes within |s| <= scale may pass through s = 0.
   double scale_rad_per_s = 1.0;
-  /// A root z = s^2 is taken for the prediction p when |z - p| <= largest_step times their mean
+  RootPlane plane = RootPlane::squared;
+  /// A root z is taken for the prediction p when |z - p| <= largest_step times their mean
   /// modulus, and when no other pair with either is nearer than `clearance` times that.
   double largest_step = 0.25;
   double clearance = 3.0;
@@ -67,8 +74,8 @@ struct TrackOptions {
   int most_evaluations = 100;  ///< and with at most so many further evaluations
 };
 
-/// Follows the roots from one list to the next. A real function's roots in z = s^2 are real or
-/// conjugate, and move continuously, through s = 0 and through collisions too: each step predicts
+/// Follows the roots from one list to the next. A real function's roots in z are real or conjugate,
+/// and move continuously, through s = 0 and through collisions too: each step predicts
 /// every z from its last two values and assigns predictions to roots at the least total distance.
 /// A step that is ambiguous is halved, `roots_at(place)` giving the roots in between, until it is
 /// clear or as fine as `finest` allows.
@@ -76,10 +83,10 @@ RootTracks track_roots(const std::vector<RootList>& at_grid,
                        const std::function<RootList(double place)>& roots_at,
                        const TrackOptions& options);
 
-/// z = s^2/scale^2 of every root, both of a conjugate pair: the upper one, then the lower.
-std::vector<std::complex<double>> unfold(const RootList& roots, double scale_rad_per_s);
+/// z of every root in units of the scale, both of a conjugate pair: the upper one, then the lower.
+std::vector<std::complex<double>> unfold(const RootList& roots, const TrackOptions& options);
 /// The index in the list of each unfolded root.
-std::vector<std::size_t> unfolded_sources(const RootList& roots);
+std::vector<std::size_t> unfolded_sources(const RootList& roots, RootPlane plane);
 
 /// For each unfolded root at the grid point `from` its index at the next one, or empty: one step of
 /// `track_roots` without a past.

@@ -56,11 +56,14 @@ void require_effective(const SweepTask& task, std::size_t axis) {
   }
 }
 
-/// What the flexible poles of a damped arm become; empty without damping.
-std::vector<arm::PolePair> damped_poles(const response::AnyFormulation& formulation, int count) {
-  if (!arm::linear_arm(response::arm_of(formulation)).is_damped()) return {};
-  return std::visit([count](const auto& f) { return f.damped_poles(count).flexible; }, formulation);
+void add_pair(const arm::PolePair& pair, std::vector<std::complex<double>>& poles) {
+  for (const auto s : {pair.first_rad_per_s, pair.second_rad_per_s}) {
+    if (s.imag() >= 0.0) poles.push_back(s);
+  }
 }
+
+/// s = 0 of a hub that nothing holds, to rounding.
+constexpr double kAtRest = 1e-9;  // of the first flexible frequency
 
 arm::InputError at_point(const SweepTask& task, std::size_t point, const arm::InputError& error) {
   return arm::InputError(fmt::format("at {}: {}", task.describe(point), error.what()), error.key());
@@ -153,18 +156,38 @@ int zeros_asked(const arm::Sensor& sensor, const SweepQuestions& questions) {
   return arm::is_collocated(sensor) ? questions.poles : questions.zeros + kSpareZeros;
 }
 
+std::vector<std::complex<double>> damped_poles(const response::AnyFormulation& formulation,
+                                               const arm::PoleSet& undamped, int count) {
+  std::vector<std::complex<double>> poles;
+  if (arm::linear_arm(response::arm_of(formulation)).is_damped()) {
+    const auto damped = response::damped_poles(formulation, count);
+    add_pair(damped.lowest, poles);
+    for (const auto& pair : damped.flexible) add_pair(pair, poles);
+  } else {
+    const auto lowest = std::sqrt(std::complex(-undamped.lowest_omega_squared_rad2_per_s2, 0.0));
+    add_pair({lowest, -lowest}, poles);
+    for (const double omega : undamped.omega_rad_per_s) poles.emplace_back(0.0, omega);
+  }
+  std::erase_if(poles, [&](const auto s) {
+    return std::abs(s) <= kAtRest * undamped.omega_rad_per_s.front();
+  });
+  std::ranges::sort(poles, [](const auto a, const auto b) { return std::abs(a) < std::abs(b); });
+  return poles;
+}
+
 SweepPoint evaluate_point(const SweepModel& model, const arm::Arm& arm,
                           const SweepQuestions& questions) {
   const auto formulation = model.make(arm);
   SweepPoint point;
-  point.omega_rad_per_s = response::poles(formulation, questions.poles).omega_rad_per_s;
+  const auto poles = response::poles(formulation, questions.poles);
+  point.omega_rad_per_s = poles.omega_rad_per_s;
   if (questions.modes) {
     const std::array tip_m = {arm.beam.length_m};
     for (const auto& mode : response::modes(formulation, questions.poles, {}, tip_m)) {
       point.hub_slope.push_back(mode.hub_slope);
       point.tip_value_m.push_back(mode.displacement_m.front());
     }
-    point.damped_poles = damped_poles(formulation, questions.poles);
+    point.damped_poles_rad_per_s = damped_poles(formulation, poles, questions.poles);
   }
   for (const auto& sensor : questions.sensors) {
     point.zeros_rad_per_s.push_back(

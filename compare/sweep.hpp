@@ -41,7 +41,9 @@ struct SweepPoint {
   std::vector<double> omega_rad_per_s;  ///< undamped poles, ascending
   std::vector<double> hub_slope;        ///< of the modes, as in arm::Mode; empty without `modes`
   std::vector<double> tip_value_m;      ///< phi(l)
-  std::vector<arm::PolePair> damped_poles;  ///< in the order of the undamped; empty without damping
+  /// Poles of the damped arm, those of the lowest pair but for s = 0 and of the flexible ones:
+  /// complex ones by the upper of each pair; ascending in |s|. Empty without `modes`.
+  std::vector<std::complex<double>> damped_poles_rad_per_s;
   std::vector<std::vector<std::complex<double>>> zeros_rad_per_s;  ///< [sensor]
 };
 
@@ -97,6 +99,10 @@ void require_valid(const SweepTask& task);
 /// refuses (the first such point of the grid, with its place), and for a checkpoint that is not of
 /// this task; SweepInterrupted when `stop` was set.
 SweepValues evaluate(const SweepTask& task, const SweepRun& run);
+
+/// The poles of an arm with its damping, as SweepPoint holds them; `undamped`: its PoleSet.
+std::vector<std::complex<double>> damped_poles(const response::AnyFormulation& formulation,
+                                               const arm::PoleSet& undamped, int count);
 
 /// What a model says of one arm of the task.
 SweepPoint evaluate_point(const SweepModel& model, const arm::Arm& arm,

@@ -44,10 +44,6 @@ class Writer {
     put(value.real());
     put(value.imag());
   }
-  void put(const arm::PolePair& pair) {
-    put(pair.first_rad_per_s);
-    put(pair.second_rad_per_s);
-  }
   void put_count(std::size_t count) { put(static_cast<double>(count)); }
   template <class T>
   void put(const std::vector<T>& values) {
@@ -78,10 +74,6 @@ class Reader {
     get(im);
     value = {re, im};
   }
-  void get(arm::PolePair& pair) {
-    get(pair.first_rad_per_s);
-    get(pair.second_rad_per_s);
-  }
   std::size_t get_count() {
     double count = 0.0;
     get(count);
@@ -106,7 +98,7 @@ void for_each_member(Point& point, Visit visit) {
   visit(point.omega_rad_per_s);
   visit(point.hub_slope);
   visit(point.tip_value_m);
-  visit(point.damped_poles);
+  visit(point.damped_poles_rad_per_s);
   visit(point.zeros_rad_per_s);
 }
 

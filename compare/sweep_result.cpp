@@ -18,15 +18,23 @@ constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 using Values = std::vector<std::vector<SweepPoint>>;
 using OptionalRoots = std::vector<std::optional<std::complex<double>>>;
 
-SweepCurve empty_curve(const SweepTask& task, const std::optional<arm::Sensor>& zeros_of,
-                       std::size_t number) {
-  return {zeros_of, static_cast<int>(number) + 1,
+/// The roots of a family that a model gives for a point.
+const RootList& roots_of(const SweepTask& task, const SweepPoint& point,
+                         const SweepFamily& family) {
+  if (!family.zeros_of) return point.damped_poles_rad_per_s;
+  const auto& sensors = task.questions.sensors;
+  const auto sensor = std::ranges::find(sensors, *family.zeros_of) - sensors.begin();
+  return point.zeros_rad_per_s[static_cast<std::size_t>(sensor)];
+}
+
+SweepCurve empty_curve(const SweepTask& task, const SweepFamily& family, std::size_t number) {
+  return {family, static_cast<int>(number) + 1,
           std::vector<OptionalRoots>(task.models.size(), OptionalRoots(task.points()))};
 }
 
 void add_poles(const SweepTask& task, const Values& points, std::vector<SweepCurve>& curves) {
   for (std::size_t k = 0; k < static_cast<std::size_t>(task.questions.poles); ++k) {
-    SweepCurve curve = empty_curve(task, std::nullopt, k);
+    SweepCurve curve = empty_curve(task, {}, k);
     for (std::size_t m = 0; m < points.size(); ++m) {
       for (std::size_t p = 0; p < points[m].size(); ++p) {
         const auto& omega = points[m][p].omega_rad_per_s;
@@ -37,21 +45,27 @@ void add_poles(const SweepTask& task, const Values& points, std::vector<SweepCur
   }
 }
 
-/// The curves of zeros whose index in the reference's list is [curve][point].
-void add_zeros(const SweepTask& task, const Values& points, std::size_t sensor,
-               const std::vector<std::vector<std::size_t>>& index,
-               std::vector<SweepCurve>& curves) {
-  const FeatureFamily family{task.questions.sensors[sensor], task.questions.zeros};
+/// Another model's roots as they stand for those of the first one.
+OptionalRoots matched_with(const SweepFamily& family, const RootList& reference,
+                           const RootList& found) {
+  if (!family.is_ordered()) return match_nearest(reference, found);
+  OptionalRoots matched(found.begin(), found.end());
+  matched.resize(reference.size());
+  return matched;
+}
+
+/// The curves of a family whose index in the reference's list is [curve][point].
+void add_curves(const SweepTask& task, const Values& points, const SweepFamily& family,
+                const std::vector<std::vector<std::size_t>>& index,
+                std::vector<SweepCurve>& curves) {
   const std::size_t first = curves.size();
-  for (std::size_t n = 0; n < index.size(); ++n) {
-    curves.push_back(empty_curve(task, family.zeros_of, n));
-  }
+  for (std::size_t n = 0; n < index.size(); ++n) curves.push_back(empty_curve(task, family, n));
   for (std::size_t p = 0; p < task.points(); ++p) {
-    const auto& reference = points.front()[p].zeros_rad_per_s[sensor];
+    const auto& reference = roots_of(task, points.front()[p], family);
     for (std::size_t m = 0; m < points.size(); ++m) {
-      const auto& found = points[m][p].zeros_rad_per_s[sensor];
-      const auto matched =
-          m == 0 ? OptionalRoots(found.begin(), found.end()) : match(family, reference, found);
+      const auto& found = roots_of(task, points[m][p], family);
+      const auto matched = m == 0 ? OptionalRoots(found.begin(), found.end())
+                                  : matched_with(family, reference, found);
       for (std::size_t n = 0; n < index.size(); ++n) {
         if (index[n][p] < matched.size()) {
           curves[first + n].s_rad_per_s[m][p] = matched[index[n][p]];
@@ -70,6 +84,41 @@ std::vector<std::vector<std::size_t>> in_order(const SweepTask& task) {
   return index;
 }
 
+/// How many of a family's roots, smallest in |s|, are shown and judged.
+std::size_t wanted(const SweepTask& task, const SweepFamily& family) {
+  return family.zeros_of ? static_cast<std::size_t>(task.questions.zeros)
+                         : std::numeric_limits<std::size_t>::max();
+}
+
+/// Follows a family and adds its curves.
+void add_tracks(const Values& points, const SweepFamily& family, const SweepRun& run,
+                SweepResult& result) {
+  const SweepTask& task = result.task;
+  TrackedRoots roots{family, {}, {}, wanted(task, family)};
+  for (const SweepPoint& point : points.front()) {
+    roots.at_points.push_back(roots_of(task, point, family));
+  }
+  roots.roots_of = [&task, family](const response::AnyFormulation& formulation) {
+    if (family.zeros_of) {
+      const int count = zeros_asked(*family.zeros_of, task.questions);
+      return response::zeros(formulation, *family.zeros_of, count).s_rad_per_s;
+    }
+    const int count = task.questions.poles;
+    return damped_poles(formulation, response::poles(formulation, count), count);
+  };
+  GridTracks tracks = track_grid(task, roots, run);
+  add_curves(task, points, family, tracks.index, result.curves);
+  std::ranges::move(tracks.events, std::back_inserter(result.events));
+  result.further_evaluations += tracks.further_evaluations;
+}
+
+bool has_damping(const SweepTask& task) {
+  for (std::size_t p = 0; p < task.points(); ++p) {
+    if (arm::linear_arm(task.arm_of(p)).is_damped()) return true;
+  }
+  return false;
+}
+
 SweepTable table_of(const SweepTask& task, const Values& points,
                     std::vector<double> SweepPoint::*member) {
   const auto orders = static_cast<std::size_t>(task.questions.poles);
@@ -83,43 +132,11 @@ SweepTable table_of(const SweepTask& task, const Values& points,
   return table;
 }
 
-double damping_ratio(const arm::PolePair& pair) {
-  const double product = (pair.first_rad_per_s * pair.second_rad_per_s).real();
-  return -(pair.first_rad_per_s + pair.second_rad_per_s).real() / (2.0 * std::sqrt(product));
-}
-
-void add_damped_poles(const SweepTask& task, const Values& points, SweepModes& modes) {
-  const auto has_damping = [](const SweepPoint& point) { return !point.damped_poles.empty(); };
-  const bool damped = std::ranges::any_of(
-      points, [&](const auto& of_model) { return std::ranges::any_of(of_model, has_damping); });
-  if (!damped) return;
-  const auto orders = static_cast<std::size_t>(task.questions.poles);
-  modes.damping_ratio.assign(points.size(),
-                             std::vector(orders, std::vector(task.points(), kMissing)));
-  modes.damped_poles.resize(points.size());
-  for (std::size_t m = 0; m < points.size(); ++m) {
-    modes.damped_poles[m].resize(orders);
-    for (auto& order : modes.damped_poles[m]) order.resize(task.points());
-    for (std::size_t p = 0; p < task.points(); ++p) {
-      const SweepPoint& point = points[m][p];
-      for (std::size_t k = 0; k < std::min(orders, point.omega_rad_per_s.size()); ++k) {
-        const bool undamped = point.damped_poles.empty();
-        if (!undamped && k >= point.damped_poles.size()) continue;
-        const std::complex<double> pole(0.0, point.omega_rad_per_s[k]);
-        const auto pair = undamped ? arm::PolePair{pole, std::conj(pole)} : point.damped_poles[k];
-        modes.damped_poles[m][k][p] = pair;
-        modes.damping_ratio[m][k][p] = damping_ratio(pair);
-      }
-    }
-  }
-}
-
 SweepModes modes_of(const SweepTask& task, const Values& points) {
   SweepModes modes;
   if (!task.questions.modes) return modes;
   modes.hub_slope = table_of(task, points, &SweepPoint::hub_slope);
   modes.tip_value_m = table_of(task, points, &SweepPoint::tip_value_m);
-  add_damped_poles(task, points, modes);
   return modes;
 }
 
@@ -155,24 +172,23 @@ bool is_judged(const SweepTask& task, const Values& points, const SweepCurve& cu
                std::size_t point) {
   const auto& reference = curve.s_rad_per_s.front()[point];
   if (!reference) return false;
-  if (!curve.zeros_of || arm::is_collocated(*curve.zeros_of)) return true;
-  const auto sensor = static_cast<std::size_t>(
-      std::ranges::find(task.questions.sensors, *curve.zeros_of) - task.questions.sensors.begin());
-  const auto& list = points.front()[point].zeros_rad_per_s[sensor];
-  const auto last = std::min(list.size(), static_cast<std::size_t>(task.questions.zeros));
-  return std::find(list.begin(), list.begin() + static_cast<std::ptrdiff_t>(last), *reference) !=
-         list.begin() + static_cast<std::ptrdiff_t>(last);
+  if (curve.family.is_ordered()) return true;
+  const auto& list = roots_of(task, points.front()[point], curve.family);
+  const auto end =
+      list.begin() + static_cast<std::ptrdiff_t>(std::min(list.size(), wanted(task, curve.family)));
+  return std::find(list.begin(), end, *reference) != end;
 }
 
 void judge_roots(const Values& points, const SweepTolerances& tolerances, SweepResult& result) {
-  std::vector<std::optional<arm::Sensor>> families = {std::nullopt};
-  for (const auto& sensor : result.task.questions.sensors) families.emplace_back(sensor);
-  for (const auto& zeros_of : families) {
-    const std::string quantity = zeros_of ? arm::to_string(*zeros_of) + " zeros" : "poles";
+  std::vector<SweepFamily> families;
+  for (const SweepCurve& curve : result.curves) {
+    if (families.empty() || families.back() != curve.family) families.push_back(curve.family);
+  }
+  for (const SweepFamily& family : families) {
     for (std::size_t m = 1; m < points.size(); ++m) {
-      Judge judge(quantity, result.task.models[m].name, tolerances.roots);
+      Judge judge(label(family), result.task.models[m].name, tolerances.roots);
       for (const SweepCurve& curve : result.curves) {
-        if (curve.zeros_of != zeros_of) continue;
+        if (curve.family != family) continue;
         for (std::size_t p = 0; p < result.task.points(); ++p) {
           if (!is_judged(result.task, points, curve, p)) continue;
           const auto& found = curve.s_rad_per_s[m][p];
@@ -206,6 +222,19 @@ void judge_modes(const char* quantity, const SweepTable& table, double tolerance
 
 }  // namespace
 
+double damping_ratio(std::complex<double> s_rad_per_s) {
+  return -s_rad_per_s.real() / std::abs(s_rad_per_s);
+}
+
+bool SweepFamily::is_ordered() const {
+  return zeros_of ? arm::is_collocated(*zeros_of) : !damped;
+}
+
+std::string label(const SweepFamily& family) {
+  if (family.zeros_of) return arm::to_string(*family.zeros_of) + " zeros";
+  return family.damped ? "damped poles" : "poles";
+}
+
 bool SweepResult::agrees() const {
   return std::ranges::all_of(agreement, &SweepAgreement::agrees);
 }
@@ -219,21 +248,20 @@ SweepResult assemble(const SweepTask& task, SweepValues values, const SweepRun& 
     result.degrees_of_freedom.push_back(response::degrees_of_freedom(model.make(task.arm_of(0))));
   }
   add_poles(task, points, result.curves);
-  for (std::size_t k = 0; k < task.questions.sensors.size(); ++k) {
-    if (arm::is_collocated(task.questions.sensors[k])) {
-      add_zeros(task, points, k, in_order(task), result.curves);
-      continue;
+  if (task.questions.modes && has_damping(task))
+    add_tracks(points, {std::nullopt, true}, run, result);
+  for (const auto& sensor : task.questions.sensors) {
+    const SweepFamily family{sensor, false};
+    if (family.is_ordered()) {
+      add_curves(task, points, family, in_order(task), result.curves);
+    } else {
+      add_tracks(points, family, run, result);
     }
-    GridTracks tracks = track_grid(task, points.front(), k, run);
-    add_zeros(task, points, k, tracks.index, result.curves);
-    std::ranges::move(tracks.events, std::back_inserter(result.events));
-    result.further_evaluations += tracks.further_evaluations;
   }
   result.modes = modes_of(task, points);
   judge_roots(points, tolerances, result);
   judge_modes("hub slopes", result.modes.hub_slope, tolerances.shapes, result);
   judge_modes("end-point values", result.modes.tip_value_m, tolerances.shapes, result);
-  judge_modes("damping ratios", result.modes.damping_ratio, tolerances.shapes, result);
   return result;
 }
 

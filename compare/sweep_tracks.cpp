@@ -23,22 +23,21 @@ struct Row {
 
 class GridTracker {
  public:
-  GridTracker(const SweepTask& task, const std::vector<SweepPoint>& reference, std::size_t sensor,
-              const SweepRun& run)
+  GridTracker(const SweepTask& task, const TrackedRoots& roots, const SweepRun& run)
       : task_(task),
-        reference_(reference),
-        sensor_(sensor),
+        roots_(roots),
         run_(run),
         columns_(task.axes.back().values.size()),
         rows_(task.points() / columns_) {
     options_.scale_rad_per_s = arm::omega_scale_rad_per_s(task.arm_of(0));
+    options_.plane = roots.family.zeros_of ? RootPlane::squared : RootPlane::plain;
   }
 
   GridTracks track() {
     std::vector<Row> rows(rows_);
     for_each_index(rows.size(), run_.threads, [&](std::size_t i) {
       rows[i].tracks = track_roots(
-          lists_of_row(i), [this, i](double place) { return zeros_at(i, place); }, options_);
+          lists_of_row(i), [this, i](double place) { return roots_at(i, place); }, options_);
     });
     name(rows);
     GridTracks result = gather(rows);
@@ -48,7 +47,7 @@ class GridTracker {
 
  private:
   const RootList& list(std::size_t row, std::size_t column) const {
-    return reference_[row * columns_ + column].zeros_rad_per_s[sensor_];
+    return roots_.at_points[row * columns_ + column];
   }
 
   std::vector<RootList> lists_of_row(std::size_t row) const {
@@ -57,20 +56,18 @@ class GridTracker {
     return lists;
   }
 
-  /// The zeros between two grid points.
-  RootList zeros_at_places(const std::vector<double>& places) const {
+  /// The roots between two grid points.
+  RootList roots_at_places(const std::vector<double>& places) const {
     if (run_.stop != nullptr && run_.stop->load()) {
       throw SweepInterrupted(task_.points(), task_.points());
     }
-    const auto formulation = task_.models.front().make(arm_at(task_.arm, task_.axes, places));
-    const auto& sensor = task_.questions.sensors[sensor_];
-    return response::zeros(formulation, sensor, zeros_asked(sensor, task_.questions)).s_rad_per_s;
+    return roots_.roots_of(task_.models.front().make(arm_at(task_.arm, task_.axes, places)));
   }
 
-  RootList zeros_at(std::size_t row, double place) const {
+  RootList roots_at(std::size_t row, double place) const {
     std::vector<double> places = {static_cast<double>(row), place};
     if (task_.axes.size() == 1) places.erase(places.begin());
-    return zeros_at_places(places);
+    return roots_at_places(places);
   }
 
   /// The index in the row before of each unfolded root of a row, at one column.
@@ -79,12 +76,11 @@ class GridTracker {
     const auto links = link_roots(
         list(row - 1, column), list(row, column),
         [&](double place) {
-          return zeros_at_places({place, static_cast<double>(column)});
+          return roots_at_places({place, static_cast<double>(column)});
         },
         static_cast<double>(row - 1), options_, further);
     further_evaluations_ += static_cast<std::size_t>(further);
-    std::vector<std::size_t> from(unfold(list(row, column), options_.scale_rad_per_s).size(),
-                                  kNoRoot);
+    std::vector<std::size_t> from(unfold(list(row, column), options_).size(), kNoRoot);
     for (std::size_t i = 0; i < links.size(); ++i) {
       if (links[i]) from[*links[i]] = i;
     }
@@ -137,8 +133,6 @@ class GridTracker {
   }
 
   GridTracks gather(const std::vector<Row>& rows) const {
-    const auto& sensor = task_.questions.sensors[sensor_];
-    const auto wanted = static_cast<std::size_t>(task_.questions.zeros);
     GridTracks all;
     all.index.assign(names_, std::vector<std::size_t>(task_.points(), kNoRoot));
     std::vector<bool> is_wanted(names_, false);
@@ -147,9 +141,11 @@ class GridTracker {
         const RootTrack& track = rows[i].tracks.tracks[t];
         for (std::size_t k = 0; k < track.unfolded.size(); ++k) {
           const std::size_t column = track.first + k;
-          const std::size_t index = unfolded_sources(list(i, column))[track.unfolded[k]];
+          const auto sources = unfolded_sources(list(i, column), options_.plane);
+          const std::size_t index = sources[track.unfolded[k]];
+          if (is_lower_pole(sources, track.unfolded[k])) continue;
           all.index[rows[i].name[t]][i * columns_ + column] = index;
-          if (index < wanted) is_wanted[rows[i].name[t]] = true;
+          if (index < roots_.wanted) is_wanted[rows[i].name[t]] = true;
         }
       }
     }
@@ -161,27 +157,32 @@ class GridTracker {
       result.index.push_back(std::move(all.index[n]));
     }
     for (std::size_t i = 0; i < rows.size(); ++i) {
-      add_events(rows[i], i, number, sensor, result.events);
+      add_events(rows[i], i, number, result.events);
     }
-    add_seams(result.index, sensor, result.events);
+    add_seams(result.index, result.events);
     return result;
   }
 
-  SweepEvent event(SweepEvent::Kind kind, const arm::Sensor& sensor, std::size_t row,
-                   const Between& where) const {
+  /// The second of the two that one complex pole unfolds to.
+  bool is_lower_pole(const std::vector<std::size_t>& sources, std::size_t unfolded) const {
+    return options_.plane == RootPlane::plain && unfolded > 0 &&
+           sources[unfolded - 1] == sources[unfolded];
+  }
+
+  SweepEvent event(SweepEvent::Kind kind, std::size_t row, const Between& where) const {
     const SweepAxis& axis = task_.axes.back();
-    return {kind, sensor, 0, 0, row, axis.at(where.from), axis.at(where.to)};
+    return {kind, roots_.family, 0, 0, row, axis.at(where.from), axis.at(where.to)};
   }
 
   void add_events(const Row& row, std::size_t i, const std::vector<std::size_t>& number,
-                  const arm::Sensor& sensor, std::vector<SweepEvent>& events) const {
+                  std::vector<SweepEvent>& events) const {
     using Kind = SweepEvent::Kind;
     const auto number_of = [&](std::size_t track) {
       const std::size_t n = number[row.name[track]];
       return n == kNoRoot ? 0 : static_cast<int>(n) + 1;
     };
     const auto add = [&](Kind kind, std::size_t track, std::size_t other, const Between& where) {
-      SweepEvent happened = event(kind, sensor, i, where);
+      SweepEvent happened = event(kind, i, where);
       happened.track = number_of(track);
       happened.other = other == kNoRoot ? 0 : number_of(other);
       if (happened.track > 0 || happened.other > 0) events.push_back(happened);
@@ -198,24 +199,24 @@ class GridTracker {
       }
     }
     for (const TrackMeeting& meeting : row.tracks.meetings) {
-      add(meeting.to_quadruple ? Kind::meet : Kind::part, meeting.first, meeting.second,
+      add(meeting.to_conjugates ? Kind::meet : Kind::part, meeting.first, meeting.second,
           meeting.where);
     }
     for (const Between& where : row.tracks.ambiguous) {
-      events.push_back(event(Kind::ambiguous, sensor, i, where));
+      events.push_back(event(Kind::ambiguous, i, where));
     }
   }
 
   /// A track that at the next row is much nearer to another track than to itself.
-  void add_seams(const std::vector<std::vector<std::size_t>>& index, const arm::Sensor& sensor,
+  void add_seams(const std::vector<std::vector<std::size_t>>& index,
                  std::vector<SweepEvent>& events) const {
     for (std::size_t point = columns_; point < task_.points(); ++point) {
       const std::size_t before = point - columns_;
       for (std::size_t n = 0; n < index.size(); ++n) {
         if (index[n][before] == kNoRoot || index[n][point] == kNoRoot) continue;
-        const auto from = reference_[before].zeros_rad_per_s[sensor_][index[n][before]];
+        const auto from = roots_.at_points[before][index[n][before]];
         const auto distance_to = [&](std::size_t other) {
-          const auto s = reference_[point].zeros_rad_per_s[sensor_][index[other][point]];
+          const auto s = roots_.at_points[point][index[other][point]];
           return std::abs(s - from) / std::abs(from);
         };
         const double own = distance_to(n);
@@ -227,7 +228,7 @@ class GridTracker {
         }
         if (fits) continue;
         const auto column = static_cast<double>(point % columns_);
-        SweepEvent seam = event(SweepEvent::Kind::seam, sensor, point / columns_, {column, column});
+        SweepEvent seam = event(SweepEvent::Kind::seam, point / columns_, {column, column});
         seam.track = static_cast<int>(n) + 1;
         events.push_back(seam);
       }
@@ -237,8 +238,7 @@ class GridTracker {
   static constexpr double kSeamStep = 0.02;  // of |s|: a smaller one is no jump
 
   const SweepTask& task_;
-  const std::vector<SweepPoint>& reference_;
-  const std::size_t sensor_;
+  const TrackedRoots& roots_;
   const SweepRun& run_;
   const std::size_t columns_;
   const std::size_t rows_;
@@ -249,9 +249,8 @@ class GridTracker {
 
 }  // namespace
 
-GridTracks track_grid(const SweepTask& task, const std::vector<SweepPoint>& reference,
-                      std::size_t sensor, const SweepRun& run) {
-  return GridTracker(task, reference, sensor, run).track();
+GridTracks track_grid(const SweepTask& task, const TrackedRoots& roots, const SweepRun& run) {
+  return GridTracker(task, roots, run).track();
 }
 
 }  // namespace flexarm::compare

@@ -27,39 +27,29 @@ Table header(const SweepResult& result) {
   table.columns.push_back({"im", "rad/s"});
   table.columns.push_back({"frequency", "Hz"});
   if (!result.modes.hub_slope.empty()) {
+    table.columns.push_back({"damping_ratio"});
     table.columns.push_back({"hub_slope"});
     table.columns.push_back({"tip_value", "m"});
-  }
-  if (!result.modes.damping_ratio.empty()) {
-    for (const char* name : {"damped_1_re", "damped_1_im", "damped_2_re", "damped_2_im"}) {
-      table.columns.push_back({name, "rad/s"});
-    }
-    table.columns.push_back({"damping_ratio"});
   }
   return table;
 }
 
-/// What belongs to a pole; empty cells beside a zero.
+/// Damping ratio of a damped pole, hub slope and end-point value of an undamped one; empty cells
+/// beside others.
 void add_modes(const SweepResult& result, const SweepCurve& curve, std::size_t model,
-               std::size_t point, std::size_t columns, std::vector<Cell>& row) {
-  const auto& modes = result.modes;
-  if (curve.zeros_of || modes.hub_slope.empty()) {
-    row.resize(columns);
-    return;
-  }
+               std::size_t point, std::complex<double> s_rad_per_s, std::vector<Cell>& row) {
+  if (result.modes.hub_slope.empty()) return;
+  row.emplace_back(curve.family.damped ? compare::damping_ratio(s_rad_per_s) : NAN);
+  const bool has_mode = !curve.family.zeros_of && !curve.family.damped;
   const auto order = static_cast<std::size_t>(curve.number) - 1;
-  row.emplace_back(modes.hub_slope[model][order][point]);
-  row.emplace_back(modes.tip_value_m[model][order][point]);
-  if (modes.damped_poles.empty()) return;
-  const auto& pair = modes.damped_poles[model][order][point];
-  if (pair) {
-    for (const auto s : {pair->first_rad_per_s, pair->second_rad_per_s}) {
-      row.emplace_back(s.real());
-      row.emplace_back(s.imag());
-    }
-    row.emplace_back(modes.damping_ratio[model][order][point]);
+  for (const auto* table : {&result.modes.hub_slope, &result.modes.tip_value_m}) {
+    row.emplace_back(has_mode ? (*table)[model][order][point] : NAN);
   }
-  row.resize(columns);
+}
+
+std::string feature_of(const compare::SweepFamily& family) {
+  if (family.zeros_of) return "zero";
+  return family.damped ? "damped pole" : "pole";
 }
 
 void add_point(const SweepResult& result, std::size_t point, Table& table) {
@@ -68,18 +58,19 @@ void add_point(const SweepResult& result, std::size_t point, Table& table) {
       const auto& s = curve.s_rad_per_s[m][point];
       if (!s) continue;
       std::vector<Cell> row;
+      row.reserve(table.columns.size());
       for (std::size_t k = 0; k < result.task.axes.size(); ++k) {
         row.emplace_back(result.task.value(k, point));
       }
       row.emplace_back(result.task.models[m].name);
-      row.emplace_back(std::string(curve.zeros_of ? "zero" : "pole"));
+      row.emplace_back(feature_of(curve.family));
       row.emplace_back();
-      if (curve.zeros_of) row.back() = arm::to_string(*curve.zeros_of);
+      if (curve.family.zeros_of) row.back() = arm::to_string(*curve.family.zeros_of);
       row.emplace_back(std::int64_t{curve.number});
       row.emplace_back(s->real());
       row.emplace_back(s->imag());
       row.emplace_back(s->imag() > 0.0 ? std::abs(*s) / (2.0 * std::numbers::pi) : NAN);
-      add_modes(result, curve, m, point, table.columns.size(), row);
+      add_modes(result, curve, m, point, *s, row);
       table.add_row(std::move(row));
     }
   }

@@ -238,10 +238,22 @@ void draw(const SweepResult& result, const std::string& file, const std::string&
 Group poles_group(const SweepResult& result) {
   Group group{"", "frequency", "Hz", {}, {}};
   for (const SweepCurve& curve : result.curves) {
-    if (curve.zeros_of) continue;
+    if (curve.family != compare::SweepFamily{}) continue;
     group.add(values_of(curve, [](auto s) { return std::abs(s) / kHz; }), curve.number);
   }
   return group;
+}
+
+/// Modulus and damping ratio of the poles with damping.
+std::vector<Group> damped_groups(const SweepResult& result) {
+  Group modulus{"", "|s|/2 pi", "Hz", {}, {}};
+  Group damping{"", "damping ratio", "", {}, {}};
+  for (const SweepCurve& curve : result.curves) {
+    if (!curve.family.damped) continue;
+    modulus.add(values_of(curve, [](auto s) { return std::abs(s) / kHz; }), curve.number);
+    damping.add(values_of(curve, compare::damping_ratio), curve.number);
+  }
+  return {modulus, damping};
 }
 
 /// Zeros on the imaginary axis, and the others.
@@ -249,7 +261,7 @@ std::vector<Group> zeros_groups(const SweepResult& result, const arm::Sensor& se
   Group on{"", "frequency", "Hz", {}, {}};
   Group off{"off the imaginary axis", "|s|", "rad/s", {}, {}};
   for (const SweepCurve& curve : result.curves) {
-    if (curve.zeros_of != sensor) continue;
+    if (curve.family.zeros_of != sensor) continue;
     on.add(values_of(curve, [](auto s) { return s.real() == 0.0 ? s.imag() / kHz : kNothing; }),
            curve.number);
     off.add(values_of(curve, [](auto s) { return s.real() == 0.0 ? kNothing : std::abs(s); }),
@@ -273,8 +285,7 @@ Group modes_group(const compare::SweepTable& table, const char* label, const cha
 /// In a family of curves each panel holds one mode: its title says which kind of number.
 std::vector<Group> modes_groups(const SweepResult& result) {
   return {modes_group(result.modes.hub_slope, "hub slope", ""),
-          modes_group(result.modes.tip_value_m, "end-point value", "m"),
-          modes_group(result.modes.damping_ratio, "damping ratio", "")};
+          modes_group(result.modes.tip_value_m, "end-point value", "m")};
 }
 
 }  // namespace
@@ -285,6 +296,11 @@ std::vector<NamedPlot> sweep_plots(const SweepResult& result) {
   auto poles = poles_group(result);
   if (two) poles.title = "pole";
   draw(result, "poles", "Poles", {poles}, plots);
+  auto damped = damped_groups(result);
+  for (auto& group : damped) {
+    if (two) group.title = "track";
+  }
+  draw(result, "damped-poles", "Poles with damping", damped, plots);
   for (const auto& sensor : result.task.questions.sensors) {
     auto groups = zeros_groups(result, sensor);
     if (two) groups[0].title = "zero";

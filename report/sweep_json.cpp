@@ -14,7 +14,6 @@ using Json = nlohmann::ordered_json;
 using compare::SweepCurve;
 using compare::SweepEvent;
 using compare::SweepResult;
-using OptionalPoles = std::vector<std::optional<std::complex<double>>>;
 
 Json parameters_json(const SweepResult& result) {
   Json parameters = Json::array();
@@ -37,21 +36,10 @@ Json models_json(const SweepResult& result) {
   return models;
 }
 
-/// NaN becomes null in the document.
-Json roots_json(const std::vector<std::optional<std::complex<double>>>& roots) {
-  Json re = Json::array();
-  Json im = Json::array();
-  for (const auto& s : roots) {
-    re.push_back(s ? s->real() : NAN);
-    im.push_back(s ? s->imag() : NAN);
-  }
-  return {{"re_rad_per_s", std::move(re)}, {"im_rad_per_s", std::move(im)}};
-}
-
 Json poles_json(const SweepResult& result) {
   Json poles = Json::array();
   for (const SweepCurve& curve : result.curves) {
-    if (curve.zeros_of) continue;
+    if (curve.family != compare::SweepFamily{}) continue;
     const auto k = static_cast<std::size_t>(curve.number) - 1;
     Json entry = {{"order", curve.number}, {"values", Json::array()}};
     for (std::size_t m = 0; m < result.task.models.size(); ++m) {
@@ -62,16 +50,6 @@ Json poles_json(const SweepResult& result) {
         values["hub_slope"] = result.modes.hub_slope[m][k];
         values["tip_value_m"] = result.modes.tip_value_m[m][k];
       }
-      if (!result.modes.damped_poles.empty()) {
-        values["damping_ratio"] = result.modes.damping_ratio[m][k];
-        OptionalPoles first;
-        OptionalPoles second;
-        for (const auto& pair : result.modes.damped_poles[m][k]) {
-          first.push_back(pair ? std::optional(pair->first_rad_per_s) : std::nullopt);
-          second.push_back(pair ? std::optional(pair->second_rad_per_s) : std::nullopt);
-        }
-        values["damped"] = {{"first", roots_json(first)}, {"second", roots_json(second)}};
-      }
       entry["values"].push_back(std::move(values));
     }
     poles.push_back(std::move(entry));
@@ -79,19 +57,44 @@ Json poles_json(const SweepResult& result) {
   return poles;
 }
 
+/// The values of a track by every model.
+Json track_json(const SweepResult& result, const SweepCurve& curve) {
+  Json all = Json::array();
+  for (std::size_t m = 0; m < result.task.models.size(); ++m) {
+    Json re = Json::array();
+    Json im = Json::array();
+    Json damping = Json::array();
+    for (const auto& s : curve.s_rad_per_s[m]) {
+      // NaN becomes null in the document.
+      re.push_back(s ? s->real() : NAN);
+      im.push_back(s ? s->imag() : NAN);
+      damping.push_back(s ? compare::damping_ratio(*s) : NAN);
+    }
+    Json values = {{"model", result.task.models[m].name},
+                   {"re_rad_per_s", std::move(re)},
+                   {"im_rad_per_s", std::move(im)}};
+    if (curve.family.damped) values["damping_ratio"] = std::move(damping);
+    all.push_back(std::move(values));
+  }
+  return all;
+}
+
+Json damped_poles_json(const SweepResult& result) {
+  Json poles = Json::array();
+  for (const SweepCurve& curve : result.curves) {
+    if (!curve.family.damped) continue;
+    poles.push_back({{"track", curve.number}, {"values", track_json(result, curve)}});
+  }
+  return poles;
+}
+
 Json zeros_json(const SweepResult& result) {
   Json zeros = Json::array();
   for (const SweepCurve& curve : result.curves) {
-    if (!curve.zeros_of) continue;
-    Json entry = {{"sensor", arm::to_string(*curve.zeros_of)},
-                  {"track", curve.number},
-                  {"values", Json::array()}};
-    for (std::size_t m = 0; m < result.task.models.size(); ++m) {
-      Json values = {{"model", result.task.models[m].name}};
-      values.update(roots_json(curve.s_rad_per_s[m]));
-      entry["values"].push_back(std::move(values));
-    }
-    zeros.push_back(std::move(entry));
+    if (!curve.family.zeros_of) continue;
+    zeros.push_back({{"sensor", arm::to_string(*curve.family.zeros_of)},
+                     {"track", curve.number},
+                     {"values", track_json(result, curve)}});
   }
   return zeros;
 }
@@ -100,7 +103,7 @@ Json events_json(const SweepResult& result) {
   Json events = Json::array();
   const auto number = [](int track) { return track > 0 ? Json(track) : Json(nullptr); };
   for (const SweepEvent& event : result.events) {
-    events.push_back({{"sensor", arm::to_string(event.sensor)},
+    events.push_back({{"roots", compare::label(event.family)},
                       {"track", number(event.track)},
                       {"what", word_for(event.kind)},
                       {"other_track", number(event.other)},
@@ -148,6 +151,7 @@ std::string sweep_json(const SweepResult& result) {
                                            {"parameters", parameters_json(result)},
                                            {"models", models_json(result)},
                                            {"poles", poles_json(result)},
+                                           {"damped_poles", damped_poles_json(result)},
                                            {"zeros", zeros_json(result)},
                                            {"events", events_json(result)},
                                            {"agreement", agreement_json(result)},

@@ -102,13 +102,13 @@ std::vector<double> moduli(const SweepCurve& curve, double unit) {
   return values;
 }
 
-/// "real", "imaginary", "quadruple": where the curve runs, in this order.
+/// "real", "imaginary", "complex": where the curve runs, in this order.
 std::string places_of(const SweepCurve& curve) {
   std::array<bool, 3> seen = {};
   for (const auto& s : curve.s_rad_per_s.front()) {
     if (s) seen[s->imag() == 0.0 ? 0 : s->real() == 0.0 ? 1 : 2] = true;
   }
-  constexpr std::array kNames = {"real", "imaginary", "quadruple"};
+  constexpr std::array kNames = {"real", "imaginary", "complex"};
   std::string text;
   for (std::size_t i = 0; i < seen.size(); ++i) {
     if (seen[i]) text += (text.empty() ? "" : ", ") + std::string(kNames[i]);
@@ -116,20 +116,40 @@ std::string places_of(const SweepCurve& curve) {
   return text;
 }
 
-Table curves_table(const SweepResult& result, const std::optional<arm::Sensor>& zeros_of) {
-  const bool ordered = !zeros_of || arm::is_collocated(*zeros_of);
-  RangeTable table(result,
-                   !zeros_of ? "Poles, undamped"
-                             : fmt::format("Zeros of torque to {}{}", arm::to_string(*zeros_of),
-                                           ordered ? "" : ", |s| of each track"),
-                   !zeros_of ? "pole"
-                   : ordered ? "zero"
-                             : "track",
-                   ordered ? "Hz" : "rad/s", !ordered);
+std::string caption_of(const compare::SweepFamily& family) {
+  if (!family.zeros_of)
+    return family.damped ? "Poles with damping, |s| of each track" : "Poles, undamped";
+  return fmt::format("Zeros of torque to {}{}", arm::to_string(*family.zeros_of),
+                     family.is_ordered() ? "" : ", |s| of each track");
+}
+
+/// What one of them is called in its table.
+const char* row_name(const compare::SweepFamily& family) {
+  if (!family.is_ordered()) return "track";
+  return family.zeros_of ? "zero" : "pole";
+}
+
+Table curves_table(const SweepResult& result, const compare::SweepFamily& family) {
+  const bool real_ones = family.zeros_of && !family.is_ordered();
+  RangeTable table(result, caption_of(family), row_name(family), real_ones ? "rad/s" : "Hz",
+                   !family.is_ordered());
   for (const SweepCurve& curve : result.curves) {
-    if (curve.zeros_of != zeros_of) continue;
-    table.add(curve.number, moduli(curve, ordered ? 2.0 * std::numbers::pi : 1.0),
-              ordered ? "" : places_of(curve));
+    if (curve.family != family) continue;
+    table.add(curve.number, moduli(curve, real_ones ? 1.0 : 2.0 * std::numbers::pi),
+              family.is_ordered() ? "" : places_of(curve));
+  }
+  return table.table();
+}
+
+Table damping_table(const SweepResult& result, const compare::SweepFamily& family) {
+  RangeTable table(result, "Damping ratio -Re s/|s|", "track", "");
+  for (const SweepCurve& curve : result.curves) {
+    if (curve.family != family) continue;
+    std::vector<double> values;
+    for (const auto& s : curve.s_rad_per_s.front()) {
+      values.push_back(s ? compare::damping_ratio(*s) : NAN);
+    }
+    table.add(curve.number, values);
   }
   return table.table();
 }
@@ -189,9 +209,13 @@ Table sweep_models_table(const SweepResult& result) {
 }
 
 std::vector<Table> sweep_range_tables(const SweepResult& result) {
-  std::vector<Table> tables = {curves_table(result, std::nullopt)};
-  for (const auto& sensor : result.task.questions.sensors) {
-    tables.push_back(curves_table(result, sensor));
+  std::vector<Table> tables;
+  std::vector<compare::SweepFamily> seen;
+  for (const SweepCurve& curve : result.curves) {
+    if (std::ranges::find(seen, curve.family) != seen.end()) continue;
+    seen.push_back(curve.family);
+    tables.push_back(curves_table(result, curve.family));
+    if (curve.family.damped) tables.push_back(damping_table(result, curve.family));
   }
   const auto& modes = result.modes;
   if (!modes.hub_slope.empty()) {
@@ -200,16 +224,12 @@ std::vector<Table> sweep_range_tables(const SweepResult& result) {
     tables.push_back(
         modes_table(result, "End-point value phi(l) at modal mass I_T", "m", modes.tip_value_m));
   }
-  if (!modes.damping_ratio.empty()) {
-    tables.push_back(
-        modes_table(result, "Damping ratio of the damped poles", "", modes.damping_ratio));
-  }
   return tables;
 }
 
 Table sweep_events_table(const SweepResult& result, std::size_t most) {
   const auto& last = result.task.axes.back();
-  Table table{"What happens to the tracks", {{"sensor"}, {"track"}, {"what"}, {"other"}}};
+  Table table{"What happens to the tracks", {{"roots"}, {"track"}, {"what"}, {"other"}}};
   const bool has_rows = result.task.axes.size() > 1;
   if (has_rows) {
     const auto& first = result.task.axes.front();
@@ -219,9 +239,12 @@ Table sweep_events_table(const SweepResult& result, std::size_t most) {
   table.columns.push_back({"to", unit_of(last), kPlaceDigits});
   for (const SweepEvent& event : result.events) {
     if (table.rows.size() == most) break;
-    std::vector<Cell> row = {arm::to_string(event.sensor), count_if(event.track > 0, event.track),
-                             std::string(word_for(event.kind)),
-                             count_if(event.other > 0, event.other)};
+    std::vector<Cell> row;
+    row.reserve(table.columns.size());
+    row.emplace_back(compare::label(event.family));
+    row.push_back(count_if(event.track > 0, event.track));
+    row.emplace_back(std::string(word_for(event.kind)));
+    row.push_back(count_if(event.other > 0, event.other));
     if (has_rows) row.emplace_back(result.task.axes.front().values[event.row]);
     row.emplace_back(event.from_value);
     row.emplace_back(event.to_value);
@@ -240,8 +263,12 @@ Table sweep_agreement_table(const SweepResult& result) {
   table.columns.push_back({"missing"});
   for (const auto& row : result.agreement) {
     const bool any = row.compared > 0;
-    std::vector<Cell> cells = {row.quantity, row.model, any ? row.worst : NAN,
-                               count_if(any, row.worst_number)};
+    std::vector<Cell> cells;
+    cells.reserve(table.columns.size());
+    cells.emplace_back(row.quantity);
+    cells.emplace_back(row.model);
+    cells.emplace_back(any ? row.worst : NAN);
+    cells.push_back(count_if(any, row.worst_number));
     for (std::size_t k = 0; k < result.task.axes.size(); ++k) {
       cells.emplace_back(any ? result.task.value(k, row.worst_point) : NAN);
     }

@@ -16,9 +16,10 @@ std::string sweep_axes_lines(const compare::SweepResult& result);
 /// The models of a sweep: name, settings, degrees of freedom.
 Table sweep_models_table(const compare::SweepResult& result);
 
-/// One table for the poles, one a sensor's zeros, then hub slopes, end-point values and damping
-/// ratios where there are any; a row each: its first, last, lowest and highest value by the first
-/// model, and where. Poles and collocated zeros are frequencies [Hz]; the others |s| [rad/s].
+/// One table for the poles, of a damped arm two for those with damping, one for each sensor's
+/// zeros, then hub slopes and end-point values; a row each: its first, last, lowest and highest
+/// value by the first model, and where. Poles and collocated zeros are frequencies [Hz]; other
+/// zeros |s| [rad/s].
 std::vector<Table> sweep_range_tables(const compare::SweepResult& result);
 
 /// What happens to tracks of zeros, and where: `most` rows at most.

@@ -165,7 +165,7 @@ TEST_F(JsonSchema, WhatSweepWritesIsWhatTheDocumentSays) {
     EXPECT_NE(run(arguments).status, 2);
     return Json::parse(text_of("out.json"));
   };
-  // An assumed mode cannot tell the fourteenth zero of the tip from rounding.
+  // Assumed modes cannot tell the fourteenth zero of the tip from rounding.
   expect_as_documented(
       {written_by({"--over", "damping.kelvin_voigt=0:1e-4:2", "--over", "payload.inertia=0:0.002:3",
                    "--zeros", "14"}),

@@ -124,8 +124,8 @@ TEST(RootTracks, TwoRealZerosMeetBecomeAQuadrupleAndPart) {
   ASSERT_EQ(tracks.tracks.size(), 3);
   for (const auto& track : tracks.tracks) EXPECT_EQ(track.s_rad_per_s.size(), 9);
   ASSERT_EQ(tracks.meetings.size(), 2);
-  EXPECT_TRUE(tracks.meetings[0].to_quadruple);
-  EXPECT_FALSE(tracks.meetings[1].to_quadruple);
+  EXPECT_TRUE(tracks.meetings[0].to_conjugates);
+  EXPECT_FALSE(tracks.meetings[1].to_conjugates);
   // The discriminant is zero where p (8 - p) = 8.
   EXPECT_LE(tracks.meetings[0].where.from, 4.0 - std::sqrt(8.0));
   EXPECT_GE(tracks.meetings[0].where.to, 4.0 - std::sqrt(8.0));

@@ -84,7 +84,7 @@ std::string bytes_of(const SweepResult& result) {
 std::vector<SweepCurve> tip_curves(const SweepResult& result) {
   std::vector<SweepCurve> curves;
   for (const auto& curve : result.curves) {
-    if (curve.zeros_of == kTipAcceleration) curves.push_back(curve);
+    if (curve.family.zeros_of == kTipAcceleration) curves.push_back(curve);
   }
   return curves;
 }

@@ -38,24 +38,25 @@ SweepResult sample(bool damped = true) {
   result.task.questions.poles = 1;
   result.task.questions.sensors = {kTip};
   result.degrees_of_freedom = {0, 43};
+  const compare::SweepFamily tip_zeros{kTip, false};
   result.curves = {
-      {std::nullopt,
+      {{},
        1,
        {{Complex(0, 75), Complex(0, 70), Complex(0, 66)},
         {Complex(0, 75), Complex(0, 70.7), Complex(0, 66)}}},
-      {kTip, 1, {{Complex(57), Complex(58), Complex(40, 30)}, {Complex(57), Complex(58), {}}}},
-      {kTip, 2, {{{}, Complex(0, 300), Complex(0, 200)}, {{}, {}, {}}}},
+      {tip_zeros, 1, {{Complex(57), Complex(58), Complex(40, 30)}, {Complex(57), Complex(58), {}}}},
+      {tip_zeros, 2, {{{}, Complex(0, 300), Complex(0, 200)}, {{}, {}, {}}}},
   };
+  if (damped) {
+    const compare::SweepFamily damped_poles{std::nullopt, true};
+    result.curves.push_back(
+        {damped_poles, 1, {{Complex(-3, 4), Complex(-4, 3), Complex(-5)}, {{}, {}, {}}}});
+  }
   result.modes.hub_slope = {{{4.0, 3.5, 3.0}}, {{4.0, 3.5, 3.0}}};
   result.modes.tip_value_m = {{{-0.6, -0.5, -0.4}}, {{-0.6, -0.5, -0.4}}};
-  if (damped) {
-    const arm::PolePair pair{{-1.0, 70.0}, {-1.0, -70.0}};
-    result.modes.damped_poles = {{{pair, pair, pair}}, {{pair, pair, pair}}};
-    result.modes.damping_ratio = {{{0.01, 0.02, 0.03}}, {{0.01, 0.02, 0.03}}};
-  }
-  result.events = {{SweepEvent::Kind::appears_beyond, kTip, 2, 0, 0, 0.0, 1e-5},
-                   {SweepEvent::Kind::meet, kTip, 1, 3, 0, 1e-4, 2e-4},
-                   {SweepEvent::Kind::ambiguous, kTip, 0, 0, 0, 1e-4, 2e-4}};
+  result.events = {{SweepEvent::Kind::appears_beyond, tip_zeros, 2, 0, 0, 0.0, 1e-5},
+                   {SweepEvent::Kind::meet, tip_zeros, 1, 3, 0, 1e-4, 2e-4},
+                   {SweepEvent::Kind::ambiguous, tip_zeros, 0, 0, 0, 1e-4, 2e-4}};
   result.agreement = {{"poles", "fem", 0.01, 1, 1, 1e-9, 3, 0, 0},
                       {"tip_acceleration zeros", "fem", 0.0, 0, 1, 1e-9, 2, 3, 2}};
   return result;
@@ -74,19 +75,20 @@ SweepResult sample_of_two() {
        {&result.modes.hub_slope, &result.modes.tip_value_m, &result.modes.damping_ratio}) {
     for (auto& of_model : *table) std::ranges::for_each(of_model, twice);
   }
-  for (auto& of_model : result.modes.damped_poles) std::ranges::for_each(of_model, twice);
   return result;
 }
 
 TEST(SweepTables, ShowFirstLastAndExtremesNotEveryPoint) {
   const auto tables = sweep_range_tables(sample());
-  ASSERT_EQ(tables.size(), 5);
+  ASSERT_EQ(tables.size(), 6);
   EXPECT_EQ(to_csv(tables[1]),
             "track,axis,first [rad/s],last [rad/s],lowest [rad/s],at [kg m^2],highest [rad/s],"
             "at [kg m^2]\n"
-            "1,\"real, quadruple\",57,50,50,0.0002,58,0.0001\n"
+            "1,\"real, complex\",57,50,50,0.0002,58,0.0001\n"
             "2,imaginary,,200,200,0.0002,300,0.0001\n");
-  EXPECT_THAT(tables[4].caption, HasSubstr("Damping ratio"));
+  EXPECT_EQ(to_csv(tables[3]),
+            "track,first,last,lowest,at [kg m^2],highest,at [kg m^2]\n"
+            "1,0.6,1,0.6,0,1,0.0002\n");
   EXPECT_EQ(sweep_range_tables(sample(false)).size(), 4);
 }
 
@@ -129,8 +131,9 @@ TEST(SweepCsv, HasARowForEachRootThatThereIs) {
   const std::string csv = sweep_csv(sample());
   EXPECT_THAT(csv, StartsWith("payload.inertia [kg m^2],model,feature,sensor,number,re [rad/s],"
                               "im [rad/s],frequency [Hz],hub_slope,tip_value [m],"));
-  // Six poles, eight roots on tracks of the first model and two of the second, and the header.
-  EXPECT_EQ(std::ranges::count(csv, '\n'), 1 + 6 + 5 + 2);
+  // The header, poles of two models, zeros of the first and of the second, damped poles.
+  EXPECT_EQ(std::ranges::count(csv, '\n'), 1 + 2 * 3 + 5 + 2 + 3);
+  EXPECT_THAT(csv, HasSubstr("\n0,exact_tf,damped pole,,1,-3,4,"));
   EXPECT_THAT(csv, HasSubstr("\n0.0001,exact_tf,zero,tip_acceleration,2,0,300,"));
   EXPECT_THAT(sweep_csv(sample_of_two()),
               StartsWith("payload.mass [kg],payload.inertia [kg m^2],"));
@@ -141,10 +144,9 @@ TEST(SweepJson, HasNullWhereATrackHasNoRoot) {
   EXPECT_EQ(json["schema"], "flexarm.sweep/1");
   EXPECT_EQ(json["verdict"], "disagree");
   EXPECT_EQ(json["zeros"][1]["values"][0]["im_rad_per_s"], (nlohmann::json{nullptr, 300.0, 200.0}));
-  EXPECT_EQ(json["poles"][0]["values"][0]["damped"]["first"]["re_rad_per_s"][2], -1.0);
+  EXPECT_EQ(json["damped_poles"][0]["values"][0]["damping_ratio"], (nlohmann::json{0.6, 0.8, 1.0}));
   EXPECT_EQ(json["events"][2]["track"], nullptr);
-  EXPECT_FALSE(nlohmann::json::parse(sweep_json(sample(false)))["poles"][0]["values"][0].contains(
-      "damping_ratio"));
+  EXPECT_TRUE(nlohmann::json::parse(sweep_json(sample(false)))["damped_poles"].empty());
 }
 
 std::vector<std::string> drawn(const SweepResult& result) {
@@ -161,8 +163,9 @@ std::vector<std::string> drawn(const SweepResult& result) {
 TEST(SweepFigures, AreWellFormedOverOneParameterAndTwo) {
   EXPECT_THAT(drawn(sample()), ElementsAre("poles.svg", "zeros-tip_acceleration.svg", "modes.svg"));
   EXPECT_THAT(drawn(sample_of_two()),
-              ElementsAre("poles.svg", "zeros-tip_acceleration.svg", "zeros-tip_acceleration-2.svg",
-                          "modes.svg", "modes-2.svg", "modes-3.svg"));
+              ElementsAre("poles.svg", "damped-poles.svg", "damped-poles-2.svg",
+                          "zeros-tip_acceleration.svg", "zeros-tip_acceleration-2.svg", "modes.svg",
+                          "modes-2.svg"));
 }
 
 TEST(SweepFigures, ASinglePointAndAModelWithoutRootsAreDrawn) {

@@ -3,23 +3,22 @@
 #include "arm/arm_file.hpp"
 #include "measured/measurement.hpp"
 #include "report/progress.hpp"
+#include "response/step_check.hpp"
 #include "response/time_model.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <iterator>
-#include <optional>
+#include <functional>
+#include <string>
 #include <utility>
 
 namespace flexarm::app {
 
 namespace {
 
-constexpr int kFinerSteps = 10;
 constexpr std::uint32_t kStreamsOfARun = 1000;
 
 /// A model of the arm with one of the payloads.
@@ -61,40 +60,24 @@ class Models {
   std::vector<PayloadModel> models_;
 };
 
-response::Simulation simulate(const PayloadModel& arm, const std::vector<arm::Sensor>& sensors,
-                              const PlannedRun& run, const response::SimulationOptions& options,
-                              const std::string& label) {
-  const auto samples = static_cast<std::int64_t>(run.time_s.size());
-  report::Progress progress(label, samples);
-  std::int64_t shown = 0;
-  return response::simulate(
-      arm.model, arm.parts, sensors, run.torque.torque_N_m, options, [&](double fraction) {
-        const auto done = static_cast<std::int64_t>(fraction * static_cast<double>(samples));
-        progress.advance(done - std::exchange(shown, done));
-        return true;
-      });
-}
+/// A line of progress on standard error: how many of `samples` are done.
+class SampleProgress {
+ public:
+  SampleProgress(std::string label, std::size_t samples)
+      : samples_(static_cast<double>(samples)),
+        line_(std::move(label), static_cast<std::int64_t>(samples)) {}
 
-double largest_size(const std::vector<double>& values) {
-  double largest = 0.0;
-  for (const double value : values) largest = std::max(largest, std::abs(value));
-  return largest;
-}
-
-/// Largest difference of each channel over its largest size.
-std::vector<double> relative_errors(const response::Simulation& coarse,
-                                    const response::Simulation& fine) {
-  std::vector<double> errors;
-  for (std::size_t i = 0; i < fine.channels.size(); ++i) {
-    double worst = 0.0;
-    for (std::size_t k = 0; k < fine.channels[i].size(); ++k) {
-      worst = std::max(worst, std::abs(coarse.channels[i][k] - fine.channels[i][k]));
-    }
-    const double scale = largest_size(fine.channels[i]);
-    errors.push_back(scale > 0.0 ? worst / scale : 0.0);
+  bool operator()(double fraction) {
+    const auto done = static_cast<std::int64_t>(fraction * samples_);
+    line_.advance(done - std::exchange(shown_, done));
+    return true;
   }
-  return errors;
-}
+
+ private:
+  double samples_;
+  report::Progress line_;
+  std::int64_t shown_ = 0;
+};
 
 }  // namespace
 
@@ -122,13 +105,15 @@ SimulatedExperiment simulate_experiment(const arm::Arm& arm, const std::vector<P
     stepping.sample_time_s = measured::sampling_period_s(run.record);
     stepping.hold = options.hold;
     stepping.substeps = options.substeps;
-    run.simulation = simulate(model, sensors, plan, stepping, fmt::format("{}, samples", plan.id));
+    const auto& torque_N_m = plan.torque.torque_N_m;
+    SampleProgress progress(fmt::format("{}, samples", plan.id), torque_N_m.size());
+    run.simulation = response::simulate(model.model, model.parts, sensors, torque_N_m, stepping,
+                                        std::ref(progress));
     if (options.check_step) {
-      stepping.substeps = kFinerSteps * std::max(1, run.simulation.summary.substeps);
-      stepping.energy = false;
-      run.step_error = relative_errors(
-          run.simulation, simulate(model, sensors, plan, stepping,
-                                   fmt::format("{} in smaller steps, samples", plan.id)));
+      SampleProgress finer(fmt::format("{} in smaller steps, samples", plan.id), torque_N_m.size());
+      run.step_error = response::check_step(run.simulation, model.model, model.parts, sensors,
+                                            torque_N_m, stepping, std::ref(finer))
+                           .relative_difference;
     }
     for (std::size_t j = 0; j < sensors.size(); ++j) {
       auto reading = run.simulation.channels[j];

@@ -33,5 +33,7 @@ Command add_modes(CLI::App& program);
 Command add_new(CLI::App& program);
 Command add_paper(CLI::App& program);
 Command add_response(CLI::App& program);
+Command add_simulate(CLI::App& program);
+Command add_sweep(CLI::App& program);
 
 }  // namespace flexarm::app

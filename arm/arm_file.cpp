@@ -5,6 +5,7 @@
 #include "arm/nearest_name.hpp"
 #include "arm/text_file.hpp"
 #include "arm/toml_document.hpp"
+#include "arm/toml_node.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -40,33 +41,6 @@ std::string meant(const std::string& table, const std::string& typed,
   if (find_effect(typed) != nullptr) names.push_back("effects." + typed);
   return names.empty() ? did_you_mean(typed, allowed)
                        : fmt::format(" (did you mean {}?)", fmt::join(names, " or "));
-}
-
-std::string_view kind_of(const toml::node& node) {
-  switch (node.type()) {
-    case toml::node_type::table:
-      return "a table";
-    case toml::node_type::array:
-      return "an array";
-    case toml::node_type::string:
-      return "a string";
-    case toml::node_type::integer:
-    case toml::node_type::floating_point:
-      return "a number";
-    case toml::node_type::boolean:
-      return "a boolean";
-    default:
-      return "a date or time";
-  }
-}
-
-/// " = VALUE" for a value that goes on a line, "" for tables and arrays.
-std::string equals_value(const toml::node& node) {
-  if (const auto* text = node.as_string()) return fmt::format(" = \"{}\"", shown(text->get()));
-  if (const auto* number = node.as_integer()) return fmt::format(" = {}", number->get());
-  if (const auto* number = node.as_floating_point()) return fmt::format(" = {}", number->get());
-  if (const auto* flag = node.as_boolean()) return fmt::format(" = {}", flag->get());
-  return "";
 }
 
 /// Walks a document once; keeps the line of every key, so that later faults find theirs.

@@ -34,12 +34,18 @@ double relative_distance(std::complex<double> s, std::complex<double> reference)
 std::vector<std::optional<std::complex<double>>> match(
     const FeatureFamily& family, std::span<const std::complex<double>> reference,
     std::span<const std::complex<double>> found) {
-  std::vector<std::optional<std::complex<double>>> matched(reference.size());
   const bool ordered = !family.zeros_of || arm::is_collocated(*family.zeros_of);
   if (ordered) {
+    std::vector<std::optional<std::complex<double>>> matched(reference.size());
     for (std::size_t i = 0; i < reference.size() && i < found.size(); ++i) matched[i] = found[i];
     return matched;
   }
+  return match_nearest(reference, found);
+}
+
+std::vector<std::optional<std::complex<double>>> match_nearest(
+    std::span<const std::complex<double>> reference, std::span<const std::complex<double>> found) {
+  std::vector<std::optional<std::complex<double>>> matched(reference.size());
   struct Pair {
     double distance;
     std::size_t reference;

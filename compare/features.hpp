@@ -39,8 +39,11 @@ std::vector<std::optional<std::complex<double>>> match(
     const FeatureFamily& family, std::span<const std::complex<double>> reference,
     std::span<const std::complex<double>> found);
 
-/// A non-collocated zero further than this from a reference zero, relative to its modulus, is not
-/// taken for it.
+/// The second of these ways.
+std::vector<std::optional<std::complex<double>>> match_nearest(
+    std::span<const std::complex<double>> reference, std::span<const std::complex<double>> found);
+
+/// A root further than this from a reference root, relative to its modulus, is not taken for it.
 inline constexpr double kNearest = 0.3;
 
 /// |s - reference|/|reference|.

@@ -120,6 +120,8 @@ Complex Path::velocity(const Root& root, Real t, Real step) {
 
 std::optional<Root> Path::newton(const Complex& from, Real t, Real radius) {
   constexpr int kMostSteps = 20;
+  // On the way the root need not be better than the tangent.
+  constexpr Real kOnTheWay = 1e-6L;
   Root root{from, {}, radius, 0.0L};
   Real last = radius;
   for (int i = 0; i < kMostSteps; ++i) {
@@ -128,12 +130,13 @@ std::optional<Root> Path::newton(const Complex& from, Real t, Real radius) {
     const Real size = std::abs(here.newton_step);
     // Within the rounding of F a step no longer falls, and is not taken.
     const bool stalled = size >= 0.5L * last && size <= 1e-12L * std::abs(root.u);
-    if (!stalled && size > last) return std::nullopt;
+    if (!stalled && (size > last || std::abs(root.u - from) > radius)) return std::nullopt;
     root.radius =
         std::min(std::isfinite(here.radius) ? here.radius : 2.0L * root.radius, 2.0L * root.radius);
     if (!stalled) root.u += here.newton_step;
     root.residual = size / std::abs(root.u);
-    if (stalled || size <= options_.newton_tolerance * std::abs(root.u)) {
+    const bool near = t < 1.0L && size <= kOnTheWay * root.radius;
+    if (stalled || near || size <= options_.newton_tolerance * std::abs(root.u)) {
       root.s = s_of(root.u, t);
       return root;
     }
@@ -152,19 +155,29 @@ std::optional<Root> Path::follow(const Start& start) {
   Complex velocity_now = start.slope * Complex(1.0L, detour_);
   Real t = 0.0L;
   Real step = 1.0L / caution_;
+  Real move = options_.largest_move / caution_;
   while (t < 1.0L) {
     const Real speed = std::abs(velocity_now);
-    const Real reach = options_.largest_move / caution_ * at.radius;
+    const Real reach = move * at.radius;
     if (speed * step > reach) step = reach / speed;
     if (step < smallest || values_ > options_.most_function_values) return std::nullopt;
     const Real next = t + step >= 1.0L - 1e-3L * step ? 1.0L : t + step;
     const Complex predicted = at.u + velocity_now * (next - t);
     const auto root = newton(predicted, next, at.radius);
-    const Real allowed = options_.largest_correction / caution_;
-    if (!root || std::abs(root->u - predicted) > allowed * root->radius) {
+    const Real allowed =
+        root ? options_.largest_correction / caution_ * std::min(at.radius, root->radius) : 0.0L;
+    const Real correction = root ? std::abs(root->u - predicted) : 1.0L;
+    if (correction > allowed) {
       step *= 0.5L;
       continue;
     }
+    // The correction is of second order in the step. A straight path may be followed further: far
+    // from all other roots F is an exponential, and rho much less than their distance.
+    constexpr Real kAim = 0.3L;
+    constexpr Real kMostRadii = 200.0L;
+    const Real growth = std::min(4.0L, std::sqrt(kAim * allowed / correction));
+    move = std::clamp(growth * move, options_.largest_move / caution_, kMostRadii / caution_);
+    step *= growth;
     at = *root;
     t = next;
     last_q_ = root_of_pair(at.u, t);
@@ -172,7 +185,6 @@ std::optional<Root> Path::follow(const Start& start) {
       velocity_now = velocity(at, t, step);
       if (!finite(velocity_now)) return std::nullopt;
     }
-    step *= 2.0L;
   }
   return at;
 }

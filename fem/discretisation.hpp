@@ -1,7 +1,7 @@
 #pragma once
 
 #include "arm/linear_arm.hpp"
-#include "fem/hermite_element.hpp"
+#include "fem/beam_element.hpp"
 #include "fem/mesh.hpp"
 
 #include <Eigen/SparseCore>
@@ -17,56 +17,81 @@ using Columns = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
 /// The arm divided into finite elements, dimensionless: lengths in l, times in sqrt(m l^4/EI),
 /// forces in EI/l^2. With n generalised coordinates u,
 ///
-///     M u_tt + K u = e0 tau,   K = B^T D B,
+///     M u_tt + C u_t + K u = e0 tau,   K = B^T D B + ks e0 e0^T + G,
+///     C = kv B^T D_b B + c e0 e0^T + ca A.
 ///
-/// where u(0) is the hub rotation theta; then for each element from root to tip its bubbles, and
-/// deflection and slope at its outer end. The root does not move (y(0) = 0). Payload and hub
-/// stand in M. Suffix `c` (clamped) means the n - 1 coordinates without theta.
+/// u(0) is the hub rotation theta; where the root is compliant the rotation of the beam's root
+/// follows; then for each element from root to tip its bubbles, its shear strains where the beam
+/// has any, and deflection and rotation at its outer end; after the element that ends at the crack
+/// the rotation beyond it. The root is carried by the hub, y(0) = a theta. Payload and hub stand in
+/// M. Suffix `c` (clamped) means the n - 1 coordinates without theta.
 ///
-/// B takes the clamped coordinates to the natural deformations of the elements (see
-/// HermiteElement), in the order bubbles, d1, d0. The arm is statically determinate, so B is
-/// square and block lower triangular. D is diagonal. Solvers use B and D, never K: an assembled
-/// K gives a rigid rotation, rounded, strain energy of the order h^-4 times epsilon.
+/// B takes the coordinates to n - 1 natural deformations: those of the elements (see BeamElement)
+/// and the rotations of the springs at root and crack. Deformation i stands for coordinate i + 1:
+/// bubbles and shear strains are their own, d1 stands for the outer deflection, d0 for the outer
+/// rotation, a spring for the rotation beyond it. The arm is statically determinate, so B of the
+/// clamped coordinates is square and block lower triangular. D is diagonal, D_b its part in
+/// bending. Solvers use B and D, never their product: assembled, it gives a rigid rotation,
+/// rounded, strain energy of the order h^-4 times epsilon.
+///
+/// G is the potential of the weight, A the beam's translational mass.
 class Discretisation {
  public:
   /// Throws arm::InputError for options out of their range.
   Discretisation(const arm::LinearArm& arm, const MeshOptions& mesh, int degree);
 
+  const arm::LinearArm& arm() const { return arm_; }
   int size() const { return static_cast<int>(mass_.rows()); }
   int clamped_size() const { return size() - 1; }
   int elements() const { return static_cast<int>(lengths_.size()); }
-  int coordinates_per_element() const { return element_.degree() - 1; }
-  const HermiteElement& element() const { return element_; }
+  const BeamElement& element() const { return element_; }
   const std::vector<double>& lengths() const { return lengths_; }
   int tip_deflection_index() const { return size() - 2; }
+  /// Bubbles, shear strains, deflection and rotation of one element.
+  int coordinates_per_element() const { return element_.shape_functions() - 2; }
+  /// The first of them.
+  int first_coordinate(int e) const;
 
   /// n x n, symmetric positive definite.
   const Eigen::SparseMatrix<double>& mass() const { return mass_; }
-  /// n x n, symmetric, of rank n - 1.
+  /// A, n x n; empty (all zero) without air damping.
+  const Eigen::SparseMatrix<double>& air_mass() const { return air_mass_; }
+  /// G, n x n; empty (all zero) without gravity.
+  const Eigen::SparseMatrix<double>& weight() const { return weight_; }
+  /// K and C, n x n, symmetric, assembled.
   Eigen::SparseMatrix<double> stiffness() const;
-  /// B, (n - 1) x (n - 1).
-  Eigen::SparseMatrix<double> kinematics() const;
-  /// The diagonal of D, n - 1.
-  Eigen::VectorXd natural_stiffness() const;
+  Eigen::SparseMatrix<double> damping() const;
+  /// B, (n - 1) x n.
+  const Eigen::SparseMatrix<double>& kinematics() const { return kinematics_; }
+  /// The diagonals of D and D_b, n - 1.
+  const Eigen::VectorXd& natural_stiffness() const { return natural_stiffness_; }
+  const Eigen::VectorXd& bending_stiffness() const { return bending_stiffness_; }
+  /// Deformation i is a coordinate of its own.
+  bool is_coordinate(int i) const { return is_coordinate_[static_cast<std::size_t>(i)]; }
 
-  /// r: unit rotation of the rigid arm, y = x.
+  /// r: unit rotation of the rigid arm, y = a + x.
   const Eigen::VectorXd& rigid_rotation() const { return rigid_rotation_; }
   /// M r.
   const Eigen::VectorXd& rigid_momentum() const { return rigid_momentum_; }
-  /// r^T M r: 1/3 + hub inertia + payload.
+  /// r^T M r.
   double total_inertia() const { return total_inertia_; }
 
-  /// In units of m l and m l^3.
-  double payload_mass() const { return payload_mass_; }
-  double payload_inertia() const { return payload_inertia_; }
-
   /// K r = 0.
-  bool turns_freely() const { return true; }
+  bool turns_freely() const { return !has_weight() && hub_spring_ == 0.0; }
+  bool has_weight() const { return gravity_ != 0.0; }
   /// C = kv K, kv = 0 included.
-  bool is_damped_in_proportion() const { return hub_friction_ == 0.0; }
-  /// Kelvin-Voigt time, and friction of the hub as (2 R)/theta_t^2.
+  bool is_damped_in_proportion() const;
+  /// In units of m l, m l^2, m l^3.
+  double payload_mass() const { return payload_mass_; }
+  double payload_first_moment() const { return payload_first_moment_; }
+  double payload_inertia() const { return payload_inertia_; }
+  double hub_radius() const { return hub_radius_; }
+  /// kv, c, ca, ks.
   double kelvin_voigt() const { return kelvin_voigt_; }
   double hub_friction() const { return hub_friction_; }
+  double air_damping() const { return air_damping_; }
+  double hub_spring() const { return hub_spring_; }
+
   /// u^T K u and u^T C u (without conjugation) for shapes and their natural deformations by
   /// columns, summed in deformations.
   template <class Scalar>
@@ -74,29 +99,62 @@ class Discretisation {
   template <class Scalar>
   Columns<Scalar> damping_products(const Columns<Scalar>& u, const Columns<Scalar>& d) const;
 
-  /// M k for the influence shape k(x) = max(x - position, 0), position in [0, 1].
-  Eigen::VectorXd ramp_momentum(double position) const;
-  /// k(x) = x^2 (3 - x)/6, the clamped arm under a unit force at the tip.
-  Eigen::VectorXd tip_force_shape() const;
+  /// What the loads of a motion do on an influence shape k, by coordinates of the motion: M k, A k
+  /// and G k; the last two empty where those matrices are.
+  struct VirtualWork {
+    Eigen::VectorXd inertia;
+    Eigen::VectorXd air;
+    Eigen::VectorXd weight;
+  };
+  /// k(x) = max(x - position, 0) with psi = 1 beyond `position` in [0, 1], bending nowhere else.
+  VirtualWork work_on_ramp(double position) const;
+  /// k = the clamped arm under a unit force at the tip: what its bending does, and the rest, its
+  /// shear and springs.
+  VirtualWork work_on_tip_bending() const;
+  VirtualWork work_on_tip_shear_and_springs() const;
 
   /// Deflection y(x) of the shape `u`, x in [0, 1].
   double deflection(const Eigen::VectorXd& u, double x) const;
 
  private:
-  /// The coordinate of a local shape function of element `e`; -1 for the root's deflection.
-  int index(int e, int local) const;
-  /// Adds the n x n sum of the elements' matrices, each `element_matrix(h)`.
+  /// Where a local shape function enters: `factor` times coordinate `index`.
+  struct Place {
+    int index;  ///< -1: nowhere
+    double factor;
+  };
+  Place place(int e, int local) const;
+  void place_natural_deformations();
+  void place_kinematics();
+  /// The n x n sum of the elements' matrices, each `element_matrix(e)`.
   template <class ElementMatrix>
   Eigen::SparseMatrix<double> assemble(const ElementMatrix& element_matrix) const;
+  /// Tension in element e: P in its middle, and its rise over half of it.
+  double tension(int e) const;
+  VirtualWork work_on(const Eigen::VectorXd& shape) const;
 
-  HermiteElement element_;
+  arm::LinearArm arm_;
+  BeamElement element_;
   std::vector<double> lengths_;
   std::vector<double> nodes_;
+  int before_crack_;  ///< elements between root and crack; 0 without a crack
   double payload_mass_;
+  double payload_first_moment_;
   double payload_inertia_;
+  double hub_radius_;
   double kelvin_voigt_;
   double hub_friction_;
+  double air_damping_;
+  double hub_spring_;
+  double gravity_;
+  double shear_rigidity_;
+  double rotary_inertia_;
+  Eigen::VectorXd natural_stiffness_;
+  Eigen::VectorXd bending_stiffness_;
+  std::vector<bool> is_coordinate_;
+  Eigen::SparseMatrix<double> kinematics_;
   Eigen::SparseMatrix<double> mass_;
+  Eigen::SparseMatrix<double> air_mass_;
+  Eigen::SparseMatrix<double> weight_;
   Eigen::VectorXd rigid_rotation_;
   Eigen::VectorXd rigid_momentum_;
   double total_inertia_;

@@ -6,6 +6,7 @@
 #include "fem/hub_driven_response.hpp"
 #include "fem/modal_model.hpp"
 #include "fem/sensor_row.hpp"
+#include "fem/standing_arm.hpp"
 #include "fem/trusted_zeros.hpp"
 #include "fem/vibration_modes.hpp"
 
@@ -25,9 +26,8 @@ using Complex = std::complex<double>;
 
 arm::Arm checked(arm::Arm arm) {
   arm::require_computable(arm);
-  arm::require_honoured(arm.effects, FemArm::kName,
-                        {"hub_inertia", "flexural_rigidity", "linear_density", "payload_mass",
-                         "payload_inertia", "hub_viscous_friction", "structural_damping"});
+  arm::require_honoured(arm.effects, FemArm::kName, arm::linear_effect_names());
+  require_unbuckled(arm::linear_arm(arm));
   return arm;
 }
 
@@ -42,7 +42,7 @@ FemArm::Options checked(FemArm::Options options) {
       throw arm::out_of_range(key, value, "", "above 0 and below 1");
     }
   };
-  require_from("degree", options.degree, HermiteElement::kLowestDegree, FemArm::kHighestDegree);
+  require_from("degree", options.degree, BeamElement::kLowestDegree, FemArm::kHighestDegree);
   require_from("checking_degrees", options.checking_degrees, 1, FemArm::kMostCheckingDegrees);
   require_fraction("eigen_tolerance", options.eigen_tolerance);
   require_fraction("zero_agreement", options.zero_agreement);
@@ -69,13 +69,6 @@ arm::RootCount count_of(const Discretisation& model, HubSupport support,
   return {static_cast<int>(found), below < 0 ? -1 : below - rigid, "Sylvester inertia"};
 }
 
-std::vector<double> frequencies(const VibrationModes& modes, double omega_scale) {
-  std::vector<double> omega;
-  for (const double squared : modes.omega_squared)
-    omega.push_back(omega_scale * std::sqrt(squared));
-  return omega;
-}
-
 }  // namespace
 
 FemArm::FemArm(arm::Arm arm) : FemArm(std::move(arm), Options{}) {}
@@ -96,7 +89,11 @@ arm::PoleSet FemArm::poles(int count) const {
   const VibrationModes modes =
       vibration_modes(*model_, HubSupport::free, count, options_.eigen_tolerance);
   arm::PoleSet poles;
-  poles.omega_rad_per_s = frequencies(modes, omega_scale_rad_per_s_);
+  for (const double squared : modes.omega_squared) {
+    poles.omega_rad_per_s.push_back(omega_scale_rad_per_s_ * std::sqrt(squared));
+  }
+  poles.lowest_omega_squared_rad2_per_s2 =
+      modes.lowest_omega_squared * omega_scale_rad_per_s_ * omega_scale_rad_per_s_;
   poles.count = count_of(*model_, HubSupport::free, modes);
   poles.summary = summary_of(modes, poles.count);
   return poles;
@@ -115,9 +112,12 @@ arm::ZeroSet FemArm::clamped_zeros(int count) const {
   const VibrationModes modes =
       vibration_modes(*model_, HubSupport::clamped, count, options_.eigen_tolerance);
   arm::ZeroSet zeros;
-  for (const double omega : frequencies(modes, omega_scale_rad_per_s_)) {
-    zeros.s_rad_per_s.emplace_back(0.0, omega);
+  for (const double squared : modes.omega_squared) {
+    // Below 0 where the arm stands up and buckles with its hub held.
+    const double size = omega_scale_rad_per_s_ * std::sqrt(std::abs(squared));
+    zeros.s_rad_per_s.push_back(squared >= 0.0 ? Complex(0.0, size) : Complex(size, 0.0));
   }
+  std::ranges::sort(zeros.s_rad_per_s, {}, [](Complex s) { return std::abs(s); });
   zeros.count = count_of(*model_, HubSupport::clamped, modes);
   zeros.summary = summary_of(modes, zeros.count);
   return zeros;
@@ -129,7 +129,7 @@ arm::ZeroSet FemArm::transmission_zeros(const arm::Sensor& sensor, int count) co
   };
   const CheckingModels checking{finer(options_.checking_degrees),
                                 finer(2 * options_.checking_degrees)};
-  arm::ZeroSet zeros = trusted_zeros(*model_, checking, linear_, sensor, count,
+  arm::ZeroSet zeros = trusted_zeros(*model_, checking, sensor, count,
                                      {options_.eigen_tolerance, options_.zero_agreement});
   for (Complex& s : zeros.s_rad_per_s) s *= omega_scale_rad_per_s_;
   for (arm::RejectedZero& zero : zeros.rejected) zero.s_rad_per_s *= omega_scale_rad_per_s_;
@@ -149,8 +149,8 @@ arm::ModalModel FemArm::modal_model(int count, std::span<const arm::Sensor> sens
   for (const arm::Sensor& sensor : sensors) arm::require_valid(sensor, arm_);
   arm::require_stations(stations_m, arm_);
   return fem::modal_model(
-      *model_, linear_, vibration_modes(*model_, HubSupport::free, count, options_.eigen_tolerance),
-      sensors, stations_m);
+      *model_, vibration_modes(*model_, HubSupport::free, count, options_.eigen_tolerance), sensors,
+      stations_m);
 }
 
 arm::DampedPoleSet FemArm::damped_poles(int count) const {
@@ -173,31 +173,24 @@ arm::DampedPoleSet FemArm::damped_poles(int count) const {
 
 Complex FemArm::transfer_function(const arm::Sensor& sensor, Complex s_rad_per_s) const {
   arm::require_valid(sensor, arm_);
-  if (s_rad_per_s == 0.0) {
+  if (s_rad_per_s == 0.0 && model_->turns_freely()) {
     throw std::domain_error("transfer function: s = 0 is the pole of the rigid arm");
   }
   if (!std::isfinite(std::norm(s_rad_per_s / omega_scale_rad_per_s_))) {
     throw std::domain_error("transfer function: the square of s is not finite");
   }
-  const double rigidity = linear_.flexural_rigidity_N_m2;
   const Complex s = s_rad_per_s / omega_scale_rad_per_s_;
-  const Complex stiffness_factor = 1.0 + linear_.kelvin_voigt_s * s_rad_per_s;
-  const HubDrivenResponse response(*model_, stiffness_factor, s * s);
+  const HubDrivenResponse<Complex> response(*model_, damped_dynamics(*model_, s));
   if (response.singular()) {
     // Exactly at a zero of the hub angle parts of the ratios below are infinite; beside it not.
     constexpr double kBeside = 1.0 + 4.0 * std::numeric_limits<double>::epsilon();
     return transfer_function(sensor, s_rad_per_s * kBeside);
   }
   const Eigen::VectorXcd u = response.to_unit_rotation().u;
-  // Angular momentum about the axis: no stress enters, so nothing cancels as s tends to 0.
-  const Complex torque = s * s * model_->rigid_momentum().cast<Complex>().cwiseProduct(u).sum() +
-                         model_->hub_friction() * s;
-  const SensorRow row = sensor_row(*model_, linear_, sensor);
-  Complex reading = row.c.cast<Complex>().cwiseProduct(u).sum();
-  if (row.by_inertia) reading *= -s * s / stiffness_factor;
-  const double torque_unit_N_m = rigidity / linear_.length_m;
-  return reading / torque * si_reading(linear_, sensor) / torque_unit_N_m *
-         std::pow(s_rad_per_s, arm::derivative_order(sensor));
+  Complex reading = SensorRow(*model_, sensor).reading(u, s) * si_reading(linear_, sensor);
+  for (int i = 0; i < arm::derivative_order(sensor); ++i) reading *= s_rad_per_s;
+  const double torque_unit_N_m = linear_.flexural_rigidity_N_m2 / linear_.length_m;
+  return reading / response.hub_torque(u) / torque_unit_N_m;
 }
 
 Eigen::SparseMatrix<double> FemArm::mass_kg_m2() const {
@@ -206,6 +199,11 @@ Eigen::SparseMatrix<double> FemArm::mass_kg_m2() const {
 
 Eigen::SparseMatrix<double> FemArm::stiffness_N_m() const {
   return model_->stiffness() * (linear_.flexural_rigidity_N_m2 / linear_.length_m);
+}
+
+Eigen::SparseMatrix<double> FemArm::damping_N_m_s() const {
+  return model_->damping() *
+         (linear_.flexural_rigidity_N_m2 / linear_.length_m / omega_scale_rad_per_s_);
 }
 
 }  // namespace flexarm::fem

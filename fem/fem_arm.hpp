@@ -79,11 +79,14 @@ class FemArm {
   std::complex<double> transfer_function(const arm::Sensor& sensor,
                                          std::complex<double> s_rad_per_s) const;
 
-  /// Consistent mass [kg m^2] and stiffness [N m] for the coordinates theta [rad] and, for each
-  /// element, l y'' amplitudes of the bubbles, y/l and y' at the outer end; n x n, symmetric. For
+  /// Consistent mass [kg m^2], stiffness [N m] and damping [N m s] for the coordinates theta [rad];
+  /// the rotation of the beam's root where it is compliant; for each element l psi' amplitudes of
+  /// the bubbles, amplitudes of the shear strains where the beam has any, y/l and psi at the outer
+  /// end; and the rotation beyond a crack after the element that ends there. n x n, symmetric. For
   /// use outside; eigenvalues of the assembled stiffness carry errors of order epsilon h^-4.
   Eigen::SparseMatrix<double> mass_kg_m2() const;
   Eigen::SparseMatrix<double> stiffness_N_m() const;
+  Eigen::SparseMatrix<double> damping_N_m_s() const;
 
  private:
   arm::ZeroSet clamped_zeros(int count) const;

@@ -1,130 +1,190 @@
 #include "fem/hub_driven_response.hpp"
 
 #include <limits>
-#include <vector>
+#include <utility>
 
 namespace flexarm::fem {
 
 namespace {
 
-using Complex = HubDrivenResponse::Complex;
+using Complex = std::complex<double>;
 
-/// Row and column of clamped coordinate `i` in the mixed system: each element adds its d1 and d0
-/// equations (and its shear force and bending moment) before its coordinates.
-int mixed_index(const Discretisation& model, int i) {
-  return i + 2 * (i / model.coordinates_per_element() + 1);
+/// Along the arm: the two kinematic equations of an element before its coordinates, that of a
+/// spring before the rotation beyond it.
+MixedOrder order_of(const Discretisation& model) {
+  const auto n = static_cast<std::size_t>(model.clamped_size());
+  MixedOrder slots{std::vector<int>(n), std::vector<int>(n, -1), 0};
+  const auto place = [&](int first, int last) {
+    for (int i = first; i < last; ++i) {
+      if (!model.is_coordinate(i)) slots.kinematic[static_cast<std::size_t>(i)] = slots.size++;
+    }
+    for (int i = first; i < last; ++i) {
+      slots.coordinate[static_cast<std::size_t>(i)] = slots.size++;
+    }
+  };
+  int next = 0;
+  for (int e = 0; e < model.elements(); ++e) {
+    const int first = model.first_coordinate(e) - 1;
+    place(next, first);
+    next = first + model.coordinates_per_element();
+    place(first, next);
+  }
+  return slots;
 }
 
-int mixed_size(const Discretisation& model) {
-  return model.clamped_size() + 2 * model.elements();
-}
-
-/// The kinematic equation of natural deformation `row`, d1 or d0, which follow the bubbles; -1 for
-/// a bubble, whose deformation is its own coordinate.
-int kinematic_index(const Discretisation& model, int row) {
-  const int per_element = model.coordinates_per_element();
-  const int local = row % per_element - model.element().bubbles();
-  if (local < 0) return -1;
-  return row / per_element * (per_element + 2) + local;
-}
-
-Eigen::SparseMatrix<Complex> mixed_matrix(const Discretisation& model, Complex stiffness_factor,
-                                          Complex s_squared) {
+template <class Scalar>
+Eigen::SparseMatrix<Scalar> mixed_matrix(const Discretisation& model,
+                                         const Dynamics<Scalar>& dynamics,
+                                         const MixedOrder& order) {
+  const auto& [coordinate, kinematic, size] = order;
   const Eigen::SparseMatrix<double>& mass = model.mass();
-  const Eigen::SparseMatrix<double> b = model.kinematics();
-  const Eigen::VectorXd d = model.natural_stiffness();
-  std::vector<Eigen::Triplet<Complex>> triplets;
-  triplets.reserve(static_cast<std::size_t>(mass.nonZeros() + 2 * b.nonZeros() + d.size()));
+  const Eigen::SparseMatrix<double>& b = model.kinematics();
+  const Eigen::VectorXd& stiffness = model.natural_stiffness();
+  const Eigen::VectorXd& bending = model.bending_stiffness();
+  std::vector<Eigen::Triplet<Scalar>> triplets;
+  triplets.reserve(static_cast<std::size_t>(mass.nonZeros() + 2 * b.nonZeros() + stiffness.size() +
+                                            model.air_mass().nonZeros() +
+                                            model.weight().nonZeros()));
   for (int i = 0; i < model.clamped_size(); ++i) {
-    const int kinematic = kinematic_index(model, i);
-    const int own = mixed_index(model, i);
-    if (kinematic < 0) {
-      triplets.emplace_back(own, own, stiffness_factor * d[i]);
+    const Scalar d = bending[i] > 0.0 ? dynamics.bending * stiffness[i] : Scalar(stiffness[i]);
+    const int row = kinematic[static_cast<std::size_t>(i)];
+    const int own = coordinate[static_cast<std::size_t>(i)];
+    if (row < 0) {
+      triplets.emplace_back(own, own, d);
     } else {
-      triplets.emplace_back(kinematic, kinematic, -1.0 / (stiffness_factor * d[i]));
+      triplets.emplace_back(row, row, -1.0 / d);
     }
   }
   using Entry = Eigen::SparseMatrix<double>::InnerIterator;
-  for (int column = 0; column < b.outerSize(); ++column) {
+  for (int column = 1; column < b.outerSize(); ++column) {
+    const int at = coordinate[static_cast<std::size_t>(column) - 1];
     for (Entry entry(b, column); entry; ++entry) {
-      const int kinematic = kinematic_index(model, static_cast<int>(entry.row()));
-      if (kinematic < 0) continue;
-      triplets.emplace_back(kinematic, mixed_index(model, column), entry.value());
-      triplets.emplace_back(mixed_index(model, column), kinematic, entry.value());
+      const int row = kinematic[static_cast<std::size_t>(entry.row())];
+      if (row < 0) continue;
+      triplets.emplace_back(row, at, entry.value());
+      triplets.emplace_back(at, row, entry.value());
     }
   }
-  for (int column = 1; column < mass.outerSize(); ++column) {
-    for (Entry entry(mass, column); entry; ++entry) {
-      if (entry.row() == 0) continue;
-      triplets.emplace_back(mixed_index(model, static_cast<int>(entry.row()) - 1),
-                            mixed_index(model, column - 1), s_squared * entry.value());
+  const auto add = [&](const Eigen::SparseMatrix<double>& matrix, Scalar factor) {
+    for (int column = 1; column < matrix.outerSize(); ++column) {
+      for (Entry entry(matrix, column); entry; ++entry) {
+        if (entry.row() == 0) continue;
+        triplets.emplace_back(coordinate[static_cast<std::size_t>(entry.row()) - 1],
+                              coordinate[static_cast<std::size_t>(column) - 1],
+                              factor * entry.value());
+      }
     }
-  }
-  Eigen::SparseMatrix<Complex> matrix(mixed_size(model), mixed_size(model));
+  };
+  add(mass, dynamics.w);
+  if (model.air_damping() > 0.0) add(model.air_mass(), dynamics.air);
+  if (model.has_weight()) add(model.weight(), 1.0);
+  Eigen::SparseMatrix<Scalar> matrix(size, size);
   matrix.setFromTriplets(triplets.begin(), triplets.end());
   return matrix;
 }
 
 }  // namespace
 
-HubDrivenResponse::HubDrivenResponse(const Discretisation& discretisation, Complex stiffness_factor,
-                                     Complex s_squared)
-    : model_(discretisation),
-      stiffness_factor_(stiffness_factor),
-      s_squared_(s_squared),
-      factor_(mixed_matrix(discretisation, stiffness_factor, s_squared),
-              PivotOrder::natural_partial) {}
+Dynamics<Complex> damped_dynamics(const Discretisation& discretisation, Complex s) {
+  return {s * s, 1.0 + discretisation.kelvin_voigt() * s, discretisation.air_damping() * s,
+          discretisation.hub_friction() * s + discretisation.hub_spring()};
+}
 
-DynamicShape HubDrivenResponse::solve(Eigen::VectorXcd mixed, Complex theta) const {
+template <class Scalar>
+HubDrivenResponse<Scalar>::HubDrivenResponse(const Discretisation& discretisation,
+                                             const Dynamics<Scalar>& dynamics)
+    : model_(discretisation),
+      dynamics_(dynamics),
+      order_(order_of(discretisation)),
+      factor_(mixed_matrix(discretisation, dynamics, order_), PivotOrder::natural_partial) {}
+
+template <class Scalar>
+typename HubDrivenResponse<Scalar>::Shape HubDrivenResponse<Scalar>::solve(Vector mixed,
+                                                                           Scalar theta) const {
   factor_.solve(mixed);
-  const Eigen::VectorXd stiffness = model_.natural_stiffness();
-  DynamicShape shape{Eigen::VectorXcd(model_.size()), Eigen::VectorXcd(model_.clamped_size())};
+  const Eigen::VectorXd& stiffness = model_.natural_stiffness();
+  const Eigen::VectorXd& bending = model_.bending_stiffness();
+  Shape shape{Vector(model_.size()), Vector(model_.clamped_size())};
   shape.u[0] = theta;
   for (int i = 0; i < model_.clamped_size(); ++i) {
-    shape.u[i + 1] = mixed[mixed_index(model_, i)];
-    const int kinematic = kinematic_index(model_, i);
-    shape.d[i] =
-        kinematic < 0 ? shape.u[i + 1] : mixed[kinematic] / (stiffness_factor_ * stiffness[i]);
+    shape.u[i + 1] = mixed[order_.coordinate[static_cast<std::size_t>(i)]];
+    const int kinematic = order_.kinematic[static_cast<std::size_t>(i)];
+    if (kinematic < 0) {
+      shape.d[i] = shape.u[i + 1];
+    } else {
+      shape.d[i] = mixed[kinematic] / stiffness[i];
+      if (bending[i] > 0.0) shape.d[i] /= dynamics_.bending;
+    }
   }
   return shape;
 }
 
-DynamicShape HubDrivenResponse::to_unit_rotation() const {
-  Eigen::VectorXcd mixed = Eigen::VectorXcd::Zero(mixed_size(model_));
-  // theta's column of B stands in the first element: d1 has h/2 of it, d0 has -1.
-  mixed[0] = -model_.lengths().front() / 2.0;
-  mixed[1] = 1.0;
+template <class Scalar>
+typename HubDrivenResponse<Scalar>::Shape HubDrivenResponse<Scalar>::to_unit_rotation() const {
+  Vector mixed = Vector::Zero(order_.size);
   using Entry = Eigen::SparseMatrix<double>::InnerIterator;
-  for (Entry entry(model_.mass(), 0); entry; ++entry) {
-    if (entry.row() == 0) continue;
-    mixed[mixed_index(model_, static_cast<int>(entry.row()) - 1)] = -s_squared_ * entry.value();
+  const auto add = [&](const Eigen::SparseMatrix<double>& matrix, Scalar factor) {
+    for (Entry entry(matrix, 0); entry; ++entry) {
+      if (entry.row() == 0) continue;
+      mixed[order_.coordinate[static_cast<std::size_t>(entry.row()) - 1]] -= factor * entry.value();
+    }
+  };
+  for (Entry entry(model_.kinematics(), 0); entry; ++entry) {
+    mixed[order_.kinematic[static_cast<std::size_t>(entry.row())]] -= entry.value();
   }
+  add(model_.mass(), dynamics_.w);
+  if (model_.air_damping() > 0.0) add(model_.air_mass(), dynamics_.air);
+  if (model_.has_weight()) add(model_.weight(), 1.0);
   return solve(std::move(mixed), 1.0);
 }
 
-DynamicShape HubDrivenResponse::to_loads(const Eigen::VectorXcd& f) const {
-  Eigen::VectorXcd mixed = Eigen::VectorXcd::Zero(mixed_size(model_));
-  for (int i = 0; i < model_.clamped_size(); ++i) mixed[mixed_index(model_, i)] = f[i + 1];
+template <class Scalar>
+typename HubDrivenResponse<Scalar>::Shape HubDrivenResponse<Scalar>::to_loads(
+    const Vector& f) const {
+  Vector mixed = Vector::Zero(order_.size);
+  for (int i = 0; i < model_.clamped_size(); ++i) {
+    mixed[order_.coordinate[static_cast<std::size_t>(i)]] = f[i + 1];
+  }
   return solve(std::move(mixed), 0.0);
 }
 
-DynamicShape free_response(const Discretisation& discretisation, Complex s,
-                           const Eigen::VectorXcd& f) {
-  const HubDrivenResponse response(discretisation, 1.0 + discretisation.kelvin_voigt() * s, s * s);
+template <class Scalar>
+Scalar HubDrivenResponse<Scalar>::hub_torque(const Vector& u) const {
+  const auto work = [&](const auto& load) -> Scalar {
+    return load.template cast<Scalar>().cwiseProduct(u).sum();
+  };
+  Scalar torque = dynamics_.w * work(model_.rigid_momentum()) + dynamics_.hub * u[0];
+  const Eigen::VectorXd& r = model_.rigid_rotation();
+  if (model_.air_damping() > 0.0) {
+    torque += dynamics_.air * work(Eigen::VectorXd(model_.air_mass() * r));
+  }
+  if (model_.has_weight()) torque += work(Eigen::VectorXd(model_.weight() * r));
+  return torque;
+}
+
+template <class Scalar>
+typename HubDrivenResponse<Scalar>::Shape HubDrivenResponse<Scalar>::to_loads_of_free_arm(
+    const Vector& f, const Shape& turned) const {
+  Shape loaded = to_loads(f);
+  // Reciprocity: what of the loads the hub feels.
+  const Scalar felt = turned.u.cwiseProduct(f).sum();
+  const Scalar theta = felt / hub_torque(turned.u);
+  loaded.u += theta * turned.u;
+  loaded.d += theta * turned.d;
+  return loaded;
+}
+
+template class HubDrivenResponse<double>;
+template class HubDrivenResponse<Complex>;
+
+ShapeOf<Complex> free_response(const Discretisation& discretisation, Complex s,
+                               const Eigen::VectorXcd& f) {
+  const HubDrivenResponse<Complex> response(discretisation, damped_dynamics(discretisation, s));
   if (response.singular()) {
     constexpr double kBeside = 1.0 + 4.0 * std::numeric_limits<double>::epsilon();
     return free_response(discretisation, s * kBeside, f);
   }
-  const DynamicShape turned = response.to_unit_rotation();
-  DynamicShape loaded = response.to_loads(f);
-  // Reciprocity: what of the loads the hub feels.
-  const Complex felt = turned.u.cwiseProduct(f).sum();
-  const Complex torque =
-      s * s * discretisation.rigid_momentum().cast<Complex>().cwiseProduct(turned.u).sum() +
-      discretisation.hub_friction() * s;
-  loaded.u += felt / torque * turned.u;
-  loaded.d += felt / torque * turned.d;
-  return loaded;
+  return response.to_loads_of_free_arm(f, response.to_unit_rotation());
 }
 
 }  // namespace flexarm::fem

@@ -6,53 +6,89 @@
 #include <Eigen/Core>
 
 #include <complex>
+#include <vector>
 
 namespace flexarm::fem {
 
-/// A shape of complex amplitudes, n, and its natural deformations, n - 1.
-struct DynamicShape {
-  Eigen::VectorXcd u;
-  Eigen::VectorXcd d;
+/// A shape, n, and its natural deformations, n - 1.
+template <class Scalar>
+struct ShapeOf {
+  Eigen::Matrix<Scalar, Eigen::Dynamic, 1> u;
+  Eigen::Matrix<Scalar, Eigen::Dynamic, 1> d;
 };
 
-/// The arm at one complex frequency while its hub rotation is prescribed, dimensionless:
+/// The frequency s as the equations of motion have it.
+template <class Scalar>
+struct Dynamics {
+  Scalar w = 0.0;        ///< s^2
+  Scalar bending = 1.0;  ///< 1 + kv s
+  Scalar air = 0.0;      ///< ca s
+  Scalar hub = 0.0;      ///< c s + ks
+};
+
+/// Without damping.
+template <class Scalar>
+Dynamics<Scalar> undamped_dynamics(const Discretisation& discretisation, Scalar w) {
+  return {w, 1.0, 0.0, discretisation.hub_spring()};
+}
+Dynamics<std::complex<double>> damped_dynamics(const Discretisation& discretisation,
+                                               std::complex<double> s);
+
+/// Where the unknowns of the mixed form below stand.
+struct MixedOrder {
+  std::vector<int> coordinate;  ///< of each clamped coordinate
+  std::vector<int> kinematic;   ///< of each natural deformation's equation; -1: is a coordinate
+  int size = 0;
+};
+
+/// The arm at one frequency, real or complex, dimensionless,
 ///
-///     (1 + kv s) K_c u_c + s^2 (M u)_c = f_c,   u(0) = theta given.
+///     (K(s) + ca s A + s^2 M) u = f,   K(s) = B^T D(s) B + (c s + ks) e0 e0^T + G,
 ///
-/// Solved in mixed form, with bending moments and shear forces q of the elements as unknowns
-/// beside u, so that no stiffness of order h^-3 is ever added to another:
+/// where bending has 1 + kv s times its stiffness D. Solved in mixed form for a prescribed hub
+/// rotation, with bending moments, shear forces and spring torques q as unknowns beside u, so that
+/// no stiffness of order h^-3 is ever added to another:
 ///
-///     B u - ((1 + kv s) D)^-1 q = 0,   B^T q + s^2 M u = f.
+///     B u - D(s)^-1 q = 0,   B^T q + (G + ca s A + s^2 M) u = f,   u(0) = theta given.
 ///
 /// The unknowns are ordered along the arm and eliminated by LU with partial pivoting: a narrow
 /// band, in which rounding perturbs only neighbours, so that a response that decays by many
 /// orders of magnitude along the arm is accurate relative to its local size.
 /// The factor is singular at the zeros of the hub angle. An object serves one thread at a time.
+template <class Scalar>
 class HubDrivenResponse {
  public:
-  using Complex = std::complex<double>;
+  using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
+  using Shape = ShapeOf<Scalar>;
 
-  /// `stiffness_factor` is 1 + kv s.
-  HubDrivenResponse(const Discretisation& discretisation, Complex stiffness_factor,
-                    Complex s_squared);
+  HubDrivenResponse(const Discretisation& discretisation, const Dynamics<Scalar>& dynamics);
 
   bool singular() const { return factor_.singular(); }
   /// For theta = 1 and no other load.
-  DynamicShape to_unit_rotation() const;
+  Shape to_unit_rotation() const;
   /// For theta = 0 and the loads `f`, n; f(0) is not used.
-  DynamicShape to_loads(const Eigen::VectorXcd& f) const;
+  Shape to_loads(const Vector& f) const;
+  /// With the hub free, under the loads `f`, n; `turned` is the response to unit rotation. Not
+  /// finite at a pole.
+  Shape to_loads_of_free_arm(const Vector& f, const Shape& turned) const;
+  /// The torque on the hub in the motion `u` without other loads, by its work on the rigid
+  /// rotation. No stress enters, so that nothing cancels as s tends to 0.
+  Scalar hub_torque(const Vector& u) const;
 
  private:
-  DynamicShape solve(Eigen::VectorXcd mixed, Complex theta) const;
+  Shape solve(Vector mixed, Scalar theta) const;
 
   const Discretisation& model_;
-  Complex stiffness_factor_;
-  Complex s_squared_;
-  KluFactor<Complex> factor_;
+  Dynamics<Scalar> dynamics_;
+  MixedOrder order_;
+  KluFactor<Scalar> factor_;
 };
 
+extern template class HubDrivenResponse<double>;
+extern template class HubDrivenResponse<std::complex<double>>;
+
 /// y of (s^2 M + s C + K) y = f with the hub free, damping included; not finite at a pole.
-DynamicShape free_response(const Discretisation& discretisation, std::complex<double> s,
-                           const Eigen::VectorXcd& f);
+ShapeOf<std::complex<double>> free_response(const Discretisation& discretisation,
+                                            std::complex<double> s, const Eigen::VectorXcd& f);
 
 }  // namespace flexarm::fem

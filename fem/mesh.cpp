@@ -76,4 +76,28 @@ std::vector<double> element_lengths(const MeshOptions& options, double beam_leng
   return lengths;
 }
 
+SplitMesh split_mesh(const std::vector<double>& lengths, double position) {
+  constexpr double kNegligible = 1e-6;
+  std::size_t e = 0;
+  double left = 0.0;
+  while (e + 1 < lengths.size() && left + lengths[e] < position) left += lengths[e++];
+  // The parts share element e, unless one of its ends is as good as the place itself.
+  const double here = lengths[e];
+  bool in_left = position - left > kNegligible * here || e == 0;
+  const bool in_right = left + here - position > kNegligible * here || e + 1 == lengths.size();
+  if (!in_left && !in_right) in_left = true;
+  const double left_sum = in_left ? left + here : left;
+  const double right_sum = in_right ? 1.0 - left : 1.0 - left - here;
+  SplitMesh split;
+  const std::size_t before = in_left ? e + 1 : e;
+  for (std::size_t i = 0; i < before; ++i) {
+    split.lengths.push_back(lengths[i] * (position / left_sum));
+  }
+  for (std::size_t i = in_right ? e : e + 1; i < lengths.size(); ++i) {
+    split.lengths.push_back(lengths[i] * ((1.0 - position) / right_sum));
+  }
+  split.before = static_cast<int>(before);
+  return split;
+}
+
 }  // namespace flexarm::fem

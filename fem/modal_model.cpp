@@ -7,9 +7,10 @@
 
 namespace flexarm::fem {
 
-arm::ModalModel modal_model(const Discretisation& discretisation, const arm::LinearArm& arm,
-                            const VibrationModes& vibration, std::span<const arm::Sensor> sensors,
+arm::ModalModel modal_model(const Discretisation& discretisation, const VibrationModes& vibration,
+                            std::span<const arm::Sensor> sensors,
                             std::span<const double> stations_m) {
+  const arm::LinearArm& arm = discretisation.arm();
   const Eigen::Index count = 1 + vibration.omega_squared.size();
   const double omega_scale = arm::omega_scale_rad_per_s(arm);
   Eigen::VectorXd omega_squared(count);
@@ -26,7 +27,7 @@ arm::ModalModel modal_model(const Discretisation& discretisation, const arm::Lin
   }
   std::vector<SensorRow> rows;
   for (const arm::Sensor& sensor : sensors) {
-    rows.push_back(sensor_row(discretisation, arm, sensor));
+    rows.emplace_back(discretisation, sensor);
   }
   const Eigen::MatrixXd damping =
       omega_scale * discretisation.damping_products<double>(shapes, deformations);
@@ -45,7 +46,7 @@ arm::ModalModel modal_model(const Discretisation& discretisation, const arm::Lin
       mode.damping_ratio = damping(j, j) / (2.0 * mode.omega_rad_per_s);
     }
     for (std::size_t i = 0; i < rows.size(); ++i) {
-      const double reading = rows[i].c.dot(phi) * (rows[i].by_inertia ? omega_squared[j] : 1.0);
+      const double reading = rows[i].undamped_reading(phi, -omega_squared[j]);
       mode.sensor_values.push_back(reading * si_reading(arm, sensors[i]));
     }
     for (const double station_m : stations_m) {

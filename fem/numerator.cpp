@@ -13,22 +13,26 @@ namespace flexarm::fem {
 
 using Complex = std::complex<double>;
 
-Numerator::Numerator(const Discretisation& discretisation, Eigen::VectorXd c, int poles,
+Numerator::Numerator(const Discretisation& discretisation, SensorRow row, int poles,
                      double tolerance)
     : model_(discretisation),
-      c_(std::move(c)),
+      row_(std::move(row)),
       poles_(vibration_modes(discretisation, HubSupport::clamped, poles, tolerance).omega_squared) {
 }
 
 Numerator::Value Numerator::operator()(Complex w) const {
-  const HubDrivenResponse response(model_, 1.0, w);
+  const HubDrivenResponse<Complex> response(model_, undamped_dynamics(model_, w));
   // Exactly at a pole of F; a neighbour serves as well.
   if (response.singular()) return (*this)(w * (1.0 + std::numeric_limits<double>::epsilon()));
   const Eigen::VectorXcd u = response.to_unit_rotation().u;
   const Eigen::VectorXcd du_dw = response.to_loads(-(model_.mass() * u)).u;
-  const Complex f = c_.cast<Complex>().cwiseProduct(u).sum();
+  Eigen::VectorXcd c = row_.constant().cast<Complex>();
+  if (row_.times_w().size() > 0) c += w * row_.times_w();
+  const Complex f = c.cwiseProduct(u).sum();
   if (f == 0.0) return {1.0, 0.0, true};
-  Value value{f / std::abs(f), c_.cast<Complex>().cwiseProduct(du_dw).sum() / f};
+  Complex df_dw = c.cwiseProduct(du_dw).sum();
+  if (row_.times_w().size() > 0) df_dw += row_.times_w().cast<Complex>().cwiseProduct(u).sum();
+  Value value{f / std::abs(f), df_dw / f};
   for (const double pole : poles_) {
     const Complex factor = 1.0 + w / pole;
     value.direction *= factor / std::abs(factor);

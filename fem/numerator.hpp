@@ -1,6 +1,7 @@
 #pragma once
 
 #include "fem/discretisation.hpp"
+#include "fem/sensor_row.hpp"
 
 #include <Eigen/Core>
 
@@ -17,9 +18,10 @@ struct NewtonResult {
   double last_step = 0.0;  ///< relative to |w|
 };
 
-/// The numerator of hub torque to the reading c^T u as a function of w = s^2, dimensionless,
+/// The numerator of hub torque to the reading c(w)^T u as a function of w = s^2, dimensionless and
+/// undamped,
 ///
-///     N(w) = F(w) prod_i (1 + w/omega_i^2),   F(w) = c^T u(w) for theta = 1.
+///     N(w) = F(w) prod_i (1 + w/omega_i^2),   F(w) = c(w)^T u(w) for theta = 1.
 ///
 /// F has its poles where the arm vibrates with the hub clamped, at w = -omega_i^2; the lowest
 /// are taken out. Each value costs one factorisation, linear in the number of elements.
@@ -29,9 +31,9 @@ class Numerator {
 
   /// Takes out `poles` poles, found to `tolerance` (see vibration_modes). `discretisation` must
   /// outlive the object.
-  Numerator(const Discretisation& discretisation, Eigen::VectorXd c, int poles, double tolerance);
+  Numerator(const Discretisation& discretisation, SensorRow row, int poles, double tolerance);
 
-  const Eigen::VectorXd& row() const { return c_; }
+  const SensorRow& row() const { return row_; }
 
   /// Newton's method from `w` to a root of N(w)/prod_j (w - found_j) (Maehly's deflation, which
   /// does not spoil the roots that remain). Ends after a step of 1e-9 |w|, whose square is the
@@ -51,7 +53,7 @@ class Numerator {
   Value operator()(Complex w) const;
 
   const Discretisation& model_;
-  Eigen::VectorXd c_;
+  SensorRow row_;
   Eigen::VectorXd poles_;
 };
 

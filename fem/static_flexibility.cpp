@@ -3,7 +3,8 @@
 namespace flexarm::fem {
 
 StaticFlexibility::StaticFlexibility(const Discretisation& discretisation)
-    : kinematics_(discretisation.kinematics(), PivotOrder::block_triangular),
+    : kinematics_(discretisation.kinematics().rightCols(discretisation.clamped_size()),
+                  PivotOrder::block_triangular),
       natural_stiffness_(discretisation.natural_stiffness()) {}
 
 Eigen::VectorXd StaticFlexibility::deformations(Eigen::VectorXd f) const {
@@ -14,10 +15,6 @@ Eigen::VectorXd StaticFlexibility::deformations(Eigen::VectorXd f) const {
 Eigen::VectorXd StaticFlexibility::displacements(Eigen::VectorXd d) const {
   kinematics_.solve(d);
   return d;
-}
-
-double StaticFlexibility::twice_strain_energy(const Eigen::VectorXd& d) const {
-  return d.cwiseAbs2().dot(natural_stiffness_);
 }
 
 }  // namespace flexarm::fem

@@ -7,10 +7,10 @@
 
 namespace flexarm::fem {
 
-/// K^-1 of the clamped arm in factors, K^-1 = B^-1 D^-1 B^-T: statics, then elasticity, then
-/// kinematics. B is block triangular with blocks of order two at most, so each step is a
-/// substitution, and the error does not grow with the condition of K, which is of order h^-4.
-/// An object serves one thread at a time.
+/// K^-1 of the clamped arm without weight in factors, K^-1 = B^-1 D^-1 B^-T: statics, then
+/// elasticity, then kinematics. B is block triangular with blocks of order two at most, so each
+/// step is a substitution, and the error does not grow with the condition of K, which is of order
+/// h^-4. An object serves one thread at a time.
 class StaticFlexibility {
  public:
   explicit StaticFlexibility(const Discretisation& discretisation);
@@ -19,9 +19,6 @@ class StaticFlexibility {
   Eigen::VectorXd deformations(Eigen::VectorXd f) const;
   /// Clamped coordinates u = B^-1 d, n - 1.
   Eigen::VectorXd displacements(Eigen::VectorXd d) const;
-  /// d^T D d, twice the strain energy.
-  double twice_strain_energy(const Eigen::VectorXd& d) const;
-
   const Eigen::VectorXd& natural_stiffness() const { return natural_stiffness_; }
 
  private:

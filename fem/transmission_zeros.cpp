@@ -1,7 +1,7 @@
 #include "fem/transmission_zeros.hpp"
 
+#include "fem/flexible_solve.hpp"
 #include "fem/root_audit.hpp"
-#include "fem/static_flexibility.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <Spectra/GenEigsSolver.h>
@@ -29,36 +29,45 @@ bool is_real(Complex w) {
   return std::abs(w.imag()) <= kRealPart * std::abs(w);
 }
 
-/// Inverse of the pencil at w = 0: u = response to the loads M v, turned so that c^T u = 0. Its
-/// eigenvalues are -1/w; that of the rigid direction is 0, an infinite root.
+/// Inverse of the pencil at w = shift: u = response to the loads M v, turned so that
+/// c^T u = (dc/dw)^T v. Its eigenvalues are 1/(shift - w); that of the rigid direction is 0, an
+/// infinite root.
 class InversePencil {
  public:
   using Scalar = double;
 
-  InversePencil(const Discretisation& model, const Eigen::VectorXd& c)
+  InversePencil(const Discretisation& model, const SensorRow& row)
       : model_(model),
-        flexibility_(model),
-        c_(c),
+        clamped_(model, HubSupport::clamped),
+        c_(row.constant()),
+        dc_dw_(row.times_w()),
+        turned_(model.has_weight() ? turned(model, shift()) : model.rigid_rotation()),
         // Coordinates scaled by the root of their mass make the problem independent of units.
-        scale_(model.mass().diagonal().cwiseSqrt()) {}
+        scale_(model.mass().diagonal().cwiseSqrt()) {
+    if (dc_dw_.size() > 0) c_ += shift() * dc_dw_;
+  }
 
+  double shift() const { return clamped_.shift(); }
   Eigen::Index rows() const { return model_.size(); }
   Eigen::Index cols() const { return model_.size(); }
   void perform_op(const double* x_in, double* y_out) const {
     const Eigen::VectorXd v = Eigen::VectorXd::ConstMapType(x_in, rows()).cwiseQuotient(scale_);
-    const Eigen::VectorXd f = model_.mass() * v;
-    Eigen::VectorXd u(rows());
-    u[0] = 0.0;
-    u.tail(model_.clamped_size()) =
-        flexibility_.displacements(flexibility_.deformations(f.tail(model_.clamped_size())));
-    u -= c_.dot(u) / c_.dot(model_.rigid_rotation()) * model_.rigid_rotation();
+    Eigen::VectorXd u = clamped_(model_.mass() * v).u;
+    const double wanted = dc_dw_.size() > 0 ? dc_dw_.dot(v) : 0.0;
+    u += (wanted - c_.dot(u)) / c_.dot(turned_) * turned_;
     Eigen::VectorXd::MapType(y_out, rows()) = u.cwiseProduct(scale_);
   }
 
  private:
+  static Eigen::VectorXd turned(const Discretisation& model, double w) {
+    return HubDrivenResponse<double>(model, undamped_dynamics(model, w)).to_unit_rotation().u;
+  }
+
   const Discretisation& model_;
-  StaticFlexibility flexibility_;
-  const Eigen::VectorXd& c_;
+  FlexibleSolve clamped_;
+  Eigen::VectorXd c_;
+  Eigen::VectorXd dc_dw_;
+  Eigen::VectorXd turned_;
   Eigen::VectorXd scale_;
 };
 
@@ -68,9 +77,8 @@ std::runtime_error eigensolver_failure(const char* method, const Discretisation&
                   method, count, describe(model)));
 }
 
-Eigen::VectorXcd inverse_eigenvalues(const Discretisation& model, const Eigen::VectorXd& c,
+Eigen::VectorXcd inverse_eigenvalues(const Discretisation& model, const InversePencil& inverse,
                                      int count, double tolerance) {
-  const InversePencil inverse(model, c);
   const Eigen::Index n = inverse.rows();
   if (n <= kDenseSize || 4 * count > n) {
     Eigen::MatrixXd matrix(n, n);
@@ -115,11 +123,11 @@ void add(const NewtonResult& result, PencilRoots& roots, std::vector<Complex>& d
 PencilRoots pencil_roots(const Discretisation& discretisation, const Numerator& numerator,
                          int count, double tolerance) {
   PencilRoots roots;
-  const Eigen::VectorXcd mu =
-      inverse_eigenvalues(discretisation, numerator.row(), count, tolerance);
+  const InversePencil inverse(discretisation, numerator.row());
+  const Eigen::VectorXcd mu = inverse_eigenvalues(discretisation, inverse, count, tolerance);
   std::vector<Complex> guesses;
   for (const Complex value : mu) {
-    if (value != 0.0) guesses.push_back(-1.0 / value);
+    if (value != 0.0) guesses.push_back(inverse.shift() - 1.0 / value);
   }
   // A conjugate pair is of one modulus; the member with Im > 0 comes first.
   std::ranges::sort(guesses, {}, [](Complex w) { return std::pair(std::abs(w), -w.imag()); });
@@ -138,7 +146,7 @@ PencilRoots pencil_roots(const Discretisation& discretisation, const Numerator& 
   // inside. They start near zero and towards either end of the real axis, but off it, so that they
   // can reach complex roots.
   constexpr double kOffAxis = std::numbers::pi / 20.0;
-  const int all = discretisation.clamped_size();
+  const int all = discretisation.size() + 1 - numerator.row().infinite_roots();
   for (int beyond = 0; beyond < 3 && static_cast<int>(divided_out.size()) < all;) {
     const double smallest = roots.w.empty() ? 1.0 : modulus(std::ranges::min(roots.w, {}, modulus));
     const double largest = roots.w.empty() ? 1.0 : modulus(std::ranges::max(roots.w, {}, modulus));

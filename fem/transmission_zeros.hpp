@@ -9,14 +9,16 @@
 
 namespace flexarm::fem {
 
-/// Finite roots of the Rosenbrock pencil of hub torque to the reading c^T u, as values of
+/// Finite roots of the Rosenbrock pencil of hub torque to the reading c(w)^T u, as values of
 /// w = s^2, dimensionless:
 ///
 ///     [K + w M   -e0] [u  ]
-///     [c^T        0 ] [tau] = 0.
+///     [c(w)^T     0 ] [tau] = 0.
 ///
-/// At w = 0 the pencil is solved by statics and kinematics alone: the loads bend the clamped arm,
-/// then the arm turns rigidly until c^T u = 0, which is possible since c^T r != 0.
+/// Without weight the pencil is solved at w = 0 by statics and kinematics alone: the loads bend the
+/// clamped arm, then the arm turns rigidly until c^T u = 0, which is possible since c^T r != 0.
+/// With weight it is solved at the shift of FlexibleSolve, by the response of the clamped arm to
+/// loads and that to unit hub rotation.
 struct PencilRoots {
   std::vector<std::complex<double>> w;  ///< ascending in |w|; of a conjugate pair that with Im > 0
   int newton_steps = 0;
@@ -25,7 +27,7 @@ struct PencilRoots {
 };
 
 /// The `count` roots smallest in |w| (a conjugate pair counts as two and is not parted); a few more
-/// where they were found on the way. First guesses are eigenvalues of the inverse pencil at w = 0:
+/// where they were found on the way. First guesses are eigenvalues of the inverse pencil there:
 /// of the dense matrix for a small model, else by Spectra's Arnoldi iteration to `tolerance`. The
 /// eigenproblem is far from normal (its n-th real root has a condition of about exp(n pi)), so each
 /// guess is polished by Newton's method on the numerator, with the roots already found divided

@@ -101,11 +101,11 @@ std::size_t sort_out(const std::vector<Candidate>& candidates, std::size_t compl
 }  // namespace
 
 CheckedNumerators::CheckedNumerators(const Discretisation& discretisation,
-                                     const CheckingModels& checking, const arm::LinearArm& arm,
-                                     const arm::Sensor& sensor, int poles, double tolerance)
-    : model(discretisation, sensor_row(discretisation, arm, sensor).c, poles, tolerance),
-      fine(checking.fine, sensor_row(checking.fine, arm, sensor).c, poles, tolerance),
-      finer(checking.finer, sensor_row(checking.finer, arm, sensor).c, poles, tolerance) {}
+                                     const CheckingModels& checking, const arm::Sensor& sensor,
+                                     int poles, double tolerance)
+    : model(discretisation, SensorRow(discretisation, sensor), poles, tolerance),
+      fine(checking.fine, SensorRow(checking.fine, sensor), poles, tolerance),
+      finer(checking.finer, SensorRow(checking.finer, sensor), poles, tolerance) {}
 
 JudgedZeros judge(const PencilRoots& roots, const CheckedNumerators& numerators, int count,
                   double agreement) {
@@ -132,17 +132,17 @@ JudgedZeros judge(const PencilRoots& roots, const CheckedNumerators& numerators,
 }
 
 arm::ZeroSet trusted_zeros(const Discretisation& model, const CheckingModels& checking,
-                           const arm::LinearArm& arm, const arm::Sensor& sensor, int count,
-                           const TrustOptions& options) {
+                           const arm::Sensor& sensor, int count, const TrustOptions& options) {
   // Some spurious roots may lie between the zeros, and the last root counted needs one beyond it.
   constexpr int kSpare = 4;
-  const SensorRow row = sensor_row(model, arm, sensor);
-  if (row.c.isZero(0.0)) return {};
-  const int finite = model.size() + 1 - row.infinite_roots;
+  const SensorRow row(model, sensor);
+  if (row.constant().isZero(0.0)) return {};
+  const int finite = model.size() + 1 - row.infinite_roots();
   const int wanted = std::min(count + kSpare, finite);
-  // There are up to sqrt(2) poles for a root.
-  const CheckedNumerators numerators(model, checking, arm, sensor, 2 * wanted,
-                                     options.eigen_tolerance);
+  // There are up to sqrt(2) poles for a root, and more of a sheared beam, whose real zeros follow
+  // the decay along the beam and whose poles follow its slower waves.
+  const int poles = (model.arm().shear ? 4 : 2) * wanted;
+  const CheckedNumerators numerators(model, checking, sensor, poles, options.eigen_tolerance);
   PencilRoots roots = pencil_roots(model, numerators.model, wanted, options.eigen_tolerance);
   JudgedZeros judged = judge(roots, numerators, count, options.agreement);
   const auto missing = [&] { return judged.zeros.count.expected > judged.zeros.count.found; };
@@ -150,7 +150,7 @@ arm::ZeroSet trusted_zeros(const Discretisation& model, const CheckingModels& ch
     if (!search_beside(judged.complete, numerators.model, roots)) break;
     judged = judge(roots, numerators, count, options.agreement);
   }
-  judged.zeros.infinite = row.infinite_roots;
+  judged.zeros.infinite = row.infinite_roots();
   return std::move(judged.zeros);
 }
 

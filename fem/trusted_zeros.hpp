@@ -25,8 +25,7 @@ struct CheckingModels {
 struct CheckedNumerators {
   /// Takes `poles` poles out of each, found to `tolerance`.
   CheckedNumerators(const Discretisation& discretisation, const CheckingModels& checking,
-                    const arm::LinearArm& arm, const arm::Sensor& sensor, int poles,
-                    double tolerance);
+                    const arm::Sensor& sensor, int poles, double tolerance);
 
   Numerator model;
   Numerator fine;
@@ -58,7 +57,6 @@ JudgedZeros judge(const PencilRoots& roots, const CheckedNumerators& numerators,
 /// pencil, by `judge`, dimensionless. Where the count tells of a missing root, the search goes on
 /// beside the first gap until it closes or nothing more is found.
 arm::ZeroSet trusted_zeros(const Discretisation& model, const CheckingModels& checking,
-                           const arm::LinearArm& arm, const arm::Sensor& sensor, int count,
-                           const TrustOptions& options);
+                           const arm::Sensor& sensor, int count, const TrustOptions& options);
 
 }  // namespace flexarm::fem

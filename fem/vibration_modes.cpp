@@ -1,8 +1,9 @@
 #include "fem/vibration_modes.hpp"
 
-#include "fem/payload_modes.hpp"
+#include "fem/slow_modes.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
 #include <Eigen/SparseCholesky>
 #include <Spectra/SymGEigsShiftSolver.h>
@@ -79,16 +80,72 @@ std::runtime_error eigensolver_failure(const char* method, const Discretisation&
                   support == HubSupport::clamped ? "clamped" : "free", describe(model)));
 }
 
-/// Right singular vectors of D^-1/2 B^-T P L, M = L L^T, taken back to coordinates; P takes the
-/// rigid acceleration out of the loads.
+/// M = L L^T, the free coordinates alone. A sheared element with next to no rotary inertia has
+/// motions without kinetic energy: then M is semidefinite and L one of its square roots.
+class MassRoot {
+ public:
+  MassRoot(const Discretisation& model, const FlexibleSolve& solve, int free_size)
+      : model_(model),
+        solve_(solve),
+        cholesky_(Eigen::MatrixXd(model.mass()).bottomRightCorner(free_size, free_size)) {
+    if (is_definite()) {
+      lower_ = cholesky_.matrixL();
+      return;
+    }
+    const Eigen::LDLT<Eigen::MatrixXd> pivoted(
+        Eigen::MatrixXd(model.mass()).bottomRightCorner(free_size, free_size));
+    const Eigen::MatrixXd unit = pivoted.matrixL();
+    lower_ = pivoted.transpositionsP().transpose() * unit;
+    lower_ *= pivoted.vectorD().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+  }
+
+  const Eigen::MatrixXd& lower() const { return lower_; }
+  /// What the loads in the columns bring about.
+  Eigen::MatrixXd responses(const Eigen::MatrixXd& loads) const {
+    Eigen::MatrixXd u(model_.size(), loads.cols());
+    Eigen::VectorXd load = Eigen::VectorXd::Zero(model_.size());
+    for (Eigen::Index j = 0; j < loads.cols(); ++j) {
+      load.tail(loads.rows()) = loads.col(j);
+      u.col(j) = solve_(load).u;
+    }
+    return u;
+  }
+  /// The modes u with L^T u = `v`; up to their sizes, from their responses to L v, where L cannot
+  /// be inverted.
+  Eigen::MatrixXd shapes(const Eigen::MatrixXd& v) const {
+    if (!is_definite()) return responses(lower_ * v);
+    Eigen::MatrixXd u = Eigen::MatrixXd::Zero(model_.size(), v.cols());
+    u.bottomRows(v.rows()) = cholesky_.matrixU().solve(v);
+    return u;
+  }
+
+ private:
+  bool is_definite() const { return cholesky_.info() == Eigen::Success; }
+
+  const Discretisation& model_;
+  const FlexibleSolve& solve_;
+  Eigen::LLT<Eigen::MatrixXd> cholesky_;
+  Eigen::MatrixXd lower_;
+};
+
+/// The modes from right singular vectors of D^-1/2 B^-T P L, M = L L^T; P takes the rigid
+/// acceleration out of the loads. Of a shifted problem from eigenvectors of L^T (K + shift M)^-1 L.
 Eigen::MatrixXd dense_shapes(const Discretisation& model, HubSupport support,
                              const FlexibleSolve& solve, int count) {
   const int held = support == HubSupport::clamped ? 1 : 0;
   const int free_size = model.size() - held;
-  const Eigen::MatrixXd mass =
-      Eigen::MatrixXd(model.mass()).bottomRightCorner(free_size, free_size);
-  const Eigen::LLT<Eigen::MatrixXd> cholesky(mass);
-  const Eigen::MatrixXd lower = cholesky.matrixL();
+  const MassRoot root_of_mass(model, solve, free_size);
+  const Eigen::MatrixXd& lower = root_of_mass.lower();
+  if (solve.shift() > 0.0) {
+    const Eigen::MatrixXd product =
+        lower.transpose() * root_of_mass.responses(lower).bottomRows(free_size);
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen((product + product.transpose()) /
+                                                               2.0);
+    if (eigen.info() != Eigen::Success) {
+      throw eigensolver_failure("QR iteration", model, support, count);
+    }
+    return root_of_mass.shapes(eigen.eigenvectors().rightCols(count).rowwise().reverse());
+  }
   const Eigen::VectorXd root = solve.flexibility().natural_stiffness().cwiseSqrt();
   Eigen::MatrixXd strains(model.clamped_size(), free_size);
   Eigen::VectorXd load = Eigen::VectorXd::Zero(model.size());
@@ -102,9 +159,7 @@ Eigen::MatrixXd dense_shapes(const Discretisation& model, HubSupport support,
   if (svd.info() != Eigen::Success) {
     throw eigensolver_failure("singular value decomposition", model, support, count);
   }
-  Eigen::MatrixXd shapes = Eigen::MatrixXd::Zero(model.size(), count);
-  shapes.bottomRows(free_size) = cholesky.matrixU().solve(svd.matrixV().leftCols(count));
-  return shapes;
+  return root_of_mass.shapes(svd.matrixV().leftCols(count));
 }
 
 /// Lanczos: `count` modes M-orthogonal to the `known` ones.
@@ -136,7 +191,7 @@ Eigen::MatrixXd lanczos_shapes(const Discretisation& model, HubSupport support,
 Eigen::MatrixXd iterated_shapes(const Discretisation& model, HubSupport support,
                                 const FlexibleSolve& solve, int count, double tolerance,
                                 int& iterations) {
-  const Eigen::MatrixXd known = payload_modes(model, solve);
+  const Eigen::MatrixXd known = slow_modes(model, solve);
   const int rest = count - static_cast<int>(known.cols());
   if (rest <= 0) return known.leftCols(count);
   const Eigen::MatrixXd others =
@@ -157,6 +212,7 @@ void refine(const Discretisation& model, const FlexibleSolve& solve, const Eigen
   Eigen::MatrixXd momenta(model.size(), count);
   for (Eigen::Index j = 0; j < count; ++j) {
     Eigen::VectorXd u = raw.col(j);
+    u /= std::sqrt(u.dot(model.mass() * u));
     double omega_squared = 0.0;
     double change = 0.0;
     for (int step = 0; step < kSteps; ++step) {
@@ -166,8 +222,9 @@ void refine(const Discretisation& model, const FlexibleSolve& solve, const Eigen
       next.d -= modes.deformations.leftCols(j) * below;
       const Eigen::VectorXd momentum = model.mass() * next.u;
       const double norm = std::sqrt(next.u.dot(momentum));
-      const double quotient = solve.flexibility().twice_strain_energy(next.d) / (norm * norm);
-      change = std::abs(quotient - omega_squared) / quotient;
+      const double quotient =
+          model.stiffness_products<double>(next.u, next.d)(0, 0) / (norm * norm);
+      change = std::abs(quotient - omega_squared) / std::abs(quotient + solve.shift());
       omega_squared = quotient;
       u = next.u / norm;
       modes.shapes.col(j) = u;
@@ -179,18 +236,25 @@ void refine(const Discretisation& model, const FlexibleSolve& solve, const Eigen
   }
 }
 
+/// Takes the lowest mode of a held hub from the others.
+void part_lowest(VibrationModes& modes) {
+  const Eigen::Index flexible = modes.omega_squared.size() - 1;
+  modes.lowest_omega_squared = modes.omega_squared[0];
+  modes.lowest = {modes.shapes.col(0), modes.deformations.col(0)};
+  modes.omega_squared = modes.omega_squared.tail(flexible).eval();
+  modes.shapes = modes.shapes.rightCols(flexible).eval();
+  modes.deformations = modes.deformations.rightCols(flexible).eval();
+}
+
 }  // namespace
 
 VibrationModes vibration_modes(const Discretisation& discretisation, HubSupport support, int count,
                                double tolerance) {
   VibrationModes modes;
-  if (support == HubSupport::free) {
-    modes.lowest = {discretisation.rigid_rotation() / std::sqrt(discretisation.total_inertia()),
-                    Eigen::VectorXd::Zero(discretisation.clamped_size())};
-  }
-  const int available = discretisation.clamped_size();
-  count = std::min(count, available);
   const FlexibleSolve solve(discretisation, support);
+  const bool lowest_beside = support == HubSupport::free && !solve.leaves_out_rigid_rotation();
+  const int available = discretisation.clamped_size() + (lowest_beside ? 1 : 0);
+  count = std::min(count + (lowest_beside ? 1 : 0), available);
   modes.dense = discretisation.size() <= kDenseSize || 4 * count > available;
   const Eigen::MatrixXd raw = modes.dense ? dense_shapes(discretisation, support, solve, count)
                                           : iterated_shapes(discretisation, support, solve, count,
@@ -199,6 +263,12 @@ VibrationModes vibration_modes(const Discretisation& discretisation, HubSupport 
   // A mode that the last step of refinement still moved was not one.
   constexpr double kSettled = 1e-8;
   modes.converged = modes.largest_change <= std::max(kSettled, tolerance);
+  if (lowest_beside) {
+    part_lowest(modes);
+  } else if (support == HubSupport::free) {
+    modes.lowest = {discretisation.rigid_rotation() / std::sqrt(discretisation.total_inertia()),
+                    Eigen::VectorXd::Zero(discretisation.clamped_size())};
+  }
   return modes;
 }
 

@@ -17,6 +17,13 @@ double frequency_Hz(const arm::PolePair& pole) {
   return pole.first_rad_per_s.imag() / (2.0 * std::numbers::pi);
 }
 
+/// Geometric mean with a neighbour, `otherwise` where there is none that oscillates.
+double midway_Hz(std::span<const arm::PolePair> poles, std::size_t i, std::size_t neighbour,
+                 double otherwise) {
+  if (neighbour >= poles.size() || frequency_Hz(poles[neighbour]) == 0.0) return otherwise;
+  return std::sqrt(frequency_Hz(poles[i]) * frequency_Hz(poles[neighbour]));
+}
+
 }  // namespace
 
 std::vector<Resonance> resonances(const AnyFormulation& formulation, const LinearChain& chain,
@@ -34,10 +41,9 @@ std::vector<Resonance> resonances(const AnyFormulation& formulation, const Linea
     const double centre_Hz = frequency_Hz(flexible_poles[i]);
     const double half_width_Hz = std::abs(pole.real()) / (2.0 * std::numbers::pi);
     if (half_width_Hz == 0.0 || !(centre_Hz > from_Hz && centre_Hz < to_Hz)) continue;
-    const double lowest = i > 0 ? std::sqrt(centre_Hz * frequency_Hz(flexible_poles[i - 1])) : 0.0;
-    const double highest = i + 1 < flexible_poles.size()
-                               ? std::sqrt(centre_Hz * frequency_Hz(flexible_poles[i + 1]))
-                               : std::numeric_limits<double>::infinity();
+    const double lowest = midway_Hz(flexible_poles, i, i - 1, 0.0);  // i - 1 wraps for the first
+    const double highest =
+        midway_Hz(flexible_poles, i, i + 1, std::numeric_limits<double>::infinity());
     Resonance resonance;
     resonance.order = static_cast<int>(i) + 1;
     resonance.pole_rad_per_s = pole;

@@ -72,14 +72,14 @@ FrequencyResponse response_of(const StateSpace& system, const std::vector<double
 }  // namespace
 
 int roots_needed(const arm::Arm& arm, const ResponseOptions& options) {
-  int roots = options.modes + 1;
+  constexpr int kSofter = 3;  // poles that a soft root, a crack and shear bring down at most
+  constexpr double kMost = 1e9;
   double highest_Hz = options.to_Hz.value_or(0.0);
   if (!options.frequency_Hz.empty()) highest_Hz = options.frequency_Hz.back();
   const double lambda =
       std::sqrt(std::max(0.0, kTwoPi * highest_Hz) / arm::omega_scale_rad_per_s(arm));
-  constexpr double kMost = 1e9;
-  return std::max(roots,
-                  static_cast<int>(std::min(std::ceil(lambda / std::numbers::pi), kMost)) + 1);
+  const double below = std::min(std::ceil(lambda / std::numbers::pi), kMost);
+  return std::max(options.modes + 1, static_cast<int>(below) + kSofter);
 }
 
 ResponseStudy study_response(const arm::Arm& arm, const AnyFormulation& formulation,

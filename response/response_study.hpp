@@ -44,8 +44,8 @@ struct ResponseStudy {
 /// Upper bound of the poles and zeros at which a grid is refined.
 inline constexpr int kMostFeatures = 200;
 
-/// How many roots a formulation has to be fine enough for: the modes, one more, and those up to
-/// `to_Hz`, by the asymptotic lambda_n = (n + 1/4) pi of the plain arm.
+/// How many roots a formulation has to be fine enough for: the modes and one more, and those up to
+/// the highest frequency by lambda_n ~ (n + 1/4) pi of the plain arm, and a few.
 int roots_needed(const arm::Arm& arm, const ResponseOptions& options);
 
 /// `formulation` is of the linear part of `arm`, whose other effects are looked up here: the linear

@@ -17,6 +17,7 @@
 #include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
+#include <vector>
 
 namespace flexarm::arm {
 namespace {
@@ -172,6 +173,57 @@ TEST_F(AtomicFile, AFileThatCannotBeReadSaysWhy) {
     EXPECT_THAT(error_of([&] { read_text_file(folder_ / "rig.toml", kAnySize); }),
                 HasSubstr("Permission denied"));
   }
+}
+
+using AtomicFolder = AtomicFile;
+
+std::string text_of(const fs::path& path) {
+  return read_text_file(path, kAnySize);
+}
+
+const std::vector<NamedContent> kTwoFiles = {{"a.txt", "first"}, {"b.txt", "second"}};
+
+TEST_F(AtomicFolder, ArrivesWithAllItsFilesAndAlone) {
+  for (const fs::path name : {"made", "by/the/way", "slash/"}) {
+    write_folder_atomically(folder_ / name, kTwoFiles, IfExists::refuse);
+    EXPECT_EQ(text_of(folder_ / name / "a.txt"), "first");
+    EXPECT_EQ(text_of(folder_ / name / "b.txt"), "second");
+  }
+  EXPECT_EQ(files_in_folder(), 3);
+}
+
+TEST_F(AtomicFolder, AnEmptyFolderIsFilledAndAFullOneRefused) {
+  make_folder(folder_ / "empty");
+  write_folder_atomically(folder_ / "empty", kTwoFiles, IfExists::refuse);
+  EXPECT_EQ(text_of(folder_ / "empty" / "b.txt"), "second");
+  const std::vector<NamedContent> other = {{"c.txt", "third"}};
+  EXPECT_EQ(error_of([&] { write_folder_atomically(folder_ / "empty", other, IfExists::refuse); }),
+            (folder_ / "empty").string() + ": cannot be written: is a folder with files in it");
+  EXPECT_EQ(text_of(folder_ / "empty" / "a.txt"), "first");
+}
+
+TEST_F(AtomicFolder, IsReplacedAsAWholeWhenAsked) {
+  write_folder_atomically(folder_ / "x", kTwoFiles, IfExists::refuse);
+  const std::vector<NamedContent> other = {{"c.txt", "third"}};
+  write_folder_atomically(folder_ / "x", other, IfExists::replace);
+  EXPECT_EQ(text_of(folder_ / "x" / "c.txt"), "third");
+  EXPECT_FALSE(fs::exists(folder_ / "x" / "a.txt"));
+  EXPECT_EQ(files_in_folder(), 1);
+}
+
+TEST_F(AtomicFolder, WhatCannotBeWrittenLeavesTheOldOneAndNothingElse) {
+  write_folder_atomically(folder_ / "x", kTwoFiles, IfExists::refuse);
+  const std::vector<NamedContent> bad = {{"c.txt", "third"}, {"no/such/folder", ""}};
+  EXPECT_EQ(error_of([&] { write_folder_atomically(folder_ / "x", bad, IfExists::replace); }),
+            (folder_ / "x").string() + ": cannot be written: No such file or directory");
+  EXPECT_EQ(text_of(folder_ / "x" / "a.txt"), "first");
+  EXPECT_EQ(files_in_folder(), 1);
+  write_atomically(folder_ / "file", "x");
+  for (const IfExists if_exists : {IfExists::refuse, IfExists::replace}) {
+    EXPECT_EQ(error_of([&] { write_folder_atomically(folder_ / "file", kTwoFiles, if_exists); }),
+              (folder_ / "file").string() + ": cannot be written: is no folder");
+  }
+  EXPECT_EQ(text_of(folder_ / "file"), "x");
 }
 
 }  // namespace

@@ -204,9 +204,8 @@ struct MissingRoot : ::testing::TestWithParam<std::string> {
   }
   const Discretisation model = of_degree(kDegree);
   const CheckingModels checking{of_degree(kDegree + 2), of_degree(kDegree + 4)};
-  const CheckedNumerators numerators{
-      model,  checking,       arm::linear_arm(loaded_arm()), arm::parse_sensor(GetParam()),
-      kPoles, kEigenTolerance};
+  const CheckedNumerators numerators{model, checking, arm::parse_sensor(GetParam()), kPoles,
+                                     kEigenTolerance};
   const PencilRoots whole = pencil_roots(model, numerators.model, kRoots, kEigenTolerance);
 };
 
@@ -252,11 +251,9 @@ INSTANTIATE_TEST_SUITE_P(Sensors, MissingRoot,
 TEST(PencilRoots, AreThoseOfTheDensePencilOfASmallModel) {
   // Two cubic elements: n = 5. The finite roots w are where det [K + wM, -e0; c^T, 0] vanishes.
   const Discretisation model(arm::linear_arm(loaded_arm()), {.elements = 2}, 3);
-  const SensorRow row =
-      sensor_row(model, arm::linear_arm(loaded_arm()), arm::parse_sensor("tip_displacement"));
+  const SensorRow row(model, arm::parse_sensor("tip_displacement"));
   const int n = model.size();
-  const PencilRoots roots =
-      pencil_roots(model, Numerator(model, row.c, n - 1, 1e-12), n - 1, 1e-12);
+  const PencilRoots roots = pencil_roots(model, Numerator(model, row, n - 1, 1e-12), n - 1, 1e-12);
   ASSERT_EQ(roots.w.size(), static_cast<std::size_t>(n - 1));
   const Eigen::MatrixXd stiffness(model.stiffness());
   const Eigen::MatrixXd mass(model.mass());
@@ -264,7 +261,7 @@ TEST(PencilRoots, AreThoseOfTheDensePencilOfASmallModel) {
     Eigen::MatrixXcd pencil = Eigen::MatrixXcd::Zero(n + 1, n + 1);
     pencil.topLeftCorner(n, n) = stiffness + w * mass;
     pencil(0, n) = -1.0;
-    pencil.row(n).head(n) = row.c.cast<Complex>().transpose();
+    pencil.row(n).head(n) = row.constant().cast<Complex>().transpose();
     const Eigen::VectorXd singular = pencil.jacobiSvd().singularValues();
     EXPECT_LE(singular[n], kRounding * singular[0]) << "w = " << w;
   }

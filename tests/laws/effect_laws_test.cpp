@@ -1,3 +1,4 @@
+#include "arm/input_error.hpp"
 #include "arm/linear_arm.hpp"
 #include "laws/effect_arms.hpp"
 #include "laws/subjects.hpp"

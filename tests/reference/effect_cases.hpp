@@ -32,7 +32,8 @@ struct EffectCase {
   std::vector<double> imaginary_tip_zero_rad_per_s;  // those below lambda = 20, 4 at most
   std::vector<BySensor<double>> mode_values;         // 4 modes of modal mass I_T
   std::vector<EffectResponse> responses;
-  std::vector<std::complex<double>> damped_pole_rad_per_s;  // of 4 modes; empty without damping
+  std::vector<std::complex<double>>
+      damped_pole_rad_per_s;  // of 4 modes, fewer near critical damping; none without damping
 };
 
 /// Every case of the file, read once. Throws std::exception if the file is not as README.md says.

@@ -24,6 +24,7 @@ from mpmath import mp, mpc, mpf
 
 mp.dps = 70
 SHOWN = 25
+DAMPING_STEPS = 60
 
 BEAM = dict(length="0.96", width="0.019008", thickness="0.0032004", density="2710",
             youngs_modulus="7.11e10", shear_modulus="2.67e10")
@@ -278,12 +279,17 @@ def reference(c, poles=6, tip_zeros=4):
     damped = []
     if arm.kv or arm.ca or arm.c:
         for w in omegas[:4]:
-            # Continuation in damping: ten steps, each polished.
+            if arm.kv * w / 2 > mpf("0.9"):  # near or beyond critical: pairs meet and part
+                break
+            # Continuation in damping, each step from the line through the last two.
             kept = arm.kv, arm.ca, arm.c
-            s = mpc(0, w)
-            for k in range(1, 11):
-                arm.kv, arm.ca, arm.c = (value * k / 10 for value in kept)
-                s = mp.findroot(lambda z: arm.values(z, True, ())[0], (s, s * (1 + mpc(0, "1e-6"))),
+            before, s = mpc(0, w), mpc(0, w)
+            for k in range(1, DAMPING_STEPS + 1):
+                arm.kv, arm.ca, arm.c = (value * k / DAMPING_STEPS for value in kept)
+                guess = 2 * s - before
+                before = s
+                s = mp.findroot(lambda z: arm.values(z, True, ())[0],
+                                (guess, guess * (1 + mpc(0, "1e-6"))),
                                 solver="secant", tol=mpf(10)**-90, maxsteps=60, verify=False)
             damped.append(digits(s))
     result["damped_pole_rad_per_s"] = damped

@@ -1,0 +1,238 @@
+#include "app/run_choice.hpp"
+
+#include "app/command.hpp"
+#include "arm/input_error.hpp"
+#include "arm/nearest_name.hpp"
+#include "arm/range.hpp"
+#include "measured/time_record.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <string_view>
+#include <system_error>
+
+namespace flexarm::app {
+
+namespace {
+
+using arm::InputError;
+
+constexpr std::string_view kIdCharacters =
+    "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_.";
+
+/// A day at a microsecond would be 86 times this.
+constexpr double kMostSamples = 1e9;
+
+/// An excitation as it was typed, and what else a run may be told.
+struct TypedRun {
+  response::Excitation excitation;
+  std::string id;
+  std::optional<double> payload_kg;
+  std::optional<measured::Purpose> purpose;
+};
+
+std::string require_id(const std::string& id) {
+  const bool is_hidden = id.starts_with('.');
+  if (id.empty() || is_hidden || id.find_first_not_of(kIdCharacters) != std::string::npos) {
+    throw InputError(fmt::format("id = {}: must be letters, digits, - _ and ., as it names a file",
+                                 arm::shown(id)));
+  }
+  return id;
+}
+
+double read_payload(std::string_view value) {
+  double mass_kg = 0.0;
+  const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), mass_kg);
+  if (error != std::errc() || end != value.data() + value.size() ||
+      !arm::kNotNegative.contains(mass_kg)) {
+    throw InputError(fmt::format("payload = {} kg: must be {}", arm::shown(value),
+                                 to_string(arm::kNotNegative)));
+  }
+  return mass_kg;
+}
+
+measured::Purpose read_purpose(std::string_view value) {
+  for (const auto purpose : {measured::Purpose::estimation, measured::Purpose::validation}) {
+    if (value == to_string(purpose)) return purpose;
+  }
+  throw InputError(fmt::format(
+      "purpose = {}: must be estimation or validation{}", arm::shown(value),
+      arm::did_you_mean(value, std::array<std::string, 2>{"estimation", "validation"})));
+}
+
+TypedRun read_run(const std::string& text, std::uint64_t seed) {
+  const auto colon = text.find(':');
+  TypedRun run{response::excitation_of(text.substr(0, colon)), "", {}, {}};
+  bool has_seed = false;
+  std::string_view rest =
+      colon == std::string::npos ? std::string_view() : std::string_view(text).substr(colon + 1);
+  while (!rest.empty()) {
+    const auto comma = std::min(rest.find(','), rest.size());
+    const std::string_view part = rest.substr(0, comma);
+    rest.remove_prefix(std::min(comma + 1, rest.size()));
+    const auto equals = part.find('=');
+    if (equals == std::string_view::npos) {
+      throw InputError(fmt::format("{}: must be KEY=VALUE, separated by commas", arm::shown(part)));
+    }
+    const std::string_view key = part.substr(0, equals);
+    const std::string_view value = part.substr(equals + 1);
+    if (key == "id") {
+      run.id = require_id(std::string(value));
+    } else if (key == "payload") {
+      run.payload_kg = read_payload(value);
+    } else if (key == "purpose") {
+      run.purpose = read_purpose(value);
+    } else {
+      response::set_key(run.excitation, key, value, {"id", "payload", "purpose"});
+      has_seed = has_seed || key == "seed";
+    }
+  }
+  const auto keys = response::keys_of(run.excitation);
+  if (!has_seed && std::ranges::count(keys, "seed", &response::ExcitationKey::name) > 0) {
+    response::set_key(run.excitation, "seed", fmt::format("{}", seed));
+  }
+  return run;
+}
+
+response::SampleGrid grid_of(double duration_s, double period_s) {
+  arm::require_in_range("--duration", duration_s, "s", arm::kPositive);
+  arm::require_in_range("--period", period_s, "s", arm::kPositive);
+  const double samples = std::round(duration_s / period_s);
+  if (samples < 2.0 || samples > kMostSamples) {
+    throw InputError(
+        fmt::format("--duration = {} s at --period = {} s: {:.0f} samples; must be from 2 to {:g}",
+                    duration_s, period_s, samples, kMostSamples));
+  }
+  return {static_cast<std::size_t>(samples), period_s};
+}
+
+/// k period; where a whole number of periods make a second, as k over that number, which is the
+/// nearest double to the decimal.
+std::vector<double> times_of(const response::SampleGrid& grid) {
+  constexpr double kRounding = 1e-12;
+  const double rate_Hz = std::round(1.0 / grid.period_s);
+  const bool is_whole = rate_Hz > 0.0 && std::abs(rate_Hz * grid.period_s - 1.0) < kRounding;
+  std::vector<double> times(grid.samples);
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    const auto count = static_cast<double>(k);
+    times[k] = is_whole ? count / rate_Hz : count * grid.period_s;
+  }
+  return times;
+}
+
+std::string id_of_file(const std::string& file) {
+  std::string id = std::filesystem::path(file).stem().string();
+  for (auto& c : id) {
+    if (kIdCharacters.find(c) == std::string_view::npos) c = '-';
+  }
+  return id.empty() || id.front() == '.' ? "torque" + id : id;
+}
+
+PlannedRun run_of_file(const std::string& file) {
+  measured::TimeRecord record = measured::read_time_record(file);
+  return {id_of_file(file),
+          std::filesystem::path(file).filename().string(),
+          {},
+          std::move(record.time_s),
+          {std::move(record.torque_N_m), {}, {}},
+          {},
+          {}};
+}
+
+/// "random", "random-2", ...: an id that is given twice is counted.
+void count_equal_ids(std::vector<PlannedRun>& runs) {
+  std::map<std::string, int> seen;
+  for (auto& run : runs) {
+    const int count = ++seen[run.id];
+    if (count > 1) run.id += fmt::format("-{}", count);
+  }
+  for (const auto& run : runs) {
+    if (std::ranges::count(runs, run.id, &PlannedRun::id) > 1) {
+      throw InputError(fmt::format("id = {}: given to two runs", run.id));
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<PlannedRun> RunChoice::runs(const arm::Arm& arm,
+                                        const std::vector<double>& payload_masses_kg) const {
+  std::vector<std::string> typed = excitations;
+  if (typed.empty() && torque_files.empty()) typed = {"bang-bang"};
+  if (typed.empty() && (duration_s || period_s)) {
+    throw InputError(fmt::format("{}: a torque file has its own; it is for --excitation",
+                                 duration_s ? "--duration" : "--period"));
+  }
+  std::vector<PlannedRun> plain;
+  for (std::size_t i = 0; i < typed.size(); ++i) {
+    TypedRun run;
+    try {
+      run = read_run(typed[i], seed + i);
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("--excitation {}: {}", arm::shown(typed[i]), error.what()));
+    }
+    const auto grid =
+        grid_of(duration_s.value_or(kDefaultDuration_s), period_s.value_or(kDefaultPeriod_s));
+    const std::string kind(response::name(run.excitation));
+    PlannedRun planned{run.id.empty() ? kind : run.id,
+                       kind,
+                       response::keys_of(run.excitation),
+                       times_of(grid),
+                       response::sample(run.excitation, grid),
+                       {},
+                       run.purpose};
+    if (run.payload_kg) {
+      if (!payload_masses_kg.empty()) {
+        throw InputError(
+            "--payload-mass: is for every run; give it or the key payload of --excitation");
+      }
+      planned.payload = arm::Payload{*run.payload_kg, arm.payload.inertia_kg_m2};
+    }
+    plain.push_back(std::move(planned));
+  }
+  for (const auto& file : torque_files) plain.push_back(run_of_file(file));
+
+  std::vector<PlannedRun> runs;
+  for (const double mass_kg : payload_masses_kg) {
+    for (const auto& run : plain) {
+      runs.push_back(run);
+      runs.back().payload = arm::Payload{mass_kg, arm.payload.inertia_kg_m2};
+      if (payload_masses_kg.size() > 1) runs.back().id += fmt::format("-{}kg", mass_kg);
+    }
+  }
+  if (payload_masses_kg.empty()) runs = std::move(plain);
+  count_equal_ids(runs);
+  return runs;
+}
+
+void add_run_choice(CLI::App& parser, RunChoice& choice) {
+  parser
+      .add_option("--excitation", choice.excitations,
+                  "KIND:KEY=VALUE,...; KIND is bang-bang (keys amplitude, pulse, start, pairs), "
+                  "step (amplitude, start), random (rms, from, to, seed), multisine (rms, from, "
+                  "to, period, detection, seed) or chirp (amplitude, from, to, sweep), in N m, s "
+                  "and Hz; each also id, payload [kg], purpose. Given again: a further run")
+      ->check(not_empty())
+      ->allow_extra_args(false);
+  parser
+      .add_option("--torque", choice.torque_files,
+                  "CSV file of a torque over time, or of a time record. Given again: a further run")
+      ->check(not_empty())
+      ->allow_extra_args(false);
+  parser.add_option("--duration", choice.duration_s,
+                    fmt::format("Of each excitation [s]; {} unless given", kDefaultDuration_s));
+  parser.add_option("--period", choice.period_s,
+                    fmt::format("Sampling period [s]; {} unless given", kDefaultPeriod_s));
+  parser
+      .add_option("--seed", choice.seed,
+                  "Of noise and, counted up, of the excitations without a seed of their own")
+      ->capture_default_str();
+}
+
+}  // namespace flexarm::app

@@ -1,0 +1,45 @@
+#pragma once
+
+#include "app/arm_choice.hpp"
+#include "measured/measurement.hpp"
+#include "response/excitation_keys.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace flexarm::app {
+
+/// A run that was asked for, with its torque.
+struct PlannedRun {
+  std::string id;
+  std::string excitation;  ///< its name, or that of the torque's file
+  std::vector<response::ExcitationKey> keys;
+  std::vector<double> time_s;
+  response::SampledTorque torque;
+  std::optional<arm::Payload> payload;  ///< in place of the arm's own
+  std::optional<measured::Purpose> purpose;
+};
+
+/// The runs that a command simulates: each excitation and each torque file with each payload.
+struct RunChoice {
+  std::vector<std::string> excitations;  ///< KIND:KEY=VALUE,...; none and no file: bang-bang
+  std::vector<std::string> torque_files;
+  std::optional<double> duration_s;
+  std::optional<double> period_s;
+  std::uint64_t seed = 1;
+
+  /// Throws InputError for what cannot be read, does not fit, or goes by one id.
+  std::vector<PlannedRun> runs(const arm::Arm& arm,
+                               const std::vector<double>& payload_masses_kg) const;
+};
+
+inline constexpr double kDefaultDuration_s = 4.0;
+inline constexpr double kDefaultPeriod_s = 0.0005;
+
+/// Adds `--excitation`, `--torque`, `--duration`, `--period` and `--seed` to a command.
+void add_run_choice(CLI::App& parser, RunChoice& choice);
+
+}  // namespace flexarm::app

@@ -1,0 +1,86 @@
+#include "app/sensor_choice.hpp"
+
+#include "app/command.hpp"
+#include "arm/input_error.hpp"
+#include "arm/range.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <string_view>
+#include <system_error>
+
+namespace flexarm::app {
+
+namespace {
+
+using arm::InputError;
+
+/// Reads SENSOR=NUMBER and sets the number of that sensor.
+void set_number(const char* option, const std::string& text, std::vector<ChosenSensor>& sensors,
+                double response::SensorImperfections::*member) {
+  const auto equals = text.find('=');
+  if (equals == std::string::npos) {
+    throw InputError(fmt::format("{} {}: must be SENSOR=NUMBER, as in hub_angle=0.001", option,
+                                 arm::shown(text)));
+  }
+  const arm::Sensor sensor = arm::parse_sensor(std::string_view(text).substr(0, equals));
+  const auto place = std::ranges::find(sensors, sensor, &ChosenSensor::sensor);
+  if (place == sensors.end()) {
+    throw InputError(fmt::format("{} {}: {} is not among --sensor", option, arm::shown(text),
+                                 arm::to_string(sensor)));
+  }
+  const std::string_view digits = std::string_view(text).substr(equals + 1);
+  double number = 0.0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+  if (error != std::errc() || end != digits.data() + digits.size() ||
+      !arm::kNotNegative.contains(number)) {
+    throw InputError(fmt::format("{} {}: must be {} [{}]", option, arm::shown(text),
+                                 to_string(arm::kNotNegative), arm::unit(sensor)));
+  }
+  place->imperfections.*member = number;
+}
+
+}  // namespace
+
+std::vector<ChosenSensor> SensorChoice::sensors(const arm::Arm& arm) const {
+  arm::require_in_range("--noise", relative_noise, "", arm::kNotNegative);
+  std::vector<ChosenSensor> sensors;
+  for (const auto& name : names) {
+    const arm::Sensor sensor = arm::parse_sensor(name);
+    arm::require_valid(sensor, arm);
+    if (std::ranges::count(sensors, sensor, &ChosenSensor::sensor) > 0) {
+      throw InputError(fmt::format("--sensor: {} is given twice", arm::to_string(sensor)));
+    }
+    sensors.push_back({sensor, {.relative_noise = relative_noise}});
+  }
+  for (const auto& text : noises) {
+    set_number("--noise-of", text, sensors, &response::SensorImperfections::noise);
+  }
+  for (const auto& text : quantisations) {
+    set_number("--quantisation", text, sensors, &response::SensorImperfections::quantisation);
+  }
+  return sensors;
+}
+
+void add_sensor_choice(CLI::App& parser, SensorChoice& choice) {
+  parser.add_option("--sensor", choice.names, "Sensors, separated by commas")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->capture_default_str();
+  parser.add_option("--noise", choice.relative_noise,
+                    "White noise on every sensor: its standard deviation over the signal's own");
+  parser
+      .add_option("--noise-of", choice.noises,
+                  "SENSOR=STD,...: further noise of that standard deviation, in the sensor's unit")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  parser
+      .add_option("--quantisation", choice.quantisations,
+                  "SENSOR=STEP,...: readings in whole steps, in the sensor's unit")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+}
+
+}  // namespace flexarm::app

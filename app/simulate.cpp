@@ -1,0 +1,246 @@
+#include "app/arm_choice.hpp"
+#include "app/command.hpp"
+#include "app/simulated_experiment.hpp"
+#include "app/standard_output.hpp"
+#include "arm/input_error.hpp"
+#include "arm/nearest_name.hpp"
+#include "report/arm_json.hpp"
+#include "report/gnuplot.hpp"
+#include "report/json_document.hpp"
+#include "report/text_table.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <system_error>
+#include <vector>
+
+namespace flexarm::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Arguments {
+  ArmChoice arm;
+  RunChoice runs;
+  SensorChoice sensors;
+  ExperimentOptions options;
+  std::string hold = "zero";
+  std::vector<std::string> hidden_effects;
+  std::string name;
+  std::string folder;
+  bool force = false;
+  std::string json_file;
+};
+
+response::TorqueHold read_hold(const std::string& word) {
+  if (word == "zero") return response::TorqueHold::zero;
+  if (word == "first") return response::TorqueHold::first;
+  throw arm::InputError(
+      fmt::format("--hold {}: must be zero (constant from one sample to the next) or first (linear "
+                  "between samples)",
+                  arm::shown(word)));
+}
+
+/// The arm of the runs, without the payloads that --payload-mass gives them.
+arm::Arm base_arm(const ArmChoice& choice) {
+  ArmChoice base = choice;
+  base.payload_masses_kg.clear();
+  return base.arms().front();
+}
+
+/// The arm with some of its effects, or all, left out.
+arm::Arm without_effects(const arm::Arm& arm, const std::vector<std::string>& hidden) {
+  arm::Arm seen = arm;
+  std::vector<std::string> names;
+  for (const auto& [name, effect] : arm.effects) names.push_back(name);
+  names.emplace_back("all");
+  for (const auto& name : hidden) {
+    if (name == "all") {
+      seen.effects.clear();
+    } else if (seen.effects.erase(name) == 0) {
+      throw arm::InputError(
+          fmt::format("--hide-effects {}: the arm has no such effect{}; it has {}",
+                      arm::shown(name), arm::did_you_mean(name, names),
+                      arm.effects.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
+    }
+  }
+  return seen;
+}
+
+/// A folder that --force may replace was written by this command: it holds a measurement, and
+/// nothing that such a folder does not.
+void require_replaceable(const fs::path& folder) {
+  constexpr std::array<const char*, 4> kEndings = {".toml", ".csv", ".svg", ".json"};
+  std::error_code error;
+  if (!fs::is_directory(folder, error) || fs::is_empty(folder, error)) return;
+  if (!fs::exists(folder / "measurement.toml", error)) {
+    throw arm::InputError(fmt::format("{}: holds no measurement.toml, so --force leaves it alone",
+                                      arm::shown(folder.string())));
+  }
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const bool is_ours = std::ranges::count(kEndings, entry.path().extension().string()) > 0;
+    if (entry.is_regular_file() && is_ours) continue;
+    throw arm::InputError(
+        fmt::format("{}: is not of a measurement, so --force leaves the folder alone",
+                    arm::shown(entry.path().string())));
+  }
+}
+
+/// Throws for outputs that could not be written: before the work, not after it.
+void prepare(const Arguments& arguments) {
+  const fs::path json = arguments.json_file;
+  const bool in_folder = !arguments.folder.empty() && json.has_parent_path() &&
+                         fs::path(arguments.folder) / json.filename() == json;
+  if (!json.empty() && !in_folder) arm::require_writable(json);
+  if (arguments.folder.empty()) return;
+  report::run_gnuplot("");  // throws where there is none
+  if (arguments.force) {
+    require_replaceable(arguments.folder);
+    return;
+  }
+  try {
+    arm::require_new_folder(arguments.folder);
+  } catch (const arm::InputError& error) {
+    throw arm::InputError(fmt::format("{}; --force replaces a measurement", error.what()));
+  }
+}
+
+/// What the sampling does not show of the modes kept, once for each kind of run.
+std::string sampling_notes(const SimulatedExperiment& experiment) {
+  std::string notes;
+  for (const auto& run : experiment.runs) {
+    const auto& summary = run.simulation.summary;
+    if (summary.sampling == response::Sampling::fine) continue;
+    const double period_s = measured::sampling_period_s(run.record);
+    notes += report::to_paragraph(fmt::format(
+        "note: {}: the highest mode kept, {:.4g} Hz, has {:.3g} samples a period: {}; the sampled "
+        "values themselves are exact. {:.2g} s between samples would show it, or fewer modes.",
+        run.id, 1.0 / (summary.samples_per_period * period_s), summary.samples_per_period,
+        summary.sampling == response::Sampling::aliased
+            ? "between samples it is lost, and it shows at a frequency that is not its own"
+            : "its peaks may lie 5 % or more between samples",
+        period_s * summary.samples_per_period / response::kFineSamplesPerPeriod));
+  }
+  return notes;
+}
+
+void print_results(const Arguments& arguments, const SimulatedExperiment& experiment,
+                   bool has_dry_friction) {
+  const auto& runs = experiment.runs;
+  print(fmt::format("by {}{}{}, {} flexible mode{}{}; torque {}, from rest\n\n", experiment.model,
+                    experiment.settings.empty() ? "" : ", ", experiment.settings, experiment.modes,
+                    experiment.modes == 1 ? "" : "s",
+                    arguments.options.static_correction ? " and a residual mode" : "",
+                    arguments.options.hold == response::TorqueHold::zero
+                        ? "constant from one sample to the next"
+                        : "linear between samples"));
+  print(report::to_text(report::torque_table(runs)) + "\n");
+  print(report::to_text(report::reading_table(runs), {.key_columns = 2}) + "\n");
+  print(report::to_text(report::energy_table(runs)) + "\n");
+  if (has_dry_friction) print(report::to_text(report::hub_motion_table(runs)) + "\n");
+  const std::string notes = sampling_notes(experiment);
+  if (!notes.empty()) print(notes + "\n");
+}
+
+std::string json_text(const Arguments& arguments, const arm::Arm& arm,
+                      const SimulatedExperiment& experiment) {
+  return report::json_document("flexarm.simulate/1",
+                               {{"arm", report::arm_json(arm)},
+                                {"effects", report::effects_json(arm.effects)},
+                                {"model", experiment.model},
+                                {"settings", experiment.settings},
+                                {"modes", experiment.modes},
+                                {"static_correction", arguments.options.static_correction},
+                                {"torque_hold", arguments.hold},
+                                {"runs", report::runs_json(experiment.runs)}});
+}
+
+int run(Arguments arguments) {
+  auto& options = arguments.options;
+  if (options.modes < 1) throw arm::out_of_range("--modes", options.modes, "", "1 or more");
+  if (options.substeps < 0) {
+    throw arm::out_of_range("--substeps", options.substeps, "", "0 or more");
+  }
+  options.hold = read_hold(arguments.hold);
+  options.noise_seed = arguments.runs.seed;
+  const arm::Arm arm = base_arm(arguments.arm);
+  const arm::Arm written = without_effects(arm, arguments.hidden_effects);
+  const auto sensors = arguments.sensors.sensors(arm);
+  const auto plan = arguments.runs.runs(arm, arguments.arm.payload_masses_kg);
+  prepare(arguments);
+
+  print(describe(arm));
+  const auto experiment = simulate_experiment(arm, plan, sensors, options);
+  print_results(arguments, experiment, !response::take_apart(arm).friction.is_zero());
+
+  if (!arguments.folder.empty()) {
+    const std::string name = arguments.name.empty() ? arm.name + ", simulated" : arguments.name;
+    arm::write_folder_atomically(arguments.folder,
+                                 measurement_folder(name, written, plan, experiment, options.hold),
+                                 arguments.force ? arm::IfExists::replace : arm::IfExists::refuse);
+  }
+  if (!arguments.json_file.empty()) {
+    arm::write_atomically(arguments.json_file, json_text(arguments, arm, experiment));
+  }
+  if (arguments.folder.empty()) {
+    print(fmt::format("next: keep it as a measurement with  flexarm simulate{} --out simulated\n",
+                      arguments.arm.file.empty() ? "" : " " + arguments.arm.file));
+  } else {
+    print(
+        fmt::format("wrote {0}: measurement.toml, arm.toml, and a CSV file and a figure a run\n"
+                    "next: see the same arm over frequency with  flexarm response {0}/arm.toml\n",
+                    arguments.folder));
+  }
+  return kSuccess;
+}
+
+}  // namespace
+
+Command add_simulate(CLI::App& program) {
+  const auto arguments = std::make_shared<Arguments>();
+  auto& options = arguments->options;
+  CLI::App* parser =
+      program.add_subcommand("simulate", "Time responses of an arm; writes them as a measurement");
+  add_arm_choice(*parser, arguments->arm);
+  add_run_choice(*parser, arguments->runs);
+  parser
+      ->add_option("--hold", arguments->hold,
+                   "Torque between samples: zero, constant, or first, linear")
+      ->capture_default_str();
+  add_formulation_choice(*parser, options.formulation);
+  parser->add_option("--modes", options.modes, "How many flexible modes")->capture_default_str();
+  parser->add_flag("--static-correction", options.static_correction,
+                   "A residual mode for the modes left out");
+  add_sensor_choice(*parser, arguments->sensors);
+  parser->add_option("--substeps", options.substeps,
+                     "Inner steps a sample, at least; chosen unless given");
+  parser->add_flag("--check-step", options.check_step,
+                   "Report each sensor's error against a tenfold smaller step");
+  parser
+      ->add_option("--hide-effects", arguments->hidden_effects,
+                   "Effects to leave out of the arm file written, separated by commas, or all: "
+                   "for a measurement whose causes are to be found")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  parser->add_option("--name", arguments->name, "Name of the measurement");
+  parser
+      ->add_option("--out", arguments->folder,
+                   "Folder for measurement.toml, arm.toml, and a CSV file and a figure a run")
+      ->check(not_empty());
+  parser->add_flag("--force", arguments->force, "Replace the measurement that is in the folder");
+  parser->add_option("--json", arguments->json_file, "File for everything in full precision")
+      ->check(not_empty());
+  parser->footer(
+      example("flexarm simulate rig.toml --excitation bang-bang:amplitude=0.2,pulse=0.4 "
+              "--excitation multisine:rms=0.03,to=60 --noise 0.005 --out measured"));
+  return {parser, [arguments] { return run(*arguments); }};
+}
+
+}  // namespace flexarm::app

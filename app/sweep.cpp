@@ -1,0 +1,300 @@
+#include "app/arm_choice.hpp"
+#include "app/command.hpp"
+#include "app/interruption.hpp"
+#include "app/output_choice.hpp"
+#include "app/standard_output.hpp"
+#include "app/version.hpp"
+#include "arm/atomic_file.hpp"
+#include "arm/input_error.hpp"
+#include "arm/nearest_name.hpp"
+#include "compare/paper_sweeps.hpp"
+#include "compare/sweep_result.hpp"
+#include "report/csv.hpp"
+#include "report/progress.hpp"
+#include "report/svg.hpp"
+#include "report/sweep_figures.hpp"
+#include "report/sweep_json.hpp"
+#include "report/sweep_tables.hpp"
+#include "report/text_table.hpp"
+#include "response/arm_parts.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace flexarm::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kMostThreads = 1024;
+constexpr std::size_t kEventsPrinted = 12;
+
+struct Arguments {
+  ArmChoice arm;
+  std::vector<std::string> over;
+  std::optional<int> figure;
+  std::vector<std::string> formulations;
+  std::optional<int> poles;
+  std::optional<int> zeros;
+  std::vector<std::string> sensors;
+  bool roots_only = false;
+  compare::SweepTolerances tolerances;
+  int threads = 0;
+  bool resume = false;
+  OutputChoice output;
+};
+
+arm::Arm arm_of(const Arguments& arguments) {
+  const auto arms = arguments.arm.arms();
+  if (arms.size() > 1) {
+    throw arm::InputError("--payload-mass: one value; several are --over payload.mass=A,B,C");
+  }
+  return response::take_apart(arms.front()).linear;
+}
+
+/// The models named, in the order of `all`; all of them where none is.
+std::vector<compare::SweepModel> chosen_models(const std::vector<std::string>& names,
+                                               std::vector<compare::SweepModel> all) {
+  std::vector<std::string> known;
+  for (const auto& model : all) known.push_back(model.name);
+  for (const auto& name : names) {
+    if (std::ranges::find(known, name) == known.end()) {
+      throw arm::InputError(fmt::format("--formulation {}: unknown{}; allowed: {}",
+                                        arm::shown(name), arm::did_you_mean(name, known),
+                                        fmt::join(known, ", ")));
+    }
+  }
+  std::erase_if(all, [&](const compare::SweepModel& model) {
+    return !names.empty() && std::ranges::find(names, model.name) == names.end();
+  });
+  return all;
+}
+
+void refuse_beside_figure(const char* option, bool given) {
+  if (given) throw arm::InputError(fmt::format("{}: --figure has its own", option));
+}
+
+/// The figure of the paper asked for; its task is the one to run.
+std::optional<compare::PaperSweep> figure_of(const Arguments& arguments) {
+  if (!arguments.figure) return std::nullopt;
+  refuse_beside_figure("--over", !arguments.over.empty());
+  refuse_beside_figure("--poles", arguments.poles.has_value());
+  refuse_beside_figure("--zeros", arguments.zeros.has_value());
+  refuse_beside_figure("--sensor", !arguments.sensors.empty());
+  auto sweep = compare::paper_sweep(*arguments.figure, arm_of(arguments));
+  sweep.task.models = chosen_models(arguments.formulations, std::move(sweep.task.models));
+  return sweep;
+}
+
+compare::SweepTask task_of(const Arguments& arguments) {
+  if (arguments.over.empty()) {
+    throw arm::InputError(
+        "--over: give one or two parameters, as in --over payload.mass=0:0.5:200");
+  }
+  compare::SweepTask task;
+  for (const auto& text : arguments.over) task.axes.push_back(compare::parse_axis(text));
+  task.arm = arm_of(arguments);
+  task.questions.poles = arguments.poles.value_or(task.questions.poles);
+  task.questions.zeros = arguments.zeros.value_or(task.questions.zeros);
+  task.questions.modes = !arguments.roots_only;
+  if (!arguments.sensors.empty()) task.questions.sensors.clear();
+  for (const auto& name : arguments.sensors) {
+    const auto sensor = arm::parse_sensor(name);
+    if (std::ranges::find(task.questions.sensors, sensor) == task.questions.sensors.end()) {
+      task.questions.sensors.push_back(sensor);
+    }
+  }
+  int roots = task.questions.poles;
+  for (const auto& sensor : task.questions.sensors) {
+    roots = std::max(roots, compare::zeros_asked(sensor, task.questions));
+  }
+  task.models = chosen_models(arguments.formulations, compare::standard_models(roots));
+  return task;
+}
+
+/// Beside the output, or nowhere.
+fs::path checkpoint_of(const OutputChoice& output) {
+  if (!output.folder.empty()) return fs::path(output.folder) / "sweep.checkpoint";
+  if (!output.json_file.empty()) return output.json_file + ".checkpoint";
+  return {};
+}
+
+compare::SweepResult run_task(const compare::SweepTask& task, const Arguments& arguments,
+                              const Interruption& interruption) {
+  report::Progress progress("sweeping", static_cast<std::int64_t>(task.points()));
+  compare::SweepRun run;
+  run.threads = arguments.threads;
+  run.progress = [&progress] { progress.advance(); };
+  run.stop = &interruption.requested();
+  run.checkpoint = checkpoint_of(arguments.output);
+  run.resume = arguments.resume;
+  run.program_version = version_text();
+  auto values = compare::evaluate(task, run);
+  if (values.resumed > 0) {
+    print(fmt::format("{} of {} points from {}\n", values.resumed, task.points(),
+                      run.checkpoint.string()));
+  }
+  return compare::assemble(task, std::move(values), run, arguments.tolerances);
+}
+
+void say_interrupted(const compare::SweepInterrupted& interrupted, const fs::path& checkpoint) {
+  const std::string how =
+      checkpoint.empty() ? "nothing is kept without --out or --json"
+      : fs::exists(checkpoint)
+          ? fmt::format("the same command with --resume goes on from {}", checkpoint.string())
+          : "nothing is kept of so short a run";
+  const std::string line = fmt::format("flexarm: {}; {}\n", interrupted.what(), how);
+  std::fwrite(line.data(), 1, line.size(), stderr);
+}
+
+void print_result(const compare::SweepResult& result, const arm::Arm& full_arm) {
+  print(describe(full_arm));
+  print(left_out_of_roots(full_arm));
+  print("\n" + report::sweep_axes_lines(result) + "\n");
+  print(report::to_text(report::sweep_models_table(result)) + "\n");
+  for (const auto& table : report::sweep_range_tables(result)) print(report::to_text(table) + "\n");
+  if (!result.events.empty()) {
+    constexpr report::TextOptions kSensorAndTrack{.key_columns = 2};
+    print(report::to_text(report::sweep_events_table(result, kEventsPrinted), kSensorAndTrack));
+    if (result.events.size() > kEventsPrinted) {
+      print(fmt::format("... and {} more, in --out and --json\n",
+                        result.events.size() - kEventsPrinted));
+    }
+    print("\n");
+  }
+  if (result.agreement.empty()) return;
+  print(report::to_text(report::sweep_agreement_table(result)) + "\n");
+  print(report::sweep_verdict_line(result) + "\n");
+}
+
+void write_figure(const fs::path& folder, int number, const compare::PaperSweep& figure,
+                  const compare::SweepResult& result) {
+  const std::string name = fmt::format("figure-{}", number);
+  arm::write_atomically(folder / (name + ".csv"), report::sweep_csv(result));
+  arm::write_atomically(folder / (name + ".svg"),
+                        report::to_svg(report::paper_sweep_figure(figure, result)));
+}
+
+void write_folder(const fs::path& folder, const compare::SweepResult& result) {
+  constexpr auto kAll = std::numeric_limits<std::size_t>::max();
+  arm::write_atomically(folder / "sweep.csv", report::sweep_csv(result));
+  arm::write_atomically(folder / "events.csv",
+                        report::to_csv(report::sweep_events_table(result, kAll)));
+  arm::write_atomically(folder / "agreement.csv",
+                        report::to_csv(report::sweep_agreement_table(result)));
+  for (const auto& [file, svg] : report::sweep_plots(result)) {
+    arm::write_atomically(folder / file, svg);
+  }
+}
+
+std::string next_step(const Arguments& arguments) {
+  const std::string arm = arguments.arm.file.empty() ? "" : " " + arguments.arm.file;
+  if (!arguments.output.folder.empty()) {
+    return fmt::format("wrote {}\nnext: one arm of the grid in depth with  flexarm compare{}\n",
+                       arguments.output.folder, arm);
+  }
+  if (arguments.figure) {
+    return fmt::format(
+        "next: the figure as SVG and CSV with  flexarm sweep{} --figure {} --out "
+        "figures\n",
+        arm, *arguments.figure);
+  }
+  return fmt::format("next: curves and every value with  flexarm sweep{} --over {} --out swept\n",
+                     arm, fmt::join(arguments.over, " --over "));
+}
+
+int run(const Arguments& arguments) {
+  if (arguments.threads < 0 || arguments.threads > kMostThreads) {
+    throw arm::out_of_range("--threads", arguments.threads, "",
+                            fmt::format("from 1 to {}, or 0 for one a core", kMostThreads));
+  }
+  arm::require_in_range("--tolerance", arguments.tolerances.roots, "", arm::kPositive);
+  const auto checkpoint = checkpoint_of(arguments.output);
+  if (arguments.resume && checkpoint.empty()) {
+    throw arm::InputError("--resume: give the --out or --json of the interrupted sweep");
+  }
+  const auto figure = figure_of(arguments);
+  const auto task = figure ? figure->task : task_of(arguments);
+  compare::require_valid(task);
+  arguments.output.prepare();
+
+  const Interruption interruption;
+  compare::SweepResult result;
+  try {
+    result = run_task(task, arguments, interruption);
+  } catch (const compare::SweepInterrupted& interrupted) {
+    say_interrupted(interrupted, checkpoint);
+    interruption.end_program();
+  }
+  if (!arguments.output.folder.empty()) {
+    if (figure) {
+      write_figure(arguments.output.folder, *arguments.figure, *figure, result);
+    } else {
+      write_folder(arguments.output.folder, result);
+    }
+  }
+  if (!arguments.output.json_file.empty()) {
+    arm::write_atomically(arguments.output.json_file, report::sweep_json(result));
+  }
+  if (!checkpoint.empty()) fs::remove(checkpoint);
+  print_result(result, arguments.arm.arms().front());
+  print(next_step(arguments));
+  return result.agrees() ? kSuccess : kFailure;
+}
+
+}  // namespace
+
+Command add_sweep(CLI::App& program) {
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App* parser = program.add_subcommand(
+      "sweep", "Poles, zeros, damping and modal slopes over one or two parameters");
+  add_arm_choice(*parser, arguments->arm);
+  parser
+      ->add_option("--over", arguments->over,
+                   "KEY=START:END:COUNT, KEY=log:START:END:COUNT or KEY=A,B,C; twice for a grid. "
+                   "KEY: a number of the arm file, effects.NAME.PARAMETER, eta, epsilon")
+      ->check(not_empty())
+      ->allow_extra_args(false);
+  parser->add_option("--figure", arguments->figure,
+                     "18 or 19: the paper's poles or zeros over payload, in place of --over");
+  parser
+      ->add_option("--formulation", arguments->formulations,
+                   "exact_tf, fem, assumed_modes, separated by commas; all when left out")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  parser->add_option("--poles", arguments->poles, "How many poles, modes and hub zeros [5]");
+  parser->add_option("--zeros", arguments->zeros,
+                     "How many zeros of each sensor away from the hub [4]");
+  parser
+      ->add_option("--sensor", arguments->sensors,
+                   "Sensors whose zeros are followed [hub_angle,tip_acceleration]")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  parser->add_flag("--roots-only", arguments->roots_only,
+                   "Leave hub slopes, end-point values and damping out");
+  parser
+      ->add_option("--tolerance", arguments->tolerances.roots,
+                   "Poles and zeros agree within this, relative")
+      ->capture_default_str();
+  parser->add_option("--threads", arguments->threads, "How many threads; 0: one a core")
+      ->capture_default_str();
+  parser->add_flag("--resume", arguments->resume,
+                   "Go on from the checkpoint that an interrupted sweep left beside its output");
+  add_output_choice(*parser, arguments->output, "Folder for CSV tables and SVG plots");
+  parser->footer("Exit status: 0 the formulations agree; 1 they do not; 2 unusable input.\n" +
+                 example("flexarm sweep rig.toml --over payload.mass=0:0.5:50 --out swept"));
+  return {parser, [arguments] { return run(*arguments); }};
+}
+
+}  // namespace flexarm::app

@@ -1,0 +1,318 @@
+#include "measured/measurement.hpp"
+
+#include "arm/arm_file.hpp"
+#include "arm/atomic_file.hpp"
+#include "arm/input_error.hpp"
+#include "arm/nearest_name.hpp"
+#include "arm/range.hpp"
+#include "arm/text_file.hpp"
+#include "arm/toml_document.hpp"
+#include "arm/toml_node.hpp"
+#include "arm/utf8.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <array>
+#include <cstddef>
+#include <iterator>
+#include <map>
+#include <utility>
+
+namespace flexarm::measured {
+
+namespace {
+
+using arm::InputError;
+
+constexpr std::size_t kLargestFile_bytes = 1 << 20;
+
+template <class T>
+using Words = std::array<std::pair<T, const char*>, 2>;
+
+constexpr std::array<std::pair<RunKind, const char*>, 3> kKinds = {
+    {{RunKind::time, "time"}, {RunKind::frf, "frf"}, {RunKind::modal, "modal"}}};
+constexpr Words<Purpose> kPurposes = {
+    {{Purpose::estimation, "estimation"}, {Purpose::validation, "validation"}}};
+constexpr Words<TorqueHold> kHolds = {{{TorqueHold::zero, "zero"}, {TorqueHold::first, "first"}}};
+constexpr Words<InitialState> kInitials = {
+    {{InitialState::rest, "rest"}, {InitialState::free, "free"}}};
+
+template <class Table, class T>
+std::string_view word_of(const Table& table, T value) {
+  for (const auto& [entry, word] : table) {
+    if (entry == value) return word;
+  }
+  return "";
+}
+
+const std::vector<std::string> kTopKeys = {"name", "arm", "run"};
+const std::vector<std::string> kRunKeys = {"id",          "kind",    "file",    "purpose",
+                                           "torque_hold", "payload", "initial", "columns"};
+const std::vector<std::string> kPayloadKeys = {"mass", "inertia"};
+
+/// Walks a document once and keeps its faults by line, so that the first in the file is reported.
+class Reader {
+ public:
+  explicit Reader(const std::string& file_name) : file_name_(file_name) {}
+
+  Measurement read(const toml::table& document) {
+    for (const auto& [key, node] : document) read_top_level(arm::shown(key.str()), node);
+    require(document, 1, "arm", "arm", "the arm file, relative to this file");
+    require(document, 1, "run", "run", "one [[run]] or more");
+    throw_first(faults_);
+    throw_first(missing_);
+    return std::move(measurement_);
+  }
+
+ private:
+  static int line_of(const toml::node& node) { return static_cast<int>(node.source().begin.line); }
+
+  void fault(int line, const std::string& what) { faults_.emplace(line, what); }
+
+  void wrong(const std::string& key, const toml::node& node, const std::string& allowed) {
+    fault(line_of(node), fmt::format("{}{}: {}; must be {}", key, arm::equals_value(node),
+                                     arm::kind_of(node), allowed));
+  }
+
+  void unknown(const std::string& prefix, const std::string& key, const toml::node& node,
+               const std::vector<std::string>& allowed) {
+    fault(line_of(node), fmt::format("{}{}: unknown key{}; allowed: {}", prefix, key,
+                                     arm::did_you_mean(key, allowed), fmt::join(allowed, ", ")));
+  }
+
+  void read_top_level(const std::string& key, const toml::node& node) {
+    if (key == "name") {
+      if (const auto* text = node.as_string()) {
+        measurement_.name = text->get();
+      } else {
+        wrong(key, node, "a text in quotes");
+      }
+    } else if (key == "arm") {
+      read_file(key, node, measurement_.arm);
+    } else if (key == "run") {
+      read_runs(node);
+    } else {
+      unknown("", key, node, kTopKeys);
+    }
+  }
+
+  void read_runs(const toml::node& node) {
+    const auto* runs = node.as_array();
+    if (runs == nullptr || runs->empty() || !runs->is_homogeneous<toml::table>()) {
+      wrong("run", node, "one line [[run]] a run, then its keys");
+      return;
+    }
+    for (const auto& run : *runs) measurement_.runs.push_back(read_run(*run.as_table()));
+  }
+
+  Run read_run(const toml::table& table) {
+    Run run;
+    for (const auto& [name, node] : table) {
+      const std::string leaf = arm::shown(name.str());
+      const std::string key = "run." + leaf;
+      if (leaf == "id") {
+        read_id(node, run);
+      } else if (leaf == "kind") {
+        read_word(key, node, kKinds, run.kind);
+      } else if (leaf == "file") {
+        read_file(key, node, run.file);
+      } else if (leaf == "purpose") {
+        run.purpose = Purpose::estimation;
+        read_word(key, node, kPurposes, *run.purpose);
+      } else if (leaf == "torque_hold") {
+        read_word(key, node, kHolds, run.torque_hold);
+      } else if (leaf == "initial") {
+        read_word(key, node, kInitials, run.initial);
+      } else if (leaf == "payload") {
+        run.payload = read_payload(node);
+      } else if (leaf == "columns") {
+        fault(line_of(node),
+              "run.columns: a mapping of columns is not read yet; name the columns of the CSV file "
+              "as in docs/formats.md and leave this out");
+      } else {
+        unknown("run.", leaf, node, kRunKeys);
+      }
+    }
+    const int line = line_of(table);
+    require(table, line, "run.id", "id", "a name in quotes");
+    require(table, line, "run.kind", "kind", "\"time\", \"frf\" or \"modal\"");
+    require(table, line, "run.file", "file", "the run's CSV file, relative to this file");
+    return run;
+  }
+
+  /// A key that is misspelt is reported as that, and not as missing.
+  void require(const toml::table& table, int line, const char* key, const char* leaf,
+               const char* what) {
+    if (table.contains(leaf)) return;
+    missing_.emplace(line, fmt::format("{}: missing; must be {}", key, what));
+  }
+
+  void read_id(const toml::node& node, Run& run) {
+    const auto* text = node.as_string();
+    if (text == nullptr || text->get().empty()) {
+      wrong("run.id", node, "a name in quotes");
+      return;
+    }
+    run.id = text->get();
+    const auto [first, is_new] = line_of_id_.emplace(run.id, line_of(node));
+    if (!is_new) {
+      fault(line_of(node), fmt::format("run.id{}: given twice; first on line {}",
+                                       arm::equals_value(node), first->second));
+    }
+  }
+
+  void read_file(const std::string& key, const toml::node& node, std::string& file) {
+    const auto* text = node.as_string();
+    if (text == nullptr || text->get().empty()) {
+      wrong(key, node, "the name of a file in quotes");
+    } else {
+      file = text->get();
+    }
+  }
+
+  template <class Table, class T>
+  void read_word(const std::string& key, const toml::node& node, const Table& words, T& value) {
+    std::vector<std::string> allowed;
+    for (const auto& [entry, word] : words) allowed.emplace_back(word);
+    const auto* text = node.as_string();
+    if (text == nullptr) {
+      wrong(key, node, fmt::format("{}, in quotes", fmt::join(allowed, " or ")));
+      return;
+    }
+    for (const auto& [entry, word] : words) {
+      if (text->get() != word) continue;
+      value = entry;
+      return;
+    }
+    fault(line_of(node),
+          fmt::format("{}{}: must be {}{}", key, arm::equals_value(node),
+                      fmt::join(allowed, " or "), arm::did_you_mean(text->get(), allowed)));
+  }
+
+  arm::Payload read_payload(const toml::node& node) {
+    arm::Payload payload;
+    const auto* table = node.as_table();
+    if (table == nullptr) {
+      wrong("run.payload", node, "a table, as in { mass = 0.06, inertia = 0.0 }");
+      return payload;
+    }
+    for (const auto& [name, value] : *table) {
+      const std::string leaf = arm::shown(name.str());
+      if (leaf == "mass") {
+        read_number("run.payload.mass", value, "kg", payload.mass_kg);
+      } else if (leaf == "inertia") {
+        read_number("run.payload.inertia", value, "kg m^2", payload.inertia_kg_m2);
+      } else {
+        unknown("run.payload.", leaf, value, kPayloadKeys);
+      }
+    }
+    return payload;
+  }
+
+  void read_number(const std::string& key, const toml::node& node, const char* unit,
+                   double& number) {
+    if (!node.is_number()) {
+      wrong(key, node, fmt::format("{} [{}]", to_string(arm::kNotNegative), unit));
+      return;
+    }
+    number = *node.value<double>();
+    if (!arm::kNotNegative.contains(number)) {
+      fault(line_of(node),
+            arm::out_of_range(key, number, unit, to_string(arm::kNotNegative)).what());
+    }
+  }
+
+  std::string file_name_;
+  Measurement measurement_;
+  std::map<std::string, int> line_of_id_;
+  using Faults = std::multimap<int, std::string>;  // by line; equal lines in the order found
+
+  void throw_first(const Faults& faults) const {
+    if (faults.empty()) return;
+    const auto& [line, what] = *faults.begin();
+    throw arm::located(InputError(what), file_name_, line);
+  }
+
+  Faults faults_;
+  Faults missing_;
+};
+
+std::string quoted(const std::string& key, const std::string& text) {
+  if (!arm::is_utf8(text)) {
+    throw InputError(
+        fmt::format("{} = \"{}\": not UTF-8, which TOML asks for", key, arm::shown(text)), key);
+  }
+  return arm::toml_string(text);
+}
+
+}  // namespace
+
+std::string_view to_string(RunKind kind) {
+  return word_of(kKinds, kind);
+}
+
+std::string_view to_string(Purpose purpose) {
+  return word_of(kPurposes, purpose);
+}
+
+std::string_view to_string(TorqueHold hold) {
+  return word_of(kHolds, hold);
+}
+
+std::string_view to_string(InitialState initial) {
+  return word_of(kInitials, initial);
+}
+
+Measurement parse_measurement(std::string_view toml, const std::string& file_name) {
+  if (toml.find_first_not_of(" \t\r\n") == std::string_view::npos) {
+    throw arm::located(InputError("empty; a measurement file needs arm and at least one [[run]]"),
+                       file_name, 1);
+  }
+  return Reader(file_name).read(arm::parse_toml(toml, file_name));
+}
+
+Measurement read_measurement(const std::filesystem::path& path) {
+  return parse_measurement(arm::read_text_file(path, kLargestFile_bytes),
+                           arm::shown(path.string()));
+}
+
+std::string format_measurement(const Measurement& measurement) {
+  std::string out;
+  const auto line = [&out](const char* key, std::string_view value) {
+    fmt::format_to(std::back_inserter(out), "{} = {}\n", key, value);
+  };
+  const auto word = [&](const char* key, std::string_view value) {
+    line(key, fmt::format("\"{}\"", value));
+  };
+  if (!measurement.name.empty()) line("name", quoted("name", measurement.name));
+  line("arm", quoted("arm", measurement.arm));
+  for (const auto& run : measurement.runs) {
+    out += "\n[[run]]\n";
+    line("id", quoted("run.id", run.id));
+    word("kind", to_string(run.kind));
+    line("file", quoted("run.file", run.file));
+    if (run.purpose) word("purpose", to_string(*run.purpose));
+    if (run.kind == RunKind::time || run.torque_hold != TorqueHold::zero) {
+      word("torque_hold", to_string(run.torque_hold));
+    }
+    if (run.payload) {
+      line("payload", fmt::format("{{ mass = {}, inertia = {} }}  # kg, kg m^2 about the tip",
+                                  arm::toml_number(run.payload->mass_kg),
+                                  arm::toml_number(run.payload->inertia_kg_m2)));
+    }
+    if (run.initial != InitialState::rest) word("initial", to_string(run.initial));
+  }
+  return out;
+}
+
+void write_measurement(const Measurement& measurement, const std::filesystem::path& path) {
+  arm::write_atomically(path, format_measurement(measurement));
+}
+
+std::filesystem::path beside(const std::filesystem::path& measurement_file,
+                             const std::string& file) {
+  return measurement_file.parent_path() / file;
+}
+
+}  // namespace flexarm::measured

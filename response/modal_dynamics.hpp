@@ -1,0 +1,72 @@
+#pragma once
+
+#include "arm/formulation.hpp"
+#include "arm/sensor.hpp"
+#include "response/arm_parts.hpp"
+
+#include <Eigen/Core>
+
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace flexarm::response {
+
+/// A reading y = state X + actuator u + force f of the linear system below.
+struct Reading {
+  Eigen::RowVectorXd state;  ///< N
+  double actuator = 0.0;
+  Eigen::RowVectorXd force;  ///< m
+};
+
+/// The arm, actuator lag and sensor lag as one linear system with the hub either turning or held,
+///
+///     X' = A X + actuator u + force f,
+///
+/// X = (sigma_i q_i; q_i'; Z; W), N entries: sigma_i = omega_i, or that of the first flexible mode
+/// where omega_i is less, makes A nearly antisymmetric; Z is the lagged torque and W the lagged
+/// readings, each scaled so that its couplings are no larger than A's other entries. u is the
+/// torque behind delay, gain and clipping; f the torques and forces that are added at the arm: m =
+/// 1, a torque on the hub [N m], or m = n modal forces [1/s^2].
+struct LinearSystem {
+  Eigen::MatrixXd a;         ///< N x N [1/s]
+  Eigen::VectorXd actuator;  ///< N
+  Eigen::MatrixXd force;     ///< N x m
+  Reading hub_acceleration;  ///< theta''
+  std::vector<Reading> sensors;
+};
+
+/// What the two systems of an arm have in common, and how f is formed.
+struct ModalDynamics {
+  LinearSystem turning;
+  /// theta' = 0: M = 1 - b b^T/(b^T b) on the modal accelerations, b the hub slopes, takes out what
+  /// the hub's reaction balances.
+  LinearSystem held;
+  Reading reaction;           ///< torque of friction that holds the hub, against it [N m]
+  Reading hub_torque;         ///< T that reaches the hub, without what is in f
+  Eigen::VectorXd hub_force;  ///< f of a unit torque on the hub, m
+  Eigen::Index modes = 0;     ///< n
+  double modal_mass_kg_m2 = 0.0;
+  Eigen::VectorXd hub_slope;            ///< n
+  Eigen::VectorXd scale_rad_per_s;      ///< sigma, n
+  Eigen::VectorXd stiffness;            ///< omega_i^2, n; the first may be below 0
+  Eigen::MatrixXd damping;              ///< D, n x n
+  double fastest_rate_rad_per_s = 0.0;  ///< a bound on what X does: the largest row sum of |A|
+
+  Eigen::Index size() const { return turning.a.rows(); }
+  double hub_angle(const Eigen::VectorXd& x) const;
+  double hub_velocity(const Eigen::VectorXd& x) const {
+    return hub_slope.dot(x.segment(modes, modes));
+  }
+  auto velocity(const Eigen::VectorXd& x) const { return x.segment(modes, modes); }
+  /// Modal velocities that leave the hub at rest, and nearest to those of `x`.
+  void stop_hub(Eigen::VectorXd& x) const;
+  /// Modal coordinates with that hub angle, and nearest to those of `x`.
+  void set_hub_angle(Eigen::VectorXd& x, double angle_rad) const;
+};
+
+/// `modal_forces`: m = n, else 1. Throws InputError for a model whose parts do not fit together.
+ModalDynamics modal_dynamics(const arm::ModalModel& model, const ArmParts& parts,
+                             std::span<const arm::Sensor> sensors, bool modal_forces);
+
+}  // namespace flexarm::response

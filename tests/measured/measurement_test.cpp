@@ -1,0 +1,140 @@
+#include "measured/measurement.hpp"
+
+#include "arm/input_error.hpp"
+#include "arm/text_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <ostream>
+#include <random>
+
+namespace flexarm::measured {
+namespace {
+
+const std::string kHead = "name = \"bench\"\narm = \"arm.toml\"\n";
+const std::string kRun = "[[run]]\nid = \"a\"\nkind = \"time\"\nfile = \"a.csv\"\n";
+
+TEST(Measurement, EveryKeyReachesItsMember) {
+  const Measurement measurement = parse_measurement(
+      kHead + kRun +
+          "purpose = \"validation\"\ntorque_hold = \"first\"\ninitial = \"free\"\n"
+          "payload = { mass = 0.06, inertia = 1 }\n[[run]]\nid = \"b\"\nkind = \"modal\"\n"
+          "file = \"b.csv\"\npayload = { mass = 0 }\n",
+      "m.toml");
+  EXPECT_EQ(measurement.name, "bench");
+  EXPECT_EQ(measurement.arm, "arm.toml");
+  ASSERT_EQ(measurement.runs.size(), 2U);
+  EXPECT_EQ(measurement.runs[0],
+            (measured::Run{"a", RunKind::time, "a.csv", Purpose::validation, TorqueHold::first,
+                           arm::Payload{0.06, 1.0}, InitialState::free}));
+  EXPECT_EQ(measurement.runs[1],
+            (measured::Run{"b", RunKind::modal, "b.csv", std::nullopt, TorqueHold::zero,
+                           arm::Payload{}, InitialState::rest}));
+}
+
+TEST(Measurement, WhatIsLeftOutHasItsDefault) {
+  const Measurement measurement = parse_measurement("arm = \"x.toml\"\n" + kRun, "m.toml");
+  EXPECT_EQ(measurement.name, "");
+  EXPECT_EQ(measurement.runs[0], (measured::Run{.id = "a", .file = "a.csv"}));
+}
+
+TEST(Measurement, WhatIsWrittenReadsBackEqual) {
+  std::mt19937_64 random(20261120);
+  const auto chance = [&] { return random() % 2 == 0; };
+  Measurement measurement{"quoted \"name\" \\ \n\xc3\xa4", "../arm.toml", {}};
+  for (int i = 0; i < 200; ++i) {
+    measured::Run run;
+    run.id = "run " + std::to_string(i);
+    run.file = "a\"b.csv";
+    run.kind = static_cast<RunKind>(random() % 3);
+    if (chance()) run.purpose = chance() ? Purpose::estimation : Purpose::validation;
+    if (chance()) run.torque_hold = TorqueHold::first;
+    if (chance()) run.initial = InitialState::free;
+    if (chance()) {
+      run.payload = arm::Payload{static_cast<double>(random()) * 0x1p-64,
+                                 static_cast<double>(random()) * 0x1p-80};
+    }
+    measurement.runs.push_back(run);
+  }
+  EXPECT_EQ(parse_measurement(format_measurement(measurement), "m.toml"), measurement);
+}
+
+TEST(Measurement, TheExampleOfTheFormatsDocumentIsRead) {
+  const std::string text = arm::read_text_file(FLEXARM_SOURCE_DIR "/docs/formats.md", 1 << 20);
+  const auto heading = text.find("\n## Measurement");
+  const auto begin = text.find('\n', text.find("```toml", heading)) + 1;
+  const Measurement measurement =
+      parse_measurement(text.substr(begin, text.find("```", begin) - begin), "docs/formats.md");
+  ASSERT_EQ(measurement.runs.size(), 1U);
+  EXPECT_EQ(measurement.runs[0].payload->mass_kg, 0.06);
+}
+
+TEST(Measurement, FilesStandBesideTheMeasurement) {
+  EXPECT_EQ(beside("bench/m.toml", "a.csv"), "bench/a.csv");
+  EXPECT_EQ(beside("m.toml", "a.csv"), "a.csv");
+  EXPECT_EQ(beside("bench/m.toml", "/data/a.csv"), "/data/a.csv");
+}
+
+struct Mistake {
+  const char* name;
+  std::string text;
+  std::string error;  ///< after "m.toml:"
+};
+
+void PrintTo(const Mistake& mistake, std::ostream* out) {
+  *out << mistake.name;
+}
+
+const std::vector<Mistake> kMistakes = {
+    {"Empty", " \n", "1: empty; a measurement file needs arm and at least one [[run]]"},
+    {"ArmMissing", kRun, "1: arm: missing; must be the arm file, relative to this file"},
+    {"RunMissing", kHead, "1: run: missing; must be one [[run]] or more"},
+    {"RunIsATable", kHead + "[run]\nid = \"a\"\n",
+     "3: run: a table; must be one line [[run]] a run, then its keys"},
+    {"KeyMisspelt", kHead + "[[runs]]\nid = \"a\"\n",
+     "3: runs: unknown key (did you mean run?); allowed: name, arm, run"},
+    {"KeyOfARunMisspelt", kHead + kRun + "purpos = \"estimation\"\n",
+     "7: run.purpos: unknown key (did you mean purpose?); allowed: id, kind, file, purpose, "
+     "torque_hold, payload, initial, columns"},
+    {"KindUnknown", kHead + "[[run]]\nid = \"a\"\nkind = \"tme\"\nfile = \"a.csv\"\n",
+     "5: run.kind = \"tme\": must be time or frf or modal (did you mean time?)"},
+    {"KindMissing", kHead + "[[run]]\nid = \"a\"\nfile = \"a.csv\"\n",
+     "3: run.kind: missing; must be \"time\", \"frf\" or \"modal\""},
+    {"FileMissing", kHead + "[[run]]\nid = \"a\"\nkind = \"time\"\n",
+     "3: run.file: missing; must be the run's CSV file, relative to this file"},
+    {"FileIsANumber", kHead + "[[run]]\nid = \"a\"\nkind = \"time\"\nfile = 3\n",
+     "6: run.file = 3: a number; must be the name of a file in quotes"},
+    {"IdTwice", kHead + kRun + kRun, "8: run.id = \"a\": given twice; first on line 4"},
+    {"HoldUnknown", kHead + kRun + "torque_hold = \"second\"\n",
+     "7: run.torque_hold = \"second\": must be zero or first"},
+    {"PurposeIsABoolean", kHead + kRun + "purpose = true\n",
+     "7: run.purpose = true: a boolean; must be estimation or validation, in quotes"},
+    {"PayloadIsANumber", kHead + kRun + "payload = 0.06\n",
+     "7: run.payload = 0.06: a number; must be a table, as in { mass = 0.06, inertia = 0.0 }"},
+    {"PayloadNegative", kHead + kRun + "payload = { mass = -0.06 }\n",
+     "7: run.payload.mass = -0.06 kg: must be a finite number, 0 or more"},
+    {"PayloadMisspelt", kHead + kRun + "payload = { mas = 0.06 }\n",
+     "7: run.payload.mas: unknown key (did you mean mass?); allowed: mass, inertia"},
+    {"Columns", kHead + kRun + "columns = { time = { name = \"Time (ms)\", unit = \"ms\" } }\n",
+     "7: run.columns: a mapping of columns is not read yet; name the columns of the CSV file as in "
+     "docs/formats.md and leave this out"},
+    {"TheFirstMistakeOfTheFile", kHead + kRun + "initial = \"fre\"\npurpose = 1\n",
+     "7: run.initial = \"fre\": must be rest or free (did you mean free?)"},
+};
+
+class MeasurementMistake : public testing::TestWithParam<Mistake> {};
+
+TEST_P(MeasurementMistake, GivesOneLineWithPlaceReasonAndRemedy) {
+  try {
+    parse_measurement(GetParam().text, "m.toml");
+    FAIL() << "accepted";
+  } catch (const arm::InputError& error) {
+    EXPECT_EQ(error.what(), "m.toml:" + GetParam().error);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(, MeasurementMistake, testing::ValuesIn(kMistakes),
+                         [](const auto& mistake) { return std::string(mistake.param.name); });
+
+}  // namespace
+}  // namespace flexarm::measured

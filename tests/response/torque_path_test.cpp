@@ -1,0 +1,147 @@
+// What the commanded torque passes on its way to the hub.
+#include "response/torque_path.hpp"
+
+#include "tests/response/simulation_models.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace flexarm::response {
+namespace {
+
+constexpr double kRounding = 1e-12;  // of values of order 1 over some thousand steps
+
+/// The path's torque at `samples` (a time in sample intervals), from its pieces.
+double at(const TorquePath& path, double samples) {
+  TorquePath::Pieces pieces;
+  const double k = std::floor(samples);
+  path.pieces(static_cast<std::size_t>(k), pieces);
+  const double s = samples - k;
+  for (const auto& piece : pieces) {
+    if (s < piece.begin || s > piece.end) continue;
+    const double r = (s - piece.begin) / (piece.end - piece.begin);
+    return piece.begin_N_m + r * (piece.end_N_m - piece.begin_N_m);
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+TEST(TorquePath, LinearTorqueIsDelayedMultipliedAndClippedInThisOrder) {
+  const Actuator actuator{
+      .delay_s = 1.7, .gain = 2.0, .dead_zone_N_m = 0.5, .saturation_N_m = 1.25, .ripple = {}};
+  const std::vector<double> torque = {0.3, 1.0, -2.0, 0.1, 3.0, 3.0, -0.2};
+  const TorquePath path(actuator, torque, 1.0, TorqueHold::first);
+  for (double t = 0.005; t < 8.0; t += 0.01) {
+    const double delayed = t - 1.7;
+    double command = 0.0;
+    if (delayed >= 6.0) {
+      command = torque.back();
+    } else if (delayed >= 0.0) {
+      const auto j = static_cast<std::size_t>(delayed);
+      command = torque[j] + (delayed - static_cast<double>(j)) * (torque[j + 1] - torque[j]);
+    }
+    const double amplified = 2.0 * command;
+    const double beyond = std::max(0.0, std::abs(amplified) - 0.5);
+    EXPECT_NEAR(at(path, t), std::copysign(std::min(1.25, beyond), amplified), kRounding) << t;
+  }
+}
+
+TEST(TorquePath, HeldTorqueBreaksWhereTheDelayedSampleBegins) {
+  const std::vector<double> torque = {1.0, 2.0, 3.0};
+  const TorquePath path({.delay_s = 0.25, .ripple = {}}, torque, 1.0, TorqueHold::zero);
+  TorquePath::Pieces pieces;
+  path.pieces(1, pieces);
+  ASSERT_EQ(pieces.size(), 2U);
+  EXPECT_EQ(pieces[0].end, 0.25);
+  EXPECT_EQ(pieces[0].end_N_m, 1.0);
+  EXPECT_EQ(pieces[1].begin_N_m, 2.0);
+  EXPECT_EQ(pieces[1].length, TorquePiece::Length::after_delay);
+}
+
+TEST(TorquePath, ADelayOfWholeSamplesUpToRoundingHasNoBreak) {
+  const std::vector<double> torque = {1.0, 2.0, 3.0, 4.0};
+  const TorquePath path({.delay_s = 3 * 0.1, .ripple = {}}, torque, 0.1, TorqueHold::zero);
+  TorquePath::Pieces pieces;
+  path.pieces(3, pieces);
+  ASSERT_EQ(pieces.size(), 1U);
+  EXPECT_EQ(pieces[0].begin_N_m, 1.0);
+}
+
+/// A free hub of inertia 1 behind the actuator, which is easily integrated by hand.
+Simulation free_hub(const Actuator& actuator, const std::vector<double>& torque, double h,
+                    TorqueHold hold = TorqueHold::zero) {
+  ArmParts parts = coulomb(0.0);
+  parts.actuator = actuator;
+  return simulate(oscillator(1.0, 0.0), parts, hub_sensors(), torque,
+                  {.sample_time_s = h, .hold = hold, .energy = false});
+}
+
+TEST(ActuatorChain, ADelayThatIsNoMultipleOfTheSampleTimeIsExact) {
+  const double delay = 0.01234;
+  const auto made = free_hub({.delay_s = delay, .ripple = {}}, step_torque(1.0, 200), 1e-3);
+  for (std::size_t k = 0; k < made.time_s.size(); ++k) {
+    const double t = std::max(0.0, made.time_s[k] - delay);
+    EXPECT_NEAR(made.channels[0][k], 0.5 * t * t, 1e-15);
+    EXPECT_NEAR(made.channels[1][k], t, 1e-15);
+  }
+}
+
+TEST(ActuatorChain, LagIsExactAlsoWhereItIsShorterThanTheSampleTime) {
+  for (const double lag : {0.3, 1e-2, 1e-4}) {
+    const auto made =
+        free_hub({.lag_s = lag, .bias_N_m = 0.25, .ripple = {}}, step_torque(1.0, 300), 1e-2);
+    for (std::size_t k = 0; k < made.time_s.size(); ++k) {
+      const double t = made.time_s[k];
+      const double rise = -std::expm1(-t / lag);
+      EXPECT_NEAR(made.hub_torque_N_m[k], 0.25 + rise, kRounding);
+      EXPECT_NEAR(made.channels[1][k], 0.25 * t + t - lag * rise, kRounding);
+    }
+  }
+}
+
+TEST(ActuatorChain, ARampIsClippedWhereItCrossesTheLimit) {
+  const double h = 0.1;
+  std::vector<double> torque;
+  for (int k = 0; k < 40; ++k) torque.push_back(h * k);
+  const auto made = free_hub({.saturation_N_m = 1.234, .ripple = {}}, torque, h, TorqueHold::first);
+  for (std::size_t k = 0; k < made.time_s.size(); ++k) {
+    const double t = std::min(made.time_s[k], 1.234);
+    EXPECT_NEAR(made.channels[1][k], 0.5 * t * t + 1.234 * (made.time_s[k] - t), kRounding);
+  }
+}
+
+TEST(ActuatorChain, RippleKeepsTheEnergyOfAPendulum) {
+  ArmParts parts = coulomb(0.0);
+  parts.actuator.ripple = TorqueRipple{-2.0, 3.0, 0.4};
+  const double h = 1e-2;
+  const auto made = simulate(oscillator(1.0, 0.0), parts, hub_sensors(), step_torque(0.0, 2000),
+                             {.sample_time_s = h, .substeps = 4});
+  const auto potential = [](double angle) { return -2.0 / 3.0 * std::cos(3.0 * angle + 0.4); };
+  double widest = 0.0;
+  for (std::size_t k = 0; k < made.time_s.size(); ++k) {
+    const double v = made.channels[1][k];
+    widest = std::max(widest, std::abs(made.channels[0][k]));
+    // Order 4: (omega dt)^4/2880 with omega^2 = 6 and some periods' growth.
+    EXPECT_NEAR(0.5 * v * v + potential(made.channels[0][k]), potential(0.0), 1e-8);
+  }
+  EXPECT_GT(widest, 0.2);
+  EXPECT_GT(made.summary.most_iterations, 1);
+}
+
+TEST(SensorLag, ReadsThroughAFirstOrderLag) {
+  ArmParts parts = coulomb(0.0);
+  const double lag = 0.02;
+  parts.sensor_lag = SensorLag{kHubVelocity, lag};
+  const auto made = simulate(oscillator(1.0, 0.0), parts, hub_sensors(), step_torque(1.0, 300),
+                             {.sample_time_s = 1e-3});
+  for (std::size_t k = 0; k < made.time_s.size(); ++k) {
+    const double t = made.time_s[k];
+    EXPECT_NEAR(made.channels[0][k], 0.5 * t * t, kRounding);
+    EXPECT_NEAR(made.channels[1][k], t + lag * std::expm1(-t / lag), kRounding);
+  }
+}
+
+}  // namespace
+}  // namespace flexarm::response

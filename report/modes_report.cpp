@@ -61,8 +61,8 @@ Table damped_poles_table(const response::ModalSummary& summary) {
                {"damping ratio", "", 6}}};
   const auto add = [&table](std::int64_t mode, std::complex<double> s) {
     const double size = std::abs(s);
-    table.add_row({mode, s.real(), s.imag(), frequency_Hz(size),
-                   size > 0.0 ? Cell(-s.real() / size) : Cell()});
+    table.add_row(
+        {mode, s.real(), s.imag(), frequency_Hz(size), size > 0.0 ? -s.real() / size : NAN});
   };
   const auto& poles = summary.damped_poles;
   add(0, poles.lowest.first_rad_per_s);

@@ -93,7 +93,7 @@ void print_table(const report::Table& table) {
 void print_study(const response::ResponseStudy& study, const response::ResponseOptions& options) {
   for (const auto& note : report::chain_notes(study)) print(report::to_paragraph(note, 2));
   if (!report::chain_notes(study).empty()) print("\n");
-  print_table(report::damped_poles_table(study, static_cast<std::size_t>(options.modes)));
+  print_table(report::response_poles_table(study, static_cast<std::size_t>(options.modes)));
   for (std::size_t k = 0; k < study.response.sensors.size(); ++k) {
     auto factors = report::factors_table(study, k);
     print(factors.caption + "\n");
@@ -118,7 +118,7 @@ void write_folder(const fs::path& folder, const std::string& formulation,
   const auto write_csv = [&](const std::string& name, const report::Table& table) {
     arm::write_atomically(folder / name, report::to_csv(table));
   };
-  write_csv("poles.csv", report::damped_poles_table(study, study.poles.omega_rad_per_s.size()));
+  write_csv("poles.csv", report::response_poles_table(study, study.poles.omega_rad_per_s.size()));
   write_csv("response.csv", report::response_listing(study.response));
   write_csv("frf.csv", report::frf_listing(study.response));
   for (std::size_t k = 0; k < study.response.sensors.size(); ++k) {

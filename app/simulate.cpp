@@ -112,13 +112,6 @@ void prepare(const Arguments& arguments) {
   }
 }
 
-std::string effects_line(const arm::Arm& arm) {
-  if (arm.effects.empty()) return "";
-  std::vector<std::string> names;
-  for (const auto& [name, effect] : arm.effects) names.push_back(name);
-  return fmt::format("effects: {}\n", fmt::join(names, ", "));
-}
-
 /// What the sampling does not show of the modes kept, once for each kind of run.
 std::string sampling_notes(const SimulatedExperiment& experiment) {
   std::string notes;
@@ -183,7 +176,7 @@ int run(Arguments arguments) {
   const auto plan = arguments.runs.runs(arm, arguments.arm.payload_masses_kg);
   prepare(arguments);
 
-  print(describe(arm) + effects_line(arm));
+  print(describe(arm));
   const auto experiment = simulate_experiment(arm, plan, sensors, options);
   print_results(arguments, experiment, !response::take_apart(arm).friction.is_zero());
 

@@ -91,7 +91,7 @@ arm::ZeroSet AssumedModesArm::zeros(const arm::Sensor& sensor, int count) const 
 }
 
 arm::ZeroSet AssumedModesArm::hub_zeros(int count) const {
-  const RitzPairs pairs = hub_held_modes(pencil_);
+  const RitzPairs pairs = hub_held_values(pencil_);
   const double scale = arm::omega_scale_rad_per_s(linear_);
   arm::ZeroSet result;
   for (Eigen::Index k = 0; k < kept(count, pairs.mass.size()); ++k) {
@@ -165,7 +165,7 @@ arm::ModalModel AssumedModesArm::modal_model(int count, std::span<const arm::Sen
                   [](arm::Mode& mode, double value) { mode.displacement_m.push_back(value); });
   }
 
-  const Matrix damping = amplitude.asDiagonal() * damping_.whole() * amplitude.asDiagonal() *
+  const Matrix damping = amplitude.asDiagonal() * damping_.whole * amplitude.asDiagonal() *
                          (scale / pencil_.mass()(0, 0));
   for (Eigen::Index i = 0; i < shown; ++i) {
     for (Eigen::Index j = 0; j < shown; ++j) {
@@ -184,7 +184,7 @@ arm::ModalModel AssumedModesArm::modal_model(int count, std::span<const arm::Sen
 
 arm::DampedPoleSet AssumedModesArm::damped_poles(int count) const {
   const int flexible = kept(count, modes_.mass.size() - 1);
-  return assumed_modes::damped_poles({modes_.mass, modes_.stiffness, damping_.whole()}, flexible,
+  return assumed_modes::damped_poles({modes_.mass, modes_.stiffness, damping_.whole}, flexible,
                                      arm::omega_scale_rad_per_s(linear_));
 }
 
@@ -223,7 +223,7 @@ Eigen::MatrixXd AssumedModesArm::damping_matrix_N_m_s() const {
   unreduced.vectors = Matrix::Identity(pencil_.size(), pencil_.size());
   unreduced.mass = Vector::Ones(pencil_.size());
   unreduced.stiffness = functions_.bends();
-  return (unit * modal_damping(functions_, scaled_, unreduced).whole()).cast<double>();
+  return (unit * modal_damping(functions_, scaled_, unreduced).whole).cast<double>();
 }
 
 arm::SolveSummary AssumedModesArm::summary_of(const RitzPairs& pairs) const {

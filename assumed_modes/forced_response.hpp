@@ -14,7 +14,8 @@ namespace flexarm::assumed_modes {
 ///     (diag(mass) sigma^2 + D sigma + diag(stiffness)) eta = hub_rotation
 ///
 /// are solved mode by mode where D is diagonal but for hub friction, whose rank is one (Sherman and
-/// Morrison's formula), and as one dense system otherwise.
+/// Morrison's formula), and as one dense system otherwise: factors in double, and residuals in long
+/// double until the solution stays as it is.
 std::complex<Real> forced_response(const RitzPairs& modes, const ModalDamping& damping,
                                    const Vector& output, std::complex<Real> sigma);
 

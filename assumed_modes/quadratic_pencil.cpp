@@ -90,16 +90,18 @@ PolishedRoot polished(const QuadraticPencil& pencil, std::complex<Real> start) {
   constexpr int kMostSteps = 8;
   constexpr Real kEnough = 16 * std::numeric_limits<Real>::epsilon();
   PolishedRoot root{start, std::numeric_limits<Real>::infinity()};
-  ComplexVector vector = ComplexVector::Ones(pencil.mass.size());
+  Eigen::VectorXcd vector = Eigen::VectorXcd::Ones(pencil.mass.size());
   for (int step = 0; step < kMostSteps && root.last_step > kEnough; ++step) {
     const auto [value, derivative] = value_at(pencil, root.s);
-    const Eigen::PartialPivLU<ComplexMatrix> factors(value);
+    // x^T T x is stationary at the vector: 53 bits of it are enough for 64 of the root.
+    const Eigen::PartialPivLU<Eigen::MatrixXcd> factors(value.cast<std::complex<double>>());
+    const Eigen::MatrixXcd right = derivative.cast<std::complex<double>>();
     vector = factors.solve(vector).normalized();
-    vector = factors.solve(derivative * vector).normalized();
-    const Complex numerator = (vector.transpose() * value * vector)(0);
-    const Complex denominator = (vector.transpose() * derivative * vector)(0);
-    const Complex change = numerator / denominator;
-    if (!std::isfinite(std::abs(change))) break;  // T(s) is singular to the last bit
+    vector = factors.solve(right * vector).normalized();
+    if (!vector.allFinite()) break;  // T(s) is singular to the last bit
+    const ComplexVector exact = vector.cast<Complex>();
+    const Complex change =
+        exact.cwiseProduct(value * exact).sum() / exact.cwiseProduct(derivative * exact).sum();
     root.s -= change;
     root.last_step = std::abs(change) / std::abs(root.s);
   }

@@ -1,5 +1,8 @@
 #include "assumed_modes/undamped_modes.hpp"
 
+#include <cmath>
+#include <utility>
+
 namespace flexarm::assumed_modes {
 
 namespace {
@@ -18,24 +21,20 @@ RitzPairs undamped_modes(const SymmetricPencil& pencil, bool turns_freely) {
   RitzPairs pairs = ritz_pairs(flexible.pencil);
   Real inertia = pencil.spread(0, 0);
   for (const Lumped& at : pencil.lumped) inertia += at.inertia * at.row(0) * at.row(0);
+  // As large as the lowest flexible mode.
+  const Real mass = pairs.mass(0);
   Matrix vectors = Matrix::Zero(pencil.size(), pencil.size());
-  vectors(0, 0) = 1;
+  vectors(0, 0) = std::sqrt(mass / inertia);
   vectors.rightCols(pencil.size() - 1) = flexible.in_all_coordinates(pairs.vectors);
   pairs.vectors = std::move(vectors);
   pairs.eigenvalues = prepended(0, pairs.eigenvalues);
   pairs.stiffness = prepended(0, pairs.stiffness);
-  pairs.mass = prepended(inertia, pairs.mass);
+  pairs.mass = prepended(mass, pairs.mass);
   return pairs;
 }
 
-RitzPairs hub_held_modes(const SymmetricPencil& pencil) {
-  return ritz_pairs(with_hub_held(pencil).pencil);
-}
-
-Matrix ModalDamping::whole() const {
-  Matrix sum = of_beam;
-  sum.selfadjointView<Eigen::Lower>().rankUpdate(hub_rotation, hub_friction);
-  return sum.selfadjointView<Eigen::Lower>();
+RitzPairs hub_held_values(const SymmetricPencil& pencil) {
+  return ritz_pairs(with_hub_held(pencil).pencil, Wanted::values);
 }
 
 ModalDamping modal_damping(const AdmissibleFunctions& functions, const ScaledArm& arm,
@@ -44,21 +43,23 @@ ModalDamping modal_damping(const AdmissibleFunctions& functions, const ScaledArm
   damping.hub_friction = arm.hub_friction;
   damping.hub_rotation = modes.vectors.transpose() * functions.hub_rotation();
   const Eigen::Index n = modes.mass.size();
-  damping.of_beam = Matrix::Zero(n, n);
-  const bool bends_only = functions.bends().tail(n - 1).minCoeff() == 1;
-  if (arm.kelvin_voigt > 0 && bends_only && arm.turns_freely()) {
-    damping.of_beam.diagonal() = arm.kelvin_voigt * modes.stiffness;
+  const bool bends_only = functions.bends().tail(n - 1).minCoeff() == 1 && arm.turns_freely();
+  Matrix lower = Matrix::Zero(n, n);
+  if (bends_only) {
+    lower.diagonal() = arm.kelvin_voigt * modes.stiffness;
   } else if (arm.kelvin_voigt > 0) {
-    damping.of_beam = arm.kelvin_voigt * modes.vectors.transpose() *
-                      functions.bends().asDiagonal() * modes.vectors;
-    damping.is_diagonal = false;
+    lower = arm.kelvin_voigt * modes.vectors.transpose() * functions.bends().asDiagonal() *
+            modes.vectors;
   }
   if (arm.air_damping > 0) {
-    damping.of_beam += arm.air_damping * modes.vectors.transpose() *
-                       functions.displacement_products() * modes.vectors;
-    damping.is_diagonal = false;
+    lower += arm.air_damping * modes.vectors.transpose() * functions.displacement_products() *
+             modes.vectors;
   }
-  damping.of_beam = Matrix(damping.of_beam.selfadjointView<Eigen::Lower>());
+  if (arm.air_damping == 0 && (bends_only || arm.kelvin_voigt == 0)) {
+    damping.diagonal = lower.diagonal();
+  }
+  lower.selfadjointView<Eigen::Lower>().rankUpdate(damping.hub_rotation, damping.hub_friction);
+  damping.whole = lower.selfadjointView<Eigen::Lower>();
   return damping;
 }
 

@@ -10,22 +10,18 @@ namespace flexarm::assumed_modes {
 /// restoring force the lowest is the rigid rotation itself, its stiffness exactly 0.
 RitzPairs undamped_modes(const SymmetricPencil& pencil, bool turns_freely);
 
-/// The zeros of the hub angle as Ritz values of the arm whose hub is held.
-RitzPairs hub_held_modes(const SymmetricPencil& pencil);
+/// The zeros of the hub angle: Ritz values, without vectors, of the arm whose hub is held.
+RitzPairs hub_held_values(const SymmetricPencil& pencil);
 
 /// What takes energy out of the arm, in coordinates that make `mass` and `stiffness` of RitzPairs
 /// diagonal: Q^T (2 R) Q over m l^3 sqrt(EI/(m l^4)).
 struct ModalDamping {
-  /// Kelvin-Voigt and air.
-  Matrix of_beam;
-  /// It is diagonal, to the last bit: Kelvin-Voigt damping alone, and nothing but bending
-  /// stiffness.
-  bool is_diagonal = true;
+  Matrix whole;
   Real hub_friction = 0;
   Vector hub_rotation;  ///< of each mode
-
-  /// of_beam + hub_friction hub_rotation hub_rotation^T.
-  Matrix whole() const;
+  /// `whole` less hub_friction hub_rotation hub_rotation^T, where that is diagonal to the last bit:
+  /// Kelvin-Voigt damping alone, and nothing but bending stiffness. Empty otherwise.
+  Vector diagonal;
 };
 
 ModalDamping modal_damping(const AdmissibleFunctions& functions, const ScaledArm& arm,

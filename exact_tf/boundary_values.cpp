@@ -25,7 +25,7 @@ T slight_deflection(const TransferChain<T>& chain) {
   auto departure = chain.tip_states();
   departure[0][kDisplacement] = departure[1][kRotation] = T(0.0L);
   for (const auto& link : chain.links()) {
-    const auto& transfer = chain.transfer(link);
+    const auto transfer = chain.transfer(link);
     const Real from_tip = 1.0L - link.segment.right;
     std::array<BeamState<T>, 2> next{};
     for (std::size_t i = 0; i < 4; ++i) {
@@ -59,10 +59,9 @@ SensorValue<T> tip_value(const TransferChain<T>& chain) {
 }
 
 template <class T>
-SensorValue<T> deflection_value(const TransferChain<T>& chain) {
+SensorValue<T> deflection_value(const TransferChain<T>& chain, const RootValues<T>& root) {
   // Up to here no term of either form outgrows the others.
   constexpr Real kSlightGrowth = 3.0L;
-  const auto root = root_values(chain);
   if (chain.growth() <= kSlightGrowth) return {slight_deflection(chain), 0.0L, root.size};
   const auto tip = tip_value(chain);
   const Real log_scale = std::max(root.log_scale, tip.log_scale);
@@ -85,8 +84,11 @@ SensorValue<T> curvature_value(const TransferChain<T>& chain, Real x) {
   const SegmentSeries<T> series(chain.arm(), chain.beam(), segment,
                                 state_in_plane(functional.functional, plane.plane));
   const auto state = series.at((segment.right - x) / segment.length);
-  return {chain.beam().flexibility * state[kMoment], plane.log_scale + functional.log_scale,
-          norm_of(plane.plane.minors) * norm_of(functional.functional)};
+  const Real log_scale = plane.log_scale + functional.log_scale;
+  // Sizes here would jump with the cuts between segments; that at the root does not.
+  for (std::size_t i = place; i < links.size(); ++i) chain.to_left(links[i], plane);
+  return {chain.beam().flexibility * state[kMoment], log_scale,
+          norm_of(plane.plane.minors) * std::exp(plane.log_scale - log_scale)};
 }
 
 }  // namespace
@@ -109,18 +111,20 @@ RootValues<T> root_values(const TransferChain<T>& chain) {
 }
 
 template <class T>
-SensorValue<T> sensor_value(const TransferChain<T>& chain, arm::SensorKind kind, Real position) {
+SensorValue<T> sensor_value(const TransferChain<T>& chain, arm::SensorKind kind, Real position,
+                            const std::optional<RootValues<T>>& known_root) {
+  const auto at_root = [&] { return known_root ? *known_root : root_values(chain); };
   switch (kind) {
     case arm::SensorKind::hub_angle:
     case arm::SensorKind::hub_velocity: {
-      const auto root = root_values(chain);
+      const auto root = at_root();
       return {root.hub_angle, root.log_scale, root.size};
     }
     case arm::SensorKind::tip_displacement:
     case arm::SensorKind::tip_acceleration:
       return tip_value(chain);
     case arm::SensorKind::tip_deflection:
-      return deflection_value(chain);
+      return deflection_value(chain, at_root());
     case arm::SensorKind::strain:
       return curvature_value(chain, position);
   }
@@ -140,8 +144,10 @@ template RootValues<Complex> root_values(const TransferChain<Complex>&, const Bi
                                          Real);
 template RootValues<Real> root_values(const TransferChain<Real>&);
 template RootValues<Complex> root_values(const TransferChain<Complex>&);
-template SensorValue<Real> sensor_value(const TransferChain<Real>&, arm::SensorKind, Real);
-template SensorValue<Complex> sensor_value(const TransferChain<Complex>&, arm::SensorKind, Real);
+template SensorValue<Real> sensor_value(const TransferChain<Real>&, arm::SensorKind, Real,
+                                        const std::optional<RootValues<Real>>&);
+template SensorValue<Complex> sensor_value(const TransferChain<Complex>&, arm::SensorKind, Real,
+                                           const std::optional<RootValues<Complex>>&);
 template std::size_t link_at(const TransferChain<Real>&, Real);
 template std::size_t link_at(const TransferChain<Complex>&, Real);
 

@@ -1,23 +1,14 @@
 #include "exact_tf/segment_series.hpp"
 
+#include "exact_tf/series_sum.hpp"
 #include "exact_tf/uniform_segment.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <stdexcept>
 
 namespace flexarm::exact_tf {
 
 namespace {
-
-Real size_of(Real x) {
-  return std::abs(x);
-}
-/// Within a factor sqrt(2) of the modulus.
-Real size_of(const Complex& x) {
-  return std::abs(x.real()) + std::abs(x.imag());
-}
 
 /// One step of the recursion after the other.
 template <class T>
@@ -71,39 +62,10 @@ class Recursion {
   int order_ = 0;
 };
 
-constexpr int kMostTerms = 400;
-constexpr Real kNegligible = 0.01L * std::numeric_limits<Real>::epsilon();
-
-/// Terms of exp(K h) that are needed: before that none is examined.
 template <class T>
-int likely_terms(const ArmInBeamUnits& arm, const BeamAtFrequency<T>& beam,
-                 const Segment& segment) {
-  const Real size = wave_number(arm, beam, segment) * segment.length;
-  int n = 1;
-  for (Real term = size; term > kNegligible; term *= size / static_cast<Real>(n)) ++n;
-  return n;
-}
-
-/// Sums the series at u = 1, handing each term from the first on to `take`.
-template <class T, class Take>
-BeamState<T> summed(Recursion<T>& recursion, int likely, Take take) {
-  constexpr int kPeriod = 4;  // the equations link each component with itself after four terms
-  BeamState<T> sum = recursion.term();
-  int negligible = 0;
-  for (int n = 1; negligible < kPeriod; ++n) {
-    if (n > kMostTerms) throw std::logic_error("segment too long for its power series");
-    recursion.advance();
-    const BeamState<T>& term = recursion.term();
-    take(n, term);
-    for (std::size_t i = 0; i < 4; ++i) sum[i] += term[i];
-    if (n < likely) continue;
-    bool changes = false;
-    for (std::size_t i = 0; i < 4; ++i) {
-      changes = changes || size_of(term[i]) > kNegligible * size_of(sum[i]);
-    }
-    negligible = changes ? 0 : negligible + 1;
-  }
-  return sum;
+int likely_terms_of(const ArmInBeamUnits& arm, const BeamAtFrequency<T>& beam,
+                    const Segment& segment) {
+  return likely_terms(wave_number(arm, beam, segment) * segment.length);
 }
 
 }  // namespace
@@ -124,10 +86,10 @@ SegmentSeries<T>::SegmentSeries(const ArmInBeamUnits& arm, const BeamAtFrequency
                                 const Segment& segment, const BeamState<T>& at_right)
     : coefficients_{at_right} {
   Recursion<T> recursion(arm, beam, segment, at_right);
-  const int likely = likely_terms(arm, beam, segment);
+  const int likely = likely_terms_of(arm, beam, segment);
   coefficients_.reserve(static_cast<std::size_t>(likely) + 8);
-  summed(recursion, likely,
-         [this](int, const BeamState<T>& term) { coefficients_.push_back(term); });
+  sum_series(recursion, likely,
+             [this](int, const BeamState<T>& term) { coefficients_.push_back(term); });
 }
 
 template <class T>
@@ -143,18 +105,18 @@ template <class T>
 SegmentTransfer<T> segment_transfer(const ArmInBeamUnits& arm, const BeamAtFrequency<T>& beam,
                                     const Segment& segment) {
   if (arm.gravity == 0.0L) return uniform_transfer(arm, beam, segment.length);
-  const int likely = likely_terms(arm, beam, segment);
+  const int likely = likely_terms_of(arm, beam, segment);
   SegmentTransfer<T> transfer{};
   for (std::size_t j = 0; j < 4; ++j) {
     BeamState<T> unit{};
     unit[j] = T(1.0L);
     Recursion<T> recursion(arm, beam, segment, unit);
     if (j > kRotation) {
-      transfer.columns[j] = summed(recursion, likely, [](int, const BeamState<T>&) {});
+      transfer.columns[j] = sum_series(recursion, likely, [](int, const BeamState<T>&) {});
       continue;
     }
     BeamState<T>& bending = transfer.bending[j];
-    transfer.columns[j] = summed(recursion, likely, [&](int n, const BeamState<T>& term) {
+    transfer.columns[j] = sum_series(recursion, likely, [&](int n, const BeamState<T>& term) {
       for (std::size_t i = 0; i < 4; ++i) bending[i] += term[i];
       if (n != 1 || j != kRotation) return;
       // y' = psi/(1 + phi g P) of a rod that does not bend, less psi.

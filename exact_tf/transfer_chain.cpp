@@ -1,5 +1,7 @@
 #include "exact_tf/transfer_chain.hpp"
 
+#include "exact_tf/varying_segment.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -46,12 +48,12 @@ void TransferChain<T>::cut(const BeamAtFrequency<T>& cut_for) {
   const Real crack = arm_.crack_position.value_or(0.0L);
   add_piece(cut_for, crack, 1.0L);
   if (!arm_.crack_position) return;
-  links_.push_back({{crack, 0.0L}, true, add_transfer(crack_transfer<T>(arm_))});
+  links_.push_back({{crack, 0.0L}, true, share(crack_transfer<T>(arm_))});
   add_piece(cut_for, 0.0L, crack);
 }
 
 template <class T>
-std::size_t TransferChain<T>::add_transfer(const SegmentTransfer<T>& columns) {
+std::size_t TransferChain<T>::share(const SegmentTransfer<T>& columns) {
   transfers_.push_back({columns, {}});
   if (with_planes_) transfers_.back().compound = compound_of(columns.columns);
   return transfers_.size() - 1;
@@ -70,13 +72,19 @@ void TransferChain<T>::add_piece(const BeamAtFrequency<T>& cut_for, Real left, R
   growth_ += waves;
   const long count = std::max(1L, std::lround(std::ceil(wanted)));
   const Real step = length / static_cast<Real>(count);
-  const bool uniform = arm_.gravity == 0.0L;
+  std::optional<std::size_t> shared;
+  if (arm_.gravity == 0.0L) shared = share(segment_transfer(arm_, beam_, {right, step}));
   for (long i = 0; i < count; ++i) {
     Segment segment{right - static_cast<Real>(i) * step, step};
     if (i + 1 == count) segment.length = segment.right - left;
-    if (i == 0 || !uniform) add_transfer(segment_transfer(arm_, beam_, {segment.right, step}));
-    links_.push_back({segment, false, transfers_.size() - 1});
+    links_.push_back({segment, false, shared});
   }
+}
+
+template <class T>
+SegmentTransfer<T> TransferChain<T>::transfer(const Link& link) const {
+  return link.shared ? transfers_[*link.shared].columns
+                     : segment_transfer(arm_, beam_, link.segment);
 }
 
 template <class T>
@@ -107,18 +115,23 @@ ScaledFunctional<T> TransferChain<T>::root_functional() const {
 
 template <class T>
 void TransferChain<T>::to_left(const Link& link, ScaledPlane<T>& plane) const {
-  plane.plane = transfers_[link.transfer].compound * plane.plane;
+  plane.plane = link.shared ? transfers_[*link.shared].compound * plane.plane
+                            : plane_at_left(arm_, beam_, link.segment, plane.plane);
   keep_in_range(plane.plane.minors, plane.log_scale);
 }
 
 template <class T>
 void TransferChain<T>::to_right(const Link& link, ScaledFunctional<T>& functional) const {
-  const auto& columns = transfers_[link.transfer].columns.columns;
-  BeamState<T> result{};
-  for (std::size_t j = 0; j < 4; ++j) {
-    for (std::size_t i = 0; i < 4; ++i) result[j] += functional.functional[i] * columns[j][i];
+  if (link.shared) {
+    const auto& columns = transfers_[*link.shared].columns.columns;
+    BeamState<T> result{};
+    for (std::size_t j = 0; j < 4; ++j) {
+      for (std::size_t i = 0; i < 4; ++i) result[j] += functional.functional[i] * columns[j][i];
+    }
+    functional.functional = result;
+  } else {
+    functional.functional = functional_at_right(arm_, beam_, link.segment, functional.functional);
   }
-  functional.functional = result;
   keep_in_range(functional.functional, functional.log_scale);
 }
 

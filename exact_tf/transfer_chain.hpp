@@ -51,13 +51,12 @@ class TransferChain {
   struct Link {
     Segment segment;
     bool is_crack = false;
-    std::size_t transfer = 0;  ///< index into what equal segments share
+    std::optional<std::size_t> shared = std::nullopt;  ///< a transfer that other links share
   };
   /// From the tip to the root.
   const std::vector<Link>& links() const { return links_; }
-  const SegmentTransfer<T>& transfer(const Link& link) const {
-    return transfers_[link.transfer].columns;
-  }
+  /// Computed anew where the link shares it with no other.
+  SegmentTransfer<T> transfer(const Link& link) const;
   /// The sum of K over the beam: states grow by its exponential at most.
   Real growth() const { return growth_; }
 
@@ -86,7 +85,7 @@ class TransferChain {
 
   void cut(const BeamAtFrequency<T>& cut_for);
   void add_piece(const BeamAtFrequency<T>& cut_for, Real left, Real right);
-  std::size_t add_transfer(const SegmentTransfer<T>& columns);
+  std::size_t share(const SegmentTransfer<T>& columns);
 
   const ArmInBeamUnits& arm_;
   BeamAtFrequency<T> beam_;

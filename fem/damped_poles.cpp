@@ -113,27 +113,28 @@ Refined refine(const Discretisation& model, Complex s, Eigen::VectorXcd x) {
   return refined;
 }
 
-/// Refines the roots of a pair, which stay conjugates or real.
+/// Refines the roots of a pair, which stay conjugates or real, near the places where the projection
+/// has them; else it is too coarse.
 RootPair refine_pair(const Discretisation& model, const DampedPair& pair,
                      const Eigen::MatrixXd& basis, DampedRoots& roots) {
   constexpr double kSettled = 1e-9;
+  constexpr double kNear = 0.1;
+  const bool is_real = pair.first.imag() == 0.0;
   const auto refined_root = [&](Complex s, const Eigen::VectorXcd& shape) -> Complex {
     if (s == 0.0) return s;  // nothing holds the hub
     const Refined refined = refine(model, s, basis * shape);
     roots.iterations += refined.iterations;
     roots.largest_change = std::max(roots.largest_change, refined.last_change);
-    roots.converged = roots.converged && refined.last_change <= kSettled;
-    return refined.s;
+    const double size = std::abs(refined.s);
+    roots.converged = roots.converged && refined.last_change <= kSettled &&
+                      std::abs(refined.s - s) <= kNear * size &&
+                      (!is_real || std::abs(refined.s.imag()) <= kSettled * size);
+    return is_real ? Complex(refined.s.real(), 0.0) : refined.s;
   };
-  if (pair.first.imag() > 0.0) {
-    const Complex first = refined_root(pair.first, pair.first_shape);
-    return {first, std::conj(first)};
-  }
   const Complex first = refined_root(pair.first, pair.first_shape);
+  if (!is_real) return {first, std::conj(first)};
   const Complex second = refined_root(pair.second, pair.second_shape);
-  const Complex low(first.real(), 0.0);
-  const Complex high(second.real(), 0.0);
-  return std::abs(low) <= std::abs(high) ? RootPair{low, high} : RootPair{high, low};
+  return std::abs(first) <= std::abs(second) ? RootPair{first, second} : RootPair{second, first};
 }
 
 /// Whether two of the roots are one, but for a double root of one pair.

@@ -184,7 +184,8 @@ std::optional<Roots> follow(const Roots& before, const Found& found, bool force)
       return std::nullopt;
     }
     const std::size_t gap = best_gap(places, found.real, found.complex[number].real());
-    const auto [earlier, later] = std::minmax(pairs[gap], pairs[gap + 1]);
+    const std::size_t earlier = std::min(pairs[gap], pairs[gap + 1]);
+    const std::size_t later = std::max(pairs[gap], pairs[gap + 1]);
     const auto first = pairs.begin() + static_cast<std::ptrdiff_t>(gap);
     pairs.erase(first, first + 2);
     std::ranges::replace(pairs, later, earlier);

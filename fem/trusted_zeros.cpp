@@ -139,8 +139,10 @@ arm::ZeroSet trusted_zeros(const Discretisation& model, const CheckingModels& ch
   if (row.constant().isZero(0.0)) return {};
   const int finite = model.size() + 1 - row.infinite_roots();
   const int wanted = std::min(count + kSpare, finite);
-  // There are up to sqrt(2) poles for a root.
-  const CheckedNumerators numerators(model, checking, sensor, 2 * wanted, options.eigen_tolerance);
+  // There are up to sqrt(2) poles for a root, and more of a sheared beam, whose real zeros follow
+  // the decay along the beam and whose poles follow its slower waves.
+  const int poles = (model.arm().shear ? 4 : 2) * wanted;
+  const CheckedNumerators numerators(model, checking, sensor, poles, options.eigen_tolerance);
   PencilRoots roots = pencil_roots(model, numerators.model, wanted, options.eigen_tolerance);
   JudgedZeros judged = judge(roots, numerators, count, options.agreement);
   const auto missing = [&] { return judged.zeros.count.expected > judged.zeros.count.found; };

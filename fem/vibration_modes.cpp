@@ -80,30 +80,53 @@ std::runtime_error eigensolver_failure(const char* method, const Discretisation&
                   support == HubSupport::clamped ? "clamped" : "free", describe(model)));
 }
 
-/// L of M = L L^T, the free coordinates alone. A sheared element with next to no rotary inertia has
+/// M = L L^T, the free coordinates alone. A sheared element with next to no rotary inertia has
 /// motions without kinetic energy: then M is semidefinite and L one of its square roots.
-Eigen::MatrixXd mass_factor(const Discretisation& model, int free_size) {
-  const Eigen::MatrixXd mass =
-      Eigen::MatrixXd(model.mass()).bottomRightCorner(free_size, free_size);
-  const Eigen::LLT<Eigen::MatrixXd> cholesky(mass);
-  if (cholesky.info() == Eigen::Success) return cholesky.matrixL();
-  const Eigen::LDLT<Eigen::MatrixXd> pivoted(mass);
-  Eigen::MatrixXd lower = pivoted.matrixL();
-  lower = (pivoted.transpositionsP().transpose() * lower).eval();
-  return lower * pivoted.vectorD().cwiseMax(0.0).cwiseSqrt().asDiagonal();
-}
-
-/// What loads L v bring about, for each column v.
-Eigen::MatrixXd responses(const Discretisation& model, const FlexibleSolve& solve,
-                          const Eigen::MatrixXd& loads) {
-  Eigen::MatrixXd u(model.size(), loads.cols());
-  Eigen::VectorXd load = Eigen::VectorXd::Zero(model.size());
-  for (Eigen::Index j = 0; j < loads.cols(); ++j) {
-    load.tail(loads.rows()) = loads.col(j);
-    u.col(j) = solve(load).u;
+class MassRoot {
+ public:
+  MassRoot(const Discretisation& model, const FlexibleSolve& solve, int free_size)
+      : model_(model),
+        solve_(solve),
+        cholesky_(Eigen::MatrixXd(model.mass()).bottomRightCorner(free_size, free_size)) {
+    if (is_definite()) {
+      lower_ = cholesky_.matrixL();
+      return;
+    }
+    const Eigen::LDLT<Eigen::MatrixXd> pivoted(
+        Eigen::MatrixXd(model.mass()).bottomRightCorner(free_size, free_size));
+    const Eigen::MatrixXd unit = pivoted.matrixL();
+    lower_ = pivoted.transpositionsP().transpose() * unit;
+    lower_ *= pivoted.vectorD().cwiseMax(0.0).cwiseSqrt().asDiagonal();
   }
-  return u;
-}
+
+  const Eigen::MatrixXd& lower() const { return lower_; }
+  /// What the loads in the columns bring about.
+  Eigen::MatrixXd responses(const Eigen::MatrixXd& loads) const {
+    Eigen::MatrixXd u(model_.size(), loads.cols());
+    Eigen::VectorXd load = Eigen::VectorXd::Zero(model_.size());
+    for (Eigen::Index j = 0; j < loads.cols(); ++j) {
+      load.tail(loads.rows()) = loads.col(j);
+      u.col(j) = solve_(load).u;
+    }
+    return u;
+  }
+  /// The modes u with L^T u = `v`; up to their sizes, from their responses to L v, where L cannot
+  /// be inverted.
+  Eigen::MatrixXd shapes(const Eigen::MatrixXd& v) const {
+    if (!is_definite()) return responses(lower_ * v);
+    Eigen::MatrixXd u = Eigen::MatrixXd::Zero(model_.size(), v.cols());
+    u.bottomRows(v.rows()) = cholesky_.matrixU().solve(v);
+    return u;
+  }
+
+ private:
+  bool is_definite() const { return cholesky_.info() == Eigen::Success; }
+
+  const Discretisation& model_;
+  const FlexibleSolve& solve_;
+  Eigen::LLT<Eigen::MatrixXd> cholesky_;
+  Eigen::MatrixXd lower_;
+};
 
 /// The modes from right singular vectors of D^-1/2 B^-T P L, M = L L^T; P takes the rigid
 /// acceleration out of the loads. Of a shifted problem from eigenvectors of L^T (K + shift M)^-1 L.
@@ -111,17 +134,17 @@ Eigen::MatrixXd dense_shapes(const Discretisation& model, HubSupport support,
                              const FlexibleSolve& solve, int count) {
   const int held = support == HubSupport::clamped ? 1 : 0;
   const int free_size = model.size() - held;
-  const Eigen::MatrixXd lower = mass_factor(model, free_size);
+  const MassRoot root_of_mass(model, solve, free_size);
+  const Eigen::MatrixXd& lower = root_of_mass.lower();
   if (solve.shift() > 0.0) {
     const Eigen::MatrixXd product =
-        lower.transpose() * responses(model, solve, lower).bottomRows(free_size);
+        lower.transpose() * root_of_mass.responses(lower).bottomRows(free_size);
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen((product + product.transpose()) /
                                                                2.0);
     if (eigen.info() != Eigen::Success) {
       throw eigensolver_failure("QR iteration", model, support, count);
     }
-    const Eigen::MatrixXd slowest = eigen.eigenvectors().rightCols(count).rowwise().reverse();
-    return responses(model, solve, lower * slowest);
+    return root_of_mass.shapes(eigen.eigenvectors().rightCols(count).rowwise().reverse());
   }
   const Eigen::VectorXd root = solve.flexibility().natural_stiffness().cwiseSqrt();
   Eigen::MatrixXd strains(model.clamped_size(), free_size);
@@ -136,7 +159,7 @@ Eigen::MatrixXd dense_shapes(const Discretisation& model, HubSupport support,
   if (svd.info() != Eigen::Success) {
     throw eigensolver_failure("singular value decomposition", model, support, count);
   }
-  return responses(model, solve, lower * svd.matrixV().leftCols(count));
+  return root_of_mass.shapes(svd.matrixV().leftCols(count));
 }
 
 /// Lanczos: `count` modes M-orthogonal to the `known` ones.

@@ -120,8 +120,10 @@ Panel phase_panel(const BodePlot& plot) {
   // Ticks a quarter turn apart, more where an unwrapped phase runs over several turns.
   const int first = static_cast<int>(std::floor(lowest / 90.0 + 0.25));
   const int last = static_cast<int>(std::ceil(highest / 90.0 - 0.25));
-  const int step = std::max(1, (last - first + 4) / 5);
-  for (int quarter = first; quarter <= last; quarter += step) {
+  int step = 1;
+  while (5 * step < last - first) step *= 2;
+  const int lowest_tick = step * static_cast<int>(std::ceil(static_cast<double>(first) / step));
+  for (int quarter = lowest_tick; quarter <= last; quarter += step) {
     panel.y.ticks.push_back(
         {90.0 * quarter, fmt::format("{}{}", quarter < 0 ? "−" : "", std::abs(90 * quarter))});
   }

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <complex>
 #include <cstdint>
+#include <limits>
 #include <numbers>
 
 namespace flexarm::report {
@@ -61,8 +62,9 @@ Table damped_poles_table(const response::ModalSummary& summary) {
                {"damping ratio", "", 6}}};
   const auto add = [&table](std::int64_t mode, std::complex<double> s) {
     const double size = std::abs(s);
-    table.add_row(
-        {mode, s.real(), s.imag(), frequency_Hz(size), size > 0.0 ? -s.real() / size : NAN});
+    Cell damping_ratio;
+    if (size > 0.0) damping_ratio = -s.real() / size;
+    table.add_row({mode, s.real(), s.imag(), frequency_Hz(size), damping_ratio});
   };
   const auto& poles = summary.damped_poles;
   add(0, poles.lowest.first_rad_per_s);

@@ -61,7 +61,7 @@ std::string response_unit(const arm::Sensor& sensor) {
   return unit == "1" ? "1/(N m)" : fmt::format("{}/(N m)", unit);
 }
 
-Table damped_poles_table(const response::ResponseStudy& study, std::size_t most) {
+Table response_poles_table(const response::ResponseStudy& study, std::size_t most) {
   Table table{"Poles; a complex one stands for its conjugate too",
               {{"pole"},
                {"undamped", "Hz", kDigits},

@@ -14,7 +14,7 @@ std::string response_unit(const arm::Sensor& sensor);
 
 /// Undamped and damped poles, the lowest (order 0) first, `most` flexible ones; a row for each root
 /// of a real pair; and the poles that lags of actuator and sensors add.
-Table damped_poles_table(const response::ResponseStudy& study, std::size_t most);
+Table response_poles_table(const response::ResponseStudy& study, std::size_t most);
 
 /// What sensor `index` responds, as two formulas: the product over poles and zeros, (40)-(42) of
 /// the paper put right, and the modal sum, (48)-(49) put right; `factors_table` has their numbers.

@@ -35,11 +35,11 @@ std::string panel_label(const arm::Sensor& sensor) {
     case arm::SensorKind::hub_velocity:
       return "hub velocity";
     case arm::SensorKind::tip_acceleration:
-      return "end-point acceleration";
+      return "tip acceleration";
     case arm::SensorKind::tip_displacement:
-      return "end-point displacement";
+      return "tip displacement";
     case arm::SensorKind::tip_deflection:
-      return "end-point deflection";
+      return "tip deflection";
     case arm::SensorKind::strain:
       break;
   }
@@ -106,12 +106,12 @@ Table torque_table(const std::vector<SimulatedRun>& runs) {
   Table table{"Commanded torque",
               {{"run"},
                {"samples"},
-               {"period", "s"},
-               {"duration", "s"},
-               {"peak", "N m"},
-               {"rms", "N m"},
-               {"crest factor", "", 3},
-               {"payload", "kg"},
+               {"period", "s", 4},
+               {"duration", "s", 4},
+               {"peak", "N m", 4},
+               {"rms", "N m", 4},
+               {"crest", "", 3},
+               {"payload", "kg", 4},
                {"excitation"}}};
   for (const auto& run : runs) {
     const auto& torque = run.record.torque_N_m;
@@ -155,16 +155,18 @@ double relative_energy_residual(const response::EnergyBalance& energy) {
 }
 
 Table energy_table(const std::vector<SimulatedRun>& runs) {
-  Table table{"Energy: work in = kinetic + potential + dissipated + residual",
-              {{"run"},
-               {"work in", "J"},
-               {"kinetic", "J"},
-               {"potential", "J"},
-               {"hub viscous", "J"},
-               {"material, air", "J"},
-               {"dry friction", "J"},
-               {"drag", "J"},
-               error_column("residual/work")}};
+  Table table{
+      "Energy: work in = kinetic + potential at the end + losses in the hub's viscous friction, in "
+      "beam and air,\nin dry friction and in drag + residual, which is relative to the work",
+      {{"run"},
+       {"work in", "J", 4},
+       {"kinetic", "J", 4},
+       {"potential", "J", 4},
+       {"viscous", "J", 4},
+       {"material", "J", 4},
+       {"friction", "J", 4},
+       {"drag", "J", 4},
+       error_column("residual")}};
   for (const auto& run : runs) {
     const auto& energy = run.simulation.energy;
     table.add_row({run.id, energy.work_in_J, energy.kinetic_J, energy.potential_J, energy.viscous_J,

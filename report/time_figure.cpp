@@ -1,7 +1,5 @@
 #include "report/time_figure.hpp"
 
-#include "report/overlay_style.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,8 +14,8 @@ namespace {
 constexpr std::size_t kStretches = 1000;
 constexpr std::size_t kMostPoints = 4 * kStretches;
 
-constexpr int kPanelHeight_px = 165;
-constexpr int kFurniture_px = 110;  // title and time axis
+constexpr int kPanelHeight_px = 195;  // "tip acceleration [m/s^2]" fits beside it
+constexpr int kFurniture_px = 110;    // title and time axis
 
 /// Samples that are drawn of a long signal, ascending.
 std::vector<std::size_t> shown_samples(const std::vector<double>& values) {
@@ -36,6 +34,17 @@ std::vector<std::size_t> shown_samples(const std::vector<double>& values) {
     }
   }
   return samples;
+}
+
+/// Thin lines, as signals turn often; the first of several, on which the others lie, broader and
+/// pale.
+Style style_of(std::size_t i, std::size_t curves) {
+  Style style;
+  style.colour = static_cast<int>(i % kColours);
+  const bool is_below = i == 0 && curves > 1;
+  style.line_width_px = is_below ? 2.5 : 1.1;
+  style.tint = is_below ? 0.6 : 0.0;
+  return style;
 }
 
 Series series_of(const TimePlot& plot, const TimeCurve& curve, const Style& style) {
@@ -63,9 +72,7 @@ Figure time_figure(const TimePlot& plot) {
   for (const auto& panel : plot.panels) {
     Panel drawn{.y = {.label = panel.label, .unit = panel.unit}};
     for (std::size_t i = 0; i < panel.curves.size(); ++i) {
-      Style style = panel.curves.size() == 1 ? Style{} : overlay_style(i);
-      if (panel.curves.size() == 1) style.line_width_px = 1.0;
-      drawn.series.push_back(series_of(plot, panel.curves[i], style));
+      drawn.series.push_back(series_of(plot, panel.curves[i], style_of(i, panel.curves.size())));
     }
     stack.panels.push_back(std::move(drawn));
   }

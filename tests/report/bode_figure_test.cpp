@@ -74,7 +74,7 @@ TEST(BodeFigure, PolesAndZerosWithinTheFrequenciesAreMarkedBelowTheCurves) {
   BodePlot marked = plot();
   marked.poles_Hz = {0.5, 11.0, 200.0};
   marked.zeros_Hz = {3.0};
-  const auto& series = bode_figure(marked).stacks[0].panels[0].series;
+  const auto series = bode_figure(marked).stacks[0].panels[0].series;
   ASSERT_EQ(series.size(), 4U);
   EXPECT_THAT(series[2].x, ElementsAre(11.0));
   EXPECT_THAT(series[3].x, ElementsAre(3.0));

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -44,7 +45,7 @@ NyquistPlot plot(std::size_t count) {
 TEST(NyquistFigure, AnglesOfTheCompressedLocusAreTrue) {
   NyquistPlot one = plot(1);
   one.response = {{3.0, 4.0}, {-30.0, 40.0}, {0.0, -0.5}, {0.6, 0.8}};
-  const auto& series = nyquist_figure(one).stacks[0].panels[0].series;
+  const auto series = nyquist_figure(one).stacks[0].panels[0].series;
   const auto locus = std::ranges::find(series, "response", &Series::name);
   ASSERT_NE(locus, series.end());
   for (std::size_t i = 0; i < one.response.size(); ++i) {
@@ -56,7 +57,7 @@ TEST(NyquistFigure, AnglesOfTheCompressedLocusAreTrue) {
 TEST(NyquistFigure, AValueThatIsNoneIsAGap) {
   NyquistPlot gap = plot(1);
   gap.response.insert(gap.response.begin() + 5, Complex(std::numeric_limits<double>::infinity()));
-  const auto& series = nyquist_figure(gap).stacks[0].panels[0].series;
+  const auto series = nyquist_figure(gap).stacks[0].panels[0].series;
   const auto locus = std::ranges::find(series, "response", &Series::name);
   EXPECT_TRUE(std::isnan(locus->x[5]));
 }
@@ -79,7 +80,8 @@ TEST(NyquistFigure, EachCircleFillsAPanelToScale) {
 
 TEST(NyquistFigure, NoMoreThanFourCirclesAreDrawn) {
   std::size_t panels = 0;
-  for (const auto& stack : nyquist_figure(plot(6)).stacks) panels += stack.panels.size();
+  const Figure figure = nyquist_figure(plot(6));
+  for (const auto& stack : figure.stacks) panels += stack.panels.size();
   EXPECT_EQ(panels, 1U + 4U);
 }
 

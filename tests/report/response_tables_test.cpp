@@ -28,18 +28,18 @@ TEST(ResponseTables, WhatIsInTheResponseAndWhatIsNotIsSaid) {
 }
 
 TEST(ResponseTables, LagsAddPoles) {
-  const std::string text = to_text(damped_poles_table(sample_study(), 3));
+  const std::string text = to_text(response_poles_table(sample_study(), 3));
   EXPECT_THAT(text, HasSubstr("actuator lag"));
   EXPECT_THAT(text, HasSubstr("-500"));
   EXPECT_THAT(text, HasSubstr("lag of tip_acceleration"));
-  EXPECT_THAT(to_text(damped_poles_table(sample_study(arm::paper_arm()), 3)),
+  EXPECT_THAT(to_text(response_poles_table(sample_study(arm::paper_arm()), 3)),
               Not(HasSubstr("lag")));
 }
 
 TEST(ResponseTables, ARealPairHasARowForEachRoot) {
   auto study = sample_study();
   study.damped_poles.flexible[2] = {{-10.0, 0.0}, {-4000.0, 0.0}};
-  const Table table = damped_poles_table(study, 3);
+  const Table table = response_poles_table(study, 3);
   int rows = 0;
   for (const auto& row : table.rows) rows += row[0] == Cell(std::string("3")) ? 1 : 0;
   EXPECT_EQ(rows, 2);
@@ -68,7 +68,7 @@ TEST(ResponseTables, PickedRowsKeepBothEndsAndThePhaseOfAllOfThem) {
 
 TEST(ResponseTables, NoLineIsWiderThanATerminal) {
   const auto study = sample_study();
-  std::string text = to_text(damped_poles_table(study, 3)) + to_text(factors_table(study, 1)) +
+  std::string text = to_text(response_poles_table(study, 3)) + to_text(factors_table(study, 1)) +
                      to_text(response_table(study.response, 10)) +
                      to_text(state_space_table(study));
   for (std::size_t k = 0; k < 2; ++k) {

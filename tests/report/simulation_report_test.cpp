@@ -64,7 +64,7 @@ TEST(SimulationReport, TheEnergyLeftOverIsRelativeToTheWork) {
 TEST(SimulationReport, TorqueAndHubMotionAreTold) {
   const std::string torque = to_text(torque_table({sample_run()}));
   EXPECT_THAT(torque, HasSubstr("step, amplitude 0.5 N m"));
-  EXPECT_THAT(torque, HasSubstr("0.0600000"));
+  EXPECT_THAT(torque, HasSubstr("0.06000"));
   const Table hub = hub_motion_table({sample_run()});
   EXPECT_EQ(std::get<std::int64_t>(hub.rows[0][2]), 3);
   EXPECT_EQ(std::get<double>(hub.rows[0][4]), 0.25);

@@ -150,6 +150,44 @@ TEST_F(Sweep, TracksAreContinuousWhateverTheGrid) {
   }
 }
 
+TEST_F(Sweep, DampedPolesAreFollowedThroughCriticalDamping) {
+  auto task = task_over({"hub.viscous_friction=log:1e-3:0.4:15"});
+  task.arm.payload = {};
+  task.arm.damping.kelvin_voigt_s = 1e-4;
+  const auto result = sweep(task);
+  int becoming_real = 0;
+  for (const auto& curve : result.curves) {
+    if (!curve.family.damped) continue;
+    const auto& poles = curve.s_rad_per_s.front();
+    for (std::size_t j = 1; j < poles.size(); ++j) {
+      if (!poles[j] || !poles[j - 1]) continue;
+      // Equal ratios of friction: no pole moves further than that, but near where two meet.
+      EXPECT_LT(relative_distance(*poles[j], *poles[j - 1]), 1.0) << curve.number << " " << j;
+    }
+    if (!poles.front() || !poles.back()) continue;
+    if (poles.front()->imag() > 0.0 && poles.back()->imag() == 0.0) ++becoming_real;
+  }
+  EXPECT_EQ(becoming_real, 1);
+  const auto parting = std::ranges::find(result.events, Kind::part, &SweepEvent::kind);
+  ASSERT_NE(parting, result.events.end());
+  EXPECT_TRUE(parting->family.damped);
+  EXPECT_GT(parting->from_value, 0.25);
+  EXPECT_LT(parting->to_value, 0.32);
+}
+
+TEST_F(Sweep, AnUndampedSweepHasNoDampedPoles) {
+  for (const auto& curve : sweep(task_over({"payload.mass=0,0.1"})).curves) {
+    EXPECT_FALSE(curve.family.damped);
+  }
+  // One damped point is enough.
+  auto from_zero = task_over({"damping.kelvin_voigt=0,1e-4"});
+  const auto result = sweep(from_zero);
+  const auto damped =
+      std::ranges::count_if(result.curves, [](const auto& curve) { return curve.family.damped; });
+  EXPECT_EQ(damped, from_zero.questions.poles);
+  EXPECT_TRUE(result.events.empty());
+}
+
 TEST_F(Sweep, RowsOfATwoParameterGridShareTheirTracks) {
   auto task = task_over({"payload.mass=0.02:0.3:4", "payload.inertia=1e-5:0.004:7"});
   const auto result = sweep(task);

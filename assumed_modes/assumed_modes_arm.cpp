@@ -91,7 +91,7 @@ arm::ZeroSet AssumedModesArm::zeros(const arm::Sensor& sensor, int count) const 
 }
 
 arm::ZeroSet AssumedModesArm::hub_zeros(int count) const {
-  const RitzPairs pairs = hub_held_modes(pencil_);
+  const RitzPairs pairs = hub_held_values(pencil_);
   const double scale = arm::omega_scale_rad_per_s(linear_);
   arm::ZeroSet result;
   for (Eigen::Index k = 0; k < kept(count, pairs.mass.size()); ++k) {

@@ -5,13 +5,18 @@
 
 namespace flexarm::assumed_modes {
 
+enum class Wanted {
+  pairs,
+  values,  ///< vectors and residual are left out, but where the lowest eigenvalue needs them
+};
+
 /// Solutions of K q = mu M q, mu = lambda^4 = m l^4 omega^2/EI, in ascending order.
 struct RitzPairs {
   Vector eigenvalues;         ///< mu
   Vector mass;                ///< q^T M q
   Vector stiffness;           ///< q^T K q = mu q^T M q; stiffness + shift mass = 1
   Matrix vectors;             ///< columns q
-  Real largest_residual = 0;  ///< |C z - nu z| over the largest nu, see ritz_pairs
+  Real largest_residual = 0;  ///< of the lowest twelve, |C z - nu z| over the largest nu
   bool converged = false;     ///< the eigensolver did, and every q^T M q is positive
 };
 
@@ -26,6 +31,6 @@ struct RitzPairs {
 /// far below the shift, after a step of inverse iteration). Lumped terms are rotated into the
 /// first coordinates, the greatest first, where Cholesky's method leaves their rounding: whatever
 /// their size, they do not drown the beam.
-RitzPairs ritz_pairs(const SymmetricPencil& pencil);
+RitzPairs ritz_pairs(const SymmetricPencil& pencil, Wanted wanted = Wanted::pairs);
 
 }  // namespace flexarm::assumed_modes

@@ -33,8 +33,8 @@ RitzPairs undamped_modes(const SymmetricPencil& pencil, bool turns_freely) {
   return pairs;
 }
 
-RitzPairs hub_held_modes(const SymmetricPencil& pencil) {
-  return ritz_pairs(with_hub_held(pencil).pencil);
+RitzPairs hub_held_values(const SymmetricPencil& pencil) {
+  return ritz_pairs(with_hub_held(pencil).pencil, Wanted::values);
 }
 
 ModalDamping modal_damping(const AdmissibleFunctions& functions, const ScaledArm& arm,

@@ -10,8 +10,8 @@ namespace flexarm::assumed_modes {
 /// restoring force the lowest is the rigid rotation itself, its stiffness exactly 0.
 RitzPairs undamped_modes(const SymmetricPencil& pencil, bool turns_freely);
 
-/// The zeros of the hub angle as Ritz values of the arm whose hub is held.
-RitzPairs hub_held_modes(const SymmetricPencil& pencil);
+/// The zeros of the hub angle: Ritz values, without vectors, of the arm whose hub is held.
+RitzPairs hub_held_values(const SymmetricPencil& pencil);
 
 /// What takes energy out of the arm, in coordinates that make `mass` and `stiffness` of RitzPairs
 /// diagonal: Q^T (2 R) Q over m l^3 sqrt(EI/(m l^4)).

@@ -59,10 +59,9 @@ SensorValue<T> tip_value(const TransferChain<T>& chain) {
 }
 
 template <class T>
-SensorValue<T> deflection_value(const TransferChain<T>& chain) {
+SensorValue<T> deflection_value(const TransferChain<T>& chain, const RootValues<T>& root) {
   // Up to here no term of either form outgrows the others.
   constexpr Real kSlightGrowth = 3.0L;
-  const auto root = root_values(chain);
   if (chain.growth() <= kSlightGrowth) return {slight_deflection(chain), 0.0L, root.size};
   const auto tip = tip_value(chain);
   const Real log_scale = std::max(root.log_scale, tip.log_scale);
@@ -112,18 +111,20 @@ RootValues<T> root_values(const TransferChain<T>& chain) {
 }
 
 template <class T>
-SensorValue<T> sensor_value(const TransferChain<T>& chain, arm::SensorKind kind, Real position) {
+SensorValue<T> sensor_value(const TransferChain<T>& chain, arm::SensorKind kind, Real position,
+                            const std::optional<RootValues<T>>& known_root) {
+  const auto at_root = [&] { return known_root ? *known_root : root_values(chain); };
   switch (kind) {
     case arm::SensorKind::hub_angle:
     case arm::SensorKind::hub_velocity: {
-      const auto root = root_values(chain);
+      const auto root = at_root();
       return {root.hub_angle, root.log_scale, root.size};
     }
     case arm::SensorKind::tip_displacement:
     case arm::SensorKind::tip_acceleration:
       return tip_value(chain);
     case arm::SensorKind::tip_deflection:
-      return deflection_value(chain);
+      return deflection_value(chain, at_root());
     case arm::SensorKind::strain:
       return curvature_value(chain, position);
   }
@@ -143,8 +144,10 @@ template RootValues<Complex> root_values(const TransferChain<Complex>&, const Bi
                                          Real);
 template RootValues<Real> root_values(const TransferChain<Real>&);
 template RootValues<Complex> root_values(const TransferChain<Complex>&);
-template SensorValue<Real> sensor_value(const TransferChain<Real>&, arm::SensorKind, Real);
-template SensorValue<Complex> sensor_value(const TransferChain<Complex>&, arm::SensorKind, Real);
+template SensorValue<Real> sensor_value(const TransferChain<Real>&, arm::SensorKind, Real,
+                                        const std::optional<RootValues<Real>>&);
+template SensorValue<Complex> sensor_value(const TransferChain<Complex>&, arm::SensorKind, Real,
+                                           const std::optional<RootValues<Complex>>&);
 template std::size_t link_at(const TransferChain<Real>&, Real);
 template std::size_t link_at(const TransferChain<Complex>&, Real);
 

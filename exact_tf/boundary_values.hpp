@@ -3,6 +3,8 @@
 #include "arm/sensor.hpp"
 #include "exact_tf/transfer_chain.hpp"
 
+#include <optional>
+
 namespace flexarm::exact_tf {
 
 /// The arm's motion under the tip's conditions and y(0) = a theta, which is unique up to a factor;
@@ -32,9 +34,10 @@ struct SensorValue {
 
 /// What a sensor shows before time derivatives, in units of the beam: theta, y(l),
 /// y(l) - (a + l) theta or psi'(X), X in units of l. The deflection keeps its digits where it is
-/// small beside both of its terms.
+/// small beside both of its terms. `root` saves its computation where it is known.
 template <class T>
-SensorValue<T> sensor_value(const TransferChain<T>& chain, arm::SensorKind kind, Real position);
+SensorValue<T> sensor_value(const TransferChain<T>& chain, arm::SensorKind kind, Real position,
+                            const std::optional<RootValues<T>>& root = std::nullopt);
 
 /// The link that holds x, the one towards the tip where two meet.
 template <class T>

@@ -55,8 +55,14 @@ RealRoots find_bracketed_roots(const CountedFunction& function, const CountedInt
     open.push_back({bracket.low, bracket.below_low, middle, below_middle});
   }
   roots.count.found = static_cast<int>(std::ssize(roots.lambda));
-  roots.count.expected =
-      function.count_below(above_last + kNarrowest * std::abs(above_last)) - interval.below_low;
+  // Just above the last root, where rounding of an ill-conditioned function leaves its sign open:
+  // as far above as the digits of a double reach.
+  constexpr Real kDouble = std::numeric_limits<double>::epsilon();
+  for (const Real margin : {kNarrowest, 0.25L * kDouble, 4.0L * kDouble}) {
+    const Real above = above_last + margin * std::abs(above_last);
+    roots.count.expected = function.count_below(above) - interval.below_low;
+    if (roots.count.expected == roots.count.found) break;
+  }
   return roots;
 }
 

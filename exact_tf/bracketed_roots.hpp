@@ -16,7 +16,7 @@ struct RootSearchOptions {
 };
 
 /// Roots on the real lambda axis, ascending, with the proof that they are all: `count` compares
-/// them with the count just above the last.
+/// them with the count above the last, by 1e-15 of it at most.
 struct RealRoots {
   std::vector<Real> lambda;
   arm::RootCount count;

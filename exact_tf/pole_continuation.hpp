@@ -22,7 +22,8 @@ struct UndampedMode {
 
 struct ContinuationOptions {
   /// With rho = |F'/F''| in terms of u below, at most some half of the distance to the nearest
-  /// other root: a step in d is taken as far as it moves u by <= this rho
+  /// other root: a step in d is taken as far as it moves u by <= this rho (more along a straight
+  /// path)
   Real largest_move = 4.0L;
   /// and Newton's method ends <= this rho, there and before the step, from where the step led.
   Real largest_correction = 0.15L;

@@ -223,7 +223,7 @@ std::complex<double> TransferMatrixArm::transfer_function(const arm::Sensor& sen
   const Complex s(s_rad_per_s.real(), s_rad_per_s.imag());
   const TransferChain<Complex> chain(units_, damped_at(units_, s / units_.omega_scale_rad_per_s));
   const auto root = root_values(chain);
-  const auto output = sensor_value(chain, sensor.kind, in_units(sensor.position_m));
+  const auto output = sensor_value<Complex>(chain, sensor.kind, in_units(sensor.position_m), root);
   Complex value = sensor_unit(arm_, sensor.kind) / units_.torque_scale_N_m *
                   std::exp(output.log_scale - root.log_scale) * output.value / root.torque;
   for (int i = 0; i < derivative_order(sensor); ++i) value *= s;

@@ -12,7 +12,7 @@ AddedForces::AddedForces(const ModalDynamics& arm, const ArmParts& parts,
       bias_N_m_(parts.actuator.bias_N_m),
       ripple_(parts.actuator.ripple),
       drag_(std::move(drag)),
-      vary_(drag_ || ripple_ || friction_.stribeck_N_m != friction_.stribeck_static_N_m) {}
+      vary_(drag_ || ripple_ || friction_falls()) {}
 
 double AddedForces::offset_N_m(double hub_angle_rad) const {
   if (!ripple_) return bias_N_m_;

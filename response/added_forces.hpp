@@ -37,6 +37,9 @@ class AddedForces {
 
   /// False: constant for each motion.
   bool vary() const { return vary_; }
+  /// Friction depends on speed, on the scale of `falling_velocity_rad_per_s`.
+  bool friction_falls() const { return friction_.stribeck_N_m != friction_.stribeck_static_N_m; }
+  double falling_velocity_rad_per_s() const { return friction_.stribeck_velocity_rad_per_s; }
   double breakaway_N_m() const { return friction_.breakaway_N_m(); }
   /// Bias and ripple.
   double offset_N_m(double hub_angle_rad) const;

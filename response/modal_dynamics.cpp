@@ -214,17 +214,20 @@ ModalDynamics modal_dynamics(const arm::ModalModel& model, const ArmParts& parts
   arm.held = assemble(arm, parts, layout, held, sensors, model);
   arm.hub_force.setOnes(1);
   if (modal_forces) arm.hub_force = arm.hub_slope / arm.modal_mass_kg_m2;
-  const double inertia = arm.modal_mass_kg_m2 / arm.hub_slope.squaredNorm();
-  arm.reaction = arm.turning.hub_acceleration;
-  arm.reaction.state *= inertia;
-  arm.reaction.actuator *= inertia;
-  arm.reaction.force *= inertia;
   arm.hub_torque = zero_reading(layout);
   if (layout.lagged_torque) {
     arm.hub_torque.state(*layout.lagged_torque) = torque_scale(arm);
   } else {
     arm.hub_torque.actuator = 1.0;
   }
+  arm.reaction = arm.turning.hub_acceleration;
+  const double inertia = arm.modal_mass_kg_m2 / arm.hub_slope.squaredNorm();
+  arm.reaction.state *= inertia;
+  arm.reaction.force *= inertia;
+  // Torque on the hub counts to the last bit: friction holds against just its size.
+  arm.reaction.actuator = arm.hub_torque.actuator;
+  if (layout.lagged_torque) arm.reaction.state(*layout.lagged_torque) = torque_scale(arm);
+  if (!modal_forces) arm.reaction.force.setOnes();
   arm.fastest_rate_rad_per_s = arm.turning.a.cwiseAbs().rowwise().sum().maxCoeff();
   return arm;
 }

@@ -21,14 +21,18 @@ using Complex = std::complex<double>;
 /// Digits of a Taylor coefficient below which mode n + 1 alone is nearer to the truth.
 constexpr double kLeastSignificance = 1e3 * std::numeric_limits<double>::epsilon();
 
+/// Beyond those kept, half as many modes or these are known one by one in the pseudo-mode's
+/// damping.
+constexpr std::size_t kLeastFurtherModes = 8;
+
 /// |z| of the circle: the geometric mean of two neighbouring kept poles, or of the last of them and
-/// `truncated`, the nearest below truncated/2; the smallest one where that has none.
-double circle_radius(const arm::ModalModel& model, double truncated) {
+/// `left_out`, the nearest below left_out/2; the smallest one where that has none.
+double circle_radius(const arm::ModalModel& model, double left_out) {
   std::vector<double> poles;
   for (std::size_t i = 0; i < model.modes.size(); ++i) {
     poles.push_back(std::abs(omega_squared(model, i)));
   }
-  poles.push_back(truncated);
+  poles.push_back(left_out);
   std::ranges::sort(poles);
   // Nothing lies between a rigid-body mode and the first flexible pole.
   std::vector<double> radii = {std::max(std::sqrt(poles[0] * poles[1]), poles[1] / 4.0)};
@@ -37,7 +41,7 @@ double circle_radius(const arm::ModalModel& model, double truncated) {
   }
   double best = radii.front();
   for (const double radius : radii) {
-    if (radius <= truncated / 2.0) best = std::max(best, radius);
+    if (radius <= left_out / 2.0) best = std::max(best, radius);
   }
   return best;
 }
@@ -76,45 +80,99 @@ Moments moments(const AnyFormulation& undamped, const arm::ModalModel& model,
   return found;
 }
 
-/// Frequency, hub slope and static share of the hub.
+/// What the hub's moments say of the pseudo-mode.
 struct HubPart {
   double omega_squared_rad2_per_s2 = 0.0;
   double slope = 0.0;
   double compliance_rad_per_N_m = 0.0;  ///< A_0
+  bool is_first_left_out = false;       ///< the moments are lost: it is mode n + 1
 };
 
-HubPart hub_part(const Moments& hub, const arm::Mode& truncated, double inertia, double radius) {
+HubPart hub_part(const Moments& hub, const arm::Mode& left_out, double inertia, double radius) {
   const double a0 = hub.constant;
   const double a1 = -hub.linear;
   const double least_a1 = kLeastSignificance * hub.largest_on_circle / radius;
-  const double first = truncated.omega_rad_per_s * truncated.omega_rad_per_s;
+  const double first = left_out.omega_rad_per_s * left_out.omega_rad_per_s;
   if (hub.has_constant() && a0 > 0.0 && a1 > least_a1 && a0 >= a1 * first) {
-    return {a0 / a1, a0 * std::sqrt(inertia / a1), a0};
+    return {a0 / a1, a0 * std::sqrt(inertia / a1), a0, false};
   }
-  const double slope = truncated.hub_slope;
-  return {first, slope, slope * slope / (inertia * first)};
+  const double slope = left_out.hub_slope;
+  return {first, slope, slope * slope / (inertia * first), true};
 }
 
-void append_damping(arm::ModalModel& model, const arm::LinearArm& arm) {
-  const std::size_t n = model.modes.size();
-  const arm::Mode& residual = model.modes.back();
-  std::vector<double> damping(n * n);
-  for (std::size_t i = 0; i + 1 < n; ++i) {
-    for (std::size_t j = 0; j + 1 < n; ++j) {
-      damping[i * n + j] = model.damping_rad_per_s[i * (n - 1) + j];
+/// The pseudo-mode as sum a_i phi_i over the known modes n + 1 ... m and `rest` times a shape
+/// orthogonal to all of them.
+struct Expansion {
+  std::vector<double> a;            ///< by mode of `known`, 0 for those kept
+  double rest_hub_slope = 0.0;      ///< what is missing from the pseudo-mode's
+  double rest_squared = 0.0;        ///< of its modal mass, relative
+  double rest_omega_squared = 0.0;  ///< of its omega_r^2
+};
+
+Expansion expand(const arm::ModalModel& known, std::size_t kept, const HubPart& hub) {
+  Expansion expansion;
+  expansion.a.assign(known.modes.size(), 0.0);
+  if (hub.is_first_left_out) {
+    expansion.a[kept] = 1.0;
+    return expansion;
+  }
+  expansion.rest_hub_slope = hub.slope;
+  expansion.rest_squared = 1.0;
+  expansion.rest_omega_squared = hub.omega_squared_rad2_per_s2;
+  // 1/sqrt(I_T A_1) = omega_r^2/theta_r: theta_r = A_0 sqrt(I_T/A_1) with I_T A_0 =
+  // theta_r^2/omega_r^2.
+  const double scale = hub.omega_squared_rad2_per_s2 / hub.slope;
+  for (std::size_t i = kept; i < known.modes.size(); ++i) {
+    const double squared = omega_squared(known, i);
+    const double a = scale * known.modes[i].hub_slope / squared;
+    expansion.a[i] = a;
+    expansion.rest_hub_slope -= a * known.modes[i].hub_slope;
+    expansion.rest_squared -= a * a;
+    expansion.rest_omega_squared -= a * a * squared;
+  }
+  // Differences of what is equal but for the tail and rounding.
+  expansion.rest_hub_slope = std::max(0.0, expansion.rest_hub_slope);
+  expansion.rest_squared = std::max(0.0, expansion.rest_squared);
+  expansion.rest_omega_squared = std::max(0.0, expansion.rest_omega_squared);
+  return expansion;
+}
+
+/// Row and column of D for the pseudo-mode, the last of `model`. Of `rest` the friction of the hub
+/// is known, Kelvin-Voigt damping but for the springs it leaves out, and the drag of air to be no
+/// more than ca/m.
+void append_damping(arm::ModalModel& model, const arm::ModalModel& known,
+                    const Expansion& expansion, const arm::LinearArm& arm) {
+  const std::size_t kept = model.modes.size() - 1;
+  const std::size_t all = known.modes.size();
+  const double friction = arm.hub_viscous_friction_N_m_s_per_rad / model.modal_mass_kg_m2;
+  const double rest = friction * expansion.rest_hub_slope;
+  // D of the pseudo-mode with each known mode.
+  std::vector<double> row(all);
+  for (std::size_t j = 0; j < all; ++j) {
+    row[j] = rest * known.modes[j].hub_slope;
+    for (std::size_t i = kept; i < all; ++i) {
+      row[j] += expansion.a[i] * known.damping_rad_per_s[i * all + j];
     }
   }
-  const double friction = arm.hub_viscous_friction_N_m_s_per_rad / model.modal_mass_kg_m2;
-  for (std::size_t j = 0; j < n; ++j) {
-    const double coupling = friction * residual.hub_slope * model.modes[j].hub_slope;
-    damping[(n - 1) * n + j] = coupling;
-    damping[j * n + n - 1] = coupling;
+  double own = friction * expansion.rest_hub_slope * expansion.rest_hub_slope +
+               arm.kelvin_voigt_s * expansion.rest_omega_squared +
+               arm.air_damping_N_s_per_m2 / arm.linear_density_kg_per_m * expansion.rest_squared;
+  for (std::size_t j = kept; j < all; ++j) {
+    own += expansion.a[j] * (row[j] + rest * known.modes[j].hub_slope);
   }
-  damping.back() += arm.kelvin_voigt_s * residual.omega_rad_per_s * residual.omega_rad_per_s +
-                    arm.air_damping_N_s_per_m2 / arm.linear_density_kg_per_m;
+
+  const std::size_t n = kept + 1;
+  std::vector<double> damping(n * n);
+  for (std::size_t i = 0; i < kept; ++i) {
+    for (std::size_t j = 0; j < kept; ++j) {
+      damping[i * n + j] = model.damping_rad_per_s[i * kept + j];
+    }
+    damping[i * n + kept] = row[i];
+    damping[kept * n + i] = row[i];
+  }
+  damping.back() = own;
   model.damping_rad_per_s = std::move(damping);
-  model.modes.back().damping_ratio =
-      model.damping_rad_per_s.back() / (2.0 * residual.omega_rad_per_s);
+  model.modes.back().damping_ratio = own / (2.0 * model.modes.back().omega_rad_per_s);
 }
 
 }  // namespace
@@ -127,13 +185,14 @@ arm::ModalModel with_residual_mode(const AnyFormulation& formulation, const arm:
   if (model.modes.empty() || !matches) {
     throw std::invalid_argument("residual mode: the modal model is not one of these sensors");
   }
-  const auto kept = static_cast<int>(model.modes.size());
-  const auto known = modes(formulation, kept, sensors, {});
-  if (known.size() < model.modes.size()) return model;
-  const arm::Mode& truncated = known.back();
+  const std::size_t kept = model.modes.size();
+  const std::size_t further = std::max(kLeastFurtherModes, kept / 2);
+  const auto known = modal_model(formulation, static_cast<int>(kept + further) - 1, sensors, {});
+  if (known.modes.size() <= kept) return model;
+  const arm::Mode& left_out = known.modes[kept];
 
   const double inertia = model.modal_mass_kg_m2;
-  const double first = truncated.omega_rad_per_s * truncated.omega_rad_per_s;
+  const double first = left_out.omega_rad_per_s * left_out.omega_rad_per_s;
   const double radius = circle_radius(model, first);
   const int points = points_on_circle(radius / first);
   const auto undamped = with_arm(formulation, without_damping(arm_of(formulation)));
@@ -141,7 +200,7 @@ arm::ModalModel with_residual_mode(const AnyFormulation& formulation, const arm:
   for (const auto& mode : model.modes) slopes.push_back(mode.hub_slope);
   const HubPart hub =
       hub_part(moments(undamped, model, {arm::SensorKind::hub_angle}, slopes, radius, points),
-               truncated, inertia, radius);
+               left_out, inertia, radius);
 
   arm::ModalModel augmented = model;
   arm::Mode residual;
@@ -152,13 +211,13 @@ arm::ModalModel with_residual_mode(const AnyFormulation& formulation, const arm:
     Values values;
     for (const auto& mode : model.modes) values.push_back(mode.sensor_values[k]);
     const Moments sensor = moments(undamped, model, sensors[k], values, radius, points);
-    const double compliance = sensor.has_constant() ? sensor.constant
-                                                    : truncated.sensor_values[k] *
-                                                          truncated.hub_slope / (inertia * first);
+    const double compliance =
+        sensor.has_constant() ? sensor.constant
+                              : left_out.sensor_values[k] * left_out.hub_slope / (inertia * first);
     residual.sensor_values.push_back(compliance * hub.slope / hub.compliance_rad_per_N_m);
   }
   augmented.modes.push_back(std::move(residual));
-  append_damping(augmented, arm::linear_arm(arm_of(formulation)));
+  append_damping(augmented, known, expand(known, kept, hub), arm::linear_arm(arm_of(formulation)));
   return augmented;
 }
 

@@ -28,9 +28,11 @@ namespace flexarm::response {
 /// A coefficient that is lost in the rounding of the response (R and A_k of a hub that hardly
 /// moves) is taken as that of mode n + 1 alone.
 ///
-/// Damping: D_rr = kv omega_r^2 + c theta_r^2/I_T + ca/m and D_rj = c theta_r theta_j/I_T. That is
-/// the projection of Kelvin-Voigt damping and hub friction, and an upper bound for the drag of air;
-/// D stays positive semidefinite. It counts near omega_r only, beyond the modes kept.
+/// Damping is projected on that shape, D_rj = sum a_i D_ij, over half as many further modes as are
+/// kept, 8 at least. The rest of the shape, with hub slope theta, modal mass b^2 I_T and its share
+/// w of omega_r^2, adds c theta theta_j/I_T to D_rj, and c theta^2/I_T + kv w + b^2 ca/m to D_rr:
+/// the projection of hub friction and of Kelvin-Voigt damping, and a bound for the drag of air. D
+/// stays positive semidefinite.
 ///
 /// The displacements of the pseudo-mode are 0: what acts along the beam does not reach it. Returns
 /// `model` as it is when the formulation has no further modes. Throws std::invalid_argument for a

@@ -146,7 +146,8 @@ Simulation simulate(const arm::ModalModel& model, const ArmParts& parts,
   }
   Simulation made = std::move(recorder.made());
   if (ledger) made.energy = ledger->balance();
-  made.summary = std::move(stepper.summary());
+  made.summary = stepper.summary();
+  made.summary.most_iterations = stepper.most_iterations();
   made.summary.completed = go_on;
   made.summary.steps = static_cast<std::int64_t>(made.time_s.size()) - (go_on ? 1 : 0);
   made.summary.samples_per_period = samples_per_period(arm, options.sample_time_s);

@@ -64,8 +64,8 @@ struct SimulationSummary {
   std::int64_t breakaways = 0;    ///< the hub left its rest
   std::int64_t forced_rests = 0;  ///< inner steps at rest because events piled up at one instant
   double stick_time_s = 0.0;
-  int most_iterations = 0;            ///< of the nonlinear solve of an inner step
-  std::int64_t halved_steps = 0;      ///< inner steps halved because that solve did not converge
+  int most_iterations = 0;        ///< of the nonlinear solve of an inner step
+  std::int64_t halved_steps = 0;  ///< inner steps halved: no convergence, or friction fell too much
   std::vector<double> event_times_s;  ///< of the first kRecordedEvents reversals, stops, breakaways
   double samples_per_period = 0.0;    ///< of the highest mode kept; infinite without vibration
   Sampling sampling = Sampling::fine;

@@ -47,10 +47,9 @@ TimeStepper::TimeStepper(const ModalDynamics& arm, const AddedForces& forces, bo
       ledger_(ledger),
       has_friction_(has_friction),
       x_(Eigen::VectorXd::Zero(arm.size())),
-      next_(arm.size()),
-      middle_(arm.size()),
       motion_(has_friction ? HubMotion::held : HubMotion::frictionless),
-      breakaway_N_m_(forces.breakaway_N_m()) {
+      breakaway_N_m_(forces.breakaway_N_m()),
+      solver_(arm, forces, options.force_tolerance, options.most_iterations) {
   const double h = options.sample_time_s;
   const double phi = path.delay_fraction();
   velocity_row_.setZero(arm.size());
@@ -113,12 +112,17 @@ double TimeStepper::reaction(const Eigen::VectorXd& x, double u) const {
 
 void TimeStepper::take_up(double torque_N_m, double now_s) {
   time_s_ = now_s;
+  if (has_friction_ && start_ != Start::inside && torque_N_m != last_torque_N_m_) {
+    // It came to a turn at this very instant: what the torque was to do then no longer counts.
+    motion_ = HubMotion::held;
+    held_angle_rad_ = arm_->hub_angle(x_);
+    start_ = Start::inside;
+  }
   if (motion_ != HubMotion::held) return;
   const double needed = reaction(x_, torque_N_m);
   if (std::abs(needed) <= breakaway_N_m_) return;
   motion_ = turning_like(needed);
   start_ = Start::hub_speed_zero;
-  guess_ = false;
   ++summary_.breakaways;
   record_event();
 }
@@ -126,6 +130,7 @@ void TimeStepper::take_up(double torque_N_m, double now_s) {
 void TimeStepper::advance(const TorquePiece& piece, double now_s) {
   const double h = options_.sample_time_s;
   time_s_ = now_s;
+  last_torque_N_m_ = piece.end_N_m;
   const double change = piece.end_N_m - piece.begin_N_m;
   const bool is_regular = piece.length != TorquePiece::Length::other;
   const double length_s = (piece.end - piece.begin) * h;
@@ -141,90 +146,55 @@ void TimeStepper::advance(const TorquePiece& piece, double now_s) {
     if (is_regular) {
       step(*regular, u0, u1);
     } else {
-      guess_ = false;
       free_step(length_s / count, u0, u1, 0);
     }
     u0 = u1;
   }
 }
 
-/// f at the begin of a step; where forces are constant, all of f.
-void TimeStepper::begin_forces(double u0, double u1) {
-  inputs_.u0 = u0;
-  inputs_.u1 = u1;
-  const double torque = forces_->hub_torque(x_, motion_).torque_N_m;
-  if (!forces_->vary()) {
-    inputs_.f0.setConstant(1, torque);
-    inputs_.fm.setConstant(1, torque);
-    inputs_.f1.setConstant(1, torque);
-    return;
-  }
-  if (guess_) {  // the last step's parabola at r = 3/2 and r = 2
-    const Eigen::VectorXd middle = inputs_.f0 - 3.0 * inputs_.fm + 3.0 * inputs_.f1;
-    inputs_.f1 = 3.0 * inputs_.f0 - 8.0 * inputs_.fm + 6.0 * inputs_.f1;
-    inputs_.fm = middle;
-    const double hub_middle = hub_torques_[0] - 3.0 * hub_torques_[1] + 3.0 * hub_torques_[2];
-    hub_torques_[2] = 3.0 * hub_torques_[0] - 8.0 * hub_torques_[1] + 6.0 * hub_torques_[2];
-    hub_torques_[1] = hub_middle;
-    inputs_.f0 = forces_->force(x_, torque);
-    hub_torques_[0] = torque;
-  } else {
-    inputs_.f0 = forces_->force(x_, torque);
-    inputs_.fm = inputs_.f0;
-    inputs_.f1 = inputs_.f0;
-    hub_torques_.fill(torque);
-  }
-}
-
 void TimeStepper::step(const Steps& steps, double u0, double u1) {
   const StepTable& table = motion_ == HubMotion::held ? steps.held : steps.turning;
-  begin_forces(u0, u1);
-  if (!forces_->vary()) {
-    next_.noalias() = table.end.state * x_;
-    next_ += table.end.actuator_begin * u0 + table.end.actuator_end * u1 +
-             table.constant * inputs_.f0(0);
-  } else if (!solve(table, steps.length_s)) {
+  if (!solver_.solve(table, x_, motion_, steps.length_s, u0, u1)) {
     halve(steps.length_s, u0, u1, 0);
     return;
   }
-  const bool may_happen = has_friction_ && !is_quiet(table, next_);
+  const bool may_happen = has_friction_ && !is_quiet(table, solver_.end());
   if (may_happen || ledger_ != nullptr) {
-    expand(steps.length_s);
+    solver_.expand(x_, motion_, steps.length_s);
     const std::optional<double> event = may_happen ? next_event() : std::nullopt;
-    if (ledger_ != nullptr) ledger_->add(solution_, inputs_, motion_, event.value_or(1.0));
+    book(event.value_or(1.0));
     if (event) {
-      const double between = inputs_.torque(*event);
+      const double between = solver_.inputs().torque(*event);
       happen(*event, steps.length_s);
       free_step((1.0 - *event) * steps.length_s, between, u1, 0);
       return;
     }
   }
-  finish(next_, steps.length_s);
-  guess_ = true;
+  finish(solver_.end(), steps.length_s);
 }
 
 void TimeStepper::free_step(double length_s, double u0, double u1, int halvings) {
   while (length_s > kNothingLeft * options_.sample_time_s) {
-    guess_ = false;
-    begin_forces(u0, u1);
-    if (!forces_->vary()) {
-      expand(length_s);
-    } else if (!solve_by_series(length_s)) {
+    if (!solver_.solve_by_series(x_, motion_, length_s, u0, u1)) {
       halve(length_s, u0, u1, halvings);
       return;
     }
     const bool is_forced = events_at_once_ > kMostEventsAtOnce;
     const std::optional<double> event = has_friction_ && !is_forced ? next_event() : std::nullopt;
-    if (ledger_ != nullptr) ledger_->add(solution_, inputs_, motion_, event.value_or(1.0));
+    book(event.value_or(1.0));
     if (!event) {
       if (is_forced) ++summary_.forced_rests;
-      finish(solution_.at(1.0), length_s);
+      finish(solver_.series().at(1.0), length_s);
       return;
     }
-    u0 = inputs_.torque(*event);
+    u0 = solver_.inputs().torque(*event);
     happen(*event, length_s);
     length_s *= 1.0 - *event;
   }
+}
+
+void TimeStepper::book(double until) {
+  if (ledger_ != nullptr) ledger_->add(solver_.series(), solver_.inputs(), motion_, until);
 }
 
 void TimeStepper::halve(double length_s, double u0, double u1, int halvings) {
@@ -239,86 +209,16 @@ void TimeStepper::halve(double length_s, double u0, double u1, int halvings) {
   free_step(0.5 * length_s, between, u1, halvings + 1);
 }
 
-bool TimeStepper::solve(const StepTable& table, double length_s) {
-  const auto base = [this](const Propagator& to) -> Eigen::VectorXd {
-    return to.state * x_ + to.actuator_begin * inputs_.u0 + to.actuator_end * inputs_.u1 +
-           to.force_begin * inputs_.f0;
-  };
-  const Eigen::VectorXd base_middle = base(table.middle);
-  const Eigen::VectorXd base_end = base(table.end);
-  for (int iteration = 1; iteration <= options_.most_iterations; ++iteration) {
-    middle_ = base_middle;
-    middle_ += table.middle.force_middle * inputs_.fm + table.middle.force_end * inputs_.f1;
-    next_ = base_end;
-    next_ += table.end.force_middle * inputs_.fm + table.end.force_end * inputs_.f1;
-    summary_.most_iterations = std::max(summary_.most_iterations, iteration);
-    if (improve(middle_, next_, length_s)) return true;
-  }
-  return false;
-}
-
-bool TimeStepper::solve_by_series(double length_s) {
-  for (int iteration = 1; iteration <= options_.most_iterations; ++iteration) {
-    expand(length_s);
-    summary_.most_iterations = std::max(summary_.most_iterations, iteration);
-    if (improve(solution_.at(0.5), solution_.at(1.0), length_s)) return true;
-  }
-  return false;
-}
-
-/// True when f at these states is the f they were solved with. Else takes f from them, hub torque N
-/// by a Newton step: with the mobility mu of the hub, N changes its speed by Lobatto's weights,
-///
-///     d theta'(1/2) = mu dt (dNm/3 - dN1/24),   d theta'(1) = mu dt (2 dNm/3 + dN1/6).
-bool TimeStepper::improve(const Eigen::VectorXd& middle, const Eigen::VectorXd& end,
-                          double length_s) {
-  const auto hub_middle = forces_->hub_torque(middle, motion_);
-  const auto hub_end = forces_->hub_torque(end, motion_);
-  const Eigen::VectorXd fm = forces_->force(middle, hub_middle.torque_N_m);
-  const Eigen::VectorXd f1 = forces_->force(end, hub_end.torque_N_m);
-  const auto largest = [](const Eigen::VectorXd& v) { return v.cwiseAbs().maxCoeff(); };
-  const double change = std::max(largest(fm - inputs_.fm), largest(f1 - inputs_.f1));
-  const double size = std::max({largest(inputs_.f0), largest(fm), largest(f1)});
-  if (change <= options_.force_tolerance * size) return true;
-
-  const double rm = hub_middle.torque_N_m - hub_torques_[1];
-  const double r1 = hub_end.torque_N_m - hub_torques_[2];
-  const double mu_dt = length_s * arm_->hub_slope.squaredNorm() / arm_->modal_mass_kg_m2;
-  const double jm = mu_dt * hub_middle.per_velocity_N_m_s;
-  const double j1 = mu_dt * hub_end.per_velocity_N_m_s;
-  const double a = 1.0 - jm / 3.0;
-  const double b = jm / 24.0;
-  const double c = -j1 * 2.0 / 3.0;
-  const double d = 1.0 - j1 / 6.0;
-  const double determinant = a * d - b * c;
-  const double dm = (rm * d - b * r1) / determinant;
-  const double d1 = (a * r1 - c * rm) / determinant;
-  inputs_.fm = fm + arm_->hub_force * (dm - rm);
-  inputs_.f1 = f1 + arm_->hub_force * (d1 - r1);
-  hub_torques_[1] += dm;
-  hub_torques_[2] += d1;
-  return false;
-}
-
-void TimeStepper::expand(double length_s) {
-  const LinearSystem& now = system();
-  std::array<Eigen::VectorXd, 3> inputs;
-  inputs[0] = now.actuator * inputs_.u0 + now.force * inputs_.f0;
-  inputs[1] = now.actuator * (inputs_.u1 - inputs_.u0) + now.force * inputs_.force_slope();
-  inputs[2] = now.force * inputs_.force_square();
-  solution_.compute(now.a, length_s, x_, inputs);
-}
-
 bool TimeStepper::is_quiet(const StepTable& table, const Eigen::VectorXd& end) const {
   if (start_ != Start::inside) return false;
-  const double sag =
-      forces_->vary()
-          ? table.sag(x_, inputs_)
-          : table.sag.of_constant(x_, std::max(std::abs(inputs_.u0), std::abs(inputs_.u1)),
-                                  std::abs(inputs_.u1 - inputs_.u0), std::abs(inputs_.f0(0)));
+  const StepInputs& inputs = solver_.inputs();
+  const double sag = forces_->vary() ? table.sag(x_, inputs)
+                                     : table.sag.of_constant(
+                                           x_, std::max(std::abs(inputs.u0), std::abs(inputs.u1)),
+                                           std::abs(inputs.u1 - inputs.u0), std::abs(inputs.f0(0)));
   if (motion_ == HubMotion::held) {
     const double most =
-        std::max(std::abs(reaction(x_, inputs_.u0)), std::abs(reaction(end, inputs_.u1)));
+        std::max(std::abs(reaction(x_, inputs.u0)), std::abs(reaction(end, inputs.u1)));
     return most + sag < breakaway_N_m_;
   }
   const double sign = direction(motion_);
@@ -327,16 +227,17 @@ bool TimeStepper::is_quiet(const StepTable& table, const Eigen::VectorXd& end) c
 
 std::optional<double> TimeStepper::next_event() const {
   if (motion_ != HubMotion::held) {
-    const Eigen::RowVectorXd speed = direction(motion_) * solution_.of(velocity_row_);
+    const Eigen::RowVectorXd speed = direction(motion_) * solver_.series().of(velocity_row_);
     // Known zeros at r = 0 are divided out.
     const std::size_t zeros = start_ == Start::inside ? 0 : start_ == Start::hub_speed_zero ? 1 : 2;
     return first_crossing(as_span(speed).subspan(zeros));
   }
-  Eigen::RowVectorXd needed = solution_.of(arm_->reaction.state);
-  needed(0) += arm_->reaction.actuator * inputs_.u0 + arm_->reaction.force.dot(inputs_.f0);
-  needed(1) += arm_->reaction.actuator * (inputs_.u1 - inputs_.u0) +
-               arm_->reaction.force.dot(inputs_.force_slope());
-  needed(2) += arm_->reaction.force.dot(inputs_.force_square());
+  const StepInputs& inputs = solver_.inputs();
+  Eigen::RowVectorXd needed = solver_.series().of(arm_->reaction.state);
+  needed(0) += arm_->reaction.actuator * inputs.u0 + arm_->reaction.force.dot(inputs.f0);
+  needed(1) += arm_->reaction.actuator * (inputs.u1 - inputs.u0) +
+               arm_->reaction.force.dot(inputs.force_slope());
+  needed(2) += arm_->reaction.force.dot(inputs.force_square());
   std::optional<double> first;
   for (const double sign : {1.0, -1.0}) {
     Eigen::RowVectorXd margin = -sign * needed;
@@ -350,9 +251,9 @@ std::optional<double> TimeStepper::next_event() const {
 
 void TimeStepper::happen(double r, double length_s) {
   const double passed_s = r * length_s;
-  const double u = inputs_.torque(r);
+  const double u = solver_.inputs().torque(r);
   const bool was_held = motion_ == HubMotion::held;
-  x_ = solution_.at(r);
+  x_ = solver_.series().at(r);
   arm_->stop_hub(x_);
   time_s_ += passed_s;
   ++summary_.inner_steps;

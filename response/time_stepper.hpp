@@ -2,9 +2,9 @@
 
 #include "response/added_forces.hpp"
 #include "response/energy_ledger.hpp"
-#include "response/expansion.hpp"
 #include "response/modal_dynamics.hpp"
 #include "response/simulation.hpp"
+#include "response/step_solver.hpp"
 #include "response/step_table.hpp"
 #include "response/torque_path.hpp"
 
@@ -29,12 +29,6 @@ namespace flexarm::response {
 /// |R| above breakaway with the other sign: reversals cannot pile up. Nor can rests and breakaways,
 /// since R is analytic between jumps. Only rounding could make them, where |R| just touches
 /// breakaway; then the hub is held for the rest of the inner step.
-///
-/// Varying forces f(X) are solved by exponential collocation: f is the parabola through its values
-/// at begin, middle and end of the step (Lobatto's points), X(r) the exact solution for that
-/// parabola, of order 4 in the step. Unknown are f at middle and end; friction is iterated by
-/// Newton's method with the mobility of the hub alone, drag and ripple, which are soft, by
-/// substitution.
 class TimeStepper {
  public:
   /// `forces` and `arm` must outlive the object. The hub is at rest.
@@ -56,7 +50,8 @@ class TimeStepper {
   const LinearSystem& system() const {
     return motion_ == HubMotion::held ? arm_->held : arm_->turning;
   }
-  SimulationSummary& summary() { return summary_; }
+  const SimulationSummary& summary() const { return summary_; }
+  int most_iterations() const { return solver_.most_iterations(); }
 
  private:
   /// Inner steps of one length.
@@ -74,11 +69,7 @@ class TimeStepper {
   void step(const Steps& steps, double u0, double u1);
   void free_step(double length_s, double u0, double u1, int halvings);
   void halve(double length_s, double u0, double u1, int halvings);
-  bool solve(const StepTable& table, double length_s);
-  bool solve_by_series(double length_s);
-  bool improve(const Eigen::VectorXd& middle, const Eigen::VectorXd& end, double length_s);
-  void begin_forces(double u0, double u1);
-  void expand(double length_s);
+  void book(double until);
   bool is_quiet(const StepTable& table, const Eigen::VectorXd& end) const;
   std::optional<double> next_event() const;
   double reaction(const Eigen::VectorXd& x, double u) const;
@@ -95,17 +86,13 @@ class TimeStepper {
 
   Eigen::RowVectorXd velocity_row_;  // theta' = velocity_row_ X
   Eigen::VectorXd x_;
-  Eigen::VectorXd next_;
-  Eigen::VectorXd middle_;
   HubMotion motion_;
   Start start_ = Start::inside;
   double held_angle_rad_ = 0.0;
   double breakaway_N_m_ = 0.0;
+  double last_torque_N_m_ = 0.0;  // at the end of the last piece
   double time_s_ = 0.0;
-  StepInputs inputs_;
-  std::array<double, 3> hub_torques_ = {};  // of AddedForces, in inputs_: begin, middle, end
-  bool guess_ = false;  // inputs_ are those of the step before, of the same length and motion
-  Expansion solution_;
+  StepSolver solver_;
   int events_at_once_ = 0;
   SimulationSummary summary_;
 };

@@ -39,6 +39,7 @@ std::vector<std::pair<std::string, arm::Arm>> varied_arms() {
   std::vector<std::pair<std::string, arm::Arm>> arms;
   for (const auto& [effect, parameters] : variations) {
     arm::Arm arm = damped_arm();
+    arm.beam.shear_modulus_Pa = 2.67e10;
     for (const auto& [parameter, value] : parameters) {
       arm.effects[effect].parameters[parameter] = value;
     }
@@ -53,25 +54,50 @@ double relative_error(const AnyFormulation& formulation, const arm::ModalModel& 
   return std::abs(modal_response(model, every_sensor(), s)[k] - exact) / std::abs(exact);
 }
 
-TEST(EffectsResponse, AStaticCorrectionImprovesEverySensorBetweenTheModes) {
+/// Largest error of the response with and without residual mode between 4 modes kept, one a sensor.
+struct Errors {
+  std::vector<double> with;
+  std::vector<double> without;
+};
+
+Errors errors_between_modes(const AnyFormulation& formulation) {
+  const auto kept = modal_model(formulation, 4, every_sensor(), {});
+  const auto corrected = with_residual_mode(formulation, kept, every_sensor());
+  EXPECT_NO_THROW(require_consistent(corrected, every_sensor()));
+  const double left_out = poles(formulation, 5).omega_rad_per_s.back();
+  Errors errors;
+  for (std::size_t k = 0; k < every_sensor().size(); ++k) {
+    errors.with.push_back(0.0);
+    errors.without.push_back(0.0);
+    for (const double ratio : {0.03, 0.07, 0.15}) {
+      const Complex s(0.0, ratio * left_out);
+      errors.with[k] = std::max(errors.with[k], relative_error(formulation, corrected, k, s));
+      errors.without[k] = std::max(errors.without[k], relative_error(formulation, kept, k, s));
+    }
+  }
+  return errors;
+}
+
+TEST(EffectsResponse, AStaticCorrectionGainsADecadeAtEverySensorBetweenTheModes) {
   for (const auto& [effect, arm] : varied_arms()) {
     for (const char* name : kFormulations) {
-      const auto formulation = make_formulation(name, arm, 20);
-      const auto kept = modal_model(formulation, 4, every_sensor(), {});
-      const auto corrected = with_residual_mode(formulation, kept, every_sensor());
-      EXPECT_NO_THROW(require_consistent(corrected, every_sensor())) << name << " " << effect;
-      const double left_out = poles(formulation, 5).omega_rad_per_s.back();
+      const auto errors = errors_between_modes(make_formulation(name, without_damping(arm), 20));
       for (std::size_t k = 0; k < every_sensor().size(); ++k) {
-        double with = 0.0;
-        double without = 0.0;
-        for (const double ratio : {0.03, 0.07, 0.15}) {
-          const Complex s(0.0, ratio * left_out);
-          with = std::max(with, relative_error(formulation, corrected, k, s));
-          without = std::max(without, relative_error(formulation, kept, k, s));
-        }
-        EXPECT_LT(with, 0.12 * without)
+        EXPECT_LT(errors.with[k], 0.1 * errors.without[k])
             << name << " " << effect << " " << arm::to_string(every_sensor()[k]);
       }
+    }
+  }
+}
+
+// A root or a crack that loses nothing, in a beam that does, lets the modes kept shake those left
+// out by their damping: that is no response to the torque, and stays.
+TEST(EffectsResponse, AStaticCorrectionNeverHarmsADampedArm) {
+  for (const auto& [effect, arm] : varied_arms()) {
+    const auto errors = errors_between_modes(make_formulation("exact_tf", arm, 20));
+    for (std::size_t k = 0; k < every_sensor().size(); ++k) {
+      EXPECT_LT(errors.with[k], 0.7 * errors.without[k])
+          << effect << " " << arm::to_string(every_sensor()[k]);
     }
   }
 }

@@ -105,6 +105,43 @@ TEST(HubFriction, ARampPullsTheHubLooseAtTheTorqueOfFriction) {
   }
 }
 
+/// The same with the breakaway at a sample exactly: one breakaway, not two.
+TEST(HubFriction, ABreakawayAtASampleIsOne) {
+  std::vector<double> torque;
+  for (int k = 0; k < 64; ++k) torque.push_back(k / 64.0);
+  const auto made = simulate(oscillator(0.05, 0.0), coulomb(0.25), hub_sensors(), torque,
+                             {.sample_time_s = 0x1p-10, .hold = TorqueHold::first});
+  EXPECT_EQ(made.summary.breakaways, 1);
+  ASSERT_EQ(made.summary.event_times_s.size(), 1U);
+  EXPECT_NEAR(made.summary.event_times_s[0], 0x1p-6, kTime_s);
+}
+
+/// A torque of just the size of friction holds, a bit more does not.
+TEST(HubFriction, HoldsAgainstTorqueUpToItsSize) {
+  const double friction = 0.1;
+  const auto moved = [&](double torque) {
+    const auto made = simulate(two_masses(0.01, 0.05, 3.0), coulomb(friction), hub_sensors(),
+                               step_torque(torque, 100), {});
+    return made.channels[0].back() != 0.0;
+  };
+  EXPECT_FALSE(moved(friction));
+  EXPECT_FALSE(moved(-friction));
+  EXPECT_TRUE(moved(std::nextafter(friction, 1.0)));
+  EXPECT_TRUE(moved(-std::nextafter(friction, 1.0)));
+}
+
+/// Torque that flips to and fro faster than the hub turns: events at samples, none forced.
+TEST(HubFriction, ATorqueThatFlipsEverySampleLosesNoEnergyBalance) {
+  std::vector<double> torque;
+  for (int k = 0; k < 2000; ++k) torque.push_back(k % 2 == 0 ? 0.3 : -0.3);
+  const auto made = simulate(two_masses(0.01, 0.05, 3.0), coulomb(0.1), hub_sensors(), torque,
+                             {.sample_time_s = 1e-3});
+  EXPECT_EQ(made.summary.forced_rests, 0);
+  EXPECT_GT(made.summary.reversals + made.summary.stops, 1000);
+  EXPECT_LT(made.energy.largest_residual_J, 1e-11 * made.energy.work_in_J);
+  EXPECT_GE(made.energy.lowest_loss_J, 0.0);
+}
+
 /// Closed form of two masses with a hub that sticks and slips, from event to event.
 class TwoMasses {
  public:

@@ -181,7 +181,8 @@ int run(Arguments arguments) {
   print_results(arguments, experiment, !response::take_apart(arm).friction.is_zero());
 
   if (!arguments.folder.empty()) {
-    const std::string name = arguments.name.empty() ? arm.name + ", simulated" : arguments.name;
+    const std::string otherwise = arm.name.empty() ? "simulated" : arm.name + ", simulated";
+    const std::string name = arguments.name.empty() ? otherwise : arguments.name;
     arm::write_folder_atomically(arguments.folder,
                                  measurement_folder(name, written, plan, experiment, options.hold),
                                  arguments.force ? arm::IfExists::replace : arm::IfExists::refuse);

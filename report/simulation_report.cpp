@@ -28,6 +28,14 @@ Peak peak_of(const std::vector<double>& values) {
   return peak;
 }
 
+/// The excitation with its numbers, and how many lines it has.
+std::string excitation_text(const SimulatedRun& run) {
+  std::string text = response::describe(run.excitation, run.keys);
+  if (!run.lines_Hz.empty()) text += fmt::format(", {} lines", run.lines_Hz.size());
+  if (!run.detection_Hz.empty()) text += fmt::format(", {} left out", run.detection_Hz.size());
+  return text;
+}
+
 std::string panel_label(const arm::Sensor& sensor) {
   switch (sensor.kind) {
     case arm::SensorKind::hub_angle:
@@ -119,7 +127,7 @@ Table torque_table(const std::vector<SimulatedRun>& runs) {
     table.add_row({run.id, static_cast<std::int64_t>(torque.size()), period_s,
                    period_s * static_cast<double>(torque.size()), response::peak_N_m(torque),
                    response::rms_N_m(torque), response::crest_factor(torque), run.payload.mass_kg,
-                   response::describe(run.excitation, run.keys)});
+                   excitation_text(run)});
   }
   return table;
 }

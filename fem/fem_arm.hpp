@@ -64,8 +64,8 @@ class FemArm {
   const arm::Arm& arm() const { return arm_; }
   const Options& options() const { return options_; }
   /// n = 1 + elements (degree - 1): the hub rotation and, for each element, its degree - 3
-  /// bubbles, and deflection and rotation at its outer end. Shear adds degree - 1 to each element, a
-  /// compliant root 1, a crack 1 and the element that it divides.
+  /// bubbles, and deflection and rotation at its outer end. Shear adds degree - 1 to each element,
+  /// a compliant root 1, a crack 1 and the element that it divides.
   int degrees_of_freedom() const;
 
   /// `count.expected` is by Sylvester inertia where rounding of the assembled stiffness permits.

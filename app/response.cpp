@@ -210,7 +210,7 @@ Command add_response(CLI::App& program) {
       ->allow_extra_args(false)
       ->capture_default_str();
   parser->add_option("--from-Hz", options.from_Hz,
-                     "Lowest frequency; a twentieth of the first pole when left out");
+                     "Lowest frequency; well below the first pole when left out");
   parser->add_option("--to-Hz", options.to_Hz,
                      "Highest frequency; beyond the last of --modes poles when left out");
   parser

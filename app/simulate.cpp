@@ -153,7 +153,6 @@ std::string json_text(const Arguments& arguments, const arm::Arm& arm,
                       const SimulatedExperiment& experiment) {
   return report::json_document("flexarm.simulate/1",
                                {{"arm", report::arm_json(arm)},
-                                {"effects", report::effects_json(arm.effects)},
                                 {"model", experiment.model},
                                 {"settings", experiment.settings},
                                 {"modes", experiment.modes},

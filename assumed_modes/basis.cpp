@@ -36,16 +36,31 @@ Basis parse_basis(std::string_view name) {
                                     arm::did_you_mean(name, names), fmt::join(names, ", ")));
 }
 
-void require_representable(Basis basis, const arm::Arm& arm) {
-  if (basis == Basis::legendre) return;
+namespace {
+
+/// The first effect of the arm that beam shapes cannot follow, or null.
+const char* unrepresentable_effect(Basis basis, const arm::Arm& arm) {
+  if (basis == Basis::legendre) return nullptr;
   for (const char* effect :
        {"root_compliance", "local_stiffness_loss", "shear_and_rotary_inertia"}) {
-    if (!arm.effects.contains(effect)) continue;
+    if (arm.effects.contains(effect)) return effect;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+void require_representable(Basis basis, const arm::Arm& arm) {
+  if (const char* effect = unrepresentable_effect(basis, arm)) {
     throw arm::InputError(
         fmt::format("effects.{}: basis {} cannot represent this effect; --basis legendre can",
                     effect, to_string(basis)),
         fmt::format("effects.{}", effect));
   }
+}
+
+bool can_represent(Basis basis, const arm::Arm& arm) {
+  return unrepresentable_effect(basis, arm) == nullptr;
 }
 
 }  // namespace flexarm::assumed_modes

@@ -1,5 +1,6 @@
 #include "assumed_modes/basis_report.hpp"
 
+#include "arm/linear_arm.hpp"
 #include "assumed_modes/assumed_modes_arm.hpp"
 
 #include <fmt/format.h>
@@ -32,6 +33,8 @@ int coefficient_decay(UnmetCondition condition) {
       return 1;
     case UnmetCondition::tip_shear:
       return 2;
+    case UnmetCondition::root_displacement:
+      return 3;
     case UnmetCondition::root_rotation:
       return 4;
   }
@@ -48,6 +51,9 @@ std::string_view reason(UnmetCondition condition) {
              "EI y'' = -Ip y'_tt";
     case UnmetCondition::tip_shear:
       return "shear at the tip is zero in every function, but the payload needs EI y''' = Mp y_tt";
+    case UnmetCondition::root_displacement:
+      return "y'''' at the hub is zero in every function, but a root that moves or hangs needs "
+             "EI y'''' = (P y')' - m y_tt";
     case UnmetCondition::root_rotation:
       return "y''''' at the hub is zero in every function, but a hub that turns needs "
              "EI y''''' = -m y'_tt";
@@ -58,20 +64,23 @@ std::string_view reason(UnmetCondition condition) {
 enum class Root { pole, hub_zero };
 
 /// Slowest first.
-std::vector<UnmetCondition> unmet_conditions(const arm::Arm& arm, Basis basis, Root root) {
+std::vector<UnmetCondition> unmet_conditions(const arm::LinearArm& arm, Basis basis, Root root) {
+  if (basis == Basis::legendre) return {};
   std::vector<UnmetCondition> unmet;
-  const bool shapes_without_payload = basis == Basis::clamped_free || basis == Basis::pinned_free;
-  if (basis == Basis::pinned_free && (root == Root::hub_zero || arm.hub.inertia_kg_m2 > 0.0)) {
-    unmet.push_back(UnmetCondition::root_moment);
-  }
-  if (shapes_without_payload && arm.payload.inertia_kg_m2 > 0.0) {
+  const bool root_is_loaded = root == Root::hub_zero || arm.hub_inertia_kg_m2 > 0.0 ||
+                              arm.hub_spring_N_m_per_rad > 0.0 || arm.hub_radius_m > 0.0;
+  if (basis == Basis::pinned_free && root_is_loaded) unmet.push_back(UnmetCondition::root_moment);
+  const bool carries_payload = basis == Basis::clamped_with_payload;
+  if (!carries_payload && arm.payload_tip_inertia_kg_m2 > 0.0) {
     unmet.push_back(UnmetCondition::tip_moment);
   }
-  if (shapes_without_payload && arm.payload.mass_kg > 0.0) {
-    unmet.push_back(UnmetCondition::tip_shear);
+  if (!carries_payload && arm.payload_mass_kg > 0.0) unmet.push_back(UnmetCondition::tip_shear);
+  const bool root_moves = root == Root::pole && arm.hub_radius_m > 0.0;
+  if (root_moves || arm.gravity_m_per_s2 != 0.0 ||
+      (carries_payload && arm.payload_first_moment_kg_m != 0.0)) {
+    unmet.push_back(UnmetCondition::root_displacement);
   }
-  if ((basis == Basis::clamped_free || basis == Basis::clamped_with_payload) &&
-      root == Root::pole) {
+  if (basis != Basis::pinned_free && root == Root::pole) {
     unmet.push_back(UnmetCondition::root_rotation);
   }
   return unmet;
@@ -134,7 +143,7 @@ RootConvergence convergence(const std::vector<AssumedModesArm>& models,
   const Basis basis = models.front().options().basis;
   RootConvergence result;
   result.root = fmt::format("{} {}", kind == Root::pole ? "pole" : "hub zero", root);
-  result.unmet = unmet_conditions(reference.arm(), basis, kind);
+  result.unmet = unmet_conditions(arm::linear_arm(reference.arm()), basis, kind);
   result.predicted_order =
       result.unmet.empty() ? kInfiniteOrder : 2.0 * coefficient_decay(result.unmet.front()) - 1.0;
   const double exact = frequency_rad_per_s(reference, kind, root);

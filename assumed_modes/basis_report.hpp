@@ -11,10 +11,11 @@ namespace flexarm::assumed_modes {
 /// A condition that the arm's motion meets and that no function of a basis can meet, because
 /// every one of them is zero there.
 enum class UnmetCondition {
-  root_moment,    ///< y''(0): EI y'' = Ih y'_tt - tau
-  tip_moment,     ///< y''(l): EI y'' = -Ip y'_tt
-  tip_shear,      ///< y'''(l): EI y''' = Mp y_tt
-  root_rotation,  ///< y'''''(0): EI y''''' = -m y'_tt, the beam's equation differentiated
+  root_moment,        ///< y''(0): EI y'' = Ih y'_tt - tau
+  tip_moment,         ///< y''(l): EI y'' = -Ip y'_tt
+  tip_shear,          ///< y'''(l): EI y''' = Mp y_tt
+  root_displacement,  ///< y''''(0): EI y'''' = (P y')' - m y_tt, the beam's equation
+  root_rotation,      ///< y'''''(0): EI y''''' = -m y'_tt, the same differentiated
 };
 
 /// How one root of the arm converges on one basis.
@@ -47,10 +48,12 @@ struct BasisReport {
 ///
 /// between the ends, with y'''' = mu y. With unit strain energy psi_i ~ 1/lambda_i^2, so that a
 /// moment the shapes lack leaves c_i ~ 1/lambda_i, a shear 1/lambda_i^2, and the hub's turning
-/// 1/lambda_i^4. A Ritz value's error is the sum of c_i^2 beyond n: order 2 p - 1 for c_i ~ i^-p
-/// (Strang and Fix, An Analysis of the Finite Element Method (1973), ch. 6).
+/// 1/lambda_i^4; a root that moves, or tension, 1/lambda_i^3, as does what a payload off its place
+/// or under gravity asks of shapes that carry it, whose tip hardly moves. A Ritz value's error is
+/// the sum of c_i^2 beyond n: order 2 p - 1 for c_i ~ i^-p (Strang and Fix, An Analysis of the
+/// Finite Element Method (1973), ch. 6).
 ///
-/// 1 <= root <= 8. Throws InputError for an invalid arm or an effect.
+/// 1 <= root <= 8. Throws InputError for an invalid arm or one that the basis cannot represent.
 BasisReport describe_convergence(const arm::Arm& arm, Basis basis, int root = 3);
 
 }  // namespace flexarm::assumed_modes

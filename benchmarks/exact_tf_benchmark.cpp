@@ -3,14 +3,18 @@
 #include "benchmarks/timing.hpp"
 #include "exact_tf/certificate.hpp"
 #include "exact_tf/exact_arm.hpp"
+#include "tests/reference/effect_cases.hpp"
 #include "tests/reference/reference_cases.hpp"
 
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
+#include <cmath>
 #include <complex>
 #include <limits>
 #include <map>
+#include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -103,6 +107,65 @@ void response(benchmark::State& state, const char* sensor, Output output, double
   state.counters["error"] = reference_error(arm::parse_sensor(sensor), output, unit);
 }
 
+/// The case of effects.json that has these effects, without the closed forms' help.
+const reference::EffectCase& effect_case(const std::string& name) {
+  for (const auto& each : reference::effect_cases()) {
+    if (each.name == name) return each;
+  }
+  throw std::invalid_argument("no case " + name + " in effects.json");
+}
+
+/// Ten poles, hub zeros and tip zeros of an arm with effects; error of the six poles and hub zeros
+/// that the reference has.
+void roots_with_effects(benchmark::State& state, const char* name) {
+  const auto& known = effect_case(name);
+  for (auto _ : state) {
+    const ExactArm exact(known.arm);
+    benchmark::DoNotOptimize(exact.poles(kPoles));
+    benchmark::DoNotOptimize(exact.zeros(kHubAngle, kHubZeros));
+    benchmark::DoNotOptimize(exact.zeros(kTipAcceleration, kTipZeros));
+  }
+  const ExactArm exact(known.arm);
+  const auto poles = exact.poles(kPoles);
+  const auto zeros = exact.zeros(kHubAngle, kHubZeros);
+  double error = 0.0;
+  for (std::size_t i = 0; i < known.pole_rad_per_s.size(); ++i) {
+    error = std::max(error, std::abs(poles.omega_rad_per_s[i] / known.pole_rad_per_s[i] - 1.0));
+  }
+  for (std::size_t i = 0; i < known.hub_zero_rad_per_s.size(); ++i) {
+    error =
+        std::max(error, std::abs(zeros.s_rad_per_s[i].imag() / known.hub_zero_rad_per_s[i] - 1.0));
+  }
+  state.counters["error"] = error;
+}
+
+void damped_poles_with_effects(benchmark::State& state, const char* name) {
+  const ExactArm exact(effect_case(name).arm);
+  for (auto _ : state) benchmark::DoNotOptimize(exact.damped_poles(kPoles));
+}
+
+void modal_model_with_effects(benchmark::State& state, const char* name) {
+  const ExactArm exact(effect_case(name).arm);
+  const std::vector<arm::Sensor> sensors = {kHubAngle, kTipAcceleration};
+  for (auto _ : state) benchmark::DoNotOptimize(exact.modal_model(kPoles, sensors, {}));
+}
+
+/// The tip's response; error at the reference's points.
+void response_with_effects(benchmark::State& state, const char* name) {
+  const auto& known = effect_case(name);
+  const ExactArm exact(known.arm);
+  time_responses(state, exact, "tip_displacement");
+  std::vector<std::complex<double>> found;
+  std::vector<std::complex<double>> digits;
+  for (const auto& point : known.responses) {
+    for (const auto& [sensor, value] : point.values) {
+      found.push_back(exact.transfer_function(arm::parse_sensor(sensor), point.s_rad_per_s));
+      digits.push_back(value);
+    }
+  }
+  state.counters["error"] = worst_relative_error(found, digits);
+}
+
 void repeated(benchmark::internal::Benchmark* benchmark) {
   benchmark->Repetitions(kRepetitions)->MinTime(kMinimumTime_s)->Unit(benchmark::kMicrosecond);
 }
@@ -117,6 +180,16 @@ BENCHMARK(tip_zeros)->Apply(repeated);
 BENCHMARK(poles)->Apply(many_roots);
 BENCHMARK(hub_zeros)->Apply(many_roots);
 BENCHMARK(certificate_of_poles)->Apply(many_roots);
+BENCHMARK_CAPTURE(roots_with_effects, root_compliance, "root_compliance")->Apply(repeated);
+BENCHMARK_CAPTURE(roots_with_effects, crack, "local_stiffness_loss")->Apply(repeated);
+BENCHMARK_CAPTURE(roots_with_effects, gravity, "gravity")->Apply(repeated);
+BENCHMARK_CAPTURE(roots_with_effects, shear, "shear_and_rotary_inertia")->Apply(repeated);
+BENCHMARK_CAPTURE(roots_with_effects, all, "all")->Apply(repeated);
+BENCHMARK_CAPTURE(damped_poles_with_effects, all, "all")->Apply(repeated);
+BENCHMARK_CAPTURE(modal_model_with_effects, all, "all")->Apply(repeated);
+BENCHMARK_CAPTURE(response_with_effects, crack, "local_stiffness_loss")->Apply(repeated);
+BENCHMARK_CAPTURE(response_with_effects, gravity, "gravity")->Apply(repeated);
+BENCHMARK_CAPTURE(response_with_effects, all, "all")->Apply(repeated);
 BENCHMARK_CAPTURE(response, hub_angle, "hub_angle", &reference::ReferenceResponse::hub_angle, 1.0)
     ->Apply(repeated);
 BENCHMARK_CAPTURE(response, tip_displacement, "tip_displacement",

@@ -194,6 +194,7 @@ constexpr int kNotedRoot = 3;
 std::vector<std::string> basis_notes(const arm::Arm& arm) {
   std::vector<std::string> notes;
   for (const auto basis : assumed_modes::kAllBases) {
+    if (!assumed_modes::can_represent(basis, arm)) continue;
     // Without a payload these are the clamped-free shapes.
     if (basis == assumed_modes::Basis::clamped_with_payload && arm.payload == arm::Payload{}) {
       continue;

@@ -41,7 +41,11 @@ class Tracker {
 
   void step(double place, const RootList& roots) {
     left_ = options_.most_evaluations;
+    const std::size_t before = result_.ambiguous.size();
     advance(place, unfold(roots, options_), 0);
+    if (result_.ambiguous.size() <= before + 1) return;
+    result_.ambiguous[before].to = result_.ambiguous.back().to;
+    result_.ambiguous.resize(before + 1);
   }
 
   /// The heads in the order of the list at the present place.

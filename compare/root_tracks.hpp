@@ -56,7 +56,7 @@ struct TrackMeeting {
 struct RootTracks {
   std::vector<RootTrack> tracks;
   std::vector<TrackMeeting> meetings;
-  std::vector<Between> ambiguous;  ///< steps that stayed so at the finest subdivision
+  std::vector<Between> ambiguous;  ///< parts of grid steps that stayed so, however divided
   int further_evaluations = 0;     ///< of `roots_at` between grid points
 };
 

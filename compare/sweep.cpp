@@ -112,7 +112,7 @@ std::string SweepTask::describe(std::size_t point) const {
   std::string text;
   for (std::size_t k = 0; k < axes.size(); ++k) {
     const SweepParameter& parameter = axes[k].parameter;
-    text += fmt::format("{}{} = {}{}", k > 0 ? ", " : "", parameter.name, value(k, point),
+    text += fmt::format("{}{} = {:.6g}{}", k > 0 ? ", " : "", parameter.name, value(k, point),
                         parameter.unit == "1" ? "" : " " + parameter.unit);
   }
   return text;

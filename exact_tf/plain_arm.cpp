@@ -196,9 +196,9 @@ arm::ModalModel PlainArm::modal_model(int count, std::span<const arm::Sensor> se
       const arm::Mode& b = model.modes[j];
       const double beam =
           i == j ? arm_.kelvin_voigt_s * a.omega_rad_per_s * a.omega_rad_per_s : 0.0;
-      model.damping_rad_per_s.push_back(beam + arm_.hub_viscous_friction_N_m_s_per_rad *
-                                                   a.hub_slope * b.hub_slope /
-                                                   model.modal_mass_kg_m2);
+      // The slopes first: their product is the same in either order, and so D symmetric.
+      const double hub = a.hub_slope * b.hub_slope * arm_.hub_viscous_friction_N_m_s_per_rad;
+      model.damping_rad_per_s.push_back(beam + hub / model.modal_mass_kg_m2);
     }
   }
   return model;

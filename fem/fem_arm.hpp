@@ -16,11 +16,22 @@ namespace flexarm::fem {
 
 class Discretisation;
 
-/// An arm by Euler-Bernoulli beam finite elements with a continuous slope.
+/// An arm by beam finite elements with all its linear effects (arm/linear_arm.hpp).
 ///
-/// The error of a frequency or a zero falls as h^(2p-2), or exponentially with the degree p, down
-/// to some epsilon. It does not rise again on fine meshes: the stiffness is kept factored in the
-/// natural deformations of the elements (see discretisation.hpp).
+/// Elements are Euler-Bernoulli's with a continuous slope, or Timoshenko's with rotation and shear
+/// strain of their own where the arm has effects.shear_and_rotary_inertia (see BeamElement; they do
+/// not lock). A crack is a node at which the rotation jumps: the mesh is compressed on either side
+/// of it, so that no element grows and there is at most one more. A compliant root and a hub spring
+/// are further natural deformations, hub radius and payload offset change kinematics and mass,
+/// gravity adds the tension's stiffness.
+///
+/// The error of a frequency or a zero falls as h^(2p-2) with any effect, or exponentially with the
+/// degree p, down to some epsilon. It does not rise again on fine meshes: the stiffness is kept
+/// factored in the natural deformations of the elements (see discretisation.hpp). Only the weight's
+/// stiffness is assembled; with gravity some epsilon times the number of elements remains.
+///
+/// An arm that stands up is accepted while its lowest mode alone falls. Where it would buckle with
+/// the hub held, its first hub zero is real.
 ///
 ///     const fem::FemArm model(arm::paper_arm(), {.mesh = {.elements = 4}, .degree = 15});
 ///     const arm::PoleSet poles = model.poles(10);
@@ -44,14 +55,17 @@ class FemArm {
     int checking_degrees = 2;  ///< 1 to 4
   };
 
-  /// Throws arm::InputError for an invalid arm, for any effect, and for options out of range.
+  /// Throws arm::InputError for an invalid arm, for an effect that is not linear, for an arm that
+  /// stands up and of which a flexible mode buckles (effects.gravity.acceleration), and for options
+  /// out of range.
   explicit FemArm(arm::Arm arm);
   FemArm(arm::Arm arm, Options options);
 
   const arm::Arm& arm() const { return arm_; }
   const Options& options() const { return options_; }
   /// n = 1 + elements (degree - 1): the hub rotation and, for each element, its degree - 3
-  /// bubbles, and deflection and slope at its outer end.
+  /// bubbles, and deflection and rotation at its outer end. Shear adds degree - 1 to each element,
+  /// a compliant root 1, a crack 1 and the element that it divides.
   int degrees_of_freedom() const;
 
   /// `count.expected` is by Sylvester inertia where rounding of the assembled stiffness permits.
@@ -67,7 +81,7 @@ class FemArm {
   /// principle, -1 where rounding hides it. Should one be missing in spite of further searches,
   /// `summary.converged` is false and the roots beyond the gap are rejected.
   arm::ZeroSet zeros(const arm::Sensor& sensor, int count) const;
-  /// Stations in metres from the motor axis, each from 0 to the beam's length.
+  /// Stations in metres along the beam, each from 0 to its length.
   std::vector<arm::Mode> modes(int count, std::span<const arm::Sensor> sensors,
                                std::span<const double> stations_m) const;
   arm::ModalModel modal_model(int count, std::span<const arm::Sensor> sensors,

@@ -1,6 +1,30 @@
 #include "report/arm_json.hpp"
 
+#include "arm/effects.hpp"
+
 namespace flexarm::report {
+
+namespace {
+
+nlohmann::ordered_json effects_json(const arm::Effects& effects) {
+  nlohmann::ordered_json entries = nlohmann::ordered_json::array();
+  for (const auto& [name, effect] : effects) {
+    nlohmann::ordered_json parameters = nlohmann::ordered_json::array();
+    for (const auto& parameter : arm::find_effect(name)->parameters) {
+      const auto value = effect.parameters.find(parameter.name);
+      if (value == effect.parameters.end()) continue;
+      parameters.push_back(
+          {{"name", parameter.name}, {"value", value->second}, {"unit", parameter.unit}});
+    }
+    nlohmann::ordered_json entry = {
+        {"effect", name}, {"parameters", parameters}, {"sensor", nullptr}};
+    if (!effect.sensor.empty()) entry["sensor"] = effect.sensor;
+    entries.push_back(std::move(entry));
+  }
+  return entries;
+}
+
+}  // namespace
 
 nlohmann::ordered_json arm_json(const arm::Arm& arm) {
   return {
@@ -17,6 +41,7 @@ nlohmann::ordered_json arm_json(const arm::Arm& arm) {
       {"hub_inertia_ratio", arm::hub_inertia_ratio(arm)},
       {"payload_mass_ratio", arm::payload_mass_ratio(arm)},
       {"payload_inertia_ratio", arm::payload_inertia_ratio(arm)},
+      {"effects", effects_json(arm.effects)},
   };
 }
 

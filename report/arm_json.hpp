@@ -9,7 +9,8 @@
 
 namespace flexarm::report {
 
-/// The numbers that define an arm, and those that follow from them, units in the keys.
+/// The numbers that define an arm, its effects beside them, and total inertia and ratios, which
+/// follow from both; units in the keys.
 nlohmann::ordered_json arm_json(const arm::Arm& arm);
 
 /// {"re": ..., "im": ...}, or null.

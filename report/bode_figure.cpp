@@ -88,7 +88,8 @@ Panel magnitude_panel(const BodePlot& plot) {
   const bool decibel = plot.magnitude == Magnitude::decibel;
   Panel panel;
   panel.y.label = "magnitude";
-  panel.y.unit = decibel ? "dB re 1 " + plot.unit : plot.unit;
+  const std::string reference = plot.unit.starts_with("1/") ? plot.unit : "1 " + plot.unit;
+  panel.y.unit = decibel ? "dB re " + reference : plot.unit;
   panel.y.scale = decibel ? Scale::linear : Scale::logarithmic;
   panel.height = 1.8;
   for (std::size_t c = 0; c < plot.curves.size(); ++c) {

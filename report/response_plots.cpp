@@ -31,6 +31,7 @@ NamedPlot bode(const std::string& formulation, const response::ResponseStudy& st
   }
   plot.magnitude = Magnitude::decibel;
   plot.phase = Phase::unwrapped;
+  plot.poles_Hz.push_back(study.damped_poles.lowest.first_rad_per_s.imag() / kTwoPi);
   for (const auto& pole : study.damped_poles.flexible) {
     plot.poles_Hz.push_back(pole.first_rad_per_s.imag() / kTwoPi);
   }

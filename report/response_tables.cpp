@@ -80,8 +80,7 @@ Table response_poles_table(const response::ResponseStudy& study, std::size_t mos
   }
   if (study.chain.lag_s > 0.0) add_root(table, "actuator lag", kNone, -1.0 / study.chain.lag_s);
   if (study.chain.sensor_lag && study.chain.sensor_lag->time_constant_s > 0.0) {
-    add_root(table, "lag of " + arm::to_string(study.chain.sensor_lag->sensor), kNone,
-             -1.0 / study.chain.sensor_lag->time_constant_s);
+    add_root(table, "sensor lag", kNone, -1.0 / study.chain.sensor_lag->time_constant_s);
   }
   return table;
 }

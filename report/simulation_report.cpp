@@ -238,22 +238,4 @@ nlohmann::ordered_json runs_json(const std::vector<SimulatedRun>& runs) {
   return entries;
 }
 
-nlohmann::ordered_json effects_json(const arm::Effects& effects) {
-  nlohmann::ordered_json entries = nlohmann::ordered_json::array();
-  for (const auto& [name, effect] : effects) {
-    nlohmann::ordered_json parameters = nlohmann::ordered_json::array();
-    for (const auto& parameter : arm::find_effect(name)->parameters) {
-      const auto value = effect.parameters.find(parameter.name);
-      if (value == effect.parameters.end()) continue;
-      parameters.push_back(
-          {{"name", parameter.name}, {"value", value->second}, {"unit", parameter.unit}});
-    }
-    nlohmann::ordered_json entry = {
-        {"effect", name}, {"parameters", parameters}, {"sensor", nullptr}};
-    if (!effect.sensor.empty()) entry["sensor"] = effect.sensor;
-    entries.push_back(std::move(entry));
-  }
-  return entries;
-}
-
 }  // namespace flexarm::report

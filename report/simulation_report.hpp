@@ -52,7 +52,4 @@ std::string time_svg(const std::string& arm_name, const SimulatedRun& run);
 /// Member `runs` of schema `flexarm.simulate/1` (docs/json.md).
 nlohmann::ordered_json runs_json(const std::vector<SimulatedRun>& runs);
 
-/// An array of the effects that are switched on.
-nlohmann::ordered_json effects_json(const arm::Effects& effects);
-
 }  // namespace flexarm::report

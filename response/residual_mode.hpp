@@ -32,12 +32,13 @@ namespace flexarm::response {
 /// kept, 8 at least. The rest of the shape, with hub slope theta, modal mass b^2 I_T and its share
 /// w of omega_r^2, adds c theta theta_j/I_T to D_rj, and c theta^2/I_T + kv w + b^2 ca/m to D_rr:
 /// the projection of hub friction and of Kelvin-Voigt damping, and a bound for the drag of air. D
-/// stays positive semidefinite.
+/// stays positive semidefinite. What the modes kept do to those left out by their damping, where it
+/// couples them (a beam that dissipates on a root that does not), is no response to the torque and
+/// remains, an error of the order of the damping.
 ///
 /// The displacements of the pseudo-mode are 0: what acts along the beam does not reach it. Returns
 /// `model` as it is when the formulation has no further modes. Throws std::invalid_argument for a
-/// model whose modes do not have a value at each of `sensors`, InputError as `modes` does for n
-/// + 1.
+/// model whose modes do not have a value at each of `sensors`, InputError as `modal_model` does.
 arm::ModalModel with_residual_mode(const AnyFormulation& formulation, const arm::ModalModel& model,
                                    std::span<const arm::Sensor> sensors);
 

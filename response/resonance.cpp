@@ -27,25 +27,25 @@ double midway_Hz(std::span<const arm::PolePair> poles, std::size_t i, std::size_
 }  // namespace
 
 std::vector<Resonance> resonances(const AnyFormulation& formulation, const LinearChain& chain,
-                                  const arm::Sensor& sensor,
-                                  std::span<const arm::PolePair> flexible_poles, double from_Hz,
-                                  double to_Hz) {
+                                  const arm::Sensor& sensor, const arm::DampedPoleSet& poles,
+                                  double from_Hz, double to_Hz) {
+  std::vector<arm::PolePair> pairs = {poles.lowest};
+  pairs.insert(pairs.end(), poles.flexible.begin(), poles.flexible.end());
   const auto response = [&](double f) {
     const auto s = on_imaginary_axis(f);
     return transfer_function(formulation, sensor, s) * actuator_response(chain, s) *
            reading_response(chain, sensor, s);
   };
   std::vector<Resonance> found;
-  for (std::size_t i = 0; i < flexible_poles.size(); ++i) {
-    const auto pole = flexible_poles[i].first_rad_per_s;
-    const double centre_Hz = frequency_Hz(flexible_poles[i]);
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const auto pole = pairs[i].first_rad_per_s;
+    const double centre_Hz = frequency_Hz(pairs[i]);
     const double half_width_Hz = std::abs(pole.real()) / (2.0 * std::numbers::pi);
     if (half_width_Hz == 0.0 || !(centre_Hz > from_Hz && centre_Hz < to_Hz)) continue;
-    const double lowest = midway_Hz(flexible_poles, i, i - 1, 0.0);  // i - 1 wraps for the first
-    const double highest =
-        midway_Hz(flexible_poles, i, i + 1, std::numeric_limits<double>::infinity());
+    const double lowest = midway_Hz(pairs, i, i - 1, 0.0);  // i - 1 wraps for the first
+    const double highest = midway_Hz(pairs, i, i + 1, std::numeric_limits<double>::infinity());
     Resonance resonance;
-    resonance.order = static_cast<int>(i) + 1;
+    resonance.order = static_cast<int>(i);
     resonance.pole_rad_per_s = pole;
     for (int j = 0; j <= kPoints; ++j) {
       const double angle = kLargestAngle * (2.0 * j / kPoints - 1.0);

@@ -11,7 +11,7 @@ namespace flexarm::response {
 
 /// A response close to one damped pole, for a Nyquist diagram.
 struct Resonance {
-  int order = 0;  ///< of the flexible pole, from 1
+  int order = 0;  ///< of the pole: flexible ones from 1, the lowest 0
   std::complex<double> pole_rad_per_s;
   std::vector<double> frequency_Hz;
   std::vector<std::complex<double>> values;
@@ -21,13 +21,12 @@ struct Resonance {
   std::complex<double> above;
 };
 
-/// The response of one sensor around each of `poles` whose frequency |Im s| lies strictly between
-/// `from_Hz` and `to_Hz`. The frequencies stand at equal angles on the circle that a single pole
-/// would draw, Im s + |Re s| tan(angle/2), as far as the geometric mean with the neighbouring
-/// poles. Poles on the imaginary and on the real axis draw no circle and are left out.
+/// The response of one sensor around each of the poles, lowest and flexible, whose frequency |Im s|
+/// lies strictly between `from_Hz` and `to_Hz`. The frequencies stand at equal angles on the circle
+/// that a single pole would draw, Im s + |Re s| tan(angle/2), as far as the geometric mean with the
+/// neighbouring poles. Poles on the imaginary and on the real axis draw no circle and are left out.
 std::vector<Resonance> resonances(const AnyFormulation& formulation, const LinearChain& chain,
-                                  const arm::Sensor& sensor,
-                                  std::span<const arm::PolePair> flexible_poles, double from_Hz,
-                                  double to_Hz);
+                                  const arm::Sensor& sensor, const arm::DampedPoleSet& poles,
+                                  double from_Hz, double to_Hz);
 
 }  // namespace flexarm::response

@@ -18,15 +18,22 @@ using Complex = std::complex<double>;
 
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
 constexpr double kBelowFirstPole = 20.0;
+constexpr double kBelowLowestPole = 5.0;
 
 FrequencyGrid grid_of(const AnyFormulation& formulation, const ResponseOptions& options) {
   // The pole beyond those asked for, where the model has one.
-  const auto known = poles(formulation, options.modes + 1).omega_rad_per_s;
+  const auto pole_set = poles(formulation, options.modes + 1);
+  const auto& known = pole_set.omega_rad_per_s;
   const bool has_next = std::ssize(known) > options.modes;
   const double last =
       has_next ? std::sqrt(known.back() * known[known.size() - 2]) : 1.2 * known.back();
+  double lowest = known.front() / kBelowFirstPole;
+  if (pole_set.lowest_omega_squared_rad2_per_s2 > 0.0) {
+    lowest =
+        std::min(lowest, std::sqrt(pole_set.lowest_omega_squared_rad2_per_s2) / kBelowLowestPole);
+  }
   FrequencyGrid grid;
-  grid.from_Hz = options.from_Hz.value_or(known.front() / kTwoPi / kBelowFirstPole);
+  grid.from_Hz = options.from_Hz.value_or(lowest / kTwoPi);
   grid.to_Hz = options.to_Hz.value_or(last / kTwoPi);
   grid.points = options.points;
   return grid;
@@ -46,7 +53,7 @@ int poles_up_to(const AnyFormulation& formulation, const ResponseOptions& option
 std::vector<double> frequencies(const AnyFormulation& formulation, const ResponseOptions& options,
                                 const ResponseStudy& study, const FrequencyGrid& grid) {
   if (!options.frequency_Hz.empty()) return options.frequency_Hz;
-  std::vector<Complex> features;
+  std::vector<Complex> features = {study.damped_poles.lowest.first_rad_per_s};
   for (const auto& pair : study.damped_poles.flexible) features.push_back(pair.first_rad_per_s);
   const int count = static_cast<int>(study.damped_poles.flexible.size());
   for (const auto& sensor : options.sensors) {
@@ -96,6 +103,10 @@ ResponseStudy study_response(const arm::Arm& arm, const AnyFormulation& formulat
   ResponseStudy study;
   study.left_out = nonlinear_effects(arm);
   study.chain = linear_chain(take_apart(arm));
+  if (study.chain.sensor_lag &&
+      std::ranges::find(options.sensors, study.chain.sensor_lag->sensor) == options.sensors.end()) {
+    study.chain.sensor_lag.reset();
+  }
   study.poles = poles(formulation, options.modes);
   study.damped_poles = damped_poles(formulation, poles_up_to(formulation, options, grid.to_Hz));
   study.modes = modal_model(formulation, options.modes, options.sensors, {});
@@ -106,9 +117,8 @@ ResponseStudy study_response(const arm::Arm& arm, const AnyFormulation& formulat
   const auto frequency_Hz = frequencies(formulation, options, study, grid);
   study.response = frequency_response(formulation, study.chain, options.sensors, frequency_Hz);
   for (const auto& sensor : options.sensors) {
-    study.resonances.push_back(resonances(formulation, study.chain, sensor,
-                                          study.damped_poles.flexible, frequency_Hz.front(),
-                                          frequency_Hz.back()));
+    study.resonances.push_back(resonances(formulation, study.chain, sensor, study.damped_poles,
+                                          frequency_Hz.front(), frequency_Hz.back()));
   }
   if (!options.state_space) return study;
   auto model = study.modes;

@@ -17,7 +17,7 @@ namespace flexarm::response {
 struct ResponseOptions {
   std::vector<arm::Sensor> sensors;
   int modes = 5;  ///< flexible poles, zeros of each sensor, and modes of the state space
-  std::optional<double> from_Hz;     ///< empty: a twentieth of the first pole
+  std::optional<double> from_Hz;     ///< empty: well below the first pole
   std::optional<double> to_Hz;       ///< empty: midway between the last pole and the next
   int points = 400;                  ///< of the logarithmic grid that is refined
   std::vector<double> frequency_Hz;  ///< in place of the grid unless empty
@@ -28,7 +28,7 @@ struct ResponseOptions {
 /// The linear response of an arm from commanded torque to its sensors' readings.
 struct ResponseStudy {
   std::vector<std::string> left_out;  ///< nonlinear effects of the arm
-  LinearChain chain;
+  LinearChain chain;                  ///< with the lag of a sensor that is among `sensors`
   arm::PoleSet poles;
   arm::DampedPoleSet damped_poles;
   arm::ModalModel modes;                                ///< without residual mode

@@ -108,13 +108,18 @@ TEST_F(Compare, AMeasuredTableWithAnErrorIsNamedByFileAndLine) {
               HasSubstr("none.csv: no such file"));
 }
 
-TEST_F(Compare, AnEffectInTheArmFileIsRefusedByName) {
-  write("rig.toml", std::string(kArm) + "[effects.hub_spring]\nstiffness = 1.0\n");
-  for (const std::string command : {"compare", "modes"}) {
-    const Ended ended = run({command, "rig.toml"});
-    EXPECT_EQ(ended.status, 2);
-    EXPECT_EQ(ended.output, "");
-    EXPECT_THAT(ended.errors, AllOf(HasSubstr("hub_spring"), HasSubstr("exact_tf")));
+TEST_F(Compare, LinearEffectsAreHonouredAndOthersNamedAsLeftOut) {
+  write("rig.toml", std::string(kArm) +
+                        "[effects.hub_spring]\nstiffness = 1.0\n"
+                        "[effects.coulomb_friction]\ntorque = 0.01\n");
+  const Ended compared = run({"compare", "rig.toml", "--quick"});
+  EXPECT_EQ(compared.status, 0) << compared.output;
+  const Ended modes = run({"modes", "rig.toml"});
+  EXPECT_THAT(modes.output, HasSubstr("lowest mode, undamped, at"));
+  for (const Ended& ended : {compared, modes}) {
+    EXPECT_THAT(ended.output, HasSubstr("with hub_spring: stiffness 1 N m/rad"));
+    EXPECT_THAT(ended.output, HasSubstr("left out, since not part of the arm's linear equations: "
+                                        "coulomb_friction"));
   }
 }
 

@@ -95,12 +95,23 @@ void expect_as_documented(const std::vector<Json>& documents, const std::string&
   }
 }
 
+/// An arm file with a linear effect.
+const char* const kSoftRoot =
+    "[beam]\nlength = 0.96\nthickness = 0.003\nflexural_rigidity = 3.7\n"
+    "linear_density = 0.165\n[hub]\ninertia = 0.0006\n"
+    "[effects.root_compliance]\nstiffness = 30.0\n";
+
 TEST_F(JsonSchema, WhatCompareWritesIsWhatTheDocumentSays) {
+  write("soft.toml", kSoftRoot);
   write("modal.csv", "sensor,feature,order,frequency [Hz]\n,pole,1,12.00\nhub_angle,zero,1,\n");
   const Ended ended = run({"compare", "--poles", "2", "--zeros", "2", "--sensor", "strain@0.25",
                            "--measured", "modal.csv", "--json", "out.json"});
   EXPECT_EQ(ended.status, 0) << ended.errors;
-  expect_as_documented({Json::parse(text_of("out.json"))}, "flexarm.compare/1");
+  const Ended soft = run(
+      {"compare", "soft.toml", "--quick", "--poles", "2", "--zeros", "2", "--json", "soft.json"});
+  EXPECT_EQ(soft.status, 0) << soft.errors;
+  expect_as_documented({Json::parse(text_of("out.json")), Json::parse(text_of("soft.json"))},
+                       "flexarm.compare/1");
 }
 
 TEST_F(JsonSchema, WhatModesWritesIsWhatTheDocumentSays) {
@@ -111,7 +122,8 @@ TEST_F(JsonSchema, WhatModesWritesIsWhatTheDocumentSays) {
     EXPECT_EQ(ended.status, 0) << ended.errors;
     return Json::parse(text_of("out.json"));
   };
-  expect_as_documented({written_by({"--certificate"}),
+  write("soft.toml", kSoftRoot);
+  expect_as_documented({written_by({"--certificate"}), written_by({"soft.toml"}),
                         written_by({"--formulation", "assumed_modes", "--functions", "12",
                                     "--modes", "9", "--sensor", "strain@0.25"})},
                        "flexarm.modes/1");
@@ -165,9 +177,11 @@ TEST_F(JsonSchema, WhatSweepWritesIsWhatTheDocumentSays) {
     EXPECT_NE(run(arguments).status, 2);
     return Json::parse(text_of("out.json"));
   };
+  write("soft.toml", kSoftRoot);
   // Assumed modes cannot tell the fourteenth zero of the tip from rounding.
   expect_as_documented(
-      {written_by({"--over", "damping.kelvin_voigt=0:1e-4:2", "--over", "payload.inertia=0:0.002:3",
+      {written_by({"soft.toml", "--over", "payload.mass=0,0.1", "--poles", "2", "--zeros", "1"}),
+       written_by({"--over", "damping.kelvin_voigt=0:1e-4:2", "--over", "payload.inertia=0:0.002:3",
                    "--zeros", "14"}),
        written_by({"--over", "payload.mass=log:0.01:1:2", "--roots-only", "--formulation", "fem"})},
       "flexarm.sweep/1");

@@ -75,7 +75,8 @@ TEST_F(Modes, RootsThatAModelDoesNotHaveAreCounted) {
 TEST_F(Modes, TheFolderHoldsTablesAndShapes) {
   const Ended ended = run({"modes", "--out", "out", "--payload-mass", "0.06"});
   EXPECT_EQ(ended.status, 0) << ended.errors;
-  EXPECT_THAT(names_in("out"), ElementsAre("modes.csv", "shapes.csv", "shapes.svg", "zeros.csv"));
+  EXPECT_THAT(names_in("out"), ElementsAre("damped_poles.csv", "modes.csv", "shapes.csv",
+                                           "shapes.svg", "zeros.csv"));
 }
 
 TEST_F(Modes, BadInputIsOneLineAndStatusTwo) {

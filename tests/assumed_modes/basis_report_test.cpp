@@ -1,7 +1,7 @@
 #include "assumed_modes/basis_report.hpp"
 
-#include "arms.hpp"
 #include "assumed_modes/assumed_modes_arm.hpp"
+#include "effects.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -80,6 +80,26 @@ TEST(BasisReport, FourteenLegendreFunctionsBeatSixtyFourShapes) {
   EXPECT_LE(legendre / exact - 1.0, 1e-11);
   const auto shapes = AssumedModesArm(arm, {Basis::clamped_free, 64}).poles(3).omega_rad_per_s[2];
   EXPECT_GE(shapes / exact - 1.0, 1e-6);
+}
+
+TEST(BasisReport, EffectsAddConditionsOfTheirOwn) {
+  const arm::Arm radius =
+      testing_arms::with(unit_arm(0.1, 0.0, 0.0), "hub_radius", {{"radius", 0.5}});
+  const auto moved = describe_convergence(radius, Basis::clamped_with_payload);
+  EXPECT_EQ(moved.pole.unmet.front(), UnmetCondition::root_displacement);
+  EXPECT_NEAR(moved.pole.measured_order, 5.0, kFitFast);
+  EXPECT_THAT(moved.hub_zero.unmet, IsEmpty());
+  const arm::Arm hanging =
+      testing_arms::with(unit_arm(0.1, 0.0, 0.0), "gravity", {{"acceleration", 5.0}});
+  const auto hangs = describe_convergence(hanging, Basis::clamped_free);
+  EXPECT_EQ(hangs.hub_zero.unmet.front(), UnmetCondition::root_displacement);
+  EXPECT_NEAR(hangs.hub_zero.measured_order, 5.0, kFitFast);
+  EXPECT_NEAR(hangs.pole.measured_order, 5.0, kFitFast);
+  const arm::Arm sprung =
+      testing_arms::with(unit_arm(0.0, 0.0, 0.0), "hub_spring", {{"stiffness", 5.0}});
+  const auto held = describe_convergence(sprung, Basis::pinned_free);
+  EXPECT_EQ(held.pole.unmet.front(), UnmetCondition::root_moment);
+  EXPECT_NEAR(held.pole.measured_order, 1.0, kFitSlow);
 }
 
 TEST(BasisReport, RefusesARootBeyondTheReference) {

@@ -1,8 +1,8 @@
 #include "assumed_modes/basis.hpp"
 
 #include "arm/input_error.hpp"
-#include "arms.hpp"
 #include "assumed_modes/assumed_modes_arm.hpp"
+#include "effects.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -41,6 +41,31 @@ TEST(AssumedModesArm, RefusesEffectsThatAreNotLinearByName) {
     }
     arm.effects[definition.name] = effect;
     EXPECT_THAT(refusal([&] { const AssumedModesArm model(arm); }), HasSubstr(definition.name));
+  }
+}
+
+TEST(AssumedModesArm, HonoursEveryLinearEffectAndOtherBasesRefuseWhatTheyCannotFollow) {
+  for (const auto& definition : arm::effect_vocabulary()) {
+    if (definition.place != arm::EffectPlace::linear_arm) continue;
+    arm::Arm arm = testing_arms::thick_arm(0.1);
+    arm::Effect effect;
+    for (const auto& parameter : definition.parameters) effect.parameters[parameter.name] = 0.5;
+    arm.effects[definition.name] = effect;
+    EXPECT_NO_THROW(AssumedModesArm(arm).damped_poles(2)) << definition.name;
+    for (const Basis basis : kAllBases) {
+      const bool follows =
+          basis == Basis::legendre ||
+          (definition.name != "root_compliance" && definition.name != "local_stiffness_loss" &&
+           definition.name != "shear_and_rotary_inertia");
+      EXPECT_EQ(can_represent(basis, arm), follows);
+      const std::string message = refusal([&] { AssumedModesArm(arm, {basis}).poles(2); });
+      if (follows) {
+        EXPECT_EQ(message, "accepted") << definition.name;
+      } else {
+        EXPECT_THAT(message, HasSubstr("effects." + definition.name + ": basis "));
+        EXPECT_THAT(message, HasSubstr("--basis legendre can"));
+      }
+    }
   }
 }
 

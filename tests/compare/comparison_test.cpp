@@ -114,12 +114,6 @@ TEST(Comparison, OptionsOutOfRangeAreRefusedByName) {
   }
 }
 
-TEST(Comparison, AnArmWithAnEffectIsRefused) {
-  arm::Arm arm = arm::paper_arm();
-  arm.effects["hub_spring"].parameters["stiffness"] = 1.0;
-  EXPECT_THROW(compare(arm, quick()), arm::InputError);
-}
-
 TEST(Comparison, OneModelIsNoComparison) {
   auto subjects = standard_subjects(arm::paper_arm(), 2);
   subjects.erase(subjects.begin() + 1, subjects.end());

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <atomic>
 #include <bit>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -148,6 +149,55 @@ TEST_F(Sweep, TracksAreContinuousWhateverTheGrid) {
       EXPECT_LT(relative_distance(*curve[j], *curve[j - 1]), 0.5);
     }
   }
+}
+
+TEST_F(Sweep, DampedPolesAreFollowedThroughCriticalDamping) {
+  auto task = task_over({"hub.viscous_friction=log:1e-3:1:401"});
+  task.arm.payload = {};
+  task.arm.damping.kelvin_voigt_s = 1e-4;
+  const auto result = sweep(task);
+  int becoming_real = 0;
+  for (const auto& curve : result.curves) {
+    if (!curve.family.damped) continue;
+    const auto& poles = curve.s_rad_per_s.front();
+    bool was_complex = false;
+    bool became_real = false;
+    for (std::size_t j = 0; j < poles.size(); ++j) {
+      if (!poles[j]) continue;
+      became_real = became_real || (was_complex && poles[j]->imag() == 0.0);
+      was_complex = was_complex || poles[j]->imag() > 0.0;
+      if (j == 0 || !poles[j - 1]) continue;
+      // Friction grows by 1.7 % from point to point; where two poles meet they move with the root
+      // of that.
+      EXPECT_LT(relative_distance(*poles[j], *poles[j - 1]), 2.0 * std::sqrt(0.017))
+          << curve.number << " " << j;
+    }
+    if (became_real) ++becoming_real;
+  }
+  EXPECT_EQ(becoming_real, 1);
+  // A pair parts on the real axis; the slower of the two meets the pole of the hub's friction.
+  ASSERT_EQ(result.events.size(), 2);
+  const auto& parting = result.events[0].kind == Kind::part ? result.events[0] : result.events[1];
+  const auto& meeting = result.events[0].kind == Kind::part ? result.events[1] : result.events[0];
+  EXPECT_EQ(parting.kind, Kind::part);
+  EXPECT_EQ(meeting.kind, Kind::meet);
+  EXPECT_TRUE(parting.family.damped);
+  EXPECT_LT(parting.to_value, meeting.from_value);
+  EXPECT_TRUE(meeting.track == parting.track || meeting.other == parting.track ||
+              meeting.track == parting.other || meeting.other == parting.other);
+}
+
+TEST_F(Sweep, AnUndampedSweepHasNoDampedPoles) {
+  for (const auto& curve : sweep(task_over({"payload.mass=0,0.1"})).curves) {
+    EXPECT_FALSE(curve.family.damped);
+  }
+  // One damped point is enough.
+  auto from_zero = task_over({"damping.kelvin_voigt=0,1e-4"});
+  const auto result = sweep(from_zero);
+  const auto damped =
+      std::ranges::count_if(result.curves, [](const auto& curve) { return curve.family.damped; });
+  EXPECT_EQ(damped, from_zero.questions.poles);
+  EXPECT_TRUE(result.events.empty());
 }
 
 TEST_F(Sweep, RowsOfATwoParameterGridShareTheirTracks) {

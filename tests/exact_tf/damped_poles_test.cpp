@@ -134,6 +134,7 @@ TEST(ModalModel, CouplesModesByHubFrictionAlone) {
           (i == j ? 1e-3 * omega * omega : 0.0) +
           0.3 * model.modes[i].hub_slope * model.modes[j].hub_slope / model.modal_mass_kg_m2;
       EXPECT_NEAR(model.damping_rad_per_s[5 * i + j], expected, 8.0 * kEpsilon * expected);
+      EXPECT_EQ(model.damping_rad_per_s[5 * i + j], model.damping_rad_per_s[5 * j + i]);
     }
   }
 }

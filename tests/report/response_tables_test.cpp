@@ -31,7 +31,7 @@ TEST(ResponseTables, LagsAddPoles) {
   const std::string text = to_text(response_poles_table(sample_study(), 3));
   EXPECT_THAT(text, HasSubstr("actuator lag"));
   EXPECT_THAT(text, HasSubstr("-500"));
-  EXPECT_THAT(text, HasSubstr("lag of tip_acceleration"));
+  EXPECT_THAT(text, HasSubstr("sensor lag"));
   EXPECT_THAT(to_text(response_poles_table(sample_study(arm::paper_arm()), 3)),
               Not(HasSubstr("lag")));
 }

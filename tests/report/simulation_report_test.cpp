@@ -84,18 +84,5 @@ TEST(SimulationReport, TheFigureShowsTheTorqueAtTheHubWhereItIsAnother) {
   EXPECT_THAT(svg, HasSubstr("<text>hub angle [rad]</text>"));
 }
 
-TEST(SimulationReport, EffectsAreListedWithNumbersAndUnits) {
-  arm::Effects effects;
-  effects["coulomb_friction"].parameters["torque"] = 0.01;
-  effects["sensor_lag"] = {{{"time_constant", 0.002}}, "hub_angle"};
-  const auto json = effects_json(effects);
-  ASSERT_EQ(json.size(), 2U);
-  EXPECT_EQ(json[0]["effect"], "coulomb_friction");
-  EXPECT_EQ(json[0]["parameters"][0]["value"], 0.01);
-  EXPECT_EQ(json[0]["parameters"][0]["unit"], "N m");
-  EXPECT_TRUE(json[0]["sensor"].is_null());
-  EXPECT_EQ(json[1]["sensor"], "hub_angle");
-}
-
 }  // namespace
 }  // namespace flexarm::report

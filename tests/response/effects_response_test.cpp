@@ -2,6 +2,7 @@
 
 #include "response/modal_response.hpp"
 #include "response/residual_mode.hpp"
+#include "response/response_study.hpp"
 #include "response/transfer_forms.hpp"
 #include "tests/response/models.hpp"
 
@@ -115,6 +116,26 @@ TEST(EffectsResponse, ASpringAtTheHubGivesTheStaticAngle) {
     // The beam carries no static load.
     EXPECT_NEAR(std::abs(modal_response(corrected, every_sensor(), 0.0)[5]), 0.0, kStatic) << name;
   }
+}
+
+TEST(EffectsResponse, TheLowestPoleOfAnArmThatIsHeldIsAResonance) {
+  arm::Arm arm = damped_arm();
+  arm.effects["hub_spring"].parameters["stiffness"] = 0.5;
+  arm.effects["sensor_lag"].parameters["time_constant"] = 1e-3;
+  ResponseOptions options;
+  options.sensors = {{arm::SensorKind::hub_angle}};
+  options.modes = 2;
+  const auto study = study_response(arm, make_formulation("exact_tf", arm, 3), options);
+  ASSERT_EQ(study.resonances[0].size(), 3U);
+  EXPECT_EQ(study.resonances[0][0].order, 0);
+  const double lowest = study.damped_poles.lowest.first_rad_per_s.imag();
+  EXPECT_GT(lowest, 6.2832 * study.response.frequency_Hz.front());
+  EXPECT_FALSE(study.chain.sensor_lag.has_value()) << "tip_acceleration is not asked for";
+  // A circle: below, above and its far point lie at equal distance from the centre.
+  const auto& circle = study.resonances[0][0];
+  const Complex centre = (circle.below + circle.above) / 2.0;
+  const double radius = std::abs(circle.above - circle.below) / 2.0;
+  EXPECT_NEAR(std::abs(circle.at_pole - centre), radius, 0.05 * radius);
 }
 
 TEST(EffectsResponse, WhatHoldsTheHubSetsThePowerOfS) {

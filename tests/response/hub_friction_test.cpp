@@ -130,6 +130,17 @@ TEST(HubFriction, HoldsAgainstTorqueUpToItsSize) {
   EXPECT_TRUE(moved(-std::nextafter(friction, 1.0)));
 }
 
+/// Torque that rises to just the size of friction, at a sample, and falls again.
+TEST(HubFriction, ATorqueThatJustTouchesTheSizeOfFrictionMovesNothing) {
+  std::vector<double> torque;
+  for (int k = 0; k < 64; ++k) torque.push_back((32 - std::abs(k - 32)) / 64.0);
+  const auto made = simulate(two_masses(0.01, 0.05, 3.0), coulomb(0.5), hub_sensors(), torque,
+                             {.sample_time_s = 0x1p-10, .hold = TorqueHold::first});
+  EXPECT_EQ(made.summary.forced_rests, 0);
+  EXPECT_LT(std::abs(made.channels[0].back()), 1e-20);
+  EXPECT_EQ(made.channels[1].back(), 0.0);
+}
+
 /// Torque that flips to and fro faster than the hub turns: events at samples, none forced.
 TEST(HubFriction, ATorqueThatFlipsEverySampleLosesNoEnergyBalance) {
   std::vector<double> torque;

@@ -8,30 +8,10 @@
 
 namespace flexarm::exact_tf {
 
-namespace {
-
-Real rigid_value(const arm::LinearArm& arm, const arm::Sensor& sensor) {
-  switch (sensor.kind) {
-    case arm::SensorKind::hub_angle:
-    case arm::SensorKind::hub_velocity:
-      return 1.0;
-    case arm::SensorKind::tip_displacement:
-    case arm::SensorKind::tip_acceleration:
-      return arm.length_m;
-    case arm::SensorKind::tip_deflection:
-    case arm::SensorKind::strain:
-      return 0.0;
-  }
-  throw std::logic_error("sensor kind outside its enumeration");
-}
-
-}  // namespace
-
 PartialFractions::PartialFractions(const ExactArm& arm, const arm::Sensor& sensor, int order)
     : arm_(arm.linear()),
       derivative_order_(derivative_order(sensor)),
-      rigid_value_(rigid_value(arm_, sensor)),
-      modes_(arm.modes(order, std::array{sensor}, {})) {}
+      modes_(arm.modal_model(order, std::array{sensor}, {}).modes) {}
 
 std::complex<double> PartialFractions::operator()(std::complex<double> s_rad_per_s) const {
   if (s_rad_per_s == 0.0) throw std::domain_error("partial fractions: double pole at s = 0");
@@ -50,9 +30,7 @@ std::complex<double> PartialFractions::operator()(std::complex<double> s_rad_per
     sensor_sum += sensor_value * participation;
     hub_sum += slope * participation;
   }
-  sensor_sum = (rigid_value_ / (s * s) + sensor_sum) / inertia;
-  hub_sum = (1.0L / (s * s) + hub_sum) / inertia;
-  Complex value = sensor_sum / (1.0L + friction * (s * hub_sum));
+  Complex value = sensor_sum / (inertia + friction * (s * hub_sum));
   for (int i = 0; i < derivative_order_; ++i) value *= s;
   return {static_cast<double>(value.real()), static_cast<double>(value.imag())};
 }

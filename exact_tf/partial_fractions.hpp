@@ -32,8 +32,7 @@ class PartialFractions {
  private:
   arm::LinearArm arm_;
   int derivative_order_;
-  Real rigid_value_;  ///< the sensor's value of phi_0 = x
-  std::vector<arm::Mode> modes_;
+  std::vector<arm::Mode> modes_;  ///< the rigid-body mode first
 };
 
 }  // namespace flexarm::exact_tf

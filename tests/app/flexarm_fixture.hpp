@@ -17,6 +17,14 @@
 
 namespace flexarm::testing_app {
 
+/// The command line under "Example:" in a command's help, without the program's name.
+inline std::vector<std::string> example_in(const std::string& help) {
+  constexpr std::string_view kHeading = "Example:\n  flexarm ";
+  const auto begin = help.find(kHeading) + kHeading.size();
+  std::istringstream words(help.substr(begin, help.find('\n', begin) - begin));
+  return {std::istream_iterator<std::string>(words), {}};
+}
+
 /// The program, run in a folder of its own that is removed afterwards.
 class Flexarm : public testing::Test {
  protected:
@@ -28,6 +36,15 @@ class Flexarm : public testing::Test {
 
   Ended run(const std::vector<std::string>& arguments) const {
     return run_flexarm(arguments, folder_.string());
+  }
+  /// What the example in a command's help prints, beside a new rig.toml.
+  std::string output_of_example(const std::string& command) const {
+    const Ended help = run({command, "--help"});
+    EXPECT_EQ(help.status, 0);
+    run({"new", "rig.toml"});
+    const Ended ended = run(example_in(help.output));
+    EXPECT_EQ(ended.status, 0) << ended.errors;
+    return ended.output;
   }
   std::string text_of(const std::string& name) const {
     return arm::read_text_file(folder_ / name, 1 << 26);
@@ -53,14 +70,6 @@ inline void expect_refused(const Ended& ended, const std::string& line) {
   EXPECT_EQ(ended.status, 2);
   EXPECT_EQ(ended.errors, line + "\n");
   EXPECT_EQ(ended.output, "");
-}
-
-/// The command line under "Example:" in a command's help, without the program's name.
-inline std::vector<std::string> example_in(const std::string& help) {
-  constexpr std::string_view kHeading = "Example:\n  flexarm ";
-  const auto begin = help.find(kHeading) + kHeading.size();
-  std::istringstream words(help.substr(begin, help.find('\n', begin) - begin));
-  return {std::istream_iterator<std::string>(words), {}};
 }
 
 }  // namespace flexarm::testing_app

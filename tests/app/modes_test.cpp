@@ -108,12 +108,7 @@ TEST_F(Modes, StrainOfAnArmWithoutThicknessIsRefused) {
 }
 
 TEST_F(Modes, TheExampleInItsHelpWorks) {
-  const Ended help = run({"modes", "--help"});
-  EXPECT_EQ(help.status, 0);
-  run({"new", "rig.toml"});
-  const Ended ended = run(example_in(help.output));
-  EXPECT_EQ(ended.status, 0) << ended.errors;
-  EXPECT_THAT(ended.output, HasSubstr("zeros of strain@0.05"));
+  EXPECT_THAT(output_of_example("modes"), HasSubstr("zeros of strain@0.05"));
 }
 
 }  // namespace

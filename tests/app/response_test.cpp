@@ -185,12 +185,7 @@ TEST_F(Response, BadInputIsOneLineAndStatusTwo) {
 }
 
 TEST_F(Response, TheExampleInItsHelpWorks) {
-  const Ended help = run({"response", "--help"});
-  EXPECT_EQ(help.status, 0);
-  run({"new", "rig.toml"});
-  const Ended ended = run(example_in(help.output));
-  EXPECT_EQ(ended.status, 0) << ended.errors;
-  EXPECT_THAT(ended.output, HasSubstr("Torque to strain@0.05"));
+  EXPECT_THAT(output_of_example("response"), HasSubstr("Torque to strain@0.05"));
 }
 
 }  // namespace

@@ -242,12 +242,7 @@ TEST_F(Simulate, BadInputIsOneLineAndStatusTwo) {
 }
 
 TEST_F(Simulate, TheExampleInItsHelpWorks) {
-  const Ended help = run({"simulate", "--help"});
-  EXPECT_EQ(help.status, 0);
-  run({"new", "rig.toml"});
-  const Ended ended = run(example_in(help.output));
-  EXPECT_EQ(ended.status, 0) << ended.errors;
-  EXPECT_THAT(ended.output, HasSubstr("wrote measured"));
+  EXPECT_THAT(output_of_example("simulate"), HasSubstr("wrote measured"));
 }
 
 }  // namespace

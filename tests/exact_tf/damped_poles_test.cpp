@@ -1,3 +1,4 @@
+#include "damped_roots.hpp"
 #include "exact_tf/exact_arm.hpp"
 #include "sample_arms.hpp"
 
@@ -12,16 +13,6 @@ namespace flexarm::exact_tf {
 namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-
-std::vector<std::complex<double>> all_roots(const arm::DampedPoleSet& set) {
-  std::vector<std::complex<double>> roots = {set.lowest.first_rad_per_s,
-                                             set.lowest.second_rad_per_s};
-  for (const auto& pair : set.flexible) {
-    roots.push_back(pair.first_rad_per_s);
-    roots.push_back(pair.second_rad_per_s);
-  }
-  return roots;
-}
 
 /// Conjugates with Im > 0 first, or two real ones with the nearer to 0 first; none twice.
 void expect_sound(const arm::DampedPoleSet& set, int count) {

@@ -1,3 +1,4 @@
+#include "damped_roots.hpp"
 #include "effect_arms.hpp"
 #include "exact_tf/exact_arm.hpp"
 
@@ -150,16 +151,6 @@ TEST_P(EffectModalModel, AnswersAsTheTransferFunctionDoes) {
           << to_string(sensors[k]) << " at s = " << s;
     }
   }
-}
-
-std::vector<std::complex<double>> all_roots(const arm::DampedPoleSet& set) {
-  std::vector<std::complex<double>> roots = {set.lowest.first_rad_per_s,
-                                             set.lowest.second_rad_per_s};
-  for (const auto& pair : set.flexible) {
-    roots.push_back(pair.first_rad_per_s);
-    roots.push_back(pair.second_rad_per_s);
-  }
-  return roots;
 }
 
 TEST_P(EffectModalModel, HasTheDampedPolesOfTheTransferFunction) {

@@ -1,5 +1,6 @@
 // Orders of convergence, fitted above the rounding floor, against exact numbers.
 #include "fem/fem_arm.hpp"
+#include "tests/fem/fitted_order.hpp"
 #include "tests/reference/reference_cases.hpp"
 
 #include <gtest/gtest.h>
@@ -64,26 +65,11 @@ double largest(const std::vector<double>& values) {
   return *std::max_element(values.begin(), values.end());
 }
 
-/// Slope of log(error) over log(1/elements) by least squares.
-double fitted_order(const std::vector<double>& elements, const std::vector<double>& errors) {
-  double sx = 0.0, sy = 0.0, sxx = 0.0, sxy = 0.0;
-  const double n = static_cast<double>(elements.size());
-  for (std::size_t i = 0; i < elements.size(); ++i) {
-    const double x = -std::log(elements[i]);
-    const double y = std::log(errors[i]);
-    sx += x;
-    sy += y;
-    sxx += x * x;
-    sxy += x * y;
-  }
-  return (n * sxy - sx * sy) / (n * sxx - sx * sx);
-}
-
 class CubicConvergence : public ::testing::TestWithParam<ReferenceCase> {
  protected:
   /// Every mode has at least 10 elements a half wave at the coarsest; errors stay above 1e-12,
   /// a hundred times the rounding of the finest.
-  static inline const std::vector<double> kElements = {48, 68, 96, 136};
+  static inline const std::vector<int> kElements = {48, 68, 96, 136};
   /// The project's figure: order 4.0 +- 0.1.
   static constexpr double kOrder = 4.0;
   static constexpr double kOrderTolerance = 0.1;
@@ -91,8 +77,8 @@ class CubicConvergence : public ::testing::TestWithParam<ReferenceCase> {
   template <class Errors>
   static void expect_order(const Errors& errors_of, int count) {
     std::vector<std::vector<double>> series(static_cast<std::size_t>(count));
-    for (const double elements : kElements) {
-      const FemArm model = model_of(GetParam(), static_cast<int>(elements), 3);
+    for (const int elements : kElements) {
+      const FemArm model = model_of(GetParam(), elements, 3);
       const std::vector<double> errors = errors_of(model, GetParam(), count);
       ASSERT_EQ(errors.size(), static_cast<std::size_t>(count));
       for (std::size_t i = 0; i < errors.size(); ++i) series[i].push_back(errors[i]);

@@ -1,5 +1,6 @@
 // Orders of convergence with effects on, the default mesh beside finer ones, and fine meshes.
 #include "fem/fem_arm.hpp"
+#include "tests/fem/fitted_order.hpp"
 #include "tests/reference/effect_cases.hpp"
 
 #include <gtest/gtest.h>
@@ -36,21 +37,6 @@ std::vector<double> errors_of(const FemArm& model, const EffectCase& exact, std:
     errors.push_back(std::abs(zeros[i].imag() / exact.hub_zero_rad_per_s[i] - 1.0));
   }
   return errors;
-}
-
-/// Slope of log(error) over log(1/elements) by least squares.
-double fitted_order(const std::vector<int>& elements, const std::vector<double>& errors) {
-  double sx = 0.0, sy = 0.0, sxx = 0.0, sxy = 0.0;
-  const auto n = static_cast<double>(elements.size());
-  for (std::size_t i = 0; i < elements.size(); ++i) {
-    const double x = -std::log(elements[i]);
-    const double y = std::log(errors[i]);
-    sx += x;
-    sy += y;
-    sxx += x * x;
-    sxy += x * y;
-  }
-  return (n * sxy - sx * sy) / (n * sxx - sx * sx);
 }
 
 /// Elements of one length, but where there is a crack of two, so that all of the series have a node

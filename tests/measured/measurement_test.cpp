@@ -2,10 +2,10 @@
 
 #include "arm/input_error.hpp"
 #include "arm/text_file.hpp"
+#include "tests/measured/mistake.hpp"
 
 #include <gtest/gtest.h>
 
-#include <ostream>
 #include <random>
 
 namespace flexarm::measured {
@@ -75,16 +75,6 @@ TEST(Measurement, FilesStandBesideTheMeasurement) {
   EXPECT_EQ(beside("bench/m.toml", "/data/a.csv"), "/data/a.csv");
 }
 
-struct Mistake {
-  const char* name;
-  std::string text;
-  std::string error;  ///< after "m.toml:"
-};
-
-void PrintTo(const Mistake& mistake, std::ostream* out) {
-  *out << mistake.name;
-}
-
 const std::vector<Mistake> kMistakes = {
     {"Empty", " \n", "1: empty; a measurement file needs arm and at least one [[run]]"},
     {"ArmMissing", kRun, "1: arm: missing; must be the arm file, relative to this file"},
@@ -125,16 +115,10 @@ const std::vector<Mistake> kMistakes = {
 class MeasurementMistake : public testing::TestWithParam<Mistake> {};
 
 TEST_P(MeasurementMistake, GivesOneLineWithPlaceReasonAndRemedy) {
-  try {
-    parse_measurement(GetParam().text, "m.toml");
-    FAIL() << "accepted";
-  } catch (const arm::InputError& error) {
-    EXPECT_EQ(error.what(), "m.toml:" + GetParam().error);
-  }
+  expect_line(GetParam(), "m.toml", parse_measurement);
 }
 
-INSTANTIATE_TEST_SUITE_P(, MeasurementMistake, testing::ValuesIn(kMistakes),
-                         [](const auto& mistake) { return std::string(mistake.param.name); });
+INSTANTIATE_TEST_SUITE_P(, MeasurementMistake, testing::ValuesIn(kMistakes), name_of_mistake);
 
 }  // namespace
 }  // namespace flexarm::measured

@@ -2,12 +2,12 @@
 
 #include "arm/input_error.hpp"
 #include "arm/text_file.hpp"
+#include "tests/measured/mistake.hpp"
 
 #include <gtest/gtest.h>
 
 #include <bit>
 #include <cstdint>
-#include <ostream>
 #include <random>
 
 namespace flexarm::measured {
@@ -76,31 +76,9 @@ TEST(ModalTable, TheExampleOfTheFormatsDocumentIsRead) {
 }
 
 TEST(ModalTable, BytesAtRandomGiveATableOrOneLine) {
-  std::mt19937_64 random(20261121);
   const std::string good =
       kHeader + "\n\"strain@0.05\",zero,1,2.87,0.01,0.006,0.001\n# x\nhub_angle,pole,1,11.86,,,\n";
-  constexpr int kFiles = 20000;
-  for (int i = 0; i < kFiles; ++i) {
-    std::string text = good;
-    for (auto changes = 1 + random() % 4; changes > 0; --changes) {
-      text[random() % text.size()] = static_cast<char>(random() % 256);
-    }
-    try {
-      parse_modal_table(text, "m");
-    } catch (const arm::InputError& error) {
-      EXPECT_EQ(std::string(error.what()).find_first_of("\r\n"), std::string::npos);
-    }
-  }
-}
-
-struct Mistake {
-  const char* name;
-  std::string text;
-  std::string error;  ///< after "modal.csv:"
-};
-
-void PrintTo(const Mistake& mistake, std::ostream* out) {
-  *out << mistake.name;
+  expect_result_or_one_line(good, [](const std::string& text) { parse_modal_table(text, "m"); });
 }
 
 const std::string kAllowed =
@@ -162,16 +140,10 @@ const std::vector<Mistake> kMistakes = {
 class ModalTableMistake : public testing::TestWithParam<Mistake> {};
 
 TEST_P(ModalTableMistake, GivesOneLineWithPlaceReasonAndRemedy) {
-  try {
-    parse_modal_table(GetParam().text, "modal.csv");
-    FAIL() << "accepted";
-  } catch (const arm::InputError& error) {
-    EXPECT_EQ(error.what(), "modal.csv:" + GetParam().error);
-  }
+  expect_line(GetParam(), "modal.csv", parse_modal_table);
 }
 
-INSTANTIATE_TEST_SUITE_P(, ModalTableMistake, testing::ValuesIn(kMistakes),
-                         [](const auto& mistake) { return std::string(mistake.param.name); });
+INSTANTIATE_TEST_SUITE_P(, ModalTableMistake, testing::ValuesIn(kMistakes), name_of_mistake);
 
 }  // namespace
 }  // namespace flexarm::measured

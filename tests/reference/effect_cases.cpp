@@ -1,6 +1,7 @@
 #include "tests/reference/effect_cases.hpp"
 
 #include "arm/arm_file.hpp"
+#include "tests/reference/digits.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -10,14 +11,6 @@ namespace flexarm::reference {
 namespace {
 
 using nlohmann::json;
-
-double number(const json& text) {
-  return std::stod(text.get<std::string>());
-}
-
-std::complex<double> complex_number(const json& pair) {
-  return {number(pair.at(0)), number(pair.at(1))};
-}
 
 std::vector<double> numbers(const json& list) {
   std::vector<double> values;

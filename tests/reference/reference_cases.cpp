@@ -1,5 +1,7 @@
 #include "tests/reference/reference_cases.hpp"
 
+#include "tests/reference/digits.hpp"
+
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -10,14 +12,6 @@ namespace flexarm::reference {
 namespace {
 
 using nlohmann::json;
-
-double number(const json& text) {
-  return std::stod(text.get<std::string>());
-}
-
-std::complex<double> complex_number(const json& pair) {
-  return {number(pair.at(0)), number(pair.at(1))};
-}
 
 ReferenceResponse response(const json& point) {
   return {complex_number(point.at("s")), complex_number(point.at("hub_angle")),

@@ -1,14 +1,11 @@
 #include "app/formulation_choice.hpp"
 
 #include "arm/input_error.hpp"
-#include "arm/nearest_name.hpp"
 #include "response/arm_parts.hpp"
+#include "response/formulation_maker.hpp"
 #include "response/settings.hpp"
 
 #include <fmt/format.h>
-
-#include <algorithm>
-#include <array>
 
 namespace flexarm::app {
 
@@ -25,12 +22,7 @@ void refuse(const char* option, const std::optional<T>& value, const std::string
 
 ChosenFormulation FormulationChoice::make(const arm::Arm& whole, int roots) const {
   const arm::Arm arm = response::take_apart(whole).linear;
-  const std::array<std::string, 3> names = {"exact_tf", "fem", "assumed_modes"};
-  if (std::ranges::find(names, name) == names.end()) {
-    throw arm::InputError(
-        fmt::format("--formulation {}: unknown{}; allowed: exact_tf, fem, assumed_modes", name,
-                    arm::did_you_mean(name, names)));
-  }
+  response::require_formulation("--formulation", name);
   if (name == exact_tf::ExactArm::kName) {
     refuse("--elements", elements, name);
     refuse("--degree", degree, name);

@@ -13,6 +13,7 @@
 #include "report/json_document.hpp"
 #include "report/modes_report.hpp"
 #include "report/text_table.hpp"
+#include "response/settings.hpp"
 
 #include <fmt/format.h>
 
@@ -132,8 +133,7 @@ int run(const Arguments& arguments) {
                                              compare::shape_stations_m(arm.beam.length_m));
     print(describe(arm));
     print(left_out_of_roots(arm));
-    print(fmt::format("by {}{}{}\n\n", chosen.name, chosen.settings.empty() ? "" : ", ",
-                      chosen.settings));
+    print(fmt::format("by {}\n\n", response::formulation_label(chosen.name, chosen.settings)));
     print(report::to_text(report::poles_table(arm, summary)) + "\n");
     const std::string lowest = report::lowest_mode_line(summary);
     if (!lowest.empty()) print(lowest + "\n");

@@ -175,8 +175,7 @@ int run(const Arguments& arguments) {
     const auto chosen = make_formulation(arguments, arm, options);
     const auto study = response::study_response(arm, chosen.formulation, options);
     print(describe(arm));
-    print(fmt::format("by {}{}{}\n\n", chosen.name, chosen.settings.empty() ? "" : ", ",
-                      chosen.settings));
+    print(fmt::format("by {}\n\n", response::formulation_label(chosen.name, chosen.settings)));
     print_study(study, options);
 
     nlohmann::ordered_json document = {

@@ -3,6 +3,7 @@
 #include "app/command.hpp"
 #include "arm/input_error.hpp"
 #include "arm/nearest_name.hpp"
+#include "arm/number.hpp"
 #include "arm/range.hpp"
 #include "measured/time_record.hpp"
 
@@ -10,12 +11,10 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <map>
 #include <string_view>
-#include <system_error>
 
 namespace flexarm::app {
 
@@ -47,14 +46,12 @@ std::string require_id(const std::string& id) {
 }
 
 double read_payload(std::string_view value) {
-  double mass_kg = 0.0;
-  const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), mass_kg);
-  if (error != std::errc() || end != value.data() + value.size() ||
-      !arm::kNotNegative.contains(mass_kg)) {
+  const auto mass_kg = arm::parse_number<double>(value);
+  if (!mass_kg || !arm::kNotNegative.contains(*mass_kg)) {
     throw InputError(fmt::format("payload = {} kg: must be {}", arm::shown(value),
                                  to_string(arm::kNotNegative)));
   }
-  return mass_kg;
+  return *mass_kg;
 }
 
 measured::Purpose read_purpose(std::string_view value) {

@@ -2,14 +2,13 @@
 
 #include "app/command.hpp"
 #include "arm/input_error.hpp"
+#include "arm/number.hpp"
 #include "arm/range.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <string_view>
-#include <system_error>
 
 namespace flexarm::app {
 
@@ -31,15 +30,12 @@ void set_number(const char* option, const std::string& text, std::vector<ChosenS
     throw InputError(fmt::format("{} {}: {} is not among --sensor", option, arm::shown(text),
                                  arm::to_string(sensor)));
   }
-  const std::string_view digits = std::string_view(text).substr(equals + 1);
-  double number = 0.0;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-  if (error != std::errc() || end != digits.data() + digits.size() ||
-      !arm::kNotNegative.contains(number)) {
+  const auto number = arm::parse_number<double>(std::string_view(text).substr(equals + 1));
+  if (!number || !arm::kNotNegative.contains(*number)) {
     throw InputError(fmt::format("{} {}: must be {} [{}]", option, arm::shown(text),
                                  to_string(arm::kNotNegative), arm::unit(sensor)));
   }
-  place->imperfections.*member = number;
+  place->imperfections.*member = *number;
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "report/gnuplot.hpp"
 #include "report/json_document.hpp"
 #include "report/text_table.hpp"
+#include "response/settings.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -134,9 +135,9 @@ std::string sampling_notes(const SimulatedExperiment& experiment) {
 void print_results(const Arguments& arguments, const SimulatedExperiment& experiment,
                    bool has_dry_friction) {
   const auto& runs = experiment.runs;
-  print(fmt::format("by {}{}{}, {} flexible mode{}{}; torque {}, from rest\n\n", experiment.model,
-                    experiment.settings.empty() ? "" : ", ", experiment.settings, experiment.modes,
-                    experiment.modes == 1 ? "" : "s",
+  print(fmt::format("by {}, {} flexible mode{}{}; torque {}, from rest\n\n",
+                    response::formulation_label(experiment.model, experiment.settings),
+                    experiment.modes, experiment.modes == 1 ? "" : "s",
                     arguments.options.static_correction ? " and a residual mode" : "",
                     arguments.options.hold == response::TorqueHold::zero
                         ? "constant from one sample to the next"

@@ -6,7 +6,6 @@
 #include "app/version.hpp"
 #include "arm/atomic_file.hpp"
 #include "arm/input_error.hpp"
-#include "arm/nearest_name.hpp"
 #include "compare/paper_sweeps.hpp"
 #include "compare/sweep_result.hpp"
 #include "report/csv.hpp"
@@ -17,6 +16,7 @@
 #include "report/sweep_tables.hpp"
 #include "report/text_table.hpp"
 #include "response/arm_parts.hpp"
+#include "response/formulation_maker.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -64,18 +64,10 @@ arm::Arm arm_of(const Arguments& arguments) {
 }
 
 /// The models named, in the order of `all`; all of them where none is.
-std::vector<compare::SweepModel> chosen_models(const std::vector<std::string>& names,
-                                               std::vector<compare::SweepModel> all) {
-  std::vector<std::string> known;
-  for (const auto& model : all) known.push_back(model.name);
-  for (const auto& name : names) {
-    if (std::ranges::find(known, name) == known.end()) {
-      throw arm::InputError(fmt::format("--formulation {}: unknown{}; allowed: {}",
-                                        arm::shown(name), arm::did_you_mean(name, known),
-                                        fmt::join(known, ", ")));
-    }
-  }
-  std::erase_if(all, [&](const compare::SweepModel& model) {
+std::vector<compare::Model> chosen_models(const std::vector<std::string>& names,
+                                          std::vector<compare::Model> all) {
+  for (const auto& name : names) response::require_formulation("--formulation", name);
+  std::erase_if(all, [&](const compare::Model& model) {
     return !names.empty() && std::ranges::find(names, model.name) == names.end();
   });
   return all;

@@ -3,15 +3,14 @@
 #include "arm/input_error.hpp"
 #include "arm/linear_arm.hpp"
 #include "arm/nearest_name.hpp"
+#include "arm/number.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <stdexcept>
-#include <system_error>
 
 namespace flexarm::arm {
 
@@ -45,17 +44,13 @@ const KindEntry& entry_of(SensorKind kind) {
 Sensor parse_sensor(std::string_view name) {
   constexpr std::string_view kStrain = "strain@";
   if (name.starts_with(kStrain)) {
-    const std::string_view digits = name.substr(kStrain.size());
-    double position_m = 0.0;
-    const auto [end, error] =
-        std::from_chars(digits.data(), digits.data() + digits.size(), position_m);
-    if (error != std::errc() || end != digits.data() + digits.size() ||
-        !std::isfinite(position_m)) {
+    const auto position_m = parse_number<double>(name.substr(kStrain.size()));
+    if (!position_m || !std::isfinite(*position_m)) {
       throw InputError(fmt::format(
           "sensor {}: the position after strain@ must be a number of metres, as in strain@0.05",
           shown(name)));
     }
-    return {SensorKind::strain, position_m};
+    return {SensorKind::strain, *position_m};
   }
   std::vector<std::string> names;
   for (const auto& entry : kKinds) {

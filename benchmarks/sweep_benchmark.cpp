@@ -35,7 +35,7 @@ double processor_time_s() {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-compare::SweepTask task_of(int points, std::vector<compare::SweepModel> models) {
+compare::SweepTask task_of(int points, std::vector<compare::Model> models) {
   compare::SweepTask task;
   task.arm = arm::paper_arm();
   task.axes = {compare::parse_axis(fmt::format("payload.mass=0:0.5:{}", points))};

@@ -1,9 +1,10 @@
-# flexarm_room(NAME SOURCES ... HEADERS ... USES ... LIBRARIES ...)
+# flexarm_room(NAME SOURCES ... HEADERS ... USES ... LIBRARIES ... [BRIEF])
 #   One static library `flexarm_NAME` (alias flexarm::NAME) a folder. USES names other rooms,
 #   LIBRARIES outside libraries; both are visible to whoever links the room, here or from an
-#   installed flexarm.
+#   installed flexarm. BRIEF is for a room that does not compute,
+#   and need not be optimised in full.
 function(flexarm_room name)
-  cmake_parse_arguments(ROOM "" "" "SOURCES;HEADERS;USES;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(ROOM "BRIEF" "" "SOURCES;HEADERS;USES;LIBRARIES" ${ARGN})
   set(target flexarm_${name})
   add_library(${target} STATIC ${ROOM_SOURCES})
   add_library(flexarm::${name} ALIAS ${target})
@@ -13,6 +14,11 @@ function(flexarm_room name)
   target_link_libraries(${target} PUBLIC ${ROOM_USES} ${ROOM_LIBRARIES}
                         PRIVATE "$<BUILD_INTERFACE:flexarm_flags>")
   target_compile_features(${target} PUBLIC cxx_std_20)
+  if(ROOM_BRIEF)
+    flexarm_optimise(${target} brief)
+  else()
+    flexarm_optimise(${target} full)
+  endif()
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
   install(TARGETS ${target} EXPORT flexarmTargets
           FILE_SET HEADERS DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/flexarm")
@@ -25,23 +31,8 @@ function(flexarm_test name)
   add_executable(${name} ${CHECK_SOURCES})
   list(TRANSFORM CHECK_USES PREPEND flexarm::)
   target_link_libraries(${name} PRIVATE ${CHECK_USES} ${CHECK_LIBRARIES} GTest::gtest_main
-                        GTest::gmock flexarm_flags)
+                        GTest::gmock fmt::fmt flexarm_flags)
   target_compile_definitions(${name} PRIVATE FLEXARM_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-  # What is tested is optimised in full; the tests themselves need not be, and build in half the time.
-  target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
+  flexarm_optimise(${name} test)
   gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST PROPERTIES TIMEOUT 300)
 endfunction()
-
-# Warnings are errors in our own code; libraries come in as SYSTEM.
-add_library(flexarm_flags INTERFACE)
-target_compile_options(flexarm_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion
-                       -Wsign-conversion -Wnon-virtual-dtor -Woverloaded-virtual -Werror)
-if(FLEXARM_SANITIZE)
-  add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=all
-                      -fno-omit-frame-pointer)
-  add_link_options(-fsanitize=address,undefined)
-endif()
-if(FLEXARM_COVERAGE)
-  add_compile_options(--coverage)
-  add_link_options(--coverage)
-endif()

@@ -3,6 +3,7 @@
 #include "arm/input_error.hpp"
 #include "arm/linear_arm.hpp"
 #include "assumed_modes/basis_report.hpp"
+#include "compare/standard_models.hpp"
 #include "response/arm_parts.hpp"
 #include "response/settings.hpp"
 
@@ -222,16 +223,12 @@ std::vector<FeatureFamily> families(const Options& options) {
   return asked;
 }
 
-std::vector<Subject> standard_subjects(const arm::Arm& whole, int roots) {
-  const arm::Arm arm = response::take_apart(whole).linear;
-  const auto fem_options = response::fem_settings(roots);
-  const auto ritz_options = response::assumed_modes_settings(roots);
-  return {
-      {"exact_tf", "", exact_tf::ExactArm(arm)},
-      {"fem", response::describe(fem_options), fem::FemArm(arm, fem_options)},
-      {"assumed_modes", response::describe(ritz_options),
-       assumed_modes::AssumedModesArm(arm, ritz_options)},
-  };
+std::vector<Subject> standard_subjects(const arm::Arm& arm, int roots) {
+  std::vector<Subject> subjects;
+  for (const Model& model : standard_models(roots)) {
+    subjects.push_back({model.name, model.settings, model.make(arm)});
+  }
+  return subjects;
 }
 
 Comparison compare(const std::vector<Subject>& subjects, const Options& options) {

@@ -82,7 +82,7 @@ struct Comparison {
 
 /// exact_tf, fem and assumed_modes of the arm with its linear effects, at settings fine enough for
 /// `roots` roots.
-std::vector<Subject> standard_subjects(const arm::Arm& whole, int roots);
+std::vector<Subject> standard_subjects(const arm::Arm& arm, int roots);
 
 /// Compares the standard subjects of an arm; its nonlinear, actuator and sensor effects are left
 /// out, and `Comparison::arm` is the arm without them. Throws InputError for an unusable arm,

@@ -16,7 +16,7 @@ constexpr int kShown = 2;              // poles or zeros in the figures
 constexpr double kWithoutBound = 1e8;  // payload mass over m l: frequencies are off by its inverse
 constexpr double kNearZero_Hz = 1e-2;  // below what a picture shows
 
-std::vector<SweepMark> limits_of(const SweepModel& model, const arm::Arm& arm,
+std::vector<SweepMark> limits_of(const Model& model, const arm::Arm& arm,
                                  const SweepQuestions& questions, bool zeros) {
   arm::Arm heavy = arm;
   sweep_parameter("payload_mass_ratio").set(heavy, kWithoutBound);

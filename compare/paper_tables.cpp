@@ -1,9 +1,9 @@
 #include "compare/paper_tables.hpp"
 
+#include "arm/number.hpp"
 #include "compare/paper_csv.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <stdexcept>
 #include <string_view>
@@ -37,12 +37,10 @@ std::vector<Record> records(std::string_view csv) {
 }
 
 PrintedNumber number(const std::string& text) {
+  const auto value = arm::parse_number<double>(text);
+  if (!value) throw std::logic_error("data/paper: not a number: \"" + text + "\"");
   PrintedNumber result;
-  const char* end = text.data() + text.size();
-  if (const auto [rest, error] = std::from_chars(text.data(), end, result.value);
-      error != std::errc{} || rest != end) {
-    throw std::logic_error("data/paper: not a number: \"" + text + "\"");
-  }
+  result.value = *value;
   const auto point = text.find('.');
   if (point != std::string::npos) result.decimals = static_cast<int>(text.size() - point - 1);
   return result;

@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <ranges>
+#include <utility>
 
 namespace flexarm::compare {
 
@@ -71,20 +73,6 @@ arm::InputError at_point(const SweepTask& task, std::size_t point, const arm::In
 
 }  // namespace
 
-std::vector<SweepModel> standard_models(int roots) {
-  const auto fem_options = response::fem_settings(roots);
-  const auto ritz_options = response::assumed_modes_settings(roots);
-  return {
-      {"exact_tf", "", [](const arm::Arm& arm) { return exact_tf::ExactArm(arm); }},
-      {"fem", response::describe(fem_options),
-       [fem_options](const arm::Arm& arm) { return fem::FemArm(arm, fem_options); }},
-      {"assumed_modes", response::describe(ritz_options),
-       [ritz_options](const arm::Arm& arm) {
-         return assumed_modes::AssumedModesArm(arm, ritz_options);
-       }},
-  };
-}
-
 std::size_t SweepTask::points() const {
   std::size_t count = 1;
   for (const SweepAxis& axis : axes) count *= axis.values.size();
@@ -141,7 +129,7 @@ void require_valid(const SweepTask& task) {
   }
   for (std::size_t axis = 0; axis < task.axes.size(); ++axis) require_effective(task, axis);
   // A model that refuses the arm does so at once: here at the ends of the grid.
-  for (const SweepModel& model : task.models) {
+  for (const Model& model : task.models) {
     for (const std::size_t point : {std::size_t{0}, task.points() - 1}) {
       try {
         model.make(task.arm_of(point));
@@ -175,19 +163,24 @@ std::vector<std::complex<double>> damped_poles(const response::AnyFormulation& f
   return poles;
 }
 
-SweepPoint evaluate_point(const SweepModel& model, const arm::Arm& arm,
+SweepPoint evaluate_point(const Model& model, const arm::Arm& arm,
                           const SweepQuestions& questions) {
   const auto formulation = model.make(arm);
   SweepPoint point;
-  const auto poles = response::poles(formulation, questions.poles);
-  point.omega_rad_per_s = poles.omega_rad_per_s;
   if (questions.modes) {
     const std::array tip_m = {arm.beam.length_m};
-    for (const auto& mode : response::modes(formulation, questions.poles, {}, tip_m)) {
+    const auto modal = response::modal_model(formulation, questions.poles, {}, tip_m);
+    arm::PoleSet poles;
+    poles.lowest_omega_squared_rad2_per_s2 = modal.lowest_omega_squared_rad2_per_s2;
+    for (const auto& mode : modal.modes | std::views::drop(1)) {
+      poles.omega_rad_per_s.push_back(mode.omega_rad_per_s);
       point.hub_slope.push_back(mode.hub_slope);
       point.tip_value_m.push_back(mode.displacement_m.front());
     }
     point.damped_poles_rad_per_s = damped_poles(formulation, poles, questions.poles);
+    point.omega_rad_per_s = std::move(poles.omega_rad_per_s);
+  } else {
+    point.omega_rad_per_s = response::poles(formulation, questions.poles).omega_rad_per_s;
   }
   for (const auto& sensor : questions.sensors) {
     point.zeros_rad_per_s.push_back(

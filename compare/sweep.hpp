@@ -3,6 +3,7 @@
 #include "arm/arm.hpp"
 #include "arm/formulation.hpp"
 #include "arm/sensor.hpp"
+#include "compare/standard_models.hpp"
 #include "compare/sweep_parameter.hpp"
 #include "response/any_formulation.hpp"
 
@@ -16,16 +17,6 @@
 #include <vector>
 
 namespace flexarm::compare {
-
-/// A formulation at its settings, for any arm.
-struct SweepModel {
-  std::string name;      ///< "exact_tf"
-  std::string settings;  ///< "4 elements of degree 11"; empty where there are none
-  std::function<response::AnyFormulation(const arm::Arm&)> make;
-};
-
-/// exact_tf, fem and assumed_modes at settings fine enough for `roots` roots.
-std::vector<SweepModel> standard_models(int roots);
 
 /// What is computed at every point of the grid.
 struct SweepQuestions {
@@ -52,7 +43,7 @@ struct SweepPoint {
 struct SweepTask {
   arm::Arm arm;  ///< its nonlinear, actuator and sensor effects are left out
   std::vector<SweepAxis> axes;
-  std::vector<SweepModel> models;  ///< the first is the reference
+  std::vector<Model> models;  ///< the first is the reference
   SweepQuestions questions;
 
   std::size_t points() const;
@@ -105,8 +96,7 @@ std::vector<std::complex<double>> damped_poles(const response::AnyFormulation& f
                                                const arm::PoleSet& undamped, int count);
 
 /// What a model says of one arm of the task.
-SweepPoint evaluate_point(const SweepModel& model, const arm::Arm& arm,
-                          const SweepQuestions& questions);
+SweepPoint evaluate_point(const Model& model, const arm::Arm& arm, const SweepQuestions& questions);
 
 /// Zeros asked of a sensor: two more than are judged, so that a root near the last one is the same
 /// in every model's list.

@@ -1,14 +1,13 @@
 #include "arm/input_error.hpp"
+#include "arm/number.hpp"
 #include "compare/sweep_parameter.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <functional>
-#include <system_error>
 
 namespace flexarm::compare {
 
@@ -32,14 +31,13 @@ std::vector<std::string_view> split(std::string_view text, char at) {
 }
 
 template <class Number>
-Number parse_number(std::string_view whole, std::string_view part) {
-  Number value = {};
-  const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), value);
-  if (error != std::errc() || end != part.data() + part.size()) {
+Number number_in(std::string_view whole, std::string_view part) {
+  const auto value = arm::parse_number<Number>(part);
+  if (!value) {
     throw bad_axis(whole, fmt::format("\"{}\" is no {}; {}", arm::shown(part),
                                       std::is_integral_v<Number> ? "count" : "number", kForms));
   }
-  return value;
+  return *value;
 }
 
 /// The value a part `t` of the way, 0 <= t <= 1.
@@ -50,9 +48,9 @@ double between(double start, double end, double t, bool logarithmic) {
 }
 
 void fill_range(SweepAxis& axis, std::string_view text, std::span<const std::string_view> parts) {
-  const auto start = parse_number<double>(text, parts[0]);
-  const auto end = parse_number<double>(text, parts[1]);
-  const int count = parse_number<int>(text, parts[2]);
+  const auto start = number_in<double>(text, parts[0]);
+  const auto end = number_in<double>(text, parts[1]);
+  const int count = number_in<int>(text, parts[2]);
   if (count < 2 || count > kMostGridPoints) {
     throw bad_axis(text, fmt::format("COUNT = {}: must be from 2 to {}", count, kMostGridPoints));
   }
@@ -99,7 +97,7 @@ SweepAxis parse_axis(std::string_view text) {
     fill_range(axis, text, parts);
   } else if (parts.size() == 1 && !axis.logarithmic) {
     for (const auto part : split(parts.front(), ',')) {
-      axis.values.push_back(parse_number<double>(text, part));
+      axis.values.push_back(number_in<double>(text, part));
     }
   } else {
     throw bad_axis(text, std::string(kForms));

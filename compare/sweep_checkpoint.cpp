@@ -4,6 +4,7 @@
 #include "arm/atomic_file.hpp"
 #include "arm/input_error.hpp"
 #include "arm/text_file.hpp"
+#include "response/settings.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -133,9 +134,9 @@ std::vector<FingerprintLine> fingerprint(const SweepTask& task, const std::strin
     grid += (grid.empty() ? "" : " ") + axis.typed;
   }
   std::string models;
-  for (const SweepModel& model : task.models) {
-    models += fmt::format("{}{}{}{}", models.empty() ? "" : "; ", model.name,
-                          model.settings.empty() ? "" : ", ", model.settings);
+  for (const Model& model : task.models) {
+    models +=
+        (models.empty() ? "" : "; ") + response::formulation_label(model.name, model.settings);
   }
   std::string questions = fmt::format("{} poles, {} zeros{}", task.questions.poles,
                                       task.questions.zeros, task.questions.modes ? ", modes" : "");

@@ -244,7 +244,7 @@ SweepResult assemble(const SweepTask& task, SweepValues values, const SweepRun& 
   SweepResult result;
   result.task = task;
   const Values& points = values.points;
-  for (const SweepModel& model : task.models) {
+  for (const Model& model : task.models) {
     result.degrees_of_freedom.push_back(response::degrees_of_freedom(model.make(task.arm_of(0))));
   }
   add_poles(task, points, result.curves);

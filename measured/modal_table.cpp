@@ -6,17 +6,16 @@
 #include "arm/range.hpp"
 #include "arm/text_file.hpp"
 #include "measured/csv.hpp"
+#include "measured/number_cell.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <map>
-#include <system_error>
 
 namespace flexarm::measured {
 
@@ -88,22 +87,12 @@ Header read_header(const CsvRow& row) {
   return header;
 }
 
-/// Reads the whole of `text` as T; a leading + is allowed.
-template <typename T>
-std::optional<T> read_number(std::string_view text) {
-  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
-  T value{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
-
 double read_value(const NumberColumn& column, const std::string& cell) {
   const bool is_ratio = column.member == &ModalEntry::damping_ratio;
   const std::string allowed = is_ratio
                                   ? "from -1 to 1, a fraction of critical damping, not in percent"
                                   : to_string(column.range);
-  const auto value = read_number<double>(cell);
+  const auto value = number_cell<double>(cell);
   if (!value || !column.range.contains(*value) || (is_ratio && std::abs(*value) > 1.0)) {
     throw InputError(
         fmt::format("{} = {}: must be {}, or empty", column.name, arm::shown(cell), allowed));
@@ -136,7 +125,7 @@ ModalEntry read_entry(const CsvRow& row, const Header& header) {
   }
 
   const std::string& order = row.cells[header.at(kOrder)];
-  entry.order = read_number<int>(order).value_or(0);
+  entry.order = number_cell<int>(order).value_or(0);
   if (entry.order < 1) {
     throw InputError(
         fmt::format("order = {}: must be a whole number, 1 or more", arm::shown(order)));

@@ -5,6 +5,7 @@
 #include "arm/nearest_name.hpp"
 #include "arm/text_file.hpp"
 #include "measured/csv.hpp"
+#include "measured/number_cell.hpp"
 #include "measured/time_grid.hpp"
 #include "measured/unit.hpp"
 
@@ -13,13 +14,11 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <optional>
 #include <span>
 #include <stdexcept>
-#include <system_error>
 
 namespace flexarm::measured {
 
@@ -121,13 +120,9 @@ std::vector<Column> read_header(std::span<const std::string_view> cells) {
 }
 
 double read_value(const Column& column, std::string_view cell) {
-  std::string_view digits = cell;
-  if (digits.starts_with('+') && !digits.starts_with("+-")) digits.remove_prefix(1);
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  value = column.unit.to_si(value);
-  if (error == std::errc() && end == digits.data() + digits.size() && std::isfinite(value)) {
-    return value;
+  if (const auto number = number_cell<double>(cell)) {
+    const double value = column.unit.to_si(*number);
+    if (std::isfinite(value)) return value;
   }
   throw InputError(fmt::format("{} = {}{}{}: must be a finite number{}", column.name,
                                arm::shown(cell), cell.empty() ? "" : " ",

@@ -42,7 +42,7 @@ std::string hex_colour(const Style& style) {
 
 /// A gnuplot string. Nothing is special between single quotes but the quote itself, which is
 /// doubled; a line feed is joined in from a double-quoted string.
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   std::string string = "'";
   for (const char c : printable(text)) {
     if (c == '\n') {
@@ -124,7 +124,7 @@ std::string tick_commands(char axis_name, const Axis& axis, const Range& range, 
   for (const Tick& tick : ticks) {
     // Level 0 is a full tick with its grid line, level 1 a short one.
     text += fmt::format("{}{} {} {}", &tick == &ticks.front() ? "" : ", ",
-                        quoted(labelled ? tick.label : std::string()), tick.position,
+                        in_quotes(labelled ? tick.label : std::string()), tick.position,
                         tick.label.empty() ? 1 : 0);
   }
   return text + ")\n";
@@ -150,16 +150,16 @@ std::string panel_frame(const Figure& figure, const PanelStack& stack, const Pan
   const bool labelled = lowest || panel.x;
   text += tick_commands('x', x_axis, box.x, box.right_px - box.left_px, labelled);
   text += tick_commands('y', panel.y, box.y, box.top_px - box.bottom_px, true);
-  if (labelled) text += fmt::format("set xlabel {} offset 0,0.5\n", quoted(axis_text(x_axis)));
+  if (labelled) text += fmt::format("set xlabel {} offset 0,0.5\n", in_quotes(axis_text(x_axis)));
   // A label in place of ylabel, which stands elsewhere in each panel with the width of its ticks.
   text += fmt::format("set label {} at graph 0,0.5 center rotate offset screen {},0\n",
-                      quoted(axis_text(panel.y)), -box.label_px / width);
+                      in_quotes(axis_text(panel.y)), -box.label_px / width);
   if (!panel.title.empty()) {
-    text += fmt::format("set title {} offset 0,-0.5\n", quoted(panel.title));
+    text += fmt::format("set title {} offset 0,-0.5\n", in_quotes(panel.title));
   }
   for (const Annotation& a : panel.annotations) {
-    text += fmt::format("set label {} at first {},{} left offset 0.5,0.5 front\n", quoted(a.text),
-                        a.x, a.y);
+    text += fmt::format("set label {} at first {},{} left offset 0.5,0.5 front\n",
+                        in_quotes(a.text), a.x, a.y);
   }
   return text;
 }
@@ -176,7 +176,7 @@ void append_legend(GnuplotScript& script, const Figure& figure, const FigureLayo
   script.group_names.emplace_back("legend");
   for (const LegendEntry& entry : layout.legend) {
     script.text += fmt::format(", keyentry {} title {}", entry.style ? drawing(*entry.style) : "",
-                               quoted(entry.text));
+                               in_quotes(entry.text));
     script.group_names.push_back(entry.text);
   }
   script.text += "\n";
@@ -190,7 +190,7 @@ GnuplotScript gnuplot_script(const Figure& figure, const FigureLayout& layout) {
       "set encoding utf8\n"
       "set terminal svg size {},{} noenhanced font 'sans-serif,{}' background '#ffffff'\n"
       "set multiplot title {} font ',{}'\n",
-      figure.width_px, figure.height_px, kFontSize_px, quoted(figure.title), kFontSize_px + 3);
+      figure.width_px, figure.height_px, kFontSize_px, in_quotes(figure.title), kFontSize_px + 3);
   std::size_t block = 0;
   for (std::size_t s = 0; s < figure.stacks.size(); ++s) {
     const PanelStack& stack = figure.stacks[s];

@@ -2,13 +2,12 @@
 
 #include "arm/input_error.hpp"
 #include "arm/nearest_name.hpp"
+#include "arm/number.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <array>
-#include <charconv>
-#include <system_error>
 #include <utility>
 
 namespace flexarm::response {
@@ -82,10 +81,9 @@ std::string text_of(Sweep value) {
 
 template <class T>
 std::string set_number(std::string_view text, T& number, const char* what) {
-  T value{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) return what;
-  number = value;
+  const auto value = arm::parse_number<T>(text);
+  if (!value) return what;
+  number = *value;
   return "";
 }
 

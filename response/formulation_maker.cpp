@@ -6,30 +6,33 @@
 #include "response/settings.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include <array>
+#include <algorithm>
 #include <string>
 #include <type_traits>
+#include <vector>
 
 namespace flexarm::response {
 
+void require_formulation(std::string_view key, std::string_view name) {
+  if (std::ranges::find(kFormulationNames, name) != kFormulationNames.end()) return;
+  const std::vector<std::string> names(kFormulationNames.begin(), kFormulationNames.end());
+  throw arm::InputError(fmt::format("{} {}: unknown{}; allowed: {}", key, arm::shown(name),
+                                    arm::did_you_mean(name, names), fmt::join(names, ", ")));
+}
+
 AnyFormulation make_formulation(std::string_view formulation, const arm::Arm& arm, int roots) {
+  require_formulation("formulation", formulation);
   arm::require_count(roots);
   arm::Arm linear = take_apart(arm).linear;
   if (formulation == exact_tf::ExactArm::kName) return exact_tf::ExactArm(std::move(linear));
-  const bool is_fem = formulation == fem::FemArm::kName;
-  if (!is_fem && formulation != assumed_modes::AssumedModesArm::kName) {
-    const std::array<std::string, 3> names = {"exact_tf", "fem", "assumed_modes"};
-    throw arm::InputError(
-        fmt::format("formulation {}: unknown{}; allowed: exact_tf, fem, assumed_modes",
-                    arm::shown(formulation), arm::did_you_mean(std::string(formulation), names)));
-  }
   if (roots > kMostRoots) {
     throw arm::out_of_range(
         "roots", roots, "",
         fmt::format("{} or less by {}; exact_tf has no such bound", kMostRoots, formulation));
   }
-  if (is_fem) return fem::FemArm(std::move(linear), fem_settings(roots));
+  if (formulation == fem::FemArm::kName) return fem::FemArm(std::move(linear), fem_settings(roots));
   return assumed_modes::AssumedModesArm(std::move(linear), assumed_modes_settings(roots));
 }
 

@@ -2,9 +2,16 @@
 
 #include "response/any_formulation.hpp"
 
+#include <array>
 #include <string_view>
 
 namespace flexarm::response {
+
+inline constexpr std::array<std::string_view, 3> kFormulationNames = {
+    exact_tf::ExactArm::kName, fem::FemArm::kName, assumed_modes::AssumedModesArm::kName};
+
+/// Throws InputError, which begins with `key`, unless `name` is a formulation's.
+void require_formulation(std::string_view key, std::string_view name);
 
 /// The formulation of that name for the arm's linear effects alone, at settings fine enough for
 /// `roots` roots (response/settings.hpp). Actuator, sensor and nonlinear effects are taken off:

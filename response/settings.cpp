@@ -20,6 +20,10 @@ assumed_modes::AssumedModesOptions assumed_modes_settings(int roots) {
   return options;
 }
 
+std::string formulation_label(std::string_view formulation, std::string_view settings) {
+  return fmt::format("{}{}{}", formulation, settings.empty() ? "" : ", ", settings);
+}
+
 std::string describe(const fem::FemArm::Options& options) {
   return fmt::format("{} elements of degree {}", options.mesh.elements, options.degree);
 }

@@ -4,6 +4,7 @@
 #include "fem/fem_arm.hpp"
 
 #include <string>
+#include <string_view>
 
 namespace flexarm::response {
 
@@ -18,6 +19,9 @@ fem::FemArm::Options fem_settings(int roots);
 /// strain near the tip lie far above the lowest poles) and at most
 /// assumed_modes::kMaximumFunctions.
 assumed_modes::AssumedModesOptions assumed_modes_settings(int roots);
+
+/// "fem, 4 elements of degree 11": the name alone where there are no settings.
+std::string formulation_label(std::string_view formulation, std::string_view settings);
 
 /// "4 elements of degree 11".
 std::string describe(const fem::FemArm::Options& options);

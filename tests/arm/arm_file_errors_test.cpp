@@ -1,6 +1,7 @@
 #include "arm/arm_file.hpp"
 #include "arm/input_error.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <ostream>
@@ -312,8 +313,8 @@ TEST(ArmFileErrors, BytesThatAreNoTextGiveOnePrintableLine) {
 
 TEST(ArmFileErrors, BytesAtRandomGiveAnArmOrOneLine) {
   std::mt19937_64 random(20261120);
-  const std::string good = std::string(kGood) + "[effects.sensor_lag]\ntime_constant = 1e-3\n" +
-                           "sensor = \"strain@0.05\"\n";
+  const std::string good = fmt::format(
+      "{}[effects.sensor_lag]\ntime_constant = 1e-3\nsensor = \"strain@0.05\"\n", kGood);
   constexpr int kFiles = 5000;
   for (int i = 0; i < kFiles; ++i) {
     std::string text = good;

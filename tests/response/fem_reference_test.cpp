@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <ostream>
 #include <string>
 
 namespace flexarm::response {
@@ -218,6 +219,10 @@ struct Case {
 constexpr double kExact = 1e-9;
 /// The error of order 4 where friction varies with speed, of accelerations above all.
 constexpr double kFourthOrder = 1e-7;
+
+void PrintTo(const Case& law, std::ostream* out) {
+  *out << law.name;
+}
 
 class AgainstOdeint : public testing::TestWithParam<Case> {};
 

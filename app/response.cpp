@@ -20,6 +20,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -185,6 +186,9 @@ int run(const Arguments& arguments) {
     if (options.state_space) write_state_space(study, arguments.state_space_file);
     if (!arguments.output.folder.empty()) {
       write_folder(folder_of(arguments.output.folder, arm, arms.size()), chosen.name, study);
+      if (std::ranges::all_of(study.resonances, &std::vector<response::Resonance>::empty)) {
+        print("no Nyquist diagrams: no damped pole lies in the range\n");
+      }
     }
   }
   if (!arguments.output.json_file.empty()) {

@@ -176,6 +176,8 @@ std::vector<PlannedRun> RunChoice::runs(const arm::Arm& arm,
     }
     const auto grid =
         grid_of(duration_s.value_or(kDefaultDuration_s), period_s.value_or(kDefaultPeriod_s));
+    auto* multisine = std::get_if<response::Multisine>(&run.excitation);
+    if (multisine && multisine->period_s == 0.0) multisine->period_s = grid.duration_s();
     const std::string kind(response::name(run.excitation));
     PlannedRun planned{run.id.empty() ? kind : run.id,
                        kind,

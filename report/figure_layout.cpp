@@ -25,6 +25,9 @@ constexpr double kLegendSample_px = 54.0;
 constexpr double kLegendGap_px = 14.0;
 constexpr double kDataMargin = 0.04;  // of an axis, so that no curve runs along its edge
 
+/// Values that differ by less, relatively, are one: the labels at an axis have six digits.
+constexpr double kOneValue = 1e-6;
+
 double to_scale(double value, const Axis& axis) {
   return axis.scale == Scale::logarithmic ? std::log10(value) : value;
 }
@@ -47,8 +50,9 @@ struct Extent {
 Range range_of(const Extent& extent, const Axis& axis, double margin) {
   double low = extent.low;
   double high = extent.high;
-  if (low == high) {  // one value only: some room around it
-    const double room = low == 0.0 || axis.scale == Scale::logarithmic ? 0.5 : std::abs(low) / 2;
+  const double size = std::max(std::abs(low), std::abs(high));
+  if (high - low <= kOneValue * size) {  // some room around it
+    const double room = size == 0.0 || axis.scale == Scale::logarithmic ? 0.5 : size / 2;
     low -= room;
     high += room;
   }

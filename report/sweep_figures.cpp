@@ -26,7 +26,7 @@ constexpr double kHz = 2.0 * std::numbers::pi;  // rad/s
 constexpr double kLogarithmicFrom = 30.0;       // largest over smallest value
 constexpr std::size_t kMostDrawnPoints = 400;   // of a curve: more is finer than a picture shows
 constexpr std::size_t kMostFamilies = 6;        // values of the first of two parameters
-constexpr std::size_t kMostPanels = 4;
+constexpr std::size_t kMostPanels = 6;
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 
 /// One row of numbers: what is drawn for one model along the last axis.
@@ -175,9 +175,12 @@ Figure over_two(const SweepResult& result, const std::string& title, const Group
   const std::size_t columns = last.values.size();
   const auto rows = spread(first.values.size(), kMostFamilies);
   Figure figure;
-  figure.title = title;
-  figure.width_px = 1100;
   const std::size_t panels = std::min(group.curves.size(), kMostPanels);
+  figure.title = panels < group.curves.size()
+                     ? fmt::format("{} ({} of {})", title, panels, group.curves.size())
+                     : title;
+  figure.width_px = 1100;
+  if (panels > 4) figure.height_px = 900;
   const std::size_t in_a_stack = panels > 2 ? (panels + 1) / 2 : panels;
   for (std::size_t k = 0; k < panels; ++k) {
     Panel panel;
@@ -228,10 +231,12 @@ void draw(const SweepResult& result, const std::string& file, const std::string&
     }
     return;
   }
-  for (std::size_t g = 0; g < groups.size(); ++g) {
-    if (groups[g].curves.empty()) continue;
-    plots.push_back({g == 0 ? file + ".svg" : fmt::format("{}-{}.svg", file, g + 1),
-                     to_svg(over_two(result, title, groups[g]))});
+  int drawn = 0;
+  for (const Group& group : groups) {
+    if (group.curves.empty()) continue;
+    ++drawn;
+    plots.push_back({drawn == 1 ? file + ".svg" : fmt::format("{}-{}.svg", file, drawn),
+                     to_svg(over_two(result, title, group))});
   }
 }
 

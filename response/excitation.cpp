@@ -162,7 +162,7 @@ SampledTorque sampled(const Multisine& signal, const SampleGrid& grid) {
         static_cast<double>(next_smooth_number(period.samples)) * grid.period_s));
   }
   Lines lines = lines_between(signal.from_Hz, signal.to_Hz, period);
-  lines.first += lines.first % 2 == 0 ? 1 : 0;
+  if (lines.first % 2 == 0) ++lines.first;
 
   RandomNumbers random(signal.seed);
   SampledTorque result;

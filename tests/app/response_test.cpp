@@ -12,8 +12,10 @@ namespace {
 
 using Json = nlohmann::json;
 using testing::AllOf;
+using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 
 /// Adds an arm file with damping, an actuator and friction.
 class Response : public Flexarm {
@@ -86,6 +88,13 @@ TEST_F(Response, TheFolderHoldsTablesAndDiagrams) {
   EXPECT_EQ(ended.status, 0) << ended.errors;
   EXPECT_THAT(names_in("out"), ElementsAre("bode-hub_angle.svg", "factors-hub_angle.csv", "frf.csv",
                                            "nyquist-hub_angle.svg", "poles.csv", "response.csv"));
+}
+
+TEST_F(Response, AnUndampedArmHasNoNyquistDiagramAndItIsSaid) {
+  const Ended ended = run({"response", "--out", "out", "--sensor", "hub_angle"});
+  EXPECT_EQ(ended.status, 0) << ended.errors;
+  EXPECT_THAT(ended.output, HasSubstr("no Nyquist diagrams: no damped pole lies in the range"));
+  EXPECT_THAT(names_in("out"), Not(Contains(HasSubstr("nyquist"))));
 }
 
 TEST_F(Response, AListOfFrequenciesIsTakenAsItIs) {

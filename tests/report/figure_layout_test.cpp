@@ -77,6 +77,16 @@ TEST(FigureLayout, ASingleValueGetsRoomAroundIt) {
   }
 }
 
+TEST(FigureLayout, RoundingOfOneValueDoesNotFillAPanel) {
+  Figure figure = one_panel();
+  auto& y = figure.stacks[0].panels[0].series[0].y;
+  y.assign(y.size(), 57.4409);
+  y.back() *= 1.0 + 1e-13;
+  const PanelBox box = lay_out(figure).boxes[0][0];
+  EXPECT_LT(box.y.from, 50.0);
+  EXPECT_GT(box.y.to, 65.0);
+}
+
 TEST(FigureLayout, PanelsAndLegendDoNotOverlapAndStayInTheFigure) {
   Figure figure = one_panel();
   figure.stacks[0].panels.push_back(figure.stacks[0].panels[0]);

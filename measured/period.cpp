@@ -19,9 +19,8 @@ constexpr std::size_t kMostPiece = 4096;
 /// Correlation below which a signal no longer resembles itself, and above which it does again.
 constexpr double kUnlike = 0.5;
 constexpr double kAlike = 0.9;
-/// Periods that drift apart differ by m^2 the neighbours' mismatch after m of them; noisy ones do
-/// not.
-constexpr double kMostDrift = 4.0;
+/// The part of periods' differences that a shift may explain; of noise it is 1/samples.
+constexpr double kMostShift = 0.5;
 /// Squares of rounding in a file of six digits.
 constexpr double kRounding = 1e-11;
 
@@ -101,12 +100,30 @@ double mismatch(std::span<const double> x, std::size_t first, std::size_t second
   return power > 0.0 ? difference / power : 0.0;
 }
 
+/// The part of the last two periods' difference that a shift in time explains: its squared
+/// correlation with the signal's slope.
+double explained_by_shift(std::span<const double> x, std::size_t period) {
+  double both = 0.0;
+  double slopes = 0.0;
+  double differences = 0.0;
+  for (std::size_t k = x.size() - period; k + 1 < x.size(); ++k) {
+    const double slope = 0.5 * (x[k + 1] - x[k - 1]);
+    const double difference = x[k] - x[k - period];
+    both += slope * difference;
+    slopes += slope * slope;
+    differences += difference * difference;
+  }
+  return slopes * differences > 0.0 ? both * both / (slopes * differences) : 0.0;
+}
+
 std::optional<Period> checked(std::span<const double> x, std::size_t samples) {
   const Period found = periods_of(x, samples);
-  if (found.periods < 2) return std::nullopt;
-  const std::size_t last = x.size() - samples;
-  const double apart = mismatch(x, x.size() - found.periods * samples, last, samples);
-  if (apart > kMostDrift * found.mismatch + kRounding) return std::nullopt;
+  if (found.periods < 2 || 2 * found.periods * samples < x.size()) return std::nullopt;
+  const double apart = mismatch(x, x.size() - found.periods * samples, x.size() - samples, samples);
+  if (apart > kMostMismatch) return std::nullopt;
+  if (found.mismatch > kRounding && explained_by_shift(x, samples) > kMostShift) {
+    return std::nullopt;
+  }
   return found;
 }
 

@@ -14,13 +14,14 @@ struct Period {
   double mismatch = 0.0;
 };
 
-/// How unlike periods may be: mismatch <= 0.02, noise of a seventh of the signal.
-inline constexpr double kMostMismatch = 0.02;
+/// How unlike periods may be: mismatch <= 0.01, noise of a tenth of the signal.
+inline constexpr double kMostMismatch = 0.01;
 
-/// The shortest whole number of samples after which the end of `values` repeats itself: by the
-/// correlation of a piece of the second half with all that lies before it, then sample by sample.
-/// None where there is none, where the signal is constant, and where periods drift apart as they do
-/// when the true period is no whole number of samples. Work n log n, memory of a few pieces.
+/// The shortest whole number of samples after which the last half of `values`, or more, repeats
+/// itself: by the correlation of a piece of the second half with all that lies before it, then
+/// sample by sample. None where there is none, where the signal is constant, and where the period
+/// is no whole number of samples: where a shift explains most of what periods differ by. Work n log
+/// n, memory of a few records.
 std::optional<Period> find_period(std::span<const double> values);
 
 /// How many whole periods of `period_samples` at the end repeat each other; 1 or more where the

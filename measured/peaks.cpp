@@ -1,5 +1,6 @@
 #include "measured/peaks.hpp"
 
+#include <boost/math/special_functions/erf.hpp>
 #include <boost/math/special_functions/gamma.hpp>
 
 #include <algorithm>
@@ -30,17 +31,30 @@ double log_quantile(double relative_std, double probability) {
   return std::log(boost::math::gamma_p_inv(shape, probability) / shape);
 }
 
-/// How far up or down a log power comes by chance, a table over standard deviations: quantiles
-/// are dear.
-class ChanceLevels {
+/// What noise alone makes of two lines of a smooth spectrum.
+class Chance {
  public:
-  explicit ChanceLevels(double probability) : probability_(probability) {}
+  /// `probability` of a line.
+  Chance(PowerNoise noise, double probability)
+      : noise_(noise),
+        probability_(probability),
+        normal_(std::sqrt(2.0) * boost::math::erfc_inv(probability)) {}
 
-  double up(double relative_std) { return at(relative_std).first; }
-  double down(double relative_std) { return at(relative_std).second; }
+  /// Whether a log power `rise` above another is more than that; both powers' relative standard
+  /// deviations.
+  bool exceeded_by(double rise, double high_std, double low_std) {
+    if (noise_ == PowerNoise::multiplicative) return rise > up(high_std) + down(low_std);
+    // |H| has half the relative standard deviation of its square.
+    const double low = std::exp(-0.5 * rise);
+    return 1.0 - low > 0.5 * normal_ * (high_std + low * low_std);
+  }
 
  private:
-  std::pair<double, double> at(double relative_std) {
+  double up(double relative_std) { return levels(relative_std).first; }
+  double down(double relative_std) { return levels(relative_std).second; }
+
+  /// Quantiles are dear, and one standard deviation is often that of all lines.
+  std::pair<double, double> levels(double relative_std) {
     if (relative_std != last_std_) {
       last_std_ = relative_std;
       last_ = {log_quantile(relative_std, 1.0 - 0.5 * probability_),
@@ -49,7 +63,9 @@ class ChanceLevels {
     return last_;
   }
 
+  PowerNoise noise_;
   double probability_;
+  double normal_;
   double last_std_ = kNaN;
   std::pair<double, double> last_;
 };
@@ -73,54 +89,69 @@ std::size_t higher_saddle(const std::vector<double>& level, std::size_t peak) {
   return level[left] > level[right] ? left : right;
 }
 
-/// The vertex of the parabola through (-1, y0), (0, y1), (1, y2), and its value there.
-struct Vertex {
-  double place = 0.0;
-  double value = 0.0;
-  double curvature = 0.0;  ///< the second difference
+/// Three neighbouring lines.
+struct Three {
+  std::array<double, 3> from_middle_Hz;
+  std::array<double, 3> log_power;
 };
 
-Vertex vertex_of(double y0, double y1, double y2) {
-  const double curvature = y0 - 2.0 * y1 + y2;
-  const double slope = 0.5 * (y2 - y0);
-  if (curvature == 0.0) return {0.0, y1, 0.0};
-  const double place = -slope / curvature;
-  return {place, y1 + 0.5 * slope * place, curvature};
+/// y = value + curvature/2 (x - place)^2 through three points.
+struct Parabola {
+  double place = 0.0;
+  double value = 0.0;
+  double curvature = 0.0;
+};
+
+Parabola parabola_through(const std::array<double, 3>& x, const std::array<double, 3>& y) {
+  // Newton's divided differences.
+  const double below = (y[1] - y[0]) / (x[1] - x[0]);
+  const double above = (y[2] - y[1]) / (x[2] - x[1]);
+  const double half_curvature = (above - below) / (x[2] - x[0]);
+  if (half_curvature == 0.0) return {x[1], y[1], 0.0};
+  const double slope = below + half_curvature * (x[1] - x[0]);  // at x[1]
+  const double step = -0.5 * slope / half_curvature;
+  return {x[1] + step, y[1] + 0.5 * slope * step, 2.0 * half_curvature};
 }
 
-/// Lines from the middle one, by the log powers of it and of both neighbours.
-double place_of(PeakPlace place, Feature feature, const std::array<double, 3>& log_power) {
-  const auto& [before, here, after] = log_power;
+/// Through 1/power of a peak, power of a valley, relative to the middle.
+Parabola resonance_parabola(Feature feature, const Three& three) {
+  const double sign = feature == Feature::pole ? -1.0 : 1.0;
+  std::array<double, 3> y{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    y[i] = std::exp(sign * (three.log_power[i] - three.log_power[1]));
+  }
+  return parabola_through(three.from_middle_Hz, y);
+}
+
+/// From the middle line [Hz].
+double place_of(PeakPlace place, Feature feature, const Three& three) {
   switch (place) {
     case PeakPlace::on_line:
       return 0.0;
     case PeakPlace::log_parabola:
-      return vertex_of(before, here, after).place;
-    case PeakPlace::resonance: {
-      // 1/power of a peak, power of a valley, relative to the middle.
-      const double sign = feature == Feature::pole ? -1.0 : 1.0;
-      return vertex_of(std::exp(sign * (before - here)), 1.0, std::exp(sign * (after - here)))
-          .place;
-    }
+      return parabola_through(three.from_middle_Hz, three.log_power).place;
+    case PeakPlace::resonance:
+      return resonance_parabola(feature, three).place;
     case PeakPlace::hann_line: {
       // With the amplitude ratio r of neighbour to peak the sine is (2 r - 1)/(r + 1) lines away.
-      const double r = std::exp(0.5 * (std::max(before, after) - here));
-      return (after > before ? 1.0 : -1.0) * (2.0 * r - 1.0) / (r + 1.0);
+      const std::size_t side = three.log_power[2] > three.log_power[0] ? 2 : 0;
+      const double r = std::exp(0.5 * (three.log_power[side] - three.log_power[1]));
+      return three.from_middle_Hz[side] * (2.0 * r - 1.0) / (r + 1.0);
     }
   }
   return 0.0;
 }
 
-/// Standard deviation in lines, by differences of `place_of` in each level.
-double place_std(PeakPlace place, Feature feature, const std::array<double, 3>& log_power,
+/// Standard deviation [Hz], by differences of `place_of` in each level.
+double place_std(PeakPlace place, Feature feature, const Three& three,
                  const std::array<double, 3>& std_of) {
   constexpr double kStep = 1e-4;
   double variance = 0.0;
   for (std::size_t i = 0; i < 3; ++i) {
-    auto up = log_power;
-    auto down = log_power;
-    up[i] += kStep;
-    down[i] -= kStep;
+    Three up = three;
+    Three down = three;
+    up.log_power[i] += kStep;
+    down.log_power[i] -= kStep;
     const double slope =
         (place_of(place, feature, up) - place_of(place, feature, down)) / (2.0 * kStep);
     variance += slope * slope * std_of[i] * std_of[i];
@@ -141,31 +172,26 @@ Levels wanted(std::span<const double> frequency_Hz, std::span<const double> powe
   return levels;
 }
 
-SpectralFeature feature_at(const Levels& levels, std::size_t k, Feature feature,
-                           const PeakSettings& settings) {
-  const double spacing_Hz = 0.5 * (levels.frequency_Hz[k + 1] - levels.frequency_Hz[k - 1]);
-  const std::array<double, 3> log_power = {levels.log_power[k - 1], levels.log_power[k],
-                                           levels.log_power[k + 1]};
+SpectralFeature feature_at(const Levels& levels, std::size_t k, Feature feature, PeakPlace place) {
+  Three three{};
+  std::array<double, 3> std_of{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    three.from_middle_Hz[i] = levels.frequency_Hz[k + i - 1] - levels.frequency_Hz[k];
+    three.log_power[i] = levels.log_power[k + i - 1];
+    std_of[i] = levels.relative_std[k + i - 1];
+  }
   SpectralFeature made;
   made.feature = feature;
   made.line_Hz = levels.frequency_Hz[k];
   made.level_dB = kdB * levels.log_power[k];
-  const double place = place_of(settings.place, feature, log_power);
-  made.frequency_Hz = made.line_Hz + spacing_Hz * place;
-  made.frequency_uncertainty_Hz =
-      settings.place == PeakPlace::on_line
-          ? 0.5 * spacing_Hz
-          : spacing_Hz * place_std(settings.place, feature, log_power,
-                                   {levels.relative_std[k - 1], levels.relative_std[k],
-                                    levels.relative_std[k + 1]});
-  if (settings.place != PeakPlace::resonance) return made;
-  // y = c/2 ((x - x0)^2 + half_width^2) has the value c/2 half_width^2 at its vertex.
-  const double sign = feature == Feature::pole ? -1.0 : 1.0;
-  const Vertex vertex = vertex_of(std::exp(sign * (log_power[0] - log_power[1])), 1.0,
-                                  std::exp(sign * (log_power[2] - log_power[1])));
-  if (vertex.curvature > 0.0 && vertex.value > 0.0) {
-    made.damping_ratio =
-        spacing_Hz * std::sqrt(2.0 * vertex.value / vertex.curvature) / made.frequency_Hz;
+  made.frequency_Hz = made.line_Hz + place_of(place, feature, three);
+  made.frequency_uncertainty_Hz = place == PeakPlace::on_line
+                                      ? 0.25 * (three.from_middle_Hz[2] - three.from_middle_Hz[0])
+                                      : place_std(place, feature, three, std_of);
+  // curvature/2 ((x - x0)^2 + half_width^2) has the value curvature/2 half_width^2 at its vertex.
+  const Parabola shape = resonance_parabola(feature, three);
+  if (shape.curvature > 0.0 && shape.value > 0.0) {
+    made.damping_ratio = std::sqrt(2.0 * shape.value / shape.curvature) / made.frequency_Hz;
   }
   return made;
 }
@@ -179,7 +205,8 @@ std::vector<SpectralFeature> peaks_and_valleys(std::span<const double> frequency
   const Levels levels = wanted(frequency_Hz, power, relative_std, settings);
   std::vector<SpectralFeature> found;
   if (levels.log_power.size() < 3) return found;
-  ChanceLevels chance(settings.false_alarm_rate / static_cast<double>(levels.log_power.size()));
+  Chance chance(settings.noise,
+                settings.false_alarm_rate / static_cast<double>(levels.log_power.size()));
   for (const Feature feature : {Feature::pole, Feature::zero}) {
     std::vector<double> level = levels.log_power;
     if (feature == Feature::zero) std::ranges::for_each(level, [](double& x) { x = -x; });
@@ -190,11 +217,13 @@ std::vector<SpectralFeature> peaks_and_valleys(std::span<const double> frequency
       if (kdB * prominence < settings.least_prominence_dB) continue;
       const std::size_t high = feature == Feature::pole ? k : from;
       const std::size_t low = feature == Feature::pole ? from : k;
-      const double by_chance =
-          chance.up(levels.relative_std[high]) + chance.down(levels.relative_std[low]);
-      if (!(prominence > by_chance)) continue;
-      found.push_back(feature_at(levels, k, feature, settings));
-      found.back().prominence_dB = kdB * prominence;
+      if (!chance.exceeded_by(prominence, levels.relative_std[high], levels.relative_std[low])) {
+        continue;
+      }
+      SpectralFeature made = feature_at(levels, k, feature, settings.place);
+      if (made.damping_ratio > settings.most_damping_ratio) continue;
+      made.prominence_dB = kdB * prominence;
+      found.push_back(made);
     }
   }
   std::ranges::sort(found, {}, &SpectralFeature::frequency_Hz);

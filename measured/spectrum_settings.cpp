@@ -17,7 +17,8 @@ namespace flexarm::measured {
 
 namespace {
 
-constexpr std::size_t kFewestSamples = 64;
+constexpr std::size_t kFewestSamples = 128;
+constexpr std::size_t kShortestSegment = 64;
 constexpr double kFewestAverages = 10.0;
 constexpr double kPilotAverages = 6.0;
 constexpr std::size_t kPilotSamples = std::size_t{1} << 20;
@@ -33,7 +34,7 @@ std::size_t shift_of(std::size_t segment, double overlap) {
 std::size_t longest_segment(std::size_t samples, Window window, double overlap, double averages) {
   constexpr std::size_t kShape = 240;
   const auto values = window_values(window, kShape);
-  std::size_t least = kFewestSamples;
+  std::size_t least = kShortestSegment;
   std::size_t most = samples;
   const auto enough = [&](std::size_t segment) {
     const std::size_t count = 1 + (samples - segment) / shift_of(segment, overlap);
@@ -44,7 +45,7 @@ std::size_t longest_segment(std::size_t samples, Window window, double overlap, 
     (enough(middle) ? least : most) = middle;
   }
   std::size_t fast = least;
-  while (fast > kFewestSamples && fast_length(fast) != fast) --fast;
+  while (fast > kShortestSegment && fast_length(fast) != fast) --fast;
   return fast;
 }
 
@@ -103,9 +104,10 @@ std::optional<Sharpest> sharpest_resonance(const TimeRecord& record,
       if (!(deviation[k] < kUnseen)) power[k] = 0.0;
     }
     constexpr double kLeastProminence_dB = 6.0;
-    for (const auto& peak : peaks_and_valleys(
-             spectra.frequency_Hz, power, deviation,
-             {.place = PeakPlace::on_line, .least_prominence_dB = kLeastProminence_dB})) {
+    for (const auto& peak : peaks_and_valleys(spectra.frequency_Hz, power, deviation,
+                                              {.place = PeakPlace::on_line,
+                                              .noise = PowerNoise::additive,
+                                              .least_prominence_dB = kLeastProminence_dB})) {
       if (peak.feature != Feature::pole) continue;
       const auto line = static_cast<std::size_t>(std::llround(peak.line_Hz / spectra.spacing_Hz));
       const double width_Hz = half_power_width_Hz(spectra.frequency_Hz, power, line);
@@ -147,7 +149,7 @@ void choose_segment(const TimeRecord& record, const SpectrumSettings& settings,
     const auto wanted =
         resolved ? fast_length(static_cast<std::size_t>(kLinesAcrossPeak / (width_Hz * period_s)))
                  : most;
-    plan.segment_samples = std::clamp(wanted, std::min(kFewestSamples, most), most);
+    plan.segment_samples = std::clamp(wanted, kShortestSegment, most);
     if (!resolved) {
       reason = fmt::format(
           "the resonance at {:.5g} Hz is sharper than lines {:.3g} Hz apart show: as long as "

@@ -54,7 +54,7 @@ struct ChosenSettings {
 ///   and no shorter than 64 samples. The width is that of the narrowest peak of |H1| in a pilot
 ///   estimate with long segments over a million samples at most.
 ///
-/// Throws InputError for a record of fewer than 64 samples, a torque that is constant, and a given
+/// Throws InputError for a record of fewer than 128 samples, a torque that is constant, and a given
 /// setting that the record has no room for.
 ChosenSettings choose_settings(const TimeRecord& record, const SpectrumSettings& settings);
 

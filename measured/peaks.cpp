@@ -16,7 +16,7 @@ namespace {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 const double kdB = 10.0 / std::log(10.0);
 
-/// The lines looked at: frequency, log power upside down where valleys are wanted.
+/// The lines looked at.
 struct Levels {
   std::vector<double> frequency_Hz;
   std::vector<double> log_power;

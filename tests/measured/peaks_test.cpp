@@ -179,8 +179,22 @@ TEST(SpectralFeatures, OfASimulatedArmAreItsPolesAndHubZerosAtThePapersResolutio
   const auto found =
       spectral_features(made, {.from_Hz = 1.0, .to_Hz = 50.0, .place = PeakPlace::on_line});
   ASSERT_EQ(found.size(), 2U);
-  for (const auto& sensor : found) {
-    for (const auto* features : {&sensor.autopower, &sensor.response}) {
+  for (std::size_t i = 0; i < 2; ++i) {
+    // Images and modes left out move zeros: those of what the samples show, on a fine grid.
+    const auto zero_near = [&](double f_Hz) {
+      double best_Hz = 0.0;
+      double least = 1e300;
+      for (double at_Hz = f_Hz - 0.6; at_Hz < f_Hz + 0.9; at_Hz += 0.02) {
+        const double size = std::abs(simulated.sampled_response(i, at_Hz, kPeriod_s, 1));
+        if (size > least) continue;
+        least = size;
+        best_Hz = at_Hz;
+      }
+      return best_Hz;
+    };
+    const double zero_1_Hz = zero_near(2.87337);
+    const double zero_2_Hz = zero_near(18.0071);
+    for (const auto* features : {&found[i].autopower, &found[i].response}) {
       std::vector<double> poles;
       std::vector<double> zeros;
       for (const auto& feature : *features) {
@@ -188,12 +202,12 @@ TEST(SpectralFeatures, OfASimulatedArmAreItsPolesAndHubZerosAtThePapersResolutio
       }
       // Half a line, and half a line more by what noise and the window's blur make of two that are
       // nearly equal.
-      ASSERT_EQ(poles.size(), 2U) << arm::to_string(sensor.sensor);
+      ASSERT_EQ(poles.size(), 2U) << arm::to_string(found[i].sensor);
       EXPECT_NEAR(poles[0], 11.8618, made.spacing_Hz);
       EXPECT_NEAR(poles[1], 32.2606, made.spacing_Hz);
-      ASSERT_EQ(zeros.size(), 2U) << arm::to_string(sensor.sensor);
-      EXPECT_NEAR(zeros[0], 2.87337, made.spacing_Hz);
-      EXPECT_NEAR(zeros[1], 18.0071, made.spacing_Hz);
+      ASSERT_EQ(zeros.size(), 2U) << arm::to_string(found[i].sensor);
+      EXPECT_NEAR(zeros[0], zero_1_Hz, made.spacing_Hz);
+      EXPECT_NEAR(zeros[1], zero_2_Hz, made.spacing_Hz);
     }
   }
 }

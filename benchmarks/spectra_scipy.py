@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """The spectra of spectra_benchmark in SciPy, on one core, at the same settings: welch of each channel
 and csd from the torque, then coherence, which forms the spectra anew. Time beside the largest
-difference to flexarm's, relative to the largest value; exit status 1 where one is above 1e-12.
+difference to flexarm's, relative to the largest line; exit status 1 where one is above 1e-12.
 
 Usage: spectra_scipy.py FOLDER, as spectra_files FOLDER filled it
 """
@@ -52,6 +52,9 @@ def main():
         "csd": (cross, [read(f"channel-{i}-cross.c128", np.complex128) for i in channels]),
         "coherence": (coherence, [read(f"channel-{i}-coherence.f64") for i in channels]),
     }
+    # A transform rounds every line by what its largest needs: of a ratio of powers a share of
+    # sqrt(largest/own) more.
+    own = [np.sqrt(p / np.max(p[1:])) for p in (read(f"channel-{i}-power.f64") for i in channels)]
     agree = True
     total = 0.0
     for name, (run, flexarm) in runs.items():
@@ -60,9 +63,9 @@ def main():
             begin = time.process_time()
             found = run()
             spent.append(time.process_time() - begin)
+        weights = own if name == "coherence" else [1.0 / np.max(np.abs(b[1:])) for b in flexarm]
         # Line 0 holds what rounding leaves of the mean.
-        difference = max(np.max(np.abs(a[1:] - b[1:])) / np.max(np.abs(b[1:]))
-                         for a, b in zip(found, flexarm))
+        difference = max(np.max((np.abs(a - b) * w)[1:]) for a, b, w in zip(found, flexarm, weights))
         agree = agree and difference < TOLERANCE
         if name != "coherence":
             total += min(spent)

@@ -25,24 +25,22 @@ class LocalPolynomial {
   explicit LocalPolynomial(std::size_t periods) {
     const int degree = std::min(2, static_cast<int>(periods) - 2);
     const auto count = static_cast<Eigen::Index>(2 * (periods - 1));
-    Eigen::MatrixXd powers(count, degree + 1);
+    powers_.resize(count, degree + 1);
     for (Eigen::Index i = 0; i < count; ++i) {
       const auto beside = static_cast<std::ptrdiff_t>(i) - static_cast<std::ptrdiff_t>(count) / 2;
       offsets_.push_back(beside < 0 ? beside : beside + 1);
       for (int power = 0; power <= degree; ++power) {
-        powers(i, power) =
+        powers_(i, power) =
             std::pow(static_cast<double>(offsets_.back()) / static_cast<double>(periods), power);
       }
     }
-    const Eigen::MatrixXd inverse = powers.completeOrthogonalDecomposition().pseudoInverse();
-    middle_ = inverse.row(0);
-    residual_ = Eigen::MatrixXd::Identity(count, count) - powers * inverse;
+    inverse_ = powers_.completeOrthogonalDecomposition().pseudoInverse();
     degrees_of_freedom_ = static_cast<double>(count - degree - 1);
   }
 
   double degrees_of_freedom() const { return degrees_of_freedom_; }
   /// Variance of a line less the polynomial, over that of the line.
-  double variance_factor() const { return 1.0 + middle_.squaredNorm(); }
+  double variance_factor() const { return 1.0 + inverse_.row(0).squaredNorm(); }
 
   /// The lines around `line` of a transform.
   Eigen::VectorXcd around(const std::vector<Complex>& lines, std::size_t line) const {
@@ -53,17 +51,17 @@ class LocalPolynomial {
     }
     return values;
   }
-  Complex at_middle(const Eigen::VectorXcd& around) const {
-    return (middle_.cast<Complex>() * around)(0);
-  }
-  Eigen::VectorXcd residual(const Eigen::VectorXcd& around) const {
-    return residual_.cast<Complex>() * around;
+  /// By powers of the distance from the middle; the first is the value there.
+  Eigen::VectorXcd coefficients(const Eigen::VectorXcd& around) const { return inverse_ * around; }
+  Eigen::VectorXcd residual(const Eigen::VectorXcd& around,
+                            const Eigen::VectorXcd& coefficients) const {
+    return around - powers_ * coefficients;
   }
 
  private:
   std::vector<std::ptrdiff_t> offsets_;
-  Eigen::RowVectorXd middle_;
-  Eigen::MatrixXd residual_;
+  Eigen::MatrixXd powers_;
+  Eigen::MatrixXd inverse_;
   double degrees_of_freedom_ = 0.0;
 };
 
@@ -141,8 +139,9 @@ PeriodicSpectra periodic_spectra(const Signal& input, std::span<const Signal> ou
       double noise = kNaN;
       if (has_noise) {
         const auto around = local.around(spectrum, k * periods);
-        value -= local.at_middle(around);
-        Eigen::VectorXcd residual = local.residual(around) * back;
+        const auto polynomial = local.coefficients(around);
+        value -= polynomial(0);
+        Eigen::VectorXcd residual = local.residual(around, polynomial) * back;
         noise = std::sqrt(residual.squaredNorm() / local.degrees_of_freedom() *
                           local.variance_factor());
         if (covariance != nullptr) {

@@ -169,6 +169,10 @@ int run(const Arguments& arguments) {
       throw arm::InputError("--state-space: takes one arm; --payload-mass has several");
     }
   }
+  if (!arguments.state_space_file.empty() &&
+      arguments.state_space_file == arguments.output.json_file) {
+    throw arm::InputError("--json: is the file of --state-space too");
+  }
   arguments.output.prepare();
 
   nlohmann::ordered_json documents = nlohmann::ordered_json::array();

@@ -219,7 +219,8 @@ int run(const Arguments& arguments) {
   const auto figure = figure_of(arguments);
   const auto task = figure ? figure->task : task_of(arguments);
   compare::require_valid(task);
-  arguments.output.prepare();
+  if (!arguments.resume)
+    arguments.output.prepare();  // else a checkpoint is there, or it is refused
 
   const Interruption interruption;
   compare::SweepResult result;

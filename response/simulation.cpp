@@ -26,8 +26,8 @@ constexpr std::size_t kProgressInterval = 1 << 14;
 
 arm::InputError too_large(const std::string& what, double time_s) {
   return arm::InputError(
-      fmt::format("{} at {:.6g} s: too large for a number; the torque must be smaller, the motion "
-                  "shorter, or an arm that stands up at rest",
+      fmt::format("{} at {:.6g} s: too large for a number; the torque must be smaller, or the time "
+                  "shorter",
                   what, time_s));
 }
 

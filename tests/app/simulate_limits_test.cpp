@@ -73,7 +73,8 @@ TEST_F(SimulateLimits, AMotionTooLargeForANumberIsRefusedBeforeAnythingIsPrinted
   const Ended other = run({"simulate", "--torque", "torque.csv"});
   EXPECT_EQ(other.status, 2);
   EXPECT_EQ(other.output, "");
-  EXPECT_THAT(other.errors, AllOf(StartsWith("torque: "), HasSubstr(" s: too large for a number")));
+  EXPECT_THAT(other.errors,
+              AllOf(StartsWith("torque: "), HasSubstr("at 0.001 s: too large for a number")));
   EXPECT_EQ(run_short({"--noise-of", "hub_angle=1e308"}).status, 2);
   EXPECT_THAT(names_in(), ElementsAre("torque.csv"));
 }

@@ -241,6 +241,16 @@ TEST_F(Compare, AClosedPipeEndsItWithoutAWord) {
   }
 }
 
+TEST_F(Compare, AClosedPipeCostsNoFile) {
+  for (const std::string command : {"modes", "response"}) {
+    const Ended ended = run_flexarm({command, "--out", command, "--json", command + ".json"},
+                                    folder_.string(), Output::closed_pipe);
+    EXPECT_EQ(ended.status, 128 + SIGPIPE);
+    EXPECT_FALSE(names_in(command).empty());
+    EXPECT_TRUE(fs::exists(folder_ / (command + ".json")));
+  }
+}
+
 TEST_F(Compare, CtrlCLeavesNothingHalfWritten) {
   const Ended ended =
       interrupt_flexarm({"compare", "--poles", "40", "--out", (folder_ / "out").string(), "--json",

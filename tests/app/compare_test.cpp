@@ -242,9 +242,10 @@ TEST_F(Compare, AClosedPipeEndsItWithoutAWord) {
 }
 
 TEST_F(Compare, AClosedPipeCostsNoFile) {
-  for (const std::string command : {"modes", "response"}) {
-    const Ended ended = run_flexarm({command, "--out", command, "--json", command + ".json"},
-                                    folder_.string(), Output::closed_pipe);
+  for (const std::string command : {"compare", "modes", "response"}) {
+    std::vector<std::string> arguments = {command, "--out", command, "--json", command + ".json"};
+    if (command == "compare") arguments.emplace_back("--quick");
+    const Ended ended = run_flexarm(arguments, folder_.string(), Output::closed_pipe);
     EXPECT_EQ(ended.status, 128 + SIGPIPE);
     EXPECT_FALSE(names_in(command).empty());
     EXPECT_TRUE(fs::exists(folder_ / (command + ".json")));

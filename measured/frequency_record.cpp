@@ -100,7 +100,8 @@ void require_ascending(const arm::Sensor& at, double before_Hz, double frequency
 class Builder {
  public:
   explicit Builder(const Header& header) : header_(header) {
-    columns_ = kNames.size() - static_cast<std::size_t>(std::ranges::count(header, std::nullopt));
+    columns_ = static_cast<std::size_t>(
+        std::ranges::count_if(header, [](const auto& place) { return place.has_value(); }));
   }
 
   void add(std::span<const std::string_view> cells) {

@@ -36,19 +36,6 @@ struct Source {
   ColumnMapping mapping;
 };
 
-/// The quantity that a standard header, `hub_angle [rad]`, names; empty for any other.
-std::optional<Source> standard_source(const ForeignColumn& column) {
-  const ColumnName name = split_column_name(column.name);
-  if (name.unit.empty() || !column.name.ends_with(']')) return std::nullopt;
-  try {
-    Source source{standard_name(name.base), {column.name, name.unit, 1.0}};
-    if (!unit_of(source.quantity, name.unit)) return std::nullopt;
-    return source;
-  } catch (const InputError&) {
-    return std::nullopt;
-  }
-}
-
 /// What each column of the table is, by its place.
 std::vector<std::optional<Source>> sources_of(const ForeignTable& table,
                                               const ColumnMappings& mappings) {
@@ -67,8 +54,9 @@ std::vector<std::optional<Source>> sources_of(const ForeignTable& table,
     sources[place] = Source{quantity, mapping};
   }
   for (std::size_t i = 0; i < sources.size(); ++i) {
-    auto source = sources[i] ? std::nullopt : standard_source(table.columns[i]);
-    if (!source || mappings.contains(source->quantity)) continue;
+    const auto standard = sources[i] ? ColumnMappings() : standard_mapping(table.columns[i].name);
+    if (standard.empty() || mappings.contains(standard.begin()->first)) continue;
+    std::optional<Source> source = Source{standard.begin()->first, standard.begin()->second};
     const bool is_taken = std::ranges::any_of(
         sources, [&](const auto& other) { return other && other->quantity == source->quantity; });
     if (is_taken) throw InputError(fmt::format("column {}: given twice", source->quantity));
@@ -151,6 +139,18 @@ void require_valid(const std::string& standard_name, const ColumnMapping& mappin
                                arm::shown(mapping.unit), fmt::join(names, ", "),
                                arm::did_you_mean(mapping.unit, names), si_unit_of(standard_name),
                                arm::shown(mapping.unit)));
+}
+
+ColumnMappings standard_mapping(const std::string& header) {
+  const ColumnName name = split_column_name(header);
+  if (name.unit.empty() || !header.ends_with(']')) return {};
+  try {
+    const std::string quantity = standard_name(name.base);
+    if (!unit_of(quantity, name.unit)) return {};
+    return {{quantity, {header, name.unit, 1.0}}};
+  } catch (const InputError&) {
+    return {};
+  }
 }
 
 TimeRecord time_record_of(const ForeignTable& table, const ColumnMappings& mappings,

@@ -43,6 +43,9 @@ std::optional<Unit> unit_of(std::string_view standard_name, std::string_view uni
 /// foreign unit whose scale was not given (`has_scale`).
 void require_valid(const std::string& standard_name, const ColumnMapping& mapping, bool has_scale);
 
+/// The standard mapping that a header in the form `hub_angle [rad]` says; none for any other.
+ColumnMappings standard_mapping(const std::string& header);
+
 /// The record of a foreign log: the columns that `mappings` name, and those that stand under a
 /// standard header, `hub_angle [rad]`, in the order of the log.
 ///

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <optional>
@@ -280,7 +281,6 @@ class Reader {
   void read_row(const Line& line) {
     require_cells(line);
     const auto cells = splitter_.split(line.text).first(reading_.cells);
-    const bool is_first = table_.line_of_row.empty();
     for (std::size_t i = 0; i < cells.size(); ++i) {
       ForeignColumn& column = table_.columns[i];
       if (column.is_text()) {
@@ -289,8 +289,10 @@ class Reader {
         column.values.push_back(std::numeric_limits<double>::quiet_NaN());
       } else if (const auto value = parse_cell(cells[i], decimal())) {
         column.values.push_back(*value);
-      } else if (is_first && !has_thousands_separators(cells[i], decimal())) {
+      } else if (holds_nothing(column) && !has_thousands_separators(cells[i], decimal())) {
+        column.texts.assign(column.values.size(), "");
         column.texts.emplace_back(cells[i]);
+        column.values.clear();
       } else {
         throw InputError(fmt::format(
             "column {} = {}: {}", arm::shown(column.name), arm::shown(cells[i]),
@@ -303,12 +305,16 @@ class Reader {
     table_.line_of_row.push_back(line.number);
   }
 
+  /// Whether all cells of the column so far are empty.
+  static bool holds_nothing(const ForeignColumn& column) {
+    return !column.is_text() &&
+           std::ranges::all_of(column.values, [](double value) { return std::isnan(value); });
+  }
+
   /// Left by separators at the ends of the lines.
   void drop_empty_last_column() {
     const ForeignColumn& last = table_.columns.back();
-    const bool is_empty =
-        std::ranges::all_of(last.values, [](double value) { return value != value; });
-    if (last.is_text() || !is_empty || !last.name.starts_with("column ")) return;
+    if (!holds_nothing(last) || !last.name.starts_with("column ")) return;
     table_.columns.pop_back();
   }
 

@@ -10,7 +10,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
+#include <cstddef>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -40,6 +40,23 @@ std::optional<std::pair<std::string_view, std::string_view>> split_at_colon(std:
   return std::pair{text.substr(0, at), text.substr(at + 1)};
 }
 
+/// Throws for a column that is not there; "Moment" may be meant as "Moment (N m)".
+[[noreturn]] void refuse(std::string_view name, std::span<const ColumnLabel> columns) {
+  std::vector<std::string> names;
+  std::vector<std::string> bases;
+  for (const auto& column : columns) {
+    names.push_back(column.name);
+    bases.push_back(measured::split_column_name(column.name).base);
+  }
+  std::string meant = arm::did_you_mean(name, names);
+  if (const auto base = arm::nearest_name(name, bases); meant.empty() && base) {
+    const auto place = std::ranges::find(bases, *base) - bases.begin();
+    meant = fmt::format(" (did you mean {}?)", names[static_cast<std::size_t>(place)]);
+  }
+  throw InputError(fmt::format("column {}: not in the file{}; it has {}", arm::shown(name), meant,
+                               arm::shown(fmt::format("{}", fmt::join(names, ", ")), 400)));
+}
+
 /// NAME, NAME:UNIT or NAME:UNIT:SCALE; a name may hold colons, so that the file tells which it is.
 ColumnMapping read_mapping(const std::string& quantity, std::string_view text,
                            std::span<const ColumnLabel> columns) {
@@ -55,12 +72,7 @@ ColumnMapping read_mapping(const std::string& quantity, std::string_view text,
     scale = colons == 1 ? std::string_view() : parts->second.substr(unit.size() + 1);
   }
   if (label == nullptr) {
-    const std::string_view name = text.substr(0, text.find(':'));
-    std::vector<std::string> names;
-    for (const auto& column : columns) names.push_back(column.name);
-    throw InputError(fmt::format("column {}: not in the file{}; it has {}", arm::shown(name),
-                                 arm::did_you_mean(name, names),
-                                 arm::shown(fmt::format("{}", fmt::join(names, ", ")), 400)));
+    refuse(text.substr(0, text.find(':')), columns);
   }
   mapping.name = label->name;
   mapping.unit = unit.empty() ? label->unit : measured::canonical_unit(unit);

@@ -16,6 +16,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
 #include <array>
 #include <cstddef>
@@ -219,6 +220,9 @@ int run(const Arguments& arguments) {
   measured::Run planned = planned_run(arguments);
   std::optional<RecordFormat> format;
   if (!arguments.record_file.empty()) format = record_format(arguments);
+  if (!format && !arguments.record_format.empty()) {
+    throw arm::InputError("--to: is the format of a file that --save-as names");
+  }
   if (!arguments.folder.empty()) require_measurement_place(arguments.folder, arguments.force);
   const std::string arm = arm_text(arguments);
 

@@ -8,10 +8,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
-#include <span>
+#include <initializer_list>
 #include <string_view>
 #include <utility>
 

@@ -183,16 +183,17 @@ TEST_F(Import, WhatCannotBeUsedIsOneLine) {
     expect_refused(import(arguments), line);
   };
   refused({"--column", "torque=Momnt"},
-          "log.txt: --column torque=Momnt: column Momnt: not in the file; it has Time (ms), Moment "
+          "--column torque=Momnt: column Momnt: not in the file (did you mean Moment (Nmm)?); it "
+          "has Time (ms), Moment "
           "(Nmm), Theta (deg), Room");
   refused({"--column", "torqe=Room"},
-          "log.txt: --column torqe=Room: torqe: unknown (did you mean "
+          "--column torqe=Room: torqe: unknown (did you mean "
           "torque?)");
   refused({"--column", "torque=Room:V"},
-          "log.txt: --column torque=Room:V: unit = V: is none of N m, N mm; scale is needed then, "
+          "--column torque=Room:V: unit = V: is none of N m, N mm; scale is needed then, "
           "in N m per V");
   refused({"--column", "torque=Room:V:x"},
-          "log.txt: --column torque=Room:V:x: scale = x: must be a product of numbers and pi, as "
+          "--column torque=Room:V:x: scale = x: must be a product of numbers and pi, as "
           "in 0.202*pi/180");
   refused({"--kind", "tme"}, "--kind tme: must be time or frf or modal (did you mean time?)");
   refused({"--kind", "frf"}, "--kind frf: the file holds signals in time");
@@ -200,6 +201,7 @@ TEST_F(Import, WhatCannotBeUsedIsOneLine) {
           "--save-as a.xls: must be a file in .csv, .uff or .mat, or with --to csv or uff58 or "
           "uff58b or mat");
   refused({"--to", "uff", "--save-as", "a.uff"}, "--to uff: must be csv or uff58 or uff58b or mat");
+  refused({"--to", "mat"}, "--to: is the format of a file that --save-as names");
   EXPECT_THAT(import({"none.txt"}).errors, StartsWith("none.txt: "));
   EXPECT_THAT(names_in(), ElementsAre("log.txt"));
 }

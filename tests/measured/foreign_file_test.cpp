@@ -150,7 +150,7 @@ TEST_F(ForeignFileTest, ResponsesOfAnAnalyserAreMappedIntoSi) {
   const auto record =
       frequency_record_of(file, {{"tip_acceleration", {"FRF, node 3 +z", "g", 1.0}}}, "a");
   ASSERT_EQ(record.channels.size(), 1U);
-  EXPECT_EQ(record.channels[0].response[0], std::complex<double>(10.0, 1.0) * 9.80665 * 1e3);
+  EXPECT_EQ(record.channels[0].response[0], std::complex<double>(10.0, 1.0) * (9.80665 * 1e3));
   EXPECT_TRUE(std::isnan(record.channels[0].coherence[0]));
   try {
     frequency_record_of(file, {{"hub_angle", {"FRF, node 3 -rz", "deg", 1.0}}}, "a");

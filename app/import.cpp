@@ -223,7 +223,12 @@ int run(const Arguments& arguments) {
   if (!format && !arguments.record_format.empty()) {
     throw arm::InputError("--to: is the format of a file that --save-as names");
   }
-  if (!arguments.folder.empty()) require_measurement_place(arguments.folder, arguments.force);
+  if (arguments.folder.empty()) {
+    if (arguments.force) throw arm::InputError("--force: needs --out FOLDER");
+    if (!arguments.name.empty()) throw arm::InputError("--name: needs --out FOLDER");
+  } else {
+    require_measurement_place(arguments.folder, arguments.force);
+  }
   const std::string arm = arm_text(arguments);
 
   const ImportedRun imported =

@@ -166,6 +166,8 @@ TEST_F(MatFile, MutatedFilesGiveVariablesOrOneLine) {
           bytes[128 + random() % (bytes.size() - 128)] = static_cast<char>(random() % 256);
         }
       }
+      // A file that is written over waits for the disk.
+      std::filesystem::remove(path("m.mat"));
       std::ofstream(path("m.mat"), std::ios::binary) << bytes;
       try {
         read_mat_contents(path("m.mat"));

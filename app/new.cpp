@@ -1,103 +1,23 @@
 #include "app/command.hpp"
 #include "app/standard_output.hpp"
-#include "arm/arm_file.hpp"
-#include "arm/arm_keys.hpp"
+#include "app/starter_arm.hpp"
 #include "arm/atomic_file.hpp"
 #include "arm/input_error.hpp"
 #include "report/arm_json.hpp"
 #include "report/json_document.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <filesystem>
-#include <iterator>
 #include <memory>
 #include <string>
 #include <system_error>
-#include <vector>
 
 namespace flexarm::app {
 
 namespace {
 
 namespace fs = std::filesystem;
-
-/// The paper's arm by dimensions and material: a starter in which one number may be changed without
-/// a second one that must agree.
-arm::Arm starter_arm() {
-  arm::Arm starter = arm::paper_arm();
-  starter.beam.given_flexural_rigidity_N_m2.reset();
-  return starter;
-}
-
-/// Values for the keys that the starter explains but leaves out; all of them together are an arm.
-arm::Arm example_values() {
-  arm::Arm example = starter_arm();
-  example.beam.shear_modulus_Pa = 2.67e10;
-  example.beam.given_flexural_rigidity_N_m2 = 3.6918;
-  example.beam.given_linear_density_kg_per_m = 0.16486;
-  example.hub.viscous_friction_N_m_s_per_rad = 0.002;
-  example.payload.mass_kg = 0.06;
-  example.payload.inertia_kg_m2 = 1e-5;
-  example.damping.kelvin_voigt_s = 1.2e-4;
-  return example;
-}
-
-void append_key(std::string& out, const arm::ArmKey& key, const arm::Arm& starter,
-                const arm::Arm& example) {
-  const auto value = key.get(starter);
-  const bool given = key.required || (value && value != key.default_value());
-  const std::string line = fmt::format("{}{} = {}", given ? "" : "# ", key.leaf,
-                                       arm::toml_number(given ? *value : *key.get(example)));
-  const auto otherwise = key.default_value();
-  fmt::format_to(std::back_inserter(out), "{:<28} # [{}] {}{}\n", line, key.unit, key.meaning,
-                 key.required || !otherwise ? "" : fmt::format("; {} if not given", *otherwise));
-}
-
-/// "torque [N m], static_torque [N m]"
-std::string parameters_of(const arm::EffectDefinition& effect) {
-  std::vector<std::string> parameters;
-  for (const auto& parameter : effect.parameters) {
-    parameters.push_back(fmt::format("{} [{}]{}", parameter.name, parameter.unit,
-                                     parameter.required ? "" : ", optional"));
-  }
-  if (effect.acts_on_sensor) parameters.emplace_back("sensor, optional");
-  return fmt::format("{}", fmt::join(parameters, ", "));
-}
-
-std::string effects_text() {
-  std::string out =
-      "\n# Effects that an ideal arm leaves out, each switched on by a table of its own:\n"
-      "#\n"
-      "# [effects.coulomb_friction]\n"
-      "# torque = 0.012             # [N m]\n"
-      "#\n"
-      "# These are known, with their keys:\n"
-      "#\n";
-  for (const auto& effect : arm::effect_vocabulary()) {
-    out += fmt::format("# {}: {}\n#     {}\n", effect.name, parameters_of(effect), effect.meaning);
-  }
-  return out;
-}
-
-std::string starter_text() {
-  const arm::Arm starter = starter_arm();
-  const arm::Arm example = example_values();
-  std::string out = fmt::format(
-      "# An arm for flexarm, in SI units. What follows # is a comment; a key that stands in one "
-      "is\n"
-      "# optional, with an example value: take the # away to give it.\n"
-      "name = {}\n",
-      arm::toml_string(starter.name));
-  for (const auto& table : arm::arm_tables()) {
-    out += fmt::format("\n[{}]\n", table);
-    for (const auto& key : arm::arm_keys()) {
-      if (key.table == table) append_key(out, key, starter, example);
-    }
-  }
-  return out + effects_text();
-}
 
 int write_starter(const fs::path& path, bool force, const std::string& json) {
   std::error_code ignored;

@@ -36,15 +36,6 @@ struct TypedRun {
   std::optional<measured::Purpose> purpose;
 };
 
-std::string require_id(const std::string& id) {
-  const bool is_hidden = id.starts_with('.');
-  if (id.empty() || is_hidden || id.find_first_not_of(kIdCharacters) != std::string::npos) {
-    throw InputError(fmt::format("id = {}: must be letters, digits, - _ and ., as it names a file",
-                                 arm::shown(id)));
-  }
-  return id;
-}
-
 double read_payload(std::string_view value) {
   const auto mass_kg = arm::parse_number<double>(value);
   if (!mass_kg || !arm::kNotNegative.contains(*mass_kg)) {
@@ -52,15 +43,6 @@ double read_payload(std::string_view value) {
                                  to_string(arm::kNotNegative)));
   }
   return *mass_kg;
-}
-
-measured::Purpose read_purpose(std::string_view value) {
-  for (const auto purpose : {measured::Purpose::estimation, measured::Purpose::validation}) {
-    if (value == to_string(purpose)) return purpose;
-  }
-  throw InputError(fmt::format(
-      "purpose = {}: must be estimation or validation{}", arm::shown(value),
-      arm::did_you_mean(value, std::array<std::string, 2>{"estimation", "validation"})));
 }
 
 TypedRun read_run(const std::string& text, std::uint64_t seed) {
@@ -138,14 +120,6 @@ std::vector<RoundedKey> differences(const std::vector<response::ExcitationKey>& 
   return rounded;
 }
 
-std::string id_of_file(const std::string& file) {
-  std::string id = std::filesystem::path(file).stem().string();
-  for (auto& c : id) {
-    if (kIdCharacters.find(c) == std::string_view::npos) c = '-';
-  }
-  return id.empty() || id.front() == '.' ? "torque" + id : id;
-}
-
 PlannedRun run_of_file(const std::string& file) {
   measured::TimeRecord record = measured::read_time_record(file);
   return {id_of_file(file),
@@ -177,6 +151,32 @@ void count_equal_ids(std::vector<PlannedRun>& runs) {
 }
 
 }  // namespace
+
+std::string require_id(const std::string& id) {
+  const bool is_hidden = id.starts_with('.');
+  if (id.empty() || is_hidden || id.find_first_not_of(kIdCharacters) != std::string::npos) {
+    throw InputError(fmt::format("id = {}: must be letters, digits, - _ and ., as it names a file",
+                                 arm::shown(id)));
+  }
+  return id;
+}
+
+measured::Purpose read_purpose(std::string_view value) {
+  for (const auto purpose : {measured::Purpose::estimation, measured::Purpose::validation}) {
+    if (value == to_string(purpose)) return purpose;
+  }
+  throw InputError(fmt::format(
+      "purpose = {}: must be estimation or validation{}", arm::shown(value),
+      arm::did_you_mean(value, std::array<std::string, 2>{"estimation", "validation"})));
+}
+
+std::string id_of_file(const std::string& file) {
+  std::string id = std::filesystem::path(file).stem().string();
+  for (auto& c : id) {
+    if (kIdCharacters.find(c) == std::string_view::npos) c = '-';
+  }
+  return id.empty() || id.front() == '.' ? "torque" + id : id;
+}
 
 std::vector<PlannedRun> RunChoice::runs(const arm::Arm& arm,
                                         const std::vector<double>& payload_masses_kg) const {

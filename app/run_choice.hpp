@@ -8,6 +8,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace flexarm::app {
@@ -48,6 +49,15 @@ struct RunChoice {
 
 inline constexpr double kDefaultDuration_s = 4.0;
 inline constexpr double kDefaultPeriod_s = 0.0005;
+
+/// The id of a run, which names its files. Throws InputError for what is no name of a file.
+std::string require_id(const std::string& id);
+
+/// "estimation" or "validation". Throws InputError for any other word.
+measured::Purpose read_purpose(std::string_view value);
+
+/// An id made of the name of a file.
+std::string id_of_file(const std::string& file);
 
 /// Adds `--excitation`, `--torque`, `--duration`, `--period` and `--seed` to a command.
 void add_run_choice(CLI::App& parser, RunChoice& choice);

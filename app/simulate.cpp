@@ -1,5 +1,6 @@
 #include "app/arm_choice.hpp"
 #include "app/command.hpp"
+#include "app/measurement_place.hpp"
 #include "app/simulated_experiment.hpp"
 #include "app/standard_output.hpp"
 #include "arm/input_error.hpp"
@@ -14,11 +15,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <memory>
 #include <string>
-#include <system_error>
 #include <vector>
 
 namespace flexarm::app {
@@ -75,25 +74,6 @@ arm::Arm without_effects(const arm::Arm& arm, const std::vector<std::string>& hi
   return seen;
 }
 
-/// A folder that --force may replace was written by this command: it holds a measurement, and
-/// nothing that such a folder does not.
-void require_replaceable(const fs::path& folder) {
-  constexpr std::array<const char*, 4> kEndings = {".toml", ".csv", ".svg", ".json"};
-  std::error_code error;
-  if (!fs::is_directory(folder, error) || fs::is_empty(folder, error)) return;
-  if (!fs::exists(folder / "measurement.toml", error)) {
-    throw arm::InputError(fmt::format("{}: holds no measurement.toml, so --force leaves it alone",
-                                      arm::shown(folder.string())));
-  }
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    const bool is_ours = std::ranges::count(kEndings, entry.path().extension().string()) > 0;
-    if (entry.is_regular_file() && is_ours) continue;
-    throw arm::InputError(
-        fmt::format("{}: is not of a measurement, so --force leaves the folder alone",
-                    arm::shown(entry.path().string())));
-  }
-}
-
 void refuse_without_folder(const char* option, bool given) {
   if (given) throw arm::InputError(fmt::format("{}: needs --out FOLDER", option));
 }
@@ -111,15 +91,7 @@ void prepare(const Arguments& arguments) {
     return;
   }
   report::run_gnuplot("");  // throws where there is none
-  if (arguments.force) {
-    require_replaceable(arguments.folder);
-    return;
-  }
-  try {
-    arm::require_new_folder(arguments.folder);
-  } catch (const arm::InputError& error) {
-    throw arm::InputError(fmt::format("{}; --force replaces a measurement", error.what()));
-  }
+  require_measurement_place(arguments.folder, arguments.force);
 }
 
 /// The numbers of excitations that samples could not take as they were typed.

@@ -3,6 +3,7 @@
 #include "arm/atomic_file.hpp"
 #include "arm/input_error.hpp"
 #include "arm/text_file.hpp"
+#include "measured/mat_elements.hpp"
 
 #include <fmt/format.h>
 
@@ -10,8 +11,10 @@
 #include <array>
 #include <cstdint>
 #include <cstdlib>
+#include <fstream>
 #include <matio.h>
 #include <memory>
+#include <optional>
 #include <set>
 #include <stdexcept>
 #include <string_view>
@@ -140,25 +143,6 @@ arm::InputError unusable(const fs::path& path, const std::string& what) {
   return arm::InputError(fmt::format("{}: {}", arm::shown(path.string()), what));
 }
 
-/// Whether the elements of the file, each 8 bytes of type and size and then what it holds, end
-/// where the file does. The library takes what is missing for whatever is in memory.
-bool is_whole(std::string_view bytes) {
-  constexpr std::size_t kHeaderSize = 128;
-  constexpr std::size_t kTagSize = 8;
-  if (bytes.size() < kHeaderSize) return false;
-  const bool little_endian = bytes.substr(kHeaderSize - 2, 2) == "IM";
-  std::size_t at = kHeaderSize;
-  while (at + kTagSize <= bytes.size()) {
-    std::size_t size = 0;
-    for (std::size_t i = 0; i < 4; ++i) {
-      const std::size_t place = little_endian ? i : 3 - i;
-      size |= std::size_t{static_cast<unsigned char>(bytes[at + 4 + i])} << (8 * place);
-    }
-    at += kTagSize + size;
-  }
-  return at == bytes.size();
-}
-
 std::size_t elements(const matvar_t& variable) {
   return variable.dims[0] * variable.dims[1];
 }
@@ -191,28 +175,91 @@ bool read_texts(const matvar_t& variable, MatStrings& texts) {
   return true;
 }
 
+/// What the library keeps of numbers, as doubles. Integers above 2^53 are rounded.
+template <class Stored>
+std::vector<double> doubles(const void* data, std::size_t size) {
+  const auto* values = static_cast<const Stored*>(data);
+  std::vector<double> converted(size);
+  for (std::size_t i = 0; i < size; ++i) converted[i] = static_cast<double>(values[i]);
+  return converted;
+}
+
+std::optional<std::vector<double>> doubles_of(matio_types type, const void* data,
+                                              std::size_t size) {
+  if (size == 0) return std::vector<double>();
+  if (data == nullptr) return std::nullopt;
+  switch (type) {
+    case MAT_T_DOUBLE:
+      return doubles<double>(data, size);
+    case MAT_T_SINGLE:
+      return doubles<float>(data, size);
+    case MAT_T_INT8:
+      return doubles<std::int8_t>(data, size);
+    case MAT_T_UINT8:
+      return doubles<std::uint8_t>(data, size);
+    case MAT_T_INT16:
+      return doubles<std::int16_t>(data, size);
+    case MAT_T_UINT16:
+      return doubles<std::uint16_t>(data, size);
+    case MAT_T_INT32:
+      return doubles<std::int32_t>(data, size);
+    case MAT_T_UINT32:
+      return doubles<std::uint32_t>(data, size);
+    case MAT_T_INT64:
+      return doubles<std::int64_t>(data, size);
+    case MAT_T_UINT64:
+      return doubles<std::uint64_t>(data, size);
+    default:
+      return std::nullopt;
+  }
+}
+
 bool read_numbers(const matvar_t& variable, MatVariable& read) {
-  if (variable.class_type != MAT_C_DOUBLE || variable.data_type != MAT_T_DOUBLE ||
+  if (variable.class_type < MAT_C_DOUBLE || variable.class_type > MAT_C_UINT64 ||
       variable.rank != 2) {
     return false;
   }
   const std::size_t size = elements(variable);
-  if (size > 0 && variable.data == nullptr) return false;
   if (variable.isComplex == 0) {
-    const auto* values = static_cast<const double*>(variable.data);
-    MatMatrix matrix{variable.dims[0], variable.dims[1], {}};
-    if (size > 0) matrix.values.assign(values, values + size);
-    read.value = std::move(matrix);
+    auto values = doubles_of(variable.data_type, variable.data, size);
+    if (!values) return false;
+    read.value = MatMatrix{variable.dims[0], variable.dims[1], std::move(*values)};
     return true;
   }
-  MatComplexMatrix matrix{variable.dims[0], variable.dims[1], {}};
+  if (variable.data == nullptr) return false;
   const auto* parts = static_cast<const mat_complex_split_t*>(variable.data);
-  for (std::size_t i = 0; i < size; ++i) {
-    matrix.values.emplace_back(static_cast<const double*>(parts->Re)[i],
-                               static_cast<const double*>(parts->Im)[i]);
-  }
+  const auto real = doubles_of(variable.data_type, parts->Re, size);
+  const auto imaginary = doubles_of(variable.data_type, parts->Im, size);
+  if (!real || !imaginary) return false;
+  MatComplexMatrix matrix{variable.dims[0], variable.dims[1], {}};
+  for (std::size_t i = 0; i < size; ++i) matrix.values.emplace_back((*real)[i], (*imaginary)[i]);
   read.value = std::move(matrix);
   return true;
+}
+
+/// Adds the variable under `name`, or the fields of a structure under names with a point.
+void append(matvar_t& variable, const std::string& name, MatContents& contents) {
+  MatVariable read{name, {}};
+  std::string text;
+  MatStrings texts;
+  if (variable.class_type == MAT_C_STRUCT && variable.rank == 2 && elements(variable) == 1) {
+    const unsigned fields = Mat_VarGetNumberOfFields(&variable);
+    char* const* names = Mat_VarGetStructFieldnames(&variable);
+    for (unsigned i = 0; i < fields; ++i) {
+      matvar_t* field = Mat_VarGetStructFieldByIndex(&variable, i, 0);
+      if (field != nullptr) append(*field, fmt::format("{}.{}", name, names[i]), contents);
+    }
+    return;
+  }
+  if (read_text(variable, text)) {
+    read.value = std::move(text);
+  } else if (read_texts(variable, texts)) {
+    read.value = std::move(texts);
+  } else if (!read_numbers(variable, read)) {
+    contents.left_out.push_back(name);
+    return;
+  }
+  contents.variables.push_back(std::move(read));
 }
 
 }  // namespace
@@ -239,35 +286,37 @@ void write_mat_file(const std::vector<MatVariable>& variables, const fs::path& p
   arm::write_atomically(path, arm::read_text_file(temporary.path(), kLargestFile_bytes));
 }
 
-std::vector<MatVariable> read_mat_file(const fs::path& path) {
-  // The library's own error does not say why; it takes any text for a file of version 4.
+MatContents read_mat_contents(const fs::path& path) {
   const std::string bytes = arm::read_text_file(path, kLargestFile_bytes);
   constexpr std::string_view kMagic = "MATLAB 5.0 MAT-file";
   if (!bytes.starts_with(kMagic)) {
     throw unusable(path, "is no MATLAB 5 file; save with -v6 or -v7");
   }
-  if (!is_whole(bytes)) throw unusable(path, "is cut off");
-  File file(Mat_Open(path.c_str(), MAT_ACC_RDONLY));
+  MatElements sound;
+  try {
+    sound = sound_elements(bytes);
+  } catch (const arm::InputError& error) {
+    throw unusable(path, error.what());
+  }
+  const TemporaryFile temporary;
+  std::ofstream(temporary.path(), std::ios::binary) << sound.file;
+  File file(Mat_Open(temporary.path().c_str(), MAT_ACC_RDONLY));
   if (!file || Mat_GetVersion(file.get()) != MAT_FT_MAT5) {
     throw unusable(path, "is no MATLAB 5 file; save with -v6 or -v7");
   }
-  std::vector<MatVariable> variables;
+  MatContents contents{{}, std::move(sound.left_out)};
   for (;;) {
     const Variable variable(Mat_VarReadNext(file.get()));
-    if (!variable) return variables;
-    MatVariable read{variable->name == nullptr ? "" : variable->name, {}};
-    std::string text;
-    MatStrings texts;
-    if (read_text(*variable, text)) {
-      read.value = std::move(text);
-    } else if (read_texts(*variable, texts)) {
-      read.value = std::move(texts);
-    } else if (!read_numbers(*variable, read)) {
-      throw unusable(path, fmt::format("variable {} is neither a matrix of doubles nor text",
-                                       arm::shown(read.name)));
-    }
-    variables.push_back(std::move(read));
+    if (!variable) return contents;
+    append(*variable, variable->name == nullptr ? "" : variable->name, contents);
   }
+}
+
+std::vector<MatVariable> read_mat_file(const fs::path& path) {
+  MatContents contents = read_mat_contents(path);
+  if (contents.left_out.empty()) return std::move(contents.variables);
+  throw unusable(path, fmt::format("variable {} is neither a matrix of numbers nor text",
+                                   arm::shown(contents.left_out.front())));
 }
 
 }  // namespace flexarm::measured

@@ -43,11 +43,20 @@ struct MatVariable {
 /// whose number of values is not rows x columns, and a text that is not printable ASCII.
 void write_mat_file(const std::vector<MatVariable>& variables, const std::filesystem::path& path);
 
-/// The variables of a MATLAB 5 file, in its order: real and complex matrices of doubles, texts of
-/// one row, and columns or rows of texts.
+/// What a MATLAB 5 file holds.
+struct MatContents {
+  std::vector<MatVariable> variables;
+  std::vector<std::string> left_out;  ///< names of what is neither numbers nor text
+};
+
+/// The variables of a MATLAB 5 file, compressed or not, in its order: real and complex matrices of
+/// any class of numbers, as doubles; texts of one row; columns or rows of texts. The field f of a
+/// structure s is a variable "s.f".
 ///
-/// Throws InputError "PATH: what is wrong" for a file that cannot be read or is none, and for a
-/// variable of another kind, by name.
+/// Throws InputError "PATH: what is wrong" for a file that cannot be read, is none, or is damaged.
+MatContents read_mat_contents(const std::filesystem::path& path);
+
+/// The same; throws InputError for a variable of another kind, too, by name.
 std::vector<MatVariable> read_mat_file(const std::filesystem::path& path);
 
 }  // namespace flexarm::measured

@@ -17,6 +17,8 @@
 #include <cstddef>
 #include <iterator>
 #include <map>
+#include <optional>
+#include <type_traits>
 #include <utility>
 
 namespace flexarm::measured {
@@ -50,6 +52,7 @@ const std::vector<std::string> kTopKeys = {"name", "arm", "run"};
 const std::vector<std::string> kRunKeys = {"id",          "kind",    "file",    "purpose",
                                            "torque_hold", "payload", "initial", "columns"};
 const std::vector<std::string> kPayloadKeys = {"mass", "inertia"};
+const std::vector<std::string> kColumnKeys = {"name", "unit", "scale"};
 
 /// Walks a document once and keeps its faults by line, so that the first in the file is reported.
 class Reader {
@@ -127,12 +130,14 @@ class Reader {
       } else if (leaf == "payload") {
         run.payload = read_payload(node);
       } else if (leaf == "columns") {
-        fault(line_of(node),
-              "run.columns: a mapping of columns is not read yet; name the columns of the CSV file "
-              "as in docs/formats.md and leave this out");
+        run.columns = read_columns(node);
       } else {
         unknown("run.", leaf, node, kRunKeys);
       }
+    }
+    if (!run.columns.empty() && run.kind != RunKind::time) {
+      fault(line_of(*table.get("columns")),
+            "run.columns: only a time run has them; must be left out");
     }
     const int line = line_of(table);
     require(table, line, "run.id", "id", "a name in quotes");
@@ -210,6 +215,71 @@ class Reader {
     return payload;
   }
 
+  ColumnMappings read_columns(const toml::node& node) {
+    ColumnMappings columns;
+    const auto* table = node.as_table();
+    if (table == nullptr || table->empty()) {
+      wrong("run.columns", node, "a table, as in { torque = { name = \"Vm\", unit = \"N m\" } }");
+      return columns;
+    }
+    for (const auto& [key, value] : *table) {
+      const std::string full_key = "run.columns." + arm::shown(key.str());
+      try {
+        const std::string name = standard_name(key.str());
+        if (const auto mapping = read_mapping(full_key, name, value);
+            mapping && !columns.emplace(name, *mapping).second) {
+          fault(line_of(value), fmt::format("{}: {} is given twice", full_key, name));
+        }
+      } catch (const InputError& error) {
+        fault(line_of(value), fmt::format("run.columns: {}", error.what()));
+      }
+    }
+    return columns;
+  }
+
+  std::optional<ColumnMapping> read_mapping(const std::string& key, const std::string& name,
+                                            const toml::node& node) {
+    const auto* table = node.as_table();
+    if (table == nullptr) {
+      wrong(key, node, "a table, as in { name = \"Time (ms)\", unit = \"ms\", scale = 1.0 }");
+      return std::nullopt;
+    }
+    ColumnMapping mapping;
+    bool is_whole = true;
+    const auto take = [&](const std::string& leaf, const toml::node& value, auto& member,
+                          const char* what) {
+      using Member = std::remove_reference_t<decltype(member)>;
+      const bool fits = std::is_same_v<Member, double> ? value.is_number() : value.is_string();
+      if (fits) {
+        member = *value.value<Member>();
+      } else {
+        is_whole = false;
+        wrong(key + "." + leaf, value, what);
+      }
+    };
+    for (const auto& [leaf_key, value] : *table) {
+      const std::string leaf = arm::shown(leaf_key.str());
+      if (leaf == "name") {
+        take(leaf, value, mapping.name, "a column of the file, in quotes");
+      } else if (leaf == "unit") {
+        take(leaf, value, mapping.unit, "a unit in quotes");
+      } else if (leaf == "scale") {
+        take(leaf, value, mapping.scale, "a finite number, not 0");
+      } else {
+        is_whole = false;
+        unknown(key + ".", leaf, value, kColumnKeys);
+      }
+    }
+    if (!is_whole) return std::nullopt;
+    try {
+      require_valid(name, mapping, table->contains("scale"));
+    } catch (const InputError& error) {
+      fault(line_of(node), fmt::format("{}.{}", key, error.what()));
+      return std::nullopt;
+    }
+    return mapping;
+  }
+
   void read_number(const std::string& key, const toml::node& node, const char* unit,
                    double& number) {
     if (!node.is_number()) {
@@ -244,6 +314,14 @@ std::string quoted(const std::string& key, const std::string& text) {
         fmt::format("{} = \"{}\": not UTF-8, which TOML asks for", key, arm::shown(text)), key);
   }
   return arm::toml_string(text);
+}
+
+std::string format_mapping(const std::string& key, const ColumnMapping& mapping) {
+  std::string out = fmt::format("{{ name = {}", quoted(key + ".name", mapping.name));
+  if (!mapping.unit.empty()) {
+    out += fmt::format(", unit = {}", quoted(key + ".unit", mapping.unit));
+  }
+  return out + fmt::format(", scale = {} }}", arm::toml_number(mapping.scale));
 }
 
 }  // namespace
@@ -302,6 +380,11 @@ std::string format_measurement(const Measurement& measurement) {
                                   arm::toml_number(run.payload->inertia_kg_m2)));
     }
     if (run.initial != InitialState::rest) word("initial", to_string(run.initial));
+    for (const auto& [name, mapping] : run.columns) {
+      const std::string key =
+          "columns." + (name.find('@') == std::string::npos ? name : arm::toml_string(name));
+      line(key.c_str(), format_mapping(key, mapping));
+    }
   }
   return out;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "arm/payload.hpp"
+#include "measured/column_mapping.hpp"
 
 #include <filesystem>
 #include <optional>
@@ -38,6 +39,7 @@ struct Run {
   TorqueHold torque_hold = TorqueHold::zero;
   std::optional<arm::Payload> payload = {};  ///< in place of the arm's own
   InitialState initial = InitialState::rest;
+  ColumnMappings columns = {};  ///< of a time run whose file is a foreign log; otherwise empty
 
   bool operator==(const Run&) const = default;
 };
@@ -61,8 +63,8 @@ std::string_view to_string(InitialState initial);
 ///
 /// Throws InputError with one line `FILE:LINE: KEY = VALUE: what is wrong; what is allowed`: for a
 /// file that cannot be read or is not TOML, an unknown key (with the name that was probably meant),
-/// a value of the wrong type or out of its range, a missing key, no run, and a run id given twice.
-/// A run with `columns` is refused: such a mapping of foreign logs is not read yet.
+/// a value of the wrong type or out of its range, a missing key, no run, a run id given twice, and
+/// `columns` that cannot be (`require_valid`) or stand in a run of another kind than `time`.
 Measurement read_measurement(const std::filesystem::path& path);
 
 /// The same for the text of a file; `file_name` stands in the errors.

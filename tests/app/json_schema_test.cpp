@@ -149,6 +149,13 @@ TEST_F(JsonSchema, WhatNewWritesIsWhatTheDocumentSays) {
   expect_as_documented({Json::parse(text_of("out.json"))}, "flexarm.new/1");
 }
 
+TEST_F(JsonSchema, WhatImportWritesIsWhatTheDocumentSays) {
+  write("log.csv", "t_s,torque_Nm,room\n0,1,2\n1,1,2\n");
+  const Ended ended = run({"import", "log.csv", "--json", "out.json"});
+  EXPECT_EQ(ended.status, 0) << ended.errors;
+  expect_as_documented({Json::parse(text_of("out.json"))}, "flexarm.import/1");
+}
+
 TEST_F(JsonSchema, WhatSimulateWritesIsWhatTheDocumentSays) {
   write("rig.toml",
         "[beam]\nlength = 0.96\nthickness = 0.003\nflexural_rigidity = 3.7\n"

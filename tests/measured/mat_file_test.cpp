@@ -6,11 +6,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <matio.h>
+#include <memory>
 #include <random>
 #include <stdexcept>
 #include <string>
@@ -98,6 +102,80 @@ TEST_F(MatFile, AFileThatIsNoneIsRefused) {
 
 TEST_F(MatFile, AFolderThatIsNotThereIsRefused) {
   EXPECT_THROW(write_mat_file(every_kind(), path("none/a.mat")), arm::InputError);
+}
+
+/// A structure of a single, an integer and a nested structure, and a sparse matrix that is none of
+/// ours, as another program writes them.
+void write_foreign(const std::filesystem::path& path, matio_compression compression) {
+  const std::unique_ptr<mat_t, int (*)(mat_t*)> file(
+      Mat_CreateVer(path.c_str(), nullptr, MAT_FT_MAT5), Mat_Close);
+  std::array<std::size_t, 2> size{3, 1};
+  std::array<float, 3> single{0.5F, -1.25F, 3.0F};
+  std::array<std::int16_t, 3> whole{-7, 0, 32767};
+  std::array<std::size_t, 2> one{1, 1};
+  std::array<const char*, 1> inner_names{"k"};
+  matvar_t* inner = Mat_VarCreateStruct(nullptr, 2, one.data(), inner_names.data(), 1);
+  Mat_VarSetStructFieldByName(
+      inner, "k", 0,
+      Mat_VarCreate(nullptr, MAT_C_INT16, MAT_T_INT16, 2, size.data(), whole.data(), 0));
+  std::array<const char*, 2> names{"y", "n"};
+  matvar_t* outer = Mat_VarCreateStruct("s", 2, one.data(), names.data(), 2);
+  Mat_VarSetStructFieldByName(
+      outer, "y", 0,
+      Mat_VarCreate(nullptr, MAT_C_SINGLE, MAT_T_SINGLE, 2, size.data(), single.data(), 0));
+  Mat_VarSetStructFieldByName(outer, "n", 0, inner);
+  Mat_VarWrite(file.get(), outer, compression);
+  Mat_VarFree(outer);  // and its fields
+  std::array<double, 1> value{2.0};
+  std::array<mat_uint32_t, 1> row{0};
+  std::array<mat_uint32_t, 2> column{0, 1};
+  mat_sparse_t sparse{1, row.data(), 1, column.data(), 2, 1, value.data()};
+  matvar_t* matrix =
+      Mat_VarCreate("K", MAT_C_SPARSE, MAT_T_DOUBLE, 2, one.data(), &sparse, MAT_F_DONT_COPY_DATA);
+  Mat_VarWrite(file.get(), matrix, MAT_COMPRESSION_NONE);
+  Mat_VarFree(matrix);
+}
+
+TEST_F(MatFile, StructuresAndOtherClassesOfNumbersAreReadCompressedOrNot) {
+  for (const auto compression : {MAT_COMPRESSION_NONE, MAT_COMPRESSION_ZLIB}) {
+    write_foreign(path(), compression);
+    const MatContents contents = read_mat_contents(path());
+    EXPECT_EQ(contents.variables,
+              (std::vector<MatVariable>{{"s.y", MatMatrix{3, 1, {0.5, -1.25, 3.0}}},
+                                        {"s.n.k", MatMatrix{3, 1, {-7.0, 0.0, 32767.0}}}}));
+    EXPECT_THAT(contents.left_out, testing::ElementsAre("K"));
+    EXPECT_THAT(refusal(), HasSubstr("variable K is neither a matrix of numbers nor text"));
+  }
+}
+
+TEST_F(MatFile, MutatedFilesGiveVariablesOrOneLine) {
+  std::mt19937_64 random(20261127);
+  write_foreign(path("a.mat"), MAT_COMPRESSION_NONE);
+  write_foreign(path("b.mat"), MAT_COMPRESSION_ZLIB);
+  write_mat_file(every_kind(), path("c.mat"));
+  Mat_LogInitFunc("test", [](int, char*) {});  // the library's own words on broken files
+  constexpr int kFiles = 2000;
+  for (const char* name : {"a.mat", "b.mat", "c.mat"}) {
+    const std::string good = arm::read_text_file(path(name), 1 << 20);
+    for (int i = 0; i < kFiles; ++i) {
+      std::string bytes = good;
+      if (i % 2 == 0) {
+        bytes.resize(random() % good.size());
+      } else {
+        for (auto changes = 1 + random() % 4; changes > 0; --changes) {
+          bytes[128 + random() % (bytes.size() - 128)] = static_cast<char>(random() % 256);
+        }
+      }
+      // A file that is written over waits for the disk.
+      std::filesystem::remove(path("m.mat"));
+      std::ofstream(path("m.mat"), std::ios::binary) << bytes;
+      try {
+        read_mat_contents(path("m.mat"));
+      } catch (const arm::InputError& error) {
+        EXPECT_EQ(std::string(error.what()).find_first_of("\r\n"), std::string::npos);
+      }
+    }
+  }
 }
 
 TEST_F(MatFile, AFileCutOffAnywhereIsRefusedOrHoldsWholeVariables) {

@@ -32,6 +32,17 @@ TEST(Measurement, EveryKeyReachesItsMember) {
                            arm::Payload{}, InitialState::rest}));
 }
 
+TEST(Measurement, ColumnsAreMappedByStandardName) {
+  const Measurement measurement = parse_measurement(
+      kHead + kRun +
+          "columns = { time = { name = \"Time (ms)\", unit = \"ms\" }, torque = { name = \"Vm\", "
+          "unit = \"V\", scale = 0.0215 }, \"strain@0.050\" = { name = \"eps\" } }\n",
+      "m.toml");
+  EXPECT_EQ(measurement.runs[0].columns, (ColumnMappings{{"time", {"Time (ms)", "ms", 1.0}},
+                                                         {"torque", {"Vm", "V", 0.0215}},
+                                                         {"strain@0.05", {"eps", "", 1.0}}}));
+}
+
 TEST(Measurement, WhatIsLeftOutHasItsDefault) {
   const Measurement measurement = parse_measurement("arm = \"x.toml\"\n" + kRun, "m.toml");
   EXPECT_EQ(measurement.name, "");
@@ -53,6 +64,10 @@ TEST(Measurement, WhatIsWrittenReadsBackEqual) {
     if (chance()) {
       run.payload = arm::Payload{static_cast<double>(random()) * 0x1p-64,
                                  static_cast<double>(random()) * 0x1p-80};
+    }
+    if (run.kind == RunKind::time && chance()) {
+      run.columns = {{"time", {"t \"s\"", "", 1.0}},
+                     {"strain@0.05", {"eps", "V", static_cast<double>(random()) * 0x1p-70}}};
     }
     measurement.runs.push_back(run);
   }
@@ -105,9 +120,36 @@ const std::vector<Mistake> kMistakes = {
      "7: run.payload.mass = -0.06 kg: must be a finite number, 0 or more"},
     {"PayloadMisspelt", kHead + kRun + "payload = { mas = 0.06 }\n",
      "7: run.payload.mas: unknown key (did you mean mass?); allowed: mass, inertia"},
-    {"Columns", kHead + kRun + "columns = { time = { name = \"Time (ms)\", unit = \"ms\" } }\n",
-     "7: run.columns: a mapping of columns is not read yet; name the columns of the CSV file as in "
-     "docs/formats.md and leave this out"},
+    {"ColumnsOfAModalRun",
+     kHead + "[[run]]\nid = \"a\"\nkind = \"modal\"\nfile = \"a.csv\"\n"
+             "columns = { time = { name = \"t\" } }\n",
+     "7: run.columns: only a time run has them; must be left out"},
+    {"ColumnOfNoQuantity", kHead + kRun + "columns = { hub_angel = { name = \"a\" } }\n",
+     "7: run.columns: sensor hub_angel: unknown (did you mean hub_angle?); allowed: hub_angle, "
+     "hub_velocity, tip_acceleration, tip_displacement, tip_deflection, strain@X (X in metres from "
+     "the hub); beside time and torque"},
+    {"ColumnWithoutName", kHead + kRun + "columns = { time = { unit = \"ms\" } }\n",
+     "7: run.columns.time.name: missing; must be a column of the file"},
+    {"ColumnIsAText", kHead + kRun + "columns = { time = \"t\" }\n",
+     "7: run.columns.time = \"t\": a string; must be a table, as in { name = \"Time (ms)\", unit = "
+     "\"ms\", scale = 1.0 }"},
+    {"ColumnsAreAText", kHead + kRun + "columns = \"t\"\n",
+     "7: run.columns = \"t\": a string; must be a table, as in { torque = { name = \"Vm\", unit = "
+     "\"N m\" } }"},
+    {"ForeignUnitWithoutScale",
+     kHead + kRun + "columns = { torque = { name = \"Vm\", unit = \"V\" } }\n",
+     "7: run.columns.torque.unit = V: is none of N m, N mm; scale is needed then, in N m per V"},
+    {"ScaleZero", kHead + kRun + "columns = { torque = { name = \"Vm\", scale = 0 } }\n",
+     "7: run.columns.torque.scale = 0: must be a finite number, not 0"},
+    {"ScaleIsAText", kHead + kRun + "columns = { torque = { name = \"Vm\", scale = \"1\" } }\n",
+     "7: run.columns.torque.scale = \"1\": a string; must be a finite number, not 0"},
+    {"ColumnKeyMisspelt", kHead + kRun + "columns = { torque = { nam = \"Vm\" } }\n",
+     "7: run.columns.torque.nam: unknown key (did you mean name?); allowed: name, unit, scale"},
+    {"PlaceAlongTheBeamTwice",
+     kHead + kRun +
+         "columns.\"strain@0.05\" = { name = \"a\" }\ncolumns.\"strain@0.050\" = { name = \"b\" "
+         "}\n",
+     "8: run.columns.strain@0.050: strain@0.05 is given twice"},
     {"TheFirstMistakeOfTheFile", kHead + kRun + "initial = \"fre\"\npurpose = 1\n",
      "7: run.initial = \"fre\": must be rest or free (did you mean free?)"},
 };

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "measured/column_guess.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace flexarm::app {
+
+/// Which columns of a foreign file are what, as typed: QUANTITY=NAME:UNIT:SCALE.
+struct ColumnChoice {
+  std::vector<std::string> typed;
+
+  /// The mappings; what is not typed of a unit is the file's, or SI. Throws InputError for what
+  /// cannot be read, and for columns that are not there (with the one that was probably meant).
+  measured::ColumnMappings mappings(std::span<const measured::ColumnLabel> columns) const;
+};
+
+/// Adds `--column` to a command.
+void add_column_choice(CLI::App& parser, ColumnChoice& choice);
+
+/// A product of numbers and of pi, as in "0.202*pi/180". Throws InputError for any other text.
+double read_scale(std::string_view text);
+
+}  // namespace flexarm::app

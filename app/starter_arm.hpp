@@ -1,0 +1,16 @@
+#pragma once
+
+#include "arm/arm.hpp"
+
+#include <string>
+
+namespace flexarm::app {
+
+/// The paper's arm by dimensions and material: a starter in which one number may be changed without
+/// a second one that must agree.
+arm::Arm starter_arm();
+
+/// An arm file of it that explains every key and effect.
+std::string starter_text();
+
+}  // namespace flexarm::app

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace flexarm::measured {
+
+/// How a delimited text is written.
+struct Dialect {
+  char separator = ',';  ///< ' ' stands for any run of blanks and tabs
+  char decimal = '.';    ///< or ','
+
+  bool operator==(const Dialect&) const = default;
+};
+
+/// "semicolons", "blanks".
+std::string_view separator_name(const Dialect& dialect);
+
+/// Takes lines apart into cells; what it returns is valid until the next line.
+class LineSplitter {
+ public:
+  explicit LineSplitter(char separator) : separator_(separator) {}
+
+  /// The cells without quotes and without blanks around. A quote that is not closed ends with the
+  /// line.
+  std::span<const std::string_view> split(std::string_view line);
+
+  /// The same for a line of names: between blanks, what stands in brackets belongs to the name in
+  /// front, as in "Time (ms) Angle (deg)".
+  std::span<const std::string_view> split_names(std::string_view line);
+
+ private:
+  std::size_t quoted_end(std::string_view line, std::size_t at);
+
+  char separator_;
+  std::vector<std::string_view> cells_;
+  std::deque<std::string> rewritten_;
+};
+
+/// A cell as a number with the dialect's decimal mark, `nan` and `inf` included.
+std::optional<double> parse_cell(std::string_view cell, char decimal);
+
+/// Whether the cell is a number only with its thousands separators taken out: "1,234.5", "1'234",
+/// "1 234,5".
+bool has_thousands_separators(std::string_view cell, char decimal);
+
+}  // namespace flexarm::measured

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace flexarm::measured {
+
+/// A column of a log that was not made for this program.
+struct ForeignColumn {
+  std::string name;  ///< as the file has it, unit and all: "Time (ms)"; "column 3" without
+  std::string unit;  ///< told by the file, as `canonical_unit` has it; empty: not told
+  std::vector<double> values;           ///< NaN for an empty cell; none in a column of text
+  std::vector<std::string> texts = {};  ///< in place of the values in a column of text
+
+  bool is_text() const { return !texts.empty(); }
+};
+
+/// Named columns of numbers, and what was assumed to get them, a sentence each.
+struct ForeignTable {
+  std::vector<ForeignColumn> columns;
+  std::vector<int> line_of_row;  ///< empty where the file has no lines
+  std::vector<std::string> assumptions;
+};
+
+/// Where the column of that name is; several may have one name. Throws InputError with the columns
+/// there are, and the one that was probably meant.
+std::size_t find_column(const ForeignTable& table, std::string_view name);
+
+/// "FILE:LINE: " row of the table in front of an error.
+int line_of(const ForeignTable& table, std::size_t row);
+
+/// Reads delimited text of any common kind: cells between commas, semicolons, tabs or blanks; a
+/// decimal point or comma; lines that end in LF, CRLF or CR; UTF-8, Latin-1, or UTF-16 with a
+/// byte-order mark; lines of anything in front; a line of names, or none, and perhaps one of units;
+/// comments (#, %, //), quoted cells, separators at the end of lines. The separator and the decimal
+/// mark are those that make most cells numbers.
+///
+/// Throws InputError `FILE:LINE: what is wrong; what is allowed` for a file that is not text, has
+/// no two rows of two numbers or more, rows of unlike length, a cell that is no number in a column
+/// of numbers, and thousands separators. A last line that is cut off is left out, and said.
+ForeignTable read_foreign_table(const std::filesystem::path& path);
+
+/// The same for the bytes of a file; `file_name` stands in the errors.
+ForeignTable parse_foreign_table(std::string_view bytes, const std::string& file_name);
+
+}  // namespace flexarm::measured

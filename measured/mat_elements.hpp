@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace flexarm::measured {
+
+/// The variables of a MATLAB 5 file that are made of numbers, texts, cells and structures.
+struct MatElements {
+  std::string file;                   ///< a MATLAB 5 file of these alone, uncompressed
+  std::vector<std::string> left_out;  ///< names of those of other classes: sparse, objects, ...
+};
+
+/// Takes a MATLAB 5 file apart ("MAT-File Format", The MathWorks, "Level 5 MAT-files"), expands
+/// what is compressed, and checks that every array holds as many numbers as its dimensions say,
+/// since the library trusts them. Throws InputError "is cut off" or "is damaged ...", not located;
+/// bytes are those of a file with the text "MATLAB 5.0 MAT-file" at its beginning.
+MatElements sound_elements(std::string_view bytes);
+
+}  // namespace flexarm::measured

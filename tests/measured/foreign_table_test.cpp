@@ -1,0 +1,246 @@
+#include "measured/foreign_table.hpp"
+
+#include "arm/input_error.hpp"
+#include "measured/column_name.hpp"
+#include "tests/measured/mistake.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <iterator>
+#include <string>
+#include <vector>
+
+namespace flexarm::measured {
+namespace {
+
+using testing::Contains;
+using testing::ElementsAre;
+
+std::vector<std::string> names_of(const ForeignTable& table) {
+  std::vector<std::string> names;
+  for (const auto& column : table.columns) names.push_back(column.name);
+  return names;
+}
+
+std::vector<std::string> units_of(const ForeignTable& table) {
+  std::vector<std::string> units;
+  for (const auto& column : table.columns) units.push_back(column.unit);
+  return units;
+}
+
+/// A log in one of the ways that logs are written; each holds 0, 0.5, -1.25e-3 and 0.01, 1, 2.
+struct Log {
+  const char* name;
+  std::string text;
+  std::string separator;
+  std::string decimal;
+};
+
+void PrintTo(const Log& log, std::ostream* out) {
+  *out << log.name;
+}
+
+class ForeignLog : public testing::TestWithParam<Log> {};
+
+TEST_P(ForeignLog, HasTheSameNumbers) {
+  const ForeignTable table = parse_foreign_table(GetParam().text, "log");
+  ASSERT_EQ(table.columns.size(), 3U);
+  EXPECT_THAT(table.columns[0].values, ElementsAre(0.0, 0.01));
+  EXPECT_THAT(table.columns[1].values, ElementsAre(0.5, 1.0));
+  EXPECT_THAT(table.columns[2].values, ElementsAre(-1.25e-3, 2.0));
+  EXPECT_THAT(table.assumptions, Contains("cells are separated by " + GetParam().separator));
+  EXPECT_THAT(table.assumptions, Contains("numbers have a decimal " + GetParam().decimal));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    , ForeignLog,
+    testing::Values(
+        Log{"Commas", "t,u,y\n0,0.5,-1.25e-3\n0.01,1,2\n", "commas", "point"},
+        Log{"Semicolons", "t;u;y\n0;0.5;-1.25e-3\n0.01;1;2\n", "semicolons", "point"},
+        Log{"Tabs", "t\tu\ty\n0\t0.5\t-1.25e-3\n0.01\t1\t2\n", "tabs", "point"},
+        Log{"Blanks", "t u y\n  0   0.5 -1.25e-3\n 0.01 1    2  \n", "blanks", "point"},
+        Log{"DecimalComma", "t;u;y\n0;0,5;-1,25e-3\n0,01;1;2\n", "semicolons", "comma"},
+        Log{"TabsWithDecimalComma", "t\tu\ty\n0\t0,5\t-1,25E-3\n0,01\t1\t2\n", "tabs", "comma"},
+        Log{"BlanksWithDecimalComma", "t u y\n0 0,5 -1,25e-3\n0,01 1 2\n", "blanks", "comma"},
+        Log{"CarriageReturns", "t,u,y\r\n0,0.5,-1.25e-3\r\n0.01,1,2\r\n", "commas", "point"},
+        Log{"OldMacintosh", "t,u,y\r0,0.5,-1.25e-3\r0.01,1,2\r", "commas", "point"},
+        Log{"ByteOrderMark", "\xef\xbb\xbft,u,y\n0,0.5,-1.25e-3\n0.01,1,2", "commas", "point"},
+        Log{"Preamble", "Recorder 4.1\nbench; 3 channels\n\nt,u,y\n0,0.5,-1.25e-3\n0.01,1,2\n",
+            "commas", "point"},
+        Log{"CommentedHeader", "# made by x\n# t u y\n0 0.5 -1.25e-3\n0.01 1 2\n", "blanks",
+            "point"},
+        Log{"PercentComments", "% t,u,y\n0,0.5,-1.25e-3\n% pause\n0.01,1,2\n", "commas", "point"},
+        Log{"SeparatorsAtTheEnds", "t;u;y;\n0;0.5;-1.25e-3;\n0.01;1;2;\n", "semicolons", "point"},
+        Log{"SeparatorsAtTheEndsOfRows", "t;u;y\n0;0.5;-1.25e-3;\n0.01;1;2;\n", "semicolons",
+            "point"},
+        Log{"Quotes", "\"t\",\"u, in volts\",\"y\"\n\"0\",\"0.5\",\"-1.25e-3\"\n\"0.01\",1,2\n",
+            "commas", "point"},
+        Log{"QuotedDecimalComma", "t,u,y\n0,\"0,5\",\"-1,25e-3\"\n\"0,01\",1,2\n", "commas",
+            "comma"},
+        Log{"NoHeader", "0,+0.5,-1.25e-3\n0.01,1,2\n", "commas", "point"},
+        Log{"BlankLines", "t,u,y\n\n0,0.5,-1.25e-3\n\n0.01,1,2\n\n", "commas", "point"},
+        Log{"LastLineCutOff", "t,u,y\n0,0.5,-1.25e-3\n0.01,1,2\n0.02,3", "commas", "point"}),
+    [](const auto& log) { return std::string(log.param.name); });
+
+std::string utf16(const std::string& ascii, bool big_endian) {
+  std::string out = big_endian ? "\xfe\xff" : "\xff\xfe";
+  for (const char c : ascii) {
+    if (big_endian) out += '\0';
+    out += c;
+    if (!big_endian) out += '\0';
+  }
+  return out;
+}
+
+TEST(ForeignTable, Utf16IsReadInBothByteOrders) {
+  for (const bool big_endian : {false, true}) {
+    const auto table = parse_foreign_table(utf16("t;u\r\n0;1,5\r\n1;2\r\n", big_endian), "log");
+    EXPECT_THAT(table.columns[1].values, ElementsAre(1.5, 2.0));
+    EXPECT_THAT(table.assumptions, Contains("the text is UTF-16"));
+  }
+}
+
+TEST(ForeignTable, NamesAndUnitsComeFromTheHeader) {
+  const auto table = parse_foreign_table(
+      "Time (ms);torque [N m];hub1_deg;u / V;plain\n0;1;2;3;4\n1;1;2;3;4\n", "log");
+  EXPECT_THAT(names_of(table),
+              ElementsAre("Time (ms)", "torque [N m]", "hub1_deg", "u / V", "plain"));
+  EXPECT_THAT(units_of(table), ElementsAre("ms", "N m", "deg", "V", ""));
+  EXPECT_THAT(table.assumptions, Contains("names are in line 1"));
+  EXPECT_THAT(table.line_of_row, ElementsAre(2, 3));
+}
+
+TEST(ForeignTable, ASecondHeaderLineHoldsUnits) {
+  const auto table = parse_foreign_table("bench\nt;u;y\n[sec];(V);\xb0/s\n0;1;2\n1;1;2\n", "log");
+  EXPECT_THAT(names_of(table), ElementsAre("t", "u", "y"));
+  EXPECT_THAT(units_of(table), ElementsAre("s", "V", "deg/s"));
+  EXPECT_THAT(table.assumptions, Contains("units are in line 3"));
+  EXPECT_THAT(table.assumptions, Contains("1 line in front passed over"));
+  EXPECT_THAT(table.assumptions, Contains("the text is Latin-1"));
+}
+
+TEST(ForeignTable, BetweenBlanksBracketsBelongToTheNameInFront) {
+  const auto table = parse_foreign_table("Time (ms) Vm [N m]\n0 1\n1 1\n", "log");
+  EXPECT_THAT(names_of(table), ElementsAre("Time (ms)", "Vm [N m]"));
+}
+
+TEST(ForeignTable, WithoutAHeaderColumnsAreCounted) {
+  const auto table = parse_foreign_table("0\t1\n1\t1\n", "log");
+  EXPECT_THAT(names_of(table), ElementsAre("column 1", "column 2"));
+  EXPECT_THAT(table.assumptions,
+              Contains("no line of names: the columns are called column 1, column 2, ..."));
+}
+
+TEST(ForeignTable, TextAndEmptyCellsAreKeptAsSuch) {
+  const auto table =
+      parse_foreign_table("date,t,u,y\n14 May,0,1,\n14 May,1,2,3\n14 May,2,3,4\n", "log");
+  ASSERT_EQ(table.columns.size(), 4U);
+  EXPECT_THAT(table.columns[0].texts, ElementsAre("14 May", "14 May", "14 May"));
+  EXPECT_TRUE(std::isnan(table.columns[3].values[0]));
+  EXPECT_EQ(table.columns[3].values[1], 3.0);
+}
+
+TEST(ForeignTable, ALastLineThatIsCutOffIsSaid) {
+  const auto table = parse_foreign_table("t,u,y\n0,1,2\n1,1,2\n2,1", "log");
+  EXPECT_THAT(table.assumptions, Contains("line 4, the last one, is cut off and left out"));
+}
+
+TEST(ForeignTable, ColumnsAreFoundByName) {
+  const auto table = parse_foreign_table("t,Vm\n0,1\n1,1\n", "log");
+  EXPECT_EQ(find_column(table, "Vm"), 1U);
+  try {
+    find_column(table, "Vmm");
+    FAIL() << "found";
+  } catch (const arm::InputError& error) {
+    EXPECT_STREQ(error.what(), "column Vmm: not in the file (did you mean Vm?); it has t, Vm");
+  }
+}
+
+TEST(ColumnName, UnitsHaveOneSpelling) {
+  for (const auto* unit : {"Nm", "N*m", "N-m", " N m ", "[N m]", "(N.m)", "N\xc2\xb7m"}) {
+    EXPECT_EQ(canonical_unit(unit), "N m") << unit;
+  }
+  EXPECT_EQ(canonical_unit("mNm"), "N mm");
+  EXPECT_EQ(canonical_unit("Sec"), "s");
+  EXPECT_EQ(canonical_unit("\xc2\xb5s"), "us");
+  EXPECT_EQ(canonical_unit("m/s\xc2\xb2"), "m/s^2");
+  EXPECT_EQ(canonical_unit("furlong"), "furlong");
+  EXPECT_TRUE(is_known_unit("V"));
+  EXPECT_FALSE(is_known_unit("S"));
+}
+
+TEST(ColumnName, HeadersAreTakenApart) {
+  const auto expect = [](const char* header, const char* base, const char* unit) {
+    const ColumnName name = split_column_name(header);
+    EXPECT_EQ(name.base, base) << header;
+    EXPECT_EQ(name.unit, unit) << header;
+  };
+  expect("Time (ms)", "Time", "ms");
+  expect("strain@0.05 [1]", "strain@0.05", "1");
+  expect("t_s", "t", "s");
+  expect("t/s", "t", "s");
+  expect("hub1_deg", "hub1", "deg");
+  expect("tip_acc_m_s2", "tip_acc", "m/s^2");
+  expect("hub_velocity_rad_per_s", "hub_velocity", "rad/s");
+  expect("i1_meas_A", "i1_meas", "A");
+  expect("tip_acceleration", "tip_acceleration", "");
+  expect("Vm", "Vm", "");
+  expect("", "", "");
+}
+
+TEST(ForeignTable, BytesAtRandomGiveATableOrOneLine) {
+  const std::string good = "bench\nTime (ms);\"u\"\n0;1,5\n1;2,5\n2;-3e-1\n";
+  expect_result_or_one_line(good, [](const std::string& text) { parse_foreign_table(text, "r"); });
+  expect_result_or_one_line(utf16(good, false),
+                            [](const std::string& text) { parse_foreign_table(text, "r"); });
+}
+
+const std::vector<Mistake> kMistakes = {
+    {"Empty", "", "1: empty"},
+    {"Prose", "Dear all,\nthe data follow.\n",
+     "1: no two rows of two numbers or more; must be rows of numbers between commas, semicolons, "
+     "tabs or blanks, without thousands separators"},
+    {"OneColumn", "t\n0\n1\n",
+     "1: no two rows of two numbers or more; must be rows of numbers between commas, semicolons, "
+     "tabs or blanks, without thousands separators"},
+    {"RowTooShort", "t,u,y\n0,1,2\n1,1\n2,1,2\n",
+     "3: 2 cells; the rows above have 3, separated by commas"},
+    {"RowTooLong", "t,u,y\n0,1,2\n1,1,2\n2,1,2,5\n",
+     "4: 4 cells; the rows above have 3, separated by commas"},
+    {"NoNumber", "t,u\n0,1\n1,1\n2,fault\n",
+     "4: column u = fault: must be a number with a decimal point, as in the rows above"},
+    {"ThousandsSeparators", "t;u\n0;1.5\n1;999.5\n2;1,000.5\n",
+     "4: column u = 1,000.5: has thousands separators; write the number without them"},
+    {"ThousandsSeparatorsFromTheFirstRow", "t;u;y\n0;1.000,5;0,5\n1;1.001,5;0,5\n2;1,5;0,5\n",
+     "2: column u = 1.000,5: has thousands separators; write the number without them"},
+    {"ThousandsApostrophes", "t;u;v\n0;1'000.5;1\n1;1'001.5;1\n",
+     "2: column u = 1'000.5: has thousands separators; write the number without them"},
+};
+
+class ForeignTableMistake : public testing::TestWithParam<Mistake> {};
+
+TEST_P(ForeignTableMistake, GivesOneLineWithPlaceReasonAndRemedy) {
+  expect_line(GetParam(), "log.txt", parse_foreign_table);
+}
+
+INSTANTIATE_TEST_SUITE_P(, ForeignTableMistake, testing::ValuesIn(kMistakes), name_of_mistake);
+
+TEST(ForeignTable, WhatIsNoTextIsRefused) {
+  for (const std::string& bytes : {std::string("t,u\n0,1\0\n1,2\n", 13),
+                                   std::string("\x7f"
+                                               "ELF"),
+                                   std::string("\xff\xfet\0u", 5)}) {
+    try {
+      parse_foreign_table(bytes, "log");
+      FAIL() << "accepted";
+    } catch (const arm::InputError& error) {
+      EXPECT_THAT(error.what(), testing::StartsWith("log: not text: "));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace flexarm::measured

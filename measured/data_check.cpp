@@ -1,0 +1,139 @@
+#include "measured/data_check.hpp"
+
+#include "measured/data_check_clock.hpp"
+#include "measured/data_check_drift.hpp"
+#include "measured/data_check_kinematics.hpp"
+#include "measured/data_check_outliers.hpp"
+#include "measured/data_check_response.hpp"
+#include "measured/data_check_sign.hpp"
+#include "measured/data_check_signal.hpp"
+#include "measured/data_check_transform.hpp"
+#include "measured/data_check_unit.hpp"
+#include "measured/data_check_values.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace flexarm::measured {
+
+namespace {
+
+/// Fewer samples in a row show no spectrum to speak of.
+constexpr std::size_t kFewestCompared = 128;
+
+void require_complete(const TimeRecord& record) {
+  const auto finite = [](const std::vector<double>& values) {
+    return std::ranges::all_of(values, [](double value) { return std::isfinite(value); });
+  };
+  const std::size_t samples = record.time_s.size();
+  bool complete = samples >= 2 && record.torque_N_m.size() == samples;
+  bool all_finite = finite(record.time_s) && finite(record.torque_N_m);
+  for (const auto& channel : record.channels) {
+    complete = complete && channel.values.size() == samples;
+    all_finite = all_finite && finite(channel.values);
+  }
+  if (!complete) throw std::invalid_argument("a record of unlike columns, or of one sample");
+  if (!all_finite) throw std::invalid_argument("a record with a value that is not finite");
+}
+
+void append(std::vector<DataFinding>& all, const std::vector<DataFinding>& more,
+            std::size_t first_sample = 0) {
+  for (auto finding : more) {
+    finding.first_sample += first_sample;
+    all.push_back(std::move(finding));
+  }
+}
+
+void exclude(std::vector<bool>& usable, std::span<const Signal> signals,
+             const std::vector<DataFinding>& findings) {
+  for (std::size_t i = 0; i < signals.size(); ++i) {
+    if (std::ranges::count(findings, signals[i].name, &DataFinding::channel) > 0) usable[i] = false;
+  }
+}
+
+/// What channels say of each other over an even stretch; none of `usable` has a fault in its
+/// values.
+std::vector<DataFinding> compare(std::span<const Signal> signals, std::vector<bool> usable,
+                                 double period_s, const DataCheckOptions& options) {
+  std::vector<DataFinding> findings;
+  const Transforms transforms = transform(signals, period_s);
+  std::vector<double> floor_power;
+  for (const auto& transform : transforms.of) floor_power.push_back(transform.floor_power);
+  append(findings, check_quantisation(signals, floor_power, options));
+  const auto run = [&](auto check) {
+    const auto found = check(Comparison{signals, transforms, usable, options});
+    append(findings, found);
+    exclude(usable, signals, found);
+    return !found.empty();
+  };
+  run(check_response);
+  const auto spikes = check_spikes(signals, usable, options);
+  append(findings, spikes);
+  exclude(usable, signals, spikes);
+  // An exchange leaves no relation of either column to judge.
+  if (run(check_swaps)) return findings;
+  run(check_signs);
+  run(check_units);
+  run(check_delay);
+  append(findings, check_drift(signals, usable, floor_power, period_s, options));
+  return findings;
+}
+
+}  // namespace
+
+std::string_view to_string(Fault fault) {
+  switch (fault) {
+    case Fault::clock_jitter:
+      return "clock jitter";
+    case Fault::missing_samples:
+      return "missing samples";
+    case Fault::backward_time:
+      return "backward time";
+    case Fault::saturation:
+      return "saturation";
+    case Fault::dead_channel:
+      return "dead channel";
+    case Fault::stuck_values:
+      return "stuck values";
+    case Fault::quantisation:
+      return "quantisation";
+    case Fault::spikes:
+      return "spikes";
+    case Fault::drift:
+      return "drift";
+    case Fault::swapped_channels:
+      return "swapped channels";
+    case Fault::sign_flipped:
+      return "sign flipped";
+    case Fault::wrong_unit:
+      return "wrong unit";
+    case Fault::delay:
+      return "delay";
+    case Fault::zero_torque:
+      return "zero torque";
+  }
+  throw std::invalid_argument("no such fault");
+}
+
+std::vector<DataFinding> check_data(const TimeRecord& record, const DataCheckOptions& options) {
+  require_complete(record);
+  const ClockCheck clock = check_clock(record.time_s, options);
+  std::vector<DataFinding> findings = clock.findings;
+  const auto all = signals_of(record, 0, record.time_s.size());
+  const auto faulty = check_values(all, options);
+  append(findings, faulty);
+
+  if (clock.count >= kFewestCompared) {
+    const auto stretch = signals_of(record, clock.first, clock.count);
+    std::vector<bool> usable;
+    for (const auto& signal : stretch) usable.push_back(signal.deviation > 0.0);
+    exclude(usable, stretch, faulty);
+    append(findings, compare(stretch, usable, clock.period_s, options), clock.first);
+  }
+  for (auto& finding : findings) finding.time_s = record.time_s[finding.first_sample];
+  std::ranges::stable_sort(findings, {}, &DataFinding::fault);
+  return findings;
+}
+
+}  // namespace flexarm::measured

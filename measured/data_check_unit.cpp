@@ -1,0 +1,216 @@
+#include "measured/data_check_unit.hpp"
+
+#include "measured/robust.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace flexarm::measured {
+
+namespace {
+
+using arm::SensorKind;
+
+constexpr double kLeastScore = 8.0;
+constexpr double kLeastCorrelation = 0.7;
+
+/// Scale of a over scale of b, as recorded over what it must be.
+struct Ratio {
+  std::size_t a = 0;
+  std::size_t b = 0;
+  double log10_off = 0.0;
+  bool rough = false;
+};
+
+struct Slip {
+  std::string meaning;
+  double factor;
+};
+
+/// What a factor of that size probably is.
+std::string nearest_slip(double log10_factor) {
+  constexpr double kDegrees = 180.0 / std::numbers::pi;
+  std::vector<Slip> slips = {{"degrees for radians", kDegrees},
+                             {"radians for degrees", 1.0 / kDegrees},
+                             {"m/s^2 for g", 9.80665},
+                             {"g for m/s^2", 1.0 / 9.80665},
+                             {"rev/min for rad/s", 30.0 / std::numbers::pi},
+                             {"turns for radians", 0.5 / std::numbers::pi}};
+  // A power of ten is the likelier, then degrees.
+  const double power = std::round(log10_factor);
+  double best = std::abs(log10_factor - power) - 0.08;
+  std::string text = fmt::format("a factor of 1e{:.0f}", power);
+  if (power == 0.0) best = 1.0;
+  for (const auto& slip : slips) {
+    const double off = std::abs(log10_factor - std::log10(slip.factor));
+    if (off >= best) continue;
+    best = off;
+    text = slip.meaning;
+  }
+  return text;
+}
+
+void add_identities(const Comparison& comparison, std::vector<Ratio>& ratios) {
+  for (const auto& [x, y] : identities_of(comparison)) {
+    const GainFit fit = fit_gain(comparison.transforms, x, y);
+    if (holds(fit)) ratios.push_back({x.signal, y.signal, fit.log10_gain, false});
+  }
+}
+
+/// tip_displacement = alpha hub_angle + beta tip_deflection, alpha the length, beta 1.
+void add_tip(const Comparison& comparison, std::vector<Ratio>& ratios) {
+  const auto displacement = comparison.find(SensorKind::tip_displacement);
+  const auto angle = comparison.find(SensorKind::hub_angle);
+  const auto deflection = comparison.find(SensorKind::tip_deflection);
+  if (!displacement || !angle || !deflection) return;
+  const auto centred = [&](std::size_t i) {
+    const auto& values = comparison.signals[i].values;
+    const auto map = Eigen::Map<const Eigen::VectorXd>(values.data(),
+                                                       static_cast<Eigen::Index>(values.size()));
+    return Eigen::VectorXd((map.array() - mean(values)) / comparison.signals[i].deviation);
+  };
+  const Eigen::VectorXd target = centred(*displacement);
+  Eigen::MatrixXd columns(target.size(), 2);
+  columns.col(0) = centred(*angle);
+  columns.col(1) = centred(*deflection);
+  const Eigen::Matrix2d normal = columns.transpose() * columns;
+  const Eigen::LDLT<Eigen::Matrix2d> factors(normal);
+  const Eigen::Vector2d gain = factors.solve(columns.transpose() * target);
+  const double variance =
+      (target - columns * gain).squaredNorm() / static_cast<double>(target.size());
+  const auto known = [&](Eigen::Index i) {
+    const double error = std::sqrt(variance * factors.solve(Eigen::Vector2d::Unit(i))[i]);
+    return std::abs(gain[i]) > kLeastScore * error;
+  };
+  const auto scale = [&](std::size_t i) { return comparison.signals[i].deviation; };
+  if (known(0) && comparison.options.length_m) {
+    const double alpha = std::abs(gain[0]) * scale(*displacement) / scale(*angle);
+    ratios.push_back(
+        {*displacement, *angle, std::log10(alpha / *comparison.options.length_m), false});
+  }
+  if (known(1)) {
+    const double beta = std::abs(gain[1]) * scale(*displacement) / scale(*deflection);
+    ratios.push_back({*displacement, *deflection, std::log10(beta), false});
+  }
+}
+
+void add_rigid(const Comparison& comparison, Quantity x, Quantity y, double expected,
+               std::vector<Ratio>& ratios) {
+  const auto fit =
+      fit_low_frequencies(comparison.transforms, x, y, rigid_band_Hz(comparison.transforms));
+  if (std::abs(fit.score) < kLeastScore || std::abs(fit.correlation) < kLeastCorrelation) return;
+  ratios.push_back({x.signal, y.signal, std::log10(std::abs(fit.gain) / expected), true});
+}
+
+void add_rigid_motion(const Comparison& comparison, std::vector<Ratio>& ratios) {
+  for (const auto hub_kind : {SensorKind::hub_angle, SensorKind::hub_velocity}) {
+    const auto hub = comparison.find(hub_kind);
+    if (!hub) continue;
+    const Quantity acceleration{*hub, hub_kind == SensorKind::hub_angle ? 2 : 1};
+    if (const auto length_m = comparison.options.length_m) {
+      for (const auto tip_kind : {SensorKind::tip_acceleration, SensorKind::tip_displacement}) {
+        const auto tip = comparison.find(tip_kind);
+        const int order = tip_kind == SensorKind::tip_acceleration ? 0 : 2;
+        if (tip) add_rigid(comparison, {*tip, order}, acceleration, *length_m, ratios);
+      }
+    }
+    if (comparison.options.total_inertia_kg_m2 && comparison.usable[0]) {
+      add_rigid(comparison, {0, 0}, acceleration, *comparison.options.total_inertia_kg_m2, ratios);
+    }
+  }
+}
+
+/// The scale of one signal that all its ratios ask for, if one does and no other ratio is off.
+struct Suspect {
+  std::size_t signal = 0;
+  double log10_scale = 0.0;
+  double unexplained = 0.0;  ///< ratios that are off all the same
+  double relief = 0.0;       ///< by how much less implausible it becomes
+};
+
+double tolerance(const Ratio& ratio, const DataCheckOptions& options) {
+  return std::log10(ratio.rough ? options.rough_unit_factor : options.unit_factor);
+}
+
+Suspect suspect_of(const Comparison& comparison, const std::vector<Ratio>& ratios,
+                   std::size_t signal) {
+  std::vector<double> exact;
+  std::vector<double> rough;
+  for (const auto& ratio : ratios) {
+    if (ratio.a == signal) (ratio.rough ? rough : exact).push_back(ratio.log10_off);
+    if (ratio.b == signal) (ratio.rough ? rough : exact).push_back(-ratio.log10_off);
+  }
+  Suspect suspect;
+  suspect.signal = signal;
+  suspect.log10_scale = median(exact.empty() ? rough : exact);
+  for (const auto& ratio : ratios) {
+    double off = ratio.log10_off;
+    if (ratio.a == signal) off -= suspect.log10_scale;
+    if (ratio.b == signal) off += suspect.log10_scale;
+    if (std::abs(off) > tolerance(ratio, comparison.options)) suspect.unexplained += 1.0;
+  }
+  const auto& it = comparison.signals[signal];
+  suspect.relief = implausibility(it, it.deviation) -
+                   implausibility(it, it.deviation * std::pow(10.0, -suspect.log10_scale));
+  return suspect;
+}
+
+DataFinding unit_finding(const Comparison& comparison, const Suspect& suspect,
+                         const std::string& alternatives) {
+  const auto& name = comparison.signals[suspect.signal].name;
+  const double factor = std::pow(10.0, suspect.log10_scale);
+  return {Fault::wrong_unit, name, 0, 0.0, factor,
+          fmt::format("{} is {:.3g} times what the others say of it: {}{}", name, factor,
+                      nearest_slip(suspect.log10_scale), alternatives)};
+}
+
+}  // namespace
+
+std::vector<DataFinding> check_units(const Comparison& comparison) {
+  std::vector<Ratio> ratios;
+  add_identities(comparison, ratios);
+  add_tip(comparison, ratios);
+  add_rigid_motion(comparison, ratios);
+
+  std::vector<DataFinding> findings;
+  const bool off = std::ranges::any_of(ratios, [&](const Ratio& ratio) {
+    return std::abs(ratio.log10_off) > tolerance(ratio, comparison.options);
+  });
+  if (off) {
+    std::vector<Suspect> suspects;
+    for (std::size_t i = 0; i < comparison.signals.size(); ++i) {
+      const bool compared = std::ranges::any_of(
+          ratios, [&](const Ratio& ratio) { return ratio.a == i || ratio.b == i; });
+      if (compared) suspects.push_back(suspect_of(comparison, ratios, i));
+    }
+    std::ranges::stable_sort(suspects, [](const Suspect& a, const Suspect& b) {
+      return a.unexplained != b.unexplained ? a.unexplained < b.unexplained : a.relief > b.relief;
+    });
+    std::string alternatives;
+    for (std::size_t i = 1; i < suspects.size(); ++i) {
+      if (suspects[i].unexplained > suspects[0].unexplained) break;
+      alternatives += fmt::format(", or {} {:.3g} times", comparison.signals[suspects[i].signal].name,
+                                  std::pow(10.0, suspects[i].log10_scale));
+    }
+    findings.push_back(unit_finding(comparison, suspects[0], alternatives));
+  }
+  for (std::size_t i = 1; i < comparison.signals.size(); ++i) {
+    const auto& signal = comparison.signals[i];
+    constexpr double kBreaks = 0.02;
+    if (!comparison.usable[i] || !signal.is(SensorKind::strain) || signal.deviation <= kBreaks) {
+      continue;
+    }
+    findings.push_back({Fault::wrong_unit, signal.name, 0, 0.0, signal.deviation,
+                        fmt::format("{} has a standard deviation of {:.3g}, which no link survives: "
+                                    "microstrain or another multiple of 1",
+                                    signal.name, signal.deviation)});
+  }
+  return findings;
+}
+
+}  // namespace flexarm::measured

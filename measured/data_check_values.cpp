@@ -1,0 +1,234 @@
+#include "measured/data_check_values.hpp"
+
+#include "measured/robust.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace flexarm::measured {
+
+namespace {
+
+/// A run is entered or left at rest when the change there is below this of a typical change.
+constexpr double kRestfulChange = 0.05;
+/// A turning point of a smooth signal read in steps stays within two steps of the last value but
+/// one; what would have gone on further was clipped.
+constexpr double kTurningPoint_steps = 3.0;
+/// A commanded torque with fewer values than this is made of levels: it holds its largest by
+/// design.
+constexpr std::size_t kFewestTorqueLevels = 20;
+
+std::string_view unit_of(const Signal& signal) {
+  return signal.sensor ? arm::unit(*signal.sensor) : "N m";
+}
+
+/// Changes of value before and after a run, per sample; NaN at the ends of the record.
+struct Edges {
+  double in = std::numeric_limits<double>::quiet_NaN();
+  double out = std::numeric_limits<double>::quiet_NaN();
+};
+
+Edges edges_of(std::span<const double> x, const EqualRun& run) {
+  Edges edges;
+  if (run.first > 0) {
+    // A signal read in steps took the whole run before for its last change.
+    std::size_t before = run.first - 1;
+    while (before > 0 && x[before - 1] == x[run.first - 1]) --before;
+    edges.in = (x[run.first] - x[run.first - 1]) / static_cast<double>(run.first - before);
+  }
+  const std::size_t after = run.first + run.count;
+  if (after < x.size()) {
+    std::size_t end = after + 1;
+    while (end < x.size() && x[end] == x[after]) ++end;
+    edges.out = (x[after] - x[run.first]) / static_cast<double>(end - after);
+  }
+  return edges;
+}
+
+double typical_change(std::span<const double> x) {
+  double sum = 0.0;
+  for (std::size_t k = 1; k < x.size(); ++k) sum += (x[k] - x[k - 1]) * (x[k] - x[k - 1]);
+  return std::sqrt(sum / static_cast<double>(x.size() - 1));
+}
+
+bool is_restful(const Edges& edges, double typical) {
+  const auto small = [&](double change) {
+    return std::isnan(change) || std::abs(change) <= kRestfulChange * typical;
+  };
+  return small(edges.in) && small(edges.out);
+}
+
+std::size_t distinct_values(std::span<const double> x) {
+  std::vector<double> sorted(x.begin(), x.end());
+  std::ranges::sort(sorted);
+  return static_cast<std::size_t>(std::ranges::unique(sorted).begin() - sorted.begin());
+}
+
+bool varies(const Signal& signal) {
+  return std::ranges::adjacent_find(signal.values, std::not_equal_to<>()) != signal.values.end();
+}
+
+std::optional<DataFinding> constant(const Signal& signal, std::span<const Signal> signals) {
+  if (signal.is_torque() || varies(signal)) return std::nullopt;
+  const bool others_respond = std::ranges::any_of(
+      signals, [&](const Signal& other) { return !other.is_torque() && varies(other); });
+  // One sensor alone may be at rest, held by friction: then it shows its zero.
+  const bool alone = signals.size() == 2 && signal.values[0] != 0.0 && varies(signals[0]);
+  if (!others_respond && !alone) return std::nullopt;
+  return DataFinding{Fault::dead_channel, signal.name, 0, 0.0, signal.values[0],
+                     fmt::format("{} is {:.6g} {} throughout, while {} varies", signal.name,
+                                 signal.values[0], unit_of(signal),
+                                 alone ? "the torque" : "another channel")};
+}
+
+/// What lies at one end of a channel's range.
+struct Limit {
+  std::size_t samples = 0;  ///< in runs
+  std::size_t runs = 0;
+  std::size_t first = 0;
+};
+
+Limit limit_at(std::span<const double> x, double value, double step, double typical) {
+  Limit limit;
+  for (const auto& run : equal_runs(x, 2)) {
+    if (x[run.first] != value) continue;
+    const Edges edges = edges_of(x, run);
+    if (is_restful(edges, typical)) continue;
+    const double in = std::isnan(edges.in) ? std::abs(edges.out) : std::abs(edges.in);
+    const double out = std::isnan(edges.out) ? std::abs(edges.in) : std::abs(edges.out);
+    // A parabola through both edges rises by (samples + 1)(in + out)/8 above the run.
+    const double beyond = static_cast<double>(run.count + 1) * (in + out) / 8.0;
+    if (beyond <= kTurningPoint_steps * step) continue;
+    if (limit.runs == 0) limit.first = run.first;
+    limit.samples += run.count;
+    ++limit.runs;
+  }
+  return limit;
+}
+
+std::optional<DataFinding> saturation(const Signal& signal, double step,
+                                      const DataCheckOptions& options) {
+  const auto x = signal.values;
+  if (signal.is_torque() && distinct_values(x) < kFewestTorqueLevels) return std::nullopt;
+  const auto [low, high] = std::ranges::minmax(x);
+  const double typical = typical_change(x);
+  std::optional<DataFinding> found;
+  std::size_t samples = 0;
+  for (const double value : {low, high}) {
+    if (value == 0.0) continue;  // where a sensor rests
+    const Limit limit = limit_at(x, value, step, typical);
+    if (limit.samples < static_cast<std::size_t>(options.least_clipped_samples)) continue;
+    samples += limit.samples;
+    const bool first = !found || limit.first < found->first_sample;
+    const std::string bounds =
+        found ? fmt::format("{:.6g} and {:.6g}", low, high) : fmt::format("{:.6g}", value);
+    const std::size_t at = first ? limit.first : found->first_sample;
+    found = DataFinding{Fault::saturation, signal.name, at, 0.0, first ? value : found->value,
+                        fmt::format("{} is clipped at {} {}: {} samples, from sample {} on",
+                                    signal.name, bounds, unit_of(signal), samples, at + 1)};
+  }
+  return found;
+}
+
+bool another_moves(std::span<const Signal> signals, const Signal& self, const EqualRun& run) {
+  return std::ranges::any_of(signals, [&](const Signal& other) {
+    if (other.name == self.name) return false;
+    const auto part = other.values.subspan(run.first, run.count);
+    std::size_t moves = 0;
+    for (std::size_t k = 1; k < part.size(); ++k) moves += part[k] != part[k - 1] ? 1U : 0U;
+    return 2 * moves >= run.count;
+  });
+}
+
+/// Whether so many equal values are more than the steps of the readings explain.
+bool is_long(const EqualRun& run, std::span<const double> x, std::span<const EqualRun> pairs,
+             double step) {
+  std::vector<double> others;
+  for (const auto& pair : pairs) {
+    if (pair.first != run.first) others.push_back(static_cast<double>(pair.count));
+  }
+  if (others.empty()) return true;
+  if (static_cast<double>(run.count) < 4.0 * quantile(std::move(others), 0.95)) return false;
+  if (step == 0.0) return true;
+  const std::size_t after = run.first + run.count;
+  return after >= x.size() || std::abs(x[after] - x[run.first]) > kTurningPoint_steps * step;
+}
+
+std::optional<DataFinding> stuck(const Signal& signal, std::span<const Signal> signals, double step,
+                                 const DataCheckOptions& options) {
+  if (signal.is_torque()) return std::nullopt;
+  const auto x = signal.values;
+  const double typical = typical_change(x);
+  const auto pairs = equal_runs(x, 2);
+  std::optional<DataFinding> found;
+  std::size_t places = 0;
+  EqualRun first_run;
+  for (const auto& run : pairs) {
+    if (run.count < static_cast<std::size_t>(options.least_stuck_samples)) continue;
+    const bool rests_at_zero = x[run.first] == 0.0 && (run.first == 0 || signal.is(arm::SensorKind::hub_velocity));
+    const Edges edges = edges_of(x, run);
+    if (rests_at_zero || is_restful(edges, typical) || !another_moves(signals, signal, run) ||
+        !is_long(run, x, pairs, step)) {
+      continue;
+    }
+    if (places++ == 0) first_run = run;
+  }
+  if (places == 0) return std::nullopt;
+  return DataFinding{Fault::stuck_values, signal.name, first_run.first, 0.0,
+                     static_cast<double>(first_run.count),
+                     fmt::format("{} repeats {:.6g} {} for {} samples from sample {} on, while "
+                                 "others move{}",
+                                 signal.name, x[first_run.first], unit_of(signal), first_run.count,
+                                 first_run.first + 1, more_places(places))};
+}
+
+}  // namespace
+
+std::vector<DataFinding> check_values(std::span<const Signal> signals,
+                                      const DataCheckOptions& options) {
+  std::vector<DataFinding> findings;
+  const auto& torque = signals[0];
+  if (std::ranges::all_of(torque.values, [](double value) { return value == 0.0; })) {
+    findings.push_back({Fault::zero_torque, torque.name, 0, 0.0, 0.0,
+                        "torque is zero throughout: nothing says what moves the arm"});
+  }
+  for (const auto& signal : signals) {
+    const double step =
+        lattice_step(signal.values, options.fine_step * signal.deviation).value_or(0.0);
+    auto found = constant(signal, signals);
+    if (!found) found = saturation(signal, step, options);
+    if (!found) found = stuck(signal, signals, step, options);
+    if (found) findings.push_back(*found);
+  }
+  return findings;
+}
+
+std::vector<DataFinding> check_quantisation(std::span<const Signal> signals,
+                                            std::span<const double> floor_power,
+                                            const DataCheckOptions& options) {
+  std::vector<DataFinding> findings;
+  for (std::size_t i = 0; i < signals.size(); ++i) {
+    const auto& signal = signals[i];
+    if (signal.is_torque() && distinct_values(signal.values) < kFewestTorqueLevels) continue;
+    const auto step = lattice_step(signal.values, options.fine_step * signal.deviation);
+    if (!step) continue;
+    const double error_power = *step * *step / 12.0;
+    if (*step < options.coarse_step * signal.deviation &&
+        error_power < options.floor_share * floor_power[i]) {
+      continue;
+    }
+    findings.push_back(
+        {Fault::quantisation, signal.name, 0, 0.0, *step,
+         fmt::format("{} comes in steps of {:.4g} {}: {:.2g} of its standard deviation; their error, "
+                     "{:.2g} {} rms, is {:.2g} of the noise floor",
+                     signal.name, *step, unit_of(signal), *step / signal.deviation,
+                     std::sqrt(error_power), unit_of(signal),
+                     std::sqrt(error_power / std::max(floor_power[i], 1e-300)))});
+  }
+  return findings;
+}
+
+}  // namespace flexarm::measured

@@ -62,7 +62,7 @@ struct DataCheckOptions {
   /// Spike: what neighbours in time and in other channels do not predict is > this many of its own
   /// robust deviations, and > `least_spike` deviations of the channel.
   double spike_deviations = 8.0;
-  double least_spike = 0.1;
+  double least_spike = 0.3;
   /// Drift: from start to end > `least_drift` deviations of the channel, and > this many standard
   /// errors.
   double least_drift = 0.3;

@@ -11,9 +11,9 @@ namespace flexarm::measured {
 
 namespace {
 
-constexpr std::size_t kSide = 5;       // samples on each side of a step that may be a gap
+constexpr std::size_t kSide = 8;       // samples on each side of a step that may be a gap
 constexpr double kLongStep = 1.5;      // periods; a shorter step has lost nothing
-constexpr double kShift = 0.5;         // periods by which a gap shifts what follows
+constexpr double kShift = 0.7;         // periods by which a gap shifts what follows
 constexpr std::size_t kFewest = 10;    // samples for a line through times
 
 /// What follows a step, in periods of the even grid: 1, more after a gap, 0 where time goes back.
@@ -172,6 +172,10 @@ ClockCheck check_clock(std::span<const double> times_s, const DataCheckOptions& 
     if (bounds[i + 1] - bounds[i] <= check.count) continue;
     check.first = bounds[i];
     check.count = bounds[i + 1] - bounds[i];
+  }
+  if (check.count > 1) {
+    check.period_s = (times_s[check.first + check.count - 1] - times_s[check.first]) /
+                     static_cast<double>(check.count - 1);
   }
   return check;
 }

@@ -20,7 +20,7 @@ struct ClockCheck {
 /// Finds times that repeat or go back, gaps, and jitter. `times_s` holds two finite times or more.
 ///
 /// A gap is a step that the times do not make up for: with e_k = t_k/period - k, the medians of e
-/// over the five samples before and after it differ by more than half a period. A time that is
+/// over the eight samples before and after it differ by more than 0.7 of a period. A time that is
 /// merely late leaves the medians where they are.
 ClockCheck check_clock(std::span<const double> times_s, const DataCheckOptions& options);
 

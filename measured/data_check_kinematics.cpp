@@ -15,6 +15,9 @@ constexpr double kFlat = 0.1;         // log10 of a gain that is one for all fre
 constexpr double kAgreement = 0.9;    // cosine of the phase that a sign and a delay leave
 constexpr double kUnity = 0.1;        // log10 of a gain of 1
 constexpr double kNoDelay_periods = 1.5;
+// An exchange is claimed where it makes the identity hold more narrowly than chance would.
+constexpr double kExact = 0.05;  // log10
+constexpr std::size_t kFewestBlocks = 2;
 
 /// The signal that stands in the column of `at` when columns a and b are exchanged.
 std::size_t exchanged(std::size_t at, std::size_t a, std::size_t b) {
@@ -40,6 +43,14 @@ DataFinding swap_finding(const Comparison& comparison, std::size_t a, std::size_
   const auto& second = comparison.signals[b].name;
   return {Fault::swapped_channels, first, 0, 0.0, 0.0,
           fmt::format("{} and {} are exchanged: {}", first, second, why)};
+}
+
+/// Whether an exchange makes the two less plausible than they are.
+bool is_stranger(const Comparison& comparison, std::size_t a, std::size_t b) {
+  const auto& first = comparison.signals[a];
+  const auto& second = comparison.signals[b];
+  return implausibility(first, second.deviation) + implausibility(second, first.deviation) >
+         implausibility(first, first.deviation) + implausibility(second, second.deviation);
 }
 
 std::optional<DataFinding> implausible_pair(const Comparison& comparison) {
@@ -121,12 +132,13 @@ std::vector<DataFinding> check_swaps(const Comparison& comparison) {
   const std::size_t count = all_hold ? 0 : comparison.signals.size();
   for (std::size_t a = 0; a < count; ++a) {
     for (std::size_t b = a + 1; b < count; ++b) {
-      if (!comparison.usable[a] || !comparison.usable[b]) continue;
+      if (!comparison.usable[a] || !comparison.usable[b] || is_stranger(comparison, a, b)) continue;
       double misfit = 0.0;
       bool restored = true;
       for (const auto& identity : identities) {
         const GainFit fit = fit_of(comparison, identity, a, b);
-        restored = restored && is_identity(comparison, fit);
+        restored = restored && is_identity(comparison, fit) && fit.blocks >= kFewestBlocks &&
+                   fit.spread <= kExact && std::abs(fit.log10_gain) <= kExact;
         misfit += fit.spread + std::abs(fit.log10_gain) + (1.0 - fit.agreement);
       }
       if (!restored || misfit >= least) continue;

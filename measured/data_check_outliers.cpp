@@ -17,6 +17,7 @@ namespace {
 constexpr int kOwnReach = 3;     // samples
 constexpr int kTorqueReach = 2;  // samples
 constexpr int kOtherReach = 1;   // samples
+constexpr std::size_t kAround = 20;
 constexpr int kMostPasses = 6;
 /// Where more of the samples stand out, the residual is no noise with a few outliers.
 constexpr double kMostSpikes = 0.01;
@@ -68,6 +69,18 @@ std::vector<double> residuals_of(const std::vector<Eigen::VectorXd>& values, std
   return {left.data(), left.data() + left.size()};
 }
 
+/// Robust deviation of what is left within kAround samples of one, its own echoes left out: a
+/// burst, as after a jump of the torque, is no spike.
+double scale_around(const std::vector<double>& left, std::size_t at) {
+  const std::size_t from = at > kAround ? at - kAround : 0;
+  const std::size_t to = std::min(left.size(), at + kAround + 1);
+  std::vector<double> around;
+  for (std::size_t k = from; k < to; ++k) {
+    if (k + kOwnReach < at || k > at + kOwnReach) around.push_back(left[k]);
+  }
+  return robust_deviation(around);
+}
+
 std::vector<Outlier> outliers_of(const std::vector<Eigen::VectorXd>& values,
                                  const std::vector<bool>& usable,
                                  const DataCheckOptions& options) {
@@ -80,6 +93,7 @@ std::vector<Outlier> outliers_of(const std::vector<Eigen::VectorXd>& values,
     const double least = std::max(options.least_spike, options.spike_deviations * scale);
     for (std::size_t k = 0; k < left.size(); ++k) {
       if (std::abs(left[k]) <= least) continue;
+      if (std::abs(left[k]) <= options.spike_deviations * scale_around(left, k)) continue;
       all.push_back({i, k + kOwnReach, left[k], std::abs(left[k]) / std::max(scale, 1e-12)});
     }
   }

@@ -162,24 +162,16 @@ LowFrequencyFit fit_low_frequencies(const Transforms& transforms, Quantity x, Qu
   return fit;
 }
 
-MeanCoherence mean_coherence(const Transforms& transforms, Quantity x, Quantity y) {
-  constexpr double kPowerShare = 0.99;
-  std::vector<Block> blocks = blocks_of(transforms, x, y, 0.5);
-  std::ranges::sort(blocks, std::ranges::greater(), &Block::yy);
-  double total = 0.0;
-  for (const auto& block : blocks) total += block.yy;
-  MeanCoherence mean;
+double mean_coherence(const Transforms& transforms, Quantity x, Quantity y) {
+  double sum = 0.0;
   double power = 0.0;
-  std::size_t count = 0;
-  for (const auto& block : blocks) {
-    if (count >= 5 && power >= kPowerShare * total) break;
-    mean.value += block.coherence();
-    power += block.yy;
-    ++count;
+  const auto related = blocks_of(transforms, x, y, 0.5);
+  const auto own = blocks_of(transforms, {x.signal, 0}, {x.signal, 0}, 0.5);
+  for (std::size_t i = 0; i < related.size(); ++i) {
+    sum += related[i].coherence() * own[i].xx;
+    power += own[i].xx;
   }
-  if (count > 0) mean.value /= static_cast<double>(count);
-  mean.unrelated = 1.0 / kLinesInBlock;
-  return mean;
+  return power > 0.0 ? sum / power : 0.0;
 }
 
 }  // namespace flexarm::measured

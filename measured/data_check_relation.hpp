@@ -40,12 +40,8 @@ struct LowFrequencyFit {
 LowFrequencyFit fit_low_frequencies(const Transforms& transforms, Quantity x, Quantity y,
                                     double to_Hz);
 
-/// The mean over blocks of the coherence squared of two signals, over the blocks that hold 99 % of
-/// the power of `y`, and what unrelated signals would show there.
-struct MeanCoherence {
-  double value = 0.0;
-  double unrelated = 0.0;
-};
-MeanCoherence mean_coherence(const Transforms& transforms, Quantity x, Quantity y);
+/// Mean coherence squared of x and y over the blocks, each weighted with the power of x's signal
+/// there, not of its derivative. Unrelated white signals show 1/8.
+double mean_coherence(const Transforms& transforms, Quantity x, Quantity y);
 
 }  // namespace flexarm::measured

@@ -16,18 +16,22 @@ constexpr double kRelated = 0.4;
 /// Variance over floor of the spectrum; 1 for white noise but for the scatter of the floor.
 constexpr double kWhite = 4.0;
 
-/// Accelerations and strains are compared with hub and tip motion after as many derivatives as make
-/// their spectra alike.
-Quantity whitened(const Comparison& comparison, std::size_t i) {
-  const auto& signal = comparison.signals[i];
-  return {i, signal.is(SensorKind::hub_angle) || signal.is(SensorKind::tip_displacement) ? 1 : 0};
+/// Time derivatives of a displacement that a signal shows at low frequencies, where what bends the
+/// arm is its acceleration.
+int order_of(const Signal& signal) {
+  if (signal.is_torque() || signal.is(SensorKind::tip_deflection) || signal.is(SensorKind::strain)) {
+    return 2;
+  }
+  return arm::derivative_order(*signal.sensor);
 }
 
+/// How much of signal i is related to signal j.
 double relation(const Comparison& comparison, std::size_t i, std::size_t j) {
-  const auto a = whitened(comparison, i);
-  const auto b = whitened(comparison, j);
-  return std::max(mean_coherence(comparison.transforms, a, b).value,
-                  mean_coherence(comparison.transforms, b, a).value);
+  // Alike spectra: where one falls across a block and the other does not, coherence is lost.
+  const int a = order_of(comparison.signals[i]);
+  const int b = order_of(comparison.signals[j]);
+  const int order = std::max(a, b);
+  return mean_coherence(comparison.transforms, {i, order - a}, {j, order - b});
 }
 
 bool is_white(const Comparison& comparison, std::size_t i) {
@@ -41,11 +45,9 @@ std::vector<DataFinding> check_response(const Comparison& comparison) {
   const std::size_t count = comparison.signals.size();
   std::vector<double> closest(count, 0.0);
   for (std::size_t i = 0; i < count; ++i) {
-    for (std::size_t j = i + 1; j < count; ++j) {
-      if (!comparison.usable[i] || !comparison.usable[j]) continue;
-      const double found = relation(comparison, i, j);
-      closest[i] = std::max(closest[i], found);
-      closest[j] = std::max(closest[j], found);
+    for (std::size_t j = 0; j < count; ++j) {
+      if (i == j || !comparison.usable[i] || !comparison.usable[j]) continue;
+      closest[i] = std::max(closest[i], relation(comparison, i, j));
     }
   }
   const bool torque_is_noise =

@@ -53,30 +53,34 @@ void exclude(std::vector<bool>& usable, std::span<const Signal> signals,
 }
 
 /// What channels say of each other over an even stretch; none of `usable` has a fault in its
-/// values.
+/// values. A fault takes its channel out of what is asked next.
 std::vector<DataFinding> compare(std::span<const Signal> signals, std::vector<bool> usable,
-                                 double period_s, const DataCheckOptions& options) {
+                                 double period_s, bool from_rest,
+                                 const DataCheckOptions& options) {
   std::vector<DataFinding> findings;
-  const Transforms transforms = transform(signals, period_s);
+  const Transforms transforms = transform(signals, period_s, from_rest);
   std::vector<double> floor_power;
   for (const auto& transform : transforms.of) floor_power.push_back(transform.floor_power);
-  append(findings, check_quantisation(signals, floor_power, options));
-  const auto run = [&](auto check) {
-    const auto found = check(Comparison{signals, transforms, usable, options});
+  const auto note = [&](const std::vector<DataFinding>& found) {
     append(findings, found);
     exclude(usable, signals, found);
     return !found.empty();
   };
-  run(check_response);
-  const auto spikes = check_spikes(signals, usable, options);
-  append(findings, spikes);
-  exclude(usable, signals, spikes);
+  const auto comparison = [&] { return Comparison{signals, transforms, usable, options}; };
+
+  const auto coarse = check_quantisation(signals, floor_power, options);
+  append(findings, coarse);
   // An exchange leaves no relation of either column to judge.
-  if (run(check_swaps)) return findings;
-  run(check_signs);
-  run(check_units);
-  run(check_delay);
-  append(findings, check_drift(signals, usable, floor_power, period_s, options));
+  if (note(check_swaps(comparison()))) return findings;
+  std::vector<bool> fine = usable;
+  exclude(fine, signals, coarse);
+  note(check_spikes(signals, fine, options));
+  note(check_trends(signals, usable, options));
+  note(check_response(comparison()));
+  note(check_signs(comparison()));
+  note(check_units(comparison()));
+  note(check_delay(comparison()));
+  note(check_angle_drift(signals, usable, floor_power, period_s, options));
   return findings;
 }
 
@@ -129,7 +133,8 @@ std::vector<DataFinding> check_data(const TimeRecord& record, const DataCheckOpt
     std::vector<bool> usable;
     for (const auto& signal : stretch) usable.push_back(signal.deviation > 0.0);
     exclude(usable, stretch, faulty);
-    append(findings, compare(stretch, usable, clock.period_s, options), clock.first);
+    append(findings, compare(stretch, usable, clock.period_s, options.starts_at_rest && clock.first == 0, options),
+           clock.first);
   }
   for (auto& finding : findings) finding.time_s = record.time_s[finding.first_sample];
   std::ranges::stable_sort(findings, {}, &DataFinding::fault);

@@ -106,31 +106,35 @@ std::optional<DataFinding> drift_finding(const Signal& signal, const Trend& tren
 
 }  // namespace
 
-std::vector<DataFinding> check_drift(std::span<const Signal> signals,
-                                     const std::vector<bool>& usable,
-                                     std::span<const double> floor_power, double period_s,
-                                     const DataCheckOptions& options) {
+std::vector<DataFinding> check_trends(std::span<const Signal> signals,
+                                      const std::vector<bool>& usable,
+                                      const DataCheckOptions& options) {
   std::vector<DataFinding> findings;
-  const auto add = [&](const std::optional<DataFinding>& finding) {
-    if (finding) findings.push_back(*finding);
-  };
-  const auto angle = find(signals, usable, SensorKind::hub_angle);
-  const auto velocity = find(signals, usable, SensorKind::hub_velocity);
-  if (angle && velocity) {
-    const Trend trend =
-        trend_of_angle(signals[*angle], signals[*velocity], std::sqrt(floor_power[*angle]),
-                       std::sqrt(floor_power[*velocity]), period_s);
-    add(drift_finding(signals[*angle], trend, "the integral of hub_velocity", options));
-  }
   for (std::size_t i = 1; i < signals.size(); ++i) {
     const bool integrates_nothing = signals[i].is(SensorKind::tip_acceleration) ||
                                     signals[i].is(SensorKind::tip_deflection) ||
                                     signals[i].is(SensorKind::strain);
-    if (!usable[0] || !usable[i] || !integrates_nothing) continue;
-    add(drift_finding(signals[i], trend_beside_torque(signals[i], signals[0]), "the torque",
-                      options));
+    if (!usable[i] || !integrates_nothing) continue;
+    const auto finding = drift_finding(signals[i], trend_beside_torque(signals[i], signals[0]),
+                                       "the torque", options);
+    if (finding) findings.push_back(*finding);
   }
   return findings;
+}
+
+std::vector<DataFinding> check_angle_drift(std::span<const Signal> signals,
+                                           const std::vector<bool>& usable,
+                                           std::span<const double> floor_power, double period_s,
+                                           const DataCheckOptions& options) {
+  const auto angle = find(signals, usable, SensorKind::hub_angle);
+  const auto velocity = find(signals, usable, SensorKind::hub_velocity);
+  if (!angle || !velocity) return {};
+  const Trend trend =
+      trend_of_angle(signals[*angle], signals[*velocity], std::sqrt(floor_power[*angle]),
+                     std::sqrt(floor_power[*velocity]), period_s);
+  const auto finding =
+      drift_finding(signals[*angle], trend, "the integral of hub_velocity", options);
+  return finding ? std::vector{*finding} : std::vector<DataFinding>{};
 }
 
 }  // namespace flexarm::measured

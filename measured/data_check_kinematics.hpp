@@ -6,6 +6,7 @@
 
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace flexarm::measured {
@@ -36,6 +37,12 @@ bool holds(const GainFit& fit);
 /// The upper frequency of what counts as rigid motion: far below the first frequency of the
 /// clamped arm, yet high enough to hold a line of the record.
 double rigid_band_Hz(const Transforms& transforms);
+/// Whether the record is long enough for that.
+bool shows_rigid_motion(const Transforms& transforms);
+
+/// What a gain off by 10^log10_factor says of a unit ("degrees for radians", "a factor of 1e3");
+/// empty for one that is within 10 % of 1, or of none of the usual factors.
+std::string unit_slip(double log10_factor);
 
 /// log10 of how far a standard deviation lies outside of what a sensor on a laboratory arm shows; 0
 /// inside.

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 
@@ -17,7 +18,8 @@ namespace {
 constexpr int kOwnReach = 3;     // samples
 constexpr int kTorqueReach = 2;  // samples
 constexpr int kOtherReach = 1;   // samples
-constexpr std::size_t kAround = 20;
+constexpr std::size_t kAround = 12;
+constexpr double kAlone = 0.4;
 constexpr int kMostPasses = 6;
 /// Where more of the samples stand out, the residual is no noise with a few outliers.
 constexpr double kMostSpikes = 0.01;
@@ -48,9 +50,15 @@ std::vector<Lagged> regressors_of(std::size_t self, const std::vector<bool>& usa
   return regressors;
 }
 
-/// Reading less prediction for samples [kOwnReach, count - kOwnReach).
-std::vector<double> residuals_of(const std::vector<Eigen::VectorXd>& values, std::size_t self,
-                                 const std::vector<bool>& usable) {
+/// Reading less prediction for samples [kOwnReach, count - kOwnReach), and the share in the
+/// prediction of each of the channel's own samples, by its lag + kOwnReach.
+struct Prediction {
+  std::vector<double> left;
+  std::array<double, 2 * kOwnReach + 1> own{};
+};
+
+Prediction predict(const std::vector<Eigen::VectorXd>& values, std::size_t self,
+                   const std::vector<bool>& usable) {
   const auto regressors = regressors_of(self, usable);
   const Eigen::Index rows = values[0].size() - 2 * kOwnReach;
   const auto columns = static_cast<Eigen::Index>(regressors.size());
@@ -66,19 +74,32 @@ std::vector<double> residuals_of(const std::vector<Eigen::VectorXd>& values, std
   const Eigen::VectorXd solution =
       normal.selfadjointView<Eigen::Lower>().ldlt().solve(matrix.transpose() * target);
   const Eigen::VectorXd left = target - matrix * solution;
-  return {left.data(), left.data() + left.size()};
+  Prediction prediction;
+  prediction.left.assign(left.data(), left.data() + left.size());
+  for (std::size_t j = 0; j < regressors.size(); ++j) {
+    if (regressors[j].signal != self) continue;
+    prediction.own[static_cast<std::size_t>(regressors[j].lag + kOwnReach)] =
+        solution[static_cast<Eigen::Index>(j)];
+  }
+  return prediction;
 }
 
-/// Robust deviation of what is left within kAround samples of one, its own echoes left out: a
-/// burst, as after a jump of the torque, is no spike.
-double scale_around(const std::vector<double>& left, std::size_t at) {
+/// Whether sample `at` stands alone: with the spike taken out of the predictions that it entered,
+/// nothing within kAround samples is kAlone of its size. What follows a jump is not alone.
+bool is_alone(const Prediction& prediction, std::size_t at) {
+  const double size = prediction.left[at];
   const std::size_t from = at > kAround ? at - kAround : 0;
-  const std::size_t to = std::min(left.size(), at + kAround + 1);
-  std::vector<double> around;
+  const std::size_t to = std::min(prediction.left.size(), at + kAround + 1);
   for (std::size_t k = from; k < to; ++k) {
-    if (k + kOwnReach < at || k > at + kOwnReach) around.push_back(left[k]);
+    if (k == at) continue;
+    double left = prediction.left[k];
+    const auto lag = static_cast<std::ptrdiff_t>(at) - static_cast<std::ptrdiff_t>(k);
+    if (std::abs(lag) <= kOwnReach) {
+      left += prediction.own[static_cast<std::size_t>(lag + kOwnReach)] * size;
+    }
+    if (std::abs(left) > kAlone * std::abs(size)) return false;
   }
-  return robust_deviation(around);
+  return true;
 }
 
 std::vector<Outlier> outliers_of(const std::vector<Eigen::VectorXd>& values,
@@ -87,14 +108,14 @@ std::vector<Outlier> outliers_of(const std::vector<Eigen::VectorXd>& values,
   std::vector<Outlier> all;
   for (std::size_t i = 1; i < values.size(); ++i) {
     if (!usable[i]) continue;
-    const auto left = residuals_of(values, i, usable);
-    const double scale = robust_deviation(left);
+    const Prediction prediction = predict(values, i, usable);
+    const double scale = robust_deviation(prediction.left);
     // Values are in standard deviations of their channel.
     const double least = std::max(options.least_spike, options.spike_deviations * scale);
-    for (std::size_t k = 0; k < left.size(); ++k) {
-      if (std::abs(left[k]) <= least) continue;
-      if (std::abs(left[k]) <= options.spike_deviations * scale_around(left, k)) continue;
-      all.push_back({i, k + kOwnReach, left[k], std::abs(left[k]) / std::max(scale, 1e-12)});
+    for (std::size_t k = 0; k < prediction.left.size(); ++k) {
+      const double left = prediction.left[k];
+      if (std::abs(left) <= least || !is_alone(prediction, k)) continue;
+      all.push_back({i, k + kOwnReach, left, std::abs(left) / std::max(scale, 1e-12)});
     }
   }
   std::ranges::sort(all, std::ranges::greater(), &Outlier::score);

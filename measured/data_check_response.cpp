@@ -12,7 +12,7 @@ using arm::SensorKind;
 
 /// Mean coherence squared of a channel and its nearest relative below which it has none.
 /// Unrelated channels show 1/8 or so.
-constexpr double kRelated = 0.4;
+constexpr double kRelated = 0.3;
 /// Variance over floor of the spectrum; 1 for white noise but for the scatter of the floor.
 constexpr double kWhite = 4.0;
 
@@ -59,9 +59,16 @@ std::vector<DataFinding> check_response(const Comparison& comparison) {
                                     "says what moves the arm",
                                     comparison.signals[0].deviation)});
   }
+  // An arm at rest moves no sensor; one sensor alone has only the torque to answer.
+  const auto others_respond = [&](std::size_t self) {
+    if (count == 2) return !torque_is_noise;
+    for (std::size_t i = 1; i < count; ++i) {
+      if (i != self && closest[i] >= kRelated) return true;
+    }
+    return false;
+  };
   for (std::size_t i = 1; i < count; ++i) {
-    const bool alone = count == 2;
-    if (!comparison.usable[i] || closest[i] >= kRelated || (alone && torque_is_noise)) continue;
+    if (!comparison.usable[i] || closest[i] >= kRelated || !others_respond(i)) continue;
     findings.push_back(
         {Fault::dead_channel, comparison.signals[i].name, 0, 0.0, closest[i],
          fmt::format("{} is unrelated to the torque and to every other channel: mean coherence "

@@ -30,7 +30,8 @@ constexpr double kRigidWeight = 3.0;
 constexpr double kEnergyWeight = 4.0;
 constexpr double kTorqueWeight = 1.5;
 constexpr double kLeastScore = 8.0;        // standard deviations
-constexpr double kLeastCorrelation = 0.7;  // of what moves as if rigid
+constexpr double kLeastCorrelation = 0.85;  // of what moves as if rigid
+constexpr double kClearly = 4.0;  // more than one relation of rigid motion
 constexpr double kFlipCost = 0.5;          // below any weight: facts before the number of flips
 constexpr std::size_t kMostSignals = 12;   // whose signs are tried in all combinations
 
@@ -170,7 +171,7 @@ std::vector<DataFinding> check_signs(const Comparison& comparison) {
   std::vector<Vote> votes;
   add_identities(comparison, votes);
   add_tip(comparison, votes);
-  add_rigid_motion(comparison, votes);
+  if (shows_rigid_motion(comparison.transforms)) add_rigid_motion(comparison, votes);
   add_energy(comparison, votes);
   std::erase_if(votes, [](const Vote& vote) { return std::max(vote.a, vote.b) >= kMostSignals; });
 
@@ -186,7 +187,7 @@ std::vector<DataFinding> check_signs(const Comparison& comparison) {
       equal.push_back(flipped);
     }
   }
-  if (best == 0) return {};
+  if (cost(votes, 0) - cost(votes, best) < kClearly) return {};
   std::string alternatives;
   for (const unsigned other : equal) {
     alternatives += fmt::format(", or {}", names_of(comparison, other, " and "));

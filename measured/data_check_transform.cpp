@@ -53,10 +53,10 @@ class Fourier {
   }
   std::size_t padded() const { return padded_; }
 
-  std::vector<std::complex<double>> of(std::span<const double> values, double offset,
+  std::vector<std::complex<double>> of(const std::vector<double>& values,
                                        const std::vector<double>& weights) {
     std::vector<double> weighted(padded_, 0.0);
-    for (std::size_t k = 0; k < values.size(); ++k) weighted[k] = weights[k] * (values[k] - offset);
+    for (std::size_t k = 0; k < values.size(); ++k) weighted[k] = weights[k] * values[k];
     std::vector<std::complex<double>> spectrum;
     fft_.fwd(spectrum, weighted);
     spectrum.resize(padded_ / 2 + 1);
@@ -100,8 +100,31 @@ double Transforms::noise_power(std::size_t signal, int order, std::size_t bin) c
   return of[signal].floor_power * window_power * std::pow(omega_rad_per_s(bin), 2 * order);
 }
 
-Transforms transform(std::span<const Signal> signals, double period_s) {
-  const std::size_t count = signals.front().values.size();
+namespace {
+
+/// A sensor's reading at rest: zero, unless its first reading is far from it.
+double rest_of(const Signal& signal) {
+  constexpr double kFar = 0.1;  // standard deviations
+  const double first = signal.values.front();
+  return signal.is_torque() || std::abs(first) <= kFar * signal.deviation ? 0.0 : first;
+}
+
+/// The values about their mean, with `before` readings at rest in front.
+std::vector<double> extended(const Signal& signal, std::size_t before) {
+  std::vector<double> values(before, rest_of(signal));
+  values.insert(values.end(), signal.values.begin(), signal.values.end());
+  const double offset = mean(values);
+  for (auto& value : values) value -= offset;
+  return values;
+}
+
+}  // namespace
+
+Transforms transform(std::span<const Signal> signals, double period_s, bool from_rest) {
+  const std::size_t samples = signals.front().values.size();
+  const std::size_t before =
+      from_rest ? static_cast<std::size_t>(1.5 * kTaper * static_cast<double>(samples)) : 0;
+  const std::size_t count = samples + before;
   const Window window = tapered(count, period_s);
   Fourier fourier(count);
   Transforms all;
@@ -111,11 +134,11 @@ Transforms transform(std::span<const Signal> signals, double period_s) {
   all.bins_per_line = static_cast<double>(fourier.padded()) / static_cast<double>(count);
   for (const double value : window.value) all.window_power += value * value;
   for (const auto& signal : signals) {
-    const double offset = mean(signal.values);
+    const auto values = extended(signal, before);
     Transform transform;
-    transform.plain = fourier.of(signal.values, offset, window.value);
-    transform.first = fourier.of(signal.values, offset, window.first);
-    transform.second = fourier.of(signal.values, offset, window.second);
+    transform.plain = fourier.of(values, window.value);
+    transform.first = fourier.of(values, window.first);
+    transform.second = fourier.of(values, window.second);
     transform.floor_power = floor_power(transform.plain, all.window_power);
     all.of.push_back(std::move(transform));
   }

@@ -45,7 +45,9 @@ struct Transforms {
   double noise_power(std::size_t signal, int order, std::size_t bin) const;
 };
 
-/// `signals` of one length, 16 values or more, a period apart.
-Transforms transform(std::span<const Signal> signals, double period_s);
+/// `signals` of one length, 16 values or more, a period apart. `from_rest`: the arm rested before
+/// the first sample; a tenth of the record is then put in front at each sensor's reading at rest, so
+/// that the window leaves the start whole.
+Transforms transform(std::span<const Signal> signals, double period_s, bool from_rest);
 
 }  // namespace flexarm::measured

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace flexarm::measured {
 
@@ -26,34 +25,6 @@ struct Ratio {
   double log10_off = 0.0;
   bool rough = false;
 };
-
-struct Slip {
-  std::string meaning;
-  double factor;
-};
-
-/// What a factor of that size probably is.
-std::string nearest_slip(double log10_factor) {
-  constexpr double kDegrees = 180.0 / std::numbers::pi;
-  std::vector<Slip> slips = {{"degrees for radians", kDegrees},
-                             {"radians for degrees", 1.0 / kDegrees},
-                             {"m/s^2 for g", 9.80665},
-                             {"g for m/s^2", 1.0 / 9.80665},
-                             {"rev/min for rad/s", 30.0 / std::numbers::pi},
-                             {"turns for radians", 0.5 / std::numbers::pi}};
-  // A power of ten is the likelier, then degrees.
-  const double power = std::round(log10_factor);
-  double best = std::abs(log10_factor - power) - 0.08;
-  std::string text = fmt::format("a factor of 1e{:.0f}", power);
-  if (power == 0.0) best = 1.0;
-  for (const auto& slip : slips) {
-    const double off = std::abs(log10_factor - std::log10(slip.factor));
-    if (off >= best) continue;
-    best = off;
-    text = slip.meaning;
-  }
-  return text;
-}
 
 void add_identities(const Comparison& comparison, std::vector<Ratio>& ratios) {
   for (const auto& [x, y] : identities_of(comparison)) {
@@ -131,6 +102,7 @@ struct Suspect {
   double log10_scale = 0.0;
   double unexplained = 0.0;  ///< ratios that are off all the same
   double relief = 0.0;       ///< by how much less implausible it becomes
+  bool is_known_slip = false;
 };
 
 double tolerance(const Ratio& ratio, const DataCheckOptions& options) {
@@ -148,6 +120,9 @@ Suspect suspect_of(const Comparison& comparison, const std::vector<Ratio>& ratio
   Suspect suspect;
   suspect.signal = signal;
   suspect.log10_scale = median(exact.empty() ? rough : exact);
+  // What holds roughly is off by a power of ten at least.
+  if (exact.empty()) suspect.log10_scale = std::round(suspect.log10_scale);
+  suspect.is_known_slip = !unit_slip(suspect.log10_scale).empty();
   for (const auto& ratio : ratios) {
     double off = ratio.log10_off;
     if (ratio.a == signal) off -= suspect.log10_scale;
@@ -166,7 +141,7 @@ DataFinding unit_finding(const Comparison& comparison, const Suspect& suspect,
   const double factor = std::pow(10.0, suspect.log10_scale);
   return {Fault::wrong_unit, name, 0, 0.0, factor,
           fmt::format("{} is {:.3g} times what the others say of it: {}{}", name, factor,
-                      nearest_slip(suspect.log10_scale), alternatives)};
+                      unit_slip(suspect.log10_scale), alternatives)};
 }
 
 }  // namespace
@@ -175,19 +150,23 @@ std::vector<DataFinding> check_units(const Comparison& comparison) {
   std::vector<Ratio> ratios;
   add_identities(comparison, ratios);
   add_tip(comparison, ratios);
-  add_rigid_motion(comparison, ratios);
+  if (shows_rigid_motion(comparison.transforms)) add_rigid_motion(comparison, ratios);
 
   std::vector<DataFinding> findings;
-  const bool off = std::ranges::any_of(ratios, [&](const Ratio& ratio) {
+  const auto off = static_cast<double>(std::ranges::count_if(ratios, [&](const Ratio& ratio) {
     return std::abs(ratio.log10_off) > tolerance(ratio, comparison.options);
-  });
-  if (off) {
-    std::vector<Suspect> suspects;
+  }));
+  std::vector<Suspect> suspects;
+  if (off > 0.0) {
     for (std::size_t i = 0; i < comparison.signals.size(); ++i) {
       const bool compared = std::ranges::any_of(
           ratios, [&](const Ratio& ratio) { return ratio.a == i || ratio.b == i; });
-      if (compared) suspects.push_back(suspect_of(comparison, ratios, i));
+      if (!compared) continue;
+      const Suspect suspect = suspect_of(comparison, ratios, i);
+      if (suspect.is_known_slip && suspect.unexplained < off) suspects.push_back(suspect);
     }
+  }
+  if (!suspects.empty()) {
     std::ranges::stable_sort(suspects, [](const Suspect& a, const Suspect& b) {
       return a.unexplained != b.unexplained ? a.unexplained < b.unexplained : a.relief > b.relief;
     });

@@ -255,7 +255,7 @@ PlantedFault swapped_channels(std::uint64_t seed, RandomNumbers& random) {
       {kAngle, kVelocity},
       {kVelocity, kAcceleration, kAngle},
       {kAngle, kStrain, kVelocity},
-      {kDisplacement, kAcceleration},
+      {kAcceleration, kDisplacement},
       {kAcceleration, kDeflection, kDisplacement},
       {kAcceleration, kStrain},
       {kVelocity, kDeflection, kAngle}};

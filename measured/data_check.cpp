@@ -55,7 +55,7 @@ void exclude(std::vector<bool>& usable, std::span<const Signal> signals,
 /// What channels say of each other over an even stretch; none of `usable` has a fault in its
 /// values. A fault takes its channel out of what is asked next.
 std::vector<DataFinding> compare(std::span<const Signal> signals, std::vector<bool> usable,
-                                 double period_s, bool from_rest,
+                                 const std::vector<bool>& active, double period_s, bool from_rest,
                                  const DataCheckOptions& options) {
   std::vector<DataFinding> findings;
   const Transforms transforms = transform(signals, period_s, from_rest);
@@ -76,7 +76,9 @@ std::vector<DataFinding> compare(std::span<const Signal> signals, std::vector<bo
   exclude(fine, signals, coarse);
   note(check_spikes(signals, fine, options));
   note(check_trends(signals, usable, options));
-  note(check_response(comparison()));
+  std::vector<bool> answering = usable;
+  for (std::size_t i = 0; i < answering.size(); ++i) answering[i] = usable[i] && active[i];
+  note(check_response({signals, transforms, answering, options}));
   note(check_signs(comparison()));
   note(check_units(comparison()));
   note(check_delay(comparison()));
@@ -133,7 +135,15 @@ std::vector<DataFinding> check_data(const TimeRecord& record, const DataCheckOpt
     std::vector<bool> usable;
     for (const auto& signal : stretch) usable.push_back(signal.deviation > 0.0);
     exclude(usable, stretch, faulty);
-    append(findings, compare(stretch, usable, clock.period_s, options.starts_at_rest && clock.first == 0, options),
+    // What rests in the stretch and moves elsewhere in the record is not dead.
+    constexpr double kResting = 0.5;
+    std::vector<bool> active;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      active.push_back(stretch[i].deviation >= kResting * all[i].deviation);
+    }
+    append(findings,
+           compare(stretch, usable, active, clock.period_s,
+                   options.starts_at_rest && clock.first == 0, options),
            clock.first);
   }
   for (auto& finding : findings) finding.time_s = record.time_s[finding.first_sample];

@@ -48,7 +48,8 @@ struct DataCheckOptions {
   std::optional<double> total_inertia_kg_m2;  ///< of the rigid arm, payload included
   bool starts_at_rest = true;                 ///< the arm is at rest at the first sample
 
-  /// Jitter: |t_k - (a + period k)| > this period, with a, period by least squares and gaps counted.
+  /// Jitter: |t_k - (a + period k)| > this period, with a, period by least squares and gaps
+  /// counted.
   double most_jitter_periods = kMostJitter_periods;
   /// Saturation: samples at the limit, in runs of two or more, >= this.
   int least_clipped_samples = 5;
@@ -60,16 +61,18 @@ struct DataCheckOptions {
   double fine_step = 0.01;
   double floor_share = 0.5;
   /// Spike: what neighbours in time and in other channels do not predict is > this many of its own
-  /// robust deviations, and > `least_spike` deviations of the channel.
+  /// robust deviations, and > `least_spike` deviations of the channel; within twelve samples after
+  /// a jump of the torque, > `least_shaken_spike`.
   double spike_deviations = 8.0;
-  double least_spike = 0.3;
+  double least_spike = 0.6;
+  double least_shaken_spike = 2.5;
   /// Drift: from start to end > `least_drift` deviations of the channel, and > this many standard
   /// errors.
-  double least_drift = 0.3;
-  double drift_errors = 6.0;
+  double least_drift = 0.5;
+  double drift_errors = 5.0;
   /// Delay: |delay| > this, and > `delay_errors` standard errors.
-  double least_delay_periods = 0.2;
-  double delay_errors = 6.0;
+  double least_delay_periods = 0.3;
+  double delay_errors = 5.0;
   /// Unit: gain of a relation that is exact off by a factor > this; of one that holds roughly, off
   /// by > `rough_unit_factor`.
   double unit_factor = 2.0;
@@ -82,8 +85,8 @@ struct DataCheckOptions {
 /// kind, with the number of places in its text.
 ///
 /// A channel with a fault in its values (dead, clipped, stuck, spikes) is not compared with
-/// others, nor is one that is swapped, flipped or in a wrong unit searched for drift and delay: what
-/// such a comparison finds would be the same fault again.
+/// others, nor is one that is swapped, flipped or in a wrong unit searched for drift and delay:
+/// what such a comparison finds would be the same fault again.
 ///
 /// Throws std::invalid_argument for vectors of unlike length or fewer than two samples, or a value
 /// that is not finite.

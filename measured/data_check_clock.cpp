@@ -11,10 +11,10 @@ namespace flexarm::measured {
 
 namespace {
 
-constexpr std::size_t kSide = 8;       // samples on each side of a step that may be a gap
-constexpr double kLongStep = 1.5;      // periods; a shorter step has lost nothing
-constexpr double kShift = 0.7;         // periods by which a gap shifts what follows
-constexpr std::size_t kFewest = 10;    // samples for a line through times
+constexpr std::size_t kSide = 8;     // samples on each side of a step that may be a gap
+constexpr double kLongStep = 1.5;    // periods; a shorter step has lost nothing
+constexpr double kShift = 0.7;       // periods by which a gap shifts what follows
+constexpr std::size_t kFewest = 10;  // samples for a line through times
 
 /// What follows a step, in periods of the even grid: 1, more after a gap, 0 where time goes back.
 struct Steps {
@@ -71,27 +71,35 @@ Steps steps_of(std::span<const double> times_s) {
 DataFinding backward_finding(std::span<const double> times_s, const Steps& steps) {
   const std::size_t k = steps.backward.front();
   const double back_s = times_s[k - 1] - times_s[k];
-  return {Fault::backward_time, "time", k, times_s[k], back_s,
-          fmt::format("time {} at sample {}, after {:.9g} s{}",
-                      back_s == 0.0 ? std::string("repeats")
-                                    : fmt::format("goes back by {:.3g} s", back_s),
-                      k + 1, times_s[k - 1], more_places(steps.backward.size()))};
+  return {Fault::backward_time,
+          "time",
+          k,
+          times_s[k],
+          back_s,
+          fmt::format(
+              "time {} at sample {}, after {:.9g} s{}",
+              back_s == 0.0 ? std::string("repeats") : fmt::format("goes back by {:.3g} s", back_s),
+              k + 1, times_s[k - 1], more_places(steps.backward.size()))};
 }
 
 DataFinding gap_finding(std::span<const double> times_s, const Steps& steps) {
   const std::size_t k = steps.gaps.front();
   double lost = 0.0;
   for (const std::size_t gap : steps.gaps) lost += steps.periods[gap] - 1.0;
-  return {Fault::missing_samples, "time", k, times_s[k], lost,
-          fmt::format("{:.0f} sample{} missing between {:.9g} s and {:.9g} s, where the period is "
-                      "{:.6g} s{}",
-                      steps.periods[k] - 1.0, steps.periods[k] == 2.0 ? " is" : "s are",
-                      times_s[k - 1], times_s[k], steps.period_s,
-                      steps.gaps.size() == 1
-                          ? ""
-                          : fmt::format(", and more at {} other place{}: {:.0f} in all",
-                                        steps.gaps.size() - 1, steps.gaps.size() == 2 ? "" : "s",
-                                        lost))};
+  return {Fault::missing_samples,
+          "time",
+          k,
+          times_s[k],
+          lost,
+          fmt::format(
+              "{:.0f} sample{} missing between {:.9g} s and {:.9g} s, where the period is "
+              "{:.6g} s{}",
+              steps.periods[k] - 1.0, steps.periods[k] == 2.0 ? " is" : "s are", times_s[k - 1],
+              times_s[k], steps.period_s,
+              steps.gaps.size() == 1
+                  ? ""
+                  : fmt::format(", and more at {} other place{}: {:.0f} in all",
+                                steps.gaps.size() - 1, steps.gaps.size() == 2 ? "" : "s", lost))};
 }
 
 /// Jitter of the times in [first, last), between steps back.
@@ -123,7 +131,8 @@ Jitter jitter_of(std::span<const double> times_s, const Steps& steps, std::size_
   Jitter jitter;
   jitter.first_beyond = last;
   for (std::size_t k = first; k < last; ++k) {
-    const double off = (times_s[k] - times_s[first] - mean_s) / period_s - (at[k - first] - mean_at);
+    const double off =
+        (times_s[k] - times_s[first] - mean_s) / period_s - (at[k - first] - mean_at);
     jitter.rms_periods += off * off / count;
     jitter.most_periods = std::max(jitter.most_periods, std::abs(off));
     if (std::abs(off) > most_periods) jitter.first_beyond = std::min(jitter.first_beyond, k);

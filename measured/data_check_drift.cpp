@@ -48,8 +48,7 @@ Trend trend_of_angle(const Signal& angle, const Signal& velocity, double angle_n
     if (k + part >= samples) end += left / static_cast<double>(part);
   }
   const double walk = velocity_noise * period_s * std::sqrt(static_cast<double>(samples));
-  return {end - start,
-          std::hypot(walk, angle_noise * std::sqrt(2.0 / static_cast<double>(part)))};
+  return {end - start, std::hypot(walk, angle_noise * std::sqrt(2.0 / static_cast<double>(part)))};
 }
 
 /// Lines 0 to kHighestLine of values under Hann's window: real parts, then imaginary ones.
@@ -97,7 +96,11 @@ std::optional<DataFinding> drift_finding(const Signal& signal, const Trend& tren
       std::abs(trend.size) <= options.drift_errors * trend.error) {
     return std::nullopt;
   }
-  return DataFinding{Fault::drift, signal.name, 0, 0.0, trend.size,
+  return DataFinding{Fault::drift,
+                     signal.name,
+                     0,
+                     0.0,
+                     trend.size,
                      fmt::format("{} drifts by {:.4g} {} over the record, beside {} ({:.2g} of its "
                                  "standard deviation)",
                                  signal.name, trend.size, arm::unit(*signal.sensor), beside,

@@ -16,8 +16,8 @@ std::vector<DataFinding> check_trends(std::span<const Signal> signals,
                                       const std::vector<bool>& usable,
                                       const DataCheckOptions& options);
 
-/// Drift of hub_angle less the integral of hub_velocity: the mean of the last tenth less that of the
-/// first. `floor_power` as for `check_quantisation`.
+/// Drift of hub_angle less the integral of hub_velocity: the mean of the last tenth less that of
+/// the first. `floor_power` as for `check_quantisation`.
 std::vector<DataFinding> check_angle_drift(std::span<const Signal> signals,
                                            const std::vector<bool>& usable,
                                            std::span<const double> floor_power, double period_s,

@@ -31,6 +31,24 @@ struct Identity {
 /// The identities between the channels there are.
 std::vector<Identity> identities_of(const Comparison& comparison);
 
+/// One term of tip_displacement = gain hub_angle + gain tip_deflection.
+struct TipTerm {
+  std::size_t signal = 0;
+  double gain = 0.0;
+  double score = 0.0;  ///< gain over its standard error
+};
+
+/// The tip's displacement in its parts, by least squares over the record: (hub radius + length)
+/// hub_angle + 1 tip_deflection.
+struct TipFit {
+  std::size_t displacement = 0;
+  TipTerm angle;
+  TipTerm deflection;
+};
+
+/// Empty unless there are all three.
+std::optional<TipFit> fit_tip(const Comparison& comparison);
+
 /// One gain for all frequencies, and one sign.
 bool holds(const GainFit& fit);
 

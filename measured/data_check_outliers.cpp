@@ -102,10 +102,32 @@ bool is_alone(const Prediction& prediction, std::size_t at) {
   return true;
 }
 
+/// Samples that a jump of the torque shakes: it changes by half its standard deviation and by eight
+/// times its median change, as in a series of pulses.
+std::vector<bool> shaken_samples(const Eigen::VectorXd& torque) {
+  constexpr double kJump = 0.5;
+  constexpr double kUnusual = 8.0;
+  const Eigen::Index samples = torque.size();
+  const Eigen::VectorXd change = (torque.tail(samples - 1) - torque.head(samples - 1)).cwiseAbs();
+  const double usual = median({change.data(), change.data() + change.size()});
+  std::vector<bool> shaken(static_cast<std::size_t>(samples), false);
+  const auto shake = [&](Eigen::Index from) {
+    const Eigen::Index to = std::min(samples, from + static_cast<Eigen::Index>(kAround));
+    for (Eigen::Index k = std::max<Eigen::Index>(0, from - 1); k < to; ++k) {
+      shaken[static_cast<std::size_t>(k)] = true;
+    }
+  };
+  for (Eigen::Index k = 0; k < change.size(); ++k) {
+    if (change[k] > std::max(kJump, kUnusual * usual)) shake(k + 1);
+  }
+  if (usual == 0.0) shake(0);  // the record may begin with a pulse
+  return shaken;
+}
+
 std::vector<Outlier> outliers_of(const std::vector<Eigen::VectorXd>& values,
-                                 const std::vector<bool>& usable,
-                                 const DataCheckOptions& options) {
+                                 const std::vector<bool>& usable, const DataCheckOptions& options) {
   std::vector<Outlier> all;
+  const auto shaken = shaken_samples(values[0]);
   for (std::size_t i = 1; i < values.size(); ++i) {
     if (!usable[i]) continue;
     const Prediction prediction = predict(values, i, usable);
@@ -115,6 +137,7 @@ std::vector<Outlier> outliers_of(const std::vector<Eigen::VectorXd>& values,
     for (std::size_t k = 0; k < prediction.left.size(); ++k) {
       const double left = prediction.left[k];
       if (std::abs(left) <= least || !is_alone(prediction, k)) continue;
+      if (shaken[k + kOwnReach] && std::abs(left) <= options.least_shaken_spike) continue;
       all.push_back({i, k + kOwnReach, left, std::abs(left) / std::max(scale, 1e-12)});
     }
   }
@@ -127,7 +150,8 @@ std::vector<Outlier> leaders(const std::vector<Outlier>& all) {
   std::vector<Outlier> chosen;
   std::set<std::size_t> taken;
   for (const auto& outlier : all) {
-    const auto near = taken.lower_bound(outlier.sample > kOwnReach ? outlier.sample - kOwnReach : 0);
+    const auto near =
+        taken.lower_bound(outlier.sample > kOwnReach ? outlier.sample - kOwnReach : 0);
     if (near != taken.end() && *near <= outlier.sample + kOwnReach) continue;
     taken.insert(outlier.sample);
     chosen.push_back(outlier);
@@ -137,10 +161,13 @@ std::vector<Outlier> leaders(const std::vector<Outlier>& all) {
 
 DataFinding finding_of(const Signal& signal, const std::vector<Outlier>& outliers) {
   const auto first = std::ranges::min_element(outliers, {}, &Outlier::sample);
-  const auto largest = std::ranges::max_element(outliers, {}, [](const Outlier& outlier) {
-    return std::abs(outlier.size);
-  });
-  return {Fault::spikes, signal.name, first->sample, 0.0, largest->size * signal.deviation,
+  const auto largest = std::ranges::max_element(
+      outliers, {}, [](const Outlier& outlier) { return std::abs(outlier.size); });
+  return {Fault::spikes,
+          signal.name,
+          first->sample,
+          0.0,
+          largest->size * signal.deviation,
           fmt::format("{} has a spike of {:.4g} {} at sample {}{}", signal.name,
                       first->size * signal.deviation, arm::unit(*signal.sensor), first->sample + 1,
                       more_places(outliers.size()))};
@@ -154,8 +181,8 @@ std::vector<DataFinding> check_spikes(std::span<const Signal> signals,
   const std::size_t samples = signals[0].values.size();
   std::vector<Eigen::VectorXd> values;
   for (const auto& signal : signals) {
-    const auto map = Eigen::Map<const Eigen::VectorXd>(signal.values.data(),
-                                                       static_cast<Eigen::Index>(samples));
+    const auto map =
+        Eigen::Map<const Eigen::VectorXd>(signal.values.data(), static_cast<Eigen::Index>(samples));
     const double scale = signal.deviation > 0.0 ? signal.deviation : 1.0;
     values.emplace_back((map.array() - mean(signal.values)) / scale);
   }

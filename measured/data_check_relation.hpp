@@ -16,9 +16,9 @@ struct Quantity {
 /// How well x = gain y(t - delay) holds over the blocks of frequencies in which x and y are
 /// coherent, and with what gain.
 struct GainFit {
-  std::size_t blocks = 0;      ///< with coherence squared of kLeastCoherence or more
-  double log10_gain = 0.0;     ///< weighted median of log10 sqrt(Sxx/Syy)
-  double spread = 0.0;         ///< weighted median of the blocks' distances from it
+  std::size_t blocks = 0;   ///< with coherence squared of kLeastCoherence or more
+  double log10_gain = 0.0;  ///< weighted median of log10 sqrt(Sxx/Syy)
+  double spread = 0.0;      ///< weighted median of the blocks' distances from it
   int sign = 1;
   double delay_s = 0.0;        ///< x later than y
   double delay_error_s = 0.0;  ///< standard error
@@ -41,7 +41,7 @@ LowFrequencyFit fit_low_frequencies(const Transforms& transforms, Quantity x, Qu
                                     double to_Hz);
 
 /// Mean coherence squared of x and y over the blocks, each weighted with the power of x's signal
-/// there, not of its derivative. Unrelated white signals show 1/8.
+/// there, not of its derivative; blocks at 50 and 60 Hz are left out. Unrelated signals show 1/8.
 double mean_coherence(const Transforms& transforms, Quantity x, Quantity y);
 
 }  // namespace flexarm::measured

@@ -1,9 +1,5 @@
 #include "measured/data_check_sign.hpp"
 
-#include "measured/robust.hpp"
-
-#include <Eigen/Cholesky>
-#include <Eigen/Core>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -29,11 +25,11 @@ constexpr double kIdentityWeight = 10.0;
 constexpr double kRigidWeight = 3.0;
 constexpr double kEnergyWeight = 4.0;
 constexpr double kTorqueWeight = 1.5;
-constexpr double kLeastScore = 8.0;        // standard deviations
+constexpr double kLeastScore = 8.0;         // standard deviations
 constexpr double kLeastCorrelation = 0.85;  // of what moves as if rigid
-constexpr double kClearly = 4.0;  // more than one relation of rigid motion
-constexpr double kFlipCost = 0.5;          // below any weight: facts before the number of flips
-constexpr std::size_t kMostSignals = 12;   // whose signs are tried in all combinations
+constexpr double kClearly = 4.0;            // more than one relation of rigid motion
+constexpr double kFlipCost = 0.5;           // below any weight: facts before the number of flips
+constexpr std::size_t kMostSignals = 12;    // whose signs are tried in all combinations
 
 void add_identities(const Comparison& comparison, std::vector<Vote>& votes) {
   for (const auto& [x, y] : identities_of(comparison)) {
@@ -81,8 +77,8 @@ void add_rigid_motion(const Comparison& comparison, std::vector<Vote>& votes) {
   }
 }
 
-/// Extremes of the energy taken up, sum of torque times turn (a torque is held between samples), in
-/// moving averages of `width` samples: filters that torque and turn both pass change no sign.
+/// Extremes of the energy taken up since the first sample: sum of torque times turn, exact for an
+/// angle and a torque that is held between samples.
 struct Energy {
   double most = 0.0;
   double least = 0.0;
@@ -108,8 +104,8 @@ void add_energy(const Comparison& comparison, std::vector<Vote>& votes) {
   for (const auto kind : {SensorKind::hub_angle, SensorKind::hub_velocity}) {
     const auto hub = comparison.find(kind);
     if (!hub) continue;
-    const Energy energy = energy_of(comparison.signals[0], comparison.signals[*hub],
-                                    comparison.transforms.period_s);
+    const Energy energy =
+        energy_of(comparison.signals[0], comparison.signals[*hub], comparison.transforms.period_s);
     if (energy.most > -kClear * energy.least) {
       votes.push_back({0, *hub, 1, kEnergyWeight});
     } else if (-energy.least > kClear * energy.most) {
@@ -118,33 +114,12 @@ void add_energy(const Comparison& comparison, std::vector<Vote>& votes) {
   }
 }
 
-/// tip_displacement = gain hub_angle + gain tip_deflection by least squares: gains over their
-/// standard errors.
 void add_tip(const Comparison& comparison, std::vector<Vote>& votes) {
-  const auto displacement = comparison.find(SensorKind::tip_displacement);
-  const auto angle = comparison.find(SensorKind::hub_angle);
-  const auto deflection = comparison.find(SensorKind::tip_deflection);
-  if (!displacement || !angle || !deflection) return;
-  const auto centred = [&](std::size_t i) {
-    const auto& values = comparison.signals[i].values;
-    const auto map = Eigen::Map<const Eigen::VectorXd>(values.data(),
-                                                       static_cast<Eigen::Index>(values.size()));
-    return Eigen::VectorXd((map.array() - mean(values)) / comparison.signals[i].deviation);
-  };
-  const Eigen::VectorXd target = centred(*displacement);
-  Eigen::MatrixXd columns(target.size(), 2);
-  columns.col(0) = centred(*angle);
-  columns.col(1) = centred(*deflection);
-  const Eigen::Matrix2d normal = columns.transpose() * columns;
-  const Eigen::LDLT<Eigen::Matrix2d> factors(normal);
-  const Eigen::Vector2d gain = factors.solve(columns.transpose() * target);
-  const double variance =
-      (target - columns * gain).squaredNorm() / static_cast<double>(target.size());
-  const std::size_t partner[] = {*angle, *deflection};
-  for (Eigen::Index i = 0; i < 2; ++i) {
-    const double error = std::sqrt(variance * factors.solve(Eigen::Vector2d::Unit(i))[i]);
-    if (std::abs(gain[i]) < kLeastScore * error) continue;
-    votes.push_back({*displacement, partner[i], gain[i] > 0.0 ? 1 : -1, kIdentityWeight});
+  const auto fit = fit_tip(comparison);
+  if (!fit) return;
+  for (const auto& term : {fit->angle, fit->deflection}) {
+    if (std::abs(term.score) < kLeastScore) continue;
+    votes.push_back({fit->displacement, term.signal, term.gain > 0.0 ? 1 : -1, kIdentityWeight});
   }
 }
 
@@ -203,10 +178,10 @@ std::vector<DataFinding> check_signs(const Comparison& comparison) {
         against.push_back(comparison.signals[other].name);
       }
     }
-    findings.push_back({Fault::sign_flipped, comparison.signals[i].name, 0, 0.0, -1.0,
-                        fmt::format("{} has the wrong sign, against {}{}",
-                                    comparison.signals[i].name, fmt::join(against, ", "),
-                                    alternatives)});
+    findings.push_back(
+        {Fault::sign_flipped, comparison.signals[i].name, 0, 0.0, -1.0,
+         fmt::format("{} has the wrong sign, against {}{}", comparison.signals[i].name,
+                     fmt::join(against, ", "), alternatives)});
   }
   return findings;
 }

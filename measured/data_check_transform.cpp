@@ -83,8 +83,7 @@ double floor_power(const std::vector<std::complex<double>>& spectrum, double win
 }  // namespace
 
 std::size_t Transforms::bin_at(double frequency_Hz) const {
-  return std::min(bins() - 1,
-                  static_cast<std::size_t>(kTwoPi * frequency_Hz / spacing_rad_per_s));
+  return std::min(bins() - 1, static_cast<std::size_t>(kTwoPi * frequency_Hz / spacing_rad_per_s));
 }
 
 std::complex<double> Transforms::derivative(std::size_t signal, int order, std::size_t bin) const {
@@ -102,11 +101,13 @@ double Transforms::noise_power(std::size_t signal, int order, std::size_t bin) c
 
 namespace {
 
-/// A sensor's reading at rest: zero, unless its first reading is far from it.
+/// A sensor's reading at rest: zero; where its first reading is far from it, the mean of the first
+/// fiftieth of the record, over which noise and hum average out.
 double rest_of(const Signal& signal) {
   constexpr double kFar = 0.1;  // standard deviations
-  const double first = signal.values.front();
-  return signal.is_torque() || std::abs(first) <= kFar * signal.deviation ? 0.0 : first;
+  constexpr std::size_t kShare = 50;
+  if (signal.is_torque() || std::abs(signal.values.front()) <= kFar * signal.deviation) return 0.0;
+  return mean(signal.values.first(std::max<std::size_t>(1, signal.values.size() / kShare)));
 }
 
 /// The values about their mean, with `before` readings at rest in front.
@@ -129,6 +130,7 @@ Transforms transform(std::span<const Signal> signals, double period_s, bool from
   Fourier fourier(count);
   Transforms all;
   all.period_s = period_s;
+  all.from_rest = from_rest;
   all.duration_s = static_cast<double>(count) * period_s;
   all.spacing_rad_per_s = kTwoPi / (static_cast<double>(fourier.padded()) * period_s);
   all.bins_per_line = static_cast<double>(fourier.padded()) / static_cast<double>(count);

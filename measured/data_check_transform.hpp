@@ -31,6 +31,7 @@ struct Transforms {
   double duration_s = 0.0;
   double spacing_rad_per_s = 0.0;  ///< of the bins, which padding makes closer than 1/duration
   double bins_per_line = 1.0;      ///< bins in 1/duration
+  bool from_rest = false;          ///< rest was put in front
   double window_power = 0.0;       ///< sum of w^2
   std::vector<Transform> of;       ///< one a signal
 
@@ -46,8 +47,8 @@ struct Transforms {
 };
 
 /// `signals` of one length, 16 values or more, a period apart. `from_rest`: the arm rested before
-/// the first sample; a tenth of the record is then put in front at each sensor's reading at rest, so
-/// that the window leaves the start whole.
+/// the first sample; a tenth of the record is then put in front at each sensor's reading at rest,
+/// so that the window leaves the start whole.
 Transforms transform(std::span<const Signal> signals, double period_s, bool from_rest);
 
 }  // namespace flexarm::measured

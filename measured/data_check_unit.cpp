@@ -2,8 +2,6 @@
 
 #include "measured/robust.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Core>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -33,40 +31,17 @@ void add_identities(const Comparison& comparison, std::vector<Ratio>& ratios) {
   }
 }
 
-/// tip_displacement = alpha hub_angle + beta tip_deflection, alpha the length, beta 1.
 void add_tip(const Comparison& comparison, std::vector<Ratio>& ratios) {
-  const auto displacement = comparison.find(SensorKind::tip_displacement);
-  const auto angle = comparison.find(SensorKind::hub_angle);
-  const auto deflection = comparison.find(SensorKind::tip_deflection);
-  if (!displacement || !angle || !deflection) return;
-  const auto centred = [&](std::size_t i) {
-    const auto& values = comparison.signals[i].values;
-    const auto map = Eigen::Map<const Eigen::VectorXd>(values.data(),
-                                                       static_cast<Eigen::Index>(values.size()));
-    return Eigen::VectorXd((map.array() - mean(values)) / comparison.signals[i].deviation);
-  };
-  const Eigen::VectorXd target = centred(*displacement);
-  Eigen::MatrixXd columns(target.size(), 2);
-  columns.col(0) = centred(*angle);
-  columns.col(1) = centred(*deflection);
-  const Eigen::Matrix2d normal = columns.transpose() * columns;
-  const Eigen::LDLT<Eigen::Matrix2d> factors(normal);
-  const Eigen::Vector2d gain = factors.solve(columns.transpose() * target);
-  const double variance =
-      (target - columns * gain).squaredNorm() / static_cast<double>(target.size());
-  const auto known = [&](Eigen::Index i) {
-    const double error = std::sqrt(variance * factors.solve(Eigen::Vector2d::Unit(i))[i]);
-    return std::abs(gain[i]) > kLeastScore * error;
-  };
-  const auto scale = [&](std::size_t i) { return comparison.signals[i].deviation; };
-  if (known(0) && comparison.options.length_m) {
-    const double alpha = std::abs(gain[0]) * scale(*displacement) / scale(*angle);
-    ratios.push_back(
-        {*displacement, *angle, std::log10(alpha / *comparison.options.length_m), false});
+  const auto fit = fit_tip(comparison);
+  if (!fit) return;
+  const auto length_m = comparison.options.length_m;
+  if (std::abs(fit->angle.score) > kLeastScore && length_m) {
+    ratios.push_back({fit->displacement, fit->angle.signal,
+                      std::log10(std::abs(fit->angle.gain) / *length_m), false});
   }
-  if (known(1)) {
-    const double beta = std::abs(gain[1]) * scale(*displacement) / scale(*deflection);
-    ratios.push_back({*displacement, *deflection, std::log10(beta), false});
+  if (std::abs(fit->deflection.score) > kLeastScore) {
+    ratios.push_back({fit->displacement, fit->deflection.signal,
+                      std::log10(std::abs(fit->deflection.gain)), false});
   }
 }
 
@@ -139,7 +114,11 @@ DataFinding unit_finding(const Comparison& comparison, const Suspect& suspect,
                          const std::string& alternatives) {
   const auto& name = comparison.signals[suspect.signal].name;
   const double factor = std::pow(10.0, suspect.log10_scale);
-  return {Fault::wrong_unit, name, 0, 0.0, factor,
+  return {Fault::wrong_unit,
+          name,
+          0,
+          0.0,
+          factor,
           fmt::format("{} is {:.3g} times what the others say of it: {}{}", name, factor,
                       unit_slip(suspect.log10_scale), alternatives)};
 }
@@ -173,8 +152,9 @@ std::vector<DataFinding> check_units(const Comparison& comparison) {
     std::string alternatives;
     for (std::size_t i = 1; i < suspects.size(); ++i) {
       if (suspects[i].unexplained > suspects[0].unexplained) break;
-      alternatives += fmt::format(", or {} {:.3g} times", comparison.signals[suspects[i].signal].name,
-                                  std::pow(10.0, suspects[i].log10_scale));
+      alternatives +=
+          fmt::format(", or {} {:.3g} times", comparison.signals[suspects[i].signal].name,
+                      std::pow(10.0, suspects[i].log10_scale));
     }
     findings.push_back(unit_finding(comparison, suspects[0], alternatives));
   }
@@ -184,10 +164,11 @@ std::vector<DataFinding> check_units(const Comparison& comparison) {
     if (!comparison.usable[i] || !signal.is(SensorKind::strain) || signal.deviation <= kBreaks) {
       continue;
     }
-    findings.push_back({Fault::wrong_unit, signal.name, 0, 0.0, signal.deviation,
-                        fmt::format("{} has a standard deviation of {:.3g}, which no link survives: "
-                                    "microstrain or another multiple of 1",
-                                    signal.name, signal.deviation)});
+    findings.push_back(
+        {Fault::wrong_unit, signal.name, 0, 0.0, signal.deviation,
+         fmt::format("{} has a standard deviation of {:.3g}, which no link survives: "
+                     "microstrain or another multiple of 1",
+                     signal.name, signal.deviation)});
   }
   return findings;
 }

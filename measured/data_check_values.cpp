@@ -62,10 +62,14 @@ std::optional<DataFinding> constant(const Signal& signal, std::span<const Signal
   // One sensor alone may be at rest, held by friction: then it shows its zero.
   const bool alone = signals.size() == 2 && signal.values[0] != 0.0 && varies(signals[0]);
   if (!others_respond && !alone) return std::nullopt;
-  return DataFinding{Fault::dead_channel, signal.name, 0, 0.0, signal.values[0],
-                     fmt::format("{} is {:.6g} {} throughout, while {} varies", signal.name,
-                                 signal.values[0], unit_of(signal),
-                                 alone ? "the torque" : "another channel")};
+  return DataFinding{
+      Fault::dead_channel,
+      signal.name,
+      0,
+      0.0,
+      signal.values[0],
+      fmt::format("{} is {:.6g} {} throughout, while {} varies", signal.name, signal.values[0],
+                  unit_of(signal), alone ? "the torque" : "another channel")};
 }
 
 /// What lies at one end of a channel's range.
@@ -81,10 +85,26 @@ bool falls_off(std::span<const double> x, const EqualRun& run, double least) {
   return before && (after >= x.size() || std::abs(x[after] - x[run.first]) > least);
 }
 
+/// Whether a value that was held jumps to where the signal has got in the meantime: it was stuck.
+/// What is clipped goes on from its limit.
+bool catches_up(std::span<const double> x, const EqualRun& run) {
+  constexpr std::size_t kNext = 4;
+  constexpr double kJump = 4.0;
+  const std::size_t after = run.first + run.count;
+  if (run.count <= kNext || after + kNext >= x.size()) return false;
+  double usual = 0.0;
+  for (std::size_t k = after; k < after + kNext; ++k) {
+    usual = std::max(usual, std::abs(x[k + 1] - x[k]));
+  }
+  return std::abs(x[after] - x[run.first]) > kJump * usual;
+}
+
 Limit limit_at(std::span<const double> x, double value, double step) {
   Limit limit;
-  for (const auto& run : equal_runs(x, 2)) {
-    if (x[run.first] != value || is_restful(x, run) || !falls_off(x, run, kFall_steps * step)) {
+  // Readings in steps repeat their largest value; others never do unless they are clipped.
+  for (const auto& run : equal_runs(x, step > 0.0 ? 2 : 1)) {
+    if (x[run.first] != value || catches_up(x, run) || is_restful(x, run) ||
+        !falls_off(x, run, kFall_steps * step)) {
       continue;
     }
     if (limit.runs == 0) limit.first = run.first;
@@ -110,7 +130,11 @@ std::optional<DataFinding> saturation(const Signal& signal, double step,
     const std::string bounds =
         found ? fmt::format("{:.6g} and {:.6g}", low, high) : fmt::format("{:.6g}", value);
     const std::size_t at = first ? limit.first : found->first_sample;
-    found = DataFinding{Fault::saturation, signal.name, at, 0.0, first ? value : found->value,
+    found = DataFinding{Fault::saturation,
+                        signal.name,
+                        at,
+                        0.0,
+                        first ? value : found->value,
                         fmt::format("{} is clipped at {} {}: {} samples, from sample {} on",
                                     signal.name, bounds, unit_of(signal), samples, at + 1)};
   }
@@ -125,6 +149,32 @@ bool another_moves(std::span<const Signal> signals, const Signal& self, const Eq
     for (std::size_t k = 1; k < part.size(); ++k) moves += part[k] != part[k - 1] ? 1U : 0U;
     return 2 * moves >= run.count;
   });
+}
+
+/// Whether friction holds the hub: its velocity repeats too; where that is not measured, its angle
+/// comes to rest and leaves it by changes that shrink and grow, or stays to the end.
+bool is_held(std::span<const Signal> signals, const Signal& signal, const EqualRun& run) {
+  if (!signal.is(arm::SensorKind::hub_angle)) return false;
+  const auto velocity = std::ranges::find_if(
+      signals, [](const Signal& other) { return other.is(arm::SensorKind::hub_velocity); });
+  if (velocity != signals.end()) {
+    const auto part = velocity->values.subspan(run.first, run.count);
+    // The torque may tear the hub loose at the last of the samples.
+    const auto inner = part.first(part.size() - 1);
+    return std::ranges::adjacent_find(inner.subspan(1), std::not_equal_to<>()) ==
+           inner.subspan(1).end();
+  }
+  const auto x = signal.values;
+  const std::size_t last = run.first + run.count - 1;
+  if (last + 1 == x.size()) return true;
+  const auto shrinks = [](double near, double far) {
+    return near * far >= 0.0 && std::abs(near) <= 0.75 * std::abs(far);
+  };
+  const bool stops = run.first < 2 ||
+                     shrinks(x[run.first] - x[run.first - 1], x[run.first - 1] - x[run.first - 2]);
+  const bool starts =
+      last + 2 >= x.size() || shrinks(x[last + 1] - x[last], x[last + 2] - x[last + 1]);
+  return stops && starts;
 }
 
 /// Whether so many equal values are more than the steps of the readings explain.
@@ -151,15 +201,19 @@ std::optional<DataFinding> stuck(const Signal& signal, std::span<const Signal> s
   EqualRun first_run;
   for (const auto& run : pairs) {
     if (run.count < static_cast<std::size_t>(options.least_stuck_samples)) continue;
-    const bool rests_at_zero = x[run.first] == 0.0 && (run.first == 0 || signal.is(arm::SensorKind::hub_velocity));
-    if (rests_at_zero || is_restful(x, run) || !another_moves(signals, signal, run) ||
-        !is_long(run, x, pairs, step)) {
+    const bool rests_at_zero =
+        x[run.first] == 0.0 && (run.first == 0 || signal.is(arm::SensorKind::hub_velocity));
+    if (rests_at_zero || is_restful(x, run) || is_held(signals, signal, run) ||
+        !another_moves(signals, signal, run) || !is_long(run, x, pairs, step)) {
       continue;
     }
     if (places++ == 0) first_run = run;
   }
   if (places == 0) return std::nullopt;
-  return DataFinding{Fault::stuck_values, signal.name, first_run.first, 0.0,
+  return DataFinding{Fault::stuck_values,
+                     signal.name,
+                     first_run.first,
+                     0.0,
                      static_cast<double>(first_run.count),
                      fmt::format("{} repeats {:.6g} {} for {} samples from sample {} on, while "
                                  "others move{}",
@@ -204,11 +258,11 @@ std::vector<DataFinding> check_quantisation(std::span<const Signal> signals,
     }
     findings.push_back(
         {Fault::quantisation, signal.name, 0, 0.0, *step,
-         fmt::format("{} comes in steps of {:.4g} {}: {:.2g} of its standard deviation; their error, "
-                     "{:.2g} {} rms, is {:.2g} of the noise floor",
-                     signal.name, *step, unit_of(signal), *step / signal.deviation,
-                     std::sqrt(error_power), unit_of(signal),
-                     std::sqrt(error_power / std::max(floor_power[i], 1e-300)))});
+         fmt::format(
+             "{} comes in steps of {:.4g} {}: {:.2g} of its standard deviation; their error, "
+             "{:.2g} {} rms, is {:.2g} of the noise floor",
+             signal.name, *step, unit_of(signal), *step / signal.deviation, std::sqrt(error_power),
+             unit_of(signal), std::sqrt(error_power / std::max(floor_power[i], 1e-300)))});
   }
   return findings;
 }

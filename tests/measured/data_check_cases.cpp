@@ -63,9 +63,9 @@ response::Excitation draw_excitation(RandomNumbers& random, double rms_N_m, doub
       return response::BangBang{1.5 * rms_N_m, between(random, 0.15, 0.4),
                                 chance(random, 0.5) ? 0.1 : 0.0, chance(random, 0.5) ? 1 : 0};
     default:
-      return response::Chirp{1.4 * rms_N_m, std::max(0.3, 1.0 / duration_s), to_Hz,
-                             chance(random, 0.5) ? response::Sweep::linear
-                                                 : response::Sweep::logarithmic};
+      return response::Chirp{
+          1.4 * rms_N_m, std::max(0.3, 1.0 / duration_s), to_Hz,
+          chance(random, 0.5) ? response::Sweep::linear : response::Sweep::logarithmic};
   }
 }
 
@@ -95,7 +95,8 @@ std::vector<Sensor> draw_sensors(RandomNumbers& random, const arm::Arm& arm,
     if (!chance(random, share) && !needed) continue;
     Sensor sensor{kind, 0.0};
     if (kind == SensorKind::strain) {
-      sensor.position_m = std::round(100.0 * between(random, 0.02, 0.4) * arm.beam.length_m) / 100.0;
+      sensor.position_m =
+          std::round(100.0 * between(random, 0.02, 0.4) * arm.beam.length_m) / 100.0;
     }
     sensors.push_back(sensor);
   }
@@ -122,13 +123,13 @@ double deviation(const std::vector<double>& values) {
 
 DrawnRun draw_run(std::uint64_t seed, const CaseNeeds& needs) {
   constexpr int kModes = 8;
-  constexpr double kMostSamples = 40000.0;
+  constexpr double kMostSamples = 16000.0;
   RandomNumbers random(seed, 1);
   arm::Arm arm = draw_arm(random);
   DrawnRun run;
   run.length_m = arm.beam.length_m;
   run.total_inertia_kg_m2 = arm::total_inertia_kg_m2(arm);
-  run.noise = log_between(random, 0.003, 0.03);
+  run.noise = log_between(random, 0.003, needs.most_noise);
   run.rounded_digits = chance(random, 0.5) ? 0 : 7;
   run.refinement = needs.refinement;
 
@@ -138,7 +139,8 @@ DrawnRun draw_run(std::uint64_t seed, const CaseNeeds& needs) {
     const double rates[] = {200, 250, 400, 500, 1000, 2000};
     rate_Hz = rates[random.below(6)];
     duration_s = std::round(10.0 * log_between(random, 2.0, 20.0)) / 10.0;
-  } while (rate_Hz * duration_s > kMostSamples || rate_Hz * duration_s < needs.least_samples);
+  } while (rate_Hz * duration_s > kMostSamples || rate_Hz * duration_s < needs.least_samples ||
+           rate_Hz < needs.least_rate_Hz);
 
   const double rms_N_m = run.total_inertia_kg_m2 * log_between(random, 1.0, 4.0);
   const auto excitation = draw_excitation(random, rms_N_m, rate_Hz, duration_s);

@@ -18,15 +18,17 @@ struct CaseNeeds {
   std::vector<arm::SensorKind> sensors;  ///< among others
   int refinement = 1;                    ///< samples simulated for one that is kept
   double least_samples = 400;
+  double most_noise = 0.03;
+  double least_rate_Hz = 200.0;
 };
 
 /// A run of an arm drawn at random: arm, friction, payload, torque, sampling and sensors.
 struct DrawnRun {
-  TimeRecord fine;                        ///< without noise, `refinement` samples for one
-  double length_m = 0.0;                  ///< from axis to tip
+  TimeRecord fine;        ///< without noise, `refinement` samples for one
+  double length_m = 0.0;  ///< from axis to tip
   double total_inertia_kg_m2 = 0.0;
-  double noise = 0.0;                     ///< standard deviation over the signal's own
-  int rounded_digits = 0;                 ///< of the file; 0: every double in full
+  double noise = 0.0;      ///< standard deviation over the signal's own
+  int rounded_digits = 0;  ///< of the file; 0: every double in full
   int refinement = 1;
   std::string description;
 };
@@ -51,7 +53,7 @@ double deviation(const std::vector<double>& values);
 struct PlantedFault {
   TimeRecord record;
   DataCheckOptions options;
-  std::string channel;         ///< that it is in
+  std::string channel;  ///< that it is in
   std::size_t first_sample = 0;
   std::size_t last_sample = 0;  ///< the first sample of the finding lies between these
   std::string description;
@@ -62,5 +64,8 @@ PlantedFault plant(Fault fault, std::uint64_t seed);
 
 /// A run without fault; half of them with the arm's length and inertia at hand.
 PlantedFault clean(std::uint64_t seed);
+
+/// A run as the simulation gives it, to the last bit or to seven digits.
+PlantedFault clean_without_noise(std::uint64_t seed);
 
 }  // namespace flexarm::measured

@@ -1,3 +1,4 @@
+#include "measured/robust.hpp"
 #include "tests/measured/data_check_cases.hpp"
 
 #include <fmt/format.h>
@@ -21,6 +22,12 @@ constexpr auto kAcceleration = SensorKind::tip_acceleration;
 constexpr auto kDisplacement = SensorKind::tip_displacement;
 constexpr auto kDeflection = SensorKind::tip_deflection;
 constexpr auto kStrain = SensorKind::strain;
+
+constexpr double kNoisy = 0.03;
+/// Derivatives of an angle or a displacement amplify its noise.
+constexpr double kLeastNoisy = 0.01;
+/// Tip acceleration has modes above 125 Hz, which fold down at lower rates.
+constexpr double kUnfolded_Hz = 400.0;
 
 double between(RandomNumbers& random, double low, double high) {
   return low + (high - low) * random.uniform();
@@ -132,7 +139,8 @@ PlantedFault backward_time(std::uint64_t seed, RandomNumbers& random) {
   } else if (how == 1) {  // two rows exchanged
     each([&](std::vector<double>& x) { std::swap(x[at - 1], x[at]); });
   } else {
-    const double back_s = std::max(2.0 * (record.time_s[1] - record.time_s[0]), log_between(random, 0.01, 1.0));
+    const double back_s =
+        std::max(2.0 * (record.time_s[1] - record.time_s[0]), log_between(random, 0.01, 1.0));
     for (std::size_t k = at; k < record.time_s.size(); ++k) record.time_s[k] -= back_s;
   }
   result.channel = "time";
@@ -147,14 +155,14 @@ PlantedFault saturation(std::uint64_t seed, RandomNumbers& random) {
   auto& channel = any_channel(result.record, random);
   in(result, channel);
   const bool both = chance(random, 0.5);
-  std::vector<double> sorted = channel.values;
+  std::vector<double> sizes = channel.values;
   if (both) {
-    for (auto& value : sorted) value = std::abs(value);
+    for (auto& value : sizes) value = std::abs(value);
   }
-  std::ranges::sort(sorted);
-  const double share = std::max(log_between(random, 0.01, 0.2), 12.0 / static_cast<double>(sorted.size()));
-  const double limit = sorted[static_cast<std::size_t>((1.0 - share) * static_cast<double>(sorted.size()))];
-  result.first_sample = sorted.size();
+  const double share =
+      std::max(log_between(random, 0.01, 0.2), 12.0 / static_cast<double>(sizes.size()));
+  const double limit = quantile(std::move(sizes), 1.0 - share);
+  result.first_sample = channel.values.size();
   for (std::size_t k = 0; k < channel.values.size(); ++k) {
     auto& value = channel.values[k];
     if (value < limit && !(both && value <= -limit)) continue;
@@ -167,7 +175,8 @@ PlantedFault saturation(std::uint64_t seed, RandomNumbers& random) {
 }
 
 PlantedFault dead_channel(std::uint64_t seed, RandomNumbers& random) {
-  auto run = draw_run(seed, {{any_of(random, std::vector{kAngle, kVelocity, kAcceleration})}});
+  const auto beside = any_of(random, std::vector{kAngle, kAcceleration, kDisplacement});
+  const auto run = draw_run(seed, {{kVelocity, beside}});
   auto result = planted(run, sampled(run, random));
   auto& channel = any_channel(result.record, random);
   in(result, channel);
@@ -177,7 +186,8 @@ PlantedFault dead_channel(std::uint64_t seed, RandomNumbers& random) {
   for (std::size_t k = 0; k < channel.values.size(); ++k) {
     double value = offset;
     if (how > 0) value += size * random.normal();
-    if (how > 1) value += 3.0 * size * std::sin(2.0 * std::numbers::pi * 50.0 * result.record.time_s[k] + 1.0);
+    if (how > 1)
+      value += 3.0 * size * std::sin(2.0 * std::numbers::pi * 50.0 * result.record.time_s[k] + 1.0);
     channel.values[k] = value;
   }
   result.description += fmt::format(", {} dead: {}", result.channel, how);
@@ -190,7 +200,8 @@ PlantedFault stuck_values(std::uint64_t seed, RandomNumbers& random) {
   auto& channel = any_channel(result.record, random);
   in(result, channel);
   const std::size_t samples = channel.values.size();
-  const auto count = static_cast<std::size_t>(log_between(random, 8.0, 0.1 * static_cast<double>(samples)));
+  const auto count =
+      static_cast<std::size_t>(log_between(random, 8.0, 0.1 * static_cast<double>(samples)));
   const std::size_t at = random.below(samples - count - 1);
   for (std::size_t k = 1; k < count; ++k) channel.values[at + k] = channel.values[at];
   result.first_sample = at;
@@ -222,7 +233,8 @@ PlantedFault spikes(std::uint64_t seed, RandomNumbers& random) {
   result.last_sample = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t at = 5 + random.below(channel.values.size() - 10);
-    channel.values[at] += (chance(random, 0.5) ? 1.0 : -1.0) * size * log_between(random, 0.8, 10.0);
+    channel.values[at] +=
+        (chance(random, 0.5) ? 1.0 : -1.0) * size * log_between(random, 0.8, 10.0);
     result.first_sample = std::min(result.first_sample, at);
     result.last_sample = std::max(result.last_sample, at);
   }
@@ -239,7 +251,7 @@ PlantedFault drift(std::uint64_t seed, RandomNumbers& random) {
   auto& channel = channel_of(result.record, kind);
   in(result, channel);
   const double size = (chance(random, 0.5) ? 1.0 : -1.0) * deviation(channel.values) *
-                      log_between(random, 0.8, 5.0);
+                      log_between(random, 1.0, 5.0);
   const bool warms_up = chance(random, 0.5);
   const auto samples = static_cast<double>(channel.values.size());
   for (std::size_t k = 0; k < channel.values.size(); ++k) {
@@ -251,37 +263,43 @@ PlantedFault drift(std::uint64_t seed, RandomNumbers& random) {
 }
 
 PlantedFault swapped_channels(std::uint64_t seed, RandomNumbers& random) {
-  const std::vector<std::vector<SensorKind>> pairs = {
-      {kAngle, kVelocity},
-      {kVelocity, kAcceleration, kAngle},
-      {kAngle, kStrain, kVelocity},
-      {kAcceleration, kDisplacement},
-      {kAcceleration, kDeflection, kDisplacement},
-      {kAcceleration, kStrain},
-      {kVelocity, kDeflection, kAngle}};
+  const std::vector<std::vector<SensorKind>> pairs = {{kAngle, kVelocity},
+                                                      {kVelocity, kAcceleration, kAngle},
+                                                      {kAngle, kStrain, kVelocity},
+                                                      {kAcceleration, kDisplacement},
+                                                      {kAcceleration, kDeflection, kDisplacement},
+                                                      {kAcceleration, kStrain},
+                                                      {kVelocity, kDeflection, kAngle}};
   const auto& pair = any_of(random, pairs);
-  const auto run = draw_run(seed, {pair});
+  const bool twice_derived = std::ranges::count(pair, kDisplacement) > 0;
+  const auto run = draw_run(seed, {pair, 1, 400, twice_derived ? kLeastNoisy : kNoisy,
+                                   twice_derived ? kUnfolded_Hz : 0.0});
   auto result = planted(run, sampled(run, random));
   auto& a = channel_of(result.record, pair[0]);
   auto& b = channel_of(result.record, pair[1]);
   std::swap(a.values, b.values);
   in(result, a);
-  result.description += fmt::format(", {} and {} exchanged", result.channel, arm::to_string(b.sensor));
+  result.description +=
+      fmt::format(", {} and {} exchanged", result.channel, arm::to_string(b.sensor));
   return result;
 }
 
 PlantedFault sign_flipped(std::uint64_t seed, RandomNumbers& random) {
   const std::vector<std::vector<SensorKind>> needs = {
-      {kAngle, kVelocity},          {kVelocity, kAngle},
+      {kAngle, kVelocity},
+      {kVelocity, kAngle},
       {kAngle, kVelocity, kAngle},  // the torque, below
-      {kAcceleration, kAngle, kVelocity, kDisplacement}, {kDisplacement, kAcceleration, kAngle},
-      {kDeflection, kDisplacement, kAngle},  {kStrain, kAcceleration, kDeflection, kAngle}};
+      {kAcceleration, kAngle, kVelocity, kDisplacement},
+      {kDisplacement, kAcceleration, kAngle},
+      {kDeflection, kDisplacement, kAngle},
+      {kStrain, kAcceleration, kDeflection, kAngle}};
   const std::size_t which = random.below(needs.size());
   const auto run = draw_run(seed, {needs[which]});
   auto result = planted(run, sampled(run, random));
-  auto& values = which == 2 ? result.record.torque_N_m
-                            : channel_of(result.record, needs[which][0]).values;
-  result.channel = which == 2 ? "torque" : arm::to_string(channel_of(result.record, needs[which][0]).sensor);
+  auto& values =
+      which == 2 ? result.record.torque_N_m : channel_of(result.record, needs[which][0]).values;
+  result.channel =
+      which == 2 ? "torque" : arm::to_string(channel_of(result.record, needs[which][0]).sensor);
   for (auto& value : values) value = -value;
   result.description += fmt::format(", {} flipped", result.channel);
   return result;
@@ -293,13 +311,17 @@ PlantedFault wrong_unit(std::uint64_t seed, RandomNumbers& random) {
     std::vector<SensorKind> sensors;
     double factor;
   };
-  const std::vector<Slip> slips = {
-      {{kAngle, kVelocity, kDisplacement}, kDegrees},  {{kAngle, kVelocity, kDisplacement}, 1000.0},
-      {{kVelocity, kAngle, kDisplacement}, kDegrees},  {{kVelocity, kAngle, kDisplacement}, 1e-3},
-      {{kDisplacement, kAcceleration, kAngle}, 1000.0}, {{kDisplacement, kAcceleration, kAngle}, 100.0},
-      {{kAcceleration, kDisplacement, kAngle}, 1.0 / 9.80665}, {{kAcceleration, kDisplacement, kAngle}, 10.0},
-      {{kDeflection, kDisplacement, kAngle}, 1000.0}, {{kStrain}, 1e6},
-      {{kAngle, kVelocity}, 1000.0}};  // the torque, below
+  const std::vector<Slip> slips = {{{kAngle, kVelocity, kDisplacement}, kDegrees},
+                                   {{kAngle, kVelocity, kDisplacement}, 1000.0},
+                                   {{kVelocity, kAngle, kDisplacement}, kDegrees},
+                                   {{kVelocity, kAngle, kDisplacement}, 1e-3},
+                                   {{kDisplacement, kAcceleration, kAngle}, 1000.0},
+                                   {{kDisplacement, kAcceleration, kAngle}, 100.0},
+                                   {{kAcceleration, kDisplacement, kAngle}, 1.0 / 9.80665},
+                                   {{kAcceleration, kDisplacement, kAngle}, 10.0},
+                                   {{kDeflection, kDisplacement, kAngle}, 1000.0},
+                                   {{kStrain}, 1e6},
+                                   {{kAngle, kVelocity}, 1000.0}};  // the torque, below
   const std::size_t which = random.below(slips.size());
   const auto run = draw_run(seed, {slips[which].sensors});
   auto result = planted(run, sampled(run, random));
@@ -317,8 +339,11 @@ PlantedFault wrong_unit(std::uint64_t seed, RandomNumbers& random) {
 PlantedFault delay(std::uint64_t seed, RandomNumbers& random) {
   constexpr int kRefinement = 4;
   const auto kind = chance(random, 0.5) ? kAngle : kVelocity;
-  const auto run = draw_run(seed, {{kAngle, kVelocity}, kRefinement});
-  const int late = 2 + static_cast<int>(random.below(19));
+  const auto run = draw_run(seed, {{kAngle, kVelocity}, kRefinement, 400, kLeastNoisy});
+  // 0.75 to 5 periods, and 1.5 ms or more.
+  const double quarter_s = run.fine.time_s[1];
+  const int least = std::max(3, static_cast<int>(std::ceil(1.5e-3 / quarter_s)));
+  const int late = least + static_cast<int>(random.below(static_cast<std::size_t>(21 - least)));
   auto result = planted(run, sampled(run, random, kind, late));
   in(result, channel_of(result.record, kind));
   result.description += fmt::format(", {} late by {} periods", result.channel, 0.25 * late);
@@ -378,6 +403,13 @@ PlantedFault clean(std::uint64_t seed) {
   auto result = planted(run, sampled(run, random));
   if (chance(random, 0.5)) know_the_arm(result, run);
   return result;
+}
+
+PlantedFault clean_without_noise(std::uint64_t seed) {
+  RandomNumbers random(seed, 2);
+  auto run = draw_run(seed);
+  run.noise = 0.0;
+  return planted(run, sampled(run, random));
 }
 
 }  // namespace flexarm::measured

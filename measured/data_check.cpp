@@ -10,6 +10,7 @@
 #include "measured/data_check_transform.hpp"
 #include "measured/data_check_unit.hpp"
 #include "measured/data_check_values.hpp"
+#include "measured/robust.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -52,8 +53,27 @@ void exclude(std::vector<bool>& usable, std::span<const Signal> signals,
   }
 }
 
+/// `check_response` with hum taken off, asked of those that are usable and active.
+std::vector<DataFinding> check_answers(std::span<const Signal> signals,
+                                       const std::vector<bool>& usable,
+                                       const std::vector<bool>& active, double period_s,
+                                       const DataCheckOptions& options) {
+  std::vector<std::vector<double>> values;
+  for (const auto& signal : signals) values.push_back(without_hum(signal, period_s));
+  std::vector<Signal> quiet(signals.begin(), signals.end());
+  std::vector<bool> asked;
+  for (std::size_t i = 0; i < quiet.size(); ++i) {
+    quiet[i].values = values[i];
+    quiet[i].deviation = standard_deviation(values[i]);
+    asked.push_back(usable[i] && active[i]);
+  }
+  const Transforms transforms = transform(quiet, period_s, true);
+  return check_response({quiet, transforms, asked, options});
+}
+
 /// What channels say of each other over an even stretch; none of `usable` has a fault in its
-/// values. A fault takes its channel out of what is asked next.
+/// values. A fault takes its channel out of what is asked next. A stretch that does not begin at
+/// rest may hold an arm at rest, which answers nothing.
 std::vector<DataFinding> compare(std::span<const Signal> signals, std::vector<bool> usable,
                                  const std::vector<bool>& active, double period_s, bool from_rest,
                                  const DataCheckOptions& options) {
@@ -76,9 +96,7 @@ std::vector<DataFinding> compare(std::span<const Signal> signals, std::vector<bo
   exclude(fine, signals, coarse);
   note(check_spikes(signals, fine, options));
   note(check_trends(signals, usable, options));
-  std::vector<bool> answering = usable;
-  for (std::size_t i = 0; i < answering.size(); ++i) answering[i] = usable[i] && active[i];
-  note(check_response({signals, transforms, answering, options}));
+  if (from_rest) note(check_answers(signals, usable, active, period_s, options));
   note(check_signs(comparison()));
   note(check_units(comparison()));
   note(check_delay(comparison()));

@@ -68,7 +68,7 @@ struct DataCheckOptions {
   double least_shaken_spike = 2.5;
   /// Drift: from start to end > `least_drift` deviations of the channel, and > this many standard
   /// errors.
-  double least_drift = 0.5;
+  double least_drift = 0.7;
   double drift_errors = 5.0;
   /// Delay: |delay| > this, and > `delay_errors` standard errors.
   double least_delay_periods = 0.3;

@@ -120,14 +120,17 @@ std::vector<bool> shaken_samples(const Eigen::VectorXd& torque) {
   for (Eigen::Index k = 0; k < change.size(); ++k) {
     if (change[k] > std::max(kJump, kUnusual * usual)) shake(k + 1);
   }
-  if (usual == 0.0) shake(0);  // the record may begin with a pulse
+  shake(0);  // the record may begin with a jump
   return shaken;
 }
 
 std::vector<Outlier> outliers_of(const std::vector<Eigen::VectorXd>& values,
                                  const std::vector<bool>& usable, const DataCheckOptions& options) {
   std::vector<Outlier> all;
-  const auto shaken = shaken_samples(values[0]);
+  // A torque that is not known may jump anywhere.
+  const auto shaken = usable[0]
+                          ? shaken_samples(values[0])
+                          : std::vector<bool>(static_cast<std::size_t>(values[0].size()), true);
   for (std::size_t i = 1; i < values.size(); ++i) {
     if (!usable[i]) continue;
     const Prediction prediction = predict(values, i, usable);

@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <numbers>
 #include <numeric>
 
 namespace flexarm::measured {
 
 namespace {
 
-constexpr double kTwoPi = 2.0 * std::numbers::pi;
 constexpr double kLinesInBlock = 8.0;
 constexpr double kHighestShare = 0.3;  // of the sampling frequency
 /// Delays that are looked for [periods]; beyond, a sine's phase repeats.
@@ -169,15 +167,7 @@ double mean_coherence(const Transforms& transforms, Quantity x, Quantity y) {
   double power = 0.0;
   const auto related = blocks_of(transforms, x, y, 0.5);
   const auto own = blocks_of(transforms, {x.signal, 0}, {x.signal, 0}, 0.5);
-  const double half_block = 4.0 * kTwoPi / transforms.duration_s;
   for (std::size_t i = 0; i < related.size(); ++i) {
-    // A single line that fills a block is coherent with anything; mains hum is the usual one, with
-    // what leaks from it into the next blocks.
-    const auto holds_mains = [&](double frequency_Hz) {
-      const double centre = 0.5 * (2.0 * static_cast<double>(i) + 1.0) * 2.0 * half_block;
-      return std::abs(centre - kTwoPi * frequency_Hz) < 3.5 * half_block;
-    };
-    if (holds_mains(50.0) || holds_mains(60.0)) continue;
     sum += related[i].coherence() * own[i].xx;
     power += own[i].xx;
   }

@@ -41,7 +41,7 @@ LowFrequencyFit fit_low_frequencies(const Transforms& transforms, Quantity x, Qu
                                     double to_Hz);
 
 /// Mean coherence squared of x and y over the blocks, each weighted with the power of x's signal
-/// there, not of its derivative; blocks at 50 and 60 Hz are left out. Unrelated signals show 1/8.
+/// there, not of its derivative. Unrelated signals show 1/8.
 double mean_coherence(const Transforms& transforms, Quantity x, Quantity y);
 
 }  // namespace flexarm::measured

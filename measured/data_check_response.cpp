@@ -62,7 +62,7 @@ std::vector<DataFinding> check_response(const Comparison& comparison) {
   }
   // An arm at rest moves no sensor; one sensor alone has only the torque to answer.
   const auto others_respond = [&](std::size_t self) {
-    if (count == 2) return !torque_is_noise;
+    if (count == 2) return comparison.usable[0] && !torque_is_noise;
     for (std::size_t i = 1; i < count; ++i) {
       if (i != self && closest[i] >= kRelated) return true;
     }

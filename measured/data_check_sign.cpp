@@ -100,7 +100,7 @@ Energy energy_of(const Signal& torque, const Signal& hub, double period_s) {
 
 void add_energy(const Comparison& comparison, std::vector<Vote>& votes) {
   constexpr double kClear = 4.0;
-  if (!comparison.usable[0] || !comparison.options.starts_at_rest) return;
+  if (!comparison.usable[0] || !comparison.transforms.from_rest) return;
   for (const auto kind : {SensorKind::hub_angle, SensorKind::hub_velocity}) {
     const auto hub = comparison.find(kind);
     if (!hub) continue;

@@ -2,8 +2,12 @@
 
 #include "measured/robust.hpp"
 
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace flexarm::measured {
 
@@ -19,6 +23,24 @@ std::vector<Signal> signals_of(const TimeRecord& record, std::size_t first, std:
     add(arm::to_string(channel.sensor), channel.sensor, channel.values);
   }
   return signals;
+}
+
+std::vector<double> without_hum(const Signal& signal, double period_s) {
+  constexpr double kMains_Hz[] = {50.0, 60.0};
+  const auto samples = static_cast<Eigen::Index>(signal.values.size());
+  const Eigen::Map<const Eigen::VectorXd> values(signal.values.data(), samples);
+  if (period_s * 120.0 >= 1.0) return {values.begin(), values.end()};
+  Eigen::MatrixXd waves = Eigen::MatrixXd::Ones(samples, 5);
+  for (Eigen::Index i = 0; i < 2; ++i) {
+    const Eigen::ArrayXd phase =
+        2.0 * std::numbers::pi * kMains_Hz[i] * period_s *
+        Eigen::ArrayXd::LinSpaced(samples, 0.0, static_cast<double>(samples - 1));
+    waves.col(2 * i + 1) = phase.cos();
+    waves.col(2 * i + 2) = phase.sin();
+  }
+  const Eigen::MatrixXd normal = waves.transpose() * waves;
+  const Eigen::VectorXd left = values - waves * normal.ldlt().solve(waves.transpose() * values);
+  return {left.begin(), left.end()};
 }
 
 std::vector<EqualRun> equal_runs(std::span<const double> values, std::size_t least) {

@@ -24,6 +24,11 @@ struct Signal {
 /// Torque first, then the channels; samples [first, first + count). They point into `record`.
 std::vector<Signal> signals_of(const TimeRecord& record, std::size_t first, std::size_t count);
 
+/// The values less what least squares finds in them of 50 and of 60 Hz, and of their mean: mains
+/// hum is related to nothing, but a single line passes for related to anything. As they are where
+/// the sampling cannot show 60 Hz.
+std::vector<double> without_hum(const Signal& signal, double period_s);
+
 /// Equal values one after the other.
 struct EqualRun {
   std::size_t first = 0;

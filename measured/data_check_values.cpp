@@ -85,6 +85,32 @@ bool falls_off(std::span<const double> x, const EqualRun& run, double least) {
   return before && (after >= x.size() || std::abs(x[after] - x[run.first]) > least);
 }
 
+/// Whether friction holds the hub: its velocity is next to zero; where that is not measured, its
+/// angle comes to rest and leaves it by changes that shrink and grow, or stays to the end.
+bool is_held(std::span<const Signal> signals, const Signal& signal, const EqualRun& run) {
+  constexpr double kNextToZero = 1e-3;  // standard deviations of the velocity; noise is more
+  if (!signal.is(arm::SensorKind::hub_angle) || run.count < 3) return false;
+  const auto velocity = std::ranges::find_if(
+      signals, [](const Signal& other) { return other.is(arm::SensorKind::hub_velocity); });
+  if (velocity != signals.end()) {
+    // The torque may tear the hub loose at the last of the samples.
+    const auto inner = velocity->values.subspan(run.first + 1, run.count - 2);
+    return std::ranges::all_of(
+        inner, [&](double value) { return std::abs(value) <= kNextToZero * velocity->deviation; });
+  }
+  const auto x = signal.values;
+  const std::size_t last = run.first + run.count - 1;
+  if (last + 1 == x.size()) return true;
+  const auto shrinks = [](double near, double far) {
+    return near * far >= 0.0 && std::abs(near) <= 0.75 * std::abs(far);
+  };
+  const bool stops = run.first < 2 ||
+                     shrinks(x[run.first] - x[run.first - 1], x[run.first - 1] - x[run.first - 2]);
+  const bool starts =
+      last + 2 >= x.size() || shrinks(x[last + 1] - x[last], x[last + 2] - x[last + 1]);
+  return stops && starts;
+}
+
 /// Whether a value that was held jumps to where the signal has got in the meantime: it was stuck.
 /// What is clipped goes on from its limit.
 bool catches_up(std::span<const double> x, const EqualRun& run) {
@@ -99,12 +125,13 @@ bool catches_up(std::span<const double> x, const EqualRun& run) {
   return std::abs(x[after] - x[run.first]) > kJump * usual;
 }
 
-Limit limit_at(std::span<const double> x, double value, double step) {
+Limit limit_at(std::span<const Signal> signals, const Signal& signal, double value, double step) {
+  const auto x = signal.values;
   Limit limit;
   // Readings in steps repeat their largest value; others never do unless they are clipped.
   for (const auto& run : equal_runs(x, step > 0.0 ? 2 : 1)) {
-    if (x[run.first] != value || catches_up(x, run) || is_restful(x, run) ||
-        !falls_off(x, run, kFall_steps * step)) {
+    if (x[run.first] != value || catches_up(x, run) || is_held(signals, signal, run) ||
+        is_restful(x, run) || !falls_off(x, run, kFall_steps * step)) {
       continue;
     }
     if (limit.runs == 0) limit.first = run.first;
@@ -114,8 +141,8 @@ Limit limit_at(std::span<const double> x, double value, double step) {
   return limit;
 }
 
-std::optional<DataFinding> saturation(const Signal& signal, double step,
-                                      const DataCheckOptions& options) {
+std::optional<DataFinding> saturation(const Signal& signal, std::span<const Signal> signals,
+                                      double step, const DataCheckOptions& options) {
   const auto x = signal.values;
   if (signal.is_torque() && distinct_values(x) < kFewestTorqueLevels) return std::nullopt;
   const auto [low, high] = std::ranges::minmax(x);
@@ -123,7 +150,7 @@ std::optional<DataFinding> saturation(const Signal& signal, double step,
   std::size_t samples = 0;
   for (const double value : {low, high}) {
     if (value == 0.0) continue;  // where a sensor rests
-    const Limit limit = limit_at(x, value, step);
+    const Limit limit = limit_at(signals, signal, value, step);
     if (limit.samples < static_cast<std::size_t>(options.least_clipped_samples)) continue;
     samples += limit.samples;
     const bool first = !found || limit.first < found->first_sample;
@@ -149,32 +176,6 @@ bool another_moves(std::span<const Signal> signals, const Signal& self, const Eq
     for (std::size_t k = 1; k < part.size(); ++k) moves += part[k] != part[k - 1] ? 1U : 0U;
     return 2 * moves >= run.count;
   });
-}
-
-/// Whether friction holds the hub: its velocity repeats too; where that is not measured, its angle
-/// comes to rest and leaves it by changes that shrink and grow, or stays to the end.
-bool is_held(std::span<const Signal> signals, const Signal& signal, const EqualRun& run) {
-  if (!signal.is(arm::SensorKind::hub_angle)) return false;
-  const auto velocity = std::ranges::find_if(
-      signals, [](const Signal& other) { return other.is(arm::SensorKind::hub_velocity); });
-  if (velocity != signals.end()) {
-    const auto part = velocity->values.subspan(run.first, run.count);
-    // The torque may tear the hub loose at the last of the samples.
-    const auto inner = part.first(part.size() - 1);
-    return std::ranges::adjacent_find(inner.subspan(1), std::not_equal_to<>()) ==
-           inner.subspan(1).end();
-  }
-  const auto x = signal.values;
-  const std::size_t last = run.first + run.count - 1;
-  if (last + 1 == x.size()) return true;
-  const auto shrinks = [](double near, double far) {
-    return near * far >= 0.0 && std::abs(near) <= 0.75 * std::abs(far);
-  };
-  const bool stops = run.first < 2 ||
-                     shrinks(x[run.first] - x[run.first - 1], x[run.first - 1] - x[run.first - 2]);
-  const bool starts =
-      last + 2 >= x.size() || shrinks(x[last + 1] - x[last], x[last + 2] - x[last + 1]);
-  return stops && starts;
 }
 
 /// Whether so many equal values are more than the steps of the readings explain.
@@ -235,7 +236,7 @@ std::vector<DataFinding> check_values(std::span<const Signal> signals,
     const double step =
         lattice_step(signal.values, options.fine_step * signal.deviation).value_or(0.0);
     auto found = constant(signal, signals);
-    if (!found) found = saturation(signal, step, options);
+    if (!found) found = saturation(signal, signals, step, options);
     if (!found) found = stuck(signal, signals, step, options);
     if (found) findings.push_back(*found);
   }

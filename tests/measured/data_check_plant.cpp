@@ -28,6 +28,9 @@ constexpr double kNoisy = 0.03;
 constexpr double kLeastNoisy = 0.01;
 /// Tip acceleration has modes above 125 Hz, which fold down at lower rates.
 constexpr double kUnfolded_Hz = 400.0;
+/// Of a torque that ends at 15 Hz a stiff arm's angle shows too little above its noise to tell a
+/// delay of milliseconds.
+constexpr double kWideBand_Hz = 40.0;
 
 double between(RandomNumbers& random, double low, double high) {
   return low + (high - low) * random.uniform();
@@ -195,7 +198,8 @@ PlantedFault dead_channel(std::uint64_t seed, RandomNumbers& random) {
 }
 
 PlantedFault stuck_values(std::uint64_t seed, RandomNumbers& random) {
-  const auto run = draw_run(seed);
+  const auto beside = any_of(random, std::vector{kAngle, kAcceleration, kDisplacement});
+  const auto run = draw_run(seed, {{kVelocity, beside}});
   auto result = planted(run, sampled(run, random));
   auto& channel = any_channel(result.record, random);
   in(result, channel);
@@ -251,7 +255,7 @@ PlantedFault drift(std::uint64_t seed, RandomNumbers& random) {
   auto& channel = channel_of(result.record, kind);
   in(result, channel);
   const double size = (chance(random, 0.5) ? 1.0 : -1.0) * deviation(channel.values) *
-                      log_between(random, 1.0, 5.0);
+                      log_between(random, 1.5, 6.0);
   const bool warms_up = chance(random, 0.5);
   const auto samples = static_cast<double>(channel.values.size());
   for (std::size_t k = 0; k < channel.values.size(); ++k) {
@@ -271,9 +275,11 @@ PlantedFault swapped_channels(std::uint64_t seed, RandomNumbers& random) {
                                                       {kAcceleration, kStrain},
                                                       {kVelocity, kDeflection, kAngle}};
   const auto& pair = any_of(random, pairs);
+  const bool sized =
+      std::ranges::count(pair, kStrain) > 0 && std::ranges::count(pair, kAcceleration) > 0;
   const bool twice_derived = std::ranges::count(pair, kDisplacement) > 0;
-  const auto run = draw_run(seed, {pair, 1, 400, twice_derived ? kLeastNoisy : kNoisy,
-                                   twice_derived ? kUnfolded_Hz : 0.0});
+  const auto run = draw_run(
+      seed, {pair, 1, 400, sized ? kNoisy : kLeastNoisy, twice_derived ? kUnfolded_Hz : 0.0});
   auto result = planted(run, sampled(run, random));
   auto& a = channel_of(result.record, pair[0]);
   auto& b = channel_of(result.record, pair[1]);
@@ -339,7 +345,8 @@ PlantedFault wrong_unit(std::uint64_t seed, RandomNumbers& random) {
 PlantedFault delay(std::uint64_t seed, RandomNumbers& random) {
   constexpr int kRefinement = 4;
   const auto kind = chance(random, 0.5) ? kAngle : kVelocity;
-  const auto run = draw_run(seed, {{kAngle, kVelocity}, kRefinement, 400, kLeastNoisy});
+  const auto run =
+      draw_run(seed, {{kAngle, kVelocity}, kRefinement, 400, kLeastNoisy, 0.0, kWideBand_Hz});
   // 0.75 to 5 periods, and 1.5 ms or more.
   const double quarter_s = run.fine.time_s[1];
   const int least = std::max(3, static_cast<int>(std::ceil(1.5e-3 / quarter_s)));

@@ -51,8 +51,8 @@ arm::Arm draw_arm(RandomNumbers& random) {
 }
 
 response::Excitation draw_excitation(RandomNumbers& random, double rms_N_m, double rate_Hz,
-                                     double duration_s, double least_band_Hz) {
-  const double to_Hz = std::min(log_between(random, least_band_Hz, 120.0), 0.45 * rate_Hz);
+                                     double duration_s) {
+  const double to_Hz = std::min(log_between(random, 15.0, 120.0), 0.45 * rate_Hz);
   const auto seed = static_cast<std::uint64_t>(1e9 * random.uniform());
   switch (random.below(4)) {
     case 0:
@@ -143,8 +143,7 @@ DrawnRun draw_run(std::uint64_t seed, const CaseNeeds& needs) {
            rate_Hz < needs.least_rate_Hz);
 
   const double rms_N_m = run.total_inertia_kg_m2 * log_between(random, 1.0, 4.0);
-  const auto excitation =
-      draw_excitation(random, rms_N_m, rate_Hz, duration_s, needs.least_band_Hz);
+  const auto excitation = draw_excitation(random, rms_N_m, rate_Hz, duration_s);
   draw_friction(random, rms_N_m, arm);
   const auto sensors = draw_sensors(random, arm, needs);
   const auto samples = static_cast<std::size_t>(std::llround(rate_Hz * duration_s));

@@ -20,7 +20,6 @@ struct CaseNeeds {
   double least_samples = 400;
   double most_noise = 0.03;
   double least_rate_Hz = 200.0;
-  double least_band_Hz = 15.0;  ///< the least upper frequency of a torque that has a band
 };
 
 /// A run of an arm drawn at random: arm, friction, payload, torque, sampling and sensors.

@@ -122,7 +122,7 @@ double deviation(const std::vector<double>& values) {
 }
 
 DrawnRun draw_run(std::uint64_t seed, const CaseNeeds& needs) {
-  constexpr int kModes = 8;
+  constexpr int kModes = 6;
   constexpr double kMostSamples = 16000.0;
   RandomNumbers random(seed, 1);
   arm::Arm arm = draw_arm(random);
@@ -158,6 +158,7 @@ DrawnRun draw_run(std::uint64_t seed, const CaseNeeds& needs) {
   response::SimulationOptions options;
   options.sample_time_s = 1.0 / (rate_Hz * static_cast<double>(finer));
   options.energy = false;
+  options.force_tolerance = 1e-8;  // far below any noise
   auto made = response::simulate(model, parts, sensors, torque_N_m, options);
   run.fine.time_s = std::move(made.time_s);
   run.fine.torque_N_m = std::move(torque_N_m);

@@ -1,0 +1,71 @@
+#pragma once
+
+#include "arm/arm.hpp"
+#include "measured/data_check.hpp"
+#include "measured/time_record.hpp"
+#include "response/random_numbers.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace flexarm::measured {
+
+/// What a drawn run must have, so that a fault can be planted in it.
+struct CaseNeeds {
+  std::vector<arm::SensorKind> sensors;  ///< among others
+  int refinement = 1;                    ///< samples simulated for one that is kept
+  double least_samples = 400;
+  double most_noise = 0.03;
+  double least_rate_Hz = 200.0;
+};
+
+/// A run of an arm drawn at random: arm, friction, payload, torque, sampling and sensors.
+struct DrawnRun {
+  TimeRecord fine;        ///< without noise, `refinement` samples for one
+  double length_m = 0.0;  ///< from axis to tip
+  double total_inertia_kg_m2 = 0.0;
+  double noise = 0.0;      ///< standard deviation over the signal's own
+  int rounded_digits = 0;  ///< of the file; 0: every double in full
+  int refinement = 1;
+  std::string description;
+};
+
+/// The paper's arm and others up to twice its size, bare or loaded, with and without friction
+/// (Coulomb, Stribeck) and drag; random, multisine, bang-bang and chirp torque; 200 Hz to 2 kHz, 2
+/// to 20 s; noise of 0.3 to 3 %. The seed determines it.
+DrawnRun draw_run(std::uint64_t seed, const CaseNeeds& needs = {});
+
+/// Every `refinement`-th sample, those of `sensor` `late` fine samples late; with noise, and
+/// rounded as in a file.
+TimeRecord sampled(const DrawnRun& run, response::RandomNumbers& random,
+                   std::optional<arm::SensorKind> sensor = {}, int late = 0);
+
+/// Adds the noise of a run, and rounds as its file does.
+void finish(TimeRecord& record, const DrawnRun& run, response::RandomNumbers& random);
+
+/// Standard deviation.
+double deviation(const std::vector<double>& values);
+
+/// A record with a fault in it.
+struct PlantedFault {
+  TimeRecord record;
+  DataCheckOptions options;
+  std::string channel;  ///< that it is in
+  std::size_t first_sample = 0;
+  std::size_t last_sample = 0;  ///< the first sample of the finding lies between these
+  std::string description;
+};
+
+/// A fault of random size in a run of its own; the ranges of sizes are in docs/measured-data.md.
+PlantedFault plant(Fault fault, std::uint64_t seed);
+
+/// A run without fault; half of them with the arm's length and inertia at hand.
+PlantedFault clean(std::uint64_t seed);
+
+/// A run as the simulation gives it, to the last bit or to seven digits.
+PlantedFault clean_without_noise(std::uint64_t seed);
+
+}  // namespace flexarm::measured

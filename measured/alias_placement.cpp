@@ -1,0 +1,100 @@
+#include "measured/alias_placement.hpp"
+
+#include "measured/fitted_transfer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+namespace flexarm::measured {
+namespace {
+
+using Complex = std::complex<double>;
+using Eigen::Index;
+
+constexpr double kPi = std::numbers::pi;
+constexpr int kFarthestAlias = 2;
+/// A place is better when residues are closer to the imaginary axis by this factor, squared.
+constexpr double kClearlyBetter = 4.0;
+
+/// A sensor's residue at the pole, and the square of its signal-to-noise ratio.
+struct Residue {
+  Complex value;
+  double weight = 0.0;
+  int derivatives = 0;
+  bool hub = false;
+};
+
+double weight_of(const BlockFit& fit, std::size_t j, std::size_t block) {
+  double weight = 0.0;
+  for (Index i = 0; i < fit.models[j].shared; ++i) {
+    const SensorColumn& column = fit.models[j].columns[static_cast<std::size_t>(i)];
+    if (column.kind != SensorColumn::Kind::forced || column.block != block) continue;
+    const double variance = fit.sensors[j].variance * fit.sensors[j].unit_inverse(i, i);
+    const double beta = fit.sensors[j].beta(i);
+    if (variance > 0.0) weight = std::max(weight, beta * beta / variance);
+  }
+  return weight;
+}
+
+std::vector<Residue> residues(const BlockFit& fit, std::size_t block, Complex pole) {
+  std::vector<Residue> all;
+  for (std::size_t j = 0; j < fit.models.size(); ++j) {
+    const FittedTransfer transfer(fit.blocks, fit.models[j],
+                                  fit.sensors[j].beta.head(fit.models[j].shared));
+    const auto [b1, b0] = transfer.numerator(block);
+    all.push_back({(b1 * pole + b0) / Complex(0.0, 2.0 * pole.imag()), weight_of(fit, j, block),
+                   arm::derivative_order(fit.models[j].sensor),
+                   arm::is_collocated(fit.models[j].sensor)});
+  }
+  return all;
+}
+
+/// Weighted mean square of the cosine of the residues' angles, at an alias of the pole.
+double misfit(const std::vector<Residue>& all, Complex pole, Complex alias, int exponent) {
+  double sum = 0.0;
+  double weights = 0.0;
+  for (const Residue& residue : all) {
+    Complex there = residue.value * std::pow(alias / pole, exponent - residue.derivatives);
+    if (alias.imag() < 0.0) there = std::conj(there);
+    const double cosine = there.real() / std::abs(there);
+    // b0 above 0: the residue b0/(2 i omega) has a negative imaginary part.
+    sum += residue.weight * (residue.hub && there.imag() > 0.0 ? 1.0 : cosine * cosine);
+    weights += residue.weight;
+  }
+  return weights > 0.0 ? sum / weights : 0.0;
+}
+
+}  // namespace
+
+std::vector<MovedBlock> place_aliases(const BlockFit& fit, double period_s, TorqueHold hold,
+                                      BlockSet& blocks) {
+  blocks = fit.blocks;
+  std::vector<MovedBlock> moved;
+  const int exponent = hold == TorqueHold::zero ? 1 : 2;
+  for (std::size_t m = 0; m < blocks.blocks.size(); ++m) {
+    if (blocks.is_rigid(m)) continue;
+    const Complex pole = blocks.blocks[m].poles_rad_per_s()[0];
+    if (pole.imag() <= 0.0) continue;
+    const auto all = residues(fit, m, pole);
+    const double here = misfit(all, pole, pole, exponent);
+    if (here <= kTurned * kTurned) continue;
+    double best = here / kClearlyBetter;
+    Complex place = pole;
+    for (int k = -kFarthestAlias; k <= kFarthestAlias; ++k) {
+      const Complex alias = pole + Complex(0.0, 2.0 * kPi * k / period_s);
+      const double there = misfit(all, pole, alias, exponent);
+      if (k != 0 && there < best) {
+        best = there;
+        place = alias;
+      }
+    }
+    if (place == pole) continue;
+    blocks.blocks[m] = block_of(std::abs(place), -place.real() / std::abs(place));
+    moved.push_back({m, std::abs(pole) / (2.0 * kPi), std::abs(place) / (2.0 * kPi)});
+  }
+  return moved;
+}
+
+}  // namespace flexarm::measured

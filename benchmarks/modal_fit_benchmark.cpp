@@ -24,12 +24,13 @@ void time_fit(const char* name, const measured::FitCase& fit_case) {
   const auto pole = measured::exact_roots(model, 0).poles.front();
   const double frequency_Hz = std::abs(pole) / (2.0 * std::numbers::pi);
   const double damping_ratio = -pole.real() / std::abs(pole);
-  fmt::print("{}: {} samples, {} channels, {} blocks: {:.3f} s; mode 1: frequency {:+.1e}, damping "
-             "{:+.1e} of itself off{}\n",
-             name, records[0].time_s.size(), records[0].channels.size(), fit.blocks.blocks.size(),
-             elapsed.count(), fit.poles.front().frequency_Hz / frequency_Hz - 1.0,
-             fit.poles.front().damping_ratio / damping_ratio - 1.0,
-             fit.converged ? "" : "; not converged");
+  fmt::print(
+      "{}: {} samples, {} channels, {} blocks: {:.3f} s; mode 1: frequency {:+.1e}, damping "
+      "{:+.1e} of itself off{}\n",
+      name, records[0].time_s.size(), records[0].channels.size(), fit.blocks.blocks.size(),
+      elapsed.count(), fit.poles.front().frequency_Hz / frequency_Hz - 1.0,
+      fit.poles.front().damping_ratio / damping_ratio - 1.0,
+      fit.converged ? "" : "; not converged");
 }
 
 }  // namespace

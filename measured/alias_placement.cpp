@@ -51,22 +51,28 @@ std::vector<Residue> residues(const BlockFit& fit, std::size_t block, Complex po
   return all;
 }
 
-/// Weighted mean square of the cosine of the residues' angles, at an alias of the pole.
+/// Weighted mean square of the sine of the residues' angles to the imaginary axis, at an alias of
+/// the pole; 1 for a hub's residue of the wrong sign.
 double misfit(const std::vector<Residue>& all, Complex pole, Complex alias, int exponent) {
   double sum = 0.0;
   double weights = 0.0;
   for (const Residue& residue : all) {
     Complex there = residue.value * std::pow(alias / pole, exponent - residue.derivatives);
     if (alias.imag() < 0.0) there = std::conj(there);
-    const double cosine = there.real() / std::abs(there);
+    const double sine = std::abs(there) > 0.0 ? there.real() / std::abs(there) : 0.0;
     // b0 above 0: the residue b0/(2 i omega) has a negative imaginary part.
-    sum += residue.weight * (residue.hub && there.imag() > 0.0 ? 1.0 : cosine * cosine);
+    sum += residue.weight * (residue.hub && there.imag() > 0.0 ? 1.0 : sine * sine);
     weights += residue.weight;
   }
   return weights > 0.0 ? sum / weights : 0.0;
 }
 
 }  // namespace
+
+double residue_turn(const BlockFit& fit, std::size_t block) {
+  const Complex pole = fit.blocks.blocks[block].poles_rad_per_s()[0];
+  return pole.imag() > 0.0 ? std::sqrt(misfit(residues(fit, block, pole), pole, pole, 0)) : 0.0;
+}
 
 std::vector<MovedBlock> place_aliases(const BlockFit& fit, double period_s, TorqueHold hold,
                                       BlockSet& blocks) {

@@ -1,8 +1,7 @@
 #include "measured/block_search.hpp"
 
-#include <fmt/format.h>
-
 #include <Eigen/QR>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -56,8 +55,7 @@ class CandidateTriangles {
       : stretches_(stretches), all_(all) {
     for (const Stretch& stretch : stretches) triangles_.push_back(triangle(stretch, all.blocks));
     for (std::size_t j = 0; j < sensors.size(); ++j) {
-      models_.push_back(
-          sensor_model(sensors[j], static_cast<Index>(j), all, stretches, choices));
+      models_.push_back(sensor_model(sensors[j], static_cast<Index>(j), all, stretches, choices));
     }
   }
 
@@ -85,11 +83,11 @@ class CandidateTriangles {
     const SignalLayout layout = stretches_[r].layout(all_.blocks.size());
     std::vector<VectorXd> columns;
     for (const SensorColumn& column : models_[j].columns) {
-      const bool of_block = column.kind == SensorColumn::Kind::forced ||
-                            column.kind == SensorColumn::Kind::free;
+      const bool of_block =
+          column.kind == SensorColumn::Kind::forced || column.kind == SensorColumn::Kind::free;
       if (of_block && column.block >= held && column.block != added) continue;
-      const bool own = column.kind == SensorColumn::Kind::free ||
-                       column.kind == SensorColumn::Kind::offset;
+      const bool own =
+          column.kind == SensorColumn::Kind::free || column.kind == SensorColumn::Kind::offset;
       if (own && column.stretch != r) continue;
       columns.push_back(column_of(column, triangles_[r], layout, all_).normalized());
     }
@@ -171,8 +169,8 @@ class Search {
       std::vector<Candidate> places = grid(options_);
       if (!try_one(places)) {
         result_.reason = fmt::format(
-            "a further block lowers BIC by {:.1f}, not by more than the margin {:g}",
-            best_.bic() - result_.trials.back().bic, options_.bic_margin);
+            "a further block changes BIC by {:+.1f}; to stay it must lower it by more than {:g}",
+            result_.trials.back().bic - best_.bic(), options_.bic_margin);
         break;
       }
     }
@@ -211,13 +209,12 @@ class Search {
     BlockFit trial = fit(more);
     const SecondOrderBlock& added = trial.blocks.blocks.back();
     const bool kept = trial.bic() < best_.bic() - options_.bic_margin || options_.modes;
-    result_.trials.push_back(
-        {.blocks = flexible() + 1,
-         .bic = trial.bic(),
-         .frequency_Hz = added.omega_rad_per_s() / (2.0 * std::numbers::pi),
-         .damping_ratio = added.damping_ratio(),
-         .from_chart = candidate.from_chart,
-         .kept = kept});
+    result_.trials.push_back({.blocks = flexible() + 1,
+                              .bic = trial.bic(),
+                              .frequency_Hz = added.omega_rad_per_s() / (2.0 * std::numbers::pi),
+                              .damping_ratio = added.damping_ratio(),
+                              .from_chart = candidate.from_chart,
+                              .kept = kept});
     if (kept) best_ = std::move(trial);
     return kept;
   }

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "measured/start_spectra.hpp"
 #include "measured/stabilisation.hpp"
+#include "measured/start_spectra.hpp"
 #include "measured/variable_projection.hpp"
 
 #include <optional>
@@ -13,9 +13,9 @@ namespace flexarm::measured {
 struct BlockSearchOptions {
   FitBand band = {};
   bool rigid = true;
-  std::optional<int> modes = {};      ///< flexible blocks; empty: as many as the criterion asks for
-  int most_blocks = 16;          ///< flexible ones
-  double bic_margin = 10.0;      ///< a block stays when BIC falls by more
+  std::optional<int> modes = {};  ///< flexible blocks; empty: as many as the criterion asks for
+  int most_blocks = 16;           ///< flexible ones
+  double bic_margin = 10.0;       ///< a block stays when BIC falls by more
   double sampling_rate_Hz = 0.0;  ///< 0 for frequency responses
 };
 
@@ -23,9 +23,9 @@ struct BlockSearchOptions {
 struct OrderTrial {
   int blocks = 0;
   double bic = 0.0;
-  double frequency_Hz = 0.0;   ///< of the block added last, as fitted
+  double frequency_Hz = 0.0;  ///< of the block added last, as fitted
   double damping_ratio = 0.0;
-  bool from_chart = false;     ///< it began at a stable pole; else at a place of the search's grid
+  bool from_chart = false;  ///< it began at a stable pole; else at a place of the search's grid
   bool kept = false;
 
   bool operator==(const OrderTrial&) const = default;

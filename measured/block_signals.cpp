@@ -137,8 +137,8 @@ Stretch frequency_stretch(const FrequencyChannel& channel, Index sensor,
 }
 
 Eigen::MatrixXd triangle(const Stretch& stretch, std::span<const SecondOrderBlock> blocks) {
-  const Index columns = stretch.layout(blocks.size()).first_reading() +
-                        static_cast<Index>(stretch.sensors.size());
+  const Index columns =
+      stretch.layout(blocks.size()).first_reading() + static_cast<Index>(stretch.sensors.size());
   Eigen::MatrixXd work = Eigen::MatrixXd::Zero(columns + kChunk, columns);
   stretch.visit(blocks, [&](const Eigen::Ref<const Eigen::MatrixXd>& rows) {
     work.middleRows(columns, rows.rows()) = rows;

@@ -133,8 +133,8 @@ VectorXd CommonDenominator::denominator(int order) const {
     decomposition.setThreshold(kRankTolerance);
     decomposition.compute(scaled);
     const MatrixXd scaled_mixed = unit.asDiagonal() * mixed;
-    reduced += block(sums, 0, 0, order) -
-               scaled_mixed.transpose() * decomposition.solve(scaled_mixed);
+    reduced +=
+        block(sums, 0, 0, order) - scaled_mixed.transpose() * decomposition.solve(scaled_mixed);
   }
   VectorXd a(order + 1);
   a(0) = 1.0;

@@ -10,8 +10,8 @@ namespace flexarm::measured {
 /// One sensor's lines: y A(z) = sum_i inputs_i B_i(z) + error, at z = exp(i angle). Lines of one
 /// equation share their B; A is common to all equations.
 struct DenominatorEquation {
-  Eigen::ArrayXd angle;   ///< 0 to pi
-  Eigen::ArrayXcd y;      ///< over the standard deviation of its noise
+  Eigen::ArrayXd angle;                 ///< 0 to pi
+  Eigen::ArrayXcd y;                    ///< over the standard deviation of its noise
   std::vector<Eigen::ArrayXcd> inputs;  ///< the torque's line first; over the same deviation
 };
 

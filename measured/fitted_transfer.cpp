@@ -56,8 +56,8 @@ Complex FittedTransfer::s_derivative(Complex s) const {
     }
     const SecondOrderBlock& block = blocks_.blocks[column.block];
     const Complex q = block.value(s);
-    sum += beta_(i) * (power_of(s, column.power, 1) * q - power_of(s, column.power) * q * q *
-                                                              (2.0 * s + block.a1_rad_per_s));
+    sum += beta_(i) * (power_of(s, column.power, 1) * q -
+                       power_of(s, column.power) * q * q * (2.0 * s + block.a1_rad_per_s));
   }
   return sum;
 }

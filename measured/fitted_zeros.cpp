@@ -41,8 +41,7 @@ Pencil pencil_of(const FittedTransfer& transfer, double omega) {
       d = transfer.beta()(i) * std::pow(omega, remainder_power);
     } else {
       const int power = column.power - lowest;
-      c(static_cast<Index>(column.block), power) =
-          transfer.beta()(i) * std::pow(omega, power - 2);
+      c(static_cast<Index>(column.block), power) = transfer.beta()(i) * std::pow(omega, power - 2);
     }
   }
   const double size = std::max(c.cwiseAbs().maxCoeff(), std::abs(d));
@@ -149,7 +148,8 @@ std::vector<FittedZero> fitted_zeros(const FittedTransfer& transfer, const Matri
     if (std::abs(s.imag()) <= kReal * std::abs(s)) s = s.real();
     if (s.imag() < 0.0) continue;
     zeros.push_back(zero_at(polished(transfer, s), transfer, covariance));
-    zeros.back().in_band = zeros.back().frequency_Hz >= from_Hz && zeros.back().frequency_Hz <= to_Hz;
+    zeros.back().in_band =
+        zeros.back().frequency_Hz >= from_Hz && zeros.back().frequency_Hz <= to_Hz;
   }
   std::ranges::sort(zeros, {}, &FittedZero::frequency_Hz);
   return zeros;

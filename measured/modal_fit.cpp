@@ -44,9 +44,11 @@ void require_options(const ModalFitOptions& options) {
   at_least("highest_order", options.highest_order, 2);
   at_least("averages", options.averages, 1.0);
   at_least("search_samples", static_cast<double>(options.search_samples), kLeastSamples);
-  if (options.band && !(options.band->from_Hz >= 0.0 && options.band->to_Hz > options.band->from_Hz)) {
-    throw arm::InputError(fmt::format("band = {:g} to {:g} Hz: must be from 0 or more to something above",
-                                      options.band->from_Hz, options.band->to_Hz));
+  if (options.band &&
+      !(options.band->from_Hz >= 0.0 && options.band->to_Hz > options.band->from_Hz)) {
+    throw arm::InputError(
+        fmt::format("band = {:g} to {:g} Hz: must be from 0 or more to something above",
+                    options.band->from_Hz, options.band->to_Hz));
   }
 }
 
@@ -78,7 +80,7 @@ void sort_flexible(BlockSet& set) {
             [](const auto& a, const auto& b) { return a.a0_rad2_per_s2 < b.a0_rad2_per_s2; });
 }
 
-void describe_poles(ModalFit& fit, double most_damping_ratio) {
+void describe_poles(ModalFit& fit, const BlockFit& best, const ModalFitOptions& options) {
   for (std::size_t m = 0; m < fit.blocks.blocks.size(); ++m) {
     const SecondOrderBlock& block = fit.blocks.blocks[m];
     const Index at = fit.blocks.first_parameter(m);
@@ -93,8 +95,10 @@ void describe_poles(ModalFit& fit, double most_damping_ratio) {
                     .damping_ratio_std = std::sqrt(fit.covariance(at + 1, at + 1)),
                     .s_rad_per_s = block.poles_rad_per_s()};
     pole.frequency_std_Hz = pole.frequency_Hz * deviation;
-    pole.is_mode =
-        fit.band.contains(pole.frequency_Hz) && pole.damping_ratio <= most_damping_ratio;
+    pole.residue_turn = residue_turn(best, m);
+    pole.is_mode = fit.band.contains(pole.frequency_Hz) &&
+                   pole.damping_ratio <= options.most_damping_ratio &&
+                   pole.residue_turn <= options.most_residue_turn;
     fit.poles.push_back(pole);
   }
 }
@@ -131,7 +135,8 @@ void describe_sensors(ModalFit& fit, const BlockFit& blocks, const ResidualStudy
     for (std::size_t m = 0; m < fit.blocks.blocks.size(); ++m) {
       sensor.numerators.push_back(numerator_of(transfer, covariance, m));
     }
-    const auto& last = blocks.models[j].columns[static_cast<std::size_t>(blocks.models[j].shared - 1)];
+    const auto& last =
+        blocks.models[j].columns[static_cast<std::size_t>(blocks.models[j].shared - 1)];
     if (last.kind == SensorColumn::Kind::remainder) {
       sensor.remainder = transfer.beta().tail<1>()(0);
       sensor.remainder_std = std::sqrt(covariance.bottomRightCorner<1, 1>()(0));
@@ -200,7 +205,7 @@ ModalFit fit_task(const Task& task, const ModalFitOptions& options) {
     fit.parameters.segment(at, shared) = fit.transfers.back().beta();
     at += shared;
   }
-  describe_poles(fit, options.most_damping_ratio);
+  describe_poles(fit, best, options);
   describe_sensors(fit, best, study);
   report(1.0);
   return fit;
@@ -223,9 +228,8 @@ std::vector<double> deviations(const FrequencyChannel& channel, std::size_t inde
   for (std::size_t k = 0; k < channel.response.size(); ++k) {
     const double coherence = std::min(channel.coherence[k], 1.0 - kCoherenceRounding);
     const double relative =
-        std::isnan(coherence)
-            ? kUnknownDeviation
-            : std::sqrt((1.0 - coherence) / (2.0 * options.averages * coherence));
+        std::isnan(coherence) ? kUnknownDeviation
+                              : std::sqrt((1.0 - coherence) / (2.0 * options.averages * coherence));
     deviation.push_back(relative * std::abs(channel.response[k]));
     if (!(deviation.back() > 0.0)) deviation.back() = std::numeric_limits<double>::infinity();
   }
@@ -294,10 +298,9 @@ ModalFit fit_modes(std::span<const TimeRecord> records, const ModalFitOptions& o
     for (const Channel& channel : record.channels) {
       sensors.push_back(sensor_index(task.sensors, channel.sensor));
     }
-    const InitialState initial =
-        options.initial.empty()
-            ? InitialState::rest
-            : options.initial[std::min(r, options.initial.size() - 1)];
+    const InitialState initial = options.initial.empty()
+                                     ? InitialState::rest
+                                     : options.initial[std::min(r, options.initial.size() - 1)];
     task.all.push_back(
         time_stretch(record, sensors, options.torque_hold, initial, record.time_s.size()));
     task.search.push_back(
@@ -325,13 +328,12 @@ ModalFit fit_modes(const FrequencyRecord& record, const ModalFitOptions& options
     const FrequencyChannel& channel = record.channels[j];
     if (channel.frequency_Hz.size() < kLeastSamples / 4) {
       throw arm::InputError(fmt::format("{}: {} frequencies are too few to fit; must be {} or more",
-                                        arm::to_string(channel.sensor),
-                                        channel.frequency_Hz.size(), kLeastSamples / 4));
+                                        arm::to_string(channel.sensor), channel.frequency_Hz.size(),
+                                        kLeastSamples / 4));
     }
     const std::vector<double> deviation = deviations(channel, j, options);
     task.sensors.push_back(channel.sensor);
-    task.equations.push_back(
-        frequency_equation(channel, deviation, options.rigid_body, task.band));
+    task.equations.push_back(frequency_equation(channel, deviation, options.rigid_body, task.band));
     task.all.push_back(frequency_stretch(channel, static_cast<Index>(j), deviation));
   }
   task.search = task.all;

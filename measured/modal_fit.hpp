@@ -37,6 +37,7 @@ struct ModalFitOptions {
   int most_blocks = 16;
   double bic_margin = 10.0;
   double most_damping_ratio = 0.7;  ///< blocks above it are no modes
+  double most_residue_turn = 0.35;  ///< nor are those above this, 20 degrees
   int highest_order = 32;           ///< of the stabilisation chart, orders 2, 4, ...
   int least_stable_orders = 3;
   StabilisationTolerances stabilisation = {};
@@ -60,7 +61,8 @@ struct FittedPole {
   double damping_ratio = 0.0;  ///< a1/(2 sqrt(a0)); 1 or more: both poles are real
   double damping_ratio_std = 0.0;
   std::array<std::complex<double>, 2> s_rad_per_s;
-  /// In the band and damped no more than a mode may be. Others stand for what lies outside.
+  double residue_turn = 0.0;  ///< measured/alias_placement.hpp
+  /// In the band, damped and turned no more than a mode may be. Others stand for what lies outside.
   bool is_mode = false;
 };
 
@@ -82,10 +84,10 @@ struct FittedSensor {
 };
 
 struct ModalFit {
-  BlockSet blocks;                    ///< the rigid body's first, then ascending in frequency
-  double rigid_a1_rad_per_s = 0.0;    ///< hub friction over inertia
+  BlockSet blocks;                  ///< the rigid body's first, then ascending in frequency
+  double rigid_a1_rad_per_s = 0.0;  ///< hub friction over inertia
   double rigid_a1_std_rad_per_s = 0.0;
-  std::vector<FittedPole> poles;      ///< one a flexible block
+  std::vector<FittedPole> poles;  ///< one a flexible block
   std::vector<FittedSensor> sensors;
   std::vector<FittedTransfer> transfers;  ///< one a sensor
   /// Of theta (measured/second_order_block.hpp), then the parameters of each sensor in turn.
@@ -109,10 +111,10 @@ struct ModalFit {
   std::optional<std::size_t> find(arm::SensorKind kind) const;
 };
 
-/// Poles, zeros and numerators of all sensors at once, by maximum likelihood for white noise in each
-/// sensor (measured/variable_projection.hpp). Records are runs of one condition: they share poles
-/// and numerators, not offsets and initial states. Start values are poles of a common denominator
-/// that are stable over its order (measured/common_denominator.hpp).
+/// Poles, zeros and numerators of all sensors at once, by maximum likelihood for white noise in
+/// each sensor (measured/variable_projection.hpp). Records are runs of one condition: they share
+/// poles and numerators, not offsets and initial states. Start values are poles of a common
+/// denominator that are stable over its order (measured/common_denominator.hpp).
 ///
 /// Cost: samples x (4 blocks + sensors + 3)^2 x 2 operations a pass, some 5 passes a fit.
 ///

@@ -2,11 +2,12 @@
 
 #include "arm/input_error.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <functional>
 #include <numbers>
-#include <string>
+#include <vector>
 
 namespace flexarm::measured {
 namespace {
@@ -73,22 +74,40 @@ Estimate estimate(const ModalFit& fit, const Quantity& quantity) {
 }
 
 struct Sensors {
-  std::optional<std::size_t> hub_angle;
-  std::size_t hub = 0;  ///< hub angle where measured, else velocity
+  std::vector<std::size_t> hub;  ///< hub angle, hub velocity: those measured
   std::optional<std::size_t> tip;
 };
 
 Sensors sensors_of(const ModalFit& fit) {
-  Sensors sensors{fit.find(arm::SensorKind::hub_angle), 0,
-                  fit.find(arm::SensorKind::tip_acceleration)};
-  const auto hub =
-      sensors.hub_angle ? sensors.hub_angle : fit.find(arm::SensorKind::hub_velocity);
-  if (!hub) {
+  Sensors sensors{{}, fit.find(arm::SensorKind::tip_acceleration)};
+  for (const auto kind : {arm::SensorKind::hub_angle, arm::SensorKind::hub_velocity}) {
+    if (const auto at = fit.find(kind)) sensors.hub.push_back(*at);
+  }
+  if (sensors.hub.empty()) {
     throw arm::InputError(
         "modal gains: neither hub_angle nor hub_velocity was measured; one of them is needed");
   }
-  sensors.hub = *hub;
   return sensors;
+}
+
+/// The hub sensor that knows a block's residue best.
+std::size_t best_hub(const ModalFit& fit, const Sensors& sensors, std::size_t block) {
+  return *std::ranges::min_element(
+      sensors.hub, {}, [&](std::size_t j) { return fit.sensors[j].numerators[block].b0_std; });
+}
+
+/// A block's b0 at the hub: angle and velocity have the same, each weighted by its own variance.
+double hub_b0(const ModalFit& fit, const MovedFit& moved, const Sensors& sensors,
+              std::size_t block) {
+  double sum = 0.0;
+  double weights = 0.0;
+  for (const std::size_t j : sensors.hub) {
+    const double deviation = fit.sensors[j].numerators[block].b0_std;
+    const double weight = deviation > 0.0 ? 1.0 / (deviation * deviation) : 1.0;
+    sum += weight * moved.b0(j, block);
+    weights += weight;
+  }
+  return sum / weights;
 }
 
 /// Zeros that alternate with the poles: one below each mode, as those of a hub do.
@@ -97,8 +116,8 @@ std::vector<FittedZero> antiresonances(const ModalFit& fit, std::size_t hub,
   std::vector<FittedZero> kept;
   for (const FittedZero& zero : fit.sensors[hub].zeros) {
     const bool below_last =
-        !modes.empty() && zero.frequency_Hz <
-                              fit.blocks.blocks[modes.back()].omega_rad_per_s() / (2.0 * kPi);
+        !modes.empty() &&
+        zero.frequency_Hz < fit.blocks.blocks[modes.back()].omega_rad_per_s() / (2.0 * kPi);
     if (zero.s_rad_per_s.imag() > 0.0 && below_last && std::abs(zero.damping_ratio) < 0.5) {
       kept.push_back(zero);
     }
@@ -125,11 +144,12 @@ ModalGains modal_gains(const ModalFit& fit, std::optional<double> total_inertia_
   const Sensors sensors = sensors_of(fit);
   ModalGains gains;
   if (!total_inertia_kg_m2 && !fit.blocks.rigid) {
-    throw arm::InputError("modal gains: the inertia I_T must be given for an arm that does not "
-                          "turn freely");
+    throw arm::InputError(
+        "modal gains: the inertia I_T must be given for an arm that does not "
+        "turn freely");
   }
   const Quantity inertia = [&](const MovedFit& moved) {
-    return total_inertia_kg_m2 ? *total_inertia_kg_m2 : 1.0 / moved.b0(sensors.hub, 0);
+    return total_inertia_kg_m2 ? *total_inertia_kg_m2 : 1.0 / hub_b0(fit, moved, sensors, 0);
   };
   gains.total_inertia_kg_m2 = estimate(fit, inertia);
   if (!(gains.total_inertia_kg_m2.value > 0.0)) {
@@ -141,11 +161,13 @@ ModalGains modal_gains(const ModalFit& fit, std::optional<double> total_inertia_
   for (std::size_t i = 0; i < fit.poles.size(); ++i) {
     if (fit.poles[i].is_mode) modes.push_back(first + i);
   }
-  const auto zeros = antiresonances(fit, sensors.hub, modes);
+  const std::size_t zeros_of = modes.empty() ? sensors.hub[0] : best_hub(fit, sensors, modes[0]);
+  const auto zeros = antiresonances(fit, zeros_of, modes);
   for (const std::size_t block : modes) {
-    ModalGain gain{.frequency_Hz = fit.poles[block - first].frequency_Hz};
+    ModalGain gain;
+    gain.frequency_Hz = fit.poles[block - first].frequency_Hz;
     const Quantity slope = [&](const MovedFit& moved) {
-      return std::sqrt(inertia(moved) * moved.b0(sensors.hub, block));
+      return std::sqrt(inertia(moved) * hub_b0(fit, moved, sensors, block));
     };
     const auto accepted = [&](const Quantity& quantity) -> std::optional<Estimate> {
       const Estimate found = estimate(fit, quantity);
@@ -155,7 +177,7 @@ ModalGains modal_gains(const ModalFit& fit, std::optional<double> total_inertia_
     gain.hub_slope = accepted(slope);
     if (zeros.size() == modes.size()) {
       gain.hub_slope_of_product = accepted([&](const MovedFit& moved) {
-        return product_slope(moved, sensors.hub, modes, zeros, block);
+        return product_slope(moved, zeros_of, modes, zeros, block);
       });
     }
     if (sensors.tip) {
@@ -164,8 +186,9 @@ ModalGains modal_gains(const ModalFit& fit, std::optional<double> total_inertia_
       });
       gain.tip_gain_of_ratio_m = accepted([&](const MovedFit& moved) {
         const Complex s(0.0, moved.omega(block));
-        Complex hub = moved.transfer(sensors.hub).value(s);
-        if (!sensors.hub_angle) hub /= s;
+        const std::size_t j = best_hub(fit, sensors, block);
+        const int derivatives = arm::derivative_order(fit.sensors[j].sensor);
+        const Complex hub = moved.transfer(j).value(s) / (derivatives == 1 ? s : 1.0);
         const Complex ratio = moved.transfer(*sensors.tip).value(s) / hub;
         return -ratio.real() * slope(moved) / std::norm(s);
       });

@@ -17,8 +17,8 @@ struct Estimate {
 /// slope above 0. Empty where the sensor it takes was not measured.
 struct ModalGain {
   double frequency_Hz = 0.0;
-  /// theta_i = sqrt(I_T b0_i) from the hub's residues, hub angle where measured, else velocity:
-  /// (48), where b0_i = theta_i^2/I_T.
+  /// theta_i = sqrt(I_T b0_i) from the hub's residues: (48), where b0_i = theta_i^2/I_T. Hub angle
+  /// and velocity have the same; each is weighted by its variance.
   std::optional<Estimate> hub_slope;
   /// theta_i^2 = -prod_k(1 - omega_i^2/Omega_k^2)/prod_{k != i}(1 - omega_i^2/omega_k^2) from the
   /// frequencies of fitted poles and hub zeros: (47) as a product. Needs no I_T. Zeros beyond the
@@ -27,7 +27,8 @@ struct ModalGain {
   /// phi_i(l) = I_T b0_i(tip)/theta_i [m], with its sign: (49).
   std::optional<Estimate> tip_gain_m;
   /// phi_i(l) = -Re[alpha/theta](j omega_i) theta_i/omega_i^2 [m]: (52) with its minus sign, at the
-  /// resonance of the fitted responses, other modes' part included. Hub angle, or velocity over s.
+  /// resonance of the fitted responses, other modes' part included. theta is of the hub sensor that
+  /// knows the mode better, a velocity over s.
   std::optional<Estimate> tip_gain_of_ratio_m;
 };
 

@@ -81,13 +81,14 @@ void add_scores(const BlockFit& fit, std::size_t sensor, std::size_t stretch,
   scores.linear[sensor] += a.transpose();
 }
 
-VectorXd influence(const BlockFit& fit, const BatchScores& scores, const std::vector<Index>& first) {
+VectorXd influence(const BlockFit& fit, const BatchScores& scores,
+                   const std::vector<Index>& first) {
   VectorXd change(first.back());
   const VectorXd theta = fit.theta_covariance * scores.theta;
   change.head(theta.size()) = theta;
   for (std::size_t j = 0; j < fit.sensors.size(); ++j) {
-    const VectorXd beta = fit.sensors[j].unit_inverse * scores.linear[j] +
-                          fit.sensors[j].to_theta * theta;
+    const VectorXd beta =
+        fit.sensors[j].unit_inverse * scores.linear[j] + fit.sensors[j].to_theta * theta;
     change.segment(first[j], fit.models[j].shared) = beta.head(fit.models[j].shared);
   }
   return change;
@@ -183,6 +184,7 @@ ResidualStudy study_residuals(std::span<const Stretch> stretches, const BlockFit
     VectorXd torque(tested);
     std::vector<MatrixXd> sums(static_cast<std::size_t>(batches_each),
                                MatrixXd::Zero(readings, layout.first_reading()));
+    VectorXd reading_sums = VectorXd::Zero(readings);
     Index at = 0;
     stretch.visit(fit.blocks.blocks, [&](const Eigen::Ref<const MatrixXd>& rows) {
       const auto signals = rows.leftCols(layout.first_reading());
@@ -190,6 +192,7 @@ ResidualStudy study_residuals(std::span<const Stretch> stretches, const BlockFit
       for (Index i = 0; i < readings; ++i) {
         const auto j = static_cast<std::size_t>(stretch.sensors[static_cast<std::size_t>(i)]);
         reading_squares[j] += rows.rightCols(readings).col(i).squaredNorm();
+        reading_sums(i) += rows.rightCols(readings).col(i).sum();
       }
       if (at < tested) {
         const Index kept = std::min(rows.rows(), tested - at);
@@ -219,6 +222,9 @@ ResidualStudy study_residuals(std::span<const Stretch> stretches, const BlockFit
     }
     for (Index i = 0; i < readings; ++i) {
       const auto j = static_cast<std::size_t>(stretch.sensors[static_cast<std::size_t>(i)]);
+      if (in_time) {
+        reading_squares[j] -= reading_sums(i) * reading_sums(i) / static_cast<double>(stretch.rows);
+      }
       judge(study.sensors[j], residuals.col(i), torque, in_time);
     }
   }

@@ -12,7 +12,7 @@ namespace flexarm::measured {
 /// What a fit leaves of one sensor's readings.
 struct ResidualQuality {
   double standard_deviation = 0.0;  ///< noise, in the sensor's unit; over the given deviation (FRF)
-  double relative = 0.0;            ///< root mean square over that of the reading
+  double relative = 0.0;            ///< root mean square over the reading's about its mean
   /// Ljung and Box (1978), kWhitenessLags lags: the probability that white noise looks as coloured.
   double whiteness_probability = 1.0;
   /// F test of what kTorqueLags past torques explain of the residual, time only: the probability

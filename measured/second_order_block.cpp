@@ -61,8 +61,8 @@ BlockSet BlockSet::with(const Eigen::VectorXd& theta) const {
   BlockSet other = *this;
   for (std::size_t m = 0; m < blocks.size(); ++m) {
     const Eigen::Index i = first_parameter(m);
-    other.blocks[m] = is_rigid(m) ? SecondOrderBlock{theta(i), 0.0}
-                                  : block_of(std::exp(theta(i)), theta(i + 1));
+    other.blocks[m] =
+        is_rigid(m) ? SecondOrderBlock{theta(i), 0.0} : block_of(std::exp(theta(i)), theta(i + 1));
   }
   return other;
 }

@@ -26,9 +26,8 @@ double damping_ratio(std::complex<double> s) {
 ChartPole marked(const OrderPoles& at, std::size_t i, const OrderPoles& before,
                  const StabilisationTolerances& tolerances) {
   const auto s = at.s_rad_per_s[i];
-  ChartPole pole{.order = at.order,
-                 .frequency_Hz = frequency_Hz(s),
-                 .damping_ratio = damping_ratio(s)};
+  ChartPole pole{
+      .order = at.order, .frequency_Hz = frequency_Hz(s), .damping_ratio = damping_ratio(s)};
   if (before.s_rad_per_s.empty()) return pole;
   const auto nearest = std::ranges::min_element(
       before.s_rad_per_s, {}, [s](std::complex<double> other) { return std::abs(other - s); });
@@ -38,10 +37,9 @@ ChartPole marked(const OrderPoles& at, std::size_t i, const OrderPoles& before,
   pole.frequency_stable = std::abs(pole.frequency_Hz - f) <= tolerances.frequency * f;
   pole.damping_stable = pole.frequency_stable && std::abs(pole.damping_ratio - zeta) <=
                                                      tolerances.damping_ratio * std::abs(zeta);
-  pole.vector_stable =
-      pole.frequency_stable &&
-      modal_assurance(at.residues.col(static_cast<Index>(i)), before.residues.col(k)) >=
-          tolerances.modal_assurance;
+  pole.vector_stable = pole.frequency_stable &&
+                       modal_assurance(at.residues.col(static_cast<Index>(i)),
+                                       before.residues.col(k)) >= tolerances.modal_assurance;
   return pole;
 }
 

@@ -9,8 +9,8 @@ namespace flexarm::measured {
 
 /// A pole is stable at an order when the order before has one that differs by no more than these.
 struct StabilisationTolerances {
-  double frequency = 0.01;       ///< |f - f'| <= frequency f'
-  double damping_ratio = 0.1;    ///< |zeta - zeta'| <= damping_ratio |zeta'|
+  double frequency = 0.01;        ///< |f - f'| <= frequency f'
+  double damping_ratio = 0.1;     ///< |zeta - zeta'| <= damping_ratio |zeta'|
   double modal_assurance = 0.95;  ///< MAC of the residues over the sensors >= this
 };
 

@@ -44,8 +44,8 @@ std::vector<Complex> lines_of(const std::vector<double>& values, std::size_t sam
 
 /// How many poles at 0 the rigid body has in the sensor's response.
 int integrations(const arm::Sensor& sensor, bool rigid) {
-  const bool bends = sensor.kind == arm::SensorKind::tip_deflection ||
-                     sensor.kind == arm::SensorKind::strain;
+  const bool bends =
+      sensor.kind == arm::SensorKind::tip_deflection || sensor.kind == arm::SensorKind::strain;
   return !rigid || bends ? 0 : 2 - arm::derivative_order(sensor);
 }
 
@@ -90,8 +90,8 @@ std::vector<DenominatorEquation> time_equations(const TimeRecord& record, bool r
     const auto reading = lines_of(channel.values, samples);
     const int poles_at_one = integrations(channel.sensor, rigid);
     const auto count = static_cast<Index>(used.size());
-    DenominatorEquation equation{Eigen::ArrayXd(count), ArrayXcd(count),
-                                 {ArrayXcd(count), ArrayXcd(count)}};
+    DenominatorEquation equation{
+        Eigen::ArrayXd(count), ArrayXcd(count), {ArrayXcd(count), ArrayXcd(count)}};
     for (Index i = 0; i < count; ++i) {
       const std::size_t k = used[static_cast<std::size_t>(i)];
       const double frequency_Hz = static_cast<double>(k) * line_Hz;

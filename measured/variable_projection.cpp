@@ -122,8 +122,8 @@ class SensorProblem {
   };
 
   static bool has(const Piece& piece, const SensorColumn& column) {
-    const bool shared = column.kind == SensorColumn::Kind::forced ||
-                        column.kind == SensorColumn::Kind::remainder;
+    const bool shared =
+        column.kind == SensorColumn::Kind::forced || column.kind == SensorColumn::Kind::remainder;
     if (column.kind == SensorColumn::Kind::free && !piece.layout.free) return false;
     return shared || column.stretch == piece.stretch;
   }
@@ -197,10 +197,10 @@ class Fitter {
 
 /// -(H + damping diag H)^-1 g in units of the diagonal; H is singular where a block is not seen.
 VectorXd marquardt_step(const Evaluation& at, double damping) {
-  const VectorXd scale = at.information.diagonal().cwiseSqrt().unaryExpr(
-      [](double d) { return d > 0.0 ? d : 1.0; });
-  MatrixXd h = scale.cwiseInverse().asDiagonal() * at.information *
-               scale.cwiseInverse().asDiagonal();
+  const VectorXd scale =
+      at.information.diagonal().cwiseSqrt().unaryExpr([](double d) { return d > 0.0 ? d : 1.0; });
+  MatrixXd h =
+      scale.cwiseInverse().asDiagonal() * at.information * scale.cwiseInverse().asDiagonal();
   h.diagonal().array() += damping;
   const VectorXd step = -h.ldlt().solve(at.gradient.cwiseQuotient(scale));
   return step.cwiseQuotient(scale);
@@ -224,8 +224,7 @@ void finish(BlockFit& fit, const Evaluation& at) {
   for (SensorEstimate& sensor : fit.sensors) {
     const auto linear = static_cast<double>(sensor.beta.size());
     fit.linear_and_theta += linear;
-    sensor.variance =
-        sensor.squares / std::max(1.0, sensor.rows - linear - theta / sensors);
+    sensor.variance = sensor.squares / std::max(1.0, sensor.rows - linear - theta / sensors);
   }
   // Each sensor's part of the information was weighted by rows/squares; the variance differs by
   // the degrees of freedom, in common to within 1/rows.
@@ -233,10 +232,10 @@ void finish(BlockFit& fit, const Evaluation& at) {
   for (const SensorEstimate& sensor : fit.sensors) {
     ratio += sensor.variance * sensor.rows / sensor.squares / sensors;
   }
-  const VectorXd scale = at.information.diagonal().cwiseSqrt().unaryExpr(
-      [](double d) { return d > 0.0 ? d : 1.0; });
-  const MatrixXd h = scale.cwiseInverse().asDiagonal() * at.information *
-                     scale.cwiseInverse().asDiagonal();
+  const VectorXd scale =
+      at.information.diagonal().cwiseSqrt().unaryExpr([](double d) { return d > 0.0 ? d : 1.0; });
+  const MatrixXd h =
+      scale.cwiseInverse().asDiagonal() * at.information * scale.cwiseInverse().asDiagonal();
   const MatrixXd inverse = h.completeOrthogonalDecomposition().pseudoInverse();
   fit.theta_covariance =
       ratio * (scale.cwiseInverse().asDiagonal() * inverse * scale.cwiseInverse().asDiagonal());
@@ -258,8 +257,7 @@ BlockFit fit_blocks(std::span<const Stretch> stretches, std::span<const arm::Sen
                     const ProjectionOptions& options) {
   std::vector<SensorModel> models;
   for (std::size_t j = 0; j < sensors.size(); ++j) {
-    models.push_back(
-        sensor_model(sensors[j], static_cast<Index>(j), start, stretches, choices));
+    models.push_back(sensor_model(sensors[j], static_cast<Index>(j), start, stretches, choices));
   }
   const Fitter fitter(stretches, std::move(models));
   BlockFit fit;

@@ -62,13 +62,12 @@ class CoverageStudy {
         const bool real = s.imag() == 0.0;
         const FittedZero* nearest = nullptr;
         for (const FittedZero& zero : fit.sensors[j].zeros) {
-          if (!nearest ||
-              std::abs(zero.s_rad_per_s - s) < std::abs(nearest->s_rad_per_s - s)) {
+          if (!nearest || std::abs(zero.s_rad_per_s - s) < std::abs(nearest->s_rad_per_s - s)) {
             nearest = &zero;
           }
         }
-        const auto name = arm::to_string(fit.sensors[j].sensor) + (real ? " real zero " : " zero ") +
-                          std::to_string(++order);
+        const auto name = arm::to_string(fit.sensors[j].sensor) +
+                          (real ? " real zero " : " zero ") + std::to_string(++order);
         if (!nearest) continue;
         note(at++, name + " frequency", nearest->frequency_Hz, natural_Hz(s),
              nearest->frequency_std_Hz);

@@ -59,7 +59,7 @@ TEST(FittedZeros, OfAVelocityWithARemainderAreRootsOfTheTransferFunction) {
   // Five poles and a remainder in s: as many zeros as degree 6, in conjugate pairs or real.
   std::size_t degree = 0;
   for (const FittedZero& zero : zeros) {
-    degree += zero.s_rad_per_s.imag() > 0.0 ? 2 : 1;
+    degree += zero.s_rad_per_s.imag() > 0.0 ? 2U : 1U;
     const double scale = std::abs(transfer.s_derivative(zero.s_rad_per_s) * zero.s_rad_per_s);
     EXPECT_LT(std::abs(transfer.value(zero.s_rad_per_s)), kRounding * scale);
   }

@@ -46,8 +46,7 @@ TEST(HeldResponse, OfRealPolesToAStepIsTheClosedForm) {
   Eigen::Vector4d x = Eigen::Vector4d::Zero();
   for (int k = 0; k < kSamples; ++k) {
     const double t = k * kPeriod_s;
-    const double expected =
-        1.0 / 60.0 - std::exp(-2.0 * t) / 56.0 + std::exp(-30.0 * t) / 840.0;
+    const double expected = 1.0 / 60.0 - std::exp(-2.0 * t) / 56.0 + std::exp(-30.0 * t) / 840.0;
     EXPECT_NEAR(x(0), expected, kRounding);
     step.step(x, 1.0, 1.0);
   }
@@ -112,8 +111,7 @@ TEST(SensorColumns, HaveTheDerivativesThatDifferencesHave) {
 TEST(Triangle, HasTheCrossProductsOfTheRows) {
   const TimeRecord record = random_torque();
   const BlockSet set{{{0.3, 0.0}, block_of(60.0, 0.02)}, true};
-  const Stretch stretch =
-      time_stretch(record, {}, TorqueHold::zero, InitialState::rest, kSamples);
+  const Stretch stretch = time_stretch(record, {}, TorqueHold::zero, InitialState::rest, kSamples);
   const Eigen::MatrixXd rows = rows_of(stretch, set);
   const Eigen::MatrixXd r = triangle(stretch, set.blocks);
   const Eigen::MatrixXd expected = rows.transpose() * rows;
@@ -131,8 +129,7 @@ TEST(SecondOrderBlock, HasTheRootsOfItsPolynomial) {
     const auto [first, second] = block.poles_rad_per_s();
     EXPECT_NEAR(std::abs(first + second + block.a1_rad_per_s), 0.0,
                 1e-15 * std::abs(block.a1_rad_per_s));
-    EXPECT_NEAR(std::abs(first * second - block.a0_rad2_per_s2), 0.0,
-                1e-15 * block.a0_rad2_per_s2);
+    EXPECT_NEAR(std::abs(first * second - block.a0_rad2_per_s2), 0.0, 1e-15 * block.a0_rad2_per_s2);
   }
 }
 

@@ -15,6 +15,7 @@ constexpr double kChance = 1e-5;
 TEST(ModalCoverage, OfEveryPoleAndZeroIsWhatIntervalsSay) {
   FitCase fit_case;
   fit_case.relative_noise = 0.01;
+  fit_case.duration_s = 20.0;
   CoverageStudy study(fit_case);
   for (std::uint64_t seed = 1; seed <= kRuns; ++seed) study.run(seed);
   const double least = boost::math::quantile(boost::math::binomial(kRuns, 0.95), kChance);

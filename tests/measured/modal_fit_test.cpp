@@ -166,7 +166,7 @@ TEST(ModalFit, OfTwoRunsIsSurerThanOfOne) {
   fit_case.relative_noise = 0.01;
   std::vector<TimeRecord> records = {record_of(fit_case)};
   const ModalFit one = fit_modes(records, {.modes = 3});
-  fit_case.excitation = response::Chirp{};
+  fit_case.excitation = response::RandomNoise{.seed = 2};
   fit_case.seed = 2;
   records.push_back(record_of(fit_case));
   std::ranges::reverse(records[1].channels);
@@ -185,8 +185,7 @@ TEST(ModalFit, SaysThatColouredNoiseIsColouredAndWidensItsErrors) {
   for (Channel& channel : records[0].channels) {
     double size = 0.0;
     for (const double value : channel.values) size += value * value;
-    const double deviation =
-        0.01 * std::sqrt(size / static_cast<double>(channel.values.size()));
+    const double deviation = 0.01 * std::sqrt(size / static_cast<double>(channel.values.size()));
     double noise = 0.0;
     for (double& value : channel.values) {
       noise = 0.9 * noise + std::sqrt(1.0 - 0.81) * random.normal();

@@ -3,6 +3,7 @@
 #include "app/command.hpp"
 #include "arm/arm_file.hpp"
 #include "arm/effects.hpp"
+#include "arm/formulation.hpp"
 #include "arm/input_error.hpp"
 #include "arm/linear_arm.hpp"
 
@@ -28,10 +29,20 @@ std::string describe(const std::string& name, const arm::Effect& effect) {
   return fmt::format("with {}{}{}", name, parts.empty() ? "" : ": ", fmt::join(parts, ", "));
 }
 
+arm::Arm read(const std::string& file) {
+  arm::Arm arm = arm::read_arm_file(file);
+  try {
+    arm::require_computable(arm);
+  } catch (const arm::InputError& error) {
+    throw arm::located(error, file, 0);
+  }
+  return arm;
+}
+
 }  // namespace
 
 std::vector<arm::Arm> ArmChoice::arms() const {
-  arm::Arm base = file.empty() ? arm::paper_arm() : arm::read_arm_file(file);
+  arm::Arm base = file.empty() ? arm::paper_arm() : read(file);
   if (payload_inertia_kg_m2) base.payload.inertia_kg_m2 = *payload_inertia_kg_m2;
   if (hub_inertia_kg_m2) base.hub.inertia_kg_m2 = *hub_inertia_kg_m2;
   std::vector<arm::Arm> arms;
@@ -43,7 +54,7 @@ std::vector<arm::Arm> ArmChoice::arms() const {
     arms.push_back(base);
     arms.back().payload.mass_kg = mass;
   }
-  for (const auto& arm : arms) arm::require_valid(arm);
+  for (const auto& arm : arms) arm::require_computable(arm);
   return arms;
 }
 

@@ -59,33 +59,35 @@ compare::Comparison compare_with_progress(const arm::Arm& arm, compare::Options 
   return compare::compare(arm, options);
 }
 
-void print_table(const report::Table& table, const report::TextOptions& options = {}) {
-  print(report::to_text(table, options) + "\n");
+std::string table_text(const report::Table& table, const report::TextOptions& options = {}) {
+  return report::to_text(table, options) + "\n";
 }
 
-void print_comparison(const compare::Comparison& comparison,
-                      const std::vector<compare::MeasuredRow>& measured, bool full) {
-  print(describe(comparison.arm) + "\n");
-  print_table(report::subjects_table(comparison));
-  for (const auto& table : report::root_tables(comparison)) print_table(table);
-  if (!measured.empty()) print_table(report::measured_table(measured));
-  if (full) print_table(report::notes_table(comparison));
+std::string comparison_text(const compare::Comparison& comparison,
+                            const std::vector<compare::MeasuredRow>& measured, bool full) {
+  std::string text;
+  text += describe(comparison.arm) + "\n";
+  text += table_text(report::subjects_table(comparison));
+  for (const auto& table : report::root_tables(comparison)) text += table_text(table);
+  if (!measured.empty()) text += table_text(report::measured_table(measured));
+  if (full) text += table_text(report::notes_table(comparison));
   if (!comparison.refinements.empty()) {
-    print(report::convergence_legend(comparison) + "\n");
-    for (const auto& table : report::convergence_tables(comparison)) print_table(table);
+    text += report::convergence_legend(comparison) + "\n";
+    for (const auto& table : report::convergence_tables(comparison)) text += table_text(table);
     if (!comparison.basis_notes.empty()) {
-      print("Bases of assumed_modes\n");
-      for (const auto& note : comparison.basis_notes) print(report::to_paragraph(note, 2));
-      print("\n");
+      text += "Bases of assumed_modes\n";
+      for (const auto& note : comparison.basis_notes) text += report::to_paragraph(note, 2);
+      text += "\n";
     }
     if (full) {
       constexpr report::TextOptions kRootAndSeries{.key_columns = 3};
-      print_table(report::convergence_listing(comparison), kRootAndSeries);
+      text += table_text(report::convergence_listing(comparison), kRootAndSeries);
     }
   }
-  print_table(report::shapes_table(comparison));
-  print_table(report::responses_table(comparison));
-  print(report::verdict_line(comparison) + "\n");
+  text += table_text(report::shapes_table(comparison));
+  text += table_text(report::responses_table(comparison));
+  text += report::verdict_line(comparison) + "\n";
+  return text;
 }
 
 void write_folder(const fs::path& folder, const compare::Comparison& comparison,
@@ -125,14 +127,15 @@ int run(const Arguments& arguments) {
   const auto arms = arguments.arm.arms();
   arguments.output.prepare();
 
+  std::string text;  // printed last: a reader that goes away costs no file
   std::size_t disagreeing = 0;
   std::vector<report::ComparedArm> results;
   for (const auto& arm : arms) {
     const auto comparison = compare_with_progress(arm, options);
     const auto rows = compare::beside_model(measured, comparison);
-    print(left_out_of_roots(arm));
-    print_comparison(comparison, rows, arguments.full);
-    if (arms.size() > 1) print("\n");
+    text += left_out_of_roots(arm);
+    text += comparison_text(comparison, rows, arguments.full);
+    if (arms.size() > 1) text += "\n";
     if (!arguments.output.folder.empty()) {
       write_folder(folder_of(arguments.output.folder, arm, arms.size()), comparison, rows);
     }
@@ -143,10 +146,11 @@ int run(const Arguments& arguments) {
     arm::write_atomically(arguments.output.json_file, report::comparison_json(results));
   }
   if (arms.size() > 1) {
-    print(disagreeing == 0 ? fmt::format("All {} arms: agree.\n", arms.size())
-                           : fmt::format("{} of {} arms: DISAGREE.\n", disagreeing, arms.size()));
+    text += disagreeing == 0 ? fmt::format("All {} arms: agree.\n", arms.size())
+                             : fmt::format("{} of {} arms: DISAGREE.\n", disagreeing, arms.size());
   }
-  print(next_step(arguments));
+  text += next_step(arguments);
+  print(text);
   return disagreeing == 0 ? kSuccess : kFailure;
 }
 

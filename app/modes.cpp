@@ -121,6 +121,7 @@ int run(const Arguments& arguments) {
   for (const auto& name : arguments.sensors) sensors.push_back(arm::parse_sensor(name));
 
   bool proved = true;
+  std::string text;  // printed last: a reader that goes away costs no file
   nlohmann::ordered_json documents = nlohmann::ordered_json::array();
   const auto arms = arguments.arm.arms();
   for (const auto& arm : arms) {
@@ -131,24 +132,24 @@ int run(const Arguments& arguments) {
     const auto chosen = arguments.formulation.make(arm, arguments.count);
     const auto summary = response::summarise(chosen.formulation, arguments.count, sensors,
                                              compare::shape_stations_m(arm.beam.length_m));
-    print(describe(arm));
-    print(left_out_of_roots(arm));
-    print(fmt::format("by {}\n\n", response::formulation_label(chosen.name, chosen.settings)));
-    print(report::to_text(report::poles_table(arm, summary)) + "\n");
+    text += describe(arm);
+    text += left_out_of_roots(arm);
+    text += fmt::format("by {}\n\n", response::formulation_label(chosen.name, chosen.settings));
+    text += report::to_text(report::poles_table(arm, summary)) + "\n";
     const std::string lowest = report::lowest_mode_line(summary);
-    if (!lowest.empty()) print(lowest + "\n");
+    if (!lowest.empty()) text += lowest + "\n";
     if (arm::linear_arm(arm).is_damped()) {
-      print(report::to_text(report::damped_poles_table(summary)) + "\n");
+      text += report::to_text(report::damped_poles_table(summary)) + "\n";
     }
-    print(report::to_text(report::zeros_table(summary)) + "\n");
-    print(shortfalls(chosen, summary, arguments.count));
+    text += report::to_text(report::zeros_table(summary)) + "\n";
+    text += shortfalls(chosen, summary, arguments.count);
 
     nlohmann::ordered_json document = {
         {"arm", report::arm_json(arm)}, {"model", chosen.name}, {"settings", chosen.settings}};
     document.update(report::modes_json(arm, summary));
     if (arguments.certificate) {
       const auto lists = certify(arm, sensors, arguments.count);
-      print(report::to_text(certificate_table(lists)) + "\n");
+      text += report::to_text(certificate_table(lists)) + "\n";
       document["certificate"] = certificate_json(lists);
       for (const auto& list : lists) proved = proved && list.certificate.proved;
     }
@@ -171,9 +172,10 @@ int run(const Arguments& arguments) {
     arm::write_atomically(arguments.output.json_file,
                           report::json_document("flexarm.modes/1", {{"arms", documents}}));
   }
-  if (!arguments.output.folder.empty()) print(fmt::format("wrote {}\n", arguments.output.folder));
-  print(fmt::format("next: see the three formulations agree with  flexarm compare{}\n",
-                    arguments.arm.file.empty() ? "" : " " + arguments.arm.file));
+  if (!arguments.output.folder.empty()) text += fmt::format("wrote {}\n", arguments.output.folder);
+  text += fmt::format("next: see the three formulations agree with  flexarm compare{}\n",
+                      arguments.arm.file.empty() ? "" : " " + arguments.arm.file);
+  print(text);
   return proved ? kSuccess : kFailure;
 }
 

@@ -87,20 +87,22 @@ ChosenFormulation make_formulation(const Arguments& arguments, const arm::Arm& a
   return arguments.formulation.make(arm, roots);
 }
 
-void print_table(const report::Table& table) {
-  print(report::to_text(table) + "\n");
+std::string table_text(const report::Table& table) {
+  return report::to_text(table) + "\n";
 }
 
-void print_study(const response::ResponseStudy& study, const response::ResponseOptions& options) {
-  for (const auto& note : report::chain_notes(study)) print(report::to_paragraph(note, 2));
-  if (!report::chain_notes(study).empty()) print("\n");
-  print_table(report::response_poles_table(study, static_cast<std::size_t>(options.modes)));
+std::string study_text(const response::ResponseStudy& study,
+                       const response::ResponseOptions& options) {
+  std::string text;
+  for (const auto& note : report::chain_notes(study)) text += report::to_paragraph(note, 2);
+  if (!report::chain_notes(study).empty()) text += "\n";
+  text += table_text(report::response_poles_table(study, static_cast<std::size_t>(options.modes)));
   for (std::size_t k = 0; k < study.response.sensors.size(); ++k) {
     auto factors = report::factors_table(study, k);
-    print(factors.caption + "\n");
+    text += factors.caption + "\n";
     factors.caption.clear();
-    for (const auto& formula : report::formulas(study, k)) print("  " + formula + "\n");
-    print_table(factors);
+    for (const auto& formula : report::formulas(study, k)) text += "  " + formula + "\n";
+    text += table_text(factors);
   }
   const auto frequencies = study.response.frequency_Hz.size();
   const bool listed = !options.frequency_Hz.empty();
@@ -109,8 +111,9 @@ void print_study(const response::ResponseStudy& study, const response::ResponseO
                       ? fmt::format("Response at {} frequencies", frequencies)
                       : fmt::format("Response at {} of {} frequencies; all with --out and --json",
                                     table.rows.size(), frequencies);
-  print_table(table);
-  if (study.state_space) print_table(report::state_space_table(study));
+  text += table_text(table);
+  if (study.state_space) text += table_text(report::state_space_table(study));
+  return text;
 }
 
 void write_folder(const fs::path& folder, const std::string& formulation,
@@ -169,15 +172,20 @@ int run(const Arguments& arguments) {
       throw arm::InputError("--state-space: takes one arm; --payload-mass has several");
     }
   }
+  if (!arguments.state_space_file.empty() &&
+      arguments.state_space_file == arguments.output.json_file) {
+    throw arm::InputError("--json: is the file of --state-space too");
+  }
   arguments.output.prepare();
 
+  std::string text;  // printed last: a reader that goes away costs no file
   nlohmann::ordered_json documents = nlohmann::ordered_json::array();
   for (const auto& arm : arms) {
     const auto chosen = make_formulation(arguments, arm, options);
     const auto study = response::study_response(arm, chosen.formulation, options);
-    print(describe(arm));
-    print(fmt::format("by {}\n\n", response::formulation_label(chosen.name, chosen.settings)));
-    print_study(study, options);
+    text += describe(arm);
+    text += fmt::format("by {}\n\n", response::formulation_label(chosen.name, chosen.settings));
+    text += study_text(study, options);
 
     nlohmann::ordered_json document = {
         {"arm", report::arm_json(arm)}, {"model", chosen.name}, {"settings", chosen.settings}};
@@ -187,7 +195,7 @@ int run(const Arguments& arguments) {
     if (!arguments.output.folder.empty()) {
       write_folder(folder_of(arguments.output.folder, arm, arms.size()), chosen.name, study);
       if (std::ranges::all_of(study.resonances, &std::vector<response::Resonance>::empty)) {
-        print("no Nyquist diagrams: no damped pole lies in the range\n");
+        text += "no Nyquist diagrams: no damped pole lies in the range\n";
       }
     }
   }
@@ -195,7 +203,8 @@ int run(const Arguments& arguments) {
     arm::write_atomically(arguments.output.json_file,
                           report::json_document("flexarm.response/1", {{"arms", documents}}));
   }
-  print(next_step(arguments));
+  text += next_step(arguments);
+  print(text);
   return kSuccess;
 }
 

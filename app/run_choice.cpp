@@ -13,7 +13,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <map>
+#include <set>
 #include <string_view>
 
 namespace flexarm::app {
@@ -66,7 +66,7 @@ measured::Purpose read_purpose(std::string_view value) {
 TypedRun read_run(const std::string& text, std::uint64_t seed) {
   const auto colon = text.find(':');
   TypedRun run{response::excitation_of(text.substr(0, colon)), "", {}, {}};
-  bool has_seed = false;
+  std::set<std::string_view> given;
   std::string_view rest =
       colon == std::string::npos ? std::string_view() : std::string_view(text).substr(colon + 1);
   while (!rest.empty()) {
@@ -79,6 +79,9 @@ TypedRun read_run(const std::string& text, std::uint64_t seed) {
     }
     const std::string_view key = part.substr(0, equals);
     const std::string_view value = part.substr(equals + 1);
+    if (!given.insert(key).second) {
+      throw InputError(fmt::format("{}: is given twice", arm::shown(key)));
+    }
     if (key == "id") {
       run.id = require_id(std::string(value));
     } else if (key == "payload") {
@@ -87,14 +90,24 @@ TypedRun read_run(const std::string& text, std::uint64_t seed) {
       run.purpose = read_purpose(value);
     } else {
       response::set_key(run.excitation, key, value, {"id", "payload", "purpose"});
-      has_seed = has_seed || key == "seed";
     }
   }
   const auto keys = response::keys_of(run.excitation);
-  if (!has_seed && std::ranges::count(keys, "seed", &response::ExcitationKey::name) > 0) {
+  if (!given.contains("seed") &&
+      std::ranges::count(keys, "seed", &response::ExcitationKey::name) > 0) {
     response::set_key(run.excitation, "seed", fmt::format("{}", seed));
   }
   return run;
+}
+
+/// The library reads -1 as 2^64 - 1.
+CLI::Validator whole_number() {
+  return {[](const std::string& value) {
+            return arm::parse_number<std::uint64_t>(value)
+                       ? std::string()
+                       : fmt::format("{}: must be a whole number, 0 or more", arm::shown(value));
+          },
+          ""};
 }
 
 response::SampleGrid grid_of(double duration_s, double period_s) {
@@ -103,24 +116,26 @@ response::SampleGrid grid_of(double duration_s, double period_s) {
   const double samples = std::round(duration_s / period_s);
   if (samples < 2.0 || samples > kMostSamples) {
     throw InputError(
-        fmt::format("--duration = {} s at --period = {} s: {:.0f} samples; must be from 2 to {:g}",
+        fmt::format("--duration = {} s at --period = {} s: {:.6g} samples; must be from 2 to {:g}",
                     duration_s, period_s, samples, kMostSamples));
   }
   return {static_cast<std::size_t>(samples), period_s};
 }
 
-/// k period; where a whole number of periods make a second, as k over that number, which is the
-/// nearest double to the decimal.
 std::vector<double> times_of(const response::SampleGrid& grid) {
-  constexpr double kRounding = 1e-12;
-  const double rate_Hz = std::round(1.0 / grid.period_s);
-  const bool is_whole = rate_Hz > 0.0 && std::abs(rate_Hz * grid.period_s - 1.0) < kRounding;
   std::vector<double> times(grid.samples);
-  for (std::size_t k = 0; k < times.size(); ++k) {
-    const auto count = static_cast<double>(k);
-    times[k] = is_whole ? count / rate_Hz : count * grid.period_s;
-  }
+  for (std::size_t k = 0; k < times.size(); ++k) times[k] = grid.time_s(k);
   return times;
+}
+
+std::vector<RoundedKey> differences(const std::vector<response::ExcitationKey>& typed,
+                                    const std::vector<response::ExcitationKey>& taken) {
+  std::vector<RoundedKey> rounded;
+  for (std::size_t i = 0; i < typed.size(); ++i) {
+    if (typed[i].value == taken[i].value) continue;
+    rounded.push_back({typed[i].name, typed[i].unit, typed[i].value, taken[i].value});
+  }
+  return rounded;
 }
 
 std::string id_of_file(const std::string& file) {
@@ -139,19 +154,24 @@ PlannedRun run_of_file(const std::string& file) {
           std::move(record.time_s),
           {std::move(record.torque_N_m), {}, {}},
           {},
-          {}};
+          {},
+          {},
+          false};
 }
 
-/// "random", "random-2", ...: an id that is given twice is counted.
+/// "random", "random-2", ...: ids that were not typed are counted where they are in use.
 void count_equal_ids(std::vector<PlannedRun>& runs) {
-  std::map<std::string, int> seen;
-  for (auto& run : runs) {
-    const int count = ++seen[run.id];
-    if (count > 1) run.id += fmt::format("-{}", count);
-  }
+  std::set<std::string> used;
   for (const auto& run : runs) {
-    if (std::ranges::count(runs, run.id, &PlannedRun::id) > 1) {
+    if (run.has_own_id && !used.insert(run.id).second) {
       throw InputError(fmt::format("id = {}: given to two runs", run.id));
+    }
+  }
+  for (auto& run : runs) {
+    if (run.has_own_id) continue;
+    const std::string first = run.id;
+    for (int count = 2; !used.insert(run.id).second; ++count) {
+      run.id = fmt::format("{}-{}", first, count);
     }
   }
 }
@@ -179,13 +199,17 @@ std::vector<PlannedRun> RunChoice::runs(const arm::Arm& arm,
     auto* multisine = std::get_if<response::Multisine>(&run.excitation);
     if (multisine && multisine->period_s == 0.0) multisine->period_s = grid.duration_s();
     const std::string kind(response::name(run.excitation));
+    auto torque = response::sample(run.excitation, grid);
+    const auto keys = response::keys_of(response::in_whole_samples(run.excitation, grid));
     PlannedRun planned{run.id.empty() ? kind : run.id,
                        kind,
-                       response::keys_of(run.excitation),
+                       keys,
                        times_of(grid),
-                       response::sample(run.excitation, grid),
+                       std::move(torque),
                        {},
-                       run.purpose};
+                       run.purpose,
+                       differences(response::keys_of(run.excitation), keys),
+                       !run.id.empty()};
     if (run.payload_kg) {
       if (!payload_masses_kg.empty()) {
         throw InputError(
@@ -212,11 +236,13 @@ std::vector<PlannedRun> RunChoice::runs(const arm::Arm& arm,
 
 void add_run_choice(CLI::App& parser, RunChoice& choice) {
   parser
-      .add_option("--excitation", choice.excitations,
-                  "KIND:KEY=VALUE,...; KIND is bang-bang (keys amplitude, pulse, start, pairs), "
-                  "step (amplitude, start), random (rms, from, to, seed), multisine (rms, from, "
-                  "to, period, detection, seed) or chirp (amplitude, from, to, sweep), in N m, s "
-                  "and Hz; each also id, payload [kg], purpose. Given again: a further run")
+      .add_option(
+          "--excitation", choice.excitations,
+          "KIND:KEY=VALUE,...; KIND is bang-bang (keys amplitude, pulse, start, pairs: 1, or 0 "
+          "for as many as fit), "
+          "step (amplitude, start), random (rms, from, to, seed), multisine (rms, from, "
+          "to, period, detection, seed) or chirp (amplitude, from, to, sweep), in N m, s "
+          "and Hz; each also id, payload [kg], purpose. Given again: a further run")
       ->check(not_empty())
       ->allow_extra_args(false);
   parser
@@ -231,6 +257,7 @@ void add_run_choice(CLI::App& parser, RunChoice& choice) {
   parser
       .add_option("--seed", choice.seed,
                   "Of noise and, counted up, of the excitations without a seed of their own")
+      ->check(whole_number())
       ->capture_default_str();
 }
 

@@ -12,15 +12,25 @@
 
 namespace flexarm::app {
 
+/// A time of an excitation that was moved to whole samples.
+struct RoundedKey {
+  std::string name;
+  std::string unit;
+  std::string typed;
+  std::string taken;
+};
+
 /// A run that was asked for, with its torque.
 struct PlannedRun {
   std::string id;
-  std::string excitation;  ///< its name, or that of the torque's file
-  std::vector<response::ExcitationKey> keys;
+  std::string excitation;                     ///< its name, or that of the torque's file
+  std::vector<response::ExcitationKey> keys;  ///< as they were taken
   std::vector<double> time_s;
   response::SampledTorque torque;
   std::optional<arm::Payload> payload;  ///< in place of the arm's own
   std::optional<measured::Purpose> purpose;
+  std::vector<RoundedKey> rounded;
+  bool has_own_id = false;  ///< typed, not made from the excitation
 };
 
 /// The runs that a command simulates: each excitation and each torque file with each payload.

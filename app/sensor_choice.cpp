@@ -16,9 +16,9 @@ namespace {
 
 using arm::InputError;
 
-/// Reads SENSOR=NUMBER and sets the number of that sensor.
+/// Reads SENSOR=NUMBER and sets the number of that sensor, which joins those `given`.
 void set_number(const char* option, const std::string& text, std::vector<ChosenSensor>& sensors,
-                double response::SensorImperfections::*member) {
+                double response::SensorImperfections::*member, std::vector<arm::Sensor>& given) {
   const auto equals = text.find('=');
   if (equals == std::string::npos) {
     throw InputError(fmt::format("{} {}: must be SENSOR=NUMBER, as in hub_angle=0.001", option,
@@ -35,6 +35,11 @@ void set_number(const char* option, const std::string& text, std::vector<ChosenS
     throw InputError(fmt::format("{} {}: must be {} [{}]", option, arm::shown(text),
                                  to_string(arm::kNotNegative), arm::unit(sensor)));
   }
+  if (std::ranges::count(given, sensor) > 0) {
+    throw InputError(
+        fmt::format("{} {}: {} is given twice", option, arm::shown(text), arm::to_string(sensor)));
+  }
+  given.push_back(sensor);
   place->imperfections.*member = *number;
 }
 
@@ -51,11 +56,14 @@ std::vector<ChosenSensor> SensorChoice::sensors(const arm::Arm& arm) const {
     }
     sensors.push_back({sensor, {.relative_noise = relative_noise}});
   }
+  std::vector<arm::Sensor> noisy;
   for (const auto& text : noises) {
-    set_number("--noise-of", text, sensors, &response::SensorImperfections::noise);
+    set_number("--noise-of", text, sensors, &response::SensorImperfections::noise, noisy);
   }
+  std::vector<arm::Sensor> stepped;
   for (const auto& text : quantisations) {
-    set_number("--quantisation", text, sensors, &response::SensorImperfections::quantisation);
+    set_number("--quantisation", text, sensors, &response::SensorImperfections::quantisation,
+               stepped);
   }
   return sensors;
 }

@@ -94,13 +94,22 @@ void require_replaceable(const fs::path& folder) {
   }
 }
 
+void refuse_without_folder(const char* option, bool given) {
+  if (given) throw arm::InputError(fmt::format("{}: needs --out FOLDER", option));
+}
+
 /// Throws for outputs that could not be written: before the work, not after it.
 void prepare(const Arguments& arguments) {
   const fs::path json = arguments.json_file;
   const bool in_folder = !arguments.folder.empty() && json.has_parent_path() &&
                          fs::path(arguments.folder) / json.filename() == json;
   if (!json.empty() && !in_folder) arm::require_writable(json);
-  if (arguments.folder.empty()) return;
+  if (arguments.folder.empty()) {
+    refuse_without_folder("--force", arguments.force);
+    refuse_without_folder("--hide-effects", !arguments.hidden_effects.empty());
+    refuse_without_folder("--name", !arguments.name.empty());
+    return;
+  }
   report::run_gnuplot("");  // throws where there is none
   if (arguments.force) {
     require_replaceable(arguments.folder);
@@ -111,6 +120,34 @@ void prepare(const Arguments& arguments) {
   } catch (const arm::InputError& error) {
     throw arm::InputError(fmt::format("{}; --force replaces a measurement", error.what()));
   }
+}
+
+/// The numbers of excitations that samples could not take as they were typed.
+std::string rounding_notes(const std::vector<PlannedRun>& plan) {
+  std::string notes;
+  for (const auto& run : plan) {
+    std::vector<std::string> changes;
+    for (const auto& [name, unit, typed, taken] : run.rounded) {
+      changes.push_back(fmt::format("{} {} {} is {} {}", name, typed, unit, taken, unit));
+    }
+    if (changes.empty()) continue;
+    notes += report::to_paragraph(fmt::format("note: {}: {}: to whole samples, as it was simulated",
+                                              run.id, fmt::join(changes, ", ")));
+  }
+  return notes;
+}
+
+/// Which runs are of an arm that does not stay where it is.
+std::string standing_notes(const std::vector<report::SimulatedRun>& runs) {
+  std::string notes;
+  for (const auto& run : runs) {
+    if (run.fall_rate_rad_per_s == 0.0) continue;
+    notes += report::to_paragraph(
+        fmt::format("note: {}: the arm stands up and falls: undamped poles at s = +-{:.6g} rad/s; "
+                    "its equations are for small angles and do not see it arrive",
+                    run.id, run.fall_rate_rad_per_s));
+  }
+  return notes;
 }
 
 /// What the sampling does not show of the modes kept, once for each kind of run.
@@ -132,21 +169,27 @@ std::string sampling_notes(const SimulatedExperiment& experiment) {
   return notes;
 }
 
-void print_results(const Arguments& arguments, const SimulatedExperiment& experiment,
-                   bool has_dry_friction) {
+void print_results(const Arguments& arguments, const std::vector<PlannedRun>& plan,
+                   const SimulatedExperiment& experiment, bool has_dry_friction) {
   const auto& runs = experiment.runs;
-  print(fmt::format("by {}, {} flexible mode{}{}; torque {}, from rest\n\n",
+  print(fmt::format("by {}, {} flexible mode{}{}; torque {}, from rest\n",
                     response::formulation_label(experiment.model, experiment.settings),
                     experiment.modes, experiment.modes == 1 ? "" : "s",
                     arguments.options.static_correction ? " and a residual mode" : "",
                     arguments.options.hold == response::TorqueHold::zero
                         ? "constant from one sample to the next"
                         : "linear between samples"));
+  if (experiment.modes < arguments.options.modes) {
+    print(fmt::format("{} of {} modes: {} has {} degrees of freedom\n", experiment.modes,
+                      arguments.options.modes, experiment.model, experiment.degrees_of_freedom));
+  }
+  print("\n");
   print(report::to_text(report::torque_table(runs)) + "\n");
   print(report::to_text(report::reading_table(runs), {.key_columns = 2}) + "\n");
   print(report::to_text(report::energy_table(runs)) + "\n");
   if (has_dry_friction) print(report::to_text(report::hub_motion_table(runs)) + "\n");
-  const std::string notes = sampling_notes(experiment);
+  const std::string notes =
+      rounding_notes(plan) + standing_notes(runs) + sampling_notes(experiment);
   if (!notes.empty()) print(notes + "\n");
 }
 
@@ -165,8 +208,9 @@ std::string json_text(const Arguments& arguments, const arm::Arm& arm,
 int run(Arguments arguments) {
   auto& options = arguments.options;
   if (options.modes < 1) throw arm::out_of_range("--modes", options.modes, "", "1 or more");
-  if (options.substeps < 0) {
-    throw arm::out_of_range("--substeps", options.substeps, "", "0 or more");
+  if (options.substeps < 0 || options.substeps > response::kMostSubsteps) {
+    throw arm::out_of_range("--substeps", options.substeps, "",
+                            fmt::format("from 0 to {}", response::kMostSubsteps));
   }
   options.hold = read_hold(arguments.hold);
   options.noise_seed = arguments.runs.seed;
@@ -176,10 +220,8 @@ int run(Arguments arguments) {
   const auto plan = arguments.runs.runs(arm, arguments.arm.payload_masses_kg);
   prepare(arguments);
 
-  print(describe(arm));
   const auto experiment = simulate_experiment(arm, plan, sensors, options);
-  print_results(arguments, experiment, !response::take_apart(arm).friction.is_zero());
-
+  // Files first: a reader of standard output that goes away costs none of them.
   if (!arguments.folder.empty()) {
     const std::string otherwise = arm.name.empty() ? "simulated" : arm.name + ", simulated";
     const std::string name = arguments.name.empty() ? otherwise : arguments.name;
@@ -190,6 +232,8 @@ int run(Arguments arguments) {
   if (!arguments.json_file.empty()) {
     arm::write_atomically(arguments.json_file, json_text(arguments, arm, experiment));
   }
+  print(describe(arm));
+  print_results(arguments, plan, experiment, !response::take_apart(arm).friction.is_zero());
   if (arguments.folder.empty()) {
     print(fmt::format("next: keep it as a measurement with  flexarm simulate{} --out simulated\n",
                       arguments.arm.file.empty() ? "" : " " + arguments.arm.file));

@@ -1,6 +1,7 @@
 #include "app/simulated_experiment.hpp"
 
 #include "arm/arm_file.hpp"
+#include "arm/input_error.hpp"
 #include "measured/measurement.hpp"
 #include "report/progress.hpp"
 #include "response/step_check.hpp"
@@ -9,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -47,7 +49,11 @@ class Models {
                                       options_.static_correction);
     experiment_.model = chosen.name;
     experiment_.settings = chosen.settings;
+    experiment_.degrees_of_freedom = response::degrees_of_freedom(chosen.formulation);
     experiment_.modes = std::min(options_.modes, static_cast<int>(made.model.modes.size()) - 1);
+    if (experiment_.degrees_of_freedom > 0) {
+      experiment_.modes = std::min(experiment_.modes, experiment_.degrees_of_freedom - 1);
+    }
     models_.push_back(std::move(made));
     return models_.back();
   }
@@ -79,6 +85,30 @@ class SampleProgress {
   std::int64_t shown_ = 0;
 };
 
+void require_finite(const std::vector<double>& reading, const arm::Sensor& sensor,
+                    const report::SimulatedRun& run) {
+  const auto wrong = std::ranges::find_if(reading, [](double v) { return !std::isfinite(v); });
+  if (wrong == reading.end()) return;
+  throw arm::InputError(fmt::format(
+      "{}: {} at {:.6g} s: too large for a number with its noise", run.id, arm::to_string(sensor),
+      run.record.time_s[static_cast<std::size_t>(wrong - reading.begin())]));
+}
+
+/// Simulates a run that has its torque.
+void step(report::SimulatedRun& run, const PayloadModel& model,
+          const std::vector<arm::Sensor>& sensors, const response::SimulationOptions& options,
+          bool check_step) {
+  const auto& torque_N_m = run.record.torque_N_m;
+  SampleProgress progress(fmt::format("{}, samples", run.id), torque_N_m.size());
+  run.simulation = response::simulate(model.model, model.parts, sensors, torque_N_m, options,
+                                      std::ref(progress));
+  if (!check_step) return;
+  SampleProgress finer(fmt::format("{} in smaller steps, samples", run.id), torque_N_m.size());
+  run.step_error = response::check_step(run.simulation, model.model, model.parts, sensors,
+                                        torque_N_m, options, std::ref(finer))
+                       .relative_difference;
+}
+
 }  // namespace
 
 SimulatedExperiment simulate_experiment(const arm::Arm& arm, const std::vector<PlannedRun>& runs,
@@ -105,15 +135,12 @@ SimulatedExperiment simulate_experiment(const arm::Arm& arm, const std::vector<P
     stepping.sample_time_s = measured::sampling_period_s(run.record);
     stepping.hold = options.hold;
     stepping.substeps = options.substeps;
-    const auto& torque_N_m = plan.torque.torque_N_m;
-    SampleProgress progress(fmt::format("{}, samples", plan.id), torque_N_m.size());
-    run.simulation = response::simulate(model.model, model.parts, sensors, torque_N_m, stepping,
-                                        std::ref(progress));
-    if (options.check_step) {
-      SampleProgress finer(fmt::format("{} in smaller steps, samples", plan.id), torque_N_m.size());
-      run.step_error = response::check_step(run.simulation, model.model, model.parts, sensors,
-                                            torque_N_m, stepping, std::ref(finer))
-                           .relative_difference;
+    const double lowest = model.model.lowest_omega_squared_rad2_per_s2;
+    run.fall_rate_rad_per_s = lowest < 0.0 ? std::sqrt(-lowest) : 0.0;
+    try {
+      step(run, model, sensors, stepping, options.check_step);
+    } catch (const arm::InputError& error) {
+      throw arm::InputError(fmt::format("{}: {}", plan.id, error.what()), error.key());
     }
     for (std::size_t j = 0; j < sensors.size(); ++j) {
       auto reading = run.simulation.channels[j];
@@ -122,6 +149,7 @@ SimulatedExperiment simulate_experiment(const arm::Arm& arm, const std::vector<P
           options.noise_seed,
           1 + static_cast<std::uint32_t>(j) + kStreamsOfARun * static_cast<std::uint32_t>(i));
       response::impair(reading, chosen[j].imperfections, random);
+      require_finite(reading, sensors[j], run);
       run.record.channels.push_back({sensors[j], std::move(reading)});
     }
     experiment.runs.push_back(std::move(run));

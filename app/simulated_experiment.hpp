@@ -25,9 +25,10 @@ struct ExperimentOptions {
 
 /// The runs of an experiment on one arm, and the model that they were simulated with.
 struct SimulatedExperiment {
-  std::string model;     ///< "exact_tf"
-  std::string settings;  ///< empty for exact_tf
-  int modes = 0;         ///< flexible ones kept
+  std::string model;           ///< "exact_tf"
+  std::string settings;        ///< empty for exact_tf
+  int modes = 0;               ///< flexible ones kept
+  int degrees_of_freedom = 0;  ///< of the model; 0 for exact_tf
   std::vector<report::SimulatedRun> runs;
 };
 

@@ -22,6 +22,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <limits>
@@ -61,6 +62,32 @@ arm::Arm arm_of(const Arguments& arguments) {
     throw arm::InputError("--payload-mass: one value; several are --over payload.mass=A,B,C");
   }
   return response::take_apart(arms.front()).linear;
+}
+
+/// A number of the arm that is swept is not the one that an option gives.
+void refuse_swept(const ArmChoice& choice, const std::vector<compare::SweepAxis>& axes) {
+  struct Given {
+    const char* option;
+    bool is_given;
+    std::array<const char*, 2> parameters;
+  };
+  const std::array<Given, 3> options = {
+      {{"--payload-mass",
+        !choice.payload_masses_kg.empty(),
+        {"payload.mass", "payload_mass_ratio"}},
+       {"--payload-inertia", choice.payload_inertia_kg_m2.has_value(), {"payload.inertia", ""}},
+       {"--hub-inertia",
+        choice.hub_inertia_kg_m2.has_value(),
+        {"hub.inertia", "hub_inertia_ratio"}}}};
+  for (const auto& axis : axes) {
+    for (const auto& given : options) {
+      if (!given.is_given || std::ranges::count(given.parameters, axis.parameter.name) == 0) {
+        continue;
+      }
+      throw arm::InputError(fmt::format("{}: {} is swept over and has no other value", given.option,
+                                        axis.parameter.name));
+    }
+  }
 }
 
 /// The models named, in the order of `all`; all of them where none is.
@@ -218,8 +245,10 @@ int run(const Arguments& arguments) {
   }
   const auto figure = figure_of(arguments);
   const auto task = figure ? figure->task : task_of(arguments);
+  refuse_swept(arguments.arm, task.axes);
   compare::require_valid(task);
-  arguments.output.prepare();
+  if (!arguments.resume)
+    arguments.output.prepare();  // else a checkpoint is there, or it is refused
 
   const Interruption interruption;
   compare::SweepResult result;

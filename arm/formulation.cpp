@@ -24,35 +24,58 @@ void require_ratio(const char* what, double value, double largest) {
   }
 }
 
+/// A number of an effect beside the size that the beam gives it.
+struct Size {
+  const char* key;
+  double value;
+  const char* unit;
+  double beam_size;  ///< in the same unit
+  const char* beam_size_text;
+};
+
+void require_from_to(const Size& size, double least, double most) {
+  if (size.value >= least * size.beam_size && size.value <= most * size.beam_size) return;
+  throw out_of_range(size.key, size.value, size.unit,
+                     fmt::format("from {:.6g} to {:.6g}, {} to {} times {}", least * size.beam_size,
+                                 most * size.beam_size, least, most, size.beam_size_text));
+}
+
+void require_at_most(const Size& size, double most) {
+  if (std::abs(size.value) <= most * size.beam_size) return;
+  throw out_of_range(size.key, size.value, size.unit,
+                     fmt::format("{:.6g} or less in size, {} times {}", most * size.beam_size, most,
+                                 size.beam_size_text));
+}
+
 /// Sizes of effects in units of the beam's own, within which every formulation keeps nine digits.
 void require_moderate_effects(const LinearArm& arm) {
   const double l = arm.length_m;
   const double torsion_N_m = arm.flexural_rigidity_N_m2 / l;
-  require_ratio("effects.hub_radius.radius/length", arm.hub_radius_m / l, kLargestLengthRatio);
-  if (arm.payload_mass_kg > 0.0) {
-    require_ratio("effects.payload_offset: offset/length",
-                  std::abs(arm.payload_first_moment_kg_m) / (arm.payload_mass_kg * l),
-                  kLargestLengthRatio);
-  }
-  require_ratio("effects.hub_spring: stiffness l/EI", arm.hub_spring_N_m_per_rad / torsion_N_m,
-                kLargestSpringRatio);
-  const auto require_spring = [&](const char* what, double stiffness_N_m_per_rad) {
-    const double ratio = stiffness_N_m_per_rad / torsion_N_m;
-    if (!(ratio >= kSmallestSpringRatio && ratio <= kLargestSpringRatio)) {
-      throw out_of_range(what, ratio, "",
-                         fmt::format("from {} to {}", kSmallestSpringRatio, kLargestSpringRatio));
-    }
+  const auto spring = [&](const char* key, double stiffness_N_m_per_rad) {
+    return Size{key, stiffness_N_m_per_rad, "N m/rad", torsion_N_m, "EI/l"};
   };
+  require_at_most({"effects.hub_radius.radius", arm.hub_radius_m, "m", l, "the length"},
+                  kLargestLengthRatio);
+  if (arm.payload_mass_kg > 0.0) {
+    require_at_most({"effects.payload_offset.offset",
+                     arm.payload_first_moment_kg_m / arm.payload_mass_kg, "m", l, "the length"},
+                    kLargestLengthRatio);
+  }
+  require_at_most(spring("effects.hub_spring.stiffness", arm.hub_spring_N_m_per_rad),
+                  kLargestSpringRatio);
   if (arm.root_stiffness_N_m_per_rad) {
-    require_spring("spring at the root: stiffness l/EI", *arm.root_stiffness_N_m_per_rad);
+    require_from_to(spring("effects.root_compliance.stiffness", *arm.root_stiffness_N_m_per_rad),
+                    kSmallestSpringRatio, kLargestSpringRatio);
   }
   if (arm.crack) {
-    require_spring("effects.local_stiffness_loss: stiffness l/EI",
-                   arm.crack->stiffness_N_m_per_rad);
+    require_from_to(
+        spring("effects.local_stiffness_loss.stiffness", arm.crack->stiffness_N_m_per_rad),
+        kSmallestSpringRatio, kLargestSpringRatio);
   }
-  const double weight_N =
-      std::abs(arm.gravity_m_per_s2) * (arm.linear_density_kg_per_m * l + arm.payload_mass_kg);
-  require_ratio("effects.gravity: weight l^2/EI", weight_N * l / torsion_N_m, kLargestWeightRatio);
+  const double mass_kg = arm.linear_density_kg_per_m * l + arm.payload_mass_kg;
+  require_at_most({"effects.gravity.acceleration", arm.gravity_m_per_s2, "m/s^2",
+                   torsion_N_m / (mass_kg * l), "EI/l^2 over the mass"},
+                  kLargestWeightRatio);
   if (arm.shear) {
     const double ratio = arm.shear->shear_rigidity_N * l / torsion_N_m;
     if (!(ratio >= kSmallestShearRatio)) {

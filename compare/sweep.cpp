@@ -52,6 +52,17 @@ void require_effective(const SweepTask& task, std::size_t axis) {
     places[axis] = static_cast<double>(i);
     if (arm::linear_arm(arm_at(task.arm, task.axes, places)) != first) return;
   }
+  const std::span alone(&task.axes[axis], 1);
+  for (std::size_t i = 1; i < count && task.axes.size() > 1; ++i) {
+    const std::array begin = {0.0};
+    const std::array place = {static_cast<double>(i)};
+    if (arm::linear_arm(arm_at(task.arm, alone, place)) !=
+        arm::linear_arm(arm_at(task.arm, alone, begin))) {
+      throw arm::InputError(fmt::format("--over {}: the other --over, {}, sets the same number",
+                                        task.axes[axis].parameter.name,
+                                        task.axes[1 - axis].parameter.name));
+    }
+  }
   if (count > 1) {
     throw arm::InputError(fmt::format("--over {}: this arm's equations do not depend on it",
                                       task.axes[axis].parameter.name));

@@ -13,6 +13,7 @@
 #include <cstring>
 #include <span>
 #include <string_view>
+#include <utility>
 
 namespace flexarm::compare {
 
@@ -115,14 +116,28 @@ std::vector<StoredPoint> parse_points(std::string_view bytes) {
   return stored;
 }
 
+/// The first lines in which two texts differ.
+std::pair<std::string, std::string> first_difference(std::string_view a, std::string_view b) {
+  while (true) {
+    const auto line_a = a.substr(0, a.find('\n'));
+    const auto line_b = b.substr(0, b.find('\n'));
+    const bool ends = line_a.size() == a.size() || line_b.size() == b.size();
+    if (line_a != line_b || ends) return {std::string(line_a), std::string(line_b)};
+    a.remove_prefix(line_a.size() + 1);
+    b.remove_prefix(line_b.size() + 1);
+  }
+}
+
 void require_same(const std::string& file, const Json& header,
                   const std::vector<FingerprintLine>& fingerprint) {
   const Json& there = header.at("fingerprint");
   for (const auto& [name, value] : fingerprint) {
     const auto other = there.value(name, std::string());
     if (other == value) continue;
+    const auto [line_there, line_here] = first_difference(other, value);
     throw arm::InputError(fmt::format("{}: is of another sweep: its {} is \"{}\", not \"{}\"", file,
-                                      name, arm::shown(other, 120), arm::shown(value, 120)));
+                                      name, arm::shown(line_there, 120),
+                                      arm::shown(line_here, 120)));
   }
 }
 

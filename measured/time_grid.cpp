@@ -15,11 +15,14 @@ namespace {
 
 /// A step above this many median steps has lost samples.
 constexpr double kGap_periods = 1.5;
-/// Where more than this part of the steps are so long, the times are uneven rather than lost.
+/// Where more than this part of the steps are so long, the times are uneven rather than lost,
 constexpr double kMostGaps = 0.1;
+/// unless every one of them is above this many median steps: no clock is so uneven.
+constexpr double kCertainGap_periods = 10.0;
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+/// The lower one of an even number of values: no mean of a step and a gap.
+double lower_median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
 }
@@ -45,19 +48,21 @@ std::optional<GridFault> backward_fault(std::span<const double> times_s) {
 
 std::optional<GridFault> gap_fault(std::span<const double> times_s) {
   const std::vector<double> steps = steps_of(times_s);
-  const double period_s = median(steps);
+  const double period_s = lower_median(steps);
   const auto is_gap = [&](double step_s) { return step_s > kGap_periods * period_s; };
   const auto gaps = std::ranges::count_if(steps, is_gap);
-  if (gaps == 0 || static_cast<double>(gaps) > kMostGaps * static_cast<double>(steps.size())) {
-    return std::nullopt;
-  }
+  const bool are_many = static_cast<double>(gaps) > kMostGaps * static_cast<double>(steps.size());
+  const bool are_certain = std::ranges::none_of(steps, [&](double step_s) {
+    return is_gap(step_s) && step_s <= kCertainGap_periods * period_s;
+  });
+  if (gaps == 0 || (are_many && !are_certain)) return std::nullopt;
   const auto first = std::ranges::find_if(steps, is_gap);
   const auto before = static_cast<std::size_t>(first - steps.begin());
   const double missing = std::max(1.0, std::round(*first / period_s) - 1.0);
   return GridFault{
       before + 1,
       arm::InputError(fmt::format(
-          "gap: {:.0f} sample{} missing between {} s and {} s, where the step is {:.6g} s and the "
+          "gap: {:.15g} sample{} missing between {} s and {} s, where the step is {:.6g} s and the "
           "period {:.6g} s{}; split the record there, or fill it",
           missing, missing == 1.0 ? " is" : "s are", times_s[before], times_s[before + 1], *first,
           period_s,

@@ -15,9 +15,9 @@ struct GridFault {
 };
 
 /// The first fault of times that should be evenly spaced, or none: a time that is not later than
-/// the one before; samples that are missing (a step above 1.5 of the median step, unless steps are
-/// so uneven that there is no telling); |t_k - (t_0 + k period)| > kMostJitter_periods period.
-/// `times_s` holds two samples or more, all finite.
+/// the one before; samples that are missing (a step above 1.5 of the lower median step, unless more
+/// than a tenth of the steps are and not all of those are above 10); |t_k - (t_0 + k period)| >
+/// kMostJitter_periods period. `times_s` holds two samples or more, all finite.
 std::optional<GridFault> grid_fault(std::span<const double> times_s);
 
 }  // namespace flexarm::measured

@@ -9,20 +9,13 @@
 #include <cstddef>
 #include <cstdlib>
 #include <limits>
-#include <numbers>
 #include <stdexcept>
 
 namespace flexarm::report {
 namespace {
 
-constexpr double kWrapFrom_deg = -225.0;
 constexpr double kSmallestDrawnDifference = 0x1p-53;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
-/// The angle that differs from `angle_deg` by whole turns and lies in [from_deg, from_deg + 360).
-double turned_into(double angle_deg, double from_deg) {
-  return angle_deg - 360.0 * std::floor((angle_deg - from_deg) / 360.0);
-}
 
 /// One curve alone needs no broad band below others.
 Style curve_style(const BodePlot& plot, std::size_t index) {
@@ -162,17 +155,6 @@ Panel difference_panel(const BodePlot& plot) {
 }
 
 }  // namespace
-
-std::vector<double> phase_deg(const std::vector<std::complex<double>>& response, Phase phase) {
-  std::vector<double> angles;
-  double from_deg = kWrapFrom_deg;
-  for (const auto& value : response) {
-    const double angle = turned_into(std::arg(value) * 180.0 / std::numbers::pi, from_deg);
-    angles.push_back(angle);
-    if (phase == Phase::unwrapped && std::isfinite(angle)) from_deg = angle - 180.0;
-  }
-  return angles;
-}
 
 Figure bode_figure(const BodePlot& plot) {
   for (const BodeCurve& curve : plot.curves) {

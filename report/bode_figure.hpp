@@ -1,6 +1,7 @@
 #pragma once
 
 #include "report/figure.hpp"
+#include "report/phase.hpp"
 
 #include <complex>
 #include <string>
@@ -15,11 +16,6 @@ struct BodeCurve {
 };
 
 enum class Magnitude { logarithmic, decibel };
-
-enum class Phase {
-  wrapped,    ///< in [-225, 135) deg, so that the multiples of 90 deg of light damping never wrap
-  unwrapped,  ///< without jumps of more than 180 deg from one frequency to the next
-};
 
 struct BodePlot {
   std::string title;
@@ -40,8 +36,5 @@ struct BodePlot {
 /// |G - G_ref|/|G_ref| from the first below them; a difference below half an epsilon is drawn at
 /// it. Throws std::invalid_argument when a response has not one value a frequency.
 Figure bode_figure(const BodePlot& plot);
-
-/// Phase of each value [deg].
-std::vector<double> phase_deg(const std::vector<std::complex<double>>& response, Phase phase);
 
 }  // namespace flexarm::report

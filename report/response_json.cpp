@@ -1,7 +1,7 @@
 #include "report/response_json.hpp"
 
 #include "report/arm_json.hpp"
-#include "report/bode_figure.hpp"
+#include "report/phase.hpp"
 
 #include <nlohmann/json.hpp>
 

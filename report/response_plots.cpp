@@ -87,6 +87,8 @@ std::vector<NamedPlot> response_plots(const std::string& formulation,
                                       const response::ResponseStudy& study) {
   std::vector<NamedPlot> plots;
   for (std::size_t k = 0; k < study.response.sensors.size(); ++k) {
+    const auto& values = study.response.values[k];
+    if (std::ranges::all_of(values, [](const auto value) { return value == 0.0; })) continue;
     plots.push_back(bode(formulation, study, k));
     if (!study.resonances[k].empty()) plots.push_back(nyquist(study, k));
   }

@@ -1,6 +1,6 @@
 #include "report/response_tables.hpp"
 
-#include "report/bode_figure.hpp"
+#include "report/phase.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 namespace flexarm::report {
 namespace {
@@ -159,6 +160,7 @@ Table reading_table(const std::vector<SimulatedRun>& runs) {
 double relative_energy_residual(const response::EnergyBalance& energy) {
   const double scale = std::max({std::abs(energy.work_in_J), std::abs(energy.kinetic_J),
                                  std::abs(energy.potential_J), energy.dissipated_J()});
+  if (!std::isfinite(energy.residual_J())) return std::numeric_limits<double>::quiet_NaN();
   return scale > 0.0 ? energy.residual_J() / scale : 0.0;
 }
 

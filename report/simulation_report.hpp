@@ -24,6 +24,7 @@ struct SimulatedRun {
   measured::TimeRecord record;          ///< as the sensors read it, noise and all
   response::Simulation simulation;      ///< without their noise; channels in the record's order
   std::vector<double> noise_deviation;  ///< one a channel, in its unit
+  double fall_rate_rad_per_s = 0.0;  ///< of an arm that stands up: undamped poles +- this; else 0
   std::vector<double> step_error;  ///< one a channel: largest difference to a tenfold smaller step,
                                    ///< over the largest size; empty when not asked for
 };

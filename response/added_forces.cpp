@@ -43,6 +43,13 @@ Eigen::VectorXd AddedForces::force(const Eigen::VectorXd& x, double hub_torque_N
   return arm_->hub_force * hub_torque_N_m + drag_->modal_force(arm_->velocity(x));
 }
 
+std::string_view AddedForces::effect_in_steps() const {
+  if (friction_.coulomb_N_m > 0.0) return "coulomb_friction";
+  if (!friction_.is_zero()) return "stribeck_friction";
+  if (drag_) return "quadratic_drag";
+  return ripple_ ? "torque_ripple" : "";
+}
+
 double AddedForces::friction_power_W(double hub_velocity_rad_per_s) const {
   return friction_.torque_N_m(hub_velocity_rad_per_s) * std::abs(hub_velocity_rad_per_s);
 }

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include <optional>
+#include <string_view>
 
 namespace flexarm::response {
 
@@ -47,6 +48,9 @@ class AddedForces {
   HubTorque hub_torque(const Eigen::VectorXd& x, HubMotion motion) const;
   /// f for that torque, and the drag at the state.
   Eigen::VectorXd force(const Eigen::VectorXd& x, double hub_torque_N_m) const;
+  /// The effect for which the hub is watched or forces are iterated, in inner steps; empty where
+  /// the equations are linear.
+  std::string_view effect_in_steps() const;
   double friction_power_W(double hub_velocity_rad_per_s) const;
   double drag_power_W(const Eigen::VectorXd& x) const;
 

@@ -46,6 +46,12 @@ void EnergyLedger::add(const Expansion& solution, const StepInputs& inputs, HubM
   }
 }
 
+void EnergyLedger::add(const StepEnergy::Amounts& amounts) {
+  balance_.work_in_J += amounts.work_in_J;
+  balance_.viscous_J += amounts.viscous_J;
+  balance_.material_air_J += amounts.material_air_J;
+}
+
 void EnergyLedger::close_sample(const Eigen::VectorXd& x) {
   const auto q = (x.head(arm_->modes).array() / arm_->scale_rad_per_s.array()).eval();
   balance_.kinetic_J = 0.5 * arm_->modal_mass_kg_m2 * arm_->velocity(x).squaredNorm();

@@ -4,6 +4,7 @@
 #include "response/expansion.hpp"
 #include "response/modal_dynamics.hpp"
 #include "response/simulation.hpp"
+#include "response/step_energy.hpp"
 #include "response/step_table.hpp"
 
 namespace flexarm::response {
@@ -21,6 +22,10 @@ class EnergyLedger {
   /// The part of a step from r = 0 to `until`, by Gauss' rule of 7 points on the solution: powers
   /// are of degree 14 to rounding where |A| dt is 1.
   void add(const Expansion& solution, const StepInputs& inputs, HubMotion motion, double until);
+  /// A whole step without friction, drag or ripple.
+  void add(const StepEnergy::Amounts& amounts);
+  /// What such steps of one length do.
+  StepEnergy step_energy(double step_s) const { return {*arm_, hub_viscous_friction_, step_s}; }
   /// At a sample: state of the energies, and what the steps since the last sample have lost.
   void close_sample(const Eigen::VectorXd& x);
 

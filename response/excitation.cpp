@@ -142,7 +142,13 @@ std::size_t period_of(const Multisine& signal, const SampleGrid& grid) {
     throw arm::out_of_range("multisine.period", signal.period_s, "s",
                             fmt::format("at most the duration, {:.6g} s", grid.duration_s()));
   }
-  return nearest_sample(signal.period_s, grid);
+  const std::size_t samples = nearest_sample(signal.period_s, grid);
+  if (samples < 2) {
+    throw arm::out_of_range(
+        "multisine.period", signal.period_s, "s",
+        fmt::format("two sampling periods, {:.6g} s, or more", 2.0 * grid.period_s));
+  }
+  return samples;
 }
 
 SampledTorque sampled(const Multisine& signal, const SampleGrid& grid) {
@@ -212,6 +218,13 @@ SampledTorque sampled(const Chirp& signal, const SampleGrid& grid) {
   return result;
 }
 
+/// `time_s` moved to the nearest sample.
+void round_to_samples(double& time_s, const SampleGrid& grid) {
+  constexpr double kRounding_periods = 1e-6;
+  const double rounded_s = grid.time_s(nearest_sample(time_s, grid));
+  if (std::abs(rounded_s - time_s) > kRounding_periods * grid.period_s) time_s = rounded_s;
+}
+
 struct NameOf {
   std::string_view operator()(const BangBang&) const { return "bang-bang"; }
   std::string_view operator()(const Step&) const { return "step"; }
@@ -224,6 +237,27 @@ struct NameOf {
 
 std::string_view name(const Excitation& excitation) {
   return std::visit(NameOf{}, excitation);
+}
+
+double SampleGrid::time_s(std::size_t k) const {
+  constexpr double kRounding = 1e-12;
+  const auto count = static_cast<double>(k);
+  const double rate_Hz = std::round(1.0 / period_s);
+  const bool is_whole = rate_Hz > 0.0 && std::abs(rate_Hz * period_s - 1.0) < kRounding;
+  return is_whole ? count / rate_Hz : count * period_s;
+}
+
+Excitation in_whole_samples(const Excitation& excitation, const SampleGrid& grid) {
+  Excitation made = excitation;
+  if (auto* pulses = std::get_if<BangBang>(&made)) {
+    round_to_samples(pulses->pulse_s, grid);
+    round_to_samples(pulses->start_s, grid);
+  } else if (auto* step = std::get_if<Step>(&made)) {
+    round_to_samples(step->start_s, grid);
+  } else if (auto* multisine = std::get_if<Multisine>(&made)) {
+    round_to_samples(multisine->period_s, grid);
+  }
+  return made;
 }
 
 SampledTorque sample(const Excitation& excitation, const SampleGrid& grid) {
@@ -243,7 +277,13 @@ double peak_N_m(std::span<const double> torque_N_m) {
 double rms_N_m(std::span<const double> torque_N_m) {
   double sum = 0.0;
   for (const double value : torque_N_m) sum += value * value;
-  return std::sqrt(sum / static_cast<double>(torque_N_m.size()));
+  const auto count = static_cast<double>(torque_N_m.size());
+  if (std::isfinite(sum)) return std::sqrt(sum / count);
+  // The squares are too large for a number, not what they give.
+  const double peak = peak_N_m(torque_N_m);
+  sum = 0.0;
+  for (const double value : torque_N_m) sum += (value / peak) * (value / peak);
+  return peak * std::sqrt(sum / count);
 }
 
 double crest_factor(std::span<const double> torque_N_m) {

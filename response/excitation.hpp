@@ -16,6 +16,9 @@ struct SampleGrid {
 
   double duration_s() const { return static_cast<double>(samples) * period_s; }
   double nyquist_Hz() const { return 0.5 / period_s; }
+  /// k period; where a whole number of periods make a second, as k over that number, which is the
+  /// nearest double to the decimal.
+  double time_s(std::size_t k) const;
 };
 
 /// Pulses +amplitude, -amplitude of equal length, then zero: the input of the paper's Figure 20
@@ -83,6 +86,10 @@ struct SampledTorque {
   std::vector<double> lines_Hz;      ///< of a multisine, ascending; else empty
   std::vector<double> detection_Hz;  ///< its odd lines in the band that were left out
 };
+
+/// The excitation with its times as `sample` takes them, in whole samples of `grid`; a time that is
+/// whole samples to rounding stays as it is.
+Excitation in_whole_samples(const Excitation& excitation, const SampleGrid& grid);
 
 /// The torque at the samples of `grid`. Throws InputError for a grid of fewer than two samples, a
 /// number out of its range, a band that holds no line or lies above half the sampling frequency, a

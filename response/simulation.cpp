@@ -5,11 +5,15 @@
 #include "response/simulation_input.hpp"
 #include "response/time_stepper.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <cstddef>
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace flexarm::response {
 
@@ -19,6 +23,13 @@ using Eigen::Index;
 
 /// Samples between two looks at whether to go on.
 constexpr std::size_t kProgressInterval = 1 << 14;
+
+arm::InputError too_large(const std::string& what, double time_s) {
+  return arm::InputError(
+      fmt::format("{} at {:.6g} s: too large for a number; the torque must be smaller, or the time "
+                  "shorter",
+                  what, time_s));
+}
 
 /// The readings of one system, stacked.
 struct Readings {
@@ -44,7 +55,10 @@ class Recorder {
  public:
   Recorder(const ModalDynamics& arm, const ArmParts& parts, std::span<const arm::Sensor> sensors,
            std::size_t samples)
-      : turning_(arm.turning), held_(arm.held), now_(turning_.state.rows()) {
+      : sensors_(sensors.begin(), sensors.end()),
+        turning_(arm.turning),
+        held_(arm.held),
+        now_(turning_.state.rows()) {
     made_.time_s.reserve(samples);
     made_.commanded_torque_N_m.reserve(samples);
     made_.hub_torque_N_m.reserve(samples);
@@ -68,6 +82,7 @@ class Recorder {
     now_.noalias() = readings.state * stepper.state();
     now_ += readings.actuator * actuator_N_m;
     now_.noalias() += readings.force * stepper.force();
+    require_finite(time_s);
     for (std::size_t j = 0; j < made_.channels.size(); ++j) {
       made_.channels[j].push_back(now_(static_cast<Index>(j)));
     }
@@ -79,6 +94,15 @@ class Recorder {
   Simulation& made() { return made_; }
 
  private:
+  void require_finite(double time_s) const {
+    if (!std::isfinite(made_.hub_torque_N_m.back())) throw too_large("torque at the hub", time_s);
+    for (std::size_t j = 0; j < sensors_.size(); ++j) {
+      if (std::isfinite(now_(static_cast<Index>(j)))) continue;
+      throw too_large(arm::to_string(sensors_[j]), time_s);
+    }
+  }
+
+  std::vector<arm::Sensor> sensors_;
   Readings turning_;
   Readings held_;
   Eigen::VectorXd now_;
@@ -133,7 +157,11 @@ Simulation simulate(const arm::ModalModel& model, const ArmParts& parts,
     path.pieces(k, pieces);
     stepper.take_up(pieces.front().begin_N_m, time_s);
     recorder.record(stepper, time_s, torque_N_m[k], pieces.front().begin_N_m);
-    if (ledger) ledger->close_sample(stepper.state());
+    if (ledger) {
+      ledger->close_sample(stepper.state());
+      const double energy_J = ledger->balance().residual_J();
+      if (!std::isfinite(energy_J)) throw too_large("energy", time_s);
+    }
     if (k + 1 == torque_N_m.size()) break;
     for (const TorquePiece& piece : pieces) {
       const double begin_s = time_s + piece.begin * options.sample_time_s;

@@ -101,8 +101,9 @@ using SimulationProgress = std::function<bool(double fraction)>;
 ///
 /// `model` has sensor values for each of `sensors` and, where there is drag, displacements at
 /// `drag_stations(length).stations_m`. Throws InputError for torque that is empty or not finite, a
-/// sample time that is not above 0, negative parameters, a model without the values needed; and
-/// where inner steps would have to be more than kMostSubsteps times shorter than samples.
+/// sample time that is not above 0, negative parameters, a model without the values needed; for
+/// a reading or an energy that overflows; and where friction, drag or ripple would need inner steps
+/// more than kMostSubsteps times shorter than samples.
 Simulation simulate(const arm::ModalModel& model, const ArmParts& parts,
                     std::span<const arm::Sensor> sensors, std::span<const double> torque_N_m,
                     const SimulationOptions& options = {}, const SimulationProgress& progress = {});

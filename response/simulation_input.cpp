@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 namespace flexarm::response {
 
@@ -68,7 +69,15 @@ void require_simulable(const ArmParts& parts, std::span<const double> torque_N_m
   }
   if (torque_N_m.empty()) throw arm::InputError("torque: there are no samples");
   for (std::size_t k = 0; k < torque_N_m.size(); ++k) {
-    if (std::isfinite(torque_N_m[k])) continue;
+    // Half: torques between two samples are formed from their difference.
+    constexpr double kLargest = 0.5 * std::numeric_limits<double>::max();
+    if (std::abs(parts.actuator.gain * torque_N_m[k]) <= kLargest) continue;
+    if (std::isfinite(torque_N_m[k])) {
+      throw arm::InputError(
+          fmt::format("torque = {} N m at {:.6g} s: too large for a number behind the actuator",
+                      torque_N_m[k], static_cast<double>(k) * options.sample_time_s),
+          "torque");
+    }
     throw arm::InputError(
         fmt::format("torque = {} N m at sample {} (from 0): must be finite", torque_N_m[k], k),
         "torque");

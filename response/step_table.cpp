@@ -49,13 +49,13 @@ double SagBound::operator()(const Eigen::VectorXd& x0, const StepInputs& inputs)
          by_force_slope_.dot(slope) + by_force_curvature_.dot(curvature.cwiseAbs());
 }
 
-StepTable step_table(const LinearSystem& system, const Reading& watched, double step_s,
+StepTable step_table(const LinearSystem& system, const Reading* watched, double step_s,
                      bool forces_vary) {
   StepTable table;
   table.end = propagator(system, step_s);
   if (forces_vary) table.middle = propagator(system, step_s, 0.5);
   table.constant = table.end.constant_force().col(0);
-  table.sag = SagBound(system, watched, step_s);
+  if (watched != nullptr) table.sag = SagBound(system, *watched, step_s);
   return table;
 }
 

@@ -56,10 +56,11 @@ struct StepTable {
   Propagator end;
   Propagator middle;         ///< only where forces vary
   Eigen::VectorXd constant;  ///< X(end) per unit of a constant torque on the hub, m = 1
-  SagBound sag;              ///< of hub velocity while turning, of the reaction while held
+  SagBound sag;              ///< of the reading that is watched
 };
 
-StepTable step_table(const LinearSystem& system, const Reading& watched, double step_s,
+/// `watched` may be null: its bound grows as e^(|A| dt), and is not for stiff steps.
+StepTable step_table(const LinearSystem& system, const Reading* watched, double step_s,
                      bool forces_vary);
 
 }  // namespace flexarm::response

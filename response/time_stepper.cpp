@@ -27,9 +27,18 @@ constexpr double kAtBreakaway = 1e-13;
 /// Rests of a step shorter than this times the sample time are not taken.
 constexpr double kNothingLeft = 1e-15;
 constexpr int kMostHalvings = 30;
+/// A linear arm's piece of a length that does not come again is stepped by series up to this many
+/// of them; a matrix exponential costs as much.
+constexpr double kMostSeriesSteps = 50.0;
 
 HubMotion turning_like(double torque) {
   return torque > 0.0 ? HubMotion::forward : HubMotion::backward;
+}
+
+/// Behind step `i` of `count` of a piece.
+double torque_behind(int i, int count, const TorquePiece& piece) {
+  if (i == count) return piece.end_N_m;
+  return piece.begin_N_m + (piece.end_N_m - piece.begin_N_m) * i / count;
 }
 
 std::span<const double> as_span(const Eigen::RowVectorXd& series) {
@@ -46,6 +55,7 @@ TimeStepper::TimeStepper(const ModalDynamics& arm, const AddedForces& forces, bo
       options_(options),
       ledger_(ledger),
       has_friction_(has_friction),
+      is_linear_(!has_friction && !forces.vary()),
       x_(Eigen::VectorXd::Zero(arm.size())),
       motion_(has_friction ? HubMotion::held : HubMotion::frictionless),
       breakaway_N_m_(forces.breakaway_N_m()),
@@ -66,16 +76,15 @@ TimeStepper::TimeStepper(const ModalDynamics& arm, const AddedForces& forces, bo
 int TimeStepper::substeps(double length_s) const {
   const double h = options_.sample_time_s;
   double count = std::ceil(options_.substeps * length_s / h - 1e-9);
-  if (has_friction_ || ledger_ != nullptr || forces_->vary()) {
+  if (!is_linear_) {
     const double phase = forces_->vary() ? kLargestPhaseVarying_rad : kLargestPhase_rad;
     count = std::max(count, std::ceil(arm_->fastest_rate_rad_per_s * length_s / phase));
   }
   if (!(count <= kMostSubsteps)) {
-    throw arm::InputError(
-        fmt::format("sample time = {} s: {:g} inner steps a sample are needed for a rate of {:g} "
-                    "rad/s: must be "
-                    "{} or fewer",
-                    h, count, arm_->fastest_rate_rad_per_s, kMostSubsteps));
+    throw arm::InputError(fmt::format(
+        "effects.{}: needs {:g} inner steps a sample of {} s for an arm with a rate of "
+        "{:g} rad/s; must be {} or fewer: damp the arm less, or sample it faster",
+        forces_->effect_in_steps(), count, h, arm_->fastest_rate_rad_per_s, kMostSubsteps));
   }
   return std::max(1, static_cast<int>(count));
 }
@@ -85,10 +94,12 @@ TimeStepper::Steps TimeStepper::steps(double length_s) const {
   made.count = substeps(length_s);
   made.length_s = length_s / made.count;
   const Reading speed = {velocity_row_, 0.0, Eigen::RowVectorXd::Zero(arm_->turning.force.cols())};
-  made.turning = step_table(arm_->turning, speed, made.length_s, forces_->vary());
+  made.turning =
+      step_table(arm_->turning, has_friction_ ? &speed : nullptr, made.length_s, forces_->vary());
   if (has_friction_) {
-    made.held = step_table(arm_->held, arm_->reaction, made.length_s, forces_->vary());
+    made.held = step_table(arm_->held, &arm_->reaction, made.length_s, forces_->vary());
   }
+  if (is_linear_ && ledger_ != nullptr) made.energy = ledger_->step_energy(made.length_s);
   return made;
 }
 
@@ -128,28 +139,44 @@ void TimeStepper::take_up(double torque_N_m, double now_s) {
 }
 
 void TimeStepper::advance(const TorquePiece& piece, double now_s) {
-  const double h = options_.sample_time_s;
   time_s_ = now_s;
   last_torque_N_m_ = piece.end_N_m;
-  const double change = piece.end_N_m - piece.begin_N_m;
-  const bool is_regular = piece.length != TorquePiece::Length::other;
-  const double length_s = (piece.end - piece.begin) * h;
-  const Steps* regular = is_regular ? &regular_[static_cast<std::size_t>(piece.length)] : nullptr;
-  const int count =
-      is_regular
-          ? regular->count
-          : std::max(substeps(length_s), static_cast<int>(std::ceil(arm_->fastest_rate_rad_per_s *
-                                                                    length_s / kLargestPhase_rad)));
+  if (piece.length != TorquePiece::Length::other) {
+    advance_in(regular_[static_cast<std::size_t>(piece.length)], piece);
+    return;
+  }
+  const double length_s = (piece.end - piece.begin) * options_.sample_time_s;
+  const double least = std::ceil(arm_->fastest_rate_rad_per_s * length_s / kLargestPhase_rad);
+  if (is_linear_ && least > kMostSeriesSteps) {
+    advance_in(steps(length_s), piece);
+    return;
+  }
+  const int count = std::max(substeps(length_s), static_cast<int>(least));
   double u0 = piece.begin_N_m;
   for (int i = 1; i <= count; ++i) {
-    const double u1 = i == count ? piece.end_N_m : piece.begin_N_m + change * i / count;
-    if (is_regular) {
-      step(*regular, u0, u1);
+    const double u1 = torque_behind(i, count, piece);
+    free_step(length_s / count, u0, u1, 0);
+    u0 = u1;
+  }
+}
+
+void TimeStepper::advance_in(const Steps& steps, const TorquePiece& piece) {
+  double u0 = piece.begin_N_m;
+  for (int i = 1; i <= steps.count; ++i) {
+    const double u1 = torque_behind(i, steps.count, piece);
+    if (is_linear_) {
+      linear_step(steps, u0, u1);
     } else {
-      free_step(length_s / count, u0, u1, 0);
+      step(steps, u0, u1);
     }
     u0 = u1;
   }
+}
+
+void TimeStepper::linear_step(const Steps& steps, double u0, double u1) {
+  solver_.solve(steps.turning, x_, motion_, steps.length_s, u0, u1);
+  if (steps.energy) ledger_->add((*steps.energy)(x_, u0, u1, solver_.inputs().f0(0)));
+  finish(solver_.end(), steps.length_s);
 }
 
 void TimeStepper::step(const Steps& steps, double u0, double u1) {

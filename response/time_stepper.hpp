@@ -29,6 +29,8 @@ namespace flexarm::response {
 /// |R| above breakaway with the other sign: reversals cannot pile up. Nor can rests and breakaways,
 /// since R is analytic between jumps. Only rounding could make them, where |R| just touches
 /// breakaway; then the hub is held for the rest of the inner step.
+///
+/// A linear arm needs no inner steps: a step is exact however fast its motions decay.
 class TimeStepper {
  public:
   /// `forces` and `arm` must outlive the object. The hub is at rest.
@@ -60,13 +62,16 @@ class TimeStepper {
     double length_s = 0.0;
     StepTable turning;
     StepTable held;
+    std::optional<StepEnergy> energy;  ///< of a linear arm whose energy is booked
   };
   /// What is known of the solution at the beginning of a step.
   enum class Start { inside, hub_speed_zero, hub_acceleration_zero };
 
   Steps steps(double length_s) const;
   int substeps(double length_s) const;
+  void advance_in(const Steps& steps, const TorquePiece& piece);
   void step(const Steps& steps, double u0, double u1);
+  void linear_step(const Steps& steps, double u0, double u1);
   void free_step(double length_s, double u0, double u1, int halvings);
   void halve(double length_s, double u0, double u1, int halvings);
   void book(double until);
@@ -82,6 +87,7 @@ class TimeStepper {
   SimulationOptions options_;
   EnergyLedger* ledger_;
   bool has_friction_;
+  bool is_linear_;
   std::array<Steps, 3> regular_;  // by TorquePiece::Length
 
   Eigen::RowVectorXd velocity_row_;  // theta' = velocity_row_ X

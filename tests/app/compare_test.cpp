@@ -241,6 +241,17 @@ TEST_F(Compare, AClosedPipeEndsItWithoutAWord) {
   }
 }
 
+TEST_F(Compare, AClosedPipeCostsNoFile) {
+  for (const std::string command : {"compare", "modes", "response"}) {
+    std::vector<std::string> arguments = {command, "--out", command, "--json", command + ".json"};
+    if (command == "compare") arguments.emplace_back("--quick");
+    const Ended ended = run_flexarm(arguments, folder_.string(), Output::closed_pipe);
+    EXPECT_EQ(ended.status, 128 + SIGPIPE);
+    EXPECT_FALSE(names_in(command).empty());
+    EXPECT_TRUE(fs::exists(folder_ / (command + ".json")));
+  }
+}
+
 TEST_F(Compare, CtrlCLeavesNothingHalfWritten) {
   const Ended ended =
       interrupt_flexarm({"compare", "--poles", "40", "--out", (folder_ / "out").string(), "--json",

@@ -17,6 +17,13 @@ namespace flexarm::testing_app {
 
 namespace {
 
+/// Time to start and be at work; the sanitizers slow it about tenfold.
+#ifdef __SANITIZE_ADDRESS__
+constexpr std::chrono::milliseconds kAtWork(3000);
+#else
+constexpr std::chrono::milliseconds kAtWork(300);
+#endif
+
 using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
 
 File temporary_file() {
@@ -96,7 +103,7 @@ Ended interrupt_flexarm(const std::vector<std::string>& arguments, int signal) {
   const File captured = temporary_file();
   const File errors = temporary_file();
   const pid_t child = start(arguments, ".", ::fileno(captured.get()), ::fileno(errors.get()));
-  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  std::this_thread::sleep_for(kAtWork);
   ::kill(child, signal);
   return finish(child, captured.get(), errors.get());
 }

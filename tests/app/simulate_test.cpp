@@ -156,7 +156,8 @@ TEST_F(Simulate, TheStepErrorIsToldOnRequest) {
   const Ended ended = run_short({"rig.toml", "--check-step", "--json", "out.json"});
   EXPECT_EQ(ended.status, 0) << ended.errors;
   EXPECT_THAT(ended.output, HasSubstr("step error"));
-  for (const auto& channel : Json::parse(text_of("out.json"))["runs"][0]["channels"]) {
+  const Json document = Json::parse(text_of("out.json"));
+  for (const auto& channel : document["runs"][0]["channels"]) {
     EXPECT_LT(channel["step_error"].get<double>(), 1e-6) << channel["sensor"];
   }
 }

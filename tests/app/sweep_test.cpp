@@ -136,6 +136,19 @@ TEST_F(Sweep, WithoutAnOutputAnInterruptionSaysThatNothingIsKept) {
   EXPECT_THAT(ended.errors, HasSubstr("nothing is kept without --out or --json"));
 }
 
+TEST_F(Sweep, AnOptionForWhatIsSweptOverIsRefused) {
+  expect_refused(run({"sweep", "--over", "payload.mass=0:1:3", "--payload-mass", "0.3"}),
+                 "--payload-mass: payload.mass is swept over and has no other value");
+  expect_refused(run({"sweep", "--over", "eta=0:1:3", "--payload-mass", "0.3"}),
+                 "--payload-mass: payload_mass_ratio is swept over and has no other value");
+  expect_refused(run({"sweep", "--over", "payload.inertia=0:1:3", "--payload-inertia", "0.3"}),
+                 "--payload-inertia: payload.inertia is swept over and has no other value");
+  expect_refused(run({"sweep", "--over", "hub.inertia=1:2:3", "--hub-inertia", "0.3"}),
+                 "--hub-inertia: hub.inertia is swept over and has no other value");
+  expect_refused(run({"sweep", "--figure", "18", "--payload-mass", "0.3"}),
+                 "--payload-mass: payload.mass is swept over and has no other value");
+}
+
 TEST_F(Sweep, EffectsOutsideTheLinearArmAreLeftOutAndNamed) {
   write("rig.toml",
         "[beam]\nlength = 0.8\nwidth = 0.02\nthickness = 0.003\ndensity = 2700.0\n"

@@ -162,7 +162,7 @@ TEST(SweepTask, WhatCannotBeComputedIsRefusedWithItsPlace) {
 
 TEST(SweepTask, TheRatioAndTheNumberItFollowsFromDoNotGoTogether) {
   EXPECT_EQ(refusal_of_task(task_over({"payload.mass=0,1", "eta=0,1"})),
-            "--over payload.mass: this arm's equations do not depend on it");
+            "--over payload.mass: the other --over, payload_mass_ratio, sets the same number");
 }
 
 }  // namespace

@@ -211,6 +211,9 @@ const std::vector<Mistake> kMistakes = {
      record_with(100, [](int k) { return 0.002 * (k + (k >= 50 ? 7 : 0) + (k >= 80 ? 2 : 0)); }),
      "52: gap: 7 samples are missing between 0.098 s and 0.114 s, where the step is 0.016 s and "
      "the period 0.002 s, and 1 more gap; split the record there, or fill it"},
+    {"GapAfterFewSamples", kHead + "0,0,0\n0.002,0,0\n1e9,0,0\n",
+     "4: gap: 499999999998 samples are missing between 0.002 s and 1000000000 s, where the step is "
+     "1e+09 s and the period 0.002 s; split the record there, or fill it"},
     {"Jitter", record_with(101, [](int k) { return 0.002 * k + (k == 30 ? 0.0003 : 0.0); }),
      "32: time = 0.0603 s: 0.15 of a sampling period off the even grid of 0.002 s; must be 0.05 or "
      "less: write more digits, or resample evenly"},

@@ -53,6 +53,22 @@ TEST(BangBang, PairsFillTheRecordWhenAsked) {
   EXPECT_EQ(std::ranges::count(torque, 0.0), 4000 - 13 * 300);
 }
 
+TEST(Excitation, IsSaidInWholeSamplesAsItIsSampled) {
+  const SampleGrid grid{40, 0.1};
+  const auto pulses = std::get<BangBang>(
+      in_whole_samples(BangBang{.amplitude_N_m = 0.2, .pulse_s = 0.3007, .start_s = 0.0003}, grid));
+  EXPECT_EQ(pulses.pulse_s, 0.3);
+  EXPECT_EQ(pulses.start_s, 0.0);
+  EXPECT_EQ(std::get<Step>(in_whole_samples(Step{.start_s = 0.16}, grid)).start_s, 0.2);
+  EXPECT_EQ(std::get<Multisine>(in_whole_samples(Multisine{.period_s = 1.26}, grid)).period_s, 1.3);
+  // Whole samples to rounding: as it was typed.
+  EXPECT_EQ(std::get<Step>(in_whole_samples(Step{.start_s = 3 * 0.1}, grid)).start_s, 3 * 0.1);
+}
+
+TEST(Excitation, TheRootMeanSquareOfLargeTorquesIsANumber) {
+  EXPECT_DOUBLE_EQ(rms_N_m(std::vector<double>{1e300, -1e300, 0.0, 0.0}), std::sqrt(0.5) * 1e300);
+}
+
 TEST(Step, BeginsAtItsSample) {
   const auto torque = sample(Step{-0.05, 0.1}, kGrid).torque_N_m;
   EXPECT_EQ(torque[49], 0.0);
@@ -228,6 +244,8 @@ const std::vector<Mistake> kMistakes = {
      "or simulate longer"},
     {"RmsNegative", Multisine{-0.1},
      "multisine.rms = -0.1 N m: must be a finite number, 0 or more"},
+    {"PeriodBelowTwoSamples", Multisine{0.1, 1.0, 50.0, 1e-6},
+     "multisine.period = 1e-06 s: must be two sampling periods, 0.004 s, or more"},
     {"PeriodTooLong", Multisine{0.1, 1.0, 50.0, 9.0},
      "multisine.period = 9 s: must be at most the duration, 8 s"},
     {"GroupOfOne", Multisine{0.1, 1.0, 50.0, 0.0, 1},

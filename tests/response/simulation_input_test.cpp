@@ -32,8 +32,29 @@ TEST(SimulationInput, BadTorqueAndSampleTimesAreRefusedInOneLine) {
   EXPECT_THAT(refusal({0.0}, {.sample_time_s = 0.0}), HasSubstr("sample time = 0 s"));
   EXPECT_THAT(refusal({0.0}, {.sample_time_s = kNaN}), HasSubstr("sample time = nan s"));
   EXPECT_THAT(refusal({0.0}, {.substeps = -1}), HasSubstr("substeps = -1"));
-  EXPECT_THAT(refusal({0.0, 0.0}, {.sample_time_s = 1e7}), HasSubstr("inner steps a sample"));
   EXPECT_EQ(refusal({0.0}, {}), "");
+}
+
+TEST(SimulationInput, AnEffectThatNeedsTooManyInnerStepsIsNamed) {
+  const SimulationOptions slow{.sample_time_s = 1e7};
+  EXPECT_EQ(refusal({0.0, 0.0}, slow),
+            "effects.coulomb_friction: needs 1e+07 inner steps a sample of 10000000 s for an arm "
+            "with a rate of 1 rad/s; must be 100000 or fewer: damp the arm less, or sample it "
+            "faster");
+  ArmParts rippled = coulomb(0.0);
+  rippled.actuator.ripple = TorqueRipple{0.1, 1.0, 0.0};
+  EXPECT_THAT(refusal({0.0, 0.0}, slow, rippled), testing::StartsWith("effects.torque_ripple: "));
+  EXPECT_EQ(refusal({0.0, 0.0}, slow, coulomb(0.0)), "");
+}
+
+TEST(SimulationInput, AMotionTooLargeForANumberIsRefusedAtItsSample) {
+  EXPECT_EQ(
+      refusal({1e300, 1e300, 1e300}, {.sample_time_s = 10.0}, coulomb(0.0)),
+      "energy at 10 s: too large for a number; the torque must be smaller, or the time shorter");
+  ArmParts amplified = coulomb(0.0);
+  amplified.actuator.gain = 10.0;
+  EXPECT_EQ(refusal({0.0, 1e308}, {}, amplified),
+            "torque = 1e+308 N m at 0.001 s: too large for a number behind the actuator");
 }
 
 TEST(SimulationInput, FrictionOfTheWrongSignIsRefused) {

@@ -15,8 +15,16 @@ using Eigen::Index;
 
 constexpr double kPi = std::numbers::pi;
 constexpr int kFarthestAlias = 2;
+/// Poles this many turns apart are one; far above rounding.
+constexpr double kWholeTurn = 1e-6;
 /// A place is better when residues are closer to the imaginary axis by this factor, squared.
 constexpr double kClearlyBetter = 4.0;
+
+/// The alias between 0 and half the sampling frequency.
+Complex folded(Complex pole, double period_s) {
+  const double turn = 2.0 * kPi / period_s;
+  return {pole.real(), std::abs(std::remainder(pole.imag(), turn))};
+}
 
 /// A sensor's residue at the pole, and the square of its signal-to-noise ratio.
 struct Residue {
@@ -84,19 +92,26 @@ std::vector<MovedBlock> place_aliases(const BlockFit& fit, double period_s, Torq
     const Complex pole = blocks.blocks[m].poles_rad_per_s()[0];
     if (pole.imag() <= 0.0) continue;
     const auto all = residues(fit, m, pole);
-    const double here = misfit(all, pole, pole, exponent);
-    if (here <= kTurned * kTurned) continue;
+    const Complex lowest = folded(pole, period_s);
+    // The residues' angles at an alias, which the pole or its conjugate differs from by turns.
+    const auto misfit_at = [&](Complex alias) {
+      const double turns = (alias.imag() - pole.imag()) * period_s / (2.0 * kPi);
+      const bool same = std::abs(turns - std::round(turns)) < kWholeTurn;
+      return misfit(all, pole, same ? alias : std::conj(alias), exponent);
+    };
+    const double here = misfit_at(lowest);
     double best = here / kClearlyBetter;
-    Complex place = pole;
-    for (int k = -kFarthestAlias; k <= kFarthestAlias; ++k) {
-      const Complex alias = pole + Complex(0.0, 2.0 * kPi * k / period_s);
-      const double there = misfit(all, pole, alias, exponent);
-      if (k != 0 && there < best) {
+    Complex place = lowest;
+    for (int k = 1; here > kTurned * kTurned && k <= kFarthestAlias; ++k) {
+      for (const int sign : {-1, 1}) {
+        const Complex alias(lowest.real(), 2.0 * kPi * k / period_s + sign * lowest.imag());
+        const double there = misfit_at(alias);
+        if (there >= best) continue;
         best = there;
         place = alias;
       }
     }
-    if (place == pole) continue;
+    if (std::abs(place - pole) < kWholeTurn / period_s) continue;
     blocks.blocks[m] = block_of(std::abs(place), -place.real() / std::abs(place));
     moved.push_back({m, std::abs(pole) / (2.0 * kPi), std::abs(place) / (2.0 * kPi)});
   }

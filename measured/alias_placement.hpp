@@ -22,8 +22,9 @@ struct MovedBlock {
 /// (p'/p)^e, e = 1 for a torque held constant and 2 for one linear between samples (as those of a
 /// displacement: e less the sensor's derivatives). Of an arm's modes such residues are nearly
 /// imaginary, b1 small beside b0/omega, and above 0 at the hub; at another alias they are turned by
-/// the damping angle of both. Only blocks whose residues stand more than kTurned off the imaginary
-/// axis are looked at, so that coupling by friction does not move a mode.
+/// the damping angle of both. Only a block whose residues stand more than kTurned off the imaginary
+/// axis is put higher, so that coupling by friction does not move a mode; any other is put where
+/// samples show it, below half the sampling frequency.
 std::vector<MovedBlock> place_aliases(const BlockFit& fit, double period_s, TorqueHold hold,
                                       BlockSet& blocks);
 inline constexpr double kTurned = 0.05;

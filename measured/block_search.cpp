@@ -23,6 +23,11 @@ constexpr int kGridFrequencies = 10;
 /// LM iterations of a trial; the fit on all data ends properly.
 constexpr int kTrialIterations = 15;
 
+/// The rigid body's corner lies below this share of the lowest mode.
+constexpr double kSlowRigidBody = 0.1;
+/// A block without which BIC rises by more than this, the others as they are, stays.
+constexpr double kWorthRefitting = 1000.0;
+
 struct Candidate {
   SecondOrderBlock block;
   bool from_chart = false;
@@ -41,8 +46,10 @@ std::vector<Candidate> grid(const BlockSearchOptions& options) {
       places.push_back({block_at(from * std::pow(options.band.to_Hz / from, share), damping)});
     }
   }
-  for (const double beyond : {1.2, 1.6, 2.5}) {
-    places.push_back({block_at(beyond * options.band.to_Hz, 0.1)});
+  if (!options.sampled) {
+    for (const double beyond : {1.2, 1.6, 2.5}) {
+      places.push_back({block_at(beyond * options.band.to_Hz, 0.1)});
+    }
   }
   return places;
 }
@@ -157,7 +164,10 @@ class Search {
     projection_.step_in_standard_errors = 0.05;
     BlockSet first{.blocks = {}, .rigid = options.rigid};
     if (options.rigid) first.blocks.push_back({});
-    best_ = fit(first);
+    // Without any mode the rigid body's a1 would run off after them.
+    ProjectionOptions as_is = projection_;
+    as_is.most_iterations = 0;
+    best_ = fit_blocks(stretches_, sensors_, first, choices_, as_is);
     result_.trials.push_back({.blocks = 0, .bic = best_.bic(), .kept = true});
   }
 
@@ -174,6 +184,7 @@ class Search {
         break;
       }
     }
+    if (!options_.modes) prune();
     result_.blocks = best_.blocks;
     return result_;
   }
@@ -205,6 +216,7 @@ class Search {
     const Candidate candidate = candidates[at];
     candidates.erase(candidates.begin() + static_cast<std::ptrdiff_t>(at));
     BlockSet more = best_.blocks;
+    if (options_.rigid && ran_off(more)) more.blocks.front() = {};
     more.blocks.push_back(candidate.block);
     BlockFit trial = fit(more);
     const SecondOrderBlock& added = trial.blocks.blocks.back();
@@ -217,6 +229,45 @@ class Search {
                               .kept = kept});
     if (kept) best_ = std::move(trial);
     return kept;
+  }
+
+  /// Blocks that others have made superfluous go again: those without which BIC is no more than the
+  /// margin higher.
+  void prune() {
+    for (bool pruned = true; pruned && flexible() > 1;) {
+      pruned = false;
+      std::size_t least = 0;
+      double lowest = std::numeric_limits<double>::infinity();
+      for (std::size_t m = options_.rigid ? 1 : 0; m < best_.blocks.blocks.size(); ++m) {
+        ProjectionOptions as_is = projection_;
+        as_is.most_iterations = 0;
+        const double bic = fit_blocks(stretches_, sensors_, without(m), choices_, as_is).bic();
+        if (bic >= lowest) continue;
+        lowest = bic;
+        least = m;
+      }
+      if (lowest > best_.bic() + kWorthRefitting) return;
+      BlockFit fewer = fit(without(least));
+      if (fewer.bic() > best_.bic() + options_.bic_margin) return;
+      best_ = std::move(fewer);
+      ++result_.pruned;
+      pruned = true;
+    }
+  }
+
+  /// The rigid body's a1 took part in describing a mode that was not there yet.
+  static bool ran_off(const BlockSet& set) {
+    double lowest = std::numeric_limits<double>::infinity();
+    for (std::size_t m = 1; m < set.blocks.size(); ++m) {
+      lowest = std::min(lowest, set.blocks[m].omega_rad_per_s());
+    }
+    return std::abs(set.blocks.front().a1_rad_per_s) > kSlowRigidBody * lowest;
+  }
+
+  BlockSet without(std::size_t block) const {
+    BlockSet fewer = best_.blocks;
+    fewer.blocks.erase(fewer.blocks.begin() + static_cast<std::ptrdiff_t>(block));
+    return fewer;
   }
 
   std::span<const Stretch> stretches_;

@@ -16,7 +16,7 @@ struct BlockSearchOptions {
   std::optional<int> modes = {};  ///< flexible blocks; empty: as many as the criterion asks for
   int most_blocks = 16;           ///< flexible ones
   double bic_margin = 10.0;       ///< a block stays when BIC falls by more
-  double sampling_rate_Hz = 0.0;  ///< 0 for frequency responses
+  bool sampled = true;            ///< a run in time, where blocks above the band show below it
 };
 
 /// A number of flexible blocks that was fitted.
@@ -34,6 +34,7 @@ struct OrderTrial {
 struct BlockSearch {
   BlockSet blocks;
   std::vector<OrderTrial> trials;
+  int pruned = 0;      ///< blocks taken away again at the end
   std::string reason;  ///< why there are no more blocks
 };
 

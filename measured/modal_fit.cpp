@@ -19,6 +19,11 @@ constexpr double kPi = std::numbers::pi;
 constexpr double kCoherenceRounding = 1e-12;
 /// Relative deviation of lines that nothing is known about.
 constexpr double kUnknownDeviation = 0.01;
+/// What a heavily damped mode is, and how near its column in the chart lies.
+constexpr double kHeavy = 0.1;
+constexpr double kHeavyTurn = 0.03;
+constexpr double kNearColumn = 0.05;
+constexpr double kNearDamping = 0.3;
 /// Shares of the progress.
 constexpr double kAfterChart = 0.1;
 constexpr double kAfterSearch = 0.6;
@@ -65,7 +70,8 @@ StabilisationChart chart_of(const Task& task, const ModalFitOptions& options) {
     std::vector<Index> kept;
     for (Index i = 0; i < found.z.size(); ++i) {
       const std::complex<double> s = std::log(found.z(i)) / task.angle_period_s;
-      if (s.imag() <= 0.0 || s.real() >= 0.0 || !std::isfinite(std::abs(s))) continue;
+      if (s.imag() <= 0.0 || !std::isfinite(std::abs(s))) continue;
+      if (s.real() > options.stabilisation.undamped * std::abs(s)) continue;
       at.s_rad_per_s.push_back(s);
       kept.push_back(i);
     }
@@ -80,7 +86,17 @@ void sort_flexible(BlockSet& set) {
             [](const auto& a, const auto& b) { return a.a0_rad2_per_s2 < b.a0_rad2_per_s2; });
 }
 
+/// A block damped beyond kHeavy stands for one mode only where its residues are nearly real or the
+/// chart has a column for it: the search puts others in place of several modes outside the band.
+bool in_chart(const std::vector<StablePole>& columns, const FittedPole& pole) {
+  return std::ranges::any_of(columns, [&](const StablePole& column) {
+    return std::abs(column.frequency_Hz - pole.frequency_Hz) <= kNearColumn * pole.frequency_Hz &&
+           std::abs(column.damping_ratio - pole.damping_ratio) <= kNearDamping * pole.damping_ratio;
+  });
+}
+
 void describe_poles(ModalFit& fit, const BlockFit& best, const ModalFitOptions& options) {
+  const auto columns = stable_poles(fit.chart, options.least_stable_orders);
   for (std::size_t m = 0; m < fit.blocks.blocks.size(); ++m) {
     const SecondOrderBlock& block = fit.blocks.blocks[m];
     const Index at = fit.blocks.first_parameter(m);
@@ -98,7 +114,9 @@ void describe_poles(ModalFit& fit, const BlockFit& best, const ModalFitOptions& 
     pole.residue_turn = residue_turn(best, m);
     pole.is_mode = fit.band.contains(pole.frequency_Hz) &&
                    pole.damping_ratio <= options.most_damping_ratio &&
-                   pole.residue_turn <= options.most_residue_turn;
+                   pole.residue_turn <= options.most_residue_turn &&
+                   (pole.damping_ratio <= kHeavy || pole.residue_turn <= kHeavyTurn ||
+                    in_chart(columns, pole));
     fit.poles.push_back(pole);
   }
 }
@@ -169,7 +187,8 @@ ModalFit fit_task(const Task& task, const ModalFitOptions& options) {
        .rigid = options.rigid_body,
        .modes = options.modes,
        .most_blocks = options.most_blocks,
-       .bic_margin = options.bic_margin},
+       .bic_margin = options.bic_margin,
+       .sampled = task.period_s > 0.0},
       projection);
   fit.order_trials = search.trials;
   fit.order_reason = search.reason;

@@ -62,7 +62,9 @@ struct FittedPole {
   double damping_ratio_std = 0.0;
   std::array<std::complex<double>, 2> s_rad_per_s;
   double residue_turn = 0.0;  ///< measured/alias_placement.hpp
-  /// In the band, damped and turned no more than a mode may be. Others stand for what lies outside.
+  /// In the band, damped and turned no more than a mode may be, and where it is damped by more than
+  /// 0.1 turned by no more than 0.03 or stable in the chart. Others stand for what lies outside the
+  /// band.
   bool is_mode = false;
 };
 

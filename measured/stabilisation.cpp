@@ -35,8 +35,9 @@ ChartPole marked(const OrderPoles& at, std::size_t i, const OrderPoles& before,
   const double f = frequency_Hz(*nearest);
   const double zeta = damping_ratio(*nearest);
   pole.frequency_stable = std::abs(pole.frequency_Hz - f) <= tolerances.frequency * f;
-  pole.damping_stable = pole.frequency_stable && std::abs(pole.damping_ratio - zeta) <=
-                                                     tolerances.damping_ratio * std::abs(zeta);
+  pole.damping_stable =
+      pole.frequency_stable && std::abs(pole.damping_ratio - zeta) <=
+                                   tolerances.damping_ratio * std::abs(zeta) + tolerances.undamped;
   pole.vector_stable = pole.frequency_stable &&
                        modal_assurance(at.residues.col(static_cast<Index>(i)),
                                        before.residues.col(k)) >= tolerances.modal_assurance;
@@ -72,7 +73,8 @@ std::vector<StablePole> stable_poles(const StabilisationChart& chart, int least_
       return std::abs(other.frequency_Hz - pole->frequency_Hz) <=
                  tolerances.frequency * other.frequency_Hz &&
              std::abs(other.damping_ratio - pole->damping_ratio) <=
-                 3.0 * tolerances.damping_ratio * other.damping_ratio;
+                 3.0 * tolerances.damping_ratio * std::abs(other.damping_ratio) +
+                     tolerances.undamped;
     });
     if (same == found.end()) {
       found.push_back({pole->frequency_Hz, pole->damping_ratio, 1});

@@ -10,7 +10,8 @@ namespace flexarm::measured {
 /// A pole is stable at an order when the order before has one that differs by no more than these.
 struct StabilisationTolerances {
   double frequency = 0.01;        ///< |f - f'| <= frequency f'
-  double damping_ratio = 0.1;     ///< |zeta - zeta'| <= damping_ratio |zeta'|
+  double damping_ratio = 0.1;     ///< |zeta - zeta'| <= damping_ratio |zeta'| + undamped
+  double undamped = 5e-4;         ///< zeta >= -undamped: poles without damping count
   double modal_assurance = 0.95;  ///< MAC of the residues over the sensors >= this
 };
 
@@ -28,7 +29,7 @@ struct ChartPole {
 };
 
 /// Poles of the common denominator over its order: the arm's own stay where they are, those of
-/// noise wander. Complex poles in the left half plane within the band; one of each pair.
+/// noise wander. Complex poles that are not unstable, within the band; one of each pair.
 struct StabilisationChart {
   StabilisationTolerances tolerances;
   double from_Hz = 0.0;
@@ -42,7 +43,7 @@ struct StabilisationChart {
 /// What one order has to offer.
 struct OrderPoles {
   int order = 0;
-  std::vector<std::complex<double>> s_rad_per_s;  ///< Im > 0, Re < 0
+  std::vector<std::complex<double>> s_rad_per_s;  ///< Im > 0
   Eigen::MatrixXcd residues;                      ///< sensors x poles, each column to any scale
 };
 

@@ -22,6 +22,8 @@ constexpr double kDependent = 1e-11;
 constexpr double kRounding = 1e-13;
 /// A Newton step in log(omega) and damping ratios that rounding of the criterion may hide.
 constexpr double kRoundingStep = 1e-7;
+/// A fall of the criterion that is none, in units of the square of the step asked for.
+constexpr double kNoGain = 100.0;
 /// The largest step of log(omega) and of a damping ratio.
 constexpr double kLargestStep = 0.3;
 /// Growth of a free motion over a run, as its exponent, that a step may reach.
@@ -286,8 +288,14 @@ BlockFit fit_blocks(std::span<const Stretch> stretches, std::span<const arm::Sen
     std::optional<Evaluation> next;
     if (fitter.is_admissible(there)) next = fitter.evaluate(there);
     if (next && next->criterion < at.criterion) {
+      // A flat valley, along which steps are long and win nothing, is an end too.
+      const bool no_gain = at.criterion - next->criterion < kNoGain * enough;
       at = std::move(*next);
       damping = std::max(1e-12, damping / 10.0);
+      if (no_gain) {
+        fit.converged = true;
+        break;
+      }
     } else {
       damping *= 10.0;
     }

@@ -158,6 +158,23 @@ TEST(ModalFit, OfModesBeyondTheBandMeetsTheFigures) {
   const FitErrors errors = errors_of(fit, exact, false);
   EXPECT_LT(errors.frequency, 5e-4);
   EXPECT_LT(errors.damping_ratio, 0.05);
+  // What stands for the others is not taken for a mode.
+  EXPECT_EQ(std::ranges::count(fit.poles, true, &FittedPole::is_mode), 3);
+}
+
+TEST(ModalFit, OfAnUndampedArmHasNoDamping) {
+  FitCase fit_case;
+  fit_case.arm = arm::paper_arm();
+  fit_case.duration_s = 20.0;
+  fit_case.relative_noise = 0.01;
+  const ModalFit fit = fit_of(fit_case);
+  const auto exact = exact_roots(model_of(fit_case), 0).poles;
+  ASSERT_EQ(fit.poles.size(), exact.size());
+  for (std::size_t i = 0; i < exact.size(); ++i) {
+    EXPECT_LT(std::abs(fit.poles[i].frequency_Hz - natural_Hz(exact[i])),
+              4.0 * fit.poles[i].frequency_std_Hz);
+    EXPECT_LT(std::abs(fit.poles[i].damping_ratio), 4.0 * fit.poles[i].damping_ratio_std);
+  }
 }
 
 TEST(ModalFit, OfTwoRunsIsSurerThanOfOne) {

@@ -1,0 +1,36 @@
+// Stated intervals cover the truth as often as they say: the fixed part of
+// benchmarks/modal_coverage.cpp.
+#include "tests/measured/coverage_study.hpp"
+
+#include <boost/math/distributions/binomial.hpp>
+#include <gtest/gtest.h>
+
+namespace flexarm::measured {
+namespace {
+
+constexpr int kRuns = 20;
+/// A quantity whose intervals cover in 95 of 100 fails this with a probability of 1e-5.
+constexpr double kChance = 1e-5;
+
+TEST(ModalCoverage, OfEveryPoleAndZeroIsWhatIntervalsSay) {
+  FitCase fit_case;
+  fit_case.relative_noise = 0.01;
+  fit_case.duration_s = 20.0;
+  CoverageStudy study(fit_case);
+  for (std::uint64_t seed = 1; seed <= kRuns; ++seed) study.run(seed);
+  const double least = boost::math::quantile(boost::math::binomial(kRuns, 0.95), kChance);
+  double spread = 0.0;
+  for (const Coverage& entry : study.coverage()) {
+    EXPECT_EQ(entry.runs, kRuns) << entry.quantity;
+    EXPECT_GE(entry.covered, least) << entry.quantity;
+    spread += entry.sum_of_squares;
+  }
+  ASSERT_FALSE(study.coverage().empty());
+  // Errors over standard errors have mean square 1; the quantities of a run hang together, so the
+  // runs alone count: 1 +- 4 sqrt(2/runs).
+  spread /= kRuns * static_cast<double>(study.coverage().size());
+  EXPECT_NEAR(spread, 1.0, 4.0 * std::sqrt(2.0 / kRuns));
+}
+
+}  // namespace
+}  // namespace flexarm::measured

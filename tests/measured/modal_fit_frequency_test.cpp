@@ -1,0 +1,88 @@
+// Fits of frequency responses, on uneven grids, against the formulation that made them.
+#include "measured/modal_fit.hpp"
+#include "response/modal_response.hpp"
+#include "tests/measured/fit_cases.hpp"
+#include "tests/measured/fit_errors.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace flexarm::measured {
+namespace {
+
+using Complex = std::complex<double>;
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+/// 1 to 80 Hz in equal ratios, each sensor on lines of its own.
+FrequencyRecord responses(const FitCase& fit_case, const arm::ModalModel& model, int lines) {
+  FrequencyRecord record;
+  for (std::size_t j = 0; j < fit_case.sensors.size(); ++j) {
+    FrequencyChannel channel{fit_case.sensors[j], {}, {}, {}};
+    const int count = lines + 10 * static_cast<int>(j);
+    for (int k = 0; k < count; ++k) {
+      const double f = std::pow(80.0, static_cast<double>(k) / (count - 1));
+      channel.frequency_Hz.push_back(f);
+      channel.response.push_back(response::modal_response(
+          model, fit_case.sensors, Complex(0.0, 2.0 * std::numbers::pi * f))[j]);
+      channel.coherence.push_back(kUnknown);
+    }
+    record.channels.push_back(channel);
+  }
+  return record;
+}
+
+TEST(ModalFitOfResponses, WithoutNoiseIsExact) {
+  const FitCase fit_case;
+  const auto model = model_of(fit_case);
+  const ModalFit fit = fit_modes(responses(fit_case, model, 400));
+  const FitErrors errors = errors_of(fit, exact_roots(model, fit_case.sensors.size()));
+  EXPECT_LT(errors.frequency, 1e-9);
+  EXPECT_LT(errors.damping_ratio, 1e-7);
+  EXPECT_LT(errors.zeros, 1e-7);
+}
+
+TEST(ModalFitOfResponses, WithModesBeyondTheBandHasThemInItsRemainder) {
+  FitCase fit_case;
+  fit_case.modes = 10;
+  const auto model = model_of(fit_case);
+  const ModalFit fit = fit_modes(responses(fit_case, model, 400));
+  const FitErrors errors = errors_of(fit, exact_roots(model, fit_case.sensors.size()), false);
+  EXPECT_LT(errors.frequency, 1e-6);
+  EXPECT_LT(errors.damping_ratio, 1e-4);
+}
+
+TEST(ModalFitOfResponses, WeighsLinesByTheirCoherence) {
+  const FitCase fit_case;
+  const auto model = model_of(fit_case);
+  FrequencyRecord record = responses(fit_case, model, 400);
+  // |H| (1 +- noise/sqrt 2 in each part), as of 50 averages: the last third of the lines is bad.
+  constexpr double kAverages = 50.0;
+  response::RandomNumbers random(4);
+  for (FrequencyChannel& channel : record.channels) {
+    for (std::size_t k = 0; k < channel.response.size(); ++k) {
+      channel.coherence[k] = 3 * k < 2 * channel.response.size() ? 0.999 : 0.5;
+      const double g = channel.coherence[k];
+      const double deviation =
+          std::sqrt((1.0 - g) / (2.0 * kAverages * g)) * std::abs(channel.response[k]);
+      channel.response[k] += deviation * Complex(random.normal(), random.normal());
+    }
+  }
+  const ModalFit fit = fit_modes(record, {.modes = 3, .averages = kAverages});
+  const auto exact = exact_roots(model, fit_case.sensors.size());
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_LT(std::abs(fit.poles[i].frequency_Hz - natural_Hz(exact.poles[i])),
+              4.0 * fit.poles[i].frequency_std_Hz);
+    EXPECT_LT(std::abs(fit.poles[i].damping_ratio - damping_of(exact.poles[i])),
+              4.0 * fit.poles[i].damping_ratio_std);
+  }
+  // The deviations were right: what is left is one of them.
+  for (const FittedSensor& sensor : fit.sensors) {
+    EXPECT_NEAR(sensor.residual.standard_deviation, 1.0, 0.15);
+  }
+}
+
+}  // namespace
+}  // namespace flexarm::measured

@@ -5,6 +5,7 @@
 #include <Eigen/QR>
 
 #include <algorithm>
+#include <cmath>
 #include <complex>
 #include <numbers>
 #include <utility>
@@ -125,7 +126,7 @@ Stretch frequency_stretch(const FrequencyChannel& channel, Index sensor,
                           std::vector<double> deviation) {
   std::vector<std::size_t> lines;
   for (std::size_t k = 0; k < channel.frequency_Hz.size(); ++k) {
-    if (channel.frequency_Hz[k] > 0.0) lines.push_back(k);
+    if (channel.frequency_Hz[k] > 0.0 && std::isfinite(deviation[k])) lines.push_back(k);
   }
   const auto rows = 2 * static_cast<Index>(lines.size());
   return {.sensors = {sensor},

@@ -55,7 +55,8 @@ Stretch time_stretch(const TimeRecord& record, std::vector<Eigen::Index> sensors
 
 /// One sensor's response, each row over `deviation` (of real and imaginary part) of its frequency:
 /// real parts and imaginary parts in turn. The static remainder is (j omega)^k, k the sensor's
-/// derivatives. `channel` must outlive the result; frequency 0 is left out.
+/// derivatives. `channel` must outlive the result; frequency 0 and lines of infinite deviation are
+/// left out.
 Stretch frequency_stretch(const FrequencyChannel& channel, Eigen::Index sensor,
                           std::vector<double> deviation);
 

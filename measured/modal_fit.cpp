@@ -1,11 +1,10 @@
 #include "measured/modal_fit.hpp"
 
-#include "arm/input_error.hpp"
-
-#include <fmt/format.h>
+#include "measured/modal_fit_task.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace flexarm::measured {
@@ -15,49 +14,18 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 
 constexpr double kPi = std::numbers::pi;
-/// A coherence is not believed to be closer to 1 than this.
-constexpr double kCoherenceRounding = 1e-12;
-/// Relative deviation of lines that nothing is known about.
-constexpr double kUnknownDeviation = 0.01;
 /// What a heavily damped mode is, and how near its column in the chart lies.
 constexpr double kHeavy = 0.1;
 constexpr double kHeavyTurn = 0.03;
 constexpr double kNearColumn = 0.05;
 constexpr double kNearDamping = 0.3;
+/// Residuals below this share of the reading are rounding, whatever their colour.
+constexpr double kOnlyRounding = 1e-6;
 /// Shares of the progress.
 constexpr double kAfterChart = 0.1;
 constexpr double kAfterSearch = 0.6;
 
-struct Task {
-  std::vector<arm::Sensor> sensors;
-  std::vector<Stretch> search;  ///< what blocks are searched for in
-  std::vector<Stretch> all;
-  std::vector<DenominatorEquation> equations;
-  FitBand band;
-  double angle_period_s = 0.0;  ///< angle of the equations over omega
-  double period_s = 0.0;        ///< of samples; 0 for frequency responses
-};
-
-void require_options(const ModalFitOptions& options) {
-  const auto at_least = [](const char* key, double value, double least) {
-    if (!(value >= least)) {
-      throw arm::out_of_range(key, value, "", fmt::format("{:g} or more", least));
-    }
-  };
-  at_least("modes", options.modes.value_or(1), 1);
-  at_least("most_blocks", options.most_blocks, 1);
-  at_least("highest_order", options.highest_order, 2);
-  at_least("averages", options.averages, 1.0);
-  at_least("search_samples", static_cast<double>(options.search_samples), kLeastSamples);
-  if (options.band &&
-      !(options.band->from_Hz >= 0.0 && options.band->to_Hz > options.band->from_Hz)) {
-    throw arm::InputError(
-        fmt::format("band = {:g} to {:g} Hz: must be from 0 or more to something above",
-                    options.band->from_Hz, options.band->to_Hz));
-  }
-}
-
-StabilisationChart chart_of(const Task& task, const ModalFitOptions& options) {
+StabilisationChart chart_of(const ModalFitTask& task, const ModalFitOptions& options) {
   Index lines = 0;
   for (const auto& equation : task.equations) lines = std::max(lines, equation.angle.size());
   const int highest =
@@ -86,17 +54,61 @@ void sort_flexible(BlockSet& set) {
             [](const auto& a, const auto& b) { return a.a0_rad2_per_s2 < b.a0_rad2_per_s2; });
 }
 
-/// A block damped beyond kHeavy stands for one mode only where its residues are nearly real or the
-/// chart has a column for it: the search puts others in place of several modes outside the band.
-bool in_chart(const std::vector<StablePole>& columns, const FittedPole& pole) {
-  return std::ranges::any_of(columns, [&](const StablePole& column) {
-    return std::abs(column.frequency_Hz - pole.frequency_Hz) <= kNearColumn * pole.frequency_Hz &&
-           std::abs(column.damping_ratio - pole.damping_ratio) <= kNearDamping * pole.damping_ratio;
-  });
+/// Which poles the chart has a column for: of those near a column the nearest.
+std::vector<bool> in_chart(std::span<const StablePole> columns, std::span<const FittedPole> poles,
+                           double undamped) {
+  std::vector<bool> found(poles.size(), false);
+  for (const StablePole& column : columns) {
+    double nearest = std::numeric_limits<double>::infinity();
+    std::size_t at = poles.size();
+    for (std::size_t i = 0; i < poles.size(); ++i) {
+      const double off = std::abs(column.frequency_Hz / poles[i].frequency_Hz - 1.0);
+      const double damping_off = std::abs(column.damping_ratio - poles[i].damping_ratio);
+      const bool near = off <= kNearColumn &&
+                        damping_off <= kNearDamping * std::abs(poles[i].damping_ratio) + undamped;
+      if (!near || off + damping_off >= nearest) continue;
+      nearest = off + damping_off;
+      at = i;
+    }
+    if (at < poles.size()) found[at] = true;
+  }
+  return found;
 }
 
-void describe_poles(ModalFit& fit, const BlockFit& best, const ModalFitOptions& options) {
+/// Whether a pole has another one beside it that the chart has a column for.
+bool is_beside(const FittedPole& pole, std::span<const FittedPole> poles,
+               const std::vector<bool>& charted) {
+  for (std::size_t i = 0; i < poles.size(); ++i) {
+    if (charted[i] && &poles[i] != &pole &&
+        std::abs(poles[i].frequency_Hz / pole.frequency_Hz - 1.0) <= kNearColumn) {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// Tells modes from blocks that the search puts in place of several modes outside the band (damped,
+/// residues far from imaginary) or, where the model leaves something unexplained, beside a mode
+/// whose damping changes with its amplitude.
+void judge_poles(ModalFit& fit, const ModalFitOptions& options, bool unexplained) {
   const auto columns = stable_poles(fit.chart, options.least_stable_orders);
+  const auto charted = in_chart(columns, fit.poles, options.stabilisation.undamped);
+  for (std::size_t i = 0; i < fit.poles.size(); ++i) {
+    FittedPole& pole = fit.poles[i];
+    if (!fit.band.contains(pole.frequency_Hz) || pole.damping_ratio > options.most_damping_ratio) {
+      continue;
+    }
+    if (pole.damping_ratio > kHeavy) {
+      pole.is_mode = pole.residue_turn <= kHeavyTurn ||
+                     (charted[i] && pole.residue_turn <= options.most_residue_turn);
+    } else {
+      const bool is_split = unexplained && is_beside(pole, fit.poles, charted);
+      pole.is_mode = charted[i] || (pole.residue_turn <= options.most_residue_turn && !is_split);
+    }
+  }
+}
+
+void describe_poles(ModalFit& fit, const BlockFit& best) {
   for (std::size_t m = 0; m < fit.blocks.blocks.size(); ++m) {
     const SecondOrderBlock& block = fit.blocks.blocks[m];
     const Index at = fit.blocks.first_parameter(m);
@@ -112,11 +124,6 @@ void describe_poles(ModalFit& fit, const BlockFit& best, const ModalFitOptions& 
                     .s_rad_per_s = block.poles_rad_per_s()};
     pole.frequency_std_Hz = pole.frequency_Hz * deviation;
     pole.residue_turn = residue_turn(best, m);
-    pole.is_mode = fit.band.contains(pole.frequency_Hz) &&
-                   pole.damping_ratio <= options.most_damping_ratio &&
-                   pole.residue_turn <= options.most_residue_turn &&
-                   (pole.damping_ratio <= kHeavy || pole.residue_turn <= kHeavyTurn ||
-                    in_chart(columns, pole));
     fit.poles.push_back(pole);
   }
 }
@@ -165,7 +172,7 @@ void describe_sensors(ModalFit& fit, const BlockFit& blocks, const ResidualStudy
   }
 }
 
-ModalFit fit_task(const Task& task, const ModalFitOptions& options) {
+ModalFit fit_task(const ModalFitTask& task, const ModalFitOptions& options) {
   ModalFit fit;
   fit.band = task.band;
   const auto report = [&](double fraction) {
@@ -188,7 +195,7 @@ ModalFit fit_task(const Task& task, const ModalFitOptions& options) {
        .modes = options.modes,
        .most_blocks = options.most_blocks,
        .bic_margin = options.bic_margin,
-       .sampled = task.period_s > 0.0},
+       .sampled = task.in_time},
       projection);
   fit.order_trials = search.trials;
   fit.order_reason = search.reason;
@@ -224,53 +231,14 @@ ModalFit fit_task(const Task& task, const ModalFitOptions& options) {
     fit.parameters.segment(at, shared) = fit.transfers.back().beta();
     at += shared;
   }
-  describe_poles(fit, best, options);
+  describe_poles(fit, best);
+  const bool unexplained = std::ranges::any_of(study.sensors, [](const ResidualQuality& residual) {
+    return !residual.is_noise() && residual.relative > kOnlyRounding;
+  });
+  judge_poles(fit, options, unexplained);
   describe_sensors(fit, best, study);
   report(1.0);
   return fit;
-}
-
-/// Standard deviation of real and imaginary part of each line.
-std::vector<double> deviations(const FrequencyChannel& channel, std::size_t index,
-                               const ModalFitOptions& options) {
-  if (index < options.response_std.size() && !options.response_std[index].empty()) {
-    const auto& given = options.response_std[index];
-    const bool usable = given.size() == channel.response.size() &&
-                        std::ranges::all_of(given, [](double d) { return d > 0.0; });
-    if (!usable) {
-      throw arm::InputError(fmt::format("response_std of {}: must be above 0, one a frequency",
-                                        arm::to_string(channel.sensor)));
-    }
-    return given;
-  }
-  std::vector<double> deviation;
-  for (std::size_t k = 0; k < channel.response.size(); ++k) {
-    const double coherence = std::min(channel.coherence[k], 1.0 - kCoherenceRounding);
-    const double relative =
-        std::isnan(coherence) ? kUnknownDeviation
-                              : std::sqrt((1.0 - coherence) / (2.0 * options.averages * coherence));
-    deviation.push_back(relative * std::abs(channel.response[k]));
-    if (!(deviation.back() > 0.0)) deviation.back() = std::numeric_limits<double>::infinity();
-  }
-  return deviation;
-}
-
-void require_record(const TimeRecord& record) {
-  if (record.time_s.size() < kLeastSamples) {
-    throw arm::InputError(fmt::format("samples = {}: too few to fit; must be {} or more",
-                                      record.time_s.size(), kLeastSamples));
-  }
-  if (record.channels.empty()) throw arm::InputError("a record without a sensor cannot be fitted");
-  if (std::ranges::all_of(record.torque_N_m, [](double u) { return u == 0.0; })) {
-    throw arm::InputError("torque is zero at every sample: there is no response to fit");
-  }
-}
-
-Index sensor_index(std::vector<arm::Sensor>& sensors, const arm::Sensor& sensor) {
-  const auto at = std::ranges::find(sensors, sensor);
-  const auto index = static_cast<Index>(at - sensors.begin());
-  if (at == sensors.end()) sensors.push_back(sensor);
-  return index;
 }
 
 }  // namespace
@@ -298,65 +266,11 @@ std::optional<std::size_t> ModalFit::find(arm::SensorKind kind) const {
 }
 
 ModalFit fit_modes(std::span<const TimeRecord> records, const ModalFitOptions& options) {
-  require_options(options);
-  if (records.empty()) throw arm::InputError("no record to fit");
-  Task task;
-  for (const TimeRecord& record : records) require_record(record);
-  task.period_s = sampling_period_s(records.front());
-  task.band = options.band.value_or(excited_band(records.front()));
-  for (const TimeRecord& record : records.subspan(1)) {
-    if (!options.band) task.band.to_Hz = std::max(task.band.to_Hz, excited_band(record).to_Hz);
-  }
-  if (task.band.to_Hz > 0.5 / task.period_s * (1.0 + 1e-9)) {
-    throw arm::out_of_range("band", task.band.to_Hz, "Hz", "half the sampling frequency or less");
-  }
-  task.angle_period_s = 0.5 / task.band.to_Hz;
-  for (std::size_t r = 0; r < records.size(); ++r) {
-    const TimeRecord& record = records[r];
-    std::vector<Index> sensors;
-    for (const Channel& channel : record.channels) {
-      sensors.push_back(sensor_index(task.sensors, channel.sensor));
-    }
-    const InitialState initial = options.initial.empty()
-                                     ? InitialState::rest
-                                     : options.initial[std::min(r, options.initial.size() - 1)];
-    task.all.push_back(
-        time_stretch(record, sensors, options.torque_hold, initial, record.time_s.size()));
-    task.search.push_back(
-        time_stretch(record, sensors, options.torque_hold, initial, options.search_samples));
-    for (auto& equation :
-         time_equations(record, options.rigid_body, task.band, options.search_samples)) {
-      task.equations.push_back(std::move(equation));
-    }
-  }
-  return fit_task(task, options);
+  return fit_task(time_task(records, options), options);
 }
 
 ModalFit fit_modes(const FrequencyRecord& record, const ModalFitOptions& options) {
-  require_options(options);
-  if (record.channels.empty()) throw arm::InputError("no frequency response to fit");
-  Task task;
-  task.band = {std::numeric_limits<double>::infinity(), 0.0};
-  for (const FrequencyChannel& channel : record.channels) {
-    task.band.from_Hz = std::min(task.band.from_Hz, channel.frequency_Hz.front());
-    task.band.to_Hz = std::max(task.band.to_Hz, channel.frequency_Hz.back());
-  }
-  if (options.band) task.band = *options.band;
-  task.angle_period_s = 0.5 / task.band.to_Hz;
-  for (std::size_t j = 0; j < record.channels.size(); ++j) {
-    const FrequencyChannel& channel = record.channels[j];
-    if (channel.frequency_Hz.size() < kLeastSamples / 4) {
-      throw arm::InputError(fmt::format("{}: {} frequencies are too few to fit; must be {} or more",
-                                        arm::to_string(channel.sensor), channel.frequency_Hz.size(),
-                                        kLeastSamples / 4));
-    }
-    const std::vector<double> deviation = deviations(channel, j, options);
-    task.sensors.push_back(channel.sensor);
-    task.equations.push_back(frequency_equation(channel, deviation, options.rigid_body, task.band));
-    task.all.push_back(frequency_stretch(channel, static_cast<Index>(j), deviation));
-  }
-  task.search = task.all;
-  return fit_task(task, options);
+  return fit_task(frequency_task(record, options), options);
 }
 
 ModalTable modal_table(const ModalFit& fit, double most_damping_ratio) {

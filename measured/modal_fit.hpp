@@ -37,8 +37,10 @@ struct ModalFitOptions {
   int most_blocks = 16;
   double bic_margin = 10.0;
   double most_damping_ratio = 0.7;  ///< blocks above it are no modes
-  double most_residue_turn = 0.35;  ///< nor are those above this, 20 degrees
-  int highest_order = 32;           ///< of the stabilisation chart, orders 2, 4, ...
+  /// Nor are those above this, 20 degrees; lightly damped ones only if the chart has no column for
+  /// them, for a delay turns residues too.
+  double most_residue_turn = 0.35;
+  int highest_order = 32;  ///< of the stabilisation chart, orders 2, 4, ...
   int least_stable_orders = 3;
   StabilisationTolerances stabilisation = {};
   /// Blocks are searched for in this many first samples of each record, then fitted to all.
@@ -62,9 +64,10 @@ struct FittedPole {
   double damping_ratio_std = 0.0;
   std::array<std::complex<double>, 2> s_rad_per_s;
   double residue_turn = 0.0;  ///< measured/alias_placement.hpp
-  /// In the band, damped and turned no more than a mode may be, and where it is damped by more than
-  /// 0.1 turned by no more than 0.03 or stable in the chart. Others stand for what lies outside the
-  /// band.
+  /// In the band and damped no more than a mode may be; with a column of the chart nearby, or
+  /// residues turned no more than a mode's may be, 0.03 where it is damped by more than 0.1. Where
+  /// residuals are no noise, poles beside one that has a column are none. Others stand for what
+  /// lies outside the band or for what is not linear.
   bool is_mode = false;
 };
 
@@ -120,11 +123,14 @@ struct ModalFit {
 ///
 /// Cost: samples x (4 blocks + sensors + 3)^2 x 2 operations a pass, some 5 passes a fit.
 ///
-/// Throws InputError for no record or channel, records shorter than kLeastSamples samples, a torque
-/// that is zero, a band that holds nothing, and options out of their range.
+/// Throws InputError for no record or channel, records shorter than kLeastSamples samples or
+/// kLeastLines frequencies, a torque that is zero, a sensor that is constant, a value that is not
+/// finite, a band that holds nothing, and options out of their range; std::invalid_argument for
+/// vectors of unlike length or a sensor twice in a record.
 ModalFit fit_modes(std::span<const TimeRecord> records, const ModalFitOptions& options = {});
 ModalFit fit_modes(const FrequencyRecord& record, const ModalFitOptions& options = {});
 inline constexpr std::size_t kLeastSamples = 64;
+inline constexpr std::size_t kLeastLines = 16;
 
 /// Modes and the antiresonances of each sensor in the band, counted from 1, with standard
 /// deviations. Zeros whose damping ratio is above `options`' bound for modes in size, the real ones

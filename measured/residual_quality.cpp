@@ -125,7 +125,7 @@ FTest explained_by_torque(const VectorXd& residual, const VectorXd& torque) {
 
 void judge(ResidualQuality& quality, const VectorXd& residual, const VectorXd& torque,
            bool in_time) {
-  if (residual.size() <= 2 * kWhitenessLags) return;
+  if (residual.size() <= 2 * kWhitenessLags || residual.squaredNorm() == 0.0) return;
   const std::vector<double> values(residual.begin(), residual.end());
   const auto [statistic, probability] =
       boost::math::statistics::ljung_box(values, static_cast<std::int64_t>(kWhitenessLags));

@@ -116,7 +116,7 @@ DenominatorEquation frequency_equation(const FrequencyChannel& channel,
   std::vector<std::size_t> used;
   for (std::size_t k = 0; k < channel.frequency_Hz.size(); ++k) {
     const double f = channel.frequency_Hz[k];
-    if (f > 0.0 && band.contains(f)) used.push_back(k);
+    if (f > 0.0 && std::isfinite(deviation[k]) && band.contains(f)) used.push_back(k);
   }
   const auto count = static_cast<Index>(used.size());
   DenominatorEquation equation{Eigen::ArrayXd(count), ArrayXcd(count), {ArrayXcd(count)}};

@@ -17,6 +17,8 @@ using Eigen::VectorXd;
 
 /// A residual below this times the reading is what rounding leaves of noise-free data.
 constexpr double kNothingLeft = 1e-9;
+/// What rounding leaves of any reading.
+constexpr double kRounding = 1e-13;
 /// Damping ratios and frequencies of the grid; their bands overlap at half power.
 constexpr double kGridDamping[] = {0.1, 0.5};
 constexpr int kGridFrequencies = 10;
@@ -66,9 +68,10 @@ class CandidateTriangles {
     }
   }
 
-  /// How much the criterion falls when block `added` joins the first `held`.
-  double fall(std::size_t held, std::size_t added) const {
-    double fall = 0.0;
+  /// The criterion, each stretch with residuals of its own size, of the first `held` blocks and
+  /// block `added`.
+  double criterion(std::size_t held, std::size_t added) const {
+    double sum = 0.0;
     for (std::size_t j = 0; j < models_.size(); ++j) {
       for (std::size_t r = 0; r < stretches_.size(); ++r) {
         const auto at = std::ranges::find(stretches_[r].sensors, static_cast<Index>(j));
@@ -76,12 +79,10 @@ class CandidateTriangles {
         const SignalLayout layout = stretches_[r].layout(all_.blocks.size());
         const VectorXd y =
             triangles_[r].col(layout.first_reading() + (at - stretches_[r].sensors.begin()));
-        const double before = squares(j, r, y, held, held);
-        const double after = squares(j, r, y, held, added);
-        fall += static_cast<double>(stretches_[r].rows) * std::log(before / after);
+        sum += static_cast<double>(stretches_[r].rows) * std::log(squares(j, r, y, held, added));
       }
     }
-    return fall;
+    return sum;
   }
 
  private:
@@ -101,7 +102,7 @@ class CandidateTriangles {
     MatrixXd a(y.size(), static_cast<Index>(columns.size()));
     for (std::size_t i = 0; i < columns.size(); ++i) a.col(static_cast<Index>(i)) = columns[i];
     const VectorXd x = a.colPivHouseholderQr().solve(y);
-    return (y - a * x).squaredNorm() + 1e-26 * y.squaredNorm();
+    return (y - a * x).squaredNorm() + kRounding * kRounding * y.squaredNorm();
   }
 
   std::span<const Stretch> stretches_;
@@ -118,11 +119,11 @@ std::size_t best_of(std::span<const Stretch> stretches, std::span<const arm::Sen
   for (const Candidate& candidate : candidates) all.blocks.push_back(candidate.block);
   const CandidateTriangles triangles(stretches, sensors, all, choices);
   std::size_t best = 0;
-  double most = -std::numeric_limits<double>::infinity();
+  double least = std::numeric_limits<double>::infinity();
   for (std::size_t c = 0; c < candidates.size(); ++c) {
-    const double fall = triangles.fall(held.blocks.size(), held.blocks.size() + c);
-    if (fall > most) {
-      most = fall;
+    const double criterion = triangles.criterion(held.blocks.size(), held.blocks.size() + c);
+    if (criterion < least) {
+      least = criterion;
       best = c;
     }
   }

@@ -84,19 +84,34 @@ Eigen::RowVectorXcd FittedTransfer::gradient(Complex s) const {
 }
 
 FittedTransfer::Numerator FittedTransfer::numerator(std::size_t block) const {
+  // b1 and b0 are linear in beta.
+  const Eigen::Vector2d b = numerator_gradient(block).rightCols(beta_.size()) * beta_;
+  return {b(0), b(1)};
+}
+
+Eigen::Matrix2Xd FittedTransfer::numerator_gradient(std::size_t block) const {
   const int derivatives = arm::derivative_order(model_.sensor);
-  double low = 0.0;
-  double high = 0.0;
+  const bool rigid = blocks_.is_rigid(block);
+  const auto& [a1, a0] = blocks_.blocks[block];
+  Eigen::Matrix2Xd gradient = Eigen::Matrix2Xd::Zero(2, parameters());
   for (Index i = 0; i < beta_.size(); ++i) {
     const SensorColumn& column = model_.columns[static_cast<std::size_t>(i)];
     if (column.kind != Kind::forced || column.block != block) continue;
-    const int lowest = derivatives == 2 ? 1 : 0;
-    (column.power == lowest ? low : high) = beta_(i);
+    const Index at = blocks_.parameters() + i;
+    if (derivatives == 0) {
+      gradient(column.power == 1 ? 0 : 1, at) = 1.0;
+    } else if (column.power == derivatives) {
+      gradient(1, at) = 1.0;
+    } else if (!rigid) {
+      gradient.col(at) << -1.0 / a0, -a1 / a0;
+      // Of (b1, b0) = -c (1, a1)/a0 to a1 and a0.
+      Eigen::Matrix2d to_coefficients;
+      to_coefficients << 0.0, 1.0 / (a0 * a0), -1.0 / a0, a1 / (a0 * a0);
+      gradient.middleCols(blocks_.first_parameter(block), 2) +=
+          beta_(i) * to_coefficients * blocks_.coefficient_derivatives(block).transpose();
+    }
   }
-  if (derivatives == 0) return {high, low};
-  if (blocks_.is_rigid(block)) return {0.0, high};
-  const auto& [a1, a0] = blocks_.blocks[block];
-  return {-low / a0, high - a1 * low / a0};
+  return gradient;
 }
 
 }  // namespace flexarm::measured

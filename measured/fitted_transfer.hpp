@@ -41,6 +41,8 @@ class FittedTransfer {
     double b0 = 0.0;
   };
   Numerator numerator(std::size_t block) const;
+  /// Derivatives of b1 (row 0) and b0 to all parameters: 2 x `parameters()`.
+  Eigen::Matrix2Xd numerator_gradient(std::size_t block) const;
 
  private:
   BlockSet blocks_;

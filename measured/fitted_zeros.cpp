@@ -1,5 +1,7 @@
 #include "measured/fitted_zeros.hpp"
 
+#include "measured/propagated_error.hpp"
+
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
@@ -123,11 +125,9 @@ FittedZero zero_at(Complex s, const FittedTransfer& transfer, const MatrixXd& co
   const Eigen::RowVectorXcd ds = -transfer.gradient(s) / transfer.s_derivative(s);
   const Eigen::RowVectorXd d_size = (std::conj(s) * ds).real() / size;
   const Eigen::RowVectorXd d_damping = -ds.real() / size + s.real() / (size * size) * d_size;
-  const auto deviation = [&](const Eigen::RowVectorXd& gradient) {
-    return std::sqrt(std::max(0.0, gradient.dot(gradient * covariance)));
-  };
-  zero.frequency_std_Hz = deviation(d_size) / (2.0 * std::numbers::pi);
-  zero.damping_ratio_std = deviation(d_damping);
+  zero.frequency_std_Hz = propagated_error(d_size, covariance) / (2.0 * std::numbers::pi);
+  // A real zero stays real: its damping ratio is 1 or -1.
+  if (s.imag() != 0.0) zero.damping_ratio_std = propagated_error(d_damping, covariance);
   return zero;
 }
 
@@ -135,6 +135,7 @@ FittedZero zero_at(Complex s, const FittedTransfer& transfer, const MatrixXd& co
 
 std::vector<FittedZero> fitted_zeros(const FittedTransfer& transfer, const MatrixXd& covariance,
                                      double from_Hz, double to_Hz) {
+  if (transfer.blocks().blocks.empty()) return {};
   const double highest = highest_pole(transfer.blocks());
   const Pencil pencil = pencil_of(transfer, highest);
   Eigen::GeneralizedEigenSolver<MatrixXd> solver(pencil.a, pencil.e, false);

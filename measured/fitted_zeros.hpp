@@ -13,8 +13,8 @@ namespace flexarm::measured {
 struct FittedZero {
   std::complex<double> s_rad_per_s;  ///< Im >= 0: one of each pair; real ones each
   double frequency_Hz = 0.0;         ///< |s|/(2 pi)
-  double frequency_std_Hz = 0.0;
-  double damping_ratio = 0.0;  ///< -Re s/|s|
+  double frequency_std_Hz = 0.0;     ///< infinite where the fit says nothing of it
+  double damping_ratio = 0.0;        ///< -Re s/|s|
   double damping_ratio_std = 0.0;
   bool in_band = false;
 

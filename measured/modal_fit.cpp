@@ -1,6 +1,7 @@
 #include "measured/modal_fit.hpp"
 
 #include "measured/modal_fit_task.hpp"
+#include "measured/propagated_error.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -128,27 +129,12 @@ void describe_poles(ModalFit& fit, const BlockFit& best) {
   }
 }
 
-/// Standard errors of a block's numerator; it is linear in the sensor's beta but for a0 and a1, so
-/// differences of one standard error are its derivatives.
 FittedNumerator numerator_of(const FittedTransfer& transfer, const MatrixXd& covariance,
                              std::size_t block) {
   const auto at = transfer.numerator(block);
-  const Eigen::VectorXd values = transfer.values();
-  Eigen::RowVectorXd d1 = Eigen::RowVectorXd::Zero(values.size());
-  Eigen::RowVectorXd d0 = d1;
-  for (Index i = 0; i < values.size(); ++i) {
-    const double step = std::sqrt(covariance(i, i));
-    if (!(step > 0.0)) continue;
-    Eigen::VectorXd moved = values;
-    moved(i) += step;
-    const auto above = transfer.with(moved).numerator(block);
-    moved(i) -= 2.0 * step;
-    const auto below = transfer.with(moved).numerator(block);
-    d1(i) = (above.b1 - below.b1) / (2.0 * step);
-    d0(i) = (above.b0 - below.b0) / (2.0 * step);
-  }
-  return {at.b1, at.b0, std::sqrt(std::max(0.0, d1.dot(d1 * covariance))),
-          std::sqrt(std::max(0.0, d0.dot(d0 * covariance)))};
+  const auto gradient = transfer.numerator_gradient(block);
+  return {at.b1, at.b0, propagated_error(gradient.row(0), covariance),
+          propagated_error(gradient.row(1), covariance)};
 }
 
 void describe_sensors(ModalFit& fit, const BlockFit& blocks, const ResidualStudy& study) {

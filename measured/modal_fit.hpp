@@ -74,7 +74,7 @@ struct FittedPole {
 struct FittedNumerator {
   double b1 = 0.0;
   double b0 = 0.0;
-  double b1_std = 0.0;
+  double b1_std = 0.0;  ///< infinite where the fit says nothing of it, as the next
   double b0_std = 0.0;
 };
 

@@ -159,7 +159,8 @@ FitBand time_band(std::span<const TimeRecord> records, const ModalFitOptions& op
   if (!options.band) {
     FitBand band = excited_band(records.front());
     for (const TimeRecord& record : records.subspan(1)) {
-      band.to_Hz = std::max(band.to_Hz, excited_band(record).to_Hz);
+      const FitBand more = excited_band(record);
+      band = {std::min(band.from_Hz, more.from_Hz), std::max(band.to_Hz, more.to_Hz)};
     }
     return band;
   }

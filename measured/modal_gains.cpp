@@ -1,6 +1,7 @@
 #include "measured/modal_gains.hpp"
 
 #include "arm/input_error.hpp"
+#include "measured/propagated_error.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -69,7 +70,7 @@ Estimate estimate(const ModalFit& fit, const Quantity& quantity) {
     moved(i) -= 2.0 * step;
     gradient(i) = (above - quantity(MovedFit(fit, moved))) / (2.0 * step);
   }
-  result.standard_error = std::sqrt(std::max(0.0, gradient.dot(fit.covariance * gradient)));
+  result.standard_error = propagated_error(gradient.transpose(), fit.covariance);
   return result;
 }
 
@@ -153,8 +154,10 @@ ModalGains modal_gains(const ModalFit& fit, std::optional<double> total_inertia_
   };
   gains.total_inertia_kg_m2 = estimate(fit, inertia);
   if (!(gains.total_inertia_kg_m2.value > 0.0)) {
-    throw arm::out_of_range("modal gains: I_T", gains.total_inertia_kg_m2.value, "kg m^2",
-                            "above 0; the torque's sign or the hub's is not as in docs/formats.md");
+    throw arm::out_of_range(
+        "modal gains: I_T", gains.total_inertia_kg_m2.value, "kg m^2",
+        "above 0; the torque's sign or the hub's is not as in docs/formats.md, or friction "
+        "hides the rigid body's motion: then give I_T");
   }
   std::vector<std::size_t> modes;
   const std::size_t first = fit.blocks.rigid ? 1 : 0;

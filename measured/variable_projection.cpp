@@ -69,6 +69,7 @@ class SensorProblem {
 
   /// beta and the residual; adds the sensor's part to gradient and information.
   SensorEstimate solve(VectorXd& gradient, MatrixXd& information) const {
+    if (a_.cols() == 0) return nothing_linear();
     const VectorXd scale =
         a_.colwise().norm().transpose().unaryExpr([](double n) { return n > 0.0 ? n : 1.0; });
     const MatrixXd scaled = a_ * scale.cwiseInverse().asDiagonal();
@@ -122,6 +123,15 @@ class SensorProblem {
     SignalLayout layout;
     Index reading;
   };
+
+  /// Of a sensor that no block moves yet.
+  SensorEstimate nothing_linear() const {
+    return {.beta = VectorXd(0),
+            .squares = y_.squaredNorm(),
+            .rows = values_,
+            .unit_inverse = MatrixXd(0, 0),
+            .to_theta = MatrixXd(0, blocks_.parameters())};
+  }
 
   static bool has(const Piece& piece, const SensorColumn& column) {
     const bool shared =
@@ -197,10 +207,14 @@ class Fitter {
   double longest_s_ = 0.0;
 };
 
+/// Roots of the diagonal, 1 where it is 0.
+VectorXd unit_scale(const MatrixXd& matrix) {
+  return matrix.diagonal().cwiseSqrt().unaryExpr([](double d) { return d > 0.0 ? d : 1.0; });
+}
+
 /// -(H + damping diag H)^-1 g in units of the diagonal; H is singular where a block is not seen.
 VectorXd marquardt_step(const Evaluation& at, double damping) {
-  const VectorXd scale =
-      at.information.diagonal().cwiseSqrt().unaryExpr([](double d) { return d > 0.0 ? d : 1.0; });
+  const VectorXd scale = unit_scale(at.information);
   MatrixXd h =
       scale.cwiseInverse().asDiagonal() * at.information * scale.cwiseInverse().asDiagonal();
   h.diagonal().array() += damping;
@@ -234,8 +248,8 @@ void finish(BlockFit& fit, const Evaluation& at) {
   for (const SensorEstimate& sensor : fit.sensors) {
     ratio += sensor.variance * sensor.rows / sensor.squares / sensors;
   }
-  const VectorXd scale =
-      at.information.diagonal().cwiseSqrt().unaryExpr([](double d) { return d > 0.0 ? d : 1.0; });
+  if (theta == 0.0) return;
+  const VectorXd scale = unit_scale(at.information);
   const MatrixXd h =
       scale.cwiseInverse().asDiagonal() * at.information * scale.cwiseInverse().asDiagonal();
   const MatrixXd inverse = h.completeOrthogonalDecomposition().pseudoInverse();
@@ -267,7 +281,8 @@ BlockFit fit_blocks(std::span<const Stretch> stretches, std::span<const arm::Sen
   constexpr double kStiffest = 1e12;
   double damping = 1e-4;
   const double enough = options.step_in_standard_errors * options.step_in_standard_errors;
-  while (fit.iterations < options.most_iterations && damping < kStiffest) {
+  fit.converged = start.blocks.empty();
+  while (!fit.converged && fit.iterations < options.most_iterations && damping < kStiffest) {
     const VectorXd newton = marquardt_step(at, 1e-14);
     if (-newton.dot(at.gradient) < enough) {
       fit.converged = true;

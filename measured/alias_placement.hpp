@@ -29,9 +29,4 @@ std::vector<MovedBlock> place_aliases(const BlockFit& fit, double period_s, Torq
                                       BlockSet& blocks);
 inline constexpr double kTurned = 0.05;
 
-/// How far a complex pole's residues stand off the imaginary axis: root mean square over the
-/// sensors of the sine of their angle to it, weighted by what each knows of them. Small for a mode
-/// whose shape is real, near 0.7 for a block that stands for several others; 0 for real poles.
-double residue_turn(const BlockFit& fit, std::size_t block);
-
 }  // namespace flexarm::measured

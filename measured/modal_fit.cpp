@@ -1,5 +1,6 @@
 #include "measured/modal_fit.hpp"
 
+#include "measured/fitted_residues.hpp"
 #include "measured/modal_fit_task.hpp"
 #include "measured/propagated_error.hpp"
 
@@ -96,6 +97,7 @@ void judge_poles(ModalFit& fit, const ModalFitOptions& options, bool unexplained
   const auto charted = in_chart(columns, fit.poles, options.stabilisation.undamped);
   for (std::size_t i = 0; i < fit.poles.size(); ++i) {
     FittedPole& pole = fit.poles[i];
+    pole.is_mode = false;
     if (!fit.band.contains(pole.frequency_Hz) || pole.damping_ratio > options.most_damping_ratio) {
       continue;
     }
@@ -124,9 +126,24 @@ void describe_poles(ModalFit& fit, const BlockFit& best) {
                     .damping_ratio_std = std::sqrt(fit.covariance(at + 1, at + 1)),
                     .s_rad_per_s = block.poles_rad_per_s()};
     pole.frequency_std_Hz = pole.frequency_Hz * deviation;
-    pole.residue_turn = residue_turn(best, m);
+    pole.residue_turn = residue_turn(best, m, 0.0);
     fit.poles.push_back(pole);
   }
+}
+
+std::size_t first_flexible(const ModalFit& fit) {
+  return fit.blocks.rigid ? 1 : 0;
+}
+
+/// Lightly damped ones: a phase that heavy damping turns is no delay's.
+std::vector<std::size_t> mode_blocks(const ModalFit& fit) {
+  std::vector<std::size_t> blocks;
+  for (std::size_t i = 0; i < fit.poles.size(); ++i) {
+    if (fit.poles[i].is_mode && fit.poles[i].damping_ratio <= kHeavy) {
+      blocks.push_back(first_flexible(fit) + i);
+    }
+  }
+  return blocks;
 }
 
 FittedNumerator numerator_of(const FittedTransfer& transfer, const MatrixXd& covariance,
@@ -222,6 +239,13 @@ ModalFit fit_task(const ModalFitTask& task, const ModalFitOptions& options) {
     return !residual.is_noise() && residual.relative > kOnlyRounding;
   });
   judge_poles(fit, options, unexplained);
+  fit.delay_s = residue_delay_s(best, mode_blocks(fit));
+  if (fit.delay_s > 0.0) {
+    for (std::size_t i = 0; i < fit.poles.size(); ++i) {
+      fit.poles[i].residue_turn = residue_turn(best, first_flexible(fit) + i, fit.delay_s);
+    }
+    judge_poles(fit, options, unexplained);
+  }
   describe_sensors(fit, best, study);
   report(1.0);
   return fit;

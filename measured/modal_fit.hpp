@@ -63,7 +63,7 @@ struct FittedPole {
   double damping_ratio = 0.0;  ///< a1/(2 sqrt(a0)); 1 or more: both poles are real
   double damping_ratio_std = 0.0;
   std::array<std::complex<double>, 2> s_rad_per_s;
-  double residue_turn = 0.0;  ///< measured/alias_placement.hpp
+  double residue_turn = 0.0;  ///< measured/fitted_residues.hpp, the delay taken off
   /// In the band and damped no more than a mode may be; with a column of the chart nearby, or
   /// residues turned no more than a mode's may be, 0.03 where it is damped by more than 0.1. Where
   /// residuals are no noise, poles beside one that has a column are none. Others stand for what
@@ -104,6 +104,10 @@ struct ModalFit {
   std::vector<OrderTrial> order_trials;
   std::string order_reason;
   std::vector<MovedBlock> aliases;
+  /// By which the residues of all sensors say that they answer late (measured/fitted_residues.hpp);
+  /// 0 where they say nothing of it. Poles are right under a delay; zeros, slopes and gains are
+  /// not.
+  double delay_s = 0.0;
   int iterations = 0;
   bool converged = false;
   bool cancelled = false;

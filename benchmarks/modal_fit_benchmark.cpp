@@ -1,7 +1,8 @@
-// Time of a rational fit of all sensors: a minute at 200 Hz and, with `hour`, an hour at 1 kHz;
-// errors of the first mode beside it.
+// Time and memory of a rational fit of all sensors: a minute at 200 Hz and, with `hour`, an hour at
+// 1 kHz; errors of the first mode beside them.
 //
 // modal_fit_benchmark [hour]
+#include "benchmarks/peak_memory.hpp"
 #include "measured/modal_fit.hpp"
 #include "tests/measured/fit_cases.hpp"
 
@@ -18,6 +19,7 @@ void time_fit(const char* name, const measured::FitCase& fit_case) {
   const auto model = measured::model_of(fit_case);
   std::array records = {measured::clean_record(fit_case, model)};
   measured::add_noise(records[0], fit_case.relative_noise, fit_case.seed);
+  const PeakMemory memory;
   const auto begin = std::chrono::steady_clock::now();
   const auto fit = measured::fit_modes(records);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
@@ -25,10 +27,11 @@ void time_fit(const char* name, const measured::FitCase& fit_case) {
   const double frequency_Hz = std::abs(pole) / (2.0 * std::numbers::pi);
   const double damping_ratio = -pole.real() / std::abs(pole);
   fmt::print(
-      "{}: {} samples, {} channels, {} blocks: {:.3f} s; mode 1: frequency {:+.1e}, damping "
+      "{}: {} samples, {} channels, {} blocks: {:.3f} s, {:.0f} MB; mode 1: frequency {:+.1e}, "
+      "damping "
       "{:+.1e} of itself off{}\n",
       name, records[0].time_s.size(), records[0].channels.size(), fit.blocks.blocks.size(),
-      elapsed.count(), fit.poles.front().frequency_Hz / frequency_Hz - 1.0,
+      elapsed.count(), 1e-6 * memory.bytes(), fit.poles.front().frequency_Hz / frequency_Hz - 1.0,
       fit.poles.front().damping_ratio / damping_ratio - 1.0,
       fit.converged ? "" : "; not converged");
 }

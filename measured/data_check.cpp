@@ -46,7 +46,7 @@ void append(std::vector<DataFinding>& all, const std::vector<DataFinding>& more,
   }
 }
 
-void exclude(std::vector<bool>& usable, std::span<const Signal> signals,
+void exclude(std::vector<bool>& usable, std::span<const CheckedSignal> signals,
              const std::vector<DataFinding>& findings) {
   for (std::size_t i = 0; i < signals.size(); ++i) {
     if (std::ranges::count(findings, signals[i].name, &DataFinding::channel) > 0) usable[i] = false;
@@ -54,13 +54,13 @@ void exclude(std::vector<bool>& usable, std::span<const Signal> signals,
 }
 
 /// `check_response` with hum taken off, asked of those that are usable and active.
-std::vector<DataFinding> check_answers(std::span<const Signal> signals,
+std::vector<DataFinding> check_answers(std::span<const CheckedSignal> signals,
                                        const std::vector<bool>& usable,
                                        const std::vector<bool>& active, double period_s,
                                        const DataCheckOptions& options) {
   std::vector<std::vector<double>> values;
   for (const auto& signal : signals) values.push_back(without_hum(signal, period_s));
-  std::vector<Signal> quiet(signals.begin(), signals.end());
+  std::vector<CheckedSignal> quiet(signals.begin(), signals.end());
   std::vector<bool> asked;
   for (std::size_t i = 0; i < quiet.size(); ++i) {
     quiet[i].values = values[i];
@@ -74,7 +74,7 @@ std::vector<DataFinding> check_answers(std::span<const Signal> signals,
 /// What channels say of each other over an even stretch; none of `usable` has a fault in its
 /// values. A fault takes its channel out of what is asked next. A stretch that does not begin at
 /// rest may hold an arm at rest, which answers nothing.
-std::vector<DataFinding> compare(std::span<const Signal> signals, std::vector<bool> usable,
+std::vector<DataFinding> compare(std::span<const CheckedSignal> signals, std::vector<bool> usable,
                                  const std::vector<bool>& active, double period_s, bool from_rest,
                                  const DataCheckOptions& options) {
   std::vector<DataFinding> findings;

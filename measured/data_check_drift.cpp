@@ -24,8 +24,8 @@ struct Trend {
   double error = 0.0;
 };
 
-std::optional<std::size_t> find(std::span<const Signal> signals, const std::vector<bool>& usable,
-                                SensorKind kind) {
+std::optional<std::size_t> find(std::span<const CheckedSignal> signals,
+                                const std::vector<bool>& usable, SensorKind kind) {
   for (std::size_t i = 0; i < signals.size(); ++i) {
     if (usable[i] && signals[i].is(kind)) return i;
   }
@@ -34,7 +34,7 @@ std::optional<std::size_t> find(std::span<const Signal> signals, const std::vect
 
 /// hub_angle less the integral of hub_velocity by the trapezoidal rule. White noise of deviation n
 /// in the velocity walks by n period sqrt(samples).
-Trend trend_of_angle(const Signal& angle, const Signal& velocity, double angle_noise,
+Trend trend_of_angle(const CheckedSignal& angle, const CheckedSignal& velocity, double angle_noise,
                      double velocity_noise, double period_s) {
   const std::size_t samples = angle.values.size();
   const std::size_t part = std::max<std::size_t>(1, samples / kEndShare);
@@ -67,7 +67,7 @@ Eigen::VectorXd slow_lines(std::span<const double> values) {
   return lines / static_cast<double>(values.size());
 }
 
-Trend trend_beside_torque(const Signal& signal, const Signal& torque) {
+Trend trend_beside_torque(const CheckedSignal& signal, const CheckedSignal& torque) {
   const std::size_t samples = signal.values.size();
   std::vector<double> one(samples, 1.0);
   std::vector<double> ramp(samples);
@@ -90,7 +90,7 @@ Trend trend_beside_torque(const Signal& signal, const Signal& torque) {
   return {solution[0], std::sqrt(variance)};
 }
 
-std::optional<DataFinding> drift_finding(const Signal& signal, const Trend& trend,
+std::optional<DataFinding> drift_finding(const CheckedSignal& signal, const Trend& trend,
                                          const char* beside, const DataCheckOptions& options) {
   if (std::abs(trend.size) <= options.least_drift * signal.deviation ||
       std::abs(trend.size) <= options.drift_errors * trend.error) {
@@ -109,7 +109,7 @@ std::optional<DataFinding> drift_finding(const Signal& signal, const Trend& tren
 
 }  // namespace
 
-std::vector<DataFinding> check_trends(std::span<const Signal> signals,
+std::vector<DataFinding> check_trends(std::span<const CheckedSignal> signals,
                                       const std::vector<bool>& usable,
                                       const DataCheckOptions& options) {
   std::vector<DataFinding> findings;
@@ -125,7 +125,7 @@ std::vector<DataFinding> check_trends(std::span<const Signal> signals,
   return findings;
 }
 
-std::vector<DataFinding> check_angle_drift(std::span<const Signal> signals,
+std::vector<DataFinding> check_angle_drift(std::span<const CheckedSignal> signals,
                                            const std::vector<bool>& usable,
                                            std::span<const double> floor_power, double period_s,
                                            const DataCheckOptions& options) {

@@ -12,13 +12,13 @@ namespace flexarm::measured {
 /// mode they are proportional to what turns the arm: a ramp beside an offset and the torque is
 /// sought, by least squares over the lines 0 to 4/duration under Hann's window, which keeps the
 /// modes out. `usable` says which signals may be judged; the first is the torque.
-std::vector<DataFinding> check_trends(std::span<const Signal> signals,
+std::vector<DataFinding> check_trends(std::span<const CheckedSignal> signals,
                                       const std::vector<bool>& usable,
                                       const DataCheckOptions& options);
 
 /// Drift of hub_angle less the integral of hub_velocity: the mean of the last tenth less that of
 /// the first. `floor_power` as for `check_quantisation`.
-std::vector<DataFinding> check_angle_drift(std::span<const Signal> signals,
+std::vector<DataFinding> check_angle_drift(std::span<const CheckedSignal> signals,
                                            const std::vector<bool>& usable,
                                            std::span<const double> floor_power, double period_s,
                                            const DataCheckOptions& options);

@@ -214,7 +214,7 @@ std::string unit_slip(double log10_factor) {
   return "";
 }
 
-double implausibility(const Signal& signal, double deviation) {
+double implausibility(const CheckedSignal& signal, double deviation) {
   struct Reach {
     double least;
     double most;

@@ -13,7 +13,7 @@ namespace flexarm::measured {
 
 /// What channels are compared by: the longest even stretch of a record.
 struct Comparison {
-  std::span<const Signal> signals;  ///< the torque first
+  std::span<const CheckedSignal> signals;  ///< the torque first
   const Transforms& transforms;
   std::vector<bool> usable;  ///< a signal whose own values are in order
   const DataCheckOptions& options;
@@ -64,7 +64,7 @@ std::string unit_slip(double log10_factor);
 
 /// log10 of how far a standard deviation lies outside of what a sensor on a laboratory arm shows; 0
 /// inside.
-double implausibility(const Signal& signal, double deviation);
+double implausibility(const CheckedSignal& signal, double deviation);
 
 /// Two channels whose columns are exchanged: an identity that does not hold, and that holds with
 /// gain 1 when they are exchanged; or two that are each implausible and would both be plausible.

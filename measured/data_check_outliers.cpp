@@ -162,7 +162,7 @@ std::vector<Outlier> leaders(const std::vector<Outlier>& all) {
   return chosen;
 }
 
-DataFinding finding_of(const Signal& signal, const std::vector<Outlier>& outliers) {
+DataFinding finding_of(const CheckedSignal& signal, const std::vector<Outlier>& outliers) {
   const auto first = std::ranges::min_element(outliers, {}, &Outlier::sample);
   const auto largest = std::ranges::max_element(
       outliers, {}, [](const Outlier& outlier) { return std::abs(outlier.size); });
@@ -178,7 +178,7 @@ DataFinding finding_of(const Signal& signal, const std::vector<Outlier>& outlier
 
 }  // namespace
 
-std::vector<DataFinding> check_spikes(std::span<const Signal> signals,
+std::vector<DataFinding> check_spikes(std::span<const CheckedSignal> signals,
                                       const std::vector<bool>& usable,
                                       const DataCheckOptions& options) {
   const std::size_t samples = signals[0].values.size();

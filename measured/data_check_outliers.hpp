@@ -17,7 +17,7 @@ namespace flexarm::measured {
 /// channel is not found in another that it helps to predict.
 ///
 /// `signals[0]` is the torque, which is not searched; `usable` says which others are.
-std::vector<DataFinding> check_spikes(std::span<const Signal> signals,
+std::vector<DataFinding> check_spikes(std::span<const CheckedSignal> signals,
                                       const std::vector<bool>& usable,
                                       const DataCheckOptions& options);
 

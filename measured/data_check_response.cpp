@@ -18,7 +18,7 @@ constexpr double kWhite = 4.0;
 
 /// Time derivatives of a displacement that a signal shows at low frequencies, where what bends the
 /// arm is its acceleration.
-int order_of(const Signal& signal) {
+int order_of(const CheckedSignal& signal) {
   if (signal.is_torque() || signal.is(SensorKind::tip_deflection) ||
       signal.is(SensorKind::strain)) {
     return 2;

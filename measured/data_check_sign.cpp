@@ -84,7 +84,7 @@ struct Energy {
   double least = 0.0;
 };
 
-Energy energy_of(const Signal& torque, const Signal& hub, double period_s) {
+Energy energy_of(const CheckedSignal& torque, const CheckedSignal& hub, double period_s) {
   const bool is_angle = hub.is(SensorKind::hub_angle);
   Energy energy;
   double sum = 0.0;

@@ -11,8 +11,9 @@
 
 namespace flexarm::measured {
 
-std::vector<Signal> signals_of(const TimeRecord& record, std::size_t first, std::size_t count) {
-  std::vector<Signal> signals;
+std::vector<CheckedSignal> signals_of(const TimeRecord& record, std::size_t first,
+                                      std::size_t count) {
+  std::vector<CheckedSignal> signals;
   const auto add = [&](std::string name, std::optional<arm::Sensor> sensor,
                        const std::vector<double>& values) {
     const auto part = std::span(values).subspan(first, count);
@@ -25,7 +26,7 @@ std::vector<Signal> signals_of(const TimeRecord& record, std::size_t first, std:
   return signals;
 }
 
-std::vector<double> without_hum(const Signal& signal, double period_s) {
+std::vector<double> without_hum(const CheckedSignal& signal, double period_s) {
   constexpr double kMains_Hz[] = {50.0, 60.0};
   const auto samples = static_cast<Eigen::Index>(signal.values.size());
   const Eigen::Map<const Eigen::VectorXd> values(signal.values.data(), samples);

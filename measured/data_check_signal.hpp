@@ -11,7 +11,7 @@
 namespace flexarm::measured {
 
 /// A column of a record, as the checks see it.
-struct Signal {
+struct CheckedSignal {
   std::string name;                   ///< "torque", "hub_angle", ...
   std::optional<arm::Sensor> sensor;  ///< empty: the torque
   std::span<const double> values;
@@ -22,12 +22,13 @@ struct Signal {
 };
 
 /// Torque first, then the channels; samples [first, first + count). They point into `record`.
-std::vector<Signal> signals_of(const TimeRecord& record, std::size_t first, std::size_t count);
+std::vector<CheckedSignal> signals_of(const TimeRecord& record, std::size_t first,
+                                      std::size_t count);
 
 /// The values less what least squares finds in them of 50 and of 60 Hz, and of their mean: mains
 /// hum is related to nothing, but a single line passes for related to anything. As they are where
 /// the sampling cannot show 60 Hz.
-std::vector<double> without_hum(const Signal& signal, double period_s);
+std::vector<double> without_hum(const CheckedSignal& signal, double period_s);
 
 /// Equal values one after the other.
 struct EqualRun {

@@ -1,8 +1,7 @@
 #include "measured/data_check_transform.hpp"
 
+#include "measured/fourier.hpp"
 #include "measured/robust.hpp"
-
-#include <unsupported/Eigen/FFT>
 
 #include <algorithm>
 #include <bit>
@@ -17,15 +16,15 @@ constexpr double kTwoPi = 2.0 * std::numbers::pi;
 constexpr double kTaper = 0.1;  // of the duration, at each end
 constexpr std::size_t kFloorBands = 16;
 
-struct Window {
+struct TaperedWindow {
   std::vector<double> value;
   std::vector<double> first;   ///< [1/s]
   std::vector<double> second;  ///< [1/s^2]
 };
 
 /// 1, with tapers 6 u^5 - 15 u^4 + 10 u^3, u from 0 to 1: twice differentiable.
-Window tapered(std::size_t count, double period_s) {
-  Window window;
+TaperedWindow tapered(std::size_t count, double period_s) {
+  TaperedWindow window;
   const double duration_s = static_cast<double>(count - 1) * period_s;
   const double taper_s = kTaper * duration_s;
   for (std::size_t k = 0; k < count; ++k) {
@@ -46,27 +45,15 @@ Window tapered(std::size_t count, double period_s) {
   return window;
 }
 
-class Fourier {
- public:
-  explicit Fourier(std::size_t count) : padded_(std::bit_ceil(count)) {
-    fft_.SetFlag(Eigen::FFT<double>::HalfSpectrum);
-  }
-  std::size_t padded() const { return padded_; }
-
-  std::vector<std::complex<double>> of(const std::vector<double>& values,
-                                       const std::vector<double>& weights) {
-    std::vector<double> weighted(padded_, 0.0);
-    for (std::size_t k = 0; k < values.size(); ++k) weighted[k] = weights[k] * values[k];
-    std::vector<std::complex<double>> spectrum;
-    fft_.fwd(spectrum, weighted);
-    spectrum.resize(padded_ / 2 + 1);
-    return spectrum;
-  }
-
- private:
-  std::size_t padded_;
-  Eigen::FFT<double> fft_;
-};
+std::vector<std::complex<double>> transform_of(RealTransform& transform,
+                                               const std::vector<double>& values,
+                                               const std::vector<double>& weights) {
+  std::vector<double> weighted(transform.samples(), 0.0);
+  for (std::size_t k = 0; k < values.size(); ++k) weighted[k] = weights[k] * values[k];
+  std::vector<std::complex<double>> spectrum(transform.lines());
+  transform(weighted, spectrum);
+  return spectrum;
+}
 
 double floor_power(const std::vector<std::complex<double>>& spectrum, double window_power) {
   double least = std::numeric_limits<double>::infinity();
@@ -103,7 +90,7 @@ namespace {
 
 /// A sensor's reading at rest: zero; where its first reading is far from it, the mean of the first
 /// fiftieth of the record, over which noise and hum average out.
-double rest_of(const Signal& signal) {
+double rest_of(const CheckedSignal& signal) {
   constexpr double kFar = 0.1;  // standard deviations
   constexpr std::size_t kShare = 50;
   if (signal.is_torque() || std::abs(signal.values.front()) <= kFar * signal.deviation) return 0.0;
@@ -111,7 +98,7 @@ double rest_of(const Signal& signal) {
 }
 
 /// The values about their mean, with `before` readings at rest in front.
-std::vector<double> extended(const Signal& signal, std::size_t before) {
+std::vector<double> extended(const CheckedSignal& signal, std::size_t before) {
   std::vector<double> values(before, rest_of(signal));
   values.insert(values.end(), signal.values.begin(), signal.values.end());
   const double offset = mean(values);
@@ -121,26 +108,26 @@ std::vector<double> extended(const Signal& signal, std::size_t before) {
 
 }  // namespace
 
-Transforms transform(std::span<const Signal> signals, double period_s, bool from_rest) {
+Transforms transform(std::span<const CheckedSignal> signals, double period_s, bool from_rest) {
   const std::size_t samples = signals.front().values.size();
   const std::size_t before =
       from_rest ? static_cast<std::size_t>(1.5 * kTaper * static_cast<double>(samples)) : 0;
   const std::size_t count = samples + before;
-  const Window window = tapered(count, period_s);
-  Fourier fourier(count);
+  const TaperedWindow window = tapered(count, period_s);
+  RealTransform fourier(std::bit_ceil(count));
   Transforms all;
   all.period_s = period_s;
   all.from_rest = from_rest;
   all.duration_s = static_cast<double>(count) * period_s;
-  all.spacing_rad_per_s = kTwoPi / (static_cast<double>(fourier.padded()) * period_s);
-  all.bins_per_line = static_cast<double>(fourier.padded()) / static_cast<double>(count);
+  all.spacing_rad_per_s = kTwoPi / (static_cast<double>(fourier.samples()) * period_s);
+  all.bins_per_line = static_cast<double>(fourier.samples()) / static_cast<double>(count);
   for (const double value : window.value) all.window_power += value * value;
   for (const auto& signal : signals) {
     const auto values = extended(signal, before);
     Transform transform;
-    transform.plain = fourier.of(values, window.value);
-    transform.first = fourier.of(values, window.first);
-    transform.second = fourier.of(values, window.second);
+    transform.plain = transform_of(fourier, values, window.value);
+    transform.first = transform_of(fourier, values, window.first);
+    transform.second = transform_of(fourier, values, window.second);
     transform.floor_power = floor_power(transform.plain, all.window_power);
     all.of.push_back(std::move(transform));
   }

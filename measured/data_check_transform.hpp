@@ -49,6 +49,6 @@ struct Transforms {
 /// `signals` of one length, 16 values or more, a period apart. `from_rest`: the arm rested before
 /// the first sample; a tenth of the record is then put in front at each sensor's reading at rest,
 /// so that the window leaves the start whole.
-Transforms transform(std::span<const Signal> signals, double period_s, bool from_rest);
+Transforms transform(std::span<const CheckedSignal> signals, double period_s, bool from_rest);
 
 }  // namespace flexarm::measured

@@ -19,7 +19,7 @@ constexpr double kFall_steps = 2.0;
 /// design.
 constexpr std::size_t kFewestTorqueLevels = 20;
 
-std::string_view unit_of(const Signal& signal) {
+std::string_view unit_of(const CheckedSignal& signal) {
   return signal.sensor ? arm::unit(*signal.sensor) : "N m";
 }
 
@@ -51,14 +51,15 @@ std::size_t distinct_values(std::span<const double> x) {
   return static_cast<std::size_t>(std::ranges::unique(sorted).begin() - sorted.begin());
 }
 
-bool varies(const Signal& signal) {
+bool varies(const CheckedSignal& signal) {
   return std::ranges::adjacent_find(signal.values, std::not_equal_to<>()) != signal.values.end();
 }
 
-std::optional<DataFinding> constant(const Signal& signal, std::span<const Signal> signals) {
+std::optional<DataFinding> constant(const CheckedSignal& signal,
+                                    std::span<const CheckedSignal> signals) {
   if (signal.is_torque() || varies(signal)) return std::nullopt;
   const bool others_respond = std::ranges::any_of(
-      signals, [&](const Signal& other) { return !other.is_torque() && varies(other); });
+      signals, [&](const CheckedSignal& other) { return !other.is_torque() && varies(other); });
   // One sensor alone may be at rest, held by friction: then it shows its zero.
   const bool alone = signals.size() == 2 && signal.values[0] != 0.0 && varies(signals[0]);
   if (!others_respond && !alone) return std::nullopt;
@@ -87,11 +88,12 @@ bool falls_off(std::span<const double> x, const EqualRun& run, double least) {
 
 /// Whether friction holds the hub: its velocity is next to zero; where that is not measured, its
 /// angle comes to rest and leaves it by changes that shrink and grow, or stays to the end.
-bool is_held(std::span<const Signal> signals, const Signal& signal, const EqualRun& run) {
+bool is_held(std::span<const CheckedSignal> signals, const CheckedSignal& signal,
+             const EqualRun& run) {
   constexpr double kNextToZero = 1e-3;  // standard deviations of the velocity; noise is more
   if (!signal.is(arm::SensorKind::hub_angle) || run.count < 3) return false;
   const auto velocity = std::ranges::find_if(
-      signals, [](const Signal& other) { return other.is(arm::SensorKind::hub_velocity); });
+      signals, [](const CheckedSignal& other) { return other.is(arm::SensorKind::hub_velocity); });
   if (velocity != signals.end()) {
     // The torque may tear the hub loose at the last of the samples.
     const auto inner = velocity->values.subspan(run.first + 1, run.count - 2);
@@ -125,7 +127,8 @@ bool catches_up(std::span<const double> x, const EqualRun& run) {
   return std::abs(x[after] - x[run.first]) > kJump * usual;
 }
 
-Limit limit_at(std::span<const Signal> signals, const Signal& signal, double value, double step) {
+Limit limit_at(std::span<const CheckedSignal> signals, const CheckedSignal& signal, double value,
+               double step) {
   const auto x = signal.values;
   Limit limit;
   // Readings in steps repeat their largest value; others never do unless they are clipped.
@@ -141,8 +144,9 @@ Limit limit_at(std::span<const Signal> signals, const Signal& signal, double val
   return limit;
 }
 
-std::optional<DataFinding> saturation(const Signal& signal, std::span<const Signal> signals,
-                                      double step, const DataCheckOptions& options) {
+std::optional<DataFinding> saturation(const CheckedSignal& signal,
+                                      std::span<const CheckedSignal> signals, double step,
+                                      const DataCheckOptions& options) {
   const auto x = signal.values;
   if (signal.is_torque() && distinct_values(x) < kFewestTorqueLevels) return std::nullopt;
   const auto [low, high] = std::ranges::minmax(x);
@@ -168,8 +172,9 @@ std::optional<DataFinding> saturation(const Signal& signal, std::span<const Sign
   return found;
 }
 
-bool another_moves(std::span<const Signal> signals, const Signal& self, const EqualRun& run) {
-  return std::ranges::any_of(signals, [&](const Signal& other) {
+bool another_moves(std::span<const CheckedSignal> signals, const CheckedSignal& self,
+                   const EqualRun& run) {
+  return std::ranges::any_of(signals, [&](const CheckedSignal& other) {
     if (other.name == self.name) return false;
     const auto part = other.values.subspan(run.first, run.count);
     std::size_t moves = 0;
@@ -192,7 +197,8 @@ bool is_long(const EqualRun& run, std::span<const double> x, std::span<const Equ
   return after < x.size() && std::abs(x[after] - x[run.first]) > kFall_steps * step;
 }
 
-std::optional<DataFinding> stuck(const Signal& signal, std::span<const Signal> signals, double step,
+std::optional<DataFinding> stuck(const CheckedSignal& signal,
+                                 std::span<const CheckedSignal> signals, double step,
                                  const DataCheckOptions& options) {
   if (signal.is_torque()) return std::nullopt;
   const auto x = signal.values;
@@ -224,7 +230,7 @@ std::optional<DataFinding> stuck(const Signal& signal, std::span<const Signal> s
 
 }  // namespace
 
-std::vector<DataFinding> check_values(std::span<const Signal> signals,
+std::vector<DataFinding> check_values(std::span<const CheckedSignal> signals,
                                       const DataCheckOptions& options) {
   std::vector<DataFinding> findings;
   const auto& torque = signals[0];
@@ -243,7 +249,7 @@ std::vector<DataFinding> check_values(std::span<const Signal> signals,
   return findings;
 }
 
-std::vector<DataFinding> check_quantisation(std::span<const Signal> signals,
+std::vector<DataFinding> check_quantisation(std::span<const CheckedSignal> signals,
                                             std::span<const double> floor_power,
                                             const DataCheckOptions& options) {
   std::vector<DataFinding> findings;

@@ -13,12 +13,12 @@ namespace flexarm::measured {
 ///
 /// Rest is none of them: a value that the channel reaches and leaves ever more slowly, a velocity
 /// of exactly zero, the same value in every channel.
-std::vector<DataFinding> check_values(std::span<const Signal> signals,
+std::vector<DataFinding> check_values(std::span<const CheckedSignal> signals,
                                       const DataCheckOptions& options);
 
 /// A coarse step. `floor_power` has for each signal the power, in its unit squared, of white noise
 /// as low as the lowest part of its spectrum.
-std::vector<DataFinding> check_quantisation(std::span<const Signal> signals,
+std::vector<DataFinding> check_quantisation(std::span<const CheckedSignal> signals,
                                             std::span<const double> floor_power,
                                             const DataCheckOptions& options);
 

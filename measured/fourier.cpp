@@ -30,6 +30,11 @@ std::size_t fast_length(std::size_t least) {
   return 4 * quarter;
 }
 
+std::size_t fast_length_within(std::size_t most) {
+  while (!has_no_factor_above(most, 5)) --most;
+  return most;
+}
+
 RealTransform::RealTransform(std::size_t samples) : samples_(samples) {
   if (samples < 1 || samples > kMostSamples) {
     throw arm::InputError(

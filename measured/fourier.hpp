@@ -42,4 +42,7 @@ class RealTransform {
 /// lengths that are fastest to transform.
 std::size_t fast_length(std::size_t least);
 
+/// The largest number up to `most`, 1 or more, without a prime factor above 5.
+std::size_t fast_length_within(std::size_t most);
+
 }  // namespace flexarm::measured

@@ -8,10 +8,6 @@ namespace {
 using Eigen::Index;
 using Kind = SensorColumn::Kind;
 
-bool bends_only(arm::SensorKind kind) {
-  return kind == arm::SensorKind::tip_deflection || kind == arm::SensorKind::strain;
-}
-
 /// The powers of s over a block that the sensor's transfer function has.
 std::vector<int> powers(const arm::Sensor& sensor, bool rigid, bool undamped) {
   const int derivatives = arm::derivative_order(sensor);
@@ -31,6 +27,10 @@ std::vector<int> free_powers(const arm::Sensor& sensor, bool rigid, bool offset)
 }
 
 }  // namespace
+
+bool bends_only(arm::SensorKind kind) {
+  return kind == arm::SensorKind::tip_deflection || kind == arm::SensorKind::strain;
+}
 
 SensorModel sensor_model(const arm::Sensor& sensor, Index index, const BlockSet& blocks,
                          std::span<const Stretch> stretches, const ColumnChoices& choices) {

@@ -38,6 +38,9 @@ struct SensorModel {
   Eigen::Index shared = 0;
 };
 
+/// Whether a sensor shows bending alone, to which the rigid body adds nothing at rest.
+bool bends_only(arm::SensorKind kind);
+
 struct ColumnChoices {
   bool undamped_residues = false;
   bool static_remainder = true;

@@ -1,6 +1,8 @@
 #include "measured/start_spectra.hpp"
 
-#include <unsupported/Eigen/FFT>
+#include "measured/fourier.hpp"
+#include "measured/robust.hpp"
+#include "measured/sensor_columns.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,50 +20,33 @@ constexpr std::size_t kBins = 100;
 /// The part of a sensor's lines that lie at its noise, for a start.
 constexpr double kNoiseQuantile = 0.1;
 
-/// The largest product of 2, 3 and 5 up to `samples`.
-std::size_t transformable(std::size_t samples) {
-  const auto smooth = [](std::size_t n) {
-    for (const std::size_t prime : {2U, 3U, 5U}) {
-      while (n % prime == 0) n /= prime;
-    }
-    return n == 1;
-  };
-  while (samples > 1 && !smooth(samples)) --samples;
-  return samples;
-}
-
 /// Lines 0 to samples/2 of the first `samples` values, their mean left out.
 std::vector<Complex> lines_of(const std::vector<double>& values, std::size_t samples) {
-  Eigen::Map<const Eigen::VectorXd> all(values.data(), static_cast<Index>(samples));
-  const Eigen::VectorXd centred = all.array() - all.mean();
-  const std::vector<double> input(centred.begin(), centred.end());
-  Eigen::FFT<double> transform;
-  transform.SetFlag(Eigen::FFT<double>::HalfSpectrum);
-  std::vector<Complex> lines;
-  transform.fwd(lines, input);
+  std::vector<double> centred(values.begin(),
+                              values.begin() + static_cast<std::ptrdiff_t>(samples));
+  const double offset = mean(centred);
+  for (double& value : centred) value -= offset;
+  RealTransform transform(samples);
+  std::vector<Complex> lines(transform.lines());
+  transform(centred, lines);
   return lines;
 }
 
 /// How many poles at 0 the rigid body has in the sensor's response.
 int integrations(const arm::Sensor& sensor, bool rigid) {
-  const bool bends =
-      sensor.kind == arm::SensorKind::tip_deflection || sensor.kind == arm::SensorKind::strain;
-  return !rigid || bends ? 0 : 2 - arm::derivative_order(sensor);
+  return !rigid || bends_only(sensor.kind) ? 0 : 2 - arm::derivative_order(sensor);
 }
 
-double low_quantile(const ArrayXcd& lines) {
-  std::vector<double> sizes;
-  for (const Complex& line : lines) sizes.push_back(std::abs(line));
-  const auto at = sizes.begin() + static_cast<std::ptrdiff_t>(
-                                      kNoiseQuantile * static_cast<double>(sizes.size() - 1));
-  std::ranges::nth_element(sizes, at);
-  return *at > 0.0 ? *at : 1.0;
+double noise_of(const ArrayXcd& lines) {
+  const Eigen::ArrayXd sizes = lines.abs();
+  const double noise = quantile({sizes.begin(), sizes.end()}, kNoiseQuantile);
+  return noise > 0.0 ? noise : 1.0;
 }
 
 }  // namespace
 
 FitBand excited_band(const TimeRecord& record) {
-  const std::size_t samples = transformable(record.time_s.size());
+  const std::size_t samples = fast_length_within(record.time_s.size());
   const auto lines = lines_of(record.torque_N_m, samples);
   const double nyquist_Hz = 0.5 / sampling_period_s(record);
   std::vector<double> power(std::min(kBins, lines.size()), 0.0);
@@ -77,7 +62,7 @@ FitBand excited_band(const TimeRecord& record) {
 
 std::vector<DenominatorEquation> time_equations(const TimeRecord& record, bool rigid,
                                                 const FitBand& band, std::size_t samples) {
-  samples = transformable(std::min(samples, record.time_s.size()));
+  samples = fast_length_within(std::min(samples, record.time_s.size()));
   const double period_s = sampling_period_s(record);
   const double line_Hz = 1.0 / (static_cast<double>(samples) * period_s);
   const auto torque = lines_of(record.torque_N_m, samples);
@@ -102,7 +87,7 @@ std::vector<DenominatorEquation> time_equations(const TimeRecord& record, bool r
       equation.inputs[0](i) = torque[k] / divisor;
       equation.inputs[1](i) = 1.0 / divisor;
     }
-    const double noise = low_quantile(equation.y);
+    const double noise = noise_of(equation.y);
     equation.y /= noise;
     for (ArrayXcd& input : equation.inputs) input /= noise;
     equations.push_back(std::move(equation));

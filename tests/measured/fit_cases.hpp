@@ -52,9 +52,9 @@ inline arm::ModalModel model_of(const FitCase& fit_case) {
                               parts, fit_case.modes, fit_case.sensors);
 }
 
-inline TimeRecord clean_record(const FitCase& fit_case, const arm::ModalModel& model) {
-  response::ArmParts parts;
-  parts.linear = fit_case.arm;
+/// The record of parts that may hold friction and delays; `model` is that of their linear arm.
+inline TimeRecord clean_record(const FitCase& fit_case, const arm::ModalModel& model,
+                               const response::ArmParts& parts) {
   const response::SampleGrid grid{
       static_cast<std::size_t>(std::lround(fit_case.duration_s / fit_case.sample_time_s)),
       fit_case.sample_time_s};
@@ -67,6 +67,12 @@ inline TimeRecord clean_record(const FitCase& fit_case, const arm::ModalModel& m
     record.channels.push_back({fit_case.sensors[j], std::move(made.channels[j])});
   }
   return record;
+}
+
+inline TimeRecord clean_record(const FitCase& fit_case, const arm::ModalModel& model) {
+  response::ArmParts parts;
+  parts.linear = fit_case.arm;
+  return clean_record(fit_case, model, parts);
 }
 
 inline void add_noise(TimeRecord& record, double relative_noise, std::uint64_t seed) {

@@ -1,38 +1,17 @@
 // Fits of frequency responses, on uneven grids, against the formulation that made them.
 #include "measured/modal_fit.hpp"
-#include "response/modal_response.hpp"
 #include "tests/measured/fit_cases.hpp"
 #include "tests/measured/fit_errors.hpp"
+#include "tests/measured/simulated_responses.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 namespace flexarm::measured {
 namespace {
 
 using Complex = std::complex<double>;
-
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-
-/// 1 to 80 Hz in equal ratios, each sensor on lines of its own.
-FrequencyRecord responses(const FitCase& fit_case, const arm::ModalModel& model, int lines) {
-  FrequencyRecord record;
-  for (std::size_t j = 0; j < fit_case.sensors.size(); ++j) {
-    FrequencyChannel channel{fit_case.sensors[j], {}, {}, {}};
-    const int count = lines + 10 * static_cast<int>(j);
-    for (int k = 0; k < count; ++k) {
-      const double f = std::pow(80.0, static_cast<double>(k) / (count - 1));
-      channel.frequency_Hz.push_back(f);
-      channel.response.push_back(response::modal_response(
-          model, fit_case.sensors, Complex(0.0, 2.0 * std::numbers::pi * f))[j]);
-      channel.coherence.push_back(kUnknown);
-    }
-    record.channels.push_back(channel);
-  }
-  return record;
-}
 
 TEST(ModalFitOfResponses, WithoutNoiseIsExact) {
   const FitCase fit_case;

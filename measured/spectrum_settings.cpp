@@ -130,8 +130,15 @@ void choose_segment(const TimeRecord& record, const SpectrumSettings& settings,
   const double period_s = sampling_period_s(record);
   const std::size_t samples = record.torque_N_m.size() - 2;
   SegmentPlan& plan = chosen.plan;
-  if (settings.segment_samples) {
-    plan.segment_samples = *settings.segment_samples;
+  if (settings.resolution_Hz && !(*settings.resolution_Hz > 0.0)) {
+    throw arm::out_of_range("resolution", *settings.resolution_Hz, "Hz", "above 0");
+  }
+  if (settings.segment_samples || settings.resolution_Hz) {
+    plan.segment_samples =
+        settings.segment_samples
+            ? *settings.segment_samples
+            : static_cast<std::size_t>(std::llround(std::min(
+                  1.0 / (*settings.resolution_Hz * period_s), static_cast<double>(samples))));
     chosen.reports.push_back({"segment", in_samples(plan.segment_samples, period_s), "given"});
     return;
   }

@@ -264,7 +264,7 @@ TEST(ResonanceParabola, OfARaggedPeakStatesItsSpread) {
       power.push_back(mode_power(lines[k], 12.0, 0.1) * std::exp(kSpread * noise[k]));
     }
     const auto found = peaks_and_valleys(lines, power, std::vector<double>(300, kSpread),
-                                         {.least_prominence_dB = 15.0});
+                                         {.least_prominence_dB = 15.0, .most_damping_ratio = 0.5});
     ASSERT_EQ(found.size(), 1U);
     const double expected_Hz = 12.0 * std::sqrt(1.0 - 0.02);
     square += std::pow(found[0].frequency_Hz - expected_Hz, 2) / kRuns;

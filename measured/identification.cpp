@@ -228,11 +228,8 @@ Identification identify(std::vector<MeasuredRun> runs, const IdentificationOptio
       } else if (const auto* frequency = std::get_if<FrequencyRecord>(&run.data)) {
         study_frequency_run(*frequency, options, studied);
       } else {
-        made.readings.push_back({Method::table,
-                                 {run.run.id},
-                                 std::nullopt,
-                                 run.run.payload,
-                                 std::get<ModalTable>(run.data)});
+        read_off({Method::table, {run.run.id}, std::nullopt, run.run.payload, {}},
+                 std::get<ModalTable>(run.data), made.readings);
       }
     } catch (const arm::InputError& error) {
       studied.refusal = error.what();

@@ -82,12 +82,12 @@ struct Identification {
 };
 
 struct IdentificationOptions {
-  SpectrumSettings spectrum;  ///< `hold` is each run's own
-  PeakSettings peaks;
-  CircleSettings circles;
-  DataCheckOptions check;  ///< `starts_at_rest` is each run's own
+  SpectrumSettings spectrum = {};  ///< `hold` is each run's own
+  PeakSettings peaks = {};
+  CircleSettings circles = {};
+  DataCheckOptions check = {};  ///< `starts_at_rest` is each run's own
   bool fit = true;
-  ModalFitOptions modal_fit;  ///< `torque_hold` and `initial` are each run's own
+  ModalFitOptions modal_fit = {};  ///< `torque_hold` and `initial` are each run's own
   /// Called now and then with what is being done and the fraction of all work done; false ends it,
   /// with what there is until then.
   std::function<bool(std::string_view what, double fraction)> progress = {};

@@ -163,8 +163,6 @@ Json reading_json(const measured::ModalReading& reading,
   Json roots = Json::array();
   for (const auto& root : identified) {
     roots.push_back({{"feature", to_string(root.measured.feature)},
-                     {"sensor", root.measured.sensor ? Json(arm::to_string(*root.measured.sensor))
-                                                     : Json(nullptr)},
                      {"order", root.order ? Json(*root.order) : Json(nullptr)},
                      {"frequency_Hz", number(root.measured.frequency_Hz)},
                      {"frequency_std_Hz", number(root.measured.frequency_std_Hz)},

@@ -253,6 +253,8 @@ ModalTable modal_table(const arm::Sensor& sensor, std::span<const SpectralFeatur
     if (is_pole && found.damping_ratio && *found.damping_ratio < kHasAPeak) {
       entry.damping_ratio = found.damping_ratio;
       entry.damping_ratio_std = found.damping_ratio_std;
+    }
+    if (entry.damping_ratio && place != PeakPlace::on_line) {
       entry.frequency_Hz = natural_frequency_Hz(found.frequency_Hz, *found.damping_ratio,
                                                 arm::derivative_order(sensor));
     }

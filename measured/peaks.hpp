@@ -79,7 +79,8 @@ std::vector<SpectralFeature> peaks_and_valleys(std::span<const double> frequency
 double natural_frequency_Hz(double peak_Hz, double damping_ratio, int derivative_order);
 
 /// The features of one sensor's spectrum as rows of a modal table, poles and zeros each numbered
-/// from 1. Of a pole with a damping ratio the frequency is corrected for it, of others not. A
+/// from 1. Of a pole with a damping ratio the frequency is corrected for it, of others not, nor
+/// where it is on the line. A
 /// resolution counts as a uniform distribution: its standard deviation is half of it over sqrt(3).
 ModalTable modal_table(const arm::Sensor& sensor, std::span<const SpectralFeature> features,
                        PeakPlace place);

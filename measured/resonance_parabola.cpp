@@ -10,8 +10,6 @@ namespace flexarm::measured {
 
 namespace {
 
-using Eigen::Index;
-
 constexpr std::array<double, 2> kStartFactors = {4.0, 16.0};
 constexpr int kPasses = 6;
 
@@ -86,31 +84,32 @@ class Peak {
 
   /// Least squares with the weights of y as `before` has it, or as it was measured.
   Fit fit(const Lines& lines, const std::optional<Fit>& before) const {
-    const auto count = static_cast<Index>(lines.count());
     Fit made;
     made.origin_Hz = frequency_Hz_[peak_];
     made.scale_Hz2 = made.origin_Hz * (frequency_Hz_[lines.last] - frequency_Hz_[lines.first]);
-    Eigen::MatrixX3d rows(count, 3);
-    Eigen::VectorXd right(count);
+    // u within +-1 or so: normal equations lose the square of a condition number of some ten.
+    Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d right = Eigen::Vector3d::Zero();
+    double squares = 0.0;
     double known = 0.0;
-    for (Index i = 0; i < count; ++i) {
-      const std::size_t k = lines.first + static_cast<std::size_t>(i);
+    const auto count = static_cast<double>(lines.count());
+    for (std::size_t k = lines.first; k <= lines.last; ++k) {
       const double u = made.u(frequency_Hz_[k]);
-      const double expected = before ? before->value(frequency_Hz_[k]) : y(k);
-      const double weight = 1.0 / expected;
-      rows.row(i) = weight * Eigen::RowVector3d(1.0, u, u * u);
-      right(i) = weight * y(k);
-      known += relative_std_[k] * relative_std_[k] / static_cast<double>(count);
+      const double weight = 1.0 / (before ? before->value(frequency_Hz_[k]) : y(k));
+      const Eigen::Vector3d row = weight * Eigen::Vector3d(1.0, u, u * u);
+      matrix += row * row.transpose();
+      right += row * (weight * y(k));
+      squares += std::pow(weight * y(k), 2);
+      known += relative_std_[k] * relative_std_[k] / count;
     }
-    const Eigen::ColPivHouseholderQR<Eigen::MatrixX3d> solver(rows);
-    made.abc = solver.solve(right);
+    const Eigen::Matrix3d inverse = matrix.inverse();
+    made.abc = inverse * right;
     double variance = known;
-    if (count > 3) {
-      const double scatter =
-          (rows * made.abc - right).squaredNorm() / static_cast<double>(count - 3);
+    if (lines.count() > 3) {
+      const double scatter = std::max(0.0, squares - made.abc.dot(right)) / (count - 3.0);
       variance = shared_variance_ * std::max(known, scatter);
     }
-    made.covariance = variance * (rows.transpose() * rows).inverse();
+    made.covariance = variance * inverse;
     return made;
   }
 

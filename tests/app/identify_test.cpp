@@ -81,8 +81,7 @@ TEST_F(Identify, ChosenRunsSensorsAndSettingsAreUsed) {
   EXPECT_TRUE(json["fits"].empty());
   for (const auto& root : json["readings"][0]["roots"]) {
     const double line = root["frequency_Hz"].get<double>() / spectra["spacing_Hz"].get<double>();
-    // The frequency of a pole is corrected for damping, less than a tenth of a line.
-    EXPECT_NEAR(line, std::round(line), 0.1);
+    EXPECT_NEAR(line, std::round(line), 1e-9);
   }
 }
 

@@ -1,6 +1,7 @@
 #include "measured/identification.hpp"
 
 #include "arm/input_error.hpp"
+#include "measured/start_spectra.hpp"
 
 #include <fmt/format.h>
 
@@ -17,6 +18,8 @@ namespace {
 /// Sampling periods of runs that are fitted together differ by less than this part.
 constexpr double kSamePeriod = 1e-9;
 constexpr double kGap = 8.0;
+/// Half the width of a window's main lobe, in lines.
+constexpr double kWindowLines = 2.0;
 /// Damping ratio above which a fitted zero is no antiresonance.
 constexpr double kMostZeroDamping = 0.25;
 /// Share of the work that a run's spectra are, beside 1 for the fit of each.
@@ -49,6 +52,17 @@ void read_circles(RunIdentification& made, const CircleSettings& settings) {
   }
 }
 
+/// Where the torque has power, less the window's width: a spectrum falls at the ends of that, and
+/// so has a maximum near them.
+PeakSettings driven_peaks(PeakSettings peaks, const TimeRecord& record,
+                          const FrequencyResponseEstimate& estimate) {
+  const double width_Hz = estimate.settings.periodic ? 0.0 : kWindowLines * estimate.spacing_Hz;
+  const FitBand band = excited_band(record);
+  peaks.from_Hz = std::max(peaks.from_Hz, band.from_Hz + width_Hz);
+  peaks.to_Hz = std::min(peaks.to_Hz, band.to_Hz - width_Hz);
+  return peaks;
+}
+
 void study_time_run(TimeRecord& record, const IdentificationOptions& options,
                     RunIdentification& made) {
   DataCheckOptions check = options.check;
@@ -66,7 +80,8 @@ void study_time_run(TimeRecord& record, const IdentificationOptions& options,
   SpectrumSettings spectrum = options.spectrum;
   spectrum.hold = made.run.torque_hold;
   made.estimate = estimate_frequency_response(record, spectrum);
-  made.features = spectral_features(*made.estimate, options.peaks);
+  made.features =
+      spectral_features(*made.estimate, driven_peaks(options.peaks, record, *made.estimate));
   made.response = to_frequency_record(*made.estimate);
   if (made.estimate->periodic) made.distortion = distortion(*made.estimate->periodic);
   read_circles(made, options.circles);

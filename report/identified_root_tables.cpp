@@ -23,6 +23,7 @@ using measured::ModalReading;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
+constexpr double kRounding = 1e-14;
 constexpr std::size_t kMostOthers = 5;
 constexpr std::size_t kNoReading = std::numeric_limits<std::size_t>::max();
 
@@ -108,7 +109,8 @@ Figure mean_of(const std::vector<Figure>& figures) {
   for (const auto& figure : figures) {
     if (figure.value) squares += std::pow(*figure.value - sum / count, 2);
   }
-  return {sum / count, std::sqrt(squares / (count - 1.0)), errors / count};
+  const double scatter = std::sqrt(squares / (count - 1.0));
+  return {sum / count, scatter > kRounding * std::abs(sum / count) ? scatter : 0.0, errors / count};
 }
 
 /// The columns of method and sensor, with the analytical roots' row where there is one.

@@ -16,11 +16,16 @@ constexpr double kDriftLinear = 1e-9;
 constexpr double kDrift = 1e-6;
 /// Length of differences over that of the state: the root of the error of F is 1e-6.
 constexpr double kDifference = 1e-6;
-/// A drift counts this much less than the states: of two ways to close a period the one without a
-/// drift is taken.
-constexpr double kDriftWeight = 1e-3;
+/// Multiples of drifts beside the states: large enough that a slow decay of the drift's speed, 1e-5
+/// a period, is not taken for none.
+constexpr double kDriftWeight = 1.0;
 /// Newton's derivative is kept while it shortens its steps this much.
 constexpr double kGoodStep = 0.2;
+
+/// Steps that shrink no more than this are rounding's.
+constexpr double kStandingStep = 0.5;
+constexpr double kLastDigit = 1e-16;
+constexpr double kSmallestPart = 1.0 / 64.0;
 
 class Shooting {
  public:
@@ -29,9 +34,12 @@ class Shooting {
   SteadyState find(const Eigen::VectorXd& guess, bool is_held) {
     found_.state = guess;
     found_.is_held = is_held;
-    if (!newton()) {
-      found_.state = guess;
-      found_.is_held = is_held;
+    for (int i = 0; i < options_.most_attempts; ++i) {
+      const Eigen::VectorXd state = found_.state;
+      const bool was_held = found_.is_held;
+      if (newton()) break;
+      found_.state = state;
+      found_.is_held = was_held;
       wait();
     }
     arm_->put(found_.state, found_.is_held);
@@ -72,47 +80,58 @@ class Shooting {
     slope_.setThreshold(threshold);
   }
 
-  /// (F' - 1) step - drift of (step) = -(F(X) - X - drift so far), the shortest of all.
-  Eigen::VectorXd step_after(const Eigen::VectorXd& after) const {
-    return slope_.solve(found_.state - after + drift_);
+  /// (F' - 1) step - drift of (step) = -(F(X) - X - drift so far), the shortest of all: states,
+  /// then multiples of the drifts.
+  Eigen::VectorXd step_at(const Eigen::VectorXd& state, const Eigen::VectorXd& after,
+                          const Eigen::VectorXd& drift) const {
+    return slope_.solve(state - after + drift);
   }
 
+  /// Newton's method, damped by the natural monotonicity test (Deuflhard, Newton Methods for
+  /// Nonlinear Problems, 2004, section 3.3): a step is halved until the next one with the same
+  /// derivative is shorter.
   bool newton() {
-    const double tolerance = arm_->is_linear() ? options_.linear_tolerance : options_.tolerance;
     const Index n = found_.state.size();
-    double last = 0.0;
-    bool is_new = false;
+    Eigen::VectorXd after = after_a_period(found_.state, found_.is_held);
+    differentiate(after);
+    Eigen::VectorXd step = step_at(found_.state, after, drift_);
     for (int i = 0; i < options_.most_steps; ++i) {
-      const Eigen::VectorXd after = after_a_period(found_.state, found_.is_held);
-      const bool ends_held = arm_->is_held();
-      if (i == 0) {
-        differentiate(after);
-        is_new = true;
+      if (!step.allFinite()) return false;
+      const double size = length(found_.state);
+      const double now = step.head(n).norm();
+      bool is_shorter = false;
+      double part = 1.0;
+      Eigen::VectorXd trial;
+      Eigen::VectorXd drift;
+      Eigen::VectorXd next;
+      bool ends_held = false;
+      for (; part >= kSmallestPart && !is_shorter; part *= is_shorter ? 1.0 : 0.5) {
+        trial = found_.state + part * step.head(n);
+        drift = drift_ + drifts_ * (part * step.tail(drifts_.cols()));
+        after = after_a_period(trial, found_.is_held);
+        ends_held = arm_->is_held();
+        next = step_at(trial, after, drift);
+        const bool stands = now <= kLastDigit * size || next.head(n).norm() > kStandingStep * now;
+        found_.found = stands && i > 0 && (arm_->is_linear() || now <= options_.tolerance * size);
+        if (found_.found) return true;
+        is_shorter = arm_->is_linear() || next.head(n).norm() <= (1.0 - 0.25 * part) * now;
       }
-      Eigen::VectorXd steps = step_after(after);
-      if (!arm_->is_linear() && steps.head(n).norm() > kGoodStep * last && !is_new) {
-        differentiate(after);
-        steps = step_after(after);
-        is_new = true;
-      } else {
-        is_new = i == 0;
-      }
-      if (!steps.allFinite()) return false;
-      const Eigen::VectorXd step = steps.head(n);
-      // A linear arm is improved as long as rounding lets it be.
-      found_.found = step.norm() <= tolerance * length(found_.state) ||
-                     (arm_->is_linear() && i > 1 && step.norm() > 0.5 * last);
-      if (found_.found) return true;
-      found_.state += step;
-      drift_ += drifts_ * steps.tail(drifts_.cols());
+      if (!is_shorter) return false;
+      found_.state = trial;
       found_.is_held = ends_held;
-      last = step.norm();
+      drift_ = drift;
+      const bool is_good = part == 1.0 && next.head(n).norm() <= kGoodStep * now;
+      if (!is_good && !arm_->is_linear()) {
+        differentiate(after);
+        next = step_at(found_.state, after, drift_);
+      }
+      step = next;
     }
     return false;
   }
 
   void wait() {
-    for (int i = 0; i < options_.most_periods; ++i) {
+    for (int i = 0; i < options_.periods_between; ++i) {
       found_.state = after_a_period(found_.state, found_.is_held);
       found_.is_held = arm_->is_held();
     }

@@ -7,19 +7,19 @@
 namespace flexarm::response {
 
 struct SteadyStateOptions {
-  /// Found when Newton's step is no longer than this times the state, or the sine's own scale.
-  double tolerance = 1e-10;
-  double linear_tolerance = 1e-16;  ///< the same without friction, drag and ripple; also found when
-                                    ///< rounding no longer lets the steps shrink by half
-  int most_steps = 20;              ///< of Newton
-  int most_periods = 500;           ///< driven where Newton's steps do not find it
+  /// Newton goes on until rounding no longer lets its steps shrink by half. With friction, drag or
+  /// ripple the step must then be no longer than this times the state, or the sine's own scale.
+  double tolerance = 1e-9;
+  int most_steps = 20;        ///< of Newton
+  int most_attempts = 5;      ///< of Newton, from where the arm then is
+  int periods_between = 100;  ///< driven behind an attempt that failed
 };
 
 /// A state at the beginning of a period that comes again at its end.
 struct SteadyState {
   Eigen::VectorXd state;
   bool is_held = false;
-  bool found = false;  ///< false: what is there after `most_periods`
+  bool found = false;  ///< false: what is there after the attempts
   long periods = 0;    ///< driven in all
 };
 

@@ -179,6 +179,14 @@ std::string fit_text(const measured::RunsFit& fit, const measured::Identificatio
         "model of this kind.",
         2);
   }
+  if (fit.fit.delay_s > 0.0) {
+    text += report::to_paragraph(
+        fmt::format(
+            "  Sensors answer {:.3g} ms late, as their residues say, by delay or lag: poles "
+            "are right under it; zeros, slopes and gains are not.",
+            1e3 * fit.fit.delay_s),
+        2);
+  }
   text += "\n" + table_text(report::residual_table(fit), 1);
   return text + table_text(report::gain_table(fit, analytical), 4);
 }

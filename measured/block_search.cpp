@@ -185,7 +185,10 @@ class Search {
         break;
       }
     }
-    if (!options_.modes) prune();
+    if (const int pruned = options_.modes ? 0 : prune(); pruned > 0) {
+      result_.reason +=
+          fmt::format("; {} superfluous one{} taken away again", pruned, pruned == 1 ? "" : "s");
+    }
     result_.blocks = best_.blocks;
     return result_;
   }
@@ -233,10 +236,10 @@ class Search {
   }
 
   /// Blocks that others have made superfluous go again: those without which BIC is no more than the
-  /// margin higher.
-  void prune() {
-    for (bool pruned = true; pruned && flexible() > 1;) {
-      pruned = false;
+  /// margin higher. Returns how many.
+  int prune() {
+    int pruned = 0;
+    while (flexible() > 1) {
       std::size_t least = 0;
       double lowest = std::numeric_limits<double>::infinity();
       for (std::size_t m = options_.rigid ? 1 : 0; m < best_.blocks.blocks.size(); ++m) {
@@ -247,13 +250,13 @@ class Search {
         lowest = bic;
         least = m;
       }
-      if (lowest > best_.bic() + kWorthRefitting) return;
+      if (lowest > best_.bic() + kWorthRefitting) break;
       BlockFit fewer = fit(without(least));
-      if (fewer.bic() > best_.bic() + options_.bic_margin) return;
+      if (fewer.bic() > best_.bic() + options_.bic_margin) break;
       best_ = std::move(fewer);
-      ++result_.pruned;
-      pruned = true;
+      ++pruned;
     }
+    return pruned;
   }
 
   /// The rigid body's a1 took part in describing a mode that was not there yet.

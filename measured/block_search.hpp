@@ -34,8 +34,7 @@ struct OrderTrial {
 struct BlockSearch {
   BlockSet blocks;
   std::vector<OrderTrial> trials;
-  int pruned = 0;      ///< blocks taken away again at the end
-  std::string reason;  ///< why there are no more blocks
+  std::string reason;  ///< why there are no more blocks, and how many went again
 };
 
 /// Blocks one by one: of all stable poles of the chart, then of a coarse grid of heavily damped

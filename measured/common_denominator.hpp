@@ -36,7 +36,6 @@ class CommonDenominator {
 
   /// Orders 1 to the highest.
   DenominatorPoles poles(int order) const;
-  int highest_order() const { return order_; }
 
  private:
   struct Sums {

@@ -1,21 +1,17 @@
 #include "measured/measurement.hpp"
 
-#include "arm/arm_file.hpp"
-#include "arm/atomic_file.hpp"
 #include "arm/input_error.hpp"
 #include "arm/nearest_name.hpp"
 #include "arm/range.hpp"
 #include "arm/text_file.hpp"
 #include "arm/toml_document.hpp"
 #include "arm/toml_node.hpp"
-#include "arm/utf8.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <array>
 #include <cstddef>
-#include <iterator>
 #include <map>
 #include <optional>
 #include <type_traits>
@@ -308,22 +304,6 @@ class Reader {
   Faults missing_;
 };
 
-std::string quoted(const std::string& key, const std::string& text) {
-  if (!arm::is_utf8(text)) {
-    throw InputError(
-        fmt::format("{} = \"{}\": not UTF-8, which TOML asks for", key, arm::shown(text)), key);
-  }
-  return arm::toml_string(text);
-}
-
-std::string format_mapping(const std::string& key, const ColumnMapping& mapping) {
-  std::string out = fmt::format("{{ name = {}", quoted(key + ".name", mapping.name));
-  if (!mapping.unit.empty()) {
-    out += fmt::format(", unit = {}", quoted(key + ".unit", mapping.unit));
-  }
-  return out + fmt::format(", scale = {} }}", arm::toml_number(mapping.scale));
-}
-
 }  // namespace
 
 std::string_view to_string(RunKind kind) {
@@ -353,44 +333,6 @@ Measurement parse_measurement(std::string_view toml, const std::string& file_nam
 Measurement read_measurement(const std::filesystem::path& path) {
   return parse_measurement(arm::read_text_file(path, kLargestFile_bytes),
                            arm::shown(path.string()));
-}
-
-std::string format_measurement(const Measurement& measurement) {
-  std::string out;
-  const auto line = [&out](const char* key, std::string_view value) {
-    fmt::format_to(std::back_inserter(out), "{} = {}\n", key, value);
-  };
-  const auto word = [&](const char* key, std::string_view value) {
-    line(key, fmt::format("\"{}\"", value));
-  };
-  if (!measurement.name.empty()) line("name", quoted("name", measurement.name));
-  line("arm", quoted("arm", measurement.arm));
-  for (const auto& run : measurement.runs) {
-    out += "\n[[run]]\n";
-    line("id", quoted("run.id", run.id));
-    word("kind", to_string(run.kind));
-    line("file", quoted("run.file", run.file));
-    if (run.purpose) word("purpose", to_string(*run.purpose));
-    if (run.kind == RunKind::time || run.torque_hold != TorqueHold::zero) {
-      word("torque_hold", to_string(run.torque_hold));
-    }
-    if (run.payload) {
-      line("payload", fmt::format("{{ mass = {}, inertia = {} }}  # kg, kg m^2 about the tip",
-                                  arm::toml_number(run.payload->mass_kg),
-                                  arm::toml_number(run.payload->inertia_kg_m2)));
-    }
-    if (run.initial != InitialState::rest) word("initial", to_string(run.initial));
-    for (const auto& [name, mapping] : run.columns) {
-      const std::string key =
-          "columns." + (name.find('@') == std::string::npos ? name : arm::toml_string(name));
-      line(key.c_str(), format_mapping(key, mapping));
-    }
-  }
-  return out;
-}
-
-void write_measurement(const Measurement& measurement, const std::filesystem::path& path) {
-  arm::write_atomically(path, format_measurement(measurement));
 }
 
 std::filesystem::path beside(const std::filesystem::path& measurement_file,

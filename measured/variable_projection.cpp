@@ -235,11 +235,11 @@ void finish(BlockFit& fit, const Evaluation& at) {
   fit.sensors = at.sensors;
   fit.criterion = at.criterion;
   const auto theta = static_cast<double>(at.blocks.parameters());
-  fit.linear_and_theta = theta;
+  fit.parameter_count = theta;
   const auto sensors = static_cast<double>(at.sensors.size());
   for (SensorEstimate& sensor : fit.sensors) {
     const auto linear = static_cast<double>(sensor.beta.size());
-    fit.linear_and_theta += linear;
+    fit.parameter_count += linear;
     sensor.variance = sensor.squares / std::max(1.0, sensor.rows - linear - theta / sensors);
   }
   // Each sensor's part of the information was weighted by rows/squares; the variance differs by
@@ -265,7 +265,7 @@ double BlockFit::values() const {
 }
 
 double BlockFit::bic() const {
-  return criterion + linear_and_theta * std::log(values());
+  return criterion + parameter_count * std::log(values());
 }
 
 BlockFit fit_blocks(std::span<const Stretch> stretches, std::span<const arm::Sensor> sensors,

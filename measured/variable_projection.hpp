@@ -36,7 +36,7 @@ struct BlockFit {
   std::vector<SensorEstimate> sensors;
   Eigen::MatrixXd theta_covariance;  ///< for white noise
   double criterion = 0.0;            ///< sum over sensors of rows log(squares/rows)
-  double linear_and_theta = 0.0;     ///< number of parameters
+  double parameter_count = 0.0;      ///< linear ones and theta
   int iterations = 0;
   bool converged = false;
   bool cancelled = false;

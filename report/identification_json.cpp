@@ -261,6 +261,7 @@ Json fit_json(const measured::RunsFit& fitted, const measured::Identification& i
           {"to_Hz", fit.band.to_Hz},
           {"order_reason", fit.order_reason},
           {"robust_intervals", fit.robust_covariance},
+          {"delay_s", fit.delay_s},
           {"rigid_body_damping_rad_per_s", fit.rigid_a1_rad_per_s},
           {"rigid_body_damping_std_rad_per_s", fit.rigid_a1_std_rad_per_s},
           {"blocks", blocks},

@@ -98,6 +98,7 @@ DrivenArm::DrivenArm(const ModalDynamics& arm, const arm::ModalModel& model, con
   const auto n = static_cast<std::size_t>(samples_per_period);
   if (clips(parts.actuator, drive)) {
     actuator = parts.actuator;
+    actuator.delay_s = std::fmod(actuator.delay_s, 1.0 / drive.frequency_Hz);
     // As many samples before the period as the delay needs, and the one that ends the period.
     lead = static_cast<std::size_t>(std::ceil(actuator.delay_s / sample_time_s_)) + 1;
     for (std::size_t k = 0; k < lead + n + 1; ++k) {

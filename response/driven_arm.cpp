@@ -1,5 +1,6 @@
 #include "response/driven_arm.hpp"
 
+#include "arm/input_error.hpp"
 #include "response/drag.hpp"
 
 #include <cmath>
@@ -131,6 +132,9 @@ void DrivenArm::put(const Eigen::VectorXd& state, bool held) {
 void DrivenArm::drive_period(std::vector<std::vector<double>>* readings) {
   // The sine begins each period anew: its rounding does not add up.
   put(state(), is_held());
+  if (!stepper_->state().allFinite()) {
+    throw arm::InputError("motion: too large for a number; the torque must be smaller");
+  }
   for (std::size_t k = 0; k < pieces_.size(); ++k) {
     const double time_s = static_cast<double>(k) * sample_time_s_;
     const double actuator_N_m = pieces_[k].front().begin_N_m;

@@ -50,7 +50,8 @@ TEST_F(SteppedSine, IsARunOfTheMeasurementBesideOthers) {
   EXPECT_EQ(ended.errors, "");
   EXPECT_THAT(ended.output,
               AllOf(HasSubstr("bands 2.8:2.9/11.8:11.9 Hz, step 0.05 Hz, settle steady, cycles 4"),
-                    HasSubstr("rad/(N m)"), HasSubstr("\nEnergy: "), Not(HasSubstr("note:"))));
+                    HasSubstr("rad/(N m)"), HasSubstr("\nEnergy: "), Not(HasSubstr("note:")),
+                    HasSubstr("flexarm identify out/measurement.toml")));
   EXPECT_THAT(names_in("out"),
               ElementsAre("arm.toml", "bang-bang.csv", "bang-bang.svg", "fine-hub_angle.svg",
                           "fine-tip_acceleration.svg", "fine.csv", "measurement.toml"));

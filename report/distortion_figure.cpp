@@ -4,8 +4,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace flexarm::report {
@@ -26,9 +29,16 @@ std::string verdict(const measured::DistortionTest& test) {
 
 Figure distortion_figure(const arm::Sensor& sensor, const measured::ChannelDistortion& channel,
                          const std::string& title, Scale frequency_scale) {
+  const bool drawable = std::ranges::any_of(
+      channel.lines, [](const measured::DistortionLine& line) { return line.amplitude > 0.0; });
+  if (!drawable) {
+    throw std::invalid_argument(fmt::format("{}: no line to draw", arm::to_string(sensor)));
+  }
+  const std::string_view unit = arm::unit(sensor);
   Panel panel;
-  panel.y = {
-      .label = "amplitude", .unit = std::string(arm::unit(sensor)), .scale = Scale::logarithmic};
+  panel.y = {.label = "amplitude",
+             .unit = unit == "1" ? "" : std::string(unit),
+             .scale = Scale::logarithmic};
   Figure figure{.title = title, .width_px = kWidth_px, .height_px = kHeight_px};
   const auto add = [&](Series series, const std::string& remark) {
     if (series.x.empty()) return;

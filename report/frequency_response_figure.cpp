@@ -261,7 +261,9 @@ Figure frequency_response_figure(const MeasuredResponse& measured,
 
   PanelStack stack;
   stack.x = {.label = "frequency", .unit = "Hz", .scale = plot.frequency_scale};
-  stack.panels = {magnitude_panel(shown, interval, models), phase_panel(shown, interval, models)};
+  stack.panels.push_back(magnitude_panel(shown, interval, models));
+  Panel phase = phase_panel(shown, interval, models);
+  if (phase.y.minimum) stack.panels.push_back(std::move(phase));
   Figure figure{.title = plot.title, .width_px = kWidth_px, .height_px = kHeight_px};
   const bool has_coherence =
       std::ranges::any_of(shown.coherence, [](double value) { return std::isfinite(value); });

@@ -58,11 +58,12 @@ std::vector<double> interval_95(const MeasuredResponse& measured);
 
 /// Magnitude with its 95 % interval, phase, and coherence below them on one frequency axis, with
 /// the fitted transfer function and models on top. An interval that reaches 0 goes on to the lower
-/// edge; the phase is left out where its interval is wider than an eighth turn to both sides. Below
-/// the dotted line the coherence of unrelated signals stays with 95 %. Without coherence that panel
-/// is left out.
+/// edge; the phase is left out where its interval is wider than an eighth turn to both sides, and
+/// its panel where it is everywhere. Below the dotted line the coherence of unrelated signals stays
+/// with 95 %. Without coherence that panel is left out.
 ///
-/// Throws std::invalid_argument where nothing can be drawn and for vectors of unlike length.
+/// Throws std::invalid_argument where no value is finite and not 0, and for vectors of unlike
+/// length.
 Figure frequency_response_figure(const MeasuredResponse& measured,
                                  const FrequencyResponsePlot& plot = {});
 

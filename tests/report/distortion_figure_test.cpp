@@ -36,6 +36,8 @@ TEST(DistortionFigure, HasTheLinesByKind) {
   EXPECT_THAT(find_series(panel, "odd, not driven")->y, ElementsAre(1e-2));
   EXPECT_THAT(find_series(panel, "even, not driven")->x, ElementsAre(0.2, 0.4));
   EXPECT_EQ(find_series(panel, "noise")->x.size(), 5U);
+  const Figure strain = distortion_figure(arm::parse_sensor("strain@0.05"), channel());
+  EXPECT_EQ(strain.stacks[0].panels[0].y.unit, "");
 }
 
 TEST(DistortionFigure, LegendSaysWhatTheTestsCameTo) {
@@ -62,7 +64,7 @@ TEST(DistortionFigure, OfManyLinesIsSmall) {
 }
 
 TEST(DistortionFigure, RefusesAChannelWithoutALine) {
-  EXPECT_THROW(to_svg(distortion_figure({}, {})), std::invalid_argument);
+  EXPECT_THROW(distortion_figure({}, {}), std::invalid_argument);
 }
 
 }  // namespace

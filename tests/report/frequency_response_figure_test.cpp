@@ -118,6 +118,20 @@ TEST(FrequencyResponseFigure, WhereNothingIsKnownNoScaleIsSetAndNoPhaseDrawn) {
   EXPECT_EQ(phase->y.front(), 0.0);
 }
 
+TEST(FrequencyResponseFigure, OfASensorThatShowsNoiseAloneHasNoPhase) {
+  auto measured = flat();
+  measured.relative_std.assign(300, 1.0);
+  const Figure figure = frequency_response_figure(measured);
+  ASSERT_EQ(figure.stacks[0].panels.size(), 2U);
+  EXPECT_EQ(figure.stacks[0].panels[1].y.label, "coherence");
+  EXPECT_FALSE(to_svg(figure).empty());
+}
+
+TEST(FrequencyResponseFigure, OfOneFrequencyIsDrawn) {
+  const auto channel = stepped_sine(measured::damped_paper_arm(), {}, 1, 1);
+  EXPECT_FALSE(to_svg(frequency_response_figure(measured_response(channel, 10.0))).empty());
+}
+
 TEST(FrequencyResponseFigure, AnUnknownValueIsAGap) {
   auto measured = flat();
   measured.response[150] = Complex(kNaN, 0.0);

@@ -10,7 +10,7 @@ namespace flexarm::report {
 namespace {
 
 constexpr double kMarkerColumn_px = 3.0;  // about half a marker
-constexpr std::size_t kFew = 4;           // points of a column that are all kept
+constexpr std::size_t kFew = 4;           // points of a column, or a column on average
 
 /// Indices of a column's points that are kept, ascending.
 std::vector<std::size_t> kept_of(const Series& series, const std::vector<std::size_t>& column) {
@@ -37,11 +37,13 @@ Series thinned(const Series& series, const Axis& x, const Axis& y, const Range& 
   for (std::size_t i = 0; i < series.x.size(); ++i) {
     if (is_drawable(series, i, x, y)) drawn.push_back(i);
   }
-  const auto at = [&](std::size_t i) { return series.x[i]; };
-  if (drawn.size() <= kFew || !std::ranges::is_sorted(drawn, {}, at)) return series;
-
   const bool markers = series.style.line == Line::none && !series.style.filled;
   const double columns = width_px / (markers ? kMarkerColumn_px : 1.0);
+  const auto at = [&](std::size_t i) { return series.x[i]; };
+  if (static_cast<double>(drawn.size()) <= kFew * columns ||
+      !std::ranges::is_sorted(drawn, {}, at)) {
+    return series;
+  }
   const double from = on_scale(range.from, x);
   const double scale = columns / (on_scale(range.to, x) - from);
   Series shown{series.name, {}, {}, series.style};

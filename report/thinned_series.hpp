@@ -11,7 +11,8 @@ namespace flexarm::report {
 /// but for what happens within one column, and every extreme remains.
 ///
 /// Gaps remain where they lie between points that do. A column of up to four points is left as it
-/// is, and so is the whole series where x descends anywhere, as around a locus.
+/// is. So is the whole series where it has no more than four points a column on average, and where
+/// x descends anywhere, as around a locus.
 Series thinned(const Series& series, const Axis& x, const Axis& y, const Range& range,
                double width_px);
 

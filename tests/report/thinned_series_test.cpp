@@ -99,8 +99,9 @@ TEST(ThinnedSeries, MarkersHaveBroaderColumns) {
 }
 
 TEST(ThinnedSeries, FewPointsAndALocusStayAsTheyAre) {
-  const Series few = wave(1000);
-  EXPECT_EQ(thinned(few, kLinear, kLinear, {0.0, 1000.0}, kWidth_px).y, few.y);
+  const Series few = wave(2000);
+  EXPECT_EQ(thinned(few, kLinear, kLinear, {0.0, 2000.0}, kWidth_px).y, few.y);
+  EXPECT_EQ(thinned(few, kLinear, kLinear, {0.0, 1e6}, kWidth_px).y, few.y);  // in one column
   Series locus = wave();
   std::swap(locus.x[10], locus.x[20]);
   EXPECT_EQ(thinned(locus, kLinear, kLinear, kAll, kWidth_px).y.size(), kPoints);

@@ -4,6 +4,7 @@
 #include "app/run_choice.hpp"
 #include "app/standard_output.hpp"
 #include "app/starter_arm.hpp"
+#include "app/word.hpp"
 #include "arm/arm_file.hpp"
 #include "arm/atomic_file.hpp"
 #include "arm/input_error.hpp"
@@ -53,18 +54,6 @@ struct Arguments {
   std::string record_format;
   std::string json_file;
 };
-
-/// The value of `option` among `values`, by the words of the measurement file.
-template <class T, std::size_t N>
-T read_word(const char* option, const std::string& word, const std::array<T, N>& values) {
-  std::vector<std::string> words;
-  for (const T value : values) {
-    words.emplace_back(to_string(value));
-    if (word == words.back()) return value;
-  }
-  throw arm::InputError(fmt::format("{} {}: must be {}{}", option, arm::shown(word),
-                                    fmt::join(words, " or "), arm::did_you_mean(word, words)));
-}
 
 /// How a record is written to a file of its own.
 enum class RecordFormat { csv, uff58, uff58b, mat };

@@ -15,6 +15,7 @@
 #include <filesystem>
 #include <set>
 #include <string_view>
+#include <utility>
 
 namespace flexarm::app {
 
@@ -31,6 +32,7 @@ constexpr double kMostSamples = 1e9;
 /// An excitation as it was typed, and what else a run may be told.
 struct TypedRun {
   response::Excitation excitation;
+  std::optional<response::SteppedSine> stepped_sine;  ///< in place of it
   std::string id;
   std::optional<double> payload_kg;
   std::optional<measured::Purpose> purpose;
@@ -45,38 +47,64 @@ double read_payload(std::string_view value) {
   return *mass_kg;
 }
 
-TypedRun read_run(const std::string& text, std::uint64_t seed) {
-  const auto colon = text.find(':');
-  TypedRun run{response::excitation_of(text.substr(0, colon)), "", {}, {}};
-  std::set<std::string_view> given;
-  std::string_view rest =
-      colon == std::string::npos ? std::string_view() : std::string_view(text).substr(colon + 1);
-  while (!rest.empty()) {
-    const auto comma = std::min(rest.find(','), rest.size());
-    const std::string_view part = rest.substr(0, comma);
-    rest.remove_prefix(std::min(comma + 1, rest.size()));
+using Keys = std::vector<std::pair<std::string, std::string>>;
+
+/// "KEY=VALUE,..."
+Keys read_keys(std::string_view text) {
+  Keys keys;
+  while (!text.empty()) {
+    const auto comma = std::min(text.find(','), text.size());
+    const std::string_view part = text.substr(0, comma);
+    text.remove_prefix(std::min(comma + 1, text.size()));
     const auto equals = part.find('=');
     if (equals == std::string_view::npos) {
       throw InputError(fmt::format("{}: must be KEY=VALUE, separated by commas", arm::shown(part)));
     }
-    const std::string_view key = part.substr(0, equals);
-    const std::string_view value = part.substr(equals + 1);
-    if (!given.insert(key).second) {
+    const std::string key(part.substr(0, equals));
+    if (std::ranges::count(keys, key, &Keys::value_type::first) > 0) {
       throw InputError(fmt::format("{}: is given twice", arm::shown(key)));
     }
+    keys.emplace_back(key, part.substr(equals + 1));
+  }
+  return keys;
+}
+
+/// Sets what any run may be told, and takes it out of the keys.
+void take_common_keys(TypedRun& run, Keys& keys) {
+  std::erase_if(keys, [&](const auto& entry) {
+    const auto& [key, value] = entry;
     if (key == "id") {
-      run.id = require_id(std::string(value));
+      run.id = require_id(value);
     } else if (key == "payload") {
       run.payload_kg = read_payload(value);
     } else if (key == "purpose") {
       run.purpose = read_purpose(value);
     } else {
-      response::set_key(run.excitation, key, value, {"id", "payload", "purpose"});
+      return false;
     }
+    return true;
+  });
+}
+
+TypedRun read_run(const std::string& text, std::uint64_t seed) {
+  const std::vector<std::string> common = {"id", "payload", "purpose"};
+  const auto colon = std::min(text.find(':'), text.size());
+  const std::string kind = text.substr(0, colon);
+  TypedRun run;
+  if (kind != response::kSteppedSine) {
+    run.excitation = response::excitation_of(kind, {std::string(response::kSteppedSine)});
   }
-  const auto keys = response::keys_of(run.excitation);
-  if (!given.contains("seed") &&
-      std::ranges::count(keys, "seed", &response::ExcitationKey::name) > 0) {
+  Keys keys = read_keys(std::string_view(text).substr(std::min(colon + 1, text.size())));
+  take_common_keys(run, keys);
+  if (kind == response::kSteppedSine) {
+    run.stepped_sine = response::stepped_sine_of(keys, common);
+    response::frequencies_Hz(*run.stepped_sine);  // throws for what cannot be
+    return run;
+  }
+  for (const auto& [key, value] : keys) response::set_key(run.excitation, key, value, common);
+  const bool has_seed = std::ranges::count(response::keys_of(run.excitation), "seed",
+                                           &response::ExcitationKey::name) > 0;
+  if (has_seed && std::ranges::count(keys, "seed", &Keys::value_type::first) == 0) {
     response::set_key(run.excitation, "seed", fmt::format("{}", seed));
   }
   return run;
@@ -118,6 +146,38 @@ std::vector<RoundedKey> differences(const std::vector<response::ExcitationKey>& 
     rounded.push_back({typed[i].name, typed[i].unit, typed[i].value, taken[i].value});
   }
   return rounded;
+}
+
+/// The run without its payload.
+PlannedRun plan(TypedRun& run, double duration_s, double period_s) {
+  if (run.stepped_sine) {
+    const std::string kind(response::kSteppedSine);
+    return {run.id.empty() ? kind : run.id,
+            kind,
+            response::keys_of(*run.stepped_sine),
+            {},
+            {},
+            {},
+            run.purpose,
+            {},
+            !run.id.empty(),
+            run.stepped_sine};
+  }
+  const auto grid = grid_of(duration_s, period_s);
+  auto* multisine = std::get_if<response::Multisine>(&run.excitation);
+  if (multisine && multisine->period_s == 0.0) multisine->period_s = grid.duration_s();
+  const std::string kind(response::name(run.excitation));
+  auto torque = response::sample(run.excitation, grid);
+  const auto keys = response::keys_of(response::in_whole_samples(run.excitation, grid));
+  return {run.id.empty() ? kind : run.id,
+          kind,
+          keys,
+          times_of(grid),
+          std::move(torque),
+          {},
+          run.purpose,
+          differences(response::keys_of(run.excitation), keys),
+          !run.id.empty()};
 }
 
 PlannedRun run_of_file(const std::string& file) {
@@ -187,6 +247,13 @@ std::vector<PlannedRun> RunChoice::runs(const arm::Arm& arm,
                                  duration_s ? "--duration" : "--period"));
   }
   std::vector<PlannedRun> plain;
+  const auto is_stepped = [](const std::string& text) {
+    return text.substr(0, text.find(':')) == response::kSteppedSine;
+  };
+  if (!typed.empty() && (duration_s || period_s) && std::ranges::all_of(typed, is_stepped)) {
+    throw InputError(fmt::format("{}: a stepped sine has its own; it is for other excitations",
+                                 duration_s ? "--duration" : "--period"));
+  }
   for (std::size_t i = 0; i < typed.size(); ++i) {
     TypedRun run;
     try {
@@ -194,22 +261,8 @@ std::vector<PlannedRun> RunChoice::runs(const arm::Arm& arm,
     } catch (const InputError& error) {
       throw InputError(fmt::format("--excitation {}: {}", arm::shown(typed[i]), error.what()));
     }
-    const auto grid =
-        grid_of(duration_s.value_or(kDefaultDuration_s), period_s.value_or(kDefaultPeriod_s));
-    auto* multisine = std::get_if<response::Multisine>(&run.excitation);
-    if (multisine && multisine->period_s == 0.0) multisine->period_s = grid.duration_s();
-    const std::string kind(response::name(run.excitation));
-    auto torque = response::sample(run.excitation, grid);
-    const auto keys = response::keys_of(response::in_whole_samples(run.excitation, grid));
-    PlannedRun planned{run.id.empty() ? kind : run.id,
-                       kind,
-                       keys,
-                       times_of(grid),
-                       std::move(torque),
-                       {},
-                       run.purpose,
-                       differences(response::keys_of(run.excitation), keys),
-                       !run.id.empty()};
+    PlannedRun planned =
+        plan(run, duration_s.value_or(kDefaultDuration_s), period_s.value_or(kDefaultPeriod_s));
     if (run.payload_kg) {
       if (!payload_masses_kg.empty()) {
         throw InputError(
@@ -241,7 +294,9 @@ void add_run_choice(CLI::App& parser, RunChoice& choice) {
           "KIND:KEY=VALUE,...; KIND is bang-bang (keys amplitude, pulse, start, pairs: 1, or 0 "
           "for as many as fit), "
           "step (amplitude, start), random (rms, from, to, seed), multisine (rms, from, "
-          "to, period, detection, seed) or chirp (amplitude, from, to, sweep), in N m, s "
+          "to, period, detection, seed), chirp (amplitude, from, to, sweep) or stepped-sine "
+          "(amplitude, offset, from and to or bands=FROM:TO/FROM:TO/..., step or points, settle, "
+          "cycles), a frequency response measured sine by sine, in N m, s "
           "and Hz; each also id, payload [kg], purpose. Given again: a further run")
       ->check(not_empty())
       ->allow_extra_args(false);

@@ -3,6 +3,7 @@
 #include "app/arm_choice.hpp"
 #include "measured/measurement.hpp"
 #include "response/excitation_keys.hpp"
+#include "response/stepped_sine.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -21,7 +22,7 @@ struct RoundedKey {
   std::string taken;
 };
 
-/// A run that was asked for, with its torque.
+/// A run that was asked for, with its torque: in time, or a stepped sine.
 struct PlannedRun {
   std::string id;
   std::string excitation;                     ///< its name, or that of the torque's file
@@ -32,6 +33,8 @@ struct PlannedRun {
   std::optional<measured::Purpose> purpose;
   std::vector<RoundedKey> rounded;
   bool has_own_id = false;  ///< typed, not made from the excitation
+  /// In place of times and torque.
+  std::optional<response::SteppedSine> stepped_sine = {};
 };
 
 /// The runs that a command simulates: each excitation and each torque file with each payload.

@@ -141,40 +141,80 @@ std::string sampling_notes(const SimulatedExperiment& experiment) {
   return notes;
 }
 
+/// Stepped sines that were not steady when they were measured.
+std::string settling_notes(const std::vector<report::SteppedSineRun>& runs) {
+  std::string notes;
+  for (const auto& run : runs) {
+    const auto& summary = run.measured.summary;
+    if (summary.unsettled == 0) continue;
+    notes += report::to_paragraph(fmt::format(
+        "note: {}: at {} of {} frequencies the response changed by more than {:g} from the first "
+        "cycle measured to the last, most by {:.2g} at {} Hz: a transient is left, or the motion "
+        "does not repeat with the sine",
+        run.id, summary.unsettled, run.measured.frequency_Hz.size(), response::kSettledChange,
+        summary.largest_change, summary.largest_change_Hz));
+  }
+  return notes;
+}
+
+void print_runs_in_time(const std::vector<report::SimulatedRun>& runs, bool has_dry_friction) {
+  if (runs.empty()) return;
+  print(report::to_text(report::torque_table(runs)) + "\n");
+  print(report::to_text(report::reading_table(runs), {.key_columns = 2}) + "\n");
+  print(report::to_text(report::energy_table(runs)) + "\n");
+  if (has_dry_friction) print(report::to_text(report::hub_motion_table(runs)) + "\n");
+}
+
+void print_stepped_runs(const std::vector<report::SteppedSineRun>& runs, bool has_dry_friction) {
+  if (runs.empty()) return;
+  print(report::to_text(report::stepped_sine_table(runs)) + "\n");
+  print(report::to_text(report::stepped_response_table(runs), {.key_columns = 2}) + "\n");
+  if (has_dry_friction) print(report::to_text(report::stepped_hub_motion_table(runs)) + "\n");
+}
+
 void print_results(const Arguments& arguments, const std::vector<PlannedRun>& plan,
                    const SimulatedExperiment& experiment, bool has_dry_friction) {
   const auto& runs = experiment.runs;
-  print(fmt::format("by {}, {} flexible mode{}{}; torque {}, from rest\n",
+  const char* hold = arguments.options.hold == response::TorqueHold::zero
+                         ? "constant from one sample to the next"
+                         : "linear between samples";
+  print(fmt::format("by {}, {} flexible mode{}{}{}\n",
                     response::formulation_label(experiment.model, experiment.settings),
                     experiment.modes, experiment.modes == 1 ? "" : "s",
                     arguments.options.static_correction ? " and a residual mode" : "",
-                    arguments.options.hold == response::TorqueHold::zero
-                        ? "constant from one sample to the next"
-                        : "linear between samples"));
+                    runs.empty() ? "" : fmt::format("; torque {}, from rest", hold)));
   if (experiment.modes < arguments.options.modes) {
     print(fmt::format("{} of {} modes: {} has {} degrees of freedom\n", experiment.modes,
                       arguments.options.modes, experiment.model, experiment.degrees_of_freedom));
   }
   print("\n");
-  print(report::to_text(report::torque_table(runs)) + "\n");
-  print(report::to_text(report::reading_table(runs), {.key_columns = 2}) + "\n");
-  print(report::to_text(report::energy_table(runs)) + "\n");
-  if (has_dry_friction) print(report::to_text(report::hub_motion_table(runs)) + "\n");
-  const std::string notes =
-      rounding_notes(plan) + standing_notes(runs) + sampling_notes(experiment);
+  print_runs_in_time(runs, has_dry_friction);
+  print_stepped_runs(experiment.stepped_runs, has_dry_friction);
+  const std::string notes = rounding_notes(plan) + standing_notes(runs) +
+                            sampling_notes(experiment) + settling_notes(experiment.stepped_runs);
   if (!notes.empty()) print(notes + "\n");
+}
+
+/// Throws for options that a stepped sine has no use for.
+void require_fitting(const Arguments& arguments, const std::vector<PlannedRun>& plan) {
+  const auto stepped =
+      std::ranges::find_if(plan, [](const auto& run) { return run.stepped_sine.has_value(); });
+  if (stepped == plan.end() || !arguments.options.check_step) return;
+  throw arm::InputError(
+      fmt::format("--check-step: is for runs in time; {} is a stepped sine", stepped->id));
 }
 
 std::string json_text(const Arguments& arguments, const arm::Arm& arm,
                       const SimulatedExperiment& experiment) {
-  return report::json_document("flexarm.simulate/1",
-                               {{"arm", report::arm_json(arm)},
-                                {"model", experiment.model},
-                                {"settings", experiment.settings},
-                                {"modes", experiment.modes},
-                                {"static_correction", arguments.options.static_correction},
-                                {"torque_hold", arguments.hold},
-                                {"runs", report::runs_json(experiment.runs)}});
+  return report::json_document(
+      "flexarm.simulate/1", {{"arm", report::arm_json(arm)},
+                             {"model", experiment.model},
+                             {"settings", experiment.settings},
+                             {"modes", experiment.modes},
+                             {"static_correction", arguments.options.static_correction},
+                             {"torque_hold", arguments.hold},
+                             {"runs", report::runs_json(experiment.runs)},
+                             {"stepped_runs", report::stepped_runs_json(experiment.stepped_runs)}});
 }
 
 int run(Arguments arguments) {
@@ -190,6 +230,7 @@ int run(Arguments arguments) {
   const arm::Arm written = without_effects(arm, arguments.hidden_effects);
   const auto sensors = arguments.sensors.sensors(arm);
   const auto plan = arguments.runs.runs(arm, arguments.arm.payload_masses_kg);
+  require_fitting(arguments, plan);
   prepare(arguments);
 
   const auto experiment = simulate_experiment(arm, plan, sensors, options);

@@ -89,9 +89,9 @@ void require_finite(const std::vector<double>& reading, const arm::Sensor& senso
                     const report::SimulatedRun& run) {
   const auto wrong = std::ranges::find_if(reading, [](double v) { return !std::isfinite(v); });
   if (wrong == reading.end()) return;
-  throw arm::InputError(fmt::format(
-      "{}: {} at {:.6g} s: too large for a number with its noise", run.id, arm::to_string(sensor),
-      run.record.time_s[static_cast<std::size_t>(wrong - reading.begin())]));
+  throw arm::InputError(
+      fmt::format("{} at {:.6g} s: too large for a number with its noise", arm::to_string(sensor),
+                  run.record.time_s[static_cast<std::size_t>(wrong - reading.begin())]));
 }
 
 /// Simulates a run that has its torque.
@@ -109,50 +109,91 @@ void step(report::SimulatedRun& run, const PayloadModel& model,
                        .relative_difference;
 }
 
+/// The random streams of a run begin here.
+std::uint32_t first_stream(std::size_t run) {
+  return 1 + kStreamsOfARun * static_cast<std::uint32_t>(run);
+}
+
+std::vector<arm::Sensor> sensors_of(const std::vector<ChosenSensor>& chosen) {
+  std::vector<arm::Sensor> sensors;
+  for (const auto& entry : chosen) sensors.push_back(entry.sensor);
+  return sensors;
+}
+
+/// A run in time; `index` in the plan.
+report::SimulatedRun run_in_time(const PlannedRun& plan, std::size_t index,
+                                 const arm::Payload& payload, const PayloadModel& model,
+                                 const std::vector<ChosenSensor>& chosen,
+                                 const ExperimentOptions& options) {
+  const auto sensors = sensors_of(chosen);
+  report::SimulatedRun run;
+  run.id = plan.id;
+  run.excitation = plan.excitation;
+  run.keys = plan.keys;
+  run.lines_Hz = plan.torque.lines_Hz;
+  run.detection_Hz = plan.torque.detection_Hz;
+  run.payload = payload;
+  run.record.time_s = plan.time_s;
+  run.record.torque_N_m = plan.torque.torque_N_m;
+
+  response::SimulationOptions stepping;
+  stepping.sample_time_s = measured::sampling_period_s(run.record);
+  stepping.hold = options.hold;
+  stepping.substeps = options.substeps;
+  const double lowest = model.model.lowest_omega_squared_rad2_per_s2;
+  run.fall_rate_rad_per_s = lowest < 0.0 ? std::sqrt(-lowest) : 0.0;
+  step(run, model, sensors, stepping, options.check_step);
+  for (std::size_t j = 0; j < sensors.size(); ++j) {
+    auto reading = run.simulation.channels[j];
+    run.noise_deviation.push_back(response::noise_deviation(reading, chosen[j].imperfections));
+    response::RandomNumbers random(options.noise_seed,
+                                   first_stream(index) + static_cast<std::uint32_t>(j));
+    response::impair(reading, chosen[j].imperfections, random);
+    require_finite(reading, sensors[j], run);
+    run.record.channels.push_back({sensors[j], std::move(reading)});
+  }
+  return run;
+}
+
+/// A run of a stepped sine.
+report::SteppedSineRun stepped_run(const PlannedRun& plan, std::size_t index,
+                                   const arm::Payload& payload, const PayloadModel& model,
+                                   const std::vector<ChosenSensor>& chosen,
+                                   const ExperimentOptions& options) {
+  report::SteppedSineRun run{plan.id, plan.keys, payload, sensors_of(chosen), {}};
+  response::SteppedSineOptions stepping;
+  stepping.substeps = options.substeps;
+  for (const auto& sensor : chosen) stepping.imperfections.push_back(sensor.imperfections);
+  stepping.noise_seed = options.noise_seed;
+  stepping.first_noise_stream = first_stream(index);
+  SampleProgress progress(fmt::format("{}, frequencies", run.id),
+                          response::frequencies_Hz(*plan.stepped_sine).size());
+  run.measured = response::measure_stepped_sine(model.model, model.parts, run.sensors,
+                                                *plan.stepped_sine, stepping, std::ref(progress));
+  return run;
+}
+
 }  // namespace
 
 SimulatedExperiment simulate_experiment(const arm::Arm& arm, const std::vector<PlannedRun>& runs,
                                         const std::vector<ChosenSensor>& chosen,
                                         const ExperimentOptions& options) {
-  std::vector<arm::Sensor> sensors;
-  for (const auto& entry : chosen) sensors.push_back(entry.sensor);
+  const auto sensors = sensors_of(chosen);
   SimulatedExperiment experiment;
   Models models(arm, sensors, options, experiment);
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const PlannedRun& plan = runs[i];
-    report::SimulatedRun run;
-    run.id = plan.id;
-    run.excitation = plan.excitation;
-    run.keys = plan.keys;
-    run.lines_Hz = plan.torque.lines_Hz;
-    run.detection_Hz = plan.torque.detection_Hz;
-    run.payload = plan.payload.value_or(arm.payload);
-    run.record.time_s = plan.time_s;
-    run.record.torque_N_m = plan.torque.torque_N_m;
-
-    const PayloadModel& model = models.of(run.payload);
-    response::SimulationOptions stepping;
-    stepping.sample_time_s = measured::sampling_period_s(run.record);
-    stepping.hold = options.hold;
-    stepping.substeps = options.substeps;
-    const double lowest = model.model.lowest_omega_squared_rad2_per_s2;
-    run.fall_rate_rad_per_s = lowest < 0.0 ? std::sqrt(-lowest) : 0.0;
+    const arm::Payload payload = plan.payload.value_or(arm.payload);
+    const PayloadModel& model = models.of(payload);
     try {
-      step(run, model, sensors, stepping, options.check_step);
+      if (plan.stepped_sine) {
+        experiment.stepped_runs.push_back(stepped_run(plan, i, payload, model, chosen, options));
+      } else {
+        experiment.runs.push_back(run_in_time(plan, i, payload, model, chosen, options));
+      }
     } catch (const arm::InputError& error) {
       throw arm::InputError(fmt::format("{}: {}", plan.id, error.what()), error.key());
     }
-    for (std::size_t j = 0; j < sensors.size(); ++j) {
-      auto reading = run.simulation.channels[j];
-      run.noise_deviation.push_back(response::noise_deviation(reading, chosen[j].imperfections));
-      response::RandomNumbers random(
-          options.noise_seed,
-          1 + static_cast<std::uint32_t>(j) + kStreamsOfARun * static_cast<std::uint32_t>(i));
-      response::impair(reading, chosen[j].imperfections, random);
-      require_finite(reading, sensors[j], run);
-      run.record.channels.push_back({sensors[j], std::move(reading)});
-    }
-    experiment.runs.push_back(std::move(run));
   }
   return experiment;
 }
@@ -164,17 +205,29 @@ std::vector<arm::NamedContent> measurement_folder(const std::string& name,
                                                   response::TorqueHold hold) {
   measured::Measurement measurement{name, "arm.toml", {}};
   std::vector<arm::NamedContent> files;
-  for (std::size_t i = 0; i < plan.size(); ++i) {
-    const report::SimulatedRun& run = experiment.runs[i];
+  auto in_time = experiment.runs.begin();
+  auto stepped = experiment.stepped_runs.begin();
+  for (const auto& planned : plan) {
     measured::Run entry;
-    entry.id = run.id;
-    entry.file = run.id + ".csv";
-    entry.purpose = plan[i].purpose;
-    entry.torque_hold = hold == response::TorqueHold::zero ? measured::TorqueHold::zero
-                                                           : measured::TorqueHold::first;
-    entry.payload = plan[i].payload;
-    files.push_back({entry.file, measured::format_time_record(run.record)});
-    files.push_back({run.id + ".svg", report::time_svg(written_arm.name, run)});
+    entry.id = planned.id;
+    entry.file = planned.id + ".csv";
+    entry.purpose = planned.purpose;
+    entry.payload = planned.payload;
+    if (planned.stepped_sine) {
+      entry.kind = measured::RunKind::frf;
+      files.push_back(
+          {entry.file, measured::format_frequency_record(report::frequency_record(*stepped))});
+      for (auto& plot : report::stepped_sine_plots(written_arm.name, *stepped)) {
+        files.push_back({plot.file_name, std::move(plot.svg)});
+      }
+      ++stepped;
+    } else {
+      entry.torque_hold = hold == response::TorqueHold::zero ? measured::TorqueHold::zero
+                                                             : measured::TorqueHold::first;
+      files.push_back({entry.file, measured::format_time_record(in_time->record)});
+      files.push_back({planned.id + ".svg", report::time_svg(written_arm.name, *in_time)});
+      ++in_time;
+    }
     measurement.runs.push_back(std::move(entry));
   }
   files.push_back({"arm.toml", arm::format_arm(written_arm)});

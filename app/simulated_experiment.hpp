@@ -5,6 +5,7 @@
 #include "app/sensor_choice.hpp"
 #include "arm/atomic_file.hpp"
 #include "report/simulation_report.hpp"
+#include "report/stepped_sine_report.hpp"
 
 #include <cstdint>
 #include <string>
@@ -30,15 +31,16 @@ struct SimulatedExperiment {
   int modes = 0;               ///< flexible ones kept
   int degrees_of_freedom = 0;  ///< of the model; 0 for exact_tf
   std::vector<report::SimulatedRun> runs;
+  std::vector<report::SteppedSineRun> stepped_runs;  ///< those of the plan that are stepped sines
 };
 
-/// Simulates every run from rest, with a line of progress on standard error.
+/// Simulates every run, with a line of progress on standard error.
 SimulatedExperiment simulate_experiment(const arm::Arm& arm, const std::vector<PlannedRun>& runs,
                                         const std::vector<ChosenSensor>& sensors,
                                         const ExperimentOptions& options);
 
 /// The files of the experiment's measurement folder: measurement.toml, arm.toml with `written_arm`,
-/// and a CSV file and a figure for each run.
+/// a CSV file and a figure for each run, of a stepped sine a figure a sensor.
 std::vector<arm::NamedContent> measurement_folder(const std::string& name,
                                                   const arm::Arm& written_arm,
                                                   const std::vector<PlannedRun>& plan,

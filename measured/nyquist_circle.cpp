@@ -263,6 +263,14 @@ std::optional<std::string> draw(const Velocity& v, double near_Hz, const CircleS
   return std::nullopt;
 }
 
+/// Two ragged peaks of one resonance lead to the same circle.
+bool is_known(const NyquistCircle& circle, const std::vector<NyquistCircle>& circles) {
+  return std::ranges::any_of(circles, [&](const NyquistCircle& known) {
+    const double half_width_Hz = known.damping_ratio * known.natural_frequency_Hz;
+    return std::abs(circle.natural_frequency_Hz - known.natural_frequency_Hz) < half_width_Hz;
+  });
+}
+
 std::vector<double> peaks_of(const Velocity& v) {
   std::vector<double> power(v.value.size());
   for (std::size_t k = 0; k < power.size(); ++k) power[k] = std::norm(v.value[k]);
@@ -290,7 +298,7 @@ CircleSet nyquist_circles(const FrequencyChannel& channel, const CircleSettings&
       made.refused.push_back({frequency_Hz, *reason});
       continue;
     }
-    made.circles.push_back(std::move(circle));
+    if (!is_known(circle, made.circles)) made.circles.push_back(std::move(circle));
   }
   std::ranges::sort(made.circles, {}, &NyquistCircle::natural_frequency_Hz);
   for (std::size_t i = 0; i < made.circles.size(); ++i) {

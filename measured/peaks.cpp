@@ -1,5 +1,7 @@
 #include "measured/peaks.hpp"
 
+#include "measured/resonance_parabola.hpp"
+
 #include <boost/math/special_functions/erf.hpp>
 #include <boost/math/special_functions/gamma.hpp>
 
@@ -19,6 +21,7 @@ const double kdB = 10.0 / std::log(10.0);
 /// The lines looked at.
 struct Levels {
   std::vector<double> frequency_Hz;
+  std::vector<double> power;
   std::vector<double> log_power;
   std::vector<double> relative_std;
 };
@@ -113,25 +116,14 @@ Parabola parabola_through(const std::array<double, 3>& x, const std::array<doubl
   return {x[1] + step, y[1] + 0.5 * slope * step, 2.0 * half_curvature};
 }
 
-/// Through 1/power of a peak, power of a valley, relative to the middle.
-Parabola resonance_parabola(Feature feature, const Three& three) {
-  const double sign = feature == Feature::pole ? -1.0 : 1.0;
-  std::array<double, 3> y{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    y[i] = std::exp(sign * (three.log_power[i] - three.log_power[1]));
-  }
-  return parabola_through(three.from_middle_Hz, y);
-}
-
 /// From the middle line [Hz].
-double place_of(PeakPlace place, Feature feature, const Three& three) {
+double place_of(PeakPlace place, const Three& three) {
   switch (place) {
     case PeakPlace::on_line:
+    case PeakPlace::resonance:
       return 0.0;
     case PeakPlace::log_parabola:
       return parabola_through(three.from_middle_Hz, three.log_power).place;
-    case PeakPlace::resonance:
-      return resonance_parabola(feature, three).place;
     case PeakPlace::hann_line: {
       // With the amplitude ratio r of neighbour to peak the sine is (2 r - 1)/(r + 1) lines away.
       const std::size_t side = three.log_power[2] > three.log_power[0] ? 2 : 0;
@@ -143,8 +135,7 @@ double place_of(PeakPlace place, Feature feature, const Three& three) {
 }
 
 /// Standard deviation [Hz], by differences of `place_of` in each level.
-double place_std(PeakPlace place, Feature feature, const Three& three,
-                 const std::array<double, 3>& std_of) {
+double place_std(PeakPlace place, const Three& three, const std::array<double, 3>& std_of) {
   constexpr double kStep = 1e-4;
   double variance = 0.0;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -152,8 +143,7 @@ double place_std(PeakPlace place, Feature feature, const Three& three,
     Three down = three;
     up.log_power[i] += kStep;
     down.log_power[i] -= kStep;
-    const double slope =
-        (place_of(place, feature, up) - place_of(place, feature, down)) / (2.0 * kStep);
+    const double slope = (place_of(place, up) - place_of(place, down)) / (2.0 * kStep);
     variance += slope * slope * std_of[i] * std_of[i];
   }
   return std::sqrt(variance);
@@ -166,13 +156,15 @@ Levels wanted(std::span<const double> frequency_Hz, std::span<const double> powe
     const bool inside = frequency_Hz[k] >= settings.from_Hz && frequency_Hz[k] <= settings.to_Hz;
     if (!inside || !(power[k] > 0.0) || !std::isfinite(power[k])) continue;
     levels.frequency_Hz.push_back(frequency_Hz[k]);
+    levels.power.push_back(power[k]);
     levels.log_power.push_back(std::log(power[k]));
     levels.relative_std.push_back(relative_std[k]);
   }
   return levels;
 }
 
-SpectralFeature feature_at(const Levels& levels, std::size_t k, Feature feature, PeakPlace place) {
+SpectralFeature feature_at(const Levels& levels, std::size_t k, Feature feature,
+                           const PeakSettings& settings) {
   Three three{};
   std::array<double, 3> std_of{};
   for (std::size_t i = 0; i < 3; ++i) {
@@ -180,18 +172,23 @@ SpectralFeature feature_at(const Levels& levels, std::size_t k, Feature feature,
     three.log_power[i] = levels.log_power[k + i - 1];
     std_of[i] = levels.relative_std[k + i - 1];
   }
+  const PeakPlace place = settings.place;
   SpectralFeature made;
   made.feature = feature;
   made.line_Hz = levels.frequency_Hz[k];
   made.level_dB = kdB * levels.log_power[k];
-  made.frequency_Hz = made.line_Hz + place_of(place, feature, three);
-  made.frequency_uncertainty_Hz = place == PeakPlace::on_line
-                                      ? 0.25 * (three.from_middle_Hz[2] - three.from_middle_Hz[0])
-                                      : place_std(place, feature, three, std_of);
-  // curvature/2 ((x - x0)^2 + half_width^2) has the value curvature/2 half_width^2 at its vertex.
-  const Parabola shape = resonance_parabola(feature, three);
-  if (shape.curvature > 0.0 && shape.value > 0.0) {
-    made.damping_ratio = std::sqrt(2.0 * shape.value / shape.curvature) / made.frequency_Hz;
+  made.frequency_Hz = made.line_Hz + place_of(place, three);
+  made.frequency_uncertainty_Hz = place == PeakPlace::log_parabola || place == PeakPlace::hann_line
+                                      ? place_std(place, three, std_of)
+                                      : 0.25 * (three.from_middle_Hz[2] - three.from_middle_Hz[0]);
+  const auto shape = resonance_parabola(levels.frequency_Hz, levels.power, levels.relative_std,
+                                        feature, k, settings.shared_variance);
+  if (!shape) return made;
+  made.damping_ratio = shape->half_width_Hz / shape->place_Hz;
+  made.damping_ratio_std = shape->half_width_std_Hz / shape->place_Hz;
+  if (place == PeakPlace::resonance) {
+    made.frequency_Hz = shape->place_Hz;
+    made.frequency_uncertainty_Hz = shape->place_std_Hz;
   }
   return made;
 }
@@ -220,7 +217,7 @@ std::vector<SpectralFeature> peaks_and_valleys(std::span<const double> frequency
       if (!chance.exceeded_by(prominence, levels.relative_std[high], levels.relative_std[low])) {
         continue;
       }
-      SpectralFeature made = feature_at(levels, k, feature, settings.place);
+      SpectralFeature made = feature_at(levels, k, feature, settings);
       if (made.damping_ratio > settings.most_damping_ratio) continue;
       made.prominence_dB = kdB * prominence;
       found.push_back(made);
@@ -255,6 +252,9 @@ ModalTable modal_table(const arm::Sensor& sensor, std::span<const SpectralFeatur
     constexpr double kHasAPeak = 0.7;
     if (is_pole && found.damping_ratio && *found.damping_ratio < kHasAPeak) {
       entry.damping_ratio = found.damping_ratio;
+      entry.damping_ratio_std = found.damping_ratio_std;
+    }
+    if (entry.damping_ratio && place != PeakPlace::on_line) {
       entry.frequency_Hz = natural_frequency_Hz(found.frequency_Hz, *found.damping_ratio,
                                                 arm::derivative_order(sensor));
     }

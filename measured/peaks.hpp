@@ -12,9 +12,7 @@ namespace flexarm::measured {
 enum class PeakPlace {
   on_line,       ///< the highest line, as the paper has it
   log_parabola,  ///< top of the parabola through the logarithms of three lines
-  resonance,     ///< the same through 1/power at a peak, power at a valley: of one mode
-                 ///< |G|^-2 is |s_k^2 + omega^2|^2, a parabola near the pole. For peaks of
-                 ///< several lines' width
+  resonance,     ///< that of the parabola of measured/resonance_parabola.hpp: a mode's own shape
   hann_line,     ///< of a sine through a Hann window, from the larger neighbour. For peaks
                  ///< narrower than a line
 };
@@ -34,6 +32,8 @@ struct PeakSettings {
   /// this probability, over all of its lines.
   double false_alarm_rate = 0.01;
   double least_prominence_dB = 1.0;  ///< further, whatever the noise
+  /// Of lines that are not independent (`shared_line_variance`), for standard errors.
+  double shared_variance = 1.0;
   /// A broader feature is none: a maximum between two zeros, a minimum between two poles.
   double most_damping_ratio = 0.25;
 };
@@ -42,21 +42,22 @@ struct PeakSettings {
 struct SpectralFeature {
   Feature feature = Feature::pole;  ///< a maximum is taken for a pole, a minimum for a zero
   double frequency_Hz = 0.0;        ///< as `PeakSettings::place` asks
-  /// On the line: half the spacing of lines, the resolution. Else the standard deviation that the
-  /// noise of the three levels makes; what the model of the peak's shape leaves out comes on top.
+  /// On the line: half the spacing of lines, the resolution. Else its standard deviation by the
+  /// noise of the levels used; what the model of the peak's shape leaves out comes on top.
   double frequency_uncertainty_Hz = 0.0;
   double line_Hz = 0.0;
   double level_dB = 0.0;  ///< of that line
   double prominence_dB =
       0.0;  ///< above the higher of the saddles to both sides; of a valley, below
   /// Half of the width between the half-power points (of a valley, of double power) over the
-  /// frequency, as the parabola of `PeakPlace::resonance` has it; empty where it is narrower than
-  /// the lines tell. The window widens it.
+  /// frequency, by measured/resonance_parabola.hpp; empty where there is none. The window widens
+  /// it, and random torque makes an autopower spectrum ragged.
   std::optional<double> damping_ratio;
+  std::optional<double> damping_ratio_std;
 };
 
 /// Peaks and valleys of a positive spectrum of power (an autopower spectrum, or |H|^2), ascending
-/// in frequency; frequencies ascend, evenly spaced unless `on_line`. `relative_std` is each power's
+/// in frequency; frequencies ascend. `relative_std` is each power's
 /// standard deviation relative to itself, 0 for exact ones. Values that are not finite or 0 are
 /// passed over.
 ///
@@ -78,7 +79,8 @@ std::vector<SpectralFeature> peaks_and_valleys(std::span<const double> frequency
 double natural_frequency_Hz(double peak_Hz, double damping_ratio, int derivative_order);
 
 /// The features of one sensor's spectrum as rows of a modal table, poles and zeros each numbered
-/// from 1. Of a pole with a damping ratio the frequency is corrected for it, of others not. A
+/// from 1. Of a pole with a damping ratio the frequency is corrected for it, of others not, nor
+/// where it is on the line. A
 /// resolution counts as a uniform distribution: its standard deviation is half of it over sqrt(3).
 ModalTable modal_table(const arm::Sensor& sensor, std::span<const SpectralFeature> features,
                        PeakPlace place);

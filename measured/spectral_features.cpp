@@ -21,7 +21,10 @@ std::vector<SensorFeatures> spectral_features(const FrequencyResponseEstimate& e
   PeakSettings of_autopower = settings;
   of_autopower.noise =
       estimate.settings.periodic ? PowerNoise::additive : PowerNoise::multiplicative;
-  PeakSettings of_response = settings;
+  if (!estimate.settings.periodic) {
+    of_autopower.shared_variance = shared_line_variance(estimate.settings.plan.window);
+  }
+  PeakSettings of_response = of_autopower;
   of_response.noise = PowerNoise::additive;
   for (const auto& channel : estimate.channels) {
     std::vector<double> power;

@@ -130,8 +130,18 @@ void choose_segment(const TimeRecord& record, const SpectrumSettings& settings,
   const double period_s = sampling_period_s(record);
   const std::size_t samples = record.torque_N_m.size() - 2;
   SegmentPlan& plan = chosen.plan;
-  if (settings.segment_samples) {
-    plan.segment_samples = *settings.segment_samples;
+  if (settings.resolution_Hz) {
+    const double wanted = 1.0 / (*settings.resolution_Hz * period_s);
+    if (!(wanted >= 4.0 && wanted <= static_cast<double>(samples))) {
+      throw arm::out_of_range(
+          "resolution", *settings.resolution_Hz, "Hz",
+          fmt::format("from {:.4g} to {:.4g} Hz: one segment of the record or more, of 4 samples",
+                      1.0 / (static_cast<double>(samples) * period_s), 0.25 / period_s));
+    }
+    plan.segment_samples = static_cast<std::size_t>(std::llround(wanted));
+  }
+  if (settings.segment_samples) plan.segment_samples = *settings.segment_samples;
+  if (settings.segment_samples || settings.resolution_Hz) {
     chosen.reports.push_back({"segment", in_samples(plan.segment_samples, period_s), "given"});
     return;
   }

@@ -79,6 +79,18 @@ double noise_bandwidth_lines(std::span<const double> window) {
   return static_cast<double>(window.size()) * squares / (sum * sum);
 }
 
+double shared_line_variance(Window window) {
+  // By Parseval's theorem the sum over lines is n sum w^4/(sum w^2)^2.
+  constexpr std::size_t kSamples = 64;  // any number beyond four times the window's highest line
+  double squares = 0.0;
+  double fourths = 0.0;
+  for (const double w : window_values(window, kSamples)) {
+    squares += w * w;
+    fourths += w * w * w * w;
+  }
+  return static_cast<double>(kSamples) * fourths / (squares * squares);
+}
+
 double overlap_correlation(std::span<const double> window, std::size_t shift) {
   if (shift >= window.size()) return 0.0;
   const double squares = std::inner_product(window.begin(), window.end(), window.begin(), 0.0);

@@ -24,6 +24,11 @@ std::vector<double> window_values(Window window, std::size_t samples);
 /// spectrum is that of this many lines. 1 for the rectangle, 3/2 for Hann.
 double noise_bandwidth_lines(std::span<const double> window);
 
+/// Sum over lines of the correlation of their powers with one line's, for noise behind the window:
+/// sum_m |sum_j w_j^2 exp(2 pi i m j/n)|^2/(sum w^2)^2. A mean over many lines varies by this more
+/// than one over as many independent ones: 1 for the rectangle, 35/18 for Hann.
+double shared_line_variance(Window window);
+
 /// sum_j w_j w_{j + shift}/sum w^2: what the transforms of two segments of white noise that lie
 /// `shift` samples apart have in common (Welch 1967).
 double overlap_correlation(std::span<const double> window, std::size_t shift);

@@ -128,15 +128,16 @@ const std::vector<std::string>& excitation_names() {
   return names;
 }
 
-Excitation excitation_of(std::string_view typed) {
+Excitation excitation_of(std::string_view typed, const std::vector<std::string>& further) {
   for (const Excitation& excitation :
        {Excitation(BangBang{}), Excitation(Step{}), Excitation(RandomNoise{}),
         Excitation(Multisine{}), Excitation(Chirp{})}) {
     if (name(excitation) == typed) return excitation;
   }
+  std::vector<std::string> allowed = excitation_names();
+  allowed.insert(allowed.end(), further.begin(), further.end());
   throw InputError(fmt::format("excitation {}: unknown{}; allowed: {}", arm::shown(typed),
-                               arm::did_you_mean(typed, excitation_names()),
-                               fmt::join(excitation_names(), ", ")));
+                               arm::did_you_mean(typed, allowed), fmt::join(allowed, ", ")));
 }
 
 std::vector<ExcitationKey> keys_of(const Excitation& excitation) {

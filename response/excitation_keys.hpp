@@ -19,8 +19,8 @@ struct ExcitationKey {
 const std::vector<std::string>& excitation_names();
 
 /// The excitation of that name with its defaults. Throws InputError for an unknown one, with the
-/// name that was probably meant.
-Excitation excitation_of(std::string_view name);
+/// name that was probably meant, which may be one of `further`.
+Excitation excitation_of(std::string_view name, const std::vector<std::string>& further = {});
 
 /// Its numbers, in the order of its members.
 std::vector<ExcitationKey> keys_of(const Excitation& excitation);

@@ -2,6 +2,7 @@
 
 #include "arm/input_error.hpp"
 #include "arm/linear_arm.hpp"
+#include "response/sensor_readings.hpp"
 #include "response/simulation_input.hpp"
 #include "response/time_stepper.hpp"
 
@@ -31,83 +32,37 @@ arm::InputError too_large(const std::string& what, double time_s) {
                   what, time_s));
 }
 
-/// The readings of one system, stacked.
-struct Readings {
-  explicit Readings(const LinearSystem& system)
-      : state(static_cast<Index>(system.sensors.size()), system.a.rows()),
-        actuator(state.rows()),
-        force(state.rows(), system.force.cols()) {
-    for (Index j = 0; j < state.rows(); ++j) {
-      const Reading& reading = system.sensors[static_cast<std::size_t>(j)];
-      state.row(j) = reading.state;
-      actuator(j) = reading.actuator;
-      force.row(j) = reading.force;
-    }
-  }
-
-  Eigen::MatrixXd state;
-  Eigen::VectorXd actuator;
-  Eigen::MatrixXd force;
-};
-
 /// Writes what is seen of a TimeStepper at the samples.
 class Recorder {
  public:
   Recorder(const ModalDynamics& arm, const ArmParts& parts, std::span<const arm::Sensor> sensors,
            std::size_t samples)
-      : sensors_(sensors.begin(), sensors.end()),
-        turning_(arm.turning),
-        held_(arm.held),
-        now_(turning_.state.rows()) {
+      : sensors_(sensors.begin(), sensors.end()), readings_(arm, parts, sensors) {
     made_.time_s.reserve(samples);
     made_.commanded_torque_N_m.reserve(samples);
     made_.hub_torque_N_m.reserve(samples);
     made_.channels.resize(sensors.size());
-    for (std::size_t j = 0; j < sensors.size(); ++j) {
-      made_.channels[j].reserve(samples);
-      const bool is_lagged = parts.sensor_lag && parts.sensor_lag->sensor == sensors[j] &&
-                             parts.sensor_lag->time_constant_s > 0.0;
-      if (is_lagged) continue;
-      if (sensors[j].kind == arm::SensorKind::hub_angle) hub_angles_.push_back(j);
-      if (sensors[j].kind == arm::SensorKind::hub_velocity) hub_velocities_.push_back(j);
-    }
+    for (auto& channel : made_.channels) channel.reserve(samples);
   }
 
   void record(const TimeStepper& stepper, double time_s, double command_N_m, double actuator_N_m) {
     made_.time_s.push_back(time_s);
     made_.commanded_torque_N_m.push_back(command_N_m);
     made_.hub_torque_N_m.push_back(stepper.hub_torque_N_m(actuator_N_m));
-    const bool is_held = stepper.motion() == HubMotion::held;
-    const Readings& readings = is_held ? held_ : turning_;
-    now_.noalias() = readings.state * stepper.state();
-    now_ += readings.actuator * actuator_N_m;
-    now_.noalias() += readings.force * stepper.force();
-    require_finite(time_s);
+    if (!std::isfinite(made_.hub_torque_N_m.back())) throw too_large("torque at the hub", time_s);
+    const Eigen::VectorXd& now = readings_.read(stepper, actuator_N_m);
     for (std::size_t j = 0; j < made_.channels.size(); ++j) {
-      made_.channels[j].push_back(now_(static_cast<Index>(j)));
+      const double reading = now(static_cast<Index>(j));
+      if (!std::isfinite(reading)) throw too_large(arm::to_string(sensors_[j]), time_s);
+      made_.channels[j].push_back(reading);
     }
-    if (!is_held) return;
-    for (const std::size_t j : hub_angles_) made_.channels[j].back() = stepper.hub_angle();
-    for (const std::size_t j : hub_velocities_) made_.channels[j].back() = 0.0;
   }
 
   Simulation& made() { return made_; }
 
  private:
-  void require_finite(double time_s) const {
-    if (!std::isfinite(made_.hub_torque_N_m.back())) throw too_large("torque at the hub", time_s);
-    for (std::size_t j = 0; j < sensors_.size(); ++j) {
-      if (std::isfinite(now_(static_cast<Index>(j)))) continue;
-      throw too_large(arm::to_string(sensors_[j]), time_s);
-    }
-  }
-
   std::vector<arm::Sensor> sensors_;
-  Readings turning_;
-  Readings held_;
-  Eigen::VectorXd now_;
-  std::vector<std::size_t> hub_angles_;  // sensors that stand still with the hub
-  std::vector<std::size_t> hub_velocities_;
+  SensorReadings readings_;
   Simulation made_;
 };
 

@@ -138,6 +138,21 @@ void TimeStepper::take_up(double torque_N_m, double now_s) {
   record_event();
 }
 
+void TimeStepper::put(const Eigen::VectorXd& state, bool held) {
+  x_ = state;
+  start_ = Start::inside;
+  events_at_once_ = 0;
+  if (!has_friction_) return;
+  const double speed = arm_->hub_velocity(x_);
+  if (held || speed == 0.0) {
+    motion_ = HubMotion::held;
+    arm_->stop_hub(x_);
+    held_angle_rad_ = arm_->hub_angle(x_);
+  } else {
+    motion_ = turning_like(speed);
+  }
+}
+
 void TimeStepper::advance(const TorquePiece& piece, double now_s) {
   time_s_ = now_s;
   last_torque_N_m_ = piece.end_N_m;

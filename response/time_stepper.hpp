@@ -42,6 +42,10 @@ class TimeStepper {
   /// One piece, which begins now.
   void advance(const TorquePiece& piece, double now_s);
 
+  /// Goes on from another state; where there is friction the hub is held there with `held`, else it
+  /// turns as its speed says.
+  void put(const Eigen::VectorXd& state, bool held);
+
   const Eigen::VectorXd& state() const { return x_; }
   HubMotion motion() const { return motion_; }
   double hub_angle() const;

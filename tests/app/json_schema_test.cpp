@@ -1,5 +1,6 @@
 #include "tests/app/flexarm_fixture.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -154,6 +155,41 @@ TEST_F(JsonSchema, WhatImportWritesIsWhatTheDocumentSays) {
   const Ended ended = run({"import", "log.csv", "--json", "out.json"});
   EXPECT_EQ(ended.status, 0) << ended.errors;
   expect_as_documented({Json::parse(text_of("out.json"))}, "flexarm.import/1");
+}
+
+TEST_F(JsonSchema, WhatIdentifyWritesIsWhatTheDocumentSays) {
+  write("rig.toml", std::string(kSoftRoot) + "[damping]\nkelvin_voigt = 2e-4\n");
+  EXPECT_EQ(run({"simulate", "rig.toml", "--period", "0.005", "--duration", "20", "--noise",
+                 "0.005", "--sensor", "hub_velocity,tip_acceleration", "--excitation",
+                 "multisine:rms=0.05,period=5,detection=4,to=60", "--excitation",
+                 "random:rms=0.05,payload=0.06", "--out", "sim"})
+                .status,
+            0);
+  const auto identified = [&](const std::string& file, const std::string& sensors) {
+    const Ended ended = run({"identify", file, "--json", "out.json", "--sensor", sensors});
+    EXPECT_EQ(ended.status, 0) << ended.errors;
+    return Json::parse(text_of("out.json"));
+  };
+  std::vector<Json> documents = {
+      identified("sim/measurement.toml", "hub_velocity,tip_acceleration")};
+  // A dead sensor, a torque that is none, no gains, a table of which one frequency is missing.
+  write(
+      "dead.csv", "time [s],torque [N m],hub_angle [rad],tip_acceleration [m/s^2]\n" + [&] {
+        std::string rows;
+        for (int k = 0; k < 400; ++k) {
+          rows += fmt::format("{},{},0.5,{}\n", 0.005 * k, k % 3 - 1.0, (k * k) % 17 - 8.0);
+        }
+        return rows;
+      }());
+  write("none.csv", "time [s],torque [N m],hub_angle [rad]\n0,0,0\n0.1,0,0\n0.2,0,0\n");
+  write("modal.csv",
+        "sensor,feature,order,frequency [Hz]\nhub_angle,pole,1,\nhub_angle,pole,2,30\n");
+  write("measurement.toml",
+        "arm = \"rig.toml\"\n[[run]]\nid = \"dead\"\nkind = \"time\"\nfile = \"dead.csv\"\n"
+        "[[run]]\nid = \"none\"\nkind = \"time\"\nfile = \"none.csv\"\n"
+        "[[run]]\nid = \"table\"\nkind = \"modal\"\nfile = \"modal.csv\"\n");
+  documents.push_back(identified("measurement.toml", "hub_angle,tip_acceleration"));
+  expect_as_documented(documents, "flexarm.identify/1");
 }
 
 TEST_F(JsonSchema, WhatSimulateWritesIsWhatTheDocumentSays) {

@@ -76,6 +76,15 @@ FrequencyChannel one_mode(const char* sensor, double zeta, double residue, Compl
   return channel;
 }
 
+TEST(NyquistCircleOfOneMode, IsDrawnOnceFromARaggedPeak) {
+  auto channel = one_mode("hub_velocity", 0.02, 1.0, 0.0);
+  // Two points near the top are lost: two peaks of one resonance.
+  for (const std::size_t k : {197U, 203U}) channel.response[k] *= 0.3;
+  const auto found = nyquist_circles(channel);
+  ASSERT_EQ(found.circles.size(), 1U);
+  EXPECT_NEAR(found.circles[0].natural_frequency_Hz, kNatural_Hz, 0.02 * kNatural_Hz);
+}
+
 TEST(NyquistCircleOfOneMode, IsExactInEverySensorsForm) {
   for (const char* sensor : {"hub_angle", "hub_velocity", "tip_acceleration"}) {
     for (const double zeta : {1e-3, 0.02, 0.15}) {

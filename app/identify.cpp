@@ -1,0 +1,290 @@
+#include "app/arm_choice.hpp"
+#include "app/command.hpp"
+#include "app/identified_files.hpp"
+#include "app/interruption.hpp"
+#include "app/output_choice.hpp"
+#include "app/spectrum_choice.hpp"
+#include "app/standard_output.hpp"
+#include "arm/arm_file.hpp"
+#include "arm/atomic_file.hpp"
+#include "arm/input_error.hpp"
+#include "arm/nearest_name.hpp"
+#include "compare/identification.hpp"
+#include "measured/identification.hpp"
+#include "report/arm_json.hpp"
+#include "report/identification_json.hpp"
+#include "report/identification_tables.hpp"
+#include "report/identified_root_tables.hpp"
+#include "report/json_document.hpp"
+#include "report/progress.hpp"
+#include "report/text_table.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace flexarm::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Steps of the progress line.
+constexpr std::int64_t kProgressSteps = 100;
+
+struct Arguments {
+  std::string file;
+  std::vector<std::string> runs;
+  std::vector<std::string> sensors;
+  SpectrumChoice spectrum;
+  bool no_fit = false;
+  std::optional<int> modes;
+  std::optional<double> from_Hz;
+  std::optional<double> to_Hz;
+  int highest_order = 32;
+  OutputChoice output;
+};
+
+/// The runs asked for, all unless told. Throws InputError for one that there is not.
+std::vector<measured::Run> chosen_runs(const Arguments& arguments,
+                                       const measured::Measurement& measurement) {
+  if (arguments.runs.empty()) return measurement.runs;
+  std::vector<std::string> ids;
+  for (const auto& run : measurement.runs) ids.push_back(run.id);
+  std::vector<measured::Run> chosen;
+  for (const auto& id : arguments.runs) {
+    const auto at = std::ranges::find(measurement.runs, id, &measured::Run::id);
+    if (at == measurement.runs.end()) {
+      throw arm::InputError(fmt::format("--run {}: {} has no such run{}; it has {}", arm::shown(id),
+                                        arguments.file, arm::did_you_mean(id, ids),
+                                        fmt::join(ids, ", ")));
+    }
+    chosen.push_back(*at);
+  }
+  return chosen;
+}
+
+/// Leaves the sensors asked for in the data, all unless told. Throws InputError where none of the
+/// runs has one.
+void select_sensors(const Arguments& arguments, std::vector<measured::MeasuredRun>& runs) {
+  std::vector<arm::Sensor> wanted;
+  for (const auto& name : arguments.sensors) wanted.push_back(arm::parse_sensor(name));
+  if (wanted.empty()) return;
+  std::vector<bool> seen(wanted.size(), false);
+  const auto unwanted = [&](const arm::Sensor& sensor) {
+    const auto at = std::ranges::find(wanted, sensor);
+    if (at == wanted.end()) return true;
+    seen[static_cast<std::size_t>(at - wanted.begin())] = true;
+    return false;
+  };
+  for (auto& run : runs) {
+    if (auto* table = std::get_if<measured::ModalTable>(&run.data)) {
+      std::erase_if(*table,
+                    [&](const auto& entry) { return entry.sensor && unwanted(*entry.sensor); });
+      continue;
+    }
+    std::visit(
+        [&](auto& record) {
+          if constexpr (requires { record.channels; }) {
+            std::erase_if(record.channels,
+                          [&](const auto& channel) { return unwanted(channel.sensor); });
+          }
+        },
+        run.data);
+  }
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    if (!seen[i]) {
+      throw arm::InputError(fmt::format("--sensor {}: no run measured it", arguments.sensors[i]));
+    }
+  }
+}
+
+measured::IdentificationOptions options_of(const Arguments& arguments, const arm::Arm& arm) {
+  measured::IdentificationOptions options;
+  options.spectrum = arguments.spectrum.settings();
+  options.peaks.place = arguments.spectrum.place();
+  options.check.length_m = arm.beam.length_m;
+  options.check.total_inertia_kg_m2 = arm::total_inertia_kg_m2(arm);
+  options.fit = !arguments.no_fit;
+  if (arguments.modes && *arguments.modes < 1) {
+    throw arm::out_of_range("--modes", *arguments.modes, "", "1 or more");
+  }
+  if (arguments.highest_order < 2 || arguments.highest_order > 100) {
+    throw arm::out_of_range("--order", arguments.highest_order, "", "2 to 100");
+  }
+  options.modal_fit.modes = arguments.modes;
+  options.modal_fit.highest_order = arguments.highest_order;
+  options.modal_fit.rigid_body =
+      !arm.effects.contains("hub_spring") && !arm.effects.contains("gravity");
+  if (arguments.from_Hz || arguments.to_Hz) {
+    const double from_Hz = arguments.from_Hz.value_or(0.0);
+    if (!(from_Hz >= 0.0)) throw arm::out_of_range("--from-Hz", from_Hz, "Hz", "0 or more");
+    if (!arguments.to_Hz || !(*arguments.to_Hz > from_Hz)) {
+      throw arm::InputError(fmt::format("--to-Hz: must be given, and above {:g} Hz", from_Hz));
+    }
+    options.modal_fit.band = {from_Hz, *arguments.to_Hz};
+    options.peaks.from_Hz = from_Hz;
+    options.peaks.to_Hz = *arguments.to_Hz;
+  }
+  return options;
+}
+
+/// Identifies with a line of progress, and ends the program where Ctrl-C came.
+measured::Identification identify_with_progress(std::vector<measured::MeasuredRun> runs,
+                                                measured::IdentificationOptions options) {
+  const Interruption interruption;
+  report::Progress progress("per cent of the identification", kProgressSteps);
+  std::int64_t shown = 0;
+  options.progress = [&](std::string_view, double fraction) {
+    const auto now = static_cast<std::int64_t>(std::floor(fraction * kProgressSteps));
+    if (now > shown) {
+      progress.advance(now - shown);
+      shown = now;
+    }
+    return !interruption.requested();
+  };
+  auto identification = measured::identify(std::move(runs), options);
+  if (interruption.requested()) interruption.end_program();
+  return identification;
+}
+
+std::string table_text(const report::Table& table, std::size_t key_columns) {
+  if (table.rows.empty()) return "";
+  return report::to_text(table, {.key_columns = key_columns}) + "\n";
+}
+
+std::string fit_text(const measured::RunsFit& fit, const measured::Identification& identification,
+                     const compare::AnalyticalModes& analytical) {
+  if (!fit.refusal.empty()) return "";
+  std::string text = report::to_paragraph(
+      fmt::format("Fit of {}, {:.4g} to {:.4g} Hz: {} modes and {} other blocks; {}{}",
+                  report::joined(report::ids_of(fit, identification)), fit.fit.band.from_Hz,
+                  fit.fit.band.to_Hz,
+                  std::ranges::count(fit.fit.poles, true, &measured::FittedPole::is_mode),
+                  std::ranges::count(fit.fit.poles, false, &measured::FittedPole::is_mode),
+                  fit.fit.order_reason, fit.fit.converged ? "" : "; not converged"),
+      2);
+  if (fit.fit.robust_covariance) {
+    text += report::to_paragraph(
+        "  Standard errors allow for residuals that are not white noise; they are of the best "
+        "model of this kind.",
+        2);
+  }
+  text += "\n" + table_text(report::residual_table(fit), 1);
+  return text + table_text(report::gain_table(fit, analytical), 4);
+}
+
+std::string results_text(const measured::Identification& identification,
+                         const std::vector<compare::IdentifiedCondition>& conditions) {
+  std::string text;
+  for (const auto& note : report::data_notes(identification)) {
+    text += report::to_paragraph("note: " + note, 2);
+  }
+  if (!text.empty()) text += "\n";
+  for (const auto& run : identification.runs) {
+    if (run.estimate) {
+      text += fmt::format("{}: spectra and frequency responses\n", run.run.id);
+      for (const auto& line : report::setting_lines(run)) {
+        text += report::to_paragraph("  " + line, 4);
+      }
+      text += "\n";
+    }
+    text += table_text(report::distortion_table(run), 1);
+  }
+  for (const auto& condition : conditions) {
+    if (conditions.size() > 1) {
+      text += fmt::format("Payload {:g} kg, {:g} kg m^2\n\n", condition.payload.mass_kg,
+                          condition.payload.inertia_kg_m2);
+    }
+    for (const auto& runs : report::sources(identification, condition)) {
+      const report::IdentifiedData data{identification, condition, runs};
+      for (const auto& table :
+           {report::pole_table(data), report::zero_table(data), report::damping_table(data)}) {
+        text += table_text(table, 2);
+      }
+      text += table_text(report::real_zero_table(data), 1);
+    }
+    for (const std::size_t f : condition.fits) {
+      text += fit_text(identification.fits[f], identification, condition.analytical);
+    }
+  }
+  return text;
+}
+
+int run(const Arguments& arguments) {
+  const measured::Measurement measurement = measured::read_measurement(arguments.file);
+  const fs::path arm_file = measured::beside(arguments.file, measurement.arm);
+  const arm::Arm arm = arm::read_arm_file(arm_file);
+  arm::require_valid(arm);
+  const auto options = options_of(arguments, arm);
+  std::vector<measured::MeasuredRun> runs;
+  for (const auto& run : chosen_runs(arguments, measurement)) {
+    runs.push_back({run, measured::read_run(arguments.file, run)});
+  }
+  select_sensors(arguments, runs);
+  arguments.output.prepare();
+
+  const auto identification = identify_with_progress(std::move(runs), options);
+  const auto conditions = compare::conditions_of(identification, arm);
+  if (!arguments.output.folder.empty()) {
+    write_identified_files(arguments.output.folder, identification, conditions);
+  }
+  if (!arguments.output.json_file.empty()) {
+    nlohmann::ordered_json document = {{"measurement", measurement.name},
+                                       {"arm", report::arm_json(arm)}};
+    document.update(report::identification_json(identification, conditions));
+    arm::write_atomically(arguments.output.json_file,
+                          report::json_document("flexarm.identify/1", document));
+  }
+  std::string text = describe(arm) + left_out_of_roots(arm) + "\n";
+  text += results_text(identification, conditions);
+  if (arguments.output.folder.empty()) {
+    text +=
+        fmt::format("next: figures and modal tables with  flexarm identify {} --out identified\n",
+                    arm::shown(arguments.file));
+  } else {
+    text += fmt::format("wrote {}\n", arguments.output.folder);
+  }
+  print(text);
+  return kSuccess;
+}
+
+}  // namespace
+
+Command add_identify(CLI::App& program) {
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App* parser = program.add_subcommand(
+      "identify", "Spectra, poles, zeros, damping, slopes and gains of measured data");
+  parser->add_option("FILE", arguments->file, "measurement.toml")->required()->check(not_empty());
+  parser->add_option("--run", arguments->runs, "Runs by id, separated by commas; all unless given")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  parser
+      ->add_option("--sensor", arguments->sensors, "Sensors, separated by commas; all unless given")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  add_spectrum_choice(*parser, arguments->spectrum);
+  parser->add_option("--from-Hz", arguments->from_Hz, "Lowest frequency of peaks and fits");
+  parser->add_option("--to-Hz", arguments->to_Hz,
+                     "Highest; where the torque has power unless given");
+  parser->add_option("--modes", arguments->modes,
+                     "Flexible blocks of a fit; as many as the data call for unless given");
+  parser->add_option("--order", arguments->highest_order, "Highest of the stabilisation chart")
+      ->capture_default_str();
+  parser->add_flag("--no-fit", arguments->no_fit, "Spectra, peaks and circles alone");
+  add_output_choice(*parser, arguments->output,
+                    "Folder for modal tables, responses as CSV, and figures as SVG");
+  parser->footer(example("flexarm identify simulated/measurement.toml --out identified"));
+  return {parser, [arguments] { return run(*arguments); }};
+}
+
+}  // namespace flexarm::app

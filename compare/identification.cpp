@@ -1,0 +1,215 @@
+#include "compare/identification.hpp"
+
+#include "compare/features.hpp"
+#include "compare/standard_models.hpp"
+#include "response/any_formulation.hpp"
+#include "response/response_study.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <utility>
+
+namespace flexarm::compare {
+
+namespace {
+
+using Complex = std::complex<double>;
+
+constexpr double kTwoPi = 2.0 * std::numbers::pi;
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+const arm::Sensor kTip{arm::SensorKind::tip_displacement, 0.0};
+
+AnalyticalPole pole_of(const arm::PolePair& pair) {
+  const Complex& first = pair.first_rad_per_s;
+  const Complex& second = pair.second_rad_per_s;
+  const double omega = std::sqrt(std::abs(first) * std::abs(second));
+  return {omega / kTwoPi, -(first + second).real() / (2.0 * omega)};
+}
+
+AnalyticalGains gains_of(const std::string& model, const response::AnyFormulation& formulation,
+                         int count) {
+  const auto modes = response::modal_model(formulation, count, std::span(&kTip, 1), {});
+  AnalyticalGains gains{model, modes.modal_mass_kg_m2, {}, {}};
+  for (std::size_t i = 1; i < modes.modes.size(); ++i) {
+    gains.hub_slope.push_back(modes.modes[i].hub_slope);
+    gains.tip_gain_m.push_back(modes.modes[i].sensor_values.front());
+  }
+  return gains;
+}
+
+/// Antiresonances [Hz], ascending.
+std::vector<double> antiresonances_Hz(const AnalyticalZeros& zeros) {
+  std::vector<double> frequencies;
+  for (const Complex& s : zeros.s_rad_per_s) {
+    if (s.real() == 0.0) frequencies.push_back(s.imag() / kTwoPi);
+  }
+  return frequencies;
+}
+
+/// Sets order and frequency of those among `roots` that stand for one of `analytical_Hz`.
+void match_with(const std::vector<double>& analytical_Hz,
+                const std::vector<IdentifiedRoot*>& roots) {
+  std::vector<Complex> reference(analytical_Hz.begin(), analytical_Hz.end());
+  std::vector<Complex> found;
+  for (const auto* root : roots) found.emplace_back(root->measured.frequency_Hz.value_or(kNaN));
+  const auto matched = match_nearest(reference, found);
+  for (std::size_t i = 0; i < matched.size(); ++i) {
+    if (!matched[i]) continue;
+    IdentifiedRoot& root =
+        *roots[static_cast<std::size_t>(std::ranges::find(found, *matched[i]) - found.begin())];
+    root.order = static_cast<int>(i) + 1;
+    root.analytical_Hz = analytical_Hz[i];
+  }
+}
+
+/// The highest frequency that the readings of a payload show [Hz].
+double highest_Hz(const measured::Identification& identification, const arm::Payload& payload,
+                  const arm::Arm& arm) {
+  double highest = 0.0;
+  for (const auto& reading : identification.readings) {
+    if (reading.payload.value_or(arm.payload) != payload) continue;
+    for (const auto& entry : reading.table) {
+      highest = std::max(highest, entry.frequency_Hz.value_or(0.0));
+    }
+  }
+  return highest;
+}
+
+void add_sensor(const arm::Sensor& sensor, std::vector<arm::Sensor>& sensors) {
+  if (std::ranges::find(sensors, sensor) == sensors.end()) sensors.push_back(sensor);
+}
+
+/// Of all runs and readings.
+std::vector<arm::Sensor> sensors_of(const measured::Identification& identification) {
+  std::vector<arm::Sensor> sensors;
+  for (const auto& run : identification.runs) {
+    for (const auto& channel : run.response.channels) add_sensor(channel.sensor, sensors);
+  }
+  for (const auto& reading : identification.readings) {
+    for (const auto& entry : reading.table) {
+      if (entry.sensor) add_sensor(*entry.sensor, sensors);
+    }
+  }
+  return sensors;
+}
+
+bool is_responsive(const arm::Sensor& sensor, const arm::Arm& arm) {
+  return sensor.kind != arm::SensorKind::strain || sensor.position_m < arm.beam.length_m ||
+         arm.payload.inertia_kg_m2 > 0.0;
+}
+
+}  // namespace
+
+AnalyticalModes analytical_modes(const arm::Arm& arm, std::span<const arm::Sensor> sensors,
+                                 double to_Hz) {
+  response::ResponseOptions wanted;
+  wanted.modes = 1;
+  wanted.to_Hz = to_Hz;
+  const int roots = response::roots_needed(arm, wanted);
+  const auto models = standard_models(roots);
+  AnalyticalModes analytical;
+  for (const auto& model : models) {
+    const auto formulation = model.make(arm);
+    if (analytical.gains.empty()) {
+      for (const auto& pair : response::damped_poles(formulation, roots).flexible) {
+        analytical.poles.push_back(pole_of(pair));
+        if (analytical.poles.back().frequency_Hz > to_Hz) break;
+      }
+      for (const auto& sensor : sensors) {
+        arm::require_valid(sensor, arm);
+        if (!is_responsive(sensor, arm)) continue;
+        analytical.zeros.push_back(
+            {sensor, response::zeros(formulation, sensor, roots).s_rad_per_s});
+      }
+    }
+    analytical.gains.push_back(
+        gains_of(model.name, formulation, static_cast<int>(analytical.poles.size())));
+  }
+  return analytical;
+}
+
+double IdentifiedRoot::error_percent() const {
+  if (!analytical_Hz || !measured.frequency_Hz) return kNaN;
+  return 100.0 * (*measured.frequency_Hz - *analytical_Hz) / *analytical_Hz;
+}
+
+std::vector<IdentifiedRoot> beside_analytical(const measured::ModalTable& table,
+                                              const AnalyticalModes& analytical) {
+  std::vector<IdentifiedRoot> roots;
+  roots.reserve(table.size());
+  for (const auto& entry : table) roots.push_back({entry, {}, {}, {}});
+  const auto select = [&](measured::Feature feature, const std::optional<arm::Sensor>& sensor) {
+    std::vector<IdentifiedRoot*> selected;
+    for (auto& root : roots) {
+      if (root.measured.feature == feature && root.measured.sensor == sensor) {
+        selected.push_back(&root);
+      }
+    }
+    return selected;
+  };
+  std::vector<std::optional<arm::Sensor>> owners = {std::nullopt};
+  for (const auto& entry : table) {
+    if (std::ranges::find(owners, entry.sensor) == owners.end()) owners.push_back(entry.sensor);
+  }
+  std::vector<double> poles_Hz;
+  for (const auto& pole : analytical.poles) poles_Hz.push_back(pole.frequency_Hz);
+  for (const auto& owner : owners) {
+    match_with(poles_Hz, select(measured::Feature::pole, owner));
+    if (!owner) continue;
+    const auto zeros = std::ranges::find(analytical.zeros, *owner, &AnalyticalZeros::sensor);
+    if (zeros == analytical.zeros.end()) continue;
+    match_with(antiresonances_Hz(*zeros), select(measured::Feature::zero, owner));
+  }
+  for (auto& root : roots) {
+    if (root.order && root.measured.feature == measured::Feature::pole) {
+      root.analytical_damping_ratio =
+          analytical.poles[static_cast<std::size_t>(*root.order - 1)].damping_ratio;
+    }
+  }
+  return roots;
+}
+
+measured::ModalTable in_analytical_order(const std::vector<IdentifiedRoot>& roots) {
+  measured::ModalTable table;
+  for (const auto& root : roots) {
+    if (!root.order) continue;
+    table.push_back(root.measured);
+    table.back().order = *root.order;
+  }
+  return table;
+}
+
+std::vector<IdentifiedCondition> conditions_of(const measured::Identification& identification,
+                                               const arm::Arm& arm) {
+  std::vector<IdentifiedCondition> conditions;
+  const auto condition_of = [&](const std::optional<arm::Payload>& payload) -> auto& {
+    const arm::Payload own = payload.value_or(arm.payload);
+    const auto at = std::ranges::find(conditions, own, &IdentifiedCondition::payload);
+    if (at != conditions.end()) return *at;
+    conditions.push_back({own, {}, {}, {}, {}});
+    return conditions.back();
+  };
+  for (const auto& run : identification.runs) condition_of(run.run.payload);
+  const auto sensors = sensors_of(identification);
+  for (auto& condition : conditions) {
+    arm::Arm loaded = arm;
+    loaded.payload = condition.payload;
+    condition.analytical =
+        analytical_modes(loaded, sensors, highest_Hz(identification, condition.payload, arm));
+  }
+  for (std::size_t i = 0; i < identification.readings.size(); ++i) {
+    const auto& reading = identification.readings[i];
+    auto& condition = condition_of(reading.payload);
+    condition.readings.push_back(i);
+    condition.roots.push_back(beside_analytical(reading.table, condition.analytical));
+  }
+  for (std::size_t i = 0; i < identification.fits.size(); ++i) {
+    condition_of(identification.fits[i].payload).fits.push_back(i);
+  }
+  return conditions;
+}
+
+}  // namespace flexarm::compare

@@ -1,0 +1,79 @@
+#pragma once
+
+#include "arm/arm.hpp"
+#include "arm/sensor.hpp"
+#include "measured/identification.hpp"
+
+#include <complex>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace flexarm::compare {
+
+/// What one formulation says of the modes, modal mass I_T.
+struct AnalyticalGains {
+  std::string model;  ///< "exact_tf"
+  double total_inertia_kg_m2 = 0.0;
+  std::vector<double> hub_slope;   ///< phi_i'(0), one a mode
+  std::vector<double> tip_gain_m;  ///< phi_i(l)
+};
+
+struct AnalyticalPole {
+  double frequency_Hz = 0.0;  ///< |s|/(2 pi), of two real ones their geometric mean
+  double damping_ratio = 0.0;
+};
+
+/// Zeros with Re s >= 0, Im s >= 0, undamped, ascending in |s|.
+struct AnalyticalZeros {
+  arm::Sensor sensor;
+  std::vector<std::complex<double>> s_rad_per_s;
+};
+
+/// What an arm, in its linear effects, should show of a measurement; poles and zeros by exact_tf.
+struct AnalyticalModes {
+  std::vector<AnalyticalPole> poles;
+  std::vector<AnalyticalZeros> zeros;
+  std::vector<AnalyticalGains> gains;  ///< exact_tf, fem, assumed_modes
+};
+
+/// Poles and modes to the first one beyond `to_Hz`, zeros of each sensor that shows any.
+/// Throws InputError as the formulations do.
+AnalyticalModes analytical_modes(const arm::Arm& arm, std::span<const arm::Sensor> sensors,
+                                 double to_Hz);
+
+/// A measured pole or zero with the analytical one that it stands for.
+struct IdentifiedRoot {
+  measured::ModalEntry measured;
+  std::optional<int> order;  ///< from 1; of zeros among the antiresonances; empty: there is none
+  std::optional<double> analytical_Hz;
+  std::optional<double> analytical_damping_ratio;  ///< of poles
+
+  /// 100 (measured - analytical)/analytical; NaN where either is unknown.
+  double error_percent() const;
+};
+
+/// Nearest pairs first, each root once, no further apart than `kNearest` (compare/features.hpp).
+/// Measured zeros are antiresonances, and stand beside zeros on the imaginary axis.
+std::vector<IdentifiedRoot> beside_analytical(const measured::ModalTable& table,
+                                              const AnalyticalModes& analytical);
+
+/// The entries that stand for an analytical root, with its order: a table that `compare --measured`
+/// and `diagnose` read.
+measured::ModalTable in_analytical_order(const std::vector<IdentifiedRoot>& roots);
+
+/// The condition of a payload: readings and fits with it, and what is expected of them.
+struct IdentifiedCondition {
+  arm::Payload payload;
+  AnalyticalModes analytical;
+  std::vector<std::size_t> readings;  ///< indices of measured::Identification::readings
+  std::vector<std::vector<IdentifiedRoot>> roots;  ///< of each of these
+  std::vector<std::size_t> fits;                   ///< indices
+};
+
+/// One a payload, in the order of the runs. `arm` has the payload of runs without one of their own.
+std::vector<IdentifiedCondition> conditions_of(const measured::Identification& identification,
+                                               const arm::Arm& arm);
+
+}  // namespace flexarm::compare

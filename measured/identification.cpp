@@ -1,0 +1,285 @@
+#include "measured/identification.hpp"
+
+#include "arm/input_error.hpp"
+#include "measured/start_spectra.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+namespace flexarm::measured {
+
+namespace {
+
+/// Sampling periods of runs that are fitted together differ by less than this part.
+constexpr double kSamePeriod = 1e-9;
+constexpr double kGap = 8.0;
+/// Half the width of a window's main lobe, in lines.
+constexpr double kWindowLines = 2.0;
+/// Damping ratio above which a fitted zero is no antiresonance.
+constexpr double kMostZeroDamping = 0.25;
+/// Share of the work that a run's spectra are, beside 1 for the fit of each.
+constexpr double kSpectraShare = 0.2;
+
+bool is_dead(const DataFinding& finding) {
+  return finding.fault == Fault::dead_channel;
+}
+
+/// Takes the dead channels out of the record and names them in `made`.
+void leave_out_dead_channels(TimeRecord& record, RunIdentification& made) {
+  std::erase_if(record.channels, [&](const Channel& channel) {
+    const std::string name = arm::to_string(channel.sensor);
+    const bool dead = std::ranges::any_of(made.findings, [&](const DataFinding& finding) {
+      return is_dead(finding) && finding.channel == name;
+    });
+    if (dead) made.left_out.push_back(channel.sensor);
+    return dead;
+  });
+}
+
+const DataFinding* find_fault(const RunIdentification& made, Fault fault) {
+  const auto at = std::ranges::find(made.findings, fault, &DataFinding::fault);
+  return at == made.findings.end() ? nullptr : &*at;
+}
+
+void read_circles(RunIdentification& made, const CircleSettings& settings) {
+  for (const FrequencyChannel& channel : made.response.channels) {
+    made.circles.push_back({channel.sensor, nyquist_circles(channel, settings)});
+  }
+}
+
+/// Where the torque has power, less the window's width: a spectrum falls at the ends of that, and
+/// so has a maximum near them.
+PeakSettings driven_peaks(PeakSettings peaks, const TimeRecord& record,
+                          const FrequencyResponseEstimate& estimate) {
+  const double width_Hz = estimate.settings.periodic ? 0.0 : kWindowLines * estimate.spacing_Hz;
+  const FitBand band = excited_band(record);
+  peaks.from_Hz = std::max(peaks.from_Hz, band.from_Hz + width_Hz);
+  peaks.to_Hz = std::min(peaks.to_Hz, band.to_Hz - width_Hz);
+  return peaks;
+}
+
+void study_time_run(TimeRecord& record, const IdentificationOptions& options,
+                    RunIdentification& made) {
+  DataCheckOptions check = options.check;
+  check.starts_at_rest = made.run.initial == InitialState::rest;
+  made.findings = check_data(record, check);
+  leave_out_dead_channels(record, made);
+  if (const auto* finding = find_fault(made, Fault::zero_torque)) {
+    made.refusal = finding->text;
+    return;
+  }
+  if (record.channels.empty()) {
+    made.refusal = made.left_out.empty() ? "no sensor was measured" : "every channel is dead";
+    return;
+  }
+  SpectrumSettings spectrum = options.spectrum;
+  spectrum.hold = made.run.torque_hold;
+  made.estimate = estimate_frequency_response(record, spectrum);
+  made.features =
+      spectral_features(*made.estimate, driven_peaks(options.peaks, record, *made.estimate));
+  made.response = to_frequency_record(*made.estimate);
+  if (made.estimate->periodic) made.distortion = distortion(*made.estimate->periodic);
+  read_circles(made, options.circles);
+}
+
+/// Channels of a channel: a step in frequency above kGap times the one before begins another. A
+/// stepped sine often covers the surroundings of poles and zeros alone, and the edge of a band is
+/// no valley.
+std::vector<FrequencyChannel> bands_of(const FrequencyChannel& channel) {
+  std::vector<FrequencyChannel> bands;
+  const auto& frequency_Hz = channel.frequency_Hz;
+  for (std::size_t k = 0; k < frequency_Hz.size(); ++k) {
+    const bool begins = k == 0 || (bands.back().frequency_Hz.size() > 1 &&
+                                   frequency_Hz[k] - frequency_Hz[k - 1] >
+                                       kGap * (frequency_Hz[k - 1] - frequency_Hz[k - 2]));
+    if (begins) bands.push_back({channel.sensor, {}, {}, {}});
+    bands.back().frequency_Hz.push_back(frequency_Hz[k]);
+    bands.back().response.push_back(channel.response[k]);
+    bands.back().coherence.push_back(channel.coherence[k]);
+  }
+  return bands;
+}
+
+/// Peaks and valleys of a response as it was given. Coherence, where it is known, is taken for one
+/// of two averages.
+std::vector<SpectralFeature> features_of(const FrequencyChannel& band, PeakSettings settings) {
+  settings.noise = PowerNoise::additive;
+  std::vector<double> power;
+  std::vector<double> spread;
+  for (std::size_t k = 0; k < band.response.size(); ++k) {
+    power.push_back(std::norm(band.response[k]));
+    const bool known = !std::isnan(band.coherence[k]);
+    spread.push_back(known ? 2.0 * relative_response_std(band.coherence[k], 2.0) : 0.0);
+  }
+  return peaks_and_valleys(band.frequency_Hz, power, spread, settings);
+}
+
+void study_frequency_run(FrequencyRecord record, const IdentificationOptions& options,
+                         RunIdentification& made) {
+  made.response = std::move(record);
+  for (const FrequencyChannel& channel : made.response.channels) {
+    SensorFeatures features{channel.sensor, {}, {}};
+    for (const FrequencyChannel& band : bands_of(channel)) {
+      std::ranges::copy(features_of(band, options.peaks), std::back_inserter(features.response));
+    }
+    made.features.push_back(std::move(features));
+  }
+  read_circles(made, options.circles);
+}
+
+void read_off(const RunIdentification& made, PeakPlace place, std::vector<ModalReading>& readings) {
+  const auto add = [&](Method method, const arm::Sensor& sensor, ModalTable table) {
+    if (table.empty()) return;
+    readings.push_back({method, {made.run.id}, sensor, made.run.payload, std::move(table)});
+  };
+  for (const auto& features : made.features) {
+    add(Method::autopower, features.sensor,
+        modal_table(features.sensor, features.autopower, place));
+  }
+  for (const auto& features : made.features) {
+    add(Method::response, features.sensor, modal_table(features.sensor, features.response, place));
+  }
+  for (const auto& [sensor, set] : made.circles) {
+    add(Method::nyquist_circle, sensor, modal_table(sensor, set.circles));
+  }
+}
+
+/// A reading for each sensor of a table, that of poles of all sensors among them.
+void read_off(ModalReading reading, const ModalTable& table, std::vector<ModalReading>& readings) {
+  std::vector<std::optional<arm::Sensor>> sensors;
+  for (const ModalEntry& entry : table) {
+    if (std::ranges::find(sensors, entry.sensor) == sensors.end()) sensors.push_back(entry.sensor);
+  }
+  for (const auto& sensor : sensors) {
+    reading.sensor = sensor;
+    reading.table.clear();
+    std::ranges::copy_if(table, std::back_inserter(reading.table),
+                         [&](const ModalEntry& entry) { return entry.sensor == sensor; });
+    readings.push_back(reading);
+  }
+}
+
+std::vector<std::string> ids_of(const RunsFit& fitted, const std::vector<RunIdentification>& runs) {
+  std::vector<std::string> ids;
+  for (const std::size_t r : fitted.runs) ids.push_back(runs[r].run.id);
+  return ids;
+}
+
+bool fit_together(const MeasuredRun& a, const MeasuredRun& b) {
+  if (a.run.kind != RunKind::time || b.run.kind != RunKind::time) return false;
+  const double period_s = sampling_period_s(std::get<TimeRecord>(a.data));
+  return a.run.payload == b.run.payload && a.run.torque_hold == b.run.torque_hold &&
+         std::abs(sampling_period_s(std::get<TimeRecord>(b.data)) - period_s) <=
+             kSamePeriod * period_s;
+}
+
+std::vector<RunsFit> group_runs(const std::vector<MeasuredRun>& runs,
+                                const std::vector<RunIdentification>& studied) {
+  std::vector<RunsFit> groups;
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    if (!studied[r].refusal.empty() || runs[r].run.kind == RunKind::modal) continue;
+    const auto group = std::ranges::find_if(groups, [&](const RunsFit& fitted) {
+      return fit_together(runs[fitted.runs.front()], runs[r]);
+    });
+    if (group == groups.end()) {
+      groups.push_back({.runs = {r}, .payload = runs[r].run.payload});
+    } else {
+      group->runs.push_back(r);
+    }
+  }
+  return groups;
+}
+
+void fit(RunsFit& fitted, const std::vector<MeasuredRun>& runs, const ModalFitOptions& options) {
+  ModalFitOptions own = options;
+  const MeasuredRun& first = runs[fitted.runs.front()];
+  own.torque_hold = first.run.torque_hold;
+  own.initial.clear();
+  if (const auto* record = std::get_if<FrequencyRecord>(&first.data)) {
+    fitted.fit = fit_modes(*record, own);
+  } else {
+    std::vector<TimeRecord> records;
+    for (const std::size_t r : fitted.runs) {
+      records.push_back(std::get<TimeRecord>(runs[r].data));
+      own.initial.push_back(runs[r].run.initial);
+    }
+    fitted.fit = fit_modes(records, own);
+  }
+  if (fitted.fit.cancelled) return;
+  try {
+    fitted.gains = modal_gains(fitted.fit);
+  } catch (const arm::InputError& error) {
+    fitted.gains_refusal = error.what();
+  }
+}
+
+}  // namespace
+
+std::string_view to_string(Method method) {
+  constexpr std::array<std::string_view, 5> kNames = {"autopower", "response", "circle", "fit",
+                                                      "table"};
+  return kNames.at(static_cast<std::size_t>(method));
+}
+
+Identification identify(std::vector<MeasuredRun> runs, const IdentificationOptions& options) {
+  Identification made;
+  const auto count = static_cast<double>(runs.size());
+  const double spectra_share = options.fit ? kSpectraShare : 1.0;
+  const auto go_on = [&](const std::string& what, double fraction) {
+    return !options.progress || options.progress(what, fraction);
+  };
+  for (MeasuredRun& run : runs) {
+    const double done = static_cast<double>(made.runs.size()) / count;
+    if (!go_on("spectra of " + run.run.id, spectra_share * done)) return made;
+    RunIdentification studied{.run = run.run};
+    try {
+      if (auto* time = std::get_if<TimeRecord>(&run.data)) {
+        study_time_run(*time, options, studied);
+      } else if (const auto* frequency = std::get_if<FrequencyRecord>(&run.data)) {
+        study_frequency_run(*frequency, options, studied);
+      } else {
+        read_off({Method::table, {run.run.id}, std::nullopt, run.run.payload, {}},
+                 std::get<ModalTable>(run.data), made.readings);
+      }
+    } catch (const arm::InputError& error) {
+      studied.refusal = error.what();
+    }
+    read_off(studied, options.peaks.place, made.readings);
+    made.runs.push_back(std::move(studied));
+  }
+  if (!made.runs.empty() &&
+      std::ranges::none_of(made.runs, &std::string::empty, &RunIdentification::refusal)) {
+    throw arm::InputError(
+        fmt::format("run {}: {}", made.runs.front().run.id, made.runs.front().refusal));
+  }
+  if (!options.fit) return made;
+  auto groups = group_runs(runs, made.runs);
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    RunsFit& group = groups[g];
+    ModalFitOptions own = options.modal_fit;
+    own.progress = [&](double fraction) {
+      const double all = (static_cast<double>(g) + fraction) / static_cast<double>(groups.size());
+      return go_on("fit of " + made.runs[group.runs.front()].run.id,
+                   spectra_share + (1.0 - spectra_share) * all);
+    };
+    try {
+      fit(group, runs, own);
+    } catch (const arm::InputError& error) {
+      group.refusal = error.what();
+    }
+    if (group.fit.cancelled) return made;
+    if (group.refusal.empty()) {
+      read_off({Method::rational_fit, ids_of(group, made.runs), std::nullopt, group.payload, {}},
+               modal_table(group.fit, kMostZeroDamping), made.readings);
+    }
+    made.fits.push_back(std::move(group));
+  }
+  return made;
+}
+
+}  // namespace flexarm::measured

@@ -1,0 +1,103 @@
+#pragma once
+
+#include "measured/data_check.hpp"
+#include "measured/distortion.hpp"
+#include "measured/modal_fit.hpp"
+#include "measured/modal_gains.hpp"
+#include "measured/nyquist_circle.hpp"
+#include "measured/response_estimate.hpp"
+#include "measured/run_data.hpp"
+#include "measured/spectral_features.hpp"
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace flexarm::measured {
+
+/// A run of an experiment with what its file holds.
+struct MeasuredRun {
+  Run run;
+  RunData data;
+};
+
+/// How poles and zeros are read off.
+enum class Method {
+  autopower,       ///< peaks and valleys of autopower spectra: the paper's Tables 2 and 3
+  response,        ///< peaks and valleys of frequency responses: the same tables
+  nyquist_circle,  ///< circles of finely spaced responses: Tables 4 and 5
+  rational_fit,    ///< poles of all sensors at once, zeros of each: measured/modal_fit.hpp
+  table,           ///< of a `modal` run, as it is given
+};
+
+/// "autopower", "response", "circle", "fit", "table".
+std::string_view to_string(Method method);
+
+/// Poles and zeros by one method from one run, or from the runs of one fit.
+struct ModalReading {
+  Method method = Method::table;
+  std::vector<std::string> runs;      ///< ids
+  std::optional<arm::Sensor> sensor;  ///< empty: of all sensors at once
+  std::optional<arm::Payload> payload;
+  ModalTable table;
+
+  bool operator==(const ModalReading&) const = default;
+};
+
+struct SensorCircles {
+  arm::Sensor sensor;
+  CircleSet circles;
+};
+
+/// One run by itself.
+struct RunIdentification {
+  Run run;
+  std::string refusal = {};                ///< why nothing could be estimated; empty where it was
+  std::vector<DataFinding> findings = {};  ///< faults of a `time` run
+  std::vector<arm::Sensor> left_out = {};  ///< dead channels, which nothing is estimated from
+  FrequencyRecord response = {};  ///< of a `frf` run as it is, of a `time` run as estimated
+  std::optional<FrequencyResponseEstimate> estimate = {};  ///< of a `time` run
+  std::vector<SensorFeatures> features = {};
+  std::vector<SensorCircles> circles = {};
+  std::optional<Distortion> distortion = {};  ///< where the torque repeats itself
+};
+
+/// A rational fit of runs with one payload, torque hold and sampling period, or of one `frf` run.
+struct RunsFit {
+  std::vector<std::size_t> runs = {};  ///< indices
+  std::optional<arm::Payload> payload = {};
+  std::string refusal = {};  ///< why there is no fit; empty where there is
+  ModalFit fit = {};
+  std::optional<ModalGains> gains = {};
+  std::string gains_refusal = {};
+};
+
+struct Identification {
+  std::vector<RunIdentification> runs;  ///< as they were given
+  std::vector<RunsFit> fits;
+  std::vector<ModalReading> readings;  ///< run by run, then the fits
+};
+
+struct IdentificationOptions {
+  SpectrumSettings spectrum = {};  ///< `hold` is each run's own
+  PeakSettings peaks = {};
+  CircleSettings circles = {};
+  DataCheckOptions check = {};  ///< `starts_at_rest` is each run's own
+  bool fit = true;
+  ModalFitOptions modal_fit = {};  ///< `torque_hold` and `initial` are each run's own
+  /// Called now and then with what is being done and the fraction of all work done; false ends it,
+  /// with what there is until then.
+  std::function<bool(std::string_view what, double fraction)> progress = {};
+};
+
+/// Spectra, frequency responses, poles, zeros, damping ratios, hub slopes and accelerometer gains
+/// of runs: the paper's sections 5 and 6, and rational fits beside it. A run, or fit, that cannot
+/// be used is refused with the reason; the others go on.
+///
+/// Throws InputError where no run can be used, with the first one's reason.
+Identification identify(std::vector<MeasuredRun> runs, const IdentificationOptions& options = {});
+
+}  // namespace flexarm::measured

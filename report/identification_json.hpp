@@ -1,0 +1,18 @@
+#pragma once
+
+#include "compare/identification.hpp"
+#include "measured/identification.hpp"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <vector>
+
+namespace flexarm::report {
+
+/// The content of `identify --json` but for the arm: runs, conditions, readings, fits
+/// (docs/json.md).
+nlohmann::ordered_json identification_json(
+    const measured::Identification& identification,
+    const std::vector<compare::IdentifiedCondition>& conditions);
+
+}  // namespace flexarm::report

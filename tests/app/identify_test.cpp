@@ -1,0 +1,144 @@
+#include "measured/frequency_record.hpp"
+#include "measured/modal_table.hpp"
+#include "tests/app/flexarm_fixture.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+namespace flexarm::testing_app {
+namespace {
+
+using Json = nlohmann::json;
+using testing::AllOf;
+using testing::Contains;
+using testing::HasSubstr;
+using testing::Not;
+
+class Identify : public Flexarm {
+ protected:
+  /// A measurement in `folder`: 10 s of random torque, and more runs.
+  void simulate(const std::string& folder, const std::vector<std::string>& more = {}) const {
+    write("rig.toml",
+          "[beam]\nlength = 0.96\nthickness = 0.0032\nflexural_rigidity = 3.7\n"
+          "linear_density = 0.165\n[hub]\ninertia = 0.0006\nviscous_friction = 0.002\n"
+          "[damping]\nkelvin_voigt = 1e-4\n");
+    std::vector<std::string> arguments = {"simulate",     "rig.toml",
+                                          "--duration",   "10",
+                                          "--period",     "0.005",
+                                          "--sensor",     "hub_velocity,tip_acceleration",
+                                          "--noise",      "0.01",
+                                          "--out",        folder,
+                                          "--excitation", "random:rms=0.05,to=60,id=random"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Ended ended = run(arguments);
+    ASSERT_EQ(ended.status, 0) << ended.errors;
+  }
+};
+
+TEST_F(Identify, PrintsTablesLikeThePapers) {
+  simulate("sim");
+  const Ended ended = run({"identify", "sim/measurement.toml"});
+  EXPECT_EQ(ended.status, 0) << ended.errors;
+  EXPECT_THAT(ended.output,
+              AllOf(HasSubstr("random: spectra and frequency responses"), HasSubstr("segment: "),
+                    HasSubstr("random: poles, undamped"), HasSubstr("random: zeros of each sensor"),
+                    HasSubstr("damping ratios"), HasSubstr("mean, scatter"),
+                    HasSubstr("Fit of random"), HasSubstr("(48)"), HasSubstr("(52)"),
+                    HasSubstr("zeros on the real axis"), HasSubstr("next: ")));
+  EXPECT_TRUE(ended.errors.empty()) << ended.errors;
+}
+
+TEST_F(Identify, WritesTablesThatCompareReadsAndResponsesThatAreRuns) {
+  simulate("sim");
+  const Ended ended = run({"identify", "sim/measurement.toml", "--out", "out"});
+  EXPECT_EQ(ended.status, 0) << ended.errors;
+  EXPECT_THAT(names_in("out"),
+              AllOf(Contains("modal-fit-random.csv"), Contains("modal-response-random.csv"),
+                    Contains("frf-random.csv"), Contains("poles-random.csv")));
+  const Ended compared =
+      run({"compare", "rig.toml", "--quick", "--measured", "out/modal-fit-random.csv"});
+  EXPECT_EQ(compared.status, 0) << compared.errors;
+  const auto record = measured::read_frequency_record(folder_ / "out/frf-random.csv");
+  EXPECT_EQ(record.channels.size(), 2U);
+}
+
+TEST_F(Identify, ChosenRunsSensorsAndSettingsAreUsed) {
+  simulate("sim", {"--excitation", "random:rms=0.05,to=60,id=second"});
+  const Ended ended =
+      run({"identify", "sim/measurement.toml", "--run", "second", "--sensor", "hub_velocity",
+           "--resolution", "0.488", "--overlap", "50", "--window", "hamming", "--detrend", "line",
+           "--peaks", "on-line", "--no-fit", "--json", "out.json"});
+  EXPECT_EQ(ended.status, 0) << ended.errors;
+  const Json json = Json::parse(text_of("out.json"));
+  ASSERT_EQ(json["runs"].size(), 1U);
+  EXPECT_EQ(json["runs"][0]["id"], "second");
+  const auto& spectra = json["runs"][0]["spectra"];
+  EXPECT_EQ(spectra["channels"].size(), 1U);
+  EXPECT_NEAR(spectra["spacing_Hz"].get<double>(), 0.488, 1e-3);  // 410 samples
+  EXPECT_TRUE(json["fits"].empty());
+  for (const auto& root : json["readings"][0]["roots"]) {
+    const double line = root["frequency_Hz"].get<double>() / spectra["spacing_Hz"].get<double>();
+    EXPECT_NEAR(line, std::round(line), 1e-9);
+  }
+}
+
+TEST_F(Identify, WhatCannotBeUsedIsSaidInOneLine) {
+  simulate("sim");
+  const auto errors = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"identify", "sim/measurement.toml"});
+    const Ended ended = run(arguments);
+    EXPECT_EQ(ended.status, 2) << ended.output;
+    EXPECT_EQ(std::ranges::count(ended.errors, '\n'), 1) << ended.errors;
+    return ended.errors;
+  };
+  EXPECT_THAT(errors({"--run", "randon"}), HasSubstr("did you mean random?"));
+  EXPECT_THAT(errors({"--sensor", "hub_angle"}), HasSubstr("no run measured it"));
+  EXPECT_THAT(errors({"--sensor", "hub"}), HasSubstr("hub_angle"));
+  EXPECT_THAT(errors({"--window", "han"}), HasSubstr("did you mean hann?"));
+  EXPECT_THAT(errors({"--detrend", "lin"}), HasSubstr("did you mean line?"));
+  EXPECT_THAT(errors({"--resolution", "0"}), HasSubstr("above 0"));
+  EXPECT_THAT(errors({"--resolution", "0.001"}), HasSubstr("resolution"));
+  EXPECT_THAT(errors({"--overlap", "100"}), HasSubstr("below 100"));
+  EXPECT_THAT(errors({"--peaks", "line"}), HasSubstr("on-line"));
+  EXPECT_THAT(errors({"--modes", "0"}), HasSubstr("1 or more"));
+  EXPECT_THAT(errors({"--from-Hz", "3"}), HasSubstr("--to-Hz"));
+  EXPECT_THAT(errors({"--order", "1"}), HasSubstr("2 to 100"));
+  EXPECT_THAT(run({"identify", "sim/nothing.toml"}).errors, HasSubstr("nothing.toml"));
+}
+
+TEST_F(Identify, FaultsInDataAreNamed) {
+  simulate("sim");
+  // A sensor that sticks for a second, one that is dead.
+  auto record = text_of("sim/random.csv");
+  std::istringstream lines(record);
+  std::string made, line;
+  for (int row = 0; std::getline(lines, line); ++row) {
+    if (row > 0) line = line.substr(0, line.rfind(',')) + ",1.5";
+    made += line + "\n";
+  }
+  write("sim/random.csv", made);
+  const Ended ended = run({"identify", "sim/measurement.toml"});
+  EXPECT_EQ(ended.status, 0) << ended.errors;
+  EXPECT_THAT(ended.output,
+              AllOf(HasSubstr("tip_acceleration: dead channel"),
+                    HasSubstr("tip_acceleration is left out"), Not(HasSubstr("(52)"))));
+}
+
+TEST_F(Identify, ReadsTheModalRunOfAMeasurement) {
+  simulate("sim");
+  write("modal.csv",
+        "sensor,feature,order,frequency [Hz]\nhub_angle,pole,1,12.00\nhub_angle,zero,1,2.9\n"
+        "tip_acceleration,pole,1,12.05\n");
+  write("measurement.toml",
+        "arm = \"rig.toml\"\n[[run]]\nid = \"table-4\"\nkind = \"modal\"\nfile = \"modal.csv\"\n");
+  const Ended ended = run({"identify", "measurement.toml"});
+  EXPECT_EQ(ended.status, 0) << ended.errors;
+  EXPECT_THAT(ended.output, AllOf(HasSubstr("table-4: poles"), HasSubstr("12.0500"),
+                                  HasSubstr("2.90000"), Not(HasSubstr("Fit of"))));
+}
+
+}  // namespace
+}  // namespace flexarm::testing_app

@@ -1,0 +1,103 @@
+#include "compare/identification.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+namespace flexarm::compare {
+namespace {
+
+using measured::Feature;
+using measured::ModalEntry;
+
+const arm::Sensor kHub{arm::SensorKind::hub_angle, 0.0};
+const arm::Sensor kTipAcceleration{arm::SensorKind::tip_acceleration, 0.0};
+
+ModalEntry entry(const std::optional<arm::Sensor>& sensor, Feature feature, int order,
+                 double frequency_Hz) {
+  return {sensor, feature, order, frequency_Hz, {}, {}, {}};
+}
+
+AnalyticalModes modes_of(const arm::Arm& arm) {
+  return analytical_modes(arm, std::array{kHub, kTipAcceleration}, 40.0);
+}
+
+TEST(AnalyticalModes, OfThePapersArmAreTheCheckedOnes) {
+  const auto modes = modes_of(arm::paper_arm());
+  // ../shared/design.md states these to five digits and more.
+  constexpr double kDigits = 2e-5;
+  ASSERT_EQ(modes.poles.size(), 3U);  // to the first one beyond 40 Hz
+  EXPECT_NEAR(modes.poles[0].frequency_Hz / 11.8618, 1.0, kDigits);
+  EXPECT_NEAR(modes.poles[1].frequency_Hz / 32.2606, 1.0, kDigits);
+  EXPECT_EQ(modes.poles[0].damping_ratio, 0.0);
+  ASSERT_EQ(modes.zeros.size(), 2U);
+  EXPECT_NEAR(modes.zeros[1].s_rad_per_s[0].real() / 57.4409, 1.0, kDigits);
+  ASSERT_EQ(modes.gains.size(), 3U);
+  for (const auto& gains : modes.gains) {
+    EXPECT_NEAR(gains.hub_slope[0] / modes.gains[0].hub_slope[0], 1.0, 1e-9) << gains.model;
+    EXPECT_NEAR(gains.tip_gain_m[1] / modes.gains[0].tip_gain_m[1], 1.0, 1e-9) << gains.model;
+  }
+}
+
+TEST(AnalyticalModes, HaveTheDampingOfTheDampedPoles) {
+  arm::Arm arm = arm::paper_arm();
+  arm.damping.kelvin_voigt_s = 1e-4;
+  const auto modes = modes_of(arm);
+  // Kelvin-Voigt damping alone: zeta = kv omega/2 exactly.
+  for (const auto& pole : modes.poles) {
+    EXPECT_NEAR(pole.damping_ratio / (0.5e-4 * 2.0 * M_PI * pole.frequency_Hz), 1.0, 1e-9);
+  }
+}
+
+TEST(BesideAnalytical, FindsRootsWhateverTheirOrder) {
+  const auto modes = modes_of(arm::paper_arm());
+  // The first pole was missed, and something else was seen.
+  const auto roots =
+      beside_analytical({entry(kHub, Feature::pole, 1, 20.5), entry(kHub, Feature::pole, 2, 32.5),
+                         entry(kHub, Feature::zero, 1, 18.2)},
+                        modes);
+  EXPECT_FALSE(roots[0].order);
+  EXPECT_TRUE(std::isnan(roots[0].error_percent()));
+  EXPECT_EQ(roots[1].order, 2);
+  EXPECT_NEAR(roots[1].error_percent(), 100.0 * (32.5 / modes.poles[1].frequency_Hz - 1.0), 1e-12);
+  EXPECT_EQ(roots[2].order, 2);
+  const auto table = in_analytical_order(roots);
+  ASSERT_EQ(table.size(), 2U);
+  EXPECT_EQ(table[0].order, 2);
+}
+
+TEST(BesideAnalytical, TakesARootOnce) {
+  const auto roots =
+      beside_analytical({entry(kHub, Feature::pole, 1, 11.7), entry(kHub, Feature::pole, 2, 11.9),
+                         entry(kTipAcceleration, Feature::pole, 1, 11.7)},
+                        modes_of(arm::paper_arm()));
+  EXPECT_FALSE(roots[0].order);
+  EXPECT_EQ(roots[1].order, 1);
+  EXPECT_EQ(roots[2].order, 1);  // each sensor has its own
+}
+
+TEST(BesideAnalytical, HasNoAntiresonanceWhereZerosAreReal) {
+  const auto roots = beside_analytical({entry(kTipAcceleration, Feature::zero, 1, 9.1)},
+                                       modes_of(arm::paper_arm()));
+  EXPECT_FALSE(roots[0].order);
+}
+
+TEST(ConditionsOf, AreOneAPayload) {
+  measured::MeasuredRun bare{{.id = "bare", .kind = measured::RunKind::modal, .file = "a.csv"},
+                             measured::ModalTable{entry({}, Feature::pole, 1, 12.0)}};
+  measured::MeasuredRun loaded = bare;
+  loaded.run.id = "loaded";
+  loaded.run.payload = arm::Payload{0.1, 0.0};
+  const auto identification = measured::identify({bare, loaded});
+  const auto conditions = conditions_of(identification, arm::paper_arm());
+  ASSERT_EQ(conditions.size(), 2U);
+  EXPECT_EQ(conditions[1].payload, (arm::Payload{0.1, 0.0}));
+  EXPECT_LT(conditions[1].analytical.poles[0].frequency_Hz,
+            conditions[0].analytical.poles[0].frequency_Hz);
+  EXPECT_EQ(conditions[0].readings, (std::vector<std::size_t>{0}));
+  EXPECT_EQ(conditions[1].readings, (std::vector<std::size_t>{1}));
+}
+
+}  // namespace
+}  // namespace flexarm::compare

@@ -252,7 +252,7 @@ int run(Arguments arguments) {
                       arguments.arm.file.empty() ? "" : " " + arguments.arm.file));
   } else {
     print(
-        fmt::format("wrote {0}: measurement.toml, arm.toml, and a CSV file and a figure a run\n"
+        fmt::format("wrote {0}: measurement.toml, arm.toml, and of each run a CSV file and figures\n"
                     "next: see the same arm over frequency with  flexarm response {0}/arm.toml\n",
                     arguments.folder));
   }
@@ -290,7 +290,7 @@ Command add_simulate(CLI::App& program) {
   parser->add_option("--name", arguments->name, "Name of the measurement");
   parser
       ->add_option("--out", arguments->folder,
-                   "Folder for measurement.toml, arm.toml, and a CSV file and a figure a run")
+                   "Folder for measurement.toml, arm.toml, and of each run a CSV file and figures")
       ->check(not_empty());
   parser->add_flag("--force", arguments->force, "Replace the measurement that is in the folder");
   parser->add_option("--json", arguments->json_file, "File for everything in full precision")

@@ -3,6 +3,7 @@
 #include "arm/atomic_file.hpp"
 #include "measured/frequency_record.hpp"
 #include "report/csv.hpp"
+#include "report/identification_plots.hpp"
 #include "report/identification_tables.hpp"
 #include "report/identified_root_tables.hpp"
 
@@ -47,6 +48,9 @@ void write_identified_files(const fs::path& folder, const measured::Identificati
     if (!run.estimate) continue;
     arm::write_atomically(folder / fmt::format("frf-{}.csv", run.run.id),
                           measured::format_frequency_record(run.response));
+  }
+  for (const auto& [name, svg] : report::identification_plots(identification, conditions)) {
+    arm::write_atomically(folder / name, svg);
   }
   const auto write = [&](const std::string& name, const report::Table& table) {
     if (!table.rows.empty()) arm::write_atomically(folder / name, report::to_csv(table));

@@ -251,10 +251,16 @@ int run(Arguments arguments) {
     print(fmt::format("next: keep it as a measurement with  flexarm simulate{} --out simulated\n",
                       arguments.arm.file.empty() ? "" : " " + arguments.arm.file));
   } else {
-    print(
-        fmt::format("wrote {0}: measurement.toml, arm.toml, and a CSV file and a figure a run\n"
-                    "next: see the same arm over frequency with  flexarm response {0}/arm.toml\n",
-                    arguments.folder));
+    print(fmt::format(
+        "wrote {}: measurement.toml, arm.toml, and of each run a CSV file and figures\n",
+        arguments.folder));
+    print(experiment.stepped_runs.empty()
+              ? fmt::format(
+                    "next: see the same arm over frequency with  flexarm response {}/arm.toml\n",
+                    arguments.folder)
+              : fmt::format("next: its poles, zeros and damping with  flexarm identify "
+                            "{}/measurement.toml\n",
+                            arguments.folder));
   }
   return kSuccess;
 }
@@ -290,7 +296,7 @@ Command add_simulate(CLI::App& program) {
   parser->add_option("--name", arguments->name, "Name of the measurement");
   parser
       ->add_option("--out", arguments->folder,
-                   "Folder for measurement.toml, arm.toml, and a CSV file and a figure a run")
+                   "Folder for measurement.toml, arm.toml, and of each run a CSV file and figures")
       ->check(not_empty());
   parser->add_flag("--force", arguments->force, "Replace the measurement that is in the folder");
   parser->add_option("--json", arguments->json_file, "File for everything in full precision")

@@ -78,6 +78,23 @@ double highest_Hz(const measured::Identification& identification, const arm::Pay
   return highest;
 }
 
+/// Of the responses of runs with a payload; empty where there are none.
+std::optional<FrequencyRange> range_of(const measured::Identification& identification,
+                                       const arm::Payload& payload, const arm::Arm& arm) {
+  FrequencyRange range{std::numeric_limits<double>::infinity(), 0.0};
+  for (const auto& run : identification.runs) {
+    if (run.run.payload.value_or(arm.payload) != payload) continue;
+    for (const auto& channel : run.response.channels) {
+      const auto above_0 = std::ranges::upper_bound(channel.frequency_Hz, 0.0);
+      if (above_0 == channel.frequency_Hz.end()) continue;
+      range.from_Hz = std::min(range.from_Hz, *above_0);
+      range.to_Hz = std::max(range.to_Hz, channel.frequency_Hz.back());
+    }
+  }
+  if (!(range.from_Hz < range.to_Hz)) return std::nullopt;
+  return range;
+}
+
 void add_sensor(const arm::Sensor& sensor, std::vector<arm::Sensor>& sensors) {
   if (std::ranges::find(sensors, sensor) == sensors.end()) sensors.push_back(sensor);
 }
@@ -104,7 +121,7 @@ bool is_responsive(const arm::Sensor& sensor, const arm::Arm& arm) {
 }  // namespace
 
 AnalyticalModes analytical_modes(const arm::Arm& arm, std::span<const arm::Sensor> sensors,
-                                 double to_Hz) {
+                                 double to_Hz, const std::optional<FrequencyRange>& range) {
   response::ResponseOptions wanted;
   wanted.modes = 1;
   wanted.to_Hz = to_Hz;
@@ -123,6 +140,12 @@ AnalyticalModes analytical_modes(const arm::Arm& arm, std::span<const arm::Senso
         if (!is_responsive(sensor, arm)) continue;
         analytical.zeros.push_back(
             {sensor, response::zeros(formulation, sensor, roots).s_rad_per_s});
+        wanted.sensors.push_back(sensor);
+      }
+      if (range && !wanted.sensors.empty()) {
+        wanted.from_Hz = range->from_Hz;
+        wanted.to_Hz = range->to_Hz;
+        analytical.response = response::study_response(arm, formulation, wanted).response;
       }
     }
     analytical.gains.push_back(
@@ -189,16 +212,19 @@ std::vector<IdentifiedCondition> conditions_of(const measured::Identification& i
     const arm::Payload own = payload.value_or(arm.payload);
     const auto at = std::ranges::find(conditions, own, &IdentifiedCondition::payload);
     if (at != conditions.end()) return *at;
-    conditions.push_back({own, {}, {}, {}, {}});
+    conditions.push_back({.payload = own});
     return conditions.back();
   };
-  for (const auto& run : identification.runs) condition_of(run.run.payload);
+  for (std::size_t i = 0; i < identification.runs.size(); ++i) {
+    condition_of(identification.runs[i].run.payload).runs.push_back(i);
+  }
   const auto sensors = sensors_of(identification);
   for (auto& condition : conditions) {
     arm::Arm loaded = arm;
     loaded.payload = condition.payload;
     condition.analytical =
-        analytical_modes(loaded, sensors, highest_Hz(identification, condition.payload, arm));
+        analytical_modes(loaded, sensors, highest_Hz(identification, condition.payload, arm),
+                         range_of(identification, condition.payload, arm));
   }
   for (std::size_t i = 0; i < identification.readings.size(); ++i) {
     const auto& reading = identification.readings[i];

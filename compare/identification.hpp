@@ -3,6 +3,7 @@
 #include "arm/arm.hpp"
 #include "arm/sensor.hpp"
 #include "measured/identification.hpp"
+#include "response/frequency_response.hpp"
 
 #include <complex>
 #include <optional>
@@ -31,17 +32,27 @@ struct AnalyticalZeros {
   std::vector<std::complex<double>> s_rad_per_s;
 };
 
-/// What an arm, in its linear effects, should show of a measurement; poles and zeros by exact_tf.
+/// What an arm, in its linear effects, should show of a measurement; poles, zeros and responses by
+/// exact_tf.
 struct AnalyticalModes {
   std::vector<AnalyticalPole> poles;
   std::vector<AnalyticalZeros> zeros;
   std::vector<AnalyticalGains> gains;  ///< exact_tf, fem, assumed_modes
+  response::FrequencyResponse
+      response;  ///< through actuator and sensors; empty where not asked for
 };
 
-/// Poles and modes to the first one beyond `to_Hz`, zeros of each sensor that shows any.
-/// Throws InputError as the formulations do.
+/// Where responses are wanted.
+struct FrequencyRange {
+  double from_Hz = 0.0;  ///< above 0
+  double to_Hz = 0.0;
+};
+
+/// Poles and modes to the first one beyond `to_Hz`, zeros of each sensor that shows any, and
+/// responses over `range`, with more points around poles and zeros. Throws InputError as the
+/// formulations do.
 AnalyticalModes analytical_modes(const arm::Arm& arm, std::span<const arm::Sensor> sensors,
-                                 double to_Hz);
+                                 double to_Hz, const std::optional<FrequencyRange>& range = {});
 
 /// A measured pole or zero with the analytical one that it stands for.
 struct IdentifiedRoot {
@@ -65,11 +76,12 @@ measured::ModalTable in_analytical_order(const std::vector<IdentifiedRoot>& root
 
 /// The condition of a payload: readings and fits with it, and what is expected of them.
 struct IdentifiedCondition {
-  arm::Payload payload;
-  AnalyticalModes analytical;
-  std::vector<std::size_t> readings;  ///< indices of measured::Identification::readings
-  std::vector<std::vector<IdentifiedRoot>> roots;  ///< of each of these
-  std::vector<std::size_t> fits;                   ///< indices
+  arm::Payload payload = {};
+  AnalyticalModes analytical = {};
+  std::vector<std::size_t> runs = {};      ///< indices of measured::Identification::runs
+  std::vector<std::size_t> readings = {};  ///< indices of measured::Identification::readings
+  std::vector<std::vector<IdentifiedRoot>> roots = {};  ///< of each of these
+  std::vector<std::size_t> fits = {};                   ///< indices
 };
 
 /// One a payload, in the order of the runs. `arm` has the payload of runs without one of their own.

@@ -1,13 +1,13 @@
 #include "report/bode_figure.hpp"
 
 #include "report/overlay_style.hpp"
+#include "report/phase_panel.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdlib>
 #include <limits>
 #include <stdexcept>
 
@@ -15,27 +15,11 @@ namespace flexarm::report {
 namespace {
 
 constexpr double kSmallestDrawnDifference = 0x1p-53;
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// One curve alone needs no broad band below others.
 Style curve_style(const BodePlot& plot, std::size_t index) {
   return plot.curves.size() == 1 ? Style{.colour = blue, .line_width_px = 1.6}
                                  : overlay_style(index);
-}
-
-/// The phase curve, with a gap wherever it wraps: no line is drawn across the panel.
-Series phase_series(const BodePlot& plot, std::size_t index) {
-  const std::vector<double> phase = phase_deg(plot.curves[index].response, plot.phase);
-  Series series{plot.curves[index].name, {}, {}, curve_style(plot, index)};
-  for (std::size_t i = 0; i < phase.size(); ++i) {
-    if (i > 0 && std::abs(phase[i] - phase[i - 1]) > 225.0) {
-      series.x.push_back(plot.frequency_Hz[i]);
-      series.y.push_back(kNaN);
-    }
-    series.x.push_back(plot.frequency_Hz[i]);
-    series.y.push_back(phase[i]);
-  }
-  return series;
 }
 
 Style root_style(bool pole) {
@@ -99,30 +83,13 @@ Panel magnitude_panel(const BodePlot& plot) {
 
 Panel phase_panel(const BodePlot& plot) {
   Panel panel;
-  panel.y = {.label = "phase", .unit = "deg"};
   panel.height = 1.2;
-  double lowest = std::numeric_limits<double>::infinity();
-  double highest = -lowest;
   for (std::size_t c = 0; c < plot.curves.size(); ++c) {
-    panel.series.push_back(phase_series(plot, c));
-    for (const double phase : panel.series.back().y) {
-      lowest = std::fmin(lowest, phase);
-      highest = std::fmax(highest, phase);
-    }
+    panel.series.push_back(phase_series(plot.curves[c].name, plot.frequency_Hz,
+                                        phase_deg(plot.curves[c].response, plot.phase),
+                                        curve_style(plot, c)));
   }
-  if (!(lowest <= highest)) return panel;  // nothing to draw, which lay_out refuses by name
-  // Ticks a quarter turn apart, more where an unwrapped phase runs over several turns.
-  const int first = static_cast<int>(std::floor(lowest / 90.0 + 0.25));
-  const int last = static_cast<int>(std::ceil(highest / 90.0 - 0.25));
-  int step = 1;
-  while (5 * step < last - first) step *= 2;
-  const int lowest_tick = step * static_cast<int>(std::ceil(static_cast<double>(first) / step));
-  for (int quarter = lowest_tick; quarter <= last; quarter += step) {
-    panel.y.ticks.push_back(
-        {90.0 * quarter, fmt::format("{}{}", quarter < 0 ? "−" : "", std::abs(90 * quarter))});
-  }
-  panel.y.minimum = std::min(lowest, panel.y.ticks.front().position) - 20.0;
-  panel.y.maximum = std::max(highest, panel.y.ticks.back().position) + 20.0;
+  panel.y = phase_axis(panel.series);
   return panel;
 }
 

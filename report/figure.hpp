@@ -54,23 +54,30 @@ struct Style {
   double line_width_px = 1.5;
   Marker marker = Marker::none;
   double marker_size = 1.0;  ///< relative to gnuplot's standard size
+  bool filled = false;       ///< the area between `y` and `y_to`, without a line
 };
 
 /// Points (x[i], y[i]), joined in their order. A point that is not finite, or not positive on a
-/// logarithmic axis, is a gap. A name may be given to several series of one figure: the legend
+/// logarithmic axis, is a gap. Of more points than show, where x ascends, those that do are drawn
+/// (report/thinned_series.hpp). A name may be given to several series of one figure: the legend
 /// shows it once, in the style of the first.
 struct Series {
   std::string name = {};
   std::vector<double> x = {};
   std::vector<double> y = {};
   Style style = {};
+  std::vector<double> y_to = {};  ///< of a filled area, one a point
 };
+
+/// Where a text stands, seen from its point.
+enum class TextPlace { upper_right, above, below, left, right, centre };
 
 /// Text beside a point of a panel.
 struct Annotation {
   double x = 0.0;
   double y = 0.0;
   std::string text = {};
+  TextPlace place = TextPlace::upper_right;
 };
 
 struct Panel {

@@ -28,22 +28,14 @@ constexpr double kDataMargin = 0.04;  // of an axis, so that no curve runs along
 /// Values that differ by less, relatively, are one: the labels at an axis have six digits.
 constexpr double kOneValue = 1e-6;
 
-double to_scale(double value, const Axis& axis) {
-  return axis.scale == Scale::logarithmic ? std::log10(value) : value;
-}
-
-double from_scale(double value, const Axis& axis) {
-  return axis.scale == Scale::logarithmic ? std::pow(10.0, value) : value;
-}
-
 /// The smallest range, on the axis' scale, that holds all that was taken in.
 struct Extent {
   double low = std::numeric_limits<double>::infinity();
   double high = -std::numeric_limits<double>::infinity();
 
   void take_in(double value, const Axis& axis) {
-    low = std::min(low, to_scale(value, axis));
-    high = std::max(high, to_scale(value, axis));
+    low = std::min(low, on_scale(value, axis));
+    high = std::max(high, on_scale(value, axis));
   }
 };
 
@@ -74,10 +66,15 @@ void take_in(const Panel& panel, const Axis& x_axis, Extent& x, Extent& y) {
       throw std::invalid_argument(fmt::format("series \"{}\": {} values of x and {} of y",
                                               series.name, series.x.size(), series.y.size()));
     }
+    if (series.style.filled && series.y_to.size() != series.y.size()) {
+      throw std::invalid_argument(fmt::format("series \"{}\": {} values of y and {} to fill up to",
+                                              series.name, series.y.size(), series.y_to.size()));
+    }
     for (std::size_t i = 0; i < series.x.size(); ++i) {
-      if (!is_drawable(series.x[i], x_axis) || !is_drawable(series.y[i], panel.y)) continue;
+      if (!is_drawable(series, i, x_axis, panel.y)) continue;
       x.take_in(series.x[i], x_axis);
       y.take_in(series.y[i], panel.y);
+      if (series.style.filled) y.take_in(series.y_to[i], panel.y);
       anything = true;
     }
   }
@@ -103,15 +100,12 @@ std::vector<LegendEntry> legend_of(const Figure& figure) {
   return legend;
 }
 
-double text_px(const std::string& text) {
-  return kCharacter_px * static_cast<double>(display_width(text));
-}
-
 /// Room on the left of a stack for its axis labels and tick labels.
 double left_margin_px(const PanelStack& stack) {
   double widest_tick = kTickNumber_px;
   for (const Panel& panel : stack.panels) {
-    for (const Tick& tick : panel.y.ticks) widest_tick = std::max(widest_tick, text_px(tick.label));
+    for (const Tick& tick : panel.y.ticks)
+      widest_tick = std::max(widest_tick, text_width_px(tick.label));
   }
   return kEdge_px + kLine_px + widest_tick;
 }
@@ -159,6 +153,23 @@ bool is_drawable(double value, const Axis& axis) {
   return std::isfinite(value) && (axis.scale == Scale::linear || value > 0.0);
 }
 
+bool is_drawable(const Series& series, std::size_t point, const Axis& x, const Axis& y) {
+  return is_drawable(series.x[point], x) && is_drawable(series.y[point], y) &&
+         (!series.style.filled || is_drawable(series.y_to[point], y));
+}
+
+double on_scale(double value, const Axis& axis) {
+  return axis.scale == Scale::logarithmic ? std::log10(value) : value;
+}
+
+double from_scale(double value, const Axis& axis) {
+  return axis.scale == Scale::logarithmic ? std::pow(10.0, value) : value;
+}
+
+double text_width_px(const std::string& text) {
+  return kCharacter_px * static_cast<double>(display_width(text));
+}
+
 FigureLayout lay_out(const Figure& figure) {
   const bool has_panels =
       !figure.stacks.empty() &&
@@ -175,7 +186,7 @@ FigureLayout lay_out(const Figure& figure) {
   layout.legend_rows = std::max(1, static_cast<int>((top_px - kEdge_px) / kLegendRow_px));
   double widest_entry = 0.0;
   for (const LegendEntry& entry : layout.legend) {
-    widest_entry = std::max(widest_entry, text_px(entry.text));
+    widest_entry = std::max(widest_entry, text_width_px(entry.text));
   }
   const auto entries = static_cast<int>(layout.legend.size());
   const int legend_columns = (entries + layout.legend_rows - 1) / layout.legend_rows;

@@ -2,6 +2,8 @@
 
 #include "report/figure.hpp"
 
+#include <cstddef>
+#include <string>
 #include <vector>
 
 namespace flexarm::report {
@@ -33,11 +35,24 @@ struct FigureLayout {
 
 /// The font of everything but titles; widths and heights of text follow from it.
 inline constexpr double kFontSize_px = 13.0;
+/// From a point to the middle of a text above or below it, and to the end of one beside it.
+inline constexpr double kTextAbove_px = 13.0;
+inline constexpr double kTextBeside_px = 11.0;
 /// From one line of the legend to the next.
 inline constexpr double kLegendRow_px = 20.5;
 
 /// Whether a point of a series is drawn: finite, and positive on a logarithmic axis.
 bool is_drawable(double value, const Axis& axis);
+
+/// Whether a point of a series, with a filled area's other side, is.
+bool is_drawable(const Series& series, std::size_t point, const Axis& x, const Axis& y);
+
+/// The value itself, or its decadic logarithm where the axis is logarithmic; and back.
+double on_scale(double value, const Axis& axis);
+double from_scale(double value, const Axis& axis);
+
+/// About: the mean advance of a broad sans-serif face.
+double text_width_px(const std::string& text);
 
 /// Throws std::invalid_argument for a figure without panels, a series without points or with x and
 /// y of different lengths, a panel with no point to draw, and limits that make no range.

@@ -1,6 +1,7 @@
 #include "report/gnuplot_script.hpp"
 
 #include "report/logarithmic_ticks.hpp"
+#include "report/thinned_series.hpp"
 #include "report/utf8_text.hpp"
 
 #include <fmt/format.h>
@@ -61,6 +62,10 @@ std::string axis_text(const Axis& axis) {
 
 /// "with lines ..." for a series or a line of the legend.
 std::string drawing(const Style& style) {
+  if (style.filled) {
+    return fmt::format("with filledcurves fillcolor rgb {} fillstyle solid 1 noborder",
+                       hex_colour(style));
+  }
   const bool has_line = style.line != Line::none;
   const bool has_marker = style.marker != Marker::none;
   std::string text =
@@ -95,9 +100,11 @@ bool append_data(std::string& script, std::size_t block, const Series& series, c
   bool gap = true;
   bool anything = false;
   for (std::size_t i = 0; i < series.x.size(); ++i) {
-    if (is_drawable(series.x[i], x) && is_drawable(series.y[i], y)) {
+    if (is_drawable(series, i, x, y)) {
       if (gap && anything) script += '\n';
-      fmt::format_to(std::back_inserter(script), "{} {}\n", series.x[i], series.y[i]);
+      fmt::format_to(std::back_inserter(script), "{} {}", series.x[i], series.y[i]);
+      if (series.style.filled) fmt::format_to(std::back_inserter(script), " {}", series.y_to[i]);
+      script += '\n';
       gap = false;
       anything = true;
     } else {
@@ -130,6 +137,30 @@ std::string tick_commands(char axis_name, const Axis& axis, const Range& range, 
   return text + ")\n";
 }
 
+/// Alignment and offset of a text, which gnuplot centres on its point in height. On white, so that
+/// no line runs through it; but for texts at the ends of curves.
+std::string placing(TextPlace place, const Figure& figure) {
+  const auto shifted = [&](const char* alignment, double right_px, double up_px) {
+    return fmt::format("{} offset screen {},{} boxed", alignment, right_px / figure.width_px,
+                       up_px / figure.height_px);
+  };
+  switch (place) {
+    case TextPlace::upper_right:
+      break;
+    case TextPlace::above:
+      return shifted("center", 0.0, kTextAbove_px);
+    case TextPlace::below:
+      return shifted("center", 0.0, -kTextAbove_px);
+    case TextPlace::centre:
+      return shifted("center", 0.0, 0.0);
+    case TextPlace::left:
+      return shifted("right", -kTextBeside_px, 0.0);
+    case TextPlace::right:
+      return shifted("left", kTextBeside_px, 0.0);
+  }
+  return "left offset 0.5,0.5";
+}
+
 std::string panel_frame(const Figure& figure, const PanelStack& stack, const Panel& panel,
                         const PanelBox& box, bool lowest) {
   const double width = figure.width_px;
@@ -138,6 +169,7 @@ std::string panel_frame(const Figure& figure, const PanelStack& stack, const Pan
       "reset\n"
       "unset key\n"
       "set minussign\n"
+      "set style textbox opaque noborder fillcolor rgb '#ffffff' margins 0.3,0.3\n"
       "set border 3 linecolor rgb '#555555' linewidth 0.8\n"
       "set tics nomirror out scale 0.5,0.25 textcolor rgb '#222222'\n"
       "set grid xtics ytics linetype 1 linecolor rgb '#e2e2e2' linewidth 0.8\n"
@@ -158,8 +190,8 @@ std::string panel_frame(const Figure& figure, const PanelStack& stack, const Pan
     text += fmt::format("set title {} offset 0,-0.5\n", in_quotes(panel.title));
   }
   for (const Annotation& a : panel.annotations) {
-    text += fmt::format("set label {} at first {},{} left offset 0.5,0.5 front\n",
-                        in_quotes(a.text), a.x, a.y);
+    text += fmt::format("set label {} at first {},{} {} front\n", in_quotes(a.text), a.x, a.y,
+                        placing(a.place, figure));
   }
   return text;
 }
@@ -202,9 +234,11 @@ GnuplotScript gnuplot_script(const Figure& figure, const FigureLayout& layout) {
       for (const Series& series : panel.series) {
         ++block;
         const Axis& x_axis = panel.x ? *panel.x : stack.x;
-        if (!append_data(script.text, block, series, x_axis, panel.y)) continue;
-        plot += fmt::format("{}$data{} using 1:2 {} notitle", plot.empty() ? "plot " : ", ", block,
-                            drawing(series.style));
+        const PanelBox& box = layout.boxes[s][p];
+        const Series shown = thinned(series, x_axis, panel.y, box.x, box.right_px - box.left_px);
+        if (!append_data(script.text, block, shown, x_axis, panel.y)) continue;
+        plot += fmt::format("{}$data{} using {} {} notitle", plot.empty() ? "plot " : ", ", block,
+                            series.style.filled ? "1:2:3" : "1:2", drawing(series.style));
         script.group_names.push_back(series.name);
       }
       script.text += plot + "\n";

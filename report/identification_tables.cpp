@@ -101,7 +101,7 @@ Table gain_table(const measured::RunsFit& fit, const compare::AnalyticalModes& a
     const Cell order = std::int64_t(*root.order);
     if (mode.hub_slope) add("phi'(0)", order, "1", "(48)", *mode.hub_slope, slopes);
     if (mode.hub_slope_of_product) {
-      add("phi'(0)", order, "1", "(47)", *mode.hub_slope_of_product, slopes);
+      add("phi'(0)", order, "1", "(47), truncated", *mode.hub_slope_of_product, slopes);
     }
     if (mode.tip_gain_m) add("phi(l)", order, "m", "(49)", *mode.tip_gain_m, tips);
     if (mode.tip_gain_of_ratio_m) {

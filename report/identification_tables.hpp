@@ -15,8 +15,8 @@ std::vector<std::string> data_notes(const measured::Identification& identificati
 /// The settings of a run's spectra, each with its value and reason.
 std::vector<std::string> setting_lines(const measured::RunIdentification& run);
 
-/// Tables 6 and 7: hub slopes by (47) and (48), accelerometer gains by (49) and (52), beside those
-/// of the formulations.
+/// Tables 6 and 7: hub slopes by (48) and, of the modes fitted, by (47), whose product goes on
+/// beyond them; accelerometer gains by (49) and (52), beside those of the formulations.
 Table gain_table(const measured::RunsFit& fit, const compare::AnalyticalModes& analytical);
 
 /// Each sensor's noise and what is left of it beside noise.

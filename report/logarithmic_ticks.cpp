@@ -46,7 +46,10 @@ std::vector<Tick> logarithmic_ticks(const Range& range, int most_labels) {
       if (position < range.from || position > range.to) continue;
       std::string label;
       if (digit == 1 && exponent % step == 0) label = decade_label(exponent, plain);
-      if (whole_decades < 2 && (digit == 2 || digit == 5)) label = fmt::format("{:g}", position);
+      if (whole_decades < 2 && (digit == 2 || digit == 5)) {
+        label = plain ? fmt::format("{:g}", position)
+                      : fmt::format("{}·{}", digit, decade_label(exponent, false));
+      }
       ticks.push_back({position, std::move(label)});
     }
   }

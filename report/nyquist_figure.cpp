@@ -1,12 +1,13 @@
 #include "report/nyquist_figure.hpp"
 
+#include "report/equal_axes.hpp"
 #include "report/logarithmic_ticks.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <initializer_list>
 #include <limits>
 #include <numbers>
 #include <stdexcept>
@@ -29,35 +30,12 @@ bool is_shown(const Complex& value) {
   return std::isfinite(std::abs(value)) && value != 0.0;
 }
 
-Style thin(int colour, Line line = Line::solid) {
-  Style style;
-  style.colour = colour;
-  style.line = line;
-  style.line_width_px = 0.8;
-  return style;
-}
-
-Style point(int colour, Marker marker, double size) {
-  Style style;
-  style.colour = colour;
-  style.line = Line::none;
-  style.marker = marker;
-  style.marker_size = size;
-  return style;
-}
-
 constexpr const char* kPoleName = "pole's frequency";
 constexpr const char* kHalfPowerName = "half power";
 constexpr double kTextLeft = 0.3;  // of the centre, in diameters
 const Style kLocus{.colour = blue, .line_width_px = 1.6};
-const Style kAtPole = point(vermillion, Marker::disc, 0.9);
-const Style kHalfPower = point(vermillion, Marker::circle, 0.9);
-
-/// Real and imaginary axis across a panel.
-void add_axes(Panel& panel, double left, double right, double bottom, double top) {
-  panel.series.push_back({"", {left, right}, {0.0, 0.0}, thin(grey)});
-  panel.series.push_back({"", {0.0, 0.0}, {bottom, top}, thin(grey)});
-}
+const Style kAtPole = marker_style(vermillion, Marker::disc, 0.9);
+const Style kHalfPower = marker_style(vermillion, Marker::circle, 0.9);
 
 /// log10(1 + |G|/g0), with the angle of G.
 struct Compressed {
@@ -70,7 +48,7 @@ struct Compressed {
 };
 
 Series circle_around_origin(double radius) {
-  Series series{"", {}, {}, thin(grey, Line::dashed)};
+  Series series{"", {}, {}, thin_line(grey, Line::dashed)};
   series.style.tint = 0.45;
   for (int degree = 0; degree <= 360; degree += 3) {
     series.x.push_back(radius * std::cos(degree * std::numbers::pi / 180.0));
@@ -112,7 +90,7 @@ PanelStack whole_locus(const NyquistPlot& plot) {
   for (const Tick& tick : panel.y.ticks) {
     if (tick.position > 0.0) panel.series.push_back(circle_around_origin(tick.position));
   }
-  add_axes(panel, -half_side, half_side, -half_side, half_side);
+  add_coordinate_axes(panel, -half_side, half_side, -half_side, half_side);
   Series locus{"response", {}, {}, kLocus};
   for (const auto& value : plot.response) {
     const Complex drawn = is_shown(value) ? compressed(value)
@@ -131,73 +109,19 @@ PanelStack whole_locus(const NyquistPlot& plot) {
   return {.x = axis("Re G"), .panels = {std::move(panel)}, .width = kLocusWidth, .square = true};
 }
 
-/// Power of ten, a multiple of three, in which numbers up to `largest` have few digits; 0 where
-/// they have few without.
-int exponent_for(double largest) {
-  const double decade = std::log10(largest);
-  return decade >= -1.0 && decade < 4.0 ? 0 : 3 * static_cast<int>(std::floor(decade / 3.0));
-}
-
-/// "10⁻³ rad/(N m)".
-std::string scaled_unit(int exponent, const std::string& unit) {
-  return exponent == 0 ? unit : fmt::format("{} {}", decade_label(exponent, false), unit);
-}
-
-/// Two or three round numbers across [from, to].
-std::vector<Tick> round_ticks(double from, double to) {
-  const double raw = (to - from) / 2.4;
-  const double decade = std::pow(10.0, std::floor(std::log10(raw)));
-  double step = decade;
-  for (const double factor : {2.0, 5.0, 10.0}) {
-    if (factor * decade <= raw) step = factor * decade;
-  }
-  std::vector<Tick> ticks;
-  for (double k = std::ceil(from / step); k * step <= to; k += 1.0) {
-    // 12 digits: k step is a round number but for its last bits.
-    std::string text = fmt::format("{:.12g}", k * step);
-    if (text.starts_with('-')) text = "−" + text.substr(1);
-    ticks.push_back({k * step, k == 0.0 ? "0" : text});
-  }
-  return ticks;
-}
-
 Panel circle_panel(const NyquistPlot& plot, const NyquistCircle& circle) {
   const double largest =
       std::max({std::abs(circle.at_pole), std::abs(circle.below), std::abs(circle.above)});
-  const int exponent = exponent_for(largest);
-  const double scale = std::pow(10.0, -exponent);
-  const Complex centre = scale * (circle.below + circle.above) / 2.0;
-  const double diameter = scale * std::abs(circle.above - circle.below);
-  const double half_side = kRoomAroundCircle * diameter;
-  const auto axis = [&](const char* label, double middle) {
-    return Axis{.label = label,
-                .unit = scaled_unit(exponent, plot.unit),
-                .minimum = middle - half_side,
-                .maximum = middle + half_side,
-                .ticks = round_ticks(middle - half_side, middle + half_side)};
-  };
-  Panel panel;
-  panel.title = circle.label;
-  panel.x = axis("Re G", centre.real());
-  panel.y = axis("Im G", centre.imag());
-  add_axes(panel, *panel.x->minimum, *panel.x->maximum, *panel.y.minimum, *panel.y.maximum);
-  Series locus{"response", {}, {}, kLocus};
-  for (const auto& value : circle.values) {
-    locus.x.push_back(scale * value.real());
-    locus.y.push_back(scale * value.imag());
-  }
-  panel.series.push_back(std::move(locus));
-  const auto mark = [&](const char* name, std::initializer_list<Complex> values, Style style) {
-    Series series{name, {}, {}, style};
-    for (const auto& value : values) {
-      series.x.push_back(scale * value.real());
-      series.y.push_back(scale * value.imag());
-    }
-    panel.series.push_back(std::move(series));
-  };
-  mark(kPoleName, {circle.at_pole}, kAtPole);
-  mark(kHalfPowerName, {circle.below, circle.above}, kHalfPower);
-  panel.annotations.push_back({centre.real() - kTextLeft * diameter, centre.imag(), circle.remark});
+  const Complex centre = (circle.below + circle.above) / 2.0;
+  const double diameter = std::abs(circle.above - circle.below);
+  const EqualAxes axes{"G", plot.unit, centre, kRoomAroundCircle * diameter, largest};
+  Panel panel = axes.panel(circle.label);
+  panel.series.push_back(axes.series("response", circle.values, kLocus));
+  panel.series.push_back(axes.series(kPoleName, {&circle.at_pole, 1}, kAtPole));
+  const std::array half_power = {circle.below, circle.above};
+  panel.series.push_back(axes.series(kHalfPowerName, half_power, kHalfPower));
+  const Complex text = axes.drawn(centre - kTextLeft * diameter);
+  panel.annotations.push_back({text.real(), text.imag(), circle.remark});
   return panel;
 }
 

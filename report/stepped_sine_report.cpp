@@ -138,6 +138,8 @@ Table stepped_hub_motion_table(const std::vector<SteppedSineRun>& runs) {
 std::vector<NamedPlot> stepped_sine_plots(const std::string& arm_name, const SteppedSineRun& run) {
   std::vector<NamedPlot> plots;
   for (std::size_t j = 0; j < run.sensors.size(); ++j) {
+    const auto& values = run.measured.values[j];
+    if (std::ranges::all_of(values, [](const Complex& value) { return value == 0.0; })) continue;
     const std::string sensor = arm::to_string(run.sensors[j]);
     BodePlot plot = bode_plot(run, j);
     plot.title = fmt::format("{}{}: torque to {}, stepped sine",

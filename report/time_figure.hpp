@@ -27,9 +27,8 @@ struct TimePlot {
   std::vector<TimePanel> panels;
 };
 
-/// The panels one above the other on one time axis. Of a long signal only what shows is drawn: the
-/// first, least, largest and last value of each of some thousand stretches of time. Throws
-/// std::invalid_argument when a curve has not one value a time, or there is no panel.
+/// The panels one above the other on one time axis. Throws std::invalid_argument when a curve has
+/// not one value a time, or there is no panel.
 Figure time_figure(const TimePlot& plot);
 
 }  // namespace flexarm::report

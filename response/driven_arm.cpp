@@ -1,5 +1,6 @@
 #include "response/driven_arm.hpp"
 
+#include "arm/input_error.hpp"
 #include "response/drag.hpp"
 
 #include <cmath>
@@ -98,6 +99,7 @@ DrivenArm::DrivenArm(const ModalDynamics& arm, const arm::ModalModel& model, con
   const auto n = static_cast<std::size_t>(samples_per_period);
   if (clips(parts.actuator, drive)) {
     actuator = parts.actuator;
+    actuator.delay_s = std::fmod(actuator.delay_s, 1.0 / drive.frequency_Hz);
     // As many samples before the period as the delay needs, and the one that ends the period.
     lead = static_cast<std::size_t>(std::ceil(actuator.delay_s / sample_time_s_)) + 1;
     for (std::size_t k = 0; k < lead + n + 1; ++k) {
@@ -130,6 +132,9 @@ void DrivenArm::put(const Eigen::VectorXd& state, bool held) {
 void DrivenArm::drive_period(std::vector<std::vector<double>>* readings) {
   // The sine begins each period anew: its rounding does not add up.
   put(state(), is_held());
+  if (!stepper_->state().allFinite()) {
+    throw arm::InputError("motion: too large for a number; the torque must be smaller");
+  }
   for (std::size_t k = 0; k < pieces_.size(); ++k) {
     const double time_s = static_cast<double>(k) * sample_time_s_;
     const double actuator_N_m = pieces_[k].front().begin_N_m;

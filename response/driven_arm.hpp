@@ -40,6 +40,7 @@ class DrivenArm {
   void put(const Eigen::VectorXd& state, bool held);
   /// A period from where it is. Adds a reading of each sensor at the period's beginning and at each
   /// fraction, but not at its end, to `readings`, unless it is null.
+  /// Throws InputError where the motion is too large for a number.
   void drive_period(std::vector<std::vector<double>>* readings);
 
   Eigen::VectorXd state() const { return stepper_->state().head(size_); }

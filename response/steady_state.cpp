@@ -55,7 +55,7 @@ class Shooting {
   }
 
   double length(const Eigen::VectorXd& state) const {
-    return std::max(state.norm(), arm_->state_scale());
+    return std::max(state.stableNorm(), arm_->state_scale());
   }
 
   void differentiate(const Eigen::VectorXd& after) {
@@ -98,7 +98,7 @@ class Shooting {
     for (int i = 0; i < options_.most_steps; ++i) {
       if (!step.allFinite()) return false;
       const double size = length(found_.state);
-      const double now = step.head(n).norm();
+      const double now = step.head(n).stableNorm();
       bool is_shorter = false;
       double part = 1.0;
       Eigen::VectorXd trial;
@@ -111,16 +111,17 @@ class Shooting {
         after = after_a_period(trial, found_.is_held);
         ends_held = arm_->is_held();
         next = step_at(trial, after, drift);
-        const bool stands = now <= kLastDigit * size || next.head(n).norm() > kStandingStep * now;
+        const bool stands =
+            now <= kLastDigit * size || next.head(n).stableNorm() > kStandingStep * now;
         found_.found = stands && i > 0 && (arm_->is_linear() || now <= options_.tolerance * size);
         if (found_.found) return true;
-        is_shorter = arm_->is_linear() || next.head(n).norm() <= (1.0 - 0.25 * part) * now;
+        is_shorter = arm_->is_linear() || next.head(n).stableNorm() <= (1.0 - 0.25 * part) * now;
       }
       if (!is_shorter) return false;
       found_.state = trial;
       found_.is_held = ends_held;
       drift_ = drift;
-      const bool is_good = part == 1.0 && next.head(n).norm() <= kGoodStep * now;
+      const bool is_good = part == 1.0 && next.head(n).stableNorm() <= kGoodStep * now;
       if (!is_good && !arm_->is_linear()) {
         differentiate(after);
         next = step_at(found_.state, after, drift_);

@@ -109,7 +109,15 @@ void require_valid(const SteppedSine& sine) {
   }
   require_in_range(key_name("step"), sine.step_Hz, "Hz", arm::kPositive);
   if (sine.points) require_count("points", *sine.points, 2, kMostSineFrequencies);
-  if (sine.settle_s) require_in_range(key_name("settle"), *sine.settle_s, "s", arm::kNotNegative);
+  if (sine.settle_s) {
+    require_in_range(key_name("settle"), *sine.settle_s, "s", arm::kNotNegative);
+    const double most_s = kMostSettlingPeriods / sine.bands.back().to_Hz;
+    if (*sine.settle_s > most_s) {
+      throw arm::out_of_range(
+          key_name("settle"), *sine.settle_s, "s",
+          fmt::format("{:g} s, {:g} periods, or less", most_s, kMostSettlingPeriods));
+    }
+  }
   require_count("cycles", sine.cycles, 3, kMostSineCycles);
 }
 

@@ -37,6 +37,7 @@ struct SteppedSine {
 inline constexpr std::string_view kSteppedSine = "stepped-sine";
 inline constexpr int kMostSineFrequencies = 100'000;
 inline constexpr int kMostSineCycles = 10'000;
+inline constexpr double kMostSettlingPeriods = 1e7;  ///< of the highest frequency
 
 /// The frequencies of all bands, ascending; a sum from + k step as the nearest double to its
 /// decimal of 9 places where it is one. Throws InputError for a number out of its range, bands that

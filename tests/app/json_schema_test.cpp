@@ -204,7 +204,11 @@ TEST_F(JsonSchema, WhatSimulateWritesIsWhatTheDocumentSays) {
   EXPECT_EQ(ended.status, 0) << ended.errors;
   const Ended plain = run({"simulate", "--json", "plain.json"});
   EXPECT_EQ(plain.status, 0) << plain.errors;
-  expect_as_documented({Json::parse(text_of("out.json")), Json::parse(text_of("plain.json"))},
+  const Ended stepped = run({"simulate", "--excitation", "stepped-sine:from=1,to=5,points=3",
+                             "--noise-of", "hub_angle=1e-3", "--json", "stepped.json"});
+  EXPECT_EQ(stepped.status, 0) << stepped.errors;
+  expect_as_documented({Json::parse(text_of("out.json")), Json::parse(text_of("plain.json")),
+                        Json::parse(text_of("stepped.json"))},
                        "flexarm.simulate/1");
 }
 

@@ -213,7 +213,7 @@ TEST_F(Simulate, BadInputIsOneLineAndStatusTwo) {
                  "--duration: a torque file has its own; it is for --excitation");
   expect_refused(run({"simulate", "--excitation", "randm"}),
                  "--excitation randm: excitation randm: unknown (did you mean random?); allowed: "
-                 "bang-bang, step, random, multisine, chirp");
+                 "bang-bang, step, random, multisine, chirp, stepped-sine");
   expect_refused(
       run({"simulate", "--excitation", "random:rsm=1"}),
       "--excitation random:rsm=1: random.rsm: unknown (did you mean rms?); allowed: rms, "

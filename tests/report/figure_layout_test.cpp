@@ -48,6 +48,10 @@ TEST(FigureLayout, WhatCannotBeDrawnIsRefusedByName) {
   EXPECT_EQ(refusal(figure), "series \"b\": 2 values of x and 1 of y");
 
   figure = one_panel();
+  figure.stacks[0].panels[0].series[0].style.filled = true;
+  EXPECT_EQ(refusal(figure), "series \"a\": 2 values of y and 0 to fill up to");
+
+  figure = one_panel();
   figure.stacks[0].panels[0].y.label = "gain";
   figure.stacks[0].panels[0].series[0].y.assign(2, std::numeric_limits<double>::quiet_NaN());
   EXPECT_EQ(refusal(figure), "panel \"gain\": no series has a point to draw");
@@ -65,6 +69,14 @@ TEST(FigureLayout, RangesHoldTheDataWithAMarginAndKeepGivenLimits) {
   EXPECT_GT(box.x.to, 1.0);
   EXPECT_LT(box.y.from, 0.0);
   EXPECT_GT(box.y.to, 10.0);
+}
+
+TEST(FigureLayout, RangesHoldBothSidesOfAnArea) {
+  Figure figure = one_panel();
+  figure.stacks[0].panels[0].series.push_back({"b", {0, 1}, {-5, -5}, {.filled = true}, {20, 20}});
+  const PanelBox box = lay_out(figure).boxes[0][0];
+  EXPECT_LT(box.y.from, -5.0);
+  EXPECT_GT(box.y.to, 20.0);
 }
 
 TEST(FigureLayout, ASingleValueGetsRoomAroundIt) {
@@ -138,6 +150,7 @@ TEST(LogarithmicTicks, AreDecadesInOneNotation) {
 TEST(LogarithmicTicks, LabelTwoAndFiveWhereDecadesAreFew) {
   EXPECT_EQ(labels(logarithmic_ticks({1.5, 30.0}, 10)), "2 5 10 20");
   EXPECT_EQ(labels(logarithmic_ticks({15.0, 80.0}, 10)), "20 50");
+  EXPECT_EQ(labels(logarithmic_ticks({3e-4, 3e-3}, 10)), "5·10⁻⁴ 10⁻³ 2·10⁻³");
 }
 
 }  // namespace

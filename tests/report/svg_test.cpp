@@ -113,6 +113,25 @@ TEST(Svg, APointThatCannotBeDrawnIsAGap) {
   EXPECT_EQ(pieces(to_svg(two_lines()), "hub_angle"), 1);
 }
 
+TEST(Svg, AnAreaIsAPolygonForEachStretchBetweenGaps) {
+  Figure figure = two_lines();
+  figure.stacks[0].panels[0].series.push_back({"band",
+                                               {1, 1.5, 2, 2.2, 2.5, 3},
+                                               {1, 1, kNaN, 1, 1, 1},
+                                               {.colour = sky_blue, .filled = true},
+                                               {2, 3, 2, 2, 3, 2}});
+  const std::string svg = to_svg(figure);
+  const std::size_t group = svg.find("<title>band</title>");
+  const std::string area = svg.substr(group, svg.find("<title>", group + 1) - group);
+  std::size_t polygons = 0;
+  for (std::size_t at = area.find("<polygon"); at != std::string::npos;
+       at = area.find("<polygon", at + 1)) {
+    ++polygons;
+  }
+  EXPECT_EQ(polygons, 2U);
+  EXPECT_THAT(texts(svg), Contains("band"));
+}
+
 TEST(Svg, ASeriesWithNothingToDrawStaysInTheLegend) {
   Figure figure = two_lines();
   figure.stacks[0].panels[0].series[0].y.assign(3, kNaN);

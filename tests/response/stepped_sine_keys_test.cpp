@@ -74,6 +74,7 @@ TEST(SteppedSineKeys, RefuseWhatIsNoneOrDoesNotFit) {
       {{{"cycles", "2.5"}}, "stepped-sine.cycles = 2.5: must be a whole number"},
       {{{"settle", "soon"}}, "stepped-sine.settle = soon: must be a number [s], or steady"},
       {{{"settle", "-1"}}, "stepped-sine.settle = -1 s: must be a finite number, 0 or more"},
+      {{{"settle", "1e9"}}, "stepped-sine.settle = 1000000000 s: must be 200000 s, 1e+07 periods"},
       {{{"from", "nan"}}, "stepped-sine.from = nan Hz: must be a finite number above 0"},
   };
   for (const auto& [keys, message] : cases) EXPECT_THAT(error_of(keys), HasSubstr(message));

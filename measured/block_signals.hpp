@@ -35,6 +35,9 @@ using RowVisitor = std::function<void(const Eigen::Ref<const Eigen::MatrixXd>& r
 /// Rows of data with noise of their own: a run in time, or one sensor's frequency response.
 struct Stretch {
   std::vector<Eigen::Index> sensors;  ///< whose readings the last columns are
+  /// What a residual of each of them counts, against those of the same sensor in other stretches;
+  /// empty: 1.
+  std::vector<double> weights = {};
   bool begins_in_motion = false;
   bool in_time = true;
   Eigen::Index rows = 0;
@@ -42,6 +45,9 @@ struct Stretch {
   /// Calls the visitor with the stretch's rows in order, some hundreds at a time: r x columns.
   std::function<void(std::span<const SecondOrderBlock>, const RowVisitor&)> visit;
 
+  double weight(Eigen::Index reading) const {
+    return weights.empty() ? 1.0 : weights[static_cast<std::size_t>(reading)];
+  }
   SignalLayout layout(std::size_t blocks) const {
     return {static_cast<Eigen::Index>(blocks), begins_in_motion};
   }

@@ -2,6 +2,7 @@
 
 #include "measured/fitted_residues.hpp"
 #include "measured/modal_fit_task.hpp"
+#include "measured/noise_levels.hpp"
 #include "measured/propagated_error.hpp"
 
 #include <algorithm>
@@ -25,7 +26,8 @@ constexpr double kNearDamping = 0.3;
 constexpr double kOnlyRounding = 1e-6;
 /// Shares of the progress.
 constexpr double kAfterChart = 0.1;
-constexpr double kAfterSearch = 0.6;
+constexpr double kOfSearch = 0.55;
+constexpr double kHalfWay = 0.55;
 
 StabilisationChart chart_of(const ModalFitTask& task, const ModalFitOptions& options) {
   Index lines = 0;
@@ -175,13 +177,12 @@ void describe_sensors(ModalFit& fit, const BlockFit& blocks, const ResidualStudy
   }
 }
 
-ModalFit fit_task(const ModalFitTask& task, const ModalFitOptions& options) {
-  ModalFit fit;
-  fit.band = task.band;
-  const auto report = [&](double fraction) {
-    return !options.progress || options.progress(fraction);
+/// Searches for blocks, then fits them to all data. `from` and `to` are the share of the progress.
+BlockFit search_and_fit(const ModalFitTask& task, const ModalFitOptions& options, double from,
+                        double to, ModalFit& fit) {
+  const auto report = [&](double share) {
+    return !options.progress || options.progress(from + (to - from) * share);
   };
-  fit.chart = chart_of(task, options);
   const ColumnChoices choices{.undamped_residues = options.undamped_residues,
                               .static_remainder = options.static_remainder,
                               .offset = options.offset};
@@ -189,7 +190,7 @@ ModalFit fit_task(const ModalFitTask& task, const ModalFitOptions& options) {
   int passes = 0;
   projection.go_on = [&] {
     ++passes;
-    return report(kAfterChart + (kAfterSearch - kAfterChart) * (1.0 - 1.0 / (1.0 + 0.03 * passes)));
+    return report(kOfSearch * (1.0 - 1.0 / (1.0 + 0.03 * passes)));
   };
   const BlockSearch search = search_blocks(
       task.search, task.sensors, stable_poles(fit.chart, options.least_stable_orders), choices,
@@ -205,7 +206,7 @@ ModalFit fit_task(const ModalFitTask& task, const ModalFitOptions& options) {
   passes = 0;
   projection.go_on = [&] {
     ++passes;
-    return report(kAfterSearch + (1.0 - kAfterSearch) * (1.0 - 1.0 / (1.0 + 0.2 * passes)));
+    return report(kOfSearch + (1.0 - kOfSearch) * (1.0 - 1.0 / (1.0 + 0.2 * passes)));
   };
   BlockSet blocks = search.blocks;
   sort_flexible(blocks);
@@ -216,6 +217,20 @@ ModalFit fit_task(const ModalFitTask& task, const ModalFitOptions& options) {
       sort_flexible(blocks);
       best = fit_blocks(task.all, task.sensors, blocks, choices, projection);
     }
+  }
+  return best;
+}
+
+ModalFit fit_task(ModalFitTask task, const ModalFitOptions& options) {
+  ModalFit fit;
+  fit.band = task.band;
+  fit.chart = chart_of(task, options);
+  const bool several_runs = task.in_time && task.all.size() > 1;
+  const double middle = several_runs ? kHalfWay : 1.0;
+  BlockFit best = search_and_fit(task, options, kAfterChart, middle, fit);
+  if (several_runs && !best.cancelled && weigh_runs(best, task.all)) {
+    weigh_runs(best, task.search);
+    best = search_and_fit(task, options, middle, 1.0, fit);
   }
   fit.blocks = best.blocks;
   fit.iterations = best.iterations;
@@ -247,7 +262,7 @@ ModalFit fit_task(const ModalFitTask& task, const ModalFitOptions& options) {
     judge_poles(fit, options, unexplained);
   }
   describe_sensors(fit, best, study);
-  report(1.0);
+  if (options.progress) options.progress(1.0);
   return fit;
 }
 

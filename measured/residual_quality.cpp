@@ -216,7 +216,8 @@ ResidualStudy study_residuals(std::span<const Stretch> stretches, const BlockFit
       }
       for (Index i = 0; i < readings; ++i) {
         const auto j = static_cast<std::size_t>(stretch.sensors[static_cast<std::size_t>(i)]);
-        add_scores(fit, j, r, layout, sum.row(i), scores);
+        const double weight = stretch.weight(i);
+        add_scores(fit, j, r, layout, weight * weight * sum.row(i), scores);
       }
       influences.push_back(influence(fit, scores, first));
     }

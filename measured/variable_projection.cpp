@@ -48,8 +48,9 @@ class SensorProblem {
     for (std::size_t r = 0; r < stretches.size(); ++r) {
       const auto at = std::ranges::find(stretches[r].sensors, index);
       if (at == stretches[r].sensors.end()) continue;
-      pieces_.push_back({r, rows, &triangles[r], stretches[r].layout(blocks.blocks.size()),
-                         at - stretches[r].sensors.begin()});
+      const Index reading = at - stretches[r].sensors.begin();
+      pieces_.push_back({r, rows, &triangles[r], stretches[r].layout(blocks.blocks.size()), reading,
+                         stretches[r].weight(reading), static_cast<double>(stretches[r].rows)});
       rows += triangles[r].rows();
       values_ += static_cast<double>(stretches[r].rows);
     }
@@ -58,11 +59,11 @@ class SensorProblem {
     for (const Piece& piece : pieces_) {
       const MatrixXd& triangle = *piece.triangle;
       y_.segment(piece.first_row, triangle.rows()) =
-          triangle.col(piece.layout.first_reading() + piece.reading);
+          piece.weight * triangle.col(piece.layout.first_reading() + piece.reading);
       for (std::size_t i = 0; i < model.columns.size(); ++i) {
         if (!has(piece, model.columns[i])) continue;
         a_.block(piece.first_row, static_cast<Index>(i), triangle.rows(), 1) =
-            column_of(model.columns[i], triangle, piece.layout, blocks);
+            piece.weight * column_of(model.columns[i], triangle, piece.layout, blocks);
       }
     }
   }
@@ -96,6 +97,12 @@ class SensorProblem {
     estimate.rows = values_;
     const double floor = kRounding * y_.norm();
     estimate.squares = residual.squaredNorm() + floor * floor;
+    for (const Piece& piece : pieces_) {
+      const double squares =
+          residual.segment(piece.first_row, piece.triangle->rows()).squaredNorm() + floor * floor;
+      estimate.stretches.push_back(
+          {piece.stretch, squares / (piece.weight * piece.weight), piece.rows});
+    }
 
     const MatrixXd d = derivative(estimate.beta);
     const MatrixXd unit_change = in_range(d);
@@ -122,6 +129,8 @@ class SensorProblem {
     const MatrixXd* triangle;
     SignalLayout layout;
     Index reading;
+    double weight;
+    double rows;
   };
 
   /// Of a sensor that no block moves yet.
@@ -151,7 +160,7 @@ class SensorProblem {
             column_derivatives(column, *piece.triangle, piece.layout, blocks_);
         if (of_column.size() == 0) continue;
         d.block(piece.first_row, blocks_.first_parameter(column.block), of_column.rows(),
-                of_column.cols()) += beta(static_cast<Index>(i)) * of_column;
+                of_column.cols()) += piece.weight * beta(static_cast<Index>(i)) * of_column;
       }
     }
     return d;

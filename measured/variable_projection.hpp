@@ -19,15 +19,25 @@ struct ProjectionOptions {
   std::function<bool()> go_on = {};
 };
 
+/// What a fit leaves of one sensor's readings in one stretch, without its weight.
+struct StretchResidual {
+  std::size_t stretch = 0;
+  double squares = 0.0;
+  double rows = 0.0;
+
+  double variance() const { return squares / rows; }
+};
+
 /// One sensor's linear parameters beta at the fitted theta. p is their number; the first `shared`
 /// columns of its model are common to all stretches.
 struct SensorEstimate {
   Eigen::VectorXd beta;
-  double squares = 0.0;          ///< residual sum of squares
-  double rows = 0.0;             ///< values it is a sum over
-  double variance = 0.0;         ///< squares/(rows - parameters): of the noise
+  double squares = 0.0;   ///< residual sum of squares, each times its stretch's weight squared
+  double rows = 0.0;      ///< values it is a sum over
+  double variance = 0.0;  ///< squares/(rows - parameters): of the noise
   Eigen::MatrixXd unit_inverse;  ///< (A^T A)^-1, p x p
   Eigen::MatrixXd to_theta;      ///< d beta/d theta, p x parameters of theta
+  std::vector<StretchResidual> stretches = {};
 };
 
 struct BlockFit {
@@ -51,10 +61,11 @@ struct BlockFit {
 ///
 ///     sum_j n_j log |(I - A_j A_j^+) y_j|^2,
 ///
-/// variable projection (Golub and Pereyra 1973) with Kaufman's Jacobian -(I - A A^+) dA beta,
-/// whose cross product is the Fisher information of theta with beta eliminated, and
-/// Levenberg-Marquardt steps. All of a step is done on the triangular factors of the stretches, so
-/// that its cost beyond one pass over the data does not depend on their length.
+/// rows times the weights of their stretches; variable projection (Golub and Pereyra 1973) with
+/// Kaufman's Jacobian -(I - A A^+) dA beta, whose cross product is the Fisher information of theta
+/// with beta eliminated, and Levenberg-Marquardt steps. All of a step is done on the triangular
+/// factors of the stretches, so that its cost beyond one pass over the data does not depend on
+/// their length.
 BlockFit fit_blocks(std::span<const Stretch> stretches, std::span<const arm::Sensor> sensors,
                     const BlockSet& start, const ColumnChoices& choices,
                     const ProjectionOptions& options = {});

@@ -193,6 +193,26 @@ TEST(ModalFit, OfTwoRunsIsSurerThanOfOne) {
   }
 }
 
+TEST(ModalFit, ALoudRunBesideAQuietOneDoesNoHarm) {
+  FitCase fit_case;
+  fit_case.duration_s = 20.0;
+  fit_case.relative_noise = 0.002;
+  std::vector<TimeRecord> records = {record_of(fit_case)};
+  const ModalFit quiet = fit_modes(records, {.modes = 3});
+  fit_case.excitation = response::RandomNoise{.seed = 2};
+  fit_case.relative_noise = 0.1;
+  fit_case.seed = 2;
+  records.push_back(record_of(fit_case));
+  const ModalFit both = fit_modes(records, {.modes = 3});
+  const auto exact = exact_roots(model_of(fit_case), 0).poles;
+  for (std::size_t i = 0; i < 3; ++i) {
+    // As of twice as many data with the noise of both in the mean they would be 35 times as large.
+    EXPECT_LT(both.poles[i].frequency_std_Hz, 1.05 * quiet.poles[i].frequency_std_Hz);
+    EXPECT_LT(std::abs(both.poles[i].frequency_Hz - natural_Hz(exact[i])),
+              4.0 * both.poles[i].frequency_std_Hz);
+  }
+}
+
 TEST(ModalFit, SaysThatColouredNoiseIsColouredAndWidensItsErrors) {
   FitCase fit_case;
   fit_case.duration_s = 30.0;

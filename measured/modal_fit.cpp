@@ -28,6 +28,7 @@ constexpr double kOnlyRounding = 1e-6;
 constexpr double kAfterChart = 0.1;
 constexpr double kOfSearch = 0.55;
 constexpr double kHalfWay = 0.55;
+constexpr int kWeighings = 3;
 
 StabilisationChart chart_of(const ModalFitTask& task, const ModalFitOptions& options) {
   Index lines = 0;
@@ -177,15 +178,19 @@ void describe_sensors(ModalFit& fit, const BlockFit& blocks, const ResidualStudy
   }
 }
 
+ColumnChoices choices_of(const ModalFitOptions& options) {
+  return {.undamped_residues = options.undamped_residues,
+          .static_remainder = options.static_remainder,
+          .offset = options.offset};
+}
+
 /// Searches for blocks, then fits them to all data. `from` and `to` are the share of the progress.
 BlockFit search_and_fit(const ModalFitTask& task, const ModalFitOptions& options, double from,
                         double to, ModalFit& fit) {
   const auto report = [&](double share) {
     return !options.progress || options.progress(from + (to - from) * share);
   };
-  const ColumnChoices choices{.undamped_residues = options.undamped_residues,
-                              .static_remainder = options.static_remainder,
-                              .offset = options.offset};
+  const ColumnChoices choices = choices_of(options);
   ProjectionOptions projection{.most_iterations = options.most_iterations};
   int passes = 0;
   projection.go_on = [&] {
@@ -231,6 +236,12 @@ ModalFit fit_task(ModalFitTask task, const ModalFitOptions& options) {
   if (several_runs && !best.cancelled && weigh_runs(best, task.all)) {
     weigh_runs(best, task.search);
     best = search_and_fit(task, options, middle, 1.0, fit);
+    // The first weights count what a loud run bent the fit of a quiet one by.
+    for (int round = 0; round < kWeighings && !best.cancelled; ++round) {
+      weigh_runs(best, task.all);
+      best = fit_blocks(task.all, task.sensors, best.blocks, choices_of(options),
+                        {.most_iterations = options.most_iterations});
+    }
   }
   fit.blocks = best.blocks;
   fit.iterations = best.iterations;

@@ -9,6 +9,7 @@
 #include "arm/atomic_file.hpp"
 #include "arm/input_error.hpp"
 #include "arm/nearest_name.hpp"
+#include "arm/range.hpp"
 #include "compare/identification.hpp"
 #include "measured/identification.hpp"
 #include "report/arm_json.hpp"
@@ -51,6 +52,7 @@ struct Arguments {
   std::optional<double> from_Hz;
   std::optional<double> to_Hz;
   int highest_order = 32;
+  std::optional<double> total_inertia_kg_m2;
   OutputChoice output;
 };
 
@@ -121,6 +123,11 @@ measured::IdentificationOptions options_of(const Arguments& arguments, const arm
   if (arguments.highest_order < 2 || arguments.highest_order > 100) {
     throw arm::out_of_range("--order", arguments.highest_order, "", "2 to 100");
   }
+  if (arguments.total_inertia_kg_m2) {
+    arm::require_in_range("--total-inertia", *arguments.total_inertia_kg_m2, "kg m^2",
+                          arm::kPositive);
+  }
+  options.total_inertia_kg_m2 = arguments.total_inertia_kg_m2;
   options.modal_fit.modes = arguments.modes;
   options.modal_fit.highest_order = arguments.highest_order;
   options.modal_fit.rigid_body =
@@ -288,6 +295,8 @@ Command add_identify(CLI::App& program) {
                      "Flexible blocks of a fit; as many as the data call for unless given");
   parser->add_option("--order", arguments->highest_order, "Highest of the stabilisation chart")
       ->capture_default_str();
+  parser->add_option("--total-inertia", arguments->total_inertia_kg_m2,
+                     "I_T [kg m^2] for slopes and gains; as the rigid body turns unless given");
   parser->add_flag("--no-fit", arguments->no_fit, "Spectra, peaks and circles alone");
   add_output_choice(*parser, arguments->output,
                     "Folder for modal tables, responses as CSV, and figures as SVG");

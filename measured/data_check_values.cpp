@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace flexarm::measured {
@@ -127,14 +128,26 @@ bool catches_up(std::span<const double> x, const EqualRun& run) {
   return std::abs(x[after] - x[run.first]) > kJump * usual;
 }
 
+/// The smallest change from one sample to the next: what a reading in fine steps turns back by,
+/// where a hub rests between moves.
+double smallest_change(std::span<const double> x) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 1; k < x.size(); ++k) {
+    const double change = std::abs(x[k] - x[k - 1]);
+    if (change > 0.0) smallest = std::min(smallest, change);
+  }
+  return smallest;
+}
+
 Limit limit_at(std::span<const CheckedSignal> signals, const CheckedSignal& signal, double value,
                double step) {
   const auto x = signal.values;
+  const double least_fall = kFall_steps * std::max(step, smallest_change(x));
   Limit limit;
   // Readings in steps repeat their largest value; others never do unless they are clipped.
   for (const auto& run : equal_runs(x, step > 0.0 ? 2 : 1)) {
     if (x[run.first] != value || catches_up(x, run) || is_held(signals, signal, run) ||
-        is_restful(x, run) || !falls_off(x, run, kFall_steps * step)) {
+        is_restful(x, run) || !falls_off(x, run, least_fall)) {
       continue;
     }
     if (limit.runs == 0) limit.first = run.first;

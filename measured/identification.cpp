@@ -195,7 +195,8 @@ std::vector<RunsFit> group_runs(const std::vector<MeasuredRun>& runs,
   return groups;
 }
 
-void fit(RunsFit& fitted, const std::vector<MeasuredRun>& runs, const ModalFitOptions& options) {
+void fit(RunsFit& fitted, const std::vector<MeasuredRun>& runs, const ModalFitOptions& options,
+         std::optional<double> total_inertia_kg_m2) {
   ModalFitOptions own = options;
   const MeasuredRun& first = runs[fitted.runs.front()];
   own.torque_hold = first.run.torque_hold;
@@ -212,7 +213,7 @@ void fit(RunsFit& fitted, const std::vector<MeasuredRun>& runs, const ModalFitOp
   }
   if (fitted.fit.cancelled) return;
   try {
-    fitted.gains = modal_gains(fitted.fit);
+    fitted.gains = modal_gains(fitted.fit, total_inertia_kg_m2);
   } catch (const arm::InputError& error) {
     fitted.gains_refusal = error.what();
   }
@@ -268,7 +269,7 @@ Identification identify(std::vector<MeasuredRun> runs, const IdentificationOptio
                    spectra_share + (1.0 - spectra_share) * all);
     };
     try {
-      fit(group, runs, own);
+      fit(group, runs, own, options.total_inertia_kg_m2);
     } catch (const arm::InputError& error) {
       group.refusal = error.what();
     }

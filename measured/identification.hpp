@@ -88,6 +88,8 @@ struct IdentificationOptions {
   DataCheckOptions check = {};  ///< `starts_at_rest` is each run's own
   bool fit = true;
   ModalFitOptions modal_fit = {};  ///< `torque_hold` and `initial` are each run's own
+  /// For hub slopes and gains; empty: as the rigid body's motion has it.
+  std::optional<double> total_inertia_kg_m2 = {};
   /// Called now and then with what is being done and the fraction of all work done; false ends it,
   /// with what there is until then.
   std::function<bool(std::string_view what, double fraction)> progress = {};

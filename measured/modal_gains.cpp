@@ -3,6 +3,8 @@
 #include "arm/input_error.hpp"
 #include "measured/propagated_error.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -154,10 +156,12 @@ ModalGains modal_gains(const ModalFit& fit, std::optional<double> total_inertia_
   };
   gains.total_inertia_kg_m2 = estimate(fit, inertia);
   if (!(gains.total_inertia_kg_m2.value > 0.0)) {
-    throw arm::out_of_range(
-        "modal gains: I_T", gains.total_inertia_kg_m2.value, "kg m^2",
-        "above 0; the torque's sign or the hub's is not as in docs/formats.md, or friction "
-        "hides the rigid body's motion: then give I_T");
+    throw arm::InputError(fmt::format(
+        "modal gains: the rigid body's 1/I_T = {:.3g} 1/(kg m^2) is not above 0; the torque's sign "
+        "or the hub's is not as in docs/formats.md, or friction hides the rigid body's motion: "
+        "then "
+        "it must be given",
+        1.0 / gains.total_inertia_kg_m2.value));
   }
   std::vector<std::size_t> modes;
   const std::size_t first = fit.blocks.rigid ? 1 : 0;

@@ -106,6 +106,7 @@ TEST_F(Identify, WhatCannotBeUsedIsSaidInOneLine) {
   EXPECT_THAT(errors({"--modes", "0"}), HasSubstr("1 or more"));
   EXPECT_THAT(errors({"--from-Hz", "3"}), HasSubstr("--to-Hz"));
   EXPECT_THAT(errors({"--order", "1"}), HasSubstr("2 to 100"));
+  EXPECT_THAT(errors({"--total-inertia", "0"}), HasSubstr("above 0"));
   EXPECT_THAT(run({"identify", "sim/nothing.toml"}).errors, HasSubstr("nothing.toml"));
 }
 

@@ -166,6 +166,23 @@ TEST(DataFindings, AStepBelowTheNoiseIsNoFault) {
   EXPECT_TRUE(check_data(record).empty());
 }
 
+TEST(DataFindings, AnEncoderThatRestsWhereItTurnsBackIsNotClipped) {
+  // A move that friction ends at its furthest point, and one back; 4096 steps of 1/650 degree.
+  constexpr double kStep_rad = 1.534e-5;
+  TimeRecord record{{}, {}, {{{arm::SensorKind::hub_angle, 0.0}, {}}}};
+  for (int k = 0; k < 2000; ++k) {
+    const double t = 0.002 * k;
+    const double rest = std::clamp(t, 1.0, 1.06);  // held for 30 samples
+    const double angle = 0.45 * std::cos(1.5 * (t < 1.06 ? std::min(t, 1.0) - 1.0 : t - rest));
+    record.time_s.push_back(t);
+    record.torque_N_m.push_back(0.1 * std::cos(1.5 * t));
+    record.channels[0].values.push_back(kStep_rad * std::round(angle / kStep_rad));
+  }
+  for (const auto& finding : check_data(record)) {
+    EXPECT_NE(finding.fault, Fault::saturation) << finding.text;
+  }
+}
+
 TEST(DataCheck, RefusesWhatIsNoRecord) {
   TimeRecord record = clean(1).record;
   record.torque_N_m.pop_back();

@@ -48,10 +48,9 @@ std::vector<Candidate> grid(const BlockSearchOptions& options) {
       places.push_back({block_at(from * std::pow(options.band.to_Hz / from, share), damping)});
     }
   }
-  if (!options.sampled) {
-    for (const double beyond : {1.2, 1.6, 2.5}) {
-      places.push_back({block_at(beyond * options.band.to_Hz, 0.1)});
-    }
+  for (const double beyond : {1.2, 1.6, 2.5}) {
+    const double frequency_Hz = beyond * options.band.to_Hz;
+    if (frequency_Hz < options.highest_Hz) places.push_back({block_at(frequency_Hz, 0.1)});
   }
   return places;
 }

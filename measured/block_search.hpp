@@ -4,6 +4,7 @@
 #include "measured/start_spectra.hpp"
 #include "measured/variable_projection.hpp"
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,7 +17,8 @@ struct BlockSearchOptions {
   std::optional<int> modes = {};  ///< flexible blocks; empty: as many as the criterion asks for
   int most_blocks = 16;           ///< flexible ones
   double bic_margin = 10.0;       ///< a block stays when BIC falls by more
-  bool sampled = true;            ///< a run in time, where blocks above the band show below it
+  /// Below which samples tell frequencies apart; infinite for frequency responses.
+  double highest_Hz = std::numeric_limits<double>::infinity();
 };
 
 /// A number of flexible blocks that was fitted.

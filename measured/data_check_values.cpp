@@ -144,8 +144,9 @@ Limit limit_at(std::span<const CheckedSignal> signals, const CheckedSignal& sign
   const auto x = signal.values;
   const double least_fall = kFall_steps * std::max(step, smallest_change(x));
   Limit limit;
-  // Readings in steps repeat their largest value; others never do unless they are clipped.
-  for (const auto& run : equal_runs(x, step > 0.0 ? 2 : 1)) {
+  // Readings in steps repeat their largest value, and a torque that repeats itself does; others
+  // never do unless they are clipped.
+  for (const auto& run : equal_runs(x, step > 0.0 || signal.is_torque() ? 2 : 1)) {
     if (x[run.first] != value || catches_up(x, run) || is_held(signals, signal, run) ||
         is_restful(x, run) || !falls_off(x, run, least_fall)) {
       continue;

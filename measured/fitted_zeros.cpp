@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace flexarm::measured {
@@ -131,6 +132,16 @@ FittedZero zero_at(Complex s, const FittedTransfer& transfer, const MatrixXd& co
   return zero;
 }
 
+double distance_to_poles(Complex s, const BlockSet& set) {
+  double distance = std::numeric_limits<double>::infinity();
+  for (const SecondOrderBlock& block : set.blocks) {
+    for (const Complex pole : block.poles_rad_per_s()) {
+      distance = std::min(distance, std::abs(s - pole));
+    }
+  }
+  return distance;
+}
+
 }  // namespace
 
 std::vector<FittedZero> fitted_zeros(const FittedTransfer& transfer, const MatrixXd& covariance,
@@ -149,8 +160,10 @@ std::vector<FittedZero> fitted_zeros(const FittedTransfer& transfer, const Matri
     if (std::abs(s.imag()) <= kReal * std::abs(s)) s = s.real();
     if (s.imag() < 0.0) continue;
     zeros.push_back(zero_at(polished(transfer, s), transfer, covariance));
-    zeros.back().in_band =
-        zeros.back().frequency_Hz >= from_Hz && zeros.back().frequency_Hz <= to_Hz;
+    FittedZero& zero = zeros.back();
+    zero.in_band = zero.frequency_Hz >= from_Hz && zero.frequency_Hz <= to_Hz;
+    zero.is_told = 2.0 * std::numbers::pi * zero.frequency_std_Hz <=
+                   kTold * distance_to_poles(zero.s_rad_per_s, transfer.blocks());
   }
   std::ranges::sort(zeros, {}, &FittedZero::frequency_Hz);
   return zeros;

@@ -17,9 +17,14 @@ struct FittedZero {
   double damping_ratio = 0.0;        ///< -Re s/|s|
   double damping_ratio_std = 0.0;
   bool in_band = false;
+  /// Its standard error is at most kTold of its distance from the nearest pole. One that is larger,
+  /// or next to a pole because the other blocks' part is unknown, might be anywhere.
+  bool is_told = false;
 
   bool operator==(const FittedZero&) const = default;
 };
+
+inline constexpr double kTold = 0.2;
 
 /// Zeros of `transfer`, ascending in |s|, those at s = 0 and at infinity left out: finite
 /// eigenvalues of the Rosenbrock pencil [A - sE, B; C, D] of the blocks (QZ), each then a root of

@@ -204,7 +204,7 @@ BlockFit search_and_fit(const ModalFitTask& task, const ModalFitOptions& options
        .modes = options.modes,
        .most_blocks = options.most_blocks,
        .bic_margin = options.bic_margin,
-       .sampled = task.in_time},
+       .highest_Hz = task.highest_Hz},
       projection);
   fit.order_trials = search.trials;
   fit.order_reason = search.reason;
@@ -328,7 +328,8 @@ ModalTable modal_table(const ModalFit& fit, double most_damping_ratio) {
   for (const FittedSensor& sensor : fit.sensors) {
     order = 0;
     for (const FittedZero& zero : sensor.zeros) {
-      if (!zero.in_band || std::abs(zero.damping_ratio) > most_damping_ratio) continue;
+      if (!zero.in_band || !zero.is_told) continue;
+      if (std::abs(zero.damping_ratio) > most_damping_ratio) continue;
       table.push_back({.sensor = sensor.sensor,
                        .feature = Feature::zero,
                        .order = ++order,

@@ -193,6 +193,7 @@ ModalFitTask time_task(std::span<const TimeRecord> records, const ModalFitOption
   task.in_time = true;
   task.period_s = longest_s <= shortest_s * (1.0 + kSamePeriod) ? shortest_s : 0.0;
   task.band = time_band(records, options, shortest_s);
+  task.highest_Hz = 0.5 / shortest_s;
   task.angle_period_s = 0.5 / task.band.to_Hz;
   for (std::size_t r = 0; r < records.size(); ++r) {
     const TimeRecord& record = records[r];

@@ -3,6 +3,7 @@
 #include "measured/modal_fit.hpp"
 #include "measured/start_spectra.hpp"
 
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -17,6 +18,8 @@ struct ModalFitTask {
   FitBand band;
   double angle_period_s = 0.0;  ///< angle of the equations over omega
   bool in_time = true;
+  /// Half the sampling frequency of the fastest run; infinite for frequency responses.
+  double highest_Hz = std::numeric_limits<double>::infinity();
   /// Sampling period that all records have; 0 where there is none, so that nothing is an alias in
   /// all of them.
   double period_s = 0.0;

@@ -22,6 +22,7 @@ using Eigen::VectorXd;
 constexpr double kPi = std::numbers::pi;
 /// Differences of this many standard errors are derivatives to 1e-8 of the curvature's part.
 constexpr double kStep = 1e-4;
+constexpr double kMostRelative = 0.5;
 constexpr int kNewtonSteps = 4;
 
 /// The fit at other parameters, and the roots that belong to it.
@@ -121,7 +122,8 @@ std::vector<FittedZero> antiresonances(const ModalFit& fit, std::size_t hub,
     const bool below_last =
         !modes.empty() &&
         zero.frequency_Hz < fit.blocks.blocks[modes.back()].omega_rad_per_s() / (2.0 * kPi);
-    if (zero.s_rad_per_s.imag() > 0.0 && below_last && std::abs(zero.damping_ratio) < 0.5) {
+    if (zero.is_told && zero.s_rad_per_s.imag() > 0.0 && below_last &&
+        std::abs(zero.damping_ratio) < 0.5) {
       kept.push_back(zero);
     }
   }
@@ -178,7 +180,8 @@ ModalGains modal_gains(const ModalFit& fit, std::optional<double> total_inertia_
     };
     const auto accepted = [&](const Quantity& quantity) -> std::optional<Estimate> {
       const Estimate found = estimate(fit, quantity);
-      if (!std::isfinite(found.value) || !std::isfinite(found.standard_error)) return std::nullopt;
+      // Not a number, or not even its sign known.
+      if (!(found.standard_error <= kMostRelative * std::abs(found.value))) return std::nullopt;
       return found;
     };
     gain.hub_slope = accepted(slope);

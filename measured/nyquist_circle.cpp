@@ -19,6 +19,8 @@ namespace {
 using Complex = std::complex<double>;
 
 constexpr double kPi = std::numbers::pi;
+/// A circle of more is none: its points are not near a resonance.
+constexpr double kMostDamping = 0.5;
 constexpr double kDegree = kPi / 180.0;
 
 /// The channel in velocity form, without line 0.
@@ -253,11 +255,18 @@ std::optional<std::string> draw(const Velocity& v, double near_Hz, const CircleS
     return fmt::format("its points are no circle: {:.2g} of its radius off",
                        made.circle.rms_distance / made.circle.radius);
   }
+  const bool inside = fit.natural_frequency_Hz >= made.frequency_Hz.front() &&
+                      fit.natural_frequency_Hz <= made.frequency_Hz.back();
+  if (!inside) return "its resonance lies outside its points";
   made.natural_frequency_Hz = fit.natural_frequency_Hz;
   made.natural_frequency_std_Hz = fit.natural_frequency_std_Hz;
   made.fastest_Hz = fastest_Hz(made.frequency_Hz, angles);
   damping_from_pairs(made, angles, fit);
   if (made.pairs == 0) return "no points at both sides of it, 30 to 150 degrees away";
+  if (!(made.damping_ratio > 0.0 && made.damping_ratio < kMostDamping)) {
+    return fmt::format("its points turn as no resonance does: a damping ratio of {:.3g}",
+                       made.damping_ratio);
+  }
   made.modal_constant = 2.0 * made.circle.radius * std::polar(1.0, fit.a) * 2.0 *
                         made.damping_ratio * 2.0 * kPi * made.natural_frequency_Hz;
   return std::nullopt;

@@ -15,7 +15,8 @@ namespace flexarm::measured {
 struct SpectrumSettings {
   std::optional<Window> window = {};
   std::optional<std::size_t> segment_samples = {};
-  std::optional<double> resolution_Hz = {};  ///< spacing of lines, unless `segment_samples` is given
+  std::optional<double> resolution_Hz =
+      {};                              ///< spacing of lines, unless `segment_samples` is given
   std::optional<double> overlap = {};  ///< part of a segment, 0 to below 1
   std::optional<Detrend> detrend = {};
   /// Whether readings that drift with the free arm are differenced (`differences_until_steady`).

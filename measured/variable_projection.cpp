@@ -26,6 +26,9 @@ constexpr double kRoundingStep = 1e-7;
 constexpr double kNoGain = 100.0;
 /// The largest step of log(omega) and of a damping ratio.
 constexpr double kLargestStep = 0.3;
+/// Decay within a sampling period, as its exponent, that a step may reach: a block that is faster
+/// shows at samples as a constant beside the static remainder, both as large as they like.
+constexpr double kMostDecay = 7.0;
 /// Growth of a free motion over a run, as its exponent, that a step may reach.
 constexpr double kMostGrowth = 8.0;
 
@@ -180,6 +183,10 @@ class Fitter {
       : stretches_(stretches), models_(std::move(models)) {
     for (const Stretch& stretch : stretches) {
       longest_s_ = std::max(longest_s_, stretch.duration_s);
+      if (!stretch.in_time) continue;
+      const double period_s = stretch.duration_s / static_cast<double>(stretch.rows);
+      shortest_period_s_ =
+          shortest_period_s_ > 0.0 ? std::min(shortest_period_s_, period_s) : period_s;
     }
   }
 
@@ -210,10 +217,49 @@ class Fitter {
     });
   }
 
+  /// A flexible block that is gone before the next sample.
+  bool is_too_fast(const SecondOrderBlock& block) const {
+    return block.a0_rad2_per_s2 > 0.0 &&
+           -block.poles_rad_per_s()[1].real() * shortest_period_s_ > kMostDecay;
+  }
+
  private:
   std::span<const Stretch> stretches_;
   std::vector<SensorModel> models_;
   double longest_s_ = 0.0;
+  double shortest_period_s_ = 0.0;  ///< 0 of frequency responses
+};
+
+/// Blocks that stay where they are: a step would make them too fast for the samples.
+class HeldBlocks {
+ public:
+  /// Holds those of `there` that are too fast and were not. Returns whether there are any.
+  bool hold(const Fitter& fitter, const BlockSet& there) {
+    held_.resize(there.blocks.size(), false);
+    bool any = false;
+    for (std::size_t m = 0; m < there.blocks.size(); ++m) {
+      if (held_[m] || !fitter.is_too_fast(there.blocks[m])) continue;
+      held_[m] = true;
+      any = true;
+    }
+    return any;
+  }
+
+  /// Takes their parameters out of a step.
+  void take_out(const BlockSet& blocks, VectorXd& gradient, MatrixXd& information) const {
+    for (std::size_t m = 0; m < held_.size(); ++m) {
+      if (!held_[m]) continue;
+      for (Index i = blocks.first_parameter(m); i < blocks.first_parameter(m) + 2; ++i) {
+        gradient(i) = 0.0;
+        information.row(i).setZero();
+        information.col(i).setZero();
+        information(i, i) = 1.0;
+      }
+    }
+  }
+
+ private:
+  std::vector<bool> held_;
 };
 
 /// Roots of the diagonal, 1 where it is 0.
@@ -222,12 +268,14 @@ VectorXd unit_scale(const MatrixXd& matrix) {
 }
 
 /// -(H + damping diag H)^-1 g in units of the diagonal; H is singular where a block is not seen.
-VectorXd marquardt_step(const Evaluation& at, double damping) {
-  const VectorXd scale = unit_scale(at.information);
-  MatrixXd h =
-      scale.cwiseInverse().asDiagonal() * at.information * scale.cwiseInverse().asDiagonal();
+VectorXd marquardt_step(const Evaluation& at, const HeldBlocks& held, double damping) {
+  VectorXd gradient = at.gradient;
+  MatrixXd information = at.information;
+  held.take_out(at.blocks, gradient, information);
+  const VectorXd scale = unit_scale(information);
+  MatrixXd h = scale.cwiseInverse().asDiagonal() * information * scale.cwiseInverse().asDiagonal();
   h.diagonal().array() += damping;
-  const VectorXd step = -h.ldlt().solve(at.gradient.cwiseQuotient(scale));
+  const VectorXd step = -h.ldlt().solve(gradient.cwiseQuotient(scale));
   return step.cwiseQuotient(scale);
 }
 
@@ -289,10 +337,11 @@ BlockFit fit_blocks(std::span<const Stretch> stretches, std::span<const arm::Sen
   Evaluation at = fitter.evaluate(start);
   constexpr double kStiffest = 1e12;
   double damping = 1e-4;
+  HeldBlocks held;
   const double enough = options.step_in_standard_errors * options.step_in_standard_errors;
   fit.converged = start.blocks.empty();
   while (!fit.converged && fit.iterations < options.most_iterations && damping < kStiffest) {
-    const VectorXd newton = marquardt_step(at, 1e-14);
+    const VectorXd newton = marquardt_step(at, held, 1e-14);
     if (-newton.dot(at.gradient) < enough) {
       fit.converged = true;
       break;
@@ -302,13 +351,14 @@ BlockFit fit_blocks(std::span<const Stretch> stretches, std::span<const arm::Sen
       break;
     }
     ++fit.iterations;
-    const VectorXd step = shortened(marquardt_step(at, damping), at.blocks);
+    const VectorXd step = shortened(marquardt_step(at, held, damping), at.blocks);
     const VectorXd theta = at.blocks.theta();
     if (step.norm() < 4.0 * std::numeric_limits<double>::epsilon() * theta.norm()) {
       fit.converged = true;
       break;
     }
     const BlockSet there = at.blocks.with(theta + step);
+    if (held.hold(fitter, there)) continue;
     std::optional<Evaluation> next;
     if (fitter.is_admissible(there)) next = fitter.evaluate(there);
     if (next && next->criterion < at.criterion) {
@@ -326,7 +376,7 @@ BlockFit fit_blocks(std::span<const Stretch> stretches, std::span<const arm::Sen
   }
   // No step lowers the criterion: rounding, where all that Newton's step would change is rounding.
   if (damping >= kStiffest) {
-    fit.converged = marquardt_step(at, 1e-14).cwiseAbs().maxCoeff() < kRoundingStep;
+    fit.converged = marquardt_step(at, held, 1e-14).cwiseAbs().maxCoeff() < kRoundingStep;
   }
   fit.models = fitter.models();
   finish(fit, at);

@@ -210,7 +210,8 @@ Json sensor_json(const measured::FittedSensor& sensor) {
     zeros.push_back({{"s_rad_per_s", complex_json(zero.s_rad_per_s)},
                      {"frequency_std_Hz", zero.frequency_std_Hz},
                      {"damping_ratio_std", zero.damping_ratio_std},
-                     {"in_band", zero.in_band}});
+                     {"in_band", zero.in_band},
+                     {"is_told", zero.is_told}});
   }
   const auto& residual = sensor.residual;
   return {{"sensor", arm::to_string(sensor.sensor)},

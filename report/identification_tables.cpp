@@ -49,6 +49,24 @@ std::vector<std::string> data_notes(const measured::Identification& identificati
     if (!fit.refusal.empty()) {
       notes.push_back(fmt::format("{}: no fit: {}", joined(ids), fit.refusal));
     }
+    if (fit.refusal.empty() && !fit.fit.converged) {
+      notes.push_back(
+          fmt::format("{}: the fit did not converge: more than these data tell is asked of it; "
+                      "poles in the band "
+                      "hold better than zeros and gains",
+                      joined(ids)));
+    }
+    for (const auto& sensor : fit.fit.sensors) {
+      const bool told = std::ranges::any_of(sensor.zeros, [](const measured::FittedZero& zero) {
+        return zero.in_band && !zero.is_told;
+      });
+      if (told) {
+        notes.push_back(
+            fmt::format("{}: {}: the fit has zeros in the band that these data do not "
+                        "tell; they are left out",
+                        joined(ids), arm::to_string(sensor.sensor)));
+      }
+    }
     if (!fit.gains_refusal.empty()) {
       notes.push_back(fmt::format("{}: {}", joined(ids), fit.gains_refusal));
     }

@@ -281,7 +281,7 @@ Table real_zero_table(const IdentifiedData& data) {
         expected.push_back(-zero);
       }
       for (const auto& zero : sensor.zeros) {
-        if (zero.s_rad_per_s.imag() == 0.0) found.push_back(zero.s_rad_per_s);
+        if (zero.is_told && zero.s_rad_per_s.imag() == 0.0) found.push_back(zero.s_rad_per_s);
       }
       const auto matched = compare::match_nearest(expected, found);
       for (std::size_t i = 0; i < expected.size(); ++i) {

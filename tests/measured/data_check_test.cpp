@@ -183,6 +183,18 @@ TEST(DataFindings, AnEncoderThatRestsWhereItTurnsBackIsNotClipped) {
   }
 }
 
+TEST(DataFindings, ATorqueThatRepeatsItselfIsNotClippedAtItsPeaks) {
+  TimeRecord record = clean(11).record;
+  for (std::size_t k = 0; k < record.time_s.size(); ++k) {
+    // Twelve periods, to the bit.
+    const auto within = static_cast<double>(k % (record.time_s.size() / 12));
+    record.torque_N_m[k] = std::sin(0.1 * within) + 0.4 * std::sin(0.23 * within + 1.0);
+  }
+  for (const auto& finding : check_data(record)) {
+    EXPECT_NE(finding.fault, Fault::saturation) << finding.text;
+  }
+}
+
 TEST(DataCheck, RefusesWhatIsNoRecord) {
   TimeRecord record = clean(1).record;
   record.torque_N_m.pop_back();

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
 
@@ -29,6 +30,8 @@ constexpr double kAfterChart = 0.1;
 constexpr double kOfSearch = 0.55;
 constexpr double kHalfWay = 0.55;
 constexpr int kWeighings = 3;
+/// Frequency over the upper end of the band of a block that is beyond it.
+constexpr double kBeyondBand = 1.1;
 
 StabilisationChart chart_of(const ModalFitTask& task, const ModalFitOptions& options) {
   Index lines = 0;
@@ -178,36 +181,44 @@ void describe_sensors(ModalFit& fit, const BlockFit& blocks, const ResidualStudy
   }
 }
 
-ColumnChoices choices_of(const ModalFitOptions& options) {
-  return {.undamped_residues = options.undamped_residues,
-          .static_remainder = options.static_remainder,
-          .offset = options.offset};
+/// Where blocks begin to lie beyond the band [rad/s]; infinite for frequency responses.
+double beyond_band_rad_per_s(const ModalFitTask& task) {
+  return task.in_time ? 2.0 * kPi * kBeyondBand * task.band.to_Hz
+                      : std::numeric_limits<double>::infinity();
 }
 
-/// Searches for blocks, then fits them to all data. `from` and `to` are the share of the progress.
-BlockFit search_and_fit(const ModalFitTask& task, const ModalFitOptions& options, double from,
-                        double to, ModalFit& fit) {
-  const auto report = [&](double share) {
-    return !options.progress || options.progress(from + (to - from) * share);
-  };
-  const ColumnChoices choices = choices_of(options);
+/// What a search and the fit after it came to.
+struct Attempt {
+  BlockFit best;
+  std::vector<OrderTrial> trials;
+  std::string reason;
+  std::vector<MovedBlock> aliases;
+  ColumnChoices choices;
+};
+
+/// Searches for blocks, then fits them to all data; `report` takes the share done.
+Attempt attempt(const ModalFitTask& task, const ModalFitOptions& options,
+                const ColumnChoices& choices, const StabilisationChart& chart,
+                const std::function<bool(double)>& report) {
+  Attempt made;
+  made.choices = choices;
   ProjectionOptions projection{.most_iterations = options.most_iterations};
   int passes = 0;
   projection.go_on = [&] {
     ++passes;
     return report(kOfSearch * (1.0 - 1.0 / (1.0 + 0.03 * passes)));
   };
-  const BlockSearch search = search_blocks(
-      task.search, task.sensors, stable_poles(fit.chart, options.least_stable_orders), choices,
-      {.band = task.band,
-       .rigid = options.rigid_body,
-       .modes = options.modes,
-       .most_blocks = options.most_blocks,
-       .bic_margin = options.bic_margin,
-       .highest_Hz = task.highest_Hz},
-      projection);
-  fit.order_trials = search.trials;
-  fit.order_reason = search.reason;
+  BlockSearch search = search_blocks(task.search, task.sensors,
+                                     stable_poles(chart, options.least_stable_orders), choices,
+                                     {.band = task.band,
+                                      .rigid = options.rigid_body,
+                                      .modes = options.modes,
+                                      .most_blocks = options.most_blocks,
+                                      .bic_margin = options.bic_margin,
+                                      .highest_Hz = task.highest_Hz},
+                                     projection);
+  made.trials = std::move(search.trials);
+  made.reason = std::move(search.reason);
   passes = 0;
   projection.go_on = [&] {
     ++passes;
@@ -215,15 +226,41 @@ BlockFit search_and_fit(const ModalFitTask& task, const ModalFitOptions& options
   };
   BlockSet blocks = search.blocks;
   sort_flexible(blocks);
-  BlockFit best = fit_blocks(task.all, task.sensors, blocks, choices, projection);
+  made.best = fit_blocks(task.all, task.sensors, blocks, choices, projection);
   if (task.period_s > 0.0) {
-    fit.aliases = place_aliases(best, task.period_s, options.torque_hold, blocks);
-    if (!fit.aliases.empty() && !best.cancelled) {
+    made.aliases = place_aliases(made.best, task.period_s, options.torque_hold, blocks);
+    if (!made.aliases.empty() && !made.best.cancelled) {
       sort_flexible(blocks);
-      best = fit_blocks(task.all, task.sensors, blocks, choices, projection);
+      made.best = fit_blocks(task.all, task.sensors, blocks, choices, projection);
     }
   }
-  return best;
+  return made;
+}
+
+/// Where noisy data leave a block beyond the band, the same with undamped residues for such blocks
+/// is tried, and the better of the two by BIC taken: samples next to half the sampling frequency
+/// tell one number of a residue, and two make zeros that might be anywhere.
+Attempt search_and_fit(const ModalFitTask& task, const ModalFitOptions& options,
+                       const StabilisationChart& chart, double from, double to) {
+  const auto part = [&](double begin, double end) {
+    return [&options, begin, end](double share) {
+      return !options.progress || options.progress(begin + (end - begin) * share);
+    };
+  };
+  ColumnChoices choices{.undamped_residues = options.undamped_residues,
+                        .static_remainder = options.static_remainder,
+                        .offset = options.offset};
+  const double limit = beyond_band_rad_per_s(task);
+  const double middle = 0.5 * (from + to);
+  Attempt whole = attempt(task, options, choices, chart, part(from, middle));
+  const bool beyond = std::ranges::any_of(
+      whole.best.blocks.blocks,
+      [&](const SecondOrderBlock& block) { return block.omega_rad_per_s() > limit; });
+  if (!beyond || whole.best.cancelled || options.undamped_residues) return whole;
+  choices.undamped_above_rad_per_s = limit;
+  Attempt undamped = attempt(task, options, choices, chart, part(middle, to));
+  if (undamped.best.cancelled || undamped.best.bic() < whole.best.bic()) return undamped;
+  return whole;
 }
 
 ModalFit fit_task(ModalFitTask task, const ModalFitOptions& options) {
@@ -232,17 +269,21 @@ ModalFit fit_task(ModalFitTask task, const ModalFitOptions& options) {
   fit.chart = chart_of(task, options);
   const bool several_runs = task.in_time && task.all.size() > 1;
   const double middle = several_runs ? kHalfWay : 1.0;
-  BlockFit best = search_and_fit(task, options, kAfterChart, middle, fit);
+  Attempt found = search_and_fit(task, options, fit.chart, kAfterChart, middle);
+  BlockFit& best = found.best;
   if (several_runs && !best.cancelled && weigh_runs(best, task.all)) {
     weigh_runs(best, task.search);
-    best = search_and_fit(task, options, middle, 1.0, fit);
+    found = search_and_fit(task, options, fit.chart, middle, 1.0);
     // The first weights count what a loud run bent the fit of a quiet one by.
     for (int round = 0; round < kWeighings && !best.cancelled; ++round) {
       weigh_runs(best, task.all);
-      best = fit_blocks(task.all, task.sensors, best.blocks, choices_of(options),
+      best = fit_blocks(task.all, task.sensors, best.blocks, found.choices,
                         {.most_iterations = options.most_iterations});
     }
   }
+  fit.order_trials = found.trials;
+  fit.order_reason = found.reason;
+  fit.aliases = found.aliases;
   fit.blocks = best.blocks;
   fit.iterations = best.iterations;
   fit.converged = best.converged;

@@ -36,7 +36,9 @@ SensorModel sensor_model(const arm::Sensor& sensor, Index index, const BlockSet&
                          std::span<const Stretch> stretches, const ColumnChoices& choices) {
   SensorModel model{.sensor = sensor, .columns = {}, .shared = 0};
   for (std::size_t m = 0; m < blocks.blocks.size(); ++m) {
-    for (const int power : powers(sensor, blocks.is_rigid(m), choices.undamped_residues)) {
+    const bool undamped = choices.undamped_residues ||
+                          blocks.blocks[m].omega_rad_per_s() > choices.undamped_above_rad_per_s;
+    for (const int power : powers(sensor, blocks.is_rigid(m), undamped)) {
       model.columns.push_back({Kind::forced, m, power, 0});
     }
   }

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -43,6 +44,9 @@ bool bends_only(arm::SensorKind kind);
 
 struct ColumnChoices {
   bool undamped_residues = false;
+  /// Blocks that begin above it have undamped residues, too: beyond the band, and most of all next
+  /// to half the sampling frequency, data tell no more of them than one number.
+  double undamped_above_rad_per_s = std::numeric_limits<double>::infinity();
   bool static_remainder = true;
   bool offset = true;
 };

@@ -98,5 +98,22 @@ TEST(FittedZeros, HaveTheStandardErrorsThatDifferencesHave) {
   }
 }
 
+TEST(FittedZeros, AreToldWhereTheirErrorIsSmallBesideThePoles) {
+  // 1/s^2 + b/(s^2 + 900): a zero at 900/(1 + b), 0.15 rad/s off the pole for b = 0.01.
+  const BlockSet set{{{0.0, 0.0}, {0.0, 900.0}}, true};
+  Eigen::VectorXd beta(4);
+  beta << 1.0, 0.0, 0.01, 0.0;
+  const auto transfer = transfer_of("hub_angle", set, beta, false);
+  // d omega/d b = -15 rad/s there: an error of b of 0.001 is a tenth of the distance.
+  for (const auto& [deviation, told] : {std::pair{0.001, true}, std::pair{0.01, false}}) {
+    Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(7, 7);
+    covariance(5, 5) = deviation * deviation;
+    const auto zeros = fitted_zeros(transfer, covariance, 0.0, 10.0);
+    ASSERT_EQ(zeros.size(), 1U);
+    EXPECT_NEAR(2.0 * kPi * zeros[0].frequency_std_Hz, 15.0 * deviation, 0.5 * deviation);
+    EXPECT_EQ(zeros[0].is_told, told);
+  }
+}
+
 }  // namespace
 }  // namespace flexarm::measured

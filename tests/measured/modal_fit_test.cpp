@@ -177,6 +177,30 @@ TEST(ModalFit, OfAnUndampedArmHasNoDamping) {
   }
 }
 
+TEST(ModalFit, OfModesBeyondHalfTheSamplingFrequencyHasNoFalseZeros) {
+  // The fourth mode, 102.6 Hz, shows at 97.4 Hz, next to half the sampling frequency.
+  FitCase fit_case;
+  fit_case.modes = 5;
+  fit_case.excitation = response::RandomNoise{.from_Hz = 0.2, .to_Hz = 60.0};
+  fit_case.relative_noise = 0.01;
+  const auto exact = exact_roots(model_of(fit_case), fit_case.sensors.size());
+  const ModalFit fit = fit_of(fit_case);
+  int told = 0;
+  for (std::size_t j = 0; j < fit.sensors.size(); ++j) {
+    for (const FittedZero& zero : fit.sensors[j].zeros) {
+      if (!zero.in_band || !zero.is_told) continue;
+      ++told;
+      const bool near = std::ranges::any_of(exact.zeros[j], [&](std::complex<double> s) {
+        return std::abs(zero.frequency_Hz - std::abs(s) / (2.0 * std::numbers::pi)) <
+               5.0 * zero.frequency_std_Hz;
+      });
+      EXPECT_TRUE(near) << arm::to_string(fit.sensors[j].sensor) << ' ' << zero.frequency_Hz
+                        << " +- " << zero.frequency_std_Hz;
+    }
+  }
+  EXPECT_GE(told, 4);
+}
+
 TEST(ModalFit, OfTwoRunsIsSurerThanOfOne) {
   FitCase fit_case;
   fit_case.duration_s = 30.0;

@@ -1,19 +1,26 @@
 #pragma once
 
+#include "app/folder_place.hpp"
+#include "arm/atomic_file.hpp"
 #include "compare/identification.hpp"
 #include "measured/identification.hpp"
 
-#include <filesystem>
+#include <string>
 #include <vector>
 
 namespace flexarm::app {
 
-/// Writes what was identified into `folder`, which is there: a modal table of each fit and of each
-/// run's circles and responses in the order of the analytical roots, each `time` run's response as
-/// a frequency record, tables as CSV, and figures. Throws InputError where a file cannot be
-/// written.
-void write_identified_files(const std::filesystem::path& folder,
-                            const measured::Identification& identification,
-                            const std::vector<compare::IdentifiedCondition>& conditions);
+/// The file that tells a folder of `identify` from others: what `--json` writes.
+inline constexpr const char* kIdentifiedJson = "identified.json";
+
+/// The folder of `identify`.
+FolderKind identified_folder_kind();
+
+/// What was identified as files: a modal table of each method and run, or runs of a fit, in the
+/// order of the analytical roots; each `time` run's response as a frequency record; tables as CSV;
+/// figures. Characters that do not belong in a file's name are '_'; no two have one name.
+std::vector<arm::NamedContent> identified_files(
+    const measured::Identification& identification,
+    const std::vector<compare::IdentifiedCondition>& conditions);
 
 }  // namespace flexarm::app

@@ -2,7 +2,6 @@
 #include "app/command.hpp"
 #include "app/identified_files.hpp"
 #include "app/interruption.hpp"
-#include "app/output_choice.hpp"
 #include "app/spectrum_choice.hpp"
 #include "app/standard_output.hpp"
 #include "arm/arm_file.hpp"
@@ -13,6 +12,7 @@
 #include "compare/identification.hpp"
 #include "measured/identification.hpp"
 #include "report/arm_json.hpp"
+#include "report/gnuplot.hpp"
 #include "report/identification_json.hpp"
 #include "report/identification_tables.hpp"
 #include "report/identified_root_tables.hpp"
@@ -53,7 +53,9 @@ struct Arguments {
   std::optional<double> to_Hz;
   int highest_order = 32;
   std::optional<double> total_inertia_kg_m2;
-  OutputChoice output;
+  std::string folder;
+  bool force = false;
+  std::string json_file;
 };
 
 /// The runs asked for, all unless told. Throws InputError for one that there is not.
@@ -235,6 +237,50 @@ std::string results_text(const measured::Identification& identification,
   return text;
 }
 
+/// Throws for outputs that could not be written, or would take the place of what is read: before
+/// the work, not after it.
+void prepare(const Arguments& arguments, const measured::Measurement& measurement) {
+  if (arguments.force && arguments.folder.empty()) {
+    throw arm::InputError("--force: needs --out FOLDER");
+  }
+  if (!arguments.json_file.empty()) {
+    std::vector<fs::path> read = {arguments.file,
+                                  measured::beside(arguments.file, measurement.arm)};
+    for (const auto& run : measurement.runs) {
+      read.push_back(measured::beside(arguments.file, run.file));
+    }
+    const fs::path json = fs::weakly_canonical(arguments.json_file);
+    for (const auto& path : read) {
+      if (fs::weakly_canonical(path) == json) {
+        throw arm::InputError(fmt::format("--json {}: is a file of the measurement",
+                                          arm::shown(arguments.json_file)));
+      }
+    }
+    const bool in_folder =
+        !arguments.folder.empty() && json.parent_path() == fs::weakly_canonical(arguments.folder);
+    if (!in_folder) arm::require_writable(arguments.json_file);
+  }
+  if (arguments.folder.empty()) return;
+  report::run_gnuplot("");  // throws where there is none
+  require_place(arguments.folder, arguments.force, identified_folder_kind());
+}
+
+void write_files(const Arguments& arguments, const std::string& measurement, const arm::Arm& arm,
+                 const measured::Identification& identification,
+                 const std::vector<compare::IdentifiedCondition>& conditions) {
+  if (arguments.folder.empty() && arguments.json_file.empty()) return;
+  nlohmann::ordered_json document = {{"measurement", measurement}, {"arm", report::arm_json(arm)}};
+  document.update(report::identification_json(identification, conditions));
+  const std::string json = report::json_document("flexarm.identify/1", document);
+  if (!arguments.folder.empty()) {
+    auto files = identified_files(identification, conditions);
+    files.push_back({kIdentifiedJson, json});
+    arm::write_folder_atomically(arguments.folder, files,
+                                 arguments.force ? arm::IfExists::replace : arm::IfExists::refuse);
+  }
+  if (!arguments.json_file.empty()) arm::write_atomically(arguments.json_file, json);
+}
+
 int run(const Arguments& arguments) {
   const measured::Measurement measurement = measured::read_measurement(arguments.file);
   const fs::path arm_file = measured::beside(arguments.file, measurement.arm);
@@ -246,28 +292,24 @@ int run(const Arguments& arguments) {
     runs.push_back({run, measured::read_run(arguments.file, run)});
   }
   select_sensors(arguments, runs);
-  arguments.output.prepare();
+  prepare(arguments, measurement);
 
   const auto identification = identify_with_progress(std::move(runs), options);
   const auto conditions = compare::conditions_of(identification, arm);
-  if (!arguments.output.folder.empty()) {
-    write_identified_files(arguments.output.folder, identification, conditions);
-  }
-  if (!arguments.output.json_file.empty()) {
-    nlohmann::ordered_json document = {{"measurement", measurement.name},
-                                       {"arm", report::arm_json(arm)}};
-    document.update(report::identification_json(identification, conditions));
-    arm::write_atomically(arguments.output.json_file,
-                          report::json_document("flexarm.identify/1", document));
-  }
   std::string text = describe(arm) + left_out_of_roots(arm) + "\n";
   text += results_text(identification, conditions);
-  if (arguments.output.folder.empty()) {
+  try {
+    write_files(arguments, measurement.name, arm, identification, conditions);
+  } catch (const arm::InputError&) {
+    print(text);
+    throw;
+  }
+  if (arguments.folder.empty()) {
     text +=
         fmt::format("next: figures and modal tables with  flexarm identify {} --out identified\n",
                     arm::shown(arguments.file));
   } else {
-    text += fmt::format("wrote {}\n", arguments.output.folder);
+    text += fmt::format("wrote {}\n", arguments.folder);
   }
   print(text);
   return kSuccess;
@@ -298,8 +340,13 @@ Command add_identify(CLI::App& program) {
   parser->add_option("--total-inertia", arguments->total_inertia_kg_m2,
                      "I_T [kg m^2] for slopes and gains; as the rigid body turns unless given");
   parser->add_flag("--no-fit", arguments->no_fit, "Spectra, peaks and circles alone");
-  add_output_choice(*parser, arguments->output,
-                    "Folder for modal tables, responses as CSV, and figures as SVG");
+  parser
+      ->add_option("--out", arguments->folder,
+                   "New folder for modal tables, responses as CSV, figures as SVG and the JSON")
+      ->check(not_empty());
+  parser->add_flag("--force", arguments->force, "Replace what this command wrote in the folder");
+  parser->add_option("--json", arguments->json_file, "File for everything in full precision")
+      ->check(not_empty());
   parser->footer(example("flexarm identify simulated/measurement.toml --out identified"));
   return {parser, [arguments] { return run(*arguments); }};
 }

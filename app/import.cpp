@@ -1,6 +1,6 @@
 #include "app/command.hpp"
+#include "app/folder_place.hpp"
 #include "app/imported_run.hpp"
-#include "app/measurement_place.hpp"
 #include "app/run_choice.hpp"
 #include "app/standard_output.hpp"
 #include "app/starter_arm.hpp"
@@ -212,11 +212,18 @@ int run(const Arguments& arguments) {
   if (!format && !arguments.record_format.empty()) {
     throw arm::InputError("--to: is the format of a file that --save-as names");
   }
+  for (const auto& [option, file] : {std::pair{"--json", &arguments.json_file},
+                                     std::pair{"--save-as", &arguments.record_file}}) {
+    if (!file->empty() && fs::weakly_canonical(*file) == fs::weakly_canonical(arguments.file)) {
+      throw arm::InputError(
+          fmt::format("{} {}: is the file that is read", option, arm::shown(*file)));
+    }
+  }
   if (arguments.folder.empty()) {
     if (arguments.force) throw arm::InputError("--force: needs --out FOLDER");
     if (!arguments.name.empty()) throw arm::InputError("--name: needs --out FOLDER");
   } else {
-    require_measurement_place(arguments.folder, arguments.force);
+    require_place(arguments.folder, arguments.force, measurement_folder_kind());
   }
   const std::string arm = arm_text(arguments);
 

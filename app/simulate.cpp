@@ -1,6 +1,6 @@
 #include "app/arm_choice.hpp"
 #include "app/command.hpp"
-#include "app/measurement_place.hpp"
+#include "app/folder_place.hpp"
 #include "app/simulated_experiment.hpp"
 #include "app/standard_output.hpp"
 #include "arm/input_error.hpp"
@@ -91,7 +91,7 @@ void prepare(const Arguments& arguments) {
     return;
   }
   report::run_gnuplot("");  // throws where there is none
-  require_measurement_place(arguments.folder, arguments.force);
+  require_place(arguments.folder, arguments.force, measurement_folder_kind());
 }
 
 /// The numbers of excitations that samples could not take as they were typed.

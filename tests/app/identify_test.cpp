@@ -110,6 +110,34 @@ TEST_F(Identify, WhatCannotBeUsedIsSaidInOneLine) {
   EXPECT_THAT(run({"identify", "sim/nothing.toml"}).errors, HasSubstr("nothing.toml"));
 }
 
+TEST_F(Identify, NothingThatIsReadOrOthersWroteIsReplaced) {
+  simulate("sim");
+  const std::string data = text_of("sim/random.csv");
+  const auto refused = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"identify", "sim/measurement.toml", "--no-fit"});
+    const Ended ended = run(arguments);
+    EXPECT_EQ(ended.status, 2) << ended.output;
+    return ended.errors;
+  };
+  EXPECT_THAT(refused({"--out", "sim"}), HasSubstr("--force replaces an identification"));
+  EXPECT_THAT(refused({"--out", "sim", "--force"}), HasSubstr("holds no identified.json"));
+  EXPECT_THAT(refused({"--json", "sim/random.csv"}), HasSubstr("file of the measurement"));
+  EXPECT_EQ(text_of("sim/random.csv"), data);
+  EXPECT_EQ(run({"identify", "sim/measurement.toml", "--no-fit", "--out", "out"}).status, 0);
+  EXPECT_EQ(run({"identify", "sim/measurement.toml", "--no-fit", "--out", "out"}).status, 2);
+  EXPECT_EQ(run({"identify", "sim/measurement.toml", "--out", "out", "--force"}).status, 0);
+}
+
+TEST_F(Identify, IdsThatAreNoFileNamesMakeNoneOfTheirOwn) {
+  simulate("sim");
+  const std::string other = "[[run]]\nkind = \"time\"\nfile = \"random.csv\"\nid = ";
+  write("sim/two.toml", "arm = \"arm.toml\"\n" + other + "\"../a b\"\n" + other + "\".._a/b\"\n" +
+                            other + "\"" + std::string(300, 'x') + "\"\n");
+  const Ended ended = run({"identify", "sim/two.toml", "--no-fit", "--out", "out"});
+  EXPECT_EQ(ended.status, 0) << ended.errors;
+  EXPECT_THAT(names_in("out"), AllOf(Contains("frf-.._a_b.csv"), Contains("frf-.._a_b-2.csv")));
+}
+
 TEST_F(Identify, FaultsInDataAreNamed) {
   simulate("sim");
   // A sensor that sticks for a second, one that is dead.

@@ -1,0 +1,52 @@
+#include "app/folder_place.hpp"
+
+#include "arm/atomic_file.hpp"
+#include "arm/input_error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <system_error>
+
+namespace flexarm::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder that --force may replace holds the marker, and nothing that such a folder does not.
+void require_replaceable(const fs::path& folder, const FolderKind& kind) {
+  std::error_code error;
+  if (!fs::is_directory(folder, error) || fs::is_empty(folder, error)) return;
+  if (!fs::exists(folder / kind.marker, error)) {
+    throw arm::InputError(fmt::format("{}: holds no {}, so --force leaves it alone",
+                                      arm::shown(folder.string()), kind.marker));
+  }
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const bool is_ours = std::ranges::count(kind.endings, entry.path().extension().string()) > 0;
+    if (entry.is_regular_file() && is_ours) continue;
+    throw arm::InputError(fmt::format("{}: is not of {}, so --force leaves the folder alone",
+                                      arm::shown(entry.path().string()), kind.what));
+  }
+}
+
+}  // namespace
+
+FolderKind measurement_folder_kind() {
+  return {"a measurement", "measurement.toml", {".toml", ".csv", ".svg", ".json"}};
+}
+
+void require_place(const std::string& folder, bool force, const FolderKind& kind) {
+  if (force) {
+    require_replaceable(folder, kind);
+    return;
+  }
+  try {
+    arm::require_new_folder(folder);
+  } catch (const arm::InputError& error) {
+    throw arm::InputError(fmt::format("{}; --force replaces {}", error.what(), kind.what));
+  }
+}
+
+}  // namespace flexarm::app

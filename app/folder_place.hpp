@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace flexarm::app {
+
+/// What tells a folder that a command wrote from any other.
+struct FolderKind {
+  std::string what;                  ///< "a measurement"
+  std::string marker;                ///< a file that such a folder has: "measurement.toml"
+  std::vector<std::string> endings;  ///< of all of its files
+};
+
+/// The folder of `simulate` and `import`.
+FolderKind measurement_folder_kind();
+
+/// Throws arm::InputError where a command must not write into `folder`: something is there already
+/// and `force` is not set, or what is there is not of the kind.
+void require_place(const std::string& folder, bool force, const FolderKind& kind);
+
+}  // namespace flexarm::app

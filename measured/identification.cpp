@@ -46,8 +46,22 @@ const DataFinding* find_fault(const RunIdentification& made, Fault fault) {
   return at == made.findings.end() ? nullptr : &*at;
 }
 
+/// Circles of a response that was given, about its peaks.
 void read_circles(RunIdentification& made, const CircleSettings& settings) {
   for (const FrequencyChannel& channel : made.response.channels) {
+    made.circles.push_back({channel.sensor, nyquist_circles(channel, settings)});
+  }
+}
+
+/// Circles of an estimated response, about the peaks that are more than noise makes.
+void read_circles_at_peaks(RunIdentification& made, CircleSettings settings) {
+  for (const FrequencyChannel& channel : made.response.channels) {
+    const auto features = std::ranges::find(made.features, channel.sensor, &SensorFeatures::sensor);
+    settings.near_Hz.clear();
+    for (const SpectralFeature& feature : features->response) {
+      if (feature.feature == Feature::pole) settings.near_Hz.push_back(feature.line_Hz);
+    }
+    if (settings.near_Hz.empty()) continue;
     made.circles.push_back({channel.sensor, nyquist_circles(channel, settings)});
   }
 }
@@ -84,7 +98,7 @@ void study_time_run(TimeRecord& record, const IdentificationOptions& options,
       spectral_features(*made.estimate, driven_peaks(options.peaks, record, *made.estimate));
   made.response = to_frequency_record(*made.estimate);
   if (made.estimate->periodic) made.distortion = distortion(*made.estimate->periodic);
-  read_circles(made, options.circles);
+  read_circles_at_peaks(made, options.circles);
 }
 
 /// Channels of a channel: a step in frequency above kGap times the one before begins another. A

@@ -72,6 +72,9 @@ std::vector<measured::Run> chosen_runs(const Arguments& arguments,
                                         arguments.file, arm::did_you_mean(id, ids),
                                         fmt::join(ids, ", ")));
     }
+    if (std::ranges::find(chosen, id, &measured::Run::id) != chosen.end()) {
+      throw arm::InputError(fmt::format("--run {}: is given twice", arm::shown(id)));
+    }
     chosen.push_back(*at);
   }
   return chosen;

@@ -73,9 +73,10 @@ void require_no_controls(string_view text) {
   };
   const auto bad = std::ranges::find_if(text, is_control);
   if (bad == text.end()) return;
-  throw InputError(fmt::format("not text: byte {:#04x} at place {}",
-                               static_cast<unsigned>(static_cast<unsigned char>(*bad)),
-                               bad - text.begin() + 1));
+  throw InputError(fmt::format(
+      "not text: byte {:#04x} at place {}; must be delimited text, a universal file or a MATLAB "
+      "file saved with -v6 or -v7",
+      static_cast<unsigned>(static_cast<unsigned char>(*bad)), bad - text.begin() + 1));
 }
 
 }  // namespace

@@ -123,7 +123,7 @@ Table gain_table(const measured::RunsFit& fit, const compare::AnalyticalModes& a
     }
     if (mode.tip_gain_m) add("phi(l)", order, "m", "(49)", *mode.tip_gain_m, tips);
     if (mode.tip_gain_of_ratio_m) {
-      add("phi(l)", order, "m", "(52)", *mode.tip_gain_of_ratio_m, tips);
+      add("phi(l)", order, "m", "(52), at the peak", *mode.tip_gain_of_ratio_m, tips);
     }
   }
   return table;

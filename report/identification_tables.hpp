@@ -16,7 +16,8 @@ std::vector<std::string> data_notes(const measured::Identification& identificati
 std::vector<std::string> setting_lines(const measured::RunIdentification& run);
 
 /// Tables 6 and 7: hub slopes by (48) and, of the modes fitted, by (47), whose product goes on
-/// beyond them; accelerometer gains by (49) and (52), beside those of the formulations.
+/// beyond them; accelerometer gains by (49) and, other modes taken for nothing, by (52); beside
+/// those of the formulations.
 Table gain_table(const measured::RunsFit& fit, const compare::AnalyticalModes& analytical);
 
 /// Each sensor's noise and what is left of it beside noise.

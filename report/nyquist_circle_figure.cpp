@@ -61,8 +61,7 @@ Panel circle_panel(const measured::NyquistCircle& resonance, const std::string& 
     throw std::invalid_argument(fmt::format("circle {}: a radius of {}", resonance.order, radius));
   }
   const EqualAxes axes{"V", unit, centre, kRoom * radius, std::abs(centre) + radius};
-  Panel panel = axes.panel(
-      fmt::format("mode {}: {:#.6g} Hz", resonance.order, resonance.natural_frequency_Hz));
+  Panel panel = axes.panel(fmt::format("resonance at {:#.6g} Hz", resonance.natural_frequency_Hz));
 
   std::vector<Complex> around;
   for (int k = 0; k <= kCircleSteps; ++k) {

@@ -95,6 +95,7 @@ TEST_F(Identify, WhatCannotBeUsedIsSaidInOneLine) {
     return ended.errors;
   };
   EXPECT_THAT(errors({"--run", "randon"}), HasSubstr("did you mean random?"));
+  EXPECT_THAT(errors({"--run", "random,random"}), HasSubstr("given twice"));
   EXPECT_THAT(errors({"--sensor", "hub_angle"}), HasSubstr("no run measured it"));
   EXPECT_THAT(errors({"--sensor", "hub"}), HasSubstr("hub_angle"));
   EXPECT_THAT(errors({"--window", "han"}), HasSubstr("did you mean hann?"));

@@ -102,7 +102,7 @@ TEST(NyquistCircleFigure, DrawsWithUnitsOfTheVelocityAndLabelsApart) {
          {units[i], "fitted circle", "measured", "natural frequency", "half power"}) {
       EXPECT_THAT(svg, HasSubstr(std::string("<text>") + text + "</text>")) << name;
     }
-    EXPECT_THAT(svg, HasSubstr("<text>mode 1: 11.86"));
+    EXPECT_THAT(svg, HasSubstr("<text>resonance at 11.86"));
     ++i;
   }
 }

@@ -49,4 +49,11 @@ void require_place(const std::string& folder, bool force, const FolderKind& kind
   }
 }
 
+void require_json_place(const std::string& json_file, const std::string& folder) {
+  if (json_file.empty()) return;
+  const bool in_folder = !folder.empty() && fs::weakly_canonical(json_file).parent_path() ==
+                                                fs::weakly_canonical(folder);
+  if (!in_folder) arm::require_writable(json_file);
+}
+
 }  // namespace flexarm::app

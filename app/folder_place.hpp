@@ -19,4 +19,8 @@ FolderKind measurement_folder_kind();
 /// and `force` is not set, or what is there is not of the kind.
 void require_place(const std::string& folder, bool force, const FolderKind& kind);
 
+/// Throws arm::InputError where a `--json` file could not be written once `folder`, which may not
+/// be there yet, is: before the work, not after it.
+void require_json_place(const std::string& json_file, const std::string& folder);
+
 }  // namespace flexarm::app

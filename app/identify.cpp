@@ -259,10 +259,8 @@ void prepare(const Arguments& arguments, const measured::Measurement& measuremen
                                           arm::shown(arguments.json_file)));
       }
     }
-    const bool in_folder =
-        !arguments.folder.empty() && json.parent_path() == fs::weakly_canonical(arguments.folder);
-    if (!in_folder) arm::require_writable(arguments.json_file);
   }
+  require_json_place(arguments.json_file, arguments.folder);
   if (arguments.folder.empty()) return;
   report::run_gnuplot("");  // throws where there is none
   require_place(arguments.folder, arguments.force, identified_folder_kind());

@@ -80,10 +80,7 @@ void refuse_without_folder(const char* option, bool given) {
 
 /// Throws for outputs that could not be written: before the work, not after it.
 void prepare(const Arguments& arguments) {
-  const fs::path json = arguments.json_file;
-  const bool in_folder = !arguments.folder.empty() && json.has_parent_path() &&
-                         fs::path(arguments.folder) / json.filename() == json;
-  if (!json.empty() && !in_folder) arm::require_writable(json);
+  require_json_place(arguments.json_file, arguments.folder);
   if (arguments.folder.empty()) {
     refuse_without_folder("--force", arguments.force);
     refuse_without_folder("--hide-effects", !arguments.hidden_effects.empty());

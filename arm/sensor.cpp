@@ -96,9 +96,13 @@ void require_valid(const Sensor& sensor, const Arm& arm) {
   }
 }
 
+bool is_responsive(const Sensor& sensor, const Arm& arm) {
+  return sensor.kind != SensorKind::strain || sensor.position_m != arm.beam.length_m ||
+         linear_arm(arm).payload_tip_inertia_kg_m2 != 0.0;
+}
+
 void require_responsive(const Sensor& sensor, const Arm& arm) {
-  if (sensor.kind == SensorKind::strain && sensor.position_m == arm.beam.length_m &&
-      linear_arm(arm).payload_tip_inertia_kg_m2 == 0.0) {
+  if (!is_responsive(sensor, arm)) {
     throw InputError(
         fmt::format("sensor {}: the strain at the tip is zero at every s without payload.inertia, "
                     "so it has no zeros to look for; place it below {} m",

@@ -46,8 +46,11 @@ bool is_collocated(const Sensor& sensor);
 /// thickness.
 void require_valid(const Sensor& sensor, const Arm& arm);
 
-/// Throws InputError for strain at the tip of an arm without payload inertia: the bending moment
-/// there is zero at every s, so that no s is a zero more than another.
+/// False for strain at the tip of an arm without payload inertia: the bending moment there is zero
+/// at every s, so that no s is a zero more than another.
+bool is_responsive(const Sensor& sensor, const Arm& arm);
+
+/// Throws InputError unless the sensor `is_responsive`.
 void require_responsive(const Sensor& sensor, const Arm& arm);
 
 }  // namespace flexarm::arm

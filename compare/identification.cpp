@@ -113,11 +113,6 @@ std::vector<arm::Sensor> sensors_of(const measured::Identification& identificati
   return sensors;
 }
 
-bool is_responsive(const arm::Sensor& sensor, const arm::Arm& arm) {
-  return sensor.kind != arm::SensorKind::strain || sensor.position_m < arm.beam.length_m ||
-         arm.payload.inertia_kg_m2 > 0.0;
-}
-
 }  // namespace
 
 AnalyticalModes analytical_modes(const arm::Arm& arm, std::span<const arm::Sensor> sensors,
@@ -137,7 +132,7 @@ AnalyticalModes analytical_modes(const arm::Arm& arm, std::span<const arm::Senso
       }
       for (const auto& sensor : sensors) {
         arm::require_valid(sensor, arm);
-        if (!is_responsive(sensor, arm)) continue;
+        if (!arm::is_responsive(sensor, arm)) continue;
         analytical.zeros.push_back(
             {sensor, response::zeros(formulation, sensor, roots).s_rad_per_s});
         wanted.sensors.push_back(sensor);

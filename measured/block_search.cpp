@@ -17,8 +17,6 @@ using Eigen::VectorXd;
 
 /// A residual below this times the reading is what rounding leaves of noise-free data.
 constexpr double kNothingLeft = 1e-9;
-/// What rounding leaves of any reading.
-constexpr double kRounding = 1e-13;
 /// Damping ratios and frequencies of the grid; their bands overlap at half power.
 constexpr double kGridDamping[] = {0.1, 0.5};
 constexpr int kGridFrequencies = 10;
@@ -101,7 +99,7 @@ class CandidateTriangles {
     MatrixXd a(y.size(), static_cast<Index>(columns.size()));
     for (std::size_t i = 0; i < columns.size(); ++i) a.col(static_cast<Index>(i)) = columns[i];
     const VectorXd x = a.colPivHouseholderQr().solve(y);
-    return (y - a * x).squaredNorm() + kRounding * kRounding * y.squaredNorm();
+    return squares_above_rounding(y - a * x, y);
   }
 
   std::span<const Stretch> stretches_;

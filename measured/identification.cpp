@@ -17,6 +17,7 @@ namespace {
 
 /// Sampling periods of runs that are fitted together differ by less than this part.
 constexpr double kSamePeriod = 1e-9;
+/// A step in frequency this many times the one before begins another band.
 constexpr double kGap = 8.0;
 /// Half the width of a window's main lobe, in lines.
 constexpr double kWindowLines = 2.0;
@@ -25,25 +26,16 @@ constexpr double kMostZeroDamping = 0.25;
 /// Share of the work that a run's spectra are, beside 1 for the fit of each.
 constexpr double kSpectraShare = 0.2;
 
-bool is_dead(const DataFinding& finding) {
-  return finding.fault == Fault::dead_channel;
-}
-
 /// Takes the dead channels out of the record and names them in `made`.
 void leave_out_dead_channels(TimeRecord& record, RunIdentification& made) {
   std::erase_if(record.channels, [&](const Channel& channel) {
     const std::string name = arm::to_string(channel.sensor);
     const bool dead = std::ranges::any_of(made.findings, [&](const DataFinding& finding) {
-      return is_dead(finding) && finding.channel == name;
+      return finding.fault == Fault::dead_channel && finding.channel == name;
     });
     if (dead) made.left_out.push_back(channel.sensor);
     return dead;
   });
-}
-
-const DataFinding* find_fault(const RunIdentification& made, Fault fault) {
-  const auto at = std::ranges::find(made.findings, fault, &DataFinding::fault);
-  return at == made.findings.end() ? nullptr : &*at;
 }
 
 /// Circles of a response that was given, about its peaks.
@@ -83,8 +75,9 @@ void study_time_run(TimeRecord& record, const IdentificationOptions& options,
   check.starts_at_rest = made.run.initial == InitialState::rest;
   made.findings = check_data(record, check);
   leave_out_dead_channels(record, made);
-  if (const auto* finding = find_fault(made, Fault::zero_torque)) {
-    made.refusal = finding->text;
+  const auto no_torque = std::ranges::find(made.findings, Fault::zero_torque, &DataFinding::fault);
+  if (no_torque != made.findings.end()) {
+    made.refusal = no_torque->text;
     return;
   }
   if (record.channels.empty()) {
@@ -101,9 +94,8 @@ void study_time_run(TimeRecord& record, const IdentificationOptions& options,
   read_circles_at_peaks(made, options.circles);
 }
 
-/// Channels of a channel: a step in frequency above kGap times the one before begins another. A
-/// stepped sine often covers the surroundings of poles and zeros alone, and the edge of a band is
-/// no valley.
+/// The bands of a channel: a stepped sine often covers the surroundings of poles and zeros alone,
+/// and the edge of a band is no valley.
 std::vector<FrequencyChannel> bands_of(const FrequencyChannel& channel) {
   std::vector<FrequencyChannel> bands;
   const auto& frequency_Hz = channel.frequency_Hz;
@@ -209,7 +201,8 @@ std::vector<RunsFit> group_runs(const std::vector<MeasuredRun>& runs,
   return groups;
 }
 
-void fit(RunsFit& fitted, const std::vector<MeasuredRun>& runs, const ModalFitOptions& options,
+/// Moves the records out of the runs: a run is in one fit.
+void fit(RunsFit& fitted, std::vector<MeasuredRun>& runs, const ModalFitOptions& options,
          std::optional<double> total_inertia_kg_m2) {
   ModalFitOptions own = options;
   const MeasuredRun& first = runs[fitted.runs.front()];
@@ -220,7 +213,7 @@ void fit(RunsFit& fitted, const std::vector<MeasuredRun>& runs, const ModalFitOp
   } else {
     std::vector<TimeRecord> records;
     for (const std::size_t r : fitted.runs) {
-      records.push_back(std::get<TimeRecord>(runs[r].data));
+      records.push_back(std::move(std::get<TimeRecord>(runs[r].data)));
       own.initial.push_back(runs[r].run.initial);
     }
     fitted.fit = fit_modes(records, own);

@@ -98,22 +98,15 @@ struct Three {
   std::array<double, 3> log_power;
 };
 
-/// y = value + curvature/2 (x - place)^2 through three points.
-struct Parabola {
-  double place = 0.0;
-  double value = 0.0;
-  double curvature = 0.0;
-};
-
-Parabola parabola_through(const std::array<double, 3>& x, const std::array<double, 3>& y) {
+/// The vertex of the parabola through three points; the middle one where they lie on a line.
+double vertex(const std::array<double, 3>& x, const std::array<double, 3>& y) {
   // Newton's divided differences.
   const double below = (y[1] - y[0]) / (x[1] - x[0]);
   const double above = (y[2] - y[1]) / (x[2] - x[1]);
   const double half_curvature = (above - below) / (x[2] - x[0]);
-  if (half_curvature == 0.0) return {x[1], y[1], 0.0};
+  if (half_curvature == 0.0) return x[1];
   const double slope = below + half_curvature * (x[1] - x[0]);  // at x[1]
-  const double step = -0.5 * slope / half_curvature;
-  return {x[1] + step, y[1] + 0.5 * slope * step, 2.0 * half_curvature};
+  return x[1] - 0.5 * slope / half_curvature;
 }
 
 /// From the middle line [Hz].
@@ -123,7 +116,7 @@ double place_of(PeakPlace place, const Three& three) {
     case PeakPlace::resonance:
       return 0.0;
     case PeakPlace::log_parabola:
-      return parabola_through(three.from_middle_Hz, three.log_power).place;
+      return vertex(three.from_middle_Hz, three.log_power);
     case PeakPlace::hann_line: {
       // With the amplitude ratio r of neighbour to peak the sine is (2 r - 1)/(r + 1) lines away.
       const std::size_t side = three.log_power[2] > three.log_power[0] ? 2 : 0;

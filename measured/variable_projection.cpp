@@ -98,11 +98,10 @@ class SensorProblem {
     residual -= scaled * correction;
     estimate.beta = unit_beta.cwiseQuotient(scale);
     estimate.rows = values_;
-    const double floor = kRounding * y_.norm();
-    estimate.squares = residual.squaredNorm() + floor * floor;
+    estimate.squares = squares_above_rounding(residual, y_);
     for (const Piece& piece : pieces_) {
       const double squares =
-          residual.segment(piece.first_row, piece.triangle->rows()).squaredNorm() + floor * floor;
+          squares_above_rounding(residual.segment(piece.first_row, piece.triangle->rows()), y_);
       estimate.stretches.push_back(
           {piece.stretch, squares / (piece.weight * piece.weight), piece.rows});
     }
@@ -315,6 +314,10 @@ void finish(BlockFit& fit, const Evaluation& at) {
 }
 
 }  // namespace
+
+double squares_above_rounding(const VectorXd& residual, const VectorXd& readings) {
+  return residual.squaredNorm() + kRounding * kRounding * readings.squaredNorm();
+}
 
 double BlockFit::values() const {
   return std::accumulate(sensors.begin(), sensors.end(), 0.0,

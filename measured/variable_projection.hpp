@@ -28,6 +28,9 @@ struct StretchResidual {
   double variance() const { return squares / rows; }
 };
 
+/// Sum of squares of a residual, and that of what rounding leaves of the readings.
+double squares_above_rounding(const Eigen::VectorXd& residual, const Eigen::VectorXd& readings);
+
 /// One sensor's linear parameters beta at the fitted theta. p is their number; the first `shared`
 /// columns of its model are common to all stretches.
 struct SensorEstimate {

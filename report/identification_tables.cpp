@@ -57,10 +57,10 @@ std::vector<std::string> data_notes(const measured::Identification& identificati
                       joined(ids)));
     }
     for (const auto& sensor : fit.fit.sensors) {
-      const bool told = std::ranges::any_of(sensor.zeros, [](const measured::FittedZero& zero) {
+      const bool untold = std::ranges::any_of(sensor.zeros, [](const measured::FittedZero& zero) {
         return zero.in_band && !zero.is_told;
       });
-      if (told) {
+      if (untold) {
         notes.push_back(
             fmt::format("{}: {}: the fit has zeros in the band that these data do not "
                         "tell; they are left out",

@@ -50,6 +50,14 @@ TEST(AnalyticalModes, HaveTheDampingOfTheDampedPoles) {
   }
 }
 
+TEST(AnalyticalModes, HaveZerosOfStrainAtTheTipWhereAPayloadBendsIt) {
+  const arm::Sensor at_the_tip{arm::SensorKind::strain, 0.960};
+  arm::Arm arm = arm::paper_arm();
+  EXPECT_TRUE(analytical_modes(arm, std::array{at_the_tip}, 40.0).zeros.empty());
+  arm.effects["payload_inertia"].parameters["inertia"] = 1e-3;
+  EXPECT_EQ(analytical_modes(arm, std::array{at_the_tip}, 40.0).zeros.size(), 1U);
+}
+
 TEST(BesideAnalytical, FindsRootsWhateverTheirOrder) {
   const auto modes = modes_of(arm::paper_arm());
   // The first pole was missed, and something else was seen.

@@ -20,18 +20,6 @@ using arm::Sensor;
 using arm::SensorKind;
 using response::RandomNumbers;
 
-double between(RandomNumbers& random, double low, double high) {
-  return low + (high - low) * random.uniform();
-}
-
-double log_between(RandomNumbers& random, double low, double high) {
-  return low * std::pow(high / low, random.uniform());
-}
-
-bool chance(RandomNumbers& random, double probability) {
-  return random.uniform() < probability;
-}
-
 arm::Arm draw_arm(RandomNumbers& random) {
   arm::Arm arm = arm::paper_arm();
   if (chance(random, 0.6)) {
@@ -112,6 +100,18 @@ double rounded(double value, int digits) {
 }
 
 }  // namespace
+
+double between(RandomNumbers& random, double low, double high) {
+  return low + (high - low) * random.uniform();
+}
+
+double log_between(RandomNumbers& random, double low, double high) {
+  return low * std::pow(high / low, random.uniform());
+}
+
+bool chance(RandomNumbers& random, double probability) {
+  return random.uniform() < probability;
+}
 
 double deviation(const std::vector<double>& values) {
   const auto count = static_cast<double>(values.size());

@@ -13,6 +13,10 @@
 
 namespace flexarm::measured {
 
+double between(response::RandomNumbers& random, double low, double high);
+double log_between(response::RandomNumbers& random, double low, double high);
+bool chance(response::RandomNumbers& random, double probability);
+
 /// What a drawn run must have, so that a fault can be planted in it.
 struct CaseNeeds {
   std::vector<arm::SensorKind> sensors;  ///< among others

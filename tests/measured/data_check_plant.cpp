@@ -29,18 +29,6 @@ constexpr double kLeastNoisy = 0.01;
 /// Tip acceleration has modes above 125 Hz, which fold down at lower rates.
 constexpr double kUnfolded_Hz = 400.0;
 
-double between(RandomNumbers& random, double low, double high) {
-  return low + (high - low) * random.uniform();
-}
-
-double log_between(RandomNumbers& random, double low, double high) {
-  return low * std::pow(high / low, random.uniform());
-}
-
-bool chance(RandomNumbers& random, double probability) {
-  return random.uniform() < probability;
-}
-
 template <class T>
 const T& any_of(RandomNumbers& random, const std::vector<T>& items) {
   return items[random.below(items.size())];

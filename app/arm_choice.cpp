@@ -7,6 +7,7 @@
 #include "arm/input_error.hpp"
 #include "arm/linear_arm.hpp"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

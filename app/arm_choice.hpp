@@ -2,13 +2,15 @@
 
 #include "arm/arm.hpp"
 
-#include <CLI/CLI.hpp>
-
 #include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
+
+namespace CLI {
+class App;
+}  // namespace CLI
 
 namespace flexarm::app {
 

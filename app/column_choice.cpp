@@ -6,6 +6,7 @@
 #include "arm/number.hpp"
 #include "measured/column_name.hpp"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

@@ -13,6 +13,7 @@
 #include "report/progress.hpp"
 #include "report/text_table.hpp"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -5,6 +5,7 @@
 #include "response/formulation_maker.hpp"
 #include "response/settings.hpp"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 namespace flexarm::app {

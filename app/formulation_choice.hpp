@@ -2,10 +2,12 @@
 
 #include "response/any_formulation.hpp"
 
-#include <CLI/CLI.hpp>
-
 #include <optional>
 #include <string>
+
+namespace CLI {
+class App;
+}  // namespace CLI
 
 namespace flexarm::app {
 

@@ -20,6 +20,7 @@
 #include "report/progress.hpp"
 #include "report/text_table.hpp"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>

@@ -15,6 +15,7 @@
 #include "report/json_document.hpp"
 #include "report/text_table.hpp"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>

@@ -4,6 +4,7 @@
 #include "app/version.hpp"
 #include "arm/input_error.hpp"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <array>

@@ -6,6 +6,7 @@
 #include "report/arm_json.hpp"
 #include "report/json_document.hpp"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <filesystem>

@@ -4,6 +4,8 @@
 #include "arm/atomic_file.hpp"
 #include "report/gnuplot.hpp"
 
+#include <CLI/CLI.hpp>
+
 namespace flexarm::app {
 
 void OutputChoice::prepare() const {

@@ -8,6 +8,7 @@
 #include "report/paper_markdown.hpp"
 #include "report/paper_tables.hpp"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <filesystem>

@@ -17,6 +17,7 @@
 #include "response/response_study.hpp"
 #include "response/settings.hpp"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 

@@ -7,6 +7,7 @@
 #include "arm/range.hpp"
 #include "measured/time_record.hpp"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -5,12 +5,14 @@
 #include "response/excitation_keys.hpp"
 #include "response/stepped_sine.hpp"
 
-#include <CLI/CLI.hpp>
-
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+namespace CLI {
+class App;
+}  // namespace CLI
 
 namespace flexarm::app {
 

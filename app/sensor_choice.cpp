@@ -5,6 +5,7 @@
 #include "arm/number.hpp"
 #include "arm/range.hpp"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -4,10 +4,12 @@
 #include "arm/sensor.hpp"
 #include "response/sensor_imperfections.hpp"
 
-#include <CLI/CLI.hpp>
-
 #include <string>
 #include <vector>
+
+namespace CLI {
+class App;
+}  // namespace CLI
 
 namespace flexarm::app {
 

@@ -11,6 +11,7 @@
 #include "report/text_table.hpp"
 #include "response/settings.hpp"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

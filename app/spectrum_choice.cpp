@@ -3,6 +3,8 @@
 #include "app/word.hpp"
 #include "arm/input_error.hpp"
 
+#include <CLI/CLI.hpp>
+
 #include <array>
 
 namespace flexarm::app {

@@ -3,10 +3,12 @@
 #include "measured/peaks.hpp"
 #include "measured/spectrum_settings.hpp"
 
-#include <CLI/CLI.hpp>
-
 #include <optional>
 #include <string>
+
+namespace CLI {
+class App;
+}  // namespace CLI
 
 namespace flexarm::app {
 

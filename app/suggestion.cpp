@@ -3,6 +3,7 @@
 #include "arm/input_error.hpp"
 #include "arm/nearest_name.hpp"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -18,6 +18,7 @@
 #include "response/arm_parts.hpp"
 #include "response/formulation_maker.hpp"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

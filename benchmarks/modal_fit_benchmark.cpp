@@ -4,7 +4,7 @@
 // modal_fit_benchmark [hour]
 #include "benchmarks/peak_memory.hpp"
 #include "measured/modal_fit.hpp"
-#include "tests/measured/fit_cases.hpp"
+#include "tests/fit_cases/fit_cases.hpp"
 
 #include <fmt/format.h>
 

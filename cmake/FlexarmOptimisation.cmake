@@ -18,9 +18,13 @@ function(flexarm_precompiled name)
   target_precompile_headers(${target} PRIVATE ${HEADERS_HEADERS})
 endfunction()
 
+if(FLEXARM_PRECOMPILED_HEADERS)
+  include(FlexarmEigen)
+endif()
+
 set(library_headers <algorithm> <array> <cmath> <complex> <cstddef> <filesystem> <functional> <limits>
     <map> <memory> <numbers> <optional> <random> <ranges> <span> <stdexcept> <string> <string_view>
-    <utility> <variant> <vector> <fmt/format.h> <Eigen/Dense> <Eigen/SparseCore>)
+    <utility> <variant> <vector> <fmt/format.h> <Eigen/SparseCore> "${FLEXARM_EIGEN_HEADER}")
 
 # What computes is optimised in full. What writes or reads need not be, nor need the tests: they
 # build in half the time.
@@ -40,5 +44,6 @@ function(flexarm_optimise target how)
   target_compile_options(${target} PRIVATE ${${how}_option})
   if(FLEXARM_PRECOMPILED_HEADERS)
     target_precompile_headers(${target} REUSE_FROM flexarm_precompiled_${how})
+    target_link_libraries(${target} PUBLIC flexarm_eigen)
   endif()
 endfunction()

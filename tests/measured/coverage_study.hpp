@@ -1,7 +1,7 @@
 #pragma once
 
 #include "measured/modal_gains.hpp"
-#include "tests/measured/exact_gains.hpp"
+#include "tests/fit_cases/exact_gains.hpp"
 #include "tests/measured/fit_errors.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "measured/modal_fit.hpp"
-#include "tests/measured/fit_cases.hpp"
+#include "tests/fit_cases/fit_cases.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 
 #include "arm/input_error.hpp"
 #include "response/modal_response.hpp"
-#include "tests/measured/fit_cases.hpp"
+#include "tests/fit_cases/fit_cases.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

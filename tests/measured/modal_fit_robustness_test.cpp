@@ -2,7 +2,7 @@
 #include "arm/input_error.hpp"
 #include "measured/modal_fit.hpp"
 #include "measured/modal_gains.hpp"
-#include "tests/measured/fit_cases.hpp"
+#include "tests/fit_cases/fit_cases.hpp"
 #include "tests/measured/fit_errors.hpp"
 #include "tests/measured/simulated_responses.hpp"
 

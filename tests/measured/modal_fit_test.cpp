@@ -3,7 +3,8 @@
 #include "measured/modal_fit.hpp"
 
 #include "arm/input_error.hpp"
-#include "tests/measured/fit_cases.hpp"
+#include "response/random_numbers.hpp"
+#include "tests/fit_cases/fit_cases.hpp"
 #include "tests/measured/fit_errors.hpp"
 
 #include <gmock/gmock.h>

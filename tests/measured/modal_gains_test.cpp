@@ -2,9 +2,10 @@
 #include "measured/modal_gains.hpp"
 
 #include "arm/input_error.hpp"
+#include "response/formulation_maker.hpp"
 #include "response/modal_response.hpp"
-#include "tests/measured/exact_gains.hpp"
-#include "tests/measured/fit_cases.hpp"
+#include "tests/fit_cases/exact_gains.hpp"
+#include "tests/fit_cases/fit_cases.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 
 #include "measured/frequency_record.hpp"
 #include "response/modal_response.hpp"
-#include "tests/measured/fit_cases.hpp"
+#include "tests/fit_cases/fit_cases.hpp"
 
 #include <cmath>
 #include <complex>

@@ -4,7 +4,7 @@
 
 #include "measured/alias_placement.hpp"
 #include "measured/modal_fit.hpp"
-#include "tests/measured/fit_cases.hpp"
+#include "tests/fit_cases/fit_cases.hpp"
 #include "tests/measured/fit_errors.hpp"
 
 #include <gmock/gmock.h>

@@ -7,7 +7,8 @@
 #include "measured/spectral_features.hpp"
 #include "report/figure_layout.hpp"
 #include "report/label_placement.hpp"
-#include "tests/measured/fit_cases.hpp"
+#include "response/random_numbers.hpp"
+#include "tests/fit_cases/fit_cases.hpp"
 
 #include <algorithm>
 #include <cmath>

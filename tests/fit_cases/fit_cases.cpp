@@ -1,59 +1,38 @@
-#pragma once
+#include "tests/fit_cases/fit_cases.hpp"
 
-#include "measured/time_record.hpp"
-#include "response/excitation.hpp"
 #include "response/formulation_maker.hpp"
 #include "response/random_numbers.hpp"
 #include "response/sensor_imperfections.hpp"
-#include "response/simulation.hpp"
 #include "response/time_model.hpp"
 
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
-#include <complex>
-#include <string>
-#include <vector>
+#include <cmath>
 
 namespace flexarm::measured {
 
-/// The paper's arm with the damping that the figures of accuracy are stated for.
-inline arm::Arm damped_paper_arm() {
+arm::Arm damped_paper_arm() {
   arm::Arm arm = arm::paper_arm();
   arm.damping.kelvin_voigt_s = 1e-4;
   arm.hub.viscous_friction_N_m_s_per_rad = 2e-3;
   return arm;
 }
 
-inline std::vector<arm::Sensor> sensors_named(const std::vector<std::string>& names) {
+std::vector<arm::Sensor> sensors_named(const std::vector<std::string>& names) {
   std::vector<arm::Sensor> sensors;
   for (const std::string& name : names) sensors.push_back(arm::parse_sensor(name));
   return sensors;
 }
 
-/// A simulated experiment. Everything that is fitted to it is known exactly.
-struct FitCase {
-  arm::Arm arm = damped_paper_arm();
-  std::vector<arm::Sensor> sensors =
-      sensors_named({"hub_angle", "hub_velocity", "tip_acceleration", "strain@0.05"});
-  int modes = 3;  ///< flexible ones that move
-  double duration_s = 60.0;
-  double sample_time_s = 0.005;
-  response::TorqueHold hold = response::TorqueHold::zero;
-  response::Excitation excitation = response::RandomNoise{};
-  double relative_noise = 0.0;
-  std::uint64_t seed = 1;
-};
-
-inline arm::ModalModel model_of(const FitCase& fit_case) {
+arm::ModalModel model_of(const FitCase& fit_case) {
   response::ArmParts parts;
   parts.linear = fit_case.arm;
   return response::time_model(response::make_formulation("exact_tf", fit_case.arm, fit_case.modes),
                               parts, fit_case.modes, fit_case.sensors);
 }
 
-/// The record of parts that may hold friction and delays; `model` is that of their linear arm.
-inline TimeRecord clean_record(const FitCase& fit_case, const arm::ModalModel& model,
+TimeRecord clean_record(const FitCase& fit_case, const arm::ModalModel& model,
                                const response::ArmParts& parts) {
   const response::SampleGrid grid{
       static_cast<std::size_t>(std::lround(fit_case.duration_s / fit_case.sample_time_s)),
@@ -69,35 +48,26 @@ inline TimeRecord clean_record(const FitCase& fit_case, const arm::ModalModel& m
   return record;
 }
 
-inline TimeRecord clean_record(const FitCase& fit_case, const arm::ModalModel& model) {
+TimeRecord clean_record(const FitCase& fit_case, const arm::ModalModel& model) {
   response::ArmParts parts;
   parts.linear = fit_case.arm;
   return clean_record(fit_case, model, parts);
 }
 
-inline void add_noise(TimeRecord& record, double relative_noise, std::uint64_t seed) {
+void add_noise(TimeRecord& record, double relative_noise, std::uint64_t seed) {
   for (std::size_t j = 0; j < record.channels.size(); ++j) {
     response::RandomNumbers random(seed, static_cast<std::uint32_t>(j));
     response::impair(record.channels[j].values, {.relative_noise = relative_noise}, random);
   }
 }
 
-inline TimeRecord record_of(const FitCase& fit_case) {
+TimeRecord record_of(const FitCase& fit_case) {
   TimeRecord record = clean_record(fit_case, model_of(fit_case));
   if (fit_case.relative_noise > 0.0) add_noise(record, fit_case.relative_noise, fit_case.seed);
   return record;
 }
 
-/// Poles and zeros of a modal model's own equations of motion, as an independent computation:
-/// eigenvalues of its matrices.
-///
-///     (s^2 I + s D + Omega^2) q = theta u/I_T,   y = s^k sigma^T q
-struct ExactRoots {
-  std::vector<std::complex<double>> poles;               ///< Im > 0, ascending in size
-  std::vector<std::vector<std::complex<double>>> zeros;  ///< per sensor; Im >= 0, not at 0
-};
-
-inline ExactRoots exact_roots(const arm::ModalModel& model, std::size_t sensors) {
+ExactRoots exact_roots(const arm::ModalModel& model, std::size_t sensors) {
   using Eigen::Index;
   const auto n = static_cast<Index>(model.modes.size());
   Eigen::MatrixXd a = Eigen::MatrixXd::Zero(2 * n, 2 * n);

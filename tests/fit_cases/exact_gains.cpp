@@ -1,24 +1,15 @@
-#pragma once
-
-#include "tests/measured/fit_cases.hpp"
+#include "tests/fit_cases/exact_gains.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
-#include <vector>
 
 namespace flexarm::measured {
 
-/// What `modal_gains` estimates, of a damped model itself: from the residues of its equations of
-/// motion, by eigenvectors, as an independent computation.
-struct ExactGains {
-  double total_inertia_kg_m2 = 0.0;
-  std::vector<double> hub_slopes;            ///< flexible modes, ascending in frequency
-  std::vector<double> tip_gains_m;           ///< (49)
-  std::vector<double> tip_gains_of_ratio_m;  ///< (52) with its minus sign
-};
+namespace {
 
 /// Residues R_i of displacements, sum_i R_i/(s - p_i), one row a sensor.
 struct ModelResidues {
@@ -34,7 +25,7 @@ struct ModelResidues {
   }
 };
 
-inline ModelResidues model_residues(const arm::ModalModel& model, std::size_t sensors) {
+ModelResidues model_residues(const arm::ModalModel& model, std::size_t sensors) {
   using Eigen::Index;
   const auto n = static_cast<Index>(model.modes.size());
   Eigen::MatrixXd a = Eigen::MatrixXd::Zero(2 * n, 2 * n);
@@ -58,9 +49,12 @@ inline ModelResidues model_residues(const arm::ModalModel& model, std::size_t se
   return {solver.eigenvalues(), c.cast<std::complex<double>>() * vectors * drive.asDiagonal()};
 }
 
-/// Of a model with hub friction, whose rigid body has poles at 0 and -a1; `hub` and `tip` are the
-/// places of hub angle or velocity and of tip acceleration among its sensors.
-inline ExactGains exact_gains(const arm::ModalModel& model, Eigen::Index hub, Eigen::Index tip) {
+}  // namespace
+
+ExactGains exact_gains(const arm::ModalModel& model, std::size_t hub_sensor,
+                       std::size_t tip_sensor) {
+  const auto hub = static_cast<Eigen::Index>(hub_sensor);
+  const auto tip = static_cast<Eigen::Index>(tip_sensor);
   const ModelResidues all = model_residues(model, model.modes.front().sensor_values.size());
   std::vector<Eigen::Index> order;
   for (Eigen::Index i = 0; i < all.poles.size(); ++i) {

@@ -26,9 +26,10 @@ const std::map<std::string, Rooms>& allowed_arrows() {
     map["measured"] = {"arm"};
     map["response"] = {"arm", "exact_tf", "fem", "assumed_modes"};
     map["compare"] = {"arm", "exact_tf", "fem", "assumed_modes", "response", "measured"};
-    map["report"] = {"arm", "response", "compare", "measured"};
-    map["app"] = {"arm",      "exact_tf", "fem",     "assumed_modes",
-                  "measured", "response", "compare", "report"};
+    map["diagnose"] = {"arm", "exact_tf", "response", "compare", "measured"};
+    map["report"] = {"arm", "response", "compare", "measured", "diagnose"};
+    map["app"] = {"arm",      "exact_tf", "fem",      "assumed_modes", "measured",
+                  "response", "compare",  "diagnose", "report"};
     return map;
   }();
   return arrows;

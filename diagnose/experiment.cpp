@@ -1,0 +1,118 @@
+#include "diagnose/experiment.hpp"
+
+#include "arm/arm_file.hpp"
+#include "arm/input_error.hpp"
+#include "measured/data_check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+#include <variant>
+
+namespace flexarm::diagnose {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Leaves dead channels out; throws InputError where nothing usable is left.
+void keep_usable(const Experiment& experiment, measured::MeasuredRun& run, const std::string& file,
+                 std::vector<std::string>& notices) {
+  auto& record = std::get<measured::TimeRecord>(run.data);
+  const arm::Arm arm = arm_in(experiment, run.run);
+  measured::DataCheckOptions options;
+  options.length_m = arm.beam.length_m;
+  options.total_inertia_kg_m2 = arm::total_inertia_kg_m2(arm);
+  options.starts_at_rest = run.run.initial == measured::InitialState::rest;
+  for (const measured::DataFinding& finding : measured::check_data(record, options)) {
+    if (finding.fault == measured::Fault::zero_torque) {
+      throw arm::InputError(
+          fmt::format("{}: run {}: {}; a run whose torque is not known says "
+                      "nothing of the arm",
+                      file, run.run.id, finding.text));
+    }
+    if (finding.fault == measured::Fault::dead_channel) {
+      std::erase_if(record.channels, [&](const measured::Channel& channel) {
+        return arm::to_string(channel.sensor) == finding.channel;
+      });
+      notices.push_back(
+          fmt::format("run {}: {} is left out: {}", run.run.id, finding.channel, finding.text));
+    } else {
+      notices.push_back(fmt::format("run {}: {}: {}", run.run.id, finding.channel, finding.text));
+    }
+  }
+  if (record.channels.empty()) {
+    throw arm::InputError(
+        fmt::format("{}: run {}: no channel that can be used; at least one sensor beside time and "
+                    "torque",
+                    file, run.run.id));
+  }
+}
+
+}  // namespace
+
+arm::Arm arm_in(const Experiment& experiment, const measured::Run& run) {
+  arm::Arm arm = experiment.arm;
+  if (run.payload) arm.payload = *run.payload;
+  return arm;
+}
+
+Experiment read_experiment(const fs::path& measurement_file) {
+  const measured::Measurement measurement = measured::read_measurement(measurement_file);
+  Experiment experiment;
+  experiment.arm = arm::read_arm_file(measured::beside(measurement_file, measurement.arm));
+  for (const measured::Run& run : measurement.runs) {
+    measured::MeasuredRun read{run, measured::read_run(measurement_file, run)};
+    if (run.kind == measured::RunKind::time) {
+      keep_usable(experiment, read, measured::beside(measurement_file, run.file).string(),
+                  experiment.notices);
+    }
+    experiment.runs.push_back(std::move(read));
+  }
+  const std::string split = split_purposes(experiment.runs);
+  if (!split.empty()) experiment.notices.push_back(split);
+  const bool fits = std::ranges::any_of(experiment.runs, [](const measured::MeasuredRun& run) {
+    return run.run.purpose == measured::Purpose::estimation;
+  });
+  if (!fits) {
+    throw arm::InputError(
+        fmt::format("{}: run.purpose: every run is for validation; at least one "
+                    "must be for estimation",
+                    measurement_file.string()));
+  }
+  return experiment;
+}
+
+std::string split_purposes(std::vector<measured::MeasuredRun>& runs) {
+  using measured::Purpose;
+  const bool validates = std::ranges::any_of(
+      runs, [](const auto& run) { return run.run.purpose == Purpose::validation; });
+  std::vector<std::size_t> unsaid;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    if (runs[i].run.purpose) continue;
+    unsaid.push_back(i);
+    runs[i].run.purpose = Purpose::estimation;
+  }
+  if (validates || unsaid.empty()) return {};
+  if (runs.size() < 2) {
+    return fmt::format(
+        "run {} is all there is, and is fitted: the gain is not measured on data "
+        "that were not",
+        runs.front().run.id);
+  }
+  // The condition with most runs can spare one: the last of them.
+  const auto same_payload = [&](std::size_t i) {
+    return std::ranges::count_if(
+        unsaid, [&](std::size_t k) { return runs[k].run.payload == runs[i].run.payload; });
+  };
+  std::size_t spared = unsaid.front();
+  for (const std::size_t i : unsaid) {
+    if (same_payload(i) >= same_payload(spared)) spared = i;
+  }
+  runs[spared].run.purpose = Purpose::validation;
+  return fmt::format("no run is for validation: {} is kept for it, the others are fitted",
+                     runs[spared].run.id);
+}
+
+}  // namespace flexarm::diagnose

@@ -1,0 +1,37 @@
+#pragma once
+
+#include "arm/arm.hpp"
+#include "measured/identification.hpp"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace flexarm::diagnose {
+
+/// An arm as its file describes it, and what was measured on it.
+struct Experiment {
+  arm::Arm arm;
+  /// `time`, `frf` and `modal` runs, all of which have a purpose and at least one usable reading.
+  std::vector<measured::MeasuredRun> runs;
+  std::vector<std::string> notices;  ///< what was assumed or left out, a sentence each
+};
+
+/// The arm of a run: with the run's payload in place of its own where it has one.
+arm::Arm arm_in(const Experiment& experiment, const measured::Run& run);
+
+/// Reads the measurement, its arm and the files of its runs.
+///
+/// Channels that are dead are left out, with a notice. Where no run is for validation the
+/// conditions (payload, kind, torque) are split, with a notice (`split_purposes`).
+///
+/// Throws InputError `FILE:LINE: ...` where a reader does, for a run with a torque that is zero or
+/// with no usable channel, and for runs none of which is for estimation.
+Experiment read_experiment(const std::filesystem::path& measurement_file);
+
+/// Gives every run without a purpose one. Runs that say nothing are for estimation where another
+/// is for validation. Where none is, the last run of a payload is, of the payload with most runs;
+/// a single run stays for estimation. Returns what was done, or nothing.
+std::string split_purposes(std::vector<measured::MeasuredRun>& runs);
+
+}  // namespace flexarm::diagnose

@@ -1,0 +1,14 @@
+#include "diagnose/hypotheses/hypotheses.hpp"
+
+namespace flexarm::diagnose {
+
+Hypothesis payload_offset(const Scales& scales) {
+  const double length_m = scales.arm.beam.length_m;
+  return {.effect = "payload_offset",
+          .parameters = {{"offset", -0.2 * length_m, 0.2 * length_m, Spacing::linear}},
+          .shows = Shows::in_all,
+          .speaks_for = "what is off grows with the payload and is not there without one",
+          .refuted_by = "a misfit without payload"};
+}
+
+}  // namespace flexarm::diagnose

@@ -1,0 +1,14 @@
+#include "diagnose/hypotheses/hypotheses.hpp"
+
+namespace flexarm::diagnose {
+
+Hypothesis torque_bias(const Scales& scales) {
+  return {
+      .effect = "torque_bias",
+      .parameters = {{"torque", -scales.torque_rms_N_m, scales.torque_rms_N_m, Spacing::linear}},
+      .shows = Shows::in_time,
+      .speaks_for = "residual torque is constant: the arm drifts one way",
+      .refuted_by = "no drift where the torque is zero"};
+}
+
+}  // namespace flexarm::diagnose

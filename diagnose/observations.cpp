@@ -1,0 +1,121 @@
+#include "diagnose/observations.hpp"
+
+#include "diagnose/noise_floor.hpp"
+#include "measured/robust.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <utility>
+#include <variant>
+
+namespace flexarm::diagnose {
+
+namespace {
+
+/// Readings that repeat to the last digit leave no noise to be seen; this part of the signal then
+/// stands for what a model cannot be asked to reach.
+constexpr double kLeastNoise = 1e-6;
+
+/// Gathers channels one after the other.
+class Gathering {
+ public:
+  void begin(std::size_t run, std::string sensor) {
+    made_.push_back({run, std::move(sensor), static_cast<Eigen::Index>(values_.size()), 0, 0.0});
+  }
+  void add(double value, double deviation) {
+    values_.push_back(value);
+    deviations_.push_back(deviation);
+  }
+  void end(double noise) {
+    auto& channel = made_.back();
+    channel.count = static_cast<Eigen::Index>(values_.size()) - channel.first;
+    channel.noise = noise;
+    if (channel.count == 0) made_.pop_back();
+  }
+  Observations observations() const {
+    const auto n = static_cast<Eigen::Index>(values_.size());
+    return {Eigen::VectorXd::Map(values_.data(), n), Eigen::VectorXd::Map(deviations_.data(), n),
+            made_};
+  }
+
+ private:
+  std::vector<double> values_;
+  std::vector<double> deviations_;
+  std::vector<ObservedChannel> made_;
+};
+
+void gather(Gathering& all, std::size_t run, const measured::TimeRecord& record) {
+  for (const auto& channel : record.channels) {
+    const double signal = measured::standard_deviation(channel.values);
+    const double noise = std::max(white_noise(channel.values), kLeastNoise * signal);
+    all.begin(run, arm::to_string(channel.sensor));
+    for (const double value : channel.values) all.add(value, noise);
+    all.end(noise / signal);
+  }
+}
+
+void gather(Gathering& all, std::size_t run, const measured::FrequencyRecord& record) {
+  for (const auto& channel : record.channels) {
+    const std::vector<double> scatter = relative_scatter(channel);
+    all.begin(run, arm::to_string(channel.sensor));
+    double squares = 0.0;
+    for (std::size_t k = 0; k < scatter.size(); ++k) {
+      const double relative = std::max(scatter[k], kLeastNoise);
+      const double deviation =
+          std::max(relative * std::abs(channel.response[k]), std::numeric_limits<double>::min());
+      all.add(channel.response[k].real(), deviation);
+      all.add(channel.response[k].imag(), deviation);
+      squares += 2.0 * relative * relative;
+    }
+    all.end(std::sqrt(squares / static_cast<double>(scatter.size())));
+  }
+}
+
+void gather(Gathering& all, std::size_t run, const measured::ModalTable& table) {
+  for (const ModalGroup& group : modal_groups(table)) {
+    all.begin(run, group.zeros_of ? arm::to_string(*group.zeros_of) + " zero" : "pole");
+    double squares = 0.0;
+    double count = 0.0;
+    for (const std::size_t i : group.entries) {
+      const measured::ModalEntry& entry = table[i];
+      if (entry.frequency_Hz) {
+        const double deviation =
+            entry.frequency_std_Hz.value_or(kUnknownFrequency * *entry.frequency_Hz);
+        all.add(*entry.frequency_Hz, deviation);
+        squares += std::pow(deviation / *entry.frequency_Hz, 2);
+        count += 1.0;
+      }
+      if (entry.damping_ratio) {
+        all.add(*entry.damping_ratio, entry.damping_ratio_std.value_or(
+                                          kUnknownDampingRatio * std::abs(*entry.damping_ratio)));
+      }
+    }
+    all.end(count > 0.0 ? std::sqrt(squares / count) : 0.0);
+  }
+}
+
+}  // namespace
+
+std::vector<ModalGroup> modal_groups(const measured::ModalTable& table) {
+  std::vector<ModalGroup> groups;
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    const bool is_zero = table[i].feature == measured::Feature::zero;
+    const auto owner = is_zero ? table[i].sensor : std::nullopt;
+    auto at = std::ranges::find(groups, owner, &ModalGroup::zeros_of);
+    if (at == groups.end()) at = groups.insert(at, {owner, {}});
+    at->entries.push_back(i);
+  }
+  return groups;
+}
+
+Observations observe(const Experiment& experiment) {
+  Gathering all;
+  for (std::size_t r = 0; r < experiment.runs.size(); ++r) {
+    std::visit([&](const auto& data) { gather(all, r, data); }, experiment.runs[r].data);
+  }
+  return all.observations();
+}
+
+}  // namespace flexarm::diagnose

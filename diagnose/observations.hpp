@@ -1,0 +1,43 @@
+#pragma once
+
+#include "diagnose/experiment.hpp"
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace flexarm::diagnose {
+
+/// The numbers that one sensor gave in one run, a stretch of the vectors of `Observations`:
+/// readings of a `time` run; real and imaginary parts, frequency by frequency, of an `frf` run;
+/// of a `modal` run natural frequencies and damping ratios, entry by entry, as far as known.
+struct ObservedChannel {
+  std::size_t run = 0;  ///< index of Experiment::runs
+  std::string sensor;   ///< "hub_angle"; of a modal run "hub_angle zero", "pole"
+  Eigen::Index first = 0;
+  Eigen::Index count = 0;
+  double noise = 0.0;  ///< standard deviation over that of the signal; the noise floor
+};
+
+/// All that an experiment measured, in one vector, run by run and channel by channel.
+struct Observations {
+  Eigen::VectorXd values;
+  Eigen::VectorXd deviations;  ///< standard deviation of each, above 0
+  std::vector<ObservedChannel> channels;
+};
+
+/// Poles, or the zeros of one sensor, of a modal table: indices of its entries, in their order.
+struct ModalGroup {
+  std::optional<arm::Sensor> zeros_of;  ///< empty: poles, which are the same in every sensor
+  std::vector<std::size_t> entries;
+};
+std::vector<ModalGroup> modal_groups(const measured::ModalTable& table);
+
+/// Standard deviations are those that the data show by themselves, whatever the arm does:
+/// diagnose/noise_floor.hpp.
+Observations observe(const Experiment& experiment);
+
+}  // namespace flexarm::diagnose

@@ -1,0 +1,153 @@
+#include "diagnose/predictor.hpp"
+
+#include "diagnose/predicted_roots.hpp"
+#include "response/formulation_maker.hpp"
+#include "response/frequency_response.hpp"
+#include "response/simulation.hpp"
+#include "response/time_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+#include <variant>
+
+namespace flexarm::diagnose {
+
+namespace {
+
+using Eigen::Index;
+
+std::vector<arm::Sensor> sensors_of(const measured::TimeRecord& record) {
+  std::vector<arm::Sensor> sensors;
+  for (const auto& channel : record.channels) sensors.push_back(channel.sensor);
+  return sensors;
+}
+
+void predict(const measured::Run& run, const measured::TimeRecord& record,
+             const arm::ModalModel& model, const response::ArmParts& parts,
+             Eigen::Ref<Eigen::VectorXd> values) {
+  response::SimulationOptions options;
+  options.sample_time_s = measured::sampling_period_s(record);
+  options.hold = run.torque_hold == measured::TorqueHold::zero ? response::TorqueHold::zero
+                                                               : response::TorqueHold::first;
+  options.energy = false;
+  const auto made =
+      response::simulate(model, parts, sensors_of(record), record.torque_N_m, options);
+  Index at = 0;
+  for (const auto& channel : made.channels) {
+    const auto n = static_cast<Index>(channel.size());
+    values.segment(at, n) = Eigen::VectorXd::Map(channel.data(), n);
+    at += n;
+  }
+}
+
+void predict(const arm::Arm& arm, const measured::FrequencyRecord& record,
+             Eigen::Ref<Eigen::VectorXd> values) {
+  const response::ArmParts parts = response::take_apart(arm);
+  const auto formulation = response::make_formulation("exact_tf", arm, 1);
+  const auto chain = response::linear_chain(parts);
+  Index at = 0;
+  for (const auto& channel : record.channels) {
+    const std::vector<arm::Sensor> sensors = {channel.sensor};
+    const auto made =
+        response::frequency_response(formulation, chain, sensors, channel.frequency_Hz);
+    for (const auto& value : made.values.front()) {
+      values(at++) = value.real();
+      values(at++) = value.imag();
+    }
+  }
+}
+
+Index numbers_in(const measured::RunData& data) {
+  std::size_t count = 0;
+  if (const auto* time = std::get_if<measured::TimeRecord>(&data)) {
+    count = time->channels.size() * time->time_s.size();
+  } else if (const auto* frequency = std::get_if<measured::FrequencyRecord>(&data)) {
+    for (const auto& channel : frequency->channels) count += 2 * channel.response.size();
+  } else {
+    for (const auto& entry : std::get<measured::ModalTable>(data)) {
+      count += (entry.frequency_Hz ? 1U : 0U) + (entry.damping_ratio ? 1U : 0U);
+    }
+  }
+  return static_cast<Index>(count);
+}
+
+}  // namespace
+
+Predictor::Predictor(const Experiment& experiment, int flexible_modes)
+    : experiment_(&experiment), flexible_modes_(flexible_modes) {
+  for (std::size_t r = 0; r < experiment.runs.size(); ++r) {
+    const auto& [run, data] = experiment.runs[r];
+    first_.push_back(size_);
+    size_ += numbers_in(data);
+    const auto* record = std::get_if<measured::TimeRecord>(&data);
+    if (record == nullptr) continue;
+    const arm::Payload payload = run.payload.value_or(experiment.arm.payload);
+    const auto sensors = sensors_of(*record);
+    auto at = std::ranges::find_if(conditions_, [&](const Condition& condition) {
+      return condition.payload == payload && condition.sensors == sensors;
+    });
+    if (at == conditions_.end()) at = conditions_.insert(at, {payload, sensors, {}});
+    at->runs.push_back(r);
+  }
+}
+
+Eigen::VectorXd Predictor::operator()(const arm::Arm& arm, const std::vector<bool>& runs) const {
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(size_);
+  const auto stretch = [&](std::size_t r) {
+    const Index end = r + 1 < first_.size() ? first_[r + 1] : size_;
+    return values.segment(first_[r], end - first_[r]);
+  };
+  arm::Arm with_payload = arm;
+  for (const Condition& condition : conditions_) {
+    if (std::ranges::none_of(condition.runs, [&](std::size_t r) { return runs[r]; })) continue;
+    with_payload.payload = condition.payload;
+    const response::ArmParts parts = response::take_apart(with_payload);
+    const auto model =
+        response::time_model(response::make_formulation("exact_tf", parts.linear, flexible_modes_),
+                             parts, flexible_modes_, condition.sensors);
+    for (const std::size_t r : condition.runs) {
+      if (!runs[r]) continue;
+      const auto& [run, data] = experiment_->runs[r];
+      predict(run, std::get<measured::TimeRecord>(data), model, parts, stretch(r));
+    }
+  }
+  for (std::size_t r = 0; r < experiment_->runs.size(); ++r) {
+    const auto& [run, data] = experiment_->runs[r];
+    if (!runs[r]) continue;
+    with_payload.payload = run.payload.value_or(arm.payload);
+    if (const auto* record = std::get_if<measured::FrequencyRecord>(&data)) {
+      predict(with_payload, *record, stretch(r));
+    } else if (const auto* table = std::get_if<measured::ModalTable>(&data)) {
+      predict_roots(with_payload, *table, stretch(r));
+    }
+  }
+  return values;
+}
+
+int modes_needed(const Experiment& experiment, const Observations& observations) {
+  std::vector<bool> runs;
+  for (const auto& run : experiment.runs) {
+    runs.push_back(run.run.kind == measured::RunKind::time);
+  }
+  if (std::ranges::count(runs, true) == 0) return kFewestModes;
+  const Eigen::VectorXd most = Predictor(experiment, kMostModes)(experiment.arm, runs);
+  for (int modes = kFewestModes; modes < kMostModes; modes += 2) {
+    const Eigen::VectorXd off = Predictor(experiment, modes)(experiment.arm, runs) - most;
+    const bool enough =
+        std::ranges::all_of(observations.channels, [&](const ObservedChannel& channel) {
+          if (!runs[channel.run]) return true;
+          const auto n = static_cast<double>(channel.count);
+          const auto signal = most.segment(channel.first, channel.count);
+          const double size = std::sqrt((signal.array() - signal.mean()).square().sum() / n);
+          const double error =
+              std::sqrt(off.segment(channel.first, channel.count).squaredNorm() / n);
+          return error <= std::max(kModeError, 0.1 * channel.noise) * size;
+        });
+    if (enough) return modes;
+  }
+  return kMostModes;
+}
+
+}  // namespace flexarm::diagnose

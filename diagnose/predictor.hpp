@@ -1,0 +1,51 @@
+#pragma once
+
+#include "diagnose/experiment.hpp"
+#include "diagnose/observations.hpp"
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <vector>
+
+namespace flexarm::diagnose {
+
+/// What an arm should have shown in the runs of an experiment.
+class Predictor {
+ public:
+  /// `flexible_modes` move in a simulated run; poles, zeros and frequency responses are exact.
+  /// `experiment` must outlive the object.
+  Predictor(const Experiment& experiment, int flexible_modes);
+
+  /// One number for each of the experiment's `Observations`, run after run, of those `runs` alone;
+  /// the others are 0. `arm` is the experiment's with effects; each run sets its own payload.
+  /// Throws InputError for an arm that cannot be computed. Concurrent calls are safe.
+  Eigen::VectorXd operator()(const arm::Arm& arm, const std::vector<bool>& runs) const;
+
+  Eigen::Index size() const { return size_; }
+  int flexible_modes() const { return flexible_modes_; }
+
+ private:
+  /// Runs that one modal model serves.
+  struct Condition {
+    arm::Payload payload;
+    std::vector<arm::Sensor> sensors;
+    std::vector<std::size_t> runs;
+  };
+
+  const Experiment* experiment_;
+  int flexible_modes_;
+  std::vector<Condition> conditions_;  // of `time` runs
+  std::vector<Eigen::Index> first_;    // of each run, in the vector
+  Eigen::Index size_ = 0;
+};
+
+/// The fewest flexible modes with which the simulated runs are within `kModeError` of a signal's
+/// deviation, or a tenth of its noise if that is more, of those with `kMostModes`: the error of
+/// leaving modes out, which is never to be taken for physics. `kMostModes` where none suffices.
+int modes_needed(const Experiment& experiment, const Observations& observations);
+inline constexpr double kModeError = 1e-4;
+inline constexpr int kFewestModes = 4;
+inline constexpr int kMostModes = 16;
+
+}  // namespace flexarm::diagnose

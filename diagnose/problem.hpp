@@ -1,0 +1,39 @@
+#pragma once
+
+#include "diagnose/candidate.hpp"
+#include "diagnose/observations.hpp"
+#include "diagnose/predictor.hpp"
+
+#include <Eigen/Core>
+
+#include <optional>
+#include <vector>
+
+namespace flexarm::diagnose {
+
+/// An experiment with all that is needed to hold a candidate against it.
+class Problem {
+ public:
+  /// `experiment` must outlive the object.
+  explicit Problem(const Experiment& experiment);
+
+  const Experiment& experiment() const { return *experiment_; }
+  const Observations& observations() const { return observations_; }
+  const Predictor& predictor() const { return predictor_; }
+  const std::vector<bool>& estimation_runs() const { return estimation_runs_; }
+  const std::vector<bool>& validation_runs() const { return validation_runs_; }
+
+  /// (measured - predicted)/deviation of the runs' numbers; 0 for those of other runs. Empty where
+  /// the candidate's arm cannot be computed. Concurrent calls are safe.
+  std::optional<Eigen::VectorXd> residuals(const Candidate& candidate,
+                                           const std::vector<bool>& runs) const;
+
+ private:
+  const Experiment* experiment_;
+  Observations observations_;
+  std::vector<bool> estimation_runs_;
+  std::vector<bool> validation_runs_;
+  Predictor predictor_;
+};
+
+}  // namespace flexarm::diagnose

@@ -41,8 +41,8 @@ void Candidate::put(const Eigen::VectorXd& places) {
   values.resize(all.size());
   for (std::size_t i = 0; i < all.size(); ++i) {
     double place = places(static_cast<Index>(i));
-    place = all[i].periodic ? place - std::floor(place)
-                            : std::clamp(place, -kBeyond, 1.0 + kBeyond);
+    place =
+        all[i].periodic ? place - std::floor(place) : std::clamp(place, -kBeyond, 1.0 + kBeyond);
     values[i] = all[i].value(place);
   }
 }

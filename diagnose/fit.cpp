@@ -1,10 +1,10 @@
 #include "diagnose/fit.hpp"
 
-#include <nlopt.hpp>
 #include <unsupported/Eigen/NonLinearOptimization>
 
 #include <cmath>
 #include <limits>
+#include <nlopt.hpp>
 
 namespace flexarm::diagnose {
 

@@ -6,14 +6,48 @@
 
 namespace flexarm::diagnose {
 
+namespace {
+
+/// No spring is stiffer, relative to the stiffest that is looked for.
+constexpr double kRigid = 1e4;
+
+/// 0 at place 0 and `high` at 1: even steps below `low`, equal ratios above.
+double growing(double place, double low, double high) {
+  return low * std::expm1(std::max(0.0, place) * std::log1p(high / low));
+}
+
+double growing_place(double value, double low, double high) {
+  return std::log1p(value / low) / std::log1p(high / low);
+}
+
+}  // namespace
+
 double SearchedParameter::value(double place) const {
-  if (spacing == Spacing::linear) return lowest + place * (highest - lowest);
-  return lowest * std::pow(highest / lowest, place);
+  switch (spacing) {
+    case Spacing::linear:
+      return lowest + place * (highest - lowest);
+    case Spacing::logarithmic:
+      return lowest * std::pow(highest / lowest, place);
+    case Spacing::from_zero:
+      return growing(place, lowest, highest);
+    case Spacing::from_infinity:
+      return 1.0 / std::max(growing(place, 1.0 / highest, 1.0 / lowest), 1.0 / (kRigid * highest));
+  }
+  return lowest;
 }
 
 double SearchedParameter::place(double value) const {
-  if (spacing == Spacing::linear) return (value - lowest) / (highest - lowest);
-  return std::log(value / lowest) / std::log(highest / lowest);
+  switch (spacing) {
+    case Spacing::linear:
+      return (value - lowest) / (highest - lowest);
+    case Spacing::logarithmic:
+      return std::log(value / lowest) / std::log(highest / lowest);
+    case Spacing::from_zero:
+      return growing_place(value, lowest, highest);
+    case Spacing::from_infinity:
+      return growing_place(1.0 / value, 1.0 / highest, 1.0 / lowest);
+  }
+  return 0.0;
 }
 
 std::string Hypothesis::label() const {

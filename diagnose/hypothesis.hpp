@@ -22,7 +22,11 @@ Scales scales_of(const Experiment& experiment);
 
 enum class Spacing {
   linear,
-  logarithmic,  ///< in equal ratios; both ends have the same sign
+  logarithmic,  ///< in equal ratios
+  /// From 0, where the effect does nothing: evenly below `lowest`, in equal ratios above.
+  from_zero,
+  /// From infinity, where the effect does nothing, down to `lowest`: from_zero of the reciprocal.
+  from_infinity,
 };
 
 /// A parameter of an effect and where it is looked for.

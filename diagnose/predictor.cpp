@@ -3,7 +3,7 @@
 #include "diagnose/predicted_roots.hpp"
 #include "response/formulation_maker.hpp"
 #include "response/frequency_response.hpp"
-#include "response/simulation.hpp"
+#include "response/quick_simulation.hpp"
 #include "response/time_model.hpp"
 
 #include <algorithm>
@@ -25,17 +25,17 @@ std::vector<arm::Sensor> sensors_of(const measured::TimeRecord& record) {
 }
 
 void predict(const measured::Run& run, const measured::TimeRecord& record,
-             const arm::ModalModel& model, const response::ArmParts& parts,
+             const arm::ModalModel& model, const response::ArmParts& parts, int substeps,
              Eigen::Ref<Eigen::VectorXd> values) {
-  response::SimulationOptions options;
+  response::QuickSimulationOptions options;
+  options.substeps = substeps;
   options.sample_time_s = measured::sampling_period_s(record);
   options.hold = run.torque_hold == measured::TorqueHold::zero ? response::TorqueHold::zero
                                                                : response::TorqueHold::first;
-  options.energy = false;
   const auto made =
-      response::simulate(model, parts, sensors_of(record), record.torque_N_m, options);
+      response::quick_simulation(model, parts, sensors_of(record), record.torque_N_m, options);
   Index at = 0;
-  for (const auto& channel : made.channels) {
+  for (const auto& channel : made) {
     const auto n = static_cast<Index>(channel.size());
     values.segment(at, n) = Eigen::VectorXd::Map(channel.data(), n);
     at += n;
@@ -75,8 +75,8 @@ Index numbers_in(const measured::RunData& data) {
 
 }  // namespace
 
-Predictor::Predictor(const Experiment& experiment, int flexible_modes)
-    : experiment_(&experiment), flexible_modes_(flexible_modes) {
+Predictor::Predictor(const Experiment& experiment, int flexible_modes, int substeps)
+    : experiment_(&experiment), flexible_modes_(flexible_modes), substeps_(substeps) {
   for (std::size_t r = 0; r < experiment.runs.size(); ++r) {
     const auto& [run, data] = experiment.runs[r];
     first_.push_back(size_);
@@ -110,7 +110,7 @@ Eigen::VectorXd Predictor::operator()(const arm::Arm& arm, const std::vector<boo
     for (const std::size_t r : condition.runs) {
       if (!runs[r]) continue;
       const auto& [run, data] = experiment_->runs[r];
-      predict(run, std::get<measured::TimeRecord>(data), model, parts, stretch(r));
+      predict(run, std::get<measured::TimeRecord>(data), model, parts, substeps_, stretch(r));
     }
   }
   for (std::size_t r = 0; r < experiment_->runs.size(); ++r) {
@@ -132,9 +132,9 @@ int modes_needed(const Experiment& experiment, const Observations& observations)
     runs.push_back(run.run.kind == measured::RunKind::time);
   }
   if (std::ranges::count(runs, true) == 0) return kFewestModes;
-  const Eigen::VectorXd most = Predictor(experiment, kMostModes)(experiment.arm, runs);
+  const Eigen::VectorXd most = Predictor(experiment, kMostModes, 1)(experiment.arm, runs);
   for (int modes = kFewestModes; modes < kMostModes; modes += 2) {
-    const Eigen::VectorXd off = Predictor(experiment, modes)(experiment.arm, runs) - most;
+    const Eigen::VectorXd off = Predictor(experiment, modes, 1)(experiment.arm, runs) - most;
     const bool enough =
         std::ranges::all_of(observations.channels, [&](const ObservedChannel& channel) {
           if (!runs[channel.run]) return true;

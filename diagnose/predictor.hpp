@@ -13,9 +13,10 @@ namespace flexarm::diagnose {
 /// What an arm should have shown in the runs of an experiment.
 class Predictor {
  public:
-  /// `flexible_modes` move in a simulated run; poles, zeros and frequency responses are exact.
-  /// `experiment` must outlive the object.
-  Predictor(const Experiment& experiment, int flexible_modes);
+  /// `flexible_modes` move in a simulated run, with `substeps` inner steps a sample where forces
+  /// are not linear; poles, zeros and frequency responses are exact. `experiment` must outlive the
+  /// object.
+  Predictor(const Experiment& experiment, int flexible_modes, int substeps);
 
   /// One number for each of the experiment's `Observations`, run after run, of those `runs` alone;
   /// the others are 0. `arm` is the experiment's with effects; each run sets its own payload.
@@ -35,6 +36,7 @@ class Predictor {
 
   const Experiment* experiment_;
   int flexible_modes_;
+  int substeps_;
   std::vector<Condition> conditions_;  // of `time` runs
   std::vector<Eigen::Index> first_;    // of each run, in the vector
   Eigen::Index size_ = 0;

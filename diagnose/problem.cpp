@@ -4,10 +4,13 @@
 
 namespace flexarm::diagnose {
 
-Problem::Problem(const Experiment& experiment)
+Problem::Problem(const Experiment& experiment, const ProblemOptions& options)
     : experiment_(&experiment),
       observations_(observe(experiment)),
-      predictor_(experiment, modes_needed(experiment, observations_)) {
+      predictor_(experiment,
+                 options.flexible_modes ? *options.flexible_modes
+                                        : modes_needed(experiment, observations_),
+                 options.substeps) {
   for (const auto& run : experiment.runs) {
     estimation_runs_.push_back(run.run.purpose == measured::Purpose::estimation);
     validation_runs_.push_back(run.run.purpose == measured::Purpose::validation);

@@ -11,11 +11,16 @@
 
 namespace flexarm::diagnose {
 
+struct ProblemOptions {
+  std::optional<int> flexible_modes = {};  ///< of simulated runs; as many as needed unless given
+  int substeps = 4;                        ///< inner steps a sample with forces that are not linear
+};
+
 /// An experiment with all that is needed to hold a candidate against it.
 class Problem {
  public:
   /// `experiment` must outlive the object.
-  explicit Problem(const Experiment& experiment);
+  explicit Problem(const Experiment& experiment, const ProblemOptions& options = {});
 
   const Experiment& experiment() const { return *experiment_; }
   const Observations& observations() const { return observations_; }

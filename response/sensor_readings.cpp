@@ -31,12 +31,19 @@ SensorReadings::SensorReadings(const ModalDynamics& arm, const ArmParts& parts,
 
 const Eigen::VectorXd& SensorReadings::read(const TimeStepper& stepper, double actuator_N_m) {
   const bool is_held = stepper.motion() == HubMotion::held;
-  const Stack& readings = is_held ? held_ : turning_;
-  now_.noalias() = readings.state * stepper.state();
+  return read(stepper.state(), stepper.force(), actuator_N_m,
+              is_held ? std::optional(stepper.hub_angle()) : std::nullopt);
+}
+
+const Eigen::VectorXd& SensorReadings::read(const Eigen::VectorXd& x, const Eigen::VectorXd& f,
+                                            double actuator_N_m,
+                                            std::optional<double> held_angle_rad) {
+  const Stack& readings = held_angle_rad ? held_ : turning_;
+  now_.noalias() = readings.state * x;
   now_ += readings.actuator * actuator_N_m;
-  now_.noalias() += readings.force * stepper.force();
-  if (is_held) {
-    for (const Index j : hub_angles_) now_(j) = stepper.hub_angle();
+  now_.noalias() += readings.force * f;
+  if (held_angle_rad) {
+    for (const Index j : hub_angles_) now_(j) = *held_angle_rad;
     for (const Index j : hub_velocities_) now_(j) = 0.0;
   }
   return now_;

@@ -3,6 +3,7 @@
 #include "response/time_stepper.hpp"
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -18,6 +19,9 @@ class SensorReadings {
   /// One a sensor, with that torque of the actuator. A hub that is held reads its angle and no
   /// speed to the last bit.
   const Eigen::VectorXd& read(const TimeStepper& stepper, double actuator_N_m);
+  /// The same for the state `x` with the added forces `f`; `held_angle_rad` where the hub is held.
+  const Eigen::VectorXd& read(const Eigen::VectorXd& x, const Eigen::VectorXd& f,
+                              double actuator_N_m, std::optional<double> held_angle_rad);
 
  private:
   /// The readings of one system, stacked.

@@ -5,7 +5,7 @@ namespace flexarm::diagnose {
 Hypothesis actuator_lag(const Scales& scales) {
   return {.effect = "actuator_lag",
           .parameters = {{"time_constant", 0.02 * scales.shortest_time_s,
-                          200.0 * scales.shortest_time_s}},
+                          200.0 * scales.shortest_time_s, Spacing::from_zero}},
           .shows = Shows::in_time_and_frequency,
           .speaks_for =
               "phase falls behind and the response falls off with frequency; poles "

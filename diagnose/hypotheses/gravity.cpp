@@ -5,7 +5,7 @@ namespace flexarm::diagnose {
 Hypothesis gravity(const Scales& /*scales*/) {
   constexpr double g = 9.81;  // m/s^2
   return {.effect = "gravity",
-          .parameters = {{"acceleration", -g, 2.0 * g, Spacing::linear}},
+          .parameters = {{"acceleration", -2.0 * g, 2.0 * g, Spacing::linear}},
           .shows = Shows::in_all,
           .speaks_for =
               "the arm swings about one hub angle, and all poles move up by nearly "

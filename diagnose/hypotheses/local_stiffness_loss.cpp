@@ -8,7 +8,7 @@ Hypothesis local_stiffness_loss(const Scales& scales) {
   const double bending = beam.flexural_rigidity_N_m2 / beam.length_m;
   return {.effect = "local_stiffness_loss",
           .parameters = {{"position", 0.01 * beam.length_m, 0.99 * beam.length_m, Spacing::linear},
-                         {"stiffness", 0.3 * bending, 300.0 * bending}},
+                         {"stiffness", 0.3 * bending, 300.0 * bending, Spacing::from_infinity}},
           .shows = Shows::in_all,
           .speaks_for =
               "poles and zeros move down in unlike ratios: a mode that does not bend "

@@ -6,7 +6,8 @@ namespace flexarm::diagnose {
 
 Hypothesis torque_ripple(const Scales& scales) {
   return {.effect = "torque_ripple",
-          .parameters = {{"amplitude", 3e-3 * scales.torque_rms_N_m, scales.torque_rms_N_m},
+          .parameters = {{"amplitude", 3e-3 * scales.torque_rms_N_m, scales.torque_rms_N_m,
+                          Spacing::from_zero},
                          {"cycles", 0.5, 40.0},
                          {"phase", 0.0, 2.0 * std::numbers::pi, Spacing::linear, true}},
           .shows = Shows::in_time,

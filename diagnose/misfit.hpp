@@ -1,0 +1,50 @@
+#pragma once
+
+#include "diagnose/observations.hpp"
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace flexarm::diagnose {
+
+/// What residuals say of the runs that they are of.
+struct Misfit {
+  double count = 0.0;           ///< numbers in these runs
+  double sum_of_squares = 0.0;  ///< of residuals in standard deviations of the noise
+  /// Part of `count` that is independent, by the correlation of neighbours in time:
+  /// n (1 - r)/(1 + r) of a channel; in frequency and modal data all are.
+  double independent = 0.0;
+  /// Root mean square over the channels' root mean square of the signal, mean of the channels: the
+  /// relative error, and that which the noise alone would make.
+  double relative_error = 0.0;
+  double noise_floor = 0.0;
+
+  /// Squares beyond those of the noise, whose level is known to `kNoiseKnown` of its power.
+  double excess() const;
+  bool is_noise() const { return excess() == 0.0; }
+  /// What is not noise, relative to the signal.
+  double unexplained_error() const;
+};
+/// Part of its power to which the level of a channel's noise is known.
+inline constexpr double kNoiseKnown = 0.1;
+
+/// `runs` as in Problem::residuals.
+Misfit misfit(const Observations& observations, const Experiment& experiment,
+              const Eigen::VectorXd& residuals, const std::vector<bool>& runs);
+
+/// Relative error of one channel, root mean square over root mean square of the signal; of modal
+/// and frequency data each number counts relative to itself.
+double relative_error(const Observations& observations, const Experiment& experiment,
+                      const ObservedChannel& channel, const Eigen::VectorXd& residuals);
+
+/// How much better `fuller` explains the estimation data than `simpler`, in units of the Bayesian
+/// information criterion: the scale of the residuals, never below the noise, is that of either
+/// model, and the count of independent numbers that of `fuller`,
+///
+///     n ln(s_simpler^2/s_fuller^2) - k ln n
+///
+/// for k parameters more. Above 10 is decisive (Kass & Raftery 1995).
+double information_gain(const Misfit& simpler, const Misfit& fuller, int more_parameters);
+
+}  // namespace flexarm::diagnose

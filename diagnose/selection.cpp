@@ -1,0 +1,223 @@
+#include "diagnose/selection.hpp"
+
+#include "diagnose/coarse.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <mutex>
+#include <optional>
+#include <tbb/parallel_for.h>
+
+namespace flexarm::diagnose {
+
+namespace {
+
+/// Values tried in a scan, by the number of parameters.
+int scan_evaluations(std::size_t parameters) {
+  return parameters == 1 ? 40 : parameters == 2 ? 90 : 160;
+}
+/// Pairs are tried of this many of the best by themselves with any other.
+constexpr std::size_t kPairBases = 3;
+/// Of each of these with this many others, those that fit a few records best.
+constexpr std::size_t kPairsRefitted = 5;
+/// Modes that move in a first look.
+constexpr int kCoarseModes = 8;
+constexpr int kCoarseSubsteps = 2;
+constexpr FitOptions kCoarseFit{.most_steps = 8, .tolerance = 1e-4};
+
+class Search {
+ public:
+  Search(const Problem& problem, const std::vector<Hypothesis>& hypotheses,
+         const SelectionOptions& options, const DiagnosisProgress& progress)
+      : problem_(problem),
+        hypotheses_(hypotheses),
+        options_(options),
+        progress_(progress),
+        coarse_experiment_(coarse(problem.experiment())),
+        coarse_(coarse_experiment_,
+                {.flexible_modes = std::min(kCoarseModes, problem.predictor().flexible_modes()),
+                 .substeps = kCoarseSubsteps}) {}
+
+  Selection run() {
+    Selection made;
+    made.nothing = explain(fit(problem_, {}));
+    made.chosen = made.nothing;
+    if (made.nothing.estimation.is_noise()) return made;
+    made.singles = all_with({}, "effects one by one", 0.0, 0.4, hypotheses_.size());
+    extend(made);
+    if (!made.chosen.fit.candidate.effects.empty()) exchange(made);
+    made.cancelled = cancelled_;
+    return made;
+  }
+
+ private:
+  Explanation explain(Fit fit) const {
+    Explanation made;
+    made.estimation = misfit(problem_.observations(), problem_.experiment(), fit.residuals,
+                             problem_.estimation_runs());
+    if (const auto held_out = problem_.residuals(fit.candidate, problem_.validation_runs())) {
+      made.validation = misfit(problem_.observations(), problem_.experiment(), *held_out,
+                               problem_.validation_runs());
+    }
+    made.fit = std::move(fit);
+    return made;
+  }
+
+  /// `base` with each hypothesis that it has not, each found by a scan of a coarse problem; the
+  /// `refitted` best of these fitted to all data, the best first.
+  std::vector<Explanation> all_with(const Candidate& base, std::string_view what, double from,
+                                    double to, std::size_t refitted) {
+    std::vector<const Hypothesis*> others;
+    for (const Hypothesis& hypothesis : hypotheses_) {
+      if (!base.has(hypothesis)) others.push_back(&hypothesis);
+    }
+    std::vector<Fit> looks(others.size());
+    const double middle = from + 0.6 * (to - from);
+    in_parallel(others.size(), what, from, middle, [&](std::size_t i) {
+      const Hypothesis& other = *others[i];
+      std::vector<double> values;
+      for (const auto& parameter : other.parameters) values.push_back(parameter.value(0.5));
+      const Candidate scanned =
+          scan(coarse_, base.with(other, values), scan_evaluations(values.size()));
+      looks[i] = fit(coarse_, scanned, kCoarseFit);
+    });
+    std::ranges::stable_sort(looks, {}, &Fit::sum_of_squares);
+    looks.resize(std::min(refitted, looks.size()));
+    std::vector<Explanation> found(looks.size());
+    in_parallel(looks.size(), what, middle, to,
+                [&](std::size_t i) { found[i] = explain(fit(problem_, looks[i].candidate)); });
+    std::ranges::stable_sort(found, {},
+                             [](const Explanation& one) { return one.fit.sum_of_squares; });
+    return found;
+  }
+
+  /// Whether `fuller` has a right to its causes beside `simpler`.
+  bool deserves(const Explanation& fuller, const Explanation& simpler) const {
+    const auto more = static_cast<int>(fuller.fit.candidate.values.size()) -
+                      static_cast<int>(simpler.fit.candidate.values.size());
+    if (information_gain(simpler.estimation, fuller.estimation, more) <
+        options_.least_information_gain) {
+      return false;
+    }
+    if (share(simpler.estimation, fuller.estimation) < options_.least_share) return false;
+    return simpler.validation.count == 0.0 ||
+           share(simpler.validation, fuller.validation) >= options_.least_validated_share;
+  }
+
+  /// Part of what is beyond noise that `fuller` takes away. Without anything beyond noise: none.
+  static double share(const Misfit& simpler, const Misfit& fuller) {
+    const double before = simpler.excess();
+    return before > 0.0 ? 1.0 - fuller.excess() / before : 0.0;
+  }
+
+  /// The best of `found` that is as good as the first but for `kMargin` of information, with the
+  /// fewest parameters.
+  static const Explanation& simplest(const std::vector<Explanation>& found) {
+    constexpr double kMargin = 10.0;
+    const Explanation* best = &found.front();
+    for (const Explanation& other : found) {
+      const auto fewer = static_cast<int>(best->fit.candidate.values.size()) -
+                         static_cast<int>(other.fit.candidate.values.size());
+      if (fewer > 0 && information_gain(other.estimation, best->estimation, fewer) < kMargin) {
+        best = &other;
+      }
+    }
+    return *best;
+  }
+
+  void extend(Selection& made) {
+    const Explanation single = simplest(made.singles);
+    if (deserves(single, made.nothing)) made.chosen = single;
+    if (made.chosen.estimation.is_noise() || options_.most_causes < 2) return;
+    // Pairs of the best: the better of two causes need not be the best by itself.
+    const std::size_t bases = std::min(kPairBases, made.singles.size());
+    for (std::size_t b = 0; b < bases && !cancelled_; ++b) {
+      const double from = 0.4 + 0.4 * static_cast<double>(b) / static_cast<double>(bases);
+      const double to = 0.4 + 0.4 * static_cast<double>(b + 1) / static_cast<double>(bases);
+      for (Explanation& pair :
+           all_with(made.singles[b].fit.candidate, "pairs of effects", from, to, kPairsRefitted)) {
+        made.pairs.push_back(std::move(pair));
+      }
+      std::ranges::stable_sort(made.pairs, {},
+                               [](const Explanation& one) { return one.fit.sum_of_squares; });
+    }
+    if (cancelled_ || made.pairs.empty()) return;
+    const Explanation pair = simplest(made.pairs);
+    if (!deserves(pair, made.chosen)) return;
+    if (!each_is_needed(pair)) return;
+    made.chosen = pair;
+    while (static_cast<int>(made.chosen.fit.candidate.effects.size()) < options_.most_causes &&
+           !made.chosen.estimation.is_noise() && !cancelled_) {
+      const auto further =
+          all_with(made.chosen.fit.candidate, "further effects", 0.8, 0.9, kPairsRefitted);
+      if (further.empty()) break;
+      const Explanation best = simplest(further);
+      if (!deserves(best, made.chosen) || !each_is_needed(best)) break;
+      made.chosen = best;
+    }
+  }
+
+  /// Without any one of its effects, the others refitted, `explanation` would be worse by as much
+  /// as an effect must take away.
+  bool each_is_needed(const Explanation& explanation) const {
+    const Candidate& candidate = explanation.fit.candidate;
+    for (std::size_t i = 0; i < candidate.effects.size(); ++i) {
+      if (!deserves(explanation, explain(fit(problem_, candidate.without(i))))) return false;
+    }
+    return true;
+  }
+
+  void exchange(Selection& made) {
+    const Candidate& chosen = made.chosen.fit.candidate;
+    if (chosen.effects.size() == 1) {
+      for (const Explanation& single : made.singles) {
+        if (!single.fit.candidate.has(chosen.effects.front())) made.rivals.push_back(single);
+      }
+      return;
+    }
+    for (std::size_t i = 0; i < chosen.effects.size() && !cancelled_; ++i) {
+      const double from =
+          0.9 + 0.1 * static_cast<double>(i) / static_cast<double>(chosen.effects.size());
+      for (Explanation& rival :
+           all_with(chosen.without(i), "rivals", from, from + 0.05, kPairsRefitted)) {
+        const bool same = std::ranges::all_of(chosen.effects, [&](const Hypothesis& effect) {
+          return rival.fit.candidate.has(effect);
+        });
+        if (!same) made.rivals.push_back(std::move(rival));
+      }
+    }
+    std::ranges::stable_sort(made.rivals, {},
+                             [](const Explanation& one) { return one.fit.sum_of_squares; });
+  }
+
+  template <class Work>
+  void in_parallel(std::size_t count, std::string_view what, double from, double to, Work work) {
+    std::atomic<std::size_t> done = 0;
+    std::mutex told;
+    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+      if (cancelled_) return;
+      work(i);
+      const double part = static_cast<double>(++done) / static_cast<double>(count);
+      const std::scoped_lock lock(told);
+      if (progress_ && !progress_(what, from + part * (to - from))) cancelled_ = true;
+    });
+  }
+
+  const Problem& problem_;
+  const std::vector<Hypothesis>& hypotheses_;
+  const SelectionOptions& options_;
+  const DiagnosisProgress& progress_;
+  Experiment coarse_experiment_;
+  Problem coarse_;
+  std::atomic<bool> cancelled_ = false;
+};
+
+}  // namespace
+
+Selection select(const Problem& problem, const std::vector<Hypothesis>& hypotheses,
+                 const SelectionOptions& options, const DiagnosisProgress& progress) {
+  return Search(problem, hypotheses, options, progress).run();
+}
+
+}  // namespace flexarm::diagnose

@@ -1,0 +1,53 @@
+#pragma once
+
+#include "diagnose/fit.hpp"
+#include "diagnose/misfit.hpp"
+
+#include <functional>
+#include <string_view>
+#include <vector>
+
+namespace flexarm::diagnose {
+
+/// A fit with what it leaves of the runs that it was made of and of those it was not.
+struct Explanation {
+  Fit fit;
+  Misfit estimation;
+  Misfit validation;  ///< count 0 without validation runs
+
+  double excess() const { return estimation.excess(); }
+};
+
+struct SelectionOptions {
+  int most_causes = 3;
+  /// An effect is named only where it takes away this part, or more, of what is beyond noise
+  /// without it: a small part of a misfit that is of another kind is taken by many effects.
+  double least_share = 0.5;
+  /// ... on validation runs, which it was not fitted to, this part.
+  double least_validated_share = 0.25;
+  double least_information_gain = 10.0;
+  /// A misfit whose part beyond noise is less than this, relative to the signal, is looked into
+  /// but need not be explained.
+  double negligible_error = 0.015;
+};
+
+/// Called with what is done and the fraction done; false cancels.
+using DiagnosisProgress = std::function<bool(std::string_view, double)>;
+
+/// How the causes were found.
+struct Selection {
+  Explanation nothing;               ///< the arm as its file describes it
+  std::vector<Explanation> singles;  ///< one a hypothesis, the best first
+  std::vector<Explanation> pairs;    ///< those tried, the best first
+  Explanation chosen;                ///< `nothing`, or with the causes
+  std::vector<Explanation> rivals;   ///< the chosen one with a cause exchanged, the best first
+  bool cancelled = false;
+};
+
+/// Looks for the causes of what `problem` shows beyond noise: each hypothesis by itself, scanned
+/// over its whole range and refitted; pairs of the best with any other; further ones while each
+/// takes its share; then without each of the causes, and with each exchanged for another.
+Selection select(const Problem& problem, const std::vector<Hypothesis>& hypotheses,
+                 const SelectionOptions& options, const DiagnosisProgress& progress = {});
+
+}  // namespace flexarm::diagnose

@@ -1,0 +1,206 @@
+#include "response/quick_simulation.hpp"
+
+#include "arm/input_error.hpp"
+#include "response/added_forces.hpp"
+#include "response/propagator.hpp"
+#include "response/sensor_readings.hpp"
+#include "response/simulation_input.hpp"
+#include "response/torque_path.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+namespace flexarm::response {
+
+namespace {
+
+using Eigen::Index;
+
+/// Inner steps of one length, with a force that is constant over each.
+struct InnerSteps {
+  InnerSteps(const ModalDynamics& arm, double length_s, int steps)
+      : count(steps), propagator(response::propagator(arm.turning, length_s / steps)) {
+    force = propagator.constant_force();
+    const Eigen::VectorXd by_torque = force * arm.hub_force;
+    speed_per_torque = arm.hub_velocity(by_torque);
+  }
+
+  int count;
+  Propagator propagator;
+  Eigen::MatrixXd force;
+  double speed_per_torque = 0.0;  ///< theta' at the end of a step by a torque on the hub in it
+};
+
+class QuickStepper {
+ public:
+  QuickStepper(const ModalDynamics& arm, const AddedForces& forces, const HubFriction& friction,
+               bool varies)
+      : arm_(arm),
+        forces_(forces),
+        friction_(friction),
+        varies_(varies),
+        x_(Eigen::VectorXd::Zero(arm.size())),
+        is_held_(!friction.is_zero()) {}
+
+  void advance(const InnerSteps& steps, double u0, double u1) {
+    for (int i = 0; i < steps.count; ++i) {
+      const double a = static_cast<double>(i) / steps.count;
+      const double b = static_cast<double>(i + 1) / steps.count;
+      step(steps, u0 + a * (u1 - u0), u0 + b * (u1 - u0));
+    }
+  }
+
+  const Eigen::VectorXd& state() const { return x_; }
+
+  /// What acts at this instant behind a torque of the actuator, and whether the hub is held.
+  struct Instant {
+    Eigen::VectorXd f;
+    std::optional<double> held_angle_rad;
+  };
+  Instant instant(double actuator_N_m) const {
+    const double offset = forces_.offset_N_m(arm_.hub_angle(x_));
+    const Eigen::VectorXd f = forces_.force(x_, offset);
+    if (friction_.is_zero()) return {f, std::nullopt};
+    const double speed = arm_.hub_velocity(x_);
+    if (!is_held_) return {forces_.force(x_, offset - sliding(speed)), std::nullopt};
+    const double needed = arm_.reaction.state.dot(x_) + arm_.reaction.actuator * actuator_N_m +
+                          arm_.reaction.force.dot(f);
+    if (std::abs(needed) <= friction_.breakaway_N_m()) return {f, arm_.hub_angle(x_)};
+    return {forces_.force(x_, offset - std::copysign(friction_.breakaway_N_m(), needed)),
+            std::nullopt};
+  }
+
+ private:
+  double sliding(double speed) const { return std::copysign(friction_.torque_N_m(speed), speed); }
+
+  void step(const InnerSteps& steps, double u0, double u1) {
+    const Propagator& p = steps.propagator;
+    free_.noalias() = p.state * x_;
+    free_ += p.actuator_begin * u0 + p.actuator_end * u1;
+    Eigen::VectorXd f = forces_.force(x_, forces_.offset_N_m(arm_.hub_angle(x_)));
+    end_ = free_ + steps.force * f;
+    if (friction_.is_zero()) {
+      if (varies_) correct(steps, f);
+      x_.swap(end_);
+      return;
+    }
+    if (varies_) {
+      add_friction(steps);
+      f = mean_with_end(f);
+      end_ = free_ + steps.force * f;
+    }
+    is_held_ = add_friction(steps);
+    x_.swap(end_);
+    if (is_held_) arm_.stop_hub(x_);
+  }
+
+  /// The end once more, with the mean of the forces at both.
+  void correct(const InnerSteps& steps, const Eigen::VectorXd& f) {
+    end_ = free_ + steps.force * mean_with_end(f);
+  }
+
+  Eigen::VectorXd mean_with_end(const Eigen::VectorXd& f) const {
+    return 0.5 * (f + forces_.force(end_, forces_.offset_N_m(arm_.hub_angle(end_))));
+  }
+
+  /// Adds friction to the end of a step; whether it stops the hub there.
+  bool add_friction(const InnerSteps& steps) {
+    const double speed = arm_.hub_velocity(end_);
+    const double stopping_N_m = -speed / steps.speed_per_torque;
+    const bool stops = std::abs(stopping_N_m) <= friction_.breakaway_N_m();
+    double torque_N_m = stopping_N_m;
+    if (!stops) {
+      // The speed that is left decides how large friction that falls with it is.
+      torque_N_m = -sliding(speed);
+      const double left = speed + torque_N_m * steps.speed_per_torque;
+      torque_N_m = -std::copysign(friction_.torque_N_m(left), speed);
+      torque_N_m = std::clamp(torque_N_m, -std::abs(stopping_N_m), std::abs(stopping_N_m));
+    }
+    end_.noalias() += steps.force * (arm_.hub_force * torque_N_m);
+    return stops;
+  }
+
+  const ModalDynamics& arm_;
+  const AddedForces& forces_;
+  const HubFriction& friction_;
+  bool varies_;
+  Eigen::VectorXd x_;
+  Eigen::VectorXd free_;
+  Eigen::VectorXd end_;
+  bool is_held_;
+};
+
+double mean_torque(const TorquePath::Pieces& pieces) {
+  double sum = 0.0;
+  double length = 0.0;
+  for (const TorquePiece& piece : pieces) {
+    sum += (piece.end - piece.begin) * 0.5 * (piece.begin_N_m + piece.end_N_m);
+    length += piece.end - piece.begin;
+  }
+  return sum / length;
+}
+
+}  // namespace
+
+std::vector<std::vector<double>> quick_simulation(const arm::ModalModel& model,
+                                                  const ArmParts& parts,
+                                                  std::span<const arm::Sensor> sensors,
+                                                  std::span<const double> torque_N_m,
+                                                  const QuickSimulationOptions& options) {
+  require_simulable(parts, torque_N_m,
+                    {.sample_time_s = options.sample_time_s, .hold = options.hold});
+  const double h = options.sample_time_s;
+  const bool has_drag = parts.quadratic_drag_N_s2_per_m3 > 0.0;
+  const ModalDynamics arm = modal_dynamics(model, parts, sensors, has_drag);
+  std::optional<QuadraticDrag> drag;
+  if (has_drag) drag.emplace(model, parts.linear.beam.length_m, parts.quadratic_drag_N_s2_per_m3);
+  const AddedForces forces(arm, parts, std::move(drag));
+  const bool varies = has_drag || parts.actuator.ripple;
+  const int substeps = varies || !parts.friction.is_zero() ? options.substeps : 1;
+  const TorquePath path(parts.actuator, torque_N_m, h, options.hold);
+  const double phi = path.delay_fraction();
+  const InnerSteps whole(arm, h, substeps);
+  const std::optional<std::array<InnerSteps, 2>> parted =
+      phi > 0.0 ? std::optional(std::array{InnerSteps(arm, phi * h, substeps),
+                                           InnerSteps(arm, (1.0 - phi) * h, substeps)})
+                : std::nullopt;
+
+  QuickStepper stepper(arm, forces, parts.friction, varies);
+  SensorReadings readings(arm, parts, sensors);
+  std::vector<std::vector<double>> made(sensors.size());
+  for (auto& channel : made) channel.reserve(torque_N_m.size());
+  TorquePath::Pieces pieces;
+  for (std::size_t k = 0; k < torque_N_m.size(); ++k) {
+    path.pieces(k, pieces);
+    const double now_N_m = pieces.front().begin_N_m;
+    const QuickStepper::Instant instant = stepper.instant(now_N_m);
+    const Eigen::VectorXd& now =
+        readings.read(stepper.state(), instant.f, now_N_m, instant.held_angle_rad);
+    if (!now.allFinite()) {
+      throw arm::InputError(
+          fmt::format("reading at {:.6g} s: too large for a number", static_cast<double>(k) * h));
+    }
+    for (std::size_t j = 0; j < made.size(); ++j) made[j].push_back(now(static_cast<Index>(j)));
+    const bool is_regular = std::ranges::none_of(pieces, [](const TorquePiece& piece) {
+      return piece.length == TorquePiece::Length::other;
+    });
+    if (!is_regular) {
+      const double mean = mean_torque(pieces);
+      stepper.advance(whole, mean, mean);
+      continue;
+    }
+    for (const TorquePiece& piece : pieces) {
+      const InnerSteps& steps =
+          piece.length == TorquePiece::Length::whole ? whole : (*parted)[piece.begin > 0.0 ? 1 : 0];
+      stepper.advance(steps, piece.begin_N_m, piece.end_N_m);
+    }
+  }
+  return made;
+}
+
+}  // namespace flexarm::response

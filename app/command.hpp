@@ -32,6 +32,7 @@ std::string example(const std::string& line);
 CLI::Validator not_empty();
 
 Command add_compare(CLI::App& program);
+Command add_diagnose(CLI::App& program);
 Command add_identify(CLI::App& program);
 Command add_import(CLI::App& program);
 Command add_modes(CLI::App& program);

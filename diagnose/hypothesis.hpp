@@ -55,6 +55,8 @@ struct Hypothesis {
   std::string sensor = {};  ///< the sensor it acts on, where it acts on one
   std::vector<SearchedParameter> parameters = {};
   Shows shows = Shows::in_all;
+  /// Effects that this one becomes at a limit of its parameters: being more general is no rivalry.
+  std::vector<std::string> contains = {};
   std::string speaks_for = {};  ///< what the data show where it is the cause
   std::string refuted_by = {};  ///< what would show that it is not
 

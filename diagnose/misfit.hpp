@@ -19,6 +19,7 @@ struct Misfit {
   /// relative error, and that which the noise alone would make.
   double relative_error = 0.0;
   double noise_floor = 0.0;
+  double simulated = 0.0;  ///< part of the channels that are of `time` runs
 
   /// Squares beyond those of the noise, whose level is known to `kNoiseKnown` of its power.
   double excess() const;

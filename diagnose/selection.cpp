@@ -17,6 +17,8 @@ namespace {
 int scan_evaluations(std::size_t parameters) {
   return parameters == 1 ? 40 : parameters == 2 ? 90 : 160;
 }
+/// Of the effects by themselves those refitted to all data: the best at a few.
+constexpr std::size_t kSinglesRefitted = 8;
 /// Pairs are tried of this many of the best by themselves with any other.
 constexpr std::size_t kPairBases = 3;
 /// Of each of these with this many others, those that fit a few records best.
@@ -44,7 +46,7 @@ class Search {
     made.nothing = explain(fit(problem_, {}));
     made.chosen = made.nothing;
     if (made.nothing.estimation.is_noise()) return made;
-    made.singles = all_with({}, "effects one by one", 0.0, 0.4, hypotheses_.size());
+    made.singles = all_with({}, "effects one by one", 0.0, 0.4, kSinglesRefitted);
     extend(made);
     if (!made.chosen.fit.candidate.effects.empty()) exchange(made);
     made.cancelled = cancelled_;
@@ -111,15 +113,12 @@ class Search {
     return before > 0.0 ? 1.0 - fuller.excess() / before : 0.0;
   }
 
-  /// The best of `found` that is as good as the first but for `kMargin` of information, with the
-  /// fewest parameters.
-  static const Explanation& simplest(const std::vector<Explanation>& found) {
-    constexpr double kMargin = 10.0;
+  /// The first of `found`, or one with fewer parameters that it has no right to stand before.
+  const Explanation& simplest(const std::vector<Explanation>& found) const {
     const Explanation* best = &found.front();
     for (const Explanation& other : found) {
-      const auto fewer = static_cast<int>(best->fit.candidate.values.size()) -
-                         static_cast<int>(other.fit.candidate.values.size());
-      if (fewer > 0 && information_gain(other.estimation, best->estimation, fewer) < kMargin) {
+      if (other.fit.candidate.values.size() < best->fit.candidate.values.size() &&
+          !deserves(*best, other)) {
         best = &other;
       }
     }
@@ -129,7 +128,10 @@ class Search {
   void extend(Selection& made) {
     const Explanation single = simplest(made.singles);
     if (deserves(single, made.nothing)) made.chosen = single;
-    if (made.chosen.estimation.is_noise() || options_.most_causes < 2) return;
+    if (is_explained(made.chosen.estimation, made.nothing.estimation, options_) ||
+        options_.most_causes < 2) {
+      return;
+    }
     // Pairs of the best: the better of two causes need not be the best by itself.
     const std::size_t bases = std::min(kPairBases, made.singles.size());
     for (std::size_t b = 0; b < bases && !cancelled_; ++b) {
@@ -148,7 +150,8 @@ class Search {
     if (!each_is_needed(pair)) return;
     made.chosen = pair;
     while (static_cast<int>(made.chosen.fit.candidate.effects.size()) < options_.most_causes &&
-           !made.chosen.estimation.is_noise() && !cancelled_) {
+           !is_explained(made.chosen.estimation, made.nothing.estimation, options_) &&
+           !cancelled_) {
       const auto further =
           all_with(made.chosen.fit.candidate, "further effects", 0.8, 0.9, kPairsRefitted);
       if (further.empty()) break;
@@ -214,6 +217,13 @@ class Search {
 };
 
 }  // namespace
+
+bool is_explained(const Misfit& left, const Misfit& nothing, const SelectionOptions& options) {
+  if (left.is_noise()) return true;
+  const double before = nothing.unexplained_error();
+  return left.unexplained_error() <=
+         std::max(left.simulated * options.negligible_error, options.negligible_share * before);
+}
 
 Selection select(const Problem& problem, const std::vector<Hypothesis>& hypotheses,
                  const SelectionOptions& options, const DiagnosisProgress& progress) {

@@ -26,9 +26,11 @@ struct SelectionOptions {
   /// ... on validation runs, which it was not fitted to, this part.
   double least_validated_share = 0.25;
   double least_information_gain = 10.0;
-  /// A misfit whose part beyond noise is less than this, relative to the signal, is looked into
-  /// but need not be explained.
+  /// What is beyond noise is explained well enough where it is at most this, relative to the signal
+  /// of simulated runs (the clock of a recorder, the step of another simulation), or this part of
+  /// what was there without any cause.
   double negligible_error = 0.015;
+  double negligible_share = 0.03;
 };
 
 /// Called with what is done and the fraction done; false cancels.
@@ -37,12 +39,15 @@ using DiagnosisProgress = std::function<bool(std::string_view, double)>;
 /// How the causes were found.
 struct Selection {
   Explanation nothing;               ///< the arm as its file describes it
-  std::vector<Explanation> singles;  ///< one a hypothesis, the best first
+  std::vector<Explanation> singles;  ///< hypotheses by themselves, the best first
   std::vector<Explanation> pairs;    ///< those tried, the best first
   Explanation chosen;                ///< `nothing`, or with the causes
   std::vector<Explanation> rivals;   ///< the chosen one with a cause exchanged, the best first
   bool cancelled = false;
 };
+
+/// Whether `left` is noise, or as little more as the options neglect; `nothing` is without causes.
+bool is_explained(const Misfit& left, const Misfit& nothing, const SelectionOptions& options);
 
 /// Looks for the causes of what `problem` shows beyond noise: each hypothesis by itself, scanned
 /// over its whole range and refitted; pairs of the best with any other; further ones while each

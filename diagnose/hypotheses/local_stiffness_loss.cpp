@@ -10,6 +10,7 @@ Hypothesis local_stiffness_loss(const Scales& scales) {
           .parameters = {{"position", 0.01 * beam.length_m, 0.99 * beam.length_m, Spacing::linear},
                          {"stiffness", 0.3 * bending, 300.0 * bending, Spacing::from_infinity}},
           .shows = Shows::in_all,
+          .contains = {"root_compliance"},
           .speaks_for =
               "poles and zeros move down in unlike ratios: a mode that does not bend "
               "at the crack stays",

@@ -11,6 +11,7 @@ Hypothesis stribeck_friction(const Scales& scales) {
                          {"velocity", 3e-3 * scales.speed_rms_rad_per_s,
                           3.0 * scales.speed_rms_rad_per_s}},
           .shows = Shows::in_time,
+          .contains = {"coulomb_friction"},
           .speaks_for = "residual torque is a step against hub velocity that is highest at rest",
           .refuted_by = "a step of one height at every velocity"};
 }

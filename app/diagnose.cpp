@@ -1,0 +1,207 @@
+#include "app/command.hpp"
+#include "app/folder_place.hpp"
+#include "app/interruption.hpp"
+#include "app/standard_output.hpp"
+#include "arm/arm_file.hpp"
+#include "arm/atomic_file.hpp"
+#include "arm/effects.hpp"
+#include "arm/input_error.hpp"
+#include "arm/nearest_name.hpp"
+#include "diagnose/diagnosis.hpp"
+#include "diagnose/hypotheses/hypotheses.hpp"
+#include "report/csv.hpp"
+#include "report/diagnosis_json.hpp"
+#include "report/diagnosis_tables.hpp"
+#include "report/json_document.hpp"
+#include "report/progress.hpp"
+#include "report/text_table.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace flexarm::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kDiagnosisJson = "diagnosis.json";
+constexpr const char* kExtendedArm = "extended.toml";
+/// Steps of the progress line.
+constexpr std::int64_t kProgressSteps = 100;
+
+struct Arguments {
+  std::string file;
+  std::vector<std::string> effects;
+  int most_causes = diagnose::SelectionOptions{}.most_causes;
+  std::string folder;
+  bool force = false;
+  std::string json_file;
+};
+
+FolderKind diagnosis_folder_kind() {
+  return {"a diagnosis", kDiagnosisJson, {".json", ".toml", ".csv"}};
+}
+
+/// The hypotheses asked for, all unless told.
+std::vector<diagnose::Hypothesis> chosen_hypotheses(const Arguments& arguments,
+                                                    const diagnose::Experiment& experiment) {
+  std::vector<diagnose::Hypothesis> all = diagnose::hypotheses(experiment);
+  if (arguments.effects.empty()) return all;
+  std::vector<std::string> names;
+  for (const auto& entry : arm::effect_vocabulary()) names.push_back(entry.name);
+  for (const auto& name : arguments.effects) {
+    if (arm::find_effect(name) == nullptr) {
+      throw arm::InputError(fmt::format("--effects {}: unknown effect{}; allowed: {}",
+                                        arm::shown(name), arm::did_you_mean(name, names),
+                                        fmt::join(names, ", ")));
+    }
+    if (std::ranges::find(all, name, &diagnose::Hypothesis::effect) == all.end()) {
+      throw arm::InputError(fmt::format(
+          "--effects {}: shows in none of these runs, or the arm file has it already", name));
+    }
+  }
+  std::erase_if(all, [&](const auto& hypothesis) {
+    return std::ranges::find(arguments.effects, hypothesis.effect) == arguments.effects.end();
+  });
+  return all;
+}
+
+/// The file beside `json_file` that its extended arm is written to: out.json, out.extended.toml.
+fs::path extended_beside(const std::string& json_file) {
+  return fs::path(json_file).replace_extension(kExtendedArm);
+}
+
+void prepare(const Arguments& arguments) {
+  if (arguments.force && arguments.folder.empty()) {
+    throw arm::InputError("--force: needs --out FOLDER");
+  }
+  if (arguments.most_causes < 1) {
+    throw arm::out_of_range("--max-causes", arguments.most_causes, "", "1 or more");
+  }
+  require_json_place(arguments.json_file, arguments.folder);
+  if (arguments.folder.empty()) return;
+  require_place(arguments.folder, arguments.force, diagnosis_folder_kind());
+}
+
+diagnose::Diagnosis diagnose_with_progress(const Arguments& arguments,
+                                           const diagnose::Experiment& experiment) {
+  const Interruption interruption;
+  report::Progress progress("per cent of the diagnosis", kProgressSteps);
+  std::int64_t shown = 0;
+  const auto tell = [&](std::string_view, double fraction) {
+    const auto now = static_cast<std::int64_t>(std::floor(fraction * kProgressSteps));
+    if (now > shown) {
+      progress.advance(now - shown);
+      shown = now;
+    }
+    return !interruption.requested();
+  };
+  diagnose::SelectionOptions options;
+  options.most_causes = arguments.most_causes;
+  auto diagnosis =
+      diagnose::diagnose(experiment, chosen_hypotheses(arguments, experiment), options, tell);
+  if (diagnosis.cancelled) interruption.end_program();
+  return diagnosis;
+}
+
+std::string text_of(const diagnose::Diagnosis& diagnosis) {
+  std::string text;
+  for (const auto& notice : diagnosis.notices) text += report::to_paragraph("note: " + notice, 2);
+  if (!text.empty()) text += "\n";
+  text += report::to_paragraph(report::verdict_text(diagnosis)) + "\n";
+  if (!diagnosis.causes.empty()) {
+    text += report::to_text(report::cause_table(diagnosis), {.key_columns = 2}) + "\n";
+    for (const auto& cause : diagnosis.causes) {
+      text += cause.effect + "\n";
+      for (const auto& sentence : cause.evidence) text += report::to_paragraph("  " + sentence, 4);
+      text += report::to_paragraph("  It would be refuted by " + cause.refuted_by + ".", 4) + "\n";
+    }
+  }
+  text += report::to_text(report::gain_table(diagnosis)) + "\n";
+  return text + report::to_text(report::channel_gain_table(diagnosis), {.key_columns = 2});
+}
+
+std::string json_of(const diagnose::Diagnosis& diagnosis, const std::string& extended_arm) {
+  return report::json_document("flexarm.diagnosis/1",
+                               report::diagnosis_json(diagnosis, extended_arm));
+}
+
+void write_files(const Arguments& arguments, const diagnose::Diagnosis& diagnosis) {
+  const std::string extended = arm::format_arm(diagnosis.extended_arm);
+  if (!arguments.folder.empty()) {
+    const std::vector<arm::NamedContent> files = {
+        {kExtendedArm, extended},
+        {"channels.csv", report::to_csv(report::channel_gain_table(diagnosis))},
+        {"causes.csv", report::to_csv(report::cause_table(diagnosis))},
+        {kDiagnosisJson, json_of(diagnosis, kExtendedArm)}};
+    arm::write_folder_atomically(arguments.folder, files,
+                                 arguments.force ? arm::IfExists::replace : arm::IfExists::refuse);
+  }
+  if (!arguments.json_file.empty()) {
+    const fs::path beside = extended_beside(arguments.json_file);
+    arm::write_atomically(beside, extended);
+    arm::write_atomically(arguments.json_file, json_of(diagnosis, beside.filename().string()));
+  }
+}
+
+int run(const Arguments& arguments) {
+  const diagnose::Experiment experiment = diagnose::read_experiment(arguments.file);
+  prepare(arguments);
+  const diagnose::Diagnosis diagnosis = diagnose_with_progress(arguments, experiment);
+  std::string text = text_of(diagnosis);
+  try {
+    write_files(arguments, diagnosis);
+  } catch (const arm::InputError&) {
+    print(text);
+    throw;
+  }
+  if (arguments.folder.empty()) {
+    text += fmt::format(
+        "\nnext: the extended arm and tables with  flexarm diagnose {} --out diagnosis\n",
+        arm::shown(arguments.file));
+  } else {
+    text += fmt::format("\nwrote {}\n", arguments.folder);
+  }
+  print(text);
+  return kSuccess;
+}
+
+}  // namespace
+
+Command add_diagnose(CLI::App& program) {
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App* parser = program.add_subcommand(
+      "diagnose", "What the simulation gets wrong, by which cause, and the arm with it");
+  parser->add_option("FILE", arguments->file, "measurement.toml")->required()->check(not_empty());
+  parser
+      ->add_option("--effects", arguments->effects,
+                   "Causes to try, separated by commas; the whole vocabulary unless given")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  parser->add_option("--max-causes", arguments->most_causes, "The most causes to name")
+      ->capture_default_str();
+  parser
+      ->add_option("--out", arguments->folder,
+                   "New folder for the extended arm, tables as CSV and the JSON")
+      ->check(not_empty());
+  parser->add_flag("--force", arguments->force, "Replace what this command wrote in the folder");
+  parser
+      ->add_option("--json", arguments->json_file,
+                   "File for the diagnosis; the extended arm is written beside it")
+      ->check(not_empty());
+  parser->footer(example("flexarm diagnose simulated/measurement.toml --out diagnosis"));
+  return {parser, [arguments] { return run(*arguments); }};
+}
+
+}  // namespace flexarm::app

@@ -1,0 +1,71 @@
+#pragma once
+
+#include "diagnose/selection.hpp"
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace flexarm::diagnose {
+
+/// What the data say of the arm as its file describes it.
+enum class Verdict {
+  adequate,          ///< nothing beyond noise
+  explained,         ///< causes named, what is left is noise
+  partly_explained,  ///< causes named, a significant misfit is left
+  unexplained,       ///< a significant misfit that no effect, nor a pair of them, accounts for
+};
+
+/// "adequate", "explained", "partly_explained", "unexplained".
+std::string_view to_string(Verdict verdict);
+
+struct ParameterEstimate {
+  std::string name;
+  double value = 0.0;
+  double std_error = 0.0;
+  std::string unit;
+};
+
+/// One effect that the arm file lacks.
+struct Cause {
+  std::string effect;
+  std::string sensor;  ///< of a sensor_lag
+  std::vector<ParameterEstimate> parameters;
+  /// Of this effect against the others in its place, 0 to 1.
+  double confidence = 0.0;
+  double share = 0.0;  ///< of what is beyond noise without it, the others refitted
+  std::vector<std::string> confusable_with;
+  std::vector<std::string> evidence;  ///< sentences
+  std::string refuted_by;
+};
+
+/// Relative errors, averaged over the channels: root mean square over that of the signal.
+struct Gain {
+  double before = 0.0;
+  double after = 0.0;
+  double noise_floor = 0.0;
+};
+
+struct ChannelGain {
+  std::string run;
+  std::string sensor;
+  Gain error;
+};
+
+struct Diagnosis {
+  Verdict verdict = Verdict::adequate;
+  std::vector<Cause> causes;  ///< in order of what each explains
+  Gain estimation;
+  std::optional<Gain> validation;
+  std::vector<ChannelGain> channels;
+  arm::Arm extended_arm;  ///< the experiment's with the causes
+  std::vector<std::string> notices;
+  bool cancelled = false;
+};
+
+/// Diagnoses an experiment by these hypotheses.
+Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& hypotheses,
+                   const SelectionOptions& options = {}, const DiagnosisProgress& progress = {});
+
+}  // namespace flexarm::diagnose

@@ -1,0 +1,53 @@
+#include "report/diagnosis_json.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace flexarm::report {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json gain_json(const diagnose::Gain& gain) {
+  return {{"before", gain.before}, {"after", gain.after}, {"noise_floor", gain.noise_floor}};
+}
+
+Json cause_json(const diagnose::Cause& cause) {
+  Json parameters = Json::object();
+  for (const auto& parameter : cause.parameters) {
+    parameters[parameter.name] = {
+        {"value", parameter.value}, {"std_error", parameter.std_error}, {"unit", parameter.unit}};
+  }
+  Json json = {{"effect", cause.effect}};
+  if (!cause.sensor.empty()) json["sensor"] = cause.sensor;
+  json["parameters"] = parameters;
+  json["confidence"] = cause.confidence;
+  json["share"] = cause.share;
+  json["confusable_with"] = cause.confusable_with;
+  json["evidence"] = cause.evidence;
+  json["refuted_by"] = cause.refuted_by;
+  return json;
+}
+
+}  // namespace
+
+Json diagnosis_json(const diagnose::Diagnosis& diagnosis, const std::string& extended_arm) {
+  Json causes = Json::array();
+  for (const auto& cause : diagnosis.causes) causes.push_back(cause_json(cause));
+  Json gain = {{"estimation", gain_json(diagnosis.estimation)}};
+  gain["validation"] = diagnosis.validation ? gain_json(*diagnosis.validation) : Json(nullptr);
+  Json channels = Json::array();
+  for (const auto& channel : diagnosis.channels) {
+    Json json = {{"run", channel.run}, {"sensor", channel.sensor}};
+    json.update(gain_json(channel.error));
+    channels.push_back(json);
+  }
+  return {{"verdict", to_string(diagnosis.verdict)},
+          {"causes", causes},
+          {"gain", gain},
+          {"residual", {{"channels", channels}}},
+          {"extended_arm", extended_arm.empty() ? Json(nullptr) : Json(extended_arm)},
+          {"notices", diagnosis.notices}};
+}
+
+}  // namespace flexarm::report

@@ -2,12 +2,16 @@
 
 #include "diagnose/coarse.hpp"
 
+#include <Eigen/QR>
+
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <tbb/parallel_for.h>
+#include <utility>
 
 namespace flexarm::diagnose {
 
@@ -23,10 +27,31 @@ constexpr std::size_t kSinglesRefitted = 8;
 constexpr std::size_t kPairBases = 3;
 /// Of each of these with this many others, those that fit a few records best.
 constexpr std::size_t kPairsRefitted = 5;
+/// Others that are scanned beside a base: those whose directions the residuals have most of.
+constexpr std::size_t kScannedBeside = 10;
 /// Modes that move in a first look.
 constexpr int kCoarseModes = 8;
 constexpr int kCoarseSubsteps = 2;
 constexpr FitOptions kCoarseFit{.most_steps = 8, .tolerance = 1e-4};
+
+/// A few values of a hypothesis' parameters, over their ranges.
+std::vector<std::vector<double>> samples_of(const Hypothesis& hypothesis) {
+  const std::vector<double> places = hypothesis.parameters.size() == 1
+                                         ? std::vector{0.15, 0.35, 0.45, 0.55, 0.65, 0.85}
+                                         : std::vector{0.2, 0.5, 0.8};
+  std::vector<std::vector<double>> samples = {{}};
+  for (const SearchedParameter& parameter : hypothesis.parameters) {
+    std::vector<std::vector<double>> longer;
+    for (const auto& sample : samples) {
+      for (const double place : places) {
+        longer.push_back(sample);
+        longer.back().push_back(parameter.value(place));
+      }
+    }
+    samples = std::move(longer);
+  }
+  return samples;
+}
 
 class Search {
  public:
@@ -66,7 +91,7 @@ class Search {
     return made;
   }
 
-  /// `base` with each hypothesis that it has not, each found by a scan of a coarse problem; the
+  /// `base` with hypotheses that it has not, each found by a scan of a coarse problem; the
   /// `refitted` best of these fitted to all data, the best first.
   std::vector<Explanation> all_with(const Candidate& base, std::string_view what, double from,
                                     double to, std::size_t refitted) {
@@ -74,6 +99,7 @@ class Search {
     for (const Hypothesis& hypothesis : hypotheses_) {
       if (!base.has(hypothesis)) others.push_back(&hypothesis);
     }
+    if (!base.effects.empty()) keep_promising(base, others, what, from);
     std::vector<Fit> looks(others.size());
     const double middle = from + 0.6 * (to - from);
     in_parallel(others.size(), what, from, middle, [&](std::size_t i) {
@@ -92,6 +118,41 @@ class Search {
     std::ranges::stable_sort(found, {},
                              [](const Explanation& one) { return one.fit.sum_of_squares; });
     return found;
+  }
+
+  /// Leaves the `kScannedBeside` hypotheses that account, at some of a few values each, for most of
+  /// what `base` leaves: a score test without refitting.
+  void keep_promising(const Candidate& base, std::vector<const Hypothesis*>& others,
+                      std::string_view what, double from) {
+    if (others.size() <= kScannedBeside) return;
+    const Fit left = fit(coarse_, base, kCoarseFit);
+    const Eigen::HouseholderQR<Eigen::MatrixXd> refitted(left.jacobian);
+    std::vector<std::pair<double, const Hypothesis*>> shares(others.size());
+    in_parallel(others.size(), what, from, from, [&](std::size_t i) {
+      shares[i] = {largest_share(left, refitted, *others[i]), others[i]};
+    });
+    std::ranges::stable_sort(shares, std::ranges::greater{}, &decltype(shares)::value_type::first);
+    others.clear();
+    for (std::size_t i = 0; i < kScannedBeside; ++i) others.push_back(shares[i].second);
+  }
+
+  /// Part of the residuals of `left` along the change that the hypothesis makes, its parameters
+  /// refitted: the largest at the grid of `sample_places`.
+  double largest_share(const Fit& left, const Eigen::HouseholderQR<Eigen::MatrixXd>& refitted,
+                       const Hypothesis& hypothesis) const {
+    double largest = 0.0;
+    for (const std::vector<double>& values : samples_of(hypothesis)) {
+      const auto with =
+          coarse_.residuals(left.candidate.with(hypothesis, values), coarse_.estimation_runs());
+      if (!with) continue;
+      Eigen::VectorXd change = refitted.householderQ().adjoint() * (left.residuals - *with);
+      change.head(left.jacobian.cols()).setZero();
+      Eigen::VectorXd residuals = refitted.householderQ().adjoint() * left.residuals;
+      residuals.head(left.jacobian.cols()).setZero();
+      const double size = change.norm() * residuals.norm();
+      if (size > 0.0) largest = std::max(largest, change.dot(residuals) / size);
+    }
+    return largest;
   }
 
   /// Whether `fuller` has a right to its causes beside `simpler`.
@@ -137,6 +198,7 @@ class Search {
     for (std::size_t b = 0; b < bases && !cancelled_; ++b) {
       const double from = 0.4 + 0.4 * static_cast<double>(b) / static_cast<double>(bases);
       const double to = 0.4 + 0.4 * static_cast<double>(b + 1) / static_cast<double>(bases);
+      bases_.push_back(made.singles[b].fit.candidate.label());
       for (Explanation& pair :
            all_with(made.singles[b].fit.candidate, "pairs of effects", from, to, kPairsRefitted)) {
         made.pairs.push_back(std::move(pair));
@@ -179,17 +241,26 @@ class Search {
       }
       return;
     }
+    for (const Explanation& pair : made.pairs) made.rivals.push_back(pair);
     for (std::size_t i = 0; i < chosen.effects.size() && !cancelled_; ++i) {
+      const Candidate others = chosen.without(i);
+      const bool tried = std::ranges::any_of(
+          bases_, [&](const std::string& label) { return label == others.label(); });
+      if (tried) continue;
       const double from =
           0.9 + 0.1 * static_cast<double>(i) / static_cast<double>(chosen.effects.size());
-      for (Explanation& rival :
-           all_with(chosen.without(i), "rivals", from, from + 0.05, kPairsRefitted)) {
-        const bool same = std::ranges::all_of(chosen.effects, [&](const Hypothesis& effect) {
-          return rival.fit.candidate.has(effect);
-        });
-        if (!same) made.rivals.push_back(std::move(rival));
+      for (Explanation& rival : all_with(others, "rivals", from, from + 0.05, kPairsRefitted)) {
+        made.rivals.push_back(std::move(rival));
       }
     }
+    // Of the chosen causes one is exchanged, not all.
+    std::erase_if(made.rivals, [&](const Explanation& rival) {
+      const auto shared = std::ranges::count_if(chosen.effects, [&](const Hypothesis& effect) {
+        return rival.fit.candidate.has(effect);
+      });
+      return shared + 1 != static_cast<std::ptrdiff_t>(chosen.effects.size()) ||
+             rival.fit.candidate.effects.size() != chosen.effects.size();
+    });
     std::ranges::stable_sort(made.rivals, {},
                              [](const Explanation& one) { return one.fit.sum_of_squares; });
   }
@@ -213,6 +284,7 @@ class Search {
   const DiagnosisProgress& progress_;
   Experiment coarse_experiment_;
   Problem coarse_;
+  std::vector<std::string> bases_;  // labels of what has been tried with any other
   std::atomic<bool> cancelled_ = false;
 };
 

@@ -163,6 +163,7 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
   Diagnosis made;
   made.notices = experiment.notices;
   made.cancelled = selection.cancelled;
+  if (made.cancelled) return made;
   const Candidate& found = selection.chosen.fit.candidate;
   const bool is_nonlinear = std::ranges::any_of(
       found.effects, [](const Hypothesis& effect) { return effect.shows == Shows::in_time; });

@@ -72,8 +72,8 @@ class Search {
     made.chosen = made.nothing;
     if (made.nothing.estimation.is_noise()) return made;
     made.singles = all_with({}, "effects one by one", 0.0, 0.4, kSinglesRefitted);
-    extend(made);
-    if (!made.chosen.fit.candidate.effects.empty()) exchange(made);
+    if (!made.singles.empty()) extend(made);
+    if (!cancelled_ && !made.chosen.fit.candidate.effects.empty()) exchange(made);
     made.cancelled = cancelled_;
     return made;
   }
@@ -100,6 +100,7 @@ class Search {
       if (!base.has(hypothesis)) others.push_back(&hypothesis);
     }
     if (!base.effects.empty()) keep_promising(base, others, what, from);
+    if (others.empty() || cancelled_) return {};
     std::vector<Fit> looks(others.size());
     const double middle = from + 0.6 * (to - from);
     in_parallel(others.size(), what, from, middle, [&](std::size_t i) {
@@ -110,6 +111,7 @@ class Search {
           scan(coarse_, base.with(other, values), scan_evaluations(values.size()));
       looks[i] = fit(coarse_, scanned, kCoarseFit);
     });
+    if (cancelled_) return {};
     std::ranges::stable_sort(looks, {}, &Fit::sum_of_squares);
     looks.resize(std::min(refitted, looks.size()));
     std::vector<Explanation> found(looks.size());

@@ -1,0 +1,88 @@
+#include "diagnose/fit.hpp"
+
+#include "diagnose/diagnosis.hpp"
+#include "diagnose/hypotheses/hypotheses.hpp"
+#include "tests/diagnose/simulated_experiments.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace flexarm::diagnose {
+namespace {
+
+std::vector<Hypothesis> named(const Experiment& experiment, const std::vector<std::string>& names) {
+  auto all = hypotheses(experiment);
+  std::erase_if(all, [&](const Hypothesis& hypothesis) {
+    return std::ranges::find(names, hypothesis.effect) == names.end();
+  });
+  return all;
+}
+
+TEST(Fit, OfTheTrueEffectLeavesTheNoiseAndFindsItsValue) {
+  const Experiment experiment =
+      simulated_experiment({{"root_compliance", {{{"stiffness", 60.0}}, ""}}});
+  const Problem problem(experiment);
+  const auto hypothesis = named(experiment, {"root_compliance"}).front();
+  const Candidate start = Candidate{}.with(hypothesis, {hypothesis.parameters[0].value(0.5)});
+  const Fit found = fit(problem, scan(problem, start, 40));
+  EXPECT_TRUE(found.converged);
+  // Sixteen standard errors would be 1e-3.
+  EXPECT_NEAR(found.candidate.values[0], 60.0, 60.0 * 1e-3);
+  const Misfit left =
+      misfit(problem.observations(), experiment, found.residuals, problem.estimation_runs());
+  EXPECT_TRUE(left.is_noise()) << left.sum_of_squares / left.count;
+}
+
+TEST(Fit, WithoutEffectsIsTheArmItself) {
+  const Experiment experiment = simulated_experiment({});
+  const Problem problem(experiment);
+  const Fit nothing = fit(problem, {});
+  EXPECT_EQ(nothing.jacobian.cols(), 0);
+  const Misfit left =
+      misfit(problem.observations(), experiment, nothing.residuals, problem.estimation_runs());
+  EXPECT_TRUE(left.is_noise()) << left.sum_of_squares / left.count;
+}
+
+TEST(Diagnose, OfDataWithNothingHiddenIsAdequate) {
+  const Experiment experiment = simulated_experiment({});
+  const Diagnosis made = diagnose(experiment, hypotheses(experiment));
+  EXPECT_EQ(made.verdict, Verdict::adequate);
+  EXPECT_TRUE(made.causes.empty());
+  EXPECT_EQ(made.extended_arm, experiment.arm);
+}
+
+TEST(Diagnose, NamesACauseAmongItsLikes) {
+  const Experiment experiment = simulated_experiment({{"time_delay", {{{"delay", 0.004}}, ""}}});
+  const Diagnosis made = diagnose(
+      experiment, named(experiment, {"time_delay", "actuator_lag", "hub_inertia", "sensor_lag"}));
+  EXPECT_EQ(made.verdict, Verdict::explained);
+  ASSERT_EQ(made.causes.size(), 1U);
+  EXPECT_EQ(made.causes[0].effect, "time_delay");
+  EXPECT_NEAR(made.causes[0].parameters[0].value, 0.004, 4e-5);
+  EXPECT_TRUE(made.causes[0].confusable_with.empty());
+  ASSERT_TRUE(made.validation);
+  EXPECT_LE(made.validation->after, 1.1 * made.validation->noise_floor);
+}
+
+TEST(Diagnose, SaysThatItCannotExplainWhatItMayNotName) {
+  const Experiment experiment =
+      simulated_experiment({{"coulomb_friction", {{{"torque", 0.012}}, ""}}});
+  const Diagnosis made =
+      diagnose(experiment, named(experiment, {"time_delay", "payload_inertia", "torque_bias"}));
+  EXPECT_EQ(made.verdict, Verdict::unexplained);
+  EXPECT_TRUE(made.causes.empty());
+}
+
+TEST(Diagnose, CanBeCancelled) {
+  const Experiment experiment =
+      simulated_experiment({{"coulomb_friction", {{{"torque", 0.012}}, ""}}});
+  const Diagnosis made = diagnose(experiment, named(experiment, {"time_delay", "torque_bias"}), {},
+                                  [](std::string_view, double) { return false; });
+  EXPECT_TRUE(made.cancelled);
+}
+
+}  // namespace
+}  // namespace flexarm::diagnose

@@ -1,0 +1,102 @@
+#include "diagnose/hypothesis.hpp"
+
+#include "arm/effects.hpp"
+#include "diagnose/candidate.hpp"
+#include "diagnose/hypotheses/hypotheses.hpp"
+#include "tests/diagnose/simulated_experiments.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string>
+
+namespace flexarm::diagnose {
+namespace {
+
+Experiment short_experiment() {
+  return simulated_experiment({}, {.duration_s = 0.2});
+}
+
+TEST(Hypotheses, AreTheWholeVocabulary) {
+  std::set<std::string> names;
+  for (const Hypothesis& hypothesis : hypotheses(short_experiment())) {
+    names.insert(hypothesis.effect);
+  }
+  for (const auto& entry : arm::effect_vocabulary()) {
+    EXPECT_TRUE(names.contains(entry.name)) << entry.name;
+  }
+  EXPECT_EQ(names.size(), arm::effect_vocabulary().size());
+}
+
+TEST(Hypotheses, AreOneOfSensorLagASensor) {
+  const auto all = hypotheses(short_experiment());
+  EXPECT_EQ(std::ranges::count(all, "sensor_lag", &Hypothesis::effect), 4);
+}
+
+TEST(Hypotheses, ExtendTheArmToAValidOneOverTheirWholeRange) {
+  const Experiment experiment = short_experiment();
+  for (const Hypothesis& hypothesis : hypotheses(experiment)) {
+    for (const double place : {0.0, 0.3, 1.0}) {
+      std::vector<double> values;
+      for (const auto& parameter : hypothesis.parameters) values.push_back(parameter.value(place));
+      const arm::Arm arm = extended(experiment.arm, hypothesis, values);
+      EXPECT_NO_THROW(arm::require_valid(arm)) << hypothesis.label() << " at " << place;
+    }
+  }
+}
+
+TEST(Hypotheses, LeaveOutWhatTheArmHasAlready) {
+  Experiment experiment = short_experiment();
+  experiment.arm.effects["hub_spring"].parameters["stiffness"] = 1.0;
+  const auto all = hypotheses(experiment);
+  EXPECT_EQ(std::ranges::find(all, "hub_spring", &Hypothesis::effect), all.end());
+}
+
+TEST(Hypotheses, OfPolesAndZerosAreLinearEffectsOfTheArmAlone) {
+  Experiment experiment = short_experiment();
+  experiment.runs.resize(1);
+  experiment.runs[0].run.kind = measured::RunKind::modal;
+  experiment.runs[0].data = measured::ModalTable{};
+  for (const Hypothesis& hypothesis : hypotheses(experiment)) {
+    EXPECT_EQ(arm::find_effect(hypothesis.effect)->place, arm::EffectPlace::linear_arm)
+        << hypothesis.effect;
+  }
+}
+
+TEST(SearchedParameter, PlacesAndValuesAreInverse) {
+  constexpr double kRounding = 1e-12;
+  for (const Spacing spacing :
+       {Spacing::linear, Spacing::logarithmic, Spacing::from_zero, Spacing::from_infinity}) {
+    const SearchedParameter parameter{"x", 0.02, 5.0, spacing};
+    for (const double place : {0.01, 0.4, 0.97}) {
+      EXPECT_NEAR(parameter.place(parameter.value(place)), place, kRounding);
+    }
+  }
+}
+
+TEST(SearchedParameter, EndsWhereItSaysAndBeginsAtNothing) {
+  EXPECT_DOUBLE_EQ((SearchedParameter{"x", 0.02, 5.0, Spacing::from_zero}.value(1.0)), 5.0);
+  EXPECT_EQ((SearchedParameter{"x", 0.02, 5.0, Spacing::from_zero}.value(0.0)), 0.0);
+  EXPECT_NEAR((SearchedParameter{"x", 0.02, 5.0, Spacing::from_infinity}.value(1.0)), 0.02, 1e-15);
+  EXPECT_GT((SearchedParameter{"x", 0.02, 5.0, Spacing::from_infinity}.value(0.0)), 1e4);
+}
+
+TEST(Candidate, WithoutAnEffectKeepsTheValuesOfTheOthers) {
+  const auto all = hypotheses(short_experiment());
+  const auto named = [&](const char* name) {
+    return *std::ranges::find(all, name, &Hypothesis::effect);
+  };
+  const Candidate three = Candidate{}
+                              .with(named("payload_mass"), {0.1})
+                              .with(named("local_stiffness_loss"), {0.3, 20.0})
+                              .with(named("time_delay"), {0.004});
+  const Candidate two = three.without(1);
+  EXPECT_EQ(two.values, (std::vector{0.1, 0.004}));
+  EXPECT_EQ(two.label(), "payload_mass + time_delay");
+  EXPECT_FALSE(two.has(named("local_stiffness_loss")));
+}
+
+}  // namespace
+}  // namespace flexarm::diagnose

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "diagnose/experiment.hpp"
+
+#include <cstdint>
+#include <string>
+
+namespace flexarm::diagnose {
+
+/// The paper's arm with the damping of a real one, as its file would have it.
+arm::Arm trial_arm();
+
+/// What `simulated_experiment` makes.
+struct SimulatedRuns {
+  double duration_s = 4.0;
+  double relative_noise = 0.005;
+  std::uint64_t seed = 1;
+};
+
+/// `time` runs of `trial_arm` with hidden effects: random torque, low and high, with and without a
+/// payload for estimation, a multisine for validation. By finite elements, response::simulate and
+/// seeded noise: another formulation and integrator than those that are fitted.
+Experiment simulated_experiment(const arm::Effects& hidden, const SimulatedRuns& runs = {});
+
+}  // namespace flexarm::diagnose

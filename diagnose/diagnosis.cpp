@@ -96,8 +96,7 @@ std::vector<std::string> evidence_for(const Hypothesis& hypothesis, const Cause&
 /// The chosen explanation with its nonlinear forces stepped finely.
 Explanation refined(const Experiment& experiment, const Problem& problem,
                     const Explanation& chosen) {
-  const Problem fine(experiment, {.flexible_modes = problem.predictor().flexible_modes(),
-                                  .substeps = kFineSubsteps});
+  const Problem fine = problem.with_substeps(kFineSubsteps);
   Explanation made;
   made.fit = fit(fine, chosen.fit.candidate);
   made.estimation =
@@ -158,7 +157,7 @@ std::string_view to_string(Verdict verdict) {
 
 Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& hypotheses,
                    const SelectionOptions& options, const DiagnosisProgress& progress) {
-  const Problem problem(experiment);
+  Problem problem(experiment);
   Selection selection = select(problem, hypotheses, options, progress);
   Diagnosis made;
   made.notices = experiment.notices;

@@ -1,6 +1,7 @@
 #include "diagnose/problem.hpp"
 
 #include "arm/input_error.hpp"
+#include "diagnose/noise_floor.hpp"
 
 namespace flexarm::diagnose {
 
@@ -15,6 +16,28 @@ Problem::Problem(const Experiment& experiment, const ProblemOptions& options)
     estimation_runs_.push_back(run.run.purpose == measured::Purpose::estimation);
     validation_runs_.push_back(run.run.purpose == measured::Purpose::validation);
   }
+}
+
+Problem Problem::with_substeps(int substeps) const {
+  Problem made = *this;
+  made.predictor_ = Predictor(*experiment_, predictor_.flexible_modes(), substeps);
+  return made;
+}
+
+bool Problem::lower_noise(const Candidate& candidate) {
+  const auto left = residuals(candidate, std::vector<bool>(experiment_->runs.size(), true));
+  if (!left) return false;
+  bool fell = false;
+  for (ObservedChannel& channel : observations_.channels) {
+    if (experiment_->runs[channel.run].run.kind != measured::RunKind::time) continue;
+    const Eigen::VectorXd part = left->segment(channel.first, channel.count);
+    const double ratio = white_noise({part.data(), static_cast<std::size_t>(part.size())});
+    if (!(ratio < 1.0) || !(ratio > 0.0)) continue;
+    fell = fell || ratio < 1.0 - kLower;
+    channel.noise *= ratio;
+    observations_.deviations.segment(channel.first, channel.count) *= ratio;
+  }
+  return fell;
 }
 
 std::optional<Eigen::VectorXd> Problem::residuals(const Candidate& candidate,

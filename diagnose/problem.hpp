@@ -28,6 +28,15 @@ class Problem {
   const std::vector<bool>& estimation_runs() const { return estimation_runs_; }
   const std::vector<bool>& validation_runs() const { return validation_runs_; }
 
+  /// The same with another number of inner steps.
+  Problem with_substeps(int substeps) const;
+
+  /// Takes the noise of `time` channels down to what is seen of it under the residuals of a
+  /// candidate, for all runs, where that is less: a signal that fills the spectrum hides it, what
+  /// is left of one does not. Returns whether the noise of any fell by more than `kLower` of it.
+  bool lower_noise(const Candidate& candidate);
+  static constexpr double kLower = 0.05;
+
   /// (measured - predicted)/deviation of the runs' numbers; 0 for those of other runs. Empty where
   /// the candidate's arm cannot be computed. Concurrent calls are safe.
   std::optional<Eigen::VectorXd> residuals(const Candidate& candidate,

@@ -32,6 +32,8 @@ constexpr std::size_t kScannedBeside = 10;
 /// Modes that move in a first look.
 constexpr int kCoarseModes = 8;
 constexpr int kCoarseSubsteps = 2;
+/// Fraction of the work that is done with the effects by themselves.
+constexpr double kSinglesDone = 0.4;
 constexpr FitOptions kCoarseFit{.most_steps = 8, .tolerance = 1e-4};
 
 /// A few values of a hypothesis' parameters, over their ranges.
@@ -55,7 +57,7 @@ std::vector<std::vector<double>> samples_of(const Hypothesis& hypothesis) {
 
 class Search {
  public:
-  Search(const Problem& problem, const std::vector<Hypothesis>& hypotheses,
+  Search(Problem& problem, const std::vector<Hypothesis>& hypotheses,
          const SelectionOptions& options, const DiagnosisProgress& progress)
       : problem_(problem),
         hypotheses_(hypotheses),
@@ -71,14 +73,30 @@ class Search {
     made.nothing = explain(fit(problem_, {}));
     made.chosen = made.nothing;
     if (made.nothing.estimation.is_noise()) return made;
-    made.singles = all_with({}, "effects one by one", 0.0, 0.4, kSinglesRefitted);
-    if (!made.singles.empty()) extend(made);
+    made.singles = all_with({}, "effects one by one", 0.0, kSinglesDone, kSinglesRefitted);
+    if (!made.singles.empty()) {
+      see_noise(made);
+      extend(made);
+    }
     if (!cancelled_ && !made.chosen.fit.candidate.effects.empty()) exchange(made);
     made.cancelled = cancelled_;
     return made;
   }
 
  private:
+  /// With the noise that the best by itself leaves to be seen, all once more from where they are.
+  void see_noise(Selection& made) {
+    if (!problem_.lower_noise(made.singles.front().fit.candidate)) return;
+    made.nothing = explain(fit(problem_, {}));
+    made.chosen = made.nothing;
+    in_parallel(made.singles.size(), "effects one by one", kSinglesDone, kSinglesDone,
+                [&](std::size_t i) {
+                  made.singles[i] = explain(fit(problem_, made.singles[i].fit.candidate));
+                });
+    std::ranges::stable_sort(made.singles, {},
+                             [](const Explanation& one) { return one.fit.sum_of_squares; });
+  }
+
   Explanation explain(Fit fit) const {
     Explanation made;
     made.estimation = misfit(problem_.observations(), problem_.experiment(), fit.residuals,
@@ -147,12 +165,12 @@ class Search {
       const auto with =
           coarse_.residuals(left.candidate.with(hypothesis, values), coarse_.estimation_runs());
       if (!with) continue;
+      // At the fit's minimum the residuals have no part along its own parameters.
       Eigen::VectorXd change = refitted.householderQ().adjoint() * (left.residuals - *with);
       change.head(left.jacobian.cols()).setZero();
-      Eigen::VectorXd residuals = refitted.householderQ().adjoint() * left.residuals;
-      residuals.head(left.jacobian.cols()).setZero();
-      const double size = change.norm() * residuals.norm();
-      if (size > 0.0) largest = std::max(largest, change.dot(residuals) / size);
+      change = refitted.householderQ() * change;
+      const double size = change.norm() * left.residuals.norm();
+      if (size > 0.0) largest = std::max(largest, change.dot(left.residuals) / size);
     }
     return largest;
   }
@@ -280,7 +298,7 @@ class Search {
     });
   }
 
-  const Problem& problem_;
+  Problem& problem_;
   const std::vector<Hypothesis>& hypotheses_;
   const SelectionOptions& options_;
   const DiagnosisProgress& progress_;
@@ -299,7 +317,7 @@ bool is_explained(const Misfit& left, const Misfit& nothing, const SelectionOpti
          std::max(left.simulated * options.negligible_error, options.negligible_share * before);
 }
 
-Selection select(const Problem& problem, const std::vector<Hypothesis>& hypotheses,
+Selection select(Problem& problem, const std::vector<Hypothesis>& hypotheses,
                  const SelectionOptions& options, const DiagnosisProgress& progress) {
   return Search(problem, hypotheses, options, progress).run();
 }

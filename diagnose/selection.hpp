@@ -51,8 +51,9 @@ bool is_explained(const Misfit& left, const Misfit& nothing, const SelectionOpti
 
 /// Looks for the causes of what `problem` shows beyond noise: each hypothesis by itself, scanned
 /// over its whole range and refitted; pairs of the best with any other; further ones while each
-/// takes its share; then without each of the causes, and with each exchanged for another.
-Selection select(const Problem& problem, const std::vector<Hypothesis>& hypotheses,
+/// takes its share; then without each of the causes, and with each exchanged for another. Lowers
+/// the problem's noise to what the best by itself leaves to be seen (Problem::lower_noise).
+Selection select(Problem& problem, const std::vector<Hypothesis>& hypotheses,
                  const SelectionOptions& options, const DiagnosisProgress& progress = {});
 
 }  // namespace flexarm::diagnose

@@ -22,7 +22,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
 
-constexpr const char* kRig =
+constexpr const char* kLinearRig =
     "name = \"rig\"\n[beam]\nlength = 0.96\nflexural_rigidity = 3.69180\n"
     "linear_density = 0.164858\n[hub]\ninertia = 5.86e-4\nviscous_friction = 2e-4\n"
     "[damping]\nkelvin_voigt = 1e-4\n";
@@ -30,9 +30,9 @@ constexpr const char* kRig =
 class SteppedSine : public Flexarm {
  protected:
   SteppedSine() {
-    write("rig.toml", kRig);
-    write("dry.toml", std::string(kRig) + "[effects.coulomb_friction]\ntorque = 0.01\n");
-    write("up.toml", std::string(kRig) + "[effects.gravity]\nacceleration = -9.81\n");
+    write("rig.toml", kLinearRig);
+    write("dry.toml", std::string(kLinearRig) + "[effects.coulomb_friction]\ntorque = 0.01\n");
+    write("up.toml", std::string(kLinearRig) + "[effects.gravity]\nacceleration = -9.81\n");
   }
   measured::RunData run_of(const std::string& folder, std::size_t index) const {
     const auto file = folder_ / folder / "measurement.toml";

@@ -21,7 +21,7 @@ using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
 
-constexpr const char* kRig =
+constexpr const char* kRigWithFriction =
     "name = \"rig\"\n[beam]\nlength = 0.96\nwidth = 0.019008\nthickness = 0.0032004\n"
     "density = 2710.0\nyoungs_modulus = 7.11e10\n[hub]\ninertia = 5.86e-4\n"
     "viscous_friction = 0.002\n[damping]\nkelvin_voigt = 1.2e-4\n"
@@ -51,7 +51,7 @@ TEST_F(Simulate, WithoutArgumentsItIsThePapersArmAndABangBang) {
 }
 
 TEST_F(Simulate, TheFolderIsAMeasurementOfTheArm) {
-  write("rig.toml", kRig);
+  write("rig.toml", kRigWithFriction);
   const Ended ended =
       run_short({"rig.toml", "--excitation", "bang-bang:pulse=0.2,purpose=estimation",
                  "--excitation", "random:id=noise,payload=0.06,to=80,purpose=validation",
@@ -78,7 +78,7 @@ TEST_F(Simulate, TheFolderIsAMeasurementOfTheArm) {
 }
 
 TEST_F(Simulate, EffectsAreHiddenFromTheArmFileAndNotFromTheArm) {
-  write("rig.toml", kRig);
+  write("rig.toml", kRigWithFriction);
   const auto simulated = [&](const std::string& hidden) {
     const Ended ended = run_short({"rig.toml", "--hide-effects", hidden, "--out", hidden});
     EXPECT_EQ(ended.status, 0) << ended.errors;
@@ -90,7 +90,7 @@ TEST_F(Simulate, EffectsAreHiddenFromTheArmFileAndNotFromTheArm) {
 }
 
 TEST_F(Simulate, EveryFormulationGivesTheSameMotion) {
-  write("rig.toml", kRig);
+  write("rig.toml", kRigWithFriction);
   const auto by = [&](const std::string& formulation) {
     const Ended ended = run_short({"rig.toml", "--formulation", formulation, "--out", formulation});
     EXPECT_EQ(ended.status, 0) << ended.errors;
@@ -152,7 +152,7 @@ TEST_F(Simulate, EachExcitationIsRunWithEachPayload) {
 }
 
 TEST_F(Simulate, TheStepErrorIsToldOnRequest) {
-  write("rig.toml", kRig);
+  write("rig.toml", kRigWithFriction);
   const Ended ended = run_short({"rig.toml", "--check-step", "--json", "out.json"});
   EXPECT_EQ(ended.status, 0) << ended.errors;
   EXPECT_THAT(ended.output, HasSubstr("step error"));
@@ -170,7 +170,7 @@ TEST_F(Simulate, ASamplingTooCoarseForTheModesIsSaid) {
 }
 
 TEST_F(Simulate, EnergyIsBalanced) {
-  write("rig.toml", kRig);
+  write("rig.toml", kRigWithFriction);
   EXPECT_EQ(run_short({"rig.toml", "--json", "out.json"}).status, 0);
   const auto energy = Json::parse(text_of("out.json"))["runs"][0]["energy"];
   EXPECT_LT(std::abs(energy["relative_residual"].get<double>()), 1e-6);
@@ -202,7 +202,7 @@ TEST_F(Simulate, AnInterruptLeavesNoFolder) {
 }
 
 TEST_F(Simulate, BadInputIsOneLineAndStatusTwo) {
-  write("rig.toml", kRig);
+  write("rig.toml", kRigWithFriction);
   write("gap.csv",
         "time [s],torque [N m]\n0,1\n0.1,1\n0.2,1\n0.3,1\n0.4,1\n0.5,1\n0.6,1\n0.7,1\n"
         "0.8,1\n0.9,1\n1,1\n1.4,1\n");

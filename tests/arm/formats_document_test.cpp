@@ -14,10 +14,10 @@
 namespace flexarm::arm {
 namespace {
 
-constexpr std::size_t kAnySize = 1 << 20;
+constexpr std::size_t kLargestDocument_bytes = 1 << 20;
 
 std::string document() {
-  return read_text_file(FLEXARM_SOURCE_DIR "/docs/formats.md", kAnySize);
+  return read_text_file(FLEXARM_SOURCE_DIR "/docs/formats.md", kLargestDocument_bytes);
 }
 
 /// The lines of the first table under `heading`, without its two header lines.

@@ -15,6 +15,18 @@ inline arm::Arm unit_arm(double hub_inertia, double payload_mass, double payload
   return arm;
 }
 
+/// The arm's numbers are rounded to double, 1e-16 each, as are omega and a ratio of two; omega^2
+/// twice.
+inline constexpr double kRounding = 4e-15;
+/// Zeros away from the hub: each next one is 40 times worse conditioned (a motion that dies out
+/// from tip to hub is to be told from zero); the sixth is left with 1e-9 of 64 bits.
+inline constexpr double kTipZeroRounding = 1e-9;
+/// A dense solve in double of a matrix whose condition number is near 1e4.
+inline constexpr double kDirectSolve = 1e-10;
+
+/// The setting of the program's commands for up to ten roots.
+inline constexpr int kDefault = 40;
+
 inline constexpr arm::Sensor kHubAngle{arm::SensorKind::hub_angle, 0.0};
 inline constexpr arm::Sensor kHubVelocity{arm::SensorKind::hub_velocity, 0.0};
 inline constexpr arm::Sensor kTipAcceleration{arm::SensorKind::tip_acceleration, 0.0};

@@ -13,11 +13,11 @@
 namespace flexarm::assumed_modes {
 namespace {
 
-constexpr int kCount = 60;
+constexpr int kShapes = 60;
 constexpr Real kPi = boost::math::constants::pi<Real>();
 constexpr Real kEpsilon = std::numeric_limits<Real>::epsilon();
 /// A value of the shape with the argument lambda = 190 is rounded in its 190th unit.
-constexpr Real kRounding = 1000 * kEpsilon;
+constexpr Real kShapeRounding = 1000 * kEpsilon;
 
 struct Payload {
   Real mass_ratio;
@@ -38,9 +38,9 @@ TEST(BeamFrequencies, KnownRootsOfTheClassicalBeams) {
 }
 
 TEST(BeamFrequencies, HighRootsTendToTheirAsymptotes) {
-  const auto clamped_free = clamped_free_frequencies(kCount);
-  const auto pinned_free = pinned_free_frequencies(kCount);
-  for (int i = 20; i <= kCount; ++i) {
+  const auto clamped_free = clamped_free_frequencies(kShapes);
+  const auto pinned_free = pinned_free_frequencies(kShapes);
+  for (int i = 20; i <= kShapes; ++i) {
     const auto k = static_cast<std::size_t>(i) - 1;
     const auto index = static_cast<Real>(i);
     EXPECT_LE(std::abs(clamped_free[k] / ((index - 0.5L) * kPi) - 1), 4 * kEpsilon);
@@ -66,11 +66,11 @@ TEST(BeamFrequencies, APayloadTakesTheClampedBeamToItsLimits) {
 }
 
 TEST(BeamFrequencies, AddedInertiaLowersEachRootNotBelowTheOneBefore) {
-  std::vector<Real> before = clamped_free_frequencies(kCount);
+  std::vector<Real> before = clamped_free_frequencies(kShapes);
   for (const Payload payload :
        {Payload{0.1L, 0}, Payload{2, 0}, Payload{2, 0.01L}, Payload{2, 1}}) {
     const auto after =
-        clamped_payload_frequencies(kCount, payload.mass_ratio, payload.inertia_ratio);
+        clamped_payload_frequencies(kShapes, payload.mass_ratio, payload.inertia_ratio);
     for (std::size_t i = 0; i < before.size(); ++i) {
       EXPECT_LE(after[i], before[i]);
       if (i > 0) {
@@ -84,7 +84,7 @@ TEST(BeamFrequencies, AddedInertiaLowersEachRootNotBelowTheOneBefore) {
 TEST(BeamShapes, MeetTheirBoundaryConditions) {
   for (const Payload payload : kPayloads) {
     const BeamShapes shapes =
-        BeamShapes::clamped(kCount, payload.mass_ratio, payload.inertia_ratio);
+        BeamShapes::clamped(kShapes, payload.mass_ratio, payload.inertia_ratio);
     for (const BeamShape& shape : shapes.shapes()) {
       const Real lambda = shape.lambda;
       // Each derivative over lambda^order, in units of the largest term of the shape.
@@ -95,18 +95,18 @@ TEST(BeamShapes, MeetTheirBoundaryConditions) {
       };
       const Real mass = lambda * payload.mass_ratio;
       const Real inertia = std::pow(lambda, 3) * payload.inertia_ratio;
-      EXPECT_LE(std::abs(scaled(0, 0)), kRounding);
-      EXPECT_LE(std::abs(scaled(0, 1)), kRounding);
-      EXPECT_LE(std::abs(scaled(1, 3) + mass * scaled(1, 0)) / (1 + mass), kRounding);
-      EXPECT_LE(std::abs(scaled(1, 2) - inertia * scaled(1, 1)) / (1 + inertia), kRounding);
+      EXPECT_LE(std::abs(scaled(0, 0)), kShapeRounding);
+      EXPECT_LE(std::abs(scaled(0, 1)), kShapeRounding);
+      EXPECT_LE(std::abs(scaled(1, 3) + mass * scaled(1, 0)) / (1 + mass), kShapeRounding);
+      EXPECT_LE(std::abs(scaled(1, 2) - inertia * scaled(1, 1)) / (1 + inertia), kShapeRounding);
     }
   }
-  const BeamShapes pinned_free = BeamShapes::pinned_free(kCount);
+  const BeamShapes pinned_free = BeamShapes::pinned_free(kShapes);
   for (const BeamShape& shape : pinned_free.shapes()) {
-    EXPECT_LE(std::abs(shape.value(0, 0)) * std::pow(shape.lambda, 2), kRounding);
-    EXPECT_LE(std::abs(shape.value(0, 2)), kRounding);
-    EXPECT_LE(std::abs(shape.value(1, 2)), kRounding);
-    EXPECT_LE(std::abs(shape.value(1, 3)) / shape.lambda, kRounding);
+    EXPECT_LE(std::abs(shape.value(0, 0)) * std::pow(shape.lambda, 2), kShapeRounding);
+    EXPECT_LE(std::abs(shape.value(0, 2)), kShapeRounding);
+    EXPECT_LE(std::abs(shape.value(1, 2)), kShapeRounding);
+    EXPECT_LE(std::abs(shape.value(1, 3)) / shape.lambda, kShapeRounding);
   }
 }
 
@@ -141,8 +141,8 @@ void expect_integrals_match(const BeamShapes& shapes) {
   constexpr int kPanels = 16;
   const auto n = static_cast<Eigen::Index>(shapes.shapes().size());
   const Matrix energy = gram(shapes, 2, kPanels);
-  EXPECT_LE((energy - gram(shapes, 2, 2 * kPanels)).cwiseAbs().maxCoeff(), kRounding);
-  EXPECT_LE((energy.topRows(n) - Matrix::Identity(n, n)).cwiseAbs().maxCoeff(), kRounding);
+  EXPECT_LE((energy - gram(shapes, 2, 2 * kPanels)).cwiseAbs().maxCoeff(), kShapeRounding);
+  EXPECT_LE((energy.topRows(n) - Matrix::Identity(n, n)).cwiseAbs().maxCoeff(), kShapeRounding);
 
   const Integrals integrals = shapes.integrals();
   const Matrix kinetic = gram(shapes, 0, kPanels);

@@ -18,7 +18,7 @@ using Complex = std::complex<double>;
 using testing_arms::unit_arm;
 
 /// Roots are polished in long double and rounded to double.
-constexpr double kRounding = 1e-14;
+constexpr double kPoleRounding = 1e-14;
 
 arm::Arm damped_arm(double kelvin_voigt_s, double friction_N_m_s_per_rad) {
   arm::Arm arm = unit_arm(0.1, 0.5, 0.02);
@@ -63,7 +63,7 @@ TEST(DampedPoles, WithoutDampingAreTheUndampedOnes) {
   ASSERT_EQ(poles.flexible.size(), 10U);
   for (std::size_t i = 0; i < 10; ++i) {
     EXPECT_LE(std::abs(poles.flexible[i].first_rad_per_s - Complex(0, omega[i])),
-              kRounding * omega[i]);
+              kPoleRounding * omega[i]);
   }
   EXPECT_EQ(poles.summary.iterations, 1);
 }

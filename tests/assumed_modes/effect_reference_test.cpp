@@ -15,13 +15,11 @@ namespace {
 
 using Complex = std::complex<double>;
 using reference::EffectCase;
+using testing_arms::kDefault;
+using testing_arms::kRounding;
 
-/// The setting of the program's commands for up to ten roots.
-constexpr int kDefault = 40;
-/// The arm's numbers are rounded to double, 1e-16 each, as is the root.
-constexpr double kRounding = 4e-15;
 /// The fourth real zero of the tip has lost six digits of its nineteen.
-constexpr double kTipZeros = 1e-11;
+constexpr double kFourthTipZero = 1e-11;
 /// Values far below the largest that the same modes give elsewhere lose digits.
 constexpr double kValues = 1e-12;
 
@@ -59,7 +57,8 @@ TEST_P(EffectReference, TipZeros) {
   std::ranges::sort(expected, {}, [](Complex s) { return std::abs(s); });
   const auto zeros = model().zeros(testing_arms::kTipAcceleration, 4).s_rad_per_s;
   ASSERT_EQ(zeros.size(), 4U);
-  for (std::size_t i = 0; i < 4; ++i) expect_close(zeros[i], expected[i], kTipZeros, "tip zero");
+  for (std::size_t i = 0; i < 4; ++i)
+    expect_close(zeros[i], expected[i], kFourthTipZero, "tip zero");
 }
 
 TEST_P(EffectReference, ValuesOfModesAtTheSensors) {

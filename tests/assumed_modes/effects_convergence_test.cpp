@@ -9,12 +9,10 @@
 namespace flexarm::assumed_modes {
 namespace {
 
+using testing_arms::kDefault;
+using testing_arms::kRounding;
 using testing_arms::NamedArm;
 
-/// The setting of the program's commands for up to ten roots.
-constexpr int kDefault = 40;
-/// Omega is rounded to double, and so is its ratio; omega^2 twice.
-constexpr double kRounding = 4e-15;
 /// Sixty-four bits of zeros that are ill-conditioned: a digit and a half fewer each.
 constexpr double kTipZeros = 1e-7;
 

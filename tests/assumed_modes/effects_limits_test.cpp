@@ -2,11 +2,11 @@
 #include "assumed_modes/assumed_modes_arm.hpp"
 #include "effects.hpp"
 
-#include <boost/math/constants/constants.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -14,11 +14,9 @@ namespace flexarm::assumed_modes {
 namespace {
 
 using testing_arms::kHubAngle;
+using testing_arms::kRounding;
 using testing_arms::unit_arm;
 using testing_arms::with;
-
-constexpr double kRounding = 4e-15;
-constexpr double kPi = boost::math::constants::pi<double>();
 
 std::vector<double> poles_of(const arm::Arm& arm, int count = 6) {
   return AssumedModesArm(arm, {Basis::legendre, 40}).poles(count).omega_rad_per_s;
@@ -198,9 +196,10 @@ TEST(EffectsLimits, AShearingBeamOfGreatBendingStiffness) {
   arm = with(arm, "shear_and_rotary_inertia", {{"shear_coefficient", 5.0 / 6.0}});
   const double shear = 12e3 * 1e-3 * 5.0 / 6.0;
   const auto zeros = hub_zeros_of(arm, 1);
-  EXPECT_LT(zeros[0], kPi / 2 * std::sqrt(shear));
+  using std::numbers::pi;
+  EXPECT_LT(zeros[0], pi / 2 * std::sqrt(shear));
   // Dunkerley's lower bound from bending alone, 3.516^2, and shear alone.
-  EXPECT_GT(zeros[0], 1.0 / std::sqrt(1.0 / 12.36 + 4.0 / (kPi * kPi * shear)) * 0.999);
+  EXPECT_GT(zeros[0], 1.0 / std::sqrt(1.0 / 12.36 + 4.0 / (pi * pi * shear)) * 0.999);
 }
 
 TEST(EffectsLimits, SpringsInSeriesAreOne) {

@@ -16,13 +16,11 @@ namespace flexarm::assumed_modes {
 namespace {
 
 using Complex = std::complex<double>;
+using testing_arms::kDirectSolve;
 using testing_arms::kHubAngle;
+using testing_arms::kRounding;
 using testing_arms::kTipDeflection;
 using testing_arms::kTipDisplacement;
-
-constexpr double kRounding = 4e-15;
-/// A dense solve in double of a matrix whose condition number is near 1e4.
-constexpr double kDirectSolve = 1e-10;
 
 arm::Arm damped(arm::Arm arm) {
   arm.damping.kelvin_voigt_s = 3e-4;

@@ -11,8 +11,7 @@
 namespace flexarm::assumed_modes {
 namespace {
 
-/// A frequency is rounded to double, and so is its ratio.
-constexpr double kRounding = 4e-15;
+using testing_arms::kRounding;
 
 const std::vector<arm::Arm>& arms() {
   static const std::vector<arm::Arm> all = {

@@ -27,15 +27,15 @@ arm::Arm loaded_arm() {
   return arm;
 }
 
-struct Points {
+struct Stations {
   std::vector<double> stations_m;
   std::vector<double> weights_m;
 };
 
 /// 30 Gauss points on each of 4 panels: rounding only for the first modes.
-Points gauss_points(double length_m) {
+Stations gauss_points(double length_m) {
   constexpr int kPanels = 4;
-  Points points;
+  Stations points;
   const double half = length_m / (2 * kPanels);
   const auto& abscissa = boost::math::quadrature::gauss<double, 30>::abscissa();
   const auto& weights = boost::math::quadrature::gauss<double, 30>::weights();
@@ -54,7 +54,7 @@ TEST(Modes, AreOrthogonalWithTheRigidArmsInertiaAsModalMass) {
   const arm::Arm arm = loaded_arm();
   const double inertia = arm::total_inertia_kg_m2(arm);
   const double density = arm.beam.linear_density_kg_per_m();
-  const Points points = gauss_points(arm.beam.length_m);
+  const Stations points = gauss_points(arm.beam.length_m);
   for (const Basis basis : kAllBases) {
     const AssumedModesArm model(arm, {basis, 24});
     const auto modes =

@@ -10,8 +10,6 @@ namespace {
 
 /// Rounding to double of converged values.
 constexpr double kConverged = 1e-14;
-/// As in reference_test: what conditioning leaves of the sixth zero.
-constexpr double kTipZeros = 1e-9;
 
 void expect_more_functions_change_nothing(const arm::Arm& arm) {
   const AssumedModesArm model(arm);
@@ -32,7 +30,7 @@ void expect_more_functions_change_nothing(const arm::Arm& arm) {
     EXPECT_LE(std::abs(poles[i] / expected[i] - 1.0), kConverged) << "pole " << i + 1;
   }
   compare(testing_arms::kHubAngle, 10, kConverged);
-  compare(testing_arms::kTipAcceleration, 6, kTipZeros);
+  compare(testing_arms::kTipAcceleration, 6, testing_arms::kTipZeroRounding);
 }
 
 TEST(PayloadGrid, DefaultFunctionsGiveTenPolesTenHubZerosAndSixTipZerosEverywhere) {

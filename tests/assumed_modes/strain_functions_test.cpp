@@ -10,9 +10,9 @@
 namespace flexarm::assumed_modes {
 namespace {
 
-constexpr int kCount = 12;
-/// Integrands of degree 2 (kCount + 1) + 1 are exact with 20 points; the rest is rounding.
-constexpr Real kRounding = 1000 * std::numeric_limits<Real>::epsilon();
+constexpr int kFunctions = 12;
+/// Integrands of degree 2 (kFunctions + 1) + 1 are exact with 20 points; the rest is rounding.
+constexpr Real kIntegralRounding = 1000 * std::numeric_limits<Real>::epsilon();
 constexpr Real kCrack = 0.3L;
 
 ScaledArm arm_with_everything() {
@@ -61,7 +61,7 @@ const auto kEven = [](Real) { return Real{1}; };
 /// y' by the difference of two values on one piece, exact for polynomials up to the rounding of
 /// 1/step.
 Vector slope(const StrainFunctions& functions, Real xi) {
-  // Eighth-order central difference; the ninth derivative of what kCount gives is below 1e16.
+  // Eighth-order central difference; the ninth derivative of what kFunctions gives is below 1e16.
   constexpr Real kStep = 2e-3L;
   const auto y = [&](int k) { return functions.displacement(xi + static_cast<Real>(k) * kStep); };
   return ((y(1) - y(-1)) * 672 - (y(2) - y(-2)) * 168 + (y(3) - y(-3)) * 32 - (y(4) - y(-4)) * 3) /
@@ -69,26 +69,26 @@ Vector slope(const StrainFunctions& functions, Real xi) {
 }
 
 TEST(StrainFunctions, OnAPlainBeamBendInOrthonormalPolynomials) {
-  const StrainFunctions functions(ScaledArm{}, {.on_whole_beam = kCount});
-  ASSERT_EQ(functions.size(), kCount + 1);
-  Matrix expected = Matrix::Identity(kCount + 1, kCount + 1);
+  const StrainFunctions functions(ScaledArm{}, {.on_whole_beam = kFunctions});
+  ASSERT_EQ(functions.size(), kFunctions + 1);
+  Matrix expected = Matrix::Identity(kFunctions + 1, kFunctions + 1);
   expected(0, 0) = 0;
   const Matrix strain = gram([&](Real xi) { return functions.curvature(xi); }, kEven);
-  EXPECT_LE((strain - expected).cwiseAbs().maxCoeff(), kRounding);
+  EXPECT_LE((strain - expected).cwiseAbs().maxCoeff(), kIntegralRounding);
   EXPECT_EQ(functions.bends(), Vector(expected.diagonal()));
   // The rotation comes first: y = xi, psi = 1.
   EXPECT_EQ(functions.displacement(0.7L)(0), 0.7L);
   EXPECT_EQ(functions.rotation(0.7L)(0), 1);
-  EXPECT_LE(functions.displacement(0).cwiseAbs().maxCoeff(), kRounding);
+  EXPECT_LE(functions.displacement(0).cwiseAbs().maxCoeff(), kIntegralRounding);
 }
 
 TEST(StrainFunctions, HaveAStrainEnergyOfOneEach) {
   const ScaledArm arm = arm_with_everything();
-  const StrainFunctions functions(arm, {.on_whole_beam = kCount});
-  // One rotation, root, crack, and kCount of bending and of shear on either side.
-  ASSERT_EQ(functions.size(), 3 + 4 * kCount);
+  const StrainFunctions functions(arm, {.on_whole_beam = kFunctions});
+  // One rotation, root, crack, and kFunctions of bending and of shear on either side.
+  ASSERT_EQ(functions.size(), 3 + 4 * kFunctions);
   Matrix energy = gram([&](Real xi) { return functions.curvature(xi); }, kEven);
-  EXPECT_LE((energy.diagonal() - functions.bends()).cwiseAbs().maxCoeff(), kRounding);
+  EXPECT_LE((energy.diagonal() - functions.bends()).cwiseAbs().maxCoeff(), kIntegralRounding);
   const Vector turn = functions.rotation(0) - functions.hub_rotation();
   energy += *arm.root_stiffness * turn * turn.transpose();
   constexpr Real kBeside = 1e-12L;
@@ -100,19 +100,19 @@ TEST(StrainFunctions, HaveAStrainEnergyOfOneEach) {
   const Real at = 0.6L;
   const Vector strain = slope(functions, at) - functions.rotation(at);
   constexpr Real kDifference = 1e-9L;
-  EXPECT_LE(strain.head(3 + 2 * kCount).cwiseAbs().maxCoeff(), kDifference);
-  EXPECT_NEAR(static_cast<double>(strain(3 + 3 * kCount)),
+  EXPECT_LE(strain.head(3 + 2 * kFunctions).cwiseAbs().maxCoeff(), kDifference);
+  EXPECT_NEAR(static_cast<double>(strain(3 + 3 * kFunctions)),
               static_cast<double>(1 / std::sqrt(arm.shear->rigidity * (1 - kCrack))), 1e-9);
   Matrix expected = Matrix::Zero(functions.size(), functions.size());
-  expected.diagonal().segment(1, 2 + 2 * kCount).setOnes();
+  expected.diagonal().segment(1, 2 + 2 * kFunctions).setOnes();
   EXPECT_LE((energy - expected).cwiseAbs().maxCoeff(), 1e-9L);
 }
 
 TEST(StrainFunctions, StartAtTheHubAndAreWholeAtTheCrack) {
-  const StrainFunctions functions(arm_with_everything(), {.on_whole_beam = kCount});
+  const StrainFunctions functions(arm_with_everything(), {.on_whole_beam = kFunctions});
   Vector start = Vector::Zero(functions.size());
   start(0) = 0.2L;
-  EXPECT_LE((functions.displacement(0) - start).cwiseAbs().maxCoeff(), kRounding);
+  EXPECT_LE((functions.displacement(0) - start).cwiseAbs().maxCoeff(), kIntegralRounding);
   constexpr Real kBeside = 1e-15L;
   const Vector before = functions.displacement(kCrack - kBeside);
   const Vector behind = functions.displacement(kCrack + kBeside);
@@ -120,13 +120,13 @@ TEST(StrainFunctions, StartAtTheHubAndAreWholeAtTheCrack) {
 }
 
 TEST(StrainFunctions, ProductsMatchGaussQuadratureOfExactDegree) {
-  const StrainFunctions functions(arm_with_everything(), {.on_whole_beam = kCount});
+  const StrainFunctions functions(arm_with_everything(), {.on_whole_beam = kFunctions});
   const Matrix displacement = gram([&](Real xi) { return functions.displacement(xi); }, kEven);
   EXPECT_LE((functions.displacement_products() - displacement).cwiseAbs().maxCoeff(),
-            kRounding * displacement.norm());
+            kIntegralRounding * displacement.norm());
   const Matrix rotation = gram([&](Real xi) { return functions.rotation(xi); }, kEven);
   EXPECT_LE((functions.rotation_products() - rotation).cwiseAbs().maxCoeff(),
-            kRounding * rotation.norm());
+            kIntegralRounding * rotation.norm());
   for (const Matrix& matrix : {functions.displacement_products(), functions.rotation_products(),
                                functions.slope_products(3, 1)}) {
     EXPECT_EQ(matrix, matrix.transpose());
@@ -136,12 +136,12 @@ TEST(StrainFunctions, ProductsMatchGaussQuadratureOfExactDegree) {
 TEST(StrainFunctions, SlopeProductsOfABeamWithoutShearAreThoseOfItsRotation) {
   ScaledArm arm = arm_with_everything();
   arm.shear.reset();
-  const StrainFunctions functions(arm, {.on_whole_beam = kCount});
+  const StrainFunctions functions(arm, {.on_whole_beam = kFunctions});
   const auto tension = [](Real xi) { return 3 - 2 * xi; };
   const Matrix expected = gram([&](Real xi) { return functions.rotation(xi); }, tension);
   EXPECT_LE((functions.slope_products(3, 1) - expected).cwiseAbs().maxCoeff(),
-            kRounding * expected.norm());
-  const StrainFunctions sheared(arm_with_everything(), {.on_whole_beam = kCount});
+            kIntegralRounding * expected.norm());
+  const StrainFunctions sheared(arm_with_everything(), {.on_whole_beam = kFunctions});
   // int y' p of the rigid rotation with a shear function: the function's own integral.
   const Matrix products = sheared.slope_products(1, 1);
   for (Eigen::Index i = 0; i < sheared.size(); ++i) {

@@ -8,15 +8,12 @@
 
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <stdexcept>
 
 namespace flexarm::compare {
 namespace {
 
 using testing::HasSubstr;
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 TEST(Comparison, ThePapersArmAgrees) {
   const auto comparison = compare(arm::paper_arm(), quick());

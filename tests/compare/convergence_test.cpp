@@ -1,18 +1,18 @@
 #include "compare/convergence.hpp"
 
+#include "tests/compare/models.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <random>
 #include <vector>
 
 namespace flexarm::compare {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kWanted = 1e-9;
 /// A slope through exact powers: rounding of logarithms, a few hundred epsilon.
 constexpr double kExactSlope = 1e-12;

@@ -1,5 +1,7 @@
 #include "compare/finding.hpp"
 
+#include "tests/compare/models.hpp"
+
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -9,7 +11,6 @@
 namespace flexarm::compare {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 TEST(Judge, AgreesWhenEveryDistanceIsWithinItsTolerance) {

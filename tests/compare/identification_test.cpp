@@ -1,5 +1,7 @@
 #include "compare/identification.hpp"
 
+#include "tests/compare/models.hpp"
+
 #include <gtest/gtest.h>
 
 #include <array>
@@ -11,16 +13,13 @@ namespace {
 using measured::Feature;
 using measured::ModalEntry;
 
-const arm::Sensor kHub{arm::SensorKind::hub_angle, 0.0};
-const arm::Sensor kTipAcceleration{arm::SensorKind::tip_acceleration, 0.0};
-
 ModalEntry entry(const std::optional<arm::Sensor>& sensor, Feature feature, int order,
                  double frequency_Hz) {
   return {sensor, feature, order, frequency_Hz, {}, {}, {}};
 }
 
 AnalyticalModes modes_of(const arm::Arm& arm) {
-  return analytical_modes(arm, std::array{kHub, kTipAcceleration}, 40.0);
+  return analytical_modes(arm, std::array{kHubAngle, kTipAcceleration}, 40.0);
 }
 
 TEST(AnalyticalModes, OfThePapersArmAreTheCheckedOnes) {
@@ -61,10 +60,10 @@ TEST(AnalyticalModes, HaveZerosOfStrainAtTheTipWhereAPayloadBendsIt) {
 TEST(BesideAnalytical, FindsRootsWhateverTheirOrder) {
   const auto modes = modes_of(arm::paper_arm());
   // The first pole was missed, and something else was seen.
-  const auto roots =
-      beside_analytical({entry(kHub, Feature::pole, 1, 20.5), entry(kHub, Feature::pole, 2, 32.5),
-                         entry(kHub, Feature::zero, 1, 18.2)},
-                        modes);
+  const auto roots = beside_analytical(
+      {entry(kHubAngle, Feature::pole, 1, 20.5), entry(kHubAngle, Feature::pole, 2, 32.5),
+       entry(kHubAngle, Feature::zero, 1, 18.2)},
+      modes);
   EXPECT_FALSE(roots[0].order);
   EXPECT_TRUE(std::isnan(roots[0].error_percent()));
   EXPECT_EQ(roots[1].order, 2);
@@ -76,10 +75,10 @@ TEST(BesideAnalytical, FindsRootsWhateverTheirOrder) {
 }
 
 TEST(BesideAnalytical, TakesARootOnce) {
-  const auto roots =
-      beside_analytical({entry(kHub, Feature::pole, 1, 11.7), entry(kHub, Feature::pole, 2, 11.9),
-                         entry(kTipAcceleration, Feature::pole, 1, 11.7)},
-                        modes_of(arm::paper_arm()));
+  const auto roots = beside_analytical(
+      {entry(kHubAngle, Feature::pole, 1, 11.7), entry(kHubAngle, Feature::pole, 2, 11.9),
+       entry(kTipAcceleration, Feature::pole, 1, 11.7)},
+      modes_of(arm::paper_arm()));
   EXPECT_FALSE(roots[0].order);
   EXPECT_EQ(roots[1].order, 1);
   EXPECT_EQ(roots[2].order, 1);  // each sensor has its own

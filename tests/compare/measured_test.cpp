@@ -1,5 +1,7 @@
 #include "compare/measured.hpp"
 
+#include "tests/compare/models.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,7 +13,6 @@ namespace {
 using measured::Feature;
 using measured::ModalEntry;
 
-const arm::Sensor kHub{arm::SensorKind::hub_angle, 0.0};
 const arm::Sensor kStrain{arm::SensorKind::strain, 0.25};
 
 std::complex<double> at_Hz(double frequency_Hz) {
@@ -26,7 +27,7 @@ Comparison model() {
   };
   add(std::nullopt, 1, at_Hz(12.0));
   add(std::nullopt, 2, at_Hz(32.0));
-  add(kHub, 1, at_Hz(3.0));
+  add(kHubAngle, 1, at_Hz(3.0));
   add(kStrain, 1, at_Hz(20.0));
   add(kStrain, 2, {373.0, 0.0});
   add(kStrain, 3, at_Hz(73.0));
@@ -50,7 +51,7 @@ MeasuredRow row_of(const ModalEntry& entry) {
 }
 
 TEST(Measured, APoleIsTheModelsWhicheverSensorSawIt) {
-  for (const auto& sensor : {std::optional<arm::Sensor>{}, std::optional{kHub}}) {
+  for (const auto& sensor : {std::optional<arm::Sensor>{}, std::optional{kHubAngle}}) {
     const auto row = row_of(measured_at(sensor, Feature::pole, 2, 40.0));
     EXPECT_DOUBLE_EQ(row.model_frequency_Hz.value(), 32.0);
     EXPECT_DOUBLE_EQ(row.error_percent, 25.0);
@@ -58,9 +59,9 @@ TEST(Measured, APoleIsTheModelsWhicheverSensorSawIt) {
 }
 
 TEST(Measured, ZerosAreThoseOfTheirSensor) {
-  EXPECT_DOUBLE_EQ(row_of(measured_at(kHub, Feature::zero, 1, 3.0)).model_frequency_Hz.value(),
+  EXPECT_DOUBLE_EQ(row_of(measured_at(kHubAngle, Feature::zero, 1, 3.0)).model_frequency_Hz.value(),
                    3.0);
-  EXPECT_DOUBLE_EQ(row_of(measured_at(kHub, Feature::zero, 1, 2.7)).error_percent, -10.0);
+  EXPECT_DOUBLE_EQ(row_of(measured_at(kHubAngle, Feature::zero, 1, 2.7)).error_percent, -10.0);
 }
 
 TEST(Measured, RealZerosAreNotCountedAmongAntiresonances) {
@@ -70,7 +71,7 @@ TEST(Measured, RealZerosAreNotCountedAmongAntiresonances) {
 }
 
 TEST(Measured, WhatIsNotThereHasNoError) {
-  EXPECT_TRUE(std::isnan(row_of(measured_at(kHub, Feature::zero, 2, 18.0)).error_percent));
+  EXPECT_TRUE(std::isnan(row_of(measured_at(kHubAngle, Feature::zero, 2, 18.0)).error_percent));
   const auto unknown = row_of(measured_at(std::nullopt, Feature::pole, 1, std::nullopt));
   EXPECT_DOUBLE_EQ(unknown.model_frequency_Hz.value(), 12.0);
   EXPECT_TRUE(std::isnan(unknown.error_percent));
@@ -79,9 +80,9 @@ TEST(Measured, WhatIsNotThereHasNoError) {
 TEST(Measured, SensorsWithZerosAreNamedOnceInTheirOrder) {
   const measured::ModalTable table = {
       measured_at(std::nullopt, Feature::pole, 1, 12.0),
-      measured_at(kStrain, Feature::zero, 1, 20.0), measured_at(kHub, Feature::zero, 1, 3.0),
-      measured_at(kHub, Feature::pole, 1, 12.0), measured_at(kStrain, Feature::zero, 2, 73.0)};
-  EXPECT_EQ(sensors_with_zeros(table), (std::vector<arm::Sensor>{kStrain, kHub}));
+      measured_at(kStrain, Feature::zero, 1, 20.0), measured_at(kHubAngle, Feature::zero, 1, 3.0),
+      measured_at(kHubAngle, Feature::pole, 1, 12.0), measured_at(kStrain, Feature::zero, 2, 73.0)};
+  EXPECT_EQ(sensors_with_zeros(table), (std::vector<arm::Sensor>{kStrain, kHubAngle}));
   EXPECT_TRUE(sensors_with_zeros({}).empty());
 }
 

@@ -3,12 +3,14 @@
 #include "arm/arm.hpp"
 #include "compare/comparison.hpp"
 
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace flexarm::compare {
 
+inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 inline const arm::Sensor kHubAngle{arm::SensorKind::hub_angle, 0.0};
 inline const arm::Sensor kTipAcceleration{arm::SensorKind::tip_acceleration, 0.0};
 

@@ -1,8 +1,8 @@
 #include "arm/input_error.hpp"
-#include "compare/paper_topics.hpp"
 #include "report/paper_json.hpp"
 #include "report/paper_markdown.hpp"
 #include "report/paper_tables.hpp"
+#include "tests/compare/paper_findings.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -14,12 +14,7 @@
 namespace {
 
 using namespace flexarm;
-using compare::paper::Findings;
-
-const Findings& findings() {
-  static const Findings all = compare::paper::check_paper();
-  return all;
-}
+using compare::paper::findings;
 
 std::string read(const std::string& path) {
   std::ifstream file(path, std::ios::binary);

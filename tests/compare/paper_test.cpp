@@ -4,6 +4,7 @@
 #include "compare/paper_tables.hpp"
 #include "compare/paper_topics.hpp"
 #include "report/paper_tables.hpp"
+#include "tests/compare/paper_findings.hpp"
 
 #include <gtest/gtest.h>
 
@@ -17,11 +18,6 @@ namespace {
 
 using namespace flexarm;
 using namespace flexarm::compare::paper;
-
-const Findings& findings() {
-  static const Findings all = check_paper();
-  return all;
-}
 
 std::vector<Check> all_checks() {
   std::vector<Check> checks;

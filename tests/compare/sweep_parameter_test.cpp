@@ -31,7 +31,8 @@ std::string refusal_of_axis(const std::string& text) {
   return refusal([&] { parse_axis(text); });
 }
 
-SweepTask task_over(const std::vector<std::string>& axes, const arm::Arm& arm = arm::paper_arm()) {
+SweepTask task_with_axes(const std::vector<std::string>& axes,
+                         const arm::Arm& arm = arm::paper_arm()) {
   SweepTask task;
   task.arm = arm;
   for (const auto& text : axes) task.axes.push_back(parse_axis(text));
@@ -133,35 +134,35 @@ TEST(SweepParameter, WhatTheArmGivesTwiceDoesNotContradictIt) {
   for (const std::string axis :
        {"beam.thickness=0.002,0.004", "beam.width=0.01,0.02", "beam.youngs_modulus=1e10,9e10",
         "beam.flexural_rigidity=1,2", "beam.density=1000,3000", "beam.linear_density=0.1,0.2"}) {
-    EXPECT_NO_THROW(require_valid(task_over({axis}))) << axis;
+    EXPECT_NO_THROW(require_valid(task_with_axes({axis}))) << axis;
   }
-  const auto thin = task_over({"beam.thickness=0.0016002,0.002"}).arm_of(0);
+  const auto thin = task_with_axes({"beam.thickness=0.0016002,0.002"}).arm_of(0);
   // EI of Table 1 is rounded to five digits.
   EXPECT_NEAR(thin.beam.flexural_rigidity_N_m2(), 3.6917964 / 8.0, 1e-6);
 }
 
 TEST(SweepTask, WhatCannotBeComputedIsRefusedWithItsPlace) {
-  EXPECT_THAT(refusal_of_task(task_over({"payload.mass=0,1e12"})),
+  EXPECT_THAT(refusal_of_task(task_with_axes({"payload.mass=0,1e12"})),
               StartsWith("at payload.mass = 1e+12 kg: payload.mass/(m l) = "));
-  EXPECT_THAT(refusal_of_task(task_over({"effects.local_stiffness_loss.position=0.1,0.2"})),
+  EXPECT_THAT(refusal_of_task(task_with_axes({"effects.local_stiffness_loss.position=0.1,0.2"})),
               StartsWith("at effects.local_stiffness_loss.position = 0.1 m: "
                          "effects.local_stiffness_loss.stiffness: missing"));
-  EXPECT_EQ(refusal_of_task(task_over({"beam.shear_modulus=1e10,2e10"})),
+  EXPECT_EQ(refusal_of_task(task_with_axes({"beam.shear_modulus=1e10,2e10"})),
             "--over beam.shear_modulus: this arm's equations do not depend on it");
-  EXPECT_EQ(refusal_of_task(task_over({"payload.mass=0,1", "payload.mass=0,2"})),
+  EXPECT_EQ(refusal_of_task(task_with_axes({"payload.mass=0,1", "payload.mass=0,2"})),
             "--over payload.mass: is given twice");
-  EXPECT_THAT(refusal_of_task(task_over({"payload.mass=0:1:1000", "hub.inertia=0:1:1000"})),
+  EXPECT_THAT(refusal_of_task(task_with_axes({"payload.mass=0:1:1000", "hub.inertia=0:1:1000"})),
               HasSubstr("the grid must have from 1 to"));
-  auto too_many = task_over({"payload.mass=0,1"});
+  auto too_many = task_with_axes({"payload.mass=0,1"});
   too_many.questions.poles = 0;
   EXPECT_THAT(refusal_of_task(too_many), StartsWith("--poles = 0"));
-  auto strain = task_over({"beam.length=0.2,0.96"});
+  auto strain = task_with_axes({"beam.length=0.2,0.96"});
   strain.questions.sensors = {arm::parse_sensor("strain@0.5")};
   EXPECT_THAT(refusal_of_task(strain), StartsWith("at beam.length = 0.2 m: "));
 }
 
 TEST(SweepTask, TheRatioAndTheNumberItFollowsFromDoNotGoTogether) {
-  EXPECT_EQ(refusal_of_task(task_over({"payload.mass=0,1", "eta=0,1"})),
+  EXPECT_EQ(refusal_of_task(task_with_axes({"payload.mass=0,1", "eta=0,1"})),
             "--over payload.mass: the other --over, payload_mass_ratio, sets the same number");
 }
 

@@ -14,8 +14,6 @@
 namespace flexarm::exact_tf {
 namespace {
 
-const arm::Sensor kTip{arm::SensorKind::tip_acceleration};
-
 constexpr double kUlps = 4.0;  // the project's figure
 
 double moved_by_ulps(double x, int ulps) {

@@ -12,21 +12,19 @@
 namespace flexarm::exact_tf {
 namespace {
 
-const arm::Sensor kHub{arm::SensorKind::hub_angle};
-
 /// EI, m, l and thickness are 1, 1, 1 and 2, so that strain at 0 is the bending moment there.
 const arm::Arm kBase = unit_arm(0.1, 0.5, 0.02);
-constexpr int kCount = 8;
+constexpr int kRoots = 8;
 
 /// omega^2 falls by M^2/(stiffness I_T) when a hinge of that stiffness is cut into the place of the
 /// bending moment M; the next term is of relative order M/stiffness, with M below 1e4 here.
 void expect_first_order_shift(const arm::Arm& with_hinge, double position, double stiffness) {
   const ExactArm stiff(kBase);
   const std::vector<arm::Sensor> moment = {{arm::SensorKind::strain, position}};
-  const auto modes = stiff.modes(kCount, moment, {});
-  const auto poles = ExactArm(with_hinge).poles(kCount).omega_rad_per_s;
+  const auto modes = stiff.modes(kRoots, moment, {});
+  const auto poles = ExactArm(with_hinge).poles(kRoots).omega_rad_per_s;
   const double inertia = arm::total_inertia_kg_m2(kBase);
-  for (std::size_t i = 0; i < kCount; ++i) {
+  for (std::size_t i = 0; i < kRoots; ++i) {
     const double omega = modes[i].omega_rad_per_s;
     const double moment_here = modes[i].sensor_values[0];
     const double shift = moment_here * moment_here / (2.0 * omega * stiffness * inertia);
@@ -46,16 +44,16 @@ TEST(EffectLimits, AShallowCrackShiftsPolesByTheMomentSquared) {
 }
 
 void expect_same_roots(const ExactArm& a, const ExactArm& b, double tolerance) {
-  const auto poles = a.poles(kCount).omega_rad_per_s;
-  const auto wanted = b.poles(kCount).omega_rad_per_s;
-  for (std::size_t i = 0; i < kCount; ++i) {
+  const auto poles = a.poles(kRoots).omega_rad_per_s;
+  const auto wanted = b.poles(kRoots).omega_rad_per_s;
+  for (std::size_t i = 0; i < kRoots; ++i) {
     EXPECT_NEAR(poles[i] / wanted[i], 1.0, tolerance);
   }
   for (const char* name : {"hub_angle", "tip_acceleration", "tip_deflection", "strain@0.4"}) {
     const auto sensor = arm::parse_sensor(name);
-    const auto zeros = a.zeros(sensor, kCount).s_rad_per_s;
-    const auto wanted_zeros = b.zeros(sensor, kCount).s_rad_per_s;
-    for (std::size_t i = 0; i < kCount; ++i) {
+    const auto zeros = a.zeros(sensor, kRoots).s_rad_per_s;
+    const auto wanted_zeros = b.zeros(sensor, kRoots).s_rad_per_s;
+    for (std::size_t i = 0; i < kRoots; ++i) {
       EXPECT_LE(std::abs(zeros[i] - wanted_zeros[i]), tolerance * std::abs(wanted_zeros[i]))
           << name << ", zero " << i + 1;
     }
@@ -89,12 +87,12 @@ TEST(EffectLimits, AnEndlesslyStiffHubSpringClampsTheBeam) {
   // The hub's own frequency, sqrt(ks/Ih), lies far above; the clamped beam's poles are its zeros.
   constexpr double kStiffness = 1e9;
   const ExactArm held(with_effect(kBase, "hub_spring", {{"stiffness", kStiffness}}));
-  const auto poles = held.poles(kCount - 1);
-  const auto zeros = ExactArm(kBase).zeros(kHub, kCount).s_rad_per_s;
+  const auto poles = held.poles(kRoots - 1);
+  const auto zeros = ExactArm(kBase).zeros(kHub, kRoots).s_rad_per_s;
   // A clamp that yields by M/ks: relative order lambda/ks.
   constexpr double kTolerance = 1e-7;
   EXPECT_NEAR(std::sqrt(poles.lowest_omega_squared_rad2_per_s2) / zeros[0].imag(), 1.0, kTolerance);
-  for (std::size_t i = 1; i < kCount; ++i) {
+  for (std::size_t i = 1; i < kRoots; ++i) {
     EXPECT_NEAR(poles.omega_rad_per_s[i - 1] / zeros[i].imag(), 1.0, kTolerance);
   }
 }

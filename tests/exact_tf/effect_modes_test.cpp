@@ -14,10 +14,9 @@ namespace {
 
 using arm::SensorKind;
 
-const arm::Sensor kHub{SensorKind::hub_angle};
-const arm::Sensor kTip{SensorKind::tip_displacement};
+const arm::Sensor kTipDisplacement{SensorKind::tip_displacement};
 
-constexpr int kCount = 10;
+constexpr int kModes = 10;
 /// Relative to the larger diagonal entry: the rounding of sums of some thousand terms.
 constexpr double kRounding = 1e-12;
 
@@ -38,8 +37,8 @@ TEST(EffectModes, AreOrthogonalInTheMassThatAirDampingShows) {
   // With air damping alone D_ij I_T/ca is int phi_i phi_j dx; m = 1.
   constexpr double kAir = 0.25;
   const ExactArm exact(with_effect(sprung_arm(), "air_damping", {{"coefficient", kAir}}));
-  const std::vector<arm::Sensor> sensors = {kHub, kTip};
-  const auto model = exact.modal_model(kCount, sensors, {});
+  const std::vector<arm::Sensor> sensors = {kHub, kTipDisplacement};
+  const auto model = exact.modal_model(kModes, sensors, {});
   const double inertia = model.modal_mass_kg_m2;
   for (std::size_t i = 0; i < model.modes.size(); ++i) {
     for (std::size_t j = 0; j < model.modes.size(); ++j) {
@@ -61,7 +60,7 @@ TEST(EffectModes, AreOrthogonalInTheEnergyThatKelvinVoigtDampingShows) {
   const ExactArm exact(arm);
   const std::vector<arm::Sensor> sensors = {
       kHub, {SensorKind::strain, 0.0}, {SensorKind::strain, 0.3}};
-  const auto model = exact.modal_model(kCount, sensors, {});
+  const auto model = exact.modal_model(kModes, sensors, {});
   const double inertia = model.modal_mass_kg_m2;
   for (std::size_t i = 0; i < model.modes.size(); ++i) {
     for (std::size_t j = 0; j < model.modes.size(); ++j) {
@@ -81,7 +80,7 @@ TEST(EffectModes, OfAFreeArmStartWithItsRotation) {
   arm = with_effect(arm, "air_damping", {{"coefficient", 0.3}});
   const std::vector<double> stations_m = {0.0, 0.4, 1.0};
   const std::vector<arm::Sensor> sensors = {
-      kHub, kTip, {SensorKind::tip_deflection}, {SensorKind::strain, 0.3}};
+      kHub, kTipDisplacement, {SensorKind::tip_deflection}, {SensorKind::strain, 0.3}};
   const auto model = ExactArm(arm).modal_model(2, sensors, stations_m);
   const auto& rigid = model.modes[0];
   EXPECT_EQ(rigid.omega_rad_per_s, 0.0);
@@ -136,7 +135,7 @@ class EffectModalModel : public testing::TestWithParam<arm::Arm> {};
 
 TEST_P(EffectModalModel, AnswersAsTheTransferFunctionDoes) {
   const ExactArm exact(GetParam());
-  const std::vector<arm::Sensor> sensors = {kHub, kTip, {SensorKind::tip_deflection}};
+  const std::vector<arm::Sensor> sensors = {kHub, kTipDisplacement, {SensorKind::tip_deflection}};
   const auto half = exact.modal_model(30, sensors, {});
   const auto model = exact.modal_model(60, sensors, {});
   for (const std::complex<double> s : {std::complex(-0.2, 1.3), {0.0, 9.0}, {0.5, 0.0}}) {
@@ -155,9 +154,9 @@ TEST_P(EffectModalModel, AnswersAsTheTransferFunctionDoes) {
 
 TEST_P(EffectModalModel, HasTheDampedPolesOfTheTransferFunction) {
   const ExactArm exact(GetParam());
-  const auto set = exact.damped_poles(kCount);
+  const auto set = exact.damped_poles(kModes);
   EXPECT_TRUE(set.summary.converged);
-  ASSERT_EQ(std::ssize(set.flexible), kCount);
+  ASSERT_EQ(std::ssize(set.flexible), kModes);
   const auto roots = all_roots(set);
   for (std::size_t i = 0; i < roots.size(); ++i) {
     if (roots[i] == 0.0) {
@@ -196,7 +195,7 @@ INSTANTIATE_TEST_SUITE_P(Arms, EffectModalModel, testing::ValuesIn(arms_without_
 TEST(EffectModes, OfAHeldArmAnswerAtRest) {
   const ExactArm exact(sprung_arm());
   EXPECT_NEAR(exact.transfer_function(kHub, 0.0).real(), 1.0 / 0.7, kRounding);
-  EXPECT_NEAR(exact.transfer_function(kTip, 0.0).real(), 1.2 / 0.7, kRounding);
+  EXPECT_NEAR(exact.transfer_function(kTipDisplacement, 0.0).real(), 1.2 / 0.7, kRounding);
   EXPECT_EQ(exact.transfer_function({SensorKind::tip_acceleration}, 0.0), 0.0);
   EXPECT_NEAR(std::abs(exact.transfer_function({SensorKind::tip_deflection}, 0.0)), 0.0, kRounding);
   EXPECT_NEAR(std::abs(exact.transfer_function({SensorKind::strain, 0.4}, 0.0)), 0.0, kRounding);
@@ -210,7 +209,7 @@ TEST(EffectModes, DampedPolesOfStrongHubSpringsAndFrictionsAreFollowed) {
       arm = with_effect(arm, "air_damping", {{"coefficient", 0.5}});
       SCOPED_TRACE(testing::Message() << "stiffness " << stiffness << ", friction " << friction);
       const ExactArm exact(arm);
-      const auto set = exact.damped_poles(kCount);
+      const auto set = exact.damped_poles(kModes);
       EXPECT_TRUE(set.summary.converged);
       for (const auto& s : all_roots(set)) {
         constexpr double kPart = 1e-10;

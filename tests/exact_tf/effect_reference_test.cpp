@@ -1,4 +1,5 @@
 #include "exact_tf/exact_arm.hpp"
+#include "sample_arms.hpp"
 #include "tests/reference/effect_cases.hpp"
 
 #include <gtest/gtest.h>
@@ -10,9 +11,6 @@
 
 namespace flexarm::exact_tf {
 namespace {
-
-/// The project's figure; the file has 25 digits.
-constexpr double kRelativeTolerance = 1e-13;
 
 class EffectReference : public testing::TestWithParam<reference::EffectCase> {
  protected:

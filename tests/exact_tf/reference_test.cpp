@@ -1,4 +1,5 @@
 #include "exact_tf/exact_arm.hpp"
+#include "sample_arms.hpp"
 #include "tests/reference/reference_cases.hpp"
 
 #include <gtest/gtest.h>
@@ -12,9 +13,6 @@
 
 namespace flexarm::exact_tf {
 namespace {
-
-/// The project's figure; the file has 25 digits or more.
-constexpr double kRelativeTolerance = 1e-13;
 
 using reference::ReferenceResponse;
 

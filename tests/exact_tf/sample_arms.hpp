@@ -1,6 +1,7 @@
 #pragma once
 
 #include "arm/arm.hpp"
+#include "arm/sensor.hpp"
 
 #include <ostream>
 #include <string>
@@ -16,6 +17,12 @@ inline void PrintTo(const Arm& arm, std::ostream* out) {
 }  // namespace flexarm::arm
 
 namespace flexarm::exact_tf {
+
+/// The project's figure; references have 25 digits or more.
+inline constexpr double kRelativeTolerance = 1e-13;
+
+inline constexpr arm::Sensor kHub{arm::SensorKind::hub_angle};
+inline constexpr arm::Sensor kTip{arm::SensorKind::tip_acceleration};
 
 /// A beam with EI = m = l = 1 and 2 m thickness, so that ratios are values and strain is curvature.
 inline arm::Arm unit_arm(double hub_inertia, double payload_mass, double payload_inertia,

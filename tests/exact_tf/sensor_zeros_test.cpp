@@ -14,8 +14,6 @@
 namespace flexarm::exact_tf {
 namespace {
 
-const arm::Sensor kTip{arm::SensorKind::tip_acceleration};
-
 /// s is lambda^2 in long double, rounded once.
 constexpr double kRounding = 4.0 * std::numeric_limits<double>::epsilon();
 
@@ -46,7 +44,6 @@ std::vector<double> real_ones(const arm::ZeroSet& set) {
 }
 
 TEST(SensorZeros, OfTheTipAgreeWithTheReferenceInAllCases) {
-  constexpr double kRelativeTolerance = 1e-13;  // the project's figure
   ASSERT_EQ(reference::reference_cases().size(), 7u);
   for (const auto& each : reference::reference_cases()) {
     const auto& expected = each.real_tip_zero_rad_per_s;

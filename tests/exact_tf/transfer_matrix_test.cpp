@@ -20,9 +20,6 @@
 namespace flexarm::exact_tf {
 namespace {
 
-/// The project's figure.
-constexpr double kRelativeTolerance = 1e-13;
-
 std::vector<arm::Sensor> all_sensors() {
   std::vector<arm::Sensor> sensors;
   for (const char* name :

@@ -1,18 +1,17 @@
 #include "fem/beam_element.hpp"
 
 #include "arm/input_error.hpp"
+#include "tests/fem/constants.hpp"
 
 #include <Eigen/Core>
 #include <boost/math/quadrature/gauss.hpp>
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 namespace flexarm::fem {
 namespace {
 
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 /// Exact to degree 59, above any product of two shape functions tested.
 using Gauss = boost::math::quadrature::gauss<double, 30>;
 

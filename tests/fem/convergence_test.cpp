@@ -1,5 +1,6 @@
 // Orders of convergence, fitted above the rounding floor, against exact numbers.
 #include "fem/fem_arm.hpp"
+#include "tests/fem/constants.hpp"
 #include "tests/fem/fitted_order.hpp"
 #include "tests/reference/reference_cases.hpp"
 
@@ -16,7 +17,6 @@ namespace {
 
 using reference::ReferenceCase;
 
-constexpr arm::Sensor kHubAngle{arm::SensorKind::hub_angle};
 constexpr arm::Sensor kTipAcceleration{arm::SensorKind::tip_acceleration};
 
 double exact_omega(const ReferenceCase& reference, double lambda) {

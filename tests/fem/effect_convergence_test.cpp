@@ -1,5 +1,6 @@
 // Orders of convergence with effects on, the default mesh beside finer ones, and fine meshes.
 #include "fem/fem_arm.hpp"
+#include "tests/fem/constants.hpp"
 #include "tests/fem/fitted_order.hpp"
 #include "tests/reference/effect_cases.hpp"
 
@@ -16,7 +17,6 @@ namespace {
 
 using Complex = std::complex<double>;
 using reference::EffectCase;
-constexpr arm::Sensor kHubAngle{arm::SensorKind::hub_angle};
 
 FemArm model_of(const arm::Arm& arm, int elements, int degree) {
   FemArm::Options options;

@@ -3,6 +3,7 @@
 #include "fem/discretisation.hpp"
 #include "fem/fem_arm.hpp"
 #include "fem/vibration_modes.hpp"
+#include "tests/fem/constants.hpp"
 #include "tests/reference/reference_cases.hpp"
 
 #include <boost/math/special_functions/bessel.hpp>
@@ -19,7 +20,6 @@ namespace flexarm::fem {
 namespace {
 
 using Complex = std::complex<double>;
-constexpr arm::Sensor kHubAngle{arm::SensorKind::hub_angle};
 
 /// l = m = EI = 1.
 arm::Arm unit_arm() {

@@ -1,5 +1,6 @@
 // Every linear effect against 30-digit values, and the laws of matrices and modes with effects on.
 #include "fem/fem_arm.hpp"
+#include "tests/fem/constants.hpp"
 #include "tests/reference/effect_cases.hpp"
 
 #include <Eigen/Cholesky>
@@ -11,7 +12,6 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -20,7 +20,6 @@ namespace {
 
 using Complex = std::complex<double>;
 using reference::EffectCase;
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 std::vector<arm::Sensor> sensors_of(const EffectCase& reference) {
   std::vector<arm::Sensor> sensors;

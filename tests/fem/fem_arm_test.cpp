@@ -2,6 +2,7 @@
 #include "fem/fem_arm.hpp"
 
 #include "arm/input_error.hpp"
+#include "tests/fem/constants.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,8 +14,6 @@ namespace flexarm::fem {
 namespace {
 
 using ::testing::HasSubstr;
-
-constexpr arm::Sensor kHubAngle{arm::SensorKind::hub_angle};
 
 TEST(FemArm, RefusesEveryOtherEffectByName) {
   for (const arm::EffectDefinition& effect : arm::effect_vocabulary()) {

@@ -1,6 +1,7 @@
 // Laws of the assembled matrices and of the modes built on them.
 #include "fem/discretisation.hpp"
 #include "fem/fem_arm.hpp"
+#include "tests/fem/constants.hpp"
 #include "tests/reference/reference_cases.hpp"
 
 #include <Eigen/Cholesky>
@@ -9,7 +10,6 @@
 
 #include <cmath>
 #include <complex>
-#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -17,7 +17,6 @@ namespace flexarm::fem {
 namespace {
 
 using Complex = std::complex<double>;
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 class Laws : public ::testing::TestWithParam<reference::ReferenceCase> {
  protected:
@@ -109,7 +108,7 @@ INSTANTIATE_TEST_SUITE_P(Reference, Laws, ::testing::ValuesIn(reference::referen
                          reference::name_of_case);
 
 /// Some hundred operations.
-constexpr double kRounding = 1e-12;
+constexpr double kModeRounding = 1e-12;
 
 TEST(Modes, OfAHeavyHubAreThoseOfACantilever) {
   arm::Arm arm = reference::arm_of(reference::case_named("unit_pinned_free"));
@@ -128,11 +127,11 @@ TEST(Modes, OfAHeavyHubAreThoseOfACantilever) {
            ratio * (std::sinh(lambda * x) - std::sin(lambda * x));
   };
   constexpr double kHubStillTurns = 1e-8;  // of order m l^3/Ih
-  EXPECT_NEAR(mode.displacement_m[0], 0.0, kRounding);
+  EXPECT_NEAR(mode.displacement_m[0], 0.0, kModeRounding);
   EXPECT_NEAR(mode.displacement_m[1] / mode.displacement_m[2], shape(0.5) / shape(1.0),
               kHubStillTurns);
   EXPECT_NEAR(mode.sensor_values[0], mode.displacement_m[2],
-              kRounding * std::abs(mode.displacement_m[2]));
+              kModeRounding * std::abs(mode.displacement_m[2]));
   EXPECT_NEAR(mode.sensor_values[1] / mode.sensor_values[0], 2.0 * lambda * lambda / shape(1.0),
               kHubStillTurns * lambda * lambda);
 }
@@ -149,7 +148,7 @@ TEST(Modes, HaveTheProjectedDampingOfBeamAndHub) {
     const double expected =
         (1e-5 * w * w + 1e-3 * mode.hub_slope * mode.hub_slope / arm::total_inertia_kg_m2(arm)) /
         (2.0 * w);
-    EXPECT_NEAR(mode.damping_ratio, expected, kRounding * expected);
+    EXPECT_NEAR(mode.damping_ratio, expected, kModeRounding * expected);
   }
 }
 
@@ -166,7 +165,7 @@ TEST(Modes, HaveTheSameNumbersInOtherUnits) {
   const arm::PoleSet a = FemArm(metres).poles(6);
   const arm::PoleSet b = FemArm(millimetres).poles(6);
   for (std::size_t i = 0; i < 6; ++i) {
-    EXPECT_NEAR(a.omega_rad_per_s[i], b.omega_rad_per_s[i], kRounding * a.omega_rad_per_s[i]);
+    EXPECT_NEAR(a.omega_rad_per_s[i], b.omega_rad_per_s[i], kModeRounding * a.omega_rad_per_s[i]);
   }
 }
 

@@ -1,5 +1,6 @@
 // Fine meshes: no rising of the error, cost linear in the number of elements.
 #include "fem/fem_arm.hpp"
+#include "tests/fem/constants.hpp"
 #include "tests/reference/reference_cases.hpp"
 
 #include <gtest/gtest.h>
@@ -10,8 +11,6 @@
 
 namespace flexarm::fem {
 namespace {
-
-constexpr arm::Sensor kHubAngle{arm::SensorKind::hub_angle};
 
 struct Errors {
   double poles = 0.0;

@@ -22,7 +22,7 @@ namespace {
 using Complex = std::complex<double>;
 
 /// Rounding of ten-digit sums in models of some fifty coordinates.
-constexpr double kRounding = 1e-12;
+constexpr double kZeroRounding = 1e-12;
 
 /// A unit arm with payload mass 0.5 and payload inertia 0.02; strain equals curvature.
 arm::Arm loaded_arm() {
@@ -37,7 +37,7 @@ arm::Arm loaded_arm() {
 void expect_zeros(const arm::ZeroSet& zeros, const std::vector<Complex>& exact) {
   ASSERT_EQ(zeros.s_rad_per_s.size(), exact.size());
   for (std::size_t i = 0; i < exact.size(); ++i) {
-    EXPECT_LE(std::abs(zeros.s_rad_per_s[i] - exact[i]), kRounding * std::abs(exact[i]))
+    EXPECT_LE(std::abs(zeros.s_rad_per_s[i] - exact[i]), kZeroRounding * std::abs(exact[i]))
         << "zero " << i + 1 << ": " << zeros.s_rad_per_s[i] << ", exact " << exact[i];
   }
   EXPECT_EQ(zeros.count.found, zeros.count.expected);
@@ -236,7 +236,7 @@ TEST_P(MissingRoot, IsFoundBesideTheGap) {
     ASSERT_LE(before.complete, k);
     EXPECT_TRUE(search_beside(before.complete, numerators.model, gapped)) << k;
     EXPECT_THAT(gapped.w, ::testing::Contains(::testing::Truly([&](Complex w) {
-                  return std::abs(w - whole.w[k]) <= kRounding * std::abs(w);
+                  return std::abs(w - whole.w[k]) <= kZeroRounding * std::abs(w);
                 })))
         << "root " << k + 1 << ", " << whole.w[k];
   }
@@ -263,7 +263,7 @@ TEST(PencilRoots, AreThoseOfTheDensePencilOfASmallModel) {
     pencil(0, n) = -1.0;
     pencil.row(n).head(n) = row.constant().cast<Complex>().transpose();
     const Eigen::VectorXd singular = pencil.jacobiSvd().singularValues();
-    EXPECT_LE(singular[n], kRounding * singular[0]) << "w = " << w;
+    EXPECT_LE(singular[n], kZeroRounding * singular[0]) << "w = " << w;
   }
 }
 

@@ -1,5 +1,6 @@
 #include "arm/linear_arm.hpp"
 #include "laws/effect_arms.hpp"
+#include "laws/subjects.hpp"
 #include "response/any_formulation.hpp"
 #include "response/settings.hpp"
 
@@ -22,19 +23,17 @@ using arm::SensorKind;
 using Complex = std::complex<double>;
 using response::AnyFormulation;
 
-constexpr int kRoots = 10;
+constexpr int kComparedRoots = 10;
 /// The tip's real zeros lose 1.5 digits each in coordinates that span the link
 /// (assumed_modes/assumed_modes_arm.hpp).
 constexpr int kTipZeros = 4;
-constexpr Sensor kHubAngle{SensorKind::hub_angle, 0.0};
-constexpr Sensor kTipAcceleration{SensorKind::tip_acceleration, 0.0};
 constexpr std::array kSensors = {kHubAngle, kTipAcceleration,
                                  Sensor{SensorKind::tip_deflection, 0.0},
                                  Sensor{SensorKind::strain, 0.05}};
 
 std::vector<AnyFormulation> formulations(const arm::Arm& arm) {
-  return {exact_tf::ExactArm(arm), fem::FemArm(arm, response::fem_settings(kRoots)),
-          assumed_modes::AssumedModesArm(arm, response::assumed_modes_settings(kRoots))};
+  return {exact_tf::ExactArm(arm), fem::FemArm(arm, response::fem_settings(kComparedRoots)),
+          assumed_modes::AssumedModesArm(arm, response::assumed_modes_settings(kComparedRoots))};
 }
 
 void expect_close(Complex actual, Complex expected, double tolerance, const std::string& what) {
@@ -51,20 +50,20 @@ class EffectAgreement : public testing::TestWithParam<EffectArm> {
 
 TEST_P(EffectAgreement, PolesAndZeros) {
   const auto models = formulations(arm());
-  const auto poles = response::poles(models[0], kRoots);
-  const auto hub_zeros = response::zeros(models[0], kHubAngle, kRoots);
+  const auto poles = response::poles(models[0], kComparedRoots);
+  const auto hub_zeros = response::zeros(models[0], kHubAngle, kComparedRoots);
   const auto tip_zeros = response::zeros(models[0], kTipAcceleration, kTipZeros);
-  ASSERT_EQ(poles.omega_rad_per_s.size(), static_cast<std::size_t>(kRoots));
+  ASSERT_EQ(poles.omega_rad_per_s.size(), static_cast<std::size_t>(kComparedRoots));
   EXPECT_EQ(poles.count.found, poles.count.expected);
   const double omega_squared = poles.omega_rad_per_s[0] * poles.omega_rad_per_s[0];
   for (std::size_t m = 1; m < models.size(); ++m) {
     const std::string name(response::name(models[m]));
-    const auto others = response::poles(models[m], kRoots);
+    const auto others = response::poles(models[m], kComparedRoots);
     EXPECT_NEAR(others.lowest_omega_squared_rad2_per_s2, poles.lowest_omega_squared_rad2_per_s2,
                 tolerance() * omega_squared)
         << name;
     ASSERT_EQ(others.omega_rad_per_s.size(), poles.omega_rad_per_s.size()) << name;
-    const auto other_hub_zeros = response::zeros(models[m], kHubAngle, kRoots);
+    const auto other_hub_zeros = response::zeros(models[m], kHubAngle, kComparedRoots);
     ASSERT_EQ(other_hub_zeros.s_rad_per_s.size(), hub_zeros.s_rad_per_s.size()) << name;
     for (std::size_t i = 0; i < poles.omega_rad_per_s.size(); ++i) {
       expect_close(others.omega_rad_per_s[i], poles.omega_rad_per_s[i], tolerance(),

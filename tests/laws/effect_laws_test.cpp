@@ -24,8 +24,6 @@ using arm::SensorKind;
 using Complex = std::complex<double>;
 
 constexpr int kRoots = 5;
-constexpr Sensor kHubAngle{SensorKind::hub_angle, 0.0};
-constexpr Sensor kHubVelocity{SensorKind::hub_velocity, 0.0};
 constexpr Sensor kTipDisplacement{SensorKind::tip_displacement, 0.0};
 
 /// Formulations at settings fine enough for arms with effects.
@@ -43,9 +41,9 @@ std::vector<EffectArm> lawful_arms() {
   return arms;
 }
 
-using Parameter = std::tuple<Subject, EffectArm>;
+using SubjectAndArm = std::tuple<Subject, EffectArm>;
 
-class EffectLaws : public testing::TestWithParam<Parameter> {
+class EffectLaws : public testing::TestWithParam<SubjectAndArm> {
  protected:
   response::AnyFormulation make(const Arm& arm) const { return std::get<0>(GetParam()).make(arm); }
   const Arm& arm() const { return std::get<1>(GetParam()).arm; }

@@ -22,7 +22,7 @@ using arm::SensorKind;
 using Complex = std::complex<double>;
 using response::AnyFormulation;
 
-constexpr int kRoots = 10;
+constexpr int kReferenceRoots = 10;
 /// exact_tf has no discretisation: rounding of a long double over some thousand operations, shown
 /// as a double, times the condition of the root.
 constexpr double kExactTolerance = 1e-12;
@@ -37,19 +37,20 @@ const std::vector<Formulation>& formulations() {
       {"exact_tf", [](const arm::Arm& arm) -> AnyFormulation { return exact_tf::ExactArm(arm); }},
       {"fem",
        [](const arm::Arm& arm) -> AnyFormulation {
-         return fem::FemArm(arm, response::fem_settings(kRoots));
+         return fem::FemArm(arm, response::fem_settings(kReferenceRoots));
        }},
       {"assumed_modes",
        [](const arm::Arm& arm) -> AnyFormulation {
-         return assumed_modes::AssumedModesArm(arm, response::assumed_modes_settings(kRoots));
+         return assumed_modes::AssumedModesArm(arm,
+                                               response::assumed_modes_settings(kReferenceRoots));
        }},
   };
   return all;
 }
 
-using Parameter = std::tuple<std::size_t, std::size_t>;  // formulation, case
+using FormulationAndCase = std::tuple<std::size_t, std::size_t>;  // formulation, case
 
-class EffectReference : public testing::TestWithParam<Parameter> {
+class EffectReference : public testing::TestWithParam<FormulationAndCase> {
  protected:
   const Formulation& formulation() const { return formulations()[std::get<0>(GetParam())]; }
   const reference::EffectCase& expected() const {
@@ -68,8 +69,8 @@ class EffectReference : public testing::TestWithParam<Parameter> {
 
 TEST_P(EffectReference, PolesAndHubZeros) {
   const auto subject = model();
-  const auto poles = response::poles(subject, kRoots);
-  const auto zeros = response::zeros(subject, {SensorKind::hub_angle, 0.0}, kRoots);
+  const auto poles = response::poles(subject, kReferenceRoots);
+  const auto zeros = response::zeros(subject, {SensorKind::hub_angle, 0.0}, kReferenceRoots);
   const double first = expected().pole_rad_per_s.front();
   EXPECT_NEAR(poles.lowest_omega_squared_rad2_per_s2, expected().lowest_omega_squared_rad2_per_s2,
               tolerance() * first * first);

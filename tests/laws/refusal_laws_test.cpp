@@ -19,9 +19,6 @@ using arm::InputError;
 using arm::Sensor;
 using arm::SensorKind;
 
-constexpr Sensor kHubAngle{SensorKind::hub_angle, 0.0};
-constexpr Sensor kTipAcceleration{SensorKind::tip_acceleration, 0.0};
-
 class RefusalLaws : public testing::TestWithParam<Subject> {
  protected:
   response::AnyFormulation model(const Arm& arm) const { return GetParam().make(arm); }

@@ -16,9 +16,6 @@ using arm::Sensor;
 using arm::SensorKind;
 using Complex = std::complex<double>;
 
-constexpr Sensor kHubAngle{SensorKind::hub_angle, 0.0};
-constexpr Sensor kHubVelocity{SensorKind::hub_velocity, 0.0};
-constexpr Sensor kTipAcceleration{SensorKind::tip_acceleration, 0.0};
 constexpr Sensor kTipDisplacement{SensorKind::tip_displacement, 0.0};
 constexpr Sensor kTipDeflection{SensorKind::tip_deflection, 0.0};
 

@@ -12,12 +12,8 @@ namespace {
 
 using arm::Arm;
 using arm::Sensor;
-using arm::SensorKind;
 
 constexpr int kRoots = 5;
-constexpr Sensor kHubAngle{SensorKind::hub_angle, 0.0};
-constexpr Sensor kHubVelocity{SensorKind::hub_velocity, 0.0};
-constexpr Sensor kTipAcceleration{SensorKind::tip_acceleration, 0.0};
 
 /// Limits are taken with a ratio of this size; what is left of the limit's distance is its inverse.
 constexpr double kNearLimit = 1e8;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "arm/arm.hpp"
+#include "arm/sensor.hpp"
 #include "response/any_formulation.hpp"
 
 #include <functional>
@@ -9,6 +10,10 @@
 #include <vector>
 
 namespace flexarm::laws {
+
+inline constexpr arm::Sensor kHubAngle{arm::SensorKind::hub_angle};
+inline constexpr arm::Sensor kHubVelocity{arm::SensorKind::hub_velocity};
+inline constexpr arm::Sensor kTipAcceleration{arm::SensorKind::tip_acceleration};
 
 /// A formulation at one setting, and how exact its laws may be expected to hold.
 struct Subject {

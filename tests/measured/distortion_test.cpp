@@ -11,7 +11,6 @@
 namespace flexarm::measured {
 namespace {
 
-constexpr double kPeriod_s = 0.005;
 constexpr std::size_t kSamples = 1000;
 constexpr std::size_t kPeriods = 8;
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 /// QZ on pencils of a dozen rows, then Newton's method: rounding.
-constexpr double kRounding = 1e-12;
+constexpr double kZeroRounding = 1e-12;
 
 FittedTransfer transfer_of(const char* sensor, const BlockSet& set, const Eigen::VectorXd& beta,
                            bool remainder) {
@@ -32,8 +32,8 @@ TEST(FittedZeros, OfTwoBlocksAreThoseOfTheirSum) {
   const auto zeros = fitted_zeros(transfer_of("hub_angle", set, beta, false),
                                   Eigen::MatrixXd::Zero(7, 7), 0.0, 2.0);
   ASSERT_EQ(zeros.size(), 1U);
-  EXPECT_NEAR(zeros[0].frequency_Hz, std::sqrt(300.0) / (2.0 * kPi), kRounding);
-  EXPECT_NEAR(zeros[0].damping_ratio, 0.0, kRounding);
+  EXPECT_NEAR(zeros[0].frequency_Hz, std::sqrt(300.0) / (2.0 * kPi), kZeroRounding);
+  EXPECT_NEAR(zeros[0].damping_ratio, 0.0, kZeroRounding);
   EXPECT_FALSE(zeros[0].in_band);
 }
 
@@ -45,9 +45,9 @@ TEST(FittedZeros, OnTheRealAxisAreToldApartBySign) {
   const auto zeros = fitted_zeros(transfer_of("tip_displacement", set, beta, false),
                                   Eigen::MatrixXd::Zero(7, 7), 0.0, 100.0);
   ASSERT_EQ(zeros.size(), 2U);
-  EXPECT_NEAR(zeros[0].frequency_Hz, 30.0 / (2.0 * kPi), kRounding);
-  EXPECT_NEAR(zeros[0].damping_ratio + zeros[1].damping_ratio, 0.0, kRounding);
-  EXPECT_NEAR(std::abs(zeros[0].damping_ratio), 1.0, kRounding);
+  EXPECT_NEAR(zeros[0].frequency_Hz, 30.0 / (2.0 * kPi), kZeroRounding);
+  EXPECT_NEAR(zeros[0].damping_ratio + zeros[1].damping_ratio, 0.0, kZeroRounding);
+  EXPECT_NEAR(std::abs(zeros[0].damping_ratio), 1.0, kZeroRounding);
 }
 
 TEST(FittedZeros, OfAVelocityWithARemainderAreRootsOfTheTransferFunction) {
@@ -61,7 +61,7 @@ TEST(FittedZeros, OfAVelocityWithARemainderAreRootsOfTheTransferFunction) {
   for (const FittedZero& zero : zeros) {
     degree += zero.s_rad_per_s.imag() > 0.0 ? 2U : 1U;
     const double scale = std::abs(transfer.s_derivative(zero.s_rad_per_s) * zero.s_rad_per_s);
-    EXPECT_LT(std::abs(transfer.value(zero.s_rad_per_s)), kRounding * scale);
+    EXPECT_LT(std::abs(transfer.value(zero.s_rad_per_s)), kZeroRounding * scale);
   }
   EXPECT_EQ(degree, 6U);
 }

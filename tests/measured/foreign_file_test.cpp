@@ -4,11 +4,11 @@
 #include "arm/text_file.hpp"
 #include "measured/column_guess.hpp"
 #include "measured/record_export.hpp"
+#include "tests/measured/any_finite.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -30,12 +30,6 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-
-double any_finite(std::mt19937_64& random) {
-  double value = kUnknown;
-  while (!std::isfinite(value)) value = std::bit_cast<double>(random());
-  return value;
-}
 
 TimeRecord random_time_record() {
   std::mt19937_64 random(20261130);

@@ -198,7 +198,7 @@ TEST(ForeignTable, BytesAtRandomGiveATableOrOneLine) {
                             [](const std::string& text) { parse_foreign_table(text, "r"); });
 }
 
-const std::vector<Mistake> kMistakes = {
+const std::vector<Mistake> kForeignTableMistakes = {
     {"Empty", "", "1: empty"},
     {"Prose", "Dear all,\nthe data follow.\n",
      "1: no two rows of two numbers or more; must be rows of numbers between commas, semicolons, "
@@ -226,7 +226,8 @@ TEST_P(ForeignTableMistake, GivesOneLineWithPlaceReasonAndRemedy) {
   expect_line(GetParam(), "log.txt", parse_foreign_table);
 }
 
-INSTANTIATE_TEST_SUITE_P(, ForeignTableMistake, testing::ValuesIn(kMistakes), name_of_mistake);
+INSTANTIATE_TEST_SUITE_P(, ForeignTableMistake, testing::ValuesIn(kForeignTableMistakes),
+                         name_of_mistake);
 
 TEST(ForeignTable, WhatIsNoTextIsRefused) {
   for (const std::string& bytes : {std::string("t,u\n0,1\0\n1,2\n", 13),

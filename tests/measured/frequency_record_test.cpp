@@ -1,11 +1,11 @@
 #include "measured/frequency_record.hpp"
 
 #include "arm/input_error.hpp"
+#include "tests/measured/any_finite.hpp"
 #include "tests/measured/mistake.hpp"
 
 #include <gtest/gtest.h>
 
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -20,17 +20,17 @@ using arm::SensorKind;
 
 constexpr Sensor kHubAngle{SensorKind::hub_angle, 0.0};
 constexpr Sensor kStrain{SensorKind::strain, 0.05};
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-const std::string kHead = "frequency [Hz],sensor,re,im,coherence\n";
+const std::string kFrequencyHead = "frequency [Hz],sensor,re,im,coherence\n";
 
 TEST(FrequencyRecord, EveryColumnReachesItsVector) {
   const auto record = parse_frequency_record(
-      kHead + "0.5,hub_angle,-2,+0.25,0.99\n1,hub_angle,-1,1e-3,\n0,strain@0.05,1,0,1\n", "f");
+      kFrequencyHead + "0.5,hub_angle,-2,+0.25,0.99\n1,hub_angle,-1,1e-3,\n0,strain@0.05,1,0,1\n",
+      "f");
   ASSERT_EQ(record.channels.size(), 2U);
-  EXPECT_EQ(
-      record.channels[0],
-      (FrequencyChannel{kHubAngle, {0.5, 1.0}, {{-2.0, 0.25}, {-1.0, 1e-3}}, {0.99, kUnknown}}));
+  EXPECT_EQ(record.channels[0],
+            (FrequencyChannel{kHubAngle, {0.5, 1.0}, {{-2.0, 0.25}, {-1.0, 1e-3}}, {0.99, kNaN}}));
   EXPECT_EQ(record.channels[1], (FrequencyChannel{kStrain, {0.0}, {{1.0, 0.0}}, {1.0}}));
 }
 
@@ -40,22 +40,15 @@ TEST(FrequencyRecord, ColumnsAndRowsStandInAnyOrder) {
       "hub_angle,4,3,6\r\nstrain@0.050,6,5,8\r\n",
       "f");
   ASSERT_EQ(record.channels.size(), 2U);
-  EXPECT_EQ(
-      record.channels[0],
-      (FrequencyChannel{kStrain, {7.0, 8.0}, {{1.0, 2.0}, {5.0, 6.0}}, {kUnknown, kUnknown}}));
+  EXPECT_EQ(record.channels[0],
+            (FrequencyChannel{kStrain, {7.0, 8.0}, {{1.0, 2.0}, {5.0, 6.0}}, {kNaN, kNaN}}));
 }
 
 TEST(FrequencyRecord, WhatIsUnknownIsEqualToWhatIsUnknownAlone) {
-  const FrequencyChannel unknown{kHubAngle, {1.0}, {1.0}, {kUnknown}};
+  const FrequencyChannel unknown{kHubAngle, {1.0}, {1.0}, {kNaN}};
   const FrequencyChannel known{kHubAngle, {1.0}, {1.0}, {0.5}};
   EXPECT_EQ(unknown, unknown);
   EXPECT_FALSE(unknown == known);
-}
-
-double any_finite(std::mt19937_64& random) {
-  double value = kUnknown;
-  while (!std::isfinite(value)) value = std::bit_cast<double>(random());
-  return value;
 }
 
 TEST(FrequencyRecord, WhatIsWrittenReadsBackBitForBit) {
@@ -68,7 +61,7 @@ TEST(FrequencyRecord, WhatIsWrittenReadsBackBitForBit) {
       channel.frequency_Hz.push_back(frequency_Hz += uniform(random) + 1e-9);
       const double real = any_finite(random);
       channel.response.emplace_back(real, any_finite(random));
-      channel.coherence.push_back(random() % 3 == 0 ? kUnknown : 1.0 - uniform(random));
+      channel.coherence.push_back(random() % 3 == 0 ? kNaN : 1.0 - uniform(random));
     }
   }
   record.channels[0].response[0] = {-0.0, 0.0};
@@ -86,7 +79,7 @@ TEST(FrequencyRecord, WhatCannotBeReadBackIsNotWritten) {
     }
     return "accepted";
   };
-  EXPECT_EQ(error_of({kHubAngle, {1.0}, {{1.0, kUnknown}}, {1.0}}),
+  EXPECT_EQ(error_of({kHubAngle, {1.0}, {{1.0, kNaN}}, {1.0}}),
             "hub_angle = 1 + nan i at 1 Hz: must be finite numbers");
   EXPECT_EQ(error_of({kHubAngle, {-1.0}, {1.0}, {1.0}}),
             "frequency [Hz] = -1 of hub_angle: must be a finite number, 0 or more");
@@ -104,14 +97,15 @@ TEST(FrequencyRecord, WhatCannotBeReadBackIsNotWritten) {
 
 TEST(FrequencyRecord, BytesAtRandomGiveARecordOrOneLine) {
   const std::string good =
-      kHead + "0.5,hub_angle,-2,+0.25,0.99\n# x\n1,hub_angle,\"-1\",1e-3,\n0,strain@0.05,1,0,1\n";
+      kFrequencyHead +
+      "0.5,hub_angle,-2,+0.25,0.99\n# x\n1,hub_angle,\"-1\",1e-3,\n0,strain@0.05,1,0,1\n";
   expect_result_or_one_line(good,
                             [](const std::string& text) { parse_frequency_record(text, "f"); });
 }
 
-const std::vector<Mistake> kMistakes = {
+const std::vector<Mistake> kFrequencyRecordMistakes = {
     {"Empty", "", "1: empty; the header is frequency [Hz],sensor,re,im,coherence"},
-    {"OnlyAHeader", kHead, "1: only a header; must have one row or more"},
+    {"OnlyAHeader", kFrequencyHead, "1: only a header; must have one row or more"},
     {"Semicolons", "frequency [Hz];sensor\n",
      "1: cells must be separated by commas, and numbers have a decimal point"},
     {"UnitMissing", "frequency,sensor,re,im\n",
@@ -123,22 +117,24 @@ const std::vector<Mistake> kMistakes = {
     {"ColumnMissing", "frequency [Hz],sensor,re\n",
      "1: column im: missing; the header is frequency [Hz],sensor,re,im,coherence"},
     {"ColumnTwice", "re,re\n", "1: column re: given twice"},
-    {"CellMissing", kHead + "1,hub_angle,1,0\n",
+    {"CellMissing", kFrequencyHead + "1,hub_angle,1,0\n",
      "2: 4 cells; the header has 5 (numbers have a decimal point)"},
-    {"SensorMisspelt", kHead + "1,hub_angel,1,0,1\n",
+    {"SensorMisspelt", kFrequencyHead + "1,hub_angel,1,0,1\n",
      "2: sensor hub_angel: unknown (did you mean hub_angle?); allowed: hub_angle, hub_velocity, "
      "tip_acceleration, tip_displacement, tip_deflection, strain@X (X in metres from the hub)"},
-    {"FrequencyNegative", kHead + "-1,hub_angle,1,0,1\n",
+    {"FrequencyNegative", kFrequencyHead + "-1,hub_angle,1,0,1\n",
      "2: frequency [Hz] = -1: must be a finite number, 0 or more"},
-    {"ResponseInfinite", kHead + "1,hub_angle,1,inf,1\n", "2: im = inf: must be a finite number"},
-    {"CoherenceZero", kHead + "1,hub_angle,1,0,0\n",
+    {"ResponseInfinite", kFrequencyHead + "1,hub_angle,1,inf,1\n",
+     "2: im = inf: must be a finite number"},
+    {"CoherenceZero", kFrequencyHead + "1,hub_angle,1,0,0\n",
      "2: coherence = 0: must be above 0 and 1 or less, or empty"},
-    {"CoherenceAboveOne", kHead + "1,hub_angle,1,0,1.01\n",
+    {"CoherenceAboveOne", kFrequencyHead + "1,hub_angle,1,0,1.01\n",
      "2: coherence = 1.01: must be above 0 and 1 or less, or empty"},
-    {"FrequencyTwice", kHead + "1,hub_angle,1,0,1\n1,strain@0.1,1,0,1\n1,hub_angle,2,0,1\n",
+    {"FrequencyTwice",
+     kFrequencyHead + "1,hub_angle,1,0,1\n1,strain@0.1,1,0,1\n1,hub_angle,2,0,1\n",
      "4: frequency [Hz] = 1: again the one before of hub_angle; must rise from row to row of a "
      "sensor"},
-    {"FrequencyBelow", kHead + "2,hub_angle,1,0,1\n1,hub_angle,2,0,1\n",
+    {"FrequencyBelow", kFrequencyHead + "2,hub_angle,1,0,1\n1,hub_angle,2,0,1\n",
      "3: frequency [Hz] = 1: below the one before of hub_angle; must rise from row to row of a "
      "sensor"},
 };
@@ -149,7 +145,8 @@ TEST_P(FrequencyRecordMistake, GivesOneLineWithPlaceReasonAndRemedy) {
   expect_line(GetParam(), "run.csv", parse_frequency_record);
 }
 
-INSTANTIATE_TEST_SUITE_P(, FrequencyRecordMistake, testing::ValuesIn(kMistakes), name_of_mistake);
+INSTANTIATE_TEST_SUITE_P(, FrequencyRecordMistake, testing::ValuesIn(kFrequencyRecordMistakes),
+                         name_of_mistake);
 
 }  // namespace
 }  // namespace flexarm::measured

@@ -11,8 +11,8 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr double kPeriod_s = 0.01;
-constexpr double kRounding = 1e-12;
+constexpr double kCoarsePeriod_s = 0.01;
+constexpr double kRatioRounding = 1e-12;
 
 /// y = x filtered by 1 + 0.5 z^-1, plus noise, from white x.
 struct Pair {
@@ -34,29 +34,29 @@ Pair noisy_pair(std::size_t samples, double output_noise, std::uint64_t seed,
 }
 
 Complex exact(double frequency_Hz) {
-  return 1.0 + 0.5 * std::polar(1.0, -kTwoPi * frequency_Hz * kPeriod_s);
+  return 1.0 + 0.5 * std::polar(1.0, -kTwoPi * frequency_Hz * kCoarsePeriod_s);
 }
 
 TEST(FrequencyResponseEstimatorsTest, OneSegmentHasCoherenceOneWhateverTheSignals) {
   const auto x = white_noise(64, 1);
   const auto y = white_noise(64, 2);
   const std::array<Signal, 1> outputs = {Signal{y}};
-  const auto found = estimate(cross_spectra({x}, outputs, kPeriod_s, {64, 64}), 0);
+  const auto found = estimate(cross_spectra({x}, outputs, kCoarsePeriod_s, {64, 64}), 0);
   for (std::size_t k = 1; k < 32; ++k) {
-    EXPECT_NEAR(found.coherence[k], 1.0, kRounding);
-    EXPECT_LT(std::abs(found.h1[k] - found.h2[k]), kRounding * std::abs(found.h1[k]) * 10.0);
+    EXPECT_NEAR(found.coherence[k], 1.0, kRatioRounding);
+    EXPECT_LT(std::abs(found.h1[k] - found.h2[k]), kRatioRounding * std::abs(found.h1[k]) * 10.0);
   }
 }
 
 TEST(FrequencyResponseEstimatorsTest, AreTiedAsTheEquationsSay) {
   const auto pair = noisy_pair(2000, 0.7, 3, 0.4);
   const std::array<Signal, 1> outputs = {Signal{pair.y}};
-  const auto found = estimate(cross_spectra({pair.x}, outputs, kPeriod_s, {100, 50}), 0);
+  const auto found = estimate(cross_spectra({pair.x}, outputs, kCoarsePeriod_s, {100, 50}), 0);
   for (std::size_t k = 1; k < 50; ++k) {
-    EXPECT_LT(std::abs(found.h1[k] / found.h2[k] - found.coherence[k]), kRounding);  // (46)
+    EXPECT_LT(std::abs(found.h1[k] / found.h2[k] - found.coherence[k]), kRatioRounding);  // (46)
     EXPECT_NEAR(std::abs(found.hv[k]), std::sqrt(std::abs(found.h1[k]) * std::abs(found.h2[k])),
-                kRounding);
-    EXPECT_NEAR(std::arg(found.hv[k]), std::arg(found.h1[k]), kRounding);
+                kRatioRounding);
+    EXPECT_NEAR(std::arg(found.hv[k]), std::arg(found.h1[k]), kRatioRounding);
     EXPECT_LE(std::abs(found.h1[k]), std::abs(found.h2[k]));
   }
 }
@@ -68,10 +68,10 @@ TEST(FrequencyResponseEstimatorsTest, EachIsUnbiasedForTheNoiseItIsMadeFor) {
   constexpr double kSpread = 0.025;
   const auto line = [](const Pair& pair) {
     const std::array<Signal, 1> outputs = {Signal{pair.y}};
-    return estimate(cross_spectra({pair.x}, outputs, kPeriod_s, {128, 43}), 0);
+    return estimate(cross_spectra({pair.x}, outputs, kCoarsePeriod_s, {128, 43}), 0);
   };
   const std::size_t k = 20;
-  const Complex h = exact(static_cast<double>(k) / (128 * kPeriod_s));
+  const Complex h = exact(static_cast<double>(k) / (128 * kCoarsePeriod_s));
   const auto out = line(noisy_pair(kSamples, 1.0, 5, 0.0));
   EXPECT_LT(std::abs(out.h1[k] - h), kSpread * std::abs(h));
   EXPECT_GT(std::abs(out.h2[k]), 1.3 * std::abs(h));
@@ -98,7 +98,7 @@ Coverage coverage(std::size_t segment, std::size_t shift, std::size_t samples, d
   for (int run = 0; run < kRuns; ++run) {
     const auto pair = noisy_pair(samples, noise, 1000 + static_cast<std::uint64_t>(run));
     const std::array<Signal, 1> outputs = {Signal{pair.y}};
-    const auto spectra = cross_spectra({pair.x}, outputs, kPeriod_s, {segment, shift});
+    const auto spectra = cross_spectra({pair.x}, outputs, kCoarsePeriod_s, {segment, shift});
     const auto h = estimate(spectra, 0);
     for (std::size_t k = 6; k < segment / 2 - 4; k += 5) {
       const Complex truth = exact(spectra.frequency_Hz[k]);
@@ -154,15 +154,16 @@ TEST(Coherence, OfFewAveragesIsBiasedAsStated) {
         noisy_pair(kSegment * kAverages, kNoise, 7000 + static_cast<std::uint64_t>(run));
     const std::array<Signal, 1> outputs = {Signal{pair.y}};
     const SegmentPlan plan{kSegment, kSegment};
-    const double g2 = estimate(cross_spectra({pair.x}, outputs, kPeriod_s, plan), 0).coherence[k];
+    const double g2 =
+        estimate(cross_spectra({pair.x}, outputs, kCoarsePeriod_s, plan), 0).coherence[k];
     mean += g2 / kRuns;
     square += g2 * g2 / kRuns;
     const auto other = white_noise(kSegment * kAverages, 90'000 + static_cast<std::uint64_t>(run));
     const std::array<Signal, 1> unrelated = {Signal{other}};
-    chance += estimate(cross_spectra({pair.x}, unrelated, kPeriod_s, plan), 0).coherence[k] >
+    chance += estimate(cross_spectra({pair.x}, unrelated, kCoarsePeriod_s, plan), 0).coherence[k] >
               coherence_of_chance(kAverages, 0.05);
   }
-  const double power = std::norm(exact(static_cast<double>(k) / (kSegment * kPeriod_s)));
+  const double power = std::norm(exact(static_cast<double>(k) / (kSegment * kCoarsePeriod_s)));
   const double g2 = power / (power + kNoise * kNoise);
   // The spread of a mean of 2000, four times; the formula's next order is 1/nd^3 or so.
   const double spread = coherence_std(g2, kAverages);
@@ -182,13 +183,14 @@ TEST(HoldResponse, IsTheIntegralOverAPeriod) {
   constexpr double kF_Hz = 13.0;
   // (1/T) int_0^T exp(-i w t) dt = (1 - exp(-i w T))/(i w T); of linear pieces its square advanced
   // by T.
-  const Complex i_w_t(0.0, kTwoPi * kF_Hz * kPeriod_s);
+  const Complex i_w_t(0.0, kTwoPi * kF_Hz * kCoarsePeriod_s);
   const Complex zero = (1.0 - std::exp(-i_w_t)) / i_w_t;
-  EXPECT_LT(std::abs(hold_response(TorqueHold::zero, kF_Hz, kPeriod_s) - zero), kRounding);
-  EXPECT_LT(
-      std::abs(hold_response(TorqueHold::first, kF_Hz, kPeriod_s) - zero * zero * std::exp(i_w_t)),
-      kRounding);
-  EXPECT_EQ(hold_response(TorqueHold::zero, 0.0, kPeriod_s), 1.0);
+  EXPECT_LT(std::abs(hold_response(TorqueHold::zero, kF_Hz, kCoarsePeriod_s) - zero),
+            kRatioRounding);
+  EXPECT_LT(std::abs(hold_response(TorqueHold::first, kF_Hz, kCoarsePeriod_s) -
+                     zero * zero * std::exp(i_w_t)),
+            kRatioRounding);
+  EXPECT_EQ(hold_response(TorqueHold::zero, 0.0, kCoarsePeriod_s), 1.0);
 }
 
 }  // namespace

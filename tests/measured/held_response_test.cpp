@@ -15,7 +15,7 @@ namespace {
 constexpr double kPeriod_s = 0.005;
 constexpr int kSamples = 400;
 /// Steps times the rounding of a step, and some.
-constexpr double kRounding = 1e-12;
+constexpr double kStepRounding = 1e-12;
 
 TEST(HeldResponse, OfAnOscillatorToAStepIsTheClosedForm) {
   const double omega = 75.0;
@@ -23,8 +23,8 @@ TEST(HeldResponse, OfAnOscillatorToAStepIsTheClosedForm) {
   Eigen::Vector4d x = Eigen::Vector4d::Zero();
   for (int k = 0; k < kSamples; ++k) {
     const double t = k * kPeriod_s;
-    EXPECT_NEAR(x(0) * omega * omega, 1.0 - std::cos(omega * t), kRounding);
-    EXPECT_NEAR(x(1) * omega, std::sin(omega * t), kRounding);
+    EXPECT_NEAR(x(0) * omega * omega, 1.0 - std::cos(omega * t), kStepRounding);
+    EXPECT_NEAR(x(1) * omega, std::sin(omega * t), kStepRounding);
     step.step(x, 1.0, 1.0);
   }
 }
@@ -34,8 +34,8 @@ TEST(HeldResponse, OfARigidBodyToARampIsACubic) {
   Eigen::Vector4d x = Eigen::Vector4d::Zero();
   for (int k = 0; k < kSamples; ++k) {
     const double t = k * kPeriod_s;
-    EXPECT_NEAR(x(0), t * t * t / 6.0, kRounding);
-    EXPECT_NEAR(x(1), t * t / 2.0, kRounding);
+    EXPECT_NEAR(x(0), t * t * t / 6.0, kStepRounding);
+    EXPECT_NEAR(x(1), t * t / 2.0, kStepRounding);
     step.step(x, t, t + kPeriod_s);
   }
 }
@@ -47,7 +47,7 @@ TEST(HeldResponse, OfRealPolesToAStepIsTheClosedForm) {
   for (int k = 0; k < kSamples; ++k) {
     const double t = k * kPeriod_s;
     const double expected = 1.0 / 60.0 - std::exp(-2.0 * t) / 56.0 + std::exp(-30.0 * t) / 840.0;
-    EXPECT_NEAR(x(0), expected, kRounding);
+    EXPECT_NEAR(x(0), expected, kStepRounding);
     step.step(x, 1.0, 1.0);
   }
 }
@@ -119,7 +119,7 @@ TEST(Triangle, HasTheCrossProductsOfTheRows) {
   const Eigen::MatrixXd difference = size.cwiseInverse().asDiagonal() *
                                      (r.transpose() * r - expected) *
                                      size.cwiseInverse().asDiagonal();
-  EXPECT_LT(difference.cwiseAbs().maxCoeff(), kRounding);
+  EXPECT_LT(difference.cwiseAbs().maxCoeff(), kStepRounding);
 }
 
 TEST(SecondOrderBlock, HasTheRootsOfItsPolynomial) {

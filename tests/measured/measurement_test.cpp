@@ -11,12 +11,12 @@
 namespace flexarm::measured {
 namespace {
 
-const std::string kHead = "name = \"bench\"\narm = \"arm.toml\"\n";
+const std::string kMeasurementHead = "name = \"bench\"\narm = \"arm.toml\"\n";
 const std::string kRun = "[[run]]\nid = \"a\"\nkind = \"time\"\nfile = \"a.csv\"\n";
 
 TEST(Measurement, EveryKeyReachesItsMember) {
   const Measurement measurement = parse_measurement(
-      kHead + kRun +
+      kMeasurementHead + kRun +
           "purpose = \"validation\"\ntorque_hold = \"first\"\ninitial = \"free\"\n"
           "payload = { mass = 0.06, inertia = 1 }\n[[run]]\nid = \"b\"\nkind = \"modal\"\n"
           "file = \"b.csv\"\npayload = { mass = 0 }\n",
@@ -34,7 +34,7 @@ TEST(Measurement, EveryKeyReachesItsMember) {
 
 TEST(Measurement, ColumnsAreMappedByStandardName) {
   const Measurement measurement = parse_measurement(
-      kHead + kRun +
+      kMeasurementHead + kRun +
           "columns = { time = { name = \"Time (ms)\", unit = \"ms\" }, torque = { name = \"Vm\", "
           "unit = \"V\", scale = 0.0215 }, \"strain@0.050\" = { name = \"eps\" } }\n",
       "m.toml");
@@ -90,67 +90,68 @@ TEST(Measurement, FilesStandBesideTheMeasurement) {
   EXPECT_EQ(beside("bench/m.toml", "/data/a.csv"), "/data/a.csv");
 }
 
-const std::vector<Mistake> kMistakes = {
+const std::vector<Mistake> kMeasurementMistakes = {
     {"Empty", " \n", "1: empty; a measurement file needs arm and at least one [[run]]"},
     {"ArmMissing", kRun, "1: arm: missing; must be the arm file, relative to this file"},
-    {"RunMissing", kHead, "1: run: missing; must be one [[run]] or more"},
-    {"RunIsATable", kHead + "[run]\nid = \"a\"\n",
+    {"RunMissing", kMeasurementHead, "1: run: missing; must be one [[run]] or more"},
+    {"RunIsATable", kMeasurementHead + "[run]\nid = \"a\"\n",
      "3: run: a table; must be one line [[run]] a run, then its keys"},
-    {"KeyMisspelt", kHead + "[[runs]]\nid = \"a\"\n",
+    {"KeyMisspelt", kMeasurementHead + "[[runs]]\nid = \"a\"\n",
      "3: runs: unknown key (did you mean run?); allowed: name, arm, run"},
-    {"KeyOfARunMisspelt", kHead + kRun + "purpos = \"estimation\"\n",
+    {"KeyOfARunMisspelt", kMeasurementHead + kRun + "purpos = \"estimation\"\n",
      "7: run.purpos: unknown key (did you mean purpose?); allowed: id, kind, file, purpose, "
      "torque_hold, payload, initial, columns"},
-    {"KindUnknown", kHead + "[[run]]\nid = \"a\"\nkind = \"tme\"\nfile = \"a.csv\"\n",
+    {"KindUnknown", kMeasurementHead + "[[run]]\nid = \"a\"\nkind = \"tme\"\nfile = \"a.csv\"\n",
      "5: run.kind = \"tme\": must be time or frf or modal (did you mean time?)"},
-    {"KindMissing", kHead + "[[run]]\nid = \"a\"\nfile = \"a.csv\"\n",
+    {"KindMissing", kMeasurementHead + "[[run]]\nid = \"a\"\nfile = \"a.csv\"\n",
      "3: run.kind: missing; must be \"time\", \"frf\" or \"modal\""},
-    {"FileMissing", kHead + "[[run]]\nid = \"a\"\nkind = \"time\"\n",
+    {"FileMissing", kMeasurementHead + "[[run]]\nid = \"a\"\nkind = \"time\"\n",
      "3: run.file: missing; must be the run's CSV file, relative to this file"},
-    {"FileIsANumber", kHead + "[[run]]\nid = \"a\"\nkind = \"time\"\nfile = 3\n",
+    {"FileIsANumber", kMeasurementHead + "[[run]]\nid = \"a\"\nkind = \"time\"\nfile = 3\n",
      "6: run.file = 3: a number; must be the name of a file in quotes"},
-    {"IdTwice", kHead + kRun + kRun, "8: run.id = \"a\": given twice; first on line 4"},
-    {"HoldUnknown", kHead + kRun + "torque_hold = \"second\"\n",
+    {"IdTwice", kMeasurementHead + kRun + kRun, "8: run.id = \"a\": given twice; first on line 4"},
+    {"HoldUnknown", kMeasurementHead + kRun + "torque_hold = \"second\"\n",
      "7: run.torque_hold = \"second\": must be zero or first"},
-    {"PurposeIsABoolean", kHead + kRun + "purpose = true\n",
+    {"PurposeIsABoolean", kMeasurementHead + kRun + "purpose = true\n",
      "7: run.purpose = true: a boolean; must be estimation or validation, in quotes"},
-    {"PayloadIsANumber", kHead + kRun + "payload = 0.06\n",
+    {"PayloadIsANumber", kMeasurementHead + kRun + "payload = 0.06\n",
      "7: run.payload = 0.06: a number; must be a table, as in { mass = 0.06, inertia = 0.0 }"},
-    {"PayloadNegative", kHead + kRun + "payload = { mass = -0.06 }\n",
+    {"PayloadNegative", kMeasurementHead + kRun + "payload = { mass = -0.06 }\n",
      "7: run.payload.mass = -0.06 kg: must be a finite number, 0 or more"},
-    {"PayloadMisspelt", kHead + kRun + "payload = { mas = 0.06 }\n",
+    {"PayloadMisspelt", kMeasurementHead + kRun + "payload = { mas = 0.06 }\n",
      "7: run.payload.mas: unknown key (did you mean mass?); allowed: mass, inertia"},
     {"ColumnsOfAModalRun",
-     kHead + "[[run]]\nid = \"a\"\nkind = \"modal\"\nfile = \"a.csv\"\n"
-             "columns = { time = { name = \"t\" } }\n",
+     kMeasurementHead + "[[run]]\nid = \"a\"\nkind = \"modal\"\nfile = \"a.csv\"\n"
+                        "columns = { time = { name = \"t\" } }\n",
      "7: run.columns: only a time run has them; must be left out"},
-    {"ColumnOfNoQuantity", kHead + kRun + "columns = { hub_angel = { name = \"a\" } }\n",
+    {"ColumnOfNoQuantity", kMeasurementHead + kRun + "columns = { hub_angel = { name = \"a\" } }\n",
      "7: run.columns: sensor hub_angel: unknown (did you mean hub_angle?); allowed: hub_angle, "
      "hub_velocity, tip_acceleration, tip_displacement, tip_deflection, strain@X (X in metres from "
      "the hub); beside time and torque"},
-    {"ColumnWithoutName", kHead + kRun + "columns = { time = { unit = \"ms\" } }\n",
+    {"ColumnWithoutName", kMeasurementHead + kRun + "columns = { time = { unit = \"ms\" } }\n",
      "7: run.columns.time.name: missing; must be a column of the file"},
-    {"ColumnIsAText", kHead + kRun + "columns = { time = \"t\" }\n",
+    {"ColumnIsAText", kMeasurementHead + kRun + "columns = { time = \"t\" }\n",
      "7: run.columns.time = \"t\": a string; must be a table, as in { name = \"Time (ms)\", unit = "
      "\"ms\", scale = 1.0 }"},
-    {"ColumnsAreAText", kHead + kRun + "columns = \"t\"\n",
+    {"ColumnsAreAText", kMeasurementHead + kRun + "columns = \"t\"\n",
      "7: run.columns = \"t\": a string; must be a table, as in { torque = { name = \"Vm\", unit = "
      "\"N m\" } }"},
     {"ForeignUnitWithoutScale",
-     kHead + kRun + "columns = { torque = { name = \"Vm\", unit = \"V\" } }\n",
+     kMeasurementHead + kRun + "columns = { torque = { name = \"Vm\", unit = \"V\" } }\n",
      "7: run.columns.torque.unit = V: is none of N m, N mm; scale is needed then, in N m per V"},
-    {"ScaleZero", kHead + kRun + "columns = { torque = { name = \"Vm\", scale = 0 } }\n",
+    {"ScaleZero", kMeasurementHead + kRun + "columns = { torque = { name = \"Vm\", scale = 0 } }\n",
      "7: run.columns.torque.scale = 0: must be a finite number, not 0"},
-    {"ScaleIsAText", kHead + kRun + "columns = { torque = { name = \"Vm\", scale = \"1\" } }\n",
+    {"ScaleIsAText",
+     kMeasurementHead + kRun + "columns = { torque = { name = \"Vm\", scale = \"1\" } }\n",
      "7: run.columns.torque.scale = \"1\": a string; must be a finite number, not 0"},
-    {"ColumnKeyMisspelt", kHead + kRun + "columns = { torque = { nam = \"Vm\" } }\n",
+    {"ColumnKeyMisspelt", kMeasurementHead + kRun + "columns = { torque = { nam = \"Vm\" } }\n",
      "7: run.columns.torque.nam: unknown key (did you mean name?); allowed: name, unit, scale"},
     {"PlaceAlongTheBeamTwice",
-     kHead + kRun +
+     kMeasurementHead + kRun +
          "columns.\"strain@0.05\" = { name = \"a\" }\ncolumns.\"strain@0.050\" = { name = \"b\" "
          "}\n",
      "8: run.columns.strain@0.050: strain@0.05 is given twice"},
-    {"TheFirstMistakeOfTheFile", kHead + kRun + "initial = \"fre\"\npurpose = 1\n",
+    {"TheFirstMistakeOfTheFile", kMeasurementHead + kRun + "initial = \"fre\"\npurpose = 1\n",
      "7: run.initial = \"fre\": must be rest or free (did you mean free?)"},
 };
 
@@ -160,7 +161,8 @@ TEST_P(MeasurementMistake, GivesOneLineWithPlaceReasonAndRemedy) {
   expect_line(GetParam(), "m.toml", parse_measurement);
 }
 
-INSTANTIATE_TEST_SUITE_P(, MeasurementMistake, testing::ValuesIn(kMistakes), name_of_mistake);
+INSTANTIATE_TEST_SUITE_P(, MeasurementMistake, testing::ValuesIn(kMeasurementMistakes),
+                         name_of_mistake);
 
 }  // namespace
 }  // namespace flexarm::measured

@@ -85,7 +85,7 @@ const std::string kAllowed =
     "; allowed: sensor, feature, order, frequency [Hz], frequency_std [Hz], damping_ratio, "
     "damping_ratio_std";
 
-const std::vector<Mistake> kMistakes = {
+const std::vector<Mistake> kModalTableMistakes = {
     {"Empty", "\n", "1: empty; the header is " + kHeader},
     {"ColumnMisspelt", "sensor,featrue,order,frequency [Hz]\n",
      "1: column featrue: unknown (did you mean feature?)" + kAllowed},
@@ -143,7 +143,8 @@ TEST_P(ModalTableMistake, GivesOneLineWithPlaceReasonAndRemedy) {
   expect_line(GetParam(), "modal.csv", parse_modal_table);
 }
 
-INSTANTIATE_TEST_SUITE_P(, ModalTableMistake, testing::ValuesIn(kMistakes), name_of_mistake);
+INSTANTIATE_TEST_SUITE_P(, ModalTableMistake, testing::ValuesIn(kModalTableMistakes),
+                         name_of_mistake);
 
 }  // namespace
 }  // namespace flexarm::measured

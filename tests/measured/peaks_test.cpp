@@ -13,8 +13,6 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr double kPeriod_s = 0.005;
-
 std::vector<double> even_lines(double spacing_Hz, std::size_t count) {
   std::vector<double> lines(count);
   for (std::size_t k = 0; k < count; ++k) lines[k] = spacing_Hz * static_cast<double>(k + 1);

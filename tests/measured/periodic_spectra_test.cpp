@@ -14,8 +14,6 @@
 namespace flexarm::measured {
 namespace {
 
-constexpr double kPeriod_s = 0.005;
-
 std::vector<double> repeated(const std::vector<double>& period, std::size_t samples) {
   std::vector<double> values(samples);
   for (std::size_t j = 0; j < samples; ++j) values[j] = period[j % period.size()];

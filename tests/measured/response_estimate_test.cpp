@@ -12,8 +12,6 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr double kPeriod_s = 0.005;
-
 /// The report of a setting.
 const SettingReport& report_of(const FrequencyResponseEstimate& estimate, const std::string& name) {
   const auto& reports = estimate.settings.reports;

@@ -12,6 +12,8 @@
 namespace flexarm::measured {
 
 inline constexpr double kTwoPi = 2.0 * std::numbers::pi;
+/// Between samples.
+inline constexpr double kPeriod_s = 0.005;
 
 /// White normal noise of standard deviation 1.
 inline std::vector<double> white_noise(std::size_t samples, std::uint64_t seed,

@@ -2,12 +2,12 @@
 
 #include "arm/input_error.hpp"
 #include "arm/text_file.hpp"
+#include "tests/measured/any_finite.hpp"
 #include "tests/measured/mistake.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <bit>
 #include <chrono>
 #include <cmath>
 #include <cstdint>
@@ -58,13 +58,6 @@ TEST(TimeRecord, ATorqueAloneIsARecord) {
   const TimeRecord record = parse_time_record("time [s],torque [N m]\n0,0.1\n0.002,0.2\n", "r");
   EXPECT_EQ(record.torque_N_m, (std::vector{0.1, 0.2}));
   EXPECT_TRUE(record.channels.empty());
-}
-
-/// Any finite double, subnormal ones included.
-double any_finite(std::mt19937_64& random) {
-  double value = std::numeric_limits<double>::quiet_NaN();
-  while (!std::isfinite(value)) value = std::bit_cast<double>(random());
-  return value;
 }
 
 TEST(TimeRecord, WhatIsWrittenReadsBackBitForBit) {
@@ -157,12 +150,12 @@ std::string record_with(int samples, Change change) {
   return text;
 }
 
-const std::string kHead = "time [s],torque [N m],hub_angle [rad]\n";
+const std::string kTimeHead = "time [s],torque [N m],hub_angle [rad]\n";
 
-const std::vector<Mistake> kMistakes = {
+const std::vector<Mistake> kTimeRecordMistakes = {
     {"Empty", "", "1: empty; the header is time [s],torque [N m],hub_angle [rad],..."},
-    {"OnlyAHeader", kHead, "1: only a header; must have two samples or more"},
-    {"OneSample", kHead + "0,0,0\n", "2: one sample; must have two or more"},
+    {"OnlyAHeader", kTimeHead, "1: only a header; must have two samples or more"},
+    {"OneSample", kTimeHead + "0,0,0\n", "2: one sample; must have two or more"},
     {"SensorMisspelt", "time [s],torque [N m],hub_angel [rad]\n0,0,0\n",
      "1: column: sensor hub_angel: unknown (did you mean hub_angle?); allowed: hub_angle, "
      "hub_velocity, tip_acceleration, tip_displacement, tip_deflection, strain@X (X in metres from "
@@ -188,21 +181,22 @@ const std::vector<Mistake> kMistakes = {
      "torque"},
     {"Semicolons", "time [s];torque [N m]\n",
      "1: cells must be separated by commas, and numbers have a decimal point"},
-    {"DecimalComma", kHead + "0,0,0\n0,002,0,0\n",
+    {"DecimalComma", kTimeHead + "0,0,0\n0,002,0,0\n",
      "3: 4 cells; the header has 3 (numbers have a decimal point)"},
-    {"QuoteNotClosed", kHead + "0,0,0\n\"0.002,0,0\n",
+    {"QuoteNotClosed", kTimeHead + "0,0,0\n\"0.002,0,0\n",
      "3: a quote is not closed; end the cell with \""},
-    {"NotANumber", kHead + "0,0,0\n0.002,0,1.2.3\n",
+    {"NotANumber", kTimeHead + "0,0,0\n0.002,0,1.2.3\n",
      "3: hub_angle = 1.2.3 rad: must be a finite number"},
-    {"Nan", kHead + "0,0,0\n# lost\n0.002,NaN,0\n", "4: torque = NaN N m: must be a finite number"},
-    {"Infinite", kHead + "0,0,-inf\n", "2: hub_angle = -inf rad: must be a finite number"},
+    {"Nan", kTimeHead + "0,0,0\n# lost\n0.002,NaN,0\n",
+     "4: torque = NaN N m: must be a finite number"},
+    {"Infinite", kTimeHead + "0,0,-inf\n", "2: hub_angle = -inf rad: must be a finite number"},
     {"TooLargeInSi", "time [s],torque [N m],tip_acceleration [g]\n0,0,1e308\n",
      "2: tip_acceleration = 1e308 g: must be a finite number"},
-    {"CellEmpty", kHead + "0,0,\n",
+    {"CellEmpty", kTimeHead + "0,0,\n",
      "2: hub_angle = : must be a finite number; no cell may be empty"},
-    {"TimeRepeated", kHead + "0,0,0\n0.002,0,0\n0.002,0,0\n0.004,0,0\n",
+    {"TimeRepeated", kTimeHead + "0,0,0\n0.002,0,0\n0.002,0,0\n0.004,0,0\n",
      "4: time = 0.002 s: the time of the sample before again; must rise from row to row"},
-    {"TimeBackward", kHead + "0,0,0\n0.004,0,0\n0.002,0,0\n",
+    {"TimeBackward", kTimeHead + "0,0,0\n0.004,0,0\n0.002,0,0\n",
      "4: time = 0.002 s: before the sample above, which is at 0.004 s; must rise from row to row"},
     {"OneSampleMissing", record_with(100, [](int k) { return 0.002 * (k < 50 ? k : k + 1); }),
      "52: gap: 1 sample is missing between 0.098 s and 0.102 s, where the step is 0.004 s and the "
@@ -211,7 +205,7 @@ const std::vector<Mistake> kMistakes = {
      record_with(100, [](int k) { return 0.002 * (k + (k >= 50 ? 7 : 0) + (k >= 80 ? 2 : 0)); }),
      "52: gap: 7 samples are missing between 0.098 s and 0.114 s, where the step is 0.016 s and "
      "the period 0.002 s, and 1 more gap; split the record there, or fill it"},
-    {"GapAfterFewSamples", kHead + "0,0,0\n0.002,0,0\n1e9,0,0\n",
+    {"GapAfterFewSamples", kTimeHead + "0,0,0\n0.002,0,0\n1e9,0,0\n",
      "4: gap: 499999999998 samples are missing between 0.002 s and 1000000000 s, where the step is "
      "1e+09 s and the period 0.002 s; split the record there, or fill it"},
     {"Jitter", record_with(101, [](int k) { return 0.002 * k + (k == 30 ? 0.0003 : 0.0); }),
@@ -228,7 +222,8 @@ TEST_P(TimeRecordMistake, GivesOneLineWithPlaceReasonAndRemedy) {
   expect_line(GetParam(), "run.csv", parse_time_record);
 }
 
-INSTANTIATE_TEST_SUITE_P(, TimeRecordMistake, testing::ValuesIn(kMistakes), name_of_mistake);
+INSTANTIATE_TEST_SUITE_P(, TimeRecordMistake, testing::ValuesIn(kTimeRecordMistakes),
+                         name_of_mistake);
 
 }  // namespace
 }  // namespace flexarm::measured

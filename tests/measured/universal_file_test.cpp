@@ -2,6 +2,7 @@
 
 #include "arm/input_error.hpp"
 #include "measured/universal_grid.hpp"
+#include "tests/measured/any_finite.hpp"
 #include "tests/measured/mistake.hpp"
 
 #include <fmt/format.h>
@@ -23,12 +24,6 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
-
-double any_finite(std::mt19937_64& random) {
-  double value = std::numeric_limits<double>::quiet_NaN();
-  while (!std::isfinite(value)) value = std::bit_cast<double>(random());
-  return value;
-}
 
 bool is_same(const std::vector<double>& a, const std::vector<double>& b) {
   return std::ranges::equal(a, b, [](double x, double y) {
@@ -235,7 +230,7 @@ TEST(UniversalFile, MutatedFilesGiveARecordOrOneLine) {
   }
 }
 
-const std::vector<Mistake> kMistakes = {
+const std::vector<Mistake> kUniversalFileMistakes = {
     {"Empty", "\n", "1: empty; must have one data set 58 or more"},
     {"NoUniversalFile", "t,u\n0,1\n",
      "1: not a universal file: a data set begins with a line of -1 alone"},
@@ -268,7 +263,8 @@ TEST_P(UniversalMistake, GivesOneLineWithPlaceReasonAndRemedy) {
   expect_line(GetParam(), "run.uff", parse_universal_file);
 }
 
-INSTANTIATE_TEST_SUITE_P(, UniversalMistake, testing::ValuesIn(kMistakes), name_of_mistake);
+INSTANTIATE_TEST_SUITE_P(, UniversalMistake, testing::ValuesIn(kUniversalFileMistakes),
+                         name_of_mistake);
 
 }  // namespace
 }  // namespace flexarm::measured

@@ -8,7 +8,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <limits>
 #include <stdexcept>
 
 namespace flexarm::report {
@@ -17,8 +16,6 @@ namespace {
 using testing::DoubleNear;
 using testing::ElementsAre;
 using testing::HasSubstr;
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// Two sensors at 0, 1, ... 5 Hz.
 measured::FrequencyResponseEstimate small_estimate() {

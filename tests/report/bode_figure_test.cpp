@@ -21,7 +21,7 @@ using testing::HasSubstr;
 
 constexpr double kAngleTolerance_deg = 1e-12;  // a few roundings of numbers up to 1000
 
-BodePlot plot() {
+BodePlot bode_plot() {
   return {
       .title = "torque to hub_angle",
       .unit = "rad/(N m)",
@@ -30,18 +30,18 @@ BodePlot plot() {
 }
 
 TEST(BodeFigure, ThirdPanelIsTheRelativeDifferenceFromTheFirstCurve) {
-  const Figure figure = bode_figure(plot());
+  const Figure figure = bode_figure(bode_plot());
   ASSERT_EQ(figure.stacks.at(0).panels.size(), 3U);
   EXPECT_THAT(figure.stacks[0].panels[2].series.at(0).y,
               ElementsAre(0x1p-53, DoubleNear(1e-6, 1e-15), 0x1p-53));
 
-  BodePlot one = plot();
+  BodePlot one = bode_plot();
   one.curves.pop_back();
   EXPECT_EQ(bode_figure(one).stacks[0].panels.size(), 2U);
 }
 
 TEST(BodeFigure, DecibelsAreTwentyTimesTheLogarithm) {
-  BodePlot decibel = plot();
+  BodePlot decibel = bode_plot();
   decibel.magnitude = Magnitude::decibel;
   const Panel panel = bode_figure(decibel).stacks[0].panels[0];
   EXPECT_EQ(panel.y.unit, "dB re 1 rad/(N m)");
@@ -49,7 +49,7 @@ TEST(BodeFigure, DecibelsAreTwentyTimesTheLogarithm) {
 }
 
 TEST(BodeFigure, PolesAndZerosWithinTheFrequenciesAreMarkedBelowTheCurves) {
-  BodePlot marked = plot();
+  BodePlot marked = bode_plot();
   marked.poles_Hz = {0.5, 11.0, 200.0};
   marked.zeros_Hz = {3.0};
   const auto series = bode_figure(marked).stacks[0].panels[0].series;
@@ -60,7 +60,7 @@ TEST(BodeFigure, PolesAndZerosWithinTheFrequenciesAreMarkedBelowTheCurves) {
 }
 
 TEST(BodeFigure, AWrapIsAGap) {
-  BodePlot wrapping = plot();
+  BodePlot wrapping = bode_plot();
   wrapping.curves = {{"a", {}}};
   for (const double angle_deg : {100.0, 130.0, 140.0}) {
     wrapping.curves[0].response.push_back(std::polar(2.0, angle_deg * std::numbers::pi / 180.0));
@@ -72,13 +72,13 @@ TEST(BodeFigure, AWrapIsAGap) {
 }
 
 TEST(BodeFigure, AResponseOfAnotherLengthIsRefused) {
-  BodePlot bad = plot();
+  BodePlot bad = bode_plot();
   bad.curves[1].response.pop_back();
   EXPECT_THROW(bode_figure(bad), std::invalid_argument);
 }
 
 TEST(BodeFigure, DrawsWithAxesUnitsAndNames) {
-  const std::string svg = to_svg(bode_figure(plot()));
+  const std::string svg = to_svg(bode_figure(bode_plot()));
   for (const char* text : {"frequency [Hz]", "magnitude [rad/(N m)]", "phase [deg]",
                            "relative difference", "exact_tf", "fem", "−180"}) {
     EXPECT_THAT(svg, HasSubstr(std::string("<text>") + text + "</text>"));

@@ -16,7 +16,7 @@ namespace {
 using testing::HasSubstr;
 
 /// Errors of order 4 that end in rounding, and an exact zero.
-ConvergencePlot plot() {
+ConvergencePlot convergence_plot() {
   ConvergencePlot plot;
   plot.title = "convergence";
   for (int mode = 1; mode <= 10; ++mode) {
@@ -36,7 +36,7 @@ ConvergencePlot plot() {
 }
 
 TEST(ConvergenceFigure, HasAColourAFormulationAndAMarkerAMode) {
-  const Figure figure = convergence_figure(plot());
+  const Figure figure = convergence_figure(convergence_plot());
   const auto& series = figure.stacks.at(0).panels.at(0).series;
   ASSERT_EQ(series.size(), 22U);
   EXPECT_EQ(series[0].name, "fem, pole 1");
@@ -51,12 +51,12 @@ TEST(ConvergenceFigure, HasAColourAFormulationAndAMarkerAMode) {
 }
 
 TEST(ConvergenceFigure, AnErrorOfZeroIsDrawnAtHalfAnEpsilon) {
-  const Figure figure = convergence_figure(plot());
+  const Figure figure = convergence_figure(convergence_plot());
   EXPECT_EQ(figure.stacks[0].panels[0].series[1].y[1], kSmallestDrawnError);
 }
 
 TEST(ConvergenceFigure, AReferenceSlopeHasItsOrderAndLiesAboveTheFallingCurves) {
-  const Figure figure = convergence_figure(plot());
+  const Figure figure = convergence_figure(convergence_plot());
   const Series& slope = figure.stacks[0].panels[0].series[20];
   ASSERT_EQ(slope.name, "order 4 (fem)");
   EXPECT_NEAR(std::log(slope.y[0] / slope.y[1]) / std::log(slope.x[1] / slope.x[0]), 4.0, 1e-12);
@@ -66,7 +66,7 @@ TEST(ConvergenceFigure, AReferenceSlopeHasItsOrderAndLiesAboveTheFallingCurves) 
 }
 
 TEST(ConvergenceFigure, ASlopeWithNothingToLieAboveIsLeftOut) {
-  ConvergencePlot coarse = plot();
+  ConvergencePlot coarse = convergence_plot();
   coarse.curves = {{"fem", "pole 1", {5, 9}, {0.3, 0.05}}};
   const Figure figure = convergence_figure(coarse);
   ASSERT_EQ(figure.stacks[0].panels[0].series.size(), 2U);
@@ -74,13 +74,13 @@ TEST(ConvergenceFigure, ASlopeWithNothingToLieAboveIsLeftOut) {
 }
 
 TEST(ConvergenceFigure, ACurveOfTwoLengthsIsRefused) {
-  ConvergencePlot bad = plot();
+  ConvergencePlot bad = convergence_plot();
   bad.curves[0].relative_error.pop_back();
   EXPECT_THROW(convergence_figure(bad), std::invalid_argument);
 }
 
 TEST(ConvergenceFigure, DrawsEveryCurveAndNamesItInTheLegend) {
-  const std::string svg = to_svg(convergence_figure(plot()));
+  const std::string svg = to_svg(convergence_figure(convergence_plot()));
   for (const char* text : {"<text>fem</text>", "<text>assumed_modes</text>", "<text>pole 10</text>",
                            "<text>order 4 (fem)</text>", "<text>rounding</text>",
                            "<title>assumed_modes, pole 10</title>"}) {

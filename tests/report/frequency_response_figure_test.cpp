@@ -9,7 +9,6 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <limits>
 #include <stdexcept>
 
 namespace flexarm::report {
@@ -17,8 +16,6 @@ namespace {
 
 using Complex = std::complex<double>;
 using testing::HasSubstr;
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// 300 lines of a flat response with the values that the tests look at in between.
 MeasuredResponse flat() {

@@ -14,11 +14,14 @@
 #include <cmath>
 #include <complex>
 #include <cstddef>
+#include <limits>
 #include <numbers>
 #include <string>
 #include <vector>
 
 namespace flexarm::report {
+
+inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// A minute of the paper's arm under random torque, 200 Hz, with 1 % noise.
 inline measured::FitCase sample_case() {

@@ -13,7 +13,7 @@ namespace {
 
 using testing::HasSubstr;
 
-ModeShapePlot plot(int modes) {
+ModeShapePlot mode_shape_plot(int modes) {
   ModeShapePlot plot{.title = "Mode shapes", .station_m = {0.0, 0.5, 1.0}, .modes = {}};
   for (int i = 1; i <= modes; ++i) {
     plot.modes.push_back(
@@ -23,8 +23,8 @@ ModeShapePlot plot(int modes) {
 }
 
 TEST(ModeShapeFigure, HasAPanelAModeInAtMostTwoColumns) {
-  EXPECT_EQ(mode_shape_figure(plot(3)).stacks.size(), 1U);
-  const Figure five = mode_shape_figure(plot(5));
+  EXPECT_EQ(mode_shape_figure(mode_shape_plot(3)).stacks.size(), 1U);
+  const Figure five = mode_shape_figure(mode_shape_plot(5));
   ASSERT_EQ(five.stacks.size(), 2U);
   EXPECT_EQ(five.stacks[0].panels.size(), 3U);
   EXPECT_EQ(five.stacks[1].panels.size(), 2U);
@@ -32,7 +32,7 @@ TEST(ModeShapeFigure, HasAPanelAModeInAtMostTwoColumns) {
 }
 
 TEST(ModeShapeFigure, AShapeOfAnotherLengthIsRefused) {
-  ModeShapePlot bad = plot(1);
+  ModeShapePlot bad = mode_shape_plot(1);
   bad.modes[0].curves[1].displacement.pop_back();
   EXPECT_THROW(mode_shape_figure(bad), std::invalid_argument);
   bad.station_m.clear();
@@ -40,7 +40,7 @@ TEST(ModeShapeFigure, AShapeOfAnotherLengthIsRefused) {
 }
 
 TEST(ModeShapeFigure, DrawsEveryModeAndFormulation) {
-  const std::string svg = to_svg(mode_shape_figure(plot(5)));
+  const std::string svg = to_svg(mode_shape_figure(mode_shape_plot(5)));
   for (const char* text : {"mode 1", "mode 5", "displacement [m]", "exact_tf", "fem",
                            "distance from the motor axis [m]"}) {
     EXPECT_THAT(svg, HasSubstr(std::string("<text>") + text + "</text>"));

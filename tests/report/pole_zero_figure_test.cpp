@@ -29,7 +29,7 @@ const Series& series_named(const Panel& panel, const std::string& name) {
   throw std::out_of_range(name);
 }
 
-PoleZeroPlot plot() {
+PoleZeroPlot pole_zero_plot() {
   const std::vector<Root> poles = mirrored({{0, 75}, {0, 203}, {0, 4600}});
   const std::vector<Root> zeros = mirrored({{57, 0}, {310, 0}});
   return {"torque to tip_acceleration", {{"exact_tf", poles, zeros}, {"fem", poles, zeros}}};
@@ -43,7 +43,7 @@ TEST(PoleZeroFigure, MirrorImagesArePairsOnAnAxisAndQuadruplesOffThem) {
 }
 
 TEST(PoleZeroFigure, BothAxesOfThePlaneAreAlike) {
-  const PanelStack plane = pole_zero_figure(plot()).stacks.at(0);
+  const PanelStack plane = pole_zero_figure(pole_zero_plot()).stacks.at(0);
   const Axis& y = plane.panels.at(0).y;
   EXPECT_TRUE(plane.square);
   EXPECT_EQ(plane.x.minimum, y.minimum);
@@ -58,7 +58,7 @@ TEST(PoleZeroFigure, BothAxesOfThePlaneAreAlike) {
 }
 
 TEST(PoleZeroFigure, RowsPartTheRootsByTheNearerAxis) {
-  const PanelStack strips = pole_zero_figure(plot()).stacks.at(1);
+  const PanelStack strips = pole_zero_figure(pole_zero_plot()).stacks.at(1);
   ASSERT_EQ(strips.panels.size(), 2U);
   EXPECT_EQ(series_named(strips.panels[0], "fem, poles").x.front(), 75.0);
   EXPECT_THROW(series_named(strips.panels[0], "fem, zeros"), std::out_of_range);
@@ -66,13 +66,13 @@ TEST(PoleZeroFigure, RowsPartTheRootsByTheNearerAxis) {
 }
 
 TEST(PoleZeroFigure, NoMarkerIsCutAtTheEndsOfTheRows) {
-  const Axis x = pole_zero_figure(plot()).stacks.at(1).x;
+  const Axis x = pole_zero_figure(pole_zero_plot()).stacks.at(1).x;
   EXPECT_LT(x.minimum.value(), 0.95 * 57.0);
   EXPECT_GT(x.maximum.value(), 1.05 * 4600.0);
 }
 
 TEST(PoleZeroFigure, RootsAtTheOriginAndAtInfinityAreLeftOut) {
-  PoleZeroPlot odd = plot();
+  PoleZeroPlot odd = pole_zero_plot();
   odd.sets[0].zeros_rad_per_s = {{0, 0}, {std::numeric_limits<double>::infinity(), 0}, {0, 9}};
   const PanelStack plane = pole_zero_figure(odd).stacks.at(0);
   EXPECT_EQ(series_named(plane.panels[0], "exact_tf, zeros").y.size(), 1U);
@@ -80,7 +80,7 @@ TEST(PoleZeroFigure, RootsAtTheOriginAndAtInfinityAreLeftOut) {
 }
 
 TEST(PoleZeroFigure, DrawsEveryFormulation) {
-  const std::string svg = to_svg(pole_zero_figure(plot()));
+  const std::string svg = to_svg(pole_zero_figure(pole_zero_plot()));
   for (const char* text : {"Re s [rad/s]", "Im s [rad/s]", "|s| [rad/s]", "exact_tf", "fem", "pole",
                            "zero", "−1000"}) {
     EXPECT_THAT(svg, HasSubstr(std::string("<text>") + text + "</text>"));

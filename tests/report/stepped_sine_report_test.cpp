@@ -16,7 +16,7 @@ namespace {
 using testing::HasSubstr;
 
 /// Two bands, and a hub that does not move.
-SteppedSineRun sample_run() {
+SteppedSineRun sine_run() {
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   SteppedSineRun run;
   run.id = "fine";
@@ -34,33 +34,33 @@ SteppedSineRun sample_run() {
 }
 
 TEST(SteppedSineReport, TellsWhereResponsesAreLargestAndSmallest) {
-  const Table table = stepped_response_table({sample_run()});
+  const Table table = stepped_response_table({sine_run()});
   ASSERT_EQ(table.rows.size(), 2U);
   EXPECT_EQ(std::get<std::string>(table.rows[0][2]), "m/s^2/(N m)");
   EXPECT_EQ(std::get<double>(table.rows[0][3]), 5.0);
   EXPECT_EQ(std::get<double>(table.rows[0][4]), 1.0);
   EXPECT_EQ(std::get<double>(table.rows[0][5]), 0.5);
   EXPECT_EQ(std::get<double>(table.rows[0][6]), 9.0);
-  EXPECT_THAT(to_text(stepped_sine_table({sample_run()})), HasSubstr("2.0e-09"));
-  EXPECT_EQ(std::get<std::int64_t>(stepped_hub_motion_table({sample_run()}).rows[0][2]), 3);
+  EXPECT_THAT(to_text(stepped_sine_table({sine_run()})), HasSubstr("2.0e-09"));
+  EXPECT_EQ(std::get<std::int64_t>(stepped_hub_motion_table({sine_run()}).rows[0][2]), 3);
 }
 
 TEST(SteppedSineReport, DrawsASensorUnlessItReadsNothing) {
-  const auto plots = stepped_sine_plots("rig", sample_run());
+  const auto plots = stepped_sine_plots("rig", sine_run());
   ASSERT_EQ(plots.size(), 1U);
   EXPECT_EQ(plots[0].file_name, "fine-tip_acceleration.svg");
   EXPECT_THAT(plots[0].svg, HasSubstr("rig, fine: torque to tip_acceleration, stepped sine"));
 }
 
 TEST(SteppedSineReport, IsAFrequencyRecordThatReadsBack) {
-  const auto record = frequency_record(sample_run());
+  const auto record = frequency_record(sine_run());
   EXPECT_EQ(measured::parse_frequency_record(measured::format_frequency_record(record), "x.csv"),
             record);
   EXPECT_EQ(record.channels[0].response[0], (std::complex<double>(3.0, 4.0)));
 }
 
 TEST(SteppedSineReport, UnknownCoherenceIsNullInJson) {
-  const auto json = nlohmann::json::parse(stepped_runs_json({sample_run()}).dump());
+  const auto json = nlohmann::json::parse(stepped_runs_json({sine_run()}).dump());
   EXPECT_EQ(json[0]["channels"][0]["coherence"][4], 0.5);
   EXPECT_TRUE(json[0]["channels"][1]["coherence"][0].is_null());
   EXPECT_EQ(json[0]["channels"][0]["im"][0], 4.0);

@@ -12,7 +12,7 @@
 namespace flexarm::report {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kGap = std::numeric_limits<double>::quiet_NaN();
 constexpr double kWidth_px = 500.0;
 constexpr std::size_t kPoints = 100'000;
 const Axis kLinear{};
@@ -28,7 +28,7 @@ Series wave(std::size_t points = kPoints) {
   return series;
 }
 
-std::size_t gaps(const Series& series) {
+std::size_t gap_count(const Series& series) {
   return static_cast<std::size_t>(
       std::ranges::count_if(series.y, [](double value) { return std::isnan(value); }));
 }
@@ -44,12 +44,12 @@ TEST(ThinnedSeries, OfALongOneExtremesEndsAndOrderRemain) {
   EXPECT_TRUE(std::ranges::is_sorted(shown.x));
   EXPECT_EQ(shown.x.front(), series.x.front());
   EXPECT_EQ(shown.x.back(), series.x.back());
-  EXPECT_EQ(gaps(shown), 0U);
+  EXPECT_EQ(gap_count(shown), 0U);
 }
 
 TEST(ThinnedSeries, EveryColumnOfALogarithmicAxisKeepsItsRange) {
   Series series = wave();
-  series.x.front() = kNaN;
+  series.x.front() = kGap;
   const Range range{1.0, static_cast<double>(kPoints)};
   const Series shown = thinned(series, kLogarithmic, kLogarithmic, range, kWidth_px);
   const double columns_per_decade = kWidth_px / std::log10(range.to);
@@ -69,12 +69,12 @@ TEST(ThinnedSeries, EveryColumnOfALogarithmicAxisKeepsItsRange) {
 
 TEST(ThinnedSeries, GapsRemainBetweenThePointsThatDo) {
   Series series = wave();
-  for (std::size_t k = 40'000; k < 60'000; ++k) series.y[k] = kNaN;
-  for (std::size_t k = 80'000; k < 80'050; ++k) series.y[k] = kNaN;  // within one column
+  for (std::size_t k = 40'000; k < 60'000; ++k) series.y[k] = kGap;
+  for (std::size_t k = 80'000; k < 80'050; ++k) series.y[k] = kGap;  // within one column
   const Series shown = thinned(series, kLinear, kLinear, kAll, kWidth_px);
-  EXPECT_EQ(gaps(shown), 2U);
+  EXPECT_EQ(gap_count(shown), 2U);
   const Series positive = thinned(series, kLinear, kLogarithmic, kAll, kWidth_px);
-  EXPECT_EQ(gaps(positive), 2U);
+  EXPECT_EQ(gap_count(positive), 2U);
 }
 
 TEST(ThinnedSeries, AnAreaKeepsTheExtremesOfBothSides) {

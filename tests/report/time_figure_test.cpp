@@ -17,7 +17,7 @@ namespace {
 
 using testing::HasSubstr;
 
-TimePlot plot(std::size_t samples) {
+TimePlot time_plot(std::size_t samples) {
   TimePlot plot{.title = "arm: bang-bang", .time_s = {}, .panels = {}};
   std::vector<double> wave;
   for (std::size_t k = 0; k < samples; ++k) {
@@ -33,7 +33,7 @@ TimePlot plot(std::size_t samples) {
 }
 
 TEST(TimeFigure, StacksThePanelsOnOneTimeAxis) {
-  const Figure figure = time_figure(plot(100));
+  const Figure figure = time_figure(time_plot(100));
   ASSERT_EQ(figure.stacks.size(), 1U);
   EXPECT_EQ(figure.stacks[0].x.label, "time");
   ASSERT_EQ(figure.stacks[0].panels.size(), 3U);
@@ -43,13 +43,13 @@ TEST(TimeFigure, StacksThePanelsOnOneTimeAxis) {
 }
 
 TEST(TimeFigure, OfALongSignalWhatShowsIsDrawn) {
-  TimePlot one = plot(1'000'000);
+  TimePlot one = time_plot(1'000'000);
   one.panels.resize(2);
   EXPECT_LT(to_svg(time_figure(one)).size(), 400'000U);
 }
 
 TEST(TimeFigure, DrawsEveryPanelAndTheLegendOfThoseWithSeveralCurves) {
-  const std::string svg = to_svg(time_figure(plot(500)));
+  const std::string svg = to_svg(time_figure(time_plot(500)));
   for (const char* text : {"arm: bang-bang", "torque [N m]", "hub angle [rad]", "strain at 0.05 m",
                            "time [s]", "commanded", "at the hub"}) {
     EXPECT_THAT(svg, HasSubstr(std::string("<text>") + text + "</text>"));
@@ -57,7 +57,7 @@ TEST(TimeFigure, DrawsEveryPanelAndTheLegendOfThoseWithSeveralCurves) {
 }
 
 TEST(TimeFigure, ACurveOfAnotherLengthIsRefused) {
-  TimePlot bad = plot(10);
+  TimePlot bad = time_plot(10);
   bad.panels[1].curves[0].values.pop_back();
   EXPECT_THROW(time_figure(bad), std::invalid_argument);
   bad.panels.clear();

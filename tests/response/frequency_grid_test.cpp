@@ -14,7 +14,7 @@ namespace flexarm::response {
 namespace {
 
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
-constexpr double kRounding = 1e-13;  // of a power with an exponent of up to 100
+constexpr double kPowerRounding = 1e-13;  // of a power with an exponent of up to 100
 
 TEST(FrequencyGrid, LogarithmicFrequenciesHaveOneRatioAndBothEnds) {
   const auto frequency = logarithmic_frequencies({.from_Hz = 0.5, .to_Hz = 50.0, .points = 5});
@@ -22,7 +22,7 @@ TEST(FrequencyGrid, LogarithmicFrequenciesHaveOneRatioAndBothEnds) {
   EXPECT_EQ(frequency.front(), 0.5);
   EXPECT_EQ(frequency.back(), 50.0);
   for (std::size_t i = 1; i < frequency.size(); ++i) {
-    EXPECT_NEAR(frequency[i] / frequency[i - 1], std::sqrt(10.0), kRounding);
+    EXPECT_NEAR(frequency[i] / frequency[i - 1], std::sqrt(10.0), kPowerRounding);
   }
 }
 

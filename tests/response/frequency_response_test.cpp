@@ -12,7 +12,7 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr double kRounding = 1e-14;  // some forty epsilon: a handful of complex operations
+constexpr double kResponseRounding = 1e-14;  // some forty epsilon: a handful of complex operations
 
 arm::Arm arm_with_a_chain() {
   arm::Arm arm = damped_arm();
@@ -38,8 +38,8 @@ TEST(FrequencyResponse, TheChainIsTheSameForEveryFormulation) {
       const Complex torque = 1.25 * std::exp(-3e-3 * s) / (1.0 + 2e-3 * s);
       const Complex hub = transfer_function(model, sensors[0], s) * torque;
       const Complex tip = transfer_function(model, sensors[1], s) * torque / (1.0 + 4e-3 * s);
-      EXPECT_LT(std::abs(response.values[0][i] - hub), kRounding * std::abs(hub));
-      EXPECT_LT(std::abs(response.values[1][i] - tip), kRounding * std::abs(tip));
+      EXPECT_LT(std::abs(response.values[0][i] - hub), kResponseRounding * std::abs(hub));
+      EXPECT_LT(std::abs(response.values[1][i] - tip), kResponseRounding * std::abs(tip));
     }
   }
 }

@@ -19,16 +19,15 @@ namespace flexarm::response {
 namespace {
 
 using Complex = std::complex<double>;
-constexpr double kPi = std::numbers::pi;
 
 /// What 20 modes and their residual leave out at 20 Hz: (f/f_21)^2 = 3e-5 of the part of the modes
 /// left out in the static strain near the root, some 1e-3 of it; less in all others.
 constexpr double kTruncation = 1e-7;
 /// The formulations' modes agree to some 1e-12; phases of 6000 rad/s run for 2 s.
-constexpr double kRounding = 1e-10;
+constexpr double kPhaseRounding = 1e-10;
 
 /// The paper's arm with damping that lets transients die in some seconds.
-arm::Arm damped_arm() {
+arm::Arm settling_arm() {
   arm::Arm arm = arm::paper_arm();
   arm.damping.kelvin_voigt_s = 4e-4;
   arm.hub.viscous_friction_N_m_s_per_rad = 0.1;
@@ -52,7 +51,7 @@ struct Multisine {
 
   Multisine() {
     std::mt19937 random(7);
-    std::uniform_real_distribution<double> phase(0.0, 2.0 * kPi);
+    std::uniform_real_distribution<double> phase(0.0, 2.0 * std::numbers::pi);
     for (int k = 1; k <= kHighestHarmonic; k += 2) {
       harmonics.push_back(k);
       amplitudes.push_back(std::polar(0.01, phase(random)));
@@ -64,7 +63,7 @@ struct Multisine {
     for (std::size_t i = 0; i < torque.size(); ++i) {
       for (std::size_t h = 0; h < harmonics.size(); ++h) {
         const double angle =
-            2.0 * kPi * harmonics[h] * static_cast<double>(i % kSamples) / kSamples;
+            2.0 * std::numbers::pi * harmonics[h] * static_cast<double>(i % kSamples) / kSamples;
         torque[i] += 2.0 * (amplitudes[h] * std::polar(1.0, angle)).real();
       }
     }
@@ -80,8 +79,8 @@ Complex coefficient(const std::vector<double>& values, int k) {
   Complex sum = 0.0;
   const std::size_t first = values.size() - Multisine::kSamples;
   for (std::size_t i = 0; i < Multisine::kSamples; ++i) {
-    sum += values[first + i] *
-           std::polar(1.0, -2.0 * kPi * k * static_cast<double>(i) / Multisine::kSamples);
+    sum += values[first + i] * std::polar(1.0, -2.0 * std::numbers::pi * k *
+                                                   static_cast<double>(i) / Multisine::kSamples);
   }
   return sum / static_cast<double>(Multisine::kSamples);
 }
@@ -95,17 +94,17 @@ Complex exact_coefficient(const exact_tf::ExactArm& exact, const arm::Sensor& se
   Complex sum = 0.0;
   for (int m = -kImages; m <= kImages; ++m) {
     const double harmonic = k + static_cast<double>(m) * Multisine::kSamples;
-    const double x = kPi * harmonic / Multisine::kSamples;
+    const double x = std::numbers::pi * harmonic / Multisine::kSamples;
     const double sinc = std::sin(x) / x;
-    sum +=
-        amplitude * sinc * sinc *
-        exact.transfer_function(sensor, Complex(0.0, 2.0 * kPi * harmonic / Multisine::kPeriod_s));
+    sum += amplitude * sinc * sinc *
+           exact.transfer_function(
+               sensor, Complex(0.0, 2.0 * std::numbers::pi * harmonic / Multisine::kPeriod_s));
   }
   return sum;
 }
 
 TEST(LinearSimulation, OfAMultisineShowsTheExactTransferFunctionAtEverySensor) {
-  const auto arm = damped_arm();
+  const auto arm = settling_arm();
   const auto sensors = every_sensor();
   const AnyFormulation formulation = make_formulation("exact_tf", arm, 20);
   const auto model =
@@ -161,7 +160,8 @@ void expect_formulations_agree(const ArmParts& parts) {
         peak = std::max(peak, std::abs(exact.channels[j][k]));
         difference = std::max(difference, std::abs(exact.channels[j][k] - other.channels[j][k]));
       }
-      EXPECT_LT(difference, kRounding * peak) << name << ", " << arm::to_string(every_sensor()[j]);
+      EXPECT_LT(difference, kPhaseRounding * peak)
+          << name << ", " << arm::to_string(every_sensor()[j]);
     }
   }
 }

@@ -13,7 +13,7 @@ namespace {
 using Complex = std::complex<double>;
 
 /// Rounding of a sum of 256 terms whose largest is 1e3, the drift.
-constexpr double kRounding = 1e-11;
+constexpr double kSumRounding = 1e-11;
 
 TEST(SineCorrelation, TakesOutAnOffsetARampAndAParabola) {
   const SineCorrelation correlation(64, 4);
@@ -24,9 +24,10 @@ TEST(SineCorrelation, TakesOutAnOffsetARampAndAParabola) {
                       0.01 * k * k);
   }
   const auto part = correlation.of(samples);
-  EXPECT_LT(std::abs(part.whole - Complex(0.3, -0.7)), kRounding);
+  EXPECT_LT(std::abs(part.whole - Complex(0.3, -0.7)), kSumRounding);
   ASSERT_EQ(part.cycles.size(), 4U);
-  for (const auto& cycle : part.cycles) EXPECT_LT(std::abs(cycle - Complex(0.3, -0.7)), kRounding);
+  for (const auto& cycle : part.cycles)
+    EXPECT_LT(std::abs(cycle - Complex(0.3, -0.7)), kSumRounding);
 }
 
 TEST(SineCorrelation, HarmonicsBelongToTheSineOnlyWhereSamplingFoldsThemOntoIt) {
@@ -37,7 +38,8 @@ TEST(SineCorrelation, HarmonicsBelongToTheSineOnlyWhereSamplingFoldsThemOntoIt) 
       samples.push_back(std::cos(2.0 * std::numbers::pi * harmonic * k / 16.0));
     }
     const bool folds = harmonic == 15 || harmonic == 17;
-    EXPECT_NEAR(std::abs(correlation.of(samples).whole), folds ? 1.0 : 0.0, kRounding) << harmonic;
+    EXPECT_NEAR(std::abs(correlation.of(samples).whole), folds ? 1.0 : 0.0, kSumRounding)
+        << harmonic;
   }
 }
 

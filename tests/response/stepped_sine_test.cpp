@@ -26,7 +26,7 @@ using testing::HasSubstr;
 /// Rounding of e^(A h), of 64 steps of it and of the sum of the modes, over the condition of
 /// 1 - e^(A T), which is 1/(2 pi zeta), some 100 here: 1e-16 * 64 * 100, and a sum whose terms
 /// cancel to a hundredth near the zeros.
-constexpr double kRounding = 1e-10;
+constexpr double kSteadyRounding = 1e-10;
 /// With every mode of the mesh the modal sum is the mesh's own response, which its transfer
 /// function has from its matrices: condition 1e9 of those of 30 degrees of freedom or more, times
 /// epsilon.
@@ -99,7 +99,8 @@ TEST(SteppedSineOfALinearArm, IsTheSumOfItsModes) {
         expected.push_back(modal_response(model, sensors, s)[j] * actuator_response(chain, s) *
                            reading_response(chain, sensors[j], s));
       }
-      EXPECT_LT(worst(made, j, expected), kRounding) << name << ", " << arm::to_string(sensors[j]);
+      EXPECT_LT(worst(made, j, expected), kSteadyRounding)
+          << name << ", " << arm::to_string(sensors[j]);
     }
   }
 }
@@ -151,7 +152,7 @@ TEST(SteppedSineThatSettles, KeepsWhatIsLeftOfTheTransientAndSaysSo) {
   }
   sine.settle_s.reset();
   const auto steady = measure_stepped_sine(model, parts, sensors, sine);
-  EXPECT_LT(std::abs(steady.values[1][0] - expected), kRounding * std::abs(expected));
+  EXPECT_LT(std::abs(steady.values[1][0] - expected), kSteadyRounding * std::abs(expected));
   EXPECT_EQ(steady.summary.unsettled, 0);
 }
 

@@ -20,7 +20,7 @@ constexpr double kTorque_N_m = 0.3;
 const double kSquaring =
     kPhase * static_cast<double>(std::numeric_limits<long double>::epsilon()) * kSamples;
 /// Rounding of states and sums to double, once a sample.
-constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon() * kSamples;
+constexpr double kStateRounding = 4 * std::numeric_limits<double>::epsilon() * kSamples;
 
 ArmParts linear_parts(double hub_viscous_friction) {
   ArmParts parts = coulomb(0.0);
@@ -37,15 +37,15 @@ TEST(StiffArm, OfAnInertiaInViscousFrictionIsTheClosedForm) {
     const double t = made.time_s[k];
     const double speed = -kTorque_N_m / c * std::expm1(-c * t);
     const double angle = kTorque_N_m / c * (t + std::expm1(-c * t) / c);
-    EXPECT_NEAR(made.channels[0][k], angle, (kSquaring + kRounding) * angle) << k;
-    EXPECT_NEAR(made.channels[1][k], speed, (kSquaring + kRounding) * speed) << k;
+    EXPECT_NEAR(made.channels[0][k], angle, (kSquaring + kStateRounding) * angle) << k;
+    EXPECT_NEAR(made.channels[1][k], speed, (kSquaring + kStateRounding) * speed) << k;
   }
   const EnergyBalance& energy = made.energy;
   EXPECT_NEAR(energy.work_in_J, kTorque_N_m * made.channels[0].back(),
-              (kSquaring + kRounding) * energy.work_in_J);
+              (kSquaring + kStateRounding) * energy.work_in_J);
   EXPECT_NEAR(energy.viscous_J, energy.work_in_J, 1e-3 * energy.work_in_J);
-  EXPECT_LT(energy.largest_residual_J, (kSquaring + kRounding) * energy.work_in_J);
-  EXPECT_LT(energy.material_air_J, kRounding * energy.viscous_J);
+  EXPECT_LT(energy.largest_residual_J, (kSquaring + kStateRounding) * energy.work_in_J);
+  EXPECT_LT(energy.material_air_J, kStateRounding * energy.viscous_J);
 }
 
 TEST(StiffArm, OfAnOverdampedSpringIsTheClosedForm) {
@@ -60,9 +60,9 @@ TEST(StiffArm, OfAnOverdampedSpringIsTheClosedForm) {
     const double angle = kTorque_N_m / kStiffness *
                          (slow * std::expm1(fast * t) - fast * std::expm1(slow * t)) /
                          (fast - slow);
-    EXPECT_NEAR(made.channels[0][k], angle, (kSquaring + kRounding) * angle) << k;
+    EXPECT_NEAR(made.channels[0][k], angle, (kSquaring + kStateRounding) * angle) << k;
   }
-  EXPECT_LT(made.energy.largest_residual_J, (kSquaring + kRounding) * made.energy.work_in_J);
+  EXPECT_LT(made.energy.largest_residual_J, (kSquaring + kStateRounding) * made.energy.work_in_J);
   EXPECT_GT(made.energy.material_air_J, 0.9 * made.energy.work_in_J);
 }
 

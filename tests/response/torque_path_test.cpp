@@ -12,7 +12,7 @@
 namespace flexarm::response {
 namespace {
 
-constexpr double kRounding = 1e-12;  // of values of order 1 over some thousand steps
+constexpr double kChainRounding = 1e-12;  // of values of order 1 over some thousand steps
 
 /// The path's torque at `samples` (a time in sample intervals), from its pieces.
 double at(const TorquePath& path, double samples) {
@@ -44,7 +44,7 @@ TEST(TorquePath, LinearTorqueIsDelayedMultipliedAndClippedInThisOrder) {
     }
     const double amplified = 2.0 * command;
     const double beyond = std::max(0.0, std::abs(amplified) - 0.5);
-    EXPECT_NEAR(at(path, t), std::copysign(std::min(1.25, beyond), amplified), kRounding) << t;
+    EXPECT_NEAR(at(path, t), std::copysign(std::min(1.25, beyond), amplified), kChainRounding) << t;
   }
 }
 
@@ -95,8 +95,8 @@ TEST(ActuatorChain, LagIsExactAlsoWhereItIsShorterThanTheSampleTime) {
     for (std::size_t k = 0; k < made.time_s.size(); ++k) {
       const double t = made.time_s[k];
       const double rise = -std::expm1(-t / lag);
-      EXPECT_NEAR(made.hub_torque_N_m[k], 0.25 + rise, kRounding);
-      EXPECT_NEAR(made.channels[1][k], 0.25 * t + t - lag * rise, kRounding);
+      EXPECT_NEAR(made.hub_torque_N_m[k], 0.25 + rise, kChainRounding);
+      EXPECT_NEAR(made.channels[1][k], 0.25 * t + t - lag * rise, kChainRounding);
     }
   }
 }
@@ -108,7 +108,7 @@ TEST(ActuatorChain, ARampIsClippedWhereItCrossesTheLimit) {
   const auto made = free_hub({.saturation_N_m = 1.234, .ripple = {}}, torque, h, TorqueHold::first);
   for (std::size_t k = 0; k < made.time_s.size(); ++k) {
     const double t = std::min(made.time_s[k], 1.234);
-    EXPECT_NEAR(made.channels[1][k], 0.5 * t * t + 1.234 * (made.time_s[k] - t), kRounding);
+    EXPECT_NEAR(made.channels[1][k], 0.5 * t * t + 1.234 * (made.time_s[k] - t), kChainRounding);
   }
 }
 
@@ -138,8 +138,8 @@ TEST(SensorLag, ReadsThroughAFirstOrderLag) {
                              {.sample_time_s = 1e-3});
   for (std::size_t k = 0; k < made.time_s.size(); ++k) {
     const double t = made.time_s[k];
-    EXPECT_NEAR(made.channels[0][k], 0.5 * t * t, kRounding);
-    EXPECT_NEAR(made.channels[1][k], t + lag * std::expm1(-t / lag), kRounding);
+    EXPECT_NEAR(made.channels[0][k], 0.5 * t * t, kChainRounding);
+    EXPECT_NEAR(made.channels[1][k], t + lag * std::expm1(-t / lag), kChainRounding);
   }
 }
 

@@ -61,13 +61,14 @@ std::string_view reason(UnmetCondition condition) {
   throw std::logic_error("condition outside its enumeration");
 }
 
-enum class Root { pole, hub_zero };
+enum class RootKind { pole, hub_zero };
 
 /// Slowest first.
-std::vector<UnmetCondition> unmet_conditions(const arm::LinearArm& arm, Basis basis, Root root) {
+std::vector<UnmetCondition> unmet_conditions(const arm::LinearArm& arm, Basis basis,
+                                             RootKind root) {
   if (basis == Basis::legendre) return {};
   std::vector<UnmetCondition> unmet;
-  const bool root_is_loaded = root == Root::hub_zero || arm.hub_inertia_kg_m2 > 0.0 ||
+  const bool root_is_loaded = root == RootKind::hub_zero || arm.hub_inertia_kg_m2 > 0.0 ||
                               arm.hub_spring_N_m_per_rad > 0.0 || arm.hub_radius_m > 0.0;
   if (basis == Basis::pinned_free && root_is_loaded) unmet.push_back(UnmetCondition::root_moment);
   const bool carries_payload = basis == Basis::clamped_with_payload;
@@ -75,20 +76,20 @@ std::vector<UnmetCondition> unmet_conditions(const arm::LinearArm& arm, Basis ba
     unmet.push_back(UnmetCondition::tip_moment);
   }
   if (!carries_payload && arm.payload_mass_kg > 0.0) unmet.push_back(UnmetCondition::tip_shear);
-  const bool root_moves = root == Root::pole && arm.hub_radius_m > 0.0;
+  const bool root_moves = root == RootKind::pole && arm.hub_radius_m > 0.0;
   if (root_moves || arm.gravity_m_per_s2 != 0.0 ||
       (carries_payload && arm.payload_first_moment_kg_m != 0.0)) {
     unmet.push_back(UnmetCondition::root_displacement);
   }
-  if (basis != Basis::pinned_free && root == Root::pole) {
+  if (basis != Basis::pinned_free && root == RootKind::pole) {
     unmet.push_back(UnmetCondition::root_rotation);
   }
   return unmet;
 }
 
-double frequency_rad_per_s(const AssumedModesArm& model, Root kind, int root) {
+double frequency_rad_per_s(const AssumedModesArm& model, RootKind kind, int root) {
   const auto index = static_cast<std::size_t>(root) - 1;
-  return kind == Root::pole
+  return kind == RootKind::pole
              ? model.poles(root).omega_rad_per_s[index]
              : model.zeros({arm::SensorKind::hub_angle}, root).s_rad_per_s[index].imag();
 }
@@ -139,10 +140,10 @@ std::string sentence(Basis basis, const RootConvergence& series) {
 }
 
 RootConvergence convergence(const std::vector<AssumedModesArm>& models,
-                            const AssumedModesArm& reference, Root kind, int root) {
+                            const AssumedModesArm& reference, RootKind kind, int root) {
   const Basis basis = models.front().options().basis;
   RootConvergence result;
-  result.root = fmt::format("{} {}", kind == Root::pole ? "pole" : "hub zero", root);
+  result.root = fmt::format("{} {}", kind == RootKind::pole ? "pole" : "hub zero", root);
   result.unmet = unmet_conditions(arm::linear_arm(reference.arm()), basis, kind);
   result.predicted_order =
       result.unmet.empty() ? kInfiniteOrder : 2.0 * coefficient_decay(result.unmet.front()) - 1.0;
@@ -166,8 +167,8 @@ BasisReport describe_convergence(const arm::Arm& arm, Basis basis, int root) {
   std::vector<AssumedModesArm> models;
   for (const int functions : kSeries)
     models.emplace_back(arm, AssumedModesOptions{basis, functions});
-  return {basis, convergence(models, reference, Root::pole, root),
-          convergence(models, reference, Root::hub_zero, root)};
+  return {basis, convergence(models, reference, RootKind::pole, root),
+          convergence(models, reference, RootKind::hub_zero, root)};
 }
 
 }  // namespace flexarm::assumed_modes

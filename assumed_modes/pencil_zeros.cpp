@@ -13,7 +13,7 @@ namespace flexarm::assumed_modes {
 namespace {
 
 /// Between the first zeros of a beam, and on none of them by accident.
-constexpr Real kShift = 37.3L;
+constexpr Real kZeroShift = 37.3L;
 
 /// The rows of `matrix` on the left null space (-root, I) of the hub's row (1, root).
 Matrix rows_beside_hub(const Matrix& matrix, const Vector& hub) {
@@ -80,9 +80,9 @@ Reduced reduced_problem(const AdmissibleFunctions& functions, const ScaledArm& a
                 .solve(without_first(mass, output))};
   }
   const Matrix moving = with_first(mass, output);
-  return {
-      Eigen::PartialPivLU<Matrix>(with_first(stiffness, output) + kShift * moving).solve(moving),
-      kShift};
+  return {Eigen::PartialPivLU<Matrix>(with_first(stiffness, output) + kZeroShift * moving)
+              .solve(moving),
+          kZeroShift};
 }
 
 }  // namespace

@@ -13,4 +13,9 @@ static_assert(std::numeric_limits<Real>::digits >= 64);
 using Vector = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
 using Matrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
 
+/// The lower triangle mirrored: symmetric to the last bit.
+inline Matrix mirrored(const Matrix& lower) {
+  return lower.selfadjointView<Eigen::Lower>();
+}
+
 }  // namespace flexarm::assumed_modes

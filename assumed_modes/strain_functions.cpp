@@ -23,11 +23,6 @@ void set_orthonormal(Matrix& series, Eigen::Index first, Eigen::Index count, Rea
   }
 }
 
-/// The lower triangle mirrored: symmetric to the last bit.
-Matrix mirrored(const Matrix& lower) {
-  return lower.selfadjointView<Eigen::Lower>();
-}
-
 }  // namespace
 
 StrainFunctions::StrainFunctions(const ScaledArm& arm, StrainFunctionCount count) {

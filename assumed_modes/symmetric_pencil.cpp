@@ -8,11 +8,6 @@ namespace flexarm::assumed_modes {
 
 namespace {
 
-/// The lower triangle mirrored: symmetric to the last bit.
-Matrix mirrored(const Matrix& lower) {
-  return lower.selfadjointView<Eigen::Lower>();
-}
-
 /// T^T A T with T = (-share^T; I).
 Matrix reduced(const Matrix& whole, const Vector& share) {
   if (whole.size() == 0) return {};

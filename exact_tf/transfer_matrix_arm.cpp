@@ -19,7 +19,7 @@ namespace flexarm::exact_tf {
 
 namespace {
 
-void require_count(int count) {
+void require_chain_count(int count) {
   if (count > TransferMatrixArm::kMostRoots) {
     throw arm::out_of_range(
         "count", count, "",
@@ -96,7 +96,7 @@ TransferMatrixArm::TransferMatrixArm(const arm::LinearArm& arm)
 }
 
 arm::PoleSet TransferMatrixArm::poles(int count) const {
-  require_count(count);
+  require_chain_count(count);
   auto roots = find_chain_poles(units_, count);
   const Real scale = units_.omega_scale_rad_per_s;
   arm::PoleSet set;
@@ -110,7 +110,7 @@ arm::PoleSet TransferMatrixArm::poles(int count) const {
 }
 
 arm::DampedPoleSet TransferMatrixArm::damped_poles(int count) const {
-  require_count(count);
+  require_chain_count(count);
   const auto roots = find_chain_poles(units_, count);
   const Real scale = units_.omega_scale_rad_per_s;
   const ChainModes shapes(units_, roots.omega_squared);
@@ -153,7 +153,7 @@ arm::ZeroSet TransferMatrixArm::hub_zeros(int count) const {
 }
 
 arm::ZeroSet TransferMatrixArm::zeros(const arm::Sensor& sensor, int count) const {
-  require_count(count);
+  require_chain_count(count);
   if (is_collocated(sensor)) return hub_zeros(count);
   const Real position = in_units(sensor.position_m);
   const bool divided = vanishes_at_rest(units_, sensor.kind);
@@ -174,7 +174,7 @@ arm::ZeroSet TransferMatrixArm::zeros(const arm::Sensor& sensor, int count) cons
 
 arm::ModalModel TransferMatrixArm::modal_model(int count, std::span<const arm::Sensor> sensors,
                                                std::span<const double> stations_m) const {
-  require_count(count);
+  require_chain_count(count);
   const auto roots = find_chain_poles(units_, count);
   const ChainModes shapes(units_, roots.omega_squared);
   const Real scale = units_.omega_scale_rad_per_s;

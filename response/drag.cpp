@@ -12,7 +12,7 @@ namespace flexarm::response {
 namespace {
 
 constexpr int kParts = 6;
-using Rule = boost::math::quadrature::gauss<double, 10>;
+using GaussRule = boost::math::quadrature::gauss<double, 10>;
 
 }  // namespace
 
@@ -21,13 +21,13 @@ DragStations drag_stations(double length_m) {
   const double half = 0.5 * length_m / kParts;
   for (int part = 0; part < kParts; ++part) {
     const double middle = (2 * part + 1) * half;
-    for (std::size_t k = Rule::abscissa().size(); k-- > 0;) {
-      rule.stations_m.push_back(middle - half * Rule::abscissa()[k]);
-      rule.weights_m.push_back(half * Rule::weights()[k]);
+    for (std::size_t k = GaussRule::abscissa().size(); k-- > 0;) {
+      rule.stations_m.push_back(middle - half * GaussRule::abscissa()[k]);
+      rule.weights_m.push_back(half * GaussRule::weights()[k]);
     }
-    for (std::size_t k = 0; k < Rule::abscissa().size(); ++k) {
-      rule.stations_m.push_back(middle + half * Rule::abscissa()[k]);
-      rule.weights_m.push_back(half * Rule::weights()[k]);
+    for (std::size_t k = 0; k < GaussRule::abscissa().size(); ++k) {
+      rule.stations_m.push_back(middle + half * GaussRule::abscissa()[k]);
+      rule.weights_m.push_back(half * GaussRule::weights()[k]);
     }
   }
   return rule;

@@ -10,7 +10,7 @@ namespace flexarm::response {
 
 namespace {
 
-constexpr double kNarrowest = 0x1p-40;
+constexpr double kNarrowestInterval = 0x1p-40;
 
 double slope(std::span<const double> series, double r) {
   double sum = 0.0;
@@ -36,7 +36,7 @@ struct Search {
     const double curvature =
         std::abs(second_derivative(series, middle)) + 0.5 * length * third_derivative;
     if (pb >= 0.0 && std::min(pa, pb) >= curvature * length * length / 8.0) return std::nullopt;
-    if (length < kNarrowest) return pb < 0.0 ? std::optional(b) : std::nullopt;
+    if (length < kNarrowestInterval) return pb < 0.0 ? std::optional(b) : std::nullopt;
     if (pa > 0.0 && pb < 0.0 && -slope(series, middle) > curvature * length / 2.0) {
       return bracketed(a, pa, b, pb);
     }

@@ -16,7 +16,6 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr double kTwoPi = 2.0 * std::numbers::pi;
 constexpr double kBelowFirstPole = 20.0;
 constexpr double kBelowLowestPole = 5.0;
 
@@ -33,8 +32,8 @@ FrequencyGrid grid_of(const AnyFormulation& formulation, const ResponseOptions& 
         std::min(lowest, std::sqrt(pole_set.lowest_omega_squared_rad2_per_s2) / kBelowLowestPole);
   }
   FrequencyGrid grid;
-  grid.from_Hz = options.from_Hz.value_or(lowest / kTwoPi);
-  grid.to_Hz = options.to_Hz.value_or(last / kTwoPi);
+  grid.from_Hz = options.from_Hz.value_or(lowest / (2.0 * std::numbers::pi));
+  grid.to_Hz = options.to_Hz.value_or(last / (2.0 * std::numbers::pi));
   grid.points = options.points;
   return grid;
 }
@@ -44,7 +43,7 @@ int poles_up_to(const AnyFormulation& formulation, const ResponseOptions& option
   int count = options.modes;
   while (count < kMostFeatures) {
     const auto known = poles(formulation, count).omega_rad_per_s;
-    if (std::ssize(known) < count || known.back() > kTwoPi * to_Hz) break;
+    if (std::ssize(known) < count || known.back() > 2.0 * std::numbers::pi * to_Hz) break;
     count = std::min(2 * count, kMostFeatures);
   }
   return count;
@@ -83,8 +82,8 @@ int roots_needed(const arm::Arm& arm, const ResponseOptions& options) {
   constexpr double kMost = 1e9;
   double highest_Hz = options.to_Hz.value_or(0.0);
   if (!options.frequency_Hz.empty()) highest_Hz = options.frequency_Hz.back();
-  const double lambda =
-      std::sqrt(std::max(0.0, kTwoPi * highest_Hz) / arm::omega_scale_rad_per_s(arm));
+  const double lambda = std::sqrt(std::max(0.0, 2.0 * std::numbers::pi * highest_Hz) /
+                                  arm::omega_scale_rad_per_s(arm));
   const double below = std::min(std::ceil(lambda / std::numbers::pi), kMost);
   return std::max(options.modes + 1, static_cast<int>(below) + kSofter);
 }

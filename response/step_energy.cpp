@@ -20,7 +20,7 @@ constexpr double kShortPhase = 0.5;
 
 /// Up to this many rows sums are formed in extended precision, some tenths of a second at most: the
 /// error of e^(M dt) grows with |M dt|, which may be millions.
-constexpr Index kMostExtendedRows = 60;
+constexpr Index kMostExtendedSums = 60;
 
 /// What is integrated over a step: (torque z)(speed z), |viscous z|^2, |material_air z|^2.
 struct Integrands {
@@ -127,7 +127,7 @@ StepEnergy::StepEnergy(const ModalDynamics& arm, double hub_viscous_friction_N_m
       root_of(arm.modal_mass_kg_m2 * arm.damping -
               hub_viscous_friction_N_m_s_per_rad * arm.hub_slope * arm.hub_slope.transpose());
 
-  Integrals made = chain.rows() <= kMostExtendedRows
+  Integrals made = chain.rows() <= kMostExtendedSums
                        ? integrals<long double>(integrands, chain, step_s)
                        : integrals<double>(integrands, chain, step_s);
   work_ = std::move(made.work);

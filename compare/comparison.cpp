@@ -3,6 +3,7 @@
 #include "arm/input_error.hpp"
 #include "arm/linear_arm.hpp"
 #include "assumed_modes/basis_report.hpp"
+#include "compare/finding.hpp"
 #include "compare/standard_models.hpp"
 #include "response/arm_parts.hpp"
 #include "response/settings.hpp"
@@ -13,15 +14,12 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <numbers>
 #include <stdexcept>
 
 namespace flexarm::compare {
 
 namespace {
-
-constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
 void require_at_least(const char* key, int value, int least) {
   if (value < least) throw arm::out_of_range(key, value, "", fmt::format("{} or more", least));

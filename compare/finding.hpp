@@ -1,9 +1,13 @@
 #pragma once
 
+#include <limits>
 #include <span>
 #include <string>
 
 namespace flexarm::compare {
+
+/// A distance where one of two values is not there.
+inline constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
 /// How far two formulations are apart in one quantity, and how far they may be.
 struct Finding {

@@ -8,10 +8,6 @@ namespace flexarm::compare::paper {
 
 namespace {
 
-double lambda_to_Hz(const arm::Arm& arm, double lambda) {
-  return in_Hz(lambda * lambda * arm::omega_scale_rad_per_s(arm));
-}
-
 /// Pole `order` [Hz] by (38) put right, from the ratios that (20) defines.
 double ratio_pole_Hz(const arm::Arm& arm, int order, double epsilon, double eta) {
   const auto f = [=](double x) { return denominator_38(x, epsilon, eta, Form::corrected); };

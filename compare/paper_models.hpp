@@ -48,6 +48,11 @@ inline double from_Hz(double frequency_Hz) {
   return frequency_Hz * 2.0 * std::numbers::pi;
 }
 
+/// Frequency of the root lambda, omega = lambda^2 sqrt(EI/(m l^4)).
+inline double lambda_to_Hz(const arm::Arm& arm, double lambda) {
+  return in_Hz(lambda * lambda * arm::omega_scale_rad_per_s(arm));
+}
+
 /// Pole `order`, counted from 1 [Hz].
 template <arm::Formulation F>
 double pole_Hz(const F& model, int order) {

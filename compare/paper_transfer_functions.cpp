@@ -15,10 +15,6 @@ double lambda_at(const arm::Arm& arm, double omega) {
   return std::sqrt(omega / arm::omega_scale_rad_per_s(arm));
 }
 
-double lambda_to_Hz(const arm::Arm& arm, double lambda) {
-  return in_Hz(lambda * lambda * arm::omega_scale_rad_per_s(arm));
-}
-
 /// theta/tau from S (A1, B1, C1, D1) = (0, row_2, 0, 0): theta = beta (A1 + C1).
 std::complex<double> solve_37(const Eigen::Matrix4cd& s, std::complex<double> beta,
                               std::complex<double> row_2) {

@@ -2,6 +2,7 @@
 
 #include "arm/linear_arm.hpp"
 #include "compare/features.hpp"
+#include "compare/finding.hpp"
 #include "compare/sweep_tracks.hpp"
 
 #include <algorithm>
@@ -12,8 +13,6 @@
 namespace flexarm::compare {
 
 namespace {
-
-constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
 using Values = std::vector<std::vector<SweepPoint>>;
 using OptionalRoots = std::vector<std::optional<std::complex<double>>>;

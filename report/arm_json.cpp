@@ -45,6 +45,10 @@ nlohmann::ordered_json arm_json(const arm::Arm& arm) {
   };
 }
 
+nlohmann::ordered_json number_json(const std::optional<double>& value) {
+  return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json(nullptr);
+}
+
 nlohmann::ordered_json complex_json(const std::optional<std::complex<double>>& value) {
   if (!value) return nullptr;
   return {{"re", value->real()}, {"im", value->imag()}};

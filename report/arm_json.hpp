@@ -13,6 +13,9 @@ namespace flexarm::report {
 /// follow from both; units in the keys.
 nlohmann::ordered_json arm_json(const arm::Arm& arm);
 
+/// The number, or null.
+nlohmann::ordered_json number_json(const std::optional<double>& value);
+
 /// {"re": ..., "im": ...}, or null.
 nlohmann::ordered_json complex_json(const std::optional<std::complex<double>>& value);
 

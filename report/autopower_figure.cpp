@@ -16,11 +16,11 @@
 namespace flexarm::report {
 namespace {
 
-constexpr int kWidth_px = 1000;
-constexpr int kFurniture_px = 110;    // title and frequency axis
-constexpr int kPanelHeight_px = 190;  // with the panel's title
+constexpr int kAutopowerWidth_px = 1000;
+constexpr int kAutopowerFurniture_px = 110;  // title and frequency axis
+constexpr int kAutopowerPanel_px = 190;      // with the panel's title
 constexpr double kTorqueHeight = 0.75;
-constexpr double kRoom = 0.2;  // for a line of labels above and below
+constexpr double kLabelRoom = 0.2;  // for a line of labels above and below
 
 /// "rad^2/Hz", "(m/s^2)^2/Hz", "1/Hz".
 std::string density_unit(std::string_view unit) {
@@ -69,13 +69,13 @@ Figure autopower_figure(const measured::FrequencyResponseEstimate& estimate,
     stack.panels.push_back(
         spectrum_panel("torque", "N m", frequency_Hz, estimate.torque_autopower));
     stack.panels.back().height = kTorqueHeight;
-    fix_limits(stack.panels.back(), kRoom);
+    fix_limits(stack.panels.back(), kLabelRoom);
   }
   for (const auto& channel : estimate.channels) {
     if (!has_power(channel.autopower)) continue;
     Panel panel = spectrum_panel(arm::to_string(channel.sensor), arm::unit(channel.sensor),
                                  frequency_Hz, channel.autopower);
-    fix_limits(panel, kRoom);
+    fix_limits(panel, kLabelRoom);
     add_frequency_lines(panel, poles_Hz, "analytical pole", analytical_pole_style());
     const auto found =
         std::ranges::find(features, channel.sensor, &measured::SensorFeatures::sensor);
@@ -84,8 +84,9 @@ Figure autopower_figure(const measured::FrequencyResponseEstimate& estimate,
     }
     stack.panels.push_back(std::move(panel));
   }
-  Figure figure{.title = plot.title, .width_px = kWidth_px};
-  figure.height_px = kFurniture_px + kPanelHeight_px * static_cast<int>(stack.panels.size());
+  Figure figure{.title = plot.title, .width_px = kAutopowerWidth_px};
+  figure.height_px =
+      kAutopowerFurniture_px + kAutopowerPanel_px * static_cast<int>(stack.panels.size());
   figure.stacks.push_back(std::move(stack));
   place_labels(figure);
   return figure;

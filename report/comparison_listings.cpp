@@ -2,15 +2,12 @@
 
 #include <complex>
 #include <cstdint>
-#include <limits>
 #include <numbers>
 #include <string>
 
 namespace flexarm::report {
 
 namespace {
-
-constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
 Cell number_or_missing(const std::optional<double>& value) {
   return value ? Cell(*value) : Cell(std::monostate{});

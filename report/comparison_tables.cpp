@@ -16,7 +16,6 @@ namespace flexarm::report {
 namespace {
 
 constexpr int kRootDigits = 12;
-constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
 bool is_real(std::complex<double> s) {
   return s.imag() == 0.0 && s.real() != 0.0;

@@ -14,8 +14,8 @@
 namespace flexarm::report {
 namespace {
 
-constexpr int kWidth_px = 1000;
-constexpr int kHeight_px = 520;
+constexpr int kDistortionWidth_px = 1000;
+constexpr int kDistortionHeight_px = 520;
 
 /// "found: −41.2 dB".
 std::string verdict(const measured::DistortionTest& test) {
@@ -39,7 +39,7 @@ Figure distortion_figure(const arm::Sensor& sensor, const measured::ChannelDisto
   panel.y = {.label = "amplitude",
              .unit = unit == "1" ? "" : std::string(unit),
              .scale = Scale::logarithmic};
-  Figure figure{.title = title, .width_px = kWidth_px, .height_px = kHeight_px};
+  Figure figure{.title = title, .width_px = kDistortionWidth_px, .height_px = kDistortionHeight_px};
   const auto add = [&](Series series, const std::string& remark) {
     if (series.x.empty()) return;
     figure.legend.push_back({series.name, series.style});

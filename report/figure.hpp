@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -56,6 +57,9 @@ struct Style {
   double marker_size = 1.0;  ///< relative to gnuplot's standard size
   bool filled = false;       ///< the area between `y` and `y_to`, without a line
 };
+
+/// A coordinate of a point that is left out.
+inline constexpr double kNotDrawn = std::numeric_limits<double>::quiet_NaN();
 
 /// Points (x[i], y[i]), joined in their order. A point that is not finite, or not positive on a
 /// logarithmic axis, is a gap. Of more points than show, where x ascends, those that do are drawn

@@ -15,7 +15,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <stdexcept>
 #include <utility>
@@ -25,14 +24,12 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kTwoPi = 2.0 * std::numbers::pi;
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr double kProbability = 0.95;
-constexpr int kWidth_px = 1000;
-constexpr int kHeight_px = 780;
+constexpr int kResponseWidth_px = 1000;
+constexpr int kResponseHeight_px = 780;
 constexpr int kCoherence_px = 140;
-constexpr double kRoom = 0.12;
+constexpr double kMagnitudeRoom = 0.12;
 constexpr double kKnown = 0.3;                             // half a 95 % interval, relative
 constexpr double kMostPhase_rad = std::numbers::pi / 4.0;  // half of one
 constexpr double kCoherenceRoom = 0.04;
@@ -84,7 +81,9 @@ std::vector<ModelCurve> model_curves(const MeasuredResponse& measured,
   if (plot.fit) {
     const auto positive = std::ranges::upper_bound(measured.frequency_Hz, 0.0);
     if (positive != measured.frequency_Hz.end()) {
-      const auto value = [&](double f_Hz) { return plot.fit->value(Complex(0.0, kTwoPi * f_Hz)); };
+      const auto value = [&](double f_Hz) {
+        return plot.fit->value(Complex(0.0, 2.0 * std::numbers::pi * f_Hz));
+      };
       auto curve =
           refined_curve(value, *positive, measured.frequency_Hz.back(), plot.frequency_scale);
       curves.push_back({"fit", std::move(curve.frequency_Hz), std::move(curve.response), kFit});
@@ -135,7 +134,7 @@ Panel magnitude_panel(const MeasuredResponse& m, const std::vector<double>& inte
     panel.series.push_back(
         {model.name, model.frequency_Hz, magnitude(model.response), model.style});
   }
-  fix_limits(panel, kRoom);
+  fix_limits(panel, kMagnitudeRoom);
   panel.series.front() = measured_curve(kMeasured, m.frequency_Hz, sizes);
   if (!interval.empty() && panel.y.minimum) {
     std::vector<double> low;
@@ -143,8 +142,8 @@ Panel magnitude_panel(const MeasuredResponse& m, const std::vector<double>& inte
     for (std::size_t i = 0; i < sizes.size(); ++i) {
       const bool known = std::isfinite(interval[i] * sizes[i]);
       const auto limit = [&](double value) { return std::max(value, *panel.y.minimum); };
-      low.push_back(known ? limit(sizes[i] * (1.0 - interval[i])) : kNaN);
-      high.push_back(known ? limit(sizes[i] * (1.0 + interval[i])) : kNaN);
+      low.push_back(known ? limit(sizes[i] * (1.0 - interval[i])) : kNotDrawn);
+      high.push_back(known ? limit(sizes[i] * (1.0 + interval[i])) : kNotDrawn);
     }
     panel.series.insert(panel.series.begin(),
                         measured_interval(kInterval, m.frequency_Hz, low, high));
@@ -155,7 +154,7 @@ Panel magnitude_panel(const MeasuredResponse& m, const std::vector<double>& inte
 Series measured_phase(const MeasuredResponse& m, std::vector<double> phase,
                       const std::vector<double>& interval) {
   for (std::size_t i = 0; i < interval.size(); ++i) {
-    if (interval[i] > kMostPhase_rad) phase[i] = kNaN;
+    if (interval[i] > kMostPhase_rad) phase[i] = kNotDrawn;
   }
   const Series curve = measured_curve(kMeasured, m.frequency_Hz, phase);
   return phase_series(kMeasured, curve.x, curve.y, curve.style);
@@ -176,7 +175,7 @@ Panel phase_panel(const MeasuredResponse& m, const std::vector<double>& interval
     std::vector<double> low;
     std::vector<double> high;
     for (std::size_t i = 0; i < phase.size(); ++i) {
-      const double half_deg = interval[i] <= kMostPhase_rad ? kDegrees * interval[i] : kNaN;
+      const double half_deg = interval[i] <= kMostPhase_rad ? kDegrees * interval[i] : kNotDrawn;
       low.push_back(phase[i] - half_deg);
       high.push_back(phase[i] + half_deg);
     }
@@ -264,7 +263,8 @@ Figure frequency_response_figure(const MeasuredResponse& measured,
   stack.panels.push_back(magnitude_panel(shown, interval, models));
   Panel phase = phase_panel(shown, interval, models);
   if (phase.y.minimum) stack.panels.push_back(std::move(phase));
-  Figure figure{.title = plot.title, .width_px = kWidth_px, .height_px = kHeight_px};
+  Figure figure{
+      .title = plot.title, .width_px = kResponseWidth_px, .height_px = kResponseHeight_px};
   const bool has_coherence =
       std::ranges::any_of(shown.coherence, [](double value) { return std::isfinite(value); });
   if (has_coherence) {

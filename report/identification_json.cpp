@@ -15,10 +15,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 using measured::Estimate;
 
-Json number(const std::optional<double>& value) {
-  return value ? Json(*value) : Json(nullptr);
-}
-
 Json text(const std::string& value) {
   return value.empty() ? Json(nullptr) : Json(value);
 }
@@ -164,12 +160,12 @@ Json reading_json(const measured::ModalReading& reading,
   for (const auto& root : identified) {
     roots.push_back({{"feature", to_string(root.measured.feature)},
                      {"order", root.order ? Json(*root.order) : Json(nullptr)},
-                     {"frequency_Hz", number(root.measured.frequency_Hz)},
-                     {"frequency_std_Hz", number(root.measured.frequency_std_Hz)},
-                     {"damping_ratio", number(root.measured.damping_ratio)},
-                     {"damping_ratio_std", number(root.measured.damping_ratio_std)},
-                     {"analytical_Hz", number(root.analytical_Hz)},
-                     {"analytical_damping_ratio", number(root.analytical_damping_ratio)},
+                     {"frequency_Hz", number_json(root.measured.frequency_Hz)},
+                     {"frequency_std_Hz", number_json(root.measured.frequency_std_Hz)},
+                     {"damping_ratio", number_json(root.measured.damping_ratio)},
+                     {"damping_ratio_std", number_json(root.measured.damping_ratio_std)},
+                     {"analytical_Hz", number_json(root.analytical_Hz)},
+                     {"analytical_damping_ratio", number_json(root.analytical_damping_ratio)},
                      {"error_percent", root.error_percent()}});
   }
   return {{"method", to_string(reading.method)},

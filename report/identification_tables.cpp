@@ -1,20 +1,17 @@
 #include "report/identification_tables.hpp"
 
+#include "report/table.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 
 namespace flexarm::report {
 
-namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
-}  // namespace
+namespace {}  // namespace
 
 std::string joined(const std::vector<std::string>& run_ids) {
   return fmt::format("{}", fmt::join(run_ids, "+"));
@@ -168,8 +165,8 @@ Table distortion_table(const measured::RunIdentification& run) {
     const auto& channel = run.distortion->channels[i];
     std::vector<Cell> row = {arm::to_string(run.estimate->channels[i].sensor)};
     for (const auto* test : {&channel.odd, &channel.even}) {
-      row.emplace_back(std::isfinite(test->level_dB) ? test->level_dB : kNaN);
-      row.emplace_back(std::isfinite(test->noise_dB) ? test->noise_dB : kNaN);
+      row.emplace_back(std::isfinite(test->level_dB) ? test->level_dB : kMissing);
+      row.emplace_back(std::isfinite(test->noise_dB) ? test->noise_dB : kMissing);
       row.emplace_back(std::string(test->lines == 0 ? "no line" : test->found ? "yes" : "no"));
     }
     table.add_row(std::move(row));

@@ -2,6 +2,7 @@
 
 #include "compare/features.hpp"
 #include "report/identification_tables.hpp"
+#include "report/table.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -21,8 +22,6 @@ using measured::Feature;
 using measured::Method;
 using measured::ModalReading;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kTwoPi = 2.0 * std::numbers::pi;
 constexpr double kRounding = 1e-14;
 constexpr std::size_t kMostOthers = 5;
 constexpr std::size_t kNoReading = std::numeric_limits<std::size_t>::max();
@@ -89,14 +88,14 @@ std::string sensor_name(const std::optional<arm::Sensor>& sensor) {
 }
 
 /// A value with what it is compared to.
-struct Figure {
+struct ComparedValue {
   std::optional<double> value = {};
   std::optional<double> standard_error = {};
-  double error_percent = kNaN;
+  double error_percent = kMissing;
 };
 
 /// Mean, scatter between sensors and mean error of two or more.
-Figure mean_of(const std::vector<Figure>& figures) {
+ComparedValue mean_of(const std::vector<ComparedValue>& figures) {
   double sum = 0.0, errors = 0.0, squares = 0.0;
   double count = 0.0;
   for (const auto& figure : figures) {
@@ -144,12 +143,12 @@ std::vector<std::size_t> add_pole_rows(const IdentifiedData& data,
                                        const std::vector<int>& orders, bool with_error,
                                        const FigureOf& figure_of, Table& table) {
   std::vector<std::size_t> row_readings;
-  std::vector<std::vector<Figure>> group(orders.size());
+  std::vector<std::vector<ComparedValue>> group(orders.size());
   const auto add_row = [&](Method method, const std::string& sensor, std::size_t reading,
                            const auto& figure_at) {
     std::vector<Cell> row = {std::string(to_string(method)), sensor};
     for (std::size_t i = 0; i < orders.size(); ++i) {
-      const Figure figure = figure_at(i);
+      const ComparedValue figure = figure_at(i);
       row.push_back(cell(figure.value));
       row.push_back(cell(figure.standard_error));
       if (with_error) row.emplace_back(figure.error_percent);
@@ -161,7 +160,7 @@ std::vector<std::size_t> add_pole_rows(const IdentifiedData& data,
     const auto& reading = reading_of(data, readings[k]);
     add_row(reading.method, sensor_name(reading.sensor), readings[k], [&](std::size_t i) {
       const auto* root = find_order(data.condition.roots[readings[k]], Feature::pole, orders[i]);
-      group[i].push_back(root ? figure_of(*root) : Figure{});
+      group[i].push_back(root ? figure_of(*root) : ComparedValue{});
       return group[i].back();
     });
     const bool ends =
@@ -206,8 +205,8 @@ Table pole_table(const IdentifiedData& data) {
   const auto rows = add_pole_rows(
       data, readings, orders, true,
       [](const IdentifiedRoot& root) {
-        return Figure{root.measured.frequency_Hz, root.measured.frequency_std_Hz,
-                      root.error_percent()};
+        return ComparedValue{root.measured.frequency_Hz, root.measured.frequency_std_Hz,
+                             root.error_percent()};
       },
       table);
   add_others(data, rows, Feature::pole, table);
@@ -232,7 +231,7 @@ Table zero_table(const IdentifiedData& data) {
       row.push_back(root ? cell(root->analytical_Hz) : Cell());
       row.push_back(root ? cell(root->measured.frequency_Hz) : Cell());
       row.push_back(root ? cell(root->measured.frequency_std_Hz) : Cell());
-      row.emplace_back(root ? root->error_percent() : kNaN);
+      row.emplace_back(root ? root->error_percent() : kMissing);
     }
     table.add_row(std::move(row));
   }
@@ -257,7 +256,8 @@ Table damping_table(const IdentifiedData& data) {
   add_pole_rows(
       data, readings, orders, false,
       [](const IdentifiedRoot& root) {
-        return Figure{root.measured.damping_ratio, root.measured.damping_ratio_std, kNaN};
+        return ComparedValue{root.measured.damping_ratio, root.measured.damping_ratio_std,
+                             kMissing};
       },
       table);
   return table;
@@ -289,7 +289,7 @@ Table real_zero_table(const IdentifiedData& data) {
         const auto zero =
             std::ranges::find(sensor.zeros, *matched[i], &measured::FittedZero::s_rad_per_s);
         table.add_row({arm::to_string(sensor.sensor), expected[i].real(), matched[i]->real(),
-                       kTwoPi * zero->frequency_std_Hz});
+                       2.0 * std::numbers::pi * zero->frequency_std_Hz});
       }
     }
   }

@@ -10,7 +10,7 @@
 namespace flexarm::report {
 namespace {
 
-constexpr int kSmallestPlainExponent = -3;
+constexpr int kSmallestPlainTick = -3;
 constexpr int kLargestPlainExponent = 4;
 constexpr int kMostDecadesWithDigits = 12;  // ticks for the digits are noise beyond
 
@@ -35,7 +35,7 @@ std::vector<Tick> logarithmic_ticks(const Range& range, int most_labels) {
   const int whole_decades = last - static_cast<int>(std::ceil(std::log10(range.from))) + 1;
   const int step = std::max(1, (whole_decades + most_labels - 1) / std::max(1, most_labels));
 
-  const bool plain = first >= kSmallestPlainExponent && last <= kLargestPlainExponent;
+  const bool plain = first >= kSmallestPlainTick && last <= kLargestPlainExponent;
 
   std::vector<Tick> ticks;
   for (int exponent = first; exponent <= last; ++exponent) {

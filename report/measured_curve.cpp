@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <limits>
 #include <utility>
 
 namespace flexarm::report {
@@ -24,8 +23,7 @@ void add_point(Series& series, double x, double y, double y_to) {
 }
 
 void add_gap(Series& series, double x) {
-  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-  add_point(series, x, kNaN, kNaN);
+  add_point(series, x, kNotDrawn, kNotDrawn);
 }
 
 }  // namespace

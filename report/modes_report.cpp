@@ -16,7 +16,7 @@ namespace flexarm::report {
 
 namespace {
 
-constexpr int kDigits = 12;
+constexpr int kModeDigits = 12;
 
 double frequency_Hz(double omega_rad_per_s) {
   return omega_rad_per_s / (2.0 * std::numbers::pi);
@@ -27,9 +27,9 @@ double frequency_Hz(double omega_rad_per_s) {
 Table poles_table(const arm::Arm& arm, const response::ModalSummary& summary) {
   Table table{"Flexible modes, undamped; damping ratio projected on each; shapes of modal mass I_T",
               {{"mode"},
-               {"frequency", "Hz", kDigits},
-               {"omega", "rad/s", kDigits},
-               {"lambda", "", kDigits},
+               {"frequency", "Hz", kModeDigits},
+               {"omega", "rad/s", kModeDigits},
+               {"lambda", "", kModeDigits},
                {"hub slope", "", 8},
                {"damping ratio", "", 4}}};
   for (std::size_t i = 0; i < summary.modes.size(); ++i) {
@@ -56,9 +56,9 @@ Table poles_table(const arm::Arm& arm, const response::ModalSummary& summary) {
 Table damped_poles_table(const response::ModalSummary& summary) {
   Table table{"Poles with damping, two a mode; mode 0 is the lowest, of the rigid arm",
               {{"mode"},
-               {"Re s", "rad/s", kDigits},
-               {"Im s", "rad/s", kDigits},
-               {"abs(s)/2 pi", "Hz", kDigits},
+               {"Re s", "rad/s", kModeDigits},
+               {"Im s", "rad/s", kModeDigits},
+               {"abs(s)/2 pi", "Hz", kModeDigits},
                {"damping ratio", "", 6}}};
   const auto add = [&table](std::int64_t mode, std::complex<double> s) {
     const double size = std::abs(s);
@@ -91,9 +91,9 @@ Table zeros_table(const response::ModalSummary& summary) {
   Table table{"Zeros of torque to each sensor, undamped; each stands for its mirror images too",
               {{"sensor"},
                {"no."},
-               {"Re s", "rad/s", kDigits},
-               {"Im s", "rad/s", kDigits},
-               {"frequency", "Hz", kDigits}}};
+               {"Re s", "rad/s", kModeDigits},
+               {"Im s", "rad/s", kModeDigits},
+               {"frequency", "Hz", kModeDigits}}};
   for (const auto& [sensor, zeros] : summary.zeros) {
     for (std::size_t i = 0; i < zeros.s_rad_per_s.size(); ++i) {
       const auto s = zeros.s_rad_per_s[i];

@@ -23,9 +23,9 @@ using Complex = std::complex<double>;
 constexpr std::size_t kColumns = 3;
 constexpr int kLegend_px = 190;
 constexpr int kColumn_px = 390;
-constexpr int kRow_px = 390;
-constexpr double kRoom = 1.25;      // half side over radius
-constexpr double kTextAway = 0.35;  // of the centre, in radii, on the far side of the resonance
+constexpr int kCircleRow_px = 390;
+constexpr double kCircleRoom = 1.25;  // half side over radius
+constexpr double kTextAway = 0.35;    // of the centre, in radii, on the far side of the resonance
 constexpr std::size_t kMostPoints = 500;
 constexpr int kCircleSteps = 180;
 
@@ -60,7 +60,7 @@ Panel circle_panel(const measured::NyquistCircle& resonance, const std::string& 
   if (!(radius > 0.0)) {
     throw std::invalid_argument(fmt::format("circle {}: a radius of {}", resonance.order, radius));
   }
-  const EqualAxes axes{"V", unit, centre, kRoom * radius, std::abs(centre) + radius};
+  const EqualAxes axes{"V", unit, centre, kCircleRoom * radius, std::abs(centre) + radius};
   Panel panel = axes.panel(fmt::format("resonance at {:#.6g} Hz", resonance.natural_frequency_Hz));
 
   std::vector<Complex> around;
@@ -111,7 +111,7 @@ Figure nyquist_circle_figure(const arm::Sensor& sensor,
   const std::size_t rows = (circles.size() + columns - 1) / columns;
   Figure figure{.title = title};
   figure.width_px = kLegend_px + kColumn_px * static_cast<int>(columns);
-  figure.height_px = kRow_px * static_cast<int>(rows) + (title.empty() ? 0 : 30);
+  figure.height_px = kCircleRow_px * static_cast<int>(rows) + (title.empty() ? 0 : 30);
   for (std::size_t column = 0; column < columns; ++column) {
     PanelStack stack{.square = true};
     for (std::size_t i = column; i < circles.size(); i += columns) {

@@ -17,8 +17,8 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr int kWidth_px = 1400;
-constexpr int kHeight_px = 660;
+constexpr int kNyquistWidth_px = 1400;
+constexpr int kNyquistHeight_px = 660;
 constexpr double kLocusWidth = 2.3;  // relative to a circle's, so that it fills the height
 constexpr std::size_t kMostCircles = 4;
 constexpr std::size_t kCirclesInAColumn = 2;
@@ -26,7 +26,7 @@ constexpr double kRoomAroundCircle = 0.66;  // half side over diameter
 constexpr double kRoomAroundLocus = 1.08;
 constexpr int kMostDecades = 4;
 
-bool is_shown(const Complex& value) {
+bool is_value_shown(const Complex& value) {
   return std::isfinite(std::abs(value)) && value != 0.0;
 }
 
@@ -35,7 +35,7 @@ constexpr const char* kHalfPowerName = "half power";
 constexpr double kTextLeft = 0.3;  // of the centre, in diameters
 const Style kLocus{.colour = blue, .line_width_px = 1.6};
 const Style kAtPole = marker_style(vermillion, Marker::disc, 0.9);
-const Style kHalfPower = marker_style(vermillion, Marker::circle, 0.9);
+const Style kAtHalfPower = marker_style(vermillion, Marker::circle, 0.9);
 
 /// log10(1 + |G|/g0), with the angle of G.
 struct Compressed {
@@ -60,7 +60,7 @@ Series circle_around_origin(double radius) {
 PanelStack whole_locus(const NyquistPlot& plot) {
   std::vector<double> sizes;
   for (const auto& value : plot.response) {
-    if (is_shown(value)) sizes.push_back(std::abs(value));
+    if (is_value_shown(value)) sizes.push_back(std::abs(value));
   }
   if (sizes.empty()) {
     throw std::invalid_argument(fmt::format("\"{}\": no value to draw", plot.title));
@@ -93,8 +93,9 @@ PanelStack whole_locus(const NyquistPlot& plot) {
   add_coordinate_axes(panel, -half_side, half_side, -half_side, half_side);
   Series locus{"response", {}, {}, kLocus};
   for (const auto& value : plot.response) {
-    const Complex drawn = is_shown(value) ? compressed(value)
-                                          : Complex(std::numeric_limits<double>::quiet_NaN(), 0.0);
+    const Complex drawn = is_value_shown(value)
+                              ? compressed(value)
+                              : Complex(std::numeric_limits<double>::quiet_NaN(), 0.0);
     locus.x.push_back(drawn.real());
     locus.y.push_back(drawn.imag());
   }
@@ -119,7 +120,7 @@ Panel circle_panel(const NyquistPlot& plot, const NyquistCircle& circle) {
   panel.series.push_back(axes.series("response", circle.values, kLocus));
   panel.series.push_back(axes.series(kPoleName, {&circle.at_pole, 1}, kAtPole));
   const std::array half_power = {circle.below, circle.above};
-  panel.series.push_back(axes.series(kHalfPowerName, half_power, kHalfPower));
+  panel.series.push_back(axes.series(kHalfPowerName, half_power, kAtHalfPower));
   const Complex text = axes.drawn(centre - kTextLeft * diameter);
   panel.annotations.push_back({text.real(), text.imag(), circle.remark});
   return panel;
@@ -131,7 +132,7 @@ Figure nyquist_figure(const NyquistPlot& plot) {
   if (plot.circles.empty()) {
     throw std::invalid_argument(fmt::format("\"{}\": no circle to draw", plot.title));
   }
-  Figure figure{.title = plot.title, .width_px = kWidth_px, .height_px = kHeight_px};
+  Figure figure{.title = plot.title, .width_px = kNyquistWidth_px, .height_px = kNyquistHeight_px};
   figure.stacks.push_back(whole_locus(plot));
   const std::size_t shown = std::min(plot.circles.size(), kMostCircles);
   const std::size_t rows = std::min(shown, kCirclesInAColumn);
@@ -141,7 +142,7 @@ Figure nyquist_figure(const NyquistPlot& plot) {
   }
   auto& last = figure.stacks.back();
   last.blank_panels = static_cast<int>(rows - last.panels.size());
-  figure.legend = {{"response", kLocus}, {kPoleName, kAtPole}, {kHalfPowerName, kHalfPower}};
+  figure.legend = {{"response", kLocus}, {kPoleName, kAtPole}, {kHalfPowerName, kAtHalfPower}};
   return figure;
 }
 

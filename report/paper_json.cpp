@@ -1,5 +1,6 @@
 #include "report/paper_json.hpp"
 
+#include "report/arm_json.hpp"
 #include "report/json_document.hpp"
 
 #include <nlohmann/json.hpp>
@@ -13,18 +14,14 @@ namespace {
 using Json = nlohmann::ordered_json;
 using namespace compare::paper;
 
-Json number(const std::optional<double>& value) {
-  return value ? Json(*value) : Json(nullptr);
-}
-
 Json comparison_json(const Comparison& row) {
   return {{"quantity", row.quantity},
           {"unit", row.unit},
-          {"printed", number(row.printed)},
+          {"printed", number_json(row.printed)},
           {"corrected", row.corrected},
-          {"exact_tf", number(row.formulations.exact_tf)},
-          {"fem", number(row.formulations.fem)},
-          {"assumed_modes", number(row.formulations.assumed_modes)},
+          {"exact_tf", number_json(row.formulations.exact_tf)},
+          {"fem", number_json(row.formulations.fem)},
+          {"assumed_modes", number_json(row.formulations.assumed_modes)},
           {"tolerance", row.tolerance},
           {"printed_agrees", row.printed ? Json(printed_agrees(row)) : Json(nullptr)},
           {"formulations_agree", formulations_agree(row)}};

@@ -31,7 +31,7 @@ std::string escaped(const std::string& text) {
   return out;
 }
 
-std::string cell_text(const Cell& cell, const Column& column) {
+std::string markdown_cell(const Cell& cell, const Column& column) {
   if (is_missing(cell)) return "";
   if (const auto* number = std::get_if<double>(&cell)) {
     return format_number(*number, column.significant_digits, column.notation);
@@ -56,7 +56,7 @@ std::string markdown(const Table& table) {
   for (const auto& row : table.rows) {
     std::vector<std::string> cells;
     for (std::size_t k = 0; k < row.size(); ++k) {
-      cells.push_back(cell_text(row[k], table.columns[k]));
+      cells.push_back(markdown_cell(row[k], table.columns[k]));
     }
     out += row_line(cells);
   }

@@ -16,7 +16,7 @@ namespace {
 
 using Root = std::complex<double>;
 
-constexpr int kWidth_px = 1100;
+constexpr int kPoleZeroWidth_px = 1100;
 constexpr double kLinearPart = 1.0 / 3.0;  // v0 over the smallest root
 constexpr double kFirstTick = 0.45;        // closer to the origin its label would touch "0"
 constexpr double kPlaneMargin = 1.08;      // of the s-plane's half side
@@ -24,11 +24,11 @@ constexpr double kLargestPlain = 1e5;      // rad/s: ticks read 1000 rather than
 constexpr double kLargestMarker = 1.4;     // relative to gnuplot's standard
 constexpr double kMarkerStep = 0.45;       // by which each further formulation's is smaller
 constexpr double kSmallestMarker = 0.3;
-constexpr double kRoom = 0.04;  // of the decades of |s|, so that no marker is cut
+constexpr double kDecadeRoom = 0.04;  // of the decades of |s|, so that no marker is cut
 constexpr double kLeastRoom = 1.1;
 constexpr double kOffRow = 0.12;  // poles above their row's line, zeros below: none hides another
 
-bool is_shown(const Root& s) {
+bool is_root_shown(const Root& s) {
   return std::isfinite(std::abs(s)) && s != 0.0;
 }
 
@@ -103,7 +103,7 @@ PanelStack plane(const PoleZeroPlot& plot, double smallest, double largest) {
         std::max(kSmallestMarker, kLargestMarker - kMarkerStep * static_cast<double>(set));
     Series series{series_name(plot.sets[set], pole), {}, {}, root_style(pole, set, size)};
     for (const Root& s : roots) {
-      if (!is_shown(s)) continue;
+      if (!is_root_shown(s)) continue;
       series.x.push_back(scale(s.real()));
       series.y.push_back(scale(s.imag()));
     }
@@ -123,7 +123,7 @@ Panel rows(const PoleZeroPlot& plot, bool imaginary) {
     if (pole) panel.y.ticks.push_back({row, plot.sets[set].formulation});
     Series series{series_name(plot.sets[set], pole), {}, {}, root_style(pole, set, 0.8)};
     for (const Root& s : roots) {
-      if (!is_shown(s) || is_nearer_imaginary_axis(s) != imaginary) continue;
+      if (!is_root_shown(s) || is_nearer_imaginary_axis(s) != imaginary) continue;
       series.x.push_back(std::abs(s));
       series.y.push_back(row + (pole ? kOffRow : -kOffRow));
     }
@@ -149,7 +149,7 @@ Figure pole_zero_figure(const PoleZeroPlot& plot) {
   double largest = 0.0;
   for_each_list(plot, [&](std::size_t, bool, const std::vector<Root>& roots) {
     for (const Root& s : roots) {
-      if (!is_shown(s)) continue;
+      if (!is_root_shown(s)) continue;
       smallest = std::min(smallest, std::abs(s));
       largest = std::max(largest, std::abs(s));
     }
@@ -160,10 +160,10 @@ Figure pole_zero_figure(const PoleZeroPlot& plot) {
 
   Figure figure;
   figure.title = plot.title;
-  figure.width_px = kWidth_px;
+  figure.width_px = kPoleZeroWidth_px;
   figure.stacks.push_back(plane(plot, smallest, largest));
   PanelStack strips;
-  const double room = std::max(kLeastRoom, std::pow(largest / smallest, kRoom));
+  const double room = std::max(kLeastRoom, std::pow(largest / smallest, kDecadeRoom));
   strips.x = {.label = "|s|",
               .unit = "rad/s",
               .scale = Scale::logarithmic,

@@ -17,7 +17,7 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr int kDigits = 10;
+constexpr int kResponseDigits = 10;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 double in_Hz(double omega_rad_per_s) {
@@ -64,10 +64,10 @@ std::string response_unit(const arm::Sensor& sensor) {
 Table response_poles_table(const response::ResponseStudy& study, std::size_t most) {
   Table table{"Poles; a complex one stands for its conjugate too",
               {{"pole"},
-               {"undamped", "Hz", kDigits},
-               {"Re s", "rad/s", kDigits},
-               {"Im s", "rad/s", kDigits},
-               {"|s|/2 pi", "Hz", kDigits},
+               {"undamped", "Hz", kResponseDigits},
+               {"Re s", "rad/s", kResponseDigits},
+               {"Im s", "rad/s", kResponseDigits},
+               {"|s|/2 pi", "Hz", kResponseDigits},
                {"damping ratio", "", 5}}};
   const double lowest = study.poles.lowest_omega_squared_rad2_per_s2;
   add_pair(table, "0", if_known(lowest >= 0.0, in_Hz(std::sqrt(lowest))),
@@ -103,10 +103,10 @@ Table factors_table(const response::ResponseStudy& study, std::size_t index) {
   const auto& fractions = study.fractions[index];
   Table table{fmt::format("Torque to {}", arm::to_string(product.sensor)),
               {{"i"},
-               {"omega_i", "rad/s", kDigits},
-               {"Re z_i", "rad/s", kDigits},
-               {"Im z_i", "rad/s", kDigits},
-               {"r_i", "", kDigits},
+               {"omega_i", "rad/s", kResponseDigits},
+               {"Re z_i", "rad/s", kResponseDigits},
+               {"Im z_i", "rad/s", kResponseDigits},
+               {"r_i", "", kResponseDigits},
                {"d_i", "rad/s", 6}}};
   const std::size_t zeros = product.zeros_rad_per_s.size();
   for (std::size_t i = 0; i < std::max(fractions.size(), zeros + 1); ++i) {
@@ -210,7 +210,7 @@ Table frf_listing(const response::FrequencyResponse& response) {
 Table state_space_table(const response::ResponseStudy& study) {
   Table table{"State space: " + describe_state_space(study),
               {{"sensor"},
-               {"feedthrough D", "", kDigits},
+               {"feedthrough D", "", kResponseDigits},
                {"unit"},
                error_column("largest error"),
                {"at", "Hz", 5},

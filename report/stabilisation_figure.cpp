@@ -17,20 +17,19 @@
 namespace flexarm::report {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr int kWidth_px = 1000;
-constexpr int kHeight_px = 600;
+constexpr int kStabilisationWidth_px = 1000;
+constexpr int kStabilisationHeight_px = 600;
 constexpr double kRoomBelow = 0.03;  // of the orders' range
 constexpr double kRoomAbove = 0.14;  // for the labels
 
 /// log |response| of a channel at a frequency.
 double log_magnitude(const measured::FrequencyChannel& channel, double at_Hz) {
   const auto above = std::ranges::lower_bound(channel.frequency_Hz, at_Hz);
-  if (above == channel.frequency_Hz.end()) return kNaN;
+  if (above == channel.frequency_Hz.end()) return kNotDrawn;
   const auto i = static_cast<std::size_t>(above - channel.frequency_Hz.begin());
   const double here = std::log(std::abs(channel.response[i]));
   if (*above == at_Hz) return here;
-  if (i == 0) return kNaN;
+  if (i == 0) return kNotDrawn;
   const double before = std::log(std::abs(channel.response[i - 1]));
   const double part =
       (at_Hz - channel.frequency_Hz[i - 1]) / (*above - channel.frequency_Hz[i - 1]);
@@ -67,7 +66,7 @@ Series background_series(const MeanResponse& mean, const measured::Stabilisation
   for (std::size_t i = 0; i < mean.frequency_Hz.size(); ++i) {
     const double f_Hz = mean.frequency_Hz[i];
     if (f_Hz < chart.from_Hz || f_Hz > chart.to_Hz) continue;
-    const double value = mean.magnitude[i] > 0.0 ? std::log(mean.magnitude[i]) : kNaN;
+    const double value = mean.magnitude[i] > 0.0 ? std::log(mean.magnitude[i]) : kNotDrawn;
     series.x.push_back(f_Hz);
     series.y.push_back(value);
     if (!std::isfinite(value)) continue;
@@ -75,7 +74,7 @@ Series background_series(const MeanResponse& mean, const measured::Stabilisation
     high = std::max(high, value);
   }
   for (double& value : series.y) {
-    value = high > low ? bottom + (top - bottom) * (value - low) / (high - low) : kNaN;
+    value = high > low ? bottom + (top - bottom) * (value - low) / (high - low) : kNotDrawn;
   }
   return series;
 }
@@ -129,7 +128,9 @@ Figure stabilisation_figure(const measured::StabilisationChart& chart,
   PanelStack stack;
   stack.x = {.label = "frequency", .unit = "Hz", .minimum = chart.from_Hz, .maximum = chart.to_Hz};
   stack.panels.push_back(std::move(panel));
-  Figure figure{.title = plot.title, .width_px = kWidth_px, .height_px = kHeight_px};
+  Figure figure{.title = plot.title,
+                .width_px = kStabilisationWidth_px,
+                .height_px = kStabilisationHeight_px};
   figure.stacks.push_back(std::move(stack));
   place_labels(figure);
   return figure;

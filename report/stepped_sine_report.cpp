@@ -19,9 +19,8 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 /// Frequencies further apart than this times the smaller of the steps beside them are two bands.
-constexpr double kGap = 1.5;
+constexpr double kBandGap = 1.5;
 
 /// Whether a band ends before the k-th frequency.
 bool begins_band(const std::vector<double>& frequency_Hz, std::size_t k) {
@@ -31,7 +30,7 @@ bool begins_band(const std::vector<double>& frequency_Hz, std::size_t k) {
   double beside = std::numeric_limits<double>::infinity();
   if (k >= 2) beside = frequency_Hz[k - 1] - frequency_Hz[k - 2];
   if (k + 1 < count) beside = std::min(beside, frequency_Hz[k + 1] - frequency_Hz[k]);
-  return step > kGap * beside;
+  return step > kBandGap * beside;
 }
 
 BodePlot bode_plot(const SteppedSineRun& run, std::size_t sensor) {
@@ -43,11 +42,11 @@ BodePlot bode_plot(const SteppedSineRun& run, std::size_t sensor) {
   for (std::size_t k = 0; k < frequency_Hz.size(); ++k) {
     if (begins_band(frequency_Hz, k)) {
       plot.frequency_Hz.push_back(0.5 * (frequency_Hz[k - 1] + frequency_Hz[k]));
-      curve.emplace_back(kNaN, kNaN);
+      curve.emplace_back(kNotDrawn, kNotDrawn);
     }
     const Complex value = run.measured.values[sensor][k];
     plot.frequency_Hz.push_back(frequency_Hz[k]);
-    curve.push_back(value == 0.0 ? Complex(kNaN, kNaN) : value);
+    curve.push_back(value == 0.0 ? Complex(kNotDrawn, kNotDrawn) : value);
   }
   return plot;
 }

@@ -20,7 +20,7 @@ namespace {
 
 using compare::SweepCurve;
 using compare::SweepResult;
-using Roots = std::vector<std::optional<std::complex<double>>>;
+using RootsOfPoints = std::vector<std::optional<std::complex<double>>>;
 
 constexpr double kHz = 2.0 * std::numbers::pi;  // rad/s
 constexpr double kLogarithmicFrom = 30.0;       // largest over smallest value
@@ -84,7 +84,7 @@ Scale scale_for(const std::vector<CurveValues>& curves) {
 CurveValues values_of(const SweepCurve& curve,
                       const std::function<double(std::complex<double>)>& value) {
   CurveValues values;
-  for (const Roots& roots : curve.s_rad_per_s) {
+  for (const RootsOfPoints& roots : curve.s_rad_per_s) {
     values.emplace_back();
     for (const auto& s : roots) values.back().push_back(s ? value(*s) : kNothing);
   }

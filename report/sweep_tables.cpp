@@ -17,7 +17,7 @@ using compare::SweepCurve;
 using compare::SweepEvent;
 using compare::SweepResult;
 
-constexpr int kDigits = 7;
+constexpr int kSweepDigits = 7;
 constexpr int kPlaceDigits = 5;
 
 std::string unit_of(const compare::SweepAxis& axis) {
@@ -60,10 +60,10 @@ class RangeTable {
     table_.caption = std::move(caption);
     table_.columns = {{row_name}};
     if (has_remarks) table_.columns.push_back({"axis"});
-    table_.columns.push_back({"first", unit, kDigits});
-    table_.columns.push_back({"last", unit, kDigits});
+    table_.columns.push_back({"first", unit, kSweepDigits});
+    table_.columns.push_back({"last", unit, kSweepDigits});
     for (const char* extreme : {"lowest", "highest"}) {
-      table_.columns.push_back({extreme, unit, kDigits});
+      table_.columns.push_back({extreme, unit, kSweepDigits});
       for (std::size_t k = 0; k < result.task.axes.size(); ++k) {
         table_.columns.push_back(
             {place_column(result, k), unit_of(result.task.axes[k]), kPlaceDigits});

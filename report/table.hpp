@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <variant>
 #include <vector>
@@ -10,6 +11,8 @@ namespace flexarm::report {
 
 /// One value of a table: missing, a number, a count, or text. NaN counts as missing.
 using Cell = std::variant<std::monostate, double, std::int64_t, std::string>;
+
+inline constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
 /// How a terminal table prints a number; CSV always carries full double precision.
 enum class Notation {

@@ -14,7 +14,7 @@
 namespace flexarm::report {
 namespace {
 
-constexpr std::string_view kMissing = "-";
+constexpr std::string_view kMissingText = "-";
 constexpr std::size_t kColumnGap = 2;
 constexpr int kSmallestPlainExponent = -4;  // 0.00012 is easier to read than 1.2e-04
 
@@ -32,7 +32,7 @@ std::string padded(std::string_view text, std::size_t width, bool to_the_right) 
 }
 
 std::string cell_text(const Cell& cell, const Column& column) {
-  if (is_missing(cell)) return std::string(kMissing);
+  if (is_missing(cell)) return std::string(kMissingText);
   if (const auto* number = std::get_if<double>(&cell)) {
     return format_number(*number, column.significant_digits, column.notation);
   }
@@ -49,10 +49,10 @@ std::size_t whole_part(std::string_view number) {
 void align_points(std::vector<std::string>& numbers) {
   std::size_t longest_tail = 0;
   for (const std::string& n : numbers) {
-    if (n != kMissing) longest_tail = std::max(longest_tail, n.size() - whole_part(n));
+    if (n != kMissingText) longest_tail = std::max(longest_tail, n.size() - whole_part(n));
   }
   for (std::string& n : numbers) {
-    if (n != kMissing) n.append(longest_tail - (n.size() - whole_part(n)), ' ');
+    if (n != kMissingText) n.append(longest_tail - (n.size() - whole_part(n)), ' ');
   }
 }
 
@@ -111,7 +111,7 @@ std::string block(const std::vector<const RenderedColumn*>& columns, std::size_t
 }  // namespace
 
 std::string format_number(double value, int significant_digits, Notation notation) {
-  if (std::isnan(value)) return std::string(kMissing);
+  if (std::isnan(value)) return std::string(kMissingText);
   if (value == 0.0) return "0";
   std::string scientific = fmt::format("{:.{}e}", value, significant_digits - 1);
   if (notation == Notation::scientific || !std::isfinite(value)) return scientific;

@@ -8,8 +8,8 @@
 namespace flexarm::report {
 namespace {
 
-constexpr int kPanelHeight_px = 195;  // "tip acceleration [m/s^2]" fits beside it
-constexpr int kFurniture_px = 110;    // title and time axis
+constexpr int kTimePanel_px = 195;      // "tip acceleration [m/s^2]" fits beside it
+constexpr int kTimeFurniture_px = 110;  // title and time axis
 
 /// Thin lines, as signals turn often; the first of several, on which the others lie, broader and
 /// pale.
@@ -36,7 +36,7 @@ Figure time_figure(const TimePlot& plot) {
   if (plot.panels.empty()) throw std::invalid_argument("signals over time without a panel");
   Figure figure;
   figure.title = plot.title;
-  figure.height_px = kFurniture_px + kPanelHeight_px * static_cast<int>(plot.panels.size());
+  figure.height_px = kTimeFurniture_px + kTimePanel_px * static_cast<int>(plot.panels.size());
   PanelStack stack{.x = {.label = "time", .unit = "s"}};
   for (const auto& panel : plot.panels) {
     Panel drawn{.y = {.label = panel.label, .unit = panel.unit}};

@@ -12,7 +12,6 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr double kPi = std::numbers::pi;
 constexpr int kFarthestAlias = 2;
 /// Poles this many turns apart are one; far above rounding.
 constexpr double kWholeTurn = 1e-6;
@@ -21,7 +20,7 @@ constexpr double kClearlyBetter = 4.0;
 
 /// The alias between 0 and half the sampling frequency.
 Complex folded(Complex pole, double period_s) {
-  const double turn = 2.0 * kPi / period_s;
+  const double turn = 2.0 * std::numbers::pi / period_s;
   return {pole.real(), std::abs(std::remainder(pole.imag(), turn))};
 }
 
@@ -54,7 +53,7 @@ std::vector<MovedBlock> place_aliases(const BlockFit& fit, double period_s, Torq
     const Complex lowest = folded(pole, period_s);
     // The residues' angles at an alias, which the pole or its conjugate differs from by turns.
     const auto misfit_at = [&](Complex alias) {
-      const double turns = (alias.imag() - pole.imag()) * period_s / (2.0 * kPi);
+      const double turns = (alias.imag() - pole.imag()) * period_s / (2.0 * std::numbers::pi);
       const bool same = std::abs(turns - std::round(turns)) < kWholeTurn;
       return misfit(all, pole, same ? alias : std::conj(alias), exponent);
     };
@@ -63,7 +62,8 @@ std::vector<MovedBlock> place_aliases(const BlockFit& fit, double period_s, Torq
     Complex place = lowest;
     for (int k = 1; here > kTurned * kTurned && k <= kFarthestAlias; ++k) {
       for (const int sign : {-1, 1}) {
-        const Complex alias(lowest.real(), 2.0 * kPi * k / period_s + sign * lowest.imag());
+        const Complex alias(lowest.real(),
+                            2.0 * std::numbers::pi * k / period_s + sign * lowest.imag());
         const double there = misfit_at(alias);
         if (there >= best) continue;
         best = there;
@@ -72,7 +72,8 @@ std::vector<MovedBlock> place_aliases(const BlockFit& fit, double period_s, Torq
     }
     if (std::abs(place - pole) < kWholeTurn / period_s) continue;
     blocks.blocks[m] = block_of(std::abs(place), -place.real() / std::abs(place));
-    moved.push_back({m, std::abs(pole) / (2.0 * kPi), std::abs(place) / (2.0 * kPi)});
+    moved.push_back(
+        {m, std::abs(pole) / (2.0 * std::numbers::pi), std::abs(place) / (2.0 * std::numbers::pi)});
   }
   return moved;
 }

@@ -55,7 +55,7 @@ std::string letters_of(string_view name) {
 }
 
 /// A column that may be a quantity.
-struct Candidate {
+struct ColumnCandidate {
   std::string quantity;
   std::size_t column = 0;
   bool is_standard = false;  ///< by its standard name
@@ -69,7 +69,7 @@ std::optional<std::string> standard(string_view base) {
   }
 }
 
-std::vector<Candidate> candidates_for(const ColumnLabel& label, std::size_t column) {
+std::vector<ColumnCandidate> candidates_for(const ColumnLabel& label, std::size_t column) {
   std::string base = split_column_name(label.name).base;
   // A field of a structure.
   if (const auto point = base.rfind('.'); point != std::string::npos && !standard(base)) {
@@ -79,7 +79,7 @@ std::vector<Candidate> candidates_for(const ColumnLabel& label, std::size_t colu
     if (label.unit.empty() || unit_of(*quantity, label.unit)) return {{*quantity, column, true}};
     return {};
   }
-  std::vector<Candidate> found;
+  std::vector<ColumnCandidate> found;
   for (const auto& [quantity, names] : aliases()) {
     if (std::ranges::count(names, string_view(letters_of(base))) == 0) continue;
     if (label.unit.empty() || unit_of(quantity, label.unit)) {
@@ -90,8 +90,9 @@ std::vector<Candidate> candidates_for(const ColumnLabel& label, std::size_t colu
 }
 
 /// The only column of a unit that nothing else has: a time, or a torque.
-std::vector<Candidate> by_unit(std::span<const ColumnLabel> columns, const std::string& quantity) {
-  std::vector<Candidate> found;
+std::vector<ColumnCandidate> by_unit(std::span<const ColumnLabel> columns,
+                                     const std::string& quantity) {
+  std::vector<ColumnCandidate> found;
   for (std::size_t i = 0; i < columns.size(); ++i) {
     if (!columns[i].unit.empty() && unit_of(quantity, columns[i].unit)) {
       found.push_back({quantity, i, false});
@@ -108,7 +109,7 @@ ColumnGuess guess_columns(std::span<const ColumnLabel> columns, const ColumnMapp
     return std::ranges::any_of(given,
                                [&](const auto& entry) { return entry.second.name == label.name; });
   };
-  std::map<std::string, std::vector<Candidate>> by_quantity;
+  std::map<std::string, std::vector<ColumnCandidate>> by_quantity;
   for (std::size_t i = 0; i < columns.size(); ++i) {
     if (is_given(columns[i])) continue;
     for (auto& candidate : candidates_for(columns[i], i)) {
@@ -118,12 +119,13 @@ ColumnGuess guess_columns(std::span<const ColumnLabel> columns, const ColumnMapp
   for (const char* quantity : {"time", "torque"}) {
     auto& found = by_quantity[quantity];
     if (found.empty()) found = by_unit(columns, quantity);
-    std::erase_if(found, [&](const Candidate& entry) { return is_given(columns[entry.column]); });
+    std::erase_if(found,
+                  [&](const ColumnCandidate& entry) { return is_given(columns[entry.column]); });
   }
   for (auto& [quantity, found] : by_quantity) {
     if (given.contains(quantity) || found.empty()) continue;
-    if (std::ranges::count(found, true, &Candidate::is_standard) > 0) {
-      std::erase_if(found, [](const Candidate& entry) { return !entry.is_standard; });
+    if (std::ranges::count(found, true, &ColumnCandidate::is_standard) > 0) {
+      std::erase_if(found, [](const ColumnCandidate& entry) { return !entry.is_standard; });
     }
     if (found.size() > 1) {
       std::vector<std::string> names;

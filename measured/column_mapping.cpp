@@ -3,6 +3,7 @@
 #include "arm/input_error.hpp"
 #include "arm/nearest_name.hpp"
 #include "measured/column_name.hpp"
+#include "measured/record_constants.hpp"
 #include "measured/time_grid.hpp"
 
 #include <fmt/format.h>
@@ -20,9 +21,6 @@ namespace flexarm::measured {
 namespace {
 
 using arm::InputError;
-
-constexpr std::string_view kTime = "time";
-constexpr std::string_view kTorque = "torque";
 
 std::vector<std::string> unit_names(std::string_view standard_name) {
   std::vector<std::string> names;

@@ -1,5 +1,7 @@
 #include "measured/column_name.hpp"
 
+#include "measured/delimited_line.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -50,13 +52,6 @@ const std::vector<Spellings>& vocabulary() {
       {"%", {"percent"}},
   };
   return units;
-}
-
-string_view trimmed(string_view text) {
-  constexpr string_view kBlanks = " \t";
-  const auto first = text.find_first_not_of(kBlanks);
-  if (first == string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
 }
 
 char lower(char c) {

@@ -1,14 +1,11 @@
 #include "measured/csv.hpp"
 
 #include "arm/input_error.hpp"
+#include "measured/delimited_line.hpp"
 
 namespace flexarm::measured {
 
 namespace {
-
-bool is_blank(char c) {
-  return c == ' ' || c == '\t';
-}
 
 bool ends_line(char c) {
   return c == '\n' || c == '\r';

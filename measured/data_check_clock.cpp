@@ -48,7 +48,7 @@ double shift_at(std::span<const double> times_s, std::size_t k, double period_s)
   return median_lead(times_s, k, to, period_s) - median_lead(times_s, from, k, period_s);
 }
 
-Steps steps_of(std::span<const double> times_s) {
+Steps clock_steps(std::span<const double> times_s) {
   Steps steps;
   steps.period_s = median_step(times_s);
   steps.periods.assign(times_s.size(), 1.0);
@@ -168,7 +168,7 @@ void add_jitter(std::span<const double> times_s, const Steps& steps,
 
 ClockCheck check_clock(std::span<const double> times_s, const DataCheckOptions& options) {
   ClockCheck check;
-  const Steps steps = steps_of(times_s);
+  const Steps steps = clock_steps(times_s);
   check.period_s = steps.period_s;
   if (steps.period_s > 0.0) add_jitter(times_s, steps, options, check.findings);
   if (!steps.gaps.empty()) check.findings.push_back(gap_finding(times_s, steps));

@@ -21,9 +21,9 @@ constexpr double kAgreement = 0.9;  // cosine of the phase that a sign and a del
 constexpr double kUnity = 0.1;      // log10 of a gain of 1
 constexpr double kNoDelay_periods = 1.5;
 // An exchange is claimed where it makes the identity hold more narrowly than chance would.
-constexpr double kExact = 0.05;  // log10
+constexpr double kExactGain = 0.05;  // log10
 constexpr std::size_t kFewestBlocks = 2;
-constexpr double kClearly = 0.5;  // of the misfit as recorded
+constexpr double kClearlySmaller = 0.5;  // of the misfit as recorded
 
 /// The signal that stands in the column of `at` when columns a and b are exchanged.
 std::size_t exchanged(std::size_t at, std::size_t a, std::size_t b) {
@@ -93,8 +93,8 @@ Exchange exchange_of(const Comparison& comparison, const std::vector<Identity>& 
   for (const std::size_t i : touched) {
     const GainFit fit = fit_of(comparison, identities[i], a, b);
     exchange.restores = exchange.restores && is_identity(comparison, fit) &&
-                        fit.blocks >= kFewestBlocks && fit.spread <= kExact &&
-                        std::abs(fit.log10_gain) <= kExact;
+                        fit.blocks >= kFewestBlocks && fit.spread <= kExactGain &&
+                        std::abs(fit.log10_gain) <= kExactGain;
     exchange.misfit += misfit_of(fit);
     exchange.recorded_misfit += misfit_of(recorded[i]);
   }
@@ -240,7 +240,7 @@ std::vector<DataFinding> check_swaps(const Comparison& comparison) {
     for (std::size_t b = a + 1; b < comparison.signals.size(); ++b) {
       if (!comparison.usable[a] || !comparison.usable[b] || is_stranger(comparison, a, b)) continue;
       const Exchange exchange = exchange_of(comparison, identities, recorded, a, b);
-      if (!exchange.restores || exchange.misfit >= kClearly * exchange.recorded_misfit ||
+      if (!exchange.restores || exchange.misfit >= kClearlySmaller * exchange.recorded_misfit ||
           exchange.misfit >= least) {
         continue;
       }

@@ -13,8 +13,8 @@ namespace {
 
 using arm::SensorKind;
 
-constexpr double kLeastScore = 8.0;
-constexpr double kLeastCorrelation = 0.7;
+constexpr double kLeastUnitScore = 8.0;
+constexpr double kLeastUnitCorrelation = 0.7;
 
 /// Scale of a over scale of b, as recorded over what it must be.
 struct Ratio {
@@ -35,11 +35,11 @@ void add_tip(const Comparison& comparison, std::vector<Ratio>& ratios) {
   const auto fit = fit_tip(comparison);
   if (!fit) return;
   const auto length_m = comparison.options.length_m;
-  if (std::abs(fit->angle.score) > kLeastScore && length_m) {
+  if (std::abs(fit->angle.score) > kLeastUnitScore && length_m) {
     ratios.push_back({fit->displacement, fit->angle.signal,
                       std::log10(std::abs(fit->angle.gain) / *length_m), false});
   }
-  if (std::abs(fit->deflection.score) > kLeastScore) {
+  if (std::abs(fit->deflection.score) > kLeastUnitScore) {
     ratios.push_back({fit->displacement, fit->deflection.signal,
                       std::log10(std::abs(fit->deflection.gain)), false});
   }
@@ -49,7 +49,9 @@ void add_rigid(const Comparison& comparison, Quantity x, Quantity y, double expe
                std::vector<Ratio>& ratios) {
   const auto fit =
       fit_low_frequencies(comparison.transforms, x, y, rigid_band_Hz(comparison.transforms));
-  if (std::abs(fit.score) < kLeastScore || std::abs(fit.correlation) < kLeastCorrelation) return;
+  if (std::abs(fit.score) < kLeastUnitScore || std::abs(fit.correlation) < kLeastUnitCorrelation) {
+    return;
+  }
   ratios.push_back({x.signal, y.signal, std::log10(std::abs(fit.gain) / expected), true});
 }
 

@@ -20,7 +20,7 @@ constexpr double kFall_steps = 2.0;
 /// design.
 constexpr std::size_t kFewestTorqueLevels = 20;
 
-std::string_view unit_of(const CheckedSignal& signal) {
+std::string_view unit_shown(const CheckedSignal& signal) {
   return signal.sensor ? arm::unit(*signal.sensor) : "N m";
 }
 
@@ -71,7 +71,7 @@ std::optional<DataFinding> constant(const CheckedSignal& signal,
       0.0,
       signal.values[0],
       fmt::format("{} is {:.6g} {} throughout, while {} varies", signal.name, signal.values[0],
-                  unit_of(signal), alone ? "the torque" : "another channel")};
+                  unit_shown(signal), alone ? "the torque" : "another channel")};
 }
 
 /// What lies at one end of a channel's range.
@@ -181,7 +181,7 @@ std::optional<DataFinding> saturation(const CheckedSignal& signal,
                         0.0,
                         first ? value : found->value,
                         fmt::format("{} is clipped at {} {}: {} samples, from sample {} on",
-                                    signal.name, bounds, unit_of(signal), samples, at + 1)};
+                                    signal.name, bounds, unit_shown(signal), samples, at + 1)};
   }
   return found;
 }
@@ -238,8 +238,8 @@ std::optional<DataFinding> stuck(const CheckedSignal& signal,
                      static_cast<double>(first_run.count),
                      fmt::format("{} repeats {:.6g} {} for {} samples from sample {} on, while "
                                  "others move{}",
-                                 signal.name, x[first_run.first], unit_of(signal), first_run.count,
-                                 first_run.first + 1, more_places(places))};
+                                 signal.name, x[first_run.first], unit_shown(signal),
+                                 first_run.count, first_run.first + 1, more_places(places))};
 }
 
 }  // namespace
@@ -282,8 +282,9 @@ std::vector<DataFinding> check_quantisation(std::span<const CheckedSignal> signa
          fmt::format(
              "{} comes in steps of {:.4g} {}: {:.2g} of its standard deviation; their error, "
              "{:.2g} {} rms, is {:.2g} of the noise floor",
-             signal.name, *step, unit_of(signal), *step / signal.deviation, std::sqrt(error_power),
-             unit_of(signal), std::sqrt(error_power / std::max(floor_power[i], 1e-300)))});
+             signal.name, *step, unit_shown(signal), *step / signal.deviation,
+             std::sqrt(error_power), unit_shown(signal),
+             std::sqrt(error_power / std::max(floor_power[i], 1e-300)))});
   }
   return findings;
 }

@@ -8,21 +8,13 @@
 
 namespace flexarm::measured {
 
-namespace {
-
 using std::string_view;
-
-bool is_blank(char c) {
-  return c == ' ' || c == '\t';
-}
 
 string_view trimmed(string_view text) {
   while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
   while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
   return text;
 }
-
-}  // namespace
 
 string_view separator_name(const Dialect& dialect) {
   switch (dialect.separator) {

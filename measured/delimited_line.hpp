@@ -41,6 +41,13 @@ class LineSplitter {
   std::deque<std::string> rewritten_;
 };
 
+inline bool is_blank(char c) {
+  return c == ' ' || c == '\t';
+}
+
+/// Without blanks and tabs around.
+std::string_view trimmed(std::string_view text);
+
 /// A cell as a number with the dialect's decimal mark, `nan` and `inf` included.
 std::optional<double> parse_cell(std::string_view cell, char decimal);
 

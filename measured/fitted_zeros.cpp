@@ -21,7 +21,7 @@ using Kind = SensorColumn::Kind;
 constexpr double kInfinite = 1e4;
 /// Below this share of the highest pole a zero is at 0.
 constexpr double kOrigin = 1e-9;
-constexpr int kNewtonSteps = 6;
+constexpr int kZeroSteps = 6;
 /// Imaginary parts below this share of |s| are rounding of a real zero.
 constexpr double kReal = 1e-9;
 
@@ -110,7 +110,7 @@ double highest_pole(const BlockSet& set) {
 
 /// Newton's method on G(s); stays on the real axis where it begins there.
 Complex polished(const FittedTransfer& transfer, Complex s) {
-  for (int i = 0; i < kNewtonSteps; ++i) {
+  for (int i = 0; i < kZeroSteps; ++i) {
     const Complex step = transfer.value(s) / transfer.s_derivative(s);
     if (!std::isfinite(std::abs(step)) || std::abs(step) > 0.1 * std::abs(s)) break;
     s -= step;

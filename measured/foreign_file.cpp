@@ -4,6 +4,7 @@
 #include "arm/text_file.hpp"
 #include "measured/column_name.hpp"
 #include "measured/foreign_mat.hpp"
+#include "measured/record_constants.hpp"
 #include "measured/universal_file.hpp"
 
 #include <fmt/format.h>
@@ -13,7 +14,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdlib>
-#include <limits>
 #include <numbers>
 #include <string_view>
 #include <utility>
@@ -23,9 +23,6 @@ namespace flexarm::measured {
 namespace {
 
 using arm::InputError;
-
-constexpr std::size_t kLargestFile_bytes = std::size_t{1} << 32U;
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 std::string told(const std::string& text) {
   return text == "NONE" || text == "none" ? "" : text;
@@ -208,7 +205,7 @@ const char* to_string(ForeignFormat format) {
 
 ForeignFile read_foreign_file(const std::filesystem::path& path) {
   const std::string name = arm::shown(path.string());
-  const std::string bytes = arm::read_text_file(path, kLargestFile_bytes);
+  const std::string bytes = arm::read_text_file(path, kLargestRecord_bytes);
   ForeignFile file;
   if (bytes.starts_with("MATLAB 5.0 MAT-file")) {
     file = mat_contents(path);

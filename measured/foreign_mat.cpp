@@ -3,6 +3,7 @@
 #include "arm/input_error.hpp"
 #include "measured/column_name.hpp"
 #include "measured/mat_file.hpp"
+#include "measured/record_constants.hpp"
 #include "measured/record_export.hpp"
 
 #include <fmt/format.h>
@@ -10,7 +11,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <limits>
 #include <numbers>
 #include <string_view>
 #include <utility>
@@ -21,7 +21,6 @@ namespace {
 
 using arm::InputError;
 
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 /// A matrix of more columns is no set of signals.
 constexpr std::size_t kMostColumns = 64;
 

@@ -5,6 +5,7 @@
 #include "arm/text_file.hpp"
 #include "measured/column_name.hpp"
 #include "measured/delimited_line.hpp"
+#include "measured/record_constants.hpp"
 #include "measured/text_encoding.hpp"
 
 #include <fmt/format.h>
@@ -27,7 +28,6 @@ namespace {
 using arm::InputError;
 using std::string_view;
 
-constexpr std::size_t kLargestFile_bytes = std::size_t{1} << 32U;
 /// So many lines tell how a file is written.
 constexpr std::size_t kSample = 2000;
 
@@ -137,9 +137,9 @@ Reading best_reading(const std::vector<Line>& sample) {
 }
 
 /// Reads the table line by line, in the best reading of its first lines.
-class Reader {
+class TableReader {
  public:
-  explicit Reader(string_view text) : text_(text) {
+  explicit TableReader(string_view text) : text_(text) {
     LineReader lines(text);
     Line line;
     while (sample_.size() < kSample && lines.next(line)) sample_.push_back(line);
@@ -351,7 +351,7 @@ ForeignTable parse_foreign_table(string_view bytes, const std::string& file_name
   } catch (const InputError& error) {
     throw arm::located(error, file_name, 0);
   }
-  Reader reader(text.utf8);
+  TableReader reader(text.utf8);
   try {
     ForeignTable table = reader.read();
     if (text.encoding != string_view("UTF-8")) {
@@ -364,7 +364,7 @@ ForeignTable parse_foreign_table(string_view bytes, const std::string& file_name
 }
 
 ForeignTable read_foreign_table(const std::filesystem::path& path) {
-  return parse_foreign_table(arm::read_text_file(path, kLargestFile_bytes),
+  return parse_foreign_table(arm::read_text_file(path, kLargestRecord_bytes),
                              arm::shown(path.string()));
 }
 

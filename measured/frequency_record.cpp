@@ -7,6 +7,7 @@
 #include "arm/text_file.hpp"
 #include "measured/csv.hpp"
 #include "measured/number_cell.hpp"
+#include "measured/record_constants.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -17,7 +18,6 @@
 #include <cstddef>
 #include <functional>
 #include <iterator>
-#include <limits>
 #include <map>
 #include <optional>
 #include <span>
@@ -30,14 +30,11 @@ namespace {
 
 using arm::InputError;
 
-constexpr std::size_t kLargestFile_bytes = std::size_t{1} << 32U;
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-
 enum Place : std::size_t { frequency, sensor, re, im, coherence };
 const std::array<std::string, 5> kNames = {"frequency [Hz]", "sensor", "re", "im", "coherence"};
 
 /// Where each column of `kNames` stands in a row.
-using Header = std::array<std::optional<std::size_t>, kNames.size()>;
+using FrequencyHeader = std::array<std::optional<std::size_t>, kNames.size()>;
 
 /// " (did you mean ...?)", also for a column without its unit.
 std::string meant(std::string_view typed) {
@@ -45,11 +42,11 @@ std::string meant(std::string_view typed) {
   return arm::did_you_mean(typed, kNames);
 }
 
-Header read_header(std::span<const std::string_view> cells) {
+FrequencyHeader read_frequency_header(std::span<const std::string_view> cells) {
   if (cells.size() == 1 && cells[0].find_first_of(";\t") != std::string::npos) {
     throw InputError("cells must be separated by commas, and numbers have a decimal point");
   }
-  Header header;
+  FrequencyHeader header;
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const auto place =
         static_cast<std::size_t>(std::ranges::find(kNames, cells[i]) - kNames.begin());
@@ -99,7 +96,7 @@ void require_ascending(const arm::Sensor& at, double before_Hz, double frequency
 /// Fills a record row by row.
 class Builder {
  public:
-  explicit Builder(const Header& header) : header_(header) {
+  explicit Builder(const FrequencyHeader& header) : header_(header) {
     columns_ = static_cast<std::size_t>(
         std::ranges::count_if(header, [](const auto& place) { return place.has_value(); }));
   }
@@ -138,7 +135,7 @@ class Builder {
     return channels[place];
   }
 
-  Header header_;
+  FrequencyHeader header_;
   std::size_t columns_ = 0;
   FrequencyRecord record_;
   std::map<std::string, std::size_t, std::less<>> channel_of_name_;
@@ -195,7 +192,7 @@ FrequencyRecord parse_frequency_record(std::string_view csv, const std::string& 
     if (!reader.next()) {
       throw InputError(fmt::format("empty; the header is {}", fmt::join(kNames, ",")));
     }
-    Builder builder(read_header(reader.cells()));
+    Builder builder(read_frequency_header(reader.cells()));
     while (reader.next()) builder.add(reader.cells());
     FrequencyRecord record = builder.take();
     if (record.channels.empty()) throw InputError("only a header; must have one row or more");
@@ -206,7 +203,7 @@ FrequencyRecord parse_frequency_record(std::string_view csv, const std::string& 
 }
 
 FrequencyRecord read_frequency_record(const std::filesystem::path& path) {
-  return parse_frequency_record(arm::read_text_file(path, kLargestFile_bytes),
+  return parse_frequency_record(arm::read_text_file(path, kLargestRecord_bytes),
                                 arm::shown(path.string()));
 }
 

@@ -1,5 +1,7 @@
 #include "measured/frequency_response.hpp"
 
+#include "measured/record_constants.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,8 +13,6 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
 }  // namespace
 
 FrequencyResponseEstimators estimate(const CrossSpectra& spectra, std::size_t output) {
@@ -21,10 +21,10 @@ FrequencyResponseEstimators estimate(const CrossSpectra& spectra, std::size_t ou
   const auto& s_xy = spectra.cross.at(output);
   const std::size_t lines = s_xx.size();
   FrequencyResponseEstimators made;
-  made.h1.assign(lines, Complex(kNaN, kNaN));
+  made.h1.assign(lines, Complex(kUnknown, kUnknown));
   made.h2 = made.h1;
   made.hv = made.h1;
-  made.coherence.assign(lines, kNaN);
+  made.coherence.assign(lines, kUnknown);
   for (std::size_t k = 0; k < lines; ++k) {
     const double size = std::abs(s_xy[k]);
     if (!(s_xx[k] > 0.0 && s_yy[k] > 0.0 && size > 0.0)) continue;
@@ -39,7 +39,7 @@ FrequencyResponseEstimators estimate(const CrossSpectra& spectra, std::size_t ou
 }
 
 double relative_response_std(double coherence, double averages) {
-  if (!(averages > 1.0)) return kNaN;
+  if (!(averages > 1.0)) return kUnknown;
   return std::sqrt((1.0 - coherence) / (2.0 * (averages - 1.0) * coherence));
 }
 

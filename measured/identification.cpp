@@ -16,7 +16,7 @@ namespace flexarm::measured {
 namespace {
 
 /// Sampling periods of runs that are fitted together differ by less than this part.
-constexpr double kSamePeriod = 1e-9;
+constexpr double kSamePeriodOfRuns = 1e-9;
 /// A step in frequency this many times the one before begins another band.
 constexpr double kGap = 8.0;
 /// Half the width of a window's main lobe, in lines.
@@ -181,7 +181,7 @@ bool fit_together(const MeasuredRun& a, const MeasuredRun& b) {
   const double period_s = sampling_period_s(std::get<TimeRecord>(a.data));
   return a.run.payload == b.run.payload && a.run.torque_hold == b.run.torque_hold &&
          std::abs(sampling_period_s(std::get<TimeRecord>(b.data)) - period_s) <=
-             kSamePeriod * period_s;
+             kSamePeriodOfRuns * period_s;
 }
 
 std::vector<RunsFit> group_runs(const std::vector<MeasuredRun>& runs,

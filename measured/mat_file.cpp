@@ -26,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kLargestFile_bytes = std::size_t{1} << 30;
+constexpr std::size_t kLargestMatFile_bytes = std::size_t{1} << 30;
 /// The library would put the time and the platform there.
 constexpr const char* kHeader = "MATLAB 5.0 MAT-file, written by flexarm";
 constexpr std::size_t kLongestName = 63;
@@ -283,11 +283,11 @@ void write_mat_file(const std::vector<MatVariable>& variables, const fs::path& p
     }
   }
   if (Mat_Close(file.release()) != 0) throw unusable(temporary.path(), "cannot be written");
-  arm::write_atomically(path, arm::read_text_file(temporary.path(), kLargestFile_bytes));
+  arm::write_atomically(path, arm::read_text_file(temporary.path(), kLargestMatFile_bytes));
 }
 
 MatContents read_mat_contents(const fs::path& path) {
-  const std::string bytes = arm::read_text_file(path, kLargestFile_bytes);
+  const std::string bytes = arm::read_text_file(path, kLargestMatFile_bytes);
   constexpr std::string_view kMagic = "MATLAB 5.0 MAT-file";
   if (!bytes.starts_with(kMagic)) {
     throw unusable(path, "is no MATLAB 5 file; save with -v6 or -v7");

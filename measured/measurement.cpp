@@ -23,7 +23,7 @@ namespace {
 
 using arm::InputError;
 
-constexpr std::size_t kLargestFile_bytes = 1 << 20;
+constexpr std::size_t kLargestMeasurement_bytes = 1 << 20;
 
 template <class T>
 using Words = std::array<std::pair<T, const char*>, 2>;
@@ -51,9 +51,9 @@ const std::vector<std::string> kPayloadKeys = {"mass", "inertia"};
 const std::vector<std::string> kColumnKeys = {"name", "unit", "scale"};
 
 /// Walks a document once and keeps its faults by line, so that the first in the file is reported.
-class Reader {
+class MeasurementReader {
  public:
-  explicit Reader(const std::string& file_name) : file_name_(file_name) {}
+  explicit MeasurementReader(const std::string& file_name) : file_name_(file_name) {}
 
   Measurement read(const toml::table& document) {
     for (const auto& [key, node] : document) read_top_level(arm::shown(key.str()), node);
@@ -327,11 +327,11 @@ Measurement parse_measurement(std::string_view toml, const std::string& file_nam
     throw arm::located(InputError("empty; a measurement file needs arm and at least one [[run]]"),
                        file_name, 1);
   }
-  return Reader(file_name).read(arm::parse_toml(toml, file_name));
+  return MeasurementReader(file_name).read(arm::parse_toml(toml, file_name));
 }
 
 Measurement read_measurement(const std::filesystem::path& path) {
-  return parse_measurement(arm::read_text_file(path, kLargestFile_bytes),
+  return parse_measurement(arm::read_text_file(path, kLargestMeasurement_bytes),
                            arm::shown(path.string()));
 }
 

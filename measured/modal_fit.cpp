@@ -17,7 +17,6 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-constexpr double kPi = std::numbers::pi;
 /// What a heavily damped mode is, and how near its column in the chart lies.
 constexpr double kHeavy = 0.1;
 constexpr double kHeavyTurn = 0.03;
@@ -127,7 +126,7 @@ void describe_poles(ModalFit& fit, const BlockFit& best) {
       fit.rigid_a1_std_rad_per_s = deviation;
       continue;
     }
-    FittedPole pole{.frequency_Hz = block.omega_rad_per_s() / (2.0 * kPi),
+    FittedPole pole{.frequency_Hz = block.omega_rad_per_s() / (2.0 * std::numbers::pi),
                     .damping_ratio = block.damping_ratio(),
                     .damping_ratio_std = std::sqrt(fit.covariance(at + 1, at + 1)),
                     .s_rad_per_s = block.poles_rad_per_s()};
@@ -183,7 +182,7 @@ void describe_sensors(ModalFit& fit, const BlockFit& blocks, const ResidualStudy
 
 /// Where blocks begin to lie beyond the band [rad/s]; infinite for frequency responses.
 double beyond_band_rad_per_s(const ModalFitTask& task) {
-  return task.in_time ? 2.0 * kPi * kBeyondBand * task.band.to_Hz
+  return task.in_time ? 2.0 * std::numbers::pi * kBeyondBand * task.band.to_Hz
                       : std::numeric_limits<double>::infinity();
 }
 

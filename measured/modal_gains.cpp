@@ -19,9 +19,8 @@ using Complex = std::complex<double>;
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr double kPi = std::numbers::pi;
 /// Differences of this many standard errors are derivatives to 1e-8 of the curvature's part.
-constexpr double kStep = 1e-4;
+constexpr double kDifferenceStep = 1e-4;
 constexpr double kMostRelative = 0.5;
 constexpr int kNewtonSteps = 4;
 
@@ -59,13 +58,13 @@ class MovedFit {
   std::vector<FittedTransfer> transfers_;
 };
 
-using Quantity = std::function<double(const MovedFit&)>;
+using GainOf = std::function<double(const MovedFit&)>;
 
-Estimate estimate(const ModalFit& fit, const Quantity& quantity) {
+Estimate estimate(const ModalFit& fit, const GainOf& quantity) {
   Estimate result{quantity(MovedFit(fit, fit.parameters)), 0.0};
   VectorXd gradient = VectorXd::Zero(fit.parameters.size());
   for (Index i = 0; i < gradient.size(); ++i) {
-    const double step = kStep * std::sqrt(fit.covariance(i, i));
+    const double step = kDifferenceStep * std::sqrt(fit.covariance(i, i));
     if (!(step > 0.0)) continue;
     VectorXd moved = fit.parameters;
     moved(i) += step;
@@ -120,8 +119,8 @@ std::vector<FittedZero> antiresonances(const ModalFit& fit, std::size_t hub,
   std::vector<FittedZero> kept;
   for (const FittedZero& zero : fit.sensors[hub].zeros) {
     const bool below_last =
-        !modes.empty() &&
-        zero.frequency_Hz < fit.blocks.blocks[modes.back()].omega_rad_per_s() / (2.0 * kPi);
+        !modes.empty() && zero.frequency_Hz < fit.blocks.blocks[modes.back()].omega_rad_per_s() /
+                                                  (2.0 * std::numbers::pi);
     if (zero.is_told && zero.s_rad_per_s.imag() > 0.0 && below_last &&
         std::abs(zero.damping_ratio) < 0.5) {
       kept.push_back(zero);
@@ -153,7 +152,7 @@ ModalGains modal_gains(const ModalFit& fit, std::optional<double> total_inertia_
         "modal gains: the inertia I_T must be given for an arm that does not "
         "turn freely");
   }
-  const Quantity inertia = [&](const MovedFit& moved) {
+  const GainOf inertia = [&](const MovedFit& moved) {
     return total_inertia_kg_m2 ? *total_inertia_kg_m2 : 1.0 / hub_b0(fit, moved, sensors, 0);
   };
   gains.total_inertia_kg_m2 = estimate(fit, inertia);
@@ -175,10 +174,10 @@ ModalGains modal_gains(const ModalFit& fit, std::optional<double> total_inertia_
   for (const std::size_t block : modes) {
     ModalGain gain;
     gain.frequency_Hz = fit.poles[block - first].frequency_Hz;
-    const Quantity slope = [&](const MovedFit& moved) {
+    const GainOf slope = [&](const MovedFit& moved) {
       return std::sqrt(inertia(moved) * hub_b0(fit, moved, sensors, block));
     };
-    const auto accepted = [&](const Quantity& quantity) -> std::optional<Estimate> {
+    const auto accepted = [&](const GainOf& quantity) -> std::optional<Estimate> {
       const Estimate found = estimate(fit, quantity);
       // Not a number, or not even its sign known.
       if (!(found.standard_error <= kMostRelative * std::abs(found.value))) return std::nullopt;

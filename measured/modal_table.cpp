@@ -23,7 +23,7 @@ namespace {
 
 using arm::InputError;
 
-constexpr std::size_t kLargestFile_bytes = 1 << 24;
+constexpr std::size_t kLargestModalTable_bytes = 1 << 24;
 
 constexpr const char* kSensor = "sensor";
 constexpr const char* kFeature = "feature";
@@ -53,7 +53,7 @@ const std::vector<std::string>& column_names() {
 }
 
 /// " (did you mean ...?)", also for a column without its unit.
-std::string meant(const std::string& typed) {
+std::string meant_column(const std::string& typed) {
   for (const auto& name : column_names()) {
     if (name.starts_with(typed + " [")) return fmt::format(" (did you mean {}?)", name);
   }
@@ -61,18 +61,18 @@ std::string meant(const std::string& typed) {
 }
 
 /// Where each column stands in a row.
-using Header = std::map<std::string, std::size_t>;
+using ModalHeader = std::map<std::string, std::size_t>;
 
-Header read_header(const CsvRow& row) {
+ModalHeader read_modal_header(const CsvRow& row) {
   if (row.cells.size() == 1 && row.cells[0].find_first_of(";\t") != std::string::npos) {
     throw InputError("cells must be separated by commas, and numbers have a decimal point");
   }
-  Header header;
+  ModalHeader header;
   for (std::size_t i = 0; i < row.cells.size(); ++i) {
     const std::string& name = row.cells[i];
     if (std::ranges::count(column_names(), name) == 0) {
       throw InputError(fmt::format("column {}: unknown{}; allowed: {}", arm::shown(name),
-                                   meant(name), fmt::join(column_names(), ", ")));
+                                   meant_column(name), fmt::join(column_names(), ", ")));
     }
     if (!header.emplace(name, i).second) {
       throw InputError(fmt::format("column {}: given twice", name));
@@ -109,7 +109,7 @@ Feature read_feature(const std::string& cell) {
                   arm::did_you_mean(cell, std::array<std::string, 2>{"pole", "zero"})));
 }
 
-ModalEntry read_entry(const CsvRow& row, const Header& header) {
+ModalEntry read_entry(const CsvRow& row, const ModalHeader& header) {
   if (row.cells.size() != header.size()) {
     throw InputError(fmt::format("{} cells; the header has {} (numbers have a decimal point)",
                                  row.cells.size(), header.size()));
@@ -156,7 +156,7 @@ ModalTable parse_modal_table(std::string_view csv, const std::string& file_name)
     if (rows.empty()) {
       throw InputError(fmt::format("empty; the header is {}", fmt::join(column_names(), ",")));
     }
-    const Header header = read_header(rows.front());
+    const ModalHeader header = read_modal_header(rows.front());
     ModalTable table;
     std::map<std::string, int> line_of;
     for (std::size_t i = 1; i < rows.size(); ++i) {
@@ -176,7 +176,7 @@ ModalTable parse_modal_table(std::string_view csv, const std::string& file_name)
 }
 
 ModalTable read_modal_table(const std::filesystem::path& path) {
-  return parse_modal_table(arm::read_text_file(path, kLargestFile_bytes),
+  return parse_modal_table(arm::read_text_file(path, kLargestModalTable_bytes),
                            arm::shown(path.string()));
 }
 

@@ -18,10 +18,9 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr double kPi = std::numbers::pi;
 /// A circle of more is none: its points are not near a resonance.
 constexpr double kMostDamping = 0.5;
-constexpr double kDegree = kPi / 180.0;
+constexpr double kDegree = std::numbers::pi / 180.0;
 
 /// The channel in velocity form, without line 0.
 struct Velocity {
@@ -32,7 +31,7 @@ struct Velocity {
 Velocity velocity_form(const FrequencyChannel& channel) {
   Velocity made;
   for (std::size_t k = 0; k < channel.frequency_Hz.size(); ++k) {
-    const double omega = 2.0 * kPi * channel.frequency_Hz[k];
+    const double omega = 2.0 * std::numbers::pi * channel.frequency_Hz[k];
     if (!(omega > 0.0)) continue;
     const int powers = 1 - arm::derivative_order(channel.sensor);
     Complex factor = 1.0;
@@ -71,7 +70,8 @@ std::vector<double> unwrapped_angles(std::span<const Complex> points, Complex ce
   for (std::size_t i = 0; i < points.size(); ++i) {
     angles[i] = std::arg(points[i] - centre);
     if (i == 0) continue;
-    angles[i] += 2.0 * kPi * std::round((angles[i - 1] - angles[i]) / (2.0 * kPi));
+    angles[i] +=
+        2.0 * std::numbers::pi * std::round((angles[i - 1] - angles[i]) / (2.0 * std::numbers::pi));
   }
   return angles;
 }
@@ -242,7 +242,8 @@ std::optional<std::string> draw(const Velocity& v, double near_Hz, const CircleS
       fit.a = angles[peak - arc.first];
     }
     // The centre's place decides the branch of the angles.
-    fit.a += 2.0 * kPi * std::round((angles[angles.size() / 2] - fit.a) / (2.0 * kPi));
+    fit.a += 2.0 * std::numbers::pi *
+             std::round((angles[angles.size() / 2] - fit.a) / (2.0 * std::numbers::pi));
     fit = fit_angles(frequencies, angles, fit);
     made.frequency_Hz.assign(frequencies.begin(), frequencies.end());
     made.velocity.assign(points.begin(), points.end());
@@ -268,7 +269,7 @@ std::optional<std::string> draw(const Velocity& v, double near_Hz, const CircleS
                        made.damping_ratio);
   }
   made.modal_constant = 2.0 * made.circle.radius * std::polar(1.0, fit.a) * 2.0 *
-                        made.damping_ratio * 2.0 * kPi * made.natural_frequency_Hz;
+                        made.damping_ratio * 2.0 * std::numbers::pi * made.natural_frequency_Hz;
   return std::nullopt;
 }
 

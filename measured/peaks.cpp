@@ -1,5 +1,6 @@
 #include "measured/peaks.hpp"
 
+#include "measured/record_constants.hpp"
 #include "measured/resonance_parabola.hpp"
 
 #include <boost/math/special_functions/erf.hpp>
@@ -8,14 +9,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 namespace flexarm::measured {
 
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 const double kdB = 10.0 / std::log(10.0);
 
 /// The lines looked at.
@@ -69,7 +68,7 @@ class Chance {
   PowerNoise noise_;
   double probability_;
   double normal_;
-  double last_std_ = kNaN;
+  double last_std_ = kUnknown;
   std::pair<double, double> last_;
 };
 

@@ -22,7 +22,7 @@ constexpr double kAlike = 0.9;
 /// The part of periods' differences that a shift may explain; of noise it is 1/samples.
 constexpr double kMostShift = 0.5;
 /// Squares of rounding in a file of six digits.
-constexpr double kRounding = 1e-11;
+constexpr double kFileRounding = 1e-11;
 
 struct Piece {
   std::size_t first = 0;
@@ -121,7 +121,7 @@ std::optional<Period> checked(std::span<const double> x, std::size_t samples) {
   if (found.periods < 2 || 2 * found.periods * samples < x.size()) return std::nullopt;
   const double apart = mismatch(x, x.size() - found.periods * samples, x.size() - samples, samples);
   if (apart > kMostMismatch) return std::nullopt;
-  if (found.mismatch > kRounding && explained_by_shift(x, samples) > kMostShift) {
+  if (found.mismatch > kFileRounding && explained_by_shift(x, samples) > kMostShift) {
     return std::nullopt;
   }
   return found;

@@ -2,6 +2,7 @@
 
 #include "arm/input_error.hpp"
 #include "measured/fourier.hpp"
+#include "measured/record_constants.hpp"
 #include "measured/segment.hpp"
 
 #include <Eigen/Dense>
@@ -16,8 +17,6 @@ namespace flexarm::measured {
 namespace {
 
 using Complex = std::complex<double>;
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// Least squares of a polynomial on the lines between three neighbouring ones of a periodic signal.
 class LocalPolynomial {
@@ -136,7 +135,7 @@ PeriodicSpectra periodic_spectra(const Signal& input, std::span<const Signal> ou
       const Complex back = to_amplitude / difference_response(made.frequency_Hz[k - 1], period_s,
                                                               signal.differences);
       Complex value = spectrum[k * periods];
-      double noise = kNaN;
+      double noise = kUnknown;
       if (has_noise) {
         const auto around = local.around(spectrum, k * periods);
         const auto polynomial = local.coefficients(around);
@@ -151,7 +150,7 @@ PeriodicSpectra periodic_spectra(const Signal& input, std::span<const Signal> ou
           input_residuals.push_back(std::move(residual));
         }
       } else if (covariance != nullptr) {
-        covariance->emplace_back(kNaN, kNaN);
+        covariance->emplace_back(kUnknown, kUnknown);
       }
       found.amplitude.push_back(value * back);
       found.noise_std.push_back(noise);
@@ -195,7 +194,7 @@ std::size_t unsettled_periods(std::span<const Signal> outputs, std::size_t perio
 
 double probability_of_chance(const PeriodicSignal& signal, std::size_t line,
                              double degrees_of_freedom) {
-  if (degrees_of_freedom == 0.0) return kNaN;
+  if (degrees_of_freedom == 0.0) return kUnknown;
   const double noise = std::max(signal.noise_std[line], signal.rounding[line]);
   const double power = std::norm(signal.amplitude[line]);
   if (power == 0.0) return 1.0;

@@ -12,7 +12,7 @@ namespace flexarm::measured {
 namespace {
 
 /// Data types of axes.
-enum Quantity : int {
+enum AxisQuantity : int {
   kGeneral = 1,
   kMoment = 9,
   kTimeQuantity = 17,

@@ -1,17 +1,15 @@
 #include "measured/response_estimate.hpp"
 
 #include "arm/input_error.hpp"
+#include "measured/record_constants.hpp"
 
 #include <cmath>
-#include <limits>
 
 namespace flexarm::measured {
 
 namespace {
 
 using Complex = std::complex<double>;
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// Of each line, 1 or what the torque's hold does to it.
 std::vector<Complex> hold_at(const std::vector<double>& frequency_Hz, double period_s,
@@ -129,8 +127,8 @@ void from_periods(const TimeRecord& record, FrequencyResponseEstimate& made) {
           std::norm(x.amplitude[k]);
       channel.response_std.push_back(std::sqrt(std::max(variance, 0.0)) / std::abs(hold[j]));
       if (std::isnan(variance)) {
-        channel.response_std.back() = kNaN;
-        channel.estimators.coherence[j] = kNaN;
+        channel.response_std.back() = kUnknown;
+        channel.estimators.coherence[j] = kUnknown;
       }
       channel.relative_std.push_back(channel.response_std.back() /
                                      (std::sqrt(2.0) * std::abs(channel.response.back())));

@@ -2,13 +2,13 @@
 
 #include "arm/input_error.hpp"
 #include "measured/fourier.hpp"
+#include "measured/record_constants.hpp"
 #include "measured/segment.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 namespace flexarm::measured {
@@ -16,8 +16,6 @@ namespace flexarm::measured {
 namespace {
 
 using Complex = std::complex<double>;
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 std::size_t most_differences(const Signal& input, std::span<const Signal> outputs) {
   int most = input.differences;
@@ -162,7 +160,7 @@ CrossSpectra cross_spectra(const Signal& input, std::span<const Signal> outputs,
     const double scale = k == 0 || 2 * k == length ? density : 2.0 * density;
     const auto removed = [&](int differences) {
       return k == 0 && differences > 0
-                 ? Complex(kNaN, kNaN)
+                 ? Complex(kUnknown, kUnknown)
                  : difference_response(made.frequency_Hz[k], period_s, differences);
     };
     const Complex of_input = removed(input.differences);

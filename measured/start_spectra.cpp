@@ -15,7 +15,6 @@ using Complex = std::complex<double>;
 using Eigen::ArrayXcd;
 using Eigen::Index;
 
-constexpr double kPi = std::numbers::pi;
 constexpr std::size_t kBins = 100;
 /// The part of a sensor's lines that lie at its noise, for a start.
 constexpr double kNoiseQuantile = 0.1;
@@ -80,9 +79,10 @@ std::vector<DenominatorEquation> time_equations(const TimeRecord& record, bool r
     for (Index i = 0; i < count; ++i) {
       const std::size_t k = used[static_cast<std::size_t>(i)];
       const double frequency_Hz = static_cast<double>(k) * line_Hz;
-      equation.angle(i) = kPi * frequency_Hz / band.to_Hz;
+      equation.angle(i) = std::numbers::pi * frequency_Hz / band.to_Hz;
       equation.y(i) = reading[k];
-      const Complex difference = 1.0 - std::polar(1.0, -2.0 * kPi * frequency_Hz * period_s);
+      const Complex difference =
+          1.0 - std::polar(1.0, -2.0 * std::numbers::pi * frequency_Hz * period_s);
       const Complex divisor = std::pow(difference, poles_at_one);
       equation.inputs[0](i) = torque[k] / divisor;
       equation.inputs[1](i) = 1.0 / divisor;
@@ -108,7 +108,7 @@ DenominatorEquation frequency_equation(const FrequencyChannel& channel,
   const int poles_at_zero = integrations(channel.sensor, rigid);
   for (Index i = 0; i < count; ++i) {
     const std::size_t k = used[static_cast<std::size_t>(i)];
-    equation.angle(i) = kPi * channel.frequency_Hz[k] / band.to_Hz;
+    equation.angle(i) = std::numbers::pi * channel.frequency_Hz[k] / band.to_Hz;
     equation.y(i) = channel.response[k] / deviation[k];
     const Complex s(0.0, channel.frequency_Hz[k] / band.to_Hz);
     equation.inputs[0](i) = 1.0 / (deviation[k] * std::pow(s, poles_at_zero));

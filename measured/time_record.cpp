@@ -6,6 +6,7 @@
 #include "arm/text_file.hpp"
 #include "measured/csv.hpp"
 #include "measured/number_cell.hpp"
+#include "measured/record_constants.hpp"
 #include "measured/time_grid.hpp"
 #include "measured/unit.hpp"
 
@@ -26,10 +27,6 @@ namespace {
 
 using arm::InputError;
 
-constexpr std::size_t kLargestFile_bytes = std::size_t{1} << 32U;
-
-constexpr std::string_view kTime = "time";
-constexpr std::string_view kTorque = "torque";
 constexpr std::string_view kForm = "time [s],torque [N m],hub_angle [rad],...";
 
 /// A column of the file; `sensor` is empty for time and torque.
@@ -99,7 +96,7 @@ Column read_column(std::string_view header) {
   return column;
 }
 
-std::vector<Column> read_header(std::span<const std::string_view> cells) {
+std::vector<Column> read_time_header(std::span<const std::string_view> cells) {
   if (cells.size() == 1 && cells[0].find_first_of(";\t") != std::string::npos) {
     throw InputError("cells must be separated by commas, and numbers have a decimal point");
   }
@@ -152,7 +149,7 @@ TimeRecord record_of(std::vector<Column>&& columns) {
   return record;
 }
 
-void require_finite(std::string_view name, const std::vector<double>& values) {
+void require_finite_values(std::string_view name, const std::vector<double>& values) {
   const auto bad = std::ranges::find_if(values, [](double value) { return !std::isfinite(value); });
   if (bad == values.end()) return;
   throw InputError(fmt::format("{} = {} in sample {}: must be a finite number", name, *bad,
@@ -164,10 +161,10 @@ void require_writable(const TimeRecord& record) {
   bool even = record.torque_N_m.size() == samples;
   for (const auto& channel : record.channels) even = even && channel.values.size() == samples;
   if (!even) throw std::invalid_argument("a time record whose columns are of unlike length");
-  require_finite(kTime, record.time_s);
-  require_finite(kTorque, record.torque_N_m);
+  require_finite_values(kTime, record.time_s);
+  require_finite_values(kTorque, record.torque_N_m);
   for (const auto& channel : record.channels) {
-    require_finite(arm::to_string(channel.sensor), channel.values);
+    require_finite_values(arm::to_string(channel.sensor), channel.values);
   }
 }
 
@@ -191,7 +188,7 @@ TimeRecord parse_time_record(std::string_view csv, const std::string& file_name)
   std::vector<int> lines;
   try {
     if (!reader.next()) throw InputError(fmt::format("empty; the header is {}", kForm));
-    columns = read_header(reader.cells());
+    columns = read_time_header(reader.cells());
     while (reader.next()) {
       read_row(reader.cells(), columns);
       lines.push_back(reader.line());
@@ -211,7 +208,7 @@ TimeRecord parse_time_record(std::string_view csv, const std::string& file_name)
 }
 
 TimeRecord read_time_record(const std::filesystem::path& path) {
-  return parse_time_record(arm::read_text_file(path, kLargestFile_bytes),
+  return parse_time_record(arm::read_text_file(path, kLargestRecord_bytes),
                            arm::shown(path.string()));
 }
 

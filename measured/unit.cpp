@@ -11,8 +11,8 @@ namespace {
 
 constexpr double kStandardGravity_m_per_s2 = 9.80665;
 
-constexpr std::array<Unit, 3> kTime = {{{"s"}, {"ms", 1.0, 1e3}, {"us", 1.0, 1e6}}};
-constexpr std::array<Unit, 2> kTorque = {{{"N m"}, {"N mm", 1.0, 1e3}}};
+constexpr std::array<Unit, 3> kTimeUnits = {{{"s"}, {"ms", 1.0, 1e3}, {"us", 1.0, 1e6}}};
+constexpr std::array<Unit, 2> kTorqueUnits = {{{"N m"}, {"N mm", 1.0, 1e3}}};
 constexpr std::array<Unit, 2> kAngle = {{{"rad"}, {"deg", std::numbers::pi, 180.0}}};
 constexpr std::array<Unit, 2> kAngularVelocity = {{{"rad/s"}, {"deg/s", std::numbers::pi, 180.0}}};
 constexpr std::array<Unit, 2> kAcceleration = {{{"m/s^2"}, {"g", kStandardGravity_m_per_s2}}};
@@ -20,7 +20,7 @@ constexpr std::array<Unit, 2> kLength = {{{"m"}, {"mm", 1.0, 1e3}}};
 constexpr std::array<Unit, 2> kStrain = {{{"1"}, {"ustrain", 1.0, 1e6}}};
 
 constexpr std::array<std::span<const Unit>, 7> kQuantities = {
-    kTime, kTorque, kAngle, kAngularVelocity, kAcceleration, kLength, kStrain};
+    kTimeUnits, kTorqueUnits, kAngle, kAngularVelocity, kAcceleration, kLength, kStrain};
 
 }  // namespace
 

@@ -3,6 +3,7 @@
 #include "arm/input_error.hpp"
 #include "arm/text_file.hpp"
 #include "measured/number_cell.hpp"
+#include "measured/record_constants.hpp"
 #include "measured/universal_grid.hpp"
 #include "measured/universal_layout.hpp"
 
@@ -22,9 +23,7 @@ namespace {
 using arm::InputError;
 using std::string_view;
 
-constexpr std::size_t kLargestFile_bytes = std::size_t{1} << 32U;
-
-string_view trimmed(string_view text) {
+string_view trimmed_line(string_view text) {
   constexpr string_view kBlanks = " \t\r\f\v";
   const auto first = text.find_first_not_of(kBlanks);
   if (first == string_view::npos) return {};
@@ -71,7 +70,7 @@ class Fields {
   string_view text(std::size_t width) {
     const string_view field = line_.substr(0, width);
     line_.remove_prefix(field.size());
-    return trimmed(field);
+    return trimmed_line(field);
   }
 
   int whole(std::size_t width, const char* what) {
@@ -143,7 +142,7 @@ class FunctionReader {
   }
 
   UniversalFunction read() {
-    for (auto& id : function_.id) id = std::string(trimmed(line()));
+    for (auto& id : function_.id) id = std::string(trimmed_line(line()));
     read_place(line());
     read_form(line());
     function_.abscissa_axis = axis_in(line());
@@ -246,9 +245,9 @@ class FunctionReader {
     }
     // The end stands right behind the last number, or on a line of its own.
     string_view end;
-    while (cursor_.next(end) && trimmed(end).empty()) {
+    while (cursor_.next(end) && trimmed_line(end).empty()) {
     }
-    if (trimmed(end) != "-1") {
+    if (trimmed_line(end) != "-1") {
       throw InputError(fmt::format("{} bytes of numbers are not followed by -1", block.size()));
     }
   }
@@ -258,8 +257,8 @@ class FunctionReader {
     const std::size_t numbers = points_ * layout_.numbers();
     std::size_t done = 0;
     string_view text = line();
-    for (; trimmed(text) != "-1"; text = line()) {
-      if (done == numbers && !trimmed(text).empty()) {
+    for (; trimmed_line(text) != "-1"; text = line()) {
+      if (done == numbers && !trimmed_line(text).empty()) {
         throw InputError(fmt::format("more than the {} numbers of the data set", numbers));
       }
       if (!read_words(text, done, numbers)) read_columns(text, done, numbers);
@@ -271,7 +270,7 @@ class FunctionReader {
 
   bool read_words(string_view text, std::size_t& done, std::size_t numbers) {
     std::vector<double> values;
-    for (text = trimmed(text); !text.empty(); text = trimmed(text)) {
+    for (text = trimmed_line(text); !text.empty(); text = trimmed_line(text)) {
       const auto end = std::min(text.find_first_of(" \t"), text.size());
       const auto value = number_in(text.substr(0, end));
       if (!value) return false;
@@ -311,7 +310,7 @@ class FunctionReader {
 void pass_over(Cursor& cursor) {
   string_view line;
   while (cursor.next(line)) {
-    if (trimmed(line) == "-1") return;
+    if (trimmed_line(line) == "-1") return;
   }
   throw InputError("the file is cut off within a data set, which ends with -1");
 }
@@ -324,18 +323,18 @@ UniversalFile parse_universal_file(string_view bytes, const std::string& file_na
   try {
     string_view line;
     while (cursor.next(line)) {
-      if (trimmed(line).empty()) continue;
-      if (trimmed(line) != "-1") {
+      if (trimmed_line(line).empty()) continue;
+      if (trimmed_line(line) != "-1") {
         throw InputError("not a universal file: a data set begins with a line of -1 alone");
       }
       if (!cursor.next(line)) throw InputError("the file is cut off");
-      const string_view number = trimmed(line.substr(0, 6));
+      const string_view number = trimmed_line(line.substr(0, 6));
       if (number == "58") {
         file.functions.push_back(FunctionReader(cursor, line).read());
       } else {
         if (!number_cell<int>(number)) {
           throw InputError(
-              fmt::format("{}: must be the number of a data set", arm::shown(trimmed(line))));
+              fmt::format("{}: must be the number of a data set", arm::shown(trimmed_line(line))));
         }
         file.passed_over.emplace_back(number);
         pass_over(cursor);
@@ -354,7 +353,7 @@ UniversalFile parse_universal_file(string_view bytes, const std::string& file_na
 }
 
 UniversalFile read_universal_file(const std::filesystem::path& path) {
-  return parse_universal_file(arm::read_text_file(path, kLargestFile_bytes),
+  return parse_universal_file(arm::read_text_file(path, kLargestRecord_bytes),
                               arm::shown(path.string()));
 }
 

@@ -19,7 +19,7 @@ using Eigen::VectorXd;
 /// Columns that depend on others to this are left out of a sensor's model.
 constexpr double kDependent = 1e-11;
 /// Residuals below this times the reading's size are rounding, not noise.
-constexpr double kRounding = 1e-13;
+constexpr double kResidualRounding = 1e-13;
 /// A Newton step in log(omega) and damping ratios that rounding of the criterion may hide.
 constexpr double kRoundingStep = 1e-7;
 /// A fall of the criterion that is none, in units of the square of the step asked for.
@@ -316,7 +316,7 @@ void finish(BlockFit& fit, const Evaluation& at) {
 }  // namespace
 
 double squares_above_rounding(const VectorXd& residual, const VectorXd& readings) {
-  return residual.squaredNorm() + kRounding * kRounding * readings.squaredNorm();
+  return residual.squaredNorm() + kResidualRounding * kResidualRounding * readings.squaredNorm();
 }
 
 double BlockFit::values() const {

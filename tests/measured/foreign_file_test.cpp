@@ -3,6 +3,7 @@
 #include "arm/input_error.hpp"
 #include "arm/text_file.hpp"
 #include "measured/column_guess.hpp"
+#include "measured/record_constants.hpp"
 #include "measured/record_export.hpp"
 #include "tests/measured/any_finite.hpp"
 
@@ -28,8 +29,6 @@ using arm::SensorKind;
 using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
-
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 TimeRecord random_time_record() {
   std::mt19937_64 random(20261130);

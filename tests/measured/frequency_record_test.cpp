@@ -1,6 +1,7 @@
 #include "measured/frequency_record.hpp"
 
 #include "arm/input_error.hpp"
+#include "measured/record_constants.hpp"
 #include "tests/measured/any_finite.hpp"
 #include "tests/measured/mistake.hpp"
 
@@ -8,7 +9,6 @@
 
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <random>
 #include <stdexcept>
 
@@ -20,7 +20,6 @@ using arm::SensorKind;
 
 constexpr Sensor kHubAngle{SensorKind::hub_angle, 0.0};
 constexpr Sensor kStrain{SensorKind::strain, 0.05};
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 const std::string kFrequencyHead = "frequency [Hz],sensor,re,im,coherence\n";
 
@@ -29,8 +28,9 @@ TEST(FrequencyRecord, EveryColumnReachesItsVector) {
       kFrequencyHead + "0.5,hub_angle,-2,+0.25,0.99\n1,hub_angle,-1,1e-3,\n0,strain@0.05,1,0,1\n",
       "f");
   ASSERT_EQ(record.channels.size(), 2U);
-  EXPECT_EQ(record.channels[0],
-            (FrequencyChannel{kHubAngle, {0.5, 1.0}, {{-2.0, 0.25}, {-1.0, 1e-3}}, {0.99, kNaN}}));
+  EXPECT_EQ(
+      record.channels[0],
+      (FrequencyChannel{kHubAngle, {0.5, 1.0}, {{-2.0, 0.25}, {-1.0, 1e-3}}, {0.99, kUnknown}}));
   EXPECT_EQ(record.channels[1], (FrequencyChannel{kStrain, {0.0}, {{1.0, 0.0}}, {1.0}}));
 }
 
@@ -40,12 +40,13 @@ TEST(FrequencyRecord, ColumnsAndRowsStandInAnyOrder) {
       "hub_angle,4,3,6\r\nstrain@0.050,6,5,8\r\n",
       "f");
   ASSERT_EQ(record.channels.size(), 2U);
-  EXPECT_EQ(record.channels[0],
-            (FrequencyChannel{kStrain, {7.0, 8.0}, {{1.0, 2.0}, {5.0, 6.0}}, {kNaN, kNaN}}));
+  EXPECT_EQ(
+      record.channels[0],
+      (FrequencyChannel{kStrain, {7.0, 8.0}, {{1.0, 2.0}, {5.0, 6.0}}, {kUnknown, kUnknown}}));
 }
 
 TEST(FrequencyRecord, WhatIsUnknownIsEqualToWhatIsUnknownAlone) {
-  const FrequencyChannel unknown{kHubAngle, {1.0}, {1.0}, {kNaN}};
+  const FrequencyChannel unknown{kHubAngle, {1.0}, {1.0}, {kUnknown}};
   const FrequencyChannel known{kHubAngle, {1.0}, {1.0}, {0.5}};
   EXPECT_EQ(unknown, unknown);
   EXPECT_FALSE(unknown == known);
@@ -61,7 +62,7 @@ TEST(FrequencyRecord, WhatIsWrittenReadsBackBitForBit) {
       channel.frequency_Hz.push_back(frequency_Hz += uniform(random) + 1e-9);
       const double real = any_finite(random);
       channel.response.emplace_back(real, any_finite(random));
-      channel.coherence.push_back(random() % 3 == 0 ? kNaN : 1.0 - uniform(random));
+      channel.coherence.push_back(random() % 3 == 0 ? kUnknown : 1.0 - uniform(random));
     }
   }
   record.channels[0].response[0] = {-0.0, 0.0};
@@ -79,7 +80,7 @@ TEST(FrequencyRecord, WhatCannotBeReadBackIsNotWritten) {
     }
     return "accepted";
   };
-  EXPECT_EQ(error_of({kHubAngle, {1.0}, {{1.0, kNaN}}, {1.0}}),
+  EXPECT_EQ(error_of({kHubAngle, {1.0}, {{1.0, kUnknown}}, {1.0}}),
             "hub_angle = 1 + nan i at 1 Hz: must be finite numbers");
   EXPECT_EQ(error_of({kHubAngle, {-1.0}, {1.0}, {1.0}}),
             "frequency [Hz] = -1 of hub_angle: must be a finite number, 0 or more");

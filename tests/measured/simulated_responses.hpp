@@ -1,17 +1,15 @@
 #pragma once
 
 #include "measured/frequency_record.hpp"
+#include "measured/record_constants.hpp"
 #include "response/modal_response.hpp"
 #include "tests/fit_cases/fit_cases.hpp"
 
 #include <cmath>
 #include <complex>
-#include <limits>
 #include <numbers>
 
 namespace flexarm::measured {
-
-inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 /// 1 to 80 Hz in equal ratios, each sensor on lines of its own.
 inline FrequencyRecord responses(const FitCase& fit_case, const arm::ModalModel& model, int lines) {

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <string_view>
+
+namespace flexarm::measured {
+
+/// A number that a record does not have.
+inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+/// Standard names beside those of sensors.
+inline constexpr std::string_view kTime = "time";
+inline constexpr std::string_view kTorque = "torque";
+
+/// Records are read whole.
+inline constexpr std::size_t kLargestRecord_bytes = std::size_t{1} << 32U;
+
+}  // namespace flexarm::measured

@@ -18,7 +18,7 @@ namespace flexarm::app {
 namespace {
 
 /// "with root_compliance: stiffness 30 N m/rad".
-std::string describe(const std::string& name, const arm::Effect& effect) {
+std::string describe_effect(const std::string& name, const arm::Effect& effect) {
   std::vector<std::string> parts;
   for (const auto& parameter : arm::find_effect(name)->parameters) {
     const auto value = effect.parameters.find(parameter.name);
@@ -91,7 +91,7 @@ std::string describe(const arm::Arm& arm) {
       arm::hub_inertia_ratio(arm), linear.payload_mass_kg, arm::payload_mass_ratio(arm),
       linear.payload_tip_inertia_kg_m2, linear.kelvin_voigt_s,
       linear.hub_viscous_friction_N_m_s_per_rad);
-  for (const auto& [name, effect] : arm.effects) lines += describe(name, effect) + "\n";
+  for (const auto& [name, effect] : arm.effects) lines += describe_effect(name, effect) + "\n";
   if (!arm.effects.empty()) lines += "(the numbers above include the linear effects)\n";
   return lines;
 }

@@ -28,7 +28,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments {
+struct CompareArguments {
   ArmChoice arm;
   std::string measured_file;
   std::vector<std::string> sensors;
@@ -38,7 +38,8 @@ struct Arguments {
   OutputChoice output;
 };
 
-compare::Options options_of(const Arguments& arguments, const measured::ModalTable& measured) {
+compare::Options options_of(const CompareArguments& arguments,
+                            const measured::ModalTable& measured) {
   compare::Options options = arguments.options;
   options.refinements = !arguments.quick;
   const auto add = [&](const arm::Sensor& sensor) {
@@ -110,7 +111,7 @@ void write_folder(const fs::path& folder, const compare::Comparison& comparison,
   }
 }
 
-std::string next_step(const Arguments& arguments) {
+std::string next_step(const CompareArguments& arguments) {
   const std::string arm = arguments.arm.file.empty() ? "" : " " + arguments.arm.file;
   if (arguments.output.folder.empty()) {
     return fmt::format("next: plots and tables as files with  flexarm compare{} --out compared\n",
@@ -120,7 +121,7 @@ std::string next_step(const Arguments& arguments) {
                      arguments.output.folder, arm);
 }
 
-int run(const Arguments& arguments) {
+int run_compare(const CompareArguments& arguments) {
   const auto measured = arguments.measured_file.empty()
                             ? measured::ModalTable{}
                             : measured::read_modal_table(arguments.measured_file);
@@ -158,7 +159,7 @@ int run(const Arguments& arguments) {
 }  // namespace
 
 Command add_compare(CLI::App& program) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<CompareArguments>();
   CLI::App* parser = program.add_subcommand(
       "compare", "Poles, zeros, shapes and responses of the three formulations, side by side");
   add_arm_choice(*parser, arguments->arm);
@@ -190,7 +191,7 @@ Command add_compare(CLI::App& program) {
   add_output_choice(*parser, arguments->output, "Folder for CSV tables and SVG plots");
   parser->footer("Exit status: 0 the formulations agree; 1 they do not; 2 unusable input.\n" +
                  example("flexarm compare rig.toml --poles 6 --out compared"));
-  return {parser, [arguments] { return run(*arguments); }};
+  return {parser, [arguments] { return run_compare(*arguments); }};
 }
 
 }  // namespace flexarm::app

@@ -41,9 +41,9 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Steps of the progress line.
-constexpr std::int64_t kProgressSteps = 100;
+constexpr std::int64_t kIdentificationSteps = 100;
 
-struct Arguments {
+struct IdentifyArguments {
   std::string file;
   std::vector<std::string> runs;
   std::vector<std::string> sensors;
@@ -60,7 +60,7 @@ struct Arguments {
 };
 
 /// The runs asked for, all unless told. Throws InputError for one that there is not.
-std::vector<measured::Run> chosen_runs(const Arguments& arguments,
+std::vector<measured::Run> chosen_runs(const IdentifyArguments& arguments,
                                        const measured::Measurement& measurement) {
   if (arguments.runs.empty()) return measurement.runs;
   std::vector<std::string> ids;
@@ -83,7 +83,7 @@ std::vector<measured::Run> chosen_runs(const Arguments& arguments,
 
 /// Leaves the sensors asked for in the data, all unless told. Throws InputError where none of the
 /// runs has one.
-void select_sensors(const Arguments& arguments, std::vector<measured::MeasuredRun>& runs) {
+void select_sensors(const IdentifyArguments& arguments, std::vector<measured::MeasuredRun>& runs) {
   std::vector<arm::Sensor> wanted;
   for (const auto& name : arguments.sensors) wanted.push_back(arm::parse_sensor(name));
   if (wanted.empty()) return;
@@ -116,7 +116,8 @@ void select_sensors(const Arguments& arguments, std::vector<measured::MeasuredRu
   }
 }
 
-measured::IdentificationOptions options_of(const Arguments& arguments, const arm::Arm& arm) {
+measured::IdentificationOptions options_of(const IdentifyArguments& arguments,
+                                           const arm::Arm& arm) {
   measured::IdentificationOptions options;
   options.spectrum = arguments.spectrum.settings();
   options.peaks.place = arguments.spectrum.place();
@@ -155,10 +156,10 @@ measured::IdentificationOptions options_of(const Arguments& arguments, const arm
 measured::Identification identify_with_progress(std::vector<measured::MeasuredRun> runs,
                                                 measured::IdentificationOptions options) {
   const Interruption interruption;
-  report::Progress progress("per cent of the identification", kProgressSteps);
+  report::Progress progress("per cent of the identification", kIdentificationSteps);
   std::int64_t shown = 0;
   options.progress = [&](std::string_view, double fraction) {
-    const auto now = static_cast<std::int64_t>(std::floor(fraction * kProgressSteps));
+    const auto now = static_cast<std::int64_t>(std::floor(fraction * kIdentificationSteps));
     if (now > shown) {
       progress.advance(now - shown);
       shown = now;
@@ -243,7 +244,7 @@ std::string results_text(const measured::Identification& identification,
 
 /// Throws for outputs that could not be written, or would take the place of what is read: before
 /// the work, not after it.
-void prepare(const Arguments& arguments, const measured::Measurement& measurement) {
+void prepare(const IdentifyArguments& arguments, const measured::Measurement& measurement) {
   if (arguments.force && arguments.folder.empty()) {
     throw arm::InputError("--force: needs --out FOLDER");
   }
@@ -267,8 +268,8 @@ void prepare(const Arguments& arguments, const measured::Measurement& measuremen
   require_place(arguments.folder, arguments.force, identified_folder_kind());
 }
 
-void write_files(const Arguments& arguments, const std::string& measurement, const arm::Arm& arm,
-                 const measured::Identification& identification,
+void write_files(const IdentifyArguments& arguments, const std::string& measurement,
+                 const arm::Arm& arm, const measured::Identification& identification,
                  const std::vector<compare::IdentifiedCondition>& conditions) {
   if (arguments.folder.empty() && arguments.json_file.empty()) return;
   nlohmann::ordered_json document = {{"measurement", measurement}, {"arm", report::arm_json(arm)}};
@@ -283,7 +284,7 @@ void write_files(const Arguments& arguments, const std::string& measurement, con
   if (!arguments.json_file.empty()) arm::write_atomically(arguments.json_file, json);
 }
 
-int run(const Arguments& arguments) {
+int run_identify(const IdentifyArguments& arguments) {
   const measured::Measurement measurement = measured::read_measurement(arguments.file);
   const fs::path arm_file = measured::beside(arguments.file, measurement.arm);
   const arm::Arm arm = arm::read_arm_file(arm_file);
@@ -320,7 +321,7 @@ int run(const Arguments& arguments) {
 }  // namespace
 
 Command add_identify(CLI::App& program) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<IdentifyArguments>();
   CLI::App* parser = program.add_subcommand(
       "identify", "Spectra, poles, zeros, damping, slopes and gains of measured data");
   parser->add_option("FILE", arguments->file, "measurement.toml")->required()->check(not_empty());
@@ -350,7 +351,7 @@ Command add_identify(CLI::App& program) {
   parser->add_option("--json", arguments->json_file, "File for everything in full precision")
       ->check(not_empty());
   parser->footer(example("flexarm identify simulated/measurement.toml --out identified"));
-  return {parser, [arguments] { return run(*arguments); }};
+  return {parser, [arguments] { return run_identify(*arguments); }};
 }
 
 }  // namespace flexarm::app

@@ -36,7 +36,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments {
+struct ImportArguments {
   std::string file;
   ColumnChoice columns;
   std::string kind;
@@ -59,7 +59,7 @@ struct Arguments {
 /// How a record is written to a file of its own.
 enum class RecordFormat { csv, uff58, uff58b, mat };
 
-RecordFormat record_format(const Arguments& arguments) {
+RecordFormat record_format(const ImportArguments& arguments) {
   const std::array<std::pair<const char*, RecordFormat>, 4> formats = {
       {{"csv", RecordFormat::csv},
        {"uff58", RecordFormat::uff58},
@@ -145,7 +145,7 @@ std::string size_of(const measured::RunData& data) {
   return counted(std::get<measured::ModalTable>(data).size(), "row");
 }
 
-void print_results(const Arguments& arguments, const ImportedRun& run) {
+void print_results(const ImportArguments& arguments, const ImportedRun& run) {
   print(report::to_paragraph(fmt::format("{}: {}, read as {}", arm::shown(arguments.file),
                                          to_string(run.format), to_string(run.kind))));
   for (const auto& sentence : run.assumptions) print(report::to_paragraph("  " + sentence, 4));
@@ -157,7 +157,7 @@ void print_results(const Arguments& arguments, const ImportedRun& run) {
   print(report::to_paragraph(size_of(run.data), 4));
 }
 
-measured::Run planned_run(const Arguments& arguments) {
+measured::Run planned_run(const ImportArguments& arguments) {
   measured::Run run;
   run.id = arguments.id.empty() ? id_of_file(arguments.file) : require_id(arguments.id);
   run.file = run.id + ".csv";
@@ -177,14 +177,14 @@ measured::Run planned_run(const Arguments& arguments) {
 }
 
 /// The arm file as it stands, comments and all, once it is known to be one.
-std::string arm_text(const Arguments& arguments) {
+std::string arm_text(const ImportArguments& arguments) {
   if (arguments.arm_file.empty()) return starter_text();
   constexpr std::size_t kLargestArm_bytes = 1 << 20;
   arm::require_valid(arm::read_arm_file(arguments.arm_file));
   return arm::read_text_file(arguments.arm_file, kLargestArm_bytes);
 }
 
-std::string json_text(const Arguments& arguments, const ImportedRun& run) {
+std::string json_text(const ImportArguments& arguments, const ImportedRun& run) {
   nlohmann::ordered_json columns = nlohmann::ordered_json::array();
   for (const auto& [quantity, mapping] : run.columns) {
     columns.push_back({{"quantity", quantity},
@@ -200,7 +200,7 @@ std::string json_text(const Arguments& arguments, const ImportedRun& run) {
                                                     {"not_used", run.not_used}});
 }
 
-int run(const Arguments& arguments) {
+int run_import(const ImportArguments& arguments) {
   std::optional<measured::RunKind> kind;
   if (!arguments.kind.empty()) {
     kind = read_word(
@@ -260,7 +260,7 @@ int run(const Arguments& arguments) {
   return kSuccess;
 }
 
-void add_run_options(CLI::App& parser, Arguments& arguments) {
+void add_run_options(CLI::App& parser, ImportArguments& arguments) {
   parser.add_option("--kind", arguments.kind,
                     "What the file holds: time, frf or modal; told by the file unless given");
   parser.add_option("--period", arguments.period_s,
@@ -284,7 +284,7 @@ void add_run_options(CLI::App& parser, Arguments& arguments) {
 }  // namespace
 
 Command add_import(CLI::App& program) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<ImportArguments>();
   CLI::App* parser = program.add_subcommand(
       "import", "Read a log of any program (text, universal file, MATLAB) as a measurement");
   parser->add_option("FILE", arguments->file, "The file to read")->required()->check(not_empty());
@@ -309,7 +309,7 @@ Command add_import(CLI::App& program) {
   parser->add_option("--json", arguments->json_file, "File for what was read, and how")
       ->check(not_empty());
   parser->footer(example("flexarm import simulated/bang-bang.csv --save-as bang-bang.uff"));
-  return {parser, [arguments] { return run(*arguments); }};
+  return {parser, [arguments] { return run_import(*arguments); }};
 }
 
 }  // namespace flexarm::app

@@ -30,7 +30,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments {
+struct ModesArguments {
   ArmChoice arm;
   FormulationChoice formulation;
   int count = 5;
@@ -116,7 +116,7 @@ nlohmann::ordered_json certificate_json(const std::vector<CertifiedList>& lists)
   return entries;
 }
 
-int run(const Arguments& arguments) {
+int run_modes(const ModesArguments& arguments) {
   if (arguments.count < 1) throw arm::out_of_range("--modes", arguments.count, "", "1 or more");
   std::vector<arm::Sensor> sensors;
   for (const auto& name : arguments.sensors) sensors.push_back(arm::parse_sensor(name));
@@ -183,7 +183,7 @@ int run(const Arguments& arguments) {
 }  // namespace
 
 Command add_modes(CLI::App& program) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<ModesArguments>();
   CLI::App* parser =
       program.add_subcommand("modes", "Poles, zeros, hub slopes and mode shapes of one arm");
   add_arm_choice(*parser, arguments->arm);
@@ -200,7 +200,7 @@ Command add_modes(CLI::App& program) {
                    "Prove the roots of exact_tf and their number by ball arithmetic");
   add_output_choice(*parser, arguments->output, "Folder for CSV tables and the shapes as SVG");
   parser->footer(example("flexarm modes rig.toml --sensor hub_angle,strain@0.05 --certificate"));
-  return {parser, [arguments] { return run(*arguments); }};
+  return {parser, [arguments] { return run_modes(*arguments); }};
 }
 
 }  // namespace flexarm::app

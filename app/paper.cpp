@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments {
+struct PaperArguments {
   std::string part;
   std::string json;
   std::string out;
@@ -49,7 +49,7 @@ void update_document(const std::string& path, const compare::paper::Findings& fi
   }
 }
 
-int run(const Arguments& arguments) {
+int run_paper(const PaperArguments& arguments) {
   if (!arguments.out.empty()) arm::make_folder(arguments.out);
   if (!arguments.json.empty()) arm::require_writable(arguments.json);
   const auto findings = compare::paper::check_paper();
@@ -75,7 +75,7 @@ int run(const Arguments& arguments) {
 }  // namespace
 
 Command add_paper(CLI::App& program) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<PaperArguments>();
   CLI::App* parser = program.add_subcommand(
       "paper", "Check each equation and table of the paper against the three formulations");
   parser->add_option("PART", arguments->part,
@@ -87,7 +87,7 @@ Command add_paper(CLI::App& program) {
   parser->add_option("--update", arguments->document,
                      "Make the marked blocks of this document anew (docs/paper.md)");
   parser->footer(example("flexarm paper 22"));
-  return {parser, [arguments] { return run(*arguments); }};
+  return {parser, [arguments] { return run_paper(*arguments); }};
 }
 
 }  // namespace flexarm::app

@@ -35,7 +35,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kPrintedFrequencies = 25;
 
-struct Arguments {
+struct ResponseArguments {
   ArmChoice arm;
   FormulationChoice formulation;
   std::vector<std::string> sensors = {"hub_angle", "tip_acceleration"};
@@ -46,7 +46,7 @@ struct Arguments {
 };
 
 /// The options as the library takes them. Throws InputError for what is wrong in itself.
-response::ResponseOptions options_of(const Arguments& arguments) {
+response::ResponseOptions options_of(const ResponseArguments& arguments) {
   response::ResponseOptions options = arguments.options;
   if (options.modes < 1) throw arm::out_of_range("--modes", options.modes, "", "1 or more");
   for (const auto& name : arguments.sensors) options.sensors.push_back(arm::parse_sensor(name));
@@ -75,7 +75,7 @@ response::ResponseOptions options_of(const Arguments& arguments) {
 }
 
 /// Fine enough for the modes and for the highest frequency.
-ChosenFormulation make_formulation(const Arguments& arguments, const arm::Arm& arm,
+ChosenFormulation make_formulation(const ResponseArguments& arguments, const arm::Arm& arm,
                                    const response::ResponseOptions& options) {
   const int roots = response::roots_needed(arm, options);
   const bool discrete = arguments.formulation.name != "exact_tf";
@@ -88,22 +88,20 @@ ChosenFormulation make_formulation(const Arguments& arguments, const arm::Arm& a
   return arguments.formulation.make(arm, roots);
 }
 
-std::string table_text(const report::Table& table) {
-  return report::to_text(table) + "\n";
-}
-
 std::string study_text(const response::ResponseStudy& study,
                        const response::ResponseOptions& options) {
   std::string text;
   for (const auto& note : report::chain_notes(study)) text += report::to_paragraph(note, 2);
   if (!report::chain_notes(study).empty()) text += "\n";
-  text += table_text(report::response_poles_table(study, static_cast<std::size_t>(options.modes)));
+  text += report::to_text(
+              report::response_poles_table(study, static_cast<std::size_t>(options.modes))) +
+          "\n";
   for (std::size_t k = 0; k < study.response.sensors.size(); ++k) {
     auto factors = report::factors_table(study, k);
     text += factors.caption + "\n";
     factors.caption.clear();
     for (const auto& formula : report::formulas(study, k)) text += "  " + formula + "\n";
-    text += table_text(factors);
+    text += report::to_text(factors) + "\n";
   }
   const auto frequencies = study.response.frequency_Hz.size();
   const bool listed = !options.frequency_Hz.empty();
@@ -112,8 +110,8 @@ std::string study_text(const response::ResponseStudy& study,
                       ? fmt::format("Response at {} frequencies", frequencies)
                       : fmt::format("Response at {} of {} frequencies; all with --out and --json",
                                     table.rows.size(), frequencies);
-  text += table_text(table);
-  if (study.state_space) text += table_text(report::state_space_table(study));
+  text += report::to_text(table) + "\n";
+  if (study.state_space) text += report::to_text(report::state_space_table(study)) + "\n";
   return text;
 }
 
@@ -135,7 +133,7 @@ void write_folder(const fs::path& folder, const std::string& formulation,
   }
 }
 
-std::string next_step(const Arguments& arguments) {
+std::string next_step(const ResponseArguments& arguments) {
   const std::string arm = arguments.arm.file.empty() ? "" : " " + arguments.arm.file;
   std::string lines;
   if (!arguments.state_space_file.empty()) {
@@ -161,7 +159,7 @@ std::string next_step(const Arguments& arguments) {
                      arm);
 }
 
-int run(const Arguments& arguments) {
+int run_response(const ResponseArguments& arguments) {
   const auto options = options_of(arguments);
   const auto arms = arguments.arm.arms();
   for (const auto& arm : arms) {
@@ -212,7 +210,7 @@ int run(const Arguments& arguments) {
 }  // namespace
 
 Command add_response(CLI::App& program) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<ResponseArguments>();
   auto& options = arguments->options;
   CLI::App* parser = program.add_subcommand(
       "response", "Frequency response, pole and zero forms, state space of one arm");
@@ -248,7 +246,7 @@ Command add_response(CLI::App& program) {
   add_output_choice(*parser, arguments->output,
                     "Folder for CSV tables, Bode and Nyquist diagrams as SVG");
   parser->footer(example("flexarm response rig.toml --sensor hub_angle,strain@0.05 --to-Hz 200"));
-  return {parser, [arguments] { return run(*arguments); }};
+  return {parser, [arguments] { return run_response(*arguments); }};
 }
 
 }  // namespace flexarm::app

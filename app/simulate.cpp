@@ -27,7 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments {
+struct SimulateArguments {
   ArmChoice arm;
   RunChoice runs;
   SensorChoice sensors;
@@ -80,7 +80,7 @@ void refuse_without_folder(const char* option, bool given) {
 }
 
 /// Throws for outputs that could not be written: before the work, not after it.
-void prepare(const Arguments& arguments) {
+void prepare(const SimulateArguments& arguments) {
   require_json_place(arguments.json_file, arguments.folder);
   if (arguments.folder.empty()) {
     refuse_without_folder("--force", arguments.force);
@@ -170,7 +170,7 @@ void print_stepped_runs(const std::vector<report::SteppedSineRun>& runs, bool ha
   if (has_dry_friction) print(report::to_text(report::stepped_hub_motion_table(runs)) + "\n");
 }
 
-void print_results(const Arguments& arguments, const std::vector<PlannedRun>& plan,
+void print_results(const SimulateArguments& arguments, const std::vector<PlannedRun>& plan,
                    const SimulatedExperiment& experiment, bool has_dry_friction) {
   const auto& runs = experiment.runs;
   const char* hold = arguments.options.hold == response::TorqueHold::zero
@@ -194,7 +194,7 @@ void print_results(const Arguments& arguments, const std::vector<PlannedRun>& pl
 }
 
 /// Throws for options that a stepped sine has no use for.
-void require_fitting(const Arguments& arguments, const std::vector<PlannedRun>& plan) {
+void require_fitting(const SimulateArguments& arguments, const std::vector<PlannedRun>& plan) {
   const auto stepped =
       std::ranges::find_if(plan, [](const auto& run) { return run.stepped_sine.has_value(); });
   if (stepped == plan.end() || !arguments.options.check_step) return;
@@ -202,7 +202,7 @@ void require_fitting(const Arguments& arguments, const std::vector<PlannedRun>& 
       fmt::format("--check-step: is for runs in time; {} is a stepped sine", stepped->id));
 }
 
-std::string json_text(const Arguments& arguments, const arm::Arm& arm,
+std::string json_text(const SimulateArguments& arguments, const arm::Arm& arm,
                       const SimulatedExperiment& experiment) {
   return report::json_document(
       "flexarm.simulate/1", {{"arm", report::arm_json(arm)},
@@ -215,7 +215,7 @@ std::string json_text(const Arguments& arguments, const arm::Arm& arm,
                              {"stepped_runs", report::stepped_runs_json(experiment.stepped_runs)}});
 }
 
-int run(Arguments arguments) {
+int run_simulate(SimulateArguments arguments) {
   auto& options = arguments.options;
   if (options.modes < 1) throw arm::out_of_range("--modes", options.modes, "", "1 or more");
   if (options.substeps < 0 || options.substeps > response::kMostSubsteps) {
@@ -266,7 +266,7 @@ int run(Arguments arguments) {
 }  // namespace
 
 Command add_simulate(CLI::App& program) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<SimulateArguments>();
   auto& options = arguments->options;
   CLI::App* parser =
       program.add_subcommand("simulate", "Time responses of an arm; writes them as a measurement");
@@ -302,7 +302,7 @@ Command add_simulate(CLI::App& program) {
   parser->footer(
       example("flexarm simulate rig.toml --excitation bang-bang:amplitude=0.2,pulse=0.4 "
               "--excitation multisine:rms=0.03,to=60 --noise 0.005 --out measured"));
-  return {parser, [arguments] { return run(*arguments); }};
+  return {parser, [arguments] { return run_simulate(*arguments); }};
 }
 
 }  // namespace flexarm::app

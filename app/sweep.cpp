@@ -42,7 +42,7 @@ namespace fs = std::filesystem;
 constexpr int kMostThreads = 1024;
 constexpr std::size_t kEventsPrinted = 12;
 
-struct Arguments {
+struct SweepArguments {
   ArmChoice arm;
   std::vector<std::string> over;
   std::optional<int> figure;
@@ -57,7 +57,7 @@ struct Arguments {
   OutputChoice output;
 };
 
-arm::Arm arm_of(const Arguments& arguments) {
+arm::Arm arm_of(const SweepArguments& arguments) {
   const auto arms = arguments.arm.arms();
   if (arms.size() > 1) {
     throw arm::InputError("--payload-mass: one value; several are --over payload.mass=A,B,C");
@@ -106,7 +106,7 @@ void refuse_beside_figure(const char* option, bool given) {
 }
 
 /// The figure of the paper asked for; its task is the one to run.
-std::optional<compare::PaperSweep> figure_of(const Arguments& arguments) {
+std::optional<compare::PaperSweep> figure_of(const SweepArguments& arguments) {
   if (!arguments.figure) return std::nullopt;
   refuse_beside_figure("--over", !arguments.over.empty());
   refuse_beside_figure("--poles", arguments.poles.has_value());
@@ -117,7 +117,7 @@ std::optional<compare::PaperSweep> figure_of(const Arguments& arguments) {
   return sweep;
 }
 
-compare::SweepTask task_of(const Arguments& arguments) {
+compare::SweepTask task_of(const SweepArguments& arguments) {
   if (arguments.over.empty()) {
     throw arm::InputError(
         "--over: give one or two parameters, as in --over payload.mass=0:0.5:200");
@@ -150,7 +150,7 @@ fs::path checkpoint_of(const OutputChoice& output) {
   return {};
 }
 
-compare::SweepResult run_task(const compare::SweepTask& task, const Arguments& arguments,
+compare::SweepResult run_task(const compare::SweepTask& task, const SweepArguments& arguments,
                               const Interruption& interruption) {
   report::Progress progress("sweeping", static_cast<std::int64_t>(task.points()));
   compare::SweepRun run;
@@ -218,7 +218,7 @@ void write_folder(const fs::path& folder, const compare::SweepResult& result) {
   }
 }
 
-std::string next_step(const Arguments& arguments) {
+std::string next_step(const SweepArguments& arguments) {
   const std::string arm = arguments.arm.file.empty() ? "" : " " + arguments.arm.file;
   if (!arguments.output.folder.empty()) {
     return fmt::format("wrote {}\nnext: one arm of the grid in depth with  flexarm compare{}\n",
@@ -234,7 +234,7 @@ std::string next_step(const Arguments& arguments) {
                      arm, fmt::join(arguments.over, " --over "));
 }
 
-int run(const Arguments& arguments) {
+int run_sweep(const SweepArguments& arguments) {
   if (arguments.threads < 0 || arguments.threads > kMostThreads) {
     throw arm::out_of_range("--threads", arguments.threads, "",
                             fmt::format("from 1 to {}, or 0 for one a core", kMostThreads));
@@ -278,7 +278,7 @@ int run(const Arguments& arguments) {
 }  // namespace
 
 Command add_sweep(CLI::App& program) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<SweepArguments>();
   CLI::App* parser = program.add_subcommand(
       "sweep", "Poles, zeros, damping and modal slopes over one or two parameters");
   add_arm_choice(*parser, arguments->arm);
@@ -316,7 +316,7 @@ Command add_sweep(CLI::App& program) {
   add_output_choice(*parser, arguments->output, "Folder for CSV tables and SVG plots");
   parser->footer("Exit status: 0 the formulations agree; 1 they do not; 2 unusable input.\n" +
                  example("flexarm sweep rig.toml --over payload.mass=0:0.5:50 --out swept"));
-  return {parser, [arguments] { return run(*arguments); }};
+  return {parser, [arguments] { return run_sweep(*arguments); }};
 }
 
 }  // namespace flexarm::app

@@ -4,14 +4,6 @@
 #   `debug`, where each is compiled by itself, holds them to it.
 option(FLEXARM_PRECOMPILED_HEADERS "Parse the headers of libraries once" ON)
 
-# Sources of a target are compiled in batches: templates of libraries, most of the time of a source,
-# are instantiated once a batch. Names in the anonymous namespaces of a folder must therefore differ,
-# which -DCMAKE_UNITY_BUILD_BATCH_SIZE=0 (all in one batch) tells of all of them.
-option(FLEXARM_UNITY_BUILD "Compile sources in batches" ON)
-if(NOT DEFINED CMAKE_UNITY_BUILD_BATCH_SIZE)
-  set(CMAKE_UNITY_BUILD_BATCH_SIZE 8)
-endif()
-
 function(flexarm_precompiled name)
   if(NOT FLEXARM_PRECOMPILED_HEADERS)
     return()
@@ -45,6 +37,14 @@ if(FLEXARM_TESTS)
   flexarm_precompiled(test LIBRARIES Eigen3::Eigen fmt::fmt GTest::gmock GTest::gtest_main
                       HEADERS ${library_headers} <gmock/gmock.h> <gtest/gtest.h>
                       OPTIONS ${test_option})
+endif()
+
+# Sources of a target are compiled in batches: templates of libraries, most of the time of a source,
+# are instantiated once a batch. Names in the anonymous namespaces of a folder must therefore differ,
+# which -DCMAKE_UNITY_BUILD_BATCH_SIZE=0 (all in one batch) tells of all of them.
+option(FLEXARM_UNITY_BUILD "Compile sources in batches" ON)
+if(NOT DEFINED CMAKE_UNITY_BUILD_BATCH_SIZE)
+  set(CMAKE_UNITY_BUILD_BATCH_SIZE 8)
 endif()
 
 # flexarm_optimise(TARGET full|brief|test)

@@ -44,12 +44,12 @@ std::vector<arm::Sensor> every_sensor() {
 }
 
 /// A periodic torque: odd harmonics with random phases.
-struct Multisine {
+struct SteadyMultisine {
   static constexpr int kSamples = 4096;  ///< a period
   static constexpr double kPeriod_s = 2.0;
   static constexpr int kHighestHarmonic = 41;  ///< 20 Hz; the mode 20 of the arm is at 3300 Hz
 
-  Multisine() {
+  SteadyMultisine() {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> phase(0.0, 2.0 * std::numbers::pi);
     for (int k = 1; k <= kHighestHarmonic; k += 2) {
@@ -77,12 +77,13 @@ struct Multisine {
 /// The coefficient of harmonic k in the last period.
 Complex coefficient(const std::vector<double>& values, int k) {
   Complex sum = 0.0;
-  const std::size_t first = values.size() - Multisine::kSamples;
-  for (std::size_t i = 0; i < Multisine::kSamples; ++i) {
-    sum += values[first + i] * std::polar(1.0, -2.0 * std::numbers::pi * k *
-                                                   static_cast<double>(i) / Multisine::kSamples);
+  const std::size_t first = values.size() - SteadyMultisine::kSamples;
+  for (std::size_t i = 0; i < SteadyMultisine::kSamples; ++i) {
+    sum +=
+        values[first + i] * std::polar(1.0, -2.0 * std::numbers::pi * k * static_cast<double>(i) /
+                                                SteadyMultisine::kSamples);
   }
-  return sum / static_cast<double>(Multisine::kSamples);
+  return sum / static_cast<double>(SteadyMultisine::kSamples);
 }
 
 /// What samples show of harmonic k: a torque that is linear between samples has the harmonics
@@ -93,12 +94,12 @@ Complex exact_coefficient(const exact_tf::ExactArm& exact, const arm::Sensor& se
   constexpr int kImages = 20;
   Complex sum = 0.0;
   for (int m = -kImages; m <= kImages; ++m) {
-    const double harmonic = k + static_cast<double>(m) * Multisine::kSamples;
-    const double x = std::numbers::pi * harmonic / Multisine::kSamples;
+    const double harmonic = k + static_cast<double>(m) * SteadyMultisine::kSamples;
+    const double x = std::numbers::pi * harmonic / SteadyMultisine::kSamples;
     const double sinc = std::sin(x) / x;
     sum += amplitude * sinc * sinc *
-           exact.transfer_function(
-               sensor, Complex(0.0, 2.0 * std::numbers::pi * harmonic / Multisine::kPeriod_s));
+           exact.transfer_function(sensor, Complex(0.0, 2.0 * std::numbers::pi * harmonic /
+                                                            SteadyMultisine::kPeriod_s));
   }
   return sum;
 }
@@ -111,12 +112,13 @@ TEST(LinearSimulation, OfAMultisineShowsTheExactTransferFunctionAtEverySensor) {
       with_residual_mode(formulation, modal_model(formulation, 20, sensors, {}), sensors);
   ArmParts parts;
   parts.linear = arm;
-  const Multisine torque;
+  const SteadyMultisine torque;
   constexpr int kPeriods = 20;
-  const auto made = simulate(model, parts, sensors, torque.samples(kPeriods),
-                             {.sample_time_s = Multisine::kPeriod_s / Multisine::kSamples,
-                              .hold = TorqueHold::first,
-                              .energy = false});
+  const auto made =
+      simulate(model, parts, sensors, torque.samples(kPeriods),
+               {.sample_time_s = SteadyMultisine::kPeriod_s / SteadyMultisine::kSamples,
+                .hold = TorqueHold::first,
+                .energy = false});
   const exact_tf::ExactArm exact(arm);
   for (std::size_t j = 0; j < sensors.size(); ++j) {
     double worst = 0.0;

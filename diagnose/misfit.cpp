@@ -23,7 +23,8 @@ double independent(const Eigen::Ref<const Eigen::VectorXd>& residuals, measured:
 }  // namespace
 
 double Misfit::excess() const {
-  return std::max(0.0, sum_of_squares - (1.0 + kNoiseKnown) * count);
+  return std::max(0.0,
+                  sum_of_squares - (1.0 + kNoiseKnown) * count - kChance * std::sqrt(2.0 * count));
 }
 
 double Misfit::unexplained_error() const {

@@ -21,7 +21,8 @@ struct Misfit {
   double noise_floor = 0.0;
   double simulated = 0.0;  ///< part of the channels that are of `time` runs
 
-  /// Squares beyond those of the noise, whose level is known to `kNoiseKnown` of its power.
+  /// Squares beyond those of the noise, whose level is known to `kNoiseKnown` of its power, and
+  /// beyond what chance adds to so many of them, `kChance` standard deviations sqrt(2 n).
   double excess() const;
   bool is_noise() const { return excess() == 0.0; }
   /// What is not noise, relative to the signal.
@@ -29,6 +30,7 @@ struct Misfit {
 };
 /// Part of its power to which the level of a channel's noise is known.
 inline constexpr double kNoiseKnown = 0.1;
+inline constexpr double kChance = 2.5;  ///< 0.6 % of normal numbers are beyond it
 
 /// `runs` as in Problem::residuals.
 Misfit misfit(const Observations& observations, const Experiment& experiment,

@@ -53,7 +53,7 @@ BandPowers band_powers(std::span<const double> samples) {
 }  // namespace
 
 double white_noise(std::span<const double> samples) {
-  constexpr double kChance = 4.0;  // standard deviations of a band's mean
+  constexpr double kSameNoise = 4.0;  // standard deviations of a band's mean
   BandPowers bands = band_powers(samples);
   if (bands.power.empty()) return 0.0;
   std::ranges::sort(bands.power);
@@ -62,7 +62,7 @@ double white_noise(std::span<const double> samples) {
   double sum = bands.power.front();
   double mean = sum;
   std::size_t taken = 1;
-  while (taken < bands.power.size() && bands.power[taken] <= mean * (1.0 + kChance * spread)) {
+  while (taken < bands.power.size() && bands.power[taken] <= mean * (1.0 + kSameNoise * spread)) {
     sum += bands.power[taken];
     ++taken;
     mean = sum / static_cast<double>(taken);

@@ -17,7 +17,12 @@ Misfit misfit_of(double per_number, double count, double independent) {
 
 TEST(Misfit, WithinWhatIsKnownOfTheNoiseIsNoExcess) {
   EXPECT_TRUE(misfit_of(1.05, 1000.0, 1000.0).is_noise());
-  EXPECT_NEAR(misfit_of(3.1, 1000.0, 1000.0).excess(), 2000.0, 1e-9);
+  EXPECT_NEAR(misfit_of(3.1, 1000.0, 1000.0).excess(), 2000.0 - 2.5 * std::sqrt(2000.0), 1e-9);
+}
+
+TEST(Misfit, OfFewNumbersMayBeLargerByChance) {
+  EXPECT_TRUE(misfit_of(1.6, 36.0, 36.0).is_noise());
+  EXPECT_FALSE(misfit_of(1.6, 3600.0, 3600.0).is_noise());
 }
 
 TEST(InformationGain, AtTheNoiseIsTheDifferenceOfSquaresLessThePenalty) {

@@ -51,10 +51,15 @@ class NewmarkIntegrator {
         drag_N_s2_per_m3_(effect_value(world.arm, "quadratic_drag", "coefficient", 0.0)),
         step_s_(options.sample_time_s / options.substeps) {
     const Eigen::Index n = plant_.hub.size();
-    const Eigen::MatrixXd effective = Eigen::MatrixXd::Identity(n, n) +
-                                      0.5 * step_s_ * plant_.damping +
-                                      0.25 * step_s_ * step_s_ * plant_.stiffness;
-    inverse_ = effective.inverse();
+    // Newmark's scheme for any beta as average acceleration (1/4) of an arm of another inertia:
+    // the difference 1/4 - beta of the stiffness's part is one of mass.
+    constexpr double kBeta = 1.0 / 12.0;
+    const Eigen::MatrixXd inertia =
+        Eigen::MatrixXd::Identity(n, n) - (0.25 - kBeta) * step_s_ * step_s_ * plant_.stiffness;
+    inverse_ =
+        (inertia + 0.5 * step_s_ * plant_.damping + 0.25 * step_s_ * step_s_ * plant_.stiffness)
+            .inverse();
+    from_velocity_ = inverse_ * inertia;
     from_displacement_ = -0.5 * step_s_ * inverse_ * plant_.stiffness;
     to_hub_ = 0.5 * step_s_ / plant_.modal_mass_kg_m2 * (inverse_ * plant_.hub);
     hub_to_hub_ = plant_.hub.dot(to_hub_);
@@ -68,7 +73,7 @@ class NewmarkIntegrator {
   /// One step from `from_s`.
   void step(double from_s) {
     const double torque = chain_.advance(from_s, step_s_);
-    free_.noalias() = inverse_ * v_;
+    free_.noalias() = from_velocity_ * v_;
     free_.noalias() += from_displacement_ * u_;
     free_ += torque * to_hub_;
     const double hub_speed = plant_.hub.dot(v_);
@@ -165,7 +170,8 @@ class NewmarkIntegrator {
   std::optional<LaggedReading> lagged_;
   double drag_N_s2_per_m3_;
   double step_s_;
-  Eigen::MatrixXd inverse_;            // (1 + h/2 D + h^2/4 W)^-1
+  Eigen::MatrixXd inverse_;  // (1 + h/2 D + beta h^2 W)^-1
+  Eigen::MatrixXd from_velocity_;
   Eigen::MatrixXd from_displacement_;  // -h/2 of it times W
   Eigen::VectorXd to_hub_;             // mean velocity per torque on the hub
   double hub_to_hub_ = 0.0;

@@ -27,7 +27,7 @@ struct Plant {
 
 struct PlantOptions {
   int elements = 40;  ///< Hermite's, of degree 3
-  int flexible_modes = 16;
+  int flexible_modes = 14;
 };
 
 /// `world.arm` may have any effects; those that are not linear do not enter.

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <stdexcept>
 
 namespace flexarm::trials {
 
@@ -60,6 +61,10 @@ class NewmarkIntegrator {
         (inertia + 0.5 * step_s_ * plant_.damping + 0.25 * step_s_ * step_s_ * plant_.stiffness)
             .inverse();
     from_velocity_ = inverse_ * inertia;
+    constexpr double kStable = 6.0;  // (omega h)^2
+    if (plant_.stiffness.diagonal().maxCoeff() * step_s_ * step_s_ > kStable) {
+      throw std::runtime_error("the step is too long for the highest mode");
+    }
     from_displacement_ = -0.5 * step_s_ * inverse_ * plant_.stiffness;
     to_hub_ = 0.5 * step_s_ / plant_.modal_mass_kg_m2 * (inverse_ * plant_.hub);
     hub_to_hub_ = plant_.hub.dot(to_hub_);

@@ -12,7 +12,7 @@ namespace flexarm::trials {
 
 struct TimeOptions {
   double sample_time_s = 2e-3;
-  int substeps = 80;
+  int substeps = 80;  ///< std::runtime_error where these are too long steps for the highest mode
   PlantOptions plant = {};
   std::uint64_t disturbance_seed = 1;
 };

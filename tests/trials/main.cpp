@@ -105,6 +105,7 @@ TrialResult make_trial(const TrialKey& key, const TrialOptions& options) {
 void make_trials(const std::vector<TrialKey>& keys, const TrialOptions& options,
                  std::vector<TrialResult>& results) {
   std::atomic<std::size_t> next = 0;
+  std::size_t made = 0;
   std::mutex told;
   std::exception_ptr failure;
   const bool tell = ::isatty(STDERR_FILENO) != 0;
@@ -116,7 +117,7 @@ void make_trials(const std::vector<TrialKey>& keys, const TrialOptions& options,
         results.push_back(result);
         append_result(result, options.results);
         if (tell) {
-          fmt::print(stderr, "{}/{} {}: {}\n", results.size(), keys.size(), result.id,
+          fmt::print(stderr, "{}/{} {}: {}\n", ++made, keys.size(), result.id,
                      to_string(result.outcome));
         }
       } catch (...) {

@@ -39,7 +39,8 @@ TEST(FrequencySimulation, AgreesWithTheExactTransferFunctions) {
       exact_tf::ExactArm(parts.linear), response::linear_chain(parts), sensors, frequencies);
   for (std::size_t i = 0; i < sensors.size(); ++i) {
     for (std::size_t k = 0; k < frequencies.size(); ++k) {
-      EXPECT_LT(std::abs(own[i][k] - exact.values[i][k]), kMeshError * std::abs(exact.values[i][k]))
+      EXPECT_LT(std::abs(own[i][k] - exact.values[i][k]),
+                kResponseError * std::abs(exact.values[i][k]))
           << arm::to_string(sensors[i]) << " at " << frequencies[k] << " Hz";
     }
   }

@@ -102,12 +102,13 @@ TrialResult make_trial(const TrialKey& key, const TrialOptions& options) {
   return result;
 }
 
-void make_trials(const std::vector<TrialKey>& keys, const TrialOptions& options,
-                 std::vector<TrialResult>& results) {
+/// Returns how many could not be made.
+int make_trials(const std::vector<TrialKey>& keys, const TrialOptions& options,
+                std::vector<TrialResult>& results) {
   std::atomic<std::size_t> next = 0;
   std::size_t made = 0;
   std::mutex told;
-  std::exception_ptr failure;
+  int failed = 0;
   const bool tell = ::isatty(STDERR_FILENO) != 0;
   const auto work = [&] {
     for (std::size_t i = next++; i < keys.size(); i = next++) {
@@ -120,11 +121,10 @@ void make_trials(const std::vector<TrialKey>& keys, const TrialOptions& options,
           fmt::print(stderr, "{}/{} {}: {}\n", ++made, keys.size(), result.id,
                      to_string(result.outcome));
         }
-      } catch (...) {
+      } catch (const std::exception& error) {
         const std::scoped_lock lock(told);
-        fmt::print(stderr, "{}: could not be made\n", keys[i].id());
-        failure = std::current_exception();
-        next = keys.size();
+        fmt::print(stderr, "{}: could not be made: {}\n", keys[i].id(), error.what());
+        ++failed;
       }
     }
   };
@@ -132,7 +132,7 @@ void make_trials(const std::vector<TrialKey>& keys, const TrialOptions& options,
   for (int job = 1; job < options.jobs; ++job) workers.emplace_back(work);
   work();
   workers.clear();
-  if (failure) std::rethrow_exception(failure);
+  return failed;
 }
 
 int run(const TrialOptions& options) {
@@ -145,11 +145,11 @@ int run(const TrialOptions& options) {
   std::erase_if(keys, [&](const TrialKey& key) {
     return std::ranges::find(results, key.id(), &TrialResult::id) != results.end();
   });
-  make_trials(keys, options, results);
+  const int failed = make_trials(keys, options, results);
   const std::string card = scorecard(results);
   fmt::print("{}", card);
   if (!options.scorecard.empty()) arm::write_atomically(options.scorecard, card);
-  return 0;
+  return failed == 0 ? 0 : 1;
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <limits>
 #include <stdexcept>
 
 namespace flexarm::trials {
@@ -38,7 +39,8 @@ class SimulationError {
     for (const PlannedRun& run : runs_) nominal_.push_back(signals(World{of.arm}, run));
   }
 
-  /// Mean of the channels of all runs.
+  /// Mean of the channels of all runs; infinite for an arm that is held, or falls out of all
+  /// bounds.
   double operator()(const World& world) const {
     double sum = 0.0;
     int count = 0;
@@ -48,8 +50,7 @@ class SimulationError {
         sum += relative_error_of(hidden[c], nominal_[r][c]);
       }
     }
-    if (!std::isfinite(sum)) throw std::runtime_error("a simulated motion is not finite");
-    return sum / count;
+    return std::isfinite(sum) ? sum / count : std::numeric_limits<double>::infinity();
   }
 
  private:
@@ -129,6 +130,7 @@ FoundSize find_size(const TrialArm& of, measured::RunKind kind, const std::vecto
     if (std::abs(found.error - error) <= kErrorTolerance * error) break;
     (found.error < error ? low : high) = middle;
   }
+  if (!std::isfinite(found.error)) throw std::runtime_error(cause.name + ": no size was found");
   return found;
 }
 

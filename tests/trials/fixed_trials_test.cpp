@@ -1,0 +1,78 @@
+// A few trials that every build has to pass, through the library. scripts/trials makes many more.
+#include "diagnose/diagnosis.hpp"
+#include "diagnose/hypotheses/hypotheses.hpp"
+#include "tests/trials/trial_case.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace flexarm::trials {
+namespace {
+
+namespace fs = std::filesystem;
+using measured::RunKind;
+using testing::AnyOf;
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+struct FixedAnswer {
+  diagnose::Verdict verdict;
+  std::vector<std::string> effects;
+};
+
+FixedAnswer diagnosed(const TrialKey& key, const diagnose::SelectionOptions& options = {}) {
+  const fs::path folder = fs::path(testing::TempDir()) / ("trial-" + key.folder_name());
+  fs::remove_all(folder);
+  write_case(key, folder);
+  const diagnose::Experiment experiment = diagnose::read_experiment(folder / "measurement.toml");
+  const auto diagnosis = diagnose::diagnose(experiment, diagnose::hypotheses(experiment), options);
+  FixedAnswer answer{diagnosis.verdict, {}};
+  for (const auto& cause : diagnosis.causes) answer.effects.push_back(cause.effect);
+  fs::remove_all(folder);
+  return answer;
+}
+
+TEST(FixedTrial, NothingHiddenInTime) {
+  const FixedAnswer answer = diagnosed({.kind = RunKind::time});
+  EXPECT_EQ(answer.verdict, diagnose::Verdict::adequate);
+  EXPECT_THAT(answer.effects, IsEmpty());
+}
+
+TEST(FixedTrial, ALinearEffectInTime) {
+  const FixedAnswer answer = diagnosed({.kind = RunKind::time, .hidden = {"root_compliance"}});
+  EXPECT_EQ(answer.verdict, diagnose::Verdict::explained);
+  EXPECT_THAT(answer.effects, ElementsAre("root_compliance"));
+}
+
+TEST(FixedTrial, FrictionInTime) {
+  const FixedAnswer answer = diagnosed({.kind = RunKind::time, .hidden = {"coulomb_friction"}});
+  EXPECT_EQ(answer.verdict, diagnose::Verdict::explained);
+  EXPECT_THAT(answer.effects, ElementsAre("coulomb_friction"));
+}
+
+TEST(FixedTrial, AnActuatorsLagInFrequency) {
+  const FixedAnswer answer = diagnosed({.kind = RunKind::frf, .hidden = {"actuator_lag"}});
+  EXPECT_EQ(answer.verdict, diagnose::Verdict::explained);
+  EXPECT_THAT(answer.effects, ElementsAre("actuator_lag"));
+}
+
+TEST(FixedTrial, ThePayloadsCentreInPolesAndZeros) {
+  const FixedAnswer answer = diagnosed({.kind = RunKind::modal, .hidden = {"payload_offset"}});
+  EXPECT_EQ(answer.verdict, diagnose::Verdict::explained);
+  EXPECT_THAT(answer.effects, ElementsAre("payload_offset"));
+}
+
+TEST(FixedTrial, ACauseThatHasNoName) {
+  // Without pairs of effects, which take most of the time; scripts/trials tries those too.
+  const FixedAnswer answer =
+      diagnosed({.kind = RunKind::frf, .hidden = {"tuned_mass"}}, {.most_causes = 1});
+  EXPECT_THAT(answer.verdict,
+              AnyOf(diagnose::Verdict::unexplained, diagnose::Verdict::partly_explained));
+}
+
+}  // namespace
+}  // namespace flexarm::trials

@@ -1,0 +1,129 @@
+#include "tests/trials/score.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <stdexcept>
+
+namespace flexarm::trials {
+
+namespace {
+
+/// In the order of the enumeration.
+constexpr std::array<std::string_view, 11> kOutcomes = {
+    "exact", "in_class",    "partly",     "wrong",    "missed",   "abstained",
+    "quiet", "false_alarm", "recognised", "mistaken", "no_answer"};
+
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::ranges::find(names, name) != names.end();
+}
+
+/// `cause` is the hidden one, or one of few that it may be.
+bool stands_for(const NamedCause& cause, const std::string& hidden) {
+  if (cause.effect == hidden) return true;
+  return cause.confusable_with.size() < kLargestClass && contains(cause.confusable_with, hidden);
+}
+
+Outcome outcome_of_named(const std::vector<std::string>& hidden, const Answer& answer) {
+  std::size_t exact = 0;
+  std::size_t in_class = 0;
+  for (const std::string& name : hidden) {
+    const bool named = std::ranges::any_of(
+        answer.causes, [&](const NamedCause& cause) { return cause.effect == name; });
+    const bool stood_for = std::ranges::any_of(
+        answer.causes, [&](const NamedCause& cause) { return stands_for(cause, name); });
+    if (named) ++exact;
+    if (stood_for) ++in_class;
+  }
+  const bool as_many = answer.causes.size() == hidden.size();
+  if (as_many && exact == hidden.size()) return Outcome::exact;
+  if (as_many && in_class == hidden.size()) return Outcome::in_class;
+  return in_class > 0 ? Outcome::partly : Outcome::wrong;
+}
+
+Outcome outcome_of(const TrialResult& result, const Answer& answer) {
+  if (answer.verdict.empty()) return Outcome::no_answer;
+  const bool silent = answer.causes.empty();
+  if (result.hidden.empty()) {
+    return answer.verdict == "adequate" ? Outcome::quiet : Outcome::false_alarm;
+  }
+  if (answer.verdict == "adequate") return Outcome::missed;
+  if (result.outside) {
+    return answer.verdict == "explained" ? Outcome::mistaken : Outcome::recognised;
+  }
+  return silent ? Outcome::abstained : outcome_of_named(result.hidden, answer);
+}
+
+/// Distance of a found value, the shorter way around where it is an angle.
+double distance(const std::string& parameter, double found, double hidden) {
+  const double difference = found - hidden;
+  return std::abs(parameter == "phase" ? std::remainder(difference, 2.0 * std::numbers::pi)
+                                       : difference);
+}
+
+void compare_parameters(TrialResult& result, const Truth& truth, const Answer& answer) {
+  for (const NamedCause& cause : answer.causes) {
+    if (!result.values.empty()) result.values += "; ";
+    result.values += cause.effect;
+    const auto hidden = truth.world.arm.effects.find(cause.effect);
+    for (const auto& [name, found] : cause.parameters) {
+      result.values += fmt::format(" {} {:.4g}+-{:.2g}", name, found.value, found.std_error);
+      if (hidden == truth.world.arm.effects.end()) continue;
+      const double value = hidden->second.parameters.at(name);
+      const double error = distance(name, found.value, value);
+      const double scale = name == "phase" ? 2.0 * std::numbers::pi : std::abs(value);
+      result.values += fmt::format(" ({:.4g})", value);
+      ++result.parameters;
+      if (error <= kRecovered * scale) ++result.recovered;
+      if (error <= 1.96 * found.std_error) ++result.covered;
+    }
+  }
+}
+
+}  // namespace
+
+std::string_view to_string(Outcome outcome) {
+  return kOutcomes.at(static_cast<std::size_t>(outcome));
+}
+
+Outcome parse_outcome(std::string_view name) {
+  const auto at = std::ranges::find(kOutcomes, name) - kOutcomes.begin();
+  if (static_cast<std::size_t>(at) == kOutcomes.size()) {
+    throw std::runtime_error(fmt::format("{}: no outcome", name));
+  }
+  return static_cast<Outcome>(at);
+}
+
+TrialResult score(const Truth& truth, const Answer& answer) {
+  TrialResult result;
+  result.id = truth.key.id();
+  result.kind = measured::to_string(truth.key.kind);
+  result.arm = truth.arm;
+  result.noise = truth.key.noise;
+  result.strength = truth.key.hidden.empty() ? "-" : to_string(truth.key.strength);
+  result.hidden = truth.key.hidden;
+  result.outside = !truth.world.outside.empty();
+  if (!truth.errors.empty()) {
+    result.error = std::accumulate(truth.errors.begin(), truth.errors.end(), 0.0) /
+                   static_cast<double>(truth.errors.size());
+  }
+  result.verdict = answer.verdict.empty() ? "-" : answer.verdict;
+  for (const NamedCause& cause : answer.causes) {
+    result.named.push_back(cause.effect);
+    result.class_size = std::max(result.class_size, 1 + cause.confusable_with.size());
+  }
+  result.outcome = outcome_of(result, answer);
+  compare_parameters(result, truth, answer);
+  result.before = answer.estimation.before;
+  result.after = answer.estimation.after;
+  result.validation_after = answer.validation.after;
+  result.validation_floor = answer.validation.noise_floor;
+  result.time_s = answer.time_s;
+  return result;
+}
+
+}  // namespace flexarm::trials

@@ -1,0 +1,65 @@
+#pragma once
+
+#include "tests/trials/answer.hpp"
+#include "tests/trials/trial_case.hpp"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace flexarm::trials {
+
+/// How an answer compares with the truth.
+enum class Outcome {
+  exact,        ///< the hidden causes are named and no other
+  in_class,     ///< as exact with a cause that is said to be confusable with the one named
+  partly,       ///< some of the hidden causes are named, or others beside them
+  wrong,        ///< others are named
+  missed,       ///< adequate, though something is hidden
+  abstained,    ///< unexplained, though the vocabulary has the cause
+  quiet,        ///< nothing is hidden and nothing is said
+  false_alarm,  ///< nothing is hidden, but something is said
+  recognised,   ///< a cause outside the vocabulary: unexplained or partly explained
+  mistaken,     ///< a cause outside the vocabulary is explained by one in it
+  no_answer,    ///< the program failed or took too long
+};
+std::string_view to_string(Outcome outcome);
+Outcome parse_outcome(std::string_view name);
+
+/// A class of causes that data cannot tell apart has this many members at most, the named one
+/// included, to count as an answer.
+inline constexpr std::size_t kLargestClass = 3;
+/// A parameter is recovered within this part of its value.
+inline constexpr double kRecovered = 0.05;
+/// What is left of validation data against their noise, at most.
+inline constexpr double kNoiseReached = 1.1;
+
+/// One trial as a line of the results.
+struct TrialResult {
+  std::string id;
+  std::string kind;
+  std::string arm;
+  double noise = 0.0;
+  std::string strength;  ///< "-" where nothing is hidden
+  std::vector<std::string> hidden;
+  bool outside = false;
+  double error = 0.0;  ///< that the hidden causes make, the mean of each by itself
+  Outcome outcome = Outcome::no_answer;
+  std::string verdict;
+  std::vector<std::string> named;
+  std::size_t class_size = 1;  ///< the largest of the named causes
+  int parameters = 0;          ///< of causes named rightly
+  int recovered = 0;           ///< within kRecovered
+  int covered = 0;             ///< within 1.96 standard errors
+  double before = 0.0;         ///< relative error on estimation runs
+  double after = 0.0;
+  double validation_after = 0.0;
+  double validation_floor = 0.0;
+  double time_s = 0.0;
+  std::string values;  ///< found (hidden), for a reader
+  std::string folder;
+};
+
+TrialResult score(const Truth& truth, const Answer& answer);
+
+}  // namespace flexarm::trials

@@ -1,0 +1,122 @@
+#include "tests/trials/score.hpp"
+
+#include "tests/trials/clopper_pearson.hpp"
+#include "tests/trials/results_file.hpp"
+#include "tests/trials/scorecard.hpp"
+#include "tests/trials/trial_list.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+namespace flexarm::trials {
+namespace {
+
+using testing::HasSubstr;
+
+Truth truth_of(std::vector<std::string> hidden) {
+  Truth truth;
+  truth.key.hidden = std::move(hidden);
+  for (const auto& name : truth.key.hidden) {
+    if (find_hideable(name).outside) {
+      truth.world.outside[name];
+    } else {
+      truth.world.arm.effects[name].parameters["torque"] = 0.01;
+    }
+  }
+  return truth;
+}
+
+NamedCause named(const std::string& effect, std::vector<std::string> confusable = {}) {
+  return {.effect = effect,
+          .sensor = {},
+          .parameters = {{"torque", {0.0102, 0.00015}}},
+          .confusable_with = std::move(confusable)};
+}
+
+Answer answered(const std::string& verdict, std::vector<NamedCause> causes = {}) {
+  Answer answer;
+  answer.verdict = verdict;
+  answer.causes = std::move(causes);
+  return answer;
+}
+
+Outcome outcome(const Truth& truth, const Answer& answer) {
+  return score(truth, answer).outcome;
+}
+
+TEST(Score, ANameIsExactInAClassPartlyRightOrWrong) {
+  const Truth truth = truth_of({"coulomb_friction"});
+  EXPECT_EQ(outcome(truth, answered("explained", {named("coulomb_friction")})), Outcome::exact);
+  EXPECT_EQ(outcome(truth, answered("explained", {named("torque_bias", {"coulomb_friction"})})),
+            Outcome::in_class);
+  EXPECT_EQ(
+      outcome(truth, answered("explained", {named("torque_bias", {"coulomb_friction", "hub_spring",
+                                                                  "torque_gain"})})),
+      Outcome::wrong);
+  EXPECT_EQ(outcome(truth, answered("explained", {named("coulomb_friction"), named("gravity")})),
+            Outcome::partly);
+  EXPECT_EQ(outcome(truth, answered("adequate")), Outcome::missed);
+  EXPECT_EQ(outcome(truth, answered("unexplained")), Outcome::abstained);
+  EXPECT_EQ(outcome(truth, Answer{}), Outcome::no_answer);
+}
+
+TEST(Score, WithNothingToNameSilenceIsRight) {
+  EXPECT_EQ(outcome(truth_of({}), answered("adequate")), Outcome::quiet);
+  EXPECT_EQ(outcome(truth_of({}), answered("explained", {named("gravity")})), Outcome::false_alarm);
+  EXPECT_EQ(outcome(truth_of({}), answered("unexplained")), Outcome::false_alarm);
+  const Truth outside = truth_of({"tuned_mass"});
+  EXPECT_EQ(outcome(outside, answered("unexplained")), Outcome::recognised);
+  EXPECT_EQ(outcome(outside, answered("partly_explained", {named("gravity")})),
+            Outcome::recognised);
+  EXPECT_EQ(outcome(outside, answered("explained", {named("gravity")})), Outcome::mistaken);
+}
+
+TEST(Score, ParametersAreComparedWithThoseHidden) {
+  const auto result = score(truth_of({"coulomb_friction"}),
+                            answered("explained", {named("coulomb_friction"), named("gravity")}));
+  EXPECT_EQ(result.parameters, 1);
+  EXPECT_EQ(result.recovered, 1);  // 2 % off
+  EXPECT_EQ(result.covered, 1);    // by 1.3 standard errors
+}
+
+TEST(ClopperPearson, BoundsAreThoseOfTheTables) {
+  // 1 - 0.05^(1/n) for no event.
+  EXPECT_NEAR(upper_bound_95(0, 300), 0.00994, 1e-5);
+  EXPECT_NEAR(lower_bound_95(60, 60), 0.95130, 1e-5);
+  EXPECT_EQ(upper_bound_95(5, 5), 1.0);
+  EXPECT_EQ(lower_bound_95(0, 5), 0.0);
+}
+
+TEST(ResultsFile, IsReadBack) {
+  const auto file = std::filesystem::path(testing::TempDir()) / "results.csv";
+  std::filesystem::remove(file);
+  TrialResult result = score(truth_of({"coulomb_friction", "gravity"}),
+                             answered("explained", {named("coulomb_friction")}));
+  result.arm = "steel link";
+  append_result(result, file);
+  append_result(score(truth_of({}), answered("adequate")), file);
+  const auto read = read_results(file);
+  ASSERT_EQ(read.size(), 2U);
+  EXPECT_EQ(read[0].id, result.id);
+  EXPECT_EQ(read[0].hidden, result.hidden);
+  EXPECT_EQ(read[0].named, result.named);
+  EXPECT_EQ(read[0].outcome, Outcome::partly);
+  EXPECT_EQ(read[0].values, result.values);
+  EXPECT_EQ(read[1].outcome, Outcome::quiet);
+  EXPECT_TRUE(read[1].hidden.empty());
+  EXPECT_THAT(scorecard(read), HasSubstr("| two effects: one of them | 1/1 (100 %) |"));
+  EXPECT_THAT(scorecard(read), HasSubstr("| nothing hidden: false alarm | 0/1 (0 %) |"));
+}
+
+TEST(TrialList, HidesOnlyWhatTheDataShow) {
+  const auto friction = list_trials({.effects = {"coulomb_friction"}, .strengths = {"middle"}});
+  EXPECT_EQ(friction.size(), 2U);  // two noises, in time alone
+  for (const auto& key : friction) EXPECT_EQ(key.kind, measured::RunKind::time);
+  EXPECT_EQ(list_trials({.effects = {"none"}, .trials = 5}).size(), 30U);
+  EXPECT_ANY_THROW(list_trials({.effects = {"friction"}}));
+}
+
+}  // namespace
+}  // namespace flexarm::trials

@@ -1,0 +1,97 @@
+// The simulator of the trials against response/, with which it shares nothing but the arm.
+#include "fem/fem_arm.hpp"
+#include "response/arm_parts.hpp"
+#include "response/settings.hpp"
+#include "response/simulation.hpp"
+#include "response/time_model.hpp"
+#include "tests/trials/excitations.hpp"
+#include "tests/trials/time_simulation.hpp"
+#include "tests/trials/trial_arms.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ostream>
+
+namespace flexarm::trials {
+namespace {
+
+constexpr std::size_t kShortRun = 1000;
+
+struct AgreementCase {
+  std::string name;
+  arm::Effects effects;
+  /// Root mean square of the difference over that of the reading. Speeds of a mode are off by
+  /// (omega h)^2/12, 2e-5 of the fourth; turning points of friction and drag by some h.
+  double tolerance = 1e-4;
+};
+
+void PrintTo(const AgreementCase& one, std::ostream* out) {
+  *out << one.name;
+}
+
+std::vector<arm::Sensor> read_sensors() {
+  return {{arm::SensorKind::hub_angle, 0.0},
+          {arm::SensorKind::hub_velocity, 0.0},
+          {arm::SensorKind::tip_acceleration, 0.0},
+          {arm::SensorKind::strain, 0.05}};
+}
+
+class AgainstResponse : public testing::TestWithParam<AgreementCase> {};
+
+TEST_P(AgainstResponse, EveryChannelAgrees) {
+  World world{trial_arms().front().arm};
+  world.arm.effects = GetParam().effects;
+  Random random(7, "agreement");
+  std::vector<double> torque = random_torque(0.06, random);
+  torque.resize(kShortRun);
+  const auto sensors = read_sensors();
+  const auto own = simulate_in_time(world, sensors, torque);
+
+  const response::ArmParts parts = response::take_apart(world.arm);
+  const response::AnyFormulation model = fem::FemArm(parts.linear);
+  const auto other =
+      response::simulate(response::time_model(model, parts, PlantOptions{}.flexible_modes, sensors),
+                         parts, sensors, torque, {.sample_time_s = kSampleTime_s});
+  for (std::size_t i = 0; i < sensors.size(); ++i) {
+    double difference = 0.0;
+    double square = 0.0;
+    for (std::size_t k = 0; k < kShortRun; ++k) {
+      difference += std::pow(own[i][k] - other.channels[i][k], 2);
+      square += std::pow(other.channels[i][k], 2);
+    }
+    EXPECT_LT(std::sqrt(difference / square), GetParam().tolerance) << arm::to_string(sensors[i]);
+  }
+}
+
+arm::Effect effect(std::map<std::string, double> parameters, std::string sensor = {}) {
+  return {std::move(parameters), std::move(sensor)};
+}
+
+std::vector<AgreementCase> agreement_cases() {
+  return {{"none", {}},
+          {"gravity", {{"gravity", effect({{"acceleration", 9.81}})}}},
+          {"root", {{"root_compliance", effect({{"stiffness", 30.0}})}}},
+          {"coulomb", {{"coulomb_friction", effect({{"torque", 0.012}})}}},
+          {"stribeck",
+           {{"stribeck_friction",
+             effect({{"torque", 0.008}, {"static_torque", 0.016}, {"velocity", 0.3}})}}},
+          {"drag", {{"quadratic_drag", effect({{"coefficient", 0.1}})}}},
+          {"ripple",
+           {{"torque_ripple", effect({{"amplitude", 0.02}, {"cycles", 5.0}, {"phase", 1.0}})}}},
+          {"actuator",
+           {{"torque_bias", effect({{"torque", 0.004}})},
+            {"torque_saturation", effect({{"limit", 0.08}})},
+            {"torque_dead_zone", effect({{"width", 0.01}})},
+            {"time_delay", effect({{"delay", 0.0053}})},
+            {"torque_gain", effect({{"factor", 0.8}})},
+            {"actuator_lag", effect({{"time_constant", 0.004}})}}},
+          {"sensor", {{"sensor_lag", effect({{"time_constant", 0.003}}, "tip_acceleration")}}}};
+}
+
+INSTANTIATE_TEST_SUITE_P(Effects, AgainstResponse, testing::ValuesIn(agreement_cases()),
+                         [](const auto& one) { return one.param.name; });
+
+}  // namespace
+}  // namespace flexarm::trials

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "tests/trials/experiment_plan.hpp"
+#include "tests/trials/hiding.hpp"
+#include "tests/trials/world.hpp"
+
+#include <array>
+#include <string_view>
+
+namespace flexarm::trials {
+
+/// How strong a hidden cause is: by the error of a simulation that does not know it, so that
+/// strengths compare between causes.
+enum class Strength { weak, middle, strong };
+inline constexpr std::array kStrengths = {Strength::weak, Strength::middle, Strength::strong};
+
+/// "weak", "middle", "strong".
+std::string_view to_string(Strength strength);
+
+/// Root mean square of the error over that of the signal in data without noise: 5, 15, 50 %; of
+/// poles and zeros a tenth of it, where a damping ratio's error counts a fiftieth of a frequency's.
+double error_of(Strength strength, measured::RunKind kind);
+
+struct FoundSize {
+  double size = 0.0;
+  double error = 0.0;  ///< that this size makes; less than asked for where nothing makes as much
+};
+
+/// The size at which `cause` makes this error, to 5 % of it, by bisection of its logarithm.
+FoundSize find_size(const TrialArm& of, measured::RunKind kind, const std::vector<PlannedRun>& runs,
+                    const Hideable& cause, const Chance& chance, double error);
+
+}  // namespace flexarm::trials

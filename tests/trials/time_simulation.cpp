@@ -1,0 +1,209 @@
+#include "tests/trials/time_simulation.hpp"
+
+#include "tests/trials/hub_torques.hpp"
+#include "tests/trials/torque_chain.hpp"
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <stdexcept>
+
+namespace flexarm::trials {
+
+namespace {
+
+constexpr int kMostIterations = 20;
+/// Of the speed of the hub, or its size, from one iteration to the next.
+constexpr double kIterationTolerance = 1e-11;
+
+struct LaggedReading {
+  std::size_t sensor = 0;
+  double time_constant_s = 0.0;
+  double value = 0.0;
+};
+
+std::optional<LaggedReading> lagged_reading(const arm::Arm& arm,
+                                            std::span<const arm::Sensor> sensors) {
+  const auto lag = arm.effects.find("sensor_lag");
+  if (lag == arm.effects.end()) return std::nullopt;
+  const std::string name = lag->second.sensor.empty() ? "tip_acceleration" : lag->second.sensor;
+  for (std::size_t i = 0; i < sensors.size(); ++i) {
+    if (arm::to_string(sensors[i]) == name) {
+      return LaggedReading{i, lag->second.parameters.at("time_constant")};
+    }
+  }
+  return std::nullopt;
+}
+
+class NewmarkIntegrator {
+ public:
+  NewmarkIntegrator(const World& world, std::span<const arm::Sensor> sensors,
+                    std::span<const double> torque_N_m, const TimeOptions& options)
+      : sensors_(sensors),
+        plant_(make_plant(world, sensors, options.plant)),
+        chain_(world.arm, torque_N_m, options.sample_time_s),
+        torques_(world, options.sample_time_s * static_cast<double>(torque_N_m.size()),
+                 options.disturbance_seed),
+        friction_(world.arm),
+        lagged_(lagged_reading(world.arm, sensors)),
+        drag_N_s2_per_m3_(effect_value(world.arm, "quadratic_drag", "coefficient", 0.0)),
+        step_s_(options.sample_time_s / options.substeps) {
+    const Eigen::Index n = plant_.hub.size();
+    // Newmark's scheme for any beta as average acceleration (1/4) of an arm of another inertia:
+    // the difference 1/4 - beta of the stiffness's part is one of mass.
+    constexpr double kBeta = 1.0 / 12.0;
+    const Eigen::MatrixXd inertia =
+        Eigen::MatrixXd::Identity(n, n) - (0.25 - kBeta) * step_s_ * step_s_ * plant_.stiffness;
+    inverse_ =
+        (inertia + 0.5 * step_s_ * plant_.damping + 0.25 * step_s_ * step_s_ * plant_.stiffness)
+            .inverse();
+    from_velocity_ = inverse_ * inertia;
+    constexpr double kStable = 6.0;  // (omega h)^2
+    if (plant_.stiffness.diagonal().maxCoeff() * step_s_ * step_s_ > kStable) {
+      throw std::runtime_error("the step is too long for the highest mode");
+    }
+    from_displacement_ = -0.5 * step_s_ * inverse_ * plant_.stiffness;
+    to_hub_ = 0.5 * step_s_ / plant_.modal_mass_kg_m2 * (inverse_ * plant_.hub);
+    hub_to_hub_ = plant_.hub.dot(to_hub_);
+    u_ = v_ = middle_ = Eigen::VectorXd::Zero(n);
+    if (drag_N_s2_per_m3_ != 0.0) {
+      drag_to_middle_ = -0.5 * step_s_ * drag_N_s2_per_m3_ / plant_.modal_mass_kg_m2 * inverse_ *
+                        plant_.stations.transpose() * plant_.station_weights_m.asDiagonal();
+    }
+  }
+
+  /// One step from `from_s`.
+  void step(double from_s) {
+    const double torque = chain_.advance(from_s, step_s_);
+    free_.noalias() = from_velocity_ * v_;
+    free_.noalias() += from_displacement_ * u_;
+    free_ += torque * to_hub_;
+    const double hub_speed = plant_.hub.dot(v_);
+    const double hub_angle = plant_.hub.dot(u_);
+    const bool linear = torques_.none() && drag_N_s2_per_m3_ == 0.0;
+    // Forces that depend on the motion: by fixed-point iteration, from the last step's motion.
+    double before = plant_.hub.dot(middle_);
+    for (int iteration = 0; iteration < kMostIterations; ++iteration) {
+      next_ = free_;
+      if (!torques_.none()) {
+        const double turn = step_s_ * plant_.hub.dot(middle_);
+        next_ += torques_.mean_N_m(from_s + 0.5 * step_s_, hub_angle + 0.5 * turn, turn) * to_hub_;
+      }
+      if (drag_N_s2_per_m3_ != 0.0) next_.noalias() += drag_to_middle_ * drag_shape(middle_);
+      if (!friction_.none()) {
+        const double end_speed = 2.0 * plant_.hub.dot(next_) - hub_speed;
+        next_ -= friction_.mean_N_m({hub_speed, end_speed, 2.0 * hub_to_hub_}) * to_hub_;
+      }
+      middle_.swap(next_);
+      const double now = plant_.hub.dot(middle_);
+      if (linear) break;
+      if (std::abs(now - before) <= kIterationTolerance * (1.0 + std::abs(now)) && iteration > 0) {
+        break;
+      }
+      before = now;
+    }
+    if (!torques_.none()) torques_.turned(step_s_ * plant_.hub.dot(middle_));
+    if (lagged_) pass_lag();
+    u_ += step_s_ * middle_;
+    v_ = 2.0 * middle_ - v_;
+  }
+
+  /// What the sensors read just after `time_s`.
+  std::vector<double> read(double time_s) const {
+    const Eigen::VectorXd acceleration = acceleration_at(time_s);
+    std::vector<double> values;
+    for (std::size_t i = 0; i < sensors_.size(); ++i) {
+      if (lagged_ && lagged_->sensor == i) {
+        values.push_back(lagged_->value);
+        continue;
+      }
+      const auto row = plant_.readings.row(static_cast<Eigen::Index>(i));
+      const int order = arm::derivative_order(sensors_[i]);
+      values.push_back(row.dot(order == 0 ? u_ : order == 1 ? v_ : acceleration));
+    }
+    return values;
+  }
+
+ private:
+  Eigen::VectorXd drag_shape(const Eigen::VectorXd& velocity) const {
+    const Eigen::VectorXd speed = plant_.stations * velocity;
+    return speed.cwiseAbs().cwiseProduct(speed);
+  }
+
+  /// The mean of the sensor over the step passes 1/(1 + time_constant s).
+  void pass_lag() {
+    const arm::Sensor& sensor = sensors_[lagged_->sensor];
+    const auto row = plant_.readings.row(static_cast<Eigen::Index>(lagged_->sensor));
+    const int order = arm::derivative_order(sensor);
+    double mean = row.dot(middle_);
+    if (order == 0) mean = row.dot(u_) + 0.5 * step_s_ * mean;
+    if (order == 2) mean = 2.0 * (mean - row.dot(v_)) / step_s_;
+    const double decay = std::exp(-step_s_ / lagged_->time_constant_s);
+    lagged_->value = mean + (lagged_->value - mean) * decay;
+  }
+
+  Eigen::VectorXd acceleration_at(double time_s) const {
+    const double mass = plant_.modal_mass_kg_m2;
+    double torque = chain_.now(time_s);
+    if (!torques_.none()) torque += torques_.mean_N_m(time_s, plant_.hub.dot(u_), 0.0);
+    Eigen::VectorXd a = -(plant_.damping * v_) - plant_.stiffness * u_ + torque / mass * plant_.hub;
+    if (drag_N_s2_per_m3_ != 0.0) {
+      a -= drag_N_s2_per_m3_ / mass * plant_.stations.transpose() *
+           plant_.station_weights_m.cwiseProduct(drag_shape(v_));
+    }
+    if (friction_.none()) return a;
+    const double speed = plant_.hub.dot(v_);
+    double size = friction_.size_N_m(speed);
+    if (std::abs(speed) < kRest_rad_per_s) {
+      const double holding = plant_.hub.dot(a) * mass / plant_.hub.squaredNorm();
+      const double most = friction_.size_N_m(0.0);
+      size = std::clamp(holding, -most, most);
+    } else {
+      size = std::copysign(size, speed);
+    }
+    return a - size / mass * plant_.hub;
+  }
+
+  std::span<const arm::Sensor> sensors_;
+  Plant plant_;
+  TorqueChain chain_;
+  HubTorques torques_;
+  DryFriction friction_;
+  std::optional<LaggedReading> lagged_;
+  double drag_N_s2_per_m3_;
+  double step_s_;
+  Eigen::MatrixXd inverse_;  // (1 + h/2 D + beta h^2 W)^-1
+  Eigen::MatrixXd from_velocity_;
+  Eigen::MatrixXd from_displacement_;  // -h/2 of it times W
+  Eigen::VectorXd to_hub_;             // mean velocity per torque on the hub
+  double hub_to_hub_ = 0.0;
+  Eigen::MatrixXd drag_to_middle_;
+  Eigen::VectorXd u_;
+  Eigen::VectorXd v_;
+  Eigen::VectorXd middle_;  // mean velocity of the step
+  Eigen::VectorXd free_;
+  Eigen::VectorXd next_;
+};
+
+}  // namespace
+
+std::vector<std::vector<double>> simulate_in_time(const World& world,
+                                                  std::span<const arm::Sensor> sensors,
+                                                  std::span<const double> torque_N_m,
+                                                  const TimeOptions& options) {
+  NewmarkIntegrator integrator(world, sensors, torque_N_m, options);
+  std::vector<std::vector<double>> channels(sensors.size());
+  const double step_s = options.sample_time_s / options.substeps;
+  for (std::size_t k = 0; k < torque_N_m.size(); ++k) {
+    const double sample_s = static_cast<double>(k) * options.sample_time_s;
+    const std::vector<double> values = integrator.read(sample_s);
+    for (std::size_t i = 0; i < values.size(); ++i) channels[i].push_back(values[i]);
+    for (int j = 0; j < options.substeps; ++j) integrator.step(sample_s + j * step_s);
+  }
+  return channels;
+}
+
+}  // namespace flexarm::trials

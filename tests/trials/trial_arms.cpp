@@ -1,0 +1,43 @@
+#include "tests/trials/trial_arms.hpp"
+
+namespace flexarm::trials {
+
+namespace {
+
+TrialArm aluminium_link() {
+  arm::Arm arm = arm::paper_arm();
+  arm.name = "aluminium link";
+  arm.beam.shear_modulus_Pa = 2.67e10;
+  arm.hub.viscous_friction_N_m_s_per_rad = 0.002;
+  arm.damping.kelvin_voigt_s = 1.2e-4;
+  return {arm, 0.03};
+}
+
+TrialArm steel_link() {
+  arm::Arm arm;
+  arm.name = "steel link";
+  arm.beam = arm::Beam::from_section(0.42, 0.021, 0.00085, 7850.0, 2e11);
+  arm.beam.shear_modulus_Pa = 7.7e10;
+  arm.hub = {0.0019, 0.004};
+  arm.damping.kelvin_voigt_s = 1.5e-4;
+  return {arm, 0.006};
+}
+
+TrialArm sandwich_link() {
+  arm::Arm arm;
+  arm.name = "sandwich link";
+  arm.beam = arm::Beam::from_section(0.35, 0.03, 0.006, 1400.0, 5e9);
+  arm.beam.shear_modulus_Pa = 2e8;
+  arm.hub = {2.5e-4, 0.003};
+  arm.damping.kelvin_voigt_s = 5e-5;
+  return {arm, 0.012};
+}
+
+}  // namespace
+
+const std::vector<TrialArm>& trial_arms() {
+  static const std::vector<TrialArm> arms = {aluminium_link(), steel_link(), sandwich_link()};
+  return arms;
+}
+
+}  // namespace flexarm::trials

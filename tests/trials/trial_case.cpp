@@ -1,0 +1,170 @@
+#include "tests/trials/trial_case.hpp"
+
+#include "arm/arm_file.hpp"
+#include "measured/frequency_record.hpp"
+#include "measured/modal_table.hpp"
+#include "measured/time_record.hpp"
+#include "tests/trials/excitations.hpp"
+#include "tests/trials/frequency_simulation.hpp"
+#include "tests/trials/time_simulation.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+namespace flexarm::trials {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A modal test knows frequencies to a fifth of the noise of its signals, damping ratios to ten
+/// times it.
+constexpr double kFrequencyNoise = 0.2;
+constexpr double kDampingNoise = 10.0;
+constexpr double kAverages = 16.0;
+/// Standard deviations in a modal table are themselves estimates, known to this part.
+constexpr double kDeviationKnown = 0.02;
+
+double deviation(const std::vector<double>& values) {
+  double sum = 0.0;
+  double squares = 0.0;
+  for (const double value : values) {
+    sum += value;
+    squares += value * value;
+  }
+  const auto n = static_cast<double>(values.size());
+  return std::sqrt(std::max(0.0, squares / n - sum * sum / (n * n)));
+}
+
+void write_time_run(const World& world, const PlannedRun& run, double noise, Random& random,
+                    std::uint64_t disturbance_seed, const fs::path& file) {
+  measured::TimeRecord record;
+  record.torque_N_m = run.torque_N_m;
+  for (std::size_t k = 0; k < run.torque_N_m.size(); ++k) {
+    record.time_s.push_back(static_cast<double>(k) * kSampleTime_s);
+  }
+  const auto& sensors = planned_sensors();
+  auto channels =
+      simulate_in_time(world, sensors, run.torque_N_m,
+                       {.sample_time_s = kSampleTime_s, .disturbance_seed = disturbance_seed});
+  for (std::size_t i = 0; i < sensors.size(); ++i) {
+    const double noise_deviation = noise * deviation(channels[i]);
+    for (double& value : channels[i]) value += noise_deviation * random.normal();
+    record.channels.push_back({sensors[i], channels[i]});
+  }
+  measured::write_time_record(record, file);
+}
+
+void write_frequency_run(const World& world, const TrialArm& of, double noise, Random& random,
+                         const fs::path& file) {
+  const auto frequencies = planned_frequencies_Hz(of, kFrequencyLines);
+  const auto& sensors = planned_sensors();
+  auto responses = frequency_responses(world, sensors, frequencies);
+  // Real and imaginary part: sd^2 = (1 - g)/(2 n g) |G|^2 (Bendat & Piersol).
+  const double coherence = 1.0 / (1.0 + 2.0 * kAverages * noise * noise);
+  measured::FrequencyRecord record;
+  for (std::size_t i = 0; i < sensors.size(); ++i) {
+    for (auto& value : responses[i]) {
+      const double size = std::abs(value);
+      const double real = random.normal();
+      value += noise * size * std::complex<double>(real, random.normal());
+    }
+    record.channels.push_back({sensors[i], frequencies, responses[i],
+                               std::vector<double>(frequencies.size(), coherence)});
+  }
+  measured::write_frequency_record(record, file);
+}
+
+void write_modal_run(const World& world, double noise, Random& random, const fs::path& file) {
+  measured::ModalTable table = poles_and_zeros(world, kModalOrders);
+  for (auto& entry : table) {
+    const double frequency_std = kFrequencyNoise * noise * *entry.frequency_Hz;
+    *entry.frequency_Hz += frequency_std * random.normal();
+    entry.frequency_std_Hz = frequency_std * (1.0 + kDeviationKnown * random.normal());
+    if (!entry.damping_ratio) continue;
+    const double damping_std = kDampingNoise * noise * *entry.damping_ratio;
+    *entry.damping_ratio += damping_std * random.normal();
+    entry.damping_ratio_std = damping_std * (1.0 + kDeviationKnown * random.normal());
+  }
+  measured::write_modal_table(table, file);
+}
+
+/// The arm of a case: of those in which what is hidden can show.
+const TrialArm& choose_arm(const TrialKey& key, Random& random) {
+  const auto& arms = trial_arms();
+  const std::size_t drawn = random.below(arms.size());
+  const bool shears = std::ranges::find(key.hidden, "shear_and_rotary_inertia") != key.hidden.end();
+  return shears ? arms.back() : arms[drawn];
+}
+
+}  // namespace
+
+std::string TrialKey::id() const {
+  const std::string causes = hidden.empty() ? "none" : fmt::format("{}", fmt::join(hidden, "+"));
+  return hidden.empty() ? fmt::format("{}-{}-{:g}-{}", measured::to_string(kind), causes,
+                                      100.0 * noise, number)
+                        : fmt::format("{}-{}-{}-{:g}-{}", measured::to_string(kind), causes,
+                                      to_string(strength), 100.0 * noise, number);
+}
+
+std::string TrialKey::folder_name() const {
+  constexpr std::size_t kNames = std::size_t{1} << 40;
+  return fmt::format("{:010x}", Random(seed, id() + " folder").below(kNames));
+}
+
+Truth write_case(const TrialKey& key, const fs::path& folder) {
+  Random random(key.seed, key.id());
+  const TrialArm& of = choose_arm(key, random);
+  const std::vector<PlannedRun> runs = plan(of, key.kind, random);
+  Truth truth{key, of.arm.name, World{of.arm}, {}, {}};
+  for (const std::string& name : key.hidden) {
+    const Hideable& cause = find_hideable(name);
+    const Chance chance = draw_chance(random);
+    const FoundSize found =
+        find_size(of, key.kind, runs, cause, chance, error_of(key.strength, key.kind));
+    truth.world = with_hidden(truth.world, of, cause, found.size, chance);
+    truth.sizes.push_back(found.size);
+    truth.errors.push_back(found.error);
+  }
+
+  fs::create_directories(folder);
+  arm::write_arm_file(of.arm, folder / "arm.toml");
+  measured::Measurement measurement{.name = "trial", .arm = "arm.toml", .runs = {}};
+  std::uint64_t run_number = 0;
+  for (const PlannedRun& run : runs) {
+    const std::string file = run.id + ".csv";
+    measurement.runs.push_back({.id = run.id,
+                                .kind = key.kind,
+                                .file = file,
+                                .purpose = run.purpose,
+                                .payload = arm::Payload{run.payload_kg, 0.0}});
+    World world = truth.world;
+    world.arm.payload.mass_kg = run.payload_kg;
+    ++run_number;
+    if (key.kind == measured::RunKind::time) {
+      write_time_run(world, run, key.noise, random, key.seed * 100 + run_number, folder / file);
+    } else if (key.kind == measured::RunKind::frf) {
+      write_frequency_run(world, of, key.noise, random, folder / file);
+    } else {
+      write_modal_run(world, key.noise, random, folder / file);
+    }
+  }
+  measured::write_measurement(measurement, folder / "measurement.toml");
+  return truth;
+}
+
+nlohmann::ordered_json truth_json(const Truth& truth) {
+  nlohmann::ordered_json effects = nlohmann::ordered_json::object();
+  for (const auto& [name, effect] : truth.world.arm.effects) {
+    effects[name] = effect.parameters;
+    if (!effect.sensor.empty()) effects[name]["sensor"] = effect.sensor;
+  }
+  return {{"id", truth.key.id()},  {"seed", truth.key.seed},         {"arm", truth.arm},
+          {"effects", effects},    {"outside", truth.world.outside}, {"sizes", truth.sizes},
+          {"errors", truth.errors}};
+}
+
+}  // namespace flexarm::trials

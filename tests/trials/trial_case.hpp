@@ -1,0 +1,44 @@
+#pragma once
+
+#include "tests/trials/strength.hpp"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace flexarm::trials {
+
+/// Which trial: everything else follows from it and the seed.
+struct TrialKey {
+  measured::RunKind kind = measured::RunKind::time;
+  std::vector<std::string> hidden = {};  ///< causes; empty: nothing is hidden
+  Strength strength = Strength::middle;
+  double noise = 0.005;  ///< standard deviation over that of the signal
+  int number = 1;        ///< of its cell
+  std::uint64_t seed = 1;
+
+  /// "time-coulomb_friction-middle-0.5-1": noise in per cent.
+  std::string id() const;
+  /// The name of its folder, which does not tell what is hidden.
+  std::string folder_name() const;
+};
+
+/// What was hidden, for the scorer alone.
+struct Truth {
+  TrialKey key;
+  std::string arm;
+  World world;                 ///< without payload
+  std::vector<double> sizes;   ///< one a hidden cause
+  std::vector<double> errors;  ///< that each makes by itself
+};
+
+/// Makes the case and writes measurement.toml, arm.toml and the runs' files into `folder`, which is
+/// made. Returns what was hidden.
+Truth write_case(const TrialKey& key, const std::filesystem::path& folder);
+
+nlohmann::ordered_json truth_json(const Truth& truth);
+
+}  // namespace flexarm::trials

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "tests/trials/trial_case.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace flexarm::trials {
+
+/// Which trials to make: every combination of the lists, `trials` times.
+struct TrialChoice {
+  std::vector<std::string> kinds = {"time", "frf", "modal"};
+  /// Names of causes, `single` for the vocabulary, `none`, `pairs`, `outside`.
+  std::vector<std::string> effects = {"single", "pairs", "none", "outside"};
+  std::vector<std::string> strengths = {"weak", "middle", "strong"};
+  std::vector<double> noises = {0.005, 0.03};
+  int trials = 1;
+  std::uint64_t seed = 1;
+};
+
+/// Those that can be: a cause is hidden only in data that show it. Throws InputError for an unknown
+/// word.
+std::vector<TrialKey> list_trials(const TrialChoice& choice);
+
+}  // namespace flexarm::trials

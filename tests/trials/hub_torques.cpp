@@ -2,6 +2,7 @@
 
 #include "tests/trials/random.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 

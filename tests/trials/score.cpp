@@ -14,9 +14,9 @@ namespace flexarm::trials {
 namespace {
 
 /// In the order of the enumeration.
-constexpr std::array<std::string_view, 11> kOutcomes = {
-    "exact", "in_class",    "partly",     "wrong",    "missed",   "abstained",
-    "quiet", "false_alarm", "recognised", "mistaken", "no_answer"};
+constexpr std::array<std::string_view, 12> kOutcomes = {
+    "exact", "in_class",    "partly",  "wrong",      "missed",   "abstained",
+    "quiet", "false_alarm", "doubted", "recognised", "mistaken", "no_answer"};
 
 bool contains(const std::vector<std::string>& names, const std::string& name) {
   return std::ranges::find(names, name) != names.end();
@@ -49,7 +49,8 @@ Outcome outcome_of(const TrialResult& result, const Answer& answer) {
   if (answer.verdict.empty()) return Outcome::no_answer;
   const bool silent = answer.causes.empty();
   if (result.hidden.empty()) {
-    return answer.verdict == "adequate" ? Outcome::quiet : Outcome::false_alarm;
+    if (!silent) return Outcome::false_alarm;
+    return answer.verdict == "adequate" ? Outcome::quiet : Outcome::doubted;
   }
   if (answer.verdict == "adequate") return Outcome::missed;
   if (result.outside) {

@@ -18,7 +18,8 @@ enum class Outcome {
   missed,       ///< adequate, though something is hidden
   abstained,    ///< unexplained, though the vocabulary has the cause
   quiet,        ///< nothing is hidden and nothing is said
-  false_alarm,  ///< nothing is hidden, but something is said
+  false_alarm,  ///< nothing is hidden, but a cause is named
+  doubted,      ///< nothing is hidden and none is named, but the arm is not found adequate
   recognised,   ///< a cause outside the vocabulary: unexplained or partly explained
   mistaken,     ///< a cause outside the vocabulary is explained by one in it
   no_answer,    ///< the program failed or took too long

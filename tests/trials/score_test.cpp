@@ -65,12 +65,18 @@ TEST(Score, ANameIsExactInAClassPartlyRightOrWrong) {
 TEST(Score, WithNothingToNameSilenceIsRight) {
   EXPECT_EQ(outcome(truth_of({}), answered("adequate")), Outcome::quiet);
   EXPECT_EQ(outcome(truth_of({}), answered("explained", {named("gravity")})), Outcome::false_alarm);
-  EXPECT_EQ(outcome(truth_of({}), answered("unexplained")), Outcome::false_alarm);
+  EXPECT_EQ(outcome(truth_of({}), answered("unexplained")), Outcome::doubted);
   const Truth outside = truth_of({"tuned_mass"});
   EXPECT_EQ(outcome(outside, answered("unexplained")), Outcome::recognised);
   EXPECT_EQ(outcome(outside, answered("partly_explained", {named("gravity")})),
             Outcome::recognised);
   EXPECT_EQ(outcome(outside, answered("explained", {named("gravity")})), Outcome::mistaken);
+}
+
+TEST(Score, OutcomesAreReadBack) {
+  for (int i = 0; i <= static_cast<int>(Outcome::no_answer); ++i) {
+    EXPECT_EQ(parse_outcome(to_string(static_cast<Outcome>(i))), static_cast<Outcome>(i));
+  }
 }
 
 TEST(Score, ParametersAreComparedWithThoseHidden) {
@@ -107,7 +113,8 @@ TEST(ResultsFile, IsReadBack) {
   EXPECT_EQ(read[1].outcome, Outcome::quiet);
   EXPECT_TRUE(read[1].hidden.empty());
   EXPECT_THAT(scorecard(read), HasSubstr("| two effects: one of them | 1/1 (100 %) |"));
-  EXPECT_THAT(scorecard(read), HasSubstr("| nothing hidden: false alarm | 0/1 (0 %) |"));
+  EXPECT_THAT(scorecard(read),
+              HasSubstr("| nothing hidden: a cause named (false alarm) | 0/1 (0 %) |"));
 }
 
 TEST(TrialList, HidesOnlyWhatTheDataShow) {

@@ -23,8 +23,7 @@ fitted: finite elements, Newmark's method, its own friction, actuator and sensor
 Columns: the kind of data, and noise over signal. In poles and zeros a fifth of that noise is the
 frequencies' and ten times it the damping ratios'.
 
-A class counts as an answer where it has three members at most. A trial of nothing hidden is a false
-alarm unless the arm is found adequate.
+A class counts as an answer where it has three members at most. The bounds are Clopper and Pearson's.
 )";
 constexpr const char* kAboutStrength =
     R"(## The weakest strength found in 90 % of trials
@@ -148,13 +147,17 @@ std::string summary_table(const std::vector<Cell>& cells) {
   of_effects("one effect: abstained", 1, is(Outcome::abstained));
   of_effects("two effects: both named", 2, is_found);
   of_effects("two effects: one of them", 2, is(Outcome::partly));
-  of_effects("nothing hidden: false alarm", 0, is(Outcome::false_alarm));
-  add("upper 95 % bound of the above", [](const Results& all) {
-    const Results some = chosen(all, [](const auto& one) { return has_effects(one, 0); });
-    if (some.empty()) return std::string("-");
-    return fmt::format("{:.1f} %", 100.0 * upper_bound_95(count(some, Outcome::false_alarm),
-                                                          static_cast<int>(some.size())));
-  });
+  const auto of_nothing = [&](const std::string& name, Outcome outcome) {
+    of_effects(name, 0, is(outcome));
+    add("... upper 95 % bound", [outcome](const Results& all) {
+      const auto some = chosen(all, [](const TrialResult& one) { return has_effects(one, 0); });
+      if (some.empty()) return std::string("-");
+      const double bound = upper_bound_95(count(some, outcome), static_cast<int>(some.size()));
+      return fmt::format("{:.1f} %", 100.0 * bound);
+    });
+  };
+  of_nothing("nothing hidden: a cause named (false alarm)", Outcome::false_alarm);
+  of_nothing("nothing hidden: none named, but not adequate", Outcome::doubted);
   add("outside the vocabulary: said so", [](const Results& all) {
     const Results some = chosen(all, [](const auto& one) { return one.outside; });
     return part(count(some, Outcome::recognised), static_cast<int>(some.size()));

@@ -12,6 +12,7 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace flexarm::trials {
@@ -102,7 +103,7 @@ const TrialArm& choose_arm(const TrialKey& key, Random& random) {
 
 }  // namespace
 
-std::string TrialKey::id() const {
+std::string TrialKey::name() const {
   const std::string causes = hidden.empty() ? "none" : fmt::format("{}", fmt::join(hidden, "+"));
   return hidden.empty() ? fmt::format("{}-{}-{:g}-{}", measured::to_string(kind), causes,
                                       100.0 * noise, number)
@@ -110,13 +111,17 @@ std::string TrialKey::id() const {
                                       to_string(strength), 100.0 * noise, number);
 }
 
+std::string TrialKey::id() const {
+  return fmt::format("{}@{}", name(), seed);
+}
+
 std::string TrialKey::folder_name() const {
   constexpr std::size_t kNames = std::size_t{1} << 40;
-  return fmt::format("{:010x}", Random(seed, id() + " folder").below(kNames));
+  return fmt::format("{:010x}", Random(seed, name() + " folder").below(kNames));
 }
 
 Truth write_case(const TrialKey& key, const fs::path& folder) {
-  Random random(key.seed, key.id());
+  Random random(key.seed, key.name());
   const TrialArm& of = choose_arm(key, random);
   const std::vector<PlannedRun> runs = plan(of, key.kind, random);
   Truth truth{key, of.arm.name, World{of.arm}, {}, {}};

@@ -21,6 +21,8 @@ struct TrialKey {
   std::uint64_t seed = 1;
 
   /// "time-coulomb_friction-middle-0.5-1": noise in per cent.
+  std::string name() const;
+  /// The name with the seed behind it, "...@1".
   std::string id() const;
   /// The name of its folder, which does not tell what is hidden.
   std::string folder_name() const;

@@ -25,6 +25,8 @@ namespace fs = std::filesystem;
 /// times it.
 constexpr double kFrequencyNoise = 0.2;
 constexpr double kDampingNoise = 10.0;
+/// A pole that is damped more makes no peak that a modal test would find.
+constexpr double kMostVisibleDamping = 0.5;
 constexpr double kAverages = 16.0;
 /// Standard deviations in a modal table are themselves estimates, known to this part.
 constexpr double kDeviationKnown = 0.02;
@@ -81,6 +83,9 @@ void write_frequency_run(const World& world, const TrialArm& of, double noise, R
 
 void write_modal_run(const World& world, double noise, Random& random, const fs::path& file) {
   measured::ModalTable table = poles_and_zeros(world, kModalOrders);
+  std::erase_if(table, [](const auto& entry) {
+    return entry.damping_ratio.value_or(0.0) > kMostVisibleDamping;
+  });
   for (auto& entry : table) {
     const double frequency_std = kFrequencyNoise * noise * *entry.frequency_Hz;
     *entry.frequency_Hz += frequency_std * random.normal();

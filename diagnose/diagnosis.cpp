@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace flexarm::diagnose {
 
@@ -67,10 +68,7 @@ std::vector<Rival> rivals_of(const Hypothesis& cause, const Selection& selection
         other.effects, [&](const Hypothesis& effect) { return !chosen.has(effect); });
     if (replaced == other.effects.end()) continue;
     if (std::ranges::find(replaced->contains, cause.effect) != replaced->contains.end()) continue;
-    const auto more =
-        static_cast<int>(chosen.values.size()) - static_cast<int>(other.values.size());
-    found.push_back(
-        {&*replaced, information_gain(rival.estimation, selection.chosen.estimation, more)});
+    found.push_back({&*replaced, lead(selection.chosen, rival)});
   }
   std::ranges::stable_sort(found, {}, &Rival::lead);
   return found;
@@ -93,30 +91,14 @@ std::vector<std::string> evidence_for(const Hypothesis& hypothesis, const Cause&
   return evidence;
 }
 
-/// The chosen explanation with its nonlinear forces stepped finely.
-Explanation refined(const Experiment& experiment, const Problem& problem,
-                    const Explanation& chosen) {
-  const Problem fine = problem.with_substeps(kFineSubsteps);
-  Explanation made;
-  made.fit = fit(fine, chosen.fit.candidate);
-  made.estimation =
-      misfit(fine.observations(), experiment, made.fit.residuals, fine.estimation_runs());
-  if (const auto held_out = fine.residuals(made.fit.candidate, fine.validation_runs())) {
-    made.validation = misfit(fine.observations(), experiment, *held_out, fine.validation_runs());
-  }
-  return made;
-}
-
-std::vector<ChannelGain> channel_gains(const Experiment& experiment, const Problem& problem,
-                                       const Explanation& nothing, const Explanation& chosen) {
-  const auto all = [&](const Explanation& one) -> Eigen::VectorXd {
-    const auto held_out = problem.residuals(one.fit.candidate, problem.validation_runs());
-    return held_out ? Eigen::VectorXd(one.fit.residuals + *held_out) : one.fit.residuals;
-  };
-  const Eigen::VectorXd before = all(nothing);
-  const Eigen::VectorXd after = all(chosen);
+/// Of all runs, from what explanations left of those that were fitted and of the others.
+std::vector<ChannelGain> channel_gains(const Problem& problem, const Explanation& nothing,
+                                       const Explanation& chosen) {
+  const Eigen::VectorXd before = nothing.fit.residuals + nothing.held_out;
+  const Eigen::VectorXd after = chosen.fit.residuals + chosen.held_out;
   std::vector<ChannelGain> gains;
   const Observations& observations = problem.observations();
+  const Experiment& experiment = problem.experiment();
   for (const ObservedChannel& channel : observations.channels) {
     gains.push_back({experiment.runs[channel.run].run.id,
                      channel.sensor,
@@ -124,6 +106,45 @@ std::vector<ChannelGain> channel_gains(const Experiment& experiment, const Probl
                       relative_error(observations, experiment, channel, after), channel.noise}});
   }
   return gains;
+}
+
+/// The parameters of each effect of an explanation.
+std::vector<std::vector<ParameterEstimate>> estimates_of(const Explanation& explanation) {
+  const Candidate& candidate = explanation.fit.candidate;
+  const std::vector<double> errors = standard_errors(explanation.fit, explanation.estimation);
+  std::vector<std::vector<ParameterEstimate>> all;
+  std::size_t at = 0;
+  for (const Hypothesis& effect : candidate.effects) {
+    auto& estimates = all.emplace_back();
+    for (const auto& parameter : effect.parameters) {
+      estimates.push_back({parameter.name, candidate.values[at], errors[at],
+                           unit_of(effect.effect, parameter.name)});
+      ++at;
+    }
+  }
+  return all;
+}
+
+/// A chosen effect but for its parameters; `without` is the choice without it.
+Cause cause_of(const Hypothesis& effect, const Selection& selection, const Explanation& without) {
+  Cause cause;
+  cause.effect = effect.effect;
+  cause.sensor = effect.sensor;
+  cause.share = share_taken(without.estimation, selection.chosen.estimation);
+  const std::vector<Rival> rivals = rivals_of(effect, selection);
+  double odds = 0.0;
+  for (const Rival& rival : rivals) {
+    odds += std::exp(-0.5 * std::max(0.0, rival.lead));
+    const std::string& name = rival.effect->effect;
+    auto& confusable = cause.confusable_with;
+    if (rival.lead < kTold && std::ranges::find(confusable, name) == confusable.end()) {
+      confusable.push_back(name);
+    }
+  }
+  cause.confidence = std::min(kMostConfidence, 1.0 / (1.0 + odds));
+  cause.evidence = evidence_for(effect, cause, rivals);
+  cause.refuted_by = effect.refuted_by;
+  return cause;
 }
 
 Gain gain_between(const Misfit& before, const Misfit& after) {
@@ -163,44 +184,20 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
   made.notices = experiment.notices;
   made.cancelled = selection.cancelled;
   if (made.cancelled) return made;
-  const Candidate& found = selection.chosen.fit.candidate;
-  const bool is_nonlinear = std::ranges::any_of(
-      found.effects, [](const Hypothesis& effect) { return effect.shows == Shows::in_time; });
-  if (is_nonlinear) selection.chosen = refined(experiment, problem, selection.chosen);
-  const Candidate& chosen = selection.chosen.fit.candidate;
+  const auto& found = selection.chosen.fit.candidate.effects;
+  if (std::ranges::find(found, Shows::in_time, &Hypothesis::shows) != found.end()) {
+    const Problem fine = problem.with_substeps(kFineSubsteps);
+    selection.chosen = explain(fine, fit(fine, selection.chosen.fit.candidate));
+  }
 
-  const std::vector<double> errors =
-      standard_errors(selection.chosen.fit, selection.chosen.estimation);
-  std::size_t at = 0;
+  const Candidate& chosen = selection.chosen.fit.candidate;
+  const auto estimates = estimates_of(selection.chosen);
   for (std::size_t i = 0; i < chosen.effects.size(); ++i) {
-    const Hypothesis& effect = chosen.effects[i];
-    Cause cause;
-    cause.effect = effect.effect;
-    cause.sensor = effect.sensor;
-    for (const auto& parameter : effect.parameters) {
-      cause.parameters.push_back(
-          {parameter.name, chosen.values[at], errors[at], unit_of(effect.effect, parameter.name)});
-      ++at;
-    }
-    const Fit without =
-        chosen.effects.size() == 1 ? selection.nothing.fit : fit(problem, chosen.without(i));
-    const Misfit left =
-        misfit(problem.observations(), experiment, without.residuals, problem.estimation_runs());
-    cause.share =
-        left.excess() > 0.0 ? 1.0 - selection.chosen.estimation.excess() / left.excess() : 0.0;
-    const std::vector<Rival> rivals = rivals_of(effect, selection);
-    double odds = 0.0;
-    for (const Rival& rival : rivals) {
-      odds += std::exp(-0.5 * std::max(0.0, rival.lead));
-      const std::string name = rival.effect->effect;
-      if (rival.lead < kTold &&
-          std::ranges::find(cause.confusable_with, name) == cause.confusable_with.end()) {
-        cause.confusable_with.push_back(name);
-      }
-    }
-    cause.confidence = std::min(kMostConfidence, 1.0 / (1.0 + odds));
-    cause.evidence = evidence_for(effect, cause, rivals);
-    cause.refuted_by = effect.refuted_by;
+    const Explanation without = chosen.effects.size() == 1
+                                    ? selection.nothing
+                                    : explain(problem, fit(problem, chosen.without(i)));
+    Cause cause = cause_of(chosen.effects[i], selection, without);
+    cause.parameters = estimates[i];
     made.causes.push_back(std::move(cause));
   }
   std::ranges::stable_sort(made.causes, std::ranges::greater{}, &Cause::share);
@@ -210,7 +207,7 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
   if (selection.nothing.validation.count > 0.0) {
     made.validation = gain_between(selection.nothing.validation, selection.chosen.validation);
   }
-  made.channels = channel_gains(experiment, problem, selection.nothing, selection.chosen);
+  made.channels = channel_gains(problem, selection.nothing, selection.chosen);
   made.extended_arm = chosen.extend(experiment.arm);
   return made;
 }

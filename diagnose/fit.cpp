@@ -29,27 +29,37 @@ struct Residuals {
   const Problem& problem;
   Candidate candidate;
   int evaluations = 0;
+  Eigen::VectorXd last_places = {};
+  Eigen::VectorXd last = {};
 
   Index inputs() const { return static_cast<Index>(candidate.values.size()); }
   Index values() const { return problem.observations().values.size(); }
 
-  Eigen::VectorXd at(const Eigen::VectorXd& places) {
+  Eigen::VectorXd evaluate(const Eigen::VectorXd& places) {
     candidate.put(places);
     ++evaluations;
     const auto made = problem.residuals(candidate, problem.estimation_runs());
     return made ? *made : Eigen::VectorXd::Constant(values(), kImpossible);
+  }
+  /// The same; the minimiser asks for a place's derivatives when it has just had its residuals.
+  const Eigen::VectorXd& at(const Eigen::VectorXd& places) {
+    if (last_places.size() != places.size() || last_places != places || last.size() == 0) {
+      last = evaluate(places);
+      last_places = places;
+    }
+    return last;
   }
   int operator()(const Eigen::VectorXd& places, Eigen::VectorXd& residuals) {
     residuals = at(places);
     return 0;
   }
   int df(const Eigen::VectorXd& places, Eigen::MatrixXd& jacobian) {
-    const Eigen::VectorXd here = at(places);
+    const Eigen::VectorXd& here = at(places);
     for (Index i = 0; i < inputs(); ++i) {
       Eigen::VectorXd beside = places;
       const double step = places(i) < 0.5 ? kStep : -kStep;
       beside(i) += step;
-      jacobian.col(i) = (at(beside) - here) / step;
+      jacobian.col(i) = (evaluate(beside) - here) / step;
     }
     return 0;
   }
@@ -78,7 +88,8 @@ Fit fit(const Problem& problem, const Candidate& start, const FitOptions& option
     residuals.df(places, made.jacobian);
   }
   made.residuals = residuals.at(places);
-  made.candidate = residuals.candidate;
+  made.candidate = start;
+  made.candidate.put(places);
   made.sum_of_squares = made.residuals.squaredNorm();
   made.evaluations = residuals.evaluations;
   return made;
@@ -96,7 +107,7 @@ Candidate scan(const Problem& problem, const Candidate& start, int evaluations) 
   std::function<double(const std::vector<double>&)> evaluate = [&](const std::vector<double>& x) {
     Eigen::VectorXd places(others.size() + scanned);
     places << others, Eigen::VectorXd::Map(x.data(), scanned);
-    const double sum = residuals.at(places).squaredNorm();
+    const double sum = residuals.evaluate(places).squaredNorm();
     if (sum < best) {
       best = sum;
       best_places = places;

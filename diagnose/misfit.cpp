@@ -69,6 +69,10 @@ Misfit misfit(const Observations& observations, const Experiment& experiment,
   return made;
 }
 
+double share_taken(const Misfit& before, const Misfit& after) {
+  return before.excess() > 0.0 ? 1.0 - after.excess() / before.excess() : 0.0;
+}
+
 double information_gain(const Misfit& simpler, const Misfit& fuller, int more_parameters) {
   const auto scale = [](const Misfit& misfit) {
     return std::max(1.0, misfit.sum_of_squares / misfit.count);

@@ -41,6 +41,9 @@ Misfit misfit(const Observations& observations, const Experiment& experiment,
 double relative_error(const Observations& observations, const Experiment& experiment,
                       const ObservedChannel& channel, const Eigen::VectorXd& residuals);
 
+/// Part of what is beyond noise before that is not after; 0 without anything beyond noise.
+double share_taken(const Misfit& before, const Misfit& after);
+
 /// How much better `fuller` explains the estimation data than `simpler`, in units of the Bayesian
 /// information criterion: the scale of the residuals, never below the noise, is that of either
 /// model, and the count of independent numbers that of `fuller`,

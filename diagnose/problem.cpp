@@ -3,6 +3,8 @@
 #include "arm/input_error.hpp"
 #include "diagnose/noise_floor.hpp"
 
+#include <utility>
+
 namespace flexarm::diagnose {
 
 Problem::Problem(const Experiment& experiment, const ProblemOptions& options)
@@ -27,16 +29,18 @@ Problem Problem::with_substeps(int substeps) const {
 bool Problem::lower_noise(const Candidate& candidate) {
   const auto left = residuals(candidate, std::vector<bool>(experiment_->runs.size(), true));
   if (!left) return false;
+  Observations lowered = observations_;
   bool fell = false;
-  for (ObservedChannel& channel : observations_.channels) {
+  for (ObservedChannel& channel : lowered.channels) {
     if (experiment_->runs[channel.run].run.kind != measured::RunKind::time) continue;
     const Eigen::VectorXd part = left->segment(channel.first, channel.count);
     const double ratio = white_noise({part.data(), static_cast<std::size_t>(part.size())});
     if (!(ratio < 1.0) || !(ratio > 0.0)) continue;
     fell = fell || ratio < 1.0 - kLower;
     channel.noise *= ratio;
-    observations_.deviations.segment(channel.first, channel.count) *= ratio;
+    lowered.deviations.segment(channel.first, channel.count) *= ratio;
   }
+  if (fell) observations_ = std::move(lowered);
   return fell;
 }
 

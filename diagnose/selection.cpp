@@ -1,5 +1,6 @@
 #include "diagnose/selection.hpp"
 
+#include "compare/for_each_index.hpp"
 #include "diagnose/coarse.hpp"
 
 #include <Eigen/QR>
@@ -10,7 +11,6 @@
 #include <mutex>
 #include <optional>
 #include <string>
-#include <tbb/parallel_for.h>
 #include <utility>
 
 namespace flexarm::diagnose {
@@ -70,7 +70,7 @@ class Search {
 
   Selection run() {
     Selection made;
-    made.nothing = explain(fit(problem_, {}));
+    made.nothing = fitted({});
     made.chosen = made.nothing;
     if (made.nothing.estimation.is_noise()) return made;
     made.singles = all_with({}, "effects one by one", 0.0, kSinglesDone, kSinglesRefitted);
@@ -87,26 +87,15 @@ class Search {
   /// With the noise that the best by itself leaves to be seen, all once more from where they are.
   void see_noise(Selection& made) {
     if (!problem_.lower_noise(made.singles.front().fit.candidate)) return;
-    made.nothing = explain(fit(problem_, {}));
+    made.nothing = fitted({});
     made.chosen = made.nothing;
     in_parallel(made.singles.size(), "effects one by one", kSinglesDone, kSinglesDone,
-                [&](std::size_t i) {
-                  made.singles[i] = explain(fit(problem_, made.singles[i].fit.candidate));
-                });
-    std::ranges::stable_sort(made.singles, {},
-                             [](const Explanation& one) { return one.fit.sum_of_squares; });
+                [&](std::size_t i) { made.singles[i] = fitted(made.singles[i].fit.candidate); });
+    sort_by_fit(made.singles);
   }
 
-  Explanation explain(Fit fit) const {
-    Explanation made;
-    made.estimation = misfit(problem_.observations(), problem_.experiment(), fit.residuals,
-                             problem_.estimation_runs());
-    if (const auto held_out = problem_.residuals(fit.candidate, problem_.validation_runs())) {
-      made.validation = misfit(problem_.observations(), problem_.experiment(), *held_out,
-                               problem_.validation_runs());
-    }
-    made.fit = std::move(fit);
-    return made;
+  Explanation fitted(const Candidate& start) const {
+    return explain(problem_, fit(problem_, start));
   }
 
   /// `base` with hypotheses that it has not, each found by a scan of a coarse problem; the
@@ -134,9 +123,8 @@ class Search {
     looks.resize(std::min(refitted, looks.size()));
     std::vector<Explanation> found(looks.size());
     in_parallel(looks.size(), what, middle, to,
-                [&](std::size_t i) { found[i] = explain(fit(problem_, looks[i].candidate)); });
-    std::ranges::stable_sort(found, {},
-                             [](const Explanation& one) { return one.fit.sum_of_squares; });
+                [&](std::size_t i) { found[i] = fitted(looks[i].candidate); });
+    sort_by_fit(found);
     return found;
   }
 
@@ -149,7 +137,7 @@ class Search {
     const Eigen::HouseholderQR<Eigen::MatrixXd> refitted(left.jacobian);
     std::vector<std::pair<double, const Hypothesis*>> shares(others.size());
     in_parallel(others.size(), what, from, from, [&](std::size_t i) {
-      shares[i] = {largest_share(left, refitted, *others[i]), others[i]};
+      shares[i] = {largest_part(left, refitted, *others[i]), others[i]};
     });
     std::ranges::stable_sort(shares, std::ranges::greater{}, &decltype(shares)::value_type::first);
     others.clear();
@@ -157,9 +145,9 @@ class Search {
   }
 
   /// Part of the residuals of `left` along the change that the hypothesis makes, its parameters
-  /// refitted: the largest at the grid of `sample_places`.
-  double largest_share(const Fit& left, const Eigen::HouseholderQR<Eigen::MatrixXd>& refitted,
-                       const Hypothesis& hypothesis) const {
+  /// refitted: the largest of `samples_of` it.
+  double largest_part(const Fit& left, const Eigen::HouseholderQR<Eigen::MatrixXd>& refitted,
+                      const Hypothesis& hypothesis) const {
     double largest = 0.0;
     for (const std::vector<double>& values : samples_of(hypothesis)) {
       const auto with =
@@ -177,21 +165,10 @@ class Search {
 
   /// Whether `fuller` has a right to its causes beside `simpler`.
   bool deserves(const Explanation& fuller, const Explanation& simpler) const {
-    const auto more = static_cast<int>(fuller.fit.candidate.values.size()) -
-                      static_cast<int>(simpler.fit.candidate.values.size());
-    if (information_gain(simpler.estimation, fuller.estimation, more) <
-        options_.least_information_gain) {
-      return false;
-    }
-    if (share(simpler.estimation, fuller.estimation) < options_.least_share) return false;
+    if (lead(fuller, simpler) < options_.least_information_gain) return false;
+    if (share_taken(simpler.estimation, fuller.estimation) < options_.least_share) return false;
     return simpler.validation.count == 0.0 ||
-           share(simpler.validation, fuller.validation) >= options_.least_validated_share;
-  }
-
-  /// Part of what is beyond noise that `fuller` takes away. Without anything beyond noise: none.
-  static double share(const Misfit& simpler, const Misfit& fuller) {
-    const double before = simpler.excess();
-    return before > 0.0 ? 1.0 - fuller.excess() / before : 0.0;
+           share_taken(simpler.validation, fuller.validation) >= options_.least_validated_share;
   }
 
   /// The first of `found`, or one with fewer parameters that it has no right to stand before.
@@ -216,15 +193,15 @@ class Search {
     // Pairs of the best: the better of two causes need not be the best by itself.
     const std::size_t bases = std::min(kPairBases, made.singles.size());
     for (std::size_t b = 0; b < bases && !cancelled_; ++b) {
-      const double from = 0.4 + 0.4 * static_cast<double>(b) / static_cast<double>(bases);
-      const double to = 0.4 + 0.4 * static_cast<double>(b + 1) / static_cast<double>(bases);
+      const double from = kSinglesDone + 0.4 * static_cast<double>(b) / static_cast<double>(bases);
+      const double to =
+          kSinglesDone + 0.4 * static_cast<double>(b + 1) / static_cast<double>(bases);
       bases_.push_back(made.singles[b].fit.candidate.label());
       for (Explanation& pair :
            all_with(made.singles[b].fit.candidate, "pairs of effects", from, to, kPairsRefitted)) {
         made.pairs.push_back(std::move(pair));
       }
-      std::ranges::stable_sort(made.pairs, {},
-                               [](const Explanation& one) { return one.fit.sum_of_squares; });
+      sort_by_fit(made.pairs);
     }
     if (cancelled_ || made.pairs.empty()) return;
     const Explanation pair = simplest(made.pairs);
@@ -248,7 +225,7 @@ class Search {
   bool each_is_needed(const Explanation& explanation) const {
     const Candidate& candidate = explanation.fit.candidate;
     for (std::size_t i = 0; i < candidate.effects.size(); ++i) {
-      if (!deserves(explanation, explain(fit(problem_, candidate.without(i))))) return false;
+      if (!deserves(explanation, fitted(candidate.without(i)))) return false;
     }
     return true;
   }
@@ -281,15 +258,14 @@ class Search {
       return shared + 1 != static_cast<std::ptrdiff_t>(chosen.effects.size()) ||
              rival.fit.candidate.effects.size() != chosen.effects.size();
     });
-    std::ranges::stable_sort(made.rivals, {},
-                             [](const Explanation& one) { return one.fit.sum_of_squares; });
+    sort_by_fit(made.rivals);
   }
 
   template <class Work>
   void in_parallel(std::size_t count, std::string_view what, double from, double to, Work work) {
     std::atomic<std::size_t> done = 0;
     std::mutex told;
-    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+    compare::for_each_index(count, 0, [&](std::size_t i) {
       if (cancelled_) return;
       work(i);
       const double part = static_cast<double>(++done) / static_cast<double>(count);

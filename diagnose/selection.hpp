@@ -1,22 +1,12 @@
 #pragma once
 
-#include "diagnose/fit.hpp"
-#include "diagnose/misfit.hpp"
+#include "diagnose/explanation.hpp"
 
 #include <functional>
 #include <string_view>
 #include <vector>
 
 namespace flexarm::diagnose {
-
-/// A fit with what it leaves of the runs that it was made of and of those it was not.
-struct Explanation {
-  Fit fit;
-  Misfit estimation;
-  Misfit validation;  ///< count 0 without validation runs
-
-  double excess() const { return estimation.excess(); }
-};
 
 struct SelectionOptions {
   int most_causes = 3;

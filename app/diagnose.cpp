@@ -21,7 +21,6 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -38,9 +37,9 @@ namespace fs = std::filesystem;
 constexpr const char* kDiagnosisJson = "diagnosis.json";
 constexpr const char* kExtendedArm = "extended.toml";
 /// Steps of the progress line.
-constexpr std::int64_t kProgressSteps = 100;
+constexpr std::int64_t kDiagnosisSteps = 100;
 
-struct Arguments {
+struct DiagnoseArguments {
   std::string file;
   std::vector<std::string> effects;
   int most_causes = diagnose::SelectionOptions{}.most_causes;
@@ -54,7 +53,7 @@ FolderKind diagnosis_folder_kind() {
 }
 
 /// The hypotheses asked for, all unless told.
-std::vector<diagnose::Hypothesis> chosen_hypotheses(const Arguments& arguments,
+std::vector<diagnose::Hypothesis> chosen_hypotheses(const DiagnoseArguments& arguments,
                                                     const diagnose::Experiment& experiment) {
   std::vector<diagnose::Hypothesis> all = diagnose::hypotheses(experiment);
   if (arguments.effects.empty()) return all;
@@ -82,29 +81,32 @@ fs::path extended_beside(const std::string& json_file) {
   return fs::path(json_file).replace_extension(kExtendedArm);
 }
 
-void prepare(const Arguments& arguments) {
+/// Throws for outputs that could not be written, or would take the place of what is read: before
+/// the work, not after it.
+void prepare(const DiagnoseArguments& arguments, const diagnose::Experiment& experiment) {
   if (arguments.force && arguments.folder.empty()) {
     throw arm::InputError("--force: needs --out FOLDER");
   }
   if (arguments.most_causes < 1) {
     throw arm::out_of_range("--max-causes", arguments.most_causes, "", "1 or more");
   }
+  if (!arguments.json_file.empty()) {
+    const std::string option = "--json " + arm::shown(arguments.json_file);
+    const fs::path beside = extended_beside(arguments.json_file);
+    require_no_input(option, arguments.json_file, experiment.files);
+    require_no_input(option + ": " + beside.string(), beside, experiment.files);
+  }
   require_json_place(arguments.json_file, arguments.folder);
   if (arguments.folder.empty()) return;
   require_place(arguments.folder, arguments.force, diagnosis_folder_kind());
 }
 
-diagnose::Diagnosis diagnose_with_progress(const Arguments& arguments,
+diagnose::Diagnosis diagnose_with_progress(const DiagnoseArguments& arguments,
                                            const diagnose::Experiment& experiment) {
   const Interruption interruption;
-  report::Progress progress("per cent of the diagnosis", kProgressSteps);
-  std::int64_t shown = 0;
+  report::Progress progress("per cent of the diagnosis", kDiagnosisSteps);
   const auto tell = [&](std::string_view, double fraction) {
-    const auto now = static_cast<std::int64_t>(std::floor(fraction * kProgressSteps));
-    if (now > shown) {
-      progress.advance(now - shown);
-      shown = now;
-    }
+    progress.reach(fraction);
     return !interruption.requested();
   };
   diagnose::SelectionOptions options;
@@ -137,7 +139,7 @@ std::string json_of(const diagnose::Diagnosis& diagnosis, const std::string& ext
                                report::diagnosis_json(diagnosis, extended_arm));
 }
 
-void write_files(const Arguments& arguments, const diagnose::Diagnosis& diagnosis) {
+void write_files(const DiagnoseArguments& arguments, const diagnose::Diagnosis& diagnosis) {
   const std::string extended = arm::format_arm(diagnosis.extended_arm);
   if (!arguments.folder.empty()) {
     const std::vector<arm::NamedContent> files = {
@@ -155,9 +157,9 @@ void write_files(const Arguments& arguments, const diagnose::Diagnosis& diagnosi
   }
 }
 
-int run(const Arguments& arguments) {
+int run_diagnose(const DiagnoseArguments& arguments) {
   const diagnose::Experiment experiment = diagnose::read_experiment(arguments.file);
-  prepare(arguments);
+  prepare(arguments, experiment);
   const diagnose::Diagnosis diagnosis = diagnose_with_progress(arguments, experiment);
   std::string text = text_of(diagnosis);
   try {
@@ -180,7 +182,7 @@ int run(const Arguments& arguments) {
 }  // namespace
 
 Command add_diagnose(CLI::App& program) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<DiagnoseArguments>();
   CLI::App* parser = program.add_subcommand(
       "diagnose", "What the simulation gets wrong, by which cause, and the arm with it");
   parser->add_option("FILE", arguments->file, "measurement.toml")->required()->check(not_empty());
@@ -201,7 +203,7 @@ Command add_diagnose(CLI::App& program) {
                    "File for the diagnosis; the extended arm is written beside it")
       ->check(not_empty());
   parser->footer(example("flexarm diagnose simulated/measurement.toml --out diagnosis"));
-  return {parser, [arguments] { return run(*arguments); }};
+  return {parser, [arguments] { return run_diagnose(*arguments); }};
 }
 
 }  // namespace flexarm::app

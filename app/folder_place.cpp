@@ -56,4 +56,14 @@ void require_json_place(const std::string& json_file, const std::string& folder)
   if (!in_folder) arm::require_writable(json_file);
 }
 
+void require_no_input(const std::string& option, const fs::path& file,
+                      const std::vector<fs::path>& inputs) {
+  const fs::path written = fs::weakly_canonical(file);
+  for (const fs::path& input : inputs) {
+    if (fs::weakly_canonical(input) == written) {
+      throw arm::InputError(option + ": is a file of the measurement");
+    }
+  }
+}
+
 }  // namespace flexarm::app

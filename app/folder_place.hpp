@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -22,5 +23,10 @@ void require_place(const std::string& folder, bool force, const FolderKind& kind
 /// Throws arm::InputError where a `--json` file could not be written once `folder`, which may not
 /// be there yet, is: before the work, not after it.
 void require_json_place(const std::string& json_file, const std::string& folder);
+
+/// Throws arm::InputError, which begins with `option`, for a file to be written that is one of
+/// `inputs`.
+void require_no_input(const std::string& option, const std::filesystem::path& file,
+                      const std::vector<std::filesystem::path>& inputs);
 
 }  // namespace flexarm::app

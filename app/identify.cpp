@@ -26,7 +26,6 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -157,13 +156,8 @@ measured::Identification identify_with_progress(std::vector<measured::MeasuredRu
                                                 measured::IdentificationOptions options) {
   const Interruption interruption;
   report::Progress progress("per cent of the identification", kIdentificationSteps);
-  std::int64_t shown = 0;
   options.progress = [&](std::string_view, double fraction) {
-    const auto now = static_cast<std::int64_t>(std::floor(fraction * kIdentificationSteps));
-    if (now > shown) {
-      progress.advance(now - shown);
-      shown = now;
-    }
+    progress.reach(fraction);
     return !interruption.requested();
   };
   auto identification = measured::identify(std::move(runs), options);
@@ -249,18 +243,8 @@ void prepare(const IdentifyArguments& arguments, const measured::Measurement& me
     throw arm::InputError("--force: needs --out FOLDER");
   }
   if (!arguments.json_file.empty()) {
-    std::vector<fs::path> read = {arguments.file,
-                                  measured::beside(arguments.file, measurement.arm)};
-    for (const auto& run : measurement.runs) {
-      read.push_back(measured::beside(arguments.file, run.file));
-    }
-    const fs::path json = fs::weakly_canonical(arguments.json_file);
-    for (const auto& path : read) {
-      if (fs::weakly_canonical(path) == json) {
-        throw arm::InputError(fmt::format("--json {}: is a file of the measurement",
-                                          arm::shown(arguments.json_file)));
-      }
-    }
+    require_no_input("--json " + arm::shown(arguments.json_file), arguments.json_file,
+                     measured::files_of(arguments.file, measurement));
   }
   require_json_place(arguments.json_file, arguments.folder);
   if (arguments.folder.empty()) return;

@@ -70,19 +70,15 @@ class Models {
 class SampleProgress {
  public:
   SampleProgress(std::string label, std::size_t samples)
-      : samples_(static_cast<double>(samples)),
-        line_(std::move(label), static_cast<std::int64_t>(samples)) {}
+      : line_(std::move(label), static_cast<std::int64_t>(samples)) {}
 
   bool operator()(double fraction) {
-    const auto done = static_cast<std::int64_t>(fraction * samples_);
-    line_.advance(done - std::exchange(shown_, done));
+    line_.reach(fraction);
     return true;
   }
 
  private:
-  double samples_;
   report::Progress line_;
-  std::int64_t shown_ = 0;
 };
 
 void require_finite(const std::vector<double>& reading, const arm::Sensor& sensor,

@@ -25,23 +25,19 @@ void keep_usable(const Experiment& experiment, measured::MeasuredRun& run, const
   options.length_m = arm.beam.length_m;
   options.total_inertia_kg_m2 = arm::total_inertia_kg_m2(arm);
   options.starts_at_rest = run.run.initial == measured::InitialState::rest;
-  for (const measured::DataFinding& finding : measured::check_data(record, options)) {
+  const auto findings = measured::check_data(record, options);
+  for (const measured::DataFinding& finding : findings) {
     if (finding.fault == measured::Fault::zero_torque) {
       throw arm::InputError(
           fmt::format("{}: run {}: {}; a run whose torque is not known says "
                       "nothing of the arm",
                       file, run.run.id, finding.text));
     }
-    if (finding.fault == measured::Fault::dead_channel) {
-      std::erase_if(record.channels, [&](const measured::Channel& channel) {
-        return arm::to_string(channel.sensor) == finding.channel;
-      });
-      notices.push_back(
-          fmt::format("run {}: {} is left out: {}", run.run.id, finding.channel, finding.text));
-    } else {
-      notices.push_back(fmt::format("run {}: {}: {}", run.run.id, finding.channel, finding.text));
-    }
+    const bool is_dead = finding.fault == measured::Fault::dead_channel;
+    notices.push_back(fmt::format("run {}: {}{}: {}", run.run.id, finding.channel,
+                                  is_dead ? " is left out" : "", finding.text));
   }
+  measured::leave_out_dead_channels(record, findings);
   if (record.channels.empty()) {
     throw arm::InputError(
         fmt::format("{}: run {}: no channel that can be used; at least one sensor beside time and "
@@ -61,6 +57,7 @@ arm::Arm arm_in(const Experiment& experiment, const measured::Run& run) {
 Experiment read_experiment(const fs::path& measurement_file) {
   const measured::Measurement measurement = measured::read_measurement(measurement_file);
   Experiment experiment;
+  experiment.files = measured::files_of(measurement_file, measurement);
   experiment.arm = arm::read_arm_file(measured::beside(measurement_file, measurement.arm));
   for (const measured::Run& run : measurement.runs) {
     measured::MeasuredRun read{run, measured::read_run(measurement_file, run)};

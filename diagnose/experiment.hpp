@@ -14,7 +14,8 @@ struct Experiment {
   arm::Arm arm;
   /// `time`, `frf` and `modal` runs, all of which have a purpose and at least one usable reading.
   std::vector<measured::MeasuredRun> runs;
-  std::vector<std::string> notices;  ///< what was assumed or left out, a sentence each
+  std::vector<std::filesystem::path> files;  ///< that it was read from
+  std::vector<std::string> notices;          ///< what was assumed or left out, a sentence each
 };
 
 /// The arm of a run: with the run's payload in place of its own where it has one.

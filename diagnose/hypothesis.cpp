@@ -80,7 +80,7 @@ arm::Arm extended(const arm::Arm& arm, const Hypothesis& hypothesis,
 
 Scales scales_of(const Experiment& experiment) {
   Scales scales;
-  scales.arm = experiment.arm;
+  scales.beam = arm::linear_arm(experiment.arm);
   double squares = 0.0;
   double samples = 0.0;
   double speed_squares = 0.0;

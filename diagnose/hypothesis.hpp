@@ -1,6 +1,7 @@
 #pragma once
 
 #include "arm/arm.hpp"
+#include "arm/linear_arm.hpp"
 #include "diagnose/experiment.hpp"
 
 #include <span>
@@ -11,7 +12,7 @@ namespace flexarm::diagnose {
 
 /// Sizes by which a parameter of an effect is small or large in an experiment.
 struct Scales {
-  arm::Arm arm;                      ///< as its file has it
+  arm::LinearArm beam;               ///< the arm as its file has it
   std::vector<arm::Sensor> sensors;  ///< of `time` and `frf` runs
   double torque_rms_N_m = 0.0;       ///< of all `time` runs; 0 where there are none
   double torque_peak_N_m = 0.0;

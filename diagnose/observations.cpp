@@ -21,6 +21,7 @@ constexpr double kLeastNoise = 1e-6;
 /// Gathers channels one after the other.
 class Gathering {
  public:
+  void begin_run() { first_of_run_.push_back(static_cast<Eigen::Index>(values_.size())); }
   void begin(std::size_t run, std::string sensor) {
     made_.push_back({run, std::move(sensor), static_cast<Eigen::Index>(values_.size()), 0, 0.0});
   }
@@ -36,14 +37,17 @@ class Gathering {
   }
   Observations observations() const {
     const auto n = static_cast<Eigen::Index>(values_.size());
+    std::vector<Eigen::Index> first_of_run = first_of_run_;
+    first_of_run.push_back(n);
     return {Eigen::VectorXd::Map(values_.data(), n), Eigen::VectorXd::Map(deviations_.data(), n),
-            made_};
+            made_, first_of_run};
   }
 
  private:
   std::vector<double> values_;
   std::vector<double> deviations_;
   std::vector<ObservedChannel> made_;
+  std::vector<Eigen::Index> first_of_run_;
 };
 
 void gather(Gathering& all, std::size_t run, const measured::TimeRecord& record) {
@@ -113,6 +117,7 @@ std::vector<ModalGroup> modal_groups(const measured::ModalTable& table) {
 Observations observe(const Experiment& experiment) {
   Gathering all;
   for (std::size_t r = 0; r < experiment.runs.size(); ++r) {
+    all.begin_run();
     std::visit([&](const auto& data) { gather(all, r, data); }, experiment.runs[r].data);
   }
   return all.observations();

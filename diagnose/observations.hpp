@@ -27,6 +27,7 @@ struct Observations {
   Eigen::VectorXd values;
   Eigen::VectorXd deviations;  ///< standard deviation of each, above 0
   std::vector<ObservedChannel> channels;
+  std::vector<Eigen::Index> first_of_run;  ///< where each run begins, and at last the end
 };
 
 /// Poles, or the zeros of one sensor, of a modal table: indices of its entries, in their order.

@@ -59,28 +59,16 @@ void predict(const arm::Arm& arm, const measured::FrequencyRecord& record,
   }
 }
 
-Index numbers_in(const measured::RunData& data) {
-  std::size_t count = 0;
-  if (const auto* time = std::get_if<measured::TimeRecord>(&data)) {
-    count = time->channels.size() * time->time_s.size();
-  } else if (const auto* frequency = std::get_if<measured::FrequencyRecord>(&data)) {
-    for (const auto& channel : frequency->channels) count += 2 * channel.response.size();
-  } else {
-    for (const auto& entry : std::get<measured::ModalTable>(data)) {
-      count += (entry.frequency_Hz ? 1U : 0U) + (entry.damping_ratio ? 1U : 0U);
-    }
-  }
-  return static_cast<Index>(count);
-}
-
 }  // namespace
 
-Predictor::Predictor(const Experiment& experiment, int flexible_modes, int substeps)
-    : experiment_(&experiment), flexible_modes_(flexible_modes), substeps_(substeps) {
+Predictor::Predictor(const Experiment& experiment, const Observations& observations,
+                     int flexible_modes, int substeps)
+    : experiment_(&experiment),
+      flexible_modes_(flexible_modes),
+      substeps_(substeps),
+      first_of_run_(observations.first_of_run) {
   for (std::size_t r = 0; r < experiment.runs.size(); ++r) {
     const auto& [run, data] = experiment.runs[r];
-    first_.push_back(size_);
-    size_ += numbers_in(data);
     const auto* record = std::get_if<measured::TimeRecord>(&data);
     if (record == nullptr) continue;
     const arm::Payload payload = run.payload.value_or(experiment.arm.payload);
@@ -94,10 +82,9 @@ Predictor::Predictor(const Experiment& experiment, int flexible_modes, int subst
 }
 
 Eigen::VectorXd Predictor::operator()(const arm::Arm& arm, const std::vector<bool>& runs) const {
-  Eigen::VectorXd values = Eigen::VectorXd::Zero(size_);
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(first_of_run_.back());
   const auto stretch = [&](std::size_t r) {
-    const Index end = r + 1 < first_.size() ? first_[r + 1] : size_;
-    return values.segment(first_[r], end - first_[r]);
+    return values.segment(first_of_run_[r], first_of_run_[r + 1] - first_of_run_[r]);
   };
   arm::Arm with_payload = arm;
   for (const Condition& condition : conditions_) {
@@ -132,9 +119,11 @@ int modes_needed(const Experiment& experiment, const Observations& observations)
     runs.push_back(run.run.kind == measured::RunKind::time);
   }
   if (std::ranges::count(runs, true) == 0) return kFewestModes;
-  const Eigen::VectorXd most = Predictor(experiment, kMostModes, 1)(experiment.arm, runs);
+  const Eigen::VectorXd most =
+      Predictor(experiment, observations, kMostModes, 1)(experiment.arm, runs);
   for (int modes = kFewestModes; modes < kMostModes; modes += 2) {
-    const Eigen::VectorXd off = Predictor(experiment, modes, 1)(experiment.arm, runs) - most;
+    const Eigen::VectorXd off =
+        Predictor(experiment, observations, modes, 1)(experiment.arm, runs) - most;
     const bool enough =
         std::ranges::all_of(observations.channels, [&](const ObservedChannel& channel) {
           if (!runs[channel.run]) return true;

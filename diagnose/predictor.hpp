@@ -16,14 +16,14 @@ class Predictor {
   /// `flexible_modes` move in a simulated run, with `substeps` inner steps a sample where forces
   /// are not linear; poles, zeros and frequency responses are exact. `experiment` must outlive the
   /// object.
-  Predictor(const Experiment& experiment, int flexible_modes, int substeps);
+  Predictor(const Experiment& experiment, const Observations& observations, int flexible_modes,
+            int substeps);
 
   /// One number for each of the experiment's `Observations`, run after run, of those `runs` alone;
   /// the others are 0. `arm` is the experiment's with effects; each run sets its own payload.
   /// Throws InputError for an arm that cannot be computed. Concurrent calls are safe.
   Eigen::VectorXd operator()(const arm::Arm& arm, const std::vector<bool>& runs) const;
 
-  Eigen::Index size() const { return size_; }
   int flexible_modes() const { return flexible_modes_; }
 
  private:
@@ -37,9 +37,8 @@ class Predictor {
   const Experiment* experiment_;
   int flexible_modes_;
   int substeps_;
-  std::vector<Condition> conditions_;  // of `time` runs
-  std::vector<Eigen::Index> first_;    // of each run, in the vector
-  Eigen::Index size_ = 0;
+  std::vector<Condition> conditions_;       // of `time` runs
+  std::vector<Eigen::Index> first_of_run_;  // as in Observations
 };
 
 /// The fewest flexible modes with which the simulated runs are within `kModeError` of a signal's

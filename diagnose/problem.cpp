@@ -10,7 +10,7 @@ namespace flexarm::diagnose {
 Problem::Problem(const Experiment& experiment, const ProblemOptions& options)
     : experiment_(&experiment),
       observations_(observe(experiment)),
-      predictor_(experiment,
+      predictor_(experiment, observations_,
                  options.flexible_modes ? *options.flexible_modes
                                         : modes_needed(experiment, observations_),
                  options.substeps) {
@@ -22,7 +22,7 @@ Problem::Problem(const Experiment& experiment, const ProblemOptions& options)
 
 Problem Problem::with_substeps(int substeps) const {
   Problem made = *this;
-  made.predictor_ = Predictor(*experiment_, predictor_.flexible_modes(), substeps);
+  made.predictor_ = Predictor(*experiment_, observations_, predictor_.flexible_modes(), substeps);
   return made;
 }
 

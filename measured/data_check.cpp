@@ -169,4 +169,18 @@ std::vector<DataFinding> check_data(const TimeRecord& record, const DataCheckOpt
   return findings;
 }
 
+std::vector<arm::Sensor> leave_out_dead_channels(TimeRecord& record,
+                                                 const std::vector<DataFinding>& findings) {
+  std::vector<arm::Sensor> left_out;
+  std::erase_if(record.channels, [&](const Channel& channel) {
+    const std::string name = arm::to_string(channel.sensor);
+    const bool dead = std::ranges::any_of(findings, [&](const DataFinding& finding) {
+      return finding.fault == Fault::dead_channel && finding.channel == name;
+    });
+    if (dead) left_out.push_back(channel.sensor);
+    return dead;
+  });
+  return left_out;
+}
+
 }  // namespace flexarm::measured

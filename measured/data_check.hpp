@@ -92,4 +92,8 @@ struct DataCheckOptions {
 /// that is not finite.
 std::vector<DataFinding> check_data(const TimeRecord& record, const DataCheckOptions& options = {});
 
+/// Takes the channels that `findings` call dead out of the record, and returns their sensors.
+std::vector<arm::Sensor> leave_out_dead_channels(TimeRecord& record,
+                                                 const std::vector<DataFinding>& findings);
+
 }  // namespace flexarm::measured

@@ -26,18 +26,6 @@ constexpr double kMostZeroDamping = 0.25;
 /// Share of the work that a run's spectra are, beside 1 for the fit of each.
 constexpr double kSpectraShare = 0.2;
 
-/// Takes the dead channels out of the record and names them in `made`.
-void leave_out_dead_channels(TimeRecord& record, RunIdentification& made) {
-  std::erase_if(record.channels, [&](const Channel& channel) {
-    const std::string name = arm::to_string(channel.sensor);
-    const bool dead = std::ranges::any_of(made.findings, [&](const DataFinding& finding) {
-      return finding.fault == Fault::dead_channel && finding.channel == name;
-    });
-    if (dead) made.left_out.push_back(channel.sensor);
-    return dead;
-  });
-}
-
 /// Circles of a response that was given, about its peaks.
 void read_circles(RunIdentification& made, const CircleSettings& settings) {
   for (const FrequencyChannel& channel : made.response.channels) {
@@ -74,7 +62,7 @@ void study_time_run(TimeRecord& record, const IdentificationOptions& options,
   DataCheckOptions check = options.check;
   check.starts_at_rest = made.run.initial == InitialState::rest;
   made.findings = check_data(record, check);
-  leave_out_dead_channels(record, made);
+  made.left_out = leave_out_dead_channels(record, made.findings);
   const auto no_torque = std::ranges::find(made.findings, Fault::zero_torque, &DataFinding::fault);
   if (no_torque != made.findings.end()) {
     made.refusal = no_torque->text;

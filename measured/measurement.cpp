@@ -335,6 +335,14 @@ Measurement read_measurement(const std::filesystem::path& path) {
                            arm::shown(path.string()));
 }
 
+std::vector<std::filesystem::path> files_of(const std::filesystem::path& measurement_file,
+                                            const Measurement& measurement) {
+  std::vector<std::filesystem::path> files = {measurement_file,
+                                              beside(measurement_file, measurement.arm)};
+  for (const Run& run : measurement.runs) files.push_back(beside(measurement_file, run.file));
+  return files;
+}
+
 std::filesystem::path beside(const std::filesystem::path& measurement_file,
                              const std::string& file) {
   return measurement_file.parent_path() / file;

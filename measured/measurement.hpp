@@ -77,6 +77,10 @@ std::string format_measurement(const Measurement& measurement);
 /// `format_measurement` written to `path`, whole or not at all (arm/atomic_file.hpp).
 void write_measurement(const Measurement& measurement, const std::filesystem::path& path);
 
+/// The measurement file, the arm's and the runs'.
+std::vector<std::filesystem::path> files_of(const std::filesystem::path& measurement_file,
+                                            const Measurement& measurement);
+
 /// Where a file that the measurement at `measurement_file` names is.
 std::filesystem::path beside(const std::filesystem::path& measurement_file,
                              const std::string& file);

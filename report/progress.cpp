@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <string_view>
 #include <unistd.h>
 #include <utility>
@@ -35,6 +36,18 @@ Progress::~Progress() {
 
 void Progress::advance(std::int64_t steps) {
   done_.fetch_add(steps, std::memory_order_relaxed);
+  draw();
+}
+
+void Progress::reach(double fraction) {
+  const auto steps = static_cast<std::int64_t>(std::floor(fraction * static_cast<double>(total_)));
+  std::int64_t done = done_.load();
+  while (steps > done && !done_.compare_exchange_weak(done, steps)) {
+  }
+  draw();
+}
+
+void Progress::draw() {
   if (!on_terminal_) return;
   // Whoever finds another thread drawing goes on with its work.
   const std::unique_lock lock(drawing_, std::try_to_lock);

@@ -25,8 +25,13 @@ class Progress {
 
   /// Counts `steps` more as done. Safe from any thread.
   void advance(std::int64_t steps = 1);
+  /// This fraction of `total` is done, 0 to 1; what is less than is known to be done changes
+  /// nothing. Safe from any thread.
+  void reach(double fraction);
 
  private:
+  void draw();
+
   const std::string label_;
   const std::int64_t total_;
   const ProgressOptions options_;

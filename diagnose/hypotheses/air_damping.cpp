@@ -4,7 +4,7 @@
 namespace flexarm::diagnose {
 
 Hypothesis air_damping(const Scales& scales) {
-  const arm::LinearArm beam = arm::linear_arm(scales.arm);
+  const arm::LinearArm& beam = scales.beam;
   const double natural = beam.linear_density_kg_per_m * arm::omega_scale_rad_per_s(beam);
   return {.effect = "air_damping",
           .parameters = {{"coefficient", 1e-3 * natural, 3.0 * natural, Spacing::from_zero}},

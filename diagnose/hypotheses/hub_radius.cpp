@@ -3,7 +3,7 @@
 namespace flexarm::diagnose {
 
 Hypothesis hub_radius(const Scales& scales) {
-  const double length_m = scales.arm.beam.length_m;
+  const double length_m = scales.beam.length_m;
   return {.effect = "hub_radius",
           .parameters = {{"radius", 1e-3 * length_m, 0.3 * length_m, Spacing::from_zero}},
           .shows = Shows::in_all,

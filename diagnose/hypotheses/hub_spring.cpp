@@ -4,7 +4,7 @@
 namespace flexarm::diagnose {
 
 Hypothesis hub_spring(const Scales& scales) {
-  const arm::LinearArm beam = arm::linear_arm(scales.arm);
+  const arm::LinearArm& beam = scales.beam;
   const double bending = beam.flexural_rigidity_N_m2 / beam.length_m;
   return {.effect = "hub_spring",
           .parameters = {{"stiffness", 1e-4 * bending, 3.0 * bending, Spacing::from_zero}},

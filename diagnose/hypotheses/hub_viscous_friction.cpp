@@ -4,7 +4,7 @@
 namespace flexarm::diagnose {
 
 Hypothesis hub_viscous_friction(const Scales& scales) {
-  const arm::LinearArm beam = arm::linear_arm(scales.arm);
+  const arm::LinearArm& beam = scales.beam;
   // Loses the energy of the arm that turns in the time of a swing at the scale of its modes.
   const double natural = arm::total_inertia_kg_m2(beam) * arm::omega_scale_rad_per_s(beam);
   return {.effect = "hub_viscous_friction",

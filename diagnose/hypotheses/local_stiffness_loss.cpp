@@ -4,7 +4,7 @@
 namespace flexarm::diagnose {
 
 Hypothesis local_stiffness_loss(const Scales& scales) {
-  const arm::LinearArm beam = arm::linear_arm(scales.arm);
+  const arm::LinearArm& beam = scales.beam;
   const double bending = beam.flexural_rigidity_N_m2 / beam.length_m;
   return {.effect = "local_stiffness_loss",
           .parameters = {{"position", 0.01 * beam.length_m, 0.99 * beam.length_m, Spacing::linear},

@@ -4,7 +4,7 @@
 namespace flexarm::diagnose {
 
 Hypothesis payload_inertia(const Scales& scales) {
-  const arm::LinearArm beam = arm::linear_arm(scales.arm);
+  const arm::LinearArm& beam = scales.beam;
   const double beam_kg_m2 =
       beam.linear_density_kg_per_m * beam.length_m * beam.length_m * beam.length_m;
   return {.effect = "payload_inertia",

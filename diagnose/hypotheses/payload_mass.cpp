@@ -4,7 +4,7 @@
 namespace flexarm::diagnose {
 
 Hypothesis payload_mass(const Scales& scales) {
-  const arm::LinearArm beam = arm::linear_arm(scales.arm);
+  const arm::LinearArm& beam = scales.beam;
   const double beam_kg = beam.linear_density_kg_per_m * beam.length_m;
   return {.effect = "payload_mass",
           .parameters = {{"mass", 1e-3 * beam_kg, 2.0 * beam_kg, Spacing::from_zero}},

@@ -3,7 +3,7 @@
 namespace flexarm::diagnose {
 
 Hypothesis payload_offset(const Scales& scales) {
-  const double length_m = scales.arm.beam.length_m;
+  const double length_m = scales.beam.length_m;
   return {.effect = "payload_offset",
           .parameters = {{"offset", -0.2 * length_m, 0.2 * length_m, Spacing::linear}},
           .shows = Shows::in_all,

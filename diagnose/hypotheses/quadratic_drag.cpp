@@ -4,7 +4,7 @@
 namespace flexarm::diagnose {
 
 Hypothesis quadratic_drag(const Scales& scales) {
-  const arm::LinearArm beam = arm::linear_arm(scales.arm);
+  const arm::LinearArm& beam = scales.beam;
   // As heavy as the beam's inertia over the way of its tip.
   const double natural = beam.linear_density_kg_per_m / beam.length_m;
   return {.effect = "quadratic_drag",

@@ -4,7 +4,7 @@
 namespace flexarm::diagnose {
 
 Hypothesis root_compliance(const Scales& scales) {
-  const arm::LinearArm beam = arm::linear_arm(scales.arm);
+  const arm::LinearArm& beam = scales.beam;
   const double bending = beam.flexural_rigidity_N_m2 / beam.length_m;
   return {.effect = "root_compliance",
           .parameters = {{"stiffness", 0.5 * bending, 1e3 * bending, Spacing::from_infinity}},

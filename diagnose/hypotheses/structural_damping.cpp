@@ -3,7 +3,7 @@
 namespace flexarm::diagnose {
 
 Hypothesis structural_damping(const Scales& scales) {
-  const double scale_rad_per_s = arm::omega_scale_rad_per_s(scales.arm);
+  const double scale_rad_per_s = arm::omega_scale_rad_per_s(scales.beam);
   return {
       .effect = "structural_damping",
       .parameters = {{"time", 1e-3 / scale_rad_per_s, 1.0 / scale_rad_per_s, Spacing::from_zero}},

@@ -109,19 +109,34 @@ class QuickStepper {
   }
 
   /// Adds friction to the end of a step; whether it stops the hub there.
+  ///
+  /// All else changes the hub's speed by `drift`, evenly over the step as far as can be seen. A hub
+  /// that comes to rest at the part a of the step is held from there on, or driven back by what
+  /// is left of the drift, (1 - a)(drift + friction the other way).
   bool add_friction(const InnerSteps& steps) {
-    const double speed = arm_.hub_velocity(end_);
-    const double stopping_N_m = -speed / steps.speed_per_torque;
-    const bool stops = std::abs(stopping_N_m) <= friction_.breakaway_N_m();
-    double torque_N_m = stopping_N_m;
-    if (!stops) {
-      // The speed that is left decides how large friction that falls with it is.
-      torque_N_m = -sliding(speed);
-      const double left = speed + torque_N_m * steps.speed_per_torque;
-      torque_N_m = -std::copysign(friction_.torque_N_m(left), speed);
-      torque_N_m = std::clamp(torque_N_m, -std::abs(stopping_N_m), std::abs(stopping_N_m));
+    const double begin = is_held_ ? 0.0 : arm_.hub_velocity(x_);
+    const double free = arm_.hub_velocity(end_);
+    const double drift = free - begin;
+    const double per_torque = steps.speed_per_torque;
+    double speed = free;
+    bool stops = false;
+    if (is_held_ && std::abs(drift) <= friction_.breakaway_N_m() * per_torque) {
+      speed = 0.0;
+      stops = true;
+    } else {
+      const double way = begin != 0.0 ? begin : free;
+      const auto slid = [&](double mean) {
+        return free - std::copysign(friction_.torque_N_m(mean), way) * per_torque;
+      };
+      speed = slid(0.5 * (begin + slid(0.5 * (begin + free))));
+      if (speed * way < 0.0) {
+        const double moving = begin / (begin - speed);
+        stops = std::abs(drift) <= friction_.breakaway_N_m() * per_torque;
+        const double back = std::copysign(friction_.torque_N_m(0.5 * speed), drift) * per_torque;
+        speed = stops ? 0.0 : (1.0 - moving) * (drift - back);
+      }
     }
-    end_.noalias() += steps.force * (arm_.hub_force * torque_N_m);
+    end_.noalias() += steps.force * (arm_.hub_force * ((speed - free) / per_torque));
     return stops;
   }
 

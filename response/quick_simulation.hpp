@@ -17,10 +17,9 @@ struct QuickSimulationOptions {
 /// The readings that `simulate` gives, for fits that need them by the thousand.
 ///
 /// A linear arm is stepped exactly, as there. Forces that are not linear are held over an inner
-/// step, exact for the rest: drag and ripple at their mean of both ends (order 2 in the step),
-/// friction at what the end of the step asks for, stopping the hub there where it is strong enough
-/// (order 1 where the hub turns back or stops, exact elsewhere). Where dead zone or saturation
-/// break a torque that is linear between samples, the sample has its mean.
+/// step at their mean of it, exact for the rest, with an error of order 2 in the step: drag and
+/// ripple of both ends, friction of the parts before and after the hub comes to rest. Where dead
+/// zone or saturation break a torque that is linear between samples, the sample has its mean.
 ///
 /// One vector a sensor. Throws InputError as `simulate` does for parts that do not fit together,
 /// and for readings that are too large for a number.

@@ -3,12 +3,13 @@
 #include "diagnose/predicted_roots.hpp"
 #include "response/formulation_maker.hpp"
 #include "response/frequency_response.hpp"
-#include "response/quick_simulation.hpp"
 #include "response/time_model.hpp"
+
+#include <Eigen/QR>
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <limits>
 #include <utility>
 #include <variant>
 
@@ -24,22 +25,37 @@ std::vector<arm::Sensor> sensors_of(const measured::TimeRecord& record) {
   return sensors;
 }
 
-void predict(const measured::Run& run, const measured::TimeRecord& record,
-             const arm::ModalModel& model, const response::ArmParts& parts, int substeps,
-             Eigen::Ref<Eigen::VectorXd> values) {
-  response::QuickSimulationOptions options;
-  options.substeps = substeps;
-  options.sample_time_s = measured::sampling_period_s(record);
-  options.hold = run.torque_hold == measured::TorqueHold::zero ? response::TorqueHold::zero
-                                                               : response::TorqueHold::first;
-  const auto made =
-      response::quick_simulation(model, parts, sensors_of(record), record.torque_N_m, options);
-  Index at = 0;
-  for (const auto& channel : made) {
-    const auto n = static_cast<Index>(channel.size());
-    values.segment(at, n) = Eigen::VectorXd::Map(channel.data(), n);
-    at += n;
+/// What a run from an unknown state shows, `simulated` from rest being known: its state is that
+/// which brings the readings nearest to those `measured`, in standard deviations. With forces that
+/// are not linear by Gauss-Newton steps, with the linear arm's derivatives.
+Eigen::MatrixXd from_nearest_state(const response::QuickSimulation& simulation,
+                                   const std::vector<double>& torque_N_m,
+                                   const Eigen::MatrixXd& from_rest,
+                                   const Eigen::VectorXd& measured,
+                                   const Eigen::VectorXd& deviations) {
+  constexpr int kSteps = 3;
+  const Eigen::MatrixXd free = simulation.free_readings(torque_N_m.size());
+  const Eigen::VectorXd scale = (deviations.cwiseInverse().asDiagonal() * free)
+                                    .colwise()
+                                    .norm()
+                                    .transpose()
+                                    .cwiseMax(std::numeric_limits<double>::min());
+  const Eigen::MatrixXd weighted =
+      deviations.cwiseInverse().asDiagonal() * free * scale.cwiseInverse().asDiagonal();
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> nearest(weighted);
+  Eigen::VectorXd state = Eigen::VectorXd::Zero(simulation.states());
+  Eigen::MatrixXd made = from_rest;
+  for (int step = 0; step < (simulation.is_linear() ? 1 : kSteps); ++step) {
+    const Eigen::VectorXd change =
+        nearest.solve((measured - made.reshaped()).cwiseQuotient(deviations)).cwiseQuotient(scale);
+    state += change;
+    if (simulation.is_linear()) {
+      made.reshaped() += free * change;
+    } else {
+      made = simulation(torque_N_m, state);
+    }
   }
+  return made;
 }
 
 void predict(const arm::Arm& arm, const measured::FrequencyRecord& record,
@@ -63,28 +79,33 @@ void predict(const arm::Arm& arm, const measured::FrequencyRecord& record,
 
 Predictor::Predictor(const Experiment& experiment, const Observations& observations,
                      int flexible_modes, int substeps)
-    : experiment_(&experiment),
-      flexible_modes_(flexible_modes),
-      substeps_(substeps),
-      first_of_run_(observations.first_of_run) {
+    : experiment_(&experiment), flexible_modes_(flexible_modes), observations_(observations) {
   for (std::size_t r = 0; r < experiment.runs.size(); ++r) {
     const auto& [run, data] = experiment.runs[r];
     const auto* record = std::get_if<measured::TimeRecord>(&data);
     if (record == nullptr) continue;
     const arm::Payload payload = run.payload.value_or(experiment.arm.payload);
     const auto sensors = sensors_of(*record);
+    const response::QuickSimulationOptions options{
+        .sample_time_s = measured::sampling_period_s(*record),
+        .hold = run.torque_hold == measured::TorqueHold::zero ? response::TorqueHold::zero
+                                                              : response::TorqueHold::first,
+        .substeps = substeps};
     auto at = std::ranges::find_if(conditions_, [&](const Condition& condition) {
-      return condition.payload == payload && condition.sensors == sensors;
+      return condition.payload == payload && condition.sensors == sensors &&
+             condition.options.sample_time_s == options.sample_time_s &&
+             condition.options.hold == options.hold;
     });
-    if (at == conditions_.end()) at = conditions_.insert(at, {payload, sensors, {}});
+    if (at == conditions_.end()) at = conditions_.insert(at, {payload, sensors, options, {}});
     at->runs.push_back(r);
   }
 }
 
 Eigen::VectorXd Predictor::operator()(const arm::Arm& arm, const std::vector<bool>& runs) const {
-  Eigen::VectorXd values = Eigen::VectorXd::Zero(first_of_run_.back());
+  const auto& first = observations_.first_of_run;
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(first.back());
   const auto stretch = [&](std::size_t r) {
-    return values.segment(first_of_run_[r], first_of_run_[r + 1] - first_of_run_[r]);
+    return values.segment(first[r], first[r + 1] - first[r]);
   };
   arm::Arm with_payload = arm;
   for (const Condition& condition : conditions_) {
@@ -94,10 +115,19 @@ Eigen::VectorXd Predictor::operator()(const arm::Arm& arm, const std::vector<boo
     const auto model =
         response::time_model(response::make_formulation("exact_tf", parts.linear, flexible_modes_),
                              parts, flexible_modes_, condition.sensors);
+    const response::QuickSimulation simulation(model, parts, condition.sensors, condition.options);
     for (const std::size_t r : condition.runs) {
       if (!runs[r]) continue;
       const auto& [run, data] = experiment_->runs[r];
-      predict(run, std::get<measured::TimeRecord>(data), model, parts, substeps_, stretch(r));
+      const auto& torque_N_m = std::get<measured::TimeRecord>(data).torque_N_m;
+      Eigen::MatrixXd readings = simulation(torque_N_m);
+      if (run.initial == measured::InitialState::free) {
+        const Eigen::Index n = first[r + 1] - first[r];
+        readings = from_nearest_state(simulation, torque_N_m, readings,
+                                      observations_.values.segment(first[r], n),
+                                      observations_.deviations.segment(first[r], n));
+      }
+      stretch(r) = readings.reshaped();
     }
   }
   for (std::size_t r = 0; r < experiment_->runs.size(); ++r) {

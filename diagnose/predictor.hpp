@@ -2,6 +2,7 @@
 
 #include "diagnose/experiment.hpp"
 #include "diagnose/observations.hpp"
+#include "response/quick_simulation.hpp"
 
 #include <Eigen/Core>
 
@@ -14,7 +15,8 @@ namespace flexarm::diagnose {
 class Predictor {
  public:
   /// `flexible_modes` move in a simulated run, with `substeps` inner steps a sample where forces
-  /// are not linear; poles, zeros and frequency responses are exact. `experiment` must outlive the
+  /// are not linear; poles, zeros and frequency responses are exact. A run from an unknown state
+  /// begins in that which brings it nearest to what was measured. `experiment` must outlive the
   /// object.
   Predictor(const Experiment& experiment, const Observations& observations, int flexible_modes,
             int substeps);
@@ -27,18 +29,18 @@ class Predictor {
   int flexible_modes() const { return flexible_modes_; }
 
  private:
-  /// Runs that one modal model serves.
+  /// Runs that one simulation serves.
   struct Condition {
     arm::Payload payload;
     std::vector<arm::Sensor> sensors;
+    response::QuickSimulationOptions options;
     std::vector<std::size_t> runs;
   };
 
   const Experiment* experiment_;
   int flexible_modes_;
-  int substeps_;
-  std::vector<Condition> conditions_;       // of `time` runs
-  std::vector<Eigen::Index> first_of_run_;  // as in Observations
+  Observations observations_;
+  std::vector<Condition> conditions_;  // of `time` runs
 };
 
 /// The fewest flexible modes with which the simulated runs are within `kModeError` of a signal's

@@ -14,14 +14,13 @@ Eigen::MatrixXd leading_exponential(const Eigen::MatrixXd& chain, Eigen::Index r
   return power.topRows(rows).template cast<double>();
 }
 
-/// Up to this many rows the exponential is formed in extended precision, which takes some tenths of
-/// a second there. The error of e^(A dt), which a long simulation repeats step by step, is then
-/// that of rounding each entry once; in double precision it is up to |A dt| times as large.
+/// More take over some tenths of a second.
 constexpr Eigen::Index kMostExtendedRows = 120;
 
 }  // namespace
 
-Propagator propagator(const LinearSystem& system, double step_s, double until) {
+Propagator propagator(const LinearSystem& system, double step_s, double until,
+                      Precision precision) {
   const Eigen::Index n = system.a.rows();
   const Eigen::Index m = 1 + system.force.cols();
   const double dt = step_s * until;
@@ -31,9 +30,9 @@ Propagator propagator(const LinearSystem& system, double step_s, double until) {
   chain.block(0, n + 1, n, m - 1) = system.force * dt;
   chain.block(n, n + m, m, m).setIdentity();
   chain.block(n + m, n + 2 * m, m, m).setIdentity();
-  const Eigen::MatrixXd power = chain.rows() <= kMostExtendedRows
-                                    ? leading_exponential<long double>(chain, n)
-                                    : leading_exponential<double>(chain, n);
+  const bool is_extended = precision == Precision::extended && chain.rows() <= kMostExtendedRows;
+  const Eigen::MatrixXd power = is_extended ? leading_exponential<long double>(chain, n)
+                                            : leading_exponential<double>(chain, n);
 
   // An input c0 + c1 s + c2 s^2 in s = t/dt, t from 0 to dt, adds phi_1 c0 + phi_2 c1 + 2 phi_3 c2;
   // on [0, step] it is u0 + (u1 - u0) r and f0 + (-3 f0 + 4 fm - f1) r + (2 f0 - 4 fm + 2 f1) r^2

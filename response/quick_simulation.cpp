@@ -12,19 +12,19 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <utility>
 
 namespace flexarm::response {
-
-namespace {
 
 using Eigen::Index;
 
 /// Inner steps of one length, with a force that is constant over each.
 struct InnerSteps {
   InnerSteps(const ModalDynamics& arm, double length_s, int steps)
-      : count(steps), propagator(response::propagator(arm.turning, length_s / steps)) {
+      : count(steps),
+        propagator(response::propagator(arm.turning, length_s / steps, 1.0, Precision::working)) {
     force = propagator.constant_force();
     const Eigen::VectorXd by_torque = force * arm.hub_force;
     speed_per_torque = arm.hub_velocity(by_torque);
@@ -36,16 +36,18 @@ struct InnerSteps {
   double speed_per_torque = 0.0;  ///< theta' at the end of a step by a torque on the hub in it
 };
 
+namespace {
+
 class QuickStepper {
  public:
   QuickStepper(const ModalDynamics& arm, const AddedForces& forces, const HubFriction& friction,
-               bool varies)
+               bool varies, const Eigen::VectorXd& initial)
       : arm_(arm),
         forces_(forces),
         friction_(friction),
         varies_(varies),
-        x_(Eigen::VectorXd::Zero(arm.size())),
-        is_held_(!friction.is_zero()) {}
+        x_(initial.size() > 0 ? initial : Eigen::VectorXd::Zero(arm.size())),
+        is_held_(!friction.is_zero() && initial.size() == 0) {}
 
   void advance(const InnerSteps& steps, double u0, double u1) {
     for (int i = 0; i < steps.count; ++i) {
@@ -160,35 +162,83 @@ double mean_torque(const TorquePath::Pieces& pieces) {
   return sum / length;
 }
 
+bool has_drag(const ArmParts& parts) {
+  return parts.quadratic_drag_N_s2_per_m3 > 0.0;
+}
+
+AddedForces added_forces(const ModalDynamics& arm, const arm::ModalModel& model,
+                         const ArmParts& parts) {
+  std::optional<QuadraticDrag> drag;
+  if (has_drag(parts)) {
+    drag.emplace(model, parts.linear.beam.length_m, parts.quadratic_drag_N_s2_per_m3);
+  }
+  return {arm, parts, std::move(drag)};
+}
+
 }  // namespace
 
-std::vector<std::vector<double>> quick_simulation(const arm::ModalModel& model,
-                                                  const ArmParts& parts,
-                                                  std::span<const arm::Sensor> sensors,
-                                                  std::span<const double> torque_N_m,
-                                                  const QuickSimulationOptions& options) {
-  require_simulable(parts, torque_N_m,
-                    {.sample_time_s = options.sample_time_s, .hold = options.hold});
-  const double h = options.sample_time_s;
-  const bool has_drag = parts.quadratic_drag_N_s2_per_m3 > 0.0;
-  const ModalDynamics arm = modal_dynamics(model, parts, sensors, has_drag);
-  std::optional<QuadraticDrag> drag;
-  if (has_drag) drag.emplace(model, parts.linear.beam.length_m, parts.quadratic_drag_N_s2_per_m3);
-  const AddedForces forces(arm, parts, std::move(drag));
-  const bool varies = has_drag || parts.actuator.ripple;
-  const int substeps = varies || !parts.friction.is_zero() ? options.substeps : 1;
-  const TorquePath path(parts.actuator, torque_N_m, h, options.hold);
-  const double phi = path.delay_fraction();
-  const InnerSteps whole(arm, h, substeps);
-  const std::optional<std::array<InnerSteps, 2>> parted =
-      phi > 0.0 ? std::optional(std::array{InnerSteps(arm, phi * h, substeps),
-                                           InnerSteps(arm, (1.0 - phi) * h, substeps)})
-                : std::nullopt;
+/// All that a torque does not change.
+struct QuickSimulation::Parts {
+  Parts(const arm::ModalModel& model, const ArmParts& of_arm, std::span<const arm::Sensor> read,
+        const QuickSimulationOptions& chosen)
+      : options(chosen),
+        arm_parts(of_arm),
+        sensors(read.begin(), read.end()),
+        varies(has_drag(of_arm) || of_arm.actuator.ripple),
+        arm(modal_dynamics(model, of_arm, read, has_drag(of_arm))),
+        forces(added_forces(arm, model, of_arm)),
+        whole(arm, chosen.sample_time_s, inner_steps()) {
+    const double phi =
+        TorquePath(of_arm.actuator, {}, chosen.sample_time_s, chosen.hold).delay_fraction();
+    if (phi > 0.0) {
+      parted.emplace(
+          std::array{InnerSteps(arm, phi * chosen.sample_time_s, inner_steps()),
+                     InnerSteps(arm, (1.0 - phi) * chosen.sample_time_s, inner_steps())});
+    }
+  }
 
-  QuickStepper stepper(arm, forces, parts.friction, varies);
-  SensorReadings readings(arm, parts, sensors);
-  std::vector<std::vector<double>> made(sensors.size());
-  for (auto& channel : made) channel.reserve(torque_N_m.size());
+  bool is_linear() const { return !varies && arm_parts.friction.is_zero(); }
+  int inner_steps() const { return is_linear() ? 1 : options.substeps; }
+  const InnerSteps& steps_of(const TorquePiece& piece) const {
+    if (piece.length == TorquePiece::Length::whole) return whole;
+    return (*parted)[piece.begin > 0.0 ? 1 : 0];
+  }
+
+  QuickSimulationOptions options;
+  ArmParts arm_parts;
+  std::vector<arm::Sensor> sensors;
+  bool varies;
+  ModalDynamics arm;
+  AddedForces forces;
+  InnerSteps whole;
+  std::optional<std::array<InnerSteps, 2>> parted;
+};
+
+QuickSimulation::QuickSimulation(const arm::ModalModel& model, const ArmParts& parts,
+                                 std::span<const arm::Sensor> sensors,
+                                 const QuickSimulationOptions& options)
+    : parts_(std::make_unique<const Parts>(model, parts, sensors, options)) {}
+
+QuickSimulation::~QuickSimulation() = default;
+
+Index QuickSimulation::states() const {
+  return parts_->arm.size();
+}
+
+bool QuickSimulation::is_linear() const {
+  return parts_->is_linear();
+}
+
+Eigen::MatrixXd QuickSimulation::operator()(std::span<const double> torque_N_m,
+                                            const Eigen::VectorXd& initial) const {
+  const Parts& parts = *parts_;
+  const double h = parts.options.sample_time_s;
+  require_simulable(parts.arm_parts, torque_N_m, {.sample_time_s = h, .hold = parts.options.hold});
+  const TorquePath path(parts.arm_parts.actuator, torque_N_m, h, parts.options.hold);
+  QuickStepper stepper(parts.arm, parts.forces, parts.arm_parts.friction, parts.varies, initial);
+  SensorReadings readings(parts.arm, parts.arm_parts, parts.sensors);
+  Eigen::MatrixXd made(static_cast<Index>(torque_N_m.size()),
+                       static_cast<Index>(parts.sensors.size()));
   TorquePath::Pieces pieces;
   for (std::size_t k = 0; k < torque_N_m.size(); ++k) {
     path.pieces(k, pieces);
@@ -200,19 +250,35 @@ std::vector<std::vector<double>> quick_simulation(const arm::ModalModel& model,
       throw arm::InputError(
           fmt::format("reading at {:.6g} s: too large for a number", static_cast<double>(k) * h));
     }
-    for (std::size_t j = 0; j < made.size(); ++j) made[j].push_back(now(static_cast<Index>(j)));
+    made.row(static_cast<Index>(k)) = now.transpose();
     const bool is_regular = std::ranges::none_of(pieces, [](const TorquePiece& piece) {
       return piece.length == TorquePiece::Length::other;
     });
     if (!is_regular) {
       const double mean = mean_torque(pieces);
-      stepper.advance(whole, mean, mean);
+      stepper.advance(parts.whole, mean, mean);
       continue;
     }
     for (const TorquePiece& piece : pieces) {
-      const InnerSteps& steps =
-          piece.length == TorquePiece::Length::whole ? whole : (*parted)[piece.begin > 0.0 ? 1 : 0];
-      stepper.advance(steps, piece.begin_N_m, piece.end_N_m);
+      stepper.advance(parts.steps_of(piece), piece.begin_N_m, piece.end_N_m);
+    }
+  }
+  return made;
+}
+
+Eigen::MatrixXd QuickSimulation::free_readings(std::size_t samples) const {
+  const Parts& parts = *parts_;
+  const auto n = static_cast<Index>(samples);
+  const Eigen::MatrixXd step =
+      propagator(parts.arm.turning, parts.options.sample_time_s, 1.0, Precision::working).state;
+  const auto& sensors = parts.arm.turning.sensors;
+  Eigen::MatrixXd made(n * static_cast<Index>(sensors.size()), states());
+  // Row k of a sensor is its row of readings times the k-th power of the step.
+  for (std::size_t j = 0; j < sensors.size(); ++j) {
+    Eigen::RowVectorXd row = sensors[j].state;
+    for (Index k = 0; k < n; ++k) {
+      made.row(static_cast<Index>(j) * n + k) = row;
+      row = row * step;
     }
   }
   return made;

@@ -1,7 +1,11 @@
 #pragma once
 
+#include "response/modal_dynamics.hpp"
 #include "response/simulation.hpp"
 
+#include <Eigen/Core>
+
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -20,13 +24,31 @@ struct QuickSimulationOptions {
 /// step at their mean of it, exact for the rest, with an error of order 2 in the step: drag and
 /// ripple of both ends, friction of the parts before and after the hub comes to rest. Where dead
 /// zone or saturation break a torque that is linear between samples, the sample has its mean.
-///
-/// One vector a sensor. Throws InputError as `simulate` does for parts that do not fit together,
-/// and for readings that are too large for a number.
-std::vector<std::vector<double>> quick_simulation(const arm::ModalModel& model,
-                                                  const ArmParts& parts,
-                                                  std::span<const arm::Sensor> sensors,
-                                                  std::span<const double> torque_N_m,
-                                                  const QuickSimulationOptions& options);
+class QuickSimulation {
+ public:
+  /// Throws InputError as `simulate` does for parts that do not fit together.
+  QuickSimulation(const arm::ModalModel& model, const ArmParts& parts,
+                  std::span<const arm::Sensor> sensors, const QuickSimulationOptions& options);
+  ~QuickSimulation();
+
+  /// Entries of the state, ModalDynamics::size().
+  Eigen::Index states() const;
+  /// Nothing but friction, drag and ripple keeps responses from adding up.
+  bool is_linear() const;
+
+  /// Readings under a torque, a row a sample and a column a sensor, from the state `initial` (at
+  /// rest where it is empty). Throws InputError for a torque that `simulate` refuses, and for
+  /// readings that are too large for a number. Concurrent calls are safe.
+  Eigen::MatrixXd operator()(std::span<const double> torque_N_m,
+                             const Eigen::VectorXd& initial = {}) const;
+
+  /// Readings of the arm left alone from each unit state, the samples of all sensors one after the
+  /// other in a column (as the columns above), a column a state. Without friction, drag and ripple.
+  Eigen::MatrixXd free_readings(std::size_t samples) const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<const Parts> parts_;
+};
 
 }  // namespace flexarm::response

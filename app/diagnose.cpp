@@ -130,6 +130,10 @@ std::string text_of(const diagnose::Diagnosis& diagnosis) {
       text += report::to_paragraph("  It would be refuted by " + cause.refuted_by + ".", 4) + "\n";
     }
   }
+  if (!diagnosis.refitted.empty()) {
+    text += report::to_text(report::refitted_table(diagnosis)) + "\n";
+  }
+  text += report::to_paragraph(report::formulations_text(diagnosis.formulations)) + "\n";
   text += report::to_text(report::gain_table(diagnosis)) + "\n";
   return text + report::to_text(report::channel_gain_table(diagnosis), {.key_columns = 2});
 }

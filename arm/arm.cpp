@@ -4,6 +4,7 @@
 #include "arm/input_error.hpp"
 #include "arm/linear_arm.hpp"
 #include "arm/sensor.hpp"
+#include "arm/uncertainties.hpp"
 
 #include <fmt/format.h>
 
@@ -45,6 +46,7 @@ void require_valid(const Arm& arm) {
   for (const auto& table : arm_tables()) require_in_range(arm, table);
   require_valid(arm.effects);
   require_on_beam(arm);
+  require_valid_uncertainties(arm);
 }
 
 double total_inertia_kg_m2(const Arm& arm) {

@@ -6,6 +6,7 @@
 #include "arm/hub.hpp"
 #include "arm/payload.hpp"
 
+#include <map>
 #include <string>
 
 namespace flexarm::arm {
@@ -28,6 +29,9 @@ struct Arm {
   Payload payload;
   Damping damping;
   Effects effects;
+  /// Standard deviations of numbers of the arm file relative to these, by key
+  /// ("beam.youngs_modulus"; arm/uncertainties.hpp): what a fit may change beside effects.
+  std::map<std::string, double> relative_uncertainties = {};
 
   bool operator==(const Arm&) const = default;
 };

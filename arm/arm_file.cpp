@@ -6,6 +6,7 @@
 #include "arm/text_file.hpp"
 #include "arm/toml_document.hpp"
 #include "arm/toml_node.hpp"
+#include "arm/uncertainties.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -101,7 +102,14 @@ class Reader {
     const std::string name = table + "." + leaf;
     note_line(name, node);
     const auto key = std::ranges::find(arm_keys(), name, &ArmKey::name);
-    if (key == arm_keys().end()) {
+    const bool is_uncertainty = leaf.ends_with(kUncertaintySuffix);
+    const std::string of =
+        is_uncertainty ? name.substr(0, name.size() - kUncertaintySuffix.size()) : std::string();
+    if (std::ranges::find(arm_keys(), of, &ArmKey::name) != arm_keys().end()) {
+      if (const auto value = number(name, node, kNotNegative, "")) {
+        arm_.relative_uncertainties[of] = *value;
+      }
+    } else if (key == arm_keys().end()) {
       const auto leaves = leaves_of(table);
       fault(name, fmt::format(": unknown key{}; allowed in [{}]: {}", meant(table, leaf, leaves),
                               table, fmt::join(leaves, ", ")));

@@ -2,6 +2,7 @@
 #include "arm/arm_keys.hpp"
 #include "arm/atomic_file.hpp"
 #include "arm/input_error.hpp"
+#include "arm/uncertainties.hpp"
 #include "arm/utf8.hpp"
 
 #include <fmt/format.h>
@@ -22,6 +23,10 @@ void append_keys(std::string& out, const Arm& arm, const std::string& table) {
     if (!value || (!key.required && value == key.default_value())) continue;
     fmt::format_to(std::back_inserter(lines), "{} = {}  # {}\n", key.leaf, toml_number(*value),
                    key.unit);
+    const auto uncertainty = arm.relative_uncertainties.find(key.name());
+    if (uncertainty == arm.relative_uncertainties.end()) continue;
+    fmt::format_to(std::back_inserter(lines), "{}{} = {}  # of {}, relative\n", key.leaf,
+                   kUncertaintySuffix, toml_number(uncertainty->second), key.leaf);
   }
   if (!lines.empty()) out += fmt::format("\n[{}]\n{}", table, lines);
 }

@@ -1,5 +1,7 @@
 #include "diagnose/candidate.hpp"
 
+#include "arm/uncertainties.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -9,7 +11,7 @@ namespace flexarm::diagnose {
 using Eigen::Index;
 
 arm::Arm Candidate::extend(const arm::Arm& arm) const {
-  arm::Arm made = arm;
+  arm::Arm made = arm::displaced(arm, displacements);
   std::size_t at = 0;
   for (const Hypothesis& effect : effects) {
     const std::size_t count = effect.parameters.size();
@@ -29,18 +31,22 @@ std::vector<SearchedParameter> Candidate::parameters() const {
 
 Eigen::VectorXd Candidate::places() const {
   const auto all = parameters();
-  Eigen::VectorXd made(static_cast<Index>(all.size()));
+  const auto first = static_cast<Index>(displacements.size());
+  Eigen::VectorXd made(first + static_cast<Index>(all.size()));
+  made.head(first) = Eigen::VectorXd::Map(displacements.data(), first);
   for (std::size_t i = 0; i < all.size(); ++i) {
-    made(static_cast<Index>(i)) = all[i].place(values[i]);
+    made(first + static_cast<Index>(i)) = all[i].place(values[i]);
   }
   return made;
 }
 
 void Candidate::put(const Eigen::VectorXd& places) {
   const auto all = parameters();
+  const auto first = static_cast<Index>(displacements.size());
+  Eigen::VectorXd::Map(displacements.data(), first) = places.head(first);
   values.resize(all.size());
   for (std::size_t i = 0; i < all.size(); ++i) {
-    double place = places(static_cast<Index>(i));
+    double place = places(first + static_cast<Index>(i));
     place =
         all[i].periodic ? place - std::floor(place) : std::clamp(place, -kBeyond, 1.0 + kBeyond);
     values[i] = all[i].value(place);
@@ -66,7 +72,7 @@ Candidate Candidate::with(const Hypothesis& hypothesis,
 }
 
 Candidate Candidate::without(std::size_t index) const {
-  Candidate made;
+  Candidate made{.displacements = displacements};
   std::size_t at = 0;
   for (std::size_t i = 0; i < effects.size(); ++i) {
     const auto count = static_cast<std::ptrdiff_t>(effects[i].parameters.size());

@@ -11,14 +11,17 @@ namespace flexarm::diagnose {
 
 /// An arm with some effects, none or several, at definite values: what is fitted.
 struct Candidate {
-  std::vector<Hypothesis> effects;
-  std::vector<double> values;  ///< of all their parameters, effect after effect
+  std::vector<Hypothesis> effects = {};
+  std::vector<double> values = {};  ///< of all their parameters, effect after effect
+  /// How many of their standard deviations the arm's uncertain numbers are off (arm::displaced).
+  std::vector<double> displacements = {};
 
   arm::Arm extend(const arm::Arm& arm) const;
   std::vector<SearchedParameter> parameters() const;
 
-  /// Values as places between their bounds (SearchedParameter::place), and back; places beyond
-  /// `kBeyond` outside 0 to 1 are taken for those.
+  /// What is fitted: displacements, then values as places between their bounds
+  /// (SearchedParameter::place), and back; places beyond `kBeyond` outside 0 to 1 are taken for
+  /// those.
   Eigen::VectorXd places() const;
   void put(const Eigen::VectorXd& places);
   static constexpr double kBeyond = 0.25;

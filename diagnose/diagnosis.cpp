@@ -1,8 +1,10 @@
 #include "diagnose/diagnosis.hpp"
 
+#include "arm/arm_keys.hpp"
 #include "arm/effects.hpp"
+#include "arm/uncertainties.hpp"
+#include "diagnose/parameter_errors.hpp"
 
-#include <Eigen/Cholesky>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,38 +15,13 @@ namespace flexarm::diagnose {
 
 namespace {
 
-using Eigen::Index;
-
-/// Inner steps a sample of the last refit.
+/// Inner steps a sample of the last refit, and modes beside which its error shows.
 constexpr int kFineSubsteps = 20;
+constexpr int kFurtherModes = 8;
 /// Rivals that the chosen causes lead by less than this information cannot be told from them.
 constexpr double kTold = 10.0;
 /// No data make an effect more certain than this.
 constexpr double kMostConfidence = 0.99;
-
-/// Standard errors of all parameters of a fit: of the residuals' own size where that is above the
-/// noise, for as many independent numbers as they are.
-std::vector<double> standard_errors(const Fit& fit, const Misfit& misfit) {
-  const Index n = fit.jacobian.cols();
-  std::vector<double> errors(static_cast<std::size_t>(n));
-  if (n == 0) return errors;
-  const double scale = std::max(1.0, misfit.sum_of_squares / misfit.count) * misfit.count /
-                       std::max(1.0, misfit.independent);
-  const Eigen::MatrixXd information = fit.jacobian.transpose() * fit.jacobian;
-  const Eigen::MatrixXd covariance =
-      information.ldlt().solve(Eigen::MatrixXd::Identity(n, n)) * scale;
-  const Eigen::VectorXd places = fit.candidate.places();
-  const auto parameters = fit.candidate.parameters();
-  for (Index i = 0; i < n; ++i) {
-    constexpr double kStep = 1e-6;
-    const auto& parameter = parameters[static_cast<std::size_t>(i)];
-    const double slope =
-        (parameter.value(places(i) + kStep) - parameter.value(places(i) - kStep)) / (2.0 * kStep);
-    errors[static_cast<std::size_t>(i)] =
-        std::abs(slope) * std::sqrt(std::max(0.0, covariance(i, i)));
-  }
-  return errors;
-}
 
 std::string unit_of(const std::string& effect, const std::string& parameter) {
   const auto& parameters = arm::find_effect(effect)->parameters;
@@ -91,6 +68,15 @@ std::vector<std::string> evidence_for(const Hypothesis& hypothesis, const Cause&
   return evidence;
 }
 
+/// A candidate as it is, not fitted.
+Fit evaluated(const Problem& problem, const Candidate& candidate) {
+  Fit made{.candidate = candidate};
+  if (const auto residuals = problem.residuals(candidate, problem.estimation_runs())) {
+    made.residuals = *residuals;
+  }
+  return made;
+}
+
 /// Of all runs, from what explanations left of those that were fitted and of the others.
 std::vector<ChannelGain> channel_gains(const Problem& problem, const Explanation& nothing,
                                        const Explanation& chosen) {
@@ -108,21 +94,37 @@ std::vector<ChannelGain> channel_gains(const Problem& problem, const Explanation
   return gains;
 }
 
-/// The parameters of each effect of an explanation.
-std::vector<std::vector<ParameterEstimate>> estimates_of(const Explanation& explanation) {
-  const Candidate& candidate = explanation.fit.candidate;
-  const std::vector<double> errors = standard_errors(explanation.fit, explanation.estimation);
+/// The parameters of each effect of a candidate, with standard errors as `standard_errors` has
+/// them.
+std::vector<std::vector<ParameterEstimate>> estimates_of(const Candidate& candidate,
+                                                         const std::vector<double>& errors) {
   std::vector<std::vector<ParameterEstimate>> all;
   std::size_t at = 0;
   for (const Hypothesis& effect : candidate.effects) {
     auto& estimates = all.emplace_back();
     for (const auto& parameter : effect.parameters) {
-      estimates.push_back({parameter.name, candidate.values[at], errors[at],
+      estimates.push_back({parameter.name, candidate.values[at],
+                           errors[candidate.displacements.size() + at],
                            unit_of(effect.effect, parameter.name)});
       ++at;
     }
   }
   return all;
+}
+
+/// The uncertain numbers of the arm as a candidate has them.
+std::vector<RefittedNumber> refitted_numbers(const arm::Arm& arm, const Candidate& candidate,
+                                             const std::vector<double>& errors) {
+  const arm::Arm refitted = arm::displaced(arm, candidate.displacements);
+  std::vector<RefittedNumber> numbers;
+  for (const auto& [name, uncertainty] : arm.relative_uncertainties) {
+    const auto& key = *std::ranges::find(arm::arm_keys(), name, &arm::ArmKey::name);
+    const double value = *key.get(refitted);
+    const double deviation = errors[numbers.size()];
+    numbers.push_back(
+        {name, *key.get(arm), uncertainty, value, value * uncertainty * deviation, key.unit});
+  }
+  return numbers;
 }
 
 /// A chosen effect but for its parameters; `without` is the choice without it.
@@ -149,6 +151,31 @@ Cause cause_of(const Hypothesis& effect, const Selection& selection, const Expla
 
 Gain gain_between(const Misfit& before, const Misfit& after) {
   return {before.relative_error, after.relative_error, before.noise_floor};
+}
+
+/// By the torque hold, constant or linear between samples, that leaves the smaller error; where
+/// both leave about as much, that with fewer causes.
+Diagnosis with_nearest_hold(const Experiment& experiment, const std::vector<Hypothesis>& hypotheses,
+                            const SelectionOptions& options, const DiagnosisProgress& progress) {
+  constexpr double kAbout = 1.02;
+  std::vector<Diagnosis> tried;
+  for (const auto hold : {measured::TorqueHold::zero, measured::TorqueHold::first}) {
+    const double begun = 0.5 * static_cast<double>(tried.size());
+    tried.push_back(diagnose(with_hold(experiment, hold), hypotheses, options,
+                             [&](std::string_view what, double done) {
+                               return !progress || progress(what, begun + 0.5 * done);
+                             }));
+    Diagnosis& made = tried.back();
+    if (made.cancelled) return made;
+    made.notices.push_back(
+        fmt::format("the files do not say what the torque does between samples: taken to be {}",
+                    hold == measured::TorqueHold::zero ? "constant" : "linear"));
+    if (made.verdict == Verdict::adequate) return made;
+  }
+  const double ratio = tried[1].estimation.after / tried[0].estimation.after;
+  if (ratio > kAbout) return tried[0];
+  if (ratio < 1.0 / kAbout) return tried[1];
+  return tried[1].causes.size() < tried[0].causes.size() ? tried[1] : tried[0];
 }
 
 Verdict verdict_of(const Selection& selection, const SelectionOptions& options) {
@@ -178,20 +205,26 @@ std::string_view to_string(Verdict verdict) {
 
 Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& hypotheses,
                    const SelectionOptions& options, const DiagnosisProgress& progress) {
+  if (!holds_are_known(experiment)) {
+    return with_nearest_hold(experiment, hypotheses, options, progress);
+  }
   Problem problem(experiment);
   Selection selection = select(problem, hypotheses, options, progress);
   Diagnosis made;
   made.notices = experiment.notices;
   made.cancelled = selection.cancelled;
   if (made.cancelled) return made;
+  const int modes = problem.predictor().flexible_modes();
+  const Problem fine = problem.with_resolution(modes, kFineSubsteps);
   const auto& found = selection.chosen.fit.candidate.effects;
   if (std::ranges::find(found, Shows::in_time, &Hypothesis::shows) != found.end()) {
-    const Problem fine = problem.with_substeps(kFineSubsteps);
     selection.chosen = explain(fine, fit(fine, selection.chosen.fit.candidate));
   }
 
   const Candidate& chosen = selection.chosen.fit.candidate;
-  const auto estimates = estimates_of(selection.chosen);
+  const std::vector<double> errors = standard_errors(
+      problem, selection.chosen, fine.with_resolution(modes + kFurtherModes, 2 * kFineSubsteps));
+  const auto estimates = estimates_of(chosen, errors);
   for (std::size_t i = 0; i < chosen.effects.size(); ++i) {
     const Explanation without = chosen.effects.size() == 1
                                     ? selection.nothing
@@ -203,12 +236,15 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
   std::ranges::stable_sort(made.causes, std::ranges::greater{}, &Cause::share);
 
   made.verdict = verdict_of(selection, options);
-  made.estimation = gain_between(selection.nothing.estimation, selection.chosen.estimation);
-  if (selection.nothing.validation.count > 0.0) {
-    made.validation = gain_between(selection.nothing.validation, selection.chosen.validation);
+  const Explanation as_filed = explain(problem, evaluated(problem, problem.as_filed()));
+  made.estimation = gain_between(as_filed.estimation, selection.chosen.estimation);
+  if (as_filed.validation.count > 0.0) {
+    made.validation = gain_between(as_filed.validation, selection.chosen.validation);
   }
-  made.channels = channel_gains(problem, selection.nothing, selection.chosen);
+  made.channels = channel_gains(problem, as_filed, selection.chosen);
+  made.refitted = refitted_numbers(experiment.arm, chosen, errors);
   made.extended_arm = chosen.extend(experiment.arm);
+  made.formulations = check_formulations(made.extended_arm, scales_of(experiment).sensors);
   return made;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "diagnose/formulation_check.hpp"
 #include "diagnose/selection.hpp"
 
 #include <optional>
@@ -22,6 +23,16 @@ std::string_view to_string(Verdict verdict);
 
 struct ParameterEstimate {
   std::string name;
+  double value = 0.0;
+  double std_error = 0.0;
+  std::string unit;
+};
+
+/// An uncertain number of the arm file (arm/uncertainties.hpp), fitted beside the causes.
+struct RefittedNumber {
+  std::string key;           ///< "beam.youngs_modulus"
+  double file_value = 0.0;   ///< in `unit`
+  double uncertainty = 0.0;  ///< relative, as the file says
   double value = 0.0;
   double std_error = 0.0;
   std::string unit;
@@ -59,7 +70,9 @@ struct Diagnosis {
   Gain estimation;
   std::optional<Gain> validation;
   std::vector<ChannelGain> channels;
-  arm::Arm extended_arm;  ///< the experiment's with the causes
+  std::vector<RefittedNumber> refitted;
+  FormulationCheck formulations;  ///< of the extended arm
+  arm::Arm extended_arm;  ///< the experiment's with the causes, uncertain numbers as refitted
   std::vector<std::string> notices;
   bool cancelled = false;
 };

@@ -54,6 +54,19 @@ arm::Arm arm_in(const Experiment& experiment, const measured::Run& run) {
   return arm;
 }
 
+bool holds_are_known(const Experiment& experiment) {
+  return std::ranges::all_of(experiment.runs,
+                             [](const auto& run) { return run.run.torque_hold_is_known; });
+}
+
+Experiment with_hold(Experiment experiment, measured::TorqueHold hold) {
+  for (auto& [run, data] : experiment.runs) {
+    if (!run.torque_hold_is_known) run.torque_hold = hold;
+    run.torque_hold_is_known = true;
+  }
+  return experiment;
+}
+
 Experiment read_experiment(const fs::path& measurement_file) {
   const measured::Measurement measurement = measured::read_measurement(measurement_file);
   Experiment experiment;

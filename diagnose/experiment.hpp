@@ -21,6 +21,11 @@ struct Experiment {
 /// The arm of a run: with the run's payload in place of its own where it has one.
 arm::Arm arm_in(const Experiment& experiment, const measured::Run& run);
 
+/// Whether every `time` run says what its torque does between samples; and the experiment with
+/// those that do not taken for saying `hold`.
+bool holds_are_known(const Experiment& experiment);
+Experiment with_hold(Experiment experiment, measured::TorqueHold hold);
+
 /// Reads the measurement, its arm and the files of its runs.
 ///
 /// Channels that are dead are left out, with a notice. Where no run is for validation the

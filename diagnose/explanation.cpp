@@ -8,9 +8,11 @@ namespace flexarm::diagnose {
 Explanation explain(const Problem& problem, Fit fit) {
   Explanation made;
   const Observations& observations = problem.observations();
-  made.held_out = Eigen::VectorXd::Zero(observations.values.size());
+  made.held_out = Eigen::VectorXd::Zero(problem.residual_count());
   made.estimation =
       misfit(observations, problem.experiment(), fit.residuals, problem.estimation_runs());
+  const Eigen::Index displacements = problem.residual_count() - observations.values.size();
+  made.estimation.sum_of_squares += fit.residuals.tail(displacements).squaredNorm();
   if (const auto held_out = problem.residuals(fit.candidate, problem.validation_runs())) {
     made.held_out = *held_out;
     made.validation =

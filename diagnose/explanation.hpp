@@ -13,8 +13,8 @@ namespace flexarm::diagnose {
 struct Explanation {
   Fit fit;
   Eigen::VectorXd held_out;  ///< residuals of the validation runs, 0 elsewhere
-  Misfit estimation;
-  Misfit validation;  ///< count 0 without validation runs
+  Misfit estimation;         ///< with the squares of the displacements
+  Misfit validation;         ///< count 0 without validation runs
 };
 
 /// `problem` is the one that `fit` was made of.

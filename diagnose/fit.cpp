@@ -32,8 +32,10 @@ struct Residuals {
   Eigen::VectorXd last_places = {};
   Eigen::VectorXd last = {};
 
-  Index inputs() const { return static_cast<Index>(candidate.values.size()); }
-  Index values() const { return problem.observations().values.size(); }
+  Index inputs() const {
+    return static_cast<Index>(candidate.displacements.size() + candidate.values.size());
+  }
+  Index values() const { return problem.residual_count(); }
 
   Eigen::VectorXd evaluate(const Eigen::VectorXd& places) {
     candidate.put(places);

@@ -8,11 +8,11 @@ namespace flexarm::diagnose {
 
 /// A candidate refitted to the estimation runs by least squares of its simulation (output) error.
 struct Fit {
-  Candidate candidate;
-  Eigen::VectorXd residuals;    ///< of the estimation runs, in standard deviations
-  double sum_of_squares = 0.0;  ///< of these; infinite where nothing could be computed
+  Candidate candidate = {};
+  Eigen::VectorXd residuals = {};  ///< of the estimation runs: Problem::residuals
+  double sum_of_squares = 0.0;     ///< of these; infinite where nothing could be computed
   /// Residuals by places of the parameters, where the fit ended.
-  Eigen::MatrixXd jacobian;
+  Eigen::MatrixXd jacobian = {};
   int evaluations = 0;  ///< of the model
   bool converged = true;
 };

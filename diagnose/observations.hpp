@@ -20,12 +20,14 @@ struct ObservedChannel {
   Eigen::Index first = 0;
   Eigen::Index count = 0;
   double noise = 0.0;  ///< standard deviation over that of the signal; the noise floor
+  /// The simulation's own error, in the same measure: never to be taken for physics.
+  double numerical_error = 0.0;
 };
 
 /// All that an experiment measured, in one vector, run by run and channel by channel.
 struct Observations {
   Eigen::VectorXd values;
-  Eigen::VectorXd deviations;  ///< standard deviation of each, above 0
+  Eigen::VectorXd deviations;  ///< of each, noise and numerical error together; above 0
   std::vector<ObservedChannel> channels;
   std::vector<Eigen::Index> first_of_run;  ///< where each run begins, and at last the end
 };

@@ -143,30 +143,30 @@ Eigen::VectorXd Predictor::operator()(const arm::Arm& arm, const std::vector<boo
   return values;
 }
 
-int modes_needed(const Experiment& experiment, const Observations& observations) {
+ModeChoice modes_needed(const Experiment& experiment, const Observations& observations) {
   std::vector<bool> runs;
   for (const auto& run : experiment.runs) {
     runs.push_back(run.run.kind == measured::RunKind::time);
   }
-  if (std::ranges::count(runs, true) == 0) return kFewestModes;
+  ModeChoice choice{kFewestModes, std::vector<double>(observations.channels.size(), 0.0)};
+  if (std::ranges::count(runs, true) == 0) return choice;
   const Eigen::VectorXd most =
       Predictor(experiment, observations, kMostModes, 1)(experiment.arm, runs);
-  for (int modes = kFewestModes; modes < kMostModes; modes += 2) {
+  for (; choice.flexible_modes < kMostModes; choice.flexible_modes += 2) {
     const Eigen::VectorXd off =
-        Predictor(experiment, observations, modes, 1)(experiment.arm, runs) - most;
-    const bool enough =
-        std::ranges::all_of(observations.channels, [&](const ObservedChannel& channel) {
-          if (!runs[channel.run]) return true;
-          const auto n = static_cast<double>(channel.count);
-          const auto signal = most.segment(channel.first, channel.count);
-          const double size = std::sqrt((signal.array() - signal.mean()).square().sum() / n);
-          const double error =
-              std::sqrt(off.segment(channel.first, channel.count).squaredNorm() / n);
-          return error <= std::max(kModeError, 0.1 * channel.noise) * size;
-        });
-    if (enough) return modes;
+        Predictor(experiment, observations, choice.flexible_modes, 1)(experiment.arm, runs) - most;
+    bool is_enough = true;
+    for (std::size_t c = 0; c < observations.channels.size(); ++c) {
+      const ObservedChannel& channel = observations.channels[c];
+      if (!runs[channel.run]) continue;
+      const auto signal = most.segment(channel.first, channel.count).array();
+      choice.errors[c] = off.segment(channel.first, channel.count).norm() /
+                         (signal - signal.mean()).matrix().norm();
+      is_enough = is_enough && choice.errors[c] <= std::max(kModeError, 0.1 * channel.noise);
+    }
+    if (is_enough) return choice;
   }
-  return kMostModes;
+  return choice;
 }
 
 }  // namespace flexarm::diagnose

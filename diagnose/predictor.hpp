@@ -43,10 +43,16 @@ class Predictor {
   std::vector<Condition> conditions_;  // of `time` runs
 };
 
-/// The fewest flexible modes with which the simulated runs are within `kModeError` of a signal's
-/// deviation, or a tenth of its noise if that is more, of those with `kMostModes`: the error of
-/// leaving modes out, which is never to be taken for physics. `kMostModes` where none suffices.
-int modes_needed(const Experiment& experiment, const Observations& observations);
+/// Flexible modes that move in simulated runs, and the error of leaving the others out.
+struct ModeChoice {
+  int flexible_modes = 0;
+  /// Of each channel, root mean square over the deviation of the signal; 0 but in `time` runs.
+  std::vector<double> errors = {};
+};
+
+/// The fewest modes with which the simulated runs are within `kModeError` of a signal's deviation,
+/// or a tenth of its noise if that is more, of those with `kMostModes`; these where none suffice.
+ModeChoice modes_needed(const Experiment& experiment, const Observations& observations);
 inline constexpr double kModeError = 1e-4;
 inline constexpr int kFewestModes = 4;
 inline constexpr int kMostModes = 16;

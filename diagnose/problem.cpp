@@ -3,26 +3,52 @@
 #include "arm/input_error.hpp"
 #include "diagnose/noise_floor.hpp"
 
+#include <cmath>
 #include <utility>
 
 namespace flexarm::diagnose {
 
+namespace {
+
+/// With the simulation's own error beside the noise; the signal's deviation is that by which both
+/// are relative.
+void widen(Observations& observations, const std::vector<double>& errors) {
+  for (std::size_t c = 0; c < errors.size(); ++c) {
+    ObservedChannel& channel = observations.channels[c];
+    if (errors[c] == 0.0) continue;
+    channel.numerical_error = errors[c];
+    observations.deviations.segment(channel.first, channel.count) *=
+        std::hypot(channel.noise, errors[c]) / channel.noise;
+  }
+}
+
+Predictor predictor_for(const Experiment& experiment, Observations& observations,
+                        const ProblemOptions& options) {
+  ModeChoice modes{options.flexible_modes.value_or(0)};
+  if (!options.flexible_modes) modes = modes_needed(experiment, observations);
+  widen(observations, modes.errors);
+  return {experiment, observations, modes.flexible_modes, options.substeps};
+}
+
+}  // namespace
+
 Problem::Problem(const Experiment& experiment, const ProblemOptions& options)
+    : Problem(experiment, observe(experiment), options) {}
+
+Problem::Problem(const Experiment& experiment, Observations observations,
+                 const ProblemOptions& options)
     : experiment_(&experiment),
-      observations_(observe(experiment)),
-      predictor_(experiment, observations_,
-                 options.flexible_modes ? *options.flexible_modes
-                                        : modes_needed(experiment, observations_),
-                 options.substeps) {
+      observations_(std::move(observations)),
+      predictor_(predictor_for(experiment, observations_, options)) {
   for (const auto& run : experiment.runs) {
     estimation_runs_.push_back(run.run.purpose == measured::Purpose::estimation);
     validation_runs_.push_back(run.run.purpose == measured::Purpose::validation);
   }
 }
 
-Problem Problem::with_substeps(int substeps) const {
+Problem Problem::with_resolution(int flexible_modes, int substeps) const {
   Problem made = *this;
-  made.predictor_ = Predictor(*experiment_, observations_, predictor_.flexible_modes(), substeps);
+  made.predictor_ = Predictor(*experiment_, observations_, flexible_modes, substeps);
   return made;
 }
 
@@ -34,14 +60,26 @@ bool Problem::lower_noise(const Candidate& candidate) {
   for (ObservedChannel& channel : lowered.channels) {
     if (experiment_->runs[channel.run].run.kind != measured::RunKind::time) continue;
     const Eigen::VectorXd part = left->segment(channel.first, channel.count);
-    const double ratio = white_noise({part.data(), static_cast<std::size_t>(part.size())});
-    if (!(ratio < 1.0) || !(ratio > 0.0)) continue;
-    fell = fell || ratio < 1.0 - kLower;
-    channel.noise *= ratio;
-    lowered.deviations.segment(channel.first, channel.count) *= ratio;
+    // Residuals are in standard deviations of noise and numerical error together.
+    const double widened = std::hypot(channel.noise, channel.numerical_error);
+    const double seen = widened * white_noise({part.data(), static_cast<std::size_t>(part.size())});
+    if (!(seen < channel.noise) || !(seen > 0.0)) continue;
+    fell = fell || seen < (1.0 - kLower) * channel.noise;
+    channel.noise = seen;
+    lowered.deviations.segment(channel.first, channel.count) *=
+        std::hypot(seen, channel.numerical_error) / widened;
   }
   if (fell) observations_ = std::move(lowered);
   return fell;
+}
+
+Candidate Problem::as_filed() const {
+  return {.displacements = std::vector<double>(experiment_->arm.relative_uncertainties.size())};
+}
+
+Eigen::Index Problem::residual_count() const {
+  const auto uncertain = experiment_->arm.relative_uncertainties.size();
+  return observations_.values.size() + static_cast<Eigen::Index>(uncertain);
 }
 
 std::optional<Eigen::VectorXd> Problem::residuals(const Candidate& candidate,
@@ -56,6 +94,9 @@ std::optional<Eigen::VectorXd> Problem::residuals(const Candidate& candidate,
   for (const ObservedChannel& channel : observations_.channels) {
     if (!runs[channel.run]) made.segment(channel.first, channel.count).setZero();
   }
+  const auto displaced = static_cast<Eigen::Index>(candidate.displacements.size());
+  made.conservativeResizeLike(Eigen::VectorXd::Zero(residual_count()));
+  made.tail(displaced) = Eigen::VectorXd::Map(candidate.displacements.data(), displaced);
   if (!made.allFinite()) return std::nullopt;
   return made;
 }

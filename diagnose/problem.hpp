@@ -21,6 +21,9 @@ class Problem {
  public:
   /// `experiment` must outlive the object.
   explicit Problem(const Experiment& experiment, const ProblemOptions& options = {});
+  /// With other standard deviations than those that the data show (`observe`).
+  Problem(const Experiment& experiment, Observations observations,
+          const ProblemOptions& options = {});
 
   const Experiment& experiment() const { return *experiment_; }
   const Observations& observations() const { return observations_; }
@@ -28,8 +31,8 @@ class Problem {
   const std::vector<bool>& estimation_runs() const { return estimation_runs_; }
   const std::vector<bool>& validation_runs() const { return validation_runs_; }
 
-  /// The same with another number of inner steps.
-  Problem with_substeps(int substeps) const;
+  /// The same simulated with so many modes and inner steps a sample.
+  Problem with_resolution(int flexible_modes, int substeps) const;
 
   /// Takes the noise of `time` channels down to what is seen of it under the residuals of a
   /// candidate, for all runs, where that is less: a signal that fills the spectrum hides it, what
@@ -38,10 +41,16 @@ class Problem {
   bool lower_noise(const Candidate& candidate);
   static constexpr double kLower = 0.05;
 
-  /// (measured - predicted)/deviation of the runs' numbers; 0 for those of other runs. Empty where
-  /// the candidate's arm cannot be computed. Concurrent calls are safe.
+  /// The arm as its file describes it, without effects.
+  Candidate as_filed() const;
+
+  /// (measured - predicted)/deviation of the runs' numbers; 0 for those of other runs; behind them
+  /// the candidate's displacements, which are what the file says of the arm's uncertain numbers in
+  /// standard deviations. Empty where the candidate's arm cannot be computed. Concurrent calls are
+  /// safe.
   std::optional<Eigen::VectorXd> residuals(const Candidate& candidate,
                                            const std::vector<bool>& runs) const;
+  Eigen::Index residual_count() const;
 
  private:
   const Experiment* experiment_;

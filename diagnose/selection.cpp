@@ -70,10 +70,11 @@ class Search {
 
   Selection run() {
     Selection made;
-    made.nothing = fitted({});
+    made.nothing = fitted(problem_.as_filed());
     made.chosen = made.nothing;
     if (made.nothing.estimation.is_noise()) return made;
-    made.singles = all_with({}, "effects one by one", 0.0, kSinglesDone, kSinglesRefitted);
+    made.singles = all_with(made.nothing.fit.candidate, "effects one by one", 0.0, kSinglesDone,
+                            kSinglesRefitted);
     if (!made.singles.empty()) {
       see_noise(made);
       extend(made);
@@ -87,7 +88,7 @@ class Search {
   /// With the noise that the best by itself leaves to be seen, all once more from where they are.
   void see_noise(Selection& made) {
     if (!problem_.lower_noise(made.singles.front().fit.candidate)) return;
-    made.nothing = fitted({});
+    made.nothing = fitted(made.nothing.fit.candidate);
     made.chosen = made.nothing;
     in_parallel(made.singles.size(), "effects one by one", kSinglesDone, kSinglesDone,
                 [&](std::size_t i) { made.singles[i] = fitted(made.singles[i].fit.candidate); });

@@ -28,7 +28,7 @@ using DiagnosisProgress = std::function<bool(std::string_view, double)>;
 
 /// How the causes were found.
 struct Selection {
-  Explanation nothing;               ///< the arm as its file describes it
+  Explanation nothing;               ///< no cause; the arm's uncertain numbers refitted
   std::vector<Explanation> singles;  ///< hypotheses by themselves, the best first
   std::vector<Explanation> pairs;    ///< those tried, the best first
   Explanation chosen;                ///< `nothing`, or with the causes

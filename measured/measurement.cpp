@@ -131,6 +131,7 @@ class MeasurementReader {
         unknown("run.", leaf, node, kRunKeys);
       }
     }
+    run.torque_hold_is_known = run.kind != RunKind::time || table.contains("torque_hold");
     if (!run.columns.empty() && run.kind != RunKind::time) {
       fault(line_of(*table.get("columns")),
             "run.columns: only a time run has them; must be left out");

@@ -48,7 +48,8 @@ std::string format_measurement(const Measurement& measurement) {
     word("kind", to_string(run.kind));
     line("file", quoted("run.file", run.file));
     if (run.purpose) word("purpose", to_string(*run.purpose));
-    if (run.kind == RunKind::time || run.torque_hold != TorqueHold::zero) {
+    if ((run.kind == RunKind::time && run.torque_hold_is_known) ||
+        run.torque_hold != TorqueHold::zero) {
       word("torque_hold", to_string(run.torque_hold));
     }
     if (run.payload) {

@@ -29,6 +29,14 @@ Json cause_json(const diagnose::Cause& cause) {
   return json;
 }
 
+Json formulations_json(const diagnose::FormulationCheck& check) {
+  if (!check.refused.empty()) return {{"refused", check.refused}};
+  return {{"agree", check.agree},
+          {"largest_distance", check.largest_distance},
+          {"tolerance", check.tolerance},
+          {"quantity", check.quantity}};
+}
+
 }  // namespace
 
 Json diagnosis_json(const diagnose::Diagnosis& diagnosis, const std::string& extended_arm) {
@@ -42,10 +50,21 @@ Json diagnosis_json(const diagnose::Diagnosis& diagnosis, const std::string& ext
     json.update(gain_json(channel.error));
     channels.push_back(json);
   }
+  Json refitted = Json::array();
+  for (const auto& number : diagnosis.refitted) {
+    refitted.push_back({{"key", number.key},
+                        {"file_value", number.file_value},
+                        {"uncertainty", number.uncertainty},
+                        {"value", number.value},
+                        {"std_error", number.std_error},
+                        {"unit", number.unit}});
+  }
   return {{"verdict", to_string(diagnosis.verdict)},
           {"causes", causes},
           {"gain", gain},
           {"residual", {{"channels", channels}}},
+          {"refitted", refitted},
+          {"formulations", formulations_json(diagnosis.formulations)},
           {"extended_arm", extended_arm.empty() ? Json(nullptr) : Json(extended_arm)},
           {"notices", diagnosis.notices}};
 }

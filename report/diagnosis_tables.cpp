@@ -93,6 +93,32 @@ Table channel_gain_table(const diagnose::Diagnosis& diagnosis) {
   return table;
 }
 
+Table refitted_table(const diagnose::Diagnosis& diagnosis) {
+  Table table{"Uncertain numbers of the arm, refitted",
+              {{.name = "key"},
+               {.name = "file"},
+               {.name = "uncertain by", .unit = "%", .significant_digits = 3},
+               {.name = "value"},
+               {.name = "std error", .significant_digits = 2},
+               {.name = "unit"}}};
+  for (const auto& number : diagnosis.refitted) {
+    table.add_row({number.key, number.file_value, 100.0 * number.uncertainty, number.value,
+                   number.std_error, number.unit});
+  }
+  return table;
+}
+
+std::string formulations_text(const diagnose::FormulationCheck& check) {
+  if (!check.refused.empty()) {
+    return fmt::format("The extended arm was not compared in three formulations: {}.",
+                       check.refused);
+  }
+  return fmt::format(
+      "Finite elements, assumed modes and the exact transfer function {} on the linear part of the "
+      "extended arm: they are at most {:.1e} apart, in {}.",
+      check.agree ? "agree" : "do not agree", check.largest_distance, check.quantity);
+}
+
 Table gain_table(const diagnose::Diagnosis& diagnosis) {
   Table table{"Gain",
               {{.name = "runs"},

@@ -19,4 +19,10 @@ Table channel_gain_table(const diagnose::Diagnosis& diagnosis);
 /// The error on runs that were fitted and on those that were not.
 Table gain_table(const diagnose::Diagnosis& diagnosis);
 
+/// Uncertain numbers of the arm file that were refitted; no rows without any.
+Table refitted_table(const diagnose::Diagnosis& diagnosis);
+
+/// Whether the three formulations agree on the extended arm: one sentence.
+std::string formulations_text(const diagnose::FormulationCheck& check);
+
 }  // namespace flexarm::report

@@ -1,0 +1,24 @@
+#include "diagnose/formulation_check.hpp"
+
+#include "arm/input_error.hpp"
+#include "compare/comparison.hpp"
+
+namespace flexarm::diagnose {
+
+FormulationCheck check_formulations(const arm::Arm& arm, const std::vector<arm::Sensor>& sensors) {
+  compare::Options options;
+  options.poles = kCheckedRoots;
+  options.non_collocated_zeros = kCheckedRoots;
+  if (!sensors.empty()) options.sensors = sensors;
+  options.refinements = false;
+  options.response_points = 50;
+  try {
+    const compare::Verdict verdict = compare::compare(arm, options).verdict;
+    return {verdict.agree, verdict.worst.distance, verdict.worst.tolerance, verdict.worst.quantity,
+            ""};
+  } catch (const arm::InputError& error) {
+    return {.refused = error.what()};
+  }
+}
+
+}  // namespace flexarm::diagnose

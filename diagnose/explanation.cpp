@@ -12,7 +12,8 @@ Explanation explain(const Problem& problem, Fit fit) {
   made.estimation =
       misfit(observations, problem.experiment(), fit.residuals, problem.estimation_runs());
   const Eigen::Index displacements = problem.residual_count() - observations.values.size();
-  made.estimation.sum_of_squares += fit.residuals.tail(displacements).squaredNorm();
+  made.estimation.displacements = static_cast<double>(displacements);
+  made.estimation.displacement_squares = fit.residuals.tail(displacements).squaredNorm();
   if (const auto held_out = problem.residuals(fit.candidate, problem.validation_runs())) {
     made.held_out = *held_out;
     made.validation =

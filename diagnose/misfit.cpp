@@ -23,8 +23,11 @@ double independent(const Eigen::Ref<const Eigen::VectorXd>& residuals, measured:
 }  // namespace
 
 double Misfit::excess() const {
-  return std::max(0.0,
-                  sum_of_squares - (1.0 + kNoiseKnown) * count - kChance * std::sqrt(2.0 * count));
+  const auto beyond_chance = [](double squares, double expected, double n) {
+    return std::max(0.0, squares - expected - kChance * std::sqrt(2.0 * n));
+  };
+  return beyond_chance(sum_of_squares, (1.0 + kNoiseKnown) * count, count) +
+         beyond_chance(displacement_squares, displacements, displacements);
 }
 
 double Misfit::unexplained_error() const {
@@ -78,11 +81,12 @@ double information_gain(const Misfit& simpler, const Misfit& fuller, int more_pa
     return std::max(1.0, misfit.sum_of_squares / misfit.count);
   };
   const double n = std::max(2.0, fuller.independent);
+  const double displaced = simpler.displacement_squares - fuller.displacement_squares;
   const double squares = simpler.sum_of_squares - fuller.sum_of_squares;
   // With the scale at the noise this is the difference of sums of squares.
   const double likelihood = scale(fuller) > 1.0 ? n * std::log(scale(simpler) / scale(fuller))
                                                 : squares * n / fuller.count;
-  return likelihood - more_parameters * std::log(n);
+  return likelihood + displaced - more_parameters * std::log(n);
 }
 
 }  // namespace flexarm::diagnose

@@ -21,8 +21,13 @@ struct Misfit {
   double noise_floor = 0.0;
   double simulated = 0.0;  ///< part of the channels that are of `time` runs
 
+  /// Uncertain numbers of the arm, and the squares of what they are off, in standard deviations.
+  double displacements = 0.0;
+  double displacement_squares = 0.0;
+
   /// Squares beyond those of the noise, whose level is known to `kNoiseKnown` of its power, and
-  /// beyond what chance adds to so many of them, `kChance` standard deviations sqrt(2 n).
+  /// beyond what chance adds to so many of them, `kChance` standard deviations sqrt(2 n); of
+  /// displacements those beyond chance.
   double excess() const;
   bool is_noise() const { return excess() == 0.0; }
   /// What is not noise, relative to the signal.
@@ -48,9 +53,10 @@ double share_taken(const Misfit& before, const Misfit& after);
 /// information criterion: the scale of the residuals, never below the noise, is that of either
 /// model, and the count of independent numbers that of `fuller`,
 ///
-///     n ln(s_simpler^2/s_fuller^2) - k ln n
+///     n ln(s_simpler^2/s_fuller^2) + d_simpler^2 - d_fuller^2 - k ln n
 ///
-/// for k parameters more. Above 10 is decisive (Kass & Raftery 1995).
+/// d^2 being the squares of displacements, for k parameters more. Above 10 is decisive (Kass &
+/// Raftery 1995).
 double information_gain(const Misfit& simpler, const Misfit& fuller, int more_parameters);
 
 }  // namespace flexarm::diagnose

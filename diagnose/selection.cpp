@@ -168,8 +168,9 @@ class Search {
   bool deserves(const Explanation& fuller, const Explanation& simpler) const {
     if (lead(fuller, simpler) < options_.least_information_gain) return false;
     if (share_taken(simpler.estimation, fuller.estimation) < options_.least_share) return false;
-    return simpler.validation.count == 0.0 ||
-           share_taken(simpler.validation, fuller.validation) >= options_.least_validated_share;
+    // Validation runs that show nothing without the effect must not show anything with it.
+    if (simpler.validation.is_noise()) return fuller.validation.is_noise();
+    return share_taken(simpler.validation, fuller.validation) >= options_.least_validated_share;
   }
 
   /// The first of `found`, or one with fewer parameters that it has no right to stand before.

@@ -6,20 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <string>
-#include <vector>
-
 namespace flexarm::diagnose {
 namespace {
-
-std::vector<Hypothesis> named(const Experiment& experiment, const std::vector<std::string>& names) {
-  auto all = hypotheses(experiment);
-  std::erase_if(all, [&](const Hypothesis& hypothesis) {
-    return std::ranges::find(names, hypothesis.effect) == names.end();
-  });
-  return all;
-}
 
 TEST(Fit, OfTheTrueEffectLeavesTheNoiseAndFindsItsValue) {
   const Experiment experiment =

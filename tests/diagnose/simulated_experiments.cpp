@@ -1,5 +1,6 @@
 #include "tests/diagnose/simulated_experiments.hpp"
 
+#include "diagnose/hypotheses/hypotheses.hpp"
 #include "response/excitation.hpp"
 #include "response/formulation_maker.hpp"
 #include "response/random_numbers.hpp"
@@ -7,6 +8,7 @@
 #include "response/simulation.hpp"
 #include "response/time_model.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <utility>
@@ -88,6 +90,14 @@ Experiment simulated_experiment(const arm::Effects& hidden, const SimulatedRuns&
     experiment.runs.push_back(std::move(made));
   }
   return experiment;
+}
+
+std::vector<Hypothesis> named(const Experiment& experiment, const std::vector<std::string>& names) {
+  auto all = hypotheses(experiment);
+  std::erase_if(all, [&](const Hypothesis& hypothesis) {
+    return std::ranges::find(names, hypothesis.effect) == names.end();
+  });
+  return all;
 }
 
 }  // namespace flexarm::diagnose

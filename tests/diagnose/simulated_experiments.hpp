@@ -1,9 +1,10 @@
 #pragma once
 
-#include "diagnose/experiment.hpp"
+#include "diagnose/hypothesis.hpp"
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace flexarm::diagnose {
 
@@ -21,5 +22,8 @@ struct SimulatedRuns {
 /// payload for estimation, a multisine for validation. By finite elements, response::simulate and
 /// seeded noise: another formulation and integrator than those that are fitted.
 Experiment simulated_experiment(const arm::Effects& hidden, const SimulatedRuns& runs = {});
+
+/// The hypotheses of an experiment with one of these effects.
+std::vector<Hypothesis> named(const Experiment& experiment, const std::vector<std::string>& names);
 
 }  // namespace flexarm::diagnose

@@ -1,0 +1,69 @@
+#include "diagnose/parameter_errors.hpp"
+
+#include "tests/diagnose/simulated_experiments.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+namespace flexarm::diagnose {
+namespace {
+
+TEST(StandardErrors, AreTheSpreadOfEstimatesOverSeeds) {
+  constexpr int kSeeds = 24;
+  // Mean of so many squares of normal numbers is within 0.35 to 2.0 in 999 of 1000; the larger of
+  // two estimates of a variance is above either.
+  constexpr double kLeast = 0.25;
+  constexpr double kMost = 2.0;
+  constexpr double kTruth_kg = 0.004;
+  double squares = 0.0;
+  for (int seed = 1; seed <= kSeeds; ++seed) {
+    const Experiment experiment =
+        simulated_experiment({{"payload_mass", {{{"mass", kTruth_kg}}, ""}}},
+                             {.duration_s = 1.0, .seed = static_cast<std::uint64_t>(seed)});
+    const Problem problem(experiment);
+    const auto hypothesis = named(experiment, {"payload_mass"}).front();
+    const Explanation found =
+        explain(problem, fit(problem, problem.as_filed().with(hypothesis, {kTruth_kg})));
+    const double error = standard_errors(problem, found, problem)[0];
+    squares += std::pow((found.fit.candidate.values[0] - kTruth_kg) / error, 2);
+  }
+  EXPECT_GT(squares / kSeeds, kLeast);
+  EXPECT_LT(squares / kSeeds, kMost);
+}
+
+TEST(StandardErrors, HoldWhatACoarseSimulationIsOff) {
+  const Experiment experiment =
+      simulated_experiment({{"coulomb_friction", {{{"torque", 0.012}}, ""}}},
+                           {.duration_s = 2.0, .relative_noise = 1e-5});
+  const Problem coarse(experiment, {.substeps = 1});
+  const auto hypothesis = named(experiment, {"coulomb_friction"}).front();
+  const Explanation found =
+      explain(coarse, fit(coarse, coarse.as_filed().with(hypothesis, {0.012})));
+  const double ignored = standard_errors(coarse, found, coarse)[0];
+  const double carried = standard_errors(
+      coarse, found, coarse.with_resolution(coarse.predictor().flexible_modes(), 40))[0];
+  const double off = std::abs(found.fit.candidate.values[0] - 0.012);
+  EXPECT_GT(carried, ignored);
+  EXPECT_LT(off, 3.0 * carried) << "of " << ignored << " and " << carried;
+}
+
+TEST(StandardErrors, GrowWhereResidualsGoTogether) {
+  // A bias that is not fitted leaves residuals of one sign over long stretches.
+  const Experiment experiment =
+      simulated_experiment({{"torque_bias", {{{"torque", 0.0005}}, ""}}}, {.duration_s = 2.0});
+  const Problem problem(experiment);
+  const auto hypothesis = named(experiment, {"payload_mass"}).front();
+  const Explanation found =
+      explain(problem, fit(problem, problem.as_filed().with(hypothesis, {0.001})));
+  const double of_least_squares =
+      1.0 / found.fit.jacobian.norm() *
+      std::abs(hypothesis.parameters[0].value(found.fit.candidate.places()(0) + 0.5e-6) -
+               hypothesis.parameters[0].value(found.fit.candidate.places()(0) - 0.5e-6)) /
+      1e-6;
+  EXPECT_GT(standard_errors(problem, found, problem)[0], 3.0 * of_least_squares);
+}
+
+}  // namespace
+}  // namespace flexarm::diagnose

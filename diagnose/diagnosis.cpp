@@ -153,6 +153,24 @@ Gain gain_between(const Misfit& before, const Misfit& after) {
   return {before.relative_error, after.relative_error, before.noise_floor};
 }
 
+/// "the torque acts up to 5 % of a sampling period off its time, most in run multisine: ..."
+std::string timing_notice(const Experiment& experiment, const TorqueTiming& timing) {
+  double largest = 0.0;
+  std::size_t run = 0;
+  for (std::size_t r = 0; r < timing.late.size(); ++r) {
+    if (timing.late[r].size() == 0) continue;
+    const double late = timing.late[r].cwiseAbs().maxCoeff();
+    if (late > largest) {
+      largest = late;
+      run = r;
+    }
+  }
+  return fmt::format(
+      "the torque acts up to {:.2g} % of a sampling period before or after its samples, most so in "
+      "run {}: this explains {:.0f} % of what was left beyond noise, and is corrected",
+      100.0 * largest, experiment.runs[run].run.id, 100.0 * timing.share);
+}
+
 /// By the torque hold, constant or linear between samples, that leaves the smaller error; where
 /// both leave about as much, that with fewer causes.
 Diagnosis with_nearest_hold(const Experiment& experiment, const std::vector<Hypothesis>& hypotheses,
@@ -235,6 +253,7 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
   }
   std::ranges::stable_sort(made.causes, std::ranges::greater{}, &Cause::share);
 
+  if (selection.timing) made.notices.push_back(timing_notice(experiment, *selection.timing));
   made.verdict = verdict_of(selection, options);
   const Explanation as_filed = explain(problem, evaluated(problem, problem.as_filed()));
   made.estimation = gain_between(as_filed.estimation, selection.chosen.estimation);

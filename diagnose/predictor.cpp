@@ -79,7 +79,10 @@ void predict(const arm::Arm& arm, const measured::FrequencyRecord& record,
 
 Predictor::Predictor(const Experiment& experiment, const Observations& observations,
                      int flexible_modes, int substeps)
-    : experiment_(&experiment), flexible_modes_(flexible_modes), observations_(observations) {
+    : experiment_(&experiment),
+      flexible_modes_(flexible_modes),
+      substeps_(substeps),
+      observations_(observations) {
   for (std::size_t r = 0; r < experiment.runs.size(); ++r) {
     const auto& [run, data] = experiment.runs[r];
     const auto* record = std::get_if<measured::TimeRecord>(&data);

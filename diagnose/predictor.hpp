@@ -27,6 +27,7 @@ class Predictor {
   Eigen::VectorXd operator()(const arm::Arm& arm, const std::vector<bool>& runs) const;
 
   int flexible_modes() const { return flexible_modes_; }
+  int substeps() const { return substeps_; }
 
  private:
   /// Runs that one simulation serves.
@@ -39,6 +40,7 @@ class Predictor {
 
   const Experiment* experiment_;
   int flexible_modes_;
+  int substeps_;
   Observations observations_;
   std::vector<Condition> conditions_;  // of `time` runs
 };

@@ -52,6 +52,13 @@ Problem Problem::with_resolution(int flexible_modes, int substeps) const {
   return made;
 }
 
+void Problem::replace_torques(Experiment experiment) {
+  own_experiment_ = std::make_shared<const Experiment>(std::move(experiment));
+  experiment_ = own_experiment_.get();
+  predictor_ =
+      Predictor(*experiment_, observations_, predictor_.flexible_modes(), predictor_.substeps());
+}
+
 bool Problem::lower_noise(const Candidate& candidate) {
   const auto left = residuals(candidate, std::vector<bool>(experiment_->runs.size(), true));
   if (!left) return false;

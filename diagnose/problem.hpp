@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -34,6 +35,9 @@ class Problem {
   /// The same simulated with so many modes and inner steps a sample.
   Problem with_resolution(int flexible_modes, int substeps) const;
 
+  /// The same with what `experiment`, which the object keeps, has for torques.
+  void replace_torques(Experiment experiment);
+
   /// Takes the noise of `time` channels down to what is seen of it under the residuals of a
   /// candidate, for all runs, where that is less: a signal that fills the spectrum hides it, what
   /// is left of one does not. Returns whether the noise of any fell by more than `kLower` of it;
@@ -54,6 +58,7 @@ class Problem {
 
  private:
   const Experiment* experiment_;
+  std::shared_ptr<const Experiment> own_experiment_;  // where torques were replaced
   Observations observations_;
   std::vector<bool> estimation_runs_;
   std::vector<bool> validation_runs_;

@@ -72,7 +72,9 @@ class Search {
     Selection made;
     made.nothing = fitted(problem_.as_filed());
     made.chosen = made.nothing;
-    if (made.nothing.estimation.is_noise()) return made;
+    see_noise(made);
+    correct_timing(made);
+    if (is_enough(made)) return made;
     made.singles = all_with(made.nothing.fit.candidate, "effects one by one", 0.0, kSinglesDone,
                             kSinglesRefitted);
     if (!made.singles.empty()) {
@@ -85,14 +87,45 @@ class Search {
   }
 
  private:
-  /// With the noise that the best by itself leaves to be seen, all once more from where they are.
+  /// The noise that is seen under what the best so far leaves.
   void see_noise(Selection& made) {
-    if (!problem_.lower_noise(made.singles.front().fit.candidate)) return;
-    made.nothing = fitted(made.nothing.fit.candidate);
-    made.chosen = made.nothing;
-    in_parallel(made.singles.size(), "effects one by one", kSinglesDone, kSinglesDone,
-                [&](std::size_t i) { made.singles[i] = fitted(made.singles[i].fit.candidate); });
-    sort_by_fit(made.singles);
+    const Explanation& best = made.singles.empty() ? made.nothing : made.singles.front();
+    if (problem_.lower_noise(best.fit.candidate)) refit(made);
+  }
+
+  /// All that was fitted to all data once more, from where it is, with the problem as it is now.
+  void refit(Selection& made) {
+    const auto again = [this](Explanation& explanation) {
+      explanation = fitted(explanation.fit.candidate);
+    };
+    again(made.nothing);
+    again(made.chosen);
+    for (auto* explanations : {&made.singles, &made.pairs}) {
+      compare::for_each_index(explanations->size(), 0,
+                              [&](std::size_t i) { again((*explanations)[i]); });
+      sort_by_fit(*explanations);
+    }
+  }
+
+  bool is_enough(const Selection& made) const {
+    return is_explained(made.chosen.estimation, made.nothing.estimation, options_);
+  }
+
+  /// Where a little is left of which the timing of the torque explains most, and no delay: the
+  /// torques as that timing has them, and what has been fitted once more.
+  void correct_timing(Selection& made) {
+    if (made.timing || made.chosen.estimation.is_noise() ||
+        made.chosen.estimation.unexplained_error() > options_.largest_timing_error) {
+      return;
+    }
+    TorqueTiming timing = torque_timing(problem_, made.chosen.fit.candidate);
+    if (timing.share < options_.least_timing_share || timing.share_of_delay > 0.5 * timing.share) {
+      return;
+    }
+    problem_.replace_torques(retimed(problem_.experiment(), timing));
+    made.timing = std::move(timing);
+    problem_.lower_noise(made.chosen.fit.candidate);
+    refit(made);
   }
 
   Explanation fitted(const Candidate& start) const {
@@ -188,10 +221,8 @@ class Search {
   void extend(Selection& made) {
     const Explanation single = simplest(made.singles);
     if (deserves(single, made.nothing)) made.chosen = single;
-    if (is_explained(made.chosen.estimation, made.nothing.estimation, options_) ||
-        options_.most_causes < 2) {
-      return;
-    }
+    correct_timing(made);
+    if (is_enough(made) || options_.most_causes < 2) return;
     // Pairs of the best: the better of two causes need not be the best by itself.
     const std::size_t bases = std::min(kPairBases, made.singles.size());
     for (std::size_t b = 0; b < bases && !cancelled_; ++b) {
@@ -210,9 +241,9 @@ class Search {
     if (!deserves(pair, made.chosen)) return;
     if (!each_is_needed(pair)) return;
     made.chosen = pair;
+    correct_timing(made);
     while (static_cast<int>(made.chosen.fit.candidate.effects.size()) < options_.most_causes &&
-           !is_explained(made.chosen.estimation, made.nothing.estimation, options_) &&
-           !cancelled_) {
+           !is_enough(made) && !cancelled_) {
       const auto further =
           all_with(made.chosen.fit.candidate, "further effects", 0.8, 0.9, kPairsRefitted);
       if (further.empty()) break;

@@ -1,8 +1,10 @@
 #pragma once
 
 #include "diagnose/explanation.hpp"
+#include "diagnose/torque_timing.hpp"
 
 #include <functional>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -17,10 +19,14 @@ struct SelectionOptions {
   double least_validated_share = 0.25;
   double least_information_gain = 10.0;
   /// What is beyond noise is explained well enough where it is at most this, relative to the signal
-  /// of simulated runs (the clock of a recorder, the step of another simulation), or this part of
-  /// what was there without any cause.
-  double negligible_error = 0.015;
+  /// of simulated runs (the step of another simulation), or this part of what was there without any
+  /// cause.
+  double negligible_error = 0.004;
   double negligible_share = 0.03;
+  /// The timing of the torque (torque_timing.hpp) is looked into where this is left, and taken for
+  /// what changes along the runs where it accounts for this part of it, one delay for less.
+  double largest_timing_error = 0.03;
+  double least_timing_share = 0.5;
 };
 
 /// Called with what is done and the fraction done; false cancels.
@@ -28,11 +34,12 @@ using DiagnosisProgress = std::function<bool(std::string_view, double)>;
 
 /// How the causes were found.
 struct Selection {
-  Explanation nothing;               ///< no cause; the arm's uncertain numbers refitted
-  std::vector<Explanation> singles;  ///< hypotheses by themselves, the best first
-  std::vector<Explanation> pairs;    ///< those tried, the best first
-  Explanation chosen;                ///< `nothing`, or with the causes
-  std::vector<Explanation> rivals;   ///< the chosen one with a cause exchanged, the best first
+  Explanation nothing;                 ///< no cause; the arm's uncertain numbers refitted
+  std::vector<Explanation> singles;    ///< hypotheses by themselves, the best first
+  std::vector<Explanation> pairs;      ///< those tried, the best first
+  Explanation chosen;                  ///< `nothing`, or with the causes
+  std::vector<Explanation> rivals;     ///< the chosen one with a cause exchanged, the best first
+  std::optional<TorqueTiming> timing;  ///< by which torques were corrected
   bool cancelled = false;
 };
 
@@ -42,7 +49,8 @@ bool is_explained(const Misfit& left, const Misfit& nothing, const SelectionOpti
 /// Looks for the causes of what `problem` shows beyond noise: each hypothesis by itself, scanned
 /// over its whole range and refitted; pairs of the best with any other; further ones while each
 /// takes its share; then without each of the causes, and with each exchanged for another. Lowers
-/// the problem's noise to what the best by itself leaves to be seen (Problem::lower_noise).
+/// the problem's noise to what the best by itself leaves to be seen (Problem::lower_noise), and
+/// corrects its torques where their timing explains what is left.
 Selection select(Problem& problem, const std::vector<Hypothesis>& hypotheses,
                  const SelectionOptions& options, const DiagnosisProgress& progress = {});
 

@@ -37,10 +37,10 @@ struct Run {
   std::string file;                     ///< relative to the measurement file
   std::optional<Purpose> purpose = {};  ///< empty: the program chooses
   TorqueHold torque_hold = TorqueHold::zero;
-  bool torque_hold_is_known = true;          ///< false: the file of a time run does not say
   std::optional<arm::Payload> payload = {};  ///< in place of the arm's own
   InitialState initial = InitialState::rest;
-  ColumnMappings columns = {};  ///< of a time run whose file is a foreign log; otherwise empty
+  ColumnMappings columns = {};       ///< of a time run whose file is a foreign log; otherwise empty
+  bool torque_hold_is_known = true;  ///< false: the file of a time run does not say
 
   bool operator==(const Run&) const = default;
 };

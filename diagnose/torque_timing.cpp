@@ -1,0 +1,118 @@
+#include "diagnose/torque_timing.hpp"
+
+#include "compare/for_each_index.hpp"
+#include "diagnose/misfit.hpp"
+
+#include <Eigen/Cholesky>
+
+#include <algorithm>
+#include <variant>
+
+namespace flexarm::diagnose {
+
+namespace {
+
+using Eigen::Index;
+
+/// Lateness by which derivatives are taken.
+constexpr double kProbe = 0.05;
+
+/// Changes the torque from `begin` to before `end` as if it were late.
+void retime(std::vector<double>& torque_N_m, std::size_t begin, std::size_t end, double late) {
+  double before = begin > 0 ? torque_N_m[begin - 1] : 0.0;
+  for (std::size_t k = begin; k < end; ++k) {
+    const double now = torque_N_m[k];
+    torque_N_m[k] += late * (before - now);
+    before = now;
+  }
+}
+
+/// Begin of a stretch, and of the one behind the last.
+std::size_t begin_of(int stretch, std::size_t samples) {
+  return static_cast<std::size_t>(stretch) * samples / kTimedStretches;
+}
+
+/// Residuals of a run by the lateness of each stretch, a column each.
+Eigen::MatrixXd derivatives(const Problem& problem, const arm::Arm& arm, std::size_t run) {
+  const Experiment& experiment = problem.experiment();
+  const Observations& all = problem.observations();
+  const Index first = all.first_of_run[run];
+  const Index count = all.first_of_run[run + 1] - first;
+  // As many runs as stretches, and at last the run itself.
+  Experiment probes;
+  probes.arm = experiment.arm;
+  Observations observations;
+  observations.values = all.values.segment(first, count).replicate(kTimedStretches + 1, 1);
+  observations.deviations = all.deviations.segment(first, count).replicate(kTimedStretches + 1, 1);
+  for (int s = 0; s <= kTimedStretches; ++s) {
+    observations.first_of_run.push_back(s * count);
+    probes.runs.push_back(experiment.runs[run]);
+    if (s == kTimedStretches) continue;
+    auto& torque_N_m = std::get<measured::TimeRecord>(probes.runs.back().data).torque_N_m;
+    retime(torque_N_m, begin_of(s, torque_N_m.size()), begin_of(s + 1, torque_N_m.size()), kProbe);
+  }
+  observations.first_of_run.push_back((kTimedStretches + 1) * count);
+  const Predictor& own = problem.predictor();
+  const Predictor predictor(probes, observations, own.flexible_modes(), own.substeps());
+  const Eigen::VectorXd made = predictor(arm, std::vector<bool>(probes.runs.size(), true));
+  Eigen::MatrixXd columns = made.head(kTimedStretches * count).reshaped(count, kTimedStretches);
+  columns.colwise() -= made.tail(count);
+  return all.deviations.segment(first, count).cwiseInverse().asDiagonal() * columns / kProbe;
+}
+
+}  // namespace
+
+TorqueTiming torque_timing(const Problem& problem, const Candidate& candidate) {
+  const Experiment& experiment = problem.experiment();
+  const Observations& observations = problem.observations();
+  TorqueTiming timing;
+  timing.late.resize(experiment.runs.size());
+  const std::vector<bool> every(experiment.runs.size(), true);
+  const auto residuals = problem.residuals(candidate, every);
+  if (!residuals) return timing;
+  const arm::Arm arm = candidate.extend(experiment.arm);
+  Eigen::VectorXd left = *residuals;
+  Eigen::VectorXd by_delay = Eigen::VectorXd::Zero(residuals->size());
+  compare::for_each_index(experiment.runs.size(), 0, [&](std::size_t r) {
+    if (experiment.runs[r].run.kind != measured::RunKind::time) return;
+    const Eigen::MatrixXd columns = derivatives(problem, arm, r);
+    const Index first = observations.first_of_run[r];
+    const auto of_run = residuals->segment(first, columns.rows());
+    Eigen::MatrixXd information = columns.transpose() * columns;
+    information.diagonal().array() += 1.0 / (kTimingKnown * kTimingKnown);
+    timing.late[r] = information.ldlt().solve(columns.transpose() * of_run);
+    left.segment(first, columns.rows()) -= columns * timing.late[r];
+    by_delay.segment(first, columns.rows()) = columns.rowwise().sum();
+  });
+  const auto left_beyond_noise = [&](const Eigen::VectorXd& of) {
+    return misfit(observations, experiment, of, problem.estimation_runs());
+  };
+  const Misfit before = left_beyond_noise(*residuals);
+  timing.share = share_taken(before, left_beyond_noise(left));
+  if (by_delay.squaredNorm() > 0.0) {
+    const double delay = by_delay.dot(*residuals) / by_delay.squaredNorm();
+    timing.share_of_delay = share_taken(before, left_beyond_noise(*residuals - delay * by_delay));
+  }
+  return timing;
+}
+
+Experiment retimed(Experiment experiment, const TorqueTiming& timing) {
+  for (std::size_t r = 0; r < experiment.runs.size(); ++r) {
+    auto* record = std::get_if<measured::TimeRecord>(&experiment.runs[r].data);
+    if (record == nullptr || timing.late[r].size() == 0) continue;
+    std::vector<double> torque_N_m = record->torque_N_m;
+    for (int s = 0; s < kTimedStretches; ++s) {
+      std::vector<double> shifted = record->torque_N_m;
+      const std::size_t begin = begin_of(s, shifted.size());
+      const std::size_t end = begin_of(s + 1, shifted.size());
+      retime(shifted, begin, end, timing.late[r](s));
+      std::copy(shifted.begin() + static_cast<std::ptrdiff_t>(begin),
+                shifted.begin() + static_cast<std::ptrdiff_t>(end),
+                torque_N_m.begin() + static_cast<std::ptrdiff_t>(begin));
+    }
+    record->torque_N_m = std::move(torque_N_m);
+  }
+  return experiment;
+}
+
+}  // namespace flexarm::diagnose

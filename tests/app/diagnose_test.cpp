@@ -1,0 +1,114 @@
+#include "tests/app/flexarm_fixture.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <csignal>
+#include <string>
+#include <vector>
+
+namespace flexarm::testing_app {
+namespace {
+
+using Json = nlohmann::json;
+using testing::Contains;
+using testing::HasSubstr;
+using testing::IsSupersetOf;
+using testing::Not;
+
+const std::string kDiagnosedArm =
+    "[beam]\nlength = 0.96\nthickness = 0.0032\nflexural_rigidity = 3.7\n"
+    "linear_density = 0.165\n[hub]\ninertia = 0.0006\nviscous_friction = 0.002\n"
+    "[damping]\nkelvin_voigt = 1e-4\n";
+
+class Diagnose : public Flexarm {
+ protected:
+  /// Two runs in sim/, of an arm with `effect` (TOML), beside an arm file without it.
+  void simulate(const std::string& effect) const {
+    write("true.toml", kDiagnosedArm + effect);
+    const Ended ended = run({"simulate", "true.toml", "--duration", "3", "--period", "0.002",
+                             "--sensor", "hub_angle,tip_acceleration", "--noise", "0.005",
+                             "--excitation", "random:rms=0.05,to=60,id=random", "--excitation",
+                             "multisine:rms=0.05,from=0.5,to=60,id=multisine", "--out", "sim"});
+    ASSERT_EQ(ended.status, 0) << ended.errors;
+    write("sim/arm.toml", kDiagnosedArm);
+  }
+};
+
+TEST_F(Diagnose, NamesTheCauseAndWritesAnArmThatOtherCommandsAccept) {
+  simulate("[effects.payload_mass]\nmass = 0.02\n");
+  const Ended ended = run({"diagnose", "sim/measurement.toml", "--effects",
+                           "payload_mass,time_delay,hub_inertia", "--out", "out"});
+  ASSERT_EQ(ended.status, 0) << ended.errors;
+  EXPECT_EQ(ended.errors, "");
+  EXPECT_THAT(ended.output, HasSubstr("Explained by payload_mass"));
+  EXPECT_THAT(ended.output, HasSubstr("is kept for it, the others are fitted"));
+  EXPECT_THAT(names_in("out"),
+              IsSupersetOf({"causes.csv", "channels.csv", "diagnosis.json", "extended.toml"}));
+  const Json json = Json::parse(text_of("out/diagnosis.json"));
+  EXPECT_EQ(json["schema"], "flexarm.diagnosis/1");
+  EXPECT_EQ(json["verdict"], "explained");
+  ASSERT_EQ(json["causes"].size(), 1U);
+  const double mass = json["causes"][0]["parameters"]["mass"]["value"];
+  EXPECT_NEAR(mass, 0.02, 0.02 * 1e-2);
+  EXPECT_LT(json["gain"]["validation"]["after"], json["gain"]["validation"]["before"]);
+  EXPECT_EQ(json["formulations"]["agree"], true);
+  EXPECT_EQ(json["extended_arm"], "extended.toml");
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"modes", "out/extended.toml"},
+        {"compare", "out/extended.toml", "--quick"},
+        {"diagnose", "sim/measurement.toml", "--effects", "time_delay"}}) {
+    EXPECT_EQ(run(command).status, 0) << command[0];
+  }
+}
+
+TEST_F(Diagnose, FindsNothingLeftWithTheExtendedArm) {
+  simulate("[effects.payload_mass]\nmass = 0.02\n");
+  ASSERT_EQ(
+      run({"diagnose", "sim/measurement.toml", "--effects", "payload_mass", "--json", "first.json"})
+          .status,
+      0);
+  EXPECT_EQ(Json::parse(text_of("first.json"))["extended_arm"], "first.extended.toml");
+  write("sim/arm.toml", text_of("first.extended.toml"));
+  const Ended again = run({"diagnose", "sim/measurement.toml"});
+  EXPECT_EQ(again.status, 0) << again.errors;
+  EXPECT_THAT(again.output, HasSubstr("Adequate: "));
+}
+
+TEST_F(Diagnose, WhatCannotBeUsedIsOneLineAndNothingIsWritten) {
+  simulate("");
+  const std::string file = "sim/measurement.toml";
+  const Ended misspelt = run({"diagnose", file, "--effects", "payload_mas", "--out", "out"});
+  EXPECT_EQ(misspelt.status, 2);
+  EXPECT_THAT(misspelt.errors,
+              HasSubstr("--effects payload_mas: unknown effect (did you mean payload_mass?)"));
+  EXPECT_EQ(run({"diagnose", file, "--max-causes", "0"}).status, 2);
+  EXPECT_EQ(run({"diagnose", file, "--force"}).status, 2);
+  EXPECT_EQ(run({"diagnose", "no.toml"}).status, 2);
+  // What was read is not replaced by what is written.
+  const std::string before = text_of(file);
+  EXPECT_EQ(run({"diagnose", file, "--json", file}).status, 2);
+  EXPECT_EQ(text_of(file), before);
+  write("sim/extended.toml", "mine");
+  EXPECT_THAT(names_in(), Not(Contains("out")));
+
+  write("sim/random.csv", "time [s],torque [N m],hub_angle [rad]\n0,0,0\n0.01,0,0.1\n0.02,0,0.2\n");
+  const Ended silent = run({"diagnose", file});
+  EXPECT_EQ(silent.status, 2);
+  EXPECT_THAT(silent.errors, HasSubstr("random.csv: run random: "));
+  EXPECT_THAT(silent.errors, HasSubstr("torque"));
+  EXPECT_EQ(silent.output, "");
+}
+
+TEST_F(Diagnose, InterruptedItWritesNothing) {
+  simulate("[effects.coulomb_friction]\ntorque = 0.01\n[effects.hub_spring]\nstiffness = 0.5\n");
+  const Ended ended = interrupt_flexarm({"diagnose", (folder_ / "sim/measurement.toml").string(),
+                                         "--out", (folder_ / "out").string()},
+                                        SIGINT);
+  EXPECT_EQ(ended.status, 128 + SIGINT);
+  EXPECT_THAT(names_in(), Not(Contains("out")));
+}
+
+}  // namespace
+}  // namespace flexarm::testing_app

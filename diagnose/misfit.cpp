@@ -20,14 +20,19 @@ double independent(const Eigen::Ref<const Eigen::VectorXd>& residuals, measured:
   return std::max(1.0, n * (1.0 - r) / (1.0 + r));
 }
 
+/// Of n squares.
+double beyond_chance(double squares, double expected, double n) {
+  return std::max(0.0, squares - expected - kChance * std::sqrt(2.0 * n));
+}
+
 }  // namespace
 
 double Misfit::excess() const {
-  const auto beyond_chance = [](double squares, double expected, double n) {
-    return std::max(0.0, squares - expected - kChance * std::sqrt(2.0 * n));
-  };
-  return beyond_chance(sum_of_squares, (1.0 + kNoiseKnown) * count, count) +
-         beyond_chance(displacement_squares, displacements, displacements);
+  return beyond_chance(sum_of_squares, (1.0 + kNoiseKnown) * count, count) + displacement_excess();
+}
+
+double Misfit::displacement_excess() const {
+  return beyond_chance(displacement_squares, displacements, displacements);
 }
 
 double Misfit::unexplained_error() const {

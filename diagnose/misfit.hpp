@@ -29,6 +29,7 @@ struct Misfit {
   /// beyond what chance adds to so many of them, `kChance` standard deviations sqrt(2 n); of
   /// displacements those beyond chance.
   double excess() const;
+  double displacement_excess() const;
   bool is_noise() const { return excess() == 0.0; }
   /// What is not noise, relative to the signal.
   double unexplained_error() const;

@@ -118,12 +118,16 @@ class Search {
         made.chosen.estimation.unexplained_error() > options_.largest_timing_error) {
       return;
     }
-    TorqueTiming timing = torque_timing(problem_, made.chosen.fit.candidate);
+    TorqueTiming timing = torque_timing(problem_, made.chosen.fit);
     if (timing.share < options_.least_timing_share || timing.share_of_delay > 0.5 * timing.share) {
       return;
     }
     problem_.replace_torques(retimed(problem_.experiment(), timing));
     made.timing = std::move(timing);
+    // Once more from there: what the first step was too long for, and the runs for validation.
+    made.chosen = fitted(made.chosen.fit.candidate);
+    problem_.replace_torques(
+        retimed(problem_.experiment(), torque_timing(problem_, made.chosen.fit)));
     problem_.lower_noise(made.chosen.fit.candidate);
     refit(made);
   }
@@ -321,6 +325,7 @@ class Search {
 
 bool is_explained(const Misfit& left, const Misfit& nothing, const SelectionOptions& options) {
   if (left.is_noise()) return true;
+  if (left.displacement_excess() > 0.0) return false;
   const double before = nothing.unexplained_error();
   return left.unexplained_error() <=
          std::max(left.simulated * options.negligible_error, options.negligible_share * before);

@@ -62,36 +62,63 @@ Eigen::MatrixXd derivatives(const Problem& problem, const arm::Arm& arm, std::si
 
 }  // namespace
 
-TorqueTiming torque_timing(const Problem& problem, const Candidate& candidate) {
+TorqueTiming torque_timing(const Problem& problem, const Fit& fit) {
   const Experiment& experiment = problem.experiment();
   const Observations& observations = problem.observations();
   TorqueTiming timing;
   timing.late.resize(experiment.runs.size());
-  const std::vector<bool> every(experiment.runs.size(), true);
-  const auto residuals = problem.residuals(candidate, every);
+  const auto residuals =
+      problem.residuals(fit.candidate, std::vector<bool>(experiment.runs.size(), true));
   if (!residuals) return timing;
-  const arm::Arm arm = candidate.extend(experiment.arm);
-  Eigen::VectorXd left = *residuals;
-  Eigen::VectorXd by_delay = Eigen::VectorXd::Zero(residuals->size());
+  const arm::Arm arm = fit.candidate.extend(experiment.arm);
+  std::vector<Eigen::MatrixXd> columns(experiment.runs.size());
+  std::vector<Eigen::LDLT<Eigen::MatrixXd>> information(experiment.runs.size());
   compare::for_each_index(experiment.runs.size(), 0, [&](std::size_t r) {
     if (experiment.runs[r].run.kind != measured::RunKind::time) return;
-    const Eigen::MatrixXd columns = derivatives(problem, arm, r);
-    const Index first = observations.first_of_run[r];
-    const auto of_run = residuals->segment(first, columns.rows());
-    Eigen::MatrixXd information = columns.transpose() * columns;
-    information.diagonal().array() += 1.0 / (kTimingKnown * kTimingKnown);
-    timing.late[r] = information.ldlt().solve(columns.transpose() * of_run);
-    left.segment(first, columns.rows()) -= columns * timing.late[r];
-    by_delay.segment(first, columns.rows()) = columns.rowwise().sum();
+    columns[r] = derivatives(problem, arm, r);
+    Eigen::MatrixXd of_run = columns[r].transpose() * columns[r];
+    of_run.diagonal().array() += 1.0 / (kTimingKnown * kTimingKnown);
+    information[r].compute(of_run);
   });
-  const auto left_beyond_noise = [&](const Eigen::VectorXd& of) {
+
+  // What timing leaves of a vector: its part that no lateness of the run makes.
+  const auto without_timing = [&](std::size_t r, const Eigen::MatrixXd& of_run) {
+    return Eigen::MatrixXd(of_run -
+                           columns[r] * information[r].solve(columns[r].transpose() * of_run));
+  };
+  // The parameters of the fit beside it: (J^T P J) p = J^T P r.
+  Eigen::MatrixXd normal = fit.jacobian.transpose() * fit.jacobian;
+  Eigen::VectorXd gradient = fit.jacobian.transpose() * fit.residuals;
+  for (std::size_t r = 0; r < columns.size(); ++r) {
+    if (columns[r].size() == 0 || !problem.estimation_runs()[r]) continue;
+    const Index first = observations.first_of_run[r];
+    const Eigen::MatrixXd own = fit.jacobian.middleRows(first, columns[r].rows());
+    const Eigen::MatrixXd timed = own - without_timing(r, own);
+    normal -= own.transpose() * timed;
+    gradient -= timed.transpose() * residuals->segment(first, columns[r].rows());
+  }
+  const Eigen::VectorXd step = normal.ldlt().solve(gradient);
+  const Eigen::VectorXd moved =
+      fit.jacobian.cols() > 0 ? Eigen::VectorXd(*residuals - fit.jacobian * step) : *residuals;
+
+  Eigen::VectorXd left = moved;
+  Eigen::VectorXd by_delay = Eigen::VectorXd::Zero(residuals->size());
+  for (std::size_t r = 0; r < columns.size(); ++r) {
+    if (columns[r].size() == 0) continue;
+    const Index first = observations.first_of_run[r];
+    const Index count = columns[r].rows();
+    timing.late[r] = information[r].solve(columns[r].transpose() * moved.segment(first, count));
+    left.segment(first, count) -= columns[r] * timing.late[r];
+    by_delay.segment(first, count) = columns[r].rowwise().sum();
+  }
+  const auto misfit_of = [&](const Eigen::VectorXd& of) {
     return misfit(observations, experiment, of, problem.estimation_runs());
   };
-  const Misfit before = left_beyond_noise(*residuals);
-  timing.share = share_taken(before, left_beyond_noise(left));
+  const Misfit before = misfit_of(*residuals);
+  timing.share = share_taken(before, misfit_of(left));
   if (by_delay.squaredNorm() > 0.0) {
     const double delay = by_delay.dot(*residuals) / by_delay.squaredNorm();
-    timing.share_of_delay = share_taken(before, left_beyond_noise(*residuals - delay * by_delay));
+    timing.share_of_delay = share_taken(before, misfit_of(*residuals - delay * by_delay));
   }
   return timing;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "diagnose/fit.hpp"
 #include "diagnose/problem.hpp"
 
 #include <Eigen/Core>
@@ -19,9 +20,9 @@ struct TorqueTiming {
   double share_of_delay = 0.0;  ///< that one delay for all accounts for
 };
 
-/// The timing that explains most of what a candidate leaves, by linear least squares with a normal
-/// prior of deviation `kTimingKnown` on each stretch.
-TorqueTiming torque_timing(const Problem& problem, const Candidate& candidate);
+/// The timing that explains most of what a fit leaves, its parameters moving along, by linear least
+/// squares with a normal prior of deviation `kTimingKnown` on each stretch.
+TorqueTiming torque_timing(const Problem& problem, const Fit& fit);
 inline constexpr int kTimedStretches = 40;
 inline constexpr double kTimingKnown = 0.1;  ///< of a sampling period
 

@@ -111,17 +111,15 @@ class Search {
     return is_explained(made.chosen.estimation, made.nothing.estimation, options_);
   }
 
-  /// Where a little is left of which the timing of the torque explains most, and no delay: the
-  /// torques as that timing has them, and what has been fitted once more.
+  /// Where a little is left of which the timing of the torque explains most: the torques as that
+  /// timing has them, and what has been fitted once more.
   void correct_timing(Selection& made) {
     if (made.timing || made.chosen.estimation.is_noise() ||
         made.chosen.estimation.unexplained_error() > options_.largest_timing_error) {
       return;
     }
     TorqueTiming timing = torque_timing(problem_, made.chosen.fit);
-    if (timing.share < options_.least_timing_share || timing.share_of_delay > 0.5 * timing.share) {
-      return;
-    }
+    if (timing.share < options_.least_timing_share) return;
     problem_.replace_torques(retimed(problem_.experiment(), timing));
     made.timing = std::move(timing);
     // Once more from there: what the first step was too long for, and the runs for validation.

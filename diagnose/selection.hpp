@@ -23,8 +23,8 @@ struct SelectionOptions {
   /// cause; an uncertain number of the arm far from its file's is neither.
   double negligible_error = 0.004;
   double negligible_share = 0.03;
-  /// The timing of the torque (torque_timing.hpp) is looked into where this is left, and taken for
-  /// what changes along the runs where it accounts for this part of it, one delay for less.
+  /// The timing of the torque (torque_timing.hpp) is looked into where this is left, and believed
+  /// where it accounts for this part of it.
   double largest_timing_error = 0.03;
   double least_timing_share = 0.5;
 };

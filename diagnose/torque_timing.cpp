@@ -6,6 +6,7 @@
 #include <Eigen/Cholesky>
 
 #include <algorithm>
+#include <utility>
 #include <variant>
 
 namespace flexarm::diagnose {
@@ -60,6 +61,18 @@ Eigen::MatrixXd derivatives(const Problem& problem, const arm::Arm& arm, std::si
   return all.deviations.segment(first, count).cwiseInverse().asDiagonal() * columns / kProbe;
 }
 
+/// The value with half the weight on either side; 0 of nothing.
+double weighted_median(std::vector<std::pair<double, double>> values_and_weights) {
+  std::ranges::sort(values_and_weights);
+  double half = 0.0;
+  for (const auto& [value, weight] : values_and_weights) half += 0.5 * weight;
+  for (const auto& [value, weight] : values_and_weights) {
+    half -= weight;
+    if (half <= 0.0) return value;
+  }
+  return 0.0;
+}
+
 }  // namespace
 
 TorqueTiming torque_timing(const Problem& problem, const Fit& fit) {
@@ -101,25 +114,26 @@ TorqueTiming torque_timing(const Problem& problem, const Fit& fit) {
   const Eigen::VectorXd moved =
       fit.jacobian.cols() > 0 ? Eigen::VectorXd(*residuals - fit.jacobian * step) : *residuals;
 
-  Eigen::VectorXd left = moved;
-  Eigen::VectorXd by_delay = Eigen::VectorXd::Zero(residuals->size());
+  std::vector<std::pair<double, double>> weighted;  // lateness, what is known of it
   for (std::size_t r = 0; r < columns.size(); ++r) {
     if (columns[r].size() == 0) continue;
-    const Index first = observations.first_of_run[r];
-    const Index count = columns[r].rows();
-    timing.late[r] = information[r].solve(columns[r].transpose() * moved.segment(first, count));
-    left.segment(first, count) -= columns[r] * timing.late[r];
-    by_delay.segment(first, count) = columns[r].rowwise().sum();
+    const auto of_run = moved.segment(observations.first_of_run[r], columns[r].rows());
+    timing.late[r] = information[r].solve(columns[r].transpose() * of_run);
+    for (int s = 0; s < kTimedStretches; ++s) {
+      weighted.emplace_back(timing.late[r](s), columns[r].col(s).squaredNorm());
+    }
+  }
+  const double median = weighted_median(std::move(weighted));
+  Eigen::VectorXd left = moved;
+  for (std::size_t r = 0; r < columns.size(); ++r) {
+    if (columns[r].size() == 0) continue;
+    timing.late[r].array() -= median;
+    left.segment(observations.first_of_run[r], columns[r].rows()) -= columns[r] * timing.late[r];
   }
   const auto misfit_of = [&](const Eigen::VectorXd& of) {
     return misfit(observations, experiment, of, problem.estimation_runs());
   };
-  const Misfit before = misfit_of(*residuals);
-  timing.share = share_taken(before, misfit_of(left));
-  if (by_delay.squaredNorm() > 0.0) {
-    const double delay = by_delay.dot(*residuals) / by_delay.squaredNorm();
-    timing.share_of_delay = share_taken(before, misfit_of(*residuals - delay * by_delay));
-  }
+  timing.share = share_taken(misfit_of(*residuals), misfit_of(left));
   return timing;
 }
 

@@ -17,11 +17,11 @@ struct TorqueTiming {
   /// Of each run by stretches of equal length, in sampling periods; empty but for `time` runs.
   std::vector<Eigen::VectorXd> late;
   double share = 0.0;  ///< of what is beyond noise in the estimation runs that it accounts for
-  double share_of_delay = 0.0;  ///< that one delay for all accounts for
 };
 
 /// The timing that explains most of what a fit leaves, its parameters moving along, by linear least
-/// squares with a normal prior of deviation `kTimingKnown` on each stretch.
+/// squares with a normal prior of deviation `kTimingKnown` on each stretch. Lateness is beside that
+/// of most stretches (their median by weight): one delay for all is a cause of the vocabulary.
 TorqueTiming torque_timing(const Problem& problem, const Fit& fit);
 inline constexpr int kTimedStretches = 40;
 inline constexpr double kTimingKnown = 0.1;  ///< of a sampling period

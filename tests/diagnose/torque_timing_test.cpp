@@ -33,7 +33,6 @@ TEST(TorqueTiming, IsFoundStretchByStretch) {
   const Problem problem(experiment);
   const TorqueTiming timing = torque_timing(problem, fit(problem, problem.as_filed()));
   EXPECT_GT(timing.share, 0.9);
-  EXPECT_LT(timing.share_of_delay, 0.5);
   // Each stretch of 50 samples by itself is known to a hundredth of a period or so.
   const auto& late = timing.late[1];
   EXPECT_NEAR(late.head(30).mean(), 0.0, 0.01);
@@ -49,11 +48,11 @@ TEST(TorqueTiming, ThatChangesAlongTheRunsIsNoCause) {
 }
 
 TEST(TorqueTiming, OfADelayIsLeftToTheDelay) {
+  // A torque whose samples are averaged is nearly one that is late.
   const Experiment experiment = with_late_torque(simulated_experiment({}), 0.0);
   const Diagnosis made = diagnose(experiment, named(experiment, {"time_delay", "payload_mass"}));
   ASSERT_EQ(made.causes.size(), 1U);
   EXPECT_EQ(made.causes[0].effect, "time_delay");
-  // A torque whose samples are averaged is nearly one that is late.
   EXPECT_NEAR(made.causes[0].parameters[0].value, kLate * 2e-3, 0.05 * kLate * 2e-3);
 }
 

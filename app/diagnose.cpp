@@ -10,10 +10,12 @@
 #include "diagnose/diagnosis.hpp"
 #include "diagnose/hypotheses/hypotheses.hpp"
 #include "report/csv.hpp"
+#include "report/diagnosis_figures.hpp"
 #include "report/diagnosis_json.hpp"
 #include "report/diagnosis_tables.hpp"
 #include "report/json_document.hpp"
 #include "report/progress.hpp"
+#include "report/symptom_tables.hpp"
 #include "report/text_table.hpp"
 
 #include <CLI/CLI.hpp>
@@ -49,7 +51,7 @@ struct DiagnoseArguments {
 };
 
 FolderKind diagnosis_folder_kind() {
-  return {"a diagnosis", kDiagnosisJson, {".json", ".toml", ".csv"}};
+  return {"a diagnosis", kDiagnosisJson, {".json", ".toml", ".csv", ".svg"}};
 }
 
 /// The hypotheses asked for, all unless told.
@@ -122,6 +124,8 @@ std::string text_of(const diagnose::Diagnosis& diagnosis) {
   for (const auto& notice : diagnosis.notices) text += report::to_paragraph("note: " + notice, 2);
   if (!text.empty()) text += "\n";
   text += report::to_paragraph(report::verdict_text(diagnosis)) + "\n";
+  const std::string wrong = report::what_is_wrong_text(diagnosis.symptoms);
+  if (!wrong.empty()) text += wrong + "\n";
   if (!diagnosis.causes.empty()) {
     text += report::to_text(report::cause_table(diagnosis), {.key_columns = 2}) + "\n";
     for (const auto& cause : diagnosis.causes) {

@@ -91,11 +91,8 @@ std::vector<std::string> evidence_for(const Hypothesis& hypothesis, const Cause&
   return evidence;
 }
 
-/// Of all runs, from what explanations left of those that were fitted and of the others.
-std::vector<ChannelGain> channel_gains(const Problem& problem, const Explanation& nothing,
-                                       const Explanation& chosen) {
-  const Eigen::VectorXd before = nothing.fit.residuals + nothing.held_out;
-  const Eigen::VectorXd after = chosen.fit.residuals + chosen.held_out;
+std::vector<ChannelGain> channel_gains(const Problem& problem, const Eigen::VectorXd& before,
+                                       const Eigen::VectorXd& after) {
   std::vector<ChannelGain> gains;
   const Observations& observations = problem.observations();
   const Experiment& experiment = problem.experiment();
@@ -106,6 +103,40 @@ std::vector<ChannelGain> channel_gains(const Problem& problem, const Explanation
                       relative_error(observations, experiment, channel, after), channel.noise}});
   }
   return gains;
+}
+
+std::vector<Overlay> overlays(const Observations& observations, const Eigen::VectorXd& before,
+                              const Eigen::VectorXd& after) {
+  std::vector<Overlay> made;
+  for (const ObservedChannel& channel : observations.channels) {
+    const auto part = [&](const Eigen::VectorXd& all) {
+      const auto own = all.segment(channel.first, channel.count);
+      return std::vector<double>(own.begin(), own.end());
+    };
+    const Eigen::VectorXd& values = observations.values;
+    const Eigen::VectorXd& deviations = observations.deviations;
+    made.push_back({channel.run, channel.sensor, part(values),
+                    part(values - before.cwiseProduct(deviations)),
+                    part(values - after.cwiseProduct(deviations))});
+  }
+  return made;
+}
+
+/// Of what is wrong; refitted run by run is the effect of the causes that takes the largest share,
+/// or the best effect by itself where none was named but something is wrong.
+Symptoms symptoms_of(const Problem& problem, const Selection& selection, Verdict verdict,
+                     const std::string& leading_cause, const Eigen::VectorXd& before,
+                     const Eigen::VectorXd& after) {
+  const Candidate& chosen = selection.chosen.fit.candidate;
+  const SymptomsInput input{problem, before, after, chosen};
+  if (!chosen.effects.empty()) {
+    const auto leading =
+        std::ranges::find(chosen.effects, leading_cause, &Hypothesis::effect);
+    return symptoms_of(input, &chosen,
+                       static_cast<std::size_t>(leading - chosen.effects.begin()));
+  }
+  const bool is_wrong = verdict == Verdict::unexplained && !selection.singles.empty();
+  return symptoms_of(input, is_wrong ? &selection.singles.front().fit.candidate : nullptr, 0);
 }
 
 /// The parameters of each effect of an explanation.
@@ -207,7 +238,14 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
   if (selection.nothing.validation.count > 0.0) {
     made.validation = gain_between(selection.nothing.validation, selection.chosen.validation);
   }
-  made.channels = channel_gains(problem, selection.nothing, selection.chosen);
+  // Of all runs: those that were fitted and those that were held out.
+  const Eigen::VectorXd before = selection.nothing.fit.residuals + selection.nothing.held_out;
+  const Eigen::VectorXd after = selection.chosen.fit.residuals + selection.chosen.held_out;
+  made.channels = channel_gains(problem, before, after);
+  made.overlays = overlays(problem.observations(), before, after);
+  made.symptoms =
+      symptoms_of(problem, selection, made.verdict,
+                  made.causes.empty() ? "" : made.causes.front().effect, before, after);
   made.extended_arm = chosen.extend(experiment.arm);
   return made;
 }

@@ -5,11 +5,8 @@
 
 namespace flexarm::diagnose {
 
-namespace {
-
 using Eigen::Index;
 
-/// Independent numbers among the residuals of a channel.
 double independent(const Eigen::Ref<const Eigen::VectorXd>& residuals, measured::RunKind kind) {
   const auto n = static_cast<double>(residuals.size());
   if (kind != measured::RunKind::time || residuals.size() < 3) return n;
@@ -19,8 +16,6 @@ double independent(const Eigen::Ref<const Eigen::VectorXd>& residuals, measured:
   const double r = std::clamp(residuals.head(last).dot(residuals.tail(last)) / squares, 0.0, 1.0);
   return std::max(1.0, n * (1.0 - r) / (1.0 + r));
 }
-
-}  // namespace
 
 double Misfit::excess() const {
   return std::max(0.0,

@@ -1,5 +1,7 @@
 #include "report/diagnosis_json.hpp"
 
+#include "report/symptom_json.hpp"
+
 #include <nlohmann/json.hpp>
 
 namespace flexarm::report {
@@ -42,10 +44,18 @@ Json diagnosis_json(const diagnose::Diagnosis& diagnosis, const std::string& ext
     json.update(gain_json(channel.error));
     channels.push_back(json);
   }
+  const diagnose::Symptoms& symptoms = diagnosis.symptoms;
   return {{"verdict", to_string(diagnosis.verdict)},
+          {"symptoms", statements_json(symptoms)},
           {"causes", causes},
           {"gain", gain},
-          {"residual", {{"channels", channels}}},
+          {"residual",
+           {{"channels", channels},
+            {"bands", bands_json(symptoms)},
+            {"roots", root_shifts_json(symptoms)},
+            {"hub_torque", hub_torque_json(symptoms)},
+            {"distortion", distortion_json(symptoms)},
+            {"run_by_run", run_by_run_json(symptoms)}}},
           {"extended_arm", extended_arm.empty() ? Json(nullptr) : Json(extended_arm)},
           {"notices", diagnosis.notices}};
 }

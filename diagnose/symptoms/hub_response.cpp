@@ -1,0 +1,108 @@
+#include "diagnose/symptoms/hub_response.hpp"
+
+#include "measured/fourier.hpp"
+#include "response/arm_parts.hpp"
+#include "response/formulation_maker.hpp"
+#include "response/quick_simulation.hpp"
+#include "response/time_model.hpp"
+
+#include <boost/math/tools/minima.hpp>
+#include <unsupported/Eigen/FFT>
+
+#include <cmath>
+#include <cstdint>
+
+namespace flexarm::diagnose {
+
+namespace {
+
+using Complex = std::complex<double>;
+
+/// Of 1 N m at the second sample, from there on: what is linear between samples rises before it.
+std::vector<double> pulse_response(const arm::Arm& arm, const arm::Sensor& sensor,
+                                   int flexible_modes, measured::TorqueHold hold, double period_s,
+                                   std::size_t samples) {
+  const std::vector<arm::Sensor> sensors = {sensor};
+  response::ArmParts parts;  // without what is not linear
+  parts.linear = response::take_apart(arm).linear;
+  const auto model =
+      response::time_model(response::make_formulation("exact_tf", parts.linear, flexible_modes),
+                           parts, flexible_modes, sensors);
+  std::vector<double> pulse(samples + 1);
+  pulse[1] = 1.0;
+  response::QuickSimulationOptions options;
+  options.sample_time_s = period_s;
+  options.hold = hold == measured::TorqueHold::zero ? response::TorqueHold::zero
+                                                    : response::TorqueHold::first;
+  auto made = response::quick_simulation(model, parts, sensors, pulse, options).front();
+  made.erase(made.begin());
+  return made;
+}
+
+}  // namespace
+
+HubResponse::HubResponse(const arm::Arm& arm, const arm::Sensor& sensor, int flexible_modes,
+                         measured::TorqueHold hold, double period_s, std::size_t samples)
+    : samples_(samples),
+      padded_(measured::fast_length(2 * samples)),
+      response_(
+          transformed(pulse_response(arm, sensor, flexible_modes, hold, period_s, samples))) {}
+
+std::vector<Complex> HubResponse::transformed(std::span<const double> values) const {
+  std::vector<double> padded(values.begin(), values.end());
+  padded.resize(padded_);
+  Eigen::FFT<double> transform;
+  transform.SetFlag(Eigen::FFT<double>::HalfSpectrum);
+  std::vector<Complex> spectrum;
+  transform.fwd(spectrum, padded);
+  return spectrum;
+}
+
+std::vector<double> HubResponse::transformed_back(const std::vector<Complex>& spectrum) const {
+  Eigen::FFT<double> transform;
+  transform.SetFlag(Eigen::FFT<double>::HalfSpectrum);
+  std::vector<double> values;
+  transform.inv(values, spectrum, static_cast<Eigen::Index>(padded_));
+  values.resize(samples_);
+  return values;
+}
+
+std::vector<double> HubResponse::reading(std::span<const double> torque_N_m) const {
+  std::vector<Complex> spectrum = transformed(torque_N_m);
+  for (std::size_t k = 0; k < spectrum.size(); ++k) spectrum[k] *= response_[k];
+  return transformed_back(spectrum);
+}
+
+std::vector<double> HubResponse::torque(std::span<const double> reading, double noise) const {
+  std::vector<Complex> spectrum = transformed(reading);
+  const double noise_power = noise * noise * static_cast<double>(samples_);
+  const auto unlikelihood = [&](double logarithm) {
+    const double torque_power = std::exp(logarithm);
+    double sum = 0.0;
+    for (std::size_t k = 1; k < spectrum.size(); ++k) {
+      const double power = std::norm(response_[k]) * torque_power + noise_power;
+      sum += std::log(power) + std::norm(spectrum[k]) / power;
+    }
+    return sum;
+  };
+  // Between what the noise would ask for where the response is largest, and the most where least.
+  double largest = 0.0;
+  for (std::size_t k = 1; k < response_.size(); ++k) {
+    largest = std::max(largest, std::norm(response_[k]));
+  }
+  const double lowest = std::log(noise_power / largest);
+  constexpr double kDecades = 24.0;
+  constexpr int kBits = 10;
+  std::uintmax_t iterations = 60;
+  const double logarithm =
+      boost::math::tools::brent_find_minima(unlikelihood, lowest,
+                                            lowest + kDecades * std::log(10.0), kBits, iterations)
+          .first;
+  const double ratio = noise_power / std::exp(logarithm);
+  for (std::size_t k = 0; k < spectrum.size(); ++k) {
+    spectrum[k] *= std::conj(response_[k]) / (std::norm(response_[k]) + ratio);
+  }
+  return transformed_back(spectrum);
+}
+
+}  // namespace flexarm::diagnose

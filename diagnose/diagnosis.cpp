@@ -130,10 +130,8 @@ Symptoms symptoms_of(const Problem& problem, const Selection& selection, Verdict
   const Candidate& chosen = selection.chosen.fit.candidate;
   const SymptomsInput input{problem, before, after, chosen};
   if (!chosen.effects.empty()) {
-    const auto leading =
-        std::ranges::find(chosen.effects, leading_cause, &Hypothesis::effect);
-    return symptoms_of(input, &chosen,
-                       static_cast<std::size_t>(leading - chosen.effects.begin()));
+    const auto leading = std::ranges::find(chosen.effects, leading_cause, &Hypothesis::effect);
+    return symptoms_of(input, &chosen, static_cast<std::size_t>(leading - chosen.effects.begin()));
   }
   const bool is_wrong = verdict == Verdict::unexplained && !selection.singles.empty();
   return symptoms_of(input, is_wrong ? &selection.singles.front().fit.candidate : nullptr, 0);
@@ -243,9 +241,8 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
   const Eigen::VectorXd after = selection.chosen.fit.residuals + selection.chosen.held_out;
   made.channels = channel_gains(problem, before, after);
   made.overlays = overlays(problem.observations(), before, after);
-  made.symptoms =
-      symptoms_of(problem, selection, made.verdict,
-                  made.causes.empty() ? "" : made.causes.front().effect, before, after);
+  made.symptoms = symptoms_of(problem, selection, made.verdict,
+                              made.causes.empty() ? "" : made.causes.front().effect, before, after);
   made.extended_arm = chosen.extend(experiment.arm);
   return made;
 }

@@ -72,7 +72,7 @@ struct Diagnosis {
   std::vector<ChannelGain> channels;
   std::vector<Overlay> overlays;  ///< one a channel
   Symptoms symptoms;              ///< what is wrong without causes
-  arm::Arm extended_arm;  ///< the experiment's with the causes
+  arm::Arm extended_arm;          ///< the experiment's with the causes
   std::vector<std::string> notices;
   bool cancelled = false;
 };

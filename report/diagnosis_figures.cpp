@@ -83,8 +83,7 @@ std::size_t worst_stretch(const std::vector<const Overlay*>& overlays) {
   std::partial_sum(squares.begin(), squares.end(), squares.begin());
   std::size_t worst = 0;
   for (std::size_t k = 0; k + kDrawnSamples <= n; ++k) {
-    if (squares[k + kDrawnSamples] - squares[k] >
-        squares[worst + kDrawnSamples] - squares[worst]) {
+    if (squares[k + kDrawnSamples] - squares[k] > squares[worst + kDrawnSamples] - squares[worst]) {
       worst = k;
     }
   }
@@ -127,7 +126,8 @@ void add_panels(const Overlay& overlay, const arm::Sensor& sensor, const Stretch
 /// Real and imaginary parts, frequency by frequency.
 std::vector<std::complex<double>> as_response(const std::vector<double>& parts) {
   std::vector<std::complex<double>> response;
-  for (std::size_t k = 0; k + 1 < parts.size(); k += 2) response.emplace_back(parts[k], parts[k + 1]);
+  for (std::size_t k = 0; k + 1 < parts.size(); k += 2)
+    response.emplace_back(parts[k], parts[k + 1]);
   return response;
 }
 
@@ -211,8 +211,14 @@ Panel torque_panel(const diagnose::HubTorque& torque, const diagnose::HubTorqueT
   const double high = measured::quantile(trace.torque_N_m, 1.0 - kShown);
   panel.y.minimum = low - 0.15 * (high - low);
   panel.y.maximum = high + 0.15 * (high - low);
-  Series samples{"samples", {}, {}, {.colour = grey, .tint = 0.4, .line = Line::none,
-                                     .marker = Marker::disc, .marker_size = 0.2}};
+  Series samples{"samples",
+                 {},
+                 {},
+                 {.colour = grey,
+                  .tint = 0.4,
+                  .line = Line::none,
+                  .marker = Marker::disc,
+                  .marker_size = 0.2}};
   constexpr std::size_t kMostPoints = 1500;
   const std::size_t stride = std::max<std::size_t>(1, x.size() / kMostPoints);
   for (std::size_t k = 0; k < x.size(); k += stride) {
@@ -231,9 +237,11 @@ Panel torque_panel(const diagnose::HubTorque& torque, const diagnose::HubTorqueT
     bars.y.push_back(kNotDrawn);
   }
   panel.series.push_back(std::move(bars));
-  panel.series.push_back({"mean", bins.x, bins.mean,
-                          {.colour = blue, .line = Line::none, .marker = Marker::disc,
-                           .marker_size = 0.5}});
+  panel.series.push_back(
+      {"mean",
+       bins.x,
+       bins.mean,
+       {.colour = blue, .line = Line::none, .marker = Marker::disc, .marker_size = 0.5}});
   const auto [least, most] = std::ranges::minmax_element(x);
   Series found{"found", {}, {}, {.colour = vermillion, .line_width_px = 2.0}};
   const double tiny = 1e-9 * (*most - *least);

@@ -48,12 +48,9 @@ Json statements_json(const diagnose::Symptoms& symptoms) {
 Json bands_json(const diagnose::Symptoms& symptoms) {
   Json all = Json::array();
   for (const auto& error : symptoms.bands) {
-    Json json = {{"run", error.run_id},
-                 {"sensor", error.sensor},
-                 {"band", error.band.name},
-                 {"from_Hz", error.band.from_Hz},
-                 {"to_Hz", error.band.to_Hz},
-                 {"payload_kg", error.payload_kg}};
+    Json json = {{"run", error.run_id},       {"sensor", error.sensor},
+                 {"band", error.band.name},   {"from_Hz", error.band.from_Hz},
+                 {"to_Hz", error.band.to_Hz}, {"payload_kg", error.payload_kg}};
     if (error.torque_rms_N_m) json["torque_rms_N_m"] = *error.torque_rms_N_m;
     json["before"] = error.before;
     json["after"] = error.after;
@@ -110,12 +107,14 @@ Json run_by_run_json(const diagnose::Symptoms& symptoms) {
   const auto& drift = *symptoms.drift;
   Json values = Json::array();
   for (const auto& value : drift.values) {
-    values.push_back(
-        {{"run", value.run}, {"value", value.value}, {"std_error", value.std_error}});
+    values.push_back({{"run", value.run}, {"value", value.value}, {"std_error", value.std_error}});
   }
-  return {{"effect", drift.effect},   {"parameter", drift.parameter},
-          {"unit", drift.unit},       {"values", values},
-          {"mean", drift.mean},       {"chi_squared", drift.chi_squared},
+  return {{"effect", drift.effect},
+          {"parameter", drift.parameter},
+          {"unit", drift.unit},
+          {"values", values},
+          {"mean", drift.mean},
+          {"chi_squared", drift.chi_squared},
           {"probability", drift.probability}};
 }
 

@@ -32,8 +32,8 @@ std::vector<const Symptom*> told_first(const std::vector<Symptom>& statements) {
   std::vector<const Symptom*> order;
   std::vector<const Symptom*> others;
   for (const Symptom& one : statements) {
-    const bool is_new = std::ranges::none_of(
-        order, [&](const Symptom* told) { return told->kind == one.kind; });
+    const bool is_new =
+        std::ranges::none_of(order, [&](const Symptom* told) { return told->kind == one.kind; });
     (is_new ? order : others).push_back(&one);
   }
   order.insert(order.end(), others.begin(), others.end());
@@ -118,9 +118,8 @@ Table root_shift_table(const Symptoms& symptoms) {
       if (!number) return;
       table.add_row({shift.run, shift.payload_kg,
                      shift.zero_of ? arm::to_string(*shift.zero_of) + " zero" : "pole",
-                     std::int64_t{shift.order}, quantity, unit, number->measured,
-                     number->std_error, number->before, number->after, number->shift_percent(),
-                     number->deviates()});
+                     std::int64_t{shift.order}, quantity, unit, number->measured, number->std_error,
+                     number->before, number->after, number->shift_percent(), number->deviates()});
     };
     add("frequency", "Hz", shift.frequency_Hz);
     add("damping ratio", "1", shift.damping_ratio);

@@ -1,6 +1,7 @@
 #include "diagnose/symptoms/band_errors.hpp"
 
 #include "diagnose/misfit.hpp"
+#include "diagnose/selection.hpp"
 #include "measured/window.hpp"
 #include "response/excitation.hpp"
 
@@ -48,6 +49,15 @@ void put_powers(BandError& error, const ObservedChannel& channel, double before,
   error.probability = noise_probability(error.power_ratio, error.freedom);
 }
 
+/// Mean square that the window leaves out: of what drifts away towards the end of a run. 0 or more.
+double window_misses(std::span<const double> residuals, const std::vector<BandPower>& powers) {
+  double missing = 0.0;
+  for (const double residual : residuals) missing += residual * residual;
+  missing /= static_cast<double>(residuals.size());
+  for (const BandPower& power : powers) missing -= power.mean_square;
+  return std::max(0.0, missing);
+}
+
 void add_time(const SymptomsInput& input, const ObservedChannel& channel,
               const measured::TimeRecord& record, std::vector<BandError>& errors) {
   const double period_s = measured::sampling_period_s(record);
@@ -56,19 +66,22 @@ void add_time(const SymptomsInput& input, const ObservedChannel& channel,
   const auto bands = frequency_bands(arm, 0.5 / period_s);
   const auto before = band_powers(part_of(input.before, channel), period_s, bands);
   const auto after = band_powers(part_of(input.after, channel), period_s, bands);
-  const auto torque = band_powers(record.torque_N_m, period_s, bands);
+  const double grown = window_misses(part_of(input.before, channel), before);
+  const double grown_after = window_misses(part_of(input.after, channel), after);
   const double lines = 0.5 * static_cast<double>(channel.count);
-  const double deviation = input.problem.observations().deviations(channel.first);
   for (std::size_t b = 0; b < bands.size(); ++b) {
     if (!(before[b].lines > 0.0)) continue;
     BandError error = begun(input, channel, bands[b]);
     error.torque_rms_N_m = response::rms_N_m(record.torque_N_m);
-    error.band_torque_rms_N_m = std::sqrt(torque[b].mean_square);
     const double noise = before[b].lines / lines;
-    error.freedom =
-        2.0 * before[b].lines / measured::shared_line_variance(measured::Window::hann);
+    error.freedom = 2.0 * before[b].lines / measured::shared_line_variance(measured::Window::hann);
     put_powers(error, channel, before[b].mean_square, after[b].mean_square, noise);
-    error.error_rms = deviation * std::sqrt(std::max(0.0, before[b].mean_square - noise));
+    if (b == 0) {
+      if (grown > noise) error.before = std::hypot(error.before, channel.noise * std::sqrt(grown));
+      if (grown_after > noise) {
+        error.after = std::hypot(error.after, channel.noise * std::sqrt(grown_after));
+      }
+    }
     errors.push_back(error);
   }
 }
@@ -95,7 +108,10 @@ void add_frequency(const SymptomsInput& input, const ObservedChannel& channel,
 }
 
 /// "41 %"
-std::string percent(double part) { return fmt::format("{:.2g} %", 100.0 * part); }
+std::string percent(double part) {
+  const double value = 100.0 * part;
+  return value >= 10.0 ? fmt::format("{:.0f} %", value) : fmt::format("{:.2g} %", value);
+}
 
 /// A sensor's error in one run, all bands together.
 struct RunError {
@@ -117,29 +133,37 @@ std::vector<RunError> run_errors(const std::vector<const BandError*>& errors) {
   return runs;
 }
 
+/// "37 to 503 %"
+std::string range(double least, double most) {
+  const std::string low = percent(least);
+  const std::string high = percent(most);
+  return low == high ? high : fmt::format("{} to {}", low.substr(0, low.size() - 2), high);
+}
+
 std::string error_text(const std::string& sensor, const std::vector<const BandError*>& errors,
                        bool has_causes) {
   const std::vector<RunError> runs = run_errors(errors);
-  const auto [least, most] = std::ranges::minmax_element(runs, {}, &RunError::before);
-  double noise = 0.0;
-  double after = 0.0;
-  for (const RunError& run : runs) {
-    noise = std::max(noise, run.noise);
-    after = std::max(after, run.after);
-  }
+  const auto [least, most] = std::ranges::minmax(runs, {}, &RunError::before);
+  const double noise = std::ranges::max(runs, {}, &RunError::noise).noise;
+  const double after = std::ranges::max(runs, {}, &RunError::after).after;
   const BandError& worst = **std::ranges::max_element(
       errors, {}, [](const BandError* error) { return error->power_ratio; });
-  std::string text =
-      runs.size() == 1
-          ? fmt::format("{}: the simulation misses {} of the signal", sensor, percent(most->before))
-          : fmt::format("{}: the simulation misses {} (run {}) to {} (run {}) of the signal", sensor,
-                        percent(least->before), least->run, percent(most->before), most->run);
-  text += fmt::format(
-      ", noise is {}; furthest beyond noise {} ({:.3g} to {:.3g} Hz, run {}: {:.3g} times)",
-      percent(noise), worst.band.name, worst.band.from_Hz, worst.band.to_Hz, worst.run_id,
-      std::sqrt(worst.power_ratio));
-  if (has_causes) text += fmt::format("; with the causes {} or less", percent(after));
+  std::string text = fmt::format(
+      "{}: the simulation misses {} of the signal, where noise makes {}; furthest off {}, {:.3g} "
+      "to {:.3g} Hz",
+      sensor, range(least.before, most.before), percent(noise), worst.band.name, worst.band.from_Hz,
+      worst.band.to_Hz);
+  if (has_causes) text += fmt::format("; with the causes {} are left", percent(after));
   return text + ".";
+}
+
+/// What a run's error is beyond the noise, at most, relative to the signal.
+double beyond_noise(const std::vector<const BandError*>& errors) {
+  double most = 0.0;
+  for (const RunError& run : run_errors(errors)) {
+    most = std::max(most, run.before * run.before - run.noise * run.noise);
+  }
+  return std::sqrt(most);
 }
 
 }  // namespace
@@ -173,7 +197,8 @@ std::vector<Symptom> error_symptoms(const SymptomsInput& input,
   }
   std::vector<Symptom> made;
   std::vector<std::string> noise_alone;
-  double least_probability = 1.0;
+  std::vector<std::string> negligible;
+  const double negligible_error = SelectionOptions{}.negligible_error;
   for (const std::string& sensor : sensors) {
     std::vector<const BandError*> own;
     double probability = 1.0;
@@ -185,19 +210,25 @@ std::vector<Symptom> error_symptoms(const SymptomsInput& input,
     Symptom found = symptom(SymptomKind::error, error_text(sensor, own, input.has_causes()),
                             probability, errors.size());
     found.sensor = sensor;
-    if (found.is_significant) {
+    const bool is_simulated = own.front()->torque_rms_N_m.has_value();
+    if (found.is_significant && is_simulated && !input.has_causes() &&
+        beyond_noise(own) < negligible_error) {
+      negligible.push_back(sensor);
+    } else if (found.is_significant) {
       made.push_back(std::move(found));
     } else {
       noise_alone.push_back(sensor);
-      least_probability = std::min(least_probability, probability);
     }
   }
-  if (!noise_alone.empty()) {
-    made.push_back(symptom(SymptomKind::error,
-                           fmt::format("{}: nothing beyond noise in any run and band.",
-                                       fmt::join(noise_alone, ", ")),
-                           least_probability, errors.size()));
-  }
+  const auto add_rest = [&](const std::vector<std::string>& rest, const std::string& text) {
+    if (rest.empty()) return;
+    made.push_back(symptom(SymptomKind::error, fmt::format("{}: {}", fmt::join(rest, ", "), text),
+                           1.0, errors.size()));
+  };
+  add_rest(noise_alone, "nothing beyond noise in any run and band.");
+  add_rest(negligible, fmt::format("beyond noise by less than {} of the signal, which another step "
+                                   "or clock of the recorder makes.",
+                                   percent(negligible_error)));
   return made;
 }
 

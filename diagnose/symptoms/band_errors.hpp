@@ -19,13 +19,11 @@ struct BandError {
   std::string run_id;
   std::string sensor;
   FrequencyBand band;
-  std::optional<double> torque_rms_N_m;       ///< of the whole run; `time` runs
-  std::optional<double> band_torque_rms_N_m;  ///< within the band
+  std::optional<double> torque_rms_N_m;  ///< of the whole run; `time` runs
   double payload_kg = 0.0;
   double before = 0.0;
   double after = 0.0;
   double noise = 0.0;
-  double error_rms = 0.0;  ///< before, without the noise, in the sensor's unit; `time` runs
   /// Of the power of the residuals over that of the noise, before, and how many independent numbers
   /// it is the mean of.
   double power_ratio = 0.0;
@@ -41,7 +39,9 @@ std::vector<BandError> band_errors(const SymptomsInput& input);
 /// that is as large as `power_ratio` or more: F(freedom, 2/kNoiseKnown^2).
 double noise_probability(double power_ratio, double freedom);
 
-/// A statement a sensor, and one of the sensors whose error is the noise's.
+/// A statement a sensor, and one of the sensors whose error is the noise's. What is beyond noise in
+/// `time` runs by less than the diagnosis neglects (SelectionOptions::negligible_error) is said not
+/// to be significant unless causes were named.
 std::vector<Symptom> error_symptoms(const SymptomsInput& input,
                                     const std::vector<BandError>& errors);
 

@@ -2,7 +2,6 @@
 
 #include "exact_tf/exact_arm.hpp"
 #include "measured/fourier.hpp"
-#include "measured/robust.hpp"
 #include "measured/window.hpp"
 #include "response/arm_parts.hpp"
 
@@ -39,11 +38,10 @@ std::vector<BandPower> band_powers(std::span<const double> samples, double perio
                                    std::span<const FrequencyBand> bands) {
   const std::size_t n = samples.size();
   const std::vector<double> window = measured::window_values(measured::Window::hann, n);
-  const double mean = measured::mean(samples);
   std::vector<double> weighted(n);
   double squares = 0.0;
   for (std::size_t k = 0; k < n; ++k) {
-    weighted[k] = (samples[k] - mean) * window[k];
+    weighted[k] = samples[k] * window[k];
     squares += window[k] * window[k];
   }
   measured::RealTransform transform(n);
@@ -52,11 +50,11 @@ std::vector<BandPower> band_powers(std::span<const double> samples, double perio
   std::vector<BandPower> powers(bands.size());
   std::size_t band = 0;
   const double spacing_Hz = 1.0 / (static_cast<double>(n) * period_s);
-  for (std::size_t k = 1; k < spectrum.size(); ++k) {
+  for (std::size_t k = 0; k < spectrum.size(); ++k) {
     const double frequency_Hz = static_cast<double>(k) * spacing_Hz;
     while (band + 1 < bands.size() && frequency_Hz >= bands[band].to_Hz) ++band;
-    // One-sided: line k stands for -k too, but for the highest of an even number of samples.
-    const double sides = 2 * k == n ? 1.0 : 2.0;
+    // One-sided: line k stands for -k too, but for 0 and the highest of an even number of samples.
+    const double sides = k == 0 || 2 * k == n ? 1.0 : 2.0;
     powers[band].mean_square += sides * std::norm(spectrum[k]) / (squares * static_cast<double>(n));
     powers[band].lines += 0.5 * sides;
   }

@@ -21,11 +21,12 @@ struct FrequencyBand {
 std::vector<FrequencyBand> frequency_bands(const arm::Arm& arm, double top_Hz);
 inline constexpr int kMostBandModes = 4;
 
-/// Mean square of samples `period_s` apart in each band, from a Hann-windowed periodogram without
-/// the mean; together the mean square. The bands begin at 0 and follow each other.
+/// Mean square of samples `period_s` apart in each band, from a Hann-windowed periodogram;
+/// together the mean square of what does not grow or fall over the record. The bands begin at 0 and
+/// follow each other.
 struct BandPower {
   double mean_square = 0.0;
-  double lines = 0.0;  ///< of the transform
+  double lines = 0.0;  ///< of the transform, complex ones
 };
 std::vector<BandPower> band_powers(std::span<const double> samples, double period_s,
                                    std::span<const FrequencyBand> bands);

@@ -59,8 +59,7 @@ std::vector<HubReading> readings_of(const SymptomsInput& input, std::size_t run,
                                     const measured::TimeRecord& record, const arm::Arm& arm) {
   const Observations& observations = input.problem.observations();
   std::vector<HubReading> readings;
-  for (const arm::SensorKind kind :
-       {arm::SensorKind::hub_velocity, arm::SensorKind::hub_angle}) {
+  for (const arm::SensorKind kind : {arm::SensorKind::hub_velocity, arm::SensorKind::hub_angle}) {
     const arm::Sensor sensor{kind, 0.0};
     const auto channel =
         std::ranges::find_if(observations.channels, [&](const ObservedChannel& one) {
@@ -73,7 +72,8 @@ std::vector<HubReading> readings_of(const SymptomsInput& input, std::size_t run,
                                     input.problem.experiment().runs[run].run.torque_hold,
                                     measured::sampling_period_s(record), record.time_s.size()),
                         {residual.begin(), residual.end()},
-                        noise});
+                        noise,
+                        channel->noise});
   }
   return readings;
 }

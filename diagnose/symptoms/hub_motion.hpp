@@ -14,6 +14,7 @@ struct HubReading {
   HubResponse response;
   std::vector<double> residual;  ///< measured less simulated, in the sensor's unit
   double noise = 0.0;            ///< its standard deviation
+  double relative_noise = 0.0;   ///< over that of the signal
 };
 
 /// How the hub moved in a `time` run that measured it. All vectors have a value a sample.

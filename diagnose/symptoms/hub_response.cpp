@@ -1,6 +1,7 @@
 #include "diagnose/symptoms/hub_response.hpp"
 
 #include "measured/fourier.hpp"
+#include "measured/spectra.hpp"
 #include "response/arm_parts.hpp"
 #include "response/formulation_maker.hpp"
 #include "response/quick_simulation.hpp"
@@ -9,6 +10,7 @@
 #include <boost/math/tools/minima.hpp>
 #include <unsupported/Eigen/FFT>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -32,10 +34,19 @@ std::vector<double> pulse_response(const arm::Arm& arm, const arm::Sensor& senso
   pulse[1] = 1.0;
   response::QuickSimulationOptions options;
   options.sample_time_s = period_s;
-  options.hold = hold == measured::TorqueHold::zero ? response::TorqueHold::zero
-                                                    : response::TorqueHold::first;
+  options.hold =
+      hold == measured::TorqueHold::zero ? response::TorqueHold::zero : response::TorqueHold::first;
   auto made = response::quick_simulation(model, parts, sensors, pulse, options).front();
   made.erase(made.begin());
+  return made;
+}
+
+/// From rest: what is before the first value is 0.
+std::vector<double> differenced(std::span<const double> values, int times) {
+  std::vector<double> made(values.begin(), values.end());
+  for (int i = 0; i < times; ++i) {
+    for (std::size_t k = made.size(); k-- > 1;) made[k] -= made[k - 1];
+  }
   return made;
 }
 
@@ -45,8 +56,11 @@ HubResponse::HubResponse(const arm::Arm& arm, const arm::Sensor& sensor, int fle
                          measured::TorqueHold hold, double period_s, std::size_t samples)
     : samples_(samples),
       padded_(measured::fast_length(2 * samples)),
-      response_(
-          transformed(pulse_response(arm, sensor, flexible_modes, hold, period_s, samples))) {}
+      differences_(measured::differences_until_steady(sensor)) {
+  const auto pulse = pulse_response(arm, sensor, flexible_modes, hold, period_s, samples);
+  response_ = transformed(pulse);
+  steady_response_ = transformed(differenced(pulse, differences_));
+}
 
 std::vector<Complex> HubResponse::transformed(std::span<const double> values) const {
   std::vector<double> padded(values.begin(), values.end());
@@ -74,33 +88,36 @@ std::vector<double> HubResponse::reading(std::span<const double> torque_N_m) con
 }
 
 std::vector<double> HubResponse::torque(std::span<const double> reading, double noise) const {
-  std::vector<Complex> spectrum = transformed(reading);
-  const double noise_power = noise * noise * static_cast<double>(samples_);
+  std::vector<Complex> spectrum = transformed(differenced(reading, differences_));
+  std::vector<double> noise_power(spectrum.size());
+  double largest = 0.0;
+  for (std::size_t k = 0; k < spectrum.size(); ++k) {
+    const double place = static_cast<double>(k) / static_cast<double>(padded_);
+    noise_power[k] = noise * noise * static_cast<double>(samples_) *
+                     std::norm(measured::difference_response(place, 1.0, differences_));
+    if (k > 0) largest = std::max(largest, std::norm(steady_response_[k]) / noise_power[k]);
+  }
   const auto unlikelihood = [&](double logarithm) {
     const double torque_power = std::exp(logarithm);
     double sum = 0.0;
     for (std::size_t k = 1; k < spectrum.size(); ++k) {
-      const double power = std::norm(response_[k]) * torque_power + noise_power;
+      const double power = std::norm(steady_response_[k]) * torque_power + noise_power[k];
       sum += std::log(power) + std::norm(spectrum[k]) / power;
     }
     return sum;
   };
-  // Between what the noise would ask for where the response is largest, and the most where least.
-  double largest = 0.0;
-  for (std::size_t k = 1; k < response_.size(); ++k) {
-    largest = std::max(largest, std::norm(response_[k]));
-  }
-  const double lowest = std::log(noise_power / largest);
+  // From a torque that shows nowhere on.
+  const double lowest = -std::log(largest);
   constexpr double kDecades = 24.0;
   constexpr int kBits = 10;
   std::uintmax_t iterations = 60;
-  const double logarithm =
-      boost::math::tools::brent_find_minima(unlikelihood, lowest,
-                                            lowest + kDecades * std::log(10.0), kBits, iterations)
-          .first;
-  const double ratio = noise_power / std::exp(logarithm);
+  const double torque_power =
+      std::exp(boost::math::tools::brent_find_minima(
+                   unlikelihood, lowest, lowest + kDecades * std::log(10.0), kBits, iterations)
+                   .first);
   for (std::size_t k = 0; k < spectrum.size(); ++k) {
-    spectrum[k] *= std::conj(response_[k]) / (std::norm(response_[k]) + ratio);
+    const double power = std::norm(steady_response_[k]) + noise_power[k] / torque_power;
+    spectrum[k] = power > 0.0 ? spectrum[k] * std::conj(steady_response_[k]) / power : 0.0;
   }
   return transformed_back(spectrum);
 }

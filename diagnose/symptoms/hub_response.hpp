@@ -30,9 +30,10 @@ class HubResponse {
   ///
   ///     T = conj(G) Y/(|G|^2 + n/s)
   ///
-  /// with the power s of a white torque of largest likelihood (Whittle 1953) given that of the
-  /// noise, n. The reading is at rest before its first sample; its last few samples say little of
-  /// the torque under them.
+  /// with the power s of a white torque of largest likelihood (Whittle 1953) beside that of the
+  /// noise, n. Reading, response and noise are differenced until a free arm does not drift
+  /// (measured::differences_until_steady), so that none outlasts the record. The last few samples
+  /// of the reading say little of the torque under them.
   std::vector<double> torque(std::span<const double> reading, double noise) const;
 
  private:
@@ -41,7 +42,9 @@ class HubResponse {
 
   std::size_t samples_;
   std::size_t padded_;
+  int differences_;
   std::vector<std::complex<double>> response_;
+  std::vector<std::complex<double>> steady_response_;  // differenced
 };
 
 }  // namespace flexarm::diagnose

@@ -124,21 +124,20 @@ std::vector<Tested> simple_terms(const HubRegression& all, const std::vector<Hub
   made.push_back(all.tested(Kind::dry_friction, "N m", [&](const Motion& m, std::size_t k) {
     return -sign(m.velocity_rad_per_s[k]);
   }));
-  made.push_back(all.tested(Kind::viscous_friction, "N m s/rad", [](const Motion& m, std::size_t k) {
-    return -m.velocity_rad_per_s[k];
-  }));
+  made.push_back(
+      all.tested(Kind::viscous_friction, "N m s/rad",
+                 [](const Motion& m, std::size_t k) { return -m.velocity_rad_per_s[k]; }));
   made.push_back(all.tested(Kind::inertia, "kg m^2", [](const Motion& m, std::size_t k) {
     return -m.acceleration_rad_per_s2[k];
   }));
-  made.push_back(all.tested(Kind::spring, "N m/rad", [](const Motion& m, std::size_t k) {
-    return -m.angle_rad[k];
-  }));
+  made.push_back(all.tested(Kind::spring, "N m/rad",
+                            [](const Motion& m, std::size_t k) { return -m.angle_rad[k]; }));
   made.push_back(all.tested(Kind::bias, "N m", [](const Motion&, std::size_t) { return 1.0; }));
   made.push_back(all.tested(Kind::time, "N m/s", [](const Motion& m, std::size_t k) {
     return m.time_s[k] - 0.5 * (m.time_s.front() + m.time_s.back());
   }));
-  made.push_back(all.tested(
-      Kind::gain, "1", [](const Motion& m, std::size_t k) { return m.torque_N_m[k]; }));
+  made.push_back(
+      all.tested(Kind::gain, "1", [](const Motion& m, std::size_t k) { return m.torque_N_m[k]; }));
   made.push_back(all.tested(Kind::dead_zone, "N m", [&](const Motion& m, std::size_t k) {
     return -sign(m.torque_N_m[k]);
   }));
@@ -203,10 +202,9 @@ Tested ripple(const HubRegression& all, double cycles) {
   Tested sine = all.tested(
       HubTorqueKind::ripple, "N m",
       [&](const HubMotion& m, std::size_t k) { return std::sin(cycles * m.angle_rad[k]); }, cycles);
-  const Tested cosine =
-      all.tested(HubTorqueKind::ripple, "N m", [&](const HubMotion& m, std::size_t k) {
-        return std::cos(cycles * m.angle_rad[k]);
-      });
+  const Tested cosine = all.tested(
+      HubTorqueKind::ripple, "N m",
+      [&](const HubMotion& m, std::size_t k) { return std::cos(cycles * m.angle_rad[k]); });
   sine.readings.conservativeResize(Eigen::NoChange, 2);
   sine.readings.col(1) = cosine.readings.col(0);
   return sine;
@@ -239,8 +237,8 @@ Regressed regress(const Eigen::VectorXd& residuals, const std::vector<const Test
   Regressed made;
   made.left = residuals - readings * solution;
   made.coefficients = scale.cwiseProduct(solution);
-  made.covariance = scale.asDiagonal() *
-                    solver.solve(Eigen::MatrixXd::Identity(columns, columns)) * scale.asDiagonal();
+  made.covariance = scale.asDiagonal() * solver.solve(Eigen::MatrixXd::Identity(columns, columns)) *
+                    scale.asDiagonal();
   return made;
 }
 
@@ -255,25 +253,41 @@ void put_last(const HubRegression& all, const Regressed& regressed, double befor
   const double left = regressed.left.squaredNorm();
   const double independent = std::max(1.0, all.independent(regressed.left));
   const double scale = std::max(1.0, left / n) * n / independent;
-  term.coefficient = own == 1 ? regressed.coefficients(last) : regressed.coefficients.tail(2).norm();
-  term.std_error = std::sqrt(
-      scale * regressed.covariance.diagonal().tail(own).maxCoeff());
+  term.coefficient =
+      own == 1 ? regressed.coefficients(last) : regressed.coefficients.tail(2).norm();
+  term.std_error = std::sqrt(scale * regressed.covariance.diagonal().tail(own).maxCoeff());
   term.share = (before - left) / beyond_noise;
   const double freedom = static_cast<double>(own);
   const boost::math::fisher_f distribution(freedom, std::max(1.0, independent - freedom));
-  term.probability = boost::math::cdf(boost::math::complement(
-      distribution, std::max(0.0, before - left) / freedom / scale));
+  term.probability = boost::math::cdf(
+      boost::math::complement(distribution, std::max(0.0, before - left) / freedom / scale));
+}
+
+/// The largest of any hub signal, relative to the signal.
+double error_beyond_noise(const std::vector<HubMotion>& motions) {
+  double most = 0.0;
+  for (const HubMotion& motion : motions) {
+    for (const HubReading& reading : motion.readings) {
+      const auto n = static_cast<double>(reading.residual.size());
+      const double squares =
+          Eigen::VectorXd::Map(reading.residual.data(), static_cast<Index>(n)).squaredNorm();
+      const double beyond = squares / (n * reading.noise * reading.noise) - 1.0;
+      most = std::max(most, reading.relative_noise * std::sqrt(std::max(0.0, beyond)));
+    }
+  }
+  return most;
 }
 
 }  // namespace
 
-HubTorque hub_torque(const std::vector<HubMotion>& motions) {
+HubTorque hub_torque(const std::vector<HubMotion>& motions, double least_error) {
   HubTorque made;
   if (motions.empty()) return made;
   const HubRegression all(motions);
   const auto n = static_cast<double>(all.residuals().size());
   const double squares = all.residuals().squaredNorm();
   const double beyond_noise = std::max(squares - n, std::sqrt(2.0 * n));
+  const bool is_wrong = error_beyond_noise(motions) >= least_error;
   std::vector<Tested> candidates = simple_terms(all, motions);
   const std::vector<double> grid = ripple_grid(motions);
   made.tests = candidates.size() + grid.size();
@@ -289,9 +303,8 @@ HubTorque hub_torque(const std::vector<HubMotion>& motions) {
                                motions[m].velocity_rad_per_s, motions[m].angle_rad});
       }
     }
-    std::erase_if(candidates, [](const Tested& one) {
-      return one.term.kind == HubTorqueKind::ripple;
-    });
+    std::erase_if(candidates,
+                  [](const Tested& one) { return one.term.kind == HubTorqueKind::ripple; });
     if (!grid.empty()) candidates.push_back(ripple(all, strongest_cycles(motions, torques, grid)));
     std::vector<const Tested*> terms;
     for (const Tested& one : chosen) terms.push_back(&one);
@@ -304,7 +317,8 @@ HubTorque hub_torque(const std::vector<HubMotion>& motions) {
       if (candidates[i].term.share > candidates[best].term.share) best = i;
     }
     const HubTorqueTerm& found = candidates[best].term;
-    const bool is_one = found.probability * static_cast<double>(made.tests) < kSignificantSymptom &&
+    const bool is_one = is_wrong &&
+                        found.probability * static_cast<double>(made.tests) < kSignificantSymptom &&
                         found.share >= kLeastHubShare;
     if (!is_one || chosen.size() == kMostHubTerms) break;
     chosen.push_back(std::move(candidates[best]));

@@ -60,8 +60,9 @@ struct HubTorque {
 /// Regression of the hub's residuals in all runs on the readings that torques of each kind would
 /// make: forward, the one that takes most first, while an F test, for as many independent numbers
 /// as the correlation of what is left says, is significant and the term takes `kLeastHubShare` of
-/// what is beyond noise. So errors are as the simulation's are, and no signal is differentiated.
-HubTorque hub_torque(const std::vector<HubMotion>& motions);
+/// what is beyond noise, and what is beyond noise is `least_error` of the signal. So errors are as
+/// the simulation's are, and no signal is differentiated.
+HubTorque hub_torque(const std::vector<HubMotion>& motions, double least_error = 0.0);
 inline constexpr double kLeastHubShare = 0.1;
 inline constexpr int kMostHubTerms = 4;
 

@@ -119,10 +119,10 @@ std::vector<Symptom> hub_torque_symptoms(const HubTorque& torque) {
   if (torque.tests == 0) return made;
   for (const HubTorqueTerm& term : torque.terms) {
     const bool first = &term == &torque.terms.front();
-    std::string text = fmt::format(
-        "hub: the torque that is {} {}; it accounts for {:.2g} % of the hub's error{}.",
-        first ? "missing" : "still missing", meaning(term), 100.0 * std::min(1.0, term.share),
-        first ? "" : " beside the others");
+    std::string text =
+        fmt::format("hub: the torque that is {} {}; it accounts for {:.2g} % of the hub's error{}.",
+                    first ? "missing" : "still missing", meaning(term),
+                    100.0 * std::min(1.0, term.share), first ? "" : " beside the others");
     made.push_back(
         symptom(SymptomKind::hub_torque, std::move(text), term.probability, torque.tests));
   }

@@ -99,8 +99,7 @@ std::vector<RootShift> fitted(const SymptomsInput& input, std::size_t run,
                                     *root.analytical_Hz, after[i].analytical_Hz.value_or(NAN)};
     if (entry.damping_ratio && entry.damping_ratio_std && root.analytical_damping_ratio) {
       shift.damping_ratio =
-          RootNumber{*entry.damping_ratio, *entry.damping_ratio_std,
-                     *root.analytical_damping_ratio,
+          RootNumber{*entry.damping_ratio, *entry.damping_ratio_std, *root.analytical_damping_ratio,
                      after[i].analytical_damping_ratio.value_or(NAN)};
     }
     shifts.push_back(shift);

@@ -32,8 +32,9 @@ std::vector<RootGroup> groups_of(const std::vector<RootShift>& shifts) {
   for (const RootShift& shift : shifts) {
     auto at = std::ranges::find(groups, shift.zero_of, &RootGroup::zero_of);
     if (at == groups.end()) {
-      at = groups.insert(at, {shift.zero_of ? arm::to_string(*shift.zero_of) + " zeros" : "poles",
-                              shift.zero_of, {}});
+      at = groups.insert(
+          at,
+          {shift.zero_of ? arm::to_string(*shift.zero_of) + " zeros" : "poles", shift.zero_of, {}});
     }
     at->shifts.push_back(&shift);
     const auto lower = [](double& least, const std::optional<RootNumber>& number) {
@@ -63,8 +64,8 @@ std::vector<std::string> moved(const RootGroup& group, std::size_t tests, Number
   std::vector<std::string> texts;
   for (const auto& [order, shift] : furthest) {
     const RootNumber& own = *number(*shift);
-    texts.push_back(fmt::format("{} by {:+.2g} % ({:.0f} standard deviations, run {})", order,
-                                own.shift_percent(), std::abs(own.deviates()), shift->run));
+    texts.push_back(fmt::format("{} by {:+.2g} % ({:.0f} σ, run {})", order, own.shift_percent(),
+                                std::abs(own.deviates()), shift->run));
   }
   return texts;
 }
@@ -75,8 +76,8 @@ double within_percent(const RootGroup& group) {
   for (const RootShift* shift : group.shifts) {
     if (!shift->frequency_Hz) continue;
     const RootNumber& number = *shift->frequency_Hz;
-    widest = std::max(widest, std::abs(number.shift_percent()) +
-                                  200.0 * number.std_error / number.before);
+    widest = std::max(widest,
+                      std::abs(number.shift_percent()) + 200.0 * number.std_error / number.before);
   }
   return widest;
 }
@@ -106,7 +107,8 @@ enum class Motion { unknown, stays, moves };
 /// What moves and what stays says on which side of the root the cause is (docs/diagnosis.md).
 std::string rule(Motion poles, Motion hub_zeros, Motion tip_zeros, bool damping_moves) {
   if (tip_zeros == Motion::moves) {
-    return "Zeros of the tip moved, which neither hub, root nor payload mass shift: the link itself, "
+    return "Zeros of the tip moved, which neither hub, root nor payload mass shift: the link "
+           "itself, "
            "or the payload's inertia or offset.";
   }
   if (hub_zeros == Motion::moves && tip_zeros == Motion::stays) {
@@ -114,7 +116,8 @@ std::string rule(Motion poles, Motion hub_zeros, Motion tip_zeros, bool damping_
            "link.";
   }
   if (hub_zeros == Motion::moves) {
-    return "Zeros of the hub moved, which no hub inertia, friction, spring, lag or gain shifts: the "
+    return "Zeros of the hub moved, which no hub inertia, friction, spring, lag or gain shifts: "
+           "the "
            "link, its root or the payload.";
   }
   if (poles == Motion::moves && hub_zeros == Motion::stays) {

@@ -24,8 +24,7 @@ std::string largest(const RunDistortion& run, DistortionTest ChannelDistortion::
   double highest_dB = -INFINITY;
   for (std::size_t c = 0; c < run.sensors.size(); ++c) {
     const DistortionTest& test = run.distortion.channels[c].*parity;
-    const bool found =
-        symptom(SymptomKind::distortion, "", test.probability, tests).is_significant;
+    const bool found = symptom(SymptomKind::distortion, "", test.probability, tests).is_significant;
     if (!found || !(test.level_dB > highest_dB)) continue;
     highest_dB = test.level_dB;
     text = fmt::format("{:.0f} dB of the driven lines in {}", test.level_dB,
@@ -38,23 +37,27 @@ std::string distortion_text(const RunDistortion& run, std::size_t tests) {
   const std::string odd = largest(run, &ChannelDistortion::odd, tests);
   const std::string even = largest(run, &ChannelDistortion::even, tests);
   if (odd.empty() && even.empty()) {
-    return fmt::format("run {}: no distortion at lines that the torque does not drive: no sign of "
-                       "what is not linear.",
-                       run.run);
+    return fmt::format(
+        "run {}: no distortion at lines that the torque does not drive: no sign of "
+        "what is not linear.",
+        run.run);
   }
   if (even.empty()) {
-    return fmt::format("run {}: odd distortion, up to {}, and no even one: what is not linear is "
-                       "alike in both directions, as friction, a dead zone or saturation.",
-                       run.run, odd);
+    return fmt::format(
+        "run {}: odd distortion, up to {}, and no even one: what is not linear is "
+        "alike in both directions, as friction, a dead zone or saturation.",
+        run.run, odd);
   }
   if (odd.empty()) {
-    return fmt::format("run {}: even distortion, up to {}: what is not linear differs with the "
-                       "direction.",
-                       run.run, even);
+    return fmt::format(
+        "run {}: even distortion, up to {}: what is not linear differs with the "
+        "direction.",
+        run.run, even);
   }
-  return fmt::format("run {}: odd distortion, up to {}, and even, up to {}: what is not linear "
-                     "differs with the direction, as friction with a bias, or ripple.",
-                     run.run, odd, even);
+  return fmt::format(
+      "run {}: odd distortion, up to {}, and even, up to {}: what is not linear "
+      "differs with the direction, as friction with a bias, or ripple.",
+      run.run, odd, even);
 }
 
 }  // namespace
@@ -87,8 +90,8 @@ std::vector<Symptom> distortion_symptoms(const std::vector<RunDistortion>& runs)
       least_probability =
           std::min({least_probability, channel.odd.probability, channel.even.probability});
     }
-    Symptom one = symptom(SymptomKind::distortion, distortion_text(run, tests), least_probability,
-                          tests);
+    Symptom one =
+        symptom(SymptomKind::distortion, distortion_text(run, tests), least_probability, tests);
     one.run = run.run;
     made.push_back(std::move(one));
   }

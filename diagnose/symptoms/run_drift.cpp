@@ -59,8 +59,7 @@ std::optional<RunFit> refitted(const Problem& problem, const Candidate& start, I
     const Eigen::VectorXd slope = (*beside - *residuals) / aside;
     const double information = slope.squaredNorm();
     if (!(information > 0.0)) return std::nullopt;
-    const Misfit left =
-        misfit(problem.observations(), problem.experiment(), *residuals, only);
+    const Misfit left = misfit(problem.observations(), problem.experiment(), *residuals, only);
     const double scale = std::max(1.0, squares / left.count) * left.count / left.independent;
     made = {place, std::sqrt(scale / information)};
     step = std::clamp(-slope.dot(*residuals) / information, -place - Candidate::kBeyond,
@@ -113,8 +112,7 @@ std::optional<RunDrift> run_drift(const Problem& problem, const Candidate& candi
     made.chi_squared += std::pow((value.value - made.mean) / value.std_error, 2);
   }
   const boost::math::chi_squared distribution(static_cast<double>(made.values.size() - 1));
-  made.probability =
-      boost::math::cdf(boost::math::complement(distribution, made.chi_squared));
+  made.probability = boost::math::cdf(boost::math::complement(distribution, made.chi_squared));
   return made;
 }
 
@@ -123,14 +121,20 @@ std::vector<Symptom> drift_symptoms(const RunDrift& drift) {
   const std::string unit = drift.unit == "1" ? "" : " " + drift.unit;
   Symptom one = symptom(SymptomKind::drift, "", drift.probability, 1);
   const std::string what = fmt::format("{} {} refitted run by run", drift.effect, drift.parameter);
-  const std::string range = fmt::format(
-      "{:.4g} ± {:.2g}{} (run {}) to {:.4g} ± {:.2g}{} (run {})", least->value, least->std_error,
-      unit, least->run, most->value, most->std_error, unit, most->run);
-  one.text = one.is_significant
-                 ? fmt::format("{} does not agree with itself: {}; it changes between runs, or is "
-                               "not all that is wrong.",
-                               what, range)
-                 : fmt::format("{} agrees within its errors: {}.", what, range);
+  const std::string range = fmt::format("{:.4g} ± {:.2g}{} (run {}) to {:.4g} ± {:.2g}{} (run {})",
+                                        least->value, least->std_error, unit, least->run,
+                                        most->value, most->std_error, unit, most->run);
+  const double spread = (most->value - least->value) / std::abs(drift.mean);
+  if (one.is_significant && spread >= kLeastSpread) {
+    one.text = fmt::format(
+        "{} does not agree with itself: {}; it changes between runs, or is not all that is wrong.",
+        what, range);
+  } else if (one.is_significant) {
+    one.is_significant = false;
+    one.text = fmt::format("{} agrees within {:.2g} %: {}.", what, 100.0 * spread, range);
+  } else {
+    one.text = fmt::format("{} agrees within its errors: {}.", what, range);
+  }
   return {one};
 }
 

@@ -35,7 +35,9 @@ struct RunDrift {
 std::optional<RunDrift> run_drift(const Problem& problem, const Candidate& candidate,
                                   std::size_t effect);
 
-/// One statement.
+/// One statement; significant where the spread is, and is more than `kLeastSpread` of the mean,
+/// which is what the simulation's own errors make of it.
 std::vector<Symptom> drift_symptoms(const RunDrift& drift);
+inline constexpr double kLeastSpread = 0.05;
 
 }  // namespace flexarm::diagnose

@@ -1,5 +1,6 @@
 #include "diagnose/symptoms/symptoms.hpp"
 
+#include "diagnose/selection.hpp"
 #include "diagnose/symptoms/error_trends.hpp"
 
 #include <iterator>
@@ -14,10 +15,11 @@ Symptoms symptoms_of(const SymptomsInput& input, const Candidate* drifting, std:
   };
   made.bands = band_errors(input);
   add(error_symptoms(input, made.bands));
-  add(trend_symptoms(made.bands));
+  add(trend_symptoms(input));
   made.roots = root_shifts(input);
   add(root_symptoms(made.roots));
-  made.hub_torque = hub_torque(hub_motions(input));
+  made.hub_torque = hub_torque(hub_motions(input),
+                               input.has_causes() ? 0.0 : SelectionOptions{}.negligible_error);
   add(hub_torque_symptoms(made.hub_torque));
   made.distortion = run_distortions(input.problem.experiment());
   add(distortion_symptoms(made.distortion));

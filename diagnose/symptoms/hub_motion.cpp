@@ -95,13 +95,20 @@ std::vector<HubMotion> hub_motions(const SymptomsInput& input) {
     HubMotion motion;
     motion.run = r;
     motion.run_id = run.id;
+    motion.hold = run.torque_hold;
     motion.time_s = record->time_s;
     motion.torque_N_m = record->torque_N_m;
-    motion.velocity_rad_per_s =
-        velocity != nullptr ? *velocity : slope(*angle, period_s, samples_of_slope(arm, period_s));
+    const std::size_t half = samples_of_slope(arm, period_s);
+    motion.velocity_rad_per_s = velocity != nullptr ? *velocity : slope(*angle, period_s, half);
     motion.angle_rad = angle != nullptr ? *angle : integral(*velocity, period_s);
     motion.acceleration_rad_per_s2 = slope(motion.velocity_rad_per_s, period_s, 1);
     motion.readings = readings_of(input, r, *record, arm);
+    motion.velocity_noise_rad_per_s = motion.readings.front().noise;
+    if (velocity == nullptr) {
+      // Of a slope through 2 h + 1 values: sum of squares of their places h (h + 1)(2 h + 1)/3.
+      const auto h = static_cast<double>(half);
+      motion.velocity_noise_rad_per_s /= period_s * std::sqrt(h * (h + 1) * (2 * h + 1) / 3.0);
+    }
     motions.push_back(std::move(motion));
   }
   return motions;

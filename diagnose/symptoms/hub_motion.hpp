@@ -26,8 +26,10 @@ struct HubMotion {
   std::vector<double> angle_rad;   ///< measured, or the integral of the velocity
   /// Measured, or the slope of the angle over `kSlope_periods` of the first mode.
   std::vector<double> velocity_rad_per_s;
+  double velocity_noise_rad_per_s = 0.0;        ///< standard deviation
   std::vector<double> acceleration_rad_per_s2;  ///< slope of the velocity
-  std::vector<HubReading> readings;             ///< hub velocity before hub angle
+  measured::TorqueHold hold = measured::TorqueHold::zero;
+  std::vector<HubReading> readings;  ///< hub velocity before hub angle
 };
 inline constexpr double kSlope_periods = 0.1;
 

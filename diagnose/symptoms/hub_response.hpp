@@ -32,19 +32,22 @@ class HubResponse {
   ///
   /// with the power s of a white torque of largest likelihood (Whittle 1953) beside that of the
   /// noise, n. Reading, response and noise are differenced until a free arm does not drift
-  /// (measured::differences_until_steady), so that none outlasts the record. The last few samples
-  /// of the reading say little of the torque under them.
+  /// (measured::differences_until_steady), and fade exponentially, so that what rings on has faded
+  /// when the discrete transform comes round (Kausel & Roesset, J. Eng. Mech. 118, 1992). The last
+  /// few samples of the reading say little of the torque under them.
   std::vector<double> torque(std::span<const double> reading, double noise) const;
 
  private:
-  std::vector<std::complex<double>> transformed(std::span<const double> values) const;
-  std::vector<double> transformed_back(const std::vector<std::complex<double>>& spectrum) const;
+  using Spectrum = std::vector<std::complex<double>>;
+
+  Spectrum transformed(std::span<const double> values) const;
+  std::vector<double> transformed_back(const Spectrum& spectrum) const;
 
   std::size_t samples_;
   std::size_t padded_;
   int differences_;
-  std::vector<std::complex<double>> response_;
-  std::vector<std::complex<double>> steady_response_;  // differenced
+  Spectrum response_;
+  Spectrum steady_response_;  // differenced
 };
 
 }  // namespace flexarm::diagnose

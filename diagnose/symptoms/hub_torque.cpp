@@ -1,5 +1,6 @@
 #include "diagnose/symptoms/hub_torque.hpp"
 
+#include "compare/for_each_index.hpp"
 #include "diagnose/misfit.hpp"
 
 #include <Eigen/Cholesky>
@@ -99,15 +100,18 @@ class HubRegression {
 
   /// Residual torque of each run from `left` of the residuals, by its first hub signal.
   Torques torques(const Eigen::VectorXd& left) const {
-    Torques made;
-    Index at = 0;
+    std::vector<Index> first_of_run = {0};
     for (const HubMotion& motion : motions_) {
-      const HubReading& first = motion.readings.front();
-      const auto count = static_cast<Index>(first.residual.size());
-      const Eigen::VectorXd own = left.segment(at, count) * first.noise;
-      made.push_back(first.response.torque({own.data(), first.residual.size()}, first.noise));
-      at += count * static_cast<Index>(motion.readings.size());
+      first_of_run.push_back(first_of_run.back() +
+                             static_cast<Index>(motion.time_s.size() * motion.readings.size()));
     }
+    Torques made(motions_.size());
+    compare::for_each_index(motions_.size(), 0, [&](std::size_t m) {
+      const HubReading& first = motions_[m].readings.front();
+      const auto count = static_cast<Index>(first.residual.size());
+      const Eigen::VectorXd own = left.segment(first_of_run[m], count) * first.noise;
+      made[m] = first.response.torque({own.data(), first.residual.size()}, first.noise);
+    });
     return made;
   }
 
@@ -116,31 +120,52 @@ class HubRegression {
   Eigen::VectorXd residuals_;
 };
 
+double sign(double value) {
+  return value == 0.0 ? 0.0 : std::copysign(1.0, value);
+}
+
+/// A value at the k-th sample as a torque has it: of one that is held to the next sample the mean
+/// of both, of what is linear between them.
+double at_sample(const HubMotion& motion, const std::vector<double>& values, std::size_t k) {
+  const bool is_held = motion.hold == measured::TorqueHold::zero && k + 1 < values.size();
+  return is_held ? 0.5 * (values[k] + values[k + 1]) : values[k];
+}
+
+/// The same of the sign of the velocity, which is not known within its noise: a hub at rest would
+/// else have signs at random.
+double sign_at_sample(const HubMotion& motion, std::size_t k) {
+  constexpr double kKnown = 2.0;  // deviations
+  const auto& speed = motion.velocity_rad_per_s;
+  const bool is_held = motion.hold == measured::TorqueHold::zero && k + 1 < speed.size();
+  const double other = is_held ? speed[k + 1] : speed[k];
+  const double size = std::max(std::abs(speed[k]) + std::abs(other),
+                               2.0 * kKnown * motion.velocity_noise_rad_per_s);
+  return size > 0.0 ? (speed[k] + other) / size : 0.0;
+}
+
 std::vector<Tested> simple_terms(const HubRegression& all, const std::vector<HubMotion>& motions) {
   using Motion = HubMotion;
   using Kind = HubTorqueKind;
-  const auto sign = [](double value) { return value == 0.0 ? 0.0 : std::copysign(1.0, value); };
   std::vector<Tested> made;
-  made.push_back(all.tested(Kind::dry_friction, "N m", [&](const Motion& m, std::size_t k) {
-    return -sign(m.velocity_rad_per_s[k]);
-  }));
-  made.push_back(
-      all.tested(Kind::viscous_friction, "N m s/rad",
-                 [](const Motion& m, std::size_t k) { return -m.velocity_rad_per_s[k]; }));
+  made.push_back(all.tested(Kind::dry_friction, "N m",
+                            [](const Motion& m, std::size_t k) { return -sign_at_sample(m, k); }));
+  made.push_back(all.tested(
+      Kind::viscous_friction, "N m s/rad",
+      [](const Motion& m, std::size_t k) { return -at_sample(m, m.velocity_rad_per_s, k); }));
   made.push_back(all.tested(Kind::inertia, "kg m^2", [](const Motion& m, std::size_t k) {
-    return -m.acceleration_rad_per_s2[k];
+    return -at_sample(m, m.acceleration_rad_per_s2, k);
   }));
-  made.push_back(all.tested(Kind::spring, "N m/rad",
-                            [](const Motion& m, std::size_t k) { return -m.angle_rad[k]; }));
+  made.push_back(all.tested(Kind::spring, "N m/rad", [](const Motion& m, std::size_t k) {
+    return -at_sample(m, m.angle_rad, k);
+  }));
   made.push_back(all.tested(Kind::bias, "N m", [](const Motion&, std::size_t) { return 1.0; }));
   made.push_back(all.tested(Kind::time, "N m/s", [](const Motion& m, std::size_t k) {
     return m.time_s[k] - 0.5 * (m.time_s.front() + m.time_s.back());
   }));
   made.push_back(
       all.tested(Kind::gain, "1", [](const Motion& m, std::size_t k) { return m.torque_N_m[k]; }));
-  made.push_back(all.tested(Kind::dead_zone, "N m", [&](const Motion& m, std::size_t k) {
-    return -sign(m.torque_N_m[k]);
-  }));
+  made.push_back(all.tested(Kind::dead_zone, "N m",
+                            [](const Motion& m, std::size_t k) { return -sign(m.torque_N_m[k]); }));
   double largest_N_m = 0.0;
   for (const Motion& motion : motions) {
     for (const double torque : motion.torque_N_m) {
@@ -201,7 +226,10 @@ double strongest_cycles(const std::vector<HubMotion>& motions, const Torques& to
 Tested ripple(const HubRegression& all, double cycles) {
   Tested sine = all.tested(
       HubTorqueKind::ripple, "N m",
-      [&](const HubMotion& m, std::size_t k) { return std::sin(cycles * m.angle_rad[k]); }, cycles);
+      [&](const HubMotion& m, std::size_t k) {
+        return std::sin(cycles * at_sample(m, m.angle_rad, k));
+      },
+      cycles);
   const Tested cosine = all.tested(
       HubTorqueKind::ripple, "N m",
       [&](const HubMotion& m, std::size_t k) { return std::cos(cycles * m.angle_rad[k]); });

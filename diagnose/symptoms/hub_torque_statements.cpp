@@ -59,31 +59,35 @@ std::string meaning(const HubTorqueTerm& term) {
   return "";
 }
 
-/// "the velocity"
-std::string what_on(HubTorqueKind kind) {
+/// What the torque depends on; empty for one that is constant.
+std::string_view quantity(HubTorqueKind kind) {
   switch (kind) {
     case HubTorqueKind::dry_friction:
-      return "the sign of the velocity";
     case HubTorqueKind::viscous_friction:
-      return "the velocity";
+      return "velocity";
     case HubTorqueKind::inertia:
-      return "the acceleration";
+      return "acceleration";
     case HubTorqueKind::spring:
-      return "the angle";
     case HubTorqueKind::ripple:
-      return "multiples of the angle";
+      return "angle";
     case HubTorqueKind::bias:
-      return "nothing (a bias)";
+      return "";
     case HubTorqueKind::time:
       return "time";
     case HubTorqueKind::gain:
-      return "the commanded torque";
     case HubTorqueKind::dead_zone:
-      return "its sign";
     case HubTorqueKind::saturation:
-      return "its peaks";
+      return "the commanded torque";
   }
   return "";
+}
+
+/// Quantities that no term depends on.
+std::vector<std::string_view> quantities_without(const std::vector<HubTorqueTerm>& terms) {
+  std::vector<std::string_view> others = {"velocity", "acceleration", "angle", "time",
+                                          "the commanded torque"};
+  for (const HubTorqueTerm& term : terms) std::erase(others, quantity(term.kind));
+  return others;
 }
 
 }  // namespace
@@ -126,25 +130,21 @@ std::vector<Symptom> hub_torque_symptoms(const HubTorque& torque) {
     made.push_back(
         symptom(SymptomKind::hub_torque, std::move(text), term.probability, torque.tests));
   }
-  std::vector<std::string> others;
   double least_probability = 1.0;
   for (const HubTorqueTerm& term : torque.left_over) {
-    const std::string name = what_on(term.kind);
-    if (std::ranges::find(others, name) == others.end()) others.push_back(name);
     least_probability = std::min(least_probability, term.probability);
   }
   // Below kLeastHubShare a dependence is no more than a part of a misfit of another kind.
   Symptom none = symptom(SymptomKind::hub_torque, "", least_probability, torque.tests);
   none.is_significant = false;
-  const double rest = 1.0 - torque.share;
-  if (torque.terms.empty()) {
-    none.text = fmt::format("hub: no torque that depends on {} accounts for {:.0f} % of the error.",
-                            fmt::join(others, ", "), 100.0 * kLeastHubShare);
-  } else {
-    none.text = fmt::format(
-        "hub: beside that no residual torque depends on {}; {:.2g} % of the error is left.",
-        fmt::join(others, ", "), 100.0 * rest);
-  }
+  const auto others = fmt::join(quantities_without(torque.terms), ", ");
+  none.text =
+      torque.terms.empty()
+          ? fmt::format("hub: no residual torque depends on {}, nor is it constant.", others)
+          : fmt::format(
+                "hub: no residual torque depends on {}; {:.2g} % of the error is "
+                "left.",
+                others, 100.0 * (1.0 - torque.share));
   made.push_back(std::move(none));
   return made;
 }

@@ -137,7 +137,7 @@ std::vector<Symptom> hub_torque_symptoms(const HubTorque& torque) {
   // Below kLeastHubShare a dependence is no more than a part of a misfit of another kind.
   Symptom none = symptom(SymptomKind::hub_torque, "", least_probability, torque.tests);
   none.is_significant = false;
-  const auto others = fmt::join(quantities_without(torque.terms), ", ");
+  const std::string others = fmt::format("{}", fmt::join(quantities_without(torque.terms), ", "));
   none.text =
       torque.terms.empty()
           ? fmt::format("hub: no residual torque depends on {}, nor is it constant.", others)

@@ -107,12 +107,6 @@ void add_frequency(const SymptomsInput& input, const ObservedChannel& channel,
   }
 }
 
-/// "41 %"
-std::string percent(double part) {
-  const double value = 100.0 * part;
-  return value >= 10.0 ? fmt::format("{:.0f} %", value) : fmt::format("{:.2g} %", value);
-}
-
 /// A sensor's error in one run, all bands together.
 struct RunError {
   std::string run;

@@ -124,9 +124,9 @@ std::vector<Symptom> hub_torque_symptoms(const HubTorque& torque) {
   for (const HubTorqueTerm& term : torque.terms) {
     const bool first = &term == &torque.terms.front();
     std::string text =
-        fmt::format("hub: the torque that is {} {}; it accounts for {:.2g} % of the hub's error{}.",
+        fmt::format("hub: the torque that is {} {}; it accounts for {} of the hub's error{}.",
                     first ? "missing" : "still missing", meaning(term),
-                    100.0 * std::min(1.0, term.share), first ? "" : " beside the others");
+                    percent(std::min(1.0, term.share)), first ? "" : " beside the others");
     made.push_back(
         symptom(SymptomKind::hub_torque, std::move(text), term.probability, torque.tests));
   }
@@ -142,9 +142,9 @@ std::vector<Symptom> hub_torque_symptoms(const HubTorque& torque) {
       torque.terms.empty()
           ? fmt::format("hub: no residual torque depends on {}, nor is it constant.", others)
           : fmt::format(
-                "hub: no residual torque depends on {}; {:.2g} % of the error is "
+                "hub: no residual torque depends on {}; {} of the error is "
                 "left.",
-                others, 100.0 * (1.0 - torque.share));
+                others, percent(1.0 - torque.share));
   made.push_back(std::move(none));
   return made;
 }

@@ -131,7 +131,7 @@ std::vector<Symptom> drift_symptoms(const RunDrift& drift) {
         what, range);
   } else if (one.is_significant) {
     one.is_significant = false;
-    one.text = fmt::format("{} agrees within {:.2g} %: {}.", what, 100.0 * spread, range);
+    one.text = fmt::format("{} agrees within {}: {}.", what, percent(spread), range);
   } else {
     one.text = fmt::format("{} agrees within its errors: {}.", what, range);
   }

@@ -1,6 +1,7 @@
 #include "diagnose/symptoms/symptom.hpp"
 
 #include <boost/math/special_functions/erf.hpp>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -35,6 +36,12 @@ Symptom symptom(SymptomKind kind, std::string text, double probability, std::siz
                                                              kLeastProbability, made.probability)));
   made.is_significant = made.probability < kSignificantSymptom;
   return made;
+}
+
+std::string percent(double part) {
+  const double value = 100.0 * part;
+  if (value < 0.1) return "less than 0.1 %";
+  return value >= 10.0 ? fmt::format("{:.0f} %", value) : fmt::format("{:.2g} %", value);
 }
 
 void sort_by_significance(std::vector<Symptom>& symptoms) {

@@ -39,6 +39,9 @@ inline constexpr double kMostDeviate = 37.0;  ///< where probabilities leave the
 /// A statement of the smallest probability of `tests`.
 Symptom symptom(SymptomKind kind, std::string text, double probability, std::size_t tests);
 
+/// A part as an engineer says it: "503 %", "41 %", "0.43 %", "less than 0.1 %".
+std::string percent(double part);
+
 /// The significant ones first, the least probable before the others; equals in the order of kinds.
 void sort_by_significance(std::vector<Symptom>& symptoms);
 

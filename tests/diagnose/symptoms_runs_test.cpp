@@ -158,5 +158,12 @@ TEST(Symptom, CarriesItsTests) {
   EXPECT_LE(symptom(SymptomKind::drift, "", 0.0, 3).deviate, kMostDeviate);
 }
 
+TEST(Percent, IsAsOneSaysIt) {
+  EXPECT_EQ(percent(5.034), "503 %");
+  EXPECT_EQ(percent(1.0), "100 %");
+  EXPECT_EQ(percent(0.0043), "0.43 %");
+  EXPECT_EQ(percent(4e-7), "less than 0.1 %");
+}
+
 }  // namespace
 }  // namespace flexarm::diagnose

@@ -27,7 +27,8 @@ std::string yes(bool value) {
   return value ? "yes" : "no";
 }
 
-/// The first of each kind, then the others, both in the order of the statements.
+/// The first of each kind, then the others, errors last: those of further sensors say little more.
+/// Else in the order of the statements.
 std::vector<const Symptom*> told_first(const std::vector<Symptom>& statements) {
   std::vector<const Symptom*> order;
   std::vector<const Symptom*> others;
@@ -36,6 +37,9 @@ std::vector<const Symptom*> told_first(const std::vector<Symptom>& statements) {
         std::ranges::none_of(order, [&](const Symptom* told) { return told->kind == one.kind; });
     (is_new ? order : others).push_back(&one);
   }
+  std::ranges::stable_partition(others, [](const Symptom* one) {
+    return one->is_significant && one->kind != diagnose::SymptomKind::error;
+  });
   order.insert(order.end(), others.begin(), others.end());
   return order;
 }

@@ -147,7 +147,7 @@ std::string error_text(const std::string& sensor, const std::vector<const BandEr
       "to {:.3g} Hz",
       sensor, range(least.before, most.before), percent(noise), worst.band.name, worst.band.from_Hz,
       worst.band.to_Hz);
-  if (has_causes) text += fmt::format("; with the causes {} are left", percent(after));
+  if (has_causes) text += fmt::format("; with the causes {} is left", percent(after));
   return text + ".";
 }
 

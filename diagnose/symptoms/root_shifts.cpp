@@ -95,12 +95,15 @@ std::vector<RootShift> fitted(const SymptomsInput& input, std::size_t run,
     shift.payload_kg = arm.payload.mass_kg;
     if (entry.feature == measured::Feature::zero) shift.zero_of = entry.sensor;
     shift.order = *root.order;
-    shift.frequency_Hz = RootNumber{*entry.frequency_Hz, *entry.frequency_std_Hz,
-                                    *root.analytical_Hz, after[i].analytical_Hz.value_or(NAN)};
+    shift.frequency_Hz =
+        RootNumber{*entry.frequency_Hz,
+                   std::hypot(*entry.frequency_std_Hz, kFitFrequency * *entry.frequency_Hz),
+                   *root.analytical_Hz, after[i].analytical_Hz.value_or(NAN)};
     if (entry.damping_ratio && entry.damping_ratio_std && root.analytical_damping_ratio) {
-      shift.damping_ratio =
-          RootNumber{*entry.damping_ratio, *entry.damping_ratio_std, *root.analytical_damping_ratio,
-                     after[i].analytical_damping_ratio.value_or(NAN)};
+      shift.damping_ratio = RootNumber{
+          *entry.damping_ratio,
+          std::hypot(*entry.damping_ratio_std, kFitDamping * *entry.damping_ratio),
+          *root.analytical_damping_ratio, after[i].analytical_damping_ratio.value_or(NAN)};
     }
     shifts.push_back(shift);
   }

@@ -32,11 +32,15 @@ struct RootShift {
 
 /// Of `modal` runs as their tables have them, of `frf` runs by a rational fit of the measured
 /// responses (measured/modal_fit.hpp), weighted as they are in the diagnosis; a run whose fit fails
-/// is left out. Runs in time are not fitted.
+/// is left out. Standard errors of a fit are never below `kFitFrequency`, `kFitDamping` of the
+/// number: what other blocks than the fitted ones would make of it. Runs in time are not fitted.
 std::vector<RootShift> root_shifts(const SymptomsInput& input);
+inline constexpr double kFitFrequency = 2e-4;
+inline constexpr double kFitDamping = 5e-3;
 
-/// What moved and what did not, in standard deviations and per cent, a statement for the poles and
-/// one for the zeros of each sensor; and what both say together: where the cause is not.
+/// What all together say: on which side of the root the cause is. Then what moved and what did not,
+/// in standard deviations and per cent, a statement for the poles and one for the zeros of each
+/// sensor.
 std::vector<Symptom> root_symptoms(const std::vector<RootShift>& shifts);
 
 }  // namespace flexarm::diagnose

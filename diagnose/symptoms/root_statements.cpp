@@ -177,7 +177,7 @@ std::vector<Symptom> root_symptoms(const std::vector<RootShift>& shifts) {
   }
   const std::string text = rule(poles, hub_zeros, tip_zeros, damping_moves);
   if (!text.empty()) {
-    made.push_back(symptom(SymptomKind::roots, text, least_probability, tests));
+    made.insert(made.begin(), symptom(SymptomKind::roots, text, least_probability, tests));
   }
   return made;
 }

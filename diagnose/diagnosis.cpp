@@ -122,19 +122,20 @@ std::vector<Overlay> overlays(const Observations& observations, const Eigen::Vec
   return made;
 }
 
-/// Of what is wrong; refitted run by run is the effect of the causes that takes the largest share,
-/// or the best effect by itself where none was named but something is wrong.
-Symptoms symptoms_of(const Problem& problem, const Selection& selection, Verdict verdict,
-                     const std::string& leading_cause, const Eigen::VectorXd& before,
-                     const Eigen::VectorXd& after) {
-  const Candidate& chosen = selection.chosen.fit.candidate;
-  const SymptomsInput input{problem, before, after, chosen};
-  if (!chosen.effects.empty()) {
-    const auto leading = std::ranges::find(chosen.effects, leading_cause, &Hypothesis::effect);
-    return symptoms_of(input, &chosen, static_cast<std::size_t>(leading - chosen.effects.begin()));
-  }
+/// Refitted run by run: of the causes the leading one, else the best effect by itself where
+/// something is wrong.
+std::optional<RunDrift> drift_of(const Problem& problem, const Selection& selection,
+                                 Verdict verdict, const std::vector<Cause>& causes) {
   const bool is_wrong = verdict == Verdict::unexplained && !selection.singles.empty();
-  return symptoms_of(input, is_wrong ? &selection.singles.front().fit.candidate : nullptr, 0);
+  if (causes.empty() && !is_wrong) return std::nullopt;
+  const Candidate& candidate =
+      causes.empty() ? selection.singles.front().fit.candidate : selection.chosen.fit.candidate;
+  std::size_t leading = 0;
+  while (!causes.empty() && candidate.effects[leading].effect != causes.front().effect) ++leading;
+  // As the last refit: friction that is stepped more coarsely is another one in each run.
+  return candidate.effects[leading].shows == Shows::in_time
+             ? run_drift(problem.with_substeps(kFineSubsteps), candidate, leading)
+             : run_drift(problem, candidate, leading);
 }
 
 /// The parameters of each effect of an explanation.
@@ -241,8 +242,8 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
   const Eigen::VectorXd after = selection.chosen.fit.residuals + selection.chosen.held_out;
   made.channels = channel_gains(problem, before, after);
   made.overlays = overlays(problem.observations(), before, after);
-  made.symptoms = symptoms_of(problem, selection, made.verdict,
-                              made.causes.empty() ? "" : made.causes.front().effect, before, after);
+  made.symptoms = symptoms_of({problem, before, after, chosen},
+                              drift_of(problem, selection, made.verdict, made.causes));
   made.extended_arm = chosen.extend(experiment.arm);
   return made;
 }

@@ -20,8 +20,9 @@ using Eigen::Index;
 /// Of a place, between rounding and curvature.
 constexpr double kPlaceStep = 1e-4;
 constexpr int kMostRunSteps = 4;
-/// A step of this part of the standard error is the last.
+/// A step of this part of the standard error, or of the value, is the last.
 constexpr double kLastStep = 0.1;
+constexpr double kLastChange = 0.003;
 
 struct RunFit {
   double place = 0.0;
@@ -34,6 +35,7 @@ std::optional<RunFit> refitted(const Problem& problem, const Candidate& start, I
   only[run] = true;
   Candidate candidate = start;
   Eigen::VectorXd places = start.places();
+  const SearchedParameter known = start.parameters()[static_cast<std::size_t>(parameter)];
   RunFit made;
   const auto here = [&](double place) {
     places(parameter) = place;
@@ -66,7 +68,11 @@ std::optional<RunFit> refitted(const Problem& problem, const Candidate& start, I
                       1.0 + Candidate::kBeyond - place);
     place += step;
     made.place = place;
-    if (std::abs(step) <= kLastStep * made.std_error) break;
+    const double value = known.value(place);
+    if (std::abs(step) <= kLastStep * made.std_error ||
+        std::abs(value - known.value(place - step)) <= kLastChange * std::abs(value)) {
+      break;
+    }
   }
   return made;
 }

@@ -8,7 +8,7 @@
 
 namespace flexarm::diagnose {
 
-Symptoms symptoms_of(const SymptomsInput& input, const Candidate* drifting, std::size_t leading) {
+Symptoms symptoms_of(const SymptomsInput& input, std::optional<RunDrift> drift) {
   Symptoms made;
   const auto add = [&](std::vector<Symptom> symptoms) {
     std::ranges::move(symptoms, std::back_inserter(made.statements));
@@ -23,10 +23,8 @@ Symptoms symptoms_of(const SymptomsInput& input, const Candidate* drifting, std:
   add(hub_torque_symptoms(made.hub_torque));
   made.distortion = run_distortions(input.problem.experiment());
   add(distortion_symptoms(made.distortion));
-  if (drifting != nullptr) {
-    made.drift = run_drift(input.problem, *drifting, leading);
-    if (made.drift) add(drift_symptoms(*made.drift));
-  }
+  made.drift = std::move(drift);
+  if (made.drift) add(drift_symptoms(*made.drift));
   sort_by_significance(made.statements);
   return made;
 }

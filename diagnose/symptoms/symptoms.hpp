@@ -21,8 +21,7 @@ struct Symptoms {
   std::optional<RunDrift> drift;
 };
 
-/// `drifting`: the explanation whose leading effect, the `leading`-th, is refitted run by run; null
-/// where there is none.
-Symptoms symptoms_of(const SymptomsInput& input, const Candidate* drifting, std::size_t leading);
+/// `drift` is of the leading effect; empty where there is none.
+Symptoms symptoms_of(const SymptomsInput& input, std::optional<RunDrift> drift);
 
 }  // namespace flexarm::diagnose

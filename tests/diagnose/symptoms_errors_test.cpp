@@ -120,7 +120,7 @@ TEST(ErrorTrends, AreNoneWithTheTorqueWhereALinearCauseIsMissing) {
 TEST(SymptomsOfNothing, AreNotSignificant) {
   for (const std::uint64_t seed : {11U, 12U, 13U, 14U}) {
     const Symptomatic data(simulated_experiment({}, {.seed = seed}));
-    for (const Symptom& one : symptoms_of(data.input(), nullptr, 0).statements) {
+    for (const Symptom& one : symptoms_of(data.input(), std::nullopt).statements) {
       EXPECT_FALSE(one.is_significant) << seed << ": " << one.text;
     }
   }

@@ -1,4 +1,5 @@
 #include "app/command.hpp"
+#include "app/file_names.hpp"
 #include "app/folder_place.hpp"
 #include "app/interruption.hpp"
 #include "app/standard_output.hpp"
@@ -10,10 +11,12 @@
 #include "diagnose/diagnosis.hpp"
 #include "diagnose/hypotheses/hypotheses.hpp"
 #include "report/csv.hpp"
+#include "report/diagnosis_figures.hpp"
 #include "report/diagnosis_json.hpp"
 #include "report/diagnosis_tables.hpp"
 #include "report/json_document.hpp"
 #include "report/progress.hpp"
+#include "report/symptom_tables.hpp"
 #include "report/text_table.hpp"
 
 #include <CLI/CLI.hpp>
@@ -26,6 +29,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace flexarm::app {
@@ -49,7 +53,7 @@ struct DiagnoseArguments {
 };
 
 FolderKind diagnosis_folder_kind() {
-  return {"a diagnosis", kDiagnosisJson, {".json", ".toml", ".csv"}};
+  return {"a diagnosis", kDiagnosisJson, {".json", ".toml", ".csv", ".svg"}};
 }
 
 /// The hypotheses asked for, all unless told.
@@ -122,6 +126,8 @@ std::string text_of(const diagnose::Diagnosis& diagnosis) {
   for (const auto& notice : diagnosis.notices) text += report::to_paragraph("note: " + notice, 2);
   if (!text.empty()) text += "\n";
   text += report::to_paragraph(report::verdict_text(diagnosis)) + "\n";
+  const std::string wrong = report::what_is_wrong_text(diagnosis.symptoms);
+  if (!wrong.empty()) text += wrong + "\n";
   if (!diagnosis.causes.empty()) {
     text += report::to_text(report::cause_table(diagnosis), {.key_columns = 2}) + "\n";
     for (const auto& cause : diagnosis.causes) {
@@ -143,22 +149,43 @@ std::string json_of(const diagnose::Diagnosis& diagnosis, const std::string& ext
                                report::diagnosis_json(diagnosis, extended_arm));
 }
 
-void write_files(const DiagnoseArguments& arguments, const diagnose::Diagnosis& diagnosis) {
-  const std::string extended = arm::format_arm(diagnosis.extended_arm);
+std::vector<arm::NamedContent> files_of(const diagnose::Diagnosis& diagnosis,
+                                        report::DiagnosisPlots plots) {
+  std::vector<arm::NamedContent> files = {
+      {kExtendedArm, arm::format_arm(diagnosis.extended_arm)},
+      {"channels.csv", report::to_csv(report::channel_gain_table(diagnosis))},
+      {"causes.csv", report::to_csv(report::cause_table(diagnosis))},
+      {kDiagnosisJson, json_of(diagnosis, kExtendedArm)}};
+  const auto add_table = [&](const char* name, const report::Table& table) {
+    if (!table.rows.empty()) files.push_back({name, report::to_csv(table)});
+  };
+  const diagnose::Symptoms& symptoms = diagnosis.symptoms;
+  add_table("symptoms.csv", report::symptom_table(symptoms));
+  add_table("bands.csv", report::band_table(symptoms));
+  add_table("roots.csv", report::root_shift_table(symptoms));
+  add_table("hub-torque.csv", report::hub_torque_table(symptoms));
+  add_table("distortion.csv", report::distortion_table(symptoms));
+  add_table("run-by-run.csv", report::run_value_table(symptoms));
+  for (auto& [name, svg] : plots.plots) add_file(name, std::move(svg), files);
+  return files;
+}
+
+/// Returns what was not drawn, a sentence or nothing.
+std::string write_files(const DiagnoseArguments& arguments, const diagnose::Experiment& experiment,
+                        const diagnose::Diagnosis& diagnosis) {
+  std::string left_out;
   if (!arguments.folder.empty()) {
-    const std::vector<arm::NamedContent> files = {
-        {kExtendedArm, extended},
-        {"channels.csv", report::to_csv(report::channel_gain_table(diagnosis))},
-        {"causes.csv", report::to_csv(report::cause_table(diagnosis))},
-        {kDiagnosisJson, json_of(diagnosis, kExtendedArm)}};
-    arm::write_folder_atomically(arguments.folder, files,
+    report::DiagnosisPlots plots = report::diagnosis_plots(experiment, diagnosis);
+    left_out = plots.left_out;
+    arm::write_folder_atomically(arguments.folder, files_of(diagnosis, std::move(plots)),
                                  arguments.force ? arm::IfExists::replace : arm::IfExists::refuse);
   }
   if (!arguments.json_file.empty()) {
     const fs::path beside = extended_beside(arguments.json_file);
-    arm::write_atomically(beside, extended);
+    arm::write_atomically(beside, arm::format_arm(diagnosis.extended_arm));
     arm::write_atomically(arguments.json_file, json_of(diagnosis, beside.filename().string()));
   }
+  return left_out;
 }
 
 int run_diagnose(const DiagnoseArguments& arguments) {
@@ -166,8 +193,9 @@ int run_diagnose(const DiagnoseArguments& arguments) {
   prepare(arguments, experiment);
   const diagnose::Diagnosis diagnosis = diagnose_with_progress(arguments, experiment);
   std::string text = text_of(diagnosis);
+  std::string left_out;
   try {
-    write_files(arguments, diagnosis);
+    left_out = write_files(arguments, experiment, diagnosis);
   } catch (const arm::InputError&) {
     print(text);
     throw;
@@ -177,6 +205,7 @@ int run_diagnose(const DiagnoseArguments& arguments) {
         "\nnext: the extended arm and tables with  flexarm diagnose {} --out diagnosis\n",
         arm::shown(arguments.file));
   } else {
+    if (!left_out.empty()) text += report::to_paragraph("\nnote: " + left_out, 2);
     text += fmt::format("\nwrote {}\n", arguments.folder);
   }
   print(text);
@@ -199,7 +228,7 @@ Command add_diagnose(CLI::App& program) {
       ->capture_default_str();
   parser
       ->add_option("--out", arguments->folder,
-                   "New folder for the extended arm, tables as CSV and the JSON")
+                   "New folder for the extended arm, tables as CSV, figures and the JSON")
       ->check(not_empty());
   parser->add_flag("--force", arguments->force, "Replace what this command wrote in the folder");
   parser

@@ -1,5 +1,6 @@
 #include "app/identified_files.hpp"
 
+#include "app/file_names.hpp"
 #include "arm/atomic_file.hpp"
 #include "measured/frequency_record.hpp"
 #include "report/csv.hpp"
@@ -10,42 +11,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <iterator>
 #include <map>
 #include <string>
-#include <string_view>
 #include <utility>
 
 namespace flexarm::app {
 
 namespace {
-
-namespace fs = std::filesystem;
-
-constexpr std::size_t kLongestName = 100;
-
-/// A name without what a file's name may not have, or not well.
-std::string file_name(const std::string& name) {
-  const std::size_t dot = name.rfind('.');
-  std::string made = name.substr(0, std::min(dot, kLongestName)) + name.substr(dot);
-  for (char& c : made) {
-    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-                       std::string_view("-_.+@").find(c) != std::string_view::npos;
-    if (!plain) c = '_';
-  }
-  return made;
-}
-
-/// The name, or with -2, -3, ... before its ending.
-std::string unused(const std::string& name, const std::vector<arm::NamedContent>& files) {
-  std::string made = name;
-  for (int i = 2; std::ranges::find(files, made, &arm::NamedContent::name) != files.end(); ++i) {
-    const std::size_t dot = name.rfind('.');
-    made = fmt::format("{}-{}{}", name.substr(0, dot), i, name.substr(dot));
-  }
-  return made;
-}
 
 /// Readings of one method from the same runs and condition, each in a table with its name.
 std::vector<std::pair<std::string, measured::ModalTable>> modal_tables(
@@ -78,7 +51,7 @@ std::vector<arm::NamedContent> identified_files(
     const std::vector<compare::IdentifiedCondition>& conditions) {
   std::vector<arm::NamedContent> files;
   const auto add = [&](const std::string& name, std::string content) {
-    files.push_back({unused(file_name(name), files), std::move(content)});
+    add_file(name, std::move(content), files);
   };
   for (const auto& [name, table] : modal_tables(identification, conditions)) {
     add(name, measured::format_modal_table(table));

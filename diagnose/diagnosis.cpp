@@ -77,11 +77,8 @@ Fit evaluated(const Problem& problem, const Candidate& candidate) {
   return made;
 }
 
-/// Of all runs, from what explanations left of those that were fitted and of the others.
-std::vector<ChannelGain> channel_gains(const Problem& problem, const Explanation& nothing,
-                                       const Explanation& chosen) {
-  const Eigen::VectorXd before = nothing.fit.residuals + nothing.held_out;
-  const Eigen::VectorXd after = chosen.fit.residuals + chosen.held_out;
+std::vector<ChannelGain> channel_gains(const Problem& problem, const Eigen::VectorXd& before,
+                                       const Eigen::VectorXd& after) {
   std::vector<ChannelGain> gains;
   const Observations& observations = problem.observations();
   const Experiment& experiment = problem.experiment();
@@ -92,6 +89,41 @@ std::vector<ChannelGain> channel_gains(const Problem& problem, const Explanation
                       relative_error(observations, experiment, channel, after), channel.noise}});
   }
   return gains;
+}
+
+std::vector<Overlay> overlays(const Observations& observations, const Eigen::VectorXd& before,
+                              const Eigen::VectorXd& after) {
+  std::vector<Overlay> made;
+  for (const ObservedChannel& channel : observations.channels) {
+    const auto part = [&](const Eigen::VectorXd& all) {
+      const auto own = all.segment(channel.first, channel.count);
+      return std::vector<double>(own.begin(), own.end());
+    };
+    const Eigen::VectorXd& values = observations.values;
+    const Eigen::VectorXd& deviations = observations.deviations;
+    made.push_back({channel.run, channel.sensor, part(values),
+                    part(values - before.cwiseProduct(deviations)),
+                    part(values - after.cwiseProduct(deviations))});
+  }
+  return made;
+}
+
+/// Refitted run by run: of the causes the leading one, else the best effect by itself where
+/// something is wrong.
+std::optional<RunDrift> drift_of(const Problem& problem, const Selection& selection,
+                                 Verdict verdict, const std::vector<Cause>& causes) {
+  const bool is_wrong = verdict == Verdict::unexplained && !selection.singles.empty();
+  if (causes.empty() && !is_wrong) return std::nullopt;
+  const Candidate& candidate =
+      causes.empty() ? selection.singles.front().fit.candidate : selection.chosen.fit.candidate;
+  std::size_t leading = 0;
+  while (!causes.empty() && candidate.effects[leading].effect != causes.front().effect) ++leading;
+  // As the last refit: friction that is stepped more coarsely is another one in each run.
+  return candidate.effects[leading].shows == Shows::in_time
+             ? run_drift(
+                   problem.with_resolution(problem.predictor().flexible_modes(), kFineSubsteps),
+                   candidate, leading)
+             : run_drift(problem, candidate, leading);
 }
 
 /// The parameters of each effect of a candidate, with standard errors as `standard_errors` has
@@ -260,7 +292,13 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
   if (as_filed.validation.count > 0.0) {
     made.validation = gain_between(as_filed.validation, selection.chosen.validation);
   }
-  made.channels = channel_gains(problem, as_filed, selection.chosen);
+  // Of all runs: those that were fitted and those that were held out.
+  const Eigen::VectorXd before = as_filed.fit.residuals + as_filed.held_out;
+  const Eigen::VectorXd after = selection.chosen.fit.residuals + selection.chosen.held_out;
+  made.channels = channel_gains(problem, before, after);
+  made.overlays = overlays(problem.observations(), before, after);
+  made.symptoms = symptoms_of({problem, before, after, chosen},
+                              drift_of(problem, selection, made.verdict, made.causes));
   made.refitted = refitted_numbers(experiment.arm, chosen, errors);
   made.extended_arm = chosen.extend(experiment.arm);
   made.formulations = check_formulations(made.extended_arm, scales_of(experiment).sensors);

@@ -2,6 +2,7 @@
 
 #include "diagnose/formulation_check.hpp"
 #include "diagnose/selection.hpp"
+#include "diagnose/symptoms/symptoms.hpp"
 
 #include <optional>
 #include <string>
@@ -64,12 +65,24 @@ struct ChannelGain {
   Gain error;
 };
 
+/// A channel as it was measured and as the simulation has it, without causes and with them; numbers
+/// as `Observations` has them.
+struct Overlay {
+  std::size_t run = 0;  ///< index of Experiment::runs
+  std::string sensor;
+  std::vector<double> measured;
+  std::vector<double> before;
+  std::vector<double> after;
+};
+
 struct Diagnosis {
   Verdict verdict = Verdict::adequate;
   std::vector<Cause> causes;  ///< in order of what each explains
   Gain estimation;
   std::optional<Gain> validation;
   std::vector<ChannelGain> channels;
+  std::vector<Overlay> overlays;  ///< one a channel
+  Symptoms symptoms;              ///< what is wrong without causes
   std::vector<RefittedNumber> refitted;
   FormulationCheck formulations;  ///< of the extended arm
   arm::Arm extended_arm;  ///< the experiment's with the causes, uncertain numbers as refitted

@@ -5,11 +5,17 @@
 
 namespace flexarm::diagnose {
 
-namespace {
-
 using Eigen::Index;
 
-/// Independent numbers among the residuals of a channel.
+namespace {
+
+/// Of n squares.
+double beyond_chance(double squares, double expected, double n) {
+  return std::max(0.0, squares - expected - kChance * std::sqrt(2.0 * n));
+}
+
+}  // namespace
+
 double independent(const Eigen::Ref<const Eigen::VectorXd>& residuals, measured::RunKind kind) {
   const auto n = static_cast<double>(residuals.size());
   if (kind != measured::RunKind::time || residuals.size() < 3) return n;
@@ -19,13 +25,6 @@ double independent(const Eigen::Ref<const Eigen::VectorXd>& residuals, measured:
   const double r = std::clamp(residuals.head(last).dot(residuals.tail(last)) / squares, 0.0, 1.0);
   return std::max(1.0, n * (1.0 - r) / (1.0 + r));
 }
-
-/// Of n squares.
-double beyond_chance(double squares, double expected, double n) {
-  return std::max(0.0, squares - expected - kChance * std::sqrt(2.0 * n));
-}
-
-}  // namespace
 
 double Misfit::excess() const {
   return beyond_chance(sum_of_squares, (1.0 + kNoiseKnown) * count, count) + displacement_excess();

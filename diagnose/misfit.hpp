@@ -47,6 +47,9 @@ Misfit misfit(const Observations& observations, const Experiment& experiment,
 double relative_error(const Observations& observations, const Experiment& experiment,
                       const ObservedChannel& channel, const Eigen::VectorXd& residuals);
 
+/// Numbers among the residuals of a channel that are independent, as Misfit::independent has them.
+double independent(const Eigen::Ref<const Eigen::VectorXd>& residuals, measured::RunKind kind);
+
 /// Part of what is beyond noise before that is not after; 0 without anything beyond noise.
 double share_taken(const Misfit& before, const Misfit& after);
 

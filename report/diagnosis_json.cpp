@@ -1,5 +1,7 @@
 #include "report/diagnosis_json.hpp"
 
+#include "report/symptom_json.hpp"
+
 #include <nlohmann/json.hpp>
 
 namespace flexarm::report {
@@ -59,10 +61,18 @@ Json diagnosis_json(const diagnose::Diagnosis& diagnosis, const std::string& ext
                         {"std_error", number.std_error},
                         {"unit", number.unit}});
   }
+  const diagnose::Symptoms& symptoms = diagnosis.symptoms;
   return {{"verdict", to_string(diagnosis.verdict)},
+          {"symptoms", statements_json(symptoms)},
           {"causes", causes},
           {"gain", gain},
-          {"residual", {{"channels", channels}}},
+          {"residual",
+           {{"channels", channels},
+            {"bands", bands_json(symptoms)},
+            {"roots", root_shifts_json(symptoms)},
+            {"hub_torque", hub_torque_json(symptoms)},
+            {"distortion", distortion_json(symptoms)},
+            {"run_by_run", run_by_run_json(symptoms)}}},
           {"refitted", refitted},
           {"formulations", formulations_json(diagnosis.formulations)},
           {"extended_arm", extended_arm.empty() ? Json(nullptr) : Json(extended_arm)},

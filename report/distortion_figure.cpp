@@ -1,6 +1,7 @@
 #include "report/distortion_figure.hpp"
 
 #include "report/equal_axes.hpp"
+#include "report/sensor_label.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +9,6 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
-#include <string_view>
 #include <utility>
 
 namespace flexarm::report {
@@ -34,10 +34,9 @@ Figure distortion_figure(const arm::Sensor& sensor, const measured::ChannelDisto
   if (!drawable) {
     throw std::invalid_argument(fmt::format("{}: no line to draw", arm::to_string(sensor)));
   }
-  const std::string_view unit = arm::unit(sensor);
   Panel panel;
   panel.y = {.label = "amplitude",
-             .unit = unit == "1" ? "" : std::string(unit),
+             .unit = axis_unit(sensor),
              .scale = Scale::logarithmic};
   Figure figure{.title = title, .width_px = kDistortionWidth_px, .height_px = kDistortionHeight_px};
   const auto add = [&](Series series, const std::string& remark) {

@@ -1,5 +1,6 @@
 #include "report/simulation_report.hpp"
 
+#include "report/sensor_label.hpp"
 #include "report/svg.hpp"
 #include "report/time_figure.hpp"
 #include "response/excitation.hpp"
@@ -35,24 +36,6 @@ std::string excitation_text(const SimulatedRun& run) {
   if (!run.lines_Hz.empty()) text += fmt::format(", {} lines", run.lines_Hz.size());
   if (!run.detection_Hz.empty()) text += fmt::format(", {} left out", run.detection_Hz.size());
   return text;
-}
-
-std::string panel_label(const arm::Sensor& sensor) {
-  switch (sensor.kind) {
-    case arm::SensorKind::hub_angle:
-      return "hub angle";
-    case arm::SensorKind::hub_velocity:
-      return "hub velocity";
-    case arm::SensorKind::tip_acceleration:
-      return "tip acceleration";
-    case arm::SensorKind::tip_displacement:
-      return "tip displacement";
-    case arm::SensorKind::tip_deflection:
-      return "tip deflection";
-    case arm::SensorKind::strain:
-      break;
-  }
-  return fmt::format("strain at {} m", sensor.position_m);
 }
 
 nlohmann::ordered_json energy_json(const response::EnergyBalance& energy) {
@@ -210,10 +193,8 @@ std::string time_svg(const std::string& arm_name, const SimulatedRun& run) {
   }
   plot.panels.push_back(std::move(torque));
   for (const auto& channel : run.record.channels) {
-    const auto unit = arm::unit(channel.sensor);
-    plot.panels.push_back({panel_label(channel.sensor),
-                           unit == "1" ? "" : std::string(unit),
-                           {{"", channel.values}}});
+    plot.panels.push_back(
+        {sensor_label(channel.sensor), axis_unit(channel.sensor), {{"", channel.values}}});
   }
   return to_svg(time_figure(plot));
 }

@@ -1,0 +1,117 @@
+#include "diagnose/symptoms/hub_motion.hpp"
+
+#include "exact_tf/exact_arm.hpp"
+#include "response/arm_parts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+#include <variant>
+
+namespace flexarm::diagnose {
+
+namespace {
+
+/// Slope of the line of least squares through `half` samples to both sides, fewer at the ends.
+std::vector<double> slope(const std::vector<double>& values, double period_s, std::size_t half) {
+  const std::size_t n = values.size();
+  std::vector<double> made(n);
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::size_t from = k < half ? 0 : k - half;
+    const std::size_t to = std::min(n - 1, k + half);
+    const double middle = 0.5 * static_cast<double>(from + to);
+    double moment = 0.0;
+    double squares = 0.0;
+    for (std::size_t i = from; i <= to; ++i) {
+      const double x = static_cast<double>(i) - middle;
+      moment += x * values[i];
+      squares += x * x;
+    }
+    made[k] = moment / (squares * period_s);
+  }
+  return made;
+}
+
+/// By the trapezoidal rule, from 0.
+std::vector<double> integral(const std::vector<double>& values, double period_s) {
+  std::vector<double> made(values.size());
+  for (std::size_t k = 1; k < values.size(); ++k) {
+    made[k] = made[k - 1] + 0.5 * period_s * (values[k - 1] + values[k]);
+  }
+  return made;
+}
+
+const std::vector<double>* values_of(const measured::TimeRecord& record, arm::SensorKind kind) {
+  const auto at = std::ranges::find_if(
+      record.channels, [&](const auto& channel) { return channel.sensor.kind == kind; });
+  return at == record.channels.end() ? nullptr : &at->values;
+}
+
+/// Half of the samples that a slope of the angle is taken over.
+std::size_t samples_of_slope(const arm::Arm& arm, double period_s) {
+  const exact_tf::ExactArm exact(response::take_apart(arm).linear);
+  const double mode_s = 2.0 * std::numbers::pi / exact.poles(1).omega_rad_per_s.front();
+  return static_cast<std::size_t>(std::max(1.0, 0.5 * kSlope_periods * mode_s / period_s));
+}
+
+std::vector<HubReading> readings_of(const SymptomsInput& input, std::size_t run,
+                                    const measured::TimeRecord& record, const arm::Arm& arm) {
+  const Observations& observations = input.problem.observations();
+  std::vector<HubReading> readings;
+  for (const arm::SensorKind kind : {arm::SensorKind::hub_velocity, arm::SensorKind::hub_angle}) {
+    const arm::Sensor sensor{kind, 0.0};
+    const auto channel =
+        std::ranges::find_if(observations.channels, [&](const ObservedChannel& one) {
+          return one.run == run && one.sensor == arm::to_string(sensor);
+        });
+    if (channel == observations.channels.end()) continue;
+    const double noise = observations.deviations(channel->first);
+    const Eigen::VectorXd residual = noise * input.before.segment(channel->first, channel->count);
+    readings.push_back({HubResponse(arm, sensor, input.problem.predictor().flexible_modes(),
+                                    input.problem.experiment().runs[run].run.torque_hold,
+                                    measured::sampling_period_s(record), record.time_s.size()),
+                        {residual.begin(), residual.end()},
+                        noise,
+                        channel->noise});
+  }
+  return readings;
+}
+
+}  // namespace
+
+std::vector<HubMotion> hub_motions(const SymptomsInput& input) {
+  const Experiment& experiment = input.problem.experiment();
+  std::vector<HubMotion> motions;
+  for (std::size_t r = 0; r < experiment.runs.size(); ++r) {
+    const auto& [run, data] = experiment.runs[r];
+    const auto* record = std::get_if<measured::TimeRecord>(&data);
+    if (record == nullptr) continue;
+    const auto* angle = values_of(*record, arm::SensorKind::hub_angle);
+    const auto* velocity = values_of(*record, arm::SensorKind::hub_velocity);
+    if (angle == nullptr && velocity == nullptr) continue;
+    const arm::Arm arm = arm_in(experiment, run);
+    const double period_s = measured::sampling_period_s(*record);
+    HubMotion motion;
+    motion.run = r;
+    motion.run_id = run.id;
+    motion.hold = run.torque_hold;
+    motion.time_s = record->time_s;
+    motion.torque_N_m = record->torque_N_m;
+    const std::size_t half = samples_of_slope(arm, period_s);
+    motion.velocity_rad_per_s = velocity != nullptr ? *velocity : slope(*angle, period_s, half);
+    motion.angle_rad = angle != nullptr ? *angle : integral(*velocity, period_s);
+    motion.acceleration_rad_per_s2 = slope(motion.velocity_rad_per_s, period_s, 1);
+    motion.readings = readings_of(input, r, *record, arm);
+    motion.velocity_noise_rad_per_s = motion.readings.front().noise;
+    if (velocity == nullptr) {
+      // Of a slope through 2 h + 1 values: sum of squares of their places h (h + 1)(2 h + 1)/3.
+      const auto h = static_cast<double>(half);
+      motion.velocity_noise_rad_per_s /= period_s * std::sqrt(h * (h + 1) * (2 * h + 1) / 3.0);
+    }
+    motions.push_back(std::move(motion));
+  }
+  return motions;
+}
+
+}  // namespace flexarm::diagnose

@@ -1,0 +1,150 @@
+#include "diagnose/symptoms/hub_response.hpp"
+
+#include "measured/fourier.hpp"
+#include "measured/spectra.hpp"
+#include "response/arm_parts.hpp"
+#include "response/formulation_maker.hpp"
+#include "response/quick_simulation.hpp"
+#include "response/time_model.hpp"
+
+#include <boost/math/tools/minima.hpp>
+#include <unsupported/Eigen/FFT>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace flexarm::diagnose {
+
+namespace {
+
+/// How long a pulse is followed, in records: what has not died by then is taken to have.
+constexpr std::size_t kPulseRecords = 3;
+
+/// exp(-a k): a convolution of signals that fade alike fades so too. What rings on, at the arm's
+/// poles and, in what undoes its answer, at its zeros, has faded when a transform of `padded`
+/// samples comes round.
+std::vector<double> fading(std::size_t samples, std::size_t padded) {
+  constexpr double kLeft = 1e-4;
+  std::vector<double> weights(samples);
+  for (std::size_t k = 0; k < samples; ++k) {
+    weights[k] = std::pow(kLeft, static_cast<double>(k) / static_cast<double>(padded));
+  }
+  return weights;
+}
+
+/// Of 1 N m at the second sample, from there on: what is linear between samples rises before it.
+std::vector<double> pulse_response(const arm::Arm& arm, const arm::Sensor& sensor,
+                                   int flexible_modes, measured::TorqueHold hold, double period_s,
+                                   std::size_t samples) {
+  const std::vector<arm::Sensor> sensors = {sensor};
+  response::ArmParts parts;  // without what is not linear
+  parts.linear = response::take_apart(arm).linear;
+  const auto model =
+      response::time_model(response::make_formulation("exact_tf", parts.linear, flexible_modes),
+                           parts, flexible_modes, sensors);
+  std::vector<double> pulse(samples + 1);
+  pulse[1] = 1.0;
+  response::QuickSimulationOptions options;
+  options.sample_time_s = period_s;
+  options.hold =
+      hold == measured::TorqueHold::zero ? response::TorqueHold::zero : response::TorqueHold::first;
+  auto made = response::quick_simulation(model, parts, sensors, pulse, options).front();
+  made.erase(made.begin());
+  return made;
+}
+
+/// From rest: what is before the first value is 0.
+std::vector<double> differenced(std::span<const double> values, int times) {
+  std::vector<double> made(values.begin(), values.end());
+  for (int i = 0; i < times; ++i) {
+    for (std::size_t k = made.size(); k-- > 1;) made[k] -= made[k - 1];
+  }
+  return made;
+}
+
+}  // namespace
+
+HubResponse::HubResponse(const arm::Arm& arm, const arm::Sensor& sensor, int flexible_modes,
+                         measured::TorqueHold hold, double period_s, std::size_t samples)
+    : samples_(samples),
+      padded_(measured::fast_length((kPulseRecords + 1) * samples)),
+      differences_(measured::differences_until_steady(sensor)) {
+  const auto pulse =
+      pulse_response(arm, sensor, flexible_modes, hold, period_s, kPulseRecords * samples);
+  response_ = transformed(std::span(pulse).first(samples));
+  std::vector<double> steady = differenced(pulse, differences_);
+  const std::vector<double> weights = fading(steady.size(), padded_);
+  for (std::size_t k = 0; k < steady.size(); ++k) steady[k] *= weights[k];
+  steady_response_ = transformed(steady);
+}
+
+HubResponse::Spectrum HubResponse::transformed(std::span<const double> values) const {
+  std::vector<double> padded(values.begin(), values.end());
+  padded.resize(padded_);
+  Eigen::FFT<double> transform;
+  transform.SetFlag(Eigen::FFT<double>::HalfSpectrum);
+  Spectrum spectrum;
+  transform.fwd(spectrum, padded);
+  return spectrum;
+}
+
+std::vector<double> HubResponse::transformed_back(const Spectrum& spectrum) const {
+  Eigen::FFT<double> transform;
+  transform.SetFlag(Eigen::FFT<double>::HalfSpectrum);
+  std::vector<double> values;
+  transform.inv(values, spectrum, static_cast<Eigen::Index>(padded_));
+  values.resize(samples_);
+  return values;
+}
+
+std::vector<double> HubResponse::reading(std::span<const double> torque_N_m) const {
+  Spectrum spectrum = transformed(torque_N_m);
+  for (std::size_t k = 0; k < spectrum.size(); ++k) spectrum[k] *= response_[k];
+  return transformed_back(spectrum);
+}
+
+std::vector<double> HubResponse::torque(std::span<const double> reading, double noise) const {
+  const std::vector<double> weights = fading(samples_, padded_);
+  std::vector<double> steady = differenced(reading, differences_);
+  double squares = 0.0;
+  for (std::size_t k = 0; k < samples_; ++k) {
+    steady[k] *= weights[k];
+    squares += weights[k] * weights[k];
+  }
+  Spectrum spectrum = transformed(steady);
+  std::vector<double> noise_power(spectrum.size());
+  double largest = 0.0;
+  for (std::size_t k = 0; k < spectrum.size(); ++k) {
+    const double place = static_cast<double>(k) / static_cast<double>(padded_);
+    noise_power[k] = noise * noise * squares *
+                     std::norm(measured::difference_response(place, 1.0, differences_));
+    if (k > 0) largest = std::max(largest, std::norm(steady_response_[k]) / noise_power[k]);
+  }
+  const auto unlikelihood = [&](double logarithm) {
+    const double torque_power = std::exp(logarithm);
+    double sum = 0.0;
+    for (std::size_t k = 1; k < spectrum.size(); ++k) {
+      const double power = std::norm(steady_response_[k]) * torque_power + noise_power[k];
+      sum += std::log(power) + std::norm(spectrum[k]) / power;
+    }
+    return sum;
+  };
+  const double lowest = -std::log(largest);  // of a torque that shows nowhere
+  constexpr double kDecades = 24.0;
+  constexpr int kBits = 10;
+  std::uintmax_t iterations = 60;
+  const double torque_power =
+      std::exp(boost::math::tools::brent_find_minima(
+                   unlikelihood, lowest, lowest + kDecades * std::log(10.0), kBits, iterations)
+                   .first);
+  for (std::size_t k = 0; k < spectrum.size(); ++k) {
+    const double power = std::norm(steady_response_[k]) + noise_power[k] / torque_power;
+    spectrum[k] = power > 0.0 ? spectrum[k] * std::conj(steady_response_[k]) / power : 0.0;
+  }
+  std::vector<double> made = transformed_back(spectrum);
+  for (std::size_t k = 0; k < samples_; ++k) made[k] /= weights[k];
+  return made;
+}
+
+}  // namespace flexarm::diagnose

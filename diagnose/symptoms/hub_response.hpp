@@ -1,0 +1,53 @@
+#pragma once
+
+#include "arm/arm.hpp"
+#include "arm/sensor.hpp"
+#include "measured/measurement.hpp"
+
+#include <complex>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace flexarm::diagnose {
+
+/// What a sensor of the linear arm, at rest before the first sample, answers to a torque on the hub
+/// that is given at samples: the convolution with its answer to one of 1 N m at one sample and 0 at
+/// the others, held as the run holds its torque, and what undoes it.
+class HubResponse {
+ public:
+  /// `flexible_modes` of exact_tf move. Throws InputError as they do.
+  HubResponse(const arm::Arm& arm, const arm::Sensor& sensor, int flexible_modes,
+              measured::TorqueHold hold, double period_s, std::size_t samples);
+
+  std::size_t samples() const { return samples_; }
+
+  /// The reading under this torque, a value a sample of both.
+  std::vector<double> reading(std::span<const double> torque_N_m) const;
+
+  /// The torque [N m] whose reading this is, but for white noise of deviation `noise`, as far as
+  /// the noise lets it be seen: Wiener's filter
+  ///
+  ///     T = conj(G) Y/(|G|^2 + n/s)
+  ///
+  /// with the power s of a white torque of largest likelihood (Whittle 1953) beside that of the
+  /// noise, n. Reading, response and noise are differenced until a free arm does not drift
+  /// (measured::differences_until_steady), and fade exponentially, so that what rings on has faded
+  /// when the discrete transform comes round (Kausel & Roesset, J. Eng. Mech. 118, 1992). The last
+  /// few samples of the reading say little of the torque under them.
+  std::vector<double> torque(std::span<const double> reading, double noise) const;
+
+ private:
+  using Spectrum = std::vector<std::complex<double>>;
+
+  Spectrum transformed(std::span<const double> values) const;
+  std::vector<double> transformed_back(const Spectrum& spectrum) const;
+
+  std::size_t samples_;
+  std::size_t padded_;
+  int differences_;
+  Spectrum response_;
+  Spectrum steady_response_;  // differenced
+};
+
+}  // namespace flexarm::diagnose

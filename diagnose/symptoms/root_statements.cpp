@@ -1,0 +1,185 @@
+#include "diagnose/symptoms/root_shifts.hpp"
+
+#include <boost/math/special_functions/erf.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace flexarm::diagnose {
+
+namespace {
+
+double probability_of(double deviates) {
+  return boost::math::erfc(std::abs(deviates) / std::sqrt(2.0));
+}
+
+/// Poles, or zeros of one sensor; of all runs.
+struct RootGroup {
+  std::string name;
+  std::optional<arm::Sensor> zero_of;
+  std::vector<const RootShift*> shifts;
+  double frequency_probability = 1.0;  ///< the least
+  double damping_probability = 1.0;
+};
+
+std::vector<RootGroup> groups_of(const std::vector<RootShift>& shifts) {
+  std::vector<RootGroup> groups;
+  for (const RootShift& shift : shifts) {
+    auto at = std::ranges::find(groups, shift.zero_of, &RootGroup::zero_of);
+    if (at == groups.end()) {
+      at = groups.insert(
+          at,
+          {shift.zero_of ? arm::to_string(*shift.zero_of) + " zeros" : "poles", shift.zero_of, {}});
+    }
+    at->shifts.push_back(&shift);
+    const auto lower = [](double& least, const std::optional<RootNumber>& number) {
+      if (number) least = std::min(least, probability_of(number->deviates()));
+    };
+    lower(at->frequency_probability, shift.frequency_Hz);
+    lower(at->damping_probability, shift.damping_ratio);
+  }
+  return groups;
+}
+
+/// Of each order the run in which `number` is furthest off, where it is significantly.
+template <class Number>
+std::vector<std::string> moved(const RootGroup& group, std::size_t tests, Number number) {
+  std::map<int, const RootShift*> furthest;
+  for (const RootShift* shift : group.shifts) {
+    const std::optional<RootNumber>& own = number(*shift);
+    if (!own) continue;
+    if (!symptom(SymptomKind::roots, "", probability_of(own->deviates()), tests).is_significant) {
+      continue;
+    }
+    const RootShift*& kept = furthest[shift->order];
+    if (kept == nullptr || std::abs(own->deviates()) > std::abs(number(*kept)->deviates())) {
+      kept = shift;
+    }
+  }
+  std::vector<std::string> texts;
+  for (const auto& [order, shift] : furthest) {
+    const RootNumber& own = *number(*shift);
+    texts.push_back(fmt::format("{} by {:+.2g} % ({:.0f} σ, run {})", order, own.shift_percent(),
+                                std::abs(own.deviates()), shift->run));
+  }
+  return texts;
+}
+
+/// Within which the frequencies of a group are where the simulation has them [%].
+double within_percent(const RootGroup& group) {
+  double widest = 0.0;
+  for (const RootShift* shift : group.shifts) {
+    if (!shift->frequency_Hz) continue;
+    const RootNumber& number = *shift->frequency_Hz;
+    widest = std::max(widest,
+                      std::abs(number.shift_percent()) + 200.0 * number.std_error / number.before);
+  }
+  return widest;
+}
+
+std::string group_text(const RootGroup& group, std::size_t tests) {
+  const auto frequencies =
+      moved(group, tests, [](const RootShift& shift) -> const std::optional<RootNumber>& {
+        return shift.frequency_Hz;
+      });
+  const auto dampings =
+      moved(group, tests, [](const RootShift& shift) -> const std::optional<RootNumber>& {
+        return shift.damping_ratio;
+      });
+  std::string text =
+      frequencies.empty()
+          ? fmt::format("{}: the frequencies are where the simulation has them, within {:.2g} %",
+                        group.name, within_percent(group))
+          : fmt::format("{}: moved in frequency are {}", group.name, fmt::join(frequencies, ", "));
+  if (!dampings.empty()) {
+    text += fmt::format("; in damping ratio {}", fmt::join(dampings, ", "));
+  }
+  return text + ".";
+}
+
+enum class Motion { unknown, stays, moves };
+
+/// What moves and what stays says on which side of the root the cause is (docs/diagnosis.md).
+std::string rule(Motion poles, Motion hub_zeros, Motion tip_zeros, bool damping_moves) {
+  if (tip_zeros == Motion::moves) {
+    return "Zeros of the tip moved, which neither hub, root nor payload mass shift: the link "
+           "itself, "
+           "or the payload's inertia or offset.";
+  }
+  if (hub_zeros == Motion::moves && tip_zeros == Motion::stays) {
+    return "Zeros of the hub moved and those of the tip did not: payload mass or the root, not the "
+           "link.";
+  }
+  if (hub_zeros == Motion::moves) {
+    return "Zeros of the hub moved, which no hub inertia, friction, spring, lag or gain shifts: "
+           "the "
+           "link, its root or the payload.";
+  }
+  if (poles == Motion::moves && hub_zeros == Motion::stays) {
+    return "Poles moved and zeros of the hub did not: a cause on the hub's side of the root, as "
+           "its inertia or a spring.";
+  }
+  if (poles == Motion::stays && hub_zeros != Motion::moves && damping_moves) {
+    return "No frequency moved but damping did: friction or damping, not mass or stiffness.";
+  }
+  if (poles == Motion::stays && hub_zeros == Motion::stays) {
+    return "No pole or zero moved: what is wrong, if anything, is gain, delay or lag, or not "
+           "linear.";
+  }
+  return "";
+}
+
+}  // namespace
+
+std::vector<Symptom> root_symptoms(const std::vector<RootShift>& shifts) {
+  std::vector<Symptom> made;
+  std::size_t tests = 0;
+  for (const RootShift& shift : shifts) {
+    tests += (shift.frequency_Hz ? 1U : 0U) + (shift.damping_ratio ? 1U : 0U);
+  }
+  if (tests == 0) return made;
+  Motion poles = Motion::unknown;
+  Motion hub_zeros = Motion::unknown;
+  Motion tip_zeros = Motion::unknown;
+  bool damping_moves = false;
+  double least_probability = 1.0;
+  for (const RootGroup& group : groups_of(shifts)) {
+    const double probability = std::min(group.frequency_probability, group.damping_probability);
+    Symptom one = symptom(SymptomKind::roots, group_text(group, tests), probability, tests);
+    if (group.zero_of) one.sensor = arm::to_string(*group.zero_of);
+    made.push_back(std::move(one));
+    least_probability = std::min(least_probability, probability);
+    const bool moves =
+        symptom(SymptomKind::roots, "", group.frequency_probability, tests).is_significant;
+    damping_moves =
+        damping_moves ||
+        symptom(SymptomKind::roots, "", group.damping_probability, tests).is_significant;
+    const auto put = [&](Motion& motion) {
+      if (moves) {
+        motion = Motion::moves;
+      } else if (motion == Motion::unknown) {
+        motion = Motion::stays;
+      }
+    };
+    if (!group.zero_of) {
+      put(poles);
+    } else if (arm::is_collocated(*group.zero_of)) {
+      put(hub_zeros);
+    } else if (group.zero_of->kind == arm::SensorKind::tip_acceleration ||
+               group.zero_of->kind == arm::SensorKind::tip_displacement) {
+      put(tip_zeros);
+    }
+  }
+  const std::string text = rule(poles, hub_zeros, tip_zeros, damping_moves);
+  if (!text.empty()) {
+    made.insert(made.begin(), symptom(SymptomKind::roots, text, least_probability, tests));
+  }
+  return made;
+}
+
+}  // namespace flexarm::diagnose

@@ -1,0 +1,147 @@
+#include "diagnose/symptoms/run_drift.hpp"
+
+#include "arm/effects.hpp"
+#include "compare/for_each_index.hpp"
+#include "diagnose/misfit.hpp"
+
+#include <boost/math/distributions/chi_squared.hpp>
+#include <boost/math/distributions/complement.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace flexarm::diagnose {
+
+namespace {
+
+using Eigen::Index;
+
+/// Of a place, between rounding and curvature.
+constexpr double kPlaceStep = 1e-4;
+constexpr int kMostRunSteps = 4;
+/// A step of this part of the standard error, or of the value, is the last.
+constexpr double kLastStep = 0.1;
+constexpr double kLastChange = 0.003;
+
+struct RunFit {
+  double place = 0.0;
+  double std_error = 0.0;  ///< of the place; 0 where the run does not show the parameter
+};
+
+std::optional<RunFit> refitted(const Problem& problem, const Candidate& start, Index parameter,
+                               std::size_t run) {
+  std::vector<bool> only(problem.experiment().runs.size(), false);
+  only[run] = true;
+  Candidate candidate = start;
+  Eigen::VectorXd places = start.places();
+  const SearchedParameter known = start.parameters()[static_cast<std::size_t>(parameter)];
+  RunFit made;
+  const auto here = [&](double place) {
+    places(parameter) = place;
+    candidate.put(places);
+    return problem.residuals(candidate, only);
+  };
+  double place = places(parameter);
+  double before = -1.0;
+  double step = 0.0;
+  for (int i = 0; i < kMostRunSteps; ++i) {
+    const auto residuals = here(place);
+    if (!residuals) return std::nullopt;
+    const double squares = residuals->squaredNorm();
+    if (before >= 0.0 && squares > before) {  // too far: half the way
+      step *= 0.5;
+      place -= step;
+      continue;
+    }
+    before = squares;
+    const double aside = place < 0.5 ? kPlaceStep : -kPlaceStep;
+    const auto beside = here(place + aside);
+    if (!beside) return std::nullopt;
+    const Eigen::VectorXd slope = (*beside - *residuals) / aside;
+    const double information = slope.squaredNorm();
+    if (!(information > 0.0)) return std::nullopt;
+    const Misfit left = misfit(problem.observations(), problem.experiment(), *residuals, only);
+    const double scale = std::max(1.0, squares / left.count) * left.count / left.independent;
+    made = {place, std::sqrt(scale / information)};
+    step = std::clamp(-slope.dot(*residuals) / information, -place - Candidate::kBeyond,
+                      1.0 + Candidate::kBeyond - place);
+    place += step;
+    made.place = place;
+    const double value = known.value(place);
+    if (std::abs(step) <= kLastStep * made.std_error ||
+        std::abs(value - known.value(place - step)) <= kLastChange * std::abs(value)) {
+      break;
+    }
+  }
+  return made;
+}
+
+}  // namespace
+
+std::optional<RunDrift> run_drift(const Problem& problem, const Candidate& candidate,
+                                  std::size_t effect) {
+  const Hypothesis& hypothesis = candidate.effects[effect];
+  Index at = 0;
+  for (std::size_t i = 0; i < effect; ++i) {
+    at += static_cast<Index>(candidate.effects[i].parameters.size());
+  }
+  const SearchedParameter& parameter = hypothesis.parameters.front();
+  const auto& runs = problem.experiment().runs;
+  std::vector<std::optional<RunFit>> fits(runs.size());
+  compare::for_each_index(runs.size(), 0, [&](std::size_t r) {
+    if (hypothesis.shows_in(runs[r].run.kind)) fits[r] = refitted(problem, candidate, at, r);
+  });
+  RunDrift made;
+  made.effect = hypothesis.effect;
+  made.parameter = parameter.name;
+  const auto& known = arm::find_effect(hypothesis.effect)->parameters;
+  made.unit = std::ranges::find(known, parameter.name, &arm::EffectParameter::name)->unit;
+  double weights = 0.0;
+  double sum = 0.0;
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    if (!fits[r]) continue;
+    const RunFit& fit = *fits[r];
+    RunValue value{runs[r].run.id, parameter.value(fit.place), 0.0};
+    const double slope =
+        (parameter.value(fit.place + kPlaceStep) - parameter.value(fit.place - kPlaceStep)) /
+        (2.0 * kPlaceStep);
+    value.std_error = std::abs(slope) * fit.std_error;
+    if (!(value.std_error > 0.0) || !std::isfinite(value.value)) continue;
+    made.values.push_back(value);
+    weights += 1.0 / (value.std_error * value.std_error);
+    sum += value.value / (value.std_error * value.std_error);
+  }
+  if (made.values.size() < 2) return std::nullopt;
+  made.mean = sum / weights;
+  for (const RunValue& value : made.values) {
+    made.chi_squared += std::pow((value.value - made.mean) / value.std_error, 2);
+  }
+  const boost::math::chi_squared distribution(static_cast<double>(made.values.size() - 1));
+  made.probability = boost::math::cdf(boost::math::complement(distribution, made.chi_squared));
+  return made;
+}
+
+std::vector<Symptom> drift_symptoms(const RunDrift& drift) {
+  const auto [least, most] = std::ranges::minmax_element(drift.values, {}, &RunValue::value);
+  const std::string unit = drift.unit == "1" ? "" : " " + drift.unit;
+  Symptom one = symptom(SymptomKind::drift, "", drift.probability, 1);
+  const std::string what = fmt::format("{} {} refitted run by run", drift.effect, drift.parameter);
+  const std::string range = fmt::format("{:.4g} ± {:.2g}{} (run {}) to {:.4g} ± {:.2g}{} (run {})",
+                                        least->value, least->std_error, unit, least->run,
+                                        most->value, most->std_error, unit, most->run);
+  const double spread = (most->value - least->value) / std::abs(drift.mean);
+  if (one.is_significant && spread >= kLeastSpread) {
+    one.text = fmt::format(
+        "{} does not agree with itself: {}; it changes between runs, or is not all that is wrong.",
+        what, range);
+  } else if (one.is_significant) {
+    one.is_significant = false;
+    one.text = fmt::format("{} agrees within {}: {}.", what, percent(spread), range);
+  } else {
+    one.text = fmt::format("{} agrees within its errors: {}.", what, range);
+  }
+  return {one};
+}
+
+}  // namespace flexarm::diagnose

@@ -1,0 +1,43 @@
+#pragma once
+
+#include "diagnose/candidate.hpp"
+#include "diagnose/symptoms/symptom.hpp"
+#include "diagnose/symptoms/symptoms_input.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace flexarm::diagnose {
+
+/// A parameter as one run by itself has it.
+struct RunValue {
+  std::string run;
+  double value = 0.0;
+  double std_error = 0.0;
+};
+
+/// One parameter refitted to each run by itself, validation runs too.
+struct RunDrift {
+  std::string effect;
+  std::string parameter;
+  std::string unit;
+  std::vector<RunValue> values;  ///< of runs that show the effect
+  double mean = 0.0;             ///< weighted by the squares of the errors
+  double chi_squared = 0.0;      ///< of the spread, for one number less than there are values
+  double probability = 1.0;      ///< of this spread or more from the errors alone
+};
+
+/// The first parameter of the `effect`-th of `candidate`'s effects, the others as they are, by
+/// Gauss-Newton steps in each run from where all runs have it. Standard errors as those of causes:
+/// widened by the size of what is left and its correlation. Empty where fewer than two runs show
+/// the effect.
+std::optional<RunDrift> run_drift(const Problem& problem, const Candidate& candidate,
+                                  std::size_t effect);
+
+/// One statement; significant where the spread is, and is more than `kLeastSpread` of the mean,
+/// which is what the simulation's own errors make of it.
+std::vector<Symptom> drift_symptoms(const RunDrift& drift);
+inline constexpr double kLeastSpread = 0.05;
+
+}  // namespace flexarm::diagnose

@@ -1,0 +1,32 @@
+#include "diagnose/symptoms/symptoms.hpp"
+
+#include "diagnose/selection.hpp"
+#include "diagnose/symptoms/error_trends.hpp"
+
+#include <iterator>
+#include <utility>
+
+namespace flexarm::diagnose {
+
+Symptoms symptoms_of(const SymptomsInput& input, std::optional<RunDrift> drift) {
+  Symptoms made;
+  const auto add = [&](std::vector<Symptom> symptoms) {
+    std::ranges::move(symptoms, std::back_inserter(made.statements));
+  };
+  made.bands = band_errors(input);
+  add(error_symptoms(input, made.bands));
+  add(trend_symptoms(input));
+  made.roots = root_shifts(input);
+  add(root_symptoms(made.roots));
+  made.hub_torque = hub_torque(hub_motions(input),
+                               input.has_causes() ? 0.0 : SelectionOptions{}.negligible_error);
+  add(hub_torque_symptoms(made.hub_torque));
+  made.distortion = run_distortions(input.problem.experiment());
+  add(distortion_symptoms(made.distortion));
+  made.drift = std::move(drift);
+  if (made.drift) add(drift_symptoms(*made.drift));
+  sort_by_significance(made.statements);
+  return made;
+}
+
+}  // namespace flexarm::diagnose

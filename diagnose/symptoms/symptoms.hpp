@@ -1,0 +1,27 @@
+#pragma once
+
+#include "diagnose/symptoms/band_errors.hpp"
+#include "diagnose/symptoms/hub_torque.hpp"
+#include "diagnose/symptoms/root_shifts.hpp"
+#include "diagnose/symptoms/run_distortion.hpp"
+#include "diagnose/symptoms/run_drift.hpp"
+
+#include <optional>
+#include <vector>
+
+namespace flexarm::diagnose {
+
+/// What the simulation without any cause gets wrong, and the numbers behind each statement.
+struct Symptoms {
+  std::vector<Symptom> statements;  ///< the significant ones first
+  std::vector<BandError> bands;
+  std::vector<RootShift> roots;
+  HubTorque hub_torque;
+  std::vector<RunDistortion> distortion;
+  std::optional<RunDrift> drift;
+};
+
+/// `drift` is of the leading effect; empty where there is none.
+Symptoms symptoms_of(const SymptomsInput& input, std::optional<RunDrift> drift);
+
+}  // namespace flexarm::diagnose

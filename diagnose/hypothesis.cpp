@@ -50,6 +50,12 @@ double SearchedParameter::place(double value) const {
   return 0.0;
 }
 
+std::optional<double> SearchedParameter::neutral_place() const {
+  if (spacing == Spacing::from_zero || spacing == Spacing::from_infinity) return 0.0;
+  if (!neutral) return std::nullopt;
+  return place(*neutral);
+}
+
 std::string Hypothesis::label() const {
   return sensor.empty() ? effect : effect + " on " + sensor;
 }

@@ -8,8 +8,12 @@
 namespace flexarm::diagnose {
 
 Problem::Problem(const Experiment& experiment, const ProblemOptions& options)
+    : Problem(experiment, observe(experiment), options) {}
+
+Problem::Problem(const Experiment& experiment, Observations observations,
+                 const ProblemOptions& options)
     : experiment_(&experiment),
-      observations_(observe(experiment)),
+      observations_(std::move(observations)),
       predictor_(experiment, observations_,
                  options.flexible_modes ? *options.flexible_modes
                                         : modes_needed(experiment, observations_),

@@ -21,6 +21,8 @@ class Problem {
  public:
   /// `experiment` must outlive the object.
   explicit Problem(const Experiment& experiment, const ProblemOptions& options = {});
+  /// With these observations in place of those that the experiment's data make.
+  Problem(const Experiment& experiment, Observations observations, const ProblemOptions& options);
 
   const Experiment& experiment() const { return *experiment_; }
   const Observations& observations() const { return observations_; }

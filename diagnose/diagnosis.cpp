@@ -1,7 +1,5 @@
 #include "diagnose/diagnosis.hpp"
 
-#include "arm/effects.hpp"
-
 #include <Eigen/Cholesky>
 #include <fmt/format.h>
 
@@ -17,8 +15,6 @@ using Eigen::Index;
 
 /// Inner steps a sample of the last refit.
 constexpr int kFineSubsteps = 20;
-/// Rivals that the chosen causes lead by less than this information cannot be told from them.
-constexpr double kTold = 10.0;
 /// No data make an effect more certain than this.
 constexpr double kMostConfidence = 0.99;
 
@@ -44,11 +40,6 @@ std::vector<double> standard_errors(const Fit& fit, const Misfit& misfit) {
         std::abs(slope) * std::sqrt(std::max(0.0, covariance(i, i)));
   }
   return errors;
-}
-
-std::string unit_of(const std::string& effect, const std::string& parameter) {
-  const auto& parameters = arm::find_effect(effect)->parameters;
-  return std::ranges::find(parameters, parameter, &arm::EffectParameter::name)->unit;
 }
 
 /// What the rivals that lack an effect are in its place, with the information by which the chosen
@@ -83,7 +74,7 @@ std::vector<std::string> evidence_for(const Hypothesis& hypothesis, const Cause&
   if (!rivals.empty()) {
     const Rival& next = rivals.front();
     evidence.push_back(
-        next.lead < kTold
+        next.lead < kToldLead
             ? fmt::format("{} in its place does as well.", next.effect->label())
             : fmt::format("The next candidate in its place, {}, is {:.0f} of information behind.",
                           next.effect->label(), next.lead));
@@ -117,8 +108,8 @@ std::vector<std::vector<ParameterEstimate>> estimates_of(const Explanation& expl
   for (const Hypothesis& effect : candidate.effects) {
     auto& estimates = all.emplace_back();
     for (const auto& parameter : effect.parameters) {
-      estimates.push_back({parameter.name, candidate.values[at], errors[at],
-                           unit_of(effect.effect, parameter.name)});
+      estimates.push_back(
+          {parameter.name, candidate.values[at], errors[at], unit_of(effect, parameter)});
       ++at;
     }
   }
@@ -137,7 +128,7 @@ Cause cause_of(const Hypothesis& effect, const Selection& selection, const Expla
     odds += std::exp(-0.5 * std::max(0.0, rival.lead));
     const std::string& name = rival.effect->effect;
     auto& confusable = cause.confusable_with;
-    if (rival.lead < kTold && std::ranges::find(confusable, name) == confusable.end()) {
+    if (rival.lead < kToldLead && std::ranges::find(confusable, name) == confusable.end()) {
       confusable.push_back(name);
     }
   }
@@ -209,6 +200,7 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
   }
   made.channels = channel_gains(problem, selection.nothing, selection.chosen);
   made.extended_arm = chosen.extend(experiment.arm);
+  made.next_experiments = what_next(problem, selection, made.verdict != Verdict::unexplained);
   return made;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "diagnose/planning/next_experiments.hpp"
 #include "diagnose/selection.hpp"
 
 #include <optional>
@@ -59,7 +60,8 @@ struct Diagnosis {
   Gain estimation;
   std::optional<Gain> validation;
   std::vector<ChannelGain> channels;
-  arm::Arm extended_arm;  ///< the experiment's with the causes
+  arm::Arm extended_arm;                         ///< the experiment's with the causes
+  std::vector<NextExperiment> next_experiments;  ///< what_next
   std::vector<std::string> notices;
   bool cancelled = false;
 };

@@ -71,6 +71,9 @@ struct Hypothesis {
   bool shows_in(measured::RunKind kind) const;
 };
 
+/// Unit of a parameter of the effect, as the vocabulary has it; empty for a plain number.
+std::string unit_of(const Hypothesis& hypothesis, const SearchedParameter& parameter);
+
 /// The arm with the effect at these values, one a parameter.
 arm::Arm extended(const arm::Arm& arm, const Hypothesis& hypothesis,
                   std::span<const double> values);

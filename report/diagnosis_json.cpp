@@ -1,5 +1,7 @@
 #include "report/diagnosis_json.hpp"
 
+#include "report/plan_json.hpp"
+
 #include <nlohmann/json.hpp>
 
 namespace flexarm::report {
@@ -47,6 +49,7 @@ Json diagnosis_json(const diagnose::Diagnosis& diagnosis, const std::string& ext
           {"gain", gain},
           {"residual", {{"channels", channels}}},
           {"extended_arm", extended_arm.empty() ? Json(nullptr) : Json(extended_arm)},
+          {"next_experiments", further_runs_json(diagnosis.next_experiments)},
           {"notices", diagnosis.notices}};
 }
 

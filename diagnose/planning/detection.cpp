@@ -86,9 +86,9 @@ std::vector<Growth> growths_of(const Hypothesis& hypothesis) {
 
 double detectable_change(const Problem& problem, std::size_t parameters, double least_gain) {
   const Observations& observations = problem.observations();
-  Misfit noise = misfit(observations, problem.experiment(),
-                        Eigen::VectorXd::Zero(observations.values.size()),
-                        problem.estimation_runs());
+  Misfit noise =
+      misfit(observations, problem.experiment(), Eigen::VectorXd::Zero(observations.values.size()),
+             problem.estimation_runs());
   const double information =
       least_gain + static_cast<double>(parameters) * std::log(std::max(2.0, noise.count));
   // excess() is 0 up to this sum of squares, of which the noise itself makes `count`.
@@ -111,7 +111,8 @@ Detection detect(const PlannedExperiment& planned, const Hypothesis& hypothesis,
   const auto growths = growths_of(hypothesis);
   if (growths.empty()) {
     Candidate middle{{hypothesis}, {}};
-    middle.put(Eigen::VectorXd::Constant(static_cast<Index>(hypothesis.parameters.size()), kMiddle));
+    middle.put(
+        Eigen::VectorXd::Constant(static_cast<Index>(hypothesis.parameters.size()), kMiddle));
     made.largest_change = change_norm(problem, middle);
     made.shows = made.largest_change >= found;
     made.compared_change = made.largest_change;

@@ -31,8 +31,8 @@ struct Detection {
   /// The smallest values that would be found; empty for an effect that is there or not, without a
   /// size, and for one that does not show.
   std::optional<Candidate> smallest;
-  /// Where it is held against the others: `kCompared` times the smallest change that would be found,
-  /// or at the end of its range.
+  /// Where it is held against the others: `kCompared` times the smallest change that would be
+  /// found, or at the end of its range.
   std::optional<Candidate> compared;
   double compared_change = 0.0;  ///< of the data, in standard deviations
   double largest_change = 0.0;   ///< at the end of its range

@@ -77,8 +77,7 @@ PlannedRun plain_time_run(const arm::Arm& arm, const std::vector<PlannedSensor>&
   run.sensors = sensors;
   for (PlannedSensor& sensor : run.sensors) sensor.noise = kPlannedNoise;
   if (run.sensors.empty()) run.sensors = {{{arm::SensorKind::hub_angle}, kPlannedNoise}};
-  const double amplitude =
-      kTurn_rad * arm::total_inertia_kg_m2(arm) / (kPulse_s * kPulse_s);
+  const double amplitude = kTurn_rad * arm::total_inertia_kg_m2(arm) / (kPulse_s * kPulse_s);
   run.torque = response::BangBang{.amplitude_N_m = amplitude, .pulse_s = kPulse_s, .pairs = 0};
   run.duration_s = 4.0;
   run.sample_time_s = 2e-3;
@@ -159,9 +158,9 @@ void add_in_time(Gatherer& all, const PlannedRun& run) {
   };
   with_input(multisine(period_s), period_s, "multisine",
              fmt::format("multisine to {:.3g} Hz", kHighestInput / period_s));
-  with_input(multisine(0.5 * period_s), 0.5 * period_s, "faster",
-             fmt::format("multisine to {:.3g} Hz, sampled twice as fast",
-                         2.0 * kHighestInput / period_s));
+  with_input(
+      multisine(0.5 * period_s), 0.5 * period_s, "faster",
+      fmt::format("multisine to {:.3g} Hz, sampled twice as fast", 2.0 * kHighestInput / period_s));
   with_input(response::BangBang{.amplitude_N_m = rms, .pulse_s = run.duration_s / 8.0, .pairs = 0},
              period_s, "bang-bang", "pulses to and fro");
   with_input(response::Step{.amplitude_N_m = rms}, period_s, "step", "a constant torque");
@@ -194,26 +193,26 @@ std::vector<FurtherRun> further_runs(const arm::Arm& arm, const std::vector<Plan
   } else {
     all.add(plain_time_run(arm, sensors), "pulses", "a run in time, pulses to and fro");
   }
-  PlannedRun response;
+  PlannedRun swept;
   if (frf != runs.end()) {
-    response = *frf;
-    add_conditions(all, arm, response);
+    swept = *frf;
+    add_conditions(all, arm, swept);
   } else {
-    response.id = "frf";
-    response.kind = RunKind::frf;
-    response.sensors = sensors;
-    if (in_time != runs.end()) response.payload = in_time->payload;
-    for (PlannedSensor& sensor : response.sensors) sensor.noise = kPlannedNoise;
-    if (response.sensors.empty()) {
-      response.sensors = {{{arm::SensorKind::hub_angle}, kPlannedNoise}};
+    swept.id = "frf";
+    swept.kind = RunKind::frf;
+    swept.sensors = sensors;
+    if (in_time != runs.end()) swept.payload = in_time->payload;
+    for (PlannedSensor& sensor : swept.sensors) sensor.noise = kPlannedNoise;
+    if (swept.sensors.empty()) {
+      swept.sensors = {{{arm::SensorKind::hub_angle}, kPlannedNoise}};
     }
     const double pole_Hz = third_pole_Hz(arm);
-    response.frequencies = FrequencyBand{0.01 * pole_Hz, 1.5 * pole_Hz, kFurtherLines};
-    all.add(response, "low", "a frequency response to above the third pole");
+    swept.frequencies = FrequencyBand{0.01 * pole_Hz, 1.5 * pole_Hz, kFurtherLines};
+    all.add(swept, "low", "a frequency response to above the third pole");
   }
-  const double highest_Hz = frequencies_of(response).back();
-  response.frequencies = FrequencyBand{0.1 * highest_Hz, 10.0 * highest_Hz, kFurtherLines};
-  all.add(response, "high", "a frequency response at ten times higher frequencies");
+  const double highest_Hz = frequencies_of(swept).back();
+  swept.frequencies = FrequencyBand{0.1 * highest_Hz, 10.0 * highest_Hz, kFurtherLines};
+  all.add(swept, "high", "a frequency response at ten times higher frequencies");
   if (modal != runs.end()) add_conditions(all, arm, *modal);
   return all.made();
 }
@@ -242,8 +241,7 @@ std::vector<PlannedRun> planned_as_measured(const Problem& problem) {
       planned.duration_s = static_cast<double>(torque.size()) * planned.sample_time_s;
       planned.torque = std::move(torque);
     } else {
-      planned.frequencies =
-          std::get<measured::FrequencyRecord>(data).channels.front().frequency_Hz;
+      planned.frequencies = std::get<measured::FrequencyRecord>(data).channels.front().frequency_Hz;
     }
     made.push_back(std::move(planned));
   }

@@ -55,8 +55,8 @@ void observe_tie(const PlannedExperiment& planned, const Tie& tie, const std::ve
     if (!runs[r]) continue;
     const Index first = data.first_of_run[r];
     const Index count = data.first_of_run[r + 1] - first;
-    const Eigen::MatrixXd part = information_of(jacobian.middleRows(first, count),
-                                                residuals.segment(first, count));
+    const Eigen::MatrixXd part =
+        information_of(jacobian.middleRows(first, count), residuals.segment(first, count));
     if (part.allFinite()) made[r] = part;
   }
 }
@@ -89,8 +89,8 @@ struct Evidence {
   bool cancelled = false;
 };
 
-Evidence gather(const arm::Arm& arm, const std::vector<FurtherRun>& further,
-                const std::vector<Tie>& ties, const std::function<bool(double)>& progress) {
+Evidence evidence_of(const arm::Arm& arm, const std::vector<FurtherRun>& further,
+                     const std::vector<Tie>& ties, const std::function<bool(double)>& progress) {
   const PlannedExperiment planned(arm, runs_of(further));
   Evidence made;
   const auto& first = planned.as_described().observations().first_of_run;
@@ -112,6 +112,10 @@ Evidence gather(const arm::Arm& arm, const std::vector<FurtherRun>& further,
   return made;
 }
 
+double soft_count(double lead) {
+  return std::max(0.0, lead) / (std::max(0.0, lead) + kToldLead);
+}
+
 std::vector<NextExperiment> rank(const std::vector<FurtherRun>& further,
                                  const std::vector<Tie>& ties, const Evidence& evidence) {
   std::vector<NextExperiment> ranked;
@@ -123,7 +127,7 @@ std::vector<NextExperiment> rank(const std::vector<FurtherRun>& further,
                         ties[t].count + evidence.counts[r]);
       next.leads.push_back(lead);
       if (lead >= kToldLead) ++next.told;
-      next.score += std::max(0.0, lead) / (std::max(0.0, lead) + kToldLead);
+      next.score += soft_count(lead);
     }
     ranked.push_back(std::move(next));
   }
@@ -131,11 +135,34 @@ std::vector<NextExperiment> rank(const std::vector<FurtherRun>& further,
   return ranked;
 }
 
+std::vector<NextExperiment> chosen_together(const std::vector<FurtherRun>& further,
+                                            std::vector<Tie> ties, const Evidence& evidence,
+                                            std::size_t most) {
+  std::vector<NextExperiment> chosen;
+  double score = 0.0;
+  for (const Tie& tie : ties) {
+    score += soft_count(expected_lead(tie.information, tie.truth.values.size(), tie.count));
+  }
+  while (chosen.size() < most) {
+    NextExperiment best = rank(further, ties, evidence).front();
+    if (best.score < score + kWorthAdding) break;
+    score = best.score;
+    const auto at = std::ranges::find(further, best.further.run.id,
+                                      [](const FurtherRun& entry) { return entry.run.id; });
+    const auto r = static_cast<std::size_t>(at - further.begin());
+    for (std::size_t t = 0; t < ties.size(); ++t) {
+      ties[t].information += evidence.of[t][r];
+      ties[t].count += evidence.counts[r];
+    }
+    chosen.push_back(std::move(best));
+  }
+  return chosen;
+}
+
 Tie tie_between(const Explanation& truth, const Explanation& rival) {
   Tie tie{truth.fit.candidate, rival.fit.candidate, {}, truth.estimation.count};
   // Residuals of the data of the truth: what the two predict differently.
-  tie.information =
-      information_of(rival.fit.jacobian, rival.fit.residuals - truth.fit.residuals);
+  tie.information = information_of(rival.fit.jacobian, rival.fit.residuals - truth.fit.residuals);
   return tie;
 }
 
@@ -151,44 +178,13 @@ bool is_a_limit(const Candidate& chosen, const Candidate& rival) {
 
 }  // namespace
 
-std::vector<NextExperiment> next_experiments(const arm::Arm& arm,
-                                             const std::vector<FurtherRun>& further,
-                                             const std::vector<Tie>& ties,
-                                             const std::function<bool(double)>& progress) {
+FurtherRunsWorth worth_of(const arm::Arm& arm, const std::vector<FurtherRun>& further,
+                          const std::vector<Tie>& ties, std::size_t most_together,
+                          const std::function<bool(double)>& progress) {
   if (ties.empty() || further.empty()) return {};
-  const Evidence evidence = gather(arm, further, ties, progress);
+  const Evidence evidence = evidence_of(arm, further, ties, progress);
   if (evidence.cancelled) return {};
-  return rank(further, ties, evidence);
-}
-
-std::vector<NextExperiment> best_set(const arm::Arm& arm, const std::vector<FurtherRun>& further,
-                                     const std::vector<Tie>& ties, std::size_t most,
-                                     const std::function<bool(double)>& progress) {
-  if (ties.empty() || further.empty()) return {};
-  const Evidence evidence = gather(arm, further, ties, progress);
-  if (evidence.cancelled) return {};
-  std::vector<Tie> left = ties;
-  std::vector<NextExperiment> chosen;
-  double score = 0.0;
-  for (const Tie& tie : ties) {
-    const double lead = std::max(0.0, expected_lead(tie.information, tie.truth.values.size(),
-                                                    tie.count));
-    score += lead / (lead + kToldLead);
-  }
-  while (chosen.size() < most) {
-    NextExperiment best = rank(further, left, evidence).front();
-    if (best.score < score + kWorthAdding) break;
-    score = best.score;
-    const auto at = std::ranges::find(further, best.further.run.id,
-                                      [](const FurtherRun& entry) { return entry.run.id; });
-    const auto r = static_cast<std::size_t>(at - further.begin());
-    for (std::size_t t = 0; t < ties.size(); ++t) {
-      left[t].information += evidence.of[t][r];
-      left[t].count += evidence.counts[r];
-    }
-    chosen.push_back(std::move(best));
-  }
-  return chosen;
+  return {rank(further, ties, evidence), chosen_together(further, ties, evidence, most_together)};
 }
 
 std::vector<NextExperiment> what_next(const Problem& problem, const Selection& selection,
@@ -208,7 +204,7 @@ std::vector<NextExperiment> what_next(const Problem& problem, const Selection& s
   }
   if (ties.empty()) return {};
   const arm::Arm& arm = problem.experiment().arm;
-  auto ranked = next_experiments(arm, further_runs(arm, planned_as_measured(problem)), ties);
+  auto ranked = worth_of(arm, further_runs(arm, planned_as_measured(problem)), ties, 0).ranked;
   ranked.resize(std::min(ranked.size(), kMostShown));
   return ranked;
 }

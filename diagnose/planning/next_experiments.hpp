@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-#include <string>
+#include <functional>
 #include <vector>
 
 namespace flexarm::diagnose {
@@ -27,20 +27,21 @@ struct NextExperiment {
   double score = 0.0;
 };
 
-/// Further runs with what they would tell of `ties`, the best first. Information adds up over runs;
-/// the rivals are refitted to first order. The score is a count of ties that are told, with soft
-/// edges: the sum of lead/(lead + kToldLead). Runs that cannot be computed for a tie say nothing of
-/// it. `progress` gets the fraction done; false ends the work, with nothing.
-std::vector<NextExperiment> next_experiments(const arm::Arm& arm,
-                                             const std::vector<FurtherRun>& further,
-                                             const std::vector<Tie>& ties,
-                                             const std::function<bool(double)>& progress = {});
+/// What further runs are worth.
+struct FurtherRunsWorth {
+  std::vector<NextExperiment> ranked;  ///< each by itself, the best first
+  /// Chosen one after the other, each for what those before it leave; the score is of all so far.
+  std::vector<NextExperiment> together;
+};
 
-/// The best further runs together, each chosen for what those before it leave: at most `most`,
-/// while each raises the score by a tenth of a tie or more.
-std::vector<NextExperiment> best_set(const arm::Arm& arm, const std::vector<FurtherRun>& further,
-                                     const std::vector<Tie>& ties, std::size_t most,
-                                     const std::function<bool(double)>& progress = {});
+/// What each of the runs would tell of `ties`. Information adds up over runs; the rivals are
+/// refitted to first order. The score is a count of ties that are told, with soft edges: the sum of
+/// lead/(lead + kToldLead). At most `most_together` are chosen, while each raises the score by a
+/// tenth of a tie or more. A run that cannot be computed for a tie says nothing of it. `progress`
+/// gets the fraction done; false ends the work, with nothing.
+FurtherRunsWorth worth_of(const arm::Arm& arm, const std::vector<FurtherRun>& further,
+                          const std::vector<Tie>& ties, std::size_t most_together,
+                          const std::function<bool(double)>& progress = {});
 
 /// What to measure next, where causes that were chosen cannot be told from rivals; where nothing
 /// was chosen but something is there, what would tell the nearest effects from each other. The best

@@ -130,8 +130,8 @@ Observations PlannedExperiment::observations(const Eigen::VectorXd& values) cons
       // Frequencies and damping ratios in turn.
       for (Index k = 0; k + 1 < channel.count; k += 2) {
         deviations(k) = channel.noise * part(k);
-        deviations(k + 1) = runs_[channel.run].damping_noise *
-                            std::max(std::abs(part(k + 1)), kLeastDampingRatio);
+        deviations(k + 1) =
+            runs_[channel.run].damping_noise * std::max(std::abs(part(k + 1)), kLeastDampingRatio);
       }
     }
     deviations = deviations.cwiseMax(std::numeric_limits<double>::min());

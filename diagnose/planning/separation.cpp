@@ -61,7 +61,8 @@ std::vector<Shape> shapes_of(const PlannedExperiment& planned, const Detection& 
     }
   }
   for (const Growth& growth : growths) {
-    // As far from neutral as the effect is compared at; the end of the range where it does not show.
+    // As far from neutral as the effect is compared at; the end of the range where it does not
+    // show.
     double strength = 1.0;
     if (detection.compared) {
       const Eigen::VectorXd places = detection.compared->places();
@@ -116,8 +117,8 @@ Separation separate_by_fit(const Problem& problem, const Candidate& truth, const
   Separation made;
   made.is_fitted = true;
   made.rival = fitted.candidate;
-  made.lead = fitted.sum_of_squares -
-              penalty(truth.values.size(), rival.values.size(), count_of(problem));
+  made.lead =
+      fitted.sum_of_squares - penalty(truth.values.size(), rival.values.size(), count_of(problem));
   made.information = information_of(fitted.jacobian, fitted.residuals);
   return made;
 }
@@ -127,8 +128,8 @@ Separation separate(const Problem& problem, const Detection& truth, const Shape&
   Separation made;
   const Shape* nearest = nullptr;
   for (const Shape& shape : rival) {
-    const double cosine = shape.change.dot(truth_shape.change) /
-                          (shape.change.norm() * truth_shape.change.norm());
+    const double cosine =
+        shape.change.dot(truth_shape.change) / (shape.change.norm() * truth_shape.change.norm());
     if (nearest != nullptr && cosine <= made.cosine) continue;
     nearest = &shape;
     made.cosine = cosine;

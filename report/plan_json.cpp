@@ -35,6 +35,7 @@ Json further_runs_json(const std::vector<diagnose::NextExperiment>& runs) {
     for (const auto& sensor : run.sensors) sensors.push_back(arm::to_string(sensor.sensor));
     const bool in_time = run.kind == measured::RunKind::time;
     all.push_back({{"run", run.id},
+                   {"like", further.like},
                    {"change", further.change},
                    {"kind", to_string(run.kind)},
                    {"input", diagnose::input_of(run)},

@@ -25,15 +25,23 @@ std::string label_of(const Plan& plan, std::size_t effect) {
   return plan.effects[effect].hypothesis.label();
 }
 
-/// "mass 0.0012 kg, ..." of one effect.
+/// "mass 0.0012 kg", "factor 1 +0.03 %".
+std::string value_text(const diagnose::Hypothesis& hypothesis,
+                       const diagnose::SearchedParameter& parameter, double value) {
+  const std::string unit = diagnose::unit_of(hypothesis, parameter);
+  const std::string in_unit = unit == "1" ? "" : " " + unit;
+  const double neutral = parameter.neutral.value_or(0.0);
+  if (neutral == 0.0) return fmt::format("{} {:.3g}{}", parameter.name, value, in_unit);
+  return fmt::format("{} {:.3g}{} {:+.2g} %", parameter.name, neutral, in_unit,
+                     100.0 * (value / neutral - 1.0));
+}
+
+/// All parameters of one effect.
 std::string values_text(const diagnose::Candidate& candidate) {
   std::vector<std::string> words;
   const diagnose::Hypothesis& hypothesis = candidate.effects.front();
   for (std::size_t i = 0; i < candidate.values.size(); ++i) {
-    const auto& parameter = hypothesis.parameters[i];
-    const std::string unit = diagnose::unit_of(hypothesis, parameter);
-    words.push_back(fmt::format("{} {:.3g}{}{}", parameter.name, candidate.values[i],
-                                unit == "1" ? "" : " ", unit == "1" ? "" : unit));
+    words.push_back(value_text(hypothesis, hypothesis.parameters[i], candidate.values[i]));
   }
   return fmt::format("{}", fmt::join(words, ", "));
 }
@@ -180,23 +188,19 @@ Table tie_table(const Plan& plan) {
 Table further_run_table(const std::vector<diagnose::NextExperiment>& runs, std::size_t most,
                         const std::string& caption) {
   Table table{caption,
-              {{.name = "change"},
-               {.name = "input"},
+              {{.name = "like run"},
+               {.name = "but with"},
                {.name = "peak torque", .unit = "N m", .significant_digits = 3},
                {.name = "payload", .unit = "kg", .significant_digits = 3},
-               {.name = "sensors"},
                {.name = "tells"},
                {.name = "least lead", .significant_digits = 2}}};
   for (std::size_t i = 0; i < std::min(most, runs.size()); ++i) {
     const auto& [further, leads, told, score] = runs[i];
     const diagnose::PlannedRun& run = further.run;
-    std::vector<std::string> sensors;
-    for (const auto& sensor : run.sensors) sensors.push_back(arm::to_string(sensor.sensor));
     const bool in_time = run.kind == measured::RunKind::time;
-    table.add_row({further.change, diagnose::input_of(run),
+    table.add_row({further.like.empty() ? std::string("-") : further.like, further.change,
                    in_time ? response::peak_N_m(diagnose::torque_of(run)) : kMissing,
                    run.payload ? run.payload->mass_kg : kMissing,
-                   fmt::format("{}", fmt::join(sensors, ", ")),
                    fmt::format("{} of {}", told, leads.size()), std::ranges::min(leads)});
   }
   return table;

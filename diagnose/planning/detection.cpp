@@ -51,17 +51,20 @@ std::optional<double> strength_of(const Problem& problem, const Growth& growth, 
 
 Candidate Growth::at(double strength) const {
   Candidate made{{hypothesis}, std::vector<double>(hypothesis.parameters.size())};
-  Eigen::VectorXd places(static_cast<Index>(hypothesis.parameters.size()));
   std::size_t other = 0;
+  std::optional<double> share;  // of its highest value that the first that grows from 0 has
   for (std::size_t i = 0; i < hypothesis.parameters.size(); ++i) {
-    double& place = places(static_cast<Index>(i));
-    if (const auto neutral = hypothesis.parameters[i].neutral_place()) {
-      place = *neutral + strength * ((downward ? 0.0 : 1.0) - *neutral);
+    const SearchedParameter& parameter = hypothesis.parameters[i];
+    const auto neutral = parameter.neutral_place();
+    if (!neutral) {
+      made.values[i] = parameter.value(other_places[other++]);
+    } else if (parameter.spacing == Spacing::from_zero && share) {
+      made.values[i] = *share * parameter.highest;
     } else {
-      place = other_places[other++];
+      made.values[i] = parameter.value(*neutral + strength * ((downward ? 0.0 : 1.0) - *neutral));
+      if (parameter.spacing == Spacing::from_zero) share = made.values[i] / parameter.highest;
     }
   }
-  made.put(places);
   return made;
 }
 

@@ -10,7 +10,7 @@
 namespace flexarm::diagnose {
 
 /// One direction in which an effect grows from where it does nothing: all parameters that have such
-/// a place move from it together, the others stand still.
+/// a place move from it together, those that grow from 0 in one ratio, the others stand still.
 struct Growth {
   Hypothesis hypothesis;
   bool downward = false;             ///< towards the lowest place instead of the highest

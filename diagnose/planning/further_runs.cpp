@@ -28,6 +28,10 @@ constexpr double kHighestInput = 0.4;
 constexpr double kTurn_rad = 0.5;
 constexpr double kPulse_s = 0.3;
 constexpr int kFurtherLines = 200;
+/// A response at higher frequencies ends at so many times the highest.
+constexpr double kHigher = 4.0;
+/// Poles, and zeros of a sensor, that a modal table may have more.
+constexpr int kFurtherRoots = 2;
 
 std::vector<arm::Sensor> further_sensors(const arm::Arm& arm) {
   std::vector<arm::Sensor> all = {{arm::SensorKind::hub_angle},
@@ -90,11 +94,12 @@ class Gatherer {
   explicit Gatherer(const std::vector<PlannedRun>& runs) : runs_(runs) {}
 
   void add(PlannedRun run, const std::string& suffix, std::string change) {
+    const std::string like = has(run.id) ? run.id : "";
     run.id = fmt::format("{}-{}", run.id, suffix);
     const std::string first = run.id;
     for (int count = 2; has(run.id); ++count) run.id = fmt::format("{}-{}", first, count);
     run.purpose = measured::Purpose::estimation;
-    made_.push_back({std::move(run), std::move(change)});
+    made_.push_back({std::move(run), like, std::move(change)});
   }
   std::vector<FurtherRun> made() { return std::move(made_); }
 
@@ -127,6 +132,19 @@ void add_conditions(Gatherer& all, const arm::Arm& arm, const PlannedRun& run) {
     more.sensors.push_back({sensor, noise_of_others(run)});
     all.add(std::move(more), arm::to_string(sensor), arm::to_string(sensor) + " too");
   }
+}
+
+void add_roots(Gatherer& all, const PlannedRun& run) {
+  PlannedRun more = run;
+  more.poles += kFurtherRoots;
+  for (PlannedSensor& sensor : more.sensors) sensor.zeros += kFurtherRoots;
+  all.add(std::move(more), "more", fmt::format("{} poles and zeros more", kFurtherRoots));
+  // Zeros at the hub are the poles of the clamped arm: what does not depend on the hub.
+  const arm::Sensor hub{arm::SensorKind::hub_angle};
+  if (std::ranges::find(run.sensors, hub, &PlannedSensor::sensor) != run.sensors.end()) return;
+  PlannedRun with_zeros = run;
+  with_zeros.sensors.push_back({hub, run.noise, std::max(1, run.poles - 1)});
+  all.add(std::move(with_zeros), "zeros", "zeros of hub_angle too");
 }
 
 void add_in_time(Gatherer& all, const PlannedRun& run) {
@@ -208,12 +226,15 @@ std::vector<FurtherRun> further_runs(const arm::Arm& arm, const std::vector<Plan
     }
     const double pole_Hz = third_pole_Hz(arm);
     swept.frequencies = FrequencyBand{0.01 * pole_Hz, 1.5 * pole_Hz, kFurtherLines};
-    all.add(swept, "low", "a frequency response to above the third pole");
+    all.add(swept, "low", fmt::format("a frequency response to {:.3g} Hz", 1.5 * pole_Hz));
   }
   const double highest_Hz = frequencies_of(swept).back();
-  swept.frequencies = FrequencyBand{0.1 * highest_Hz, 10.0 * highest_Hz, kFurtherLines};
-  all.add(swept, "high", "a frequency response at ten times higher frequencies");
-  if (modal != runs.end()) add_conditions(all, arm, *modal);
+  swept.frequencies = FrequencyBand{0.25 * highest_Hz, kHigher * highest_Hz, kFurtherLines};
+  all.add(swept, "high", fmt::format("a frequency response to {:.3g} Hz", kHigher * highest_Hz));
+  if (modal != runs.end()) {
+    add_conditions(all, arm, *modal);
+    add_roots(all, *modal);
+  }
   return all.made();
 }
 

@@ -12,7 +12,8 @@ namespace flexarm::diagnose {
 /// A run that may be added to others.
 struct FurtherRun {
   PlannedRun run;
-  std::string change;  ///< against the run that it is made of: "payload 0.158 kg"
+  std::string like;    ///< id of the run that it is made of; empty where it is of another kind
+  std::string change;  ///< against that run: "0.16 kg more payload, weighed"
 };
 
 /// Runs that an experimenter could add to `runs`: the first of each kind again, with other

@@ -1,10 +1,15 @@
 #include "diagnose/planning/plan.hpp"
 
+#include "arm/effects.hpp"
 #include "compare/for_each_index.hpp"
 #include "diagnose/hypotheses/hypotheses.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <atomic>
+#include <limits>
 #include <mutex>
 #include <numeric>
 #include <string_view>
@@ -28,6 +33,18 @@ std::vector<PlannedRun> with_purposes(const PlannedExperiment& planned,
   return runs;
 }
 
+/// Effects of the vocabulary that are no possible cause in an experiment.
+std::vector<std::string> absent_effects(const Experiment& experiment) {
+  const std::vector<Hypothesis> possible = hypotheses(experiment);
+  std::vector<std::string> absent;
+  for (const auto& entry : arm::effect_vocabulary()) {
+    if (std::ranges::find(possible, entry.name, &Hypothesis::effect) == possible.end()) {
+      absent.push_back(entry.name);
+    }
+  }
+  return absent;
+}
+
 class Planning {
  public:
   Planning(const arm::Arm& arm, const MeasurementPlan& measurement_plan,
@@ -41,6 +58,12 @@ class Planning {
     made_.better = measurement_plan;
     made_.better.runs = with_purposes(planned_, measurement_plan.runs);
     if (!planned_.notice().empty()) made_.notices.push_back(planned_.notice());
+    const std::vector<std::string> absent = absent_effects(planned_.experiment());
+    if (!absent.empty()) {
+      made_.notices.push_back(
+          fmt::format("in the arm file already, or nothing that these runs can show: {}",
+                      fmt::join(absent, ", ")));
+    }
   }
 
   Plan run() {

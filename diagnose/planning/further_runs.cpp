@@ -246,6 +246,7 @@ std::vector<PlannedRun> planned_as_measured(const Problem& problem) {
     if (!problem.estimation_runs()[r] || run.kind == RunKind::modal) continue;
     PlannedRun planned;
     planned.id = run.id;
+    planned.purpose = run.purpose;
     planned.kind = run.kind;
     planned.payload = run.payload;
     planned.torque_hold = run.torque_hold;

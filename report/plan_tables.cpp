@@ -93,8 +93,10 @@ std::string plan_summary(const Plan& plan) {
     for (const std::size_t effect : members) names.push_back(label_of(plan, effect));
     classes.push_back(fmt::format("{}", fmt::join(names, " / ")));
   }
-  return text + fmt::format("{} pairs cannot be told, which tie them into: {}.", plan.ties.size(),
-                            fmt::join(classes, "; "));
+  return text + fmt::format("{} cannot be told, which {} them into: {}.",
+                            plan.ties.size() == 1 ? std::string("1 pair")
+                                                  : fmt::format("{} pairs", plan.ties.size()),
+                            plan.ties.size() == 1 ? "ties" : "tie", fmt::join(classes, "; "));
 }
 
 Table detection_table(const Plan& plan) {

@@ -1,6 +1,7 @@
 #include "diagnose/planning/plan.hpp"
 
 #include "arm/effects.hpp"
+#include "arm/linear_arm.hpp"
 #include "compare/for_each_index.hpp"
 #include "diagnose/hypotheses/hypotheses.hpp"
 
@@ -58,6 +59,14 @@ class Planning {
     made_.better = measurement_plan;
     made_.better.runs = with_purposes(planned_, measurement_plan.runs);
     if (!planned_.notice().empty()) made_.notices.push_back(planned_.notice());
+    const bool has_response = std::ranges::any_of(
+        measurement_plan.runs, [](const auto& run) { return run.kind == measured::RunKind::frf; });
+    if (has_response && !arm::linear_arm(arm).is_damped()) {
+      made_.notices.push_back(
+          "the arm file has no damping: its responses at poles and zeros are infinite and zero, "
+          "and "
+          "the frequency that is nearest to one decides");
+    }
     const std::vector<std::string> absent = absent_effects(planned_.experiment());
     if (!absent.empty()) {
       made_.notices.push_back(

@@ -21,19 +21,20 @@ void add_effect_choice(CLI::App& parser, std::vector<std::string>& effects) {
 }
 
 std::vector<diagnose::Hypothesis> chosen_hypotheses(const std::vector<std::string>& effects,
-                                                    std::vector<diagnose::Hypothesis> all) {
+                                                    std::vector<diagnose::Hypothesis> all,
+                                                    const char* option) {
   if (effects.empty()) return all;
   std::vector<std::string> names;
   for (const auto& entry : arm::effect_vocabulary()) names.push_back(entry.name);
   for (const auto& name : effects) {
     if (arm::find_effect(name) == nullptr) {
-      throw arm::InputError(fmt::format("--effects {}: unknown effect{}; allowed: {}",
+      throw arm::InputError(fmt::format("{} {}: unknown effect{}; allowed: {}", option,
                                         arm::shown(name), arm::did_you_mean(name, names),
                                         fmt::join(names, ", ")));
     }
     if (std::ranges::find(all, name, &diagnose::Hypothesis::effect) == all.end()) {
       throw arm::InputError(fmt::format(
-          "--effects {}: shows in none of these runs, or the arm file has it already", name));
+          "{} {}: shows in none of these runs, or the arm file has it already", option, name));
     }
   }
   std::erase_if(all, [&](const auto& hypothesis) {

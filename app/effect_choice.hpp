@@ -15,8 +15,9 @@ namespace flexarm::app {
 void add_effect_choice(CLI::App& parser, std::vector<std::string>& effects);
 
 /// The hypotheses of these effects, all where none are named. Throws InputError for an unknown
-/// effect, and for one that is not among the hypotheses.
+/// effect, and for one that is not among the hypotheses; `option` named them.
 std::vector<diagnose::Hypothesis> chosen_hypotheses(const std::vector<std::string>& effects,
-                                                    std::vector<diagnose::Hypothesis> all);
+                                                    std::vector<diagnose::Hypothesis> all,
+                                                    const char* option = "--effects");
 
 }  // namespace flexarm::app

@@ -43,6 +43,7 @@ struct PlanArguments {
   std::string arm_file;
   std::string plan_file;
   std::vector<std::string> effects;
+  std::vector<std::string> refitted;
   std::string better_file;
   std::string folder;
   bool force = false;
@@ -73,12 +74,15 @@ void prepare_outputs(const PlanArguments& arguments) {
 diagnose::Plan plan_with_progress(const PlanArguments& arguments) {
   const arm::Arm arm = arm::read_arm_file(arguments.arm_file);
   const auto planned = diagnose::read_measurement_plan(arguments.plan_file);
-  const auto hypotheses =
-      chosen_hypotheses(arguments.effects, diagnose::hypotheses_of(arm, planned));
+  const auto possible = diagnose::hypotheses_of(arm, planned);
+  const auto hypotheses = chosen_hypotheses(arguments.effects, possible);
+  chosen_hypotheses(arguments.refitted, possible, "--refit");  // throws for an unknown name
   prepare_outputs(arguments);
+  diagnose::PlanOptions options;
+  options.unknown = arguments.refitted;
   const Interruption interruption;
   report::Progress progress("per cent of the plan", kPlanSteps);
-  auto plan = diagnose::plan_experiment(arm, planned, hypotheses, {},
+  auto plan = diagnose::plan_experiment(arm, planned, hypotheses, options,
                                         [&](std::string_view, double fraction) {
                                           progress.reach(fraction);
                                           return !interruption.requested();
@@ -156,6 +160,12 @@ Command add_plan(CLI::App& program) {
       ->required()
       ->check(not_empty());
   add_effect_choice(*parser, arguments->effects);
+  parser
+      ->add_option("--refit", arguments->refitted,
+                   "Effects whose size is not known, separated by commas: fitted in any case, and "
+                   "no causes; the arm file is trusted unless given")
+      ->delimiter(',')
+      ->allow_extra_args(false);
   parser->add_option("--write", arguments->better_file, "File for the better plan")
       ->check(not_empty());
   parser

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -49,6 +50,12 @@ std::string values_text(const diagnose::Candidate& candidate) {
 std::string shows_from(const diagnose::Detection& detection) {
   if (!detection.shows) return "nowhere in its range";
   return detection.smallest ? values_text(*detection.smallest) : "where it is there at all";
+}
+
+/// A lead that is nothing but rounding is 0.
+double shown_lead(double lead) {
+  constexpr double kRounding = 1e-3;
+  return std::abs(lead) < kRounding ? 0.0 : lead;
 }
 
 std::vector<std::string> tied_with(const Plan& plan, std::size_t effect) {
@@ -181,7 +188,7 @@ Table tie_table(const Plan& plan) {
                {.name = "lead with the better plan", .significant_digits = 2}}};
   for (const auto& tie : plan.ties) {
     table.add_row({label_of(plan, tie.truth), label_of(plan, tie.rival),
-                   plan.separations[tie.truth][tie.rival]->cosine, tie.lead,
+                   plan.separations[tie.truth][tie.rival]->cosine, shown_lead(tie.lead),
                    tie.lead_with_more.value_or(kMissing)});
   }
   return table;
@@ -203,7 +210,8 @@ Table further_run_table(const std::vector<diagnose::NextExperiment>& runs, std::
     table.add_row({further.like.empty() ? std::string("-") : further.like, further.change,
                    in_time ? response::peak_N_m(diagnose::torque_of(run)) : kMissing,
                    run.payload ? run.payload->mass_kg : kMissing,
-                   fmt::format("{} of {}", told, leads.size()), std::ranges::min(leads)});
+                   fmt::format("{} of {}", told, leads.size()),
+                   shown_lead(std::ranges::min(leads))});
   }
   return table;
 }

@@ -23,16 +23,17 @@ constexpr std::uintmax_t kMostTrials = 30;
 /// Room, in places, that a direction needs beside the neutral place.
 constexpr double kRoom = 1e-6;
 
-double change_norm(const Problem& problem, const Candidate& candidate) {
-  const auto change = change_by(problem, candidate);
+double change_norm(const PlannedExperiment& planned, const Candidate& candidate) {
+  const auto change = planned.change_by(candidate);
   return change ? change->norm() : std::numeric_limits<double>::infinity();
 }
 
 /// The strength at which the change has this norm; nothing where it stays below.
-std::optional<double> strength_of(const Problem& problem, const Growth& growth, double change) {
+std::optional<double> strength_of(const PlannedExperiment& planned, const Growth& growth,
+                                  double change) {
   constexpr double kFar = 100.0;
   const auto ratio = [&](double log_strength) {
-    const double norm = change_norm(problem, growth.at(std::exp(log_strength)));
+    const double norm = change_norm(planned, growth.at(std::exp(log_strength)));
     return std::clamp(std::log(norm / change), -kFar, kFar);
   };
   const double low = std::log(kLeastStrength);
@@ -99,16 +100,10 @@ double detectable_change(const Problem& problem, std::size_t parameters, double 
   return std::sqrt(std::max(information, beyond_noise));
 }
 
-std::optional<Eigen::VectorXd> change_by(const Problem& problem, const Candidate& candidate) {
-  auto residuals = problem.residuals(candidate, problem.estimation_runs());
-  if (residuals) *residuals = -*residuals;
-  return residuals;
-}
-
 Detection detect(const PlannedExperiment& planned, const Hypothesis& hypothesis,
                  double least_gain) {
-  const Problem& problem = planned.as_described();
-  const double found = detectable_change(problem, hypothesis.parameters.size(), least_gain);
+  const double found =
+      detectable_change(planned.as_described(), hypothesis.parameters.size(), least_gain);
   Detection made;
   made.hypothesis = hypothesis;
   const auto growths = growths_of(hypothesis);
@@ -116,20 +111,20 @@ Detection detect(const PlannedExperiment& planned, const Hypothesis& hypothesis,
     Candidate middle{{hypothesis}, {}};
     middle.put(
         Eigen::VectorXd::Constant(static_cast<Index>(hypothesis.parameters.size()), kMiddle));
-    made.largest_change = change_norm(problem, middle);
+    made.largest_change = change_norm(planned, middle);
     made.shows = made.largest_change >= found;
     made.compared_change = made.largest_change;
     if (made.shows) made.compared = std::move(middle);
     return made;
   }
   for (const Growth& growth : growths) {
-    made.largest_change = std::max(made.largest_change, change_norm(problem, growth.at(1.0)));
-    const auto strength = strength_of(problem, growth, found);
+    made.largest_change = std::max(made.largest_change, change_norm(planned, growth.at(1.0)));
+    const auto strength = strength_of(planned, growth, found);
     if (!strength) continue;
     made.shows = true;
     made.smallest = growth.at(*strength);
-    made.compared = growth.at(strength_of(problem, growth, kCompared * found).value_or(1.0));
-    made.compared_change = change_norm(problem, *made.compared);
+    made.compared = growth.at(strength_of(planned, growth, kCompared * found).value_or(1.0));
+    made.compared_change = change_norm(planned, *made.compared);
     break;
   }
   return made;

@@ -49,8 +49,4 @@ double detectable_change(const Problem& problem, std::size_t parameters, double 
 /// By a bracketed search (Alefeld, Potra & Shi 1995) of each direction, to 1 % of the strength.
 Detection detect(const PlannedExperiment& planned, const Hypothesis& hypothesis, double least_gain);
 
-/// The change of the data that a candidate makes, in standard deviations, of the estimation runs;
-/// empty where it cannot be computed.
-std::optional<Eigen::VectorXd> change_by(const Problem& problem, const Candidate& candidate);
-
 }  // namespace flexarm::diagnose

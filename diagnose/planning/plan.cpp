@@ -55,7 +55,10 @@ class Planning {
         options_(options),
         progress_(progress),
         hypotheses_(hypotheses),
-        planned_(arm, measurement_plan.runs) {
+        planned_(arm, measurement_plan.runs, options.unknown) {
+    std::erase_if(hypotheses_, [&](const Hypothesis& hypothesis) {
+      return planned_.unknowns().has(hypothesis);
+    });
     made_.better = measurement_plan;
     made_.better.runs = with_purposes(planned_, measurement_plan.runs);
     if (!planned_.notice().empty()) made_.notices.push_back(planned_.notice());
@@ -106,7 +109,8 @@ class Planning {
         const bool is_limit =
             std::ranges::find(contains, truth.hypothesis.effect) != contains.end();
         if (a == b || is_limit) continue;
-        made_.separations[a][b] = separate(problem, truth, shapes_[a].front(), shapes_[b]);
+        made_.separations[a][b] =
+            separate(problem, planned_.unknowns(), shapes_[a].front(), shapes_[b]);
       }
     });
   }
@@ -153,8 +157,8 @@ class Planning {
     for (const TiedPair& pair : made_.ties) {
       const Separation& separation = *made_.separations[pair.truth][pair.rival];
       const auto count = static_cast<double>(planned_.as_described().observations().values.size());
-      ties.push_back(
-          {*made_.effects[pair.truth].compared, separation.rival, separation.information, count});
+      ties.push_back({joined(planned_.unknowns(), *made_.effects[pair.truth].compared),
+                      separation.rival, separation.information, count});
     }
     auto worth = worth_of(arm_, further, ties, options_.most_added, [&](double part) {
       return tell("further runs", kSeparated + part * (kRanked - kSeparated));
@@ -191,7 +195,7 @@ class Planning {
   const arm::Arm& arm_;
   const PlanOptions& options_;
   const DiagnosisProgress& progress_;
-  const std::vector<Hypothesis>& hypotheses_;
+  std::vector<Hypothesis> hypotheses_;
   const PlannedExperiment planned_;
   Plan made_;
   std::vector<std::vector<Shape>> shapes_;  // of each effect

@@ -39,6 +39,8 @@ struct Plan {
 struct PlanOptions {
   double least_information_gain = SelectionOptions{}.least_information_gain;
   std::size_t most_added = 3;
+  /// Effects whose size is not known: fitted in any case, and no causes.
+  std::vector<std::string> unknown = {};
 };
 
 /// Works out what `measurement_plan` can say of `hypotheses` about `arm`, and which further runs

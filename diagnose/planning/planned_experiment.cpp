@@ -1,7 +1,10 @@
 #include "diagnose/planning/planned_experiment.hpp"
 
 #include "arm/input_error.hpp"
+#include "diagnose/fit.hpp"
+#include "diagnose/hypotheses/hypotheses.hpp"
 
+#include <Eigen/QR>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -81,6 +84,22 @@ Experiment experiment_of(const arm::Arm& arm, const std::vector<PlannedRun>& run
   return experiment;
 }
 
+/// These effects where they do nothing.
+Candidate nothing_of(const std::vector<std::string>& names, const Experiment& experiment) {
+  const std::vector<Hypothesis> possible = hypotheses(experiment);
+  Candidate made;
+  for (const std::string& name : names) {
+    const auto at = std::ranges::find(possible, name, &Hypothesis::effect);
+    if (at == possible.end() || at->parameters.size() != 1 || !at->parameters[0].neutral_place()) {
+      throw arm::InputError(fmt::format(
+          "{}: cannot be refitted: these runs do not show it, or it has no single size", name));
+    }
+    const SearchedParameter& parameter = at->parameters[0];
+    made = made.with(*at, {parameter.value(*parameter.neutral_place())});
+  }
+  return made;
+}
+
 /// The relative noise of a channel.
 double noise_of(const PlannedRun& run, const std::string& channel) {
   for (const PlannedSensor& sensor : run.sensors) {
@@ -92,11 +111,27 @@ double noise_of(const PlannedRun& run, const std::string& channel) {
 
 }  // namespace
 
-PlannedExperiment::PlannedExperiment(const arm::Arm& arm, std::vector<PlannedRun> runs)
+PlannedExperiment::PlannedExperiment(const arm::Arm& arm, std::vector<PlannedRun> runs,
+                                     const std::vector<std::string>& unknown)
     : experiment_(experiment_of(arm, runs, notice_)),
       runs_(std::move(runs)),
       layout_(observe(experiment_)),
-      as_described_(problem_of_the_arm()) {}
+      as_described_(problem_of_the_arm()),
+      unknowns_(nothing_of(unknown, experiment_)) {
+  if (unknown.empty()) return;
+  const Eigen::MatrixXd jacobian = fit(as_described_, unknowns_, {.most_steps = 0}).jacobian;
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(jacobian);
+  taken_ = Eigen::MatrixXd::Identity(jacobian.rows(), qr.rank());
+  taken_ = qr.householderQ() * taken_;
+}
+
+std::optional<Eigen::VectorXd> PlannedExperiment::change_by(const Candidate& candidate) const {
+  auto change = as_described_.residuals(candidate, as_described_.estimation_runs());
+  if (!change) return change;
+  *change = -*change;
+  if (taken_.cols() > 0) *change -= taken_ * (taken_.transpose() * *change);
+  return change;
+}
 
 Problem PlannedExperiment::problem_of_the_arm() {
   for (ObservedChannel& channel : layout_.channels) {

@@ -7,6 +7,8 @@
 
 #include <Eigen/Core>
 
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace flexarm::diagnose {
@@ -15,9 +17,12 @@ namespace flexarm::diagnose {
 /// all but the numbers that will be measured, which an arm predicts.
 class PlannedExperiment {
  public:
-  /// Every run has a purpose: as `split_purposes` gives it where the plan does not. Throws
-  /// InputError for an arm that cannot be computed, or cannot carry a sensor.
-  PlannedExperiment(const arm::Arm& arm, std::vector<PlannedRun> runs);
+  /// Every run has a purpose: as `split_purposes` gives it where the plan does not. The sizes of
+  /// the effects `unknown` are not known: they are fitted in any case. Throws InputError for an arm
+  /// that cannot be computed, or cannot carry a sensor, and for an unknown that these runs cannot
+  /// show or that has no size.
+  PlannedExperiment(const arm::Arm& arm, std::vector<PlannedRun> runs,
+                    const std::vector<std::string>& unknown = {});
   PlannedExperiment(const PlannedExperiment&) = delete;
   PlannedExperiment& operator=(const PlannedExperiment&) = delete;
 
@@ -32,6 +37,13 @@ class PlannedExperiment {
   /// The same of the arm as its file has it.
   const Problem& as_described() const { return as_described_; }
 
+  /// The unknown effects where they do nothing.
+  const Candidate& unknowns() const { return unknowns_; }
+  /// The change of the data that a candidate makes, in standard deviations, of the estimation runs,
+  /// less what the unknowns take of it when they are refitted (to first order); empty where it
+  /// cannot be computed.
+  std::optional<Eigen::VectorXd> change_by(const Candidate& candidate) const;
+
  private:
   Problem problem_of_the_arm();
 
@@ -41,6 +53,8 @@ class PlannedExperiment {
   Observations layout_;  // with values and deviations of nothing
   ProblemOptions options_;
   Problem as_described_;
+  Candidate unknowns_;
+  Eigen::MatrixXd taken_;  // orthonormal directions that the unknowns take
 };
 
 }  // namespace flexarm::diagnose

@@ -42,11 +42,14 @@ double count_of(const Problem& problem) {
 
 }  // namespace
 
+Candidate joined(const Candidate& unknowns, const Candidate& effect) {
+  return unknowns.with(effect.effects.front(), effect.values);
+}
+
 std::vector<Shape> shapes_of(const PlannedExperiment& planned, const Detection& detection) {
-  const Problem& problem = planned.as_described();
   std::vector<Shape> made;
   const auto add = [&](const Candidate& candidate) {
-    if (auto change = change_by(problem, candidate); change && change->squaredNorm() > 0.0) {
+    if (auto change = planned.change_by(candidate); change && change->squaredNorm() > 0.0) {
       made.push_back({candidate, std::move(*change)});
     }
   };
@@ -123,30 +126,31 @@ Separation separate_by_fit(const Problem& problem, const Candidate& truth, const
   return made;
 }
 
-Separation separate(const Problem& problem, const Detection& truth, const Shape& truth_shape,
+Separation separate(const Problem& problem, const Candidate& unknowns, const Shape& truth,
                     const std::vector<Shape>& rival) {
   Separation made;
   const Shape* nearest = nullptr;
   for (const Shape& shape : rival) {
     const double cosine =
-        shape.change.dot(truth_shape.change) / (shape.change.norm() * truth_shape.change.norm());
+        shape.change.dot(truth.change) / (shape.change.norm() * truth.change.norm());
     if (nearest != nullptr && cosine <= made.cosine) continue;
     nearest = &shape;
     made.cosine = cosine;
   }
-  const double squares = truth.compared_change * truth.compared_change;
+  const double squares = truth.change.squaredNorm();
   const double part = std::max(0.0, made.cosine);
   if (nearest == nullptr) {
     made.lead = squares;
     return made;
   }
-  const std::size_t parameters = truth.compared->values.size();
+  const std::size_t parameters = truth.candidate.values.size();
   made.rival = nearest->candidate;
   made.lead = squares * (1.0 - part * part) -
               penalty(parameters, nearest->candidate.values.size(), count_of(problem));
   if (part < kNearCosine && made.lead > kNearLead) return made;
   const double cosine = made.cosine;
-  made = separate_by_fit(problem, *truth.compared, nearest->candidate);
+  made = separate_by_fit(problem, joined(unknowns, truth.candidate),
+                         joined(unknowns, nearest->candidate));
   made.cosine = cosine;
   return made;
 }

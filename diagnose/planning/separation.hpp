@@ -20,7 +20,7 @@ struct Separation {
   double lead = 0.0;
   /// The lead is of a fit; else (1 - cosine^2) of the change, for rivals that are far.
   bool is_fitted = false;
-  Candidate rival;  ///< where its fit ended, or where it is nearest
+  Candidate rival;  ///< where its fit ended, behind the unknowns, or where it is nearest
   /// [J r]'[J r] of the fit's residuals r and their derivatives J by places: what the runs say of
   /// the two, which adds up over runs. Empty unless fitted.
   Eigen::MatrixXd information;
@@ -38,8 +38,12 @@ struct Shape {
 /// places of the parameters that have no neutral place.
 std::vector<Shape> shapes_of(const PlannedExperiment& planned, const Detection& detection);
 
-/// `truth` against the rival that has these shapes. `problem` is of the data of `truth`.
-Separation separate(const Problem& problem, const Detection& truth, const Shape& truth_shape,
+/// The unknowns of an experiment and one effect.
+Candidate joined(const Candidate& unknowns, const Candidate& effect);
+
+/// `truth` against the rival that has these shapes. `problem` is of the data of `truth`; `unknowns`
+/// are refitted with the rival.
+Separation separate(const Problem& problem, const Candidate& unknowns, const Shape& truth,
                     const std::vector<Shape>& rival);
 
 /// The rival, refitted from where it is, against an effect whose data `problem` is of.

@@ -38,7 +38,7 @@ TEST(Growth, BeginsWhereTheEffectDoesNothing) {
   int grown = 0;
   for (const Hypothesis& hypothesis : hypotheses(planned.experiment())) {
     for (const Growth& growth : growths_of(hypothesis)) {
-      const auto nothing = change_by(planned.as_described(), growth.at(0.0));
+      const auto nothing = planned.change_by(growth.at(0.0));
       ASSERT_TRUE(nothing) << hypothesis.label();
       EXPECT_LT(nothing->norm(), kNothing) << hypothesis.label();
       ++grown;
@@ -66,8 +66,7 @@ TEST(Detection, IsWhereTheChangeIsWhatDiagnoseAsksFor) {
     ASSERT_TRUE(found.smallest) << name;
     const double asked = detectable_change(planned.as_described(), 1, kLeastGain);
     // The strength is found to 1 %, and changes grow with up to the square of it.
-    EXPECT_NEAR(change_by(planned.as_described(), *found.smallest)->norm(), asked, 0.03 * asked)
-        << name;
+    EXPECT_NEAR(planned.change_by(*found.smallest)->norm(), asked, 0.03 * asked) << name;
     EXPECT_NEAR(found.compared_change, kCompared * asked, 0.03 * kCompared * asked) << name;
   }
 }

@@ -127,6 +127,27 @@ TEST(Plan, TiesDelayWithLagAndFindsTheRunThatTellsThem) {
   }
 }
 
+TEST(Plan, WithUnknownSizesTiesPayloadMassWithTorqueGain) {
+  // What a torque that is too weak does to all responses, a payload and a lighter, softer beam do.
+  const arm::Arm arm = trial_arm();
+  const MeasurementPlan hub = hub_response();
+  const auto some = some_of(arm, hub, {"payload_mass", "torque_gain"});
+  EXPECT_TRUE(plan_experiment(arm, hub, some).ties.empty());
+  PlanOptions options;
+  options.unknown = {"flexural_rigidity", "linear_density", "hub_inertia"};
+  const Plan plan = plan_experiment(arm, hub, some, options);
+  ASSERT_EQ(plan.ties.size(), 1U);
+  ASSERT_FALSE(plan.added.empty());
+  EXPECT_EQ(plan.added.front().further.like, "hub");
+  EXPECT_GT(plan.added.front().further.run.payload.value_or(arm::Payload{}).mass_kg, 0.0);
+  // Velocity is what the angle says, in a channel more: with the angle again, three times the lead.
+  const auto again = std::ranges::find_if(plan.further, [](const NextExperiment& next) {
+    return next.further.run.id == "hub-hub_velocity";
+  });
+  ASSERT_NE(again, plan.further.end());
+  EXPECT_NEAR(again->leads.front(), 3.0 * plan.ties.front().lead, 0.2 * plan.ties.front().lead);
+}
+
 TEST(Plan, IsEndedByItsProgress) {
   const arm::Arm arm = trial_arm();
   const MeasurementPlan hub = hub_response();

@@ -9,10 +9,13 @@
 #include "arm/atomic_file.hpp"
 #include "arm/input_error.hpp"
 #include "report/csv.hpp"
+#include "report/gnuplot.hpp"
 #include "report/json_document.hpp"
 #include "report/plan_json.hpp"
 #include "report/plan_tables.hpp"
 #include "report/progress.hpp"
+#include "report/separation_figure.hpp"
+#include "report/svg.hpp"
 #include "report/text_table.hpp"
 
 #include <CLI/CLI.hpp>
@@ -51,7 +54,7 @@ struct PlanArguments {
 };
 
 FolderKind plan_folder_kind() {
-  return {"a plan", kPlanJson, {".json", ".toml", ".csv"}};
+  return {"a plan", kPlanJson, {".json", ".toml", ".csv", ".svg"}};
 }
 
 /// Throws for outputs that could not be written, or would take the place of what is read.
@@ -69,6 +72,7 @@ void prepare_outputs(const PlanArguments& arguments) {
   require_json_place(arguments.json_file, arguments.folder);
   if (arguments.folder.empty()) return;
   require_place(arguments.folder, arguments.force, plan_folder_kind());
+  report::run_gnuplot("");
 }
 
 diagnose::Plan plan_with_progress(const PlanArguments& arguments) {
@@ -118,6 +122,7 @@ void write_plan(const PlanArguments& arguments, const diagnose::Plan& plan) {
         {"effects.csv", report::to_csv(report::detection_table(plan))},
         {"separations.csv", report::to_csv(report::separation_table(plan))},
         {"leads.csv", report::to_csv(report::lead_table(plan))},
+        {"separations.svg", report::to_svg(report::separation_figure(plan))},
         {kBetterPlan, better},
         {kPlanJson, json}};
     arm::write_folder_atomically(arguments.folder, files,
@@ -170,7 +175,7 @@ Command add_plan(CLI::App& program) {
       ->check(not_empty());
   parser
       ->add_option("--out", arguments->folder,
-                   "New folder for the better plan, tables as CSV and the JSON")
+                   "New folder for the better plan, tables as CSV, a figure and the JSON")
       ->check(not_empty());
   parser->add_flag("--force", arguments->force, "Replace what this command wrote in the folder");
   parser->add_option("--json", arguments->json_file, "File for everything in full precision")

@@ -15,12 +15,6 @@ namespace {
 using diagnose::Plan;
 
 constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
-/// A lead below this is told, but not by much.
-constexpr double kClearLead = 10.0 * diagnose::kToldLead;
-
-std::string letter_of(std::size_t effect) {
-  return effect < kLetters.size() ? std::string(1, kLetters[effect]) : std::string("*");
-}
 
 std::string label_of(const Plan& plan, std::size_t effect) {
   return plan.effects[effect].hypothesis.label();
@@ -89,6 +83,10 @@ char mark(const Plan& plan, std::size_t truth, std::size_t rival) {
 
 }  // namespace
 
+std::string effect_letter(std::size_t effect) {
+  return effect < kLetters.size() ? std::string(1, kLetters[effect]) : std::string("*");
+}
+
 std::string plan_summary(const Plan& plan) {
   const auto shown = std::ranges::count(plan.effects, true, &diagnose::Detection::shows);
   std::string text =
@@ -126,10 +124,10 @@ std::string separation_matrix(const Plan& plan) {
     width = std::max(width, label_of(plan, i).size());
   }
   std::string head(width + 2, ' ');
-  for (std::size_t i = 0; i < plan.effects.size(); ++i) head += " " + letter_of(i);
+  for (std::size_t i = 0; i < plan.effects.size(); ++i) head += " " + effect_letter(i);
   text += head + "\n";
   for (std::size_t a = 0; a < plan.effects.size(); ++a) {
-    std::string row = fmt::format("{} {:<{}}", letter_of(a), label_of(plan, a), width);
+    std::string row = fmt::format("{} {:<{}}", effect_letter(a), label_of(plan, a), width);
     for (std::size_t b = 0; b < plan.effects.size(); ++b) {
       row += ' ';
       row += a == b ? '\\' : mark(plan, a, b);

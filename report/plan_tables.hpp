@@ -3,6 +3,7 @@
 #include "diagnose/planning/plan.hpp"
 #include "report/table.hpp"
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,12 @@ namespace flexarm::report {
 
 /// What the planned runs can say, in a sentence or two.
 std::string plan_summary(const diagnose::Plan& plan);
+
+/// A lead below this is told, but by little.
+inline constexpr double kClearLead = 10.0 * diagnose::kToldLead;
+
+/// "a", "b", ... of the effects of a plan; "*" of those beyond the letters there are.
+std::string effect_letter(std::size_t effect);
 
 /// Each effect: from which value on it is found, what it is tied with, and the nearest other.
 Table detection_table(const diagnose::Plan& plan);

@@ -67,7 +67,8 @@ TEST_F(PlanCommand, WritesTablesAndAllOfItAsJson) {
   EXPECT_EQ(ended.status, 0) << ended.errors;
   EXPECT_EQ(names_in("planned"),
             (std::vector<std::string>{"better-plan.toml", "effects.csv", "leads.csv", "plan.json",
-                                      "separations.csv"}));
+                                      "separations.csv", "separations.svg"}));
+  EXPECT_THAT(text_of("planned/separations.svg"), HasSubstr("actuator_lag"));
   const Json document = Json::parse(text_of("out.json"));
   EXPECT_EQ(document["schema"], "flexarm.plan/1");
   EXPECT_EQ(document["effects"].size(), 3U);

@@ -1,6 +1,7 @@
 #include "diagnose/planning/further_runs.hpp"
 
 #include "arm/arm.hpp"
+#include "arm/input_error.hpp"
 #include "exact_tf/exact_arm.hpp"
 #include "response/arm_parts.hpp"
 
@@ -93,7 +94,10 @@ class Gatherer {
  public:
   explicit Gatherer(const std::vector<PlannedRun>& runs) : runs_(runs) {}
 
+  /// Leaves out an input that does not fit into the run: a multisine of a number of samples that
+  /// cannot be transformed.
   void add(PlannedRun run, const std::string& suffix, std::string change) {
+    if (run.kind == RunKind::time && !fits(run)) return;
     const std::string like = has(run.id) ? run.id : "";
     run.id = fmt::format("{}-{}", run.id, suffix);
     const std::string first = run.id;
@@ -104,6 +108,14 @@ class Gatherer {
   std::vector<FurtherRun> made() { return std::move(made_); }
 
  private:
+  static bool fits(const PlannedRun& run) {
+    try {
+      torque_of(run);
+      return true;
+    } catch (const arm::InputError&) {
+      return false;
+    }
+  }
   bool has(const std::string& id) const {
     return std::ranges::find(runs_, id, &PlannedRun::id) != runs_.end() ||
            std::ranges::any_of(made_, [&](const auto& entry) { return entry.run.id == id; });

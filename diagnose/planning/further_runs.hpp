@@ -26,7 +26,7 @@ std::vector<FurtherRun> further_runs(const arm::Arm& arm, const std::vector<Plan
 /// The runs of a measurement that were fitted, as if they were planned; torques are as recorded, of
 /// long records the beginning. Modal runs are passed over: they do not say what was measured.
 std::vector<PlannedRun> planned_as_measured(const Problem& problem);
-inline constexpr std::size_t kMostFurtherSamples = 4000;
+inline constexpr std::size_t kMostFurtherSamples = 2000;
 
 /// "multisine", "recorded torque", "frequency response".
 std::string input_of(const PlannedRun& run);

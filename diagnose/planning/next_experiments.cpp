@@ -21,7 +21,7 @@ constexpr double kPlaceStep = 1e-5;
 /// A run is worth adding where the score rises by so many ties.
 constexpr double kWorthAdding = 0.1;
 /// Rivals that are looked at after a diagnosis: the nearest.
-constexpr std::size_t kMostRivals = 4;
+constexpr std::size_t kMostRivals = 3;
 
 using Informations = std::vector<Eigen::MatrixXd>;  // one a run
 
@@ -178,13 +178,18 @@ bool is_a_limit(const Candidate& chosen, const Candidate& rival) {
 
 }  // namespace
 
-FurtherRunsWorth worth_of(const arm::Arm& arm, const std::vector<FurtherRun>& further,
-                          const std::vector<Tie>& ties, std::size_t most_together,
-                          const std::function<bool(double)>& progress) {
-  if (ties.empty() || further.empty()) return {};
-  const Evidence evidence = evidence_of(arm, further, ties, progress);
-  if (evidence.cancelled) return {};
-  return {rank(further, ties, evidence), chosen_together(further, ties, evidence, most_together)};
+FurtherRunsWorth worth_of_further_runs(const arm::Arm& arm, const std::vector<PlannedRun>& runs,
+                                       const std::vector<Tie>& ties, std::size_t most_together,
+                                       const std::function<bool(double)>& progress) {
+  if (ties.empty()) return {};
+  try {
+    const auto further = further_runs(arm, runs);
+    const Evidence evidence = evidence_of(arm, further, ties, progress);
+    if (evidence.cancelled) return {};
+    return {rank(further, ties, evidence), chosen_together(further, ties, evidence, most_together)};
+  } catch (const arm::InputError&) {
+    return {};
+  }
 }
 
 std::vector<NextExperiment> what_next(const Problem& problem, const Selection& selection,
@@ -202,9 +207,8 @@ std::vector<NextExperiment> what_next(const Problem& problem, const Selection& s
       ties.push_back(tie_between(selection.singles.front(), selection.singles[i]));
     }
   }
-  if (ties.empty()) return {};
-  const arm::Arm& arm = problem.experiment().arm;
-  auto ranked = worth_of(arm, further_runs(arm, planned_as_measured(problem)), ties, 0).ranked;
+  auto ranked =
+      worth_of_further_runs(problem.experiment().arm, planned_as_measured(problem), ties, 0).ranked;
   ranked.resize(std::min(ranked.size(), kMostShown));
   return ranked;
 }

@@ -34,14 +34,15 @@ struct FurtherRunsWorth {
   std::vector<NextExperiment> together;
 };
 
-/// What each of the runs would tell of `ties`. Information adds up over runs; the rivals are
-/// refitted to first order. The score is a count of ties that are told, with soft edges: the sum of
-/// lead/(lead + kToldLead). At most `most_together` are chosen, while each raises the score by a
-/// tenth of a tie or more. A run that cannot be computed for a tie says nothing of it. `progress`
-/// gets the fraction done; false ends the work, with nothing.
-FurtherRunsWorth worth_of(const arm::Arm& arm, const std::vector<FurtherRun>& further,
-                          const std::vector<Tie>& ties, std::size_t most_together,
-                          const std::function<bool(double)>& progress = {});
+/// What each of the `further_runs` that could be added to `runs` would tell of `ties`. Information
+/// adds up over runs; the rivals are refitted to first order. The score is a count of ties that are
+/// told, with soft edges: the sum of lead/(lead + kToldLead). At most `most_together` are chosen,
+/// while each raises the score by a tenth of a tie or more. A run that cannot be computed for a tie
+/// says nothing of it; where the arm itself cannot be computed in them (one that falls) there is no
+/// advice. `progress` gets the fraction done; false ends the work, with nothing.
+FurtherRunsWorth worth_of_further_runs(const arm::Arm& arm, const std::vector<PlannedRun>& runs,
+                                       const std::vector<Tie>& ties, std::size_t most_together,
+                                       const std::function<bool(double)>& progress = {});
 
 /// What to measure next, where causes that were chosen cannot be told from rivals; where nothing
 /// was chosen but something is there, what would tell the nearest effects from each other. The best

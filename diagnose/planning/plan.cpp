@@ -1,6 +1,7 @@
 #include "diagnose/planning/plan.hpp"
 
 #include "arm/effects.hpp"
+#include "arm/input_error.hpp"
 #include "arm/linear_arm.hpp"
 #include "compare/for_each_index.hpp"
 #include "diagnose/hypotheses/hypotheses.hpp"
@@ -59,6 +60,10 @@ class Planning {
     std::erase_if(hypotheses_, [&](const Hypothesis& hypothesis) {
       return planned_.unknowns().has(hypothesis);
     });
+    if (hypotheses_.empty()) {
+      throw arm::InputError(
+          "no effect is left that could be a cause: all are refitted, or none shows");
+    }
     made_.better = measurement_plan;
     made_.better.runs = with_purposes(planned_, measurement_plan.runs);
     if (!planned_.notice().empty()) made_.notices.push_back(planned_.notice());
@@ -152,7 +157,6 @@ class Planning {
   }
 
   void improve() {
-    const auto further = further_runs(arm_, made_.better.runs);
     std::vector<Tie> ties;
     for (const TiedPair& pair : made_.ties) {
       const Separation& separation = *made_.separations[pair.truth][pair.rival];
@@ -160,9 +164,10 @@ class Planning {
       ties.push_back({joined(planned_.unknowns(), *made_.effects[pair.truth].compared),
                       separation.rival, separation.information, count});
     }
-    auto worth = worth_of(arm_, further, ties, options_.most_added, [&](double part) {
-      return tell("further runs", kSeparated + part * (kRanked - kSeparated));
-    });
+    auto worth =
+        worth_of_further_runs(arm_, made_.better.runs, ties, options_.most_added, [&](double part) {
+          return tell("further runs", kSeparated + part * (kRanked - kSeparated));
+        });
     made_.further = std::move(worth.ranked);
     made_.added = std::move(worth.together);
     if (cancelled_ || made_.added.empty()) return;

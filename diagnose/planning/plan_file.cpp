@@ -23,7 +23,7 @@ using measured::RunKind;
 
 constexpr std::size_t kLargestPlan_bytes = 1 << 20;
 /// More of a planned run is a slip of the pen: a run is predicted some thousand times.
-constexpr double kMostPlannedSamples = 1e6;
+constexpr double kMostPlannedSamples = 1e5;
 constexpr double kMostPlannedFrequencies = 1e5;
 /// Poles, or zeros of a sensor, of a modal table.
 constexpr double kMostPlannedRoots = 50;

@@ -50,7 +50,7 @@ std::vector<Shape> shapes_of(const PlannedExperiment& planned, const Detection& 
   std::vector<Shape> made;
   const auto add = [&](const Candidate& candidate) {
     if (auto change = planned.change_by(candidate); change && change->squaredNorm() > 0.0) {
-      made.push_back({candidate, std::move(*change)});
+      made.push_back({candidate, change->cast<float>()});
     }
   };
   const Hypothesis& hypothesis = detection.hypothesis;
@@ -131,13 +131,13 @@ Separation separate(const Problem& problem, const Candidate& unknowns, const Sha
   Separation made;
   const Shape* nearest = nullptr;
   for (const Shape& shape : rival) {
-    const double cosine =
-        shape.change.dot(truth.change) / (shape.change.norm() * truth.change.norm());
+    const double cosine = static_cast<double>(shape.change.dot(truth.change) /
+                                              (shape.change.norm() * truth.change.norm()));
     if (nearest != nullptr && cosine <= made.cosine) continue;
     nearest = &shape;
     made.cosine = cosine;
   }
-  const double squares = truth.change.squaredNorm();
+  const double squares = static_cast<double>(truth.change.squaredNorm());
   const double part = std::max(0.0, made.cosine);
   if (nearest == nullptr) {
     made.lead = squares;

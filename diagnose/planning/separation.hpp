@@ -32,7 +32,7 @@ inline constexpr double kToldLead = 10.0;
 /// A change that some value of an effect makes.
 struct Shape {
   Candidate candidate;
-  Eigen::VectorXd change;
+  Eigen::VectorXf change;  ///< single precision is enough for cosines, and half the room
 };
 /// The changes of an effect at the strength it is compared at, in both directions and at several
 /// places of the parameters that have no neutral place.

@@ -160,9 +160,9 @@ class Planning {
     std::vector<Tie> ties;
     for (const TiedPair& pair : made_.ties) {
       const Separation& separation = *made_.separations[pair.truth][pair.rival];
-      const auto count = static_cast<double>(planned_.as_described().observations().values.size());
       ties.push_back({joined(planned_.unknowns(), *made_.effects[pair.truth].compared),
-                      separation.rival, separation.information, count});
+                      separation.rival, separation.information,
+                      fitted_count(planned_.as_described())});
     }
     auto worth =
         worth_of_further_runs(arm_, made_.better.runs, ties, options_.most_added, [&](double part) {

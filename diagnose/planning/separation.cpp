@@ -30,8 +30,9 @@ double penalty(std::size_t truth_parameters, std::size_t rival_parameters, doubl
          std::log(std::max(2.0, count));
 }
 
-/// Numbers of the runs that are fitted.
-double count_of(const Problem& problem) {
+}  // namespace
+
+double fitted_count(const Problem& problem) {
   const auto& channels = problem.observations().channels;
   return std::accumulate(channels.begin(), channels.end(), 0.0,
                          [&](double sum, const ObservedChannel& channel) {
@@ -39,8 +40,6 @@ double count_of(const Problem& problem) {
                            return sum + (counts ? static_cast<double>(channel.count) : 0.0);
                          });
 }
-
-}  // namespace
 
 Candidate joined(const Candidate& unknowns, const Candidate& effect) {
   return unknowns.with(effect.effects.front(), effect.values);
@@ -120,8 +119,8 @@ Separation separate_by_fit(const Problem& problem, const Candidate& truth, const
   Separation made;
   made.is_fitted = true;
   made.rival = fitted.candidate;
-  made.lead =
-      fitted.sum_of_squares - penalty(truth.values.size(), rival.values.size(), count_of(problem));
+  made.lead = fitted.sum_of_squares -
+              penalty(truth.values.size(), rival.values.size(), fitted_count(problem));
   made.information = information_of(fitted.jacobian, fitted.residuals);
   return made;
 }
@@ -146,7 +145,7 @@ Separation separate(const Problem& problem, const Candidate& unknowns, const Sha
   const std::size_t parameters = truth.candidate.values.size();
   made.rival = nearest->candidate;
   made.lead = squares * (1.0 - part * part) -
-              penalty(parameters, nearest->candidate.values.size(), count_of(problem));
+              penalty(parameters, nearest->candidate.values.size(), fitted_count(problem));
   if (part < kNearCosine && made.lead > kNearLead) return made;
   const double cosine = made.cosine;
   made = separate_by_fit(problem, joined(unknowns, truth.candidate),

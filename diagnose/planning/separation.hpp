@@ -49,6 +49,9 @@ Separation separate(const Problem& problem, const Candidate& unknowns, const Sha
 /// The rival, refitted from where it is, against an effect whose data `problem` is of.
 Separation separate_by_fit(const Problem& problem, const Candidate& truth, const Candidate& rival);
 
+/// Numbers of the runs that are fitted.
+double fitted_count(const Problem& problem);
+
 /// [J r]'[J r].
 Eigen::MatrixXd information_of(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residuals);
 

@@ -1,9 +1,12 @@
 #include "arm/input_error.hpp"
+#include "arm/text_file.hpp"
 #include "diagnose/planning/measurement_plan.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 
 namespace flexarm::diagnose {
@@ -78,6 +81,23 @@ TEST(MeasurementPlanFile, ComesBackAsItWasWritten) {
   const MeasurementPlan plan = parse_measurement_plan(written, "written.toml");
   EXPECT_EQ(torque_of(plan.runs[0]),
             torque_of(parse_measurement_plan(kWhole, "plan.toml").runs[0]));
+}
+
+TEST(MeasurementPlanFile, TheExampleOfTheFormatsDocumentIsRead) {
+  const std::string text = arm::read_text_file(FLEXARM_SOURCE_DIR "/docs/formats.md", 1 << 20);
+  const auto heading = text.find("\n## Measurement plan");
+  const auto begin = text.find('\n', text.find("```toml", heading)) + 1;
+  const MeasurementPlan plan = parse_measurement_plan(
+      text.substr(begin, text.find("```", begin) - begin), "docs/formats.md");
+  EXPECT_EQ(plan.runs.size(), 3U);
+}
+
+TEST(MeasurementPlanFile, ThePlansBesideTheProgramAreRead) {
+  for (const char* name : {"hub-response", "all-sensors-response", "modal-table", "three-runs"}) {
+    const MeasurementPlan plan =
+        read_measurement_plan(fmt::format("{}/data/plans/{}.toml", FLEXARM_SOURCE_DIR, name));
+    EXPECT_FALSE(plan.runs.empty()) << name;
+  }
 }
 
 TEST(MeasurementPlanFile, RefusesWhatItDoesNotKnowByLine) {

@@ -25,6 +25,11 @@ constexpr std::size_t kMostRivals = 3;
 
 using Informations = std::vector<Eigen::MatrixXd>;  // one a run
 
+/// All that a fit of the candidate moves.
+std::size_t fitted_parameters(const Candidate& candidate) {
+  return static_cast<std::size_t>(candidate.places().size());
+}
+
 std::vector<PlannedRun> runs_of(const std::vector<FurtherRun>& further) {
   std::vector<PlannedRun> runs;
   for (const FurtherRun& entry : further) runs.push_back(entry.run);
@@ -64,7 +69,7 @@ void observe_tie(const PlannedExperiment& planned, const Tie& tie, const std::ve
 /// Each run's information on a tie; zero where it cannot be computed.
 Informations informations(const PlannedExperiment& planned, const Tie& tie) {
   const std::size_t count = planned.experiment().runs.size();
-  const Index size = static_cast<Index>(tie.rival.values.size()) + 1;
+  const Index size = tie.rival.places().size() + 1;
   Informations made(count, Eigen::MatrixXd::Zero(size, size));
   try {
     observe_tie(planned, tie, std::vector<bool>(count, true), made);
@@ -123,7 +128,7 @@ std::vector<NextExperiment> rank(const std::vector<FurtherRun>& further,
     NextExperiment next{further[r], {}, 0, 0.0};
     for (std::size_t t = 0; t < ties.size(); ++t) {
       const double lead =
-          expected_lead(ties[t].information + evidence.of[t][r], ties[t].truth.values.size(),
+          expected_lead(ties[t].information + evidence.of[t][r], fitted_parameters(ties[t].truth),
                         ties[t].count + evidence.counts[r]);
       next.leads.push_back(lead);
       if (lead >= kToldLead) ++next.told;
@@ -141,7 +146,7 @@ std::vector<NextExperiment> chosen_together(const std::vector<FurtherRun>& furth
   std::vector<NextExperiment> chosen;
   double score = 0.0;
   for (const Tie& tie : ties) {
-    score += soft_count(expected_lead(tie.information, tie.truth.values.size(), tie.count));
+    score += soft_count(expected_lead(tie.information, fitted_parameters(tie.truth), tie.count));
   }
   while (chosen.size() < most) {
     NextExperiment best = rank(further, ties, evidence).front();

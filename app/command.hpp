@@ -38,6 +38,7 @@ Command add_import(CLI::App& program);
 Command add_modes(CLI::App& program);
 Command add_new(CLI::App& program);
 Command add_paper(CLI::App& program);
+Command add_plan(CLI::App& program);
 Command add_response(CLI::App& program);
 Command add_simulate(CLI::App& program);
 Command add_sweep(CLI::App& program);

@@ -1,13 +1,12 @@
 #include "app/command.hpp"
+#include "app/effect_choice.hpp"
 #include "app/file_names.hpp"
 #include "app/folder_place.hpp"
 #include "app/interruption.hpp"
 #include "app/standard_output.hpp"
 #include "arm/arm_file.hpp"
 #include "arm/atomic_file.hpp"
-#include "arm/effects.hpp"
 #include "arm/input_error.hpp"
-#include "arm/nearest_name.hpp"
 #include "diagnose/diagnosis.hpp"
 #include "diagnose/hypotheses/hypotheses.hpp"
 #include "report/csv.hpp"
@@ -15,6 +14,7 @@
 #include "report/diagnosis_json.hpp"
 #include "report/diagnosis_tables.hpp"
 #include "report/json_document.hpp"
+#include "report/plan_tables.hpp"
 #include "report/progress.hpp"
 #include "report/symptom_tables.hpp"
 #include "report/text_table.hpp"
@@ -56,30 +56,6 @@ FolderKind diagnosis_folder_kind() {
   return {"a diagnosis", kDiagnosisJson, {".json", ".toml", ".csv", ".svg"}};
 }
 
-/// The hypotheses asked for, all unless told.
-std::vector<diagnose::Hypothesis> chosen_hypotheses(const DiagnoseArguments& arguments,
-                                                    const diagnose::Experiment& experiment) {
-  std::vector<diagnose::Hypothesis> all = diagnose::hypotheses(experiment);
-  if (arguments.effects.empty()) return all;
-  std::vector<std::string> names;
-  for (const auto& entry : arm::effect_vocabulary()) names.push_back(entry.name);
-  for (const auto& name : arguments.effects) {
-    if (arm::find_effect(name) == nullptr) {
-      throw arm::InputError(fmt::format("--effects {}: unknown effect{}; allowed: {}",
-                                        arm::shown(name), arm::did_you_mean(name, names),
-                                        fmt::join(names, ", ")));
-    }
-    if (std::ranges::find(all, name, &diagnose::Hypothesis::effect) == all.end()) {
-      throw arm::InputError(fmt::format(
-          "--effects {}: shows in none of these runs, or the arm file has it already", name));
-    }
-  }
-  std::erase_if(all, [&](const auto& hypothesis) {
-    return std::ranges::find(arguments.effects, hypothesis.effect) == arguments.effects.end();
-  });
-  return all;
-}
-
 /// The file beside `json_file` that its extended arm is written to: out.json, out.extended.toml.
 fs::path extended_beside(const std::string& json_file) {
   return fs::path(json_file).replace_extension(kExtendedArm);
@@ -115,8 +91,9 @@ diagnose::Diagnosis diagnose_with_progress(const DiagnoseArguments& arguments,
   };
   diagnose::SelectionOptions options;
   options.most_causes = arguments.most_causes;
-  auto diagnosis =
-      diagnose::diagnose(experiment, chosen_hypotheses(arguments, experiment), options, tell);
+  auto diagnosis = diagnose::diagnose(
+      experiment, chosen_hypotheses(arguments.effects, diagnose::hypotheses(experiment)), options,
+      tell);
   if (diagnosis.cancelled) interruption.end_program();
   return diagnosis;
 }
@@ -141,7 +118,12 @@ std::string text_of(const diagnose::Diagnosis& diagnosis) {
   }
   text += report::to_paragraph(report::formulations_text(diagnosis.formulations)) + "\n";
   text += report::to_text(report::gain_table(diagnosis)) + "\n";
-  return text + report::to_text(report::channel_gain_table(diagnosis), {.key_columns = 2});
+  text += report::to_text(report::channel_gain_table(diagnosis), {.key_columns = 2});
+  if (diagnosis.next_experiments.empty()) return text;
+  return text + "\n" +
+         report::to_text(report::further_run_table(diagnosis.next_experiments,
+                                                   diagnosis.next_experiments.size(),
+                                                   "What next: runs that would tell the causes"));
 }
 
 std::string json_of(const diagnose::Diagnosis& diagnosis, const std::string& extended_arm) {
@@ -219,11 +201,7 @@ Command add_diagnose(CLI::App& program) {
   CLI::App* parser = program.add_subcommand(
       "diagnose", "What the simulation gets wrong, by which cause, and the arm with it");
   parser->add_option("FILE", arguments->file, "measurement.toml")->required()->check(not_empty());
-  parser
-      ->add_option("--effects", arguments->effects,
-                   "Causes to try, separated by commas; the whole vocabulary unless given")
-      ->delimiter(',')
-      ->allow_extra_args(false);
+  add_effect_choice(*parser, arguments->effects);
   parser->add_option("--max-causes", arguments->most_causes, "The most causes to name")
       ->capture_default_str();
   parser

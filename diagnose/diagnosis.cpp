@@ -1,7 +1,6 @@
 #include "diagnose/diagnosis.hpp"
 
 #include "arm/arm_keys.hpp"
-#include "arm/effects.hpp"
 #include "arm/uncertainties.hpp"
 #include "diagnose/parameter_errors.hpp"
 
@@ -18,15 +17,8 @@ namespace {
 /// Inner steps a sample of the last refit, and modes beside which its error shows.
 constexpr int kFineSubsteps = 20;
 constexpr int kFurtherModes = 8;
-/// Rivals that the chosen causes lead by less than this information cannot be told from them.
-constexpr double kTold = 10.0;
 /// No data make an effect more certain than this.
 constexpr double kMostConfidence = 0.99;
-
-std::string unit_of(const std::string& effect, const std::string& parameter) {
-  const auto& parameters = arm::find_effect(effect)->parameters;
-  return std::ranges::find(parameters, parameter, &arm::EffectParameter::name)->unit;
-}
 
 /// What the rivals that lack an effect are in its place, with the information by which the chosen
 /// causes lead them; the nearest first.
@@ -60,7 +52,7 @@ std::vector<std::string> evidence_for(const Hypothesis& hypothesis, const Cause&
   if (!rivals.empty()) {
     const Rival& next = rivals.front();
     evidence.push_back(
-        next.lead < kTold
+        next.lead < kToldLead
             ? fmt::format("{} in its place does as well.", next.effect->label())
             : fmt::format("The next candidate in its place, {}, is {:.0f} of information behind.",
                           next.effect->label(), next.lead));
@@ -137,7 +129,7 @@ std::vector<std::vector<ParameterEstimate>> estimates_of(const Candidate& candid
     for (const auto& parameter : effect.parameters) {
       estimates.push_back({parameter.name, candidate.values[at],
                            errors[candidate.displacements.size() + at],
-                           unit_of(effect.effect, parameter.name)});
+                           unit_of(effect, parameter)});
       ++at;
     }
   }
@@ -171,7 +163,7 @@ Cause cause_of(const Hypothesis& effect, const Selection& selection, const Expla
     odds += std::exp(-0.5 * std::max(0.0, rival.lead));
     const std::string& name = rival.effect->effect;
     auto& confusable = cause.confusable_with;
-    if (rival.lead < kTold && std::ranges::find(confusable, name) == confusable.end()) {
+    if (rival.lead < kToldLead && std::ranges::find(confusable, name) == confusable.end()) {
       confusable.push_back(name);
     }
   }
@@ -302,6 +294,7 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
   made.refitted = refitted_numbers(experiment.arm, chosen, errors);
   made.extended_arm = chosen.extend(experiment.arm);
   made.formulations = check_formulations(made.extended_arm, scales_of(experiment).sensors);
+  made.next_experiments = what_next(problem, selection, made.verdict != Verdict::unexplained);
   return made;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "diagnose/formulation_check.hpp"
+#include "diagnose/planning/next_experiments.hpp"
 #include "diagnose/selection.hpp"
 #include "diagnose/symptoms/symptoms.hpp"
 
@@ -86,6 +87,7 @@ struct Diagnosis {
   std::vector<RefittedNumber> refitted;
   FormulationCheck formulations;  ///< of the extended arm
   arm::Arm extended_arm;  ///< the experiment's with the causes, uncertain numbers as refitted
+  std::vector<NextExperiment> next_experiments;  ///< what_next
   std::vector<std::string> notices;
   bool cancelled = false;
 };

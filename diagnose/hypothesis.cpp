@@ -1,5 +1,7 @@
 #include "diagnose/hypothesis.hpp"
 
+#include "arm/effects.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <variant>
@@ -50,6 +52,12 @@ double SearchedParameter::place(double value) const {
   return 0.0;
 }
 
+std::optional<double> SearchedParameter::neutral_place() const {
+  if (spacing == Spacing::from_zero || spacing == Spacing::from_infinity) return 0.0;
+  if (!neutral) return std::nullopt;
+  return place(*neutral);
+}
+
 std::string Hypothesis::label() const {
   return sensor.empty() ? effect : effect + " on " + sensor;
 }
@@ -64,6 +72,11 @@ bool Hypothesis::shows_in(measured::RunKind kind) const {
       return shows == Shows::in_all;
   }
   return false;
+}
+
+std::string unit_of(const Hypothesis& hypothesis, const SearchedParameter& parameter) {
+  const auto& parameters = arm::find_effect(hypothesis.effect)->parameters;
+  return std::ranges::find(parameters, parameter.name, &arm::EffectParameter::name)->unit;
 }
 
 arm::Arm extended(const arm::Arm& arm, const Hypothesis& hypothesis,

@@ -4,6 +4,7 @@
 #include "arm/linear_arm.hpp"
 #include "diagnose/experiment.hpp"
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -37,10 +38,14 @@ struct SearchedParameter {
   double highest = 1.0;
   Spacing spacing = Spacing::logarithmic;
   bool periodic = false;  ///< the ends are the same
+  /// Where the effect does nothing, if that is neither 0 nor infinity by the spacing.
+  std::optional<double> neutral = {};
 
   /// The value at `place`, 0 at the lowest and 1 at the highest, and back.
   double value(double place) const;
   double place(double value) const;
+  /// The place where the effect does nothing, if the parameter has one.
+  std::optional<double> neutral_place() const;
 };
 
 /// What data an effect shows in.
@@ -65,6 +70,9 @@ struct Hypothesis {
   std::string label() const;
   bool shows_in(measured::RunKind kind) const;
 };
+
+/// Unit of a parameter of the effect, as the vocabulary has it; empty for a plain number.
+std::string unit_of(const Hypothesis& hypothesis, const SearchedParameter& parameter);
 
 /// The arm with the effect at these values, one a parameter.
 arm::Arm extended(const arm::Arm& arm, const Hypothesis& hypothesis,

@@ -1,14 +1,13 @@
 #include "measured/measurement.hpp"
 
 #include "arm/input_error.hpp"
-#include "arm/nearest_name.hpp"
-#include "arm/range.hpp"
 #include "arm/text_file.hpp"
 #include "arm/toml_document.hpp"
+#include "arm/toml_faults.hpp"
 #include "arm/toml_node.hpp"
+#include "measured/payload_keys.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <array>
 #include <cstddef>
@@ -47,39 +46,21 @@ std::string_view word_of(const Table& table, T value) {
 const std::vector<std::string> kTopKeys = {"name", "arm", "run"};
 const std::vector<std::string> kRunKeys = {"id",          "kind",    "file",    "purpose",
                                            "torque_hold", "payload", "initial", "columns"};
-const std::vector<std::string> kPayloadKeys = {"mass", "inertia"};
 const std::vector<std::string> kColumnKeys = {"name", "unit", "scale"};
 
-/// Walks a document once and keeps its faults by line, so that the first in the file is reported.
-class MeasurementReader {
+class MeasurementReader : arm::TomlFaults {
  public:
-  explicit MeasurementReader(const std::string& file_name) : file_name_(file_name) {}
+  explicit MeasurementReader(const std::string& file_name) : TomlFaults(file_name) {}
 
   Measurement read(const toml::table& document) {
     for (const auto& [key, node] : document) read_top_level(arm::shown(key.str()), node);
     require(document, 1, "arm", "arm", "the arm file, relative to this file");
     require(document, 1, "run", "run", "one [[run]] or more");
-    throw_first(faults_);
-    throw_first(missing_);
+    throw_first();
     return std::move(measurement_);
   }
 
  private:
-  static int line_of(const toml::node& node) { return static_cast<int>(node.source().begin.line); }
-
-  void fault(int line, const std::string& what) { faults_.emplace(line, what); }
-
-  void wrong(const std::string& key, const toml::node& node, const std::string& allowed) {
-    fault(line_of(node), fmt::format("{}{}: {}; must be {}", key, arm::equals_value(node),
-                                     arm::kind_of(node), allowed));
-  }
-
-  void unknown(const std::string& prefix, const std::string& key, const toml::node& node,
-               const std::vector<std::string>& allowed) {
-    fault(line_of(node), fmt::format("{}{}: unknown key{}; allowed: {}", prefix, key,
-                                     arm::did_you_mean(key, allowed), fmt::join(allowed, ", ")));
-  }
-
   void read_top_level(const std::string& key, const toml::node& node) {
     if (key == "name") {
       if (const auto* text = node.as_string()) {
@@ -113,18 +94,18 @@ class MeasurementReader {
       if (leaf == "id") {
         read_id(node, run);
       } else if (leaf == "kind") {
-        read_word(key, node, kKinds, run.kind);
+        read_value(key, node, kKinds, run.kind);
       } else if (leaf == "file") {
         read_file(key, node, run.file);
       } else if (leaf == "purpose") {
         run.purpose = Purpose::estimation;
-        read_word(key, node, kPurposes, *run.purpose);
+        read_value(key, node, kPurposes, *run.purpose);
       } else if (leaf == "torque_hold") {
-        read_word(key, node, kHolds, run.torque_hold);
+        read_value(key, node, kHolds, run.torque_hold);
       } else if (leaf == "initial") {
-        read_word(key, node, kInitials, run.initial);
+        read_value(key, node, kInitials, run.initial);
       } else if (leaf == "payload") {
-        run.payload = read_payload(node);
+        run.payload = read_payload(*this, node);
       } else if (leaf == "columns") {
         run.columns = read_columns(node);
       } else {
@@ -143,13 +124,6 @@ class MeasurementReader {
     return run;
   }
 
-  /// A key that is misspelt is reported as that, and not as missing.
-  void require(const toml::table& table, int line, const char* key, const char* leaf,
-               const char* what) {
-    if (table.contains(leaf)) return;
-    missing_.emplace(line, fmt::format("{}: missing; must be {}", key, what));
-  }
-
   void read_id(const toml::node& node, Run& run) {
     const auto* text = node.as_string();
     if (text == nullptr || text->get().empty()) {
@@ -165,51 +139,15 @@ class MeasurementReader {
   }
 
   void read_file(const std::string& key, const toml::node& node, std::string& file) {
-    const auto* text = node.as_string();
-    if (text == nullptr || text->get().empty()) {
-      wrong(key, node, "the name of a file in quotes");
-    } else {
-      file = text->get();
-    }
+    read_text(key, node, "the name of a file in quotes", file);
   }
 
+  /// The value that a word of the file stands for.
   template <class Table, class T>
-  void read_word(const std::string& key, const toml::node& node, const Table& words, T& value) {
-    std::vector<std::string> allowed;
-    for (const auto& [entry, word] : words) allowed.emplace_back(word);
-    const auto* text = node.as_string();
-    if (text == nullptr) {
-      wrong(key, node, fmt::format("{}, in quotes", fmt::join(allowed, " or ")));
-      return;
-    }
-    for (const auto& [entry, word] : words) {
-      if (text->get() != word) continue;
-      value = entry;
-      return;
-    }
-    fault(line_of(node),
-          fmt::format("{}{}: must be {}{}", key, arm::equals_value(node),
-                      fmt::join(allowed, " or "), arm::did_you_mean(text->get(), allowed)));
-  }
-
-  arm::Payload read_payload(const toml::node& node) {
-    arm::Payload payload;
-    const auto* table = node.as_table();
-    if (table == nullptr) {
-      wrong("run.payload", node, "a table, as in { mass = 0.06, inertia = 0.0 }");
-      return payload;
-    }
-    for (const auto& [name, value] : *table) {
-      const std::string leaf = arm::shown(name.str());
-      if (leaf == "mass") {
-        read_number("run.payload.mass", value, "kg", payload.mass_kg);
-      } else if (leaf == "inertia") {
-        read_number("run.payload.inertia", value, "kg m^2", payload.inertia_kg_m2);
-      } else {
-        unknown("run.payload.", leaf, value, kPayloadKeys);
-      }
-    }
-    return payload;
+  void read_value(const std::string& key, const toml::node& node, const Table& table, T& value) {
+    std::vector<std::string> words;
+    for (const auto& [entry, word] : table) words.emplace_back(word);
+    if (const auto at = read_word(key, node, words)) value = table[*at].first;
   }
 
   ColumnMappings read_columns(const toml::node& node) {
@@ -277,32 +215,8 @@ class MeasurementReader {
     return mapping;
   }
 
-  void read_number(const std::string& key, const toml::node& node, const char* unit,
-                   double& number) {
-    if (!node.is_number()) {
-      wrong(key, node, fmt::format("{} [{}]", to_string(arm::kNotNegative), unit));
-      return;
-    }
-    number = *node.value<double>();
-    if (!arm::kNotNegative.contains(number)) {
-      fault(line_of(node),
-            arm::out_of_range(key, number, unit, to_string(arm::kNotNegative)).what());
-    }
-  }
-
-  std::string file_name_;
   Measurement measurement_;
   std::map<std::string, int> line_of_id_;
-  using Faults = std::multimap<int, std::string>;  // by line; equal lines in the order found
-
-  void throw_first(const Faults& faults) const {
-    if (faults.empty()) return;
-    const auto& [line, what] = *faults.begin();
-    throw arm::located(InputError(what), file_name_, line);
-  }
-
-  Faults faults_;
-  Faults missing_;
 };
 
 }  // namespace

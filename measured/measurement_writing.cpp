@@ -3,6 +3,7 @@
 #include "arm/input_error.hpp"
 #include "arm/utf8.hpp"
 #include "measured/measurement.hpp"
+#include "measured/payload_keys.hpp"
 
 #include <fmt/format.h>
 
@@ -53,9 +54,7 @@ std::string format_measurement(const Measurement& measurement) {
       word("torque_hold", to_string(run.torque_hold));
     }
     if (run.payload) {
-      line("payload", fmt::format("{{ mass = {}, inertia = {} }}  # kg, kg m^2 about the tip",
-                                  arm::toml_number(run.payload->mass_kg),
-                                  arm::toml_number(run.payload->inertia_kg_m2)));
+      line("payload", format_payload(*run.payload));
     }
     if (run.initial != InitialState::rest) word("initial", to_string(run.initial));
     for (const auto& [name, mapping] : run.columns) {

@@ -1,5 +1,6 @@
 #include "report/diagnosis_json.hpp"
 
+#include "report/plan_json.hpp"
 #include "report/symptom_json.hpp"
 
 #include <nlohmann/json.hpp>
@@ -76,6 +77,7 @@ Json diagnosis_json(const diagnose::Diagnosis& diagnosis, const std::string& ext
           {"refitted", refitted},
           {"formulations", formulations_json(diagnosis.formulations)},
           {"extended_arm", extended_arm.empty() ? Json(nullptr) : Json(extended_arm)},
+          {"next_experiments", further_runs_json(diagnosis.next_experiments)},
           {"notices", diagnosis.notices}};
 }
 

@@ -4,7 +4,7 @@ namespace flexarm::diagnose {
 
 Hypothesis hub_inertia(const Scales& /*scales*/) {
   return {.effect = "hub_inertia",
-          .parameters = {{"factor", 0.3, 3.0}},
+          .parameters = {{.name = "factor", .lowest = 0.3, .highest = 3.0, .neutral = 1.0}},
           .shows = Shows::in_all,
           .speaks_for =
               "poles move and hub-angle zeros, which are the poles of the arm with "

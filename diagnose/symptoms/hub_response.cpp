@@ -49,9 +49,10 @@ std::vector<double> pulse_response(const arm::Arm& arm, const arm::Sensor& senso
   options.sample_time_s = period_s;
   options.hold =
       hold == measured::TorqueHold::zero ? response::TorqueHold::zero : response::TorqueHold::first;
-  auto made = response::quick_simulation(model, parts, sensors, pulse, options).front();
-  made.erase(made.begin());
-  return made;
+  const Eigen::MatrixXd made =
+      response::QuickSimulation(model, parts, sensors, options)(pulse).bottomRows(
+          static_cast<Eigen::Index>(samples));
+  return {made.data(), made.data() + made.size()};
 }
 
 /// From rest: what is before the first value is 0.

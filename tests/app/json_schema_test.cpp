@@ -217,6 +217,24 @@ TEST_F(JsonSchema, WhatPaperWritesIsWhatTheDocumentSays) {
   expect_as_documented({Json::parse(text_of("out.json"))}, "flexarm.paper/1");
 }
 
+TEST_F(JsonSchema, WhatPlanWritesIsWhatTheDocumentSays) {
+  run({"new", "rig.toml"});
+  const auto written_by = [&](const std::string& plan) {
+    write("plan.toml", plan);
+    const Ended ended = run({"plan", "rig.toml", "plan.toml", "--effects",
+                             "time_delay,actuator_lag,hub_inertia", "--json", "out.json"});
+    EXPECT_EQ(ended.status, 0) << ended.errors;
+    return Json::parse(text_of("out.json"));
+  };
+  expect_as_documented(
+      {written_by("[[run]]\nid = \"hub\"\nkind = \"frf\"\nsensors = [\"hub_angle\"]\n"
+                  "noise = 0.01\nfrequencies = { from = 0.5, to = 60.0, count = 60 }\n"),
+       written_by("[[run]]\nid = \"a\"\nkind = \"time\"\nsensors = [\"hub_angle\"]\n"
+                  "excitation = { kind = \"step\" }\nduration = 0.5\nsample_time = 0.002\n"
+                  "payload = { mass = 0.05 }\n")},
+      "flexarm.plan/1");
+}
+
 TEST_F(JsonSchema, WhatSweepWritesIsWhatTheDocumentSays) {
   const auto written_by = [&](std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), "sweep");

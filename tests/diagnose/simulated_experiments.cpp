@@ -21,14 +21,14 @@ namespace {
 constexpr int kSimulatedModes = 16;
 constexpr double kSampleTime_s = 2e-3;
 
-struct PlannedRun {
+struct RunToSimulate {
   std::string id;
   response::Excitation torque;
   double payload_kg = 0.0;
   measured::Purpose purpose = measured::Purpose::estimation;
 };
 
-std::vector<PlannedRun> planned_runs(std::uint64_t seed) {
+std::vector<RunToSimulate> planned_runs(std::uint64_t seed) {
   using response::RandomNoise;
   const auto random = [seed](double rms_N_m, std::uint64_t more) {
     return RandomNoise{.rms_N_m = rms_N_m, .from_Hz = 0.3, .to_Hz = 60.0, .seed = seed + more};
@@ -41,7 +41,7 @@ std::vector<PlannedRun> planned_runs(std::uint64_t seed) {
            0.0, measured::Purpose::validation}};
 }
 
-measured::TimeRecord record_of(const PlannedRun& plan, const arm::Arm& arm,
+measured::TimeRecord record_of(const RunToSimulate& plan, const arm::Arm& arm,
                                const SimulatedRuns& runs) {
   std::vector<arm::Sensor> sensors;
   for (const char* name : {"hub_angle", "hub_velocity", "tip_acceleration", "strain@0.05"}) {
@@ -79,7 +79,7 @@ arm::Arm trial_arm() {
 Experiment simulated_experiment(const arm::Effects& hidden, const SimulatedRuns& runs) {
   Experiment experiment;
   experiment.arm = trial_arm();
-  for (const PlannedRun& plan : planned_runs(runs.seed)) {
+  for (const RunToSimulate& plan : planned_runs(runs.seed)) {
     measured::MeasuredRun made;
     made.run.id = plan.id;
     made.run.purpose = plan.purpose;

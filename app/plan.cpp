@@ -1,0 +1,187 @@
+#include "diagnose/planning/plan.hpp"
+
+#include "app/command.hpp"
+#include "app/effect_choice.hpp"
+#include "app/folder_place.hpp"
+#include "app/interruption.hpp"
+#include "app/standard_output.hpp"
+#include "arm/arm_file.hpp"
+#include "arm/atomic_file.hpp"
+#include "arm/input_error.hpp"
+#include "report/csv.hpp"
+#include "report/gnuplot.hpp"
+#include "report/json_document.hpp"
+#include "report/plan_json.hpp"
+#include "report/plan_tables.hpp"
+#include "report/progress.hpp"
+#include "report/separation_figure.hpp"
+#include "report/svg.hpp"
+#include "report/text_table.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace flexarm::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kPlanJson = "plan.json";
+constexpr const char* kBetterPlan = "better-plan.toml";
+/// Steps of the progress line.
+constexpr std::int64_t kPlanSteps = 100;
+/// Further runs that are printed.
+constexpr std::size_t kPrintedRuns = 8;
+
+struct PlanArguments {
+  std::string arm_file;
+  std::string plan_file;
+  std::vector<std::string> effects;
+  std::vector<std::string> refitted;
+  std::string better_file;
+  std::string folder;
+  bool force = false;
+  std::string json_file;
+};
+
+FolderKind plan_folder_kind() {
+  return {"a plan", kPlanJson, {".json", ".toml", ".csv", ".svg"}};
+}
+
+/// Throws for outputs that could not be written, or would take the place of what is read.
+void prepare_outputs(const PlanArguments& arguments) {
+  if (arguments.force && arguments.folder.empty()) {
+    throw arm::InputError("--force: needs --out FOLDER");
+  }
+  const std::vector<fs::path> inputs = {arguments.arm_file, arguments.plan_file};
+  if (!arguments.json_file.empty()) {
+    require_no_input("--json " + arm::shown(arguments.json_file), arguments.json_file, inputs);
+  }
+  if (!arguments.better_file.empty()) {
+    require_no_input("--write " + arm::shown(arguments.better_file), arguments.better_file, inputs);
+  }
+  require_json_place(arguments.json_file, arguments.folder);
+  if (arguments.folder.empty()) return;
+  require_place(arguments.folder, arguments.force, plan_folder_kind());
+  report::run_gnuplot("");
+}
+
+diagnose::Plan plan_with_progress(const PlanArguments& arguments) {
+  const arm::Arm arm = arm::read_arm_file(arguments.arm_file);
+  const auto planned = diagnose::read_measurement_plan(arguments.plan_file);
+  const auto possible = diagnose::hypotheses_of(arm, planned);
+  const auto hypotheses = chosen_hypotheses(arguments.effects, possible);
+  chosen_hypotheses(arguments.refitted, possible, "--refit");  // throws for an unknown name
+  prepare_outputs(arguments);
+  diagnose::PlanOptions options;
+  options.unknown = arguments.refitted;
+  const Interruption interruption;
+  report::Progress progress("per cent of the plan", kPlanSteps);
+  auto plan = diagnose::plan_experiment(arm, planned, hypotheses, options,
+                                        [&](std::string_view, double fraction) {
+                                          progress.reach(fraction);
+                                          return !interruption.requested();
+                                        });
+  if (plan.cancelled) interruption.end_program();
+  return plan;
+}
+
+std::string text_of_plan(const diagnose::Plan& plan) {
+  std::string text;
+  for (const auto& notice : plan.notices) text += report::to_paragraph("note: " + notice, 2);
+  if (!text.empty()) text += "\n";
+  text += report::to_paragraph(report::plan_summary(plan)) + "\n";
+  text += report::to_text(report::detection_table(plan)) + "\n";
+  text += report::separation_matrix(plan);
+  if (plan.ties.empty()) return text;
+  text += "\n" + report::to_text(report::tie_table(plan), {.key_columns = 2}) + "\n";
+  text += report::to_text(
+      report::further_run_table(plan.further, kPrintedRuns, "What one run more would tell"));
+  if (plan.added.empty()) {
+    return text + "\nNone of the further runs that were tried would tell any of them.\n";
+  }
+  return text + "\n" +
+         report::to_text(report::further_run_table(plan.added, plan.added.size(),
+                                                   "The better plan: these too, in this order"));
+}
+
+void write_plan(const PlanArguments& arguments, const diagnose::Plan& plan) {
+  const std::string better = diagnose::format_measurement_plan(plan.better);
+  const std::string json = report::json_document("flexarm.plan/1", report::plan_json(plan));
+  if (!arguments.folder.empty()) {
+    const std::vector<arm::NamedContent> files = {
+        {"effects.csv", report::to_csv(report::detection_table(plan))},
+        {"separations.csv", report::to_csv(report::separation_table(plan))},
+        {"leads.csv", report::to_csv(report::lead_table(plan))},
+        {"separations.svg", report::to_svg(report::separation_figure(plan))},
+        {kBetterPlan, better},
+        {kPlanJson, json}};
+    arm::write_folder_atomically(arguments.folder, files,
+                                 arguments.force ? arm::IfExists::replace : arm::IfExists::refuse);
+  }
+  if (!arguments.better_file.empty()) arm::write_atomically(arguments.better_file, better);
+  if (!arguments.json_file.empty()) arm::write_atomically(arguments.json_file, json);
+}
+
+int run_plan(const PlanArguments& arguments) {
+  const diagnose::Plan plan = plan_with_progress(arguments);
+  std::string text = text_of_plan(plan);
+  try {
+    write_plan(arguments, plan);
+  } catch (const arm::InputError&) {
+    print(text);
+    throw;
+  }
+  if (!arguments.folder.empty()) {
+    text += fmt::format("\nwrote {}\n", arguments.folder);
+  } else if (!arguments.better_file.empty()) {
+    text += fmt::format("\nwrote {}\n", arguments.better_file);
+  } else {
+    text +=
+        fmt::format("\nnext: the better plan as a file with  flexarm plan {} {} --write {}\n",
+                    arm::shown(arguments.arm_file), arm::shown(arguments.plan_file), kBetterPlan);
+  }
+  print(text);
+  return kSuccess;
+}
+
+}  // namespace
+
+Command add_plan(CLI::App& program) {
+  const auto arguments = std::make_shared<PlanArguments>();
+  CLI::App* parser = program.add_subcommand(
+      "plan", "Before any data: which effects a planned experiment can find and tell apart");
+  parser->add_option("ARM", arguments->arm_file, "arm.toml")->required()->check(not_empty());
+  parser->add_option("PLAN", arguments->plan_file, "measurement-plan.toml")
+      ->required()
+      ->check(not_empty());
+  add_effect_choice(*parser, arguments->effects);
+  parser
+      ->add_option("--refit", arguments->refitted,
+                   "Effects whose size is not known, separated by commas: fitted in any case, and "
+                   "no causes; the arm file is trusted unless given")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  parser->add_option("--write", arguments->better_file, "File for the better plan")
+      ->check(not_empty());
+  parser
+      ->add_option("--out", arguments->folder,
+                   "New folder for the better plan, tables as CSV, a figure and the JSON")
+      ->check(not_empty());
+  parser->add_flag("--force", arguments->force, "Replace what this command wrote in the folder");
+  parser->add_option("--json", arguments->json_file, "File for everything in full precision")
+      ->check(not_empty());
+  parser->footer(example("flexarm plan rig.toml measurement-plan.toml --write better-plan.toml"));
+  return {parser, [arguments] { return run_plan(*arguments); }};
+}
+
+}  // namespace flexarm::app

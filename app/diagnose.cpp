@@ -113,6 +113,9 @@ std::string text_of(const diagnose::Diagnosis& diagnosis) {
       text += report::to_paragraph("  It would be refuted by " + cause.refuted_by + ".", 4) + "\n";
     }
   }
+  if (!diagnosis.near_misses.empty()) {
+    text += report::to_text(report::near_miss_table(diagnosis)) + "\n";
+  }
   if (!diagnosis.refitted.empty()) {
     text += report::to_text(report::refitted_table(diagnosis)) + "\n";
   }

@@ -17,6 +17,8 @@ namespace {
 /// Inner steps a sample of the last refit, and modes beside which its error shows.
 constexpr int kFineSubsteps = 20;
 constexpr int kFurtherModes = 8;
+/// Of those that were not named, as many are told.
+constexpr std::size_t kNearMisses = 5;
 /// No data make an effect more certain than this.
 constexpr double kMostConfidence = 0.99;
 
@@ -173,6 +175,19 @@ Cause cause_of(const Hypothesis& effect, const Selection& selection, const Expla
   return cause;
 }
 
+/// Where a parameter ends up outside the range that it was looked for in.
+void say_beyond_range(const Hypothesis& effect, Cause& cause) {
+  for (std::size_t i = 0; i < effect.parameters.size(); ++i) {
+    const SearchedParameter& searched = effect.parameters[i];
+    const double place = searched.place(cause.parameters[i].value);
+    if (searched.periodic || (place >= 0.0 && place <= 1.0)) continue;
+    cause.evidence.push_back(
+        fmt::format("Its {} is outside the range that was searched, {:.3g} to {:.3g} {}: what it "
+                    "stands for may be something else.",
+                    searched.name, searched.lowest, searched.highest, cause.parameters[i].unit));
+  }
+}
+
 Gain gain_between(const Misfit& before, const Misfit& after) {
   return {before.relative_error, after.relative_error, before.noise_floor};
 }
@@ -218,6 +233,20 @@ Diagnosis with_nearest_hold(const Experiment& experiment, const std::vector<Hypo
   if (ratio > kAbout) return tried[0];
   if (ratio < 1.0 / kAbout) return tried[1];
   return tried[1].causes.size() < tried[0].causes.size() ? tried[1] : tried[0];
+}
+
+std::vector<NearMiss> near_misses(const Selection& selection) {
+  std::vector<NearMiss> found;
+  for (const auto* tried : {&selection.singles, &selection.pairs}) {
+    for (const Explanation& one : *tried) {
+      found.push_back({one.fit.candidate.label(),
+                       share_taken(selection.nothing.estimation, one.estimation),
+                       lead(one, selection.nothing), one.estimation.relative_error});
+    }
+  }
+  std::ranges::stable_sort(found, {}, &NearMiss::error);
+  found.resize(std::min(kNearMisses, found.size()));
+  return found;
 }
 
 Verdict verdict_of(const Selection& selection, const SelectionOptions& options) {
@@ -273,6 +302,7 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
                                     : explain(problem, fit(problem, chosen.without(i)));
     Cause cause = cause_of(chosen.effects[i], selection, without);
     cause.parameters = estimates[i];
+    say_beyond_range(chosen.effects[i], cause);
     made.causes.push_back(std::move(cause));
   }
   std::ranges::stable_sort(made.causes, std::ranges::greater{}, &Cause::share);
@@ -294,6 +324,9 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
   made.refitted = refitted_numbers(experiment.arm, chosen, errors);
   made.extended_arm = chosen.extend(experiment.arm);
   made.formulations = check_formulations(made.extended_arm, scales_of(experiment).sensors);
+  if (made.verdict == Verdict::unexplained || made.verdict == Verdict::partly_explained) {
+    made.near_misses = near_misses(selection);
+  }
   made.next_experiments = what_next(problem, selection, made.verdict != Verdict::unexplained);
   return made;
 }

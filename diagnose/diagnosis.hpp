@@ -53,6 +53,14 @@ struct Cause {
   std::string refuted_by;
 };
 
+/// What came nearest: an effect, or several, that was tried against all data.
+struct NearMiss {
+  std::string effects;       ///< "root_compliance + time_delay"
+  double share = 0.0;        ///< of what is beyond noise that it takes away
+  double information = 0.0;  ///< by which it leads the arm without causes; 10 is decisive
+  double error = 0.0;        ///< that is left, as Gain::after
+};
+
 /// Relative errors, averaged over the channels: root mean square over that of the signal.
 struct Gain {
   double before = 0.0;
@@ -87,6 +95,8 @@ struct Diagnosis {
   std::vector<RefittedNumber> refitted;
   FormulationCheck formulations;  ///< of the extended arm
   arm::Arm extended_arm;  ///< the experiment's with the causes, uncertain numbers as refitted
+  /// Where a significant misfit is left: the best that were not named, by error.
+  std::vector<NearMiss> near_misses;
   std::vector<NextExperiment> next_experiments;  ///< what_next
   std::vector<std::string> notices;
   bool cancelled = false;

@@ -33,7 +33,8 @@ Eigen::MatrixXd from_nearest_state(const response::QuickSimulation& simulation,
                                    const Eigen::MatrixXd& from_rest,
                                    const Eigen::VectorXd& measured,
                                    const Eigen::VectorXd& deviations) {
-  constexpr int kSteps = 3;
+  constexpr int kSteps = 10;
+  constexpr double kShorter = 0.3;
   const Eigen::MatrixXd free = simulation.free_readings(torque_N_m.size());
   const Eigen::VectorXd scale = (deviations.cwiseInverse().asDiagonal() * free)
                                     .colwise()
@@ -43,16 +44,27 @@ Eigen::MatrixXd from_nearest_state(const response::QuickSimulation& simulation,
   const Eigen::MatrixXd weighted =
       deviations.cwiseInverse().asDiagonal() * free * scale.cwiseInverse().asDiagonal();
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> nearest(weighted);
+  const auto off = [&](const Eigen::MatrixXd& readings) {
+    return Eigen::VectorXd((measured - readings.reshaped()).cwiseQuotient(deviations));
+  };
+  const auto towards = [&](const Eigen::MatrixXd& readings) {
+    return Eigen::VectorXd(nearest.solve(off(readings)).cwiseQuotient(scale));
+  };
+  if (simulation.is_linear()) {
+    const Eigen::VectorXd made = from_rest.reshaped() + free * towards(from_rest);
+    return made.reshaped(from_rest.rows(), from_rest.cols());
+  }
   Eigen::VectorXd state = Eigen::VectorXd::Zero(simulation.states());
   Eigen::MatrixXd made = from_rest;
-  for (int step = 0; step < (simulation.is_linear() ? 1 : kSteps); ++step) {
-    const Eigen::VectorXd change =
-        nearest.solve((measured - made.reshaped()).cwiseQuotient(deviations)).cwiseQuotient(scale);
-    state += change;
-    if (simulation.is_linear()) {
-      made.reshaped() += free * change;
+  double length = 1.0;
+  for (int step = 0; step < kSteps; ++step) {
+    const Eigen::VectorXd further = state + length * towards(made);
+    const Eigen::MatrixXd there = simulation(torque_N_m, further);
+    if (off(there).squaredNorm() < off(made).squaredNorm()) {
+      state = further;
+      made = there;
     } else {
-      made = simulation(torque_N_m, state);
+      length *= kShorter;
     }
   }
   return made;

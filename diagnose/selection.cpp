@@ -201,6 +201,8 @@ class Search {
 
   /// Whether `fuller` has a right to its causes beside `simpler`.
   bool deserves(const Explanation& fuller, const Explanation& simpler) const {
+    // A hub that friction never lets go is told by no value of that friction.
+    if ((fuller.fit.jacobian.colwise().squaredNorm().array() == 0.0).any()) return false;
     if (lead(fuller, simpler) < options_.least_information_gain) return false;
     if (share_taken(simpler.estimation, fuller.estimation) < options_.least_share) return false;
     // Validation runs that show nothing without the effect must not show anything with it.
@@ -324,7 +326,7 @@ class Search {
 bool is_explained(const Misfit& left, const Misfit& nothing, const SelectionOptions& options) {
   if (left.is_noise()) return true;
   if (left.displacement_excess() > 0.0) return false;
-  const double before = nothing.unexplained_error();
+  const double before = std::min(1.0, nothing.unexplained_error());
   return left.unexplained_error() <=
          std::max(left.simulated * options.negligible_error, options.negligible_share * before);
 }

@@ -20,7 +20,8 @@ struct SelectionOptions {
   double least_information_gain = 10.0;
   /// What is beyond noise is explained well enough where it is at most this, relative to the signal
   /// of simulated runs (the step of another simulation), or this part of what was there without any
-  /// cause; an uncertain number of the arm far from its file's is neither.
+  /// cause (of the signal, where that was more); an uncertain number of the arm far from its file's
+  /// is neither.
   double negligible_error = 0.004;
   double negligible_share = 0.03;
   /// The timing of the torque (torque_timing.hpp) is looked into where this is left, and believed

@@ -63,6 +63,13 @@ Json diagnosis_json(const diagnose::Diagnosis& diagnosis, const std::string& ext
                         {"unit", number.unit}});
   }
   const diagnose::Symptoms& symptoms = diagnosis.symptoms;
+  Json near_misses = Json::array();
+  for (const auto& miss : diagnosis.near_misses) {
+    near_misses.push_back({{"effects", miss.effects},
+                           {"share", miss.share},
+                           {"information", miss.information},
+                           {"error", miss.error}});
+  }
   return {{"verdict", to_string(diagnosis.verdict)},
           {"symptoms", statements_json(symptoms)},
           {"causes", causes},
@@ -74,6 +81,7 @@ Json diagnosis_json(const diagnose::Diagnosis& diagnosis, const std::string& ext
             {"hub_torque", hub_torque_json(symptoms)},
             {"distortion", distortion_json(symptoms)},
             {"run_by_run", run_by_run_json(symptoms)}}},
+          {"near_misses", near_misses},
           {"refitted", refitted},
           {"formulations", formulations_json(diagnosis.formulations)},
           {"extended_arm", extended_arm.empty() ? Json(nullptr) : Json(extended_arm)},

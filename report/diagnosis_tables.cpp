@@ -93,6 +93,18 @@ Table channel_gain_table(const diagnose::Diagnosis& diagnosis) {
   return table;
 }
 
+Table near_miss_table(const diagnose::Diagnosis& diagnosis) {
+  Table table{"Nearest, but not named",
+              {{.name = "effects"},
+               {.name = "takes away", .unit = "%", .significant_digits = 3},
+               {.name = "information", .significant_digits = 3},
+               {.name = "error left", .unit = "%", .significant_digits = 3}}};
+  for (const auto& miss : diagnosis.near_misses) {
+    table.add_row({miss.effects, 100.0 * miss.share, miss.information, 100.0 * miss.error});
+  }
+  return table;
+}
+
 Table refitted_table(const diagnose::Diagnosis& diagnosis) {
   Table table{"Uncertain numbers of the arm, refitted",
               {{.name = "key"},

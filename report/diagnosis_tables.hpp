@@ -19,6 +19,9 @@ Table channel_gain_table(const diagnose::Diagnosis& diagnosis);
 /// The error on runs that were fitted and on those that were not.
 Table gain_table(const diagnose::Diagnosis& diagnosis);
 
+/// What came nearest without being named; no rows without any.
+Table near_miss_table(const diagnose::Diagnosis& diagnosis);
+
 /// Uncertain numbers of the arm file that were refitted; no rows without any.
 Table refitted_table(const diagnose::Diagnosis& diagnosis);
 

@@ -2,12 +2,17 @@
 from document import number
 
 
-def expect(where, diagnosis, verdict, causes):
-    """Stops where the text of a document would speak of another result than the program's."""
-    found = diagnosis["verdict"], [cause["effect"] for cause in diagnosis["causes"]]
-    if found != (verdict, causes):
-        raise SystemExit(f"{where}: the text is about {verdict}, {causes}; the program now says "
-                         f"{found[0]}, {found[1]}: write the text anew")
+def expect(where, diagnosis, verdict, causes, rivals=None):
+    """Stops where the text of a document would speak of another result than the program's.
+    `rivals`: what the first cause is not told from."""
+    found = [diagnosis["verdict"], [cause["effect"] for cause in diagnosis["causes"]]]
+    said = [verdict, causes]
+    if rivals is not None:
+        found.append(diagnosis["causes"][0]["confusable_with"] if diagnosis["causes"] else None)
+        said.append(rivals)
+    if found != said:
+        raise SystemExit(f"{where}: the text is about {said}; the program now says {found}: write "
+                         "the text anew")
 
 
 def verdict_of(diagnosis):

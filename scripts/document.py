@@ -25,13 +25,13 @@ def table(header, rows):
 
 
 def filled(template, parts):
-    """The template of scripts/ with each @key@ replaced; every key must stand in it."""
+    """The template of scripts/ with each @key@ replaced, and @@ by @; every key must stand in it."""
     with open(os.path.join(ROOT, "scripts", template), encoding="utf-8") as file:
         text = file.read()
     for key, part in parts.items():
         assert f"@{key}@" in text, f"{template}: no @{key}@"
         text = text.replace(f"@{key}@", str(part))
-    return text
+    return text.replace("@@", "@")
 
 
 def write(path, text):

@@ -26,6 +26,7 @@ void keep_usable(const Experiment& experiment, measured::MeasuredRun& run, const
   options.total_inertia_kg_m2 = arm::total_inertia_kg_m2(arm);
   options.starts_at_rest = run.run.initial == measured::InitialState::rest;
   const auto findings = measured::check_data(record, options);
+  std::string why;  // the first of the channels left out
   for (const measured::DataFinding& finding : findings) {
     if (finding.fault == measured::Fault::zero_torque) {
       throw arm::InputError(
@@ -34,6 +35,7 @@ void keep_usable(const Experiment& experiment, measured::MeasuredRun& run, const
                       file, run.run.id, finding.text));
     }
     const bool is_dead = finding.fault == measured::Fault::dead_channel;
+    if (is_dead && why.empty()) why = finding.text;
     notices.push_back(fmt::format("run {}: {}{}: {}", run.run.id, finding.channel,
                                   is_dead ? " is left out" : "", finding.text));
   }
@@ -41,8 +43,8 @@ void keep_usable(const Experiment& experiment, measured::MeasuredRun& run, const
   if (record.channels.empty()) {
     throw arm::InputError(
         fmt::format("{}: run {}: no channel that can be used; at least one sensor beside time and "
-                    "torque",
-                    file, run.run.id));
+                    "torque{}",
+                    file, run.run.id, why.empty() ? "" : fmt::format(": {}", why)));
   }
 }
 

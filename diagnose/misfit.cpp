@@ -49,7 +49,7 @@ double relative_error(const Observations& observations, const Experiment& experi
     return std::sqrt(errors.square().sum() / signal);
   }
   // Weighted as in the fit: deviations are proportional to the noise floor.
-  return channel.noise *
+  return channel.floor() *
          std::sqrt(residuals.segment(channel.first, channel.count).squaredNorm() / n);
 }
 

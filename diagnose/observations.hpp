@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -22,6 +23,9 @@ struct ObservedChannel {
   double noise = 0.0;  ///< standard deviation over that of the signal; the noise floor
   /// The simulation's own error, in the same measure: never to be taken for physics.
   double numerical_error = 0.0;
+
+  /// Both together: what residuals are in units of.
+  double floor() const { return std::hypot(noise, numerical_error); }
 };
 
 /// All that an experiment measured, in one vector, run by run and channel by channel.

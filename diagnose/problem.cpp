@@ -18,7 +18,7 @@ void widen(Observations& observations, const std::vector<double>& errors) {
     if (errors[c] == 0.0) continue;
     channel.numerical_error = errors[c];
     observations.deviations.segment(channel.first, channel.count) *=
-        std::hypot(channel.noise, errors[c]) / channel.noise;
+        channel.floor() / channel.noise;
   }
 }
 
@@ -68,13 +68,12 @@ bool Problem::lower_noise(const Candidate& candidate) {
     if (experiment_->runs[channel.run].run.kind != measured::RunKind::time) continue;
     const Eigen::VectorXd part = left->segment(channel.first, channel.count);
     // Residuals are in standard deviations of noise and numerical error together.
-    const double widened = std::hypot(channel.noise, channel.numerical_error);
+    const double widened = channel.floor();
     const double seen = widened * white_noise({part.data(), static_cast<std::size_t>(part.size())});
     if (!(seen < channel.noise) || !(seen > 0.0)) continue;
     fell = fell || seen < (1.0 - kLower) * channel.noise;
     channel.noise = seen;
-    lowered.deviations.segment(channel.first, channel.count) *=
-        std::hypot(seen, channel.numerical_error) / widened;
+    lowered.deviations.segment(channel.first, channel.count) *= channel.floor() / widened;
   }
   if (fell) observations_ = std::move(lowered);
   return fell;

@@ -42,9 +42,9 @@ BandError begun(const SymptomsInput& input, const ObservedChannel& channel,
 /// what the residuals have in its place.
 void put_powers(BandError& error, const ObservedChannel& channel, double before, double after,
                 double noise_power) {
-  error.before = channel.noise * std::sqrt(before);
-  error.after = channel.noise * std::sqrt(after);
-  error.noise = channel.noise * std::sqrt(noise_power);
+  error.before = channel.floor() * std::sqrt(before);
+  error.after = channel.floor() * std::sqrt(after);
+  error.noise = channel.floor() * std::sqrt(noise_power);
   error.power_ratio = before / noise_power;
   error.probability = noise_probability(error.power_ratio, error.freedom);
 }
@@ -77,9 +77,10 @@ void add_time(const SymptomsInput& input, const ObservedChannel& channel,
     error.freedom = 2.0 * before[b].lines / measured::shared_line_variance(measured::Window::hann);
     put_powers(error, channel, before[b].mean_square, after[b].mean_square, noise);
     if (b == 0) {
-      if (grown > noise) error.before = std::hypot(error.before, channel.noise * std::sqrt(grown));
+      if (grown > noise)
+        error.before = std::hypot(error.before, channel.floor() * std::sqrt(grown));
       if (grown_after > noise) {
-        error.after = std::hypot(error.after, channel.noise * std::sqrt(grown_after));
+        error.after = std::hypot(error.after, channel.floor() * std::sqrt(grown_after));
       }
     }
     errors.push_back(error);

@@ -24,8 +24,11 @@ std::string type_of(const Json& value) {
   return value.type_name();
 }
 
-bool is_named_for_sensors(const std::string& path) {
-  return path.ends_with(".sensor_values");
+/// What stands in the document for the keys of an object that are names, or "".
+std::string placeholder(const std::string& path) {
+  return path.ends_with(".sensor_values") ? "SENSOR"
+         : path.ends_with(".parameters")  ? "PARAMETER"
+                                          : "";
 }
 
 /// Adds every path below `value` and the type of what is there. Arrays of plain values are one
@@ -35,7 +38,8 @@ void walk(const Json& value, const std::string& path, Types& seen) {
   if (value.is_object()) {
     if (!path.ends_with("[]") && !path.empty()) seen[path].insert("object");
     for (const auto& [key, member] : value.items()) {
-      walk(member, path + dot + (is_named_for_sensors(path) ? "SENSOR" : key), seen);
+      const std::string name = placeholder(path);
+      walk(member, path + dot + (name.empty() ? key : name), seen);
     }
   } else if (value.is_array()) {
     seen[path].insert("array");
@@ -215,6 +219,42 @@ TEST_F(JsonSchema, WhatSimulateWritesIsWhatTheDocumentSays) {
 TEST_F(JsonSchema, WhatPaperWritesIsWhatTheDocumentSays) {
   EXPECT_EQ(run({"paper", "--json", "out.json"}).status, 0);
   expect_as_documented({Json::parse(text_of("out.json"))}, "flexarm.paper/1");
+}
+
+TEST_F(JsonSchema, WhatDiagnoseWritesIsWhatTheDocumentSays) {
+  const std::string arm =
+      "[beam]\nlength = 0.96\nthickness = 0.003\nflexural_rigidity = 3.7\n"
+      "linear_density = 0.165\n[hub]\ninertia = 0.0006\n[damping]\nkelvin_voigt = 1e-4\n";
+  std::vector<Json> documents;
+  const auto diagnose = [&](const std::string& measurement, const std::string& effects) {
+    const Ended ended = run({"diagnose", measurement, "--effects", effects, "--json", "out.json"});
+    EXPECT_EQ(ended.status, 0) << ended.errors;
+    documents.push_back(Json::parse(text_of("out.json")));
+  };
+  write("true.toml", arm +
+                         "[effects.coulomb_friction]\ntorque = 0.01\n"
+                         "[effects.sensor_lag]\ntime_constant = 0.004\n");
+  const Ended made =
+      run({"simulate", "true.toml", "--duration", "4", "--period", "0.002", "--sensor",
+           "hub_angle,tip_acceleration", "--noise", "0.005", "--excitation",
+           "multisine:rms=0.05,from=0.5,to=60,period=1,detection=3,id=odd", "--excitation",
+           "random:rms=0.05,to=60,id=random", "--out", "sim"});
+  ASSERT_EQ(made.status, 0) << made.errors;
+  std::string uncertain = arm;
+  uncertain.replace(uncertain.find("\n[damping]"), 1, "\ninertia_uncertainty = 0.02\n");
+  write("sim/arm.toml", uncertain);
+  diagnose("sim/measurement.toml", "coulomb_friction,sensor_lag,torque_ripple,torque_saturation");
+  diagnose("sim/measurement.toml", "payload_mass,hub_inertia");
+
+  write("arm.toml", arm);
+  write("modal.csv",
+        "sensor,feature,order,frequency [Hz],frequency_std [Hz],damping_ratio,damping_ratio_std\n"
+        ",pole,1,11.5,0.05,0.005,0.001\n,pole,2,31.2,0.1,,\nhub_angle,zero,1,2.8,0.03,,\n");
+  write("modal.toml",
+        "arm = \"arm.toml\"\n[[run]]\nid = \"table\"\nkind = \"modal\"\n"
+        "file = \"modal.csv\"\n");
+  diagnose("modal.toml", "payload_mass,flexural_rigidity,linear_density,root_compliance");
+  expect_as_documented(documents, "flexarm.diagnosis/1");
 }
 
 TEST_F(JsonSchema, WhatPlanWritesIsWhatTheDocumentSays) {

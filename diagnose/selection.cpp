@@ -6,9 +6,7 @@
 #include <Eigen/QR>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <utility>
@@ -62,7 +60,7 @@ class Search {
       : problem_(problem),
         hypotheses_(hypotheses),
         options_(options),
-        progress_(progress),
+        work_(progress),
         coarse_experiment_(coarse(problem.experiment())),
         coarse_(coarse_experiment_,
                 {.flexible_modes = std::min(kCoarseModes, problem.predictor().flexible_modes()),
@@ -81,8 +79,8 @@ class Search {
       see_noise(made);
       extend(made);
     }
-    if (!cancelled_ && !made.chosen.fit.candidate.effects.empty()) exchange(made);
-    made.cancelled = cancelled_;
+    if (!work_.is_cancelled() && !made.chosen.fit.candidate.effects.empty()) exchange(made);
+    made.cancelled = work_.is_cancelled();
     return made;
   }
 
@@ -143,10 +141,10 @@ class Search {
       if (!base.has(hypothesis)) others.push_back(&hypothesis);
     }
     if (!base.effects.empty()) keep_promising(base, others, what, from);
-    if (others.empty() || cancelled_) return {};
+    if (others.empty() || work_.is_cancelled()) return {};
     std::vector<Fit> looks(others.size());
     const double middle = from + 0.6 * (to - from);
-    in_parallel(others.size(), what, from, middle, [&](std::size_t i) {
+    work_.in_parallel(others.size(), what, from, middle, [&](std::size_t i) {
       const Hypothesis& other = *others[i];
       std::vector<double> values;
       for (const auto& parameter : other.parameters) values.push_back(parameter.value(0.5));
@@ -154,12 +152,12 @@ class Search {
           scan(coarse_, base.with(other, values), scan_evaluations(values.size()));
       looks[i] = fit(coarse_, scanned, kCoarseFit);
     });
-    if (cancelled_) return {};
+    if (work_.is_cancelled()) return {};
     std::ranges::stable_sort(looks, {}, &Fit::sum_of_squares);
     looks.resize(std::min(refitted, looks.size()));
     std::vector<Explanation> found(looks.size());
-    in_parallel(looks.size(), what, middle, to,
-                [&](std::size_t i) { found[i] = fitted(looks[i].candidate); });
+    work_.in_parallel(looks.size(), what, middle, to,
+                      [&](std::size_t i) { found[i] = fitted(looks[i].candidate); });
     sort_by_fit(found);
     return found;
   }
@@ -172,7 +170,7 @@ class Search {
     const Fit left = fit(coarse_, base, kCoarseFit);
     const Eigen::HouseholderQR<Eigen::MatrixXd> refitted(left.jacobian);
     std::vector<std::pair<double, const Hypothesis*>> shares(others.size());
-    in_parallel(others.size(), what, from, from, [&](std::size_t i) {
+    work_.in_parallel(others.size(), what, from, from, [&](std::size_t i) {
       shares[i] = {largest_part(left, refitted, *others[i]), others[i]};
     });
     std::ranges::stable_sort(shares, std::ranges::greater{}, &decltype(shares)::value_type::first);
@@ -229,7 +227,7 @@ class Search {
     if (is_enough(made) || options_.most_causes < 2) return;
     // Pairs of the best: the better of two causes need not be the best by itself.
     const std::size_t bases = std::min(kPairBases, made.singles.size());
-    for (std::size_t b = 0; b < bases && !cancelled_; ++b) {
+    for (std::size_t b = 0; b < bases && !work_.is_cancelled(); ++b) {
       const double from = kSinglesDone + 0.4 * static_cast<double>(b) / static_cast<double>(bases);
       const double to =
           kSinglesDone + 0.4 * static_cast<double>(b + 1) / static_cast<double>(bases);
@@ -240,14 +238,14 @@ class Search {
       }
       sort_by_fit(made.pairs);
     }
-    if (cancelled_ || made.pairs.empty()) return;
+    if (work_.is_cancelled() || made.pairs.empty()) return;
     const Explanation pair = simplest(made.pairs);
     if (!deserves(pair, made.chosen)) return;
     if (!each_is_needed(pair)) return;
     made.chosen = pair;
     correct_timing(made);
     while (static_cast<int>(made.chosen.fit.candidate.effects.size()) < options_.most_causes &&
-           !is_enough(made) && !cancelled_) {
+           !is_enough(made) && !work_.is_cancelled()) {
       const auto further =
           all_with(made.chosen.fit.candidate, "further effects", 0.8, 0.9, kPairsRefitted);
       if (further.empty()) break;
@@ -276,7 +274,7 @@ class Search {
       return;
     }
     for (const Explanation& pair : made.pairs) made.rivals.push_back(pair);
-    for (std::size_t i = 0; i < chosen.effects.size() && !cancelled_; ++i) {
+    for (std::size_t i = 0; i < chosen.effects.size() && !work_.is_cancelled(); ++i) {
       const Candidate others = chosen.without(i);
       const bool tried = std::ranges::any_of(
           bases_, [&](const std::string& label) { return label == others.label(); });
@@ -298,27 +296,13 @@ class Search {
     sort_by_fit(made.rivals);
   }
 
-  template <class Work>
-  void in_parallel(std::size_t count, std::string_view what, double from, double to, Work work) {
-    std::atomic<std::size_t> done = 0;
-    std::mutex told;
-    compare::for_each_index(count, 0, [&](std::size_t i) {
-      if (cancelled_) return;
-      work(i);
-      const double part = static_cast<double>(++done) / static_cast<double>(count);
-      const std::scoped_lock lock(told);
-      if (progress_ && !progress_(what, from + part * (to - from))) cancelled_ = true;
-    });
-  }
-
   Problem& problem_;
   const std::vector<Hypothesis>& hypotheses_;
   const SelectionOptions& options_;
-  const DiagnosisProgress& progress_;
+  ReportedWork work_;
   Experiment coarse_experiment_;
   Problem coarse_;
   std::vector<std::string> bases_;  // labels of what has been tried with any other
-  std::atomic<bool> cancelled_ = false;
 };
 
 }  // namespace

@@ -1,11 +1,10 @@
 #pragma once
 
 #include "diagnose/explanation.hpp"
+#include "diagnose/reported_work.hpp"
 #include "diagnose/torque_timing.hpp"
 
-#include <functional>
 #include <optional>
-#include <string_view>
 #include <vector>
 
 namespace flexarm::diagnose {
@@ -29,9 +28,6 @@ struct SelectionOptions {
   double largest_timing_error = 0.03;
   double least_timing_share = 0.5;
 };
-
-/// Called with what is done and the fraction done; false cancels.
-using DiagnosisProgress = std::function<bool(std::string_view, double)>;
 
 /// How the causes were found.
 struct Selection {

@@ -3,16 +3,13 @@
 #include "arm/effects.hpp"
 #include "arm/input_error.hpp"
 #include "arm/linear_arm.hpp"
-#include "compare/for_each_index.hpp"
 #include "diagnose/hypotheses/hypotheses.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <atomic>
 #include <limits>
-#include <mutex>
 #include <numeric>
 #include <string_view>
 #include <utility>
@@ -54,7 +51,7 @@ class Planning {
            const DiagnosisProgress& progress)
       : arm_(arm),
         options_(options),
-        progress_(progress),
+        work_(progress),
         hypotheses_(hypotheses),
         planned_(arm, measurement_plan.runs, options.unknown) {
     std::erase_if(hypotheses_, [&](const Hypothesis& hypothesis) {
@@ -85,10 +82,10 @@ class Planning {
 
   Plan run() {
     detect_all();
-    if (!cancelled_) separate_all();
-    if (!cancelled_) tie();
-    if (!cancelled_) improve();
-    made_.cancelled = cancelled_;
+    if (!work_.is_cancelled()) separate_all();
+    if (!work_.is_cancelled()) tie();
+    if (!work_.is_cancelled()) improve();
+    made_.cancelled = work_.is_cancelled();
     return std::move(made_);
   }
 
@@ -96,28 +93,30 @@ class Planning {
   void detect_all() {
     made_.effects.resize(hypotheses_.size());
     shapes_.resize(hypotheses_.size());
-    in_parallel(hypotheses_.size(), "what each effect shows", 0.0, kDetected, [&](std::size_t i) {
-      made_.effects[i] = detect(planned_, hypotheses_[i], options_.least_information_gain);
-      shapes_[i] = shapes_of(planned_, made_.effects[i]);
-    });
+    work_.in_parallel(
+        hypotheses_.size(), "what each effect shows", 0.0, kDetected, [&](std::size_t i) {
+          made_.effects[i] = detect(planned_, hypotheses_[i], options_.least_information_gain);
+          shapes_[i] = shapes_of(planned_, made_.effects[i]);
+        });
   }
 
   void separate_all() {
     const std::size_t count = hypotheses_.size();
     made_.separations.assign(count, std::vector<std::optional<Separation>>(count));
-    in_parallel(count, "effects against each other", kDetected, kSeparated, [&](std::size_t a) {
-      const Detection& truth = made_.effects[a];
-      if (!truth.compared || shapes_[a].empty()) return;
-      const Problem problem = problem_of(planned_, *truth.compared);
-      for (std::size_t b = 0; b < count && !cancelled_; ++b) {
-        const auto& contains = hypotheses_[b].contains;
-        const bool is_limit =
-            std::ranges::find(contains, truth.hypothesis.effect) != contains.end();
-        if (a == b || is_limit) continue;
-        made_.separations[a][b] =
-            separate(problem, planned_.unknowns(), shapes_[a].front(), shapes_[b]);
-      }
-    });
+    work_.in_parallel(
+        count, "effects against each other", kDetected, kSeparated, [&](std::size_t a) {
+          const Detection& truth = made_.effects[a];
+          if (!truth.compared || shapes_[a].empty()) return;
+          const Problem problem = problem_of(planned_, *truth.compared);
+          for (std::size_t b = 0; b < count && !work_.is_cancelled(); ++b) {
+            const auto& contains = hypotheses_[b].contains;
+            const bool is_limit =
+                std::ranges::find(contains, truth.hypothesis.effect) != contains.end();
+            if (a == b || is_limit) continue;
+            made_.separations[a][b] =
+                separate(problem, planned_.unknowns(), shapes_[a].front(), shapes_[b]);
+          }
+        });
   }
 
   /// The problem of data of an arm with these effects.
@@ -166,45 +165,26 @@ class Planning {
     }
     auto worth =
         worth_of_further_runs(arm_, made_.better.runs, ties, options_.most_added, [&](double part) {
-          return tell("further runs", kSeparated + part * (kRanked - kSeparated));
+          return work_.tell("further runs", kSeparated + part * (kRanked - kSeparated));
         });
     made_.further = std::move(worth.ranked);
     made_.added = std::move(worth.together);
-    if (cancelled_ || made_.added.empty()) return;
+    if (work_.is_cancelled() || made_.added.empty()) return;
     for (const NextExperiment& next : made_.added) made_.better.runs.push_back(next.further.run);
     const PlannedExperiment better(arm_, made_.better.runs);
-    in_parallel(ties.size(), "the better plan", kRanked, 1.0, [&](std::size_t t) {
+    work_.in_parallel(ties.size(), "the better plan", kRanked, 1.0, [&](std::size_t t) {
       made_.ties[t].lead_with_more =
           separate_by_fit(problem_of(better, ties[t].truth), ties[t].truth, ties[t].rival).lead;
     });
   }
 
-  bool tell(std::string_view what, double fraction) {
-    if (progress_ && !progress_(what, fraction)) cancelled_ = true;
-    return !cancelled_;
-  }
-
-  template <class Work>
-  void in_parallel(std::size_t count, std::string_view what, double from, double to, Work work) {
-    std::atomic<std::size_t> done = 0;
-    std::mutex told;
-    compare::for_each_index(count, 0, [&](std::size_t i) {
-      if (cancelled_) return;
-      work(i);
-      const double part = static_cast<double>(++done) / static_cast<double>(count);
-      const std::scoped_lock lock(told);
-      tell(what, from + part * (to - from));
-    });
-  }
-
   const arm::Arm& arm_;
   const PlanOptions& options_;
-  const DiagnosisProgress& progress_;
+  ReportedWork work_;
   std::vector<Hypothesis> hypotheses_;
   const PlannedExperiment planned_;
   Plan made_;
   std::vector<std::vector<Shape>> shapes_;  // of each effect
-  std::atomic<bool> cancelled_ = false;
 };
 
 }  // namespace

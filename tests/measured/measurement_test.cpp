@@ -46,7 +46,8 @@ TEST(Measurement, ColumnsAreMappedByStandardName) {
 TEST(Measurement, WhatIsLeftOutHasItsDefault) {
   const Measurement measurement = parse_measurement("arm = \"x.toml\"\n" + kRun, "m.toml");
   EXPECT_EQ(measurement.name, "");
-  EXPECT_EQ(measurement.runs[0], (measured::Run{.id = "a", .file = "a.csv"}));
+  EXPECT_EQ(measurement.runs[0],
+            (measured::Run{.id = "a", .file = "a.csv", .torque_hold_is_known = false}));
 }
 
 TEST(Measurement, WhatIsWrittenReadsBackEqual) {

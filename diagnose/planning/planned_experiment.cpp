@@ -80,7 +80,8 @@ Experiment experiment_of(const arm::Arm& arm, const std::vector<PlannedRun>& run
     planned.data = skeleton_of(run);
     experiment.runs.push_back(std::move(planned));
   }
-  notice = split_purposes(experiment.runs);
+  const std::string split = split_purposes(experiment.runs);
+  if (experiment.runs.size() > 1) notice = split;
   return experiment;
 }
 

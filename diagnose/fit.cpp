@@ -86,9 +86,9 @@ Fit fit(const Problem& problem, const Candidate& start, const FitOptions& option
     }
     made.converged = status != Eigen::LevenbergMarquardtSpace::Running &&
                      status != Eigen::LevenbergMarquardtSpace::ImproperInputParameters;
-    made.jacobian.resize(residuals.values(), residuals.inputs());
-    residuals.df(places, made.jacobian);
   }
+  made.jacobian.resize(residuals.values(), residuals.inputs());
+  residuals.df(places, made.jacobian);
   made.residuals = residuals.at(places);
   made.candidate = start;
   made.candidate.put(places);

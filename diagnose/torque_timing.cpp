@@ -110,9 +110,8 @@ TorqueTiming torque_timing(const Problem& problem, const Fit& fit) {
     normal -= own.transpose() * timed;
     gradient -= timed.transpose() * residuals->segment(first, columns[r].rows());
   }
-  const Eigen::VectorXd step = normal.ldlt().solve(gradient);
-  const Eigen::VectorXd moved =
-      fit.jacobian.cols() > 0 ? Eigen::VectorXd(*residuals - fit.jacobian * step) : *residuals;
+  Eigen::VectorXd moved = *residuals;
+  if (fit.jacobian.cols() > 0) moved -= fit.jacobian * normal.ldlt().solve(gradient);
 
   std::vector<std::pair<double, double>> weighted;  // lateness, what is known of it
   for (std::size_t r = 0; r < columns.size(); ++r) {

@@ -84,6 +84,7 @@ class SensorProblem {
     const auto in_range = [&](const MatrixXd& v) -> MatrixXd {  // scaled A^+ v
       MatrixXd q = qr.householderQ().adjoint() * v;
       MatrixXd x = MatrixXd::Zero(a_.cols(), v.cols());
+      if (rank == 0 || v.cols() == 0) return x;
       x.topRows(rank) = qr.matrixQR()
                             .topLeftCorner(rank, rank)
                             .triangularView<Eigen::Upper>()

@@ -89,15 +89,18 @@ std::vector<Overlay> overlays(const Observations& observations, const Eigen::Vec
                               const Eigen::VectorXd& after) {
   std::vector<Overlay> made;
   for (const ObservedChannel& channel : observations.channels) {
-    const auto part = [&](const Eigen::VectorXd& all) {
-      const auto own = all.segment(channel.first, channel.count);
-      return std::vector<double>(own.begin(), own.end());
+    const auto own = [&channel](const Eigen::VectorXd& all) {
+      return all.segment(channel.first, channel.count);
     };
-    const Eigen::VectorXd& values = observations.values;
-    const Eigen::VectorXd& deviations = observations.deviations;
-    made.push_back({channel.run, channel.sensor, part(values),
-                    part(values - before.cwiseProduct(deviations)),
-                    part(values - after.cwiseProduct(deviations))});
+    const auto values = own(observations.values);
+    const auto read = [](const Eigen::VectorXd& readings) {
+      return std::vector<double>(readings.begin(), readings.end());
+    };
+    const auto simulated = [&](const Eigen::VectorXd& residuals) {
+      return read(values - own(residuals).cwiseProduct(own(observations.deviations)));
+    };
+    made.push_back(
+        {channel.run, channel.sensor, read(values), simulated(before), simulated(after)});
   }
   return made;
 }

@@ -36,13 +36,15 @@ std::optional<RunFit> refitted(const Problem& problem, const Candidate& start, I
   Candidate candidate = start;
   Eigen::VectorXd places = start.places();
   const SearchedParameter known = start.parameters()[static_cast<std::size_t>(parameter)];
+  // Behind the displacements of the arm's uncertain numbers (Candidate::places).
+  const Index row = static_cast<Index>(start.displacements.size()) + parameter;
   RunFit made;
   const auto here = [&](double place) {
-    places(parameter) = place;
+    places(row) = place;
     candidate.put(places);
     return problem.residuals(candidate, only);
   };
-  double place = places(parameter);
+  double place = places(row);
   double before = -1.0;
   double step = 0.0;
   for (int i = 0; i < kMostRunSteps; ++i) {

@@ -107,8 +107,9 @@ std::vector<Overlay> overlays(const Observations& observations, const Eigen::Vec
 
 /// Refitted run by run: of the causes the leading one, else the best effect by itself where
 /// something is wrong.
-std::optional<RunDrift> drift_of(const Problem& problem, const Selection& selection,
-                                 Verdict verdict, const std::vector<Cause>& causes) {
+std::optional<RunDrift> drift_of(const Problem& problem, const Problem& fine,
+                                 const Selection& selection, Verdict verdict,
+                                 const std::vector<Cause>& causes) {
   const bool is_wrong = verdict == Verdict::unexplained && !selection.singles.empty();
   if (causes.empty() && !is_wrong) return std::nullopt;
   const Candidate& candidate =
@@ -116,11 +117,8 @@ std::optional<RunDrift> drift_of(const Problem& problem, const Selection& select
   std::size_t leading = 0;
   while (!causes.empty() && candidate.effects[leading].effect != causes.front().effect) ++leading;
   // As the last refit: friction that is stepped more coarsely is another one in each run.
-  return candidate.effects[leading].shows == Shows::in_time
-             ? run_drift(
-                   problem.with_resolution(problem.predictor().flexible_modes(), kFineSubsteps),
-                   candidate, leading)
-             : run_drift(problem, candidate, leading);
+  const bool is_stepped = candidate.effects[leading].shows == Shows::in_time;
+  return run_drift(is_stepped ? fine : problem, candidate, leading);
 }
 
 /// The parameters of each effect of a candidate, with standard errors as `standard_errors` has
@@ -323,7 +321,7 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
   made.channels = channel_gains(problem, before, after);
   made.overlays = overlays(problem.observations(), before, after);
   made.symptoms = symptoms_of({problem, before, after, chosen},
-                              drift_of(problem, selection, made.verdict, made.causes));
+                              drift_of(problem, fine, selection, made.verdict, made.causes));
   made.refitted = refitted_numbers(experiment.arm, chosen, errors);
   made.extended_arm = chosen.extend(experiment.arm);
   made.formulations = check_formulations(made.extended_arm, scales_of(experiment).sensors);

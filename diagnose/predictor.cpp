@@ -89,6 +89,11 @@ void predict(const arm::Arm& arm, const measured::FrequencyRecord& record,
 
 }  // namespace
 
+response::TorqueHold simulated_hold(measured::TorqueHold hold) {
+  return hold == measured::TorqueHold::zero ? response::TorqueHold::zero
+                                            : response::TorqueHold::first;
+}
+
 Predictor::Predictor(const Experiment& experiment, const Observations& observations,
                      int flexible_modes, int substeps)
     : experiment_(&experiment),
@@ -103,8 +108,7 @@ Predictor::Predictor(const Experiment& experiment, const Observations& observati
     const auto sensors = sensors_of(*record);
     const response::QuickSimulationOptions options{
         .sample_time_s = measured::sampling_period_s(*record),
-        .hold = run.torque_hold == measured::TorqueHold::zero ? response::TorqueHold::zero
-                                                              : response::TorqueHold::first,
+        .hold = simulated_hold(run.torque_hold),
         .substeps = substeps};
     auto at = std::ranges::find_if(conditions_, [&](const Condition& condition) {
       return condition.payload == payload && condition.sensors == sensors &&

@@ -11,6 +11,9 @@
 
 namespace flexarm::diagnose {
 
+/// As the simulation names what the torque does between samples.
+response::TorqueHold simulated_hold(measured::TorqueHold hold);
+
 /// What an arm should have shown in the runs of an experiment.
 class Predictor {
  public:

@@ -140,17 +140,12 @@ Experiment retimed(Experiment experiment, const TorqueTiming& timing) {
   for (std::size_t r = 0; r < experiment.runs.size(); ++r) {
     auto* record = std::get_if<measured::TimeRecord>(&experiment.runs[r].data);
     if (record == nullptr || timing.late[r].size() == 0) continue;
-    std::vector<double> torque_N_m = record->torque_N_m;
-    for (int s = 0; s < kTimedStretches; ++s) {
-      std::vector<double> shifted = record->torque_N_m;
-      const std::size_t begin = begin_of(s, shifted.size());
-      const std::size_t end = begin_of(s + 1, shifted.size());
-      retime(shifted, begin, end, timing.late[r](s));
-      std::copy(shifted.begin() + static_cast<std::ptrdiff_t>(begin),
-                shifted.begin() + static_cast<std::ptrdiff_t>(end),
-                torque_N_m.begin() + static_cast<std::ptrdiff_t>(begin));
+    auto& torque_N_m = record->torque_N_m;
+    // From behind: a stretch begins with what the one before it has commanded.
+    for (int s = kTimedStretches; s-- > 0;) {
+      retime(torque_N_m, begin_of(s, torque_N_m.size()), begin_of(s + 1, torque_N_m.size()),
+             timing.late[r](s));
     }
-    record->torque_N_m = std::move(torque_N_m);
   }
   return experiment;
 }

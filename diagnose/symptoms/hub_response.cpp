@@ -1,5 +1,6 @@
 #include "diagnose/symptoms/hub_response.hpp"
 
+#include "diagnose/predictor.hpp"
 #include "measured/fourier.hpp"
 #include "measured/spectra.hpp"
 #include "response/arm_parts.hpp"
@@ -47,8 +48,7 @@ std::vector<double> pulse_response(const arm::Arm& arm, const arm::Sensor& senso
   pulse[1] = 1.0;
   response::QuickSimulationOptions options;
   options.sample_time_s = period_s;
-  options.hold =
-      hold == measured::TorqueHold::zero ? response::TorqueHold::zero : response::TorqueHold::first;
+  options.hold = simulated_hold(hold);
   const Eigen::MatrixXd made =
       response::QuickSimulation(model, parts, sensors, options)(pulse).bottomRows(
           static_cast<Eigen::Index>(samples));

@@ -1,6 +1,5 @@
 #include "diagnose/symptoms/run_drift.hpp"
 
-#include "arm/effects.hpp"
 #include "compare/for_each_index.hpp"
 #include "diagnose/misfit.hpp"
 
@@ -97,8 +96,7 @@ std::optional<RunDrift> run_drift(const Problem& problem, const Candidate& candi
   RunDrift made;
   made.effect = hypothesis.effect;
   made.parameter = parameter.name;
-  const auto& known = arm::find_effect(hypothesis.effect)->parameters;
-  made.unit = std::ranges::find(known, parameter.name, &arm::EffectParameter::name)->unit;
+  made.unit = unit_of(hypothesis, parameter);
   double weights = 0.0;
   double sum = 0.0;
   for (std::size_t r = 0; r < runs.size(); ++r) {

@@ -238,7 +238,7 @@ Diagnosis with_nearest_hold(const Experiment& experiment, const std::vector<Hypo
 
 std::vector<NearMiss> near_misses(const Selection& selection) {
   std::vector<NearMiss> found;
-  for (const auto* tried : {&selection.singles, &selection.pairs}) {
+  for (const auto* tried : {&selection.singles, &selection.combinations}) {
     for (const Explanation& one : *tried) {
       found.push_back({one.fit.candidate.label(),
                        share_taken(selection.nothing.estimation, one.estimation),

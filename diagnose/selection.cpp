@@ -8,7 +8,9 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace flexarm::diagnose {
@@ -32,6 +34,12 @@ constexpr int kCoarseModes = 8;
 constexpr int kCoarseSubsteps = 2;
 /// Fraction of the work that is done with the effects by themselves.
 constexpr double kSinglesDone = 0.4;
+/// ... and when pairs of the best of them have been tried.
+constexpr double kPairsDone = 0.8;
+/// Times that a cause is exchanged for one with which the others fit better.
+constexpr int kMostExchanges = 4;
+/// Rounds that each add a cause, or exchange some for others.
+constexpr int kMostRounds = 4;
 constexpr FitOptions kCoarseFit{.most_steps = 8, .tolerance = 1e-4};
 
 /// A few values of a hypothesis' parameters, over their ranges.
@@ -79,7 +87,8 @@ class Search {
       see_noise(made);
       extend(made);
     }
-    if (!work_.is_cancelled() && !made.chosen.fit.candidate.effects.empty()) exchange(made);
+    const bool is_single = made.chosen.fit.candidate.effects.size() == 1;
+    made.rivals = rivals_of(made.chosen, is_single ? made.singles : made.combinations);
     made.cancelled = work_.is_cancelled();
     return made;
   }
@@ -98,7 +107,7 @@ class Search {
     };
     again(made.nothing);
     again(made.chosen);
-    for (auto* explanations : {&made.singles, &made.pairs}) {
+    for (auto* explanations : {&made.singles, &made.combinations}) {
       compare::for_each_index(explanations->size(), 0,
                               [&](std::size_t i) { again((*explanations)[i]); });
       sort_by_fit(*explanations);
@@ -224,76 +233,94 @@ class Search {
     const Explanation single = simplest(made.singles);
     if (deserves(single, made.nothing)) made.chosen = single;
     correct_timing(made);
-    if (is_enough(made) || options_.most_causes < 2) return;
-    // Pairs of the best: the better of two causes need not be the best by itself.
-    const std::size_t bases = std::min(kPairBases, made.singles.size());
-    for (std::size_t b = 0; b < bases && !work_.is_cancelled(); ++b) {
-      const double from = kSinglesDone + 0.4 * static_cast<double>(b) / static_cast<double>(bases);
-      const double to =
-          kSinglesDone + 0.4 * static_cast<double>(b + 1) / static_cast<double>(bases);
-      bases_.push_back(made.singles[b].fit.candidate.label());
-      for (Explanation& pair :
-           all_with(made.singles[b].fit.candidate, "pairs of effects", from, to, kPairsRefitted)) {
-        made.pairs.push_back(std::move(pair));
-      }
-      sort_by_fit(made.pairs);
-    }
-    if (work_.is_cancelled() || made.pairs.empty()) return;
-    const Explanation pair = simplest(made.pairs);
-    if (!deserves(pair, made.chosen)) return;
-    if (!each_is_needed(pair)) return;
-    made.chosen = pair;
-    correct_timing(made);
-    while (static_cast<int>(made.chosen.fit.candidate.effects.size()) < options_.most_causes &&
-           !is_enough(made) && !work_.is_cancelled()) {
-      const auto further =
-          all_with(made.chosen.fit.candidate, "further effects", 0.8, 0.9, kPairsRefitted);
-      if (further.empty()) break;
-      const Explanation best = simplest(further);
-      if (!deserves(best, made.chosen) || !each_is_needed(best)) break;
-      made.chosen = best;
+    for (int round = 0; round < kMostRounds && !is_enough(made); ++round) {
+      const std::size_t causes = std::max<std::size_t>(made.chosen.fit.candidate.effects.size(), 1);
+      if (static_cast<int>(causes) == options_.most_causes) return;
+      combine_further(made);
+      std::vector<Explanation> larger = made.combinations;
+      std::erase_if(larger, [&](const Explanation& combination) {
+        return combination.fit.candidate.effects.size() != causes + 1;
+      });
+      if (larger.empty() || work_.is_cancelled()) return;
+      const Explanation best = needed(exchanged(made, simplest(larger)));
+      if (work_.is_cancelled() || !deserves(best, made.chosen)) return;
+      made.chosen = exchanged(made, best);
+      correct_timing(made);
     }
   }
 
-  /// Without any one of its effects, the others refitted, `explanation` would be worse by as much
-  /// as an effect must take away.
-  bool each_is_needed(const Explanation& explanation) const {
-    const Candidate& candidate = explanation.fit.candidate;
-    for (std::size_t i = 0; i < candidate.effects.size(); ++i) {
-      if (!deserves(explanation, fitted(candidate.without(i)))) return false;
-    }
-    return true;
-  }
-
-  void exchange(Selection& made) {
-    const Candidate& chosen = made.chosen.fit.candidate;
-    if (chosen.effects.size() == 1) {
-      for (const Explanation& single : made.singles) {
-        if (!single.fit.candidate.has(chosen.effects.front())) made.rivals.push_back(single);
-      }
+  /// The chosen causes with any other effect; of less than two, the best by themselves: the better
+  /// of two causes need not be the best by itself.
+  void combine_further(Selection& made) {
+    if (made.chosen.fit.candidate.effects.size() > 1) {
+      combine(made, made.chosen.fit.candidate, "further effects", kPairsDone, 1.0);
       return;
     }
-    for (const Explanation& pair : made.pairs) made.rivals.push_back(pair);
-    for (std::size_t i = 0; i < chosen.effects.size() && !work_.is_cancelled(); ++i) {
-      const Candidate others = chosen.without(i);
-      const bool tried = std::ranges::any_of(
-          bases_, [&](const std::string& label) { return label == others.label(); });
-      if (tried) continue;
-      const double from =
-          0.9 + 0.1 * static_cast<double>(i) / static_cast<double>(chosen.effects.size());
-      for (Explanation& rival : all_with(others, "rivals", from, from + 0.05, kPairsRefitted)) {
-        made.rivals.push_back(std::move(rival));
+    const std::size_t bases = std::min(kPairBases, made.singles.size());
+    const double step = (kPairsDone - kSinglesDone) / static_cast<double>(bases);
+    for (std::size_t b = 0; b < bases; ++b) {
+      const double from = kSinglesDone + step * static_cast<double>(b);
+      combine(made, made.singles[b].fit.candidate, "pairs of effects", from, from + step);
+    }
+  }
+
+  /// `base` with any other effect, among the combinations; nothing where these are there.
+  void combine(Selection& made, const Candidate& base, std::string_view what, double from,
+               double to) {
+    std::vector<std::string> labels;
+    for (const Hypothesis& effect : base.effects) labels.push_back(effect.label());
+    std::ranges::sort(labels);
+    if (!combined_.insert(labels).second) return;
+    for (Explanation& combination : all_with(base, what, from, to, kPairsRefitted)) {
+      made.combinations.push_back(std::move(combination));
+    }
+    sort_by_fit(made.combinations);
+  }
+
+  /// `explanation` without effects that the others, refitted, make superfluous: those that take
+  /// away less than an effect must.
+  Explanation needed(const Explanation& explanation) const {
+    const Candidate& candidate = explanation.fit.candidate;
+    if (candidate.effects.size() < 2) return explanation;
+    std::vector<Explanation> simpler(candidate.effects.size());
+    compare::for_each_index(simpler.size(), 0,
+                            [&](std::size_t i) { simpler[i] = fitted(candidate.without(i)); });
+    sort_by_fit(simpler);
+    for (const Explanation& one : simpler) {
+      if (!deserves(explanation, one)) return needed(one);
+    }
+    return explanation;
+  }
+
+  /// `best` with one cause after the other exchanged while that fits decisively better: of two
+  /// causes the one may have been found by itself at a value that hides the other.
+  Explanation exchanged(Selection& made, Explanation best) {
+    for (int exchanges = 0; exchanges < kMostExchanges; ++exchanges) {
+      const Candidate& candidate = best.fit.candidate;
+      for (std::size_t i = 0; i < candidate.effects.size(); ++i) {
+        combine(made, candidate.without(i), "exchanged effects", kPairsDone, 1.0);
+      }
+      const std::vector<Explanation> rivals = rivals_of(best, made.combinations);
+      if (rivals.empty() || lead(rivals.front(), best) < options_.least_information_gain) break;
+      best = rivals.front();
+    }
+    return best;
+  }
+
+  /// Those of `tried` that have another cause in the place of one of `explanation`.
+  static std::vector<Explanation> rivals_of(const Explanation& explanation,
+                                            const std::vector<Explanation>& tried) {
+    const std::vector<Hypothesis>& effects = explanation.fit.candidate.effects;
+    std::vector<Explanation> rivals;
+    for (const Explanation& other : tried) {
+      const auto shared = std::ranges::count_if(
+          effects, [&](const Hypothesis& effect) { return other.fit.candidate.has(effect); });
+      if (other.fit.candidate.effects.size() == effects.size() &&
+          shared + 1 == static_cast<std::ptrdiff_t>(effects.size())) {
+        rivals.push_back(other);
       }
     }
-    // Of the chosen causes one is exchanged, not all.
-    std::erase_if(made.rivals, [&](const Explanation& rival) {
-      const auto shared = std::ranges::count_if(chosen.effects, [&](const Hypothesis& effect) {
-        return rival.fit.candidate.has(effect);
-      });
-      return shared + 1 != static_cast<std::ptrdiff_t>(chosen.effects.size()) ||
-             rival.fit.candidate.effects.size() != chosen.effects.size();
-    });
-    sort_by_fit(made.rivals);
+    return rivals;
   }
 
   Problem& problem_;
@@ -302,7 +329,7 @@ class Search {
   ReportedWork work_;
   Experiment coarse_experiment_;
   Problem coarse_;
-  std::vector<std::string> bases_;  // labels of what has been tried with any other
+  std::set<std::vector<std::string>> combined_;  // labels of what has been tried with any other
 };
 
 }  // namespace

@@ -31,12 +31,12 @@ struct SelectionOptions {
 
 /// How the causes were found.
 struct Selection {
-  Explanation nothing;                 ///< no cause; the arm's uncertain numbers refitted
-  std::vector<Explanation> singles;    ///< hypotheses by themselves, the best first
-  std::vector<Explanation> pairs;      ///< those tried, the best first
-  Explanation chosen;                  ///< `nothing`, or with the causes
-  std::vector<Explanation> rivals;     ///< the chosen one with a cause exchanged, the best first
-  std::optional<TorqueTiming> timing;  ///< by which torques were corrected
+  Explanation nothing;                    ///< no cause; the arm's uncertain numbers refitted
+  std::vector<Explanation> singles;       ///< hypotheses by themselves, the best first
+  std::vector<Explanation> combinations;  ///< of two effects or more, those tried; the best first
+  Explanation chosen;                     ///< `nothing`, or with the causes
+  std::vector<Explanation> rivals;        ///< the chosen one with a cause exchanged, the best first
+  std::optional<TorqueTiming> timing;     ///< by which torques were corrected
   bool cancelled = false;
 };
 
@@ -45,9 +45,9 @@ bool is_explained(const Misfit& left, const Misfit& nothing, const SelectionOpti
 
 /// Looks for the causes of what `problem` shows beyond noise: each hypothesis by itself, scanned
 /// over its whole range and refitted; pairs of the best with any other; further ones while each
-/// takes its share; then without each of the causes, and with each exchanged for another. Lowers
-/// the problem's noise to what the best by itself leaves to be seen (Problem::lower_noise), and
-/// corrects its torques where their timing explains what is left.
+/// takes its share; each of several exchanged for another while that fits better, and left out.
+/// Lowers the problem's noise to what the best by itself leaves to be seen (Problem::lower_noise),
+/// and corrects its torques where their timing explains what is left.
 Selection select(Problem& problem, const std::vector<Hypothesis>& hypotheses,
                  const SelectionOptions& options, const DiagnosisProgress& progress = {});
 

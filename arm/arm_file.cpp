@@ -111,8 +111,13 @@ class Reader {
       }
     } else if (key == arm_keys().end()) {
       const auto leaves = leaves_of(table);
-      fault(name, fmt::format(": unknown key{}; allowed in [{}]: {}", meant(table, leaf, leaves),
-                              table, fmt::join(leaves, ", ")));
+      auto meant_leaves = leaves;
+      if (is_uncertainty) {
+        for (std::string& meant_leaf : meant_leaves) meant_leaf += kUncertaintySuffix;
+      }
+      fault(name, fmt::format(": unknown key{}; allowed in [{}]: {}{}",
+                              meant(table, leaf, meant_leaves), table, fmt::join(leaves, ", "),
+                              is_uncertainty ? ", and each followed by _uncertainty" : ""));
     } else if (const auto value = number(name, node, key->range, key->unit)) {
       key->set(arm_, *value);
     }

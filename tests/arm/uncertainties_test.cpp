@@ -49,7 +49,11 @@ TEST(Uncertainty, IsRefusedWithItsLineAndReason) {
       error_of(beam + "width_uncertainty = 0.1\n" + kHub),
       HasSubstr("a.toml:5: beam.width_uncertainty: is relative to beam.width, which must be "
                 "given and above 0"));
-  EXPECT_THAT(error_of(beam + "lenght_uncertainty = 0.1\n" + kHub), HasSubstr("unknown key"));
+  EXPECT_THAT(
+      error_of(beam + "lenght_uncertainty = 0.1\n" + kHub),
+      HasSubstr("unknown key (did you mean length_uncertainty?); allowed in [beam]: length, "));
+  EXPECT_THAT(error_of(beam + "lenght_uncertainty = 0.1\n" + kHub),
+              HasSubstr(", and each followed by _uncertainty"));
   EXPECT_THAT(
       error_of(beam +
                "width = 0.02\nthickness = 0.003\nyoungs_modulus = 8.2222e10\n"

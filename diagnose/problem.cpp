@@ -4,6 +4,7 @@
 #include "diagnose/noise_floor.hpp"
 
 #include <cmath>
+#include <complex>
 #include <utility>
 
 namespace flexarm::diagnose {
@@ -19,6 +20,21 @@ void widen(Observations& observations, const std::vector<double>& errors) {
     channel.numerical_error = errors[c];
     observations.deviations.segment(channel.first, channel.count) *=
         channel.floor() / channel.noise;
+  }
+}
+
+/// In the place of a channel's residuals; the factor turns them by the phase of the response.
+void take_logarithms(Eigen::Ref<Eigen::VectorXd> residuals, const ObservedChannel& channel,
+                     const Observations& observations) {
+  for (Eigen::Index k = 0; k < channel.count; k += 2) {
+    const Eigen::Index at = channel.first + k;
+    const std::complex measured(observations.values(at), observations.values(at + 1));
+    const double deviation = observations.deviations(at);
+    const std::complex predicted =
+        measured - deviation * std::complex(residuals(k), residuals(k + 1));
+    const std::complex ratio = std::log(measured / predicted) * (std::abs(measured) / deviation);
+    residuals(k) = ratio.real();
+    residuals(k + 1) = ratio.imag();
   }
 }
 
@@ -39,6 +55,7 @@ Problem::Problem(const Experiment& experiment, Observations observations,
                  const ProblemOptions& options)
     : experiment_(&experiment),
       observations_(std::move(observations)),
+      logarithmic_responses_(options.logarithmic_responses),
       predictor_(predictor_for(experiment, observations_, options)) {
   for (const auto& run : experiment.runs) {
     estimation_runs_.push_back(run.run.purpose == measured::Purpose::estimation);
@@ -98,7 +115,13 @@ std::optional<Eigen::VectorXd> Problem::residuals(const Candidate& candidate,
   }
   made = (observations_.values - made).cwiseQuotient(observations_.deviations);
   for (const ObservedChannel& channel : observations_.channels) {
-    if (!runs[channel.run]) made.segment(channel.first, channel.count).setZero();
+    auto part = made.segment(channel.first, channel.count);
+    if (!runs[channel.run]) {
+      part.setZero();
+    } else if (logarithmic_responses_ &&
+               experiment_->runs[channel.run].run.kind == measured::RunKind::frf) {
+      take_logarithms(part, channel, observations_);
+    }
   }
   const auto displaced = static_cast<Eigen::Index>(candidate.displacements.size());
   made.conservativeResizeLike(Eigen::VectorXd::Zero(residual_count()));

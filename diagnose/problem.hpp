@@ -15,6 +15,10 @@ namespace flexarm::diagnose {
 struct ProblemOptions {
   std::optional<int> flexible_modes = {};  ///< of simulated runs; as many as needed unless given
   int substeps = 4;                        ///< inner steps a sample with forces that are not linear
+  /// Residuals of frequency responses are ln(measured/predicted), over the relative deviation: the
+  /// same to first order near the minimum, and far from it with one minimum where the difference
+  /// has one for every resonance that meets another.
+  bool logarithmic_responses = false;
 };
 
 /// An experiment with all that is needed to hold a candidate against it.
@@ -62,6 +66,7 @@ class Problem {
   Observations observations_;
   std::vector<bool> estimation_runs_;
   std::vector<bool> validation_runs_;
+  bool logarithmic_responses_;
   Predictor predictor_;
 };
 

@@ -72,7 +72,8 @@ class Search {
         coarse_experiment_(coarse(problem.experiment())),
         coarse_(coarse_experiment_,
                 {.flexible_modes = std::min(kCoarseModes, problem.predictor().flexible_modes()),
-                 .substeps = kCoarseSubsteps}) {}
+                 .substeps = kCoarseSubsteps,
+                 .logarithmic_responses = true}) {}
 
   Selection run() {
     Selection made;
@@ -244,9 +245,20 @@ class Search {
       if (larger.empty() || work_.is_cancelled()) return;
       const Explanation best = needed(exchanged(made, simplest(larger)));
       if (work_.is_cancelled() || !deserves(best, made.chosen)) return;
+      if (best.fit.candidate.effects.size() == 1) replace_single(made, best);
       made.chosen = exchanged(made, best);
       correct_timing(made);
     }
+  }
+
+  /// One by itself at other values than its scan found: to be combined anew.
+  void replace_single(Selection& made, const Explanation& better) {
+    const Hypothesis& effect = better.fit.candidate.effects.front();
+    for (Explanation& single : made.singles) {
+      if (single.fit.candidate.has(effect)) single = better;
+    }
+    sort_by_fit(made.singles);
+    combined_.erase({effect.label()});
   }
 
   /// The chosen causes with any other effect; of less than two, the best by themselves: the better

@@ -1,0 +1,105 @@
+#include "diagnose/selection.hpp"
+
+#include "measured/frequency_record.hpp"
+#include "response/random_numbers.hpp"
+#include "tests/diagnose/simulated_experiments.hpp"
+
+#include <gtest/gtest.h>
+
+#include <complex>
+#include <cstddef>
+#include <variant>
+#include <vector>
+
+namespace flexarm::diagnose {
+namespace {
+
+/// A frequency response of the hub angle, as `trial_arm` with `hidden` effects has it.
+Experiment measured_response(const Candidate& hidden) {
+  constexpr std::size_t kLines = 800;
+  constexpr double kLowest_Hz = 0.5;
+  constexpr double kHighest_Hz = 60.0;
+  constexpr double kRelativeNoise = 0.005;
+  Experiment experiment;
+  experiment.arm = trial_arm();
+  measured::FrequencyChannel channel{arm::parse_sensor("hub_angle"), {}, {}, {}};
+  for (std::size_t k = 0; k < kLines; ++k) {
+    channel.frequency_Hz.push_back(kLowest_Hz + (kHighest_Hz - kLowest_Hz) *
+                                                    static_cast<double>(k) /
+                                                    static_cast<double>(kLines - 1));
+    channel.response.emplace_back(1.0, 0.0);
+    channel.coherence.push_back(0.999);
+  }
+  measured::MeasuredRun run;
+  run.run.id = "frf";
+  run.run.kind = measured::RunKind::frf;
+  run.run.purpose = measured::Purpose::estimation;
+  run.data = measured::FrequencyRecord{{channel}};
+  experiment.runs.push_back(run);
+  // What a problem of that shape predicts is then measured, with noise.
+  const Problem shape(experiment);
+  const Eigen::VectorXd predicted =
+      shape.predictor()(hidden.extend(experiment.arm), shape.estimation_runs());
+  response::RandomNumbers numbers(1, 0);
+  auto& response =
+      std::get<measured::FrequencyRecord>(experiment.runs[0].data).channels[0].response;
+  for (std::size_t k = 0; k < kLines; ++k) {
+    const auto at = static_cast<Eigen::Index>(2 * k);
+    const std::complex value(predicted(at), predicted(at + 1));
+    const std::complex noise(numbers.normal(), numbers.normal());
+    response[k] = value * (1.0 + kRelativeNoise * noise);
+  }
+  return experiment;
+}
+
+TEST(Problem, LogarithmsOfResponsesAreTheDifferencesToFirstOrder) {
+  const Experiment experiment = measured_response({});
+  const Problem differences(experiment);
+  const Problem logarithms(experiment, {.logarithmic_responses = true});
+  const auto runs = differences.estimation_runs();
+  const double squares = differences.residuals({}, runs)->squaredNorm();
+  // The second order of noise of 0.5 %, and as much again for what it adds up to.
+  EXPECT_NEAR(logarithms.residuals({}, runs)->squaredNorm(), squares, 0.01 * squares);
+}
+
+TEST(Problem, LogarithmsOfResponsesShowAnEffectBesideAnotherThatIsOff) {
+  // A hub spring makes a resonance that meets no line of the response until it is right.
+  const Experiment bare = measured_response({});
+  const auto spring = named(bare, {"hub_spring"}).front();
+  const auto rigidity = named(bare, {"flexural_rigidity"}).front();
+  const Experiment experiment =
+      measured_response(Candidate{}.with(rigidity, {0.930}).with(spring, {0.93}));
+  const Candidate start =
+      Candidate{}.with(rigidity, {0.936}).with(spring, {spring.parameters[0].value(0.5)});
+  const Problem logarithms(experiment, {.logarithmic_responses = true});
+  const Fit found = fit(Problem(experiment), scan(logarithms, start, 40));
+  EXPECT_NEAR(found.candidate.values[0], 0.930, 1e-4);
+  EXPECT_NEAR(found.candidate.values[1], 0.93, 1e-3);
+  // By differences the same scan ends elsewhere; if it did not, this test would show nothing.
+  const Fit lost = fit(Problem(experiment), scan(Problem(experiment), start, 40));
+  EXPECT_GT(lost.sum_of_squares, 100.0 * found.sum_of_squares);
+}
+
+TEST(Selection, ExchangesACauseThatStandsInThePlaceOfAnother) {
+  // By itself each of the two is best at a value that hides the other; a soft place does better.
+  const Experiment experiment = simulated_experiment(
+      {{"linear_density", {{{"factor", 0.8}}, ""}}, {"hub_inertia", {{{"factor", 1.3}}, ""}}},
+      {.duration_s = 1.5});
+  Problem problem(experiment);
+  const Selection made = select(
+      problem,
+      named(experiment, {"local_stiffness_loss", "linear_density", "hub_inertia",
+                         "flexural_rigidity", "root_compliance", "payload_mass", "torque_gain"}),
+      {});
+  const Candidate& chosen = made.chosen.fit.candidate;
+  ASSERT_EQ(chosen.effects.size(), 2U) << chosen.label();
+  EXPECT_TRUE(chosen.has(named(experiment, {"linear_density"}).front())) << chosen.label();
+  EXPECT_TRUE(chosen.has(named(experiment, {"hub_inertia"}).front())) << chosen.label();
+  EXPECT_TRUE(made.chosen.estimation.is_noise());
+  for (const Explanation& rival : made.rivals) {
+    EXPECT_GT(lead(made.chosen, rival), 10.0) << rival.fit.candidate.label();
+  }
+}
+
+}  // namespace
+}  // namespace flexarm::diagnose

@@ -41,7 +41,9 @@ TrialOptions parse_options(CLI::App& app, int argc, char** argv) {
   app.add_option("--effects", choice.effects,
                  "Causes to hide: names, or single (each of the vocabulary), pairs, none, outside")
       ->delimiter(',');
-  app.add_option("--strength", choice.strengths, "weak, middle, strong")->delimiter(',');
+  app.add_option("--strength", choice.strengths,
+                 "faint, weak, middle, strong; not the first unless told")
+      ->delimiter(',');
   app.add_option("--noise", choice.noises, "Standard deviation over that of the signal")
       ->delimiter(',');
   app.add_option("--trials", choice.trials, "Of each combination")->capture_default_str();

@@ -117,6 +117,33 @@ TEST(ResultsFile, IsReadBack) {
               HasSubstr("| nothing hidden: a cause named (false alarm) | 0/1 (0 %) |"));
 }
 
+TEST(Scorecard, SmallestEffectIsAMultipleOfTheNoise) {
+  const auto trial = [](const char* strength, double error, Outcome outcome) {
+    TrialResult one;
+    one.kind = "frf";
+    one.noise = 0.03;
+    one.strength = strength;
+    one.hidden = {"gravity"};
+    one.error = error;
+    one.outcome = outcome;
+    return one;
+  };
+  const std::vector<TrialResult> found = {trial("weak", 0.048, Outcome::exact),
+                                          trial("strong", 0.5, Outcome::in_class)};
+  EXPECT_THAT(scorecard(found), HasSubstr("| gravity | < 1.6 (1) |"));
+  // Where lesser ones are lost, it is the least that is found.
+  auto with_faint = found;
+  with_faint.push_back(trial("faint", 0.015, Outcome::missed));
+  EXPECT_THAT(scorecard(with_faint), HasSubstr("| gravity | 1.6 (1) |"));
+  EXPECT_THAT(scorecard(with_faint), HasSubstr("| none named | 1/1 (100 %) |"));
+  // Faint ones are not among those that the first table counts.
+  EXPECT_THAT(scorecard(with_faint), HasSubstr("| one effect: named | 1/2 (50 %) |"));
+  // One that is found by chance below others that are lost does not count.
+  auto by_chance = with_faint;
+  by_chance[1].outcome = Outcome::wrong;
+  EXPECT_THAT(scorecard(by_chance), HasSubstr("| gravity | none |"));
+}
+
 TEST(TrialList, HidesOnlyWhatTheDataShow) {
   const auto friction = list_trials({.effects = {"coulomb_friction"}, .strengths = {"middle"}});
   EXPECT_EQ(friction.size(), 2U);  // two noises, in time alone

@@ -21,16 +21,21 @@ constexpr const char* kIntroduction =
 `flexarm diagnose` was not told, made by `scripts/trials`. The simulator is not the model that is
 fitted: finite elements, Newmark's method, its own friction, actuator and sensors (`tests/trials`).
 Columns: the kind of data, and noise over signal. In poles and zeros a fifth of that noise is the
-frequencies' and ten times it the damping ratios'.
+frequencies' and ten times it the damping ratios'. The strength of a cause is the error that it
+makes in a simulation without it, relative to the signal: weak 5 %, middle 15 %, strong 50 %; of
+poles and zeros a tenth of it. Where no physical size makes as much, the largest stands.
 
 A class counts as an answer where it has three members at most. The bounds are Clopper and Pearson's.
 )";
-constexpr const char* kAboutStrength =
-    R"(## The weakest strength found in 90 % of trials
+constexpr const char* kAboutSmallest =
+    R"(## The smallest effect found in 90 % of trials
 
-A strength is the error that the cause makes in a simulation without it, relative to the signal:
-weak 5 %, middle 15 %, strong 50 %; of poles and zeros a tenth of it. Where no physical size makes
-as much, the largest stands. In brackets: the trials at that strength.
+Its strength as a multiple of the noise: the least at which the effect is named, or in a class of at
+most three, in 90 % of the trials or more, there and at every greater strength that was tried; "<"
+where no lesser one was. In brackets: the trials at that strength. For this, faint effects are
+hidden as well, which make an error of 1.5 %. They are not part of the tables above; what was said
+of them:
+
 )";
 
 using Results = std::vector<TrialResult>;
@@ -81,7 +86,7 @@ std::string header(const std::string& name, const std::vector<std::string>& cell
   return text + "\n";
 }
 
-/// Trials of one kind of data and one noise.
+/// Trials of one kind of data and one noise, or of all.
 struct Cell {
   std::string title;
   Results results;
@@ -91,9 +96,16 @@ std::vector<Cell> cells_of(const Results& results) {
   std::map<std::pair<std::string, double>, Results> sorted;
   for (const auto& one : results) sorted[{one.kind, one.noise}].push_back(one);
   std::vector<Cell> cells;
+  std::map<double, Results> by_noise;
   for (auto& [key, some] : sorted) {
+    auto& all = by_noise[key.second];
+    all.insert(all.end(), some.begin(), some.end());
     cells.push_back({fmt::format("{} {:g} %", key.first, 100.0 * key.second), std::move(some)});
   }
+  for (auto& [noise, some] : by_noise) {
+    cells.push_back({fmt::format("all {:g} %", 100.0 * noise), std::move(some)});
+  }
+  cells.push_back({"all", results});
   return cells;
 }
 
@@ -134,6 +146,7 @@ std::string summary_table(const std::vector<Cell>& cells) {
   of_effects("one effect: named", 1, is(Outcome::exact));
   of_effects("one effect: named, or in a class of at most three", 1, is_found);
   for (const Strength strength : kStrengths) {
+    if (strength == Strength::faint) continue;
     add(fmt::format("... {}", to_string(strength)), [strength](const Results& all) {
       const Results some = chosen(all, [&](const TrialResult& one) {
         return has_effects(one, 1) && one.strength == to_string(strength);
@@ -211,28 +224,60 @@ std::string confusion_table(const Results& results) {
   return text;
 }
 
-/// The weakest strength at which a cause is found in 90 % of the trials.
-std::string strength_table(const std::vector<Cell>& cells) {
+bool is_faint(const TrialResult& one) {
+  return one.strength == to_string(Strength::faint);
+}
+
+std::string faint_table(const Results& faint) {
+  if (faint.empty()) return "No trials.\n";
+  std::vector<std::string> titles;
+  std::vector<std::string> found;
+  std::vector<std::string> wrong;
+  std::vector<std::string> silent;
+  for (const Cell& cell : cells_of(faint)) {
+    const auto all = static_cast<int>(cell.results.size());
+    titles.push_back(cell.title);
+    found.push_back(part(count(cell.results, is_found), all));
+    wrong.push_back(
+        part(count(cell.results, Outcome::wrong) + count(cell.results, Outcome::partly), all));
+    silent.push_back(
+        part(count(cell.results, Outcome::missed) + count(cell.results, Outcome::abstained), all));
+  }
+  return header("", titles) + row("named, or in a class of at most three", found) +
+         row("another named", wrong) + row("none named", silent);
+}
+
+/// The least strength at which a cause is found, over the noise: "< 1.7 (2)"; "none".
+std::string smallest_found(const Results& of_cause) {
+  std::string smallest = "none";
+  for (auto strength = kStrengths.rbegin(); strength != kStrengths.rend(); ++strength) {
+    const Results of = chosen(
+        of_cause, [&](const TrialResult& one) { return one.strength == to_string(*strength); });
+    if (of.empty()) continue;
+    if (count(of, is_found) < 0.9 * static_cast<double>(of.size())) return smallest;
+    double multiples = 0.0;
+    for (const TrialResult& one : of) {
+      multiples += one.error / (one.kind == "modal" ? kFrequencyNoise * one.noise : one.noise);
+    }
+    smallest = fmt::format("{:.2g} ({})", multiples / static_cast<double>(of.size()), of.size());
+  }
+  return smallest == "none" ? smallest : "< " + smallest;
+}
+
+std::string smallest_table(const std::vector<Cell>& cells) {
   std::vector<std::string> titles;
   std::map<std::string, std::vector<std::string>> rows;
   for (const auto& cause : hideables()) {
     if (!cause.outside) rows[cause.name];
   }
   for (const Cell& cell : cells) {
+    if (cell.title.starts_with("all")) continue;
     titles.push_back(cell.title);
     for (auto& [name, found] : rows) {
       const Results some = chosen(cell.results, [&](const TrialResult& one) {
         return one.hidden == std::vector<std::string>{name};
       });
-      std::string weakest = some.empty() ? "" : "none";
-      for (const Strength strength : kStrengths) {
-        const Results of = chosen(
-            some, [&](const TrialResult& one) { return one.strength == to_string(strength); });
-        if (of.empty() || count(of, is_found) < 0.9 * static_cast<double>(of.size())) continue;
-        weakest = fmt::format("{} ({})", to_string(strength), of.size());
-        break;
-      }
-      found.push_back(weakest);
+      found.push_back(some.empty() ? "" : smallest_found(some));
     }
   }
   std::string text = header("effect", titles);
@@ -256,11 +301,12 @@ std::string failure_list(const Results& results) {
 
 std::string scorecard(const Results& results) {
   if (results.empty()) return "No trials.\n";
-  const std::vector<Cell> cells = cells_of(results);
-  return fmt::format("{}\n{}\n## What was said\n\n{}\n{}\n{}\n## Failures\n\n{}",
-                     fmt::format(kIntroduction, results.size()), summary_table(cells),
-                     confusion_table(results), kAboutStrength, strength_table(cells),
-                     failure_list(results));
+  const Results faint = chosen(results, is_faint);
+  const Results judged = chosen(results, [](const TrialResult& one) { return !is_faint(one); });
+  return fmt::format("{}\n{}\n## What was said\n\n{}\n{}{}\n{}\n## Failures\n\n{}",
+                     fmt::format(kIntroduction, judged.size()), summary_table(cells_of(judged)),
+                     confusion_table(judged), kAboutSmallest, faint_table(faint),
+                     smallest_table(cells_of(results)), failure_list(judged));
 }
 
 }  // namespace flexarm::trials

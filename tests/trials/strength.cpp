@@ -104,12 +104,12 @@ class SimulationError {
 }  // namespace
 
 std::string_view to_string(Strength strength) {
-  constexpr std::array<std::string_view, 3> kNames = {"weak", "middle", "strong"};
+  constexpr std::array<std::string_view, 4> kNames = {"faint", "weak", "middle", "strong"};
   return kNames.at(static_cast<std::size_t>(strength));
 }
 
 double error_of(Strength strength, measured::RunKind kind) {
-  constexpr std::array kErrors = {0.05, 0.15, 0.5};
+  constexpr std::array kErrors = {0.015, 0.05, 0.15, 0.5};
   const double error = kErrors.at(static_cast<std::size_t>(strength));
   return kind == measured::RunKind::modal ? kModalPart * error : error;
 }

@@ -11,14 +11,16 @@ namespace flexarm::trials {
 
 /// How strong a hidden cause is: by the error of a simulation that does not know it, so that
 /// strengths compare between causes.
-enum class Strength { weak, middle, strong };
-inline constexpr std::array kStrengths = {Strength::weak, Strength::middle, Strength::strong};
+enum class Strength { faint, weak, middle, strong };
+inline constexpr std::array kStrengths = {Strength::faint, Strength::weak, Strength::middle,
+                                          Strength::strong};
 
-/// "weak", "middle", "strong".
+/// "faint", "weak", "middle", "strong".
 std::string_view to_string(Strength strength);
 
-/// Root mean square of the error over that of the signal in data without noise: 5, 15, 50 %; of
-/// poles and zeros a tenth of it, where a damping ratio's error counts a fiftieth of a frequency's.
+/// Root mean square of the error over that of the signal in data without noise: 1.5, 5, 15, 50 %;
+/// of poles and zeros a tenth of it, where a damping ratio's error counts a fiftieth of a
+/// frequency's.
 double error_of(Strength strength, measured::RunKind kind);
 
 struct FoundSize {

@@ -21,9 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A modal test knows frequencies to a fifth of the noise of its signals, damping ratios to ten
-/// times it.
-constexpr double kFrequencyNoise = 0.2;
+/// A modal test knows damping ratios to so many times the noise of its signals.
 constexpr double kDampingNoise = 10.0;
 /// A pole that is damped more makes no peak that a modal test would find.
 constexpr double kMostVisibleDamping = 0.5;

@@ -11,6 +11,9 @@
 
 namespace flexarm::trials {
 
+/// A modal test knows frequencies to this part of the noise of its signals.
+inline constexpr double kFrequencyNoise = 0.2;
+
 /// Which trial: everything else follows from it and the seed.
 struct TrialKey {
   measured::RunKind kind = measured::RunKind::time;

@@ -22,7 +22,7 @@ Strength parse_strength(const std::string& name) {
   for (const Strength strength : kStrengths) {
     if (to_string(strength) == name) return strength;
   }
-  throw arm::InputError(fmt::format("--strength {}: must be weak, middle or strong", name));
+  throw arm::InputError(fmt::format("--strength {}: must be faint, weak, middle or strong", name));
 }
 
 /// Two effects of the vocabulary that this kind of data shows, by chance.

@@ -76,14 +76,22 @@ void predict(const arm::Arm& arm, const measured::FrequencyRecord& record,
   const auto formulation = response::make_formulation("exact_tf", arm, 1);
   const auto chain = response::linear_chain(parts);
   Index at = 0;
-  for (const auto& channel : record.channels) {
-    const std::vector<arm::Sensor> sensors = {channel.sensor};
+  for (auto first = record.channels.begin(); first != record.channels.end();) {
+    // Neighbours with the same frequencies at once, as they mostly are.
+    const auto last = std::find_if(first, record.channels.end(), [&](const auto& channel) {
+      return channel.frequency_Hz != first->frequency_Hz;
+    });
+    std::vector<arm::Sensor> sensors;
+    for (auto channel = first; channel != last; ++channel) sensors.push_back(channel->sensor);
     const auto made =
-        response::frequency_response(formulation, chain, sensors, channel.frequency_Hz);
-    for (const auto& value : made.values.front()) {
-      values(at++) = value.real();
-      values(at++) = value.imag();
+        response::frequency_response(formulation, chain, sensors, first->frequency_Hz);
+    for (const auto& of_sensor : made.values) {
+      for (const auto& value : of_sensor) {
+        values(at++) = value.real();
+        values(at++) = value.imag();
+      }
     }
+    first = last;
   }
 }
 

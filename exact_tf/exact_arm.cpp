@@ -96,7 +96,12 @@ arm::ModalModel ExactArm::modal_model(int count, std::span<const arm::Sensor> se
 
 std::complex<double> ExactArm::transfer_function(const arm::Sensor& sensor,
                                                  std::complex<double> s_rad_per_s) const {
-  require_valid(sensor, arm_);
+  return transfer_functions({&sensor, 1}, s_rad_per_s).front();
+}
+
+std::vector<std::complex<double>> ExactArm::transfer_functions(
+    std::span<const arm::Sensor> sensors, std::complex<double> s_rad_per_s) const {
+  for (const arm::Sensor& sensor : sensors) require_valid(sensor, arm_);
   if (s_rad_per_s == 0.0 && linear_.turns_freely()) {
     throw std::domain_error("exact_tf: the transfer function of a free arm has a pole at s = 0");
   }
@@ -104,7 +109,7 @@ std::complex<double> ExactArm::transfer_function(const arm::Sensor& sensor,
     throw std::domain_error("exact_tf: s must be finite");
   }
   return std::visit(
-      [&](const auto& engine) { return engine.transfer_function(sensor, s_rad_per_s); }, engine_);
+      [&](const auto& engine) { return engine.transfer_functions(sensors, s_rad_per_s); }, engine_);
 }
 
 }  // namespace flexarm::exact_tf

@@ -55,6 +55,9 @@ class ExactArm {
                               std::span<const double> stations_m) const;
   std::complex<double> transfer_function(const arm::Sensor& sensor,
                                          std::complex<double> s_rad_per_s) const;
+  /// Of several sensors, which share most of the work.
+  std::vector<std::complex<double>> transfer_functions(std::span<const arm::Sensor> sensors,
+                                                       std::complex<double> s_rad_per_s) const;
 
  private:
   arm::Arm arm_;

@@ -18,7 +18,8 @@ T krylov_series(int k, const T& z) {
   for (int i = 2; i <= k; ++i) factorial *= static_cast<Real>(i);
   T term(1.0L / factorial);
   T sum = term;
-  for (int i = k; std::abs(term) > std::numeric_limits<Real>::epsilon() * std::abs(sum); i += 4) {
+  for (int i = k; rough_size(term) > std::numeric_limits<Real>::epsilon() * rough_size(sum);
+       i += 4) {
     const auto n = static_cast<Real>(i);
     term *= z / ((n + 1.0L) * (n + 2.0L) * (n + 3.0L) * (n + 4.0L));
     sum += term;

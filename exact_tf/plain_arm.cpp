@@ -204,11 +204,10 @@ arm::ModalModel PlainArm::modal_model(int count, std::span<const arm::Sensor> se
   return model;
 }
 
-std::complex<double> PlainArm::transfer_function(const arm::Sensor& sensor,
-                                                 std::complex<double> s_rad_per_s) const {
+std::vector<std::complex<double>> PlainArm::transfer_functions(
+    std::span<const arm::Sensor> sensors, std::complex<double> s_rad_per_s) const {
   const Complex s(s_rad_per_s.real(), s_rad_per_s.imag());
   const auto frequency = complex_frequency(arm_, s);
-  const auto numerator = sensor_numerator(arm_, sensor, frequency.lambda);
   const auto products = beam_products(frequency.lambda);
   const Real l = arm_.length_m;
   const Real beam_inertia = arm_.linear_density_kg_per_m * (l * l * l);
@@ -216,10 +215,15 @@ std::complex<double> PlainArm::transfer_function(const arm::Sensor& sensor,
   const Complex denominator =
       beam_inertia * (s * s) * frequency.at_z(pole_value(ratios_, products)) +
       friction * s * frequency.at_z(hub_angle_value(ratios_, products));
-  const Complex value = sensor_factor(arm_, sensor, s, frequency.z) *
-                        frequency.at_z(numerator.value) / denominator *
-                        std::exp(numerator.log_scale - products.log_scale);
-  return {static_cast<double>(value.real()), static_cast<double>(value.imag())};
+  std::vector<std::complex<double>> values;
+  for (const arm::Sensor& sensor : sensors) {
+    const auto numerator = sensor_numerator(arm_, sensor, frequency.lambda);
+    const Complex value = sensor_factor(arm_, sensor, s, frequency.z) *
+                          frequency.at_z(numerator.value) / denominator *
+                          std::exp(numerator.log_scale - products.log_scale);
+    values.emplace_back(static_cast<double>(value.real()), static_cast<double>(value.imag()));
+  }
+  return values;
 }
 
 }  // namespace flexarm::exact_tf

@@ -36,8 +36,8 @@ class PlainArm {
   /// D_ij = kv omega_i^2 delta_ij + c theta_i theta_j/I_T.
   arm::ModalModel modal_model(int count, std::span<const arm::Sensor> sensors,
                               std::span<const double> stations_m) const;
-  std::complex<double> transfer_function(const arm::Sensor& sensor,
-                                         std::complex<double> s_rad_per_s) const;
+  std::vector<std::complex<double>> transfer_functions(std::span<const arm::Sensor> sensors,
+                                                       std::complex<double> s_rad_per_s) const;
 
  private:
   arm::LinearArm arm_;

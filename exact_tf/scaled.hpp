@@ -34,6 +34,15 @@ inline Real imaginary_part(const Complex& x) {
   return x.imag();
 }
 
+/// The modulus, within a factor sqrt(2) where complex: its root takes as long as a term of a
+/// series.
+inline Real rough_size(Real x) {
+  return std::abs(x);
+}
+inline Real rough_size(const Complex& x) {
+  return std::abs(x.real()) + std::abs(x.imag());
+}
+
 /// Trigonometric and hyperbolic functions of u = a + ib, a >= b >= 0, in decaying exponentials.
 template <class T>
 struct ScaledTrigonometry {

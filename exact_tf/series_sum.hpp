@@ -18,14 +18,6 @@ inline int likely_terms(Real size) {
   return n;
 }
 
-/// The modulus, within a factor sqrt(2) where complex.
-inline Real rough_size(Real x) {
-  return std::abs(x);
-}
-inline Real rough_size(const Complex& x) {
-  return std::abs(x.real()) + std::abs(x.imag());
-}
-
 /// Sum of a series of arrays whose terms `recursion` yields in turn, until four in a row no longer
 /// change any component (the beam's equations link each component with itself after four terms).
 /// The first `likely` are not examined. `take(n, term)` is given each from n = 1 on.

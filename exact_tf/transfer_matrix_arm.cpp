@@ -218,16 +218,21 @@ std::vector<arm::Mode> TransferMatrixArm::modes(int count, std::span<const arm::
   return std::move(model.modes);
 }
 
-std::complex<double> TransferMatrixArm::transfer_function(const arm::Sensor& sensor,
-                                                          std::complex<double> s_rad_per_s) const {
+std::vector<std::complex<double>> TransferMatrixArm::transfer_functions(
+    std::span<const arm::Sensor> sensors, std::complex<double> s_rad_per_s) const {
   const Complex s(s_rad_per_s.real(), s_rad_per_s.imag());
   const TransferChain<Complex> chain(units_, damped_at(units_, s / units_.omega_scale_rad_per_s));
   const auto root = root_values(chain);
-  const auto output = sensor_value<Complex>(chain, sensor.kind, in_units(sensor.position_m), root);
-  Complex value = sensor_unit(arm_, sensor.kind) / units_.torque_scale_N_m *
-                  std::exp(output.log_scale - root.log_scale) * output.value / root.torque;
-  for (int i = 0; i < derivative_order(sensor); ++i) value *= s;
-  return {rounded(value.real()), rounded(value.imag())};
+  std::vector<std::complex<double>> values;
+  for (const arm::Sensor& sensor : sensors) {
+    const auto output =
+        sensor_value<Complex>(chain, sensor.kind, in_units(sensor.position_m), root);
+    Complex value = sensor_unit(arm_, sensor.kind) / units_.torque_scale_N_m *
+                    std::exp(output.log_scale - root.log_scale) * output.value / root.torque;
+    for (int i = 0; i < derivative_order(sensor); ++i) value *= s;
+    values.emplace_back(rounded(value.real()), rounded(value.imag()));
+  }
+  return values;
 }
 
 }  // namespace flexarm::exact_tf

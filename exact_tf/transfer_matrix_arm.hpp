@@ -30,8 +30,8 @@ class TransferMatrixArm {
   arm::ModalModel modal_model(int count, std::span<const arm::Sensor> sensors,
                               std::span<const double> stations_m) const;
   /// s = 0 where something holds the arm.
-  std::complex<double> transfer_function(const arm::Sensor& sensor,
-                                         std::complex<double> s_rad_per_s) const;
+  std::vector<std::complex<double>> transfer_functions(std::span<const arm::Sensor> sensors,
+                                                       std::complex<double> s_rad_per_s) const;
 
  private:
   arm::ZeroSet hub_zeros(int count) const;

@@ -46,4 +46,17 @@ std::complex<double> transfer_function(const AnyFormulation& formulation, const 
                     formulation);
 }
 
+std::vector<std::complex<double>> transfer_functions(const AnyFormulation& formulation,
+                                                     std::span<const arm::Sensor> sensors,
+                                                     std::complex<double> s_rad_per_s) {
+  if (const auto* exact = std::get_if<exact_tf::ExactArm>(&formulation)) {
+    return exact->transfer_functions(sensors, s_rad_per_s);
+  }
+  std::vector<std::complex<double>> values;
+  for (const auto& sensor : sensors) {
+    values.push_back(transfer_function(formulation, sensor, s_rad_per_s));
+  }
+  return values;
+}
+
 }  // namespace flexarm::response

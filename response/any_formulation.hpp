@@ -35,5 +35,9 @@ arm::ModalModel modal_model(const AnyFormulation& formulation, int count,
                             std::span<const double> stations_m);
 std::complex<double> transfer_function(const AnyFormulation& formulation, const arm::Sensor& sensor,
                                        std::complex<double> s_rad_per_s);
+/// Of several sensors, at once where the formulation can.
+std::vector<std::complex<double>> transfer_functions(const AnyFormulation& formulation,
+                                                     std::span<const arm::Sensor> sensors,
+                                                     std::complex<double> s_rad_per_s);
 
 }  // namespace flexarm::response

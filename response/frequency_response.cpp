@@ -14,12 +14,13 @@ FrequencyResponse frequency_response(const AnyFormulation& formulation, const Li
   FrequencyResponse response;
   response.frequency_Hz.assign(frequency_Hz.begin(), frequency_Hz.end());
   response.sensors.assign(sensors.begin(), sensors.end());
-  for (const auto& sensor : sensors) {
-    auto& values = response.values.emplace_back();
-    for (const double frequency : frequency_Hz) {
-      const auto s = on_imaginary_axis(frequency);
-      values.push_back(transfer_function(formulation, sensor, s) * actuator_response(chain, s) *
-                       reading_response(chain, sensor, s));
+  response.values.resize(sensors.size());
+  for (const double frequency : frequency_Hz) {
+    const auto s = on_imaginary_axis(frequency);
+    const auto actuator = actuator_response(chain, s);
+    const auto values = transfer_functions(formulation, sensors, s);
+    for (std::size_t j = 0; j < sensors.size(); ++j) {
+      response.values[j].push_back(values[j] * actuator * reading_response(chain, sensors[j], s));
     }
   }
   return response;

@@ -25,6 +25,13 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return d[a.size()][b.size()];
 }
 
+/// Whether `name` is of several words, joined by "_", and `typed` the first or the last.
+bool is_end_word(std::string_view typed, std::string_view name) {
+  if (typed.empty() || typed.size() >= name.size()) return false;
+  return (name.starts_with(typed) && name[typed.size()] == '_') ||
+         (name.ends_with(typed) && name[name.size() - typed.size() - 1] == '_');
+}
+
 }  // namespace
 
 std::optional<std::string> nearest_name(std::string_view typed,
@@ -41,6 +48,12 @@ std::optional<std::string> nearest_name(std::string_view typed,
       nearest = name;
       smallest = distance;
     }
+  }
+  if (nearest) return nearest;
+  for (const auto& name : names) {
+    if (!is_end_word(typed, name)) continue;
+    if (nearest) return std::nullopt;
+    nearest = name;
   }
   return nearest;
 }

@@ -19,6 +19,14 @@ TEST(NearestName, OneSlipOfAKeyIsForgiven) {
   EXPECT_EQ(did_you_mean("lenght", kNames), " (did you mean length?)");
 }
 
+TEST(NearestName, OneWordOfANameIsEnoughWhereItIsTheOnly) {
+  const std::vector<std::string> names = {"coulomb_friction", "stribeck_friction", "time_delay"};
+  EXPECT_EQ(nearest_name("coulomb", names), "coulomb_friction");
+  EXPECT_EQ(nearest_name("delay", names), "time_delay");
+  EXPECT_EQ(nearest_name("friction", names), std::nullopt);  // of two
+  EXPECT_EQ(nearest_name("coul", names), std::nullopt);
+}
+
 TEST(NearestName, AWordThatIsFarFromAllIsNotGuessed) {
   EXPECT_EQ(nearest_name("mass", kNames), std::nullopt);
   EXPECT_EQ(nearest_name("", kNames), std::nullopt);

@@ -2,13 +2,14 @@
 
 #include "diagnose/experiment.hpp"
 
+#include <cstddef>
+
 namespace flexarm::diagnose {
 
 /// The estimation runs of an experiment with less in them, for a first look at many values: of
-/// `time` runs the beginning, whose simulation goes less out of step with another frequency; of
-/// `frf` runs every few lines; `modal` runs as they are.
-Experiment coarse(const Experiment& experiment);
-inline constexpr std::size_t kCoarseSamples = 1200;
+/// `time` runs the first `samples`, whose simulation goes less out of step with another frequency;
+/// of `frf` runs every few lines; `modal` runs as they are.
+Experiment coarse(const Experiment& experiment, std::size_t samples);
 inline constexpr std::size_t kCoarseLines = 100;
 
 }  // namespace flexarm::diagnose

@@ -29,6 +29,10 @@ constexpr std::size_t kPairBases = 3;
 constexpr std::size_t kPairsRefitted = 5;
 /// Others that are scanned beside a base: those whose directions the residuals have most of.
 constexpr std::size_t kScannedBeside = 10;
+/// Samples of each run in a first look; of effects with several parameters so many as well: where
+/// the hub turns another way from the start, nothing after it tells which value is nearer.
+constexpr std::size_t kCoarseSamples = 1200;
+constexpr std::size_t kShortSamples = 400;
 /// Modes that move in a first look.
 constexpr int kCoarseModes = 8;
 constexpr int kCoarseSubsteps = 2;
@@ -69,11 +73,10 @@ class Search {
         hypotheses_(hypotheses),
         options_(options),
         work_(progress),
-        coarse_experiment_(coarse(problem.experiment())),
-        coarse_(coarse_experiment_,
-                {.flexible_modes = std::min(kCoarseModes, problem.predictor().flexible_modes()),
-                 .substeps = kCoarseSubsteps,
-                 .logarithmic_responses = true}) {}
+        coarse_experiment_(coarse(problem.experiment(), kCoarseSamples)),
+        short_experiment_(coarse(problem.experiment(), kShortSamples)),
+        coarse_(coarse_experiment_, coarse_options()),
+        short_(short_experiment_, coarse_options()) {}
 
   Selection run() {
     Selection made;
@@ -95,6 +98,12 @@ class Search {
   }
 
  private:
+  ProblemOptions coarse_options() const {
+    return {.flexible_modes = std::min(kCoarseModes, problem_.predictor().flexible_modes()),
+            .substeps = kCoarseSubsteps,
+            .logarithmic_responses = true};
+  }
+
   /// The noise that is seen under what the best so far leaves.
   void see_noise(Selection& made) {
     const Explanation& best = made.singles.empty() ? made.nothing : made.singles.front();
@@ -158,9 +167,7 @@ class Search {
       const Hypothesis& other = *others[i];
       std::vector<double> values;
       for (const auto& parameter : other.parameters) values.push_back(parameter.value(0.5));
-      const Candidate scanned =
-          scan(coarse_, base.with(other, values), scan_evaluations(values.size()));
-      looks[i] = fit(coarse_, scanned, kCoarseFit);
+      looks[i] = first_look(base.with(other, values));
     });
     if (work_.is_cancelled()) return {};
     std::ranges::stable_sort(looks, {}, &Fit::sum_of_squares);
@@ -170,6 +177,19 @@ class Search {
                       [&](std::size_t i) { found[i] = fitted(looks[i].candidate); });
     sort_by_fit(found);
     return found;
+  }
+
+  /// The last effect of `start` scanned, and all refitted to the coarse problem.
+  Fit first_look(const Candidate& start) const {
+    const std::size_t parameters = start.effects.back().parameters.size();
+    const int evaluations = scan_evaluations(parameters);
+    Fit look = fit(coarse_, scan(coarse_, start, evaluations), kCoarseFit);
+    const bool is_shorter =
+        short_.observations().values.size() < coarse_.observations().values.size();
+    if (parameters == 1 || !is_shorter) return look;
+    const Fit at_first = fit(short_, scan(short_, start, evaluations), kCoarseFit);
+    Fit from_there = fit(coarse_, at_first.candidate, kCoarseFit);
+    return from_there.sum_of_squares < look.sum_of_squares ? from_there : look;
   }
 
   /// Leaves the `kScannedBeside` hypotheses that account, at some of a few values each, for most of
@@ -340,7 +360,9 @@ class Search {
   const SelectionOptions& options_;
   ReportedWork work_;
   Experiment coarse_experiment_;
+  Experiment short_experiment_;
   Problem coarse_;
+  Problem short_;
   std::set<std::vector<std::string>> combined_;  // labels of what has been tried with any other
 };
 

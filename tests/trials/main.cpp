@@ -47,13 +47,15 @@ TrialOptions parse_options(CLI::App& app, int argc, char** argv) {
   app.add_option("--noise", choice.noises, "Standard deviation over that of the signal")
       ->delimiter(',');
   app.add_option("--trials", choice.trials, "Of each combination")->capture_default_str();
-  app.add_option("--seed", choice.seed, "")->capture_default_str();
+  app.add_option("--seed", choice.seed, "Of all that is drawn")->capture_default_str();
   app.add_option("--keep", options.keep,
                  "Folder to keep the cases in: cases/ as the program sees them, truth/, answers/");
+  // scripts/trials gives these two; others behind them count.
   app.add_option("--results", options.results,
                  "CSV to which each result is appended; trials that it has are not made again")
-      ->capture_default_str();
-  app.add_option("--scorecard", options.scorecard, "Markdown file for the scorecard");
+      ->capture_default_str()
+      ->take_last();
+  app.add_option("--scorecard", options.scorecard, "Markdown file for the scorecard")->take_last();
   app.add_option("--program", options.program, "The program flexarm")->capture_default_str();
   app.add_option("--time-limit", options.time_limit_s, "For one diagnosis, in seconds")
       ->capture_default_str();

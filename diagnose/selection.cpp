@@ -36,6 +36,9 @@ constexpr std::size_t kShortSamples = 400;
 /// Modes that move in a first look.
 constexpr int kCoarseModes = 8;
 constexpr int kCoarseSubsteps = 2;
+/// Part of what is left that the timing of the torque must account for before other effects are
+/// tried: it goes along with a small effect of any kind for a good part of it.
+constexpr double kSureTiming = 0.9;
 /// Fraction of the work that is done with the effects by themselves.
 constexpr double kSinglesDone = 0.4;
 /// ... and when pairs of the best of them have been tried.
@@ -83,13 +86,17 @@ class Search {
     made.nothing = fitted(problem_.as_filed());
     made.chosen = made.nothing;
     see_noise(made);
-    correct_timing(made);
+    correct_timing(made, kSureTiming);
     if (is_enough(made)) return made;
     made.singles = all_with(made.nothing.fit.candidate, "effects one by one", 0.0, kSinglesDone,
                             kSinglesRefitted);
     if (!made.singles.empty()) {
       see_noise(made);
       extend(made);
+      if (correct_timing(made, options_.least_timing_share) && !is_enough(made)) {
+        combined_.clear();
+        extend(made);
+      }
     }
     const bool is_single = made.chosen.fit.candidate.effects.size() == 1;
     made.rivals = rivals_of(made.chosen, is_single ? made.singles : made.combinations);
@@ -130,13 +137,14 @@ class Search {
 
   /// Where a little is left of which the timing of the torque explains most: the torques as that
   /// timing has them, and what has been fitted once more.
-  void correct_timing(Selection& made) {
+  /// Returns whether they were.
+  bool correct_timing(Selection& made, double least_share) {
     if (made.timing || made.chosen.estimation.is_noise() ||
         made.chosen.estimation.unexplained_error() > options_.largest_timing_error) {
-      return;
+      return false;
     }
     TorqueTiming timing = torque_timing(problem_, made.chosen.fit);
-    if (timing.share < options_.least_timing_share) return;
+    if (timing.share < least_share) return false;
     problem_.replace_torques(retimed(problem_.experiment(), timing));
     made.timing = std::move(timing);
     // Once more from there: what the first step was too long for, and the runs for validation.
@@ -145,6 +153,7 @@ class Search {
         retimed(problem_.experiment(), torque_timing(problem_, made.chosen.fit)));
     problem_.lower_noise(made.chosen.fit.candidate);
     refit(made);
+    return true;
   }
 
   Explanation fitted(const Candidate& start) const {
@@ -253,7 +262,7 @@ class Search {
   void extend(Selection& made) {
     const Explanation single = simplest(made.singles);
     if (deserves(single, made.nothing)) made.chosen = single;
-    correct_timing(made);
+    correct_timing(made, kSureTiming);
     for (int round = 0; round < kMostRounds && !is_enough(made); ++round) {
       const std::size_t causes = std::max<std::size_t>(made.chosen.fit.candidate.effects.size(), 1);
       if (static_cast<int>(causes) == options_.most_causes) return;
@@ -267,7 +276,7 @@ class Search {
       if (work_.is_cancelled() || !deserves(best, made.chosen)) return;
       if (best.fit.candidate.effects.size() == 1) replace_single(made, best);
       made.chosen = exchanged(made, best);
-      correct_timing(made);
+      correct_timing(made, kSureTiming);
     }
   }
 

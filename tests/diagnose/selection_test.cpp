@@ -101,5 +101,17 @@ TEST(Selection, ExchangesACauseThatStandsInThePlaceOfAnother) {
   }
 }
 
+TEST(Selection, DoesNotTakeASmallEffectForTheTimingOfTheTorque) {
+  // Which a fraction of a sample in each fortieth of a run goes along with for a good part.
+  const Experiment experiment =
+      simulated_experiment({{"hub_inertia", {{{"factor", 1.004}}, ""}}}, {.duration_s = 3.0});
+  Problem problem(experiment);
+  const Selection made =
+      select(problem, named(experiment, {"hub_inertia", "flexural_rigidity", "torque_gain"}), {});
+  EXPECT_FALSE(made.timing);
+  ASSERT_EQ(made.chosen.fit.candidate.label(), "hub_inertia");
+  EXPECT_NEAR(made.chosen.fit.candidate.values[0], 1.004, 1e-4);
+}
+
 }  // namespace
 }  // namespace flexarm::diagnose

@@ -20,9 +20,11 @@ class ReportedWork {
   explicit ReportedWork(const DiagnosisProgress& progress) : progress_(progress) {}
 
   bool is_cancelled() const { return cancelled_; }
+  double done() const { return done_; }  ///< the fraction that was told last
 
   /// False when the work was cancelled, now or before.
   bool tell(std::string_view what, double fraction) {
+    done_ = fraction;
     if (progress_ && !progress_(what, fraction)) cancelled_ = true;
     return !cancelled_;
   }
@@ -44,6 +46,7 @@ class ReportedWork {
  private:
   const DiagnosisProgress& progress_;
   std::atomic<bool> cancelled_ = false;
+  double done_ = 0.0;
 };
 
 }  // namespace flexarm::diagnose

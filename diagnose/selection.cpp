@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <set>
 #include <string>
@@ -36,9 +37,6 @@ constexpr std::size_t kShortSamples = 400;
 /// Modes that move in a first look.
 constexpr int kCoarseModes = 8;
 constexpr int kCoarseSubsteps = 2;
-/// Part of what is left that the timing of the torque must account for before other effects are
-/// tried: it goes along with a small effect of any kind for a good part of it.
-constexpr double kSureTiming = 0.9;
 /// Fraction of the work that is done with the effects by themselves.
 constexpr double kSinglesDone = 0.4;
 /// ... and when pairs of the best of them have been tried.
@@ -68,6 +66,20 @@ std::vector<std::vector<double>> samples_of(const Hypothesis& hypothesis) {
   return samples;
 }
 
+/// What a candidate's effects are, in whatever order: sensor_lag is another on each sensor.
+std::set<std::string> labels_of(const Candidate& candidate) {
+  std::set<std::string> labels;
+  for (const Hypothesis& effect : candidate.effects) labels.insert(effect.label());
+  return labels;
+}
+
+/// One that has another effect in the place of one of the other's.
+bool is_rival(const Candidate& one, const Candidate& other) {
+  const auto shared = std::ranges::count_if(
+      one.effects, [&](const Hypothesis& effect) { return other.has(effect); });
+  return one.effects.size() == other.effects.size() && shared + 1 == std::ssize(one.effects);
+}
+
 class Search {
  public:
   Search(Problem& problem, const std::vector<Hypothesis>& hypotheses,
@@ -86,7 +98,7 @@ class Search {
     made.nothing = fitted(problem_.as_filed());
     made.chosen = made.nothing;
     see_noise(made);
-    correct_timing(made, kSureTiming);
+    correct_timing(made, options_.sure_timing_share);
     if (is_enough(made)) return made;
     made.singles = all_with(made.nothing.fit.candidate, "effects one by one", 0.0, kSinglesDone,
                             kSinglesRefitted);
@@ -95,11 +107,15 @@ class Search {
       extend(made);
       if (correct_timing(made, options_.least_timing_share) && !is_enough(made)) {
         combined_.clear();
+        made.combinations.clear();
         extend(made);
       }
     }
     const bool is_single = made.chosen.fit.candidate.effects.size() == 1;
-    made.rivals = rivals_of(made.chosen, is_single ? made.singles : made.combinations);
+    std::ranges::copy_if(is_single ? made.singles : made.combinations,
+                         std::back_inserter(made.rivals), [&](const Explanation& other) {
+                           return is_rival(other.fit.candidate, made.chosen.fit.candidate);
+                         });
     made.cancelled = work_.is_cancelled();
     return made;
   }
@@ -135,9 +151,8 @@ class Search {
     return is_explained(made.chosen.estimation, made.nothing.estimation, options_);
   }
 
-  /// Where a little is left of which the timing of the torque explains most: the torques as that
-  /// timing has them, and what has been fitted once more.
-  /// Returns whether they were.
+  /// Where a little is left of which the timing of the torque explains `least_share`: the torques
+  /// as that timing has them, and what has been fitted once more. Returns whether that was so.
   bool correct_timing(Selection& made, double least_share) {
     if (made.timing || made.chosen.estimation.is_noise() ||
         made.chosen.estimation.unexplained_error() > options_.largest_timing_error) {
@@ -247,36 +262,34 @@ class Search {
     return share_taken(simpler.validation, fuller.validation) >= options_.least_validated_share;
   }
 
-  /// The first of `found`, or one with fewer parameters that it has no right to stand before.
-  const Explanation& simplest(const std::vector<Explanation>& found) const {
-    const Explanation* best = &found.front();
+  /// Of those of `found` with so many effects the first, or one with fewer parameters that it has
+  /// no right to stand before; null where there are none.
+  const Explanation* simplest(const std::vector<Explanation>& found, std::size_t effects) const {
+    const Explanation* best = nullptr;
     for (const Explanation& other : found) {
-      if (other.fit.candidate.values.size() < best->fit.candidate.values.size() &&
-          !deserves(*best, other)) {
-        best = &other;
-      }
+      if (other.fit.candidate.effects.size() != effects) continue;
+      const bool is_simpler =
+          best != nullptr && other.fit.candidate.values.size() < best->fit.candidate.values.size();
+      if (best == nullptr || (is_simpler && !deserves(*best, other))) best = &other;
     }
-    return *best;
+    return best;
   }
 
   void extend(Selection& made) {
-    const Explanation single = simplest(made.singles);
-    if (deserves(single, made.nothing)) made.chosen = single;
-    correct_timing(made, kSureTiming);
+    const Explanation* single = simplest(made.singles, 1);
+    if (deserves(*single, made.nothing)) made.chosen = *single;
+    correct_timing(made, options_.sure_timing_share);
     for (int round = 0; round < kMostRounds && !is_enough(made); ++round) {
       const std::size_t causes = std::max<std::size_t>(made.chosen.fit.candidate.effects.size(), 1);
       if (static_cast<int>(causes) == options_.most_causes) return;
       combine_further(made);
-      std::vector<Explanation> larger = made.combinations;
-      std::erase_if(larger, [&](const Explanation& combination) {
-        return combination.fit.candidate.effects.size() != causes + 1;
-      });
-      if (larger.empty() || work_.is_cancelled()) return;
-      const Explanation best = needed(exchanged(made, simplest(larger)));
+      const Explanation* larger = simplest(made.combinations, causes + 1);
+      if (larger == nullptr || work_.is_cancelled()) return;
+      const Explanation best = needed(exchanged(made, *larger));
       if (work_.is_cancelled() || !deserves(best, made.chosen)) return;
       if (best.fit.candidate.effects.size() == 1) replace_single(made, best);
       made.chosen = exchanged(made, best);
-      correct_timing(made, kSureTiming);
+      correct_timing(made, options_.sure_timing_share);
     }
   }
 
@@ -294,26 +307,30 @@ class Search {
   /// of two causes need not be the best by itself.
   void combine_further(Selection& made) {
     if (made.chosen.fit.candidate.effects.size() > 1) {
-      combine(made, made.chosen.fit.candidate, "further effects", kPairsDone, 1.0);
+      combine(made, made.chosen.fit.candidate, "further effects", halfway());
       return;
     }
     const std::size_t bases = std::min(kPairBases, made.singles.size());
     const double step = (kPairsDone - kSinglesDone) / static_cast<double>(bases);
     for (std::size_t b = 0; b < bases; ++b) {
-      const double from = kSinglesDone + step * static_cast<double>(b);
-      combine(made, made.singles[b].fit.candidate, "pairs of effects", from, from + step);
+      combine(made, made.singles[b].fit.candidate, "pairs of effects",
+              kSinglesDone + step * static_cast<double>(b + 1));
     }
   }
 
-  /// `base` with any other effect, among the combinations; nothing where these are there.
-  void combine(Selection& made, const Candidate& base, std::string_view what, double from,
-               double to) {
-    std::vector<std::string> labels;
-    for (const Hypothesis& effect : base.effects) labels.push_back(effect.label());
-    std::ranges::sort(labels);
-    if (!combined_.insert(labels).second) return;
-    for (Explanation& combination : all_with(base, what, from, to, kPairsRefitted)) {
-      made.combinations.push_back(std::move(combination));
+  /// `base` with any other effect, among the combinations; nothing where these are there. Of the
+  /// same effects, begun from another, the better stays.
+  void combine(Selection& made, const Candidate& base, std::string_view what, double to) {
+    if (!combined_.insert(labels_of(base)).second) return;
+    for (Explanation& found : all_with(base, what, work_.done(), to, kPairsRefitted)) {
+      const auto same = std::ranges::find_if(made.combinations, [&](const Explanation& other) {
+        return labels_of(other.fit.candidate) == labels_of(found.fit.candidate);
+      });
+      if (same == made.combinations.end()) {
+        made.combinations.push_back(std::move(found));
+      } else if (found.fit.sum_of_squares < same->fit.sum_of_squares) {
+        *same = std::move(found);
+      }
     }
     sort_by_fit(made.combinations);
   }
@@ -339,30 +356,22 @@ class Search {
     for (int exchanges = 0; exchanges < kMostExchanges; ++exchanges) {
       const Candidate& candidate = best.fit.candidate;
       for (std::size_t i = 0; i < candidate.effects.size(); ++i) {
-        combine(made, candidate.without(i), "exchanged effects", kPairsDone, 1.0);
+        combine(made, candidate.without(i), "exchanged effects", halfway());
       }
-      const std::vector<Explanation> rivals = rivals_of(best, made.combinations);
-      if (rivals.empty() || lead(rivals.front(), best) < options_.least_information_gain) break;
-      best = rivals.front();
+      const auto first = std::ranges::find_if(made.combinations, [&](const Explanation& other) {
+        return is_rival(other.fit.candidate, candidate);
+      });
+      if (first == made.combinations.end() ||
+          lead(*first, best) < options_.least_information_gain) {
+        break;
+      }
+      best = *first;
     }
     return best;
   }
 
-  /// Those of `tried` that have another cause in the place of one of `explanation`.
-  static std::vector<Explanation> rivals_of(const Explanation& explanation,
-                                            const std::vector<Explanation>& tried) {
-    const std::vector<Hypothesis>& effects = explanation.fit.candidate.effects;
-    std::vector<Explanation> rivals;
-    for (const Explanation& other : tried) {
-      const auto shared = std::ranges::count_if(
-          effects, [&](const Hypothesis& effect) { return other.fit.candidate.has(effect); });
-      if (other.fit.candidate.effects.size() == effects.size() &&
-          shared + 1 == static_cast<std::ptrdiff_t>(effects.size())) {
-        rivals.push_back(other);
-      }
-    }
-    return rivals;
-  }
+  /// A stage whose length is not known takes half of the progress that is left.
+  double halfway() const { return 0.5 * (work_.done() + 1.0); }
 
   Problem& problem_;
   const std::vector<Hypothesis>& hypotheses_;
@@ -372,7 +381,7 @@ class Search {
   Experiment short_experiment_;
   Problem coarse_;
   Problem short_;
-  std::set<std::vector<std::string>> combined_;  // labels of what has been tried with any other
+  std::set<std::set<std::string>> combined_;  // labels of what has been tried with any other
 };
 
 }  // namespace

@@ -24,8 +24,10 @@ struct SelectionOptions {
   double negligible_error = 0.004;
   double negligible_share = 0.03;
   /// The timing of the torque (torque_timing.hpp) is looked into where this is left, and believed
-  /// where it accounts for this part of it.
+  /// where it accounts for this part of it: the greater before further effects are tried, for it
+  /// goes along with a small effect of any kind for a good part.
   double largest_timing_error = 0.03;
+  double sure_timing_share = 0.9;
   double least_timing_share = 0.5;
 };
 

@@ -96,12 +96,17 @@ std::vector<Cell> cells_of(const Results& results) {
   std::map<std::pair<std::string, double>, Results> sorted;
   for (const auto& one : results) sorted[{one.kind, one.noise}].push_back(one);
   std::vector<Cell> cells;
-  std::map<double, Results> by_noise;
   for (auto& [key, some] : sorted) {
-    auto& all = by_noise[key.second];
-    all.insert(all.end(), some.begin(), some.end());
     cells.push_back({fmt::format("{} {:g} %", key.first, 100.0 * key.second), std::move(some)});
   }
+  return cells;
+}
+
+/// Those of `cells_of`, then the kinds together.
+std::vector<Cell> cells_and_totals_of(const Results& results) {
+  std::vector<Cell> cells = cells_of(results);
+  std::map<double, Results> by_noise;
+  for (const auto& one : results) by_noise[one.noise].push_back(one);
   for (auto& [noise, some] : by_noise) {
     cells.push_back({fmt::format("all {:g} %", 100.0 * noise), std::move(some)});
   }
@@ -234,7 +239,7 @@ std::string faint_table(const Results& faint) {
   std::vector<std::string> found;
   std::vector<std::string> wrong;
   std::vector<std::string> silent;
-  for (const Cell& cell : cells_of(faint)) {
+  for (const Cell& cell : cells_and_totals_of(faint)) {
     const auto all = static_cast<int>(cell.results.size());
     titles.push_back(cell.title);
     found.push_back(part(count(cell.results, is_found), all));
@@ -271,7 +276,6 @@ std::string smallest_table(const std::vector<Cell>& cells) {
     if (!cause.outside) rows[cause.name];
   }
   for (const Cell& cell : cells) {
-    if (cell.title.starts_with("all")) continue;
     titles.push_back(cell.title);
     for (auto& [name, found] : rows) {
       const Results some = chosen(cell.results, [&](const TrialResult& one) {
@@ -304,9 +308,10 @@ std::string scorecard(const Results& results) {
   const Results faint = chosen(results, is_faint);
   const Results judged = chosen(results, [](const TrialResult& one) { return !is_faint(one); });
   return fmt::format("{}\n{}\n## What was said\n\n{}\n{}{}\n{}\n## Failures\n\n{}",
-                     fmt::format(kIntroduction, judged.size()), summary_table(cells_of(judged)),
-                     confusion_table(judged), kAboutSmallest, faint_table(faint),
-                     smallest_table(cells_of(results)), failure_list(judged));
+                     fmt::format(kIntroduction, judged.size()),
+                     summary_table(cells_and_totals_of(judged)), confusion_table(judged),
+                     kAboutSmallest, faint_table(faint), smallest_table(cells_of(results)),
+                     failure_list(judged));
 }
 
 }  // namespace flexarm::trials

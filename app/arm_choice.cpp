@@ -1,11 +1,11 @@
 #include "app/arm_choice.hpp"
 
 #include "app/command.hpp"
-#include "arm/arm_file.hpp"
 #include "arm/effects.hpp"
 #include "arm/formulation.hpp"
 #include "arm/input_error.hpp"
 #include "arm/linear_arm.hpp"
+#include "measured/files/arm_file.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -31,7 +31,7 @@ std::string describe_effect(const std::string& name, const arm::Effect& effect) 
 }
 
 arm::Arm read(const std::string& file) {
-  arm::Arm arm = arm::read_arm_file(file);
+  arm::Arm arm = measured::read_arm_file(file);
   try {
     arm::require_computable(arm);
   } catch (const arm::InputError& error) {

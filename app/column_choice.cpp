@@ -4,7 +4,7 @@
 #include "arm/input_error.hpp"
 #include "arm/nearest_name.hpp"
 #include "arm/number.hpp"
-#include "measured/column_name.hpp"
+#include "measured/files/column_name.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "measured/column_guess.hpp"
+#include "measured/files/column_guess.hpp"
 
 #include <span>
 #include <string>

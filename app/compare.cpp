@@ -2,16 +2,16 @@
 #include "app/command.hpp"
 #include "app/output_choice.hpp"
 #include "app/standard_output.hpp"
-#include "arm/atomic_file.hpp"
 #include "compare/comparison.hpp"
 #include "compare/measured.hpp"
-#include "measured/modal_table.hpp"
-#include "report/comparison_json.hpp"
-#include "report/comparison_plots.hpp"
-#include "report/comparison_tables.hpp"
-#include "report/csv.hpp"
+#include "measured/files/atomic_file.hpp"
+#include "measured/files/modal_table.hpp"
+#include "report/figures/comparison_plots.hpp"
+#include "report/json/comparison_json.hpp"
 #include "report/progress.hpp"
-#include "report/text_table.hpp"
+#include "report/tables/comparison_tables.hpp"
+#include "report/tables/csv.hpp"
+#include "report/tables/text_table.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -94,9 +94,9 @@ std::string comparison_text(const compare::Comparison& comparison,
 
 void write_folder(const fs::path& folder, const compare::Comparison& comparison,
                   const std::vector<compare::MeasuredRow>& measured) {
-  arm::make_folder(folder);
+  measured::make_folder(folder);
   const auto write_csv = [&](const char* name, const report::Table& table) {
-    arm::write_atomically(folder / name, report::to_csv(table));
+    measured::write_atomically(folder / name, report::to_csv(table));
   };
   write_csv("roots.csv", report::root_listing(comparison));
   write_csv("shapes.csv", report::shapes_listing(comparison));
@@ -107,7 +107,7 @@ void write_folder(const fs::path& folder, const compare::Comparison& comparison,
     write_csv("refinement.csv", report::refinement_listing(comparison));
   }
   for (const auto& [name, svg] : report::comparison_plots(comparison)) {
-    arm::write_atomically(folder / name, svg);
+    measured::write_atomically(folder / name, svg);
   }
 }
 
@@ -145,7 +145,7 @@ int run_compare(const CompareArguments& arguments) {
     results.push_back({comparison, rows});
   }
   if (!arguments.output.json_file.empty()) {
-    arm::write_atomically(arguments.output.json_file, report::comparison_json(results));
+    measured::write_atomically(arguments.output.json_file, report::comparison_json(results));
   }
   if (arms.size() > 1) {
     text += disagreeing == 0 ? fmt::format("All {} arms: agree.\n", arms.size())

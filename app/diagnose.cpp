@@ -4,20 +4,20 @@
 #include "app/folder_place.hpp"
 #include "app/interruption.hpp"
 #include "app/standard_output.hpp"
-#include "arm/arm_file.hpp"
-#include "arm/atomic_file.hpp"
 #include "arm/input_error.hpp"
 #include "diagnose/diagnosis.hpp"
 #include "diagnose/hypotheses/hypotheses.hpp"
-#include "report/csv.hpp"
-#include "report/diagnosis_figures.hpp"
-#include "report/diagnosis_json.hpp"
-#include "report/diagnosis_tables.hpp"
-#include "report/json_document.hpp"
-#include "report/plan_tables.hpp"
+#include "measured/files/arm_file.hpp"
+#include "measured/files/atomic_file.hpp"
+#include "report/figures/diagnosis_figures.hpp"
+#include "report/json/diagnosis_json.hpp"
+#include "report/json/json_document.hpp"
 #include "report/progress.hpp"
-#include "report/symptom_tables.hpp"
-#include "report/text_table.hpp"
+#include "report/tables/csv.hpp"
+#include "report/tables/diagnosis_tables.hpp"
+#include "report/tables/plan_tables.hpp"
+#include "report/tables/symptom_tables.hpp"
+#include "report/tables/text_table.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -134,10 +134,10 @@ std::string json_of(const diagnose::Diagnosis& diagnosis, const std::string& ext
                                report::diagnosis_json(diagnosis, extended_arm));
 }
 
-std::vector<arm::NamedContent> files_of(const diagnose::Diagnosis& diagnosis,
-                                        report::DiagnosisPlots plots) {
-  std::vector<arm::NamedContent> files = {
-      {kExtendedArm, arm::format_arm(diagnosis.extended_arm)},
+std::vector<measured::NamedContent> files_of(const diagnose::Diagnosis& diagnosis,
+                                             report::DiagnosisPlots plots) {
+  std::vector<measured::NamedContent> files = {
+      {kExtendedArm, measured::format_arm(diagnosis.extended_arm)},
       {"channels.csv", report::to_csv(report::channel_gain_table(diagnosis))},
       {"causes.csv", report::to_csv(report::cause_table(diagnosis))},
       {kDiagnosisJson, json_of(diagnosis, kExtendedArm)}};
@@ -162,13 +162,14 @@ std::string write_files(const DiagnoseArguments& arguments, const diagnose::Expe
   if (!arguments.folder.empty()) {
     report::DiagnosisPlots plots = report::diagnosis_plots(experiment, diagnosis);
     left_out = plots.left_out;
-    arm::write_folder_atomically(arguments.folder, files_of(diagnosis, std::move(plots)),
-                                 arguments.force ? arm::IfExists::replace : arm::IfExists::refuse);
+    measured::write_folder_atomically(
+        arguments.folder, files_of(diagnosis, std::move(plots)),
+        arguments.force ? measured::IfExists::replace : measured::IfExists::refuse);
   }
   if (!arguments.json_file.empty()) {
     const fs::path beside = extended_beside(arguments.json_file);
-    arm::write_atomically(beside, arm::format_arm(diagnosis.extended_arm));
-    arm::write_atomically(arguments.json_file, json_of(diagnosis, beside.filename().string()));
+    measured::write_atomically(beside, measured::format_arm(diagnosis.extended_arm));
+    measured::write_atomically(arguments.json_file, json_of(diagnosis, beside.filename().string()));
   }
   return left_out;
 }

@@ -25,9 +25,10 @@ std::string file_name(const std::string& name) {
 }
 
 /// The name, or with -2, -3, ... before its ending.
-std::string unused(const std::string& name, const std::vector<arm::NamedContent>& files) {
+std::string unused(const std::string& name, const std::vector<measured::NamedContent>& files) {
   std::string made = name;
-  for (int i = 2; std::ranges::find(files, made, &arm::NamedContent::name) != files.end(); ++i) {
+  for (int i = 2; std::ranges::find(files, made, &measured::NamedContent::name) != files.end();
+       ++i) {
     const std::size_t dot = name.rfind('.');
     made = fmt::format("{}-{}{}", name.substr(0, dot), i, name.substr(dot));
   }
@@ -36,7 +37,8 @@ std::string unused(const std::string& name, const std::vector<arm::NamedContent>
 
 }  // namespace
 
-void add_file(const std::string& name, std::string content, std::vector<arm::NamedContent>& files) {
+void add_file(const std::string& name, std::string content,
+              std::vector<measured::NamedContent>& files) {
   files.push_back({unused(file_name(name), files), std::move(content)});
 }
 

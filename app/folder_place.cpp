@@ -1,7 +1,7 @@
 #include "app/folder_place.hpp"
 
-#include "arm/atomic_file.hpp"
 #include "arm/input_error.hpp"
+#include "measured/files/atomic_file.hpp"
 
 #include <fmt/format.h>
 
@@ -43,7 +43,7 @@ void require_place(const std::string& folder, bool force, const FolderKind& kind
     return;
   }
   try {
-    arm::require_new_folder(folder);
+    measured::require_new_folder(folder);
   } catch (const arm::InputError& error) {
     throw arm::InputError(fmt::format("{}; --force replaces {}", error.what(), kind.what));
   }
@@ -53,7 +53,7 @@ void require_json_place(const std::string& json_file, const std::string& folder)
   if (json_file.empty()) return;
   const bool in_folder = !folder.empty() && fs::weakly_canonical(json_file).parent_path() ==
                                                 fs::weakly_canonical(folder);
-  if (!in_folder) arm::require_writable(json_file);
+  if (!in_folder) measured::require_writable(json_file);
 }
 
 void require_no_input(const std::string& option, const fs::path& file,

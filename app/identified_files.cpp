@@ -1,12 +1,12 @@
 #include "app/identified_files.hpp"
 
 #include "app/file_names.hpp"
-#include "arm/atomic_file.hpp"
-#include "measured/frequency_record.hpp"
-#include "report/csv.hpp"
-#include "report/identification_plots.hpp"
-#include "report/identification_tables.hpp"
-#include "report/identified_root_tables.hpp"
+#include "measured/files/atomic_file.hpp"
+#include "measured/files/frequency_record.hpp"
+#include "report/figures/identification_plots.hpp"
+#include "report/tables/csv.hpp"
+#include "report/tables/identification_tables.hpp"
+#include "report/tables/identified_root_tables.hpp"
 
 #include <fmt/format.h>
 
@@ -46,10 +46,10 @@ FolderKind identified_folder_kind() {
   return {"an identification", kIdentifiedJson, {".csv", ".svg", ".json"}};
 }
 
-std::vector<arm::NamedContent> identified_files(
+std::vector<measured::NamedContent> identified_files(
     const measured::Identification& identification,
     const std::vector<compare::IdentifiedCondition>& conditions) {
-  std::vector<arm::NamedContent> files;
+  std::vector<measured::NamedContent> files;
   const auto add = [&](const std::string& name, std::string content) {
     add_file(name, std::move(content), files);
   };

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "app/folder_place.hpp"
-#include "arm/atomic_file.hpp"
 #include "compare/identification.hpp"
+#include "measured/files/atomic_file.hpp"
 #include "measured/identification.hpp"
 
 #include <string>
@@ -19,7 +19,7 @@ FolderKind identified_folder_kind();
 /// What was identified as files: a modal table of each method and run, or runs of a fit, in the
 /// order of the analytical roots; each `time` run's response as a frequency record; tables as CSV;
 /// figures. Characters that do not belong in a file's name are '_'; no two have one name.
-std::vector<arm::NamedContent> identified_files(
+std::vector<measured::NamedContent> identified_files(
     const measured::Identification& identification,
     const std::vector<compare::IdentifiedCondition>& conditions);
 

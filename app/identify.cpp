@@ -4,21 +4,21 @@
 #include "app/interruption.hpp"
 #include "app/spectrum_choice.hpp"
 #include "app/standard_output.hpp"
-#include "arm/arm_file.hpp"
-#include "arm/atomic_file.hpp"
 #include "arm/input_error.hpp"
 #include "arm/nearest_name.hpp"
 #include "arm/range.hpp"
 #include "compare/identification.hpp"
+#include "measured/files/arm_file.hpp"
+#include "measured/files/atomic_file.hpp"
 #include "measured/identification.hpp"
-#include "report/arm_json.hpp"
-#include "report/gnuplot.hpp"
-#include "report/identification_json.hpp"
-#include "report/identification_tables.hpp"
-#include "report/identified_root_tables.hpp"
-#include "report/json_document.hpp"
+#include "report/figures/gnuplot.hpp"
+#include "report/json/arm_json.hpp"
+#include "report/json/identification_json.hpp"
+#include "report/json/json_document.hpp"
 #include "report/progress.hpp"
-#include "report/text_table.hpp"
+#include "report/tables/identification_tables.hpp"
+#include "report/tables/identified_root_tables.hpp"
+#include "report/tables/text_table.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -262,16 +262,17 @@ void write_files(const IdentifyArguments& arguments, const std::string& measurem
   if (!arguments.folder.empty()) {
     auto files = identified_files(identification, conditions);
     files.push_back({kIdentifiedJson, json});
-    arm::write_folder_atomically(arguments.folder, files,
-                                 arguments.force ? arm::IfExists::replace : arm::IfExists::refuse);
+    measured::write_folder_atomically(
+        arguments.folder, files,
+        arguments.force ? measured::IfExists::replace : measured::IfExists::refuse);
   }
-  if (!arguments.json_file.empty()) arm::write_atomically(arguments.json_file, json);
+  if (!arguments.json_file.empty()) measured::write_atomically(arguments.json_file, json);
 }
 
 int run_identify(const IdentifyArguments& arguments) {
   const measured::Measurement measurement = measured::read_measurement(arguments.file);
   const fs::path arm_file = measured::beside(arguments.file, measurement.arm);
-  const arm::Arm arm = arm::read_arm_file(arm_file);
+  const arm::Arm arm = measured::read_arm_file(arm_file);
   arm::require_valid(arm);
   const auto options = options_of(arguments, arm);
   std::vector<measured::MeasuredRun> runs;

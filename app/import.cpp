@@ -5,15 +5,15 @@
 #include "app/standard_output.hpp"
 #include "app/starter_arm.hpp"
 #include "app/word.hpp"
-#include "arm/arm_file.hpp"
-#include "arm/atomic_file.hpp"
 #include "arm/input_error.hpp"
 #include "arm/nearest_name.hpp"
 #include "arm/range.hpp"
-#include "arm/text_file.hpp"
-#include "measured/record_export.hpp"
-#include "report/json_document.hpp"
-#include "report/text_table.hpp"
+#include "measured/files/arm_file.hpp"
+#include "measured/files/atomic_file.hpp"
+#include "measured/files/record_export.hpp"
+#include "measured/files/text_file.hpp"
+#include "report/json/json_document.hpp"
+#include "report/tables/text_table.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -95,7 +95,7 @@ std::string csv_text(const measured::RunData& data) {
 
 void write_record(const measured::RunData& data, const fs::path& path, RecordFormat format) {
   if (format == RecordFormat::csv) {
-    arm::write_atomically(path, csv_text(data));
+    measured::write_atomically(path, csv_text(data));
     return;
   }
   const auto write = [&](const auto& record) {
@@ -180,8 +180,8 @@ measured::Run planned_run(const ImportArguments& arguments) {
 std::string arm_text(const ImportArguments& arguments) {
   if (arguments.arm_file.empty()) return starter_text();
   constexpr std::size_t kLargestArm_bytes = 1 << 20;
-  arm::require_valid(arm::read_arm_file(arguments.arm_file));
-  return arm::read_text_file(arguments.arm_file, kLargestArm_bytes);
+  arm::require_valid(measured::read_arm_file(arguments.arm_file));
+  return measured::read_text_file(arguments.arm_file, kLargestArm_bytes);
 }
 
 std::string json_text(const ImportArguments& arguments, const ImportedRun& run) {
@@ -235,16 +235,17 @@ int run_import(const ImportArguments& arguments) {
   if (!arguments.folder.empty()) {
     const std::string name = arguments.name.empty() ? planned.id : arguments.name;
     const measured::Measurement measurement{name, "arm.toml", {planned}};
-    const std::vector<arm::NamedContent> files = {
+    const std::vector<measured::NamedContent> files = {
         {planned.file, csv_text(imported.data)},
         {"arm.toml", arm},
         {"measurement.toml", measured::format_measurement(measurement)}};
-    arm::write_folder_atomically(arguments.folder, files,
-                                 arguments.force ? arm::IfExists::replace : arm::IfExists::refuse);
+    measured::write_folder_atomically(
+        arguments.folder, files,
+        arguments.force ? measured::IfExists::replace : measured::IfExists::refuse);
   }
   if (format) write_record(imported.data, arguments.record_file, *format);
   if (!arguments.json_file.empty()) {
-    arm::write_atomically(arguments.json_file, json_text(arguments, imported));
+    measured::write_atomically(arguments.json_file, json_text(arguments, imported));
   }
   if (format) print(fmt::format("wrote {}\n", arm::shown(arguments.record_file)));
   if (arguments.folder.empty()) {

@@ -2,7 +2,7 @@
 
 #include "arm/input_error.hpp"
 #include "arm/range.hpp"
-#include "measured/universal_grid.hpp"
+#include "measured/files/universal_grid.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

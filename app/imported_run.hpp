@@ -1,8 +1,8 @@
 #pragma once
 
 #include "app/column_choice.hpp"
-#include "measured/foreign_file.hpp"
-#include "measured/run_data.hpp"
+#include "measured/files/foreign_file.hpp"
+#include "measured/files/run_data.hpp"
 
 #include <optional>
 #include <string>

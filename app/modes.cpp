@@ -3,16 +3,16 @@
 #include "app/formulation_choice.hpp"
 #include "app/output_choice.hpp"
 #include "app/standard_output.hpp"
-#include "arm/atomic_file.hpp"
 #include "arm/input_error.hpp"
 #include "arm/linear_arm.hpp"
 #include "compare/shapes.hpp"
 #include "exact_tf/certificate.hpp"
-#include "report/arm_json.hpp"
-#include "report/csv.hpp"
-#include "report/json_document.hpp"
-#include "report/modes_report.hpp"
-#include "report/text_table.hpp"
+#include "measured/files/atomic_file.hpp"
+#include "report/json/arm_json.hpp"
+#include "report/json/json_document.hpp"
+#include "report/tables/csv.hpp"
+#include "report/tables/modes_report.hpp"
+#include "report/tables/text_table.hpp"
 #include "response/settings.hpp"
 
 #include <CLI/CLI.hpp>
@@ -158,20 +158,21 @@ int run_modes(const ModesArguments& arguments) {
 
     if (!arguments.output.folder.empty()) {
       const fs::path folder = folder_of(arguments.output.folder, arm, arms.size());
-      arm::make_folder(folder);
-      arm::write_atomically(folder / "modes.csv",
-                            report::to_csv(report::poles_table(arm, summary)));
-      arm::write_atomically(folder / "damped_poles.csv",
-                            report::to_csv(report::damped_poles_table(summary)));
-      arm::write_atomically(folder / "zeros.csv", report::to_csv(report::zeros_table(summary)));
-      arm::write_atomically(folder / "shapes.csv",
-                            report::to_csv(report::shapes_over_x_table(summary)));
-      arm::write_atomically(folder / "shapes.svg", report::shapes_svg(chosen.name, summary));
+      measured::make_folder(folder);
+      measured::write_atomically(folder / "modes.csv",
+                                 report::to_csv(report::poles_table(arm, summary)));
+      measured::write_atomically(folder / "damped_poles.csv",
+                                 report::to_csv(report::damped_poles_table(summary)));
+      measured::write_atomically(folder / "zeros.csv",
+                                 report::to_csv(report::zeros_table(summary)));
+      measured::write_atomically(folder / "shapes.csv",
+                                 report::to_csv(report::shapes_over_x_table(summary)));
+      measured::write_atomically(folder / "shapes.svg", report::shapes_svg(chosen.name, summary));
     }
   }
   if (!arguments.output.json_file.empty()) {
-    arm::write_atomically(arguments.output.json_file,
-                          report::json_document("flexarm.modes/1", {{"arms", documents}}));
+    measured::write_atomically(arguments.output.json_file,
+                               report::json_document("flexarm.modes/1", {{"arms", documents}}));
   }
   if (!arguments.output.folder.empty()) text += fmt::format("wrote {}\n", arguments.output.folder);
   text += fmt::format("next: see the three formulations agree with  flexarm compare{}\n",

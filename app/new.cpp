@@ -1,10 +1,10 @@
 #include "app/command.hpp"
 #include "app/standard_output.hpp"
 #include "app/starter_arm.hpp"
-#include "arm/atomic_file.hpp"
 #include "arm/input_error.hpp"
-#include "report/arm_json.hpp"
-#include "report/json_document.hpp"
+#include "measured/files/atomic_file.hpp"
+#include "report/json/arm_json.hpp"
+#include "report/json/json_document.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -26,9 +26,9 @@ int write_starter(const fs::path& path, bool force, const std::string& json) {
     throw arm::InputError(
         fmt::format("{}: exists already; --force replaces it", arm::shown(path.string())));
   }
-  arm::write_atomically(path, starter_text());
+  measured::write_atomically(path, starter_text());
   if (!json.empty()) {
-    arm::write_atomically(
+    measured::write_atomically(
         json, report::json_document("flexarm.new/1", {{"file", path.string()},
                                                       {"arm", report::arm_json(starter_arm())}}));
   }

@@ -1,8 +1,8 @@
 #include "app/output_choice.hpp"
 
 #include "app/command.hpp"
-#include "arm/atomic_file.hpp"
-#include "report/gnuplot.hpp"
+#include "measured/files/atomic_file.hpp"
+#include "report/figures/gnuplot.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -11,10 +11,10 @@ namespace flexarm::app {
 void OutputChoice::prepare() const {
   if (!folder.empty()) {
     report::run_gnuplot("");  // throws where there is none
-    arm::make_folder(folder);
+    measured::make_folder(folder);
   }
   // The JSON may go into the folder.
-  if (!json_file.empty()) arm::require_writable(json_file);
+  if (!json_file.empty()) measured::require_writable(json_file);
 }
 
 void add_output_choice(CLI::App& parser, OutputChoice& choice, const std::string& content) {

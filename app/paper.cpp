@@ -1,12 +1,12 @@
 #include "app/command.hpp"
 #include "app/standard_output.hpp"
-#include "arm/atomic_file.hpp"
 #include "arm/input_error.hpp"
-#include "compare/paper_topics.hpp"
-#include "report/csv.hpp"
-#include "report/paper_json.hpp"
-#include "report/paper_markdown.hpp"
-#include "report/paper_tables.hpp"
+#include "compare/paper/paper_topics.hpp"
+#include "measured/files/atomic_file.hpp"
+#include "report/json/paper_json.hpp"
+#include "report/tables/csv.hpp"
+#include "report/tables/paper_markdown.hpp"
+#include "report/tables/paper_tables.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -31,11 +31,11 @@ struct PaperArguments {
 };
 
 void write_folder(const fs::path& folder, const compare::paper::Findings& findings) {
-  arm::write_atomically(folder / "comparisons.csv",
-                        report::to_csv(report::paper_listing(findings)));
-  arm::write_atomically(folder / "cells.csv", report::to_csv(report::paper_cells(findings)));
-  arm::write_atomically(folder / "paper.json", report::paper_json(findings));
-  arm::write_atomically(folder / "paper.txt", report::paper_text(findings, ""));
+  measured::write_atomically(folder / "comparisons.csv",
+                             report::to_csv(report::paper_listing(findings)));
+  measured::write_atomically(folder / "cells.csv", report::to_csv(report::paper_cells(findings)));
+  measured::write_atomically(folder / "paper.json", report::paper_json(findings));
+  measured::write_atomically(folder / "paper.txt", report::paper_text(findings, ""));
 }
 
 void update_document(const std::string& path, const compare::paper::Findings& findings) {
@@ -43,15 +43,15 @@ void update_document(const std::string& path, const compare::paper::Findings& fi
   if (!file) throw arm::InputError(fmt::format("{}: cannot be read", path));
   const std::string document{std::istreambuf_iterator<char>(file), {}};
   try {
-    arm::write_atomically(path, report::updated_paper_document(document, findings));
+    measured::write_atomically(path, report::updated_paper_document(document, findings));
   } catch (const arm::InputError& error) {
     throw arm::located(error, path, 0);
   }
 }
 
 int run_paper(const PaperArguments& arguments) {
-  if (!arguments.out.empty()) arm::make_folder(arguments.out);
-  if (!arguments.json.empty()) arm::require_writable(arguments.json);
+  if (!arguments.out.empty()) measured::make_folder(arguments.out);
+  if (!arguments.json.empty()) measured::require_writable(arguments.json);
   const auto findings = compare::paper::check_paper();
   const std::string text = report::paper_text(findings, arguments.part);
   if (text.empty()) {
@@ -59,7 +59,8 @@ int run_paper(const PaperArguments& arguments) {
         "no part \"{}\": give the number of an equation (22), or a word of a heading (\"Table 6\")",
         arguments.part));
   }
-  if (!arguments.json.empty()) arm::write_atomically(arguments.json, report::paper_json(findings));
+  if (!arguments.json.empty())
+    measured::write_atomically(arguments.json, report::paper_json(findings));
   if (!arguments.out.empty()) write_folder(arguments.out, findings);
   if (!arguments.document.empty()) update_document(arguments.document, findings);
   print(text);

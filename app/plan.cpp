@@ -5,18 +5,18 @@
 #include "app/folder_place.hpp"
 #include "app/interruption.hpp"
 #include "app/standard_output.hpp"
-#include "arm/arm_file.hpp"
-#include "arm/atomic_file.hpp"
 #include "arm/input_error.hpp"
-#include "report/csv.hpp"
-#include "report/gnuplot.hpp"
-#include "report/json_document.hpp"
-#include "report/plan_json.hpp"
-#include "report/plan_tables.hpp"
+#include "measured/files/arm_file.hpp"
+#include "measured/files/atomic_file.hpp"
+#include "report/figures/gnuplot.hpp"
+#include "report/figures/separation_figure.hpp"
+#include "report/figures/svg.hpp"
+#include "report/json/json_document.hpp"
+#include "report/json/plan_json.hpp"
 #include "report/progress.hpp"
-#include "report/separation_figure.hpp"
-#include "report/svg.hpp"
-#include "report/text_table.hpp"
+#include "report/tables/csv.hpp"
+#include "report/tables/plan_tables.hpp"
+#include "report/tables/text_table.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -76,7 +76,7 @@ void prepare_outputs(const PlanArguments& arguments) {
 }
 
 diagnose::Plan plan_with_progress(const PlanArguments& arguments) {
-  const arm::Arm arm = arm::read_arm_file(arguments.arm_file);
+  const arm::Arm arm = measured::read_arm_file(arguments.arm_file);
   const auto planned = diagnose::read_measurement_plan(arguments.plan_file);
   const auto possible = diagnose::hypotheses_of(arm, planned);
   const auto hypotheses = chosen_hypotheses(arguments.effects, possible);
@@ -118,18 +118,19 @@ void write_plan(const PlanArguments& arguments, const diagnose::Plan& plan) {
   const std::string better = diagnose::format_measurement_plan(plan.better);
   const std::string json = report::json_document("flexarm.plan/1", report::plan_json(plan));
   if (!arguments.folder.empty()) {
-    const std::vector<arm::NamedContent> files = {
+    const std::vector<measured::NamedContent> files = {
         {"effects.csv", report::to_csv(report::detection_table(plan))},
         {"separations.csv", report::to_csv(report::separation_table(plan))},
         {"leads.csv", report::to_csv(report::lead_table(plan))},
         {"separations.svg", report::to_svg(report::separation_figure(plan))},
         {kBetterPlan, better},
         {kPlanJson, json}};
-    arm::write_folder_atomically(arguments.folder, files,
-                                 arguments.force ? arm::IfExists::replace : arm::IfExists::refuse);
+    measured::write_folder_atomically(
+        arguments.folder, files,
+        arguments.force ? measured::IfExists::replace : measured::IfExists::refuse);
   }
-  if (!arguments.better_file.empty()) arm::write_atomically(arguments.better_file, better);
-  if (!arguments.json_file.empty()) arm::write_atomically(arguments.json_file, json);
+  if (!arguments.better_file.empty()) measured::write_atomically(arguments.better_file, better);
+  if (!arguments.json_file.empty()) measured::write_atomically(arguments.json_file, json);
 }
 
 int run_plan(const PlanArguments& arguments) {

@@ -4,17 +4,17 @@
 #include "app/output_choice.hpp"
 #include "app/standard_output.hpp"
 #include "app/state_space_file.hpp"
-#include "arm/atomic_file.hpp"
 #include "arm/input_error.hpp"
-#include "report/arm_json.hpp"
-#include "report/csv.hpp"
-#include "report/json_document.hpp"
-#include "report/modes_report.hpp"
-#include "report/response_json.hpp"
-#include "report/response_plots.hpp"
-#include "report/response_tables.hpp"
-#include "report/text_table.hpp"
-#include "response/response_study.hpp"
+#include "measured/files/atomic_file.hpp"
+#include "report/figures/response_plots.hpp"
+#include "report/json/arm_json.hpp"
+#include "report/json/json_document.hpp"
+#include "report/json/response_json.hpp"
+#include "report/tables/csv.hpp"
+#include "report/tables/modes_report.hpp"
+#include "report/tables/response_tables.hpp"
+#include "report/tables/text_table.hpp"
+#include "response/frequency/response_study.hpp"
 #include "response/settings.hpp"
 
 #include <CLI/CLI.hpp>
@@ -117,9 +117,9 @@ std::string study_text(const response::ResponseStudy& study,
 
 void write_folder(const fs::path& folder, const std::string& formulation,
                   const response::ResponseStudy& study) {
-  arm::make_folder(folder);
+  measured::make_folder(folder);
   const auto write_csv = [&](const std::string& name, const report::Table& table) {
-    arm::write_atomically(folder / name, report::to_csv(table));
+    measured::write_atomically(folder / name, report::to_csv(table));
   };
   write_csv("poles.csv", report::response_poles_table(study, study.poles.omega_rad_per_s.size()));
   write_csv("response.csv", report::response_listing(study.response));
@@ -129,7 +129,7 @@ void write_folder(const fs::path& folder, const std::string& formulation,
               report::factors_table(study, k));
   }
   for (const auto& [name, svg] : report::response_plots(formulation, study)) {
-    arm::write_atomically(folder / name, svg);
+    measured::write_atomically(folder / name, svg);
   }
 }
 
@@ -199,8 +199,8 @@ int run_response(const ResponseArguments& arguments) {
     }
   }
   if (!arguments.output.json_file.empty()) {
-    arm::write_atomically(arguments.output.json_file,
-                          report::json_document("flexarm.response/1", {{"arms", documents}}));
+    measured::write_atomically(arguments.output.json_file,
+                               report::json_document("flexarm.response/1", {{"arms", documents}}));
   }
   text += next_step(arguments);
   print(text);

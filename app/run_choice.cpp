@@ -5,7 +5,7 @@
 #include "arm/nearest_name.hpp"
 #include "arm/number.hpp"
 #include "arm/range.hpp"
-#include "measured/time_record.hpp"
+#include "measured/files/time_record.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

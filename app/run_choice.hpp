@@ -1,9 +1,9 @@
 #pragma once
 
 #include "app/arm_choice.hpp"
-#include "measured/measurement.hpp"
-#include "response/excitation_keys.hpp"
-#include "response/stepped_sine.hpp"
+#include "measured/files/measurement.hpp"
+#include "response/excitation/excitation_keys.hpp"
+#include "response/time/stepped_sine.hpp"
 
 #include <optional>
 #include <string>

@@ -2,7 +2,7 @@
 
 #include "arm/arm.hpp"
 #include "arm/sensor.hpp"
-#include "response/sensor_imperfections.hpp"
+#include "response/time/sensor_imperfections.hpp"
 
 #include <string>
 #include <vector>

@@ -5,10 +5,10 @@
 #include "app/standard_output.hpp"
 #include "arm/input_error.hpp"
 #include "arm/nearest_name.hpp"
-#include "report/arm_json.hpp"
-#include "report/gnuplot.hpp"
-#include "report/json_document.hpp"
-#include "report/text_table.hpp"
+#include "report/figures/gnuplot.hpp"
+#include "report/json/arm_json.hpp"
+#include "report/json/json_document.hpp"
+#include "report/tables/text_table.hpp"
 #include "response/settings.hpp"
 
 #include <CLI/CLI.hpp>
@@ -236,12 +236,12 @@ int run_simulate(SimulateArguments arguments) {
   if (!arguments.folder.empty()) {
     const std::string otherwise = arm.name.empty() ? "simulated" : arm.name + ", simulated";
     const std::string name = arguments.name.empty() ? otherwise : arguments.name;
-    arm::write_folder_atomically(arguments.folder,
-                                 measurement_folder(name, written, plan, experiment, options.hold),
-                                 arguments.force ? arm::IfExists::replace : arm::IfExists::refuse);
+    measured::write_folder_atomically(
+        arguments.folder, measurement_folder(name, written, plan, experiment, options.hold),
+        arguments.force ? measured::IfExists::replace : measured::IfExists::refuse);
   }
   if (!arguments.json_file.empty()) {
-    arm::write_atomically(arguments.json_file, json_text(arguments, arm, experiment));
+    measured::write_atomically(arguments.json_file, json_text(arguments, arm, experiment));
   }
   print(describe(arm));
   print_results(arguments, plan, experiment, !response::take_apart(arm).friction.is_zero());

@@ -1,11 +1,11 @@
 #include "app/simulated_experiment.hpp"
 
-#include "arm/arm_file.hpp"
 #include "arm/input_error.hpp"
-#include "measured/measurement.hpp"
+#include "measured/files/arm_file.hpp"
+#include "measured/files/measurement.hpp"
 #include "report/progress.hpp"
-#include "response/step_check.hpp"
-#include "response/time_model.hpp"
+#include "response/time/step_check.hpp"
+#include "response/time/time_model.hpp"
 
 #include <fmt/format.h>
 
@@ -194,13 +194,13 @@ SimulatedExperiment simulate_experiment(const arm::Arm& arm, const std::vector<P
   return experiment;
 }
 
-std::vector<arm::NamedContent> measurement_folder(const std::string& name,
-                                                  const arm::Arm& written_arm,
-                                                  const std::vector<PlannedRun>& plan,
-                                                  const SimulatedExperiment& experiment,
-                                                  response::TorqueHold hold) {
+std::vector<measured::NamedContent> measurement_folder(const std::string& name,
+                                                       const arm::Arm& written_arm,
+                                                       const std::vector<PlannedRun>& plan,
+                                                       const SimulatedExperiment& experiment,
+                                                       response::TorqueHold hold) {
   measured::Measurement measurement{name, "arm.toml", {}};
-  std::vector<arm::NamedContent> files;
+  std::vector<measured::NamedContent> files;
   auto in_time = experiment.runs.begin();
   auto stepped = experiment.stepped_runs.begin();
   for (const auto& planned : plan) {
@@ -226,7 +226,7 @@ std::vector<arm::NamedContent> measurement_folder(const std::string& name,
     }
     measurement.runs.push_back(std::move(entry));
   }
-  files.push_back({"arm.toml", arm::format_arm(written_arm)});
+  files.push_back({"arm.toml", measured::format_arm(written_arm)});
   files.push_back({"measurement.toml", measured::format_measurement(measurement)});
   return files;
 }

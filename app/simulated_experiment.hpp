@@ -3,9 +3,9 @@
 #include "app/formulation_choice.hpp"
 #include "app/run_choice.hpp"
 #include "app/sensor_choice.hpp"
-#include "arm/atomic_file.hpp"
-#include "report/simulation_report.hpp"
-#include "report/stepped_sine_report.hpp"
+#include "measured/files/atomic_file.hpp"
+#include "report/tables/simulation_report.hpp"
+#include "report/tables/stepped_sine_report.hpp"
 
 #include <cstdint>
 #include <string>
@@ -41,10 +41,10 @@ SimulatedExperiment simulate_experiment(const arm::Arm& arm, const std::vector<P
 
 /// The files of the experiment's measurement folder: measurement.toml, arm.toml with `written_arm`,
 /// a CSV file and a figure for each run, of a stepped sine a figure a sensor.
-std::vector<arm::NamedContent> measurement_folder(const std::string& name,
-                                                  const arm::Arm& written_arm,
-                                                  const std::vector<PlannedRun>& plan,
-                                                  const SimulatedExperiment& experiment,
-                                                  response::TorqueHold hold);
+std::vector<measured::NamedContent> measurement_folder(const std::string& name,
+                                                       const arm::Arm& written_arm,
+                                                       const std::vector<PlannedRun>& plan,
+                                                       const SimulatedExperiment& experiment,
+                                                       response::TorqueHold hold);
 
 }  // namespace flexarm::app

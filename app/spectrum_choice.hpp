@@ -1,7 +1,7 @@
 #pragma once
 
-#include "measured/peaks.hpp"
-#include "measured/spectrum_settings.hpp"
+#include "measured/modal/peaks.hpp"
+#include "measured/spectra/spectrum_settings.hpp"
 
 #include <optional>
 #include <string>

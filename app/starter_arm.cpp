@@ -1,8 +1,8 @@
 #include "app/starter_arm.hpp"
 
-#include "arm/arm_file.hpp"
 #include "arm/arm_keys.hpp"
 #include "arm/effects.hpp"
+#include "measured/files/arm_file.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -32,7 +32,7 @@ void append_key(std::string& out, const arm::ArmKey& key, const arm::Arm& starte
   const auto value = key.get(starter);
   const bool given = key.required || (value && value != key.default_value());
   const std::string line = fmt::format("{}{} = {}", given ? "" : "# ", key.leaf,
-                                       arm::toml_number(given ? *value : *key.get(example)));
+                                       measured::toml_number(given ? *value : *key.get(example)));
   const auto otherwise = key.default_value();
   fmt::format_to(std::back_inserter(out), "{:<28} # [{}] {}{}\n", line, key.unit, key.meaning,
                  key.required || !otherwise ? "" : fmt::format("; {} if not given", *otherwise));
@@ -80,7 +80,7 @@ std::string starter_text() {
       "is\n"
       "# optional, with an example value: take the # away to give it.\n"
       "name = {}\n",
-      arm::toml_string(starter.name));
+      measured::toml_string(starter.name));
   for (const auto& table : arm::arm_tables()) {
     out += fmt::format("\n[{}]\n", table);
     for (const auto& key : arm::arm_keys()) {

@@ -1,10 +1,10 @@
 #include "app/state_space_file.hpp"
 
-#include "arm/atomic_file.hpp"
 #include "arm/input_error.hpp"
-#include "report/csv.hpp"
-#include "report/json_document.hpp"
-#include "report/state_space_export.hpp"
+#include "measured/files/atomic_file.hpp"
+#include "report/json/json_document.hpp"
+#include "report/tables/csv.hpp"
+#include "report/tables/state_space_export.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -19,7 +19,7 @@ void require_state_space_file(const std::filesystem::path& path) {
                     ".mat",
                     arm::shown(path.string())));
   }
-  arm::require_writable(path);
+  measured::require_writable(path);
 }
 
 void write_state_space(const response::ResponseStudy& study, const std::filesystem::path& path) {
@@ -27,9 +27,9 @@ void write_state_space(const response::ResponseStudy& study, const std::filesyst
   if (path.extension() == ".mat") {
     measured::write_mat_file(report::state_space_mat(exported), path);
   } else if (path.extension() == ".csv") {
-    arm::write_atomically(path, report::to_csv(report::state_space_listing(exported.system)));
+    measured::write_atomically(path, report::to_csv(report::state_space_listing(exported.system)));
   } else {
-    arm::write_atomically(
+    measured::write_atomically(
         path, report::json_document("flexarm.state_space/1", report::state_space_json(exported)));
   }
 }

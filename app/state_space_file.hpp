@@ -1,6 +1,6 @@
 #pragma once
 
-#include "response/response_study.hpp"
+#include "response/frequency/response_study.hpp"
 
 #include <filesystem>
 

@@ -4,17 +4,17 @@
 #include "app/output_choice.hpp"
 #include "app/standard_output.hpp"
 #include "app/version.hpp"
-#include "arm/atomic_file.hpp"
 #include "arm/input_error.hpp"
-#include "compare/paper_sweeps.hpp"
-#include "compare/sweep_result.hpp"
-#include "report/csv.hpp"
+#include "compare/paper/paper_sweeps.hpp"
+#include "compare/sweeps/sweep_result.hpp"
+#include "measured/files/atomic_file.hpp"
+#include "report/figures/svg.hpp"
+#include "report/figures/sweep_figures.hpp"
+#include "report/json/sweep_json.hpp"
 #include "report/progress.hpp"
-#include "report/svg.hpp"
-#include "report/sweep_figures.hpp"
-#include "report/sweep_json.hpp"
-#include "report/sweep_tables.hpp"
-#include "report/text_table.hpp"
+#include "report/tables/csv.hpp"
+#include "report/tables/sweep_tables.hpp"
+#include "report/tables/text_table.hpp"
 #include "response/arm_parts.hpp"
 #include "response/formulation_maker.hpp"
 
@@ -30,6 +30,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <tbb/global_control.h>
 #include <utility>
 #include <vector>
 
@@ -154,7 +155,6 @@ compare::SweepResult run_task(const compare::SweepTask& task, const SweepArgumen
                               const Interruption& interruption) {
   report::Progress progress("sweeping", static_cast<std::int64_t>(task.points()));
   compare::SweepRun run;
-  run.threads = arguments.threads;
   run.progress = [&progress] { progress.advance(); };
   run.stop = &interruption.requested();
   run.checkpoint = checkpoint_of(arguments.output);
@@ -201,20 +201,20 @@ void print_result(const compare::SweepResult& result, const arm::Arm& full_arm) 
 void write_figure(const fs::path& folder, int number, const compare::PaperSweep& figure,
                   const compare::SweepResult& result) {
   const std::string name = fmt::format("figure-{}", number);
-  arm::write_atomically(folder / (name + ".csv"), report::sweep_csv(result));
-  arm::write_atomically(folder / (name + ".svg"),
-                        report::to_svg(report::paper_sweep_figure(figure, result)));
+  measured::write_atomically(folder / (name + ".csv"), report::sweep_csv(result));
+  measured::write_atomically(folder / (name + ".svg"),
+                             report::to_svg(report::paper_sweep_figure(figure, result)));
 }
 
 void write_folder(const fs::path& folder, const compare::SweepResult& result) {
   constexpr auto kAll = std::numeric_limits<std::size_t>::max();
-  arm::write_atomically(folder / "sweep.csv", report::sweep_csv(result));
-  arm::write_atomically(folder / "events.csv",
-                        report::to_csv(report::sweep_events_table(result, kAll)));
-  arm::write_atomically(folder / "agreement.csv",
-                        report::to_csv(report::sweep_agreement_table(result)));
+  measured::write_atomically(folder / "sweep.csv", report::sweep_csv(result));
+  measured::write_atomically(folder / "events.csv",
+                             report::to_csv(report::sweep_events_table(result, kAll)));
+  measured::write_atomically(folder / "agreement.csv",
+                             report::to_csv(report::sweep_agreement_table(result)));
   for (const auto& [file, svg] : report::sweep_plots(result)) {
-    arm::write_atomically(folder / file, svg);
+    measured::write_atomically(folder / file, svg);
   }
 }
 
@@ -240,6 +240,11 @@ int run_sweep(const SweepArguments& arguments) {
                             fmt::format("from 1 to {}, or 0 for one a core", kMostThreads));
   }
   arm::require_in_range("--tolerance", arguments.tolerances.roots, "", arm::kPositive);
+  std::optional<tbb::global_control> limit;
+  if (arguments.threads > 0) {
+    limit.emplace(tbb::global_control::max_allowed_parallelism,
+                  static_cast<std::size_t>(arguments.threads));
+  }
   const auto checkpoint = checkpoint_of(arguments.output);
   if (arguments.resume && checkpoint.empty()) {
     throw arm::InputError("--resume: give the --out or --json of the interrupted sweep");
@@ -267,7 +272,7 @@ int run_sweep(const SweepArguments& arguments) {
     }
   }
   if (!arguments.output.json_file.empty()) {
-    arm::write_atomically(arguments.output.json_file, report::sweep_json(result));
+    measured::write_atomically(arguments.output.json_file, report::sweep_json(result));
   }
   if (!checkpoint.empty()) fs::remove(checkpoint);
   print_result(result, arguments.arm.arms().front());
@@ -309,7 +314,7 @@ Command add_sweep(CLI::App& program) {
       ->add_option("--tolerance", arguments->tolerances.roots,
                    "Poles and zeros agree within this, relative")
       ->capture_default_str();
-  parser->add_option("--threads", arguments->threads, "How many threads; 0: one a core")
+  parser->add_option("--threads", arguments->threads, "How many threads at most; 0: one a core")
       ->capture_default_str();
   parser->add_flag("--resume", arguments->resume,
                    "Go on from the checkpoint that an interrupted sweep left beside its output");

@@ -3,7 +3,7 @@
 //
 // modal_fit_benchmark [hour]
 #include "benchmarks/peak_memory.hpp"
-#include "measured/modal_fit.hpp"
+#include "measured/modal/modal_fit.hpp"
 #include "tests/fit_cases/fit_cases.hpp"
 
 #include <fmt/format.h>

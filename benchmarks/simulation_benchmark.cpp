@@ -2,8 +2,8 @@
 // smaller, for each kind of force.
 #include "benchmarks/simulation_case.hpp"
 #include "benchmarks/timing.hpp"
-#include "response/drag.hpp"
-#include "response/simulation.hpp"
+#include "response/time/drag.hpp"
+#include "response/time/simulation.hpp"
 
 #include <benchmark/benchmark.h>
 

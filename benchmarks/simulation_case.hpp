@@ -2,7 +2,7 @@
 
 #include "arm/formulation.hpp"
 #include "exact_tf/exact_arm.hpp"
-#include "response/simulation.hpp"
+#include "response/time/simulation.hpp"
 
 #include <cstddef>
 #include <random>

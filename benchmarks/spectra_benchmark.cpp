@@ -2,8 +2,8 @@
 // time, values a second.
 #include "benchmarks/spectra_case.hpp"
 #include "benchmarks/timing.hpp"
-#include "measured/period.hpp"
-#include "measured/response_estimate.hpp"
+#include "measured/spectra/period.hpp"
+#include "measured/spectra/response_estimate.hpp"
 
 #include <benchmark/benchmark.h>
 

@@ -2,9 +2,9 @@
 
 #include "arm/arm.hpp"
 #include "exact_tf/exact_arm.hpp"
-#include "measured/spectra.hpp"
-#include "measured/time_record.hpp"
-#include "response/simulation.hpp"
+#include "measured/files/time_record.hpp"
+#include "measured/spectra/spectra.hpp"
+#include "response/time/simulation.hpp"
 
 #include <cstddef>
 #include <random>

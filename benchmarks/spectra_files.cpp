@@ -1,7 +1,7 @@
 // Writes the record of spectra_benchmark and flexarm's spectra of it into a folder as raw doubles,
 // with a description in JSON, for benchmarks/spectra_scipy.py.
 #include "benchmarks/spectra_case.hpp"
-#include "measured/frequency_response.hpp"
+#include "measured/spectra/frequency_response.hpp"
 
 #include <nlohmann/json.hpp>
 

@@ -3,7 +3,7 @@
 //
 // sweep_benchmark [POINTS]: processor time is what the machine's other load does not change; the
 // ratio of elapsed times means something on a machine that is quiet.
-#include "compare/sweep_result.hpp"
+#include "compare/sweeps/sweep_result.hpp"
 
 #include <fmt/format.h>
 
@@ -14,6 +14,7 @@
 #include <ctime>
 #include <string>
 #include <vector>
+#include <tbb/global_control.h>
 
 namespace flexarm::benchmarks {
 namespace {
@@ -48,11 +49,11 @@ compare::SweepTask task_of(int points, std::vector<compare::Model> models) {
 }
 
 Times time_of(const compare::SweepTask& task, int threads, compare::SweepValues& values) {
-  compare::SweepRun run;
-  run.threads = threads;
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                  static_cast<std::size_t>(threads));
   const auto begin = std::chrono::steady_clock::now();
   const double processor_begin_s = processor_time_s();
-  values = compare::evaluate(task, run);
+  values = compare::evaluate(task, {});
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
   return {elapsed.count(), processor_time_s() - processor_begin_s};
 }

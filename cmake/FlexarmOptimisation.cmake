@@ -1,50 +1,47 @@
-# flexarm_precompiled(NAME HEADERS ... LIBRARIES ... OPTIONS ...)
-#   Headers of libraries, parsed once for every target that says flexarm_optimise(TARGET NAME): a
-#   quarter of the time of a clean build. Sources include what they use all the same; the preset
-#   `debug`, where each is compiled by itself, holds them to it.
+# How sources are compiled: what a clean build takes is in docs/numerics.md's last part.
 option(FLEXARM_PRECOMPILED_HEADERS "Parse the headers of libraries once" ON)
-
-function(flexarm_precompiled name)
-  if(NOT FLEXARM_PRECOMPILED_HEADERS)
-    return()
-  endif()
-  cmake_parse_arguments(HEADERS "" "" "HEADERS;LIBRARIES;OPTIONS" ${ARGN})
-  set(target flexarm_precompiled_${name})
-  set(source "${CMAKE_CURRENT_BINARY_DIR}/precompiled_${name}.cpp")
-  file(CONFIGURE OUTPUT "${source}" CONTENT "")
-  add_library(${target} OBJECT "${source}")
-  target_link_libraries(${target} PRIVATE ${HEADERS_LIBRARIES} flexarm_flags)
-  target_compile_options(${target} PRIVATE ${HEADERS_OPTIONS})
-  target_precompile_headers(${target} PRIVATE ${HEADERS_HEADERS})
-endfunction()
-
-if(FLEXARM_PRECOMPILED_HEADERS)
-  include(FlexarmEigen)
+# Names in the anonymous namespaces of a room must then differ, which
+# -DCMAKE_UNITY_BUILD_BATCH_SIZE=0 (a room in one batch) tells of all of them.
+option(FLEXARM_UNITY_BUILD "Compile the sources of a room in batches" ON)
+if(NOT DEFINED CMAKE_UNITY_BUILD_BATCH_SIZE)
+  set(CMAKE_UNITY_BUILD_BATCH_SIZE 8)
 endif()
-
-set(library_headers <algorithm> <array> <cmath> <complex> <cstddef> <filesystem> <functional> <limits>
-    <map> <memory> <numbers> <optional> <random> <ranges> <span> <stdexcept> <string> <string_view>
-    <utility> <variant> <vector> <fmt/format.h> <Eigen/SparseCore> "${FLEXARM_EIGEN_HEADER}")
 
 # What computes is optimised in full. What writes or reads need not be, nor need the tests: they
 # build in half the time.
+set(full_option "")
 set(brief_option $<$<CONFIG:Release>:-O1>)
 set(test_option $<$<CONFIG:Release>:-O0>)
-flexarm_precompiled(full LIBRARIES Eigen3::Eigen fmt::fmt HEADERS ${library_headers})
-flexarm_precompiled(brief LIBRARIES Eigen3::Eigen fmt::fmt HEADERS ${library_headers}
-                    OPTIONS ${brief_option})
-if(FLEXARM_TESTS)
-  flexarm_precompiled(test LIBRARIES Eigen3::Eigen fmt::fmt GTest::gmock GTest::gtest_main
-                      HEADERS ${library_headers} <gmock/gmock.h> <gtest/gtest.h>
-                      OPTIONS ${test_option})
-endif()
 
-# Sources of a target are compiled in batches: templates of libraries, most of the time of a source,
-# are instantiated once a batch. Names in the anonymous namespaces of a folder must therefore differ,
-# which -DCMAKE_UNITY_BUILD_BATCH_SIZE=0 (all in one batch) tells of all of them.
-option(FLEXARM_UNITY_BUILD "Compile sources in batches" ON)
-if(NOT DEFINED CMAKE_UNITY_BUILD_BATCH_SIZE)
-  set(CMAKE_UNITY_BUILD_BATCH_SIZE 8)
+# Decompositions of Eigen's that many sources use, compiled once.
+add_library(flexarm_eigen STATIC "${CMAKE_CURRENT_LIST_DIR}/eigen_decompositions.cpp")
+target_include_directories(flexarm_eigen PRIVATE "${PROJECT_SOURCE_DIR}")
+target_link_libraries(flexarm_eigen PRIVATE "$<BUILD_INTERFACE:Eigen3::Eigen>")
+set_target_properties(flexarm_eigen PROPERTIES EXPORT_NAME eigen)
+install(TARGETS flexarm_eigen EXPORT flexarmTargets)
+
+# One target for each set of options: a precompiled header serves sources of the same options only.
+# Sources include what they use all the same; the preset `debug` holds them to it.
+function(flexarm_precompile how)
+  cmake_parse_arguments(PARSED "" "" "HEADERS;LIBRARIES" ${ARGN})
+  set(target flexarm_precompiled_${how})
+  file(CONFIGURE OUTPUT "${CMAKE_CURRENT_BINARY_DIR}/${target}.cpp" CONTENT "")
+  add_library(${target} OBJECT "${CMAKE_CURRENT_BINARY_DIR}/${target}.cpp")
+  target_link_libraries(${target} PRIVATE Eigen3::Eigen fmt::fmt ${PARSED_LIBRARIES} flexarm_flags)
+  target_compile_options(${target} PRIVATE ${${how}_option})
+  target_precompile_headers(${target} PRIVATE
+    <algorithm> <array> <cmath> <complex> <cstddef> <filesystem> <functional> <limits> <map>
+    <memory> <numbers> <optional> <random> <ranges> <span> <stdexcept> <string> <string_view>
+    <utility> <variant> <vector> <fmt/format.h> <Eigen/SparseCore>
+    "${PROJECT_SOURCE_DIR}/cmake/eigen_decompositions.hpp" ${PARSED_HEADERS})
+endfunction()
+if(FLEXARM_PRECOMPILED_HEADERS)
+  flexarm_precompile(full)
+  flexarm_precompile(brief)
+  if(FLEXARM_TESTS)
+    flexarm_precompile(test HEADERS <gmock/gmock.h> <gtest/gtest.h>
+                       LIBRARIES GTest::gmock GTest::gtest_main)
+  endif()
 endif()
 
 # flexarm_optimise(TARGET full|brief|test)

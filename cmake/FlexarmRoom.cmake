@@ -1,15 +1,16 @@
-# flexarm_room(NAME SOURCES ... HEADERS ... USES ... LIBRARIES ... [BRIEF])
-#   One static library `flexarm_NAME` (alias flexarm::NAME) a folder. USES names other rooms,
-#   LIBRARIES outside libraries; both are visible to whoever links the room, here or from an
-#   installed flexarm. BRIEF is for a room that does not compute,
-#   and need not be optimised in full.
+# flexarm_room(NAME USES ... LIBRARIES ... [SOURCES ...] [BRIEF])
+#   One static library `flexarm_NAME` (alias flexarm::NAME) of every source and header below the
+#   room's folder; SOURCES names generated ones. USES names other rooms, LIBRARIES outside
+#   libraries; both are visible to whoever links the room, here or from an installed flexarm.
+#   BRIEF is for a room that does not compute, and need not be optimised in full.
 function(flexarm_room name)
-  cmake_parse_arguments(ROOM "BRIEF" "" "SOURCES;HEADERS;USES;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(ROOM "BRIEF" "" "SOURCES;USES;LIBRARIES" ${ARGN})
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS *.cpp)
+  file(GLOB_RECURSE headers CONFIGURE_DEPENDS *.hpp)
   set(target flexarm_${name})
-  add_library(${target} STATIC ${ROOM_SOURCES})
+  add_library(${target} STATIC ${sources} ${ROOM_SOURCES})
   add_library(flexarm::${name} ALIAS ${target})
-  target_sources(${target} PUBLIC FILE_SET HEADERS BASE_DIRS "${PROJECT_SOURCE_DIR}"
-                 FILES ${ROOM_HEADERS})
+  target_sources(${target} PUBLIC FILE_SET HEADERS BASE_DIRS "${PROJECT_SOURCE_DIR}" FILES ${headers})
   list(TRANSFORM ROOM_USES PREPEND flexarm::)
   target_link_libraries(${target} PUBLIC ${ROOM_USES} ${ROOM_LIBRARIES}
                         PRIVATE "$<BUILD_INTERFACE:flexarm_flags>")

@@ -3,7 +3,7 @@
 #include "compare/features.hpp"
 #include "compare/standard_models.hpp"
 #include "response/any_formulation.hpp"
-#include "response/response_study.hpp"
+#include "response/frequency/response_study.hpp"
 
 #include <algorithm>
 #include <cmath>

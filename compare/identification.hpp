@@ -3,7 +3,7 @@
 #include "arm/arm.hpp"
 #include "arm/sensor.hpp"
 #include "measured/identification.hpp"
-#include "response/frequency_response.hpp"
+#include "response/frequency/frequency_response.hpp"
 
 #include <complex>
 #include <optional>

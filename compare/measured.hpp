@@ -2,7 +2,7 @@
 
 #include "arm/formulation.hpp"
 #include "compare/comparison.hpp"
-#include "measured/modal_table.hpp"
+#include "measured/files/modal_table.hpp"
 
 #include <optional>
 #include <vector>

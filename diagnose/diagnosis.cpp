@@ -2,7 +2,7 @@
 
 #include "arm/arm_keys.hpp"
 #include "arm/uncertainties.hpp"
-#include "diagnose/parameter_errors.hpp"
+#include "diagnose/search/parameter_errors.hpp"
 
 #include <fmt/format.h>
 

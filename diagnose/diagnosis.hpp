@@ -2,7 +2,7 @@
 
 #include "diagnose/formulation_check.hpp"
 #include "diagnose/planning/next_experiments.hpp"
-#include "diagnose/selection.hpp"
+#include "diagnose/search/selection.hpp"
 #include "diagnose/symptoms/symptoms.hpp"
 
 #include <optional>

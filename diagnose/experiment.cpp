@@ -1,8 +1,8 @@
 #include "diagnose/experiment.hpp"
 
-#include "arm/arm_file.hpp"
 #include "arm/input_error.hpp"
-#include "measured/data_check.hpp"
+#include "measured/checks/data_check.hpp"
+#include "measured/files/arm_file.hpp"
 
 #include <fmt/format.h>
 
@@ -73,7 +73,7 @@ Experiment read_experiment(const fs::path& measurement_file) {
   const measured::Measurement measurement = measured::read_measurement(measurement_file);
   Experiment experiment;
   experiment.files = measured::files_of(measurement_file, measurement);
-  experiment.arm = arm::read_arm_file(measured::beside(measurement_file, measurement.arm));
+  experiment.arm = measured::read_arm_file(measured::beside(measurement_file, measurement.arm));
   for (const measured::Run& run : measurement.runs) {
     measured::MeasuredRun read{run, measured::read_run(measurement_file, run)};
     if (run.kind == measured::RunKind::time) {

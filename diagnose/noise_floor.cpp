@@ -1,8 +1,8 @@
 #include "diagnose/noise_floor.hpp"
 
-#include "measured/fourier.hpp"
-#include "measured/robust.hpp"
-#include "measured/window.hpp"
+#include "measured/spectra/fourier.hpp"
+#include "measured/spectra/robust.hpp"
+#include "measured/spectra/window.hpp"
 
 #include <algorithm>
 #include <cmath>

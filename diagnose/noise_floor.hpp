@@ -1,6 +1,6 @@
 #pragma once
 
-#include "measured/frequency_record.hpp"
+#include "measured/files/frequency_record.hpp"
 
 #include <span>
 #include <vector>

@@ -1,7 +1,7 @@
 #include "diagnose/observations.hpp"
 
 #include "diagnose/noise_floor.hpp"
-#include "measured/robust.hpp"
+#include "measured/spectra/robust.hpp"
 
 #include <algorithm>
 #include <cmath>

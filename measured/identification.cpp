@@ -1,7 +1,7 @@
 #include "measured/identification.hpp"
 
 #include "arm/input_error.hpp"
-#include "measured/start_spectra.hpp"
+#include "measured/modal/start_spectra.hpp"
 
 #include <fmt/format.h>
 

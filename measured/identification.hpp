@@ -1,13 +1,13 @@
 #pragma once
 
-#include "measured/data_check.hpp"
-#include "measured/distortion.hpp"
-#include "measured/modal_fit.hpp"
-#include "measured/modal_gains.hpp"
-#include "measured/nyquist_circle.hpp"
-#include "measured/response_estimate.hpp"
-#include "measured/run_data.hpp"
-#include "measured/spectral_features.hpp"
+#include "measured/checks/data_check.hpp"
+#include "measured/files/run_data.hpp"
+#include "measured/modal/modal_fit.hpp"
+#include "measured/modal/modal_gains.hpp"
+#include "measured/modal/nyquist_circle.hpp"
+#include "measured/spectra/distortion.hpp"
+#include "measured/spectra/response_estimate.hpp"
+#include "measured/spectra/spectral_features.hpp"
 
 #include <cstddef>
 #include <functional>
@@ -29,7 +29,7 @@ enum class Method {
   autopower,       ///< peaks and valleys of autopower spectra: the paper's Tables 2 and 3
   response,        ///< peaks and valleys of frequency responses: the same tables
   nyquist_circle,  ///< circles of finely spaced responses: Tables 4 and 5
-  rational_fit,    ///< poles of all sensors at once, zeros of each: measured/modal_fit.hpp
+  rational_fit,    ///< poles of all sensors at once, zeros of each: measured/modal/modal_fit.hpp
   table,           ///< of a `modal` run, as it is given
 };
 

@@ -2,8 +2,8 @@
 
 #include "arm/linear_arm.hpp"
 #include "response/formulation_maker.hpp"
-#include "response/modal_response.hpp"
-#include "response/taylor_series.hpp"
+#include "response/frequency/modal_response.hpp"
+#include "response/time/taylor_series.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -22,7 +22,7 @@ namespace flexarm::response {
 /// that of the hub angle as its fourth power; velocities gain a factor omega, accelerations two.
 ///
 /// R, A_0 and A_1 are the Taylor coefficients in z = s^2 of the undamped transfer function less the
-/// modes kept, taken on a circle (response/taylor_series.hpp). It lies midway between two kept
+/// modes kept, taken on a circle (response/time/taylor_series.hpp). It lies midway between two kept
 /// poles, |z| <= omega_{n+1}^2/2 where they allow it: points enough are then fifty or so, while
 /// the response on the circle is of the size of what is left of it, so that few digits cancel.
 /// A coefficient that is lost in the rounding of the response (R and A_k of a hub that hardly

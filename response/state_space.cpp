@@ -1,6 +1,6 @@
 #include "response/state_space.hpp"
 
-#include "response/modal_response.hpp"
+#include "response/frequency/modal_response.hpp"
 
 #include <Eigen/LU>
 #include <fmt/format.h>

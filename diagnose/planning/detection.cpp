@@ -1,6 +1,6 @@
 #include "diagnose/planning/detection.hpp"
 
-#include "diagnose/misfit.hpp"
+#include "diagnose/search/misfit.hpp"
 
 #include <boost/math/tools/toms748_solve.hpp>
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "diagnose/candidate.hpp"
 #include "diagnose/planning/planned_experiment.hpp"
+#include "diagnose/search/candidate.hpp"
 
 #include <optional>
 #include <span>

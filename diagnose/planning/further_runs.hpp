@@ -2,7 +2,7 @@
 
 #include "arm/arm.hpp"
 #include "diagnose/planning/measurement_plan.hpp"
-#include "diagnose/problem.hpp"
+#include "diagnose/search/problem.hpp"
 
 #include <string>
 #include <vector>

@@ -1,8 +1,8 @@
 #include "diagnose/planning/measurement_plan.hpp"
 
-#include "arm/arm_file.hpp"
-#include "measured/payload_keys.hpp"
-#include "response/excitation_keys.hpp"
+#include "measured/files/arm_file.hpp"
+#include "measured/files/payload_keys.hpp"
+#include "response/excitation/excitation_keys.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -18,14 +18,15 @@ namespace {
 
 std::string number_list(const std::vector<double>& numbers) {
   std::vector<std::string> words;
-  for (const double number : numbers) words.push_back(arm::toml_number(number));
+  for (const double number : numbers) words.push_back(measured::toml_number(number));
   return fmt::format("[{}]", fmt::join(words, ", "));
 }
 
 std::string frequencies_text(const PlannedRun& run) {
   if (const auto* band = std::get_if<PlannedBand>(&run.frequencies)) {
     return fmt::format("{{ from = {}, to = {}, count = {} }}  # Hz, in equal ratios",
-                       arm::toml_number(band->from_Hz), arm::toml_number(band->to_Hz), band->count);
+                       measured::toml_number(band->from_Hz), measured::toml_number(band->to_Hz),
+                       band->count);
   }
   return number_list(std::get<std::vector<double>>(run.frequencies)) + "  # Hz";
 }
@@ -36,7 +37,7 @@ std::string excitation_text(const PlannedRun& run) {
   std::string text = fmt::format("{{ kind = \"{}\"", response::name(*excitation));
   for (const auto& [name, unit, value] : response::keys_of(*excitation)) {
     const bool is_word = value.find_first_not_of("0123456789+-.e") != std::string::npos;
-    text += fmt::format(", {} = {}", name, is_word ? arm::toml_string(value) : value);
+    text += fmt::format(", {} = {}", name, is_word ? measured::toml_string(value) : value);
   }
   return text + " }  # N m, s, Hz";
 }
@@ -44,8 +45,8 @@ std::string excitation_text(const PlannedRun& run) {
 std::string noise_text(const PlannedRun& run) {
   std::vector<std::string> parts;
   for (const PlannedSensor& sensor : run.sensors) {
-    parts.push_back(fmt::format("{} = {}", arm::toml_string(arm::to_string(sensor.sensor)),
-                                arm::toml_number(sensor.noise)));
+    parts.push_back(fmt::format("{} = {}", measured::toml_string(arm::to_string(sensor.sensor)),
+                                measured::toml_number(sensor.noise)));
   }
   return fmt::format("{{ {} }}", fmt::join(parts, ", "));
 }
@@ -60,10 +61,10 @@ std::string format_measurement_plan(const MeasurementPlan& plan) {
   const auto word = [&](const char* key, std::string_view value) {
     line(key, fmt::format("\"{}\"", value));
   };
-  if (!plan.name.empty()) line("name", arm::toml_string(plan.name));
+  if (!plan.name.empty()) line("name", measured::toml_string(plan.name));
   for (const PlannedRun& run : plan.runs) {
     out += out.empty() ? "[[run]]\n" : "\n[[run]]\n";
-    line("id", arm::toml_string(run.id));
+    line("id", measured::toml_string(run.id));
     word("kind", to_string(run.kind));
     if (run.purpose) word("purpose", to_string(*run.purpose));
     if (run.payload) line("payload", measured::format_payload(*run.payload));
@@ -71,17 +72,17 @@ std::string format_measurement_plan(const MeasurementPlan& plan) {
       line("poles", fmt::format("{}", run.poles));
       std::vector<std::string> zeros;
       for (const PlannedSensor& sensor : run.sensors) {
-        zeros.push_back(
-            fmt::format("{} = {}", arm::toml_string(arm::to_string(sensor.sensor)), sensor.zeros));
+        zeros.push_back(fmt::format("{} = {}", measured::toml_string(arm::to_string(sensor.sensor)),
+                                    sensor.zeros));
       }
       if (!zeros.empty()) line("zeros", fmt::format("{{ {} }}", fmt::join(zeros, ", ")));
-      line("noise", arm::toml_number(run.noise));
-      line("damping_noise", arm::toml_number(run.damping_noise));
+      line("noise", measured::toml_number(run.noise));
+      line("damping_noise", measured::toml_number(run.damping_noise));
       continue;
     }
     std::vector<std::string> sensors;
     for (const PlannedSensor& sensor : run.sensors) {
-      sensors.push_back(arm::toml_string(arm::to_string(sensor.sensor)));
+      sensors.push_back(measured::toml_string(arm::to_string(sensor.sensor)));
     }
     line("sensors", fmt::format("[{}]", fmt::join(sensors, ", ")));
     line("noise", noise_text(run));
@@ -91,8 +92,8 @@ std::string format_measurement_plan(const MeasurementPlan& plan) {
     }
     word("torque_hold", to_string(run.torque_hold));
     line("excitation", excitation_text(run));
-    line("duration", arm::toml_number(run.duration_s));
-    line("sample_time", arm::toml_number(run.sample_time_s));
+    line("duration", measured::toml_number(run.duration_s));
+    line("sample_time", measured::toml_number(run.sample_time_s));
   }
   return out;
 }

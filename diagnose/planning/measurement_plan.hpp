@@ -2,8 +2,8 @@
 
 #include "arm/payload.hpp"
 #include "arm/sensor.hpp"
-#include "measured/measurement.hpp"
-#include "response/excitation.hpp"
+#include "measured/files/measurement.hpp"
+#include "response/excitation/excitation.hpp"
 
 #include <filesystem>
 #include <optional>

@@ -1,13 +1,13 @@
 #include "diagnose/planning/next_experiments.hpp"
 
 #include "arm/input_error.hpp"
-#include "compare/for_each_index.hpp"
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <mutex>
 #include <numeric>
+#include <tbb/parallel_for.h>
 #include <utility>
 
 namespace flexarm::diagnose {
@@ -106,7 +106,7 @@ Evidence evidence_of(const arm::Arm& arm, const std::vector<FurtherRun>& further
   std::atomic<std::size_t> done = 0;
   std::atomic<bool> cancelled = false;
   std::mutex told;
-  compare::for_each_index(ties.size(), 0, [&](std::size_t t) {
+  tbb::parallel_for(std::size_t{0}, ties.size(), [&](std::size_t t) {
     if (cancelled) return;
     made.of[t] = informations(planned, ties[t]);
     const double part = static_cast<double>(++done) / static_cast<double>(ties.size());

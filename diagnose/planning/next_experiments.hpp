@@ -2,7 +2,7 @@
 
 #include "diagnose/planning/further_runs.hpp"
 #include "diagnose/planning/separation.hpp"
-#include "diagnose/selection.hpp"
+#include "diagnose/search/selection.hpp"
 
 #include <Eigen/Core>
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "diagnose/planning/next_experiments.hpp"
-#include "diagnose/selection.hpp"
+#include "diagnose/search/selection.hpp"
 
 #include <cstddef>
 #include <optional>

@@ -1,11 +1,11 @@
 #include "arm/input_error.hpp"
-#include "arm/text_file.hpp"
-#include "arm/toml_document.hpp"
-#include "arm/toml_faults.hpp"
-#include "arm/toml_node.hpp"
 #include "diagnose/planning/measurement_plan.hpp"
-#include "measured/payload_keys.hpp"
-#include "response/excitation_keys.hpp"
+#include "measured/files/payload_keys.hpp"
+#include "measured/files/text_file.hpp"
+#include "measured/files/toml_document.hpp"
+#include "measured/files/toml_faults.hpp"
+#include "measured/files/toml_node.hpp"
+#include "response/excitation/excitation_keys.hpp"
 
 #include <fmt/format.h>
 
@@ -44,7 +44,7 @@ const std::vector<std::string>& keys_of_kind(RunKind kind) {
   return kind == RunKind::time ? time : kind == RunKind::frf ? frf : modal;
 }
 
-class PlanReader : arm::TomlFaults {
+class PlanReader : measured::TomlFaults {
  public:
   explicit PlanReader(const std::string& file_name) : TomlFaults(file_name) {}
 
@@ -119,7 +119,7 @@ class PlanReader : arm::TomlFaults {
     const auto [first, is_new] = line_of_id_.emplace(run.id, line_of(node));
     if (!is_new) {
       fault(line_of(node), fmt::format("run.id{}: given twice; first on line {}",
-                                       arm::equals_value(node), first->second));
+                                       measured::equals_value(node), first->second));
     }
   }
 
@@ -339,11 +339,11 @@ MeasurementPlan parse_measurement_plan(std::string_view toml, const std::string&
     throw arm::located(InputError("empty; a measurement plan needs at least one [[run]]"),
                        file_name, 1);
   }
-  return PlanReader(file_name).read(arm::parse_toml(toml, file_name));
+  return PlanReader(file_name).read(measured::parse_toml(toml, file_name));
 }
 
 MeasurementPlan read_measurement_plan(const std::filesystem::path& path) {
-  return parse_measurement_plan(arm::read_text_file(path, kLargestPlan_bytes),
+  return parse_measurement_plan(measured::read_text_file(path, kLargestPlan_bytes),
                                 arm::shown(path.string()));
 }
 

@@ -1,8 +1,8 @@
 #include "diagnose/planning/planned_experiment.hpp"
 
 #include "arm/input_error.hpp"
-#include "diagnose/fit.hpp"
 #include "diagnose/hypotheses/hypotheses.hpp"
+#include "diagnose/search/fit.hpp"
 
 #include <Eigen/QR>
 #include <fmt/format.h>

@@ -3,7 +3,7 @@
 #include "diagnose/experiment.hpp"
 #include "diagnose/observations.hpp"
 #include "diagnose/planning/measurement_plan.hpp"
-#include "diagnose/problem.hpp"
+#include "diagnose/search/problem.hpp"
 
 #include <Eigen/Core>
 

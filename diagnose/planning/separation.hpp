@@ -1,7 +1,7 @@
 #pragma once
 
-#include "diagnose/fit.hpp"
 #include "diagnose/planning/detection.hpp"
+#include "diagnose/search/fit.hpp"
 
 #include <Eigen/Core>
 

@@ -1,9 +1,9 @@
 #include "diagnose/symptoms/band_errors.hpp"
 
-#include "diagnose/misfit.hpp"
-#include "diagnose/selection.hpp"
-#include "measured/window.hpp"
-#include "response/excitation.hpp"
+#include "diagnose/search/misfit.hpp"
+#include "diagnose/search/selection.hpp"
+#include "measured/spectra/window.hpp"
+#include "response/excitation/excitation.hpp"
 
 #include <boost/math/distributions/complement.hpp>
 #include <boost/math/distributions/fisher_f.hpp>

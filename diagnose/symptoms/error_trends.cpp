@@ -1,7 +1,7 @@
 #include "diagnose/symptoms/error_trends.hpp"
 
 #include "diagnose/symptoms/frequency_bands.hpp"
-#include "response/excitation.hpp"
+#include "response/excitation/excitation.hpp"
 
 #include <boost/math/distributions/complement.hpp>
 #include <boost/math/distributions/students_t.hpp>

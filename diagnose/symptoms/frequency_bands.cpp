@@ -1,8 +1,8 @@
 #include "diagnose/symptoms/frequency_bands.hpp"
 
 #include "exact_tf/exact_arm.hpp"
-#include "measured/fourier.hpp"
-#include "measured/window.hpp"
+#include "measured/spectra/fourier.hpp"
+#include "measured/spectra/window.hpp"
 #include "response/arm_parts.hpp"
 
 #include <fmt/format.h>

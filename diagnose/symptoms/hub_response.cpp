@@ -1,12 +1,12 @@
 #include "diagnose/symptoms/hub_response.hpp"
 
-#include "diagnose/predictor.hpp"
-#include "measured/fourier.hpp"
-#include "measured/spectra.hpp"
+#include "diagnose/predictors/predictor.hpp"
+#include "measured/spectra/fourier.hpp"
+#include "measured/spectra/spectra.hpp"
 #include "response/arm_parts.hpp"
 #include "response/formulation_maker.hpp"
-#include "response/quick_simulation.hpp"
-#include "response/time_model.hpp"
+#include "response/time/quick_simulation.hpp"
+#include "response/time/time_model.hpp"
 
 #include <boost/math/tools/minima.hpp>
 #include <unsupported/Eigen/FFT>

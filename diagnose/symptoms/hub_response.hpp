@@ -2,7 +2,7 @@
 
 #include "arm/arm.hpp"
 #include "arm/sensor.hpp"
-#include "measured/measurement.hpp"
+#include "measured/files/measurement.hpp"
 
 #include <complex>
 #include <cstddef>

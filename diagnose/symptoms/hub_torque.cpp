@@ -1,7 +1,6 @@
 #include "diagnose/symptoms/hub_torque.hpp"
 
-#include "compare/for_each_index.hpp"
-#include "diagnose/misfit.hpp"
+#include "diagnose/search/misfit.hpp"
 
 #include <Eigen/Cholesky>
 #include <boost/math/distributions/complement.hpp>
@@ -11,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <tbb/parallel_for.h>
 #include <utility>
 
 namespace flexarm::diagnose {
@@ -106,7 +106,7 @@ class HubRegression {
                              static_cast<Index>(motion.time_s.size() * motion.readings.size()));
     }
     Torques made(motions_.size());
-    compare::for_each_index(motions_.size(), 0, [&](std::size_t m) {
+    tbb::parallel_for(std::size_t{0}, motions_.size(), [&](std::size_t m) {
       const HubReading& first = motions_[m].readings.front();
       const auto count = static_cast<Index>(first.residual.size());
       const Eigen::VectorXd own = left.segment(first_of_run[m], count) * first.noise;

@@ -31,9 +31,10 @@ struct RootShift {
 };
 
 /// Of `modal` runs as their tables have them, of `frf` runs by a rational fit of the measured
-/// responses (measured/modal_fit.hpp), weighted as they are in the diagnosis; a run whose fit fails
-/// is left out. Standard errors of a fit are never below `kFitFrequency`, `kFitDamping` of the
-/// number: what other blocks than the fitted ones would make of it. Runs in time are not fitted.
+/// responses (measured/modal/modal_fit.hpp), weighted as they are in the diagnosis; a run whose fit
+/// fails is left out. Standard errors of a fit are never below `kFitFrequency`, `kFitDamping` of
+/// the number: what other blocks than the fitted ones would make of it. Runs in time are not
+/// fitted.
 std::vector<RootShift> root_shifts(const SymptomsInput& input);
 inline constexpr double kFitFrequency = 2e-4;
 inline constexpr double kFitDamping = 5e-3;

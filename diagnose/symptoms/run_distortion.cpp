@@ -1,7 +1,7 @@
 #include "diagnose/symptoms/run_distortion.hpp"
 
 #include "arm/input_error.hpp"
-#include "measured/response_estimate.hpp"
+#include "measured/spectra/response_estimate.hpp"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 
 #include "diagnose/symptoms/symptom.hpp"
 #include "diagnose/symptoms/symptoms_input.hpp"
-#include "measured/distortion.hpp"
+#include "measured/spectra/distortion.hpp"
 
 #include <string>
 #include <vector>
@@ -17,7 +17,7 @@ struct RunDistortion {
 };
 
 /// Of the runs in time whose torque is a periodic multisine with free lines
-/// (measured/distortion.hpp).
+/// (measured/spectra/distortion.hpp).
 std::vector<RunDistortion> run_distortions(const Experiment& experiment);
 
 /// A statement a run: the largest odd and even distortion, or that there is none.

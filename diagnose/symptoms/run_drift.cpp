@@ -1,7 +1,6 @@
 #include "diagnose/symptoms/run_drift.hpp"
 
-#include "compare/for_each_index.hpp"
-#include "diagnose/misfit.hpp"
+#include "diagnose/search/misfit.hpp"
 
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/complement.hpp>
@@ -9,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tbb/parallel_for.h>
 
 namespace flexarm::diagnose {
 
@@ -90,7 +90,7 @@ std::optional<RunDrift> run_drift(const Problem& problem, const Candidate& candi
   const SearchedParameter& parameter = hypothesis.parameters.front();
   const auto& runs = problem.experiment().runs;
   std::vector<std::optional<RunFit>> fits(runs.size());
-  compare::for_each_index(runs.size(), 0, [&](std::size_t r) {
+  tbb::parallel_for(std::size_t{0}, runs.size(), [&](std::size_t r) {
     if (hypothesis.shows_in(runs[r].run.kind)) fits[r] = refitted(problem, candidate, at, r);
   });
   RunDrift made;

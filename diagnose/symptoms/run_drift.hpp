@@ -1,6 +1,6 @@
 #pragma once
 
-#include "diagnose/candidate.hpp"
+#include "diagnose/search/candidate.hpp"
 #include "diagnose/symptoms/symptom.hpp"
 #include "diagnose/symptoms/symptoms_input.hpp"
 

@@ -1,6 +1,6 @@
 #include "diagnose/symptoms/symptoms.hpp"
 
-#include "diagnose/selection.hpp"
+#include "diagnose/search/selection.hpp"
 #include "diagnose/symptoms/error_trends.hpp"
 
 #include <iterator>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "diagnose/problem.hpp"
+#include "diagnose/search/problem.hpp"
 
 #include <Eigen/Core>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "arm/text_file.hpp"
+#include "measured/files/text_file.hpp"
 #include "tests/app/process.hpp"
 
 #include <gtest/gtest.h>
@@ -47,7 +47,7 @@ class Flexarm : public testing::Test {
     return ended.output;
   }
   std::string text_of(const std::string& name) const {
-    return arm::read_text_file(folder_ / name, 1 << 26);
+    return measured::read_text_file(folder_ / name, 1 << 26);
   }
   void write(const std::string& name, const std::string& text) const {
     std::ofstream(folder_ / name) << text;

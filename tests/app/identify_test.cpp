@@ -1,5 +1,5 @@
-#include "measured/frequency_record.hpp"
-#include "measured/modal_table.hpp"
+#include "measured/files/frequency_record.hpp"
+#include "measured/files/modal_table.hpp"
 #include "tests/app/flexarm_fixture.hpp"
 
 #include <gmock/gmock.h>

@@ -1,7 +1,7 @@
-#include "arm/arm_file.hpp"
-#include "measured/frequency_record.hpp"
-#include "measured/measurement.hpp"
-#include "measured/run_data.hpp"
+#include "measured/files/arm_file.hpp"
+#include "measured/files/frequency_record.hpp"
+#include "measured/files/measurement.hpp"
+#include "measured/files/run_data.hpp"
 #include "tests/app/flexarm_fixture.hpp"
 
 #include <fmt/format.h>
@@ -78,7 +78,7 @@ TEST_F(Import, TheFolderIsAMeasurementInSi) {
 TEST_F(Import, WithoutAnArmOneToEditIsWritten) {
   write("log.txt", kLog);
   EXPECT_EQ(import({"log.txt", "--out", "bench"}).status, 0);
-  EXPECT_NO_THROW(arm::read_arm_file(folder_ / "bench/arm.toml"));
+  EXPECT_NO_THROW(measured::read_arm_file(folder_ / "bench/arm.toml"));
   EXPECT_THAT(import({"log.txt", "--out", "bench"}).errors, HasSubstr("--force replaces"));
   EXPECT_EQ(import({"log.txt", "--out", "bench", "--force"}).status, 0);
 }

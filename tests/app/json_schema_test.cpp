@@ -63,7 +63,7 @@ void allow(const std::string& path, const std::string& type, Types& documented) 
 
 /// The table under the heading `schema` in docs/json.md.
 Types documented(const std::string& schema) {
-  const std::string text = arm::read_text_file(FLEXARM_SOURCE_DIR "/docs/json.md", 1 << 20);
+  const std::string text = measured::read_text_file(FLEXARM_SOURCE_DIR "/docs/json.md", 1 << 20);
   const auto begin = text.find("## `" + schema + "`");
   std::istringstream lines(text.substr(begin, text.find("\n## ", begin) - begin));
   Types keys;

@@ -1,8 +1,8 @@
 // flexarm simulate --excitation stepped-sine: a run of kind frf.
-#include "measured/frequency_record.hpp"
-#include "measured/measurement.hpp"
-#include "measured/nyquist_circle.hpp"
-#include "measured/run_data.hpp"
+#include "measured/files/frequency_record.hpp"
+#include "measured/files/measurement.hpp"
+#include "measured/files/run_data.hpp"
+#include "measured/modal/nyquist_circle.hpp"
 #include "tests/app/flexarm_fixture.hpp"
 
 #include <gmock/gmock.h>

@@ -1,6 +1,6 @@
-#include "arm/arm_file.hpp"
-#include "measured/measurement.hpp"
-#include "measured/time_record.hpp"
+#include "measured/files/arm_file.hpp"
+#include "measured/files/measurement.hpp"
+#include "measured/files/time_record.hpp"
 #include "tests/app/flexarm_fixture.hpp"
 
 #include <gmock/gmock.h>
@@ -68,8 +68,8 @@ TEST_F(Simulate, TheFolderIsAMeasurementOfTheArm) {
   EXPECT_EQ(measurement.runs[0].purpose, measured::Purpose::estimation);
   EXPECT_EQ(measurement.runs[1].payload, (arm::Payload{0.06, 0.0}));
   EXPECT_EQ(measurement.runs[1].purpose, measured::Purpose::validation);
-  EXPECT_EQ(arm::read_arm_file(folder_ / "bench/out/arm.toml"),
-            arm::read_arm_file(folder_ / "rig.toml"));
+  EXPECT_EQ(measured::read_arm_file(folder_ / "bench/out/arm.toml"),
+            measured::read_arm_file(folder_ / "rig.toml"));
   const auto noise = record("bench/out/noise.csv");
   EXPECT_EQ(noise.time_s.size(), 500U);
   EXPECT_EQ(noise.time_s[7], 0.014);
@@ -85,8 +85,8 @@ TEST_F(Simulate, EffectsAreHiddenFromTheArmFileAndNotFromTheArm) {
     return record(hidden + "/bang-bang.csv");
   };
   EXPECT_EQ(simulated("all"), simulated("coulomb_friction"));
-  EXPECT_TRUE(arm::read_arm_file(folder_ / "all/arm.toml").effects.empty());
-  EXPECT_EQ(arm::read_arm_file(folder_ / "coulomb_friction/arm.toml").effects.size(), 1U);
+  EXPECT_TRUE(measured::read_arm_file(folder_ / "all/arm.toml").effects.empty());
+  EXPECT_EQ(measured::read_arm_file(folder_ / "coulomb_friction/arm.toml").effects.size(), 1U);
 }
 
 TEST_F(Simulate, EveryFormulationGivesTheSameMotion) {

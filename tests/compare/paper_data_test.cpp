@@ -1,6 +1,6 @@
-#include "arm/arm_file.hpp"
-#include "compare/paper_tables.hpp"
-#include "measured/modal_table.hpp"
+#include "compare/paper/paper_tables.hpp"
+#include "measured/files/arm_file.hpp"
+#include "measured/files/modal_table.hpp"
 
 #include <gtest/gtest.h>
 
@@ -52,7 +52,7 @@ void expect_damping_of_table_five(const ModalEntry& entry) {
 }
 
 TEST(PaperData, TheArmFileIsTheBuiltInArm) {
-  EXPECT_EQ(arm::read_arm_file(kData / "arm.toml"), arm::paper_arm());
+  EXPECT_EQ(measured::read_arm_file(kData / "arm.toml"), arm::paper_arm());
 }
 
 TEST(PaperData, ModalFilesRepeatTheTables) {

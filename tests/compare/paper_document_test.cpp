@@ -1,7 +1,7 @@
 #include "arm/input_error.hpp"
-#include "report/paper_json.hpp"
-#include "report/paper_markdown.hpp"
-#include "report/paper_tables.hpp"
+#include "report/json/paper_json.hpp"
+#include "report/tables/paper_markdown.hpp"
+#include "report/tables/paper_tables.hpp"
 #include "tests/compare/paper_findings.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "compare/paper_topics.hpp"
+#include "compare/paper/paper_topics.hpp"
 
 namespace flexarm::compare::paper {
 

@@ -1,9 +1,9 @@
-#include "compare/paper_cells.hpp"
-#include "compare/paper_forms.hpp"
-#include "compare/paper_modal_sums.hpp"
-#include "compare/paper_tables.hpp"
-#include "compare/paper_topics.hpp"
-#include "report/paper_tables.hpp"
+#include "compare/paper/paper_cells.hpp"
+#include "compare/paper/paper_forms.hpp"
+#include "compare/paper/paper_modal_sums.hpp"
+#include "compare/paper/paper_tables.hpp"
+#include "compare/paper/paper_topics.hpp"
+#include "report/tables/paper_tables.hpp"
 #include "tests/compare/paper_findings.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "compare/root_tracks.hpp"
+#include "compare/sweeps/root_tracks.hpp"
 
 #include "compare/assignment.hpp"
 

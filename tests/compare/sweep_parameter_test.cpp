@@ -1,9 +1,9 @@
-#include "compare/sweep_parameter.hpp"
+#include "compare/sweeps/sweep_parameter.hpp"
 
 #include "arm/arm_keys.hpp"
 #include "arm/effects.hpp"
 #include "arm/input_error.hpp"
-#include "compare/sweep.hpp"
+#include "compare/sweeps/sweep.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 #include "arm/input_error.hpp"
 #include "compare/features.hpp"
-#include "compare/sweep_checkpoint.hpp"
-#include "compare/sweep_result.hpp"
+#include "compare/sweeps/sweep_checkpoint.hpp"
+#include "compare/sweeps/sweep_result.hpp"
 #include "response/settings.hpp"
 #include "tests/compare/models.hpp"
 
@@ -16,6 +16,8 @@
 #include <filesystem>
 #include <fstream>
 #include <mutex>
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
 
 namespace flexarm::compare {
 namespace {
@@ -226,13 +228,14 @@ TEST_F(Sweep, RowsOfATwoParameterGridShareTheirTracks) {
 
 TEST_F(Sweep, TheResultDoesNotDependOnTheNumberOfThreads) {
   const auto task = task_over({"hub.inertia=log:1e-4:1e-2:4", "payload.inertia=0:0.002:6"}, 3);
-  SweepRun run;
-  run.threads = 1;
-  const std::string one = bytes_of(sweep(task, run));
-  for (const int threads : {2, 7, 0}) {
-    run.threads = threads;
-    EXPECT_EQ(bytes_of(sweep(task, run)), one) << threads;
-  }
+  const auto bytes_with = [&](int threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(threads));
+    tbb::task_arena arena(threads);
+    return arena.execute([&] { return bytes_of(sweep(task)); });
+  };
+  const std::string one = bytes_with(1);
+  for (const int threads : {2, 7}) EXPECT_EQ(bytes_with(threads), one) << threads;
 }
 
 TEST_F(Sweep, ThreeFormulationsAgreeOverTheGrid) {
@@ -273,7 +276,6 @@ TEST_F(Sweep, GoesOnAfterAnInterruptionToTheSameBytes) {
   std::atomic<bool> stop = false;
   std::atomic<int> done = 0;
   SweepRun run;
-  run.threads = 2;
   run.checkpoint = checkpoint();
   run.program_version = "test";
   run.stop = &stop;
@@ -343,10 +345,10 @@ TEST_F(Sweep, TheFirstPointThatAModelRefusesIsNamedWhateverTheThreads) {
     return make(arm);
   };
   for (const int threads : {1, 4}) {
-    SweepRun run;
-    run.threads = threads;
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(threads));
     try {
-      evaluate(task, run);
+      evaluate(task, {});
       ADD_FAILURE() << "not refused";
     } catch (const arm::InputError& error) {
       EXPECT_THAT(error.what(), testing::StartsWith("at payload.mass = 0.11"));

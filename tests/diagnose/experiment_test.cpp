@@ -1,7 +1,7 @@
 #include "diagnose/experiment.hpp"
 
-#include "arm/arm_file.hpp"
 #include "arm/input_error.hpp"
+#include "measured/files/arm_file.hpp"
 #include "tests/diagnose/simulated_experiments.hpp"
 
 #include <gmock/gmock.h>
@@ -33,7 +33,7 @@ class ExperimentFiles : public testing::Test {
   fs::path write(const Experiment& experiment) const {
     measured::Measurement measurement;
     measurement.arm = "arm.toml";
-    arm::write_arm_file(experiment.arm, folder_ / "arm.toml");
+    measured::write_arm_file(experiment.arm, folder_ / "arm.toml");
     for (const auto& [run, data] : experiment.runs) {
       measurement.runs.push_back(run);
       measurement.runs.back().file = run.id + ".csv";

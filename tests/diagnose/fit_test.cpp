@@ -1,4 +1,4 @@
-#include "diagnose/fit.hpp"
+#include "diagnose/search/fit.hpp"
 
 #include "diagnose/diagnosis.hpp"
 #include "diagnose/hypotheses/hypotheses.hpp"

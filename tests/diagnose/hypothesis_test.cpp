@@ -1,8 +1,8 @@
-#include "diagnose/hypothesis.hpp"
+#include "diagnose/search/hypothesis.hpp"
 
 #include "arm/effects.hpp"
-#include "diagnose/candidate.hpp"
 #include "diagnose/hypotheses/hypotheses.hpp"
+#include "diagnose/search/candidate.hpp"
 #include "tests/diagnose/simulated_experiments.hpp"
 
 #include <gtest/gtest.h>

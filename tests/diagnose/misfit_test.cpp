@@ -1,4 +1,4 @@
-#include "diagnose/misfit.hpp"
+#include "diagnose/search/misfit.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #include "diagnose/noise_floor.hpp"
 
-#include "measured/robust.hpp"
+#include "measured/spectra/robust.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "diagnose/parameter_errors.hpp"
+#include "diagnose/search/parameter_errors.hpp"
 
 #include "tests/diagnose/simulated_experiments.hpp"
 

@@ -1,6 +1,6 @@
 #include "arm/input_error.hpp"
-#include "arm/text_file.hpp"
 #include "diagnose/planning/measurement_plan.hpp"
+#include "measured/files/text_file.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -84,7 +84,7 @@ TEST(MeasurementPlanFile, ComesBackAsItWasWritten) {
 }
 
 TEST(MeasurementPlanFile, TheExampleOfTheFormatsDocumentIsRead) {
-  const std::string text = arm::read_text_file(FLEXARM_SOURCE_DIR "/docs/formats.md", 1 << 20);
+  const std::string text = measured::read_text_file(FLEXARM_SOURCE_DIR "/docs/formats.md", 1 << 20);
   const auto heading = text.find("\n## Measurement plan");
   const auto begin = text.find('\n', text.find("```toml", heading)) + 1;
   const MeasurementPlan plan = parse_measurement_plan(

@@ -1,7 +1,7 @@
 #include "diagnose/diagnosis.hpp"
-#include "diagnose/explanation.hpp"
 #include "diagnose/hypotheses/hypotheses.hpp"
 #include "diagnose/planning/plan.hpp"
+#include "diagnose/search/explanation.hpp"
 #include "tests/diagnose/simulated_experiments.hpp"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
-#include "diagnose/selection.hpp"
+#include "diagnose/search/selection.hpp"
 
-#include "measured/frequency_record.hpp"
-#include "response/random_numbers.hpp"
+#include "measured/files/frequency_record.hpp"
+#include "response/time/random_numbers.hpp"
 #include "tests/diagnose/simulated_experiments.hpp"
 
 #include <gtest/gtest.h>

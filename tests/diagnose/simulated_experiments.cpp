@@ -1,12 +1,12 @@
 #include "tests/diagnose/simulated_experiments.hpp"
 
 #include "diagnose/hypotheses/hypotheses.hpp"
-#include "response/excitation.hpp"
+#include "response/excitation/excitation.hpp"
 #include "response/formulation_maker.hpp"
-#include "response/random_numbers.hpp"
-#include "response/sensor_imperfections.hpp"
-#include "response/simulation.hpp"
-#include "response/time_model.hpp"
+#include "response/time/random_numbers.hpp"
+#include "response/time/sensor_imperfections.hpp"
+#include "response/time/simulation.hpp"
+#include "response/time/time_model.hpp"
 
 #include <algorithm>
 #include <cmath>

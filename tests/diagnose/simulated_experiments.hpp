@@ -1,6 +1,6 @@
 #pragma once
 
-#include "diagnose/hypothesis.hpp"
+#include "diagnose/search/hypothesis.hpp"
 
 #include <cstdint>
 #include <string>

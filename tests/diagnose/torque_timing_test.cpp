@@ -1,4 +1,4 @@
-#include "diagnose/torque_timing.hpp"
+#include "diagnose/search/torque_timing.hpp"
 
 #include "diagnose/diagnosis.hpp"
 #include "tests/diagnose/simulated_experiments.hpp"

@@ -1,9 +1,9 @@
 #include "tests/fit_cases/fit_cases.hpp"
 
 #include "response/formulation_maker.hpp"
-#include "response/random_numbers.hpp"
-#include "response/sensor_imperfections.hpp"
-#include "response/time_model.hpp"
+#include "response/time/random_numbers.hpp"
+#include "response/time/sensor_imperfections.hpp"
+#include "response/time/time_model.hpp"
 
 #include <Eigen/Eigenvalues>
 
@@ -33,7 +33,7 @@ arm::ModalModel model_of(const FitCase& fit_case) {
 }
 
 TimeRecord clean_record(const FitCase& fit_case, const arm::ModalModel& model,
-                               const response::ArmParts& parts) {
+                        const response::ArmParts& parts) {
   const response::SampleGrid grid{
       static_cast<std::size_t>(std::lround(fit_case.duration_s / fit_case.sample_time_s)),
       fit_case.sample_time_s};

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "measured/time_record.hpp"
-#include "response/excitation.hpp"
-#include "response/simulation.hpp"
+#include "measured/files/time_record.hpp"
+#include "response/excitation/excitation.hpp"
+#include "response/time/simulation.hpp"
 
 #include <complex>
 #include <cstddef>

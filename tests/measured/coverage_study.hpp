@@ -1,6 +1,6 @@
 #pragma once
 
-#include "measured/modal_gains.hpp"
+#include "measured/modal/modal_gains.hpp"
 #include "tests/fit_cases/exact_gains.hpp"
 #include "tests/measured/fit_errors.hpp"
 

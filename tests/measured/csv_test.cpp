@@ -1,4 +1,4 @@
-#include "measured/csv.hpp"
+#include "measured/files/csv.hpp"
 
 #include "arm/input_error.hpp"
 

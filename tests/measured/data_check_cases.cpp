@@ -1,10 +1,10 @@
 #include "tests/measured/data_check_cases.hpp"
 
 #include "arm/linear_arm.hpp"
-#include "response/excitation.hpp"
+#include "response/excitation/excitation.hpp"
 #include "response/formulation_maker.hpp"
-#include "response/simulation.hpp"
-#include "response/time_model.hpp"
+#include "response/time/simulation.hpp"
+#include "response/time/time_model.hpp"
 
 #include <fmt/format.h>
 

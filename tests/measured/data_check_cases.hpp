@@ -1,9 +1,9 @@
 #pragma once
 
 #include "arm/arm.hpp"
-#include "measured/data_check.hpp"
-#include "measured/time_record.hpp"
-#include "response/random_numbers.hpp"
+#include "measured/checks/data_check.hpp"
+#include "measured/files/time_record.hpp"
+#include "response/time/random_numbers.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include "measured/robust.hpp"
+#include "measured/spectra/robust.hpp"
 #include "tests/measured/data_check_cases.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
-#include "measured/data_check.hpp"
+#include "measured/checks/data_check.hpp"
 
-#include "measured/measurement.hpp"
+#include "measured/files/measurement.hpp"
 #include "tests/measured/data_check_cases.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
-#include "measured/distortion.hpp"
+#include "measured/spectra/distortion.hpp"
 
-#include "measured/response_estimate.hpp"
+#include "measured/spectra/response_estimate.hpp"
 #include "tests/measured/simulated_record.hpp"
 
 #include <gmock/gmock.h>

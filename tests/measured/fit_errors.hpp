@@ -1,6 +1,6 @@
 #pragma once
 
-#include "measured/modal_fit.hpp"
+#include "measured/modal/modal_fit.hpp"
 #include "tests/fit_cases/fit_cases.hpp"
 
 #include <algorithm>

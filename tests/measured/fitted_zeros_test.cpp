@@ -1,5 +1,5 @@
 // Zeros of a rational function against those it was made of.
-#include "measured/fitted_zeros.hpp"
+#include "measured/modal/fitted_zeros.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
-#include "measured/foreign_file.hpp"
+#include "measured/files/foreign_file.hpp"
 
 #include "arm/input_error.hpp"
-#include "arm/text_file.hpp"
-#include "measured/column_guess.hpp"
-#include "measured/record_constants.hpp"
-#include "measured/record_export.hpp"
+#include "measured/files/column_guess.hpp"
+#include "measured/files/record_constants.hpp"
+#include "measured/files/record_export.hpp"
+#include "measured/files/text_file.hpp"
 #include "tests/measured/any_finite.hpp"
 
 #include <gmock/gmock.h>

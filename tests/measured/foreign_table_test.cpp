@@ -1,7 +1,7 @@
-#include "measured/foreign_table.hpp"
+#include "measured/files/foreign_table.hpp"
 
 #include "arm/input_error.hpp"
-#include "measured/column_name.hpp"
+#include "measured/files/column_name.hpp"
 #include "tests/measured/mistake.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-#include "measured/fourier.hpp"
+#include "measured/spectra/fourier.hpp"
 
 #include "arm/input_error.hpp"
 #include "tests/measured/signals.hpp"

@@ -1,7 +1,7 @@
-#include "measured/frequency_record.hpp"
+#include "measured/files/frequency_record.hpp"
 
 #include "arm/input_error.hpp"
-#include "measured/record_constants.hpp"
+#include "measured/files/record_constants.hpp"
 #include "tests/measured/any_finite.hpp"
 #include "tests/measured/mistake.hpp"
 

@@ -1,4 +1,4 @@
-#include "measured/frequency_response.hpp"
+#include "measured/spectra/frequency_response.hpp"
 
 #include "tests/measured/signals.hpp"
 

@@ -1,9 +1,9 @@
 // The sampled response of a block against closed forms, and its derivatives against differences.
-#include "measured/held_response.hpp"
+#include "measured/modal/held_response.hpp"
 
-#include "measured/block_signals.hpp"
-#include "measured/sensor_columns.hpp"
-#include "response/random_numbers.hpp"
+#include "measured/files/sensor_columns.hpp"
+#include "measured/modal/block_signals.hpp"
+#include "response/time/random_numbers.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 #include "measured/identification.hpp"
 
 #include "arm/input_error.hpp"
-#include "response/modal_response.hpp"
+#include "response/frequency/modal_response.hpp"
 #include "tests/fit_cases/fit_cases.hpp"
 
 #include <gmock/gmock.h>
@@ -106,7 +106,7 @@ TEST(Identify, ReadsFrequencyResponses) {
   for (const Method method : {Method::response, Method::nyquist_circle, Method::rational_fit}) {
     const auto readings = readings_by(method, found);
     ASSERT_FALSE(readings.empty()) << to_string(method);
-    // Of circles, measured/nyquist_circle.hpp: what the slope of other modes makes.
+    // Of circles, measured/modal/nyquist_circle.hpp: what the slope of other modes makes.
     EXPECT_NEAR(first_pole_Hz(readings[0]) / (std::abs(pole) / (2.0 * std::numbers::pi)), 1.0, 5e-4)
         << to_string(method);
   }

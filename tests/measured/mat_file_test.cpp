@@ -1,7 +1,7 @@
-#include "measured/mat_file.hpp"
+#include "measured/files/mat_file.hpp"
 
 #include "arm/input_error.hpp"
-#include "arm/text_file.hpp"
+#include "measured/files/text_file.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -77,7 +77,8 @@ TEST_F(MatFile, TheSameVariablesGiveTheSameBytes) {
   write_mat_file(every_kind(), path("a.mat"));
   write_mat_file(every_kind(), path("b.mat"));
   constexpr std::size_t kMost = 1 << 20;
-  EXPECT_EQ(arm::read_text_file(path("a.mat"), kMost), arm::read_text_file(path("b.mat"), kMost));
+  EXPECT_EQ(measured::read_text_file(path("a.mat"), kMost),
+            measured::read_text_file(path("b.mat"), kMost));
 }
 
 TEST_F(MatFile, WhatMatlabCouldNotHoldIsRefused) {
@@ -156,7 +157,7 @@ TEST_F(MatFile, MutatedFilesGiveVariablesOrOneLine) {
   Mat_LogInitFunc("test", [](int, char*) {});  // the library's own words on broken files
   constexpr int kFiles = 2000;
   for (const char* name : {"a.mat", "b.mat", "c.mat"}) {
-    const std::string good = arm::read_text_file(path(name), 1 << 20);
+    const std::string good = measured::read_text_file(path(name), 1 << 20);
     for (int i = 0; i < kFiles; ++i) {
       std::string bytes = good;
       if (i % 2 == 0) {
@@ -180,7 +181,7 @@ TEST_F(MatFile, MutatedFilesGiveVariablesOrOneLine) {
 
 TEST_F(MatFile, AFileCutOffAnywhereIsRefusedOrHoldsWholeVariables) {
   write_mat_file(every_kind(), path());
-  const std::string bytes = arm::read_text_file(path(), 1 << 20);
+  const std::string bytes = measured::read_text_file(path(), 1 << 20);
   const auto whole = every_kind();
   for (std::size_t size = 0; size < bytes.size(); size += 7) {
     std::ofstream(path(), std::ios::binary) << bytes.substr(0, size);

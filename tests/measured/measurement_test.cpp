@@ -1,7 +1,7 @@
-#include "measured/measurement.hpp"
+#include "measured/files/measurement.hpp"
 
 #include "arm/input_error.hpp"
-#include "arm/text_file.hpp"
+#include "measured/files/text_file.hpp"
 #include "tests/measured/mistake.hpp"
 
 #include <gtest/gtest.h>
@@ -76,7 +76,7 @@ TEST(Measurement, WhatIsWrittenReadsBackEqual) {
 }
 
 TEST(Measurement, TheExampleOfTheFormatsDocumentIsRead) {
-  const std::string text = arm::read_text_file(FLEXARM_SOURCE_DIR "/docs/formats.md", 1 << 20);
+  const std::string text = measured::read_text_file(FLEXARM_SOURCE_DIR "/docs/formats.md", 1 << 20);
   const auto heading = text.find("\n## Measurement");
   const auto begin = text.find('\n', text.find("```toml", heading)) + 1;
   const Measurement measurement =

@@ -1,6 +1,6 @@
 // Fits of frequency responses, on uneven grids, against the formulation that made them.
-#include "measured/modal_fit.hpp"
-#include "response/random_numbers.hpp"
+#include "measured/modal/modal_fit.hpp"
+#include "response/time/random_numbers.hpp"
 #include "tests/fit_cases/fit_cases.hpp"
 #include "tests/measured/fit_errors.hpp"
 #include "tests/measured/simulated_responses.hpp"

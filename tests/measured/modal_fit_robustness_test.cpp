@@ -1,7 +1,7 @@
 // Fits of data that are short, poor, of another arm than the model's, or no data at all.
 #include "arm/input_error.hpp"
-#include "measured/modal_fit.hpp"
-#include "measured/modal_gains.hpp"
+#include "measured/modal/modal_fit.hpp"
+#include "measured/modal/modal_gains.hpp"
 #include "tests/fit_cases/fit_cases.hpp"
 #include "tests/measured/fit_errors.hpp"
 #include "tests/measured/simulated_responses.hpp"

@@ -1,9 +1,9 @@
 // Fits of simulated records: noise-free ones to the figures that rounding allows, noisy ones to
 // their own standard errors.
-#include "measured/modal_fit.hpp"
+#include "measured/modal/modal_fit.hpp"
 
 #include "arm/input_error.hpp"
-#include "response/random_numbers.hpp"
+#include "response/time/random_numbers.hpp"
 #include "tests/fit_cases/fit_cases.hpp"
 #include "tests/measured/fit_errors.hpp"
 

@@ -1,9 +1,9 @@
 // Hub slopes and tip gains of fits against the modal models of the three formulations.
-#include "measured/modal_gains.hpp"
+#include "measured/modal/modal_gains.hpp"
 
 #include "arm/input_error.hpp"
 #include "response/formulation_maker.hpp"
-#include "response/modal_response.hpp"
+#include "response/frequency/modal_response.hpp"
 #include "tests/fit_cases/exact_gains.hpp"
 #include "tests/fit_cases/fit_cases.hpp"
 

@@ -1,7 +1,7 @@
-#include "measured/modal_table.hpp"
+#include "measured/files/modal_table.hpp"
 
 #include "arm/input_error.hpp"
-#include "arm/text_file.hpp"
+#include "measured/files/text_file.hpp"
 #include "tests/measured/mistake.hpp"
 
 #include <gtest/gtest.h>
@@ -66,7 +66,7 @@ TEST(ModalTable, WhatIsWrittenReadsBackEqual) {
 }
 
 TEST(ModalTable, TheExampleOfTheFormatsDocumentIsRead) {
-  const std::string text = arm::read_text_file(FLEXARM_SOURCE_DIR "/docs/formats.md", 1 << 20);
+  const std::string text = measured::read_text_file(FLEXARM_SOURCE_DIR "/docs/formats.md", 1 << 20);
   const auto begin = text.find('\n', text.find("```csv")) + 1;
   const ModalTable table =
       parse_modal_table(text.substr(begin, text.find("```", begin) - begin), "docs/formats.md");

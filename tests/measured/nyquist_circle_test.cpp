@@ -1,4 +1,4 @@
-#include "measured/nyquist_circle.hpp"
+#include "measured/modal/nyquist_circle.hpp"
 
 #include "exact_tf/exact_arm.hpp"
 #include "tests/measured/simulated_record.hpp"

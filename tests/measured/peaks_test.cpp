@@ -1,7 +1,7 @@
-#include "measured/peaks.hpp"
+#include "measured/modal/peaks.hpp"
 
-#include "measured/spectra.hpp"
-#include "measured/spectral_features.hpp"
+#include "measured/spectra/spectra.hpp"
+#include "measured/spectra/spectral_features.hpp"
 #include "tests/measured/simulated_record.hpp"
 
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
-#include "measured/periodic_spectra.hpp"
+#include "measured/spectra/periodic_spectra.hpp"
 
 #include "arm/input_error.hpp"
-#include "measured/frequency_response.hpp"
-#include "measured/period.hpp"
+#include "measured/spectra/frequency_response.hpp"
+#include "measured/spectra/period.hpp"
 #include "tests/measured/signals.hpp"
 #include "tests/measured/simulated_record.hpp"
 

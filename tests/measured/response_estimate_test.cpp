@@ -1,4 +1,4 @@
-#include "measured/response_estimate.hpp"
+#include "measured/spectra/response_estimate.hpp"
 
 #include "arm/input_error.hpp"
 #include "exact_tf/exact_arm.hpp"

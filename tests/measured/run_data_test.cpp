@@ -1,4 +1,4 @@
-#include "measured/run_data.hpp"
+#include "measured/files/run_data.hpp"
 
 #include "arm/input_error.hpp"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "response/random_numbers.hpp"
+#include "response/time/random_numbers.hpp"
 
 #include <cmath>
 #include <complex>

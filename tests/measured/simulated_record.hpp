@@ -1,11 +1,11 @@
 #pragma once
 
-#include "measured/time_record.hpp"
-#include "response/excitation.hpp"
+#include "measured/files/time_record.hpp"
+#include "response/excitation/excitation.hpp"
 #include "response/formulation_maker.hpp"
-#include "response/random_numbers.hpp"
-#include "response/simulation.hpp"
-#include "response/time_model.hpp"
+#include "response/time/random_numbers.hpp"
+#include "response/time/simulation.hpp"
+#include "response/time/time_model.hpp"
 #include "tests/measured/signals.hpp"
 
 #include <Eigen/Dense>

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "measured/frequency_record.hpp"
-#include "measured/record_constants.hpp"
-#include "response/modal_response.hpp"
+#include "measured/files/frequency_record.hpp"
+#include "measured/files/record_constants.hpp"
+#include "response/frequency/modal_response.hpp"
 #include "tests/fit_cases/fit_cases.hpp"
 
 #include <cmath>

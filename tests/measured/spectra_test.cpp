@@ -1,4 +1,4 @@
-#include "measured/spectra.hpp"
+#include "measured/spectra/spectra.hpp"
 
 #include "arm/input_error.hpp"
 #include "tests/measured/signals.hpp"

@@ -1,9 +1,9 @@
 // The common denominator and its chart: an arm's poles stay over the orders, noise has none that
 // do.
-#include "measured/stabilisation.hpp"
+#include "measured/modal/stabilisation.hpp"
 
-#include "measured/alias_placement.hpp"
-#include "measured/modal_fit.hpp"
+#include "measured/modal/alias_placement.hpp"
+#include "measured/modal/modal_fit.hpp"
 #include "tests/fit_cases/fit_cases.hpp"
 #include "tests/measured/fit_errors.hpp"
 

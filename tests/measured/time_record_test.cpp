@@ -1,7 +1,7 @@
-#include "measured/time_record.hpp"
+#include "measured/files/time_record.hpp"
 
 #include "arm/input_error.hpp"
-#include "arm/text_file.hpp"
+#include "measured/files/text_file.hpp"
 #include "tests/measured/any_finite.hpp"
 #include "tests/measured/mistake.hpp"
 
@@ -127,7 +127,7 @@ TEST(TimeRecord, WhatCannotBeReadBackIsNotWritten) {
 }
 
 TEST(TimeRecord, TheExampleOfTheFormatsDocumentIsRead) {
-  const std::string text = arm::read_text_file(FLEXARM_SOURCE_DIR "/docs/formats.md", 1 << 20);
+  const std::string text = measured::read_text_file(FLEXARM_SOURCE_DIR "/docs/formats.md", 1 << 20);
   const auto begin = text.find("time [s],torque [N m]", text.find("## Time record"));
   const TimeRecord record =
       parse_time_record(text.substr(begin, text.find("```", begin) - begin), "docs/formats.md");

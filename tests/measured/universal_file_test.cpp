@@ -1,7 +1,7 @@
-#include "measured/universal_file.hpp"
+#include "measured/files/universal_file.hpp"
 
 #include "arm/input_error.hpp"
-#include "measured/universal_grid.hpp"
+#include "measured/files/universal_grid.hpp"
 #include "tests/measured/any_finite.hpp"
 #include "tests/measured/mistake.hpp"
 

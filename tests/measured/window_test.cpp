@@ -1,4 +1,4 @@
-#include "measured/window.hpp"
+#include "measured/spectra/window.hpp"
 
 #include "arm/input_error.hpp"
 #include "tests/measured/signals.hpp"

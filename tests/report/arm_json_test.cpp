@@ -1,4 +1,4 @@
-#include "report/arm_json.hpp"
+#include "report/json/arm_json.hpp"
 
 #include <gtest/gtest.h>
 

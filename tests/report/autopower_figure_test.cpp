@@ -1,7 +1,7 @@
-#include "report/autopower_figure.hpp"
+#include "report/figures/autopower_figure.hpp"
 
-#include "report/gnuplot_script.hpp"
-#include "report/svg.hpp"
+#include "report/figures/gnuplot_script.hpp"
+#include "report/figures/svg.hpp"
 #include "tests/report/measured_sample.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
-#include "report/bode_figure.hpp"
+#include "report/figures/bode_figure.hpp"
 
-#include "report/svg.hpp"
+#include "report/figures/svg.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
-#include "report/comparison_json.hpp"
+#include "report/json/comparison_json.hpp"
 
-#include "report/modes_report.hpp"
+#include "report/tables/modes_report.hpp"
 #include "tests/report/comparison_sample.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
-#include "report/comparison_plots.hpp"
+#include "report/figures/comparison_plots.hpp"
 
-#include "report/modes_report.hpp"
+#include "report/tables/modes_report.hpp"
 #include "tests/report/comparison_sample.hpp"
 
 #include <boost/property_tree/ptree.hpp>

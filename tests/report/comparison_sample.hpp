@@ -1,7 +1,7 @@
 #pragma once
 
 #include "compare/comparison.hpp"
-#include "report/comparison_json.hpp"
+#include "report/json/comparison_json.hpp"
 
 #include <complex>
 #include <limits>

@@ -1,7 +1,7 @@
-#include "report/comparison_tables.hpp"
+#include "report/tables/comparison_tables.hpp"
 
-#include "report/csv.hpp"
-#include "report/text_table.hpp"
+#include "report/tables/csv.hpp"
+#include "report/tables/text_table.hpp"
 #include "tests/report/comparison_sample.hpp"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-#include "report/csv.hpp"
+#include "report/tables/csv.hpp"
 
 #include <gtest/gtest.h>
 

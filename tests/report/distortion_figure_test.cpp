@@ -1,6 +1,6 @@
-#include "report/distortion_figure.hpp"
+#include "report/figures/distortion_figure.hpp"
 
-#include "report/svg.hpp"
+#include "report/figures/svg.hpp"
 #include "tests/report/measured_sample.hpp"
 
 #include <gmock/gmock.h>

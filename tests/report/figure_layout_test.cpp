@@ -1,6 +1,6 @@
-#include "report/figure_layout.hpp"
+#include "report/figures/figure_layout.hpp"
 
-#include "report/logarithmic_ticks.hpp"
+#include "report/figures/logarithmic_ticks.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

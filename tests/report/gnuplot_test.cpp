@@ -1,4 +1,4 @@
-#include "report/gnuplot.hpp"
+#include "report/figures/gnuplot.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "report/json_document.hpp"
+#include "report/json/json_document.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

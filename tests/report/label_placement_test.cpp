@@ -1,6 +1,6 @@
-#include "report/label_placement.hpp"
+#include "report/figures/label_placement.hpp"
 
-#include "report/figure_layout.hpp"
+#include "report/figures/figure_layout.hpp"
 
 #include <gtest/gtest.h>
 

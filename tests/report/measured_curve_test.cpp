@@ -1,6 +1,6 @@
-#include "report/measured_curve.hpp"
+#include "report/figures/measured_curve.hpp"
 
-#include "report/refined_curve.hpp"
+#include "report/figures/refined_curve.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

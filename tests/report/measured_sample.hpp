@@ -1,13 +1,13 @@
 #pragma once
 
 #include "exact_tf/exact_arm.hpp"
-#include "measured/modal_fit.hpp"
-#include "measured/nyquist_circle.hpp"
-#include "measured/response_estimate.hpp"
-#include "measured/spectral_features.hpp"
-#include "report/figure_layout.hpp"
-#include "report/label_placement.hpp"
-#include "response/random_numbers.hpp"
+#include "measured/modal/modal_fit.hpp"
+#include "measured/modal/nyquist_circle.hpp"
+#include "measured/spectra/response_estimate.hpp"
+#include "measured/spectra/spectral_features.hpp"
+#include "report/figures/figure_layout.hpp"
+#include "report/figures/label_placement.hpp"
+#include "response/time/random_numbers.hpp"
 #include "tests/fit_cases/fit_cases.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
-#include "report/mode_shape_figure.hpp"
+#include "report/figures/mode_shape_figure.hpp"
 
-#include "report/svg.hpp"
+#include "report/figures/svg.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
-#include "report/nyquist_circle_figure.hpp"
+#include "report/figures/nyquist_circle_figure.hpp"
 
-#include "report/svg.hpp"
+#include "report/figures/svg.hpp"
 #include "tests/report/measured_sample.hpp"
 
 #include <gmock/gmock.h>
@@ -43,7 +43,7 @@ TEST(NyquistCircleFigure, MarksThePointsOfTheirFrequencies) {
     ASSERT_NE(half, nullptr);
     const double zeta = circles[0].damping_ratio;
     const double f_Hz = circles[0].natural_frequency_Hz;
-    // The other modes' slope over the resonance, in radii: measured/nyquist_circle.hpp.
+    // The other modes' slope over the resonance, in radii: measured/modal/nyquist_circle.hpp.
     const double near = 0.02 * circles[0].circle.radius;
     const auto distance = [&](const Series& mark, std::size_t i, double at_Hz) {
       return std::abs(Complex(mark.x[i], mark.y[i]) - velocity(sensor, at_Hz));

@@ -1,4 +1,4 @@
-#include "report/phase.hpp"
+#include "report/figures/phase.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

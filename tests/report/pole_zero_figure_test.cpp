@@ -1,6 +1,6 @@
-#include "report/pole_zero_figure.hpp"
+#include "report/figures/pole_zero_figure.hpp"
 
-#include "report/svg.hpp"
+#include "report/figures/svg.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "response/formulation_maker.hpp"
-#include "response/response_study.hpp"
+#include "response/frequency/response_study.hpp"
 
 namespace flexarm::report {
 

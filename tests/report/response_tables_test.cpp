@@ -1,8 +1,8 @@
-#include "report/response_tables.hpp"
+#include "report/tables/response_tables.hpp"
 
-#include "report/csv.hpp"
-#include "report/response_plots.hpp"
-#include "report/text_table.hpp"
+#include "report/figures/response_plots.hpp"
+#include "report/tables/csv.hpp"
+#include "report/tables/text_table.hpp"
 #include "report/utf8_text.hpp"
 #include "tests/report/response_sample.hpp"
 

@@ -1,6 +1,6 @@
-#include "report/simulation_report.hpp"
+#include "report/tables/simulation_report.hpp"
 
-#include "report/text_table.hpp"
+#include "report/tables/text_table.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
-#include "report/stabilisation_figure.hpp"
+#include "report/figures/stabilisation_figure.hpp"
 
-#include "report/svg.hpp"
+#include "report/figures/svg.hpp"
 #include "tests/report/measured_sample.hpp"
 
 #include <gmock/gmock.h>

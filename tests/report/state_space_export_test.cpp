@@ -1,7 +1,7 @@
-#include "report/state_space_export.hpp"
+#include "report/tables/state_space_export.hpp"
 
-#include "measured/csv.hpp"
-#include "report/csv.hpp"
+#include "measured/files/csv.hpp"
+#include "report/tables/csv.hpp"
 #include "tests/report/response_sample.hpp"
 
 #include <gtest/gtest.h>

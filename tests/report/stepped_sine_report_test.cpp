@@ -1,6 +1,6 @@
-#include "report/stepped_sine_report.hpp"
+#include "report/tables/stepped_sine_report.hpp"
 
-#include "report/text_table.hpp"
+#include "report/tables/text_table.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "report/svg.hpp"
+#include "report/figures/svg.hpp"
 
 #include <boost/property_tree/ptree.hpp>
 #include <boost/property_tree/xml_parser.hpp>

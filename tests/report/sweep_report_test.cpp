@@ -1,10 +1,10 @@
 #include "arm/input_error.hpp"
-#include "report/csv.hpp"
-#include "report/svg.hpp"
-#include "report/sweep_figures.hpp"
-#include "report/sweep_json.hpp"
-#include "report/sweep_tables.hpp"
-#include "report/text_table.hpp"
+#include "report/figures/svg.hpp"
+#include "report/figures/sweep_figures.hpp"
+#include "report/json/sweep_json.hpp"
+#include "report/tables/csv.hpp"
+#include "report/tables/sweep_tables.hpp"
+#include "report/tables/text_table.hpp"
 
 #include <boost/property_tree/ptree.hpp>
 #include <boost/property_tree/xml_parser.hpp>

@@ -1,8 +1,8 @@
-#include "report/symptom_tables.hpp"
+#include "report/tables/symptom_tables.hpp"
 
-#include "report/diagnosis_figures.hpp"
-#include "report/diagnosis_json.hpp"
-#include "report/svg.hpp"
+#include "report/figures/diagnosis_figures.hpp"
+#include "report/figures/svg.hpp"
+#include "report/json/diagnosis_json.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

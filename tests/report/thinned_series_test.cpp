@@ -1,4 +1,4 @@
-#include "report/thinned_series.hpp"
+#include "report/figures/thinned_series.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // Drag and speed-dependent friction: closed forms, and the order of the method.
-#include "response/drag.hpp"
+#include "response/time/drag.hpp"
 
 #include "arm/input_error.hpp"
 #include "tests/response/simulation_models.hpp"

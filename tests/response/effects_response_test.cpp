@@ -1,9 +1,9 @@
 // Residual mode, state space and product form of arms with linear effects.
 
-#include "response/modal_response.hpp"
+#include "response/frequency/modal_response.hpp"
+#include "response/frequency/response_study.hpp"
+#include "response/frequency/transfer_forms.hpp"
 #include "response/residual_mode.hpp"
-#include "response/response_study.hpp"
-#include "response/transfer_forms.hpp"
 #include "tests/response/models.hpp"
 
 #include <gtest/gtest.h>

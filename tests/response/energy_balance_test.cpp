@@ -1,5 +1,5 @@
 // Where the energy goes, and that a wrong law is found out by it.
-#include "response/energy_ledger.hpp"
+#include "response/time/energy_ledger.hpp"
 #include "tests/response/simulation_models.hpp"
 
 #include <gtest/gtest.h>

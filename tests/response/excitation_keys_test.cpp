@@ -1,4 +1,4 @@
-#include "response/excitation_keys.hpp"
+#include "response/excitation/excitation_keys.hpp"
 
 #include "arm/input_error.hpp"
 

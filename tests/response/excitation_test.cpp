@@ -1,7 +1,7 @@
-#include "response/excitation.hpp"
+#include "response/excitation/excitation.hpp"
 
 #include "arm/input_error.hpp"
-#include "response/line_spectrum.hpp"
+#include "response/excitation/line_spectrum.hpp"
 
 #include <Eigen/Core>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // Friction and drag against an independent integrator: Dormand and Prince's method of Boost.odeint
 // on the matrices of a finite-element model, with events of its own.
 #include "fem/fem_arm.hpp"
-#include "response/drag.hpp"
+#include "response/time/drag.hpp"
 #include "tests/response/simulation_models.hpp"
 
 #include <Eigen/Cholesky>

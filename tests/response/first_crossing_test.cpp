@@ -1,5 +1,5 @@
 // Crossings inside a step: none is missed, none is made up.
-#include "response/first_crossing.hpp"
+#include "response/time/first_crossing.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "response/frequency_grid.hpp"
+#include "response/frequency/frequency_grid.hpp"
 
 #include "arm/input_error.hpp"
 

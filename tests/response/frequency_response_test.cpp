@@ -1,4 +1,4 @@
-#include "response/frequency_response.hpp"
+#include "response/frequency/frequency_response.hpp"
 
 #include "arm/input_error.hpp"
 #include "tests/response/models.hpp"

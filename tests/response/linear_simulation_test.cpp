@@ -4,7 +4,7 @@
 #include "response/any_formulation.hpp"
 #include "response/formulation_maker.hpp"
 #include "response/residual_mode.hpp"
-#include "response/step_check.hpp"
+#include "response/time/step_check.hpp"
 #include "tests/response/simulation_models.hpp"
 
 #include <gtest/gtest.h>

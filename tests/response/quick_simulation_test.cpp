@@ -1,10 +1,10 @@
 // The simulation for fits beside the exact one.
-#include "response/quick_simulation.hpp"
+#include "response/time/quick_simulation.hpp"
 
 #include "arm/input_error.hpp"
-#include "response/excitation.hpp"
+#include "response/excitation/excitation.hpp"
 #include "response/formulation_maker.hpp"
-#include "response/time_model.hpp"
+#include "response/time/time_model.hpp"
 
 #include <gtest/gtest.h>
 

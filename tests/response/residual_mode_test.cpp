@@ -1,7 +1,7 @@
 #include "response/residual_mode.hpp"
 
-#include "response/frequency_response.hpp"
-#include "response/modal_response.hpp"
+#include "response/frequency/frequency_response.hpp"
+#include "response/frequency/modal_response.hpp"
 #include "tests/response/models.hpp"
 
 #include <gtest/gtest.h>

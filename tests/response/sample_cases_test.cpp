@@ -1,10 +1,10 @@
-#include "arm/arm_file.hpp"
-#include "arm/text_file.hpp"
-#include "measured/measurement.hpp"
-#include "measured/time_record.hpp"
+#include "measured/files/arm_file.hpp"
+#include "measured/files/measurement.hpp"
+#include "measured/files/text_file.hpp"
+#include "measured/files/time_record.hpp"
 #include "response/formulation_maker.hpp"
-#include "response/simulation.hpp"
-#include "response/time_model.hpp"
+#include "response/time/simulation.hpp"
+#include "response/time/time_model.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -38,7 +38,7 @@ fs::path cases_folder() {
 /// Effects of one case as answers.json gives them.
 arm::Effects effects_of(const std::string& name) {
   const auto answers = nlohmann::json::parse(
-      arm::read_text_file(cases_folder() / "answers.json", std::size_t{1} << 20U));
+      measured::read_text_file(cases_folder() / "answers.json", std::size_t{1} << 20U));
   arm::Effects effects;
   for (const auto& [effect, parameters] : answers.at(name).at("effects").items()) {
     effects[effect].parameters = parameters.get<std::map<std::string, double>>();
@@ -80,7 +80,7 @@ std::vector<ChannelResidual> residuals(const std::string& name, const arm::Effec
   const auto measurement = measured::read_measurement(file);
   std::vector<ChannelResidual> all;
   for (const auto& run : measurement.runs) {
-    arm::Arm arm = arm::read_arm_file(measured::beside(file, measurement.arm));
+    arm::Arm arm = measured::read_arm_file(measured::beside(file, measurement.arm));
     arm.effects = effects;
     arm.payload = run.payload.value_or(arm.payload);
     const auto record = measured::read_time_record(measured::beside(file, run.file));

@@ -1,4 +1,4 @@
-#include "response/sensor_imperfections.hpp"
+#include "response/time/sensor_imperfections.hpp"
 
 #include "arm/input_error.hpp"
 

@@ -3,7 +3,7 @@
 #include "arm/formulation.hpp"
 #include "arm/sensor.hpp"
 #include "response/arm_parts.hpp"
-#include "response/simulation.hpp"
+#include "response/time/simulation.hpp"
 
 #include <cmath>
 #include <cstddef>

@@ -1,4 +1,4 @@
-#include "response/sine_correlation.hpp"
+#include "response/time/sine_correlation.hpp"
 
 #include <gtest/gtest.h>
 

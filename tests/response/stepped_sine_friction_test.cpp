@@ -1,5 +1,5 @@
 // What dry friction and clipping make of a sine: closed forms.
-#include "response/stepped_sine_response.hpp"
+#include "response/time/stepped_sine_response.hpp"
 #include "tests/response/simulation_models.hpp"
 
 #include <gtest/gtest.h>

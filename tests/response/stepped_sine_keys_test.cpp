@@ -1,5 +1,5 @@
 #include "arm/input_error.hpp"
-#include "response/stepped_sine.hpp"
+#include "response/time/stepped_sine.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,10 +1,10 @@
 // A linear arm under a stepped sine against the response that frequency_response states.
 #include "arm/input_error.hpp"
-#include "measured/nyquist_circle.hpp"
-#include "response/frequency_response.hpp"
-#include "response/modal_response.hpp"
-#include "response/stepped_sine_response.hpp"
-#include "response/time_model.hpp"
+#include "measured/modal/nyquist_circle.hpp"
+#include "response/frequency/frequency_response.hpp"
+#include "response/frequency/modal_response.hpp"
+#include "response/time/stepped_sine_response.hpp"
+#include "response/time/time_model.hpp"
 #include "tests/response/models.hpp"
 #include "tests/response/simulation_models.hpp"
 

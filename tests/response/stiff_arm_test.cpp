@@ -1,5 +1,5 @@
 // Linear arms whose motions decay within a sample, or turn many times in it: steps are exact.
-#include "response/step_check.hpp"
+#include "response/time/step_check.hpp"
 #include "tests/response/simulation_models.hpp"
 
 #include <gtest/gtest.h>

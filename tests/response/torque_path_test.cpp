@@ -1,5 +1,5 @@
 // What the commanded torque passes on its way to the hub.
-#include "response/torque_path.hpp"
+#include "response/time/torque_path.hpp"
 
 #include "tests/response/simulation_models.hpp"
 

@@ -1,4 +1,4 @@
-#include "response/transfer_forms.hpp"
+#include "response/frequency/transfer_forms.hpp"
 
 #include "exact_tf/partial_fractions.hpp"
 #include "exact_tf/product_form.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "arm/sensor.hpp"
-#include "measured/measurement.hpp"
+#include "measured/files/measurement.hpp"
 #include "tests/trials/random.hpp"
 #include "tests/trials/trial_arms.hpp"
 

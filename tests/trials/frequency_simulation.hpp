@@ -1,7 +1,7 @@
 #pragma once
 
 #include "arm/sensor.hpp"
-#include "measured/modal_table.hpp"
+#include "measured/files/modal_table.hpp"
 #include "tests/trials/world.hpp"
 
 #include <complex>

@@ -1,7 +1,7 @@
 #include "tests/trials/frequency_simulation.hpp"
 
 #include "exact_tf/exact_arm.hpp"
-#include "response/frequency_response.hpp"
+#include "response/frequency/frequency_response.hpp"
 #include "tests/trials/experiment_plan.hpp"
 
 #include <gtest/gtest.h>

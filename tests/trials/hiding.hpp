@@ -1,6 +1,6 @@
 #pragma once
 
-#include "measured/measurement.hpp"
+#include "measured/files/measurement.hpp"
 #include "tests/trials/random.hpp"
 #include "tests/trials/trial_arms.hpp"
 #include "tests/trials/world.hpp"

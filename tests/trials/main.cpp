@@ -1,6 +1,6 @@
 // The program `trials`: makes cases with hidden causes, asks `flexarm diagnose`, and counts.
-#include "arm/atomic_file.hpp"
 #include "arm/input_error.hpp"
+#include "measured/files/atomic_file.hpp"
 #include "tests/trials/results_file.hpp"
 #include "tests/trials/scorecard.hpp"
 #include "tests/trials/trial_list.hpp"
@@ -101,8 +101,8 @@ TrialResult make_trial(const TrialKey& key, const TrialOptions& options) {
   if (!options.keep.empty()) {
     result.folder = case_folder.string();
     fs::create_directories(folder.path() / "truth");
-    arm::write_atomically(folder.path() / "truth" / (key.folder_name() + ".json"),
-                          truth_json(truth).dump(1) + "\n");
+    measured::write_atomically(folder.path() / "truth" / (key.folder_name() + ".json"),
+                               truth_json(truth).dump(1) + "\n");
   }
   return result;
 }
@@ -153,7 +153,7 @@ int run(const TrialOptions& options) {
   const int failed = make_trials(keys, options, results);
   const std::string card = scorecard(results);
   fmt::print("{}", card);
-  if (!options.scorecard.empty()) arm::write_atomically(options.scorecard, card);
+  if (!options.scorecard.empty()) measured::write_atomically(options.scorecard, card);
   return failed == 0 ? 0 : 1;
 }
 

@@ -1,9 +1,9 @@
 #include "tests/trials/trial_case.hpp"
 
-#include "arm/arm_file.hpp"
-#include "measured/frequency_record.hpp"
-#include "measured/modal_table.hpp"
-#include "measured/time_record.hpp"
+#include "measured/files/arm_file.hpp"
+#include "measured/files/frequency_record.hpp"
+#include "measured/files/modal_table.hpp"
+#include "measured/files/time_record.hpp"
 #include "tests/trials/excitations.hpp"
 #include "tests/trials/frequency_simulation.hpp"
 #include "tests/trials/time_simulation.hpp"
@@ -139,7 +139,7 @@ Truth write_case(const TrialKey& key, const fs::path& folder) {
   }
 
   fs::create_directories(folder);
-  arm::write_arm_file(of.arm, folder / "arm.toml");
+  measured::write_arm_file(of.arm, folder / "arm.toml");
   measured::Measurement measurement{.name = "trial", .arm = "arm.toml", .runs = {}};
   std::uint64_t run_number = 0;
   for (const PlannedRun& run : runs) {

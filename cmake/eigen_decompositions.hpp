@@ -1,0 +1,27 @@
+#pragma once
+
+// Decompositions that many sources use: they are most of the time of a clean build, and are
+// compiled once, in eigen_decompositions.cpp. The header is a precompiled one
+// (FlexarmOptimisation.cmake), so that sources need not know of it.
+
+#include <Eigen/Dense>
+
+#include <complex>
+
+extern template class Eigen::HouseholderQR<Eigen::MatrixXd>;
+extern template class Eigen::ColPivHouseholderQR<Eigen::MatrixXd>;
+extern template class Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>;
+extern template class Eigen::PartialPivLU<Eigen::MatrixXd>;
+extern template class Eigen::LLT<Eigen::MatrixXd>;
+extern template class Eigen::LDLT<Eigen::MatrixXd>;
+extern template class Eigen::Tridiagonalization<Eigen::MatrixXd>;
+extern template class Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>;
+extern template class Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>;
+extern template class Eigen::HessenbergDecomposition<Eigen::MatrixXd>;
+extern template class Eigen::RealSchur<Eigen::MatrixXd>;
+extern template class Eigen::EigenSolver<Eigen::MatrixXd>;
+extern template class Eigen::RealQZ<Eigen::MatrixXd>;
+extern template class Eigen::GeneralizedEigenSolver<Eigen::MatrixXd>;
+extern template class Eigen::JacobiSVD<Eigen::MatrixXd>;
+extern template class Eigen::PartialPivLU<Eigen::MatrixXcd>;
+extern template class Eigen::JacobiSVD<Eigen::MatrixXcd>;

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "arm/arm.hpp"
+#include "measured/files/modal_table.hpp"
+
+#include <Eigen/Core>
+
+namespace flexarm::diagnose {
+
+/// The natural frequencies [Hz] and damping ratios that a modal table of this arm should hold: in
+/// the order of `Observations`, the poles and then the zeros of each sensor. Poles are damped
+/// ones; zeros have the modulus of the undamped, and the damping ratio of the zero of the damped
+/// transfer function beside it. By exact_tf.
+void predict_roots(const arm::Arm& arm, const measured::ModalTable& table,
+                   Eigen::Ref<Eigen::VectorXd> values);
+
+}  // namespace flexarm::diagnose

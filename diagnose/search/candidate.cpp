@@ -1,0 +1,86 @@
+#include "diagnose/search/candidate.hpp"
+
+#include "arm/uncertainties.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+namespace flexarm::diagnose {
+
+using Eigen::Index;
+
+arm::Arm Candidate::extend(const arm::Arm& arm) const {
+  arm::Arm made = arm::displaced(arm, displacements);
+  std::size_t at = 0;
+  for (const Hypothesis& effect : effects) {
+    const std::size_t count = effect.parameters.size();
+    made = extended(made, effect, std::span(values).subspan(at, count));
+    at += count;
+  }
+  return made;
+}
+
+std::vector<SearchedParameter> Candidate::parameters() const {
+  std::vector<SearchedParameter> all;
+  for (const Hypothesis& effect : effects) {
+    all.insert(all.end(), effect.parameters.begin(), effect.parameters.end());
+  }
+  return all;
+}
+
+Eigen::VectorXd Candidate::places() const {
+  const auto all = parameters();
+  const auto first = static_cast<Index>(displacements.size());
+  Eigen::VectorXd made(first + static_cast<Index>(all.size()));
+  made.head(first) = Eigen::VectorXd::Map(displacements.data(), first);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    made(first + static_cast<Index>(i)) = all[i].place(values[i]);
+  }
+  return made;
+}
+
+void Candidate::put(const Eigen::VectorXd& places) {
+  const auto all = parameters();
+  const auto first = static_cast<Index>(displacements.size());
+  Eigen::VectorXd::Map(displacements.data(), first) = places.head(first);
+  values.resize(all.size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    double place = places(first + static_cast<Index>(i));
+    place =
+        all[i].periodic ? place - std::floor(place) : std::clamp(place, -kBeyond, 1.0 + kBeyond);
+    values[i] = all[i].value(place);
+  }
+}
+
+std::string Candidate::label() const {
+  std::string text;
+  for (const Hypothesis& effect : effects) text += (text.empty() ? "" : " + ") + effect.label();
+  return text.empty() ? "nothing" : text;
+}
+
+bool Candidate::has(const Hypothesis& hypothesis) const {
+  return std::ranges::find(effects, hypothesis.effect, &Hypothesis::effect) != effects.end();
+}
+
+Candidate Candidate::with(const Hypothesis& hypothesis,
+                          const std::vector<double>& its_values) const {
+  Candidate made = *this;
+  made.effects.push_back(hypothesis);
+  made.values.insert(made.values.end(), its_values.begin(), its_values.end());
+  return made;
+}
+
+Candidate Candidate::without(std::size_t index) const {
+  Candidate made{.displacements = displacements};
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < effects.size(); ++i) {
+    const auto count = static_cast<std::ptrdiff_t>(effects[i].parameters.size());
+    const auto first = values.begin() + static_cast<std::ptrdiff_t>(at);
+    if (i != index) made = made.with(effects[i], std::vector<double>(first, first + count));
+    at += static_cast<std::size_t>(count);
+  }
+  return made;
+}
+
+}  // namespace flexarm::diagnose

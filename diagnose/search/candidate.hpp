@@ -1,0 +1,37 @@
+#pragma once
+
+#include "diagnose/search/hypothesis.hpp"
+
+#include <Eigen/Core>
+
+#include <string>
+#include <vector>
+
+namespace flexarm::diagnose {
+
+/// An arm with some effects, none or several, at definite values: what is fitted.
+struct Candidate {
+  std::vector<Hypothesis> effects = {};
+  std::vector<double> values = {};  ///< of all their parameters, effect after effect
+  /// How many of their standard deviations the arm's uncertain numbers are off (arm::displaced).
+  std::vector<double> displacements = {};
+
+  arm::Arm extend(const arm::Arm& arm) const;
+  std::vector<SearchedParameter> parameters() const;
+
+  /// What is fitted: displacements, then values as places between their bounds
+  /// (SearchedParameter::place), and back; places beyond `kBeyond` outside 0 to 1 are taken for
+  /// those.
+  Eigen::VectorXd places() const;
+  void put(const Eigen::VectorXd& places);
+  static constexpr double kBeyond = 0.25;
+
+  /// "payload_mass + time_delay"; "nothing".
+  std::string label() const;
+  bool has(const Hypothesis& hypothesis) const;
+  /// With one effect more, at these values; without the `index`-th.
+  Candidate with(const Hypothesis& hypothesis, const std::vector<double>& its_values) const;
+  Candidate without(std::size_t index) const;
+};
+
+}  // namespace flexarm::diagnose

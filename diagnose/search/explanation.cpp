@@ -1,0 +1,37 @@
+#include "diagnose/search/explanation.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace flexarm::diagnose {
+
+Explanation explain(const Problem& problem, Fit fit) {
+  Explanation made;
+  const Observations& observations = problem.observations();
+  made.held_out = Eigen::VectorXd::Zero(problem.residual_count());
+  made.estimation =
+      misfit(observations, problem.experiment(), fit.residuals, problem.estimation_runs());
+  const Eigen::Index displacements = problem.residual_count() - observations.values.size();
+  made.estimation.displacements = static_cast<double>(displacements);
+  made.estimation.displacement_squares = fit.residuals.tail(displacements).squaredNorm();
+  if (const auto held_out = problem.residuals(fit.candidate, problem.validation_runs())) {
+    made.held_out = *held_out;
+    made.validation =
+        misfit(observations, problem.experiment(), *held_out, problem.validation_runs());
+  }
+  made.fit = std::move(fit);
+  return made;
+}
+
+void sort_by_fit(std::vector<Explanation>& explanations) {
+  std::ranges::stable_sort(explanations, {},
+                           [](const Explanation& one) { return one.fit.sum_of_squares; });
+}
+
+double lead(const Explanation& fuller, const Explanation& simpler) {
+  const auto more = static_cast<int>(fuller.fit.candidate.values.size()) -
+                    static_cast<int>(simpler.fit.candidate.values.size());
+  return information_gain(simpler.estimation, fuller.estimation, more);
+}
+
+}  // namespace flexarm::diagnose

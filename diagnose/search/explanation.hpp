@@ -1,0 +1,29 @@
+#pragma once
+
+#include "diagnose/search/fit.hpp"
+#include "diagnose/search/misfit.hpp"
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace flexarm::diagnose {
+
+/// A fit with what it leaves of the runs that it was made of and of those it was not.
+struct Explanation {
+  Fit fit;
+  Eigen::VectorXd held_out;  ///< residuals of the validation runs, 0 elsewhere
+  Misfit estimation;         ///< displacements included
+  Misfit validation;         ///< count 0 without validation runs
+};
+
+/// `problem` is the one that `fit` was made of.
+Explanation explain(const Problem& problem, Fit fit);
+
+/// The best fits first.
+void sort_by_fit(std::vector<Explanation>& explanations);
+
+/// The information (misfit.hpp) by which `fuller` leads `simpler` on the estimation runs.
+double lead(const Explanation& fuller, const Explanation& simpler);
+
+}  // namespace flexarm::diagnose

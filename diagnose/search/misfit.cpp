@@ -1,0 +1,96 @@
+#include "diagnose/search/misfit.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace flexarm::diagnose {
+
+using Eigen::Index;
+
+namespace {
+
+/// Of n squares.
+double beyond_chance(double squares, double expected, double n) {
+  return std::max(0.0, squares - expected - kChance * std::sqrt(2.0 * n));
+}
+
+}  // namespace
+
+double independent(const Eigen::Ref<const Eigen::VectorXd>& residuals, measured::RunKind kind) {
+  const auto n = static_cast<double>(residuals.size());
+  if (kind != measured::RunKind::time || residuals.size() < 3) return n;
+  const double squares = residuals.squaredNorm();
+  if (!(squares > 0.0)) return n;
+  const Index last = residuals.size() - 1;
+  const double r = std::clamp(residuals.head(last).dot(residuals.tail(last)) / squares, 0.0, 1.0);
+  return std::max(1.0, n * (1.0 - r) / (1.0 + r));
+}
+
+double Misfit::excess() const {
+  return beyond_chance(sum_of_squares, (1.0 + kNoiseKnown) * count, count) + displacement_excess();
+}
+
+double Misfit::displacement_excess() const {
+  return beyond_chance(displacement_squares, displacements, displacements);
+}
+
+double Misfit::unexplained_error() const {
+  return std::sqrt(std::max(0.0, relative_error * relative_error - noise_floor * noise_floor));
+}
+
+double relative_error(const Observations& observations, const Experiment& experiment,
+                      const ObservedChannel& channel, const Eigen::VectorXd& residuals) {
+  const auto values = observations.values.segment(channel.first, channel.count).array();
+  const auto errors = residuals.segment(channel.first, channel.count).array() *
+                      observations.deviations.segment(channel.first, channel.count).array();
+  const auto n = static_cast<double>(channel.count);
+  if (experiment.runs[channel.run].run.kind == measured::RunKind::time) {
+    const double signal = (values - values.mean()).square().sum();
+    return std::sqrt(errors.square().sum() / signal);
+  }
+  // Weighted as in the fit: deviations are proportional to the noise floor.
+  return channel.floor() *
+         std::sqrt(residuals.segment(channel.first, channel.count).squaredNorm() / n);
+}
+
+Misfit misfit(const Observations& observations, const Experiment& experiment,
+              const Eigen::VectorXd& residuals, const std::vector<bool>& runs) {
+  Misfit made;
+  double channels = 0.0;
+  for (const ObservedChannel& channel : observations.channels) {
+    if (!runs[channel.run]) continue;
+    const auto part = residuals.segment(channel.first, channel.count);
+    made.count += static_cast<double>(channel.count);
+    made.sum_of_squares += part.squaredNorm();
+    made.independent += independent(part, experiment.runs[channel.run].run.kind);
+    made.relative_error += relative_error(observations, experiment, channel, residuals);
+    made.noise_floor += channel.noise;
+    if (experiment.runs[channel.run].run.kind == measured::RunKind::time) made.simulated += 1.0;
+    channels += 1.0;
+  }
+  if (channels > 0.0) {
+    made.relative_error /= channels;
+    made.noise_floor /= channels;
+    made.simulated /= channels;
+  }
+  return made;
+}
+
+double share_taken(const Misfit& before, const Misfit& after) {
+  return before.excess() > 0.0 ? 1.0 - after.excess() / before.excess() : 0.0;
+}
+
+double information_gain(const Misfit& simpler, const Misfit& fuller, int more_parameters) {
+  const auto scale = [](const Misfit& misfit) {
+    return std::max(1.0, misfit.sum_of_squares / misfit.count);
+  };
+  const double n = std::max(2.0, fuller.independent);
+  const double displaced = simpler.displacement_squares - fuller.displacement_squares;
+  const double squares = simpler.sum_of_squares - fuller.sum_of_squares;
+  // With the scale at the noise this is the difference of sums of squares.
+  const double likelihood = scale(fuller) > 1.0 ? n * std::log(scale(simpler) / scale(fuller))
+                                                : squares * n / fuller.count;
+  return likelihood + displaced - more_parameters * std::log(n);
+}
+
+}  // namespace flexarm::diagnose

@@ -1,0 +1,133 @@
+#include "diagnose/search/problem.hpp"
+
+#include "arm/input_error.hpp"
+#include "diagnose/noise_floor.hpp"
+
+#include <cmath>
+#include <complex>
+#include <utility>
+
+namespace flexarm::diagnose {
+
+namespace {
+
+/// With the simulation's own error beside the noise; the signal's deviation is that by which both
+/// are relative.
+void widen(Observations& observations, const std::vector<double>& errors) {
+  for (std::size_t c = 0; c < errors.size(); ++c) {
+    ObservedChannel& channel = observations.channels[c];
+    if (errors[c] == 0.0) continue;
+    channel.numerical_error = errors[c];
+    observations.deviations.segment(channel.first, channel.count) *=
+        channel.floor() / channel.noise;
+  }
+}
+
+/// In the place of a channel's residuals; the factor turns them by the phase of the response.
+void take_logarithms(Eigen::Ref<Eigen::VectorXd> residuals, const ObservedChannel& channel,
+                     const Observations& observations) {
+  for (Eigen::Index k = 0; k < channel.count; k += 2) {
+    const Eigen::Index at = channel.first + k;
+    const std::complex measured(observations.values(at), observations.values(at + 1));
+    const double deviation = observations.deviations(at);
+    const std::complex predicted =
+        measured - deviation * std::complex(residuals(k), residuals(k + 1));
+    const std::complex ratio = std::log(measured / predicted) * (std::abs(measured) / deviation);
+    residuals(k) = ratio.real();
+    residuals(k + 1) = ratio.imag();
+  }
+}
+
+Predictor predictor_for(const Experiment& experiment, Observations& observations,
+                        const ProblemOptions& options) {
+  ModeChoice modes{options.flexible_modes.value_or(0)};
+  if (!options.flexible_modes) modes = modes_needed(experiment, observations);
+  widen(observations, modes.errors);
+  return {experiment, observations, modes.flexible_modes, options.substeps};
+}
+
+}  // namespace
+
+Problem::Problem(const Experiment& experiment, const ProblemOptions& options)
+    : Problem(experiment, observe(experiment), options) {}
+
+Problem::Problem(const Experiment& experiment, Observations observations,
+                 const ProblemOptions& options)
+    : experiment_(&experiment),
+      observations_(std::move(observations)),
+      logarithmic_responses_(options.logarithmic_responses),
+      predictor_(predictor_for(experiment, observations_, options)) {
+  for (const auto& run : experiment.runs) {
+    estimation_runs_.push_back(run.run.purpose == measured::Purpose::estimation);
+    validation_runs_.push_back(run.run.purpose == measured::Purpose::validation);
+  }
+}
+
+Problem Problem::with_resolution(int flexible_modes, int substeps) const {
+  Problem made = *this;
+  made.predictor_ = Predictor(*experiment_, observations_, flexible_modes, substeps);
+  return made;
+}
+
+void Problem::replace_torques(Experiment experiment) {
+  own_experiment_ = std::make_shared<const Experiment>(std::move(experiment));
+  experiment_ = own_experiment_.get();
+  predictor_ =
+      Predictor(*experiment_, observations_, predictor_.flexible_modes(), predictor_.substeps());
+}
+
+bool Problem::lower_noise(const Candidate& candidate) {
+  const auto left = residuals(candidate, std::vector<bool>(experiment_->runs.size(), true));
+  if (!left) return false;
+  Observations lowered = observations_;
+  bool fell = false;
+  for (ObservedChannel& channel : lowered.channels) {
+    if (experiment_->runs[channel.run].run.kind != measured::RunKind::time) continue;
+    const Eigen::VectorXd part = left->segment(channel.first, channel.count);
+    // Residuals are in standard deviations of noise and numerical error together.
+    const double widened = channel.floor();
+    const double seen = widened * white_noise({part.data(), static_cast<std::size_t>(part.size())});
+    if (!(seen < channel.noise) || !(seen > 0.0)) continue;
+    fell = fell || seen < (1.0 - kLower) * channel.noise;
+    channel.noise = seen;
+    lowered.deviations.segment(channel.first, channel.count) *= channel.floor() / widened;
+  }
+  if (fell) observations_ = std::move(lowered);
+  return fell;
+}
+
+Candidate Problem::as_filed() const {
+  return {.displacements = std::vector<double>(experiment_->arm.relative_uncertainties.size())};
+}
+
+Eigen::Index Problem::residual_count() const {
+  const auto uncertain = experiment_->arm.relative_uncertainties.size();
+  return observations_.values.size() + static_cast<Eigen::Index>(uncertain);
+}
+
+std::optional<Eigen::VectorXd> Problem::residuals(const Candidate& candidate,
+                                                  const std::vector<bool>& runs) const {
+  Eigen::VectorXd made;
+  try {
+    made = predictor_(candidate.extend(experiment_->arm), runs);
+  } catch (const arm::InputError&) {
+    return std::nullopt;
+  }
+  made = (observations_.values - made).cwiseQuotient(observations_.deviations);
+  for (const ObservedChannel& channel : observations_.channels) {
+    auto part = made.segment(channel.first, channel.count);
+    if (!runs[channel.run]) {
+      part.setZero();
+    } else if (logarithmic_responses_ &&
+               experiment_->runs[channel.run].run.kind == measured::RunKind::frf) {
+      take_logarithms(part, channel, observations_);
+    }
+  }
+  const auto displaced = static_cast<Eigen::Index>(candidate.displacements.size());
+  made.conservativeResizeLike(Eigen::VectorXd::Zero(residual_count()));
+  made.tail(displaced) = Eigen::VectorXd::Map(candidate.displacements.data(), displaced);
+  if (!made.allFinite()) return std::nullopt;
+  return made;
+}
+
+}  // namespace flexarm::diagnose

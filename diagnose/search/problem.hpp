@@ -1,0 +1,73 @@
+#pragma once
+
+#include "diagnose/observations.hpp"
+#include "diagnose/predictors/predictor.hpp"
+#include "diagnose/search/candidate.hpp"
+
+#include <Eigen/Core>
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace flexarm::diagnose {
+
+struct ProblemOptions {
+  std::optional<int> flexible_modes = {};  ///< of simulated runs; as many as needed unless given
+  int substeps = 4;                        ///< inner steps a sample with forces that are not linear
+  /// Residuals of frequency responses are ln(measured/predicted), over the relative deviation: the
+  /// same to first order near the minimum, and far from it with one minimum where the difference
+  /// has one for every resonance that meets another.
+  bool logarithmic_responses = false;
+};
+
+/// An experiment with all that is needed to hold a candidate against it.
+class Problem {
+ public:
+  /// `experiment` must outlive the object.
+  explicit Problem(const Experiment& experiment, const ProblemOptions& options = {});
+  /// With other standard deviations than those that the data show (`observe`).
+  Problem(const Experiment& experiment, Observations observations,
+          const ProblemOptions& options = {});
+
+  const Experiment& experiment() const { return *experiment_; }
+  const Observations& observations() const { return observations_; }
+  const Predictor& predictor() const { return predictor_; }
+  const std::vector<bool>& estimation_runs() const { return estimation_runs_; }
+  const std::vector<bool>& validation_runs() const { return validation_runs_; }
+
+  /// The same simulated with so many modes and inner steps a sample.
+  Problem with_resolution(int flexible_modes, int substeps) const;
+
+  /// The same with what `experiment`, which the object keeps, has for torques.
+  void replace_torques(Experiment experiment);
+
+  /// Takes the noise of `time` channels down to what is seen of it under the residuals of a
+  /// candidate, for all runs, where that is less: a signal that fills the spectrum hides it, what
+  /// is left of one does not. Returns whether the noise of any fell by more than `kLower` of it;
+  /// else nothing is changed.
+  bool lower_noise(const Candidate& candidate);
+  static constexpr double kLower = 0.05;
+
+  /// The arm as its file describes it, without effects.
+  Candidate as_filed() const;
+
+  /// (measured - predicted)/deviation of the runs' numbers; 0 for those of other runs; behind them
+  /// the candidate's displacements, which are what the file says of the arm's uncertain numbers in
+  /// standard deviations. Empty where the candidate's arm cannot be computed. Concurrent calls are
+  /// safe.
+  std::optional<Eigen::VectorXd> residuals(const Candidate& candidate,
+                                           const std::vector<bool>& runs) const;
+  Eigen::Index residual_count() const;
+
+ private:
+  const Experiment* experiment_;
+  std::shared_ptr<const Experiment> own_experiment_;  // where torques were replaced
+  Observations observations_;
+  std::vector<bool> estimation_runs_;
+  std::vector<bool> validation_runs_;
+  bool logarithmic_responses_;
+  Predictor predictor_;
+};
+
+}  // namespace flexarm::diagnose

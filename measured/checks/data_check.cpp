@@ -1,0 +1,186 @@
+#include "measured/checks/data_check.hpp"
+
+#include "measured/checks/data_check_clock.hpp"
+#include "measured/checks/data_check_drift.hpp"
+#include "measured/checks/data_check_kinematics.hpp"
+#include "measured/checks/data_check_outliers.hpp"
+#include "measured/checks/data_check_response.hpp"
+#include "measured/checks/data_check_sign.hpp"
+#include "measured/checks/data_check_signal.hpp"
+#include "measured/checks/data_check_transform.hpp"
+#include "measured/checks/data_check_unit.hpp"
+#include "measured/checks/data_check_values.hpp"
+#include "measured/spectra/robust.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace flexarm::measured {
+
+namespace {
+
+/// Fewer samples in a row show no spectrum to speak of.
+constexpr std::size_t kFewestCompared = 128;
+
+void require_complete(const TimeRecord& record) {
+  const auto finite = [](const std::vector<double>& values) {
+    return std::ranges::all_of(values, [](double value) { return std::isfinite(value); });
+  };
+  const std::size_t samples = record.time_s.size();
+  bool complete = samples >= 2 && record.torque_N_m.size() == samples;
+  bool all_finite = finite(record.time_s) && finite(record.torque_N_m);
+  for (const auto& channel : record.channels) {
+    complete = complete && channel.values.size() == samples;
+    all_finite = all_finite && finite(channel.values);
+  }
+  if (!complete) throw std::invalid_argument("a record of unlike columns, or of one sample");
+  if (!all_finite) throw std::invalid_argument("a record with a value that is not finite");
+}
+
+void append(std::vector<DataFinding>& all, const std::vector<DataFinding>& more,
+            std::size_t first_sample = 0) {
+  for (auto finding : more) {
+    finding.first_sample += first_sample;
+    all.push_back(std::move(finding));
+  }
+}
+
+void exclude(std::vector<bool>& usable, std::span<const CheckedSignal> signals,
+             const std::vector<DataFinding>& findings) {
+  for (std::size_t i = 0; i < signals.size(); ++i) {
+    if (std::ranges::count(findings, signals[i].name, &DataFinding::channel) > 0) usable[i] = false;
+  }
+}
+
+/// `check_response` with hum taken off, asked of those that are usable and active.
+std::vector<DataFinding> check_answers(std::span<const CheckedSignal> signals,
+                                       const std::vector<bool>& usable,
+                                       const std::vector<bool>& active, double period_s,
+                                       const DataCheckOptions& options) {
+  std::vector<std::vector<double>> values;
+  for (const auto& signal : signals) values.push_back(without_hum(signal, period_s));
+  std::vector<CheckedSignal> quiet(signals.begin(), signals.end());
+  std::vector<bool> asked;
+  for (std::size_t i = 0; i < quiet.size(); ++i) {
+    quiet[i].values = values[i];
+    quiet[i].deviation = standard_deviation(values[i]);
+    asked.push_back(usable[i] && active[i]);
+  }
+  const Transforms transforms = transform(quiet, period_s, true);
+  return check_response({quiet, transforms, asked, options});
+}
+
+/// What channels say of each other over an even stretch; none of `usable` has a fault in its
+/// values. A fault takes its channel out of what is asked next. A stretch that does not begin at
+/// rest may hold an arm at rest, which answers nothing.
+std::vector<DataFinding> compare(std::span<const CheckedSignal> signals, std::vector<bool> usable,
+                                 const std::vector<bool>& active, double period_s, bool from_rest,
+                                 const DataCheckOptions& options) {
+  std::vector<DataFinding> findings;
+  const Transforms transforms = transform(signals, period_s, from_rest);
+  std::vector<double> floor_power;
+  for (const auto& transform : transforms.of) floor_power.push_back(transform.floor_power);
+  const auto note = [&](const std::vector<DataFinding>& found) {
+    append(findings, found);
+    exclude(usable, signals, found);
+    return !found.empty();
+  };
+  const auto comparison = [&] { return Comparison{signals, transforms, usable, options}; };
+
+  const auto coarse = check_quantisation(signals, floor_power, options);
+  append(findings, coarse);
+  // An exchange leaves no relation of either column to judge.
+  if (note(check_swaps(comparison()))) return findings;
+  std::vector<bool> fine = usable;
+  exclude(fine, signals, coarse);
+  note(check_spikes(signals, fine, options));
+  note(check_trends(signals, usable, options));
+  if (from_rest) note(check_answers(signals, usable, active, period_s, options));
+  note(check_signs(comparison()));
+  note(check_units(comparison()));
+  note(check_delay(comparison()));
+  note(check_angle_drift(signals, usable, floor_power, period_s, options));
+  return findings;
+}
+
+}  // namespace
+
+std::string_view to_string(Fault fault) {
+  switch (fault) {
+    case Fault::clock_jitter:
+      return "clock jitter";
+    case Fault::missing_samples:
+      return "missing samples";
+    case Fault::backward_time:
+      return "backward time";
+    case Fault::saturation:
+      return "saturation";
+    case Fault::dead_channel:
+      return "dead channel";
+    case Fault::stuck_values:
+      return "stuck values";
+    case Fault::quantisation:
+      return "quantisation";
+    case Fault::spikes:
+      return "spikes";
+    case Fault::drift:
+      return "drift";
+    case Fault::swapped_channels:
+      return "swapped channels";
+    case Fault::sign_flipped:
+      return "sign flipped";
+    case Fault::wrong_unit:
+      return "wrong unit";
+    case Fault::delay:
+      return "delay";
+    case Fault::zero_torque:
+      return "zero torque";
+  }
+  throw std::invalid_argument("no such fault");
+}
+
+std::vector<DataFinding> check_data(const TimeRecord& record, const DataCheckOptions& options) {
+  require_complete(record);
+  const ClockCheck clock = check_clock(record.time_s, options);
+  std::vector<DataFinding> findings = clock.findings;
+  const auto all = signals_of(record, 0, record.time_s.size());
+  const auto faulty = check_values(all, options);
+  append(findings, faulty);
+
+  if (clock.count >= kFewestCompared) {
+    const auto stretch = signals_of(record, clock.first, clock.count);
+    std::vector<bool> usable;
+    for (const auto& signal : stretch) usable.push_back(signal.deviation > 0.0);
+    exclude(usable, stretch, faulty);
+    // What rests in the stretch and moves elsewhere in the record is not dead.
+    constexpr double kResting = 0.5;
+    std::vector<bool> active;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      active.push_back(stretch[i].deviation >= kResting * all[i].deviation);
+    }
+    append(findings,
+           compare(stretch, usable, active, clock.period_s,
+                   options.starts_at_rest && clock.first == 0, options),
+           clock.first);
+  }
+  for (auto& finding : findings) finding.time_s = record.time_s[finding.first_sample];
+  std::ranges::stable_sort(findings, {}, &DataFinding::fault);
+  return findings;
+}
+
+std::vector<arm::Sensor> leave_out_dead_channels(TimeRecord& record,
+                                                 const std::vector<DataFinding>& findings) {
+  std::vector<arm::Sensor> left_out;
+  std::erase_if(record.channels, [&](const Channel& channel) {
+    const std::string name = arm::to_string(channel.sensor);
+    const bool dead = std::ranges::any_of(findings, [&](const DataFinding& finding) {
+      return finding.fault == Fault::dead_channel && finding.channel == name;
+    });
+    if (dead) left_out.push_back(channel.sensor);
+    return dead;
+  });
+  return left_out;
+}
+
+}  // namespace flexarm::measured

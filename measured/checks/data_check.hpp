@@ -1,0 +1,99 @@
+#pragma once
+
+#include "measured/files/time_record.hpp"
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace flexarm::measured {
+
+/// What can be wrong with recorded data, whatever the arm does.
+enum class Fault {
+  clock_jitter,      ///< times off the even grid
+  missing_samples,   ///< gaps in the times
+  backward_time,     ///< times that repeat or go back
+  saturation,        ///< a channel that its range clips
+  dead_channel,      ///< constant, or noise that nothing else knows of
+  stuck_values,      ///< a value repeated while others move
+  quantisation,      ///< a step that is coarse for the signal
+  spikes,            ///< single samples far off
+  drift,             ///< a slow trend that no other channel explains
+  swapped_channels,  ///< two columns exchanged
+  sign_flipped,
+  wrong_unit,   ///< off by a power of ten, degrees for radians and the like
+  delay,        ///< later than the channel that it is the derivative of
+  zero_torque,  ///< a torque that says nothing of what moves the arm
+};
+
+/// "clock jitter", "missing samples": as in a sentence.
+std::string_view to_string(Fault fault);
+
+/// One fault: what and where.
+struct DataFinding {
+  Fault fault = Fault::clock_jitter;
+  std::string channel;           ///< "time", "torque", "hub_angle", ...
+  std::size_t first_sample = 0;  ///< from 0; the first of those that show it
+  double time_s = 0.0;           ///< as recorded for that sample
+  double value = 0.0;            ///< the size, in the unit that `text` names
+  std::string text;              ///< one sentence without a full stop
+};
+
+/// What is known of the arm, and how much of a fault is one. Sizes relative to a channel are in its
+/// standard deviations. A finding asks for all the inequalities of its kind.
+struct DataCheckOptions {
+  std::optional<double> length_m;             ///< from the motor axis to the tip
+  std::optional<double> total_inertia_kg_m2;  ///< of the rigid arm, payload included
+  bool starts_at_rest = true;                 ///< the arm is at rest at the first sample
+
+  /// Jitter: |t_k - (a + period k)| > this period, with a, period by least squares and gaps
+  /// counted.
+  double most_jitter_periods = kMostJitter_periods;
+  /// Saturation: samples at the limit, in runs of two or more, >= this.
+  int least_clipped_samples = 5;
+  /// Stuck: equal values in a row >= this.
+  int least_stuck_samples = 6;
+  /// Quantisation: step >= `coarse_step` deviations, or step >= `fine_step` deviations and its
+  /// error, step^2/12, makes up `floor_share` of the power of the floor of the spectrum.
+  double coarse_step = 0.05;
+  double fine_step = 0.01;
+  double floor_share = 0.5;
+  /// Spike: what neighbours in time and in other channels do not predict is > this many of its own
+  /// robust deviations, and > `least_spike` deviations of the channel; within twelve samples after
+  /// a jump of the torque, > `least_shaken_spike`.
+  double spike_deviations = 8.0;
+  double least_spike = 0.6;
+  double least_shaken_spike = 2.5;
+  /// Drift: from start to end > `least_drift` deviations of the channel, and > this many standard
+  /// errors.
+  double least_drift = 0.7;
+  double drift_errors = 5.0;
+  /// Delay: |delay| > this, and > `delay_errors` standard errors.
+  double least_delay_periods = 0.3;
+  double delay_errors = 5.0;
+  /// Unit: gain of a relation that is exact off by a factor > this; of one that holds roughly, off
+  /// by > `rough_unit_factor`.
+  double unit_factor = 2.0;
+  double rough_unit_factor = 4.0;
+};
+
+/// Checks a run for faults of the recording, by what holds for any arm of this kind whatever its
+/// parameters (docs/measured-data.md, "Faults in data"). Times may be uneven: channels are compared
+/// over the longest stretch without gap. Findings come in the order of `Fault`, one a channel and
+/// kind, with the number of places in its text.
+///
+/// A channel with a fault in its values (dead, clipped, stuck, spikes) is not compared with
+/// others, nor is one that is swapped, flipped or in a wrong unit searched for drift and delay:
+/// what such a comparison finds would be the same fault again.
+///
+/// Throws std::invalid_argument for vectors of unlike length or fewer than two samples, or a value
+/// that is not finite.
+std::vector<DataFinding> check_data(const TimeRecord& record, const DataCheckOptions& options = {});
+
+/// Takes the channels that `findings` call dead out of the record, and returns their sensors.
+std::vector<arm::Sensor> leave_out_dead_channels(TimeRecord& record,
+                                                 const std::vector<DataFinding>& findings);
+
+}  // namespace flexarm::measured

@@ -1,0 +1,177 @@
+#include "measured/checks/data_check_relation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numeric>
+
+namespace flexarm::measured {
+
+namespace {
+
+constexpr double kLinesInBlock = 8.0;
+constexpr double kHighestShare = 0.3;  // of the sampling frequency
+/// Delays that are looked for [periods]; beyond, a sine's phase repeats.
+constexpr double kMostDelay = 12.0;
+constexpr double kDelayStep = 0.25;  // a third of a turn of the highest frequency, at most
+
+struct Block {
+  double omega_rad_per_s = 0.0;
+  double xx = 0.0;
+  double yy = 0.0;
+  std::complex<double> xy;
+
+  double coherence() const { return xx > 0.0 && yy > 0.0 ? std::norm(xy) / (xx * yy) : 0.0; }
+};
+
+std::vector<Block> blocks_of(const Transforms& transforms, Quantity x, Quantity y,
+                             double highest_share) {
+  const auto width = static_cast<std::size_t>(std::ceil(kLinesInBlock * transforms.bins_per_line));
+  const std::size_t end =
+      std::min(transforms.bins(), transforms.bin_at(highest_share / transforms.period_s) + 1);
+  std::vector<Block> blocks;
+  for (std::size_t from = 1; from + width <= end; from += width) {
+    Block block;
+    block.omega_rad_per_s = transforms.omega_rad_per_s(from) +
+                            0.5 * static_cast<double>(width - 1) * transforms.spacing_rad_per_s;
+    double power = 0.0;
+    double moment = 0.0;
+    for (std::size_t bin = from; bin < from + width; ++bin) {
+      const auto a = transforms.derivative(x.signal, x.order, bin);
+      const auto b = transforms.derivative(y.signal, y.order, bin);
+      block.xx += std::norm(a);
+      block.yy += std::norm(b);
+      block.xy += a * std::conj(b);
+      power += std::abs(a * std::conj(b));
+      moment += std::abs(a * std::conj(b)) * transforms.omega_rad_per_s(bin);
+    }
+    if (power > 0.0) block.omega_rad_per_s = moment / power;
+    blocks.push_back(block);
+  }
+  return blocks;
+}
+
+struct Weighted {
+  double value = 0.0;
+  double weight = 0.0;
+};
+
+double weighted_median(std::vector<Weighted> values) {
+  std::ranges::sort(values, {}, &Weighted::value);
+  double total = 0.0;
+  for (const auto& entry : values) total += entry.weight;
+  double sum = 0.0;
+  for (const auto& entry : values) {
+    sum += entry.weight;
+    if (2.0 * sum >= total) return entry.value;
+  }
+  return 0.0;
+}
+
+/// 1/variance of a block's phase: 2 n g/(1 - g) for coherence squared g of n lines (Bendat and
+/// Piersol). Coherence above 0.999 is not told from it.
+double phase_weight(const Block& block) {
+  const double g = std::min(block.coherence(), 0.999);
+  return 2.0 * kLinesInBlock * g / (1.0 - g);
+}
+
+/// Sum of weights times cos(phase + omega delay).
+double alignment(const std::vector<Block>& blocks, double delay_s) {
+  double sum = 0.0;
+  for (const auto& block : blocks) {
+    sum += phase_weight(block) * std::cos(std::arg(block.xy) + block.omega_rad_per_s * delay_s);
+  }
+  return sum;
+}
+
+void fit_delay(const std::vector<Block>& blocks, double period_s, GainFit& fit) {
+  double total = 0.0;
+  double curvature = 0.0;
+  for (const auto& block : blocks) {
+    total += phase_weight(block);
+    curvature += phase_weight(block) * block.omega_rad_per_s * block.omega_rad_per_s;
+  }
+  // Where the band is narrow many delays align the phases, with either sign: the smallest counts.
+  constexpr double kPreference = 0.01;  // of the alignment, a period
+  double best = -1.0;
+  for (double delay = -kMostDelay; delay <= kMostDelay; delay += kDelayStep) {
+    const double aligned = alignment(blocks, delay * period_s);
+    const double score = std::abs(aligned) / total - kPreference * std::abs(delay);
+    if (score <= best) continue;
+    best = score;
+    fit.delay_s = delay * period_s;
+    fit.sign = aligned < 0.0 ? -1 : 1;
+  }
+  // Newton's steps on the alignment.
+  for (int i = 0; i < 5; ++i) {
+    double slope = 0.0;
+    for (const auto& block : blocks) {
+      const double phase =
+          std::arg(block.xy * static_cast<double>(fit.sign)) + block.omega_rad_per_s * fit.delay_s;
+      slope += phase_weight(block) * block.omega_rad_per_s * std::sin(phase);
+    }
+    fit.delay_s -= slope / curvature;
+  }
+  fit.agreement = fit.sign * alignment(blocks, fit.delay_s) / total;
+  fit.delay_error_s = std::sqrt(1.0 / curvature);
+}
+
+}  // namespace
+
+GainFit fit_gain(const Transforms& transforms, Quantity x, Quantity y) {
+  std::vector<Block> blocks = blocks_of(transforms, x, y, kHighestShare);
+  std::erase_if(blocks, [](const Block& block) { return block.coherence() < kLeastCoherence; });
+  GainFit fit;
+  fit.blocks = blocks.size();
+  if (blocks.empty()) return fit;
+  std::vector<Weighted> gains;
+  for (const auto& block : blocks) {
+    gains.push_back({0.5 * std::log10(block.xx / block.yy), phase_weight(block)});
+  }
+  fit.log10_gain = weighted_median(gains);
+  for (auto& gain : gains) gain.value = std::abs(gain.value - fit.log10_gain);
+  fit.spread = weighted_median(std::move(gains));
+  fit_delay(blocks, transforms.period_s, fit);
+  return fit;
+}
+
+LowFrequencyFit fit_low_frequencies(const Transforms& transforms, Quantity x, Quantity y,
+                                    double to_Hz) {
+  // The window tells half a line from the mean.
+  const auto first = static_cast<std::size_t>(std::ceil(0.5 * transforms.bins_per_line));
+  double xx = 0.0;
+  double xy = 0.0;
+  double yy = 0.0;
+  double variance = 0.0;
+  for (std::size_t bin = first; bin <= transforms.bin_at(to_Hz); ++bin) {
+    const auto a = transforms.derivative(x.signal, x.order, bin);
+    const auto b = transforms.derivative(y.signal, y.order, bin);
+    const double noise_a = transforms.noise_power(x.signal, x.order, bin);
+    const double noise_b = transforms.noise_power(y.signal, y.order, bin);
+    xx += std::norm(a);
+    yy += std::norm(b);
+    xy += (a * std::conj(b)).real();
+    variance += 0.5 * (std::norm(a) * noise_b + std::norm(b) * noise_a + noise_a * noise_b);
+  }
+  // Padded bins are not independent.
+  variance *= transforms.bins_per_line;
+  LowFrequencyFit fit;
+  if (variance > 0.0) fit.score = xy / std::sqrt(variance);
+  if (xx > 0.0 && yy > 0.0) fit.correlation = xy / std::sqrt(xx * yy);
+  if (yy > 0.0) fit.gain = xy / yy;
+  return fit;
+}
+
+double mean_coherence(const Transforms& transforms, Quantity x, Quantity y) {
+  double sum = 0.0;
+  double power = 0.0;
+  const auto related = blocks_of(transforms, x, y, 0.5);
+  const auto own = blocks_of(transforms, {x.signal, 0}, {x.signal, 0}, 0.5);
+  for (std::size_t i = 0; i < related.size(); ++i) {
+    sum += related[i].coherence() * own[i].xx;
+    power += own[i].xx;
+  }
+  return power > 0.0 ? sum / power : 0.0;
+}
+
+}  // namespace flexarm::measured

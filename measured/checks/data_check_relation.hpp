@@ -1,0 +1,47 @@
+#pragma once
+
+#include "measured/checks/data_check_transform.hpp"
+
+#include <cstddef>
+#include <vector>
+
+namespace flexarm::measured {
+
+/// A signal, or a derivative of it.
+struct Quantity {
+  std::size_t signal = 0;
+  int order = 0;  ///< of the derivative
+};
+
+/// How well x = gain y(t - delay) holds over the blocks of frequencies in which x and y are
+/// coherent, and with what gain.
+struct GainFit {
+  std::size_t blocks = 0;   ///< with coherence squared of kLeastCoherence or more
+  double log10_gain = 0.0;  ///< weighted median of log10 sqrt(Sxx/Syy)
+  double spread = 0.0;      ///< weighted median of the blocks' distances from it
+  int sign = 1;
+  double delay_s = 0.0;        ///< x later than y
+  double delay_error_s = 0.0;  ///< standard error
+  double agreement = 0.0;      ///< weighted mean cosine of what phase is left, -1 to 1
+};
+inline constexpr double kLeastCoherence = 0.8;
+
+/// Blocks are eight lines (1/duration) wide, from the lowest up to 0.3 of the sampling frequency.
+GainFit fit_gain(const Transforms& transforms, Quantity x, Quantity y);
+
+/// x against y over the lines below a frequency.
+struct LowFrequencyFit {
+  double score = 0.0;        ///< sum Re(X conj Y) over its standard deviation, were X and Y white
+                             ///< noise of their floors, at least one of them
+  double correlation = 0.0;  ///< the same over the root of both powers, -1 to 1
+  double gain = 0.0;         ///< real, least squares of x = gain y
+};
+
+LowFrequencyFit fit_low_frequencies(const Transforms& transforms, Quantity x, Quantity y,
+                                    double to_Hz);
+
+/// Mean coherence squared of x and y over the blocks, each weighted with the power of x's signal
+/// there, not of its derivative. Unrelated signals show 1/8.
+double mean_coherence(const Transforms& transforms, Quantity x, Quantity y);
+
+}  // namespace flexarm::measured

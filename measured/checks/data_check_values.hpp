@@ -1,0 +1,25 @@
+#pragma once
+
+#include "measured/checks/data_check.hpp"
+#include "measured/checks/data_check_signal.hpp"
+
+#include <span>
+#include <vector>
+
+namespace flexarm::measured {
+
+/// Faults that a channel shows by its own values: constant, clipped, stuck. At most one a channel,
+/// that which comes first here. `signals` are the torque and all channels, over the whole record.
+///
+/// Rest is none of them: a value that the channel reaches and leaves ever more slowly, a velocity
+/// of exactly zero, the same value in every channel.
+std::vector<DataFinding> check_values(std::span<const CheckedSignal> signals,
+                                      const DataCheckOptions& options);
+
+/// A coarse step. `floor_power` has for each signal the power, in its unit squared, of white noise
+/// as low as the lowest part of its spectrum.
+std::vector<DataFinding> check_quantisation(std::span<const CheckedSignal> signals,
+                                            std::span<const double> floor_power,
+                                            const DataCheckOptions& options);
+
+}  // namespace flexarm::measured

@@ -1,0 +1,232 @@
+#include "measured/files/arm_file.hpp"
+
+#include "arm/arm_keys.hpp"
+#include "arm/input_error.hpp"
+#include "arm/nearest_name.hpp"
+#include "arm/uncertainties.hpp"
+#include "measured/files/text_file.hpp"
+#include "measured/files/toml_document.hpp"
+#include "measured/files/toml_node.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <vector>
+
+namespace flexarm::measured {
+
+namespace {
+
+constexpr std::size_t kLargestFile_bytes = 1 << 20;
+
+std::vector<std::string> leaves_of(const std::string& table) {
+  std::vector<std::string> leaves;
+  for (const auto& key : arm::arm_keys()) {
+    if (key.table == table) leaves.push_back(key.leaf);
+  }
+  return leaves;
+}
+
+/// " (did you mean ...?)" for the unknown key `typed` of `table`, or "". It may be the symbol of
+/// the equations, right but in another table, or misspelt.
+std::string meant(const std::string& table, const std::string& typed,
+                  const std::vector<std::string>& allowed) {
+  std::vector<std::string> names;
+  for (const auto& key : arm::arm_keys()) {
+    if (key.table == table && key.symbol == typed) names.push_back(key.leaf);
+    if (key.leaf == typed) names.push_back(key.name());
+  }
+  if (arm::find_effect(typed) != nullptr) names.push_back("effects." + typed);
+  return names.empty() ? arm::did_you_mean(typed, allowed)
+                       : fmt::format(" (did you mean {}?)", fmt::join(names, " or "));
+}
+
+/// Walks a document once; keeps the line of every key, so that later faults find theirs.
+class Reader {
+ public:
+  explicit Reader(const std::string& file_name) : file_name_(file_name) {}
+
+  arm::Arm read(const toml::table& document) {
+    for (const auto& [key, node] : document) read_top_level(arm::shown(key.str()), node);
+    throw_first_fault();
+    require_all_given();
+    throw_first_fault();
+    try {
+      arm::require_valid(arm_);
+    } catch (const arm::InputError& error) {
+      throw located(error, file_name_, line_of(error.key()));
+    }
+    return arm_;
+  }
+
+ private:
+  void fault(const std::string& key, const std::string& what) {
+    faults_.emplace(line_of(key), key + what);
+  }
+
+  void wrong_type(const std::string& key, const toml::node& node, const std::string& allowed) {
+    fault(key, fmt::format("{}: {}; must be {}", equals_value(node), kind_of(node), allowed));
+  }
+
+  void read_top_level(const std::string& name, const toml::node& node) {
+    note_line(name, node);
+    if (name == "name") {
+      if (const auto* text = node.as_string()) {
+        arm_.name = text->get();
+      } else {
+        wrong_type(name, node, "a text in quotes");
+      }
+    } else if (name == "effects" || std::ranges::count(arm::arm_tables(), name) > 0) {
+      const auto* table = node.as_table();
+      if (table == nullptr) {
+        wrong_type(name, node, fmt::format("a table: one line [{}], then its keys", name));
+      } else if (name == "effects") {
+        for (const auto& [key, effect] : *table) read_effect(arm::shown(key.str()), effect);
+      } else {
+        for (const auto& [key, value] : *table) read_number(name, arm::shown(key.str()), value);
+      }
+    } else {
+      std::vector<std::string> names = {"name"};
+      names.insert(names.end(), arm::arm_tables().begin(), arm::arm_tables().end());
+      names.emplace_back("effects");
+      fault(name, fmt::format(": unknown {}{}; allowed: name, [{}], [effects.NAME]",
+                              node.is_table() ? "table" : "key", meant("", name, names),
+                              fmt::join(arm::arm_tables(), "], [")));
+    }
+  }
+
+  void read_number(const std::string& table, const std::string& leaf, const toml::node& node) {
+    const std::string name = table + "." + leaf;
+    note_line(name, node);
+    const auto key = std::ranges::find(arm::arm_keys(), name, &arm::ArmKey::name);
+    const bool is_uncertainty = leaf.ends_with(arm::kUncertaintySuffix);
+    const std::string of = is_uncertainty
+                               ? name.substr(0, name.size() - arm::kUncertaintySuffix.size())
+                               : std::string();
+    if (std::ranges::find(arm::arm_keys(), of, &arm::ArmKey::name) != arm::arm_keys().end()) {
+      if (const auto value = number(name, node, arm::kNotNegative, "")) {
+        arm_.relative_uncertainties[of] = *value;
+      }
+    } else if (key == arm::arm_keys().end()) {
+      const auto leaves = leaves_of(table);
+      auto meant_leaves = leaves;
+      if (is_uncertainty) {
+        for (std::string& meant_leaf : meant_leaves) meant_leaf += arm::kUncertaintySuffix;
+      }
+      fault(name, fmt::format(": unknown key{}; allowed in [{}]: {}{}",
+                              meant(table, leaf, meant_leaves), table, fmt::join(leaves, ", "),
+                              is_uncertainty ? ", and each followed by _uncertainty" : ""));
+    } else if (const auto value = number(name, node, key->range, key->unit)) {
+      key->set(arm_, *value);
+    }
+  }
+
+  void read_effect(const std::string& name, const toml::node& node) {
+    const std::string key = "effects." + name;
+    note_line(key, node);
+    const arm::EffectDefinition* definition = arm::find_effect(name);
+    const auto* table = node.as_table();
+    if (definition != nullptr && table == nullptr) {
+      std::vector<std::string> parameters;
+      for (const auto& parameter : definition->parameters) parameters.push_back(parameter.name);
+      wrong_type(key, node,
+                 fmt::format("a table: one line [{}], then its keys {}", key,
+                             fmt::join(parameters, ", ")));
+      return;
+    }
+    arm::Effect& effect = arm_.effects[name];
+    if (definition == nullptr) return;  // arm::require_valid(arm::Effects) names it
+    for (const auto& [leaf, value] : *table) {
+      read_parameter(*definition, arm::shown(leaf.str()), value, effect);
+    }
+  }
+
+  void read_parameter(const arm::EffectDefinition& definition, const std::string& leaf,
+                      const toml::node& node, arm::Effect& effect) {
+    const std::string key = "effects." + definition.name + "." + leaf;
+    note_line(key, node);
+    if (leaf == "sensor" && definition.acts_on_sensor) {
+      if (const auto* text = node.as_string(); text != nullptr && !text->get().empty()) {
+        effect.sensor = text->get();
+      } else {
+        wrong_type(key, node, "the name of a sensor in quotes, as in \"tip_acceleration\"");
+      }
+      return;
+    }
+    const auto parameter =
+        std::ranges::find(definition.parameters, leaf, &arm::EffectParameter::name);
+    if (parameter == definition.parameters.end()) {
+      effect.parameters[leaf] = 0.0;  // arm::require_valid(arm::Effects) names it
+    } else if (const auto value = number(key, node, parameter->range, parameter->unit)) {
+      effect.parameters[leaf] = *value;
+    }
+  }
+
+  std::optional<double> number(const std::string& key, const toml::node& node,
+                               const arm::Range& range, const std::string& unit) {
+    const auto* integer = node.as_integer();
+    const auto* floating = node.as_floating_point();
+    if (integer == nullptr && floating == nullptr) {
+      wrong_type(key, node,
+                 fmt::format("{} [{}]{}", to_string(range), unit,
+                             node.is_string() ? ", without quotes or unit" : ""));
+      return std::nullopt;
+    }
+    const double value = integer != nullptr ? static_cast<double>(integer->get()) : floating->get();
+    if (range.contains(value)) return value;
+    faults_.emplace(line_of(key), arm::out_of_range(key, value, unit, to_string(range)).what());
+    return std::nullopt;
+  }
+
+  void require_all_given() {
+    for (const auto& key : arm::arm_keys()) {
+      if (!key.required || lines_.contains(key.name())) continue;
+      fault(key.name(), fmt::format(": missing; must be {} [{}]", to_string(key.range), key.unit));
+    }
+  }
+
+  void throw_first_fault() const {
+    if (faults_.empty()) return;
+    const auto& [line, what] = *faults_.begin();
+    throw located(arm::InputError(what), file_name_, line);
+  }
+
+  void note_line(const std::string& key, const toml::node& node) {
+    lines_[key] = static_cast<int>(node.source().begin.line);
+  }
+
+  /// The line of a key, else of the table that it belongs in, else the first.
+  int line_of(std::string key) const {
+    while (true) {
+      if (const auto line = lines_.find(key); line != lines_.end()) return line->second;
+      const auto dot = key.rfind('.');
+      if (dot == std::string::npos) return 1;
+      key.resize(dot);
+    }
+  }
+
+  std::string file_name_;
+  arm::Arm arm_;
+  std::map<std::string, int> lines_;
+  std::multimap<int, std::string> faults_;  // by line; equal lines in the order found
+};
+
+}  // namespace
+
+arm::Arm parse_arm(std::string_view toml, const std::string& file_name) {
+  if (toml.find_first_not_of(" \t\r\n") == std::string_view::npos) {
+    throw located(arm::InputError("empty; an arm file needs at least [beam] and [hub]; flexarm new "
+                                  "writes an example"),
+                  file_name, 1);
+  }
+  return Reader(file_name).read(parse_toml(toml, file_name));
+}
+
+arm::Arm read_arm_file(const std::filesystem::path& path) {
+  return parse_arm(read_text_file(path, kLargestFile_bytes), arm::shown(path.string()));
+}
+
+}  // namespace flexarm::measured

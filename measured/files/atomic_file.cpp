@@ -1,0 +1,173 @@
+#include "measured/files/atomic_file.hpp"
+
+#include "arm/input_error.hpp"
+#include "measured/files/file_writing.hpp"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <fcntl.h>
+#include <mutex>
+#include <string>
+#include <sys/stat.h>
+#include <system_error>
+#include <unistd.h>
+
+namespace flexarm::measured {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+arm::InputError not_written(const fs::path& path, const std::string& reason) {
+  return arm::InputError(
+      fmt::format("{}: cannot be written: {}", arm::shown(path.string()), reason));
+}
+
+/// A device, a pipe or a terminal: there is nothing to replace.
+void write_directly(const fs::path& path, std::string_view content) {
+  Descriptor file(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
+  int error = file.is_open() ? write_all(file.get(), content) : errno;
+  if (error == 0) error = file.close();
+  if (error != 0) throw not_written(path, reason_of(error));
+}
+
+/// The file that `path` leads to by symbolic links.
+fs::path target_of(const fs::path& path) {
+  std::error_code ignored;
+  return fs::is_symlink(path, ignored) ? fs::weakly_canonical(path, ignored) : path;
+}
+
+/// The handlers of signals belong to the whole program.
+std::mutex& one_writer_at_a_time() {
+  static std::mutex mutex;
+  return mutex;
+}
+
+/// Makes and fills the folder `temporary`; 0, or the errno of the step that failed.
+int create_folder(const fs::path& temporary, std::span<const NamedContent> files) {
+  if (::mkdir(temporary.c_str(), 0777) != 0) return errno;
+  for (const auto& file : files) {
+    if (const int error = create_file(temporary / file.name, file.content); error != 0) {
+      return error;
+    }
+  }
+  synchronise_folder(temporary);
+  return 0;
+}
+
+/// Puts `temporary` in the place of `folder`, and what was there in the place of `temporary`.
+int exchange_folders(const fs::path& temporary, const fs::path& folder) {
+  if (::renameat2(AT_FDCWD, temporary.c_str(), AT_FDCWD, folder.c_str(), RENAME_EXCHANGE) == 0) {
+    return 0;
+  }
+  // A file system that cannot exchange: for a moment neither stands there, but both are whole.
+  const fs::path aside = temporary_name(folder_of(folder));
+  if (::rename(folder.c_str(), aside.c_str()) != 0) return errno;
+  if (::rename(temporary.c_str(), folder.c_str()) != 0) {
+    const int error = errno;
+    std::rename(aside.c_str(), folder.c_str());
+    return error;
+  }
+  return ::rename(aside.c_str(), temporary.c_str()) == 0 ? 0 : errno;
+}
+
+/// "rig/" as "rig": the folder itself, not what is in it.
+fs::path without_slash(const fs::path& path) {
+  return path.has_filename() || !path.has_parent_path() ? path : path.parent_path();
+}
+
+}  // namespace
+
+void require_writable(const fs::path& path) {
+  if (path.empty()) throw arm::InputError("the name of a file is empty");
+  struct stat status = {};
+  const bool exists = ::stat(path.c_str(), &status) == 0;
+  if (!exists && errno != ENOENT) throw not_written(path, reason_of(errno));
+  if (exists && S_ISDIR(status.st_mode)) throw not_written(path, "is a folder");
+  if (!path.has_filename()) throw not_written(path, "names no file");
+  // A rename asks only the folder for permission; a file that is read-only is meant to stay.
+  if (exists && ::access(path.c_str(), W_OK) != 0) throw not_written(path, reason_of(errno));
+  const fs::path folder = folder_of(target_of(path));
+  std::error_code ignored;
+  if (!fs::is_directory(folder, ignored)) {
+    throw not_written(path, fmt::format("there is no folder {}", arm::shown(folder.string())));
+  }
+}
+
+void write_atomically(const fs::path& path, std::string_view content) {
+  const std::scoped_lock lock(one_writer_at_a_time());
+  require_writable(path);
+  struct stat status = {};
+  const bool exists = ::stat(path.c_str(), &status) == 0;
+  if (exists && !S_ISREG(status.st_mode)) return write_directly(path, content);
+
+  const fs::path target = target_of(path);
+  const fs::path folder = folder_of(target);
+  const fs::path temporary = temporary_name(folder);
+
+  const SignalsHeldOff held_off;
+  int error = create_file(temporary, content, exists ? &status : nullptr);
+  if (error == 0 && ::rename(temporary.c_str(), target.c_str()) != 0) error = errno;
+  if (error != 0) {
+    if (error != EEXIST) ::unlink(temporary.c_str());
+    throw not_written(path, reason_of(error));
+  }
+  synchronise_folder(folder);
+}
+
+namespace {
+
+/// Whether a folder with files in it stands there.
+bool has_files(const fs::path& path) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (status.type() == fs::file_type::not_found) return false;
+  if (error) throw not_written(path, error.message());
+  if (!fs::is_directory(status)) throw not_written(path, "is no folder");
+  const bool is_empty = fs::is_empty(path, error);
+  if (error) throw not_written(path, error.message());
+  return !is_empty;
+}
+
+}  // namespace
+
+void require_new_folder(const fs::path& path) {
+  if (has_files(path)) throw not_written(path, "is a folder with files in it");
+}
+
+void write_folder_atomically(const fs::path& path, std::span<const NamedContent> files,
+                             IfExists if_exists) {
+  const std::scoped_lock lock(one_writer_at_a_time());
+  const fs::path folder = target_of(without_slash(path));
+  if (if_exists == IfExists::refuse) require_new_folder(folder);
+  const bool exists = has_files(folder);
+  make_folder(folder_of(folder));
+  const fs::path temporary = temporary_name(folder_of(folder));
+
+  const SignalsHeldOff held_off;
+  int error = create_folder(temporary, files);
+  if (error == 0) {
+    error = exists                                             ? exchange_folders(temporary, folder)
+            : ::rename(temporary.c_str(), folder.c_str()) == 0 ? 0
+                                                               : errno;
+  }
+  std::error_code ignored;
+  fs::remove_all(temporary, ignored);  // what was left of the new folder, or the old one
+  if (error != 0) throw not_written(path, reason_of(error));
+  synchronise_folder(folder_of(folder));
+}
+
+void make_folder(const fs::path& path) {
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (!error && !fs::is_directory(path, error))
+    error = std::make_error_code(std::errc::not_a_directory);
+  if (error) {
+    throw arm::InputError(
+        fmt::format("{}: cannot be made: {}", arm::shown(path.string()), error.message()));
+  }
+}
+
+}  // namespace flexarm::measured

@@ -1,0 +1,192 @@
+#include "measured/files/column_mapping.hpp"
+
+#include "arm/input_error.hpp"
+#include "arm/nearest_name.hpp"
+#include "measured/files/column_name.hpp"
+#include "measured/files/record_constants.hpp"
+#include "measured/files/time_grid.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace flexarm::measured {
+
+namespace {
+
+using arm::InputError;
+
+std::vector<std::string> unit_names(std::string_view standard_name) {
+  std::vector<std::string> names;
+  for (const auto& unit : units_for(si_unit_of(standard_name))) names.emplace_back(unit.name);
+  return names;
+}
+
+/// A column of the log that is a quantity.
+struct Source {
+  std::string quantity;  ///< standard name
+  ColumnMapping mapping;
+};
+
+/// What each column of the table is, by its place.
+std::vector<std::optional<Source>> sources_of(const ForeignTable& table,
+                                              const ColumnMappings& mappings) {
+  std::vector<std::optional<Source>> sources(table.columns.size());
+  for (const auto& [quantity, mapping] : mappings) {
+    const std::size_t place = find_column(table, mapping.name);
+    const auto alike = std::ranges::count(table.columns, mapping.name, &ForeignColumn::name);
+    if (alike > 1) {
+      throw InputError(
+          fmt::format("column {}: {} of the file have this name", arm::shown(mapping.name), alike));
+    }
+    if (sources[place]) {
+      throw InputError(fmt::format("column {}: is to be {} and {}", arm::shown(mapping.name),
+                                   sources[place]->quantity, quantity));
+    }
+    sources[place] = Source{quantity, mapping};
+  }
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    const auto standard = sources[i] ? ColumnMappings() : standard_mapping(table.columns[i].name);
+    if (standard.empty() || mappings.contains(standard.begin()->first)) continue;
+    std::optional<Source> source = Source{standard.begin()->first, standard.begin()->second};
+    const bool is_taken = std::ranges::any_of(
+        sources, [&](const auto& other) { return other && other->quantity == source->quantity; });
+    if (is_taken) throw InputError(fmt::format("column {}: given twice", source->quantity));
+    sources[i] = std::move(source);
+  }
+  return sources;
+}
+
+std::string column_list(const ForeignTable& table) {
+  std::vector<std::string> names;
+  for (const auto& column : table.columns) names.push_back(column.name);
+  return arm::shown(fmt::format("{}", fmt::join(names, ", ")), 400);
+}
+
+std::vector<double> si_values(const ForeignTable& table, const ForeignColumn& column,
+                              const Source& source, std::size_t& row) {
+  const auto& mapping = source.mapping;
+  if (column.is_text()) {
+    throw InputError(fmt::format("column {} = {}: is text; {} must be numbers",
+                                 arm::shown(column.name), arm::shown(column.texts.front()),
+                                 source.quantity));
+  }
+  const Unit unit = unit_of(source.quantity, mapping.unit).value_or(Unit{mapping.unit});
+  std::vector<double> values;
+  values.reserve(column.values.size());
+  for (row = 0; row < column.values.size(); ++row) {
+    values.push_back(unit.to_si(column.values[row] * mapping.scale));
+    if (std::isfinite(values.back())) continue;
+    throw InputError(fmt::format(
+        "{}: column {} = {}{}: must be a finite number", source.quantity, arm::shown(column.name),
+        column.values[row],
+        table.line_of_row.empty() ? fmt::format(" in row {}", row + 1) : " (or an empty cell)"));
+  }
+  row = 0;
+  return values;
+}
+
+}  // namespace
+
+std::string standard_name(std::string_view name) {
+  if (name == kTime || name == kTorque) return std::string(name);
+  const std::vector<std::string> beside = {std::string(kTime), std::string(kTorque)};
+  if (const auto meant = arm::nearest_name(name, beside)) {
+    throw InputError(fmt::format("{}: unknown (did you mean {}?)", arm::shown(name), *meant));
+  }
+  try {
+    return arm::to_string(arm::parse_sensor(name));
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}; beside time and torque", error.what()));
+  }
+}
+
+std::optional<arm::Sensor> sensor_of(std::string_view standard_name) {
+  if (standard_name == kTime || standard_name == kTorque) return std::nullopt;
+  return arm::parse_sensor(standard_name);
+}
+
+std::string_view si_unit_of(std::string_view standard_name) {
+  if (standard_name == kTime) return "s";
+  if (standard_name == kTorque) return "N m";
+  return arm::unit(arm::parse_sensor(standard_name));
+}
+
+std::optional<Unit> unit_of(std::string_view standard_name, std::string_view unit) {
+  const auto units = units_for(si_unit_of(standard_name));
+  if (unit.empty()) return units.front();
+  const auto found = std::ranges::find(units, canonical_unit(unit), &Unit::name);
+  if (found == units.end()) return std::nullopt;
+  return *found;
+}
+
+void require_valid(const std::string& standard_name, const ColumnMapping& mapping, bool has_scale) {
+  if (mapping.name.empty()) throw InputError("name: missing; must be a column of the file");
+  if (!std::isfinite(mapping.scale) || mapping.scale == 0.0) {
+    throw InputError(fmt::format("scale = {}: must be a finite number, not 0", mapping.scale));
+  }
+  if (has_scale || unit_of(standard_name, mapping.unit)) return;
+  const auto names = unit_names(standard_name);
+  throw InputError(fmt::format("unit = {}: is none of {}{}; scale is needed then, in {} per {}",
+                               arm::shown(mapping.unit), fmt::join(names, ", "),
+                               arm::did_you_mean(mapping.unit, names), si_unit_of(standard_name),
+                               arm::shown(mapping.unit)));
+}
+
+ColumnMappings standard_mapping(const std::string& header) {
+  const ColumnName name = split_column_name(header);
+  if (name.unit.empty() || !header.ends_with(']')) return {};
+  try {
+    const std::string quantity = standard_name(name.base);
+    if (!unit_of(quantity, name.unit)) return {};
+    return {{quantity, {header, name.unit, 1.0}}};
+  } catch (const InputError&) {
+    return {};
+  }
+}
+
+TimeRecord time_record_of(const ForeignTable& table, const ColumnMappings& mappings,
+                          const std::string& file_name) {
+  TimeRecord record;
+  std::size_t row = 0;
+  bool in_row = false;
+  try {
+    const auto sources = sources_of(table, mappings);
+    in_row = true;
+    for (std::size_t i = 0; i < sources.size(); ++i) {
+      if (!sources[i]) continue;
+      auto values = si_values(table, table.columns[i], *sources[i], row);
+      if (const auto sensor = sensor_of(sources[i]->quantity)) {
+        record.channels.push_back({*sensor, std::move(values)});
+      } else {
+        (sources[i]->quantity == kTime ? record.time_s : record.torque_N_m) = std::move(values);
+      }
+    }
+    in_row = false;
+    for (const auto name : {kTime, kTorque}) {
+      if ((name == kTime ? record.time_s : record.torque_N_m).empty()) {
+        throw InputError(
+            fmt::format("{}: no column is mapped to it; columns: {}", name, column_list(table)));
+      }
+    }
+    const std::size_t samples = record.time_s.size();
+    bool even = record.torque_N_m.size() == samples;
+    for (const auto& channel : record.channels) even = even && channel.values.size() == samples;
+    if (!even) throw InputError("the columns are of unlike length; must be of one");
+    if (samples < 2) throw InputError("one sample; must have two or more");
+  } catch (const InputError& error) {
+    throw arm::located(error, file_name, in_row ? line_of(table, row) : 0);
+  }
+  if (const auto fault = grid_fault(record.time_s)) {
+    throw arm::located(fault->error, file_name, line_of(table, fault->sample));
+  }
+  return record;
+}
+
+}  // namespace flexarm::measured

@@ -1,0 +1,135 @@
+#include "measured/files/delimited_line.hpp"
+
+#include "measured/files/number_cell.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+namespace flexarm::measured {
+
+using std::string_view;
+
+string_view trimmed(string_view text) {
+  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+string_view separator_name(const Dialect& dialect) {
+  switch (dialect.separator) {
+    case '\t':
+      return "tabs";
+    case ';':
+      return "semicolons";
+    case ',':
+      return "commas";
+    default:
+      return "blanks";
+  }
+}
+
+/// Behind the quote that closes the one at `at`, and adds the cell.
+std::size_t LineSplitter::quoted_end(string_view line, std::size_t at) {
+  const std::size_t begin = at + 1;
+  bool has_quotes = false;
+  for (at = begin; at < line.size(); ++at) {
+    if (line[at] != '"') continue;
+    if (at + 1 == line.size() || line[at + 1] != '"') break;
+    has_quotes = true;
+    ++at;
+  }
+  at = std::min(at, line.size());
+  const string_view content = line.substr(begin, at - begin);
+  if (has_quotes) {
+    std::string& single = rewritten_.emplace_back();
+    for (std::size_t i = 0; i < content.size(); ++i) {
+      if (content[i] == '"') ++i;
+      single += content[i];
+    }
+    cells_.push_back(trimmed(single));
+  } else {
+    cells_.push_back(trimmed(content));
+  }
+  return std::min(at + 1, line.size());
+}
+
+std::span<const string_view> LineSplitter::split(string_view line) {
+  cells_.clear();
+  rewritten_.clear();
+  const bool by_blanks = separator_ == ' ';
+  const auto ends_cell = [&](char c) { return by_blanks ? is_blank(c) : c == separator_; };
+  std::size_t at = 0;
+  while (true) {
+    while (at < line.size() && is_blank(line[at]) && (by_blanks || line[at] != separator_)) ++at;
+    if (by_blanks && at == line.size()) break;
+    if (at < line.size() && line[at] == '"') {
+      at = quoted_end(line, at);
+      while (at < line.size() && !ends_cell(line[at])) ++at;
+    } else {
+      const std::size_t begin = at;
+      while (at < line.size() && !ends_cell(line[at])) ++at;
+      cells_.push_back(trimmed(line.substr(begin, at - begin)));
+    }
+    if (at == line.size()) break;
+    ++at;
+  }
+  return cells_;
+}
+
+std::span<const string_view> LineSplitter::split_names(string_view line) {
+  const auto cells = split(line);
+  if (separator_ != ' ' || !rewritten_.empty()) return cells;
+  std::vector<string_view> names;
+  char awaited = '\0';
+  for (const auto cell : cells_) {
+    const bool opens = cell.front() == '(' || cell.front() == '[';
+    if ((awaited != '\0' || opens) && !names.empty()) {
+      const char* begin = names.back().data();
+      names.back() = {begin, static_cast<std::size_t>(cell.data() + cell.size() - begin)};
+      if (opens) awaited = cell.front() == '(' ? ')' : ']';
+    } else {
+      names.push_back(cell);
+    }
+    if (awaited != '\0' && cell.find(awaited) != string_view::npos) awaited = '\0';
+  }
+  cells_ = std::move(names);
+  return cells_;
+}
+
+std::optional<double> parse_cell(string_view cell, char decimal) {
+  if (decimal == '.') return number_cell<double>(cell);
+  std::array<char, 64> digits;
+  if (cell.size() > digits.size() || cell.find('.') != string_view::npos) return std::nullopt;
+  std::ranges::replace_copy(cell, digits.begin(), ',', '.');
+  return number_cell<double>({digits.data(), cell.size()});
+}
+
+bool has_thousands_separators(string_view cell, char decimal) {
+  constexpr std::size_t kGroup = 3;
+  constexpr string_view kDigits = "0123456789";
+  for (const char mark : {',', '.', '\'', ' '}) {
+    if (mark == decimal || cell.find(mark) == string_view::npos) continue;
+    const auto end = cell.find(decimal);
+    string_view whole = cell.substr(0, end);
+    if (whole.starts_with('-') || whole.starts_with('+')) whole.remove_prefix(1);
+    bool fits = true;
+    bool is_first = true;
+    std::string joined;
+    while (fits) {
+      const auto next = std::min(whole.find(mark), whole.size());
+      const string_view group = whole.substr(0, next);
+      fits = group.find_first_not_of(kDigits) == string_view::npos && !group.empty() &&
+             (is_first ? group.size() <= kGroup : group.size() == kGroup);
+      joined += group;
+      is_first = false;
+      if (next == whole.size()) break;
+      whole.remove_prefix(next + 1);
+    }
+    if (end != string_view::npos) joined += cell.substr(end);
+    if (fits && parse_cell(joined, decimal)) return true;
+  }
+  return false;
+}
+
+}  // namespace flexarm::measured

@@ -1,0 +1,270 @@
+#include "measured/files/foreign_file.hpp"
+
+#include "arm/input_error.hpp"
+#include "measured/files/column_name.hpp"
+#include "measured/files/foreign_mat.hpp"
+#include "measured/files/record_constants.hpp"
+#include "measured/files/text_file.hpp"
+#include "measured/files/universal_file.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdlib>
+#include <numbers>
+#include <string_view>
+#include <utility>
+
+namespace flexarm::measured {
+
+namespace {
+
+using arm::InputError;
+
+std::string told(const std::string& text) {
+  return text == "NONE" || text == "none" ? "" : text;
+}
+
+/// "node 3 -z", where a function tells.
+std::string place_of(const UniversalPlace& place) {
+  constexpr std::array<const char*, 7> kDirections = {"", "x", "y", "z", "rx", "ry", "rz"};
+  const int axis = std::abs(place.direction);
+  std::string text = fmt::format("node {}", place.node);
+  if (axis > 0 && axis < static_cast<int>(kDirections.size())) {
+    text += fmt::format(" {}{}", place.direction < 0 ? "-" : "+",
+                        kDirections[static_cast<std::size_t>(axis)]);
+  }
+  return text;
+}
+
+/// A name that no other function has: the first of its ID line, its response's entity and its
+/// axis' label that is told, with the place in the structure where others share it.
+std::vector<std::string> names_of(const std::vector<const UniversalFunction*>& functions) {
+  std::vector<std::string> names;
+  for (const auto* function : functions) {
+    std::string name = told(function->id[0]);
+    if (name.empty()) name = told(function->response.entity);
+    if (name.empty()) name = told(function->ordinate_axis.label);
+    names.push_back(name.empty() ? place_of(function->response) : name);
+  }
+  const std::vector<std::string> plain = names;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (std::ranges::count(plain, plain[i]) > 1) {
+      names[i] += ", " + place_of(functions[i]->response);
+    }
+  }
+  const std::vector<std::string> placed = names;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const auto before =
+        std::count(placed.begin(), placed.begin() + static_cast<std::ptrdiff_t>(i), placed[i]);
+    if (before > 0) names[i] += fmt::format(" ({})", before + 1);
+  }
+  return names;
+}
+
+std::string unit_of_axis(const UniversalAxis& axis, const std::string& name) {
+  const std::string unit = told(axis.units);
+  return unit.empty() ? split_column_name(name).unit : canonical_unit(unit);
+}
+
+void add_signals(const std::vector<const UniversalFunction*>& functions, ForeignFile& file) {
+  if (functions.empty()) return;
+  const auto names = names_of(functions);
+  const UniversalFunction& first = *functions.front();
+  const std::string unit = told(first.abscissa_axis.units);
+  file.table.columns.push_back(
+      {"time [s]", unit.empty() ? "s" : canonical_unit(unit), first.abscissa});
+  if (unit.empty()) file.table.assumptions.emplace_back("the abscissa is in s");
+  for (std::size_t i = 0; i < functions.size(); ++i) {
+    const UniversalFunction& function = *functions[i];
+    if (!function.imaginary.empty()) {
+      file.left_out.push_back(fmt::format("{}: complex over time", names[i]));
+    } else if (function.abscissa != first.abscissa) {
+      file.left_out.push_back(
+          fmt::format("{}: other times than those of {}", names[i], names.front()));
+    } else {
+      file.table.columns.push_back(
+          {names[i], unit_of_axis(function.ordinate_axis, names[i]), function.real});
+    }
+  }
+}
+
+/// Hz in one of the frequency axis' unit.
+double hertz_of(const UniversalAxis& axis) {
+  return canonical_unit(axis.units) == "rad/s" ? 1.0 / (2.0 * std::numbers::pi) : 1.0;
+}
+
+void add_responses(const std::vector<const UniversalFunction*>& functions, ForeignFile& file) {
+  const auto names = names_of(functions);
+  for (std::size_t i = 0; i < functions.size(); ++i) {
+    const UniversalFunction& function = *functions[i];
+    ForeignResponse response{names[i],
+                             unit_of_axis(function.ordinate_axis, names[i]),
+                             canonical_unit(told(function.denominator_axis.units)),
+                             function.abscissa,
+                             {},
+                             std::vector<double>(function.abscissa.size(), kUnknown)};
+    const double factor = hertz_of(function.abscissa_axis);
+    for (auto& frequency : response.frequency_Hz) frequency *= factor;
+    for (std::size_t k = 0; k < function.real.size(); ++k) {
+      response.response.emplace_back(function.real[k],
+                                     function.imaginary.empty() ? 0.0 : function.imaginary[k]);
+    }
+    file.responses.push_back(std::move(response));
+  }
+}
+
+/// A coherence belongs to the response before it of the same first ID line and response.
+void add_coherences(const UniversalFile& universal, ForeignFile& file) {
+  const UniversalFunction* last = nullptr;
+  std::size_t responses = 0;
+  for (const auto& function : universal.functions) {
+    if (function.type == kUniversalFrequencyResponse) {
+      last = &function;
+      ++responses;
+    }
+    if (function.type != kUniversalCoherence) continue;
+    if (last == nullptr || !(last->response == function.response)) {
+      file.left_out.push_back(fmt::format("{}: a coherence of no response", function.id[0]));
+      continue;
+    }
+    ForeignResponse& response = file.responses[responses - 1];
+    for (std::size_t k = 0; k < function.abscissa.size(); ++k) {
+      const auto at = std::ranges::lower_bound(last->abscissa, function.abscissa[k]);
+      if (at == last->abscissa.end() || *at != function.abscissa[k]) continue;
+      response.coherence[static_cast<std::size_t>(at - last->abscissa.begin())] = function.real[k];
+    }
+  }
+}
+
+ForeignFile universal_contents(std::string_view bytes, const std::string& file_name) {
+  const UniversalFile universal = parse_universal_file(bytes, file_name);
+  ForeignFile file;
+  file.format = ForeignFormat::universal;
+  std::vector<const UniversalFunction*> signals;
+  std::vector<const UniversalFunction*> responses;
+  for (const auto& function : universal.functions) {
+    if (function.type == kUniversalTimeResponse) {
+      signals.push_back(&function);
+    } else if (function.type == kUniversalFrequencyResponse) {
+      responses.push_back(&function);
+    } else if (function.type != kUniversalCoherence) {
+      file.left_out.push_back(
+          fmt::format("{}: a function of type {}", function.id[0], function.type));
+    }
+  }
+  add_signals(signals, file);
+  add_responses(responses, file);
+  add_coherences(universal, file);
+  for (const auto& number : universal.passed_over) {
+    file.left_out.push_back("data set " + number);
+  }
+  return file;
+}
+
+/// "-1" alone is the first line of a universal file.
+bool is_universal(std::string_view bytes) {
+  const auto first = bytes.find_first_not_of(" \t\r\n");
+  if (first == std::string_view::npos) return false;
+  const auto end = std::min(bytes.find_first_of("\r\n", first), bytes.size());
+  const std::string_view line = bytes.substr(first, end - first);
+  return line.substr(0, line.find_last_not_of(" \t") + 1) == "-1";
+}
+
+/// The factor into SI of a mapped response, N m and all.
+double scale_of(const ForeignResponse& response, const std::string& sensor,
+                const ColumnMapping& mapping, double& divisor) {
+  const Unit unit = unit_of(sensor, mapping.unit).value_or(Unit{mapping.unit});
+  const auto per = unit_of("torque", response.per);
+  if (!per && mapping.scale == 1.0) {
+    throw InputError(
+        fmt::format("{}: per {}, which is no torque; a scale is needed that makes it "
+                    "{} per N m",
+                    arm::shown(response.name), arm::shown(response.per), si_unit_of(sensor)));
+  }
+  const Unit torque = per.value_or(Unit{response.per});
+  divisor = unit.divisor * torque.factor;
+  return mapping.scale * unit.factor * torque.divisor;
+}
+
+}  // namespace
+
+const char* to_string(ForeignFormat format) {
+  switch (format) {
+    case ForeignFormat::universal:
+      return "universal file (data set 58)";
+    case ForeignFormat::matlab:
+      return "MATLAB 5 file";
+    default:
+      return "delimited text";
+  }
+}
+
+ForeignFile read_foreign_file(const std::filesystem::path& path) {
+  const std::string name = arm::shown(path.string());
+  const std::string bytes = measured::read_text_file(path, kLargestRecord_bytes);
+  ForeignFile file;
+  if (bytes.starts_with("MATLAB 5.0 MAT-file")) {
+    file = mat_contents(path);
+  } else if (is_universal(bytes)) {
+    file = universal_contents(bytes, name);
+  } else {
+    file.table = parse_foreign_table(bytes, name);
+  }
+  if (file.table.columns.empty() && file.responses.empty()) {
+    throw InputError(fmt::format("{}: a {} without signals in time or frequency responses", name,
+                                 to_string(file.format)));
+  }
+  return file;
+}
+
+FrequencyRecord frequency_record_of(const ForeignFile& file, const ColumnMappings& mappings,
+                                    const std::string& file_name) {
+  FrequencyRecord record;
+  try {
+    std::vector<std::string> names;
+    for (const auto& response : file.responses) names.push_back(response.name);
+    for (const auto& [quantity, mapping] : mappings) {
+      if (!sensor_of(quantity)) {
+        throw InputError(fmt::format("{}: frequency responses have sensors only", quantity));
+      }
+      if (std::ranges::count(names, mapping.name) == 1) continue;
+      throw InputError(fmt::format("response {}: not in the file; it has {}",
+                                   arm::shown(mapping.name),
+                                   arm::shown(fmt::format("{}", fmt::join(names, ", ")), 400)));
+    }
+    for (const auto& response : file.responses) {
+      ColumnMappings own;
+      for (const auto& entry : mappings) {
+        if (entry.second.name == response.name) own.insert(entry);
+      }
+      if (own.empty()) own = standard_mapping(response.name);
+      for (const auto& [quantity, mapping] : own) {
+        const auto sensor = sensor_of(quantity);
+        if (!sensor) continue;
+        if (std::ranges::count(record.channels, *sensor, &FrequencyChannel::sensor) > 0) {
+          throw InputError(fmt::format("{}: given twice", quantity));
+        }
+        double divisor = 1.0;
+        const double factor = scale_of(response, quantity, mapping, divisor);
+        FrequencyChannel channel{*sensor, response.frequency_Hz, response.response,
+                                 response.coherence};
+        for (auto& value : channel.response) value = value * factor / divisor;
+        record.channels.push_back(std::move(channel));
+      }
+    }
+    if (record.channels.empty()) {
+      throw InputError(fmt::format("no response is mapped to a sensor; responses: {}",
+                                   arm::shown(fmt::format("{}", fmt::join(names, ", ")), 400)));
+    }
+    format_frequency_record(record);  // throws for what is out of range
+  } catch (const InputError& error) {
+    throw arm::located(error, file_name, 0);
+  }
+  return record;
+}
+
+}  // namespace flexarm::measured

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <complex>
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace flexarm::measured {
+
+/// rows x columns numbers; `values` column by column, as MATLAB keeps them.
+template <class T>
+struct MatArray {
+  std::size_t rows = 0;
+  std::size_t columns = 0;
+  std::vector<T> values;
+
+  const T& operator()(std::size_t row, std::size_t column) const {
+    return values[column * rows + row];
+  }
+  bool operator==(const MatArray&) const = default;
+};
+
+using MatMatrix = MatArray<double>;
+using MatComplexMatrix = MatArray<std::complex<double>>;
+/// A column of strings, in MATLAB a cell array.
+using MatStrings = std::vector<std::string>;
+
+/// A variable of a .mat file: a matrix (a scalar is 1 x 1), a text in ASCII, or a list of texts.
+struct MatVariable {
+  std::string name;
+  std::variant<MatMatrix, MatComplexMatrix, std::string, MatStrings> value;
+
+  bool operator==(const MatVariable&) const = default;
+};
+
+/// Writes a MATLAB 5 file, uncompressed, whole or not at all (measured/files/atomic_file.hpp):
+/// MATLAB, GNU Octave and SciPy read it. The same variables give the same bytes.
+///
+/// Throws InputError when the file cannot be written; std::invalid_argument for a name that is not
+/// one of MATLAB's (a letter, then letters, digits and _, 63 in all) or is given twice, a matrix
+/// whose number of values is not rows x columns, and a text that is not printable ASCII.
+void write_mat_file(const std::vector<MatVariable>& variables, const std::filesystem::path& path);
+
+/// What a MATLAB 5 file holds.
+struct MatContents {
+  std::vector<MatVariable> variables;
+  std::vector<std::string> left_out;  ///< names of what is neither numbers nor text
+};
+
+/// The variables of a MATLAB 5 file, compressed or not, in its order: real and complex matrices of
+/// any class of numbers, as doubles; texts of one row; columns or rows of texts. The field f of a
+/// structure s is a variable "s.f".
+///
+/// Throws InputError "PATH: what is wrong" for a file that cannot be read, is none, or is damaged.
+MatContents read_mat_contents(const std::filesystem::path& path);
+
+/// The same; throws InputError for a variable of another kind, too, by name.
+std::vector<MatVariable> read_mat_file(const std::filesystem::path& path);
+
+}  // namespace flexarm::measured

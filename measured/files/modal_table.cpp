@@ -1,0 +1,200 @@
+#include "measured/files/modal_table.hpp"
+
+#include "arm/input_error.hpp"
+#include "arm/nearest_name.hpp"
+#include "arm/range.hpp"
+#include "measured/files/atomic_file.hpp"
+#include "measured/files/csv.hpp"
+#include "measured/files/number_cell.hpp"
+#include "measured/files/text_file.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <map>
+
+namespace flexarm::measured {
+
+namespace {
+
+using arm::InputError;
+
+constexpr std::size_t kLargestModalTable_bytes = 1 << 24;
+
+constexpr const char* kSensor = "sensor";
+constexpr const char* kFeature = "feature";
+constexpr const char* kOrder = "order";
+
+/// A column of numbers; cells may be empty.
+struct NumberColumn {
+  const char* name;
+  arm::Range range;
+  std::optional<double> ModalEntry::*member;
+};
+
+constexpr std::array<NumberColumn, 4> kNumbers = {{
+    {"frequency [Hz]", arm::kPositive, &ModalEntry::frequency_Hz},
+    {"frequency_std [Hz]", arm::kNotNegative, &ModalEntry::frequency_std_Hz},
+    {"damping_ratio", arm::kAnyFinite, &ModalEntry::damping_ratio},
+    {"damping_ratio_std", arm::kNotNegative, &ModalEntry::damping_ratio_std},
+}};
+
+const std::vector<std::string>& column_names() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all = {kSensor, kFeature, kOrder};
+    for (const auto& column : kNumbers) all.emplace_back(column.name);
+    return all;
+  }();
+  return names;
+}
+
+/// " (did you mean ...?)", also for a column without its unit.
+std::string meant_column(const std::string& typed) {
+  for (const auto& name : column_names()) {
+    if (name.starts_with(typed + " [")) return fmt::format(" (did you mean {}?)", name);
+  }
+  return arm::did_you_mean(typed, column_names());
+}
+
+/// Where each column stands in a row.
+using ModalHeader = std::map<std::string, std::size_t>;
+
+ModalHeader read_modal_header(const CsvRow& row) {
+  if (row.cells.size() == 1 && row.cells[0].find_first_of(";\t") != std::string::npos) {
+    throw InputError("cells must be separated by commas, and numbers have a decimal point");
+  }
+  ModalHeader header;
+  for (std::size_t i = 0; i < row.cells.size(); ++i) {
+    const std::string& name = row.cells[i];
+    if (std::ranges::count(column_names(), name) == 0) {
+      throw InputError(fmt::format("column {}: unknown{}; allowed: {}", arm::shown(name),
+                                   meant_column(name), fmt::join(column_names(), ", ")));
+    }
+    if (!header.emplace(name, i).second) {
+      throw InputError(fmt::format("column {}: given twice", name));
+    }
+  }
+  for (const char* name : {kSensor, kFeature, kOrder, kNumbers[0].name}) {
+    if (!header.contains(name)) {
+      throw InputError(fmt::format("column {}: missing; the header is {}", name,
+                                   fmt::join(column_names(), ",")));
+    }
+  }
+  return header;
+}
+
+double read_value(const NumberColumn& column, const std::string& cell) {
+  const bool is_ratio = column.member == &ModalEntry::damping_ratio;
+  const std::string allowed = is_ratio
+                                  ? "from -1 to 1, a fraction of critical damping, not in percent"
+                                  : to_string(column.range);
+  const auto value = number_cell<double>(cell);
+  if (!value || !column.range.contains(*value) || (is_ratio && std::abs(*value) > 1.0)) {
+    throw InputError(
+        fmt::format("{} = {}: must be {}, or empty", column.name, arm::shown(cell), allowed));
+  }
+  return *value;
+}
+
+Feature read_feature(const std::string& cell) {
+  for (const Feature feature : {Feature::pole, Feature::zero}) {
+    if (cell == to_string(feature)) return feature;
+  }
+  throw InputError(
+      fmt::format("feature = {}: must be pole or zero{}", arm::shown(cell),
+                  arm::did_you_mean(cell, std::array<std::string, 2>{"pole", "zero"})));
+}
+
+ModalEntry read_entry(const CsvRow& row, const ModalHeader& header) {
+  if (row.cells.size() != header.size()) {
+    throw InputError(fmt::format("{} cells; the header has {} (numbers have a decimal point)",
+                                 row.cells.size(), header.size()));
+  }
+  ModalEntry entry;
+  entry.feature = read_feature(row.cells[header.at(kFeature)]);
+
+  const std::string& sensor = row.cells[header.at(kSensor)];
+  if (!sensor.empty()) {
+    entry.sensor = arm::parse_sensor(sensor);
+  } else if (entry.feature == Feature::zero) {
+    throw InputError("sensor: missing; a zero belongs to one sensor");
+  }
+
+  const std::string& order = row.cells[header.at(kOrder)];
+  entry.order = number_cell<int>(order).value_or(0);
+  if (entry.order < 1) {
+    throw InputError(
+        fmt::format("order = {}: must be a whole number, 1 or more", arm::shown(order)));
+  }
+
+  for (const auto& column : kNumbers) {
+    const auto place = header.find(column.name);
+    if (place == header.end() || row.cells[place->second].empty()) continue;
+    entry.*column.member = read_value(column, row.cells[place->second]);
+  }
+  return entry;
+}
+
+std::string sensor_name(const ModalEntry& entry) {
+  return entry.sensor ? arm::to_string(*entry.sensor) : "";
+}
+
+}  // namespace
+
+std::string_view to_string(Feature feature) {
+  return feature == Feature::pole ? "pole" : "zero";
+}
+
+ModalTable parse_modal_table(std::string_view csv, const std::string& file_name) {
+  const std::vector<CsvRow> rows = parse_csv(csv, file_name);
+  int line = rows.empty() ? 1 : rows.front().line;
+  try {
+    if (rows.empty()) {
+      throw InputError(fmt::format("empty; the header is {}", fmt::join(column_names(), ",")));
+    }
+    const ModalHeader header = read_modal_header(rows.front());
+    ModalTable table;
+    std::map<std::string, int> line_of;
+    for (std::size_t i = 1; i < rows.size(); ++i) {
+      line = rows[i].line;
+      const ModalEntry entry = read_entry(rows[i], header);
+      const std::string what =
+          fmt::format("{} {} {}", sensor_name(entry), to_string(entry.feature), entry.order);
+      if (const auto [first, is_new] = line_of.emplace(what, line); !is_new) {
+        throw InputError(fmt::format("{}: given twice; first on line {}", what, first->second));
+      }
+      table.push_back(entry);
+    }
+    return table;
+  } catch (const InputError& error) {
+    throw arm::located(error, file_name, line);
+  }
+}
+
+ModalTable read_modal_table(const std::filesystem::path& path) {
+  return parse_modal_table(measured::read_text_file(path, kLargestModalTable_bytes),
+                           arm::shown(path.string()));
+}
+
+std::string format_modal_table(const ModalTable& table) {
+  std::string out = fmt::format("{}\n", fmt::join(column_names(), ","));
+  for (const auto& entry : table) {
+    out += fmt::format("{},{},{}", sensor_name(entry), to_string(entry.feature), entry.order);
+    for (const auto& column : kNumbers) {
+      const auto value = entry.*column.member;
+      out += value ? fmt::format(",{}", *value) : ",";
+    }
+    out += '\n';
+  }
+  return out;
+}
+
+void write_modal_table(const ModalTable& table, const std::filesystem::path& path) {
+  measured::write_atomically(path, format_modal_table(table));
+}
+
+}  // namespace flexarm::measured

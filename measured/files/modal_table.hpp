@@ -1,0 +1,53 @@
+#pragma once
+
+#include "arm/sensor.hpp"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace flexarm::measured {
+
+enum class Feature { pole, zero };
+
+/// "pole" or "zero".
+std::string_view to_string(Feature feature);
+
+/// One measured pole or zero of the transfer function from torque to `sensor`; what is not known is
+/// empty.
+struct ModalEntry {
+  std::optional<arm::Sensor> sensor;  ///< given for every zero; a pole is the same in all
+  Feature feature = Feature::pole;
+  int order = 1;                       ///< flexible ones counted from 1
+  std::optional<double> frequency_Hz;  ///< undamped natural frequency abs(s)/(2 pi), above 0
+  std::optional<double> frequency_std_Hz;
+  std::optional<double> damping_ratio;  ///< -Re s/abs(s), -1 to 1; below 0 on the right half plane
+  std::optional<double> damping_ratio_std;
+
+  bool operator==(const ModalEntry&) const = default;
+};
+
+/// Measured poles and zeros, in the order of their file.
+using ModalTable = std::vector<ModalEntry>;
+
+/// Reads a modal table (CSV, docs/formats.md). The columns may stand in any order; those that may
+/// be empty may be left out.
+///
+/// Throws InputError with one line `FILE:LINE: what is wrong; what is allowed` for a file that
+/// cannot be read, a header or row that does not fit, an unknown sensor or feature, a number that
+/// is none or out of its range, and a pole or zero that is given twice.
+ModalTable read_modal_table(const std::filesystem::path& path);
+
+/// The same for the text of a file; `file_name` stands in the errors.
+ModalTable parse_modal_table(std::string_view csv, const std::string& file_name);
+
+/// The table as the text of a file; `parse_modal_table` reads the same table back, every double
+/// bit for bit.
+std::string format_modal_table(const ModalTable& table);
+
+/// `format_modal_table` written to `path`, whole or not at all (measured/files/atomic_file.hpp).
+void write_modal_table(const ModalTable& table, const std::filesystem::path& path);
+
+}  // namespace flexarm::measured

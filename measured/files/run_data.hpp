@@ -1,0 +1,22 @@
+#pragma once
+
+#include "measured/files/frequency_record.hpp"
+#include "measured/files/measurement.hpp"
+#include "measured/files/modal_table.hpp"
+#include "measured/files/time_record.hpp"
+
+#include <filesystem>
+#include <variant>
+
+namespace flexarm::measured {
+
+/// What a run measured, by its kind: `time`, `frf`, `modal`.
+using RunData = std::variant<TimeRecord, FrequencyRecord, ModalTable>;
+
+/// Reads the file of a run of the measurement file, in SI units; a time run that has `columns` is a
+/// foreign log (measured/files/foreign_table.hpp), any other is the CSV of its kind.
+///
+/// Throws InputError `FILE:LINE: ...` where the reader of that file does.
+RunData read_run(const std::filesystem::path& measurement_file, const Run& run);
+
+}  // namespace flexarm::measured

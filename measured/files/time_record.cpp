@@ -1,0 +1,239 @@
+#include "measured/files/time_record.hpp"
+
+#include "arm/input_error.hpp"
+#include "arm/nearest_name.hpp"
+#include "measured/files/atomic_file.hpp"
+#include "measured/files/csv.hpp"
+#include "measured/files/number_cell.hpp"
+#include "measured/files/record_constants.hpp"
+#include "measured/files/text_file.hpp"
+#include "measured/files/time_grid.hpp"
+#include "measured/files/unit.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <stdexcept>
+
+namespace flexarm::measured {
+
+namespace {
+
+using arm::InputError;
+
+constexpr std::string_view kForm = "time [s],torque [N m],hub_angle [rad],...";
+
+/// A column of the file; `sensor` is empty for time and torque.
+struct Column {
+  std::string name;  ///< without its unit: "hub_angle"
+  Unit unit;
+  std::optional<arm::Sensor> sensor;
+  std::vector<double> values;
+};
+
+/// The unit in "NAME [UNIT]"; empty when there is none.
+std::optional<std::string_view> unit_in(std::string_view header) {
+  const auto open = header.find('[');
+  if (open == std::string_view::npos || !header.ends_with(']')) return std::nullopt;
+  return header.substr(open + 1, header.size() - open - 2);
+}
+
+std::string_view name_in(std::string_view header) {
+  const std::string_view name = header.substr(0, header.find('['));
+  return name.substr(0, name.find_last_not_of(" \t") + 1);
+}
+
+/// The sensor of that name. The error says, unlike `arm::parse_sensor`, that time and torque are
+/// columns too.
+arm::Sensor sensor_of(std::string_view name) {
+  const std::vector<std::string> beside = {std::string(kTime), std::string(kTorque)};
+  if (const auto meant = arm::nearest_name(name, beside)) {
+    throw InputError(
+        fmt::format("column {}: unknown (did you mean {}?)", arm::shown(name), *meant));
+  }
+  try {
+    return arm::parse_sensor(name);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("column: {}; beside time and torque", error.what()));
+  }
+}
+
+Unit unit_of(std::string_view name, std::optional<std::string_view> given,
+             std::string_view si_unit) {
+  const auto allowed = units_for(si_unit);
+  std::vector<std::string> names;
+  for (const auto& unit : allowed) {
+    if (unit.name == given) return unit;
+    names.emplace_back(unit.name);
+  }
+  if (!given) {
+    throw InputError(fmt::format("column {}: unit missing; write {} [{}]; allowed: {}",
+                                 arm::shown(name), name, si_unit, fmt::join(names, ", ")));
+  }
+  throw InputError(fmt::format("column {}: unit {} unknown{}; allowed: {}", name,
+                               arm::shown(*given), arm::did_you_mean(*given, names),
+                               fmt::join(names, ", ")));
+}
+
+Column read_column(std::string_view header) {
+  Column column;
+  const std::string_view name = name_in(header);
+  std::string_view si_unit = "s";
+  if (name == kTorque) {
+    si_unit = "N m";
+  } else if (name != kTime) {
+    column.sensor = sensor_of(name);
+    si_unit = arm::unit(*column.sensor);
+  }
+  column.name = column.sensor ? arm::to_string(*column.sensor) : std::string(name);
+  column.unit = unit_of(column.name, unit_in(header), si_unit);
+  return column;
+}
+
+std::vector<Column> read_time_header(std::span<const std::string_view> cells) {
+  if (cells.size() == 1 && cells[0].find_first_of(";\t") != std::string::npos) {
+    throw InputError("cells must be separated by commas, and numbers have a decimal point");
+  }
+  std::vector<Column> columns;
+  for (const auto& cell : cells) {
+    Column column = read_column(cell);
+    if (std::ranges::count(columns, column.name, &Column::name) > 0) {
+      throw InputError(fmt::format("column {}: given twice", column.name));
+    }
+    columns.push_back(std::move(column));
+  }
+  for (const auto& name : {kTime, kTorque}) {
+    if (std::ranges::count(columns, name, &Column::name) == 0) {
+      throw InputError(fmt::format("column {}: missing; the header is {}", name, kForm));
+    }
+  }
+  return columns;
+}
+
+double read_value(const Column& column, std::string_view cell) {
+  if (const auto number = number_cell<double>(cell)) {
+    const double value = column.unit.to_si(*number);
+    if (std::isfinite(value)) return value;
+  }
+  throw InputError(fmt::format("{} = {}{}{}: must be a finite number{}", column.name,
+                               arm::shown(cell), cell.empty() ? "" : " ",
+                               cell.empty() ? "" : column.unit.name,
+                               cell.empty() ? "; no cell may be empty" : ""));
+}
+
+void read_row(std::span<const std::string_view> cells, std::vector<Column>& columns) {
+  if (cells.size() != columns.size()) {
+    throw InputError(fmt::format("{} cell{}; the header has {} (numbers have a decimal point)",
+                                 cells.size(), cells.size() == 1 ? "" : "s", columns.size()));
+  }
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    columns[i].values.push_back(read_value(columns[i], cells[i]));
+  }
+}
+
+TimeRecord record_of(std::vector<Column>&& columns) {
+  TimeRecord record;
+  for (auto& column : columns) {
+    if (column.sensor) {
+      record.channels.push_back({*column.sensor, std::move(column.values)});
+    } else {
+      (column.name == kTime ? record.time_s : record.torque_N_m) = std::move(column.values);
+    }
+  }
+  return record;
+}
+
+void require_finite_values(std::string_view name, const std::vector<double>& values) {
+  const auto bad = std::ranges::find_if(values, [](double value) { return !std::isfinite(value); });
+  if (bad == values.end()) return;
+  throw InputError(fmt::format("{} = {} in sample {}: must be a finite number", name, *bad,
+                               bad - values.begin() + 1));
+}
+
+void require_writable(const TimeRecord& record) {
+  const std::size_t samples = record.time_s.size();
+  bool even = record.torque_N_m.size() == samples;
+  for (const auto& channel : record.channels) even = even && channel.values.size() == samples;
+  if (!even) throw std::invalid_argument("a time record whose columns are of unlike length");
+  require_finite_values(kTime, record.time_s);
+  require_finite_values(kTorque, record.torque_N_m);
+  for (const auto& channel : record.channels) {
+    require_finite_values(arm::to_string(channel.sensor), channel.values);
+  }
+}
+
+/// The shortest decimal that reads back to the same double.
+void append_number(std::string& out, double value) {
+  std::array<char, 32> digits;
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
+  out.append(digits.data(), end);
+}
+
+}  // namespace
+
+double sampling_period_s(const TimeRecord& record) {
+  return (record.time_s.back() - record.time_s.front()) /
+         static_cast<double>(record.time_s.size() - 1);
+}
+
+TimeRecord parse_time_record(std::string_view csv, const std::string& file_name) {
+  CsvReader reader(csv);
+  std::vector<Column> columns;
+  std::vector<int> lines;
+  try {
+    if (!reader.next()) throw InputError(fmt::format("empty; the header is {}", kForm));
+    columns = read_time_header(reader.cells());
+    while (reader.next()) {
+      read_row(reader.cells(), columns);
+      lines.push_back(reader.line());
+    }
+    if (lines.size() < 2) {
+      throw InputError(lines.empty() ? "only a header; must have two samples or more"
+                                     : "one sample; must have two or more");
+    }
+  } catch (const InputError& error) {
+    throw arm::located(error, file_name, reader.line());
+  }
+  TimeRecord record = record_of(std::move(columns));
+  if (const auto fault = grid_fault(record.time_s)) {
+    throw arm::located(fault->error, file_name, lines[fault->sample]);
+  }
+  return record;
+}
+
+TimeRecord read_time_record(const std::filesystem::path& path) {
+  return parse_time_record(measured::read_text_file(path, kLargestRecord_bytes),
+                           arm::shown(path.string()));
+}
+
+std::string format_time_record(const TimeRecord& record) {
+  require_writable(record);
+  std::string out = "time [s],torque [N m]";
+  for (const auto& channel : record.channels) {
+    out += fmt::format(",{} [{}]", arm::to_string(channel.sensor), arm::unit(channel.sensor));
+  }
+  out += '\n';
+  for (std::size_t i = 0; i < record.time_s.size(); ++i) {
+    append_number(out, record.time_s[i]);
+    out += ',';
+    append_number(out, record.torque_N_m[i]);
+    for (const auto& channel : record.channels) {
+      out += ',';
+      append_number(out, channel.values[i]);
+    }
+    out += '\n';
+  }
+  return out;
+}
+
+void write_time_record(const TimeRecord& record, const std::filesystem::path& path) {
+  measured::write_atomically(path, format_time_record(record));
+}
+
+}  // namespace flexarm::measured

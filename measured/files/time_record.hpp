@@ -1,0 +1,58 @@
+#pragma once
+
+#include "arm/sensor.hpp"
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace flexarm::measured {
+
+/// What one sensor read, a value a sample, in the sensor's SI unit (`arm::unit`).
+struct Channel {
+  arm::Sensor sensor;
+  std::vector<double> values;
+
+  bool operator==(const Channel&) const = default;
+};
+
+/// A run in time, evenly sampled: commanded torque and what the sensors read. All vectors are of
+/// one length, 2 or more; without channels it is a torque alone.
+struct TimeRecord {
+  std::vector<double> time_s;
+  std::vector<double> torque_N_m;
+  std::vector<Channel> channels;  ///< no sensor twice
+
+  bool operator==(const TimeRecord&) const = default;
+};
+
+/// How far a time may lie from the even grid, in sampling periods:
+/// |t_k - (t_0 + k period)| <= 0.05 period. A signal at a tenth of the sampling frequency changes
+/// by 3 % of its amplitude in that time.
+inline constexpr double kMostJitter_periods = 0.05;
+
+/// The step of the grid that the times lie on: (last - first)/(samples - 1) [s].
+double sampling_period_s(const TimeRecord& record);
+
+/// Reads a time record (CSV, docs/formats.md): `time [s],torque [N m]` and any subset of the
+/// sensors, columns in any order, units as `units_for` has them.
+///
+/// Throws InputError with one line `FILE:LINE: what is wrong; what is allowed`: for a file that
+/// cannot be read or has no samples, a column that is unknown, missing or given twice, an unknown
+/// unit, a cell that is no finite number, a time that is not later than the one before, samples
+/// that are missing, and jitter above `kMostJitter_periods`.
+TimeRecord read_time_record(const std::filesystem::path& path);
+
+/// The same for the text of a file; `file_name` stands in the errors.
+TimeRecord parse_time_record(std::string_view csv, const std::string& file_name);
+
+/// The record as the text of a file, in SI units; `parse_time_record` reads the same record back,
+/// every double bit for bit. Throws std::invalid_argument for vectors of unlike length, and
+/// InputError for a value that is not finite.
+std::string format_time_record(const TimeRecord& record);
+
+/// `format_time_record` written to `path`, whole or not at all (measured/files/atomic_file.hpp).
+void write_time_record(const TimeRecord& record, const std::filesystem::path& path);
+
+}  // namespace flexarm::measured

@@ -1,0 +1,76 @@
+#pragma once
+
+#include "measured/files/sensor_columns.hpp"
+#include "measured/modal/block_signals.hpp"
+
+#include <Eigen/Core>
+
+#include <functional>
+#include <span>
+#include <vector>
+
+namespace flexarm::measured {
+
+struct ProjectionOptions {
+  /// Ends when the step still to go is below this many standard errors, in their metric.
+  double step_in_standard_errors = 1e-4;
+  int most_iterations = 60;
+  /// Called before every evaluation, which passes over the data once; false ends the fit.
+  std::function<bool()> go_on = {};
+};
+
+/// What a fit leaves of one sensor's readings in one stretch, without its weight.
+struct StretchResidual {
+  std::size_t stretch = 0;
+  double squares = 0.0;
+  double rows = 0.0;
+
+  double variance() const { return squares / rows; }
+};
+
+/// Sum of squares of a residual, and that of what rounding leaves of the readings.
+double squares_above_rounding(const Eigen::VectorXd& residual, const Eigen::VectorXd& readings);
+
+/// One sensor's linear parameters beta at the fitted theta. p is their number; the first `shared`
+/// columns of its model are common to all stretches.
+struct SensorEstimate {
+  Eigen::VectorXd beta;
+  double squares = 0.0;   ///< residual sum of squares, each times its stretch's weight squared
+  double rows = 0.0;      ///< values it is a sum over
+  double variance = 0.0;  ///< squares/(rows - parameters): of the noise
+  Eigen::MatrixXd unit_inverse;  ///< (A^T A)^-1, p x p
+  Eigen::MatrixXd to_theta;      ///< d beta/d theta, p x parameters of theta
+  std::vector<StretchResidual> stretches = {};
+};
+
+struct BlockFit {
+  BlockSet blocks;
+  std::vector<SensorModel> models;
+  std::vector<SensorEstimate> sensors;
+  Eigen::MatrixXd theta_covariance;  ///< for white noise
+  double criterion = 0.0;            ///< sum over sensors of rows log(squares/rows)
+  double parameter_count = 0.0;      ///< linear ones and theta
+  int iterations = 0;
+  bool converged = false;
+  bool cancelled = false;
+
+  /// criterion + parameters log(values): smaller is better (Schwarz 1978).
+  double bic() const;
+  double values() const;
+};
+
+/// Poles by maximum likelihood for white normal noise of unknown size in each sensor: the minimum
+/// over theta of
+///
+///     sum_j n_j log |(I - A_j A_j^+) y_j|^2,
+///
+/// rows times the weights of their stretches; variable projection (Golub and Pereyra 1973) with
+/// Kaufman's Jacobian -(I - A A^+) dA beta, whose cross product is the Fisher information of theta
+/// with beta eliminated, and Levenberg-Marquardt steps. All of a step is done on the triangular
+/// factors of the stretches, so that its cost beyond one pass over the data does not depend on
+/// their length.
+BlockFit fit_blocks(std::span<const Stretch> stretches, std::span<const arm::Sensor> sensors,
+                    const BlockSet& start, const ColumnChoices& choices,
+                    const ProjectionOptions& options = {});
+
+}  // namespace flexarm::measured

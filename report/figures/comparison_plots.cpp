@@ -1,0 +1,148 @@
+#include "report/figures/comparison_plots.hpp"
+
+#include "report/figures/bode_figure.hpp"
+#include "report/figures/convergence_figure.hpp"
+#include "report/figures/mode_shape_figure.hpp"
+#include "report/figures/pole_zero_figure.hpp"
+#include "report/figures/svg.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <numbers>
+#include <ranges>
+
+namespace flexarm::report {
+
+namespace {
+
+/// Enough roots to show the trend without a thicket of curves.
+constexpr std::array kShownOrders = {1, 2, 3, 5, 10};
+constexpr std::size_t kShownModes = 6;
+
+std::string file_part(const compare::FeatureFamily& family) {
+  return family.zeros_of ? "zeros-" + arm::to_string(*family.zeros_of) : "poles";
+}
+
+std::string plural(const compare::FeatureFamily& family) {
+  return family.zeros_of ? "zeros of torque to " + arm::to_string(*family.zeros_of) : "poles";
+}
+
+bool is_shown(int order) {
+  return std::ranges::find(kShownOrders, order) != kShownOrders.end();
+}
+
+ConvergenceCurve convergence_curve(const compare::RefinementCurve& curve) {
+  ConvergenceCurve drawn{curve.refinement,
+                         fmt::format("{} {}", curve.family.zeros_of ? "zero" : "pole", curve.order),
+                         {},
+                         {}};
+  for (const auto& point : curve.points) {
+    drawn.degrees_of_freedom.push_back(point.degrees_of_freedom);
+    drawn.relative_error.push_back(point.relative_error);
+  }
+  return drawn;
+}
+
+/// Zero and NaN have no place on a logarithmic axis.
+bool has_a_point(const compare::RefinementCurve& curve) {
+  return std::ranges::any_of(curve.points,
+                             [](const auto& point) { return point.relative_error > 0.0; });
+}
+
+/// One picture a family of the refinement curves that `choose` takes, where they have a point.
+template <class Choose>
+void add_convergence(const compare::Comparison& comparison, const std::string& prefix,
+                     const std::string& title, Choose choose, std::vector<NamedPlot>& plots) {
+  std::vector<compare::FeatureFamily> drawn;
+  for (const auto& first : comparison.refinements) {
+    if (std::ranges::find(drawn, first.family) != drawn.end()) continue;
+    drawn.push_back(first.family);
+    ConvergencePlot plot;
+    plot.title = fmt::format("{}: {}", title, plural(first.family));
+    for (const auto& curve : comparison.refinements) {
+      if (curve.family == first.family && is_shown(curve.order) && choose(curve) &&
+          has_a_point(curve)) {
+        plot.curves.push_back(convergence_curve(curve));
+      }
+    }
+    if (plot.curves.empty()) continue;
+    plots.push_back(
+        {prefix + "-" + file_part(first.family) + ".svg", to_svg(convergence_figure(plot))});
+  }
+}
+
+/// The roots of subject k in a family, those it has.
+std::vector<std::complex<double>> roots_of(const compare::Comparison& comparison, std::size_t k,
+                                           const std::optional<arm::Sensor>& zeros_of) {
+  std::vector<std::complex<double>> roots;
+  for (const auto& row : comparison.roots) {
+    if (row.family.zeros_of == zeros_of && row.s_rad_per_s[k]) {
+      roots.push_back(*row.s_rad_per_s[k]);
+    }
+  }
+  return with_mirror_images(roots);
+}
+
+NamedPlot pole_zero_map(const compare::Comparison& comparison, const arm::Sensor& sensor) {
+  PoleZeroPlot plot;
+  plot.title = "Poles and zeros of torque to " + arm::to_string(sensor);
+  for (std::size_t k = 0; k < comparison.subjects.size(); ++k) {
+    plot.sets.push_back({comparison.subjects[k], roots_of(comparison, k, std::nullopt),
+                         roots_of(comparison, k, sensor)});
+  }
+  return {"pole-zero-" + arm::to_string(sensor) + ".svg", to_svg(pole_zero_figure(plot))};
+}
+
+NamedPlot bode_diagram(const compare::Comparison& comparison,
+                       const compare::ResponseComparison& response) {
+  BodePlot plot;
+  plot.title = "Torque to " + arm::to_string(response.sensor);
+  const auto unit = arm::unit(response.sensor);
+  plot.unit = unit == "1" ? "1/(N m)" : fmt::format("{}/(N m)", unit);
+  plot.frequency_Hz = response.frequency_Hz;
+  for (std::size_t k = 0; k < comparison.subjects.size(); ++k) {
+    plot.curves.push_back({comparison.subjects[k], response.values[k]});
+  }
+  plot.one_minus_coherence = response.one_minus_coherence;
+  return {"bode-" + arm::to_string(response.sensor) + ".svg", to_svg(bode_figure(plot))};
+}
+
+NamedPlot mode_shapes(const compare::Comparison& comparison) {
+  ModeShapePlot plot;
+  plot.title = "Mode shapes, modal mass I_T";
+  plot.station_m = comparison.stations_m;
+  const auto& reference = comparison.modes.front();
+  for (std::size_t i = 0; i < std::min(reference.size(), kShownModes); ++i) {
+    ModeShape shape;
+    shape.label = fmt::format("mode {}, {:.5g} Hz", i + 1,
+                              reference[i].omega_rad_per_s / (2.0 * std::numbers::pi));
+    for (std::size_t k = 0; k < comparison.subjects.size(); ++k) {
+      if (i >= comparison.modes[k].size()) continue;
+      shape.curves.push_back({comparison.subjects[k], comparison.modes[k][i].displacement_m});
+    }
+    plot.modes.push_back(std::move(shape));
+  }
+  return {"mode-shapes.svg", to_svg(mode_shape_figure(plot))};
+}
+
+}  // namespace
+
+std::vector<NamedPlot> comparison_plots(const compare::Comparison& comparison) {
+  std::vector<NamedPlot> plots;
+  add_convergence(
+      comparison, "convergence", "Error under refinement",
+      [](const auto& curve) { return !curve.alternative; }, plots);
+  add_convergence(
+      comparison, "bases", "Bases of assumed_modes",
+      [](const auto& curve) { return curve.formulation == "assumed_modes"; }, plots);
+  for (const auto& response : comparison.responses) {
+    plots.push_back(pole_zero_map(comparison, response.sensor));
+    plots.push_back(bode_diagram(comparison, response));
+  }
+  plots.push_back(mode_shapes(comparison));
+  return plots;
+}
+
+}  // namespace flexarm::report

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "diagnose/diagnosis.hpp"
+#include "report/figures/comparison_plots.hpp"
+#include "report/figures/figure.hpp"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace flexarm::report {
+
+/// Figures of a diagnosis: SVG documents with the names of their files, and what is not drawn.
+struct DiagnosisPlots {
+  std::vector<NamedPlot> plots;
+  std::string left_out;  ///< a sentence; empty where every run was drawn
+};
+
+/// Of each of the first `kMostDrawnRuns` runs in time "overlay-RUN.svg" (`overlay_figure`), of as
+/// many `frf` runs "frf-RUN-SENSOR.svg"; "hub-torque.svg" where a dependence of the residual torque
+/// on the hub's motion was found (`hub_torque_figure`).
+DiagnosisPlots diagnosis_plots(const diagnose::Experiment& experiment,
+                               const diagnose::Diagnosis& diagnosis);
+inline constexpr std::size_t kMostDrawnRuns = 6;
+/// Of these each sensor has a figure of its own.
+inline constexpr std::size_t kMostDrawnResponses = 12;
+
+/// A signal of the hub and one of the tip (of those there are) of a run in time: measurement and
+/// simulation over the stretch of `kDrawnSamples` where the simulation without causes misses most,
+/// each with what is missed below it.
+Figure overlay_figure(const diagnose::Experiment& experiment, const diagnose::Diagnosis& diagnosis,
+                      std::size_t run);
+inline constexpr std::size_t kDrawnSamples = 500;
+
+/// Residual torque of one run against hub velocity and against hub angle: samples, means of equally
+/// many samples with two standard errors, and what the regression found.
+Figure hub_torque_figure(const diagnose::HubTorque& torque, const diagnose::HubTorqueTrace& trace);
+
+}  // namespace flexarm::report

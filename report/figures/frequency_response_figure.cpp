@@ -1,0 +1,291 @@
+#include "report/figures/frequency_response_figure.hpp"
+
+#include "measured/spectra/frequency_response.hpp"
+#include "report/figures/feature_marks.hpp"
+#include "report/figures/label_placement.hpp"
+#include "report/figures/measured_curve.hpp"
+#include "report/figures/phase.hpp"
+#include "report/figures/phase_panel.hpp"
+#include "report/figures/refined_curve.hpp"
+#include "report/tables/response_tables.hpp"
+
+#include <boost/math/distributions/students_t.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <utility>
+
+namespace flexarm::report {
+namespace {
+
+using Complex = std::complex<double>;
+
+constexpr double kDegrees = 180.0 / std::numbers::pi;
+constexpr double kProbability = 0.95;
+constexpr int kResponseWidth_px = 1000;
+constexpr int kResponseHeight_px = 780;
+constexpr int kCoherence_px = 140;
+constexpr double kMagnitudeRoom = 0.12;
+constexpr double kKnown = 0.3;                             // half a 95 % interval, relative
+constexpr double kMostPhase_rad = std::numbers::pi / 4.0;  // half of one
+constexpr double kCoherenceRoom = 0.04;
+constexpr const char* kMeasured = "measured";
+constexpr const char* kInterval = "95 % interval";
+
+/// A model's curve, broken so that what lies below shows where they agree.
+Style model_style(std::size_t i) {
+  constexpr std::array kLines{Line::dotted, Line::dash_dotted};
+  constexpr std::array kModelColours{blue, green, purple};
+  Style style;
+  style.colour = kModelColours[i % kModelColours.size()];
+  style.line = kLines[i % kLines.size()];
+  style.line_width_px = 2.0;
+  return style;
+}
+
+const Style kFit{.colour = vermillion, .line = Line::dashed, .line_width_px = 1.8};
+
+struct ModelCurve {
+  std::string name;
+  std::vector<double> frequency_Hz;
+  std::vector<Complex> response;
+  Style style;
+};
+
+void require_valid(const MeasuredResponse& m, const FrequencyResponsePlot& plot) {
+  const std::size_t n = m.frequency_Hz.size();
+  const auto optional_of_length = [&](const std::vector<double>& v) {
+    return v.empty() || v.size() == n;
+  };
+  if (n == 0 || m.response.size() != n || !optional_of_length(m.relative_std) ||
+      !optional_of_length(m.coherence)) {
+    throw std::invalid_argument(fmt::format(
+        "{}: {} responses, {} spreads, {} coherences at {} frequencies", arm::to_string(m.sensor),
+        m.response.size(), m.relative_std.size(), m.coherence.size(), n));
+  }
+  for (const auto& model : plot.analytical) {
+    if (model.response.size() != model.frequency_Hz.size()) {
+      throw std::invalid_argument(fmt::format("{}: {} responses at {} frequencies", model.name,
+                                              model.response.size(), model.frequency_Hz.size()));
+    }
+  }
+}
+
+std::vector<ModelCurve> model_curves(const MeasuredResponse& measured,
+                                     const FrequencyResponsePlot& plot) {
+  std::vector<ModelCurve> curves;
+  if (plot.fit) {
+    const auto positive = std::ranges::upper_bound(measured.frequency_Hz, 0.0);
+    if (positive != measured.frequency_Hz.end()) {
+      const auto value = [&](double f_Hz) {
+        return plot.fit->value(Complex(0.0, 2.0 * std::numbers::pi * f_Hz));
+      };
+      auto curve =
+          refined_curve(value, *positive, measured.frequency_Hz.back(), plot.frequency_scale);
+      curves.push_back({"fit", std::move(curve.frequency_Hz), std::move(curve.response), kFit});
+    }
+  }
+  for (std::size_t i = 0; i < plot.analytical.size(); ++i) {
+    const auto& model = plot.analytical[i];
+    ModelCurve curve{model.name, {}, {}, model_style(i)};
+    for (std::size_t k = 0; k < model.frequency_Hz.size(); ++k) {
+      if (model.frequency_Hz[k] < measured.frequency_Hz.front() ||
+          model.frequency_Hz[k] > measured.frequency_Hz.back()) {
+        continue;
+      }
+      curve.frequency_Hz.push_back(model.frequency_Hz[k]);
+      curve.response.push_back(model.response[k]);
+    }
+    if (!curve.response.empty()) curves.push_back(std::move(curve));
+  }
+  return curves;
+}
+
+std::vector<double> magnitude(const std::vector<Complex>& response) {
+  std::vector<double> sizes;
+  for (const Complex& value : response) sizes.push_back(std::abs(value));
+  return sizes;
+}
+
+/// Values for the limits of the axis: where little is known of |G|, as where the torque has no
+/// power, none is above those that are known.
+std::vector<double> up_to_known(std::vector<double> sizes, const std::vector<double>& interval) {
+  double highest = 0.0;
+  for (std::size_t i = 0; i < interval.size(); ++i) {
+    if (interval[i] < kKnown) highest = std::fmax(highest, sizes[i]);
+  }
+  if (highest == 0.0) return sizes;
+  for (double& size : sizes) size = std::isnan(size) ? size : std::min(size, highest);
+  return sizes;
+}
+
+Panel magnitude_panel(const MeasuredResponse& m, const std::vector<double>& interval,
+                      const std::vector<ModelCurve>& models) {
+  Panel panel;
+  panel.y = {.label = "magnitude", .unit = response_unit(m.sensor), .scale = Scale::logarithmic};
+  panel.height = 1.8;
+  const auto sizes = magnitude(m.response);
+  panel.series.push_back(measured_curve(kMeasured, m.frequency_Hz, up_to_known(sizes, interval)));
+  for (const auto& model : models) {
+    panel.series.push_back(
+        {model.name, model.frequency_Hz, magnitude(model.response), model.style});
+  }
+  fix_limits(panel, kMagnitudeRoom);
+  panel.series.front() = measured_curve(kMeasured, m.frequency_Hz, sizes);
+  if (!interval.empty() && panel.y.minimum) {
+    std::vector<double> low;
+    std::vector<double> high;
+    for (std::size_t i = 0; i < sizes.size(); ++i) {
+      const bool known = std::isfinite(interval[i] * sizes[i]);
+      const auto limit = [&](double value) { return std::max(value, *panel.y.minimum); };
+      low.push_back(known ? limit(sizes[i] * (1.0 - interval[i])) : kNotDrawn);
+      high.push_back(known ? limit(sizes[i] * (1.0 + interval[i])) : kNotDrawn);
+    }
+    panel.series.insert(panel.series.begin(),
+                        measured_interval(kInterval, m.frequency_Hz, low, high));
+  }
+  return panel;
+}
+
+Series measured_phase(const MeasuredResponse& m, std::vector<double> phase,
+                      const std::vector<double>& interval) {
+  for (std::size_t i = 0; i < interval.size(); ++i) {
+    if (interval[i] > kMostPhase_rad) phase[i] = kNotDrawn;
+  }
+  const Series curve = measured_curve(kMeasured, m.frequency_Hz, phase);
+  return phase_series(kMeasured, curve.x, curve.y, curve.style);
+}
+
+Panel phase_panel(const MeasuredResponse& m, const std::vector<double>& interval,
+                  const std::vector<ModelCurve>& models) {
+  Panel panel;
+  panel.height = 1.1;
+  const auto phase = phase_deg(m.response, Phase::wrapped);
+  panel.series.push_back(measured_phase(m, phase, interval));
+  for (const auto& model : models) {
+    panel.series.push_back(phase_series(model.name, model.frequency_Hz,
+                                        phase_deg(model.response, Phase::wrapped), model.style));
+  }
+  panel.y = phase_axis(panel.series);
+  if (!interval.empty()) {
+    std::vector<double> low;
+    std::vector<double> high;
+    for (std::size_t i = 0; i < phase.size(); ++i) {
+      const double half_deg = interval[i] <= kMostPhase_rad ? kDegrees * interval[i] : kNotDrawn;
+      low.push_back(phase[i] - half_deg);
+      high.push_back(phase[i] + half_deg);
+    }
+    panel.series.insert(panel.series.begin(),
+                        measured_interval(kInterval, m.frequency_Hz, low, high));
+  }
+  return panel;
+}
+
+Panel coherence_panel(const MeasuredResponse& m) {
+  Panel panel;
+  panel.y = {.label = "coherence", .minimum = -kCoherenceRoom, .maximum = 1.0 + kCoherenceRoom};
+  panel.y.ticks = {{0.0, "0"}, {0.5, "0.5"}, {1.0, "1"}};
+  panel.height = 0.7;
+  panel.series.push_back(measured_curve(kMeasured, m.frequency_Hz, m.coherence));
+  if (m.averages > 1.0) {
+    const double chance = measured::coherence_of_chance(m.averages, 1.0 - kProbability);
+    Style style{.colour = grey, .line = Line::dotted};
+    panel.series.push_back({"coherence by chance",
+                            {m.frequency_Hz.front(), m.frequency_Hz.back()},
+                            {chance, chance},
+                            style});
+  }
+  return panel;
+}
+
+/// Without line 0, which a logarithmic axis has not.
+MeasuredResponse above_zero(MeasuredResponse m) {
+  const auto first = std::ranges::upper_bound(m.frequency_Hz, 0.0) - m.frequency_Hz.begin();
+  const auto cut = [&](auto& values) {
+    if (!values.empty()) values.erase(values.begin(), values.begin() + first);
+  };
+  cut(m.response);
+  cut(m.relative_std);
+  cut(m.coherence);
+  cut(m.frequency_Hz);
+  return m;
+}
+
+}  // namespace
+
+MeasuredResponse measured_response(const measured::FrequencyResponseEstimate& estimate,
+                                   std::size_t channel) {
+  const auto& found = estimate.channels.at(channel);
+  return {found.sensor,       estimate.frequency_Hz,      found.response,
+          found.relative_std, found.estimators.coherence, estimate.averages};
+}
+
+MeasuredResponse measured_response(const measured::FrequencyChannel& channel,
+                                   std::optional<double> averages) {
+  MeasuredResponse made{channel.sensor, channel.frequency_Hz, channel.response};
+  made.coherence = channel.coherence;
+  made.averages = averages.value_or(0.0);
+  if (!averages) return made;
+  for (const double coherence : channel.coherence) {
+    made.relative_std.push_back(measured::relative_response_std(coherence, *averages));
+  }
+  return made;
+}
+
+std::vector<double> interval_95(const MeasuredResponse& measured) {
+  const bool known =
+      std::ranges::any_of(measured.relative_std, [](double value) { return std::isfinite(value); });
+  if (!known || !(measured.averages > 1.0)) return {};
+  const boost::math::students_t spread(2.0 * (measured.averages - 1.0));
+  const double quantile = boost::math::quantile(spread, 0.5 * (1.0 + kProbability));
+  std::vector<double> interval;
+  for (const double value : measured.relative_std) interval.push_back(quantile * value);
+  return interval;
+}
+
+Figure frequency_response_figure(const MeasuredResponse& measured,
+                                 const FrequencyResponsePlot& plot) {
+  require_valid(measured, plot);
+  const MeasuredResponse shown = above_zero(measured);
+  if (shown.frequency_Hz.empty()) {
+    throw std::invalid_argument(
+        fmt::format("{}: no frequency above 0", arm::to_string(measured.sensor)));
+  }
+  const auto interval = interval_95(shown);
+  const auto models = model_curves(shown, plot);
+
+  PanelStack stack;
+  stack.x = {.label = "frequency", .unit = "Hz", .scale = plot.frequency_scale};
+  stack.panels.push_back(magnitude_panel(shown, interval, models));
+  Panel phase = phase_panel(shown, interval, models);
+  if (phase.y.minimum) stack.panels.push_back(std::move(phase));
+  Figure figure{
+      .title = plot.title, .width_px = kResponseWidth_px, .height_px = kResponseHeight_px};
+  const bool has_coherence =
+      std::ranges::any_of(shown.coherence, [](double value) { return std::isfinite(value); });
+  if (has_coherence) {
+    stack.panels.push_back(coherence_panel(shown));
+  } else {
+    figure.height_px -= kCoherence_px;
+  }
+
+  std::vector<double> poles_Hz;
+  for (const double pole_Hz : plot.analytical_poles_Hz) {
+    if (pole_Hz >= shown.frequency_Hz.front() && pole_Hz <= shown.frequency_Hz.back()) {
+      poles_Hz.push_back(pole_Hz);
+    }
+  }
+  for (Panel& panel : stack.panels) {
+    add_frequency_lines(panel, poles_Hz, "analytical pole", analytical_pole_style());
+  }
+  add_feature_marks(stack.panels.front(), plot.features, FeatureLevel::amplitude);
+  figure.stacks.push_back(std::move(stack));
+  place_labels(figure);
+  return figure;
+}
+
+}  // namespace flexarm::report

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "compare/identification.hpp"
+#include "measured/identification.hpp"
+#include "report/figures/comparison_plots.hpp"
+
+#include <vector>
+
+namespace flexarm::report {
+
+/// SVG documents by file name: of each run `autopower-RUN.svg`, `frf-RUN-SENSOR.svg` with the fit
+/// and the analytical response, `circles-RUN-SENSOR.svg` and `distortion-RUN-SENSOR.svg` where
+/// there are any; of each fit `stabilisation-RUNS.svg`. Throws as `to_svg` does.
+std::vector<NamedPlot> identification_plots(
+    const measured::Identification& identification,
+    const std::vector<compare::IdentifiedCondition>& conditions);
+
+}  // namespace flexarm::report

@@ -1,0 +1,64 @@
+#include "report/figures/measured_curve.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
+namespace flexarm::report {
+namespace {
+
+constexpr std::size_t kFewPoints = 200;
+constexpr double kGap = 10.0;
+
+/// Whether a gap lies between point i - 1 and point i.
+bool gap_before(const std::vector<double>& x, std::size_t i) {
+  return i >= 2 && i + 1 < x.size() &&
+         x[i] - x[i - 1] > kGap * std::max(x[i - 1] - x[i - 2], x[i + 1] - x[i]);
+}
+
+void add_point(Series& series, double x, double y, double y_to) {
+  series.x.push_back(x);
+  series.y.push_back(y);
+  if (series.style.filled) series.y_to.push_back(y_to);
+}
+
+void add_gap(Series& series, double x) {
+  add_point(series, x, kNotDrawn, kNotDrawn);
+}
+
+}  // namespace
+
+Series measured_curve(std::string name, const std::vector<double>& frequency_Hz,
+                      const std::vector<double>& values) {
+  Series series{std::move(name), {}, {}, {.line_width_px = 1.1}};
+  if (values.size() < kFewPoints) {
+    series.style.line = Line::none;
+    series.style.marker = Marker::disc;
+    series.style.marker_size = 0.35;
+  }
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (gap_before(frequency_Hz, i)) add_gap(series, frequency_Hz[i]);
+    add_point(series, frequency_Hz[i], values[i], 0.0);
+  }
+  return series;
+}
+
+Series measured_interval(std::string name, const std::vector<double>& frequency_Hz,
+                         const std::vector<double>& low, const std::vector<double>& high) {
+  Series series{std::move(name), {}, {}, {.colour = sky_blue, .tint = 0.55}};
+  series.style.filled = low.size() >= kFewPoints;
+  series.style.line_width_px = 3.0;
+  for (std::size_t i = 0; i < low.size(); ++i) {
+    if (series.style.filled) {
+      if (gap_before(frequency_Hz, i)) add_gap(series, frequency_Hz[i]);
+      add_point(series, frequency_Hz[i], low[i], high[i]);
+    } else {
+      add_point(series, frequency_Hz[i], low[i], 0.0);
+      add_point(series, frequency_Hz[i], high[i], 0.0);
+      add_gap(series, frequency_Hz[i]);
+    }
+  }
+  return series;
+}
+
+}  // namespace flexarm::report

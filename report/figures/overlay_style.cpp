@@ -1,0 +1,22 @@
+#include "report/figures/overlay_style.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace flexarm::report {
+
+int formulation_colour(std::size_t i) {
+  return static_cast<int>(i % kColours);
+}
+
+Style overlay_style(std::size_t i) {
+  constexpr std::array<Line, 4> kLines{Line::solid, Line::solid, Line::dashed, Line::dotted};
+  Style style;
+  style.colour = formulation_colour(i);
+  style.line = kLines[std::min(i, kLines.size() - 1)];
+  style.line_width_px = i == 0 ? 5.0 : 1.8;
+  style.tint = i == 0 ? 0.7 : 0.0;
+  return style;
+}
+
+}  // namespace flexarm::report

@@ -1,0 +1,98 @@
+#include "report/figures/response_plots.hpp"
+
+#include "report/figures/bode_figure.hpp"
+#include "report/figures/nyquist_figure.hpp"
+#include "report/figures/svg.hpp"
+#include "report/tables/response_tables.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace flexarm::report {
+
+namespace {
+
+constexpr double kTwoPi = 2.0 * std::numbers::pi;
+
+NamedPlot bode(const std::string& formulation, const response::ResponseStudy& study,
+               std::size_t k) {
+  const auto& sensor = study.response.sensors[k];
+  BodePlot plot;
+  plot.title = "Torque to " + arm::to_string(sensor);
+  plot.unit = response_unit(sensor);
+  plot.frequency_Hz = study.response.frequency_Hz;
+  plot.curves.push_back({formulation, study.response.values[k]});
+  if (study.state_space_response) {
+    plot.curves.push_back({"state space", study.state_space_response->values[k]});
+  }
+  plot.magnitude = Magnitude::decibel;
+  plot.phase = Phase::unwrapped;
+  plot.poles_Hz.push_back(study.damped_poles.lowest.first_rad_per_s.imag() / kTwoPi);
+  for (const auto& pole : study.damped_poles.flexible) {
+    plot.poles_Hz.push_back(pole.first_rad_per_s.imag() / kTwoPi);
+  }
+  for (const auto& zero : study.products[k].zeros_rad_per_s) {
+    if (zero.real() == 0.0) plot.zeros_Hz.push_back(zero.imag() / kTwoPi);
+  }
+  Figure figure = bode_figure(plot);
+  figure.height_px = study.state_space_response ? 760 : 640;  // room for the unit of a sensor
+  return {fmt::format("bode-{}.svg", arm::to_string(sensor)), to_svg(figure)};
+}
+
+/// The response at all frequencies it is known at, those around the poles among them.
+std::vector<std::complex<double>> values_in_order(const response::ResponseStudy& study,
+                                                  std::size_t k) {
+  std::vector<std::pair<double, std::complex<double>>> points;
+  const auto add = [&](const std::vector<double>& frequency_Hz,
+                       const std::vector<std::complex<double>>& values) {
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      points.emplace_back(frequency_Hz[i], values[i]);
+    }
+  };
+  add(study.response.frequency_Hz, study.response.values[k]);
+  for (const auto& resonance : study.resonances[k]) add(resonance.frequency_Hz, resonance.values);
+  std::ranges::stable_sort(points, {}, [](const auto& point) { return point.first; });
+  const double highest_Hz = study.response.frequency_Hz.back();
+  std::vector<std::complex<double>> values;
+  for (const auto& [frequency_Hz, value] : points) {
+    if (frequency_Hz <= highest_Hz) values.push_back(value);
+  }
+  return values;
+}
+
+NamedPlot nyquist(const response::ResponseStudy& study, std::size_t k) {
+  const auto& sensor = study.response.sensors[k];
+  NyquistPlot plot;
+  plot.title = "Torque to " + arm::to_string(sensor);
+  plot.unit = response_unit(sensor);
+  plot.response = values_in_order(study, k);
+  for (const auto& resonance : study.resonances[k]) {
+    const double damping_ratio =
+        -resonance.pole_rad_per_s.real() / std::abs(resonance.pole_rad_per_s);
+    plot.circles.push_back({fmt::format("pole {}: {:.5g} Hz", resonance.order,
+                                        resonance.pole_rad_per_s.imag() / kTwoPi),
+                            fmt::format("ζ = {:.3g}", damping_ratio), resonance.values,
+                            resonance.at_pole, resonance.below, resonance.above});
+  }
+  return {fmt::format("nyquist-{}.svg", arm::to_string(sensor)), to_svg(nyquist_figure(plot))};
+}
+
+}  // namespace
+
+std::vector<NamedPlot> response_plots(const std::string& formulation,
+                                      const response::ResponseStudy& study) {
+  std::vector<NamedPlot> plots;
+  for (std::size_t k = 0; k < study.response.sensors.size(); ++k) {
+    const auto& values = study.response.values[k];
+    if (std::ranges::all_of(values, [](const auto value) { return value == 0.0; })) continue;
+    plots.push_back(bode(formulation, study, k));
+    if (!study.resonances[k].empty()) plots.push_back(nyquist(study, k));
+  }
+  return plots;
+}
+
+}  // namespace flexarm::report

@@ -1,0 +1,191 @@
+#include "report/json/comparison_json.hpp"
+
+#include "report/json/arm_json.hpp"
+#include "report/json/json_document.hpp"
+
+namespace flexarm::report {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <class T>
+Json optional_json(const std::optional<T>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+Json sensor_json(const std::optional<arm::Sensor>& sensor) {
+  return sensor ? Json(arm::to_string(*sensor)) : Json(nullptr);
+}
+
+Json family_json(const compare::FeatureFamily& family) {
+  return {{"feature", family.zeros_of ? "zero" : "pole"}, {"sensor", sensor_json(family.zeros_of)}};
+}
+
+Json models_json(const compare::Comparison& comparison) {
+  Json models = Json::array();
+  for (std::size_t k = 0; k < comparison.subjects.size(); ++k) {
+    models.push_back({{"model", comparison.subjects[k]},
+                      {"settings", comparison.settings[k]},
+                      {"degrees_of_freedom", comparison.degrees_of_freedom[k]}});
+  }
+  return models;
+}
+
+Json roots_json(const compare::Comparison& comparison) {
+  Json roots = Json::array();
+  for (const auto& row : comparison.roots) {
+    Json entry = family_json(row.family);
+    entry["order"] = row.order;
+    for (std::size_t k = 0; k < comparison.subjects.size(); ++k) {
+      entry["values"].push_back({{"model", comparison.subjects[k]},
+                                 {"s_rad_per_s", complex_json(row.s_rad_per_s[k])},
+                                 {"relative_distance", row.distance[k]}});
+    }
+    roots.push_back(std::move(entry));
+  }
+  return roots;
+}
+
+Json counts_json(const compare::Comparison& comparison) {
+  Json counts = Json::array();
+  for (const auto& note : comparison.notes) {
+    Json entry = family_json(note.family);
+    entry["model"] = note.subject;
+    entry["found"] = note.found;
+    entry["counted"] = note.count.expected >= 0 ? Json(note.count.expected) : Json(nullptr);
+    entry["count_method"] = note.count.method;
+    entry["infinite"] = note.infinite;
+    entry["rejected"] = Json::array();
+    for (const auto& zero : note.rejected) {
+      entry["rejected"].push_back({{"s_rad_per_s", complex_json(zero.s_rad_per_s)},
+                                   {"relative_change", zero.relative_change},
+                                   {"reason", zero.reason}});
+    }
+    counts.push_back(std::move(entry));
+  }
+  return counts;
+}
+
+Json point_json(const std::optional<compare::RefinementPoint>& point) {
+  if (!point) return nullptr;
+  return {{"setting", point->setting},
+          {"degrees_of_freedom", point->degrees_of_freedom},
+          {"relative_error", point->relative_error}};
+}
+
+Json refinements_json(const compare::Comparison& comparison) {
+  Json refinements = Json::array();
+  for (const auto& curve : comparison.refinements) {
+    Json entry = family_json(curve.family);
+    entry["order"] = curve.order;
+    entry["refined"] = curve.refinement;
+    entry["model"] = curve.formulation;
+    entry["setting"] = curve.setting_name;
+    entry["decay"] = curve.decay == compare::Decay::algebraic ? "algebraic" : "exponential";
+    entry["observed_order"] = optional_json(curve.convergence.rate);
+    entry["points_fitted"] = curve.convergence.points_fitted;
+    entry["smallest_error"] = curve.convergence.smallest_error;
+    entry["rounding_from"] = point_json(curve.convergence.rounding_onset);
+    entry["accurate_from"] = point_json(curve.convergence.cheapest);
+    for (const auto& point : curve.points) entry["points"].push_back(point_json(point));
+    refinements.push_back(std::move(entry));
+  }
+  return refinements;
+}
+
+Json shapes_json(const compare::Comparison& comparison) {
+  Json shapes = Json::array();
+  for (const auto& row : comparison.shapes) {
+    shapes.push_back({{"model", row.formulation},
+                      {"order", row.order},
+                      {"one_minus_mac", row.one_minus_mac},
+                      {"largest_error", row.largest_error},
+                      {"hub_slope", row.hub_slope},
+                      {"hub_slope_error", row.hub_slope_error}});
+  }
+  return shapes;
+}
+
+Json responses_json(const compare::Comparison& comparison) {
+  Json responses = Json::array();
+  for (const auto& response : comparison.responses) {
+    Json entry = {{"sensor", arm::to_string(response.sensor)},
+                  {"unit", arm::unit(response.sensor)},
+                  {"frequency_Hz", response.frequency_Hz},
+                  {"one_minus_coherence", response.one_minus_coherence}};
+    for (std::size_t k = 0; k < comparison.subjects.size(); ++k) {
+      std::vector<double> re;
+      std::vector<double> im;
+      for (const auto value : response.values[k]) {
+        re.push_back(value.real());
+        im.push_back(value.imag());
+      }
+      entry["models"].push_back(
+          {{"model", comparison.subjects[k]},
+           {"re", re},
+           {"im", im},
+           {"relative_error", response.relative_error[k]},
+           {"largest_error", response.largest_error[k]},
+           {"largest_error_frequency_Hz", response.largest_error_frequency_Hz[k]}});
+    }
+    responses.push_back(std::move(entry));
+  }
+  return responses;
+}
+
+Json finding_json(const compare::Finding& finding) {
+  return {{"quantity", finding.quantity},
+          {"first", finding.first},
+          {"second", finding.second},
+          {"distance", finding.distance},
+          {"tolerance", finding.tolerance}};
+}
+
+Json measured_json(const std::vector<compare::MeasuredRow>& rows) {
+  Json measured = Json::array();
+  for (const auto& row : rows) {
+    measured.push_back({{"feature", measured::to_string(row.measured.feature)},
+                        {"sensor", sensor_json(row.measured.sensor)},
+                        {"order", row.measured.order},
+                        {"measured_Hz", optional_json(row.measured.frequency_Hz)},
+                        {"model_Hz", optional_json(row.model_frequency_Hz)},
+                        {"error_percent", row.error_percent}});
+  }
+  return measured;
+}
+
+Json compared_json(const ComparedArm& compared) {
+  const auto& comparison = compared.comparison;
+  Json findings = Json::array();
+  for (const auto& finding : comparison.findings) findings.push_back(finding_json(finding));
+  return {
+      {"verdict", comparison.verdict.agree ? "agree" : "disagree"},
+      {"worst", finding_json(comparison.verdict.worst)},
+      {"arm", arm_json(comparison.arm)},
+      {"models", models_json(comparison)},
+      {"roots", roots_json(comparison)},
+      {"counts", counts_json(comparison)},
+      {"refinements", refinements_json(comparison)},
+      {"basis_notes", comparison.basis_notes},
+      {"shapes", shapes_json(comparison)},
+      {"responses", responses_json(comparison)},
+      {"measured", measured_json(compared.measured)},
+      {"findings", findings},
+  };
+}
+
+}  // namespace
+
+std::string comparison_json(const std::vector<ComparedArm>& arms) {
+  Json comparisons = Json::array();
+  bool agree = true;
+  for (const auto& compared : arms) {
+    comparisons.push_back(compared_json(compared));
+    agree = agree && compared.comparison.verdict.agree;
+  }
+  return json_document("flexarm.compare/1",
+                       {{"verdict", agree ? "agree" : "disagree"}, {"comparisons", comparisons}});
+}
+
+}  // namespace flexarm::report

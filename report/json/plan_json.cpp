@@ -1,0 +1,100 @@
+#include "report/json/plan_json.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <optional>
+#include <string>
+
+namespace flexarm::report {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Parameters of one effect, a list, as their names differ from effect to effect.
+Json values_json(const std::optional<diagnose::Candidate>& candidate) {
+  Json values = Json::array();
+  if (!candidate) return values;
+  const diagnose::Hypothesis& hypothesis = candidate->effects.front();
+  for (std::size_t i = 0; i < candidate->values.size(); ++i) {
+    const auto& parameter = hypothesis.parameters[i];
+    values.push_back({{"parameter", parameter.name},
+                      {"value", candidate->values[i]},
+                      {"unit", diagnose::unit_of(hypothesis, parameter)}});
+  }
+  return values;
+}
+
+}  // namespace
+
+Json further_runs_json(const std::vector<diagnose::NextExperiment>& runs) {
+  Json all = Json::array();
+  for (const auto& [further, leads, told, score] : runs) {
+    const diagnose::PlannedRun& run = further.run;
+    Json sensors = Json::array();
+    for (const auto& sensor : run.sensors) sensors.push_back(arm::to_string(sensor.sensor));
+    const bool in_time = run.kind == measured::RunKind::time;
+    all.push_back({{"run", run.id},
+                   {"like", further.like},
+                   {"change", further.change},
+                   {"kind", to_string(run.kind)},
+                   {"input", diagnose::input_of(run)},
+                   {"peak_torque_N_m",
+                    in_time ? Json(response::peak_N_m(diagnose::torque_of(run))) : Json(nullptr)},
+                   {"payload_mass_kg", run.payload ? Json(run.payload->mass_kg) : Json(nullptr)},
+                   {"sensors", sensors},
+                   {"told", told},
+                   {"leads", leads},
+                   {"score", score}});
+  }
+  return all;
+}
+
+Json plan_json(const diagnose::Plan& plan) {
+  const auto label = [&](std::size_t effect) { return plan.effects[effect].hypothesis.label(); };
+  Json effects = Json::array();
+  for (const auto& detection : plan.effects) {
+    effects.push_back({{"effect", detection.hypothesis.label()},
+                       {"shows", detection.shows},
+                       {"found_from", values_json(detection.smallest)},
+                       {"compared_at", values_json(detection.compared)},
+                       {"change", detection.compared_change},
+                       {"largest_change", detection.largest_change}});
+  }
+  Json separations = Json::array();
+  for (std::size_t a = 0; a < plan.effects.size(); ++a) {
+    for (std::size_t b = 0; b < plan.effects.size(); ++b) {
+      const auto& separation = plan.separations[a][b];
+      if (!separation) continue;
+      separations.push_back({{"effect", label(a)},
+                             {"rival", label(b)},
+                             {"cosine", separation->cosine},
+                             {"lead", separation->lead},
+                             {"fitted", separation->is_fitted},
+                             {"told", separation->lead >= diagnose::kToldLead}});
+    }
+  }
+  Json ties = Json::array();
+  for (const auto& tie : plan.ties) {
+    ties.push_back(
+        {{"effect", label(tie.truth)},
+         {"rival", label(tie.rival)},
+         {"lead", tie.lead},
+         {"lead_with_more", tie.lead_with_more ? Json(*tie.lead_with_more) : Json(nullptr)}});
+  }
+  Json classes = Json::array();
+  for (const auto& members : plan.classes) {
+    Json names = Json::array();
+    for (const std::size_t effect : members) names.push_back(label(effect));
+    classes.push_back({{"effects", names}});
+  }
+  return {{"effects", effects},
+          {"separations", separations},
+          {"ties", ties},
+          {"classes", classes},
+          {"further", further_runs_json(plan.further)},
+          {"added", further_runs_json(plan.added)},
+          {"notices", plan.notices}};
+}
+
+}  // namespace flexarm::report

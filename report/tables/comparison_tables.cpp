@@ -1,0 +1,245 @@
+#include "report/tables/comparison_tables.hpp"
+
+#include "report/tables/text_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+#include <string>
+
+namespace flexarm::report {
+
+namespace {
+
+constexpr int kRootDigits = 12;
+
+bool is_real(std::complex<double> s) {
+  return s.imag() == 0.0 && s.real() != 0.0;
+}
+
+/// Frequency [Hz] of a root on the imaginary axis, s [rad/s] of a real one, |s|/2 pi of a complex.
+double shown_value(std::complex<double> s) {
+  return is_real(s) ? s.real() : std::abs(s) / (2.0 * std::numbers::pi);
+}
+
+std::string axis_of(std::complex<double> s) {
+  if (is_real(s)) return "real, rad/s";
+  return s.real() == 0.0 ? "imaginary, Hz" : "complex, |s| Hz";
+}
+
+std::vector<compare::FeatureFamily> families_of(const compare::Comparison& comparison) {
+  std::vector<compare::FeatureFamily> families;
+  for (const auto& note : comparison.notes) {
+    if (std::ranges::find(families, note.family) == families.end()) families.push_back(note.family);
+  }
+  return families;
+}
+
+std::string title_of(const compare::FeatureFamily& family) {
+  return family.zeros_of ? "Zeros of torque to " + arm::to_string(*family.zeros_of) : "Poles";
+}
+
+/// What a series shows over all roots of one family.
+struct SeriesSummary {
+  const compare::RefinementCurve* any = nullptr;
+  double lowest_rate = std::numeric_limits<double>::infinity();
+  double highest_rate = -std::numeric_limits<double>::infinity();
+  double smallest_error = 0.0;  ///< of the root that is worst off; infinite: a root is missing
+  int rounding_from = 0;        ///< degrees of freedom at the first floor met; 0: none met
+  int cheapest = 0;             ///< degrees of freedom at which every root is accurate; 0: never
+
+  void add(const compare::RefinementCurve& curve) {
+    const auto& seen = curve.convergence;
+    if (seen.rate) {
+      lowest_rate = std::min(lowest_rate, *seen.rate);
+      highest_rate = std::max(highest_rate, *seen.rate);
+    }
+    // A root that no setting has is worse than any error.
+    smallest_error = std::isnan(seen.smallest_error)
+                         ? std::numeric_limits<double>::infinity()
+                         : std::max(smallest_error, seen.smallest_error);
+    if (seen.rounding_onset) {
+      const int from = seen.rounding_onset->degrees_of_freedom;
+      rounding_from = rounding_from == 0 ? from : std::min(rounding_from, from);
+    }
+    const bool reached = seen.cheapest && (any == nullptr || cheapest != 0);
+    cheapest = reached ? std::max(cheapest, seen.cheapest->degrees_of_freedom) : 0;
+    any = &curve;
+  }
+
+  /// "3.96 to 4.00" when the series decays like that, else missing.
+  Cell rate_text(compare::Decay decay) const {
+    if (any->decay != decay || !(lowest_rate <= highest_rate)) return std::monostate{};
+    return fmt::format("{:.2f} to {:.2f}", lowest_rate, highest_rate);
+  }
+
+  Cell smallest_error_cell() const {
+    return std::isfinite(smallest_error) ? Cell(smallest_error) : Cell(std::monostate{});
+  }
+};
+
+Cell count_or_missing(int count) {
+  return count > 0 ? Cell(std::int64_t{count}) : Cell(std::monostate{});
+}
+
+}  // namespace
+
+Table subjects_table(const compare::Comparison& comparison) {
+  Table table{"Models", {{"model"}, {"settings"}, {"degrees of freedom"}}};
+  for (std::size_t k = 0; k < comparison.subjects.size(); ++k) {
+    const int dof = comparison.degrees_of_freedom[k];
+    table.add_row({comparison.subjects[k],
+                   dof == 0 ? "the boundary-value problem itself" : comparison.settings[k],
+                   count_or_missing(dof)});
+  }
+  return table;
+}
+
+std::vector<Table> root_tables(const compare::Comparison& comparison) {
+  std::vector<Table> tables;
+  for (const auto& family : families_of(comparison)) {
+    std::vector<std::string> axes;
+    for (const auto& row : comparison.roots) {
+      if (row.family == family) axes.push_back(axis_of(*row.s_rad_per_s.front()));
+    }
+    const bool one_axis = std::ranges::adjacent_find(axes, std::not_equal_to{}) == axes.end();
+    Table table{title_of(family), {{"no."}}};
+    if (one_axis && !axes.empty()) {
+      table.caption += ", on the " + axes.front().substr(0, axes.front().find(',')) + " axis [" +
+                       axes.front().substr(axes.front().find(' ') + 1) + "]";
+    } else {
+      table.columns.push_back({"axis, unit"});
+    }
+    for (std::size_t k = 0; k < comparison.subjects.size(); ++k) {
+      table.columns.push_back({comparison.subjects[k], "", kRootDigits});
+      if (k > 0) table.columns.push_back(error_column("distance"));
+    }
+    for (const auto& row : comparison.roots) {
+      if (!(row.family == family)) continue;
+      std::vector<Cell> cells = {std::int64_t{row.order}};
+      if (!one_axis) cells.emplace_back(axis_of(*row.s_rad_per_s.front()));
+      for (std::size_t k = 0; k < comparison.subjects.size(); ++k) {
+        cells.emplace_back(row.s_rad_per_s[k] ? shown_value(*row.s_rad_per_s[k]) : kMissing);
+        if (k > 0) cells.emplace_back(row.distance[k]);
+      }
+      table.add_row(std::move(cells));
+    }
+    tables.push_back(std::move(table));
+  }
+  return tables;
+}
+
+Table notes_table(const compare::Comparison& comparison) {
+  Table table{"Roots found, counted and rejected",
+              {{"family"}, {"model"}, {"found"}, {"counted"}, {"by"}, {"rejected"}, {"infinite"}}};
+  for (const auto& note : comparison.notes) {
+    const bool counted = note.count.expected >= 0;
+    table.add_row({compare::label(note.family), note.subject, std::int64_t{note.found},
+                   counted ? Cell(std::int64_t{note.count.expected}) : Cell(std::monostate{}),
+                   counted ? Cell(note.count.method) : Cell(std::monostate{}),
+                   std::int64_t(note.rejected.size()), std::int64_t{note.infinite}});
+  }
+  return table;
+}
+
+std::vector<Table> convergence_tables(const compare::Comparison& comparison) {
+  std::vector<Table> tables;
+  for (const auto& family : families_of(comparison)) {
+    std::vector<std::pair<std::string, SeriesSummary>> series;
+    for (const auto& curve : comparison.refinements) {
+      if (!(curve.family == family)) continue;
+      auto known =
+          std::ranges::find(series, curve.refinement, [](const auto& s) { return s.first; });
+      if (known == series.end()) known = series.insert(known, {curve.refinement, {}});
+      known->second.add(curve);
+    }
+    if (series.empty()) continue;
+    Table table{"Convergence: " + title_of(family),
+                {{"refined"},
+                 {"setting"},
+                 {"order"},
+                 {"decades", "1/dof"},
+                 error_column("least"),
+                 {"rounding", "dof"},
+                 {fmt::format("{:.0e}", comparison.wanted_accuracy), "dof"}}};
+    for (const auto& [name, summary] : series) {
+      table.add_row({name, summary.any->setting_name, summary.rate_text(compare::Decay::algebraic),
+                     summary.rate_text(compare::Decay::exponential), summary.smallest_error_cell(),
+                     count_or_missing(summary.rounding_from), count_or_missing(summary.cheapest)});
+    }
+    tables.push_back(std::move(table));
+  }
+  return tables;
+}
+
+Table shapes_table(const compare::Comparison& comparison) {
+  Table table{"Mode shapes against " + comparison.subjects.front(),
+              {{"mode"},
+               {"model"},
+               error_column("1 - MAC"),
+               error_column("largest error"),
+               {"hub slope", "1", 10},
+               error_column("its error")}};
+  for (const auto& row : comparison.shapes) {
+    table.add_row({std::int64_t{row.order}, row.formulation, row.one_minus_mac, row.largest_error,
+                   row.hub_slope, row.hub_slope_error});
+  }
+  return table;
+}
+
+Table responses_table(const compare::Comparison& comparison) {
+  Table table{fmt::format("Responses against {}, more than {} % from poles and zeros",
+                          comparison.subjects.front(), 100.0 * compare::kOffResonance),
+              {{"sensor"}, {"model"}, error_column("largest error"), {"at", "Hz", 4}}};
+  for (const auto& response : comparison.responses) {
+    for (std::size_t k = 1; k < comparison.subjects.size(); ++k) {
+      table.add_row({arm::to_string(response.sensor), comparison.subjects[k],
+                     response.largest_error[k], response.largest_error_frequency_Hz[k]});
+    }
+  }
+  return table;
+}
+
+Table measured_table(const std::vector<compare::MeasuredRow>& rows) {
+  Table table{"Measured beside exact_tf (zeros: antiresonances, on the imaginary axis)",
+              {{"feature"},
+               {"no."},
+               {"sensor"},
+               {"measured", "Hz", 5},
+               {"model", "Hz", 6},
+               {"error", "%", 3}}};
+  for (const auto& row : rows) {
+    table.add_row({std::string(measured::to_string(row.measured.feature)),
+                   std::int64_t{row.measured.order},
+                   row.measured.sensor ? arm::to_string(*row.measured.sensor) : "",
+                   row.measured.frequency_Hz.value_or(kMissing),
+                   row.model_frequency_Hz.value_or(kMissing), row.error_percent});
+  }
+  return table;
+}
+
+std::string convergence_legend(const compare::Comparison& comparison) {
+  return to_paragraph(fmt::format(
+      "Refinement series against {0}. Over the roots of a family: the range of orders p in error ~ "
+      "setting^-p, or of decades gained per degree of freedom (dof); the least error of the worst "
+      "root; the dof from which rounding takes over in the first root that it reaches; the dof "
+      "from which every root is within {1:.0e}.",
+      comparison.subjects.front(), comparison.wanted_accuracy));
+}
+
+std::string verdict_line(const compare::Comparison& comparison) {
+  const auto& worst = comparison.verdict.worst;
+  const std::string where =
+      std::isnan(worst.distance)
+          ? fmt::format("{}: {} or {} has none", worst.quantity, worst.first, worst.second)
+          : fmt::format("{}: {} and {} are {:.1e} apart, tolerance {:.0e}", worst.quantity,
+                        worst.first, worst.second, worst.distance, worst.tolerance);
+  return comparison.verdict.agree ? "Verdict: agree. Worst pair: " + where + "."
+                                  : "Verdict: DISAGREE. Worst pair: " + where + ".";
+}
+
+}  // namespace flexarm::report

@@ -1,0 +1,54 @@
+#pragma once
+
+#include "compare/comparison.hpp"
+#include "compare/measured.hpp"
+#include "report/tables/table.hpp"
+
+#include <vector>
+
+namespace flexarm::report {
+
+/// The models of a comparison: name, settings, degrees of freedom.
+Table subjects_table(const compare::Comparison& comparison);
+
+/// One table a family: each root from each formulation, with its distance from the first's. Roots
+/// on the imaginary axis are shown as frequencies [Hz], roots on the real axis as s [rad/s].
+std::vector<Table> root_tables(const compare::Comparison& comparison);
+
+/// Every root in one table with full precision, for CSV.
+Table root_listing(const compare::Comparison& comparison);
+
+/// How many roots each model gave, and how many of a discrete model were rejected.
+Table notes_table(const compare::Comparison& comparison);
+
+/// Per family, one row a refinement series: order of convergence, floor, cheapest setting.
+std::vector<Table> convergence_tables(const compare::Comparison& comparison);
+
+/// What the columns of `convergence_tables` say: a paragraph that ends in a new line.
+std::string convergence_legend(const compare::Comparison& comparison);
+
+/// One row a root and series, for CSV and for `--full`.
+Table convergence_listing(const compare::Comparison& comparison);
+
+/// Every point of every refinement curve, for CSV.
+Table refinement_listing(const compare::Comparison& comparison);
+
+/// Mode shapes and hub slopes against the first model's.
+Table shapes_table(const compare::Comparison& comparison);
+
+/// Mode shapes of every model at the stations, for CSV.
+Table shapes_listing(const compare::Comparison& comparison);
+
+/// Largest difference of responses off resonance.
+Table responses_table(const compare::Comparison& comparison);
+
+/// Responses over frequency, for CSV.
+Table responses_listing(const compare::Comparison& comparison);
+
+/// Measured modal data beside the first model's.
+Table measured_table(const std::vector<compare::MeasuredRow>& rows);
+
+/// The verdict in one line.
+std::string verdict_line(const compare::Comparison& comparison);
+
+}  // namespace flexarm::report

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "diagnose/diagnosis.hpp"
+#include "report/tables/table.hpp"
+
+#include <string>
+
+namespace flexarm::report {
+
+/// The verdict in a sentence or two, as an engineer would say it.
+std::string verdict_text(const diagnose::Diagnosis& diagnosis);
+
+/// The causes, a row a parameter, with standard errors and shares.
+Table cause_table(const diagnose::Diagnosis& diagnosis);
+
+/// Relative errors of runs and sensors before and after, beside the noise [per cent].
+Table channel_gain_table(const diagnose::Diagnosis& diagnosis);
+
+/// The error on runs that were fitted and on those that were not.
+Table gain_table(const diagnose::Diagnosis& diagnosis);
+
+/// What came nearest without being named; no rows without any.
+Table near_miss_table(const diagnose::Diagnosis& diagnosis);
+
+/// Uncertain numbers of the arm file that were refitted; no rows without any.
+Table refitted_table(const diagnose::Diagnosis& diagnosis);
+
+/// Whether the three formulations agree on the extended arm: one sentence.
+std::string formulations_text(const diagnose::FormulationCheck& check);
+
+}  // namespace flexarm::report

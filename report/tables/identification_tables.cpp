@@ -1,0 +1,177 @@
+#include "report/tables/identification_tables.hpp"
+
+#include "report/tables/table.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace flexarm::report {
+
+namespace {}  // namespace
+
+std::string joined(const std::vector<std::string>& run_ids) {
+  return fmt::format("{}", fmt::join(run_ids, "+"));
+}
+
+std::vector<std::string> ids_of(const measured::RunsFit& fit,
+                                const measured::Identification& identification) {
+  std::vector<std::string> ids;
+  for (const std::size_t r : fit.runs) ids.push_back(identification.runs[r].run.id);
+  return ids;
+}
+
+std::vector<std::string> data_notes(const measured::Identification& identification) {
+  std::vector<std::string> notes;
+  for (const auto& run : identification.runs) {
+    for (const auto& finding : run.findings) {
+      notes.push_back(fmt::format("{}: {}: {}: {}", run.run.id, finding.channel,
+                                  to_string(finding.fault), finding.text));
+    }
+    for (const auto& sensor : run.left_out) {
+      notes.push_back(fmt::format("{}: {} is left out", run.run.id, arm::to_string(sensor)));
+    }
+    if (!run.refusal.empty()) {
+      notes.push_back(fmt::format("{}: nothing is estimated: {}", run.run.id, run.refusal));
+    }
+    if (run.distortion && !run.distortion->testable) {
+      notes.push_back(fmt::format("{}: distortion: {}", run.run.id, run.distortion->reason));
+    }
+  }
+  for (const auto& fit : identification.fits) {
+    const auto ids = ids_of(fit, identification);
+    if (!fit.refusal.empty()) {
+      notes.push_back(fmt::format("{}: no fit: {}", joined(ids), fit.refusal));
+    }
+    if (fit.refusal.empty() && !fit.fit.converged) {
+      notes.push_back(
+          fmt::format("{}: the fit did not converge: more than these data tell is asked of it; "
+                      "poles in the band "
+                      "hold better than zeros and gains",
+                      joined(ids)));
+    }
+    for (const auto& sensor : fit.fit.sensors) {
+      const bool untold = std::ranges::any_of(sensor.zeros, [](const measured::FittedZero& zero) {
+        return zero.in_band && !zero.is_told;
+      });
+      if (untold) {
+        notes.push_back(
+            fmt::format("{}: {}: the fit has zeros in the band that these data do not "
+                        "tell; they are left out",
+                        joined(ids), arm::to_string(sensor.sensor)));
+      }
+    }
+    if (!fit.gains_refusal.empty()) {
+      notes.push_back(fmt::format("{}: {}", joined(ids), fit.gains_refusal));
+    }
+  }
+  return notes;
+}
+
+std::vector<std::string> setting_lines(const measured::RunIdentification& run) {
+  std::vector<std::string> lines;
+  if (!run.estimate) return lines;
+  for (const auto& report : run.estimate->settings.reports) {
+    lines.push_back(fmt::format("{}: {} ({})", report.name, report.value, report.reason));
+  }
+  lines.push_back(fmt::format("lines {:.4g} Hz apart, {:.3g} effective averages",
+                              run.estimate->spacing_Hz, run.estimate->averages));
+  return lines;
+}
+
+Table gain_table(const measured::RunsFit& fit, const compare::AnalyticalModes& analytical) {
+  Table table{"Hub slopes and accelerometer gains, modal mass I_T",
+              {{"quantity"}, {"mode"}, {"unit"}, {"by"}, {"measured", "", 5}, {"+-", "", 2}}};
+  for (const auto& gains : analytical.gains) table.columns.push_back({gains.model, "", 5});
+  table.columns.push_back({"error", "%", 3});
+  if (!fit.gains) return table;
+  const auto add = [&](const std::string& quantity, Cell mode, const std::string& unit,
+                       const std::string& by, const measured::Estimate& estimate,
+                       const std::vector<double>& expected) {
+    std::vector<Cell> row = {quantity, std::move(mode), unit,
+                             by,       estimate.value,  estimate.standard_error};
+    for (const double value : expected) row.emplace_back(value);
+    row.emplace_back(100.0 * (estimate.value - expected.front()) / std::abs(expected.front()));
+    table.add_row(std::move(row));
+  };
+  std::vector<double> inertia;
+  for (const auto& gains : analytical.gains) inertia.push_back(gains.total_inertia_kg_m2);
+  add("I_T", Cell(), "kg m^2", "rigid body", fit.gains->total_inertia_kg_m2, inertia);
+  std::vector<double> poles_Hz;
+  for (const auto& pole : analytical.poles) poles_Hz.push_back(pole.frequency_Hz);
+  for (const auto& mode : fit.gains->modes) {
+    measured::ModalTable alone(1);
+    alone.front().frequency_Hz = mode.frequency_Hz;
+    const auto root = compare::beside_analytical(alone, analytical).front();
+    if (!root.order) continue;
+    const auto index = static_cast<std::size_t>(*root.order - 1);
+    std::vector<double> slopes, tips;
+    for (const auto& gains : analytical.gains) {
+      slopes.push_back(gains.hub_slope[index]);
+      tips.push_back(gains.tip_gain_m[index]);
+    }
+    const Cell order = std::int64_t(*root.order);
+    if (mode.hub_slope) add("phi'(0)", order, "1", "(48)", *mode.hub_slope, slopes);
+    if (mode.hub_slope_of_product) {
+      add("phi'(0)", order, "1", "(47), truncated", *mode.hub_slope_of_product, slopes);
+    }
+    if (mode.tip_gain_m) add("phi(l)", order, "m", "(49)", *mode.tip_gain_m, tips);
+    if (mode.tip_gain_of_ratio_m) {
+      add("phi(l)", order, "m", "(52), at the peak", *mode.tip_gain_of_ratio_m, tips);
+    }
+  }
+  return table;
+}
+
+Table residual_table(const measured::RunsFit& fit) {
+  Table table{"What the fit leaves",
+              {{"sensor"},
+               {"standard deviation", "", 3},
+               {"unit"},
+               {"of the signal", "%", 3},
+               {"it is"},
+               {"explained by torque", "%", 2}}};
+  for (const auto& sensor : fit.fit.sensors) {
+    const auto& residual = sensor.residual;
+    std::string kind = "noise";
+    if (residual.whiteness_probability < measured::ResidualQuality::kSignificance) {
+      kind = "coloured";
+    }
+    const bool explained =
+        residual.explained_probability < measured::ResidualQuality::kSignificance;
+    if (explained) kind = "not noise alone";
+    table.add_row({arm::to_string(sensor.sensor), residual.standard_deviation,
+                   std::string(arm::unit(sensor.sensor)), 100.0 * residual.relative, kind,
+                   explained ? Cell(100.0 * residual.explained_share) : Cell()});
+  }
+  return table;
+}
+
+Table distortion_table(const measured::RunIdentification& run) {
+  Table table{
+      fmt::format("{}: nonlinear distortion, from lines the torque does not drive", run.run.id),
+      {{"sensor"},
+       {"odd", "dB", 3},
+       {"noise there", "dB", 3},
+       {"found"},
+       {"even", "dB", 3},
+       {"noise there", "dB", 3},
+       {"found"}}};
+  if (!run.distortion || !run.distortion->testable || !run.estimate) return table;
+  for (std::size_t i = 0; i < run.distortion->channels.size(); ++i) {
+    const auto& channel = run.distortion->channels[i];
+    std::vector<Cell> row = {arm::to_string(run.estimate->channels[i].sensor)};
+    for (const auto* test : {&channel.odd, &channel.even}) {
+      row.emplace_back(std::isfinite(test->level_dB) ? test->level_dB : kMissing);
+      row.emplace_back(std::isfinite(test->noise_dB) ? test->noise_dB : kMissing);
+      row.emplace_back(std::string(test->lines == 0 ? "no line" : test->found ? "yes" : "no"));
+    }
+    table.add_row(std::move(row));
+  }
+  return table;
+}
+
+}  // namespace flexarm::report

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "compare/identification.hpp"
+#include "measured/identification.hpp"
+#include "report/tables/table.hpp"
+
+#include <string>
+#include <vector>
+
+namespace flexarm::report {
+
+/// What was read off a run, or off the runs of one fit, beside what the arm should show.
+struct IdentifiedData {
+  const measured::Identification& identification;
+  const compare::IdentifiedCondition& condition;
+  std::string runs;  ///< "random-low", "random-low+random-high"
+};
+
+/// The runs, and runs of fits, that the readings of a condition come from, each once.
+std::vector<std::string> sources(const measured::Identification& identification,
+                                 const compare::IdentifiedCondition& condition);
+
+/// Tables 2 to 4 of the paper: method, sensor, and for each analytical pole that any reading shows
+/// the measured frequency, its standard error and its distance from the analytical one in per cent;
+/// behind the sensors of a method their mean with the scatter between them. A last column has the
+/// peaks that stand for no analytical pole, where there are any. Without rows where no pole was
+/// read.
+Table pole_table(const IdentifiedData& data);
+
+/// The same of the antiresonances of each sensor, each beside its own analytical one.
+Table zero_table(const IdentifiedData& data);
+
+/// The paper's Table 5: damping ratios, in rows as in `pole_table`.
+Table damping_table(const IdentifiedData& data);
+
+/// Real zeros that a fit has, such as those of the tip, beside the analytical ones.
+Table real_zero_table(const IdentifiedData& data);
+
+}  // namespace flexarm::report

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "diagnose/planning/plan.hpp"
+#include "report/tables/table.hpp"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace flexarm::report {
+
+/// What the planned runs can say, in a sentence or two.
+std::string plan_summary(const diagnose::Plan& plan);
+
+/// A lead below this is told, but by little.
+inline constexpr double kClearLead = 10.0 * diagnose::kToldLead;
+
+/// "a", "b", ... of the effects of a plan; "*" of those beyond the letters there are.
+std::string effect_letter(std::size_t effect);
+
+/// Each effect: from which value on it is found, what it is tied with, and the nearest other.
+Table detection_table(const diagnose::Plan& plan);
+
+/// Which effect (a row) can be told from which (a column), a letter each, with a key below.
+std::string separation_matrix(const diagnose::Plan& plan);
+
+/// Cosine and expected lead of each effect over each other, a row a pair.
+Table separation_table(const diagnose::Plan& plan);
+
+/// Expected lead of each effect (a row) over each other (a column).
+Table lead_table(const diagnose::Plan& plan);
+
+/// Pairs that cannot be told, with what the better plan would make of them.
+Table tie_table(const diagnose::Plan& plan);
+
+/// Further runs with what they would tell, the best first, at most `most`.
+Table further_run_table(const std::vector<diagnose::NextExperiment>& runs, std::size_t most,
+                        const std::string& caption);
+
+}  // namespace flexarm::report

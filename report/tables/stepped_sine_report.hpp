@@ -1,0 +1,45 @@
+#pragma once
+
+#include "arm/arm.hpp"
+#include "measured/files/frequency_record.hpp"
+#include "report/figures/comparison_plots.hpp"
+#include "report/tables/table.hpp"
+#include "response/excitation/excitation_keys.hpp"
+#include "response/time/stepped_sine_response.hpp"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <string>
+#include <vector>
+
+namespace flexarm::report {
+
+/// A run of a simulated experiment that measured a frequency response sine by sine.
+struct SteppedSineRun {
+  std::string id;
+  std::vector<response::ExcitationKey> keys;
+  arm::Payload payload;
+  std::vector<arm::Sensor> sensors;
+  response::SteppedSineResponse measured;  ///< noise and all
+};
+
+/// The response as a frequency record has it.
+measured::FrequencyRecord frequency_record(const SteppedSineRun& run);
+
+/// How many frequencies, how finely sampled, how long, and what is left of the transient.
+Table stepped_sine_table(const std::vector<SteppedSineRun>& runs);
+
+/// Where each sensor's response is largest and smallest, and its noise.
+Table stepped_response_table(const std::vector<SteppedSineRun>& runs);
+
+/// Reversals, stops and rests of the hub in the measured cycles; for arms with dry friction.
+Table stepped_hub_motion_table(const std::vector<SteppedSineRun>& runs);
+
+/// A Bode diagram a sensor, `ID-SENSOR.svg`, with gaps between the bands; none of a sensor that
+/// reads nothing, as a hub that friction holds.
+std::vector<NamedPlot> stepped_sine_plots(const std::string& arm_name, const SteppedSineRun& run);
+
+/// Member `stepped_runs` of schema `flexarm.simulate/1` (docs/json.md).
+nlohmann::ordered_json stepped_runs_json(const std::vector<SteppedSineRun>& runs);
+
+}  // namespace flexarm::report

@@ -1,0 +1,197 @@
+#include "report/tables/symptom_tables.hpp"
+
+#include "report/tables/text_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace flexarm::report {
+
+namespace {
+
+using diagnose::Symptom;
+using diagnose::Symptoms;
+
+Column probability_column() {
+  return error_column("probability");
+}
+
+Cell number(const std::optional<double>& value) {
+  if (!value) return Cell(std::monostate{});
+  return Cell(*value);
+}
+
+std::string yes(bool value) {
+  return value ? "yes" : "no";
+}
+
+/// The first of each kind, then the others, errors last: those of further sensors say little more.
+/// Else in the order of the statements.
+std::vector<const Symptom*> told_first(const std::vector<Symptom>& statements) {
+  std::vector<const Symptom*> order;
+  std::vector<const Symptom*> others;
+  for (const Symptom& one : statements) {
+    const bool is_new =
+        std::ranges::none_of(order, [&](const Symptom* told) { return told->kind == one.kind; });
+    (is_new ? order : others).push_back(&one);
+  }
+  std::ranges::stable_partition(others, [](const Symptom* one) {
+    return one->is_significant && one->kind != diagnose::SymptomKind::error;
+  });
+  order.insert(order.end(), others.begin(), others.end());
+  return order;
+}
+
+}  // namespace
+
+std::string what_is_wrong_text(const Symptoms& symptoms, std::size_t most_lines) {
+  if (symptoms.statements.empty()) return "";
+  std::vector<const Symptom*> told;
+  std::size_t lines = 0;
+  for (const Symptom* one : told_first(symptoms.statements)) {
+    const std::string paragraph = to_paragraph("- " + one->text, 2);
+    lines += static_cast<std::size_t>(std::ranges::count(paragraph, '\n'));
+    if (lines > most_lines) break;
+    told.push_back(one);
+  }
+  std::string text = "What is wrong without causes\n";
+  for (const Symptom& one : symptoms.statements) {
+    if (std::ranges::find(told, &one) == told.end()) continue;
+    text += to_paragraph("- " + one.text, 2);
+  }
+  return text;
+}
+
+Table symptom_table(const Symptoms& symptoms) {
+  Table table{"What is wrong",
+              {{.name = "kind"},
+               {.name = "significant"},
+               {.name = "deviate", .significant_digits = 3},
+               probability_column(),
+               {.name = "run"},
+               {.name = "sensor"},
+               {.name = "statement"}}};
+  for (const Symptom& one : symptoms.statements) {
+    table.add_row({std::string(to_string(one.kind)), yes(one.is_significant), one.deviate,
+                   one.probability, one.run, one.sensor, one.text});
+  }
+  return table;
+}
+
+Table band_table(const Symptoms& symptoms) {
+  Table table{"Error by band",
+              {{.name = "run"},
+               {.name = "sensor"},
+               {.name = "band"},
+               {.name = "from", .unit = "Hz", .significant_digits = 3},
+               {.name = "to", .unit = "Hz", .significant_digits = 3},
+               {.name = "torque rms", .unit = "N m", .significant_digits = 3},
+               {.name = "payload", .unit = "kg", .significant_digits = 3},
+               {.name = "before", .unit = "%", .significant_digits = 3},
+               {.name = "after", .unit = "%", .significant_digits = 3},
+               {.name = "noise", .unit = "%", .significant_digits = 3},
+               probability_column()}};
+  for (const auto& error : symptoms.bands) {
+    table.add_row({error.run_id, error.sensor, error.band.name, error.band.from_Hz,
+                   error.band.to_Hz, number(error.torque_rms_N_m), error.payload_kg,
+                   100.0 * error.before, 100.0 * error.after, 100.0 * error.noise,
+                   error.probability});
+  }
+  return table;
+}
+
+Table root_shift_table(const Symptoms& symptoms) {
+  Table table{"Poles and zeros",
+              {{.name = "run"},
+               {.name = "payload", .unit = "kg"},
+               {.name = "root"},
+               {.name = "order"},
+               {.name = "quantity"},
+               {.name = "unit"},
+               {.name = "measured"},
+               {.name = "std error", .significant_digits = 2},
+               {.name = "before"},
+               {.name = "after"},
+               {.name = "shift", .unit = "%", .significant_digits = 3},
+               {.name = "deviates", .significant_digits = 3}}};
+  for (const auto& shift : symptoms.roots) {
+    const auto add = [&](const std::string& quantity, const std::string& unit,
+                         const std::optional<diagnose::RootNumber>& number) {
+      if (!number) return;
+      table.add_row({shift.run, shift.payload_kg,
+                     shift.zero_of ? arm::to_string(*shift.zero_of) + " zero" : "pole",
+                     std::int64_t{shift.order}, quantity, unit, number->measured, number->std_error,
+                     number->before, number->after, number->shift_percent(), number->deviates()});
+    };
+    add("frequency", "Hz", shift.frequency_Hz);
+    add("damping ratio", "1", shift.damping_ratio);
+  }
+  return table;
+}
+
+Table hub_torque_table(const Symptoms& symptoms) {
+  Table table{"Residual torque at the hub",
+              {{.name = "depends on"},
+               {.name = "accepted"},
+               {.name = "coefficient"},
+               {.name = "std error", .significant_digits = 2},
+               {.name = "unit"},
+               {.name = "at"},
+               {.name = "share", .unit = "%", .significant_digits = 3},
+               probability_column()}};
+  const auto add = [&](const diagnose::HubTorqueTerm& term, bool accepted) {
+    const bool has_place = term.kind == diagnose::HubTorqueKind::ripple ||
+                           term.kind == diagnose::HubTorqueKind::saturation;
+    table.add_row({std::string(to_string(term.kind)), yes(accepted), term.coefficient,
+                   term.std_error, term.unit, has_place ? Cell(term.at) : Cell(kMissing),
+                   100.0 * term.share, term.probability});
+  };
+  for (const auto& term : symptoms.hub_torque.terms) add(term, true);
+  for (const auto& term : symptoms.hub_torque.left_over) add(term, false);
+  return table;
+}
+
+Table run_value_table(const Symptoms& symptoms) {
+  Table table{"Refitted run by run",
+              {{.name = "effect"},
+               {.name = "parameter"},
+               {.name = "run"},
+               {.name = "value"},
+               {.name = "std error", .significant_digits = 2},
+               {.name = "unit"}}};
+  if (!symptoms.drift) return table;
+  const auto& drift = *symptoms.drift;
+  for (const auto& value : drift.values) {
+    table.add_row(
+        {drift.effect, drift.parameter, value.run, value.value, value.std_error, drift.unit});
+  }
+  return table;
+}
+
+Table distortion_table(const Symptoms& symptoms) {
+  Table table{"Distortion",
+              {{.name = "run"},
+               {.name = "sensor"},
+               {.name = "parity"},
+               {.name = "lines"},
+               {.name = "level", .unit = "dB", .significant_digits = 3},
+               {.name = "noise", .unit = "dB", .significant_digits = 3},
+               probability_column()}};
+  for (const auto& run : symptoms.distortion) {
+    for (std::size_t c = 0; c < run.sensors.size(); ++c) {
+      const auto& channel = run.distortion.channels[c];
+      const auto add = [&](const char* parity, const measured::DistortionTest& test) {
+        table.add_row({run.run, arm::to_string(run.sensors[c]), std::string(parity),
+                       static_cast<std::int64_t>(test.lines), test.level_dB, test.noise_dB,
+                       test.probability});
+      };
+      add("odd", channel.odd);
+      add("even", channel.even);
+    }
+  }
+  return table;
+}
+
+}  // namespace flexarm::report

@@ -1,0 +1,28 @@
+#include "report/tables/table.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+namespace flexarm::report {
+
+Column error_column(std::string name, std::string unit) {
+  return {std::move(name), std::move(unit), 2, Notation::scientific};
+}
+
+void Table::add_row(std::vector<Cell> row) {
+  if (row.size() != columns.size()) {
+    throw std::invalid_argument(fmt::format("table \"{}\": a row of {} cells under {} columns",
+                                            caption, row.size(), columns.size()));
+  }
+  rows.push_back(std::move(row));
+}
+
+bool is_missing(const Cell& cell) {
+  const double* number = std::get_if<double>(&cell);
+  return std::holds_alternative<std::monostate>(cell) || (number != nullptr && std::isnan(*number));
+}
+
+}  // namespace flexarm::report

@@ -1,0 +1,33 @@
+#include "response/frequency/frequency_response.hpp"
+
+#include "response/frequency/frequency_grid.hpp"
+
+#include <numbers>
+
+namespace flexarm::response {
+
+FrequencyResponse frequency_response(const AnyFormulation& formulation, const LinearChain& chain,
+                                     std::span<const arm::Sensor> sensors,
+                                     std::span<const double> frequency_Hz) {
+  for (const auto& sensor : sensors) arm::require_valid(sensor, arm_of(formulation));
+  require_ascending(frequency_Hz, "frequency");
+  FrequencyResponse response;
+  response.frequency_Hz.assign(frequency_Hz.begin(), frequency_Hz.end());
+  response.sensors.assign(sensors.begin(), sensors.end());
+  response.values.resize(sensors.size());
+  for (const double frequency : frequency_Hz) {
+    const auto s = on_imaginary_axis(frequency);
+    const auto actuator = actuator_response(chain, s);
+    const auto values = transfer_functions(formulation, sensors, s);
+    for (std::size_t j = 0; j < sensors.size(); ++j) {
+      response.values[j].push_back(values[j] * actuator * reading_response(chain, sensors[j], s));
+    }
+  }
+  return response;
+}
+
+std::complex<double> on_imaginary_axis(double frequency_Hz) {
+  return {0.0, 2.0 * std::numbers::pi * frequency_Hz};
+}
+
+}  // namespace flexarm::response

@@ -1,0 +1,235 @@
+#include "response/time/modal_dynamics.hpp"
+
+#include "arm/input_error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace flexarm::response {
+
+namespace {
+
+using Eigen::Index;
+
+void require_complete(const arm::ModalModel& model, std::size_t sensors) {
+  const std::size_t n = model.modes.size();
+  if (n == 0) throw arm::InputError("modes: the modal model has none");
+  if (model.damping_rad_per_s.size() != n * n) {
+    throw arm::InputError(fmt::format("modes: the modal model has {} damping entries: must be {}",
+                                      model.damping_rad_per_s.size(), n * n));
+  }
+  arm::require_in_range("modal mass", model.modal_mass_kg_m2, "kg m^2", arm::kPositive);
+  for (const auto& mode : model.modes) {
+    if (mode.sensor_values.size() != sensors) {
+      throw arm::InputError(fmt::format("modes: a mode has {} sensor values: must be {}",
+                                        mode.sensor_values.size(), sensors));
+    }
+  }
+}
+
+/// Where Z and W stand in X.
+struct Layout {
+  Index n = 0;
+  bool modal_forces = false;  // f is n modal forces, else one torque on the hub
+  std::optional<Index> lagged_torque;
+  std::optional<Index> lagged_reading;
+  Index size = 0;
+
+  Index forces() const { return modal_forces ? n : 1; }
+};
+
+/// The equations of motion without lags: modal accelerations p' = state X + actuator u + force f.
+struct Accelerations {
+  Eigen::MatrixXd state;
+  Eigen::VectorXd actuator;
+  Eigen::MatrixXd force;
+};
+
+/// Torque per unit of Z: the column of A is then as long as sigma_0.
+double torque_scale(const ModalDynamics& arm) {
+  return arm.scale_rad_per_s(0) * arm.modal_mass_kg_m2 / arm.hub_slope.norm();
+}
+
+Accelerations accelerations(const ModalDynamics& arm, const Layout& layout) {
+  const Eigen::VectorXd per_torque = arm.hub_slope / arm.modal_mass_kg_m2;
+  Accelerations made;
+  made.state.setZero(layout.n, layout.size);
+  made.state.leftCols(layout.n) =
+      (-arm.stiffness.array() / arm.scale_rad_per_s.array()).matrix().asDiagonal();
+  made.state.middleCols(layout.n, layout.n) = -arm.damping;
+  made.actuator.setZero(layout.n);
+  if (layout.lagged_torque) {
+    made.state.col(*layout.lagged_torque) = per_torque * torque_scale(arm);
+  } else {
+    made.actuator = per_torque;
+  }
+  if (layout.modal_forces) {
+    made.force.setIdentity(layout.n, layout.n);
+  } else {
+    made.force = per_torque;
+  }
+  return made;
+}
+
+Accelerations held_hub(const Accelerations& free, const Eigen::VectorXd& hub_slope,
+                       const Layout& layout) {
+  const Index n = layout.n;
+  const Eigen::VectorXd b = hub_slope.normalized();
+  const Eigen::MatrixXd project = Eigen::MatrixXd::Identity(n, n) - b * b.transpose();
+  // Torque on the hub is taken out to the last bit, not to rounding.
+  return {project * free.state, Eigen::VectorXd::Zero(n),
+          layout.modal_forces ? Eigen::MatrixXd(project * free.force)
+                              : Eigen::MatrixXd::Zero(n, 1).eval()};
+}
+
+Reading zero_reading(const Layout& layout) {
+  return {Eigen::RowVectorXd::Zero(layout.size), 0.0, Eigen::RowVectorXd::Zero(layout.forces())};
+}
+
+/// What a sensor with these modal values reads before its lag.
+Reading reading(const ModalDynamics& arm, const Layout& layout, const Accelerations& motion,
+                const Eigen::RowVectorXd& values, int derivatives) {
+  Reading made = zero_reading(layout);
+  if (derivatives == 0) {
+    made.state.head(layout.n) = values.array() / arm.scale_rad_per_s.transpose().array();
+  } else if (derivatives == 1) {
+    made.state.segment(layout.n, layout.n) = values;
+  } else {
+    made = {values * motion.state, values * motion.actuator, values * motion.force};
+  }
+  return made;
+}
+
+/// The system with these accelerations; `sensors` are the readings before the lag.
+LinearSystem assemble(const ModalDynamics& arm, const ArmParts& parts, const Layout& layout,
+                      const Accelerations& motion, std::span<const arm::Sensor> sensors,
+                      const arm::ModalModel& model) {
+  LinearSystem system;
+  system.a.setZero(layout.size, layout.size);
+  system.a.block(0, layout.n, layout.n, layout.n) = arm.scale_rad_per_s.asDiagonal();
+  system.a.middleRows(layout.n, layout.n) = motion.state;
+  system.actuator.setZero(layout.size);
+  system.actuator.segment(layout.n, layout.n) = motion.actuator;
+  system.force.setZero(layout.size, layout.forces());
+  system.force.middleRows(layout.n, layout.n) = motion.force;
+  if (layout.lagged_torque) {
+    const double rate = 1.0 / parts.actuator.lag_s;
+    system.a(*layout.lagged_torque, *layout.lagged_torque) = -rate;
+    system.actuator(*layout.lagged_torque) = rate / torque_scale(arm);
+  }
+  system.hub_acceleration = {arm.hub_slope.transpose() * motion.state,
+                             arm.hub_slope.dot(motion.actuator),
+                             arm.hub_slope.transpose() * motion.force};
+  for (std::size_t j = 0; j < sensors.size(); ++j) {
+    Eigen::RowVectorXd values(layout.n);
+    for (Index i = 0; i < layout.n; ++i) {
+      values(i) = model.modes[static_cast<std::size_t>(i)].sensor_values[j];
+    }
+    Reading read = reading(arm, layout, motion, values, arm::derivative_order(sensors[j]));
+    if (layout.lagged_reading && sensors[j] == parts.sensor_lag->sensor) {
+      const Index w = *layout.lagged_reading;
+      const double rate = 1.0 / parts.sensor_lag->time_constant_s;
+      const double sum = read.state.cwiseAbs().sum();
+      const double scale = sum > 0.0 ? sum : 1.0;
+      system.a.row(w) = read.state * (rate / scale);
+      system.a(w, w) = -rate;
+      system.actuator(w) = read.actuator * rate / scale;
+      system.force.row(w) = read.force * (rate / scale);
+      read = zero_reading(layout);
+      read.state(w) = scale;
+    }
+    system.sensors.push_back(std::move(read));
+  }
+  return system;
+}
+
+Layout layout_of(const arm::ModalModel& model, const ArmParts& parts,
+                 std::span<const arm::Sensor> sensors, bool modal_forces) {
+  Layout layout;
+  layout.n = static_cast<Index>(model.modes.size());
+  layout.modal_forces = modal_forces;
+  layout.size = 2 * layout.n;
+  if (parts.actuator.lag_s > 0.0) layout.lagged_torque = layout.size++;
+  if (parts.sensor_lag && parts.sensor_lag->time_constant_s > 0.0 &&
+      std::ranges::find(sensors, parts.sensor_lag->sensor) != sensors.end()) {
+    layout.lagged_reading = layout.size++;
+  }
+  return layout;
+}
+
+/// The coordinates and their numbers.
+ModalDynamics coordinates(const arm::ModalModel& model, const Layout& layout) {
+  ModalDynamics arm;
+  arm.modes = layout.n;
+  arm.modal_mass_kg_m2 = model.modal_mass_kg_m2;
+  arm.hub_slope.resize(layout.n);
+  arm.stiffness.resize(layout.n);
+  for (Index i = 0; i < layout.n; ++i) {
+    const auto& mode = model.modes[static_cast<std::size_t>(i)];
+    arm.hub_slope(i) = mode.hub_slope;
+    arm.stiffness(i) = mode.omega_rad_per_s * mode.omega_rad_per_s;
+  }
+  arm.stiffness(0) = model.lowest_omega_squared_rad2_per_s2;
+  arm.damping =
+      Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
+          model.damping_rad_per_s.data(), layout.n, layout.n);
+  arm.scale_rad_per_s = arm.stiffness.cwiseAbs().cwiseSqrt();
+  const double least = layout.n > 1 ? arm.scale_rad_per_s(1) : arm.scale_rad_per_s(0);
+  arm.scale_rad_per_s = arm.scale_rad_per_s.cwiseMax(least > 0.0 ? least : 1.0);
+  if (!arm.hub_slope.allFinite() || !arm.stiffness.allFinite() || !arm.damping.allFinite() ||
+      arm.hub_slope.norm() == 0.0) {
+    throw arm::InputError("modes: the modal model is not finite, or no torque reaches it");
+  }
+  return arm;
+}
+
+}  // namespace
+
+double ModalDynamics::hub_angle(const Eigen::VectorXd& x) const {
+  return (hub_slope.array() * x.head(modes).array() / scale_rad_per_s.array()).sum();
+}
+
+void ModalDynamics::stop_hub(Eigen::VectorXd& x) const {
+  auto p = x.segment(modes, modes);
+  p -= hub_slope * (hub_slope.dot(p) / hub_slope.squaredNorm());
+}
+
+void ModalDynamics::set_hub_angle(Eigen::VectorXd& x, double angle_rad) const {
+  const double excess = hub_angle(x) - angle_rad;
+  x.head(modes).array() -=
+      scale_rad_per_s.array() * hub_slope.array() * (excess / hub_slope.squaredNorm());
+}
+
+ModalDynamics modal_dynamics(const arm::ModalModel& model, const ArmParts& parts,
+                             std::span<const arm::Sensor> sensors, bool modal_forces) {
+  require_complete(model, sensors.size());
+  const Layout layout = layout_of(model, parts, sensors, modal_forces);
+  ModalDynamics arm = coordinates(model, layout);
+  const Accelerations turning = accelerations(arm, layout);
+  const Accelerations held = held_hub(turning, arm.hub_slope, layout);
+  arm.turning = assemble(arm, parts, layout, turning, sensors, model);
+  arm.held = assemble(arm, parts, layout, held, sensors, model);
+  arm.hub_force.setOnes(1);
+  if (modal_forces) arm.hub_force = arm.hub_slope / arm.modal_mass_kg_m2;
+  arm.hub_torque = zero_reading(layout);
+  if (layout.lagged_torque) {
+    arm.hub_torque.state(*layout.lagged_torque) = torque_scale(arm);
+  } else {
+    arm.hub_torque.actuator = 1.0;
+  }
+  arm.reaction = arm.turning.hub_acceleration;
+  const double inertia = arm.modal_mass_kg_m2 / arm.hub_slope.squaredNorm();
+  arm.reaction.state *= inertia;
+  arm.reaction.force *= inertia;
+  // Torque on the hub counts to the last bit: friction holds against just its size.
+  arm.reaction.actuator = arm.hub_torque.actuator;
+  if (layout.lagged_torque) arm.reaction.state(*layout.lagged_torque) = torque_scale(arm);
+  if (!modal_forces) arm.reaction.force.setOnes();
+  arm.fastest_rate_rad_per_s = arm.turning.a.cwiseAbs().rowwise().sum().maxCoeff();
+  return arm;
+}
+
+}  // namespace flexarm::response

@@ -1,0 +1,154 @@
+#include "response/time/step_solver.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace flexarm::response {
+
+StepSolver::StepSolver(const ModalDynamics& arm, const AddedForces& forces, double force_tolerance,
+                       int most_iterations)
+    : arm_(&arm),
+      forces_(&forces),
+      force_tolerance_(force_tolerance),
+      allowed_iterations_(most_iterations),
+      middle_(arm.size()),
+      end_(arm.size()) {}
+
+/// f at the begin of a step, where forces are constant all of f; else a guess for middle and end.
+void StepSolver::begin(const Eigen::VectorXd& x, HubMotion motion, double u0, double u1,
+                       bool follows) {
+  inputs_.u0 = u0;
+  inputs_.u1 = u1;
+  const double torque = forces_->hub_torque(x, motion).torque_N_m;
+  if (!forces_->vary()) {
+    inputs_.f0.setConstant(1, torque);
+    inputs_.fm.setConstant(1, torque);
+    inputs_.f1.setConstant(1, torque);
+    return;
+  }
+  if (!follows) {
+    inputs_.f0 = forces_->force(x, torque);
+    inputs_.fm = inputs_.f0;
+    inputs_.f1 = inputs_.f0;
+    hub_torques_.fill(torque);
+    return;
+  }
+  // The last step's parabola at r = 3/2 and r = 2.
+  const auto go_on = []<class Value>(const Value& begin, Value& middle, Value& end) {
+    const Value next = begin - 3.0 * middle + 3.0 * end;
+    end = 3.0 * begin - 8.0 * middle + 6.0 * end;
+    middle = next;
+  };
+  go_on(inputs_.f0, inputs_.fm, inputs_.f1);
+  go_on(hub_torques_[0], hub_torques_[1], hub_torques_[2]);
+  inputs_.f0 = forces_->force(x, torque);
+  hub_torques_[0] = torque;
+}
+
+bool StepSolver::solve(const StepTable& table, const Eigen::VectorXd& x, HubMotion motion,
+                       double length_s, double u0, double u1) {
+  begin(x, motion, u0, u1, motion == last_motion_ && length_s == last_length_s_);
+  if (!forces_->vary()) {
+    end_.noalias() = table.end.state * x;
+    end_ += table.end.actuator_begin * u0 + table.end.actuator_end * u1 +
+            table.constant * inputs_.f0(0);
+    return true;
+  }
+  const auto known = [&](const Propagator& to) -> Eigen::VectorXd {
+    return to.state * x + to.actuator_begin * u0 + to.actuator_end * u1 +
+           to.force_begin * inputs_.f0;
+  };
+  const Eigen::VectorXd known_middle = known(table.middle);
+  const Eigen::VectorXd known_end = known(table.end);
+  last_length_s_ = 0.0;
+  for (int iteration = 1; iteration <= allowed_iterations_; ++iteration) {
+    middle_ = known_middle;
+    middle_ += table.middle.force_middle * inputs_.fm + table.middle.force_end * inputs_.f1;
+    end_ = known_end;
+    end_ += table.end.force_middle * inputs_.fm + table.end.force_end * inputs_.f1;
+    iterations_ = std::max(iterations_, iteration);
+    if (!improve(middle_, end_, motion, length_s)) continue;
+    if (!is_resolved(x, end_, motion)) return false;
+    last_motion_ = motion;
+    last_length_s_ = length_s;
+    return true;
+  }
+  return false;
+}
+
+bool StepSolver::solve_by_series(const Eigen::VectorXd& x, HubMotion motion, double length_s,
+                                 double u0, double u1) {
+  begin(x, motion, u0, u1, false);
+  last_length_s_ = 0.0;
+  if (!forces_->vary()) {
+    expand(x, motion, length_s);
+    return true;
+  }
+  for (int iteration = 1; iteration <= allowed_iterations_; ++iteration) {
+    expand(x, motion, length_s);
+    iterations_ = std::max(iterations_, iteration);
+    const Eigen::VectorXd end = series_.at(1.0);
+    if (improve(series_.at(0.5), end, motion, length_s)) return is_resolved(x, end, motion);
+  }
+  return false;
+}
+
+/// True when f at these states is the f they were solved with. Else takes f from them, hub torque N
+/// by a Newton step: with the mobility mu of the hub, N changes its speed by Lobatto's weights,
+///
+///     d theta'(1/2) = mu dt (dNm/3 - dN1/24),   d theta'(1) = mu dt (2 dNm/3 + dN1/6).
+bool StepSolver::improve(const Eigen::VectorXd& middle, const Eigen::VectorXd& end,
+                         HubMotion motion, double length_s) {
+  const auto hub_middle = forces_->hub_torque(middle, motion);
+  const auto hub_end = forces_->hub_torque(end, motion);
+  const Eigen::VectorXd fm = forces_->force(middle, hub_middle.torque_N_m);
+  const Eigen::VectorXd f1 = forces_->force(end, hub_end.torque_N_m);
+  const auto largest = [](const Eigen::VectorXd& v) { return v.cwiseAbs().maxCoeff(); };
+  const double change = std::max(largest(fm - inputs_.fm), largest(f1 - inputs_.f1));
+  const double size = std::max({largest(inputs_.f0), largest(fm), largest(f1)});
+  if (change <= force_tolerance_ * size) return true;
+
+  const double rm = hub_middle.torque_N_m - hub_torques_[1];
+  const double r1 = hub_end.torque_N_m - hub_torques_[2];
+  const double mu_dt = length_s * arm_->hub_slope.squaredNorm() / arm_->modal_mass_kg_m2;
+  const double jm = mu_dt * hub_middle.per_velocity_N_m_s;
+  const double j1 = mu_dt * hub_end.per_velocity_N_m_s;
+  const double a = 1.0 - jm / 3.0;
+  const double b = jm / 24.0;
+  const double c = -j1 * 2.0 / 3.0;
+  const double d = 1.0 - j1 / 6.0;
+  const double determinant = a * d - b * c;
+  const double dm = (rm * d - b * r1) / determinant;
+  const double d1 = (a * r1 - c * rm) / determinant;
+  inputs_.fm = fm + arm_->hub_force * (dm - rm);
+  inputs_.f1 = f1 + arm_->hub_force * (d1 - r1);
+  hub_torques_[1] += dm;
+  hub_torques_[2] += d1;
+  return false;
+}
+
+/// Friction that falls with speed is a parabola over a step only where the speed changes by a part
+/// of the speed over which it falls.
+bool StepSolver::is_resolved(const Eigen::VectorXd& begin, const Eigen::VectorXd& end,
+                             HubMotion motion) const {
+  constexpr double kFallen = 3.0;  // exp(-9): nothing of the static part is left
+  constexpr double kLargestChange = 0.25;
+  if (direction(motion) == 0.0 || !forces_->friction_falls()) return true;
+  const double scale = forces_->falling_velocity_rad_per_s();
+  const double v0 = arm_->hub_velocity(begin);
+  const double v1 = arm_->hub_velocity(end);
+  return std::min(std::abs(v0), std::abs(v1)) > kFallen * scale ||
+         std::abs(v1 - v0) <= kLargestChange * scale;
+}
+
+void StepSolver::expand(const Eigen::VectorXd& x, HubMotion motion, double length_s) {
+  const LinearSystem& system = motion == HubMotion::held ? arm_->held : arm_->turning;
+  const std::array<Eigen::VectorXd, 3> inputs = {
+      system.actuator * inputs_.u0 + system.force * inputs_.f0,
+      system.actuator * (inputs_.u1 - inputs_.u0) + system.force * inputs_.force_slope(),
+      system.force * inputs_.force_square()};
+  series_.compute(system.a, length_s, x, inputs);
+}
+
+}  // namespace flexarm::response

@@ -5,6 +5,7 @@
 #include "arm/formulation.hpp"
 #include "arm/input_error.hpp"
 #include "arm/linear_arm.hpp"
+#include "effects/registry/vocabulary.hpp"
 #include "measured/files/arm_file.hpp"
 
 #include <CLI/CLI.hpp>
@@ -20,7 +21,7 @@ namespace {
 /// "with root_compliance: stiffness 30 N m/rad".
 std::string describe_effect(const std::string& name, const arm::Effect& effect) {
   std::vector<std::string> parts;
-  for (const auto& parameter : arm::find_effect(name)->parameters) {
+  for (const auto& parameter : effect.definition->parameters) {
     const auto value = effect.parameters.find(parameter.name);
     if (value == effect.parameters.end()) continue;
     const std::string unit = parameter.unit == "1" ? "" : " " + parameter.unit;
@@ -31,7 +32,7 @@ std::string describe_effect(const std::string& name, const arm::Effect& effect) 
 }
 
 arm::Arm read(const std::string& file) {
-  arm::Arm arm = measured::read_arm_file(file);
+  arm::Arm arm = measured::read_arm_file(file, effects::vocabulary());
   try {
     arm::require_computable(arm);
   } catch (const arm::InputError& error) {
@@ -99,7 +100,7 @@ std::string describe(const arm::Arm& arm) {
 std::string left_out_of_roots(const arm::Arm& arm) {
   std::vector<std::string> names;
   for (const auto& [name, effect] : arm.effects) {
-    if (arm::find_effect(name)->place != arm::EffectPlace::linear_arm) names.push_back(name);
+    if (!effect.definition->is_of_linear_arm()) names.push_back(name);
   }
   if (names.empty()) return "";
   return fmt::format("left out, since not part of the arm's linear equations: {}\n",

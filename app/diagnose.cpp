@@ -6,7 +6,7 @@
 #include "app/standard_output.hpp"
 #include "arm/input_error.hpp"
 #include "diagnose/diagnosis.hpp"
-#include "diagnose/hypotheses/hypotheses.hpp"
+#include "diagnose/search/hypothesis.hpp"
 #include "measured/files/arm_file.hpp"
 #include "measured/files/atomic_file.hpp"
 #include "report/figures/diagnosis_figures.hpp"

@@ -2,11 +2,10 @@
 
 #include "arm/effects.hpp"
 #include "arm/input_error.hpp"
-#include "arm/nearest_name.hpp"
+#include "effects/registry/vocabulary.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -20,17 +19,14 @@ void add_effect_choice(CLI::App& parser, std::vector<std::string>& effects) {
       ->allow_extra_args(false);
 }
 
-std::vector<diagnose::Hypothesis> chosen_hypotheses(const std::vector<std::string>& effects,
+std::vector<diagnose::Hypothesis> chosen_hypotheses(const std::vector<std::string>& chosen,
                                                     std::vector<diagnose::Hypothesis> all,
                                                     const char* option) {
-  if (effects.empty()) return all;
-  std::vector<std::string> names;
-  for (const auto& entry : arm::effect_vocabulary()) names.push_back(entry.name);
-  for (const auto& name : effects) {
-    if (arm::find_effect(name) == nullptr) {
-      throw arm::InputError(fmt::format("{} {}: unknown effect{}; allowed: {}", option,
-                                        arm::shown(name), arm::did_you_mean(name, names),
-                                        fmt::join(names, ", ")));
+  if (chosen.empty()) return all;
+  for (const auto& name : chosen) {
+    if (effects::find(name) == nullptr) {
+      throw arm::InputError(fmt::format("{} {}: {}", option, arm::shown(name),
+                                        arm::unknown_effect(effects::vocabulary(), name)));
     }
     if (std::ranges::find(all, name, &diagnose::Hypothesis::effect) == all.end()) {
       throw arm::InputError(fmt::format(
@@ -38,7 +34,7 @@ std::vector<diagnose::Hypothesis> chosen_hypotheses(const std::vector<std::strin
     }
   }
   std::erase_if(all, [&](const auto& hypothesis) {
-    return std::ranges::find(effects, hypothesis.effect) == effects.end();
+    return std::ranges::find(chosen, hypothesis.effect) == chosen.end();
   });
   return all;
 }

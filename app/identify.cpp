@@ -5,9 +5,11 @@
 #include "app/spectrum_choice.hpp"
 #include "app/standard_output.hpp"
 #include "arm/input_error.hpp"
+#include "arm/linear_arm.hpp"
 #include "arm/nearest_name.hpp"
 #include "arm/range.hpp"
 #include "compare/identification.hpp"
+#include "effects/registry/vocabulary.hpp"
 #include "measured/files/arm_file.hpp"
 #include "measured/files/atomic_file.hpp"
 #include "measured/identification.hpp"
@@ -136,8 +138,7 @@ measured::IdentificationOptions options_of(const IdentifyArguments& arguments,
   options.total_inertia_kg_m2 = arguments.total_inertia_kg_m2;
   options.modal_fit.modes = arguments.modes;
   options.modal_fit.highest_order = arguments.highest_order;
-  options.modal_fit.rigid_body =
-      !arm.effects.contains("hub_spring") && !arm.effects.contains("gravity");
+  options.modal_fit.rigid_body = arm::linear_arm(arm).turns_freely();
   if (arguments.from_Hz || arguments.to_Hz) {
     const double from_Hz = arguments.from_Hz.value_or(0.0);
     if (!(from_Hz >= 0.0)) throw arm::out_of_range("--from-Hz", from_Hz, "Hz", "0 or more");
@@ -272,7 +273,7 @@ void write_files(const IdentifyArguments& arguments, const std::string& measurem
 int run_identify(const IdentifyArguments& arguments) {
   const measured::Measurement measurement = measured::read_measurement(arguments.file);
   const fs::path arm_file = measured::beside(arguments.file, measurement.arm);
-  const arm::Arm arm = measured::read_arm_file(arm_file);
+  const arm::Arm arm = measured::read_arm_file(arm_file, effects::vocabulary());
   arm::require_valid(arm);
   const auto options = options_of(arguments, arm);
   std::vector<measured::MeasuredRun> runs;

@@ -8,6 +8,7 @@
 #include "arm/input_error.hpp"
 #include "arm/nearest_name.hpp"
 #include "arm/range.hpp"
+#include "effects/registry/vocabulary.hpp"
 #include "measured/files/arm_file.hpp"
 #include "measured/files/atomic_file.hpp"
 #include "measured/files/record_export.hpp"
@@ -180,7 +181,7 @@ measured::Run planned_run(const ImportArguments& arguments) {
 std::string arm_text(const ImportArguments& arguments) {
   if (arguments.arm_file.empty()) return starter_text();
   constexpr std::size_t kLargestArm_bytes = 1 << 20;
-  arm::require_valid(measured::read_arm_file(arguments.arm_file));
+  arm::require_valid(measured::read_arm_file(arguments.arm_file, effects::vocabulary()));
   return measured::read_text_file(arguments.arm_file, kLargestArm_bytes);
 }
 

@@ -52,6 +52,7 @@ int run(int argc, const char* const* argv) {
       "  flexarm diagnose simulated/measurement.toml  what the simulation gets wrong\n"
       "  flexarm plan rig.toml measurement-plan.toml  what an experiment could tell\n"
       "  flexarm sweep --figure 18 poles over payload, by three formulations\n"
+      "  flexarm effects           what an arm file may add to an ideal arm\n"
       "  flexarm paper             the paper's equations and tables, recomputed\n"
       "\nExit status: 0 success; 1 failure; 2 input that cannot be used, with one line on\n"
       "standard error.");
@@ -59,7 +60,7 @@ int run(int argc, const char* const* argv) {
   const std::array commands = {add_new(program),      add_modes(program),    add_response(program),
                                add_identify(program), add_diagnose(program), add_simulate(program),
                                add_import(program),   add_plan(program),     add_compare(program),
-                               add_sweep(program),    add_paper(program)};
+                               add_sweep(program),    add_paper(program),    add_effects(program)};
 
   try {
     program.parse(argc, argv);

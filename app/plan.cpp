@@ -6,6 +6,7 @@
 #include "app/interruption.hpp"
 #include "app/standard_output.hpp"
 #include "arm/input_error.hpp"
+#include "effects/registry/vocabulary.hpp"
 #include "measured/files/arm_file.hpp"
 #include "measured/files/atomic_file.hpp"
 #include "report/figures/gnuplot.hpp"
@@ -76,7 +77,7 @@ void prepare_outputs(const PlanArguments& arguments) {
 }
 
 diagnose::Plan plan_with_progress(const PlanArguments& arguments) {
-  const arm::Arm arm = measured::read_arm_file(arguments.arm_file);
+  const arm::Arm arm = measured::read_arm_file(arguments.arm_file, effects::vocabulary());
   const auto planned = diagnose::read_measurement_plan(arguments.plan_file);
   const auto possible = diagnose::hypotheses_of(arm, planned);
   const auto hypotheses = chosen_hypotheses(arguments.effects, possible);

@@ -244,7 +244,7 @@ int run_simulate(SimulateArguments arguments) {
     measured::write_atomically(arguments.json_file, json_text(arguments, arm, experiment));
   }
   print(describe(arm));
-  print_results(arguments, plan, experiment, !response::take_apart(arm).friction.is_zero());
+  print_results(arguments, plan, experiment, !response::take_apart(arm).hub.friction.empty());
   if (arguments.folder.empty()) {
     print(fmt::format("next: keep it as a measurement with  flexarm simulate{} --out simulated\n",
                       arguments.arm.file.empty() ? "" : " " + arguments.arm.file));

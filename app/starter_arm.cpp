@@ -2,6 +2,7 @@
 
 #include "arm/arm_keys.hpp"
 #include "arm/effects.hpp"
+#include "effects/registry/vocabulary.hpp"
 #include "measured/files/arm_file.hpp"
 
 #include <fmt/format.h>
@@ -39,13 +40,13 @@ void append_key(std::string& out, const arm::ArmKey& key, const arm::Arm& starte
 }
 
 /// "torque [N m], static_torque [N m]"
-std::string parameters_of(const arm::EffectDefinition& effect) {
+std::string keys_of(const arm::EffectDefinition& effect) {
   std::vector<std::string> parameters;
   for (const auto& parameter : effect.parameters) {
     parameters.push_back(fmt::format("{} [{}]{}", parameter.name, parameter.unit,
-                                     parameter.required ? "" : ", optional"));
+                                     parameter.otherwise ? ", optional" : ""));
   }
-  if (effect.acts_on_sensor) parameters.emplace_back("sensor, optional");
+  if (effect.sensor) parameters.emplace_back("sensor, optional");
   return fmt::format("{}", fmt::join(parameters, ", "));
 }
 
@@ -58,8 +59,9 @@ std::string effects_text() {
       "#\n"
       "# These are known, with their keys:\n"
       "#\n";
-  for (const auto& effect : arm::effect_vocabulary()) {
-    out += fmt::format("# {}: {}\n#     {}\n", effect.name, parameters_of(effect), effect.meaning);
+  for (const auto& effect : effects::vocabulary()) {
+    out +=
+        fmt::format("# {}: {}\n#     {}\n", effect->name, keys_of(*effect), effect->meaning);
   }
   return out;
 }

@@ -20,15 +20,8 @@ double beam_inertia_kg_m2(const LinearArm& arm) {
 
 /// What the effects say about places must fit the beam.
 void require_on_beam(const Arm& arm) {
-  if (const auto crack = arm.effects.find("local_stiffness_loss"); crack != arm.effects.end()) {
-    const double position_m = crack->second.parameters.at("position");
-    if (position_m >= arm.beam.length_m) {
-      throw out_of_range(
-          "effects.local_stiffness_loss.position", position_m, "m",
-          fmt::format("0 or more and less than the beam's length, {} m", arm.beam.length_m));
-    }
-  }
   for (const auto& [name, effect] : arm.effects) {
+    if (effect.definition->require_fit) effect.definition->require_fit(effect, arm);
     if (effect.sensor.empty()) continue;
     const std::string key = fmt::format("effects.{}.sensor", name);
     try {

@@ -88,4 +88,14 @@ void require_valid(const Beam& beam) {
   require_in_range("beam.linear_density", beam.linear_density_kg_per_m(), "kg/m", kPositive);
 }
 
+void scale_flexural_rigidity(Beam& beam, double factor) {
+  beam.given_flexural_rigidity_N_m2 = beam.flexural_rigidity_N_m2() * factor;
+  if (beam.youngs_modulus_Pa) *beam.youngs_modulus_Pa *= factor;
+}
+
+void scale_linear_density(Beam& beam, double factor) {
+  beam.given_linear_density_kg_per_m = beam.linear_density_kg_per_m() * factor;
+  if (beam.density_kg_per_m3) *beam.density_kg_per_m3 *= factor;
+}
+
 }  // namespace flexarm::arm

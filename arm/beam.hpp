@@ -40,4 +40,8 @@ void require_valid(const Beam& beam);
 /// from the dimensions count as the same: data sheets round to four digits.
 inline constexpr double kDescriptionAgreement = 1e-3;
 
+/// Gives the beam factor times its EI (or m), by whichever numbers describe it.
+void scale_flexural_rigidity(Beam& beam, double factor);
+void scale_linear_density(Beam& beam, double factor);
+
 }  // namespace flexarm::arm

@@ -1,65 +1,93 @@
 #pragma once
 
+#include "arm/ports.hpp"
 #include "arm/range.hpp"
 
+#include <functional>
 #include <map>
+#include <memory>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace flexarm::arm {
 
-/// One parameter of an effect, with the range that an arm file may give it.
+struct Arm;
+struct EffectDefinition;
+
+/// One parameter of an effect.
 struct EffectParameter {
   std::string name;
   std::string unit;
-  Range range;
-  bool required;  ///< must be given in the arm file
+  Range range;          ///< that an arm file may give it
+  std::string meaning;  ///< half a sentence
+  double example;       ///< a size that shows on an arm like the paper's
+  /// Where the effect does nothing, whatever its other parameters: 0, 1, infinity.
+  std::optional<double> neutral = {};
+  /// Its value where the arm file does not give it; empty: the file must.
+  std::optional<double> otherwise = {};
 };
 
-/// What an effect changes, and with it who honours it.
-enum class EffectPlace {
-  linear_arm,     ///< the linear equations of the arm: arm/linear_arm.hpp, every formulation
-  nonlinear_arm,  ///< forces on hub or beam that are not linear: simulation in time
-  actuator,       ///< between the commanded torque and the hub
-  sensor,         ///< between a sensor and its reading
-};
-
-/// One entry of the vocabulary of causes (docs/formats.md).
-struct EffectDefinition {
-  std::string name;
-  EffectPlace place;
-  std::vector<EffectParameter> parameters;
-  std::string meaning;  ///< half a sentence for the reader of an arm file
-  /// Takes the key `sensor` too, the name of the sensor it acts on; tip_acceleration unless given.
-  bool acts_on_sensor = false;
-};
-
-/// The whole vocabulary, in the order of docs/formats.md.
-const std::vector<EffectDefinition>& effect_vocabulary();
-
-/// The vocabulary's entry of that name, or null.
-const EffectDefinition* find_effect(std::string_view name);
-
-/// An effect that is switched on: its numbers by parameter name, and the sensor it acts on where
-/// it acts on one (empty means the vocabulary's default).
+/// An effect that is switched on: which one, its numbers by parameter name, and the sensor it acts
+/// on where it acts on one (empty: the definition's).
 struct Effect {
-  std::map<std::string, double> parameters;
-  std::string sensor;
+  std::shared_ptr<const EffectDefinition> definition;
+  std::map<std::string, double> parameters = {};
+  std::string sensor = {};
+
+  /// The parameter's number, or what stands for it where it is not given.
+  double value(const std::string& parameter) const;
+  /// The sensor it acts on. Throws InputError for a name that is no sensor's.
+  Sensor acting_sensor() const;
 
   bool operator==(const Effect&) const = default;
 };
 
-/// The effects that extend an arm, by name. A formulation honours each or refuses it by name.
+/// What an effect is and does: data and a function for each port that it acts through. An effect
+/// that acts through a port is honoured wherever that port is, so that it needs no line elsewhere.
+struct EffectDefinition {
+  std::string name;
+  std::string meaning;  ///< half a sentence, or an equation
+  std::vector<EffectParameter> parameters;
+  /// Acts on one sensor: this one, unless the arm file's key `sensor` names another.
+  std::optional<Sensor> sensor = {};
+
+  std::function<void(const Effect&, Arm&)> arm_number = {};
+  std::function<void(const Effect&, const Arm&, LinearTerms&)> linear_term = {};
+  std::function<TorqueStage(const Effect&)> torque_path = {};
+  std::function<HubLaw(const Effect&)> hub_torque = {};
+  std::function<BeamForce(const Effect&)> beam_force = {};
+  std::function<SensorStage(const Effect&)> sensor_path = {};
+
+  /// Throws InputError where the effect's numbers do not fit the arm.
+  std::function<void(const Effect&, const Arm&)> require_fit = {};
+
+  /// The ports that it acts through, one or more.
+  std::vector<Port> ports() const;
+  /// All of them are of the linear arm: the equations that every formulation solves.
+  bool is_of_linear_arm() const;
+};
+
+/// Effects by name, as `[effects.NAME]` of an arm file.
 using Effects = std::map<std::string, Effect>;
 
-/// Throws InputError for an unknown effect, an unknown or missing parameter, or a value out of
-/// range.
+/// The definitions that an arm file may use.
+using Vocabulary = std::vector<std::shared_ptr<const EffectDefinition>>;
+
+/// The vocabulary's entry of that name, or null.
+std::shared_ptr<const EffectDefinition> find_effect(const Vocabulary& vocabulary,
+                                                    std::string_view name);
+
+/// "unknown effect (did you mean ...?); allowed: ..."
+std::string unknown_effect(const Vocabulary& vocabulary, std::string_view name);
+
+/// Throws InputError for an unknown or missing parameter, or a value out of its range.
 void require_valid(const Effects& effects);
 
-/// Throws InputError that names the first effect which `formulation` cannot honour; `honoured`
-/// lists the names it can.
-void require_honoured(const Effects& effects, std::string_view formulation,
-                      const std::vector<std::string_view>& honoured);
+/// Throws InputError that names the first effect, and its port, that `who` cannot honour: one that
+/// acts through a port which is not among `honoured`.
+void require_honoured(const Effects& effects, std::string_view who, std::span<const Port> honoured);
 
 }  // namespace flexarm::arm

@@ -150,9 +150,9 @@ void require_stations(std::span<const double> stations_m, const Arm& arm);
 /// All throw InputError for a sensor that the arm cannot carry (`require_valid`), for a count below
 /// 1 or above what the formulation states as its limit, and for a station off the beam; `zeros`
 /// also for a sensor that reads zero at every s (`require_responsive`). Constructors throw
-/// InputError for an arm that is invalid or not `require_computable`, for an effect that is not in
-/// `linear_effect_names()`, by name, and for an arm that stands up and whose flexible modes buckle.
-/// Objects are immutable: concurrent calls are safe.
+/// InputError for an arm that is invalid or not `require_computable`, for an effect through a
+/// port that is not among `kLinearArmPorts`, by name, and for an arm that stands up and whose
+/// flexible modes buckle. Objects are immutable: concurrent calls are safe.
 template <class F>
 concept Formulation = requires(const F& f, int count, const Sensor& sensor,
                                std::span<const Sensor> sensors, std::span<const double> stations_m,

@@ -1,28 +1,12 @@
 #pragma once
 
 #include "arm/arm.hpp"
+#include "arm/ports.hpp"
 
+#include <array>
 #include <optional>
-#include <string_view>
-#include <vector>
 
 namespace flexarm::arm {
-
-/// A massless rotational spring in the beam: its slope jumps by moment/stiffness there.
-struct RotationalSpring {
-  double position_m = 0.0;  ///< from the beam's root, above 0 and below its length
-  double stiffness_N_m_per_rad = 0.0;
-
-  bool operator==(const RotationalSpring&) const = default;
-};
-
-/// What a Timoshenko beam has besides EI and m.
-struct ShearAndRotaryInertia {
-  double shear_rigidity_N = 0.0;     ///< k G A
-  double rotary_inertia_kg_m = 0.0;  ///< rho I = m thickness^2/12
-
-  bool operator==(const ShearAndRotaryInertia&) const = default;
-};
 
 /// The numbers in the equations of a linear arm, its linear effects folded in. Every formulation
 /// starts from these.
@@ -48,7 +32,7 @@ struct LinearArm {
   double linear_density_kg_per_m = 0.0;  ///< m
   std::optional<double> thickness_m;     ///< strain sensors need it
   std::optional<ShearAndRotaryInertia> shear;
-  std::optional<RotationalSpring> crack;  ///< kc at X
+  std::optional<RotationalSpring> crack;  ///< kc at X, inside the beam
   double kelvin_voigt_s = 0.0;            ///< kv
   double air_damping_N_s_per_m2 = 0.0;    ///< ca
 
@@ -74,17 +58,24 @@ struct LinearArm {
   bool operator==(const LinearArm&) const = default;
 };
 
-/// The arm's own numbers with its linear effects applied; actuator, sensor and nonlinear effects
-/// do not enter. A crack at the root is a root compliance, in series with another. Payload inertias
-/// are about the payload's centre of mass, which is at the tip unless `payload_offset` moves it.
+/// The ports that enter the linear arm: what a formulation honours.
+inline constexpr std::array kLinearArmPorts = {Port::arm_number, Port::linear_term};
+
+/// The arm with the numbers that its effects change (Port::arm_number), and without these effects'
+/// terms.
+Arm with_changed_numbers(const Arm& arm);
+
+/// What the arm's effects add to its linear equations (Port::linear_term).
+LinearTerms linear_terms(const Arm& arm);
+
+/// The arm's numbers with its effects through `kLinearArmPorts` applied; effects through other
+/// ports do not enter. Springs at the root are in series. Payload inertias are about the payload's
+/// centre of mass, which is at the tip unless an effect offsets it.
 ///
 /// For a valid arm (`require_valid`). Throws InputError for a beam that is not known well enough,
-/// and for a Timoshenko beam without shear modulus, width or thickness.
+/// for an effect that needs a number which the arm does not give, and for several springs inside
+/// the beam.
 LinearArm linear_arm(const Arm& arm);
-
-/// Names of the effects that `linear_arm` applies, in the vocabulary's order: what a formulation
-/// honours.
-const std::vector<std::string_view>& linear_effect_names();
 
 /// I_T, the inertia of the rigid arm about the motor axis:
 /// Ih + m ((a + l)^3 - a^3)/3 + rho I l + Mp (a + l)^2 + 2 Sp (a + l) + Jp [kg m^2].

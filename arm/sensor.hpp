@@ -1,12 +1,12 @@
 #pragma once
 
-#include "arm/arm.hpp"
-
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace flexarm::arm {
+
+struct Arm;
 
 enum class SensorKind {
   hub_angle,         ///< theta = y'(0) [rad]

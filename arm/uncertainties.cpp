@@ -53,7 +53,7 @@ void require_valid_uncertainties(const Arm& arm) {
   }
 }
 
-Arm displaced(const Arm& arm, std::span<const double> deviations) {
+Arm with_deviations(const Arm& arm, std::span<const double> deviations) {
   Arm made = arm;
   if (deviations.empty()) return made;
   auto deviation = deviations.begin();

@@ -18,6 +18,6 @@ void require_valid_uncertainties(const Arm& arm);
 /// The arm whose uncertain numbers, in the order of `Arm::relative_uncertainties`, are off by so
 /// many standard deviations: each is exp(uncertainty deviations) times what it was, which leaves it
 /// its sign. `deviations` has as many entries as these, or none.
-Arm displaced(const Arm& arm, std::span<const double> deviations);
+Arm with_deviations(const Arm& arm, std::span<const double> deviations);
 
 }  // namespace flexarm::arm

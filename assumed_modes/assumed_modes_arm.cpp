@@ -24,7 +24,7 @@ namespace {
 
 arm::Arm checked(arm::Arm arm) {
   arm::require_computable(arm);
-  arm::require_honoured(arm.effects, AssumedModesArm::kName, arm::linear_effect_names());
+  arm::require_honoured(arm.effects, AssumedModesArm::kName, arm::kLinearArmPorts);
   return arm;
 }
 

@@ -38,12 +38,15 @@ Basis parse_basis(std::string_view name) {
 
 namespace {
 
-/// The first effect of the arm that beam shapes cannot follow, or null.
-const char* unrepresentable_effect(Basis basis, const arm::Arm& arm) {
+/// The first effect of the arm that beam shapes cannot follow, by name, or null: one that breaks
+/// the beam's slope, or lets its cross-sections turn by themselves.
+const std::string* unrepresentable_effect(Basis basis, const arm::Arm& arm) {
   if (basis == Basis::legendre) return nullptr;
-  for (const char* effect :
-       {"root_compliance", "local_stiffness_loss", "shear_and_rotary_inertia"}) {
-    if (arm.effects.contains(effect)) return effect;
+  for (const auto& [name, effect] : arm.effects) {
+    if (!effect.definition->linear_term) continue;
+    arm::LinearTerms terms;
+    effect.definition->linear_term(effect, arm, terms);
+    if (!terms.springs.empty() || terms.shear) return &name;
   }
   return nullptr;
 }
@@ -51,11 +54,11 @@ const char* unrepresentable_effect(Basis basis, const arm::Arm& arm) {
 }  // namespace
 
 void require_representable(Basis basis, const arm::Arm& arm) {
-  if (const char* effect = unrepresentable_effect(basis, arm)) {
+  if (const std::string* effect = unrepresentable_effect(basis, arm)) {
     throw arm::InputError(
         fmt::format("effects.{}: basis {} cannot represent this effect; --basis legendre can",
-                    effect, to_string(basis)),
-        fmt::format("effects.{}", effect));
+                    *effect, to_string(basis)),
+        "effects." + *effect);
   }
 }
 

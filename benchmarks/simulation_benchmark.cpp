@@ -2,7 +2,8 @@
 // smaller, for each kind of force.
 #include "benchmarks/simulation_case.hpp"
 #include "benchmarks/timing.hpp"
-#include "response/time/drag.hpp"
+#include "effects/registry/vocabulary.hpp"
+#include "response/time/beam_forces.hpp"
 #include "response/time/simulation.hpp"
 
 #include <benchmark/benchmark.h>
@@ -37,26 +38,28 @@ ArmParts linear() {
 
 ArmParts coulomb() {
   ArmParts parts = linear();
-  parts.friction.coulomb_N_m = 0.012;
+  response::add_effect(parts, effects::effect("coulomb_friction", {{"torque", 0.012}}));
   return parts;
 }
 
 ArmParts stribeck() {
   ArmParts parts = linear();
-  parts.friction = {0.0, 0.012, 0.016, 0.2};
+  response::add_effect(
+      parts, effects::effect("stribeck_friction",
+                             {{"torque", 0.012}, {"static_torque", 0.016}, {"velocity", 0.2}}));
   return parts;
 }
 
 ArmParts drag() {
   ArmParts parts = coulomb();
-  parts.quadratic_drag_N_s2_per_m3 = 0.02;
+  response::add_effect(parts, effects::effect("quadratic_drag", {{"coefficient", 0.02}}));
   return parts;
 }
 
 void simulation(benchmark::State& state, ArmParts parts, bool energy) {
   const auto modes = static_cast<int>(state.range(0));
   const auto timed =
-      simulation_case(modes, response::drag_stations(arm::paper_arm().beam.length_m).stations_m);
+      simulation_case(modes, response::beam_stations(arm::paper_arm().beam.length_m).stations_m);
   parts.linear = timed.arm;
   const auto run = [&](int substeps) {
     return response::simulate(

@@ -31,7 +31,7 @@ function(flexarm_test name)
   cmake_parse_arguments(CHECK "" "" "SOURCES;USES;LIBRARIES" ${ARGN})
   add_executable(${name} ${CHECK_SOURCES})
   list(TRANSFORM CHECK_USES PREPEND flexarm::)
-  target_link_libraries(${name} PRIVATE ${CHECK_USES} ${CHECK_LIBRARIES} GTest::gtest_main
+  target_link_libraries(${name} PRIVATE ${CHECK_USES} flexarm::effects ${CHECK_LIBRARIES} GTest::gtest_main
                         GTest::gmock fmt::fmt flexarm_flags)
   target_compile_definitions(${name} PRIVATE FLEXARM_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   flexarm_optimise(${name} test)

@@ -14,8 +14,7 @@ namespace flexarm::diagnose {
 
 namespace {
 
-/// Inner steps a sample of the last refit, and modes beside which its error shows.
-constexpr int kFineSubsteps = 20;
+/// Further modes beside which the error of leaving them out shows.
 constexpr int kFurtherModes = 8;
 /// Of those that were not named, as many are told.
 constexpr std::size_t kNearMisses = 5;
@@ -38,7 +37,7 @@ std::vector<Rival> rivals_of(const Hypothesis& cause, const Selection& selection
     const auto replaced = std::ranges::find_if(
         other.effects, [&](const Hypothesis& effect) { return !chosen.has(effect); });
     if (replaced == other.effects.end()) continue;
-    if (std::ranges::find(replaced->contains, cause.effect) != replaced->contains.end()) continue;
+    if (replaced->contains(cause.effect)) continue;
     found.push_back({&*replaced, lead(selection.chosen, rival)});
   }
   std::ranges::stable_sort(found, {}, &Rival::lead);
@@ -50,7 +49,7 @@ std::vector<std::string> evidence_for(const Hypothesis& hypothesis, const Cause&
   std::vector<std::string> evidence = {
       fmt::format("It takes away {:.1f} % of what is beyond noise without it.",
                   100.0 * cause.share),
-      fmt::format("It shows so: {}.", hypothesis.speaks_for)};
+      fmt::format("It shows so: {}.", hypothesis.entry->speaks_for)};
   if (!rivals.empty()) {
     const Rival& next = rivals.front();
     evidence.push_back(
@@ -107,18 +106,15 @@ std::vector<Overlay> overlays(const Observations& observations, const Eigen::Vec
 
 /// Refitted run by run: of the causes the leading one, else the best effect by itself where
 /// something is wrong.
-std::optional<RunDrift> drift_of(const Problem& problem, const Problem& fine,
-                                 const Selection& selection, Verdict verdict,
-                                 const std::vector<Cause>& causes) {
+std::optional<RunDrift> drift_of(const Problem& problem, const Selection& selection,
+                                 Verdict verdict, const std::vector<Cause>& causes) {
   const bool is_wrong = verdict == Verdict::unexplained && !selection.singles.empty();
   if (causes.empty() && !is_wrong) return std::nullopt;
   const Candidate& candidate =
       causes.empty() ? selection.singles.front().fit.candidate : selection.chosen.fit.candidate;
   std::size_t leading = 0;
   while (!causes.empty() && candidate.effects[leading].effect != causes.front().effect) ++leading;
-  // As the last refit: friction that is stepped more coarsely is another one in each run.
-  const bool is_stepped = candidate.effects[leading].shows == Shows::in_time;
-  return run_drift(is_stepped ? fine : problem, candidate, leading);
+  return run_drift(problem, candidate, leading);
 }
 
 /// The parameters of each effect of a candidate, with standard errors as `standard_errors` has
@@ -131,8 +127,7 @@ std::vector<std::vector<ParameterEstimate>> estimates_of(const Candidate& candid
     auto& estimates = all.emplace_back();
     for (const auto& parameter : effect.parameters) {
       estimates.push_back({parameter.name, candidate.values[at],
-                           errors[candidate.displacements.size() + at],
-                           unit_of(effect, parameter)});
+                           errors[candidate.nuisances.size() + at], effect.unit_of(parameter)});
       ++at;
     }
   }
@@ -142,7 +137,7 @@ std::vector<std::vector<ParameterEstimate>> estimates_of(const Candidate& candid
 /// The uncertain numbers of the arm as a candidate has them.
 std::vector<RefittedNumber> refitted_numbers(const arm::Arm& arm, const Candidate& candidate,
                                              const std::vector<double>& errors) {
-  const arm::Arm refitted = arm::displaced(arm, candidate.displacements);
+  const arm::Arm refitted = arm::with_deviations(arm, candidate.nuisances);
   std::vector<RefittedNumber> numbers;
   for (const auto& [name, uncertainty] : arm.relative_uncertainties) {
     const auto& key = *std::ranges::find(arm::arm_keys(), name, &arm::ArmKey::name);
@@ -172,7 +167,7 @@ Cause cause_of(const Hypothesis& effect, const Selection& selection, const Expla
   }
   cause.confidence = std::min(kMostConfidence, 1.0 / (1.0 + odds));
   cause.evidence = evidence_for(effect, cause, rivals);
-  cause.refuted_by = effect.refuted_by;
+  cause.refuted_by = effect.entry->refuted_by;
   return cause;
 }
 
@@ -180,7 +175,7 @@ Cause cause_of(const Hypothesis& effect, const Selection& selection, const Expla
 void say_beyond_range(const Hypothesis& effect, Cause& cause) {
   for (std::size_t i = 0; i < effect.parameters.size(); ++i) {
     const SearchedParameter& searched = effect.parameters[i];
-    const double place = searched.place(cause.parameters[i].value);
+    const double place = searched.coordinate(cause.parameters[i].value);
     if (searched.periodic || (place >= 0.0 && place <= 1.0)) continue;
     cause.evidence.push_back(
         fmt::format("Its {} is outside the range that was searched, {:.3g} to {:.3g} {}: what it "
@@ -286,16 +281,10 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
   made.notices = experiment.notices;
   made.cancelled = selection.cancelled;
   if (made.cancelled) return made;
-  const int modes = problem.predictor().flexible_modes();
-  const Problem fine = problem.with_resolution(modes, kFineSubsteps);
-  const auto& found = selection.chosen.fit.candidate.effects;
-  if (std::ranges::find(found, Shows::in_time, &Hypothesis::shows) != found.end()) {
-    selection.chosen = explain(fine, fit(fine, selection.chosen.fit.candidate));
-  }
-
   const Candidate& chosen = selection.chosen.fit.candidate;
-  const std::vector<double> errors = standard_errors(
-      problem, selection.chosen, fine.with_resolution(modes + kFurtherModes, 2 * kFineSubsteps));
+  const std::vector<double> errors =
+      standard_errors(problem, selection.chosen,
+                      problem.with_modes(problem.predictor().flexible_modes() + kFurtherModes));
   const auto estimates = estimates_of(chosen, errors);
   for (std::size_t i = 0; i < chosen.effects.size(); ++i) {
     const Explanation without = chosen.effects.size() == 1
@@ -321,7 +310,7 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
   made.channels = channel_gains(problem, before, after);
   made.overlays = overlays(problem.observations(), before, after);
   made.symptoms = symptoms_of({problem, before, after, chosen},
-                              drift_of(problem, fine, selection, made.verdict, made.causes));
+                              drift_of(problem, selection, made.verdict, made.causes));
   made.refitted = refitted_numbers(experiment.arm, chosen, errors);
   made.extended_arm = chosen.extend(experiment.arm);
   made.formulations = check_formulations(made.extended_arm, scales_of(experiment).sensors);

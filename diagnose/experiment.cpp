@@ -1,6 +1,7 @@
 #include "diagnose/experiment.hpp"
 
 #include "arm/input_error.hpp"
+#include "effects/registry/vocabulary.hpp"
 #include "measured/checks/data_check.hpp"
 #include "measured/files/arm_file.hpp"
 
@@ -73,7 +74,8 @@ Experiment read_experiment(const fs::path& measurement_file) {
   const measured::Measurement measurement = measured::read_measurement(measurement_file);
   Experiment experiment;
   experiment.files = measured::files_of(measurement_file, measurement);
-  experiment.arm = measured::read_arm_file(measured::beside(measurement_file, measurement.arm));
+  experiment.arm = measured::read_arm_file(measured::beside(measurement_file, measurement.arm),
+                                           effects::vocabulary());
   for (const measured::Run& run : measurement.runs) {
     measured::MeasuredRun read{run, measured::read_run(measurement_file, run)};
     if (run.kind == measured::RunKind::time) {

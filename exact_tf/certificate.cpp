@@ -25,6 +25,8 @@ using ball::Precision;
 using ball::RealBall;
 using ball::RootFunction;
 
+constexpr const char* kCertificate = "the exact roots' certificate";
+
 /// Half-width of the enclosures in ulp of |lambda|.
 const double kReachUlp = std::ldexp(1.0, -12);
 
@@ -66,7 +68,8 @@ class Problem {
  private:
   static arm::LinearArm plain(const arm::Arm& arm) {
     arm::require_valid(arm);
-    arm::require_honoured(arm.effects, "the exact roots' certificate", plain_effect_names());
+    arm::require_honoured(arm.effects, kCertificate, arm::kLinearArmPorts);
+    require_plain(arm, kCertificate);
     return linear_arm(arm);
   }
 

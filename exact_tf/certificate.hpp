@@ -54,7 +54,7 @@ struct Certificate {
 /// out: lambda^4 = m l^4 omega^2/(EI). The doubles of arm::linear_arm(arm) count as exact numbers.
 /// Roots are enclosed by a change of sign and counted by Wittrick and Williams's algorithm in
 /// balls. Cost is linear in the number of roots. Throws arm::InputError for an invalid arm, and by
-/// name for an effect that is not in `plain_effect_names()`, which it does not model.
+/// name for an effect that leaves an arm which is not plain, which it does not model.
 Certificate certify_poles(const arm::Arm& arm, std::span<const double> lambdas,
                           const CertificateOptions& options = {});
 

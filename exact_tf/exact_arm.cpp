@@ -29,7 +29,7 @@ void require_observable(const arm::Arm& arm, std::span<const arm::Sensor> sensor
 /// The arm's numbers, where this formulation can answer for it.
 arm::LinearArm honoured(const arm::Arm& arm) {
   require_computable(arm);
-  require_honoured(arm.effects, ExactArm::kName, arm::linear_effect_names());
+  require_honoured(arm.effects, ExactArm::kName, arm::kLinearArmPorts);
   return linear_arm(arm);
 }
 
@@ -42,7 +42,7 @@ std::variant<PlainArm, TransferMatrixArm> engine_for(const arm::LinearArm& arm) 
 const PlainArm& plain(const std::variant<PlainArm, TransferMatrixArm>& engine,
                       const arm::Arm& arm) {
   if (const auto* plain_arm = std::get_if<PlainArm>(&engine)) return *plain_arm;
-  require_honoured(arm.effects, "the closed form", plain_effect_names());
+  require_plain(arm, "the closed form");
   throw std::logic_error("an arm that is not plain without an effect");
 }
 

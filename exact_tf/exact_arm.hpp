@@ -19,8 +19,8 @@ namespace flexarm::exact_tf {
 ///     const ExactArm exact(arm::paper_arm());
 ///     const double first_Hz = exact.poles(1).omega_rad_per_s[0] / (2 * std::numbers::pi);
 ///
-/// Every effect of arm::linear_effect_names() is honoured, damping without approximation in the
-/// transfer function and in the damped poles; others are refused by name. A plain arm
+/// Every effect through the ports arm::kLinearArmPorts is honoured, damping without approximation
+/// in the transfer function and in the damped poles; others are refused by name. A plain arm
 /// (LinearArm::is_plain) is answered by closed forms, any other by transfer matrices of segments:
 /// exact_tf/plain_arm.hpp, exact_tf/transfer_matrix_arm.hpp.
 class ExactArm {

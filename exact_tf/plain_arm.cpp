@@ -1,10 +1,13 @@
 #include "exact_tf/plain_arm.hpp"
 
+#include "arm/input_error.hpp"
 #include "exact_tf/complex_frequency.hpp"
 #include "exact_tf/mode_shape.hpp"
 #include "exact_tf/pole_continuation.hpp"
 #include "exact_tf/root_search.hpp"
 #include "exact_tf/sensor_zeros.hpp"
+
+#include <fmt/format.h>
 
 #include <cmath>
 #include <stdexcept>
@@ -76,11 +79,20 @@ arm::PolePair kelvin_voigt_pair(Real omega, Real kelvin_voigt_s) {
 
 }  // namespace
 
-const std::vector<std::string_view>& plain_effect_names() {
-  static const std::vector<std::string_view> names = {
-      "hub_inertia",     "flexural_rigidity",    "linear_density",    "payload_mass",
-      "payload_inertia", "hub_viscous_friction", "structural_damping"};
-  return names;
+void require_plain(const arm::Arm& arm, std::string_view who) {
+  if (linear_arm(arm).is_plain()) return;
+  for (const auto& [name, effect] : arm.effects) {
+    arm::Arm without = arm;
+    without.effects.erase(name);
+    arm::Arm alone = arm;
+    alone.effects = {{name, effect}};
+    if (!linear_arm(without).is_plain() && linear_arm(alone).is_plain()) continue;
+    throw arm::InputError(
+        fmt::format("effects.{}: {} does not honour this effect (port {}): it solves a uniform "
+                    "Euler-Bernoulli beam that is clamped to a hub without radius or spring",
+                    name, who, arm::to_string(arm::Port::linear_term)),
+        "effects." + name);
+  }
 }
 
 PlainArm::PlainArm(const arm::LinearArm& arm) : arm_(arm), ratios_(inertia_ratios(arm)) {}

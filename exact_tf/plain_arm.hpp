@@ -11,8 +11,9 @@
 
 namespace flexarm::exact_tf {
 
-/// Names of the effects that only change the numbers of the plain arm's equations.
-const std::vector<std::string_view>& plain_effect_names();
+/// Throws InputError by the name of an effect that leaves an arm which `who` cannot solve, one that
+/// is not plain (LinearArm::is_plain).
+void require_plain(const arm::Arm& arm, std::string_view who);
 
 /// A plain arm (LinearArm::is_plain) by the closed forms of exact_tf/numerator.hpp. Kelvin-Voigt
 /// damping and hub friction are in the transfer function and the damped poles without

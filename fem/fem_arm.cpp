@@ -26,7 +26,7 @@ using Complex = std::complex<double>;
 
 arm::Arm checked(arm::Arm arm) {
   arm::require_computable(arm);
-  arm::require_honoured(arm.effects, FemArm::kName, arm::linear_effect_names());
+  arm::require_honoured(arm.effects, FemArm::kName, arm::kLinearArmPorts);
   require_unbuckled(arm::linear_arm(arm));
   return arm;
 }

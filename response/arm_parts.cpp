@@ -1,80 +1,172 @@
 #include "response/arm_parts.hpp"
 
 #include "arm/effects.hpp"
+#include "arm/input_error.hpp"
 
-#include <cmath>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+#include <variant>
 
 namespace flexarm::response {
 
 namespace {
 
-bool is_linear_actuator(const std::string& name) {
-  return name == "torque_gain" || name == "torque_bias" || name == "actuator_lag" ||
-         name == "time_delay";
+arm::InputError not_modelled(const std::string& effect, arm::Port port, const char* why) {
+  return arm::InputError(fmt::format("effects.{}: port {}: {}", effect, arm::to_string(port), why),
+                         "effects." + effect);
 }
 
-void add(ArmParts& parts, const std::string& name, const arm::Effect& effect) {
-  const auto value = [&effect](const char* parameter) { return effect.parameters.at(parameter); };
-  if (name == "quadratic_drag") parts.quadratic_drag_N_s2_per_m3 = value("coefficient");
-  if (name == "coulomb_friction") parts.friction.coulomb_N_m = value("torque");
-  if (name == "stribeck_friction") {
-    parts.friction.stribeck_N_m = value("torque");
-    parts.friction.stribeck_static_N_m = value("static_torque");
-    parts.friction.stribeck_velocity_rad_per_s = value("velocity");
+/// Adds a stage behind those that are there.
+struct StageAdder {
+  Actuator& actuator;
+  const std::string& effect;
+
+  void operator()(const arm::Delay& delay) const { actuator.delay_s += delay.delay_s; }
+  void operator()(const arm::PiecewiseLinear& map) const {
+    if (actuator.lag_s > 0.0 && !map.is_proportional()) {
+      throw not_modelled(effect, arm::Port::torque_path,
+                         "a function that is not proportional behind a lag is not modelled");
+    }
+    if (map != arm::PiecewiseLinear()) actuator.maps.push_back(map);
   }
-  if (name == "torque_gain") parts.actuator.gain = value("factor");
-  if (name == "torque_bias") parts.actuator.bias_N_m = value("torque");
-  if (name == "torque_saturation") parts.actuator.saturation_N_m = value("limit");
-  if (name == "torque_dead_zone") parts.actuator.dead_zone_N_m = value("width");
-  if (name == "torque_ripple") {
-    parts.actuator.ripple = TorqueRipple{value("amplitude"), value("cycles"), value("phase")};
+  void operator()(const arm::Lag& lag) const {
+    if (actuator.lag_s > 0.0 && lag.time_constant_s > 0.0) {
+      throw not_modelled(effect, arm::Port::torque_path, "a second lag is not modelled");
+    }
+    actuator.lag_s += lag.time_constant_s;
   }
-  if (name == "actuator_lag") parts.actuator.lag_s = value("time_constant");
-  if (name == "time_delay") parts.actuator.delay_s = value("delay");
-  if (name == "sensor_lag") {
-    parts.sensor_lag =
-        SensorLag{effect.sensor.empty() ? arm::Sensor{arm::SensorKind::tip_acceleration, 0.0}
-                                        : arm::parse_sensor(effect.sensor),
-                  value("time_constant")};
+};
+
+struct LawAdder {
+  HubLaws& hub;
+  const std::string& effect;
+
+  void operator()(const arm::ConstantHubTorque& law) const { hub.constant_N_m += law.torque_N_m; }
+  void operator()(const arm::SmoothHubTorque& law) const { hub.smooth.push_back({effect, law}); }
+  void operator()(const arm::DryFriction& law) const {
+    if (law.size(0.0).torque_N_m > 0.0 || law.changes_over_rad_per_s) {
+      hub.friction.push_back({effect, law});
+    }
   }
+};
+
+void add_sensor_stage(ArmParts& parts, const std::string& effect, const arm::SensorStage& stage) {
+  if (stage.lag.time_constant_s == 0.0) return;
+  if (std::ranges::find(parts.sensor_stages, stage.sensor, &arm::SensorStage::sensor) !=
+      parts.sensor_stages.end()) {
+    throw not_modelled(effect, arm::Port::sensor_path, "a second lag of a sensor is not modelled");
+  }
+  parts.sensor_stages.push_back(stage);
 }
 
 }  // namespace
 
-bool HubFriction::is_zero() const {
-  return coulomb_N_m == 0.0 && stribeck_N_m == 0.0 && stribeck_static_N_m == 0.0;
+double Actuator::mapped(double command_N_m) const {
+  for (const auto& map : maps) command_N_m = map(command_N_m);
+  return command_N_m;
 }
 
-double HubFriction::torque_N_m(double hub_velocity_rad_per_s) const {
-  const double relative = hub_velocity_rad_per_s / stribeck_velocity_rad_per_s;
-  return coulomb_N_m + stribeck_N_m +
-         (stribeck_static_N_m - stribeck_N_m) * std::exp(-relative * relative);
+std::vector<double> Actuator::bends() const {
+  // Bends of the maps so far; behind them each straight piece passes the bends of the next map.
+  std::vector<double> found;
+  Actuator before;
+  for (const auto& map : maps) {
+    std::vector<double> edges = found;
+    const double beyond =
+        edges.empty() ? 1.0 : 1.0 + std::abs(edges.front()) + std::abs(edges.back());
+    edges.insert(edges.begin(), edges.empty() ? -beyond : edges.front() - beyond);
+    edges.push_back(edges.back() + beyond);
+    std::vector<double> further;
+    for (std::size_t k = 0; k + 1 < edges.size(); ++k) {
+      const double from = before.mapped(edges[k]);
+      const double rise = before.mapped(edges[k + 1]) - from;
+      if (rise == 0.0) continue;
+      const bool is_first = k == 0;
+      const bool is_last = k + 2 == edges.size();
+      for (const double bend : map.bends()) {
+        const double x = edges[k] + (bend - from) / rise * (edges[k + 1] - edges[k]);
+        if ((is_first || x > edges[k]) && (is_last || x < edges[k + 1])) further.push_back(x);
+      }
+    }
+    found.insert(found.end(), further.begin(), further.end());
+    std::ranges::sort(found);
+    const auto repeated = std::ranges::unique(found);
+    found.erase(repeated.begin(), repeated.end());
+    before.maps.push_back(map);
+  }
+  return found;
 }
 
-double HubFriction::breakaway_N_m() const {
-  return coulomb_N_m + stribeck_static_N_m;
+double Actuator::gain() const {
+  double product = 1.0;
+  for (const auto& map : maps) {
+    if (map.is_proportional()) product *= map.slope(0.0);
+  }
+  return product;
+}
+
+arm::DryFriction::Size HubLaws::friction_at(double speed_rad_per_s) const {
+  arm::DryFriction::Size sum;
+  for (const auto& [effect, law] : friction) {
+    const auto size = law.size(speed_rad_per_s);
+    sum.torque_N_m += size.torque_N_m;
+    sum.per_speed_N_m_s += size.per_speed_N_m_s;
+  }
+  return sum;
+}
+
+double HubLaws::friction_scale_rad_per_s() const {
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& [effect, law] : friction) {
+    least = std::min(least, law.changes_over_rad_per_s.value_or(least));
+  }
+  return least;
+}
+
+void add_effect(ArmParts& parts, const arm::Effect& effect) {
+  const arm::EffectDefinition& does = *effect.definition;
+  arm::require_valid(arm::Effects{{does.name, effect}});
+  if (does.torque_path) {
+    std::visit(StageAdder{parts.actuator, does.name}, does.torque_path(effect).what);
+  }
+  if (does.hub_torque) std::visit(LawAdder{parts.hub, does.name}, does.hub_torque(effect));
+  if (does.beam_force) parts.beam_forces.push_back({does.name, does.beam_force(effect)});
+  if (does.sensor_path) add_sensor_stage(parts, does.name, does.sensor_path(effect));
 }
 
 ArmParts take_apart(const arm::Arm& arm) {
   arm::require_valid(arm);
-  ArmParts parts;
-  parts.linear = arm;
-  std::erase_if(parts.linear.effects, [](const auto& effect) {
-    return arm::find_effect(effect.first)->place != arm::EffectPlace::linear_arm;
+  ArmParts parts{.linear = arm};
+  std::erase_if(parts.linear.effects,
+                [](const auto& effect) { return !effect.second.definition->is_of_linear_arm(); });
+  std::vector<const arm::Effect*> ordered;
+  for (const auto& [name, effect] : arm.effects) ordered.push_back(&effect);
+  std::ranges::stable_sort(ordered, {}, [](const arm::Effect* effect) {
+    const auto& stage = effect->definition->torque_path;
+    return stage ? stage(*effect).order : 0;
   });
-  for (const auto& [name, effect] : arm.effects) {
-    if (!parts.linear.effects.contains(name)) add(parts, name, effect);
-  }
+  for (const arm::Effect* effect : ordered) add_effect(parts, *effect);
   return parts;
 }
 
 std::vector<std::string> nonlinear_effects(const arm::Arm& arm) {
+  const auto is_nonlinear = [](const arm::Effect& effect) {
+    const arm::EffectDefinition& does = *effect.definition;
+    if (does.beam_force) return true;
+    if (does.hub_torque) {
+      return !std::holds_alternative<arm::ConstantHubTorque>(does.hub_torque(effect));
+    }
+    if (!does.torque_path) return false;
+    const arm::TorqueStage stage = does.torque_path(effect);
+    const auto* map = std::get_if<arm::PiecewiseLinear>(&stage.what);
+    return map != nullptr && !map->is_proportional();
+  };
   std::vector<std::string> names;
-  for (const auto& definition : arm::effect_vocabulary()) {
-    const bool nonlinear =
-        definition.place == arm::EffectPlace::nonlinear_arm ||
-        (definition.place == arm::EffectPlace::actuator && !is_linear_actuator(definition.name));
-    if (nonlinear && arm.effects.contains(definition.name)) names.push_back(definition.name);
+  for (const auto& [name, effect] : arm.effects) {
+    if (is_nonlinear(effect)) names.push_back(name);
   }
   return names;
 }

@@ -1,81 +1,71 @@
 #pragma once
 
 #include "arm/arm.hpp"
-#include "arm/sensor.hpp"
+#include "arm/ports.hpp"
 
-#include <limits>
-#include <optional>
 #include <string>
 #include <vector>
 
 namespace flexarm::response {
 
-/// torque amplitude sin(cycles theta + phase), added at the hub.
-struct TorqueRipple {
-  double amplitude_N_m = 0.0;
-  double cycles_per_rev = 1.0;  ///< multiplies theta [rad] as docs/formats.md has it
-  double phase_rad = 0.0;
-
-  bool operator==(const TorqueRipple&) const = default;
-};
-
-/// What the commanded torque passes before it acts on the hub, in this order: delay, gain, dead
-/// zone, saturation, lag; then bias and ripple are added. The defaults change nothing.
+/// What the commanded torque passes before it acts on the hub: the delay, the functions without
+/// memory one after the other, the lag. The defaults change nothing.
 struct Actuator {
   double delay_s = 0.0;
-  double gain = 1.0;
-  double dead_zone_N_m = 0.0;
-  double saturation_N_m = std::numeric_limits<double>::infinity();
+  std::vector<arm::PiecewiseLinear> maps = {};
   double lag_s = 0.0;
-  double bias_N_m = 0.0;
-  std::optional<TorqueRipple> ripple;
+
+  /// The command behind the maps.
+  double mapped(double command_N_m) const;
+  /// The commands at which that bends, ascending.
+  std::vector<double> bends() const;
+  /// The product of the gains among the maps. Maps that are not proportional are left out.
+  double gain() const;
 
   bool operator==(const Actuator&) const = default;
 };
 
-/// Dry friction on the hub against its motion, of the size
-///
-///     coulomb + stribeck + (stribeck_static - stribeck) exp(-(theta'/velocity)^2),
-///
-/// which at rest holds the hub against any torque up to its value at theta' = 0. Coulomb and
-/// Stribeck friction of an arm that has both add up.
-struct HubFriction {
-  double coulomb_N_m = 0.0;
-  double stribeck_N_m = 0.0;
-  double stribeck_static_N_m = 0.0;
-  double stribeck_velocity_rad_per_s = 1.0;
-
-  bool is_zero() const;
-  double torque_N_m(double hub_velocity_rad_per_s) const;  ///< size at that speed, 0 or more
-  double breakaway_N_m() const;                            ///< size at rest
-
-  bool operator==(const HubFriction&) const = default;
+/// Something that an effect does through a port, with the effect's name.
+template <class Part>
+struct OfEffect {
+  std::string effect;
+  Part part;
 };
 
-/// A sensor's reading passes 1/(1 + time_constant s).
-struct SensorLag {
-  arm::Sensor sensor;
-  double time_constant_s = 0.0;
+/// Torque on the hub beside the actuator's. Dry friction of several effects adds up.
+struct HubLaws {
+  double constant_N_m = 0.0;
+  std::vector<OfEffect<arm::SmoothHubTorque>> smooth = {};
+  std::vector<OfEffect<arm::DryFriction>> friction = {};
 
-  bool operator==(const SensorLag&) const = default;
+  /// Size of all dry friction at a speed of 0 or more, and its change with the speed.
+  arm::DryFriction::Size friction_at(double speed_rad_per_s) const;
+  /// The least scale of speed over which friction changes; infinite where it does not.
+  double friction_scale_rad_per_s() const;
 };
 
-/// An arm taken apart by who honours its effects: a formulation the linear ones, response/ the
-/// others.
+/// An arm taken apart by who honours its effects: a formulation those of the linear arm, response/
+/// the others.
 struct ArmParts {
-  arm::Arm linear;  ///< the arm with its linear effects alone
-  Actuator actuator;
-  HubFriction friction;
-  double quadratic_drag_N_s2_per_m3 = 0.0;  ///< force per length -coefficient |v| v on the beam
-  std::optional<SensorLag> sensor_lag;
+  arm::Arm linear;  ///< the arm with its effects on the linear arm alone
+  Actuator actuator = {};
+  HubLaws hub = {};
+  std::vector<OfEffect<arm::BeamForce>> beam_forces = {};
+  std::vector<arm::SensorStage> sensor_stages = {};  ///< one a sensor at most, with a lag above 0
 };
 
-/// Throws InputError for an invalid arm.
+/// Adds what an effect does through ports outside of the linear arm; a stage of the torque's path
+/// behind those that are there. Throws InputError as `take_apart`.
+void add_effect(ArmParts& parts, const arm::Effect& effect);
+
+/// Throws InputError for an invalid arm, and by the name of effect and port for a path of the
+/// torque or of a sensor that is not modelled: two lags, or a map that is not proportional behind a
+/// lag.
 ArmParts take_apart(const arm::Arm& arm);
 
 /// Names of the arm's effects that poles, zeros and frequency responses leave out because they are
-/// not linear: friction, drag, ripple, dead zone, saturation. (A bias shifts the working point
-/// only.) In the vocabulary's order.
+/// not linear: maps of the torque that are not proportional, laws of hub torque, forces along the
+/// beam. (A constant torque shifts the working point only.) In the order of their names.
 std::vector<std::string> nonlinear_effects(const arm::Arm& arm);
 
 }  // namespace flexarm::response

@@ -54,9 +54,19 @@ arm::Arm without_damping(const arm::Arm& arm) {
   arm::Arm undamped = arm;
   undamped.damping = {};
   undamped.hub.viscous_friction_N_m_s_per_rad = 0.0;
-  for (const char* effect : {"hub_viscous_friction", "structural_damping", "air_damping"}) {
-    undamped.effects.erase(effect);
-  }
+  std::erase_if(undamped.effects, [&arm](const auto& named) {
+    const arm::Effect& effect = named.second;
+    if (!effect.definition->linear_term) return false;
+    arm::LinearTerms terms;
+    effect.definition->linear_term(effect, arm, terms);
+    if (terms.damping == arm::LinearTerms::Damping{}) return false;
+    terms.damping = {};
+    if (terms == arm::LinearTerms{} && !effect.definition->arm_number) return true;
+    throw arm::InputError(fmt::format("effects.{}: port {}: damping together with other terms "
+                                      "cannot be taken off for a static correction",
+                                      named.first, arm::to_string(arm::Port::linear_term)),
+                          "effects." + named.first);
+  });
   return undamped;
 }
 

@@ -3,7 +3,7 @@
 #include "response/arm_parts.hpp"
 
 #include <complex>
-#include <optional>
+#include <vector>
 
 namespace flexarm::response {
 
@@ -13,7 +13,7 @@ struct LinearChain {
   double gain = 1.0;
   double delay_s = 0.0;
   double lag_s = 0.0;
-  std::optional<SensorLag> sensor_lag = {};
+  std::vector<arm::SensorStage> sensor_stages = {};  ///< one a sensor at most
 
   bool operator==(const LinearChain&) const = default;
 };

@@ -80,14 +80,15 @@ void add_actuator(StateSpace& system, const LinearChain& chain) {
 }
 
 /// The output of that sensor through 1/(1 + time_constant s).
-void add_sensor_lag(StateSpace& system, const SensorLag& lag) {
-  if (lag.time_constant_s == 0.0) return;
+void add_sensor_lag(StateSpace& system, const arm::SensorStage& stage) {
+  const double time_constant_s = stage.lag.time_constant_s;
+  if (time_constant_s == 0.0) return;
   for (Index k = 0; k < system.c.rows(); ++k) {
-    if (system.sensors[static_cast<std::size_t>(k)] != lag.sensor) continue;
-    const Index reading = add_state(system, "reading of " + arm::to_string(lag.sensor));
-    system.a.row(reading) = system.c.row(k) / lag.time_constant_s;
-    system.b(reading, 0) = system.d(k, 0) / lag.time_constant_s;
-    system.a(reading, reading) = -1.0 / lag.time_constant_s;
+    if (system.sensors[static_cast<std::size_t>(k)] != stage.sensor) continue;
+    const Index reading = add_state(system, "reading of " + arm::to_string(stage.sensor));
+    system.a.row(reading) = system.c.row(k) / time_constant_s;
+    system.b(reading, 0) = system.d(k, 0) / time_constant_s;
+    system.a(reading, reading) = -1.0 / time_constant_s;
     system.c.row(k).setZero();
     system.c(k, reading) = 1.0;
     system.d(k, 0) = 0.0;
@@ -101,7 +102,7 @@ StateSpace state_space(const arm::ModalModel& model, std::span<const arm::Sensor
   require_consistent(model, sensors);
   StateSpace system = modes_alone(model, sensors);
   add_actuator(system, chain);
-  if (chain.sensor_lag) add_sensor_lag(system, *chain.sensor_lag);
+  for (const auto& stage : chain.sensor_stages) add_sensor_lag(system, stage);
   return system;
 }
 

@@ -5,6 +5,7 @@
 #include "arm/input_error.hpp"
 #include "arm/linear_arm.hpp"
 #include "arm/nearest_name.hpp"
+#include "effects/registry/vocabulary.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -13,6 +14,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <memory>
 
 namespace flexarm::compare {
 
@@ -47,12 +49,13 @@ SweepParameter number(const arm::ArmKey& key) {
           }};
 }
 
-SweepParameter effect_parameter(const arm::EffectDefinition& effect,
+SweepParameter effect_parameter(const std::shared_ptr<const arm::EffectDefinition>& effect,
                                 const arm::EffectParameter& parameter) {
-  return {fmt::format("effects.{}.{}", effect.name, parameter.name), parameter.unit,
-          parameter.range, kEffects,
-          [effect = effect.name, name = parameter.name](arm::Arm& arm, double value) {
-            arm.effects[effect].parameters[name] = value;
+  return {fmt::format("effects.{}.{}", effect->name, parameter.name), parameter.unit,
+          parameter.range, kEffects, [effect, name = parameter.name](arm::Arm& arm, double value) {
+            arm::Effect& swept = arm.effects[effect->name];
+            swept.definition = effect;
+            swept.parameters[name] = value;
           }};
 }
 
@@ -103,9 +106,9 @@ std::vector<SweepParameter> every_parameter() {
   all.push_back(
       {"payload_inertia_ratio", "1", arm::kNotNegative, kInertiaRatio, set_payload_inertia_ratio});
   all.push_back({"hub_inertia_ratio", "1", arm::kNotNegative, kMassRatio, set_hub_inertia_ratio});
-  for (const auto& effect : arm::effect_vocabulary()) {
-    if (effect.place != arm::EffectPlace::linear_arm) continue;
-    for (const auto& parameter : effect.parameters) {
+  for (const auto& effect : effects::vocabulary()) {
+    if (!effect->is_of_linear_arm()) continue;
+    for (const auto& parameter : effect->parameters) {
       all.push_back(effect_parameter(effect, parameter));
     }
   }
@@ -135,11 +138,11 @@ std::string meant(const std::string& typed, const std::vector<std::string>& name
 }
 
 /// The effect in "effects.NAME.PARAMETER", or null.
-const arm::EffectDefinition* effect_in(const std::string& name) {
+std::shared_ptr<const arm::EffectDefinition> effect_in(const std::string& name) {
   constexpr std::string_view kTable = "effects.";
   if (!name.starts_with(kTable)) return nullptr;
   const auto rest = std::string_view(name).substr(kTable.size());
-  return arm::find_effect(rest.substr(0, rest.find('.')));
+  return arm::find_effect(effects::vocabulary(), rest.substr(0, rest.find('.')));
 }
 
 }  // namespace
@@ -155,8 +158,8 @@ SweepParameter sweep_parameter(std::string_view typed) {
   const std::string name = full_name(typed);
   const auto found = std::ranges::find(all, name, &SweepParameter::name);
   if (found != all.end()) return *found;
-  const auto* effect = effect_in(name);
-  if (effect != nullptr && effect->place != arm::EffectPlace::linear_arm) {
+  const auto effect = effect_in(name);
+  if (effect != nullptr && !effect->is_of_linear_arm()) {
     throw arm::InputError(
         fmt::format("{}: poles and zeros do not depend on it: {} is no part of the linear arm",
                     arm::shown(name), effect->name));

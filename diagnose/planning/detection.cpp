@@ -56,14 +56,15 @@ Candidate Growth::at(double strength) const {
   std::optional<double> share;  // of its highest value that the first that grows from 0 has
   for (std::size_t i = 0; i < hypothesis.parameters.size(); ++i) {
     const SearchedParameter& parameter = hypothesis.parameters[i];
-    const auto neutral = parameter.neutral_place();
+    const auto neutral = parameter.neutral_coordinate();
     if (!neutral) {
       made.values[i] = parameter.value(other_places[other++]);
-    } else if (parameter.spacing == Spacing::from_zero && share) {
+    } else if (parameter.spacing == effects::Spacing::from_zero && share) {
       made.values[i] = *share * parameter.highest;
     } else {
       made.values[i] = parameter.value(*neutral + strength * ((downward ? 0.0 : 1.0) - *neutral));
-      if (parameter.spacing == Spacing::from_zero) share = made.values[i] / parameter.highest;
+      if (parameter.spacing == effects::Spacing::from_zero)
+        share = made.values[i] / parameter.highest;
     }
   }
   return made;
@@ -74,7 +75,7 @@ std::vector<Growth> growths_of(const Hypothesis& hypothesis) {
   double up = 0.0;
   double down = 0.0;
   for (const SearchedParameter& parameter : hypothesis.parameters) {
-    if (const auto neutral = parameter.neutral_place()) {
+    if (const auto neutral = parameter.neutral_coordinate()) {
       up = std::max(up, 1.0 - *neutral);
       down = std::max(down, *neutral);
     } else {

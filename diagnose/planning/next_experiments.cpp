@@ -27,7 +27,7 @@ using Informations = std::vector<Eigen::MatrixXd>;  // one a run
 
 /// All that a fit of the candidate moves.
 std::size_t fitted_parameters(const Candidate& candidate) {
-  return static_cast<std::size_t>(candidate.places().size());
+  return static_cast<std::size_t>(candidate.coordinates().size());
 }
 
 std::vector<PlannedRun> runs_of(const std::vector<FurtherRun>& further) {
@@ -45,7 +45,7 @@ void observe_tie(const PlannedExperiment& planned, const Tie& tie, const std::ve
   const auto residuals_of = [&](const Candidate& candidate) -> Eigen::VectorXd {
     return (data.values - predict(candidate.extend(arm), runs)).cwiseQuotient(data.deviations);
   };
-  const Eigen::VectorXd places = tie.rival.places();
+  const Eigen::VectorXd places = tie.rival.coordinates();
   const Eigen::VectorXd residuals = residuals_of(tie.rival);
   Eigen::MatrixXd jacobian(residuals.size(), places.size());
   for (Index i = 0; i < places.size(); ++i) {
@@ -69,7 +69,7 @@ void observe_tie(const PlannedExperiment& planned, const Tie& tie, const std::ve
 /// Each run's information on a tie; zero where it cannot be computed.
 Informations informations(const PlannedExperiment& planned, const Tie& tie) {
   const std::size_t count = planned.experiment().runs.size();
-  const Index size = tie.rival.places().size() + 1;
+  const Index size = tie.rival.coordinates().size() + 1;
   Informations made(count, Eigen::MatrixXd::Zero(size, size));
   try {
     observe_tie(planned, tie, std::vector<bool>(count, true), made);
@@ -176,7 +176,7 @@ Tie tie_between(const Explanation& truth, const Explanation& rival) {
 bool is_a_limit(const Candidate& chosen, const Candidate& rival) {
   return std::ranges::any_of(rival.effects, [&](const Hypothesis& effect) {
     return !chosen.has(effect) && std::ranges::any_of(chosen.effects, [&](const auto& cause) {
-      return std::ranges::find(effect.contains, cause.effect) != effect.contains.end();
+      return effect.contains(cause.effect);
     });
   });
 }

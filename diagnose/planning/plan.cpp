@@ -3,7 +3,8 @@
 #include "arm/effects.hpp"
 #include "arm/input_error.hpp"
 #include "arm/linear_arm.hpp"
-#include "diagnose/hypotheses/hypotheses.hpp"
+#include "diagnose/search/hypothesis.hpp"
+#include "effects/registry/vocabulary.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -36,9 +37,9 @@ std::vector<PlannedRun> with_purposes(const PlannedExperiment& planned,
 std::vector<std::string> absent_effects(const Experiment& experiment) {
   const std::vector<Hypothesis> possible = hypotheses(experiment);
   std::vector<std::string> absent;
-  for (const auto& entry : arm::effect_vocabulary()) {
-    if (std::ranges::find(possible, entry.name, &Hypothesis::effect) == possible.end()) {
-      absent.push_back(entry.name);
+  for (const auto& entry : effects::vocabulary()) {
+    if (std::ranges::find(possible, entry->name, &Hypothesis::effect) == possible.end()) {
+      absent.push_back(entry->name);
     }
   }
   return absent;
@@ -109,10 +110,7 @@ class Planning {
           if (!truth.compared || shapes_[a].empty()) return;
           const Problem problem = problem_of(planned_, *truth.compared);
           for (std::size_t b = 0; b < count && !work_.is_cancelled(); ++b) {
-            const auto& contains = hypotheses_[b].contains;
-            const bool is_limit =
-                std::ranges::find(contains, truth.hypothesis.effect) != contains.end();
-            if (a == b || is_limit) continue;
+            if (a == b || hypotheses_[b].contains(truth.hypothesis.effect)) continue;
             made_.separations[a][b] =
                 separate(problem, planned_.unknowns(), shapes_[a].front(), shapes_[b]);
           }

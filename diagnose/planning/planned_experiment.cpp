@@ -1,8 +1,8 @@
 #include "diagnose/planning/planned_experiment.hpp"
 
 #include "arm/input_error.hpp"
-#include "diagnose/hypotheses/hypotheses.hpp"
 #include "diagnose/search/fit.hpp"
+#include "diagnose/search/hypothesis.hpp"
 
 #include <Eigen/QR>
 #include <fmt/format.h>
@@ -20,8 +20,6 @@ namespace {
 using Eigen::Index;
 
 /// Inner steps a sample with forces that are not linear: both of two arms that are compared are
-/// simulated with as many.
-constexpr int kPlannedSubsteps = 2;
 /// A damping ratio below this is not measured better than this.
 constexpr double kLeastDampingRatio = 1e-3;
 
@@ -91,12 +89,13 @@ Candidate nothing_of(const std::vector<std::string>& names, const Experiment& ex
   Candidate made;
   for (const std::string& name : names) {
     const auto at = std::ranges::find(possible, name, &Hypothesis::effect);
-    if (at == possible.end() || at->parameters.size() != 1 || !at->parameters[0].neutral_place()) {
+    if (at == possible.end() || at->parameters.size() != 1 ||
+        !at->parameters[0].neutral_coordinate()) {
       throw arm::InputError(fmt::format(
           "{}: cannot be refitted: these runs do not show it, or it has no single size", name));
     }
     const SearchedParameter& parameter = at->parameters[0];
-    made = made.with(*at, {parameter.value(*parameter.neutral_place())});
+    made = made.with(*at, {parameter.value(*parameter.neutral_coordinate())});
   }
   return made;
 }
@@ -138,9 +137,8 @@ Problem PlannedExperiment::problem_of_the_arm() {
   for (ObservedChannel& channel : layout_.channels) {
     channel.noise = noise_of(runs_[channel.run], channel.sensor);
   }
-  options_ = {.flexible_modes = modes_needed(experiment_, layout_).flexible_modes,
-              .substeps = kPlannedSubsteps};
-  const Predictor predict(experiment_, layout_, *options_.flexible_modes, options_.substeps);
+  options_ = {.flexible_modes = modes_needed(experiment_, layout_).flexible_modes};
+  const Predictor predict(experiment_, layout_, *options_.flexible_modes);
   return problem(predict(experiment_.arm, std::vector<bool>(experiment_.runs.size(), true)));
 }
 

@@ -67,9 +67,9 @@ std::vector<Shape> shapes_of(const PlannedExperiment& planned, const Detection& 
     // show.
     double strength = 1.0;
     if (detection.compared) {
-      const Eigen::VectorXd places = detection.compared->places();
+      const Eigen::VectorXd places = detection.compared->coordinates();
       for (std::size_t i = 0; i < hypothesis.parameters.size(); ++i) {
-        const auto neutral = hypothesis.parameters[i].neutral_place();
+        const auto neutral = hypothesis.parameters[i].neutral_coordinate();
         if (!neutral) continue;
         const double room = std::max(*neutral, 1.0 - *neutral);
         strength = std::min(1.0, std::abs(places(static_cast<Index>(i)) - *neutral) / room);

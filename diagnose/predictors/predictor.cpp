@@ -28,7 +28,7 @@ std::vector<arm::Sensor> sensors_of(const measured::TimeRecord& record) {
 /// What a run from an unknown state shows, `simulated` from rest being known: its state is that
 /// which brings the readings nearest to those `measured`, in standard deviations. With forces that
 /// are not linear by Gauss-Newton steps, with the linear arm's derivatives.
-Eigen::MatrixXd from_nearest_state(const response::QuickSimulation& simulation,
+Eigen::MatrixXd from_nearest_state(const response::ArmSimulator& simulation,
                                    const std::vector<double>& torque_N_m,
                                    const Eigen::MatrixXd& from_rest,
                                    const Eigen::VectorXd& measured,
@@ -59,7 +59,7 @@ Eigen::MatrixXd from_nearest_state(const response::QuickSimulation& simulation,
   double length = 1.0;
   for (int step = 0; step < kSteps; ++step) {
     const Eigen::VectorXd further = state + length * towards(made);
-    const Eigen::MatrixXd there = simulation(torque_N_m, further);
+    const Eigen::MatrixXd there = simulation.readings(torque_N_m, further);
     if (off(there).squaredNorm() < off(made).squaredNorm()) {
       state = further;
       made = there;
@@ -103,21 +103,16 @@ response::TorqueHold simulated_hold(measured::TorqueHold hold) {
 }
 
 Predictor::Predictor(const Experiment& experiment, const Observations& observations,
-                     int flexible_modes, int substeps)
-    : experiment_(&experiment),
-      flexible_modes_(flexible_modes),
-      substeps_(substeps),
-      observations_(observations) {
+                     int flexible_modes)
+    : experiment_(&experiment), flexible_modes_(flexible_modes), observations_(observations) {
   for (std::size_t r = 0; r < experiment.runs.size(); ++r) {
     const auto& [run, data] = experiment.runs[r];
     const auto* record = std::get_if<measured::TimeRecord>(&data);
     if (record == nullptr) continue;
     const arm::Payload payload = run.payload.value_or(experiment.arm.payload);
     const auto sensors = sensors_of(*record);
-    const response::QuickSimulationOptions options{
-        .sample_time_s = measured::sampling_period_s(*record),
-        .hold = simulated_hold(run.torque_hold),
-        .substeps = substeps};
+    const response::SimulationOptions options = response::options_of_fit(
+        measured::sampling_period_s(*record), simulated_hold(run.torque_hold));
     auto at = std::ranges::find_if(conditions_, [&](const Condition& condition) {
       return condition.payload == payload && condition.sensors == sensors &&
              condition.options.sample_time_s == options.sample_time_s &&
@@ -142,12 +137,12 @@ Eigen::VectorXd Predictor::operator()(const arm::Arm& arm, const std::vector<boo
     const auto model =
         response::time_model(response::make_formulation("exact_tf", parts.linear, flexible_modes_),
                              parts, flexible_modes_, condition.sensors);
-    const response::QuickSimulation simulation(model, parts, condition.sensors, condition.options);
+    const response::ArmSimulator simulation(model, parts, condition.sensors, condition.options);
     for (const std::size_t r : condition.runs) {
       if (!runs[r]) continue;
       const auto& [run, data] = experiment_->runs[r];
       const auto& torque_N_m = std::get<measured::TimeRecord>(data).torque_N_m;
-      Eigen::MatrixXd readings = simulation(torque_N_m);
+      Eigen::MatrixXd readings = simulation.readings(torque_N_m);
       if (run.initial == measured::InitialState::free) {
         const Eigen::Index n = first[r + 1] - first[r];
         readings = from_nearest_state(simulation, torque_N_m, readings,
@@ -178,10 +173,10 @@ ModeChoice modes_needed(const Experiment& experiment, const Observations& observ
   ModeChoice choice{kFewestModes, std::vector<double>(observations.channels.size(), 0.0)};
   if (std::ranges::count(runs, true) == 0) return choice;
   const Eigen::VectorXd most =
-      Predictor(experiment, observations, kMostModes, 1)(experiment.arm, runs);
+      Predictor(experiment, observations, kMostModes)(experiment.arm, runs);
   for (; choice.flexible_modes < kMostModes; choice.flexible_modes += 2) {
     const Eigen::VectorXd off =
-        Predictor(experiment, observations, choice.flexible_modes, 1)(experiment.arm, runs) - most;
+        Predictor(experiment, observations, choice.flexible_modes)(experiment.arm, runs) - most;
     bool is_enough = true;
     for (std::size_t c = 0; c < observations.channels.size(); ++c) {
       const ObservedChannel& channel = observations.channels[c];

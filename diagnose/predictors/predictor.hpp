@@ -2,7 +2,7 @@
 
 #include "diagnose/experiment.hpp"
 #include "diagnose/observations.hpp"
-#include "response/time/quick_simulation.hpp"
+#include "response/time/arm_simulator.hpp"
 
 #include <Eigen/Core>
 
@@ -17,12 +17,11 @@ response::TorqueHold simulated_hold(measured::TorqueHold hold);
 /// What an arm should have shown in the runs of an experiment.
 class Predictor {
  public:
-  /// `flexible_modes` move in a simulated run, with `substeps` inner steps a sample where forces
-  /// are not linear; poles, zeros and frequency responses are exact. A run from an unknown state
-  /// begins in that which brings it nearest to what was measured. `experiment` must outlive the
-  /// object.
-  Predictor(const Experiment& experiment, const Observations& observations, int flexible_modes,
-            int substeps);
+  /// `flexible_modes` move in a simulated run, which is stepped as response::options_of_fit where
+  /// forces are not linear; poles, zeros and frequency responses are exact. A run from an unknown
+  /// state begins in that which brings it nearest to what was measured. `experiment` must outlive
+  /// the object.
+  Predictor(const Experiment& experiment, const Observations& observations, int flexible_modes);
 
   /// One number for each of the experiment's `Observations`, run after run, of those `runs` alone;
   /// the others are 0. `arm` is the experiment's with effects; each run sets its own payload.
@@ -30,20 +29,18 @@ class Predictor {
   Eigen::VectorXd operator()(const arm::Arm& arm, const std::vector<bool>& runs) const;
 
   int flexible_modes() const { return flexible_modes_; }
-  int substeps() const { return substeps_; }
 
  private:
   /// Runs that one simulation serves.
   struct Condition {
     arm::Payload payload;
     std::vector<arm::Sensor> sensors;
-    response::QuickSimulationOptions options;
+    response::SimulationOptions options;
     std::vector<std::size_t> runs;
   };
 
   const Experiment* experiment_;
   int flexible_modes_;
-  int substeps_;
   Observations observations_;
   std::vector<Condition> conditions_;  // of `time` runs
 };

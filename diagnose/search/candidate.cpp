@@ -11,7 +11,7 @@ namespace flexarm::diagnose {
 using Eigen::Index;
 
 arm::Arm Candidate::extend(const arm::Arm& arm) const {
-  arm::Arm made = arm::displaced(arm, displacements);
+  arm::Arm made = arm::with_deviations(arm, nuisances);
   std::size_t at = 0;
   for (const Hypothesis& effect : effects) {
     const std::size_t count = effect.parameters.size();
@@ -29,21 +29,21 @@ std::vector<SearchedParameter> Candidate::parameters() const {
   return all;
 }
 
-Eigen::VectorXd Candidate::places() const {
+Eigen::VectorXd Candidate::coordinates() const {
   const auto all = parameters();
-  const auto first = static_cast<Index>(displacements.size());
+  const auto first = static_cast<Index>(nuisances.size());
   Eigen::VectorXd made(first + static_cast<Index>(all.size()));
-  made.head(first) = Eigen::VectorXd::Map(displacements.data(), first);
+  made.head(first) = Eigen::VectorXd::Map(nuisances.data(), first);
   for (std::size_t i = 0; i < all.size(); ++i) {
-    made(first + static_cast<Index>(i)) = all[i].place(values[i]);
+    made(first + static_cast<Index>(i)) = all[i].coordinate(values[i]);
   }
   return made;
 }
 
 void Candidate::put(const Eigen::VectorXd& places) {
   const auto all = parameters();
-  const auto first = static_cast<Index>(displacements.size());
-  Eigen::VectorXd::Map(displacements.data(), first) = places.head(first);
+  const auto first = static_cast<Index>(nuisances.size());
+  Eigen::VectorXd::Map(nuisances.data(), first) = places.head(first);
   values.resize(all.size());
   for (std::size_t i = 0; i < all.size(); ++i) {
     double place = places(first + static_cast<Index>(i));
@@ -72,7 +72,7 @@ Candidate Candidate::with(const Hypothesis& hypothesis,
 }
 
 Candidate Candidate::without(std::size_t index) const {
-  Candidate made{.displacements = displacements};
+  Candidate made{.nuisances = nuisances};
   std::size_t at = 0;
   for (std::size_t i = 0; i < effects.size(); ++i) {
     const auto count = static_cast<std::ptrdiff_t>(effects[i].parameters.size());

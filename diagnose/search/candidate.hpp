@@ -13,16 +13,17 @@ namespace flexarm::diagnose {
 struct Candidate {
   std::vector<Hypothesis> effects = {};
   std::vector<double> values = {};  ///< of all their parameters, effect after effect
-  /// How many of their standard deviations the arm's uncertain numbers are off (arm::displaced).
-  std::vector<double> displacements = {};
+  /// How many of their standard deviations the arm's uncertain numbers are off
+  /// (arm::with_deviations).
+  std::vector<double> nuisances = {};
 
   arm::Arm extend(const arm::Arm& arm) const;
   std::vector<SearchedParameter> parameters() const;
 
-  /// What is fitted: displacements, then values as places between their bounds
-  /// (SearchedParameter::place), and back; places beyond `kBeyond` outside 0 to 1 are taken for
-  /// those.
-  Eigen::VectorXd places() const;
+  /// What is fitted: nuisances, then values as places between their bounds
+  /// (SearchedParameter::coordinate), and back; places beyond `kBeyond` outside 0 to 1 are taken
+  /// for those.
+  Eigen::VectorXd coordinates() const;
   void put(const Eigen::VectorXd& places);
   static constexpr double kBeyond = 0.25;
 

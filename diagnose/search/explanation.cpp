@@ -11,9 +11,9 @@ Explanation explain(const Problem& problem, Fit fit) {
   made.held_out = Eigen::VectorXd::Zero(problem.residual_count());
   made.estimation =
       misfit(observations, problem.experiment(), fit.residuals, problem.estimation_runs());
-  const Eigen::Index displacements = problem.residual_count() - observations.values.size();
-  made.estimation.displacements = static_cast<double>(displacements);
-  made.estimation.displacement_squares = fit.residuals.tail(displacements).squaredNorm();
+  const Eigen::Index nuisances = problem.residual_count() - observations.values.size();
+  made.estimation.nuisances = static_cast<double>(nuisances);
+  made.estimation.nuisance_squares = fit.residuals.tail(nuisances).squaredNorm();
   if (const auto held_out = problem.residuals(fit.candidate, problem.validation_runs())) {
     made.held_out = *held_out;
     made.validation =

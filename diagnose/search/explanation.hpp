@@ -13,7 +13,7 @@ namespace flexarm::diagnose {
 struct Explanation {
   Fit fit;
   Eigen::VectorXd held_out;  ///< residuals of the validation runs, 0 elsewhere
-  Misfit estimation;         ///< displacements included
+  Misfit estimation;         ///< nuisances included
   Misfit validation;         ///< count 0 without validation runs
 };
 

@@ -33,7 +33,7 @@ struct Residuals {
   Eigen::VectorXd last = {};
 
   Index inputs() const {
-    return static_cast<Index>(candidate.displacements.size() + candidate.values.size());
+    return static_cast<Index>(candidate.nuisances.size() + candidate.values.size());
   }
   Index values() const { return problem.residual_count(); }
 
@@ -72,7 +72,7 @@ struct Residuals {
 Fit fit(const Problem& problem, const Candidate& start, const FitOptions& options) {
   Residuals residuals{problem, start};
   Fit made;
-  Eigen::VectorXd places = start.places();
+  Eigen::VectorXd places = start.coordinates();
   if (places.size() > 0) {
     Eigen::LevenbergMarquardt<Residuals> minimiser(residuals);
     minimiser.parameters.ftol = options.tolerance;
@@ -99,10 +99,10 @@ Fit fit(const Problem& problem, const Candidate& start, const FitOptions& option
 
 Candidate scan(const Problem& problem, const Candidate& start, int evaluations) {
   const auto scanned = static_cast<Index>(start.effects.back().parameters.size());
-  const Eigen::VectorXd others = start.places().head(start.places().size() - scanned);
+  const Eigen::VectorXd others = start.coordinates().head(start.coordinates().size() - scanned);
   Residuals residuals{problem, start};
   double best = std::numeric_limits<double>::infinity();
-  Eigen::VectorXd best_places = start.places();
+  Eigen::VectorXd best_places = start.coordinates();
   const nlopt::vfunc cost = [](const std::vector<double>& x, std::vector<double>&, void* data) {
     return (*static_cast<std::function<double(const std::vector<double>&)>*>(data))(x);
   };

@@ -1,62 +1,15 @@
 #include "diagnose/search/hypothesis.hpp"
 
 #include "arm/effects.hpp"
+#include "arm/linear_arm.hpp"
+#include "effects/registry/vocabulary.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <variant>
 
 namespace flexarm::diagnose {
-
-namespace {
-
-/// No spring is stiffer, relative to the stiffest that is looked for.
-constexpr double kRigid = 1e4;
-
-/// 0 at place 0 and `high` at 1: even steps below `low`, equal ratios above.
-double growing(double place, double low, double high) {
-  return low * std::expm1(std::max(0.0, place) * std::log1p(high / low));
-}
-
-double growing_place(double value, double low, double high) {
-  return std::log1p(value / low) / std::log1p(high / low);
-}
-
-}  // namespace
-
-double SearchedParameter::value(double place) const {
-  switch (spacing) {
-    case Spacing::linear:
-      return lowest + place * (highest - lowest);
-    case Spacing::logarithmic:
-      return lowest * std::pow(highest / lowest, place);
-    case Spacing::from_zero:
-      return growing(place, lowest, highest);
-    case Spacing::from_infinity:
-      return 1.0 / std::max(growing(place, 1.0 / highest, 1.0 / lowest), 1.0 / (kRigid * highest));
-  }
-  return lowest;
-}
-
-double SearchedParameter::place(double value) const {
-  switch (spacing) {
-    case Spacing::linear:
-      return (value - lowest) / (highest - lowest);
-    case Spacing::logarithmic:
-      return std::log(value / lowest) / std::log(highest / lowest);
-    case Spacing::from_zero:
-      return growing_place(value, lowest, highest);
-    case Spacing::from_infinity:
-      return growing_place(1.0 / value, 1.0 / highest, 1.0 / lowest);
-  }
-  return 0.0;
-}
-
-std::optional<double> SearchedParameter::neutral_place() const {
-  if (spacing == Spacing::from_zero || spacing == Spacing::from_infinity) return 0.0;
-  if (!neutral) return std::nullopt;
-  return place(*neutral);
-}
 
 std::string Hypothesis::label() const {
   return sensor.empty() ? effect : effect + " on " + sensor;
@@ -67,32 +20,61 @@ bool Hypothesis::shows_in(measured::RunKind kind) const {
     case measured::RunKind::time:
       return true;
     case measured::RunKind::frf:
-      return shows != Shows::in_time;
+      return entry->shows != Shows::in_time;
     case measured::RunKind::modal:
-      return shows == Shows::in_all;
+      return entry->shows == Shows::in_all;
   }
   return false;
 }
 
-std::string unit_of(const Hypothesis& hypothesis, const SearchedParameter& parameter) {
-  const auto& parameters = arm::find_effect(hypothesis.effect)->parameters;
-  return std::ranges::find(parameters, parameter.name, &arm::EffectParameter::name)->unit;
+bool Hypothesis::contains(const std::string& other_effect) const {
+  return std::ranges::find(entry->contains, other_effect) != entry->contains.end();
+}
+
+const std::string& Hypothesis::unit_of(const SearchedParameter& parameter) const {
+  return std::ranges::find(entry->definition->parameters, parameter.name,
+                           &arm::EffectParameter::name)
+      ->unit;
+}
+
+std::vector<Hypothesis> hypotheses(const Experiment& experiment) {
+  const Scales scales = scales_of(experiment);
+  std::vector<Hypothesis> all;
+  for (const effects::Entry& entry : effects::entries()) {
+    const std::string& name = entry.definition->name;
+    if (experiment.arm.effects.contains(name)) continue;
+    if (entry.applies && !entry.applies(scales)) continue;
+    const Hypothesis made{&entry, name, {}, entry.search(scales)};
+    if (!std::ranges::any_of(experiment.runs,
+                             [&](const auto& run) { return made.shows_in(run.run.kind); })) {
+      continue;
+    }
+    if (!entry.definition->sensor) {
+      all.push_back(made);
+      continue;
+    }
+    for (const arm::Sensor& sensor : scales.sensors) {
+      all.push_back(made);
+      all.back().sensor = arm::to_string(sensor);
+    }
+  }
+  return all;
 }
 
 arm::Arm extended(const arm::Arm& arm, const Hypothesis& hypothesis,
                   std::span<const double> values) {
   arm::Arm made = arm;
-  arm::Effect effect;
-  effect.sensor = hypothesis.sensor;
+  arm::Effect effect{.definition = hypothesis.entry->definition, .sensor = hypothesis.sensor};
   for (std::size_t i = 0; i < values.size(); ++i) {
     effect.parameters[hypothesis.parameters[i].name] = values[i];
   }
-  made.effects[hypothesis.effect] = effect;
+  made.effects[hypothesis.effect] = std::move(effect);
   return made;
 }
 
 Scales scales_of(const Experiment& experiment) {
   Scales scales;
+  scales.arm = experiment.arm;
   scales.beam = arm::linear_arm(experiment.arm);
   double squares = 0.0;
   double samples = 0.0;
@@ -105,6 +87,8 @@ Scales scales_of(const Experiment& experiment) {
     }
   };
   for (const auto& [run, data] : experiment.runs) {
+    scales.has_payload_mass =
+        scales.has_payload_mass || arm_in(experiment, run).payload.mass_kg > 0.0;
     if (const auto* record = std::get_if<measured::TimeRecord>(&data)) {
       const double step = measured::sampling_period_s(*record);
       const double inertia = arm::total_inertia_kg_m2(arm_in(experiment, run));

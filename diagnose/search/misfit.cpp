@@ -27,11 +27,11 @@ double independent(const Eigen::Ref<const Eigen::VectorXd>& residuals, measured:
 }
 
 double Misfit::excess() const {
-  return beyond_chance(sum_of_squares, (1.0 + kNoiseKnown) * count, count) + displacement_excess();
+  return beyond_chance(sum_of_squares, (1.0 + kNoiseKnown) * count, count) + nuisance_excess();
 }
 
-double Misfit::displacement_excess() const {
-  return beyond_chance(displacement_squares, displacements, displacements);
+double Misfit::nuisance_excess() const {
+  return beyond_chance(nuisance_squares, nuisances, nuisances);
 }
 
 double Misfit::unexplained_error() const {
@@ -85,7 +85,7 @@ double information_gain(const Misfit& simpler, const Misfit& fuller, int more_pa
     return std::max(1.0, misfit.sum_of_squares / misfit.count);
   };
   const double n = std::max(2.0, fuller.independent);
-  const double displaced = simpler.displacement_squares - fuller.displacement_squares;
+  const double displaced = simpler.nuisance_squares - fuller.nuisance_squares;
   const double squares = simpler.sum_of_squares - fuller.sum_of_squares;
   // With the scale at the noise this is the difference of sums of squares.
   const double likelihood = scale(fuller) > 1.0 ? n * std::log(scale(simpler) / scale(fuller))

@@ -22,14 +22,14 @@ struct Misfit {
   double simulated = 0.0;  ///< part of the channels that are of `time` runs
 
   /// Uncertain numbers of the arm, and the squares of what they are off, in standard deviations.
-  double displacements = 0.0;
-  double displacement_squares = 0.0;
+  double nuisances = 0.0;
+  double nuisance_squares = 0.0;
 
   /// Squares beyond those of the noise, whose level is known to `kNoiseKnown` of its power, and
   /// beyond what chance adds to so many of them, `kChance` standard deviations sqrt(2 n); of
-  /// displacements those beyond chance.
+  /// nuisances those beyond chance.
   double excess() const;
-  double displacement_excess() const;
+  double nuisance_excess() const;
   bool is_noise() const { return excess() == 0.0; }
   /// What is not noise, relative to the signal.
   double unexplained_error() const;
@@ -59,7 +59,7 @@ double share_taken(const Misfit& before, const Misfit& after);
 ///
 ///     n ln(s_simpler^2/s_fuller^2) + d_simpler^2 - d_fuller^2 - k ln n
 ///
-/// d^2 being the squares of displacements, for k parameters more. Above 10 is decisive (Kass &
+/// d^2 being the squares of nuisances, for k parameters more. Above 10 is decisive (Kass &
 /// Raftery 1995).
 double information_gain(const Misfit& simpler, const Misfit& fuller, int more_parameters);
 

@@ -54,16 +54,16 @@ Eigen::MatrixXd clustered(const Problem& problem, const Fit& fit) {
 
 /// What a step in each place is in the parameter's own unit.
 Eigen::VectorXd slopes(const Candidate& candidate) {
-  constexpr double kStep = 1e-6;
-  const Eigen::VectorXd places = candidate.places();
+  constexpr double kSlopeStep = 1e-6;
+  const Eigen::VectorXd places = candidate.coordinates();
   const auto parameters = candidate.parameters();
   const auto first = places.size() - static_cast<Index>(parameters.size());
   Eigen::VectorXd made = Eigen::VectorXd::Ones(places.size());
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const Index at = first + static_cast<Index>(i);
-    made(at) = std::abs(parameters[i].value(places(at) + kStep) -
-                        parameters[i].value(places(at) - kStep)) /
-               (2.0 * kStep);
+    made(at) = std::abs(parameters[i].value(places(at) + kSlopeStep) -
+                        parameters[i].value(places(at) - kSlopeStep)) /
+               (2.0 * kSlopeStep);
   }
   return made;
 }

@@ -7,8 +7,8 @@
 
 namespace flexarm::diagnose {
 
-/// Standard errors of what a candidate was fitted by: displacements, then the values of its effects
-/// (Candidate::places), each in its own unit. With H = J^T J the variance is the larger of
+/// Standard errors of what a candidate was fitted by: nuisances, then the values of its effects
+/// (Candidate::coordinates), each in its own unit. With H = J^T J the variance is the larger of
 ///
 ///     H^-1 s^2                        of independent residuals, as many as their correlation
 ///     leaves, H^-1 (sum_b g_b g_b^T) H^-1     of residuals that go together over stretches b of a

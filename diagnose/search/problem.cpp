@@ -43,7 +43,7 @@ Predictor predictor_for(const Experiment& experiment, Observations& observations
   ModeChoice modes{options.flexible_modes.value_or(0)};
   if (!options.flexible_modes) modes = modes_needed(experiment, observations);
   widen(observations, modes.errors);
-  return {experiment, observations, modes.flexible_modes, options.substeps};
+  return {experiment, observations, modes.flexible_modes};
 }
 
 }  // namespace
@@ -63,17 +63,16 @@ Problem::Problem(const Experiment& experiment, Observations observations,
   }
 }
 
-Problem Problem::with_resolution(int flexible_modes, int substeps) const {
+Problem Problem::with_modes(int flexible_modes) const {
   Problem made = *this;
-  made.predictor_ = Predictor(*experiment_, observations_, flexible_modes, substeps);
+  made.predictor_ = Predictor(*experiment_, observations_, flexible_modes);
   return made;
 }
 
 void Problem::replace_torques(Experiment experiment) {
   own_experiment_ = std::make_shared<const Experiment>(std::move(experiment));
   experiment_ = own_experiment_.get();
-  predictor_ =
-      Predictor(*experiment_, observations_, predictor_.flexible_modes(), predictor_.substeps());
+  predictor_ = Predictor(*experiment_, observations_, predictor_.flexible_modes());
 }
 
 bool Problem::lower_noise(const Candidate& candidate) {
@@ -97,7 +96,7 @@ bool Problem::lower_noise(const Candidate& candidate) {
 }
 
 Candidate Problem::as_filed() const {
-  return {.displacements = std::vector<double>(experiment_->arm.relative_uncertainties.size())};
+  return {.nuisances = std::vector<double>(experiment_->arm.relative_uncertainties.size())};
 }
 
 Eigen::Index Problem::residual_count() const {
@@ -123,9 +122,9 @@ std::optional<Eigen::VectorXd> Problem::residuals(const Candidate& candidate,
       take_logarithms(part, channel, observations_);
     }
   }
-  const auto displaced = static_cast<Eigen::Index>(candidate.displacements.size());
+  const auto displaced = static_cast<Eigen::Index>(candidate.nuisances.size());
   made.conservativeResizeLike(Eigen::VectorXd::Zero(residual_count()));
-  made.tail(displaced) = Eigen::VectorXd::Map(candidate.displacements.data(), displaced);
+  made.tail(displaced) = Eigen::VectorXd::Map(candidate.nuisances.data(), displaced);
   if (!made.allFinite()) return std::nullopt;
   return made;
 }

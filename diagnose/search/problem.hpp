@@ -14,7 +14,6 @@ namespace flexarm::diagnose {
 
 struct ProblemOptions {
   std::optional<int> flexible_modes = {};  ///< of simulated runs; as many as needed unless given
-  int substeps = 4;                        ///< inner steps a sample with forces that are not linear
   /// Residuals of frequency responses are ln(measured/predicted), over the relative deviation: the
   /// same to first order near the minimum, and far from it with one minimum where the difference
   /// has one for every resonance that meets another.
@@ -36,8 +35,8 @@ class Problem {
   const std::vector<bool>& estimation_runs() const { return estimation_runs_; }
   const std::vector<bool>& validation_runs() const { return validation_runs_; }
 
-  /// The same simulated with so many modes and inner steps a sample.
-  Problem with_resolution(int flexible_modes, int substeps) const;
+  /// The same simulated with so many modes.
+  Problem with_modes(int flexible_modes) const;
 
   /// The same with what `experiment`, which the object keeps, has for torques.
   void replace_torques(Experiment experiment);
@@ -53,7 +52,7 @@ class Problem {
   Candidate as_filed() const;
 
   /// (measured - predicted)/deviation of the runs' numbers; 0 for those of other runs; behind them
-  /// the candidate's displacements, which are what the file says of the arm's uncertain numbers in
+  /// the candidate's nuisances, which are what the file says of the arm's uncertain numbers in
   /// standard deviations. Empty where the candidate's arm cannot be computed. Concurrent calls are
   /// safe.
   std::optional<Eigen::VectorXd> residuals(const Candidate& candidate,

@@ -36,7 +36,6 @@ constexpr std::size_t kCoarseSamples = 1200;
 constexpr std::size_t kShortSamples = 400;
 /// Modes that move in a first look.
 constexpr int kCoarseModes = 8;
-constexpr int kCoarseSubsteps = 2;
 /// Fraction of the work that is done with the effects by themselves.
 constexpr double kSinglesDone = 0.4;
 /// ... and when pairs of the best of them have been tried.
@@ -123,7 +122,6 @@ class Search {
  private:
   ProblemOptions coarse_options() const {
     return {.flexible_modes = std::min(kCoarseModes, problem_.predictor().flexible_modes()),
-            .substeps = kCoarseSubsteps,
             .logarithmic_responses = true};
   }
 
@@ -388,7 +386,7 @@ class Search {
 
 bool is_explained(const Misfit& left, const Misfit& nothing, const SelectionOptions& options) {
   if (left.is_noise()) return true;
-  if (left.displacement_excess() > 0.0) return false;
+  if (left.nuisance_excess() > 0.0) return false;
   const double before = std::min(1.0, nothing.unexplained_error());
   return left.unexplained_error() <=
          std::max(left.simulated * options.negligible_error, options.negligible_share * before);

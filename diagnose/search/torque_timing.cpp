@@ -54,7 +54,7 @@ Eigen::MatrixXd derivatives(const Problem& problem, const arm::Arm& arm, std::si
   }
   observations.first_of_run.push_back((kTimedStretches + 1) * count);
   const Predictor& own = problem.predictor();
-  const Predictor predictor(probes, observations, own.flexible_modes(), own.substeps());
+  const Predictor predictor(probes, observations, own.flexible_modes());
   const Eigen::VectorXd made = predictor(arm, std::vector<bool>(probes.runs.size(), true));
   Eigen::MatrixXd columns = made.head(kTimedStretches * count).reshaped(count, kTimedStretches);
   columns.colwise() -= made.tail(count);

@@ -5,7 +5,7 @@
 #include "measured/spectra/spectra.hpp"
 #include "response/arm_parts.hpp"
 #include "response/formulation_maker.hpp"
-#include "response/time/quick_simulation.hpp"
+#include "response/time/arm_simulator.hpp"
 #include "response/time/time_model.hpp"
 
 #include <boost/math/tools/minima.hpp>
@@ -46,12 +46,10 @@ std::vector<double> pulse_response(const arm::Arm& arm, const arm::Sensor& senso
                            parts, flexible_modes, sensors);
   std::vector<double> pulse(samples + 1);
   pulse[1] = 1.0;
-  response::QuickSimulationOptions options;
-  options.sample_time_s = period_s;
-  options.hold = simulated_hold(hold);
+  const response::ArmSimulator simulator(model, parts, sensors,
+                                         response::options_of_fit(period_s, simulated_hold(hold)));
   const Eigen::MatrixXd made =
-      response::QuickSimulation(model, parts, sensors, options)(pulse).bottomRows(
-          static_cast<Eigen::Index>(samples));
+      simulator.readings(pulse).bottomRows(static_cast<Eigen::Index>(samples));
   return {made.data(), made.data() + made.size()};
 }
 

@@ -33,10 +33,10 @@ std::optional<RunFit> refitted(const Problem& problem, const Candidate& start, I
   std::vector<bool> only(problem.experiment().runs.size(), false);
   only[run] = true;
   Candidate candidate = start;
-  Eigen::VectorXd places = start.places();
+  Eigen::VectorXd places = start.coordinates();
   const SearchedParameter known = start.parameters()[static_cast<std::size_t>(parameter)];
-  // Behind the displacements of the arm's uncertain numbers (Candidate::places).
-  const Index row = static_cast<Index>(start.displacements.size()) + parameter;
+  // Behind the nuisances of the arm's uncertain numbers (Candidate::coordinates).
+  const Index row = static_cast<Index>(start.nuisances.size()) + parameter;
   RunFit made;
   const auto here = [&](double place) {
     places(row) = place;
@@ -96,7 +96,7 @@ std::optional<RunDrift> run_drift(const Problem& problem, const Candidate& candi
   RunDrift made;
   made.effect = hypothesis.effect;
   made.parameter = parameter.name;
-  made.unit = unit_of(hypothesis, parameter);
+  made.unit = hypothesis.unit_of(parameter);
   double weights = 0.0;
   double sum = 0.0;
   for (std::size_t r = 0; r < runs.size(); ++r) {

@@ -33,13 +33,13 @@ std::vector<std::string> leaves_of(const std::string& table) {
 /// " (did you mean ...?)" for the unknown key `typed` of `table`, or "". It may be the symbol of
 /// the equations, right but in another table, or misspelt.
 std::string meant(const std::string& table, const std::string& typed,
-                  const std::vector<std::string>& allowed) {
+                  const std::vector<std::string>& allowed, const arm::Vocabulary& vocabulary) {
   std::vector<std::string> names;
   for (const auto& key : arm::arm_keys()) {
     if (key.table == table && key.symbol == typed) names.push_back(key.leaf);
     if (key.leaf == typed) names.push_back(key.name());
   }
-  if (arm::find_effect(typed) != nullptr) names.push_back("effects." + typed);
+  if (arm::find_effect(vocabulary, typed) != nullptr) names.push_back("effects." + typed);
   return names.empty() ? arm::did_you_mean(typed, allowed)
                        : fmt::format(" (did you mean {}?)", fmt::join(names, " or "));
 }
@@ -47,7 +47,8 @@ std::string meant(const std::string& table, const std::string& typed,
 /// Walks a document once; keeps the line of every key, so that later faults find theirs.
 class Reader {
  public:
-  explicit Reader(const std::string& file_name) : file_name_(file_name) {}
+  Reader(const std::string& file_name, const arm::Vocabulary& vocabulary)
+      : file_name_(file_name), vocabulary_(vocabulary) {}
 
   arm::Arm read(const toml::table& document) {
     for (const auto& [key, node] : document) read_top_level(arm::shown(key.str()), node);
@@ -92,9 +93,10 @@ class Reader {
       std::vector<std::string> names = {"name"};
       names.insert(names.end(), arm::arm_tables().begin(), arm::arm_tables().end());
       names.emplace_back("effects");
-      fault(name, fmt::format(": unknown {}{}; allowed: name, [{}], [effects.NAME]",
-                              node.is_table() ? "table" : "key", meant("", name, names),
-                              fmt::join(arm::arm_tables(), "], [")));
+      fault(name,
+            fmt::format(": unknown {}{}; allowed: name, [{}], [effects.NAME]",
+                        node.is_table() ? "table" : "key", meant("", name, names, vocabulary_),
+                        fmt::join(arm::arm_tables(), "], [")));
     }
   }
 
@@ -117,7 +119,8 @@ class Reader {
         for (std::string& meant_leaf : meant_leaves) meant_leaf += arm::kUncertaintySuffix;
       }
       fault(name, fmt::format(": unknown key{}; allowed in [{}]: {}{}",
-                              meant(table, leaf, meant_leaves), table, fmt::join(leaves, ", "),
+                              meant(table, leaf, meant_leaves, vocabulary_), table,
+                              fmt::join(leaves, ", "),
                               is_uncertainty ? ", and each followed by _uncertainty" : ""));
     } else if (const auto value = number(name, node, key->range, key->unit)) {
       key->set(arm_, *value);
@@ -127,9 +130,13 @@ class Reader {
   void read_effect(const std::string& name, const toml::node& node) {
     const std::string key = "effects." + name;
     note_line(key, node);
-    const arm::EffectDefinition* definition = arm::find_effect(name);
+    const auto definition = arm::find_effect(vocabulary_, name);
     const auto* table = node.as_table();
-    if (definition != nullptr && table == nullptr) {
+    if (definition == nullptr) {
+      fault(key, ": " + arm::unknown_effect(vocabulary_, name));
+      return;
+    }
+    if (table == nullptr) {
       std::vector<std::string> parameters;
       for (const auto& parameter : definition->parameters) parameters.push_back(parameter.name);
       wrong_type(key, node,
@@ -138,7 +145,7 @@ class Reader {
       return;
     }
     arm::Effect& effect = arm_.effects[name];
-    if (definition == nullptr) return;  // arm::require_valid(arm::Effects) names it
+    effect.definition = definition;
     for (const auto& [leaf, value] : *table) {
       read_parameter(*definition, arm::shown(leaf.str()), value, effect);
     }
@@ -148,7 +155,7 @@ class Reader {
                       const toml::node& node, arm::Effect& effect) {
     const std::string key = "effects." + definition.name + "." + leaf;
     note_line(key, node);
-    if (leaf == "sensor" && definition.acts_on_sensor) {
+    if (leaf == "sensor" && definition.sensor) {
       if (const auto* text = node.as_string(); text != nullptr && !text->get().empty()) {
         effect.sensor = text->get();
       } else {
@@ -209,6 +216,7 @@ class Reader {
   }
 
   std::string file_name_;
+  const arm::Vocabulary& vocabulary_;
   arm::Arm arm_;
   std::map<std::string, int> lines_;
   std::multimap<int, std::string> faults_;  // by line; equal lines in the order found
@@ -216,17 +224,18 @@ class Reader {
 
 }  // namespace
 
-arm::Arm parse_arm(std::string_view toml, const std::string& file_name) {
+arm::Arm parse_arm(std::string_view toml, const std::string& file_name,
+                   const arm::Vocabulary& vocabulary) {
   if (toml.find_first_not_of(" \t\r\n") == std::string_view::npos) {
     throw located(arm::InputError("empty; an arm file needs at least [beam] and [hub]; flexarm new "
                                   "writes an example"),
                   file_name, 1);
   }
-  return Reader(file_name).read(parse_toml(toml, file_name));
+  return Reader(file_name, vocabulary).read(parse_toml(toml, file_name));
 }
 
-arm::Arm read_arm_file(const std::filesystem::path& path) {
-  return parse_arm(read_text_file(path, kLargestFile_bytes), arm::shown(path.string()));
+arm::Arm read_arm_file(const std::filesystem::path& path, const arm::Vocabulary& vocabulary) {
+  return parse_arm(read_text_file(path, kLargestFile_bytes), arm::shown(path.string()), vocabulary);
 }
 
 }  // namespace flexarm::measured

@@ -8,17 +8,18 @@
 
 namespace flexarm::measured {
 
-/// Reads an arm file (TOML, docs/formats.md).
+/// Reads an arm file (TOML, docs/formats.md) whose effects are among `vocabulary`.
 ///
 /// Throws InputError with one line `FILE:LINE: KEY = VALUE UNIT: what is wrong; what is allowed`:
 /// for a file that cannot be read or is not TOML, an unknown key (with the name that was probably
 /// meant), a value of the wrong type or out of its range, a missing key, and an arm that
 /// `require_valid` refuses. Of several keys that are wrong in themselves, the first in the file is
 /// reported; what is missing or does not fit together comes after those.
-arm::Arm read_arm_file(const std::filesystem::path& path);
+arm::Arm read_arm_file(const std::filesystem::path& path, const arm::Vocabulary& vocabulary);
 
 /// The same for the text of a file; `file_name` stands in the errors.
-arm::Arm parse_arm(std::string_view toml, const std::string& file_name);
+arm::Arm parse_arm(std::string_view toml, const std::string& file_name,
+                   const arm::Vocabulary& vocabulary);
 
 /// The arm as the text of a file: what it gives, with units as comments; values equal to their
 /// default are left out. `parse_arm` reads the same arm back, every double bit for bit.

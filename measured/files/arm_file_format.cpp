@@ -33,7 +33,7 @@ void append_keys(std::string& out, const arm::Arm& arm, const std::string& table
 
 void append_effect(std::string& out, const std::string& name, const arm::Effect& effect) {
   out += fmt::format("\n[effects.{}]\n", name);
-  for (const auto& parameter : arm::find_effect(name)->parameters) {
+  for (const auto& parameter : effect.definition->parameters) {
     const auto value = effect.parameters.find(parameter.name);
     if (value == effect.parameters.end()) continue;
     out +=

@@ -24,7 +24,7 @@ Panel mode_panel(const ModeShapePlot& plot, const ModeShape& mode) {
   for (std::size_t i = 0; i < mode.curves.size(); ++i) {
     const ModeShapeCurve& curve = mode.curves[i];
     if (curve.displacement.size() != plot.station_m.size()) {
-      throw std::invalid_argument(fmt::format("{}, {}: {} displacements at {} stations", mode.label,
+      throw std::invalid_argument(fmt::format("{}, {}: {} nuisances at {} stations", mode.label,
                                               curve.formulation, curve.displacement.size(),
                                               plot.station_m.size()));
     }

@@ -10,7 +10,7 @@ nlohmann::ordered_json effects_json(const arm::Effects& effects) {
   nlohmann::ordered_json entries = nlohmann::ordered_json::array();
   for (const auto& [name, effect] : effects) {
     nlohmann::ordered_json parameters = nlohmann::ordered_json::array();
-    for (const auto& parameter : arm::find_effect(name)->parameters) {
+    for (const auto& parameter : effect.definition->parameters) {
       const auto value = effect.parameters.find(parameter.name);
       if (value == effect.parameters.end()) continue;
       parameters.push_back(

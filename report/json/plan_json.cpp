@@ -20,7 +20,7 @@ Json values_json(const std::optional<diagnose::Candidate>& candidate) {
     const auto& parameter = hypothesis.parameters[i];
     values.push_back({{"parameter", parameter.name},
                       {"value", candidate->values[i]},
-                      {"unit", diagnose::unit_of(hypothesis, parameter)}});
+                      {"unit", hypothesis.unit_of(parameter)}});
   }
   return values;
 }

@@ -21,9 +21,9 @@ Json chain_json(const response::LinearChain& chain) {
                {"actuator_lag_s", chain.lag_s},
                {"lagging_sensor", nullptr},
                {"sensor_lag_s", 0.0}};
-  if (chain.sensor_lag) {
-    json["lagging_sensor"] = arm::to_string(chain.sensor_lag->sensor);
-    json["sensor_lag_s"] = chain.sensor_lag->time_constant_s;
+  if (!chain.sensor_stages.empty()) {
+    json["lagging_sensor"] = arm::to_string(chain.sensor_stages.front().sensor);
+    json["sensor_lag_s"] = chain.sensor_stages.front().lag.time_constant_s;
   }
   return json;
 }

@@ -23,7 +23,7 @@ std::string label_of(const Plan& plan, std::size_t effect) {
 /// "mass 0.0012 kg", "factor 1 +0.03 %".
 std::string value_text(const diagnose::Hypothesis& hypothesis,
                        const diagnose::SearchedParameter& parameter, double value) {
-  const std::string unit = diagnose::unit_of(hypothesis, parameter);
+  const std::string unit = hypothesis.unit_of(parameter);
   const std::string in_unit = unit == "1" ? "" : " " + unit;
   const double neutral = parameter.neutral.value_or(0.0);
   if (neutral == 0.0) return fmt::format("{} {:.3g}{}", parameter.name, value, in_unit);

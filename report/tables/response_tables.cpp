@@ -79,8 +79,8 @@ Table response_poles_table(const response::ResponseStudy& study, std::size_t mos
              if_known(known, known ? in_Hz(study.poles.omega_rad_per_s[i]) : 0.0), flexible[i]);
   }
   if (study.chain.lag_s > 0.0) add_root(table, "actuator lag", kNone, -1.0 / study.chain.lag_s);
-  if (study.chain.sensor_lag && study.chain.sensor_lag->time_constant_s > 0.0) {
-    add_root(table, "sensor lag", kNone, -1.0 / study.chain.sensor_lag->time_constant_s);
+  for (const auto& stage : study.chain.sensor_stages) {
+    add_root(table, "sensor lag", kNone, -1.0 / stage.lag.time_constant_s);
   }
   return table;
 }
@@ -237,9 +237,9 @@ std::vector<std::string> chain_notes(const response::ResponseStudy& study) {
   if (chain.delay_s > 0.0) parts.push_back(fmt::format("delay {:g} s", chain.delay_s));
   if (chain.gain != 1.0) parts.push_back(fmt::format("torque gain {:g}", chain.gain));
   if (chain.lag_s > 0.0) parts.push_back(fmt::format("actuator lag {:g} s", chain.lag_s));
-  if (chain.sensor_lag && chain.sensor_lag->time_constant_s > 0.0) {
-    parts.push_back(fmt::format("lag of {} {:g} s", arm::to_string(chain.sensor_lag->sensor),
-                                chain.sensor_lag->time_constant_s));
+  for (const auto& stage : chain.sensor_stages) {
+    parts.push_back(
+        fmt::format("lag of {} {:g} s", arm::to_string(stage.sensor), stage.lag.time_constant_s));
   }
   std::vector<std::string> notes;
   if (!parts.empty()) notes.push_back(fmt::format("in the response: {}", fmt::join(parts, ", ")));

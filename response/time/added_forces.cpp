@@ -1,61 +1,101 @@
 #include "response/time/added_forces.hpp"
 
+#include "arm/linear_arm.hpp"
+
 #include <cmath>
+#include <span>
 #include <utility>
+#include <vector>
 
 namespace flexarm::response {
 
-AddedForces::AddedForces(const ModalDynamics& arm, const ArmParts& parts,
-                         std::optional<QuadraticDrag> drag)
+AddedForces::AddedForces(const ModalDynamics& arm, const HubLaws& hub,
+                         std::optional<BeamForces> beam)
     : arm_(&arm),
-      friction_(parts.friction),
-      bias_N_m_(parts.actuator.bias_N_m),
-      ripple_(parts.actuator.ripple),
-      drag_(std::move(drag)),
-      vary_(drag_ || ripple_ || friction_falls()) {}
+      hub_(hub),
+      beam_(std::move(beam)),
+      friction_scale_rad_per_s_(hub_.friction_scale_rad_per_s()),
+      breakaway_N_m_(hub_.friction_at(0.0).torque_N_m),
+      vary_(beam_ || !hub_.smooth.empty() || std::isfinite(friction_scale_rad_per_s_)) {}
 
-double AddedForces::offset_N_m(double hub_angle_rad) const {
-  if (!ripple_) return bias_N_m_;
-  return bias_N_m_ + ripple_->amplitude_N_m *
-                         std::sin(ripple_->cycles_per_rev * hub_angle_rad + ripple_->phase_rad);
+arm::HubState AddedForces::hub_state(const ArmInstant& now) const {
+  return {arm_->hub_angle(now.x), arm_->hub_velocity(now.x),
+          arm_->hub_torque.state.dot(now.x) + arm_->hub_torque.actuator * now.actuator_N_m,
+          now.time_s};
 }
 
-AddedForces::HubTorque AddedForces::hub_torque(const Eigen::VectorXd& x, HubMotion motion) const {
-  HubTorque made;
-  made.torque_N_m = ripple_ ? offset_N_m(arm_->hub_angle(x)) : bias_N_m_;
-  const double sign = direction(motion);
-  if (sign == 0.0) return made;
-  const double fall = friction_.stribeck_static_N_m - friction_.stribeck_N_m;
-  if (fall == 0.0) {
-    made.torque_N_m -= sign * friction_.breakaway_N_m();
-    return made;
+AddedForces::HubTorque AddedForces::smooth_torque(const ArmInstant& now) const {
+  HubTorque made{hub_.constant_N_m, 0.0};
+  if (hub_.smooth.empty()) return made;
+  const arm::HubState hub = hub_state(now);
+  const auto own = arm_->law_states(now.x);
+  std::vector<double> rates(own.size());
+  std::size_t first = 0;
+  for (const auto& [effect, law] : hub_.smooth) {
+    const auto count = static_cast<std::size_t>(law.states);
+    const auto value =
+        law.law(hub, own.subspan(first, count), std::span(rates).subspan(first, count));
+    made.torque_N_m += value.torque_N_m;
+    made.per_velocity_N_m_s += value.per_velocity_N_m_s;
+    first += count;
   }
-  const double velocity = arm_->hub_velocity(x);
-  const double scale = friction_.stribeck_velocity_rad_per_s;
-  const double left = fall * std::exp(-(velocity / scale) * (velocity / scale));
-  made.torque_N_m -= sign * (friction_.coulomb_N_m + friction_.stribeck_N_m + left);
-  made.per_velocity_N_m_s = sign * left * 2.0 * velocity / (scale * scale);
   return made;
 }
 
-Eigen::VectorXd AddedForces::force(const Eigen::VectorXd& x, double hub_torque_N_m) const {
-  if (!drag_) return arm_->hub_force * hub_torque_N_m;
-  return arm_->hub_force * hub_torque_N_m + drag_->modal_force(arm_->velocity(x));
+AddedForces::HubTorque AddedForces::hub_torque(const ArmInstant& now, HubMotion motion) const {
+  HubTorque made = smooth_torque(now);
+  const double sign = direction(motion);
+  if (sign == 0.0) return made;
+  if (!std::isfinite(friction_scale_rad_per_s_)) {
+    made.torque_N_m -= sign * breakaway_N_m_;
+    return made;
+  }
+  const double velocity = arm_->hub_velocity(now.x);
+  const auto size = hub_.friction_at(std::abs(velocity));
+  made.torque_N_m -= sign * size.torque_N_m;
+  made.per_velocity_N_m_s -= sign * (velocity < 0.0 ? -size.per_speed_N_m_s : size.per_speed_N_m_s);
+  return made;
+}
+
+Eigen::VectorXd AddedForces::force(const ArmInstant& now, double hub_torque_N_m) const {
+  Eigen::VectorXd made = arm_->hub_force * hub_torque_N_m;
+  if (beam_) made.head(arm_->modes) += beam_->modal_force(arm_->velocity(now.x));
+  const auto own = arm_->law_states(now.x);
+  if (own.empty()) return made;
+  const arm::HubState hub = hub_state(now);
+  std::size_t first = 0;
+  const std::span rates(made.data() + made.size() - static_cast<Eigen::Index>(own.size()),
+                        own.size());
+  for (const auto& [effect, law] : hub_.smooth) {
+    const auto count = static_cast<std::size_t>(law.states);
+    law.law(hub, own.subspan(first, count), rates.subspan(first, count));
+    first += count;
+  }
+  return made;
 }
 
 std::string_view AddedForces::effect_in_steps() const {
-  if (friction_.coulomb_N_m > 0.0) return "coulomb_friction";
-  if (!friction_.is_zero()) return "stribeck_friction";
-  if (drag_) return "quadratic_drag";
-  return ripple_ ? "torque_ripple" : "";
+  if (has_friction()) return hub_.friction.front().effect;
+  if (beam_) return beam_->effect();
+  return hub_.smooth.empty() ? std::string_view() : hub_.smooth.front().effect;
 }
 
 double AddedForces::friction_power_W(double hub_velocity_rad_per_s) const {
-  return friction_.torque_N_m(hub_velocity_rad_per_s) * std::abs(hub_velocity_rad_per_s);
+  const double speed = std::abs(hub_velocity_rad_per_s);
+  return hub_.friction_at(speed).torque_N_m * speed;
 }
 
-double AddedForces::drag_power_W(const Eigen::VectorXd& x) const {
-  return drag_ ? drag_->power_W(arm_->velocity(x)) : 0.0;
+double AddedForces::beam_power_W(const Eigen::VectorXd& x) const {
+  return beam_ ? beam_->power_W(arm_->velocity(x)) : 0.0;
+}
+
+AddedForces added_forces(const ModalDynamics& arm, const arm::ModalModel& model,
+                         const ArmParts& parts) {
+  std::optional<BeamForces> beam;
+  if (!parts.beam_forces.empty()) {
+    beam.emplace(model, arm::linear_arm(parts.linear).length_m, parts.beam_forces);
+  }
+  return {arm, parts.hub, std::move(beam)};
 }
 
 }  // namespace flexarm::response

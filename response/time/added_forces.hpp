@@ -1,6 +1,6 @@
 #pragma once
 
-#include "response/time/drag.hpp"
+#include "response/time/beam_forces.hpp"
 #include "response/time/modal_dynamics.hpp"
 
 #include <Eigen/Core>
@@ -23,9 +23,15 @@ inline double direction(HubMotion motion) {
   return motion == HubMotion::forward ? 1.0 : motion == HubMotion::backward ? -1.0 : 0.0;
 }
 
-/// What acts on the arm beside the actuator's torque: bias, ripple and dry friction on the hub,
-/// drag on the beam. For each HubMotion a smooth function of the state, continued beyond the
-/// motion's end.
+/// The state of an arm at an instant, with the torque of its actuator.
+struct ArmInstant {
+  const Eigen::VectorXd& x;  ///< LinearSystem's X
+  double actuator_N_m = 0.0;
+  double time_s = 0.0;
+};
+
+/// What acts on the arm beside the actuator's torque: laws of torque on the hub, forces along the
+/// beam. For each HubMotion a smooth function of the state, continued beyond the motion's end.
 class AddedForces {
  public:
   struct HubTorque {
@@ -34,33 +40,44 @@ class AddedForces {
   };
 
   /// `arm` must outlive the object.
-  AddedForces(const ModalDynamics& arm, const ArmParts& parts, std::optional<QuadraticDrag> drag);
+  AddedForces(const ModalDynamics& arm, const HubLaws& hub, std::optional<BeamForces> beam);
 
+  bool has_friction() const { return !hub_.friction.empty(); }
   /// False: constant for each motion.
   bool vary() const { return vary_; }
-  /// Friction depends on speed, on the scale of `falling_velocity_rad_per_s`.
-  bool friction_falls() const { return friction_.stribeck_N_m != friction_.stribeck_static_N_m; }
-  double falling_velocity_rad_per_s() const { return friction_.stribeck_velocity_rad_per_s; }
-  double breakaway_N_m() const { return friction_.breakaway_N_m(); }
-  /// Bias and ripple.
-  double offset_N_m(double hub_angle_rad) const;
-  /// Bias, ripple and friction.
-  HubTorque hub_torque(const Eigen::VectorXd& x, HubMotion motion) const;
-  /// f for that torque, and the drag at the state.
-  Eigen::VectorXd force(const Eigen::VectorXd& x, double hub_torque_N_m) const;
+  /// The scale of speed over which friction changes; infinite where it does not.
+  double friction_scale_rad_per_s() const { return friction_scale_rad_per_s_; }
+  double breakaway_N_m() const { return breakaway_N_m_; }
+  /// Size of dry friction at a speed of 0 or more.
+  arm::DryFriction::Size friction_at(double speed_rad_per_s) const {
+    return hub_.friction_at(speed_rad_per_s);
+  }
+  /// Laws without dry friction.
+  HubTorque smooth_torque(const ArmInstant& now) const;
+  /// Laws and dry friction.
+  HubTorque hub_torque(const ArmInstant& now, HubMotion motion) const;
+  /// f for that torque on the hub: with it the forces along the beam and the rates of the laws'
+  /// own states.
+  Eigen::VectorXd force(const ArmInstant& now, double hub_torque_N_m) const;
   /// The effect for which the hub is watched or forces are iterated, in inner steps; empty where
   /// the equations are linear.
   std::string_view effect_in_steps() const;
   double friction_power_W(double hub_velocity_rad_per_s) const;
-  double drag_power_W(const Eigen::VectorXd& x) const;
+  double beam_power_W(const Eigen::VectorXd& x) const;
 
  private:
+  arm::HubState hub_state(const ArmInstant& now) const;
+
   const ModalDynamics* arm_;
-  HubFriction friction_;
-  double bias_N_m_;
-  std::optional<TorqueRipple> ripple_;
-  std::optional<QuadraticDrag> drag_;
+  HubLaws hub_;
+  std::optional<BeamForces> beam_;
+  double friction_scale_rad_per_s_;
+  double breakaway_N_m_;
   bool vary_;
 };
+
+/// Those of an arm's parts; `model` is the one that `arm` was made of.
+AddedForces added_forces(const ModalDynamics& arm, const arm::ModalModel& model,
+                         const ArmParts& parts);
 
 }  // namespace flexarm::response

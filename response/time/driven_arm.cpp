@@ -1,8 +1,11 @@
 #include "response/time/driven_arm.hpp"
 
 #include "arm/input_error.hpp"
-#include "response/time/drag.hpp"
+#include "response/time/beam_forces.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -41,16 +44,25 @@ LinearSystem extended(const LinearSystem& system, double omega, double per_sine)
   return made;
 }
 
-std::optional<QuadraticDrag> drag_of(const arm::ModalModel& model, const ArmParts& parts) {
-  if (!(parts.quadratic_drag_N_s2_per_m3 > 0.0)) return {};
-  return QuadraticDrag(model, parts.linear.beam.length_m, parts.quadratic_drag_N_s2_per_m3);
+double largest_command(const SineDrive& drive) {
+  return std::abs(drive.offset_N_m) + drive.amplitude_N_m;
 }
 
-/// What is left of the actuator where the sine has its delay in its phase and nothing is clipped.
-Actuator gain_alone(const Actuator& actuator) {
-  Actuator made;
-  made.gain = actuator.gain;
-  return made;
+/// Of a command that is not clipped.
+double gain_of(const Actuator& actuator, const SineDrive& drive) {
+  return actuator.mapped(largest_command(drive)) / largest_command(drive);
+}
+
+/// Throws InputError by name of effect and port for laws that a steady state cannot have.
+const ArmParts& checked(const ArmParts& parts) {
+  for (const auto& [effect, law] : parts.hub.smooth) {
+    if (!law.depends_on_time) continue;
+    throw arm::InputError(
+        fmt::format("effects.{}: port {}: a law that depends on time has no steady state", effect,
+                    arm::to_string(arm::Port::hub_torque)),
+        "effects." + effect);
+  }
+  return parts;
 }
 
 double sinc(double x) {
@@ -72,9 +84,8 @@ ModalDynamics with_sine(const ModalDynamics& arm, const SineDrive& drive, double
 }
 
 bool clips(const Actuator& actuator, const SineDrive& drive) {
-  const double largest = std::abs(drive.offset_N_m) + drive.amplitude_N_m;
-  return actuator.dead_zone_N_m > 0.0 ||
-         std::abs(actuator.gain) * largest > actuator.saturation_N_m;
+  return std::ranges::any_of(actuator.bends(),
+                             [&](double bend) { return std::abs(bend) < largest_command(drive); });
 }
 
 DrivenArm::DrivenArm(const ModalDynamics& arm, const arm::ModalModel& model, const ArmParts& parts,
@@ -85,16 +96,18 @@ DrivenArm::DrivenArm(const ModalDynamics& arm, const arm::ModalModel& model, con
       scale_(drive.amplitude_N_m * arm.turning.actuator.norm() / (kTurn_rad * drive.frequency_Hz)),
       sine_N_m_(drive.amplitude_N_m),
       sample_time_s_(1.0 / (drive.frequency_Hz * samples_per_period)),
-      arm_(
-          with_sine(arm,
-                    {clips(parts.actuator, drive) ? 0.0 : parts.actuator.gain * drive.amplitude_N_m,
-                     drive.offset_N_m, drive.frequency_Hz},
-                    scale_)),
-      forces_(arm_, parts, drag_of(model, parts)),
+      arm_(with_sine(
+          arm,
+          {clips(parts.actuator, drive) ? 0.0
+                                        : gain_of(parts.actuator, drive) * drive.amplitude_N_m,
+           drive.offset_N_m, drive.frequency_Hz},
+          scale_)),
+      forces_(added_forces(arm_, model, checked(parts))),
       readings_(arm_, parts, sensors) {
-  is_linear_ = parts.friction.is_zero() && !forces_.vary();
+  is_linear_ = !forces_.has_friction() && !forces_.vary();
   std::vector<double> command_N_m;
-  Actuator actuator = gain_alone(parts.actuator);
+  // Where nothing is clipped the sine has its delay in its phase.
+  Actuator actuator{.maps = {arm::PiecewiseLinear(gain_of(parts.actuator, drive))}};
   std::size_t lead = 0;
   const auto n = static_cast<std::size_t>(samples_per_period);
   if (clips(parts.actuator, drive)) {
@@ -120,7 +133,8 @@ DrivenArm::DrivenArm(const ModalDynamics& arm, const arm::ModalModel& model, con
   options.sample_time_s = sample_time_s_;
   options.hold = TorqueHold::first;
   options.substeps = substeps;
-  stepper_.emplace(arm_, forces_, !parts.friction.is_zero(), path, options, nullptr);
+  plan_.emplace(arm_, forces_, actuator, options, nullptr);
+  stepper_.emplace(*plan_, nullptr);
 }
 
 void DrivenArm::put(const Eigen::VectorXd& state, bool held) {

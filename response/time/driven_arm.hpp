@@ -1,6 +1,7 @@
 #pragma once
 
 #include "response/time/sensor_readings.hpp"
+#include "response/time/step_plan.hpp"
 #include "response/time/time_stepper.hpp"
 
 #include <optional>
@@ -23,10 +24,11 @@ ModalDynamics with_sine(const ModalDynamics& arm, const SineDrive& drive, double
 
 /// An arm that a sine drives, period by period, read at whole fractions of the period.
 ///
-/// A delay turns the sine's phase; gain, lag, bias, friction, drag and ripple act as in `simulate`.
-/// Where dead zone or saturation clip the command it is a sine through `samples_per_period` points,
-/// linear between them, clipped exactly; its part at f is amplitude sinc^2(1/n), and its harmonics
-/// n m +- 1 are 1/(n m +- 1)^2 of that.
+/// A delay turns the sine's phase; gain, lag, laws of hub torque and forces along the beam act as
+/// in `simulate`; a law that depends on time is refused by name. Where the maps of the actuator
+/// bend within the command it is a sine through `samples_per_period` points, linear between them,
+/// clipped exactly; its part at f is amplitude sinc^2(1/n), and its harmonics n m +- 1 are 1/(n m
+/// +- 1)^2 of that.
 class DrivenArm {
  public:
   /// `arm` and `parts` must outlive the object. `samples_per_period` above 2.
@@ -63,11 +65,12 @@ class DrivenArm {
   ModalDynamics arm_;
   AddedForces forces_;
   std::vector<TorquePath::Pieces> pieces_;  // of a period
+  std::optional<StepPlan> plan_;
   std::optional<TimeStepper> stepper_;
   SensorReadings readings_;
 };
 
-/// Whether dead zone or saturation change the command.
+/// Whether the actuator's maps bend within the command.
 bool clips(const Actuator& actuator, const SineDrive& drive);
 
 }  // namespace flexarm::response

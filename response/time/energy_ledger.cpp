@@ -12,17 +12,17 @@ EnergyLedger::EnergyLedger(const ModalDynamics& arm, const AddedForces& forces,
     : arm_(&arm), forces_(&forces), hub_viscous_friction_(hub_viscous_friction_N_m_s_per_rad) {}
 
 EnergyLedger::Powers EnergyLedger::powers(const Eigen::VectorXd& x, double actuator_N_m,
-                                          HubMotion motion) const {
+                                          double time_s, HubMotion motion) const {
   const double speed = motion == HubMotion::held ? 0.0 : arm_->hub_velocity(x);
   const double torque = arm_->hub_torque.state * x + arm_->hub_torque.actuator * actuator_N_m +
-                        forces_->offset_N_m(arm_->hub_angle(x));
+                        forces_->smooth_torque({x, actuator_N_m, time_s}).torque_N_m;
   const auto p = arm_->velocity(x);
   Powers made;
   made.work_in = torque * speed;
   made.viscous = hub_viscous_friction_ * speed * speed;
   made.material_air = arm_->modal_mass_kg_m2 * p.dot(arm_->damping * p) - made.viscous;
   if (motion != HubMotion::frictionless) made.dry_friction = forces_->friction_power_W(speed);
-  made.drag = forces_->drag_power_W(x);
+  made.drag = forces_->beam_power_W(x);
   return made;
 }
 
@@ -31,7 +31,7 @@ void EnergyLedger::add(const Expansion& solution, const StepInputs& inputs, HubM
   using Rule = boost::math::quadrature::gauss<double, 7>;
   const double half = 0.5 * until;
   const auto point = [&](double r, double weight) {
-    const Powers power = powers(solution.at(r), inputs.torque(r), motion);
+    const Powers power = powers(solution.at(r), inputs.torque(r), inputs.time(r), motion);
     const double duration = weight * half * solution.step_s();
     balance_.work_in_J += duration * power.work_in;
     balance_.viscous_J += duration * power.viscous;

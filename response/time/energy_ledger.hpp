@@ -40,7 +40,8 @@ class EnergyLedger {
     double dry_friction = 0.0;
     double drag = 0.0;
   };
-  Powers powers(const Eigen::VectorXd& x, double actuator_N_m, HubMotion motion) const;
+  Powers powers(const Eigen::VectorXd& x, double actuator_N_m, double time_s,
+                HubMotion motion) const;
 
   const ModalDynamics* arm_;
   const AddedForces* forces_;

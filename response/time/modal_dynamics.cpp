@@ -30,15 +30,17 @@ void require_complete(const arm::ModalModel& model, std::size_t sensors) {
   }
 }
 
-/// Where Z and W stand in X.
+/// Where Z, W and the laws' own states stand in X.
 struct Layout {
   Index n = 0;
   bool modal_forces = false;  // f is n modal forces, else one torque on the hub
   std::optional<Index> lagged_torque;
-  std::optional<Index> lagged_reading;
+  std::vector<std::optional<Index>> lagged_readings;  // one a sensor
+  Index law_states = 0;  // of laws of hub torque, at the end of X and f
   Index size = 0;
 
-  Index forces() const { return modal_forces ? n : 1; }
+  Index forces() const { return arm_forces() + law_states; }
+  Index arm_forces() const { return modal_forces ? n : 1; }
 };
 
 /// The equations of motion without lags: modal accelerations p' = state X + actuator u + force f.
@@ -66,10 +68,11 @@ Accelerations accelerations(const ModalDynamics& arm, const Layout& layout) {
   } else {
     made.actuator = per_torque;
   }
+  made.force.setZero(layout.n, layout.forces());
   if (layout.modal_forces) {
-    made.force.setIdentity(layout.n, layout.n);
+    made.force.leftCols(layout.n).setIdentity();
   } else {
-    made.force = per_torque;
+    made.force.col(0) = per_torque;
   }
   return made;
 }
@@ -82,7 +85,7 @@ Accelerations held_hub(const Accelerations& free, const Eigen::VectorXd& hub_slo
   // Torque on the hub is taken out to the last bit, not to rounding.
   return {project * free.state, Eigen::VectorXd::Zero(n),
           layout.modal_forces ? Eigen::MatrixXd(project * free.force)
-                              : Eigen::MatrixXd::Zero(n, 1).eval()};
+                              : Eigen::MatrixXd::Zero(n, layout.forces()).eval()};
 }
 
 Reading zero_reading(const Layout& layout) {
@@ -103,6 +106,12 @@ Reading reading(const ModalDynamics& arm, const Layout& layout, const Accelerati
   return made;
 }
 
+/// Time constant of the lag in a sensor's path; 0 without one.
+double lag_of(const ArmParts& parts, const arm::Sensor& sensor) {
+  const auto stage = std::ranges::find(parts.sensor_stages, sensor, &arm::SensorStage::sensor);
+  return stage == parts.sensor_stages.end() ? 0.0 : stage->lag.time_constant_s;
+}
+
 /// The system with these accelerations; `sensors` are the readings before the lag.
 LinearSystem assemble(const ModalDynamics& arm, const ArmParts& parts, const Layout& layout,
                       const Accelerations& motion, std::span<const arm::Sensor> sensors,
@@ -115,6 +124,7 @@ LinearSystem assemble(const ModalDynamics& arm, const ArmParts& parts, const Lay
   system.actuator.segment(layout.n, layout.n) = motion.actuator;
   system.force.setZero(layout.size, layout.forces());
   system.force.middleRows(layout.n, layout.n) = motion.force;
+  system.force.bottomRightCorner(layout.law_states, layout.law_states).setIdentity();
   if (layout.lagged_torque) {
     const double rate = 1.0 / parts.actuator.lag_s;
     system.a(*layout.lagged_torque, *layout.lagged_torque) = -rate;
@@ -129,9 +139,9 @@ LinearSystem assemble(const ModalDynamics& arm, const ArmParts& parts, const Lay
       values(i) = model.modes[static_cast<std::size_t>(i)].sensor_values[j];
     }
     Reading read = reading(arm, layout, motion, values, arm::derivative_order(sensors[j]));
-    if (layout.lagged_reading && sensors[j] == parts.sensor_lag->sensor) {
-      const Index w = *layout.lagged_reading;
-      const double rate = 1.0 / parts.sensor_lag->time_constant_s;
+    if (layout.lagged_readings[j]) {
+      const Index w = *layout.lagged_readings[j];
+      const double rate = 1.0 / lag_of(parts, sensors[j]);
       const double sum = read.state.cwiseAbs().sum();
       const double scale = sum > 0.0 ? sum : 1.0;
       system.a.row(w) = read.state * (rate / scale);
@@ -153,10 +163,12 @@ Layout layout_of(const arm::ModalModel& model, const ArmParts& parts,
   layout.modal_forces = modal_forces;
   layout.size = 2 * layout.n;
   if (parts.actuator.lag_s > 0.0) layout.lagged_torque = layout.size++;
-  if (parts.sensor_lag && parts.sensor_lag->time_constant_s > 0.0 &&
-      std::ranges::find(sensors, parts.sensor_lag->sensor) != sensors.end()) {
-    layout.lagged_reading = layout.size++;
+  for (const arm::Sensor& sensor : sensors) {
+    const bool is_lagged = lag_of(parts, sensor) > 0.0;
+    layout.lagged_readings.push_back(is_lagged ? std::optional(layout.size++) : std::nullopt);
   }
+  for (const auto& [effect, law] : parts.hub.smooth) layout.law_states += law.states;
+  layout.size += layout.law_states;
   return layout;
 }
 
@@ -204,7 +216,8 @@ void ModalDynamics::set_hub_angle(Eigen::VectorXd& x, double angle_rad) const {
 }
 
 ModalDynamics modal_dynamics(const arm::ModalModel& model, const ArmParts& parts,
-                             std::span<const arm::Sensor> sensors, bool modal_forces) {
+                             std::span<const arm::Sensor> sensors) {
+  const bool modal_forces = !parts.beam_forces.empty();
   require_complete(model, sensors.size());
   const Layout layout = layout_of(model, parts, sensors, modal_forces);
   ModalDynamics arm = coordinates(model, layout);
@@ -212,8 +225,14 @@ ModalDynamics modal_dynamics(const arm::ModalModel& model, const ArmParts& parts
   const Accelerations held = held_hub(turning, arm.hub_slope, layout);
   arm.turning = assemble(arm, parts, layout, turning, sensors, model);
   arm.held = assemble(arm, parts, layout, held, sensors, model);
-  arm.hub_force.setOnes(1);
-  if (modal_forces) arm.hub_force = arm.hub_slope / arm.modal_mass_kg_m2;
+  arm.first_law_state = layout.size - layout.law_states;
+  arm.law_state_count = layout.law_states;
+  arm.hub_force.setZero(layout.forces());
+  if (modal_forces) {
+    arm.hub_force.head(layout.n) = arm.hub_slope / arm.modal_mass_kg_m2;
+  } else {
+    arm.hub_force(0) = 1.0;
+  }
   arm.hub_torque = zero_reading(layout);
   if (layout.lagged_torque) {
     arm.hub_torque.state(*layout.lagged_torque) = torque_scale(arm);
@@ -227,7 +246,7 @@ ModalDynamics modal_dynamics(const arm::ModalModel& model, const ArmParts& parts
   // Torque on the hub counts to the last bit: friction holds against just its size.
   arm.reaction.actuator = arm.hub_torque.actuator;
   if (layout.lagged_torque) arm.reaction.state(*layout.lagged_torque) = torque_scale(arm);
-  if (!modal_forces) arm.reaction.force.setOnes();
+  if (!modal_forces) arm.reaction.force(0) = 1.0;
   arm.fastest_rate_rad_per_s = arm.turning.a.cwiseAbs().rowwise().sum().maxCoeff();
   return arm;
 }

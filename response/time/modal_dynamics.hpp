@@ -19,15 +19,17 @@ struct Reading {
   Eigen::RowVectorXd force;  ///< m
 };
 
-/// The arm, actuator lag and sensor lag as one linear system with the hub either turning or held,
+/// The arm, the lag of its actuator, those of its sensors and the states of laws of hub torque as
+/// one linear system with the hub either turning or held,
 ///
 ///     X' = A X + actuator u + force f,
 ///
-/// X = (sigma_i q_i; q_i'; Z; W), N entries: sigma_i = omega_i, or that of the first flexible mode
-/// where omega_i is less, makes A nearly antisymmetric; Z is the lagged torque and W the lagged
-/// readings, each scaled so that its couplings are no larger than A's other entries. u is the
-/// torque behind delay, gain and clipping; f the torques and forces that are added at the arm: m =
-/// 1, a torque on the hub [N m], or m = n modal forces [1/s^2].
+/// X = (sigma_i q_i; q_i'; Z; W; z), N entries: sigma_i = omega_i, or that of the first flexible
+/// mode where omega_i is less, makes A nearly antisymmetric; Z is the lagged torque and W the
+/// lagged readings, each scaled so that its couplings are no larger than A's other entries. u is
+/// the torque behind delay, gain and clipping; f the torques and forces that are added at the arm,
+/// a torque on the hub [N m] or n modal forces [1/s^2], and behind them the rates z' of the laws'
+/// own states: m entries.
 struct LinearSystem {
   Eigen::MatrixXd a;         ///< N x N [1/s]
   Eigen::VectorXd actuator;  ///< N
@@ -42,10 +44,12 @@ struct ModalDynamics {
   /// theta' = 0: M = 1 - b b^T/(b^T b) on the modal accelerations, b the hub slopes, takes out what
   /// the hub's reaction balances.
   LinearSystem held;
-  Reading reaction;           ///< torque of friction that holds the hub, against it [N m]
-  Reading hub_torque;         ///< T that reaches the hub, without what is in f
-  Eigen::VectorXd hub_force;  ///< f of a unit torque on the hub, m
-  Eigen::Index modes = 0;     ///< n
+  Reading reaction;                  ///< torque of friction that holds the hub, against it [N m]
+  Reading hub_torque;                ///< T that reaches the hub, without what is in f
+  Eigen::VectorXd hub_force;         ///< f of a unit torque on the hub, m
+  Eigen::Index modes = 0;            ///< n
+  Eigen::Index first_law_state = 0;  ///< where z begins in X
+  Eigen::Index law_state_count = 0;
   double modal_mass_kg_m2 = 0.0;
   Eigen::VectorXd hub_slope;            ///< n
   Eigen::VectorXd scale_rad_per_s;      ///< sigma, n
@@ -59,14 +63,18 @@ struct ModalDynamics {
     return hub_slope.dot(x.segment(modes, modes));
   }
   auto velocity(const Eigen::VectorXd& x) const { return x.segment(modes, modes); }
+  /// z, in the order of HubLaws::smooth.
+  std::span<const double> law_states(const Eigen::VectorXd& x) const {
+    return {x.data() + first_law_state, static_cast<std::size_t>(law_state_count)};
+  }
   /// Modal velocities that leave the hub at rest, and nearest to those of `x`.
   void stop_hub(Eigen::VectorXd& x) const;
   /// Modal coordinates with that hub angle, and nearest to those of `x`.
   void set_hub_angle(Eigen::VectorXd& x, double angle_rad) const;
 };
 
-/// `modal_forces`: m = n, else 1. Throws InputError for a model whose parts do not fit together.
+/// Throws InputError for a model whose parts do not fit together.
 ModalDynamics modal_dynamics(const arm::ModalModel& model, const ArmParts& parts,
-                             std::span<const arm::Sensor> sensors, bool modal_forces);
+                             std::span<const arm::Sensor> sensors);
 
 }  // namespace flexarm::response

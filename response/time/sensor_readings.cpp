@@ -1,5 +1,7 @@
 #include "response/time/sensor_readings.hpp"
 
+#include <algorithm>
+
 namespace flexarm::response {
 
 using Eigen::Index;
@@ -20,8 +22,9 @@ SensorReadings::SensorReadings(const ModalDynamics& arm, const ArmParts& parts,
                                std::span<const arm::Sensor> sensors)
     : turning_(arm.turning), held_(arm.held), now_(turning_.state.rows()) {
   for (std::size_t j = 0; j < sensors.size(); ++j) {
-    const bool is_lagged = parts.sensor_lag && parts.sensor_lag->sensor == sensors[j] &&
-                           parts.sensor_lag->time_constant_s > 0.0;
+    const bool is_lagged =
+        std::ranges::find(parts.sensor_stages, sensors[j], &arm::SensorStage::sensor) !=
+        parts.sensor_stages.end();
     if (is_lagged) continue;
     const auto row = static_cast<Index>(j);
     if (sensors[j].kind == arm::SensorKind::hub_angle) hub_angles_.push_back(row);
@@ -31,7 +34,7 @@ SensorReadings::SensorReadings(const ModalDynamics& arm, const ArmParts& parts,
 
 const Eigen::VectorXd& SensorReadings::read(const TimeStepper& stepper, double actuator_N_m) {
   const bool is_held = stepper.motion() == HubMotion::held;
-  return read(stepper.state(), stepper.force(), actuator_N_m,
+  return read(stepper.state(), stepper.force(actuator_N_m), actuator_N_m,
               is_held ? std::optional(stepper.hub_angle()) : std::nullopt);
 }
 

@@ -3,6 +3,7 @@
 #include "arm/formulation.hpp"
 #include "arm/sensor.hpp"
 #include "response/arm_parts.hpp"
+#include "response/time/propagator.hpp"
 
 #include <cstdint>
 #include <functional>
@@ -24,6 +25,10 @@ struct SimulationOptions {
   /// largest of them.
   double force_tolerance = 1e-13;
   int most_iterations = 30;  ///< for those forces; an inner step that needs more is halved
+  /// Where forces vary inner steps resolve the fastest mode; else `substeps` decide, which is
+  /// enough for fits.
+  bool resolve_every_mode = true;
+  Precision precision = Precision::extended;  ///< of e^(A dt); `working` is made ten times as fast
 };
 
 /// Where the energy went, from the first sample to the last [J]:
@@ -88,22 +93,22 @@ using SimulationProgress = std::function<bool(double fraction)>;
 
 /// Time response of an arm, at rest at the first sample, to the commanded torque's samples.
 ///
-///     q_i'' + sum_j D_ij q_j' + omega_i^2 q_i = hub_slope_i (T - F)/I_T + drag_i/I_T
+///     q_i'' + sum_j D_ij q_j' + omega_i^2 q_i = hub_slope_i (T - F)/I_T + force_i/I_T
 ///
 /// with T = torque behind the actuator, F = dry friction of the hub, and
-/// drag_i = -coefficient int |v| v phi_i dx over the stations of response/time/drag.hpp. Derived
+/// force_i = int force(v) phi_i dx over the stations of response/time/beam_forces.hpp. Derived
 /// sensors (velocity, acceleration) come from the state and the equations of motion, not from
 /// differences.
 ///
 /// Torque that is held or linear between samples, delays, lags, clipping and constant friction are
 /// stepped exactly; reversals, stops and breakaways of the hub are located on the exact solution.
-/// Speed-dependent friction, ripple and drag are solved implicitly, of order 4 in the inner step.
+/// Forces that vary with the state are solved implicitly, of order 4 in the inner step.
 ///
-/// `model` has sensor values for each of `sensors` and, where there is drag, displacements at
-/// `drag_stations(length).stations_m`. Throws InputError for torque that is empty or not finite, a
-/// sample time that is not above 0, negative parameters, a model without the values needed; for
-/// a reading or an energy that overflows; and where friction, drag or ripple would need inner steps
-/// more than kMostSubsteps times shorter than samples.
+/// `model` has sensor values for each of `sensors` and, where forces act along the beam,
+/// displacements at `beam_stations(length).stations_m`. Throws InputError for torque that is empty
+/// or not finite, a sample time that is not above 0, negative parameters, a model without the
+/// values needed; for a reading or an energy that overflows; and where friction, drag or ripple
+/// would need inner steps more than kMostSubsteps times shorter than samples.
 Simulation simulate(const arm::ModalModel& model, const ArmParts& parts,
                     std::span<const arm::Sensor> sensors, std::span<const double> torque_N_m,
                     const SimulationOptions& options = {}, const SimulationProgress& progress = {});

@@ -16,11 +16,14 @@ StepSolver::StepSolver(const ModalDynamics& arm, const AddedForces& forces, doub
       end_(arm.size()) {}
 
 /// f at the begin of a step, where forces are constant all of f; else a guess for middle and end.
-void StepSolver::begin(const Eigen::VectorXd& x, HubMotion motion, double u0, double u1,
+void StepSolver::begin(const Eigen::VectorXd& x, HubMotion motion, const StepSpan& span,
                        bool follows) {
-  inputs_.u0 = u0;
-  inputs_.u1 = u1;
-  const double torque = forces_->hub_torque(x, motion).torque_N_m;
+  inputs_.u0 = span.u0;
+  inputs_.u1 = span.u1;
+  inputs_.begin_s = span.begin_s;
+  inputs_.length_s = span.length_s;
+  const ArmInstant now{x, span.u0, span.begin_s};
+  const double torque = forces_->hub_torque(now, motion).torque_N_m;
   if (!forces_->vary()) {
     inputs_.f0.setConstant(1, torque);
     inputs_.fm.setConstant(1, torque);
@@ -28,7 +31,7 @@ void StepSolver::begin(const Eigen::VectorXd& x, HubMotion motion, double u0, do
     return;
   }
   if (!follows) {
-    inputs_.f0 = forces_->force(x, torque);
+    inputs_.f0 = forces_->force(now, torque);
     inputs_.fm = inputs_.f0;
     inputs_.f1 = inputs_.f0;
     hub_torques_.fill(torque);
@@ -42,21 +45,21 @@ void StepSolver::begin(const Eigen::VectorXd& x, HubMotion motion, double u0, do
   };
   go_on(inputs_.f0, inputs_.fm, inputs_.f1);
   go_on(hub_torques_[0], hub_torques_[1], hub_torques_[2]);
-  inputs_.f0 = forces_->force(x, torque);
+  inputs_.f0 = forces_->force(now, torque);
   hub_torques_[0] = torque;
 }
 
 bool StepSolver::solve(const StepTable& table, const Eigen::VectorXd& x, HubMotion motion,
-                       double length_s, double u0, double u1) {
-  begin(x, motion, u0, u1, motion == last_motion_ && length_s == last_length_s_);
+                       const StepSpan& span) {
+  begin(x, motion, span, motion == last_motion_ && span.length_s == last_length_s_);
   if (!forces_->vary()) {
     end_.noalias() = table.end.state * x;
-    end_ += table.end.actuator_begin * u0 + table.end.actuator_end * u1 +
+    end_ += table.end.actuator_begin * span.u0 + table.end.actuator_end * span.u1 +
             table.constant * inputs_.f0(0);
     return true;
   }
   const auto known = [&](const Propagator& to) -> Eigen::VectorXd {
-    return to.state * x + to.actuator_begin * u0 + to.actuator_end * u1 +
+    return to.state * x + to.actuator_begin * span.u0 + to.actuator_end * span.u1 +
            to.force_begin * inputs_.f0;
   };
   const Eigen::VectorXd known_middle = known(table.middle);
@@ -68,28 +71,27 @@ bool StepSolver::solve(const StepTable& table, const Eigen::VectorXd& x, HubMoti
     end_ = known_end;
     end_ += table.end.force_middle * inputs_.fm + table.end.force_end * inputs_.f1;
     iterations_ = std::max(iterations_, iteration);
-    if (!improve(middle_, end_, motion, length_s)) continue;
+    if (!improve(middle_, end_, motion)) continue;
     if (!is_resolved(x, end_, motion)) return false;
     last_motion_ = motion;
-    last_length_s_ = length_s;
+    last_length_s_ = span.length_s;
     return true;
   }
   return false;
 }
 
-bool StepSolver::solve_by_series(const Eigen::VectorXd& x, HubMotion motion, double length_s,
-                                 double u0, double u1) {
-  begin(x, motion, u0, u1, false);
+bool StepSolver::solve_by_series(const Eigen::VectorXd& x, HubMotion motion, const StepSpan& span) {
+  begin(x, motion, span, false);
   last_length_s_ = 0.0;
   if (!forces_->vary()) {
-    expand(x, motion, length_s);
+    expand(x, motion);
     return true;
   }
   for (int iteration = 1; iteration <= allowed_iterations_; ++iteration) {
-    expand(x, motion, length_s);
+    expand(x, motion);
     iterations_ = std::max(iterations_, iteration);
     const Eigen::VectorXd end = series_.at(1.0);
-    if (improve(series_.at(0.5), end, motion, length_s)) return is_resolved(x, end, motion);
+    if (improve(series_.at(0.5), end, motion)) return is_resolved(x, end, motion);
   }
   return false;
 }
@@ -99,11 +101,13 @@ bool StepSolver::solve_by_series(const Eigen::VectorXd& x, HubMotion motion, dou
 ///
 ///     d theta'(1/2) = mu dt (dNm/3 - dN1/24),   d theta'(1) = mu dt (2 dNm/3 + dN1/6).
 bool StepSolver::improve(const Eigen::VectorXd& middle, const Eigen::VectorXd& end,
-                         HubMotion motion, double length_s) {
-  const auto hub_middle = forces_->hub_torque(middle, motion);
-  const auto hub_end = forces_->hub_torque(end, motion);
-  const Eigen::VectorXd fm = forces_->force(middle, hub_middle.torque_N_m);
-  const Eigen::VectorXd f1 = forces_->force(end, hub_end.torque_N_m);
+                         HubMotion motion) {
+  const ArmInstant at_middle{middle, inputs_.torque(0.5), inputs_.time(0.5)};
+  const ArmInstant at_end{end, inputs_.u1, inputs_.time(1.0)};
+  const auto hub_middle = forces_->hub_torque(at_middle, motion);
+  const auto hub_end = forces_->hub_torque(at_end, motion);
+  const Eigen::VectorXd fm = forces_->force(at_middle, hub_middle.torque_N_m);
+  const Eigen::VectorXd f1 = forces_->force(at_end, hub_end.torque_N_m);
   const auto largest = [](const Eigen::VectorXd& v) { return v.cwiseAbs().maxCoeff(); };
   const double change = std::max(largest(fm - inputs_.fm), largest(f1 - inputs_.f1));
   const double size = std::max({largest(inputs_.f0), largest(fm), largest(f1)});
@@ -111,7 +115,7 @@ bool StepSolver::improve(const Eigen::VectorXd& middle, const Eigen::VectorXd& e
 
   const double rm = hub_middle.torque_N_m - hub_torques_[1];
   const double r1 = hub_end.torque_N_m - hub_torques_[2];
-  const double mu_dt = length_s * arm_->hub_slope.squaredNorm() / arm_->modal_mass_kg_m2;
+  const double mu_dt = inputs_.length_s * arm_->hub_slope.squaredNorm() / arm_->modal_mass_kg_m2;
   const double jm = mu_dt * hub_middle.per_velocity_N_m_s;
   const double j1 = mu_dt * hub_end.per_velocity_N_m_s;
   const double a = 1.0 - jm / 3.0;
@@ -128,27 +132,28 @@ bool StepSolver::improve(const Eigen::VectorXd& middle, const Eigen::VectorXd& e
   return false;
 }
 
-/// Friction that falls with speed is a parabola over a step only where the speed changes by a part
-/// of the speed over which it falls.
+/// Friction that changes with speed is a parabola over a step only where the speed changes by a
+/// part of the speed over which friction changes, or where friction no longer changes.
 bool StepSolver::is_resolved(const Eigen::VectorXd& begin, const Eigen::VectorXd& end,
                              HubMotion motion) const {
-  constexpr double kFallen = 3.0;  // exp(-9): nothing of the static part is left
   constexpr double kLargestChange = 0.25;
-  if (direction(motion) == 0.0 || !forces_->friction_falls()) return true;
-  const double scale = forces_->falling_velocity_rad_per_s();
+  constexpr double kFlat = 1e-3;  // change over one scale of speed, relative to breakaway
+  const double scale = forces_->friction_scale_rad_per_s();
+  if (direction(motion) == 0.0 || !std::isfinite(scale)) return true;
   const double v0 = arm_->hub_velocity(begin);
   const double v1 = arm_->hub_velocity(end);
-  return std::min(std::abs(v0), std::abs(v1)) > kFallen * scale ||
-         std::abs(v1 - v0) <= kLargestChange * scale;
+  if (std::abs(v1 - v0) <= kLargestChange * scale) return true;
+  const auto slowest = forces_->friction_at(std::min(std::abs(v0), std::abs(v1)));
+  return std::abs(slowest.per_speed_N_m_s) * scale <= kFlat * forces_->breakaway_N_m();
 }
 
-void StepSolver::expand(const Eigen::VectorXd& x, HubMotion motion, double length_s) {
+void StepSolver::expand(const Eigen::VectorXd& x, HubMotion motion) {
   const LinearSystem& system = motion == HubMotion::held ? arm_->held : arm_->turning;
   const std::array<Eigen::VectorXd, 3> inputs = {
       system.actuator * inputs_.u0 + system.force * inputs_.f0,
       system.actuator * (inputs_.u1 - inputs_.u0) + system.force * inputs_.force_slope(),
       system.force * inputs_.force_square()};
-  series_.compute(system.a, length_s, x, inputs);
+  series_.compute(system.a, inputs_.length_s, x, inputs);
 }
 
 }  // namespace flexarm::response

@@ -11,13 +11,20 @@
 
 namespace flexarm::response {
 
+/// When an inner step is, and the actuator's torque at its ends.
+struct StepSpan {
+  double begin_s = 0.0;
+  double length_s = 0.0;
+  double u0 = 0.0;
+  double u1 = 0.0;
+};
+
 /// Solves one inner step, the hub moving one way all the time.
 ///
 /// Constant forces: exactly. Varying forces f(X): by exponential collocation. f is the parabola
 /// through its values at begin, middle and end of the step (Lobatto's points), X(r) the exact
 /// solution for that parabola; of order 4 in the step. Unknown are f at middle and end; friction is
-/// iterated by Newton's method with the mobility of the hub alone, drag and ripple, which are soft,
-/// by substitution.
+/// iterated by Newton's method with the mobility of the hub alone, what is soft, by substitution.
 class StepSolver {
  public:
   /// `arm` and `forces` must outlive the object. An iteration has converged when no force changes
@@ -27,13 +34,12 @@ class StepSolver {
 
   /// A step from `x` of the table's length; false where forces do not converge, or friction falls
   /// too much over it: halve it then. Leaves end() and inputs(), not series().
-  bool solve(const StepTable& table, const Eigen::VectorXd& x, HubMotion motion, double length_s,
-             double u0, double u1);
+  bool solve(const StepTable& table, const Eigen::VectorXd& x, HubMotion motion,
+             const StepSpan& span);
   /// A step of any length. Leaves series() and inputs(), not end().
-  bool solve_by_series(const Eigen::VectorXd& x, HubMotion motion, double length_s, double u0,
-                       double u1);
+  bool solve_by_series(const Eigen::VectorXd& x, HubMotion motion, const StepSpan& span);
   /// Forms series() for the step that `solve` has solved.
-  void expand(const Eigen::VectorXd& x, HubMotion motion, double length_s);
+  void expand(const Eigen::VectorXd& x, HubMotion motion);
 
   const Eigen::VectorXd& end() const { return end_; }
   const Expansion& series() const { return series_; }
@@ -41,11 +47,10 @@ class StepSolver {
   int most_iterations() const { return iterations_; }
 
  private:
-  void begin(const Eigen::VectorXd& x, HubMotion motion, double u0, double u1, bool follows);
+  void begin(const Eigen::VectorXd& x, HubMotion motion, const StepSpan& span, bool follows);
   bool is_resolved(const Eigen::VectorXd& begin, const Eigen::VectorXd& end,
                    HubMotion motion) const;
-  bool improve(const Eigen::VectorXd& middle, const Eigen::VectorXd& end, HubMotion motion,
-               double length_s);
+  bool improve(const Eigen::VectorXd& middle, const Eigen::VectorXd& end, HubMotion motion);
 
   const ModalDynamics* arm_;
   const AddedForces* forces_;

@@ -1,5 +1,7 @@
 #include "response/time/step_table.hpp"
 
+#include <unsupported/Eigen/MatrixFunctions>
+
 #include <algorithm>
 #include <cmath>
 
@@ -7,10 +9,12 @@ namespace flexarm::response {
 
 namespace {
 
-/// e^(|A| dt) by its series: every term is positive, so nothing cancels.
-Eigen::MatrixXd growth(const Eigen::MatrixXd& a, double step_s) {
-  const Eigen::MatrixXd size = a.cwiseAbs() * step_s;
-  Eigen::MatrixXd term = Eigen::MatrixXd::Identity(a.rows(), a.cols());
+using Eigen::Index;
+
+/// e^|G| by its series: every term is positive, so nothing cancels.
+Eigen::MatrixXd growth(const Eigen::MatrixXd& g) {
+  const Eigen::MatrixXd size = g.cwiseAbs();
+  Eigen::MatrixXd term = Eigen::MatrixXd::Identity(g.rows(), g.cols());
   Eigen::MatrixXd sum = term;
   for (int k = 1; term.maxCoeff() > 1e-17 * sum.maxCoeff(); ++k) {
     term = (term * size / k).eval();
@@ -19,43 +23,69 @@ Eigen::MatrixXd growth(const Eigen::MatrixXd& a, double step_s) {
   return sum;
 }
 
+/// Z(0) in the units of r = t/dt.
+Eigen::VectorXd extended(const Eigen::VectorXd& x0, const StepInputs& inputs, Index size) {
+  const Index n = x0.size();
+  const Index m = (size - n - 2) / 3;
+  Eigen::VectorXd z = Eigen::VectorXd::Zero(size);
+  z.head(n) = x0;
+  z(n) = inputs.u0;
+  z(n + 1) = inputs.u1 - inputs.u0;
+  z.segment(n + 2, inputs.f0.size()) = inputs.f0;
+  z.segment(n + 2 + m, inputs.f0.size()) = inputs.force_slope();
+  z.segment(n + 2 + 2 * m, inputs.f0.size()) = 2.0 * inputs.force_square();
+  return z;
+}
+
 }  // namespace
 
-SagBound::SagBound(const LinearSystem& system, const Reading& reading, double step_s) {
-  const double h = step_s;
-  const Eigen::RowVectorXd ca = reading.state * system.a;
-  const Eigen::RowVectorXd caa = (ca * system.a).cwiseAbs() * growth(system.a, h);
-  const double factor = h * h / 8.0;
-  by_state_ = factor * caa.transpose();
-  by_torque_ =
-      factor * (h * caa.dot(system.actuator.cwiseAbs()) + std::abs(ca.dot(system.actuator)));
-  by_torque_change_ = h / 8.0 * std::abs(reading.state.dot(system.actuator));
-  by_force_ =
-      factor * (h * caa * system.force.cwiseAbs() + (ca * system.force).cwiseAbs()).transpose();
-  by_force_slope_ = h / 8.0 * (reading.state * system.force).cwiseAbs().transpose();
-  by_force_curvature_ = 0.125 * reading.force.cwiseAbs().transpose();
+WatchBound::WatchBound(const LinearSystem& system, const Reading& reading, double step_s,
+                       int parts) {
+  const Index n = system.a.rows();
+  const Index m = system.force.cols();
+  const Index size = n + 2 + 3 * m;
+  // Per unit of r over the whole step, then of one part.
+  Eigen::MatrixXd g = Eigen::MatrixXd::Zero(size, size);
+  g.topLeftCorner(n, n) = system.a * step_s;
+  g.col(n).head(n) = system.actuator * step_s;
+  g.block(0, n + 2, n, m) = system.force * step_s;
+  g(n, n + 1) = 1.0;
+  g.block(n + 2, n + 2 + m, m, m).setIdentity();
+  g.block(n + 2 + m, n + 2 + 2 * m, m, m).setIdentity();
+  Eigen::RowVectorXd c = Eigen::RowVectorXd::Zero(size);
+  c.head(n) = reading.state;
+  c(n) = reading.actuator;
+  c.segment(n + 2, m) = reading.force;
+  g /= parts;
+  const Eigen::RowVectorXd bound = ((c * g) * g).cwiseAbs() * growth(g) / 8.0;
+  const Eigen::MatrixXd over = g.exp();
+  values_.resize(parts + 1, size);
+  sags_.resize(parts, size);
+  Eigen::MatrixXd power = Eigen::MatrixXd::Identity(size, size);
+  for (Index k = 0; k < parts; ++k) {
+    values_.row(k) = c * power;
+    sags_.row(k) = bound * power.cwiseAbs();
+    power = (over * power).eval();
+  }
+  values_.row(parts) = c * power;
 }
 
-double SagBound::operator()(const Eigen::VectorXd& x0, const StepInputs& inputs) const {
-  // A parabola through three values within +-F stays within 5/4 F; its slope is largest at an end.
-  const Eigen::VectorXd force =
-      1.25 * inputs.f0.cwiseAbs().cwiseMax(inputs.fm.cwiseAbs()).cwiseMax(inputs.f1.cwiseAbs());
-  const Eigen::VectorXd curvature = 2.0 * inputs.force_square();
-  const Eigen::VectorXd begin = inputs.force_slope();
-  const Eigen::VectorXd slope = begin.cwiseAbs().cwiseMax((begin + curvature).cwiseAbs());
-  return by_state_.dot(x0.cwiseAbs()) +
-         by_torque_ * std::max(std::abs(inputs.u0), std::abs(inputs.u1)) +
-         by_torque_change_ * std::abs(inputs.u1 - inputs.u0) + by_force_.dot(force) +
-         by_force_slope_.dot(slope) + by_force_curvature_.dot(curvature.cwiseAbs());
+bool WatchBound::stays_above(double least, double sign, const Eigen::VectorXd& x0,
+                             const StepInputs& inputs) const {
+  const Eigen::VectorXd z = extended(x0, inputs, values_.cols());
+  const Eigen::ArrayXd values = sign * (values_ * z).array();
+  const Eigen::ArrayXd sags = (sags_ * z.cwiseAbs()).array();
+  const Index parts = sags.size();
+  return (values.head(parts).min(values.tail(parts)) - sags > least).all();
 }
 
-StepTable step_table(const LinearSystem& system, const Reading* watched, double step_s,
-                     bool forces_vary) {
+StepTable step_table(const LinearSystem& system, const Reading* watched, double step_s, int parts,
+                     bool forces_vary, Precision precision) {
   StepTable table;
-  table.end = propagator(system, step_s);
-  if (forces_vary) table.middle = propagator(system, step_s, 0.5);
+  table.end = propagator(system, step_s, 1.0, precision);
+  if (forces_vary) table.middle = propagator(system, step_s, 0.5, precision);
   table.constant = table.end.constant_force().col(0);
-  if (watched != nullptr) table.sag = SagBound(system, *watched, step_s);
+  if (watched != nullptr) table.watched = WatchBound(system, *watched, step_s, parts);
   return table;
 }
 

@@ -13,42 +13,41 @@ namespace flexarm::response {
 struct StepInputs {
   double u0 = 0.0;
   double u1 = 0.0;
+  double begin_s = 0.0;
+  double length_s = 0.0;
   Eigen::VectorXd f0;
   Eigen::VectorXd fm;
   Eigen::VectorXd f1;
 
   double torque(double r) const { return u0 + r * (u1 - u0); }
+  double time(double r) const { return begin_s + r * length_s; }
   Eigen::VectorXd force_slope() const { return -3.0 * f0 + 4.0 * fm - f1; }    ///< at r = 0
   Eigen::VectorXd force_square() const { return 2.0 * (f0 - 2.0 * fm + f1); }  ///< of r^2
 };
 
-/// How far a reading y = c X + d f + e u can leave the straight line between its values at both
-/// ends of a step: M dt^2/8 with M >= |y''|. From
+/// Bounds of a reading y = c X + e u + d f over a step, from its values at the ends of `parts`
+/// equal parts of it. On one of length h from t_k
 ///
-///     y'' = c A^2 X + c A B u + c B u' + d f'',   |X| <= e^(|A| dt) (|X(0)| + dt |B| |u|)
+///     y >= min(y(t_k), y(t_k + h)) - M h^2/8,   M >= |y''|.
 ///
-/// entry by entry, u with the forces f in it.
-class SagBound {
+/// With Z = (X; u0; u1 - u0; f0; f', f'') and Z' = G Z, y = c Z, entry by entry
+///
+///     |y''| <= |c G^2| e^(|G| h) |e^(G t_k)| |Z(0)|,
+///
+/// so that values and bounds are rows that multiply Z(0) and |Z(0)|.
+class WatchBound {
  public:
-  SagBound() = default;
-  SagBound(const LinearSystem& system, const Reading& reading, double step_s);
+  WatchBound() = default;
+  WatchBound(const LinearSystem& system, const Reading& reading, double step_s, int parts);
 
-  /// For torque within +-|torque| that changes by `torque_change`, and a constant force on the hub
-  /// (m = 1).
-  double of_constant(const Eigen::VectorXd& x0, double torque, double torque_change,
-                     double force) const {
-    return by_state_.dot(x0.cwiseAbs()) + by_torque_ * torque + by_torque_change_ * torque_change +
-           by_force_(0) * force;
-  }
-  double operator()(const Eigen::VectorXd& x0, const StepInputs& inputs) const;
+  int parts() const { return static_cast<int>(sags_.rows()); }
+  /// The reading stays above `least` for the whole step; of -reading with `sign` -1.
+  bool stays_above(double least, double sign, const Eigen::VectorXd& x0,
+                   const StepInputs& inputs) const;
 
  private:
-  Eigen::VectorXd by_state_;
-  double by_torque_ = 0.0;
-  double by_torque_change_ = 0.0;
-  Eigen::VectorXd by_force_;
-  Eigen::VectorXd by_force_slope_;
-  Eigen::VectorXd by_force_curvature_;
+  Eigen::MatrixXd values_;  ///< parts + 1 rows
+  Eigen::MatrixXd sags_;    ///< parts rows
 };
 
 /// Everything that is computed once for steps of one length with the hub turning or held.
@@ -56,11 +55,11 @@ struct StepTable {
   Propagator end;
   Propagator middle;         ///< only where forces vary
   Eigen::VectorXd constant;  ///< X(end) per unit of a constant torque on the hub, m = 1
-  SagBound sag;              ///< of the reading that is watched
+  WatchBound watched;
 };
 
-/// `watched` may be null: its bound grows as e^(|A| dt), and is not for stiff steps.
-StepTable step_table(const LinearSystem& system, const Reading* watched, double step_s,
-                     bool forces_vary);
+/// `watched` may be null: its bound grows as e^(|A| dt/parts), and is not for stiff steps.
+StepTable step_table(const LinearSystem& system, const Reading* watched, double step_s, int parts,
+                     bool forces_vary, Precision precision);
 
 }  // namespace flexarm::response

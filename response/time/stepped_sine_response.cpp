@@ -206,17 +206,17 @@ SteppedSineResponse measure_stepped_sine(const arm::ModalModel& model, const Arm
                                          const SteppedSine& sine, const SteppedSineOptions& options,
                                          const SimulationProgress& progress) {
   const std::vector<double> frequencies = frequencies_Hz(sine);
-  const bool has_drag = parts.quadratic_drag_N_s2_per_m3 > 0.0;
-  const ModalDynamics arm = modal_dynamics(model, parts, sensors, has_drag);
+  const ModalDynamics arm = modal_dynamics(model, parts, sensors);
   require_valid(parts, sensors, sine, options, arm);
-  const bool is_linear = parts.friction.is_zero() && !has_drag && !parts.actuator.ripple;
+  const bool is_linear =
+      parts.hub.friction.empty() && parts.hub.smooth.empty() && parts.beam_forces.empty();
   // Wherever it stands the arm is the same: an angle that has grown costs digits.
-  const bool turns_freely = arm.stiffness(0) == 0.0 && !parts.actuator.ripple;
+  const bool turns_freely = arm.stiffness(0) == 0.0 && parts.hub.smooth.empty();
   Measuring measuring(sensors, sine, options);
   auto& summary = measuring.made().summary;
   summary.least_samples_per_period = kMostSamples;
   Eigen::VectorXd state = Eigen::VectorXd::Zero(arm.size());
-  bool is_held = !parts.friction.is_zero();
+  bool is_held = !parts.hub.friction.empty();
   for (std::size_t k = 0; k < frequencies.size() && summary.completed; ++k) {
     const SineDrive torque{sine.amplitude_N_m, sine.offset_N_m, frequencies[k]};
     const bool has_harmonics = !is_linear || clips(parts.actuator, torque);

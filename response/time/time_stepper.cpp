@@ -1,6 +1,5 @@
 #include "response/time/time_stepper.hpp"
 
-#include "arm/input_error.hpp"
 #include "response/time/first_crossing.hpp"
 
 #include <fmt/format.h>
@@ -14,11 +13,6 @@ namespace flexarm::response {
 
 namespace {
 
-/// |A| dt of an inner step: with 1, the power series has some 20 terms and loses no digit, and no
-/// mode turns by more than 1 rad between two looks at the hub.
-constexpr double kLargestPhase_rad = 1.0;
-/// The same where forces vary: the error of the parabola is then 16 times less.
-constexpr double kLargestPhaseVarying_rad = 0.5;
 /// Events within the same kInstant of an inner step before the hub is held.
 constexpr int kMostEventsAtOnce = 20;
 constexpr double kInstant = 1e-9;
@@ -35,10 +29,10 @@ HubMotion turning_like(double torque) {
   return torque > 0.0 ? HubMotion::forward : HubMotion::backward;
 }
 
-/// Behind step `i` of `count` of a piece.
-double torque_behind(int i, int count, const TorquePiece& piece) {
-  if (i == count) return piece.end_N_m;
-  return piece.begin_N_m + (piece.end_N_m - piece.begin_N_m) * i / count;
+/// Behind step `i` of `count` of a torque that goes straight from `u0` to `u1`.
+double torque_behind(int i, int count, double u0, double u1) {
+  if (i == count) return u1;
+  return u0 + (u1 - u0) * i / count;
 }
 
 std::span<const double> as_span(const Eigen::RowVectorXd& series) {
@@ -47,90 +41,49 @@ std::span<const double> as_span(const Eigen::RowVectorXd& series) {
 
 }  // namespace
 
-TimeStepper::TimeStepper(const ModalDynamics& arm, const AddedForces& forces, bool has_friction,
-                         const TorquePath& path, const SimulationOptions& options,
-                         EnergyLedger* ledger)
-    : arm_(&arm),
-      forces_(&forces),
-      options_(options),
+TimeStepper::TimeStepper(const StepPlan& plan, EnergyLedger* ledger)
+    : plan_(&plan),
+      arm_(&plan.arm()),
+      forces_(&plan.forces()),
       ledger_(ledger),
-      has_friction_(has_friction),
-      is_linear_(!has_friction && !forces.vary()),
-      x_(Eigen::VectorXd::Zero(arm.size())),
-      motion_(has_friction ? HubMotion::held : HubMotion::frictionless),
-      breakaway_N_m_(forces.breakaway_N_m()),
-      solver_(arm, forces, options.force_tolerance, options.most_iterations) {
-  const double h = options.sample_time_s;
-  const double phi = path.delay_fraction();
-  velocity_row_.setZero(arm.size());
-  velocity_row_.segment(arm.modes, arm.modes) = arm.hub_slope.transpose();
-  summary_.substeps = substeps(h);
-  if (phi == 0.0) {
-    regular_[0] = steps(h);
-  } else {
-    regular_[1] = steps(phi * h);
-    regular_[2] = steps((1.0 - phi) * h);
-  }
-}
-
-int TimeStepper::substeps(double length_s) const {
-  const double h = options_.sample_time_s;
-  double count = std::ceil(options_.substeps * length_s / h - 1e-9);
-  if (!is_linear_) {
-    const double phase = forces_->vary() ? kLargestPhaseVarying_rad : kLargestPhase_rad;
-    count = std::max(count, std::ceil(arm_->fastest_rate_rad_per_s * length_s / phase));
-  }
-  if (!(count <= kMostSubsteps)) {
-    throw arm::InputError(fmt::format(
-        "effects.{}: needs {:g} inner steps a sample of {} s for an arm with a rate of "
-        "{:g} rad/s; must be {} or fewer: damp the arm less, or sample it faster",
-        forces_->effect_in_steps(), count, h, arm_->fastest_rate_rad_per_s, kMostSubsteps));
-  }
-  return std::max(1, static_cast<int>(count));
-}
-
-TimeStepper::Steps TimeStepper::steps(double length_s) const {
-  Steps made;
-  made.count = substeps(length_s);
-  made.length_s = length_s / made.count;
-  const Reading speed = {velocity_row_, 0.0, Eigen::RowVectorXd::Zero(arm_->turning.force.cols())};
-  made.turning =
-      step_table(arm_->turning, has_friction_ ? &speed : nullptr, made.length_s, forces_->vary());
-  if (has_friction_) {
-    made.held = step_table(arm_->held, &arm_->reaction, made.length_s, forces_->vary());
-  }
-  if (is_linear_ && ledger_ != nullptr) made.energy = ledger_->step_energy(made.length_s);
-  return made;
+      x_(Eigen::VectorXd::Zero(plan.arm().size())),
+      motion_(plan.forces().has_friction() ? HubMotion::held : HubMotion::frictionless),
+      breakaway_N_m_(plan.forces().breakaway_N_m()),
+      solver_(plan.arm(), plan.forces(), plan.options().force_tolerance,
+              plan.options().most_iterations) {
+  summary_.substeps = plan.substeps(plan.options().sample_time_s);
 }
 
 double TimeStepper::hub_angle() const {
   return motion_ == HubMotion::held ? held_angle_rad_ : arm_->hub_angle(x_);
 }
 
-Eigen::VectorXd TimeStepper::force() const {
-  return forces_->force(x_, forces_->hub_torque(x_, motion_).torque_N_m);
+Eigen::VectorXd TimeStepper::force(double actuator_N_m) const {
+  const ArmInstant now{x_, actuator_N_m, time_s_};
+  return forces_->force(now, forces_->hub_torque(now, motion_).torque_N_m);
 }
 
 double TimeStepper::hub_torque_N_m(double actuator_N_m) const {
   return arm_->hub_torque.state.dot(x_) + arm_->hub_torque.actuator * actuator_N_m +
-         forces_->offset_N_m(hub_angle());
+         forces_->smooth_torque({x_, actuator_N_m, time_s_}).torque_N_m;
 }
 
-double TimeStepper::reaction(const Eigen::VectorXd& x, double u) const {
-  const Eigen::VectorXd f = forces_->force(x, forces_->offset_N_m(arm_->hub_angle(x)));
+double TimeStepper::reaction(const Eigen::VectorXd& x, double u, double time_s) const {
+  const ArmInstant now{x, u, time_s};
+  const Eigen::VectorXd f = forces_->force(now, forces_->smooth_torque(now).torque_N_m);
   return arm_->reaction.state.dot(x) + arm_->reaction.actuator * u + arm_->reaction.force.dot(f);
 }
 
 void TimeStepper::take_up(double torque_N_m, double now_s) {
   time_s_ = now_s;
-  if (has_friction_ && start_ != Start::inside && torque_N_m != last_torque_N_m_) {
+  if (forces_->has_friction() && start_ != Start::inside && torque_N_m != last_torque_N_m_) {
     // It came to a turn at this very instant: what the torque was to do then no longer counts.
     motion_ = HubMotion::held;
     held_angle_rad_ = arm_->hub_angle(x_);
     start_ = Start::inside;
   }
   if (motion_ != HubMotion::held) return;
-  const double needed = reaction(x_, torque_N_m);
+  const double needed = reaction(x_, torque_N_m, time_s_);
   if (std::abs(needed) <= breakaway_N_m_) return;
   motion_ = turning_like(needed);
   start_ = Start::hub_speed_zero;
@@ -142,7 +95,7 @@ void TimeStepper::put(const Eigen::VectorXd& state, bool held) {
   x_ = state;
   start_ = Start::inside;
   events_at_once_ = 0;
-  if (!has_friction_) return;
+  if (!forces_->has_friction()) return;
   const double speed = arm_->hub_velocity(x_);
   if (held || speed == 0.0) {
     motion_ = HubMotion::held;
@@ -157,29 +110,29 @@ void TimeStepper::advance(const TorquePiece& piece, double now_s) {
   time_s_ = now_s;
   last_torque_N_m_ = piece.end_N_m;
   if (piece.length != TorquePiece::Length::other) {
-    advance_in(regular_[static_cast<std::size_t>(piece.length)], piece);
+    advance_in(plan_->regular(piece.length), piece.begin_N_m, piece.end_N_m);
     return;
   }
-  const double length_s = (piece.end - piece.begin) * options_.sample_time_s;
-  const double least = std::ceil(arm_->fastest_rate_rad_per_s * length_s / kLargestPhase_rad);
-  if (is_linear_ && least > kMostSeriesSteps) {
-    advance_in(steps(length_s), piece);
+  const double length_s = (piece.end - piece.begin) * plan_->options().sample_time_s;
+  const double least = std::ceil(plan_->phase_rad(length_s) / kLargestPhase_rad);
+  if (plan_->is_linear() && least > kMostSeriesSteps) {
+    advance_in(plan_->steps(length_s), piece.begin_N_m, piece.end_N_m);
     return;
   }
-  const int count = std::max(substeps(length_s), static_cast<int>(least));
+  const int count = std::max(plan_->substeps(length_s), static_cast<int>(least));
   double u0 = piece.begin_N_m;
   for (int i = 1; i <= count; ++i) {
-    const double u1 = torque_behind(i, count, piece);
+    const double u1 = torque_behind(i, count, piece.begin_N_m, piece.end_N_m);
     free_step(length_s / count, u0, u1, 0);
     u0 = u1;
   }
 }
 
-void TimeStepper::advance_in(const Steps& steps, const TorquePiece& piece) {
-  double u0 = piece.begin_N_m;
+void TimeStepper::advance_in(const Steps& steps, double begin_N_m, double end_N_m) {
+  double u0 = begin_N_m;
   for (int i = 1; i <= steps.count; ++i) {
-    const double u1 = torque_behind(i, steps.count, piece);
-    if (is_linear_) {
+    const double u1 = torque_behind(i, steps.count, begin_N_m, end_N_m);
+    if (plan_->is_linear()) {
       linear_step(steps, u0, u1);
     } else {
       step(steps, u0, u1);
@@ -189,20 +142,25 @@ void TimeStepper::advance_in(const Steps& steps, const TorquePiece& piece) {
 }
 
 void TimeStepper::linear_step(const Steps& steps, double u0, double u1) {
-  solver_.solve(steps.turning, x_, motion_, steps.length_s, u0, u1);
+  solver_.solve(steps.turning, x_, motion_, {time_s_, steps.length_s, u0, u1});
   if (steps.energy) ledger_->add((*steps.energy)(x_, u0, u1, solver_.inputs().f0(0)));
   finish(solver_.end(), steps.length_s);
 }
 
 void TimeStepper::step(const Steps& steps, double u0, double u1) {
   const StepTable& table = motion_ == HubMotion::held ? steps.held : steps.turning;
-  if (!solver_.solve(table, x_, motion_, steps.length_s, u0, u1)) {
+  const bool is_solved = solver_.solve(table, x_, motion_, {time_s_, steps.length_s, u0, u1});
+  const bool may_happen = is_solved && forces_->has_friction() && !is_quiet(table);
+  if (steps.shorter && (!is_solved || may_happen)) {
+    advance_in(*steps.shorter, u0, u1);
+    return;
+  }
+  if (!is_solved) {
     halve(steps.length_s, u0, u1, 0);
     return;
   }
-  const bool may_happen = has_friction_ && !is_quiet(table, solver_.end());
   if (may_happen || ledger_ != nullptr) {
-    solver_.expand(x_, motion_, steps.length_s);
+    solver_.expand(x_, motion_);
     const std::optional<double> event = may_happen ? next_event() : std::nullopt;
     book(event.value_or(1.0));
     if (event) {
@@ -216,13 +174,14 @@ void TimeStepper::step(const Steps& steps, double u0, double u1) {
 }
 
 void TimeStepper::free_step(double length_s, double u0, double u1, int halvings) {
-  while (length_s > kNothingLeft * options_.sample_time_s) {
-    if (!solver_.solve_by_series(x_, motion_, length_s, u0, u1)) {
+  while (length_s > kNothingLeft * plan_->options().sample_time_s) {
+    if (!solver_.solve_by_series(x_, motion_, {time_s_, length_s, u0, u1})) {
       halve(length_s, u0, u1, halvings);
       return;
     }
     const bool is_forced = events_at_once_ > kMostEventsAtOnce;
-    const std::optional<double> event = has_friction_ && !is_forced ? next_event() : std::nullopt;
+    const std::optional<double> event =
+        forces_->has_friction() && !is_forced ? next_event() : std::nullopt;
     book(event.value_or(1.0));
     if (!event) {
       if (is_forced) ++summary_.forced_rests;
@@ -251,25 +210,20 @@ void TimeStepper::halve(double length_s, double u0, double u1, int halvings) {
   free_step(0.5 * length_s, between, u1, halvings + 1);
 }
 
-bool TimeStepper::is_quiet(const StepTable& table, const Eigen::VectorXd& end) const {
+bool TimeStepper::is_quiet(const StepTable& table) const {
   if (start_ != Start::inside) return false;
   const StepInputs& inputs = solver_.inputs();
-  const double sag = forces_->vary() ? table.sag(x_, inputs)
-                                     : table.sag.of_constant(
-                                           x_, std::max(std::abs(inputs.u0), std::abs(inputs.u1)),
-                                           std::abs(inputs.u1 - inputs.u0), std::abs(inputs.f0(0)));
   if (motion_ == HubMotion::held) {
-    const double most =
-        std::max(std::abs(reaction(x_, inputs.u0)), std::abs(reaction(end, inputs.u1)));
-    return most + sag < breakaway_N_m_;
+    return table.watched.stays_above(-breakaway_N_m_, 1.0, x_, inputs) &&
+           table.watched.stays_above(-breakaway_N_m_, -1.0, x_, inputs);
   }
-  const double sign = direction(motion_);
-  return std::min(sign * arm_->hub_velocity(x_), sign * arm_->hub_velocity(end)) > sag;
+  return table.watched.stays_above(0.0, direction(motion_), x_, inputs);
 }
 
 std::optional<double> TimeStepper::next_event() const {
   if (motion_ != HubMotion::held) {
-    const Eigen::RowVectorXd speed = direction(motion_) * solver_.series().of(velocity_row_);
+    const Eigen::RowVectorXd speed =
+        direction(motion_) * solver_.series().of(plan_->velocity_row());
     // Known zeros at r = 0 are divided out.
     const std::size_t zeros = start_ == Start::inside ? 0 : start_ == Start::hub_speed_zero ? 1 : 2;
     return first_crossing(as_span(speed).subspan(zeros));
@@ -304,7 +258,7 @@ void TimeStepper::happen(double r, double length_s) {
     arm_->set_hub_angle(x_, held_angle_rad_);
   }
   events_at_once_ = r > kInstant ? 0 : events_at_once_ + 1;
-  const double needed = reaction(x_, u);
+  const double needed = reaction(x_, u, time_s_);
   if (was_held && events_at_once_ <= kMostEventsAtOnce) {
     motion_ = turning_like(needed);
     start_ = Start::hub_acceleration_zero;

@@ -1,16 +1,13 @@
 #pragma once
 
-#include "response/time/added_forces.hpp"
 #include "response/time/energy_ledger.hpp"
 #include "response/time/modal_dynamics.hpp"
 #include "response/time/simulation.hpp"
+#include "response/time/step_plan.hpp"
 #include "response/time/step_solver.hpp"
-#include "response/time/step_table.hpp"
 #include "response/time/torque_path.hpp"
 
-#include <array>
 #include <optional>
-#include <span>
 
 namespace flexarm::response {
 
@@ -31,11 +28,11 @@ namespace flexarm::response {
 /// breakaway; then the hub is held for the rest of the inner step.
 ///
 /// A linear arm needs no inner steps: a step is exact however fast its motions decay.
+/// StepPlan says how long the steps of other arms are.
 class TimeStepper {
  public:
-  /// `forces` and `arm` must outlive the object. The hub is at rest.
-  TimeStepper(const ModalDynamics& arm, const AddedForces& forces, bool has_friction,
-              const TorquePath& path, const SimulationOptions& options, EnergyLedger* ledger);
+  /// `plan` and `ledger`, which may be null, must outlive the object. The hub is at rest.
+  TimeStepper(const StepPlan& plan, EnergyLedger* ledger);
 
   /// Takes up the torque behind a sample or a break: a hub at rest may be pulled loose.
   void take_up(double torque_N_m, double now_s);
@@ -49,8 +46,8 @@ class TimeStepper {
   const Eigen::VectorXd& state() const { return x_; }
   HubMotion motion() const { return motion_; }
   double hub_angle() const;
-  /// Added forces at the present state, m.
-  Eigen::VectorXd force() const;
+  /// Added forces at the present state with that torque of the actuator, m.
+  Eigen::VectorXd force(double actuator_N_m) const;
   /// T, without friction.
   double hub_torque_N_m(double actuator_N_m) const;
   const LinearSystem& system() const {
@@ -60,41 +57,26 @@ class TimeStepper {
   int most_iterations() const { return solver_.most_iterations(); }
 
  private:
-  /// Inner steps of one length.
-  struct Steps {
-    int count = 0;
-    double length_s = 0.0;
-    StepTable turning;
-    StepTable held;
-    std::optional<StepEnergy> energy;  ///< of a linear arm whose energy is booked
-  };
   /// What is known of the solution at the beginning of a step.
   enum class Start { inside, hub_speed_zero, hub_acceleration_zero };
 
-  Steps steps(double length_s) const;
-  int substeps(double length_s) const;
-  void advance_in(const Steps& steps, const TorquePiece& piece);
+  void advance_in(const Steps& steps, double begin_N_m, double end_N_m);
   void step(const Steps& steps, double u0, double u1);
   void linear_step(const Steps& steps, double u0, double u1);
   void free_step(double length_s, double u0, double u1, int halvings);
   void halve(double length_s, double u0, double u1, int halvings);
   void book(double until);
-  bool is_quiet(const StepTable& table, const Eigen::VectorXd& end) const;
+  bool is_quiet(const StepTable& table) const;
   std::optional<double> next_event() const;
-  double reaction(const Eigen::VectorXd& x, double u) const;
+  double reaction(const Eigen::VectorXd& x, double u, double time_s) const;
   void happen(double r, double length_s);
   void record_event();
   void finish(const Eigen::VectorXd& end, double duration_s);
 
+  const StepPlan* plan_;
   const ModalDynamics* arm_;
   const AddedForces* forces_;
-  SimulationOptions options_;
   EnergyLedger* ledger_;
-  bool has_friction_;
-  bool is_linear_;
-  std::array<Steps, 3> regular_;  // by TorquePiece::Length
-
-  Eigen::RowVectorXd velocity_row_;  // theta' = velocity_row_ X
   Eigen::VectorXd x_;
   HubMotion motion_;
   Start start_ = Start::inside;

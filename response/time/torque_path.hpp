@@ -19,9 +19,9 @@ struct TorquePiece {
   Length length = Length::whole;  ///< the same from sample to sample, unless `other`
 };
 
-/// The commanded torque behind delay, gain, dead zone and saturation, exactly: straight pieces
-/// between the breaks that the delayed samples, the edges of the dead zone and the limits make.
-/// Lag, bias and ripple come later. Before the first sample the command is zero.
+/// The commanded torque behind delay and maps, exactly: straight pieces between the breaks that the
+/// delayed samples and the bends of the maps make. The lag comes later. Before the first sample the
+/// command is zero.
 class TorquePath {
  public:
   using Pieces = std::vector<TorquePiece>;
@@ -38,10 +38,10 @@ class TorquePath {
   double delay_fraction() const { return delay_fraction_; }
 
  private:
-  double clipped(double command_N_m) const;
   void add(TorquePiece command, Pieces& pieces) const;
 
   Actuator actuator_;
+  std::vector<double> bends_;
   std::span<const double> torque_N_m_;
   TorqueHold hold_;
   double delay_samples_ = 0.0;

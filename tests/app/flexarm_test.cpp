@@ -1,3 +1,4 @@
+#include "effects/registry/vocabulary.hpp"
 #include "measured/files/arm_file.hpp"
 #include "measured/files/text_file.hpp"
 #include "tests/app/flexarm_fixture.hpp"
@@ -69,7 +70,7 @@ TEST_F(Flexarm, NewWritesThePapersArmAndSaysWhatIsNext) {
   EXPECT_THAT(ended.output, HasSubstr("flexarm modes rig.toml\n"));
   arm::Arm expected = arm::paper_arm();
   expected.beam.given_flexural_rigidity_N_m2.reset();
-  EXPECT_EQ(measured::read_arm_file(folder_ / "rig.toml"), expected);
+  EXPECT_EQ(measured::read_arm_file(folder_ / "rig.toml", effects::vocabulary()), expected);
 }
 
 TEST_F(Flexarm, TheStarterFileStaysValidWithEveryOptionalKeyGiven) {
@@ -81,7 +82,7 @@ TEST_F(Flexarm, TheStarterFileStaysValidWithEveryOptionalKeyGiven) {
                         (line.find(" = ") != std::string::npos && !line.starts_with("#  "));
     all += (line.starts_with("# ") && is_key ? line.substr(2) : line) + "\n";
   }
-  const arm::Arm arm = measured::parse_arm(all, "rig.toml");
+  const arm::Arm arm = measured::parse_arm(all, "rig.toml", effects::vocabulary());
   EXPECT_TRUE(arm.beam.given_linear_density_kg_per_m.has_value());
   EXPECT_GT(arm.damping.kelvin_voigt_s, 0.0);
   EXPECT_TRUE(arm.effects.contains("coulomb_friction"));

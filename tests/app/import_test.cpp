@@ -1,3 +1,4 @@
+#include "effects/registry/vocabulary.hpp"
 #include "measured/files/arm_file.hpp"
 #include "measured/files/frequency_record.hpp"
 #include "measured/files/measurement.hpp"
@@ -78,7 +79,7 @@ TEST_F(Import, TheFolderIsAMeasurementInSi) {
 TEST_F(Import, WithoutAnArmOneToEditIsWritten) {
   write("log.txt", kLog);
   EXPECT_EQ(import({"log.txt", "--out", "bench"}).status, 0);
-  EXPECT_NO_THROW(measured::read_arm_file(folder_ / "bench/arm.toml"));
+  EXPECT_NO_THROW(measured::read_arm_file(folder_ / "bench/arm.toml", effects::vocabulary()));
   EXPECT_THAT(import({"log.txt", "--out", "bench"}).errors, HasSubstr("--force replaces"));
   EXPECT_EQ(import({"log.txt", "--out", "bench", "--force"}).status, 0);
 }

@@ -1,3 +1,4 @@
+#include "effects/registry/vocabulary.hpp"
 #include "measured/files/arm_file.hpp"
 #include "measured/files/measurement.hpp"
 #include "measured/files/time_record.hpp"
@@ -68,8 +69,8 @@ TEST_F(Simulate, TheFolderIsAMeasurementOfTheArm) {
   EXPECT_EQ(measurement.runs[0].purpose, measured::Purpose::estimation);
   EXPECT_EQ(measurement.runs[1].payload, (arm::Payload{0.06, 0.0}));
   EXPECT_EQ(measurement.runs[1].purpose, measured::Purpose::validation);
-  EXPECT_EQ(measured::read_arm_file(folder_ / "bench/out/arm.toml"),
-            measured::read_arm_file(folder_ / "rig.toml"));
+  EXPECT_EQ(measured::read_arm_file(folder_ / "bench/out/arm.toml", effects::vocabulary()),
+            measured::read_arm_file(folder_ / "rig.toml", effects::vocabulary()));
   const auto noise = record("bench/out/noise.csv");
   EXPECT_EQ(noise.time_s.size(), 500U);
   EXPECT_EQ(noise.time_s[7], 0.014);
@@ -85,8 +86,11 @@ TEST_F(Simulate, EffectsAreHiddenFromTheArmFileAndNotFromTheArm) {
     return record(hidden + "/bang-bang.csv");
   };
   EXPECT_EQ(simulated("all"), simulated("coulomb_friction"));
-  EXPECT_TRUE(measured::read_arm_file(folder_ / "all/arm.toml").effects.empty());
-  EXPECT_EQ(measured::read_arm_file(folder_ / "coulomb_friction/arm.toml").effects.size(), 1U);
+  EXPECT_TRUE(
+      measured::read_arm_file(folder_ / "all/arm.toml", effects::vocabulary()).effects.empty());
+  EXPECT_EQ(measured::read_arm_file(folder_ / "coulomb_friction/arm.toml", effects::vocabulary())
+                .effects.size(),
+            1U);
 }
 
 TEST_F(Simulate, EveryFormulationGivesTheSameMotion) {

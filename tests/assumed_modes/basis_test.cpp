@@ -3,6 +3,7 @@
 #include "arm/input_error.hpp"
 #include "assumed_modes/assumed_modes_arm.hpp"
 #include "effects.hpp"
+#include "effects/registry/vocabulary.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -32,37 +33,31 @@ TEST(Basis, NamesAreReadBackAndTyposExplained) {
 }
 
 TEST(AssumedModesArm, RefusesEffectsThatAreNotLinearByName) {
-  for (const auto& definition : arm::effect_vocabulary()) {
-    if (definition.place == arm::EffectPlace::linear_arm) continue;
+  for (const auto& definition : effects::vocabulary()) {
+    if (definition->is_of_linear_arm()) continue;
     arm::Arm arm = arm::paper_arm();
-    arm::Effect effect;
-    for (const auto& parameter : definition.parameters) {
-      effect.parameters[parameter.name] = 0.5;
-    }
-    arm.effects[definition.name] = effect;
-    EXPECT_THAT(refusal([&] { const AssumedModesArm model(arm); }), HasSubstr(definition.name));
+    arm.effects[definition->name] = effects::example(definition);
+    EXPECT_THAT(refusal([&] { const AssumedModesArm model(arm); }), HasSubstr(definition->name));
   }
 }
 
 TEST(AssumedModesArm, HonoursEveryLinearEffectAndOtherBasesRefuseWhatTheyCannotFollow) {
-  for (const auto& definition : arm::effect_vocabulary()) {
-    if (definition.place != arm::EffectPlace::linear_arm) continue;
+  for (const auto& definition : effects::vocabulary()) {
+    if (!definition->is_of_linear_arm()) continue;
     arm::Arm arm = testing_arms::thick_arm(0.1);
-    arm::Effect effect;
-    for (const auto& parameter : definition.parameters) effect.parameters[parameter.name] = 0.5;
-    arm.effects[definition.name] = effect;
-    EXPECT_NO_THROW(AssumedModesArm(arm).damped_poles(2)) << definition.name;
+    arm.effects[definition->name] = effects::example(definition);
+    EXPECT_NO_THROW(AssumedModesArm(arm).damped_poles(2)) << definition->name;
     for (const Basis basis : kAllBases) {
       const bool follows =
           basis == Basis::legendre ||
-          (definition.name != "root_compliance" && definition.name != "local_stiffness_loss" &&
-           definition.name != "shear_and_rotary_inertia");
+          (definition->name != "root_compliance" && definition->name != "local_stiffness_loss" &&
+           definition->name != "shear_and_rotary_inertia");
       EXPECT_EQ(can_represent(basis, arm), follows);
       const std::string message = refusal([&] { AssumedModesArm(arm, {basis}).poles(2); });
       if (follows) {
-        EXPECT_EQ(message, "accepted") << definition.name;
+        EXPECT_EQ(message, "accepted") << definition->name;
       } else {
-        EXPECT_THAT(message, HasSubstr("effects." + definition.name + ": basis "));
+        EXPECT_THAT(message, HasSubstr("effects." + definition->name + ": basis "));
         EXPECT_THAT(message, HasSubstr("--basis legendre can"));
       }
     }

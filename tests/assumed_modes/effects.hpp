@@ -2,6 +2,7 @@
 
 #include "arm/arm.hpp"
 #include "arms.hpp"
+#include "effects/registry/vocabulary.hpp"
 
 #include <map>
 #include <string>
@@ -12,8 +13,8 @@ namespace flexarm::assumed_modes::testing_arms {
 
 /// The arm with one more effect.
 inline arm::Arm with(arm::Arm arm, const std::string& effect,
-                     std::map<std::string, double> parameters) {
-  arm.effects[effect].parameters = std::move(parameters);
+                     const std::map<std::string, double>& parameters) {
+  effects::put(arm, effect, parameters);
   return arm;
 }
 

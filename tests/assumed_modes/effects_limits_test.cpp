@@ -1,6 +1,7 @@
 #include "arm/input_error.hpp"
 #include "assumed_modes/assumed_modes_arm.hpp"
 #include "effects.hpp"
+#include "effects/registry/vocabulary.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -62,7 +63,7 @@ TEST(EffectsLimits, AreThePlainArmToFirstOrder) {
     const auto change = [&](double value) {
       arm::Arm arm = with(plain, effect, {{parameter, value}});
       if (arm.effects.contains("local_stiffness_loss")) {
-        arm.effects["local_stiffness_loss"].parameters["position"] = 0.4;
+        effects::put(arm, "local_stiffness_loss", {{"position", 0.4}});
       }
       auto roots = poles_of(arm);
       for (std::size_t i = 0; i < roots.size(); ++i) roots[i] = roots[i] / limit[i] - 1.0;

@@ -1,4 +1,5 @@
 #include "compare/comparison.hpp"
+#include "effects/registry/vocabulary.hpp"
 #include "laws/effect_arms.hpp"
 
 #include <gtest/gtest.h>
@@ -54,8 +55,8 @@ TEST(EffectComparison, AnEffectInOneModelAloneDisagrees) {
 
 TEST(EffectComparison, WhatActsOutsideTheLinearArmIsLeftOut) {
   arm::Arm arm = laws::damped_arm();
-  arm.effects["coulomb_friction"] = {{{"torque", 0.01}}, ""};
-  arm.effects["actuator_lag"] = {{{"time_constant", 0.01}}, ""};
+  effects::put(arm, "coulomb_friction", {{"torque", 0.01}});
+  effects::put(arm, "actuator_lag", {{"time_constant", 0.01}});
   Options options;
   options.poles = 3;
   options.non_collocated_zeros = 2;

@@ -1,5 +1,6 @@
 #include "compare/identification.hpp"
 
+#include "effects/registry/vocabulary.hpp"
 #include "tests/compare/models.hpp"
 
 #include <gtest/gtest.h>
@@ -53,7 +54,7 @@ TEST(AnalyticalModes, HaveZerosOfStrainAtTheTipWhereAPayloadBendsIt) {
   const arm::Sensor at_the_tip{arm::SensorKind::strain, 0.960};
   arm::Arm arm = arm::paper_arm();
   EXPECT_TRUE(analytical_modes(arm, std::array{at_the_tip}, 40.0).zeros.empty());
-  arm.effects["payload_inertia"].parameters["inertia"] = 1e-3;
+  effects::put(arm, "payload_inertia", {{"inertia", 1e-3}});
   EXPECT_EQ(analytical_modes(arm, std::array{at_the_tip}, 40.0).zeros.size(), 1U);
 }
 

@@ -1,4 +1,5 @@
 #include "compare/paper/paper_tables.hpp"
+#include "effects/registry/vocabulary.hpp"
 #include "measured/files/arm_file.hpp"
 #include "measured/files/modal_table.hpp"
 
@@ -52,7 +53,7 @@ void expect_damping_of_table_five(const ModalEntry& entry) {
 }
 
 TEST(PaperData, TheArmFileIsTheBuiltInArm) {
-  EXPECT_EQ(measured::read_arm_file(kData / "arm.toml"), arm::paper_arm());
+  EXPECT_EQ(measured::read_arm_file(kData / "arm.toml", effects::vocabulary()), arm::paper_arm());
 }
 
 TEST(PaperData, ModalFilesRepeatTheTables) {

@@ -4,6 +4,7 @@
 #include "arm/effects.hpp"
 #include "arm/input_error.hpp"
 #include "compare/sweeps/sweep.hpp"
+#include "effects/registry/vocabulary.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -109,9 +110,9 @@ TEST(SweepParameter, EveryNumberOfTheArmFileAndOfLinearEffectsIsOne) {
 
 TEST(SweepParameter, RatiosAreThoseOfTheArmThatComesOut) {
   arm::Arm arm = arm::paper_arm();
-  arm.effects["payload_mass"].parameters["mass"] = 0.01;
-  arm.effects["payload_offset"].parameters["offset"] = 0.02;
-  arm.effects["hub_inertia"].parameters["factor"] = 1.7;
+  effects::put(arm, "payload_mass", {{"mass", 0.01}});
+  effects::put(arm, "payload_offset", {{"offset", 0.02}});
+  effects::put(arm, "hub_inertia", {{"factor", 1.7}});
   const std::vector axes = {parse_axis("payload_inertia_ratio=0.02,0.03"),
                             parse_axis("eta=0.3,0.4")};
   const auto changed = arm_at(arm, axes, std::array{1.0, 1.0});

@@ -1,7 +1,8 @@
 #include "diagnose/search/fit.hpp"
 
 #include "diagnose/diagnosis.hpp"
-#include "diagnose/hypotheses/hypotheses.hpp"
+#include "diagnose/search/hypothesis.hpp"
+#include "effects/registry/vocabulary.hpp"
 #include "tests/diagnose/simulated_experiments.hpp"
 
 #include <gtest/gtest.h>
@@ -11,7 +12,7 @@ namespace {
 
 TEST(Fit, OfTheTrueEffectLeavesTheNoiseAndFindsItsValue) {
   const Experiment experiment =
-      simulated_experiment({{"root_compliance", {{{"stiffness", 60.0}}, ""}}});
+      simulated_experiment({effects::named("root_compliance", {{"stiffness", 60.0}})});
   const Problem problem(experiment);
   const auto hypothesis = named(experiment, {"root_compliance"}).front();
   const Candidate start = Candidate{}.with(hypothesis, {hypothesis.parameters[0].value(0.5)});
@@ -43,7 +44,8 @@ TEST(Diagnose, OfDataWithNothingHiddenIsAdequate) {
 }
 
 TEST(Diagnose, NamesACauseAmongItsLikes) {
-  const Experiment experiment = simulated_experiment({{"time_delay", {{{"delay", 0.004}}, ""}}});
+  const Experiment experiment =
+      simulated_experiment({effects::named("time_delay", {{"delay", 0.004}})});
   const Diagnosis made = diagnose(
       experiment, named(experiment, {"time_delay", "actuator_lag", "hub_inertia", "sensor_lag"}));
   EXPECT_EQ(made.verdict, Verdict::explained);
@@ -57,7 +59,7 @@ TEST(Diagnose, NamesACauseAmongItsLikes) {
 
 TEST(Diagnose, SaysThatItCannotExplainWhatItMayNotName) {
   const Experiment experiment =
-      simulated_experiment({{"coulomb_friction", {{{"torque", 0.012}}, ""}}});
+      simulated_experiment({effects::named("coulomb_friction", {{"torque", 0.012}})});
   const Diagnosis made =
       diagnose(experiment, named(experiment, {"time_delay", "payload_inertia", "torque_bias"}));
   EXPECT_EQ(made.verdict, Verdict::unexplained);
@@ -66,7 +68,7 @@ TEST(Diagnose, SaysThatItCannotExplainWhatItMayNotName) {
 
 TEST(Diagnose, CanBeCancelled) {
   const Experiment experiment =
-      simulated_experiment({{"coulomb_friction", {{{"torque", 0.012}}, ""}}});
+      simulated_experiment({effects::named("coulomb_friction", {{"torque", 0.012}})});
   const Diagnosis made = diagnose(experiment, named(experiment, {"time_delay", "torque_bias"}), {},
                                   [](std::string_view, double) { return false; });
   EXPECT_TRUE(made.cancelled);

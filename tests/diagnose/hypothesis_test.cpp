@@ -1,8 +1,9 @@
 #include "diagnose/search/hypothesis.hpp"
 
 #include "arm/effects.hpp"
-#include "diagnose/hypotheses/hypotheses.hpp"
 #include "diagnose/search/candidate.hpp"
+#include "diagnose/search/hypothesis.hpp"
+#include "effects/registry/vocabulary.hpp"
 #include "tests/diagnose/simulated_experiments.hpp"
 
 #include <gtest/gtest.h>
@@ -24,10 +25,10 @@ TEST(Hypotheses, AreTheWholeVocabulary) {
   for (const Hypothesis& hypothesis : hypotheses(short_experiment())) {
     names.insert(hypothesis.effect);
   }
-  for (const auto& entry : arm::effect_vocabulary()) {
-    EXPECT_TRUE(names.contains(entry.name)) << entry.name;
+  for (const auto& definition : effects::vocabulary()) {
+    EXPECT_TRUE(names.contains(definition->name)) << definition->name;
   }
-  EXPECT_EQ(names.size(), arm::effect_vocabulary().size());
+  EXPECT_EQ(names.size(), effects::vocabulary().size());
 }
 
 TEST(Hypotheses, AreOneOfSensorLagASensor) {
@@ -49,7 +50,7 @@ TEST(Hypotheses, ExtendTheArmToAValidOneOverTheirWholeRange) {
 
 TEST(Hypotheses, LeaveOutWhatTheArmHasAlready) {
   Experiment experiment = short_experiment();
-  experiment.arm.effects["hub_spring"].parameters["stiffness"] = 1.0;
+  effects::put(experiment.arm, "hub_spring", {{"stiffness", 1.0}});
   const auto all = hypotheses(experiment);
   EXPECT_EQ(std::ranges::find(all, "hub_spring", &Hypothesis::effect), all.end());
 }
@@ -60,27 +61,29 @@ TEST(Hypotheses, OfPolesAndZerosAreLinearEffectsOfTheArmAlone) {
   experiment.runs[0].run.kind = measured::RunKind::modal;
   experiment.runs[0].data = measured::ModalTable{};
   for (const Hypothesis& hypothesis : hypotheses(experiment)) {
-    EXPECT_EQ(arm::find_effect(hypothesis.effect)->place, arm::EffectPlace::linear_arm)
-        << hypothesis.effect;
+    EXPECT_TRUE(hypothesis.entry->definition->is_of_linear_arm()) << hypothesis.effect;
   }
 }
 
-TEST(SearchedParameter, PlacesAndValuesAreInverse) {
+TEST(SearchedParameter, CoordinatesAndValuesAreInverse) {
+  using effects::Spacing;
   constexpr double kRounding = 1e-12;
   for (const Spacing spacing :
        {Spacing::linear, Spacing::logarithmic, Spacing::from_zero, Spacing::from_infinity}) {
     const SearchedParameter parameter{"x", 0.02, 5.0, spacing};
     for (const double place : {0.01, 0.4, 0.97}) {
-      EXPECT_NEAR(parameter.place(parameter.value(place)), place, kRounding);
+      EXPECT_NEAR(parameter.coordinate(parameter.value(place)), place, kRounding);
     }
   }
 }
 
 TEST(SearchedParameter, EndsWhereItSaysAndBeginsAtNothing) {
-  EXPECT_DOUBLE_EQ((SearchedParameter{"x", 0.02, 5.0, Spacing::from_zero}.value(1.0)), 5.0);
-  EXPECT_EQ((SearchedParameter{"x", 0.02, 5.0, Spacing::from_zero}.value(0.0)), 0.0);
-  EXPECT_NEAR((SearchedParameter{"x", 0.02, 5.0, Spacing::from_infinity}.value(1.0)), 0.02, 1e-15);
-  EXPECT_GT((SearchedParameter{"x", 0.02, 5.0, Spacing::from_infinity}.value(0.0)), 1e4);
+  EXPECT_DOUBLE_EQ((SearchedParameter{"x", 0.02, 5.0, effects::Spacing::from_zero}.value(1.0)),
+                   5.0);
+  EXPECT_EQ((SearchedParameter{"x", 0.02, 5.0, effects::Spacing::from_zero}.value(0.0)), 0.0);
+  EXPECT_NEAR((SearchedParameter{"x", 0.02, 5.0, effects::Spacing::from_infinity}.value(1.0)), 0.02,
+              1e-15);
+  EXPECT_GT((SearchedParameter{"x", 0.02, 5.0, effects::Spacing::from_infinity}.value(0.0)), 1e4);
 }
 
 TEST(Candidate, WithoutAnEffectKeepsTheValuesOfTheOthers) {

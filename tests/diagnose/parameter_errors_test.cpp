@@ -1,5 +1,6 @@
 #include "diagnose/search/parameter_errors.hpp"
 
+#include "effects/registry/vocabulary.hpp"
 #include "tests/diagnose/simulated_experiments.hpp"
 
 #include <gtest/gtest.h>
@@ -20,7 +21,7 @@ TEST(StandardErrors, AreTheSpreadOfEstimatesOverSeeds) {
   double squares = 0.0;
   for (int seed = 1; seed <= kSeeds; ++seed) {
     const Experiment experiment =
-        simulated_experiment({{"payload_mass", {{{"mass", kTruth_kg}}, ""}}},
+        simulated_experiment({effects::named("payload_mass", {{"mass", kTruth_kg}})},
                              {.duration_s = 1.0, .seed = static_cast<std::uint64_t>(seed)});
     const Problem problem(experiment);
     const auto hypothesis = named(experiment, {"payload_mass"}).front();
@@ -35,32 +36,31 @@ TEST(StandardErrors, AreTheSpreadOfEstimatesOverSeeds) {
 
 TEST(StandardErrors, HoldWhatACoarseSimulationIsOff) {
   const Experiment experiment =
-      simulated_experiment({{"coulomb_friction", {{{"torque", 0.012}}, ""}}},
+      simulated_experiment({effects::named("linear_density", {{"factor", 1.05}})},
                            {.duration_s = 2.0, .relative_noise = 1e-5});
-  const Problem coarse(experiment, {.substeps = 1});
-  const auto hypothesis = named(experiment, {"coulomb_friction"}).front();
+  const Problem coarse(experiment, {.flexible_modes = 1});
+  const auto hypothesis = named(experiment, {"linear_density"}).front();
   const Explanation found =
-      explain(coarse, fit(coarse, coarse.as_filed().with(hypothesis, {0.012})));
+      explain(coarse, fit(coarse, coarse.as_filed().with(hypothesis, {1.05})));
   const double ignored = standard_errors(coarse, found, coarse)[0];
-  const double carried = standard_errors(
-      coarse, found, coarse.with_resolution(coarse.predictor().flexible_modes(), 40))[0];
-  const double off = std::abs(found.fit.candidate.values[0] - 0.012);
+  const double carried = standard_errors(coarse, found, coarse.with_modes(8))[0];
+  const double off = std::abs(found.fit.candidate.values[0] - 1.05);
   EXPECT_GT(carried, ignored);
   EXPECT_LT(off, 3.0 * carried) << "of " << ignored << " and " << carried;
 }
 
 TEST(StandardErrors, GrowWhereResidualsGoTogether) {
   // A bias that is not fitted leaves residuals of one sign over long stretches.
-  const Experiment experiment =
-      simulated_experiment({{"torque_bias", {{{"torque", 0.0005}}, ""}}}, {.duration_s = 2.0});
+  const Experiment experiment = simulated_experiment(
+      {effects::named("torque_bias", {{"torque", 0.0005}})}, {.duration_s = 2.0});
   const Problem problem(experiment);
   const auto hypothesis = named(experiment, {"payload_mass"}).front();
   const Explanation found =
       explain(problem, fit(problem, problem.as_filed().with(hypothesis, {0.001})));
   const double of_least_squares =
       1.0 / found.fit.jacobian.norm() *
-      std::abs(hypothesis.parameters[0].value(found.fit.candidate.places()(0) + 0.5e-6) -
-               hypothesis.parameters[0].value(found.fit.candidate.places()(0) - 0.5e-6)) /
+      std::abs(hypothesis.parameters[0].value(found.fit.candidate.coordinates()(0) + 0.5e-6) -
+               hypothesis.parameters[0].value(found.fit.candidate.coordinates()(0) - 0.5e-6)) /
       1e-6;
   EXPECT_GT(standard_errors(problem, found, problem)[0], 3.0 * of_least_squares);
 }

@@ -1,5 +1,5 @@
-#include "diagnose/hypotheses/hypotheses.hpp"
 #include "diagnose/planning/detection.hpp"
+#include "diagnose/search/hypothesis.hpp"
 #include "tests/diagnose/simulated_experiments.hpp"
 
 #include <gtest/gtest.h>

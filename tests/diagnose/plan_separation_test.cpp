@@ -1,7 +1,8 @@
 #include "diagnose/diagnosis.hpp"
-#include "diagnose/hypotheses/hypotheses.hpp"
 #include "diagnose/planning/plan.hpp"
 #include "diagnose/search/explanation.hpp"
+#include "diagnose/search/hypothesis.hpp"
+#include "effects/registry/vocabulary.hpp"
 #include "tests/diagnose/simulated_experiments.hpp"
 
 #include <gtest/gtest.h>
@@ -42,7 +43,7 @@ Foretold foretell(const std::string& effect, double value, const std::string& ri
   made.expected = separate_by_fit(foreseen, truth, start).lead;
 
   const std::string parameter = cause.parameters[0].name;
-  const Experiment data = simulated_experiment({{effect, {{{parameter, value}}, ""}}});
+  const Experiment data = simulated_experiment({effects::named(effect, {{parameter, value}})});
   const Problem problem(data);
   const Explanation right = explain(problem, fit(problem, truth));
   const Candidate at_rival = separate_by_fit(foreseen, truth, start).rival;
@@ -123,7 +124,8 @@ TEST(Plan, TiesDelayWithLagAndFindsTheRunThatTellsThem) {
   // Delay and lag are nothing at place 0, so that more runs find them at a lower one.
   const Plan again = plan_experiment(arm, better, some);
   for (const std::size_t i : plan.classes.front()) {
-    EXPECT_LT(again.effects[i].smallest->places()[0], plan.effects[i].smallest->places()[0]);
+    EXPECT_LT(again.effects[i].smallest->coordinates()[0],
+              plan.effects[i].smallest->coordinates()[0]);
   }
 }
 
@@ -169,7 +171,7 @@ TEST(FurtherRuns, HaveIdsOfTheirOwnAndAPurpose) {
 
 TEST(WhatNext, OfADiagnosisThatIsSureIsNothing) {
   const Experiment experiment =
-      simulated_experiment({{"hub_inertia", {{{"factor", 1.3}}, ""}}}, {.duration_s = 2.0});
+      simulated_experiment({effects::named("hub_inertia", {{"factor", 1.3}})}, {.duration_s = 2.0});
   auto some = hypotheses(experiment);
   std::erase_if(some, [](const Hypothesis& hypothesis) {
     return hypothesis.effect != "hub_inertia" && hypothesis.effect != "structural_damping";
@@ -181,7 +183,7 @@ TEST(WhatNext, OfADiagnosisThatIsSureIsNothing) {
 
 TEST(WhatNext, OfCausesThatAreTiedIsARunThatTellsThem) {
   const Experiment experiment =
-      simulated_experiment({{"time_delay", {{{"delay", 4e-5}}, ""}}}, {.duration_s = 2.0});
+      simulated_experiment({effects::named("time_delay", {{"delay", 4e-5}})}, {.duration_s = 2.0});
   auto some = hypotheses(experiment);
   std::erase_if(some, [](const Hypothesis& hypothesis) {
     return hypothesis.effect != "time_delay" && hypothesis.effect != "actuator_lag";

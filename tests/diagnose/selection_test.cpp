@@ -1,5 +1,6 @@
 #include "diagnose/search/selection.hpp"
 
+#include "effects/registry/vocabulary.hpp"
 #include "measured/files/frequency_record.hpp"
 #include "response/time/random_numbers.hpp"
 #include "tests/diagnose/simulated_experiments.hpp"
@@ -82,9 +83,10 @@ TEST(Problem, LogarithmsOfResponsesShowAnEffectBesideAnotherThatIsOff) {
 
 TEST(Selection, ExchangesACauseThatStandsInThePlaceOfAnother) {
   // By itself each of the two is best at a value that hides the other; a soft place does better.
-  const Experiment experiment = simulated_experiment(
-      {{"linear_density", {{{"factor", 0.8}}, ""}}, {"hub_inertia", {{{"factor", 1.3}}, ""}}},
-      {.duration_s = 1.5});
+  const Experiment experiment =
+      simulated_experiment({effects::named("linear_density", {{"factor", 0.8}}),
+                            effects::named("hub_inertia", {{"factor", 1.3}})},
+                           {.duration_s = 1.5});
   Problem problem(experiment);
   const Selection made = select(
       problem,
@@ -103,8 +105,8 @@ TEST(Selection, ExchangesACauseThatStandsInThePlaceOfAnother) {
 
 TEST(Selection, DoesNotTakeASmallEffectForTheTimingOfTheTorque) {
   // Which a fraction of a sample in each fortieth of a run goes along with for a good part.
-  const Experiment experiment =
-      simulated_experiment({{"hub_inertia", {{{"factor", 1.004}}, ""}}}, {.duration_s = 3.0});
+  const Experiment experiment = simulated_experiment(
+      {effects::named("hub_inertia", {{"factor", 1.004}})}, {.duration_s = 3.0});
   Problem problem(experiment);
   const Selection made =
       select(problem, named(experiment, {"hub_inertia", "flexural_rigidity", "torque_gain"}), {});

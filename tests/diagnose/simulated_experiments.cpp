@@ -1,6 +1,6 @@
 #include "tests/diagnose/simulated_experiments.hpp"
 
-#include "diagnose/hypotheses/hypotheses.hpp"
+#include "diagnose/search/hypothesis.hpp"
 #include "response/excitation/excitation.hpp"
 #include "response/formulation_maker.hpp"
 #include "response/time/random_numbers.hpp"

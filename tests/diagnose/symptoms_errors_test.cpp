@@ -2,6 +2,7 @@
 #include "diagnose/symptoms/error_trends.hpp"
 #include "diagnose/symptoms/frequency_bands.hpp"
 #include "diagnose/symptoms/symptoms.hpp"
+#include "effects/registry/vocabulary.hpp"
 #include "tests/diagnose/symptoms_fixture.hpp"
 
 #include <gmock/gmock.h>
@@ -69,8 +70,8 @@ TEST(NoiseProbability, IsThatOfChance) {
 }
 
 TEST(ErrorSymptoms, SayWhichSensorsMissTheSignal) {
-  const Symptomatic data(
-      simulated_experiment({{"hub_inertia", {{{"factor", 1.5}}, ""}}}, {.duration_s = 2.0}));
+  const Symptomatic data(simulated_experiment({effects::named("hub_inertia", {{"factor", 1.5}})},
+                                              {.duration_s = 2.0}));
   const auto errors = band_errors(data.input());
   const auto told = significant(error_symptoms(data.input(), errors));
   ASSERT_EQ(told.size(), 4U);
@@ -82,7 +83,7 @@ TEST(ErrorSymptoms, AddUpToTheErrorOfTheChannel) {
   // What the window weighs otherwise than the signal: the error of a random run is much the same
   // all along.
   constexpr double kWindow = 0.3;
-  const Symptomatic data(simulated_experiment({{"hub_inertia", {{{"factor", 1.5}}, ""}}}));
+  const Symptomatic data(simulated_experiment({effects::named("hub_inertia", {{"factor", 1.5}})}));
   const auto& observations = data.problem().observations();
   const auto errors = band_errors(data.input());
   for (const ObservedChannel& channel : observations.channels) {
@@ -101,7 +102,8 @@ TEST(ErrorSymptoms, AddUpToTheErrorOfTheChannel) {
 }
 
 TEST(ErrorTrends, FallWithTheTorqueWhereFrictionIsMissing) {
-  const Symptomatic data(simulated_experiment({{"coulomb_friction", {{{"torque", 0.01}}, ""}}}));
+  const Symptomatic data(
+      simulated_experiment({effects::named("coulomb_friction", {{"torque", 0.01}})}));
   const auto told = significant(trend_symptoms(data.input()));
   ASSERT_FALSE(told.empty());
   EXPECT_THAT(told.front().text, HasSubstr("does not grow with the motion"));
@@ -110,7 +112,7 @@ TEST(ErrorTrends, FallWithTheTorqueWhereFrictionIsMissing) {
 TEST(ErrorTrends, AreNoneWithTheTorqueWhereALinearCauseIsMissing) {
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
     const Symptomatic data(
-        simulated_experiment({{"hub_inertia", {{{"factor", 1.5}}, ""}}}, {.seed = seed}));
+        simulated_experiment({effects::named("hub_inertia", {{"factor", 1.5}})}, {.seed = seed}));
     for (const Symptom& one : significant(trend_symptoms(data.input()))) {
       EXPECT_THAT(one.text, HasSubstr("of payload")) << seed;
     }

@@ -35,7 +35,8 @@ TEST_P(HubTorqueOfHidden, IsNamedWithItsSize) {
   // is proportional to the torque only to first order.
   constexpr double kSize = 0.1;
   const Hidden& hidden = GetParam();
-  const HubTorque found = found_in({{hidden.effect, {{{hidden.parameter, hidden.value}}, ""}}});
+  const HubTorque found =
+      found_in({effects::named(hidden.effect, {{hidden.parameter, hidden.value}})});
   ASSERT_FALSE(found.terms.empty());
   const HubTorqueTerm& first = found.terms.front();
   EXPECT_EQ(to_string(first.kind), to_string(hidden.kind));

@@ -1,7 +1,8 @@
-#include "diagnose/hypotheses/hypotheses.hpp"
+#include "diagnose/search/hypothesis.hpp"
 #include "diagnose/symptoms/root_shifts.hpp"
 #include "diagnose/symptoms/run_distortion.hpp"
 #include "diagnose/symptoms/run_drift.hpp"
+#include "effects/registry/vocabulary.hpp"
 #include "tests/diagnose/symptoms_fixture.hpp"
 
 #include <gmock/gmock.h>
@@ -78,7 +79,7 @@ Candidate only(const Experiment& experiment, const std::string& effect, double v
 }
 
 TEST(RunDrift, OfAParameterThatIsTheSameInAllRunsIsNone) {
-  const Symptomatic data(simulated_experiment({{"hub_inertia", {{{"factor", 1.2}}, ""}}}));
+  const Symptomatic data(simulated_experiment({effects::named("hub_inertia", {{"factor", 1.2}})}));
   const auto drift =
       run_drift(data.problem(), only(data.problem().experiment(), "hub_inertia", 1.21), 0);
   ASSERT_TRUE(drift);
@@ -89,8 +90,8 @@ TEST(RunDrift, OfAParameterThatIsTheSameInAllRunsIsNone) {
 }
 
 TEST(RunDrift, OfAParameterThatChangesIsTold) {
-  Experiment experiment = simulated_experiment({{"hub_inertia", {{{"factor", 1.2}}, ""}}});
-  const Experiment other = simulated_experiment({{"hub_inertia", {{{"factor", 1.4}}, ""}}});
+  Experiment experiment = simulated_experiment({effects::named("hub_inertia", {{"factor", 1.2}})});
+  const Experiment other = simulated_experiment({effects::named("hub_inertia", {{"factor", 1.4}})});
   experiment.runs[1] = other.runs[1];
   const Symptomatic data(std::move(experiment));
   const auto drift =

@@ -1,6 +1,7 @@
 #include "diagnose/search/torque_timing.hpp"
 
 #include "diagnose/diagnosis.hpp"
+#include "effects/registry/vocabulary.hpp"
 #include "tests/diagnose/simulated_experiments.hpp"
 
 #include <gmock/gmock.h>
@@ -58,8 +59,8 @@ TEST(TorqueTiming, OfADelayIsLeftToTheDelay) {
 
 TEST(TorqueTiming, LeavesACauseBesideItToBeFoundUnbiased) {
   constexpr double kTruth_kg = 0.01;
-  const Experiment experiment =
-      with_late_torque(simulated_experiment({{"payload_mass", {{{"mass", kTruth_kg}}, ""}}}), 0.8);
+  const Experiment experiment = with_late_torque(
+      simulated_experiment({effects::named("payload_mass", {{"mass", kTruth_kg}})}), 0.8);
   const Diagnosis made = diagnose(experiment, named(experiment, {"time_delay", "payload_mass"}));
   EXPECT_EQ(made.verdict, Verdict::explained);
   ASSERT_EQ(made.causes.size(), 1U);

@@ -1,6 +1,7 @@
 // What is not known of an experiment beside its causes: numbers of the arm, the state at the first
 // sample, the torque between samples.
 #include "diagnose/diagnosis.hpp"
+#include "effects/registry/vocabulary.hpp"
 #include "tests/diagnose/simulated_experiments.hpp"
 
 #include <gtest/gtest.h>
@@ -49,7 +50,8 @@ TEST(UncertainNumber, FarBeyondItsUncertaintyIsACause) {
 }
 
 TEST(UncertainNumber, LeavesTheCauseBesideItToBeFound) {
-  Experiment experiment = simulated_experiment({{"root_compliance", {{{"stiffness", 60.0}}, ""}}});
+  Experiment experiment =
+      simulated_experiment({effects::named("root_compliance", {{"stiffness", 60.0}})});
   experiment.arm.relative_uncertainties = {{"hub.inertia", 0.05}};
   experiment.arm.hub.inertia_kg_m2 *= 0.97;
   const Diagnosis made = diagnose(experiment, named(experiment, kCandidates));
@@ -85,8 +87,8 @@ TEST(UnknownState, OfAnArmAsItsFileHasItIsAdequate) {
 }
 
 TEST(UnknownState, LeavesALinearCauseToBeFound) {
-  const Experiment experiment =
-      begun_later(simulated_experiment({{"root_compliance", {{{"stiffness", 60.0}}, ""}}}), kBegin);
+  const Experiment experiment = begun_later(
+      simulated_experiment({effects::named("root_compliance", {{"stiffness", 60.0}})}), kBegin);
   const Diagnosis made = diagnose(experiment, named(experiment, kCandidates));
   EXPECT_EQ(made.verdict, Verdict::explained);
   ASSERT_EQ(made.causes.size(), 1U);
@@ -94,8 +96,8 @@ TEST(UnknownState, LeavesALinearCauseToBeFound) {
 }
 
 TEST(UnknownState, LeavesFrictionToBeFound) {
-  const Experiment experiment =
-      begun_later(simulated_experiment({{"coulomb_friction", {{{"torque", 0.008}}, ""}}}), kBegin);
+  const Experiment experiment = begun_later(
+      simulated_experiment({effects::named("coulomb_friction", {{"torque", 0.008}})}), kBegin);
   const Diagnosis made =
       diagnose(experiment, named(experiment, {"coulomb_friction", "hub_viscous_friction"}));
   ASSERT_EQ(made.causes.size(), 1U);
@@ -106,7 +108,7 @@ TEST(UnknownState, LeavesFrictionToBeFound) {
 
 TEST(UnknownHold, IsTakenFromTheData) {
   // The simulated runs hold the torque from sample to sample.
-  Experiment experiment = simulated_experiment({{"payload_mass", {{{"mass", 0.01}}, ""}}});
+  Experiment experiment = simulated_experiment({effects::named("payload_mass", {{"mass", 0.01}})});
   for (auto& [run, data] : experiment.runs) {
     run.torque_hold = measured::TorqueHold::first;
     run.torque_hold_is_known = false;

@@ -1,6 +1,7 @@
 #include "exact_tf/certificate.hpp"
 
 #include "arm/input_error.hpp"
+#include "effects/registry/vocabulary.hpp"
 #include "exact_tf/exact_arm.hpp"
 #include "sample_arms.hpp"
 #include "tests/reference/reference_cases.hpp"
@@ -231,14 +232,14 @@ TEST(Certificate, IsRefusedWhereItWouldNotHold) {
   const std::vector<std::complex<double>> s = {{1.0, 0.0}};
   const arm::Sensor at_tip{arm::SensorKind::strain, arm.beam.length_m};
   EXPECT_THROW(certify_zeros(arm, at_tip, s), arm::InputError);
-  arm.effects["hub_spring"] = {{{"stiffness", 2.0}}, ""};
+  effects::put(arm, "hub_spring", {{"stiffness", 2.0}});
   EXPECT_THROW(certify_poles(arm, std::vector{1.0}), arm::InputError);
 }
 
 TEST(Certificate, HoldsForAnArmWithTheEffectsOfAPlainOne) {
   arm::Arm arm = arm::paper_arm();
-  arm.effects["hub_inertia"] = {{{"factor", 2.0}}, ""};
-  arm.effects["flexural_rigidity"] = {{{"factor", 0.9}}, ""};
+  effects::put(arm, "hub_inertia", {{"factor", 2.0}});
+  effects::put(arm, "flexural_rigidity", {{"factor", 0.9}});
   const ExactArm exact(arm);
   expect_proved(certify_poles(arm, exact.pole_lambdas(5)), 5);
   expect_refuted(certify_poles(arm, ExactArm(arm::paper_arm()).pole_lambdas(5)), "root 1");

@@ -1,4 +1,5 @@
 #include "damped_roots.hpp"
+#include "effects/registry/vocabulary.hpp"
 #include "exact_tf/exact_arm.hpp"
 #include "sample_arms.hpp"
 
@@ -133,13 +134,13 @@ TEST(ModalModel, CouplesModesByHubFrictionAlone) {
 /// The same numbers, once in the arm and once by its effects.
 TEST(ExactArm, HonoursTheEffectsThatChangeNumbersOnly) {
   arm::Arm by_effects = unit_arm(0.1, 0.2, 0.01, 1e-4, 0.01);
-  by_effects.effects["hub_inertia"].parameters["factor"] = 2.0;
-  by_effects.effects["flexural_rigidity"].parameters["factor"] = 0.5;
-  by_effects.effects["linear_density"].parameters["factor"] = 4.0;
-  by_effects.effects["payload_mass"].parameters["mass"] = 0.25;
-  by_effects.effects["payload_inertia"].parameters["inertia"] = 0.03125;
-  by_effects.effects["hub_viscous_friction"].parameters["coefficient"] = 0.25;
-  by_effects.effects["structural_damping"].parameters["time"] = 1e-3;
+  effects::put(by_effects, "hub_inertia", {{"factor", 2.0}});
+  effects::put(by_effects, "flexural_rigidity", {{"factor", 0.5}});
+  effects::put(by_effects, "linear_density", {{"factor", 4.0}});
+  effects::put(by_effects, "payload_mass", {{"mass", 0.25}});
+  effects::put(by_effects, "payload_inertia", {{"inertia", 0.03125}});
+  effects::put(by_effects, "hub_viscous_friction", {{"coefficient", 0.25}});
+  effects::put(by_effects, "structural_damping", {{"time", 1e-3}});
   arm::Arm by_numbers = by_effects;
   by_numbers.effects.clear();
   by_numbers.beam.given_flexural_rigidity_N_m2 = 0.5;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "effects/registry/vocabulary.hpp"
 #include "sample_arms.hpp"
 
 #include <map>
@@ -21,7 +22,7 @@ inline arm::Arm stubby_arm(double hub_inertia, double payload_mass, double paylo
 
 inline arm::Arm with_effect(arm::Arm arm, const std::string& name,
                             const std::map<std::string, double>& parameters) {
-  arm.effects[name].parameters = parameters;
+  effects::put(arm, name, parameters);
   arm.name += ", " + name;
   return arm;
 }

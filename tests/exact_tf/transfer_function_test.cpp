@@ -1,5 +1,6 @@
 #include "arm/input_error.hpp"
 #include "ball.hpp"
+#include "effects/registry/vocabulary.hpp"
 #include "exact_tf/complex_frequency.hpp"
 #include "exact_tf/exact_arm.hpp"
 #include "sample_arms.hpp"
@@ -188,19 +189,16 @@ TEST(ExactArm, RefusesWhatItCannotAnswer) {
 }
 
 TEST(ExactArm, RefusesEffectsThatItDoesNotHonourByName) {
-  for (const auto& definition : arm::effect_vocabulary()) {
-    if (definition.place == arm::EffectPlace::linear_arm) continue;
+  for (const auto& definition : effects::vocabulary()) {
+    if (definition->is_of_linear_arm()) continue;
     arm::Arm arm = arm::paper_arm();
     arm.beam.shear_modulus_Pa = 2.6e10;
-    auto& effect = arm.effects[definition.name];
-    for (const auto& parameter : definition.parameters) {
-      effect.parameters[parameter.name] = 0.5;
-    }
+    arm.effects[definition->name] = effects::example(definition);
     try {
       ExactArm{arm};
-      ADD_FAILURE() << definition.name << " was accepted";
+      ADD_FAILURE() << definition->name << " was accepted";
     } catch (const arm::InputError& error) {
-      EXPECT_THAT(error.what(), testing::HasSubstr(definition.name));
+      EXPECT_THAT(error.what(), testing::HasSubstr(definition->name));
       EXPECT_THAT(error.what(), testing::HasSubstr("exact_tf"));
     }
   }

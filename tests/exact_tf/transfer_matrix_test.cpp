@@ -1,5 +1,6 @@
 #include "arm/input_error.hpp"
 #include "effect_arms.hpp"
+#include "effects/registry/vocabulary.hpp"
 #include "exact_tf/chain_count.hpp"
 #include "exact_tf/chain_eigenvalues.hpp"
 #include "exact_tf/exact_arm.hpp"
@@ -199,7 +200,7 @@ TEST_P(ArmWithEffects, HasZerosAtWhichTheSensorIsStill) {
   arm::Arm arm = GetParam();
   arm.damping.kelvin_voigt_s = 0.0;
   arm.hub.viscous_friction_N_m_s_per_rad = 0.0;
-  if (arm.effects.contains("air_damping")) arm.effects["air_damping"].parameters["coefficient"] = 0;
+  if (arm.effects.contains("air_damping")) effects::put(arm, "air_damping", {{"coefficient", 0}});
   const ExactArm exact(arm);
   constexpr int kCount = 10;
   for (const auto& sensor : all_sensors()) {

@@ -1,5 +1,6 @@
 // What each effect becomes where theory says: in its limits, at buckling, for little of it.
 #include "arm/input_error.hpp"
+#include "effects/registry/vocabulary.hpp"
 #include "fem/discretisation.hpp"
 #include "fem/fem_arm.hpp"
 #include "fem/vibration_modes.hpp"
@@ -33,7 +34,7 @@ arm::Arm unit_arm() {
 
 arm::Arm with(arm::Arm arm, const std::string& effect,
               const std::map<std::string, double>& parameters) {
-  arm.effects[effect].parameters = parameters;
+  effects::put(arm, effect, parameters);
   return arm;
 }
 
@@ -93,7 +94,7 @@ arm::Arm sheared(double stiffness) {
   arm.beam.thickness_m = std::sqrt(12.0 / stiffness);
   arm.beam.width_m = 1.0;
   arm.beam.shear_modulus_Pa = stiffness / *arm.beam.thickness_m;
-  arm.effects["shear_and_rotary_inertia"].parameters["shear_coefficient"] = 1.0;
+  effects::put(arm, "shear_and_rotary_inertia", {{"shear_coefficient", 1.0}});
   return arm;
 }
 
@@ -147,8 +148,8 @@ TEST(EffectLimits, AHubThatNextToNothingHoldsLeavesTheFlexibleModesAsTheyAre) {
 TEST(Gravity, MakesAStiffArmAPendulum) {
   arm::Arm arm = with(unit_arm(), "gravity", {{"acceleration", 9.81}});
   arm.beam = arm::Beam::from_rigidity(1.0, 1e8, 1.0);
-  arm.effects["hub_radius"].parameters["radius"] = 0.25;
-  arm.effects["payload_offset"].parameters["offset"] = 0.1;
+  effects::put(arm, "hub_radius", {{"radius", 0.25}});
+  effects::put(arm, "payload_offset", {{"offset", 0.1}});
   const double first_moment = 0.75 + 0.3 * 1.35;
   const double expected = 9.81 * first_moment / arm::total_inertia_kg_m2(arm);
   // Weight over stiffness.

@@ -2,6 +2,7 @@
 #include "fem/fem_arm.hpp"
 
 #include "arm/input_error.hpp"
+#include "effects/registry/vocabulary.hpp"
 #include "tests/fem/constants.hpp"
 
 #include <gmock/gmock.h>
@@ -16,17 +17,15 @@ namespace {
 using ::testing::HasSubstr;
 
 TEST(FemArm, RefusesEveryOtherEffectByName) {
-  for (const arm::EffectDefinition& effect : arm::effect_vocabulary()) {
-    if (effect.place == arm::EffectPlace::linear_arm) continue;
+  for (const auto& effect : effects::vocabulary()) {
+    if (effect->is_of_linear_arm()) continue;
     arm::Arm arm = arm::paper_arm();
-    for (const auto& parameter : effect.parameters) {
-      arm.effects[effect.name].parameters[parameter.name] = 0.1;
-    }
+    arm.effects[effect->name] = effects::example(effect);
     try {
       FemArm{arm};
-      FAIL() << effect.name << " was accepted";
+      FAIL() << effect->name << " was accepted";
     } catch (const arm::InputError& error) {
-      EXPECT_THAT(error.what(), HasSubstr(effect.name));
+      EXPECT_THAT(error.what(), HasSubstr(effect->name));
     }
   }
 }

@@ -1,36 +1,24 @@
 #include "laws/effect_arms.hpp"
 
 #include "arm/linear_arm.hpp"
+#include "effects/registry/vocabulary.hpp"
 
 #include <cstddef>
-#include <map>
 
 namespace flexarm::laws {
 
 namespace {
 
-/// Sizes that move the first poles by a per cent or more, or damp them visibly.
+/// Every effect on the linear arm: their examples move the first poles by a per cent or more, or
+/// damp them visibly.
 const arm::Effects& every_effect() {
-  const auto effect = [](std::map<std::string, double> parameters) {
-    return arm::Effect{std::move(parameters), ""};
-  };
-  static const arm::Effects effects = {
-      {"hub_inertia", effect({{"factor", 1.4}})},
-      {"flexural_rigidity", effect({{"factor", 0.85}})},
-      {"linear_density", effect({{"factor", 1.15}})},
-      {"payload_mass", effect({{"mass", 0.03}})},
-      {"payload_inertia", effect({{"inertia", 3e-4}})},
-      {"payload_offset", effect({{"offset", 0.04}})},
-      {"hub_radius", effect({{"radius", 0.05}})},
-      {"root_compliance", effect({{"stiffness", 30.0}})},
-      {"local_stiffness_loss", effect({{"position", 0.31}, {"stiffness", 15.0}})},
-      {"hub_spring", effect({{"stiffness", 0.6}})},
-      {"gravity", effect({{"acceleration", 9.81}})},
-      {"shear_and_rotary_inertia", effect({})},
-      {"hub_viscous_friction", effect({{"coefficient", 0.01}})},
-      {"structural_damping", effect({{"time", 2e-4}})},
-      {"air_damping", effect({{"coefficient", 0.05}})},
-  };
+  static const arm::Effects effects = [] {
+    arm::Effects made;
+    for (const auto& definition : effects::vocabulary()) {
+      if (definition->is_of_linear_arm()) made[definition->name] = effects::example(definition);
+    }
+    return made;
+  }();
   return effects;
 }
 

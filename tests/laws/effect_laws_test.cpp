@@ -1,5 +1,6 @@
 #include "arm/input_error.hpp"
 #include "arm/linear_arm.hpp"
+#include "effects/registry/vocabulary.hpp"
 #include "laws/effect_arms.hpp"
 #include "laws/subjects.hpp"
 
@@ -181,12 +182,16 @@ class EffectLimits : public testing::TestWithParam<Subject> {
 
 TEST_P(EffectLimits, AnEffectOfNoSizeChangesNothing) {
   const auto plain = poles({});
-  const arm::Effects neutral = {
-      {"hub_inertia", {{{"factor", 1.0}}, ""}},      {"flexural_rigidity", {{{"factor", 1.0}}, ""}},
-      {"linear_density", {{{"factor", 1.0}}, ""}},   {"payload_mass", {{{"mass", 0.0}}, ""}},
-      {"payload_inertia", {{{"inertia", 0.0}}, ""}}, {"payload_offset", {{{"offset", 0.0}}, ""}},
-      {"hub_radius", {{{"radius", 0.0}}, ""}},       {"hub_spring", {{{"stiffness", 0.0}}, ""}},
-      {"gravity", {{{"acceleration", 0.0}}, ""}},    {"air_damping", {{{"coefficient", 0.0}}, ""}}};
+  const arm::Effects neutral = {effects::named("hub_inertia", {{"factor", 1.0}}),
+                                effects::named("flexural_rigidity", {{"factor", 1.0}}),
+                                effects::named("linear_density", {{"factor", 1.0}}),
+                                effects::named("payload_mass", {{"mass", 0.0}}),
+                                effects::named("payload_inertia", {{"inertia", 0.0}}),
+                                effects::named("payload_offset", {{"offset", 0.0}}),
+                                effects::named("hub_radius", {{"radius", 0.0}}),
+                                effects::named("hub_spring", {{"stiffness", 0.0}}),
+                                effects::named("gravity", {{"acceleration", 0.0}}),
+                                effects::named("air_damping", {{"coefficient", 0.0}})};
   for (const auto& effect : neutral) {
     EXPECT_EQ(poles({effect}), plain) << effect.first;
   }
@@ -202,7 +207,7 @@ TEST_P(EffectLimits, SmallEffectsMoveThePolesInProportion) {
       {"root_compliance", {{"stiffness", 1e7}}},
       {"local_stiffness_loss", {{"position", 0.4}, {"stiffness", 1e7}}}};
   for (const auto& [name, parameters] : small) {
-    const auto moved = poles({{name, {parameters, ""}}});
+    const auto moved = poles({effects::named(name, parameters)});
     for (std::size_t i = 0; i < plain.size(); ++i) {
       const double change = std::abs(moved[i] / plain[i] - 1.0);
       EXPECT_LE(change, 2e-5) << name << " pole " << i + 1;
@@ -214,8 +219,8 @@ TEST_P(EffectLimits, AStiffHubSpringHoldsTheHub) {
   Arm arm = damped_arm();
   const auto held = response::zeros(GetParam().make(arm), kHubAngle, kRoots);
   constexpr double kStiff = 1e6;  // of EI/l: what is left of the limit is about its inverse
-  arm.effects["hub_spring"] = {
-      {{"stiffness", kStiff * arm.beam.flexural_rigidity_N_m2() / arm.beam.length_m}}, ""};
+  effects::put(arm, "hub_spring",
+               {{"stiffness", kStiff * arm.beam.flexural_rigidity_N_m2() / arm.beam.length_m}});
   const auto poles = response::poles(GetParam().make(arm), kRoots - 1);
   EXPECT_NEAR(std::sqrt(poles.lowest_omega_squared_rad2_per_s2) / held.s_rad_per_s[0].imag(), 1.0,
               10.0 / kStiff);
@@ -227,8 +232,8 @@ TEST_P(EffectLimits, AStiffHubSpringHoldsTheHub) {
 TEST_P(EffectLimits, AStiffArmThatHangsIsAPendulum) {
   Arm arm = damped_arm();
   const double g = 9.81;
-  arm.effects["gravity"] = {{{"acceleration", g}}, ""};
-  arm.effects["flexural_rigidity"] = {{{"factor", 1e6}}, ""};
+  effects::put(arm, "gravity", {{"acceleration", g}});
+  effects::put(arm, "flexural_rigidity", {{"factor", 1e6}});
   const double l = arm.beam.length_m;
   const double mass = arm.beam.linear_density_kg_per_m() * l;
   const double expected =
@@ -240,12 +245,12 @@ TEST_P(EffectLimits, AStiffArmThatHangsIsAPendulum) {
 
 TEST_P(EffectLimits, AnArmThatStandsUpFallsAndABucklingOneIsRefused) {
   Arm arm = damped_arm();
-  arm.effects["gravity"] = {{{"acceleration", -1.0}}, ""};
+  effects::put(arm, "gravity", {{"acceleration", -1.0}});
   EXPECT_LT(response::poles(GetParam().make(arm), 1).lowest_omega_squared_rad2_per_s2, 0.0);
   // The first flexible mode of the free arm buckles far above the clamped column's 7.84 EI/l^2.
   const double load_unit = arm.beam.flexural_rigidity_N_m2() /
                            (std::pow(arm.beam.length_m, 3) * arm.beam.linear_density_kg_per_m());
-  arm.effects["gravity"] = {{{"acceleration", -500.0 * load_unit}}, ""};
+  effects::put(arm, "gravity", {{"acceleration", -500.0 * load_unit}});
   try {
     response::poles(GetParam().make(arm), 1);
     FAIL() << "a buckled arm was accepted";

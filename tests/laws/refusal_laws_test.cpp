@@ -78,7 +78,7 @@ TEST_P(RefusalLaws, AnInvalidArmAndOneBeyondComputableScalesAreInputErrors) {
   arms[5].beam.given_flexural_rigidity_N_m2 = 1e300;
   arms[6].payload.mass_kg = 1.001 * arm::kLargestPayloadRatio;
   arms[7].payload.inertia_kg_m2 = 1.001 * arm::kLargestPayloadRatio;
-  arms[8].effects["gravity"];
+  effects::put(arms[8], "gravity", {});
   for (std::size_t i = 0; i < arms.size(); ++i) {
     EXPECT_THROW(model(arms[i]), InputError) << "arm " << i;
   }

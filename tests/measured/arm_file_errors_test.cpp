@@ -1,4 +1,5 @@
 #include "arm/input_error.hpp"
+#include "effects/registry/vocabulary.hpp"
 #include "measured/files/arm_file.hpp"
 
 #include <fmt/format.h>
@@ -45,12 +46,13 @@ const std::string kTopLevel =
 const std::string kBeamKeys =
     "; allowed in [beam]: length, width, thickness, density, youngs_modulus, shear_modulus, "
     "flexural_rigidity, linear_density";
-const std::string kEffectNames =
-    "; allowed: hub_inertia, flexural_rigidity, linear_density, payload_mass, payload_inertia, "
-    "payload_offset, hub_radius, root_compliance, local_stiffness_loss, hub_spring, gravity, "
-    "shear_and_rotary_inertia, hub_viscous_friction, structural_damping, air_damping, "
-    "quadratic_drag, coulomb_friction, stribeck_friction, torque_gain, torque_bias, "
-    "torque_saturation, torque_dead_zone, torque_ripple, actuator_lag, time_delay, sensor_lag";
+const std::string kEffectNames = [] {
+  std::string names;
+  for (const auto& definition : effects::vocabulary()) {
+    names += (names.empty() ? "; allowed: " : ", ") + definition->name;
+  }
+  return names;
+}();
 const std::string kSensorNames =
     "; allowed: hub_angle, hub_velocity, tip_acceleration, tip_displacement, tip_deflection, "
     "strain@X (X in metres from the hub)";
@@ -276,7 +278,7 @@ TEST_P(ArmFileMistake, GivesOneLineWithPlaceReasonAndRemedy) {
   ASSERT_NE(place, std::string::npos);
   text.replace(place, mistake.old_text.size(), mistake.new_text);
   try {
-    parse_arm(text, "rig.toml");
+    parse_arm(text, "rig.toml", effects::vocabulary());
     FAIL() << "accepted:\n" << text;
   } catch (const InputError& error) {
     EXPECT_EQ(error.what(), "rig.toml:" + mistake.error);
@@ -287,7 +289,7 @@ INSTANTIATE_TEST_SUITE_P(, ArmFileMistake, testing::ValuesIn(kMistakes),
                          [](const auto& mistake) { return std::string(mistake.param.name); });
 
 TEST(ArmFileErrors, TheGoodFileOfTheTableIsGood) {
-  EXPECT_NO_THROW(parse_arm(kGood, "rig.toml"));
+  EXPECT_NO_THROW(parse_arm(kGood, "rig.toml", effects::vocabulary()));
 }
 
 TEST(ArmFileErrors, BytesThatAreNoTextGiveOnePrintableLine) {
@@ -303,7 +305,7 @@ TEST(ArmFileErrors, BytesThatAreNoTextGiveOnePrintableLine) {
                                           std::string(5000, '[')};
   for (const auto& blob : blobs) {
     try {
-      parse_arm(blob, "blob");
+      parse_arm(blob, "blob", effects::vocabulary());
       FAIL();
     } catch (const InputError& error) {
       const std::string_view line = error.what();
@@ -334,7 +336,7 @@ TEST(ArmFileErrors, BytesAtRandomGiveAnArmOrOneLine) {
       }
     }
     try {
-      parse_arm(text, "rig.toml");
+      parse_arm(text, "rig.toml", effects::vocabulary());
     } catch (const InputError& error) {
       const std::string line = error.what();
       EXPECT_EQ(line.find_first_of("\r\n"), std::string::npos) << line;
@@ -345,7 +347,7 @@ TEST(ArmFileErrors, BytesAtRandomGiveAnArmOrOneLine) {
 
 TEST(ArmFileErrors, AFileThatIsNotThereIsNamed) {
   try {
-    read_arm_file("/nowhere/rig.toml");
+    read_arm_file("/nowhere/rig.toml", effects::vocabulary());
     FAIL();
   } catch (const InputError& error) {
     EXPECT_STREQ(error.what(), "/nowhere/rig.toml: no such file");

@@ -2,6 +2,7 @@
 
 #include "arm/arm_keys.hpp"
 #include "arm/input_error.hpp"
+#include "effects/registry/vocabulary.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -43,7 +44,7 @@ sensor = "strain@0.05"
 )";
 
 TEST(ArmFile, EveryKeyReachesItsMember) {
-  const Arm arm = parse_arm(kFromFormatsDocument, "arm.toml");
+  const Arm arm = parse_arm(kFromFormatsDocument, "arm.toml", effects::vocabulary());
   EXPECT_EQ(arm.name, "aluminium link");
   EXPECT_EQ(arm.beam.length_m, 0.96);
   EXPECT_EQ(arm.beam.width_m, 0.019008);
@@ -63,19 +64,19 @@ TEST(ArmFile, EveryKeyReachesItsMember) {
 TEST(ArmFile, ABeamMayBeGivenByRigidityAndDensityAlone) {
   const Arm arm = parse_arm(
       "[beam]\nlength = 1\nflexural_rigidity = 3.7\nlinear_density = 0.16\n[hub]\ninertia = 0\n",
-      "arm.toml");
+      "arm.toml", effects::vocabulary());
   EXPECT_EQ(arm.beam.flexural_rigidity_N_m2(), 3.7);
   EXPECT_EQ(arm.beam.linear_density_kg_per_m(), 0.16);
-  EXPECT_EQ(parse_arm(format_arm(arm), "again"), arm);
+  EXPECT_EQ(parse_arm(format_arm(arm), "again", effects::vocabulary()), arm);
 }
 
 TEST(ArmFile, DottedKeysAndInlineTablesAreTheSameFile) {
   EXPECT_EQ(parse_arm("beam = { length = 1, flexural_rigidity = 3.7, linear_density = 0.16 }\n"
                       "hub.inertia = 0\n",
-                      "a"),
+                      "a", effects::vocabulary()),
             parse_arm("\xef\xbb\xbf[beam]\r\nlength = 1.0\r\nflexural_rigidity = 3.7\r\n"
                       "linear_density = 0.16\r\n[hub]\r\ninertia = 0.0",
-                      "b"));
+                      "b", effects::vocabulary()));
 }
 
 TEST(ArmFile, WhatEqualsItsDefaultIsLeftOutOfTheText) {
@@ -127,8 +128,8 @@ class ArmGenerator {
     arm.hub = {not_negative(), chance() ? not_negative() : 0.0};
     if (chance()) arm.payload = {not_negative(), not_negative()};
     if (chance()) arm.damping.kelvin_voigt_s = not_negative();
-    for (const auto& definition : effect_vocabulary()) {
-      if (pick(4) == 0) arm.effects[definition.name] = effect(definition, arm.beam);
+    for (const auto& definition : effects::vocabulary()) {
+      if (pick(4) == 0) arm.effects[definition->name] = effect(definition, arm.beam);
     }
     return arm;
   }
@@ -189,18 +190,18 @@ class ArmGenerator {
     return beam;
   }
 
-  Effect effect(const EffectDefinition& definition, const Beam& beam) {
-    Effect effect;
-    for (const auto& parameter : definition.parameters) {
-      if (!parameter.required && chance()) continue;
+  Effect effect(const std::shared_ptr<const EffectDefinition>& definition, const Beam& beam) {
+    Effect effect{.definition = definition};
+    for (const auto& parameter : definition->parameters) {
+      if (parameter.otherwise && chance()) continue;
       double value = parameter.range.exclusive ? positive() : not_negative();
       if (parameter.range.minimum < 0.0 && chance()) value = -value;
-      if (definition.name == "local_stiffness_loss" && parameter.name == "position") {
+      if (definition->name == "local_stiffness_loss" && parameter.name == "position") {
         value = beam.length_m * 0.25;
       }
       effect.parameters[parameter.name] = value;
     }
-    if (definition.acts_on_sensor && chance()) {
+    if (definition->sensor && chance()) {
       effect.sensor = beam.thickness_m && chance() ? "strain@0" : "hub_velocity";
     }
     return effect;
@@ -215,8 +216,8 @@ TEST(ArmFile, WhatIsWrittenReadsBackEqual) {
   for (int i = 0; i < kArms; ++i) {
     const Arm arm = generator.arm();
     const std::string text = format_arm(arm);
-    ASSERT_EQ(parse_arm(text, "arm.toml"), arm) << text;
-    ASSERT_EQ(format_arm(parse_arm(text, "arm.toml")), text);
+    ASSERT_EQ(parse_arm(text, "arm.toml", effects::vocabulary()), arm) << text;
+    ASSERT_EQ(format_arm(parse_arm(text, "arm.toml", effects::vocabulary())), text);
   }
 }
 

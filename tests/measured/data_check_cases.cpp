@@ -1,6 +1,7 @@
 #include "tests/measured/data_check_cases.hpp"
 
 #include "arm/linear_arm.hpp"
+#include "effects/registry/vocabulary.hpp"
 #include "response/excitation/excitation.hpp"
 #include "response/formulation_maker.hpp"
 #include "response/time/simulation.hpp"
@@ -60,15 +61,15 @@ response::Excitation draw_excitation(RandomNumbers& random, double rms_N_m, doub
 void draw_friction(RandomNumbers& random, double rms_N_m, arm::Arm& arm) {
   const double kind = random.uniform();
   if (kind < 0.25) {
-    arm.effects["coulomb_friction"].parameters = {{"torque", rms_N_m * between(random, 0.05, 0.4)}};
+    effects::put(arm, "coulomb_friction", {{"torque", rms_N_m * between(random, 0.05, 0.4)}});
   } else if (kind < 0.45) {
     const double torque = rms_N_m * between(random, 0.05, 0.3);
-    arm.effects["stribeck_friction"].parameters = {
-        {"torque", torque},
-        {"static_torque", torque * between(random, 1.1, 1.6)},
-        {"velocity", between(random, 0.1, 0.5)}};
+    effects::put(arm, "stribeck_friction",
+                 {{"torque", torque},
+                  {"static_torque", torque * between(random, 1.1, 1.6)},
+                  {"velocity", between(random, 0.1, 0.5)}});
   } else if (kind < 0.55) {
-    arm.effects["quadratic_drag"].parameters = {{"coefficient", between(random, 0.01, 0.1)}};
+    effects::put(arm, "quadratic_drag", {{"coefficient", between(random, 0.01, 0.1)}});
   }
 }
 

@@ -1,5 +1,6 @@
 #include "measured/spectra/distortion.hpp"
 
+#include "effects/registry/vocabulary.hpp"
 #include "measured/spectra/response_estimate.hpp"
 #include "tests/measured/simulated_record.hpp"
 
@@ -103,27 +104,45 @@ TEST_P(DistortionOf, IsFoundByItsParity) {
 INSTANTIATE_TEST_SUITE_P(
     Faults, DistortionOf,
     testing::Values(
-        Fault{"CoulombFriction", [](auto& parts) { parts.friction.coulomb_N_m = 0.01; }, true,
-              false},
-        Fault{"DeadZone", [](auto& parts) { parts.actuator.dead_zone_N_m = 0.02; }, true, false},
-        Fault{"Saturation", [](auto& parts) { parts.actuator.saturation_N_m = 0.15; }, true, false},
-        Fault{"BiasAndFriction",
+        Fault{
+            "CoulombFriction",
+            [](auto& parts) {
+              response::add_effect(parts, effects::effect("coulomb_friction", {{"torque", 0.01}}));
+            },
+            true, false},
+        Fault{"DeadZone",
               [](auto& parts) {
-                parts.friction.coulomb_N_m = 0.02;
-                parts.actuator.bias_N_m = 0.02;
+                response::add_effect(parts, effects::effect("torque_dead_zone", {{"width", 0.02}}));
               },
-              true, true},
+              true, false},
+        Fault{
+            "Saturation",
+            [](auto& parts) {
+              response::add_effect(parts, effects::effect("torque_saturation", {{"limit", 0.15}}));
+            },
+            true, false},
+        Fault{
+            "BiasAndFriction",
+            [](auto& parts) {
+              response::add_effect(parts, effects::effect("coulomb_friction", {{"torque", 0.02}}));
+              response::add_effect(parts, effects::effect("torque_bias", {{"torque", 0.02}}));
+            },
+            true, true},
         // The hub settles where the ripple's torque is zero and turns about that symmetrically; a
         // bias moves it to where it is not.
         Fault{"Ripple",
               [](auto& parts) {
-                parts.actuator.ripple = response::TorqueRipple{0.05, 20.0, 0.4};
+                response::add_effect(parts, effects::effect("torque_ripple", {{"amplitude", 0.05},
+                                                                              {"cycles", 20.0},
+                                                                              {"phase", 0.4}}));
               },
               true, false},
         Fault{"RippleAndBias",
               [](auto& parts) {
-                parts.actuator.ripple = response::TorqueRipple{0.05, 20.0, 0.4};
-                parts.actuator.bias_N_m = 0.03;
+                response::add_effect(parts, effects::effect("torque_ripple", {{"amplitude", 0.05},
+                                                                              {"cycles", 20.0},
+                                                                              {"phase", 0.4}}));
+                response::add_effect(parts, effects::effect("torque_bias", {{"torque", 0.03}}));
               },
               true, true}),
     name_of_fault);

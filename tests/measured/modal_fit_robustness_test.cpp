@@ -1,5 +1,6 @@
 // Fits of data that are short, poor, of another arm than the model's, or no data at all.
 #include "arm/input_error.hpp"
+#include "effects/registry/vocabulary.hpp"
 #include "measured/modal/modal_fit.hpp"
 #include "measured/modal/modal_gains.hpp"
 #include "tests/fit_cases/fit_cases.hpp"
@@ -32,7 +33,7 @@ ModalFit fit_of(const TimeRecord& record, const ModalFitOptions& options = {}) {
 TimeRecord record_with(const FitCase& fit_case, const std::string& effect,
                        const std::map<std::string, double>& parameters) {
   arm::Arm arm = fit_case.arm;
-  arm.effects[effect].parameters = parameters;
+  effects::put(arm, effect, parameters);
   TimeRecord record = clean_record(fit_case, model_of(fit_case), response::take_apart(arm));
   add_noise(record, fit_case.relative_noise, fit_case.seed);
   return record;

@@ -1,6 +1,7 @@
 #include "arm/uncertainties.hpp"
 
 #include "arm/input_error.hpp"
+#include "effects/registry/vocabulary.hpp"
 #include "measured/files/arm_file.hpp"
 
 #include <gmock/gmock.h>
@@ -22,7 +23,7 @@ const std::string kHub = "[hub]\ninertia = 5.86e-4\n";
 
 std::string error_of(const std::string& toml) {
   try {
-    parse_arm(toml, "a.toml");
+    parse_arm(toml, "a.toml", effects::vocabulary());
   } catch (const InputError& error) {
     return error.what();
   }
@@ -34,11 +35,11 @@ TEST(Uncertainty, IsReadBesideItsNumberAndWrittenBack) {
       "[beam]\nlength = 1\nlength_uncertainty = 0.002\nflexural_rigidity = 3.7\n"
       "flexural_rigidity_uncertainty = 0.03\nlinear_density = 0.16\n" +
           kHub,
-      "a");
+      "a", effects::vocabulary());
   EXPECT_EQ(
       arm.relative_uncertainties,
       (std::map<std::string, double>{{"beam.flexural_rigidity", 0.03}, {"beam.length", 0.002}}));
-  EXPECT_EQ(parse_arm(format_arm(arm), "again"), arm);
+  EXPECT_EQ(parse_arm(format_arm(arm), "again", effects::vocabulary()), arm);
 }
 
 TEST(Uncertainty, IsRefusedWithItsLineAndReason) {
@@ -67,13 +68,13 @@ TEST(Uncertainty, IsRefusedWithItsLineAndReason) {
 TEST(Displaced, MultipliesUncertainNumbersAloneAndStaysValid) {
   Arm arm = paper_arm();  // with E, EI and a section
   arm.relative_uncertainties = {{"beam.flexural_rigidity", 0.03}, {"hub.inertia", 0.1}};
-  const Arm made = displaced(arm, std::vector{1.0, -2.0});
+  const Arm made = with_deviations(arm, std::vector{1.0, -2.0});
   EXPECT_DOUBLE_EQ(made.beam.flexural_rigidity_N_m2(),
                    arm.beam.flexural_rigidity_N_m2() * std::exp(0.03));
   EXPECT_DOUBLE_EQ(made.hub.inertia_kg_m2, arm.hub.inertia_kg_m2 * std::exp(-0.2));
   EXPECT_EQ(made.beam.length_m, arm.beam.length_m);
   EXPECT_NO_THROW(require_valid(made));
-  EXPECT_EQ(displaced(arm, {}), arm);
+  EXPECT_EQ(with_deviations(arm, {}), arm);
 }
 
 }  // namespace

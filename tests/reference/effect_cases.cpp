@@ -1,5 +1,6 @@
 #include "tests/reference/effect_cases.hpp"
 
+#include "effects/registry/vocabulary.hpp"
 #include "measured/files/arm_file.hpp"
 #include "tests/reference/digits.hpp"
 
@@ -33,7 +34,8 @@ EffectResponse response(const json& point) {
 EffectCase effect_case(const json& values) {
   EffectCase each;
   values.at("name").get_to(each.name);
-  each.arm = measured::parse_arm(values.at("arm").get<std::string>(), "effects.json: " + each.name);
+  each.arm = measured::parse_arm(values.at("arm").get<std::string>(), "effects.json: " + each.name,
+                                 effects::vocabulary());
   each.total_inertia_kg_m2 = number(values.at("total_inertia_kg_m2"));
   each.lowest_omega_squared_rad2_per_s2 = number(values.at("lowest_omega_squared_rad2_per_s2"));
   each.pole_rad_per_s = numbers(values.at("pole_omega_rad_per_s"));

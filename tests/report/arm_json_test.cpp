@@ -1,5 +1,7 @@
 #include "report/json/arm_json.hpp"
 
+#include "effects/registry/vocabulary.hpp"
+
 #include <gtest/gtest.h>
 
 namespace flexarm::report {
@@ -8,8 +10,8 @@ namespace {
 TEST(ArmJson, EffectsAreListedWithNumbersAndUnits) {
   arm::Arm arm = arm::paper_arm();
   EXPECT_TRUE(arm_json(arm)["effects"].empty());
-  arm.effects["coulomb_friction"].parameters["torque"] = 0.01;
-  arm.effects["sensor_lag"] = {{{"time_constant", 0.002}}, "hub_angle"};
+  effects::put(arm, "coulomb_friction", {{"torque", 0.01}});
+  effects::put(arm, "sensor_lag", {{"time_constant", 0.002}}, "hub_angle");
   const auto effects = arm_json(arm)["effects"];
   ASSERT_EQ(effects.size(), 2U);
   EXPECT_EQ(effects[0]["effect"], "coulomb_friction");
@@ -21,7 +23,7 @@ TEST(ArmJson, EffectsAreListedWithNumbersAndUnits) {
 
 TEST(ArmJson, NumbersAreTheFilesOwnAndWhatFollowsHasTheEffects) {
   arm::Arm arm = arm::paper_arm();
-  arm.effects["hub_inertia"].parameters["factor"] = 2.0;
+  effects::put(arm, "hub_inertia", {{"factor", 2.0}});
   const auto json = arm_json(arm);
   EXPECT_EQ(json["hub_inertia_kg_m2"], arm.hub.inertia_kg_m2);
   EXPECT_DOUBLE_EQ(json["hub_inertia_ratio"].get<double>(),

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "effects/registry/vocabulary.hpp"
 #include "response/formulation_maker.hpp"
 #include "response/frequency/response_study.hpp"
 
@@ -10,11 +11,11 @@ inline arm::Arm sample_arm() {
   arm::Arm arm = arm::paper_arm();
   arm.damping.kelvin_voigt_s = 1e-4;
   arm.hub.viscous_friction_N_m_s_per_rad = 2e-3;
-  arm.effects["coulomb_friction"].parameters["torque"] = 0.01;
-  arm.effects["time_delay"].parameters["delay"] = 1e-3;
-  arm.effects["actuator_lag"].parameters["time_constant"] = 2e-3;
-  arm.effects["torque_gain"].parameters["factor"] = 1.5;
-  arm.effects["sensor_lag"].parameters["time_constant"] = 1e-3;
+  effects::put(arm, "coulomb_friction", {{"torque", 0.01}});
+  effects::put(arm, "time_delay", {{"delay", 1e-3}});
+  effects::put(arm, "actuator_lag", {{"time_constant", 2e-3}});
+  effects::put(arm, "torque_gain", {{"factor", 1.5}});
+  effects::put(arm, "sensor_lag", {{"time_constant", 1e-3}});
   return arm;
 }
 

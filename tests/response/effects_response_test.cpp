@@ -1,5 +1,6 @@
 // Residual mode, state space and product form of arms with linear effects.
 
+#include "effects/registry/vocabulary.hpp"
 #include "response/frequency/modal_response.hpp"
 #include "response/frequency/response_study.hpp"
 #include "response/frequency/transfer_forms.hpp"
@@ -42,7 +43,7 @@ std::vector<std::pair<std::string, arm::Arm>> varied_arms() {
     arm::Arm arm = damped_arm();
     arm.beam.shear_modulus_Pa = 2.67e10;
     for (const auto& [parameter, value] : parameters) {
-      arm.effects[effect].parameters[parameter] = value;
+      effects::put(arm, effect, {{parameter, value}});
     }
     arms.emplace_back(effect, arm);
   }
@@ -106,7 +107,7 @@ TEST(EffectsResponse, AStaticCorrectionNeverHarmsADampedArm) {
 TEST(EffectsResponse, ASpringAtTheHubGivesTheStaticAngle) {
   constexpr double kStatic = 1e-9;
   arm::Arm arm = damped_arm();
-  arm.effects["hub_spring"].parameters["stiffness"] = 0.5;
+  effects::put(arm, "hub_spring", {{"stiffness", 0.5}});
   for (const char* name : kFormulations) {
     const auto formulation = make_formulation(name, arm, 12);
     const auto kept = modal_model(formulation, 3, every_sensor(), {});
@@ -120,8 +121,8 @@ TEST(EffectsResponse, ASpringAtTheHubGivesTheStaticAngle) {
 
 TEST(EffectsResponse, TheLowestPoleOfAnArmThatIsHeldIsAResonance) {
   arm::Arm arm = damped_arm();
-  arm.effects["hub_spring"].parameters["stiffness"] = 0.5;
-  arm.effects["sensor_lag"].parameters["time_constant"] = 1e-3;
+  effects::put(arm, "hub_spring", {{"stiffness", 0.5}});
+  effects::put(arm, "sensor_lag", {{"time_constant", 1e-3}});
   ResponseOptions options;
   options.sensors = {{arm::SensorKind::hub_angle}};
   options.modes = 2;
@@ -130,7 +131,7 @@ TEST(EffectsResponse, TheLowestPoleOfAnArmThatIsHeldIsAResonance) {
   EXPECT_EQ(study.resonances[0][0].order, 0);
   const double lowest = study.damped_poles.lowest.first_rad_per_s.imag();
   EXPECT_GT(lowest, 6.2832 * study.response.frequency_Hz.front());
-  EXPECT_FALSE(study.chain.sensor_lag.has_value()) << "tip_acceleration is not asked for";
+  EXPECT_TRUE(study.chain.sensor_stages.empty()) << "tip_acceleration is not asked for";
   // A circle: below, above and its far point lie at equal distance from the centre.
   const auto& circle = study.resonances[0][0];
   const Complex centre = (circle.below + circle.above) / 2.0;
@@ -141,9 +142,9 @@ TEST(EffectsResponse, TheLowestPoleOfAnArmThatIsHeldIsAResonance) {
 TEST(EffectsResponse, WhatHoldsTheHubSetsThePowerOfS) {
   constexpr double kCircle = 1e-9;
   arm::Arm sprung = damped_arm();
-  sprung.effects["hub_spring"].parameters["stiffness"] = 0.5;
+  effects::put(sprung, "hub_spring", {{"stiffness", 0.5}});
   arm::Arm hanging = damped_arm();
-  hanging.effects["gravity"].parameters["acceleration"] = 9.81;
+  effects::put(hanging, "gravity", {{"acceleration", 9.81}});
   for (const char* name : kFormulations) {
     const auto spring = make_formulation(name, sprung, 8);
     const auto angle = product_factors(spring, every_sensor()[0], 4);

@@ -30,10 +30,8 @@ TEST(EnergyBalance, OfCoulombFrictionClosesToRounding) {
 
 TEST(EnergyBalance, OfStribeckFrictionAndRippleClosesToOneInAMillion) {
   ArmParts parts = coulomb(0.02);
-  parts.friction.stribeck_N_m = 0.02;
-  parts.friction.stribeck_static_N_m = 0.04;
-  parts.friction.stribeck_velocity_rad_per_s = 0.5;
-  parts.actuator.ripple = TorqueRipple{0.02, 3.0, 0.0};
+  put(parts, "stribeck_friction", {{"torque", 0.02}, {"static_torque", 0.04}, {"velocity", 0.5}});
+  put(parts, "torque_ripple", {{"amplitude", 0.02}, {"cycles", 3.0}, {"phase", 0.0}});
   const auto made = lossy_run(parts);
   EXPECT_GT(made.summary.stops, 0);
   EXPECT_LT(made.energy.largest_residual_J, 1e-6 * made.energy.work_in_J);
@@ -49,9 +47,12 @@ TEST(EnergyBalance, IsNotFormedUnlessAskedFor) {
 /// One step of a turning hub that was solved with some friction torque, booked by the true law.
 EnergyBalance booked(double friction_N_m, double law_N_m) {
   const auto sensors = hub_sensors();
-  const ArmParts parts = coulomb(law_N_m);
-  const ModalDynamics arm = modal_dynamics(two_masses(0.01, 0.05, 3.0), parts, sensors, false);
-  const AddedForces forces(arm, parts, std::nullopt);
+  ArmParts parts = coulomb(0.0);
+  parts.hub.friction.push_back({"coulomb_friction", {[law_N_m](double) {
+                                  return arm::DryFriction::Size{law_N_m, 0.0};
+                                }}});
+  const ModalDynamics arm = modal_dynamics(two_masses(0.01, 0.05, 3.0), parts, sensors);
+  const AddedForces forces(arm, parts.hub, std::nullopt);
   EnergyLedger ledger(arm, forces, 0.0);
   StepInputs inputs{.u0 = 0.3,
                     .u1 = 0.3,

@@ -1,7 +1,7 @@
 // Friction and drag against an independent integrator: Dormand and Prince's method of Boost.odeint
 // on the matrices of a finite-element model, with events of its own.
 #include "fem/fem_arm.hpp"
-#include "response/time/drag.hpp"
+#include "response/time/beam_forces.hpp"
 #include "tests/response/simulation_models.hpp"
 
 #include <Eigen/Cholesky>
@@ -36,7 +36,7 @@ struct FemSystem {
       : model(damped_arm(), {.mesh = {.elements = 2}, .degree = 4}),
         mass(model.mass_kg_m2()),
         stiffness(model.stiffness_N_m()) {
-    const DragStations rule = drag_stations(model.arm().beam.length_m);
+    const BeamStations rule = beam_stations(model.arm().beam.length_m);
     modes = modal_model(rule.stations_m);
     // u = V q; V from the matrices, in the order and scale of the modes. y(x) = S u = S V q.
     const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(stiffness, mass);
@@ -94,11 +94,20 @@ struct FemSystem {
   Eigen::VectorXd hub_inverse;  // M^-1 e0
 };
 
-/// The same equations, integrated without anything of response/ but the laws' formulas.
+/// Friction and drag in numbers, as the reference has them.
+struct Laws {
+  double coulomb_N_m = 0.0;
+  double stribeck_N_m = 0.0;
+  double stribeck_static_N_m = 0.0;
+  double stribeck_velocity_rad_per_s = 1.0;
+  double drag_N_s2_per_m3 = 0.0;
+};
+
+/// The same equations, integrated without anything of response/.
 class Reference {
  public:
-  Reference(const FemSystem& fem, const ArmParts& parts)
-      : fem_(fem), parts_(parts), n_(fem.mass.rows()), x_(static_cast<std::size_t>(2 * n_), 0.0) {}
+  Reference(const FemSystem& fem, const Laws& laws)
+      : fem_(fem), laws_(laws), n_(fem.mass.rows()), x_(static_cast<std::size_t>(2 * n_), 0.0) {}
 
   /// Accelerations with a torque on the hub; drag included.
   Eigen::VectorXd acceleration(const State& x, double hub_torque) const {
@@ -108,16 +117,15 @@ class Reference {
     Eigen::VectorXd f = -fem_.stiffness * (u + arm.damping.kelvin_voigt_s * v);
     f(0) += hub_torque - arm.hub.viscous_friction_N_m_s_per_rad * v(0);
     const Eigen::ArrayXd speed = fem_.shapes * v;
-    f -= parts_.quadratic_drag_N_s2_per_m3 * fem_.shapes.transpose() *
+    f -= laws_.drag_N_s2_per_m3 * fem_.shapes.transpose() *
          (fem_.weights.array() * speed.abs() * speed).matrix();
     return fem_.factor.solve(f);
   }
 
   double friction(double speed) const {
-    const auto& law = parts_.friction;
-    const double r = speed / law.stribeck_velocity_rad_per_s;
-    return law.coulomb_N_m + law.stribeck_N_m +
-           (law.stribeck_static_N_m - law.stribeck_N_m) * std::exp(-r * r);
+    const double r = speed / laws_.stribeck_velocity_rad_per_s;
+    return laws_.coulomb_N_m + laws_.stribeck_N_m +
+           (laws_.stribeck_static_N_m - laws_.stribeck_N_m) * std::exp(-r * r);
   }
 
   /// Torque that keeps the hub at rest.
@@ -201,7 +209,7 @@ class Reference {
   void loosen() { direction = needed(x_) > 0.0 ? 1 : -1; }
 
   const FemSystem& fem_;
-  ArmParts parts_;
+  Laws laws_;
   Eigen::Index n_;
   State x_;
   double torque = 0.0;
@@ -210,8 +218,7 @@ class Reference {
 
 struct Case {
   std::string name;
-  HubFriction friction;
-  double drag = 0.0;
+  Laws laws;
   double tolerance = 0.0;  ///< of the peak
 };
 
@@ -232,15 +239,22 @@ TEST_P(AgainstOdeint, HubAndTipAgree) {
   const FemSystem fem;
   ArmParts parts;
   parts.linear = fem.model.arm();
-  parts.friction = GetParam().friction;
-  parts.quadratic_drag_N_s2_per_m3 = GetParam().drag;
+  const Laws& laws = GetParam().laws;
+  put(parts, "coulomb_friction", {{"torque", laws.coulomb_N_m}});
+  put(parts, "stribeck_friction",
+      {{"torque", laws.stribeck_N_m},
+       {"static_torque", laws.stribeck_static_N_m},
+       {"velocity", laws.stribeck_velocity_rad_per_s}});
+  if (laws.drag_N_s2_per_m3 > 0.0) {
+    put(parts, "quadratic_drag", {{"coefficient", laws.drag_N_s2_per_m3}});
+  }
   std::vector<double> torque;
   for (const double level : {0.06, -0.08, 0.02, 0.07, 0.0}) {
     torque.insert(torque.end(), kSamplesAStep, level);
   }
   const auto made =
       simulate(fem.modes, parts, FemSystem::read(), torque, {.sample_time_s = kSampleTime_s});
-  Reference reference(fem, parts);
+  Reference reference(fem, laws);
   std::vector<double> peak(4, 0.0);
   std::vector<double> difference(4, 0.0);
   for (std::size_t k = 0; k < torque.size(); ++k) {
@@ -261,10 +275,11 @@ TEST_P(AgainstOdeint, HubAndTipAgree) {
 
 INSTANTIATE_TEST_SUITE_P(
     Laws, AgainstOdeint,
-    testing::Values(Case{"coulomb", {.coulomb_N_m = 0.012}, 0.0, kExact},
-                    Case{"stribeck", {0.0, 0.01, 0.02, 0.3}, 0.0, kFourthOrder},
-                    Case{"coulomb_and_drag", {.coulomb_N_m = 0.012}, 0.1, kExact},
-                    Case{"everything", {0.002, 0.01, 0.02, 0.3}, 0.1, kFourthOrder}),
+    testing::Values(
+        Case{"coulomb", {.coulomb_N_m = 0.012}, kExact},
+        Case{"stribeck", {0.0, 0.01, 0.02, 0.3}, kFourthOrder},
+        Case{"coulomb_and_drag", {.coulomb_N_m = 0.012, .drag_N_s2_per_m3 = 0.1}, kExact},
+        Case{"everything", {0.002, 0.01, 0.02, 0.3, 0.1}, kFourthOrder}),
     [](const auto& law) { return law.param.name; });
 
 }  // namespace

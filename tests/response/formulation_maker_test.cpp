@@ -1,6 +1,7 @@
 #include "response/formulation_maker.hpp"
 
 #include "arm/input_error.hpp"
+#include "effects/registry/vocabulary.hpp"
 #include "response/settings.hpp"
 #include "tests/response/models.hpp"
 
@@ -14,8 +15,8 @@ using testing::HasSubstr;
 
 arm::Arm arm_with_a_sticky_hub() {
   arm::Arm arm = arm::paper_arm();
-  arm.effects["coulomb_friction"].parameters["torque"] = 0.01;
-  arm.effects["time_delay"].parameters["delay"] = 1e-3;
+  effects::put(arm, "coulomb_friction", {{"torque", 0.01}});
+  effects::put(arm, "time_delay", {{"delay", 1e-3}});
   return arm;
 }
 
@@ -38,10 +39,10 @@ TEST(FormulationMaker, AnotherArmKeepsTheSettings) {
 
 TEST(FormulationMaker, WithoutDampingNothingDissipates) {
   arm::Arm arm = damped_arm();
-  arm.effects["air_damping"].parameters["coefficient"] = 0.1;
-  arm.effects["structural_damping"].parameters["time"] = 1e-4;
-  arm.effects["hub_viscous_friction"].parameters["coefficient"] = 1e-3;
-  arm.effects["payload_mass"].parameters["mass"] = 0.02;
+  effects::put(arm, "air_damping", {{"coefficient", 0.1}});
+  effects::put(arm, "structural_damping", {{"time", 1e-4}});
+  effects::put(arm, "hub_viscous_friction", {{"coefficient", 1e-3}});
+  effects::put(arm, "payload_mass", {{"mass", 0.02}});
   ASSERT_TRUE(arm::linear_arm(arm).is_damped());
   EXPECT_FALSE(arm::linear_arm(without_damping(arm)).is_damped());
   EXPECT_TRUE(without_damping(arm).effects.contains("payload_mass"));

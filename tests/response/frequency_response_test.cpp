@@ -1,6 +1,7 @@
 #include "response/frequency/frequency_response.hpp"
 
 #include "arm/input_error.hpp"
+#include "effects/registry/vocabulary.hpp"
 #include "tests/response/models.hpp"
 
 #include <gtest/gtest.h>
@@ -16,12 +17,12 @@ constexpr double kResponseRounding = 1e-14;  // some forty epsilon: a handful of
 
 arm::Arm arm_with_a_chain() {
   arm::Arm arm = damped_arm();
-  arm.effects["torque_gain"].parameters["factor"] = 1.25;
-  arm.effects["actuator_lag"].parameters["time_constant"] = 2e-3;
-  arm.effects["time_delay"].parameters["delay"] = 3e-3;
-  arm.effects["sensor_lag"].parameters["time_constant"] = 4e-3;
-  arm.effects["torque_dead_zone"].parameters["width"] = 0.01;
-  arm.effects["torque_bias"].parameters["torque"] = 0.02;
+  effects::put(arm, "torque_gain", {{"factor", 1.25}});
+  effects::put(arm, "actuator_lag", {{"time_constant", 2e-3}});
+  effects::put(arm, "time_delay", {{"delay", 3e-3}});
+  effects::put(arm, "sensor_lag", {{"time_constant", 4e-3}});
+  effects::put(arm, "torque_dead_zone", {{"width", 0.01}});
+  effects::put(arm, "torque_bias", {{"torque", 0.02}});
   return arm;
 }
 
@@ -66,7 +67,7 @@ TEST(FrequencyResponse, ThreeFormulationsAgree) {
 }
 
 TEST(FrequencyResponse, OnlyTheSensorThatIsNamedLags) {
-  const LinearChain chain{.sensor_lag = SensorLag{{arm::SensorKind::strain, 0.05}, 0.1}};
+  const LinearChain chain{.sensor_stages = {{{arm::SensorKind::strain, 0.05}, {0.1}}}};
   const Complex s(0.0, 10.0);
   EXPECT_EQ(reading_response(chain, {arm::SensorKind::strain, 0.05}, s), 1.0 / (1.0 + 0.1 * s));
   EXPECT_EQ(reading_response(chain, {arm::SensorKind::strain, 0.06}, s), 1.0);
@@ -75,8 +76,8 @@ TEST(FrequencyResponse, OnlyTheSensorThatIsNamedLags) {
 
 TEST(FrequencyResponse, NonlinearEffectsAndABiasAreNotInTheChain) {
   arm::Arm nonlinear = arm::paper_arm();
-  nonlinear.effects["torque_dead_zone"].parameters["width"] = 0.01;
-  nonlinear.effects["torque_bias"].parameters["torque"] = 0.02;
+  effects::put(nonlinear, "torque_dead_zone", {{"width", 0.01}});
+  effects::put(nonlinear, "torque_bias", {{"torque", 0.02}});
   EXPECT_EQ(linear_chain(take_apart(nonlinear)), LinearChain{});
   EXPECT_EQ(nonlinear_effects(arm_with_a_chain()), std::vector<std::string>{"torque_dead_zone"});
 }

@@ -178,7 +178,7 @@ TEST(ThreeFormulations, RespondAlikeToBangBangWithCoulombFriction) {
   ArmParts parts;
   parts.linear = arm::paper_arm();
   parts.linear.damping.kelvin_voigt_s = 2e-5;
-  parts.friction.coulomb_N_m = 0.01;
+  put(parts, "coulomb_friction", {{"torque", 0.01}});
   expect_formulations_agree(parts);
 }
 
@@ -195,7 +195,7 @@ TEST(StepCheckTest, ShowsRoundingForTheLinearArmAndTheErrorOfVaryingFriction) {
   };
   EXPECT_LT(run(coulomb(0.0)), 1e-12);
   ArmParts varying = coulomb(0.0);
-  varying.friction = {0.0, 0.05, 0.09, 0.5};
+  put(varying, "stribeck_friction", {{"torque", 0.05}, {"static_torque", 0.09}, {"velocity", 0.5}});
   EXPECT_GT(run(varying), 1e-12);
   EXPECT_LT(run(varying), 1e-4);
 }

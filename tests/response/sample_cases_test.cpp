@@ -1,3 +1,4 @@
+#include "effects/registry/vocabulary.hpp"
 #include "measured/files/arm_file.hpp"
 #include "measured/files/measurement.hpp"
 #include "measured/files/text_file.hpp"
@@ -39,11 +40,11 @@ fs::path cases_folder() {
 arm::Effects effects_of(const std::string& name) {
   const auto answers = nlohmann::json::parse(
       measured::read_text_file(cases_folder() / "answers.json", std::size_t{1} << 20U));
-  arm::Effects effects;
+  arm::Effects found;
   for (const auto& [effect, parameters] : answers.at(name).at("effects").items()) {
-    effects[effect].parameters = parameters.get<std::map<std::string, double>>();
+    found[effect] = effects::effect(effect, parameters.get<std::map<std::string, double>>());
   }
-  return effects;
+  return found;
 }
 
 struct ChannelResidual {
@@ -74,14 +75,15 @@ constexpr std::size_t kSamplesInStep = 3290;
 
 /// Every channel of every run of a case, against an arm with the case's dimensions and `effects`,
 /// over the first `samples`.
-std::vector<ChannelResidual> residuals(const std::string& name, const arm::Effects& effects,
+std::vector<ChannelResidual> residuals(const std::string& name, const arm::Effects& known,
                                        std::size_t samples = kSamplesInStep) {
   const fs::path file = cases_folder() / name / "measurement.toml";
   const auto measurement = measured::read_measurement(file);
   std::vector<ChannelResidual> all;
   for (const auto& run : measurement.runs) {
-    arm::Arm arm = measured::read_arm_file(measured::beside(file, measurement.arm));
-    arm.effects = effects;
+    arm::Arm arm =
+        measured::read_arm_file(measured::beside(file, measurement.arm), effects::vocabulary());
+    arm.effects = known;
     arm.payload = run.payload.value_or(arm.payload);
     const auto record = measured::read_time_record(measured::beside(file, run.file));
     std::vector<arm::Sensor> sensors;

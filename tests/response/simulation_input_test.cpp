@@ -42,7 +42,7 @@ TEST(SimulationInput, AnEffectThatNeedsTooManyInnerStepsIsNamed) {
             "with a rate of 1 rad/s; must be 100000 or fewer: damp the arm less, or sample it "
             "faster");
   ArmParts rippled = coulomb(0.0);
-  rippled.actuator.ripple = TorqueRipple{0.1, 1.0, 0.0};
+  put(rippled, "torque_ripple", {{"amplitude", 0.1}, {"cycles", 1.0}, {"phase", 0.0}});
   EXPECT_THAT(refusal({0.0, 0.0}, slow, rippled), testing::StartsWith("effects.torque_ripple: "));
   EXPECT_EQ(refusal({0.0, 0.0}, slow, coulomb(0.0)), "");
 }
@@ -52,14 +52,19 @@ TEST(SimulationInput, AMotionTooLargeForANumberIsRefusedAtItsSample) {
       refusal({1e300, 1e300, 1e300}, {.sample_time_s = 10.0}, coulomb(0.0)),
       "energy at 10 s: too large for a number; the torque must be smaller, or the time shorter");
   ArmParts amplified = coulomb(0.0);
-  amplified.actuator.gain = 10.0;
+  put(amplified, "torque_gain", {{"factor", 10.0}});
   EXPECT_EQ(refusal({0.0, 1e308}, {}, amplified),
             "torque = 1e+308 N m at 0.001 s: too large for a number behind the actuator");
 }
 
 TEST(SimulationInput, FrictionOfTheWrongSignIsRefused) {
-  EXPECT_EQ(refusal({0.0}, {}, coulomb(-0.1)),
-            "effects.coulomb_friction.torque = -0.1 N m: must be a finite number, 0 or more");
+  try {
+    coulomb(-0.1);
+    ADD_FAILURE() << "not refused";
+  } catch (const arm::InputError& error) {
+    EXPECT_STREQ(error.what(),
+                 "effects.coulomb_friction.torque = -0.1 N m: must be a finite number, 0 or more");
+  }
 }
 
 TEST(SimulationInput, AModelThatDoesNotFitItsSensorsIsRefused) {

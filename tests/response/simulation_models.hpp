@@ -2,11 +2,15 @@
 
 #include "arm/formulation.hpp"
 #include "arm/sensor.hpp"
+#include "effects/registry/vocabulary.hpp"
 #include "response/arm_parts.hpp"
 #include "response/time/simulation.hpp"
 
 #include <cmath>
 #include <cstddef>
+#include <map>
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace flexarm::response {
@@ -51,10 +55,16 @@ inline arm::ModalModel two_masses(double hub, double wheel, double stiffness) {
   return model;
 }
 
+/// Gives the parts an effect outside of the linear arm.
+inline void put(ArmParts& parts, std::string_view effect,
+                const std::map<std::string, double>& parameters, const std::string& sensor = {}) {
+  add_effect(parts, effects::effect(effect, parameters, sensor));
+}
+
 inline ArmParts coulomb(double torque_N_m) {
   ArmParts parts;
   parts.linear = arm::paper_arm();
-  parts.friction.coulomb_N_m = torque_N_m;
+  put(parts, "coulomb_friction", {{"torque", torque_N_m}});
   return parts;
 }
 

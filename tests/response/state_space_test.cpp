@@ -55,7 +55,7 @@ TEST(StateSpace, LagsAreStatesAndTheDelayStandsBeside) {
   const LinearChain chain{.gain = 1.3,
                           .delay_s = 2e-3,
                           .lag_s = 5e-3,
-                          .sensor_lag = SensorLag{{arm::SensorKind::tip_acceleration}, 1e-3}};
+                          .sensor_stages = {{{arm::SensorKind::tip_acceleration}, {1e-3}}}};
   const auto model = model_of("exact_tf", damped_arm(), 3);
   const auto system = state_space(model, every_sensor(), chain);
   EXPECT_THAT(system.states, ElementsAre("q_0", "q_0'", "q_1", "q_1'", "q_2", "q_2'", "q_3", "q_3'",

@@ -81,8 +81,8 @@ TEST(SteppedSineInCoulombFriction, IsTheArmsOwnWhileAnOffsetKeepsTheHubTurning) 
 TEST(SteppedSineThatSaturates, HasTheFundamentalOfAClippedSine) {
   ArmParts parts;
   parts.linear = arm::paper_arm();
-  parts.actuator.saturation_N_m = 0.03;
-  parts.actuator.delay_s = 0.0371;
+  put(parts, "torque_saturation", {{"limit", 0.03}});
+  put(parts, "time_delay", {{"delay", 0.0371}});
   const auto made =
       measure_stepped_sine(oscillator(0.05, 0.0, 0.05), parts, hub_sensors(), one_frequency(3.0));
   const double angle = std::asin(0.6);

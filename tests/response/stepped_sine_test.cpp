@@ -1,5 +1,6 @@
 // A linear arm under a stepped sine against the response that frequency_response states.
 #include "arm/input_error.hpp"
+#include "effects/registry/vocabulary.hpp"
 #include "measured/modal/nyquist_circle.hpp"
 #include "response/frequency/frequency_response.hpp"
 #include "response/frequency/modal_response.hpp"
@@ -45,13 +46,13 @@ std::vector<std::pair<std::string, arm::Arm>> linear_arms() {
   arm::Arm free = damped;  // its angle drifts
   free.hub.viscous_friction_N_m_s_per_rad = 0.0;
   arm::Arm sprung = damped;
-  sprung.effects["hub_spring"] = {{{"stiffness", 0.3}}, {}};
+  effects::put(sprung, "hub_spring", {{"stiffness", 0.3}});
   arm::Arm late = damped;
-  late.effects["time_delay"] = {{{"delay", 0.0123}}, {}};
-  late.effects["torque_gain"] = {{{"factor", -0.8}}, {}};
-  late.effects["actuator_lag"] = {{{"time_constant", 0.004}}, {}};
-  late.effects["sensor_lag"] = {{{"time_constant", 0.002}}, {}};
-  late.effects["torque_bias"] = {{{"torque", 0.01}}, {}};
+  effects::put(late, "time_delay", {{"delay", 0.0123}});
+  effects::put(late, "torque_gain", {{"factor", -0.8}});
+  effects::put(late, "actuator_lag", {{"time_constant", 0.004}});
+  effects::put(late, "sensor_lag", {{"time_constant", 0.002}});
+  effects::put(late, "torque_bias", {{"torque", 0.01}});
   return {{"damped", damped}, {"free", free}, {"sprung", sprung}, {"late", late}};
 }
 
@@ -111,14 +112,14 @@ TEST(SteppedSineOfALinearArm, IsTheSumOfItsModes) {
 TEST(SteppedSineOfALinearArm, IsTheSameThroughPointsOfAPolygonButForItsImages) {
   constexpr double kImages = 2.0 / (255.0 * 255.0);
   arm::Arm arm = damped_arm();
-  arm.effects["time_delay"] = {{{"delay", 0.0123}}, {}};
+  effects::put(arm, "time_delay", {{"delay", 0.0123}});
   auto parts = take_apart(arm);
   const auto formulation = make_formulation("exact_tf", parts.linear, 3);
   const auto sensors = hub_sensors();
   const auto model = time_model(formulation, parts, 3, sensors);
   const auto sine = stepped(10.0, 14.0, 0.5);
   const auto through_sine = measure_stepped_sine(model, parts, sensors, sine);
-  parts.actuator.dead_zone_N_m = 1e-12;
+  put(parts, "torque_dead_zone", {{"width", 1e-12}});
   const auto through_points = measure_stepped_sine(model, parts, sensors, sine);
   EXPECT_EQ(through_sine.summary.most_samples_per_period, 64);
   EXPECT_EQ(through_points.summary.least_samples_per_period, 256);

@@ -89,10 +89,10 @@ TEST(StiffArm, OfTwoMassesBalancesItsEnergyAndDoesNotDependOnTheStep) {
     }
   }
   ArmParts parts = linear_parts(kFriction);
-  parts.actuator.lag_s = 1e-4;
-  parts.actuator.delay_s = 3e-3;
-  parts.actuator.saturation_N_m = 0.25;
-  parts.actuator.bias_N_m = 0.01;
+  put(parts, "time_delay", {{"delay", 3e-3}});
+  put(parts, "torque_saturation", {{"limit", 0.25}});
+  put(parts, "actuator_lag", {{"time_constant", 1e-4}});
+  put(parts, "torque_bias", {{"torque", 0.01}});
   std::vector<double> torque;
   for (int k = 0; k < 200; ++k) torque.push_back(0.3 * std::sin(0.05 * k));
   const SimulationOptions options{.sample_time_s = 2e-3, .hold = TorqueHold::first};

@@ -29,8 +29,12 @@ double at(const TorquePath& path, double samples) {
 }
 
 TEST(TorquePath, LinearTorqueIsDelayedMultipliedAndClippedInThisOrder) {
-  const Actuator actuator{
-      .delay_s = 1.7, .gain = 2.0, .dead_zone_N_m = 0.5, .saturation_N_m = 1.25, .ripple = {}};
+  arm::Arm arm = arm::paper_arm();
+  effects::put(arm, "torque_saturation", {{"limit", 1.25}});
+  effects::put(arm, "torque_dead_zone", {{"width", 0.5}});
+  effects::put(arm, "torque_gain", {{"factor", 2.0}});
+  effects::put(arm, "time_delay", {{"delay", 1.7}});
+  const Actuator actuator = take_apart(arm).actuator;
   const std::vector<double> torque = {0.3, 1.0, -2.0, 0.1, 3.0, 3.0, -0.2};
   const TorquePath path(actuator, torque, 1.0, TorqueHold::first);
   for (double t = 0.005; t < 8.0; t += 0.01) {
@@ -50,7 +54,7 @@ TEST(TorquePath, LinearTorqueIsDelayedMultipliedAndClippedInThisOrder) {
 
 TEST(TorquePath, HeldTorqueBreaksWhereTheDelayedSampleBegins) {
   const std::vector<double> torque = {1.0, 2.0, 3.0};
-  const TorquePath path({.delay_s = 0.25, .ripple = {}}, torque, 1.0, TorqueHold::zero);
+  const TorquePath path({.delay_s = 0.25}, torque, 1.0, TorqueHold::zero);
   TorquePath::Pieces pieces;
   path.pieces(1, pieces);
   ASSERT_EQ(pieces.size(), 2U);
@@ -62,7 +66,7 @@ TEST(TorquePath, HeldTorqueBreaksWhereTheDelayedSampleBegins) {
 
 TEST(TorquePath, ADelayOfWholeSamplesUpToRoundingHasNoBreak) {
   const std::vector<double> torque = {1.0, 2.0, 3.0, 4.0};
-  const TorquePath path({.delay_s = 3 * 0.1, .ripple = {}}, torque, 0.1, TorqueHold::zero);
+  const TorquePath path({.delay_s = 3 * 0.1}, torque, 0.1, TorqueHold::zero);
   TorquePath::Pieces pieces;
   path.pieces(3, pieces);
   ASSERT_EQ(pieces.size(), 1U);
@@ -71,8 +75,9 @@ TEST(TorquePath, ADelayOfWholeSamplesUpToRoundingHasNoBreak) {
 
 /// A free hub of inertia 1 behind the actuator, which is easily integrated by hand.
 Simulation free_hub(const Actuator& actuator, const std::vector<double>& torque, double h,
-                    TorqueHold hold = TorqueHold::zero) {
+                    TorqueHold hold = TorqueHold::zero, double bias_N_m = 0.0) {
   ArmParts parts = coulomb(0.0);
+  put(parts, "torque_bias", {{"torque", bias_N_m}});
   parts.actuator = actuator;
   return simulate(oscillator(1.0, 0.0), parts, hub_sensors(), torque,
                   {.sample_time_s = h, .hold = hold, .energy = false});
@@ -80,7 +85,7 @@ Simulation free_hub(const Actuator& actuator, const std::vector<double>& torque,
 
 TEST(ActuatorChain, ADelayThatIsNoMultipleOfTheSampleTimeIsExact) {
   const double delay = 0.01234;
-  const auto made = free_hub({.delay_s = delay, .ripple = {}}, step_torque(1.0, 200), 1e-3);
+  const auto made = free_hub({.delay_s = delay}, step_torque(1.0, 200), 1e-3);
   for (std::size_t k = 0; k < made.time_s.size(); ++k) {
     const double t = std::max(0.0, made.time_s[k] - delay);
     EXPECT_NEAR(made.channels[0][k], 0.5 * t * t, 1e-15);
@@ -90,8 +95,7 @@ TEST(ActuatorChain, ADelayThatIsNoMultipleOfTheSampleTimeIsExact) {
 
 TEST(ActuatorChain, LagIsExactAlsoWhereItIsShorterThanTheSampleTime) {
   for (const double lag : {0.3, 1e-2, 1e-4}) {
-    const auto made =
-        free_hub({.lag_s = lag, .bias_N_m = 0.25, .ripple = {}}, step_torque(1.0, 300), 1e-2);
+    const auto made = free_hub({.lag_s = lag}, step_torque(1.0, 300), 1e-2, TorqueHold::zero, 0.25);
     for (std::size_t k = 0; k < made.time_s.size(); ++k) {
       const double t = made.time_s[k];
       const double rise = -std::expm1(-t / lag);
@@ -103,9 +107,10 @@ TEST(ActuatorChain, LagIsExactAlsoWhereItIsShorterThanTheSampleTime) {
 
 TEST(ActuatorChain, ARampIsClippedWhereItCrossesTheLimit) {
   const double h = 0.1;
+  const arm::PiecewiseLinear clipped(0.0, {{-1.234, -1.234}, {1.234, 1.234}}, 0.0);
   std::vector<double> torque;
   for (int k = 0; k < 40; ++k) torque.push_back(h * k);
-  const auto made = free_hub({.saturation_N_m = 1.234, .ripple = {}}, torque, h, TorqueHold::first);
+  const auto made = free_hub({.maps = {clipped}}, torque, h, TorqueHold::first);
   for (std::size_t k = 0; k < made.time_s.size(); ++k) {
     const double t = std::min(made.time_s[k], 1.234);
     EXPECT_NEAR(made.channels[1][k], 0.5 * t * t + 1.234 * (made.time_s[k] - t), kChainRounding);
@@ -114,7 +119,7 @@ TEST(ActuatorChain, ARampIsClippedWhereItCrossesTheLimit) {
 
 TEST(ActuatorChain, RippleKeepsTheEnergyOfAPendulum) {
   ArmParts parts = coulomb(0.0);
-  parts.actuator.ripple = TorqueRipple{-2.0, 3.0, 0.4};
+  put(parts, "torque_ripple", {{"amplitude", -2.0}, {"cycles", 3.0}, {"phase", 0.4}});
   const double h = 1e-2;
   const auto made = simulate(oscillator(1.0, 0.0), parts, hub_sensors(), step_torque(0.0, 2000),
                              {.sample_time_s = h, .substeps = 4});
@@ -133,7 +138,7 @@ TEST(ActuatorChain, RippleKeepsTheEnergyOfAPendulum) {
 TEST(SensorLag, ReadsThroughAFirstOrderLag) {
   ArmParts parts = coulomb(0.0);
   const double lag = 0.02;
-  parts.sensor_lag = SensorLag{kHubVelocity, lag};
+  parts.sensor_stages = {{kHubVelocity, {lag}}};
   const auto made = simulate(oscillator(1.0, 0.0), parts, hub_sensors(), step_torque(1.0, 300),
                              {.sample_time_s = 1e-3});
   for (std::size_t k = 0; k < made.time_s.size(); ++k) {

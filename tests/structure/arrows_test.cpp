@@ -20,16 +20,17 @@ const std::map<std::string, Rooms>& allowed_arrows() {
   static const std::map<std::string, Rooms> arrows = [] {
     std::map<std::string, Rooms> map;
     map["arm"] = {};
+    map["effects"] = {"arm"};
     map["exact_tf"] = {"arm"};
     map["fem"] = {"arm"};
     map["assumed_modes"] = {"arm"};
     map["measured"] = {"arm"};
     map["response"] = {"arm", "exact_tf", "fem", "assumed_modes"};
-    map["compare"] = {"arm", "exact_tf", "fem", "assumed_modes", "response", "measured"};
-    map["diagnose"] = {"arm", "exact_tf", "response", "compare", "measured"};
-    map["report"] = {"arm", "response", "compare", "measured", "diagnose"};
-    map["app"] = {"arm",      "exact_tf", "fem",      "assumed_modes", "measured",
-                  "response", "compare",  "diagnose", "report"};
+    map["compare"] = {"arm", "effects", "exact_tf", "fem", "assumed_modes", "response", "measured"};
+    map["diagnose"] = {"arm", "effects", "exact_tf", "response", "compare", "measured"};
+    map["report"] = {"arm", "effects", "response", "compare", "measured", "diagnose"};
+    map["app"] = {"arm",      "effects",  "exact_tf", "fem",      "assumed_modes",
+                  "measured", "response", "compare",  "diagnose", "report"};
     return map;
   }();
   return arrows;

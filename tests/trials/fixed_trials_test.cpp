@@ -1,6 +1,6 @@
 // A few trials that every build has to pass, through the library. scripts/trials makes many more.
 #include "diagnose/diagnosis.hpp"
-#include "diagnose/hypotheses/hypotheses.hpp"
+#include "diagnose/search/hypothesis.hpp"
 #include "tests/trials/trial_case.hpp"
 
 #include <gmock/gmock.h>

@@ -1,5 +1,6 @@
 #include "tests/trials/frequency_simulation.hpp"
 
+#include "effects/registry/vocabulary.hpp"
 #include "exact_tf/exact_arm.hpp"
 #include "response/frequency/frequency_response.hpp"
 #include "tests/trials/experiment_plan.hpp"
@@ -21,11 +22,11 @@ constexpr double kResponseError = 1e-4;
 arm::Arm lagging_arm() {
   arm::Arm arm = trial_arms().front().arm;
   arm.payload.mass_kg = 0.05;
-  arm.effects["hub_radius"].parameters["radius"] = 0.04;
-  arm.effects["torque_gain"].parameters["factor"] = 0.7;
-  arm.effects["time_delay"].parameters["delay"] = 0.002;
-  arm.effects["actuator_lag"].parameters["time_constant"] = 0.003;
-  arm.effects["sensor_lag"].parameters["time_constant"] = 0.001;
+  effects::put(arm, "hub_radius", {{"radius", 0.04}});
+  effects::put(arm, "torque_gain", {{"factor", 0.7}});
+  effects::put(arm, "time_delay", {{"delay", 0.002}});
+  effects::put(arm, "actuator_lag", {{"time_constant", 0.003}});
+  effects::put(arm, "sensor_lag", {{"time_constant", 0.001}});
   return arm;
 }
 

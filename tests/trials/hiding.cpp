@@ -4,6 +4,7 @@
 #include "arm/input_error.hpp"
 #include "arm/linear_arm.hpp"
 #include "arm/nearest_name.hpp"
+#include "effects/registry/vocabulary.hpp"
 
 #include <fmt/format.h>
 
@@ -100,10 +101,8 @@ Parameters torque_parameters(const std::string& name, const NaturalSizes& arm, d
 }
 
 bool acts_on_torque(const std::string& name) {
-  const auto place = arm::find_effect(name)->place;
-  return name != "torque_gain" &&
-         (place == arm::EffectPlace::actuator || place == arm::EffectPlace::sensor ||
-          name == "coulomb_friction" || name == "stribeck_friction");
+  return name != "torque_gain" && name != "quadratic_drag" &&
+         !effects::find(name)->definition->is_of_linear_arm();
 }
 
 Parameters outside_parameters(const std::string& name, const NaturalSizes& arm, double size,
@@ -142,12 +141,11 @@ std::vector<Hideable> all_hideables() {
     return found == largest.end() ? 1.0 : found->second;
   };
   std::vector<Hideable> all;
-  for (const auto& definition : arm::effect_vocabulary()) {
-    Hideable cause{.name = definition.name, .largest = largest_of(definition.name)};
-    cause.in_modes = definition.place == arm::EffectPlace::linear_arm;
-    cause.in_frequency = cause.in_modes || definition.place == arm::EffectPlace::sensor ||
-                         definition.name == "torque_gain" || definition.name == "actuator_lag" ||
-                         definition.name == "time_delay";
+  for (const effects::Entry& entry : effects::entries()) {
+    const std::string& name = entry.definition->name;
+    Hideable cause{.name = name, .largest = largest_of(name)};
+    cause.in_modes = entry.shows == effects::Shows::in_all;
+    cause.in_frequency = entry.shows != effects::Shows::in_time;
     cause.smallest = 1e-5 * cause.largest;
     if (cause.name == "shear_and_rotary_inertia") cause.smallest = 0.5;
     all.push_back(cause);
@@ -202,11 +200,11 @@ World with_hidden(const World& world, const TrialArm& of, const Hideable& cause,
     hidden.outside[cause.name] = outside_parameters(cause.name, natural, size, chance);
     return hidden;
   }
-  arm::Effect& effect = hidden.arm.effects[cause.name];
-  effect.parameters = acts_on_torque(cause.name)
-                          ? torque_parameters(cause.name, natural, size, chance)
-                          : beam_parameters(cause.name, natural, size, chance);
-  if (cause.name == "sensor_lag") effect.sensor = chance.sensor;
+  const Parameters parameters = acts_on_torque(cause.name)
+                                    ? torque_parameters(cause.name, natural, size, chance)
+                                    : beam_parameters(cause.name, natural, size, chance);
+  effects::put(hidden.arm, cause.name, parameters,
+               cause.name == "sensor_lag" ? chance.sensor : std::string());
   return hidden;
 }
 

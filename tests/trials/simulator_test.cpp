@@ -65,29 +65,26 @@ TEST_P(AgainstResponse, EveryChannelAgrees) {
   }
 }
 
-arm::Effect effect(std::map<std::string, double> parameters, std::string sensor = {}) {
-  return {std::move(parameters), std::move(sensor)};
-}
-
 std::vector<AgreementCase> agreement_cases() {
-  return {{"none", {}},
-          {"gravity", {{"gravity", effect({{"acceleration", 9.81}})}}},
-          {"root", {{"root_compliance", effect({{"stiffness", 30.0}})}}},
-          {"coulomb", {{"coulomb_friction", effect({{"torque", 0.012}})}}},
-          {"stribeck",
-           {{"stribeck_friction",
-             effect({{"torque", 0.008}, {"static_torque", 0.016}, {"velocity", 0.3}})}}},
-          {"drag", {{"quadratic_drag", effect({{"coefficient", 0.1}})}}},
-          {"ripple",
-           {{"torque_ripple", effect({{"amplitude", 0.02}, {"cycles", 5.0}, {"phase", 1.0}})}}},
-          {"actuator",
-           {{"torque_bias", effect({{"torque", 0.004}})},
-            {"torque_saturation", effect({{"limit", 0.08}})},
-            {"torque_dead_zone", effect({{"width", 0.01}})},
-            {"time_delay", effect({{"delay", 0.0053}})},
-            {"torque_gain", effect({{"factor", 0.8}})},
-            {"actuator_lag", effect({{"time_constant", 0.004}})}}},
-          {"sensor", {{"sensor_lag", effect({{"time_constant", 0.003}}, "tip_acceleration")}}}};
+  return {
+      {"none", {}},
+      {"gravity", {effects::named("gravity", {{"acceleration", 9.81}})}},
+      {"root", {effects::named("root_compliance", {{"stiffness", 30.0}})}},
+      {"coulomb", {effects::named("coulomb_friction", {{"torque", 0.012}})}},
+      {"stribeck",
+       {effects::named("stribeck_friction",
+                       {{"torque", 0.008}, {"static_torque", 0.016}, {"velocity", 0.3}})}},
+      {"drag", {effects::named("quadratic_drag", {{"coefficient", 0.1}})}},
+      {"ripple",
+       {effects::named("torque_ripple", {{"amplitude", 0.02}, {"cycles", 5.0}, {"phase", 1.0}})}},
+      {"actuator",
+       {effects::named("torque_bias", {{"torque", 0.004}}),
+        effects::named("torque_saturation", {{"limit", 0.08}}),
+        effects::named("torque_dead_zone", {{"width", 0.01}}),
+        effects::named("time_delay", {{"delay", 0.0053}}),
+        effects::named("torque_gain", {{"factor", 0.8}}),
+        effects::named("actuator_lag", {{"time_constant", 0.004}})}},
+      {"sensor", {effects::named("sensor_lag", {{"time_constant", 0.003}}, "tip_acceleration")}}};
 }
 
 INSTANTIATE_TEST_SUITE_P(Effects, AgainstResponse, testing::ValuesIn(agreement_cases()),

@@ -12,9 +12,8 @@ const std::vector<std::string>& outside_names() {
 
 arm::Arm linear_part(const arm::Arm& arm) {
   arm::Arm linear = arm;
-  std::erase_if(linear.effects, [](const auto& effect) {
-    return arm::find_effect(effect.first)->place != arm::EffectPlace::linear_arm;
-  });
+  std::erase_if(linear.effects,
+                [](const auto& effect) { return !effect.second.definition->is_of_linear_arm(); });
   return linear;
 }
 

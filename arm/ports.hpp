@@ -1,0 +1,155 @@
+#pragma once
+
+#include "arm/piecewise_linear.hpp"
+#include "arm/sensor.hpp"
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace flexarm::arm {
+
+/// The ways in which an effect may act on an arm: a closed set. A formulation, the time stepper or
+/// a predictor honours a port or refuses it by name; none of them knows an effect.
+enum class Port {
+  arm_number,   ///< another number of the arm: rigidity, density, length, ... (struct Arm)
+  linear_term,  ///< a term of the linear arm (struct LinearTerms)
+  torque_path,  ///< a stage between the commanded torque and the hub (struct TorqueStage)
+  hub_torque,   ///< a law of torque on the hub (HubLaw)
+  beam_force,   ///< a force along the beam (struct BeamForce)
+  sensor_path,  ///< a stage between a sensor and its reading (struct SensorStage)
+};
+
+/// "hub_torque".
+std::string_view to_string(Port port);
+
+struct ShearAndRotaryInertia {
+  double shear_rigidity_N = 0.0;     ///< k G A
+  double rotary_inertia_kg_m = 0.0;  ///< rho I = m thickness^2/12
+
+  bool operator==(const ShearAndRotaryInertia&) const = default;
+};
+
+/// A massless rotational spring in the beam: its slope jumps by moment/stiffness there.
+struct RotationalSpring {
+  double position_m = 0.0;  ///< from the beam's root, 0 or more and below its length
+  double stiffness_N_m_per_rad = 0.0;
+
+  bool operator==(const RotationalSpring&) const = default;
+};
+
+/// What effects add to the linear arm beyond its numbers; the defaults add nothing. Symbols are
+/// those of struct LinearArm.
+struct LinearTerms {
+  struct Damping {
+    double hub_N_m_s_per_rad = 0.0;  ///< c, beside the arm's own
+    double kelvin_voigt_s = 0.0;     ///< kv, beside the arm's own
+    double air_N_s_per_m2 = 0.0;     ///< ca
+
+    bool operator==(const Damping&) const = default;
+  };
+
+  double hub_radius_m = 0.0;            ///< a
+  double hub_spring_N_m_per_rad = 0.0;  ///< ks, from the hub to ground
+  /// In the beam, one at most; those at its root, position 0, are in series between hub and beam.
+  std::vector<RotationalSpring> springs = {};
+  double tip_mass_kg = 0.0;        ///< beside the payload
+  double tip_inertia_kg_m2 = 0.0;  ///< about the payload's centre of mass, beside its own
+  double payload_offset_m = 0.0;   ///< of the payload's centre of mass beyond the tip
+  double gravity_m_per_s2 = 0.0;   ///< g, along the arm from the hub to the tip
+  /// What a Timoshenko beam has besides EI and m.
+  std::optional<ShearAndRotaryInertia> shear = {};
+  Damping damping = {};
+
+  bool operator==(const LinearTerms&) const = default;
+};
+
+/// First-order lag, 1/(1 + time_constant s).
+struct Lag {
+  double time_constant_s = 0.0;
+
+  bool operator==(const Lag&) const = default;
+};
+
+struct Delay {
+  double delay_s = 0.0;
+
+  bool operator==(const Delay&) const = default;
+};
+
+/// One stage of the torque's path. Stages follow each other by `order`, from the command to the
+/// hub.
+struct TorqueStage {
+  int order = 0;
+  std::variant<Delay, PiecewiseLinear, Lag> what;
+
+  bool operator==(const TorqueStage&) const = default;
+};
+
+/// Places in the torque's path; a stage between two of them has a number between.
+namespace torque_order {
+inline constexpr int kDelay = 10;
+inline constexpr int kGain = 20;
+inline constexpr int kDeadZone = 30;
+inline constexpr int kSaturation = 40;
+inline constexpr int kLag = 50;
+}  // namespace torque_order
+
+/// The hub at one instant, as a law of torque on it may depend on it.
+struct HubState {
+  double angle_rad = 0.0;
+  double velocity_rad_per_s = 0.0;
+  double torque_N_m = 0.0;  ///< of the actuator, behind the torque's path
+  double time_s = 0.0;      ///< since the first sample
+};
+
+/// Torque on the hub, which is smooth in the hub's state, with states of its own where it has any:
+/// z' = rate(hub, z), z = 0 at the first sample.
+struct SmoothHubTorque {
+  struct Value {
+    double torque_N_m = 0.0;
+    double per_velocity_N_m_s = 0.0;  ///< d torque/d velocity
+  };
+  /// z has `states` entries, and as many rates are to be written.
+  std::function<Value(const HubState& hub, std::span<const double> z, std::span<double> rates)> law;
+  int states = 0;
+  bool depends_on_time = false;
+};
+
+/// A torque on the hub that never changes.
+struct ConstantHubTorque {
+  double torque_N_m = 0.0;
+};
+
+/// Dry friction: torque of size F against the motion. At rest it is whatever holds the hub, up to F
+/// of speed 0.
+struct DryFriction {
+  struct Size {
+    double torque_N_m = 0.0;       ///< F, 0 or more
+    double per_speed_N_m_s = 0.0;  ///< dF/d speed
+  };
+  std::function<Size(double speed_rad_per_s)> size;  ///< for a speed of 0 or more
+  /// The scale of speed over which F changes; empty: F is the same at every speed.
+  std::optional<double> changes_over_rad_per_s = {};
+};
+
+using HubLaw = std::variant<ConstantHubTorque, SmoothHubTorque, DryFriction>;
+
+/// Force per length on the beam by its velocity there, an odd function that takes energy:
+/// force(v) v <= 0.
+struct BeamForce {
+  std::function<double(double velocity_m_per_s)> force_N_per_m;
+};
+
+/// What a sensor's reading passes.
+struct SensorStage {
+  Sensor sensor;
+  Lag lag;
+
+  bool operator==(const SensorStage&) const = default;
+};
+
+}  // namespace flexarm::arm

@@ -1,0 +1,29 @@
+#include "effects/registry/entry.hpp"
+
+namespace flexarm::effects {
+
+Entry actuator_lag() {
+  return {
+      .definition = define({.name = "actuator_lag",
+                            .meaning = "T = tau / (1 + time_constant s)",
+                            .parameters = {{.name = "time_constant",
+                                            .unit = "s",
+                                            .range = arm::kNotNegative,
+                                            .meaning = "of the first-order lag",
+                                            .example = 0.004,
+                                            .neutral = 0.0}},
+                            .torque_path =
+                                [](const arm::Effect& effect) {
+                                  return arm::TorqueStage{arm::torque_order::kLag,
+                                                          arm::Lag{effect.value("time_constant")}};
+                                }}),
+      .shows = Shows::in_time_and_frequency,
+      .search = [](const Scales& scales) -> std::vector<SearchedParameter> {
+        return {{"time_constant", 0.02 * scales.shortest_time_s, 200.0 * scales.shortest_time_s,
+                 Spacing::from_zero}};
+      },
+      .speaks_for = "phase lag and attenuation grow with frequency; poles and zeros do not move",
+      .refuted_by = "a phase lag in proportion to the frequency while the amplitude is unchanged"};
+}
+
+}  // namespace flexarm::effects

@@ -1,0 +1,35 @@
+#include "effects/registry/entry.hpp"
+
+namespace flexarm::effects {
+
+Entry gravity() {
+  return {.definition = define(
+              {.name = "gravity",
+               .meaning = "the arm hangs along gravity: axial tension P(x) = acceleration (mass "
+                          "beyond x), potential 1/2 integral P y'^2 dx; negative stands up",
+               .parameters = {{.name = "acceleration",
+                               .unit = "m/s^2",
+                               .range = arm::kAnyFinite,
+                               .meaning = "along the arm, from the hub to the tip",
+                               .example = 9.81,
+                               .neutral = 0.0}},
+               .linear_term =
+                   [](const arm::Effect& effect, const arm::Arm& /*arm*/, arm::LinearTerms& terms) {
+                     terms.gravity_m_per_s2 += effect.value("acceleration");
+                   }}),
+          .shows = Shows::in_all,
+          .search = [](const Scales& /*scales*/) -> std::vector<SearchedParameter> {
+            constexpr double g = 9.81;  // m/s^2
+            return {{.name = "acceleration",
+                     .lowest = -2.0 * g,
+                     .highest = 2.0 * g,
+                     .spacing = Spacing::linear,
+                     .neutral = 0.0}};
+          },
+          .speaks_for =
+              "the arm swings about one hub angle, and the squares of all poles move up by nearly "
+              "the same amount",
+          .refuted_by = "a rest at any hub angle"};
+}
+
+}  // namespace flexarm::effects

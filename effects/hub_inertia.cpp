@@ -1,0 +1,27 @@
+#include "effects/registry/entry.hpp"
+
+namespace flexarm::effects {
+
+Entry hub_inertia() {
+  return {
+      .definition = define(
+          {.name = "hub_inertia",
+           .meaning = "hub inertia is factor times the arm file's",
+           .parameters = {{.name = "factor",
+                           .unit = "1",
+                           .range = arm::kPositive,
+                           .meaning = "of the hub's inertia",
+                           .example = 1.4,
+                           .neutral = 1.0}},
+           .arm_number = [](const arm::Effect& effect,
+                            arm::Arm& arm) { arm.hub.inertia_kg_m2 *= effect.value("factor"); }}),
+      .shows = Shows::in_all,
+      .search = [](const Scales& /*scales*/) -> std::vector<SearchedParameter> {
+        return {{.name = "factor", .lowest = 0.3, .highest = 3.0, .neutral = 1.0}};
+      },
+      .speaks_for =
+          "poles move; hub-angle zeros, which are the poles of the arm with its hub locked, do not",
+      .refuted_by = "hub-angle zeros that move too"};
+}
+
+}  // namespace flexarm::effects

@@ -1,0 +1,32 @@
+#include "effects/registry/entry.hpp"
+
+namespace flexarm::effects {
+
+Entry hub_viscous_friction() {
+  return {.definition = define(
+              {.name = "hub_viscous_friction",
+               .meaning = "further torque -coefficient theta' at the hub",
+               .parameters = {{.name = "coefficient",
+                               .unit = "N m s/rad",
+                               .range = arm::kNotNegative,
+                               .meaning = "torque per angular velocity",
+                               .example = 0.01,
+                               .neutral = 0.0}},
+               .linear_term =
+                   [](const arm::Effect& effect, const arm::Arm& /*arm*/, arm::LinearTerms& terms) {
+                     terms.damping.hub_N_m_s_per_rad += effect.value("coefficient");
+                   }}),
+          .shows = Shows::in_all,
+          .search = [](const Scales& scales)
+              -> std::vector<SearchedParameter> {  // It stops the rigid arm in the time of a swing
+                                                   // at the scale of its modes.
+            const double natural =
+                arm::total_inertia_kg_m2(scales.beam) * arm::omega_scale_rad_per_s(scales.beam);
+            return {{"coefficient", 1e-3 * natural, natural, Spacing::from_zero}};
+          },
+          .speaks_for =
+              "the residual hub torque is a slope over hub velocity, the same at every amplitude",
+          .refuted_by = "a slope that changes with the amplitude, or a step at rest"};
+}
+
+}  // namespace flexarm::effects

@@ -1,0 +1,57 @@
+#include "arm/input_error.hpp"
+#include "effects/registry/entry.hpp"
+
+#include <fmt/format.h>
+
+#include <limits>
+
+namespace flexarm::effects {
+
+namespace {
+
+void require_on_beam(const arm::Effect& effect, const arm::Arm& arm) {
+  const double position_m = effect.value("position");
+  if (position_m < arm.beam.length_m) return;
+  throw arm::out_of_range(
+      "effects.local_stiffness_loss.position", position_m, "m",
+      fmt::format("0 or more and less than the beam's length, {} m", arm.beam.length_m));
+}
+
+}  // namespace
+
+Entry local_stiffness_loss() {
+  return {.definition = define(
+              {.name = "local_stiffness_loss",
+               .meaning = "a crack: a massless rotational spring in the beam at this place, less "
+                          "than the beam's length from its root",
+               .parameters = {{.name = "position",
+                               .unit = "m",
+                               .range = arm::kNotNegative,
+                               .meaning = "from the beam's root",
+                               .example = 0.31},
+                              {.name = "stiffness",
+                               .unit = "N m/rad",
+                               .range = arm::kPositive,
+                               .meaning = "of the spring",
+                               .example = 15.0,
+                               .neutral = std::numeric_limits<double>::infinity()}},
+               .linear_term =
+                   [](const arm::Effect& effect, const arm::Arm& /*arm*/, arm::LinearTerms& terms) {
+                     terms.springs.push_back({effect.value("position"), effect.value("stiffness")});
+                   },
+               .require_fit = require_on_beam}),
+          .shows = Shows::in_all,
+          .search = [](const Scales& scales) -> std::vector<SearchedParameter> {
+            const double length_m = scales.beam.length_m;
+            const double bending = scales.bending_stiffness_N_m_per_rad();
+            return {{"position", 0.01 * length_m, 0.99 * length_m, Spacing::linear},
+                    {"stiffness", 0.3 * bending, 300.0 * bending, Spacing::from_infinity}};
+          },
+          .contains = {"root_compliance"},
+          .speaks_for =
+              "poles and zeros move down in unlike ratios; a mode that does not bend at the crack "
+              "stays",
+          .refuted_by = "modes that all move in one ratio"};
+}
+
+}  // namespace flexarm::effects

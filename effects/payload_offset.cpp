@@ -1,0 +1,33 @@
+#include "effects/registry/entry.hpp"
+
+namespace flexarm::effects {
+
+Entry payload_offset() {
+  return {.definition = define(
+              {.name = "payload_offset",
+               .meaning = "the payload's centre of mass lies this far beyond the tip",
+               .parameters = {{.name = "offset",
+                               .unit = "m",
+                               .range = arm::kAnyFinite,
+                               .meaning = "from the tip, outwards",
+                               .example = 0.04,
+                               .neutral = 0.0}},
+               .linear_term =
+                   [](const arm::Effect& effect, const arm::Arm& /*arm*/, arm::LinearTerms& terms) {
+                     terms.payload_offset_m += effect.value("offset");
+                   }}),
+          .shows = Shows::in_all,
+          .search = [](const Scales& scales) -> std::vector<SearchedParameter> {
+            const double reach_m = 0.2 * scales.beam.length_m;
+            return {{.name = "offset",
+                     .lowest = -reach_m,
+                     .highest = reach_m,
+                     .spacing = Spacing::linear,
+                     .neutral = 0.0}};
+          },
+          .applies = [](const Scales& scales) { return scales.has_payload_mass; },
+          .speaks_for = "the error grows with the payload and vanishes without one",
+          .refuted_by = "an error without payload"};
+}
+
+}  // namespace flexarm::effects

@@ -1,0 +1,41 @@
+#pragma once
+
+#include "arm/arm.hpp"
+#include "arm/effects.hpp"
+#include "effects/registry/search.hpp"
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace flexarm::effects {
+
+/// The kinds of data in which an effect shows.
+enum class Shows {
+  in_time,                ///< alone: it is not linear, or shifts the working point
+  in_time_and_frequency,  ///< not in poles and zeros
+  in_all,
+};
+
+/// All that the product knows of an effect. Each file `effects/NAME.cpp` defines one function
+/// `Entry NAME()`, which the build finds by the name of the file.
+struct Entry {
+  std::shared_ptr<const arm::EffectDefinition> definition;
+  Shows shows = Shows::in_all;
+  /// Where its parameters are looked for, in the definition's order.
+  std::function<std::vector<SearchedParameter>(const Scales&)> search;
+  /// Whether an experiment with these scales can have it; always, unless given.
+  std::function<bool(const Scales&)> applies = {};
+  /// Effects that this one becomes at a limit of its parameters.
+  std::vector<std::string> contains = {};
+  std::string speaks_for;  ///< what the data show where it is the cause
+  std::string refuted_by;  ///< what would show that it is not
+};
+
+inline std::shared_ptr<const arm::EffectDefinition> define(arm::EffectDefinition definition) {
+  return std::make_shared<const arm::EffectDefinition>(std::move(definition));
+}
+
+}  // namespace flexarm::effects

@@ -1,0 +1,59 @@
+#include "effects/registry/search.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace flexarm::effects {
+
+namespace {
+
+/// No spring is stiffer, relative to the stiffest that is looked for.
+constexpr double kRigid = 1e4;
+
+/// 0 at coordinate 0 and `high` at 1: even steps below `low`, equal ratios above.
+double growing(double coordinate, double low, double high) {
+  return low * std::expm1(std::max(0.0, coordinate) * std::log1p(high / low));
+}
+
+double growing_coordinate(double value, double low, double high) {
+  return std::log1p(value / low) / std::log1p(high / low);
+}
+
+}  // namespace
+
+double SearchedParameter::value(double coordinate) const {
+  switch (spacing) {
+    case Spacing::linear:
+      return lowest + coordinate * (highest - lowest);
+    case Spacing::logarithmic:
+      return lowest * std::pow(highest / lowest, coordinate);
+    case Spacing::from_zero:
+      return growing(coordinate, lowest, highest);
+    case Spacing::from_infinity:
+      return 1.0 /
+             std::max(growing(coordinate, 1.0 / highest, 1.0 / lowest), 1.0 / (kRigid * highest));
+  }
+  return lowest;
+}
+
+double SearchedParameter::coordinate(double value) const {
+  switch (spacing) {
+    case Spacing::linear:
+      return (value - lowest) / (highest - lowest);
+    case Spacing::logarithmic:
+      return std::log(value / lowest) / std::log(highest / lowest);
+    case Spacing::from_zero:
+      return growing_coordinate(value, lowest, highest);
+    case Spacing::from_infinity:
+      return growing_coordinate(1.0 / value, 1.0 / highest, 1.0 / lowest);
+  }
+  return 0.0;
+}
+
+std::optional<double> SearchedParameter::neutral_coordinate() const {
+  if (spacing == Spacing::from_zero || spacing == Spacing::from_infinity) return 0.0;
+  if (!neutral) return std::nullopt;
+  return coordinate(*neutral);
+}
+
+}  // namespace flexarm::effects

@@ -1,0 +1,58 @@
+#pragma once
+
+#include "arm/arm.hpp"
+#include "arm/linear_arm.hpp"
+#include "arm/sensor.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace flexarm::effects {
+
+/// Sizes by which a parameter of an effect is small or large in an experiment.
+struct Scales {
+  arm::Arm arm;                      ///< as its file has it
+  arm::LinearArm beam;               ///< its linear equations
+  std::vector<arm::Sensor> sensors;  ///< of `time` and `frf` runs
+  bool has_payload_mass = false;     ///< in some run
+  double torque_rms_N_m = 0.0;       ///< of all `time` runs; 0 where there are none
+  double torque_peak_N_m = 0.0;
+  double speed_rms_rad_per_s = 1.0;  ///< of a rigid arm that this torque turns
+  double shortest_time_s = 1e-3;     ///< half a sampling period, or 1/(20 highest frequency)
+
+  /// EI/l [N m/rad].
+  double bending_stiffness_N_m_per_rad() const {
+    return beam.flexural_rigidity_N_m2 / beam.length_m;
+  }
+  /// m l [kg].
+  double beam_mass_kg() const { return beam.linear_density_kg_per_m * beam.length_m; }
+};
+
+enum class Spacing {
+  linear,
+  logarithmic,  ///< in equal ratios
+  /// From 0, where the effect does nothing: evenly below `lowest`, in equal ratios above.
+  from_zero,
+  /// From infinity, where the effect does nothing, down to `lowest`: from_zero of the reciprocal.
+  from_infinity,
+};
+
+/// A parameter of an effect and where it is looked for.
+struct SearchedParameter {
+  std::string name;
+  double lowest = 0.0;
+  double highest = 1.0;
+  Spacing spacing = Spacing::logarithmic;
+  bool periodic = false;  ///< the ends are the same
+  /// Where the effect does nothing, if that is neither 0 nor infinity by the spacing.
+  std::optional<double> neutral = {};
+
+  /// The value at a coordinate, 0 at the lowest and 1 at the highest, and back.
+  double value(double coordinate) const;
+  double coordinate(double value) const;
+  /// The coordinate where the effect does nothing, if the parameter has one.
+  std::optional<double> neutral_coordinate() const;
+};
+
+}  // namespace flexarm::effects

@@ -1,0 +1,66 @@
+#include "effects/registry/entry.hpp"
+
+#include <cmath>
+
+namespace flexarm::effects {
+
+namespace {
+
+/// F(v) = torque + (static_torque - torque) exp(-(v/velocity)^2).
+arm::HubLaw stribeck(const arm::Effect& effect) {
+  const double kinetic_N_m = effect.value("torque");
+  const double fall_N_m = effect.value("static_torque") - kinetic_N_m;
+  const double scale = effect.value("velocity");
+  if (fall_N_m == 0.0) {
+    return arm::DryFriction{[kinetic_N_m](double /*speed*/) {
+      return arm::DryFriction::Size{kinetic_N_m, 0.0};
+    }};
+  }
+  return arm::DryFriction{
+      [=](double speed) {
+        const double relative = speed / scale;
+        const double left = fall_N_m * std::exp(-relative * relative);
+        return arm::DryFriction::Size{kinetic_N_m + left, -left * 2.0 * relative / scale};
+      },
+      scale};
+}
+
+}  // namespace
+
+Entry stribeck_friction() {
+  return {.definition =
+              define({.name = "stribeck_friction",
+                      .meaning = "hub friction torque + (static_torque - torque) "
+                                 "exp(-(theta'/velocity)^2), otherwise as Coulomb",
+                      .parameters = {{.name = "torque",
+                                      .unit = "N m",
+                                      .range = arm::kNotNegative,
+                                      .meaning = "size at high speed",
+                                      .example = 0.01},
+                                     {.name = "static_torque",
+                                      .unit = "N m",
+                                      .range = arm::kNotNegative,
+                                      .meaning = "size at rest",
+                                      .example = 0.016},
+                                     {.name = "velocity",
+                                      .unit = "rad/s",
+                                      .range = arm::kPositive,
+                                      .meaning = "over which it changes from one to the other",
+                                      .example = 0.2}},
+                      .hub_torque = stribeck}),
+          .shows = Shows::in_time,
+          .search = [](const Scales& scales) -> std::vector<SearchedParameter> {
+            const double torque_N_m = scales.torque_rms_N_m;
+            const double speed = scales.speed_rms_rad_per_s;
+            return {{"torque", 3e-3 * torque_N_m, 2.0 * torque_N_m, Spacing::from_zero},
+                    {"static_torque", 3e-3 * torque_N_m, 4.0 * torque_N_m, Spacing::from_zero},
+                    {"velocity", 3e-3 * speed, 3.0 * speed}};
+          },
+          .contains = {"coulomb_friction"},
+          .speaks_for =
+              "the residual hub torque steps with the sign of the hub velocity, the step being "
+              "highest at rest",
+          .refuted_by = "a step of one height at every velocity"};
+}
+
+}  // namespace flexarm::effects

@@ -1,0 +1,28 @@
+#include "effects/registry/entry.hpp"
+
+namespace flexarm::effects {
+
+Entry structural_damping() {
+  return {.definition = define(
+              {.name = "structural_damping",
+               .meaning = "further Kelvin-Voigt damping of the beam",
+               .parameters = {{.name = "time",
+                               .unit = "s",
+                               .range = arm::kNotNegative,
+                               .meaning = "beside damping.kelvin_voigt",
+                               .example = 2e-4,
+                               .neutral = 0.0}},
+               .linear_term =
+                   [](const arm::Effect& effect, const arm::Arm& /*arm*/, arm::LinearTerms& terms) {
+                     terms.damping.kelvin_voigt_s += effect.value("time");
+                   }}),
+          .shows = Shows::in_all,
+          .search = [](const Scales& scales) -> std::vector<SearchedParameter> {
+            const double scale_rad_per_s = arm::omega_scale_rad_per_s(scales.beam);
+            return {{"time", 1e-3 / scale_rad_per_s, 1.0 / scale_rad_per_s, Spacing::from_zero}};
+          },
+          .speaks_for = "damping ratios rise in proportion to the frequency of the mode",
+          .refuted_by = "damping ratios that fall with frequency"};
+}
+
+}  // namespace flexarm::effects

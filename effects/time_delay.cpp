@@ -1,0 +1,29 @@
+#include "effects/registry/entry.hpp"
+
+namespace flexarm::effects {
+
+Entry time_delay() {
+  return {.definition = define({.name = "time_delay",
+                                .meaning = "T(t) = tau(t - delay)",
+                                .parameters = {{.name = "delay",
+                                                .unit = "s",
+                                                .range = arm::kNotNegative,
+                                                .meaning = "of the torque behind its command",
+                                                .example = 0.003,
+                                                .neutral = 0.0}},
+                                .torque_path =
+                                    [](const arm::Effect& effect) {
+                                      return arm::TorqueStage{arm::torque_order::kDelay,
+                                                              arm::Delay{effect.value("delay")}};
+                                    }}),
+          .shows = Shows::in_time_and_frequency,
+          .search = [](const Scales& scales) -> std::vector<SearchedParameter> {
+            return {{"delay", 0.02 * scales.shortest_time_s, 200.0 * scales.shortest_time_s,
+                     Spacing::from_zero}};
+          },
+          .speaks_for =
+              "phase lag in proportion to the frequency; poles, zeros and amplitudes do not change",
+          .refuted_by = "amplitudes that fall with frequency"};
+}
+
+}  // namespace flexarm::effects

@@ -1,0 +1,30 @@
+#include "effects/registry/entry.hpp"
+
+namespace flexarm::effects {
+
+Entry torque_bias() {
+  return {
+      .definition = define({.name = "torque_bias",
+                            .meaning = "T = tau + torque",
+                            .parameters = {{.name = "torque",
+                                            .unit = "N m",
+                                            .range = arm::kAnyFinite,
+                                            .meaning = "added to the torque that reaches the hub",
+                                            .example = 0.004,
+                                            .neutral = 0.0}},
+                            .hub_torque = [](const arm::Effect& effect) -> arm::HubLaw {
+                              return arm::ConstantHubTorque{effect.value("torque")};
+                            }}),
+      .shows = Shows::in_time,
+      .search = [](const Scales& scales) -> std::vector<SearchedParameter> {
+        return {{.name = "torque",
+                 .lowest = -scales.torque_rms_N_m,
+                 .highest = scales.torque_rms_N_m,
+                 .spacing = Spacing::linear,
+                 .neutral = 0.0}};
+      },
+      .speaks_for = "the residual hub torque is constant: the arm drifts one way",
+      .refuted_by = "no drift where the torque is zero"};
+}
+
+}  // namespace flexarm::effects

@@ -1,0 +1,28 @@
+#include "effects/registry/entry.hpp"
+
+namespace flexarm::effects {
+
+Entry torque_gain() {
+  return {.definition = define({.name = "torque_gain",
+                                .meaning = "T = factor tau",
+                                .parameters = {{.name = "factor",
+                                                .unit = "1",
+                                                .range = arm::kAnyFinite,
+                                                .meaning = "of the commanded torque",
+                                                .example = 1.2,
+                                                .neutral = 1.0}},
+                                .torque_path =
+                                    [](const arm::Effect& effect) {
+                                      return arm::TorqueStage{
+                                          arm::torque_order::kGain,
+                                          arm::PiecewiseLinear(effect.value("factor"))};
+                                    }}),
+          .shows = Shows::in_time_and_frequency,
+          .search = [](const Scales& /*scales*/) -> std::vector<SearchedParameter> {
+            return {{.name = "factor", .lowest = 0.3, .highest = 3.0, .neutral = 1.0}};
+          },
+          .speaks_for = "every sensor reads more or less in one ratio; poles and zeros do not move",
+          .refuted_by = "poles or zeros that move"};
+}
+
+}  // namespace flexarm::effects

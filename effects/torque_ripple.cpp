@@ -1,0 +1,53 @@
+#include "effects/registry/entry.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <span>
+
+namespace flexarm::effects {
+
+Entry torque_ripple() {
+  return {
+      .definition =
+          define({.name = "torque_ripple",
+                  .meaning = "T = tau + amplitude sin(cycles theta + phase)",
+                  .parameters = {{.name = "amplitude",
+                                  .unit = "N m",
+                                  .range = arm::kAnyFinite,
+                                  .meaning = "of the ripple",
+                                  .example = 0.01,
+                                  .neutral = 0.0},
+                                 {.name = "cycles",
+                                  .unit = "1/rev",
+                                  .range = arm::kPositive,
+                                  .meaning = "multiplies theta [rad]",
+                                  .example = 9.0},
+                                 {.name = "phase",
+                                  .unit = "rad",
+                                  .range = arm::kAnyFinite,
+                                  .meaning = "at theta = 0",
+                                  .example = 0.4}},
+                  .hub_torque = [](const arm::Effect& effect) -> arm::HubLaw {
+                    return arm::SmoothHubTorque{
+                        [amplitude_N_m = effect.value("amplitude"), cycles = effect.value("cycles"),
+                         phase_rad = effect.value("phase")](const arm::HubState& hub,
+                                                            std::span<const double> /*z*/,
+                                                            std::span<double> /*rates*/) {
+                          return arm::SmoothHubTorque::Value{
+                              amplitude_N_m * std::sin(cycles * hub.angle_rad + phase_rad), 0.0};
+                        }};
+                  }}),
+      .shows = Shows::in_time,
+      .search = [](const Scales& scales) -> std::vector<SearchedParameter> {
+        return {
+            {"amplitude", 3e-3 * scales.torque_rms_N_m, scales.torque_rms_N_m, Spacing::from_zero},
+            {"cycles", 2.0, 40.0},
+            {"phase", 0.0, 2.0 * std::numbers::pi, Spacing::linear, true}};
+      },
+      // Of few cycles, over a part of a turn.
+      .contains = {"hub_spring", "torque_bias"},
+      .speaks_for = "the residual hub torque is periodic in the hub angle",
+      .refuted_by = "a residual torque at one angle that differs from turn to turn"};
+}
+
+}  // namespace flexarm::effects

@@ -1,0 +1,36 @@
+#include "effects/registry/entry.hpp"
+
+#include <limits>
+
+namespace flexarm::effects {
+
+Entry torque_saturation() {
+  return {.definition =
+              define({.name = "torque_saturation",
+                      .meaning = "T = tau clipped to +-limit",
+                      .parameters = {{.name = "limit",
+                                      .unit = "N m",
+                                      .range = arm::kPositive,
+                                      .meaning = "largest torque",
+                                      .example = 0.09,
+                                      .neutral = std::numeric_limits<double>::infinity()}},
+                      .torque_path =
+                          [](const arm::Effect& effect) {
+                            const double limit_N_m = effect.value("limit");
+                            return arm::TorqueStage{
+                                arm::torque_order::kSaturation,
+                                arm::PiecewiseLinear(
+                                    0.0, {{-limit_N_m, -limit_N_m}, {limit_N_m, limit_N_m}}, 0.0)};
+                          }}),
+          .shows = Shows::in_time,
+          .search = [](const Scales& scales) -> std::vector<SearchedParameter> {
+            return {{.name = "limit",
+                     .lowest = 0.05 * scales.torque_peak_N_m,
+                     .highest = scales.torque_peak_N_m,
+                     .neutral = scales.torque_peak_N_m}};
+          },
+          .speaks_for = "only runs of high torque have errors, while the torque is highest",
+          .refuted_by = "an error where the torque is low"};
+}
+
+}  // namespace flexarm::effects

@@ -1,0 +1,118 @@
+#include "report/json/effects_json.hpp"
+
+#include "arm/arm_keys.hpp"
+#include "arm/uncertainties.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <string>
+
+namespace flexarm::report {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number_schema(const arm::Range& range, const std::string& unit, const std::string& meaning) {
+  Json schema = {{"type", "number"}, {"description", "[" + unit + "] " + meaning}};
+  if (std::isfinite(range.minimum)) {
+    schema[range.exclusive ? "exclusiveMinimum" : "minimum"] = range.minimum;
+  }
+  return schema;
+}
+
+Json object_schema(Json properties, Json required) {
+  Json schema = {
+      {"type", "object"}, {"properties", std::move(properties)}, {"additionalProperties", false}};
+  if (!required.empty()) schema["required"] = std::move(required);
+  return schema;
+}
+
+std::string shown_in(effects::Shows shows) {
+  switch (shows) {
+    case effects::Shows::in_time:
+      return "time";
+    case effects::Shows::in_time_and_frequency:
+      return "time, frf";
+    case effects::Shows::in_all:
+      return "time, frf, modal";
+  }
+  return "";
+}
+
+}  // namespace
+
+Json effects_json(const std::vector<effects::Entry>& entries) {
+  Json all = Json::array();
+  for (const auto& entry : entries) {
+    const arm::EffectDefinition& definition = *entry.definition;
+    Json parameters = Json::array();
+    for (const auto& parameter : definition.parameters) {
+      const bool bounded = std::isfinite(parameter.range.minimum);
+      parameters.push_back(
+          {{"name", parameter.name},
+           {"unit", parameter.unit},
+           {"minimum", bounded ? Json(parameter.range.minimum) : Json(nullptr)},
+           {"minimum_is_allowed", !parameter.range.exclusive},
+           {"neutral", parameter.neutral ? Json(*parameter.neutral) : Json(nullptr)},
+           {"default", parameter.otherwise ? Json(*parameter.otherwise) : Json(nullptr)},
+           {"example", parameter.example},
+           {"meaning", parameter.meaning}});
+    }
+    Json ports = Json::array();
+    for (const arm::Port port : definition.ports()) ports.push_back(to_string(port));
+    all.push_back(
+        {{"effect", definition.name},
+         {"meaning", definition.meaning},
+         {"ports", ports},
+         {"shows_in", shown_in(entry.shows)},
+         {"contains", entry.contains},
+         {"sensor", definition.sensor ? Json(arm::to_string(*definition.sensor)) : Json(nullptr)},
+         {"parameters", parameters},
+         {"evidence_for", entry.speaks_for},
+         {"evidence_against", entry.refuted_by}});
+  }
+  return {{"effects", all}};
+}
+
+Json arm_file_schema(const std::vector<effects::Entry>& entries) {
+  Json tables = {{"name", {{"type", "string"}, {"description", "of the arm"}}}};
+  for (const std::string& table : arm::arm_tables()) {
+    Json properties = Json::object();
+    Json required = Json::array();
+    for (const auto& key : arm::arm_keys()) {
+      if (key.table != table) continue;
+      properties[key.leaf] = number_schema(key.range, key.unit, key.meaning);
+      Json uncertainty =
+          number_schema({0.0, true}, "1", "relative standard deviation of " + key.leaf);
+      uncertainty["exclusiveMaximum"] = 1;
+      properties[key.leaf + std::string(arm::kUncertaintySuffix)] = std::move(uncertainty);
+      if (key.required) required.push_back(key.leaf);
+    }
+    tables[table] = object_schema(std::move(properties), std::move(required));
+  }
+  Json known = Json::object();
+  for (const auto& entry : entries) {
+    const arm::EffectDefinition& definition = *entry.definition;
+    Json properties = Json::object();
+    Json required = Json::array();
+    for (const auto& parameter : definition.parameters) {
+      properties[parameter.name] =
+          number_schema(parameter.range, parameter.unit, parameter.meaning);
+      if (!parameter.otherwise) required.push_back(parameter.name);
+    }
+    if (definition.sensor) {
+      properties["sensor"] = {{"type", "string"}, {"description", "the sensor that it acts on"}};
+    }
+    known[definition.name] = object_schema(std::move(properties), std::move(required));
+    known[definition.name]["description"] = definition.meaning;
+  }
+  tables["effects"] = object_schema(std::move(known), Json::array());
+  Json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"},
+                 {"title", "flexarm arm file"}};
+  schema.update(object_schema(std::move(tables), {"beam", "hub"}));
+  return schema;
+}
+
+}  // namespace flexarm::report

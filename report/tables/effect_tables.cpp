@@ -1,0 +1,174 @@
+#include "report/tables/effect_tables.hpp"
+
+#include "report/tables/text_table.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <string_view>
+
+namespace flexarm::report {
+
+namespace {
+
+using arm::Port;
+
+std::string allowed(const arm::Range& range) {
+  if (std::isinf(range.minimum)) return "";
+  return range.exclusive ? fmt::format(" above {}", range.minimum)
+                         : fmt::format(" {} or more", range.minimum);
+}
+
+std::string_view meaning_of(Port port) {
+  switch (port) {
+    case Port::arm_number:
+      return "another number of the arm";
+    case Port::linear_term:
+      return "a term of the linear arm";
+    case Port::torque_path:
+      return "a stage between the commanded torque and the hub";
+    case Port::hub_torque:
+      return "a law of torque on the hub";
+    case Port::beam_force:
+      return "a force along the beam";
+    case Port::sensor_path:
+      return "a stage between a sensor and its reading";
+  }
+  return "";
+}
+
+std::string_view shown_in(effects::Shows shows) {
+  switch (shows) {
+    case effects::Shows::in_time:
+      return "time records";
+    case effects::Shows::in_time_and_frequency:
+      return "time records, frequency responses";
+    case effects::Shows::in_all:
+      return "time records, frequency responses, poles and zeros";
+  }
+  return "";
+}
+
+std::string ports_of(const arm::EffectDefinition& definition) {
+  std::vector<std::string_view> names;
+  for (const Port port : definition.ports()) names.push_back(to_string(port));
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+std::string neutral_of(const arm::EffectParameter& parameter) {
+  if (!parameter.neutral) return "";
+  return std::isinf(*parameter.neutral) ? "infinite" : fmt::format("{:g}", *parameter.neutral);
+}
+
+/// As an arm file switches it on.
+std::string example_of(const arm::EffectDefinition& definition) {
+  std::string text = fmt::format("[effects.{}]\n", definition.name);
+  for (const auto& parameter : definition.parameters) {
+    text += fmt::format("{:<28} # {}\n", fmt::format("{} = {}", parameter.name, parameter.example),
+                        parameter.unit);
+  }
+  if (definition.sensor)
+    text += fmt::format("sensor = \"{}\"\n", arm::to_string(*definition.sensor));
+  return text;
+}
+
+std::string section(const effects::Entry& entry) {
+  const arm::EffectDefinition& definition = *entry.definition;
+  std::string text = fmt::format("### {}\n\n{}\n\n", definition.name, definition.meaning);
+  text +=
+      "| parameter | unit | allowed | without effect at | meaning |\n| --- | --- | --- | --- | --- "
+      "|\n";
+  for (const auto& parameter : definition.parameters) {
+    text += fmt::format("| `{}` | {} |{} | {} | {} |\n", parameter.name, parameter.unit,
+                        allowed(parameter.range), neutral_of(parameter), parameter.meaning);
+  }
+  text +=
+      fmt::format("\n- port: `{}`\n- shows in: {}\n", ports_of(definition), shown_in(entry.shows));
+  if (!entry.contains.empty()) {
+    text += fmt::format("- contains as a limit: `{}`\n", fmt::join(entry.contains, "`, `"));
+  }
+  text += fmt::format("- evidence for it: {}\n- evidence against it: {}\n", entry.speaks_for,
+                      entry.refuted_by);
+  return text + fmt::format("\n```toml\n{}```\n\n", example_of(definition));
+}
+
+}  // namespace
+
+std::string parameters_of(const arm::EffectDefinition& definition, bool markdown) {
+  const char* mark = markdown ? "`" : "";
+  std::vector<std::string> parameters;
+  for (const auto& parameter : definition.parameters) {
+    parameters.push_back(fmt::format("{0}{1}{0} [{2}]{3}{4}", mark, parameter.name, parameter.unit,
+                                     allowed(parameter.range),
+                                     parameter.otherwise ? ", optional" : ""));
+  }
+  if (definition.sensor) parameters.push_back(fmt::format("{0}sensor{0}, optional", mark));
+  return fmt::format("{}", fmt::join(parameters, "; "));
+}
+
+std::string effect_list(const std::vector<effects::Entry>& entries) {
+  std::string text;
+  std::string_view port;
+  for (const auto& entry : entries) {
+    const arm::EffectDefinition& definition = *entry.definition;
+    const Port first = definition.ports().front();
+    if (to_string(first) != port) {
+      port = to_string(first);
+      text += fmt::format("{}{}: {}\n", text.empty() ? "" : "\n", port, meaning_of(first));
+    }
+    text += fmt::format("  {:<25} {}\n", definition.name, parameters_of(definition, false));
+  }
+  return text;
+}
+
+std::string effect_page(const effects::Entry& entry) {
+  const arm::EffectDefinition& definition = *entry.definition;
+  std::string text = to_paragraph(fmt::format("{}: {}.", definition.name, definition.meaning), 2);
+  Table table{
+      .caption = "",
+      .columns = {{"parameter"}, {"unit"}, {"allowed"}, {"without effect at"}, {"meaning"}}};
+  for (const auto& parameter : definition.parameters) {
+    const std::string range = allowed(parameter.range);
+    table.add_row({parameter.name, parameter.unit, range.empty() ? "any" : range.substr(1),
+                   neutral_of(parameter), parameter.meaning});
+  }
+  text += "\n" + to_text(table) + "\n";
+  text += fmt::format("port:     {}\nshows in: {}\n", ports_of(definition), shown_in(entry.shows));
+  if (!entry.contains.empty()) {
+    text += fmt::format("contains: {}, as a limit\n", fmt::join(entry.contains, ", "));
+  }
+  text += to_paragraph(fmt::format("evidence for it: {}.", entry.speaks_for), 2);
+  text += to_paragraph(fmt::format("evidence against it: {}.", entry.refuted_by), 2);
+  return text + "\n" + example_of(definition);
+}
+
+std::string effects_document(const std::vector<effects::Entry>& entries) {
+  std::string text =
+      "# Effects\n\n"
+      "What an ideal arm leaves out. Each effect has one name, the same in `[effects.NAME]` of an "
+      "arm file, in reports and in a diagnosis.\nThis page is what `flexarm effects --markdown` "
+      "prints; `flexarm effects NAME` prints one section of it.\n\n"
+      "`tau` is the commanded (measured) torque, `T` the torque that reaches the hub, theta the "
+      "hub "
+      "angle, y the displacement of the beam\nfrom the resting line, hub rotation included. A "
+      "parameter without a range takes any finite number.\n\n"
+      "An effect acts through ports. Every formulation honours `arm_number` and `linear_term`; the "
+      "simulation in time honours all of them;\npoles, zeros and frequency responses leave out "
+      "what is not linear, and say so.\n\n| port | the effect is |\n| --- | --- |\n";
+  for (const Port port : {Port::arm_number, Port::linear_term, Port::torque_path, Port::hub_torque,
+                          Port::beam_force, Port::sensor_path}) {
+    text += fmt::format("| `{}` | {} |\n", to_string(port), meaning_of(port));
+  }
+  text += "\n## All of them\n\n| effect | parameters | meaning |\n| --- | --- | --- |\n";
+  for (const auto& entry : entries) {
+    text += fmt::format("| [`{0}`](#{0}) | {1} | {2} |\n", entry.definition->name,
+                        parameters_of(*entry.definition, true), entry.definition->meaning);
+  }
+  text += "\n## One by one\n\n";
+  for (const auto& entry : entries) text += section(entry);
+  text.pop_back();
+  return text;
+}
+
+}  // namespace flexarm::report

@@ -1,0 +1,62 @@
+#pragma once
+
+#include "arm/formulation.hpp"
+#include "response/time/added_forces.hpp"
+#include "response/time/energy_ledger.hpp"
+#include "response/time/modal_dynamics.hpp"
+#include "response/time/simulation.hpp"
+#include "response/time/step_plan.hpp"
+
+#include <Eigen/Core>
+
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace flexarm::response {
+
+/// An arm with all that a torque does not change, for any number of runs: `simulate` is one of
+/// them, fits make them by the thousand.
+class ArmSimulator {
+ public:
+  /// Throws InputError as `simulate` does for parts that do not fit together.
+  ArmSimulator(const arm::ModalModel& model, const ArmParts& parts,
+               std::span<const arm::Sensor> sensors, const SimulationOptions& options);
+  ArmSimulator(const ArmSimulator&) = delete;
+  ArmSimulator& operator=(const ArmSimulator&) = delete;
+
+  /// Entries of the state, ModalDynamics::size().
+  Eigen::Index states() const { return arm_.size(); }
+  /// No friction, and no force that varies with the state: responses add up.
+  bool is_linear() const { return plan_.is_linear(); }
+
+  /// From rest. Throws InputError for a torque that `simulate` refuses.
+  Simulation run(std::span<const double> torque_N_m, const SimulationProgress& progress = {}) const;
+
+  /// Readings alone, a row a sample and a column a sensor, from the state `initial` (at rest where
+  /// it is empty). Throws InputError for a torque that `simulate` refuses, and for readings that
+  /// are too large for a number. Concurrent calls are safe.
+  Eigen::MatrixXd readings(std::span<const double> torque_N_m,
+                           const Eigen::VectorXd& initial = {}) const;
+
+  /// Readings of the arm left alone from each unit state, the samples of all sensors one after the
+  /// other in a column (as the columns above), a column a state. Without friction and forces that
+  /// vary.
+  Eigen::MatrixXd free_readings(std::size_t samples) const;
+
+ private:
+  ArmParts parts_;
+  std::vector<arm::Sensor> sensors_;
+  SimulationOptions options_;
+  ModalDynamics arm_;
+  AddedForces forces_;
+  std::optional<EnergyLedger> ledger_;  ///< as it is before a run
+  StepPlan plan_;
+};
+
+/// Options with which the readings of a fit are simulated: no energy balance, and a step a sample
+/// where forces vary, with an error of order 4 in it; reversals and rests of the hub are located
+/// exactly.
+SimulationOptions options_of_fit(double sample_time_s, TorqueHold hold);
+
+}  // namespace flexarm::response

@@ -1,0 +1,88 @@
+#include "response/time/step_plan.hpp"
+
+#include "arm/input_error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace flexarm::response {
+
+namespace {
+
+/// |A| dt of a step where forces vary, so that the parabola through them resolves every mode: its
+/// error is of order 4 in this.
+constexpr double kLargestPhaseVarying_rad = 0.5;
+/// Parts in which a step is watched, at most: its table has that many rows.
+constexpr double kMostParts = 64.0;
+
+}  // namespace
+
+StepPlan::StepPlan(const ModalDynamics& arm, const AddedForces& forces, const Actuator& actuator,
+                   const SimulationOptions& options, const EnergyLedger* ledger)
+    : arm_(&arm),
+      forces_(&forces),
+      options_(options),
+      ledger_(ledger),
+      is_linear_(!forces.has_friction() && !forces.vary()),
+      velocity_row_(Eigen::RowVectorXd::Zero(arm.size())) {
+  velocity_row_.segment(arm.modes, arm.modes) = arm.hub_slope.transpose();
+  const double h = options.sample_time_s;
+  const double phi = TorquePath(actuator, {}, h, options.hold).delay_fraction();
+  if (phi == 0.0) {
+    regular_[0] = steps(h);
+  } else {
+    regular_[1] = steps(phi * h);
+    regular_[2] = steps((1.0 - phi) * h);
+  }
+}
+
+int StepPlan::substeps(double length_s) const {
+  const double h = options_.sample_time_s;
+  const bool as_asked = forces_->vary() || options_.resolve_every_mode;
+  double count = as_asked ? std::ceil(options_.substeps * length_s / h - 1e-9) : 1.0;
+  double largest_phase = kMostParts * kLargestPhase_rad;
+  if (ledger_ != nullptr) largest_phase = kLargestPhase_rad;
+  if (forces_->vary() && options_.resolve_every_mode) largest_phase = kLargestPhaseVarying_rad;
+  if (!is_linear_) count = std::max(count, std::ceil(phase_rad(length_s) / largest_phase));
+  if (!(count <= kMostSubsteps)) {
+    throw arm::InputError(fmt::format(
+        "effects.{}: needs {:g} inner steps a sample of {} s for an arm with a rate of "
+        "{:g} rad/s; must be {} or fewer: damp the arm less, or sample it faster",
+        forces_->effect_in_steps(), count, h, arm_->fastest_rate_rad_per_s, kMostSubsteps));
+  }
+  return std::max(1, static_cast<int>(count));
+}
+
+int StepPlan::watched_parts(double length_s) const {
+  return std::max(1, static_cast<int>(std::ceil(phase_rad(length_s) / kLargestPhase_rad - 1e-9)));
+}
+
+Steps StepPlan::steps(double length_s) const {
+  const auto made_of = [this](int count, double step_s, int parts) {
+    const bool has_friction = forces_->has_friction();
+    const bool vary = forces_->vary();
+    const Reading speed = {velocity_row_, 0.0,
+                           Eigen::RowVectorXd::Zero(arm_->turning.force.cols())};
+    Steps made{.count = count, .length_s = step_s};
+    made.turning = step_table(arm_->turning, has_friction ? &speed : nullptr, step_s, parts, vary,
+                              options_.precision);
+    if (has_friction) {
+      made.held = step_table(arm_->held, &arm_->reaction, step_s, parts, vary, options_.precision);
+    }
+    return made;
+  };
+  const int count = substeps(length_s);
+  const double step_s = length_s / count;
+  const int parts = forces_->has_friction() ? watched_parts(step_s) : 1;
+  Steps made = made_of(count, step_s, parts);
+  if (parts > 1) {
+    made.shorter = std::make_shared<const Steps>(made_of(parts, step_s / parts, 1));
+  }
+  if (is_linear_ && ledger_ != nullptr) made.energy = ledger_->step_energy(step_s);
+  return made;
+}
+
+}  // namespace flexarm::response

@@ -70,7 +70,7 @@ void add_arm_choice(CLI::App& parser, ArmChoice& choice) {
       ->check(not_empty())
       ->allow_extra_args(false);
   parser.add_option("--payload-inertia", choice.payload_inertia_kg_m2,
-                    "Payload inertia about the tip [kg m^2] in place of the file's");
+                    "Payload inertia about its centre of mass [kg m^2] in place of the file's");
   parser.add_option("--hub-inertia", choice.hub_inertia_kg_m2,
                     "Hub inertia [kg m^2] in place of the file's");
 }

@@ -280,7 +280,7 @@ void add_run_options(CLI::App& parser, ImportArguments& arguments) {
   parser.add_option("--payload-mass", arguments.payload_mass_kg,
                     "Payload mass [kg] of the run, in place of the arm's");
   parser.add_option("--payload-inertia", arguments.payload_inertia_kg_m2,
-                    "Payload inertia about the tip [kg m^2] of the run");
+                    "Payload inertia about its centre of mass [kg m^2] of the run");
 }
 
 }  // namespace

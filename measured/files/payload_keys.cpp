@@ -29,7 +29,7 @@ arm::Payload read_payload(measured::TomlFaults& faults, const toml::node& node) 
 }
 
 std::string format_payload(const arm::Payload& payload) {
-  return fmt::format("{{ mass = {}, inertia = {} }}  # kg, kg m^2 about the tip",
+  return fmt::format("{{ mass = {}, inertia = {} }}  # kg, kg m^2 about its centre of mass",
                      measured::toml_number(payload.mass_kg),
                      measured::toml_number(payload.inertia_kg_m2));
 }

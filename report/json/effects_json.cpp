@@ -29,16 +29,12 @@ Json object_schema(Json properties, Json required) {
   return schema;
 }
 
-std::string shown_in(effects::Shows shows) {
-  switch (shows) {
-    case effects::Shows::in_time:
-      return "time";
-    case effects::Shows::in_time_and_frequency:
-      return "time, frf";
-    case effects::Shows::in_all:
-      return "time, frf, modal";
-  }
-  return "";
+/// The kinds of runs, as measurement files name them.
+Json shown_in(effects::Shows shows) {
+  Json kinds = {"time"};
+  if (shows != effects::Shows::in_time) kinds.push_back("frf");
+  if (shows == effects::Shows::in_all) kinds.push_back("modal");
+  return kinds;
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 #include "arm/input_error.hpp"
+#include "effects/registry/vocabulary.hpp"
 #include "laws/subjects.hpp"
 
 #include <gtest/gtest.h>

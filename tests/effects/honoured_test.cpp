@@ -1,0 +1,158 @@
+// Every effect is honoured where its ports are, and refused by name where they are not.
+#include "arm/input_error.hpp"
+#include "diagnose/search/hypothesis.hpp"
+#include "effects/registry/vocabulary.hpp"
+#include "response/formulation_maker.hpp"
+#include "response/frequency/frequency_response.hpp"
+#include "response/time/arm_simulator.hpp"
+#include "response/time/time_model.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <string>
+#include <vector>
+
+namespace flexarm::effects {
+namespace {
+
+constexpr int kModes = 4;
+
+arm::Arm ideal_arm() {
+  arm::Arm arm = arm::paper_arm();
+  arm.beam.shear_modulus_Pa = 2.67e10;
+  arm.hub.viscous_friction_N_m_s_per_rad = 2e-3;
+  arm.payload = {0.05, 1e-4};
+  arm.damping.kelvin_voigt_s = 1.2e-4;
+  return arm;
+}
+
+std::vector<arm::Sensor> sensors() {
+  return {arm::parse_sensor("hub_angle"), arm::parse_sensor("hub_velocity"),
+          arm::parse_sensor("tip_acceleration"), arm::parse_sensor("strain@0.05")};
+}
+
+class Honoured : public testing::TestWithParam<std::string> {
+ protected:
+  const Entry& entry() const { return *find(GetParam()); }
+  arm::Arm ideal() const { return ideal_arm(); }
+  arm::Arm with_effect() const {
+    arm::Arm arm = ideal_arm();
+    arm.effects[GetParam()] = example(entry().definition);
+    return arm;
+  }
+};
+
+/// Damped poles and the zeros of tip acceleration.
+std::vector<std::complex<double>> roots(const response::AnyFormulation& formulation) {
+  std::vector<std::complex<double>> all;
+  const auto poles = response::damped_poles(formulation, kModes);
+  all.push_back(poles.lowest.first_rad_per_s);
+  for (const auto& pair : poles.flexible) all.push_back(pair.first_rad_per_s);
+  for (const auto& sensor : sensors()) {
+    const auto zeros = response::zeros(formulation, sensor, 3).s_rad_per_s;
+    all.insert(all.end(), zeros.begin(), zeros.end());
+  }
+  return all;
+}
+
+TEST_P(Honoured, ByThreeFormulationsOrRefusedWithNameAndPort) {
+  // The least that an example moves a root or a hub inertia moves the rigid body, relative.
+  constexpr double kMoved = 1e-6;
+  for (const auto name : response::kFormulationNames) {
+    const auto without = roots(response::make_formulation(name, ideal(), kModes));
+    if (entry().definition->is_of_linear_arm()) {
+      const auto with = roots(response::make_formulation(name, with_effect(), kModes));
+      double largest = 0.0;
+      for (std::size_t i = 0; i < std::min(with.size(), without.size()); ++i) {
+        largest = std::max(largest, std::abs(with[i] - without[i]) / (1.0 + std::abs(without[i])));
+      }
+      EXPECT_GT(largest, kMoved) << name;
+      continue;
+    }
+    try {
+      if (name == exact_tf::ExactArm::kName) exact_tf::ExactArm{with_effect()};
+      if (name == fem::FemArm::kName) fem::FemArm{with_effect()};
+      if (name == assumed_modes::AssumedModesArm::kName) {
+        assumed_modes::AssumedModesArm{with_effect()};
+      }
+      ADD_FAILURE() << name << " accepted " << GetParam();
+    } catch (const arm::InputError& error) {
+      EXPECT_THAT(error.what(), testing::HasSubstr(GetParam()));
+      EXPECT_THAT(
+          error.what(),
+          testing::HasSubstr(std::string(arm::to_string(entry().definition->ports().front()))));
+    }
+  }
+}
+
+TEST_P(Honoured, ByASimulationInTime) {
+  constexpr double kSample_s = 2e-3;
+  std::vector<double> torque;
+  for (int k = 0; k < 500; ++k) torque.push_back(k % 120 < 60 ? 0.15 : -0.12);
+  const auto simulated = [&](const arm::Arm& arm) {
+    const auto parts = response::take_apart(arm);
+    const auto model = response::time_model(
+        response::make_formulation("exact_tf", parts.linear, kModes), parts, kModes, sensors());
+    return response::ArmSimulator(model, parts, sensors(),
+                                  response::options_of_fit(kSample_s, response::TorqueHold::zero))
+        .readings(torque);
+  };
+  const Eigen::MatrixXd without = simulated(ideal());
+  const Eigen::MatrixXd with = simulated(with_effect());
+  constexpr double kSeen = 1e-5;  // relative: shear of a slender beam is the least
+  EXPECT_GT((with - without).norm(), kSeen * without.norm());
+}
+
+TEST_P(Honoured, ShowsInFrequencyResponsesAsItSays) {
+  const std::vector<double> frequencies = {1.0, 5.0, 15.0, 40.0};
+  const auto responses = [&](const arm::Arm& arm) {
+    const auto parts = response::take_apart(arm);
+    return response::frequency_response(response::make_formulation("exact_tf", arm, 1),
+                                        response::linear_chain(parts), sensors(), frequencies)
+        .values;
+  };
+  const bool differs = responses(with_effect()) != responses(ideal());
+  EXPECT_EQ(differs, entry().shows != Shows::in_time);
+  EXPECT_EQ(entry().definition->is_of_linear_arm(), entry().shows == Shows::in_all);
+}
+
+INSTANTIATE_TEST_SUITE_P(Effects, Honoured, testing::ValuesIn([] {
+                           std::vector<std::string> names;
+                           for (const Entry& entry : entries()) {
+                             names.push_back(entry.definition->name);
+                           }
+                           return names;
+                         }()),
+                         [](const auto& name) { return name.param; });
+
+/// A law with a state of its own: z' = (velocity - z)/T, torque -k z, which is a viscous friction
+/// that lags.
+TEST(HubLawWithAState, IsIntegratedWithTheArm) {
+  constexpr double kLag_s = 0.05;
+  constexpr double kCoefficient = 0.02;
+  auto parts = response::take_apart(ideal_arm());
+  parts.hub.smooth.push_back(
+      {"lagging_friction",
+       {[](const arm::HubState& hub, std::span<const double> z, std::span<double> rates) {
+          rates[0] = (hub.velocity_rad_per_s - z[0]) / kLag_s;
+          return arm::SmoothHubTorque::Value{-kCoefficient * z[0], 0.0};
+        },
+        1}});
+  const auto model = response::time_model(
+      response::make_formulation("exact_tf", parts.linear, kModes), parts, kModes, sensors());
+  const std::vector<double> torque(400, 0.05);
+  const auto made =
+      response::simulate(model, parts, sensors(), torque, {.sample_time_s = 5e-3, .energy = false});
+  // In the end the hub turns at the speed at which both frictions balance the torque.
+  const double viscous = 2e-3 + kCoefficient;
+  EXPECT_NEAR(made.channels[1].back(), 0.05 / viscous, 0.02 * 0.05 / viscous);
+  // The lag makes it overshoot, which a friction without one does not.
+  EXPECT_GT(*std::ranges::max_element(made.channels[1]), 1.005 * 0.05 / viscous);
+}
+
+}  // namespace
+}  // namespace flexarm::effects

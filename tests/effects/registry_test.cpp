@@ -1,0 +1,120 @@
+// What every file of effects/ must say, and that it fits together.
+#include "arm/input_error.hpp"
+#include "diagnose/search/hypothesis.hpp"
+#include "effects/registry/vocabulary.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace flexarm::effects {
+namespace {
+
+/// An arm that can have every effect, and what was measured on it.
+Scales scales() {
+  Scales made;
+  made.arm = arm::paper_arm();
+  made.arm.beam.shear_modulus_Pa = 2.67e10;
+  made.arm.payload = {0.05, 1e-4};
+  made.beam = arm::linear_arm(made.arm);
+  made.sensors = {arm::parse_sensor("hub_angle"), arm::parse_sensor("tip_acceleration")};
+  made.has_payload_mass = true;
+  made.torque_rms_N_m = 0.05;
+  made.torque_peak_N_m = 0.2;
+  return made;
+}
+
+TEST(Registry, HasEachNameOnceAndWordsForAll) {
+  std::set<std::string> names;
+  for (const Entry& entry : entries()) {
+    const arm::EffectDefinition& definition = *entry.definition;
+    EXPECT_TRUE(names.insert(definition.name).second) << definition.name;
+    EXPECT_FALSE(definition.meaning.empty()) << definition.name;
+    EXPECT_FALSE(entry.speaks_for.empty()) << definition.name;
+    EXPECT_FALSE(entry.refuted_by.empty()) << definition.name;
+    EXPECT_FALSE(definition.ports().empty()) << definition.name;
+    EXPECT_FALSE(definition.parameters.empty()) << definition.name;
+    for (const auto& parameter : definition.parameters) {
+      EXPECT_FALSE(parameter.meaning.empty()) << definition.name << "." << parameter.name;
+      EXPECT_FALSE(parameter.unit.empty()) << definition.name << "." << parameter.name;
+    }
+  }
+  EXPECT_EQ(names.size(), vocabulary().size());
+}
+
+TEST(Registry, ExamplesAreValidAndUnlikeTheNeutralValue) {
+  for (const auto& definition : vocabulary()) {
+    arm::Arm arm = scales().arm;
+    arm.effects[definition->name] = example(definition);
+    EXPECT_NO_THROW(arm::require_valid(arm)) << definition->name;
+    for (const auto& parameter : definition->parameters) {
+      EXPECT_NE(parameter.example, parameter.neutral.value_or(NAN)) << definition->name;
+    }
+  }
+}
+
+TEST(Registry, LimitsAreEffectsOfFewerOrAsManyParameters) {
+  for (const Entry& entry : entries()) {
+    for (const std::string& limit : entry.contains) {
+      const Entry* simpler = find(limit);
+      ASSERT_NE(simpler, nullptr) << entry.definition->name << " contains " << limit;
+      EXPECT_LE(simpler->definition->parameters.size(), entry.definition->parameters.size());
+    }
+  }
+}
+
+TEST(Registry, EachParameterIsLookedForWithinItsRange) {
+  for (const Entry& entry : entries()) {
+    const auto searched = entry.search(scales());
+    const auto& parameters = entry.definition->parameters;
+    ASSERT_EQ(searched.size(), parameters.size()) << entry.definition->name;
+    for (std::size_t i = 0; i < searched.size(); ++i) {
+      const std::string where = entry.definition->name + "." + parameters[i].name;
+      EXPECT_EQ(searched[i].name, parameters[i].name);
+      EXPECT_LT(searched[i].lowest, searched[i].highest) << where;
+      for (const double coordinate : {0.0, 0.01, 0.5, 1.0}) {
+        const double value = searched[i].value(coordinate);
+        EXPECT_TRUE(parameters[i].range.contains(value)) << where << " = " << value;
+      }
+    }
+  }
+}
+
+TEST(Registry, ANeutralValueIsOneAtWhichTheSearchSaysThatNothingIsDone) {
+  for (const Entry& entry : entries()) {
+    const auto searched = entry.search(scales());
+    for (std::size_t i = 0; i < searched.size(); ++i) {
+      const auto& neutral = entry.definition->parameters[i].neutral;
+      if (!neutral) continue;
+      const auto coordinate = searched[i].neutral_coordinate();
+      ASSERT_TRUE(coordinate.has_value()) << entry.definition->name;
+      // A clipping limit does nothing from the highest torque on.
+      if (std::isinf(*neutral)) continue;
+      EXPECT_NEAR(searched[i].value(*coordinate), *neutral, 1e-12) << entry.definition->name;
+    }
+  }
+}
+
+TEST(Registry, RefusesAnUnknownNameWithWhatWasMeant) {
+  try {
+    effect("coulomb_frction", {});
+    ADD_FAILURE() << "not refused";
+  } catch (const arm::InputError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("did you mean coulomb_friction?"));
+  }
+}
+
+TEST(Registry, PutKeepsTheOtherNumbersOfAnEffect) {
+  arm::Arm arm = arm::paper_arm();
+  put(arm, "stribeck_friction", {{"torque", 0.01}, {"static_torque", 0.02}, {"velocity", 0.1}});
+  put(arm, "stribeck_friction", {{"torque", 0.015}});
+  EXPECT_EQ(arm.effects.at("stribeck_friction").value("torque"), 0.015);
+  EXPECT_EQ(arm.effects.at("stribeck_friction").value("static_torque"), 0.02);
+}
+
+}  // namespace
+}  // namespace flexarm::effects

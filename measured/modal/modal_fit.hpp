@@ -128,7 +128,8 @@ struct ModalFit {
 /// share poles and numerators, not offsets and initial states. Start values are poles of a common
 /// denominator that are stable over its order (measured/modal/common_denominator.hpp).
 ///
-/// Cost: samples x (4 blocks + sensors + 3)^2 x 2 operations a pass, some 5 passes a fit.
+/// Cost: samples x (4 blocks + sensors + 3)^2 x 2 operations a pass, some 5 passes a fit and as many
+/// with the held blocks among them.
 ///
 /// Throws InputError for no record or channel, records shorter than kLeastSamples samples or
 /// kLeastLines frequencies, a torque that is zero, a sensor that is constant, a value that is not

@@ -58,7 +58,8 @@ StabilisationChart chart_of(const ModalFitTask& task, const ModalFitOptions& opt
 }
 
 void sort_flexible(BlockSet& set) {
-  std::sort(set.blocks.begin() + (set.rigid ? 1 : 0), set.blocks.end(),
+  std::sort(set.blocks.begin() + (set.rigid ? 1 : 0),
+            set.blocks.begin() + static_cast<std::ptrdiff_t>(set.free_blocks()),
             [](const auto& a, const auto& b) { return a.a0_rad2_per_s2 < b.a0_rad2_per_s2; });
 }
 
@@ -332,8 +333,13 @@ ModalFit fit_task(ModalFitTask task, const ModalFitOptions& options) {
   if (!best.cancelled && leaves_noise(study)) {
     ModesBeyond beyond = with_modes_beyond(best, found.choices, fit.band);
     beyond.choices.jumps = options.torque_hold == TorqueHold::zero;
-    best = fit_blocks(task.all, task.sensors, beyond.blocks, beyond.choices,
-                      {.most_iterations = options.most_iterations});
+    const ProjectionOptions projection{.most_iterations = options.most_iterations};
+    best = fit_blocks(task.all, task.sensors, beyond.blocks, beyond.choices, projection);
+    BlockSet ascending = best.blocks;
+    sort_flexible(ascending);
+    if (ascending.theta() != best.blocks.theta()) {
+      best = fit_blocks(task.all, task.sensors, ascending, beyond.choices, projection);
+    }
     study = study_residuals(task.all, best);
     fit.iterations = best.iterations;
     fit.converged = best.converged;

@@ -18,8 +18,8 @@ namespace flexarm::fem {
 
 namespace {
 
-/// Up to this many coordinates the dense problem costs no more than a few milliseconds.
-constexpr int kDenseSize = 160;
+/// Up to this many coordinates a Krylov space of 20 is nearly all there is.
+constexpr int kDenseSize = 24;
 
 /// Spectra's (A - sigma B)^-1, fixed at sigma = 0, on what is M-orthogonal to `known` modes.
 class ShiftSolveAtZero {
@@ -249,13 +249,14 @@ void part_lowest(VibrationModes& modes) {
 }  // namespace
 
 VibrationModes vibration_modes(const Discretisation& discretisation, HubSupport support, int count,
-                               double tolerance) {
+                               double tolerance, Eigensolver eigensolver) {
   VibrationModes modes;
   const FlexibleSolve solve(discretisation, support);
   const bool lowest_beside = support == HubSupport::free && !solve.leaves_out_rigid_rotation();
   const int available = discretisation.clamped_size() + (lowest_beside ? 1 : 0);
   count = std::min(count + (lowest_beside ? 1 : 0), available);
   modes.dense = discretisation.size() <= kDenseSize || 4 * count > available;
+  if (eigensolver != Eigensolver::by_size) modes.dense = eigensolver == Eigensolver::dense;
   const Eigen::MatrixXd raw = modes.dense ? dense_shapes(discretisation, support, solve, count)
                                           : iterated_shapes(discretisation, support, solve, count,
                                                             tolerance, modes.iterations);

@@ -23,6 +23,9 @@ struct VibrationModes {
   double largest_change = 0.0;
 };
 
+/// Whichever is faster for the size; the others are for comparison (benchmarks/fem_benchmark.cpp).
+enum class Eigensolver { by_size, dense, lanczos };
+
 /// The `count` lowest flexible modes, all of them where there are fewer. Of a small model (or when
 /// nearly all modes are asked for) they come from a dense problem: 1/omega are the singular values
 /// of D^-1/2 B^-T L with M = L L^T, or, where the solution is shifted (see FlexibleSolve),
@@ -34,7 +37,7 @@ struct VibrationModes {
 /// K u/u^T M u is summed in element deformations. Throws std::runtime_error, which names the model,
 /// when an eigensolver breaks down or does not converge.
 VibrationModes vibration_modes(const Discretisation& discretisation, HubSupport support, int count,
-                               double tolerance);
+                               double tolerance, Eigensolver eigensolver = Eigensolver::by_size);
 
 /// How many eigenvalues of K u = omega^2 M u lie below `omega_squared`, the lowest mode
 /// included: negative pivots of L D L^T = K - omega^2 M (Sylvester's law of inertia). Returns -1

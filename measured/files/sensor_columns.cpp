@@ -36,24 +36,30 @@ SensorModel sensor_model(const arm::Sensor& sensor, Index index, const BlockSet&
                          std::span<const Stretch> stretches, const ColumnChoices& choices) {
   SensorModel model{.sensor = sensor, .columns = {}, .shared = 0};
   for (std::size_t m = 0; m < blocks.blocks.size(); ++m) {
-    const bool undamped = choices.undamped_residues ||
+    const bool held = blocks.is_held(m);
+    const bool undamped = held || choices.undamped_residues ||
                           blocks.blocks[m].omega_rad_per_s() > choices.undamped_above_rad_per_s;
     for (const int power : powers(sensor, blocks.is_rigid(m), undamped)) {
-      model.columns.push_back({Kind::forced, m, power, 0});
+      const double tightness =
+          held ? choices.held_tightness(index, static_cast<Index>(m - blocks.free_blocks())) : 0.0;
+      model.columns.push_back({Kind::forced, m, power, 0, tightness});
     }
   }
   const bool in_time = std::ranges::any_of(stretches, &Stretch::in_time);
   if (choices.static_remainder && (!in_time || arm::derivative_order(sensor) == 0)) {
-    model.columns.push_back({Kind::remainder, 0, 0, 0});
+    model.columns.push_back({.kind = Kind::remainder});
   }
   model.shared = static_cast<Index>(model.columns.size());
+  if (in_time && choices.jumps && arm::derivative_order(sensor) == 2) {
+    model.columns.push_back({.kind = Kind::jump});
+  }
   for (std::size_t r = 0; r < stretches.size(); ++r) {
     if (!stretches[r].in_time || !std::ranges::count(stretches[r].sensors, index)) continue;
-    if (choices.offset) model.columns.push_back({Kind::offset, 0, 0, r});
+    if (choices.offset) model.columns.push_back({.kind = Kind::offset, .stretch = r});
     if (!stretches[r].begins_in_motion) continue;
-    for (std::size_t m = 0; m < blocks.blocks.size(); ++m) {
+    for (std::size_t m = 0; m < blocks.free_blocks(); ++m) {
       for (const int power : free_powers(sensor, blocks.is_rigid(m), choices.offset)) {
-        model.columns.push_back({Kind::free, m, power, r});
+        model.columns.push_back({Kind::free, m, power, r, 0.0});
       }
     }
   }
@@ -64,6 +70,8 @@ Eigen::VectorXd column_of(const SensorColumn& column, const Eigen::MatrixXd& tri
                           const SignalLayout& layout, const BlockSet& blocks) {
   if (column.kind == Kind::offset) return triangle.col(layout.one());
   if (column.kind == Kind::remainder) return triangle.col(layout.remainder());
+  if (column.kind == Kind::jump)
+    return triangle.col(layout.torque()) - triangle.col(layout.remainder());
   const auto& [a1, a0] = blocks.blocks[column.block];
   const auto x = triangle.middleCols<4>(layout.block(column.block, column.kind == Kind::free));
   if (column.power < 2) return x.col(column.power);
@@ -72,7 +80,7 @@ Eigen::VectorXd column_of(const SensorColumn& column, const Eigen::MatrixXd& tri
 
 Eigen::MatrixXd column_derivatives(const SensorColumn& column, const Eigen::MatrixXd& triangle,
                                    const SignalLayout& layout, const BlockSet& blocks) {
-  if (column.kind == Kind::offset || column.kind == Kind::remainder) return {};
+  if (column.kind != Kind::forced && column.kind != Kind::free) return {};
   const auto& [a1, a0] = blocks.blocks[column.block];
   const auto x = triangle.middleCols<4>(layout.block(column.block, column.kind == Kind::free));
   // s^k p for k = 0 to 3, from p'' + a1 p' + a0 p = q.

@@ -13,11 +13,17 @@ namespace flexarm::measured {
 
 /// One column of a sensor's linear model: s^power q of a block, forced or free, or a signal alone.
 struct SensorColumn {
-  enum class Kind { forced, remainder, free, offset };
+  enum class Kind { forced, remainder, jump, free, offset };
   Kind kind = Kind::forced;
   std::size_t block = 0;
   int power = 0;
   std::size_t stretch = 0;  ///< that has this column alone; free and offset only
+  /// Of a coefficient that is 0 give or take a deviation before there are data: the noise's
+  /// deviation over it. 0: nothing is known beforehand.
+  double tightness = 0.0;
+
+  /// Of all stretches alike.
+  bool is_common() const { return kind != Kind::free && kind != Kind::offset; }
 
   bool operator==(const SensorColumn&) const = default;
 };
@@ -32,7 +38,12 @@ struct SensorColumn {
 /// - acceleration: s times that: c1 s + c2 s^2, and c2 s^2. It needs no direct term: the rigid
 ///   body's s/(s + a1) is one above its corner.
 ///
-/// Undamped residues leave only what undamped modes have: b0 s^k over each block.
+/// An accelerometer beside a torque that jumps at the samples shows, just after each jump, what
+/// modes far above the band answer to it at once: b0 times the jump, of a mode however fast, though
+/// to a torque without jumps it answers by b0 s^2/omega^2 alone. That column is no part of G.
+///
+/// Undamped residues leave only what undamped modes have: b0 s^k over each block. Held blocks have
+/// nothing else, and no free motion: it has died away.
 struct SensorModel {
   arm::Sensor sensor;
   std::vector<SensorColumn> columns;  ///< forced ones and the remainder first: `shared` of them
@@ -49,6 +60,9 @@ struct ColumnChoices {
   double undamped_above_rad_per_s = std::numeric_limits<double>::infinity();
   bool static_remainder = true;
   bool offset = true;
+  bool jumps = true;  ///< the torque is held from sample to sample
+  /// `SensorColumn::tightness` of held blocks: sensors x held.
+  Eigen::MatrixXd held_tightness = {};
 };
 
 /// Columns of `sensor`, which is number `index` in the stretches' lists.

@@ -107,8 +107,9 @@ Eigen::Matrix2Xd FittedTransfer::numerator_gradient(std::size_t block) const {
       // Of (b1, b0) = -c (1, a1)/a0 to a1 and a0.
       Eigen::Matrix2d to_coefficients;
       to_coefficients << 0.0, 1.0 / (a0 * a0), -1.0 / a0, a1 / (a0 * a0);
-      gradient.middleCols(blocks_.first_parameter(block), 2) +=
-          beta_(i) * to_coefficients * blocks_.coefficient_derivatives(block).transpose();
+      const Eigen::MatrixXd chain = blocks_.coefficient_derivatives(block);
+      gradient.middleCols(blocks_.first_parameter(block), chain.rows()) +=
+          beta_(i) * to_coefficients * chain.transpose();
     }
   }
   return gradient;

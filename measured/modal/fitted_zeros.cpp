@@ -24,6 +24,10 @@ constexpr double kOrigin = 1e-9;
 constexpr int kZeroSteps = 6;
 /// Imaginary parts below this share of |s| are rounding of a real zero.
 constexpr double kReal = 1e-9;
+/// Points around a disc; |G| changes little between them, with no other zero and no pole near.
+constexpr int kOnCircle = 16;
+/// Standard errors of G that a disc withstands.
+constexpr double kSure = 2.0;
 
 struct Pencil {
   MatrixXd a;  ///< [A B; C D]
@@ -132,14 +136,36 @@ FittedZero zero_at(Complex s, const FittedTransfer& transfer, const MatrixXd& co
   return zero;
 }
 
-double distance_to_poles(Complex s, const BlockSet& set) {
+/// From the nearest pole and the nearest other zero, its own conjugate included.
+double distance_to_others(std::size_t at, const std::vector<FittedZero>& zeros,
+                          const BlockSet& set) {
+  const Complex s = zeros[at].s_rad_per_s;
   double distance = std::numeric_limits<double>::infinity();
-  for (const SecondOrderBlock& block : set.blocks) {
-    for (const Complex pole : block.poles_rad_per_s()) {
+  for (std::size_t m = 0; m < set.free_blocks(); ++m) {
+    for (const Complex pole : set.blocks[m].poles_rad_per_s()) {
       distance = std::min(distance, std::abs(s - pole));
     }
   }
+  for (std::size_t k = 0; k < zeros.size(); ++k) {
+    const Complex other = zeros[k].s_rad_per_s;
+    if (k != at) distance = std::min(distance, std::abs(s - other));
+    if (other.imag() != 0.0) distance = std::min(distance, std::abs(s - std::conj(other)));
+  }
   return distance;
+}
+
+/// Rouche's theorem: where an error of G is smaller than |G| all around a disc, the disc holds as
+/// many zeros of the one as of the other.
+bool is_held_by_disc(Complex middle, double radius, const FittedTransfer& transfer,
+                     const MatrixXd& covariance) {
+  for (int i = 0; i < kOnCircle; ++i) {
+    const Complex s = middle + std::polar(radius, 2.0 * std::numbers::pi * i / kOnCircle);
+    const Eigen::RowVectorXcd gradient = transfer.gradient(s);
+    const double error = std::hypot(propagated_error(gradient.real(), covariance),
+                                    propagated_error(gradient.imag(), covariance));
+    if (!(kSure * error < std::abs(transfer.value(s)))) return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -162,8 +188,10 @@ std::vector<FittedZero> fitted_zeros(const FittedTransfer& transfer, const Matri
     zeros.push_back(zero_at(polished(transfer, s), transfer, covariance));
     FittedZero& zero = zeros.back();
     zero.in_band = zero.frequency_Hz >= from_Hz && zero.frequency_Hz <= to_Hz;
-    zero.is_told = 2.0 * std::numbers::pi * zero.frequency_std_Hz <=
-                   kTold * distance_to_poles(zero.s_rad_per_s, transfer.blocks());
+  }
+  for (std::size_t i = 0; i < zeros.size(); ++i) {
+    const double radius = kTold * distance_to_others(i, zeros, transfer.blocks());
+    zeros[i].is_told = is_held_by_disc(zeros[i].s_rad_per_s, radius, transfer, covariance);
   }
   std::ranges::sort(zeros, {}, &FittedZero::frequency_Hz);
   return zeros;

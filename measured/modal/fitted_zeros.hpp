@@ -17,8 +17,9 @@ struct FittedZero {
   double damping_ratio = 0.0;        ///< -Re s/|s|
   double damping_ratio_std = 0.0;
   bool in_band = false;
-  /// Its standard error is at most kTold of its distance from the nearest pole. One that is larger,
-  /// or next to a pole because the other blocks' part is unknown, might be anywhere.
+  /// Two standard errors of the transfer function leave it in a disc of kTold of its distance from
+  /// the nearest pole or other zero. One that they do not might be anywhere, or not be there, and
+  /// errors to first order say nothing of it.
   bool is_told = false;
 
   bool operator==(const FittedZero&) const = default;

@@ -2,6 +2,7 @@
 
 #include "measured/modal/fitted_residues.hpp"
 #include "measured/modal/modal_fit_task.hpp"
+#include "measured/modal/modes_beyond.hpp"
 #include "measured/modal/noise_levels.hpp"
 #include "measured/modal/propagated_error.hpp"
 
@@ -57,7 +58,8 @@ StabilisationChart chart_of(const ModalFitTask& task, const ModalFitOptions& opt
 }
 
 void sort_flexible(BlockSet& set) {
-  std::sort(set.blocks.begin() + (set.rigid ? 1 : 0), set.blocks.end(),
+  std::sort(set.blocks.begin() + (set.rigid ? 1 : 0),
+            set.blocks.begin() + static_cast<std::ptrdiff_t>(set.free_blocks()),
             [](const auto& a, const auto& b) { return a.a0_rad2_per_s2 < b.a0_rad2_per_s2; });
 }
 
@@ -117,7 +119,7 @@ void judge_poles(ModalFit& fit, const ModalFitOptions& options, bool unexplained
 }
 
 void describe_poles(ModalFit& fit, const BlockFit& best) {
-  for (std::size_t m = 0; m < fit.blocks.blocks.size(); ++m) {
+  for (std::size_t m = 0; m < fit.blocks.free_blocks(); ++m) {
     const SecondOrderBlock& block = fit.blocks.blocks[m];
     const Index at = fit.blocks.first_parameter(m);
     const double deviation = std::sqrt(fit.covariance(at, at));
@@ -165,7 +167,7 @@ void describe_sensors(ModalFit& fit, const BlockFit& blocks, const ResidualStudy
     const MatrixXd covariance = fit.covariance_of(j);
     FittedSensor sensor;
     sensor.sensor = blocks.models[j].sensor;
-    for (std::size_t m = 0; m < fit.blocks.blocks.size(); ++m) {
+    for (std::size_t m = 0; m < fit.blocks.free_blocks(); ++m) {
       sensor.numerators.push_back(numerator_of(transfer, covariance, m));
     }
     const auto& last =
@@ -237,8 +239,9 @@ Attempt attempt(const ModalFitTask& task, const ModalFitOptions& options,
 }
 
 /// Where noisy data leave a block beyond the band, the same with undamped residues for such blocks
-/// is tried, and the better of the two by BIC taken: samples next to half the sampling frequency
-/// tell one number of a residue, and two make zeros that might be anywhere.
+/// and what jumps of the torque excite at once is tried, and the better of the two by BIC taken:
+/// samples next to half the sampling frequency tell one number of a residue, and two make zeros
+/// that might be anywhere.
 Attempt search_and_fit(const ModalFitTask& task, const ModalFitOptions& options,
                        const StabilisationChart& chart, double from, double to) {
   const auto part = [&](double begin, double end) {
@@ -248,7 +251,8 @@ Attempt search_and_fit(const ModalFitTask& task, const ModalFitOptions& options,
   };
   ColumnChoices choices{.undamped_residues = options.undamped_residues,
                         .static_remainder = options.static_remainder,
-                        .offset = options.offset};
+                        .offset = options.offset,
+                        .jumps = false};
   const double limit = beyond_band_rad_per_s(task);
   const double middle = 0.5 * (from + to);
   Attempt whole = attempt(task, options, choices, chart, part(from, middle));
@@ -257,9 +261,48 @@ Attempt search_and_fit(const ModalFitTask& task, const ModalFitOptions& options,
       [&](const SecondOrderBlock& block) { return block.omega_rad_per_s() > limit; });
   if (!beyond || whole.best.cancelled || options.undamped_residues) return whole;
   choices.undamped_above_rad_per_s = limit;
+  choices.jumps = options.torque_hold == TorqueHold::zero;
   Attempt undamped = attempt(task, options, choices, chart, part(middle, to));
   if (undamped.best.cancelled || undamped.best.bic() < whole.best.bic()) return undamped;
   return whole;
+}
+
+/// Places in `ModalFit::parameters` of a block's numerators, all sensors'.
+std::vector<Index> numerator_places(const ModalFit& fit, std::size_t block) {
+  std::vector<Index> places;
+  for (std::size_t j = 0; j < fit.transfers.size(); ++j) {
+    const auto& columns = fit.transfers[j].model().columns;
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      if (columns[i].kind != SensorColumn::Kind::forced || columns[i].block != block) continue;
+      places.push_back(fit.first_parameter(j) + static_cast<Index>(i));
+    }
+  }
+  return places;
+}
+
+/// Heavily damped blocks, and those within the band, that are no modes may stand for a mode far
+/// beyond half the sampling frequency, of which samples show the ring that folds down: then they
+/// are no part of G. What the fit without such a block would differ by, to first order -C_pb
+/// C_bb^-1 b with b its numerators, counts as an error.
+void count_unsure_blocks(ModalFit& fit) {
+  MatrixXd counted = fit.covariance;
+  for (std::size_t i = 0; i < fit.poles.size(); ++i) {
+    const FittedPole& pole = fit.poles[i];
+    const bool far = pole.frequency_Hz > fit.band.to_Hz && pole.damping_ratio <= kHeavy;
+    if (pole.is_mode || far) continue;
+    const auto places = numerator_places(fit, first_flexible(fit) + i);
+    Eigen::VectorXd change = Eigen::VectorXd::Zero(fit.parameters.size());
+    change(places) = -fit.parameters(places);
+    counted += change * change.transpose();
+  }
+  fit.covariance = counted;
+}
+
+/// Without noise all that there is has been found.
+bool leaves_noise(const ResidualStudy& study) {
+  return std::ranges::any_of(study.sensors, [](const ResidualQuality& residual) {
+    return residual.relative > kOnlyRounding;
+  });
 }
 
 ModalFit fit_task(ModalFitTask task, const ModalFitOptions& options) {
@@ -283,11 +326,25 @@ ModalFit fit_task(ModalFitTask task, const ModalFitOptions& options) {
   fit.order_trials = found.trials;
   fit.order_reason = found.reason;
   fit.aliases = found.aliases;
-  fit.blocks = best.blocks;
   fit.iterations = best.iterations;
   fit.converged = best.converged;
   fit.cancelled = best.cancelled;
-  const ResidualStudy study = study_residuals(task.all, best);
+  ResidualStudy study = study_residuals(task.all, best);
+  if (!best.cancelled && leaves_noise(study)) {
+    ModesBeyond beyond = with_modes_beyond(best, found.choices, fit.band);
+    beyond.choices.jumps = options.torque_hold == TorqueHold::zero;
+    const ProjectionOptions projection{.most_iterations = options.most_iterations};
+    best = fit_blocks(task.all, task.sensors, beyond.blocks, beyond.choices, projection);
+    BlockSet ascending = best.blocks;
+    sort_flexible(ascending);
+    if (ascending.theta() != best.blocks.theta()) {
+      best = fit_blocks(task.all, task.sensors, ascending, beyond.choices, projection);
+    }
+    study = study_residuals(task.all, best);
+    fit.iterations = best.iterations;
+    fit.converged = best.converged;
+  }
+  fit.blocks = best.blocks;
   const bool coloured = !std::ranges::all_of(study.sensors, &ResidualQuality::is_noise);
   fit.robust_covariance = options.robust.value_or(coloured);
   fit.covariance = fit.robust_covariance ? study.robust_covariance : joint_covariance(best);
@@ -312,6 +369,7 @@ ModalFit fit_task(ModalFitTask task, const ModalFitOptions& options) {
     }
     judge_poles(fit, options, unexplained);
   }
+  if (leaves_noise(study)) count_unsure_blocks(fit);
   describe_sensors(fit, best, study);
   if (options.progress) options.progress(1.0);
   return fit;

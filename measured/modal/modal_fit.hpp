@@ -81,7 +81,8 @@ struct FittedNumerator {
 /// One sensor: G = s^k [sum (b1 s + b0)/(s^2 + a1 s + a0) + remainder].
 struct FittedSensor {
   arm::Sensor sensor;
-  std::vector<FittedNumerator> numerators;  ///< one a block, the rigid body's first
+  std::vector<FittedNumerator>
+      numerators;  ///< one a block that is not held, the rigid body's first
   double remainder = 0.0;
   double remainder_std = 0.0;
   std::vector<FittedZero> zeros;
@@ -89,7 +90,9 @@ struct FittedSensor {
 };
 
 struct ModalFit {
-  BlockSet blocks;                  ///< the rigid body's first, then ascending in frequency
+  /// The rigid body's first, then ascending in frequency, then held ones for what lies beyond the
+  /// band (measured/modal/modes_beyond.hpp).
+  BlockSet blocks;
   double rigid_a1_rad_per_s = 0.0;  ///< hub friction over inertia
   double rigid_a1_std_rad_per_s = 0.0;
   std::vector<FittedPole> poles;  ///< one a flexible block
@@ -125,7 +128,8 @@ struct ModalFit {
 /// share poles and numerators, not offsets and initial states. Start values are poles of a common
 /// denominator that are stable over its order (measured/modal/common_denominator.hpp).
 ///
-/// Cost: samples x (4 blocks + sensors + 3)^2 x 2 operations a pass, some 5 passes a fit.
+/// Cost: samples x (4 blocks + sensors + 3)^2 x 2 operations a pass, some 5 passes a fit and as many
+/// with the held blocks among them.
 ///
 /// Throws InputError for no record or channel, records shorter than kLeastSamples samples or
 /// kLeastLines frequencies, a torque that is zero, a sensor that is constant, a value that is not

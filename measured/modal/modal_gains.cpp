@@ -21,7 +21,9 @@ using Eigen::VectorXd;
 
 /// Differences of this many standard errors are derivatives to 1e-8 of the curvature's part.
 constexpr double kDifferenceStep = 1e-4;
-constexpr double kMostRelative = 0.5;
+/// Slope and gains are a root of a residue and a ratio to it: to first order only where it is known
+/// well. A residue that noise makes up would else pass wherever noise makes it large.
+constexpr double kMostRelative = 0.1;
 constexpr int kNewtonSteps = 4;
 
 /// The fit at other parameters, and the roots that belong to it.
@@ -179,7 +181,6 @@ ModalGains modal_gains(const ModalFit& fit, std::optional<double> total_inertia_
     };
     const auto accepted = [&](const GainOf& quantity) -> std::optional<Estimate> {
       const Estimate found = estimate(fit, quantity);
-      // Not a number, or not even its sign known.
       if (!(found.standard_error <= kMostRelative * std::abs(found.value))) return std::nullopt;
       return found;
     };

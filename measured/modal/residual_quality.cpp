@@ -30,6 +30,7 @@ bool has(const SensorColumn& column, std::size_t stretch, bool free) {
   switch (column.kind) {
     case SensorColumn::Kind::forced:
     case SensorColumn::Kind::remainder:
+    case SensorColumn::Kind::jump:
       return true;
     case SensorColumn::Kind::free:
       return free && column.stretch == stretch;
@@ -92,6 +93,28 @@ VectorXd influence(const BlockFit& fit, const BatchScores& scores,
     change.segment(first[j], fit.models[j].shared) = beta.head(fit.models[j].shared);
   }
   return change;
+}
+
+/// What is known beforehand of coefficients errs by its own deviation, whatever the residuals.
+void add_prior(const BlockFit& fit, const std::vector<Index>& first, MatrixXd& covariance) {
+  BatchScores scores{VectorXd::Zero(fit.blocks.parameters()), {}};
+  for (const SensorEstimate& sensor : fit.sensors) {
+    scores.linear.push_back(VectorXd::Zero(sensor.beta.size()));
+  }
+  const BatchScores none = scores;
+  for (std::size_t j = 0; j < fit.sensors.size(); ++j) {
+    const SensorEstimate& sensor = fit.sensors[j];
+    for (Index i = 0; i < sensor.beta.size(); ++i) {
+      const double tightness = fit.models[j].columns[static_cast<std::size_t>(i)].tightness;
+      if (tightness == 0.0) continue;
+      const double residual = tightness * std::sqrt(sensor.variance);
+      scores = none;
+      scores.theta = residual / sensor.variance * sensor.to_theta.row(i).transpose();
+      scores.linear[j](i) = residual;
+      const VectorXd change = influence(fit, scores, first);
+      covariance += change * change.transpose();
+    }
+  }
 }
 
 struct FTest {
@@ -237,6 +260,7 @@ ResidualStudy study_residuals(std::span<const Stretch> stretches, const BlockFit
   study.robust_covariance = MatrixXd::Zero(first.back(), first.back());
   for (const VectorXd& change : influences) study.robust_covariance += change * change.transpose();
   study.robust_covariance *= count / (count - 1.0);
+  add_prior(fit, first, study.robust_covariance);
   return study;
 }
 

@@ -35,17 +35,18 @@ SecondOrderBlock block_of(double omega_rad_per_s, double damping_ratio) {
 }
 
 Eigen::Index BlockSet::parameters() const {
-  return 2 * static_cast<Eigen::Index>(blocks.size()) - (rigid ? 1 : 0);
+  return 2 * static_cast<Eigen::Index>(free_blocks()) - (rigid ? 1 : 0);
 }
 
 Eigen::Index BlockSet::first_parameter(std::size_t block) const {
+  if (is_held(block)) return parameters();
   const auto twice = 2 * static_cast<Eigen::Index>(block);
   return rigid && block > 0 ? twice - 1 : twice;
 }
 
 Eigen::VectorXd BlockSet::theta() const {
   Eigen::VectorXd theta(parameters());
-  for (std::size_t m = 0; m < blocks.size(); ++m) {
+  for (std::size_t m = 0; m < free_blocks(); ++m) {
     const Eigen::Index i = first_parameter(m);
     if (is_rigid(m)) {
       theta(i) = blocks[m].a1_rad_per_s;
@@ -59,7 +60,7 @@ Eigen::VectorXd BlockSet::theta() const {
 
 BlockSet BlockSet::with(const Eigen::VectorXd& theta) const {
   BlockSet other = *this;
-  for (std::size_t m = 0; m < blocks.size(); ++m) {
+  for (std::size_t m = 0; m < free_blocks(); ++m) {
     const Eigen::Index i = first_parameter(m);
     other.blocks[m] =
         is_rigid(m) ? SecondOrderBlock{theta(i), 0.0} : block_of(std::exp(theta(i)), theta(i + 1));
@@ -68,6 +69,7 @@ BlockSet BlockSet::with(const Eigen::VectorXd& theta) const {
 }
 
 Eigen::MatrixXd BlockSet::coefficient_derivatives(std::size_t block) const {
+  if (is_held(block)) return Eigen::MatrixXd(0, 2);
   if (is_rigid(block)) return Eigen::RowVector2d(1.0, 0.0);
   const auto& [a1, a0] = blocks[block];
   Eigen::Matrix2d rows;

@@ -35,15 +35,20 @@ SecondOrderBlock block_of(double omega_rad_per_s, double damping_ratio);
 struct BlockSet {
   std::vector<SecondOrderBlock> blocks;
   bool rigid = true;
+  /// Of the last blocks, whose poles stay where they are and have no parameters.
+  std::size_t held = 0;
 
   Eigen::Index parameters() const;
-  /// Index of the first parameter of `block`; a block has one (rigid) or two.
+  /// Index of the first parameter of `block`; a block has one (rigid), two, or none (held).
   Eigen::Index first_parameter(std::size_t block) const;
   bool is_rigid(std::size_t block) const { return rigid && block == 0; }
+  bool is_held(std::size_t block) const { return block >= free_blocks(); }
+  /// Those that are not held; they come first.
+  std::size_t free_blocks() const { return blocks.size() - held; }
   Eigen::VectorXd theta() const;
   /// Blocks of the same kinds with other parameters.
   BlockSet with(const Eigen::VectorXd& theta) const;
-  /// d(a1, a0)/d(parameter i of `block`): row i; 1 x 2 or 2 x 2.
+  /// d(a1, a0)/d(parameter i of `block`): row i; 1 x 2, 2 x 2 or 0 x 2.
   Eigen::MatrixXd coefficient_derivatives(std::size_t block) const;
 };
 

@@ -57,8 +57,17 @@ class SensorProblem {
       rows += triangles[r].rows();
       values_ += static_cast<double>(stretches[r].rows);
     }
-    a_ = MatrixXd::Zero(rows, static_cast<Index>(model.columns.size()));
-    y_.resize(rows);
+    const Index known =
+        std::ranges::count_if(model.columns, [](const auto& c) { return c.tightness > 0.0; });
+    a_ = MatrixXd::Zero(rows + known, static_cast<Index>(model.columns.size()));
+    y_ = VectorXd::Zero(rows + known);
+    // What is known beforehand is a row more: 0 = tightness coefficient, with the noise's
+    // deviation.
+    for (std::size_t i = 0; i < model.columns.size(); ++i) {
+      if (model.columns[i].tightness > 0.0) {
+        a_(rows++, static_cast<Index>(i)) = model.columns[i].tightness;
+      }
+    }
     for (const Piece& piece : pieces_) {
       const MatrixXd& triangle = *piece.triangle;
       y_.segment(piece.first_row, triangle.rows()) =
@@ -146,10 +155,8 @@ class SensorProblem {
   }
 
   static bool has(const Piece& piece, const SensorColumn& column) {
-    const bool shared =
-        column.kind == SensorColumn::Kind::forced || column.kind == SensorColumn::Kind::remainder;
     if (column.kind == SensorColumn::Kind::free && !piece.layout.free) return false;
-    return shared || column.stretch == piece.stretch;
+    return column.is_common() || column.stretch == piece.stretch;
   }
 
   /// dA/d theta_t beta, a column each.
@@ -235,9 +242,9 @@ class HeldBlocks {
  public:
   /// Holds those of `there` that are too fast and were not. Returns whether there are any.
   bool hold(const Fitter& fitter, const BlockSet& there) {
-    held_.resize(there.blocks.size(), false);
+    held_.resize(there.free_blocks(), false);
     bool any = false;
-    for (std::size_t m = 0; m < there.blocks.size(); ++m) {
+    for (std::size_t m = 0; m < there.free_blocks(); ++m) {
       if (held_[m] || !fitter.is_too_fast(there.blocks[m])) continue;
       held_[m] = true;
       any = true;
@@ -287,6 +294,7 @@ VectorXd shortened(VectorXd step, const BlockSet& blocks) {
   return largest > kLargestStep ? VectorXd(step * (kLargestStep / largest)) : step;
 }
 
+/// Coefficients of which something is known beforehand do not count as parameters.
 void finish(BlockFit& fit, const Evaluation& at) {
   fit.blocks = at.blocks;
   fit.sensors = at.sensors;
@@ -295,7 +303,9 @@ void finish(BlockFit& fit, const Evaluation& at) {
   fit.parameter_count = theta;
   const auto sensors = static_cast<double>(at.sensors.size());
   for (SensorEstimate& sensor : fit.sensors) {
-    const auto linear = static_cast<double>(sensor.beta.size());
+    const auto linear = static_cast<double>(std::ranges::count(
+        fit.models[static_cast<std::size_t>(&sensor - fit.sensors.data())].columns, 0.0,
+        &SensorColumn::tightness));
     fit.parameter_count += linear;
     sensor.variance = sensor.squares / std::max(1.0, sensor.rows - linear - theta / sensors);
   }

@@ -275,8 +275,8 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
   if (!holds_are_known(experiment)) {
     return with_nearest_hold(experiment, hypotheses, options, progress);
   }
-  Problem problem(experiment);
-  Selection selection = select(problem, hypotheses, options, progress);
+  const Selection selection = select(Problem(experiment), hypotheses, options, progress);
+  const Problem& problem = selection.problem;
   Diagnosis made;
   made.notices = experiment.notices;
   made.cancelled = selection.cancelled;

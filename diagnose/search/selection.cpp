@@ -18,32 +18,10 @@ namespace flexarm::diagnose {
 
 namespace {
 
-/// Values tried in a scan, by the number of parameters.
-int scan_evaluations(std::size_t parameters) {
-  return parameters == 1 ? 40 : parameters == 2 ? 90 : 160;
-}
-/// Of the effects by themselves those refitted to all data: the best at a few.
-constexpr std::size_t kSinglesRefitted = 8;
-/// Pairs are tried of this many of the best by themselves with any other.
-constexpr std::size_t kPairBases = 3;
-/// Of each of these with this many others, those that fit a few records best.
-constexpr std::size_t kPairsRefitted = 5;
-/// Others that are scanned beside a base: those whose directions the residuals have most of.
-constexpr std::size_t kScannedBeside = 10;
-/// Samples of each run in a first look; of effects with several parameters so many as well: where
-/// the hub turns another way from the start, nothing after it tells which value is nearer.
-constexpr std::size_t kCoarseSamples = 1200;
-constexpr std::size_t kShortSamples = 400;
-/// Modes that move in a first look.
-constexpr int kCoarseModes = 8;
 /// Fraction of the work that is done with the effects by themselves.
 constexpr double kSinglesDone = 0.4;
 /// ... and when pairs of the best of them have been tried.
 constexpr double kPairsDone = 0.8;
-/// Times that a cause is exchanged for one with which the others fit better.
-constexpr int kMostExchanges = 4;
-/// Rounds that each add a cause, or exchange some for others.
-constexpr int kMostRounds = 4;
 constexpr FitOptions kCoarseFit{.most_steps = 8, .tolerance = 1e-4};
 
 /// A few values of a hypothesis' parameters, over their ranges.
@@ -81,26 +59,33 @@ bool is_rival(const Candidate& one, const Candidate& other) {
 
 class Search {
  public:
-  Search(Problem& problem, const std::vector<Hypothesis>& hypotheses,
+  Search(const Problem& problem, const std::vector<Hypothesis>& hypotheses,
          const SelectionOptions& options, const DiagnosisProgress& progress)
       : problem_(problem),
         hypotheses_(hypotheses),
         options_(options),
         work_(progress),
-        coarse_experiment_(coarse(problem.experiment(), kCoarseSamples)),
-        short_experiment_(coarse(problem.experiment(), kShortSamples)),
+        coarse_experiment_(coarse(problem.experiment(), options.coarse_samples)),
+        short_experiment_(coarse(problem.experiment(), options.short_samples)),
         coarse_(coarse_experiment_, coarse_options()),
         short_(short_experiment_, coarse_options()) {}
 
   Selection run() {
-    Selection made;
+    Selection made = found();
+    made.problem = problem_;
+    return made;
+  }
+
+ private:
+  Selection found() {
+    Selection made{problem_};
     made.nothing = fitted(problem_.as_filed());
     made.chosen = made.nothing;
     see_noise(made);
     correct_timing(made, options_.sure_timing_share);
     if (is_enough(made)) return made;
     made.singles = all_with(made.nothing.fit.candidate, "effects one by one", 0.0, kSinglesDone,
-                            kSinglesRefitted);
+                            options_.singles_refitted);
     if (!made.singles.empty()) {
       see_noise(made);
       extend(made);
@@ -119,10 +104,10 @@ class Search {
     return made;
   }
 
- private:
   ProblemOptions coarse_options() const {
-    return {.flexible_modes = std::min(kCoarseModes, problem_.predictor().flexible_modes()),
-            .logarithmic_responses = true};
+    return {
+        .flexible_modes = std::min(options_.coarse_modes, problem_.predictor().flexible_modes()),
+        .logarithmic_responses = true};
   }
 
   /// The noise that is seen under what the best so far leaves.
@@ -204,7 +189,8 @@ class Search {
   /// The last effect of `start` scanned, and all refitted to the coarse problem.
   Fit first_look(const Candidate& start) const {
     const std::size_t parameters = start.effects.back().parameters.size();
-    const int evaluations = scan_evaluations(parameters);
+    const int evaluations =
+        options_.scan_evaluations[std::min(parameters, options_.scan_evaluations.size()) - 1];
     Fit look = fit(coarse_, scan(coarse_, start, evaluations), kCoarseFit);
     const bool is_shorter =
         short_.observations().values.size() < coarse_.observations().values.size();
@@ -214,11 +200,11 @@ class Search {
     return from_there.sum_of_squares < look.sum_of_squares ? from_there : look;
   }
 
-  /// Leaves the `kScannedBeside` hypotheses that account, at some of a few values each, for most of
+  /// Leaves the `scanned_beside` hypotheses that account, at some of a few values each, for most of
   /// what `base` leaves: a score test without refitting.
   void keep_promising(const Candidate& base, std::vector<const Hypothesis*>& others,
                       std::string_view what, double from) {
-    if (others.size() <= kScannedBeside) return;
+    if (others.size() <= options_.scanned_beside) return;
     const Fit left = fit(coarse_, base, kCoarseFit);
     const Eigen::HouseholderQR<Eigen::MatrixXd> refitted(left.jacobian);
     std::vector<std::pair<double, const Hypothesis*>> shares(others.size());
@@ -227,7 +213,7 @@ class Search {
     });
     std::ranges::stable_sort(shares, std::ranges::greater{}, &decltype(shares)::value_type::first);
     others.clear();
-    for (std::size_t i = 0; i < kScannedBeside; ++i) others.push_back(shares[i].second);
+    for (std::size_t i = 0; i < options_.scanned_beside; ++i) others.push_back(shares[i].second);
   }
 
   /// Part of the residuals of `left` along the change that the hypothesis makes, its parameters
@@ -277,7 +263,7 @@ class Search {
     const Explanation* single = simplest(made.singles, 1);
     if (deserves(*single, made.nothing)) made.chosen = *single;
     correct_timing(made, options_.sure_timing_share);
-    for (int round = 0; round < kMostRounds && !is_enough(made); ++round) {
+    for (int round = 0; round < options_.most_rounds && !is_enough(made); ++round) {
       const std::size_t causes = std::max<std::size_t>(made.chosen.fit.candidate.effects.size(), 1);
       if (static_cast<int>(causes) == options_.most_causes) return;
       combine_further(made);
@@ -308,7 +294,7 @@ class Search {
       combine(made, made.chosen.fit.candidate, "further effects", halfway());
       return;
     }
-    const std::size_t bases = std::min(kPairBases, made.singles.size());
+    const std::size_t bases = std::min(options_.pair_bases, made.singles.size());
     const double step = (kPairsDone - kSinglesDone) / static_cast<double>(bases);
     for (std::size_t b = 0; b < bases; ++b) {
       combine(made, made.singles[b].fit.candidate, "pairs of effects",
@@ -320,7 +306,7 @@ class Search {
   /// same effects, begun from another, the better stays.
   void combine(Selection& made, const Candidate& base, std::string_view what, double to) {
     if (!combined_.insert(labels_of(base)).second) return;
-    for (Explanation& found : all_with(base, what, work_.done(), to, kPairsRefitted)) {
+    for (Explanation& found : all_with(base, what, work_.done(), to, options_.pairs_refitted)) {
       const auto same = std::ranges::find_if(made.combinations, [&](const Explanation& other) {
         return labels_of(other.fit.candidate) == labels_of(found.fit.candidate);
       });
@@ -351,7 +337,7 @@ class Search {
   /// `best` with one cause after the other exchanged while that fits decisively better: of two
   /// causes the one may have been found by itself at a value that hides the other.
   Explanation exchanged(Selection& made, Explanation best) {
-    for (int exchanges = 0; exchanges < kMostExchanges; ++exchanges) {
+    for (int exchanges = 0; exchanges < options_.most_exchanges; ++exchanges) {
       const Candidate& candidate = best.fit.candidate;
       for (std::size_t i = 0; i < candidate.effects.size(); ++i) {
         combine(made, candidate.without(i), "exchanged effects", halfway());
@@ -371,7 +357,7 @@ class Search {
   /// A stage whose length is not known takes half of the progress that is left.
   double halfway() const { return 0.5 * (work_.done() + 1.0); }
 
-  Problem& problem_;
+  Problem problem_;
   const std::vector<Hypothesis>& hypotheses_;
   const SelectionOptions& options_;
   ReportedWork work_;
@@ -392,7 +378,7 @@ bool is_explained(const Misfit& left, const Misfit& nothing, const SelectionOpti
          std::max(left.simulated * options.negligible_error, options.negligible_share * before);
 }
 
-Selection select(Problem& problem, const std::vector<Hypothesis>& hypotheses,
+Selection select(Problem problem, const std::vector<Hypothesis>& hypotheses,
                  const SelectionOptions& options, const DiagnosisProgress& progress) {
   return Search(problem, hypotheses, options, progress).run();
 }

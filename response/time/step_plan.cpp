@@ -56,31 +56,29 @@ int StepPlan::substeps(double length_s) const {
   return std::max(1, static_cast<int>(count));
 }
 
-int StepPlan::watched_parts(double length_s) const {
-  return std::max(1, static_cast<int>(std::ceil(phase_rad(length_s) / kLargestPhase_rad - 1e-9)));
+Steps StepPlan::steps_in_parts(int count, double length_s, int parts) const {
+  const bool has_friction = forces_->has_friction();
+  const bool vary = forces_->vary();
+  const Reading speed = {velocity_row_, 0.0, Eigen::RowVectorXd::Zero(arm_->turning.force.cols())};
+  Steps made{.count = count, .length_s = length_s};
+  made.turning = step_table(arm_->turning, has_friction ? &speed : nullptr, length_s, parts, vary,
+                            options_.precision);
+  if (has_friction) {
+    made.held = step_table(arm_->held, &arm_->reaction, length_s, parts, vary, options_.precision);
+  }
+  if (parts > 1) {
+    made.shorter =
+        std::make_shared<const Steps>(steps_in_parts(2, 0.5 * length_s, (parts + 1) / 2));
+  }
+  return made;
 }
 
 Steps StepPlan::steps(double length_s) const {
-  const auto made_of = [this](int count, double step_s, int parts) {
-    const bool has_friction = forces_->has_friction();
-    const bool vary = forces_->vary();
-    const Reading speed = {velocity_row_, 0.0,
-                           Eigen::RowVectorXd::Zero(arm_->turning.force.cols())};
-    Steps made{.count = count, .length_s = step_s};
-    made.turning = step_table(arm_->turning, has_friction ? &speed : nullptr, step_s, parts, vary,
-                              options_.precision);
-    if (has_friction) {
-      made.held = step_table(arm_->held, &arm_->reaction, step_s, parts, vary, options_.precision);
-    }
-    return made;
-  };
   const int count = substeps(length_s);
   const double step_s = length_s / count;
-  const int parts = forces_->has_friction() ? watched_parts(step_s) : 1;
-  Steps made = made_of(count, step_s, parts);
-  if (parts > 1) {
-    made.shorter = std::make_shared<const Steps>(made_of(parts, step_s / parts, 1));
-  }
+  const double phase = is_linear_ ? 0.0 : phase_rad(step_s) / kLargestPhase_rad;
+  const int parts = std::max(1, static_cast<int>(std::ceil(phase - 1e-9)));
+  Steps made = steps_in_parts(count, step_s, parts);
   if (is_linear_ && ledger_ != nullptr) made.energy = ledger_->step_energy(step_s);
   return made;
 }

@@ -22,8 +22,8 @@ struct Steps {
   StepTable turning = {};
   StepTable held = {};
   std::optional<StepEnergy> energy = {};  ///< of a linear arm whose energy is booked
-  /// The same step in as many shorter ones as it is watched in parts, for a step in which the hub
-  /// may come to rest or turn loose; null where it is watched as a whole.
+  /// Two steps of half the length, for a step in which the hub may come to rest or turn loose, or
+  /// whose forces do not converge; null where the step is short enough for a power series.
   std::shared_ptr<const Steps> shorter = {};
 };
 
@@ -32,7 +32,7 @@ struct Steps {
 ///
 /// A step of constant forces is exact however long it is. Without a ledger it is as long as the
 /// piece of torque, and the hub's speed (or the torque that holds it) is watched within it; the few
-/// steps in which the hub may come to rest or turn loose are taken again as shorter ones.
+/// steps in which the hub may come to rest or turn loose are halved until that is seen.
 class StepPlan {
  public:
   /// `arm`, `forces` and `ledger`, which may be null, must outlive the object.
@@ -59,8 +59,8 @@ class StepPlan {
   double phase_rad(double length_s) const { return arm_->fastest_rate_rad_per_s * length_s; }
 
  private:
-  /// Parts in which a step of that length is watched.
-  int watched_parts(double length_s) const;
+  /// Steps of that length, each watched in so many parts.
+  Steps steps_in_parts(int count, double length_s, int parts) const;
 
   const ModalDynamics* arm_;
   const AddedForces* forces_;

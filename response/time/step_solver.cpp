@@ -72,7 +72,7 @@ bool StepSolver::solve(const StepTable& table, const Eigen::VectorXd& x, HubMoti
     end_ += table.end.force_middle * inputs_.fm + table.end.force_end * inputs_.f1;
     iterations_ = std::max(iterations_, iteration);
     if (!improve(middle_, end_, motion)) continue;
-    if (!is_resolved(x, end_, motion)) return false;
+    if (span.must_be_resolved && !is_resolved(x, end_, motion)) return false;
     last_motion_ = motion;
     last_length_s_ = span.length_s;
     return true;
@@ -91,7 +91,9 @@ bool StepSolver::solve_by_series(const Eigen::VectorXd& x, HubMotion motion, con
     expand(x, motion);
     iterations_ = std::max(iterations_, iteration);
     const Eigen::VectorXd end = series_.at(1.0);
-    if (improve(series_.at(0.5), end, motion)) return is_resolved(x, end, motion);
+    if (improve(series_.at(0.5), end, motion)) {
+      return !span.must_be_resolved || is_resolved(x, end, motion);
+    }
   }
   return false;
 }

@@ -17,6 +17,8 @@ struct StepSpan {
   double length_s = 0.0;
   double u0 = 0.0;
   double u1 = 0.0;
+  /// The step fails where friction changes too much over it for a parabola.
+  bool must_be_resolved = true;
 };
 
 /// Solves one inner step, the hub moving one way all the time.

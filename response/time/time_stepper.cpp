@@ -149,7 +149,10 @@ void TimeStepper::linear_step(const Steps& steps, double u0, double u1) {
 
 void TimeStepper::step(const Steps& steps, double u0, double u1) {
   const StepTable& table = motion_ == HubMotion::held ? steps.held : steps.turning;
-  const bool is_solved = solver_.solve(table, x_, motion_, {time_s_, steps.length_s, u0, u1});
+  // In a fit friction may change within the shortest of the steps.
+  const bool must_be_resolved = steps.shorter || plan_->options().resolve_every_mode;
+  const bool is_solved =
+      solver_.solve(table, x_, motion_, {time_s_, steps.length_s, u0, u1, must_be_resolved});
   const bool may_happen = is_solved && forces_->has_friction() && !is_quiet(table);
   if (steps.shorter && (!is_solved || may_happen)) {
     advance_in(*steps.shorter, u0, u1);
@@ -175,7 +178,8 @@ void TimeStepper::step(const Steps& steps, double u0, double u1) {
 
 void TimeStepper::free_step(double length_s, double u0, double u1, int halvings) {
   while (length_s > kNothingLeft * plan_->options().sample_time_s) {
-    if (!solver_.solve_by_series(x_, motion_, {time_s_, length_s, u0, u1})) {
+    if (!solver_.solve_by_series(
+            x_, motion_, {time_s_, length_s, u0, u1, plan_->options().resolve_every_mode})) {
       halve(length_s, u0, u1, halvings);
       return;
     }

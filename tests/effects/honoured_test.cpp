@@ -129,12 +129,18 @@ INSTANTIATE_TEST_SUITE_P(Effects, Honoured, testing::ValuesIn([] {
                          }()),
                          [](const auto& name) { return name.param; });
 
-/// A law with a state of its own: z' = (velocity - z)/T, torque -k z, which is a viscous friction
-/// that lags.
-TEST(HubLawWithAState, IsIntegratedWithTheArm) {
+/// A law with a state of its own: torque -k z with z' = (velocity - z)/T on a rigid hub of inertia
+/// I. With a torque tau from rest, w = sqrt(k/(I T) - 1/(4 T^2)),
+///
+///     velocity = tau/k (1 + e^(-t/(2 T)) (-cos(w t) + (k/I - 1/(2 T))/w sin(w t))).
+TEST(HubLawWithAState, FollowsItsClosedForm) {
   constexpr double kLag_s = 0.05;
-  constexpr double kCoefficient = 0.02;
-  auto parts = response::take_apart(ideal_arm());
+  constexpr double kCoefficient = 0.2;
+  constexpr double kInertia = 0.01;
+  constexpr double kTorque = 0.05;
+  // A thousand steps of an error of order 4, the step a tenth of the law's own time.
+  constexpr double kOrderFour = 1e-6;
+  auto parts = response::take_apart(arm::paper_arm());
   parts.hub.smooth.push_back(
       {"lagging_friction",
        {[](const arm::HubState& hub, std::span<const double> z, std::span<double> rates) {
@@ -142,16 +148,24 @@ TEST(HubLawWithAState, IsIntegratedWithTheArm) {
           return arm::SmoothHubTorque::Value{-kCoefficient * z[0], 0.0};
         },
         1}});
-  const auto model = response::time_model(
-      response::make_formulation("exact_tf", parts.linear, kModes), parts, kModes, sensors());
-  const std::vector<double> torque(400, 0.05);
-  const auto made =
-      response::simulate(model, parts, sensors(), torque, {.sample_time_s = 5e-3, .energy = false});
-  // In the end the hub turns at the speed at which both frictions balance the torque.
-  const double viscous = 2e-3 + kCoefficient;
-  EXPECT_NEAR(made.channels[1].back(), 0.05 / viscous, 0.02 * 0.05 / viscous);
-  // The lag makes it overshoot, which a friction without one does not.
-  EXPECT_GT(*std::ranges::max_element(made.channels[1]), 1.005 * 0.05 / viscous);
+  arm::ModalModel hub;
+  hub.modal_mass_kg_m2 = kInertia;
+  hub.modes = {
+      {.omega_rad_per_s = 0.0, .hub_slope = 1.0, .sensor_values = {1.0}, .displacement_m = {}}};
+  hub.damping_rad_per_s = {0.0};
+  const std::vector<arm::Sensor> sensor = {arm::parse_sensor("hub_velocity")};
+  const std::vector<double> torque(1000, kTorque);
+  const auto made = response::simulate(hub, parts, sensor, torque,
+                                       {.sample_time_s = 5e-3, .substeps = 4, .energy = false});
+  const double w = std::sqrt(kCoefficient / (kInertia * kLag_s) - 0.25 / (kLag_s * kLag_s));
+  for (std::size_t k = 0; k < made.time_s.size(); ++k) {
+    const double t = made.time_s[k];
+    const double swing =
+        std::exp(-0.5 * t / kLag_s) *
+        (-std::cos(w * t) + (kCoefficient / kInertia - 0.5 / kLag_s) / w * std::sin(w * t));
+    const double expected = kTorque / kCoefficient * (1.0 + swing);
+    ASSERT_NEAR(made.channels[0][k], expected, kOrderFour * kTorque / kCoefficient) << t;
+  }
 }
 
 }  // namespace

@@ -70,11 +70,11 @@ void compare_parameters(TrialResult& result, const Truth& truth, const Answer& a
   for (const NamedCause& cause : answer.causes) {
     if (!result.values.empty()) result.values += "; ";
     result.values += cause.effect;
-    const auto hidden = truth.world.arm.effects.find(cause.effect);
+    const HiddenCause* hidden = truth.world.find(cause.effect);
     for (const auto& [name, found] : cause.parameters) {
       result.values += fmt::format(" {} {:.4g}+-{:.2g}", name, found.value, found.std_error);
-      if (hidden == truth.world.arm.effects.end()) continue;
-      const double value = hidden->second.parameters.at(name);
+      if (hidden == nullptr) continue;
+      const double value = hidden->parameters.at(name);
       const double error = distance(name, found.value, value);
       const double scale = name == "phase" ? 2.0 * std::numbers::pi : std::abs(value);
       result.values += fmt::format(" ({:.4g})", value);
@@ -107,7 +107,7 @@ TrialResult score(const Truth& truth, const Answer& answer) {
   result.noise = truth.key.noise;
   result.strength = truth.key.hidden.empty() ? "-" : to_string(truth.key.strength);
   result.hidden = truth.key.hidden;
-  result.outside = !truth.world.outside.empty();
+  result.outside = truth.world.has_outside();
   if (!truth.errors.empty()) {
     result.error = std::accumulate(truth.errors.begin(), truth.errors.end(), 0.0) /
                    static_cast<double>(truth.errors.size());

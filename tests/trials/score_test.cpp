@@ -19,11 +19,7 @@ Truth truth_of(std::vector<std::string> hidden) {
   Truth truth;
   truth.key.hidden = std::move(hidden);
   for (const auto& name : truth.key.hidden) {
-    if (find_hideable(name).outside) {
-      truth.world.outside[name];
-    } else {
-      truth.world.arm.effects[name].parameters["torque"] = 0.01;
-    }
+    truth.world.hidden.push_back({name, {{"torque", 0.01}}});
   }
   return truth;
 }

@@ -272,7 +272,7 @@ std::string smallest_found(const Results& of_cause) {
 std::string smallest_table(const std::vector<Cell>& cells) {
   std::vector<std::string> titles;
   std::map<std::string, std::vector<std::string>> rows;
-  for (const auto& cause : hideables()) {
+  for (const Cause& cause : causes()) {
     if (!cause.outside) rows[cause.name];
   }
   for (const Cell& cell : cells) {

@@ -79,18 +79,15 @@ ElementModel::ElementModel(const TrueArm& arm, int elements, std::span<const arm
     add(stiffness, element.places, square.stiffness);
     add(damping, element.places, square.damping);
   }
-  const double hanging_kg = arm.payload_kg + arm.linear_density_kg_per_m * arm.length_m;
-  const double swing = arm.gravity_m_per_s2 * hanging_kg * arm.hub_radius_m;
-  const double tip_swing = arm.gravity_m_per_s2 * arm.payload_kg * arm.payload_offset_m;
   const auto add_one = [](Terms& terms, double k, Eigen::Index at) {
     terms.emplace_back(static_cast<int>(at), static_cast<int>(at), k);
   };
   add_one(mass, arm.hub_inertia_kg_m2, kHub);
-  add_one(stiffness, arm.hub_spring_N_m_per_rad + swing, kHub);
+  add_one(stiffness, hub_stiffness_N_m(), kHub);
   add_one(damping, arm.hub_damping_N_m_s_per_rad, kHub);
   add_square(mass, arm.payload_kg, tip_deflection_, tip_rotation_, arm.payload_offset_m);
   add_one(mass, arm.payload_inertia_kg_m2, tip_rotation_);
-  add_one(stiffness, tip_swing, tip_rotation_);
+  add_one(stiffness, tip_stiffness_N_m(), tip_rotation_);
   for (const Stretch& one : stretches_) {
     add_square(stiffness, one.stiffness_N_m_per_rad, one.beyond, one.before, -1.0);
   }
@@ -170,8 +167,22 @@ void ElementModel::lay_out(int elements, std::span<const arm::Sensor> sensors) {
   for (const auto& [at, value] : rigid) rigid_(at) = value;
 }
 
-double ElementModel::section_m2() const {
-  return arm_.width_m.value() * arm_.thickness_m.value();
+double ElementModel::tension_N(double position_m) const {
+  const double beyond_m = arm_.length_m - position_m;
+  return arm_.gravity_m_per_s2 * (arm_.payload_kg + arm_.linear_density_kg_per_m * beyond_m);
+}
+
+double ElementModel::shear_rigidity_N() const {
+  return arm_.shear_coefficient.value() * arm_.shear_modulus_Pa.value() * arm_.width_m.value() *
+         arm_.thickness_m.value();
+}
+
+double ElementModel::hub_stiffness_N_m() const {
+  return arm_.hub_spring_N_m_per_rad + tension_N(0.0) * arm_.hub_radius_m;
+}
+
+double ElementModel::tip_stiffness_N_m() const {
+  return arm_.gravity_m_per_s2 * arm_.payload_kg * arm_.payload_offset_m;
 }
 
 ElementModel::Square ElementModel::square_of(const Element& element) const {
@@ -183,20 +194,18 @@ ElementModel::Square ElementModel::square_of(const Element& element) const {
   for (const GaussPlace& gauss : kGauss) {
     const ElementShapes at = element_shapes(shears, element.length_m, gauss.part);
     const double dx = gauss.weight * element.length_m;
-    const double beyond_m = arm_.length_m - element.from_m - gauss.part * element.length_m;
-    const double tension_N = arm_.gravity_m_per_s2 * (arm_.payload_kg + m * beyond_m);
     const Eigen::MatrixXd bending =
         dx * arm_.flexural_rigidity_N_m2 * at.curvature * at.curvature.transpose();
     const Eigen::MatrixXd motion = dx * at.deflection * at.deflection.transpose();
     square.mass += m * motion;
-    square.stiffness += bending + dx * tension_N * at.slope * at.slope.transpose();
+    square.stiffness += bending + dx * tension_N(element.from_m + gauss.part * element.length_m) *
+                                      at.slope * at.slope.transpose();
     square.damping += arm_.kelvin_voigt_s * bending + arm_.air_damping_N_s_per_m2 * motion;
     if (!shears) continue;
     const double rotary_kg_m = m * std::pow(arm_.thickness_m.value(), 2) / 12.0;
-    const double shear_N = *arm_.shear_coefficient * arm_.shear_modulus_Pa.value() * section_m2();
     const Eigen::VectorXd strain = at.slope - at.rotation;
     square.mass += dx * rotary_kg_m * at.rotation * at.rotation.transpose();
-    square.stiffness += dx * shear_N * strain * strain.transpose();
+    square.stiffness += dx * shear_rigidity_N() * strain * strain.transpose();
   }
   return square;
 }
@@ -207,6 +216,35 @@ bool ElementModel::turns_freely() const {
 
 double ElementModel::total_inertia_kg_m2() const {
   return rigid_.dot(mass_ * rigid_);
+}
+
+double ElementModel::twice_potential(const Eigen::VectorXd& u) const {
+  const bool shears = arm_.shear_coefficient.has_value();
+  double sum = hub_stiffness_N_m() * u(kHub) * u(kHub) +
+               tip_stiffness_N_m() * u(tip_rotation_) * u(tip_rotation_);
+  for (const Stretch& one : stretches_) {
+    sum += one.stiffness_N_m_per_rad * std::pow(u(one.beyond) - u(one.before), 2);
+  }
+  Eigen::Index own = size_ - static_cast<Eigen::Index>(arm_.attached.size());
+  for (const auto& attached : arm_.attached) {
+    sum += attached.stiffness_N_per_m *
+           std::pow(deflection_row(attached.position_m).dot(u) - u(own++), 2);
+  }
+  Eigen::VectorXd local(element_size(shears));
+  for (const Element& element : elements_) {
+    for (std::size_t i = 0; i < element.places.size(); ++i) {
+      local(static_cast<Eigen::Index>(i)) = element.places[i].second * u(element.places[i].first);
+    }
+    for (const GaussPlace& gauss : kGauss) {
+      const ElementShapes at = element_shapes(shears, element.length_m, gauss.part);
+      const double slope = at.slope.dot(local);
+      double density = arm_.flexural_rigidity_N_m2 * std::pow(at.curvature.dot(local), 2) +
+                       tension_N(element.from_m + gauss.part * element.length_m) * slope * slope;
+      if (shears) density += shear_rigidity_N() * std::pow(slope - at.rotation.dot(local), 2);
+      sum += gauss.weight * element.length_m * density;
+    }
+  }
+  return sum;
 }
 
 Eigen::VectorXd ElementModel::spread(const Element& element, const Eigen::VectorXd& local) const {

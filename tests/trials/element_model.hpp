@@ -54,6 +54,9 @@ class ElementModel {
   bool turns_freely() const;
   /// Of the rigid arm about its axis.
   double total_inertia_kg_m2() const;
+  /// 2 V of u by the squares of deformations. u^T K u of an arm that hardly bends drowns in
+  /// rounding of the stiffness of its shortest waves, epsilon h^-4.
+  double twice_potential(const Eigen::VectorXd& u) const;
   /// y(x) = row^T u.
   Eigen::VectorXd deflection_row(double position_m) const;
   /// Strain by the moment that equilibrium of the element beyond its place asks for: nodal moments
@@ -81,7 +84,11 @@ class ElementModel {
   Eigen::VectorXd spread(const Element& element, const Eigen::VectorXd& local) const;
   ReadingRow make_reading(const arm::Sensor& sensor) const;
   ReadingRow strain_reading(double position_m) const;
-  double section_m2() const;
+  double tension_N(double position_m) const;
+  double shear_rigidity_N() const;
+  /// Stiffness of hub and tip against turning, springs and weight together.
+  double hub_stiffness_N_m() const;
+  double tip_stiffness_N_m() const;
 
   TrueArm arm_;
   std::vector<Element> elements_;

@@ -79,12 +79,17 @@ ElementModes undamped_modes(const ElementModel& model, Eigen::Index flexible) {
   const Eigen::Index n = std::min(flexible + 1, model.size());
   ElementModes modes;
   modes.modal_mass_kg_m2 = model.total_inertia_kg_m2();
-  modes.omega_squared_rad2_per_s2 = solver.eigenvalues().head(n);
-  if (model.turns_freely()) modes.omega_squared_rad2_per_s2(0) = 0.0;
   modes.shapes = std::sqrt(modes.modal_mass_kg_m2) * solver.eigenvectors().leftCols(n);
   for (Eigen::Index i = 0; i < n; ++i) {
     if (modes.shapes(ElementModel::kHub, i) < 0.0) modes.shapes.col(i) *= -1.0;
   }
+  // Rayleigh's quotient, in which an error of the shape counts by its square alone.
+  modes.omega_squared_rad2_per_s2.resize(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    modes.omega_squared_rad2_per_s2(i) =
+        model.twice_potential(modes.shapes.col(i)) / modes.modal_mass_kg_m2;
+  }
+  if (model.turns_freely()) modes.omega_squared_rad2_per_s2(0) = 0.0;
   return modes;
 }
 

@@ -66,27 +66,35 @@ TEST_P(AgainstResponse, EveryChannelAgrees) {
   }
 }
 
-std::vector<AgreementCase> agreement_cases() {
-  return {
-      {"none", {}},
-      {"gravity", {{"gravity", {{"acceleration", 9.81}}}}},
-      {"root", {{"root_compliance", {{"stiffness", 30.0}}}}},
-      {"coulomb", {{"coulomb_friction", {{"torque", 0.012}}}}},
-      {"stribeck",
-       {{"stribeck_friction", {{"torque", 0.008}, {"static_torque", 0.016}, {"velocity", 0.3}}}}},
-      {"drag", {{"quadratic_drag", {{"coefficient", 0.1}}}}},
-      {"ripple", {{"torque_ripple", {{"amplitude", 0.02}, {"cycles", 5.0}, {"phase", 1.0}}}}},
-      {"actuator",
-       {{"torque_bias", {{"torque", 0.004}}},
-        {"torque_saturation", {{"limit", 0.08}}},
-        {"torque_dead_zone", {{"width", 0.01}}},
-        {"time_delay", {{"delay", 0.0053}}},
-        {"torque_gain", {{"factor", 0.8}}},
-        {"actuator_lag", {{"time_constant", 0.004}}}}},
-      {"sensor", {{"sensor_lag", {{"time_constant", 0.003}}, "tip_acceleration"}}}};
+std::vector<AgreementCase> together() {
+  return {{"none", {}},
+          {"linear",
+           {{"gravity", {{"acceleration", 9.81}}}, {"root_compliance", {{"stiffness", 30.0}}}}},
+          {"actuator",
+           {{"torque_bias", {{"torque", 0.004}}},
+            {"torque_saturation", {{"limit", 0.08}}},
+            {"torque_dead_zone", {{"width", 0.01}}},
+            {"time_delay", {{"delay", 0.0053}}},
+            {"torque_gain", {{"factor", 0.8}}},
+            {"actuator_lag", {{"time_constant", 0.004}}}}}};
 }
 
-INSTANTIATE_TEST_SUITE_P(Effects, AgainstResponse, testing::ValuesIn(agreement_cases()),
+/// Every cause of the vocabulary that the linear arm does not hold, at a typical size.
+std::vector<AgreementCase> causes_alone() {
+  constexpr double kTypicalPart = 0.1;  // of the largest size
+  const TrialArm& of = trial_arms().front();
+  std::vector<AgreementCase> cases;
+  for (const Cause& cause : causes()) {
+    if (cause.outside || cause.acts_on <= ActsOn::linear_arm) continue;
+    const double size = kTypicalPart * cause.largest;
+    cases.push_back({cause.name, with_hidden(World{of.arm}, of, cause, size, Chance{}).hidden});
+  }
+  return cases;
+}
+
+INSTANTIATE_TEST_SUITE_P(Alone, AgainstResponse, testing::ValuesIn(causes_alone()),
+                         [](const auto& one) { return one.param.name; });
+INSTANTIATE_TEST_SUITE_P(Together, AgainstResponse, testing::ValuesIn(together()),
                          [](const auto& one) { return one.param.name; });
 
 }  // namespace

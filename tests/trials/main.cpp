@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 struct TrialOptions {
   TrialChoice choice;
   std::string program = FLEXARM_PROGRAM;
-  std::string version = "of unknown version";
+  std::string version = kUnknownVersion;
   std::string keep;
   std::string results = "trials.csv";
   std::string scorecard;

@@ -137,7 +137,7 @@ TEST(ResultsFile, IsReadBack) {
   EXPECT_EQ(read[0].values, result.values);
   EXPECT_EQ(read[1].outcome, Outcome::quiet);
   EXPECT_TRUE(read[1].hidden.empty());
-  EXPECT_THAT(scorecard(read), HasSubstr("Of flexarm 0123abc."));
+  EXPECT_THAT(scorecard(read), HasSubstr("Of flexarm at 0123abc (a clean tree)."));
   EXPECT_THAT(scorecard(read), HasSubstr("| two effects: one of them | 1/1 (100 %) |"));
   EXPECT_THAT(scorecard(read),
               HasSubstr("| nothing hidden: a cause named (false alarm) | 0/1 (0 %) |"));
@@ -155,6 +155,8 @@ TEST(Scorecard, RefusesResultsOfSeveralVersions) {
   TrialResult other = one;
   EXPECT_NO_THROW(scorecard({one, other}));
   other.version = "0123abc+changes-12ab34cd";
+  EXPECT_THAT(scorecard({other}),
+              HasSubstr("Of flexarm at 0123abc+changes-12ab34cd (a changed tree)."));
   EXPECT_ANY_THROW(scorecard({one, other}));
   EXPECT_ANY_THROW(require_one_version({one}, "4567def"));
 }

@@ -19,7 +19,7 @@ namespace {
 constexpr const char* kIntroduction =
     R"(# Scorecard of blind trials
 
-Of flexarm {}.
+Of flexarm at {}.
 
 {} experiments on three arms (aluminium, steel, a sandwich that is soft in shear) whose causes
 `flexarm diagnose` was not told, made by `scripts/trials`. The simulator is not the model that is
@@ -328,6 +328,19 @@ std::string failure_list(const Results& results) {
 
 }  // namespace
 
+namespace {
+
+/// scripts/trials marks a changed tree so.
+constexpr std::string_view kChanged = "+changes";
+
+std::string described(const std::string& version) {
+  if (version == kUnknownVersion) return version;
+  const bool changed = version.find(kChanged) != std::string::npos;
+  return fmt::format("{} ({} tree)", version, changed ? "a changed" : "a clean");
+}
+
+}  // namespace
+
 void require_one_version(const Results& results, const std::string& version) {
   const auto other =
       std::ranges::find_if(results, [&](const auto& one) { return one.version != version; });
@@ -343,7 +356,7 @@ std::string scorecard(const Results& results) {
   const Results faint = chosen(results, is_faint);
   const Results judged = chosen(results, [](const TrialResult& one) { return !is_faint(one); });
   return fmt::format("{}\n{}\n## What was said\n\n{}\n{}{}\n{}\n{}{}\n{}\n## Failures\n\n{}",
-                     fmt::format(kIntroduction, results.front().version, judged.size()),
+                     fmt::format(kIntroduction, described(results.front().version), judged.size()),
                      summary_table(cells_and_totals_of(judged)), confusion_table(judged),
                      kAboutReliability, reliability_table(judged), coverage_table(judged),
                      kAboutSmallest, faint_table(faint), smallest_table(cells_of(results)),

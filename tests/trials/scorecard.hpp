@@ -7,6 +7,9 @@
 
 namespace flexarm::trials {
 
+/// Of a program that nobody says the version of.
+inline constexpr const char* kUnknownVersion = "an unknown version";
+
 /// Throws arm::InputError for a result of another version of the program.
 void require_one_version(const std::vector<TrialResult>& results, const std::string& version);
 

@@ -28,6 +28,7 @@ NamedCause cause_of(const nlohmann::json& json) {
   cause.effect = json.at("effect");
   cause.sensor = json.value("sensor", "");
   cause.confusable_with = json.at("confusable_with").get<std::vector<std::string>>();
+  cause.probability = json.at("confidence");
   for (const auto& [name, parameter] : json.at("parameters").items()) {
     // A standard error that is not finite is written as null.
     const auto& error = parameter.at("std_error");

@@ -17,6 +17,7 @@ struct NamedCause {
   std::string sensor;
   std::map<std::string, Value> parameters;
   std::vector<std::string> confusable_with;
+  double probability = 1.0;  ///< that it is the cause, as the program claims
 };
 
 /// Relative errors; all 0 where the file has none.

@@ -1,6 +1,6 @@
 #include "tests/trials/experiment_plan.hpp"
 
-#include "arm/linear_arm.hpp"
+#include "tests/trials/cause.hpp"
 #include "tests/trials/excitations.hpp"
 
 #include <cmath>
@@ -48,7 +48,7 @@ const std::vector<arm::Sensor>& planned_sensors() {
 std::vector<double> planned_frequencies_Hz(const TrialArm& of, int count) {
   constexpr double kLowest_Hz = 0.5;
   // In omega_scale: the fourth pole of an arm of no hub inertia is at 178/(2 pi) = 28.
-  const double highest_Hz = 21.0 * arm::omega_scale_rad_per_s(of.arm);
+  const double highest_Hz = 21.0 * NaturalSizes(of).omega_rad_per_s;
   std::vector<double> frequencies;
   for (int i = 0; i < count; ++i) {
     frequencies.push_back(kLowest_Hz *

@@ -1,9 +1,7 @@
 #include "tests/trials/frequency_simulation.hpp"
 
-#include "fem/fem_arm.hpp"
+#include "tests/trials/element_modes.hpp"
 #include "tests/trials/plant.hpp"
-
-#include <Eigen/LU>
 
 #include <cmath>
 #include <numbers>
@@ -14,31 +12,16 @@ namespace {
 
 using Complex = std::complex<double>;
 
-fem::FemArm full_model(const World& world) {
-  return {linear_part(world.arm), {.mesh = {.elements = PlantOptions{}.elements}, .degree = 3}};
-}
-
 /// T/tau.
-Complex chain_response(const arm::Arm& arm, Complex s) {
-  return effect_value(arm, "torque_gain", "factor", 1.0) *
-         std::exp(-s * effect_value(arm, "time_delay", "delay", 0.0)) /
-         (1.0 + s * effect_value(arm, "actuator_lag", "time_constant", 0.0));
+Complex chain_response(const TrueArm& arm, Complex s) {
+  double gain = 1.0;
+  for (const auto& curve : arm.torque_curves) gain *= curve.slope;
+  return gain * std::exp(-s * arm.torque_delay_s) / (1.0 + s * arm.torque_lag_s);
 }
 
-Complex lag_response(const arm::Arm& arm, const arm::Sensor& sensor, Complex s) {
-  const auto lag = arm.effects.find("sensor_lag");
-  if (lag == arm.effects.end()) return 1.0;
-  const std::string name = lag->second.sensor.empty() ? "tip_acceleration" : lag->second.sensor;
-  if (arm::to_string(sensor) != name) return 1.0;
-  return 1.0 / (1.0 + s * lag->second.parameters.at("time_constant"));
-}
-
-/// (s^2 + s D + W) q = hub/I.
-Eigen::VectorXcd modal_response(const Plant& plant, Complex s) {
-  const Eigen::Index n = plant.hub.size();
-  const Eigen::MatrixXcd dynamic = s * s * Eigen::MatrixXcd::Identity(n, n) + s * plant.damping +
-                                   plant.stiffness.cast<Complex>();
-  return dynamic.partialPivLu().solve(plant.hub.cast<Complex>()) / plant.modal_mass_kg_m2;
+Complex lag_response(const TrueArm& arm, const arm::Sensor& sensor, Complex s) {
+  const auto* lag = find_lag(arm, sensor);
+  return lag == nullptr ? 1.0 : 1.0 / (1.0 + s * lag->time_constant_s);
 }
 
 measured::ModalEntry entry(measured::Feature feature, int order, double omega_rad_per_s) {
@@ -55,37 +38,32 @@ measured::ModalEntry entry(measured::Feature feature, int order, double omega_ra
 std::vector<std::vector<Complex>> frequency_responses(const World& world,
                                                       std::span<const arm::Sensor> sensors,
                                                       std::span<const double> frequency_Hz) {
-  const bool by_modes = !world.outside.empty();
-  const fem::FemArm model = full_model(world);
-  const Plant plant = make_plant(world, sensors, {.flexible_modes = 20});
+  const TrueArm arm = true_arm(world);
+  const ElementModel model(arm, PlantOptions{}.elements, sensors);
   std::vector<std::vector<Complex>> responses(sensors.size());
   for (const double frequency : frequency_Hz) {
     const Complex s(0.0, 2.0 * std::numbers::pi * frequency);
-    const Eigen::VectorXcd q = by_modes ? modal_response(plant, s) : Eigen::VectorXcd();
+    const Eigen::VectorXcd u = motion_per_torque(model, s);
     for (std::size_t i = 0; i < sensors.size(); ++i) {
-      const auto row = plant.readings.row(static_cast<Eigen::Index>(i));
       const Complex value =
-          by_modes ? std::pow(s, arm::derivative_order(sensors[i])) * (row.cast<Complex>() * q)(0)
-                   : model.transfer_function(sensors[i], s);
-      responses[i].push_back(value * chain_response(world.arm, s) *
-                             lag_response(world.arm, sensors[i], s));
+          std::pow(s, arm::derivative_order(sensors[i])) * model.reading(i).of(u, s);
+      responses[i].push_back(value * chain_response(arm, s) * lag_response(arm, sensors[i], s));
     }
   }
   return responses;
 }
 
 measured::ModalTable poles_and_zeros(const World& world, int count) {
-  const fem::FemArm model = full_model(world);
+  const ElementModel model(true_arm(world), PlantOptions{}.elements);
   measured::ModalTable table;
   int order = 0;
-  for (const auto& pair : model.damped_poles(count).flexible) {
-    const double omega = std::abs(pair.first_rad_per_s);
-    table.push_back(entry(measured::Feature::pole, ++order, omega));
-    table.back().damping_ratio = -pair.first_rad_per_s.real() / omega;
+  for (const Complex pole : damped_poles_rad_per_s(model, count)) {
+    table.push_back(entry(measured::Feature::pole, ++order, std::abs(pole)));
+    table.back().damping_ratio = -pole.real() / std::abs(pole);
   }
   order = 0;
-  for (const auto& zero : model.zeros({arm::SensorKind::hub_angle, 0.0}, count).s_rad_per_s) {
-    table.push_back(entry(measured::Feature::zero, ++order, std::abs(zero)));
+  for (const double omega : held_omegas_rad_per_s(model, count)) {
+    table.push_back(entry(measured::Feature::zero, ++order, omega));
   }
   return table;
 }

@@ -11,7 +11,7 @@
 namespace flexarm::trials {
 
 /// Responses per unit of commanded torque, one vector a sensor: solves of the whole finite-element
-/// model at each frequency, of its modes where there is a tuned mass.
+/// model at each frequency.
 std::vector<std::vector<std::complex<double>>> frequency_responses(
     const World& world, std::span<const arm::Sensor> sensors, std::span<const double> frequency_Hz);
 

@@ -26,6 +26,7 @@ namespace fs = std::filesystem;
 struct TrialOptions {
   TrialChoice choice;
   std::string program = FLEXARM_PROGRAM;
+  std::string version = kUnknownVersion;
   std::string keep;
   std::string results = "trials.csv";
   std::string scorecard;
@@ -57,6 +58,9 @@ TrialOptions parse_options(CLI::App& app, int argc, char** argv) {
       ->take_last();
   app.add_option("--scorecard", options.scorecard, "Markdown file for the scorecard")->take_last();
   app.add_option("--program", options.program, "The program flexarm")->capture_default_str();
+  app.add_option("--built-from", options.version,
+                 "The version of the program, which the results carry: of one version each file")
+      ->capture_default_str();
   app.add_option("--time-limit", options.time_limit_s, "For one diagnosis, in seconds")
       ->capture_default_str();
   app.add_option("--jobs", options.jobs, "Trials at a time")->capture_default_str();
@@ -98,6 +102,7 @@ TrialResult make_trial(const TrialKey& key, const TrialOptions& options) {
   const Answer answer = ask(options.program, case_folder,
                             folder.path() / "answers" / key.folder_name(), options.time_limit_s);
   TrialResult result = score(truth, answer);
+  result.version = options.version;
   if (!options.keep.empty()) {
     result.folder = case_folder.string();
     fs::create_directories(folder.path() / "truth");
@@ -147,6 +152,7 @@ int run(const TrialOptions& options) {
     return 0;
   }
   std::vector<TrialResult> results = read_results(options.results);
+  require_one_version(results, options.version);
   std::erase_if(keys, [&](const TrialKey& key) {
     return std::ranges::find(results, key.id(), &TrialResult::id) != results.end();
   });

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "arm/sensor.hpp"
-#include "tests/trials/world.hpp"
+#include "tests/trials/true_arm.hpp"
 
 #include <Eigen/Core>
 
@@ -26,12 +26,12 @@ struct Plant {
 };
 
 struct PlantOptions {
-  int elements = 40;  ///< Hermite's, of degree 3
-  int flexible_modes = 14;
+  int elements = 40;
+  int flexible_modes = 14;  ///< beside those of attached masses
 };
 
-/// `world.arm` may have any effects; those that are not linear do not enter.
-Plant make_plant(const World& world, std::span<const arm::Sensor> sensors,
+/// What is not linear does not enter.
+Plant make_plant(const TrueArm& arm, std::span<const arm::Sensor> sensors,
                  const PlantOptions& options = {});
 
 }  // namespace flexarm::trials

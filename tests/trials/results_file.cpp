@@ -13,9 +13,10 @@ namespace flexarm::trials {
 namespace {
 
 constexpr std::string_view kHeader =
-    "id,kind,arm,noise,strength,hidden,outside,error,outcome,verdict,named,class_size,parameters,"
-    "recovered,covered,before,after,validation_after,validation_floor,time [s],values,folder";
-constexpr std::size_t kColumns = 22;
+    "version,id,kind,arm,noise,strength,hidden,outside,error,outcome,verdict,named,claimed,right,"
+    "class_size,parameters,recovered,covered,before,after,validation_after,validation_floor,time "
+    "[s],values,folder";
+constexpr std::size_t kColumns = 25;
 
 std::vector<std::string> parts_of(const std::string& text, char separator) {
   std::vector<std::string> parts;
@@ -23,6 +24,17 @@ std::vector<std::string> parts_of(const std::string& text, char separator) {
   for (std::string part; std::getline(stream, part, separator);) parts.push_back(part);
   if (!text.empty() && text.back() == separator) parts.emplace_back();
   return parts;
+}
+
+std::vector<Claim> parse_claims(const std::string& claimed, const std::string& right) {
+  const std::vector<std::string> probabilities = parts_of(claimed, '+');
+  const std::vector<std::string> answers = parts_of(right, '+');
+  if (answers.size() != probabilities.size()) throw std::runtime_error("claims do not match");
+  std::vector<Claim> claims;
+  for (std::size_t i = 0; i < answers.size(); ++i) {
+    claims.push_back({std::stod(probabilities[i]), answers[i] == "1"});
+  }
+  return claims;
 }
 
 TrialResult parse_line(const std::string& line) {
@@ -33,6 +45,7 @@ TrialResult parse_line(const std::string& line) {
   const auto text = [&] { return cells[at++]; };
   const auto number = [&] { return std::stod(cells[at++]); };
   const auto whole = [&] { return std::stoi(cells[at++]); };
+  result.version = text();
   result.id = text();
   result.kind = text();
   result.arm = text();
@@ -44,6 +57,8 @@ TrialResult parse_line(const std::string& line) {
   result.outcome = parse_outcome(text());
   result.verdict = text();
   result.named = parts_of(text(), '+');
+  const std::string claimed = text();
+  result.claims = parse_claims(claimed, text());
   result.class_size = static_cast<std::size_t>(whole());
   result.parameters = whole();
   result.recovered = whole();
@@ -64,7 +79,9 @@ std::vector<TrialResult> read_results(const std::filesystem::path& file) {
   std::vector<TrialResult> results;
   std::ifstream stream(file);
   std::string line;
-  std::getline(stream, line);  // the header
+  if (std::getline(stream, line) && line != kHeader) {
+    throw std::runtime_error(file.string() + ": results of another version of the trials");
+  }
   while (std::getline(stream, line)) results.push_back(parse_line(line));
   return results;
 }
@@ -73,10 +90,18 @@ void append_result(const TrialResult& result, const std::filesystem::path& file)
   const bool is_new = !std::filesystem::exists(file);
   std::ofstream stream(file, std::ios::app);
   if (is_new) stream << kHeader << '\n';
-  stream << fmt::format("{},{},{},{},{},{},{:d},{:.4g},{},{},{},", result.id, result.kind,
+  std::vector<std::string> claimed;
+  std::vector<int> right;
+  for (const Claim& claim : result.claims) {
+    claimed.push_back(fmt::format("{:.4g}", claim.probability));
+    right.push_back(claim.right ? 1 : 0);
+  }
+  stream << fmt::format("{},{},{},{},{},{},{},{:d},", result.version, result.id, result.kind,
                         result.arm, result.noise, result.strength, fmt::join(result.hidden, "+"),
-                        result.outside, result.error, to_string(result.outcome), result.verdict,
-                        fmt::join(result.named, "+"))
+                        result.outside)
+         << fmt::format("{:.4g},{},{},{},{},{},", result.error, to_string(result.outcome),
+                        result.verdict, fmt::join(result.named, "+"), fmt::join(claimed, "+"),
+                        fmt::join(right, "+"))
          << fmt::format("{},{},{},{},{:.4g},{:.4g},{:.4g},{:.4g},{:.2f},{},{}\n", result.class_size,
                         result.parameters, result.recovered, result.covered, result.before,
                         result.after, result.validation_after, result.validation_floor,

@@ -10,7 +10,7 @@ namespace flexarm::trials {
 /// Results as CSV, a line a trial; several names in a cell are joined by "+".
 ///
 /// Reads what an earlier run left; nothing where there is no file. Throws std::runtime_error for a
-/// line that is none of ours.
+/// header or a line that is none of ours.
 std::vector<TrialResult> read_results(const std::filesystem::path& file);
 
 /// Appends one line, below a header in a new file.

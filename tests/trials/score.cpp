@@ -39,6 +39,11 @@ Outcome outcome_of_named(const std::vector<std::string>& hidden, const Answer& a
     if (named) ++exact;
     if (stood_for) ++in_class;
   }
+  const bool one_is_wrong = std::ranges::any_of(answer.causes, [&](const NamedCause& cause) {
+    return std::ranges::none_of(hidden,
+                                [&](const std::string& name) { return stands_for(cause, name); });
+  });
+  if (one_is_wrong && answer.verdict == "partly_explained") return Outcome::wrong;
   const bool as_many = answer.causes.size() == hidden.size();
   if (as_many && exact == hidden.size()) return Outcome::exact;
   if (as_many && in_class == hidden.size()) return Outcome::in_class;
@@ -54,7 +59,11 @@ Outcome outcome_of(const TrialResult& result, const Answer& answer) {
   }
   if (answer.verdict == "adequate") return Outcome::missed;
   if (result.outside) {
-    return answer.verdict == "explained" ? Outcome::mistaken : Outcome::recognised;
+    if (answer.verdict == "explained") return Outcome::mistaken;
+    const bool claimed = std::ranges::any_of(answer.causes, [&](const NamedCause& cause) {
+      return cause.probability > kClaimed && !contains(result.hidden, cause.effect);
+    });
+    return claimed ? Outcome::wrong : Outcome::recognised;
   }
   return silent ? Outcome::abstained : outcome_of_named(result.hidden, answer);
 }
@@ -70,11 +79,11 @@ void compare_parameters(TrialResult& result, const Truth& truth, const Answer& a
   for (const NamedCause& cause : answer.causes) {
     if (!result.values.empty()) result.values += "; ";
     result.values += cause.effect;
-    const auto hidden = truth.world.arm.effects.find(cause.effect);
+    const HiddenCause* hidden = truth.world.find(cause.effect);
     for (const auto& [name, found] : cause.parameters) {
       result.values += fmt::format(" {} {:.4g}+-{:.2g}", name, found.value, found.std_error);
-      if (hidden == truth.world.arm.effects.end()) continue;
-      const double value = hidden->second.parameters.at(name);
+      if (hidden == nullptr) continue;
+      const double value = hidden->parameters.at(name);
       const double error = distance(name, found.value, value);
       const double scale = name == "phase" ? 2.0 * std::numbers::pi : std::abs(value);
       result.values += fmt::format(" ({:.4g})", value);
@@ -107,7 +116,7 @@ TrialResult score(const Truth& truth, const Answer& answer) {
   result.noise = truth.key.noise;
   result.strength = truth.key.hidden.empty() ? "-" : to_string(truth.key.strength);
   result.hidden = truth.key.hidden;
-  result.outside = !truth.world.outside.empty();
+  result.outside = truth.world.has_outside();
   if (!truth.errors.empty()) {
     result.error = std::accumulate(truth.errors.begin(), truth.errors.end(), 0.0) /
                    static_cast<double>(truth.errors.size());
@@ -115,6 +124,7 @@ TrialResult score(const Truth& truth, const Answer& answer) {
   result.verdict = answer.verdict.empty() ? "-" : answer.verdict;
   for (const NamedCause& cause : answer.causes) {
     result.named.push_back(cause.effect);
+    result.claims.push_back({cause.probability, contains(result.hidden, cause.effect)});
     result.class_size = std::max(result.class_size, 1 + cause.confusable_with.size());
   }
   result.outcome = outcome_of(result, answer);

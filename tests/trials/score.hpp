@@ -14,13 +14,13 @@ enum class Outcome {
   exact,        ///< the hidden causes are named and no other
   in_class,     ///< as exact with a cause that is said to be confusable with the one named
   partly,       ///< some of the hidden causes are named, or others beside them
-  wrong,        ///< others are named
+  wrong,        ///< others are named; or one is beside what is not explained in full
   missed,       ///< adequate, though something is hidden
   abstained,    ///< unexplained, though the vocabulary has the cause
   quiet,        ///< nothing is hidden and nothing is said
   false_alarm,  ///< nothing is hidden, but a cause is named
   doubted,      ///< nothing is hidden and none is named, but the arm is not found adequate
-  recognised,   ///< a cause outside the vocabulary: unexplained or partly explained
+  recognised,   ///< a cause outside the vocabulary: not explained, and none named that is likely
   mistaken,     ///< a cause outside the vocabulary is explained by one in it
   no_answer,    ///< the program failed or took too long
 };
@@ -35,8 +35,18 @@ inline constexpr double kRecovered = 0.05;
 /// What is left of validation data against their noise, at most.
 inline constexpr double kNoiseReached = 1.1;
 
+/// A cause that is named where the one that is hidden has no name is wrong above this probability.
+inline constexpr double kClaimed = 0.5;
+
+/// A cause that the program named, with the probability that it claimed.
+struct Claim {
+  double probability = 1.0;
+  bool right = false;  ///< it was hidden
+};
+
 /// One trial as a line of the results.
 struct TrialResult {
+  std::string version;  ///< of the program that answered
   std::string id;
   std::string kind;
   std::string arm;
@@ -48,6 +58,7 @@ struct TrialResult {
   Outcome outcome = Outcome::no_answer;
   std::string verdict;
   std::vector<std::string> named;
+  std::vector<Claim> claims;   ///< one a named cause
   std::size_t class_size = 1;  ///< the largest of the named causes
   int parameters = 0;          ///< of causes named rightly
   int recovered = 0;           ///< within kRecovered

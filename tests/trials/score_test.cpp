@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 
 namespace flexarm::trials {
 namespace {
@@ -19,11 +20,7 @@ Truth truth_of(std::vector<std::string> hidden) {
   Truth truth;
   truth.key.hidden = std::move(hidden);
   for (const auto& name : truth.key.hidden) {
-    if (find_hideable(name).outside) {
-      truth.world.outside[name];
-    } else {
-      truth.world.arm.effects[name].parameters["torque"] = 0.01;
-    }
+    truth.world.hidden.push_back({name, {{"torque", 0.01}}});
   }
   return truth;
 }
@@ -32,7 +29,8 @@ NamedCause named(const std::string& effect, std::vector<std::string> confusable 
   return {.effect = effect,
           .sensor = {},
           .parameters = {{"torque", {0.0102, 0.00015}}},
-          .confusable_with = std::move(confusable)};
+          .confusable_with = std::move(confusable),
+          .probability = 0.9};
 }
 
 Answer answered(const std::string& verdict, std::vector<NamedCause> causes = {}) {
@@ -62,14 +60,35 @@ TEST(Score, ANameIsExactInAClassPartlyRightOrWrong) {
   EXPECT_EQ(outcome(truth, Answer{}), Outcome::no_answer);
 }
 
+TEST(Score, AWrongCauseBesidePartlyExplainedIsWrong) {
+  const Truth truth = truth_of({"coulomb_friction", "hub_spring"});
+  EXPECT_EQ(outcome(truth, answered("partly_explained", {named("coulomb_friction")})),
+            Outcome::partly);
+  EXPECT_EQ(
+      outcome(truth, answered("partly_explained", {named("coulomb_friction"), named("gravity")})),
+      Outcome::wrong);
+}
+
+TEST(Score, ClaimsAreRightWhereTheCauseWasHidden) {
+  const auto result = score(truth_of({"coulomb_friction"}),
+                            answered("explained", {named("coulomb_friction"),
+                                                   named("torque_bias", {"coulomb_friction"})}));
+  ASSERT_EQ(result.claims.size(), 2U);
+  EXPECT_EQ(result.claims[0].probability, 0.9);
+  EXPECT_TRUE(result.claims[0].right);
+  EXPECT_FALSE(result.claims[1].right);
+}
+
 TEST(Score, WithNothingToNameSilenceIsRight) {
   EXPECT_EQ(outcome(truth_of({}), answered("adequate")), Outcome::quiet);
   EXPECT_EQ(outcome(truth_of({}), answered("explained", {named("gravity")})), Outcome::false_alarm);
   EXPECT_EQ(outcome(truth_of({}), answered("unexplained")), Outcome::doubted);
   const Truth outside = truth_of({"tuned_mass"});
   EXPECT_EQ(outcome(outside, answered("unexplained")), Outcome::recognised);
-  EXPECT_EQ(outcome(outside, answered("partly_explained", {named("gravity")})),
-            Outcome::recognised);
+  EXPECT_EQ(outcome(outside, answered("partly_explained", {named("gravity")})), Outcome::wrong);
+  NamedCause unlikely = named("gravity");
+  unlikely.probability = 0.4;
+  EXPECT_EQ(outcome(outside, answered("partly_explained", {unlikely})), Outcome::recognised);
   EXPECT_EQ(outcome(outside, answered("explained", {named("gravity")})), Outcome::mistaken);
 }
 
@@ -101,20 +120,45 @@ TEST(ResultsFile, IsReadBack) {
   TrialResult result = score(truth_of({"coulomb_friction", "gravity"}),
                              answered("explained", {named("coulomb_friction")}));
   result.arm = "steel link";
+  result.version = "0123abc";
   append_result(result, file);
-  append_result(score(truth_of({}), answered("adequate")), file);
+  TrialResult quiet = score(truth_of({}), answered("adequate"));
+  quiet.version = "0123abc";
+  append_result(quiet, file);
   const auto read = read_results(file);
   ASSERT_EQ(read.size(), 2U);
   EXPECT_EQ(read[0].id, result.id);
   EXPECT_EQ(read[0].hidden, result.hidden);
   EXPECT_EQ(read[0].named, result.named);
+  ASSERT_EQ(read[0].claims.size(), 1U);
+  EXPECT_EQ(read[0].claims[0].probability, 0.9);
+  EXPECT_TRUE(read[0].claims[0].right);
   EXPECT_EQ(read[0].outcome, Outcome::partly);
   EXPECT_EQ(read[0].values, result.values);
   EXPECT_EQ(read[1].outcome, Outcome::quiet);
   EXPECT_TRUE(read[1].hidden.empty());
+  EXPECT_THAT(scorecard(read), HasSubstr("Of flexarm at 0123abc (a clean tree)."));
   EXPECT_THAT(scorecard(read), HasSubstr("| two effects: one of them | 1/1 (100 %) |"));
   EXPECT_THAT(scorecard(read),
               HasSubstr("| nothing hidden: a cause named (false alarm) | 0/1 (0 %) |"));
+}
+
+TEST(ResultsFile, OfAnotherFormIsRefused) {
+  const auto file = std::filesystem::path(testing::TempDir()) / "old-results.csv";
+  std::ofstream(file) << "id,kind,arm\n";
+  EXPECT_ANY_THROW(read_results(file));
+}
+
+TEST(Scorecard, RefusesResultsOfSeveralVersions) {
+  TrialResult one;
+  one.version = "0123abc";
+  TrialResult other = one;
+  EXPECT_NO_THROW(scorecard({one, other}));
+  other.version = "0123abc+changes-12ab34cd";
+  EXPECT_THAT(scorecard({other}),
+              HasSubstr("Of flexarm at 0123abc+changes-12ab34cd (a changed tree)."));
+  EXPECT_ANY_THROW(scorecard({one, other}));
+  EXPECT_ANY_THROW(require_one_version({one}, "4567def"));
 }
 
 TEST(Scorecard, SmallestEffectIsAMultipleOfTheNoise) {
@@ -128,20 +172,30 @@ TEST(Scorecard, SmallestEffectIsAMultipleOfTheNoise) {
     one.outcome = outcome;
     return one;
   };
-  const std::vector<TrialResult> found = {trial("weak", 0.048, Outcome::exact),
-                                          trial("strong", 0.5, Outcome::in_class)};
-  EXPECT_THAT(scorecard(found), HasSubstr("| gravity | < 1.6 (1) |"));
+  // As many as a statement on 90 % of them takes.
+  constexpr int kEnough = 20;
+  std::vector<TrialResult> found;
+  for (int i = 0; i < kEnough; ++i) {
+    found.push_back(trial("weak", 0.048, Outcome::exact));
+    found.push_back(trial("strong", 0.5, Outcome::in_class));
+  }
+  EXPECT_THAT(scorecard(found), HasSubstr("| gravity | < 1.6 (20) |"));
   // Where lesser ones are lost, it is the least that is found.
   auto with_faint = found;
-  with_faint.push_back(trial("faint", 0.015, Outcome::missed));
-  EXPECT_THAT(scorecard(with_faint), HasSubstr("| gravity | 1.6 (1) |"));
-  EXPECT_THAT(scorecard(with_faint), HasSubstr("| none named | 1/1 (100 %) |"));
+  for (int i = 0; i < kEnough; ++i) with_faint.push_back(trial("faint", 0.015, Outcome::missed));
+  EXPECT_THAT(scorecard(with_faint), HasSubstr("| gravity | 1.6 (20) |"));
+  EXPECT_THAT(scorecard(with_faint), HasSubstr("| none named | 20/20 (100 %) |"));
   // Faint ones are not among those that the first table counts.
-  EXPECT_THAT(scorecard(with_faint), HasSubstr("| one effect: named | 1/2 (50 %) |"));
+  EXPECT_THAT(scorecard(with_faint), HasSubstr("| one effect: named | 20/40 (50 %) |"));
   // One that is found by chance below others that are lost does not count.
   auto by_chance = with_faint;
-  by_chance[1].outcome = Outcome::wrong;
+  for (auto& one : by_chance) {
+    if (one.strength == "strong") one.outcome = Outcome::wrong;
+  }
   EXPECT_THAT(scorecard(by_chance), HasSubstr("| gravity | none |"));
+  // Nothing is claimed of fewer trials.
+  found.pop_back();
+  EXPECT_THAT(scorecard(found), HasSubstr("| gravity | few (19) |"));
 }
 
 TEST(TrialList, HidesOnlyWhatTheDataShow) {

@@ -1,5 +1,7 @@
 #include "tests/trials/scorecard.hpp"
 
+#include "arm/input_error.hpp"
+#include "tests/trials/calibration.hpp"
 #include "tests/trials/clopper_pearson.hpp"
 
 #include <fmt/format.h>
@@ -17,24 +19,35 @@ namespace {
 constexpr const char* kIntroduction =
     R"(# Scorecard of blind trials
 
+Of flexarm at {}.
+
 {} experiments on three arms (aluminium, steel, a sandwich that is soft in shear) whose causes
 `flexarm diagnose` was not told, made by `scripts/trials`. The simulator is not the model that is
-fitted: finite elements, Newmark's method, its own friction, actuator and sensors (`tests/trials`).
+fitted: its own finite elements, Newmark's method, each cause said anew (`tests/trials`).
 Columns: the kind of data, and noise over signal. In poles and zeros a fifth of that noise is the
 frequencies' and ten times it the damping ratios'. The strength of a cause is the error that it
 makes in a simulation without it, relative to the signal: weak 5 %, middle 15 %, strong 50 %; of
 poles and zeros a tenth of it. Where no physical size makes as much, the largest stands.
 
-A class counts as an answer where it has three members at most. The bounds are Clopper and Pearson's.
+A class counts as an answer where it has three members at most. A cause that is named wrongly beside
+`partly_explained` is wrong; so is one that is claimed with a probability above 0.5 where the hidden
+one has no name. The bounds are Clopper and Pearson's, of 95 % to each side.
 )";
 constexpr const char* kAboutSmallest =
     R"(## The smallest effect found in 90 % of trials
 
 Its strength as a multiple of the noise: the least at which the effect is named, or in a class of at
 most three, in 90 % of the trials or more, there and at every greater strength that was tried; "<"
-where no lesser one was. In brackets: the trials at that strength. For this, faint effects are
-hidden as well, which make an error of 1.5 %. They are not part of the tables above; what was said
+where no lesser one was. In brackets: the trials at that strength. Below 20 trials nothing is
+claimed: "few". For this, faint effects are hidden as well, which make an error of 1.5 %. They are not part of the tables above; what was said
 of them:
+
+)";
+
+constexpr const char* kAboutReliability =
+    R"(## Claimed probabilities and intervals
+
+A cause is right here if it was hidden itself, whatever class it is said to be in.
 
 )";
 
@@ -165,6 +178,7 @@ std::string summary_table(const std::vector<Cell>& cells) {
   of_effects("one effect: abstained", 1, is(Outcome::abstained));
   of_effects("two effects: both named", 2, is_found);
   of_effects("two effects: one of them", 2, is(Outcome::partly));
+  of_effects("two effects: another named", 2, is(Outcome::wrong));
   const auto of_nothing = [&](const std::string& name, Outcome outcome) {
     of_effects(name, 0, is(outcome));
     add("... upper 95 % bound", [outcome](const Results& all) {
@@ -179,6 +193,11 @@ std::string summary_table(const std::vector<Cell>& cells) {
   add("outside the vocabulary: said so", [](const Results& all) {
     const Results some = chosen(all, [](const auto& one) { return one.outside; });
     return part(count(some, Outcome::recognised), static_cast<int>(some.size()));
+  });
+  add("outside the vocabulary: another named, or all explained", [](const Results& all) {
+    const Results some = chosen(all, [](const auto& one) { return one.outside; });
+    return part(count(some, Outcome::wrong) + count(some, Outcome::mistaken),
+                static_cast<int>(some.size()));
   });
   add("parameters within 5 %", [](const Results& all) {
     int recovered = 0;
@@ -252,13 +271,19 @@ std::string faint_table(const Results& faint) {
          row("another named", wrong) + row("none named", silent);
 }
 
-/// The least strength at which a cause is found, over the noise: "< 1.7 (2)"; "none".
+/// Trials behind a statement on 90 % of them.
+constexpr std::size_t kEnoughTrials = 20;
+
+/// The least strength at which a cause is found, over the noise: "< 1.7 (20)"; "none"; "few (2)".
 std::string smallest_found(const Results& of_cause) {
   std::string smallest = "none";
   for (auto strength = kStrengths.rbegin(); strength != kStrengths.rend(); ++strength) {
     const Results of = chosen(
         of_cause, [&](const TrialResult& one) { return one.strength == to_string(*strength); });
     if (of.empty()) continue;
+    if (of.size() < kEnoughTrials) {
+      return smallest == "none" ? fmt::format("few ({})", of.size()) : smallest;
+    }
     if (count(of, is_found) < 0.9 * static_cast<double>(of.size())) return smallest;
     double multiples = 0.0;
     for (const TrialResult& one : of) {
@@ -272,7 +297,7 @@ std::string smallest_found(const Results& of_cause) {
 std::string smallest_table(const std::vector<Cell>& cells) {
   std::vector<std::string> titles;
   std::map<std::string, std::vector<std::string>> rows;
-  for (const auto& cause : hideables()) {
+  for (const Cause& cause : causes()) {
     if (!cause.outside) rows[cause.name];
   }
   for (const Cell& cell : cells) {
@@ -303,13 +328,37 @@ std::string failure_list(const Results& results) {
 
 }  // namespace
 
+namespace {
+
+/// scripts/trials marks a changed tree so.
+constexpr std::string_view kChanged = "+changes";
+
+std::string described(const std::string& version) {
+  if (version == kUnknownVersion) return version;
+  const bool changed = version.find(kChanged) != std::string::npos;
+  return fmt::format("{} ({} tree)", version, changed ? "a changed" : "a clean");
+}
+
+}  // namespace
+
+void require_one_version(const Results& results, const std::string& version) {
+  const auto other =
+      std::ranges::find_if(results, [&](const auto& one) { return one.version != version; });
+  if (other == results.end()) return;
+  throw arm::InputError(fmt::format(
+      "{} was answered by flexarm {}, not by {}: give the results of each a file of their own",
+      other->id, other->version, version));
+}
+
 std::string scorecard(const Results& results) {
   if (results.empty()) return "No trials.\n";
+  require_one_version(results, results.front().version);
   const Results faint = chosen(results, is_faint);
   const Results judged = chosen(results, [](const TrialResult& one) { return !is_faint(one); });
-  return fmt::format("{}\n{}\n## What was said\n\n{}\n{}{}\n{}\n## Failures\n\n{}",
-                     fmt::format(kIntroduction, judged.size()),
+  return fmt::format("{}\n{}\n## What was said\n\n{}\n{}{}\n{}\n{}{}\n{}\n## Failures\n\n{}",
+                     fmt::format(kIntroduction, described(results.front().version), judged.size()),
                      summary_table(cells_and_totals_of(judged)), confusion_table(judged),
+                     kAboutReliability, reliability_table(judged), coverage_table(judged),
                      kAboutSmallest, faint_table(faint), smallest_table(cells_of(results)),
                      failure_list(judged));
 }

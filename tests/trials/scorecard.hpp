@@ -7,8 +7,16 @@
 
 namespace flexarm::trials {
 
-/// The results as a page of Markdown: per kind of data and noise what was named, what was not, and
-/// how well; the confusion of causes; the weakest strength found; every failure.
+/// Of a program that nobody says the version of.
+inline constexpr const char* kUnknownVersion = "an unknown version";
+
+/// Throws arm::InputError for a result of another version of the program.
+void require_one_version(const std::vector<TrialResult>& results, const std::string& version);
+
+/// The results as a page of Markdown: the version of the program; per kind of data and noise what
+/// was named, what was not, and how well; the confusion of causes; how reliable probabilities and
+/// intervals are; the weakest strength found; every failure. Throws arm::InputError for results of
+/// several versions.
 std::string scorecard(const std::vector<TrialResult>& results);
 
 }  // namespace flexarm::trials

@@ -7,6 +7,7 @@
 #include "tests/trials/excitations.hpp"
 #include "tests/trials/time_simulation.hpp"
 #include "tests/trials/trial_arms.hpp"
+#include "tests/trials/with_effects.hpp"
 
 #include <gtest/gtest.h>
 
@@ -21,7 +22,7 @@ constexpr std::size_t kShortRun = 1000;
 
 struct AgreementCase {
   std::string name;
-  arm::Effects effects;
+  std::vector<HiddenCause> hidden;
   /// Root mean square of the difference over that of the reading. Speeds of a mode are off by
   /// (omega h)^2/12, 2e-5 of the fourth; turning points of friction and drag by some h.
   double tolerance = 1e-4;
@@ -42,14 +43,14 @@ class AgainstResponse : public testing::TestWithParam<AgreementCase> {};
 
 TEST_P(AgainstResponse, EveryChannelAgrees) {
   World world{trial_arms().front().arm};
-  world.arm.effects = GetParam().effects;
+  world.hidden = GetParam().hidden;
   Random random(7, "agreement");
   std::vector<double> torque = random_torque(0.06, random);
   torque.resize(kShortRun);
   const auto sensors = read_sensors();
   const auto own = simulate_in_time(world, sensors, torque);
 
-  const response::ArmParts parts = response::take_apart(world.arm);
+  const response::ArmParts parts = response::take_apart(with_effects(world));
   const response::AnyFormulation model = fem::FemArm(parts.linear);
   const auto other =
       response::simulate(response::time_model(model, parts, PlantOptions{}.flexible_modes, sensors),
@@ -65,29 +66,35 @@ TEST_P(AgainstResponse, EveryChannelAgrees) {
   }
 }
 
-std::vector<AgreementCase> agreement_cases() {
-  return {
-      {"none", {}},
-      {"gravity", {effects::named("gravity", {{"acceleration", 9.81}})}},
-      {"root", {effects::named("root_compliance", {{"stiffness", 30.0}})}},
-      {"coulomb", {effects::named("coulomb_friction", {{"torque", 0.012}})}},
-      {"stribeck",
-       {effects::named("stribeck_friction",
-                       {{"torque", 0.008}, {"static_torque", 0.016}, {"velocity", 0.3}})}},
-      {"drag", {effects::named("quadratic_drag", {{"coefficient", 0.1}})}},
-      {"ripple",
-       {effects::named("torque_ripple", {{"amplitude", 0.02}, {"cycles", 5.0}, {"phase", 1.0}})}},
-      {"actuator",
-       {effects::named("torque_bias", {{"torque", 0.004}}),
-        effects::named("torque_saturation", {{"limit", 0.08}}),
-        effects::named("torque_dead_zone", {{"width", 0.01}}),
-        effects::named("time_delay", {{"delay", 0.0053}}),
-        effects::named("torque_gain", {{"factor", 0.8}}),
-        effects::named("actuator_lag", {{"time_constant", 0.004}})}},
-      {"sensor", {effects::named("sensor_lag", {{"time_constant", 0.003}}, "tip_acceleration")}}};
+std::vector<AgreementCase> together() {
+  return {{"none", {}},
+          {"linear",
+           {{"gravity", {{"acceleration", 9.81}}}, {"root_compliance", {{"stiffness", 30.0}}}}},
+          {"actuator",
+           {{"torque_bias", {{"torque", 0.004}}},
+            {"torque_saturation", {{"limit", 0.08}}},
+            {"torque_dead_zone", {{"width", 0.01}}},
+            {"time_delay", {{"delay", 0.0053}}},
+            {"torque_gain", {{"factor", 0.8}}},
+            {"actuator_lag", {{"time_constant", 0.004}}}}}};
 }
 
-INSTANTIATE_TEST_SUITE_P(Effects, AgainstResponse, testing::ValuesIn(agreement_cases()),
+/// Every cause of the vocabulary that the linear arm does not hold, at a typical size.
+std::vector<AgreementCase> causes_alone() {
+  constexpr double kTypicalPart = 0.1;  // of the largest size
+  const TrialArm& of = trial_arms().front();
+  std::vector<AgreementCase> cases;
+  for (const Cause& cause : causes()) {
+    if (cause.outside || cause.acts_on <= ActsOn::linear_arm) continue;
+    const double size = kTypicalPart * cause.largest;
+    cases.push_back({cause.name, with_hidden(World{of.arm}, of, cause, size, Chance{}).hidden});
+  }
+  return cases;
+}
+
+INSTANTIATE_TEST_SUITE_P(Alone, AgainstResponse, testing::ValuesIn(causes_alone()),
+                         [](const auto& one) { return one.param.name; });
+INSTANTIATE_TEST_SUITE_P(Together, AgainstResponse, testing::ValuesIn(together()),
                          [](const auto& one) { return one.param.name; });
 
 }  // namespace

@@ -115,14 +115,14 @@ double error_of(Strength strength, measured::RunKind kind) {
 }
 
 FoundSize find_size(const TrialArm& of, measured::RunKind kind, const std::vector<PlannedRun>& runs,
-                    const Hideable& cause, const Chance& chance, double error) {
+                    const Cause& cause, const Chance& chance, double error) {
   const SimulationError error_made(of, kind, runs);
   const auto made_by = [&](double size) {
     return error_made(with_hidden(World{of.arm}, of, cause, size, chance));
   };
   FoundSize found{cause.largest, made_by(cause.largest)};
   if (found.error <= error) return found;
-  double low = std::log(cause.smallest);
+  double low = std::log(cause.smallest_part * cause.largest);
   double high = std::log(cause.largest);
   for (int i = 0; i < kMostBisections; ++i) {
     const double middle = 0.5 * (low + high);

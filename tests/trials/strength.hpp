@@ -1,7 +1,6 @@
 #pragma once
 
 #include "tests/trials/experiment_plan.hpp"
-#include "tests/trials/hiding.hpp"
 #include "tests/trials/world.hpp"
 
 #include <array>
@@ -30,6 +29,6 @@ struct FoundSize {
 
 /// The size at which `cause` makes this error, to 5 % of it, by bisection of its logarithm.
 FoundSize find_size(const TrialArm& of, measured::RunKind kind, const std::vector<PlannedRun>& runs,
-                    const Hideable& cause, const Chance& chance, double error);
+                    const Cause& cause, const Chance& chance, double error);
 
 }  // namespace flexarm::trials

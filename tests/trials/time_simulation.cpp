@@ -8,8 +8,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <optional>
 #include <stdexcept>
+#include <vector>
 
 namespace flexarm::trials {
 
@@ -25,17 +25,14 @@ struct LaggedReading {
   double value = 0.0;
 };
 
-std::optional<LaggedReading> lagged_reading(const arm::Arm& arm,
-                                            std::span<const arm::Sensor> sensors) {
-  const auto lag = arm.effects.find("sensor_lag");
-  if (lag == arm.effects.end()) return std::nullopt;
-  const std::string name = lag->second.sensor.empty() ? "tip_acceleration" : lag->second.sensor;
+std::vector<LaggedReading> lagged_readings(const TrueArm& arm,
+                                           std::span<const arm::Sensor> sensors) {
+  std::vector<LaggedReading> lagged;
   for (std::size_t i = 0; i < sensors.size(); ++i) {
-    if (arm::to_string(sensors[i]) == name) {
-      return LaggedReading{i, lag->second.parameters.at("time_constant")};
-    }
+    const auto* lag = find_lag(arm, sensors[i]);
+    if (lag != nullptr) lagged.push_back({i, lag->time_constant_s});
   }
-  return std::nullopt;
+  return lagged;
 }
 
 class NewmarkIntegrator {
@@ -43,13 +40,13 @@ class NewmarkIntegrator {
   NewmarkIntegrator(const World& world, std::span<const arm::Sensor> sensors,
                     std::span<const double> torque_N_m, const TimeOptions& options)
       : sensors_(sensors),
-        plant_(make_plant(world, sensors, options.plant)),
-        chain_(world.arm, torque_N_m, options.sample_time_s),
-        torques_(world, options.sample_time_s * static_cast<double>(torque_N_m.size()),
-                 options.disturbance_seed),
-        friction_(world.arm),
-        lagged_(lagged_reading(world.arm, sensors)),
-        drag_N_s2_per_m3_(effect_value(world.arm, "quadratic_drag", "coefficient", 0.0)),
+        arm_(true_arm(world)),
+        plant_(make_plant(arm_, sensors, options.plant)),
+        chain_(arm_, torque_N_m, options.sample_time_s),
+        torques_(arm_, {options.sample_time_s * static_cast<double>(torque_N_m.size()),
+                        options.disturbance_seed}),
+        friction_(arm_),
+        lagged_(lagged_readings(arm_, sensors)),
         step_s_(options.sample_time_s / options.substeps) {
     const Eigen::Index n = plant_.hub.size();
     // Newmark's scheme for any beta as average acceleration (1/4) of an arm of another inertia:
@@ -69,9 +66,10 @@ class NewmarkIntegrator {
     to_hub_ = 0.5 * step_s_ / plant_.modal_mass_kg_m2 * (inverse_ * plant_.hub);
     hub_to_hub_ = plant_.hub.dot(to_hub_);
     u_ = v_ = middle_ = Eigen::VectorXd::Zero(n);
-    if (drag_N_s2_per_m3_ != 0.0) {
-      drag_to_middle_ = -0.5 * step_s_ * drag_N_s2_per_m3_ / plant_.modal_mass_kg_m2 * inverse_ *
-                        plant_.stations.transpose() * plant_.station_weights_m.asDiagonal();
+    if (has_beam_forces()) {
+      to_modes_ = plant_.stations.transpose() * plant_.station_weights_m.asDiagonal() /
+                  plant_.modal_mass_kg_m2;
+      beam_to_middle_ = 0.5 * step_s_ * inverse_ * to_modes_;
     }
   }
 
@@ -83,16 +81,17 @@ class NewmarkIntegrator {
     free_ += torque * to_hub_;
     const double hub_speed = plant_.hub.dot(v_);
     const double hub_angle = plant_.hub.dot(u_);
-    const bool linear = torques_.none() && drag_N_s2_per_m3_ == 0.0;
+    const bool linear = torques_.none() && !has_beam_forces();
     // Forces that depend on the motion: by fixed-point iteration, from the last step's motion.
     double before = plant_.hub.dot(middle_);
     for (int iteration = 0; iteration < kMostIterations; ++iteration) {
       next_ = free_;
       if (!torques_.none()) {
         const double turn = step_s_ * plant_.hub.dot(middle_);
-        next_ += torques_.mean_N_m(from_s + 0.5 * step_s_, hub_angle + 0.5 * turn, turn) * to_hub_;
+        next_ +=
+            torques_.mean_N_m({from_s + 0.5 * step_s_, hub_angle + 0.5 * turn, turn}) * to_hub_;
       }
-      if (drag_N_s2_per_m3_ != 0.0) next_.noalias() += drag_to_middle_ * drag_shape(middle_);
+      if (has_beam_forces()) next_.noalias() += beam_to_middle_ * beam_forces(middle_);
       if (!friction_.none()) {
         const double end_speed = 2.0 * plant_.hub.dot(next_) - hub_speed;
         next_ -= friction_.mean_N_m({hub_speed, end_speed, 2.0 * hub_to_hub_}) * to_hub_;
@@ -106,7 +105,7 @@ class NewmarkIntegrator {
       before = now;
     }
     if (!torques_.none()) torques_.turned(step_s_ * plant_.hub.dot(middle_));
-    if (lagged_) pass_lag();
+    for (LaggedReading& lagged : lagged_) pass_lag(lagged);
     u_ += step_s_ * middle_;
     v_ = 2.0 * middle_ - v_;
   }
@@ -116,8 +115,9 @@ class NewmarkIntegrator {
     const Eigen::VectorXd acceleration = acceleration_at(time_s);
     std::vector<double> values;
     for (std::size_t i = 0; i < sensors_.size(); ++i) {
-      if (lagged_ && lagged_->sensor == i) {
-        values.push_back(lagged_->value);
+      const auto lagged = std::ranges::find(lagged_, i, &LaggedReading::sensor);
+      if (lagged != lagged_.end()) {
+        values.push_back(lagged->value);
         continue;
       }
       const auto row = plant_.readings.row(static_cast<Eigen::Index>(i));
@@ -128,32 +128,34 @@ class NewmarkIntegrator {
   }
 
  private:
-  Eigen::VectorXd drag_shape(const Eigen::VectorXd& velocity) const {
+  bool has_beam_forces() const { return !arm_.beam_forces_N_per_m.empty(); }
+
+  /// Per length, at the stations.
+  Eigen::VectorXd beam_forces(const Eigen::VectorXd& velocity) const {
     const Eigen::VectorXd speed = plant_.stations * velocity;
-    return speed.cwiseAbs().cwiseProduct(speed);
+    Eigen::VectorXd force = Eigen::VectorXd::Zero(speed.size());
+    for (const auto& law : arm_.beam_forces_N_per_m) force += speed.unaryExpr(law);
+    return force;
   }
 
   /// The mean of the sensor over the step passes 1/(1 + time_constant s).
-  void pass_lag() {
-    const arm::Sensor& sensor = sensors_[lagged_->sensor];
-    const auto row = plant_.readings.row(static_cast<Eigen::Index>(lagged_->sensor));
+  void pass_lag(LaggedReading& lagged) {
+    const arm::Sensor& sensor = sensors_[lagged.sensor];
+    const auto row = plant_.readings.row(static_cast<Eigen::Index>(lagged.sensor));
     const int order = arm::derivative_order(sensor);
     double mean = row.dot(middle_);
     if (order == 0) mean = row.dot(u_) + 0.5 * step_s_ * mean;
     if (order == 2) mean = 2.0 * (mean - row.dot(v_)) / step_s_;
-    const double decay = std::exp(-step_s_ / lagged_->time_constant_s);
-    lagged_->value = mean + (lagged_->value - mean) * decay;
+    const double decay = std::exp(-step_s_ / lagged.time_constant_s);
+    lagged.value = mean + (lagged.value - mean) * decay;
   }
 
   Eigen::VectorXd acceleration_at(double time_s) const {
     const double mass = plant_.modal_mass_kg_m2;
     double torque = chain_.now(time_s);
-    if (!torques_.none()) torque += torques_.mean_N_m(time_s, plant_.hub.dot(u_), 0.0);
+    if (!torques_.none()) torque += torques_.mean_N_m({time_s, plant_.hub.dot(u_), 0.0});
     Eigen::VectorXd a = -(plant_.damping * v_) - plant_.stiffness * u_ + torque / mass * plant_.hub;
-    if (drag_N_s2_per_m3_ != 0.0) {
-      a -= drag_N_s2_per_m3_ / mass * plant_.stations.transpose() *
-           plant_.station_weights_m.cwiseProduct(drag_shape(v_));
-    }
+    if (has_beam_forces()) a += to_modes_ * beam_forces(v_);
     if (friction_.none()) return a;
     const double speed = plant_.hub.dot(v_);
     double size = friction_.size_N_m(speed);
@@ -168,19 +170,20 @@ class NewmarkIntegrator {
   }
 
   std::span<const arm::Sensor> sensors_;
+  TrueArm arm_;
   Plant plant_;
   TorqueChain chain_;
   HubTorques torques_;
   DryFriction friction_;
-  std::optional<LaggedReading> lagged_;
-  double drag_N_s2_per_m3_;
+  std::vector<LaggedReading> lagged_;
   double step_s_;
   Eigen::MatrixXd inverse_;  // (1 + h/2 D + beta h^2 W)^-1
   Eigen::MatrixXd from_velocity_;
   Eigen::MatrixXd from_displacement_;  // -h/2 of it times W
   Eigen::VectorXd to_hub_;             // mean velocity per torque on the hub
   double hub_to_hub_ = 0.0;
-  Eigen::MatrixXd drag_to_middle_;
+  Eigen::MatrixXd to_modes_;  // acceleration per force per length at the stations
+  Eigen::MatrixXd beam_to_middle_;
   Eigen::VectorXd u_;
   Eigen::VectorXd v_;
   Eigen::VectorXd middle_;  // mean velocity of the step

@@ -1,10 +1,7 @@
 #include "tests/trials/torque_chain.hpp"
 
-#include "tests/trials/world.hpp"
-
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace flexarm::trials {
 
@@ -15,25 +12,24 @@ constexpr double kReached_samples = 1e-7;
 
 }  // namespace
 
-TorqueChain::TorqueChain(const arm::Arm& arm, std::span<const double> torque_N_m,
+TorqueChain::TorqueChain(const TrueArm& arm, std::span<const double> torque_N_m,
                          double sample_time_s)
     : torque_N_m_(torque_N_m),
       sample_time_s_(sample_time_s),
-      delay_s_(effect_value(arm, "time_delay", "delay", 0.0)),
-      gain_(effect_value(arm, "torque_gain", "factor", 1.0)),
-      dead_zone_N_m_(effect_value(arm, "torque_dead_zone", "width", 0.0)),
-      limit_N_m_(
-          effect_value(arm, "torque_saturation", "limit", std::numeric_limits<double>::infinity())),
-      lag_s_(effect_value(arm, "actuator_lag", "time_constant", 0.0)),
-      bias_N_m_(effect_value(arm, "torque_bias", "torque", 0.0)) {}
+      delay_s_(arm.torque_delay_s),
+      curves_(arm.torque_curves),
+      lag_s_(arm.torque_lag_s),
+      bias_N_m_(arm.torque_bias_N_m) {
+  std::ranges::stable_sort(curves_, {}, &TrueArm::TorqueCurve::order);
+}
 
 double TorqueChain::clipped_command(double time_s) const {
   const double sample = std::floor((time_s - delay_s_) / sample_time_s_ + kReached_samples);
   if (sample < 0.0) return 0.0;
   const std::size_t index = std::min(static_cast<std::size_t>(sample), torque_N_m_.size() - 1);
-  const double command = gain_ * torque_N_m_[index];
-  const double beyond = std::max(0.0, std::abs(command) - dead_zone_N_m_);
-  return std::copysign(std::min(beyond, limit_N_m_), command);
+  double torque = torque_N_m_[index];
+  for (const auto& curve : curves_) torque = curve.torque_N_m(torque);
+  return torque;
 }
 
 double TorqueChain::mean_command(double from_s, double step_s) const {

@@ -1,18 +1,18 @@
 #pragma once
 
-#include "arm/arm.hpp"
+#include "tests/trials/true_arm.hpp"
 
 #include <span>
+#include <vector>
 
 namespace flexarm::trials {
 
-/// The commanded torque on its way to the hub, in the order of docs/formats.md: delay, gain, dead
-/// zone, saturation, lag, bias. (Ripple depends on the hub angle: hub_torques.hpp.)
+/// The commanded torque on its way to the hub: delay, curves, lag, bias.
 class TorqueChain {
  public:
   /// The command holds from sample to sample and is zero before the first. `torque_N_m` must
   /// outlive the object.
-  TorqueChain(const arm::Arm& arm, std::span<const double> torque_N_m, double sample_time_s);
+  TorqueChain(const TrueArm& arm, std::span<const double> torque_N_m, double sample_time_s);
 
   /// Goes on from `from_s`, where the last step ended, and returns the mean torque of the step. A
   /// step contains one change of the command at most.
@@ -27,9 +27,7 @@ class TorqueChain {
   std::span<const double> torque_N_m_;
   double sample_time_s_;
   double delay_s_;
-  double gain_;
-  double dead_zone_N_m_;
-  double limit_N_m_;
+  std::vector<TrueArm::TorqueCurve> curves_;
   double lag_s_;
   double bias_N_m_;
   double lagged_N_m_ = 0.0;

@@ -100,8 +100,13 @@ void write_modal_run(const World& world, double noise, Random& random, const fs:
 const TrialArm& choose_arm(const TrialKey& key, Random& random) {
   const auto& arms = trial_arms();
   const std::size_t drawn = random.below(arms.size());
-  const bool shears = std::ranges::find(key.hidden, "shear_and_rotary_inertia") != key.hidden.end();
-  return shears ? arms.back() : arms[drawn];
+  for (const std::string& name : key.hidden) {
+    const std::string& wanted = find_cause(name).shows_on_arm;
+    const auto found =
+        std::ranges::find(arms, wanted, [](const TrialArm& one) { return one.arm.name; });
+    if (found != arms.end()) return *found;
+  }
+  return arms[drawn];
 }
 
 }  // namespace
@@ -129,7 +134,7 @@ Truth write_case(const TrialKey& key, const fs::path& folder) {
   const std::vector<PlannedRun> runs = plan(of, key.kind, random);
   Truth truth{key, of.arm.name, World{of.arm}, {}, {}};
   for (const std::string& name : key.hidden) {
-    const Hideable& cause = find_hideable(name);
+    const Cause& cause = find_cause(name);
     const Chance chance = draw_chance(random);
     const FoundSize found =
         find_size(of, key.kind, runs, cause, chance, error_of(key.strength, key.kind));
@@ -165,14 +170,13 @@ Truth write_case(const TrialKey& key, const fs::path& folder) {
 }
 
 nlohmann::ordered_json truth_json(const Truth& truth) {
-  nlohmann::ordered_json effects = nlohmann::ordered_json::object();
-  for (const auto& [name, effect] : truth.world.arm.effects) {
-    effects[name] = effect.parameters;
-    if (!effect.sensor.empty()) effects[name]["sensor"] = effect.sensor;
+  nlohmann::ordered_json causes = nlohmann::ordered_json::object();
+  for (const HiddenCause& one : truth.world.hidden) {
+    causes[one.name] = one.parameters;
+    if (!one.sensor.empty()) causes[one.name]["sensor"] = one.sensor;
   }
-  return {{"id", truth.key.id()},  {"seed", truth.key.seed},         {"arm", truth.arm},
-          {"effects", effects},    {"outside", truth.world.outside}, {"sizes", truth.sizes},
-          {"errors", truth.errors}};
+  return {{"id", truth.key.id()}, {"seed", truth.key.seed}, {"arm", truth.arm},
+          {"causes", causes},     {"sizes", truth.sizes},   {"errors", truth.errors}};
 }
 
 }  // namespace flexarm::trials

@@ -28,11 +28,8 @@ Strength parse_strength(const std::string& name) {
 /// Two effects of the vocabulary that this kind of data shows, by chance.
 std::vector<std::string> draw_pair(measured::RunKind kind, Random& random) {
   std::vector<std::string> names;
-  for (const auto& cause : hideables()) {
-    // Coulomb friction beside Stribeck's is one friction, and shear shows in one arm alone.
-    const bool simple =
-        cause.name != "stribeck_friction" && cause.name != "shear_and_rotary_inertia";
-    if (!cause.outside && simple && cause.shows_in(kind)) names.push_back(cause.name);
+  for (const Cause& cause : causes()) {
+    if (!cause.outside && cause.in_pairs && cause.shows_in(kind)) names.push_back(cause.name);
   }
   const std::size_t first = random.below(names.size());
   const std::size_t second = (first + 1 + random.below(names.size() - 1)) % names.size();
@@ -43,13 +40,13 @@ std::vector<std::vector<std::string>> hidden_sets(const std::string& word, measu
   if (word == "none") return {{}};
   std::vector<std::vector<std::string>> sets;
   if (word == "single" || word == "outside") {
-    for (const auto& cause : hideables()) {
+    for (const Cause& cause : causes()) {
       if (cause.outside == (word == "outside") && cause.shows_in(kind))
         sets.push_back({cause.name});
     }
     return sets;
   }
-  if (find_hideable(word).shows_in(kind)) sets.push_back({word});
+  if (find_cause(word).shows_in(kind)) sets.push_back({word});
   return sets;
 }
 

@@ -1,26 +1,34 @@
 #include "tests/trials/world.hpp"
 
-#include "arm/effects.hpp"
+#include <algorithm>
 
 namespace flexarm::trials {
 
-const std::vector<std::string>& outside_names() {
-  static const std::vector<std::string> names = {"hub_hysteresis", "tuned_mass",
-                                                 "disturbance_torque", "hub_hardening_spring"};
-  return names;
+const HiddenCause* World::find(const std::string& name) const {
+  const auto found = std::ranges::find(hidden, name, &HiddenCause::name);
+  return found == hidden.end() ? nullptr : &*found;
 }
 
-arm::Arm linear_part(const arm::Arm& arm) {
-  arm::Arm linear = arm;
-  std::erase_if(linear.effects,
-                [](const auto& effect) { return !effect.second.definition->is_of_linear_arm(); });
-  return linear;
+bool World::has_outside() const {
+  return std::ranges::any_of(hidden,
+                             [](const HiddenCause& one) { return find_cause(one.name).outside; });
 }
 
-double effect_value(const arm::Arm& arm, const std::string& effect, const std::string& parameter,
-                    double otherwise) {
-  const auto found = arm.effects.find(effect);
-  return found == arm.effects.end() ? otherwise : found->second.parameters.at(parameter);
+TrueArm true_arm(const World& world) {
+  TrueArm arm = true_arm(world.arm);
+  for (const HiddenCause& one : world.hidden) {
+    const arm::Sensor sensor = one.sensor.empty() ? arm::Sensor{} : arm::parse_sensor(one.sensor);
+    find_cause(one.name).change(one.parameters, sensor, arm);
+  }
+  return arm;
+}
+
+World with_hidden(const World& world, const TrialArm& of, const Cause& cause, double size,
+                  const Chance& chance) {
+  World hidden = world;
+  hidden.hidden.push_back({cause.name, cause.parameters(NaturalSizes(of), size, chance),
+                           cause.acts_on_drawn_sensor ? chance.sensor : std::string()});
+  return hidden;
 }
 
 }  // namespace flexarm::trials

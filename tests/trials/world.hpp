@@ -1,40 +1,35 @@
 #pragma once
 
-#include "arm/arm.hpp"
+#include "tests/trials/cause.hpp"
 
-#include <map>
 #include <string>
 #include <vector>
 
 namespace flexarm::trials {
 
-/// Causes that the vocabulary of docs/formats.md has no name for, with their parameters:
-///
-/// - `hub_hysteresis` torque [N m], angle [rad]: Dahl's friction, of which the torque creeps up to
-///   its final size over this angle;
-/// - `tuned_mass` mass [kg], frequency [Hz], damping_ratio [1], position [m]: a mass on a spring
-/// and
-///   a damper on the beam;
-/// - `disturbance_torque` rms [N m], lowest, highest [Hz]: a torque on the hub that is not
-/// measured,
-///   another noise in every run;
-/// - `hub_hardening_spring` coefficient [N m/rad^3]: a torque -coefficient theta^3 on the hub.
-using OutsideCauses = std::map<std::string, std::map<std::string, double>>;
-
-/// Names of the causes above.
-const std::vector<std::string>& outside_names();
-
-/// An arm as it really is: all its effects, and what the vocabulary does not know.
-struct World {
-  arm::Arm arm;
-  OutsideCauses outside = {};
+/// A cause that acts on an arm.
+struct HiddenCause {
+  std::string name;
+  Parameters parameters;
+  std::string sensor = {};  ///< that it acts on, where it acts on one
 };
 
-/// The arm with the effects that are linear in the equations of the arm alone.
-arm::Arm linear_part(const arm::Arm& arm);
+/// An arm as it really is: what its file says, and what is hidden.
+struct World {
+  arm::Arm arm;
+  std::vector<HiddenCause> hidden = {};
 
-/// A parameter of one of the arm's effects, or `otherwise` where it lacks the effect.
-double effect_value(const arm::Arm& arm, const std::string& effect, const std::string& parameter,
-                    double otherwise);
+  /// The hidden cause of that name, or null.
+  const HiddenCause* find(const std::string& name) const;
+  /// Something hidden is outside the vocabulary.
+  bool has_outside() const;
+};
+
+/// The arm with its causes, in the simulator's terms.
+TrueArm true_arm(const World& world);
+
+/// `world` with the cause at this size.
+World with_hidden(const World& world, const TrialArm& of, const Cause& cause, double size,
+                  const Chance& chance);
 
 }  // namespace flexarm::trials

@@ -1,0 +1,22 @@
+#include "tests/trials/cause.hpp"
+
+namespace flexarm::trials {
+
+/// Sizes are in seconds.
+Cause sensor_lag() {
+  return {.name = "sensor_lag",
+          .shown_in = ShownIn::time_and_frequency,
+          .acts_on = ActsOn::sensor,
+          .largest = 0.1,
+          .acts_on_drawn_sensor = true,
+          .parameters = [](const NaturalSizes& /*natural*/, double size,
+                           const Chance& /*chance*/) -> Parameters {
+            return {{"time_constant", size}};
+          },
+          .change =
+              [](const Parameters& of, const arm::Sensor& sensor, TrueArm& arm) {
+                arm.sensor_lags.push_back({sensor, of.at("time_constant")});
+              }};
+}
+
+}  // namespace flexarm::trials

@@ -1,0 +1,88 @@
+#pragma once
+
+#include "arm/arm.hpp"
+#include "arm/sensor.hpp"
+#include "tests/trials/hub_torque.hpp"
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace flexarm::trials {
+
+/// An arm as it really is, in the simulator's own terms; causes change it (cause.hpp). All sums and
+/// factors commute, so that the order of causes does not matter.
+struct TrueArm {
+  /// A massless rotational spring in the beam; at 0 it is between hub and beam.
+  struct Spring {
+    double position_m = 0.0;
+    double stiffness_N_m_per_rad = 0.0;
+  };
+  /// A mass on a spring and a damper beside each other, on the beam.
+  struct AttachedMass {
+    double position_m = 0.0;
+    double mass_kg = 0.0;
+    double stiffness_N_per_m = 0.0;
+    double damping_N_s_per_m = 0.0;
+  };
+  /// A curve that the torque passes on its way; curves follow each other by `order`.
+  struct TorqueCurve {
+    int order = 0;
+    std::function<double(double)> torque_N_m;
+    double slope = 1.0;  ///< what stands for it in a frequency response
+  };
+  /// First-order.
+  struct SensorLag {
+    arm::Sensor sensor;
+    double time_constant_s = 0.0;
+  };
+
+  double length_m = 0.0;
+  double flexural_rigidity_N_m2 = 0.0;
+  double linear_density_kg_per_m = 0.0;
+  std::optional<double> width_m;
+  std::optional<double> thickness_m;
+  std::optional<double> shear_modulus_Pa;
+  std::optional<double> shear_coefficient;  ///< empty: the beam is Euler and Bernoulli's
+  std::vector<Spring> springs;
+  std::vector<AttachedMass> attached;
+  double kelvin_voigt_s = 0.0;
+  double air_damping_N_s_per_m2 = 0.0;
+  double gravity_m_per_s2 = 0.0;  ///< along the arm, from the hub to the tip
+
+  double hub_inertia_kg_m2 = 0.0;
+  double hub_radius_m = 0.0;  ///< from the axis to the beam
+  double hub_damping_N_m_s_per_rad = 0.0;
+  double hub_spring_N_m_per_rad = 0.0;
+
+  double payload_kg = 0.0;
+  double payload_inertia_kg_m2 = 0.0;  ///< about its centre of mass
+  double payload_offset_m = 0.0;       ///< of its centre of mass beyond the tip
+
+  /// The commanded torque on its way: delay, curves, lag, bias.
+  double torque_delay_s = 0.0;
+  std::vector<TorqueCurve> torque_curves;
+  double torque_lag_s = 0.0;
+  double torque_bias_N_m = 0.0;
+
+  std::vector<MakeHubTorque> hub_torques;
+  std::vector<FrictionSize> dry_frictions;
+  /// Force per length on the beam by its velocity.
+  std::vector<std::function<double(double velocity_m_per_s)>> beam_forces_N_per_m;
+  std::vector<SensorLag> sensor_lags;
+};
+
+/// The arm as its file has it. Effects do not enter.
+TrueArm true_arm(const arm::Arm& nominal);
+
+/// The lag of a sensor, or null.
+const TrueArm::SensorLag* find_lag(const TrueArm& arm, const arm::Sensor& sensor);
+
+/// What the torque passes first.
+namespace torque_curve_order {
+inline constexpr int kGain = 1;
+inline constexpr int kDeadZone = 2;
+inline constexpr int kSaturation = 3;
+}  // namespace torque_curve_order
+
+}  // namespace flexarm::trials

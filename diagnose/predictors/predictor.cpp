@@ -33,8 +33,9 @@ Eigen::MatrixXd from_nearest_state(const response::ArmSimulator& simulation,
                                    const Eigen::MatrixXd& from_rest,
                                    const Eigen::VectorXd& measured,
                                    const Eigen::VectorXd& deviations) {
-  constexpr int kSteps = 10;
+  constexpr int kSteps = 20;
   constexpr double kShorter = 0.3;
+  constexpr double kNearEnough = 1e-6;  // the sum of squares falls by less than this part of it
   const Eigen::MatrixXd free = simulation.free_readings(torque_N_m.size());
   const Eigen::VectorXd scale = (deviations.cwiseInverse().asDiagonal() * free)
                                     .colwise()
@@ -60,9 +61,13 @@ Eigen::MatrixXd from_nearest_state(const response::ArmSimulator& simulation,
   for (int step = 0; step < kSteps; ++step) {
     const Eigen::VectorXd further = state + length * towards(made);
     const Eigen::MatrixXd there = simulation.readings(torque_N_m, further);
-    if (off(there).squaredNorm() < off(made).squaredNorm()) {
+    const double before = off(made).squaredNorm();
+    const double after = off(there).squaredNorm();
+    if (after < before) {
       state = further;
       made = there;
+      length = std::min(1.0, length / kShorter);
+      if (before - after < kNearEnough * before) break;
     } else {
       length *= kShorter;
     }

@@ -47,8 +47,7 @@ Sensor parse_sensor(std::string_view name) {
     const auto position_m = parse_number<double>(name.substr(kStrain.size()));
     if (!position_m || !std::isfinite(*position_m)) {
       throw InputError(fmt::format(
-          "sensor {}: the position after strain@ must be a number of metres, as in strain@0.05",
-          shown(name)));
+          "sensor {}: the position after strain@ must be in m, e.g. strain@0.05", shown(name)));
     }
     return {SensorKind::strain, *position_m};
   }
@@ -91,8 +90,7 @@ void require_valid(const Sensor& sensor, const Arm& arm) {
                                  to_string(sensor), arm.beam.length_m));
   }
   if (!arm.beam.thickness_m) {
-    throw InputError(fmt::format("sensor {}: needs beam.thickness, which the arm does not give",
-                                 to_string(sensor)));
+    throw InputError(fmt::format("sensor {}: needs beam.thickness", to_string(sensor)));
   }
 }
 
@@ -104,8 +102,8 @@ bool is_responsive(const Sensor& sensor, const Arm& arm) {
 void require_responsive(const Sensor& sensor, const Arm& arm) {
   if (!is_responsive(sensor, arm)) {
     throw InputError(
-        fmt::format("sensor {}: the strain at the tip is zero at every s without payload.inertia, "
-                    "so it has no zeros to look for; place it below {} m",
+        fmt::format("sensor {}: strain at the tip is identically zero without payload.inertia; "
+                    "place it below {} m",
                     to_string(sensor), arm.beam.length_m));
   }
 }

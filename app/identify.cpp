@@ -175,14 +175,14 @@ std::string table_text(const report::Table& table, std::size_t key_columns) {
 std::string fit_text(const measured::RunsFit& fit, const measured::Identification& identification,
                      const compare::AnalyticalModes& analytical) {
   if (!fit.refusal.empty()) return "";
+  const auto modes = std::ranges::count(fit.fit.poles, true, &measured::FittedPole::is_mode);
+  const auto others = std::ssize(fit.fit.poles) - modes;
   std::string text = report::to_paragraph(
-      fmt::format(
-          "Modal fit of {}, {:.4g} to {:.4g} Hz: {} modes, {} other second-order sections; {}{}",
-          report::joined(report::ids_of(fit, identification)), fit.fit.band.from_Hz,
-          fit.fit.band.to_Hz,
-          std::ranges::count(fit.fit.poles, true, &measured::FittedPole::is_mode),
-          std::ranges::count(fit.fit.poles, false, &measured::FittedPole::is_mode),
-          fit.fit.order_reason, fit.fit.converged ? "" : "; not converged"),
+      fmt::format("Modal fit of {}, {:.4g} to {:.4g} Hz: {} mode{}, {} other second-order "
+                  "section{}; {}{}",
+                  report::joined(report::ids_of(fit, identification)), fit.fit.band.from_Hz,
+                  fit.fit.band.to_Hz, modes, modes == 1 ? "" : "s", others, others == 1 ? "" : "s",
+                  fit.fit.order_reason, fit.fit.converged ? "" : "; not converged"),
       2);
   if (fit.fit.robust_covariance) {
     text += report::to_paragraph(

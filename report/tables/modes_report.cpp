@@ -157,7 +157,11 @@ nlohmann::ordered_json modes_json(const arm::Arm& arm, const response::ModalSumm
   Json zeros = Json::array();
   for (const auto& [sensor, set] : summary.zeros) {
     Json entry = {{"sensor", arm::to_string(sensor)}, {"s_rad_per_s", Json::array()}};
-    for (const auto s : set.s_rad_per_s) entry["s_rad_per_s"].push_back(complex_json(s));
+    entry["non_minimum_phase"] = Json::array();
+    for (const auto s : set.s_rad_per_s) {
+      entry["s_rad_per_s"].push_back(complex_json(s));
+      entry["non_minimum_phase"].push_back(is_non_minimum_phase(s));
+    }
     entry["rejected"] = Json::array();
     for (const auto& zero : set.rejected) {
       entry["rejected"].push_back({{"s_rad_per_s", complex_json(zero.s_rad_per_s)},

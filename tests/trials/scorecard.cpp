@@ -48,7 +48,7 @@ strength. "few": fewer than 20 trials, no statement. For this table, faint effec
 )";
 
 constexpr const char* kAboutReliability =
-    R"(## Claimed probabilities and intervals
+    R"(## Stated probabilities and intervals
 
 Here an effect is correct only if it is the one present; members of its class do not count.
 

@@ -52,7 +52,7 @@ std::vector<arm::Arm> ArmChoice::arms() const {
   for (const double mass : payload_masses_kg) {
     const bool again = std::ranges::any_of(
         arms, [mass](const arm::Arm& arm) { return arm.payload.mass_kg == mass; });
-    if (again) throw arm::InputError(fmt::format("--payload-mass: {} is given twice", mass));
+    if (again) throw arm::InputError(fmt::format("--payload-mass: {} given twice", mass));
     arms.push_back(base);
     arms.back().payload.mass_kg = mass;
   }
@@ -61,18 +61,19 @@ std::vector<arm::Arm> ArmChoice::arms() const {
 }
 
 void add_arm_choice(CLI::App& parser, ArmChoice& choice) {
-  parser.add_option("ARM", choice.file, "Arm file; the paper's arm when left out")
+  parser.add_option("ARM", choice.file, "Arm file; default: the arm of the paper")
       ->check(not_empty());
   parser
       .add_option("--payload-mass", choice.payload_masses_kg,
-                  "Payload mass [kg] in place of the file's; several separated by commas")
+                  "Payload mass [kg] instead of that in the file; several, comma-separated")
       ->delimiter(',')
       ->check(not_empty())
       ->allow_extra_args(false);
-  parser.add_option("--payload-inertia", choice.payload_inertia_kg_m2,
-                    "Payload inertia about its centre of mass [kg m^2] in place of the file's");
+  parser.add_option(
+      "--payload-inertia", choice.payload_inertia_kg_m2,
+      "Payload inertia about its centre of mass [kg m^2] instead of that in the file");
   parser.add_option("--hub-inertia", choice.hub_inertia_kg_m2,
-                    "Hub inertia [kg m^2] in place of the file's");
+                    "Hub inertia [kg m^2] instead of that in the file");
 }
 
 std::filesystem::path folder_of(const std::filesystem::path& out, const arm::Arm& arm,
@@ -93,7 +94,7 @@ std::string describe(const arm::Arm& arm) {
       linear.payload_tip_inertia_kg_m2, linear.kelvin_voigt_s,
       linear.hub_viscous_friction_N_m_s_per_rad);
   for (const auto& [name, effect] : arm.effects) lines += describe_effect(name, effect) + "\n";
-  if (!arm.effects.empty()) lines += "(the numbers above include the linear effects)\n";
+  if (!arm.effects.empty()) lines += "(values include the linear effects)\n";
   return lines;
 }
 
@@ -103,7 +104,7 @@ std::string left_out_of_roots(const arm::Arm& arm) {
     if (!effect.definition->is_of_linear_arm()) names.push_back(name);
   }
   if (names.empty()) return "";
-  return fmt::format("left out, since not part of the arm's linear equations: {}\n",
+  return fmt::format("not included (not part of the linear equations): {}\n",
                      fmt::join(names, ", "));
 }
 

@@ -119,7 +119,7 @@ measured::ColumnMappings ColumnChoice::mappings(std::span<const ColumnLabel> col
       const auto mapping =
           read_mapping(quantity, std::string_view(text).substr(equals + 1), columns);
       if (!mappings.emplace(quantity, mapping).second) {
-        throw InputError(fmt::format("{} is given twice", quantity));
+        throw InputError(fmt::format("{} given twice", quantity));
       }
     } catch (const InputError& error) {
       throw InputError(fmt::format("--column {}: {}", arm::shown(text), error.what()));
@@ -130,11 +130,10 @@ measured::ColumnMappings ColumnChoice::mappings(std::span<const ColumnLabel> col
 
 void add_column_choice(CLI::App& parser, ColumnChoice& choice) {
   parser
-      .add_option(
-          "--column", choice.typed,
-          "QUANTITY=NAME:UNIT:SCALE: the column NAME is time, torque or a sensor, in UNIT "
-          "(the file's unless given) times SCALE, as in 8.925 or 0.202*pi/180, which "
-          "carries a unit that is not the quantity's into SI. Given again: a further column")
+      .add_option("--column", choice.typed,
+                  "QUANTITY=NAME:UNIT:SCALE: column NAME is time, torque or a sensor, in UNIT "
+                  "(default: that of the file) times SCALE, e.g. 8.925 or 0.202*pi/180, a "
+                  "conversion factor to SI. Repeat for more columns")
       ->check(not_empty())
       ->allow_extra_args(false);
 }

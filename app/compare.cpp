@@ -114,7 +114,7 @@ void write_folder(const fs::path& folder, const compare::Comparison& comparison,
 std::string next_step(const CompareArguments& arguments) {
   const std::string arm = arguments.arm.file.empty() ? "" : " " + arguments.arm.file;
   if (arguments.output.folder.empty()) {
-    return fmt::format("next: plots and tables as files with  flexarm compare{} --out compared\n",
+    return fmt::format("next: write plots and tables with  flexarm compare{} --out compared\n",
                        arm);
   }
   return fmt::format("wrote {}\nnext: the modes of this arm with  flexarm modes{}\n",
@@ -161,33 +161,33 @@ int run_compare(const CompareArguments& arguments) {
 Command add_compare(CLI::App& program) {
   const auto arguments = std::make_shared<CompareArguments>();
   CLI::App* parser = program.add_subcommand(
-      "compare", "Poles, zeros, shapes and responses of the three formulations, side by side");
+      "compare",
+      "Compare poles, zeros, mode shapes and frequency responses of the three formulations");
   add_arm_choice(*parser, arguments->arm);
   parser
       ->add_option("--measured", arguments->measured_file,
-                   "Measured poles and zeros (modal CSV), shown beside the model's")
+                   "Measured poles and zeros (modal CSV), listed with those of the model")
       ->check(not_empty());
-  parser
-      ->add_option("--sensor", arguments->sensors,
-                   "Further sensors whose zeros and responses are compared, as in strain@0.05")
+  parser->add_option("--sensor", arguments->sensors, "Additional sensors, e.g. strain@0.05")
       ->delimiter(',')
       ->allow_extra_args(false);
-  parser->add_option("--poles", arguments->options.poles, "How many poles and hub zeros")
+  parser->add_option("--poles", arguments->options.poles, "Number of poles and hub zeros")
       ->capture_default_str();
   parser
       ->add_option("--zeros", arguments->options.non_collocated_zeros,
-                   "How many zeros of each sensor away from the hub")
+                   "Number of zeros of each non-collocated sensor")
       ->capture_default_str();
   parser
       ->add_option("--tolerance", arguments->options.root_tolerance,
-                   "Poles and zeros agree within this, relative")
+                   "Relative tolerance for poles and zeros")
       ->capture_default_str();
   parser
       ->add_option("--accuracy", arguments->options.wanted_accuracy,
-                   "Look for the cheapest setting that is this accurate, relative")
+                   "Relative accuracy for which the smallest model is sought")
       ->capture_default_str();
-  parser->add_flag("--quick", arguments->quick, "Leave the refinement series out");
-  parser->add_flag("--full", arguments->full, "Print every root's convergence and the root counts");
+  parser->add_flag("--quick", arguments->quick, "Skip the convergence study");
+  parser->add_flag("--full", arguments->full,
+                   "Print the convergence of every root and the root counts");
   add_output_choice(*parser, arguments->output, "Folder for CSV tables and SVG plots");
   parser->footer("Exit status: 0 the formulations agree; 1 they do not; 2 unusable input.\n" +
                  example("flexarm compare rig.toml --poles 6 --out compared"));

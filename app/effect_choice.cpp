@@ -14,7 +14,7 @@ namespace flexarm::app {
 void add_effect_choice(CLI::App& parser, std::vector<std::string>& effects) {
   parser
       .add_option("--effects", effects,
-                  "Causes to try, separated by commas; the whole vocabulary unless given")
+                  "Effects to test, comma-separated; default: all of the library")
       ->delimiter(',')
       ->allow_extra_args(false);
 }
@@ -30,7 +30,7 @@ std::vector<diagnose::Hypothesis> chosen_hypotheses(const std::vector<std::strin
     }
     if (std::ranges::find(all, name, &diagnose::Hypothesis::effect) == all.end()) {
       throw arm::InputError(fmt::format(
-          "{} {}: shows in none of these runs, or the arm file has it already", option, name));
+          "{} {}: has no influence on these runs, or is already in the arm file", option, name));
     }
   }
   std::erase_if(all, [&](const auto& hypothesis) {

@@ -50,7 +50,7 @@ int run_effects(const EffectsArguments& arguments) {
     print(report::effect_page(*one));
   } else {
     print(report::effect_list(effects::entries()) +
-          "\nnext: all of one effect with  flexarm effects coulomb_friction\n");
+          "\nnext: details of one effect with  flexarm effects coulomb_friction\n");
   }
   return kSuccess;
 }
@@ -59,16 +59,16 @@ int run_effects(const EffectsArguments& arguments) {
 
 Command add_effects(CLI::App& program) {
   const auto arguments = std::make_shared<EffectsArguments>();
-  CLI::App* parser = program.add_subcommand(
-      "effects", "List the effects that an arm file may switch on, or explain one");
-  parser->add_option("NAME", arguments->name, "One effect, as in coulomb_friction");
+  CLI::App* parser =
+      program.add_subcommand("effects", "List the effect library, or describe one effect");
+  parser->add_option("NAME", arguments->name, "Name of one effect, e.g. coulomb_friction");
   CLI::Option* markdown =
       parser->add_flag("--markdown", arguments->markdown, "Print docs/effects.md");
   parser
       ->add_flag("--schema", arguments->schema,
                  "Print a JSON Schema of the arm file, for editors that check TOML")
       ->excludes(markdown);
-  parser->add_option("--json", arguments->json_file, "File for all of it as JSON");
+  parser->add_option("--json", arguments->json_file, "File for the library as JSON");
   parser->footer(example("flexarm effects stribeck_friction"));
   return {parser, [arguments] { return run_effects(*arguments); }};
 }

@@ -20,13 +20,13 @@ void require_replaceable(const fs::path& folder, const FolderKind& kind) {
   std::error_code error;
   if (!fs::is_directory(folder, error) || fs::is_empty(folder, error)) return;
   if (!fs::exists(folder / kind.marker, error)) {
-    throw arm::InputError(fmt::format("{}: holds no {}, so --force leaves it alone",
+    throw arm::InputError(fmt::format("{}: contains no {}; not overwritten by --force",
                                       arm::shown(folder.string()), kind.marker));
   }
   for (const auto& entry : fs::directory_iterator(folder)) {
     const bool is_ours = std::ranges::count(kind.endings, entry.path().extension().string()) > 0;
     if (entry.is_regular_file() && is_ours) continue;
-    throw arm::InputError(fmt::format("{}: is not of {}, so --force leaves the folder alone",
+    throw arm::InputError(fmt::format("{}: not part of {}; folder not overwritten by --force",
                                       arm::shown(entry.path().string()), kind.what));
   }
 }
@@ -61,7 +61,7 @@ void require_no_input(const std::string& option, const fs::path& file,
   const fs::path written = fs::weakly_canonical(file);
   for (const fs::path& input : inputs) {
     if (fs::weakly_canonical(input) == written) {
-      throw arm::InputError(option + ": is a file of the measurement");
+      throw arm::InputError(option + ": file of the measurement");
     }
   }
 }

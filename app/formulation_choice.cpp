@@ -15,7 +15,7 @@ namespace {
 template <class T>
 void refuse(const char* option, const std::optional<T>& value, const std::string& formulation) {
   if (value) {
-    throw arm::InputError(fmt::format("{}: {} has no such setting", option, formulation));
+    throw arm::InputError(fmt::format("{}: not a setting of {}", option, formulation));
   }
 }
 
@@ -34,7 +34,7 @@ ChosenFormulation FormulationChoice::make(const arm::Arm& whole, int roots) cons
   if (roots > response::kMostRoots) {
     throw arm::out_of_range(
         "--modes", roots, "",
-        fmt::format("{} or less by {}; exact_tf has no such bound", response::kMostRoots, name));
+        fmt::format("at most {} for {}; exact_tf has no limit", response::kMostRoots, name));
   }
   if (name == fem::FemArm::kName) {
     refuse("--basis", basis, name);

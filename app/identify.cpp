@@ -70,12 +70,12 @@ std::vector<measured::Run> chosen_runs(const IdentifyArguments& arguments,
   for (const auto& id : arguments.runs) {
     const auto at = std::ranges::find(measurement.runs, id, &measured::Run::id);
     if (at == measurement.runs.end()) {
-      throw arm::InputError(fmt::format("--run {}: {} has no such run{}; it has {}", arm::shown(id),
-                                        arguments.file, arm::did_you_mean(id, ids),
+      throw arm::InputError(fmt::format("--run {}: no such run in {}{}; its runs are {}",
+                                        arm::shown(id), arguments.file, arm::did_you_mean(id, ids),
                                         fmt::join(ids, ", ")));
     }
     if (std::ranges::find(chosen, id, &measured::Run::id) != chosen.end()) {
-      throw arm::InputError(fmt::format("--run {}: is given twice", arm::shown(id)));
+      throw arm::InputError(fmt::format("--run {}: given twice", arm::shown(id)));
     }
     chosen.push_back(*at);
   }
@@ -112,7 +112,8 @@ void select_sensors(const IdentifyArguments& arguments, std::vector<measured::Me
   }
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     if (!seen[i]) {
-      throw arm::InputError(fmt::format("--sensor {}: no run measured it", arguments.sensors[i]));
+      throw arm::InputError(
+          fmt::format("--sensor {}: not measured in any run", arguments.sensors[i]));
     }
   }
 }
@@ -156,7 +157,7 @@ measured::IdentificationOptions options_of(const IdentifyArguments& arguments,
 measured::Identification identify_with_progress(std::vector<measured::MeasuredRun> runs,
                                                 measured::IdentificationOptions options) {
   const Interruption interruption;
-  report::Progress progress("per cent of the identification", kIdentificationSteps);
+  report::Progress progress("% of the identification", kIdentificationSteps);
   options.progress = [&](std::string_view, double fraction) {
     progress.reach(fraction);
     return !interruption.requested();
@@ -174,26 +175,24 @@ std::string table_text(const report::Table& table, std::size_t key_columns) {
 std::string fit_text(const measured::RunsFit& fit, const measured::Identification& identification,
                      const compare::AnalyticalModes& analytical) {
   if (!fit.refusal.empty()) return "";
+  const auto modes = std::ranges::count(fit.fit.poles, true, &measured::FittedPole::is_mode);
+  const auto others = std::ssize(fit.fit.poles) - modes;
   std::string text = report::to_paragraph(
-      fmt::format("Fit of {}, {:.4g} to {:.4g} Hz: {} modes and {} other blocks; {}{}",
+      fmt::format("Modal fit of {}, {:.4g} to {:.4g} Hz: {} mode{}, {} other second-order "
+                  "section{}; {}{}",
                   report::joined(report::ids_of(fit, identification)), fit.fit.band.from_Hz,
-                  fit.fit.band.to_Hz,
-                  std::ranges::count(fit.fit.poles, true, &measured::FittedPole::is_mode),
-                  std::ranges::count(fit.fit.poles, false, &measured::FittedPole::is_mode),
+                  fit.fit.band.to_Hz, modes, modes == 1 ? "" : "s", others, others == 1 ? "" : "s",
                   fit.fit.order_reason, fit.fit.converged ? "" : "; not converged"),
       2);
   if (fit.fit.robust_covariance) {
     text += report::to_paragraph(
-        "  Standard errors allow for residuals that are not white noise; they are of the best "
-        "model of this kind.",
-        2);
+        "  Residuals are not white: standard errors are robust (sandwich) estimates.", 2);
   }
   if (fit.fit.delay_s > 0.0) {
     text += report::to_paragraph(
-        fmt::format(
-            "  Sensors answer {:.3g} ms late, as their residues say, by delay or lag: poles "
-            "are right under it; zeros, slopes and gains are not.",
-            1e3 * fit.fit.delay_s),
+        fmt::format("  Common delay or lag of {:.3g} ms indicated by the residues. Poles are "
+                    "unaffected; zeros, slopes and gains are biased.",
+                    1e3 * fit.fit.delay_s),
         2);
   }
   text += "\n" + table_text(report::residual_table(fit), 1);
@@ -294,9 +293,9 @@ int run_identify(const IdentifyArguments& arguments) {
     throw;
   }
   if (arguments.folder.empty()) {
-    text +=
-        fmt::format("next: figures and modal tables with  flexarm identify {} --out identified\n",
-                    arm::shown(arguments.file));
+    text += fmt::format(
+        "next: write figures and modal tables with  flexarm identify {} --out identified\n",
+        arm::shown(arguments.file));
   } else {
     text += fmt::format("wrote {}\n", arguments.folder);
   }
@@ -309,32 +308,34 @@ int run_identify(const IdentifyArguments& arguments) {
 Command add_identify(CLI::App& program) {
   const auto arguments = std::make_shared<IdentifyArguments>();
   CLI::App* parser = program.add_subcommand(
-      "identify", "Spectra, poles, zeros, damping, slopes and gains of measured data");
+      "identify",
+      "Estimate spectra, poles, zeros, damping, hub slopes and gains from measured data");
   parser->add_option("FILE", arguments->file, "measurement.toml")->required()->check(not_empty());
-  parser->add_option("--run", arguments->runs, "Runs by id, separated by commas; all unless given")
+  parser->add_option("--run", arguments->runs, "Run ids, comma-separated; default: all")
       ->delimiter(',')
       ->allow_extra_args(false);
-  parser
-      ->add_option("--sensor", arguments->sensors, "Sensors, separated by commas; all unless given")
+  parser->add_option("--sensor", arguments->sensors, "Sensors, comma-separated; default: all")
       ->delimiter(',')
       ->allow_extra_args(false);
   add_spectrum_choice(*parser, arguments->spectrum);
   parser->add_option("--from-Hz", arguments->from_Hz, "Lowest frequency of peaks and fits");
   parser->add_option("--to-Hz", arguments->to_Hz,
-                     "Highest; where the torque has power unless given");
+                     "Highest frequency; default: where the torque has power");
   parser->add_option("--modes", arguments->modes,
-                     "Flexible blocks of a fit; as many as the data call for unless given");
-  parser->add_option("--order", arguments->highest_order, "Highest of the stabilisation chart")
+                     "Number of flexible second-order sections; default: by BIC");
+  parser
+      ->add_option("--order", arguments->highest_order, "Highest order of the stabilisation chart")
       ->capture_default_str();
   parser->add_option("--total-inertia", arguments->total_inertia_kg_m2,
-                     "I_T [kg m^2] for slopes and gains; as the rigid body turns unless given");
-  parser->add_flag("--no-fit", arguments->no_fit, "Spectra, peaks and circles alone");
+                     "Total inertia I_T [kg m^2] for slopes and gains; default: estimated from the "
+                     "rigid-body mode");
+  parser->add_flag("--no-fit", arguments->no_fit, "Spectra, peaks and circle fits only");
   parser
       ->add_option("--out", arguments->folder,
-                   "New folder for modal tables, responses as CSV, figures as SVG and the JSON")
+                   "New folder for modal tables, responses (CSV), figures (SVG) and JSON")
       ->check(not_empty());
-  parser->add_flag("--force", arguments->force, "Replace what this command wrote in the folder");
-  parser->add_option("--json", arguments->json_file, "File for everything in full precision")
+  parser->add_flag("--force", arguments->force, "Overwrite a folder written by this command");
+  parser->add_option("--json", arguments->json_file, "JSON file, full precision")
       ->check(not_empty());
   parser->footer(example("flexarm identify simulated/measurement.toml --out identified"));
   return {parser, [arguments] { return run_identify(*arguments); }};

@@ -80,7 +80,7 @@ RecordFormat record_format(const ImportArguments& arguments) {
   throw arm::InputError(fmt::format(
       "{} {}: must be {}{}", arguments.record_format.empty() ? "--save-as" : "--to",
       arm::shown(arguments.record_format.empty() ? arguments.record_file : arguments.record_format),
-      arguments.record_format.empty() ? "a file in .csv, .uff or .mat, or with --to " : "",
+      arguments.record_format.empty() ? "a .csv, .uff or .mat file, or used with --to " : "",
       fmt::join(words, " or ")));
 }
 
@@ -212,13 +212,12 @@ int run_import(const ImportArguments& arguments) {
   std::optional<RecordFormat> format;
   if (!arguments.record_file.empty()) format = record_format(arguments);
   if (!format && !arguments.record_format.empty()) {
-    throw arm::InputError("--to: is the format of a file that --save-as names");
+    throw arm::InputError("--to: needs --save-as");
   }
   for (const auto& [option, file] : {std::pair{"--json", &arguments.json_file},
                                      std::pair{"--save-as", &arguments.record_file}}) {
     if (!file->empty() && fs::weakly_canonical(*file) == fs::weakly_canonical(arguments.file)) {
-      throw arm::InputError(
-          fmt::format("{} {}: is the file that is read", option, arm::shown(*file)));
+      throw arm::InputError(fmt::format("{} {}: is the input file", option, arm::shown(*file)));
     }
   }
   if (arguments.folder.empty()) {
@@ -250,35 +249,32 @@ int run_import(const ImportArguments& arguments) {
   }
   if (format) print(fmt::format("wrote {}\n", arm::shown(arguments.record_file)));
   if (arguments.folder.empty()) {
-    print(fmt::format("next: keep it as a measurement with  flexarm import {} --out measured\n",
+    print(fmt::format("next: write it as a measurement with  flexarm import {} --out measured\n",
                       arm::shown(arguments.file)));
   } else {
     print(fmt::format(
         "wrote {0}: measurement.toml, arm.toml{1} and {2}\n"
         "next: {3}flexarm modes {0}/arm.toml\n",
-        arguments.folder, arguments.arm_file.empty() ? " to be edited" : "", planned.file,
-        arguments.arm_file.empty() ? "edit the arm, then  " : "the arm's modes with  "));
+        arguments.folder, arguments.arm_file.empty() ? " (template to edit)" : "", planned.file,
+        arguments.arm_file.empty() ? "edit the arm file, then  " : "modes of the arm with  "));
   }
   return kSuccess;
 }
 
 void add_run_options(CLI::App& parser, ImportArguments& arguments) {
-  parser.add_option("--kind", arguments.kind,
-                    "What the file holds: time, frf or modal; told by the file unless given");
+  parser.add_option("--kind", arguments.kind, "Content: time, frf or modal; default: detected");
   parser.add_option("--period", arguments.period_s,
-                    "Sampling period [s] of a file without a column of times");
-  parser.add_option("--id", arguments.id, "Name of the run; that of the file unless given");
-  parser.add_option("--purpose", arguments.purpose, "Of the run: estimation or validation");
+                    "Sampling period [s] of a file without a time column");
+  parser.add_option("--id", arguments.id, "Run id; default: file name");
+  parser.add_option("--purpose", arguments.purpose, "Purpose of the run: estimation or validation");
   parser
       .add_option("--hold", arguments.hold,
-                  "Torque between samples: zero, constant, or first, linear")
+                  "Torque between samples: zero (zero-order hold) or first (first-order hold)")
       ->capture_default_str();
-  parser
-      .add_option("--initial", arguments.initial,
-                  "The arm at the first sample: rest, or free, in motion")
+  parser.add_option("--initial", arguments.initial, "Initial state: rest or free (unknown)")
       ->capture_default_str();
   parser.add_option("--payload-mass", arguments.payload_mass_kg,
-                    "Payload mass [kg] of the run, in place of the arm's");
+                    "Payload mass [kg] of the run instead of that of the arm");
   parser.add_option("--payload-inertia", arguments.payload_inertia_kg_m2,
                     "Payload inertia about its centre of mass [kg m^2] of the run");
 }
@@ -288,27 +284,26 @@ void add_run_options(CLI::App& parser, ImportArguments& arguments) {
 Command add_import(CLI::App& program) {
   const auto arguments = std::make_shared<ImportArguments>();
   CLI::App* parser = program.add_subcommand(
-      "import", "Read a log of any program (text, universal file, MATLAB) as a measurement");
-  parser->add_option("FILE", arguments->file, "The file to read")->required()->check(not_empty());
+      "import", "Convert a log file (text, universal file, MATLAB) to a measurement");
+  parser->add_option("FILE", arguments->file, "Input file")->required()->check(not_empty());
   add_column_choice(*parser, arguments->columns);
   add_run_options(*parser, *arguments);
-  parser
-      ->add_option("--arm", arguments->arm_file,
-                   "Arm file to go with it; one to be edited when left out")
+  parser->add_option("--arm", arguments->arm_file, "Arm file; default: a template to edit")
       ->check(not_empty());
   parser->add_option("--name", arguments->name, "Name of the measurement");
   parser
       ->add_option("--out", arguments->folder,
                    "Folder for measurement.toml, arm.toml and the run as CSV in SI units")
       ->check(not_empty());
-  parser->add_flag("--force", arguments->force, "Replace the measurement that is in the folder");
+  parser->add_flag("--force", arguments->force, "Overwrite the measurement in the folder");
   parser
       ->add_option("--save-as", arguments->record_file,
-                   "File for the run alone: .csv, .uff (universal file) or .mat")
+                   "File for the run only: .csv, .uff (universal file) or .mat")
       ->check(not_empty());
-  parser->add_option("--to", arguments->record_format,
-                     "Its format: csv, uff58, uff58b (binary) or mat; by its name unless given");
-  parser->add_option("--json", arguments->json_file, "File for what was read, and how")
+  parser->add_option(
+      "--to", arguments->record_format,
+      "Format of that file: csv, uff58, uff58b (binary) or mat; default: by its extension");
+  parser->add_option("--json", arguments->json_file, "JSON file: content and assumptions")
       ->check(not_empty());
   parser->footer(example("flexarm import simulated/bang-bang.csv --save-as bang-bang.uff"));
   return {parser, [arguments] { return run_import(*arguments); }};

@@ -51,11 +51,11 @@ RunKind kind_of(const ForeignFile& file, std::optional<RunKind> given) {
   if (!given && kinds.size() == 1) return kinds.front();
   if (!given) {
     throw InputError(
-        "holds signals in time and frequency responses; say which with --kind time or --kind frf");
+        "contains time signals and frequency responses; choose with --kind time or --kind frf");
   }
   if (std::ranges::count(kinds, *given) > 0) return *given;
-  throw InputError(fmt::format("--kind {}: the file holds {}", to_string(*given),
-                               kinds.front() == RunKind::time  ? "signals in time"
+  throw InputError(fmt::format("--kind {}: the file contains {}", to_string(*given),
+                               kinds.front() == RunKind::time  ? "time signals"
                                : kinds.front() == RunKind::frf ? "frequency responses"
                                                                : "a modal table"));
 }
@@ -118,7 +118,7 @@ void require_told(const measured::ColumnMappings& mappings,
        {std::pair{"time", ", or the sampling period with --period"}, std::pair{"torque", ""}}) {
     if (mappings.contains(quantity)) continue;
     throw InputError(fmt::format(
-        "{0} cannot be told; columns: {1}; say which is with --column {0}=NAME:UNIT:SCALE{2}",
+        "{0}: column not recognised; columns: {1}; assign one with --column {0}=NAME:UNIT:SCALE{2}",
         quantity, join_names(labels), otherwise));
   }
 }
@@ -173,11 +173,9 @@ ImportedRun import_run(const std::string& path, std::optional<RunKind> kind,
     const bool is_long_form =
         run.kind != RunKind::time && file.format == measured::ForeignFormat::text;
     if (is_long_form && !columns.typed.empty()) {
-      throw InputError(
-          "--column: is for signals in time and responses, which this file names "
-          "itself");
+      throw InputError("--column: not applicable, this file names its columns");
     }
-    if (period_s && run.kind != RunKind::time) throw InputError("--period: is for signals in time");
+    if (period_s && run.kind != RunKind::time) throw InputError("--period: only for time signals");
     if (is_long_form) {
       read_text_kind(file, name, run);
     } else {

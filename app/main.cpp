@@ -34,28 +34,29 @@ void complain(std::string_view line) {
 
 int run(int argc, const char* const* argv) {
   CLI::App program(
-      "Models a single-link flexible manipulator in three independent ways (exact transfer\n"
-      "function, finite elements, assumed modes) and compares them with each other and with\n"
-      "measurements.\n",
+      "Models a single-link flexible manipulator in three independent formulations (exact "
+      "transfer\n"
+      "function, finite elements, assumed modes), compares them with each other and with "
+      "measurements,\n"
+      "and identifies effects that a simulation lacks.\n",
       "flexarm");
   program.require_subcommand(0, 1);
   program.set_version_flag("-V,--version", version_text(), "Print version, build and libraries");
   program.footer(
-      "A first session:\n"
-      "  flexarm compare           the paper's arm by three formulations, side by side\n"
-      "  flexarm new rig.toml      an arm file to edit\n"
-      "  flexarm modes rig.toml    its poles, zeros, slopes and shapes\n"
-      "  flexarm response rig.toml its frequency response, state space, Bode diagram\n"
-      "  flexarm simulate rig.toml its response in time to a torque\n"
-      "  flexarm import log.csv    a log of any program as a measurement\n"
-      "  flexarm identify simulated/measurement.toml  its poles, zeros, damping and gains\n"
-      "  flexarm diagnose simulated/measurement.toml  what the simulation gets wrong\n"
-      "  flexarm plan rig.toml measurement-plan.toml  what an experiment could tell\n"
-      "  flexarm sweep --figure 18 poles over payload, by three formulations\n"
-      "  flexarm effects           what an arm file may add to an ideal arm\n"
-      "  flexarm paper             the paper's equations and tables, recomputed\n"
-      "\nExit status: 0 success; 1 failure; 2 input that cannot be used, with one line on\n"
-      "standard error.");
+      "Typical session:\n"
+      "  flexarm compare           compare the three formulations (arm of the paper)\n"
+      "  flexarm new rig.toml      write an arm file template\n"
+      "  flexarm modes rig.toml    poles, zeros, hub slopes, mode shapes\n"
+      "  flexarm response rig.toml frequency response, state space, Bode diagram\n"
+      "  flexarm simulate rig.toml time response to a torque\n"
+      "  flexarm import log.csv    convert a log file to a measurement\n"
+      "  flexarm identify simulated/measurement.toml  poles, zeros, damping, gains\n"
+      "  flexarm diagnose simulated/measurement.toml  effects that the simulation lacks\n"
+      "  flexarm plan rig.toml measurement-plan.toml  detectability before an experiment\n"
+      "  flexarm sweep --figure 18 poles over payload\n"
+      "  flexarm effects           list of the effects\n"
+      "  flexarm paper             check of the paper's equations and tables\n\n"
+      "Exit status: 0 success; 1 failure; 2 invalid input, with one line on standard error.");
   // In the order of a first session.
   const std::array commands = {add_new(program),      add_modes(program),    add_response(program),
                                add_identify(program), add_diagnose(program), add_simulate(program),

@@ -72,14 +72,14 @@ std::string shortfalls(const ChosenFormulation& chosen, const response::ModalSum
   for (const auto& [sensor, zeros] : summary.zeros) {
     if (std::ssize(zeros.s_rad_per_s) == count) continue;
     lines +=
-        fmt::format("{} of {} zeros of {}: {} further roots rejected\n", zeros.s_rad_per_s.size(),
-                    count, arm::to_string(sensor), zeros.rejected.size());
+        fmt::format("{} of {} zeros of {} found; {} spurious roots rejected\n",
+                    zeros.s_rad_per_s.size(), count, arm::to_string(sensor), zeros.rejected.size());
   }
   return lines.empty() ? "" : lines + "\n";
 }
 
 report::Table certificate_table(const std::vector<CertifiedList>& lists) {
-  report::Table table{"Certificate by ball arithmetic",
+  report::Table table{"Certificate (ball arithmetic)",
                       {{"roots"},
                        {"given"},
                        {"counted"},
@@ -176,7 +176,7 @@ int run_modes(const ModesArguments& arguments) {
                                report::json_document("flexarm.modes/1", {{"arms", documents}}));
   }
   if (!arguments.output.folder.empty()) text += fmt::format("wrote {}\n", arguments.output.folder);
-  text += fmt::format("next: see the three formulations agree with  flexarm compare{}\n",
+  text += fmt::format("next: compare the three formulations with  flexarm compare{}\n",
                       arguments.arm.file.empty() ? "" : " " + arguments.arm.file);
   print(text);
   return proved ? kSuccess : kFailure;
@@ -187,20 +187,20 @@ int run_modes(const ModesArguments& arguments) {
 Command add_modes(CLI::App& program) {
   const auto arguments = std::make_shared<ModesArguments>();
   CLI::App* parser =
-      program.add_subcommand("modes", "Poles, zeros, hub slopes and mode shapes of one arm");
+      program.add_subcommand("modes", "Compute poles, zeros, hub slopes and mode shapes of an arm");
   add_arm_choice(*parser, arguments->arm);
   add_formulation_choice(*parser, arguments->formulation);
-  parser->add_option("--modes", arguments->count, "How many modes, and zeros a sensor")
+  parser->add_option("--modes", arguments->count, "Number of modes, and of zeros per sensor")
       ->capture_default_str();
   parser
       ->add_option("--sensor", arguments->sensors,
-                   "Sensors whose zeros are shown, separated by commas")
+                   "Sensors whose zeros are listed, comma-separated")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->capture_default_str();
   parser->add_flag("--certificate", arguments->certificate,
-                   "Prove the roots of exact_tf and their number by ball arithmetic");
-  add_output_choice(*parser, arguments->output, "Folder for CSV tables and the shapes as SVG");
+                   "Certify the roots of exact_tf and their count by ball arithmetic");
+  add_output_choice(*parser, arguments->output, "Folder for CSV tables and mode shapes as SVG");
   parser->footer(example("flexarm modes rig.toml --sensor hub_angle,strain@0.05 --certificate"));
   return {parser, [arguments] { return run_modes(*arguments); }};
 }

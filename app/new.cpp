@@ -24,7 +24,7 @@ int write_starter(const fs::path& path, bool force, const std::string& json) {
   std::error_code ignored;
   if (!force && fs::exists(fs::symlink_status(path, ignored))) {
     throw arm::InputError(
-        fmt::format("{}: exists already; --force replaces it", arm::shown(path.string())));
+        fmt::format("{}: already exists; --force overwrites it", arm::shown(path.string())));
   }
   measured::write_atomically(path, starter_text());
   if (!json.empty()) {
@@ -32,7 +32,7 @@ int write_starter(const fs::path& path, bool force, const std::string& json) {
         json, report::json_document("flexarm.new/1", {{"file", path.string()},
                                                       {"arm", report::arm_json(starter_arm())}}));
   }
-  print(fmt::format("wrote {}\nnext: edit its numbers, then  flexarm modes {}\n",
+  print(fmt::format("wrote {}\nnext: edit the values, then  flexarm modes {}\n",
                     arm::shown(path.string()), arm::shown(path.string())));
   return kSuccess;
 }
@@ -46,10 +46,11 @@ Command add_new(CLI::App& program) {
     std::string json;
   };
   const auto options = std::make_shared<Options>();
-  CLI::App* parser = program.add_subcommand("new", "Write a commented arm file to start from");
-  parser->add_option("FILE", options->path, "The arm file to write, as in rig.toml")->required();
-  parser->add_flag("--force", options->force, "Replace a file that exists already");
-  parser->add_option("--json", options->json, "File for the arm's numbers in full precision");
+  CLI::App* parser = program.add_subcommand("new", "Write a commented arm file template");
+  parser->add_option("FILE", options->path, "Arm file to write, e.g. rig.toml")->required();
+  parser->add_flag("--force", options->force, "Overwrite an existing file");
+  parser->add_option("--json", options->json,
+                     "JSON file with the numbers of the arm, full precision");
   parser->footer(example("flexarm new rig.toml"));
   return {parser,
           [options] { return write_starter(options->path, options->force, options->json); }};

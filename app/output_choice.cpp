@@ -19,8 +19,7 @@ void OutputChoice::prepare() const {
 
 void add_output_choice(CLI::App& parser, OutputChoice& choice, const std::string& content) {
   parser.add_option("--out", choice.folder, content)->check(not_empty());
-  parser.add_option("--json", choice.json_file, "File for everything in full precision")
-      ->check(not_empty());
+  parser.add_option("--json", choice.json_file, "JSON file, full precision")->check(not_empty());
 }
 
 }  // namespace flexarm::app

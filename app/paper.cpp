@@ -56,7 +56,7 @@ int run_paper(const PaperArguments& arguments) {
   const std::string text = report::paper_text(findings, arguments.part);
   if (text.empty()) {
     throw arm::InputError(fmt::format(
-        "no part \"{}\": give the number of an equation (22), or a word of a heading (\"Table 6\")",
+        "no part \"{}\": give an equation number (22) or a word of a heading (\"Table 6\")",
         arguments.part));
   }
   if (!arguments.json.empty())
@@ -68,8 +68,8 @@ int run_paper(const PaperArguments& arguments) {
     if (!written.empty()) print(fmt::format("wrote {}\n", written));
   }
   print(arguments.part.empty()
-            ? "next: one equation alone with  flexarm paper 22\n"
-            : "next: the paper's arm in three formulations with  flexarm compare\n");
+            ? "next: one equation with  flexarm paper 22\n"
+            : "next: compare the three formulations for this arm with  flexarm compare\n");
   return kSuccess;
 }
 
@@ -80,13 +80,13 @@ Command add_paper(CLI::App& program) {
   CLI::App* parser = program.add_subcommand(
       "paper", "Check each equation and table of the paper against the three formulations");
   parser->add_option("PART", arguments->part,
-                     "Only this: the number of an equation, or words such as \"Table 6\"");
+                     "Only this part: equation number, or words such as \"Table 6\"");
   parser->add_option("--json", arguments->json, "Write all values to this file")
       ->check(not_empty());
   parser->add_option("--out", arguments->out, "Write text, CSV and JSON to this folder")
       ->check(not_empty());
   parser->add_option("--update", arguments->document,
-                     "Make the marked blocks of this document anew (docs/paper.md)");
+                     "Update the marked blocks of this document (docs/paper.md)");
   parser->footer(example("flexarm paper 22"));
   return {parser, [arguments] { return run_paper(*arguments); }};
 }

@@ -37,7 +37,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kPlanJson = "plan.json";
-constexpr const char* kBetterPlan = "better-plan.toml";
+constexpr const char* kBetterPlan = "improved-plan.toml";
 /// Steps of the progress line.
 constexpr std::int64_t kPlanSteps = 100;
 /// Further runs that are printed.
@@ -86,7 +86,7 @@ diagnose::Plan plan_with_progress(const PlanArguments& arguments) {
   diagnose::PlanOptions options;
   options.unknown = arguments.refitted;
   const Interruption interruption;
-  report::Progress progress("per cent of the plan", kPlanSteps);
+  report::Progress progress("% of the plan", kPlanSteps);
   auto plan = diagnose::plan_experiment(arm, planned, hypotheses, options,
                                         [&](std::string_view, double fraction) {
                                           progress.reach(fraction);
@@ -106,18 +106,18 @@ std::string text_of_plan(const diagnose::Plan& plan) {
   if (plan.ties.empty()) return text;
   text += "\n" + report::to_text(report::tie_table(plan), {.key_columns = 2}) + "\n";
   text += report::to_text(
-      report::further_run_table(plan.further, kPrintedRuns, "What one run more would tell"));
+      report::further_run_table(plan.further, kPrintedRuns, "Value of one additional run"));
   if (plan.added.empty()) {
-    return text + "\nNone of the further runs that were tried would tell any of them.\n";
+    return text + "\nNone of the additional runs considered resolves an indistinguishable pair.\n";
   }
   return text + "\n" +
-         report::to_text(report::further_run_table(plan.added, plan.added.size(),
-                                                   "The better plan: these too, in this order"));
+         report::to_text(report::further_run_table(
+             plan.added, plan.added.size(), "Improved plan: additional runs, in order of choice"));
 }
 
 void write_plan(const PlanArguments& arguments, const diagnose::Plan& plan) {
   const std::string better = diagnose::format_measurement_plan(plan.better);
-  const std::string json = report::json_document("flexarm.plan/1", report::plan_json(plan));
+  const std::string json = report::json_document("flexarm.plan/2", report::plan_json(plan));
   if (!arguments.folder.empty()) {
     const std::vector<measured::NamedContent> files = {
         {"effects.csv", report::to_csv(report::detection_table(plan))},
@@ -149,7 +149,7 @@ int run_plan(const PlanArguments& arguments) {
     text += fmt::format("\nwrote {}\n", arguments.better_file);
   } else {
     text +=
-        fmt::format("\nnext: the better plan as a file with  flexarm plan {} {} --write {}\n",
+        fmt::format("\nnext: write the improved plan with  flexarm plan {} {} --write {}\n",
                     arm::shown(arguments.arm_file), arm::shown(arguments.plan_file), kBetterPlan);
   }
   print(text);
@@ -161,28 +161,28 @@ int run_plan(const PlanArguments& arguments) {
 Command add_plan(CLI::App& program) {
   const auto arguments = std::make_shared<PlanArguments>();
   CLI::App* parser = program.add_subcommand(
-      "plan", "Before any data: which effects a planned experiment can find and tell apart");
+      "plan", "Detectability and distinguishability of effects in a planned experiment");
   parser->add_option("ARM", arguments->arm_file, "arm.toml")->required()->check(not_empty());
   parser->add_option("PLAN", arguments->plan_file, "measurement-plan.toml")
       ->required()
       ->check(not_empty());
   add_effect_choice(*parser, arguments->effects);
   parser
-      ->add_option("--refit", arguments->refitted,
-                   "Effects whose size is not known, separated by commas: fitted in any case, and "
-                   "no causes; the arm file is trusted unless given")
+      ->add_option(
+          "--refit", arguments->refitted,
+          "Effects treated as nuisance parameters, comma-separated; default: the arm file is exact")
       ->delimiter(',')
       ->allow_extra_args(false);
-  parser->add_option("--write", arguments->better_file, "File for the better plan")
+  parser->add_option("--write", arguments->better_file, "File for the improved plan")
       ->check(not_empty());
   parser
       ->add_option("--out", arguments->folder,
-                   "New folder for the better plan, tables as CSV, a figure and the JSON")
+                   "New folder for the improved plan, CSV tables, a figure and JSON")
       ->check(not_empty());
-  parser->add_flag("--force", arguments->force, "Replace what this command wrote in the folder");
-  parser->add_option("--json", arguments->json_file, "File for everything in full precision")
+  parser->add_flag("--force", arguments->force, "Overwrite a folder written by this command");
+  parser->add_option("--json", arguments->json_file, "JSON file, full precision")
       ->check(not_empty());
-  parser->footer(example("flexarm plan rig.toml measurement-plan.toml --write better-plan.toml"));
+  parser->footer(example("flexarm plan rig.toml measurement-plan.toml --write improved-plan.toml"));
   return {parser, [arguments] { return run_plan(*arguments); }};
 }
 

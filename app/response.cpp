@@ -52,7 +52,7 @@ response::ResponseOptions options_of(const ResponseArguments& arguments) {
   for (const auto& name : arguments.sensors) options.sensors.push_back(arm::parse_sensor(name));
   const bool grid = options.from_Hz || options.to_Hz;
   if (!options.frequency_Hz.empty()) {
-    if (grid) throw arm::InputError("--frequencies: not beside --from-Hz or --to-Hz");
+    if (grid) throw arm::InputError("--frequencies: not together with --from-Hz or --to-Hz");
     response::require_ascending(options.frequency_Hz, "--frequencies");
   }
   if (options.from_Hz && !(*options.from_Hz > 0.0)) {
@@ -81,8 +81,7 @@ ChosenFormulation make_formulation(const ResponseArguments& arguments, const arm
   const bool discrete = arguments.formulation.name != "exact_tf";
   if (discrete && roots > response::kMostRoots && options.modes < response::kMostRoots) {
     throw arm::InputError(fmt::format(
-        "some {} roots lie below the highest frequency: must be {} or less by {}; exact_tf "
-        "has no such bound",
+        "about {} roots lie below the highest frequency: at most {} for {}; exact_tf has no limit",
         roots, response::kMostRoots, arguments.formulation.name));
   }
   return arguments.formulation.make(arm, roots);
@@ -106,10 +105,11 @@ std::string study_text(const response::ResponseStudy& study,
   const auto frequencies = study.response.frequency_Hz.size();
   const bool listed = !options.frequency_Hz.empty();
   auto table = report::response_table(study.response, listed ? 0 : kPrintedFrequencies);
-  table.caption = table.rows.size() == frequencies
-                      ? fmt::format("Response at {} frequencies", frequencies)
-                      : fmt::format("Response at {} of {} frequencies; all with --out and --json",
-                                    table.rows.size(), frequencies);
+  table.caption =
+      table.rows.size() == frequencies
+          ? fmt::format("Frequency response at {} frequencies", frequencies)
+          : fmt::format("Frequency response at {} of {} frequencies (all with --out and --json)",
+                        table.rows.size(), frequencies);
   text += report::to_text(table) + "\n";
   if (study.state_space) text += report::to_text(report::state_space_table(study)) + "\n";
   return text;
@@ -142,21 +142,19 @@ std::string next_step(const ResponseArguments& arguments) {
   const bool drawn = !arguments.output.folder.empty();
   if (drawn) lines += fmt::format("wrote {}\n", arguments.output.folder);
   if (drawn && !arguments.state_space_file.empty()) {
-    return lines + fmt::format(
-                       "next: the three formulations side by side with  flexarm "
-                       "compare{}\n",
-                       arm);
+    return lines +
+           fmt::format("next: compare the three formulations with  flexarm compare{}\n", arm);
   }
   if (drawn) {
-    return lines + fmt::format(
-                       "next: a model for control with  flexarm response{} --state-space "
-                       "arm.mat\n",
-                       arm);
+    return lines +
+           fmt::format(
+               "next: export a state-space model with  flexarm response{} --state-space arm.mat\n",
+               arm);
   }
-  return lines + fmt::format(
-                     "next: Bode and Nyquist diagrams with  flexarm response{} --out "
-                     "response\n",
-                     arm);
+  return lines +
+         fmt::format(
+             "next: write Bode and Nyquist diagrams with  flexarm response{} --out response\n",
+             arm);
 }
 
 int run_response(const ResponseArguments& arguments) {
@@ -168,12 +166,12 @@ int run_response(const ResponseArguments& arguments) {
   if (options.state_space) {
     require_state_space_file(arguments.state_space_file);
     if (arms.size() > 1) {
-      throw arm::InputError("--state-space: takes one arm; --payload-mass has several");
+      throw arm::InputError("--state-space: needs one arm; --payload-mass has several values");
     }
   }
   if (!arguments.state_space_file.empty() &&
       arguments.state_space_file == arguments.output.json_file) {
-    throw arm::InputError("--json: is the file of --state-space too");
+    throw arm::InputError("--json: same file as --state-space");
   }
   arguments.output.prepare();
 
@@ -194,7 +192,7 @@ int run_response(const ResponseArguments& arguments) {
     if (!arguments.output.folder.empty()) {
       write_folder(folder_of(arguments.output.folder, arm, arms.size()), chosen.name, study);
       if (std::ranges::all_of(study.resonances, &std::vector<response::Resonance>::empty)) {
-        text += "no Nyquist diagrams: no damped pole lies in the range\n";
+        text += "no Nyquist diagrams: no damped pole in the frequency range\n";
       }
     }
   }
@@ -213,36 +211,38 @@ Command add_response(CLI::App& program) {
   const auto arguments = std::make_shared<ResponseArguments>();
   auto& options = arguments->options;
   CLI::App* parser = program.add_subcommand(
-      "response", "Frequency response, pole and zero forms, state space of one arm");
+      "response",
+      "Compute frequency response, factored and modal forms, and state space of an arm");
   add_arm_choice(*parser, arguments->arm);
   add_formulation_choice(*parser, arguments->formulation);
-  parser->add_option("--sensor", arguments->sensors, "Sensors, separated by commas")
+  parser->add_option("--sensor", arguments->sensors, "Sensors, comma-separated")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->capture_default_str();
   parser->add_option("--from-Hz", options.from_Hz,
-                     "Lowest frequency; well below the first pole when left out");
+                     "Lowest frequency; default: well below the first pole");
   parser->add_option("--to-Hz", options.to_Hz,
-                     "Highest frequency; beyond the last of --modes poles when left out");
+                     "Highest frequency; default: above the last of the --modes poles");
   parser
       ->add_option("--points", options.points,
-                   "Frequencies on a logarithmic scale; poles and zeros get more around them")
+                   "Number of logarithmic frequencies; refined at poles and zeros")
       ->capture_default_str();
   parser
       ->add_option("--frequencies", options.frequency_Hz,
-                   "A list [Hz] in place of those, separated by commas")
+                   "Frequencies [Hz] instead of a range, comma-separated")
       ->delimiter(',')
       ->allow_extra_args(false);
   parser
       ->add_option("--modes", options.modes,
-                   "Poles, zeros a sensor, and flexible modes of the state space")
+                   "Number of poles, of zeros per sensor, and of flexible modes of the state space")
       ->capture_default_str();
   parser
-      ->add_option("--state-space", arguments->state_space_file,
-                   "File for A, B, C, D and their response: .json, .csv or .mat (MATLAB 5)")
+      ->add_option(
+          "--state-space", arguments->state_space_file,
+          "File for A, B, C, D and their frequency response: .json, .csv or .mat (MATLAB 5)")
       ->check(not_empty());
   parser->add_flag("--modes-alone", arguments->modes_alone,
-                   "State space without the static correction for the modes left out");
+                   "State space without static correction for omitted modes");
   add_output_choice(*parser, arguments->output,
                     "Folder for CSV tables, Bode and Nyquist diagrams as SVG");
   parser->footer(example("flexarm response rig.toml --sensor hub_angle,strain@0.05 --to-Hz 200"));

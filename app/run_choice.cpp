@@ -63,7 +63,7 @@ Keys read_keys(std::string_view text) {
     }
     const std::string key(part.substr(0, equals));
     if (std::ranges::count(keys, key, &Keys::value_type::first) > 0) {
-      throw InputError(fmt::format("{}: is given twice", arm::shown(key)));
+      throw InputError(fmt::format("{}: given twice", arm::shown(key)));
     }
     keys.emplace_back(key, part.substr(equals + 1));
   }
@@ -199,7 +199,7 @@ void count_equal_ids(std::vector<PlannedRun>& runs) {
   std::set<std::string> used;
   for (const auto& run : runs) {
     if (run.has_own_id && !used.insert(run.id).second) {
-      throw InputError(fmt::format("id = {}: given to two runs", run.id));
+      throw InputError(fmt::format("id = {}: used for two runs", run.id));
     }
   }
   for (auto& run : runs) {
@@ -216,8 +216,8 @@ void count_equal_ids(std::vector<PlannedRun>& runs) {
 std::string require_id(const std::string& id) {
   const bool is_hidden = id.starts_with('.');
   if (id.empty() || is_hidden || id.find_first_not_of(kIdCharacters) != std::string::npos) {
-    throw InputError(fmt::format("id = {}: must be letters, digits, - _ and ., as it names a file",
-                                 arm::shown(id)));
+    throw InputError(fmt::format(
+        "id = {}: must be letters, digits, - _ and ., because it is a file name", arm::shown(id)));
   }
   return id;
 }
@@ -244,7 +244,7 @@ std::vector<PlannedRun> RunChoice::runs(const arm::Arm& arm,
   std::vector<std::string> typed = excitations;
   if (typed.empty() && torque_files.empty()) typed = {"bang-bang"};
   if (typed.empty() && (duration_s || period_s)) {
-    throw InputError(fmt::format("{}: a torque file has its own; it is for --excitation",
+    throw InputError(fmt::format("{}: only with --excitation; a torque file has its own",
                                  duration_s ? "--duration" : "--period"));
   }
   std::vector<PlannedRun> plain;
@@ -252,8 +252,8 @@ std::vector<PlannedRun> RunChoice::runs(const arm::Arm& arm,
     return text.substr(0, text.find(':')) == response::kSteppedSine;
   };
   if (!typed.empty() && (duration_s || period_s) && std::ranges::all_of(typed, is_stepped)) {
-    throw InputError(fmt::format("{}: a stepped sine has its own; it is for other excitations",
-                                 duration_s ? "--duration" : "--period"));
+    throw InputError(
+        fmt::format("{}: not with a stepped sine", duration_s ? "--duration" : "--period"));
   }
   for (std::size_t i = 0; i < typed.size(); ++i) {
     TypedRun run;
@@ -267,7 +267,8 @@ std::vector<PlannedRun> RunChoice::runs(const arm::Arm& arm,
     if (run.payload_kg) {
       if (!payload_masses_kg.empty()) {
         throw InputError(
-            "--payload-mass: is for every run; give it or the key payload of --excitation");
+            "--payload-mass: applies to all runs; not together with the key payload of "
+            "--excitation");
       }
       planned.payload = arm::Payload{*run.payload_kg, arm.payload.inertia_kg_m2};
     }
@@ -292,27 +293,25 @@ void add_run_choice(CLI::App& parser, RunChoice& choice) {
   parser
       .add_option(
           "--excitation", choice.excitations,
-          "KIND:KEY=VALUE,...; KIND is bang-bang (keys amplitude, pulse, start, pairs: 1, or 0 "
-          "for as many as fit), "
-          "step (amplitude, start), random (rms, from, to, seed), multisine (rms, from, "
-          "to, period, detection, seed), chirp (amplitude, from, to, sweep) or stepped-sine "
-          "(amplitude, offset, from and to or bands=FROM:TO/FROM:TO/..., step or points, settle, "
-          "cycles), a frequency response measured sine by sine, in N m, s "
-          "and Hz; each also id, payload [kg], purpose. Given again: a further run")
+          "KIND:KEY=VALUE,... in N m, s and Hz. KIND is bang-bang (amplitude, pulse, start, pairs; "
+          "pairs=0: to the end of the run), step (amplitude, start), random (rms, from, to, seed), "
+          "multisine (rms, from, to, period, detection, seed), chirp (amplitude, from, to, sweep) "
+          "or stepped-sine (amplitude, offset, from and to or bands=FROM:TO/FROM:TO/..., step or "
+          "points, settle, cycles). All kinds: id, payload [kg], purpose. Repeat for more runs")
       ->check(not_empty())
       ->allow_extra_args(false);
   parser
       .add_option("--torque", choice.torque_files,
-                  "CSV file of a torque over time, or of a time record. Given again: a further run")
+                  "CSV file with the torque over time, or a time record. Repeat for more runs")
       ->check(not_empty())
       ->allow_extra_args(false);
   parser.add_option("--duration", choice.duration_s,
-                    fmt::format("Of each excitation [s]; {} unless given", kDefaultDuration_s));
+                    fmt::format("Duration of each excitation [s]; default {}", kDefaultDuration_s));
   parser.add_option("--period", choice.period_s,
-                    fmt::format("Sampling period [s]; {} unless given", kDefaultPeriod_s));
+                    fmt::format("Sampling period [s]; default {}", kDefaultPeriod_s));
   parser
       .add_option("--seed", choice.seed,
-                  "Of noise and, counted up, of the excitations without a seed of their own")
+                  "Seed of the noise; incremented for excitations without a seed")
       ->check(whole_number())
       ->capture_default_str();
 }

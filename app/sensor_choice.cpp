@@ -22,7 +22,7 @@ void set_number(const char* option, const std::string& text, std::vector<ChosenS
                 double response::SensorImperfections::*member, std::vector<arm::Sensor>& given) {
   const auto equals = text.find('=');
   if (equals == std::string::npos) {
-    throw InputError(fmt::format("{} {}: must be SENSOR=NUMBER, as in hub_angle=0.001", option,
+    throw InputError(fmt::format("{} {}: must be SENSOR=NUMBER, e.g. hub_angle=0.001", option,
                                  arm::shown(text)));
   }
   const arm::Sensor sensor = arm::parse_sensor(std::string_view(text).substr(0, equals));
@@ -38,7 +38,7 @@ void set_number(const char* option, const std::string& text, std::vector<ChosenS
   }
   if (std::ranges::count(given, sensor) > 0) {
     throw InputError(
-        fmt::format("{} {}: {} is given twice", option, arm::shown(text), arm::to_string(sensor)));
+        fmt::format("{} {}: {} given twice", option, arm::shown(text), arm::to_string(sensor)));
   }
   given.push_back(sensor);
   place->imperfections.*member = *number;
@@ -53,7 +53,7 @@ std::vector<ChosenSensor> SensorChoice::sensors(const arm::Arm& arm) const {
     const arm::Sensor sensor = arm::parse_sensor(name);
     arm::require_valid(sensor, arm);
     if (std::ranges::count(sensors, sensor, &ChosenSensor::sensor) > 0) {
-      throw InputError(fmt::format("--sensor: {} is given twice", arm::to_string(sensor)));
+      throw InputError(fmt::format("--sensor: {} given twice", arm::to_string(sensor)));
     }
     sensors.push_back({sensor, {.relative_noise = relative_noise}});
   }
@@ -70,20 +70,22 @@ std::vector<ChosenSensor> SensorChoice::sensors(const arm::Arm& arm) const {
 }
 
 void add_sensor_choice(CLI::App& parser, SensorChoice& choice) {
-  parser.add_option("--sensor", choice.names, "Sensors, separated by commas")
+  parser.add_option("--sensor", choice.names, "Sensors, comma-separated")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->capture_default_str();
-  parser.add_option("--noise", choice.relative_noise,
-                    "White noise on every sensor: its standard deviation over the signal's own");
+  parser.add_option(
+      "--noise", choice.relative_noise,
+      "White noise on all sensors: standard deviation relative to that of the signal");
   parser
-      .add_option("--noise-of", choice.noises,
-                  "SENSOR=STD,...: further noise of that standard deviation, in the sensor's unit")
+      .add_option(
+          "--noise-of", choice.noises,
+          "SENSOR=STD,...: additional white noise, standard deviation in the unit of the sensor")
       ->delimiter(',')
       ->allow_extra_args(false);
   parser
       .add_option("--quantisation", choice.quantisations,
-                  "SENSOR=STEP,...: readings in whole steps, in the sensor's unit")
+                  "SENSOR=STEP,...: quantisation step in the unit of the sensor")
       ->delimiter(',')
       ->allow_extra_args(false);
 }

@@ -43,10 +43,8 @@ struct SimulateArguments {
 response::TorqueHold read_hold(const std::string& word) {
   if (word == "zero") return response::TorqueHold::zero;
   if (word == "first") return response::TorqueHold::first;
-  throw arm::InputError(
-      fmt::format("--hold {}: must be zero (constant from one sample to the next) or first (linear "
-                  "between samples)",
-                  arm::shown(word)));
+  throw arm::InputError(fmt::format(
+      "--hold {}: must be zero (zero-order hold) or first (first-order hold)", arm::shown(word)));
 }
 
 /// The arm of the runs, without the payloads that --payload-mass gives them.
@@ -67,7 +65,7 @@ arm::Arm without_effects(const arm::Arm& arm, const std::vector<std::string>& hi
       seen.effects.clear();
     } else if (seen.effects.erase(name) == 0) {
       throw arm::InputError(
-          fmt::format("--hide-effects {}: the arm has no such effect{}; it has {}",
+          fmt::format("--hide-effects {}: not an effect of the arm{}; its effects are {}",
                       arm::shown(name), arm::did_you_mean(name, names),
                       arm.effects.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
     }
@@ -101,8 +99,8 @@ std::string rounding_notes(const std::vector<PlannedRun>& plan) {
       changes.push_back(fmt::format("{} {} {} is {} {}", name, typed, unit, taken, unit));
     }
     if (changes.empty()) continue;
-    notes += report::to_paragraph(fmt::format("note: {}: {}: to whole samples, as it was simulated",
-                                              run.id, fmt::join(changes, ", ")));
+    notes += report::to_paragraph(
+        fmt::format("note: {}: {}: rounded to whole samples", run.id, fmt::join(changes, ", ")));
   }
   return notes;
 }
@@ -113,8 +111,8 @@ std::string standing_notes(const std::vector<report::SimulatedRun>& runs) {
   for (const auto& run : runs) {
     if (run.fall_rate_rad_per_s == 0.0) continue;
     notes += report::to_paragraph(
-        fmt::format("note: {}: the arm stands up and falls: undamped poles at s = +-{:.6g} rad/s; "
-                    "its equations are for small angles and do not see it arrive",
+        fmt::format("note: {}: statically unstable (inverted) arm: undamped poles at s = +-{:.6g} "
+                    "rad/s; the equations hold for small angles only",
                     run.id, run.fall_rate_rad_per_s));
   }
   return notes;
@@ -128,12 +126,12 @@ std::string sampling_notes(const SimulatedExperiment& experiment) {
     if (summary.sampling == response::Sampling::fine) continue;
     const double period_s = measured::sampling_period_s(run.record);
     notes += report::to_paragraph(fmt::format(
-        "note: {}: the highest mode kept, {:.4g} Hz, has {:.3g} samples a period: {}; the sampled "
-        "values themselves are exact. {:.2g} s between samples would show it, or fewer modes.",
+        "note: {}: highest mode {:.4g} Hz has {:.3g} samples per period: {}. Sampled values are "
+        "exact. Use a sampling period of {:.2g} s or fewer modes.",
         run.id, 1.0 / (summary.samples_per_period * period_s), summary.samples_per_period,
         summary.sampling == response::Sampling::aliased
-            ? "between samples it is lost, and it shows at a frequency that is not its own"
-            : "its peaks may lie 5 % or more between samples",
+            ? "the mode is aliased"
+            : "sampled peaks may be 5 % too low or more",
         period_s * summary.samples_per_period / response::kFineSamplesPerPeriod));
   }
   return notes;
@@ -145,12 +143,12 @@ std::string settling_notes(const std::vector<report::SteppedSineRun>& runs) {
   for (const auto& run : runs) {
     const auto& summary = run.measured.summary;
     if (summary.unsettled == 0) continue;
-    notes += report::to_paragraph(fmt::format(
-        "note: {}: at {} of {} frequencies the response changed by more than {:g} from the first "
-        "cycle measured to the last, most by {:.2g} at {} Hz: a transient is left, or the motion "
-        "does not repeat with the sine",
-        run.id, summary.unsettled, run.measured.frequency_Hz.size(), response::kSettledChange,
-        summary.largest_change, summary.largest_change_Hz));
+    notes += report::to_paragraph(
+        fmt::format("note: {}: at {} of {} frequencies the response changed by more than {:g} "
+                    "between the first and the last measured cycle (largest change {:.2g} at {} "
+                    "Hz): remaining transient, or a motion that is not periodic with the sine",
+                    run.id, summary.unsettled, run.measured.frequency_Hz.size(),
+                    response::kSettledChange, summary.largest_change, summary.largest_change_Hz));
   }
   return notes;
 }
@@ -173,14 +171,14 @@ void print_stepped_runs(const std::vector<report::SteppedSineRun>& runs, bool ha
 void print_results(const SimulateArguments& arguments, const std::vector<PlannedRun>& plan,
                    const SimulatedExperiment& experiment, bool has_dry_friction) {
   const auto& runs = experiment.runs;
-  const char* hold = arguments.options.hold == response::TorqueHold::zero
-                         ? "constant from one sample to the next"
-                         : "linear between samples";
-  print(fmt::format("by {}, {} flexible mode{}{}{}\n",
-                    response::formulation_label(experiment.model, experiment.settings),
-                    experiment.modes, experiment.modes == 1 ? "" : "s",
-                    arguments.options.static_correction ? " and a residual mode" : "",
-                    runs.empty() ? "" : fmt::format("; torque {}, from rest", hold)));
+  const char* hold =
+      arguments.options.hold == response::TorqueHold::zero ? "zero-order hold" : "first-order hold";
+  print(fmt::format(
+      "by {}, {} flexible mode{}{}{}\n",
+      response::formulation_label(experiment.model, experiment.settings), experiment.modes,
+      experiment.modes == 1 ? "" : "s",
+      arguments.options.static_correction ? " and a residual mode" : "",
+      runs.empty() ? "" : fmt::format("; {} of the torque, initial state at rest", hold)));
   if (experiment.modes < arguments.options.modes) {
     print(fmt::format("{} of {} modes: {} has {} degrees of freedom\n", experiment.modes,
                       arguments.options.modes, experiment.model, experiment.degrees_of_freedom));
@@ -199,7 +197,7 @@ void require_fitting(const SimulateArguments& arguments, const std::vector<Plann
       std::ranges::find_if(plan, [](const auto& run) { return run.stepped_sine.has_value(); });
   if (stepped == plan.end() || !arguments.options.check_step) return;
   throw arm::InputError(
-      fmt::format("--check-step: is for runs in time; {} is a stepped sine", stepped->id));
+      fmt::format("--check-step: only for time runs; {} is a stepped sine", stepped->id));
 }
 
 std::string json_text(const SimulateArguments& arguments, const arm::Arm& arm,
@@ -246,17 +244,17 @@ int run_simulate(SimulateArguments arguments) {
   print(describe(arm));
   print_results(arguments, plan, experiment, !response::take_apart(arm).hub.friction.empty());
   if (arguments.folder.empty()) {
-    print(fmt::format("next: keep it as a measurement with  flexarm simulate{} --out simulated\n",
+    print(fmt::format("next: write it as a measurement with  flexarm simulate{} --out simulated\n",
                       arguments.arm.file.empty() ? "" : " " + arguments.arm.file));
   } else {
     print(fmt::format(
-        "wrote {}: measurement.toml, arm.toml, and of each run a CSV file and figures\n",
+        "wrote {}: measurement.toml, arm.toml, and a CSV file and figures for each run\n",
         arguments.folder));
     print(experiment.stepped_runs.empty()
               ? fmt::format(
-                    "next: see the same arm over frequency with  flexarm response {}/arm.toml\n",
+                    "next: frequency response of the same arm with  flexarm response {}/arm.toml\n",
                     arguments.folder)
-              : fmt::format("next: its poles, zeros and damping with  flexarm identify "
+              : fmt::format("next: estimate poles, zeros and damping with  flexarm identify "
                             "{}/measurement.toml\n",
                             arguments.folder));
   }
@@ -268,36 +266,36 @@ int run_simulate(SimulateArguments arguments) {
 Command add_simulate(CLI::App& program) {
   const auto arguments = std::make_shared<SimulateArguments>();
   auto& options = arguments->options;
-  CLI::App* parser =
-      program.add_subcommand("simulate", "Time responses of an arm; writes them as a measurement");
+  CLI::App* parser = program.add_subcommand(
+      "simulate", "Simulate time responses of an arm and write them as a measurement");
   add_arm_choice(*parser, arguments->arm);
   add_run_choice(*parser, arguments->runs);
   parser
       ->add_option("--hold", arguments->hold,
-                   "Torque between samples: zero, constant, or first, linear")
+                   "Torque between samples: zero (zero-order hold) or first (first-order hold)")
       ->capture_default_str();
   add_formulation_choice(*parser, options.formulation);
-  parser->add_option("--modes", options.modes, "How many flexible modes")->capture_default_str();
+  parser->add_option("--modes", options.modes, "Number of flexible modes")->capture_default_str();
   parser->add_flag("--static-correction", options.static_correction,
-                   "A residual mode for the modes left out");
+                   "Add a residual mode for omitted modes");
   add_sensor_choice(*parser, arguments->sensors);
   parser->add_option("--substeps", options.substeps,
-                     "Inner steps a sample, at least; chosen unless given");
+                     "Minimum number of inner steps per sample; default: automatic");
   parser->add_flag("--check-step", options.check_step,
-                   "Report each sensor's error against a tenfold smaller step");
+                   "Report the error of each sensor relative to a step ten times smaller");
   parser
       ->add_option("--hide-effects", arguments->hidden_effects,
-                   "Effects to leave out of the arm file written, separated by commas, or all: "
-                   "for a measurement whose causes are to be found")
+                   "Effects to omit from the written arm file, comma-separated, or all: for blind "
+                   "tests of a diagnosis")
       ->delimiter(',')
       ->allow_extra_args(false);
   parser->add_option("--name", arguments->name, "Name of the measurement");
   parser
       ->add_option("--out", arguments->folder,
-                   "Folder for measurement.toml, arm.toml, and of each run a CSV file and figures")
+                   "Folder for measurement.toml, arm.toml, and a CSV file and figures for each run")
       ->check(not_empty());
-  parser->add_flag("--force", arguments->force, "Replace the measurement that is in the folder");
-  parser->add_option("--json", arguments->json_file, "File for everything in full precision")
+  parser->add_flag("--force", arguments->force, "Overwrite the measurement in the folder");
+  parser->add_option("--json", arguments->json_file, "JSON file, full precision")
       ->check(not_empty());
   parser->footer(
       example("flexarm simulate rig.toml --excitation bang-bang:amplitude=0.2,pulse=0.4 "

@@ -86,7 +86,7 @@ void require_finite(const std::vector<double>& reading, const arm::Sensor& senso
   const auto wrong = std::ranges::find_if(reading, [](double v) { return !std::isfinite(v); });
   if (wrong == reading.end()) return;
   throw arm::InputError(
-      fmt::format("{} at {:.6g} s: too large for a number with its noise", arm::to_string(sensor),
+      fmt::format("{} at {:.6g} s: numeric overflow", arm::to_string(sensor),
                   run.record.time_s[static_cast<std::size_t>(wrong - reading.begin())]));
 }
 

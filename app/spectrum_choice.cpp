@@ -32,22 +32,23 @@ measured::SpectrumSettings SpectrumChoice::settings() const {
 measured::PeakPlace SpectrumChoice::place() const {
   if (peaks == "between") return measured::PeakPlace::resonance;
   if (peaks == "on-line") return measured::PeakPlace::on_line;
-  throw arm::InputError(fmt::format(
-      "--peaks {}: must be between (lines) or on-line, as the paper has them", arm::shown(peaks)));
+  throw arm::InputError(
+      fmt::format("--peaks {}: must be between (interpolated) or on-line (as in the paper)",
+                  arm::shown(peaks)));
 }
 
 void add_spectrum_choice(CLI::App& parser, SpectrumChoice& choice) {
-  parser.add_option("--window", choice.window,
-                    "Of each segment: hann, rectangular, hamming, blackman or flat-top. This and "
-                    "the next three are chosen from the data unless given; a torque that repeats "
-                    "itself needs none of them");
+  parser.add_option(
+      "--window", choice.window,
+      "Window of each segment: hann, rectangular, hamming, blackman or flat-top. Default for this "
+      "and the next three options: chosen from the data; not used with a periodic torque");
   parser.add_option("--resolution", choice.resolution_Hz, "Spacing of spectral lines [Hz]");
-  parser.add_option("--overlap", choice.overlap, "Of segments [%]");
-  parser.add_option("--detrend", choice.detrend,
-                    "What is taken off each segment: none, mean or line");
+  parser.add_option("--overlap", choice.overlap, "Overlap of segments [%]");
+  parser.add_option("--detrend", choice.detrend, "Detrending of each segment: none, mean or line");
   parser
-      .add_option("--peaks", choice.peaks,
-                  "Where peaks and valleys are: between lines, or on-line, as the paper has them")
+      .add_option(
+          "--peaks", choice.peaks,
+          "Location of extrema: between (interpolated) or on-line (nearest line, as in the paper)")
       ->capture_default_str();
 }
 

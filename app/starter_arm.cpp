@@ -52,12 +52,12 @@ std::string keys_of(const arm::EffectDefinition& effect) {
 
 std::string effects_text() {
   std::string out =
-      "\n# Effects that an ideal arm leaves out, each switched on by a table of its own:\n"
+      "\n# Effects beyond the ideal arm, one table each:\n"
       "#\n"
       "# [effects.coulomb_friction]\n"
       "# torque = 0.012             # [N m]\n"
       "#\n"
-      "# These are known, with their keys:\n"
+      "# Effect library:\n"
       "#\n";
   for (const auto& effect : effects::vocabulary()) {
     out +=
@@ -78,9 +78,7 @@ std::string starter_text() {
   const arm::Arm starter = starter_arm();
   const arm::Arm example = example_values();
   std::string out = fmt::format(
-      "# An arm for flexarm, in SI units. What follows # is a comment; a key that stands in one "
-      "is\n"
-      "# optional, with an example value: take the # away to give it.\n"
+      "# Arm file for flexarm, SI units. Commented keys are optional; the values are examples.\n"
       "name = {}\n",
       measured::toml_string(starter.name));
   for (const auto& table : arm::arm_tables()) {

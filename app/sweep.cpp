@@ -61,7 +61,8 @@ struct SweepArguments {
 arm::Arm arm_of(const SweepArguments& arguments) {
   const auto arms = arguments.arm.arms();
   if (arms.size() > 1) {
-    throw arm::InputError("--payload-mass: one value; several are --over payload.mass=A,B,C");
+    throw arm::InputError(
+        "--payload-mass: needs one value; for several use --over payload.mass=A,B,C");
   }
   return response::take_apart(arms.front()).linear;
 }
@@ -86,8 +87,8 @@ void refuse_swept(const ArmChoice& choice, const std::vector<compare::SweepAxis>
       if (!given.is_given || std::ranges::count(given.parameters, axis.parameter.name) == 0) {
         continue;
       }
-      throw arm::InputError(fmt::format("{}: {} is swept over and has no other value", given.option,
-                                        axis.parameter.name));
+      throw arm::InputError(
+          fmt::format("{}: {} is a sweep parameter", given.option, axis.parameter.name));
     }
   }
 }
@@ -120,8 +121,7 @@ std::optional<compare::PaperSweep> figure_of(const SweepArguments& arguments) {
 
 compare::SweepTask task_of(const SweepArguments& arguments) {
   if (arguments.over.empty()) {
-    throw arm::InputError(
-        "--over: give one or two parameters, as in --over payload.mass=0:0.5:200");
+    throw arm::InputError("--over: give one or two parameters, e.g. --over payload.mass=0:0.5:200");
   }
   compare::SweepTask task;
   for (const auto& text : arguments.over) task.axes.push_back(compare::parse_axis(text));
@@ -170,10 +170,10 @@ compare::SweepResult run_task(const compare::SweepTask& task, const SweepArgumen
 
 void say_interrupted(const compare::SweepInterrupted& interrupted, const fs::path& checkpoint) {
   const std::string how =
-      checkpoint.empty() ? "nothing is kept without --out or --json"
+      checkpoint.empty() ? "no checkpoint without --out or --json"
       : fs::exists(checkpoint)
-          ? fmt::format("the same command with --resume goes on from {}", checkpoint.string())
-          : "nothing is kept of so short a run";
+          ? fmt::format("continue with the same command and --resume from {}", checkpoint.string())
+          : "run too short for a checkpoint";
   const std::string line = fmt::format("flexarm: {}; {}\n", interrupted.what(), how);
   std::fwrite(line.data(), 1, line.size(), stderr);
 }
@@ -221,23 +221,23 @@ void write_folder(const fs::path& folder, const compare::SweepResult& result) {
 std::string next_step(const SweepArguments& arguments) {
   const std::string arm = arguments.arm.file.empty() ? "" : " " + arguments.arm.file;
   if (!arguments.output.folder.empty()) {
-    return fmt::format("wrote {}\nnext: one arm of the grid in depth with  flexarm compare{}\n",
+    return fmt::format("wrote {}\nnext: one arm of the grid in detail with  flexarm compare{}\n",
                        arguments.output.folder, arm);
   }
   if (arguments.figure) {
     return fmt::format(
-        "next: the figure as SVG and CSV with  flexarm sweep{} --figure {} --out "
-        "figures\n",
+        "next: write the figure as SVG and CSV with  flexarm sweep{} --figure {} --out figures\n",
         arm, *arguments.figure);
   }
-  return fmt::format("next: curves and every value with  flexarm sweep{} --over {} --out swept\n",
-                     arm, fmt::join(arguments.over, " --over "));
+  return fmt::format(
+      "next: write curves and all values with  flexarm sweep{} --over {} --out swept\n", arm,
+      fmt::join(arguments.over, " --over "));
 }
 
 int run_sweep(const SweepArguments& arguments) {
   if (arguments.threads < 0 || arguments.threads > kMostThreads) {
     throw arm::out_of_range("--threads", arguments.threads, "",
-                            fmt::format("from 1 to {}, or 0 for one a core", kMostThreads));
+                            fmt::format("from 1 to {}, or 0 for one per core", kMostThreads));
   }
   arm::require_in_range("--tolerance", arguments.tolerances.roots, "", arm::kPositive);
   std::optional<tbb::global_control> limit;
@@ -285,39 +285,39 @@ int run_sweep(const SweepArguments& arguments) {
 Command add_sweep(CLI::App& program) {
   const auto arguments = std::make_shared<SweepArguments>();
   CLI::App* parser = program.add_subcommand(
-      "sweep", "Poles, zeros, damping and modal slopes over one or two parameters");
+      "sweep", "Compute poles, zeros, damping and hub slopes over one or two parameters");
   add_arm_choice(*parser, arguments->arm);
   parser
       ->add_option("--over", arguments->over,
                    "KEY=START:END:COUNT, KEY=log:START:END:COUNT or KEY=A,B,C; twice for a grid. "
-                   "KEY: a number of the arm file, effects.NAME.PARAMETER, eta, epsilon")
+                   "KEY: key of the arm file, effects.NAME.PARAMETER, eta or epsilon")
       ->check(not_empty())
       ->allow_extra_args(false);
   parser->add_option("--figure", arguments->figure,
-                     "18 or 19: the paper's poles or zeros over payload, in place of --over");
+                     "18 or 19: poles or zeros over payload as in the paper, instead of --over");
   parser
       ->add_option("--formulation", arguments->formulations,
-                   "exact_tf, fem, assumed_modes, separated by commas; all when left out")
+                   "exact_tf, fem, assumed_modes, comma-separated; default: all")
       ->delimiter(',')
       ->allow_extra_args(false);
-  parser->add_option("--poles", arguments->poles, "How many poles, modes and hub zeros [5]");
+  parser->add_option("--poles", arguments->poles, "Number of poles, modes and hub zeros [5]");
   parser->add_option("--zeros", arguments->zeros,
-                     "How many zeros of each sensor away from the hub [4]");
+                     "Number of zeros of each non-collocated sensor [4]");
   parser
       ->add_option("--sensor", arguments->sensors,
-                   "Sensors whose zeros are followed [hub_angle,tip_acceleration]")
+                   "Sensors whose zeros are tracked [hub_angle,tip_acceleration]")
       ->delimiter(',')
       ->allow_extra_args(false);
   parser->add_flag("--roots-only", arguments->roots_only,
-                   "Leave hub slopes, end-point values and damping out");
+                   "Skip hub slopes, end-point values and damping");
   parser
       ->add_option("--tolerance", arguments->tolerances.roots,
-                   "Poles and zeros agree within this, relative")
+                   "Relative tolerance for poles and zeros")
       ->capture_default_str();
-  parser->add_option("--threads", arguments->threads, "How many threads at most; 0: one a core")
+  parser->add_option("--threads", arguments->threads, "Maximum number of threads; 0: one per core")
       ->capture_default_str();
   parser->add_flag("--resume", arguments->resume,
-                   "Go on from the checkpoint that an interrupted sweep left beside its output");
+                   "Resume an interrupted sweep from its checkpoint");
   add_output_choice(*parser, arguments->output, "Folder for CSV tables and SVG plots");
   parser->footer("Exit status: 0 the formulations agree; 1 they do not; 2 unusable input.\n" +
                  example("flexarm sweep rig.toml --over payload.mass=0:0.5:50 --out swept"));

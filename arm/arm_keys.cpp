@@ -51,10 +51,10 @@ const std::vector<ArmKey>& arm_keys() {
                                     "only effects.shear_and_rotary_inertia needs it"),
       beam<&Beam::given_flexural_rigidity_N_m2>(
           "beam", "flexural_rigidity", "EI", "N m^2", kPositive, kMayBeAbsent,
-          "in place of youngs_modulus, or equal to E w t^3/12"),
-      beam<&Beam::given_linear_density_kg_per_m>("beam", "linear_density", "m", "kg/m", kPositive,
-                                                 kMayBeAbsent,
-                                                 "in place of density, or equal to rho w t"),
+          "alternative to youngs_modulus; if both, equal to E w t^3/12"),
+      beam<&Beam::given_linear_density_kg_per_m>(
+          "beam", "linear_density", "m", "kg/m", kPositive, kMayBeAbsent,
+          "alternative to density; if both, equal to rho w t"),
       hub<&Hub::inertia_kg_m2>("hub", "inertia", "Ih", "kg m^2", kNotNegative, kRequired,
                                "of rotor and clamp about the motor axis"),
       hub<&Hub::viscous_friction_N_m_s_per_rad>("hub", "viscous_friction", "c", "N m s/rad",
@@ -62,9 +62,9 @@ const std::vector<ArmKey>& arm_keys() {
                                                 "torque on the hub per angular velocity"),
       payload<&Payload::mass_kg>("payload", "mass", "Mp", "kg", kNotNegative, kMayBeAbsent,
                                  "of a rigid body fixed to the tip"),
-      payload<&Payload::inertia_kg_m2>("payload", "inertia", "Ip", "kg m^2", kNotNegative,
-                                       kMayBeAbsent,
-                                       "of that body about its centre of mass, which is at the tip"),
+      payload<&Payload::inertia_kg_m2>(
+          "payload", "inertia", "Ip", "kg m^2", kNotNegative, kMayBeAbsent,
+          "of that body about its centre of mass, which is at the tip"),
       damping<&Damping::kelvin_voigt_s>("damping", "kelvin_voigt", "kv", "s", kNotNegative,
                                         kMayBeAbsent,
                                         "bending moment = EI (y'' + kelvin_voigt d/dt y'')"),

@@ -30,8 +30,8 @@ void require_agreement(const char* key, std::optional<double> given,
   if (!given || !of_section) return;
   if (std::abs(*given - *of_section) > kDescriptionAgreement * *of_section) {
     throw InputError(
-        fmt::format("{} = {} {} disagrees with {:.6g} {} from dimensions and material: "
-                    "give one of them, or two that agree within {:g} %",
+        fmt::format("{} = {} {} differs from {:.6g} {} computed from dimensions and material: give "
+                    "one of them, or two that agree within {:g} %",
                     key, *given, unit, *of_section, unit, 100.0 * kDescriptionAgreement),
         key);
   }

@@ -95,11 +95,10 @@ void require_honoured(const Effects& effects, std::string_view who,
       if (std::ranges::find(honoured, port) != honoured.end()) continue;
       std::vector<std::string_view> names;
       for (const Port known : honoured) names.push_back(to_string(known));
-      throw InputError(
-          fmt::format("effects.{}: {} does not honour this effect, which acts through the port {}; "
-                      "it honours effects through {}",
-                      name, who, to_string(port), fmt::join(names, ", ")),
-          "effects." + name);
+      throw InputError(fmt::format("effects.{}: not supported by {}, because it acts through the "
+                                   "port {}; supported ports: {}",
+                                   name, who, to_string(port), fmt::join(names, ", ")),
+                       "effects." + name);
     }
   }
 }

@@ -16,7 +16,7 @@ void place_springs(LinearArm& linear, const std::vector<RotationalSpring>& sprin
     if (spring.position_m == 0.0) {
       root = root.has_value() ? 1.0 / (1.0 / *root + 1.0 / stiffness) : stiffness;
     } else if (linear.crack) {
-      throw InputError("effects: several springs inside the beam (port linear_term); one at most");
+      throw InputError("effects: several springs within the beam (port linear_term); at most one");
     } else {
       linear.crack = spring;
     }

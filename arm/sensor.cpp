@@ -51,8 +51,7 @@ Sensor parse_sensor(std::string_view name) {
     const auto position_m = parse_number<double>(name.substr(kStrain.size()));
     if (!position_m || !std::isfinite(*position_m)) {
       throw InputError(fmt::format(
-          "sensor {}: the position after strain@ must be a number of metres, as in strain@0.05",
-          shown(name)));
+          "sensor {}: the position after strain@ must be in m, e.g. strain@0.05", shown(name)));
     }
     return {SensorKind::strain, *position_m};
   }
@@ -98,8 +97,7 @@ Sensor placed(const Sensor& sensor, const Arm& arm) {
                                  length_m == arm.beam.length_m ? "" : " with the arm's effects"));
   }
   if (!arm.beam.thickness_m) {
-    throw InputError(fmt::format("sensor {}: needs beam.thickness, which the arm does not give",
-                                 to_string(sensor)));
+    throw InputError(fmt::format("sensor {}: needs beam.thickness", to_string(sensor)));
   }
   return {sensor.kind, position_m};
 }
@@ -125,8 +123,8 @@ bool is_responsive(const Sensor& sensor, const Arm& arm) {
 void require_responsive(const Sensor& sensor, const Arm& arm) {
   if (!is_responsive(sensor, arm)) {
     throw InputError(
-        fmt::format("sensor {}: the strain at the tip is zero at every s without payload.inertia, "
-                    "so it has no zeros to look for; place it below {} m",
+        fmt::format("sensor {}: strain at the tip is identically zero without payload.inertia; "
+                    "place it below {} m",
                     to_string(sensor), changed_length_m(arm)));
   }
 }

@@ -35,18 +35,18 @@ void require_valid_uncertainties(const Arm& arm) {
     const std::string key = name + std::string(kUncertaintySuffix);
     const auto value = key_of(name).get(arm);
     if (!(uncertainty > 0.0 && uncertainty < 1.0)) {
-      throw InputError(fmt::format("{} = {}; must be above 0 and below 1, a standard deviation "
-                                   "relative to {}",
-                                   key, uncertainty, name),
-                       key);
+      throw InputError(
+          fmt::format("{} = {}; must be above 0 and below 1, a relative standard deviation of {}",
+                      key, uncertainty, name),
+          key);
     }
     if (!value || !(*value > 0.0)) {
       throw InputError(
-          fmt::format("{}: is relative to {}, which must be given and above 0", key, name), key);
+          fmt::format("{}: relative to {}, which must be given and above 0", key, name), key);
     }
     const std::string used = used_instead(name, arm.beam);
     if (!used.empty()) {
-      throw InputError(fmt::format("{}: {} is given too, and is the one used; say {}{}", key, used,
+      throw InputError(fmt::format("{}: {} is given too and takes precedence; use {}{}", key, used,
                                    used, kUncertaintySuffix),
                        key);
     }

@@ -43,7 +43,7 @@ AssumedModesOptions checked(AssumedModesOptions options, const arm::Arm& arm) {
 RitzPairs standing(RitzPairs modes, const arm::LinearArm& arm) {
   if (modes.eigenvalues(1) <= 0) {
     throw arm::out_of_range("effects.gravity.acceleration", arm.gravity_m_per_s2, "m/s^2",
-                            "nearer to 0: the flexible modes of the standing arm buckle");
+                            "closer to 0: the inverted arm buckles");
   }
   return modes;
 }

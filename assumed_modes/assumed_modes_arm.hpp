@@ -64,7 +64,7 @@ inline constexpr int kMaximumFunctions = 200;
 /// than the one before, about 1e-13 the fourth, 1e-10 the sixth, 1e-4 the tenth. The summary's
 /// residual shows it.
 ///
-/// Meirovitch, Analytical Methods in Vibrations (1967), ch. 6.
+/// [Meirovitch1967], ch. 6.
 class AssumedModesArm {
  public:
   using Options = AssumedModesOptions;

@@ -52,11 +52,11 @@ std::string_view reason(UnmetCondition condition) {
     case UnmetCondition::tip_shear:
       return "shear at the tip is zero in every function, but the payload needs EI y''' = Mp y_tt";
     case UnmetCondition::root_displacement:
-      return "y'''' at the hub is zero in every function, but a root that moves or hangs needs "
-             "EI y'''' = (P y')' - m y_tt";
+      return "y'''' at the hub is zero in every function, but a moving clamp or axial tension "
+             "needs EI y'''' = (P y')' - m y_tt";
     case UnmetCondition::root_rotation:
-      return "y''''' at the hub is zero in every function, but a hub that turns needs "
-             "EI y''''' = -m y'_tt";
+      return "y''''' at the hub is zero in every function, but a rotating hub needs EI y''''' = -m "
+             "y'_tt";
   }
   throw std::logic_error("condition outside its enumeration");
 }
@@ -120,22 +120,23 @@ std::string sentence(Basis basis, const RootConvergence& series) {
     return fmt::format("{:.1e} with {} functions", series.relative_error[i], series.functions[i]);
   };
   const std::size_t last = series.functions.size() - 1;
-  const std::string subject = fmt::format("{}: the error of {}", to_string(basis), series.root);
+  const std::string subject = fmt::format("{}: error of {}", to_string(basis), series.root);
   if (series.unmet.empty()) {
     return basis == Basis::legendre
                ? fmt::format(
-                     "{} falls faster than any power of n ({}, {}): the functions leave every end "
-                     "condition of the arm free",
+                     "{} converges exponentially ({}, {}): the functions satisfy no end condition "
+                     "a priori",
                      subject, at(0), at(1))
-               : fmt::format("{} is rounding ({}): the functions are the shapes asked for", subject,
-                             at(0));
+               : fmt::format(
+                     "{} at the rounding level ({}): the functions are the exact mode shapes",
+                     subject, at(0));
   }
   const std::string measured = std::isnan(series.measured_order)
                                    ? "too small to measure"
                                    : fmt::format("measured n^-{:.1f}", series.measured_order);
   return fmt::format(
-      "{} falls as n^-{:.0f} ({}, {}): {}{}", subject, series.predicted_order, measured, at(last),
-      reason(series.unmet.front()),
+      "{} decreases as n^-{:.0f} ({}, {}): {}{}", subject, series.predicted_order, measured,
+      at(last), reason(series.unmet.front()),
       series.predicted_order <= kSlowOrder ? "; use legendre or clamped_with_payload" : "");
 }
 

@@ -50,8 +50,8 @@ struct BasisReport {
 /// moment the shapes lack leaves c_i ~ 1/lambda_i, a shear 1/lambda_i^2, and the hub's turning
 /// 1/lambda_i^4; a root that moves, or tension, 1/lambda_i^3, as does what a payload off its place
 /// or under gravity asks of shapes that carry it, whose tip hardly moves. A Ritz value's error is
-/// the sum of c_i^2 beyond n: order 2 p - 1 for c_i ~ i^-p (Strang and Fix, An Analysis of the
-/// Finite Element Method (1973), ch. 6).
+/// the sum of c_i^2 beyond n: order 2 p - 1 for c_i ~ i^-p
+/// ([StrangFix1973], ch. 6).
 ///
 /// 1 <= root <= 8. Throws InputError for an invalid arm or one that the basis cannot represent.
 BasisReport describe_convergence(const arm::Arm& arm, Basis basis, int root = 3);

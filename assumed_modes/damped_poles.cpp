@@ -194,7 +194,7 @@ arm::DampedPoleSet damped_poles(const QuadraticPencil& pencil, int flexible,
   result.flexible.erase(result.flexible.begin());
   result.summary.iterations = continuation.steps();
   result.summary.method = fmt::format(
-      "companion matrix of the shifted quadratic pencil in {} modes, followed from no "
+      "companion matrix of the shifted quadratic pencil in {} modes, continuation from zero "
       "damping; residual: last relative step of Newton's method",
       pencil.mass.size());
   constexpr double kConverged = 1e-12;

@@ -51,7 +51,7 @@ arm::ZeroSet trusted_zeros(const PencilZeros& zeros, std::span<const PencilZeros
     if (!(change <= zero_change)) {
       result.rejected.push_back(
           {s_rad_per_s, change,
-           fmt::format("moves by more than {} of its size when functions are added", zero_change)});
+           fmt::format("relative change above {} when functions are added", zero_change)});
     } else if (static_cast<int>(result.s_rad_per_s.size()) < count) {
       result.s_rad_per_s.push_back(s_rad_per_s);
       result.summary.largest_residual = std::max(result.summary.largest_residual, change);

@@ -156,7 +156,7 @@ void add_response(const std::vector<Subject>& subjects, const arm::Sensor& senso
 
 Comparison compare_subjects(const std::vector<Subject>& subjects, const Options& options,
                             Steps& steps) {
-  if (subjects.size() < 2) throw std::invalid_argument("a comparison needs two models or more");
+  if (subjects.size() < 2) throw std::invalid_argument("a comparison needs at least two models");
   require_valid(options);
   Comparison comparison;
   comparison.arm = response::arm_of(subjects.front().formulation);

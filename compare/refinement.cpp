@@ -36,7 +36,7 @@ Refinement fem_elements(const char* name, int degree, int most_elements) {
 }
 
 Refinement fem_degree(int elements) {
-  return {"fem, " + std::to_string(elements) + " elements of rising degree",
+  return {"fem, " + std::to_string(elements) + " elements of increasing degree",
           "fem",
           "degree",
           stepping(3, 13, 1),

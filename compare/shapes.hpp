@@ -12,7 +12,7 @@ namespace flexarm::compare {
 struct ShapeAgreement {
   std::string formulation;
   int order = 1;
-  double one_minus_mac = 0.0;    ///< modal assurance criterion (Allemang and Brown 1982), from 1
+  double one_minus_mac = 0.0;    ///< modal assurance criterion [AllemangBrown1982], from 1
   double largest_error = 0.0;    ///< max |phi - phi_ref|/max |phi_ref| over the stations
   double hub_slope = 0.0;        ///< phi'(0) of the formulation, modal mass I_T
   double hub_slope_error = 0.0;  ///< relative

@@ -33,21 +33,19 @@ void keep_usable(const Experiment& experiment, measured::MeasuredRun& run, const
   for (const measured::DataFinding& finding : findings) {
     if (finding.fault == measured::Fault::zero_torque) {
       throw arm::InputError(
-          fmt::format("{}: run {}: {}; a run whose torque is not known says "
-                      "nothing of the arm",
-                      file, run.run.id, finding.text));
+          fmt::format("{}: run {}: {}; a run without a valid torque cannot be used", file,
+                      run.run.id, finding.text));
     }
     const bool is_dead = finding.fault == measured::Fault::dead_channel;
     if (is_dead && why.empty()) why = finding.text;
     notices.push_back(fmt::format("run {}: {}{}: {}", run.run.id, finding.channel,
-                                  is_dead ? " is left out" : "", finding.text));
+                                  is_dead ? " excluded" : "", finding.text));
   }
   measured::leave_out_dead_channels(record, findings);
   if (record.channels.empty()) {
-    throw arm::InputError(
-        fmt::format("{}: run {}: no channel that can be used; at least one sensor beside time and "
-                    "torque{}",
-                    file, run.run.id, why.empty() ? "" : fmt::format(": {}", why)));
+    throw arm::InputError(fmt::format(
+        "{}: run {}: no usable channel; needs at least one sensor besides time and torque{}", file,
+        run.run.id, why.empty() ? "" : fmt::format(": {}", why)));
   }
 }
 
@@ -92,10 +90,9 @@ Experiment read_experiment(const fs::path& measurement_file) {
     return run.run.purpose == measured::Purpose::estimation;
   });
   if (!fits) {
-    throw arm::InputError(
-        fmt::format("{}: run.purpose: every run is for validation; at least one "
-                    "must be for estimation",
-                    measurement_file.string()));
+    throw arm::InputError(fmt::format(
+        "{}: run.purpose: all runs are validation runs; needs at least one estimation run",
+        measurement_file.string()));
   }
   return experiment;
 }
@@ -112,10 +109,8 @@ std::string split_purposes(std::vector<measured::MeasuredRun>& runs) {
   }
   if (validates || unsaid.empty()) return {};
   if (runs.size() < 2) {
-    return fmt::format(
-        "run {} is all there is, and is fitted: the gain is not measured on data "
-        "that were not",
-        runs.front().run.id);
+    return fmt::format("run {} is the only run and is used for estimation; there is no validation",
+                       runs.front().run.id);
   }
   // The condition with most runs can spare one: the last of them.
   const auto same_payload = [&](std::size_t i) {
@@ -127,8 +122,9 @@ std::string split_purposes(std::vector<measured::MeasuredRun>& runs) {
     if (same_payload(i) >= same_payload(spared)) spared = i;
   }
   runs[spared].run.purpose = Purpose::validation;
-  return fmt::format("no run is for validation: {} is kept for it, the others are fitted",
-                     runs[spared].run.id);
+  return fmt::format(
+      "no validation run given; {} is used for validation, the others for estimation",
+      runs[spared].run.id);
 }
 
 }  // namespace flexarm::diagnose

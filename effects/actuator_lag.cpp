@@ -9,7 +9,7 @@ Entry actuator_lag() {
                             .parameters = {{.name = "time_constant",
                                             .unit = "s",
                                             .range = arm::kNotNegative,
-                                            .meaning = "of the first-order lag",
+                                            .meaning = "time constant of the lag",
                                             .example = 0.004,
                                             .neutral = 0.0}},
                             .torque_path =
@@ -22,8 +22,11 @@ Entry actuator_lag() {
         return {{"time_constant", 0.02 * scales.shortest_time_s, 200.0 * scales.shortest_time_s,
                  Spacing::from_zero}};
       },
-      .speaks_for = "phase lag and attenuation grow with frequency; poles and zeros do not move",
-      .refuted_by = "a phase lag in proportion to the frequency while the amplitude is unchanged"};
+      .speaks_for =
+          "phase lag and attenuation increasing with frequency in all sensors; poles and zeros "
+          "unchanged",
+      .refuted_by =
+          "phase lag proportional to frequency with unchanged magnitude (that is a time delay)"};
 }
 
 }  // namespace flexarm::effects

@@ -23,9 +23,8 @@ Entry air_damping() {
             return {{"coefficient", 1e-3 * natural, 3.0 * natural, Spacing::from_zero}};
           },
           .speaks_for =
-              "damping ratios fall in inverse proportion to the frequency of the mode, those of "
-              "zeros too",
-          .refuted_by = "damping ratios that rise with frequency"};
+              "damping ratios of poles and zeros inversely proportional to natural frequency",
+          .refuted_by = "damping ratios that increase with natural frequency"};
 }
 
 }  // namespace flexarm::effects

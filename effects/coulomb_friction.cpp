@@ -7,11 +7,11 @@ Entry coulomb_friction() {
       .definition = define(
           {.name = "coulomb_friction",
            .meaning =
-               "hub friction of constant size against the motion; holds the hub at rest below it",
+               "Coulomb friction at the hub; sticks below this torque",
            .parameters = {{.name = "torque",
                            .unit = "N m",
                            .range = arm::kNotNegative,
-                           .meaning = "size of the friction",
+                           .meaning = "friction torque",
                            .example = 0.012,
                            .neutral = 0.0}},
            .hub_torque = [](const arm::Effect& effect) -> arm::HubLaw {
@@ -26,9 +26,9 @@ Entry coulomb_friction() {
                  Spacing::from_zero}};
       },
       .speaks_for =
-          "the residual hub torque steps with the sign of the hub velocity, and damping falls with "
-          "the amplitude",
-      .refuted_by = "damping that is the same at every amplitude"};
+          "residual hub torque depends on the sign of the hub velocity; apparent damping decreases "
+          "with amplitude",
+      .refuted_by = "apparent damping independent of amplitude"};
 }
 
 }  // namespace flexarm::effects

@@ -5,11 +5,11 @@ namespace flexarm::effects {
 Entry flexural_rigidity() {
   return {
       .definition = define({.name = "flexural_rigidity",
-                            .meaning = "EI is factor times the arm file's",
+                            .meaning = "EI multiplied by factor",
                             .parameters = {{.name = "factor",
                                             .unit = "1",
                                             .range = arm::kPositive,
-                                            .meaning = "of EI",
+                                            .meaning = "factor of EI",
                                             .example = 0.85,
                                             .neutral = 1.0}},
                             .arm_number =
@@ -20,8 +20,8 @@ Entry flexural_rigidity() {
       .search = [](const Scales& /*scales*/) -> std::vector<SearchedParameter> {
         return {{.name = "factor", .lowest = 0.4, .highest = 2.5, .neutral = 1.0}};
       },
-      .speaks_for = "all poles and zeros move in one ratio; the rigid-body inertia is as expected",
-      .refuted_by = "poles and zeros that move in unlike ratios"};
+      .speaks_for = "all poles and zeros shifted by the same ratio; rigid-body inertia unchanged",
+      .refuted_by = "poles and zeros shifted by different ratios"};
 }
 
 }  // namespace flexarm::effects

@@ -6,11 +6,11 @@ Entry gravity() {
   return {.definition = define(
               {.name = "gravity",
                .meaning = "the arm hangs along gravity: axial tension P(x) = acceleration (mass "
-                          "beyond x), potential 1/2 integral P y'^2 dx; negative stands up",
+                          "beyond x), potential 1/2 integral P y'^2 dx; negative: inverted arm",
                .parameters = {{.name = "acceleration",
                                .unit = "m/s^2",
                                .range = arm::kAnyFinite,
-                               .meaning = "along the arm, from the hub to the tip",
+                               .meaning = "component along the arm, from hub to tip",
                                .example = 9.81,
                                .neutral = 0.0}},
                .linear_term =
@@ -27,9 +27,9 @@ Entry gravity() {
                      .neutral = 0.0}};
           },
           .speaks_for =
-              "the arm swings about one hub angle, and the squares of all poles move up by nearly "
-              "the same amount",
-          .refuted_by = "a rest at any hub angle"};
+              "restoring torque towards one hub angle; squared pole frequencies all increased by "
+              "nearly the same amount",
+          .refuted_by = "equilibrium at any hub angle"};
 }
 
 }  // namespace flexarm::effects

@@ -6,11 +6,11 @@ Entry hub_inertia() {
   return {
       .definition = define(
           {.name = "hub_inertia",
-           .meaning = "hub inertia is factor times the arm file's",
+           .meaning = "hub inertia multiplied by factor",
            .parameters = {{.name = "factor",
                            .unit = "1",
                            .range = arm::kPositive,
-                           .meaning = "of the hub's inertia",
+                           .meaning = "factor of the hub inertia",
                            .example = 1.4,
                            .neutral = 1.0}},
            .arm_number = [](const arm::Effect& effect,
@@ -20,8 +20,8 @@ Entry hub_inertia() {
         return {{.name = "factor", .lowest = 0.3, .highest = 3.0, .neutral = 1.0}};
       },
       .speaks_for =
-          "poles move; hub-angle zeros, which are the poles of the arm with its hub locked, do not",
-      .refuted_by = "hub-angle zeros that move too"};
+          "poles shifted; hub-angle zeros (the poles with the hub locked) unchanged",
+      .refuted_by = "shifted hub-angle zeros"};
 }
 
 }  // namespace flexarm::effects

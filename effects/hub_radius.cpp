@@ -10,7 +10,7 @@ Entry hub_radius() {
            .parameters = {{.name = "radius",
                            .unit = "m",
                            .range = arm::kNotNegative,
-                           .meaning = "from the axis to the beam's root",
+                           .meaning = "distance from the axis to the beam root",
                            .example = 0.05,
                            .neutral = 0.0}},
            .linear_term =
@@ -23,8 +23,8 @@ Entry hub_radius() {
         return {{"radius", 1e-3 * length_m, 0.3 * length_m, Spacing::from_zero}};
       },
       .speaks_for =
-          "the rigid-body inertia is larger and poles move; the zeros of the clamped beam do not",
-      .refuted_by = "hub-angle zeros that move"};
+          "larger rigid-body inertia, shifted poles, unchanged hub-angle zeros",
+      .refuted_by = "shifted hub-angle zeros"};
 }
 
 }  // namespace flexarm::effects

@@ -5,11 +5,11 @@ namespace flexarm::effects {
 Entry hub_spring() {
   return {.definition = define(
               {.name = "hub_spring",
-               .meaning = "a spring from the hub to ground (a cable)",
+               .meaning = "spring from hub to ground, e.g. a cable",
                .parameters = {{.name = "stiffness",
                                .unit = "N m/rad",
                                .range = arm::kNotNegative,
-                               .meaning = "of the spring",
+                               .meaning = "rotational stiffness",
                                .example = 0.6,
                                .neutral = 0.0}},
                .linear_term =
@@ -21,8 +21,9 @@ Entry hub_spring() {
             const double bending = scales.bending_stiffness_N_m_per_rad();
             return {{"stiffness", 1e-4 * bending, 3.0 * bending, Spacing::from_zero}};
           },
-          .speaks_for = "the hub returns: the residual hub torque is a slope over the hub angle",
-          .refuted_by = "a hub angle that stays where it is left"};
+          .speaks_for =
+              "the hub returns to its initial angle; residual hub torque proportional to hub angle",
+          .refuted_by = "a hub that does not return"};
 }
 
 }  // namespace flexarm::effects

@@ -5,7 +5,7 @@ namespace flexarm::effects {
 Entry hub_viscous_friction() {
   return {.definition = define(
               {.name = "hub_viscous_friction",
-               .meaning = "further torque -coefficient theta' at the hub",
+               .meaning = "additional viscous torque -coefficient theta' at the hub",
                .parameters = {{.name = "coefficient",
                                .unit = "N m s/rad",
                                .range = arm::kNotNegative,
@@ -25,8 +25,11 @@ Entry hub_viscous_friction() {
             return {{"coefficient", 1e-3 * natural, natural, Spacing::from_zero}};
           },
           .speaks_for =
-              "the residual hub torque is a slope over hub velocity, the same at every amplitude",
-          .refuted_by = "a slope that changes with the amplitude, or a step at rest"};
+              "residual hub torque proportional to hub velocity, with the same coefficient at "
+              "every amplitude",
+          .refuted_by =
+              "a coefficient that depends on amplitude, or a step of the residual hub torque at "
+              "zero velocity"};
 }
 
 }  // namespace flexarm::effects

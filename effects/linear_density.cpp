@@ -4,11 +4,11 @@ namespace flexarm::effects {
 
 Entry linear_density() {
   return {.definition = define({.name = "linear_density",
-                                .meaning = "mass per length is factor times the arm file's",
+                                .meaning = "mass per length multiplied by factor",
                                 .parameters = {{.name = "factor",
                                                 .unit = "1",
                                                 .range = arm::kPositive,
-                                                .meaning = "of the mass per length",
+                                                .meaning = "factor of the mass per length",
                                                 .example = 1.15,
                                                 .neutral = 1.0}},
                                 .arm_number =
@@ -19,8 +19,8 @@ Entry linear_density() {
           .search = [](const Scales& /*scales*/) -> std::vector<SearchedParameter> {
             return {{.name = "factor", .lowest = 0.4, .highest = 2.5, .neutral = 1.0}};
           },
-          .speaks_for = "poles and zeros move down together, and the rigid-body inertia is larger",
-          .refuted_by = "a rigid-body inertia that is as expected"};
+          .speaks_for = "lower poles and zeros, larger rigid-body inertia",
+          .refuted_by = "unchanged rigid-body inertia"};
 }
 
 }  // namespace flexarm::effects

@@ -22,17 +22,16 @@ void require_on_beam(const arm::Effect& effect, const arm::Arm& arm) {
 Entry local_stiffness_loss() {
   return {.definition = define(
               {.name = "local_stiffness_loss",
-               .meaning = "a crack: a massless rotational spring in the beam at this place, less "
-                          "than the beam's length from its root",
+               .meaning = "crack: massless rotational spring in the beam at this position",
                .parameters = {{.name = "position",
                                .unit = "m",
                                .range = arm::kNotNegative,
-                               .meaning = "from the beam's root",
+                               .meaning = "distance from the beam root, less than the length",
                                .example = 0.31},
                               {.name = "stiffness",
                                .unit = "N m/rad",
                                .range = arm::kPositive,
-                               .meaning = "of the spring",
+                               .meaning = "rotational stiffness",
                                .example = 15.0,
                                .neutral = std::numeric_limits<double>::infinity()}},
                .linear_term =
@@ -49,9 +48,9 @@ Entry local_stiffness_loss() {
           },
           .contains = {"root_compliance"},
           .speaks_for =
-              "poles and zeros move down in unlike ratios; a mode that does not bend at the crack "
-              "stays",
-          .refuted_by = "modes that all move in one ratio"};
+              "poles and zeros lowered by different ratios; a mode without curvature at the crack "
+              "unchanged",
+          .refuted_by = "all modes shifted by the same ratio"};
 }
 
 }  // namespace flexarm::effects

@@ -5,7 +5,7 @@ namespace flexarm::effects {
 Entry payload_inertia() {
   return {.definition = define(
               {.name = "payload_inertia",
-               .meaning = "a further rotary inertia at the tip, about the payload's centre of mass",
+               .meaning = "additional rotary inertia at the tip, about the centre of mass",
                .parameters = {{.name = "inertia",
                                .unit = "kg m^2",
                                .range = arm::kNotNegative,
@@ -22,8 +22,8 @@ Entry payload_inertia() {
                 scales.beam_mass_kg() * scales.beam.length_m * scales.beam.length_m;
             return {{"inertia", 1e-5 * beam_kg_m2, 0.1 * beam_kg_m2, Spacing::from_zero}};
           },
-          .speaks_for = "zeros of tip acceleration move, those of higher modes most",
-          .refuted_by = "zeros of tip acceleration that do not move"};
+          .speaks_for = "tip-acceleration zeros shifted, most at higher modes",
+          .refuted_by = "unchanged tip-acceleration zeros"};
 }
 
 }  // namespace flexarm::effects

@@ -5,11 +5,11 @@ namespace flexarm::effects {
 Entry payload_mass() {
   return {.definition = define(
               {.name = "payload_mass",
-               .meaning = "a further mass at the tip, beside the payload where there is one",
+               .meaning = "additional mass at the tip, with or without payload",
                .parameters = {{.name = "mass",
                                .unit = "kg",
                                .range = arm::kNotNegative,
-                               .meaning = "of the further body",
+                               .meaning = "additional mass",
                                .example = 0.03,
                                .neutral = 0.0}},
                .linear_term =
@@ -21,8 +21,8 @@ Entry payload_mass() {
             const double beam_kg = scales.beam_mass_kg();
             return {{"mass", 1e-3 * beam_kg, 2.0 * beam_kg, Spacing::from_zero}};
           },
-          .speaks_for = "hub-angle zeros move; zeros of tip acceleration do not",
-          .refuted_by = "zeros of tip acceleration that move"};
+          .speaks_for = "hub-angle zeros shifted, tip-acceleration zeros unchanged",
+          .refuted_by = "shifted tip-acceleration zeros"};
 }
 
 }  // namespace flexarm::effects

@@ -5,11 +5,11 @@ namespace flexarm::effects {
 Entry payload_offset() {
   return {.definition = define(
               {.name = "payload_offset",
-               .meaning = "the payload's centre of mass lies this far beyond the tip",
+               .meaning = "distance of the payload's centre of mass beyond the tip",
                .parameters = {{.name = "offset",
                                .unit = "m",
                                .range = arm::kAnyFinite,
-                               .meaning = "from the tip, outwards",
+                               .meaning = "distance from the tip, outwards",
                                .example = 0.04,
                                .neutral = 0.0}},
                .linear_term =
@@ -26,8 +26,8 @@ Entry payload_offset() {
                      .neutral = 0.0}};
           },
           .applies = [](const Scales& scales) { return scales.has_payload_mass; },
-          .speaks_for = "the error grows with the payload and vanishes without one",
-          .refuted_by = "an error without payload"};
+          .speaks_for = "residuals increase with payload and vanish without payload",
+          .refuted_by = "excess residual without payload"};
 }
 
 }  // namespace flexarm::effects

@@ -27,8 +27,8 @@ Entry quadratic_drag() {
             const double natural = scales.beam.linear_density_kg_per_m / scales.beam.length_m;
             return {{"coefficient", 1e-3 * natural, 30.0 * natural, Spacing::from_zero}};
           },
-          .speaks_for = "damping grows with the amplitude",
-          .refuted_by = "damping that is the same at every amplitude"};
+          .speaks_for = "apparent damping increases with amplitude",
+          .refuted_by = "apparent damping independent of amplitude"};
 }
 
 }  // namespace flexarm::effects

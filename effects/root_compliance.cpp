@@ -7,11 +7,11 @@ namespace flexarm::effects {
 Entry root_compliance() {
   return {.definition = define(
               {.name = "root_compliance",
-               .meaning = "a rotational spring between hub and beam root",
+               .meaning = "rotational spring between hub and beam root",
                .parameters = {{.name = "stiffness",
                                .unit = "N m/rad",
                                .range = arm::kPositive,
-                               .meaning = "of the spring",
+                               .meaning = "rotational stiffness",
                                .example = 30.0,
                                .neutral = std::numeric_limits<double>::infinity()}},
                .linear_term =
@@ -23,8 +23,9 @@ Entry root_compliance() {
             const double bending = scales.bending_stiffness_N_m_per_rad();
             return {{"stiffness", 0.5 * bending, 1e3 * bending, Spacing::from_infinity}};
           },
-          .speaks_for = "poles and hub-angle zeros move down, and strain at the root lags the hub",
-          .refuted_by = "hub-angle zeros that do not move"};
+          .speaks_for =
+              "lower poles and hub-angle zeros; phase lag of root strain behind the hub angle",
+          .refuted_by = "unchanged hub-angle zeros"};
 }
 
 }  // namespace flexarm::effects

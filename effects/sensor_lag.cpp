@@ -4,12 +4,12 @@ namespace flexarm::effects {
 
 Entry sensor_lag() {
   return {.definition = define({.name = "sensor_lag",
-                                .meaning = "that sensor reads through 1 / (1 + time_constant s); "
-                                           "`tip_acceleration` unless given",
+                                .meaning = "first-order lag 1 / (1 + time_constant s) of that "
+                                           "sensor; default `tip_acceleration`",
                                 .parameters = {{.name = "time_constant",
                                                 .unit = "s",
                                                 .range = arm::kNotNegative,
-                                                .meaning = "of the first-order lag",
+                                                .meaning = "time constant of the lag",
                                                 .example = 0.002,
                                                 .neutral = 0.0}},
                                 .sensor = arm::Sensor{arm::SensorKind::tip_acceleration, 0.0},
@@ -24,8 +24,8 @@ Entry sensor_lag() {
             return {{"time_constant", 0.02 * scales.shortest_time_s, 200.0 * scales.shortest_time_s,
                      Spacing::from_zero}};
           },
-          .speaks_for = "one sensor lags, the others do not",
-          .refuted_by = "other sensors that lag as much"};
+          .speaks_for = "phase lag and magnitude roll-off in one sensor only",
+          .refuted_by = "the same phase lag in other sensors"};
 }
 
 }  // namespace flexarm::effects

@@ -33,7 +33,7 @@ Entry shear_and_rotary_inertia() {
                                 .parameters = {{.name = "shear_coefficient",
                                                 .unit = "1",
                                                 .range = arm::kPositive,
-                                                .meaning = "5/6 of a rectangle",
+                                                .meaning = "5/6 for a rectangle",
                                                 .example = 5.0 / 6.0,
                                                 .otherwise = 5.0 / 6.0}},
                                 .linear_term = add_shear}),
@@ -46,8 +46,9 @@ Entry shear_and_rotary_inertia() {
                 const arm::Beam& beam = scales.arm.beam;
                 return beam.shear_modulus_Pa && beam.width_m && beam.thickness_m;
               },
-          .speaks_for = "high modes are lower than a slender beam's, the higher the more",
-          .refuted_by = "modes that all move in one ratio"};
+          .speaks_for =
+              "natural frequencies below Euler-Bernoulli values, increasingly so for higher modes",
+          .refuted_by = "all modes shifted by the same ratio"};
 }
 
 }  // namespace flexarm::effects

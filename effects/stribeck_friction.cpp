@@ -35,17 +35,17 @@ Entry stribeck_friction() {
                       .parameters = {{.name = "torque",
                                       .unit = "N m",
                                       .range = arm::kNotNegative,
-                                      .meaning = "size at high speed",
+                                      .meaning = "Coulomb torque, at high velocity",
                                       .example = 0.01},
                                      {.name = "static_torque",
                                       .unit = "N m",
                                       .range = arm::kNotNegative,
-                                      .meaning = "size at rest",
+                                      .meaning = "static torque, at rest",
                                       .example = 0.016},
                                      {.name = "velocity",
                                       .unit = "rad/s",
                                       .range = arm::kPositive,
-                                      .meaning = "over which it changes from one to the other",
+                                      .meaning = "Stribeck velocity",
                                       .example = 0.2}},
                       .hub_torque = stribeck}),
           .shows = Shows::in_time,
@@ -58,9 +58,9 @@ Entry stribeck_friction() {
           },
           .contains = {"coulomb_friction"},
           .speaks_for =
-              "the residual hub torque steps with the sign of the hub velocity, the step being "
-              "highest at rest",
-          .refuted_by = "a step of one height at every velocity"};
+              "residual hub torque depends on the sign of the hub velocity and is largest near "
+              "zero velocity",
+          .refuted_by = "a step independent of velocity (that is Coulomb friction)"};
 }
 
 }  // namespace flexarm::effects

@@ -5,11 +5,11 @@ namespace flexarm::effects {
 Entry structural_damping() {
   return {.definition = define(
               {.name = "structural_damping",
-               .meaning = "further Kelvin-Voigt damping of the beam",
+               .meaning = "additional Kelvin-Voigt damping of the beam",
                .parameters = {{.name = "time",
                                .unit = "s",
                                .range = arm::kNotNegative,
-                               .meaning = "beside damping.kelvin_voigt",
+                               .meaning = "time constant, added to damping.kelvin_voigt",
                                .example = 2e-4,
                                .neutral = 0.0}},
                .linear_term =
@@ -21,8 +21,8 @@ Entry structural_damping() {
             const double scale_rad_per_s = arm::omega_scale_rad_per_s(scales.beam);
             return {{"time", 1e-3 / scale_rad_per_s, 1.0 / scale_rad_per_s, Spacing::from_zero}};
           },
-          .speaks_for = "damping ratios rise in proportion to the frequency of the mode",
-          .refuted_by = "damping ratios that fall with frequency"};
+          .speaks_for = "damping ratios proportional to natural frequency",
+          .refuted_by = "damping ratios that decrease with natural frequency"};
 }
 
 }  // namespace flexarm::effects

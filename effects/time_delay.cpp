@@ -8,7 +8,7 @@ Entry time_delay() {
                                 .parameters = {{.name = "delay",
                                                 .unit = "s",
                                                 .range = arm::kNotNegative,
-                                                .meaning = "of the torque behind its command",
+                                                .meaning = "delay of the torque",
                                                 .example = 0.003,
                                                 .neutral = 0.0}},
                                 .torque_path =
@@ -21,9 +21,8 @@ Entry time_delay() {
             return {{"delay", 0.02 * scales.shortest_time_s, 200.0 * scales.shortest_time_s,
                      Spacing::from_zero}};
           },
-          .speaks_for =
-              "phase lag in proportion to the frequency; poles, zeros and amplitudes do not change",
-          .refuted_by = "amplitudes that fall with frequency"};
+          .speaks_for = "phase lag proportional to frequency; poles, zeros and magnitude unchanged",
+          .refuted_by = "magnitude roll-off with frequency (that is a lag)"};
 }
 
 }  // namespace flexarm::effects

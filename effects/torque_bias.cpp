@@ -23,8 +23,8 @@ Entry torque_bias() {
                  .spacing = Spacing::linear,
                  .neutral = 0.0}};
       },
-      .speaks_for = "the residual hub torque is constant: the arm drifts one way",
-      .refuted_by = "no drift where the torque is zero"};
+      .speaks_for = "constant residual hub torque; the hub accelerates in one direction",
+      .refuted_by = "no motion at zero commanded torque"};
 }
 
 }  // namespace flexarm::effects

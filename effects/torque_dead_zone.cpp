@@ -20,7 +20,7 @@ Entry torque_dead_zone() {
                             .parameters = {{.name = "width",
                                             .unit = "N m",
                                             .range = arm::kNotNegative,
-                                            .meaning = "half of the zone without torque",
+                                            .meaning = "half-width of the dead zone",
                                             .example = 0.02,
                                             .neutral = 0.0}},
                             .torque_path = dead_zone}),
@@ -29,8 +29,8 @@ Entry torque_dead_zone() {
         return {{"width", 1e-3 * scales.torque_peak_N_m, 0.8 * scales.torque_peak_N_m,
                  Spacing::from_zero}};
       },
-      .speaks_for = "runs of low torque have the largest errors: the gain rises with the amplitude",
-      .refuted_by = "a gain that is the same at every amplitude"};
+      .speaks_for = "gain increases with torque amplitude; largest NRMSE in runs of low torque",
+      .refuted_by = "gain independent of amplitude"};
 }
 
 }  // namespace flexarm::effects

@@ -8,7 +8,7 @@ Entry torque_gain() {
                                 .parameters = {{.name = "factor",
                                                 .unit = "1",
                                                 .range = arm::kAnyFinite,
-                                                .meaning = "of the commanded torque",
+                                                .meaning = "gain",
                                                 .example = 1.2,
                                                 .neutral = 1.0}},
                                 .torque_path =
@@ -21,8 +21,8 @@ Entry torque_gain() {
           .search = [](const Scales& /*scales*/) -> std::vector<SearchedParameter> {
             return {{.name = "factor", .lowest = 0.3, .highest = 3.0, .neutral = 1.0}};
           },
-          .speaks_for = "every sensor reads more or less in one ratio; poles and zeros do not move",
-          .refuted_by = "poles or zeros that move"};
+          .speaks_for = "all sensors scaled by the same ratio; poles and zeros unchanged",
+          .refuted_by = "shifted poles or zeros"};
 }
 
 }  // namespace flexarm::effects

@@ -14,18 +14,18 @@ Entry torque_ripple() {
                   .parameters = {{.name = "amplitude",
                                   .unit = "N m",
                                   .range = arm::kAnyFinite,
-                                  .meaning = "of the ripple",
+                                  .meaning = "amplitude of the ripple",
                                   .example = 0.01,
                                   .neutral = 0.0},
                                  {.name = "cycles",
                                   .unit = "1/rev",
                                   .range = arm::kPositive,
-                                  .meaning = "multiplies theta [rad]",
+                                  .meaning = "cycles per revolution (theta in rad)",
                                   .example = 9.0},
                                  {.name = "phase",
                                   .unit = "rad",
                                   .range = arm::kAnyFinite,
-                                  .meaning = "at theta = 0",
+                                  .meaning = "phase at theta = 0",
                                   .example = 0.4}},
                   .hub_torque = [](const arm::Effect& effect) -> arm::HubLaw {
                     return arm::SmoothHubTorque{
@@ -46,8 +46,8 @@ Entry torque_ripple() {
       },
       // Of few cycles, over a part of a turn.
       .contains = {"hub_spring", "torque_bias"},
-      .speaks_for = "the residual hub torque is periodic in the hub angle",
-      .refuted_by = "a residual torque at one angle that differs from turn to turn"};
+      .speaks_for = "residual hub torque periodic in the hub angle",
+      .refuted_by = "a residual hub torque at the same angle that differs between revolutions"};
 }
 
 }  // namespace flexarm::effects

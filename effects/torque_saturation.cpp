@@ -7,11 +7,11 @@ namespace flexarm::effects {
 Entry torque_saturation() {
   return {.definition =
               define({.name = "torque_saturation",
-                      .meaning = "T = tau clipped to +-limit",
+                      .meaning = "T = tau limited to +-limit",
                       .parameters = {{.name = "limit",
                                       .unit = "N m",
                                       .range = arm::kPositive,
-                                      .meaning = "largest torque",
+                                      .meaning = "largest magnitude of the torque",
                                       .example = 0.09,
                                       .neutral = std::numeric_limits<double>::infinity()}},
                       .torque_path =
@@ -29,8 +29,8 @@ Entry torque_saturation() {
                      .highest = scales.torque_peak_N_m,
                      .neutral = scales.torque_peak_N_m}};
           },
-          .speaks_for = "only runs of high torque have errors, while the torque is highest",
-          .refuted_by = "an error where the torque is low"};
+          .speaks_for = "excess residual only where the torque magnitude is large",
+          .refuted_by = "excess residual at low torque"};
 }
 
 }  // namespace flexarm::effects

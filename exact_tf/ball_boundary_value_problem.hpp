@@ -69,7 +69,7 @@ struct EigenvalueCount {
   long poles = 0;
 };
 
-/// Wittrick and Williams's count (Q. J. Mech. Appl. Math. 24, 1971) at the real `lambda` > 0, from
+/// The count of [WittrickWilliams1971] at the real `lambda` > 0, from
 /// the beam's dynamic stiffness for slope and displacement at its ends: clamped-clamped eigenvalues
 /// below lambda plus negative pivots. Empty where the working precision leaves a sign open.
 std::optional<EigenvalueCount> wittrick_williams(const DimensionlessArm& arm,

@@ -134,11 +134,11 @@ std::optional<Enclosed> enclose(const Problem& problem, ZeroLocus locus, const G
 std::string fault_of(const std::vector<std::optional<Enclosed>>& enclosed,
                      const Certificate& certificate, const CertificateOptions& options) {
   for (std::size_t i = 0; i < enclosed.size(); ++i) {
-    if (!enclosed[i]) return fmt::format("root {}: no root is proved near it", i + 1);
+    if (!enclosed[i]) return fmt::format("root {}: no certified root nearby", i + 1);
     const double distance = certificate.roots[i].distance_ulp;
     if (!(distance <= options.max_distance_ulp)) {
-      return fmt::format("root {} lies {:.3g} ulp from the root enclosed; allowed: {:.3g}", i + 1,
-                         distance, options.max_distance_ulp);
+      return fmt::format("root {} differs by {:.3g} ulp from the enclosed root; allowed: {:.3g}",
+                         i + 1, distance, options.max_distance_ulp);
     }
   }
   for (std::size_t i = 0; i < enclosed.size(); ++i) {
@@ -203,16 +203,15 @@ Certificate certify(const Problem& problem, const std::vector<ZeroLocus>& loci,
                                            [&] { return count(beyond(enclosed)); });
   if (!counted) {
     if (certificate.failure.empty()) {
-      certificate.failure = fmt::format("the count is not certain with {} values at up to {} bits",
+      certificate.failure = fmt::format("root count not certified with {} values at up to {} bits",
                                         options.max_function_values, options.max_precision_bits);
     }
     return certificate;
   }
   certificate.counted = *counted;
   if (certificate.failure.empty() && *counted != weight_of(enclosed)) {
-    certificate.failure =
-        fmt::format("the problem has {} roots up to the last one given, the list has {}", *counted,
-                    weight_of(enclosed));
+    certificate.failure = fmt::format("{} roots up to the last one given, but {} in the list",
+                                      *counted, weight_of(enclosed));
   }
   certificate.proved = certificate.failure.empty();
   return certificate;

@@ -11,7 +11,7 @@ struct ChainCount {
   RootValues<Real> values;
 };
 
-/// The algorithm of Wittrick and Williams (Q. J. Mech. Appl. Math. 24, 1971) on the undamped chain,
+/// The algorithm of [WittrickWilliams1971] on the undamped chain,
 /// whose clamped segments do not resonate: the count is that of the negative pivots of the dynamic
 /// stiffness, eliminated from the tip to the hub.
 ///

@@ -88,8 +88,8 @@ void require_plain(const arm::Arm& arm, std::string_view who) {
     alone.effects = {{name, effect}};
     if (!linear_arm(without).is_plain() && linear_arm(alone).is_plain()) continue;
     throw arm::InputError(
-        fmt::format("effects.{}: {} does not honour this effect (port {}): it solves a uniform "
-                    "Euler-Bernoulli beam that is clamped to a hub without radius or spring",
+        fmt::format("effects.{}: not supported by {} (port {}): it solves a uniform "
+                    "Euler-Bernoulli beam clamped to a hub without radius or spring",
                     name, who, arm::to_string(arm::Port::linear_term)),
         "effects." + name);
   }

@@ -89,9 +89,10 @@ Real modal_value(const ChainModes& modes, std::size_t i, arm::SensorKind kind, R
 TransferMatrixArm::TransferMatrixArm(const arm::LinearArm& arm)
     : arm_(arm), units_(in_beam_units(arm)) {
   if (!flexible_modes_are_stable(units_)) {
-    throw arm::out_of_range("effects.gravity.acceleration", arm.gravity_m_per_s2, "m/s^2",
-                            fmt::format("above {:.4g} m/s^2, where the standing arm's beam buckles",
-                                        buckling_acceleration(units_, arm.gravity_m_per_s2)));
+    throw arm::out_of_range(
+        "effects.gravity.acceleration", arm.gravity_m_per_s2, "m/s^2",
+        fmt::format("above {:.4g} m/s^2, the buckling limit of the inverted arm",
+                    buckling_acceleration(units_, arm.gravity_m_per_s2)));
   }
 }
 

@@ -11,8 +11,8 @@ namespace flexarm::fem {
 /// Its shape functions are the four cubic Hermite functions, in the order deflection and rotation
 /// at the left end, deflection and rotation at the right end; p - 3 bubbles; and of a sheared
 /// element p - 1 shear strains. The bubble of order k = 2 ... p - 2 has the Legendre polynomial P_k
-/// as its curvature and vanishes with its slope at both ends (hierarchical functions, Szabo and
-/// Babuska, Finite Element Analysis, 1991). The shear strain of order k = 0 ... p - 2 is P_k and
+/// as its curvature and vanishes with its slope at both ends (hierarchical functions
+/// [SzaboBabuska1991]). The shear strain of order k = 0 ... p - 2 is P_k and
 /// leaves both ends where they are: without further rotation for k >= 1, while that of order 0
 /// needs psi = P_2 - P_0. The coordinate of a rotation is psi, that of a bubble the amplitude of
 /// P_k in psi', that of a shear strain its amplitude.

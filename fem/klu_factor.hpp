@@ -13,8 +13,9 @@ enum class PivotOrder {
   natural_partial,   ///< columns as given, full partial pivoting: for narrow bands
 };
 
-/// Sparse LU factor of a square matrix by SuiteSparse's KLU (Davis and Natarajan, ACM TOMS 37(3),
-/// 2010). `Scalar` is double or std::complex<double>. A factor serves one thread at a time.
+/// Sparse LU factor of a square matrix by SuiteSparse's KLU
+/// [DavisNatarajan2010]. `Scalar` is double or std::complex<double>. A factor serves one thread at
+/// a time.
 template <class Scalar>
 class KluFactor {
  public:

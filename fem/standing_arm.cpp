@@ -34,7 +34,7 @@ void require_unbuckled(const arm::LinearArm& arm) {
                                   Eigen::VectorXd::Unit(model.size(), 0);
   if (negative_eigenvalues(stiffness, elastic) >= 2) {
     throw arm::out_of_range("effects.gravity.acceleration", arm.gravity_m_per_s2, "m/s^2",
-                            "nearer to 0: a flexible mode of the standing arm buckles");
+                            "closer to 0: the inverted arm buckles");
   }
 }
 

@@ -59,20 +59,20 @@ std::string reason_against(const Candidate& candidate, const std::vector<Candida
                            double agreement) {
   constexpr double kConvergence = 0.1;
   constexpr double kNegligible = 1e-3;
-  if (!candidate.counterpart) return "has no counterpart on a finer model";
+  if (!candidate.counterpart) return "no corresponding zero of the refined model";
   if (!(candidate.change <= agreement)) {
-    return fmt::format("moves by more than {} on a finer model", agreement);
+    return fmt::format("relative change above {} in the refined model", agreement);
   }
   const auto has_nearer_claim = [&](const Candidate& other) {
     return other.counterpart && same(*other.counterpart, *candidate.counterpart) &&
            other.change < candidate.change;
   };
   if (std::ranges::any_of(all, has_nearer_claim)) {
-    return "a nearer root has the same counterpart on a finer model";
+    return "a closer root corresponds to the same zero of the refined model";
   }
   if (!(candidate.further_change <=
         std::max(kConvergence * candidate.change, kNegligible * agreement))) {
-    return "does not converge on finer models";
+    return "no convergence under refinement";
   }
   return {};
 }
@@ -87,7 +87,7 @@ std::size_t sort_out(const std::vector<Candidate>& candidates, std::size_t compl
   for (const Candidate& candidate : candidates) {
     if (static_cast<int>(zeros.s_rad_per_s.size()) == count) break;
     std::string reason = looked_at < complete ? reason_against(candidate, candidates, agreement)
-                                              : "lies beyond a root that the search missed";
+                                              : "beyond a zero that the search missed";
     ++looked_at;
     if (reason.empty()) {
       zeros.s_rad_per_s.push_back(candidate.s);

@@ -28,7 +28,7 @@ struct StageAdder {
   void operator()(const arm::PiecewiseLinear& map) const {
     if (actuator.lag_s > 0.0 && !map.is_proportional()) {
       throw not_modelled(effect, arm::Port::torque_path,
-                         "a function that is not proportional behind a lag is not modelled");
+                         "a nonlinearity after a lag is not modelled");
     }
     if (map != arm::PiecewiseLinear()) actuator.maps.push_back(map);
   }

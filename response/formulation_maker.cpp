@@ -30,7 +30,7 @@ AnyFormulation make_formulation(std::string_view formulation, const arm::Arm& ar
   if (roots > kMostRoots) {
     throw arm::out_of_range(
         "roots", roots, "",
-        fmt::format("{} or less by {}; exact_tf has no such bound", kMostRoots, formulation));
+        fmt::format("at most {} for {}; exact_tf has no limit", kMostRoots, formulation));
   }
   if (formulation == fem::FemArm::kName) return fem::FemArm(std::move(linear), fem_settings(roots));
   return assumed_modes::AssumedModesArm(std::move(linear), assumed_modes_settings(roots));
@@ -62,10 +62,11 @@ arm::Arm without_damping(const arm::Arm& arm) {
     if (terms.damping == arm::LinearTerms::Damping{}) return false;
     terms.damping = {};
     if (terms == arm::LinearTerms{} && !effect.definition->arm_number) return true;
-    throw arm::InputError(fmt::format("effects.{}: port {}: damping together with other terms "
-                                      "cannot be taken off for a static correction",
-                                      named.first, arm::to_string(arm::Port::linear_term)),
-                          "effects." + named.first);
+    throw arm::InputError(
+        fmt::format(
+            "effects.{}: port {}: damping combined with other terms has no static correction",
+            named.first, arm::to_string(arm::Port::linear_term)),
+        "effects." + named.first);
   });
   return undamped;
 }

@@ -183,7 +183,7 @@ arm::ModalModel with_residual_mode(const AnyFormulation& formulation, const arm:
     return mode.sensor_values.size() == sensors.size();
   });
   if (model.modes.empty() || !matches) {
-    throw std::invalid_argument("residual mode: the modal model is not one of these sensors");
+    throw std::invalid_argument("residual mode: the modal model has other sensors");
   }
   const std::size_t kept = model.modes.size();
   const std::size_t further = std::max(kLeastFurtherModes, kept / 2);

@@ -7,8 +7,8 @@
 namespace flexarm::response {
 
 /// `model`, the lowest mode and n flexible ones of `formulation` with values at `sensors`, with one
-/// pseudo-mode more, which answers for all modes left out: modal truncation augmentation, Dickens,
-/// Nakagawa & Wittbrodt, Computers & Structures 62 (1997) 985. Its shape is the part that those
+/// pseudo-mode more, which answers for all modes left out: modal truncation augmentation
+/// [Dickens1997]. Its shape is the part that those
 /// modes have in the static deflection under hub torque,
 ///
 ///     phi_r = sum_{i>n} a_i phi_i,   a_i = theta_i/(omega_i^2 sqrt(I_T A_1)),

@@ -1,18 +1,18 @@
-"""What `flexarm diagnose --json` says, for the scripts that write docs/case-*.md."""
+"""Results of `flexarm diagnose --json` for the scripts that write docs/case-*.md."""
 from document import number
 
 
 def expect(where, diagnosis, verdict, causes, rivals=None):
-    """Stops where the text of a document would speak of another result than the program's.
-    `rivals`: what the first cause is not told from."""
+    """Stops if the text of a document does not match the result of the program.
+    `rivals`: effects that are indistinguishable from the first one."""
     found = [diagnosis["verdict"], [cause["effect"] for cause in diagnosis["causes"]]]
     said = [verdict, causes]
     if rivals is not None:
         found.append(diagnosis["causes"][0]["confusable_with"] if diagnosis["causes"] else None)
         said.append(rivals)
     if found != said:
-        raise SystemExit(f"{where}: the text is about {said}; the program now says {found}: write "
-                         "the text anew")
+        raise SystemExit(f"{where}: the text assumes {said}, the program gives {found}; revise "
+                         "the text")
 
 
 def verdict_of(diagnosis):
@@ -39,7 +39,7 @@ def gain_text(gain):
 
 
 def cause_rows(diagnoses):
-    """Header and rows of a table with a row a cause; `diagnoses` by what they were made of."""
+    """Header and rows of a table with one row per effect; `diagnoses` by their data."""
     rows = []
     for name, diagnosis in diagnoses.items():
         gain = diagnosis["gain"]
@@ -51,5 +51,6 @@ def cause_rows(diagnoses):
             row = row + ([cause_text(cause), per_cent(cause["share"], 3),
                           ", ".join(cause["confusable_with"]) or "-"] if cause else ["none", "-", "-"])
             rows.append(row + (tail if k == 0 else ["", ""]))
-    return ["data", "verdict", "causes", "share [%]", "not told from", "error, fitted [%] (noise)",
-            "error, validation [%] (noise)"], rows
+    return ["data", "verdict", "identified effects", "explained share [%]",
+            "indistinguishable from", "NRMSE, estimation [%] (noise floor)",
+            "NRMSE, validation [%] (noise floor)"], rows

@@ -42,14 +42,14 @@ def write(path, text):
 
 
 def arguments_of(usage, *more):
-    """What the user gave: `program`, build/release's unless told, after the arguments `more`, each
-    a name and its help. Ends the script with status 2 where it cannot be used."""
+    """Command line: the arguments `more`, each a name and its help, then `program` (default: that
+    of build/release). Ends the script with status 2 if it cannot be used."""
     parser = argparse.ArgumentParser(description=usage)
     for name, meaning in more:
         parser.add_argument(name, help=meaning)
     parser.add_argument("program", nargs="?", metavar="PROGRAM",
                         default=os.path.join(ROOT, "build/release/app/flexarm"),
-                        help="build/release/app/flexarm unless told")
+                        help="default: build/release/app/flexarm")
     arguments = parser.parse_args()
     arguments.program = os.path.abspath(arguments.program)
     if not os.access(arguments.program, os.X_OK):

@@ -20,11 +20,11 @@ std::string_view to_string(Verdict verdict) {
     case Verdict::harmless_misprint:
       return "harmless misprint";
     case Verdict::slip_of_print:
-      return "slip of print";
+      return "misprint";
     case Verdict::slip_of_algebra:
-      return "slip of algebra";
+      return "algebra error";
     case Verdict::does_not_follow:
-      return "does not follow";
+      return "not reproducible";
   }
   return "";
 }

@@ -37,9 +37,9 @@ Check spectra() {
           .statement = "spectra, frequency response and coherence",
           .verdict = Verdict::slip_of_print,
           .finding =
-              "(44)-(46) hold for spectra averaged over records, as the text says later; "
-              "(43) as printed is one record's, and from one record the coherence is 1 "
-              "whatever the noise. gamma^2 is no error between H1 and H2 but their ratio.",
+              "(44)-(46) hold for spectra averaged over records, as stated later in the text. (43) "
+              "as printed is for one record, and with one record the coherence is 1 for any noise. "
+              "gamma^2 is not an error between H1 and H2 but their ratio.",
           .comparisons = {{.quantity = "gamma^2, noise = signal",
                            .unit = "1",
                            .printed = coherence(1),
@@ -80,10 +80,10 @@ Check poles_and_zeros(const ThreeModels& damped) {
           .statement = "torque to hub angle from measured poles and zeros",
           .verdict = Verdict::slip_of_algebra,
           .finding =
-              "A zero has a damping ratio of its own. Kelvin-Voigt damping gives each root "
-              "kv omega/2, so that the ratio of zero i is smaller than that of pole i by "
-              "Omega_i/omega_i; with the pole's ratio the dip at Omega_i is too shallow by "
-              "the inverse.",
+              "A zero has its own damping ratio. With Kelvin-Voigt damping it is kv omega/2 for "
+              "each root, so that of zero i is smaller than that of pole i by the factor "
+              "Omega_i/omega_i. With the damping ratio of the pole the antiresonance at Omega_i is "
+              "too shallow by the inverse factor.",
           .comparisons = {row("hub zero 1", zero), row("5 Hz", test)}};
 }
 
@@ -107,18 +107,18 @@ Check tip_acceleration_sum(const ThreeModels& damped, const ModalData& data) {
     return std::abs(
         partial_fractions(data, data.length_m, gain, damping_terms(data), 2, {0.0, omega}));
   };
-  return {.label = "(49)",
-          .statement = "torque to end-point acceleration as a sum over modes",
-          .verdict = Verdict::slip_of_algebra,
-          .finding =
-              "phi_i''(l) must be phi_i(l): the two dots of the acceleration have become "
-              "two primes. As printed the sum is zero at a free tip and a rigid arm is "
-              "left.",
-          .comparisons = {comparison(
-              "|acceleration/tau|, 5 Hz, damped", "m/s^2/(N m)", sum(data.tip_curvature_per_m),
-              sum(data.tip_m),
-              damped.ask([omega](const auto& m) { return magnitude(m, kTipAcceleration, omega); }),
-              kSeriesTolerance)}};
+  return {
+      .label = "(49)",
+      .statement = "torque to end-point acceleration as a sum over modes",
+      .verdict = Verdict::slip_of_algebra,
+      .finding =
+          "phi_i''(l) must be phi_i(l): two primes are printed instead of the two dots of the "
+          "acceleration. As printed the sum is zero at a free tip, and only the rigid arm remains.",
+      .comparisons = {comparison(
+          "|acceleration/tau|, 5 Hz, damped", "m/s^2/(N m)", sum(data.tip_curvature_per_m),
+          sum(data.tip_m),
+          damped.ask([omega](const auto& m) { return magnitude(m, kTipAcceleration, omega); }),
+          kSeriesTolerance)}};
 }
 
 Check resonances(const ThreeModels& damped, const ModalData& data) {
@@ -133,8 +133,8 @@ Check resonances(const ThreeModels& damped, const ModalData& data) {
       .statement = "hub angle and end-point acceleration at a resonance",
       .verdict = Verdict::slip_of_algebra,
       .finding =
-          "Good to a few parts in a thousand at this damping, as only the resonant mode "
-          "is kept; (51) inherits phi''(l) for phi(l) from (49). Its sign is right.",
+          "Accurate to a few parts in a thousand at this damping, as only the resonant mode is "
+          "included. (51) has phi''(l) instead of phi(l), from (49). Its sign is correct.",
       .comparisons = {
           comparison("|theta/tau|, omega_1, damped", "rad/(N m)", angle, angle,
                      damped.ask([w](const auto& m) { return magnitude(m, kHubAngle, w); }),
@@ -155,9 +155,8 @@ Check gain_from_resonance(const ThreeModels& damped, const ModalData& data) {
           .statement = "modal gain of the accelerometer from a measured ratio",
           .verdict = Verdict::slip_of_algebra,
           .finding =
-              "(51) over (50) is -omega_i^2 phi_i(l)/phi_i'(0): the minus sign is lost, and "
-              "with it the sign rule is turned round. It gives phi_i(l), not phi_i''(l), "
-              "which is zero.",
+              "(51) over (50) is -omega_i^2 phi_i(l)/phi_i'(0). The minus sign is missing, so the "
+              "sign rule is reversed. It gives phi_i(l), not phi_i''(l), which is zero.",
           .comparisons = {comparison(
               "phi_1(l) from alpha/theta, damped", "m", by_52, -by_52,
               damped.ask([](const auto& m) { return mode_value(m, 1, kTipDisplacement); }),

@@ -53,12 +53,12 @@ const FrequencyCell& second_zero(const std::string& location) {
 
 Check strain_zeros(const ThreeModels& bare) {
   Check check{.label = "Tables 3, 4: strain",
-              .statement = "zeros measured away from the hub, set against the hub's zeros",
+              .statement = "zeros of other sensors, compared with the zeros of the hub sensors",
               .verdict = Verdict::does_not_follow,
               .finding =
-                  "The hub's zeros are no zeros of torque to strain, and torque to tip "
-                  "acceleration has none on the frequency axis at all. Table 3 did see true "
-                  "strain zeros:",
+                  "The zeros of the hub sensors are not zeros of torque to strain. Torque to tip "
+                  "acceleration has no zeros on the imaginary axis; its zeros are "
+                  "non-minimum-phase. Table 3 contains true strain zeros.",
               .comparisons = {}};
   for (const auto& [location, position_m] :
        {std::pair{"location-1", 0.05}, std::pair{"location-2", 0.25}}) {
@@ -66,15 +66,14 @@ Check strain_zeros(const ThreeModels& bare) {
     const double exact = zero_Hz(bare.exact_tf, gauge, 1);
     const FrequencyCell& cell = second_zero(location);
     check.finding += fmt::format(
-        " {} Hz at {} lies {:.1f} % from the gauge's own first zero, where the paper has an error "
-        "of {} %;",
+        " {} Hz at {} differs by {:.1f} % from the first zero of the gauge; the paper states an "
+        "error of {} %.",
         cell.measured_Hz->value, location,
         100.0 * std::abs(cell.measured_Hz->value - exact) / exact, cell.error_percent->value);
     check.comparisons.push_back(comparison(
         std::string("strain zero 1, ") + location, "Hz", analytical_Hz("zero", 2).value, exact,
         bare.ask([&](const auto& m) { return zero_Hz(m, gauge, 1); }), kIntegralTolerance));
   }
-  check.finding.back() = '.';
   return check;
 }
 
@@ -86,18 +85,18 @@ Check resolution() {
   const double power = std::exp2(std::round(std::log2(block)));
   const auto own = count_on_grid(1.0 / (kSampling_s * power));
   std::string off;
-  for (const auto& name : grid.off_grid) off += (off.empty() ? "" : "; ") + name;
-  return {
-      .label = "resolution",
-      .statement = "lines 0.488 Hz apart, sampled every 5 ms",
-      .verdict = Verdict::does_not_follow,
-      .finding = fmt::format(
-          "{} of {} frequencies of Tables 2 and 3 are multiples of 500/1024 Hz to the digits "
-          "printed; a block of {:.1f} samples of 5 ms would be needed. With {:.0f} samples the "
-          "lines are {:.4f} Hz apart, and {} fit. 512 samples of 4 ms, or 1024 of 2 ms, give "
-          "500/1024. Off the grid: {}.",
-          grid.on_grid, grid.cells, block, power, 1.0 / (kSampling_s * power), own.on_grid, off),
-      .comparisons = {}};
+  for (const auto& name : grid.off_grid) off += (off.empty() ? "" : ". ") + name;
+  return {.label = "resolution",
+          .statement = "line spacing 0.488 Hz, sampling period 5 ms",
+          .verdict = Verdict::does_not_follow,
+          .finding =
+              fmt::format("{} of {} frequencies of Tables 2 and 3 are multiples of 500/1024 Hz to "
+                          "the printed digits. This needs segments of {:.1f} samples of 5 ms. With "
+                          "{:.0f} samples the line spacing is {:.4f} Hz, and {} fit. 512 samples "
+                          "of 4 ms, or 1024 of 2 ms, give 500/1024. Not multiples: {}.",
+                          grid.on_grid, grid.cells, block, power, 1.0 / (kSampling_s * power),
+                          own.on_grid, off),
+          .comparisons = {}};
 }
 
 Check damping_law() {
@@ -111,15 +110,15 @@ Check damping_law() {
   const double w0 = from_Hz(w[0]), w1 = from_Hz(w[1]);
   const double b1 = (term(1) - term(0)) / (w1 * w1 - w0 * w0);
   const double b0 = term(0) - b1 * w0 * w0;
-  return {.label = "Tables 5, 6: damping",
-          .statement = "damping ratios against the law below (31)",
-          .verdict = Verdict::does_not_follow,
-          .finding = fmt::format(
-              "xi = b0/(2 omega) + b1 omega/2 through both modes gives b0 = {:.3g} 1/s: negative, "
-              "which would feed energy in. With b0 >= 0 the ratio of the two is at most "
-              "omega_2/omega_1. A \"lightly damped\" arm does not have xi_2 = {}.",
-              b0, t.damping_ratio[1].value),
-          .comparisons = {comparison("xi_2/xi_1, at most", "1", ratio, w[1] / w[0], {}, 0.01)}};
+  return {
+      .label = "Tables 5, 6: damping",
+      .statement = "damping ratios and the law below (31)",
+      .verdict = Verdict::does_not_follow,
+      .finding = fmt::format("xi = b0/(2 omega) + b1 omega/2 for both modes gives b0 = {:.3g} 1/s, "
+                             "a negative damping. With b0 >= 0 the ratio of the two is at most "
+                             "omega_2/omega_1. An arm with xi_2 = {} is not \"lightly damped\".",
+                             b0, t.damping_ratio[1].value),
+      .comparisons = {comparison("xi_2/xi_1, at most", "1", ratio, w[1] / w[0], {}, 0.01)}};
 }
 
 /// phi_i'(0) by (50) from (47) at that resonance, with the damping ratios of the table; I_T
@@ -145,11 +144,10 @@ Check hub_slopes(const ThreeModels& bare) {
       .statement = "hub modal slopes from (47), (48) and Table 4",
       .verdict = Verdict::does_not_follow,
       .finding = fmt::format(
-          "(47) and (48) with two modes determine both slopes, whatever I_T: they are the "
-          "residues. "
-          "With the damping of the table, by (50), they come to {:.3f} and {:.3f}. {} for mode "
-          "2 happens to be the quotient of the two, {:.3f}; {} for mode 1 is near what one mode "
-          "alone would give, {:.3f}.",
+          "(47) and (48) with two modes determine both slopes for any I_T: they are the residues. "
+          "With the damping of the table, (50) gives {:.3f} and {:.3f}. The printed {} of mode 2 "
+          "equals the quotient of the two, {:.3f}. The printed {} of mode 1 is close to the value "
+          "for a single mode, {:.3f}.",
           slope_with_damping(t, 0), slope_with_damping(t, 1), t.gain[1].value, second / first,
           t.gain[0].value, std::sqrt(squared_slopes({poles[0]}, {zeros[0]})[0])),
       .comparisons = {
@@ -181,10 +179,9 @@ Check accelerometer_gains(const ThreeModels& bare) {
       .statement = "accelerometer's modal gains by (52)",
       .verdict = Verdict::does_not_follow,
       .finding = fmt::format(
-          "The gains alternate in sign as phi_i(l) do, so that the sign was taken with the minus "
-          "that (52) lacks; their sizes are {:.1f} and {:.1f} times phi_i(l), whose limit for a "
-          "light hub is 2 l/3^(1/2) = {:.3f} m in every mode. As phi_i''(l) they would have to be "
-          "0.",
+          "The signs alternate as those of phi_i(l), so the minus sign missing in (52) was used. "
+          "The magnitudes are {:.1f} and {:.1f} times phi_i(l), whose limit for zero hub inertia "
+          "is 2 l/3^(1/2) = {:.3f} m in every mode. As phi_i''(l) they would be 0.",
           gains[0] / tip[0], gains[1] / tip[1], 2.0 * l / std::sqrt(3.0)),
       .comparisons = {}};
   for (const int order : {1, 2}) {
@@ -194,8 +191,8 @@ Check accelerometer_gains(const ThreeModels& bare) {
         bare.ask([order](const auto& m) { return mode_value(m, order, kTipDisplacement); })));
   }
   check.comparisons.push_back(
-      comparison("real zero 1 of (49), Tables 6 and 7", "rad/s", std::sqrt(-zeros[1]),
-                 from_Hz(zero_Hz(bare.exact_tf, kTipAcceleration, 1)),
+      comparison("real zero 1 of (49), Tables 6 and 7 (non-minimum phase)", "rad/s",
+                 std::sqrt(-zeros[1]), from_Hz(zero_Hz(bare.exact_tf, kTipAcceleration, 1)),
                  bare.ask([](const auto& m) { return from_Hz(zero_Hz(m, kTipAcceleration, 1)); }),
                  kIntegralTolerance));
   return check;

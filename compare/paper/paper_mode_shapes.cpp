@@ -31,7 +31,7 @@ Check separation(const ThreeModels& bare) {
   return {.label = "(15)-(19)",
           .statement = "expansion in modes, separation of variables, omega = beta^2 (EI/rho)^(1/2)",
           .verdict = Verdict::holds,
-          .finding = "(16) is meant term by term: the sum (15) itself does not separate.",
+          .finding = "(16) applies term by term; the sum (15) itself does not separate.",
           .comparisons = {comparison("pole 1 from beta_1 by (19)", "Hz", in_Hz(omega), in_Hz(omega),
                                      bare.ask([](const auto& m) { return pole_Hz(m, 1); }),
                                      kRootTolerance)}};
@@ -51,9 +51,8 @@ Check ratios(const ThreeModels& bare) {
           .statement = "dimensionless hub inertia and payload mass",
           .verdict = Verdict::slip_of_algebra,
           .finding =
-              "I_b = M l^2/3, so that Ih/(M l^2) = Ih/(3 I_b) and Mp/M = Mp l^2/(3 I_b): "
-              "the second expressions are 9 times the first. The poles follow from the "
-              "first.",
+              "I_b = M l^2/3, so Ih/(M l^2) = Ih/(3 I_b) and Mp/M = Mp l^2/(3 I_b). The second "
+              "expressions are 9 times too large. The poles follow from the first.",
           .comparisons = {
               comparison("epsilon = 3 Ih/I_b", "1", printed_epsilon, epsilon, {}, kRootTolerance),
               comparison("pole 1, epsilon = 3 Ih/I_b", "Hz",
@@ -83,11 +82,11 @@ Check boundary_matrix(const ThreeModels& bare) {
       .statement = "general solution, matrix of the boundary conditions, characteristic equation",
       .verdict = Verdict::slip_of_print,
       .finding =
-          "Row 1 must be (0, 1, 0, 1), which is y(0) = 0, and row 2 must not have the two "
-          "terms lambda^3: a pinned root has no further force. The columns stand for sin, "
-          "cos, sinh, cosh, the vector beside it in the order of (21) for sin, sinh, cos, "
-          "cosh. lambda here is the beta of (17), not the lambda of (20). Rows 3 and 4 "
-          "hold, with the payload's mass as (14) should have it.",
+          "Row 1 must be (0, 1, 0, 1), which is y(0) = 0. Row 2 must not have the two terms "
+          "lambda^3: a pinned root has no additional force. The columns are for sin, cos, sinh, "
+          "cosh, but the vector has the order of (21): sin, sinh, cos, cosh. lambda here is the "
+          "beta of (17), not the lambda of (20). Rows 3 and 4 hold, with the payload mass as in "
+          "the corrected (14).",
       .comparisons = {}};
   check.comparisons.push_back({.quantity = "|S|/(beta^7 e^lambda) at lambda_1",
                                .unit = "1",
@@ -119,9 +118,8 @@ Check inertia_orthogonality() {
           .statement = "orthogonality in inertia",
           .verdict = Verdict::slip_of_print,
           .finding =
-              "The integral takes the mass per length rho, not the mass M = rho l; the "
-              "units say so, and with M the modes are not orthogonal. Finding the roots "
-              "of (23) does not need it.",
+              "The integral needs the mass per length rho, not the mass M = rho l, as the units "
+              "show; with M the modes are not orthogonal. The roots of (23) do not depend on it.",
           .comparisons = {
               {.quantity = "(24)/I_T, i = j = 1, payload mass",
                .unit = "1",
@@ -173,8 +171,8 @@ Check small_epsilon(const ThreeModels& bare) {
               "frequencies\"",
           .verdict = Verdict::slip_of_algebra,
           .finding =
-              "The wrong way round: more inertia never raises a frequency. Without hub "
-              "inertia the arm is pinned and free, and its poles are at their highest.",
+              "Reversed: additional inertia never raises a natural frequency. Without hub inertia "
+              "the arm is pinned-free and its poles are highest.",
           .comparisons = {
               comparison("sign of d(pole 1)/d(epsilon)", "1", 1.0, pole > free_pole ? 1.0 : -1.0,
                          {rise(bare.exact_tf, light.exact_tf), rise(bare.fem, light.fem),
@@ -198,7 +196,7 @@ Check large_epsilon(const ThreeModels& bare) {
       .label = "large epsilon",
       .statement = "for a very large epsilon the frequencies are those of a cantilever",
       .verdict = Verdict::holds,
-      .finding = "They are the zeros of (39) as well.",
+      .finding = "They are also the zeros of (39).",
       .comparisons = {comparison("pole 1, epsilon = 1e6", "Hz", cantilever, cantilever,
                                  heavy.ask([](const auto& m) { return pole_Hz(m, 1); }), 1e-5)}};
 }

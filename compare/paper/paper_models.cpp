@@ -49,10 +49,9 @@ arm::Arm arm_with_hub_inertia(double inertia_kg_m2) {
 
 std::string describe_arms() {
   return fmt::format(
-      "All on the arm of Table 1. \"Payload mass\": {} kg at its tip; \"payload\": that mass and "
-      "{} kg m^2; \"hub friction\": {} N m s/rad; \"damped\": the Kelvin-Voigt time {:.3g} s, "
-      "which "
-      "gives mode 1 the damping ratio of Table 6. Sums and products have {} terms.",
+      "All for the arm of Table 1. \"Payload mass\": {} kg at its tip; \"payload\": that mass and "
+      "{} kg m^2; \"hub friction\": {} N m s/rad. \"Damped\": Kelvin-Voigt time constant {:.3g} s, "
+      "which gives mode 1 the damping ratio of Table 6. Sums and products have {} terms.",
       kPayloadMass_kg, kPayloadInertia_kg_m2, kHubFriction_N_m_s_per_rad,
       arm_with_damping().damping.kelvin_voigt_s, kTerms);
 }

@@ -46,9 +46,9 @@ Check kinetic_energy() {
           .statement = "kinetic energy",
           .verdict = Verdict::slip_of_algebra,
           .finding =
-              "The term of the payload's rotary inertia, Ip (y'_t(l))^2/2, is missing, "
-              "although Ip stands in (10), (14), (22) and (24): Hamilton's principle cannot "
-              "give it back.",
+              "The term of the rotary inertia of the payload, Ip (y'_t(l))^2/2, is missing, "
+              "although Ip is in (10), (14), (22) and (24). Hamilton's principle cannot produce it "
+              "from (3)-(4).",
           .comparisons = {comparison(
               "inertia of the rigid arm, payload", "kg m^2", total - arm.payload.inertia_kg_m2,
               total, loaded.ask([](const auto& m) { return low_frequency_inertia_kg_m2(m); }),
@@ -79,10 +79,10 @@ Check dissipation() {
       .statement = "dissipated energy",
       .verdict = Verdict::slip_of_algebra,
       .finding =
-          "The hub's term takes the rate of u'(0), which is zero by the paper's own "
-          "condition below (11); it must take that of y'(0) = theta, and the air's term "
-          "that of y. The text calls the integrands forces, writes du du for dx dt, and "
-          "multiplies the mass per length by the cross-section once more in D(x).",
+          "The hub term has the rate of u'(0), which is zero by the condition below (11). It must "
+          "have that of y'(0) = theta, and the air term that of y. The text calls the integrands "
+          "forces, writes du du instead of dx dt, and multiplies the mass per length by the "
+          "cross-section again in D(x).",
       .comparisons = {comparison("damping ratio 1, hub friction", "1", 0.0, damping,
                                  rubbed.ask([](const auto& m) { return mode(m, 1).damping_ratio; }),
                                  kIntegralTolerance)}};
@@ -95,8 +95,8 @@ Check equation_of_motion(const ThreeModels& bare) {
               .statement = "equation of motion of u, driven by the hub's acceleration",
               .verdict = Verdict::holds,
               .finding =
-                  "With the hub's moment balance it gives the poles of the other forms; "
-                  "here by expansion in clamped shapes.",
+                  "With the moment balance of the hub it gives the same poles; evaluated by "
+                  "expansion in clamped shapes.",
               .comparisons = {}};
   for (const int order : {1, 2}) {
     const double pole = in_Hz(poles.at(static_cast<std::size_t>(order) - 1));
@@ -115,10 +115,9 @@ Check conditions_of_u(const ThreeModels& bare) {
               .statement = "boundary conditions of u",
               .verdict = Verdict::slip_of_algebra,
               .finding =
-                  "u'(0) = 0, so that u'_tt(0) is no angular acceleration: as printed the "
-                  "hub's inertia drops out and the poles are those of a hub without any. "
-                  "The hub's term is Ih theta_tt; the tip's terms lack l theta_tt and "
-                  "theta_tt, and the payload's mass has d^2/dx^2 for d^2/dt^2.",
+                  "u'(0) = 0, so u'_tt(0) is not the angular acceleration. As printed the hub "
+                  "inertia has no effect. The hub term must be Ih theta_tt; the tip terms lack l "
+                  "theta_tt and theta_tt; the payload mass has d^2/dx^2 instead of d^2/dt^2.",
               .comparisons = {}};
   for (const int order : {1, 2}) {
     const auto i = static_cast<std::size_t>(order) - 1;
@@ -134,10 +133,10 @@ Check initial_conditions() {
           .statement = "limits of Hamilton's integral; initial conditions",
           .verdict = Verdict::harmless_misprint,
           .finding =
-              "The limits are exchanged, the variations vanish at t1 and t2 (not \"to\"), "
-              "and the damping of (6) does no virtual work in (8). The second initial "
-              "condition in (11) and below (14) follows from the first; what is meant is "
-              "the velocity at t = 0. Nothing to evaluate.",
+              "The limits are exchanged, the variations vanish at t1 and t2 (not \"to\"), and the "
+              "damping of (6) does no virtual work in (8). The second initial condition in (11) "
+              "and below (14) follows from the first; the velocity at t = 0 is intended. Nothing "
+              "to evaluate.",
           .comparisons = {}};
 }
 
@@ -148,8 +147,7 @@ Check net_equation(const ThreeModels& bare) {
           .statement = "work of the torque; theta = y'(0); equation of motion of y",
           .verdict = Verdict::holds,
           .finding =
-              "(13) with the conditions of (14) put right gives the poles of all three "
-              "formulations.",
+              "(13) with the corrected conditions (14) gives the poles of all three formulations.",
           .comparisons = {comparison("pole 1", "Hz", pole, pole,
                                      bare.ask([](const auto& m) { return pole_Hz(m, 1); }),
                                      kRootTolerance)}};
@@ -162,9 +160,9 @@ Check conditions_of_y() {
               .statement = "boundary conditions of y",
               .verdict = Verdict::slip_of_print,
               .finding =
-                  "The payload's mass multiplies d^2y/dx^2 for d^2y/dt^2. As printed the "
-                  "units do not match, and since the tip carries next to no moment the "
-                  "payload's mass drops out of the poles.",
+                  "The payload mass multiplies d^2y/dx^2 instead of d^2y/dt^2. As printed the "
+                  "units do not match. Since the moment at the tip is nearly zero, the payload "
+                  "mass has almost no influence on the poles.",
               .comparisons = {}};
   for (const int order : {1, 2}) {
     check.comparisons.push_back(comparison(

@@ -84,9 +84,9 @@ Check free_vibration(const ThreeModels& bare) {
           .statement = "free vibration of u",
           .verdict = Verdict::slip_of_algebra,
           .finding =
-              "No torque does not mean no acceleration: -rho x theta_tt of (9) stays. "
-              "Without it, and with u'(0) = 0, the arm vibrates as if clamped: these are "
-              "the hub's zeros, not its poles. What follows holds for y in place of u.",
+              "Zero torque does not imply zero acceleration: the term -rho x theta_tt of (9) "
+              "remains. Without it, and with u'(0) = 0, the result is the clamped arm: the zeros "
+              "of the hub sensors, not the poles. The following equations hold for y instead of u.",
           .comparisons = {comparison(
               "pole 1", "Hz", in_Hz(clamped * clamped * arm::omega_scale_rad_per_s(arm)),
               in_Hz(pole), bare.ask([](const auto& m) { return pole_Hz(m, 1); }), kRootTolerance)}};
@@ -98,9 +98,9 @@ Check expansion(const ThreeModels& bare) {
           .statement = "u as a sum of the mode shapes",
           .verdict = Verdict::slip_of_algebra,
           .finding =
-              "The shapes of section 3 are those of y: their slope at the hub is not zero, "
-              "that of u is. The expansion is y = sum from 0, as in (15), with phi_0 = x; "
-              "theta is then sum phi_i'(0) q_i and not q_0.",
+              "The shapes of section 3 are those of y, with a slope at the hub; that of u is zero. "
+              "The expansion is y = sum from 0, as in (15), with phi_0 = x. theta is then sum "
+              "phi_i'(0) q_i and not q_0.",
           .comparisons = {comparison(
               "u(l)/q_1 of mode 1", "m", first.sensor_values[0],
               first.sensor_values[0] - bare.exact_tf.arm().beam.length_m * first.hub_slope,
@@ -116,8 +116,8 @@ Check modal_energies(const ThreeModels& bare) {
           .statement = "kinetic energy in modes",
           .verdict = Verdict::slip_of_algebra,
           .finding =
-              "(24) makes the modal mass I_T, hub and payload included, not I_b; the sum "
-              "starts at the rigid mode, and no delta_ij is left once it is summed.",
+              "By (24) the modal mass is I_T, with hub and payload, not I_b. The sum starts at the "
+              "rigid mode and contains no delta_ij.",
           .comparisons = {comparison(
               "2 E_K/(dq_1/dt)^2", "kg m^2", density * std::pow(arm.beam.length_m, 3) / 3.0, total,
               bare.ask([=](const auto& m) { return total * inertia_product(m, 1, 1, density); }),
@@ -130,7 +130,7 @@ Check modal_potential(const ThreeModels& bare) {
   return {.label = "(29)",
           .statement = "potential energy in modes",
           .verdict = Verdict::harmless_misprint,
-          .finding = "I_t is I_T, and delta_ij is left over from the sum.",
+          .finding = "I_t is I_T, and the delta_ij after the sum is superfluous.",
           .comparisons = {comparison(
               "2 E_P/q_1^2", "N m", total * omega * omega, total * omega * omega,
               bare.ask([total](const auto& m) { return total * stiffness_product(m, 1, 1); }),
@@ -143,11 +143,11 @@ Check modal_dissipation(const ThreeModels& damped) {
           .statement = "dissipated energy in modes",
           .verdict = Verdict::slip_of_algebra,
           .finding =
-              "The dissipation function must hold rates: 1/2 I_T sum 2 xi_i omega_i "
-              "(dq_i/dt)^2. As printed it has omega_i^2 q_i^2, whose derivative by dq_i/dt "
-              "is zero: no damping in (33). The sum is missing, and Ih + I_b is I_T only "
-              "without payload. The law xi = b0/(2 omega) + b1 omega/2 itself holds, but b0 "
-              "damps the rigid mode as well, which the first of (33) leaves out.",
+              "The dissipation function must contain rates: 1/2 I_T sum 2 xi_i omega_i "
+              "(dq_i/dt)^2. As printed it has omega_i^2 q_i^2, whose derivative with respect to "
+              "dq_i/dt is zero: no damping in (33). The sum is missing, and Ih + I_b is I_T only "
+              "without payload. The law xi = b0/(2 omega) + b1 omega/2 itself holds. But b0 also "
+              "damps the rigid mode, which the first of (33) omits.",
           .comparisons = {comparison("2 xi_1 omega_1, damped", "1/s", 0.0,
                                      damped.exact_tf.arm().damping.kelvin_voigt_s * omega * omega,
                                      damped.ask([](const auto& m) {
@@ -169,8 +169,8 @@ Check generalised_force(const ThreeModels& bare) {
           .statement = "work of the torque; Lagrange's equations",
           .verdict = Verdict::harmless_misprint,
           .finding =
-              "phi' lacks its index i, and W_i is the derivative of W by q_i, a force and "
-              "no work.",
+              "phi' lacks its index i, and W_i is the derivative of W with respect to q_i, a force "
+              "and not work.",
           .comparisons = {comparison(
               "force on q_1 per torque", "1", bare.exact_tf.modes(1, {}, {})[0].hub_slope, slope,
               bare.ask([](const auto& m) { return mode(m, 1).hub_slope; }), kSeriesTolerance)}};
@@ -201,9 +201,7 @@ Check state_equation(const ThreeModels& damped) {
   return {.label = "(34)",
           .statement = "state equation",
           .verdict = Verdict::slip_of_print,
-          .finding =
-              "The last row of A has +omega_n^2: as printed the highest mode kept runs "
-              "away.",
+          .finding = "The last row of A has +omega_n^2: as printed the highest mode is unstable.",
           .comparisons = {comparison("largest real part of A, n = 3, damped", "1/s",
                                      rightmost(state_matrix(omega, kv, Form::printed)),
                                      rightmost(state_matrix(omega, kv, Form::corrected)),
@@ -225,12 +223,11 @@ Check output_equation(const ThreeModels& damped, const ModalData& data) {
       .statement = "output equation: end-point acceleration, hub velocity, hub angle",
       .verdict = Verdict::slip_of_algebra,
       .finding =
-          "Row 1 gives a displacement for an acceleration, with d^2/dx^2 for d^2/dt^2: "
-          "phi_i''(l) is zero at a free tip, and 1 should be l. Right is "
-          "-omega_i^2 phi_i(l) on q_i, -2 xi_i omega_i phi_i(l) on dq_i/dt, and a "
-          "feedthrough D = (l + sum phi_i(l) phi_i'(0))/I_T, which G = C (sI - A)^-1 B "
-          "lacks. Rows 2 and 3 are hub angle and hub velocity, in the other order than the "
-          "text names them.",
+          "Row 1 gives a displacement instead of an acceleration, with d^2/dx^2 instead of "
+          "d^2/dt^2: phi_i''(l) is zero at a free tip, and 1 should be l. Correct is -omega_i^2 "
+          "phi_i(l) for q_i and -2 xi_i omega_i phi_i(l) for dq_i/dt. The feedthrough D = (l + sum "
+          "phi_i(l) phi_i'(0))/I_T is missing in G = C (sI - A)^-1 B. Rows 2 and 3 are hub angle "
+          "and hub velocity, in the opposite order of the text.",
       .comparisons = {
           comparison("gain of q_1 at the tip", "m", data.tip_curvature_per_m[0], data.tip_m[0],
                      damped.ask([](const auto& m) { return mode_value(m, 1, kTipDisplacement); }),

@@ -28,7 +28,7 @@ std::vector<SweepMark> limits_of(const Model& model, const arm::Arm& arm,
         zeros ? std::abs(point.zeros_rad_per_s.front()[i]) : point.omega_rad_per_s[i];
     const double frequency_Hz = omega / (2.0 * std::numbers::pi);
     if (frequency_Hz > kNearZero_Hz) {
-      limits.push_back({"payload without bound", 0.0, frequency_Hz});
+      limits.push_back({"infinite payload", 0.0, frequency_Hz});
     }
   }
   return limits;

@@ -73,17 +73,17 @@ Check beam_inertia(const ThreeModels& bare) {
         return low_frequency_inertia_kg_m2(m) - m.arm().hub.inertia_kg_m2;
       }),
                  kLowFrequencyTolerance);
-  return {.label = "Table 1: I_b",
-          .statement = "manipulator moment of inertia",
-          .verdict = Verdict::does_not_follow,
-          .finding = fmt::format(
-              "{:.1f} % more than the table's own length, section and density give; nor is it "
-              "I_b + Ih = {:.6f}. It would take a density of {:.0f} kg/m^3, a length of {:.4f} m, "
-              "or {:.2f} g more at the tip.",
-              100.0 * surplus / right, right + arm.hub.inertia_kg_m2,
-              *arm.beam.density_kg_per_m3 * printed / right, l * std::cbrt(printed / right),
-              1e3 * surplus / (l * l)),
-          .comparisons = {row}};
+  return {
+      .label = "Table 1: I_b",
+      .statement = "manipulator moment of inertia",
+      .verdict = Verdict::does_not_follow,
+      .finding = fmt::format("{:.1f} % more than computed from length, section and density of the "
+                             "table; nor is it I_b + Ih = {:.6f}. It would require a density of "
+                             "{:.0f} kg/m^3, a length of {:.4f} m, or {:.2f} g more at the tip.",
+                             100.0 * surplus / right, right + arm.hub.inertia_kg_m2,
+                             *arm.beam.density_kg_per_m3 * printed / right,
+                             l * std::cbrt(printed / right), 1e3 * surplus / (l * l)),
+      .comparisons = {row}};
 }
 
 /// EI and Ih for which (38) put right has both roots; m and l as in `arm`.
@@ -115,23 +115,22 @@ Check analytical_poles(const ThreeModels& bare) {
   const double for_first = hub_inertia_for_pole(arm, first);
   const double for_second = hub_inertia_for_pole(arm, second);
   const arm::Arm fitted = arm_with_poles(arm, first, second);
-  Check check{
-      .label = "Tables 2, 4: poles",
-      .statement = "analytical pole frequencies",
-      .verdict = Verdict::does_not_follow,
-      .finding = fmt::format(
-          "No hub inertia gives both: pole 1 needs Ih = {:.3g} kg m^2 (pole 2 is then {:.2f} Hz), "
-          "pole 2 needs {:.3g} kg m^2 (pole 1 is then {:.2f} Hz), and the table has {:.3g} kg m^2. "
-          "No E gives both with that Ih, as the quotient of the two does not depend on E. E and Ih "
-          "together do, with {:.3g} N/m^2 and {:.3g} kg m^2, but then the zeros are {:.3f} and "
-          "{:.3f} Hz. Nor do they come from 3 Ih/I_b in (20), or from (10), (22) or (38) as "
-          "printed.",
-          for_first, pole_38_Hz(arm, 2, for_first), for_second, pole_38_Hz(arm, 1, for_second),
-          arm.hub.inertia_kg_m2,
-          *arm.beam.youngs_modulus_Pa * fitted.beam.flexural_rigidity_N_m2() /
-              arm.beam.flexural_rigidity_N_m2(),
-          fitted.hub.inertia_kg_m2, zero_39_Hz(fitted, 1), zero_39_Hz(fitted, 2)),
-      .comparisons = {}};
+  Check check{.label = "Tables 2, 4: poles",
+              .statement = "analytical pole frequencies",
+              .verdict = Verdict::does_not_follow,
+              .finding = fmt::format(
+                  "No hub inertia gives both. Pole 1 needs Ih = {:.3g} kg m^2 (pole 2 is then "
+                  "{:.2f} Hz). Pole 2 needs {:.3g} kg m^2 (pole 1 is then {:.2f} Hz). The table "
+                  "has {:.3g} kg m^2. No E gives both with that Ih, because the quotient of the "
+                  "two does not depend on E. E and Ih together do, with {:.3g} N/m^2 and {:.3g} kg "
+                  "m^2, but then the zeros are {:.3f} and {:.3f} Hz. The values do not follow from "
+                  "3 Ih/I_b in (20), or from (10), (22) or (38) as printed.",
+                  for_first, pole_38_Hz(arm, 2, for_first), for_second,
+                  pole_38_Hz(arm, 1, for_second), arm.hub.inertia_kg_m2,
+                  *arm.beam.youngs_modulus_Pa * fitted.beam.flexural_rigidity_N_m2() /
+                      arm.beam.flexural_rigidity_N_m2(),
+                  fitted.hub.inertia_kg_m2, zero_39_Hz(fitted, 1), zero_39_Hz(fitted, 2)),
+              .comparisons = {}};
   for (const int order : {1, 2}) {
     check.comparisons.push_back(
         against_print("pole " + std::to_string(order), "Hz", analytical_Hz("pole", order),
@@ -146,10 +145,9 @@ Check analytical_zeros(const ThreeModels& bare) {
   Check check{.label = "Tables 3, 4: zeros",
               .statement = "analytical zero frequencies",
               .verdict = Verdict::does_not_follow,
-              .finding = fmt::format(
-                  "They follow to every digit printed from E = {:.2g} N/m^2, which is Table 1's "
-                  "value rounded to two digits.",
-                  *rounded.exact_tf.arm().beam.youngs_modulus_Pa),
+              .finding = fmt::format("They follow to all printed digits from E = {:.2g} N/m^2, the "
+                                     "value of Table 1 rounded to two digits.",
+                                     *rounded.exact_tf.arm().beam.youngs_modulus_Pa),
               .comparisons = {}};
   const auto add = [&check](const ThreeModels& models, const std::string& with) {
     for (const int order : {1, 2}) {
@@ -184,11 +182,10 @@ Check error_with_distance(const ThreeModels& bare) {
                   "distance\" from the hub",
               .verdict = Verdict::does_not_follow,
               .finding = fmt::format(
-                  "Only against the headings' values. Against the poles that Table 1 gives, the "
-                  "errors are other ones and grow with the distance. The measured averages, {} and "
-                  "{} Hz, would need a hub inertia of {:.3g} and {:.3g} kg m^2: again not one "
-                  "number, so that something else is missing from the model or from the "
-                  "measurement.",
+                  "True only with respect to the values in the headings. With respect to the poles "
+                  "of Table 1 the errors differ and increase with distance. The measured averages, "
+                  "{} and {} Hz, require hub inertias of {:.3g} and {:.3g} kg m^2. One value "
+                  "cannot match both; the model or the measurement has another error.",
                   measured_Hz[0].value, measured_Hz[1].value,
                   hub_inertia_for_pole(arm, measured_Hz[0].value),
                   hub_inertia_for_pole(arm, measured_Hz[1].value)),

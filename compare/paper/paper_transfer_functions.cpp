@@ -42,11 +42,10 @@ Check boundary_value_problem(const ThreeModels& bare) {
           .statement = "transformed problem and its solution",
           .verdict = Verdict::slip_of_print,
           .finding =
-              "(36) holds for an arm at rest at t = 0. S as in (22) asks for -tau/EI on the "
-              "right: the division by beta^2 belongs to an S whose row 2 is divided by it too. "
-              "beta^4 is -rho s^2/EI, as the paper has it below (39). The third transformed "
-              "condition lacks s^2, the fourth has I_m for Ip. Rows 2 and 3 below have only that "
-              "slip as printed.",
+              "(36) holds for an arm at rest at t = 0. With S as in (22) the right-hand side is "
+              "-tau/EI; the division by beta^2 needs an S whose row 2 is divided by it too. beta^4 "
+              "is -rho s^2/EI, as stated below (39). The third transformed condition lacks s^2, "
+              "the fourth has I_m instead of Ip. Rows 2 and 3 below contain only that misprint.",
           .comparisons = {
               row("all as printed",
                   std::abs(solve_37(matrix_22(arm, printed_beta, Form::printed), printed_beta,
@@ -65,10 +64,9 @@ Check denominator(const ThreeModels& bare) {
       .statement = "denominator of all transfer functions",
       .verdict = Verdict::slip_of_print,
       .finding =
-          "cos sin must be cos sinh in the first bracket, and sin cos must be sinh cos in "
-          "the second. The divisor EI beta belongs to (39) alone: with it theta/tau = N/D "
-          "comes out EI beta times too large. D is -|S|/beta^7, not |S|. Payload inertia is "
-          "left out.",
+          "cos sin must be cos sinh in the first bracket, and sin cos must be sinh cos in the "
+          "second. The divisor EI beta belongs only to (39): with it theta/tau = N/D is too large "
+          "by a factor EI beta. D is -|S|/beta^7, not |S|. Payload inertia is omitted.",
       .comparisons = {}};
   const auto add_poles = [&check](const ThreeModels& models, const std::string& with) {
     const arm::Arm& arm = models.exact_tf.arm();
@@ -104,7 +102,7 @@ Check numerator(const ThreeModels& bare) {
   Check check{.label = "(39)",
               .statement = "numerator of torque to hub angle; its zeros do not depend on the hub",
               .verdict = Verdict::holds,
-              .finding = "Neither Ih nor the hub's friction enters. Payload inertia is left out.",
+              .finding = "Ih and hub friction do not enter. Payload inertia is omitted.",
               .comparisons = {}};
   const auto add_zeros = [&check](const ThreeModels& models, const std::string& with) {
     const arm::Arm& arm = models.exact_tf.arm();
@@ -138,12 +136,12 @@ Check large_payload(const ThreeModels& bare) {
   const double limit = lambda_to_Hz(bare.exact_tf.arm(), supported.back());
   return {.label = "large payload",
           .statement =
-              "as the payload grows the zeros go from a cantilever's frequencies to those "
-              "of a clamped beam",
+              "with increasing payload the zeros change from the frequencies of a cantilever to "
+              "those of a clamped beam",
           .verdict = Verdict::holds,
           .finding =
-              "Clamped at the hub and supported at the tip, and one step further down: zero "
-              "1 goes to 0, and zero i + 1 to frequency i of the clamped-pinned beam.",
+              "The limit is clamped at the hub and pinned at the tip, with shifted order: zero 1 "
+              "tends to 0, and zero i + 1 to frequency i of the clamped-pinned beam.",
           .comparisons = {
               comparison("hub zero 2, eta = 1e6", "Hz", limit, limit,
                          heavy.ask([](const auto& m) { return zero_Hz(m, kHubAngle, 2); }), 1e-5)}};
@@ -182,10 +180,10 @@ Check products(const ThreeModels& bare) {
       .statement = "transfer functions as factors of poles and zeros",
       .verdict = Verdict::slip_of_print,
       .finding =
-          "Products, not sums, as in the expansions of D and N above (40), whose factors "
-          "begin at i = 1: a sum of factors tends to the number of terms as s goes to 0 and "
-          "grows with it. (42) lacks the factor l of the rigid arm, which (49) has; the "
-          "omega_alpha,i named below it do not occur. Printed values: 30 terms.",
+          "Products, not sums, as in the expansions of D and N above (40), whose factors begin at "
+          "i = 1. A sum of factors tends to the number of terms as s goes to 0. (42) lacks the "
+          "factor l of the rigid arm, which (49) has. The omega_alpha,i mentioned below it do not "
+          "occur. Printed values: 30 terms.",
       .comparisons = {
           comparison("|theta/tau|, 5 Hz, (40)", "rad/(N m)", angle * hub(Form::printed),
                      angle * hub(Form::corrected), response(kHubAngle), kSeriesTolerance),

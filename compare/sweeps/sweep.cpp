@@ -39,7 +39,7 @@ void require_axes(const std::vector<SweepAxis>& axes) {
     points *= axis.values.size();
   }
   if (axes.size() == 2 && axes[0].parameter.name == axes[1].parameter.name) {
-    throw arm::InputError(fmt::format("--over {}: is given twice", axes[0].parameter.name));
+    throw arm::InputError(fmt::format("--over {}: given twice", axes[0].parameter.name));
   }
 }
 
@@ -58,14 +58,14 @@ void require_effective(const SweepTask& task, std::size_t axis) {
     const std::array place = {static_cast<double>(i)};
     if (arm::linear_arm(arm_at(task.arm, alone, place)) !=
         arm::linear_arm(arm_at(task.arm, alone, begin))) {
-      throw arm::InputError(fmt::format("--over {}: the other --over, {}, sets the same number",
+      throw arm::InputError(fmt::format("--over {}: sets the same number as the other --over, {}",
                                         task.axes[axis].parameter.name,
                                         task.axes[1 - axis].parameter.name));
     }
   }
   if (count > 1) {
-    throw arm::InputError(fmt::format("--over {}: this arm's equations do not depend on it",
-                                      task.axes[axis].parameter.name));
+    throw arm::InputError(
+        fmt::format("--over {}: no influence on this arm", task.axes[axis].parameter.name));
   }
 }
 

@@ -34,7 +34,7 @@ template <class Number>
 Number number_in(std::string_view whole, std::string_view part) {
   const auto value = arm::parse_number<Number>(part);
   if (!value) {
-    throw bad_axis(whole, fmt::format("\"{}\" is no {}; {}", arm::shown(part),
+    throw bad_axis(whole, fmt::format("\"{}\" is not a {}; {}", arm::shown(part),
                                       std::is_integral_v<Number> ? "count" : "number", kForms));
   }
   return *value;
@@ -55,7 +55,7 @@ void fill_range(SweepAxis& axis, std::string_view text, std::span<const std::str
     throw bad_axis(text, fmt::format("COUNT = {}: must be from 2 to {}", count, kMostGridPoints));
   }
   if (axis.logarithmic && !(start > 0.0 && end > 0.0)) {
-    throw bad_axis(text, "equal ratios need a START and an END above 0");
+    throw bad_axis(text, "logarithmic spacing needs START and END above 0");
   }
   for (int i = 0; i < count; ++i) {
     axis.values.push_back(between(start, end, i / (count - 1.0), axis.logarithmic));
@@ -105,7 +105,7 @@ SweepAxis parse_axis(std::string_view text) {
   for (const double value : axis.values) {
     arm::require_in_range(axis.parameter.name, value, axis.parameter.unit, axis.parameter.range);
   }
-  if (!is_monotonic(axis.values)) throw bad_axis(text, "the values must rise or fall throughout");
+  if (!is_monotonic(axis.values)) throw bad_axis(text, "the values must be monotonic");
   return axis;
 }
 

@@ -135,8 +135,8 @@ void require_same(const std::string& file, const Json& header,
     const auto other = there.value(name, std::string());
     if (other == value) continue;
     const auto [line_there, line_here] = first_difference(other, value);
-    throw arm::InputError(fmt::format("{}: is of another sweep: its {} is \"{}\", not \"{}\"", file,
-                                      name, arm::shown(line_there, 120),
+    throw arm::InputError(fmt::format("{}: checkpoint of another sweep: {} is \"{}\", not \"{}\"",
+                                      file, name, arm::shown(line_there, 120),
                                       arm::shown(line_here, 120)));
   }
 }
@@ -182,8 +182,7 @@ std::vector<StoredPoint> read_checkpoint(const std::filesystem::path& path,
                                          const std::vector<FingerprintLine>& fingerprint) {
   const std::string file = arm::shown(path.string());
   if (!std::filesystem::exists(path)) {
-    throw arm::InputError(
-        fmt::format("{}: there is no checkpoint to go on from; start without --resume", file));
+    throw arm::InputError(fmt::format("{}: no checkpoint found; start without --resume", file));
   }
   const std::string content = measured::read_text_file(path, kLargestFile_bytes);
   try {
@@ -198,8 +197,8 @@ std::vector<StoredPoint> read_checkpoint(const std::filesystem::path& path,
   } catch (const Json::exception&) {
   } catch (const Damaged&) {
   }
-  throw arm::InputError(fmt::format(
-      "{}: is no checkpoint of a sweep, or damaged; delete it and start without --resume", file));
+  throw arm::InputError(
+      fmt::format("{}: not a valid sweep checkpoint; delete it and start without --resume", file));
 }
 
 }  // namespace flexarm::compare

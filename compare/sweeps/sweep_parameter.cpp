@@ -65,7 +65,8 @@ double own_share(const char* ratio, double value, double share) {
   constexpr double kRounding = 1e-15;
   if (share < -kRounding) {
     throw arm::InputError(
-        fmt::format("{} = {}: the arm's effects alone make it larger", ratio, value), ratio);
+        fmt::format("{} = {}: below the value that the effects alone produce", ratio, value),
+        ratio);
   }
   return std::max(share, 0.0);
 }
@@ -161,11 +162,11 @@ SweepParameter sweep_parameter(std::string_view typed) {
   const auto effect = effect_in(name);
   if (effect != nullptr && !effect->is_of_linear_arm()) {
     throw arm::InputError(
-        fmt::format("{}: poles and zeros do not depend on it: {} is no part of the linear arm",
+        fmt::format("{}: no influence on poles and zeros: {} is not a linear effect",
                     arm::shown(name), effect->name));
   }
   throw arm::InputError(
-      fmt::format("{}: no number of an arm{}; allowed: the keys of an arm file (payload.mass), "
+      fmt::format("{}: unknown parameter{}; allowed: keys of an arm file (payload.mass), "
                   "effects.NAME.PARAMETER, payload_mass_ratio (eta), hub_inertia_ratio (epsilon), "
                   "payload_inertia_ratio",
                   arm::shown(name), meant(name, sweep_parameter_names())));

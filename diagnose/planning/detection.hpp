@@ -46,7 +46,7 @@ inline constexpr double kCompared = 3.0;
 /// known to `kNoiseKnown` of its power would make (Misfit::excess).
 double detectable_change(const Problem& problem, std::size_t parameters, double least_gain);
 
-/// By a bracketed search (Alefeld, Potra & Shi 1995) of each direction, to 1 % of the strength.
+/// By a bracketed search [AlefeldPotraShi1995] of each direction, to 1 % of the strength.
 Detection detect(const PlannedExperiment& planned, const Hypothesis& hypothesis, double least_gain);
 
 }  // namespace flexarm::diagnose

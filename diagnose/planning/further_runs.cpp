@@ -135,7 +135,7 @@ void add_conditions(Gatherer& all, const arm::Arm& arm, const PlannedRun& run) {
     const double further_kg = std::stod(fmt::format("{:.2g}", part * beam_kg));
     loaded.payload->mass_kg += further_kg;
     all.add(std::move(loaded), fmt::format("{:g}kg", further_kg),
-            fmt::format("{:g} kg more payload, weighed", further_kg));
+            fmt::format("payload +{:g} kg (known mass)", further_kg));
   }
   if (run.kind == RunKind::modal) return;
   for (const arm::Sensor& sensor : further_sensors(arm)) {
@@ -144,7 +144,8 @@ void add_conditions(Gatherer& all, const arm::Arm& arm, const PlannedRun& run) {
     }
     PlannedRun more = run;
     more.sensors.push_back({sensor, noise_of_others(run)});
-    all.add(std::move(more), arm::to_string(sensor), arm::to_string(sensor) + " too");
+    all.add(std::move(more), arm::to_string(sensor),
+            fmt::format("additional sensor {}", arm::to_string(sensor)));
   }
 }
 
@@ -152,28 +153,28 @@ void add_roots(Gatherer& all, const PlannedRun& run) {
   PlannedRun more = run;
   more.poles += kFurtherRoots;
   for (PlannedSensor& sensor : more.sensors) sensor.zeros += kFurtherRoots;
-  all.add(std::move(more), "more", fmt::format("{} poles and zeros more", kFurtherRoots));
+  all.add(std::move(more), "more", fmt::format("{} more poles and zeros", kFurtherRoots));
   // Zeros at the hub are the poles of the clamped arm: what does not depend on the hub.
   const arm::Sensor hub{arm::SensorKind::hub_angle};
   if (std::ranges::find(run.sensors, hub, &PlannedSensor::sensor) != run.sensors.end()) return;
   PlannedRun with_zeros = run;
   with_zeros.sensors.push_back({hub, run.noise, std::max(1, run.poles - 1)});
-  all.add(std::move(with_zeros), "zeros", "zeros of hub_angle too");
+  all.add(std::move(with_zeros), "zeros", "additional zeros of hub_angle");
 }
 
 void add_in_time(Gatherer& all, const PlannedRun& run) {
   const double rms = response::rms_N_m(torque_of(run));
-  all.add(run, "again", "the same again");
+  all.add(run, "again", "repetition");
   for (const double factor : kAmplitudes) {
     PlannedRun scaled = run;
     scale_amplitude(scaled, factor);
     all.add(std::move(scaled), fmt::format("times-{:g}", factor),
-            fmt::format("{:g} times the torque", factor));
+            fmt::format("torque x {:g}", factor));
   }
   if (std::holds_alternative<response::Excitation>(run.torque)) {
     PlannedRun longer = run;
     longer.duration_s *= 4.0;
-    all.add(std::move(longer), "longer", "four times as long");
+    all.add(std::move(longer), "longer", "duration x 4");
   }
   const auto with_input = [&](const response::Excitation& input, double sample_time_s,
                               const std::string& suffix, std::string change) {
@@ -190,12 +191,12 @@ void add_in_time(Gatherer& all, const PlannedRun& run) {
   };
   with_input(multisine(period_s), period_s, "multisine",
              fmt::format("multisine to {:.3g} Hz", kHighestInput / period_s));
-  with_input(
-      multisine(0.5 * period_s), 0.5 * period_s, "faster",
-      fmt::format("multisine to {:.3g} Hz, sampled twice as fast", 2.0 * kHighestInput / period_s));
+  with_input(multisine(0.5 * period_s), 0.5 * period_s, "faster",
+             fmt::format("multisine to {:.3g} Hz, sampling frequency x 2",
+                         2.0 * kHighestInput / period_s));
   with_input(response::BangBang{.amplitude_N_m = rms, .pulse_s = run.duration_s / 8.0, .pairs = 0},
-             period_s, "bang-bang", "pulses to and fro");
-  with_input(response::Step{.amplitude_N_m = rms}, period_s, "step", "a constant torque");
+             period_s, "bang-bang", "bang-bang pulses");
+  with_input(response::Step{.amplitude_N_m = rms}, period_s, "step", "step torque");
 }
 
 }  // namespace
@@ -223,7 +224,7 @@ std::vector<FurtherRun> further_runs(const arm::Arm& arm, const std::vector<Plan
     add_in_time(all, *in_time);
     add_conditions(all, arm, *in_time);
   } else {
-    all.add(plain_time_run(arm, sensors), "pulses", "a run in time, pulses to and fro");
+    all.add(plain_time_run(arm, sensors), "pulses", "time run with bang-bang pulses");
   }
   PlannedRun swept;
   if (frf != runs.end()) {
@@ -240,11 +241,11 @@ std::vector<FurtherRun> further_runs(const arm::Arm& arm, const std::vector<Plan
     }
     const double pole_Hz = third_pole_Hz(arm);
     swept.frequencies = PlannedBand{0.01 * pole_Hz, 1.5 * pole_Hz, kFurtherLines};
-    all.add(swept, "low", fmt::format("a frequency response to {:.3g} Hz", 1.5 * pole_Hz));
+    all.add(swept, "low", fmt::format("frequency response to {:.3g} Hz", 1.5 * pole_Hz));
   }
   const double highest_Hz = frequencies_of(swept).back();
   swept.frequencies = PlannedBand{0.25 * highest_Hz, kHigher * highest_Hz, kFurtherLines};
-  all.add(swept, "high", fmt::format("a frequency response to {:.3g} Hz", kHigher * highest_Hz));
+  all.add(swept, "high", fmt::format("frequency response to {:.3g} Hz", kHigher * highest_Hz));
   if (modal != runs.end()) {
     add_conditions(all, arm, *modal);
     add_roots(all, *modal);

@@ -24,7 +24,7 @@ std::string number_list(const std::vector<double>& numbers) {
 
 std::string frequencies_text(const PlannedRun& run) {
   if (const auto* band = std::get_if<PlannedBand>(&run.frequencies)) {
-    return fmt::format("{{ from = {}, to = {}, count = {} }}  # Hz, in equal ratios",
+    return fmt::format("{{ from = {}, to = {}, count = {} }}  # Hz, logarithmic spacing",
                        measured::toml_number(band->from_Hz), measured::toml_number(band->to_Hz),
                        band->count);
   }
@@ -33,7 +33,8 @@ std::string frequencies_text(const PlannedRun& run) {
 
 std::string excitation_text(const PlannedRun& run) {
   const auto* excitation = std::get_if<response::Excitation>(&run.torque);
-  if (excitation == nullptr) throw std::invalid_argument("a recorded torque is no excitation");
+  if (excitation == nullptr)
+    throw std::invalid_argument("a recorded torque cannot be written as an excitation");
   std::string text = fmt::format("{{ kind = \"{}\"", response::name(*excitation));
   for (const auto& [name, unit, value] : response::keys_of(*excitation)) {
     const bool is_word = value.find_first_not_of("0123456789+-.e") != std::string::npos;

@@ -60,7 +60,7 @@ class Planning {
     });
     if (hypotheses_.empty()) {
       throw arm::InputError(
-          "no effect is left that could be a cause: all are refitted, or none shows");
+          "no effect to test: all are nuisance parameters (--refit), or none changes these runs");
     }
     made_.better = measurement_plan;
     made_.better.runs = with_purposes(planned_, measurement_plan.runs);
@@ -69,15 +69,14 @@ class Planning {
         measurement_plan.runs, [](const auto& run) { return run.kind == measured::RunKind::frf; });
     if (has_response && !arm::linear_arm(arm).is_damped()) {
       made_.notices.push_back(
-          "the arm file has no damping: its responses at poles and zeros are infinite and zero, "
-          "and "
-          "the frequency that is nearest to one decides");
+          "the arm file has no damping: its frequency responses are infinite at poles and zero at "
+          "zeros, so the result depends on the line nearest to one of them");
     }
     const std::vector<std::string> absent = absent_effects(planned_.experiment());
     if (!absent.empty()) {
-      made_.notices.push_back(
-          fmt::format("in the arm file already, or nothing that these runs can show: {}",
-                      fmt::join(absent, ", ")));
+      made_.notices.push_back(fmt::format(
+          "not tested, because already in the arm file or without influence on these runs: {}",
+          fmt::join(absent, ", ")));
     }
   }
 
@@ -95,7 +94,7 @@ class Planning {
     made_.effects.resize(hypotheses_.size());
     shapes_.resize(hypotheses_.size());
     work_.in_parallel(
-        hypotheses_.size(), "what each effect shows", 0.0, kDetected, [&](std::size_t i) {
+        hypotheses_.size(), "detectability of each effect", 0.0, kDetected, [&](std::size_t i) {
           made_.effects[i] = detect(planned_, hypotheses_[i], options_.least_information_gain);
           shapes_[i] = shapes_of(planned_, made_.effects[i]);
         });
@@ -105,7 +104,7 @@ class Planning {
     const std::size_t count = hypotheses_.size();
     made_.separations.assign(count, std::vector<std::optional<Separation>>(count));
     work_.in_parallel(
-        count, "effects against each other", kDetected, kSeparated, [&](std::size_t a) {
+        count, "distinguishability of pairs", kDetected, kSeparated, [&](std::size_t a) {
           const Detection& truth = made_.effects[a];
           if (!truth.compared || shapes_[a].empty()) return;
           const Problem problem = problem_of(planned_, *truth.compared);
@@ -163,14 +162,14 @@ class Planning {
     }
     auto worth =
         worth_of_further_runs(arm_, made_.better.runs, ties, options_.most_added, [&](double part) {
-          return work_.tell("further runs", kSeparated + part * (kRanked - kSeparated));
+          return work_.tell("additional runs", kSeparated + part * (kRanked - kSeparated));
         });
     made_.further = std::move(worth.ranked);
     made_.added = std::move(worth.together);
     if (work_.is_cancelled() || made_.added.empty()) return;
     for (const NextExperiment& next : made_.added) made_.better.runs.push_back(next.further.run);
     const PlannedExperiment better(arm_, made_.better.runs);
-    work_.in_parallel(ties.size(), "the better plan", kRanked, 1.0, [&](std::size_t t) {
+    work_.in_parallel(ties.size(), "improved plan", kRanked, 1.0, [&](std::size_t t) {
       made_.ties[t].lead_with_more =
           separate_by_fit(problem_of(better, ties[t].truth), ties[t].truth, ties[t].rival).lead;
     });

@@ -52,14 +52,14 @@ class PlanReader : measured::TomlFaults {
     for (const auto& [key, node] : document) {
       const std::string name = arm::shown(key.str());
       if (name == "name") {
-        read_text(name, node, "a text in quotes", plan_.name);
+        read_text(name, node, "a quoted string", plan_.name);
       } else if (name == "run") {
         read_runs(node);
       } else {
         unknown("", name, node, {"name", "run"});
       }
     }
-    require(document, 1, "run", "run", "one [[run]] or more");
+    require(document, 1, "run", "run", "at least one [[run]]");
     throw_first();
     return std::move(plan_);
   }
@@ -68,7 +68,7 @@ class PlanReader : measured::TomlFaults {
   void read_runs(const toml::node& node) {
     const auto* runs = node.as_array();
     if (runs == nullptr || runs->empty() || !runs->is_homogeneous<toml::table>()) {
-      wrong("run", node, "one line [[run]] a run, then its keys");
+      wrong("run", node, "one [[run]] table per run");
       return;
     }
     for (const auto& run : *runs) plan_.runs.push_back(read_run(*run.as_table()));
@@ -85,7 +85,7 @@ class PlanReader : measured::TomlFaults {
   PlannedRun read_run(const toml::table& table) {
     PlannedRun run;
     const int line = line_of(table);
-    require(table, line, "run.id", "id", "a name in quotes");
+    require(table, line, "run.id", "id", "a quoted name");
     require(table, line, "run.kind", "kind", "\"time\", \"frf\" or \"modal\"");
     if (const auto* kind = table.get("kind")) read_value("run.kind", *kind, kKinds, run.kind);
     const auto& allowed = keys_of_kind(run.kind);
@@ -115,7 +115,7 @@ class PlanReader : measured::TomlFaults {
   }
 
   void read_id(const toml::node& node, PlannedRun& run) {
-    read_text("run.id", node, "a name in quotes", run.id);
+    read_text("run.id", node, "a quoted name", run.id);
     const auto [first, is_new] = line_of_id_.emplace(run.id, line_of(node));
     if (!is_new) {
       fault(line_of(node), fmt::format("run.id{}: given twice; first on line {}",
@@ -140,7 +140,7 @@ class PlanReader : measured::TomlFaults {
     if (node == nullptr) return;
     const auto* list = node->as_array();
     if (list == nullptr || list->empty() || !list->is_homogeneous<std::string>()) {
-      wrong("run.sensors", *node, "a list of names in quotes");
+      wrong("run.sensors", *node, "a list of quoted names");
       return;
     }
     for (const auto& entry : *list) {
@@ -169,7 +169,7 @@ class PlanReader : measured::TomlFaults {
   void read_roots(const toml::table& table, int line, PlannedRun& run) {
     run.noise = kPlannedModalNoise;
     run.damping_noise = kPlannedDampingNoise;
-    require(table, line, "run.poles", "poles", "how many poles are measured, the lowest first");
+    require(table, line, "run.poles", "poles", "number of measured poles, from the lowest");
     if (const auto* node = table.get("poles")) {
       read_count("run.poles", *node, 0, kMostPlannedRoots, run.poles);
     }
@@ -252,7 +252,7 @@ class PlanReader : measured::TomlFaults {
     }
     try {
       if (response::peak_N_m(torque_of(run)) > 0.0) return;
-      fault(line_of(*node), "run.excitation: the torque is zero; must move the arm");
+      fault(line_of(*node), "run.excitation: the torque is zero at all samples");
     } catch (const InputError& error) {
       fault(line_of(*node), fmt::format("run.excitation: {}", error.what()));
     }

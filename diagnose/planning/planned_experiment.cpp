@@ -92,7 +92,8 @@ Candidate nothing_of(const std::vector<std::string>& names, const Experiment& ex
     if (at == possible.end() || at->parameters.size() != 1 ||
         !at->parameters[0].neutral_coordinate()) {
       throw arm::InputError(fmt::format(
-          "{}: cannot be refitted: these runs do not show it, or it has no single size", name));
+          "{}: cannot be a nuisance parameter: no influence on these runs, or no parameter of size",
+          name));
     }
     const SearchedParameter& parameter = at->parameters[0];
     made = made.with(*at, {parameter.value(*parameter.neutral_coordinate())});

@@ -143,12 +143,11 @@ std::string error_text(const std::string& sensor, const std::vector<const BandEr
   const double after = std::ranges::max(runs, {}, &RunError::after).after;
   const BandError& worst = **std::ranges::max_element(
       errors, {}, [](const BandError* error) { return error->power_ratio; });
-  std::string text = fmt::format(
-      "{}: the simulation misses {} of the signal, where noise makes {}; furthest off {}, {:.3g} "
-      "to {:.3g} Hz",
-      sensor, range(least.before, most.before), percent(noise), worst.band.name, worst.band.from_Hz,
-      worst.band.to_Hz);
-  if (has_causes) text += fmt::format("; with the causes {} is left", percent(after));
+  std::string text =
+      fmt::format("{}: NRMSE {}, noise floor {}; largest excess {}, {:.3g} to {:.3g} Hz", sensor,
+                  range(least.before, most.before), percent(noise), worst.band.name,
+                  worst.band.from_Hz, worst.band.to_Hz);
+  if (has_causes) text += fmt::format("; extended arm {}", percent(after));
   return text + ".";
 }
 
@@ -220,9 +219,9 @@ std::vector<Symptom> error_symptoms(const SymptomsInput& input,
     made.push_back(symptom(SymptomKind::error, fmt::format("{}: {}", fmt::join(rest, ", "), text),
                            1.0, errors.size()));
   };
-  add_rest(noise_alone, "nothing beyond noise in any run and band.");
-  add_rest(negligible, fmt::format("beyond noise by less than {} of the signal, which another step "
-                                   "or clock of the recorder makes.",
+  add_rest(noise_alone, "residual level consistent with the noise floor in all runs and bands.");
+  add_rest(negligible, fmt::format("excess residual below {} of the signal; not interpreted, since "
+                                   "integration step and sampling clock cause errors of this size.",
                                    percent(negligible_error)));
   return made;
 }

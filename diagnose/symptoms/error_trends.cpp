@@ -169,15 +169,14 @@ std::string times(double factor) {
 std::string torque_text(const Change& change, const RunErrors& low, const RunErrors& high,
                         bool is_significant) {
   const std::string text = fmt::format(
-      "Over the torque, the error is {} at {:.2g} N m (run {}) than at {:.2g} N m (run {})",
+      "Residual relative to torque: {} at {:.2g} N m rms (run {}) than at {:.2g} N m rms (run {})",
       times(change.factor()), high.torque_rms_N_m, high.id, low.torque_rms_N_m, low.id);
-  if (!is_significant) return text + ": no more than it scatters from band to band.";
+  if (!is_significant) return text + " (not significant).";
   if (change.logarithm < 0.0) {
     return text +
-           ": what is wrong does not grow with the motion, as dry friction, a dead zone or "
-           "a bias.";
+           ". The discrepancy does not scale with amplitude: Coulomb friction, dead zone or bias.";
   }
-  return text + ": what is wrong grows faster than the motion, as saturation or drag.";
+  return text + ". The discrepancy grows faster than amplitude: saturation or drag.";
 }
 
 }  // namespace
@@ -203,10 +202,10 @@ std::vector<Symptom> trend_symptoms(const SymptomsInput& input) {
     const auto& [light, heavy] = pair;
     Symptom one = symptom(SymptomKind::trend, "", found.probability, kTests);
     one.text = fmt::format(
-        "Over the torque, the error is {} with {:.3g} kg of payload (run {}) than with {:.3g} kg "
-        "(run {}){}.",
+        "Residual relative to torque: {} with payload {:.3g} kg (run {}) than with {:.3g} kg (run "
+        "{}){}.",
         times(found.factor()), heavy->payload_kg, heavy->id, light->payload_kg, light->id,
-        one.is_significant ? "" : ": no more than it scatters from band to band");
+        one.is_significant ? "" : " (not significant)");
     made.push_back(std::move(one));
   }
   return made;

@@ -30,10 +30,10 @@ class HubResponse {
   ///
   ///     T = conj(G) Y/(|G|^2 + n/s)
   ///
-  /// with the power s of a white torque of largest likelihood (Whittle 1953) beside that of the
+  /// with the power s of a white torque of largest likelihood [Whittle1953] beside that of the
   /// noise, n. Reading, response and noise are differenced until a free arm does not drift
   /// (measured::differences_until_steady), and fade exponentially, so that what rings on has faded
-  /// when the discrete transform comes round (Kausel & Roesset, J. Eng. Mech. 118, 1992). The last
+  /// when the discrete transform comes round [KauselRoesset1992]. The last
   /// few samples of the reading say little of the torque under them.
   std::vector<double> torque(std::span<const double> reading, double noise) const;
 

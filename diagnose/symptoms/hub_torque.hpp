@@ -25,6 +25,8 @@ enum class HubTorqueKind {
 
 /// "dry_friction", "viscous_friction", ...
 std::string_view to_string(HubTorqueKind kind);
+/// As tables call the term.
+std::string_view term_name(HubTorqueKind kind);
 
 /// One dependence, of all runs together.
 struct HubTorqueTerm {
@@ -32,7 +34,8 @@ struct HubTorqueTerm {
   std::string unit;
   double coefficient = 0.0;  ///< the amplitude of a ripple
   double std_error = 0.0;
-  double at = 0.0;  ///< cycles [1/rad] of a ripple; torque [N m] beyond which, of a saturation
+  double at = 0.0;  ///< cycles per revolution of a ripple, sin(at theta); torque [N m] beyond
+                    ///< which, of a saturation
   /// Part of what is beyond noise in the hub's signals that the term takes away, after those
   /// before it; above 1 where chance has a part in it.
   double share = 0.0;

@@ -23,38 +23,38 @@ std::string meaning(const HubTorqueTerm& term) {
   const bool positive = term.coefficient > 0.0;
   switch (term.kind) {
     case HubTorqueKind::dry_friction:
-      return fmt::format("steps by the sign of the velocity, {} {} the motion ({})", amount(term),
-                         positive ? "against" : "with",
-                         positive ? "as dry friction" : "less dry friction than the arm has");
+      return fmt::format(
+          "Coulomb term {}, {} the velocity ({})", amount(term),
+          positive ? "opposing" : "in the direction of",
+          positive ? "Coulomb friction" : "less Coulomb friction than in the arm file");
     case HubTorqueKind::viscous_friction:
-      return fmt::format("grows with the velocity, {} {} it ({})", amount(term),
-                         positive ? "against" : "with",
-                         positive ? "as viscous friction" : "less damping than the arm has");
+      return fmt::format("viscous term {}, {} the velocity ({})", amount(term),
+                         positive ? "opposing" : "in the direction of",
+                         positive ? "viscous friction" : "less damping than in the arm file");
     case HubTorqueKind::inertia:
-      return fmt::format("grows with the acceleration, {} {} it ({})", amount(term),
-                         positive ? "against" : "with",
-                         positive ? "as more inertia" : "as less inertia");
+      return fmt::format("inertia term {}, {} the acceleration ({})", amount(term),
+                         positive ? "opposing" : "in the direction of",
+                         positive ? "larger inertia" : "smaller inertia");
     case HubTorqueKind::spring:
-      return fmt::format("grows with the angle, {} {} it ({})", amount(term),
-                         positive ? "against" : "with",
-                         positive ? "as a spring" : "as of what stands up");
+      return fmt::format("spring term {}, {} the angle ({})", amount(term),
+                         positive ? "opposing" : "in the direction of",
+                         positive ? "spring to ground" : "negative stiffness, inverted pendulum");
     case HubTorqueKind::ripple:
-      return fmt::format("comes back with the angle, {} at {:.3g} cycles/rad (as ripple)",
-                         amount(term), term.at);
+      return fmt::format("ripple term {}, {:.3g} cycles/rev", amount(term), term.at);
     case HubTorqueKind::bias:
-      return fmt::format("is constant, {}{} (as a bias)", positive ? "" : "−", amount(term));
+      return fmt::format("constant term {}{} (bias)", positive ? "" : "−", amount(term));
     case HubTorqueKind::time:
-      return fmt::format("drifts with time, {}{}", positive ? "" : "−", amount(term));
+      return fmt::format("linear drift in time {}{}", positive ? "" : "−", amount(term));
     case HubTorqueKind::gain:
-      return fmt::format("follows the commanded torque, {}{} of it (as a gain of {:.4g})",
+      return fmt::format("gain term {}{} of the commanded torque (gain {:.4g})",
                          positive ? "" : "−", amount(term), 1.0 + term.coefficient);
     case HubTorqueKind::dead_zone:
-      return fmt::format("steps by the sign of the commanded torque, {} {} it ({})", amount(term),
-                         positive ? "against" : "with",
-                         positive ? "as a dead zone" : "as of a relay");
+      return fmt::format("dead-zone term {}, {} the commanded torque ({})", amount(term),
+                         positive ? "opposing" : "in the direction of",
+                         positive ? "dead zone" : "relay characteristic");
     case HubTorqueKind::saturation:
-      return fmt::format("takes {} of the commanded torque beyond {:.2g} N m {} (as saturation)",
-                         amount(term), term.at, positive ? "away" : "more");
+      return fmt::format("saturation term {} of the commanded torque above {:.2g} N m{}",
+                         amount(term), term.at, positive ? "" : " (gain increases)");
   }
   return "";
 }
@@ -92,6 +92,32 @@ std::vector<std::string_view> quantities_without(const std::vector<HubTorqueTerm
 
 }  // namespace
 
+std::string_view term_name(HubTorqueKind kind) {
+  switch (kind) {
+    case HubTorqueKind::dry_friction:
+      return "Coulomb";
+    case HubTorqueKind::viscous_friction:
+      return "viscous";
+    case HubTorqueKind::inertia:
+      return "inertia";
+    case HubTorqueKind::spring:
+      return "spring";
+    case HubTorqueKind::ripple:
+      return "ripple";
+    case HubTorqueKind::bias:
+      return "constant";
+    case HubTorqueKind::time:
+      return "drift in time";
+    case HubTorqueKind::gain:
+      return "gain";
+    case HubTorqueKind::dead_zone:
+      return "dead zone";
+    case HubTorqueKind::saturation:
+      return "saturation";
+  }
+  return "";
+}
+
 std::string_view to_string(HubTorqueKind kind) {
   switch (kind) {
     case HubTorqueKind::dry_friction:
@@ -123,10 +149,10 @@ std::vector<Symptom> hub_torque_symptoms(const HubTorque& torque) {
   if (torque.tests == 0) return made;
   for (const HubTorqueTerm& term : torque.terms) {
     const bool first = &term == &torque.terms.front();
-    std::string text =
-        fmt::format("hub: the torque that is {} {}; it accounts for {} of the hub's error{}.",
-                    first ? "missing" : "still missing", meaning(term),
-                    percent(std::min(1.0, term.share)), first ? "" : " beside the others");
+    std::string text = fmt::format(
+        "Residual hub torque, {}. Explains {} of the excess residual of the hub signals{}.",
+        meaning(term), percent(std::min(1.0, term.share)),
+        first ? "" : " in addition to the terms above");
     made.push_back(
         symptom(SymptomKind::hub_torque, std::move(text), term.probability, torque.tests));
   }
@@ -140,10 +166,11 @@ std::vector<Symptom> hub_torque_symptoms(const HubTorque& torque) {
   const std::string others = fmt::format("{}", fmt::join(quantities_without(torque.terms), ", "));
   none.text =
       torque.terms.empty()
-          ? fmt::format("hub: no residual torque depends on {}, nor is it constant.", others)
+          ? fmt::format("Residual hub torque: no significant dependence on {}, no constant term.",
+                        others)
           : fmt::format(
-                "hub: no residual torque depends on {}; {} of the error is "
-                "left.",
+                "Residual hub torque: no significant further dependence on {}. {} of the excess "
+                "residual remains unexplained.",
                 others, percent(1.0 - torque.share));
   made.push_back(std::move(none));
   return made;

@@ -64,7 +64,7 @@ std::vector<std::string> moved(const RootGroup& group, std::size_t tests, Number
   std::vector<std::string> texts;
   for (const auto& [order, shift] : furthest) {
     const RootNumber& own = *number(*shift);
-    texts.push_back(fmt::format("{} by {:+.2g} % ({:.0f} σ, run {})", order, own.shift_percent(),
+    texts.push_back(fmt::format("{}: {:+.2g} % ({:.0f} sigma, run {})", order, own.shift_percent(),
                                 std::abs(own.deviates()), shift->run));
   }
   return texts;
@@ -93,11 +93,11 @@ std::string group_text(const RootGroup& group, std::size_t tests) {
       });
   std::string text =
       frequencies.empty()
-          ? fmt::format("{}: the frequencies are where the simulation has them, within {:.2g} %",
-                        group.name, within_percent(group))
-          : fmt::format("{}: moved in frequency are {}", group.name, fmt::join(frequencies, ", "));
+          ? fmt::format("{}: frequencies agree with the simulation within {:.2g} %", group.name,
+                        within_percent(group))
+          : fmt::format("{}: shifted frequencies {}", group.name, fmt::join(frequencies, ", "));
   if (!dampings.empty()) {
-    text += fmt::format("; in damping ratio {}", fmt::join(dampings, ", "));
+    text += fmt::format("; shifted damping ratios {}", fmt::join(dampings, ", "));
   }
   return text + ".";
 }
@@ -107,29 +107,25 @@ enum class Motion { unknown, stays, moves };
 /// What moves and what stays says on which side of the root the cause is (docs/diagnosis.md).
 std::string rule(Motion poles, Motion hub_zeros, Motion tip_zeros, bool damping_moves) {
   if (tip_zeros == Motion::moves) {
-    return "Zeros of the tip moved, which neither hub, root nor payload mass shift: the link "
-           "itself, "
-           "or the payload's inertia or offset.";
+    return "Tip zeros are shifted. Hub, clamp and payload mass do not shift them. Candidates: link "
+           "properties, payload inertia, payload offset.";
   }
   if (hub_zeros == Motion::moves && tip_zeros == Motion::stays) {
-    return "Zeros of the hub moved and those of the tip did not: payload mass or the root, not the "
-           "link.";
+    return "Hub zeros are shifted, tip zeros are not. Candidates: payload mass, root compliance.";
   }
   if (hub_zeros == Motion::moves) {
-    return "Zeros of the hub moved, which no hub inertia, friction, spring, lag or gain shifts: "
-           "the "
-           "link, its root or the payload.";
+    return "Hub zeros are shifted. Hub inertia, friction, hub spring, lag and gain do not shift "
+           "them. Candidates: link, root compliance, payload.";
   }
   if (poles == Motion::moves && hub_zeros == Motion::stays) {
-    return "Poles moved and zeros of the hub did not: a cause on the hub's side of the root, as "
-           "its inertia or a spring.";
+    return "Poles are shifted, hub zeros are not. Candidates: effects on the hub, such as its "
+           "inertia or a spring.";
   }
   if (poles == Motion::stays && hub_zeros != Motion::moves && damping_moves) {
-    return "No frequency moved but damping did: friction or damping, not mass or stiffness.";
+    return "Damping ratios are shifted, frequencies are not. Candidates: friction, damping.";
   }
   if (poles == Motion::stays && hub_zeros == Motion::stays) {
-    return "No pole or zero moved: what is wrong, if anything, is gain, delay or lag, or not "
-           "linear.";
+    return "No pole or zero is shifted. Candidates: gain, delay, lag, nonlinear effects.";
   }
   return "";
 }

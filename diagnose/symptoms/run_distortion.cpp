@@ -27,7 +27,7 @@ std::string largest(const RunDistortion& run, DistortionTest ChannelDistortion::
     const bool found = symptom(SymptomKind::distortion, "", test.probability, tests).is_significant;
     if (!found || !(test.level_dB > highest_dB)) continue;
     highest_dB = test.level_dB;
-    text = fmt::format("{:.0f} dB of the driven lines in {}", test.level_dB,
+    text = fmt::format("{:.0f} dB relative to the excited lines in {}", test.level_dB,
                        arm::to_string(run.sensors[c]));
   }
   return text;
@@ -38,25 +38,23 @@ std::string distortion_text(const RunDistortion& run, std::size_t tests) {
   const std::string even = largest(run, &ChannelDistortion::even, tests);
   if (odd.empty() && even.empty()) {
     return fmt::format(
-        "run {}: no distortion at lines that the torque does not drive: no sign of "
-        "what is not linear.",
+        "run {}: no significant distortion at the detection lines; no evidence of a nonlinearity.",
         run.run);
   }
   if (even.empty()) {
     return fmt::format(
-        "run {}: odd distortion, up to {}, and no even one: what is not linear is "
-        "alike in both directions, as friction, a dead zone or saturation.",
+        "run {}: odd distortion up to {}, no even distortion. Odd nonlinearity: friction, dead "
+        "zone or saturation.",
         run.run, odd);
   }
   if (odd.empty()) {
     return fmt::format(
-        "run {}: even distortion, up to {}: what is not linear differs with the "
-        "direction.",
-        run.run, even);
+        "run {}: even distortion up to {}. The nonlinearity depends on the direction.", run.run,
+        even);
   }
   return fmt::format(
-      "run {}: odd distortion, up to {}, and even, up to {}: what is not linear "
-      "differs with the direction, as friction with a bias, or ripple.",
+      "run {}: odd distortion up to {}, even distortion up to {}. The nonlinearity depends on the "
+      "direction: friction with bias, or ripple.",
       run.run, odd, even);
 }
 

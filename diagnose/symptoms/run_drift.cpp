@@ -126,20 +126,22 @@ std::vector<Symptom> drift_symptoms(const RunDrift& drift) {
   const auto [least, most] = std::ranges::minmax_element(drift.values, {}, &RunValue::value);
   const std::string unit = drift.unit == "1" ? "" : " " + drift.unit;
   Symptom one = symptom(SymptomKind::drift, "", drift.probability, 1);
-  const std::string what = fmt::format("{} {} refitted run by run", drift.effect, drift.parameter);
+  const std::string what =
+      fmt::format("{} {}, estimated from each run", drift.effect, drift.parameter);
   const std::string range = fmt::format("{:.4g} ± {:.2g}{} (run {}) to {:.4g} ± {:.2g}{} (run {})",
                                         least->value, least->std_error, unit, least->run,
                                         most->value, most->std_error, unit, most->run);
   const double spread = (most->value - least->value) / std::abs(drift.mean);
   if (one.is_significant && spread >= kLeastSpread) {
     one.text = fmt::format(
-        "{} does not agree with itself: {}; it changes between runs, or is not all that is wrong.",
+        "{}: estimates inconsistent between runs, {}. The parameter changes between runs, or "
+        "another effect is present.",
         what, range);
   } else if (one.is_significant) {
     one.is_significant = false;
-    one.text = fmt::format("{} agrees within {}: {}.", what, percent(spread), range);
+    one.text = fmt::format("{}: estimates agree within {}, {}.", what, percent(spread), range);
   } else {
-    one.text = fmt::format("{} agrees within its errors: {}.", what, range);
+    one.text = fmt::format("{}: estimates consistent between runs, {}.", what, range);
   }
   return {one};
 }

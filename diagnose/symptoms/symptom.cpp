@@ -40,7 +40,7 @@ Symptom symptom(SymptomKind kind, std::string text, double probability, std::siz
 
 std::string percent(double part) {
   const double value = 100.0 * part;
-  if (value < 0.1) return "less than 0.1 %";
+  if (value < 0.1) return "< 0.1 %";
   return value >= 10.0 ? fmt::format("{:.0f} %", value) : fmt::format("{:.2g} %", value);
 }
 

@@ -34,7 +34,7 @@ void require_complete(const TimeRecord& record) {
     complete = complete && channel.values.size() == samples;
     all_finite = all_finite && finite(channel.values);
   }
-  if (!complete) throw std::invalid_argument("a record of unlike columns, or of one sample");
+  if (!complete) throw std::invalid_argument("columns of different length, or one sample");
   if (!all_finite) throw std::invalid_argument("a record with a value that is not finite");
 }
 
@@ -129,7 +129,7 @@ std::string_view to_string(Fault fault) {
     case Fault::swapped_channels:
       return "swapped channels";
     case Fault::sign_flipped:
-      return "sign flipped";
+      return "sign inverted";
     case Fault::wrong_unit:
       return "wrong unit";
     case Fault::delay:

@@ -78,7 +78,7 @@ DataFinding backward_finding(std::span<const double> times_s, const Steps& steps
           back_s,
           fmt::format(
               "time {} at sample {}, after {:.9g} s{}",
-              back_s == 0.0 ? std::string("repeats") : fmt::format("goes back by {:.3g} s", back_s),
+              back_s == 0.0 ? std::string("repeats") : fmt::format("decreases by {:.3g} s", back_s),
               k + 1, times_s[k - 1], more_places(steps.backward.size()))};
 }
 
@@ -86,20 +86,20 @@ DataFinding gap_finding(std::span<const double> times_s, const Steps& steps) {
   const std::size_t k = steps.gaps.front();
   double lost = 0.0;
   for (const std::size_t gap : steps.gaps) lost += steps.periods[gap] - 1.0;
-  return {Fault::missing_samples,
-          "time",
-          k,
-          times_s[k],
-          lost,
-          fmt::format(
-              "{:.0f} sample{} missing between {:.9g} s and {:.9g} s, where the period is "
-              "{:.6g} s{}",
-              steps.periods[k] - 1.0, steps.periods[k] == 2.0 ? " is" : "s are", times_s[k - 1],
-              times_s[k], steps.period_s,
-              steps.gaps.size() == 1
-                  ? ""
-                  : fmt::format(", and more at {} other place{}: {:.0f} in all",
-                                steps.gaps.size() - 1, steps.gaps.size() == 2 ? "" : "s", lost))};
+  return {
+      Fault::missing_samples,
+      "time",
+      k,
+      times_s[k],
+      lost,
+      fmt::format("{:.0f} sample{} missing between {:.9g} s and {:.9g} s, where the period is "
+                  "{:.6g} s{}",
+                  steps.periods[k] - 1.0, steps.periods[k] == 2.0 ? " is" : "s are", times_s[k - 1],
+                  times_s[k], steps.period_s,
+                  steps.gaps.size() == 1 ? ""
+                                         : fmt::format(", and at {} other place{}: {:.0f} in total",
+                                                       steps.gaps.size() - 1,
+                                                       steps.gaps.size() == 2 ? "" : "s", lost))};
 }
 
 /// Jitter of the times in [first, last), between steps back.
@@ -159,9 +159,9 @@ void add_jitter(std::span<const double> times_s, const Steps& steps,
   const std::size_t k = worst.first_beyond;
   findings.push_back(
       {Fault::clock_jitter, "time", k, times_s[k], worst.rms_periods * steps.period_s,
-       fmt::format("times lie up to {:.2g} of a period off the even grid of {:.6g} s (rms {:.2g}), "
-                   "first at sample {}",
-                   worst.most_periods, steps.period_s, worst.rms_periods, k + 1)});
+       fmt::format(
+           "sampling jitter up to {:.2g} of the period {:.6g} s (rms {:.2g}), first at sample {}",
+           worst.most_periods, steps.period_s, worst.rms_periods, k + 1)});
 }
 
 }  // namespace

@@ -101,8 +101,8 @@ std::optional<DataFinding> drift_finding(const CheckedSignal& signal, const Tren
                      0,
                      0.0,
                      trend.size,
-                     fmt::format("{} drifts by {:.4g} {} over the record, beside {} ({:.2g} of its "
-                                 "standard deviation)",
+                     fmt::format("{} drifts by {:.4g} {} over the record relative to {} ({:.2g} of "
+                                 "its standard deviation)",
                                  signal.name, trend.size, arm::unit(*signal.sensor), beside,
                                  std::abs(trend.size) / signal.deviation)};
 }

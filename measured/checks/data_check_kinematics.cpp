@@ -59,7 +59,7 @@ DataFinding swap_finding(const Comparison& comparison, std::size_t a, std::size_
           0,
           0.0,
           0.0,
-          fmt::format("{} and {} are exchanged: {}", first, second, why)};
+          fmt::format("{} and {} are swapped: {}", first, second, why)};
 }
 
 /// Whether an exchange makes the two less plausible than they are.
@@ -113,8 +113,8 @@ std::optional<DataFinding> implausible_pair(const Comparison& comparison) {
         continue;
       }
       return swap_finding(comparison, a, b,
-                          fmt::format("standard deviations of {:.3g} {} and {:.3g} {} are each out "
-                                      "of reach, and not the other way round",
+                          fmt::format("standard deviations {:.3g} {} and {:.3g} {} are implausible "
+                                      "as assigned and plausible when swapped",
                                       signals[a].deviation, arm::unit(*signals[a].sensor),
                                       signals[b].deviation, arm::unit(*signals[b].sensor)));
     }
@@ -197,16 +197,16 @@ std::string unit_slip(double log10_factor) {
     double factor;
   };
   constexpr double kPi = std::numbers::pi;
-  constexpr Slip kSlips[] = {{"degrees for radians", 180.0 / kPi},
-                             {"radians for degrees", kPi / 180.0},
-                             {"rev/min for rad/s", 30.0 / kPi},
-                             {"turns for radians", 0.5 / kPi}};
+  constexpr Slip kSlips[] = {{"degrees instead of radians", 180.0 / kPi},
+                             {"radians instead of degrees", kPi / 180.0},
+                             {"rev/min instead of rad/s", 30.0 / kPi},
+                             {"revolutions instead of radians", 0.5 / kPi}};
   constexpr double kNear = 0.08;  // log10: 20 %
   const double power = std::round(log10_factor);
   // 9.81 and 9.55 are told from 10 by nothing but the least noise.
   if (power != 0.0 && std::abs(log10_factor - power) <= kNear) {
     return fmt::format("a factor of 1e{:.0f}{}", power,
-                       std::abs(power) == 1.0 ? ", or g for m/s^2" : "");
+                       std::abs(power) == 1.0 ? ", or g instead of m/s^2" : "");
   }
   for (const auto& [meaning, factor] : kSlips) {
     if (std::abs(log10_factor - std::log10(factor)) <= kNear) return meaning;
@@ -245,8 +245,7 @@ std::vector<DataFinding> check_swaps(const Comparison& comparison) {
         continue;
       }
       least = exchange.misfit;
-      found = swap_finding(comparison, a, b,
-                           "the other way round one is the derivative of the other, as it must be");
+      found = swap_finding(comparison, a, b, "when swapped, one is the derivative of the other");
     }
   }
   if (!found) found = implausible_pair(comparison);
@@ -266,8 +265,8 @@ std::vector<DataFinding> check_delay(const Comparison& comparison) {
   const auto& late = comparison.signals[fit.delay_s > 0.0 ? *velocity : *angle];
   const auto& other = comparison.signals[fit.delay_s > 0.0 ? *angle : *velocity];
   return {{Fault::delay, late.name, 0, 0.0, std::abs(fit.delay_s),
-           fmt::format("{} is {:.3g} s later than {} (standard error {:.1g} s): {:.2f} sampling "
-                       "periods",
+           fmt::format("{} is delayed by {:.3g} s relative to {} (standard error {:.1g} s, {:.2f} "
+                       "sampling periods)",
                        late.name, std::abs(fit.delay_s), other.name, fit.delay_error_s,
                        std::abs(fit.delay_s) / period_s)}};
 }

@@ -56,8 +56,8 @@ std::vector<DataFinding> check_response(const Comparison& comparison) {
   std::vector<DataFinding> findings;
   if (torque_is_noise) {
     findings.push_back({Fault::zero_torque, "torque", 0, 0.0, comparison.signals[0].deviation,
-                        fmt::format("torque is noise of {:.3g} N m that no sensor answers: nothing "
-                                    "says what moves the arm",
+                        fmt::format("torque is noise of {:.3g} N m without coherence with any "
+                                    "sensor: the actual input is unknown",
                                     comparison.signals[0].deviation)});
   }
   // An arm at rest moves no sensor; one sensor alone has only the torque to answer.
@@ -72,9 +72,9 @@ std::vector<DataFinding> check_response(const Comparison& comparison) {
     if (!comparison.usable[i] || closest[i] >= kRelated || !others_respond(i)) continue;
     findings.push_back(
         {Fault::dead_channel, comparison.signals[i].name, 0, 0.0, closest[i],
-         fmt::format("{} is unrelated to the torque and to every other channel: mean coherence "
-                     "squared {:.2g} at most",
-                     comparison.signals[i].name, closest[i])});
+         fmt::format(
+             "{}: no coherence with torque or any other channel (mean gamma^2 at most {:.2g})",
+             comparison.signals[i].name, closest[i])});
   }
   return findings;
 }

@@ -178,10 +178,9 @@ std::vector<DataFinding> check_signs(const Comparison& comparison) {
         against.push_back(comparison.signals[other].name);
       }
     }
-    findings.push_back(
-        {Fault::sign_flipped, comparison.signals[i].name, 0, 0.0, -1.0,
-         fmt::format("{} has the wrong sign, against {}{}", comparison.signals[i].name,
-                     fmt::join(against, ", "), alternatives)});
+    findings.push_back({Fault::sign_flipped, comparison.signals[i].name, 0, 0.0, -1.0,
+                        fmt::format("{}: sign inconsistent with {}{}", comparison.signals[i].name,
+                                    fmt::join(against, ", "), alternatives)});
   }
   return findings;
 }

@@ -121,8 +121,8 @@ DataFinding unit_finding(const Comparison& comparison, const Suspect& suspect,
           0,
           0.0,
           factor,
-          fmt::format("{} is {:.3g} times what the others say of it: {}{}", name, factor,
-                      unit_slip(suspect.log10_scale), alternatives)};
+          fmt::format("{}: scale {:.3g} times the value implied by the other channels: {}{}", name,
+                      factor, unit_slip(suspect.log10_scale), alternatives)};
 }
 
 }  // namespace
@@ -168,9 +168,9 @@ std::vector<DataFinding> check_units(const Comparison& comparison) {
     }
     findings.push_back(
         {Fault::wrong_unit, signal.name, 0, 0.0, signal.deviation,
-         fmt::format("{} has a standard deviation of {:.3g}, which no link survives: "
-                     "microstrain or another multiple of 1",
-                     signal.name, signal.deviation)});
+         fmt::format(
+             "{}: standard deviation {:.3g} exceeds the strength of the link; probably microstrain",
+             signal.name, signal.deviation)});
   }
   return findings;
 }

@@ -70,7 +70,7 @@ std::optional<DataFinding> constant(const CheckedSignal& signal,
       0,
       0.0,
       signal.values[0],
-      fmt::format("{} is {:.6g} {} throughout, while {} varies", signal.name, signal.values[0],
+      fmt::format("{} constant at {:.6g} {}, while {} varies", signal.name, signal.values[0],
                   unit_shown(signal), alone ? "the torque" : "another channel")};
 }
 
@@ -180,7 +180,7 @@ std::optional<DataFinding> saturation(const CheckedSignal& signal,
                         at,
                         0.0,
                         first ? value : found->value,
-                        fmt::format("{} is clipped at {} {}: {} samples, from sample {} on",
+                        fmt::format("{} saturates at {} {}: {} samples, first at sample {}",
                                     signal.name, bounds, unit_shown(signal), samples, at + 1)};
   }
   return found;
@@ -231,15 +231,15 @@ std::optional<DataFinding> stuck(const CheckedSignal& signal,
     if (places++ == 0) first_run = run;
   }
   if (places == 0) return std::nullopt;
-  return DataFinding{Fault::stuck_values,
-                     signal.name,
-                     first_run.first,
-                     0.0,
-                     static_cast<double>(first_run.count),
-                     fmt::format("{} repeats {:.6g} {} for {} samples from sample {} on, while "
-                                 "others move{}",
-                                 signal.name, x[first_run.first], unit_shown(signal),
-                                 first_run.count, first_run.first + 1, more_places(places))};
+  return DataFinding{
+      Fault::stuck_values,
+      signal.name,
+      first_run.first,
+      0.0,
+      static_cast<double>(first_run.count),
+      fmt::format("{} stuck at {:.6g} {} for {} samples from sample {}, while others vary{}",
+                  signal.name, x[first_run.first], unit_shown(signal), first_run.count,
+                  first_run.first + 1, more_places(places))};
 }
 
 }  // namespace
@@ -250,7 +250,7 @@ std::vector<DataFinding> check_values(std::span<const CheckedSignal> signals,
   const auto& torque = signals[0];
   if (std::ranges::all_of(torque.values, [](double value) { return value == 0.0; })) {
     findings.push_back({Fault::zero_torque, torque.name, 0, 0.0, 0.0,
-                        "torque is zero throughout: nothing says what moves the arm"});
+                        "torque is zero at all samples: the actual input is unknown"});
   }
   for (const auto& signal : signals) {
     const double step =
@@ -279,12 +279,11 @@ std::vector<DataFinding> check_quantisation(std::span<const CheckedSignal> signa
     }
     findings.push_back(
         {Fault::quantisation, signal.name, 0, 0.0, *step,
-         fmt::format(
-             "{} comes in steps of {:.4g} {}: {:.2g} of its standard deviation; their error, "
-             "{:.2g} {} rms, is {:.2g} of the noise floor",
-             signal.name, *step, unit_shown(signal), *step / signal.deviation,
-             std::sqrt(error_power), unit_shown(signal),
-             std::sqrt(error_power / std::max(floor_power[i], 1e-300)))});
+         fmt::format("{}: quantisation step {:.4g} {} ({:.2g} of its standard deviation); "
+                     "quantisation error {:.2g} {} rms, {:.2g} of the noise floor",
+                     signal.name, *step, unit_shown(signal), *step / signal.deviation,
+                     std::sqrt(error_power), unit_shown(signal),
+                     std::sqrt(error_power / std::max(floor_power[i], 1e-300)))});
   }
   return findings;
 }

@@ -78,12 +78,12 @@ class Reader {
       if (const auto* text = node.as_string()) {
         arm_.name = text->get();
       } else {
-        wrong_type(name, node, "a text in quotes");
+        wrong_type(name, node, "a quoted string");
       }
     } else if (name == "effects" || std::ranges::count(arm::arm_tables(), name) > 0) {
       const auto* table = node.as_table();
       if (table == nullptr) {
-        wrong_type(name, node, fmt::format("a table: one line [{}], then its keys", name));
+        wrong_type(name, node, fmt::format("a table: a line [{}], then its keys", name));
       } else if (name == "effects") {
         for (const auto& [key, effect] : *table) read_effect(arm::shown(key.str()), effect);
       } else {
@@ -139,9 +139,9 @@ class Reader {
     if (table == nullptr) {
       std::vector<std::string> parameters;
       for (const auto& parameter : definition->parameters) parameters.push_back(parameter.name);
-      wrong_type(key, node,
-                 fmt::format("a table: one line [{}], then its keys {}", key,
-                             fmt::join(parameters, ", ")));
+      wrong_type(
+          key, node,
+          fmt::format("a table: a line [{}], then its keys {}", key, fmt::join(parameters, ", ")));
       return;
     }
     arm::Effect& effect = arm_.effects[name];
@@ -159,7 +159,7 @@ class Reader {
       if (const auto* text = node.as_string(); text != nullptr && !text->get().empty()) {
         effect.sensor = text->get();
       } else {
-        wrong_type(key, node, "the name of a sensor in quotes, as in \"tip_acceleration\"");
+        wrong_type(key, node, "a quoted sensor name, e.g. \"tip_acceleration\"");
       }
       return;
     }

@@ -72,7 +72,7 @@ std::string format_arm(const arm::Arm& arm) {
   arm::require_valid(arm);
   if (!arm::is_utf8(arm.name)) {
     throw arm::InputError(
-        fmt::format("name = \"{}\": not UTF-8, which TOML asks for", arm::shown(arm.name)), "name");
+        fmt::format("name = \"{}\": not UTF-8, as required by TOML", arm::shown(arm.name)), "name");
   }
   std::string out;
   if (!arm.name.empty()) out += fmt::format("name = {}\n", toml_string(arm.name));

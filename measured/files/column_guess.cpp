@@ -130,15 +130,14 @@ ColumnGuess guess_columns(std::span<const ColumnLabel> columns, const ColumnMapp
     if (found.size() > 1) {
       std::vector<std::string> names;
       for (const auto& entry : found) names.push_back(columns[entry.column].name);
-      guess.notes.push_back(fmt::format("{} may be {}: say which with --column {}=NAME", quantity,
-                                        fmt::join(names, " or "), quantity));
+      guess.notes.push_back(fmt::format("{}: ambiguous ({}); choose with --column {}=NAME",
+                                        quantity, fmt::join(names, " or "), quantity));
       continue;
     }
     const ColumnLabel& label = columns[found.front().column];
     const std::string si_unit(si_unit_of(quantity));
     if (label.unit.empty()) {
-      guess.notes.push_back(
-          fmt::format("the unit of {} is not told and taken for {}", label.name, si_unit));
+      guess.notes.push_back(fmt::format("unit of {} not given; {} assumed", label.name, si_unit));
     }
     guess.mappings[quantity] = {label.name, label.unit.empty() ? si_unit : label.unit, 1.0};
   }

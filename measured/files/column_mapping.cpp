@@ -42,11 +42,11 @@ std::vector<std::optional<Source>> sources_of(const ForeignTable& table,
     const std::size_t place = find_column(table, mapping.name);
     const auto alike = std::ranges::count(table.columns, mapping.name, &ForeignColumn::name);
     if (alike > 1) {
-      throw InputError(
-          fmt::format("column {}: {} of the file have this name", arm::shown(mapping.name), alike));
+      throw InputError(fmt::format("column {}: {} columns of the file have this name",
+                                   arm::shown(mapping.name), alike));
     }
     if (sources[place]) {
-      throw InputError(fmt::format("column {}: is to be {} and {}", arm::shown(mapping.name),
+      throw InputError(fmt::format("column {}: assigned to {} and {}", arm::shown(mapping.name),
                                    sources[place]->quantity, quantity));
     }
     sources[place] = Source{quantity, mapping};
@@ -73,7 +73,7 @@ std::vector<double> si_values(const ForeignTable& table, const ForeignColumn& co
                               const Source& source, std::size_t& row) {
   const auto& mapping = source.mapping;
   if (column.is_text()) {
-    throw InputError(fmt::format("column {} = {}: is text; {} must be numbers",
+    throw InputError(fmt::format("column {} = {}: not a number; {} must be numeric",
                                  arm::shown(column.name), arm::shown(column.texts.front()),
                                  source.quantity));
   }
@@ -103,7 +103,7 @@ std::string standard_name(std::string_view name) {
   try {
     return arm::to_string(arm::parse_sensor(name));
   } catch (const InputError& error) {
-    throw InputError(fmt::format("{}; beside time and torque", error.what()));
+    throw InputError(fmt::format("{}; besides time and torque", error.what()));
   }
 }
 
@@ -133,7 +133,7 @@ void require_valid(const std::string& standard_name, const ColumnMapping& mappin
   }
   if (has_scale || unit_of(standard_name, mapping.unit)) return;
   const auto names = unit_names(standard_name);
-  throw InputError(fmt::format("unit = {}: is none of {}{}; scale is needed then, in {} per {}",
+  throw InputError(fmt::format("unit = {}: not one of {}{}; give scale in {} per {}",
                                arm::shown(mapping.unit), fmt::join(names, ", "),
                                arm::did_you_mean(mapping.unit, names), si_unit_of(standard_name),
                                arm::shown(mapping.unit)));
@@ -172,14 +172,14 @@ TimeRecord time_record_of(const ForeignTable& table, const ColumnMappings& mappi
     for (const auto name : {kTime, kTorque}) {
       if ((name == kTime ? record.time_s : record.torque_N_m).empty()) {
         throw InputError(
-            fmt::format("{}: no column is mapped to it; columns: {}", name, column_list(table)));
+            fmt::format("{}: no column assigned; columns: {}", name, column_list(table)));
       }
     }
     const std::size_t samples = record.time_s.size();
     bool even = record.torque_N_m.size() == samples;
     for (const auto& channel : record.channels) even = even && channel.values.size() == samples;
-    if (!even) throw InputError("the columns are of unlike length; must be of one");
-    if (samples < 2) throw InputError("one sample; must have two or more");
+    if (!even) throw InputError("columns of different length");
+    if (samples < 2) throw InputError("one sample; needs at least two");
   } catch (const InputError& error) {
     throw arm::located(error, file_name, in_row ? line_of(table, row) : 0);
   }

@@ -81,10 +81,10 @@ void add_signals(const std::vector<const UniversalFunction*>& functions, Foreign
   for (std::size_t i = 0; i < functions.size(); ++i) {
     const UniversalFunction& function = *functions[i];
     if (!function.imaginary.empty()) {
-      file.left_out.push_back(fmt::format("{}: complex over time", names[i]));
+      file.left_out.push_back(fmt::format("{}: complex time signal", names[i]));
     } else if (function.abscissa != first.abscissa) {
       file.left_out.push_back(
-          fmt::format("{}: other times than those of {}", names[i], names.front()));
+          fmt::format("{}: time axis differs from that of {}", names[i], names.front()));
     } else {
       file.table.columns.push_back(
           {names[i], unit_of_axis(function.ordinate_axis, names[i]), function.real});
@@ -128,7 +128,8 @@ void add_coherences(const UniversalFile& universal, ForeignFile& file) {
     }
     if (function.type != kUniversalCoherence) continue;
     if (last == nullptr || !(last->response == function.response)) {
-      file.left_out.push_back(fmt::format("{}: a coherence of no response", function.id[0]));
+      file.left_out.push_back(
+          fmt::format("{}: coherence without a frequency response", function.id[0]));
       continue;
     }
     ForeignResponse& response = file.responses[responses - 1];
@@ -180,10 +181,9 @@ double scale_of(const ForeignResponse& response, const std::string& sensor,
   const Unit unit = unit_of(sensor, mapping.unit).value_or(Unit{mapping.unit});
   const auto per = unit_of("torque", response.per);
   if (!per && mapping.scale == 1.0) {
-    throw InputError(
-        fmt::format("{}: per {}, which is no torque; a scale is needed that makes it "
-                    "{} per N m",
-                    arm::shown(response.name), arm::shown(response.per), si_unit_of(sensor)));
+    throw InputError(fmt::format("{}: reference in {} is not a torque; give a scale to {} per N m",
+                                 arm::shown(response.name), arm::shown(response.per),
+                                 si_unit_of(sensor)));
   }
   const Unit torque = per.value_or(Unit{response.per});
   divisor = unit.divisor * torque.factor;
@@ -215,7 +215,7 @@ ForeignFile read_foreign_file(const std::filesystem::path& path) {
     file.table = parse_foreign_table(bytes, name);
   }
   if (file.table.columns.empty() && file.responses.empty()) {
-    throw InputError(fmt::format("{}: a {} without signals in time or frequency responses", name,
+    throw InputError(fmt::format("{}: {} without time signals or frequency responses", name,
                                  to_string(file.format)));
   }
   return file;

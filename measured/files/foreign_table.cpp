@@ -236,10 +236,10 @@ class TableReader {
     if (names) {
       assume(fmt::format("names are in line {}", sample_[*head].number));
     } else {
-      assume("no line of names: the columns are called column 1, column 2, ...");
+      assume("no header line; columns named column 1, column 2, ...");
     }
     const std::size_t preamble = names ? *head : first_;
-    if (preamble > 0) assume(fmt::format("{} in front passed over", counted(preamble, "line")));
+    if (preamble > 0) assume(fmt::format("{} skipped at the beginning", counted(preamble, "line")));
   }
 
   static std::string counted(std::size_t count, const char* what) {
@@ -264,7 +264,7 @@ class TableReader {
       }
     }
     if (short_row.number > 0) {
-      assume(fmt::format("line {}, the last one, is cut off and left out", short_row.number));
+      assume(fmt::format("last line {} incomplete and ignored", short_row.number));
     }
   }
 

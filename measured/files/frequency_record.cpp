@@ -88,7 +88,7 @@ double read_coherence(std::string_view cell) {
 void require_ascending(const arm::Sensor& at, double before_Hz, double frequency_Hz) {
   if (frequency_Hz > before_Hz) return;
   throw InputError(fmt::format(
-      "{} = {}: {} of {}; must rise from row to row of a sensor", kNames[frequency], frequency_Hz,
+      "{} = {}: {} of {}; must be strictly increasing per sensor", kNames[frequency], frequency_Hz,
       frequency_Hz == before_Hz ? "again the one before" : "below the one before",
       arm::to_string(at)));
 }

@@ -73,7 +73,8 @@ void require_name(const std::string& name) {
                     std::ranges::all_of(name, [](char c) {
                       return is_letter(c) || (c >= '0' && c <= '9') || c == '_';
                     });
-  if (!fits) throw std::invalid_argument(fmt::format("\"{}\" is no name of a .mat variable", name));
+  if (!fits)
+    throw std::invalid_argument(fmt::format("\"{}\" is not a valid .mat variable name", name));
 }
 
 void require_text(const std::string& name, const std::string& text) {
@@ -291,7 +292,7 @@ MatContents read_mat_contents(const fs::path& path) {
   const std::string bytes = measured::read_text_file(path, kLargestMatFile_bytes);
   constexpr std::string_view kMagic = "MATLAB 5.0 MAT-file";
   if (!bytes.starts_with(kMagic)) {
-    throw unusable(path, "is no MATLAB 5 file; save with -v6 or -v7");
+    throw unusable(path, "not a MATLAB 5 file; save with -v6 or -v7");
   }
   MatElements sound;
   try {
@@ -303,7 +304,7 @@ MatContents read_mat_contents(const fs::path& path) {
   std::ofstream(temporary.path(), std::ios::binary) << sound.file;
   File file(Mat_Open(temporary.path().c_str(), MAT_ACC_RDONLY));
   if (!file || Mat_GetVersion(file.get()) != MAT_FT_MAT5) {
-    throw unusable(path, "is no MATLAB 5 file; save with -v6 or -v7");
+    throw unusable(path, "not a MATLAB 5 file; save with -v6 or -v7");
   }
   MatContents contents{{}, std::move(sound.left_out)};
   for (;;) {

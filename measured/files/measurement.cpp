@@ -55,7 +55,7 @@ class MeasurementReader : measured::TomlFaults {
   Measurement read(const toml::table& document) {
     for (const auto& [key, node] : document) read_top_level(arm::shown(key.str()), node);
     require(document, 1, "arm", "arm", "the arm file, relative to this file");
-    require(document, 1, "run", "run", "one [[run]] or more");
+    require(document, 1, "run", "run", "at least one [[run]]");
     throw_first();
     return std::move(measurement_);
   }
@@ -66,7 +66,7 @@ class MeasurementReader : measured::TomlFaults {
       if (const auto* text = node.as_string()) {
         measurement_.name = text->get();
       } else {
-        wrong(key, node, "a text in quotes");
+        wrong(key, node, "a quoted string");
       }
     } else if (key == "arm") {
       read_file(key, node, measurement_.arm);
@@ -80,7 +80,7 @@ class MeasurementReader : measured::TomlFaults {
   void read_runs(const toml::node& node) {
     const auto* runs = node.as_array();
     if (runs == nullptr || runs->empty() || !runs->is_homogeneous<toml::table>()) {
-      wrong("run", node, "one line [[run]] a run, then its keys");
+      wrong("run", node, "one [[run]] table per run");
       return;
     }
     for (const auto& run : *runs) measurement_.runs.push_back(read_run(*run.as_table()));
@@ -114,11 +114,10 @@ class MeasurementReader : measured::TomlFaults {
     }
     run.torque_hold_is_known = run.kind != RunKind::time || table.contains("torque_hold");
     if (!run.columns.empty() && run.kind != RunKind::time) {
-      fault(line_of(*table.get("columns")),
-            "run.columns: only a time run has them; must be left out");
+      fault(line_of(*table.get("columns")), "run.columns: only for time runs");
     }
     const int line = line_of(table);
-    require(table, line, "run.id", "id", "a name in quotes");
+    require(table, line, "run.id", "id", "a quoted name");
     require(table, line, "run.kind", "kind", "\"time\", \"frf\" or \"modal\"");
     require(table, line, "run.file", "file", "the run's CSV file, relative to this file");
     return run;
@@ -127,7 +126,7 @@ class MeasurementReader : measured::TomlFaults {
   void read_id(const toml::node& node, Run& run) {
     const auto* text = node.as_string();
     if (text == nullptr || text->get().empty()) {
-      wrong("run.id", node, "a name in quotes");
+      wrong("run.id", node, "a quoted name");
       return;
     }
     run.id = text->get();
@@ -139,7 +138,7 @@ class MeasurementReader : measured::TomlFaults {
   }
 
   void read_file(const std::string& key, const toml::node& node, std::string& file) {
-    read_text(key, node, "the name of a file in quotes", file);
+    read_text(key, node, "a quoted file name", file);
   }
 
   /// The value that a word of the file stands for.
@@ -195,9 +194,9 @@ class MeasurementReader : measured::TomlFaults {
     for (const auto& [leaf_key, value] : *table) {
       const std::string leaf = arm::shown(leaf_key.str());
       if (leaf == "name") {
-        take(leaf, value, mapping.name, "a column of the file, in quotes");
+        take(leaf, value, mapping.name, "a quoted column name");
       } else if (leaf == "unit") {
-        take(leaf, value, mapping.unit, "a unit in quotes");
+        take(leaf, value, mapping.unit, "a quoted unit");
       } else if (leaf == "scale") {
         take(leaf, value, mapping.scale, "a finite number, not 0");
       } else {

@@ -18,7 +18,7 @@ using arm::InputError;
 std::string quoted(const std::string& key, const std::string& text) {
   if (!arm::is_utf8(text)) {
     throw InputError(
-        fmt::format("{} = \"{}\": not UTF-8, which TOML asks for", key, arm::shown(text)), key);
+        fmt::format("{} = \"{}\": not UTF-8, as required by TOML", key, arm::shown(text)), key);
   }
   return measured::toml_string(text);
 }

@@ -36,11 +36,10 @@ std::vector<double> steps_of(std::span<const double> times_s) {
 std::optional<GridFault> backward_fault(std::span<const double> times_s) {
   for (std::size_t i = 1; i < times_s.size(); ++i) {
     if (times_s[i] > times_s[i - 1]) continue;
-    const std::string how =
-        times_s[i] == times_s[i - 1]
-            ? "the time of the sample before again"
-            : fmt::format("before the sample above, which is at {} s", times_s[i - 1]);
-    return GridFault{i, arm::InputError(fmt::format("time = {} s: {}; must rise from row to row",
+    const std::string how = times_s[i] == times_s[i - 1]
+                                ? "same as the previous sample"
+                                : fmt::format("below the previous sample at {} s", times_s[i - 1]);
+    return GridFault{i, arm::InputError(fmt::format("time = {} s: {}; must be strictly increasing",
                                                     times_s[i], how))};
   }
   return std::nullopt;
@@ -77,8 +76,8 @@ std::optional<GridFault> jitter_fault(std::span<const double> times_s) {
     const double off_s = std::abs(times_s[i] - (first_s + static_cast<double>(i) * period_s));
     if (off_s <= kMostJitter_periods * period_s) continue;
     return GridFault{i, arm::InputError(fmt::format(
-                            "time = {} s: {:.2g} of a sampling period off the even grid of {:.6g} "
-                            "s; must be {} or less: write more digits, or resample evenly",
+                            "time = {} s: jitter {:.2g} of the sampling period {:.6g} s; must be "
+                            "{} or less: write more digits, or resample",
                             times_s[i], off_s / period_s, period_s, kMostJitter_periods))};
   }
   return std::nullopt;

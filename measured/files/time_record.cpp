@@ -60,7 +60,7 @@ arm::Sensor sensor_of(std::string_view name) {
   try {
     return arm::parse_sensor(name);
   } catch (const InputError& error) {
-    throw InputError(fmt::format("column: {}; beside time and torque", error.what()));
+    throw InputError(fmt::format("column: {}; besides time and torque", error.what()));
   }
 }
 
@@ -160,7 +160,7 @@ void require_writable(const TimeRecord& record) {
   const std::size_t samples = record.time_s.size();
   bool even = record.torque_N_m.size() == samples;
   for (const auto& channel : record.channels) even = even && channel.values.size() == samples;
-  if (!even) throw std::invalid_argument("a time record whose columns are of unlike length");
+  if (!even) throw std::invalid_argument("columns of different length");
   require_finite_values(kTime, record.time_s);
   require_finite_values(kTorque, record.torque_N_m);
   for (const auto& channel : record.channels) {
@@ -194,8 +194,8 @@ TimeRecord parse_time_record(std::string_view csv, const std::string& file_name)
       lines.push_back(reader.line());
     }
     if (lines.size() < 2) {
-      throw InputError(lines.empty() ? "only a header; must have two samples or more"
-                                     : "one sample; must have two or more");
+      throw InputError(lines.empty() ? "only a header; needs at least two samples"
+                                     : "one sample; needs at least two");
     }
   } catch (const InputError& error) {
     throw arm::located(error, file_name, reader.line());

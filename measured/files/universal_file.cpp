@@ -161,7 +161,7 @@ class FunctionReader {
  private:
   string_view line() {
     string_view line;
-    if (!cursor_.next(line)) throw InputError("the file is cut off");
+    if (!cursor_.next(line)) throw InputError("file incomplete");
     return line;
   }
 
@@ -229,8 +229,8 @@ class FunctionReader {
     const std::size_t numbers = points_ * layout_.numbers();
     const std::size_t size = layout_.bytes();
     if (numbers > cursor_.left() / size) {
-      throw InputError(fmt::format("cut off: {} of {} bytes of numbers are there", cursor_.left(),
-                                   numbers * size));
+      throw InputError(
+          fmt::format("incomplete: {} of {} bytes of numbers", cursor_.left(), numbers * size));
     }
     const string_view block = cursor_.take(numbers * size);
     for (std::size_t i = 0; i < numbers; ++i) {
@@ -264,7 +264,7 @@ class FunctionReader {
       if (!read_words(text, done, numbers)) read_columns(text, done, numbers);
     }
     if (done < numbers) {
-      throw InputError(fmt::format("{} of {} numbers of the data set are there", done, numbers));
+      throw InputError(fmt::format("incomplete data set: {} of {} numbers", done, numbers));
     }
   }
 
@@ -312,7 +312,7 @@ void pass_over(Cursor& cursor) {
   while (cursor.next(line)) {
     if (trimmed_line(line) == "-1") return;
   }
-  throw InputError("the file is cut off within a data set, which ends with -1");
+  throw InputError("file incomplete: data set without its end line -1");
 }
 
 }  // namespace
@@ -327,7 +327,7 @@ UniversalFile parse_universal_file(string_view bytes, const std::string& file_na
       if (trimmed_line(line) != "-1") {
         throw InputError("not a universal file: a data set begins with a line of -1 alone");
       }
-      if (!cursor.next(line)) throw InputError("the file is cut off");
+      if (!cursor.next(line)) throw InputError("file incomplete");
       const string_view number = trimmed_line(line.substr(0, 6));
       if (number == "58") {
         file.functions.push_back(FunctionReader(cursor, line).read());

@@ -31,7 +31,7 @@ void require_writable(const UniversalFunction& function) {
   const bool is_real = function.imaginary.empty();
   if (points == 0 || function.real.size() != points ||
       (!is_real && function.imaginary.size() != points)) {
-    throw std::invalid_argument("a universal function whose vectors are of unlike length or empty");
+    throw std::invalid_argument("universal function with vectors of different length, or empty");
   }
   for (const auto* values : {&function.abscissa, &function.real, &function.imaginary}) {
     const auto bad =
@@ -269,7 +269,7 @@ std::vector<UniversalFunction> joined(std::vector<UniversalFunction> functions) 
     const bool fits = !out.empty() && out.back().real.size() == function.real.size() &&
                       (is_abscissa ? function.imaginary.empty()
                                    : function.imaginary.size() == out.back().imaginary.size());
-    if (!fits) throw InputError("a data set of FLEXARM does not fit the one above it");
+    if (!fits) throw InputError("a FLEXARM data set does not match the one before it");
     if (!is_remainder) {
       out.back().abscissa = std::move(function.real);
     } else if (is_abscissa) {

@@ -177,14 +177,14 @@ class Search {
       std::vector<Candidate> places = grid(options_);
       if (!try_one(places)) {
         result_.reason = fmt::format(
-            "a further block changes BIC by {:+.1f}; to stay it must lower it by more than {:g}",
+            "an additional second-order section changes BIC by {:+.1f}; threshold -{:g}",
             result_.trials.back().bic - best_.bic(), options_.bic_margin);
         break;
       }
     }
     if (const int pruned = options_.modes ? 0 : prune(); pruned > 0) {
-      result_.reason +=
-          fmt::format("; {} superfluous one{} taken away again", pruned, pruned == 1 ? "" : "s");
+      result_.reason += fmt::format("; {} section{} removed by backward elimination", pruned,
+                                    pruned == 1 ? "" : "s");
     }
     result_.blocks = best_.blocks;
     return result_;
@@ -201,11 +201,11 @@ class Search {
 
   bool done() {
     if (options_.modes && flexible() >= *options_.modes) {
-      result_.reason = "the number of modes was given";
+      result_.reason = "number of modes given";
     } else if (nothing_left(best_, sizes_)) {
-      result_.reason = "nothing but rounding is left";
+      result_.reason = "residual at the rounding level";
     } else if (flexible() >= options_.most_blocks) {
-      result_.reason = fmt::format("{} blocks are the most allowed", options_.most_blocks);
+      result_.reason = fmt::format("limit of {} sections reached", options_.most_blocks);
     } else if (best_.cancelled) {
       result_.reason = "cancelled";
     }

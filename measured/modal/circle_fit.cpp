@@ -21,7 +21,7 @@ double sum_of_squares(std::span<const Complex> points, Complex centre, double ra
 }
 
 /// a (|z|^2 - mean |z|^2)/(2 rms) + b x + c y least in the sense of Taubin, with x, y, z from their
-/// mean (Chernov, Circular and Linear Regression, 2010): the eigenvector of the smallest eigenvalue
+/// mean [Chernov2010]: the eigenvector of the smallest eigenvalue
 /// of the moments. A start value: half the digits will do.
 Circle taubin(std::span<const Complex> points) {
   const auto count = static_cast<Eigen::Index>(points.size());

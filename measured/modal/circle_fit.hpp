@@ -14,7 +14,7 @@ struct Circle {
   bool converged = false;     ///< the last step was below 1e-13 radius
 };
 
-/// The circle of least squares of distances: begun with Taubin's algebraic fit (1991), then by
+/// The circle of least squares of distances: begun with the algebraic fit of [Taubin1991], then by
 /// Gauss-Newton with Levenberg's damping on sum (|z_i - centre| - radius)^2. Throws
 /// std::invalid_argument for fewer than three points or points on a line.
 Circle fit_circle(std::span<const std::complex<double>> points);

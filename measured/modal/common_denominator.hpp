@@ -21,13 +21,13 @@ struct DenominatorPoles {
   Eigen::MatrixXcd residues;  ///< B_1(z) of each equation, a row each: proportional to residues
 };
 
-/// Least-squares complex frequency-domain estimate (Guillaume, Verboven, Vanlanduit 1998):
+/// Least-squares complex frequency-domain estimate [Guillaume1998]:
 ///
 ///     min sum over equations and lines of |(A y - sum B_i inputs_i)/A_previous|^2,
 ///
 /// real coefficients, A(z) = 1 + a_1 z + ... + a_n z^n. With its lowest coefficient fixed the poles
-/// that noise asks for lie outside the unit circle, the arm's own inside (Cauberghe et al. 2005).
-/// A_previous of the highest order weights all orders (Sanathanan and Koerner 1963).
+/// that noise asks for lie outside the unit circle, the arm's own inside [Cauberghe2005].
+/// A_previous of the highest order weights all orders [SanathananKoerner1963].
 ///
 /// Normal equations are Toeplitz: the cost is lines times order for the sums, order^3 an order.
 class CommonDenominator {

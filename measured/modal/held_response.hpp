@@ -12,7 +12,7 @@ namespace flexarm::measured {
 ///     x = (q, q', p, p'),   q = u/(s^2 + a1 s + a0),   p = u/(s^2 + a1 s + a0)^2,
 ///     x_(k+1) = Phi x_k + now u_k + next u_(k+1)
 ///
-/// with Phi, now, next from one exponential of the 6 x 6 matrix of x, u and du/dt (Van Loan 1978).
+/// with Phi, now, next from one exponential of the 6 x 6 matrix of x, u and du/dt [VanLoan1978].
 /// `next` is zero for a torque that is constant between samples. p is what derivatives take:
 /// d(s^k q)/d a0 = -s^k p, d(s^k q)/d a1 = -s^(k+1) p.
 class HeldResponse {

@@ -37,9 +37,9 @@ void require_options(const ModalFitOptions& options) {
   require_at_least("search_samples", static_cast<double>(options.search_samples), kLeastSamples);
   if (options.band &&
       !(options.band->from_Hz >= 0.0 && options.band->to_Hz > options.band->from_Hz)) {
-    throw arm::InputError(
-        fmt::format("band = {:g} to {:g} Hz: must be from 0 or more to something above",
-                    options.band->from_Hz, options.band->to_Hz));
+    throw arm::InputError(fmt::format(
+        "band = {:g} to {:g} Hz: lower limit must be 0 or more and below the upper limit",
+        options.band->from_Hz, options.band->to_Hz));
   }
 }
 
@@ -48,7 +48,7 @@ void require_each_sensor_once(const Channels& channels) {
   std::set<std::string> names;
   for (const auto& channel : channels) {
     if (!names.insert(arm::to_string(channel.sensor)).second) {
-      throw std::invalid_argument("a record with a sensor twice");
+      throw std::invalid_argument("duplicate sensor in a record");
     }
   }
 }
@@ -64,24 +64,24 @@ void require_record(const TimeRecord& record) {
   const std::size_t samples = record.time_s.size();
   bool alike = record.torque_N_m.size() == samples;
   for (const Channel& channel : record.channels) alike &= channel.values.size() == samples;
-  if (!alike) throw std::invalid_argument("a record of unlike columns");
+  if (!alike) throw std::invalid_argument("columns of different length");
   require_each_sensor_once(record.channels);
   if (samples < kLeastSamples) {
     throw arm::InputError(
-        fmt::format("samples = {}: too few to fit; must be {} or more", samples, kLeastSamples));
+        fmt::format("samples = {}: a fit needs at least {}", samples, kLeastSamples));
   }
   if (record.channels.empty()) throw arm::InputError("a record without a sensor cannot be fitted");
   require_finite("torque", record.torque_N_m);
   if (std::ranges::all_of(record.torque_N_m, [](double u) { return u == 0.0; })) {
-    throw arm::InputError("torque is zero at every sample: there is no response to fit");
+    throw arm::InputError("torque is zero at all samples: no response to fit");
   }
   for (const Channel& channel : record.channels) {
     const std::string name = arm::to_string(channel.sensor);
     require_finite(name, channel.values);
     if (std::ranges::adjacent_find(channel.values, std::not_equal_to<>()) == channel.values.end()) {
       throw arm::InputError(
-          fmt::format("{} = {:g} {} at every sample: it answers nothing; leave it out of the fit",
-                      name, channel.values.front(), arm::unit(channel.sensor)));
+          fmt::format("{} = {:g} {} at all samples: no response; exclude it from the fit", name,
+                      channel.values.front(), arm::unit(channel.sensor)));
     }
   }
 }
@@ -89,7 +89,7 @@ void require_record(const TimeRecord& record) {
 void require_channel(const FrequencyChannel& channel) {
   const std::size_t lines = channel.frequency_Hz.size();
   if (channel.response.size() != lines || channel.coherence.size() != lines) {
-    throw std::invalid_argument("a frequency response of unlike columns");
+    throw std::invalid_argument("frequency response with columns of different length");
   }
   const std::string name = arm::to_string(channel.sensor);
   for (std::size_t k = 0; k < lines; ++k) {
@@ -107,7 +107,7 @@ std::vector<double> deviations(const FrequencyChannel& channel, std::size_t inde
     const bool usable = given.size() == channel.response.size() &&
                         std::ranges::all_of(given, [](double d) { return d > 0.0; });
     if (!usable) {
-      throw arm::InputError(fmt::format("response_std of {}: must be above 0, one a frequency",
+      throw arm::InputError(fmt::format("response_std of {}: must be above 0, one per frequency",
                                         arm::to_string(channel.sensor)));
     }
     return given;
@@ -131,8 +131,7 @@ void require_lines(const FrequencyChannel& channel, std::span<const double> devi
   }
   if (usable >= kLeastLines) return;
   throw arm::InputError(fmt::format(
-      "{}: {} frequencies above 0 with a response and a coherence above 0 are too few to fit; must "
-      "be {} or more",
+      "{}: {} frequencies above 0 with a response and a coherence above 0; a fit needs at least {}",
       arm::to_string(channel.sensor), usable, kLeastLines));
 }
 
@@ -142,7 +141,7 @@ void require_lines_in_band(const ModalFitTask& task) {
       task.equations,
       [](const DenominatorEquation& equation) { return equation.angle.size() > 0; });
   if (holds_lines) return;
-  throw arm::InputError(fmt::format("band = {:g} to {:g} Hz: holds no line of the data",
+  throw arm::InputError(fmt::format("band = {:g} to {:g} Hz: contains no spectral line",
                                     task.band.from_Hz, task.band.to_Hz));
 }
 
@@ -168,7 +167,7 @@ FitBand time_band(std::span<const TimeRecord> records, const ModalFitOptions& op
   if (options.band->to_Hz > 0.5 / shortest_s * (1.0 + kRounding)) {
     throw arm::out_of_range(
         "band", options.band->to_Hz, "Hz",
-        fmt::format("half the sampling frequency, {:g} Hz, or less", 0.5 / shortest_s));
+        fmt::format("at most the Nyquist frequency, {:g} Hz", 0.5 / shortest_s));
   }
   return *options.band;
 }
@@ -180,7 +179,7 @@ ModalFitTask time_task(std::span<const TimeRecord> records, const ModalFitOption
   if (records.empty()) throw arm::InputError("no record to fit");
   if (options.initial.size() > 1 && options.initial.size() != records.size()) {
     throw arm::out_of_range("initial", static_cast<double>(options.initial.size()), "states",
-                            fmt::format("none, 1, or {}, one a record", records.size()));
+                            fmt::format("none, 1, or {}, one per record", records.size()));
   }
   double shortest_s = std::numeric_limits<double>::infinity();
   double longest_s = 0.0;

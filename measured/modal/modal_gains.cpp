@@ -89,8 +89,7 @@ Sensors sensors_of(const ModalFit& fit) {
     if (const auto at = fit.find(kind)) sensors.hub.push_back(*at);
   }
   if (sensors.hub.empty()) {
-    throw arm::InputError(
-        "modal gains: neither hub_angle nor hub_velocity was measured; one of them is needed");
+    throw arm::InputError("modal gains: need hub_angle or hub_velocity");
   }
   return sensors;
 }
@@ -150,9 +149,7 @@ ModalGains modal_gains(const ModalFit& fit, std::optional<double> total_inertia_
   const Sensors sensors = sensors_of(fit);
   ModalGains gains;
   if (!total_inertia_kg_m2 && !fit.blocks.rigid) {
-    throw arm::InputError(
-        "modal gains: the inertia I_T must be given for an arm that does not "
-        "turn freely");
+    throw arm::InputError("modal gains: I_T must be given for an arm with a restrained hub");
   }
   const GainOf inertia = [&](const MovedFit& moved) {
     return total_inertia_kg_m2 ? *total_inertia_kg_m2 : 1.0 / hub_b0(fit, moved, sensors, 0);
@@ -160,10 +157,8 @@ ModalGains modal_gains(const ModalFit& fit, std::optional<double> total_inertia_
   gains.total_inertia_kg_m2 = estimate(fit, inertia);
   if (!(gains.total_inertia_kg_m2.value > 0.0)) {
     throw arm::InputError(fmt::format(
-        "modal gains: the rigid body's 1/I_T = {:.3g} 1/(kg m^2) is not above 0; the torque's sign "
-        "or the hub's is not as in docs/formats.md, or friction hides the rigid body's motion: "
-        "then "
-        "it must be given",
+        "modal gains: estimated 1/I_T = {:.3g} 1/(kg m^2) is not positive; check the signs of "
+        "torque and hub sensor, or give I_T if friction dominates the rigid-body motion",
         1.0 / gains.total_inertia_kg_m2.value));
   }
   std::vector<std::size_t> modes;

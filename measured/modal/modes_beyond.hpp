@@ -14,8 +14,8 @@ struct ModesBeyond {
 /// Modes beyond the band are there, whether data show them or not, and zeros are where all modes
 /// together come to nothing. A fit that leaves out those which the noise hides states errors as if
 /// they were not there: too small by any factor. So kHeldAt blocks stand for them beyond the band,
-/// whose coefficients are 0 give or take what modes there may have (stochastic embedding: Goodwin,
-/// Gevers and Ninness, IEEE Trans. Automatic Control 37, 1992). Where data tell more than that they
+/// whose coefficients are 0 give or take what modes there may have (stochastic embedding
+/// [GoodwinGeversNinness1992]). Where data tell more than that they
 /// are fitted; where not, they widen what hangs on them.
 ///
 /// Give or take: coefficients of displacement b0 over the power of omega that they grow with in a

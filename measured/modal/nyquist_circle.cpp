@@ -224,15 +224,15 @@ std::optional<std::string> draw(const Velocity& v, double near_Hz, const CircleS
   constexpr int kMostRounds = 20;
   for (int round = 0; round < kMostRounds; ++round) {
     if (arc.last < arc.first || arc.size() < fewest) {
-      return fmt::format("{} points on its arc; {} are needed",
-                         arc.last < arc.first ? 0 : arc.size(), fewest);
+      return fmt::format("{} points on the arc; needs {}", arc.last < arc.first ? 0 : arc.size(),
+                         fewest);
     }
     const std::span points(v.value.data() + arc.first, arc.size());
     const std::span frequencies(v.frequency_Hz.data() + arc.first, arc.size());
     try {
       made.circle = fit_circle(points);
     } catch (const std::invalid_argument&) {
-      return "its points lie on a line";
+      return "points lie on a straight line";
     }
     angles = unwrapped_angles(points, made.circle.centre);
     if (round == 0) {
@@ -253,20 +253,19 @@ std::optional<std::string> draw(const Velocity& v, double near_Hz, const CircleS
   }
   constexpr double kMostDistance = 0.1;
   if (made.circle.rms_distance > kMostDistance * made.circle.radius) {
-    return fmt::format("its points are no circle: {:.2g} of its radius off",
+    return fmt::format("circle fit residual {:.2g} of the radius",
                        made.circle.rms_distance / made.circle.radius);
   }
   const bool inside = fit.natural_frequency_Hz >= made.frequency_Hz.front() &&
                       fit.natural_frequency_Hz <= made.frequency_Hz.back();
-  if (!inside) return "its resonance lies outside its points";
+  if (!inside) return "resonance outside the measured points";
   made.natural_frequency_Hz = fit.natural_frequency_Hz;
   made.natural_frequency_std_Hz = fit.natural_frequency_std_Hz;
   made.fastest_Hz = fastest_Hz(made.frequency_Hz, angles);
   damping_from_pairs(made, angles, fit);
-  if (made.pairs == 0) return "no points at both sides of it, 30 to 150 degrees away";
+  if (made.pairs == 0) return "no points on both sides, 30 to 150 degrees from resonance";
   if (!(made.damping_ratio > 0.0 && made.damping_ratio < kMostDamping)) {
-    return fmt::format("its points turn as no resonance does: a damping ratio of {:.3g}",
-                       made.damping_ratio);
+    return fmt::format("implausible damping ratio {:.3g}", made.damping_ratio);
   }
   made.modal_constant = 2.0 * made.circle.radius * std::polar(1.0, fit.a) * 2.0 *
                         made.damping_ratio * 2.0 * std::numbers::pi * made.natural_frequency_Hz;

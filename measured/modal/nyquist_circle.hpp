@@ -10,8 +10,8 @@
 
 namespace flexarm::measured {
 
-/// The circle that one mode draws in the Nyquist diagram, and the mode from it (Kennedy and Pancu
-/// 1947; the paper's section 6.2, Tables 4 and 5).
+/// The circle that one mode draws in the Nyquist diagram, and the mode from it
+/// ([KennedyPancu1947]; [Paper], section 6.2, Tables 4 and 5).
 ///
 /// All is done in velocity form, V = (i omega)^(1 - derivatives of the sensor) G. There the
 /// response of a mode with viscous damping,

@@ -222,7 +222,7 @@ std::vector<SpectralFeature> peaks_and_valleys(std::span<const double> frequency
 double natural_frequency_Hz(double peak_Hz, double damping_ratio, int derivative_order) {
   const double rest = 1.0 - 2.0 * damping_ratio * damping_ratio;
   if (!(damping_ratio >= 0.0 && rest > 0.0)) {
-    throw std::invalid_argument("a response with this damping has no peak");
+    throw std::invalid_argument("no resonance peak at this damping ratio");
   }
   return peak_Hz * std::pow(rest, 0.5 * (derivative_order - 1));
 }

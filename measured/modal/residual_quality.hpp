@@ -13,7 +13,7 @@ namespace flexarm::measured {
 struct ResidualQuality {
   double standard_deviation = 0.0;  ///< noise, in the sensor's unit; over the given deviation (FRF)
   double relative = 0.0;            ///< root mean square over the reading's about its mean
-  /// Ljung and Box (1978), kWhitenessLags lags: the probability that white noise looks as coloured.
+  /// [LjungBox1978], kWhitenessLags lags: the probability that white noise looks as coloured.
   double whiteness_probability = 1.0;
   /// F test of what kTorqueLags past torques explain of the residual, time only: the probability
   /// that noise alone lets them explain as much.
@@ -33,8 +33,8 @@ struct ResidualStudy {
   std::vector<ResidualQuality> sensors;
   /// Covariance of theta and then each sensor's shared beta, all of one vector, from sums of scores
   /// over kBatches stretches of the data: right for coloured noise whose memory is shorter than a
-  /// batch, and for a model that leaves something unexplained (White 1980; Newey and West 1987 with
-  /// batches for lags).
+  /// batch, and for a model that leaves something unexplained ([White1980, NeweyWest1987]
+  /// with batches for lags).
   Eigen::MatrixXd robust_covariance;
 };
 inline constexpr int kBatches = 40;

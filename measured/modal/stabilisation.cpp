@@ -9,7 +9,7 @@ namespace {
 
 using Eigen::Index;
 
-/// |a^H b|^2/(|a|^2 |b|^2) (Allemang and Brown 1982).
+/// |a^H b|^2/(|a|^2 |b|^2) [AllemangBrown1982].
 double modal_assurance(const Eigen::VectorXcd& a, const Eigen::VectorXcd& b) {
   const double sizes = a.squaredNorm() * b.squaredNorm();
   return sizes > 0.0 ? std::norm(a.dot(b)) / sizes : 0.0;

@@ -27,8 +27,8 @@ inline constexpr double kBandPower = 1e-4;
 
 /// Equations of a record's sensors in the lines of its first `samples` samples, rounded down to a
 /// product of 2, 3 and 5. The angle is pi at band.to_Hz. Each has the torque's line and a transient
-/// as inputs: a polynomial in z for what the record's begin and end differ by (Pintelon and
-/// Schoukens, System Identification, 2012), so that lines are exact without window or average; both
+/// as inputs: a polynomial in z for what the record's begin and end differ by
+/// [PintelonSchoukens2012], so that lines are exact without window or average; both
 /// over (1 - 1/z)^k where the sensor integrates k times, a double or single pole at z = 1 that the
 /// denominator then need not have.
 std::vector<DenominatorEquation> time_equations(const TimeRecord& record, bool rigid,

@@ -54,7 +54,7 @@ struct BlockFit {
   bool converged = false;
   bool cancelled = false;
 
-  /// criterion + parameters log(values): smaller is better (Schwarz 1978).
+  /// criterion + parameters log(values): smaller is better [Schwarz1978].
   double bic() const;
   double values() const;
 };
@@ -64,11 +64,11 @@ struct BlockFit {
 ///
 ///     sum_j n_j log |(I - A_j A_j^+) y_j|^2,
 ///
-/// rows times the weights of their stretches; variable projection (Golub and Pereyra 1973) with
-/// Kaufman's Jacobian -(I - A A^+) dA beta, whose cross product is the Fisher information of theta
-/// with beta eliminated, and Levenberg-Marquardt steps. All of a step is done on the triangular
-/// factors of the stretches, so that its cost beyond one pass over the data does not depend on
-/// their length.
+/// rows times the weights of their stretches; variable projection [GolubPereyra1973] with
+/// the Jacobian of [Kaufman1975], -(I - A A^+) dA beta, whose cross product is the Fisher
+/// information of theta with beta eliminated, and Levenberg-Marquardt steps. All of a step is done
+/// on the triangular factors of the stretches, so that its cost beyond one pass over the data does
+/// not depend on their length.
 BlockFit fit_blocks(std::span<const Stretch> stretches, std::span<const arm::Sensor> sensors,
                     const BlockSet& start, const ColumnChoices& choices,
                     const ProjectionOptions& options = {});

@@ -117,27 +117,27 @@ Distortion distortion(const PeriodicSpectra& spectra, const DistortionSettings& 
   const auto driven = driven_lines(spectra);
   const auto last = std::find(driven.rbegin(), driven.rend(), true);
   if (last == driven.rend()) {
-    made.reason = "the torque has no line: nothing to test";
+    made.reason = "the torque has no spectral line";
     return made;
   }
   for (std::size_t k = 0; k < driven.size(); ++k) {
     if (!driven[k] || is_odd(k)) continue;
     made.reason = fmt::format(
-        "the torque has even lines, {:.4g} Hz among them: odd and even distortion fall on the same "
-        "lines; an odd multisine tells them apart",
+        "the torque excites even lines (e.g. {:.4g} Hz): odd and even distortion cannot be "
+        "separated; use an odd multisine",
         spectra.frequency_Hz[k]);
     return made;
   }
   if (spectra.periods < 2) {
-    made.reason = "one period only: noise and distortion cannot be told apart; repeat the period";
+    made.reason =
+        "one period only: noise and distortion cannot be separated; record several periods";
     return made;
   }
   const auto highest = static_cast<std::size_t>(driven.rend() - last) - 1;
   const TestLines lines = test_lines(driven, highest);
   made.testable = true;
   made.reason = fmt::format(
-      "{} odd lines and {} even lines that the torque does not drive, each against what varies "
-      "between {} periods",
+      "{} odd and {} even detection lines, tested against the variation between {} periods",
       lines.odd.size(), lines.even.size(), spectra.periods);
   const double level =
       settings.false_alarm_rate / (2.0 * static_cast<double>(spectra.outputs.size()));

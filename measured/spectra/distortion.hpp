@@ -56,8 +56,8 @@ struct Distortion {
   std::vector<ChannelDistortion> channels;  ///< one an output; empty unless testable
 };
 
-/// Odd and even nonlinear distortion from lines that an odd multisine does not drive (Pintelon and
-/// Schoukens, System Identification, 2012). Tested are the lines up to the highest driven one;
+/// Odd and even nonlinear distortion from lines that an odd multisine does not drive
+/// [PintelonSchoukens2012]. Tested are the lines up to the highest driven one;
 /// where fewer than four odd ones there are free, those up to three times as high, below half the
 /// sampling frequency by a tenth.
 ///

@@ -27,7 +27,7 @@ struct FrequencyResponseEstimators {
 FrequencyResponseEstimators estimate(const CrossSpectra& spectra, std::size_t output);
 
 /// What random errors do to an estimate, to first order and where noise is normal and white across
-/// the window's lines (Bendat and Piersol, Random Data, 2010, chapter 9). `averages` is nd.
+/// the window's lines ([BendatPiersol2010], chapter 9). `averages` is nd.
 ///
 ///     std |H|/|H| = std arg H = sqrt((1 - gamma^2)/(2 nu gamma^2)),   nu = nd - 1,
 ///
@@ -40,12 +40,12 @@ double relative_response_std(double coherence, double averages);
 ///
 ///     r^2 = (1 - gamma^2)/gamma^2 ((1 - p)^(-1/nu) - 1)
 ///
-/// (Goodman 1957; the quantile of F(2, 2 nu) in closed form). Exact for segments that do not
+/// ([Goodman1957]; the quantile of F(2, 2 nu) in closed form). Exact for segments that do not
 /// overlap. Infinite for nd <= 1.
 double relative_confidence_radius(double coherence, double averages, double probability);
 
-/// E[estimated gamma^2] - gamma^2 = (1 - gamma^2)^2/nd (1 + 2 gamma^2/nd) (Carter, Knapp and
-/// Nuttall 1973, to second order): 1 for a single segment whatever the signals.
+/// E[estimated gamma^2] - gamma^2 = (1 - gamma^2)^2/nd (1 + 2 gamma^2/nd)
+/// ([CarterKnappNuttall1973], to second order): 1 for a single segment whatever the signals.
 double coherence_bias(double coherence, double averages);
 
 /// sqrt(2) |gamma| (1 - gamma^2)/sqrt(nd), the standard deviation of estimated gamma^2.

@@ -106,7 +106,7 @@ PeriodicSpectra periodic_spectra(const Signal& input, std::span<const Signal> ou
   }
   const std::size_t count = period_samples * periods;
   if (periods == 0 || count > input.values.size()) {
-    throw arm::InputError(fmt::format("{} periods of {} samples: the record has {} samples",
+    throw arm::InputError(fmt::format("{} periods of {} samples: the record has only {} samples",
                                       periods, period_samples, input.values.size()));
   }
   PeriodicSpectra made;

@@ -25,7 +25,7 @@ struct PeriodicSignal {
 /// that transform, k P; the P - 1 lines between hold what does not repeat: noise, and the
 /// transient, which is smooth from line to line. A polynomial of degree 0 for P = 2, 1 for P = 3, 2
 /// for more, fitted to the 2 (P - 1) lines around k P, is taken off there, and its residuals are
-/// the noise (the local polynomial method of Pintelon and Schoukens, System Identification, 2012).
+/// the noise (the local polynomial method [PintelonSchoukens2012]).
 /// So the response is that of the steady state, exact at the lines but for noise, before the
 /// transient has died; and noise of lines of one parity is independent.
 struct PeriodicSpectra {

@@ -41,7 +41,7 @@ double standard_deviation(std::span<const double> values) {
 
 std::string more_places(std::size_t places) {
   if (places <= 1) return "";
-  return fmt::format(", and at {} more place{}", places - 1, places == 2 ? "" : "s");
+  return fmt::format(", and at {} more sample{}", places - 1, places == 2 ? "" : "s");
 }
 
 }  // namespace flexarm::measured

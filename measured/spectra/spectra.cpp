@@ -29,10 +29,10 @@ void require_plan(const SegmentPlan& plan, std::size_t samples, std::size_t lost
         fmt::format("segment = {} samples: must be 4 or more", plan.segment_samples));
   }
   if (plan.segment_samples + lost > samples) {
-    throw arm::InputError(
-        fmt::format("segment = {} samples: the record has {}{}; must be at most {}",
-                    plan.segment_samples, samples, lost == 0 ? "" : ", and differences take some",
-                    samples > lost ? samples - lost : 0));
+    throw arm::InputError(fmt::format(
+        "segment = {} samples: the record has {}{}; must be at most {}", plan.segment_samples,
+        samples, lost == 0 ? "" : ", minus those lost by differencing",
+        samples > lost ? samples - lost : 0));
   }
   if (plan.shift_samples < 1 || plan.shift_samples > plan.segment_samples) {
     throw arm::InputError(fmt::format("shift = {} samples: must be from 1 to a segment, {}",

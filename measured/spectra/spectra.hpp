@@ -67,7 +67,7 @@ CrossSpectra cross_spectra(const Signal& input, std::span<const Signal> outputs,
 
 /// Standard deviation of a mean power spectral density of random signals, relative to itself:
 /// 1/sqrt(nd), and sqrt(2/nd) on lines 0 and n/2 (`is_real`), where one real number is all there is
-/// (Bendat and Piersol, Random Data, 2010).
+/// [BendatPiersol2010].
 double relative_autopower_std(double effective_averages, bool is_real = false);
 
 /// The amplitude of the sine that would show this power spectral density at its line:

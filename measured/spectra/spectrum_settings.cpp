@@ -135,7 +135,7 @@ void choose_segment(const TimeRecord& record, const SpectrumSettings& settings,
     if (!(wanted >= 4.0 && wanted <= static_cast<double>(samples))) {
       throw arm::out_of_range(
           "resolution", *settings.resolution_Hz, "Hz",
-          fmt::format("from {:.4g} to {:.4g} Hz: one segment of the record or more, of 4 samples",
+          fmt::format("from {:.4g} to {:.4g} Hz: at least one segment of 4 samples in the record",
                       1.0 / (static_cast<double>(samples) * period_s), 0.25 / period_s));
     }
     plan.segment_samples = static_cast<std::size_t>(std::llround(wanted));
@@ -150,7 +150,7 @@ void choose_segment(const TimeRecord& record, const SpectrumSettings& settings,
   std::string reason;
   if (!sharpest) {
     plan.segment_samples = most;
-    reason = "no resonance seen: as long as leaves 10 effective averages";
+    reason = "no resonance detected: longest segment with 10 effective averages";
   } else {
     const double seen = sharpest->width_Hz;
     const double blur = kWindowWidth_lines * sharpest->spacing_Hz;
@@ -162,20 +162,18 @@ void choose_segment(const TimeRecord& record, const SpectrumSettings& settings,
     plan.segment_samples = std::clamp(wanted, kShortestSegment, most);
     if (!resolved) {
       reason = fmt::format(
-          "the resonance at {:.5g} Hz is sharper than lines {:.3g} Hz apart show: as long as "
-          "leaves "
-          "10 effective averages; its peak is too low and too wide",
+          "resonance at {:.5g} Hz narrower than the line spacing {:.3g} Hz: longest segment with "
+          "10 effective averages; peak biased low and wide",
           sharpest->frequency_Hz, sharpest->spacing_Hz);
     } else if (wanted <= most) {
       reason = fmt::format(
-          "{:.0f} lines across the half-power width of the sharpest resonance, {:.3g} Hz at {:.5g} "
-          "Hz: its peak is too low by 2 % in power",
+          "{:.0f} lines in the half-power bandwidth of the narrowest resonance ({:.3g} Hz at "
+          "{:.5g} Hz): peak power bias -2 %",
           kLinesAcrossPeak, width_Hz, sharpest->frequency_Hz);
     } else {
       reason = fmt::format(
-          "as long as leaves 10 effective averages; the sharpest resonance, {:.3g} Hz wide at "
-          "{:.5g} "
-          "Hz, asks for {:.4g} s, so its peak is too low",
+          "longest segment with 10 effective averages; the narrowest resonance ({:.3g} Hz at "
+          "{:.5g} Hz) would need {:.4g} s, so its peak is biased low",
           width_Hz, sharpest->frequency_Hz, static_cast<double>(wanted) * period_s);
     }
   }
@@ -188,11 +186,11 @@ void choose_segments(const TimeRecord& record, const SpectrumSettings& settings,
   plan.window = settings.window.value_or(Window::hann);
   chosen.reports.push_back(
       {"window", std::string(to_string(plan.window)),
-       settings.window ? "given" : "least leakage for its width; the paper's"});
+       settings.window ? "given" : "low leakage for its main-lobe width; used in the paper"});
   plan.detrend = settings.detrend.value_or(Detrend::mean);
   chosen.reports.push_back(
       {"detrend", std::string(to_string(plan.detrend)),
-       settings.detrend ? "given" : "of each segment: an offset is no response"});
+       settings.detrend ? "given" : "mean of each segment removed: an offset is not a response"});
   const double overlap = settings.overlap.value_or(sufficient_overlap(plan.window));
   if (!(overlap >= 0.0 && overlap < 1.0)) {
     throw arm::out_of_range("overlap", overlap, "", "0 or more and below 1");
@@ -201,7 +199,7 @@ void choose_segments(const TimeRecord& record, const SpectrumSettings& settings,
   plan.shift_samples = shift_of(plan.segment_samples, overlap);
   chosen.reports.push_back(
       {"overlap", fmt::format("{:.4g} %", 100.0 * overlap),
-       settings.overlap ? "given" : "more would add less than 3 % to the effective averages"});
+       settings.overlap ? "given" : "more overlap adds less than 3 % effective averages"});
 }
 
 bool choose_period(const TimeRecord& record, const SpectrumSettings& settings,
@@ -221,10 +219,9 @@ bool choose_period(const TimeRecord& record, const SpectrumSettings& settings,
     chosen.period = *found;
   } else if (settings.periodic == true) {
     throw arm::InputError(
-        "periodic: the torque does not repeat itself in this record; give its "
-        "period, or let it be taken as random");
+        "periodic: torque not periodic in this record; give its period, or treat it as random");
   } else {
-    chosen.reports.push_back({"periodic", "no", "the torque does not repeat itself"});
+    chosen.reports.push_back({"periodic", "no", "torque not periodic"});
     return false;
   }
   chosen.reports.push_back(
@@ -233,25 +230,23 @@ bool choose_period(const TimeRecord& record, const SpectrumSettings& settings,
                    in_samples(chosen.period.samples, period_s)),
        settings.period_samples
            ? "period given"
-           : fmt::format(
-                 "the torque repeats itself to {:.1e} of its power: no window, the lines of "
-                 "the period are exact",
-                 chosen.period.mismatch)});
+           : fmt::format("periodic torque (deviation {:.1e} of its power): no window, no leakage",
+                         chosen.period.mismatch)});
   const auto outputs = output_signals(record, chosen.differences);
   chosen.left_out_periods =
       settings.leave_out_periods
           ? *settings.leave_out_periods
           : unsettled_periods(outputs, chosen.period.samples, chosen.period.periods);
   if (chosen.left_out_periods >= chosen.period.periods) {
-    throw arm::InputError(fmt::format("leave out {} periods: the record has {}",
+    throw arm::InputError(fmt::format("discard {} periods: the record has {}",
                                       chosen.left_out_periods, chosen.period.periods));
   }
-  chosen.reports.push_back(
-      {"periods left out", fmt::format("{}", chosen.left_out_periods),
-       settings.leave_out_periods ? "given"
-       : chosen.left_out_periods == 0
-           ? "from the first on they differ no more than later ones do"
-           : "they differ from the next by more than four times what later ones do"});
+  chosen.reports.push_back({"periods discarded", fmt::format("{}", chosen.left_out_periods),
+                            settings.leave_out_periods ? "given"
+                            : chosen.left_out_periods == 0
+                                ? "no transient: first periods vary no more than later ones"
+                                : "transient: deviation from the next period more than four times "
+                                  "that of later periods"});
   return true;
 }
 
@@ -267,13 +262,13 @@ std::vector<Signal> output_signals(const TimeRecord& record, const std::vector<i
 
 ChosenSettings choose_settings(const TimeRecord& record, const SpectrumSettings& settings) {
   if (record.torque_N_m.size() < kFewestSamples) {
-    throw arm::InputError(fmt::format("{} samples: a spectrum needs {} or more",
+    throw arm::InputError(fmt::format("{} samples: a spectrum needs at least {}",
                                       record.torque_N_m.size(), kFewestSamples));
   }
   const auto [least, most] = std::ranges::minmax(record.torque_N_m);
   if (least == most) {
-    throw arm::InputError(
-        fmt::format("torque = {} N m at every sample: a response needs one that varies", least));
+    throw arm::InputError(fmt::format(
+        "torque = {} N m at all samples: a frequency response needs a varying torque", least));
   }
   ChosenSettings chosen;
   chosen.hold = settings.hold;
@@ -288,14 +283,14 @@ ChosenSettings choose_settings(const TimeRecord& record, const SpectrumSettings&
   chosen.reports.push_back(
       {"differences", any ? "of angle and displacement twice, of velocity once" : "none",
        settings.difference ? "given"
-       : any ? "they drift with the free arm; spectra are divided by the response of differences"
-             : "no reading drifts with the free arm"});
+       : any ? "drift of the free arm; spectra divided by the response of the difference filter"
+             : "no drifting channel"});
   chosen.periodic = choose_period(record, settings, chosen);
   if (!chosen.periodic) choose_segments(record, settings, chosen);
-  chosen.reports.push_back(
-      {"hold", std::string(to_string(settings.hold)),
-       settings.correct_hold ? "its response is taken off; images folded back by sampling are not"
-                             : "not taken off: the response is that of samples"});
+  chosen.reports.push_back({"hold", std::string(to_string(settings.hold)),
+                            settings.correct_hold
+                                ? "hold response removed; aliases are not"
+                                : "hold response not removed: sampled-data response"});
   return chosen;
 }
 

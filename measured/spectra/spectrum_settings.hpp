@@ -52,7 +52,7 @@ struct ChosenSettings {
 /// - Hann's window, as the paper has it, and the overlap that uses it up (`sufficient_overlap`);
 /// - a segment that resolves the sharpest resonance: lines a sixth of its half-power width apart,
 ///   so that Hann's noise bandwidth is a quarter of it and the top of the peak in power too low by
-///   (1/3)(1/4)^2 = 2 % (Bendat and Piersol, 2010); no longer than leaves 10 effective averages,
+///   (1/3)(1/4)^2 = 2 % [BendatPiersol2010]; no longer than leaves 10 effective averages,
 ///   and no shorter than 64 samples. The width is that of the narrowest peak of |H1| in a pilot
 ///   estimate with long segments over a million samples at most.
 ///

@@ -16,8 +16,8 @@ std::string_view to_string(Window window);
 Window parse_window(std::string_view name);
 
 /// w_j = sum_m (-1)^m a_m cos(2 pi m j/samples), j = 0 to samples - 1: the periodic form, whose
-/// transform is zero on all lines but the 2 m + 1 lowest (Harris 1978; flat-top D'Antona and
-/// Ferrero 2006). `samples` is 1 or more.
+/// transform is zero on all lines but the 2 m + 1 lowest ([Harris1978]; flat-top
+/// [DAntonaFerrero2006]). `samples` is 1 or more.
 std::vector<double> window_values(Window window, std::size_t samples);
 
 /// Equivalent noise bandwidth in lines, n sum w^2/(sum w)^2: white noise behind a line of the
@@ -30,11 +30,11 @@ double noise_bandwidth_lines(std::span<const double> window);
 double shared_line_variance(Window window);
 
 /// sum_j w_j w_{j + shift}/sum w^2: what the transforms of two segments of white noise that lie
-/// `shift` samples apart have in common (Welch 1967).
+/// `shift` samples apart have in common [Welch1967].
 double overlap_correlation(std::span<const double> window, std::size_t shift);
 
 /// The number of independent segments whose mean spectrum varies as much as that of `segments`
-/// segments of white normal noise, each `shift` samples behind the one before (Welch 1967):
+/// segments of white normal noise, each `shift` samples behind the one before [Welch1967]:
 ///
 ///     K/(1 + 2 sum_{k=1}^{K-1} (1 - k/K) rho_k^2),   rho_k = overlap_correlation(window, k shift).
 double effective_averages(std::span<const double> window, std::size_t segments, std::size_t shift);

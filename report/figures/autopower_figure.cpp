@@ -40,7 +40,7 @@ Panel spectrum_panel(const std::string& title, std::string_view unit,
   Panel panel;
   panel.title = title;
   panel.y = {.label = "density", .unit = density_unit(unit), .scale = Scale::logarithmic};
-  panel.series.push_back(measured_curve("autopower",
+  panel.series.push_back(measured_curve("autopower spectral density",
                                         {frequency_Hz.begin() + first, frequency_Hz.end()},
                                         {density.begin() + first, density.end()}));
   return panel;

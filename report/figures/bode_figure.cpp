@@ -111,7 +111,7 @@ Panel difference_panel(const BodePlot& plot) {
     panel.series.push_back(std::move(series));
   }
   if (!plot.one_minus_coherence.empty()) {
-    Series series{"√(1 − coherence)", plot.frequency_Hz, {}, {.colour = grey}};
+    Series series{"model disagreement", plot.frequency_Hz, {}, {.colour = grey}};
     series.style.line_width_px = 1.0;
     for (const double value : plot.one_minus_coherence) {
       series.y.push_back(std::fmax(std::sqrt(value), kSmallestDrawnDifference));

@@ -132,7 +132,7 @@ NamedPlot mode_shapes(const compare::Comparison& comparison) {
 std::vector<NamedPlot> comparison_plots(const compare::Comparison& comparison) {
   std::vector<NamedPlot> plots;
   add_convergence(
-      comparison, "convergence", "Error under refinement",
+      comparison, "convergence", "Convergence of the relative error",
       [](const auto& curve) { return !curve.alternative; }, plots);
   add_convergence(
       comparison, "bases", "Bases of assumed_modes",

@@ -44,8 +44,8 @@ Style after_style() {
   return {.colour = vermillion, .line_width_px = 1.1};
 }
 
-const std::string kBefore = "simulated";
-const std::string kAfter = "with the causes";
+const std::string kBefore = "baseline";
+const std::string kAfter = "extended arm";
 
 /// The first sensor of the record that is of one of these kinds, in their order.
 const arm::Sensor* first_of(const measured::TimeRecord& record,
@@ -113,7 +113,7 @@ void add_panels(const Overlay& overlay, const arm::Sensor& sensor, const Stretch
   Panel signal{.y = {.label = sensor_label(sensor), .unit = axis_unit(sensor)}, .height = 1.4};
   signal.series.push_back({"measured", time_s, measured, measured_style()});
   signal.series.push_back({kBefore, time_s, before, before_style()});
-  Panel error{.y = {.label = "missed", .unit = axis_unit(sensor)}};
+  Panel error{.y = {.label = "residual", .unit = axis_unit(sensor)}};
   error.series.push_back({kBefore, time_s, missed(before), before_style()});
   if (has_causes) {
     signal.series.push_back({kAfter, time_s, after, after_style()});
@@ -201,7 +201,7 @@ double found_torque(const diagnose::HubTorque& torque, bool of_velocity, double 
 Panel torque_panel(const diagnose::HubTorque& torque, const diagnose::HubTorqueTrace& trace,
                    bool of_velocity) {
   const auto& x = of_velocity ? trace.velocity_rad_per_s : trace.angle_rad;
-  Panel panel{.y = {.label = "residual torque", .unit = "N m"}};
+  Panel panel{.y = {.label = "residual hub torque", .unit = "N m"}};
   panel.x = of_velocity ? Axis{.label = "hub velocity", .unit = "rad/s"}
                         : Axis{.label = "hub angle", .unit = "rad"};
   // The last samples say little of the torque (HubResponse::torque), and a few spikes would set the
@@ -243,7 +243,7 @@ Panel torque_panel(const diagnose::HubTorque& torque, const diagnose::HubTorqueT
        bins.mean,
        {.colour = blue, .line = Line::none, .marker = Marker::disc, .marker_size = 0.5}});
   const auto [least, most] = std::ranges::minmax_element(x);
-  Series found{"found", {}, {}, {.colour = vermillion, .line_width_px = 2.0}};
+  Series found{"identified terms", {}, {}, {.colour = vermillion, .line_width_px = 2.0}};
   const double tiny = 1e-9 * (*most - *least);
   for (const double at : {*least, -tiny, tiny, *most}) {
     if (at < *least || at > *most) continue;
@@ -300,7 +300,7 @@ Figure overlay_figure(const Experiment& experiment, const Diagnosis& diagnosis, 
 
 Figure hub_torque_figure(const diagnose::HubTorque& torque, const diagnose::HubTorqueTrace& trace) {
   Figure figure;
-  figure.title = fmt::format("{}: torque that the simulation lacks at the hub", trace.run);
+  figure.title = fmt::format("{}: residual hub torque", trace.run);
   figure.width_px = 1150;
   figure.height_px = 480;
   for (const bool of_velocity : {true, false}) {
@@ -351,8 +351,8 @@ DiagnosisPlots diagnosis_plots(const Experiment& experiment, const Diagnosis& di
     made.plots[i] = {makers[i].first, to_svg(makers[i].second())};
   });
   if (!left_out.empty()) {
-    made.left_out =
-        fmt::format("no figure of the runs {}: the first are drawn", fmt::join(left_out, ", "));
+    made.left_out = fmt::format("no figures for runs {}: limit on the number of figures reached",
+                                fmt::join(left_out, ", "));
   }
   return made;
 }

@@ -20,9 +20,10 @@ constexpr int kDistortionHeight_px = 520;
 /// "found: −41.2 dB".
 std::string verdict(const measured::DistortionTest& test) {
   if (test.lines == 0) return "not tested";
-  if (!test.found) return "none found";
-  if (!std::isfinite(test.level_dB)) return "found";
-  return fmt::format("found: {}{:.1f} dB", test.level_dB < 0.0 ? "−" : "", std::abs(test.level_dB));
+  if (!test.found) return "not significant";
+  if (!std::isfinite(test.level_dB)) return "significant";
+  return fmt::format("significant: {}{:.1f} dB", test.level_dB < 0.0 ? "−" : "",
+                     std::abs(test.level_dB));
 }
 
 }  // namespace
@@ -32,7 +33,8 @@ Figure distortion_figure(const arm::Sensor& sensor, const measured::ChannelDisto
   const bool drawable = std::ranges::any_of(
       channel.lines, [](const measured::DistortionLine& line) { return line.amplitude > 0.0; });
   if (!drawable) {
-    throw std::invalid_argument(fmt::format("{}: no line to draw", arm::to_string(sensor)));
+    throw std::invalid_argument(
+        fmt::format("{}: no spectral line to draw", arm::to_string(sensor)));
   }
   Panel panel;
   panel.y = {.label = "amplitude", .unit = axis_unit(sensor), .scale = Scale::logarithmic};
@@ -61,11 +63,11 @@ Figure distortion_figure(const arm::Sensor& sensor, const measured::ChannelDisto
     add(std::move(series), remark);
   };
   using measured::LineKind;
-  add_lines(LineKind::odd, "odd, not driven", marker_style(vermillion, Marker::triangle, 0.5),
+  add_lines(LineKind::odd, "odd detection lines", marker_style(vermillion, Marker::triangle, 0.5),
             verdict(channel.odd));
-  add_lines(LineKind::even, "even, not driven", marker_style(green, Marker::square, 0.45),
+  add_lines(LineKind::even, "even detection lines", marker_style(green, Marker::square, 0.45),
             verdict(channel.even));
-  add_lines(LineKind::driven, "driven", marker_style(blue, Marker::disc, 0.5), "");
+  add_lines(LineKind::driven, "excited lines", marker_style(blue, Marker::disc, 0.5), "");
 
   PanelStack stack;
   stack.x = {.label = "frequency", .unit = "Hz", .scale = frequency_scale};

@@ -29,7 +29,7 @@ void add_feature_marks(Panel& panel, std::span<const measured::SpectralFeature> 
   for (const auto kind : {measured::Feature::pole, measured::Feature::zero}) {
     const bool peak = kind == measured::Feature::pole;
     Series series{
-        peak ? "peak [Hz]" : "valley [Hz]",
+        peak ? "peak [Hz]" : "minimum [Hz]",
         {},
         {},
         marker_style(peak ? vermillion : green, peak ? Marker::cross : Marker::circle, 0.8)};

@@ -44,7 +44,7 @@ enum class Marker {
   filled_pentagon,
 };
 
-/// Colours that people with colour-blindness tell apart (Okabe & Ito 2008); further indices begin
+/// Colours that people with colour blindness distinguish [OkabeIto2008]; further indices begin
 /// again at black.
 enum Colour : int { black, blue, vermillion, green, purple, orange, sky_blue, grey, kColours };
 

@@ -194,7 +194,7 @@ Panel coherence_panel(const MeasuredResponse& m) {
   if (m.averages > 1.0) {
     const double chance = measured::coherence_of_chance(m.averages, 1.0 - kProbability);
     Style style{.colour = grey, .line = Line::dotted};
-    panel.series.push_back({"coherence by chance",
+    panel.series.push_back({"coherence threshold (no relation)",
                             {m.frequency_Hz.front(), m.frequency_Hz.back()},
                             {chance, chance},
                             style});

@@ -20,7 +20,7 @@ struct Rgb {
   int red, green, blue;
 };
 
-/// Okabe & Ito, "Color Universal Design" (2008), without the yellow that is lost on white.
+/// [OkabeIto2008], without the yellow that is lost on white.
 constexpr std::array<Rgb, kColours> kPalette{{{0, 0, 0},
                                               {0, 114, 178},
                                               {213, 94, 0},

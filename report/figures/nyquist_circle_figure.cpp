@@ -91,7 +91,7 @@ Panel circle_panel(const measured::NyquistCircle& resonance, const std::string& 
         {at.real(), at.imag(), fmt::format("{:#.5g}", frequencies_Hz[k]), inwards(directions[k])});
   }
   panel.series.push_back(axes.series("natural frequency", std::span(marks).first(1), kNatural));
-  panel.series.push_back(axes.series("half power", std::span(marks).subspan(1), kHalfPower));
+  panel.series.push_back(axes.series("half-power points", std::span(marks).subspan(1), kHalfPower));
 
   const Complex text = axes.drawn(centre - kTextAway * radius * natural);
   panel.annotations.push_back(

@@ -30,8 +30,8 @@ bool is_value_shown(const Complex& value) {
   return std::isfinite(std::abs(value)) && value != 0.0;
 }
 
-constexpr const char* kPoleName = "pole's frequency";
-constexpr const char* kHalfPowerName = "half power";
+constexpr const char* kPoleName = "pole frequency";
+constexpr const char* kHalfPowerName = "half-power points";
 constexpr double kTextLeft = 0.3;  // of the centre, in diameters
 const Style kLocus{.colour = blue, .line_width_px = 1.6};
 const Style kAtPole = marker_style(vermillion, Marker::disc, 0.9);

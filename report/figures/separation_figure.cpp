@@ -20,9 +20,9 @@ constexpr int kFrameWidth_px = 520;  // with the effects' names and the legend
 /// One series a kind of separation, in the order of the legend.
 std::array<Series, 3> separation_series() {
   std::array<Series, 3> all;
-  all[0] = {"tied", {}, {}, marker_style(vermillion, Marker::filled_square, 1.6)};
-  all[1] = {"told, by little", {}, {}, marker_style(orange, Marker::filled_square, 1.2)};
-  all[2] = {"told", {}, {}, marker_style(sky_blue, Marker::disc, 0.5)};
+  all[0] = {"indistinguishable", {}, {}, marker_style(vermillion, Marker::filled_square, 1.6)};
+  all[1] = {"weakly distinguishable", {}, {}, marker_style(orange, Marker::filled_square, 1.2)};
+  all[2] = {"distinguishable", {}, {}, marker_style(sky_blue, Marker::disc, 0.5)};
   return all;
 }
 
@@ -32,7 +32,7 @@ Figure separation_figure(const diagnose::Plan& plan) {
   const std::size_t count = plan.effects.size();
   auto all = separation_series();
   Panel panel;
-  panel.title = "which effect (row) can be told from which (column)";
+  panel.title = "effect present (row), alternative effect (column)";
   panel.x = Axis{.minimum = 0.0, .maximum = static_cast<double>(count) + 1.0};
   panel.y = {.minimum = 0.0, .maximum = static_cast<double>(count) + 1.0};
   for (std::size_t a = 0; a < count; ++a) {
@@ -56,7 +56,7 @@ Figure separation_figure(const diagnose::Plan& plan) {
   }
   const int side_px = kEffectHeight_px * static_cast<int>(count + 1);
   Figure figure;
-  figure.title = "What the planned runs can tell apart";
+  figure.title = "Distinguishability of effects in the planned runs";
   figure.stacks.push_back({.panels = {std::move(panel)}});
   figure.width_px = side_px + kFrameWidth_px;
   figure.height_px = side_px + kFrameHeight_px;

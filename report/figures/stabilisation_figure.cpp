@@ -52,8 +52,8 @@ struct Symbol {
 const std::array<Symbol, static_cast<std::size_t>(Stability::kCount)> kSymbols = {{
     {"new pole", marker_style(grey, Marker::plus, 0.6)},
     {"stable frequency", marker_style(orange, Marker::triangle, 0.7)},
-    {"stable damping too", marker_style(blue, Marker::square, 0.7)},
-    {"stable in all", marker_style(vermillion, Marker::disc, 0.8)},
+    {"stable frequency and damping", marker_style(blue, Marker::square, 0.7)},
+    {"stable pole", marker_style(vermillion, Marker::disc, 0.8)},
 }};
 
 /// The course of the background between two heights.
@@ -96,7 +96,8 @@ MeanResponse mean_response(const measured::FrequencyRecord& record) {
 Figure stabilisation_figure(const measured::StabilisationChart& chart,
                             const StabilisationPlot& plot) {
   if (chart.poles.empty() || chart.orders.empty()) {
-    throw std::invalid_argument(fmt::format("\"{}\": a chart without a pole", plot.title));
+    throw std::invalid_argument(
+        fmt::format("\"{}\": stabilisation chart without poles", plot.title));
   }
   const double lowest = *std::ranges::min_element(chart.orders);
   const double highest = *std::ranges::max_element(chart.orders);

@@ -2,6 +2,7 @@
 
 #include "report/json/arm_json.hpp"
 #include "report/json/json_document.hpp"
+#include "report/tables/zero_kind.hpp"
 
 namespace flexarm::report {
 
@@ -41,6 +42,10 @@ Json roots_json(const compare::Comparison& comparison) {
       entry["values"].push_back({{"model", comparison.subjects[k]},
                                  {"s_rad_per_s", complex_json(row.s_rad_per_s[k])},
                                  {"relative_distance", row.distance[k]}});
+      if (row.family.zeros_of) {
+        entry["values"].back()["non_minimum_phase"] =
+            row.s_rad_per_s[k] ? Json(is_non_minimum_phase(*row.s_rad_per_s[k])) : Json(nullptr);
+      }
     }
     roots.push_back(std::move(entry));
   }

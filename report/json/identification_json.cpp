@@ -207,7 +207,8 @@ Json sensor_json(const measured::FittedSensor& sensor) {
                      {"frequency_std_Hz", zero.frequency_std_Hz},
                      {"damping_ratio_std", zero.damping_ratio_std},
                      {"in_band", zero.in_band},
-                     {"is_told", zero.is_told}});
+                     {"is_told", zero.is_told},
+                     {"non_minimum_phase", zero.s_rad_per_s.real() > 0.0}});
   }
   const auto& residual = sensor.residual;
   return {{"sensor", arm::to_string(sensor.sensor)},

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include <optional>
+#include <string_view>
 
 namespace flexarm::report {
 
@@ -27,12 +28,26 @@ Json comparison_json(const Comparison& row) {
           {"formulations_agree", formulations_agree(row)}};
 }
 
+/// The values of flexarm.paper/1.
+std::string_view json_name(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::slip_of_print:
+      return "slip of print";
+    case Verdict::slip_of_algebra:
+      return "slip of algebra";
+    case Verdict::does_not_follow:
+      return "does not follow";
+    default:
+      return to_string(verdict);
+  }
+}
+
 Json check_json(const Check& check) {
   Json comparisons = Json::array();
   for (const auto& row : check.comparisons) comparisons.push_back(comparison_json(row));
   return {{"part", check.label},
           {"statement", check.statement},
-          {"verdict", to_string(check.verdict)},
+          {"verdict", json_name(check.verdict)},
           {"finding", check.finding},
           {"comparisons", std::move(comparisons)}};
 }

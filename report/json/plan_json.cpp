@@ -25,27 +25,41 @@ Json values_json(const std::optional<diagnose::Candidate>& candidate) {
   return values;
 }
 
+/// What a run is, under the keys that both lists of runs share.
+Json run_json(const diagnose::FurtherRun& further, const char* based_on) {
+  const diagnose::PlannedRun& run = further.run;
+  Json sensors = Json::array();
+  for (const auto& sensor : run.sensors) sensors.push_back(arm::to_string(sensor.sensor));
+  const bool in_time = run.kind == measured::RunKind::time;
+  return {{"run", run.id},
+          {based_on, further.like},
+          {"change", further.change},
+          {"kind", to_string(run.kind)},
+          {"input", diagnose::input_of(run)},
+          {"peak_torque_N_m",
+           in_time ? Json(response::peak_N_m(diagnose::torque_of(run))) : Json(nullptr)},
+          {"payload_mass_kg", run.payload ? Json(run.payload->mass_kg) : Json(nullptr)},
+          {"sensors", sensors}};
+}
+
 }  // namespace
 
 Json further_runs_json(const std::vector<diagnose::NextExperiment>& runs) {
   Json all = Json::array();
   for (const auto& [further, leads, told, score] : runs) {
-    const diagnose::PlannedRun& run = further.run;
-    Json sensors = Json::array();
-    for (const auto& sensor : run.sensors) sensors.push_back(arm::to_string(sensor.sensor));
-    const bool in_time = run.kind == measured::RunKind::time;
-    all.push_back({{"run", run.id},
-                   {"like", further.like},
-                   {"change", further.change},
-                   {"kind", to_string(run.kind)},
-                   {"input", diagnose::input_of(run)},
-                   {"peak_torque_N_m",
-                    in_time ? Json(response::peak_N_m(diagnose::torque_of(run))) : Json(nullptr)},
-                   {"payload_mass_kg", run.payload ? Json(run.payload->mass_kg) : Json(nullptr)},
-                   {"sensors", sensors},
-                   {"told", told},
-                   {"leads", leads},
-                   {"score", score}});
+    Json one = run_json(further, "like");
+    one.update({{"told", told}, {"leads", leads}, {"score", score}});
+    all.push_back(std::move(one));
+  }
+  return all;
+}
+
+Json additional_runs_json(const std::vector<diagnose::NextExperiment>& runs) {
+  Json all = Json::array();
+  for (const auto& [further, leads, told, score] : runs) {
+    Json one = run_json(further, "based_on");
+    one.update({{"resolved", told}, {"delta_bic", leads}, {"score", score}});
+    all.push_back(std::move(one));
   }
   return all;
 }
@@ -55,10 +69,10 @@ Json plan_json(const diagnose::Plan& plan) {
   Json effects = Json::array();
   for (const auto& detection : plan.effects) {
     effects.push_back({{"effect", detection.hypothesis.label()},
-                       {"shows", detection.shows},
-                       {"found_from", values_json(detection.smallest)},
-                       {"compared_at", values_json(detection.compared)},
-                       {"change", detection.compared_change},
+                       {"detectable", detection.shows},
+                       {"minimum_detectable_value", values_json(detection.smallest)},
+                       {"comparison_value", values_json(detection.compared)},
+                       {"comparison_change", detection.compared_change},
                        {"largest_change", detection.largest_change}});
   }
   Json separations = Json::array();
@@ -66,21 +80,21 @@ Json plan_json(const diagnose::Plan& plan) {
     for (std::size_t b = 0; b < plan.effects.size(); ++b) {
       const auto& separation = plan.separations[a][b];
       if (!separation) continue;
-      separations.push_back({{"effect", label(a)},
-                             {"rival", label(b)},
+      separations.push_back({{"effect_present", label(a)},
+                             {"alternative", label(b)},
                              {"cosine", separation->cosine},
-                             {"lead", separation->lead},
+                             {"delta_bic", separation->lead},
                              {"fitted", separation->is_fitted},
-                             {"told", separation->lead >= diagnose::kToldLead}});
+                             {"distinguishable", separation->lead >= diagnose::kToldLead}});
     }
   }
   Json ties = Json::array();
   for (const auto& tie : plan.ties) {
-    ties.push_back(
-        {{"effect", label(tie.truth)},
-         {"rival", label(tie.rival)},
-         {"lead", tie.lead},
-         {"lead_with_more", tie.lead_with_more ? Json(*tie.lead_with_more) : Json(nullptr)}});
+    ties.push_back({{"effect_present", label(tie.truth)},
+                    {"alternative", label(tie.rival)},
+                    {"delta_bic", tie.lead},
+                    {"delta_bic_improved_plan",
+                     tie.lead_with_more ? Json(*tie.lead_with_more) : Json(nullptr)}});
   }
   Json classes = Json::array();
   for (const auto& members : plan.classes) {
@@ -90,10 +104,10 @@ Json plan_json(const diagnose::Plan& plan) {
   }
   return {{"effects", effects},
           {"separations", separations},
-          {"ties", ties},
-          {"classes", classes},
-          {"further", further_runs_json(plan.further)},
-          {"added", further_runs_json(plan.added)},
+          {"indistinguishable_pairs", ties},
+          {"equivalence_classes", classes},
+          {"additional_runs", additional_runs_json(plan.further)},
+          {"improved_plan_runs", additional_runs_json(plan.added)},
           {"notices", plan.notices}};
 }
 

@@ -5,6 +5,7 @@
 #include "report/tables/sweep_tables.hpp"
 
 #include <cmath>
+#include <string_view>
 
 namespace flexarm::report {
 
@@ -99,13 +100,36 @@ Json zeros_json(const SweepResult& result) {
   return zeros;
 }
 
+/// The values of flexarm.sweep/1.
+std::string_view json_name(SweepEvent::Kind kind) {
+  switch (kind) {
+    case SweepEvent::Kind::appears_beyond:
+      return "comes from beyond";
+    case SweepEvent::Kind::leaves_beyond:
+      return "leaves beyond";
+    case SweepEvent::Kind::appears:
+      return "appears";
+    case SweepEvent::Kind::vanishes:
+      return "vanishes";
+    case SweepEvent::Kind::meet:
+      return "meets";
+    case SweepEvent::Kind::part:
+      return "parts from";
+    case SweepEvent::Kind::ambiguous:
+      return "not clear which is which";
+    case SweepEvent::Kind::seam:
+      return "does not fit the row before";
+  }
+  return "";
+}
+
 Json events_json(const SweepResult& result) {
   Json events = Json::array();
   const auto number = [](int track) { return track > 0 ? Json(track) : Json(nullptr); };
   for (const SweepEvent& event : result.events) {
     events.push_back({{"roots", compare::label(event.family)},
                       {"track", number(event.track)},
-                      {"what", word_for(event.kind)},
+                      {"what", json_name(event.kind)},
                       {"other_track", number(event.other)},
                       {"row", event.row},
                       {"from", event.from_value},

@@ -1,4 +1,5 @@
 #include "report/tables/comparison_tables.hpp"
+#include "report/tables/zero_kind.hpp"
 
 #include <complex>
 #include <cstdint>
@@ -23,31 +24,35 @@ Table root_listing(const compare::Comparison& comparison) {
                {"s_re", "rad/s"},
                {"s_im", "rad/s"},
                {"frequency", "Hz"},
-               {"relative distance from first model"}}};
+               {"relative difference from reference model"},
+               {"non-minimum phase"}}};
   for (const auto& row : comparison.roots) {
     for (std::size_t k = 0; k < comparison.subjects.size(); ++k) {
       const auto s = row.s_rad_per_s[k].value_or(std::complex<double>(kMissing, kMissing));
       table.add_row({compare::label(row.family), std::int64_t{row.order}, comparison.subjects[k],
-                     s.real(), s.imag(), std::abs(s) / (2.0 * std::numbers::pi), row.distance[k]});
+                     s.real(), s.imag(), std::abs(s) / (2.0 * std::numbers::pi), row.distance[k],
+                     row.family.zeros_of && row.s_rad_per_s[k]
+                         ? Cell(std::string(is_non_minimum_phase(s) ? "yes" : "no"))
+                         : Cell()});
     }
   }
   return table;
 }
 
 Table convergence_listing(const compare::Comparison& comparison) {
-  Table table{"Convergence of every root",
+  Table table{"Convergence by root",
               {{"family"},
                {"order"},
                {"refined"},
                {"setting"},
                {"decay"},
-               {"observed order", "", 3},
+               {"observed order of convergence", "", 3},
                {"points fitted"},
-               error_column("smallest error"),
-               {"rounding from setting"},
-               {"rounding from dof"},
-               {"accurate from setting"},
-               {"accurate from dof"}}};
+               error_column("smallest relative error"),
+               {"rounding floor from setting"},
+               {"rounding floor from dof"},
+               {"accuracy reached from setting"},
+               {"accuracy reached from dof"}}};
   const auto setting_cells = [](const std::optional<compare::RefinementPoint>& point) {
     return point ? std::pair<Cell, Cell>{std::int64_t{point->setting},
                                          std::int64_t{point->degrees_of_freedom}}
@@ -67,7 +72,7 @@ Table convergence_listing(const compare::Comparison& comparison) {
 }
 
 Table refinement_listing(const compare::Comparison& comparison) {
-  Table table{"Refinement series",
+  Table table{"Convergence series",
               {{"family"},
                {"order"},
                {"refined"},
@@ -99,14 +104,14 @@ Table shapes_listing(const compare::Comparison& comparison) {
 }
 
 Table responses_listing(const compare::Comparison& comparison) {
-  Table table{"Responses per unit of torque",
+  Table table{"Frequency responses per unit torque",
               {{"sensor"},
                {"model"},
                {"frequency", "Hz"},
                {"re"},
                {"im"},
-               {"relative difference from first model"},
-               {"1 - coherence of all"}}};
+               {"relative difference from reference model"},
+               {"1 - response agreement of all models"}}};
   for (const auto& response : comparison.responses) {
     for (std::size_t k = 0; k < comparison.subjects.size(); ++k) {
       for (std::size_t j = 0; j < response.frequency_Hz.size(); ++j) {

@@ -1,6 +1,7 @@
 #include "report/tables/comparison_tables.hpp"
 
 #include "report/tables/text_table.hpp"
+#include "report/tables/zero_kind.hpp"
 
 #include <fmt/format.h>
 
@@ -26,9 +27,20 @@ double shown_value(std::complex<double> s) {
   return is_real(s) ? s.real() : std::abs(s) / (2.0 * std::numbers::pi);
 }
 
-std::string axis_of(std::complex<double> s) {
-  if (is_real(s)) return "real, rad/s";
-  return s.real() == 0.0 ? "imaginary, Hz" : "complex, |s| Hz";
+/// Where a root lies, in a cell and in a caption, and the unit of its `shown_value`.
+struct RootPlace {
+  std::string where;
+  std::string axis;
+  const char* unit = "";
+
+  bool operator==(const RootPlace&) const = default;
+};
+
+RootPlace place_of(std::complex<double> s, bool is_zero) {
+  const std::string remark = is_zero && is_non_minimum_phase(s) ? " (non-minimum phase)" : "";
+  if (is_real(s)) return {"real" + remark, "on the real axis" + remark, "rad/s"};
+  if (s.real() == 0.0) return {"imaginary", "on the imaginary axis", "Hz"};
+  return {"complex" + remark, "complex" + remark, "|s| Hz"};
 }
 
 std::vector<compare::FeatureFamily> families_of(const compare::Comparison& comparison) {
@@ -92,9 +104,10 @@ Table subjects_table(const compare::Comparison& comparison) {
   Table table{"Models", {{"model"}, {"settings"}, {"degrees of freedom"}}};
   for (std::size_t k = 0; k < comparison.subjects.size(); ++k) {
     const int dof = comparison.degrees_of_freedom[k];
-    table.add_row({comparison.subjects[k],
-                   dof == 0 ? "the boundary-value problem itself" : comparison.settings[k],
-                   count_or_missing(dof)});
+    table.add_row(
+        {comparison.subjects[k],
+         dof == 0 ? "exact solution of the boundary-value problem" : comparison.settings[k],
+         count_or_missing(dof)});
   }
   return table;
 }
@@ -102,26 +115,29 @@ Table subjects_table(const compare::Comparison& comparison) {
 std::vector<Table> root_tables(const compare::Comparison& comparison) {
   std::vector<Table> tables;
   for (const auto& family : families_of(comparison)) {
-    std::vector<std::string> axes;
+    const bool are_zeros = family.zeros_of.has_value();
+    std::vector<RootPlace> places;
     for (const auto& row : comparison.roots) {
-      if (row.family == family) axes.push_back(axis_of(*row.s_rad_per_s.front()));
+      if (row.family == family) places.push_back(place_of(*row.s_rad_per_s.front(), are_zeros));
     }
-    const bool one_axis = std::ranges::adjacent_find(axes, std::not_equal_to{}) == axes.end();
+    const bool one_place = std::ranges::adjacent_find(places, std::not_equal_to{}) == places.end();
     Table table{title_of(family), {{"no."}}};
-    if (one_axis && !axes.empty()) {
-      table.caption += ", on the " + axes.front().substr(0, axes.front().find(',')) + " axis [" +
-                       axes.front().substr(axes.front().find(' ') + 1) + "]";
+    if (one_place && !places.empty()) {
+      table.caption += fmt::format(", {} [{}]", places.front().axis, places.front().unit);
     } else {
       table.columns.push_back({"axis, unit"});
     }
     for (std::size_t k = 0; k < comparison.subjects.size(); ++k) {
       table.columns.push_back({comparison.subjects[k], "", kRootDigits});
-      if (k > 0) table.columns.push_back(error_column("distance"));
+      if (k > 0) table.columns.push_back(error_column("relative difference"));
     }
     for (const auto& row : comparison.roots) {
       if (!(row.family == family)) continue;
       std::vector<Cell> cells = {std::int64_t{row.order}};
-      if (!one_axis) cells.emplace_back(axis_of(*row.s_rad_per_s.front()));
+      if (!one_place) {
+        const RootPlace place = place_of(*row.s_rad_per_s.front(), are_zeros);
+        cells.emplace_back(fmt::format("{}, {}", place.where, place.unit));
+      }
       for (std::size_t k = 0; k < comparison.subjects.size(); ++k) {
         cells.emplace_back(row.s_rad_per_s[k] ? shown_value(*row.s_rad_per_s[k]) : kMissing);
         if (k > 0) cells.emplace_back(row.distance[k]);
@@ -134,8 +150,14 @@ std::vector<Table> root_tables(const compare::Comparison& comparison) {
 }
 
 Table notes_table(const compare::Comparison& comparison) {
-  Table table{"Roots found, counted and rejected",
-              {{"family"}, {"model"}, {"found"}, {"counted"}, {"by"}, {"rejected"}, {"infinite"}}};
+  Table table{"Root count check",
+              {{"family"},
+               {"model"},
+               {"found"},
+               {"counted"},
+               {"counting method"},
+               {"rejected"},
+               {"infinite"}}};
   for (const auto& note : comparison.notes) {
     const bool counted = note.count.expected >= 0;
     table.add_row({compare::label(note.family), note.subject, std::int64_t{note.found},
@@ -163,8 +185,8 @@ std::vector<Table> convergence_tables(const compare::Comparison& comparison) {
                  {"setting"},
                  {"order"},
                  {"decades", "1/dof"},
-                 error_column("least"),
-                 {"rounding", "dof"},
+                 error_column("smallest error"),
+                 {"rounding floor", "dof"},
                  {fmt::format("{:.0e}", comparison.wanted_accuracy), "dof"}}};
     for (const auto& [name, summary] : series) {
       table.add_row({name, summary.any->setting_name, summary.rate_text(compare::Decay::algebraic),
@@ -177,13 +199,13 @@ std::vector<Table> convergence_tables(const compare::Comparison& comparison) {
 }
 
 Table shapes_table(const compare::Comparison& comparison) {
-  Table table{"Mode shapes against " + comparison.subjects.front(),
+  Table table{"Mode shapes compared with " + comparison.subjects.front(),
               {{"mode"},
                {"model"},
                error_column("1 - MAC"),
                error_column("largest error"),
                {"hub slope", "1", 10},
-               error_column("its error")}};
+               error_column("relative error")}};
   for (const auto& row : comparison.shapes) {
     table.add_row({std::int64_t{row.order}, row.formulation, row.one_minus_mac, row.largest_error,
                    row.hub_slope, row.hub_slope_error});
@@ -192,9 +214,10 @@ Table shapes_table(const compare::Comparison& comparison) {
 }
 
 Table responses_table(const compare::Comparison& comparison) {
-  Table table{fmt::format("Responses against {}, more than {} % from poles and zeros",
-                          comparison.subjects.front(), 100.0 * compare::kOffResonance),
-              {{"sensor"}, {"model"}, error_column("largest error"), {"at", "Hz", 4}}};
+  Table table{
+      fmt::format("Frequency responses compared with {}, at least {} % away from poles and zeros",
+                  comparison.subjects.front(), 100.0 * compare::kOffResonance),
+      {{"sensor"}, {"model"}, error_column("largest error"), {"at", "Hz", 4}}};
   for (const auto& response : comparison.responses) {
     for (std::size_t k = 1; k < comparison.subjects.size(); ++k) {
       table.add_row({arm::to_string(response.sensor), comparison.subjects[k],
@@ -205,7 +228,7 @@ Table responses_table(const compare::Comparison& comparison) {
 }
 
 Table measured_table(const std::vector<compare::MeasuredRow>& rows) {
-  Table table{"Measured beside exact_tf (zeros: antiresonances, on the imaginary axis)",
+  Table table{"Measured and exact_tf (zeros on the imaginary axis: antiresonances)",
               {{"feature"},
                {"no."},
                {"sensor"},
@@ -223,23 +246,23 @@ Table measured_table(const std::vector<compare::MeasuredRow>& rows) {
 }
 
 std::string convergence_legend(const compare::Comparison& comparison) {
-  return to_paragraph(fmt::format(
-      "Refinement series against {0}. Over the roots of a family: the range of orders p in error ~ "
-      "setting^-p, or of decades gained per degree of freedom (dof); the least error of the worst "
-      "root; the dof from which rounding takes over in the first root that it reaches; the dof "
-      "from which every root is within {1:.0e}.",
-      comparison.subjects.front(), comparison.wanted_accuracy));
+  return to_paragraph(
+      fmt::format("Convergence with respect to {0}, over all roots of a family: range of the order "
+                  "p in error ~ setting^-p, or of decades per degree of freedom (dof); smallest "
+                  "error of the worst root; dof at which the first root reaches the rounding "
+                  "floor; dof from which all roots are accurate to {1:.0e}.",
+                  comparison.subjects.front(), comparison.wanted_accuracy));
 }
 
 std::string verdict_line(const compare::Comparison& comparison) {
   const auto& worst = comparison.verdict.worst;
   const std::string where =
       std::isnan(worst.distance)
-          ? fmt::format("{}: {} or {} has none", worst.quantity, worst.first, worst.second)
-          : fmt::format("{}: {} and {} are {:.1e} apart, tolerance {:.0e}", worst.quantity,
-                        worst.first, worst.second, worst.distance, worst.tolerance);
-  return comparison.verdict.agree ? "Verdict: agree. Worst pair: " + where + "."
-                                  : "Verdict: DISAGREE. Worst pair: " + where + ".";
+          ? fmt::format("{}: missing in {} or {}", worst.quantity, worst.first, worst.second)
+          : fmt::format("{}: relative difference of {} and {} {:.1e}, tolerance {:.0e}",
+                        worst.quantity, worst.first, worst.second, worst.distance, worst.tolerance);
+  return comparison.verdict.agree ? "Verdict: agree. Largest difference: " + where + "."
+                                  : "Verdict: DISAGREE. Largest difference: " + where + ".";
 }
 
 }  // namespace flexarm::report

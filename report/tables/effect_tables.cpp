@@ -23,17 +23,17 @@ std::string allowed(const arm::Range& range) {
 std::string_view meaning_of(Port port) {
   switch (port) {
     case Port::arm_number:
-      return "another number of the arm";
+      return "a changed parameter of the arm";
     case Port::linear_term:
       return "a term of the linear arm";
     case Port::torque_path:
-      return "a stage between the commanded torque and the hub";
+      return "a stage of the torque path, between commanded torque and hub";
     case Port::hub_torque:
-      return "a law of torque on the hub";
+      return "a law of hub torque";
     case Port::beam_force:
       return "a force along the beam";
     case Port::sensor_path:
-      return "a stage between a sensor and its reading";
+      return "a stage of a sensor path";
   }
   return "";
 }
@@ -77,16 +77,15 @@ std::string section(const effects::Entry& entry) {
   const arm::EffectDefinition& definition = *entry.definition;
   std::string text = fmt::format("### {}\n\n{}\n\n", definition.name, definition.meaning);
   text +=
-      "| parameter | unit | allowed | without effect at | meaning |\n| --- | --- | --- | --- | --- "
-      "|\n";
+      "| parameter | unit | allowed | neutral value | meaning |\n| --- | --- | --- | --- | --- |\n";
   for (const auto& parameter : definition.parameters) {
     text += fmt::format("| `{}` | {} |{} | {} | {} |\n", parameter.name, parameter.unit,
                         allowed(parameter.range), neutral_of(parameter), parameter.meaning);
   }
-  text +=
-      fmt::format("\n- port: `{}`\n- shows in: {}\n", ports_of(definition), shown_in(entry.shows));
+  text += fmt::format("\n- port: `{}`\n- detectable in: {}\n", ports_of(definition),
+                      shown_in(entry.shows));
   if (!entry.contains.empty()) {
-    text += fmt::format("- contains as a limit: `{}`\n", fmt::join(entry.contains, "`, `"));
+    text += fmt::format("- limiting case: `{}`\n", fmt::join(entry.contains, "`, `"));
   }
   text += fmt::format("- evidence for it: {}\n- evidence against it: {}\n", entry.speaks_for,
                       entry.refuted_by);
@@ -125,18 +124,18 @@ std::string effect_list(const std::vector<effects::Entry>& entries) {
 std::string effect_page(const effects::Entry& entry) {
   const arm::EffectDefinition& definition = *entry.definition;
   std::string text = to_paragraph(fmt::format("{}: {}.", definition.name, definition.meaning), 2);
-  Table table{
-      .caption = "",
-      .columns = {{"parameter"}, {"unit"}, {"allowed"}, {"without effect at"}, {"meaning"}}};
+  Table table{.caption = "",
+              .columns = {{"parameter"}, {"unit"}, {"allowed"}, {"neutral value"}, {"meaning"}}};
   for (const auto& parameter : definition.parameters) {
     const std::string range = allowed(parameter.range);
     table.add_row({parameter.name, parameter.unit, range.empty() ? "any" : range.substr(1),
                    neutral_of(parameter), parameter.meaning});
   }
   text += "\n" + to_text(table) + "\n";
-  text += fmt::format("port:     {}\nshows in: {}\n", ports_of(definition), shown_in(entry.shows));
+  text += fmt::format("port:          {}\ndetectable in: {}\n", ports_of(definition),
+                      shown_in(entry.shows));
   if (!entry.contains.empty()) {
-    text += fmt::format("contains: {}, as a limit\n", fmt::join(entry.contains, ", "));
+    text += fmt::format("limiting case: {}\n", fmt::join(entry.contains, ", "));
   }
   text += to_paragraph(fmt::format("evidence for it: {}.", entry.speaks_for), 2);
   text += to_paragraph(fmt::format("evidence against it: {}.", entry.refuted_by), 2);
@@ -146,26 +145,29 @@ std::string effect_page(const effects::Entry& entry) {
 std::string effects_document(const std::vector<effects::Entry>& entries) {
   std::string text =
       "# Effects\n\n"
-      "What an ideal arm leaves out. Each effect has one name, the same in `[effects.NAME]` of an "
-      "arm file, in reports and in a diagnosis.\nThis page is what `flexarm effects --markdown` "
-      "prints; `flexarm effects NAME` prints one section of it.\n\n"
+      "The effect library: effects beyond the ideal arm. Each effect has one name, the same in "
+      "`[effects.NAME]` of an arm file, in reports and\n"
+      "in a diagnosis. `flexarm effects --markdown` prints this page, `flexarm effects NAME` one "
+      "section of it.\n\n"
       "`tau` is the commanded (measured) torque, `T` the torque that reaches the hub, theta the "
-      "hub "
-      "angle, y the displacement of the beam\nfrom the resting line, hub rotation included. A "
-      "parameter without a range takes any finite number.\n\n"
-      "An effect acts through ports. Every formulation honours `arm_number` and `linear_term`; the "
-      "simulation in time honours all of them;\npoles, zeros and frequency responses leave out "
-      "what is not linear, and say so.\n\n| port | the effect is |\n| --- | --- |\n";
+      "hub angle, y the displacement of the beam\n"
+      "from the resting line, hub rotation included. A parameter without a range can have any "
+      "finite value.\n\n"
+      "An effect acts through ports. All formulations support `arm_number` and `linear_term`; the "
+      "time simulation supports all ports.\n"
+      "Poles, zeros and frequency responses do not include nonlinear effects, and state this.\n\n"
+      "| port | the effect is |\n"
+      "| --- | --- |\n";
   for (const Port port : {Port::arm_number, Port::linear_term, Port::torque_path, Port::hub_torque,
                           Port::beam_force, Port::sensor_path}) {
     text += fmt::format("| `{}` | {} |\n", to_string(port), meaning_of(port));
   }
-  text += "\n## All of them\n\n| effect | parameters | meaning |\n| --- | --- | --- |\n";
+  text += "\n## Overview\n\n| effect | parameters | meaning |\n| --- | --- | --- |\n";
   for (const auto& entry : entries) {
     text += fmt::format("| [`{0}`](#{0}) | {1} | {2} |\n", entry.definition->name,
                         parameters_of(*entry.definition, true), entry.definition->meaning);
   }
-  text += "\n## One by one\n\n";
+  text += "\n## Details\n\n";
   for (const auto& entry : entries) text += section(entry);
   text.pop_back();
   return text;

@@ -32,10 +32,10 @@ std::vector<std::string> data_notes(const measured::Identification& identificati
                                   to_string(finding.fault), finding.text));
     }
     for (const auto& sensor : run.left_out) {
-      notes.push_back(fmt::format("{}: {} is left out", run.run.id, arm::to_string(sensor)));
+      notes.push_back(fmt::format("{}: {} excluded", run.run.id, arm::to_string(sensor)));
     }
     if (!run.refusal.empty()) {
-      notes.push_back(fmt::format("{}: nothing is estimated: {}", run.run.id, run.refusal));
+      notes.push_back(fmt::format("{}: no estimate: {}", run.run.id, run.refusal));
     }
     if (run.distortion && !run.distortion->testable) {
       notes.push_back(fmt::format("{}: distortion: {}", run.run.id, run.distortion->reason));
@@ -48,9 +48,8 @@ std::vector<std::string> data_notes(const measured::Identification& identificati
     }
     if (fit.refusal.empty() && !fit.fit.converged) {
       notes.push_back(
-          fmt::format("{}: the fit did not converge: more than these data tell is asked of it; "
-                      "poles in the band "
-                      "hold better than zeros and gains",
+          fmt::format("{}: the fit did not converge; the model order may be too high for these "
+                      "data. Poles in the band are more reliable than zeros and gains",
                       joined(ids)));
     }
     for (const auto& sensor : fit.fit.sensors) {
@@ -59,8 +58,8 @@ std::vector<std::string> data_notes(const measured::Identification& identificati
       });
       if (untold) {
         notes.push_back(
-            fmt::format("{}: {}: the fit has zeros in the band that these data do not "
-                        "tell; they are left out",
+            fmt::format("{}: {}: zeros in the band with large standard errors omitted (not "
+                        "identifiable from these data)",
                         joined(ids), arm::to_string(sensor.sensor)));
       }
     }
@@ -77,14 +76,14 @@ std::vector<std::string> setting_lines(const measured::RunIdentification& run) {
   for (const auto& report : run.estimate->settings.reports) {
     lines.push_back(fmt::format("{}: {} ({})", report.name, report.value, report.reason));
   }
-  lines.push_back(fmt::format("lines {:.4g} Hz apart, {:.3g} effective averages",
+  lines.push_back(fmt::format("line spacing {:.4g} Hz, {:.3g} effective averages",
                               run.estimate->spacing_Hz, run.estimate->averages));
   return lines;
 }
 
 Table gain_table(const measured::RunsFit& fit, const compare::AnalyticalModes& analytical) {
   Table table{"Hub slopes and accelerometer gains, modal mass I_T",
-              {{"quantity"}, {"mode"}, {"unit"}, {"by"}, {"measured", "", 5}, {"+-", "", 2}}};
+              {{"quantity"}, {"mode"}, {"unit"}, {"equation"}, {"measured", "", 5}, {"+-", "", 2}}};
   for (const auto& gains : analytical.gains) table.columns.push_back({gains.model, "", 5});
   table.columns.push_back({"error", "%", 3});
   if (!fit.gains) return table;
@@ -127,22 +126,22 @@ Table gain_table(const measured::RunsFit& fit, const compare::AnalyticalModes& a
 }
 
 Table residual_table(const measured::RunsFit& fit) {
-  Table table{"What the fit leaves",
+  Table table{"Residual analysis of the fit",
               {{"sensor"},
                {"standard deviation", "", 3},
                {"unit"},
-               {"of the signal", "%", 3},
-               {"it is"},
-               {"explained by torque", "%", 2}}};
+               {"relative to signal", "%", 3},
+               {"whiteness"},
+               {"explained by past torque", "%", 2}}};
   for (const auto& sensor : fit.fit.sensors) {
     const auto& residual = sensor.residual;
-    std::string kind = "noise";
+    std::string kind = "white";
     if (residual.whiteness_probability < measured::ResidualQuality::kSignificance) {
       kind = "coloured";
     }
     const bool explained =
         residual.explained_probability < measured::ResidualQuality::kSignificance;
-    if (explained) kind = "not noise alone";
+    if (explained) kind = "correlated with torque";
     table.add_row({arm::to_string(sensor.sensor), residual.standard_deviation,
                    std::string(arm::unit(sensor.sensor)), 100.0 * residual.relative, kind,
                    explained ? Cell(100.0 * residual.explained_share) : Cell()});
@@ -151,15 +150,14 @@ Table residual_table(const measured::RunsFit& fit) {
 }
 
 Table distortion_table(const measured::RunIdentification& run) {
-  Table table{
-      fmt::format("{}: nonlinear distortion, from lines the torque does not drive", run.run.id),
-      {{"sensor"},
-       {"odd", "dB", 3},
-       {"noise there", "dB", 3},
-       {"found"},
-       {"even", "dB", 3},
-       {"noise there", "dB", 3},
-       {"found"}}};
+  Table table{fmt::format("{}: nonlinear distortion at the detection lines", run.run.id),
+              {{"sensor"},
+               {"odd", "dB", 3},
+               {"noise level", "dB", 3},
+               {"significant"},
+               {"even", "dB", 3},
+               {"noise level", "dB", 3},
+               {"significant"}}};
   if (!run.distortion || !run.distortion->testable || !run.estimate) return table;
   for (std::size_t i = 0; i < run.distortion->channels.size(); ++i) {
     const auto& channel = run.distortion->channels[i];
@@ -167,7 +165,7 @@ Table distortion_table(const measured::RunIdentification& run) {
     for (const auto* test : {&channel.odd, &channel.even}) {
       row.emplace_back(std::isfinite(test->level_dB) ? test->level_dB : kMissing);
       row.emplace_back(std::isfinite(test->noise_dB) ? test->noise_dB : kMissing);
-      row.emplace_back(std::string(test->lines == 0 ? "no line" : test->found ? "yes" : "no"));
+      row.emplace_back(std::string(test->lines == 0 ? "no lines" : test->found ? "yes" : "no"));
     }
     table.add_row(std::move(row));
   }

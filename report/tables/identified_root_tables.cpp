@@ -3,6 +3,7 @@
 #include "compare/features.hpp"
 #include "report/tables/identification_tables.hpp"
 #include "report/tables/table.hpp"
+#include "report/tables/zero_kind.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -83,6 +84,19 @@ std::string others_of(const Roots& roots, Feature feature) {
                      left_out > 0 ? fmt::format(", {} more", left_out) : "");
 }
 
+/// Frequencies of measured zeros in the right half plane.
+std::string right_half_plane_zeros_of(const Roots& roots) {
+  std::vector<std::string> frequencies;
+  for (const auto& root : roots) {
+    const auto& measured = root.measured;
+    if (measured.feature == Feature::zero && measured.frequency_Hz &&
+        is_non_minimum_phase(measured.damping_ratio, measured.damping_ratio_std)) {
+      frequencies.push_back(fmt::format("{:.4g}", *measured.frequency_Hz));
+    }
+  }
+  return fmt::format("{}", fmt::join(frequencies, ", "));
+}
+
 std::string sensor_name(const std::optional<arm::Sensor>& sensor) {
   return sensor ? arm::to_string(*sensor) : "all";
 }
@@ -117,22 +131,31 @@ Table table_of(const IdentifiedData& data, const std::string& caption) {
   return {fmt::format("{}: {}", data.runs, caption), {{"method"}, {"sensor"}}};
 }
 
-/// A last column with what stands for no analytical root, unless it is empty.
-void add_others(const IdentifiedData& data, const std::vector<std::size_t>& row_readings,
-                Feature feature, Table& table) {
-  std::vector<std::string> others(table.rows.size());
+/// A last column with a text of each reading's roots, unless all are empty.
+template <class TextOf>
+void add_column(const IdentifiedData& data, const std::vector<std::size_t>& row_readings,
+                const std::string& name, const TextOf& text_of, Table& table) {
+  std::vector<std::string> texts(table.rows.size());
   const std::size_t first = table.rows.size() - row_readings.size();
   bool any = false;
   for (std::size_t k = 0; k < row_readings.size(); ++k) {
     if (row_readings[k] == kNoReading) continue;
-    others[first + k] = others_of(data.condition.roots[row_readings[k]], feature);
-    any = any || !others[first + k].empty();
+    texts[first + k] = text_of(data.condition.roots[row_readings[k]]);
+    any = any || !texts[first + k].empty();
   }
   if (!any) return;
-  table.columns.push_back({"others", "Hz"});
-  for (std::size_t r = 0; r < others.size(); ++r) {
-    table.rows[r].push_back(others[r].empty() ? Cell() : Cell(others[r]));
+  table.columns.push_back({name, "Hz"});
+  for (std::size_t r = 0; r < texts.size(); ++r) {
+    table.rows[r].push_back(texts[r].empty() ? Cell() : Cell(texts[r]));
   }
+}
+
+/// What corresponds to no analytical root.
+void add_others(const IdentifiedData& data, const std::vector<std::size_t>& row_readings,
+                Feature feature, Table& table) {
+  add_column(
+      data, row_readings, "unmatched",
+      [feature](const Roots& roots) { return others_of(roots, feature); }, table);
 }
 
 /// Rows of a table of one figure a pole: those of the readings, and where two sensors or more were
@@ -167,7 +190,7 @@ std::vector<std::size_t> add_pole_rows(const IdentifiedData& data,
         k + 1 == readings.size() || reading_of(data, readings[k + 1]).method != reading.method;
     if (!ends) continue;
     if (!group.empty() && group.front().size() > 1) {
-      add_row(reading.method, "mean, scatter", kNoReading,
+      add_row(reading.method, "mean, std. dev.", kNoReading,
               [&](std::size_t i) { return mean_of(group[i]); });
     }
     for (auto& figures : group) figures.clear();
@@ -236,6 +259,7 @@ Table zero_table(const IdentifiedData& data) {
     table.add_row(std::move(row));
   }
   add_others(data, readings, Feature::zero, table);
+  add_column(data, readings, "non-minimum phase", right_half_plane_zeros_of, table);
   return table;
 }
 
@@ -264,9 +288,12 @@ Table damping_table(const IdentifiedData& data) {
 }
 
 Table real_zero_table(const IdentifiedData& data) {
-  Table table{
-      fmt::format("{}: zeros on the real axis, where no response shows a valley", data.runs),
-      {{"sensor"}, {"analytical", "rad/s", 6}, {"fitted", "rad/s", 6}, {"+-", "rad/s", 2}}};
+  Table table{fmt::format("{}: zeros on the real axis (no antiresonance)", data.runs),
+              {{"sensor"},
+               {"analytical", "rad/s", 6},
+               {"fitted", "rad/s", 6},
+               {"+-", "rad/s", 2},
+               {"non-minimum phase"}}};
   for (const std::size_t f : data.condition.fits) {
     const auto& fit = data.identification.fits[f];
     if (joined(ids_of(fit, data.identification)) != data.runs) continue;
@@ -289,7 +316,8 @@ Table real_zero_table(const IdentifiedData& data) {
         const auto zero =
             std::ranges::find(sensor.zeros, *matched[i], &measured::FittedZero::s_rad_per_s);
         table.add_row({arm::to_string(sensor.sensor), expected[i].real(), matched[i]->real(),
-                       2.0 * std::numbers::pi * zero->frequency_std_Hz});
+                       2.0 * std::numbers::pi * zero->frequency_std_Hz,
+                       std::string(matched[i]->real() > 0.0 ? "yes" : "no")});
       }
     }
   }

@@ -3,6 +3,7 @@
 #include "report/figures/mode_shape_figure.hpp"
 #include "report/figures/svg.hpp"
 #include "report/json/arm_json.hpp"
+#include "report/tables/zero_kind.hpp"
 
 #include <fmt/format.h>
 
@@ -25,7 +26,7 @@ double frequency_Hz(double omega_rad_per_s) {
 }  // namespace
 
 Table poles_table(const arm::Arm& arm, const response::ModalSummary& summary) {
-  Table table{"Flexible modes, undamped; damping ratio projected on each; shapes of modal mass I_T",
+  Table table{"Flexible modes (undamped; damping ratio by projection; modal mass I_T)",
               {{"mode"},
                {"frequency", "Hz", kModeDigits},
                {"omega", "rad/s", kModeDigits},
@@ -54,7 +55,7 @@ Table poles_table(const arm::Arm& arm, const response::ModalSummary& summary) {
 }
 
 Table damped_poles_table(const response::ModalSummary& summary) {
-  Table table{"Poles with damping, two a mode; mode 0 is the lowest, of the rigid arm",
+  Table table{"Damped poles, two per mode; mode 0 is the rigid-body mode",
               {{"mode"},
                {"Re s", "rad/s", kModeDigits},
                {"Im s", "rad/s", kModeDigits},
@@ -81,24 +82,29 @@ std::string lowest_mode_line(const response::ModalSummary& summary) {
   if (omega_squared == 0.0) return "";
   const double size = std::sqrt(std::abs(omega_squared));
   if (omega_squared > 0.0) {
-    return fmt::format("The hub does not turn freely: lowest mode, undamped, at {:.12g} Hz\n",
+    return fmt::format("The hub is restrained: lowest undamped mode at {:.12g} Hz\n",
                        frequency_Hz(size));
   }
-  return fmt::format("The arm stands up and falls: undamped poles at s = +-{:.12g} rad/s\n", size);
+  return fmt::format(
+      "The arm is statically unstable (inverted): undamped poles at s = +-{:.12g} rad/s\n", size);
 }
 
 Table zeros_table(const response::ModalSummary& summary) {
-  Table table{"Zeros of torque to each sensor, undamped; each stands for its mirror images too",
-              {{"sensor"},
-               {"no."},
-               {"Re s", "rad/s", kModeDigits},
-               {"Im s", "rad/s", kModeDigits},
-               {"frequency", "Hz", kModeDigits}}};
+  Table table{
+      "Undamped zeros of torque to each sensor (one per pair or quadruple); non-minimum phase: "
+      "right half plane",
+      {{"sensor"},
+       {"no."},
+       {"Re s", "rad/s", kModeDigits},
+       {"Im s", "rad/s", kModeDigits},
+       {"frequency", "Hz", kModeDigits},
+       {"non-minimum phase"}}};
   for (const auto& [sensor, zeros] : summary.zeros) {
     for (std::size_t i = 0; i < zeros.s_rad_per_s.size(); ++i) {
       const auto s = zeros.s_rad_per_s[i];
       table.add_row({arm::to_string(sensor), std::int64_t(i) + 1, s.real(), s.imag(),
-                     s.imag() > 0.0 ? Cell(frequency_Hz(std::abs(s))) : Cell()});
+                     s.imag() > 0.0 ? Cell(frequency_Hz(std::abs(s))) : Cell(),
+                     std::string(is_non_minimum_phase(s) ? "yes" : "no")});
     }
   }
   return table;
@@ -151,7 +157,11 @@ nlohmann::ordered_json modes_json(const arm::Arm& arm, const response::ModalSumm
   Json zeros = Json::array();
   for (const auto& [sensor, set] : summary.zeros) {
     Json entry = {{"sensor", arm::to_string(sensor)}, {"s_rad_per_s", Json::array()}};
-    for (const auto s : set.s_rad_per_s) entry["s_rad_per_s"].push_back(complex_json(s));
+    entry["non_minimum_phase"] = Json::array();
+    for (const auto s : set.s_rad_per_s) {
+      entry["s_rad_per_s"].push_back(complex_json(s));
+      entry["non_minimum_phase"].push_back(is_non_minimum_phase(s));
+    }
     entry["rejected"] = Json::array();
     for (const auto& zero : set.rejected) {
       entry["rejected"].push_back({{"s_rad_per_s", complex_json(zero.s_rad_per_s)},

@@ -23,9 +23,9 @@ struct CountedVerdict {
 };
 constexpr std::array kVerdicts = {CountedVerdict{Verdict::holds, "hold"},
                                   CountedVerdict{Verdict::harmless_misprint, "harmless misprints"},
-                                  CountedVerdict{Verdict::slip_of_print, "slips of print"},
-                                  CountedVerdict{Verdict::slip_of_algebra, "slips of algebra"},
-                                  CountedVerdict{Verdict::does_not_follow, "do not follow"}};
+                                  CountedVerdict{Verdict::slip_of_print, "misprints"},
+                                  CountedVerdict{Verdict::slip_of_algebra, "algebra errors"},
+                                  CountedVerdict{Verdict::does_not_follow, "not reproducible"}};
 
 Cell value_cell(const std::optional<double>& value, const Comparison& row) {
   if (!value) return {};
@@ -122,7 +122,7 @@ Table paper_values(const Check& check) {
 
 Table paper_overview(const Findings& findings) {
   Table table{.caption = "",
-              .columns = {{.name = "part"}, {.name = "verdict"}, {.name = "what it says"}}};
+              .columns = {{.name = "part"}, {.name = "verdict"}, {.name = "statement"}}};
   for (const auto& topic : findings.topics) {
     for (const auto& check : topic.checks) {
       constexpr std::size_t kLongest = 55;
@@ -183,8 +183,8 @@ std::string paper_cells_line(const Findings& findings) {
   const auto wrong = std::count_if(findings.cells.begin(), findings.cells.end(),
                                    [](const CellCheck& cell) { return !cell.follows; });
   return fmt::format(
-      "{} of the {} errors and averages in Tables 2-5 do not follow from the cells they are made "
-      "of.",
+      "{} of the {} errors and averages in Tables 2-5 are inconsistent with the cells they are "
+      "computed from.",
       wrong, findings.cells.size());
 }
 

@@ -42,11 +42,11 @@ std::string values_text(const diagnose::Candidate& candidate) {
 }
 
 std::string shows_from(const diagnose::Detection& detection) {
-  if (!detection.shows) return "nowhere in its range";
-  return detection.smallest ? values_text(*detection.smallest) : "where it is there at all";
+  if (!detection.shows) return "not detectable";
+  return detection.smallest ? values_text(*detection.smallest) : "detectable (no size parameter)";
 }
 
-/// A lead that is nothing but rounding is 0.
+/// A delta BIC that is nothing but rounding is 0.
 double shown_lead(double lead) {
   constexpr double kShownAsZero = 1e-3;
   return std::abs(lead) < kShownAsZero ? 0.0 : lead;
@@ -90,26 +90,26 @@ std::string effect_letter(std::size_t effect) {
 std::string plan_summary(const Plan& plan) {
   const auto shown = std::ranges::count(plan.effects, true, &diagnose::Detection::shows);
   std::string text =
-      fmt::format("{} of {} effects show in these runs; ", shown, plan.effects.size());
-  if (plan.ties.empty()) return text + "each can be told from every other.";
+      fmt::format("{} of {} effects are detectable in these runs; ", shown, plan.effects.size());
+  if (plan.ties.empty()) return text + "all pairs are distinguishable.";
   std::vector<std::string> classes;
   for (const auto& members : plan.classes) {
     std::vector<std::string> names;
     for (const std::size_t effect : members) names.push_back(label_of(plan, effect));
     classes.push_back(fmt::format("{}", fmt::join(names, " / ")));
   }
-  return text + fmt::format("{} cannot be told, which {} them into: {}.",
-                            plan.ties.size() == 1 ? std::string("1 pair")
-                                                  : fmt::format("{} pairs", plan.ties.size()),
-                            plan.ties.size() == 1 ? "ties" : "tie", fmt::join(classes, "; "));
+  return text + fmt::format("{} indistinguishable. Equivalence classes: {}.",
+                            plan.ties.size() == 1 ? std::string("1 pair is")
+                                                  : fmt::format("{} pairs are", plan.ties.size()),
+                            fmt::join(classes, "; "));
 }
 
 Table detection_table(const Plan& plan) {
-  Table table{"What each effect shows",
+  Table table{"Detectability",
               {{.name = "effect"},
-               {.name = "found from"},
-               {.name = "tied with"},
-               {.name = "nearest told (lead)"}}};
+               {.name = "minimum detectable value"},
+               {.name = "indistinguishable from"},
+               {.name = "closest distinguishable (delta BIC)"}}};
   for (std::size_t i = 0; i < plan.effects.size(); ++i) {
     table.add_row({label_of(plan, i), shows_from(plan.effects[i]),
                    fmt::format("{}", fmt::join(tied_with(plan, i), ", ")), nearest_told(plan, i)});
@@ -118,7 +118,8 @@ Table detection_table(const Plan& plan) {
 }
 
 std::string separation_matrix(const Plan& plan) {
-  std::string text = "Which effect (row) can be told from which (column)\n";
+  std::string text =
+      "Distinguishability of an effect that is present (row) from another (column)\n";
   std::size_t width = 0;
   for (std::size_t i = 0; i < plan.effects.size(); ++i) {
     width = std::max(width, label_of(plan, i).size());
@@ -137,19 +138,19 @@ std::string separation_matrix(const Plan& plan) {
   }
   return text +
          fmt::format(
-             "# tied (lead below {:g})   o told, by less than {:g}   . told   blank: the row "
-             "does not show,\nor is a limit of the column\n",
+             "# indistinguishable (delta BIC < {:g})   o weakly distinguishable (< {:g})   . "
+             "distinguishable\nblank: row not detectable, or a limiting case of the column\n",
              diagnose::kToldLead, kClearLead);
 }
 
 Table separation_table(const Plan& plan) {
-  Table table{"Effects against each other",
+  Table table{"Pairs of effects",
               {{.name = "effect"},
-               {.name = "rival"},
+               {.name = "alternative effect"},
                {.name = "cosine"},
-               {.name = "lead"},
-               {.name = "by"},
-               {.name = "told"}}};
+               {.name = "expected delta BIC"},
+               {.name = "computed by"},
+               {.name = "distinguishable"}}};
   for (std::size_t a = 0; a < plan.effects.size(); ++a) {
     for (std::size_t b = 0; b < plan.effects.size(); ++b) {
       const auto& separation = plan.separations[a][b];
@@ -163,7 +164,7 @@ Table separation_table(const Plan& plan) {
 }
 
 Table lead_table(const Plan& plan) {
-  Table table{"Expected lead", {{.name = "effect"}}};
+  Table table{"Expected delta BIC", {{.name = "effect"}}};
   for (std::size_t b = 0; b < plan.effects.size(); ++b) {
     table.columns.push_back({.name = label_of(plan, b)});
   }
@@ -178,12 +179,12 @@ Table lead_table(const Plan& plan) {
 }
 
 Table tie_table(const Plan& plan) {
-  Table table{"Pairs that cannot be told",
-              {{.name = "where this is the cause"},
-               {.name = "this does as well"},
+  Table table{"Indistinguishable pairs",
+              {{.name = "effect present"},
+               {.name = "indistinguishable effect"},
                {.name = "cosine", .significant_digits = 4},
-               {.name = "lead", .significant_digits = 2},
-               {.name = "lead with the better plan", .significant_digits = 2}}};
+               {.name = "expected delta BIC", .significant_digits = 2},
+               {.name = "expected delta BIC, improved plan", .significant_digits = 2}}};
   for (const auto& tie : plan.ties) {
     table.add_row({label_of(plan, tie.truth), label_of(plan, tie.rival),
                    plan.separations[tie.truth][tie.rival]->cosine, shown_lead(tie.lead),
@@ -195,12 +196,12 @@ Table tie_table(const Plan& plan) {
 Table further_run_table(const std::vector<diagnose::NextExperiment>& runs, std::size_t most,
                         const std::string& caption) {
   Table table{caption,
-              {{.name = "like run"},
-               {.name = "but with"},
+              {{.name = "based on run"},
+               {.name = "change"},
                {.name = "peak torque", .unit = "N m", .significant_digits = 3},
                {.name = "payload", .unit = "kg", .significant_digits = 3},
-               {.name = "tells"},
-               {.name = "least lead", .significant_digits = 2}}};
+               {.name = "resolves"},
+               {.name = "smallest expected delta BIC", .significant_digits = 2}}};
   for (std::size_t i = 0; i < std::min(most, runs.size()); ++i) {
     const auto& [further, leads, told, score] = runs[i];
     const diagnose::PlannedRun& run = further.run;

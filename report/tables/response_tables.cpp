@@ -1,6 +1,7 @@
 #include "report/tables/response_tables.hpp"
 
 #include "report/figures/phase.hpp"
+#include "report/tables/zero_kind.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -62,7 +63,7 @@ std::string response_unit(const arm::Sensor& sensor) {
 }
 
 Table response_poles_table(const response::ResponseStudy& study, std::size_t most) {
-  Table table{"Poles; a complex one stands for its conjugate too",
+  Table table{"Poles (one per complex-conjugate pair)",
               {{"pole"},
                {"undamped", "Hz", kResponseDigits},
                {"Re s", "rad/s", kResponseDigits},
@@ -101,13 +102,17 @@ std::vector<std::string> formulas(const response::ResponseStudy& study, std::siz
 Table factors_table(const response::ResponseStudy& study, std::size_t index) {
   const auto& product = study.products[index];
   const auto& fractions = study.fractions[index];
-  Table table{fmt::format("Torque to {}", arm::to_string(product.sensor)),
-              {{"i"},
-               {"omega_i", "rad/s", kResponseDigits},
-               {"Re z_i", "rad/s", kResponseDigits},
-               {"Im z_i", "rad/s", kResponseDigits},
-               {"r_i", "", kResponseDigits},
-               {"d_i", "rad/s", 6}}};
+  const bool off_axis = std::ranges::any_of(product.zeros_rad_per_s,
+                                            [](Complex z) { return is_non_minimum_phase(z); });
+  Table table{
+      fmt::format("Torque to {}{}", arm::to_string(product.sensor),
+                  off_axis ? " (zeros +-z_i; non-minimum phase where Re z_i is not 0)" : ""),
+      {{"i"},
+       {"omega_i", "rad/s", kResponseDigits},
+       {"Re z_i", "rad/s", kResponseDigits},
+       {"Im z_i", "rad/s", kResponseDigits},
+       {"r_i", "", kResponseDigits},
+       {"d_i", "rad/s", 6}}};
   const std::size_t zeros = product.zeros_rad_per_s.size();
   for (std::size_t i = 0; i < std::max(fractions.size(), zeros + 1); ++i) {
     const bool has_mode = i < fractions.size();
@@ -242,9 +247,9 @@ std::vector<std::string> chain_notes(const response::ResponseStudy& study) {
         fmt::format("lag of {} {:g} s", arm::to_string(stage.sensor), stage.lag.time_constant_s));
   }
   std::vector<std::string> notes;
-  if (!parts.empty()) notes.push_back(fmt::format("in the response: {}", fmt::join(parts, ", ")));
+  if (!parts.empty()) notes.push_back(fmt::format("included: {}", fmt::join(parts, ", ")));
   if (!study.left_out.empty()) {
-    notes.push_back(fmt::format("left out, not linear: {}", fmt::join(study.left_out, ", ")));
+    notes.push_back(fmt::format("not included (nonlinear): {}", fmt::join(study.left_out, ", ")));
   }
   return notes;
 }

@@ -34,7 +34,9 @@ Peak peak_of(const std::vector<double>& values) {
 std::string excitation_text(const SimulatedRun& run) {
   std::string text = response::describe(run.excitation, run.keys);
   if (!run.lines_Hz.empty()) text += fmt::format(", {} lines", run.lines_Hz.size());
-  if (!run.detection_Hz.empty()) text += fmt::format(", {} left out", run.detection_Hz.size());
+  if (!run.detection_Hz.empty())
+    text += fmt::format(", {} detection line{}", run.detection_Hz.size(),
+                        run.detection_Hz.size() == 1 ? "" : "s");
   return text;
 }
 
@@ -118,10 +120,16 @@ Table torque_table(const std::vector<SimulatedRun>& runs) {
 
 Table reading_table(const std::vector<SimulatedRun>& runs) {
   Table table{"Sensors",
-              {{"run"}, {"sensor"}, {"unit"}, {"peak"}, {"at", "s"}, {"last"}, {"noise", "", 3}}};
+              {{"run"},
+               {"sensor"},
+               {"unit"},
+               {"peak"},
+               {"peak time", "s"},
+               {"final value"},
+               {"noise", "", 3}}};
   const bool has_step_error =
       std::ranges::any_of(runs, [](const auto& run) { return !run.step_error.empty(); });
-  if (has_step_error) table.columns.push_back(error_column("step error"));
+  if (has_step_error) table.columns.push_back(error_column("step-size error"));
   for (const auto& run : runs) {
     for (std::size_t i = 0; i < run.record.channels.size(); ++i) {
       const auto& sensor = run.record.channels[i].sensor;
@@ -149,8 +157,8 @@ double relative_energy_residual(const response::EnergyBalance& energy) {
 
 Table energy_table(const std::vector<SimulatedRun>& runs) {
   Table table{
-      "Energy: work in = kinetic + potential at the end + losses in the hub's viscous friction, in "
-      "beam and air,\nin dry friction and in drag + residual, which is relative to the work",
+      "Energy balance: work in = kinetic + potential (at the end) + losses (viscous hub friction, "
+      "beam and air,\ndry friction, drag) + residual; residual relative to the work",
       {{"run"},
        {"work in", "J", 4},
        {"kinetic", "J", 4},
@@ -170,8 +178,8 @@ Table energy_table(const std::vector<SimulatedRun>& runs) {
 }
 
 Table hub_motion_table(const std::vector<SimulatedRun>& runs) {
-  Table table{"The hub in dry friction",
-              {{"run"}, {"reversals"}, {"stops"}, {"breakaways"}, {"time at rest", "s"}}};
+  Table table{"Stick and slip of the hub",
+              {{"run"}, {"reversals"}, {"stops"}, {"breakaways"}, {"stick time", "s"}}};
   for (const auto& run : runs) {
     const auto& summary = run.simulation.summary;
     table.add_row(

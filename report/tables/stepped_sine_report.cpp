@@ -78,16 +78,14 @@ measured::FrequencyRecord frequency_record(const SteppedSineRun& run) {
 }
 
 Table stepped_sine_table(const std::vector<SteppedSineRun>& runs) {
-  Table table{
-      "Stepped sine: change is the largest difference of a response from the first measured "
-      "cycle to the last",
-      {{"run"},
-       {"frequencies"},
-       {"samples/period"},
-       {"measured", "s", 4},
-       {"change", "", 2},
-       {"payload", "kg", 4},
-       {"excitation"}}};
+  Table table{"Stepped sine (change: largest difference between the first and last measured cycle)",
+              {{"run"},
+               {"frequencies"},
+               {"samples/period"},
+               {"measured", "s", 4},
+               {"change", "", 2},
+               {"payload", "kg", 4},
+               {"excitation"}}};
   for (const auto& run : runs) {
     const auto& summary = run.measured.summary;
     table.add_row({run.id, static_cast<std::int64_t>(run.measured.frequency_Hz.size()),
@@ -99,7 +97,7 @@ Table stepped_sine_table(const std::vector<SteppedSineRun>& runs) {
 }
 
 Table stepped_response_table(const std::vector<SteppedSineRun>& runs) {
-  Table table{"Measured responses, their largest and smallest size",
+  Table table{"Measured frequency responses: largest and smallest magnitude",
               {{"run"},
                {"sensor"},
                {"unit"},
@@ -125,8 +123,8 @@ Table stepped_response_table(const std::vector<SteppedSineRun>& runs) {
 }
 
 Table stepped_hub_motion_table(const std::vector<SteppedSineRun>& runs) {
-  Table table{"The hub in dry friction, in the measured cycles",
-              {{"run"}, {"reversals"}, {"stops"}, {"time at rest", "s"}}};
+  Table table{"Stick and slip of the hub in the measured cycles",
+              {{"run"}, {"reversals"}, {"stops"}, {"stick time", "s"}}};
   for (const auto& run : runs) {
     const auto& summary = run.measured.summary;
     table.add_row({run.id, summary.reversals, summary.stops, summary.stick_time_s});

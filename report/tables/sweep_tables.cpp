@@ -119,8 +119,9 @@ std::string places_of(const SweepCurve& curve) {
 std::string caption_of(const compare::SweepFamily& family) {
   if (!family.zeros_of)
     return family.damped ? "Poles with damping, |s| of each track" : "Poles, undamped";
-  return fmt::format("Zeros of torque to {}{}", arm::to_string(*family.zeros_of),
-                     family.is_ordered() ? "" : ", |s| of each track");
+  return fmt::format(
+      "Zeros of torque to {}{}", arm::to_string(*family.zeros_of),
+      family.is_ordered() ? "" : ", |s| of each track (real or complex: non-minimum phase)");
 }
 
 /// What one of them is called in its table.
@@ -168,21 +169,21 @@ Table modes_table(const SweepResult& result, const char* caption, const char* un
 std::string_view word_for(SweepEvent::Kind kind) {
   switch (kind) {
     case SweepEvent::Kind::appears_beyond:
-      return "comes from beyond";
+      return "enters the range";
     case SweepEvent::Kind::leaves_beyond:
-      return "leaves beyond";
+      return "leaves the range";
     case SweepEvent::Kind::appears:
       return "appears";
     case SweepEvent::Kind::vanishes:
       return "vanishes";
     case SweepEvent::Kind::meet:
-      return "meets";
+      return "coalesces with";
     case SweepEvent::Kind::part:
-      return "parts from";
+      return "separates from";
     case SweepEvent::Kind::ambiguous:
-      return "not clear which is which";
+      return "assignment ambiguous";
     case SweepEvent::Kind::seam:
-      return "does not fit the row before";
+      return "inconsistent with the previous row";
   }
   return "";
 }
@@ -193,7 +194,7 @@ std::string sweep_axes_lines(const SweepResult& result) {
     const std::string unit = unit_of(axis);
     lines += fmt::format("{} from {} to {}{}{}, {} values{}\n", axis.parameter.name,
                          axis.values.front(), axis.values.back(), unit.empty() ? "" : " ", unit,
-                         axis.values.size(), axis.logarithmic ? " at equal ratios" : "");
+                         axis.values.size(), axis.logarithmic ? " (logarithmic)" : "");
   }
   return lines;
 }
@@ -229,7 +230,7 @@ std::vector<Table> sweep_range_tables(const SweepResult& result) {
 
 Table sweep_events_table(const SweepResult& result, std::size_t most) {
   const auto& last = result.task.axes.back();
-  Table table{"What happens to the tracks", {{"roots"}, {"track"}, {"what"}, {"other"}}};
+  Table table{"Events along the tracks", {{"roots"}, {"track"}, {"event"}, {"other"}}};
   const bool has_rows = result.task.axes.size() > 1;
   if (has_rows) {
     const auto& first = result.task.axes.front();
@@ -255,7 +256,7 @@ Table sweep_events_table(const SweepResult& result, std::size_t most) {
 
 Table sweep_agreement_table(const SweepResult& result) {
   Table table{"Largest difference from " + result.task.models.front().name,
-              {{"quantity"}, {"model"}, error_column("worst")}};
+              {{"quantity"}, {"model"}, error_column("largest difference")}};
   table.columns.push_back({"no."});
   for (std::size_t k = 0; k < result.task.axes.size(); ++k) {
     table.columns.push_back({place_column(result, k), unit_of(result.task.axes[k]), kPlaceDigits});
@@ -292,9 +293,10 @@ std::string sweep_verdict_line(const SweepResult& result) {
                        worst->model, worst->missing, worst->missing + worst->compared,
                        result.task.describe(worst->first_missing_point));
   }
-  return fmt::format("{}: {} by {} differ most, by {:.2g} (tolerance {:g}) at {}\n",
-                     worst->agrees() ? "Agree" : "DISAGREE", worst->quantity, worst->model,
-                     worst->worst, worst->tolerance, result.task.describe(worst->worst_point));
+  return fmt::format(
+      "{0}: largest relative difference {3:.2g} in {1} of {2} (tolerance {4:g}) at {5}\n",
+      worst->agrees() ? "Agree" : "DISAGREE", worst->quantity, worst->model, worst->worst,
+      worst->tolerance, result.task.describe(worst->worst_point));
 }
 
 }  // namespace flexarm::report

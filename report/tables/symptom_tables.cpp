@@ -1,6 +1,7 @@
 #include "report/tables/symptom_tables.hpp"
 
 #include "report/tables/text_table.hpp"
+#include "report/tables/zero_kind.hpp"
 
 #include <fmt/format.h>
 
@@ -15,7 +16,7 @@ using diagnose::Symptom;
 using diagnose::Symptoms;
 
 Column probability_column() {
-  return error_column("probability");
+  return error_column("p-value");
 }
 
 Cell number(const std::optional<double>& value) {
@@ -56,7 +57,7 @@ std::string what_is_wrong_text(const Symptoms& symptoms, std::size_t most_lines)
     if (lines > most_lines) break;
     told.push_back(one);
   }
-  std::string text = "What is wrong without causes\n";
+  std::string text = "Residual analysis of the baseline\n";
   for (const Symptom& one : symptoms.statements) {
     if (std::ranges::find(told, &one) == told.end()) continue;
     text += to_paragraph("- " + one.text, 2);
@@ -65,14 +66,14 @@ std::string what_is_wrong_text(const Symptoms& symptoms, std::size_t most_lines)
 }
 
 Table symptom_table(const Symptoms& symptoms) {
-  Table table{"What is wrong",
+  Table table{"Findings of the residual analysis",
               {{.name = "kind"},
                {.name = "significant"},
-               {.name = "deviate", .significant_digits = 3},
+               {.name = "deviate", .unit = "sigma", .significant_digits = 3},
                probability_column(),
                {.name = "run"},
                {.name = "sensor"},
-               {.name = "statement"}}};
+               {.name = "finding"}}};
   for (const Symptom& one : symptoms.statements) {
     table.add_row({std::string(to_string(one.kind)), yes(one.is_significant), one.deviate,
                    one.probability, one.run, one.sensor, one.text});
@@ -81,7 +82,7 @@ Table symptom_table(const Symptoms& symptoms) {
 }
 
 Table band_table(const Symptoms& symptoms) {
-  Table table{"Error by band",
+  Table table{"NRMSE by frequency band",
               {{.name = "run"},
                {.name = "sensor"},
                {.name = "band"},
@@ -89,9 +90,9 @@ Table band_table(const Symptoms& symptoms) {
                {.name = "to", .unit = "Hz", .significant_digits = 3},
                {.name = "torque rms", .unit = "N m", .significant_digits = 3},
                {.name = "payload", .unit = "kg", .significant_digits = 3},
-               {.name = "before", .unit = "%", .significant_digits = 3},
-               {.name = "after", .unit = "%", .significant_digits = 3},
-               {.name = "noise", .unit = "%", .significant_digits = 3},
+               {.name = "baseline", .unit = "%", .significant_digits = 3},
+               {.name = "extended arm", .unit = "%", .significant_digits = 3},
+               {.name = "noise floor", .unit = "%", .significant_digits = 3},
                probability_column()}};
   for (const auto& error : symptoms.bands) {
     table.add_row({error.run_id, error.sensor, error.band.name, error.band.from_Hz,
@@ -106,24 +107,28 @@ Table root_shift_table(const Symptoms& symptoms) {
   Table table{"Poles and zeros",
               {{.name = "run"},
                {.name = "payload", .unit = "kg"},
-               {.name = "root"},
+               {.name = "pole or zero"},
                {.name = "order"},
                {.name = "quantity"},
                {.name = "unit"},
                {.name = "measured"},
                {.name = "std error", .significant_digits = 2},
-               {.name = "before"},
-               {.name = "after"},
+               {.name = "baseline"},
+               {.name = "extended arm"},
                {.name = "shift", .unit = "%", .significant_digits = 3},
-               {.name = "deviates", .significant_digits = 3}}};
+               {.name = "deviation", .unit = "sigma", .significant_digits = 3}}};
   for (const auto& shift : symptoms.roots) {
+    const auto& damping = shift.damping_ratio;
+    std::string name = shift.zero_of ? arm::to_string(*shift.zero_of) + " zero" : "pole";
+    if (shift.zero_of && damping && is_non_minimum_phase(damping->measured, damping->std_error)) {
+      name += " (non-minimum phase)";
+    }
     const auto add = [&](const std::string& quantity, const std::string& unit,
                          const std::optional<diagnose::RootNumber>& number) {
       if (!number) return;
-      table.add_row({shift.run, shift.payload_kg,
-                     shift.zero_of ? arm::to_string(*shift.zero_of) + " zero" : "pole",
-                     std::int64_t{shift.order}, quantity, unit, number->measured, number->std_error,
-                     number->before, number->after, number->shift_percent(), number->deviates()});
+      table.add_row({shift.run, shift.payload_kg, name, std::int64_t{shift.order}, quantity, unit,
+                     number->measured, number->std_error, number->before, number->after,
+                     number->shift_percent(), number->deviates()});
     };
     add("frequency", "Hz", shift.frequency_Hz);
     add("damping ratio", "1", shift.damping_ratio);
@@ -132,19 +137,19 @@ Table root_shift_table(const Symptoms& symptoms) {
 }
 
 Table hub_torque_table(const Symptoms& symptoms) {
-  Table table{"Residual torque at the hub",
-              {{.name = "depends on"},
+  Table table{"Residual hub torque",
+              {{.name = "term"},
                {.name = "accepted"},
                {.name = "coefficient"},
                {.name = "std error", .significant_digits = 2},
                {.name = "unit"},
-               {.name = "at"},
-               {.name = "share", .unit = "%", .significant_digits = 3},
+               {.name = "threshold or cycles"},
+               {.name = "explained share", .unit = "%", .significant_digits = 3},
                probability_column()}};
   const auto add = [&](const diagnose::HubTorqueTerm& term, bool accepted) {
     const bool has_place = term.kind == diagnose::HubTorqueKind::ripple ||
                            term.kind == diagnose::HubTorqueKind::saturation;
-    table.add_row({std::string(to_string(term.kind)), yes(accepted), term.coefficient,
+    table.add_row({std::string(term_name(term.kind)), yes(accepted), term.coefficient,
                    term.std_error, term.unit, has_place ? Cell(term.at) : Cell(kMissing),
                    100.0 * term.share, term.probability});
   };
@@ -154,7 +159,7 @@ Table hub_torque_table(const Symptoms& symptoms) {
 }
 
 Table run_value_table(const Symptoms& symptoms) {
-  Table table{"Refitted run by run",
+  Table table{"Estimates from each run",
               {{.name = "effect"},
                {.name = "parameter"},
                {.name = "run"},
@@ -177,7 +182,7 @@ Table distortion_table(const Symptoms& symptoms) {
                {.name = "parity"},
                {.name = "lines"},
                {.name = "level", .unit = "dB", .significant_digits = 3},
-               {.name = "noise", .unit = "dB", .significant_digits = 3},
+               {.name = "noise floor", .unit = "dB", .significant_digits = 3},
                probability_column()}};
   for (const auto& run : symptoms.distortion) {
     for (std::size_t c = 0; c < run.sensors.size(); ++c) {

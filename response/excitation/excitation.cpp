@@ -41,7 +41,7 @@ void require_band(const std::string& kind, double from_Hz, double to_Hz, const a
   if (!(to_Hz > from_Hz && to_Hz <= grid.nyquist_Hz())) {
     throw arm::out_of_range(
         kind + ".to", to_Hz, "Hz",
-        fmt::format("above {:.6g} Hz and at most half the sampling frequency, {:.6g} Hz", from_Hz,
+        fmt::format("above {:.6g} Hz and at most the Nyquist frequency, {:.6g} Hz", from_Hz,
                     grid.nyquist_Hz()));
   }
 }
@@ -65,10 +65,10 @@ Lines lines_between(double from_Hz, double to_Hz, const SampleGrid& period) {
 }
 
 InputError no_line(const std::string& kind, double from_Hz, double to_Hz, double spacing_Hz) {
-  return InputError(fmt::format(
-      "{}: no line between {:.6g} Hz and {:.6g} Hz, where lines are {:.6g} Hz apart; widen the "
-      "band or simulate longer",
-      kind, from_Hz, to_Hz, spacing_Hz));
+  return InputError(
+      fmt::format("{}: no spectral line between {:.6g} Hz and {:.6g} Hz (line spacing {:.6g} Hz); "
+                  "widen the band or increase the duration",
+                  kind, from_Hz, to_Hz, spacing_Hz));
 }
 
 void scale_to_rms(std::vector<double>& torque_N_m, double wanted_N_m) {
@@ -81,7 +81,8 @@ SampledTorque sampled(const BangBang& signal, const SampleGrid& grid) {
   require_time("bang-bang.start", signal.start_s, grid);
   require_time("bang-bang.pulse", signal.pulse_s, grid);
   if (signal.pairs < 0) {
-    throw arm::out_of_range("bang-bang.pairs", signal.pairs, "", "1 or more, or 0 to fill");
+    throw arm::out_of_range("bang-bang.pairs", signal.pairs, "",
+                            "0 (to the end of the run), or 1 or more");
   }
   const std::size_t start = nearest_sample(signal.start_s, grid);
   const std::size_t pulse = nearest_sample(signal.pulse_s, grid);
@@ -156,16 +157,16 @@ SampledTorque sampled(const Multisine& signal, const SampleGrid& grid) {
   require_band("multisine", signal.from_Hz, signal.to_Hz, arm::kNotNegative, grid);
   if (signal.detection_group < 0 || signal.detection_group == 1) {
     throw arm::out_of_range("multisine.detection", signal.detection_group, "",
-                            "2 or more lines of which one is left out, or 0");
+                            "0, or at least 2: one of so many odd lines is a detection line");
   }
   const SampleGrid period{period_of(signal, grid), grid.period_s};
   const auto factor = static_cast<double>(largest_prime_factor(period.samples));
   if (static_cast<double>(period.samples) * factor > kMostTransformWork) {
-    throw InputError(fmt::format(
-        "multisine: a period of {} samples has a prime factor too large to be transformed; {} "
-        "samples, {:.9g} s, would do",
-        period.samples, next_smooth_number(period.samples),
-        static_cast<double>(next_smooth_number(period.samples)) * grid.period_s));
+    throw InputError(
+        fmt::format("multisine: a period of {} samples has a prime factor too large for the FFT; "
+                    "use {} samples, {:.9g} s",
+                    period.samples, next_smooth_number(period.samples),
+                    static_cast<double>(next_smooth_number(period.samples)) * grid.period_s));
   }
   Lines lines = lines_between(signal.from_Hz, signal.to_Hz, period);
   if (lines.first % 2 == 0) ++lines.first;

@@ -51,8 +51,8 @@ struct RandomNoise {
 /// Random-phase odd multisine: sum over odd k of A cos(2 pi k t/period + phase_k), lines between
 /// two frequencies, A = rms sqrt(2/lines), phases uniform. Odd lines leave the even ones free for
 /// what even nonlinearities answer; of each `detection_group` lines next to each other one, drawn
-/// at random, may be left out too, for the odd nonlinearities (Pintelon and Schoukens, System
-/// Identification, 2012).
+/// at random, may be left out too, for the odd nonlinearities
+/// [PintelonSchoukens2012].
 struct Multisine {
   double rms_N_m = 0.05;
   double from_Hz = 0.1;

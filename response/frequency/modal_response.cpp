@@ -87,8 +87,8 @@ void require_consistent(const arm::ModalModel& model, std::span<const arm::Senso
       Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(damping, Eigen::EigenvaluesOnly)
           .eigenvalues()(0);
   if (lowest < -rounding) {
-    throw std::invalid_argument(fmt::format(
-        "damping matrix: eigenvalue {} rad/s feeds energy into the arm; 0 or more", lowest));
+    throw std::invalid_argument(
+        fmt::format("damping matrix: eigenvalue {} rad/s; must be 0 or more", lowest));
   }
 }
 

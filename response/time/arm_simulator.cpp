@@ -32,10 +32,8 @@ constexpr std::size_t kProgressInterval = 1 << 14;
 constexpr double kFitForceTolerance = 1e-9;
 
 arm::InputError too_large(const std::string& what, double time_s) {
-  return arm::InputError(
-      fmt::format("{} at {:.6g} s: too large for a number; the torque must be smaller, or the time "
-                  "shorter",
-                  what, time_s));
+  return arm::InputError(fmt::format(
+      "{} at {:.6g} s: numeric overflow; reduce the torque or the duration", what, time_s));
 }
 
 /// Samples per period of the highest mode.

@@ -147,7 +147,7 @@ void DrivenArm::drive_period(std::vector<std::vector<double>>* readings) {
   // The sine begins each period anew: its rounding does not add up.
   put(state(), is_held());
   if (!stepper_->state().allFinite()) {
-    throw arm::InputError("motion: too large for a number; the torque must be smaller");
+    throw arm::InputError("motion: numeric overflow; reduce the torque");
   }
   for (std::size_t k = 0; k < pieces_.size(); ++k) {
     const double time_s = static_cast<double>(k) * sample_time_s_;

@@ -16,8 +16,8 @@ class RandomNumbers {
 
   /// Uniform in (0, 1): (the upper 53 bits + 1/2) 2^-53.
   double uniform();
-  /// Normal with mean 0 and standard deviation 1: sqrt(-2 log u) cos(2 pi v) of uniform u, v (Box
-  /// and Muller 1958).
+  /// Normal with mean 0 and standard deviation 1: sqrt(-2 log u) cos(2 pi v) of uniform u, v
+  /// [BoxMuller1958].
   double normal();
   /// Whole, uniform from 0 to `count` - 1, of one uniform number; `count` far below 2^53.
   std::size_t below(std::size_t count);

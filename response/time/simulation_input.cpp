@@ -29,7 +29,7 @@ void require_simulable(const ArmParts& parts, std::span<const double> torque_N_m
     if (std::abs(parts.actuator.mapped(torque_N_m[k])) <= kLargest) continue;
     if (std::isfinite(torque_N_m[k])) {
       throw arm::InputError(
-          fmt::format("torque = {} N m at {:.6g} s: too large for a number behind the actuator",
+          fmt::format("torque = {} N m at {:.6g} s: numeric overflow in the actuator model",
                       torque_N_m[k], static_cast<double>(k) * options.sample_time_s),
           "torque");
     }

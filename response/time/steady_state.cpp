@@ -87,8 +87,8 @@ class Shooting {
     return slope_.solve(state - after + drift);
   }
 
-  /// Newton's method, damped by the natural monotonicity test (Deuflhard, Newton Methods for
-  /// Nonlinear Problems, 2004, section 3.3): a step is halved until the next one with the same
+  /// Newton's method, damped by the natural monotonicity test
+  /// ([Deuflhard2004], section 3.3): a step is halved until the next one with the same
   /// derivative is shorter.
   bool newton() {
     const Index n = found_.state.size();

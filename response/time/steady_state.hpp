@@ -23,7 +23,7 @@ struct SteadyState {
   long periods = 0;    ///< driven in all
 };
 
-/// The motion that is left when the transient has died out, by shooting (Aprille and Trick 1972):
+/// The motion that is left when the transient has died out, by shooting [AprilleTrick1972]:
 /// Newton's method on F(X) - X = 0, F the state after one period, its derivative by differences.
 /// For a linear arm that is one step, and exact. A lightly damped transient, which takes thousands
 /// of periods to die out, thus costs some tens.

@@ -49,8 +49,8 @@ int StepPlan::substeps(double length_s) const {
   if (!is_linear_) count = std::max(count, std::ceil(phase_rad(length_s) / largest_phase));
   if (!(count <= kMostSubsteps)) {
     throw arm::InputError(fmt::format(
-        "effects.{}: needs {:g} inner steps a sample of {} s for an arm with a rate of "
-        "{:g} rad/s; must be {} or fewer: damp the arm less, or sample it faster",
+        "effects.{}: needs {:g} inner steps per sample of {} s (fastest rate {:g} rad/s), at most "
+        "{}: reduce the damping or the sampling period",
         forces_->effect_in_steps(), count, h, arm_->fastest_rate_rad_per_s, kMostSubsteps));
   }
   return std::max(1, static_cast<int>(count));

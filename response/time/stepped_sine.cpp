@@ -101,9 +101,8 @@ void require_valid(const SteppedSine& sine) {
     require_in_range(key_name("from"), band.from_Hz, "Hz", arm::kPositive);
     require_in_range(key_name("to"), band.to_Hz, "Hz", {band.from_Hz, false});
     if (band.from_Hz <= last_Hz) {
-      throw arm::out_of_range(
-          key_name("bands"), band.from_Hz, "Hz",
-          fmt::format("above {}, where the band before it ends: bands ascend", last_Hz));
+      throw arm::out_of_range(key_name("bands"), band.from_Hz, "Hz",
+                              fmt::format("above {}, the end of the previous band", last_Hz));
     }
     last_Hz = band.to_Hz;
   }
@@ -144,8 +143,7 @@ std::vector<double> frequencies_Hz(const SteppedSine& sine) {
     }
     if (steps + 1.0 + static_cast<double>(frequencies.size()) > kMostSineFrequencies) {
       throw InputError(
-          fmt::format("{}: makes more than {} frequencies; a coarser step, or a "
-                      "narrower band, makes fewer",
+          fmt::format("{}: more than {} frequencies; use a larger step or a narrower band",
                       key_name("step"), kMostSineFrequencies));
     }
     for (int k = 0; k <= static_cast<int>(steps); ++k) {
@@ -154,7 +152,7 @@ std::vector<double> frequencies_Hz(const SteppedSine& sine) {
   }
   if (std::ranges::adjacent_find(frequencies, std::greater_equal()) != frequencies.end()) {
     throw arm::out_of_range(key_name("step"), sine.step_Hz, "Hz",
-                            "so large that a sum of frequency and step is another number");
+                            "large enough to change the frequency in double precision");
   }
   return frequencies;
 }
@@ -182,11 +180,10 @@ SteppedSine stepped_sine_of(const std::vector<std::pair<std::string, std::string
     return std::ranges::any_of(keys, [&](const auto& key) { return key.first == name; });
   };
   if (is_given("bands") && (is_given("from") || is_given("to"))) {
-    throw InputError(
-        fmt::format("{}: is given beside from or to; give one of them", key_name("bands")));
+    throw InputError(fmt::format("{}: not together with from or to", key_name("bands")));
   }
   if (is_given("step") && is_given("points")) {
-    throw InputError(fmt::format("{}: is given beside step; give one of them", key_name("points")));
+    throw InputError(fmt::format("{}: not together with step", key_name("points")));
   }
   for (const auto& [key, value] : keys) {
     if (set(sine, key, value)) continue;

@@ -49,11 +49,11 @@ void require_valid(const ArmParts& parts, std::span<const arm::Sensor> sensors,
   require_simulable(parts, extremes, stepping);
   if (arm.stiffness.minCoeff() < 0.0) {
     throw arm::InputError(
-        "stepped-sine: the arm stands up and falls: it has no steady state; a run of another "
-        "excitation shows how it falls");
+        "stepped-sine: the inverted arm is unstable and has no steady state; use another "
+        "excitation");
   }
   if (!options.imperfections.empty() && options.imperfections.size() != sensors.size()) {
-    throw arm::InputError(fmt::format("noise: of {} sensors: must be of all {}, or none",
+    throw arm::InputError(fmt::format("noise: given for {} sensors; must be for all {} or none",
                                       options.imperfections.size(), sensors.size()));
   }
 }
@@ -106,9 +106,9 @@ class Measuring {
     for (std::size_t j = 0; j < sensors_.size(); ++j) {
       const auto part = correlation(samples_per_period).of(made.readings[j]);
       if (!std::isfinite(std::abs(part.whole))) {
-        throw arm::InputError(fmt::format(
-            "{} at {} Hz: too large for a number; the torque must be smaller, or settle shorter",
-            arm::to_string(sensors_[j]), frequency_Hz));
+        throw arm::InputError(
+            fmt::format("{} at {} Hz: numeric overflow; reduce the torque or the settling time",
+                        arm::to_string(sensors_[j]), frequency_Hz));
       }
       made.values.push_back(part.whole / made.sine_N_m);
       const auto& first = part.cycles.front();
@@ -165,10 +165,10 @@ class Measuring {
   void keep(std::size_t sensor, std::vector<double> readings) {
     readings_ += static_cast<double>(readings.size());
     if (readings_ > kMostReadings) {
-      throw arm::InputError(fmt::format(
-          "stepped-sine.cycles = {}: makes more than {:g} readings with noise; must be fewer, or "
-          "fewer frequencies",
-          cycles_, kMostReadings));
+      throw arm::InputError(
+          fmt::format("stepped-sine.cycles = {}: more than {:g} samples with noise; use fewer "
+                      "cycles or frequencies",
+                      cycles_, kMostReadings));
     }
     kept_[sensor].push_back(std::move(readings));
   }

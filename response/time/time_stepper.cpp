@@ -205,8 +205,7 @@ void TimeStepper::book(double until) {
 void TimeStepper::halve(double length_s, double u0, double u1, int halvings) {
   if (halvings >= kMostHalvings) {
     throw std::runtime_error(fmt::format(
-        "simulation: the forces of an inner step at {} s do not converge, however short it is",
-        time_s_));
+        "simulation: inner step at {} s does not converge at the minimum step size", time_s_));
   }
   ++summary_.halved_steps;
   const double between = 0.5 * (u0 + u1);

@@ -43,7 +43,7 @@ TEST_F(Diagnose, NamesTheCauseAndWritesAnArmThatOtherCommandsAccept) {
   ASSERT_EQ(ended.status, 0) << ended.errors;
   EXPECT_EQ(ended.errors, "");
   EXPECT_THAT(ended.output, HasSubstr("Explained by payload_mass"));
-  EXPECT_THAT(ended.output, HasSubstr("is kept for it, the others are fitted"));
+  EXPECT_THAT(ended.output, HasSubstr("is used for validation, the others for estimation"));
   EXPECT_THAT(names_in("out"),
               IsSupersetOf({"causes.csv", "channels.csv", "diagnosis.json", "extended.toml"}));
   const Json json = Json::parse(text_of("out/diagnosis.json"));

@@ -24,7 +24,7 @@ TEST_F(Flexarm, AloneItPrintsItsHelp) {
   const Ended alone = run({});
   EXPECT_EQ(alone.status, 0);
   EXPECT_EQ(alone.errors, "");
-  EXPECT_THAT(alone.output, HasSubstr("A first session:"));
+  EXPECT_THAT(alone.output, HasSubstr("Typical session:"));
   EXPECT_EQ(run({"--help"}).output, alone.output);
 }
 
@@ -92,7 +92,7 @@ TEST_F(Flexarm, NewDoesNotOverwriteUnlessForced) {
   run({"new", "rig.toml"});
   const std::string starter = text_of("rig.toml");
   fs::resize_file(folder_ / "rig.toml", 10);
-  expect_refused(run({"new", "rig.toml"}), "rig.toml: exists already; --force replaces it");
+  expect_refused(run({"new", "rig.toml"}), "rig.toml: already exists; --force overwrites it");
   EXPECT_EQ(text_of("rig.toml"), starter.substr(0, 10));
   EXPECT_EQ(run({"new", "--force", "rig.toml"}).status, 0);
   EXPECT_EQ(text_of("rig.toml"), starter);

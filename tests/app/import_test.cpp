@@ -102,10 +102,11 @@ const std::vector<std::string> kRigMapping = {
 TEST_F(Import, ALogOfTheRigsShapeNeedsOneMapping) {
   write("rig.csv", rig_shaped_log());
   const Ended bare = import({"rig.csv"});
-  expect_refused(bare,
-                 "rig.csv: torque cannot be told; columns: t_s, i1_cmd_A, i1_meas_A, hub1_ref_deg, "
-                 "hub1_deg, tipdefl1_deg, hub2_deg; say which is with --column "
-                 "torque=NAME:UNIT:SCALE");
+  expect_refused(
+      bare,
+      "rig.csv: torque: column not recognised; columns: t_s, i1_cmd_A, i1_meas_A, hub1_ref_deg, "
+      "hub1_deg, tipdefl1_deg, hub2_deg; assign one with --column "
+      "torque=NAME:UNIT:SCALE");
   std::vector<std::string> arguments = {"rig.csv", "--out", "rig"};
   arguments.insert(arguments.end(), kRigMapping.begin(), kRigMapping.end());
   const Ended ended = import(arguments);
@@ -191,18 +192,17 @@ TEST_F(Import, WhatCannotBeUsedIsOneLine) {
           "--column torqe=Room: torqe: unknown (did you mean "
           "torque?)");
   refused({"--column", "torque=Room:V"},
-          "--column torque=Room:V: unit = V: is none of N m, N mm; scale is needed then, "
-          "in N m per V");
+          "--column torque=Room:V: unit = V: not one of N m, N mm; give scale in N m per V");
   refused({"--column", "torque=Room:V:x"},
           "--column torque=Room:V:x: scale = x: must be a product of numbers and pi, as "
           "in 0.202*pi/180");
   refused({"--kind", "tme"}, "--kind tme: must be time or frf or modal (did you mean time?)");
-  refused({"--kind", "frf"}, "--kind frf: the file holds signals in time");
+  refused({"--kind", "frf"}, "--kind frf: the file contains time signals");
   refused({"--save-as", "a.xls"},
-          "--save-as a.xls: must be a file in .csv, .uff or .mat, or with --to csv or uff58 or "
+          "--save-as a.xls: must be a .csv, .uff or .mat file, or used with --to csv or uff58 or "
           "uff58b or mat");
   refused({"--to", "uff", "--save-as", "a.uff"}, "--to uff: must be csv or uff58 or uff58b or mat");
-  refused({"--to", "mat"}, "--to: is the format of a file that --save-as names");
+  refused({"--to", "mat"}, "--to: needs --save-as");
   EXPECT_THAT(import({"none.txt"}).errors, StartsWith("none.txt: "));
   EXPECT_THAT(names_in(), ElementsAre("log.txt"));
 }

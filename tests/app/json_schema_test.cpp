@@ -272,7 +272,7 @@ TEST_F(JsonSchema, WhatPlanWritesIsWhatTheDocumentSays) {
        written_by("[[run]]\nid = \"a\"\nkind = \"time\"\nsensors = [\"hub_angle\"]\n"
                   "excitation = { kind = \"step\" }\nduration = 0.5\nsample_time = 0.002\n"
                   "payload = { mass = 0.05 }\n")},
-      "flexarm.plan/1");
+      "flexarm.plan/2");
 }
 
 TEST_F(JsonSchema, WhatSweepWritesIsWhatTheDocumentSays) {

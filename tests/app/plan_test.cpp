@@ -40,11 +40,13 @@ TEST_F(PlanCommand, SaysWhatIsTiedAndProposesMore) {
   EXPECT_EQ(ended.status, 0) << ended.errors;
   EXPECT_THAT(
       ended.output,
-      AllOf(HasSubstr("3 of 3 effects show"),
-            HasSubstr("1 pair cannot be told, which ties them into: actuator_lag /\ntime_delay."),
-            HasSubstr("Which effect (row) can be told from which (column)"),
-            HasSubstr("What one run more would tell"), HasSubstr("The better plan"),
-            HasSubstr("\nnext: ")));
+      AllOf(
+          HasSubstr("3 of 3 effects are detectable"),
+          HasSubstr(
+              "1 pair is indistinguishable. Equivalence classes:\nactuator_lag / time_delay."),
+          HasSubstr("Distinguishability of an effect that is present (row) from another (column)"),
+          HasSubstr("Value of one additional run"), HasSubstr("Improved plan"),
+          HasSubstr("\nnext: ")));
 }
 
 TEST_F(PlanCommand, WorksAsItsHelpSays) {
@@ -52,28 +54,28 @@ TEST_F(PlanCommand, WorksAsItsHelpSays) {
   EXPECT_EQ(help.status, 0);
   const Ended ended = run(example_in(help.output));
   EXPECT_EQ(ended.status, 0) << ended.errors;
-  EXPECT_THAT(names_in(), testing::Contains("better-plan.toml"));
+  EXPECT_THAT(names_in(), testing::Contains("improved-plan.toml"));
 }
 
 TEST_F(PlanCommand, WritesABetterPlanThatItAccepts) {
   ASSERT_EQ(plan({"--write", "better.toml"}).status, 0);
   const Ended again = run({"plan", "rig.toml", "better.toml", "--effects", "time_delay"});
   EXPECT_EQ(again.status, 0) << again.errors;
-  EXPECT_THAT(again.output, HasSubstr("each can be told from every other"));
+  EXPECT_THAT(again.output, HasSubstr("all pairs are distinguishable"));
 }
 
 TEST_F(PlanCommand, WritesTablesAndAllOfItAsJson) {
   const Ended ended = plan({"--out", "planned", "--json", "out.json"});
   EXPECT_EQ(ended.status, 0) << ended.errors;
   EXPECT_EQ(names_in("planned"),
-            (std::vector<std::string>{"better-plan.toml", "effects.csv", "leads.csv", "plan.json",
+            (std::vector<std::string>{"effects.csv", "improved-plan.toml", "leads.csv", "plan.json",
                                       "separations.csv", "separations.svg"}));
   EXPECT_THAT(text_of("planned/separations.svg"), HasSubstr("actuator_lag"));
   const Json document = Json::parse(text_of("out.json"));
-  EXPECT_EQ(document["schema"], "flexarm.plan/1");
+  EXPECT_EQ(document["schema"], "flexarm.plan/2");
   EXPECT_EQ(document["effects"].size(), 3U);
   EXPECT_EQ(document["separations"].size(), 6U);
-  EXPECT_EQ(document["ties"].size(), 1U);
+  EXPECT_EQ(document["indistinguishable_pairs"].size(), 1U);
 }
 
 TEST_F(PlanCommand, RefusesWhatItCannotUse) {
@@ -89,11 +91,11 @@ TEST_F(PlanCommand, RefusesWhatItCannotUse) {
   const Ended unseen =
       run({"plan", "rig.toml", "measurement-plan.toml", "--effects", "coulomb_friction"});
   EXPECT_EQ(unseen.status, 2);
-  EXPECT_THAT(unseen.errors, HasSubstr("shows in none of these runs"));
+  EXPECT_THAT(unseen.errors, HasSubstr("has no influence on these runs"));
   const Ended over = plan({"--write", "measurement-plan.toml"});
   EXPECT_EQ(over.status, 2);
   EXPECT_EQ(text_of("measurement-plan.toml"), kHubPlan);
-  EXPECT_THAT(names_in(), Not(testing::Contains("better-plan.toml")));
+  EXPECT_THAT(names_in(), Not(testing::Contains("improved-plan.toml")));
 }
 
 TEST_F(PlanCommand, RefusesASensorThatTheArmCannotCarry) {

@@ -76,8 +76,9 @@ TEST_F(Response, WhatIsNotLinearIsLeftOutByName) {
   write_rig();
   const Ended ended = run({"response", "rig.toml", "--json", "out.json"});
   EXPECT_EQ(ended.status, 0) << ended.errors;
-  EXPECT_THAT(ended.output, HasSubstr("left out, not linear: coulomb_friction, torque_saturation"));
-  EXPECT_THAT(ended.output, HasSubstr("in the response: delay 0.001 s, actuator lag 0.002 s"));
+  EXPECT_THAT(ended.output,
+              HasSubstr("not included (nonlinear): coulomb_friction, torque_saturation"));
+  EXPECT_THAT(ended.output, HasSubstr("included: delay 0.001 s, actuator lag 0.002 s"));
   EXPECT_EQ(Json::parse(text_of("out.json"))["arms"][0]["left_out"],
             Json({"coulomb_friction", "torque_saturation"}));
 }
@@ -93,7 +94,8 @@ TEST_F(Response, TheFolderHoldsTablesAndDiagrams) {
 TEST_F(Response, AnUndampedArmHasNoNyquistDiagramAndItIsSaid) {
   const Ended ended = run({"response", "--out", "out", "--sensor", "hub_angle"});
   EXPECT_EQ(ended.status, 0) << ended.errors;
-  EXPECT_THAT(ended.output, HasSubstr("no Nyquist diagrams: no damped pole lies in the range"));
+  EXPECT_THAT(ended.output,
+              HasSubstr("no Nyquist diagrams: no damped pole in the frequency range"));
   EXPECT_THAT(names_in("out"), Not(Contains(HasSubstr("nyquist"))));
 }
 
@@ -174,7 +176,7 @@ TEST_F(Response, BadInputIsOneLineAndStatusTwo) {
   expect_refused(run({"response", "--frequencies", "1,5,2"}),
                  "--frequencies = 2 Hz: must be above 5 Hz, the one before");
   expect_refused(run({"response", "--frequencies", "1,5", "--to-Hz", "9"}),
-                 "--frequencies: not beside --from-Hz or --to-Hz");
+                 "--frequencies: not together with --from-Hz or --to-Hz");
   expect_refused(run({"response", "--from-Hz", "0"}), "--from-Hz = 0 Hz: must be above 0");
   expect_refused(run({"response", "--from-Hz", "9", "--to-Hz", "3"}),
                  "--to-Hz = 3 Hz: must be above 9 Hz");
@@ -182,14 +184,14 @@ TEST_F(Response, BadInputIsOneLineAndStatusTwo) {
   expect_refused(run({"response", "--modes", "0"}), "--modes = 0: must be 1 or more");
   expect_refused(run({"response", "--modes-alone"}), "--modes-alone: needs --state-space FILE");
   expect_refused(run({"response", "--state-space", "a.mat", "--payload-mass", "0,0.1"}),
-                 "--state-space: takes one arm; --payload-mass has several");
+                 "--state-space: needs one arm; --payload-mass has several values");
   expect_refused(run({"response", "--sensor", "strain@0.96"}),
-                 "sensor strain@0.96: the strain at the tip is zero at every s without "
-                 "payload.inertia, so it has no zeros to look for; place it below 0.96 m");
+                 "sensor strain@0.96: strain at the tip is identically zero without "
+                 "payload.inertia; place it below 0.96 m");
   EXPECT_THAT(run({"response", "--sensor", "tip_accelaration"}).errors,
               HasSubstr("did you mean tip_acceleration?"));
   EXPECT_THAT(run({"response", "--formulation", "fem", "--to-Hz", "1e6"}).errors,
-              HasSubstr("exact_tf has no such bound"));
+              HasSubstr("exact_tf has no limit"));
   EXPECT_THAT(names_in(), ElementsAre());
 }
 

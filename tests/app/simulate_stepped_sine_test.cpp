@@ -50,8 +50,8 @@ TEST_F(SteppedSine, IsARunOfTheMeasurementBesideOthers) {
   EXPECT_EQ(ended.errors, "");
   EXPECT_THAT(ended.output,
               AllOf(HasSubstr("bands 2.8:2.9/11.8:11.9 Hz, step 0.05 Hz, settle steady, cycles 4"),
-                    HasSubstr("rad/(N m)"), HasSubstr("\nEnergy: "), Not(HasSubstr("note:")),
-                    HasSubstr("flexarm identify out/measurement.toml")));
+                    HasSubstr("rad/(N m)"), HasSubstr("\nEnergy balance: "),
+                    Not(HasSubstr("note:")), HasSubstr("flexarm identify out/measurement.toml")));
   EXPECT_THAT(names_in("out"),
               ElementsAre("arm.toml", "bang-bang.csv", "bang-bang.svg", "fine-hub_angle.svg",
                           "fine-tip_acceleration.svg", "fine.csv", "measurement.toml"));
@@ -101,7 +101,7 @@ TEST_F(SteppedSine, TellsOfFrictionAndOfTransientsThatAreLeft) {
   const Ended steady = run({"simulate", "dry.toml", "--excitation",
                             "stepped-sine:from=2,to=20,points=7,amplitude=0.05"});
   EXPECT_EQ(steady.status, 0) << steady.errors;
-  EXPECT_THAT(steady.output, AllOf(HasSubstr("The hub in dry friction, in the measured cycles"),
+  EXPECT_THAT(steady.output, AllOf(HasSubstr("Stick and slip of the hub in the measured cycles"),
                                    Not(HasSubstr("note:")), Not(HasSubstr("Energy"))));
   const Ended early = run(
       {"simulate", "dry.toml", "--excitation", "stepped-sine:from=11,to=12,step=0.5,settle=0.5"});
@@ -144,21 +144,20 @@ TEST_F(SteppedSine, BadInputIsOneLineAndStatusTwo) {
           "stepped-sine.form: unknown (did you mean from?); allowed: amplitude, offset, from, to, "
           "bands, step, points, settle, cycles, id, payload, purpose");
   refused("step=-1", "stepped-sine.step = -1 Hz: must be a finite number above 0");
-  refused("from=3,from=4", "from: is given twice");
-  refused(
-      "bands=1:2/2:3",
-      "stepped-sine.bands = 2 Hz: must be above 2, where the band before it ends: bands ascend");
+  refused("from=3,from=4", "from: given twice");
+  refused("bands=1:2/2:3",
+          "stepped-sine.bands = 2 Hz: must be above 2, the end of the previous band");
   expect_refused(
       run({"simulate", "--excitation", "stepped-sin"}),
       "--excitation stepped-sin: excitation stepped-sin: unknown (did you mean "
       "stepped-sine?); allowed: bang-bang, step, random, multisine, chirp, stepped-sine");
   expect_refused(run({"simulate", "--excitation", "stepped-sine", "--duration", "3"}),
-                 "--duration: a stepped sine has its own; it is for other excitations");
+                 "--duration: not with a stepped sine");
   expect_refused(run({"simulate", "--excitation", "stepped-sine:id=a", "--check-step"}),
-                 "--check-step: is for runs in time; a is a stepped sine");
+                 "--check-step: only for time runs; a is a stepped sine");
   expect_refused(run({"simulate", "up.toml", "--excitation", "stepped-sine"}),
-                 "stepped-sine: stepped-sine: the arm stands up and falls: it has no steady state; "
-                 "a run of another excitation shows how it falls");
+                 "stepped-sine: stepped-sine: the inverted arm is unstable and has no steady "
+                 "state; use another excitation");
 }
 
 }  // namespace

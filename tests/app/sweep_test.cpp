@@ -23,7 +23,7 @@ TEST_F(Sweep, ThreeFormulationsAgreeAndTheLastLineSaysWhatIsNext) {
   EXPECT_THAT(ended.output,
               AllOf(StartsWith("aluminium link"), HasSubstr("11.86183"), HasSubstr("\nAgree: ")));
   EXPECT_THAT(ended.output,
-              testing::EndsWith("\nnext: curves and every value with  flexarm sweep --over "
+              testing::EndsWith("\nnext: write curves and all values with  flexarm sweep --over "
                                 "payload.mass=0:0.3:4 --out swept\n"));
   EXPECT_TRUE(names_in().empty());
 }
@@ -83,7 +83,7 @@ TEST_F(Sweep, FiguresOfThePaperAreSvgAndCsv) {
 
 TEST_F(Sweep, BadInputIsOneLineAndStatusTwoBeforeAnyWork) {
   expect_refused(run({"sweep"}),
-                 "--over: give one or two parameters, as in --over payload.mass=0:0.5:200");
+                 "--over: give one or two parameters, e.g. --over payload.mass=0:0.5:200");
   EXPECT_THAT(run({"sweep", "--over", "payload.mas=0:1:3", "--out", "out"}).errors,
               HasSubstr("(did you mean payload.mass?)"));
   expect_refused(run({"sweep", "--over", "payload.mass=-1:1:3", "--out", "out"}),
@@ -92,11 +92,11 @@ TEST_F(Sweep, BadInputIsOneLineAndStatusTwoBeforeAnyWork) {
                  "--formulation fme: unknown (did you mean fem?); allowed: exact_tf, fem, "
                  "assumed_modes");
   expect_refused(run({"sweep", "--over", "payload.mass=0,1", "--threads", "-1"}),
-                 "--threads = -1: must be from 1 to 1024, or 0 for one a core");
+                 "--threads = -1: must be from 1 to 1024, or 0 for one per core");
   expect_refused(run({"sweep", "--over", "payload.mass=0,1", "--resume"}),
                  "--resume: give the --out or --json of the interrupted sweep");
   expect_refused(run({"sweep", "--over", "payload.mass=0,1", "--resume", "--json", "out.json"}),
-                 "out.json.checkpoint: there is no checkpoint to go on from; start without "
+                 "out.json.checkpoint: no checkpoint found; start without "
                  "--resume");
   EXPECT_TRUE(names_in().empty());
 }
@@ -112,11 +112,11 @@ TEST_F(Sweep, CtrlCLeavesACheckpointFromWhichResumeMakesTheSameBytes) {
   const Ended ended = interrupt_flexarm(words("out.json"), SIGINT);
   ASSERT_EQ(ended.status, 130) << "it ended before it was interrupted: " << ended.errors;
   EXPECT_THAT(ended.errors, AllOf(StartsWith("flexarm: interrupted after "),
-                                  HasSubstr("the same command with --resume goes on from ")));
+                                  HasSubstr("continue with the same command and --resume from ")));
   EXPECT_THAT(names_in(), ElementsAre("out.json.checkpoint"));
 
   expect_refused(run({"sweep", "--over", "payload.mass=0,1", "--resume", "--json", "out.json"}),
-                 "out.json.checkpoint: is of another sweep: its grid is \"" + grid +
+                 "out.json.checkpoint: checkpoint of another sweep: grid is \"" + grid +
                      "\", not \"payload.mass=0,1\"");
   auto resumed = words("out.json");
   resumed.emplace_back("--resume");
@@ -133,20 +133,20 @@ TEST_F(Sweep, WithoutAnOutputAnInterruptionSaysThatNothingIsKept) {
   const Ended ended =
       interrupt_flexarm({"sweep", "--over", "payload.inertia=0:0.002:5000"}, SIGTERM);
   EXPECT_EQ(ended.status, 128 + SIGTERM);
-  EXPECT_THAT(ended.errors, HasSubstr("nothing is kept without --out or --json"));
+  EXPECT_THAT(ended.errors, HasSubstr("no checkpoint without --out or --json"));
 }
 
 TEST_F(Sweep, AnOptionForWhatIsSweptOverIsRefused) {
   expect_refused(run({"sweep", "--over", "payload.mass=0:1:3", "--payload-mass", "0.3"}),
-                 "--payload-mass: payload.mass is swept over and has no other value");
+                 "--payload-mass: payload.mass is a sweep parameter");
   expect_refused(run({"sweep", "--over", "eta=0:1:3", "--payload-mass", "0.3"}),
-                 "--payload-mass: payload_mass_ratio is swept over and has no other value");
+                 "--payload-mass: payload_mass_ratio is a sweep parameter");
   expect_refused(run({"sweep", "--over", "payload.inertia=0:1:3", "--payload-inertia", "0.3"}),
-                 "--payload-inertia: payload.inertia is swept over and has no other value");
+                 "--payload-inertia: payload.inertia is a sweep parameter");
   expect_refused(run({"sweep", "--over", "hub.inertia=1:2:3", "--hub-inertia", "0.3"}),
-                 "--hub-inertia: hub.inertia is swept over and has no other value");
+                 "--hub-inertia: hub.inertia is a sweep parameter");
   expect_refused(run({"sweep", "--figure", "18", "--payload-mass", "0.3"}),
-                 "--payload-mass: payload.mass is swept over and has no other value");
+                 "--payload-mass: payload.mass is a sweep parameter");
 }
 
 TEST_F(Sweep, EffectsOutsideTheLinearArmAreLeftOutAndNamed) {

@@ -28,7 +28,7 @@ TEST(Beam, TwoDescriptionsThatDisagreeAreRefused) {
     require_valid(beam);
     FAIL() << "a rigidity 3 % off the section's was accepted";
   } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("beam.flexural_rigidity = 3.8 N m^2 disagrees"));
+    EXPECT_THAT(error.what(), HasSubstr("beam.flexural_rigidity = 3.8 N m^2 differs"));
   }
 }
 

@@ -27,7 +27,7 @@ const std::vector<Payload> kPayloads = {{0, 0},    {1e-6L, 0}, {0.3L, 0},     {1
                                         {0, 0.1L}, {0, 1e-6L}, {0.5L, 0.02L}, {10, 0.1L}};
 
 TEST(BeamFrequencies, KnownRootsOfTheClassicalBeams) {
-  // Blevins, Formulas for Natural Frequency and Mode Shape (1979), table 8-1: seven digits.
+  // [Blevins1979], table 8-1: seven digits.
   const auto clamped_free = clamped_free_frequencies(3);
   EXPECT_NEAR(static_cast<double>(clamped_free[0]), 1.87510407, 1e-8);
   EXPECT_NEAR(static_cast<double>(clamped_free[1]), 4.69409113, 1e-8);

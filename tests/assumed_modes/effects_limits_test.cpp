@@ -129,7 +129,7 @@ TEST(EffectsLimits, AHangingChainInStrongGravity) {
 }
 
 TEST(EffectsLimits, AClampedColumnBucklesUnderItsOwnWeight) {
-  // Greenhill (1881): q l^3/EI = 7.8373, the root of J_{-1/3}(2/3 sqrt(q)).
+  // [Greenhill1881]: q l^3/EI = 7.8373, the root of J_{-1/3}(2/3 sqrt(q)).
   constexpr double kGreenhill = 7.837347438943;
   constexpr double kSpringIsNotAClamp = 1e-7;
   const arm::Arm clamped = with(unit_arm(0.1, 0.0, 0.0), "hub_spring", {{"stiffness", 1e9}});

@@ -75,7 +75,7 @@ TEST(Order, TenPolesAreReachedWithinTheIssuesDegreesOfFreedom) {
     return found;
   };
   const auto legendre = named_series("Legendre polynomials");
-  const auto fem = named_series("fem, 5 elements of rising degree");
+  const auto fem = named_series("fem, 5 elements of increasing degree");
   ASSERT_TRUE(legendre != series.end() && fem != series.end());
   EXPECT_LE(most_needed(*legendre), 36);
   EXPECT_LE(most_needed(*fem), 60);

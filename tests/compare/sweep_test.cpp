@@ -314,25 +314,25 @@ TEST_F(Sweep, ACheckpointOfAnotherSweepIsRefusedByName) {
   };
   EXPECT_EQ(refusal(task_over({"payload.mass=0:0.2:6"}), run),
             checkpoint().string() +
-                ": is of another sweep: its grid is \"payload.mass=0:0.2:5\", not "
+                ": checkpoint of another sweep: grid is \"payload.mass=0:0.2:5\", not "
                 "\"payload.mass=0:0.2:6\"");
   auto other_arm = task;
   other_arm.arm.hub.inertia_kg_m2 *= 2.0;
-  EXPECT_THAT(refusal(other_arm, run), HasSubstr("is of another sweep: its arm is"));
-  EXPECT_THAT(refusal(task_over({"payload.mass=0:0.2:5"}, 2), run), HasSubstr("its models is"));
+  EXPECT_THAT(refusal(other_arm, run), HasSubstr("checkpoint of another sweep: arm is"));
+  EXPECT_THAT(refusal(task_over({"payload.mass=0:0.2:5"}, 2), run), HasSubstr("models is"));
   auto other_questions = task;
   other_questions.questions.zeros = 3;
-  EXPECT_THAT(refusal(other_questions, run), HasSubstr("its questions is"));
+  EXPECT_THAT(refusal(other_questions, run), HasSubstr("questions is"));
   SweepRun other_version = run;
   other_version.program_version = "newer";
-  EXPECT_THAT(refusal(task, other_version), HasSubstr("its version is"));
+  EXPECT_THAT(refusal(task, other_version), HasSubstr("version is"));
 
   fs::resize_file(checkpoint(), fs::file_size(checkpoint()) - 8);
-  EXPECT_THAT(refusal(task, run), HasSubstr("or damaged"));
+  EXPECT_THAT(refusal(task, run), HasSubstr("not a valid sweep checkpoint"));
   std::ofstream(checkpoint()) << "not a checkpoint\n";
-  EXPECT_THAT(refusal(task, run), HasSubstr("or damaged"));
+  EXPECT_THAT(refusal(task, run), HasSubstr("not a valid sweep checkpoint"));
   fs::remove(checkpoint());
-  EXPECT_THAT(refusal(task, run), HasSubstr("there is no checkpoint"));
+  EXPECT_THAT(refusal(task, run), HasSubstr("no checkpoint found"));
 }
 
 TEST_F(Sweep, TheFirstPointThatAModelRefusesIsNamedWhateverTheThreads) {

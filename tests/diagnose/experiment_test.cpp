@@ -75,7 +75,7 @@ TEST_F(ExperimentFiles, WithADeadChannelLeaveItOutAndSaySo) {
   std::ranges::fill(record_in(made, 1).channels[2].values, 0.25);
   const Experiment read = read_experiment(write(made));
   EXPECT_EQ(std::get<measured::TimeRecord>(read.runs[1].data).channels.size(), 3U);
-  EXPECT_THAT(read.notices, testing::Contains(HasSubstr("tip_acceleration is left out")));
+  EXPECT_THAT(read.notices, testing::Contains(HasSubstr("tip_acceleration excluded")));
 }
 
 TEST_F(ExperimentFiles, WithATorqueThatIsZeroAreRefused) {
@@ -87,7 +87,7 @@ TEST_F(ExperimentFiles, WithATorqueThatIsZeroAreRefused) {
 TEST_F(ExperimentFiles, AllForValidationAreRefused) {
   Experiment made = simulated_experiment({}, {.duration_s = 1.0});
   for (auto& run : made.runs) run.run.purpose = Purpose::validation;
-  EXPECT_THAT(refusal(write(made)), HasSubstr("at least one must be for estimation"));
+  EXPECT_THAT(refusal(write(made)), HasSubstr("needs at least one estimation run"));
 }
 
 std::vector<measured::MeasuredRun> runs_with_payloads(const std::vector<double>& masses_kg) {
@@ -103,7 +103,7 @@ std::vector<measured::MeasuredRun> runs_with_payloads(const std::vector<double>&
 
 TEST(SplitPurposes, KeepsTheLastRunOfThePayloadWithMost) {
   auto runs = runs_with_payloads({0.0, 0.0, 0.1});
-  EXPECT_THAT(split_purposes(runs), HasSubstr("run 1 is kept"));
+  EXPECT_THAT(split_purposes(runs), HasSubstr("run 1 is used for validation"));
   EXPECT_EQ(runs[0].run.purpose, Purpose::estimation);
   EXPECT_EQ(runs[1].run.purpose, Purpose::validation);
   EXPECT_EQ(runs[2].run.purpose, Purpose::estimation);
@@ -111,7 +111,7 @@ TEST(SplitPurposes, KeepsTheLastRunOfThePayloadWithMost) {
 
 TEST(SplitPurposes, LeavesASingleRunForEstimation) {
   auto runs = runs_with_payloads({0.0});
-  EXPECT_THAT(split_purposes(runs), HasSubstr("not measured on data that were not"));
+  EXPECT_THAT(split_purposes(runs), HasSubstr("there is no validation"));
   EXPECT_EQ(runs[0].run.purpose, Purpose::estimation);
 }
 

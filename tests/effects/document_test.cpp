@@ -22,8 +22,8 @@ TEST(EffectsDocument, IsWhatTheRegistrySays) {
 
 TEST(EffectPage, NamesParametersPortAndKindsOfData) {
   const std::string page = report::effect_page(*find("stribeck_friction"));
-  for (const char* part :
-       {"static_torque", "rad/s", "hub_torque", "time records", "coulomb_friction, as a limit"}) {
+  for (const char* part : {"static_torque", "rad/s", "hub_torque", "time records",
+                           "limiting case: coulomb_friction"}) {
     EXPECT_THAT(page, testing::HasSubstr(part));
   }
 }

@@ -224,7 +224,7 @@ TEST(Certificate, GivesUpWithinItsBudget) {
   CertificateOptions options;
   options.max_function_values = 10'000;
   const auto zeros = ExactArm(arm).zeros(close_to_tip, 5).s_rad_per_s;
-  expect_refuted(certify_zeros(arm, close_to_tip, zeros, options), "count is not certain");
+  expect_refuted(certify_zeros(arm, close_to_tip, zeros, options), "root count not certified");
 }
 
 TEST(Certificate, IsRefusedWhereItWouldNotHold) {

@@ -119,7 +119,7 @@ TEST(EffectLimits, WeakGravityMakesAPendulumAndAFallingRod) {
 
 TEST(EffectLimits, AStandingColumnBucklesUnderTheKnownWeight) {
   // Clamped below, free above, under its own weight q per length: q l^3/EI = (9/4) j^2 with j the
-  // first zero of the Bessel function of order -1/3 (Greenhill 1881).
+  // first zero of the Bessel function of order -1/3 [Greenhill1881].
   const double j = boost::math::cyl_bessel_j_zero(-1.0 / 3.0, 1);
   const double critical = 2.25 * j * j;
   EXPECT_NEAR(critical, 7.8373, 5e-5);

@@ -167,7 +167,7 @@ double clamped_omega_squared(double weight) {
 }
 
 TEST(Gravity, BucklesAColumnAtGreenhillsLoad) {
-  // q l^3/EI = 9/4 j^2, j the first zero of J_{-1/3} (Greenhill 1881).
+  // q l^3/EI = 9/4 j^2, j the first zero of J_{-1/3} [Greenhill1881].
   const double critical = 2.25 * std::pow(boost::math::cyl_bessel_j_zero(-1.0 / 3.0, 1), 2);
   EXPECT_NEAR(critical, 7.8373, 5e-5);
   constexpr double kBeside = 1e-6;

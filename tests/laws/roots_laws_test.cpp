@@ -54,8 +54,8 @@ std::vector<double> squares(const std::vector<double>& lambdas) {
   return omega;
 }
 
-// Roots of the classical frequency equations; Blevins, Formulas for Natural Frequency and Mode
-// Shape (1979), table 8-1, carried to 13 digits with the equations named.
+// Roots of the classical frequency equations; [Blevins1979],
+// table 8-1, carried to 13 digits with the equations named.
 const std::vector<double> kClampedFree = {1.875104068712, 4.694091132974, 7.854757438238,
                                           10.995540734875, 14.137168391046};  // 1 + cos cosh = 0
 const std::vector<double> kPinnedFree = {3.926602312048, 7.068582745629, 10.210176122813,

@@ -85,13 +85,13 @@ const std::vector<Mistake> kMistakes = {
     {"EffectMisspelt", "# end\n", "[effects.columb_friction]\ntorque = 0.01\n",
      "10: effects.columb_friction: unknown effect (did you mean coulomb_friction?)" + kEffectNames},
     {"EffectWithoutATable", "# end\n", "[effects]\ncoulomb_friction = 0.01\n",
-     "11: effects.coulomb_friction = 0.01: a number; must be a table: one line "
+     "11: effects.coulomb_friction = 0.01: a number; must be a table: a line "
      "[effects.coulomb_friction], then its keys torque"},
     {"EffectSwitchedOnByTrue", "# end\n", "[effects]\ngravity = true\n",
-     "11: effects.gravity = true: a boolean; must be a table: one line [effects.gravity], then its "
+     "11: effects.gravity = true: a boolean; must be a table: a line [effects.gravity], then its "
      "keys acceleration"},
     {"EffectsAsANumber", "name = \"rig\"", "effects = 3",
-     "1: effects = 3: a number; must be a table: one line [effects], then its keys"},
+     "1: effects = 3: a number; must be a table: a line [effects], then its keys"},
     {"PayloadInQuotes", "# end\n", "[payload]\nmass = '1'\n",
      "11: payload.mass = \"1\": a string; must be a finite number, 0 or more [kg], without quotes "
      "or unit"},
@@ -115,7 +115,7 @@ const std::vector<Mistake> kMistakes = {
      "12: effects.sensor_lag.sensor: sensor hub_angel: unknown (did you mean hub_angle?)" +
          kSensorNames},
     {"SensorAsANumber", "# end\n", "[effects.sensor_lag]\ntime_constant = 1e-3\nsensor = 3\n",
-     "12: effects.sensor_lag.sensor = 3: a number; must be the name of a sensor in quotes, as in "
+     "12: effects.sensor_lag.sensor = 3: a number; must be a quoted sensor name, e.g. "
      "\"tip_acceleration\""},
     {"SensorOfAnotherEffect", "# end\n",
      "[effects.actuator_lag]\ntime_constant = 1e-3\nsensor = 'hub_angle'\n",
@@ -163,22 +163,24 @@ const std::vector<Mistake> kMistakes = {
     {"DensityMissing", "density = 2710\n", "",
      "2: beam.linear_density: missing; give it [kg/m], or width, thickness and density"},
     {"TwoRigiditiesThatDisagree", "[hub]\n", "flexural_rigidity = 36.9\n[hub]\n",
-     "8: beam.flexural_rigidity = 36.9 N m^2 disagrees with 3.68886 N m^2 from dimensions and "
+     "8: beam.flexural_rigidity = 36.9 N m^2 differs from 3.68886 N m^2 computed from dimensions "
+     "and "
      "material: give one of them, or two that agree within 0.1 %"},
     {"TwoDensitiesThatDisagree", "[hub]\n", "linear_density = 0.5\n[hub]\n",
-     "8: beam.linear_density = 0.5 kg/m disagrees with 0.164768 kg/m from dimensions and material: "
+     "8: beam.linear_density = 0.5 kg/m differs from 0.164768 kg/m computed from dimensions and "
+     "material: "
      "give one of them, or two that agree within 0.1 %"},
     {"RigidityThatOverflows", "youngs_modulus = 7.11e10", "youngs_modulus = 1e308\nwidth = 1e10\n#",
      "8: not TOML: key-value pair: cannot redefine existing floating-point 'width'; the line "
      "reads: width = 1e10"},
-    {"NameAsANumber", "\"rig\"", "7", "1: name = 7: a number; must be a text in quotes"},
+    {"NameAsANumber", "\"rig\"", "7", "1: name = 7: a number; must be a quoted string"},
     {"NameWithoutQuotes", "\"rig\"", "rig",
      "1: not TOML: value: could not determine value type; write text in quotes; the line reads: "
      "name = rig"},
     {"TableAsANumber", "name = \"rig\"\n[beam]\n", "beam = 3\n[x]\n",
-     "1: beam = 3: a number; must be a table: one line [beam], then its keys"},
+     "1: beam = 3: a number; must be a table: a line [beam], then its keys"},
     {"ArrayOfTables", "[beam]", "[[beam]]",
-     "2: beam: an array; must be a table: one line [beam], then its keys"},
+     "2: beam: an array; must be a table: a line [beam], then its keys"},
     {"DecimalComma", "0.96", "0,96",
      "3: not TOML: key-value pair: expected a comment or whitespace, saw ','; write numbers with a "
      "decimal point and no comma; the line reads: length = 0,96"},

@@ -189,7 +189,7 @@ TEST(DistortionOfARecord, IsNotTestableWithOnePeriod) {
   const auto estimate = estimate_frequency_response(record, {.period_samples = kSamples});
   const auto found = distortion(estimate.periodic.value());
   EXPECT_FALSE(found.testable);
-  EXPECT_THAT(found.reason, testing::HasSubstr("cannot be told apart"));
+  EXPECT_THAT(found.reason, testing::HasSubstr("cannot be separated"));
   EXPECT_TRUE(found.channels.empty());
 }
 

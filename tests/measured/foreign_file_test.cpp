@@ -150,8 +150,7 @@ TEST_F(ForeignFileTest, ResponsesOfAnAnalyserAreMappedIntoSi) {
     FAIL() << "accepted";
   } catch (const arm::InputError& error) {
     EXPECT_STREQ(error.what(),
-                 "a: FRF, node 3 -rz: per V, which is no torque; a scale is needed that makes it "
-                 "rad per N m");
+                 "a: FRF, node 3 -rz: reference in V is not a torque; give a scale to rad per N m");
   }
 }
 
@@ -166,7 +165,7 @@ TEST_F(ForeignFileTest, SignalsOfAUniversalFileAreColumns) {
   EXPECT_EQ(file.table.columns[0].name, "time [s]");
   EXPECT_EQ(file.table.columns[2].name, "ENC 1");
   EXPECT_EQ(file.table.columns[2].unit, "rad");
-  EXPECT_THAT(file.left_out, ElementsAre(HasSubstr("other times than those of torque [N m]")));
+  EXPECT_THAT(file.left_out, ElementsAre(HasSubstr("time axis differs from that of torque [N m]")));
 }
 
 TEST_F(ForeignFileTest, VariablesOfAMatlabFileAreSignalsAndResponses) {
@@ -203,7 +202,7 @@ TEST(ColumnGuess, NamesAndUnitsTellQuantities) {
                             {"tip_acceleration", {"Acc 1 (g)", "g", 1.0}},
                             {"strain@0.05", {"strain@0.05 [1]", "1", 1.0}},
                             {"tip_deflection", {"data.tip_deflection", "mm", 1.0}}}));
-  EXPECT_THAT(guess.notes, ElementsAre("the unit of theta is not told and taken for rad"));
+  EXPECT_THAT(guess.notes, ElementsAre("unit of theta not given; rad assumed"));
 }
 
 TEST(ColumnGuess, WhatSeveralColumnsMayBeIsLeftOutAndNoted) {
@@ -211,7 +210,7 @@ TEST(ColumnGuess, WhatSeveralColumnsMayBeIsLeftOutAndNoted) {
       std::vector<ColumnLabel>{{"t_s", "s"}, {"hub1_deg", "deg"}, {"hub2_deg", "deg"}}, {});
   EXPECT_EQ(guess.mappings, (ColumnMappings{{"time", {"t_s", "s", 1.0}}}));
   EXPECT_THAT(guess.notes,
-              ElementsAre("hub_angle may be hub1_deg or hub2_deg: say which with --column "
+              ElementsAre("hub_angle: ambiguous (hub1_deg or hub2_deg); choose with --column "
                           "hub_angle=NAME"));
 }
 

@@ -118,7 +118,7 @@ TEST(ForeignTable, ASecondHeaderLineHoldsUnits) {
   EXPECT_THAT(names_of(table), ElementsAre("t", "u", "y"));
   EXPECT_THAT(units_of(table), ElementsAre("s", "V", "deg/s"));
   EXPECT_THAT(table.assumptions, Contains("units are in line 3"));
-  EXPECT_THAT(table.assumptions, Contains("1 line in front passed over"));
+  EXPECT_THAT(table.assumptions, Contains("1 line skipped at the beginning"));
   EXPECT_THAT(table.assumptions, Contains("the text is Latin-1"));
 }
 
@@ -130,8 +130,7 @@ TEST(ForeignTable, BetweenBlanksBracketsBelongToTheNameInFront) {
 TEST(ForeignTable, WithoutAHeaderColumnsAreCounted) {
   const auto table = parse_foreign_table("0\t1\n1\t1\n", "log");
   EXPECT_THAT(names_of(table), ElementsAre("column 1", "column 2"));
-  EXPECT_THAT(table.assumptions,
-              Contains("no line of names: the columns are called column 1, column 2, ..."));
+  EXPECT_THAT(table.assumptions, Contains("no header line; columns named column 1, column 2, ..."));
 }
 
 TEST(ForeignTable, TextAndEmptyCellsAreKeptAsSuch) {
@@ -145,7 +144,7 @@ TEST(ForeignTable, TextAndEmptyCellsAreKeptAsSuch) {
 
 TEST(ForeignTable, ALastLineThatIsCutOffIsSaid) {
   const auto table = parse_foreign_table("t,u,y\n0,1,2\n1,1,2\n2,1", "log");
-  EXPECT_THAT(table.assumptions, Contains("line 4, the last one, is cut off and left out"));
+  EXPECT_THAT(table.assumptions, Contains("last line 4 incomplete and ignored"));
 }
 
 TEST(ForeignTable, ColumnsAreFoundByName) {

@@ -85,8 +85,8 @@ TEST(FrequencyRecord, WhatCannotBeReadBackIsNotWritten) {
   EXPECT_EQ(error_of({kHubAngle, {-1.0}, {1.0}, {1.0}}),
             "frequency [Hz] = -1 of hub_angle: must be a finite number, 0 or more");
   EXPECT_EQ(error_of({kHubAngle, {1.0, 1.0}, {1.0, 1.0}, {1.0, 1.0}}),
-            "frequency [Hz] = 1: again the one before of hub_angle; must rise from row to row of a "
-            "sensor");
+            "frequency [Hz] = 1: again the one before of hub_angle; must be strictly increasing "
+            "per sensor");
   EXPECT_EQ(error_of({kHubAngle, {1.0}, {1.0}, {1.5}}),
             "coherence = 1.5 of hub_angle at 1 Hz: must be above 0 and 1 or less, or unknown");
   EXPECT_THROW(format_frequency_record({}), std::invalid_argument);
@@ -133,10 +133,10 @@ const std::vector<Mistake> kFrequencyRecordMistakes = {
      "2: coherence = 1.01: must be above 0 and 1 or less, or empty"},
     {"FrequencyTwice",
      kFrequencyHead + "1,hub_angle,1,0,1\n1,strain@0.1,1,0,1\n1,hub_angle,2,0,1\n",
-     "4: frequency [Hz] = 1: again the one before of hub_angle; must rise from row to row of a "
+     "4: frequency [Hz] = 1: again the one before of hub_angle; must be strictly increasing per "
      "sensor"},
     {"FrequencyBelow", kFrequencyHead + "2,hub_angle,1,0,1\n1,hub_angle,2,0,1\n",
-     "3: frequency [Hz] = 1: below the one before of hub_angle; must rise from row to row of a "
+     "3: frequency [Hz] = 1: below the one before of hub_angle; must be strictly increasing per "
      "sensor"},
 };
 

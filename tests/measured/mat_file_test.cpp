@@ -98,7 +98,7 @@ TEST_F(MatFile, WhatMatlabCouldNotHoldIsRefused) {
 TEST_F(MatFile, AFileThatIsNoneIsRefused) {
   EXPECT_THAT(refusal(), HasSubstr("a.mat: no such file"));
   std::ofstream(path()) << "time [s],torque [N m]\n0,1\n";
-  EXPECT_THAT(refusal(), HasSubstr("a.mat: is no MATLAB 5 file; save with -v6 or -v7"));
+  EXPECT_THAT(refusal(), HasSubstr("a.mat: not a MATLAB 5 file; save with -v6 or -v7"));
 }
 
 TEST_F(MatFile, AFolderThatIsNotThereIsRefused) {

@@ -94,9 +94,9 @@ TEST(Measurement, FilesStandBesideTheMeasurement) {
 const std::vector<Mistake> kMeasurementMistakes = {
     {"Empty", " \n", "1: empty; a measurement file needs arm and at least one [[run]]"},
     {"ArmMissing", kRun, "1: arm: missing; must be the arm file, relative to this file"},
-    {"RunMissing", kMeasurementHead, "1: run: missing; must be one [[run]] or more"},
+    {"RunMissing", kMeasurementHead, "1: run: missing; must be at least one [[run]]"},
     {"RunIsATable", kMeasurementHead + "[run]\nid = \"a\"\n",
-     "3: run: a table; must be one line [[run]] a run, then its keys"},
+     "3: run: a table; must be one [[run]] table per run"},
     {"KeyMisspelt", kMeasurementHead + "[[runs]]\nid = \"a\"\n",
      "3: runs: unknown key (did you mean run?); allowed: name, arm, run"},
     {"KeyOfARunMisspelt", kMeasurementHead + kRun + "purpos = \"estimation\"\n",
@@ -109,7 +109,7 @@ const std::vector<Mistake> kMeasurementMistakes = {
     {"FileMissing", kMeasurementHead + "[[run]]\nid = \"a\"\nkind = \"time\"\n",
      "3: run.file: missing; must be the run's CSV file, relative to this file"},
     {"FileIsANumber", kMeasurementHead + "[[run]]\nid = \"a\"\nkind = \"time\"\nfile = 3\n",
-     "6: run.file = 3: a number; must be the name of a file in quotes"},
+     "6: run.file = 3: a number; must be a quoted file name"},
     {"IdTwice", kMeasurementHead + kRun + kRun, "8: run.id = \"a\": given twice; first on line 4"},
     {"HoldUnknown", kMeasurementHead + kRun + "torque_hold = \"second\"\n",
      "7: run.torque_hold = \"second\": must be zero or first"},
@@ -124,11 +124,11 @@ const std::vector<Mistake> kMeasurementMistakes = {
     {"ColumnsOfAModalRun",
      kMeasurementHead + "[[run]]\nid = \"a\"\nkind = \"modal\"\nfile = \"a.csv\"\n"
                         "columns = { time = { name = \"t\" } }\n",
-     "7: run.columns: only a time run has them; must be left out"},
+     "7: run.columns: only for time runs"},
     {"ColumnOfNoQuantity", kMeasurementHead + kRun + "columns = { hub_angel = { name = \"a\" } }\n",
      "7: run.columns: sensor hub_angel: unknown (did you mean hub_angle?); allowed: hub_angle, "
      "hub_velocity, tip_acceleration, tip_displacement, tip_deflection, strain@X (X in metres from "
-     "the hub); beside time and torque"},
+     "the hub); besides time and torque"},
     {"ColumnWithoutName", kMeasurementHead + kRun + "columns = { time = { unit = \"ms\" } }\n",
      "7: run.columns.time.name: missing; must be a column of the file"},
     {"ColumnIsAText", kMeasurementHead + kRun + "columns = { time = \"t\" }\n",
@@ -139,7 +139,7 @@ const std::vector<Mistake> kMeasurementMistakes = {
      "\"N m\" } }"},
     {"ForeignUnitWithoutScale",
      kMeasurementHead + kRun + "columns = { torque = { name = \"Vm\", unit = \"V\" } }\n",
-     "7: run.columns.torque.unit = V: is none of N m, N mm; scale is needed then, in N m per V"},
+     "7: run.columns.torque.unit = V: not one of N m, N mm; give scale in N m per V"},
     {"ScaleZero", kMeasurementHead + kRun + "columns = { torque = { name = \"Vm\", scale = 0 } }\n",
      "7: run.columns.torque.scale = 0: must be a finite number, not 0"},
     {"ScaleIsAText",

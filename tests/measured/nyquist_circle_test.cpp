@@ -186,7 +186,7 @@ TEST(NyquistCircles, RefuseWhatIsNoCircle) {
   const auto found = nyquist_circles(few, {.near_Hz = {kNatural_Hz}});
   EXPECT_TRUE(found.circles.empty());
   ASSERT_EQ(found.refused.size(), 1U);
-  EXPECT_NE(found.refused[0].reason.find("points on its arc"), std::string::npos);
+  EXPECT_NE(found.refused[0].reason.find("points on the arc"), std::string::npos);
 
   response::RandomNumbers random(1);
   for (auto& value : coarse.response) value = normal_pair(random);

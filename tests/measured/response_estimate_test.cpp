@@ -172,7 +172,7 @@ TEST(ChosenSegment, ResolvesTheSharpestResonanceWhereTheRecordIsLongEnough) {
   }
   EXPECT_LT(made.spacing_Hz, width_Hz / 4.0);
   EXPECT_GT(made.spacing_Hz, width_Hz / 12.0);
-  EXPECT_THAT(report_of(made, "segment").reason, testing::HasSubstr("sharpest resonance"));
+  EXPECT_THAT(report_of(made, "segment").reason, testing::HasSubstr("narrowest resonance"));
 }
 
 TEST(ChosenSegment, IsShortEnoughToAverageWhereTheRecordIsShort) {

@@ -79,20 +79,19 @@ TEST_F(RunDataTest, WhatAForeignLogLacksIsSaid) {
   write("log.txt", "t,Vm,enc\n0,1,2\n1,1,\n2,1,3\n");
   measured::Run run{"a", RunKind::time, "log.txt"};
   run.columns = {{"time", {"t", "s", 1.0}}};
-  EXPECT_EQ(refusal(run), "log.txt: torque: no column is mapped to it; columns: t, Vm, enc");
+  EXPECT_EQ(refusal(run), "log.txt: torque: no column assigned; columns: t, Vm, enc");
   run.columns["torque"] = {"end", "N m", 1.0};
   EXPECT_EQ(refusal(run),
             "log.txt: column end: not in the file (did you mean enc?); it has t, Vm, enc");
   run.columns["torque"] = {"t", "N m", 1.0};
-  EXPECT_EQ(refusal(run), "log.txt: column t: is to be time and torque");
+  EXPECT_EQ(refusal(run), "log.txt: column t: assigned to time and torque");
   run.columns["torque"] = {"Vm", "N m", 1.0};
   run.columns["hub_angle"] = {"enc", "rad", 1.0};
   EXPECT_EQ(refusal(run),
             "log.txt:3: hub_angle: column enc = nan (or an empty cell): must be a finite number");
   write("log.txt", "t,Vm,enc\n0,1,2\n1,1,2\n1,1,3\n");
   EXPECT_EQ(refusal(run),
-            "log.txt:4: time = 1 s: the time of the sample before again; must rise from row to "
-            "row");
+            "log.txt:4: time = 1 s: same as the previous sample; must be strictly increasing");
 }
 
 TEST_F(RunDataTest, AFileThatIsMissingIsSaid) {

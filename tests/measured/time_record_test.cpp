@@ -154,12 +154,12 @@ const std::string kTimeHead = "time [s],torque [N m],hub_angle [rad]\n";
 
 const std::vector<Mistake> kTimeRecordMistakes = {
     {"Empty", "", "1: empty; the header is time [s],torque [N m],hub_angle [rad],..."},
-    {"OnlyAHeader", kTimeHead, "1: only a header; must have two samples or more"},
-    {"OneSample", kTimeHead + "0,0,0\n", "2: one sample; must have two or more"},
+    {"OnlyAHeader", kTimeHead, "1: only a header; needs at least two samples"},
+    {"OneSample", kTimeHead + "0,0,0\n", "2: one sample; needs at least two"},
     {"SensorMisspelt", "time [s],torque [N m],hub_angel [rad]\n0,0,0\n",
      "1: column: sensor hub_angel: unknown (did you mean hub_angle?); allowed: hub_angle, "
      "hub_velocity, tip_acceleration, tip_displacement, tip_deflection, strain@X (X in metres from "
-     "the hub); beside time and torque"},
+     "the hub); besides time and torque"},
     {"TorqueMisspelt", "time [s],torqe [N m]\n", "1: column torqe: unknown (did you mean torque?)"},
     {"UnitMisspelt", "time [s],torque [N m],hub_angle [dge]\n",
      "1: column hub_angle: unit dge unknown (did you mean deg?); allowed: rad, deg"},
@@ -195,9 +195,9 @@ const std::vector<Mistake> kTimeRecordMistakes = {
     {"CellEmpty", kTimeHead + "0,0,\n",
      "2: hub_angle = : must be a finite number; no cell may be empty"},
     {"TimeRepeated", kTimeHead + "0,0,0\n0.002,0,0\n0.002,0,0\n0.004,0,0\n",
-     "4: time = 0.002 s: the time of the sample before again; must rise from row to row"},
+     "4: time = 0.002 s: same as the previous sample; must be strictly increasing"},
     {"TimeBackward", kTimeHead + "0,0,0\n0.004,0,0\n0.002,0,0\n",
-     "4: time = 0.002 s: before the sample above, which is at 0.004 s; must rise from row to row"},
+     "4: time = 0.002 s: below the previous sample at 0.004 s; must be strictly increasing"},
     {"OneSampleMissing", record_with(100, [](int k) { return 0.002 * (k < 50 ? k : k + 1); }),
      "52: gap: 1 sample is missing between 0.098 s and 0.102 s, where the step is 0.004 s and the "
      "period 0.002 s; split the record there, or fill it"},
@@ -209,11 +209,11 @@ const std::vector<Mistake> kTimeRecordMistakes = {
      "4: gap: 499999999998 samples are missing between 0.002 s and 1000000000 s, where the step is "
      "1e+09 s and the period 0.002 s; split the record there, or fill it"},
     {"Jitter", record_with(101, [](int k) { return 0.002 * k + (k == 30 ? 0.0003 : 0.0); }),
-     "32: time = 0.0603 s: 0.15 of a sampling period off the even grid of 0.002 s; must be 0.05 or "
-     "less: write more digits, or resample evenly"},
+     "32: time = 0.0603 s: jitter 0.15 of the sampling period 0.002 s; must be 0.05 or "
+     "less: write more digits, or resample"},
     {"TimesRoundedTooFar", record_with(101, [](int k) { return std::round(1.5 * k) / 1000.0; }),
-     "3: time = 0.002 s: 0.33 of a sampling period off the even grid of 0.0015 s; must be 0.05 or "
-     "less: write more digits, or resample evenly"},
+     "3: time = 0.002 s: jitter 0.33 of the sampling period 0.0015 s; must be 0.05 or "
+     "less: write more digits, or resample"},
 };
 
 class TimeRecordMistake : public testing::TestWithParam<Mistake> {};

@@ -48,10 +48,9 @@ TEST(Uncertainty, IsRefusedWithItsLineAndReason) {
               HasSubstr("a.toml:5: beam.length_uncertainty = 1.5; must be above 0 and below 1"));
   EXPECT_THAT(error_of(beam + "length_uncertainty = 0\n" + kHub), HasSubstr("a.toml:5:"));
   EXPECT_THAT(error_of(beam + "length_uncertainty = \"3 %\"\n" + kHub), HasSubstr("a.toml:5:"));
-  EXPECT_THAT(
-      error_of(beam + "width_uncertainty = 0.1\n" + kHub),
-      HasSubstr("a.toml:5: beam.width_uncertainty: is relative to beam.width, which must be "
-                "given and above 0"));
+  EXPECT_THAT(error_of(beam + "width_uncertainty = 0.1\n" + kHub),
+              HasSubstr("a.toml:5: beam.width_uncertainty: relative to beam.width, which must be "
+                        "given and above 0"));
   EXPECT_THAT(
       error_of(beam + "lenght_uncertainty = 0.1\n" + kHub),
       HasSubstr("unknown key (did you mean length_uncertainty?); allowed in [beam]: length, "));

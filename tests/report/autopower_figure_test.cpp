@@ -135,7 +135,7 @@ TEST(AutopowerFigure, OfTheArmHasEveryLabelToItself) {
       EXPECT_EQ(overlapping_labels(figure), 0);
       const std::string svg = to_svg(figure);
       for (const char* text : {"frequency [Hz]", "density [(rad/s)^2/Hz]", "strain@0.05",
-                               "analytical pole", "peak [Hz]", "valley [Hz]"}) {
+                               "analytical pole", "peak [Hz]", "minimum [Hz]"}) {
         EXPECT_THAT(svg, HasSubstr(std::string("<text>") + text + "</text>"));
       }
     }

@@ -26,7 +26,8 @@ TEST(ComparisonTables, OneTableAFamilyAndOneRowARoot) {
   EXPECT_EQ(tables[0].rows.size(), 2U);
   EXPECT_EQ(tables[1].caption, "Zeros of torque to hub_angle, on the imaginary axis [Hz]");
   EXPECT_EQ(tables[1].rows.size(), 1U);
-  EXPECT_EQ(tables[2].caption, "Zeros of torque to tip_acceleration, on the real axis [rad/s]");
+  EXPECT_EQ(tables[2].caption,
+            "Zeros of torque to tip_acceleration, on the real axis (non-minimum phase) [rad/s]");
   EXPECT_EQ(tables[2].rows.size(), 1U);
   EXPECT_EQ(tables[3].caption, "Zeros of torque to strain@0.25");
   EXPECT_EQ(tables[3].rows.size(), 2U);
@@ -34,7 +35,8 @@ TEST(ComparisonTables, OneTableAFamilyAndOneRowARoot) {
 
 TEST(ComparisonTables, RootsOffTheAxesSayWhatIsShown) {
   const std::string text = to_text(root_tables(kComparison)[3]);
-  EXPECT_THAT(text, AllOf(HasSubstr("imaginary, Hz"), HasSubstr("complex, |s| Hz")));
+  EXPECT_THAT(text,
+              AllOf(HasSubstr("imaginary, Hz"), HasSubstr("complex (non-minimum phase), |s| Hz")));
 }
 
 TEST(ComparisonTables, WhatAModelDoesNotHaveIsADash) {
@@ -74,16 +76,17 @@ TEST(ComparisonTables, ConvergenceIsTheWorstRootsAndRangesOverAll) {
 
 TEST(ComparisonTables, TheVerdictNamesTheWorstPair) {
   EXPECT_EQ(verdict_line(kComparison),
-            "Verdict: DISAGREE. Worst pair: pole 2: exact_tf or fem has none.");
+            "Verdict: DISAGREE. Largest difference: pole 2: missing in exact_tf or fem.");
   compare::Comparison other = kComparison;
   other.findings.pop_back();
   other.verdict = compare::judge(other.findings);
   EXPECT_EQ(verdict_line(other),
-            "Verdict: DISAGREE. Worst pair: pole 1: exact_tf and fem are 1.0e-02 apart, tolerance "
+            "Verdict: DISAGREE. Largest difference: pole 1: relative difference of exact_tf and "
+            "fem 1.0e-02, tolerance "
             "1e-09.");
   other.findings = {{"pole 1", "exact_tf", "fem", 1e-16, 1e-9}};
   other.verdict = compare::judge(other.findings);
-  EXPECT_THAT(verdict_line(other), StartsWith("Verdict: agree. Worst pair: pole 1: "));
+  EXPECT_THAT(verdict_line(other), StartsWith("Verdict: agree. Largest difference: pole 1: "));
 }
 
 TEST(ComparisonTables, TheLegendNamesTheAccuracy) {

@@ -32,9 +32,9 @@ TEST(DistortionFigure, HasTheLinesByKind) {
   const Figure figure = distortion_figure(arm::parse_sensor("hub_velocity"), channel());
   const Panel& panel = figure.stacks.at(0).panels.at(0);
   EXPECT_EQ(panel.y.unit, "rad/s");
-  EXPECT_THAT(find_series(panel, "driven")->x, ElementsAre(0.1, 0.5));
-  EXPECT_THAT(find_series(panel, "odd, not driven")->y, ElementsAre(1e-2));
-  EXPECT_THAT(find_series(panel, "even, not driven")->x, ElementsAre(0.2, 0.4));
+  EXPECT_THAT(find_series(panel, "excited lines")->x, ElementsAre(0.1, 0.5));
+  EXPECT_THAT(find_series(panel, "odd detection lines")->y, ElementsAre(1e-2));
+  EXPECT_THAT(find_series(panel, "even detection lines")->x, ElementsAre(0.2, 0.4));
   EXPECT_EQ(find_series(panel, "noise")->x.size(), 5U);
   const Figure strain = distortion_figure(arm::parse_sensor("strain@0.05"), channel());
   EXPECT_EQ(strain.stacks[0].panels[0].y.unit, "");
@@ -43,7 +43,8 @@ TEST(DistortionFigure, HasTheLinesByKind) {
 TEST(DistortionFigure, LegendSaysWhatTheTestsCameTo) {
   auto tested = channel();
   std::string svg = to_svg(distortion_figure(arm::parse_sensor("hub_velocity"), tested, "D"));
-  for (const char* text : {"found: −40.0 dB", "none found", "amplitude [rad/s]", "driven"}) {
+  for (const char* text :
+       {"significant: −40.0 dB", "not significant", "amplitude [rad/s]", "excited lines"}) {
     EXPECT_THAT(svg, HasSubstr(std::string("<text>") + text + "</text>")) << text;
   }
   tested.even.lines = 0;

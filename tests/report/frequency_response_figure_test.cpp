@@ -195,7 +195,7 @@ TEST(FrequencyResponseFigure, OfTheArmHasFitModelAndFeatures) {
   const std::string svg = to_svg(figure);
   for (const char* text : {"magnitude [m/s^2/(N m)]", "phase [deg]", "coherence", "frequency [Hz]",
                            "measured", "95 % interval", "fit", "analytical", "analytical pole",
-                           "peak [Hz]", "coherence by chance"}) {
+                           "peak [Hz]", "coherence threshold (no relation)"}) {
     EXPECT_THAT(svg, HasSubstr(std::string("<text>") + text + "</text>")) << text;
   }
 }

@@ -38,7 +38,7 @@ TEST(NyquistCircleFigure, MarksThePointsOfTheirFrequencies) {
     const Figure figure = nyquist_circle_figure(sensor, std::span(circles).first(1));
     const Panel& panel = figure.stacks.at(0).panels.at(0);
     const Series* natural = find_series(panel, "natural frequency");
-    const Series* half = find_series(panel, "half power");
+    const Series* half = find_series(panel, "half-power points");
     ASSERT_NE(natural, nullptr);
     ASSERT_NE(half, nullptr);
     const double zeta = circles[0].damping_ratio;
@@ -99,7 +99,7 @@ TEST(NyquistCircleFigure, DrawsWithUnitsOfTheVelocityAndLabelsApart) {
     EXPECT_EQ(overlapping_labels(figure), 0) << name;
     const std::string svg = to_svg(figure);
     for (const char* text :
-         {units[i], "fitted circle", "measured", "natural frequency", "half power"}) {
+         {units[i], "fitted circle", "measured", "natural frequency", "half-power points"}) {
       EXPECT_THAT(svg, HasSubstr(std::string("<text>") + text + "</text>")) << name;
     }
     EXPECT_THAT(svg, HasSubstr("<text>resonance at 11.86"));

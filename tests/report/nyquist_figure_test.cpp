@@ -95,7 +95,7 @@ TEST(NyquistFigure, NothingToDrawIsRefused) {
 TEST(NyquistFigure, DrawsEveryPanelWithItsOwnAxes) {
   const std::string svg = to_svg(nyquist_figure(plot(4)));
   for (const char* text : {"Re G [rad/(N m)]", "Im G [10⁻³ rad/(N m)]", "pole 4", "ζ = 0.01",
-                           "all frequencies, modulus compressed", "half power"}) {
+                           "all frequencies, modulus compressed", "half-power points"}) {
     EXPECT_THAT(svg, HasSubstr(std::string("<text>") + text + "</text>")) << text;
   }
 }

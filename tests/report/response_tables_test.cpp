@@ -21,9 +21,9 @@ using testing::Not;
 
 TEST(ResponseTables, WhatIsInTheResponseAndWhatIsNotIsSaid) {
   EXPECT_THAT(chain_notes(sample_study()),
-              ElementsAre("in the response: delay 0.001 s, torque gain 1.5, actuator lag 0.002 s, "
+              ElementsAre("included: delay 0.001 s, torque gain 1.5, actuator lag 0.002 s, "
                           "lag of tip_acceleration 0.001 s",
-                          "left out, not linear: coulomb_friction"));
+                          "not included (nonlinear): coulomb_friction"));
   EXPECT_THAT(chain_notes(sample_study(arm::paper_arm())), ElementsAre());
 }
 

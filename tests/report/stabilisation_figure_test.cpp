@@ -37,8 +37,8 @@ TEST(StabilisationFigure, HasASymbolForWhatIsStable) {
   };
   EXPECT_THAT(orders("new pole"), ElementsAre(2));
   EXPECT_THAT(orders("stable frequency"), ElementsAre(4, 6));
-  EXPECT_THAT(orders("stable damping too"), ElementsAre(6));
-  EXPECT_THAT(orders("stable in all"), ElementsAre(8));
+  EXPECT_THAT(orders("stable frequency and damping"), ElementsAre(6));
+  EXPECT_THAT(orders("stable pole"), ElementsAre(8));
 }
 
 TEST(StabilisationFigure, DrawsTheBackgroundOverTheOrdersWithinTheBand) {
@@ -86,7 +86,7 @@ TEST(StabilisationFigure, OfTheArmHasAColumnAtEachFittedPole) {
       measured::to_frequency_record(measured::estimate_frequency_response(records[0])));
   for (const auto& pole : fit.poles) plot.fitted_poles_Hz.push_back(pole.frequency_Hz);
   const Figure figure = stabilisation_figure(fit.chart, plot);
-  const Series* stable = find_series(figure.stacks[0].panels[0], "stable in all");
+  const Series* stable = find_series(figure.stacks[0].panels[0], "stable pole");
   ASSERT_NE(stable, nullptr);
   for (const double pole_Hz : plot.fitted_poles_Hz) {
     EXPECT_GE(std::ranges::count_if(
@@ -97,7 +97,7 @@ TEST(StabilisationFigure, OfTheArmHasAColumnAtEachFittedPole) {
   const std::string svg = to_svg(figure);
   EXPECT_LT(svg.size(), kMostBytes);
   for (const char* text : {"order of the denominator", "frequency [Hz]", "fitted pole [Hz]",
-                           "mean |H|, log", "stable in all"}) {
+                           "mean |H|, log", "stable pole"}) {
     EXPECT_THAT(svg, HasSubstr(std::string("<text>") + text + "</text>")) << text;
   }
 }

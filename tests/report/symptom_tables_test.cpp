@@ -89,7 +89,7 @@ TEST(HubTorqueFigure, ShowsTheStepThatWasFound) {
   const Figure figure = hub_torque_figure(torque, trace);
   ASSERT_EQ(figure.stacks.size(), 2U);
   const auto& by_velocity = figure.stacks[0].panels[0].series;
-  const auto found = std::ranges::find(by_velocity, "found", &Series::name);
+  const auto found = std::ranges::find(by_velocity, "identified terms", &Series::name);
   ASSERT_NE(found, by_velocity.end());
   EXPECT_DOUBLE_EQ(found->y.front(), 0.01);
   EXPECT_DOUBLE_EQ(found->y.back(), -0.01);

@@ -233,15 +233,15 @@ const std::vector<Mistake> kMistakes = {
     {"StepAfterTheEnd", Step{0.1, 8.0}, "step.start = 8 s: must be less than the duration, 8 s"},
     {"StartNegative", Step{0.1, -1.0}, "step.start = -1 s: must be a finite number, 0 or more"},
     {"BandAboveHalfTheSampling", RandomNoise{0.1, 1.0, 251.0},
-     "random.to = 251 Hz: must be above 1 Hz and at most half the sampling frequency, 250 Hz"},
+     "random.to = 251 Hz: must be above 1 Hz and at most the Nyquist frequency, 250 Hz"},
     {"BandEmpty", RandomNoise{0.1, 5.0, 5.0},
-     "random.to = 5 Hz: must be above 5 Hz and at most half the sampling frequency, 250 Hz"},
+     "random.to = 5 Hz: must be above 5 Hz and at most the Nyquist frequency, 250 Hz"},
     {"NoLine", RandomNoise{0.1, 5.01, 5.1},
-     "random: no line between 5.01 Hz and 5.1 Hz, where lines are 0.125 Hz apart; widen the band "
-     "or simulate longer"},
+     "random: no spectral line between 5.01 Hz and 5.1 Hz (line spacing 0.125 Hz); widen the band "
+     "or increase the duration"},
     {"NoOddLine", Multisine{0.1, 0.2, 0.3},
-     "multisine: no line between 0.2 Hz and 0.3 Hz, where lines are 0.25 Hz apart; widen the band "
-     "or simulate longer"},
+     "multisine: no spectral line between 0.2 Hz and 0.3 Hz (line spacing 0.25 Hz); widen the band "
+     "or increase the duration"},
     {"RmsNegative", Multisine{-0.1},
      "multisine.rms = -0.1 N m: must be a finite number, 0 or more"},
     {"PeriodBelowTwoSamples", Multisine{0.1, 1.0, 50.0, 1e-6},
@@ -249,7 +249,8 @@ const std::vector<Mistake> kMistakes = {
     {"PeriodTooLong", Multisine{0.1, 1.0, 50.0, 9.0},
      "multisine.period = 9 s: must be at most the duration, 8 s"},
     {"GroupOfOne", Multisine{0.1, 1.0, 50.0, 0.0, 1},
-     "multisine.detection = 1: must be 2 or more lines of which one is left out, or 0"},
+     "multisine.detection = 1: must be 0, or at least 2: one of so many odd lines is a detection "
+     "line"},
     {"ChirpFromZero", Chirp{0.1, 0.0, 50.0}, "chirp.from = 0 Hz: must be a finite number above 0"},
 };
 
@@ -273,8 +274,8 @@ TEST(Excitation, APrimePeriodThatCannotBeTransformedIsRefusedWithOneThatCan) {
     FAIL() << "accepted";
   } catch (const arm::InputError& error) {
     EXPECT_STREQ(error.what(),
-                 "multisine: a period of 1000003 samples has a prime factor too large to be "
-                 "transformed; 1012500 samples, 2025 s, would do");
+                 "multisine: a period of 1000003 samples has a prime factor too large for the FFT; "
+                 "use 1012500 samples, 2025 s");
   }
 }
 

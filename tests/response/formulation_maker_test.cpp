@@ -58,7 +58,7 @@ TEST(FormulationMaker, WhatItCannotMakeIsRefusedInOneLine) {
     return "";
   };
   EXPECT_THAT(refusal("fme", 3), HasSubstr("formulation fme: unknown (did you mean fem?)"));
-  EXPECT_THAT(refusal("fem", kMostRoots + 1), HasSubstr("90 or less by fem"));
+  EXPECT_THAT(refusal("fem", kMostRoots + 1), HasSubstr("at most 90 for fem"));
   EXPECT_THAT(refusal("exact_tf", 0), HasSubstr("1 or more"));
 }
 

@@ -38,9 +38,8 @@ TEST(SimulationInput, BadTorqueAndSampleTimesAreRefusedInOneLine) {
 TEST(SimulationInput, AnEffectThatNeedsTooManyInnerStepsIsNamed) {
   const SimulationOptions slow{.sample_time_s = 1e7};
   EXPECT_EQ(refusal({0.0, 0.0}, slow),
-            "effects.coulomb_friction: needs 1e+07 inner steps a sample of 10000000 s for an arm "
-            "with a rate of 1 rad/s; must be 100000 or fewer: damp the arm less, or sample it "
-            "faster");
+            "effects.coulomb_friction: needs 1e+07 inner steps per sample of 10000000 s (fastest "
+            "rate 1 rad/s), at most 100000: reduce the damping or the sampling period");
   ArmParts rippled = coulomb(0.0);
   put(rippled, "torque_ripple", {{"amplitude", 0.1}, {"cycles", 1.0}, {"phase", 0.0}});
   EXPECT_THAT(refusal({0.0, 0.0}, slow, rippled), testing::StartsWith("effects.torque_ripple: "));
@@ -48,13 +47,12 @@ TEST(SimulationInput, AnEffectThatNeedsTooManyInnerStepsIsNamed) {
 }
 
 TEST(SimulationInput, AMotionTooLargeForANumberIsRefusedAtItsSample) {
-  EXPECT_EQ(
-      refusal({1e300, 1e300, 1e300}, {.sample_time_s = 10.0}, coulomb(0.0)),
-      "energy at 10 s: too large for a number; the torque must be smaller, or the time shorter");
+  EXPECT_EQ(refusal({1e300, 1e300, 1e300}, {.sample_time_s = 10.0}, coulomb(0.0)),
+            "energy at 10 s: numeric overflow; reduce the torque or the duration");
   ArmParts amplified = coulomb(0.0);
   put(amplified, "torque_gain", {{"factor", 10.0}});
   EXPECT_EQ(refusal({0.0, 1e308}, {}, amplified),
-            "torque = 1e+308 N m at 0.001 s: too large for a number behind the actuator");
+            "torque = 1e+308 N m at 0.001 s: numeric overflow in the actuator model");
 }
 
 TEST(SimulationInput, FrictionOfTheWrongSignIsRefused) {

@@ -42,10 +42,12 @@ Reliability reliability(const std::vector<TrialResult>& results) {
 
 std::string reliability_table(const std::vector<TrialResult>& results) {
   const Reliability all = reliability(results);
-  if (all.claims == 0) return "No cause was named.\n";
+  if (all.claims == 0) return "No effect identified.\n";
   std::string text =
-      fmt::format("Brier score {:.3f} over {} named causes.\n\n", all.brier, all.claims);
-  text += "| claimed [%] | causes | mean claim | hidden indeed |\n| --- | ---: | ---: | ---: |\n";
+      fmt::format("Brier score {:.3f} over {} identified effects.\n\n", all.brier, all.claims);
+  text +=
+      "| stated probability [%] | identified effects | mean | actually present |\n"
+      "| --- | ---: | ---: | ---: |\n";
   for (int i = 0; i < Reliability::kBins; ++i) {
     const ReliabilityBin& bin = all.bins[static_cast<std::size_t>(i)];
     const int width = 100 / Reliability::kBins;

@@ -19,7 +19,7 @@ struct ReliabilityBin {
 struct Reliability {
   static constexpr int kBins = 10;
   int claims = 0;
-  double brier = 0.0;  ///< mean of (probability - right)^2 (Brier 1950); 0.25 of a coin's claims
+  double brier = 0.0;  ///< mean of (probability - right)^2 [Brier1950]; 0.25 of a coin's claims
   std::array<ReliabilityBin, kBins> bins;  ///< of equal width; 1 belongs to the last
 };
 Reliability reliability(const std::vector<TrialResult>& results);

@@ -32,7 +32,7 @@ TEST(Reliability, BinsHoldTheirLowerEndsAndTheLastHoldsOne) {
 TEST(Reliability, TableStatesBounds) {
   const std::vector<TrialResult> results(60, claiming({{0.95, true}}));
   const std::string table = reliability_table(results);
-  EXPECT_THAT(table, HasSubstr("Brier score 0.003 over 60 named causes."));
+  EXPECT_THAT(table, HasSubstr("Brier score 0.003 over 60 identified effects."));
   EXPECT_THAT(table, HasSubstr("| 90 to 100 | 60 | 95 % | 100 % (95 to 100 %) |"));
   EXPECT_THAT(table, HasSubstr("| 0 to 10 | 0 | - | - |"));
   EXPECT_EQ(reliability_table({}), "No cause was named.\n");

@@ -39,32 +39,33 @@ TrialOptions parse_options(CLI::App& app, int argc, char** argv) {
   TrialOptions options;
   TrialChoice& choice = options.choice;
   app.add_option("--kind", choice.kinds, "time, frf, modal")->delimiter(',');
-  app.add_option("--effects", choice.effects,
-                 "Causes to hide: names, or single (each of the vocabulary), pairs, none, outside")
+  app.add_option(
+         "--effects", choice.effects,
+         "Effects to simulate: names, or single (each of the library), pairs, none, outside")
       ->delimiter(',');
   app.add_option("--strength", choice.strengths,
-                 "faint, weak, middle, strong; not the first unless told")
+                 "faint, weak, middle, strong; default: all except faint")
       ->delimiter(',');
-  app.add_option("--noise", choice.noises, "Standard deviation over that of the signal")
-      ->delimiter(',');
-  app.add_option("--trials", choice.trials, "Of each combination")->capture_default_str();
-  app.add_option("--seed", choice.seed, "Of all that is drawn")->capture_default_str();
+  app.add_option("--noise", choice.noises, "Noise-to-signal ratio")->delimiter(',');
+  app.add_option("--trials", choice.trials, "Number of trials of each combination")
+      ->capture_default_str();
+  app.add_option("--seed", choice.seed, "Seed of the random numbers")->capture_default_str();
   app.add_option("--keep", options.keep,
-                 "Folder to keep the cases in: cases/ as the program sees them, truth/, answers/");
+                 "Folder for the cases: cases/ (input of the program), truth/, answers/");
   // scripts/trials gives these two; others behind them count.
   app.add_option("--results", options.results,
-                 "CSV to which each result is appended; trials that it has are not made again")
+                 "CSV file to which results are appended; existing trials are skipped")
       ->capture_default_str()
       ->take_last();
   app.add_option("--scorecard", options.scorecard, "Markdown file for the scorecard")->take_last();
   app.add_option("--program", options.program, "The program flexarm")->capture_default_str();
   app.add_option("--built-from", options.version,
-                 "The version of the program, which the results carry: of one version each file")
+                 "Version of the program, stored with the results; one version per file")
       ->capture_default_str();
-  app.add_option("--time-limit", options.time_limit_s, "For one diagnosis, in seconds")
+  app.add_option("--time-limit", options.time_limit_s, "Time limit of one diagnosis [s]")
       ->capture_default_str();
-  app.add_option("--jobs", options.jobs, "Trials at a time")->capture_default_str();
-  app.add_flag("--list", options.list, "List the trials, and make none");
+  app.add_option("--jobs", options.jobs, "Number of parallel trials")->capture_default_str();
+  app.add_flag("--list", options.list, "List the trials without running them");
   app.parse(argc, argv);
   return options;
 }

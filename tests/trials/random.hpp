@@ -14,7 +14,7 @@ class Random {
   /// In (0, 1).
   double uniform();
   double uniform(double lowest, double highest) { return lowest + (highest - lowest) * uniform(); }
-  /// Mean 0, standard deviation 1: sqrt(-2 log u) cos(2 pi v), Box and Muller (1958).
+  /// Mean 0, standard deviation 1: sqrt(-2 log u) cos(2 pi v), [BoxMuller1958].
   double normal();
   /// -1 or 1.
   double sign() { return uniform() < 0.5 ? -1.0 : 1.0; }

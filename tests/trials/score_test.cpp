@@ -137,10 +137,10 @@ TEST(ResultsFile, IsReadBack) {
   EXPECT_EQ(read[0].values, result.values);
   EXPECT_EQ(read[1].outcome, Outcome::quiet);
   EXPECT_TRUE(read[1].hidden.empty());
-  EXPECT_THAT(scorecard(read), HasSubstr("Of flexarm at 0123abc (a clean tree)."));
-  EXPECT_THAT(scorecard(read), HasSubstr("| two effects: one of them | 1/1 (100 %) |"));
+  EXPECT_THAT(scorecard(read), HasSubstr("Version: 0123abc (clean source tree)."));
+  EXPECT_THAT(scorecard(read), HasSubstr("| two effects: one identified | 1/1 (100 %) |"));
   EXPECT_THAT(scorecard(read),
-              HasSubstr("| nothing hidden: a cause named (false alarm) | 0/1 (0 %) |"));
+              HasSubstr("| no effect present: effect identified (false alarm) | 0/1 (0 %) |"));
 }
 
 TEST(ResultsFile, OfAnotherFormIsRefused) {
@@ -156,7 +156,7 @@ TEST(Scorecard, RefusesResultsOfSeveralVersions) {
   EXPECT_NO_THROW(scorecard({one, other}));
   other.version = "0123abc+changes-12ab34cd";
   EXPECT_THAT(scorecard({other}),
-              HasSubstr("Of flexarm at 0123abc+changes-12ab34cd (a changed tree)."));
+              HasSubstr("Version: 0123abc+changes-12ab34cd (modified source tree)."));
   EXPECT_ANY_THROW(scorecard({one, other}));
   EXPECT_ANY_THROW(require_one_version({one}, "4567def"));
 }
@@ -184,9 +184,9 @@ TEST(Scorecard, SmallestEffectIsAMultipleOfTheNoise) {
   auto with_faint = found;
   for (int i = 0; i < kEnough; ++i) with_faint.push_back(trial("faint", 0.015, Outcome::missed));
   EXPECT_THAT(scorecard(with_faint), HasSubstr("| gravity | 1.6 (20) |"));
-  EXPECT_THAT(scorecard(with_faint), HasSubstr("| none named | 20/20 (100 %) |"));
+  EXPECT_THAT(scorecard(with_faint), HasSubstr("| no effect identified | 20/20 (100 %) |"));
   // Faint ones are not among those that the first table counts.
-  EXPECT_THAT(scorecard(with_faint), HasSubstr("| one effect: named | 20/40 (50 %) |"));
+  EXPECT_THAT(scorecard(with_faint), HasSubstr("| one effect: identified | 20/40 (50 %) |"));
   // One that is found by chance below others that are lost does not count.
   auto by_chance = with_faint;
   for (auto& one : by_chance) {

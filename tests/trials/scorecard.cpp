@@ -19,35 +19,38 @@ namespace {
 constexpr const char* kIntroduction =
     R"(# Scorecard of blind trials
 
-Of flexarm at {}.
+Version: {}.
 
-{} experiments on three arms (aluminium, steel, a sandwich that is soft in shear) whose causes
-`flexarm diagnose` was not told, made by `scripts/trials`. The simulator is not the model that is
-fitted: its own finite elements, Newmark's method, each cause said anew (`tests/trials`).
-Columns: the kind of data, and noise over signal. In poles and zeros a fifth of that noise is the
-frequencies' and ten times it the damping ratios'. The strength of a cause is the error that it
-makes in a simulation without it, relative to the signal: weak 5 %, middle 15 %, strong 50 %; of
-poles and zeros a tenth of it. Where no physical size makes as much, the largest stands.
+{} simulated experiments on three arms: aluminium, steel, and a sandwich with low shear stiffness.
+The arm file given to `flexarm diagnose` lacks one or two effects, or none. `scripts/trials`
+generates the data with an independent simulator (`tests/trials`): its own finite elements,
+Newmark's method, and each effect implemented anew.
 
-A class counts as an answer where it has three members at most. A cause that is named wrongly beside
-`partly_explained` is wrong; so is one that is claimed with a probability above 0.5 where the hidden
-one has no name. The bounds are Clopper and Pearson's, of 95 % to each side.
+Columns: kind of data and noise-to-signal ratio. For poles and zeros the standard deviation of the
+frequencies is a fifth of that ratio, that of the damping ratios ten times. The strength of an
+effect is the NRMSE of a simulation without it: weak 5 %, middle 15 %, strong 50 %; a tenth of these
+for poles and zeros. If no physically possible value gives that strength, the largest possible value
+is used.
+
+An equivalence class counts as correct if it has at most three members. A wrong effect beside the
+verdict `partly_explained` counts as wrong. So does an effect with a probability above 0.5 if the
+true one is outside the library. Bounds are Clopper-Pearson, one-sided, 95 %.
 )";
 constexpr const char* kAboutSmallest =
-    R"(## The smallest effect found in 90 % of trials
+    R"(## Smallest effect identified in 90 % of trials
 
-Its strength as a multiple of the noise: the least at which the effect is named, or in a class of at
-most three, in 90 % of the trials or more, there and at every greater strength that was tried; "<"
-where no lesser one was. In brackets: the trials at that strength. Below 20 trials nothing is
-claimed: "few". For this, faint effects are hidden as well, which make an error of 1.5 %. They are not part of the tables above; what was said
-of them:
+Strength as a multiple of the noise floor: the smallest strength from which the effect, or its
+equivalence class of at most three, is identified in at least 90 % of the trials, at this and every
+larger strength. "<": no smaller strength was tested. In parentheses: number of trials at that
+strength. "few": fewer than 20 trials, no statement. For this table, faint effects with an NRMSE of
+1.5 % are simulated in addition. They are not part of the tables above. Results for them:
 
 )";
 
 constexpr const char* kAboutReliability =
-    R"(## Claimed probabilities and intervals
+    R"(## Stated probabilities and intervals
 
-A cause is right here if it was hidden itself, whatever class it is said to be in.
+Here an effect is correct only if it is the one present; members of its class do not count.
 
 )";
 
@@ -161,8 +164,8 @@ std::string summary_table(const std::vector<Cell>& cells) {
   const auto is = [](Outcome outcome) {
     return [outcome](const TrialResult& one) { return one.outcome == outcome; };
   };
-  of_effects("one effect: named", 1, is(Outcome::exact));
-  of_effects("one effect: named, or in a class of at most three", 1, is_found);
+  of_effects("one effect: identified", 1, is(Outcome::exact));
+  of_effects("one effect: identified, or in an equivalence class of at most three", 1, is_found);
   for (const Strength strength : kStrengths) {
     if (strength == Strength::faint) continue;
     add(fmt::format("... {}", to_string(strength)), [strength](const Results& all) {
@@ -172,13 +175,13 @@ std::string summary_table(const std::vector<Cell>& cells) {
       return part(count(some, is_found), static_cast<int>(some.size()));
     });
   }
-  of_effects("one effect: beside others", 1, is(Outcome::partly));
-  of_effects("one effect: another named", 1, is(Outcome::wrong));
-  of_effects("one effect: missed", 1, is(Outcome::missed));
-  of_effects("one effect: abstained", 1, is(Outcome::abstained));
-  of_effects("two effects: both named", 2, is_found);
-  of_effects("two effects: one of them", 2, is(Outcome::partly));
-  of_effects("two effects: another named", 2, is(Outcome::wrong));
+  of_effects("one effect: identified with additional wrong effects", 1, is(Outcome::partly));
+  of_effects("one effect: another effect identified", 1, is(Outcome::wrong));
+  of_effects("one effect: not detected (adequate)", 1, is(Outcome::missed));
+  of_effects("one effect: no effect identified (unexplained)", 1, is(Outcome::abstained));
+  of_effects("two effects: both identified", 2, is_found);
+  of_effects("two effects: one identified", 2, is(Outcome::partly));
+  of_effects("two effects: another effect identified", 2, is(Outcome::wrong));
   const auto of_nothing = [&](const std::string& name, Outcome outcome) {
     of_effects(name, 0, is(outcome));
     add("... upper 95 % bound", [outcome](const Results& all) {
@@ -188,17 +191,18 @@ std::string summary_table(const std::vector<Cell>& cells) {
       return fmt::format("{:.1f} %", 100.0 * bound);
     });
   };
-  of_nothing("nothing hidden: a cause named (false alarm)", Outcome::false_alarm);
-  of_nothing("nothing hidden: none named, but not adequate", Outcome::doubted);
-  add("outside the vocabulary: said so", [](const Results& all) {
+  of_nothing("no effect present: effect identified (false alarm)", Outcome::false_alarm);
+  of_nothing("no effect present: verdict not adequate", Outcome::doubted);
+  add("effect outside the library: reported as unexplained", [](const Results& all) {
     const Results some = chosen(all, [](const auto& one) { return one.outside; });
     return part(count(some, Outcome::recognised), static_cast<int>(some.size()));
   });
-  add("outside the vocabulary: another named, or all explained", [](const Results& all) {
-    const Results some = chosen(all, [](const auto& one) { return one.outside; });
-    return part(count(some, Outcome::wrong) + count(some, Outcome::mistaken),
-                static_cast<int>(some.size()));
-  });
+  add("effect outside the library: another effect identified, or explained",
+      [](const Results& all) {
+        const Results some = chosen(all, [](const auto& one) { return one.outside; });
+        return part(count(some, Outcome::wrong) + count(some, Outcome::mistaken),
+                    static_cast<int>(some.size()));
+      });
   add("parameters within 5 %", [](const Results& all) {
     int recovered = 0;
     int parameters = 0;
@@ -217,11 +221,11 @@ std::string summary_table(const std::vector<Cell>& cells) {
     }
     return part(covered, parameters);
   });
-  add("validation error at most 1.1 of the noise", noise_reached);
+  add("validation NRMSE at most 1.1 x noise floor", noise_reached);
   add("no answer", [](const Results& all) {
     return part(count(all, Outcome::no_answer), static_cast<int>(all.size()));
   });
-  add("time: median, most [s]", [](const Results& all) {
+  add("computing time: median, maximum [s]", [](const Results& all) {
     std::vector<double> times;
     for (const auto& one : all) times.push_back(one.time_s);
     return fmt::format("{:.1f}, {:.1f}", median(times), std::ranges::max(times));
@@ -234,10 +238,10 @@ std::string confusion_table(const Results& results) {
   std::map<std::string, std::map<std::string, int>> named;
   for (const auto& one : results) {
     if (one.hidden.size() > 1) continue;
-    const std::string hidden = one.hidden.empty() ? "nothing" : one.hidden.front();
+    const std::string hidden = one.hidden.empty() ? "no effect" : one.hidden.front();
     ++named[hidden][one.named.empty() ? one.verdict : fmt::format("{}", fmt::join(one.named, "+"))];
   }
-  std::string text = "| hidden | said, times |\n| --- | --- |\n";
+  std::string text = "| effect present | result (count) |\n| --- | --- |\n";
   for (const auto& [hidden, answers] : named) {
     std::vector<std::pair<std::string, int>> sorted(answers.begin(), answers.end());
     std::ranges::stable_sort(sorted, std::greater(), &std::pair<std::string, int>::second);
@@ -267,8 +271,9 @@ std::string faint_table(const Results& faint) {
     silent.push_back(
         part(count(cell.results, Outcome::missed) + count(cell.results, Outcome::abstained), all));
   }
-  return header("", titles) + row("named, or in a class of at most three", found) +
-         row("another named", wrong) + row("none named", silent);
+  return header("", titles) +
+         row("identified, or in an equivalence class of at most three", found) +
+         row("another effect identified", wrong) + row("no effect identified", silent);
 }
 
 /// Trials behind a statement on 90 % of them.
@@ -319,9 +324,9 @@ std::string failure_list(const Results& results) {
   for (const auto& one : results) {
     const bool left_over = is_found(one) && one.verdict != "explained";
     if (is_right(one) && !left_over) continue;
-    text += fmt::format("- {} ({}): {}, {}; error {:.2g}, after {:.2g}; {}\n", one.id, one.arm,
+    text += fmt::format("- {} ({}): {}, {}; NRMSE {:.2g}, extended arm {:.2g}; {}\n", one.id, one.arm,
                         to_string(one.outcome), one.verdict, one.before, one.after,
-                        one.values.empty() ? "nothing named" : one.values);
+                        one.values.empty() ? "no effect identified" : one.values);
   }
   return text.empty() ? "None.\n" : text;
 }
@@ -336,7 +341,7 @@ constexpr std::string_view kChanged = "+changes";
 std::string described(const std::string& version) {
   if (version == kUnknownVersion) return version;
   const bool changed = version.find(kChanged) != std::string::npos;
-  return fmt::format("{} ({} tree)", version, changed ? "a changed" : "a clean");
+  return fmt::format("{} ({} source tree)", version, changed ? "modified" : "clean");
 }
 
 }  // namespace
@@ -346,7 +351,7 @@ void require_one_version(const Results& results, const std::string& version) {
       std::ranges::find_if(results, [&](const auto& one) { return one.version != version; });
   if (other == results.end()) return;
   throw arm::InputError(fmt::format(
-      "{} was answered by flexarm {}, not by {}: give the results of each a file of their own",
+      "{}: result of flexarm {}, not of {}; use one results file per version",
       other->id, other->version, version));
 }
 
@@ -355,7 +360,7 @@ std::string scorecard(const Results& results) {
   require_one_version(results, results.front().version);
   const Results faint = chosen(results, is_faint);
   const Results judged = chosen(results, [](const TrialResult& one) { return !is_faint(one); });
-  return fmt::format("{}\n{}\n## What was said\n\n{}\n{}{}\n{}\n{}{}\n{}\n## Failures\n\n{}",
+  return fmt::format("{}\n{}\n## Results by effect\n\n{}\n{}{}\n{}\n{}{}\n{}\n## Failures\n\n{}",
                      fmt::format(kIntroduction, described(results.front().version), judged.size()),
                      summary_table(cells_and_totals_of(judged)), confusion_table(judged),
                      kAboutReliability, reliability_table(judged), coverage_table(judged),

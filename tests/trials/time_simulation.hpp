@@ -20,8 +20,8 @@ struct TimeOptions {
 /// What the sensors of an arm at rest read under a torque that holds from sample to sample, one
 /// vector a sensor; accelerations are those just after a jump of the torque.
 ///
-/// Newmark's method (1959) with a fixed step and the gamma 1/2, beta 1/12 of Fox and Goodwin
-/// (1949): periods are right to (omega h)^4/480, where average acceleration would lengthen them by
+/// Newmark's method [Newmark1959] with a fixed step and the gamma 1/2, beta 1/12 of
+/// [FoxGoodwin1949]: periods are right to (omega h)^4/480, where average acceleration would lengthen them by
 /// (omega h)^2/12, more than a fit to such data takes for chance. Stable for omega h < sqrt(6); the
 /// highest of the modes kept is far below.
 ///

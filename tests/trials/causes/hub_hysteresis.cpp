@@ -7,7 +7,7 @@ namespace flexarm::trials {
 
 namespace {
 
-/// Dahl (1968): dF/dtheta = (torque - F sign(theta'))/angle, exactly.
+/// [Dahl1968]: dF/dtheta = (torque - F sign(theta'))/angle, exactly.
 class DahlFriction : public HubTorque {
  public:
   DahlFriction(double last_N_m, double angle_rad) : last_N_m_(last_N_m), angle_rad_(angle_rad) {}

@@ -110,7 +110,7 @@ std::string text_of(const diagnose::Diagnosis& diagnosis) {
     for (const auto& cause : diagnosis.causes) {
       text += cause.effect + "\n";
       for (const auto& sentence : cause.evidence) text += report::to_paragraph("  " + sentence, 4);
-      text += report::to_paragraph("  It would be refuted by " + cause.refuted_by + ".", 4) + "\n";
+      text += report::to_paragraph("  Evidence against it would be: " + cause.refuted_by + ".", 4) + "\n";
     }
   }
   if (!diagnosis.near_misses.empty()) {
@@ -126,11 +126,11 @@ std::string text_of(const diagnose::Diagnosis& diagnosis) {
   return text + "\n" +
          report::to_text(report::further_run_table(diagnosis.next_experiments,
                                                    diagnosis.next_experiments.size(),
-                                                   "What next: runs that would tell the causes"));
+                                                   "Recommended runs, by what they would distinguish"));
 }
 
 std::string json_of(const diagnose::Diagnosis& diagnosis, const std::string& extended_arm) {
-  return report::json_document("flexarm.diagnosis/1",
+  return report::json_document("flexarm.diagnosis/2",
                                report::diagnosis_json(diagnosis, extended_arm));
 }
 
@@ -203,7 +203,7 @@ int run_diagnose(const DiagnoseArguments& arguments) {
 Command add_diagnose(CLI::App& program) {
   const auto arguments = std::make_shared<DiagnoseArguments>();
   CLI::App* parser = program.add_subcommand(
-      "diagnose", "What the simulation gets wrong, by which cause, and the arm with it");
+      "diagnose", "Name the causes of the differences between a simulation and measured data");
   parser->add_option("FILE", arguments->file, "measurement.toml")->required()->check(not_empty());
   add_effect_choice(*parser, arguments->effects);
   parser->add_option("--max-causes", arguments->most_causes, "The most causes to name")

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace flexarm::diagnose {
 
@@ -13,8 +14,10 @@ namespace {
 
 using Eigen::Index;
 
-/// A coordinate within this of an end of its range is at the end.
+/// A coordinate within this of an end of its range is at the end,
 constexpr double kAtEnd = 1e-3;
+/// unless it may be farther inside by so many standard errors.
+constexpr double kMayBe = 2.0;
 
 /// Standard errors of the coordinates; infinite where the residuals do not depend on one.
 Eigen::VectorXd coordinate_errors(const Explanation& explanation) {
@@ -56,7 +59,9 @@ bool is_identified(const Explanation& explanation) {
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const Index at = first + static_cast<Index>(i);
     const double place = coordinates(at);
-    if (!parameters[i].periodic && (place < kAtEnd || place > 1.0 - kAtEnd)) return false;
+    const double may_be = kMayBe * errors(at);
+    const bool is_inside = place + may_be > kAtEnd && place - may_be < 1.0 - kAtEnd;
+    if (!parameters[i].periodic && !is_inside) return false;
     if (!(errors(at) < significant_distance(parameters[i], place))) return false;
   }
   return true;

@@ -1,6 +1,9 @@
 #include "diagnose/search/parameter_errors.hpp"
 
 #include <Eigen/Cholesky>
+#include <boost/math/distributions/chi_squared.hpp>
+#include <boost/math/distributions/normal.hpp>
+#include <boost/math/distributions/students_t.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -11,18 +14,47 @@ namespace {
 
 using Eigen::Index;
 
-/// Sum of g g^T over stretches, one row J_b^T r_b each: of `time` runs through all channels, whose
-/// misfits go together, of `frf` runs channel by channel. `modal` entries are taken one by one.
-Eigen::MatrixXd clustered(const Problem& problem, const Fit& fit) {
+/// A column J_b^T r_b for each of the stretches b of a channel.
+Eigen::MatrixXd gradients_of(const Fit& fit, const ObservedChannel& channel, Index stretches) {
+  Eigen::MatrixXd gradients(fit.jacobian.cols(), stretches);
+  for (Index b = 0; b < stretches; ++b) {
+    const Index begin = channel.first + b * channel.count / stretches;
+    const Index count = channel.first + (b + 1) * channel.count / stretches - begin;
+    gradients.col(b) =
+        fit.jacobian.middleRows(begin, count).transpose() * fit.residuals.segment(begin, count);
+  }
+  return gradients;
+}
+
+/// Sum of g g^T over the clusters that are put in.
+class Clusters {
+ public:
+  explicit Clusters(Index parameters) : sum_(Eigen::MatrixXd::Zero(parameters, parameters)) {}
+
+  void put(const Eigen::MatrixXd& gradients) {
+    sum_.noalias() += gradients * gradients.transpose();
+    count_ += static_cast<double>(gradients.cols());
+  }
+  /// Those beyond what the fitted parameters take.
+  double freedom() const { return count_ - static_cast<double>(sum_.cols()); }
+  /// Corrected for the parameters that were fitted; 0 where there are too few to say.
+  Eigen::MatrixXd sum() const {
+    if (freedom() < 1.0) return Eigen::MatrixXd::Zero(sum_.rows(), sum_.cols());
+    return sum_ * (count_ / freedom());
+  }
+
+ private:
+  Eigen::MatrixXd sum_;
+  double count_ = 0.0;
+};
+
+/// Of residuals that go together over stretches of a run: of `time` runs through all channels, of
+/// `frf` runs channel by channel; `modal` entries are taken one by one.
+Clusters clustered_by_stretches(const Problem& problem, const Fit& fit) {
   const Experiment& experiment = problem.experiment();
   const Index n = fit.jacobian.cols();
-  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(n, n);
+  Clusters clusters(n);
   Eigen::MatrixXd of_run = Eigen::MatrixXd::Zero(n, kStretches);
-  double clusters = 0.0;
-  const auto close = [&](const Eigen::MatrixXd& gradients) {
-    sum.noalias() += gradients * gradients.transpose();
-    clusters += static_cast<double>(gradients.cols());
-  };
   const auto& channels = problem.observations().channels;
   for (std::size_t c = 0; c < channels.size(); ++c) {
     const ObservedChannel& channel = channels[c];
@@ -31,25 +63,46 @@ Eigen::MatrixXd clustered(const Problem& problem, const Fit& fit) {
     const Index stretches = kind == measured::RunKind::modal
                                 ? channel.count
                                 : std::min<Index>(kStretches, channel.count);
-    Eigen::MatrixXd gradients(n, stretches);
-    for (Index b = 0; b < stretches; ++b) {
-      const Index begin = channel.first + b * channel.count / stretches;
-      const Index count = channel.first + (b + 1) * channel.count / stretches - begin;
-      gradients.col(b) =
-          fit.jacobian.middleRows(begin, count).transpose() * fit.residuals.segment(begin, count);
-    }
+    const Eigen::MatrixXd gradients = gradients_of(fit, channel, stretches);
     if (kind != measured::RunKind::time || stretches < kStretches) {
-      close(gradients);
+      clusters.put(gradients);
       continue;
     }
     of_run += gradients;
     if (c + 1 == channels.size() || channels[c + 1].run != channel.run) {
-      close(of_run);
+      clusters.put(of_run);
       of_run.setZero();
     }
   }
-  const double free = clusters - static_cast<double>(n);
-  return free > 0.0 ? Eigen::MatrixXd(sum * (clusters / free)) : Eigen::MatrixXd::Zero(n, n);
+  return clusters;
+}
+
+/// Of residuals that go together over whole runs: estimates that are inconsistent between runs.
+Clusters clustered_by_runs(const Problem& problem, const Fit& fit) {
+  const Index n = fit.jacobian.cols();
+  Clusters clusters(n);
+  const auto& channels = problem.observations().channels;
+  Eigen::VectorXd of_run = Eigen::VectorXd::Zero(n);
+  for (std::size_t c = 0; c < channels.size(); ++c) {
+    if (!problem.estimation_runs()[channels[c].run]) continue;
+    of_run += gradients_of(fit, channels[c], 1);
+    if (c + 1 == channels.size() || channels[c + 1].run != channels[c].run) {
+      clusters.put(of_run);
+      of_run.setZero();
+    }
+  }
+  return clusters;
+}
+
+/// The ratio of a variance by so many clusters to its expectation that chance exceeds in 5 %.
+double inconsistent_from(double freedom) {
+  return boost::math::quantile(boost::math::chi_squared(freedom), 0.95) / freedom;
+}
+
+/// By which 1.96 standard errors become Student's 95 % interval.
+double students_widening(double freedom) {
+  return boost::math::quantile(boost::math::students_t(freedom), 0.975) /
+         boost::math::quantile(boost::math::normal(), 0.975);
 }
 
 /// What a step in each place is in the parameter's own unit.
@@ -80,10 +133,21 @@ std::vector<double> standard_errors(const Problem& problem, const Explanation& e
                        std::max(1.0, misfit.independent);
   const Eigen::LDLT<Eigen::MatrixXd> information(fit.jacobian.transpose() * fit.jacobian);
   const Eigen::MatrixXd inverse = information.solve(Eigen::MatrixXd::Identity(n, n));
-  Eigen::VectorXd variances =
-      (inverse * scale)
-          .diagonal()
-          .cwiseMax((inverse * clustered(problem, fit) * inverse).diagonal());
+  const auto sandwich = [&](const Clusters& clusters) -> Eigen::VectorXd {
+    return (inverse * clusters.sum() * inverse).diagonal();
+  };
+  Eigen::VectorXd variances = (inverse * scale)
+                                  .diagonal()
+                                  .cwiseMax(sandwich(clustered_by_stretches(problem, fit)));
+  const Clusters runs = clustered_by_runs(problem, fit);
+  if (runs.freedom() >= 1.0) {
+    const Eigen::VectorXd of_runs = sandwich(runs);
+    const double limit = inconsistent_from(runs.freedom());
+    const double widened = students_widening(runs.freedom());
+    for (Index i = 0; i < n; ++i) {
+      if (of_runs(i) > limit * variances(i)) variances(i) = widened * widened * of_runs(i);
+    }
+  }
   if (const auto refined = finer.residuals(fit.candidate, problem.estimation_runs())) {
     const Eigen::VectorXd shift =
         information.solve(fit.jacobian.transpose() * (*refined - fit.residuals));

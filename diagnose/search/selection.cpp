@@ -45,6 +45,12 @@ std::vector<std::vector<double>> samples_of(const Hypothesis& hypothesis) {
   return samples;
 }
 
+std::vector<double> middle_of(const Hypothesis& hypothesis) {
+  std::vector<double> values;
+  for (const auto& parameter : hypothesis.parameters) values.push_back(parameter.value(0.5));
+  return values;
+}
+
 class Search {
  public:
   Search(const Problem& problem, const std::vector<Hypothesis>& hypotheses,
@@ -76,11 +82,6 @@ class Search {
     if (!made.singles.empty()) {
       see_noise(made);
       extend(made);
-      if (correct_timing(made) && !is_enough(made)) {
-        combined_.clear();
-        made.combinations.clear();
-        extend(made);
-      }
       generalise(made);
     }
     leave_out_improbable(made);
@@ -97,8 +98,9 @@ class Search {
 
   /// The noise that is seen under what the best so far leaves.
   void see_noise(Selection& made) {
-    const Explanation& best = made.singles.empty() ? made.nothing : made.singles.front();
-    if (problem_.lower_noise(best.fit.candidate)) refit(made);
+    const Explanation* best = &made.chosen;
+    if (best->fit.candidate.effects.empty() && !made.singles.empty()) best = &made.singles.front();
+    if (problem_.lower_noise(best->fit.candidate)) refit(made);
   }
 
   /// All that was fitted to all data once more, from where it is, with the problem as it is now.
@@ -173,6 +175,9 @@ class Search {
     std::vector<Explanation> found(looks.size());
     work_.in_parallel(looks.size(), what, middle, to,
                       [&](std::size_t i) { found[i] = fitted(looks[i].candidate); });
+    if (!work_.is_cancelled()) {
+      std::erase_if(found, [](const Explanation& one) { return !is_identified(one); });
+    }
     sort_by_fit(found);
     return found;
   }
@@ -186,9 +191,7 @@ class Search {
     const auto look_at = [&](const std::vector<const Hypothesis*>& some, double begin, double end) {
       std::vector<Fit> made(some.size());
       work_.in_parallel(some.size(), what, begin, end, [&](std::size_t i) {
-        std::vector<double> values;
-        for (const auto& parameter : some[i]->parameters) values.push_back(parameter.value(0.5));
-        made[i] = first_look(base.with(*some[i], values));
+        made[i] = first_look(base.with(*some[i], middle_of(*some[i])));
       });
       std::ranges::move(made, std::back_inserter(looks));
       std::ranges::stable_sort(looks, {}, &Fit::sum_of_squares);
@@ -267,25 +270,25 @@ class Search {
     });
   }
 
-  /// clears_bars, and the same against each set in which one of its effects is replaced by a limit
-  /// of that: a general effect is named for what it adds to the special one.
-  bool is_admitted(Selection& made, const Explanation& fuller, const Explanation& simpler) const {
-    if (!clears_bars(fuller, simpler, options_)) return false;
-    const Candidate candidate = fuller.fit.candidate;
-    const Explanation whole = fuller;
+  /// clears_bars against each set in which one of its effects is replaced by a limit of that: a
+  /// general effect is named for what it adds to the special one.
+  bool clears_limits(Selection& made, Explanation fuller) const {
     return std::ranges::all_of(
-        limits_in(candidate, hypotheses_), [&](const LimitOfEffect& of) {
-          return clears_bars(whole, replaced(made, candidate, of.effect, *of.limit), options_);
+        limits_in(fuller.fit.candidate, hypotheses_), [&](const LimitOfEffect& of) {
+          const Candidate& candidate = fuller.fit.candidate;
+          return clears_bars(fuller, replaced(made, candidate, of.effect, *of.limit), options_);
         });
+  }
+
+  bool is_admitted(Selection& made, const Explanation& fuller, const Explanation& simpler) const {
+    return clears_bars(fuller, simpler, options_) && clears_limits(made, fuller);
   }
 
   /// `candidate` with another effect in place of one of its own: as it was fitted before, or fitted
   /// now and kept.
   Explanation replaced(Selection& made, const Candidate& candidate, std::size_t index,
                        const Hypothesis& other) const {
-    std::vector<double> middle;
-    for (const auto& parameter : other.parameters) middle.push_back(parameter.value(0.5));
-    const Candidate start = candidate.without(index).with(other, middle);
+    const Candidate start = candidate.without(index).with(other, middle_of(other));
     auto& kept = start.effects.size() == 1 ? made.singles : made.combinations;
     const auto same = std::ranges::find_if(kept, [&](const Explanation& one) {
       return one.fit.candidate.labels() == start.labels();
@@ -297,25 +300,20 @@ class Search {
     return found;
   }
 
-  /// The best admitted single over none.
-  const Explanation* best_single(Selection& made) const {
+  /// The best admitted single over none; `nothing` where there is none.
+  Explanation best_single(Selection& made) const {
     const std::vector<Explanation> singles = made.singles;
-    for (const Explanation& single : singles) {
-      if (is_admitted(made, single, made.nothing)) {
-        return &*std::ranges::find_if(made.singles, [&](const Explanation& one) {
-          return one.fit.candidate.labels() == single.fit.candidate.labels();
-        });
-      }
-    }
-    return nullptr;
+    const auto best = std::ranges::find_if(singles, [&](const Explanation& single) {
+      return is_admitted(made, single, made.nothing);
+    });
+    return best == singles.end() ? made.nothing : *best;
   }
 
-  /// Of the combinations of so many effects the best whose parameters the data identify, or one
-  /// with fewer parameters that it does not clear the bars over; null where there are none.
+  /// Of the combinations of so many effects the best, or one with fewer parameters that it does not clear the bars over; null where there are none.
   const Explanation* simplest(const std::vector<Explanation>& found, std::size_t effects) const {
     const Explanation* best = nullptr;
     for (const Explanation& other : found) {
-      if (other.fit.candidate.effects.size() != effects || !is_identified(other)) continue;
+      if (other.fit.candidate.effects.size() != effects) continue;
       const bool is_simpler =
           best != nullptr && other.fit.candidate.values.size() < best->fit.candidate.values.size();
       if (best == nullptr || (is_simpler && !clears_bars(*best, other, options_))) best = &other;
@@ -323,9 +321,18 @@ class Search {
     return best;
   }
 
-  void extend(Selection& made) {
-    if (const Explanation* single = best_single(made)) made.chosen = *single;
+  void choose(Selection& made, Explanation best) {
+    made.chosen = std::move(best);
+    see_noise(made);
     correct_timing(made);
+  }
+
+  void extend(Selection& made) {
+    const Explanation single = best_single(made);
+    // Timing is a nuisance: it loses against a cause that leaves noise, and wins over one that does
+    // not.
+    if (!single.leaves_noise()) correct_timing(made);
+    if (!is_enough(made)) choose(made, single);
     for (int round = 0; round < options_.most_rounds && !is_enough(made); ++round) {
       const std::size_t causes = std::max<std::size_t>(made.chosen.fit.candidate.effects.size(), 1);
       if (static_cast<int>(causes) == options_.most_causes) return;
@@ -335,8 +342,7 @@ class Search {
       const Explanation best = needed(exchanged(made, *larger));
       if (work_.is_cancelled() || !is_admitted(made, best, made.chosen)) return;
       if (best.fit.candidate.effects.size() == 1) replace_single(made, best);
-      made.chosen = exchanged(made, best);
-      correct_timing(made);
+      choose(made, exchanged(made, best));
     }
   }
 
@@ -436,14 +442,13 @@ class Search {
       for (std::size_t i = 0; i < candidate.effects.size(); ++i) {
         combine(made, candidate.without(i), "exchanged effects", halfway());
       }
-      const auto first = std::ranges::find_if(made.combinations, [&](const Explanation& other) {
-        return is_rival(other.fit.candidate, candidate);
+      const std::vector<Explanation> combinations = made.combinations;
+      const auto better = std::ranges::find_if(combinations, [&](const Explanation& other) {
+        return is_rival(other.fit.candidate, candidate) &&
+               lead(other, best) >= options_.least_information_gain && clears_limits(made, other);
       });
-      if (first == made.combinations.end() ||
-          lead(*first, best) < options_.least_information_gain) {
-        break;
-      }
-      best = *first;
+      if (better == combinations.end()) break;
+      best = *better;
     }
     return best;
   }

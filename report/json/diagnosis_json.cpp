@@ -25,11 +25,19 @@ Json cause_json(const diagnose::Cause& cause) {
   if (!cause.sensor.empty()) json["sensor"] = cause.sensor;
   json["parameters"] = parameters;
   json["confidence"] = cause.confidence;
-  json["share"] = cause.share;
+  json["class_confidence"] = cause.class_confidence;
+  json["explained_share"] = cause.share;
   json["confusable_with"] = cause.confusable_with;
   json["evidence"] = cause.evidence;
-  json["refuted_by"] = cause.refuted_by;
+  json["evidence_against"] = cause.refuted_by;
   return json;
+}
+
+Json test_json(const diagnose::ResidualTest& test) {
+  return {{"is_noise", test.is_noise()},
+          {"level_p_value", test.level_p_value},
+          {"whiteness_p_value", test.whiteness_p_value},
+          {"uncertain_numbers_p_value", test.nuisance_p_value}};
 }
 
 Json formulations_json(const diagnose::FormulationCheck& check) {
@@ -53,36 +61,44 @@ Json diagnosis_json(const diagnose::Diagnosis& diagnosis, const std::string& ext
     json.update(gain_json(channel.error));
     channels.push_back(json);
   }
-  Json refitted = Json::array();
+  Json uncertain_numbers = Json::array();
   for (const auto& number : diagnosis.refitted) {
-    refitted.push_back({{"key", number.key},
-                        {"file_value", number.file_value},
-                        {"uncertainty", number.uncertainty},
-                        {"value", number.value},
-                        {"std_error", number.std_error},
-                        {"unit", number.unit}});
+    uncertain_numbers.push_back({{"key", number.key},
+                                 {"nominal_value", number.file_value},
+                                 {"uncertainty", number.uncertainty},
+                                 {"value", number.value},
+                                 {"std_error", number.std_error},
+                                 {"unit", number.unit},
+                                 {"has_moved", number.has_moved()}});
   }
   const diagnose::Symptoms& symptoms = diagnosis.symptoms;
-  Json near_misses = Json::array();
+  Json candidates = Json::array();
   for (const auto& miss : diagnosis.near_misses) {
-    near_misses.push_back({{"effects", miss.effects},
-                           {"share", miss.share},
-                           {"information", miss.information},
-                           {"error", miss.error}});
+    candidates.push_back({{"effects", miss.effects},
+                          {"probability", miss.probability},
+                          {"explained_share", miss.share},
+                          {"delta_bic", miss.information},
+                          {"nrmse", miss.error}});
   }
   return {{"verdict", to_string(diagnosis.verdict)},
           {"symptoms", statements_json(symptoms)},
           {"causes", causes},
+          {"something_else", diagnosis.something_else},
           {"gain", gain},
+          {"residual_test",
+           {{"estimation", test_json(diagnosis.estimation_test)},
+            {"validation",
+             diagnosis.validation ? test_json(diagnosis.validation_test) : Json(nullptr)}}},
+          {"fit", {{"converged", diagnosis.converged}, {"evaluations", diagnosis.evaluations}}},
           {"residual",
            {{"channels", channels},
             {"bands", bands_json(symptoms)},
             {"roots", root_shifts_json(symptoms)},
             {"hub_torque", hub_torque_json(symptoms)},
             {"distortion", distortion_json(symptoms)},
-            {"run_by_run", run_by_run_json(symptoms)}}},
-          {"near_misses", near_misses},
-          {"refitted", refitted},
+            {"run_consistency", run_consistency_json(symptoms)}}},
+          {"candidates", candidates},
+          {"uncertain_numbers", uncertain_numbers},
           {"formulations", formulations_json(diagnosis.formulations)},
           {"extended_arm", extended_arm.empty() ? Json(nullptr) : Json(extended_arm)},
           {"next_experiments", further_runs_json(diagnosis.next_experiments)},

@@ -14,10 +14,10 @@ Json hub_term_json(const diagnose::HubTorqueTerm& term, bool accepted) {
                {"coefficient", term.coefficient},
                {"std_error", term.std_error},
                {"unit", term.unit}};
-  if (term.kind == diagnose::HubTorqueKind::ripple) json["cycles_per_rad"] = term.at;
-  if (term.kind == diagnose::HubTorqueKind::saturation) json["from_N_m"] = term.at;
-  json["share"] = term.share;
-  json["probability"] = term.probability;
+  if (term.kind == diagnose::HubTorqueKind::ripple) json["cycles_per_rev"] = term.at;
+  if (term.kind == diagnose::HubTorqueKind::saturation) json["threshold_N_m"] = term.at;
+  json["explained_share"] = term.share;
+  json["p_value"] = term.probability;
   return json;
 }
 
@@ -36,7 +36,7 @@ Json statements_json(const diagnose::Symptoms& symptoms) {
     Json json = {{"kind", to_string(one.kind)},
                  {"text", one.text},
                  {"significant", one.is_significant},
-                 {"probability", one.probability},
+                 {"p_value", one.probability},
                  {"deviate", one.deviate}};
     if (!one.run.empty()) json["run"] = one.run;
     if (!one.sensor.empty()) json["sensor"] = one.sensor;
@@ -55,7 +55,7 @@ Json bands_json(const diagnose::Symptoms& symptoms) {
     json["before"] = error.before;
     json["after"] = error.after;
     json["noise_floor"] = error.noise;
-    json["probability"] = error.probability;
+    json["p_value"] = error.probability;
     all.push_back(json);
   }
   return all;
@@ -91,7 +91,7 @@ Json distortion_json(const diagnose::Symptoms& symptoms) {
         return Json{{"lines", test.lines},
                     {"level_dB", test.level_dB},
                     {"noise_dB", test.noise_dB},
-                    {"probability", test.probability}};
+                    {"p_value", test.probability}};
       };
       all.push_back({{"run", run.run},
                      {"sensor", arm::to_string(run.sensors[c])},
@@ -102,7 +102,7 @@ Json distortion_json(const diagnose::Symptoms& symptoms) {
   return all;
 }
 
-Json run_by_run_json(const diagnose::Symptoms& symptoms) {
+Json run_consistency_json(const diagnose::Symptoms& symptoms) {
   if (!symptoms.drift) return nullptr;
   const auto& drift = *symptoms.drift;
   Json values = Json::array();
@@ -115,7 +115,7 @@ Json run_by_run_json(const diagnose::Symptoms& symptoms) {
           {"values", values},
           {"mean", drift.mean},
           {"chi_squared", drift.chi_squared},
-          {"probability", drift.probability}};
+          {"p_value", drift.probability}};
 }
 
 }  // namespace flexarm::report

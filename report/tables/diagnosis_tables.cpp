@@ -3,18 +3,83 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <utility>
 #include <vector>
 
 namespace flexarm::report {
 
 namespace {
 
-std::string names(const std::vector<diagnose::Cause>& causes) {
-  std::vector<std::string> all;
-  for (const auto& cause : causes) {
-    all.push_back(cause.sensor.empty() ? cause.effect : cause.effect + " on " + cause.sensor);
+std::string name_of(const diagnose::Cause& cause) {
+  return cause.sensor.empty() ? cause.effect : cause.effect + " on " + cause.sensor;
+}
+
+/// "coulomb_friction (probability 0.98)"; of a class "one of time_delay, actuator_lag (...)".
+std::string headline(const diagnose::Cause& cause) {
+  constexpr double kNamed = 0.5;
+  if (cause.confidence >= kNamed) {
+    return fmt::format("{} (probability {:.2f})", name_of(cause), cause.confidence);
   }
+  return fmt::format("one of {}, {} (probability {:.2f} together)", name_of(cause),
+                     fmt::join(cause.confusable_with, ", "), cause.class_confidence);
+}
+
+std::string headlines(const std::vector<diagnose::Cause>& causes) {
+  std::vector<std::string> all;
+  for (const auto& cause : causes) all.push_back(headline(cause));
   return fmt::format("{}", fmt::join(all, " and "));
+}
+
+/// "beam.length = 0.51 +- 0.0002 m"; the uncertain numbers that the data moved, all if none.
+std::string numbers_text(const std::vector<diagnose::RefittedNumber>& numbers) {
+  std::vector<std::string> moved;
+  std::vector<std::string> all;
+  for (const auto& number : numbers) {
+    const std::string text = fmt::format("{} = {:.5g} +- {:.2g} {}", number.key, number.value,
+                                         number.std_error, number.unit);
+    all.push_back(text);
+    if (number.has_moved()) moved.push_back(text);
+  }
+  return fmt::format("{}", fmt::join(moved.empty() ? all : moved, " and "));
+}
+
+std::string explanation_of(const diagnose::Diagnosis& diagnosis) {
+  if (diagnosis.causes.empty()) return numbers_text(diagnosis.refitted);
+  std::string text = headlines(diagnosis.causes);
+  if (std::ranges::any_of(diagnosis.refitted, &diagnose::RefittedNumber::has_moved)) {
+    text += ", with " + numbers_text(diagnosis.refitted);
+  }
+  return text;
+}
+
+/// Which part of the residual test fails.
+std::string failure(const diagnose::ResidualTest& test, const char* runs) {
+  std::vector<std::string> parts;
+  const auto add = [&](double p_value, const char* name) {
+    if (p_value < diagnose::kResidualLevel) {
+      parts.push_back(fmt::format("{} p = {:.1g}", name, p_value));
+    }
+  };
+  add(test.level_p_value, "level");
+  add(test.whiteness_p_value, "whiteness");
+  add(test.nuisance_p_value, "uncertain numbers");
+  return parts.empty() ? "" : fmt::format("{} ({})", runs, fmt::join(parts, ", "));
+}
+
+/// "The residuals of the estimation runs (whiteness p = 1e-9) are not noise."
+std::string not_noise(const diagnose::Diagnosis& diagnosis) {
+  std::vector<std::string> failed;
+  for (auto text : {failure(diagnosis.estimation_test, "estimation"),
+                    failure(diagnosis.validation_test, "validation")}) {
+    if (!text.empty()) failed.push_back(std::move(text));
+  }
+  std::string text;
+  if (!failed.empty()) {
+    text = fmt::format(" The residuals of the {} runs are not noise.", fmt::join(failed, " and "));
+  }
+  if (!diagnosis.converged) text += " The fit did not converge.";
+  return text;
 }
 
 std::vector<Cell> gain_row(const std::string& runs, const diagnose::Gain& gain) {
@@ -27,28 +92,24 @@ std::string verdict_text(const diagnose::Diagnosis& diagnosis) {
   const double before = 100.0 * diagnosis.estimation.before;
   const double after = 100.0 * diagnosis.estimation.after;
   const double noise = 100.0 * diagnosis.estimation.noise_floor;
+  const std::string fall = fmt::format(
+      "NRMSE falls from {:.3g} to {:.3g} %; the noise floor is {:.3g} %.", before, after, noise);
   switch (diagnosis.verdict) {
     case diagnose::Verdict::adequate:
       return fmt::format(
-          "Adequate: the simulation misses the data by {:.3g} % of the signal where noise alone "
-          "makes {:.3g} %; nothing that is worth a cause.",
+          "Adequate: the residuals are noise. NRMSE is {:.3g} %; the noise floor is {:.3g} %.",
           before, noise);
     case diagnose::Verdict::explained:
-      return fmt::format(
-          "Explained by {}: the error falls from {:.3g} to {:.3g} % of the signal, of which noise "
-          "makes {:.3g} %.",
-          names(diagnosis.causes), before, after, noise);
+      return fmt::format("Explained by {}: the residuals are noise. {}",
+                         explanation_of(diagnosis), fall);
     case diagnose::Verdict::partly_explained:
-      return fmt::format(
-          "Partly explained by {}: the error falls from {:.3g} to {:.3g} % of the signal, but "
-          "noise "
-          "makes only {:.3g} %; something else is there too.",
-          names(diagnosis.causes), before, after, noise);
+      return fmt::format("Partly explained by {}. {}{} Something else is present.",
+                         explanation_of(diagnosis), fall, not_noise(diagnosis));
     case diagnose::Verdict::unexplained:
       return fmt::format(
-          "Unexplained: the simulation misses the data by {:.3g} % of the signal where noise makes "
-          "{:.3g} %, and no effect of the vocabulary, nor a pair, accounts for it.",
-          before, noise);
+          "Unexplained: no cause of the vocabulary has a probability of 0.5 or more. NRMSE is "
+          "{:.3g} %; the noise floor is {:.3g} %.{}",
+          after, noise, not_noise(diagnosis));
   }
   return "";
 }
@@ -60,14 +121,14 @@ Table cause_table(const diagnose::Diagnosis& diagnosis) {
                {.name = "value"},
                {.name = "std error", .significant_digits = 2},
                {.name = "unit"},
-               {.name = "share", .unit = "%", .significant_digits = 4},
-               {.name = "confidence", .significant_digits = 2},
-               {.name = "not told from"}}};
+               {.name = "explains", .unit = "%", .significant_digits = 4},
+               {.name = "probability", .significant_digits = 3},
+               {.name = "indistinguishable from"}}};
   for (const auto& cause : diagnosis.causes) {
     for (std::size_t i = 0; i < cause.parameters.size(); ++i) {
       const auto& parameter = cause.parameters[i];
       const bool first = i == 0;
-      table.add_row({first ? Cell(names({cause})) : Cell(std::string()), parameter.name,
+      table.add_row({first ? Cell(name_of(cause)) : Cell(std::string()), parameter.name,
                      parameter.value, parameter.std_error, parameter.unit,
                      first ? Cell(100.0 * cause.share) : Cell(std::string()),
                      first ? Cell(cause.confidence) : Cell(std::string()),
@@ -79,12 +140,12 @@ Table cause_table(const diagnose::Diagnosis& diagnosis) {
 }
 
 Table channel_gain_table(const diagnose::Diagnosis& diagnosis) {
-  Table table{"Error of the simulation, per cent of the signal",
+  Table table{"NRMSE by channel",
               {{.name = "run"},
                {.name = "sensor"},
-               {.name = "before", .unit = "%", .significant_digits = 3},
-               {.name = "after", .unit = "%", .significant_digits = 3},
-               {.name = "noise", .unit = "%", .significant_digits = 3}}};
+               {.name = "arm file", .unit = "%", .significant_digits = 3},
+               {.name = "extended arm", .unit = "%", .significant_digits = 3},
+               {.name = "noise floor", .unit = "%", .significant_digits = 3}}};
   for (const auto& channel : diagnosis.channels) {
     auto row = gain_row(channel.run, channel.error);
     row.insert(row.begin() + 1, channel.sensor);
@@ -94,13 +155,15 @@ Table channel_gain_table(const diagnose::Diagnosis& diagnosis) {
 }
 
 Table near_miss_table(const diagnose::Diagnosis& diagnosis) {
-  Table table{"Nearest, but not named",
+  Table table{"Candidates that were not named",
               {{.name = "effects"},
-               {.name = "takes away", .unit = "%", .significant_digits = 3},
-               {.name = "information", .significant_digits = 3},
-               {.name = "error left", .unit = "%", .significant_digits = 3}}};
+               {.name = "probability", .significant_digits = 2},
+               {.name = "explains", .unit = "%", .significant_digits = 3},
+               {.name = "delta BIC", .significant_digits = 3},
+               {.name = "NRMSE", .unit = "%", .significant_digits = 3}}};
   for (const auto& miss : diagnosis.near_misses) {
-    table.add_row({miss.effects, 100.0 * miss.share, miss.information, 100.0 * miss.error});
+    table.add_row({miss.effects, miss.probability, 100.0 * miss.share, miss.information,
+                   100.0 * miss.error});
   }
   return table;
 }
@@ -108,8 +171,8 @@ Table near_miss_table(const diagnose::Diagnosis& diagnosis) {
 Table refitted_table(const diagnose::Diagnosis& diagnosis) {
   Table table{"Uncertain numbers of the arm, refitted",
               {{.name = "key"},
-               {.name = "file"},
-               {.name = "uncertain by", .unit = "%", .significant_digits = 3},
+               {.name = "nominal"},
+               {.name = "uncertainty", .unit = "%", .significant_digits = 3},
                {.name = "value"},
                {.name = "std error", .significant_digits = 2},
                {.name = "unit"}}};
@@ -122,21 +185,21 @@ Table refitted_table(const diagnose::Diagnosis& diagnosis) {
 
 std::string formulations_text(const diagnose::FormulationCheck& check) {
   if (!check.refused.empty()) {
-    return fmt::format("The extended arm was not compared in three formulations: {}.",
+    return fmt::format("The extended arm was not checked in three formulations: {}.",
                        check.refused);
   }
   return fmt::format(
       "Finite elements, assumed modes and the exact transfer function {} on the linear part of the "
-      "extended arm: they are at most {:.1e} apart, in {}.",
+      "extended arm: largest relative difference {:.1e}, in {}.",
       check.agree ? "agree" : "do not agree", check.largest_distance, check.quantity);
 }
 
 Table gain_table(const diagnose::Diagnosis& diagnosis) {
-  Table table{"Gain",
+  Table table{"NRMSE, mean of the channels",
               {{.name = "runs"},
-               {.name = "before", .unit = "%", .significant_digits = 3},
-               {.name = "after", .unit = "%", .significant_digits = 3},
-               {.name = "noise", .unit = "%", .significant_digits = 3}}};
+               {.name = "arm file", .unit = "%", .significant_digits = 3},
+               {.name = "extended arm", .unit = "%", .significant_digits = 3},
+               {.name = "noise floor", .unit = "%", .significant_digits = 3}}};
   table.add_row(gain_row("estimation", diagnosis.estimation));
   if (diagnosis.validation) table.add_row(gain_row("validation", *diagnosis.validation));
   return table;

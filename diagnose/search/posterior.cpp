@@ -18,9 +18,12 @@ double squares_of(const Explanation& set) {
 
 Posterior::Posterior(std::vector<const Explanation*> sets, std::size_t hypotheses,
                      const SelectionOptions& options) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const Explanation* set : sets) {
-    least = std::min({least, squares_of(*set), set->estimation.count + set->validation.count});
+  const auto best_set = std::ranges::min_element(sets, {}, [](const Explanation* set) {
+    return squares_of(*set);
+  });
+  double least = squares_of(**best_set);
+  if (!(*best_set)->leaves_noise()) {
+    least = std::min(least, (*best_set)->estimation.count + (*best_set)->validation.count);
   }
   const double cost_of_cause = 2.0 * std::log(static_cast<double>(hypotheses));
   const double cost_of_else = -2.0 * std::log(options.prior_of_something_else);

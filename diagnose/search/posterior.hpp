@@ -16,8 +16,8 @@ namespace flexarm::diagnose {
 ///     -2 ln L(S) = d ln(1 + E/d)
 ///
 /// instead of E: where no set leaves noise, sets differ by the ratio of what they leave, and a set
-/// that removes part of a deviation of another kind gains little. E is beyond what the best set, or
-/// the noise, leaves. d = `kDiscrepancyFreedom` is small because one thing that is wrong moves a few
+/// that removes part of a deviation of another kind gains little. E is beyond what the best set
+/// leaves where that is noise, else beyond the noise. d = `kDiscrepancyFreedom` is small because one thing that is wrong moves a few
 /// frequencies, damping ratios and amplitudes together: single wrong causes of blind trials reach a
 /// part r of E about as often as r^(d/2) (docs/diagnosis.md).
 ///

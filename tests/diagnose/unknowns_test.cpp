@@ -30,10 +30,11 @@ TEST(UncertainNumber, IsRefittedWithinItsUncertaintyAndNotNamedAsACause) {
 
   experiment.arm.relative_uncertainties = {{"hub.inertia", 0.05}};
   const Diagnosis made = diagnose(experiment, named(experiment, {"hub_inertia", "payload_mass"}));
-  EXPECT_EQ(made.verdict, Verdict::adequate);
+  EXPECT_EQ(made.verdict, Verdict::explained);
   EXPECT_TRUE(made.causes.empty());
   ASSERT_EQ(made.refitted.size(), 1U);
   EXPECT_EQ(made.refitted[0].key, "hub.inertia");
+  EXPECT_TRUE(made.refitted[0].has_moved());
   EXPECT_NEAR(made.refitted[0].value, truth, kStandardErrors * made.refitted[0].std_error);
   EXPECT_LT(made.refitted[0].std_error, 0.001 * truth);
   EXPECT_DOUBLE_EQ(made.extended_arm.hub.inertia_kg_m2, made.refitted[0].value);

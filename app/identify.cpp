@@ -123,7 +123,7 @@ measured::IdentificationOptions options_of(const IdentifyArguments& arguments,
   measured::IdentificationOptions options;
   options.spectrum = arguments.spectrum.settings();
   options.peaks.place = arguments.spectrum.place();
-  options.check.length_m = arm.beam.length_m;
+  options.check.length_m = arm::linear_arm(arm).length_m;
   options.check.total_inertia_kg_m2 = arm::total_inertia_kg_m2(arm);
   options.fit = !arguments.no_fit;
   if (arguments.modes && *arguments.modes < 1) {

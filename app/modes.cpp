@@ -131,8 +131,9 @@ int run_modes(const ModesArguments& arguments) {
   arguments.output.prepare();
   for (const auto& arm : arms) {
     const auto chosen = arguments.formulation.make(arm, arguments.count);
-    const auto summary = response::summarise(chosen.formulation, arguments.count, sensors,
-                                             compare::shape_stations_m(arm.beam.length_m));
+    const auto summary =
+        response::summarise(chosen.formulation, arguments.count, sensors,
+                            compare::shape_stations_m(arm::linear_arm(arm).length_m));
     text += describe(arm);
     text += left_out_of_roots(arm);
     text += fmt::format("by {}\n\n", response::formulation_label(chosen.name, chosen.settings));

@@ -18,10 +18,11 @@ double beam_inertia_kg_m2(const LinearArm& arm) {
   return arm.linear_density_kg_per_m * std::pow(arm.length_m, 3);
 }
 
-/// What the effects say about places must fit the beam.
+/// What the effects say about places must fit the beam, as they have it.
 void require_on_beam(const Arm& arm) {
+  const Arm changed = with_changed_numbers(arm);
   for (const auto& [name, effect] : arm.effects) {
-    if (effect.definition->require_fit) effect.definition->require_fit(effect, arm);
+    if (effect.definition->require_fit) effect.definition->require_fit(effect, changed);
     if (effect.sensor.empty()) continue;
     const std::string key = fmt::format("effects.{}.sensor", name);
     try {

@@ -55,13 +55,15 @@ struct EffectDefinition {
   std::optional<Sensor> sensor = {};
 
   std::function<void(const Effect&, Arm&)> arm_number = {};
+  /// The arm is given with the numbers that effects change.
   std::function<void(const Effect&, const Arm&, LinearTerms&)> linear_term = {};
   std::function<TorqueStage(const Effect&)> torque_path = {};
   std::function<HubLaw(const Effect&)> hub_torque = {};
   std::function<BeamForce(const Effect&)> beam_force = {};
   std::function<SensorStage(const Effect&)> sensor_path = {};
 
-  /// Throws InputError where the effect's numbers do not fit the arm.
+  /// Throws InputError where the effect's numbers do not fit the arm, which is given with changed
+  /// numbers.
   std::function<void(const Effect&, const Arm&)> require_fit = {};
 
   /// The ports that it acts through, one or more.

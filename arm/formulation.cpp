@@ -107,10 +107,12 @@ void require_count(int count) {
 }
 
 void require_stations(std::span<const double> stations_m, const Arm& arm) {
+  if (stations_m.empty()) return;
+  const double length_m = linear_arm(arm).length_m;
   for (const double station_m : stations_m) {
-    if (!(station_m >= 0.0 && station_m <= arm.beam.length_m)) {
+    if (!(station_m >= 0.0 && station_m <= length_m)) {
       throw out_of_range("station", station_m, "m",
-                         fmt::format("from 0 to the beam's length, {} m", arm.beam.length_m));
+                         fmt::format("from 0 to the beam's length, {} m", length_m));
     }
   }
 }

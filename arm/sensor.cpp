@@ -39,6 +39,10 @@ const KindEntry& entry_of(SensorKind kind) {
   throw std::logic_error("sensor kind outside its enumeration");
 }
 
+double changed_length_m(const Arm& arm) {
+  return with_changed_numbers(arm).beam.length_m;
+}
+
 }  // namespace
 
 Sensor parse_sensor(std::string_view name) {
@@ -83,20 +87,37 @@ bool is_collocated(const Sensor& sensor) {
   return sensor.kind == SensorKind::hub_angle || sensor.kind == SensorKind::hub_velocity;
 }
 
-void require_valid(const Sensor& sensor, const Arm& arm) {
-  if (sensor.kind != SensorKind::strain) return;
-  if (!(sensor.position_m >= 0.0 && sensor.position_m <= arm.beam.length_m)) {
-    throw InputError(fmt::format("sensor {}: position must be from 0 to the beam's length, {} m",
-                                 to_string(sensor), arm.beam.length_m));
+Sensor placed(const Sensor& sensor, const Arm& arm) {
+  if (sensor.kind != SensorKind::strain) return sensor;
+  const double length_m = changed_length_m(arm);
+  const double position_m = sensor.position_m == arm.beam.length_m ? length_m : sensor.position_m;
+  if (!(position_m >= 0.0 && position_m <= length_m)) {
+    throw InputError(fmt::format("sensor {}: position must be from 0 to the beam's length, {} m{}",
+                                 to_string(sensor), length_m,
+                                 length_m == arm.beam.length_m ? "" : " with the arm's effects"));
   }
   if (!arm.beam.thickness_m) {
     throw InputError(fmt::format("sensor {}: needs beam.thickness", to_string(sensor)));
   }
+  return {sensor.kind, position_m};
+}
+
+std::vector<Sensor> placed(std::span<const Sensor> sensors, const Arm& arm) {
+  std::vector<Sensor> all;
+  for (const Sensor& sensor : sensors) all.push_back(placed(sensor, arm));
+  return all;
+}
+
+void require_valid(const Sensor& sensor, const Arm& arm) {
+  placed(sensor, arm);
 }
 
 bool is_responsive(const Sensor& sensor, const Arm& arm) {
-  return sensor.kind != SensorKind::strain || sensor.position_m != arm.beam.length_m ||
-         linear_arm(arm).payload_tip_inertia_kg_m2 != 0.0;
+  if (sensor.kind != SensorKind::strain) return true;
+  const LinearArm linear = linear_arm(arm);
+  const bool is_at_tip =
+      sensor.position_m == arm.beam.length_m || sensor.position_m == linear.length_m;
+  return !is_at_tip || linear.payload_tip_inertia_kg_m2 != 0.0;
 }
 
 void require_responsive(const Sensor& sensor, const Arm& arm) {
@@ -104,7 +125,7 @@ void require_responsive(const Sensor& sensor, const Arm& arm) {
     throw InputError(
         fmt::format("sensor {}: strain at the tip is identically zero without payload.inertia; "
                     "place it below {} m",
-                    to_string(sensor), arm.beam.length_m));
+                    to_string(sensor), changed_length_m(arm)));
   }
 }
 

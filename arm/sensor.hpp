@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -42,8 +43,14 @@ int derivative_order(const Sensor& sensor);
 /// poles on the imaginary axis.
 bool is_collocated(const Sensor& sensor);
 
-/// Throws InputError when the arm cannot carry the sensor: strain outside [0, l], or without a
-/// thickness.
+/// The sensor at its place on the arm with the numbers that effects change (Port::arm_number).
+/// Strain at the tip of the file's beam is at the tip of the changed one; any other place keeps its
+/// distance from the root. Throws InputError as `require_valid`.
+Sensor placed(const Sensor& sensor, const Arm& arm);
+std::vector<Sensor> placed(std::span<const Sensor> sensors, const Arm& arm);
+
+/// Throws InputError when the arm cannot carry the sensor: strain outside [0, l], where l is the
+/// length with the arm's effects, or without a thickness.
 void require_valid(const Sensor& sensor, const Arm& arm);
 
 /// False for strain at the tip of an arm without payload inertia: the bending moment there is zero

@@ -85,9 +85,9 @@ arm::PoleSet AssumedModesArm::poles(int count) const {
 
 arm::ZeroSet AssumedModesArm::zeros(const arm::Sensor& sensor, int count) const {
   arm::require_count(count);
-  arm::require_valid(sensor, arm_);
+  const arm::Sensor at = arm::placed(sensor, arm_);
   arm::require_responsive(sensor, arm_);
-  return arm::is_collocated(sensor) ? hub_zeros(count) : output_zeros(sensor, count);
+  return arm::is_collocated(sensor) ? hub_zeros(count) : output_zeros(at, count);
 }
 
 arm::ZeroSet AssumedModesArm::hub_zeros(int count) const {
@@ -111,7 +111,8 @@ arm::ZeroSet AssumedModesArm::output_zeros(const arm::Sensor& sensor, int count)
                            sensor.kind == arm::SensorKind::tip_displacement;
   const auto with_more_functions = [&](int more) {
     const AdmissibleFunctions functions(options_.basis, scaled_, options_.functions, more);
-    return pencil_zeros(functions, scaled_, output_row(sensor, arm_, functions).row, tip_is_held);
+    return pencil_zeros(functions, scaled_, output_row(sensor, linear_, functions).row,
+                        tip_is_held);
   };
   const std::array checks = {with_more_functions(2), with_more_functions(4)};
   arm::ZeroSet result =
@@ -157,7 +158,7 @@ arm::ModalModel AssumedModesArm::modal_model(int count, std::span<const arm::Sen
   for_each_mode({1, functions_.hub_rotation()},
                 [](arm::Mode& mode, double value) { mode.hub_slope = value; });
   for (const arm::Sensor& sensor : sensors) {
-    for_each_mode(output_row(sensor, arm_, functions_),
+    for_each_mode(output_row(arm::placed(sensor, arm_), linear_, functions_),
                   [](arm::Mode& mode, double value) { mode.sensor_values.push_back(value); });
   }
   for (const double station_m : stations_m) {
@@ -190,6 +191,7 @@ arm::DampedPoleSet AssumedModesArm::damped_poles(int count) const {
 
 std::complex<double> AssumedModesArm::transfer_function(const arm::Sensor& sensor,
                                                         std::complex<double> s_rad_per_s) const {
+  const arm::Sensor at = arm::placed(sensor, arm_);
   if (s_rad_per_s == 0.0 && linear_.turns_freely()) {
     throw std::domain_error("transfer function at s = 0: a double pole");
   }
@@ -200,7 +202,7 @@ std::complex<double> AssumedModesArm::transfer_function(const arm::Sensor& senso
   const Complex s(s_rad_per_s);
   const Real scale = arm::omega_scale_rad_per_s(linear_);
   Complex response =
-      forced_response(modes_, damping_, values_in(modes_, output_row(sensor, arm_, functions_)),
+      forced_response(modes_, damping_, values_in(modes_, output_row(at, linear_, functions_)),
                       s / scale) /
       torsion_N_m();
   for (int order = arm::derivative_order(sensor); order > 0; --order) response *= s;

@@ -1,6 +1,7 @@
 #include "assumed_modes/basis.hpp"
 
 #include "arm/input_error.hpp"
+#include "arm/linear_arm.hpp"
 #include "arm/nearest_name.hpp"
 
 #include <fmt/format.h>
@@ -42,10 +43,11 @@ namespace {
 /// the beam's slope, or lets its cross-sections turn by themselves.
 const std::string* unrepresentable_effect(Basis basis, const arm::Arm& arm) {
   if (basis == Basis::legendre) return nullptr;
+  const arm::Arm changed = arm::with_changed_numbers(arm);
   for (const auto& [name, effect] : arm.effects) {
     if (!effect.definition->linear_term) continue;
     arm::LinearTerms terms;
-    effect.definition->linear_term(effect, arm, terms);
+    effect.definition->linear_term(effect, changed, terms);
     if (!terms.springs.empty() || terms.shear) return &name;
   }
   return nullptr;

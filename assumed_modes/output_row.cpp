@@ -4,10 +4,9 @@
 
 namespace flexarm::assumed_modes {
 
-OutputRow output_row(const arm::Sensor& sensor, const arm::Arm& arm,
+OutputRow output_row(const arm::Sensor& sensor, const arm::LinearArm& arm,
                      const AdmissibleFunctions& functions) {
-  arm::require_valid(sensor, arm);
-  const Real length = arm.beam.length_m;
+  const Real length = arm.length_m;
   switch (sensor.kind) {
     case arm::SensorKind::hub_angle:
     case arm::SensorKind::hub_velocity:
@@ -22,7 +21,7 @@ OutputRow output_row(const arm::Sensor& sensor, const arm::Arm& arm,
       return deflection;
     }
     case arm::SensorKind::strain:
-      return {static_cast<Real>(arm.beam.thickness_m.value()) / (2 * length),
+      return {static_cast<Real>(arm.thickness_m.value()) / (2 * length),
               functions.curvature(sensor.position_m / length)};
   }
   throw std::logic_error("sensor kind outside its enumeration");

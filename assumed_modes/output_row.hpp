@@ -1,5 +1,6 @@
 #pragma once
 
+#include "arm/linear_arm.hpp"
 #include "arm/sensor.hpp"
 #include "assumed_modes/admissible_functions.hpp"
 #include "assumed_modes/real.hpp"
@@ -13,8 +14,8 @@ struct OutputRow {
   Vector row;     ///< exactly 0 in the rigid rotation for what does not see it
 };
 
-/// Throws InputError for a sensor that the arm cannot carry.
-OutputRow output_row(const arm::Sensor& sensor, const arm::Arm& arm,
+/// For a sensor that the arm carries, at its place on it (`arm::placed`).
+OutputRow output_row(const arm::Sensor& sensor, const arm::LinearArm& arm,
                      const AdmissibleFunctions& functions);
 
 }  // namespace flexarm::assumed_modes

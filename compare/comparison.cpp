@@ -99,7 +99,7 @@ void add_roots(const std::vector<Subject>& subjects, const FeatureFamily& family
 
 void add_shapes(const std::vector<Subject>& subjects, const Options& options,
                 Comparison& comparison, Steps& steps) {
-  comparison.stations_m = shape_stations_m(comparison.arm.beam.length_m);
+  comparison.stations_m = shape_stations_m(arm::linear_arm(comparison.arm).length_m);
   for (const auto& subject : subjects) {
     comparison.modes.push_back(
         response::modes(subject.formulation, options.poles, {}, comparison.stations_m));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "diagnose/cause.hpp"
 #include "diagnose/formulation_check.hpp"
 #include "diagnose/planning/next_experiments.hpp"
 #include "diagnose/search/selection.hpp"
@@ -14,51 +15,24 @@ namespace flexarm::diagnose {
 
 /// What the data say of the arm as its file describes it.
 enum class Verdict {
-  adequate,          ///< nothing beyond noise
-  explained,         ///< causes named, what is left is noise
-  partly_explained,  ///< causes named, a significant misfit is left
-  unexplained,       ///< a significant misfit that no effect, nor a pair of them, accounts for
+  adequate,          ///< the residuals of the arm as its file has it are noise
+  explained,         ///< those of the extended arm are: causes, or uncertain numbers as refitted
+  partly_explained,  ///< causes named, the residuals are not noise
+  unexplained,       ///< the residuals are not noise, and no cause is probable
 };
+// "Are noise" is ResidualTest::is_noise of the estimation and of the validation runs, of a fit that
+// converged.
 
 /// "adequate", "explained", "partly_explained", "unexplained".
 std::string_view to_string(Verdict verdict);
 
-struct ParameterEstimate {
-  std::string name;
-  double value = 0.0;
-  double std_error = 0.0;
-  std::string unit;
-};
-
-/// An uncertain number of the arm file (arm/uncertainties.hpp), fitted beside the causes.
-struct RefittedNumber {
-  std::string key;           ///< "beam.youngs_modulus"
-  double file_value = 0.0;   ///< in `unit`
-  double uncertainty = 0.0;  ///< relative, as the file says
-  double value = 0.0;
-  double std_error = 0.0;
-  std::string unit;
-};
-
-/// One effect that the arm file lacks.
-struct Cause {
-  std::string effect;
-  std::string sensor;  ///< of a sensor_lag
-  std::vector<ParameterEstimate> parameters;
-  /// Of this effect against the others in its place, 0 to 1.
-  double confidence = 0.0;
-  double share = 0.0;  ///< of what is beyond noise without it, the others refitted
-  std::vector<std::string> confusable_with;
-  std::vector<std::string> evidence;  ///< sentences
-  std::string refuted_by;
-};
-
-/// What came nearest: an effect, or several, that was tried against all data.
+/// A set of effects that was fitted and not named.
 struct NearMiss {
   std::string effects;       ///< "root_compliance + time_delay"
-  double share = 0.0;        ///< of what is beyond noise that it takes away
-  double information = 0.0;  ///< by which it leads the arm without causes; 10 is decisive
-  double error = 0.0;        ///< that is left, as Gain::after
+  double probability = 0.0;  ///< posterior, of exactly this set
+  double share = 0.0;        ///< of the excess residual without causes that it explains
+  double information = 0.0;  ///< delta BIC of no cause beyond it; 10 is decisive
+  double error = 0.0;        ///< NRMSE that is left, as Gain::after
 };
 
 /// Relative errors, averaged over the channels: root mean square over that of the signal.
@@ -87,15 +61,20 @@ struct Overlay {
 struct Diagnosis {
   Verdict verdict = Verdict::adequate;
   std::vector<Cause> causes;  ///< in order of what each explains
+  double something_else = 0.0;  ///< posterior probability of it, beside causes or by itself
   Gain estimation;
   std::optional<Gain> validation;
+  ResidualTest estimation_test;  ///< of the extended arm
+  ResidualTest validation_test;
+  bool converged = false;  ///< the fit of the extended arm
+  int evaluations = 0;     ///< of the simulation in that fit
   std::vector<ChannelGain> channels;
   std::vector<Overlay> overlays;  ///< one a channel
-  Symptoms symptoms;              ///< what is wrong without causes
+  Symptoms symptoms;  ///< what is wrong without causes
   std::vector<RefittedNumber> refitted;
   FormulationCheck formulations;  ///< of the extended arm
   arm::Arm extended_arm;  ///< the experiment's with the causes, uncertain numbers as refitted
-  /// Where a significant misfit is left: the best that were not named, by error.
+  /// Where the residuals are not noise: the most probable sets that were not named.
   std::vector<NearMiss> near_misses;
   std::vector<NextExperiment> next_experiments;  ///< what_next
   std::vector<std::string> notices;

@@ -1,6 +1,7 @@
 #include "diagnose/experiment.hpp"
 
 #include "arm/input_error.hpp"
+#include "arm/linear_arm.hpp"
 #include "effects/registry/vocabulary.hpp"
 #include "measured/checks/data_check.hpp"
 #include "measured/files/arm_file.hpp"
@@ -23,8 +24,9 @@ void keep_usable(const Experiment& experiment, measured::MeasuredRun& run, const
   auto& record = std::get<measured::TimeRecord>(run.data);
   const arm::Arm arm = arm_in(experiment, run.run);
   measured::DataCheckOptions options;
-  options.length_m = arm.beam.length_m;
-  options.total_inertia_kg_m2 = arm::total_inertia_kg_m2(arm);
+  const arm::LinearArm linear = arm::linear_arm(arm);
+  options.length_m = linear.length_m;
+  options.total_inertia_kg_m2 = arm::total_inertia_kg_m2(linear);
   options.starts_at_rest = run.run.initial == measured::InitialState::rest;
   const auto findings = measured::check_data(record, options);
   std::string why;  // the first of the channels left out

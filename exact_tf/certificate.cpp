@@ -269,8 +269,7 @@ Certificate certify_hub_zeros(const arm::Arm& arm, std::span<const double> lambd
 Certificate certify_zeros(const arm::Arm& arm, const arm::Sensor& sensor,
                           std::span<const std::complex<double>> s_rad_per_s,
                           const CertificateOptions& options) {
-  const Problem problem(arm, last_row_of(sensor), sensor.position_m);
-  arm::require_valid(sensor, arm);
+  const Problem problem(arm, last_row_of(sensor), arm::placed(sensor, arm).position_m);
   arm::require_responsive(sensor, arm);
   std::vector<ZeroLocus> loci;
   std::vector<GivenLambda> given;

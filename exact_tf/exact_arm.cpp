@@ -20,12 +20,6 @@ void require_count(int count) {
   }
 }
 
-void require_observable(const arm::Arm& arm, std::span<const arm::Sensor> sensors,
-                        std::span<const double> stations_m) {
-  for (const auto& sensor : sensors) require_valid(sensor, arm);
-  require_stations(stations_m, arm);
-}
-
 /// The arm's numbers, where this formulation can answer for it.
 arm::LinearArm honoured(const arm::Arm& arm) {
   require_computable(arm);
@@ -73,25 +67,27 @@ arm::DampedPoleSet ExactArm::damped_poles(int count) const {
 
 arm::ZeroSet ExactArm::zeros(const arm::Sensor& sensor, int count) const {
   require_count(count);
-  require_valid(sensor, arm_);
+  const arm::Sensor at = placed(sensor, arm_);
   require_responsive(sensor, arm_);
-  return std::visit([&](const auto& engine) { return engine.zeros(sensor, count); }, engine_);
+  return std::visit([&](const auto& engine) { return engine.zeros(at, count); }, engine_);
 }
 
 std::vector<arm::Mode> ExactArm::modes(int count, std::span<const arm::Sensor> sensors,
                                        std::span<const double> stations_m) const {
   require_count(count);
-  require_observable(arm_, sensors, stations_m);
-  return std::visit([&](const auto& engine) { return engine.modes(count, sensors, stations_m); },
+  const std::vector<arm::Sensor> at = placed(sensors, arm_);
+  require_stations(stations_m, arm_);
+  return std::visit([&](const auto& engine) { return engine.modes(count, at, stations_m); },
                     engine_);
 }
 
 arm::ModalModel ExactArm::modal_model(int count, std::span<const arm::Sensor> sensors,
                                       std::span<const double> stations_m) const {
   require_count(count);
-  require_observable(arm_, sensors, stations_m);
-  return std::visit(
-      [&](const auto& engine) { return engine.modal_model(count, sensors, stations_m); }, engine_);
+  const std::vector<arm::Sensor> at = placed(sensors, arm_);
+  require_stations(stations_m, arm_);
+  return std::visit([&](const auto& engine) { return engine.modal_model(count, at, stations_m); },
+                    engine_);
 }
 
 std::complex<double> ExactArm::transfer_function(const arm::Sensor& sensor,
@@ -101,15 +97,15 @@ std::complex<double> ExactArm::transfer_function(const arm::Sensor& sensor,
 
 std::vector<std::complex<double>> ExactArm::transfer_functions(
     std::span<const arm::Sensor> sensors, std::complex<double> s_rad_per_s) const {
-  for (const arm::Sensor& sensor : sensors) require_valid(sensor, arm_);
+  const std::vector<arm::Sensor> at = placed(sensors, arm_);
   if (s_rad_per_s == 0.0 && linear_.turns_freely()) {
     throw std::domain_error("exact_tf: the transfer function of a free arm has a pole at s = 0");
   }
   if (!std::isfinite(s_rad_per_s.real()) || !std::isfinite(s_rad_per_s.imag())) {
     throw std::domain_error("exact_tf: s must be finite");
   }
-  return std::visit(
-      [&](const auto& engine) { return engine.transfer_functions(sensors, s_rad_per_s); }, engine_);
+  return std::visit([&](const auto& engine) { return engine.transfer_functions(at, s_rad_per_s); },
+                    engine_);
 }
 
 }  // namespace flexarm::exact_tf

@@ -105,7 +105,8 @@ arm::ZeroSet FemArm::zeros(const arm::Sensor& sensor, int count) const {
   arm::require_responsive(sensor, arm_);
   // A model has fewer roots than coordinates.
   count = std::min(count, degrees_of_freedom());
-  return arm::is_collocated(sensor) ? clamped_zeros(count) : transmission_zeros(sensor, count);
+  return arm::is_collocated(sensor) ? clamped_zeros(count)
+                                    : transmission_zeros(arm::placed(sensor, arm_), count);
 }
 
 arm::ZeroSet FemArm::clamped_zeros(int count) const {
@@ -146,10 +147,10 @@ std::vector<arm::Mode> FemArm::modes(int count, std::span<const arm::Sensor> sen
 arm::ModalModel FemArm::modal_model(int count, std::span<const arm::Sensor> sensors,
                                     std::span<const double> stations_m) const {
   arm::require_count(count);
-  for (const arm::Sensor& sensor : sensors) arm::require_valid(sensor, arm_);
+  const std::vector<arm::Sensor> at = arm::placed(sensors, arm_);
   arm::require_stations(stations_m, arm_);
   return fem::modal_model(
-      *model_, vibration_modes(*model_, HubSupport::free, count, options_.eigen_tolerance), sensors,
+      *model_, vibration_modes(*model_, HubSupport::free, count, options_.eigen_tolerance), at,
       stations_m);
 }
 
@@ -172,7 +173,7 @@ arm::DampedPoleSet FemArm::damped_poles(int count) const {
 }
 
 Complex FemArm::transfer_function(const arm::Sensor& sensor, Complex s_rad_per_s) const {
-  arm::require_valid(sensor, arm_);
+  const arm::Sensor at = arm::placed(sensor, arm_);
   if (s_rad_per_s == 0.0 && model_->turns_freely()) {
     throw std::domain_error("transfer function: s = 0 is the pole of the rigid arm");
   }
@@ -187,7 +188,7 @@ Complex FemArm::transfer_function(const arm::Sensor& sensor, Complex s_rad_per_s
     return transfer_function(sensor, s_rad_per_s * kBeside);
   }
   const Eigen::VectorXcd u = response.to_unit_rotation().u;
-  Complex reading = SensorRow(*model_, sensor).reading(u, s) * si_reading(linear_, sensor);
+  Complex reading = SensorRow(*model_, at).reading(u, s) * si_reading(linear_, at);
   for (int i = 0; i < arm::derivative_order(sensor); ++i) reading *= s_rad_per_s;
   const double torque_unit_N_m = linear_.flexural_rigidity_N_m2 / linear_.length_m;
   return reading / response.hub_torque(u) / torque_unit_N_m;

@@ -179,7 +179,7 @@ SweepPoint evaluate_point(const Model& model, const arm::Arm& arm,
   const auto formulation = model.make(arm);
   SweepPoint point;
   if (questions.modes) {
-    const std::array tip_m = {arm.beam.length_m};
+    const std::array tip_m = {arm::linear_arm(arm).length_m};
     const auto modal = response::modal_model(formulation, questions.poles, {}, tip_m);
     arm::PoleSet poles;
     poles.lowest_omega_squared_rad2_per_s2 = modal.lowest_omega_squared_rad2_per_s2;

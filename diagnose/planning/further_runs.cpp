@@ -2,6 +2,7 @@
 
 #include "arm/arm.hpp"
 #include "arm/input_error.hpp"
+#include "arm/linear_arm.hpp"
 #include "exact_tf/exact_arm.hpp"
 #include "response/arm_parts.hpp"
 
@@ -41,7 +42,7 @@ std::vector<arm::Sensor> further_sensors(const arm::Arm& arm) {
                                   {arm::SensorKind::tip_displacement}};
   if (arm.beam.thickness_m) {
     // Where it bends most: near the root, but not on it, where a gauge does not fit.
-    const double place_m = std::round(0.05 * arm.beam.length_m * 1e3) * 1e-3;
+    const double place_m = std::round(0.05 * arm::linear_arm(arm).length_m * 1e3) * 1e-3;
     all.push_back({arm::SensorKind::strain, place_m});
   }
   return all;
@@ -126,7 +127,8 @@ class Gatherer {
 
 /// What any run may have more: a payload, a sensor.
 void add_conditions(Gatherer& all, const arm::Arm& arm, const PlannedRun& run) {
-  const double beam_kg = arm::linear_arm(arm).linear_density_kg_per_m * arm.beam.length_m;
+  const arm::LinearArm linear = arm::linear_arm(arm);
+  const double beam_kg = linear.linear_density_kg_per_m * linear.length_m;
   for (const double part : kPayloadParts) {
     PlannedRun loaded = run;
     loaded.payload = run.payload.value_or(arm.payload);

@@ -203,8 +203,7 @@ std::vector<NextExperiment> what_next(const Problem& problem, const Selection& s
   std::vector<Tie> ties;
   if (is_named) {
     for (const Explanation& rival : selection.rivals) {
-      const bool is_told = lead(selection.chosen, rival) >= kToldLead;
-      if (is_told || is_a_limit(selection.chosen.fit.candidate, rival.fit.candidate)) continue;
+      if (is_a_limit(selection.chosen.fit.candidate, rival.fit.candidate)) continue;
       if (ties.size() < kMostRivals) ties.push_back(tie_between(selection.chosen, rival));
     }
   } else if (!is_explained && !selection.singles.empty()) {

@@ -59,6 +59,12 @@ std::string Candidate::label() const {
   return text.empty() ? "nothing" : text;
 }
 
+std::set<std::string> Candidate::labels() const {
+  std::set<std::string> all;
+  for (const Hypothesis& effect : effects) all.insert(effect.label());
+  return all;
+}
+
 bool Candidate::has(const Hypothesis& hypothesis) const {
   return std::ranges::find(effects, hypothesis.effect, &Hypothesis::effect) != effects.end();
 }

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,8 @@ struct Candidate {
 
   /// "payload_mass + time_delay"; "nothing".
   std::string label() const;
+  /// What the effects are, in whatever order: sensor_lag is another on each sensor.
+  std::set<std::string> labels() const;
   bool has(const Hypothesis& hypothesis) const;
   /// With one effect more, at these values; without the `index`-th.
   Candidate with(const Hypothesis& hypothesis, const std::vector<double>& its_values) const;

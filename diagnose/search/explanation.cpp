@@ -14,10 +14,14 @@ Explanation explain(const Problem& problem, Fit fit) {
   const Eigen::Index nuisances = problem.residual_count() - observations.values.size();
   made.estimation.nuisances = static_cast<double>(nuisances);
   made.estimation.nuisance_squares = fit.residuals.tail(nuisances).squaredNorm();
+  made.estimation_test =
+      test_residuals(observations, problem.experiment(), fit.residuals, problem.estimation_runs());
   if (const auto held_out = problem.residuals(fit.candidate, problem.validation_runs())) {
     made.held_out = *held_out;
     made.validation =
         misfit(observations, problem.experiment(), *held_out, problem.validation_runs());
+    made.validation_test =
+        test_residuals(observations, problem.experiment(), *held_out, problem.validation_runs());
   }
   made.fit = std::move(fit);
   return made;

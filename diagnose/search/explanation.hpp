@@ -2,6 +2,7 @@
 
 #include "diagnose/search/fit.hpp"
 #include "diagnose/search/misfit.hpp"
+#include "diagnose/search/residual_test.hpp"
 
 #include <Eigen/Core>
 
@@ -15,6 +16,11 @@ struct Explanation {
   Eigen::VectorXd held_out;  ///< residuals of the validation runs, 0 elsewhere
   Misfit estimation;         ///< nuisances included
   Misfit validation;         ///< count 0 without validation runs
+  ResidualTest estimation_test;
+  ResidualTest validation_test;  ///< passed without validation runs
+
+  /// The residuals of both kinds of runs pass as noise (residual_test.hpp).
+  bool leaves_noise() const { return estimation_test.is_noise() && validation_test.is_noise(); }
 };
 
 /// `problem` is the one that `fit` was made of.

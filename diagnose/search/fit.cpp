@@ -73,6 +73,7 @@ Fit fit(const Problem& problem, const Candidate& start, const FitOptions& option
   Residuals residuals{problem, start};
   Fit made;
   Eigen::VectorXd places = start.coordinates();
+  made.converged = places.size() == 0;
   if (places.size() > 0) {
     Eigen::LevenbergMarquardt<Residuals> minimiser(residuals);
     minimiser.parameters.ftol = options.tolerance;

@@ -14,7 +14,7 @@ struct Fit {
   /// Residuals by places of the parameters, where the fit ended.
   Eigen::MatrixXd jacobian = {};
   int evaluations = 0;  ///< of the model
-  bool converged = true;
+  bool converged = false;
 };
 
 struct FitOptions {

@@ -1,6 +1,8 @@
 #include "diagnose/search/selection.hpp"
 
+#include "diagnose/search/admission.hpp"
 #include "diagnose/search/coarse.hpp"
+#include "diagnose/search/rivals.hpp"
 
 #include <Eigen/QR>
 
@@ -43,20 +45,6 @@ std::vector<std::vector<double>> samples_of(const Hypothesis& hypothesis) {
   return samples;
 }
 
-/// What a candidate's effects are, in whatever order: sensor_lag is another on each sensor.
-std::set<std::string> labels_of(const Candidate& candidate) {
-  std::set<std::string> labels;
-  for (const Hypothesis& effect : candidate.effects) labels.insert(effect.label());
-  return labels;
-}
-
-/// One that has another effect in the place of one of the other's.
-bool is_rival(const Candidate& one, const Candidate& other) {
-  const auto shared = std::ranges::count_if(
-      one.effects, [&](const Hypothesis& effect) { return other.has(effect); });
-  return one.effects.size() == other.effects.size() && shared + 1 == std::ssize(one.effects);
-}
-
 class Search {
  public:
   Search(const Problem& problem, const std::vector<Hypothesis>& hypotheses,
@@ -82,24 +70,21 @@ class Search {
     made.nothing = fitted(problem_.as_filed());
     made.chosen = made.nothing;
     see_noise(made);
-    correct_timing(made, options_.sure_timing_share);
     if (is_enough(made)) return made;
     made.singles = all_with(made.nothing.fit.candidate, "effects one by one", 0.0, kSinglesDone,
                             options_.singles_refitted);
     if (!made.singles.empty()) {
       see_noise(made);
       extend(made);
-      if (correct_timing(made, options_.least_timing_share) && !is_enough(made)) {
+      if (correct_timing(made) && !is_enough(made)) {
         combined_.clear();
         made.combinations.clear();
         extend(made);
       }
+      generalise(made);
     }
-    const bool is_single = made.chosen.fit.candidate.effects.size() == 1;
-    std::ranges::copy_if(is_single ? made.singles : made.combinations,
-                         std::back_inserter(made.rivals), [&](const Explanation& other) {
-                           return is_rival(other.fit.candidate, made.chosen.fit.candidate);
-                         });
+    leave_out_improbable(made);
+    made.rivals = indistinguishable_sets(made, posterior_of(made, hypotheses_.size(), options_));
     made.cancelled = work_.is_cancelled();
     return made;
   }
@@ -130,26 +115,37 @@ class Search {
     }
   }
 
+  /// The residual is noise, or what is not is about the error of a simulation.
   bool is_enough(const Selection& made) const {
-    return is_explained(made.chosen.estimation, made.nothing.estimation, options_);
+    if (made.chosen.leaves_noise()) return true;
+    const Misfit& left = made.chosen.estimation;
+    return left.nuisance_excess() == 0.0 &&
+           left.unexplained_error() <= left.simulated * options_.negligible_error;
   }
 
-  /// Where a little is left of which the timing of the torque explains `least_share`: the torques
-  /// as that timing has them, and what has been fitted once more. Returns whether that was so.
-  bool correct_timing(Selection& made, double least_share) {
-    if (made.timing || made.chosen.estimation.is_noise() ||
+  /// Where a little is left and the timing of the torque leaves noise of it: the torques as that
+  /// timing has them, and what has been fitted once more. Returns whether that was so.
+  bool correct_timing(Selection& made) {
+    if (made.timing || made.chosen.leaves_noise() ||
         made.chosen.estimation.unexplained_error() > options_.largest_timing_error) {
       return false;
     }
     TorqueTiming timing = torque_timing(problem_, made.chosen.fit);
-    if (timing.share < least_share) return false;
+    if (timing.share < options_.least_timing_share) return false;
+    const Problem as_recorded = problem_;
     problem_.replace_torques(retimed(problem_.experiment(), timing));
-    made.timing = std::move(timing);
     // Once more from there: what the first step was too long for, and the runs for validation.
-    made.chosen = fitted(made.chosen.fit.candidate);
+    Explanation corrected = fitted(made.chosen.fit.candidate);
     problem_.replace_torques(
-        retimed(problem_.experiment(), torque_timing(problem_, made.chosen.fit)));
-    problem_.lower_noise(made.chosen.fit.candidate);
+        retimed(problem_.experiment(), torque_timing(problem_, corrected.fit)));
+    problem_.lower_noise(corrected.fit.candidate);
+    corrected = fitted(corrected.fit.candidate);
+    if (!corrected.leaves_noise()) {
+      problem_ = as_recorded;
+      made.undecided_timing = std::move(timing);
+      return false;
+    }
+    made.timing = std::move(timing);
     refit(made);
     return true;
   }
@@ -164,26 +160,56 @@ class Search {
                                     double to, std::size_t refitted) {
     std::vector<const Hypothesis*> others;
     for (const Hypothesis& hypothesis : hypotheses_) {
-      if (!base.has(hypothesis)) others.push_back(&hypothesis);
+      // An effect that has another as a limit follows that one: generalise().
+      const bool follows = !base.effects.empty() && has_limit(hypothesis);
+      if (!base.has(hypothesis) && !follows) others.push_back(&hypothesis);
     }
     if (!base.effects.empty()) keep_promising(base, others, what, from);
     if (others.empty() || work_.is_cancelled()) return {};
-    std::vector<Fit> looks(others.size());
     const double middle = from + 0.6 * (to - from);
-    work_.in_parallel(others.size(), what, from, middle, [&](std::size_t i) {
-      const Hypothesis& other = *others[i];
-      std::vector<double> values;
-      for (const auto& parameter : other.parameters) values.push_back(parameter.value(0.5));
-      looks[i] = first_look(base.with(other, values));
-    });
+    std::vector<Fit> looks = first_looks(base, others, what, from, middle);
     if (work_.is_cancelled()) return {};
-    std::ranges::stable_sort(looks, {}, &Fit::sum_of_squares);
     looks.resize(std::min(refitted, looks.size()));
     std::vector<Explanation> found(looks.size());
     work_.in_parallel(looks.size(), what, middle, to,
                       [&](std::size_t i) { found[i] = fitted(looks[i].candidate); });
     sort_by_fit(found);
     return found;
+  }
+
+  /// `base` with each of the hypotheses as a scan of it on the coarse problem found it, the best
+  /// first. Those that have another as a limit come after that, and only where the limit is among
+  /// the best: a general effect far from its limit still does some of what the limit does.
+  std::vector<Fit> first_looks(const Candidate& base, const std::vector<const Hypothesis*>& others,
+                               std::string_view what, double from, double to) {
+    std::vector<Fit> looks;
+    const auto look_at = [&](const std::vector<const Hypothesis*>& some, double begin, double end) {
+      std::vector<Fit> made(some.size());
+      work_.in_parallel(some.size(), what, begin, end, [&](std::size_t i) {
+        std::vector<double> values;
+        for (const auto& parameter : some[i]->parameters) values.push_back(parameter.value(0.5));
+        made[i] = first_look(base.with(*some[i], values));
+      });
+      std::ranges::move(made, std::back_inserter(looks));
+      std::ranges::stable_sort(looks, {}, &Fit::sum_of_squares);
+    };
+    std::vector<const Hypothesis*> special;
+    std::vector<const Hypothesis*> general;
+    for (const Hypothesis* other : others) {
+      (has_limit(*other) ? general : special).push_back(other);
+    }
+    const double middle = 0.5 * (from + to);
+    look_at(special, from, middle);
+    const std::size_t best = std::min(options_.singles_refitted, looks.size());
+    std::erase_if(general, [&](const Hypothesis* other) {
+      return std::ranges::none_of(looks.begin(), looks.begin() + static_cast<std::ptrdiff_t>(best),
+                                  [&](const Fit& look) {
+                                    return other->contains(
+                                        look.candidate.effects.back().effect);
+                                  });
+    });
+    if (!work_.is_cancelled()) look_at(general, middle, to);
+    return looks;
   }
 
   /// The last effect of `start` scanned, and all refitted to the coarse problem.
@@ -235,34 +261,71 @@ class Search {
     return largest;
   }
 
-  /// Whether `fuller` has a right to its causes beside `simpler`.
-  bool deserves(const Explanation& fuller, const Explanation& simpler) const {
-    // A hub that friction never lets go is told by no value of that friction.
-    if ((fuller.fit.jacobian.colwise().squaredNorm().array() == 0.0).any()) return false;
-    if (lead(fuller, simpler) < options_.least_information_gain) return false;
-    if (share_taken(simpler.estimation, fuller.estimation) < options_.least_share) return false;
-    // Validation runs that show nothing without the effect must not show anything with it.
-    if (simpler.validation.is_noise()) return fuller.validation.is_noise();
-    return share_taken(simpler.validation, fuller.validation) >= options_.least_validated_share;
+  bool has_limit(const Hypothesis& hypothesis) const {
+    return std::ranges::any_of(hypotheses_, [&](const Hypothesis& other) {
+      return hypothesis.contains(other.effect);
+    });
   }
 
-  /// Of those of `found` with so many effects the first, or one with fewer parameters that it has
-  /// no right to stand before; null where there are none.
+  /// clears_bars, and the same against each set in which one of its effects is replaced by a limit
+  /// of that: a general effect is named for what it adds to the special one.
+  bool is_admitted(Selection& made, const Explanation& fuller, const Explanation& simpler) const {
+    if (!clears_bars(fuller, simpler, options_)) return false;
+    const Candidate candidate = fuller.fit.candidate;
+    const Explanation whole = fuller;
+    return std::ranges::all_of(
+        limits_in(candidate, hypotheses_), [&](const LimitOfEffect& of) {
+          return clears_bars(whole, replaced(made, candidate, of.effect, *of.limit), options_);
+        });
+  }
+
+  /// `candidate` with another effect in place of one of its own: as it was fitted before, or fitted
+  /// now and kept.
+  Explanation replaced(Selection& made, const Candidate& candidate, std::size_t index,
+                       const Hypothesis& other) const {
+    std::vector<double> middle;
+    for (const auto& parameter : other.parameters) middle.push_back(parameter.value(0.5));
+    const Candidate start = candidate.without(index).with(other, middle);
+    auto& kept = start.effects.size() == 1 ? made.singles : made.combinations;
+    const auto same = std::ranges::find_if(kept, [&](const Explanation& one) {
+      return one.fit.candidate.labels() == start.labels();
+    });
+    if (same != kept.end()) return *same;
+    Explanation found = fitted(first_look(start).candidate);
+    kept.push_back(found);
+    sort_by_fit(kept);
+    return found;
+  }
+
+  /// The best admitted single over none.
+  const Explanation* best_single(Selection& made) const {
+    const std::vector<Explanation> singles = made.singles;
+    for (const Explanation& single : singles) {
+      if (is_admitted(made, single, made.nothing)) {
+        return &*std::ranges::find_if(made.singles, [&](const Explanation& one) {
+          return one.fit.candidate.labels() == single.fit.candidate.labels();
+        });
+      }
+    }
+    return nullptr;
+  }
+
+  /// Of the combinations of so many effects the best whose parameters the data identify, or one
+  /// with fewer parameters that it does not clear the bars over; null where there are none.
   const Explanation* simplest(const std::vector<Explanation>& found, std::size_t effects) const {
     const Explanation* best = nullptr;
     for (const Explanation& other : found) {
-      if (other.fit.candidate.effects.size() != effects) continue;
+      if (other.fit.candidate.effects.size() != effects || !is_identified(other)) continue;
       const bool is_simpler =
           best != nullptr && other.fit.candidate.values.size() < best->fit.candidate.values.size();
-      if (best == nullptr || (is_simpler && !deserves(*best, other))) best = &other;
+      if (best == nullptr || (is_simpler && !clears_bars(*best, other, options_))) best = &other;
     }
     return best;
   }
 
   void extend(Selection& made) {
-    const Explanation* single = simplest(made.singles, 1);
-    if (deserves(*single, made.nothing)) made.chosen = *single;
-    correct_timing(made, options_.sure_timing_share);
+    if (const Explanation* single = best_single(made)) made.chosen = *single;
+    correct_timing(made);
     for (int round = 0; round < options_.most_rounds && !is_enough(made); ++round) {
       const std::size_t causes = std::max<std::size_t>(made.chosen.fit.candidate.effects.size(), 1);
       if (static_cast<int>(causes) == options_.most_causes) return;
@@ -270,10 +333,41 @@ class Search {
       const Explanation* larger = simplest(made.combinations, causes + 1);
       if (larger == nullptr || work_.is_cancelled()) return;
       const Explanation best = needed(exchanged(made, *larger));
-      if (work_.is_cancelled() || !deserves(best, made.chosen)) return;
+      if (work_.is_cancelled() || !is_admitted(made, best, made.chosen)) return;
       if (best.fit.candidate.effects.size() == 1) replace_single(made, best);
       made.chosen = exchanged(made, best);
-      correct_timing(made, options_.sure_timing_share);
+      correct_timing(made);
+    }
+  }
+
+  /// Where something is left: each chosen effect exchanged for one that has it as a limit.
+  void generalise(Selection& made) {
+    const Candidate chosen = made.chosen.fit.candidate;
+    for (std::size_t i = 0; i < chosen.effects.size() && !is_enough(made); ++i) {
+      for (const Hypothesis& general : hypotheses_) {
+        if (!general.contains(chosen.effects[i].effect) || work_.is_cancelled()) continue;
+        const Explanation found = replaced(made, chosen, i, general);
+        if (clears_bars(found, made.chosen, options_)) made.chosen = found;
+      }
+    }
+  }
+
+  /// Without the causes that, with what stands in their place as well, are not probable.
+  void leave_out_improbable(Selection& made) {
+    while (true) {
+      const Candidate& candidate = made.chosen.fit.candidate;
+      const Posterior posterior = posterior_of(made, hypotheses_.size(), options_);
+      double least = options_.least_probability;
+      std::optional<std::size_t> least_probable;
+      for (std::size_t i = 0; i < candidate.effects.size(); ++i) {
+        const double probability = class_probability(candidate.effects[i], made, posterior);
+        if (probability >= least) continue;
+        least = probability;
+        least_probable = i;
+      }
+      if (!least_probable) return;
+      const Candidate rest = candidate.without(*least_probable);
+      made.chosen = rest.effects.empty() ? made.nothing : fitted(rest);
     }
   }
 
@@ -305,10 +399,10 @@ class Search {
   /// `base` with any other effect, among the combinations; nothing where these are there. Of the
   /// same effects, begun from another, the better stays.
   void combine(Selection& made, const Candidate& base, std::string_view what, double to) {
-    if (!combined_.insert(labels_of(base)).second) return;
+    if (!combined_.insert(base.labels()).second) return;
     for (Explanation& found : all_with(base, what, work_.done(), to, options_.pairs_refitted)) {
       const auto same = std::ranges::find_if(made.combinations, [&](const Explanation& other) {
-        return labels_of(other.fit.candidate) == labels_of(found.fit.candidate);
+        return other.fit.candidate.labels() == found.fit.candidate.labels();
       });
       if (same == made.combinations.end()) {
         made.combinations.push_back(std::move(found));
@@ -329,7 +423,7 @@ class Search {
                       [&](std::size_t i) { simpler[i] = fitted(candidate.without(i)); });
     sort_by_fit(simpler);
     for (const Explanation& one : simpler) {
-      if (!deserves(explanation, one)) return needed(one);
+      if (!clears_bars(explanation, one, options_)) return needed(one);
     }
     return explanation;
   }
@@ -369,14 +463,6 @@ class Search {
 };
 
 }  // namespace
-
-bool is_explained(const Misfit& left, const Misfit& nothing, const SelectionOptions& options) {
-  if (left.is_noise()) return true;
-  if (left.nuisance_excess() > 0.0) return false;
-  const double before = std::min(1.0, nothing.unexplained_error());
-  return left.unexplained_error() <=
-         std::max(left.simulated * options.negligible_error, options.negligible_share * before);
-}
 
 Selection select(Problem problem, const std::vector<Hypothesis>& hypotheses,
                  const SelectionOptions& options, const DiagnosisProgress& progress) {

@@ -1,6 +1,7 @@
 // Every effect is honoured where its ports are, and refused by name where they are not.
 #include "arm/input_error.hpp"
 #include "diagnose/search/hypothesis.hpp"
+#include "diagnose/search/problem.hpp"
 #include "effects/registry/vocabulary.hpp"
 #include "response/formulation_maker.hpp"
 #include "response/frequency/frequency_response.hpp"
@@ -13,7 +14,10 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <cstddef>
+#include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace flexarm::effects {
@@ -89,22 +93,64 @@ TEST_P(Honoured, ByThreeFormulationsOrRefusedWithNameAndPort) {
   }
 }
 
-TEST_P(Honoured, ByASimulationInTime) {
-  constexpr double kSample_s = 2e-3;
+constexpr double kSample_s = 2e-3;
+
+std::vector<double> square_wave() {
   std::vector<double> torque;
   for (int k = 0; k < 500; ++k) torque.push_back(k % 120 < 60 ? 0.15 : -0.12);
-  const auto simulated = [&](const arm::Arm& arm) {
-    const auto parts = response::take_apart(arm);
-    const auto model = response::time_model(
-        response::make_formulation("exact_tf", parts.linear, kModes), parts, kModes, sensors());
-    return response::ArmSimulator(model, parts, sensors(),
-                                  response::options_of_fit(kSample_s, response::TorqueHold::zero))
-        .readings(torque);
-  };
-  const Eigen::MatrixXd without = simulated(ideal());
-  const Eigen::MatrixXd with = simulated(with_effect());
+  return torque;
+}
+
+/// The readings of `sensors()`, a row a sample.
+Eigen::MatrixXd simulated(const arm::Arm& arm, int modes) {
+  const auto parts = response::take_apart(arm);
+  const auto model = response::time_model(
+      response::make_formulation("exact_tf", parts.linear, modes), parts, modes, sensors());
+  return response::ArmSimulator(model, parts, sensors(),
+                                response::options_of_fit(kSample_s, response::TorqueHold::zero))
+      .readings(square_wave());
+}
+
+TEST_P(Honoured, ByASimulationInTime) {
+  const Eigen::MatrixXd without = simulated(ideal(), kModes);
+  const Eigen::MatrixXd with = simulated(with_effect(), kModes);
   constexpr double kSeen = 1e-5;  // relative: shear of a slender beam is the least
   EXPECT_GT((with - without).norm(), kSeen * without.norm());
+}
+
+TEST_P(Honoured, ByWhatADiagnosisFits) {
+  constexpr double kLeft = 1e-3;  // the same equations: no more than rounding
+  measured::TimeRecord record;
+  record.torque_N_m = square_wave();
+  const Eigen::MatrixXd readings = simulated(with_effect(), kModes);
+  for (Eigen::Index k = 0; k < readings.rows(); ++k) {
+    record.time_s.push_back(kSample_s * static_cast<double>(k));
+  }
+  for (std::size_t j = 0; j < sensors().size(); ++j) {
+    const auto column = readings.col(static_cast<Eigen::Index>(j));
+    record.channels.push_back({sensors()[j], {column.begin(), column.end()}});
+  }
+  measured::Run run;
+  run.id = "square";
+  run.purpose = measured::Purpose::estimation;
+  diagnose::Experiment experiment;
+  experiment.arm = ideal();
+  experiment.runs.push_back({run, std::move(record)});
+  const diagnose::Problem problem(experiment, {.flexible_modes = kModes});
+  const auto misfit = [&](const diagnose::Candidate& candidate) {
+    const auto residuals = problem.residuals(candidate, problem.estimation_runs());
+    return residuals ? residuals->norm() : std::numeric_limits<double>::infinity();
+  };
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& hypothesis : diagnose::hypotheses(experiment)) {
+    if (hypothesis.effect != GetParam()) continue;
+    std::vector<double> values;
+    for (const auto& parameter : entry().definition->parameters) {
+      values.push_back(parameter.example);
+    }
+    least = std::min(least, misfit(diagnose::Candidate{}.with(hypothesis, values)));
+  }
+  EXPECT_LT(least, kLeft * misfit({}));
 }
 
 TEST_P(Honoured, ShowsInFrequencyResponsesAsItSays) {

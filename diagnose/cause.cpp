@@ -1,0 +1,116 @@
+#include "diagnose/cause.hpp"
+
+#include "arm/arm_keys.hpp"
+#include "arm/uncertainties.hpp"
+#include "diagnose/search/rivals.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace flexarm::diagnose {
+
+namespace {
+
+/// Odds above this are said as such.
+constexpr double kOverwhelming = 1e6;
+
+std::string odds_text(double odds) {
+  return odds > kOverwhelming ? fmt::format("more than {:.0e}", kOverwhelming)
+                              : fmt::format("{:.2g}", odds);
+}
+
+std::vector<std::string> evidence_for(const Hypothesis& hypothesis, double share,
+                                      const std::vector<Rival>& rivals) {
+  std::vector<std::string> evidence = {
+      fmt::format("It explains {:.1f} % of the excess residual that is left without it.",
+                  100.0 * share),
+      fmt::format("Its signature: {}.", hypothesis.entry->speaks_for)};
+  if (rivals.empty()) return evidence;
+  const Rival& next = rivals.front();
+  evidence.push_back(
+      next.odds <= kIndistinguishableOdds
+          ? fmt::format("Indistinguishable from {} in these data (posterior odds {}).",
+                        next.effect->label(), odds_text(next.odds))
+          : fmt::format("Next in its place is {}: posterior odds {} against it, delta BIC {:.0f}.",
+                        next.effect->label(), odds_text(next.odds), next.delta_bic));
+  return evidence;
+}
+
+/// The parameters of the effect at `index`.
+std::vector<ParameterEstimate> estimates_of(const Candidate& candidate, std::size_t index,
+                                            const std::vector<double>& errors) {
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < index; ++i) at += candidate.effects[i].parameters.size();
+  std::vector<ParameterEstimate> estimates;
+  const Hypothesis& effect = candidate.effects[index];
+  for (const auto& parameter : effect.parameters) {
+    estimates.push_back({parameter.name, candidate.values[at],
+                         errors[candidate.nuisances.size() + at], effect.unit_of(parameter)});
+    ++at;
+  }
+  return estimates;
+}
+
+Cause cause_of(const Selection& selection, std::size_t index, const Posterior& posterior,
+               const std::vector<double>& errors) {
+  const Candidate& chosen = selection.chosen.fit.candidate;
+  const Hypothesis& effect = chosen.effects[index];
+  const Explanation without =
+      chosen.effects.size() == 1
+          ? selection.nothing
+          : explain(selection.problem, fit(selection.problem, chosen.without(index)));
+  Cause cause;
+  cause.effect = effect.effect;
+  cause.sensor = effect.sensor;
+  cause.parameters = estimates_of(chosen, index, errors);
+  cause.share = share_taken(without.estimation, selection.chosen.estimation);
+  cause.confidence = posterior.of(effect);
+  cause.class_confidence = class_probability(effect, selection, posterior);
+  const std::vector<Rival> rivals = rivals_of(effect, selection, posterior);
+  for (const Rival& rival : rivals) {
+    auto& confusable = cause.confusable_with;
+    const std::string& name = rival.effect->effect;
+    if (rival.odds > kIndistinguishableOdds) break;
+    if (std::ranges::find(confusable, name) == confusable.end()) confusable.push_back(name);
+  }
+  cause.evidence = evidence_for(effect, cause.share, rivals);
+  cause.refuted_by = effect.entry->refuted_by;
+  return cause;
+}
+
+}  // namespace
+
+bool RefittedNumber::has_moved() const {
+  return std::abs(value - file_value) > kMoved * std_error;
+}
+
+std::vector<Cause> causes_of(const Selection& selection, const Posterior& posterior,
+                             const std::vector<double>& errors) {
+  std::vector<Cause> causes;
+  for (std::size_t i = 0; i < selection.chosen.fit.candidate.effects.size(); ++i) {
+    causes.push_back(cause_of(selection, i, posterior, errors));
+  }
+  std::ranges::stable_sort(causes, std::ranges::greater{}, &Cause::share);
+  return causes;
+}
+
+std::vector<RefittedNumber> refitted_numbers(const Selection& selection,
+                                             const std::vector<double>& errors) {
+  const arm::Arm& arm = selection.problem.experiment().arm;
+  const arm::Arm refitted =
+      arm::with_deviations(arm, selection.chosen.fit.candidate.nuisances);
+  std::vector<RefittedNumber> numbers;
+  for (const auto& [name, uncertainty] : arm.relative_uncertainties) {
+    const auto& key = *std::ranges::find(arm::arm_keys(), name, &arm::ArmKey::name);
+    const double value = *key.get(refitted);
+    const double deviation = errors[numbers.size()];
+    numbers.push_back(
+        {name, *key.get(arm), uncertainty, value, value * uncertainty * deviation, key.unit});
+  }
+  return numbers;
+}
+
+}  // namespace flexarm::diagnose

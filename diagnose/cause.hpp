@@ -1,0 +1,56 @@
+#pragma once
+
+#include "diagnose/search/posterior.hpp"
+#include "diagnose/search/selection.hpp"
+
+#include <string>
+#include <vector>
+
+namespace flexarm::diagnose {
+
+struct ParameterEstimate {
+  std::string name;
+  double value = 0.0;
+  double std_error = 0.0;
+  std::string unit;
+};
+
+/// An uncertain number of the arm file (arm/uncertainties.hpp), fitted beside the causes.
+struct RefittedNumber {
+  std::string key;           ///< "beam.youngs_modulus"
+  double file_value = 0.0;   ///< in `unit`
+  double uncertainty = 0.0;  ///< relative, as the file says
+  double value = 0.0;
+  double std_error = 0.0;
+  std::string unit;
+
+  /// It differs from the file's by more than `kMoved` standard errors of the fit.
+  bool has_moved() const;
+};
+inline constexpr double kMoved = 2.0;
+
+/// One effect that the arm file lacks.
+struct Cause {
+  std::string effect;
+  std::string sensor;  ///< of a sensor_lag
+  std::vector<ParameterEstimate> parameters;
+  /// Posterior probability of this effect (posterior.hpp).
+  double confidence = 0.0;
+  /// The same of this effect or one of `confusable_with` in its place.
+  double class_confidence = 0.0;
+  double share = 0.0;  ///< explained of the excess residual without it, the others refitted
+  /// Effects that these data do not distinguish from it (rivals.hpp).
+  std::vector<std::string> confusable_with;
+  std::vector<std::string> evidence;  ///< sentences
+  std::string refuted_by;
+};
+
+/// The chosen effects in order of what each explains. `errors` are `standard_errors` of the choice.
+std::vector<Cause> causes_of(const Selection& selection, const Posterior& posterior,
+                             const std::vector<double>& errors);
+
+/// The uncertain numbers of the arm as the choice has them.
+std::vector<RefittedNumber> refitted_numbers(const Selection& selection,
+                                             const std::vector<double>& errors);
+
+}  // namespace flexarm::diagnose

@@ -1,0 +1,87 @@
+#include "diagnose/search/admission.hpp"
+
+#include "diagnose/search/misfit.hpp"
+
+#include <Eigen/Cholesky>
+
+#include <algorithm>
+#include <cmath>
+
+namespace flexarm::diagnose {
+
+namespace {
+
+using Eigen::Index;
+
+/// A coordinate within this of an end of its range is at the end.
+constexpr double kAtEnd = 1e-3;
+
+/// Standard errors of the coordinates; infinite where the residuals do not depend on one.
+Eigen::VectorXd coordinate_errors(const Explanation& explanation) {
+  const Eigen::MatrixXd& jacobian = explanation.fit.jacobian;
+  const Misfit& misfit = explanation.estimation;
+  const double scale = std::max(1.0, misfit.sum_of_squares / misfit.count) * misfit.count /
+                       std::max(1.0, misfit.independent);
+  const Index n = jacobian.cols();
+  const Eigen::LDLT<Eigen::MatrixXd> information(jacobian.transpose() * jacobian);
+  const Eigen::VectorXd variances =
+      scale * information.solve(Eigen::MatrixXd::Identity(n, n)).diagonal();
+  return variances.unaryExpr([](double variance) {
+    return variance > 0.0 ? std::sqrt(variance) : std::numeric_limits<double>::infinity();
+  });
+}
+
+/// The distance of a coordinate from where its effect does nothing, or from where nothing is known
+/// of it.
+double significant_distance(const SearchedParameter& parameter, double coordinate) {
+  if (const auto neutral = parameter.neutral_coordinate()) return std::abs(coordinate - *neutral);
+  if (parameter.spacing == effects::Spacing::logarithmic) {
+    return 1.0 / std::log(parameter.highest / parameter.lowest);  // a change by the value itself
+  }
+  return 0.5;
+}
+
+}  // namespace
+
+bool is_identified(const Explanation& explanation) {
+  const Candidate& candidate = explanation.fit.candidate;
+  const auto parameters = candidate.parameters();
+  if (parameters.empty()) return true;
+  const Eigen::VectorXd coordinates = candidate.coordinates();
+  if (!coordinates.allFinite() || explanation.fit.jacobian.cols() != coordinates.size()) {
+    return false;
+  }
+  const Eigen::VectorXd errors = coordinate_errors(explanation);
+  const auto first = coordinates.size() - static_cast<Index>(parameters.size());
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const Index at = first + static_cast<Index>(i);
+    const double place = coordinates(at);
+    if (!parameters[i].periodic && (place < kAtEnd || place > 1.0 - kAtEnd)) return false;
+    if (!(errors(at) < significant_distance(parameters[i], place))) return false;
+  }
+  return true;
+}
+
+bool clears_bars(const Explanation& fuller, const Explanation& simpler,
+                 const SelectionOptions& options) {
+  if (!is_identified(fuller)) return false;
+  if (lead(fuller, simpler) < options.least_information_gain) return false;
+  if (share_taken(simpler.estimation, fuller.estimation) < options.least_share) return false;
+  if (simpler.validation.is_noise()) return fuller.validation.is_noise();
+  return share_taken(simpler.validation, fuller.validation) >= options.least_validated_share;
+}
+
+std::vector<LimitOfEffect> limits_in(const Candidate& candidate,
+                                     const std::vector<Hypothesis>& hypotheses) {
+  std::vector<LimitOfEffect> found;
+  for (std::size_t i = 0; i < candidate.effects.size(); ++i) {
+    for (const Hypothesis& limit : hypotheses) {
+      if (candidate.effects[i].contains(limit.effect) && !candidate.has(limit)) {
+        found.push_back({i, &limit});
+      }
+    }
+  }
+  return found;
+}
+
+}  // namespace flexarm::diagnose

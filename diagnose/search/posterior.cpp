@@ -1,0 +1,80 @@
+#include "diagnose/search/posterior.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace flexarm::diagnose {
+
+namespace {
+
+/// Of all runs, with those of the arm's uncertain numbers.
+double squares_of(const Explanation& set) {
+  return set.estimation.sum_of_squares + set.validation.sum_of_squares +
+         set.estimation.nuisance_squares;
+}
+
+}  // namespace
+
+Posterior::Posterior(std::vector<const Explanation*> sets, std::size_t hypotheses,
+                     const SelectionOptions& options) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Explanation* set : sets) {
+    least = std::min({least, squares_of(*set), set->estimation.count + set->validation.count});
+  }
+  const double cost_of_cause = 2.0 * std::log(static_cast<double>(hypotheses));
+  const double cost_of_else = -2.0 * std::log(options.prior_of_something_else);
+  double best = std::numeric_limits<double>::infinity();
+  for (const Explanation* set : sets) {
+    const Candidate& candidate = set->fit.candidate;
+    const double excess = std::max(0.0, squares_of(*set) - least);
+    const bool is_complete = set->leaves_noise();
+    const double cost =
+        kDiscrepancyFreedom * std::log1p(excess / kDiscrepancyFreedom) +
+        cost_of_cause * static_cast<double>(candidate.effects.size()) +
+        kParameterCost * static_cast<double>(candidate.values.size()) +
+        (is_complete ? 0.0 : cost_of_else);
+    sets_.push_back({set, 0.0, cost, is_complete});
+    best = std::min(best, cost);
+  }
+  double sum = 0.0;
+  for (Weighed& weighed : sets_) {
+    weighed.cost -= best;
+    weighed.probability = std::exp(-0.5 * weighed.cost);
+    sum += weighed.probability;
+  }
+  for (Weighed& weighed : sets_) weighed.probability /= sum;
+}
+
+double Posterior::of(const Hypothesis& cause) const { return of_any(cause, {}); }
+
+double Posterior::of_any(const Hypothesis& cause,
+                         const std::vector<const Hypothesis*>& others) const {
+  double sum = 0.0;
+  for (const Weighed& weighed : sets_) {
+    const Candidate& candidate = weighed.set->fit.candidate;
+    const bool has_one = candidate.has(cause) ||
+                         std::ranges::any_of(others, [&](const Hypothesis* other) {
+                           return candidate.has(*other);
+                         });
+    if (has_one) sum += weighed.probability;
+  }
+  return std::min(1.0, sum);
+}
+
+double Posterior::of_something_else() const {
+  double sum = 0.0;
+  for (const Weighed& weighed : sets_) {
+    if (!weighed.is_complete) sum += weighed.probability;
+  }
+  return std::min(1.0, sum);
+}
+
+double Posterior::of_set(const Candidate& candidate) const {
+  const auto found = std::ranges::find_if(sets_, [&](const Weighed& weighed) {
+    return weighed.set->fit.candidate.labels() == candidate.labels();
+  });
+  return found == sets_.end() ? 0.0 : found->probability;
+}
+
+}  // namespace flexarm::diagnose

@@ -1,0 +1,106 @@
+#include "diagnose/search/residual_test.hpp"
+
+#include "diagnose/search/misfit.hpp"
+
+#include <boost/math/distributions/chi_squared.hpp>
+#include <boost/math/distributions/non_central_chi_squared.hpp>
+#include <boost/math/distributions/normal.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace flexarm::diagnose {
+
+namespace {
+
+using Eigen::Index;
+
+/// P(chi^2_n(lambda) > value).
+double exceedance(double value, double n, double lambda) {
+  // Above this the series of the noncentral distribution is long, and Sankaran's normal
+  // approximation (1963) is good to 1e-4.
+  constexpr double kLarge = 1e4;
+  if (n + lambda <= kLarge) {
+    if (lambda <= 0.0) {
+      return boost::math::cdf(complement(boost::math::chi_squared(n), std::max(0.0, value)));
+    }
+    return boost::math::cdf(
+        complement(boost::math::non_central_chi_squared(n, lambda), std::max(0.0, value)));
+  }
+  const double sum = n + lambda;
+  const double h = 1.0 - 2.0 * sum * (n + 3.0 * lambda) / (3.0 * std::pow(n + 2.0 * lambda, 2));
+  const double p = (n + 2.0 * lambda) / (sum * sum);
+  const double m = (h - 1.0) * (1.0 - 3.0 * h);
+  const double mean = 1.0 + h * p * (h - 1.0 - 0.5 * (2.0 - h) * m * p);
+  const double deviation = h * std::sqrt(2.0 * p * (1.0 + 0.5 * m * p));
+  return boost::math::cdf(
+      complement(boost::math::normal(mean, deviation), std::pow(value / sum, h)));
+}
+
+/// n (n + 2) sum_l rho_l^2/(n - l s) over lags l of `stride` s numbers each.
+double ljung_box(const Eigen::Ref<const Eigen::VectorXd>& residuals, int lags, Index stride) {
+  const Index n = residuals.size();
+  const double squares = residuals.squaredNorm();
+  if (!(squares > 0.0)) return 0.0;
+  double sum = 0.0;
+  for (int lag = 1; lag <= lags; ++lag) {
+    const Index rest = n - lag * stride;
+    const double rho = residuals.head(rest).dot(residuals.tail(rest)) / squares;
+    sum += rho * rho / static_cast<double>(rest);
+  }
+  return static_cast<double>(n) * static_cast<double>(n + 2) * sum;
+}
+
+/// A sum that is compared with a noncentral chi-squared variable.
+struct Statistic {
+  double value = 0.0;
+  double freedom = 0.0;
+  double lambda = 0.0;
+
+  double p_value() const { return freedom > 0.0 ? exceedance(value, freedom, lambda) : 1.0; }
+};
+
+double bonferroni(double p_value, double tests) { return std::min(1.0, tests * p_value); }
+
+}  // namespace
+
+bool ResidualTest::is_noise() const {
+  return std::min({level_p_value, whiteness_p_value, nuisance_p_value}) >= kResidualLevel;
+}
+
+ResidualTest test_residuals(const Observations& observations, const Experiment& experiment,
+                            const Eigen::VectorXd& residuals, const std::vector<bool>& runs) {
+  Statistic level;
+  Statistic whiteness;
+  double worst_channel = 1.0;
+  double channels = 0.0;
+  for (const ObservedChannel& channel : observations.channels) {
+    if (!runs[channel.run]) continue;
+    const auto part = residuals.segment(channel.first, channel.count);
+    const auto n = static_cast<double>(channel.count);
+    const measured::RunKind kind = experiment.runs[channel.run].run.kind;
+    const bool is_simulated = kind == measured::RunKind::time;
+    const double granted =
+        is_simulated ? std::pow(kSimulationError / channel.floor(), 2) : 0.0;
+    const Statistic own{part.squaredNorm() / (1.0 + kNoiseKnown), n, 4.0 * granted * n};
+    worst_channel = std::min(worst_channel, own.p_value());
+    channels += 1.0;
+    level.value += own.value;
+    level.freedom += n;
+    level.lambda += granted * n;
+    const int lags = std::min(kLags, static_cast<int>(channel.count / 4));
+    if (kind == measured::RunKind::modal || lags == 0) continue;
+    // Real and imaginary part of a line stand side by side.
+    whiteness.value += ljung_box(part, lags, is_simulated ? 1 : 2);
+    whiteness.freedom += lags;
+    whiteness.lambda += n * lags * std::pow(granted / (1.0 + granted), 2);
+  }
+  const auto nuisances = residuals.tail(residuals.size() - observations.values.size());
+  const Statistic nuisance{nuisances.squaredNorm(), static_cast<double>(nuisances.size()), 0.0};
+  const double tests = channels + 1.0 + (whiteness.freedom > 0.0 ? 1.0 : 0.0) +
+                       (nuisance.freedom > 0.0 ? 1.0 : 0.0);
+  return {bonferroni(std::min(worst_channel, level.p_value()), tests),
+          bonferroni(whiteness.p_value(), tests), bonferroni(nuisance.p_value(), tests)};
+}
+
+}  // namespace flexarm::diagnose

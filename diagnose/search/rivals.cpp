@@ -1,0 +1,80 @@
+#include "diagnose/search/rivals.hpp"
+
+#include "diagnose/search/admission.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <limits>
+
+namespace flexarm::diagnose {
+
+bool is_rival(const Candidate& one, const Candidate& other) {
+  const auto shared = std::ranges::count_if(
+      one.effects, [&](const Hypothesis& effect) { return other.has(effect); });
+  return one.effects.size() == other.effects.size() && shared + 1 == std::ssize(one.effects);
+}
+
+std::vector<Rival> rivals_of(const Hypothesis& cause, const Selection& selection,
+                             const Posterior& posterior) {
+  std::vector<Rival> found;
+  const Candidate& chosen = selection.chosen.fit.candidate;
+  for (const auto* sets : {&selection.singles, &selection.combinations}) {
+    for (const Explanation& set : *sets) {
+      const Candidate& other = set.fit.candidate;
+      if (other.has(cause) || !is_rival(other, chosen)) continue;
+      const auto own = std::ranges::find_if(
+          other.effects, [&](const Hypothesis& effect) { return !chosen.has(effect); });
+      if (own->contains(cause.effect)) continue;
+      const double probability = posterior.of_set(other);
+      const double odds = probability > 0.0 ? posterior.of_set(chosen) / probability
+                                            : std::numeric_limits<double>::infinity();
+      found.push_back({&*own, odds, lead(selection.chosen, set)});
+    }
+  }
+  std::ranges::stable_sort(found, {}, &Rival::odds);
+  return found;
+}
+
+std::vector<Explanation> indistinguishable_sets(const Selection& selection,
+                                                const Posterior& posterior) {
+  std::vector<Explanation> found;
+  const Candidate& chosen = selection.chosen.fit.candidate;
+  for (const auto* sets : {&selection.singles, &selection.combinations}) {
+    for (const Explanation& set : *sets) {
+      if (is_rival(set.fit.candidate, chosen) &&
+          posterior.of_set(chosen) <= kIndistinguishableOdds * posterior.of_set(set.fit.candidate)) {
+        found.push_back(set);
+      }
+    }
+  }
+  sort_by_fit(found);
+  return found;
+}
+
+Posterior posterior_of(const Selection& selection, std::size_t hypotheses,
+                       const SelectionOptions& options) {
+  std::vector<const Explanation*> sets = {&selection.nothing};
+  const auto is_new = [&sets](const Explanation& explanation) {
+    return std::ranges::none_of(sets, [&](const Explanation* set) {
+      return set->fit.candidate.labels() == explanation.fit.candidate.labels();
+    });
+  };
+  if (is_new(selection.chosen)) sets.push_back(&selection.chosen);
+  for (const auto* found : {&selection.singles, &selection.combinations}) {
+    for (const Explanation& explanation : *found) {
+      if (is_identified(explanation) && is_new(explanation)) sets.push_back(&explanation);
+    }
+  }
+  return {sets, hypotheses, options};
+}
+
+double class_probability(const Hypothesis& cause, const Selection& selection,
+                         const Posterior& posterior) {
+  std::vector<const Hypothesis*> indistinguishable;
+  for (const Rival& rival : rivals_of(cause, selection, posterior)) {
+    if (rival.odds <= kIndistinguishableOdds) indistinguishable.push_back(rival.effect);
+  }
+  return posterior.of_any(cause, indistinguishable);
+}
+
+}  // namespace flexarm::diagnose

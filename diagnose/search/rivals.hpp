@@ -1,0 +1,41 @@
+#pragma once
+
+#include "diagnose/search/posterior.hpp"
+#include "diagnose/search/selection.hpp"
+
+#include <cstddef>
+#include <vector>
+
+namespace flexarm::diagnose {
+
+/// What stands in place of a chosen cause in a set that was fitted as well.
+struct Rival {
+  const Hypothesis* effect = nullptr;
+  double odds = 0.0;       ///< of the chosen set over that set, by the posterior
+  double delta_bic = 0.0;  ///< of that set beyond the chosen one (misfit.hpp)
+};
+
+/// One that has another effect in the place of one of the other's.
+bool is_rival(const Candidate& one, const Candidate& other);
+
+/// The rivals of a cause among the sets that were fitted, the nearest first; one that has the cause
+/// as a limit is none. Pointers are into `selection`.
+std::vector<Rival> rivals_of(const Hypothesis& cause, const Selection& selection,
+                             const Posterior& posterior);
+
+/// The sets of the rivals of odds <= kIndistinguishableOdds.
+std::vector<Explanation> indistinguishable_sets(const Selection& selection,
+                                                const Posterior& posterior);
+
+/// Rivals of odds <= this are indistinguishable from the cause.
+inline constexpr double kIndistinguishableOdds = 20.0;
+
+/// Of the sets that were fitted: no cause, singles, combinations, the chosen one.
+Posterior posterior_of(const Selection& selection, std::size_t hypotheses,
+                       const SelectionOptions& options);
+
+/// That this cause, or one that is indistinguishable from it, is there.
+double class_probability(const Hypothesis& cause, const Selection& selection,
+                         const Posterior& posterior);
+
+}  // namespace flexarm::diagnose

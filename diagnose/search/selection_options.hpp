@@ -1,0 +1,64 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+namespace flexarm::diagnose {
+
+/// Every threshold of the search, each with what it enforces.
+struct SelectionOptions {
+  /// Causes named <= this.
+  int most_causes = 3;
+
+  // An effect is named beside others only where all of these hold (admission.hpp).
+  /// Delta BIC (misfit.hpp) without it >= this.
+  double least_information_gain = 10.0;
+  /// Part of the excess residual of the estimation runs that it explains >= this: a small part of a
+  /// residual of another kind is explained by many effects.
+  double least_share = 0.5;
+  /// The same of the validation runs, which it was not fitted to.
+  double least_validated_share = 0.25;
+  /// Posterior probability of it, or of a set of effects indistinguishable from it, >= this.
+  double least_probability = 0.5;
+
+  // Prior of the posterior probability (posterior.hpp).
+  /// Of something else than the vocabulary, beside any causes. Each effect of the vocabulary has
+  /// one over their number.
+  double prior_of_something_else = 0.2;
+
+  // The search ends where the residual is noise (residual_test.hpp), or
+  /// where the excess residual relative to the signal of simulated runs <= this.
+  double negligible_error = 0.004;
+
+  // Sampling jitter of the torque (torque_timing.hpp) is a nuisance.
+  /// It is looked into where the excess residual relative to the signal <= this,
+  double largest_timing_error = 0.03;
+  /// and corrected where the residual is noise after that, and it explains >= this part of the
+  /// excess residual.
+  double least_timing_share = 0.5;
+
+  // How far the search goes.
+  /// Singles refitted to all data <= this, the best of the coarse look.
+  std::size_t singles_refitted = 8;
+  /// Singles that are bases of pairs <= this.
+  std::size_t pair_bases = 3;
+  /// Effects scanned beside a base <= this: those whose directions the residuals have most of.
+  std::size_t scanned_beside = 10;
+  /// Of these refitted to all data <= this.
+  std::size_t pairs_refitted = 5;
+  /// Samples of each run in the coarse look <= this.
+  std::size_t coarse_samples = 1200;
+  /// The same in a second look at effects of several parameters: where the hub turns another way
+  /// from the start, nothing after it tells which value is nearer.
+  std::size_t short_samples = 400;
+  /// Flexible modes in the coarse look <= this.
+  int coarse_modes = 8;
+  /// Values tried in a scan of an effect of 1, 2, 3 parameters or more.
+  std::array<int, 3> scan_evaluations = {40, 90, 160};
+  /// Causes exchanged for others, one after the other, <= this.
+  int most_exchanges = 4;
+  /// Rounds that each add a cause, or exchange some for others, <= this.
+  int most_rounds = 4;
+};
+
+}  // namespace flexarm::diagnose

@@ -23,13 +23,13 @@ Entry beam_length() {
   return {
       .definition = define(
           {.name = "beam_length",
-           .meaning = "the beam is factor times as long as the arm file says, its EI and mass "
-                      "per length as they are; a strain gauge at its tip stays there, another "
-                      "keeps its distance from the root",
+           .meaning =
+               "beam length multiplied by factor; EI and mass per length unchanged. A strain gauge "
+               "at the tip stays at the tip, others keep their distance from the root",
            .parameters = {{.name = "factor",
                            .unit = "1",
                            .range = arm::kPositive,
-                           .meaning = "of the beam's length",
+                           .meaning = "factor of the beam length",
                            .example = 1.05,
                            .neutral = 1.0}},
            .arm_number = [](const arm::Effect& effect,
@@ -40,9 +40,9 @@ Entry beam_length() {
             {.name = "factor", .lowest = shortest_factor(scales), .highest = 1.6, .neutral = 1.0}};
       },
       .speaks_for =
-          "poles and zeros move with 1/length^2 in one ratio, and the rigid-body inertia with "
-          "length^3",
-      .refuted_by = "a rigid-body inertia that is as expected"};
+          "all poles and zeros shifted by the same ratio, 1/length^2; rigid-body inertia changed "
+          "as length^3",
+      .refuted_by = "unchanged rigid-body inertia"};
 }
 
 }  // namespace flexarm::effects

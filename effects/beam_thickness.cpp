@@ -18,13 +18,12 @@ void thicken(const arm::Effect& effect, arm::Arm& arm) {
 Entry beam_thickness() {
   return {
       .definition = define({.name = "beam_thickness",
-                            .meaning = "the beam is factor times as thick as the arm file says: EI "
-                                       "is factor^3 times as large, mass per length and strain "
-                                       "factor times",
+                            .meaning = "beam thickness multiplied by factor: EI by factor^3, mass "
+                                       "per length and strain by factor",
                             .parameters = {{.name = "factor",
                                             .unit = "1",
                                             .range = arm::kPositive,
-                                            .meaning = "of the beam's thickness",
+                                            .meaning = "factor of the beam thickness",
                                             .example = 1.05,
                                             .neutral = 1.0}},
                             .arm_number = thicken}),
@@ -33,8 +32,8 @@ Entry beam_thickness() {
         return {{.name = "factor", .lowest = 0.6, .highest = 1.6, .neutral = 1.0}};
       },
       .speaks_for =
-          "poles and zeros move in one ratio, and the rigid-body inertia by the same ratio",
-      .refuted_by = "a rigid-body inertia that is as expected"};
+          "all poles and zeros, and the rigid-body inertia of the beam, changed by the same ratio",
+      .refuted_by = "unchanged rigid-body inertia"};
 }
 
 }  // namespace flexarm::effects

@@ -177,7 +177,7 @@ const std::vector<Mistake> kTimeRecordMistakes = {
      "1: column strain@0.05: given twice"},
     {"HeaderMissing", "0,0,0\n0.002,0,0\n",
      "1: column: sensor 0: unknown; allowed: hub_angle, hub_velocity, tip_acceleration, "
-     "tip_displacement, tip_deflection, strain@X (X in metres from the hub); beside time and "
+     "tip_displacement, tip_deflection, strain@X (X in metres from the hub); besides time and "
      "torque"},
     {"Semicolons", "time [s];torque [N m]\n",
      "1: cells must be separated by commas, and numbers have a decimal point"},

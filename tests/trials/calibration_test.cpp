@@ -35,7 +35,7 @@ TEST(Reliability, TableStatesBounds) {
   EXPECT_THAT(table, HasSubstr("Brier score 0.003 over 60 identified effects."));
   EXPECT_THAT(table, HasSubstr("| 90 to 100 | 60 | 95 % | 100 % (95 to 100 %) |"));
   EXPECT_THAT(table, HasSubstr("| 0 to 10 | 0 | - | - |"));
-  EXPECT_EQ(reliability_table({}), "No cause was named.\n");
+  EXPECT_EQ(reliability_table({}), "No effect identified.\n");
 }
 
 TEST(Coverage, IsCountedByKindWithBounds) {

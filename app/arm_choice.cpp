@@ -5,8 +5,10 @@
 #include "arm/formulation.hpp"
 #include "arm/input_error.hpp"
 #include "arm/linear_arm.hpp"
+#include "arm/plausibility.hpp"
 #include "effects/registry/vocabulary.hpp"
 #include "measured/files/arm_file.hpp"
+#include "report/tables/text_table.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -95,6 +97,9 @@ std::string describe(const arm::Arm& arm) {
       linear.hub_viscous_friction_N_m_s_per_rad);
   for (const auto& [name, effect] : arm.effects) lines += describe_effect(name, effect) + "\n";
   if (!arm.effects.empty()) lines += "(values include the linear effects)\n";
+  for (const auto& note : arm::plausibility_notes(arm)) {
+    lines += report::to_paragraph("note: " + note, 2);
+  }
   return lines;
 }
 

@@ -33,7 +33,8 @@ void add_arm_choice(CLI::App& parser, ArmChoice& choice);
 std::filesystem::path folder_of(const std::filesystem::path& out, const arm::Arm& arm,
                                 std::size_t arms);
 
-/// Name, rigidity, density, inertias and their ratios, effects: lines for the head of an output.
+/// Name, rigidity, density, inertias and their ratios, effects, what is not plausible: lines for
+/// the head of an output.
 std::string describe(const arm::Arm& arm);
 
 /// A line that names the arm's effects that its poles, zeros and modes leave out, since they act

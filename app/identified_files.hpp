@@ -3,7 +3,7 @@
 #include "app/folder_place.hpp"
 #include "compare/identification.hpp"
 #include "measured/files/atomic_file.hpp"
-#include "measured/identification.hpp"
+#include "measured/run_identification.hpp"
 
 #include <string>
 #include <vector>

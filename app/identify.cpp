@@ -12,7 +12,7 @@
 #include "effects/registry/vocabulary.hpp"
 #include "measured/files/arm_file.hpp"
 #include "measured/files/atomic_file.hpp"
-#include "measured/identification.hpp"
+#include "measured/run_identification.hpp"
 #include "report/figures/gnuplot.hpp"
 #include "report/json/arm_json.hpp"
 #include "report/json/identification_json.hpp"

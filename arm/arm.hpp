@@ -1,15 +1,28 @@
 #pragma once
 
 #include "arm/beam.hpp"
-#include "arm/damping.hpp"
 #include "arm/effects.hpp"
-#include "arm/hub.hpp"
 #include "arm/payload.hpp"
 
 #include <map>
 #include <string>
 
 namespace flexarm::arm {
+
+/// The motor's rotor and clamp, on which the torque acts.
+struct Hub {
+  double inertia_kg_m2 = 0.0;                   ///< Ih, 0 or more
+  double viscous_friction_N_m_s_per_rad = 0.0;  ///< c: torque -c theta', 0 or more
+
+  bool operator==(const Hub&) const = default;
+};
+
+/// Damping of the beam's material.
+struct Damping {
+  double kelvin_voigt_s = 0.0;  ///< kv: bending moment EI (y'' + kv d/dt y''), 0 or more
+
+  bool operator==(const Damping&) const = default;
+};
 
 /// A single-link flexible manipulator: a uniform beam turned about its root by a motor, with a
 /// payload at its tip.

@@ -2,7 +2,7 @@
 
 #include "arm/arm.hpp"
 #include "arm/sensor.hpp"
-#include "measured/identification.hpp"
+#include "measured/run_identification.hpp"
 #include "response/frequency/frequency_response.hpp"
 
 #include <complex>

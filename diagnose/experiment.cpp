@@ -2,6 +2,7 @@
 
 #include "arm/input_error.hpp"
 #include "arm/linear_arm.hpp"
+#include "arm/plausibility.hpp"
 #include "effects/registry/vocabulary.hpp"
 #include "measured/checks/data_check.hpp"
 #include "measured/files/arm_file.hpp"
@@ -76,6 +77,7 @@ Experiment read_experiment(const fs::path& measurement_file) {
   experiment.files = measured::files_of(measurement_file, measurement);
   experiment.arm = measured::read_arm_file(measured::beside(measurement_file, measurement.arm),
                                            effects::vocabulary());
+  experiment.notices = arm::plausibility_notes(experiment.arm);
   for (const measured::Run& run : measurement.runs) {
     measured::MeasuredRun read{run, measured::read_run(measurement_file, run)};
     if (run.kind == measured::RunKind::time) {

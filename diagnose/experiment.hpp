@@ -1,7 +1,7 @@
 #pragma once
 
 #include "arm/arm.hpp"
-#include "measured/identification.hpp"
+#include "measured/run_identification.hpp"
 
 #include <filesystem>
 #include <string>

@@ -5,7 +5,9 @@ namespace flexarm::effects {
 Entry structural_damping() {
   return {.definition = define(
               {.name = "structural_damping",
-               .meaning = "additional Kelvin-Voigt damping of the beam",
+               .meaning = "additional Kelvin-Voigt (stiffness-proportional) damping of the beam: "
+                          "bending moment EI "
+                          "(y'' + time d/dt y''); not hysteretic damping with a loss factor",
                .parameters = {{.name = "time",
                                .unit = "s",
                                .range = arm::kNotNegative,

@@ -8,7 +8,8 @@ namespace flexarm::fem {
 namespace {
 
 /// Roots within the circle beyond w[k - 1], conjugate pairs once; -1 when it cannot be told.
-int counted(std::span<const std::complex<double>> w, std::size_t k, const Numerator& numerator) {
+int counted(std::span<const std::complex<double>> w, std::size_t k,
+            const PoleFreeNumerator& numerator) {
   const int inside = numerator.roots_inside(radius_before(w, k));
   const auto pairs =
       std::ranges::count_if(w.first(k), [](auto root) { return root.imag() != 0.0; });
@@ -26,7 +27,7 @@ double radius_before(std::span<const std::complex<double>> w, std::size_t k) {
 }
 
 RootAudit audit(std::span<const std::complex<double>> w, std::size_t looked_at,
-                const Numerator& numerator) {
+                const PoleFreeNumerator& numerator) {
   RootAudit result{counted(w, looked_at, numerator), looked_at};
   if (result.expected < 0 || result.expected == static_cast<int>(looked_at)) return result;
   // A root that is missing within a circle is missing within every larger one.

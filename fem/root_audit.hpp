@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fem/numerator.hpp"
+#include "fem/pole_free_numerator.hpp"
 
 #include <complex>
 #include <cstddef>
@@ -24,6 +24,6 @@ double radius_before(std::span<const std::complex<double>> w, std::size_t k);
 /// Counts the roots within the circle beyond w[looked_at - 1], looked_at >= 1; where their number
 /// differs, finds the first gap by bisection. `w` holds one of each conjugate pair, ascending.
 RootAudit audit(std::span<const std::complex<double>> w, std::size_t looked_at,
-                const Numerator& numerator);
+                const PoleFreeNumerator& numerator);
 
 }  // namespace flexarm::fem

@@ -120,7 +120,7 @@ void add(const NewtonResult& result, PencilRoots& roots, std::vector<Complex>& d
 
 }  // namespace
 
-PencilRoots pencil_roots(const Discretisation& discretisation, const Numerator& numerator,
+PencilRoots pencil_roots(const Discretisation& discretisation, const PoleFreeNumerator& numerator,
                          int count, double tolerance) {
   PencilRoots roots;
   const InversePencil inverse(discretisation, numerator.row());
@@ -165,7 +165,7 @@ PencilRoots pencil_roots(const Discretisation& discretisation, const Numerator& 
   return roots;
 }
 
-bool search_beside(std::size_t k, const Numerator& numerator, PencilRoots& roots) {
+bool search_beside(std::size_t k, const PoleFreeNumerator& numerator, PencilRoots& roots) {
   constexpr int kDirections = 8;  // of the upper half plane, both ends of the real axis included
   std::vector<Complex> divided_out;
   for (const Complex w : roots.w) {

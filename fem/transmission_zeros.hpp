@@ -1,7 +1,7 @@
 #pragma once
 
 #include "fem/discretisation.hpp"
-#include "fem/numerator.hpp"
+#include "fem/pole_free_numerator.hpp"
 
 #include <complex>
 #include <cstddef>
@@ -34,13 +34,13 @@ struct PencilRoots {
 /// out. Last searches from three more places, repeated until none ends inside the largest root
 /// found, bring in those that the guesses missed. Throws std::runtime_error, which names the model,
 /// when an eigensolver breaks down.
-PencilRoots pencil_roots(const Discretisation& discretisation, const Numerator& numerator,
+PencilRoots pencil_roots(const Discretisation& discretisation, const PoleFreeNumerator& numerator,
                          int count, double tolerance);
 
 /// Searches for a root that is missing beside roots.w[k] in |w|: nearer to it (in ratio) than the
 /// known neighbours on either side. Newton's method starts from points all around that ring and
 /// divides out the known roots; whatever it finds is added to `roots`. True once it found one in
 /// the ring.
-bool search_beside(std::size_t k, const Numerator& numerator, PencilRoots& roots);
+bool search_beside(std::size_t k, const PoleFreeNumerator& numerator, PencilRoots& roots);
 
 }  // namespace flexarm::fem

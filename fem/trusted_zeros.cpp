@@ -33,7 +33,7 @@ struct Candidate {
   double further_change = std::numeric_limits<double>::infinity();  ///< |s' - s''|/|s''|
 };
 
-Candidate follow(Complex w, const Numerator& fine, const Numerator& finer) {
+Candidate follow(Complex w, const PoleFreeNumerator& fine, const PoleFreeNumerator& finer) {
   constexpr int kStepsAllowed = 30;
   Candidate candidate;
   candidate.s = first_quadrant_root(w);

@@ -2,7 +2,7 @@
 
 #include "arm/formulation.hpp"
 #include "fem/discretisation.hpp"
-#include "fem/numerator.hpp"
+#include "fem/pole_free_numerator.hpp"
 #include "fem/transmission_zeros.hpp"
 
 #include <cstddef>
@@ -27,9 +27,9 @@ struct CheckedNumerators {
   CheckedNumerators(const Discretisation& discretisation, const CheckingModels& checking,
                     const arm::Sensor& sensor, int poles, double tolerance);
 
-  Numerator model;
-  Numerator fine;
-  Numerator finer;
+  PoleFreeNumerator model;
+  PoleFreeNumerator fine;
+  PoleFreeNumerator finer;
 };
 
 /// Zeros beside where the search for them left a gap.

@@ -3,6 +3,7 @@
 #include "arm/effects.hpp"
 #include "arm/input_error.hpp"
 #include "arm/linear_arm.hpp"
+#include "arm/plausibility.hpp"
 #include "diagnose/search/hypothesis.hpp"
 #include "effects/registry/vocabulary.hpp"
 
@@ -64,6 +65,7 @@ class Planning {
     }
     made_.better = measurement_plan;
     made_.better.runs = with_purposes(planned_, measurement_plan.runs);
+    made_.notices = arm::plausibility_notes(arm);
     if (!planned_.notice().empty()) made_.notices.push_back(planned_.notice());
     const bool has_response = std::ranges::any_of(
         measurement_plan.runs, [](const auto& run) { return run.kind == measured::RunKind::frf; });

@@ -1,10 +1,8 @@
 #include "diagnose/search/selection.hpp"
 
 #include "diagnose/search/admission.hpp"
-#include "diagnose/search/coarse.hpp"
+#include "diagnose/search/effect_scan.hpp"
 #include "diagnose/search/rivals.hpp"
-
-#include <Eigen/QR>
 
 #include <algorithm>
 #include <cmath>
@@ -24,32 +22,6 @@ namespace {
 constexpr double kSinglesDone = 0.4;
 /// ... and when pairs of the best of them have been tried.
 constexpr double kPairsDone = 0.8;
-constexpr FitOptions kCoarseFit{.most_steps = 8, .tolerance = 1e-4};
-
-/// A few values of a hypothesis' parameters, over their ranges.
-std::vector<std::vector<double>> samples_of(const Hypothesis& hypothesis) {
-  const std::vector<double> places = hypothesis.parameters.size() == 1
-                                         ? std::vector{0.15, 0.35, 0.45, 0.55, 0.65, 0.85}
-                                         : std::vector{0.2, 0.5, 0.8};
-  std::vector<std::vector<double>> samples = {{}};
-  for (const SearchedParameter& parameter : hypothesis.parameters) {
-    std::vector<std::vector<double>> longer;
-    for (const auto& sample : samples) {
-      for (const double place : places) {
-        longer.push_back(sample);
-        longer.back().push_back(parameter.value(place));
-      }
-    }
-    samples = std::move(longer);
-  }
-  return samples;
-}
-
-std::vector<double> middle_of(const Hypothesis& hypothesis) {
-  std::vector<double> values;
-  for (const auto& parameter : hypothesis.parameters) values.push_back(parameter.value(0.5));
-  return values;
-}
 
 class Search {
  public:
@@ -59,10 +31,7 @@ class Search {
         hypotheses_(hypotheses),
         options_(options),
         work_(progress),
-        coarse_experiment_(coarse(problem.experiment(), options.coarse_samples)),
-        short_experiment_(coarse(problem.experiment(), options.short_samples)),
-        coarse_(coarse_experiment_, coarse_options()),
-        short_(short_experiment_, coarse_options()) {}
+        scan_(problem, hypotheses, options, work_) {}
 
   Selection run() {
     Selection made = found();
@@ -88,12 +57,6 @@ class Search {
     made.rivals = indistinguishable_sets(made, posterior_of(made, hypotheses_.size(), options_));
     made.cancelled = work_.is_cancelled();
     return made;
-  }
-
-  ProblemOptions coarse_options() const {
-    return {
-        .flexible_modes = std::min(options_.coarse_modes, problem_.predictor().flexible_modes()),
-        .logarithmic_responses = true};
   }
 
   /// The noise that is seen under what the best so far leaves.
@@ -163,13 +126,13 @@ class Search {
     std::vector<const Hypothesis*> others;
     for (const Hypothesis& hypothesis : hypotheses_) {
       // An effect that has another as a limit follows that one: generalise().
-      const bool follows = !base.effects.empty() && has_limit(hypothesis);
+      const bool follows = !base.effects.empty() && has_limit(hypothesis, hypotheses_);
       if (!base.has(hypothesis) && !follows) others.push_back(&hypothesis);
     }
-    if (!base.effects.empty()) keep_promising(base, others, what, from);
+    if (!base.effects.empty()) others = scan_.promising(base, std::move(others), what);
     if (others.empty() || work_.is_cancelled()) return {};
     const double middle = from + 0.6 * (to - from);
-    std::vector<Fit> looks = first_looks(base, others, what, from, middle);
+    std::vector<Fit> looks = scan_.first_looks(base, others, what, from, middle);
     if (work_.is_cancelled()) return {};
     looks.resize(std::min(refitted, looks.size()));
     std::vector<Explanation> found(looks.size());
@@ -180,94 +143,6 @@ class Search {
     }
     sort_by_fit(found);
     return found;
-  }
-
-  /// `base` with each of the hypotheses as a scan of it on the coarse problem found it, the best
-  /// first. Those that have another as a limit come after that, and only where the limit is among
-  /// the best: a general effect far from its limit still does some of what the limit does.
-  std::vector<Fit> first_looks(const Candidate& base, const std::vector<const Hypothesis*>& others,
-                               std::string_view what, double from, double to) {
-    std::vector<Fit> looks;
-    const auto look_at = [&](const std::vector<const Hypothesis*>& some, double begin, double end) {
-      std::vector<Fit> made(some.size());
-      work_.in_parallel(some.size(), what, begin, end, [&](std::size_t i) {
-        made[i] = first_look(base.with(*some[i], middle_of(*some[i])));
-      });
-      std::ranges::move(made, std::back_inserter(looks));
-      std::ranges::stable_sort(looks, {}, &Fit::sum_of_squares);
-    };
-    std::vector<const Hypothesis*> special;
-    std::vector<const Hypothesis*> general;
-    for (const Hypothesis* other : others) {
-      (has_limit(*other) ? general : special).push_back(other);
-    }
-    const double middle = 0.5 * (from + to);
-    look_at(special, from, middle);
-    const std::size_t best = std::min(options_.singles_refitted, looks.size());
-    std::erase_if(general, [&](const Hypothesis* other) {
-      return std::ranges::none_of(looks.begin(), looks.begin() + static_cast<std::ptrdiff_t>(best),
-                                  [&](const Fit& look) {
-                                    return other->contains(
-                                        look.candidate.effects.back().effect);
-                                  });
-    });
-    if (!work_.is_cancelled()) look_at(general, middle, to);
-    return looks;
-  }
-
-  /// The last effect of `start` scanned, and all refitted to the coarse problem.
-  Fit first_look(const Candidate& start) const {
-    const std::size_t parameters = start.effects.back().parameters.size();
-    const int evaluations =
-        options_.scan_evaluations[std::min(parameters, options_.scan_evaluations.size()) - 1];
-    Fit look = fit(coarse_, scan(coarse_, start, evaluations), kCoarseFit);
-    const bool is_shorter =
-        short_.observations().values.size() < coarse_.observations().values.size();
-    if (parameters == 1 || !is_shorter) return look;
-    const Fit at_first = fit(short_, scan(short_, start, evaluations), kCoarseFit);
-    Fit from_there = fit(coarse_, at_first.candidate, kCoarseFit);
-    return from_there.sum_of_squares < look.sum_of_squares ? from_there : look;
-  }
-
-  /// Leaves the `scanned_beside` hypotheses that account, at some of a few values each, for most of
-  /// what `base` leaves: a score test without refitting.
-  void keep_promising(const Candidate& base, std::vector<const Hypothesis*>& others,
-                      std::string_view what, double from) {
-    if (others.size() <= options_.scanned_beside) return;
-    const Fit left = fit(coarse_, base, kCoarseFit);
-    const Eigen::HouseholderQR<Eigen::MatrixXd> refitted(left.jacobian);
-    std::vector<std::pair<double, const Hypothesis*>> shares(others.size());
-    work_.in_parallel(others.size(), what, from, from, [&](std::size_t i) {
-      shares[i] = {largest_part(left, refitted, *others[i]), others[i]};
-    });
-    std::ranges::stable_sort(shares, std::ranges::greater{}, &decltype(shares)::value_type::first);
-    others.clear();
-    for (std::size_t i = 0; i < options_.scanned_beside; ++i) others.push_back(shares[i].second);
-  }
-
-  /// Part of the residuals of `left` along the change that the hypothesis makes, its parameters
-  /// refitted: the largest of `samples_of` it.
-  double largest_part(const Fit& left, const Eigen::HouseholderQR<Eigen::MatrixXd>& refitted,
-                      const Hypothesis& hypothesis) const {
-    double largest = 0.0;
-    for (const std::vector<double>& values : samples_of(hypothesis)) {
-      const auto with =
-          coarse_.residuals(left.candidate.with(hypothesis, values), coarse_.estimation_runs());
-      if (!with) continue;
-      // At the fit's minimum the residuals have no part along its own parameters.
-      Eigen::VectorXd change = refitted.householderQ().adjoint() * (left.residuals - *with);
-      change.head(left.jacobian.cols()).setZero();
-      change = refitted.householderQ() * change;
-      const double size = change.norm() * left.residuals.norm();
-      if (size > 0.0) largest = std::max(largest, change.dot(left.residuals) / size);
-    }
-    return largest;
-  }
-
-  bool has_limit(const Hypothesis& hypothesis) const {
-    return std::ranges::any_of(hypotheses_, [&](const Hypothesis& other) {
-      return hypothesis.contains(other.effect);
-    });
   }
 
   /// clears_bars against each set in which one of its effects is replaced by a limit of that: a
@@ -294,7 +169,7 @@ class Search {
       return one.fit.candidate.labels() == start.labels();
     });
     if (same != kept.end()) return *same;
-    Explanation found = fitted(first_look(start).candidate);
+    Explanation found = fitted(scan_.first_look(start).candidate);
     kept.push_back(found);
     sort_by_fit(kept);
     return found;
@@ -309,7 +184,8 @@ class Search {
     return best == singles.end() ? made.nothing : *best;
   }
 
-  /// Of the combinations of so many effects the best, or one with fewer parameters that it does not clear the bars over; null where there are none.
+  /// Of the combinations of so many effects the best, or one with fewer parameters that it does
+  /// not clear the bars over; null where there are none.
   const Explanation* simplest(const std::vector<Explanation>& found, std::size_t effects) const {
     const Explanation* best = nullptr;
     for (const Explanation& other : found) {
@@ -460,10 +336,7 @@ class Search {
   const std::vector<Hypothesis>& hypotheses_;
   const SelectionOptions& options_;
   ReportedWork work_;
-  Experiment coarse_experiment_;
-  Experiment short_experiment_;
-  Problem coarse_;
-  Problem short_;
+  EffectScan scan_;
   std::set<std::set<std::string>> combined_;  // labels of what has been tried with any other
 };
 

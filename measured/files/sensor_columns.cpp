@@ -73,7 +73,7 @@ Eigen::VectorXd column_of(const SensorColumn& column, const Eigen::MatrixXd& tri
   if (column.kind == Kind::jump)
     return triangle.col(layout.torque()) - triangle.col(layout.remainder());
   const auto& [a1, a0] = blocks.blocks[column.block];
-  const auto x = triangle.middleCols<4>(layout.block(column.block, column.kind == Kind::free));
+  const auto x = triangle.middleCols<2>(layout.block(column.block, column.kind == Kind::free));
   if (column.power < 2) return x.col(column.power);
   return triangle.col(layout.torque()) - a1 * x.col(1) - a0 * x.col(0);  // q''
 }
@@ -81,6 +81,7 @@ Eigen::VectorXd column_of(const SensorColumn& column, const Eigen::MatrixXd& tri
 Eigen::MatrixXd column_derivatives(const SensorColumn& column, const Eigen::MatrixXd& triangle,
                                    const SignalLayout& layout, const BlockSet& blocks) {
   if (column.kind != Kind::forced && column.kind != Kind::free) return {};
+  if (blocks.is_held(column.block)) return {};
   const auto& [a1, a0] = blocks.blocks[column.block];
   const auto x = triangle.middleCols<4>(layout.block(column.block, column.kind == Kind::free));
   // s^k p for k = 0 to 3, from p'' + a1 p' + a0 p = q.

@@ -73,7 +73,8 @@ SensorModel sensor_model(const arm::Sensor& sensor, Eigen::Index index, const Bl
 Eigen::VectorXd column_of(const SensorColumn& column, const Eigen::MatrixXd& triangle,
                           const SignalLayout& layout, const BlockSet& blocks);
 
-/// Its derivatives to the block's own parameters: rows x 1 or 2; empty for a column without block.
+/// Its derivatives to the block's own parameters: rows x 1 or 2; empty for a column without block, or
+/// of one that is held.
 Eigen::MatrixXd column_derivatives(const SensorColumn& column, const Eigen::MatrixXd& triangle,
                                    const SignalLayout& layout, const BlockSet& blocks);
 

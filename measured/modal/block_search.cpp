@@ -59,7 +59,7 @@ class CandidateTriangles {
   CandidateTriangles(std::span<const Stretch> stretches, std::span<const arm::Sensor> sensors,
                      const BlockSet& all, const ColumnChoices& choices)
       : stretches_(stretches), all_(all) {
-    for (const Stretch& stretch : stretches) triangles_.push_back(triangle(stretch, all.blocks));
+    for (const Stretch& stretch : stretches) triangles_.push_back(triangle(stretch, all));
     for (std::size_t j = 0; j < sensors.size(); ++j) {
       models_.push_back(sensor_model(sensors[j], static_cast<Index>(j), all, stretches, choices));
     }
@@ -73,7 +73,7 @@ class CandidateTriangles {
       for (std::size_t r = 0; r < stretches_.size(); ++r) {
         const auto at = std::ranges::find(stretches_[r].sensors, static_cast<Index>(j));
         if (at == stretches_[r].sensors.end()) continue;
-        const SignalLayout layout = stretches_[r].layout(all_.blocks.size());
+        const SignalLayout layout = stretches_[r].layout(all_);
         const VectorXd y =
             triangles_[r].col(layout.first_reading() + (at - stretches_[r].sensors.begin()));
         sum += static_cast<double>(stretches_[r].rows) * std::log(squares(j, r, y, held, added));
@@ -85,7 +85,7 @@ class CandidateTriangles {
  private:
   double squares(std::size_t j, std::size_t r, const VectorXd& y, std::size_t held,
                  std::size_t added) const {
-    const SignalLayout layout = stretches_[r].layout(all_.blocks.size());
+    const SignalLayout layout = stretches_[r].layout(all_);
     std::vector<VectorXd> columns;
     for (const SensorColumn& column : models_[j].columns) {
       const bool of_block =
@@ -138,10 +138,10 @@ bool nothing_left(const BlockFit& fit, const std::vector<double>& sizes) {
 std::vector<double> sizes_of(std::span<const Stretch> stretches, std::size_t sensors) {
   std::vector<double> sizes(sensors, 0.0);
   for (const Stretch& stretch : stretches) {
-    const MatrixXd r = triangle(stretch, {});
+    const MatrixXd r = triangle(stretch, BlockSet{});
     for (std::size_t i = 0; i < stretch.sensors.size(); ++i) {
       sizes[static_cast<std::size_t>(stretch.sensors[i])] +=
-          r.col(stretch.layout(0).first_reading() + static_cast<Index>(i)).squaredNorm();
+          r.col(stretch.layout(BlockSet{}).first_reading() + static_cast<Index>(i)).squaredNorm();
     }
   }
   return sizes;

@@ -32,7 +32,7 @@ struct TimeRows {
   void fill_block(const HeldResponse& step, Eigen::Vector4d& x, double drive, Index first,
                   Eigen::Ref<Eigen::MatrixXd> columns) const {
     for (Index r = 0; r < columns.rows(); ++r) {
-      columns.row(r) = x;
+      columns.row(r) = x.head(columns.cols());
       step.step(x, drive * torque(first + r), drive * torque(first + r + 1));
     }
   }
@@ -51,8 +51,9 @@ struct TimeRows {
     }
   }
 
-  void operator()(std::span<const SecondOrderBlock> blocks, const RowVisitor& visitor) const {
-    const SignalLayout layout{static_cast<Index>(blocks.size()), free};
+  void operator()(const BlockSet& set, const RowVisitor& visitor) const {
+    const std::vector<SecondOrderBlock>& blocks = set.blocks;
+    const SignalLayout layout = SignalLayout::of(set, free);
     const double period_s = sampling_period_s(record);
     std::vector<HeldResponse> steps;
     for (const auto& block : blocks) steps.emplace_back(block, period_s, hold);
@@ -63,8 +64,9 @@ struct TimeRows {
       rows.resize(std::min(kChunk, samples - first),
                   layout.first_reading() + static_cast<Index>(sensors.size()));
       for (std::size_t m = 0; m < blocks.size(); ++m) {
-        fill_block(steps[m], forced[m], 1.0, first, rows.middleCols<4>(layout.block(m, false)));
-        if (free) {
+        fill_block(steps[m], forced[m], 1.0, first,
+                   rows.middleCols(layout.block(m, false), set.is_held(m) ? 2 : 4));
+        if (free && !set.is_held(m)) {
           fill_block(steps[m], kicked[m], 0.0, first, rows.middleCols<4>(layout.block(m, true)));
         }
       }
@@ -79,8 +81,8 @@ struct FrequencyRows {
   std::vector<double> deviation;
   std::vector<std::size_t> lines;
 
-  void operator()(std::span<const SecondOrderBlock> blocks, const RowVisitor& visitor) const {
-    const SignalLayout layout{static_cast<Index>(blocks.size()), false};
+  void operator()(const BlockSet& set, const RowVisitor& visitor) const {
+    const SignalLayout layout = SignalLayout::of(set, false);
     const int derivatives = arm::derivative_order(channel.sensor);
     const Index columns = layout.first_reading() + 1;
     Eigen::VectorXcd row(columns);
@@ -91,9 +93,10 @@ struct FrequencyRows {
       for (std::size_t r = 0; r < count; ++r) {
         const std::size_t k = lines[first + r];
         const Complex s(0.0, 2.0 * std::numbers::pi * channel.frequency_Hz[k]);
-        for (std::size_t m = 0; m < blocks.size(); ++m) {
-          const Complex q = blocks[m].value(s);
-          row.segment<4>(layout.block(m, false)) << q, s * q, q * q, s * q * q;
+        for (std::size_t m = 0; m < set.blocks.size(); ++m) {
+          const Complex q = set.blocks[m].value(s);
+          row.segment<2>(layout.block(m, false)) << q, s * q;
+          if (!set.is_held(m)) row.segment<2>(layout.block(m, false) + 2) << q * q, s * q * q;
         }
         row(layout.torque()) = 1.0;
         row(layout.remainder()) = derivatives == 0 ? 1.0 : derivatives == 1 ? s : s * s;
@@ -137,9 +140,9 @@ Stretch frequency_stretch(const FrequencyChannel& channel, Index sensor,
           .visit = FrequencyRows{channel, std::move(deviation), std::move(lines)}};
 }
 
-Eigen::MatrixXd triangle(const Stretch& stretch, std::span<const SecondOrderBlock> blocks) {
+Eigen::MatrixXd triangle(const Stretch& stretch, const BlockSet& blocks) {
   const Index columns =
-      stretch.layout(blocks.size()).first_reading() + static_cast<Index>(stretch.sensors.size());
+      stretch.layout(blocks).first_reading() + static_cast<Index>(stretch.sensors.size());
   Eigen::MatrixXd work = Eigen::MatrixXd::Zero(columns + kChunk, columns);
   stretch.visit(blocks, [&](const Eigen::Ref<const Eigen::MatrixXd>& rows) {
     work.middleRows(columns, rows.rows()) = rows;

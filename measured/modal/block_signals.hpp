@@ -14,17 +14,26 @@
 
 namespace flexarm::measured {
 
-/// Columns of a stretch's rows: of each block q, q', p, p' of measured/modal/held_response.hpp
-/// forced by the torque; the same free, from q' = 1 at the first sample, where the stretch begins
-/// in motion; the torque u; the static remainder; 1; then what the stretch's sensors read.
+/// Columns of a stretch's rows: of each block that moves q, q', p, p' of
+/// measured/modal/held_response.hpp forced by the torque; the same free, from q' = 1 at the first
+/// sample, where the stretch begins in motion; of each held block q, q' alone, forced; the torque
+/// u; the static remainder; 1; then what the stretch's sensors read.
 struct SignalLayout {
-  Eigen::Index blocks = 0;
+  Eigen::Index moving = 0;
+  Eigen::Index held = 0;
   bool free = false;
 
-  Eigen::Index block(std::size_t m, bool of_free) const {
-    return 4 * (static_cast<Eigen::Index>(m) + (of_free ? blocks : 0));
+  static SignalLayout of(const BlockSet& blocks, bool free) {
+    return {static_cast<Eigen::Index>(blocks.free_blocks()),
+            static_cast<Eigen::Index>(blocks.held), free};
   }
-  Eigen::Index torque() const { return 4 * blocks * (free ? 2 : 1); }
+  Eigen::Index block(std::size_t m, bool of_free) const {
+    const auto at = static_cast<Eigen::Index>(m);
+    if (at >= moving) return first_held() + 2 * (at - moving);
+    return 4 * (at + (of_free ? moving : 0));
+  }
+  Eigen::Index first_held() const { return 4 * moving * (free ? 2 : 1); }
+  Eigen::Index torque() const { return first_held() + 2 * held; }
   Eigen::Index remainder() const { return torque() + 1; }
   Eigen::Index one() const { return torque() + 2; }
   Eigen::Index first_reading() const { return torque() + 3; }
@@ -43,13 +52,13 @@ struct Stretch {
   Eigen::Index rows = 0;
   double duration_s = 0.0;  ///< 0 for a frequency response
   /// Calls the visitor with the stretch's rows in order, some hundreds at a time: r x columns.
-  std::function<void(std::span<const SecondOrderBlock>, const RowVisitor&)> visit;
+  std::function<void(const BlockSet&, const RowVisitor&)> visit;
 
   double weight(Eigen::Index reading) const {
     return weights.empty() ? 1.0 : weights[static_cast<std::size_t>(reading)];
   }
-  SignalLayout layout(std::size_t blocks) const {
-    return {static_cast<Eigen::Index>(blocks), begins_in_motion};
+  SignalLayout layout(const BlockSet& blocks) const {
+    return SignalLayout::of(blocks, begins_in_motion);
   }
 };
 
@@ -68,6 +77,6 @@ Stretch frequency_stretch(const FrequencyChannel& channel, Eigen::Index sensor,
 
 /// The upper triangular factor R of the stretch's rows, columns as the rows': rows = Q R, whatever
 /// their number. Householder, chunk by chunk: no digits are lost to squares.
-Eigen::MatrixXd triangle(const Stretch& stretch, std::span<const SecondOrderBlock> blocks);
+Eigen::MatrixXd triangle(const Stretch& stretch, const BlockSet& blocks);
 
 }  // namespace flexarm::measured

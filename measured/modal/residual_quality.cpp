@@ -195,7 +195,7 @@ ResidualStudy study_residuals(std::span<const Stretch> stretches, const BlockFit
   std::vector<VectorXd> influences;
   for (std::size_t r = 0; r < stretches.size(); ++r) {
     const Stretch& stretch = stretches[r];
-    const SignalLayout layout = stretch.layout(fit.blocks.blocks.size());
+    const SignalLayout layout = stretch.layout(fit.blocks);
     const auto readings = static_cast<Index>(stretch.sensors.size());
     MatrixXd predictions(layout.first_reading(), readings);
     for (Index i = 0; i < readings; ++i) {
@@ -209,7 +209,7 @@ ResidualStudy study_residuals(std::span<const Stretch> stretches, const BlockFit
                                MatrixXd::Zero(readings, layout.first_reading()));
     VectorXd reading_sums = VectorXd::Zero(readings);
     Index at = 0;
-    stretch.visit(fit.blocks.blocks, [&](const Eigen::Ref<const MatrixXd>& rows) {
+    stretch.visit(fit.blocks, [&](const Eigen::Ref<const MatrixXd>& rows) {
       const auto signals = rows.leftCols(layout.first_reading());
       const MatrixXd residual = rows.rightCols(readings) - signals * predictions;
       for (Index i = 0; i < readings; ++i) {

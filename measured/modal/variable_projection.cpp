@@ -52,7 +52,7 @@ class SensorProblem {
       const auto at = std::ranges::find(stretches[r].sensors, index);
       if (at == stretches[r].sensors.end()) continue;
       const Index reading = at - stretches[r].sensors.begin();
-      pieces_.push_back({r, rows, &triangles[r], stretches[r].layout(blocks.blocks.size()), reading,
+      pieces_.push_back({r, rows, &triangles[r], stretches[r].layout(blocks), reading,
                          stretches[r].weight(reading), static_cast<double>(stretches[r].rows)});
       rows += triangles[r].rows();
       values_ += static_cast<double>(stretches[r].rows);
@@ -201,7 +201,7 @@ class Fitter {
 
   Evaluation evaluate(const BlockSet& blocks) const {
     std::vector<MatrixXd> triangles;
-    for (const Stretch& stretch : stretches_) triangles.push_back(triangle(stretch, blocks.blocks));
+    for (const Stretch& stretch : stretches_) triangles.push_back(triangle(stretch, blocks));
     Evaluation at{.blocks = blocks,
                   .sensors = {},
                   .gradient = VectorXd::Zero(blocks.parameters()),

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "compare/identification.hpp"
-#include "measured/identification.hpp"
+#include "measured/run_identification.hpp"
 #include "report/figures/comparison_plots.hpp"
 
 #include <vector>

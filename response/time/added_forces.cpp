@@ -25,16 +25,16 @@ arm::HubState AddedForces::hub_state(const ArmInstant& now) const {
 }
 
 AddedForces::HubTorque AddedForces::smooth_torque(const ArmInstant& now) const {
-  HubTorque made{hub_.constant_N_m, 0.0};
+  HubTorque made{.torque_N_m = hub_.constant_N_m};
   if (hub_.smooth.empty()) return made;
   const arm::HubState hub = hub_state(now);
   const auto own = arm_->law_states(now.x);
-  std::vector<double> rates(own.size());
+  made.rates.resize(own.size());
   std::size_t first = 0;
   for (const auto& [effect, law] : hub_.smooth) {
     const auto count = static_cast<std::size_t>(law.states);
     const auto value =
-        law.law(hub, own.subspan(first, count), std::span(rates).subspan(first, count));
+        law.law(hub, own.subspan(first, count), std::span(made.rates).subspan(first, count));
     made.torque_N_m += value.torque_N_m;
     made.per_velocity_N_m_s += value.per_velocity_N_m_s;
     first += count;
@@ -57,20 +57,11 @@ AddedForces::HubTorque AddedForces::hub_torque(const ArmInstant& now, HubMotion 
   return made;
 }
 
-Eigen::VectorXd AddedForces::force(const ArmInstant& now, double hub_torque_N_m) const {
-  Eigen::VectorXd made = arm_->hub_force * hub_torque_N_m;
+Eigen::VectorXd AddedForces::force(const ArmInstant& now, const HubTorque& hub) const {
+  Eigen::VectorXd made = arm_->hub_force * hub.torque_N_m;
   if (beam_) made.head(arm_->modes) += beam_->modal_force(arm_->velocity(now.x));
-  const auto own = arm_->law_states(now.x);
-  if (own.empty()) return made;
-  const arm::HubState hub = hub_state(now);
-  std::size_t first = 0;
-  const std::span rates(made.data() + made.size() - static_cast<Eigen::Index>(own.size()),
-                        own.size());
-  for (const auto& [effect, law] : hub_.smooth) {
-    const auto count = static_cast<std::size_t>(law.states);
-    law.law(hub, own.subspan(first, count), rates.subspan(first, count));
-    first += count;
-  }
+  const auto states = static_cast<Eigen::Index>(hub.rates.size());
+  made.tail(states) = Eigen::VectorXd::Map(hub.rates.data(), states);
   return made;
 }
 

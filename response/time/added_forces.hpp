@@ -7,6 +7,7 @@
 
 #include <optional>
 #include <string_view>
+#include <vector>
 
 namespace flexarm::response {
 
@@ -37,6 +38,7 @@ class AddedForces {
   struct HubTorque {
     double torque_N_m = 0.0;
     double per_velocity_N_m_s = 0.0;  ///< d torque/d theta'
+    std::vector<double> rates = {};   ///< of the laws' own states
   };
 
   /// `arm` must outlive the object.
@@ -56,9 +58,9 @@ class AddedForces {
   HubTorque smooth_torque(const ArmInstant& now) const;
   /// Laws and dry friction.
   HubTorque hub_torque(const ArmInstant& now, HubMotion motion) const;
-  /// f for that torque on the hub: with it the forces along the beam and the rates of the laws'
-  /// own states.
-  Eigen::VectorXd force(const ArmInstant& now, double hub_torque_N_m) const;
+  /// f for what acts on the hub at that instant: with it the forces along the beam and the rates of
+  /// the laws' own states.
+  Eigen::VectorXd force(const ArmInstant& now, const HubTorque& hub) const;
   /// The effect for which the hub is watched or forces are iterated, in inner steps; empty where
   /// the equations are linear.
   std::string_view effect_in_steps() const;

@@ -23,7 +23,8 @@ void StepSolver::begin(const Eigen::VectorXd& x, HubMotion motion, const StepSpa
   inputs_.begin_s = span.begin_s;
   inputs_.length_s = span.length_s;
   const ArmInstant now{x, span.u0, span.begin_s};
-  const double torque = forces_->hub_torque(now, motion).torque_N_m;
+  const auto hub = forces_->hub_torque(now, motion);
+  const double torque = hub.torque_N_m;
   if (!forces_->vary()) {
     inputs_.f0.setConstant(1, torque);
     inputs_.fm.setConstant(1, torque);
@@ -31,7 +32,7 @@ void StepSolver::begin(const Eigen::VectorXd& x, HubMotion motion, const StepSpa
     return;
   }
   if (!follows) {
-    inputs_.f0 = forces_->force(now, torque);
+    inputs_.f0 = forces_->force(now, hub);
     inputs_.fm = inputs_.f0;
     inputs_.f1 = inputs_.f0;
     hub_torques_.fill(torque);
@@ -45,7 +46,7 @@ void StepSolver::begin(const Eigen::VectorXd& x, HubMotion motion, const StepSpa
   };
   go_on(inputs_.f0, inputs_.fm, inputs_.f1);
   go_on(hub_torques_[0], hub_torques_[1], hub_torques_[2]);
-  inputs_.f0 = forces_->force(now, torque);
+  inputs_.f0 = forces_->force(now, hub);
   hub_torques_[0] = torque;
 }
 
@@ -108,8 +109,8 @@ bool StepSolver::improve(const Eigen::VectorXd& middle, const Eigen::VectorXd& e
   const ArmInstant at_end{end, inputs_.u1, inputs_.time(1.0)};
   const auto hub_middle = forces_->hub_torque(at_middle, motion);
   const auto hub_end = forces_->hub_torque(at_end, motion);
-  const Eigen::VectorXd fm = forces_->force(at_middle, hub_middle.torque_N_m);
-  const Eigen::VectorXd f1 = forces_->force(at_end, hub_end.torque_N_m);
+  const Eigen::VectorXd fm = forces_->force(at_middle, hub_middle);
+  const Eigen::VectorXd f1 = forces_->force(at_end, hub_end);
   const auto largest = [](const Eigen::VectorXd& v) { return v.cwiseAbs().maxCoeff(); };
   const double change = std::max(largest(fm - inputs_.fm), largest(f1 - inputs_.f1));
   const double size = std::max({largest(inputs_.f0), largest(fm), largest(f1)});

@@ -60,7 +60,7 @@ double TimeStepper::hub_angle() const {
 
 Eigen::VectorXd TimeStepper::force(double actuator_N_m) const {
   const ArmInstant now{x_, actuator_N_m, time_s_};
-  return forces_->force(now, forces_->hub_torque(now, motion_).torque_N_m);
+  return forces_->force(now, forces_->hub_torque(now, motion_));
 }
 
 double TimeStepper::hub_torque_N_m(double actuator_N_m) const {
@@ -70,7 +70,7 @@ double TimeStepper::hub_torque_N_m(double actuator_N_m) const {
 
 double TimeStepper::reaction(const Eigen::VectorXd& x, double u, double time_s) const {
   const ArmInstant now{x, u, time_s};
-  const Eigen::VectorXd f = forces_->force(now, forces_->smooth_torque(now).torque_N_m);
+  const Eigen::VectorXd f = forces_->force(now, forces_->smooth_torque(now));
   return arm_->reaction.state.dot(x) + arm_->reaction.actuator * u + arm_->reaction.force.dot(f);
 }
 

@@ -41,6 +41,16 @@ TEST_F(Modes, EveryFormulationGivesTheSameDigits) {
   }
 }
 
+TEST_F(Modes, ANumberInAnotherUnitIsNoted) {
+  write("rig.toml",
+        "[beam]\nlength = 0.5\nwidth = 0.02\nthickness = 0.002\ndensity = 2.71\n"
+        "youngs_modulus = 7e10\n[hub]\ninertia = 1e-3\n");
+  const Ended ended = run({"modes", "rig.toml"});
+  EXPECT_EQ(ended.status, 0);
+  EXPECT_THAT(ended.output,
+              HasSubstr("note: beam.density = 2.71 kg/m^3: implausible; 10 to 23000 kg/m^3"));
+}
+
 TEST_F(Modes, ACertificateIsPrintedAndWritten) {
   const Ended ended = run({"modes", "--certificate", "--modes", "2", "--json", "out.json"});
   EXPECT_EQ(ended.status, 0);

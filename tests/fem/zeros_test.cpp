@@ -253,7 +253,8 @@ TEST(PencilRoots, AreThoseOfTheDensePencilOfASmallModel) {
   const Discretisation model(arm::linear_arm(loaded_arm()), {.elements = 2}, 3);
   const SensorRow row(model, arm::parse_sensor("tip_displacement"));
   const int n = model.size();
-  const PencilRoots roots = pencil_roots(model, Numerator(model, row, n - 1, 1e-12), n - 1, 1e-12);
+  const PencilRoots roots =
+      pencil_roots(model, PoleFreeNumerator(model, row, n - 1, 1e-12), n - 1, 1e-12);
   ASSERT_EQ(roots.w.size(), static_cast<std::size_t>(n - 1));
   const Eigen::MatrixXd stiffness(model.stiffness());
   const Eigen::MatrixXd mass(model.mass());

@@ -63,9 +63,9 @@ TimeRecord random_torque() {
 }
 
 Eigen::MatrixXd rows_of(const Stretch& stretch, const BlockSet& set) {
-  Eigen::MatrixXd all(stretch.rows, stretch.layout(set.blocks.size()).first_reading());
+  Eigen::MatrixXd all(stretch.rows, stretch.layout(set).first_reading());
   Eigen::Index at = 0;
-  stretch.visit(set.blocks, [&](const Eigen::Ref<const Eigen::MatrixXd>& rows) {
+  stretch.visit(set, [&](const Eigen::Ref<const Eigen::MatrixXd>& rows) {
     all.middleRows(at, rows.rows()) = rows;
     at += rows.rows();
   });
@@ -77,7 +77,7 @@ TEST(SensorColumns, HaveTheDerivativesThatDifferencesHave) {
   const BlockSet set{{{0.3, 0.0}, block_of(60.0, 0.02), block_of(90.0, 1.3)}, true};
   for (const TorqueHold hold : {TorqueHold::zero, TorqueHold::first}) {
     const Stretch stretch = time_stretch(record, {}, hold, InitialState::free, kSamples);
-    const SignalLayout layout = stretch.layout(set.blocks.size());
+    const SignalLayout layout = stretch.layout(set);
     const Eigen::MatrixXd rows = rows_of(stretch, set);
     for (std::size_t m = 0; m < set.blocks.size(); ++m) {
       for (int power = 0; power < 3; ++power) {
@@ -113,7 +113,7 @@ TEST(Triangle, HasTheCrossProductsOfTheRows) {
   const BlockSet set{{{0.3, 0.0}, block_of(60.0, 0.02)}, true};
   const Stretch stretch = time_stretch(record, {}, TorqueHold::zero, InitialState::rest, kSamples);
   const Eigen::MatrixXd rows = rows_of(stretch, set);
-  const Eigen::MatrixXd r = triangle(stretch, set.blocks);
+  const Eigen::MatrixXd r = triangle(stretch, set);
   const Eigen::MatrixXd expected = rows.transpose() * rows;
   const Eigen::VectorXd size = expected.diagonal().cwiseSqrt();
   const Eigen::MatrixXd difference = size.cwiseInverse().asDiagonal() *

@@ -1,5 +1,5 @@
 // What one reads off runs of an arm, by every method, and what is refused.
-#include "measured/identification.hpp"
+#include "measured/run_identification.hpp"
 
 #include "arm/input_error.hpp"
 #include "response/frequency/modal_response.hpp"

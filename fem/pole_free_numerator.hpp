@@ -25,13 +25,14 @@ struct NewtonResult {
 ///
 /// F has its poles where the arm vibrates with the hub clamped, at w = -omega_i^2; the lowest
 /// are taken out. Each value costs one factorisation, linear in the number of elements.
-class Numerator {
+class PoleFreeNumerator {
  public:
   using Complex = std::complex<double>;
 
   /// Takes out `poles` poles, found to `tolerance` (see vibration_modes). `discretisation` must
   /// outlive the object.
-  Numerator(const Discretisation& discretisation, SensorRow row, int poles, double tolerance);
+  PoleFreeNumerator(const Discretisation& discretisation, SensorRow row, int poles,
+                    double tolerance);
 
   const SensorRow& row() const { return row_; }
 

@@ -1,4 +1,4 @@
-#include "measured/identification.hpp"
+#include "measured/run_identification.hpp"
 
 #include "arm/input_error.hpp"
 #include "measured/modal/start_spectra.hpp"

@@ -1,4 +1,4 @@
-#include "fem/numerator.hpp"
+#include "fem/pole_free_numerator.hpp"
 
 #include "fem/hub_driven_response.hpp"
 #include "fem/vibration_modes.hpp"
@@ -13,14 +13,14 @@ namespace flexarm::fem {
 
 using Complex = std::complex<double>;
 
-Numerator::Numerator(const Discretisation& discretisation, SensorRow row, int poles,
-                     double tolerance)
+PoleFreeNumerator::PoleFreeNumerator(const Discretisation& discretisation, SensorRow row, int poles,
+                                     double tolerance)
     : model_(discretisation),
       row_(std::move(row)),
       poles_(vibration_modes(discretisation, HubSupport::clamped, poles, tolerance).omega_squared) {
 }
 
-Numerator::Value Numerator::operator()(Complex w) const {
+PoleFreeNumerator::Value PoleFreeNumerator::operator()(Complex w) const {
   const HubDrivenResponse<Complex> response(model_, undamped_dynamics(model_, w));
   // Exactly at a pole of F; a neighbour serves as well.
   if (response.singular()) return (*this)(w * (1.0 + std::numeric_limits<double>::epsilon()));
@@ -41,8 +41,8 @@ Numerator::Value Numerator::operator()(Complex w) const {
   return value;
 }
 
-NewtonResult Numerator::root_near(Complex w, std::span<const Complex> found,
-                                  int steps_allowed) const {
+NewtonResult PoleFreeNumerator::root_near(Complex w, std::span<const Complex> found,
+                                          int steps_allowed) const {
   constexpr double kLast = 1e-9;
   constexpr double kSmall = 1e-7;
   NewtonResult root{w, false, 0, std::numeric_limits<double>::infinity()};
@@ -68,7 +68,7 @@ NewtonResult Numerator::root_near(Complex w, std::span<const Complex> found,
   return root;
 }
 
-int Numerator::roots_inside(double radius) const {
+int PoleFreeNumerator::roots_inside(double radius) const {
   constexpr double kPi = std::numbers::pi;
   constexpr double kLongestArc = kPi / 8.0;
   constexpr double kShortestArc = kPi / 65536.0;

@@ -7,11 +7,11 @@
 
 namespace flexarm::diagnose {
 
-/// Whether the data identify every parameter of the candidate's effects: each ends inside the range
-/// that it was looked for in, or may be inside by its standard error, and its standard error (least squares, widened by the residuals where
-/// these are above the noise) is smaller than its distance from the value at which the effect does
-/// nothing; where there is none, smaller than the value itself or, on a linear range, than half the
-/// range.
+/// Whether the data identify every parameter of the candidate's effects. Each ends inside the range
+/// that it was looked for in, or may be inside by its standard error. The standard error (least
+/// squares, widened by the residuals where these are above the noise) is smaller than the distance
+/// from the value at which the effect does nothing; where there is none, than the value itself or,
+/// on a linear range, than half the range.
 bool is_identified(const Explanation& explanation);
 
 /// Whether the effects that `fuller` has beyond `simpler` may be named: they are identified and

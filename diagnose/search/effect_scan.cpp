@@ -79,6 +79,7 @@ std::vector<Fit> EffectScan::first_looks(const Candidate& base,
   }
   const double middle = 0.5 * (from + to);
   look_at(special, from, middle);
+  if (work_.is_cancelled()) return {};
   const std::size_t best = std::min(options_.singles_refitted, looks.size());
   std::erase_if(general, [&](const Hypothesis* other) {
     return std::ranges::none_of(looks.begin(), looks.begin() + static_cast<std::ptrdiff_t>(best),
@@ -87,7 +88,7 @@ std::vector<Fit> EffectScan::first_looks(const Candidate& base,
                                       look.candidate.effects.back().effect);
                                 });
   });
-  if (!work_.is_cancelled()) look_at(general, middle, to);
+  look_at(general, middle, to);
   return looks;
 }
 

@@ -10,16 +10,16 @@ namespace flexarm::diagnose {
 /// Posterior probabilities of sets of causes, something else than the vocabulary included.
 ///
 /// A set S of causes is right as far as it goes, and what it leaves is noise and the deviations of
-/// something else. These deviations are a random function of few degrees of freedom d and of
-/// unknown size, so that a set that leaves the excess sum of squares E has the likelihood
+/// something else, in estimation and validation runs. These deviations are a random function of few
+/// degrees of freedom d and of unknown size, so that a set that leaves the excess sum of squares E
+/// has the likelihood
 ///
 ///     -2 ln L(S) = d ln(1 + E/d)
 ///
 /// instead of E: where no set leaves noise, sets differ by the ratio of what they leave, and a set
 /// that removes part of a deviation of another kind gains little. E is beyond what the best set
-/// leaves where that is noise, else beyond the noise. d = `kDiscrepancyFreedom` is small because one thing that is wrong moves a few
-/// frequencies, damping ratios and amplitudes together: single wrong causes of blind trials reach a
-/// part r of E about as often as r^(d/2) (docs/diagnosis.md).
+/// leaves where that is noise, else beyond the noise. d = `kDiscrepancyFreedom` is small because one
+/// thing that is wrong moves a few frequencies, damping ratios and amplitudes together.
 ///
 /// The prior of a set is the product over its causes of one over the number of hypotheses, and,
 /// where what it leaves is not noise (residual_test.hpp), SelectionOptions::prior_of_something_else.

@@ -18,7 +18,7 @@ using Eigen::Index;
 /// P(chi^2_n(lambda) > value).
 double exceedance(double value, double n, double lambda) {
   // Above this the series of the noncentral distribution is long, and Sankaran's normal
-  // approximation (1963) is good to 1e-4.
+  // approximation [Sankaran1963] is good to 1e-4.
   constexpr double kLarge = 1e4;
   if (n + lambda <= kLarge) {
     if (lambda <= 0.0) {

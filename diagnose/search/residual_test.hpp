@@ -20,7 +20,7 @@ namespace flexarm::diagnose {
 /// `frf` and `modal` runs). Tested for all channels of the runs together, and for each channel by
 /// itself with twice that error.
 ///
-/// Whiteness. The Ljung-Box statistic of each channel's first lags (Ljung & Box 1978), of `time`
+/// Whiteness. The Ljung-Box statistic of each channel's first lags [LjungBox1978], of `time`
 /// runs along time, of `frf` runs along the lines; its sum over the channels is at most a
 /// noncentral chi-squared variable of as many degrees of freedom as lags, with
 /// lambda = sum_c n_c lags_c (a_c/(1 + a_c))^2, the largest that the granted error makes.

@@ -107,7 +107,7 @@ std::string verdict_text(const diagnose::Diagnosis& diagnosis) {
                          explanation_of(diagnosis), fall, not_noise(diagnosis));
     case diagnose::Verdict::unexplained:
       return fmt::format(
-          "Unexplained: no cause of the vocabulary has a probability of 0.5 or more. NRMSE is "
+          "Unexplained: no effect of the library has a probability of 0.5 or more. NRMSE is "
           "{:.3g} %; the noise floor is {:.3g} %.{}",
           after, noise, not_noise(diagnosis));
   }

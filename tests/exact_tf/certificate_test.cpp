@@ -74,7 +74,7 @@ TEST(Certificate, ProvesTheTipZerosOfTheReferenceWhereItsListIsComplete) {
       expect_proved(certificate, std::ssize(s));
     } else {
       // The list leaves the imaginary pair out.
-      expect_refuted(certificate, "has 7 roots");
+      expect_refuted(certificate, "7 roots up to the last one given");
       EXPECT_EQ(certificate.counted, std::ssize(s) + 1);
     }
   }
@@ -134,15 +134,15 @@ TEST_F(Refutation, OfAListWithARootRemoved) {
   for (const std::ptrdiff_t at : {0, 17, 38}) {
     auto poles = poles_;
     poles.erase(poles.begin() + at);
-    expect_refuted(certify_poles(arm_, poles), "has 40 roots");
+    expect_refuted(certify_poles(arm_, poles), "40 roots up to the last one given");
     auto zeros = hub_zeros_;
     zeros.erase(zeros.begin() + at);
-    expect_refuted(certify_hub_zeros(arm_, zeros), "has 40 roots");
+    expect_refuted(certify_hub_zeros(arm_, zeros), "40 roots up to the last one given");
   }
   for (const std::ptrdiff_t at : {0, 3, 18}) {
     auto zeros = tip_zeros_;
     zeros.erase(zeros.begin() + at);
-    expect_refuted(certify_zeros(arm_, kTip, zeros), "has 20 roots");
+    expect_refuted(certify_zeros(arm_, kTip, zeros), "20 roots up to the last one given");
   }
 }
 
@@ -167,14 +167,14 @@ TEST_F(Refutation, OfARootMovedByTenUlps) {
     auto poles = poles_;
     poles[20] = moved_by_ulps(poles[20], move);
     const auto certificate = certify_poles(arm_, poles);
-    expect_refuted(certificate, "root 21 lies");
+    expect_refuted(certificate, "root 21 differs");
     EXPECT_NEAR(certificate.roots[20].distance_ulp, kMove, 1.0);
     EXPECT_EQ(certificate.counted, std::ssize(poles_));
 
     // s moves by twice as much, relatively, as lambda.
     auto zeros = tip_zeros_;
     zeros[7] = {zeros[7].real() * (1.0 + move * 0x1p-51), 0.0};
-    expect_refuted(certify_zeros(arm_, kTip, zeros), "root 8 lies");
+    expect_refuted(certify_zeros(arm_, kTip, zeros), "root 8 differs");
   }
 }
 
@@ -200,7 +200,7 @@ TEST_F(Refutation, OfWhatIsNoRoot) {
 
 TEST_F(Refutation, OfTheZerosOfAnotherArm) {
   const arm::Arm other = unit_arm(0.1, 0.5, 0.02 * (1.0 + 1e-13));
-  expect_refuted(certify_zeros(other, kTip, tip_zeros_), "lies");
+  expect_refuted(certify_zeros(other, kTip, tip_zeros_), "differs");
 }
 
 TEST(Certificate, KeepsItsWordAtLowPrecision) {

@@ -197,7 +197,7 @@ class ArmGenerator {
       double value = parameter.range.exclusive ? positive() : not_negative();
       if (parameter.range.minimum < 0.0 && chance()) value = -value;
       if (definition->name == "local_stiffness_loss" && parameter.name == "position") {
-        value = beam.length_m * 0.25;
+        value = 0.0;  // on the beam however an effect changes its length
       }
       effect.parameters[parameter.name] = value;
     }

@@ -69,7 +69,7 @@ TEST(DiagnosisJson, HasTheStatementsBesideWhatWasThereBefore) {
   EXPECT_EQ(json.at("symptoms")[0].at("sensor"), "hub_angle");
   EXPECT_EQ(json.at("residual").at("hub_torque")[0].at("depends_on"), "dry_friction");
   EXPECT_TRUE(json.at("residual").contains("channels"));
-  EXPECT_TRUE(json.at("residual").at("run_by_run").is_null());
+  EXPECT_TRUE(json.at("residual").at("run_consistency").is_null());
 }
 
 TEST(HubTorqueFigure, ShowsTheStepThatWasFound) {

@@ -62,7 +62,7 @@ TEST(SteppedSineKeys, RefuseWhatIsNoneOrDoesNotFit) {
       {{{"amplitude", "-1"}}, "stepped-sine.amplitude = -1 N m: must be a finite number above 0"},
       {{{"bands", "3"}}, "stepped-sine.bands = 3: must be FROM:TO/FROM:TO/... [Hz]"},
       {{{"bands", "3:4/"}}, "stepped-sine.bands = 3:4/: must be FROM:TO"},
-      {{{"bands", "3:4/2:3"}}, "stepped-sine.bands = 2 Hz: must be above 4, where"},
+      {{{"bands", "3:4/2:3"}}, "stepped-sine.bands = 2 Hz: must be above 4, the end of the previous band"},
       {{{"bands", "3:4"}, {"from", "1"}}, "stepped-sine.bands: not together with from or to"},
       {{{"points", "3"}, {"step", "1"}}, "stepped-sine.points: not together with step"},
       {{{"from", "0"}}, "stepped-sine.from = 0 Hz: must be a finite number above 0"},

@@ -1,0 +1,99 @@
+#include "diagnose/search/posterior.hpp"
+
+#include "diagnose/search/admission.hpp"
+#include "tests/diagnose/simulated_experiments.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace flexarm::diagnose {
+namespace {
+
+constexpr double kNumbers = 4000.0;
+constexpr std::size_t kHypotheses = 25;
+
+/// A set of these effects that leaves `excess` beyond noise.
+Explanation set_of(const std::vector<std::string>& effects, double excess) {
+  Explanation made;
+  for (const std::string& effect : effects) {
+    made.fit.candidate.effects.push_back({.effect = effect});
+    made.fit.candidate.values.push_back(1.0);
+  }
+  made.estimation.count = kNumbers;
+  made.estimation.sum_of_squares = kNumbers + excess;
+  if (excess > 0.0) made.estimation_test.level_p_value = 0.0;
+  return made;
+}
+
+TEST(Posterior, SumsToOneOverCausesThatExcludeEachOther) {
+  const Explanation nothing = set_of({}, 300.0);
+  const Explanation one = set_of({"payload_mass"}, 10.0);
+  const Explanation other = set_of({"hub_inertia"}, 20.0);
+  const Posterior posterior({&nothing, &one, &other}, kHypotheses, {});
+  const double sum = posterior.of_set({}) + posterior.of({.effect = "payload_mass"}) +
+                     posterior.of({.effect = "hub_inertia"});
+  EXPECT_NEAR(sum, 1.0, 1e-12);
+  EXPECT_GT(posterior.of({.effect = "payload_mass"}), posterior.of({.effect = "hub_inertia"}));
+}
+
+TEST(Posterior, IsSureOfACauseThatLeavesNoise) {
+  const Explanation nothing = set_of({}, 1e6);
+  const Explanation right = set_of({"payload_mass"}, 0.0);
+  const Explanation wrong = set_of({"hub_inertia"}, 1e5);
+  const Posterior posterior({&nothing, &right, &wrong}, kHypotheses, {});
+  EXPECT_GT(posterior.of({.effect = "payload_mass"}), 0.999);
+  EXPECT_LT(posterior.of_something_else(), 0.001);
+}
+
+TEST(Posterior, PrefersSomethingElseToACauseThatRemovesAPart) {
+  // Of a deviation of another kind one of many effects removes nine tenths by chance.
+  const Explanation nothing = set_of({}, 1e6);
+  const Explanation wrong = set_of({"hub_inertia"}, 1e5);
+  const Posterior posterior({&nothing, &wrong}, kHypotheses, {});
+  EXPECT_LT(posterior.of({.effect = "hub_inertia"}), 0.5);
+  EXPECT_DOUBLE_EQ(posterior.of_something_else(), 1.0);
+}
+
+TEST(Posterior, OfEqualSetsIsEqualAndOfTheirClassSure) {
+  const Explanation nothing = set_of({}, 1e6);
+  const Explanation lag = set_of({"actuator_lag"}, 0.0);
+  const Explanation delay = set_of({"time_delay"}, 0.0);
+  const Posterior posterior({&nothing, &lag, &delay}, kHypotheses, {});
+  const Hypothesis other{.effect = "time_delay"};
+  EXPECT_NEAR(posterior.of({.effect = "actuator_lag"}), 0.5, 1e-3);
+  EXPECT_GT(posterior.of_any({.effect = "actuator_lag"}, {&other}), 0.999);
+}
+
+TEST(Posterior, PrefersFewerParametersOfEqualFit) {
+  const Explanation nothing = set_of({}, 1e6);
+  const Explanation simple = set_of({"coulomb_friction"}, 0.0);
+  Explanation general = set_of({"stribeck_friction"}, 0.0);
+  general.fit.candidate.values = {1.0, 1.0, 1.0};
+  const Posterior posterior({&nothing, &simple, &general}, kHypotheses, {});
+  EXPECT_GT(posterior.of({.effect = "coulomb_friction"}), 0.95);
+}
+
+/// A cause with one parameter at this coordinate with this standard error.
+Explanation at_coordinate(double coordinate, double std_error) {
+  Explanation made = set_of({"payload_mass"}, 0.0);
+  const SearchedParameter mass{"mass", 0.001, 1.0, effects::Spacing::from_zero};
+  made.fit.candidate.effects[0].parameters = {mass};
+  made.fit.candidate.values = {mass.value(coordinate)};
+  made.fit.jacobian = Eigen::MatrixXd::Constant(1, 1, 1.0 / std_error);
+  made.estimation.independent = kNumbers;
+  return made;
+}
+
+TEST(Admission, NeedsAParameterInsideItsRangeAndLargerThanItsError) {
+  EXPECT_TRUE(is_identified(at_coordinate(0.4, 0.01)));
+  EXPECT_FALSE(is_identified(at_coordinate(0.4, 0.5))) << "smaller than its standard error";
+  EXPECT_FALSE(is_identified(at_coordinate(1.2, 0.01))) << "beyond the end";
+  EXPECT_FALSE(is_identified(at_coordinate(1.0, 1e-5))) << "at the end";
+  EXPECT_TRUE(is_identified(at_coordinate(1.004, 0.008))) << "inside by its error";
+}
+
+}  // namespace
+}  // namespace flexarm::diagnose

@@ -14,12 +14,9 @@ namespace flexarm::diagnose {
 
 namespace {
 
-/// Odds above this are said as such.
-constexpr double kOverwhelming = 1e6;
-
 std::string odds_text(double odds) {
-  return odds > kOverwhelming ? fmt::format("more than {:.0e}", kOverwhelming)
-                              : fmt::format("{:.2g}", odds);
+  constexpr double kMillion = 1e6;
+  return odds > kMillion ? std::string("more than a million") : fmt::format("{:.2g}", odds);
 }
 
 std::vector<std::string> evidence_for(const Hypothesis& hypothesis, double share,
@@ -34,7 +31,8 @@ std::vector<std::string> evidence_for(const Hypothesis& hypothesis, double share
       next.odds <= kIndistinguishableOdds
           ? fmt::format("Indistinguishable from {} in these data (posterior odds {}).",
                         next.effect->label(), odds_text(next.odds))
-          : fmt::format("Next in its place is {}: posterior odds {} against it, delta BIC {:.0f}.",
+          : fmt::format("With {} in its place the fit is worse: posterior odds {} to 1, delta BIC "
+                        "{:.3g}.",
                         next.effect->label(), odds_text(next.odds), next.delta_bic));
   return evidence;
 }

@@ -21,6 +21,9 @@ using Eigen::Index;
 
 /// Saturation is looked for above these parts of the largest torque.
 constexpr std::array kSaturated = {0.5, 0.75};
+/// Of a coefficient, its error by first order: a step is up to 10 % too small where the hub rests
+/// often, which is two of these.
+constexpr double kFirstOrder = 0.05;
 /// Ripple is looked for at these multiples of the angle [1/rad].
 constexpr double kLeastCycles = 0.5;
 constexpr double kMostCycles = 40.0;
@@ -283,7 +286,8 @@ void put_last(const HubRegression& all, const Regressed& regressed, double befor
   const double scale = std::max(1.0, left / n) * n / independent;
   term.coefficient =
       own == 1 ? regressed.coefficients(last) : regressed.coefficients.tail(2).norm();
-  term.std_error = std::sqrt(scale * regressed.covariance.diagonal().tail(own).maxCoeff());
+  const double of_residuals = std::sqrt(scale * regressed.covariance.diagonal().tail(own).maxCoeff());
+  term.std_error = std::hypot(of_residuals, kFirstOrder * term.coefficient);
   term.share = (before - left) / beyond_noise;
   const double freedom = static_cast<double>(own);
   const boost::math::fisher_f distribution(freedom, std::max(1.0, independent - freedom));

@@ -33,7 +33,7 @@ struct HubTorqueTerm {
   HubTorqueKind kind = HubTorqueKind::bias;
   std::string unit;
   double coefficient = 0.0;  ///< the amplitude of a ripple
-  double std_error = 0.0;
+  double std_error = 0.0;    ///< of the residuals, and 5 % for the first order
   double at = 0.0;  ///< cycles per revolution of a ripple, sin(at theta); torque [N m] beyond
                     ///< which, of a saturation
   /// Part of what is beyond noise in the hub's signals that the term takes away, after those

@@ -122,18 +122,26 @@ Table cause_table(const diagnose::Diagnosis& diagnosis) {
                {.name = "std error", .significant_digits = 2},
                {.name = "unit"},
                {.name = "explains", .unit = "%", .significant_digits = 4},
-               {.name = "probability", .significant_digits = 3},
-               {.name = "indistinguishable from"}}};
+               {.name = "probability", .significant_digits = 3}}};
+  const bool has_classes = std::ranges::any_of(
+      diagnosis.causes, [](const auto& cause) { return !cause.confusable_with.empty(); });
+  if (has_classes) table.columns.push_back({.name = "indistinguishable from"});
   for (const auto& cause : diagnosis.causes) {
     for (std::size_t i = 0; i < cause.parameters.size(); ++i) {
       const auto& parameter = cause.parameters[i];
       const bool first = i == 0;
-      table.add_row({first ? Cell(name_of(cause)) : Cell(std::string()), parameter.name,
-                     parameter.value, parameter.std_error, parameter.unit,
-                     first ? Cell(100.0 * cause.share) : Cell(std::string()),
-                     first ? Cell(cause.confidence) : Cell(std::string()),
-                     first ? Cell(fmt::format("{}", fmt::join(cause.confusable_with, ", ")))
-                           : Cell(std::string())});
+      std::vector<Cell> row = {first ? Cell(name_of(cause)) : Cell(std::string()),
+                               parameter.name,
+                               parameter.value,
+                               parameter.std_error,
+                               parameter.unit,
+                               first ? Cell(100.0 * cause.share) : Cell(std::string()),
+                               first ? Cell(cause.confidence) : Cell(std::string())};
+      if (has_classes) {
+        row.push_back(first ? fmt::format("{}", fmt::join(cause.confusable_with, ", "))
+                            : std::string());
+      }
+      table.add_row(row);
     }
   }
   return table;

@@ -197,8 +197,9 @@ class ArmGenerator {
       double value = parameter.range.exclusive ? positive() : not_negative();
       if (parameter.range.minimum < 0.0 && chance()) value = -value;
       if (definition->name == "local_stiffness_loss" && parameter.name == "position") {
-        value = 0.0;  // on the beam however an effect changes its length
+        value = beam.length_m * 0.25;
       }
+      if (definition->name == "beam_length") value = 0.75;  // a crack stays on the beam
       effect.parameters[parameter.name] = value;
     }
     if (definition->sensor && chance()) {

@@ -31,12 +31,7 @@ const std::vector<std::string> kRooms = {"app",      "arm",      "assumed_modes"
 const std::set<std::string> kExempt = {
     "docs/glossary.md",    // lists the retired phrases
     "docs/case-rig.md",    // scripts/case-rig.md.in
-    "docs/scorecard.md",   // tests/trials/scorecard.cpp
-    // To be rewritten with flexarm.diagnosis/2:
-    "docs/diagnosis.md", "app/diagnose.cpp", "diagnose/diagnosis.cpp", "diagnose/noise_floor.cpp",
-    "report/json/diagnosis_json.cpp", "report/tables/diagnosis_tables.cpp"};
-/// A folder to be rewritten too.
-const std::string kExemptFolder = "diagnose/search/";
+    "docs/scorecard.md"};  // tests/trials/scorecard.cpp
 
 std::string read(const fs::path& path) {
   std::ifstream file(path);
@@ -51,7 +46,7 @@ std::string name_of(const fs::path& path) {
 
 bool is_exempt(const fs::path& path) {
   const std::string name = name_of(path);
-  return kExempt.contains(name) || name.starts_with(kExemptFolder);
+  return kExempt.contains(name);
 }
 
 /// README and the like, docs/*.md and the templates of documents.

@@ -48,7 +48,7 @@ def cause_rows(diagnoses):
         causes = diagnosis["causes"] or [None]
         for k, cause in enumerate(causes):
             row = head if k == 0 else ["", ""]
-            row = row + ([cause_text(cause), per_cent(cause["share"], 3),
+            row = row + ([cause_text(cause), per_cent(cause["explained_share"], 3),
                           ", ".join(cause["confusable_with"]) or "-"] if cause else ["none", "-", "-"])
             rows.append(row + (tail if k == 0 else ["", ""]))
     return ["data", "verdict", "identified effects", "explained share [%]",

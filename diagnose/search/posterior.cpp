@@ -21,10 +21,8 @@ Posterior::Posterior(std::vector<const Explanation*> sets, std::size_t hypothese
   const auto best_set = std::ranges::min_element(sets, {}, [](const Explanation* set) {
     return squares_of(*set);
   });
-  double least = squares_of(**best_set);
-  if (!(*best_set)->leaves_noise()) {
-    least = std::min(least, (*best_set)->estimation.count + (*best_set)->validation.count);
-  }
+  const double least = squares_of(**best_set) - (*best_set)->estimation.excess() -
+                       (*best_set)->validation.excess();
   const double cost_of_cause = 2.0 * std::log(static_cast<double>(hypotheses));
   const double cost_of_else = -2.0 * std::log(options.prior_of_something_else);
   double best = std::numeric_limits<double>::infinity();

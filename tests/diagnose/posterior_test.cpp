@@ -76,6 +76,17 @@ TEST(Posterior, PrefersFewerParametersOfEqualFit) {
   EXPECT_GT(posterior.of({.effect = "coulomb_friction"}), 0.95);
 }
 
+TEST(Posterior, TakesNoSmallDifferenceBesideAGrantedErrorForEvidence) {
+  // Both pass as noise, with the error that a simulation is granted.
+  const Explanation nothing = set_of({}, 1e6);
+  Explanation simple = set_of({"coulomb_friction"}, 4000.0);
+  Explanation general = set_of({"stribeck_friction"}, 3900.0);
+  general.fit.candidate.values = {1.0, 1.0, 1.0};
+  for (Explanation* set : {&simple, &general}) set->estimation_test = {};
+  const Posterior posterior({&nothing, &simple, &general}, kHypotheses, {});
+  EXPECT_GT(posterior.of({.effect = "coulomb_friction"}), 0.95);
+}
+
 /// A cause with one parameter at this coordinate with this standard error.
 Explanation at_coordinate(double coordinate, double std_error) {
   Explanation made = set_of({"payload_mass"}, 0.0);

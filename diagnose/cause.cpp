@@ -66,8 +66,8 @@ Cause cause_of(const Selection& selection, std::size_t index, const Posterior& p
   cause.parameters = estimates_of(chosen, index, errors);
   cause.share = share_taken(without.estimation, selection.chosen.estimation);
   cause.confidence = posterior.of(effect);
-  cause.class_confidence = class_probability(effect, selection, posterior);
   const std::vector<Rival> rivals = rivals_of(effect, selection, posterior);
+  cause.class_confidence = class_probability(effect, rivals, posterior);
   for (const Rival& rival : rivals) {
     auto& confusable = cause.confusable_with;
     const std::string& name = rival.effect->effect;
@@ -98,8 +98,7 @@ std::vector<Cause> causes_of(const Selection& selection, const Posterior& poster
 std::vector<RefittedNumber> refitted_numbers(const Selection& selection,
                                              const std::vector<double>& errors) {
   const arm::Arm& arm = selection.problem.experiment().arm;
-  const arm::Arm refitted =
-      arm::with_deviations(arm, selection.chosen.fit.candidate.nuisances);
+  const arm::Arm refitted = arm::with_deviations(arm, selection.chosen.fit.candidate.nuisances);
   std::vector<RefittedNumber> numbers;
   for (const auto& [name, uncertainty] : arm.relative_uncertainties) {
     const auto& key = *std::ranges::find(arm::arm_keys(), name, &arm::ArmKey::name);

@@ -22,13 +22,10 @@ constexpr double kMayBe = 2.0;
 /// Standard errors of the coordinates; infinite where the residuals do not depend on one.
 Eigen::VectorXd coordinate_errors(const Explanation& explanation) {
   const Eigen::MatrixXd& jacobian = explanation.fit.jacobian;
-  const Misfit& misfit = explanation.estimation;
-  const double scale = std::max(1.0, misfit.sum_of_squares / misfit.count) * misfit.count /
-                       std::max(1.0, misfit.independent);
   const Index n = jacobian.cols();
   const Eigen::LDLT<Eigen::MatrixXd> information(jacobian.transpose() * jacobian);
-  const Eigen::VectorXd variances =
-      scale * information.solve(Eigen::MatrixXd::Identity(n, n)).diagonal();
+  const Eigen::VectorXd variances = explanation.estimation.variance_of_estimates() *
+                                    information.solve(Eigen::MatrixXd::Identity(n, n)).diagonal();
   return variances.unaryExpr([](double variance) {
     return variance > 0.0 ? std::sqrt(variance) : std::numeric_limits<double>::infinity();
   });

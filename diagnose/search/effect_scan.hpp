@@ -14,7 +14,7 @@ namespace flexarm::diagnose {
 /// Whether one of `hypotheses` is a limit of the hypothesis.
 bool has_limit(const Hypothesis& hypothesis, const std::vector<Hypothesis>& hypotheses);
 
-/// A parameter of an effect at the middle of each range.
+/// Its parameters, each at the middle of its range.
 std::vector<double> middle_of(const Hypothesis& hypothesis);
 
 /// The first look at effects: scans over their whole ranges on a part of the data with few modes.

@@ -27,6 +27,13 @@ Explanation explain(const Problem& problem, Fit fit) {
   return made;
 }
 
+std::vector<Explanation>::iterator find_set(std::vector<Explanation>& among,
+                                            const Candidate& effects) {
+  const auto labels = effects.labels();
+  return std::ranges::find_if(
+      among, [&](const Explanation& one) { return one.fit.candidate.labels() == labels; });
+}
+
 void sort_by_fit(std::vector<Explanation>& explanations) {
   std::ranges::stable_sort(explanations, {},
                            [](const Explanation& one) { return one.fit.sum_of_squares; });

@@ -26,6 +26,10 @@ struct Explanation {
 /// `problem` is the one that `fit` was made of.
 Explanation explain(const Problem& problem, Fit fit);
 
+/// The one of these effects, in whatever order; the end where there is none.
+std::vector<Explanation>::iterator find_set(std::vector<Explanation>& among,
+                                            const Candidate& effects);
+
 /// The best fits first.
 void sort_by_fit(std::vector<Explanation>& explanations);
 

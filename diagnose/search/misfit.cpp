@@ -34,6 +34,14 @@ double Misfit::nuisance_excess() const {
   return beyond_chance(nuisance_squares, nuisances, nuisances);
 }
 
+double Misfit::variance() const {
+  return std::max(1.0, sum_of_squares / count);
+}
+
+double Misfit::variance_of_estimates() const {
+  return variance() * count / std::max(1.0, independent);
+}
+
 double Misfit::unexplained_error() const {
   return std::sqrt(std::max(0.0, relative_error * relative_error - noise_floor * noise_floor));
 }
@@ -81,15 +89,13 @@ double share_taken(const Misfit& before, const Misfit& after) {
 }
 
 double information_gain(const Misfit& simpler, const Misfit& fuller, int more_parameters) {
-  const auto scale = [](const Misfit& misfit) {
-    return std::max(1.0, misfit.sum_of_squares / misfit.count);
-  };
   const double n = std::max(2.0, fuller.independent);
   const double displaced = simpler.nuisance_squares - fuller.nuisance_squares;
   const double squares = simpler.sum_of_squares - fuller.sum_of_squares;
   // With the scale at the noise this is the difference of sums of squares.
-  const double likelihood = scale(fuller) > 1.0 ? n * std::log(scale(simpler) / scale(fuller))
-                                                : squares * n / fuller.count;
+  const double likelihood = fuller.variance() > 1.0
+                                ? n * std::log(simpler.variance() / fuller.variance())
+                                : squares * n / fuller.count;
   return likelihood + displaced - more_parameters * std::log(n);
 }
 

@@ -31,6 +31,10 @@ struct Misfit {
   double excess() const;
   double nuisance_excess() const;
   bool is_noise() const { return excess() == 0.0; }
+  /// Mean square of the residuals, never below that of the noise; and what it amounts to in the
+  /// variance of an estimate, by the independent numbers among them.
+  double variance() const;
+  double variance_of_estimates() const;
   /// What is not noise, relative to the signal.
   double unexplained_error() const;
 };

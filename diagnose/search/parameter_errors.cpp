@@ -126,19 +126,16 @@ Eigen::VectorXd slopes(const Candidate& candidate) {
 std::vector<double> standard_errors(const Problem& problem, const Explanation& explanation,
                                     const Problem& finer) {
   const Fit& fit = explanation.fit;
-  const Misfit& misfit = explanation.estimation;
   const Index n = fit.jacobian.cols();
   if (n == 0) return {};
-  const double scale = std::max(1.0, misfit.sum_of_squares / misfit.count) * misfit.count /
-                       std::max(1.0, misfit.independent);
+  const double scale = explanation.estimation.variance_of_estimates();
   const Eigen::LDLT<Eigen::MatrixXd> information(fit.jacobian.transpose() * fit.jacobian);
   const Eigen::MatrixXd inverse = information.solve(Eigen::MatrixXd::Identity(n, n));
   const auto sandwich = [&](const Clusters& clusters) -> Eigen::VectorXd {
     return (inverse * clusters.sum() * inverse).diagonal();
   };
-  Eigen::VectorXd variances = (inverse * scale)
-                                  .diagonal()
-                                  .cwiseMax(sandwich(clustered_by_stretches(problem, fit)));
+  Eigen::VectorXd variances =
+      (inverse * scale).diagonal().cwiseMax(sandwich(clustered_by_stretches(problem, fit)));
   const Clusters runs = clustered_by_runs(problem, fit);
   if (runs.freedom() >= 1.0) {
     const Eigen::VectorXd of_runs = sandwich(runs);

@@ -37,6 +37,7 @@ double exceedance(double value, double n, double lambda) {
       complement(boost::math::normal(mean, deviation), std::pow(value / sum, h)));
 }
 
+/// About zero, which Boost's is not: a constant residual is no noise, and a line has two parts.
 /// n (n + 2) sum_l rho_l^2/(n - l s) over lags l of `stride` s numbers each.
 double ljung_box(const Eigen::Ref<const Eigen::VectorXd>& residuals, int lags, Index stride) {
   const Index n = residuals.size();
@@ -60,7 +61,9 @@ struct Statistic {
   double p_value() const { return freedom > 0.0 ? exceedance(value, freedom, lambda) : 1.0; }
 };
 
-double bonferroni(double p_value, double tests) { return std::min(1.0, tests * p_value); }
+double bonferroni(double p_value, double tests) {
+  return std::min(1.0, tests * p_value);
+}
 
 }  // namespace
 
@@ -80,8 +83,7 @@ ResidualTest test_residuals(const Observations& observations, const Experiment& 
     const auto n = static_cast<double>(channel.count);
     const measured::RunKind kind = experiment.runs[channel.run].run.kind;
     const bool is_simulated = kind == measured::RunKind::time;
-    const double granted =
-        is_simulated ? std::pow(kSimulationError / channel.floor(), 2) : 0.0;
+    const double granted = is_simulated ? std::pow(kSimulationError / channel.floor(), 2) : 0.0;
     const Statistic own{part.squaredNorm() / (1.0 + kNoiseKnown), n, 4.0 * granted * n};
     worst_channel = std::min(worst_channel, own.p_value());
     channels += 1.0;
@@ -97,8 +99,8 @@ ResidualTest test_residuals(const Observations& observations, const Experiment& 
   }
   const auto nuisances = residuals.tail(residuals.size() - observations.values.size());
   const Statistic nuisance{nuisances.squaredNorm(), static_cast<double>(nuisances.size()), 0.0};
-  const double tests = channels + 1.0 + (whiteness.freedom > 0.0 ? 1.0 : 0.0) +
-                       (nuisance.freedom > 0.0 ? 1.0 : 0.0);
+  const double tests =
+      channels + 1.0 + (whiteness.freedom > 0.0 ? 1.0 : 0.0) + (nuisance.freedom > 0.0 ? 1.0 : 0.0);
   return {bonferroni(std::min(worst_channel, level.p_value()), tests),
           bonferroni(whiteness.p_value(), tests), bonferroni(nuisance.p_value(), tests)};
 }

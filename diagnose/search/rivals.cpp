@@ -42,7 +42,8 @@ std::vector<Explanation> indistinguishable_sets(const Selection& selection,
   for (const auto* sets : {&selection.singles, &selection.combinations}) {
     for (const Explanation& set : *sets) {
       if (is_rival(set.fit.candidate, chosen) &&
-          posterior.of_set(chosen) <= kIndistinguishableOdds * posterior.of_set(set.fit.candidate)) {
+          posterior.of_set(chosen) <=
+              kIndistinguishableOdds * posterior.of_set(set.fit.candidate)) {
         found.push_back(set);
       }
     }
@@ -68,10 +69,10 @@ Posterior posterior_of(const Selection& selection, std::size_t hypotheses,
   return {sets, hypotheses, options};
 }
 
-double class_probability(const Hypothesis& cause, const Selection& selection,
+double class_probability(const Hypothesis& cause, const std::vector<Rival>& rivals,
                          const Posterior& posterior) {
   std::vector<const Hypothesis*> indistinguishable;
-  for (const Rival& rival : rivals_of(cause, selection, posterior)) {
+  for (const Rival& rival : rivals) {
     if (rival.odds <= kIndistinguishableOdds) indistinguishable.push_back(rival.effect);
   }
   return posterior.of_any(cause, indistinguishable);

@@ -34,8 +34,8 @@ inline constexpr double kIndistinguishableOdds = 20.0;
 Posterior posterior_of(const Selection& selection, std::size_t hypotheses,
                        const SelectionOptions& options);
 
-/// That this cause, or one that is indistinguishable from it, is there.
-double class_probability(const Hypothesis& cause, const Selection& selection,
+/// That this cause, or one of its `rivals` that is indistinguishable from it, is there.
+double class_probability(const Hypothesis& cause, const std::vector<Rival>& rivals,
                          const Posterior& posterior);
 
 }  // namespace flexarm::diagnose

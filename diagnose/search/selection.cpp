@@ -5,8 +5,6 @@
 #include "diagnose/search/rivals.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <iterator>
 #include <optional>
 #include <set>
 #include <string>
@@ -22,6 +20,13 @@ namespace {
 constexpr double kSinglesDone = 0.4;
 /// ... and when pairs of the best of them have been tried.
 constexpr double kPairsDone = 0.8;
+
+/// What the sets are, in their order: a look at one may add another.
+std::vector<Candidate> candidates_of(const std::vector<Explanation>& sets) {
+  std::vector<Candidate> candidates;
+  for (const Explanation& set : sets) candidates.push_back(set.fit.candidate);
+  return candidates;
+}
 
 class Search {
  public:
@@ -89,14 +94,14 @@ class Search {
   }
 
   /// Where a little is left and the timing of the torque leaves noise of it: the torques as that
-  /// timing has them, and what has been fitted once more. Returns whether that was so.
-  bool correct_timing(Selection& made) {
+  /// timing has them, and what has been fitted once more.
+  void correct_timing(Selection& made) {
     if (made.timing || made.chosen.leaves_noise() ||
         made.chosen.estimation.unexplained_error() > options_.largest_timing_error) {
-      return false;
+      return;
     }
     TorqueTiming timing = torque_timing(problem_, made.chosen.fit);
-    if (timing.share < options_.least_timing_share) return false;
+    if (timing.share < options_.least_timing_share) return;
     const Problem as_recorded = problem_;
     problem_.replace_torques(retimed(problem_.experiment(), timing));
     // Once more from there: what the first step was too long for, and the runs for validation.
@@ -108,11 +113,10 @@ class Search {
     if (!corrected.leaves_noise()) {
       problem_ = as_recorded;
       made.undecided_timing = std::move(timing);
-      return false;
+      return;
     }
     made.timing = std::move(timing);
     refit(made);
-    return true;
   }
 
   Explanation fitted(const Candidate& start) const {
@@ -146,13 +150,15 @@ class Search {
   }
 
   /// clears_bars against each set in which one of its effects is replaced by a limit of that: a
-  /// general effect is named for what it adds to the special one.
-  bool clears_limits(Selection& made, Explanation fuller) const {
-    return std::ranges::all_of(
-        limits_in(fuller.fit.candidate, hypotheses_), [&](const LimitOfEffect& of) {
-          const Candidate& candidate = fuller.fit.candidate;
-          return clears_bars(fuller, replaced(made, candidate, of.effect, *of.limit), options_);
-        });
+  /// general effect is named for what it adds to the special one. `fuller` may be among the sets of
+  /// `made`, to which such a set is added.
+  bool clears_limits(Selection& made, const Explanation& fuller) const {
+    const std::vector<LimitOfEffect> limits = limits_in(fuller.fit.candidate, hypotheses_);
+    if (limits.empty()) return true;
+    const Explanation kept = fuller;
+    return std::ranges::all_of(limits, [&](const LimitOfEffect& of) {
+      return clears_bars(kept, replaced(made, kept.fit.candidate, of.effect, *of.limit), options_);
+    });
   }
 
   bool is_admitted(Selection& made, const Explanation& fuller, const Explanation& simpler) const {
@@ -165,10 +171,7 @@ class Search {
                        const Hypothesis& other) const {
     const Candidate start = candidate.without(index).with(other, middle_of(other));
     auto& kept = start.effects.size() == 1 ? made.singles : made.combinations;
-    const auto same = std::ranges::find_if(kept, [&](const Explanation& one) {
-      return one.fit.candidate.labels() == start.labels();
-    });
-    if (same != kept.end()) return *same;
+    if (const auto same = find_set(kept, start); same != kept.end()) return *same;
     Explanation found = fitted(scan_.first_look(start).candidate);
     kept.push_back(found);
     sort_by_fit(kept);
@@ -177,11 +180,12 @@ class Search {
 
   /// The best admitted single over none; `nothing` where there is none.
   Explanation best_single(Selection& made) const {
-    const std::vector<Explanation> singles = made.singles;
-    const auto best = std::ranges::find_if(singles, [&](const Explanation& single) {
-      return is_admitted(made, single, made.nothing);
-    });
-    return best == singles.end() ? made.nothing : *best;
+    for (const Candidate& candidate : candidates_of(made.singles)) {
+      const auto single = find_set(made.singles, candidate);
+      if (!clears_bars(*single, made.nothing, options_)) continue;
+      if (clears_limits(made, *single)) return *find_set(made.singles, candidate);
+    }
+    return made.nothing;
   }
 
   /// Of the combinations of so many effects the best, or one with fewer parameters that it does
@@ -242,7 +246,9 @@ class Search {
       double least = options_.least_probability;
       std::optional<std::size_t> least_probable;
       for (std::size_t i = 0; i < candidate.effects.size(); ++i) {
-        const double probability = class_probability(candidate.effects[i], made, posterior);
+        const Hypothesis& effect = candidate.effects[i];
+        const double probability =
+            class_probability(effect, rivals_of(effect, made, posterior), posterior);
         if (probability >= least) continue;
         least = probability;
         least_probable = i;
@@ -283,9 +289,7 @@ class Search {
   void combine(Selection& made, const Candidate& base, std::string_view what, double to) {
     if (!combined_.insert(base.labels()).second) return;
     for (Explanation& found : all_with(base, what, work_.done(), to, options_.pairs_refitted)) {
-      const auto same = std::ranges::find_if(made.combinations, [&](const Explanation& other) {
-        return other.fit.candidate.labels() == found.fit.candidate.labels();
-      });
+      const auto same = find_set(made.combinations, found.fit.candidate);
       if (same == made.combinations.end()) {
         made.combinations.push_back(std::move(found));
       } else if (found.fit.sum_of_squares < same->fit.sum_of_squares) {
@@ -318,15 +322,22 @@ class Search {
       for (std::size_t i = 0; i < candidate.effects.size(); ++i) {
         combine(made, candidate.without(i), "exchanged effects", halfway());
       }
-      const std::vector<Explanation> combinations = made.combinations;
-      const auto better = std::ranges::find_if(combinations, [&](const Explanation& other) {
-        return is_rival(other.fit.candidate, candidate) &&
-               lead(other, best) >= options_.least_information_gain && clears_limits(made, other);
-      });
-      if (better == combinations.end()) break;
+      const auto better = better_rival(made, best);
+      if (!better) break;
       best = *better;
     }
     return best;
+  }
+
+  /// The best combination with one of the causes of `best` exchanged that fits decisively better.
+  std::optional<Explanation> better_rival(Selection& made, const Explanation& best) const {
+    for (const Candidate& candidate : candidates_of(made.combinations)) {
+      if (!is_rival(candidate, best.fit.candidate)) continue;
+      const auto rival = find_set(made.combinations, candidate);
+      if (lead(*rival, best) < options_.least_information_gain) continue;
+      if (clears_limits(made, *rival)) return *find_set(made.combinations, candidate);
+    }
+    return std::nullopt;
   }
 
   /// A stage whose length is not known takes half of the progress that is left.

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -90,58 +91,35 @@ std::vector<std::string_view> quantities_without(const std::vector<HubTorqueTerm
   return others;
 }
 
+struct TermNames {
+  HubTorqueKind kind;
+  std::string_view key;   ///< in files
+  std::string_view name;  ///< in tables
+};
+constexpr std::array kTermNames = {
+    TermNames{HubTorqueKind::dry_friction, "dry_friction", "Coulomb"},
+    TermNames{HubTorqueKind::viscous_friction, "viscous_friction", "viscous"},
+    TermNames{HubTorqueKind::inertia, "inertia", "inertia"},
+    TermNames{HubTorqueKind::spring, "spring", "spring"},
+    TermNames{HubTorqueKind::ripple, "ripple", "ripple"},
+    TermNames{HubTorqueKind::bias, "bias", "constant"},
+    TermNames{HubTorqueKind::time, "time", "drift in time"},
+    TermNames{HubTorqueKind::gain, "gain", "gain"},
+    TermNames{HubTorqueKind::dead_zone, "dead_zone", "dead zone"},
+    TermNames{HubTorqueKind::saturation, "saturation", "saturation"}};
+
+const TermNames& names_of(HubTorqueKind kind) {
+  return *std::ranges::find(kTermNames, kind, &TermNames::kind);
+}
+
 }  // namespace
 
 std::string_view term_name(HubTorqueKind kind) {
-  switch (kind) {
-    case HubTorqueKind::dry_friction:
-      return "Coulomb";
-    case HubTorqueKind::viscous_friction:
-      return "viscous";
-    case HubTorqueKind::inertia:
-      return "inertia";
-    case HubTorqueKind::spring:
-      return "spring";
-    case HubTorqueKind::ripple:
-      return "ripple";
-    case HubTorqueKind::bias:
-      return "constant";
-    case HubTorqueKind::time:
-      return "drift in time";
-    case HubTorqueKind::gain:
-      return "gain";
-    case HubTorqueKind::dead_zone:
-      return "dead zone";
-    case HubTorqueKind::saturation:
-      return "saturation";
-  }
-  return "";
+  return names_of(kind).name;
 }
 
 std::string_view to_string(HubTorqueKind kind) {
-  switch (kind) {
-    case HubTorqueKind::dry_friction:
-      return "dry_friction";
-    case HubTorqueKind::viscous_friction:
-      return "viscous_friction";
-    case HubTorqueKind::inertia:
-      return "inertia";
-    case HubTorqueKind::spring:
-      return "spring";
-    case HubTorqueKind::ripple:
-      return "ripple";
-    case HubTorqueKind::bias:
-      return "bias";
-    case HubTorqueKind::time:
-      return "time";
-    case HubTorqueKind::gain:
-      return "gain";
-    case HubTorqueKind::dead_zone:
-      return "dead_zone";
-    case HubTorqueKind::saturation:
-      return "saturation";
-  }
-  return "";
+  return names_of(kind).key;
 }
 
 std::vector<Symptom> hub_torque_symptoms(const HubTorque& torque) {

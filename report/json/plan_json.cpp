@@ -25,7 +25,13 @@ Json values_json(const std::optional<diagnose::Candidate>& candidate) {
   return values;
 }
 
-/// What a run is, under the keys that both lists of runs share.
+/// The keys in which the lists of runs differ.
+struct RunKeys {
+  const char* based_on;
+  const char* resolved;
+  const char* delta_bic;
+};
+
 Json run_json(const diagnose::FurtherRun& further, const char* based_on) {
   const diagnose::PlannedRun& run = further.run;
   Json sensors = Json::array();
@@ -42,26 +48,24 @@ Json run_json(const diagnose::FurtherRun& further, const char* based_on) {
           {"sensors", sensors}};
 }
 
-}  // namespace
-
-Json further_runs_json(const std::vector<diagnose::NextExperiment>& runs) {
+Json runs_json(const std::vector<diagnose::NextExperiment>& runs, const RunKeys& keys) {
   Json all = Json::array();
   for (const auto& [further, leads, told, score] : runs) {
-    Json one = run_json(further, "like");
-    one.update({{"told", told}, {"leads", leads}, {"score", score}});
+    Json one = run_json(further, keys.based_on);
+    one.update({{keys.resolved, told}, {keys.delta_bic, leads}, {"score", score}});
     all.push_back(std::move(one));
   }
   return all;
 }
 
+}  // namespace
+
+Json further_runs_json(const std::vector<diagnose::NextExperiment>& runs) {
+  return runs_json(runs, {"like", "told", "leads"});
+}
+
 Json additional_runs_json(const std::vector<diagnose::NextExperiment>& runs) {
-  Json all = Json::array();
-  for (const auto& [further, leads, told, score] : runs) {
-    Json one = run_json(further, "based_on");
-    one.update({{"resolved", told}, {"delta_bic", leads}, {"score", score}});
-    all.push_back(std::move(one));
-  }
-  return all;
+  return runs_json(runs, {"based_on", "resolved", "delta_bic"});
 }
 
 Json plan_json(const diagnose::Plan& plan) {

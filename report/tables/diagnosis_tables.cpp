@@ -11,14 +11,16 @@ namespace flexarm::report {
 
 namespace {
 
+/// Of a cause that is named by itself.
+constexpr double kLeastProbability = diagnose::SelectionOptions{}.least_probability;
+
 std::string name_of(const diagnose::Cause& cause) {
   return cause.sensor.empty() ? cause.effect : cause.effect + " on " + cause.sensor;
 }
 
 /// "coulomb_friction (probability 0.98)"; of a class "one of time_delay, actuator_lag (...)".
 std::string headline(const diagnose::Cause& cause) {
-  constexpr double kNamed = 0.5;
-  if (cause.confidence >= kNamed) {
+  if (cause.confidence >= kLeastProbability) {
     return fmt::format("{} (probability {:.2f})", name_of(cause), cause.confidence);
   }
   return fmt::format("one of {}, {} (probability {:.2f} together)", name_of(cause),
@@ -100,16 +102,16 @@ std::string verdict_text(const diagnose::Diagnosis& diagnosis) {
           "Adequate: the residuals are noise. NRMSE is {:.3g} %; the noise floor is {:.3g} %.",
           before, noise);
     case diagnose::Verdict::explained:
-      return fmt::format("Explained by {}: the residuals are noise. {}",
-                         explanation_of(diagnosis), fall);
+      return fmt::format("Explained by {}: the residuals are noise. {}", explanation_of(diagnosis),
+                         fall);
     case diagnose::Verdict::partly_explained:
       return fmt::format("Partly explained by {}. {}{} Something else is present.",
                          explanation_of(diagnosis), fall, not_noise(diagnosis));
     case diagnose::Verdict::unexplained:
       return fmt::format(
-          "Unexplained: no effect of the library has a probability of 0.5 or more. NRMSE is "
+          "Unexplained: no effect of the library has a probability of {:g} or more. NRMSE is "
           "{:.3g} %; the noise floor is {:.3g} %.{}",
-          after, noise, not_noise(diagnosis));
+          kLeastProbability, after, noise, not_noise(diagnosis));
   }
   return "";
 }
@@ -170,8 +172,8 @@ Table near_miss_table(const diagnose::Diagnosis& diagnosis) {
                {.name = "delta BIC", .significant_digits = 3},
                {.name = "NRMSE", .unit = "%", .significant_digits = 3}}};
   for (const auto& miss : diagnosis.near_misses) {
-    table.add_row({miss.effects, miss.probability, 100.0 * miss.share, miss.information,
-                   100.0 * miss.error});
+    table.add_row(
+        {miss.effects, miss.probability, 100.0 * miss.share, miss.information, 100.0 * miss.error});
   }
   return table;
 }

@@ -3,6 +3,7 @@
 #include "diagnose/search/hypothesis.hpp"
 #include "diagnose/search/problem.hpp"
 #include "effects/registry/vocabulary.hpp"
+#include "laws/effect_arms.hpp"
 #include "response/formulation_maker.hpp"
 #include "response/frequency/frequency_response.hpp"
 #include "response/time/arm_simulator.hpp"
@@ -25,15 +26,6 @@ namespace {
 
 constexpr int kModes = 4;
 
-arm::Arm ideal_arm() {
-  arm::Arm arm = arm::paper_arm();
-  arm.beam.shear_modulus_Pa = 2.67e10;
-  arm.hub.viscous_friction_N_m_s_per_rad = 2e-3;
-  arm.payload = {0.05, 1e-4};
-  arm.damping.kelvin_voigt_s = 1.2e-4;
-  return arm;
-}
-
 std::vector<arm::Sensor> sensors() {
   return {arm::parse_sensor("hub_angle"), arm::parse_sensor("hub_velocity"),
           arm::parse_sensor("tip_acceleration"), arm::parse_sensor("strain@0.05")};
@@ -42,9 +34,9 @@ std::vector<arm::Sensor> sensors() {
 class Honoured : public testing::TestWithParam<std::string> {
  protected:
   const Entry& entry() const { return *find(GetParam()); }
-  arm::Arm ideal() const { return ideal_arm(); }
+  arm::Arm ideal() const { return laws::damped_arm(); }
   arm::Arm with_effect() const {
-    arm::Arm arm = ideal_arm();
+    arm::Arm arm = laws::damped_arm();
     arm.effects[GetParam()] = example(entry().definition);
     return arm;
   }

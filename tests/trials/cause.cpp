@@ -32,6 +32,10 @@ NaturalSizes::NaturalSizes(const TrialArm& of) {
   peak_N_m = kPeakTorque / kTypicalTorque * torque_N_m;
 }
 
+Parameters changed_factor(const NaturalSizes& /*natural*/, double size, const Chance& chance) {
+  return {{"factor", std::exp(chance.sign * size)}};
+}
+
 bool Cause::shows_in(measured::RunKind kind) const {
   if (kind == measured::RunKind::frf) return shown_in != ShownIn::time;
   return kind == measured::RunKind::time || shown_in == ShownIn::all;

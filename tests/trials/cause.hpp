@@ -66,6 +66,9 @@ inline double between(double lowest, double highest, double part) {
   return lowest + (highest - lowest) * part;
 }
 
+/// Cause::parameters of a number that is exp(+-size) times what the file says.
+Parameters changed_factor(const NaturalSizes& natural, double size, const Chance& chance);
+
 /// The whole vocabulary by `acts_on` and name, then what is outside of it.
 const std::vector<Cause>& causes();
 /// The cause of that name; throws InputError where there is none.

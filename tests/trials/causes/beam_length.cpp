@@ -1,7 +1,5 @@
 #include "tests/trials/cause.hpp"
 
-#include <cmath>
-
 namespace flexarm::trials {
 
 /// The beam is longer or shorter than the file says, by 1 to 10 %. Places are those of the file,
@@ -11,12 +9,10 @@ Cause beam_length() {
           .acts_on = ActsOn::number,
           .largest = 0.1,
           .smallest_part = 0.1,
-          .parameters = [](const NaturalSizes& /*natural*/, double size,
-                           const Chance& chance) -> Parameters {
-            return {{"factor", std::exp(chance.sign * size)}};
-          },
-          .change = [](const Parameters& of, const arm::Sensor& /*sensor*/,
-                       TrueArm& arm) { arm.length_m *= of.at("factor"); }};
+          .parameters = changed_factor,
+          .change = [](const Parameters& of, const arm::Sensor& /*sensor*/, TrueArm& arm) {
+            arm.length_m *= of.at("factor");
+          }};
 }
 
 }  // namespace flexarm::trials

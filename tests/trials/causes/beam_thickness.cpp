@@ -1,7 +1,5 @@
 #include "tests/trials/cause.hpp"
 
-#include <cmath>
-
 namespace flexarm::trials {
 
 /// The beam is thicker or thinner in the bending plane than the file says, by 1 to 10 %:
@@ -11,17 +9,13 @@ Cause beam_thickness() {
           .acts_on = ActsOn::number,
           .largest = 0.1,
           .smallest_part = 0.1,
-          .parameters = [](const NaturalSizes& /*natural*/, double size,
-                           const Chance& chance) -> Parameters {
-            return {{"factor", std::exp(chance.sign * size)}};
-          },
-          .change =
-              [](const Parameters& of, const arm::Sensor& /*sensor*/, TrueArm& arm) {
-                const double factor = of.at("factor");
-                arm.flexural_rigidity_N_m2 *= factor * factor * factor;
-                arm.linear_density_kg_per_m *= factor;
-                if (arm.thickness_m) *arm.thickness_m *= factor;
-              }};
+          .parameters = changed_factor,
+          .change = [](const Parameters& of, const arm::Sensor& /*sensor*/, TrueArm& arm) {
+            const double factor = of.at("factor");
+            arm.flexural_rigidity_N_m2 *= factor * factor * factor;
+            arm.linear_density_kg_per_m *= factor;
+            if (arm.thickness_m) *arm.thickness_m *= factor;
+          }};
 }
 
 }  // namespace flexarm::trials

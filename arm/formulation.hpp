@@ -17,7 +17,7 @@ struct SolveSummary {
   std::string method;             ///< in the field's terms: "Wittrick-Williams count, TOMS 748"
   int iterations = 0;             ///< iterations, or function values where those are counted
   double largest_residual = 0.0;  ///< in the sense that `method` states; 0 when none is formed
-  bool converged = true;
+  bool converged = false;
 };
 
 /// How many roots were found beside how many there are; `expected` < 0 when nothing counted them.

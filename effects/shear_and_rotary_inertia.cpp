@@ -39,7 +39,7 @@ Entry shear_and_rotary_inertia() {
                                 .linear_term = add_shear}),
           .shows = Shows::in_all,
           .search = [](const Scales& /*scales*/) -> std::vector<SearchedParameter> {
-            return {{"shear_coefficient", 0.2, 2.0}};
+            return {{"shear_coefficient", 0.05, 2.0}};
           },
           .applies =
               [](const Scales& scales) {

@@ -22,6 +22,7 @@ RealRoots find_bracketed_roots(const CountedFunction& function, const CountedInt
   roots.summary.method = "Wittrick-Williams count, TOMS 748; residual: widest bracket over lambda";
   roots.count.method = "Wittrick-Williams";
   Real above_last = interval.low;
+  bool all_narrowed = true;
   std::vector<CountedInterval> open = {interval};
   while (!open.empty() && std::ssize(roots.lambda) < count) {
     const CountedInterval bracket = open.back();
@@ -37,7 +38,7 @@ RealRoots find_bracketed_roots(const CountedFunction& function, const CountedInt
       roots.summary.iterations += static_cast<int>(values);
       roots.summary.largest_residual =
           std::max(roots.summary.largest_residual, static_cast<double>(width));
-      roots.summary.converged &= static_cast<int>(values) < options.maximum_function_values;
+      all_narrowed = all_narrowed && static_cast<int>(values) < options.maximum_function_values;
       above_last = high;
       continue;
     }
@@ -54,6 +55,7 @@ RealRoots find_bracketed_roots(const CountedFunction& function, const CountedInt
     open.push_back({middle, below_middle, bracket.high, bracket.below_high});
     open.push_back({bracket.low, bracket.below_low, middle, below_middle});
   }
+  roots.summary.converged = all_narrowed;
   roots.count.found = static_cast<int>(std::ssize(roots.lambda));
   // Just above the last root, where rounding of an ill-conditioned function leaves its sign open:
   // as far above as the digits of a double reach.

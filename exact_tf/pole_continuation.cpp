@@ -41,6 +41,7 @@ class Continuation {
   std::vector<Pair> pairs_;
   Real caution_ = 1.0L;
   arm::SolveSummary summary_;
+  int lost_ = 0;  // pairs that could not be followed
 };
 
 void Continuation::place(const std::vector<UndampedMode>& modes) {
@@ -100,7 +101,7 @@ void Continuation::follow(Pair& pair) {
   if (!pair.on_detour && follow(pair, 0.0L)) return;
   pair.on_detour = true;
   if (!follow(pair, options_.detour)) {
-    summary_.converged = false;
+    ++lost_;
     pair.roots.resize(pair.starts.size());
   }
 }
@@ -196,7 +197,7 @@ arm::DampedPoleSet Continuation::run(const std::vector<UndampedMode>& modes) {
     }
     again = doubled();
   }
-  summary_.converged = summary_.converged && again.empty();
+  summary_.converged = lost_ == 0 && again.empty();
   for (const auto& pair : pairs_) {
     for (const auto& root : pair.roots) {
       summary_.largest_residual =

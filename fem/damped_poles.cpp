@@ -116,7 +116,7 @@ Refined refine(const Discretisation& model, Complex s, Eigen::VectorXcd x) {
 /// Refines the roots of a pair, which stay conjugates or real, near the places where the projection
 /// has them; else it is too coarse.
 RootPair refine_pair(const Discretisation& model, const DampedPair& pair,
-                     const Eigen::MatrixXd& basis, DampedRoots& roots) {
+                     const Eigen::MatrixXd& basis, DampedRoots& roots, int& unsettled) {
   constexpr double kSettled = 1e-9;
   constexpr double kNear = 0.1;
   const bool is_real = pair.first.imag() == 0.0;
@@ -126,9 +126,10 @@ RootPair refine_pair(const Discretisation& model, const DampedPair& pair,
     roots.iterations += refined.iterations;
     roots.largest_change = std::max(roots.largest_change, refined.last_change);
     const double size = std::abs(refined.s);
-    roots.converged = roots.converged && refined.last_change <= kSettled &&
-                      std::abs(refined.s - s) <= kNear * size &&
-                      (!is_real || std::abs(refined.s.imag()) <= kSettled * size);
+    const bool is_settled = refined.last_change <= kSettled &&
+                            std::abs(refined.s - s) <= kNear * size &&
+                            (!is_real || std::abs(refined.s.imag()) <= kSettled * size);
+    if (!is_settled) ++unsettled;
     return is_real ? Complex(refined.s.real(), 0.0) : refined.s;
   };
   const Complex first = refined_root(pair.first, pair.first_shape);
@@ -199,13 +200,15 @@ DampedRoots damped_roots(const Discretisation& discretisation, int count, double
     const ModalVibration vibration = project(discretisation, basis);
     const ContinuedPairs continued = continue_damping(vibration);
     roots = {};
+    int unsettled = 0;
     const std::size_t wanted =
         std::min(static_cast<std::size_t>(count) + 1, continued.pairs.size());
     for (std::size_t i = 0; i < wanted; ++i) {
-      roots.pairs.push_back(refine_pair(discretisation, continued.pairs[i], basis.u, roots));
+      roots.pairs.push_back(
+          refine_pair(discretisation, continued.pairs[i], basis.u, roots, unsettled));
     }
     const bool twice = has_duplicates(roots.pairs);
-    roots.converged = roots.converged && continued.certain && !twice;
+    roots.converged = unsettled == 0 && continued.certain && !twice;
     if (roots.converged || used == discretisation.clamped_size()) break;
   }
   return roots;

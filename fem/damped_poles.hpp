@@ -19,7 +19,7 @@ struct DampedRoots {
   std::vector<RootPair> pairs;  ///< of the lowest mode, then of the flexible ones in their order
   int iterations = 0;           ///< factorisations of the quadratic pencil
   double largest_change = 0.0;  ///< of a root at its last iteration, relative to it
-  bool converged = true;        ///< all settled, none twice, and the continuation was certain
+  bool converged = false;       ///< all settled, none twice, and the continuation was certain
 };
 
 /// The lowest pair and the `count` lowest flexible ones, all of them where there are fewer.

@@ -22,7 +22,7 @@ namespace flexarm::fem {
 struct PencilRoots {
   std::vector<std::complex<double>> w;  ///< ascending in |w|; of a conjugate pair that with Im > 0
   int newton_steps = 0;
-  bool converged = true;
+  bool converged = false;
   double largest_step = 0.0;  ///< largest last Newton step, relative to |w|
 };
 

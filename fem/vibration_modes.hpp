@@ -17,7 +17,7 @@ struct VibrationModes {
   Eigen::MatrixXd deformations;       ///< (n - 1) x count, the natural ones
   int iterations = 0;                 ///< operator applications of the iterative solver, else 0
   /// largest_change <= max(1e-8, tolerance).
-  bool converged = true;
+  bool converged = false;
   bool dense = false;  ///< by singular values of the whole factored problem
   /// Largest relative change of an omega^2 at the last refinement.
   double largest_change = 0.0;

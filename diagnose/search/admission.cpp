@@ -77,10 +77,8 @@ std::vector<LimitOfEffect> limits_in(const Candidate& candidate,
                                      const std::vector<Hypothesis>& hypotheses) {
   std::vector<LimitOfEffect> found;
   for (std::size_t i = 0; i < candidate.effects.size(); ++i) {
-    for (const Hypothesis& limit : hypotheses) {
-      if (candidate.effects[i].contains(limit.effect) && !candidate.has(limit)) {
-        found.push_back({i, &limit});
-      }
+    for (const Hypothesis* limit : limits_of(candidate.effects[i], hypotheses)) {
+      if (!candidate.has(*limit)) found.push_back({i, limit});
     }
   }
   return found;

@@ -79,14 +79,17 @@ Candidate Candidate::with(const Hypothesis& hypothesis,
 
 Candidate Candidate::without(std::size_t index) const {
   Candidate made{.nuisances = nuisances};
-  std::size_t at = 0;
   for (std::size_t i = 0; i < effects.size(); ++i) {
-    const auto count = static_cast<std::ptrdiff_t>(effects[i].parameters.size());
-    const auto first = values.begin() + static_cast<std::ptrdiff_t>(at);
-    if (i != index) made = made.with(effects[i], std::vector<double>(first, first + count));
-    at += static_cast<std::size_t>(count);
+    if (i != index) made = made.with(effects[i], values_of(i));
   }
   return made;
+}
+
+std::vector<double> Candidate::values_of(std::size_t index) const {
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < index; ++i) at += effects[i].parameters.size();
+  const auto first = values.begin() + static_cast<std::ptrdiff_t>(at);
+  return {first, first + static_cast<std::ptrdiff_t>(effects[index].parameters.size())};
 }
 
 }  // namespace flexarm::diagnose

@@ -3,10 +3,12 @@
 #include "diagnose/search/coarse.hpp"
 
 #include <algorithm>
-#include <iterator>
+#include <numeric>
 #include <utility>
 
 namespace flexarm::diagnose {
+
+using Eigen::Index;
 
 namespace {
 
@@ -38,22 +40,8 @@ ProblemOptions coarse_options(const Problem& problem, const SelectionOptions& op
 
 }  // namespace
 
-bool has_limit(const Hypothesis& hypothesis, const std::vector<Hypothesis>& hypotheses) {
-  return std::ranges::any_of(hypotheses, [&](const Hypothesis& other) {
-    return hypothesis.contains(other.effect);
-  });
-}
-
-std::vector<double> middle_of(const Hypothesis& hypothesis) {
-  std::vector<double> values;
-  for (const auto& parameter : hypothesis.parameters) values.push_back(parameter.value(0.5));
-  return values;
-}
-
-EffectScan::EffectScan(const Problem& problem, const std::vector<Hypothesis>& hypotheses,
-                       const SelectionOptions& options, ReportedWork& work)
-    : hypotheses_(hypotheses),
-      options_(options),
+EffectScan::EffectScan(const Problem& problem, const SelectionOptions& options, ReportedWork& work)
+    : options_(options),
       work_(work),
       coarse_experiment_(coarse(problem.experiment(), options.coarse_samples)),
       short_experiment_(coarse(problem.experiment(), options.short_samples)),
@@ -63,46 +51,71 @@ EffectScan::EffectScan(const Problem& problem, const std::vector<Hypothesis>& hy
 std::vector<Fit> EffectScan::first_looks(const Candidate& base,
                                          const std::vector<const Hypothesis*>& others,
                                          std::string_view what, double from, double to) {
-  std::vector<Fit> looks;
-  const auto look_at = [&](const std::vector<const Hypothesis*>& some, double begin, double end) {
-    std::vector<Fit> made(some.size());
-    work_.in_parallel(some.size(), what, begin, end, [&](std::size_t i) {
-      made[i] = first_look(base.with(*some[i], middle_of(*some[i])));
-    });
-    std::ranges::move(made, std::back_inserter(looks));
-    std::ranges::stable_sort(looks, {}, &Fit::sum_of_squares);
-  };
-  std::vector<const Hypothesis*> special;
-  std::vector<const Hypothesis*> general;
-  for (const Hypothesis* other : others) {
-    (has_limit(*other, hypotheses_) ? general : special).push_back(other);
-  }
-  const double middle = 0.5 * (from + to);
-  look_at(special, from, middle);
+  std::vector<Fit> looks(others.size());
+  work_.in_parallel(others.size(), what, from, to,
+                    [&](std::size_t i) { looks[i] = first_look(base, *others[i]); });
   if (work_.is_cancelled()) return {};
-  const std::size_t best = std::min(options_.singles_refitted, looks.size());
-  std::erase_if(general, [&](const Hypothesis* other) {
-    return std::ranges::none_of(looks.begin(), looks.begin() + static_cast<std::ptrdiff_t>(best),
-                                [&](const Fit& look) {
-                                  return other->contains(
-                                      look.candidate.effects.back().effect);
-                                });
-  });
-  look_at(general, middle, to);
+  std::ranges::stable_sort(looks, {}, &Fit::sum_of_squares);
   return looks;
 }
 
-Fit EffectScan::first_look(const Candidate& start) const {
-  const std::size_t parameters = start.effects.back().parameters.size();
-  const int evaluations =
-      options_.scan_evaluations[std::min(parameters, options_.scan_evaluations.size()) - 1];
-  Fit look = fit(coarse_, scan(coarse_, start, evaluations), kCoarseFit);
+Fit EffectScan::first_look(const Candidate& base, const Hypothesis& other) const {
+  const Candidate start = base.with(other, other.middle());
+  const auto all = start.coordinates().size();
+  const auto last = static_cast<Index>(other.parameters.size());
+  std::vector<Index> scanned(other.parameters.size());
+  std::iota(scanned.begin(), scanned.end(), all - last);
+  Fit look = best_from_scan(coarse_, start, scanned);
   const bool is_shorter =
       short_.observations().values.size() < coarse_.observations().values.size();
-  if (parameters == 1 || !is_shorter) return look;
-  const Fit at_first = fit(short_, scan(short_, start, evaluations), kCoarseFit);
+  if (last == 1 || !is_shorter) return look;
+  const Fit at_first = best_from_scan(short_, start, scanned);
   Fit from_there = fit(coarse_, at_first.candidate, kCoarseFit);
   return from_there.sum_of_squares < look.sum_of_squares ? from_there : look;
+}
+
+Fit EffectScan::best_from_scan(const Problem& problem, const Candidate& start,
+                               const std::vector<Index>& scanned) const {
+  const std::size_t n = std::min(scanned.size(), options_.scan_evaluations.size());
+  const std::size_t starts = n == 1 ? 1 : options_.scan_starts;
+  std::optional<Fit> best;
+  for (const Candidate& place :
+       scan_for_several(problem, start, scanned, options_.scan_evaluations[n - 1], starts)) {
+    Fit found = fit(problem, place, kCoarseFit);
+    if (!best || found.sum_of_squares < best->sum_of_squares) best = std::move(found);
+  }
+  return *best;
+}
+
+Fit EffectScan::look_in_place(const Candidate& candidate, std::size_t index,
+                              const Hypothesis& other) const {
+  Fit look = first_look(candidate.without(index), other);
+  if (!other.contains(candidate.effects[index].effect)) return look;
+  std::optional<Fit> near_limit = look_from_limit(candidate, index, other);
+  return near_limit && near_limit->sum_of_squares < look.sum_of_squares ? *near_limit : look;
+}
+
+std::optional<Fit> EffectScan::look_from_limit(const Candidate& limit, std::size_t index,
+                                               const Hypothesis& general) const {
+  const std::vector<SearchedParameter>& known = limit.effects[index].parameters;
+  const std::vector<double> known_values = limit.values_of(index);
+  std::vector<double> values = general.middle();
+  Candidate start = limit.without(index);
+  const auto first = start.coordinates().size();
+  std::vector<Index> scanned;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const auto same =
+        std::ranges::find(known, general.parameters[i].name, &SearchedParameter::name);
+    if (same == known.end()) {
+      scanned.push_back(first + static_cast<Index>(i));
+    } else {
+      values[i] = known_values[static_cast<std::size_t>(same - known.begin())];
+    }
+  }
+  if (scanned.size() == values.size()) return std::nullopt;
+  start = start.with(general, values);
+  if (scanned.empty()) return fit(coarse_, start, kCoarseFit);
+  return best_from_scan(coarse_, start, scanned);
 }
 
 std::vector<const Hypothesis*> EffectScan::promising(const Candidate& base,

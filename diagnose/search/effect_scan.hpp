@@ -6,23 +6,17 @@
 
 #include <Eigen/QR>
 
+#include <optional>
 #include <string_view>
 #include <vector>
 
 namespace flexarm::diagnose {
 
-/// Whether one of `hypotheses` is a limit of the hypothesis.
-bool has_limit(const Hypothesis& hypothesis, const std::vector<Hypothesis>& hypotheses);
-
-/// Its parameters, each at the middle of its range.
-std::vector<double> middle_of(const Hypothesis& hypothesis);
-
 /// The first look at effects: scans over their whole ranges on a part of the data with few modes.
 class EffectScan {
  public:
-  /// `hypotheses`, `options` and `work` must outlive the object.
-  EffectScan(const Problem& problem, const std::vector<Hypothesis>& hypotheses,
-             const SelectionOptions& options, ReportedWork& work);
+  /// `options` and `work` must outlive the object.
+  EffectScan(const Problem& problem, const SelectionOptions& options, ReportedWork& work);
   EffectScan(const EffectScan&) = delete;
   EffectScan& operator=(const EffectScan&) = delete;
 
@@ -32,20 +26,26 @@ class EffectScan {
                                            std::vector<const Hypothesis*> others,
                                            std::string_view what);
 
-  /// `base` with each of the hypotheses as a scan of it found it, the best first. Those that have
-  /// another as a limit come after that, and only where the limit is among the best: a general
-  /// effect far from its limit still does some of what the limit does.
+  /// `base` with each of the hypotheses as a scan of it found it, the best first; none if
+  /// cancelled.
   std::vector<Fit> first_looks(const Candidate& base, const std::vector<const Hypothesis*>& others,
                                std::string_view what, double from, double to);
 
-  /// The last effect of `start` scanned, and all refitted to the part of the data.
-  Fit first_look(const Candidate& start) const;
+  /// `base` with `other`: a scan of that, then all refitted to the part of the data.
+  Fit first_look(const Candidate& base, const Hypothesis& other) const;
+  /// The same for `other` in place of the `index`-th effect of `candidate`. Where that is a limit
+  /// of it, looked for from there too: at the limit's values of the parameters that both have.
+  Fit look_in_place(const Candidate& candidate, std::size_t index, const Hypothesis& other) const;
 
  private:
+  Fit best_from_scan(const Problem& problem, const Candidate& start,
+                     const std::vector<Eigen::Index>& scanned) const;
+  /// Null where they have no parameter in common.
+  std::optional<Fit> look_from_limit(const Candidate& limit, std::size_t index,
+                                     const Hypothesis& general) const;
   double largest_part(const Fit& left, const Eigen::HouseholderQR<Eigen::MatrixXd>& refitted,
                       const Hypothesis& hypothesis) const;
 
-  const std::vector<Hypothesis>& hypotheses_;
   const SelectionOptions& options_;
   ReportedWork& work_;
   Experiment coarse_experiment_;

@@ -31,6 +31,12 @@ bool Hypothesis::contains(const std::string& other_effect) const {
   return std::ranges::find(entry->contains, other_effect) != entry->contains.end();
 }
 
+std::vector<double> Hypothesis::middle() const {
+  std::vector<double> values;
+  for (const auto& parameter : parameters) values.push_back(parameter.value(0.5));
+  return values;
+}
+
 const std::string& Hypothesis::unit_of(const SearchedParameter& parameter) const {
   return std::ranges::find(entry->definition->parameters, parameter.name,
                            &arm::EffectParameter::name)
@@ -59,6 +65,15 @@ std::vector<Hypothesis> hypotheses(const Experiment& experiment) {
     }
   }
   return all;
+}
+
+std::vector<const Hypothesis*> limits_of(const Hypothesis& effect,
+                                         const std::vector<Hypothesis>& all) {
+  std::vector<const Hypothesis*> limits;
+  for (const Hypothesis& other : all) {
+    if (effect.contains(other.effect)) limits.push_back(&other);
+  }
+  return limits;
 }
 
 arm::Arm extended(const arm::Arm& arm, const Hypothesis& hypothesis,

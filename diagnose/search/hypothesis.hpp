@@ -29,6 +29,8 @@ struct Hypothesis {
   bool shows_in(measured::RunKind kind) const;
   /// At a limit of its parameters it becomes that effect: being more general is no rivalry.
   bool contains(const std::string& other_effect) const;
+  /// Its parameters, each at the middle of its range.
+  std::vector<double> middle() const;
   /// Unit of a parameter; "1" for a plain number.
   const std::string& unit_of(const SearchedParameter& parameter) const;
 };
@@ -37,6 +39,10 @@ struct Hypothesis {
 /// effects::entries(): not effects that the arm file already has, nor those that show in no kind of
 /// its runs. Of an effect on one sensor, one a sensor.
 std::vector<Hypothesis> hypotheses(const Experiment& experiment);
+
+/// Those of `all` that the effect becomes at a limit of its parameters.
+std::vector<const Hypothesis*> limits_of(const Hypothesis& effect,
+                                         const std::vector<Hypothesis>& all);
 
 /// The arm with the effect at these values, one a parameter.
 arm::Arm extended(const arm::Arm& arm, const Hypothesis& hypothesis,

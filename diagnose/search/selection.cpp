@@ -5,6 +5,7 @@
 #include "diagnose/search/rivals.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 #include <set>
 #include <string>
@@ -28,6 +29,16 @@ std::vector<Candidate> candidates_of(const std::vector<Explanation>& sets) {
   return candidates;
 }
 
+constexpr std::string_view kSingles = "effects one by one";
+
+/// The best of `singles` that is a limit of the effect.
+std::vector<Explanation>::const_iterator limit_among(const std::vector<Explanation>& singles,
+                                                     const Hypothesis& effect) {
+  return std::ranges::find_if(singles, [&](const Explanation& single) {
+    return effect.contains(single.fit.candidate.effects.front().effect);
+  });
+}
+
 class Search {
  public:
   Search(const Problem& problem, const std::vector<Hypothesis>& hypotheses,
@@ -36,7 +47,7 @@ class Search {
         hypotheses_(hypotheses),
         options_(options),
         work_(progress),
-        scan_(problem, hypotheses, options, work_) {}
+        scan_(problem, options, work_) {}
 
   Selection run() {
     Selection made = found();
@@ -51,10 +62,8 @@ class Search {
     made.chosen = made.nothing;
     see_noise(made);
     if (is_enough(made)) return made;
-    made.singles = all_with(made.nothing.fit.candidate, "effects one by one", 0.0, kSinglesDone,
-                            options_.singles_refitted);
+    try_singles(made);
     if (!made.singles.empty()) {
-      see_noise(made);
       extend(made);
       generalise(made);
     }
@@ -62,6 +71,53 @@ class Search {
     made.rivals = indistinguishable_sets(made, posterior_of(made, hypotheses_.size(), options_));
     made.cancelled = work_.is_cancelled();
     return made;
+  }
+
+  /// Effects by themselves. Those that have another as a limit come after it.
+  void try_singles(Selection& made) {
+    const Candidate& none = made.nothing.fit.candidate;
+    made.singles = all_with(none, special_effects(), kSingles, 0.0, 0.7 * kSinglesDone,
+                            options_.singles_refitted);
+    if (made.singles.empty()) return;
+    see_noise(made);
+    const std::vector<const Hypothesis*> general = general_effects(made.singles);
+    std::vector<Explanation> found(general.size());
+    work_.in_parallel(general.size(), kSingles, work_.done(), kSinglesDone, [&](std::size_t i) {
+      const auto limit = limit_among(made.singles, *general[i]);
+      found[i] = fitted((limit == made.singles.end()
+                             ? scan_.first_look(none, *general[i])
+                             : scan_.look_in_place(limit->fit.candidate, 0, *general[i]))
+                            .candidate);
+    });
+    if (work_.is_cancelled()) return;
+    std::ranges::copy_if(found, std::back_inserter(made.singles), is_identified);
+    sort_by_fit(made.singles);
+    see_noise(made);
+  }
+
+  /// Those that have no other effect as a limit.
+  std::vector<const Hypothesis*> special_effects() const {
+    std::vector<const Hypothesis*> special;
+    for (const Hypothesis& effect : hypotheses_) {
+      if (limits_of(effect, hypotheses_).empty()) special.push_back(&effect);
+    }
+    return special;
+  }
+
+  /// Those that have: all of them if none of `singles` leaves noise, else those of which a limit
+  /// does.
+  std::vector<const Hypothesis*> general_effects(const std::vector<Explanation>& singles) const {
+    const bool all = std::ranges::none_of(singles, &Explanation::leaves_noise);
+    std::vector<const Hypothesis*> general;
+    for (const Hypothesis& effect : hypotheses_) {
+      if (limits_of(effect, hypotheses_).empty()) continue;
+      const bool limit_leaves_noise = std::ranges::any_of(singles, [&](const Explanation& single) {
+        return effect.contains(single.fit.candidate.effects.front().effect) &&
+               single.leaves_noise();
+      });
+      if (all || limit_leaves_noise) general.push_back(&effect);
+    }
+    return general;
   }
 
   /// The noise that is seen under what the best so far leaves.
@@ -123,16 +179,12 @@ class Search {
     return explain(problem_, fit(problem_, start));
   }
 
-  /// `base` with hypotheses that it has not, each found by a scan of a coarse problem; the
+  /// `base` with each of `others` that it has not, found by a scan of a coarse problem; the
   /// `refitted` best of these fitted to all data, the best first.
-  std::vector<Explanation> all_with(const Candidate& base, std::string_view what, double from,
-                                    double to, std::size_t refitted) {
-    std::vector<const Hypothesis*> others;
-    for (const Hypothesis& hypothesis : hypotheses_) {
-      // An effect that has another as a limit follows that one: generalise().
-      const bool follows = !base.effects.empty() && has_limit(hypothesis, hypotheses_);
-      if (!base.has(hypothesis) && !follows) others.push_back(&hypothesis);
-    }
+  std::vector<Explanation> all_with(const Candidate& base, std::vector<const Hypothesis*> others,
+                                    std::string_view what, double from, double to,
+                                    std::size_t refitted) {
+    std::erase_if(others, [&](const Hypothesis* other) { return base.has(*other); });
     if (!base.effects.empty()) others = scan_.promising(base, std::move(others), what);
     if (others.empty() || work_.is_cancelled()) return {};
     const double middle = from + 0.6 * (to - from);
@@ -169,10 +221,10 @@ class Search {
   /// now and kept.
   Explanation replaced(Selection& made, const Candidate& candidate, std::size_t index,
                        const Hypothesis& other) const {
-    const Candidate start = candidate.without(index).with(other, middle_of(other));
-    auto& kept = start.effects.size() == 1 ? made.singles : made.combinations;
-    if (const auto same = find_set(kept, start); same != kept.end()) return *same;
-    Explanation found = fitted(scan_.first_look(start).candidate);
+    auto& kept = candidate.effects.size() == 1 ? made.singles : made.combinations;
+    const auto same = find_set(kept, candidate.without(index).with(other, other.middle()));
+    if (same != kept.end()) return *same;
+    Explanation found = fitted(scan_.look_in_place(candidate, index, other).candidate);
     kept.push_back(found);
     sort_by_fit(kept);
     return found;
@@ -284,11 +336,12 @@ class Search {
     }
   }
 
-  /// `base` with any other effect, among the combinations; nothing where these are there. Of the
-  /// same effects, begun from another, the better stays.
+  /// `base` with any other special effect, among the combinations; nothing where these are there.
+  /// Of the same effects, begun from another, the better stays. General ones follow: generalise().
   void combine(Selection& made, const Candidate& base, std::string_view what, double to) {
     if (!combined_.insert(base.labels()).second) return;
-    for (Explanation& found : all_with(base, what, work_.done(), to, options_.pairs_refitted)) {
+    for (Explanation& found :
+         all_with(base, special_effects(), what, work_.done(), to, options_.pairs_refitted)) {
       const auto same = find_set(made.combinations, found.fit.candidate);
       if (same == made.combinations.end()) {
         made.combinations.push_back(std::move(found));

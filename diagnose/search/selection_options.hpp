@@ -55,6 +55,8 @@ struct SelectionOptions {
   int coarse_modes = 8;
   /// Values tried in a scan of an effect of 1, 2, 3 parameters or more.
   std::array<int, 3> scan_evaluations = {40, 90, 160};
+  /// Of these begun a fit from <= this, for an effect of several parameters.
+  std::size_t scan_starts = 3;
   /// Causes exchanged for others, one after the other, <= this.
   int most_exchanges = 4;
   /// Rounds that each add a cause, or exchange some for others, <= this.

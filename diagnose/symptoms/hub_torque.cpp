@@ -150,7 +150,7 @@ std::vector<Tested> simple_terms(const HubRegression& all, const std::vector<Hub
   using Motion = HubMotion;
   using Kind = HubTorqueKind;
   std::vector<Tested> made;
-  made.push_back(all.tested(Kind::dry_friction, "N m",
+  made.push_back(all.tested(Kind::coulomb_friction, "N m",
                             [](const Motion& m, std::size_t k) { return -sign_at_sample(m, k); }));
   made.push_back(all.tested(
       Kind::viscous_friction, "N m s/rad",
@@ -286,7 +286,8 @@ void put_last(const HubRegression& all, const Regressed& regressed, double befor
   const double scale = std::max(1.0, left / n) * n / independent;
   term.coefficient =
       own == 1 ? regressed.coefficients(last) : regressed.coefficients.tail(2).norm();
-  const double of_residuals = std::sqrt(scale * regressed.covariance.diagonal().tail(own).maxCoeff());
+  const double of_residuals =
+      std::sqrt(scale * regressed.covariance.diagonal().tail(own).maxCoeff());
   term.std_error = std::hypot(of_residuals, kFirstOrder * term.coefficient);
   term.share = (before - left) / beyond_noise;
   const double freedom = static_cast<double>(own);

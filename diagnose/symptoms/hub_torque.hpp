@@ -11,7 +11,7 @@ namespace flexarm::diagnose {
 
 /// What a torque on the hub, beyond the commanded one, may depend on; each times its coefficient.
 enum class HubTorqueKind {
-  dry_friction,      ///< -sign(velocity) [N m]
+  coulomb_friction,  ///< -sign(velocity) [N m]
   viscous_friction,  ///< -velocity [N m s/rad]
   inertia,           ///< -acceleration [kg m^2]
   spring,            ///< -angle [N m/rad]
@@ -23,7 +23,7 @@ enum class HubTorqueKind {
   saturation,        ///< -(commanded torque beyond a part of the largest) [1]
 };
 
-/// "dry_friction", "viscous_friction", ...
+/// "coulomb_friction", "viscous_friction", ...
 std::string_view to_string(HubTorqueKind kind);
 /// As tables call the term.
 std::string_view term_name(HubTorqueKind kind);

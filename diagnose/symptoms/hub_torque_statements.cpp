@@ -23,7 +23,7 @@ std::string amount(const HubTorqueTerm& term) {
 std::string meaning(const HubTorqueTerm& term) {
   const bool positive = term.coefficient > 0.0;
   switch (term.kind) {
-    case HubTorqueKind::dry_friction:
+    case HubTorqueKind::coulomb_friction:
       return fmt::format(
           "Coulomb term {}, {} the velocity ({})", amount(term),
           positive ? "opposing" : "in the direction of",
@@ -63,7 +63,7 @@ std::string meaning(const HubTorqueTerm& term) {
 /// What the torque depends on; empty for one that is constant.
 std::string_view quantity(HubTorqueKind kind) {
   switch (kind) {
-    case HubTorqueKind::dry_friction:
+    case HubTorqueKind::coulomb_friction:
     case HubTorqueKind::viscous_friction:
       return "velocity";
     case HubTorqueKind::inertia:
@@ -97,7 +97,7 @@ struct TermNames {
   std::string_view name;  ///< in tables
 };
 constexpr std::array kTermNames = {
-    TermNames{HubTorqueKind::dry_friction, "dry_friction", "Coulomb"},
+    TermNames{HubTorqueKind::coulomb_friction, "coulomb_friction", "Coulomb"},
     TermNames{HubTorqueKind::viscous_friction, "viscous_friction", "viscous"},
     TermNames{HubTorqueKind::inertia, "inertia", "inertia"},
     TermNames{HubTorqueKind::spring, "spring", "spring"},

@@ -3,6 +3,7 @@
 #include "diagnose/symptoms/symptom.hpp"
 #include "diagnose/symptoms/symptoms_input.hpp"
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,7 +18,11 @@ struct RootNumber {
   double after = 0.0;   ///< with them
 
   double deviates() const { return (measured - before) / std_error; }
-  double shift_percent() const { return 100.0 * (measured - before) / before; }
+  /// NaN where the baseline has none.
+  double shift_percent() const {
+    return before == 0.0 ? std::numeric_limits<double>::quiet_NaN()
+                         : 100.0 * (measured - before) / before;
+  }
 };
 
 /// A pole, or a zero of one sensor, of one run.

@@ -64,7 +64,9 @@ std::vector<std::string> moved(const RootGroup& group, std::size_t tests, Number
   std::vector<std::string> texts;
   for (const auto& [order, shift] : furthest) {
     const RootNumber& own = *number(*shift);
-    texts.push_back(fmt::format("{}: {:+.2g} % ({:.0f} sigma, run {})", order, own.shift_percent(),
+    const std::string shifted = own.before == 0.0 ? fmt::format("{:.2g}, baseline 0", own.measured)
+                                                  : fmt::format("{:+.2g} %", own.shift_percent());
+    texts.push_back(fmt::format("{}: {} ({:.0f} sigma, run {})", order, shifted,
                                 std::abs(own.deviates()), shift->run));
   }
   return texts;

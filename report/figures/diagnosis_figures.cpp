@@ -189,7 +189,7 @@ Binned binned(const std::vector<double>& x, const std::vector<double>& y) {
 double found_torque(const diagnose::HubTorque& torque, bool of_velocity, double x) {
   double sum = 0.0;
   for (const auto& term : torque.terms) {
-    if (of_velocity && term.kind == HubTorqueKind::dry_friction) {
+    if (of_velocity && term.kind == HubTorqueKind::coulomb_friction) {
       sum -= std::copysign(term.coefficient, term.coefficient * x);
     }
     if (of_velocity && term.kind == HubTorqueKind::viscous_friction) sum -= term.coefficient * x;
@@ -258,7 +258,7 @@ Panel torque_panel(const diagnose::HubTorque& torque, const diagnose::HubTorqueT
 
 bool depends_on_motion(const diagnose::HubTorque& torque) {
   return std::ranges::any_of(torque.terms, [](const auto& term) {
-    return term.kind == HubTorqueKind::dry_friction ||
+    return term.kind == HubTorqueKind::coulomb_friction ||
            term.kind == HubTorqueKind::viscous_friction || term.kind == HubTorqueKind::spring ||
            term.kind == HubTorqueKind::ripple;
   });

@@ -101,7 +101,7 @@ Json diagnosis_json(const diagnose::Diagnosis& diagnosis, const std::string& ext
           {"uncertain_numbers", uncertain_numbers},
           {"formulations", formulations_json(diagnosis.formulations)},
           {"extended_arm", extended_arm.empty() ? Json(nullptr) : Json(extended_arm)},
-          {"next_experiments", further_runs_json(diagnosis.next_experiments)},
+          {"next_experiments", additional_runs_json(diagnosis.next_experiments)},
           {"notices", diagnosis.notices}};
 }
 

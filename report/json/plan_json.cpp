@@ -25,47 +25,29 @@ Json values_json(const std::optional<diagnose::Candidate>& candidate) {
   return values;
 }
 
-/// The keys in which the lists of runs differ.
-struct RunKeys {
-  const char* based_on;
-  const char* resolved;
-  const char* delta_bic;
-};
-
-Json run_json(const diagnose::FurtherRun& further, const char* based_on) {
-  const diagnose::PlannedRun& run = further.run;
-  Json sensors = Json::array();
-  for (const auto& sensor : run.sensors) sensors.push_back(arm::to_string(sensor.sensor));
-  const bool in_time = run.kind == measured::RunKind::time;
-  return {{"run", run.id},
-          {based_on, further.like},
-          {"change", further.change},
-          {"kind", to_string(run.kind)},
-          {"input", diagnose::input_of(run)},
-          {"peak_torque_N_m",
-           in_time ? Json(response::peak_N_m(diagnose::torque_of(run))) : Json(nullptr)},
-          {"payload_mass_kg", run.payload ? Json(run.payload->mass_kg) : Json(nullptr)},
-          {"sensors", sensors}};
-}
-
-Json runs_json(const std::vector<diagnose::NextExperiment>& runs, const RunKeys& keys) {
-  Json all = Json::array();
-  for (const auto& [further, leads, told, score] : runs) {
-    Json one = run_json(further, keys.based_on);
-    one.update({{keys.resolved, told}, {keys.delta_bic, leads}, {"score", score}});
-    all.push_back(std::move(one));
-  }
-  return all;
-}
-
 }  // namespace
 
-Json further_runs_json(const std::vector<diagnose::NextExperiment>& runs) {
-  return runs_json(runs, {"like", "told", "leads"});
-}
-
 Json additional_runs_json(const std::vector<diagnose::NextExperiment>& runs) {
-  return runs_json(runs, {"based_on", "resolved", "delta_bic"});
+  Json all = Json::array();
+  for (const auto& [further, leads, told, score] : runs) {
+    const diagnose::PlannedRun& run = further.run;
+    Json sensors = Json::array();
+    for (const auto& sensor : run.sensors) sensors.push_back(arm::to_string(sensor.sensor));
+    const bool in_time = run.kind == measured::RunKind::time;
+    all.push_back({{"run", run.id},
+                   {"based_on", further.like},
+                   {"change", further.change},
+                   {"kind", to_string(run.kind)},
+                   {"input", diagnose::input_of(run)},
+                   {"peak_torque_N_m",
+                    in_time ? Json(response::peak_N_m(diagnose::torque_of(run))) : Json(nullptr)},
+                   {"payload_mass_kg", run.payload ? Json(run.payload->mass_kg) : Json(nullptr)},
+                   {"sensors", sensors},
+                   {"resolved", told},
+                   {"delta_bic", leads},
+                   {"score", score}});
+  }
+  return all;
 }
 
 Json plan_json(const diagnose::Plan& plan) {

@@ -261,8 +261,8 @@ std::string verdict_line(const compare::Comparison& comparison) {
           ? fmt::format("{}: missing in {} or {}", worst.quantity, worst.first, worst.second)
           : fmt::format("{}: relative difference of {} and {} {:.1e}, tolerance {:.0e}",
                         worst.quantity, worst.first, worst.second, worst.distance, worst.tolerance);
-  return comparison.verdict.agree ? "Verdict: agree. Largest difference: " + where + "."
-                                  : "Verdict: DISAGREE. Largest difference: " + where + ".";
+  return fmt::format("Verdict: {}. Largest difference relative to its tolerance: {}.",
+                     comparison.verdict.agree ? "agree" : "DISAGREE", where);
 }
 
 }  // namespace flexarm::report

@@ -40,9 +40,10 @@ TEST_F(Compare, WithoutArgumentsItIsThePapersArmAndAgrees) {
   const Ended ended = run({"compare", "--quick"});
   EXPECT_EQ(ended.status, 0) << ended.errors;
   EXPECT_EQ(ended.errors, "");
-  EXPECT_THAT(ended.output, AllOf(StartsWith("aluminium link of the paper's Table 1\nl 0.96 m, "),
-                                  HasSubstr("11.8618286445"), HasSubstr("2.87337494784"),
-                                  HasSubstr("\nVerdict: agree. Largest difference: ")));
+  EXPECT_THAT(ended.output,
+              AllOf(StartsWith("aluminium link of the paper's Table 1\nl 0.96 m, "),
+                    HasSubstr("11.8618286445"), HasSubstr("2.87337494784"),
+                    HasSubstr("\nVerdict: agree. Largest difference relative to its tolerance: ")));
   EXPECT_THAT(ended.output, HasSubstr("\nnext: write plots and tables with  flexarm compare"));
   EXPECT_TRUE(names_in().empty());
 }
@@ -73,7 +74,8 @@ TEST_F(Compare, FormulationsThatDisagreeGiveStatusOneAndTheWorstPair) {
   const Ended ended = run({"compare", "--quick", "--poles", "2", "--tolerance", "1e-18"});
   EXPECT_EQ(ended.status, 1);
   EXPECT_EQ(ended.errors, "");
-  EXPECT_THAT(ended.output, HasSubstr("\nVerdict: DISAGREE. Largest difference: "));
+  EXPECT_THAT(ended.output,
+              HasSubstr("\nVerdict: DISAGREE. Largest difference relative to its tolerance: "));
 }
 
 TEST_F(Compare, BadInputIsOneLineAndStatusTwo) {

@@ -49,7 +49,8 @@ TEST_P(HubTorqueOfHidden, IsNamedWithItsSize) {
 
 INSTANTIATE_TEST_SUITE_P(
     Effects, HubTorqueOfHidden,
-    testing::Values(Hidden{"coulomb_friction", "torque", 0.01, HubTorqueKind::dry_friction, 0.01},
+    testing::Values(Hidden{"coulomb_friction", "torque", 0.01, HubTorqueKind::coulomb_friction,
+                           0.01},
                     Hidden{"hub_viscous_friction", "coefficient", 0.004,
                            HubTorqueKind::viscous_friction, 0.004},
                     Hidden{"hub_spring", "stiffness", 0.2, HubTorqueKind::spring, 0.2},

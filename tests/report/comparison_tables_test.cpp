@@ -76,17 +76,20 @@ TEST(ComparisonTables, ConvergenceIsTheWorstRootsAndRangesOverAll) {
 
 TEST(ComparisonTables, TheVerdictNamesTheWorstPair) {
   EXPECT_EQ(verdict_line(kComparison),
-            "Verdict: DISAGREE. Largest difference: pole 2: missing in exact_tf or fem.");
+            "Verdict: DISAGREE. Largest difference relative to its tolerance: pole 2: missing in "
+            "exact_tf or fem.");
   compare::Comparison other = kComparison;
   other.findings.pop_back();
   other.verdict = compare::judge(other.findings);
   EXPECT_EQ(verdict_line(other),
-            "Verdict: DISAGREE. Largest difference: pole 1: relative difference of exact_tf and "
+            "Verdict: DISAGREE. Largest difference relative to its tolerance: pole 1: relative "
+            "difference of exact_tf and "
             "fem 1.0e-02, tolerance "
             "1e-09.");
   other.findings = {{"pole 1", "exact_tf", "fem", 1e-16, 1e-9}};
   other.verdict = compare::judge(other.findings);
-  EXPECT_THAT(verdict_line(other), StartsWith("Verdict: agree. Largest difference: pole 1: "));
+  EXPECT_THAT(verdict_line(other),
+              StartsWith("Verdict: agree. Largest difference relative to its tolerance: pole 1: "));
 }
 
 TEST(ComparisonTables, TheLegendNamesTheAccuracy) {

@@ -57,7 +57,7 @@ TEST(SymptomTable, HasAllStatements) {
 TEST(DiagnosisJson, HasTheStatementsBesideWhatWasThereBefore) {
   diagnose::Diagnosis diagnosis;
   diagnosis.symptoms = sample();
-  diagnosis.symptoms.hub_torque.terms.push_back({.kind = diagnose::HubTorqueKind::dry_friction,
+  diagnosis.symptoms.hub_torque.terms.push_back({.kind = diagnose::HubTorqueKind::coulomb_friction,
                                                  .unit = "N m",
                                                  .coefficient = 0.01,
                                                  .std_error = 1e-4,
@@ -67,14 +67,14 @@ TEST(DiagnosisJson, HasTheStatementsBesideWhatWasThereBefore) {
   EXPECT_EQ(json.at("symptoms").size(), 6U);
   EXPECT_EQ(json.at("symptoms")[0].at("kind"), "error");
   EXPECT_EQ(json.at("symptoms")[0].at("sensor"), "hub_angle");
-  EXPECT_EQ(json.at("residual").at("hub_torque")[0].at("depends_on"), "dry_friction");
+  EXPECT_EQ(json.at("residual").at("hub_torque")[0].at("depends_on"), "coulomb_friction");
   EXPECT_TRUE(json.at("residual").contains("channels"));
   EXPECT_TRUE(json.at("residual").at("run_consistency").is_null());
 }
 
 TEST(HubTorqueFigure, ShowsTheStepThatWasFound) {
   diagnose::HubTorque torque;
-  torque.terms.push_back({.kind = diagnose::HubTorqueKind::dry_friction,
+  torque.terms.push_back({.kind = diagnose::HubTorqueKind::coulomb_friction,
                           .unit = "N m",
                           .coefficient = 0.01,
                           .std_error = 1e-4});

@@ -39,13 +39,18 @@ TrialOptions parse_options(CLI::App& app, int argc, char** argv) {
   TrialOptions options;
   TrialChoice& choice = options.choice;
   app.add_option("--kind", choice.kinds, "time, frf, modal")->delimiter(',');
-  app.add_option(
-         "--effects", choice.effects,
-         "Effects to simulate: names, or single (each of the library), pairs, none, outside")
+  app.add_option("--effects", choice.effects,
+                 "Effects to simulate: names, several at once joined by +; or single (each of the "
+                 "library), "
+                 "pairs, none, outside")
       ->delimiter(',');
   app.add_option("--strength", choice.strengths,
                  "faint, weak, middle, strong; default: all except faint")
       ->delimiter(',');
+  app.add_option("--arm", choice.arm,
+                 "aluminium link, steel link, sandwich link, steel ruler; default: by chance");
+  app.add_option("--size", choice.size,
+                 "Size of the effect in place of the strengths; of a changed number its logarithm");
   app.add_option("--noise", choice.noises, "Noise-to-signal ratio")->delimiter(',');
   app.add_option("--trials", choice.trials, "Number of trials of each combination")
       ->capture_default_str();

@@ -114,7 +114,7 @@ TrialResult score(const Truth& truth, const Answer& answer) {
   result.kind = measured::to_string(truth.key.kind);
   result.arm = truth.arm;
   result.noise = truth.key.noise;
-  result.strength = truth.key.hidden.empty() ? "-" : to_string(truth.key.strength);
+  result.strength = truth.key.hidden.empty() ? "-" : truth.key.strength_name();
   result.hidden = truth.key.hidden;
   result.outside = truth.world.has_outside();
   if (!truth.errors.empty()) {

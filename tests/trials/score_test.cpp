@@ -14,6 +14,7 @@
 namespace flexarm::trials {
 namespace {
 
+using testing::ElementsAre;
 using testing::HasSubstr;
 
 Truth truth_of(std::vector<std::string> hidden) {
@@ -179,11 +180,11 @@ TEST(Scorecard, SmallestEffectIsAMultipleOfTheNoise) {
     found.push_back(trial("weak", 0.048, Outcome::exact));
     found.push_back(trial("strong", 0.5, Outcome::in_class));
   }
-  EXPECT_THAT(scorecard(found), HasSubstr("| gravity | < 1.6 (20) |"));
+  EXPECT_THAT(scorecard(found), HasSubstr("| smallest strength | < 1.6 (20) |"));
   // Where lesser ones are lost, it is the least that is found.
   auto with_faint = found;
   for (int i = 0; i < kEnough; ++i) with_faint.push_back(trial("faint", 0.015, Outcome::missed));
-  EXPECT_THAT(scorecard(with_faint), HasSubstr("| gravity | 1.6 (20) |"));
+  EXPECT_THAT(scorecard(with_faint), HasSubstr("| smallest strength | 1.6 (20) |"));
   EXPECT_THAT(scorecard(with_faint), HasSubstr("| no effect identified | 20/20 (100 %) |"));
   // Faint ones are not among those that the first table counts.
   EXPECT_THAT(scorecard(with_faint), HasSubstr("| one effect: identified | 20/40 (50 %) |"));
@@ -192,10 +193,10 @@ TEST(Scorecard, SmallestEffectIsAMultipleOfTheNoise) {
   for (auto& one : by_chance) {
     if (one.strength == "strong") one.outcome = Outcome::wrong;
   }
-  EXPECT_THAT(scorecard(by_chance), HasSubstr("| gravity | none |"));
+  EXPECT_THAT(scorecard(by_chance), HasSubstr("| smallest strength | none |"));
   // Nothing is claimed of fewer trials.
   found.pop_back();
-  EXPECT_THAT(scorecard(found), HasSubstr("| gravity | few (19) |"));
+  EXPECT_THAT(scorecard(found), HasSubstr("| smallest strength | few (19) |"));
 }
 
 TEST(TrialList, HidesOnlyWhatTheDataShow) {
@@ -204,6 +205,40 @@ TEST(TrialList, HidesOnlyWhatTheDataShow) {
   for (const auto& key : friction) EXPECT_EQ(key.kind, measured::RunKind::time);
   EXPECT_EQ(list_trials({.effects = {"none"}, .trials = 5}).size(), 30U);
   EXPECT_ANY_THROW(list_trials({.effects = {"friction"}}));
+  const auto together = list_trials({.effects = {"coulomb_friction+hub_inertia"}, .trials = 2});
+  ASSERT_EQ(together.size(), 12U);  // of three strengths
+  EXPECT_THAT(together.front().hidden, ElementsAre("coulomb_friction", "hub_inertia"));
+}
+
+TEST(TrialList, AGivenSizeStandsInPlaceOfTheStrength) {
+  const auto list = list_trials({.kinds = {"time"},
+                                 .effects = {"beam_length"},
+                                 .noises = {0.01},
+                                 .trials = 5,
+                                 .arm = "steel ruler",
+                                 .size = 0.02});
+  ASSERT_EQ(list.size(), 5U);
+  EXPECT_EQ(list.front().id(), "time-beam_length-steel ruler-0.02-1-1@1");
+}
+
+TEST(Scorecard, WrongGeometryIsATableOfItsOwn) {
+  TrialResult one;
+  one.kind = "time";
+  one.arm = "steel ruler";
+  one.noise = 0.01;
+  one.strength = "0.02";
+  one.hidden = {"beam_length"};
+  one.named = {"beam_length"};
+  one.outcome = Outcome::exact;
+  one.parameters = one.covered = 1;
+  TrialResult crack = one;
+  crack.named = {"local_stiffness_loss"};
+  crack.outcome = Outcome::wrong;
+  crack.covered = 0;
+  const std::string card = scorecard({one, crack});
+  EXPECT_THAT(card, HasSubstr("| beam_length, size 0.02, noise 1 % | 1/2 (50 %) | 1/2 (50 %) | "
+                              "1/2 (50 %) |"));
+  EXPECT_THAT(card, HasSubstr("\n0 simulated experiments"));
 }
 
 }  // namespace

@@ -37,13 +37,21 @@ verdict `partly_explained` counts as wrong. So does an effect with a probability
 true one is outside the library. Bounds are Clopper-Pearson, one-sided, 95 %.
 )";
 constexpr const char* kAboutSmallest =
-    R"(## Smallest effect identified in 90 % of trials
+    R"(## Smallest single effect identified in 90 % of trials
 
-Strength as a multiple of the noise floor: the smallest strength from which the effect, or its
-equivalence class of at most three, is identified in at least 90 % of the trials, at this and every
-larger strength. "<": no smaller strength was tested. In parentheses: number of trials at that
-strength. "few": fewer than 20 trials, no statement. For this table, faint effects with an NRMSE of
-1.5 % are simulated in addition. They are not part of the tables above. Results for them:
+Strength as a multiple of the noise floor: the smallest strength from which a single effect of the
+library, or its equivalence class of at most three, is identified in at least 90 % of the trials, at
+this and every larger strength. "<": no smaller strength was tested. In parentheses: number of
+trials at that strength. "few": fewer than 20 trials, no statement. For this table, faint effects
+with an NRMSE of 1.5 % are simulated in addition. They are not part of the tables above.
+
+)";
+
+constexpr const char* kAboutRuler =
+    R"(## Wrong geometry
+
+A steel ruler, 0.5 m x 30 mm x 1 mm, whose arm file states a length or thickness that is wrong by
+the factor exp(+-size).
 
 )";
 
@@ -225,9 +233,10 @@ std::string summary_table(const std::vector<Cell>& cells) {
   add("no answer", [](const Results& all) {
     return part(count(all, Outcome::no_answer), static_cast<int>(all.size()));
   });
-  add("computing time: median, maximum [s]", [](const Results& all) {
+  add("wall time, one trial per core: median, maximum [s]", [](const Results& all) {
     std::vector<double> times;
     for (const auto& one : all) times.push_back(one.time_s);
+    if (times.empty()) return std::string("-");
     return fmt::format("{:.1f}, {:.1f}", median(times), std::ranges::max(times));
   });
   return text;
@@ -279,12 +288,12 @@ std::string faint_table(const Results& faint) {
 /// Trials behind a statement on 90 % of them.
 constexpr std::size_t kEnoughTrials = 20;
 
-/// The least strength at which a cause is found, over the noise: "< 1.7 (20)"; "none"; "few (2)".
-std::string smallest_found(const Results& of_cause) {
+/// The least strength at which causes are found, over the noise: "< 1.7 (20)"; "none"; "few (2)".
+std::string smallest_found(const Results& of_one_cause) {
   std::string smallest = "none";
   for (auto strength = kStrengths.rbegin(); strength != kStrengths.rend(); ++strength) {
     const Results of = chosen(
-        of_cause, [&](const TrialResult& one) { return one.strength == to_string(*strength); });
+        of_one_cause, [&](const TrialResult& one) { return one.strength == to_string(*strength); });
     if (of.empty()) continue;
     if (of.size() < kEnoughTrials) {
       return smallest == "none" ? fmt::format("few ({})", of.size()) : smallest;
@@ -299,23 +308,48 @@ std::string smallest_found(const Results& of_cause) {
   return smallest == "none" ? smallest : "< " + smallest;
 }
 
-std::string smallest_table(const std::vector<Cell>& cells) {
+std::string smallest_table(const Results& results) {
   std::vector<std::string> titles;
-  std::map<std::string, std::vector<std::string>> rows;
-  for (const Cause& cause : causes()) {
-    if (!cause.outside) rows[cause.name];
-  }
-  for (const Cell& cell : cells) {
+  std::vector<std::string> found;
+  for (const Cell& cell : cells_of(results)) {
     titles.push_back(cell.title);
-    for (auto& [name, found] : rows) {
-      const Results some = chosen(cell.results, [&](const TrialResult& one) {
-        return one.hidden == std::vector<std::string>{name};
-      });
-      found.push_back(some.empty() ? "" : smallest_found(some));
-    }
+    found.push_back(smallest_found(
+        chosen(cell.results, [](const TrialResult& one) { return has_effects(one, 1); })));
   }
-  std::string text = header("effect", titles);
-  for (const auto& [name, found] : rows) text += row(name, found);
+  return header("", titles) + row("smallest strength", found);
+}
+
+bool is_ruler(const TrialResult& one) {
+  return one.arm == "steel ruler";
+}
+
+/// A line a wrong number: how often it, or its class, is named within two standard errors, and how
+/// often a crack is.
+std::string ruler_table(const Results& ruler) {
+  if (ruler.empty()) return "No trials.\n";
+  std::map<std::string, Results> by_effect;
+  for (const TrialResult& one : ruler) {
+    by_effect[fmt::format("{}, size {}, noise {:g} %", fmt::join(one.hidden, "+"), one.strength,
+                          100.0 * one.noise)]
+        .push_back(one);
+  }
+  std::string text =
+      header("", {"identified, or in a class of at most three",
+                  "parameters within 1.96 standard errors", "local_stiffness_loss identified"});
+  for (const auto& [name, some] : by_effect) {
+    const auto all = static_cast<int>(some.size());
+    int covered = 0;
+    int parameters = 0;
+    for (const TrialResult& one : some) {
+      covered += one.covered;
+      parameters += one.parameters;
+    }
+    const int cracks = count(some, [](const TrialResult& one) {
+      return std::ranges::find(one.named, "local_stiffness_loss") != one.named.end();
+    });
+    text +=
+        row(name, {part(count(some, is_found), all), part(covered, parameters), part(cracks, all)});
+  }
   return text;
 }
 
@@ -324,8 +358,8 @@ std::string failure_list(const Results& results) {
   for (const auto& one : results) {
     const bool left_over = is_found(one) && one.verdict != "explained";
     if (is_right(one) && !left_over) continue;
-    text += fmt::format("- {} ({}): {}, {}; NRMSE {:.2g}, extended arm {:.2g}; {}\n", one.id, one.arm,
-                        to_string(one.outcome), one.verdict, one.before, one.after,
+    text += fmt::format("- {} ({}): {}, {}; NRMSE {:.2g}, extended arm {:.2g}; {}\n", one.id,
+                        one.arm, to_string(one.outcome), one.verdict, one.before, one.after,
                         one.values.empty() ? "no effect identified" : one.values);
   }
   return text.empty() ? "None.\n" : text;
@@ -350,22 +384,26 @@ void require_one_version(const Results& results, const std::string& version) {
   const auto other =
       std::ranges::find_if(results, [&](const auto& one) { return one.version != version; });
   if (other == results.end()) return;
-  throw arm::InputError(fmt::format(
-      "{}: result of flexarm {}, not of {}; use one results file per version",
-      other->id, other->version, version));
+  throw arm::InputError(
+      fmt::format("{}: result of flexarm {}, not of {}; use one results file per version",
+                  other->id, other->version, version));
 }
 
 std::string scorecard(const Results& results) {
   if (results.empty()) return "No trials.\n";
   require_one_version(results, results.front().version);
-  const Results faint = chosen(results, is_faint);
-  const Results judged = chosen(results, [](const TrialResult& one) { return !is_faint(one); });
-  return fmt::format("{}\n{}\n## Results by effect\n\n{}\n{}{}\n{}\n{}{}\n{}\n## Failures\n\n{}",
-                     fmt::format(kIntroduction, described(results.front().version), judged.size()),
-                     summary_table(cells_and_totals_of(judged)), confusion_table(judged),
-                     kAboutReliability, reliability_table(judged), coverage_table(judged),
-                     kAboutSmallest, faint_table(faint), smallest_table(cells_of(results)),
-                     failure_list(judged));
+  const Results ruler = chosen(results, is_ruler);
+  const Results drawn = chosen(results, [](const TrialResult& one) { return !is_ruler(one); });
+  const Results faint = chosen(drawn, is_faint);
+  const Results judged = chosen(drawn, [](const TrialResult& one) { return !is_faint(one); });
+  std::string text = fmt::format(kIntroduction, described(results.front().version), judged.size());
+  text += "\n" + summary_table(cells_and_totals_of(judged));
+  text += "\n## Results by effect\n\n" + confusion_table(judged);
+  text += "\n" + (kAboutReliability + reliability_table(judged)) + "\n" + coverage_table(judged);
+  text += "\n" + (kAboutRuler + ruler_table(ruler));
+  text += "\n" + (kAboutSmallest + smallest_table(drawn)) + "\nFaint effects:\n\n";
+  text += faint_table(faint) + "\n## Failures\n\n" + failure_list(judged);
+  return text;
 }
 
 }  // namespace flexarm::trials

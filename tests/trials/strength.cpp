@@ -114,6 +114,11 @@ double error_of(Strength strength, measured::RunKind kind) {
   return kind == measured::RunKind::modal ? kModalPart * error : error;
 }
 
+double error_at(const TrialArm& of, measured::RunKind kind, const std::vector<PlannedRun>& runs,
+                const Cause& cause, const Chance& chance, double size) {
+  return SimulationError(of, kind, runs)(with_hidden(World{of.arm}, of, cause, size, chance));
+}
+
 FoundSize find_size(const TrialArm& of, measured::RunKind kind, const std::vector<PlannedRun>& runs,
                     const Cause& cause, const Chance& chance, double error) {
   const SimulationError error_made(of, kind, runs);

@@ -27,6 +27,10 @@ struct FoundSize {
   double error = 0.0;  ///< that this size makes; less than asked for where nothing makes as much
 };
 
+/// The error that `cause` of this size makes.
+double error_at(const TrialArm& of, measured::RunKind kind, const std::vector<PlannedRun>& runs,
+                const Cause& cause, const Chance& chance, double size);
+
 /// The size at which `cause` makes this error, to 5 % of it, by bisection of its logarithm.
 FoundSize find_size(const TrialArm& of, measured::RunKind kind, const std::vector<PlannedRun>& runs,
                     const Cause& cause, const Chance& chance, double error);

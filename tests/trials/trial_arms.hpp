@@ -2,6 +2,7 @@
 
 #include "arm/arm.hpp"
 
+#include <string_view>
 #include <vector>
 
 namespace flexarm::trials {
@@ -15,5 +16,8 @@ struct TrialArm {
 /// The paper's aluminium link; a steel one on a heavy hub; a short one of a sandwich that is soft
 /// in shear, the only one in which shear shows below half the sampling frequency.
 const std::vector<TrialArm>& trial_arms();
+
+/// One of these, or "steel ruler": half a metre, 30 mm x 1 mm. Throws InputError for another name.
+const TrialArm& find_trial_arm(std::string_view name);
 
 }  // namespace flexarm::trials

@@ -98,6 +98,7 @@ void write_modal_run(const World& world, double noise, Random& random, const fs:
 
 /// The arm of a case: of those in which what is hidden can show.
 const TrialArm& choose_arm(const TrialKey& key, Random& random) {
+  if (!key.arm.empty()) return find_trial_arm(key.arm);
   const auto& arms = trial_arms();
   const std::size_t drawn = random.below(arms.size());
   for (const std::string& name : key.hidden) {
@@ -113,10 +114,14 @@ const TrialArm& choose_arm(const TrialKey& key, Random& random) {
 
 std::string TrialKey::name() const {
   const std::string causes = hidden.empty() ? "none" : fmt::format("{}", fmt::join(hidden, "+"));
-  return hidden.empty() ? fmt::format("{}-{}-{:g}-{}", measured::to_string(kind), causes,
-                                      100.0 * noise, number)
-                        : fmt::format("{}-{}-{}-{:g}-{}", measured::to_string(kind), causes,
-                                      to_string(strength), 100.0 * noise, number);
+  const std::string where = arm.empty() ? "" : arm + "-";
+  const std::string how_much = hidden.empty() ? "" : strength_name() + "-";
+  return fmt::format("{}-{}-{}{}{:g}-{}", measured::to_string(kind), causes, where, how_much,
+                     100.0 * noise, number);
+}
+
+std::string TrialKey::strength_name() const {
+  return size ? fmt::format("{:g}", *size) : std::string(to_string(strength));
 }
 
 std::string TrialKey::id() const {
@@ -137,7 +142,8 @@ Truth write_case(const TrialKey& key, const fs::path& folder) {
     const Cause& cause = find_cause(name);
     const Chance chance = draw_chance(random);
     const FoundSize found =
-        find_size(of, key.kind, runs, cause, chance, error_of(key.strength, key.kind));
+        key.size ? FoundSize{*key.size, error_at(of, key.kind, runs, cause, chance, *key.size)}
+                 : find_size(of, key.kind, runs, cause, chance, error_of(key.strength, key.kind));
     truth.world = with_hidden(truth.world, of, cause, found.size, chance);
     truth.sizes.push_back(found.size);
     truth.errors.push_back(found.error);

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,9 +23,14 @@ struct TrialKey {
   double noise = 0.005;  ///< standard deviation over that of the signal
   int number = 1;        ///< of its cell
   std::uint64_t seed = 1;
+  std::string arm = {};             ///< empty: by chance
+  std::optional<double> size = {};  ///< of each cause; else that of the strength
 
-  /// "time-coulomb_friction-middle-0.5-1": noise in per cent.
+  /// "time-coulomb_friction-middle-0.5-1": noise in per cent; a given size in place of the
+  /// strength.
   std::string name() const;
+  /// "middle", or the size that is given.
+  std::string strength_name() const;
   /// The name with the seed behind it, "...@1".
   std::string id() const;
   /// The name of its folder, which does not tell what is hidden.

@@ -2,6 +2,7 @@
 
 #include "arm/input_error.hpp"
 
+#include <boost/algorithm/string.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -46,7 +47,11 @@ std::vector<std::vector<std::string>> hidden_sets(const std::string& word, measu
     }
     return sets;
   }
-  if (find_cause(word).shows_in(kind)) sets.push_back({word});
+  std::vector<std::string> together;
+  boost::split(together, word, boost::is_any_of("+"));
+  const bool all_show = std::ranges::all_of(
+      together, [&](const std::string& name) { return find_cause(name).shows_in(kind); });
+  if (all_show) sets.push_back(std::move(together));
   return sets;
 }
 
@@ -69,11 +74,13 @@ std::vector<TrialKey> list_trials(const TrialChoice& choice) {
           for (int number = 1; number <= choice.trials; ++number) {
             if (word == "pairs") {
               Random random(choice.seed, fmt::format("pair {} {}", kind_name, number));
-              add({kind, draw_pair(kind, random), strength, noise, number, choice.seed});
+              add({kind, draw_pair(kind, random), strength, noise, number, choice.seed, choice.arm,
+                   choice.size});
               continue;
             }
             for (auto& hidden : hidden_sets(word, kind)) {
-              add({kind, std::move(hidden), strength, noise, number, choice.seed});
+              add({kind, std::move(hidden), strength, noise, number, choice.seed, choice.arm,
+                   choice.size});
             }
           }
         }

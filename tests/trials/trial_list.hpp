@@ -3,6 +3,7 @@
 #include "tests/trials/trial_case.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,12 +12,15 @@ namespace flexarm::trials {
 /// Which trials to make: every combination of the lists, `trials` times.
 struct TrialChoice {
   std::vector<std::string> kinds = {"time", "frf", "modal"};
-  /// Names of causes, `single` for the vocabulary, `none`, `pairs`, `outside`.
+  /// Names of causes, several joined by `+`, `single` for the vocabulary, `none`, `pairs`,
+  /// `outside`.
   std::vector<std::string> effects = {"single", "pairs", "none", "outside"};
   std::vector<std::string> strengths = {"weak", "middle", "strong"};
   std::vector<double> noises = {0.005, 0.03};
   int trials = 1;
   std::uint64_t seed = 1;
+  std::string arm = {};
+  std::optional<double> size = {};  ///< in place of the strengths
 };
 
 /// Those that can be: a cause is hidden only in data that show it. Throws InputError for an unknown

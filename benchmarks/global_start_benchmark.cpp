@@ -4,14 +4,13 @@
 //
 // global_start_benchmark [TRIALS]
 #include "diagnose/search/fit.hpp"
+#include "diagnose/search/scan.hpp"
 #include "tests/diagnose/simulated_experiments.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdlib>
-#include <limits>
 #include <random>
 #include <string>
 #include <vector>
@@ -24,28 +23,6 @@ using namespace flexarm::diagnose;
 constexpr int kEvaluations[] = {40, 90, 160};
 /// Sums of squares nearer than this are those of one minimum.
 constexpr double kSame = 1.001;
-
-/// The best of the middles of equal boxes, as many an axis as `evaluations` allow.
-Candidate best_of_grid(const Problem& problem, const Candidate& start, int evaluations) {
-  const auto parameters = static_cast<int>(start.parameters().size());
-  const int each = static_cast<int>(std::floor(std::pow(evaluations, 1.0 / parameters) + 1e-9));
-  const int places = static_cast<int>(std::lround(std::pow(each, parameters)));
-  Candidate best = start;
-  double least = std::numeric_limits<double>::infinity();
-  for (int k = 0; k < places; ++k) {
-    Eigen::VectorXd place(parameters);
-    for (int i = 0, rest = k; i < parameters; ++i, rest /= each) {
-      place(i) = (rest % each + 0.5) / each;
-    }
-    Candidate trial = start;
-    trial.put(place);
-    const auto residuals = problem.residuals(trial, problem.estimation_runs());
-    if (!residuals || residuals->squaredNorm() >= least) continue;
-    least = residuals->squaredNorm();
-    best = trial;
-  }
-  return best;
-}
 
 struct Tally {
   int direct = 0;
@@ -73,8 +50,13 @@ void run(const std::string& effect, int trials) {
     const Problem problem(experiment);
     const auto hypothesis = named(experiment, {effect}).front();
     const Candidate start = Candidate{}.with(hypothesis, middle);
-    const double direct = fit(problem, scan(problem, start, evaluations)).sum_of_squares;
-    const double grid = fit(problem, best_of_grid(problem, start, evaluations)).sum_of_squares;
+    const auto by = [&](ScanMethod method) {
+      const ScanOptions options{.evaluations = evaluations, .method = method};
+      const Candidate best = scan(problem, start, last_coordinates(start), options).front();
+      return fit(problem, best).sum_of_squares;
+    };
+    const double direct = by(ScanMethod::direct);
+    const double grid = by(ScanMethod::grid);
     const double alone = fit(problem, start).sum_of_squares;
     const double least = std::min({direct, grid, alone});
     if (direct <= kSame * least) ++tally.direct;

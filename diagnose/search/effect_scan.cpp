@@ -1,9 +1,9 @@
 #include "diagnose/search/effect_scan.hpp"
 
 #include "diagnose/search/coarse.hpp"
+#include "diagnose/search/scan.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 namespace flexarm::diagnose {
@@ -61,14 +61,11 @@ std::vector<Fit> EffectScan::first_looks(const Candidate& base,
 
 Fit EffectScan::first_look(const Candidate& base, const Hypothesis& other) const {
   const Candidate start = base.with(other, other.middle());
-  const auto all = start.coordinates().size();
-  const auto last = static_cast<Index>(other.parameters.size());
-  std::vector<Index> scanned(other.parameters.size());
-  std::iota(scanned.begin(), scanned.end(), all - last);
+  const std::vector<Index> scanned = last_coordinates(start);
   Fit look = best_from_scan(coarse_, start, scanned);
   const bool is_shorter =
       short_.observations().values.size() < coarse_.observations().values.size();
-  if (last == 1 || !is_shorter) return look;
+  if (scanned.size() == 1 || !is_shorter) return look;
   const Fit at_first = best_from_scan(short_, start, scanned);
   Fit from_there = fit(coarse_, at_first.candidate, kCoarseFit);
   return from_there.sum_of_squares < look.sum_of_squares ? from_there : look;
@@ -77,10 +74,10 @@ Fit EffectScan::first_look(const Candidate& base, const Hypothesis& other) const
 Fit EffectScan::best_from_scan(const Problem& problem, const Candidate& start,
                                const std::vector<Index>& scanned) const {
   const std::size_t n = std::min(scanned.size(), options_.scan_evaluations.size());
-  const std::size_t starts = n == 1 ? 1 : options_.scan_starts;
+  const ScanOptions scan_options{.evaluations = options_.scan_evaluations[n - 1],
+                                 .starts = n == 1 ? 1 : options_.scan_starts};
   std::optional<Fit> best;
-  for (const Candidate& place :
-       scan_for_several(problem, start, scanned, options_.scan_evaluations[n - 1], starts)) {
+  for (const Candidate& place : scan(problem, start, scanned, scan_options)) {
     Fit found = fit(problem, place, kCoarseFit);
     if (!best || found.sum_of_squares < best->sum_of_squares) best = std::move(found);
   }

@@ -2,11 +2,8 @@
 
 #include <unsupported/Eigen/NonLinearOptimization>
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
-#include <nlopt.hpp>
-#include <numeric>
 
 namespace flexarm::diagnose {
 
@@ -17,8 +14,6 @@ using Eigen::Index;
 /// Step in a place of a difference quotient: beside it the rounding of a simulation, 1e-12, and
 /// its curvature are both small.
 constexpr double kStep = 1e-5;
-/// Places nearer to each other than this in every coordinate are taken to be of one minimum.
-constexpr double kApart = 0.1;
 /// Residual that stands for a candidate that cannot be computed.
 constexpr double kImpossible = 1e8;
 
@@ -100,64 +95,6 @@ Fit fit(const Problem& problem, const Candidate& start, const FitOptions& option
   made.sum_of_squares = made.residuals.squaredNorm();
   made.evaluations = residuals.evaluations;
   return made;
-}
-
-Candidate scan(const Problem& problem, const Candidate& start, int evaluations) {
-  const auto all = start.coordinates().size();
-  const auto last = static_cast<Index>(start.effects.back().parameters.size());
-  std::vector<Index> coordinates(static_cast<std::size_t>(last));
-  std::iota(coordinates.begin(), coordinates.end(), all - last);
-  return scan(problem, start, coordinates, evaluations);
-}
-
-Candidate scan(const Problem& problem, const Candidate& start,
-               const std::vector<Index>& coordinates, int evaluations) {
-  return scan_for_several(problem, start, coordinates, evaluations, 1).front();
-}
-
-std::vector<Candidate> scan_for_several(const Problem& problem, const Candidate& start,
-                                        const std::vector<Index>& coordinates, int evaluations,
-                                        std::size_t most) {
-  struct Place {
-    double sum;
-    Eigen::VectorXd coordinates;
-  };
-  Residuals residuals{problem, start};
-  std::vector<Place> places;
-  const nlopt::vfunc cost = [](const std::vector<double>& x, std::vector<double>&, void* data) {
-    return (*static_cast<std::function<double(const std::vector<double>&)>*>(data))(x);
-  };
-  const auto scanned = static_cast<Index>(coordinates.size());
-  std::function<double(const std::vector<double>&)> evaluate = [&](const std::vector<double>& x) {
-    Eigen::VectorXd place = start.coordinates();
-    place(coordinates) = Eigen::VectorXd::Map(x.data(), scanned);
-    const double sum = residuals.evaluate(place).squaredNorm();
-    places.push_back({sum, std::move(place)});
-    return std::log(sum);
-  };
-  nlopt::opt search(nlopt::GN_DIRECT_L, static_cast<unsigned>(scanned));
-  search.set_min_objective(cost, &evaluate);
-  search.set_lower_bounds(0.0);
-  search.set_upper_bounds(1.0);
-  search.set_maxeval(evaluations);
-  std::vector<double> x(coordinates.size(), 0.5);
-  double value = 0.0;
-  search.optimize(x, value);
-
-  std::ranges::stable_sort(places, {}, &Place::sum);
-  std::vector<Place> kept;
-  for (const Place& place : places) {
-    const bool is_apart = std::ranges::all_of(kept, [&](const Place& other) {
-      return (place.coordinates - other.coordinates).lpNorm<Eigen::Infinity>() >= kApart;
-    });
-    if (kept.size() < most && is_apart) kept.push_back(place);
-  }
-  std::vector<Candidate> found;
-  for (const Place& place : kept) {
-    found.push_back(start);
-    found.back().put(place.coordinates);
-  }
-  return found;
 }
 
 }  // namespace flexarm::diagnose

@@ -28,16 +28,4 @@ struct FitOptions {
 /// without effects is evaluated.
 Fit fit(const Problem& problem, const Candidate& start, const FitOptions& options = {});
 
-/// The best of `evaluations` places of the parameters of the last effect of `start`, the others as
-/// they are: DIRECT-L (Gablonsky & Kelley 2001) over their whole range. Where runs are simulated
-/// the sum of squares has many minima, each as wide as a few parts in a hundred of a frequency.
-Candidate scan(const Problem& problem, const Candidate& start, int evaluations);
-/// The same over some of its coordinates() alone.
-Candidate scan(const Problem& problem, const Candidate& start,
-               const std::vector<Eigen::Index>& coordinates, int evaluations);
-/// ... and up to `most` places of it that are apart from each other, the best first.
-std::vector<Candidate> scan_for_several(const Problem& problem, const Candidate& start,
-                                        const std::vector<Eigen::Index>& coordinates,
-                                        int evaluations, std::size_t most);
-
 }  // namespace flexarm::diagnose

@@ -56,7 +56,7 @@ struct SelectionOptions {
   /// Values tried in a scan of an effect of 1, 2, 3 parameters or more.
   std::array<int, 3> scan_evaluations = {40, 90, 160};
   /// Of these begun a fit from <= this, for an effect of several parameters.
-  std::size_t scan_starts = 3;
+  int scan_starts = 3;
   /// Causes exchanged for others, one after the other, <= this.
   int most_exchanges = 4;
   /// Rounds that each add a cause, or exchange some for others, <= this.

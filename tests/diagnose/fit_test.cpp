@@ -2,6 +2,7 @@
 
 #include "diagnose/diagnosis.hpp"
 #include "diagnose/search/hypothesis.hpp"
+#include "diagnose/search/scan.hpp"
 #include "effects/registry/vocabulary.hpp"
 #include "tests/diagnose/simulated_experiments.hpp"
 

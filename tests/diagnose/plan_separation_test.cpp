@@ -2,6 +2,7 @@
 #include "diagnose/planning/plan.hpp"
 #include "diagnose/search/explanation.hpp"
 #include "diagnose/search/hypothesis.hpp"
+#include "diagnose/search/scan.hpp"
 #include "effects/registry/vocabulary.hpp"
 #include "tests/diagnose/simulated_experiments.hpp"
 

@@ -1,4 +1,5 @@
 #include "diagnose/search/selection.hpp"
+#include "diagnose/search/scan.hpp"
 
 #include "effects/registry/vocabulary.hpp"
 #include "measured/files/frequency_record.hpp"

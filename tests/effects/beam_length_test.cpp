@@ -1,6 +1,7 @@
 // beam_length against the arm whose file has that length, and a fit that looks for it.
 #include "compare/sweeps/sweep.hpp"
 #include "diagnose/search/fit.hpp"
+#include "diagnose/search/scan.hpp"
 #include "effects/registry/vocabulary.hpp"
 #include "exact_tf/exact_arm.hpp"
 #include "fem/fem_arm.hpp"

@@ -1,0 +1,128 @@
+#include "diagnose/search/scan.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <nlopt.hpp>
+#include <numeric>
+
+namespace flexarm::diagnose {
+
+namespace {
+
+using Eigen::Index;
+
+constexpr double kApart = 0.1;
+/// log of the sum of squares of what cannot be computed.
+constexpr double kImpossibleLog = 40.0;
+
+/// The sum of squares over the scanned coordinates, and every place at which it was asked for.
+class ScannedSum {
+ public:
+  struct Place {
+    double sum;
+    Eigen::VectorXd scanned;
+  };
+
+  ScannedSum(const Problem& problem, const Candidate& start, const std::vector<Index>& coordinates)
+      : problem_(problem),
+        candidate_(start),
+        all_(start.coordinates()),
+        coordinates_(coordinates) {}
+
+  Candidate candidate_at(const Eigen::VectorXd& scanned) const {
+    Candidate made = candidate_;
+    Eigen::VectorXd all = all_;
+    all(coordinates_) = scanned;
+    made.put(all);
+    return made;
+  }
+
+  /// The logarithm, which DIRECT-L compares between boxes of different size.
+  double log_at(const Eigen::VectorXd& scanned) {
+    const auto residuals = problem_.residuals(candidate_at(scanned), problem_.estimation_runs());
+    const double sum =
+        residuals ? residuals->squaredNorm() : std::numeric_limits<double>::infinity();
+    places_.push_back({sum, scanned});
+    return std::isfinite(sum) ? std::log(sum) : kImpossibleLog;
+  }
+
+  /// The best of the places that are apart.
+  std::vector<Candidate> best(int most) {
+    std::ranges::stable_sort(places_, {}, &Place::sum);
+    std::vector<Eigen::VectorXd> kept;
+    for (const Place& place : places_) {
+      const bool is_apart = std::ranges::all_of(kept, [&](const Eigen::VectorXd& other) {
+        return (place.scanned - other).lpNorm<Eigen::Infinity>() >= kApart;
+      });
+      if (std::ssize(kept) < most && is_apart) kept.push_back(place.scanned);
+    }
+    std::vector<Candidate> found;
+    for (const Eigen::VectorXd& place : kept) found.push_back(candidate_at(place));
+    return found;
+  }
+
+ private:
+  const Problem& problem_;
+  const Candidate& candidate_;
+  Eigen::VectorXd all_;
+  const std::vector<Index>& coordinates_;
+  std::vector<Place> places_;
+};
+
+void try_grid(ScannedSum& sum, Index dimension, int evaluations) {
+  constexpr double kRounding = 1e-9;
+  const int along_axis = static_cast<int>(
+      std::floor(std::pow(evaluations, 1.0 / static_cast<double>(dimension)) + kRounding));
+  const auto places = std::lround(std::pow(along_axis, dimension));
+  for (long k = 0; k < places; ++k) {
+    Eigen::VectorXd place(dimension);
+    long rest = k;
+    for (double& coordinate : place) {
+      coordinate = (static_cast<double>(rest % along_axis) + 0.5) / along_axis;
+      rest /= along_axis;
+    }
+    sum.log_at(place);
+  }
+}
+
+void try_direct(ScannedSum& sum, Index dimension, int evaluations) {
+  nlopt::opt search(nlopt::GN_DIRECT_L, static_cast<unsigned>(dimension));
+  const nlopt::vfunc cost = [](const std::vector<double>& x, std::vector<double>&, void* data) {
+    return static_cast<ScannedSum*>(data)->log_at(
+        Eigen::VectorXd::Map(x.data(), static_cast<Index>(x.size())));
+  };
+  search.set_min_objective(cost, &sum);
+  search.set_lower_bounds(0.0);
+  search.set_upper_bounds(1.0);
+  search.set_maxeval(evaluations);
+  std::vector<double> x(static_cast<std::size_t>(dimension), 0.5);
+  double value = 0.0;
+  search.optimize(x, value);
+}
+
+}  // namespace
+
+std::vector<Candidate> scan(const Problem& problem, const Candidate& start,
+                            const std::vector<Index>& coordinates, const ScanOptions& options) {
+  // More dimensions than this leave a grid too few places along an axis.
+  constexpr Index kMostOfGrid = 2;
+  const auto dimension = static_cast<Index>(coordinates.size());
+  const bool by_grid = options.method == ScanMethod::grid ||
+                       (options.method == ScanMethod::by_dimension && dimension <= kMostOfGrid);
+  ScannedSum sum(problem, start, coordinates);
+  (by_grid ? try_grid : try_direct)(sum, dimension, options.evaluations);
+  return sum.best(options.starts);
+}
+
+std::vector<Index> last_coordinates(const Candidate& candidate) {
+  std::vector<Index> last(candidate.effects.back().parameters.size());
+  std::iota(last.begin(), last.end(), candidate.coordinates().size() - std::ssize(last));
+  return last;
+}
+
+Candidate scan(const Problem& problem, const Candidate& start, int evaluations) {
+  return scan(problem, start, last_coordinates(start), {.evaluations = evaluations}).front();
+}
+
+}  // namespace flexarm::diagnose

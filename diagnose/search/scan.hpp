@@ -1,0 +1,39 @@
+#pragma once
+
+#include "diagnose/search/candidate.hpp"
+#include "diagnose/search/problem.hpp"
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace flexarm::diagnose {
+
+/// docs/numerics.md section 8 compares them.
+enum class ScanMethod {
+  by_dimension,  ///< grid of one or two coordinates, else DIRECT-L
+  grid,          ///< middles of equal boxes, as many along each axis as the evaluations allow
+  direct,        ///< DIRECT-L (Gablonsky & Kelley 2001)
+};
+
+struct ScanOptions {
+  int evaluations = 40;
+  int starts = 1;  ///< places returned <=
+  ScanMethod method = ScanMethod::by_dimension;
+};
+
+/// Starts for fits: `start` with the `coordinates` (of Candidate::coordinates()) at those places of
+/// their whole range at which the sum of squares of the estimation runs is smallest, the best
+/// first. They differ by a tenth of a range in at least one coordinate. Where runs are simulated
+/// the sum of squares has many minima, each as wide as a few parts in a hundred of a frequency.
+std::vector<Candidate> scan(const Problem& problem, const Candidate& start,
+                            const std::vector<Eigen::Index>& coordinates,
+                            const ScanOptions& options);
+
+/// The coordinates of the last effect of the candidate.
+std::vector<Eigen::Index> last_coordinates(const Candidate& candidate);
+
+/// The best place of the parameters of the last effect of `start`.
+Candidate scan(const Problem& problem, const Candidate& start, int evaluations);
+
+}  // namespace flexarm::diagnose

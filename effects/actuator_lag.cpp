@@ -19,7 +19,7 @@ Entry actuator_lag() {
                                 }}),
       .shows = Shows::in_time_and_frequency,
       .search = [](const Scales& scales) -> std::vector<SearchedParameter> {
-        return {{"time_constant", 0.02 * scales.shortest_time_s, 200.0 * scales.shortest_time_s,
+        return {{"time_constant", 0.02 * scales.shortest_time_s, 2000.0 * scales.shortest_time_s,
                  Spacing::from_zero}};
       },
       .speaks_for =

@@ -20,7 +20,7 @@ Entry air_damping() {
           .search = [](const Scales& scales) -> std::vector<SearchedParameter> {
             const double natural =
                 scales.beam.linear_density_kg_per_m * arm::omega_scale_rad_per_s(scales.beam);
-            return {{"coefficient", 1e-3 * natural, 3.0 * natural, Spacing::from_zero}};
+            return {{"coefficient", 1e-3 * natural, 6.0 * natural, Spacing::from_zero}};
           },
           .speaks_for =
               "damping ratios of poles and zeros inversely proportional to natural frequency",

@@ -22,7 +22,7 @@ Entry coulomb_friction() {
            }}),
       .shows = Shows::in_time,
       .search = [](const Scales& scales) -> std::vector<SearchedParameter> {
-        return {{"torque", 3e-3 * scales.torque_rms_N_m, 2.0 * scales.torque_rms_N_m,
+        return {{"torque", 3e-3 * scales.torque_rms_N_m, 3.0 * scales.torque_rms_N_m,
                  Spacing::from_zero}};
       },
       .speaks_for =

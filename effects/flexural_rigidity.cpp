@@ -18,7 +18,7 @@ Entry flexural_rigidity() {
                                 }}),
       .shows = Shows::in_all,
       .search = [](const Scales& /*scales*/) -> std::vector<SearchedParameter> {
-        return {{.name = "factor", .lowest = 0.4, .highest = 2.5, .neutral = 1.0}};
+        return {{.name = "factor", .lowest = 0.3, .highest = 3.3, .neutral = 1.0}};
       },
       .speaks_for = "all poles and zeros shifted by the same ratio; rigid-body inertia unchanged",
       .refuted_by = "poles and zeros shifted by different ratios"};

@@ -21,8 +21,8 @@ Entry gravity() {
           .search = [](const Scales& /*scales*/) -> std::vector<SearchedParameter> {
             constexpr double g = 9.81;  // m/s^2
             return {{.name = "acceleration",
-                     .lowest = -2.0 * g,
-                     .highest = 2.0 * g,
+                     .lowest = -3.0 * g,
+                     .highest = 3.0 * g,
                      .spacing = Spacing::linear,
                      .neutral = 0.0}};
           },

@@ -17,7 +17,7 @@ Entry hub_inertia() {
                             arm::Arm& arm) { arm.hub.inertia_kg_m2 *= effect.value("factor"); }}),
       .shows = Shows::in_all,
       .search = [](const Scales& /*scales*/) -> std::vector<SearchedParameter> {
-        return {{.name = "factor", .lowest = 0.3, .highest = 3.0, .neutral = 1.0}};
+        return {{.name = "factor", .lowest = 0.2, .highest = 5.0, .neutral = 1.0}};
       },
       .speaks_for =
           "poles shifted; hub-angle zeros (the poles with the hub locked) unchanged",

@@ -20,7 +20,7 @@ Entry hub_radius() {
       .shows = Shows::in_all,
       .search = [](const Scales& scales) -> std::vector<SearchedParameter> {
         const double length_m = scales.beam.length_m;
-        return {{"radius", 1e-3 * length_m, 0.3 * length_m, Spacing::from_zero}};
+        return {{"radius", 1e-3 * length_m, 0.5 * length_m, Spacing::from_zero}};
       },
       .speaks_for =
           "larger rigid-body inertia, shifted poles, unchanged hub-angle zeros",

@@ -19,7 +19,7 @@ Entry hub_spring() {
           .shows = Shows::in_all,
           .search = [](const Scales& scales) -> std::vector<SearchedParameter> {
             const double bending = scales.bending_stiffness_N_m_per_rad();
-            return {{"stiffness", 1e-4 * bending, 3.0 * bending, Spacing::from_zero}};
+            return {{"stiffness", 1e-4 * bending, 10.0 * bending, Spacing::from_zero}};
           },
           .speaks_for =
               "the hub returns to its initial angle; residual hub torque proportional to hub angle",

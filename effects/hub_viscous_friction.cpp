@@ -22,7 +22,7 @@ Entry hub_viscous_friction() {
                                                    // at the scale of its modes.
             const double natural =
                 arm::total_inertia_kg_m2(scales.beam) * arm::omega_scale_rad_per_s(scales.beam);
-            return {{"coefficient", 1e-3 * natural, natural, Spacing::from_zero}};
+            return {{"coefficient", 1e-3 * natural, 3.0 * natural, Spacing::from_zero}};
           },
           .speaks_for =
               "residual hub torque proportional to hub velocity, with the same coefficient at "

@@ -17,7 +17,7 @@ Entry linear_density() {
                                     }}),
           .shows = Shows::in_all,
           .search = [](const Scales& /*scales*/) -> std::vector<SearchedParameter> {
-            return {{.name = "factor", .lowest = 0.4, .highest = 2.5, .neutral = 1.0}};
+            return {{.name = "factor", .lowest = 0.3, .highest = 3.3, .neutral = 1.0}};
           },
           .speaks_for = "lower poles and zeros, larger rigid-body inertia",
           .refuted_by = "unchanged rigid-body inertia"};

@@ -44,7 +44,7 @@ Entry local_stiffness_loss() {
             const double length_m = scales.beam.length_m;
             const double bending = scales.bending_stiffness_N_m_per_rad();
             return {{"position", 0.01 * length_m, 0.99 * length_m, Spacing::linear},
-                    {"stiffness", 0.3 * bending, 300.0 * bending, Spacing::from_infinity}};
+                    {"stiffness", 0.2 * bending, 300.0 * bending, Spacing::from_infinity}};
           },
           .contains = {"root_compliance"},
           .speaks_for =

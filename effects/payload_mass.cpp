@@ -19,7 +19,7 @@ Entry payload_mass() {
           .shows = Shows::in_all,
           .search = [](const Scales& scales) -> std::vector<SearchedParameter> {
             const double beam_kg = scales.beam_mass_kg();
-            return {{"mass", 1e-3 * beam_kg, 2.0 * beam_kg, Spacing::from_zero}};
+            return {{"mass", 1e-3 * beam_kg, 4.0 * beam_kg, Spacing::from_zero}};
           },
           .speaks_for = "hub-angle zeros shifted, tip-acceleration zeros unchanged",
           .refuted_by = "shifted tip-acceleration zeros"};

@@ -18,7 +18,7 @@ Entry payload_offset() {
                    }}),
           .shows = Shows::in_all,
           .search = [](const Scales& scales) -> std::vector<SearchedParameter> {
-            const double reach_m = 0.2 * scales.beam.length_m;
+            const double reach_m = 0.3 * scales.beam.length_m;
             return {{.name = "offset",
                      .lowest = -reach_m,
                      .highest = reach_m,

@@ -25,7 +25,7 @@ Entry quadratic_drag() {
               -> std::vector<SearchedParameter> {  // As heavy as the beam's inertia over the way of
                                                    // its tip.
             const double natural = scales.beam.linear_density_kg_per_m / scales.beam.length_m;
-            return {{"coefficient", 1e-3 * natural, 30.0 * natural, Spacing::from_zero}};
+            return {{"coefficient", 1e-3 * natural, 60.0 * natural, Spacing::from_zero}};
           },
           .speaks_for = "apparent damping increases with amplitude",
           .refuted_by = "apparent damping independent of amplitude"};

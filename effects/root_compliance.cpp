@@ -21,7 +21,7 @@ Entry root_compliance() {
           .shows = Shows::in_all,
           .search = [](const Scales& scales) -> std::vector<SearchedParameter> {
             const double bending = scales.bending_stiffness_N_m_per_rad();
-            return {{"stiffness", 0.5 * bending, 1e3 * bending, Spacing::from_infinity}};
+            return {{"stiffness", 0.2 * bending, 1e3 * bending, Spacing::from_infinity}};
           },
           .speaks_for =
               "lower poles and hub-angle zeros; phase lag of root strain behind the hub angle",

@@ -21,8 +21,8 @@ Entry sensor_lag() {
                                     }}),
           .shows = Shows::in_time_and_frequency,
           .search = [](const Scales& scales) -> std::vector<SearchedParameter> {
-            return {{"time_constant", 0.02 * scales.shortest_time_s, 200.0 * scales.shortest_time_s,
-                     Spacing::from_zero}};
+            return {{"time_constant", 0.02 * scales.shortest_time_s,
+                     1000.0 * scales.shortest_time_s, Spacing::from_zero}};
           },
           .speaks_for = "phase lag and magnitude roll-off in one sensor only",
           .refuted_by = "the same phase lag in other sensors"};

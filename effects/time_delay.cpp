@@ -18,7 +18,7 @@ Entry time_delay() {
                                     }}),
           .shows = Shows::in_time_and_frequency,
           .search = [](const Scales& scales) -> std::vector<SearchedParameter> {
-            return {{"delay", 0.02 * scales.shortest_time_s, 200.0 * scales.shortest_time_s,
+            return {{"delay", 0.02 * scales.shortest_time_s, 1000.0 * scales.shortest_time_s,
                      Spacing::from_zero}};
           },
           .speaks_for = "phase lag proportional to frequency; poles, zeros and magnitude unchanged",

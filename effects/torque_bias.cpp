@@ -18,8 +18,8 @@ Entry torque_bias() {
       .shows = Shows::in_time,
       .search = [](const Scales& scales) -> std::vector<SearchedParameter> {
         return {{.name = "torque",
-                 .lowest = -scales.torque_rms_N_m,
-                 .highest = scales.torque_rms_N_m,
+                 .lowest = -2.0 * scales.torque_rms_N_m,
+                 .highest = 2.0 * scales.torque_rms_N_m,
                  .spacing = Spacing::linear,
                  .neutral = 0.0}};
       },

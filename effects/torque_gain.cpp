@@ -19,7 +19,7 @@ Entry torque_gain() {
                                     }}),
           .shows = Shows::in_time_and_frequency,
           .search = [](const Scales& /*scales*/) -> std::vector<SearchedParameter> {
-            return {{.name = "factor", .lowest = 0.3, .highest = 3.0, .neutral = 1.0}};
+            return {{.name = "factor", .lowest = 0.2, .highest = 5.0, .neutral = 1.0}};
           },
           .speaks_for = "all sensors scaled by the same ratio; poles and zeros unchanged",
           .refuted_by = "shifted poles or zeros"};

@@ -40,8 +40,9 @@ Entry torque_ripple() {
       .shows = Shows::in_time,
       .search = [](const Scales& scales) -> std::vector<SearchedParameter> {
         return {
-            {"amplitude", 3e-3 * scales.torque_rms_N_m, scales.torque_rms_N_m, Spacing::from_zero},
-            {"cycles", 2.0, 40.0},
+            {"amplitude", 3e-3 * scales.torque_rms_N_m, 2.0 * scales.torque_rms_N_m,
+             Spacing::from_zero},
+            {"cycles", 1.5, 40.0},
             {"phase", 0.0, 2.0 * std::numbers::pi, Spacing::linear, true}};
       },
       // Of few cycles, over a part of a turn.

@@ -25,7 +25,7 @@ Entry torque_saturation() {
           .shows = Shows::in_time,
           .search = [](const Scales& scales) -> std::vector<SearchedParameter> {
             return {{.name = "limit",
-                     .lowest = 0.05 * scales.torque_peak_N_m,
+                     .lowest = 0.03 * scales.torque_peak_N_m,
                      .highest = scales.torque_peak_N_m,
                      .neutral = scales.torque_peak_N_m}};
           },

@@ -78,7 +78,7 @@ class Search {
     const Candidate& none = made.nothing.fit.candidate;
     made.singles = all_with(none, special_effects(), kSingles, 0.0, 0.7 * kSinglesDone,
                             options_.singles_refitted);
-    if (made.singles.empty()) return;
+    if (work_.is_cancelled()) return;
     see_noise(made);
     const std::vector<const Hypothesis*> general = general_effects(made.singles);
     std::vector<Explanation> found(general.size());

@@ -14,11 +14,18 @@ namespace {
 
 constexpr FitOptions kCoarseFit{.most_steps = 8, .tolerance = 1e-4};
 
-/// A few values of a hypothesis' parameters, over their ranges.
+/// A few values of a hypothesis' parameters: over their ranges, and of a single one so near to
+/// where it does nothing that the change is its direction.
 std::vector<std::vector<double>> samples_of(const Hypothesis& hypothesis) {
-  const std::vector<double> places = hypothesis.parameters.size() == 1
-                                         ? std::vector{0.15, 0.35, 0.45, 0.55, 0.65, 0.85}
-                                         : std::vector{0.2, 0.5, 0.8};
+  std::vector<double> places = {0.2, 0.5, 0.8};
+  if (hypothesis.parameters.size() == 1) {
+    places = {0.15, 0.35, 0.45, 0.55, 0.65, 0.85};
+    const double neutral = hypothesis.parameters.front().neutral_coordinate().value_or(0.0);
+    for (const double distance : {0.002, 0.01, 0.04}) {
+      if (neutral > distance) places.push_back(neutral - distance);
+      if (neutral > 0.0 && neutral < 1.0 - distance) places.push_back(neutral + distance);
+    }
+  }
   std::vector<std::vector<double>> samples = {{}};
   for (const SearchedParameter& parameter : hypothesis.parameters) {
     std::vector<std::vector<double>> longer;

@@ -328,12 +328,30 @@ class Search {
       combine(made, made.chosen.fit.candidate, "further effects", halfway());
       return;
     }
-    const std::size_t bases = std::min(options_.pair_bases, made.singles.size());
-    const double step = (kPairsDone - kSinglesDone) / static_cast<double>(bases);
-    for (std::size_t b = 0; b < bases; ++b) {
-      combine(made, made.singles[b].fit.candidate, "pairs of effects",
-              kSinglesDone + step * static_cast<double>(b + 1));
+    const std::vector<Candidate> bases = pair_bases(made.singles);
+    const double step = (kPairsDone - kSinglesDone) / static_cast<double>(bases.size());
+    for (std::size_t b = 0; b < bases.size(); ++b) {
+      combine(made, bases[b], "pairs of effects", kSinglesDone + step * static_cast<double>(b + 1));
     }
+  }
+
+  /// The best singles. A general effect is left out beside a limit of it: generalise() follows.
+  std::vector<Candidate> pair_bases(const std::vector<Explanation>& singles) const {
+    std::vector<Hypothesis> special;
+    for (const Explanation& single : singles) {
+      const Hypothesis& effect = single.fit.candidate.effects.front();
+      if (special.size() < options_.pair_bases && limits_of(effect, hypotheses_).empty()) {
+        special.push_back(effect);
+      }
+    }
+    std::vector<Candidate> bases;
+    for (const Explanation& single : singles) {
+      const Hypothesis& effect = single.fit.candidate.effects.front();
+      if (bases.size() < options_.pair_bases && limits_of(effect, special).empty()) {
+        bases.push_back(single.fit.candidate);
+      }
+    }
+    return bases;
   }
 
   /// `base` with any other special effect, among the combinations; nothing where these are there.

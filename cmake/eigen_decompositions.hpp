@@ -2,7 +2,8 @@
 
 // Decompositions that many sources use: they are most of the time of a clean build, and are
 // compiled once, in eigen_decompositions.cpp. The header is a precompiled one
-// (FlexarmOptimisation.cmake), so that sources need not know of it.
+// (FlexarmOptimisation.cmake), so that sources need not know of it. It serves decompositions of
+// matrices: one of an expression is compiled where it stands.
 
 #include <Eigen/Dense>
 
@@ -23,5 +24,17 @@ extern template class Eigen::EigenSolver<Eigen::MatrixXd>;
 extern template class Eigen::RealQZ<Eigen::MatrixXd>;
 extern template class Eigen::GeneralizedEigenSolver<Eigen::MatrixXd>;
 extern template class Eigen::JacobiSVD<Eigen::MatrixXd>;
+extern template class Eigen::BDCSVD<Eigen::MatrixXd>;
 extern template class Eigen::PartialPivLU<Eigen::MatrixXcd>;
 extern template class Eigen::JacobiSVD<Eigen::MatrixXcd>;
+
+// An instantiated class leaves out what is itself a template.
+extern template Eigen::LLT<Eigen::MatrixXd>& Eigen::LLT<Eigen::MatrixXd>::compute(
+    const Eigen::EigenBase<Eigen::MatrixXd>&);
+extern template Eigen::LDLT<Eigen::MatrixXd>& Eigen::LDLT<Eigen::MatrixXd>::compute(
+    const Eigen::EigenBase<Eigen::MatrixXd>&);
+extern template Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>&
+Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>::compute(const Eigen::EigenBase<Eigen::MatrixXd>&,
+                                                        int);
+extern template Eigen::EigenSolver<Eigen::MatrixXd>& Eigen::EigenSolver<Eigen::MatrixXd>::compute(
+    const Eigen::EigenBase<Eigen::MatrixXd>&, bool);

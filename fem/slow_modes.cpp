@@ -75,8 +75,8 @@ Eigen::MatrixXd slow_modes(const Discretisation& discretisation, const FlexibleS
     respond();
     // x^T M (K + shift M)^-1 M x; its eigenvalues come in ascending order.
     const Eigen::MatrixXd product = loads.transpose() * x;
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz((product + product.transpose()) /
-                                                              2.0);
+    const Eigen::MatrixXd symmetric = (product + product.transpose()) / 2.0;
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz(symmetric);
     flexibility = ritz.eigenvalues().reverse();
     x = (x * ritz.eigenvectors().rowwise().reverse()).eval();
   }

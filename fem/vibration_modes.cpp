@@ -139,8 +139,8 @@ Eigen::MatrixXd dense_shapes(const Discretisation& model, HubSupport support,
   if (solve.shift() > 0.0) {
     const Eigen::MatrixXd product =
         lower.transpose() * root_of_mass.responses(lower).bottomRows(free_size);
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen((product + product.transpose()) /
-                                                               2.0);
+    const Eigen::MatrixXd symmetric = (product + product.transpose()) / 2.0;
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(symmetric);
     if (eigen.info() != Eigen::Success) {
       throw eigensolver_failure("QR iteration", model, support, count);
     }

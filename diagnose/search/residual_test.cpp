@@ -37,8 +37,8 @@ double exceedance(double value, double n, double lambda) {
       complement(boost::math::normal(mean, deviation), std::pow(value / sum, h)));
 }
 
-/// About zero, which Boost's is not: a constant residual is no noise, and a line has two parts.
-/// n (n + 2) sum_l rho_l^2/(n - l s) over lags l of `stride` s numbers each.
+/// n (n + 2) sum_l rho_l^2/(n - l s) over lags l of `stride` s numbers each. The autocorrelation is
+/// about zero, which Boost's is not: a constant residual is no noise.
 double ljung_box(const Eigen::Ref<const Eigen::VectorXd>& residuals, int lags, Index stride) {
   const Index n = residuals.size();
   const double squares = residuals.squaredNorm();

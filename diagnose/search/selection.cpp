@@ -31,12 +31,8 @@ std::vector<Candidate> candidates_of(const std::vector<Explanation>& sets) {
 
 constexpr std::string_view kSingles = "effects one by one";
 
-/// The best of `singles` that is a limit of the effect.
-std::vector<Explanation>::const_iterator limit_among(const std::vector<Explanation>& singles,
-                                                     const Hypothesis& effect) {
-  return std::ranges::find_if(singles, [&](const Explanation& single) {
-    return effect.contains(single.fit.candidate.effects.front().effect);
-  });
+bool is_limit(const Explanation& single, const Hypothesis& general) {
+  return general.contains(single.fit.candidate.effects.front().effect);
 }
 
 class Search {
@@ -47,7 +43,11 @@ class Search {
         hypotheses_(hypotheses),
         options_(options),
         work_(progress),
-        scan_(problem, options, work_) {}
+        scan_(problem, options, work_) {
+    for (const Hypothesis& effect : hypotheses) {
+      (limits_of(effect, hypotheses).empty() ? special_ : general_).push_back(&effect);
+    }
+  }
 
   Selection run() {
     Selection made = found();
@@ -76,14 +76,16 @@ class Search {
   /// Effects by themselves. Those that have another as a limit come after it.
   void try_singles(Selection& made) {
     const Candidate& none = made.nothing.fit.candidate;
-    made.singles = all_with(none, special_effects(), kSingles, 0.0, 0.7 * kSinglesDone,
+    made.singles = all_with(none, special_, kSingles, 0.0, 0.7 * kSinglesDone,
                             options_.singles_refitted);
     if (work_.is_cancelled()) return;
     see_noise(made);
     const std::vector<const Hypothesis*> general = general_effects(made.singles);
     std::vector<Explanation> found(general.size());
     work_.in_parallel(general.size(), kSingles, work_.done(), kSinglesDone, [&](std::size_t i) {
-      const auto limit = limit_among(made.singles, *general[i]);
+      const auto limit = std::ranges::find_if(made.singles, [&](const Explanation& single) {
+        return is_limit(single, *general[i]);
+      });
       found[i] = fitted((limit == made.singles.end()
                              ? scan_.first_look(none, *general[i])
                              : scan_.look_in_place(limit->fit.candidate, 0, *general[i]))
@@ -95,29 +97,17 @@ class Search {
     see_noise(made);
   }
 
-  /// Those that have no other effect as a limit.
-  std::vector<const Hypothesis*> special_effects() const {
-    std::vector<const Hypothesis*> special;
-    for (const Hypothesis& effect : hypotheses_) {
-      if (limits_of(effect, hypotheses_).empty()) special.push_back(&effect);
-    }
-    return special;
-  }
-
-  /// Those that have: all of them if none of `singles` leaves noise, else those of which a limit
-  /// does.
+  /// General effects to try by themselves: all if none of `singles` leaves noise, else those of
+  /// which a limit does.
   std::vector<const Hypothesis*> general_effects(const std::vector<Explanation>& singles) const {
-    const bool all = std::ranges::none_of(singles, &Explanation::leaves_noise);
-    std::vector<const Hypothesis*> general;
-    for (const Hypothesis& effect : hypotheses_) {
-      if (limits_of(effect, hypotheses_).empty()) continue;
-      const bool limit_leaves_noise = std::ranges::any_of(singles, [&](const Explanation& single) {
-        return effect.contains(single.fit.candidate.effects.front().effect) &&
-               single.leaves_noise();
+    if (std::ranges::none_of(singles, &Explanation::leaves_noise)) return general_;
+    std::vector<const Hypothesis*> found;
+    std::ranges::copy_if(general_, std::back_inserter(found), [&](const Hypothesis* effect) {
+      return std::ranges::any_of(singles, [&](const Explanation& single) {
+        return single.leaves_noise() && is_limit(single, *effect);
       });
-      if (all || limit_leaves_noise) general.push_back(&effect);
-    }
-    return general;
+    });
+    return found;
   }
 
   /// The noise that is seen under what the best so far leaves.
@@ -359,7 +349,7 @@ class Search {
   void combine(Selection& made, const Candidate& base, std::string_view what, double to) {
     if (!combined_.insert(base.labels()).second) return;
     for (Explanation& found :
-         all_with(base, special_effects(), what, work_.done(), to, options_.pairs_refitted)) {
+         all_with(base, special_, what, work_.done(), to, options_.pairs_refitted)) {
       const auto same = find_set(made.combinations, found.fit.candidate);
       if (same == made.combinations.end()) {
         made.combinations.push_back(std::move(found));
@@ -419,6 +409,8 @@ class Search {
   const SelectionOptions& options_;
   ReportedWork work_;
   EffectScan scan_;
+  std::vector<const Hypothesis*> special_;  // that have no other effect as a limit
+  std::vector<const Hypothesis*> general_;  // that have
   std::set<std::set<std::string>> combined_;  // labels of what has been tried with any other
 };
 

@@ -61,7 +61,7 @@ std::vector<std::string> tied_with(const Plan& plan, std::size_t effect) {
   return names;
 }
 
-/// The nearest rival that an effect is told from, with its lead.
+/// The nearest rival that an effect is distinguishable from, with its lead.
 std::string nearest_told(const Plan& plan, std::size_t effect) {
   double lead = std::numeric_limits<double>::infinity();
   std::string name;

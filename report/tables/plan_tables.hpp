@@ -21,7 +21,7 @@ std::string effect_letter(std::size_t effect);
 /// Each effect: from which value on it is found, what it is tied with, and the nearest other.
 Table detection_table(const diagnose::Plan& plan);
 
-/// Which effect (a row) can be told from which (a column), a letter each, with a key below.
+/// Which effect (a row) is distinguishable from which (a column), a letter each, with a key below.
 std::string separation_matrix(const diagnose::Plan& plan);
 
 /// Cosine and expected lead of each effect over each other, a row a pair.

@@ -95,7 +95,7 @@ using SimulationProgress = std::function<bool(double fraction)>;
 ///
 ///     q_i'' + sum_j D_ij q_j' + omega_i^2 q_i = hub_slope_i (T - F)/I_T + force_i/I_T
 ///
-/// with T = torque behind the actuator, F = dry friction of the hub, and
+/// with T = torque after the actuator, F = dry friction of the hub, and
 /// force_i = int force(v) phi_i dx over the stations of response/time/beam_forces.hpp. Derived
 /// sensors (velocity, acceleration) come from the state and the equations of motion, not from
 /// differences.

@@ -151,9 +151,8 @@ TEST_P(EffectLaws, MatricesAreSymmetricAndEnergiesNotNegative) {
   const auto smallest = [&](const Eigen::MatrixXd& matrix) {
     const Eigen::VectorXd scale =
         (matrix.diagonal().array() > 0.0).select(matrix.diagonal(), 1.0).cwiseSqrt().cwiseInverse();
-    return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scale.asDiagonal() * matrix *
-                                                          scale.asDiagonal())
-        .eigenvalues()[0];
+    const Eigen::MatrixXd scaled = scale.asDiagonal() * matrix * scale.asDiagonal();
+    return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scaled).eigenvalues()[0];
   };
   EXPECT_GE(smallest(damping), -n * kEpsilon);
   if (GetParam().lowest_omega_squared_rad2_per_s2 >= 0.0) {

@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string>
+#include <utility>
 
 namespace flexarm::trials {
 
@@ -19,34 +21,30 @@ TrialArm aluminium_link() {
   return {arm, 0.03};
 }
 
-TrialArm steel_link() {
+TrialArm link(std::string name, arm::Beam beam, double shear_modulus_Pa, arm::Hub hub,
+              double kelvin_voigt_s, double torque_N_m) {
   arm::Arm arm;
-  arm.name = "steel link";
-  arm.beam = arm::Beam::from_section(0.42, 0.021, 0.00085, 7850.0, 2e11);
-  arm.beam.shear_modulus_Pa = 7.7e10;
-  arm.hub = {0.0019, 0.004};
-  arm.damping.kelvin_voigt_s = 1.5e-4;
-  return {arm, 0.006};
+  arm.name = std::move(name);
+  arm.beam = beam;
+  arm.beam.shear_modulus_Pa = shear_modulus_Pa;
+  arm.hub = hub;
+  arm.damping.kelvin_voigt_s = kelvin_voigt_s;
+  return {arm, torque_N_m};
+}
+
+TrialArm steel_link() {
+  return link("steel link", arm::Beam::from_section(0.42, 0.021, 0.00085, 7850.0, 2e11), 7.7e10,
+              {0.0019, 0.004}, 1.5e-4, 0.006);
 }
 
 TrialArm sandwich_link() {
-  arm::Arm arm;
-  arm.name = "sandwich link";
-  arm.beam = arm::Beam::from_section(0.35, 0.03, 0.006, 1400.0, 5e9);
-  arm.beam.shear_modulus_Pa = 2e8;
-  arm.hub = {2.5e-4, 0.003};
-  arm.damping.kelvin_voigt_s = 5e-5;
-  return {arm, 0.012};
+  return link("sandwich link", arm::Beam::from_section(0.35, 0.03, 0.006, 1400.0, 5e9), 2e8,
+              {2.5e-4, 0.003}, 5e-5, 0.012);
 }
 
 TrialArm steel_ruler() {
-  arm::Arm arm;
-  arm.name = "steel ruler";
-  arm.beam = arm::Beam::from_section(0.5, 0.03, 0.001, 7850.0, 2e11);
-  arm.beam.shear_modulus_Pa = 7.7e10;
-  arm.hub = {0.002, 0.004};
-  arm.damping.kelvin_voigt_s = 1.5e-4;
-  return {arm, 0.008};
+  return link("steel ruler", arm::Beam::from_section(0.5, 0.03, 0.001, 7850.0, 2e11), 7.7e10,
+              {0.002, 0.004}, 1.5e-4, 0.008);
 }
 
 }  // namespace

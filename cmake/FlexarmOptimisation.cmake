@@ -1,4 +1,4 @@
-# How sources are compiled: what a clean build takes is in docs/numerics.md's last part.
+# How sources are compiled.
 option(FLEXARM_PRECOMPILED_HEADERS "Parse the headers of libraries once" ON)
 # Names in the anonymous namespaces of a room must then differ, which
 # -DCMAKE_UNITY_BUILD_BATCH_SIZE=0 (a room in one batch) tells of all of them.

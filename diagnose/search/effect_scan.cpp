@@ -21,9 +21,9 @@ std::vector<std::vector<double>> samples_of(const Hypothesis& hypothesis) {
   if (hypothesis.parameters.size() == 1) {
     places = {0.15, 0.35, 0.45, 0.55, 0.65, 0.85};
     const double neutral = hypothesis.parameters.front().neutral_coordinate().value_or(0.0);
-    for (const double distance : {0.002, 0.01, 0.04}) {
-      if (neutral > distance) places.push_back(neutral - distance);
-      if (neutral > 0.0 && neutral < 1.0 - distance) places.push_back(neutral + distance);
+    for (const double change : {-0.002, 0.002, -0.01, 0.01, -0.04, 0.04}) {
+      const double place = neutral + change;
+      if (neutral > 0.0 && place > 0.0 && place < 1.0) places.push_back(place);
     }
   }
   std::vector<std::vector<double>> samples = {{}};

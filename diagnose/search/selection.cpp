@@ -45,7 +45,7 @@ class Search {
         work_(progress),
         scan_(problem, options, work_) {
     for (const Hypothesis& effect : hypotheses) {
-      (limits_of(effect, hypotheses).empty() ? special_ : general_).push_back(&effect);
+      (is_general(effect) ? general_ : special_).push_back(&effect);
     }
   }
 
@@ -76,16 +76,15 @@ class Search {
   /// Effects by themselves. Those that have another as a limit come after it.
   void try_singles(Selection& made) {
     const Candidate& none = made.nothing.fit.candidate;
-    made.singles = all_with(none, special_, kSingles, 0.0, 0.7 * kSinglesDone,
-                            options_.singles_refitted);
+    made.singles =
+        all_with(none, special_, kSingles, 0.0, 0.7 * kSinglesDone, options_.singles_refitted);
     if (work_.is_cancelled()) return;
     see_noise(made);
     const std::vector<const Hypothesis*> general = general_effects(made.singles);
     std::vector<Explanation> found(general.size());
     work_.in_parallel(general.size(), kSingles, work_.done(), kSinglesDone, [&](std::size_t i) {
-      const auto limit = std::ranges::find_if(made.singles, [&](const Explanation& single) {
-        return is_limit(single, *general[i]);
-      });
+      const auto limit = std::ranges::find_if(
+          made.singles, [&](const Explanation& single) { return is_limit(single, *general[i]); });
       found[i] = fitted((limit == made.singles.end()
                              ? scan_.first_look(none, *general[i])
                              : scan_.look_in_place(limit->fit.candidate, 0, *general[i]))
@@ -95,6 +94,11 @@ class Search {
     std::ranges::copy_if(found, std::back_inserter(made.singles), is_identified);
     sort_by_fit(made.singles);
     see_noise(made);
+  }
+
+  /// Another effect is a limit of it.
+  bool is_general(const Hypothesis& effect) const {
+    return !limits_of(effect, hypotheses_).empty();
   }
 
   /// General effects to try by themselves: all if none of `singles` leaves noise, else those of
@@ -272,9 +276,9 @@ class Search {
   void generalise(Selection& made) {
     const Candidate chosen = made.chosen.fit.candidate;
     for (std::size_t i = 0; i < chosen.effects.size() && !is_enough(made); ++i) {
-      for (const Hypothesis& general : hypotheses_) {
-        if (!general.contains(chosen.effects[i].effect) || work_.is_cancelled()) continue;
-        const Explanation found = replaced(made, chosen, i, general);
+      for (const Hypothesis* general : general_) {
+        if (!general->contains(chosen.effects[i].effect) || work_.is_cancelled()) continue;
+        const Explanation found = replaced(made, chosen, i, *general);
         if (clears_bars(found, made.chosen, options_)) made.chosen = found;
       }
     }
@@ -330,9 +334,7 @@ class Search {
     std::vector<Hypothesis> special;
     for (const Explanation& single : singles) {
       const Hypothesis& effect = single.fit.candidate.effects.front();
-      if (special.size() < options_.pair_bases && limits_of(effect, hypotheses_).empty()) {
-        special.push_back(effect);
-      }
+      if (special.size() < options_.pair_bases && !is_general(effect)) special.push_back(effect);
     }
     std::vector<Candidate> bases;
     for (const Explanation& single : singles) {
@@ -409,8 +411,8 @@ class Search {
   const SelectionOptions& options_;
   ReportedWork work_;
   EffectScan scan_;
-  std::vector<const Hypothesis*> special_;  // that have no other effect as a limit
-  std::vector<const Hypothesis*> general_;  // that have
+  std::vector<const Hypothesis*> general_;
+  std::vector<const Hypothesis*> special_;    // the others
   std::set<std::set<std::string>> combined_;  // labels of what has been tried with any other
 };
 

@@ -62,7 +62,7 @@ std::vector<std::string> tied_with(const Plan& plan, std::size_t effect) {
 }
 
 /// The nearest rival that an effect is distinguishable from, with its lead.
-std::string nearest_told(const Plan& plan, std::size_t effect) {
+std::string nearest_distinguishable(const Plan& plan, std::size_t effect) {
   double lead = std::numeric_limits<double>::infinity();
   std::string name;
   for (std::size_t b = 0; b < plan.effects.size(); ++b) {
@@ -112,7 +112,8 @@ Table detection_table(const Plan& plan) {
                {.name = "closest distinguishable (delta BIC)"}}};
   for (std::size_t i = 0; i < plan.effects.size(); ++i) {
     table.add_row({label_of(plan, i), shows_from(plan.effects[i]),
-                   fmt::format("{}", fmt::join(tied_with(plan, i), ", ")), nearest_told(plan, i)});
+                   fmt::format("{}", fmt::join(tied_with(plan, i), ", ")),
+                   nearest_distinguishable(plan, i)});
   }
   return table;
 }

@@ -1,0 +1,87 @@
+#include "report/tables/diagnosis_tables.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace flexarm::report {
+namespace {
+
+using diagnose::Diagnosis;
+using diagnose::Verdict;
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
+
+Diagnosis with_gain(Verdict verdict) {
+  Diagnosis made;
+  made.verdict = verdict;
+  made.estimation = {.before = 1.07, .after = 0.01, .noise_floor = 0.01};
+  made.converged = true;
+  return made;
+}
+
+diagnose::RefittedNumber number(const char* key, double value, double std_error) {
+  return {.key = key,
+          .file_value = 0.5,
+          .uncertainty = 0.03,
+          .value = value,
+          .std_error = std_error,
+          .unit = "m"};
+}
+
+diagnose::Cause cause(const char* effect, double confidence) {
+  diagnose::Cause made;
+  made.effect = effect;
+  made.confidence = confidence;
+  made.class_confidence = confidence;
+  return made;
+}
+
+TEST(VerdictText, HasTheUncertainNumberThatExplainsTheDataInFront) {
+  Diagnosis made = with_gain(Verdict::explained);
+  made.refitted = {number("beam.length", 0.51, 0.0002), number("beam.thickness", 0.50001, 0.001)};
+  EXPECT_THAT(verdict_text(made),
+              StartsWith("Explained by beam.length = 0.51 +- 0.0002 m: the residuals are noise."));
+  EXPECT_THAT(verdict_text(made), Not(HasSubstr("beam.thickness")));
+  EXPECT_THAT(verdict_text(made), HasSubstr("NRMSE falls from 107 to 1 %"));
+}
+
+TEST(VerdictText, HasANumberThatMovedBesideTheCause) {
+  Diagnosis made = with_gain(Verdict::explained);
+  made.causes = {cause("coulomb_friction", 0.98)};
+  made.refitted = {number("beam.length", 0.51, 0.0002)};
+  EXPECT_THAT(
+      verdict_text(made),
+      StartsWith("Explained by coulomb_friction (probability 0.98), with beam.length = 0.51"));
+}
+
+TEST(VerdictText, OfIndistinguishableCausesHeadlinesTheirClass) {
+  Diagnosis made = with_gain(Verdict::explained);
+  made.causes = {cause("time_delay", 0.45)};
+  made.causes[0].confusable_with = {"actuator_lag"};
+  made.causes[0].class_confidence = 0.97;
+  EXPECT_THAT(
+      verdict_text(made),
+      StartsWith("Explained by one of time_delay, actuator_lag (probability 0.97 together)"));
+}
+
+TEST(VerdictText, SaysThatTheFitDidNotConverge) {
+  Diagnosis made = with_gain(Verdict::partly_explained);
+  made.causes = {cause("coulomb_friction", 0.98)};
+  EXPECT_THAT(verdict_text(made), Not(HasSubstr("converge")));
+  made.converged = false;
+  EXPECT_THAT(verdict_text(made), HasSubstr("The fit did not converge."));
+}
+
+TEST(VerdictText, NamesThePartOfTheResidualTestThatFails) {
+  Diagnosis made = with_gain(Verdict::partly_explained);
+  made.causes = {cause("coulomb_friction", 0.98)};
+  made.validation_test.whiteness_p_value = 1e-9;
+  const std::string text = verdict_text(made);
+  EXPECT_THAT(text, HasSubstr("The residuals of the validation (whiteness p = 1e-09) runs"));
+  EXPECT_THAT(text, EndsWith("Something else is present."));
+}
+
+}  // namespace
+}  // namespace flexarm::report

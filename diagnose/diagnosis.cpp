@@ -7,14 +7,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 #include <utility>
 
 namespace flexarm::diagnose {
 
 namespace {
 
-/// Further modes beside which the error of leaving them out shows.
-constexpr int kFurtherModes = 8;
 /// Of those that were not named, as many are told.
 constexpr std::size_t kNearMisses = 5;
 
@@ -153,31 +152,7 @@ std::vector<NearMiss> near_misses(const Selection& selection, const Posterior& p
   return found;
 }
 
-/// `as_filed` is the arm of the file, nothing refitted.
-Verdict verdict_of(const Selection& selection, const Explanation& as_filed) {
-  const bool is_noise = selection.chosen.leaves_noise() && selection.chosen.fit.converged;
-  if (!selection.chosen.fit.candidate.effects.empty()) {
-    return is_noise ? Verdict::explained : Verdict::partly_explained;
-  }
-  if (as_filed.leaves_noise()) return Verdict::adequate;
-  return is_noise ? Verdict::explained : Verdict::unexplained;
-}
-
 }  // namespace
-
-std::string_view to_string(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::adequate:
-      return "adequate";
-    case Verdict::explained:
-      return "explained";
-    case Verdict::partly_explained:
-      return "partly_explained";
-    case Verdict::unexplained:
-      return "unexplained";
-  }
-  return "";
-}
 
 Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& hypotheses,
                    const SelectionOptions& options, const DiagnosisProgress& progress) {
@@ -191,15 +166,13 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
   made.cancelled = selection.cancelled;
   if (made.cancelled) return made;
   const Candidate& chosen = selection.chosen.fit.candidate;
-  const std::vector<double> errors =
-      standard_errors(problem, selection.chosen,
-                      problem.with_modes(problem.predictor().flexible_modes() + kFurtherModes));
+  const std::vector<double> errors = standard_errors(chosen, selection.coordinate_errors);
   const Posterior posterior = posterior_of(selection, hypotheses.size(), options);
   made.causes = causes_of(selection, posterior, errors);
   made.something_else = posterior.of_something_else();
   say_timing(experiment, selection, made.notices);
   const Explanation as_filed = explain(problem, evaluated(problem, problem.as_filed()));
-  made.verdict = verdict_of(selection, as_filed);
+  made.verdict = verdict_of(selection.chosen, as_filed);
   made.estimation_test = selection.chosen.estimation_test;
   made.validation_test = selection.chosen.validation_test;
   made.converged = selection.chosen.fit.converged;

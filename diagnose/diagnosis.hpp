@@ -5,26 +5,13 @@
 #include "diagnose/planning/next_experiments.hpp"
 #include "diagnose/search/selection.hpp"
 #include "diagnose/symptoms/symptoms.hpp"
+#include "diagnose/verdict.hpp"
 
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace flexarm::diagnose {
-
-/// What the data say of the arm as its file describes it.
-enum class Verdict {
-  adequate,          ///< the residuals of the arm as its file has it are noise
-  explained,         ///< those of the extended arm are: causes, or uncertain numbers as refitted
-  partly_explained,  ///< causes named, the residuals are not noise
-  unexplained,       ///< the residuals are not noise, and no cause is probable
-};
-// "Are noise" is ResidualTest::is_noise of the estimation and of the validation runs, of a fit that
-// converged.
-
-/// "adequate", "explained", "partly_explained", "unexplained".
-std::string_view to_string(Verdict verdict);
 
 /// A set of effects that was fitted and not named.
 struct NearMiss {

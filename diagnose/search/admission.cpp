@@ -19,8 +19,8 @@ constexpr double kAtEnd = 1e-3;
 /// unless it may be farther inside by so many standard errors.
 constexpr double kMayBe = 2.0;
 
-/// Standard errors of the coordinates; infinite where the residuals do not depend on one.
-Eigen::VectorXd coordinate_errors(const Explanation& explanation) {
+/// Of the coordinates; infinite where the residuals do not depend on one.
+Eigen::VectorXd errors_of_least_squares(const Explanation& explanation) {
   const Eigen::MatrixXd& jacobian = explanation.fit.jacobian;
   const Index n = jacobian.cols();
   const Eigen::LDLT<Eigen::MatrixXd> information(jacobian.transpose() * jacobian);
@@ -43,25 +43,31 @@ double significant_distance(const SearchedParameter& parameter, double coordinat
 
 }  // namespace
 
+std::optional<std::size_t> unidentified_effect(const Candidate& candidate,
+                                               const Eigen::VectorXd& errors) {
+  const Eigen::VectorXd coordinates = candidate.coordinates();
+  Index at = std::ssize(candidate.nuisances);
+  for (std::size_t i = 0; i < candidate.effects.size(); ++i) {
+    for (const SearchedParameter& parameter : candidate.effects[i].parameters) {
+      const double place = coordinates(at);
+      const double may_be = kMayBe * errors(at);
+      const bool is_inside = place + may_be > kAtEnd && place - may_be < 1.0 - kAtEnd;
+      const bool is_significant = errors(at) < significant_distance(parameter, place);
+      if (!is_significant || !(parameter.periodic || is_inside)) return i;
+      ++at;
+    }
+  }
+  return std::nullopt;
+}
+
 bool is_identified(const Explanation& explanation) {
   const Candidate& candidate = explanation.fit.candidate;
-  const auto parameters = candidate.parameters();
-  if (parameters.empty()) return true;
+  if (candidate.parameters().empty()) return true;
   const Eigen::VectorXd coordinates = candidate.coordinates();
   if (!coordinates.allFinite() || explanation.fit.jacobian.cols() != coordinates.size()) {
     return false;
   }
-  const Eigen::VectorXd errors = coordinate_errors(explanation);
-  const auto first = coordinates.size() - static_cast<Index>(parameters.size());
-  for (std::size_t i = 0; i < parameters.size(); ++i) {
-    const Index at = first + static_cast<Index>(i);
-    const double place = coordinates(at);
-    const double may_be = kMayBe * errors(at);
-    const bool is_inside = place + may_be > kAtEnd && place - may_be < 1.0 - kAtEnd;
-    if (!parameters[i].periodic && !is_inside) return false;
-    if (!(errors(at) < significant_distance(parameters[i], place))) return false;
-  }
-  return true;
+  return !unidentified_effect(candidate, errors_of_least_squares(explanation));
 }
 
 bool clears_bars(const Explanation& fuller, const Explanation& simpler,

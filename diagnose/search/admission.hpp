@@ -3,15 +3,24 @@
 #include "diagnose/search/explanation.hpp"
 #include "diagnose/search/selection_options.hpp"
 
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace flexarm::diagnose {
 
-/// Whether the data identify every parameter of the candidate's effects. Each ends inside the range
-/// that it was looked for in, or may be inside by its standard error. The standard error (least
-/// squares, widened by the residuals where these are above the noise) is smaller than the distance
-/// from the value at which the effect does nothing; where there is none, than the value itself or,
-/// on a linear range, than half the range.
+/// An effect of the candidate, by its index, with a parameter that the data do not identify. A
+/// parameter is identified if it ends inside the range that it was looked for in, or may be inside
+/// by its standard error; and if its standard error is smaller than the distance from the value at
+/// which the effect does nothing; where there is none, than the value itself or, on a linear range,
+/// than half the range. `errors` are those of Candidate::coordinates (parameter_errors.hpp).
+std::optional<std::size_t> unidentified_effect(const Candidate& candidate,
+                                               const Eigen::VectorXd& errors);
+
+/// No effect of it is unidentified, by the standard errors of least squares, widened by the
+/// residuals where these are above the noise.
 bool is_identified(const Explanation& explanation);
 
 /// Whether the effects that `fuller` has beyond `simpler` may be named: they are identified and

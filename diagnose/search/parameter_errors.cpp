@@ -123,11 +123,11 @@ Eigen::VectorXd slopes(const Candidate& candidate) {
 
 }  // namespace
 
-std::vector<double> standard_errors(const Problem& problem, const Explanation& explanation,
-                                    const Problem& finer) {
+Eigen::VectorXd coordinate_errors(const Problem& problem, const Explanation& explanation,
+                                  const Problem& finer) {
   const Fit& fit = explanation.fit;
   const Index n = fit.jacobian.cols();
-  if (n == 0) return {};
+  if (n == 0) return Eigen::VectorXd();
   const double scale = explanation.estimation.variance_of_estimates();
   const Eigen::LDLT<Eigen::MatrixXd> information(fit.jacobian.transpose() * fit.jacobian);
   const Eigen::MatrixXd inverse = information.solve(Eigen::MatrixXd::Identity(n, n));
@@ -150,8 +150,13 @@ std::vector<double> standard_errors(const Problem& problem, const Explanation& e
         information.solve(fit.jacobian.transpose() * (*refined - fit.residuals));
     variances += shift.cwiseAbs2();
   }
-  const Eigen::VectorXd errors =
-      slopes(fit.candidate).cwiseProduct(variances.cwiseMax(0.0).cwiseSqrt());
+  return variances.cwiseMax(0.0).cwiseSqrt();
+}
+
+std::vector<double> standard_errors(const Candidate& candidate,
+                                    const Eigen::VectorXd& coordinate_errors) {
+  if (coordinate_errors.size() == 0) return {};
+  const Eigen::VectorXd errors = slopes(candidate).cwiseProduct(coordinate_errors);
   return {errors.begin(), errors.end()};
 }
 

@@ -3,13 +3,15 @@
 #include "diagnose/search/explanation.hpp"
 #include "diagnose/search/problem.hpp"
 
+#include <Eigen/Core>
+
 #include <vector>
 
 namespace flexarm::diagnose {
 
-/// Standard errors of what a candidate was fitted by: nuisances, then the values of its effects
-/// (Candidate::coordinates), each in its own unit. With H = J^T J and g = J^T r of a part of the
-/// residuals the variance is the larger of
+/// Standard errors of Candidate::coordinates: of nuisances, then of the places of the effects'
+/// parameters in their ranges. With H = J^T J and g = J^T r of a part of the residuals the variance
+/// is the larger of
 ///
 ///     H^-1 s^2                         residuals independent, as many as their correlation leaves,
 ///     H^-1 (sum_b g_b g_b^T) H^-1      residuals that go together over stretches b of a run
@@ -19,8 +21,11 @@ namespace flexarm::diagnose {
 /// sum, widened by Student's t for as few runs: a misfit of one kind of run shifts that run's
 /// estimate. Beside it stands the square of what `finer`, the same problem with a finer simulation,
 /// would shift: H^-1 J^T (r_finer - r).
-std::vector<double> standard_errors(const Problem& problem, const Explanation& explanation,
-                                    const Problem& finer);
+Eigen::VectorXd coordinate_errors(const Problem& problem, const Explanation& explanation,
+                                  const Problem& finer);
+/// The same, each in its parameter's own unit; none of a fit that failed.
+std::vector<double> standard_errors(const Candidate& candidate,
+                                    const Eigen::VectorXd& coordinate_errors);
 /// Stretches of a run or channel that stand for independent ones.
 inline constexpr int kStretches = 10;
 

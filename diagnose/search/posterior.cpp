@@ -8,10 +8,14 @@ namespace flexarm::diagnose {
 
 namespace {
 
-/// Of all runs, with those of the arm's uncertain numbers.
+/// Of all runs, with those of the arm's uncertain numbers: what a set leaves, and what is expected
+/// of noise.
 double squares_of(const Explanation& set) {
   return set.estimation.sum_of_squares + set.validation.sum_of_squares +
          set.estimation.nuisance_squares;
+}
+double squares_of_noise(const Explanation& set) {
+  return set.estimation.count + set.validation.count + set.estimation.nuisances;
 }
 
 }  // namespace
@@ -21,8 +25,11 @@ Posterior::Posterior(std::vector<const Explanation*> sets, std::size_t hypothese
   const auto best_set = std::ranges::min_element(sets, {}, [](const Explanation* set) {
     return squares_of(*set);
   });
-  const double least = squares_of(**best_set) - (*best_set)->estimation.excess() -
-                       (*best_set)->validation.excess();
+  double least = squares_of(**best_set) - (*best_set)->estimation.excess() -
+                 (*best_set)->validation.excess();
+  if (std::ranges::none_of(sets, &Explanation::leaves_noise)) {
+    least = std::min(least, squares_of_noise(**best_set));
+  }
   const double cost_of_cause = 2.0 * std::log(static_cast<double>(hypotheses));
   const double cost_of_else = -2.0 * std::log(options.prior_of_something_else);
   double best = std::numeric_limits<double>::infinity();

@@ -2,6 +2,7 @@
 
 #include "diagnose/search/admission.hpp"
 #include "diagnose/search/effect_scan.hpp"
+#include "diagnose/search/parameter_errors.hpp"
 #include "diagnose/search/rivals.hpp"
 
 #include <algorithm>
@@ -51,6 +52,7 @@ class Search {
 
   Selection run() {
     Selection made = found();
+    made.coordinate_errors = stated_errors(made.chosen);
     made.problem = problem_;
     return made;
   }
@@ -61,8 +63,7 @@ class Search {
     made.nothing = fitted(problem_.as_filed());
     made.chosen = made.nothing;
     see_noise(made);
-    if (is_enough(made)) return made;
-    try_singles(made);
+    if (!is_enough(made)) try_singles(made);
     if (!made.singles.empty()) {
       extend(made);
       generalise(made);
@@ -208,7 +209,18 @@ class Search {
   }
 
   bool is_admitted(Selection& made, const Explanation& fuller, const Explanation& simpler) const {
-    return clears_bars(fuller, simpler, options_) && clears_limits(made, fuller);
+    return may_be_named(fuller, simpler) && clears_limits(made, fuller);
+  }
+
+  /// Beyond clears_bars, each parameter is identified by the standard errors that are stated.
+  bool may_be_named(const Explanation& fuller, const Explanation& simpler) const {
+    return clears_bars(fuller, simpler, options_) &&
+           !unidentified_effect(fuller.fit.candidate, stated_errors(fuller));
+  }
+
+  Eigen::VectorXd stated_errors(const Explanation& explanation) const {
+    const int modes = problem_.predictor().flexible_modes() + options_.further_modes;
+    return coordinate_errors(problem_, explanation, problem_.with_modes(modes));
   }
 
   /// `candidate` with another effect in place of one of its own: as it was fitted before, or fitted
@@ -227,9 +239,8 @@ class Search {
   /// The best admitted single over none; `nothing` where there is none.
   Explanation best_single(Selection& made) const {
     for (const Candidate& candidate : candidates_of(made.singles)) {
-      const auto single = find_set(made.singles, candidate);
-      if (!clears_bars(*single, made.nothing, options_)) continue;
-      if (clears_limits(made, *single)) return *find_set(made.singles, candidate);
+      const Explanation single = *find_set(made.singles, candidate);
+      if (is_admitted(made, single, made.nothing)) return single;
     }
     return made.nothing;
   }
@@ -279,7 +290,7 @@ class Search {
       for (const Hypothesis* general : general_) {
         if (!general->contains(chosen.effects[i].effect) || work_.is_cancelled()) continue;
         const Explanation found = replaced(made, chosen, i, *general);
-        if (clears_bars(found, made.chosen, options_)) made.chosen = found;
+        if (may_be_named(found, made.chosen)) made.chosen = found;
       }
     }
   }

@@ -18,6 +18,9 @@ struct SelectionOptions {
   double least_share = 0.5;
   /// The same of the validation runs, which it was not fitted to.
   double least_validated_share = 0.25;
+  /// Each parameter is identified by the standard errors that are stated (admission.hpp); these
+  /// include the shift of the estimate by so many modes more (parameter_errors.hpp).
+  int further_modes = 8;
   /// Posterior probability of it, or of a set of effects indistinguishable from it, >= this.
   double least_probability = 0.5;
 

@@ -87,6 +87,22 @@ TEST(Posterior, TakesNoSmallDifferenceBesideAGrantedErrorForEvidence) {
   EXPECT_GT(posterior.of({.effect = "coulomb_friction"}), 0.95);
 }
 
+TEST(Posterior, ExcusesNothingByTheNoiseLevelWhereNoSetLeavesNoise) {
+  // Three effects bring the power of the residuals to 1.09 times that of the noise, which the
+  // uncertainty of the noise level would excuse; but their residuals are not white.
+  const Explanation nothing = set_of({}, 4.0 * kNumbers);
+  Explanation three = set_of({"payload_mass", "beam_length", "hub_radius"}, 0.09 * kNumbers);
+  ASSERT_EQ(three.estimation.excess(), 0.0);
+  ASSERT_FALSE(three.leaves_noise());
+  const Hypothesis payload_mass{.effect = "payload_mass"};
+  EXPECT_LT(Posterior({&nothing, &three}, kHypotheses, {}).of(payload_mass), 0.1);
+  const Explanation complete = set_of({"hub_inertia"}, 0.0);
+  EXPECT_LT(Posterior({&nothing, &three, &complete}, kHypotheses, {}).of(payload_mass), 0.1);
+  three.estimation_test = {};
+  EXPECT_GT(Posterior({&nothing, &three}, kHypotheses, {}).of(payload_mass), 0.9)
+      << "white: the noise level is all that differs";
+}
+
 /// A cause with one parameter at this coordinate with this standard error.
 Explanation at_coordinate(double coordinate, double std_error) {
   Explanation made = set_of({"payload_mass"}, 0.0);
@@ -104,6 +120,14 @@ TEST(Admission, NeedsAParameterInsideItsRangeAndLargerThanItsError) {
   EXPECT_FALSE(is_identified(at_coordinate(1.2, 0.01))) << "beyond the end";
   EXPECT_FALSE(is_identified(at_coordinate(1.0, 1e-5))) << "at the end";
   EXPECT_TRUE(is_identified(at_coordinate(1.004, 0.008))) << "inside by its error";
+}
+
+TEST(Admission, NeedsAParameterLargerThanTheErrorThatIsStated) {
+  // Least squares says 0.01; with the correlation of the residuals it is 0.5.
+  const Explanation found = at_coordinate(0.4, 0.01);
+  const Candidate& candidate = found.fit.candidate;
+  EXPECT_FALSE(unidentified_effect(candidate, Eigen::VectorXd::Constant(1, 0.01)).has_value());
+  EXPECT_EQ(unidentified_effect(candidate, Eigen::VectorXd::Constant(1, 0.5)), 0);
 }
 
 }  // namespace

@@ -1,0 +1,28 @@
+#include "diagnose/verdict.hpp"
+
+namespace flexarm::diagnose {
+
+std::string_view to_string(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::adequate:
+      return "adequate";
+    case Verdict::explained:
+      return "explained";
+    case Verdict::partly_explained:
+      return "partly_explained";
+    case Verdict::unexplained:
+      return "unexplained";
+  }
+  return "";
+}
+
+Verdict verdict_of(const Explanation& chosen, const Explanation& as_filed) {
+  const bool is_explained = chosen.leaves_noise() && chosen.fit.converged;
+  if (!chosen.fit.candidate.effects.empty()) {
+    return is_explained ? Verdict::explained : Verdict::partly_explained;
+  }
+  if (as_filed.leaves_noise()) return Verdict::adequate;
+  return is_explained ? Verdict::explained : Verdict::unexplained;
+}
+
+}  // namespace flexarm::diagnose

@@ -1,0 +1,53 @@
+#include "diagnose/verdict.hpp"
+
+#include <gtest/gtest.h>
+
+namespace flexarm::diagnose {
+namespace {
+
+enum class Effects { none, one };
+enum class Residuals { noise, level_fails, validation_fails };
+
+Explanation fitted(Effects effects, Residuals residuals, bool converged = true) {
+  Explanation made;
+  made.fit.converged = converged;
+  if (effects == Effects::one) made.fit.candidate.effects = {{.effect = "payload_mass"}};
+  if (residuals == Residuals::level_fails) made.estimation_test.level_p_value = 0.0;
+  if (residuals == Residuals::validation_fails) made.validation_test.level_p_value = 0.0;
+  return made;
+}
+
+const Explanation kWrong = fitted(Effects::none, Residuals::level_fails);
+
+TEST(Verdict, IsAdequateWhereTheArmOfTheFileLeavesNoise) {
+  const Explanation right = fitted(Effects::none, Residuals::noise);
+  EXPECT_EQ(verdict_of(right, right), Verdict::adequate);
+}
+
+TEST(Verdict, IsExplainedWhereTheExtendedArmLeavesNoise) {
+  EXPECT_EQ(verdict_of(fitted(Effects::one, Residuals::noise), kWrong), Verdict::explained);
+}
+
+TEST(Verdict, IsExplainedByUncertainNumbersAloneThatLeaveNoise) {
+  EXPECT_EQ(verdict_of(fitted(Effects::none, Residuals::noise), kWrong), Verdict::explained);
+}
+
+TEST(Verdict, IsPartlyExplainedWhereEstimationOrValidationRunsFail) {
+  for (const Residuals residuals : {Residuals::level_fails, Residuals::validation_fails}) {
+    EXPECT_EQ(verdict_of(fitted(Effects::one, residuals), kWrong), Verdict::partly_explained);
+  }
+}
+
+TEST(Verdict, OfAFitThatDidNotConvergeIsNeverExplained) {
+  EXPECT_EQ(verdict_of(fitted(Effects::one, Residuals::noise, false), kWrong),
+            Verdict::partly_explained);
+  EXPECT_EQ(verdict_of(fitted(Effects::none, Residuals::noise, false), kWrong),
+            Verdict::unexplained);
+}
+
+TEST(Verdict, IsUnexplainedWithoutACause) {
+  EXPECT_EQ(verdict_of(kWrong, kWrong), Verdict::unexplained);
+}
+
+}  // namespace
+}  // namespace flexarm::diagnose

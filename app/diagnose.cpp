@@ -52,6 +52,16 @@ struct DiagnoseArguments {
   std::string json_file;
 };
 
+std::string verdict_definitions() {
+  using enum diagnose::Verdict;
+  std::string text = "Verdicts:\n";
+  for (const auto verdict : {adequate, explained, partly_explained, unexplained}) {
+    text += fmt::format("  {:<18}{}\n", diagnose::to_string(verdict),
+                        diagnose::definition_of(verdict));
+  }
+  return text + "\n";
+}
+
 FolderKind diagnosis_folder_kind() {
   return {"a diagnosis", kDiagnosisJson, {".json", ".toml", ".csv", ".svg"}};
 }
@@ -217,7 +227,8 @@ Command add_diagnose(CLI::App& program) {
       ->add_option("--json", arguments->json_file,
                    "File for the diagnosis; the extended arm is written beside it")
       ->check(not_empty());
-  parser->footer(example("flexarm diagnose simulated/measurement.toml --out diagnosis"));
+  parser->footer(verdict_definitions() +
+                 example("flexarm diagnose simulated/measurement.toml --out diagnosis"));
   return {parser, [arguments] { return run_diagnose(*arguments); }};
 }
 

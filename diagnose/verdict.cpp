@@ -16,6 +16,20 @@ std::string_view to_string(Verdict verdict) {
   return "";
 }
 
+std::string_view definition_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::adequate:
+      return "The residuals of the baseline are noise.";
+    case Verdict::explained:
+      return "The residuals of the extended arm are noise, and its fit converged.";
+    case Verdict::partly_explained:
+      return "Effects are identified; the residuals are not noise, or the fit did not converge.";
+    case Verdict::unexplained:
+      return "No effect is identified; neither the baseline nor refitted numbers leave noise.";
+  }
+  return "";
+}
+
 Verdict verdict_of(const Explanation& chosen, const Explanation& as_filed) {
   const bool is_explained = chosen.leaves_noise() && chosen.fit.converged;
   if (!chosen.fit.candidate.effects.empty()) {

@@ -6,17 +6,16 @@
 
 namespace flexarm::diagnose {
 
-/// What the data say of the arm as its file describes it. "Are noise": those of the estimation and
-/// those of the validation runs pass the residual test (residual_test.hpp).
-enum class Verdict {
-  adequate,          ///< the residuals of the arm as its file has it are noise
-  explained,         ///< those of the extended arm are, and its fit converged
-  partly_explained,  ///< causes are named, but the extended arm is not `explained`
-  unexplained,       ///< no cause is named, and neither of the two arms leaves noise
-};
+/// What the data say of the arm as its file describes it: definition_of().
+enum class Verdict { adequate, explained, partly_explained, unexplained };
 
 /// "adequate", "explained", "partly_explained", "unexplained".
 std::string_view to_string(Verdict verdict);
+
+/// The one definition, which the help and the documents repeat word for word. Residuals "are noise"
+/// where those of the estimation and those of the validation runs pass the residual test
+/// (residual_test.hpp).
+std::string_view definition_of(Verdict verdict);
 
 /// `chosen` is the extended arm: with the causes that are named, or with the uncertain numbers
 /// alone refitted. `as_filed` is the arm of the file, nothing refitted.

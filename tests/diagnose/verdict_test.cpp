@@ -2,6 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
 namespace flexarm::diagnose {
 namespace {
 
@@ -47,6 +52,19 @@ TEST(Verdict, OfAFitThatDidNotConvergeIsNeverExplained) {
 
 TEST(Verdict, IsUnexplainedWithoutACause) {
   EXPECT_EQ(verdict_of(kWrong, kWrong), Verdict::unexplained);
+}
+
+TEST(Verdict, IsDefinedInTheDocumentsWordForWord) {
+  using enum Verdict;
+  for (const char* name : {"glossary.md", "diagnosis.md", "formats.md"}) {
+    std::ifstream file(std::filesystem::path(FLEXARM_SOURCE_DIR) / "docs" / name);
+    std::ostringstream text;
+    text << file.rdbuf();
+    for (const Verdict verdict : {adequate, explained, partly_explained, unexplained}) {
+      EXPECT_NE(text.str().find(definition_of(verdict)), std::string::npos)
+          << name << ": " << to_string(verdict);
+    }
+  }
 }
 
 }  // namespace

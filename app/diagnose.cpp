@@ -53,9 +53,8 @@ struct DiagnoseArguments {
 };
 
 std::string verdict_definitions() {
-  using enum diagnose::Verdict;
   std::string text = "Verdicts:\n";
-  for (const auto verdict : {adequate, explained, partly_explained, unexplained}) {
+  for (const auto verdict : diagnose::kVerdicts) {
     text += fmt::format("  {:<18}{}\n", diagnose::to_string(verdict),
                         diagnose::definition_of(verdict));
   }

@@ -166,7 +166,8 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
   made.cancelled = selection.cancelled;
   if (made.cancelled) return made;
   const Candidate& chosen = selection.chosen.fit.candidate;
-  const std::vector<double> errors = standard_errors(chosen, selection.coordinate_errors);
+  const std::vector<double> errors = standard_errors(
+      chosen, coordinate_errors(problem, selection.chosen, options.further_modes));
   const Posterior posterior = posterior_of(selection, hypotheses.size(), options);
   made.causes = causes_of(selection, posterior, errors);
   made.something_else = posterior.of_something_else();

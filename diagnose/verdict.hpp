@@ -2,12 +2,15 @@
 
 #include "diagnose/search/explanation.hpp"
 
+#include <array>
 #include <string_view>
 
 namespace flexarm::diagnose {
 
 /// What the data say of the arm as its file describes it: definition_of().
 enum class Verdict { adequate, explained, partly_explained, unexplained };
+inline constexpr std::array kVerdicts = {Verdict::adequate, Verdict::explained,
+                                         Verdict::partly_explained, Verdict::unexplained};
 
 /// "adequate", "explained", "partly_explained", "unexplained".
 std::string_view to_string(Verdict verdict);

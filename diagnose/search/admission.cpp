@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 namespace flexarm::diagnose {
@@ -45,7 +46,9 @@ double significant_distance(const SearchedParameter& parameter, double coordinat
 
 std::optional<std::size_t> unidentified_effect(const Candidate& candidate,
                                                const Eigen::VectorXd& errors) {
+  if (candidate.effects.empty()) return std::nullopt;
   const Eigen::VectorXd coordinates = candidate.coordinates();
+  if (errors.size() != coordinates.size()) return 0;
   Index at = std::ssize(candidate.nuisances);
   for (std::size_t i = 0; i < candidate.effects.size(); ++i) {
     for (const SearchedParameter& parameter : candidate.effects[i].parameters) {

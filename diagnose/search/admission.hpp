@@ -15,7 +15,8 @@ namespace flexarm::diagnose {
 /// parameter is identified if it ends inside the range that it was looked for in, or may be inside
 /// by its standard error; and if its standard error is smaller than the distance from the value at
 /// which the effect does nothing; where there is none, than the value itself or, on a linear range,
-/// than half the range. `errors` are those of Candidate::coordinates (parameter_errors.hpp).
+/// than half the range. `errors` are those of Candidate::coordinates (parameter_errors.hpp); where
+/// there are none, as of a fit that failed, the first effect is unidentified.
 std::optional<std::size_t> unidentified_effect(const Candidate& candidate,
                                                const Eigen::VectorXd& errors);
 

@@ -124,7 +124,7 @@ Eigen::VectorXd slopes(const Candidate& candidate) {
 }  // namespace
 
 Eigen::VectorXd coordinate_errors(const Problem& problem, const Explanation& explanation,
-                                  const Problem& finer) {
+                                  int further_modes) {
   const Fit& fit = explanation.fit;
   const Index n = fit.jacobian.cols();
   if (n == 0) return Eigen::VectorXd();
@@ -145,6 +145,7 @@ Eigen::VectorXd coordinate_errors(const Problem& problem, const Explanation& exp
       if (of_runs(i) > limit * variances(i)) variances(i) = widened * widened * of_runs(i);
     }
   }
+  const Problem finer = problem.with_modes(problem.predictor().flexible_modes() + further_modes);
   if (const auto refined = finer.residuals(fit.candidate, problem.estimation_runs())) {
     const Eigen::VectorXd shift =
         information.solve(fit.jacobian.transpose() * (*refined - fit.residuals));

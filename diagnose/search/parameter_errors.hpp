@@ -19,10 +19,10 @@ namespace flexarm::diagnose {
 /// [White1982, LiangZeger1986]. Where the estimates are inconsistent between runs, that is where
 /// the same sum over whole runs exceeds it by more than chance does in 5 %, the variance is that
 /// sum, widened by Student's t for as few runs: a misfit of one kind of run shifts that run's
-/// estimate. Beside it stands the square of what `finer`, the same problem with a finer simulation,
-/// would shift: H^-1 J^T (r_finer - r).
+/// estimate. Beside it stands the square of what a simulation with `further_modes` modes more would
+/// shift: H^-1 J^T (r_finer - r).
 Eigen::VectorXd coordinate_errors(const Problem& problem, const Explanation& explanation,
-                                  const Problem& finer);
+                                  int further_modes);
 /// The same, each in its parameter's own unit; none of a fit that failed.
 std::vector<double> standard_errors(const Candidate& candidate,
                                     const Eigen::VectorXd& coordinate_errors);

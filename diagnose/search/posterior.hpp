@@ -18,9 +18,11 @@ namespace flexarm::diagnose {
 ///
 /// instead of E: where no set leaves noise, sets differ by the ratio of what they leave, and a set
 /// that removes part of a deviation of another kind gains little. E is beyond what the best set
-/// leaves without its own excess (Misfit::excess); where no set leaves noise, beyond what is
-/// expected of noise if that is less, for then no uncertainty of the noise level excuses it. d = `kDiscrepancyFreedom` is small
-/// because one thing that is wrong moves a few frequencies, damping ratios and amplitudes together.
+/// leaves without its own excess (Misfit::excess). Where no set leaves noise, that excess is all
+/// beyond the expectation of noise: the uncertainty of the noise level excuses none of it.
+///
+/// d = `kDiscrepancyFreedom` is small because one thing that is wrong moves a few frequencies,
+/// damping ratios and amplitudes together.
 ///
 /// The prior of a set is the product over its causes of one over the number of hypotheses, and,
 /// where what it leaves is not noise (residual_test.hpp), SelectionOptions::prior_of_something_else.

@@ -52,7 +52,6 @@ class Search {
 
   Selection run() {
     Selection made = found();
-    made.coordinate_errors = stated_errors(made.chosen);
     made.problem = problem_;
     return made;
   }
@@ -68,7 +67,7 @@ class Search {
       extend(made);
       generalise(made);
     }
-    leave_out_improbable(made);
+    leave_out_unnamed(made);
     made.rivals = indistinguishable_sets(made, posterior_of(made, hypotheses_.size(), options_));
     made.cancelled = work_.is_cancelled();
     return made;
@@ -219,8 +218,7 @@ class Search {
   }
 
   Eigen::VectorXd stated_errors(const Explanation& explanation) const {
-    const int modes = problem_.predictor().flexible_modes() + options_.further_modes;
-    return coordinate_errors(problem_, explanation, problem_.with_modes(modes));
+    return coordinate_errors(problem_, explanation, options_.further_modes);
   }
 
   /// `candidate` with another effect in place of one of its own: as it was fitted before, or fitted
@@ -239,8 +237,8 @@ class Search {
   /// The best admitted single over none; `nothing` where there is none.
   Explanation best_single(Selection& made) const {
     for (const Candidate& candidate : candidates_of(made.singles)) {
-      const Explanation single = *find_set(made.singles, candidate);
-      if (is_admitted(made, single, made.nothing)) return single;
+      const auto single = find_set(made.singles, candidate);
+      if (is_admitted(made, *single, made.nothing)) return *find_set(made.singles, candidate);
     }
     return made.nothing;
   }
@@ -295,25 +293,35 @@ class Search {
     }
   }
 
-  /// Without the causes that, with what stands in their place as well, are not probable.
-  void leave_out_improbable(Selection& made) {
-    while (true) {
+  /// Without the causes that may not be named, one after the other: those with a parameter that the
+  /// data do not identify, then the improbable ones.
+  void leave_out_unnamed(Selection& made) {
+    while (!work_.is_cancelled()) {
       const Candidate& candidate = made.chosen.fit.candidate;
-      const Posterior posterior = posterior_of(made, hypotheses_.size(), options_);
-      double least = options_.least_probability;
-      std::optional<std::size_t> least_probable;
-      for (std::size_t i = 0; i < candidate.effects.size(); ++i) {
-        const Hypothesis& effect = candidate.effects[i];
-        const double probability =
-            class_probability(effect, rivals_of(effect, made, posterior), posterior);
-        if (probability >= least) continue;
-        least = probability;
-        least_probable = i;
-      }
-      if (!least_probable) return;
-      const Candidate rest = candidate.without(*least_probable);
+      auto unnamed = unidentified_effect(candidate, stated_errors(made.chosen));
+      if (!unnamed) unnamed = improbable_effect(made);
+      if (!unnamed) return;
+      const Candidate rest = candidate.without(*unnamed);
       made.chosen = rest.effects.empty() ? made.nothing : fitted(rest);
     }
+  }
+
+  /// The least probable of the chosen causes, with what stands in its place as well, if that is too
+  /// improbable to be named.
+  std::optional<std::size_t> improbable_effect(const Selection& made) const {
+    const Candidate& candidate = made.chosen.fit.candidate;
+    const Posterior posterior = posterior_of(made, hypotheses_.size(), options_);
+    double least = options_.least_probability;
+    std::optional<std::size_t> improbable;
+    for (std::size_t i = 0; i < candidate.effects.size(); ++i) {
+      const Hypothesis& effect = candidate.effects[i];
+      const double probability =
+          class_probability(effect, rivals_of(effect, made, posterior), posterior);
+      if (probability >= least) continue;
+      least = probability;
+      improbable = i;
+    }
+    return improbable;
   }
 
   /// One by itself at other values than its scan found: to be combined anew.

@@ -6,8 +6,6 @@
 #include "diagnose/search/selection_options.hpp"
 #include "diagnose/search/torque_timing.hpp"
 
-#include <Eigen/Core>
-
 #include <optional>
 #include <vector>
 
@@ -25,8 +23,6 @@ struct Selection {
   Explanation chosen = {};  ///< `nothing`, or with the causes
   /// The chosen one with a cause exchanged for one that is indistinguishable from it (rivals.hpp).
   std::vector<Explanation> rivals = {};
-  /// Standard errors of the coordinates of the chosen one (parameter_errors.hpp).
-  Eigen::VectorXd coordinate_errors = {};
   std::optional<TorqueTiming> timing = {};  ///< by which torques were corrected
   /// That explains a good part of the excess residual, but does not leave noise: undecided.
   std::optional<TorqueTiming> undecided_timing = {};

@@ -128,6 +128,7 @@ TEST(Admission, NeedsAParameterLargerThanTheErrorThatIsStated) {
   const Candidate& candidate = found.fit.candidate;
   EXPECT_FALSE(unidentified_effect(candidate, Eigen::VectorXd::Constant(1, 0.01)).has_value());
   EXPECT_EQ(unidentified_effect(candidate, Eigen::VectorXd::Constant(1, 0.5)), 0);
+  EXPECT_EQ(unidentified_effect(candidate, Eigen::VectorXd()), 0) << "a fit that failed";
 }
 
 }  // namespace

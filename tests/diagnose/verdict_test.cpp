@@ -1,10 +1,11 @@
 #include "diagnose/verdict.hpp"
 
+#include "measured/files/text_file.hpp"
+
 #include <gtest/gtest.h>
 
+#include <cstddef>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <string>
 
 namespace flexarm::diagnose {
@@ -55,13 +56,12 @@ TEST(Verdict, IsUnexplainedWithoutACause) {
 }
 
 TEST(Verdict, IsDefinedInTheDocumentsWordForWord) {
-  using enum Verdict;
+  constexpr std::size_t kLargest_bytes = 1 << 20;
   for (const char* name : {"glossary.md", "diagnosis.md", "formats.md"}) {
-    std::ifstream file(std::filesystem::path(FLEXARM_SOURCE_DIR) / "docs" / name);
-    std::ostringstream text;
-    text << file.rdbuf();
-    for (const Verdict verdict : {adequate, explained, partly_explained, unexplained}) {
-      EXPECT_NE(text.str().find(definition_of(verdict)), std::string::npos)
+    const std::string text = measured::read_text_file(
+        std::filesystem::path(FLEXARM_SOURCE_DIR) / "docs" / name, kLargest_bytes);
+    for (const Verdict verdict : kVerdicts) {
+      EXPECT_NE(text.find(definition_of(verdict)), std::string::npos)
           << name << ": " << to_string(verdict);
     }
   }

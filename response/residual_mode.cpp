@@ -102,15 +102,15 @@ HubPart hub_part(const Moments& hub, const arm::Mode& left_out, double inertia, 
 
 /// The pseudo-mode as sum a_i phi_i over the known modes n + 1 ... m and `rest` times a shape
 /// orthogonal to all of them.
-struct Expansion {
+struct PseudoModeExpansion {
   std::vector<double> a;            ///< by mode of `known`, 0 for those kept
   double rest_hub_slope = 0.0;      ///< what is missing from the pseudo-mode's
   double rest_squared = 0.0;        ///< of its modal mass, relative
   double rest_omega_squared = 0.0;  ///< of its omega_r^2
 };
 
-Expansion expand(const arm::ModalModel& known, std::size_t kept, const HubPart& hub) {
-  Expansion expansion;
+PseudoModeExpansion expand(const arm::ModalModel& known, std::size_t kept, const HubPart& hub) {
+  PseudoModeExpansion expansion;
   expansion.a.assign(known.modes.size(), 0.0);
   if (hub.is_first_left_out) {
     expansion.a[kept] = 1.0;
@@ -141,7 +141,7 @@ Expansion expand(const arm::ModalModel& known, std::size_t kept, const HubPart& 
 /// is known, Kelvin-Voigt damping but for the springs it leaves out, and the drag of air to be no
 /// more than ca/m.
 void append_damping(arm::ModalModel& model, const arm::ModalModel& known,
-                    const Expansion& expansion, const arm::LinearArm& arm) {
+                    const PseudoModeExpansion& expansion, const arm::LinearArm& arm) {
   const std::size_t kept = model.modes.size() - 1;
   const std::size_t all = known.modes.size();
   const double friction = arm.hub_viscous_friction_N_m_s_per_rad / model.modal_mass_kg_m2;

@@ -17,7 +17,7 @@ namespace {
 using Eigen::Index;
 
 /// As in fit.cpp: beside the rounding of a simulation and its curvature, both small.
-constexpr double kPlaceStep = 1e-5;
+constexpr double kPlanStep = 1e-5;
 /// A run is worth adding where the score rises by so many ties.
 constexpr double kWorthAdding = 0.1;
 /// Rivals that are looked at after a diagnosis: the nearest.
@@ -50,7 +50,7 @@ void observe_tie(const PlannedExperiment& planned, const Tie& tie, const std::ve
   Eigen::MatrixXd jacobian(residuals.size(), places.size());
   for (Index i = 0; i < places.size(); ++i) {
     Eigen::VectorXd beside = places;
-    const double step = places(i) < 0.5 ? kPlaceStep : -kPlaceStep;
+    const double step = places(i) < 0.5 ? kPlanStep : -kPlanStep;
     beside(i) += step;
     Candidate moved = tie.rival;
     moved.put(beside);

@@ -30,7 +30,7 @@ Json object_schema(Json properties, Json required) {
 }
 
 /// The kinds of runs, as measurement files name them.
-Json shown_in(effects::Shows shows) {
+Json kinds_of_data(effects::Shows shows) {
   Json kinds = {"time"};
   if (shows != effects::Shows::in_time) kinds.push_back("frf");
   if (shows == effects::Shows::in_all) kinds.push_back("modal");
@@ -62,7 +62,7 @@ Json effects_json(const std::vector<effects::Entry>& entries) {
         {{"effect", definition.name},
          {"meaning", definition.meaning},
          {"ports", ports},
-         {"shows_in", shown_in(entry.shows)},
+         {"shows_in", kinds_of_data(entry.shows)},
          {"contains", entry.contains},
          {"sensor", definition.sensor ? Json(arm::to_string(*definition.sensor)) : Json(nullptr)},
          {"parameters", parameters},

@@ -3,8 +3,9 @@ add_library(flexarm_flags INTERFACE)
 target_compile_options(flexarm_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion
                        -Wsign-conversion -Wnon-virtual-dtor -Woverloaded-virtual)
 if(FLEXARM_SANITIZE)
+  # With sanitizers GCC 12 takes variables of <regex> for uninitialised.
   add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=all
-                      -fno-omit-frame-pointer)
+                      -fno-omit-frame-pointer -Wno-maybe-uninitialized)
   add_link_options(-fsanitize=address,undefined)
 endif()
 if(FLEXARM_COVERAGE)

@@ -41,5 +41,7 @@ function(flexarm_test name)
   else()
     set(limit_s 300)
   endif()
-  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST PROPERTIES TIMEOUT ${limit_s})
+  # Under sanitizers on a busy machine a program may take longer than CMake's 5 s to list its tests.
+  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 120
+                       PROPERTIES TIMEOUT ${limit_s})
 endfunction()

@@ -83,11 +83,14 @@ class Planning {
   }
 
   Plan run() {
-    detect_all();
-    if (!work_.is_cancelled()) separate_all();
-    if (!work_.is_cancelled()) tie();
-    if (!work_.is_cancelled()) improve();
-    made_.cancelled = work_.is_cancelled();
+    try {
+      detect_all();
+      separate_all();
+      tie();
+      improve();
+    } catch (const Cancelled&) {
+      made_.cancelled = true;
+    }
     return std::move(made_);
   }
 
@@ -110,7 +113,8 @@ class Planning {
           const Detection& truth = made_.effects[a];
           if (!truth.compared || shapes_[a].empty()) return;
           const Problem problem = problem_of(planned_, *truth.compared);
-          for (std::size_t b = 0; b < count && !work_.is_cancelled(); ++b) {
+          for (std::size_t b = 0; b < count; ++b) {
+            work_.go_on();
             if (a == b || hypotheses_[b].contains(truth.hypothesis.effect)) continue;
             made_.separations[a][b] =
                 separate(problem, planned_.unknowns(), shapes_[a].front(), shapes_[b]);
@@ -164,11 +168,12 @@ class Planning {
     }
     auto worth =
         worth_of_further_runs(arm_, made_.better.runs, ties, options_.most_added, [&](double part) {
-          return work_.tell("additional runs", kSeparated + part * (kRanked - kSeparated));
+          work_.tell("additional runs", kSeparated + part * (kRanked - kSeparated));
+          return true;
         });
     made_.further = std::move(worth.ranked);
     made_.added = std::move(worth.together);
-    if (work_.is_cancelled() || made_.added.empty()) return;
+    if (made_.added.empty()) return;
     for (const NextExperiment& next : made_.added) made_.better.runs.push_back(next.further.run);
     const PlannedExperiment better(arm_, made_.better.runs);
     work_.in_parallel(ties.size(), "improved plan", kRanked, 1.0, [&](std::size_t t) {

@@ -12,7 +12,8 @@ using Eigen::Index;
 
 namespace {
 
-constexpr FitOptions kCoarseFit{.most_steps = 8, .tolerance = 1e-4};
+constexpr int kCoarseSteps = 8;
+constexpr double kCoarseTolerance = 1e-4;
 
 /// A few values of a hypothesis' parameters: over their ranges, and of a single one so near to
 /// where it does nothing that the change is its direction.
@@ -61,7 +62,6 @@ std::vector<Fit> EffectScan::first_looks(const Candidate& base,
   std::vector<Fit> looks(others.size());
   work_.in_parallel(others.size(), what, from, to,
                     [&](std::size_t i) { looks[i] = first_look(base, *others[i]); });
-  if (work_.is_cancelled()) return {};
   std::ranges::stable_sort(looks, {}, &Fit::sum_of_squares);
   return looks;
 }
@@ -74,8 +74,13 @@ Fit EffectScan::first_look(const Candidate& base, const Hypothesis& other) const
       short_.observations().values.size() < coarse_.observations().values.size();
   if (scanned.size() == 1 || !is_shorter) return look;
   const Fit at_first = best_from_scan(short_, start, scanned);
-  Fit from_there = fit(coarse_, at_first.candidate, kCoarseFit);
+  Fit from_there = coarse_fit(coarse_, at_first.candidate);
   return from_there.sum_of_squares < look.sum_of_squares ? from_there : look;
+}
+
+Fit EffectScan::coarse_fit(const Problem& problem, const Candidate& start) const {
+  return fit(problem, start,
+             {.most_steps = kCoarseSteps, .tolerance = kCoarseTolerance, .work = &work_});
 }
 
 Fit EffectScan::best_from_scan(const Problem& problem, const Candidate& start,
@@ -85,7 +90,7 @@ Fit EffectScan::best_from_scan(const Problem& problem, const Candidate& start,
                                  .starts = n == 1 ? 1 : options_.scan_starts};
   std::optional<Fit> best;
   for (const Candidate& place : scan(problem, start, scanned, scan_options)) {
-    Fit found = fit(problem, place, kCoarseFit);
+    Fit found = coarse_fit(problem, place);
     if (!best || found.sum_of_squares < best->sum_of_squares) best = std::move(found);
   }
   return *best;
@@ -118,7 +123,7 @@ std::optional<Fit> EffectScan::look_from_limit(const Candidate& limit, std::size
   }
   if (scanned.size() == values.size()) return std::nullopt;
   start = start.with(general, values);
-  if (scanned.empty()) return fit(coarse_, start, kCoarseFit);
+  if (scanned.empty()) return coarse_fit(coarse_, start);
   return best_from_scan(coarse_, start, scanned);
 }
 
@@ -126,7 +131,7 @@ std::vector<const Hypothesis*> EffectScan::promising(const Candidate& base,
                                                      std::vector<const Hypothesis*> others,
                                                      std::string_view what) {
   if (others.size() <= options_.scanned_beside) return others;
-  const Fit left = fit(coarse_, base, kCoarseFit);
+  const Fit left = coarse_fit(coarse_, base);
   const Eigen::HouseholderQR<Eigen::MatrixXd> refitted(left.jacobian);
   std::vector<std::pair<double, const Hypothesis*>> shares(others.size());
   work_.in_parallel(others.size(), what, work_.done(), work_.done(), [&](std::size_t i) {

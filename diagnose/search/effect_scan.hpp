@@ -13,6 +13,7 @@
 namespace flexarm::diagnose {
 
 /// The first look at effects: scans over their whole ranges on a part of the data with few modes.
+/// Throws Cancelled where the work is cancelled.
 class EffectScan {
  public:
   /// `options` and `work` must outlive the object.
@@ -26,8 +27,7 @@ class EffectScan {
                                            std::vector<const Hypothesis*> others,
                                            std::string_view what);
 
-  /// `base` with each of the hypotheses as a scan of it found it, the best first; none if
-  /// cancelled.
+  /// `base` with each of the hypotheses as a scan of it found it, the best first.
   std::vector<Fit> first_looks(const Candidate& base, const std::vector<const Hypothesis*>& others,
                                std::string_view what, double from, double to);
 
@@ -38,6 +38,7 @@ class EffectScan {
   Fit look_in_place(const Candidate& candidate, std::size_t index, const Hypothesis& other) const;
 
  private:
+  Fit coarse_fit(const Problem& problem, const Candidate& start) const;
   Fit best_from_scan(const Problem& problem, const Candidate& start,
                      const std::vector<Eigen::Index>& scanned) const;
   /// Null where they have no parameter in common.

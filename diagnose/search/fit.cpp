@@ -27,6 +27,7 @@ struct Residuals {
 
   const Problem& problem;
   Candidate candidate;
+  ReportedWork* work = nullptr;
   int evaluations = 0;
   Eigen::VectorXd last_places = {};
   Eigen::VectorXd last = {};
@@ -37,6 +38,7 @@ struct Residuals {
   Index values() const { return problem.residual_count(); }
 
   Eigen::VectorXd evaluate(const Eigen::VectorXd& places) {
+    if (work != nullptr) work->go_on();
     candidate.put(places);
     ++evaluations;
     const auto made = problem.residuals(candidate, problem.estimation_runs());
@@ -69,7 +71,7 @@ struct Residuals {
 }  // namespace
 
 Fit fit(const Problem& problem, const Candidate& start, const FitOptions& options) {
-  Residuals residuals{problem, start};
+  Residuals residuals{problem, start, options.work};
   Fit made;
   Eigen::VectorXd places = start.coordinates();
   made.converged = places.size() == 0;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "diagnose/search/problem.hpp"
+#include "diagnose/search/reported_work.hpp"
 
 #include <Eigen/Core>
 
@@ -22,10 +23,11 @@ struct FitOptions {
   /// Converged where a step lowers the sum of squares by less than this part of it, or moves no
   /// place by more than this.
   double tolerance = 1e-7;
+  ReportedWork* work = nullptr;  ///< that the fit is part of; asked before each evaluation
 };
 
 /// From the candidate's own values to the nearest minimum (Levenberg-Marquardt). A candidate
-/// without effects is evaluated.
+/// without effects is evaluated. Throws Cancelled where the work is cancelled.
 Fit fit(const Problem& problem, const Candidate& start, const FitOptions& options = {});
 
 }  // namespace flexarm::diagnose

@@ -69,7 +69,6 @@ class Search {
     }
     leave_out_unnamed(made);
     made.rivals = indistinguishable_sets(made, posterior_of(made, hypotheses_.size(), options_));
-    made.cancelled = work_.is_cancelled();
     return made;
   }
 
@@ -78,7 +77,6 @@ class Search {
     const Candidate& none = made.nothing.fit.candidate;
     made.singles =
         all_with(none, special_, kSingles, 0.0, 0.7 * kSinglesDone, options_.singles_refitted);
-    if (work_.is_cancelled()) return;
     see_noise(made);
     const std::vector<const Hypothesis*> general = general_effects(made.singles);
     std::vector<Explanation> found(general.size());
@@ -90,7 +88,6 @@ class Search {
                              : scan_.look_in_place(limit->fit.candidate, 0, *general[i]))
                             .candidate);
     });
-    if (work_.is_cancelled()) return;
     std::ranges::copy_if(found, std::back_inserter(made.singles), is_identified);
     sort_by_fit(made.singles);
     see_noise(made);
@@ -170,7 +167,7 @@ class Search {
   }
 
   Explanation fitted(const Candidate& start) const {
-    return explain(problem_, fit(problem_, start));
+    return explain(problem_, fit(problem_, start, {.work = &work_}));
   }
 
   /// `base` with each of `others` that it has not, found by a scan of a coarse problem; the
@@ -180,17 +177,14 @@ class Search {
                                     std::size_t refitted) {
     std::erase_if(others, [&](const Hypothesis* other) { return base.has(*other); });
     if (!base.effects.empty()) others = scan_.promising(base, std::move(others), what);
-    if (others.empty() || work_.is_cancelled()) return {};
+    if (others.empty()) return {};
     const double middle = from + 0.6 * (to - from);
     std::vector<Fit> looks = scan_.first_looks(base, others, what, from, middle);
-    if (work_.is_cancelled()) return {};
     looks.resize(std::min(refitted, looks.size()));
     std::vector<Explanation> found(looks.size());
     work_.in_parallel(looks.size(), what, middle, to,
                       [&](std::size_t i) { found[i] = fitted(looks[i].candidate); });
-    if (!work_.is_cancelled()) {
-      std::erase_if(found, [](const Explanation& one) { return !is_identified(one); });
-    }
+    std::erase_if(found, [](const Explanation& one) { return !is_identified(one); });
     sort_by_fit(found);
     return found;
   }
@@ -273,9 +267,9 @@ class Search {
       if (static_cast<int>(causes) == options_.most_causes) return;
       combine_further(made);
       const Explanation* larger = simplest(made.combinations, causes + 1);
-      if (larger == nullptr || work_.is_cancelled()) return;
+      if (larger == nullptr) return;
       const Explanation best = needed(exchanged(made, *larger));
-      if (work_.is_cancelled() || !is_admitted(made, best, made.chosen)) return;
+      if (!is_admitted(made, best, made.chosen)) return;
       if (best.fit.candidate.effects.size() == 1) replace_single(made, best);
       choose(made, exchanged(made, best));
     }
@@ -286,7 +280,7 @@ class Search {
     const Candidate chosen = made.chosen.fit.candidate;
     for (std::size_t i = 0; i < chosen.effects.size() && !is_enough(made); ++i) {
       for (const Hypothesis* general : general_) {
-        if (!general->contains(chosen.effects[i].effect) || work_.is_cancelled()) continue;
+        if (!general->contains(chosen.effects[i].effect)) continue;
         const Explanation found = replaced(made, chosen, i, *general);
         if (may_be_named(found, made.chosen)) made.chosen = found;
       }
@@ -296,7 +290,7 @@ class Search {
   /// Without the causes that may not be named, one after the other: those with a parameter that the
   /// data do not identify, then the improbable ones.
   void leave_out_unnamed(Selection& made) {
-    while (!work_.is_cancelled()) {
+    while (true) {
       const Candidate& candidate = made.chosen.fit.candidate;
       auto unnamed = unidentified_effect(candidate, stated_errors(made.chosen));
       if (!unnamed) unnamed = improbable_effect(made);
@@ -428,7 +422,7 @@ class Search {
   Problem problem_;
   const std::vector<Hypothesis>& hypotheses_;
   const SelectionOptions& options_;
-  ReportedWork work_;
+  mutable ReportedWork work_;
   EffectScan scan_;
   std::vector<const Hypothesis*> general_;
   std::vector<const Hypothesis*> special_;    // the others
@@ -439,7 +433,13 @@ class Search {
 
 Selection select(Problem problem, const std::vector<Hypothesis>& hypotheses,
                  const SelectionOptions& options, const DiagnosisProgress& progress) {
-  return Search(problem, hypotheses, options, progress).run();
+  try {
+    return Search(problem, hypotheses, options, progress).run();
+  } catch (const Cancelled&) {
+    Selection made{problem};
+    made.cancelled = true;
+    return made;
+  }
 }
 
 }  // namespace flexarm::diagnose

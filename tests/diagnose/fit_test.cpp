@@ -8,6 +8,9 @@
 
 #include <gtest/gtest.h>
 
+#include <string_view>
+#include <thread>
+
 namespace flexarm::diagnose {
 namespace {
 
@@ -73,6 +76,32 @@ TEST(Diagnose, CanBeCancelled) {
   const Diagnosis made = diagnose(experiment, named(experiment, {"time_delay", "torque_bias"}), {},
                                   [](std::string_view, double) { return false; });
   EXPECT_TRUE(made.cancelled);
+}
+
+TEST(Diagnose, EndsAtTheNextEvaluationWhenCancelled) {
+  const Experiment experiment =
+      simulated_experiment({effects::named("coulomb_friction", {{"torque", 0.012}})});
+  constexpr int kCancelledAt = 20;  // of some forty
+  // Each thread may be told once more.
+  const int most_asked = kCancelledAt + static_cast<int>(std::thread::hardware_concurrency());
+  int asked = 0;
+  const Diagnosis made =
+      diagnose(experiment, named(experiment, {"time_delay", "coulomb_friction"}), {},
+               [&](std::string_view, double) { return ++asked < kCancelledAt; });
+  EXPECT_TRUE(made.cancelled);
+  EXPECT_GE(asked, kCancelledAt);
+  EXPECT_LE(asked, most_asked);
+}
+
+TEST(Fit, EndsWhereItsWorkIsCancelled) {
+  const Experiment experiment =
+      simulated_experiment({effects::named("coulomb_friction", {{"torque", 0.012}})});
+  const Problem problem(experiment);
+  const auto hypothesis = named(experiment, {"coulomb_friction"}).front();
+  const Candidate start = problem.as_filed().with(hypothesis, hypothesis.middle());
+  const DiagnosisProgress cancel = [](std::string_view, double) { return false; };
+  ReportedWork work(cancel);
+  EXPECT_THROW(fit(problem, start, {.work = &work}), Cancelled);
 }
 
 }  // namespace

@@ -3,11 +3,8 @@
 #include "arm/input_error.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <mutex>
 #include <numeric>
-#include <tbb/parallel_for.h>
 #include <utility>
 
 namespace flexarm::diagnose {
@@ -91,11 +88,10 @@ Informations informations(const PlannedExperiment& planned, const Tie& tie) {
 struct Evidence {
   std::vector<Informations> of;
   std::vector<double> counts;  ///< numbers in each run
-  bool cancelled = false;
 };
 
 Evidence evidence_of(const arm::Arm& arm, const std::vector<FurtherRun>& further,
-                     const std::vector<Tie>& ties, const std::function<bool(double)>& progress) {
+                     const std::vector<Tie>& ties, ReportedWork& work, double from, double to) {
   const PlannedExperiment planned(arm, runs_of(further));
   Evidence made;
   const auto& first = planned.as_described().observations().first_of_run;
@@ -103,17 +99,8 @@ Evidence evidence_of(const arm::Arm& arm, const std::vector<FurtherRun>& further
     made.counts.push_back(static_cast<double>(first[r + 1] - first[r]));
   }
   made.of.resize(ties.size());
-  std::atomic<std::size_t> done = 0;
-  std::atomic<bool> cancelled = false;
-  std::mutex told;
-  tbb::parallel_for(std::size_t{0}, ties.size(), [&](std::size_t t) {
-    if (cancelled) return;
-    made.of[t] = informations(planned, ties[t]);
-    const double part = static_cast<double>(++done) / static_cast<double>(ties.size());
-    const std::scoped_lock lock(told);
-    if (progress && !progress(part)) cancelled = true;
-  });
-  made.cancelled = cancelled;
+  work.in_parallel(ties.size(), "additional runs", from, to,
+                   [&](std::size_t t) { made.of[t] = informations(planned, ties[t]); });
   return made;
 }
 
@@ -185,12 +172,11 @@ bool is_a_limit(const Candidate& chosen, const Candidate& rival) {
 
 FurtherRunsWorth worth_of_further_runs(const arm::Arm& arm, const std::vector<PlannedRun>& runs,
                                        const std::vector<Tie>& ties, std::size_t most_together,
-                                       const std::function<bool(double)>& progress) {
+                                       ReportedWork& work, double from, double to) {
   if (ties.empty()) return {};
   try {
     const auto further = further_runs(arm, runs);
-    const Evidence evidence = evidence_of(arm, further, ties, progress);
-    if (evidence.cancelled) return {};
+    const Evidence evidence = evidence_of(arm, further, ties, work, from, to);
     return {rank(further, ties, evidence), chosen_together(further, ties, evidence, most_together)};
   } catch (const arm::InputError&) {
     return {};
@@ -211,8 +197,11 @@ std::vector<NextExperiment> what_next(const Problem& problem, const Selection& s
       ties.push_back(tie_between(selection.singles.front(), selection.singles[i]));
     }
   }
+  const DiagnosisProgress silent;
+  ReportedWork work(silent);
+  const std::vector<PlannedRun> measured = planned_as_measured(problem);
   auto ranked =
-      worth_of_further_runs(problem.experiment().arm, planned_as_measured(problem), ties, 0).ranked;
+      worth_of_further_runs(problem.experiment().arm, measured, ties, 0, work, 0.0, 1.0).ranked;
   ranked.resize(std::min(ranked.size(), kMostShown));
   return ranked;
 }

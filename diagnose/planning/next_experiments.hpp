@@ -2,11 +2,11 @@
 
 #include "diagnose/planning/further_runs.hpp"
 #include "diagnose/planning/separation.hpp"
+#include "diagnose/search/reported_work.hpp"
 #include "diagnose/search/selection.hpp"
 
 #include <Eigen/Core>
 
-#include <functional>
 #include <vector>
 
 namespace flexarm::diagnose {
@@ -39,10 +39,11 @@ struct FurtherRunsWorth {
 /// told, with soft edges: the sum of lead/(lead + kToldLead). At most `most_together` are chosen,
 /// while each raises the score by a tenth of a tie or more. A run that cannot be computed for a tie
 /// says nothing of it; where the arm itself cannot be computed in them (one that falls) there is no
-/// advice. `progress` gets the fraction done; false ends the work, with nothing.
+/// advice. It takes the fraction `from` .. `to` of `work`; throws Cancelled where that is
+/// cancelled.
 FurtherRunsWorth worth_of_further_runs(const arm::Arm& arm, const std::vector<PlannedRun>& runs,
                                        const std::vector<Tie>& ties, std::size_t most_together,
-                                       const std::function<bool(double)>& progress = {});
+                                       ReportedWork& work, double from, double to);
 
 /// What to measure next, where causes that were chosen cannot be told from rivals; where nothing
 /// was chosen but something is there, what would tell the nearest effects from each other. The best

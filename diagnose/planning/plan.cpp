@@ -166,11 +166,8 @@ class Planning {
                       separation.rival, separation.information,
                       fitted_count(planned_.as_described())});
     }
-    auto worth =
-        worth_of_further_runs(arm_, made_.better.runs, ties, options_.most_added, [&](double part) {
-          work_.tell("additional runs", kSeparated + part * (kRanked - kSeparated));
-          return true;
-        });
+    auto worth = worth_of_further_runs(arm_, made_.better.runs, ties, options_.most_added, work_,
+                                       kSeparated, kRanked);
     made_.further = std::move(worth.ranked);
     made_.added = std::move(worth.together);
     if (made_.added.empty()) return;

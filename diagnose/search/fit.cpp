@@ -27,7 +27,7 @@ struct Residuals {
 
   const Problem& problem;
   Candidate candidate;
-  ReportedWork* work = nullptr;
+  const ReportedWork* work = nullptr;
   int evaluations = 0;
   Eigen::VectorXd last_places = {};
   Eigen::VectorXd last = {};

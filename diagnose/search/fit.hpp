@@ -23,7 +23,7 @@ struct FitOptions {
   /// Converged where a step lowers the sum of squares by less than this part of it, or moves no
   /// place by more than this.
   double tolerance = 1e-7;
-  ReportedWork* work = nullptr;  ///< that the fit is part of; asked before each evaluation
+  const ReportedWork* work = nullptr;  ///< that the fit is part of; asked before each evaluation
 };
 
 /// From the candidate's own values to the nearest minimum (Levenberg-Marquardt). A candidate

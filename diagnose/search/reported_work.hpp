@@ -10,13 +10,14 @@
 namespace flexarm::diagnose {
 
 /// Called with what is done and the fraction done, also with the same once more before each
-/// evaluation of the model, by one thread at a time; false cancels.
+/// evaluation of a fit, by one thread at a time; false cancels.
 using DiagnosisProgress = std::function<bool(std::string_view, double)>;
 
 /// Thrown out of work that was cancelled.
 struct Cancelled {};
 
-/// Work on all cores that tells how far it is. Throws Cancelled where the progress function cancels.
+/// Work on all cores that tells how far it is. Throws Cancelled where the progress function
+/// cancels.
 class ReportedWork {
  public:
   /// `progress` must outlive the object.
@@ -32,7 +33,7 @@ class ReportedWork {
     ask();
   }
   /// Tells the same once more in the midst of a step. Concurrent calls are safe.
-  void go_on() {
+  void go_on() const {
     const std::scoped_lock lock(telling_);
     ask();
   }
@@ -54,7 +55,7 @@ class ReportedWork {
   }
 
   const DiagnosisProgress& progress_;
-  std::mutex telling_;
+  mutable std::mutex telling_;
   std::string_view what_;
   std::atomic<double> done_ = 0.0;
 };

@@ -290,7 +290,7 @@ class Search {
   /// Without the causes that may not be named, one after the other: those with a parameter that the
   /// data do not identify, then the improbable ones.
   void leave_out_unnamed(Selection& made) {
-    while (true) {
+    while (!made.chosen.fit.candidate.effects.empty()) {
       const Candidate& candidate = made.chosen.fit.candidate;
       auto unnamed = unidentified_effect(candidate, stated_errors(made.chosen));
       if (!unnamed) unnamed = improbable_effect(made);
@@ -422,7 +422,7 @@ class Search {
   Problem problem_;
   const std::vector<Hypothesis>& hypotheses_;
   const SelectionOptions& options_;
-  mutable ReportedWork work_;
+  ReportedWork work_;
   EffectScan scan_;
   std::vector<const Hypothesis*> general_;
   std::vector<const Hypothesis*> special_;    // the others

@@ -87,7 +87,8 @@ Fit EffectScan::best_from_scan(const Problem& problem, const Candidate& start,
                                const std::vector<Index>& scanned) const {
   const std::size_t n = std::min(scanned.size(), options_.scan_evaluations.size());
   const ScanOptions scan_options{.evaluations = options_.scan_evaluations[n - 1],
-                                 .starts = n == 1 ? 1 : options_.scan_starts};
+                                 .starts = n == 1 ? 1 : options_.scan_starts,
+                                 .work = &work_};
   std::optional<Fit> best;
   for (const Candidate& place : scan(problem, start, scanned, scan_options)) {
     Fit found = coarse_fit(problem, place);

@@ -24,11 +24,13 @@ class ScannedSum {
     Eigen::VectorXd scanned;
   };
 
-  ScannedSum(const Problem& problem, const Candidate& start, const std::vector<Index>& coordinates)
+  ScannedSum(const Problem& problem, const Candidate& start, const std::vector<Index>& coordinates,
+             const ReportedWork* work)
       : problem_(problem),
         candidate_(start),
         all_(start.coordinates()),
-        coordinates_(coordinates) {}
+        coordinates_(coordinates),
+        work_(work) {}
 
   Candidate candidate_at(const Eigen::VectorXd& scanned) const {
     Candidate made = candidate_;
@@ -40,6 +42,7 @@ class ScannedSum {
 
   /// The logarithm, which DIRECT-L compares between boxes of different size.
   double log_at(const Eigen::VectorXd& scanned) {
+    if (work_ != nullptr) work_->go_on();
     const auto residuals = problem_.residuals(candidate_at(scanned), problem_.estimation_runs());
     const double sum =
         residuals ? residuals->squaredNorm() : std::numeric_limits<double>::infinity();
@@ -67,6 +70,7 @@ class ScannedSum {
   const Candidate& candidate_;
   Eigen::VectorXd all_;
   const std::vector<Index>& coordinates_;
+  const ReportedWork* work_;
   std::vector<Place> places_;
 };
 
@@ -88,9 +92,14 @@ void try_grid(ScannedSum& sum, Index dimension, int evaluations) {
 
 void try_direct(ScannedSum& sum, Index dimension, int evaluations) {
   nlopt::opt search(nlopt::GN_DIRECT_L, static_cast<unsigned>(dimension));
+  // NLopt passes no exception on but its own.
   const nlopt::vfunc cost = [](const std::vector<double>& x, std::vector<double>&, void* data) {
-    return static_cast<ScannedSum*>(data)->log_at(
-        Eigen::VectorXd::Map(x.data(), static_cast<Index>(x.size())));
+    try {
+      return static_cast<ScannedSum*>(data)->log_at(
+          Eigen::VectorXd::Map(x.data(), static_cast<Index>(x.size())));
+    } catch (const Cancelled&) {
+      throw nlopt::forced_stop();
+    }
   };
   search.set_min_objective(cost, &sum);
   search.set_lower_bounds(0.0);
@@ -98,7 +107,11 @@ void try_direct(ScannedSum& sum, Index dimension, int evaluations) {
   search.set_maxeval(evaluations);
   std::vector<double> x(static_cast<std::size_t>(dimension), 0.5);
   double value = 0.0;
-  search.optimize(x, value);
+  try {
+    search.optimize(x, value);
+  } catch (const nlopt::forced_stop&) {
+    throw Cancelled{};
+  }
 }
 
 }  // namespace
@@ -110,7 +123,7 @@ std::vector<Candidate> scan(const Problem& problem, const Candidate& start,
   const auto dimension = static_cast<Index>(coordinates.size());
   const bool by_grid = options.method == ScanMethod::grid ||
                        (options.method == ScanMethod::by_dimension && dimension <= kMostOfGrid);
-  ScannedSum sum(problem, start, coordinates);
+  ScannedSum sum(problem, start, coordinates, options.work);
   (by_grid ? try_grid : try_direct)(sum, dimension, options.evaluations);
   return sum.best(options.starts);
 }

@@ -231,20 +231,22 @@ TEST_F(JsonSchema, WhatDiagnoseWritesIsWhatTheDocumentSays) {
     EXPECT_EQ(ended.status, 0) << ended.errors;
     documents.push_back(Json::parse(text_of("out.json")));
   };
-  write("true.toml", arm +
-                         "[effects.coulomb_friction]\ntorque = 0.01\n"
-                         "[effects.sensor_lag]\ntime_constant = 0.004\n");
-  const Ended made =
-      run({"simulate", "true.toml", "--duration", "4", "--period", "0.002", "--sensor",
-           "hub_angle,tip_acceleration", "--noise", "0.005", "--excitation",
-           "multisine:rms=0.05,from=0.5,to=60,period=1,detection=3,id=odd", "--excitation",
-           "random:rms=0.05,to=60,id=random", "--out", "sim"});
-  ASSERT_EQ(made.status, 0) << made.errors;
   std::string uncertain = arm;
   uncertain.replace(uncertain.find("\n[damping]"), 1, "\ninertia_uncertainty = 0.02\n");
-  write("sim/arm.toml", uncertain);
-  diagnose("sim/measurement.toml", "coulomb_friction,sensor_lag,torque_ripple,torque_saturation");
-  diagnose("sim/measurement.toml", "payload_mass,hub_inertia");
+  const auto simulate = [&](const std::string& folder, const std::string& hidden) {
+    write("true.toml", arm + hidden + "[effects.sensor_lag]\ntime_constant = 0.004\n");
+    const Ended made =
+        run({"simulate", "true.toml", "--duration", "4", "--period", "0.002", "--sensor",
+             "hub_angle,tip_acceleration", "--noise", "0.005", "--excitation",
+             "multisine:rms=0.05,from=0.5,to=60,period=1,detection=3,id=odd", "--excitation",
+             "random:rms=0.05,to=60,id=random", "--out", folder});
+    EXPECT_EQ(made.status, 0) << made.errors;
+    write(folder + "/arm.toml", uncertain);
+  };
+  simulate("named", "[effects.payload_mass]\nmass = 0.02\n");
+  diagnose("named/measurement.toml", "payload_mass,sensor_lag,root_compliance");
+  simulate("unnamed", "[effects.coulomb_friction]\ntorque = 0.01\n");
+  diagnose("unnamed/measurement.toml", "payload_mass,hub_inertia");
 
   write("arm.toml", arm);
   write("modal.csv",

@@ -81,7 +81,7 @@ TEST(Diagnose, CanBeCancelled) {
 TEST(Diagnose, EndsAtTheNextEvaluationWhenCancelled) {
   const Experiment experiment =
       simulated_experiment({effects::named("coulomb_friction", {{"torque", 0.012}})});
-  constexpr int kCancelledAt = 20;  // of some forty
+  constexpr int kCancelledAt = 20;  // of more than forty
   // Each thread may be told once more.
   const int most_asked = kCancelledAt + static_cast<int>(std::thread::hardware_concurrency());
   int asked = 0;
@@ -93,15 +93,19 @@ TEST(Diagnose, EndsAtTheNextEvaluationWhenCancelled) {
   EXPECT_LE(asked, most_asked);
 }
 
-TEST(Fit, EndsWhereItsWorkIsCancelled) {
+TEST(Fit, AndScanEndWhereTheirWorkIsCancelled) {
   const Experiment experiment =
       simulated_experiment({effects::named("coulomb_friction", {{"torque", 0.012}})});
   const Problem problem(experiment);
   const auto hypothesis = named(experiment, {"coulomb_friction"}).front();
   const Candidate start = problem.as_filed().with(hypothesis, hypothesis.middle());
   const DiagnosisProgress cancel = [](std::string_view, double) { return false; };
-  ReportedWork work(cancel);
+  const ReportedWork work(cancel);
   EXPECT_THROW(fit(problem, start, {.work = &work}), Cancelled);
+  for (const ScanMethod method : {ScanMethod::grid, ScanMethod::direct}) {
+    EXPECT_THROW(scan(problem, start, last_coordinates(start), {.method = method, .work = &work}),
+                 Cancelled);
+  }
 }
 
 }  // namespace

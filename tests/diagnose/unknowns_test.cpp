@@ -98,7 +98,9 @@ TEST(UnknownState, LeavesALinearCauseToBeFound) {
 
 TEST(UnknownState, LeavesFrictionToBeFound) {
   const Experiment experiment = begun_later(
-      simulated_experiment({effects::named("coulomb_friction", {{"torque", 0.008}})}), kBegin);
+      simulated_experiment({effects::named("coulomb_friction", {{"torque", 0.008}})},
+                           {.duration_s = 2.0}),
+      kBegin);
   const Diagnosis made =
       diagnose(experiment, named(experiment, {"coulomb_friction", "hub_viscous_friction"}));
   ASSERT_EQ(made.causes.size(), 1U);

@@ -41,6 +41,7 @@ LinearSystem extended(const LinearSystem& system, double omega, double per_sine)
   made.force.topRows(n) = system.force;
   made.hub_acceleration = extended(system.hub_acceleration, per_sine);
   for (const auto& sensor : system.sensors) made.sensors.push_back(extended(sensor, per_sine));
+  made.lagged_readings = system.lagged_readings;
   return made;
 }
 
@@ -79,7 +80,7 @@ ModalDynamics with_sine(const ModalDynamics& arm, const SineDrive& drive, double
   made.held = extended(arm.held, omega, per_sine);
   made.reaction = extended(arm.reaction, per_sine);
   made.hub_torque = extended(arm.hub_torque, per_sine);
-  made.fastest_rate_rad_per_s = made.turning.a.cwiseAbs().rowwise().sum().maxCoeff();
+  made.fastest_rate_rad_per_s = fastest_rate_rad_per_s(made.turning);
   return made;
 }
 

@@ -150,6 +150,7 @@ LinearSystem assemble(const ModalDynamics& arm, const ArmParts& parts, const Lay
       system.force.row(w) = read.force * (rate / scale);
       read = zero_reading(layout);
       read.state(w) = scale;
+      system.lagged_readings.push_back(w);
     }
     system.sensors.push_back(std::move(read));
   }
@@ -200,6 +201,12 @@ ModalDynamics coordinates(const arm::ModalModel& model, const Layout& layout) {
 
 }  // namespace
 
+double fastest_rate_rad_per_s(const LinearSystem& system) {
+  Eigen::VectorXd rates = system.a.cwiseAbs().rowwise().sum();
+  rates(system.lagged_readings).setZero();
+  return rates.maxCoeff();
+}
+
 double ModalDynamics::hub_angle(const Eigen::VectorXd& x) const {
   return (hub_slope.array() * x.head(modes).array() / scale_rad_per_s.array()).sum();
 }
@@ -247,7 +254,7 @@ ModalDynamics modal_dynamics(const arm::ModalModel& model, const ArmParts& parts
   arm.reaction.actuator = arm.hub_torque.actuator;
   if (layout.lagged_torque) arm.reaction.state(*layout.lagged_torque) = torque_scale(arm);
   if (!modal_forces) arm.reaction.force(0) = 1.0;
-  arm.fastest_rate_rad_per_s = arm.turning.a.cwiseAbs().rowwise().sum().maxCoeff();
+  arm.fastest_rate_rad_per_s = fastest_rate_rad_per_s(arm.turning);
   return arm;
 }
 

@@ -36,7 +36,12 @@ struct LinearSystem {
   Eigen::MatrixXd force;     ///< N x m
   Reading hub_acceleration;  ///< theta''
   std::vector<Reading> sensors;
+  std::vector<Eigen::Index> lagged_readings;  ///< rows of W; nothing else depends on W
 };
+
+/// A bound on what X but W does: the largest of those row sums of |A|. Lags of sensors, which may
+/// be as short as they like, are left out.
+double fastest_rate_rad_per_s(const LinearSystem& system);
 
 /// What the two systems of an arm have in common, and how f is formed.
 struct ModalDynamics {
@@ -55,7 +60,7 @@ struct ModalDynamics {
   Eigen::VectorXd scale_rad_per_s;      ///< sigma, n
   Eigen::VectorXd stiffness;            ///< omega_i^2, n; the first may be below 0
   Eigen::MatrixXd damping;              ///< D, n x n
-  double fastest_rate_rad_per_s = 0.0;  ///< a bound on what X does: the largest row sum of |A|
+  double fastest_rate_rad_per_s = 0.0;  ///< of `turning`
 
   Eigen::Index size() const { return turning.a.rows(); }
   double hub_angle(const Eigen::VectorXd& x) const;

@@ -156,7 +156,7 @@ void StepSolver::expand(const Eigen::VectorXd& x, HubMotion motion) {
       system.actuator * inputs_.u0 + system.force * inputs_.f0,
       system.actuator * (inputs_.u1 - inputs_.u0) + system.force * inputs_.force_slope(),
       system.force * inputs_.force_square()};
-  series_.compute(system.a, inputs_.length_s, x, inputs);
+  series_.compute(system, inputs_.length_s, x, inputs);
 }
 
 }  // namespace flexarm::response

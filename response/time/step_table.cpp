@@ -49,6 +49,8 @@ WatchBound::WatchBound(const LinearSystem& system, const Reading& reading, doubl
   g.topLeftCorner(n, n) = system.a * step_s;
   g.col(n).head(n) = system.actuator * step_s;
   g.block(0, n + 2, n, m) = system.force * step_s;
+  // The reading does not depend on W: its rates, however large, need no bound.
+  g(system.lagged_readings, Eigen::all).setZero();
   g(n, n + 1) = 1.0;
   g.block(n + 2, n + 2 + m, m, m).setIdentity();
   g.block(n + 2 + m, n + 2 + 2 * m, m, m).setIdentity();

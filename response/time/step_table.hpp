@@ -34,7 +34,7 @@ struct StepInputs {
 ///
 ///     |y''| <= |c G^2| e^(|G| h) |e^(G t_k)| |Z(0)|,
 ///
-/// so that values and bounds are rows that multiply Z(0) and |Z(0)|.
+/// so that values and bounds are rows that multiply Z(0) and |Z(0)|. c may not contain W.
 class WatchBound {
  public:
   WatchBound() = default;

@@ -60,7 +60,7 @@ EnergyBalance booked(double friction_N_m, double law_N_m) {
                     .fm = Eigen::VectorXd::Constant(1, -friction_N_m),
                     .f1 = Eigen::VectorXd::Constant(1, -friction_N_m)};
   Expansion solution;
-  solution.compute(arm.turning.a, 0.01, Eigen::VectorXd::Zero(arm.size()),
+  solution.compute(arm.turning, 0.01, Eigen::VectorXd::Zero(arm.size()),
                    {arm.turning.actuator * 0.3 - arm.turning.force * friction_N_m,
                     Eigen::VectorXd::Zero(arm.size()), Eigen::VectorXd::Zero(arm.size())});
   ledger.add(solution, inputs, HubMotion::forward, 1.0);

@@ -78,6 +78,7 @@ ModalDynamics with_sine(const ModalDynamics& arm, const SineDrive& drive, double
   ModalDynamics made = arm;
   made.turning = extended(arm.turning, omega, per_sine);
   made.held = extended(arm.held, omega, per_sine);
+  made.lagged_torque.reset();  // S drives Z, which no constant rate of u settles
   made.reaction = extended(arm.reaction, per_sine);
   made.hub_torque = extended(arm.hub_torque, per_sine);
   made.fastest_rate_rad_per_s = fastest_rate_rad_per_s(made.turning);

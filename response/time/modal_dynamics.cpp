@@ -222,6 +222,19 @@ void ModalDynamics::set_hub_angle(Eigen::VectorXd& x, double angle_rad) const {
       scale_rad_per_s.array() * hub_slope.array() * (excess / hub_slope.squaredNorm());
 }
 
+ModalDynamics with_settled_torque(const ModalDynamics& arm) {
+  ModalDynamics made = arm;
+  const Index z = *arm.lagged_torque;
+  for (LinearSystem* system : {&made.turning, &made.held}) {
+    system->actuator_rate.setZero(system->a.rows());
+    system->actuator_rate(z) = -system->actuator(z) / system->a(z, z);
+    system->actuator(z) = 0.0;
+    system->a.row(z).setZero();
+  }
+  made.fastest_rate_rad_per_s = fastest_rate_rad_per_s(made.turning);
+  return made;
+}
+
 ModalDynamics modal_dynamics(const arm::ModalModel& model, const ArmParts& parts,
                              std::span<const arm::Sensor> sensors) {
   const bool modal_forces = !parts.beam_forces.empty();
@@ -234,6 +247,7 @@ ModalDynamics modal_dynamics(const arm::ModalModel& model, const ArmParts& parts
   arm.held = assemble(arm, parts, layout, held, sensors, model);
   arm.first_law_state = layout.size - layout.law_states;
   arm.law_state_count = layout.law_states;
+  arm.lagged_torque = layout.lagged_torque;
   arm.hub_force.setZero(layout.forces());
   if (modal_forces) {
     arm.hub_force.head(layout.n) = arm.hub_slope / arm.modal_mass_kg_m2;

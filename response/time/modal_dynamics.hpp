@@ -22,7 +22,7 @@ struct Reading {
 /// The arm, the lag of its actuator, those of its sensors and the states of laws of hub torque as
 /// one linear system with the hub either turning or held,
 ///
-///     X' = A X + actuator u + force f,
+///     X' = A X + actuator u + actuator_rate u' + force f,
 ///
 /// X = (sigma_i q_i; q_i'; Z; W; z), N entries: sigma_i = omega_i, or that of the first flexible
 /// mode where omega_i is less, makes A nearly antisymmetric; Z is the lagged torque and W the
@@ -33,6 +33,8 @@ struct Reading {
 struct LinearSystem {
   Eigen::MatrixXd a;         ///< N x N [1/s]
   Eigen::VectorXd actuator;  ///< N
+  /// N, or empty for none. That of the formulations has none; with_settled_torque has.
+  Eigen::VectorXd actuator_rate = {};
   Eigen::MatrixXd force;     ///< N x m
   Reading hub_acceleration;  ///< theta''
   std::vector<Reading> sensors;
@@ -55,6 +57,7 @@ struct ModalDynamics {
   Eigen::Index modes = 0;            ///< n
   Eigen::Index first_law_state = 0;  ///< where z begins in X
   Eigen::Index law_state_count = 0;
+  std::optional<Eigen::Index> lagged_torque = {};  ///< row of Z
   double modal_mass_kg_m2 = 0.0;
   Eigen::VectorXd hub_slope;            ///< n
   Eigen::VectorXd scale_rad_per_s;      ///< sigma, n
@@ -77,6 +80,10 @@ struct ModalDynamics {
   /// Modal coordinates with that hub angle, and nearest to those of `x`.
   void set_hub_angle(Eigen::VectorXd& x, double angle_rad) const;
 };
+
+/// The arm long after u began to change at a constant rate: what it was before has decayed, and Z'
+/// = u' whatever the lag. Of an arm with Z that u alone drives.
+ModalDynamics with_settled_torque(const ModalDynamics& arm);
 
 /// Throws InputError for a model whose parts do not fit together.
 ModalDynamics modal_dynamics(const arm::ModalModel& model, const ArmParts& parts,

@@ -22,12 +22,15 @@ constexpr Eigen::Index kMostExtendedRows = 120;
 Propagator propagator(const LinearSystem& system, double step_s, double until,
                       Precision precision) {
   const Eigen::Index n = system.a.rows();
-  const Eigen::Index m = 1 + system.force.cols();
+  const Eigen::Index forces = system.force.cols();
+  const bool has_rate = system.actuator_rate.size() > 0;
+  const Eigen::Index m = 1 + forces + (has_rate ? 1 : 0);
   const double dt = step_s * until;
   Eigen::MatrixXd chain = Eigen::MatrixXd::Zero(n + 3 * m, n + 3 * m);
   chain.topLeftCorner(n, n) = system.a * dt;
   chain.block(0, n, n, 1) = system.actuator * dt;
-  chain.block(0, n + 1, n, m - 1) = system.force * dt;
+  chain.block(0, n + 1, n, forces) = system.force * dt;
+  if (has_rate) chain.col(n + m - 1).head(n) = system.actuator_rate * until;
   chain.block(n, n + m, m, m).setIdentity();
   chain.block(n + m, n + 2 * m, m, m).setIdentity();
   const bool is_extended = precision == Precision::extended && chain.rows() <= kMostExtendedRows;
@@ -39,13 +42,18 @@ Propagator propagator(const LinearSystem& system, double step_s, double until,
   // with r = until s.
   const auto u_constant = power.col(n);
   const auto u_linear = power.col(n + m) * until;
-  const auto f_constant = power.block(0, n + 1, n, m - 1);
-  const auto f_linear = power.block(0, n + m + 1, n, m - 1) * until;
-  const auto f_square = power.block(0, n + 2 * m + 1, n, m - 1) * (2.0 * until * until);
+  const auto f_constant = power.block(0, n + 1, n, forces);
+  const auto f_linear = power.block(0, n + m + 1, n, forces) * until;
+  const auto f_square = power.block(0, n + 2 * m + 1, n, forces) * (2.0 * until * until);
   Propagator made;
   made.state = power.leftCols(n);
   made.actuator_begin = u_constant - u_linear;
   made.actuator_end = u_linear;
+  if (has_rate) {
+    // u' dt = until (u1 - u0).
+    made.actuator_begin -= power.col(n + m - 1);
+    made.actuator_end += power.col(n + m - 1);
+  }
   made.force_begin = f_constant - 3.0 * f_linear + 2.0 * f_square;
   made.force_middle = 4.0 * (f_linear - f_square);
   made.force_end = 2.0 * f_square - f_linear;

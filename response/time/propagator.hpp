@@ -35,7 +35,8 @@ enum class Precision { extended, working };
 ///     [0 0 0 1]
 ///     [0 0 0 0]
 ///
-/// whose first row holds e^(A dt) and phi_k(A dt) B dt: t^k/k! of an input adds phi_(k+1).
+/// whose first row holds e^(A dt) and phi_k(A dt) B dt: t^k/k! of an input adds phi_(k+1). Where
+/// the system has it actuator_rate is another column of B.
 Propagator propagator(const LinearSystem& system, double step_s, double until = 1.0,
                       Precision precision = Precision::extended);
 

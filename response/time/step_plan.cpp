@@ -17,6 +17,10 @@ namespace {
 constexpr double kLargestPhaseVarying_rad = 0.5;
 /// Parts in which a step is watched, at most: its table has that many rows.
 constexpr double kMostParts = 64.0;
+/// Time constants after which Z has settled: e^-40 = 4e-18 of what it was.
+constexpr double kSettling = 40.0;
+/// A piece is divided where Z settles within this part of it.
+constexpr double kLargestUnsettledPart = 0.5;
 
 }  // namespace
 
@@ -27,59 +31,76 @@ StepPlan::StepPlan(const ModalDynamics& arm, const AddedForces& forces, const Ac
       options_(options),
       ledger_(ledger),
       is_linear_(!forces.has_friction() && !forces.vary()),
-      velocity_row_(Eigen::RowVectorXd::Zero(arm.size())) {
+      velocity_row_(Eigen::RowVectorXd::Zero(arm.size())),
+      settling_s_(kSettling * actuator.lag_s) {
   velocity_row_.segment(arm.modes, arm.modes) = arm.hub_slope.transpose();
+  if (!is_linear_ && arm.lagged_torque) settled_ = with_settled_torque(arm);
   const double h = options.sample_time_s;
   const double phi = TorquePath(actuator, {}, h, options.hold).delay_fraction();
   if (phi == 0.0) {
-    regular_[0] = steps(h);
+    regular_[0] = piece_steps(h);
   } else {
-    regular_[1] = steps(phi * h);
-    regular_[2] = steps((1.0 - phi) * h);
+    regular_[1] = piece_steps(phi * h);
+    regular_[2] = piece_steps((1.0 - phi) * h);
   }
 }
 
-int StepPlan::substeps(double length_s) const {
+double StepPlan::unsettled_part(double length_s) const {
+  const bool is_short = settled_ && settling_s_ <= kLargestUnsettledPart * length_s;
+  return is_short ? settling_s_ / length_s : 1.0;
+}
+
+int StepPlan::substeps(const ModalDynamics& arm, double length_s) const {
   const double h = options_.sample_time_s;
   const bool as_asked = forces_->vary() || options_.resolve_every_mode;
   double count = as_asked ? std::ceil(options_.substeps * length_s / h - 1e-9) : 1.0;
   double largest_phase = kMostParts * kLargestPhase_rad;
   if (ledger_ != nullptr) largest_phase = kLargestPhase_rad;
   if (forces_->vary() && options_.resolve_every_mode) largest_phase = kLargestPhaseVarying_rad;
-  if (!is_linear_) count = std::max(count, std::ceil(phase_rad(length_s) / largest_phase));
+  if (!is_linear_) count = std::max(count, std::ceil(phase_rad(arm, length_s) / largest_phase));
   if (!(count <= kMostSubsteps)) {
     throw arm::InputError(fmt::format(
         "effects.{}: needs {:g} inner steps per sample of {} s (fastest rate {:g} rad/s), at most "
         "{}: reduce the damping or the sampling period",
-        forces_->effect_in_steps(), count, h, arm_->fastest_rate_rad_per_s, kMostSubsteps));
+        forces_->effect_in_steps(), count, h, arm.fastest_rate_rad_per_s, kMostSubsteps));
   }
   return std::max(1, static_cast<int>(count));
 }
 
-Steps StepPlan::steps_in_parts(int count, double length_s, int parts) const {
+Steps StepPlan::steps_in_parts(const ModalDynamics& arm, int count, double length_s,
+                               int parts) const {
   const bool has_friction = forces_->has_friction();
   const bool vary = forces_->vary();
-  const Reading speed = {velocity_row_, 0.0, Eigen::RowVectorXd::Zero(arm_->turning.force.cols())};
+  const Reading speed = {velocity_row_, 0.0, Eigen::RowVectorXd::Zero(arm.turning.force.cols())};
   Steps made{.count = count, .length_s = length_s};
-  made.turning = step_table(arm_->turning, has_friction ? &speed : nullptr, length_s, parts, vary,
+  made.turning = step_table(arm.turning, has_friction ? &speed : nullptr, length_s, parts, vary,
                             options_.precision);
   if (has_friction) {
-    made.held = step_table(arm_->held, &arm_->reaction, length_s, parts, vary, options_.precision);
+    made.held = step_table(arm.held, &arm.reaction, length_s, parts, vary, options_.precision);
   }
   if (parts > 1) {
     made.shorter =
-        std::make_shared<const Steps>(steps_in_parts(2, 0.5 * length_s, (parts + 1) / 2));
+        std::make_shared<const Steps>(steps_in_parts(arm, 2, 0.5 * length_s, (parts + 1) / 2));
   }
   return made;
 }
 
-Steps StepPlan::steps(double length_s) const {
-  const int count = substeps(length_s);
+Steps StepPlan::steps(const ModalDynamics& arm, double length_s) const {
+  const int count = substeps(arm, length_s);
   const double step_s = length_s / count;
-  const double phase = is_linear_ ? 0.0 : phase_rad(step_s) / kLargestPhase_rad;
+  const double phase = is_linear_ ? 0.0 : phase_rad(arm, step_s) / kLargestPhase_rad;
   const int parts = std::max(1, static_cast<int>(std::ceil(phase - 1e-9)));
-  Steps made = steps_in_parts(count, step_s, parts);
+  Steps made = steps_in_parts(arm, count, step_s, parts);
   if (is_linear_ && ledger_ != nullptr) made.energy = ledger_->step_energy(step_s);
+  return made;
+}
+
+PieceSteps StepPlan::piece_steps(double length_s) const {
+  PieceSteps made{.unsettled_part = unsettled_part(length_s)};
+  made.unsettled = steps(*arm_, made.unsettled_part * length_s);
+  if (made.unsettled_part < 1.0) {
+    made.settled = steps(*settled_, (1.0 - made.unsettled_part) * length_s);
+  }
   return made;
 }
 

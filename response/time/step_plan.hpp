@@ -10,6 +10,7 @@
 #include <Eigen/Core>
 
 #include <array>
+#include <cstddef>
 #include <memory>
 #include <optional>
 
@@ -27,12 +28,20 @@ struct Steps {
   std::shared_ptr<const Steps> shorter = {};
 };
 
+/// Steps of a piece of torque that changes at a constant rate.
+struct PieceSteps {
+  double unsettled_part = 1.0;  ///< of its length: before the lagged torque Z has settled
+  Steps unsettled = {};
+  std::optional<Steps> settled = {};  ///< the rest, with_settled_torque
+};
+
 /// How an arm is stepped through the samples of a torque: what does not depend on the torque, and
 /// is computed once for any number of runs.
 ///
 /// A step of constant forces is exact however long it is. Without a ledger it is as long as the
 /// piece of torque, and the hub's speed (or the torque that holds it) is watched within it; the few
-/// steps in which the hub may come to rest or turn loose are halved until that is seen.
+/// steps in which the hub may come to rest or turn loose are halved until that is seen. Behind a
+/// lag that is short in a piece the torque settles first; then the lag no longer limits a step.
 class StepPlan {
  public:
   /// `arm`, `forces` and `ledger`, which may be null, must outlive the object.
@@ -40,39 +49,50 @@ class StepPlan {
            const SimulationOptions& options, const EnergyLedger* ledger);
 
   /// For pieces of a length that comes again (TorquePiece::Length, but `other`).
-  const Steps& regular(TorquePiece::Length length) const {
+  const PieceSteps& regular(TorquePiece::Length length) const {
     return regular_[static_cast<std::size_t>(length)];
   }
-  Steps steps(double length_s) const;
-  /// Inner steps of a piece of this length. Throws InputError by the name of an effect that would
-  /// need more than kMostSubsteps.
-  int substeps(double length_s) const;
+  Steps steps(double length_s) const { return steps(*arm_, length_s); }
+  /// Inner steps of that length of `arm`, which is arm() or settled(). Throws InputError by the
+  /// name of an effect that would need more than kMostSubsteps.
+  int substeps(const ModalDynamics& arm, double length_s) const;
+  /// The part of a piece of this length before Z has settled; 1 where that takes most of it.
+  double unsettled_part(double length_s) const;
 
   const ModalDynamics& arm() const { return *arm_; }
+  /// with_settled_torque of arm(); null where that has no lagged torque, or is linear.
+  const ModalDynamics* settled() const { return settled_ ? &*settled_ : nullptr; }
   const AddedForces& forces() const { return *forces_; }
   const SimulationOptions& options() const { return options_; }
   /// theta' = velocity_row() X.
   const Eigen::RowVectorXd& velocity_row() const { return velocity_row_; }
   /// No friction, and forces that do not vary.
   bool is_linear() const { return is_linear_; }
-  /// |A| dt of steps in which every mode is resolved.
-  double phase_rad(double length_s) const { return arm_->fastest_rate_rad_per_s * length_s; }
 
  private:
+  Steps steps(const ModalDynamics& arm, double length_s) const;
+  PieceSteps piece_steps(double length_s) const;
   /// Steps of that length, each watched in so many parts.
-  Steps steps_in_parts(int count, double length_s, int parts) const;
+  Steps steps_in_parts(const ModalDynamics& arm, int count, double length_s, int parts) const;
 
   const ModalDynamics* arm_;
+  std::optional<ModalDynamics> settled_;
   const AddedForces* forces_;
   SimulationOptions options_;
   const EnergyLedger* ledger_;
   bool is_linear_;
   Eigen::RowVectorXd velocity_row_;
-  std::array<Steps, 3> regular_;
+  double settling_s_;
+  std::array<PieceSteps, 3> regular_;
 };
 
 /// |A| dt of a step that is solved by power series: with 1 the series has some 20 terms and loses
 /// no digit, and no mode turns by more than 1 rad between two looks at the hub.
 inline constexpr double kLargestPhase_rad = 1.0;
+
+/// |A| dt of a step in which every mode is resolved.
+inline double phase_rad(const ModalDynamics& arm, double length_s) {
+  return arm.fastest_rate_rad_per_s * length_s;
+}
 
 }  // namespace flexarm::response

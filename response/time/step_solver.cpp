@@ -152,10 +152,13 @@ bool StepSolver::is_resolved(const Eigen::VectorXd& begin, const Eigen::VectorXd
 
 void StepSolver::expand(const Eigen::VectorXd& x, HubMotion motion) {
   const LinearSystem& system = motion == HubMotion::held ? arm_->held : arm_->turning;
-  const std::array<Eigen::VectorXd, 3> inputs = {
+  std::array<Eigen::VectorXd, 3> inputs = {
       system.actuator * inputs_.u0 + system.force * inputs_.f0,
       system.actuator * (inputs_.u1 - inputs_.u0) + system.force * inputs_.force_slope(),
       system.force * inputs_.force_square()};
+  if (system.actuator_rate.size() > 0) {
+    inputs[0] += system.actuator_rate * ((inputs_.u1 - inputs_.u0) / inputs_.length_s);
+  }
   series_.compute(system, inputs_.length_s, x, inputs);
 }
 

@@ -51,6 +51,7 @@ WatchBound::WatchBound(const LinearSystem& system, const Reading& reading, doubl
   g.block(0, n + 2, n, m) = system.force * step_s;
   // The reading does not depend on W: its rates, however large, need no bound.
   g(system.lagged_readings, Eigen::all).setZero();
+  if (system.actuator_rate.size() > 0) g.col(n + 1).head(n) = system.actuator_rate;
   g(n, n + 1) = 1.0;
   g.block(n + 2, n + 2 + m, m, m).setIdentity();
   g.block(n + 2 + m, n + 2 + 2 * m, m, m).setIdentity();

@@ -261,52 +261,5 @@ TEST(HubFriction, StickAndSlipOfTwoMassesFollowTheClosedForm) {
   }
 }
 
-/// The hub is driven, coasts to rest within a sample and sticks: its speed v is linear between
-/// these times, and through a lag reads v - a lag + (what it was before - v + a lag) e^(-t/lag).
-TEST(HubFriction, ALaggedReadingIsExactHoweverShortTheLag) {
-  constexpr double kFriction = 0.23;
-  constexpr double kDriven_s = 0.3;
-  constexpr double kRest_s = kDriven_s / kFriction;
-  constexpr double kTop = (1.0 - kFriction) * kDriven_s;
-  std::vector<double> torque = step_torque(1.0, 30);
-  torque.resize(200, 0.0);
-  for (const double lag : {0.3, 1e-2, 5e-3, 1e-4, 1e-7}) {
-    ArmParts parts = coulomb(kFriction);
-    parts.sensor_stages = {{kHubVelocity, {lag}}};
-    const auto made = simulate(oscillator(1.0, 0.0), parts, hub_sensors(), torque,
-                               {.sample_time_s = 1e-2, .energy = false});
-    const auto through_lag = [lag](double t, double begin, double v, double a, double read) {
-      const double s = t - begin;
-      return v + a * s - a * lag + (read - v + a * lag) * std::exp(-s / lag);
-    };
-    const auto driven = [&](double t) { return through_lag(t, 0.0, 0.0, 1.0 - kFriction, 0.0); };
-    const auto coasting = [&](double t) {
-      return through_lag(t, kDriven_s, kTop, -kFriction, driven(kDriven_s));
-    };
-    for (std::size_t k = 0; k < made.time_s.size(); ++k) {
-      const double t = made.time_s[k];
-      const double expected = k <= 30         ? driven(t)
-                              : t <= kRest_s ? coasting(t)
-                                             : through_lag(t, kRest_s, 0.0, 0.0, coasting(kRest_s));
-      EXPECT_NEAR(made.channels[1][k], expected, kAngle_rad) << "lag " << lag << " s at " << t;
-    }
-  }
-}
-
-TEST(HubFriction, ALaggedReadingCostsNoSteps) {
-  std::vector<double> torque = step_torque(0.3, 200);
-  torque.resize(2000, 0.02);
-  const auto simulated = [&](double lag) {
-    ArmParts parts = coulomb(0.1);
-    if (lag > 0.0) parts.sensor_stages = {{kHubVelocity, {lag}}};
-    return simulate(two_masses(0.02, 0.05, 3.0), parts, hub_sensors(), torque, {.energy = false});
-  };
-  const auto at_once = simulated(0.0);
-  ASSERT_GT(at_once.summary.stops, 0);
-  for (const double lag : {1e-2, 1e-6, 1e-9}) {
-    EXPECT_EQ(simulated(lag).summary.inner_steps, at_once.summary.inner_steps) << lag;
-  }
-}
-
 }  // namespace
 }  // namespace flexarm::response

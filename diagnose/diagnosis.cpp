@@ -1,6 +1,7 @@
 #include "diagnose/diagnosis.hpp"
 
 #include "diagnose/search/parameter_errors.hpp"
+#include "diagnose/search/reported_work.hpp"
 #include "diagnose/search/rivals.hpp"
 
 #include <fmt/format.h>
@@ -195,7 +196,13 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
   if (made.verdict == Verdict::unexplained || made.verdict == Verdict::partly_explained) {
     made.near_misses = near_misses(selection, posterior);
   }
-  made.next_experiments = what_next(problem, selection, made.verdict != Verdict::unexplained);
+  ReportedWork work(progress);
+  try {
+    made.next_experiments =
+        what_next(problem, selection, made.verdict != Verdict::unexplained, work);
+  } catch (const Cancelled&) {
+    made.cancelled = true;
+  }
   return made;
 }
 

@@ -35,11 +35,12 @@ std::vector<PlannedRun> runs_of(const std::vector<FurtherRun>& further) {
 
 /// What these runs would say of a tie. Throws InputError where an arm cannot be computed.
 void observe_tie(const PlannedExperiment& planned, const Tie& tie, const std::vector<bool>& runs,
-                 Informations& made) {
+                 const ReportedWork& work, Informations& made) {
   const Predictor& predict = planned.as_described().predictor();
   const arm::Arm& arm = planned.experiment().arm;
   const Observations data = planned.observations(predict(tie.truth.extend(arm), runs));
   const auto residuals_of = [&](const Candidate& candidate) -> Eigen::VectorXd {
+    work.go_on();
     return (data.values - predict(candidate.extend(arm), runs)).cwiseQuotient(data.deviations);
   };
   const Eigen::VectorXd places = tie.rival.coordinates();
@@ -64,18 +65,19 @@ void observe_tie(const PlannedExperiment& planned, const Tie& tie, const std::ve
 }
 
 /// Each run's information on a tie; zero where it cannot be computed.
-Informations informations(const PlannedExperiment& planned, const Tie& tie) {
+Informations informations(const PlannedExperiment& planned, const Tie& tie,
+                          const ReportedWork& work) {
   const std::size_t count = planned.experiment().runs.size();
   const Index size = tie.rival.coordinates().size() + 1;
   Informations made(count, Eigen::MatrixXd::Zero(size, size));
   try {
-    observe_tie(planned, tie, std::vector<bool>(count, true), made);
+    observe_tie(planned, tie, std::vector<bool>(count, true), work, made);
   } catch (const arm::InputError&) {
     for (std::size_t r = 0; r < count; ++r) {
       std::vector<bool> alone(count, false);
       alone[r] = true;
       try {
-        observe_tie(planned, tie, alone, made);
+        observe_tie(planned, tie, alone, work, made);
       } catch (const arm::InputError&) {
         continue;
       }
@@ -99,8 +101,9 @@ Evidence evidence_of(const arm::Arm& arm, const std::vector<FurtherRun>& further
     made.counts.push_back(static_cast<double>(first[r + 1] - first[r]));
   }
   made.of.resize(ties.size());
+  work.tell("additional runs", from);
   work.in_parallel(ties.size(), "additional runs", from, to,
-                   [&](std::size_t t) { made.of[t] = informations(planned, ties[t]); });
+                   [&](std::size_t t) { made.of[t] = informations(planned, ties[t], work); });
   return made;
 }
 
@@ -184,7 +187,7 @@ FurtherRunsWorth worth_of_further_runs(const arm::Arm& arm, const std::vector<Pl
 }
 
 std::vector<NextExperiment> what_next(const Problem& problem, const Selection& selection,
-                                      bool is_explained) {
+                                      bool is_explained, ReportedWork& work) {
   const bool is_named = !selection.chosen.fit.candidate.effects.empty();
   std::vector<Tie> ties;
   if (is_named) {
@@ -197,11 +200,9 @@ std::vector<NextExperiment> what_next(const Problem& problem, const Selection& s
       ties.push_back(tie_between(selection.singles.front(), selection.singles[i]));
     }
   }
-  const DiagnosisProgress silent;
-  ReportedWork work(silent);
   const std::vector<PlannedRun> measured = planned_as_measured(problem);
   auto ranked =
-      worth_of_further_runs(problem.experiment().arm, measured, ties, 0, work, 0.0, 1.0).ranked;
+      worth_of_further_runs(problem.experiment().arm, measured, ties, 0, work, 1.0, 1.0).ranked;
   ranked.resize(std::min(ranked.size(), kMostShown));
   return ranked;
 }

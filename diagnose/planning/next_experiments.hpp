@@ -47,9 +47,9 @@ FurtherRunsWorth worth_of_further_runs(const arm::Arm& arm, const std::vector<Pl
 
 /// What to measure next, where causes that were chosen cannot be told from rivals; where nothing
 /// was chosen but something is there, what would tell the nearest effects from each other. The best
-/// `kMostShown`.
+/// `kMostShown`. It is the end of `work`; throws Cancelled where that is cancelled.
 std::vector<NextExperiment> what_next(const Problem& problem, const Selection& selection,
-                                      bool is_explained);
+                                      bool is_explained, ReportedWork& work);
 inline constexpr std::size_t kMostShown = 5;
 
 }  // namespace flexarm::diagnose

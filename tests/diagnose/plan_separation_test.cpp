@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -196,6 +197,14 @@ TEST(WhatNext, OfCausesThatAreTiedIsARunThatTellsThem) {
   EXPECT_LE(tied.next_experiments.size(), kMostShown);
   const auto& scores = tied.next_experiments;
   EXPECT_TRUE(std::ranges::is_sorted(scores, std::ranges::greater{}, &NextExperiment::score));
+
+  int asked = 0;
+  const auto until_here = [&](std::string_view what, double) {
+    if (what == "additional runs") ++asked;
+    return asked < 2;
+  };
+  EXPECT_TRUE(diagnose(experiment, some, {}, until_here).cancelled);
+  EXPECT_GE(asked, 2);
 }
 
 }  // namespace

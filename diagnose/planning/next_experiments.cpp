@@ -101,7 +101,6 @@ Evidence evidence_of(const arm::Arm& arm, const std::vector<FurtherRun>& further
     made.counts.push_back(static_cast<double>(first[r + 1] - first[r]));
   }
   made.of.resize(ties.size());
-  work.tell("additional runs", from);
   work.in_parallel(ties.size(), "additional runs", from, to,
                    [&](std::size_t t) { made.of[t] = informations(planned, ties[t], work); });
   return made;

@@ -10,7 +10,8 @@
 namespace flexarm::diagnose {
 
 /// Called with what is done and the fraction done, also with the same once more before each
-/// evaluation of a fit, by one thread at a time; false cancels.
+/// evaluation of a model in fits, scans and the advice on further runs, by one thread at a time;
+/// false cancels.
 using DiagnosisProgress = std::function<bool(std::string_view, double)>;
 
 /// Thrown out of work that was cancelled.
@@ -41,6 +42,7 @@ class ReportedWork {
   /// `work(i)` for i from 0 to before `count`, which takes the fraction done `from` .. `to`.
   template <class Work>
   void in_parallel(std::size_t count, std::string_view what, double from, double to, Work work) {
+    tell(what, from);
     std::atomic<std::size_t> done = 0;
     tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
       work(i);

@@ -39,15 +39,16 @@ class Expansion {
   }
 
  private:
-  static constexpr Eigen::Index kMostTerms = 80;
-  Eigen::MatrixXd terms_by_column_;  // N x kMostTerms
-  Eigen::Index terms_ = 0;
-  double step_s_ = 0.0;
   struct FastLag {
     Eigen::Index row;
     double rate;   ///< rho
     double decay;  ///< W(0) - q(0)
   };
+
+  static constexpr Eigen::Index kMostTerms = 80;
+  Eigen::MatrixXd terms_by_column_;  // N x kMostTerms
+  Eigen::Index terms_ = 0;
+  double step_s_ = 0.0;
   std::vector<FastLag> fast_lags_;
 };
 

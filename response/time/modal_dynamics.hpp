@@ -31,11 +31,10 @@ struct Reading {
 /// a torque on the hub [N m] or n modal forces [1/s^2], and behind them the rates z' of the laws'
 /// own states: m entries.
 struct LinearSystem {
-  Eigen::MatrixXd a;         ///< N x N [1/s]
-  Eigen::VectorXd actuator;  ///< N
-  /// N, or empty for none. That of the formulations has none; with_settled_torque has.
-  Eigen::VectorXd actuator_rate = {};
-  Eigen::MatrixXd force;     ///< N x m
+  Eigen::MatrixXd a;                   ///< N x N [1/s]
+  Eigen::VectorXd actuator;            ///< N
+  Eigen::VectorXd actuator_rate = {};  ///< N; empty but in with_settled_torque
+  Eigen::MatrixXd force;               ///< N x m
   Reading hub_acceleration;  ///< theta''
   std::vector<Reading> sensors;
   std::vector<Eigen::Index> lagged_readings;  ///< rows of W; nothing else depends on W
@@ -81,8 +80,8 @@ struct ModalDynamics {
   void set_hub_angle(Eigen::VectorXd& x, double angle_rad) const;
 };
 
-/// The arm long after u began to change at a constant rate: what it was before has decayed, and Z'
-/// = u' whatever the lag. Of an arm with Z that u alone drives.
+/// The arm long after u began to change at a constant rate: what Z was before has decayed, and
+/// Z' = u' in Z's units, whatever the lag. Of an arm whose Z is driven by u alone.
 ModalDynamics with_settled_torque(const ModalDynamics& arm);
 
 /// Throws InputError for a model whose parts do not fit together.

@@ -34,8 +34,12 @@ class StepSolver {
   StepSolver(const ModalDynamics& arm, const AddedForces& forces, double force_tolerance,
              int most_iterations);
 
-  /// The next step does not follow the last one.
-  void begin_anew() { last_length_s_ = 0.0; }
+  /// Goes on with the equations of `arm`, which must outlive the object: the same arm before or
+  /// after Z has settled.
+  void go_on_with(const ModalDynamics& arm) {
+    arm_ = &arm;
+    last_length_s_ = 0.0;
+  }
   /// A step from `x` of the table's length; false where forces do not converge, or friction falls
   /// too much over it: halve it then. Leaves end() and inputs(), not series().
   bool solve(const StepTable& table, const Eigen::VectorXd& x, HubMotion motion,

@@ -35,6 +35,11 @@ double torque_behind(int i, int count, double u0, double u1) {
   return u0 + (u1 - u0) * i / count;
 }
 
+/// The fewest steps by power series over that length.
+double series_steps(const ModalDynamics& arm, double length_s) {
+  return std::ceil(phase_rad(arm, length_s) / kLargestPhase_rad);
+}
+
 std::span<const double> as_span(const Eigen::RowVectorXd& series) {
   return {series.data(), static_cast<std::size_t>(series.size())};
 }
@@ -51,19 +56,10 @@ TimeStepper::TimeStepper(const StepPlan& plan, EnergyLedger* ledger)
       breakaway_N_m_(plan.forces().breakaway_N_m()),
       solver_(plan.arm(), plan.forces(), plan.options().force_tolerance,
               plan.options().most_iterations) {
-  if (plan.settled() != nullptr) {
-    settled_solver_.emplace(*plan.settled(), plan.forces(), plan.options().force_tolerance,
-                            plan.options().most_iterations);
-  }
   const double h = plan.options().sample_time_s;
   const double part = plan.unsettled_part(h);
   summary_.substeps = plan.substeps(plan.arm(), part * h);
   if (part < 1.0) summary_.substeps += plan.substeps(*plan.settled(), (1.0 - part) * h);
-}
-
-int TimeStepper::most_iterations() const {
-  return std::max(solver_.most_iterations(),
-                  settled_solver_ ? settled_solver_->most_iterations() : 0);
 }
 
 double TimeStepper::hub_angle() const {
@@ -126,40 +122,34 @@ void TimeStepper::advance(const TorquePiece& piece, double now_s) {
     const double between = std::lerp(piece.begin_N_m, piece.end_N_m, steps.unsettled_part);
     advance_in(steps.unsettled, piece.begin_N_m, between);
     if (!steps.settled) return;
-    take_part(true);
+    solver_.go_on_with(*plan_->settled());
     advance_in(*steps.settled, between, piece.end_N_m);
-    take_part(false);
+    solver_.go_on_with(*arm_);
     return;
   }
   const double length_s = (piece.end - piece.begin) * plan_->options().sample_time_s;
-  const double least = std::ceil(phase_rad(*arm_, length_s) / kLargestPhase_rad);
-  if (plan_->is_linear() && least > kMostSeriesSteps) {
+  if (plan_->is_linear() && series_steps(*arm_, length_s) > kMostSeriesSteps) {
     advance_in(plan_->steps(length_s), piece.begin_N_m, piece.end_N_m);
     return;
   }
   const double part = plan_->unsettled_part(length_s);
   const double between = std::lerp(piece.begin_N_m, piece.end_N_m, part);
-  advance_by_series(part * length_s, piece.begin_N_m, between);
+  advance_by_series(*arm_, part * length_s, piece.begin_N_m, between);
   if (part == 1.0) return;
-  take_part(true);
-  advance_by_series((1.0 - part) * length_s, between, piece.end_N_m);
-  take_part(false);
+  solver_.go_on_with(*plan_->settled());
+  advance_by_series(*plan_->settled(), (1.0 - part) * length_s, between, piece.end_N_m);
+  solver_.go_on_with(*arm_);
 }
 
-void TimeStepper::take_part(bool settled) {
-  is_settled_ = settled;
-  solver().begin_anew();
-}
-
-void TimeStepper::advance_by_series(double length_s, double u0, double u1) {
-  const ModalDynamics& arm = is_settled_ ? *plan_->settled() : *arm_;
-  const double least = std::ceil(phase_rad(arm, length_s) / kLargestPhase_rad);
-  const int count = std::max(plan_->substeps(arm, length_s), static_cast<int>(least));
-  double begin = u0;
+void TimeStepper::advance_by_series(const ModalDynamics& arm, double length_s, double begin_N_m,
+                                    double end_N_m) {
+  const int count = std::max(plan_->substeps(arm, length_s),
+                             static_cast<int>(series_steps(arm, length_s)));
+  double u0 = begin_N_m;
   for (int i = 1; i <= count; ++i) {
-    const double end = torque_behind(i, count, u0, u1);
-    free_step(length_s / count, begin, end, 0);
-    begin = end;
+    const double u1 = torque_behind(i, count, begin_N_m, end_N_m);
+    free_step(length_s / count, u0, u1, 0);
+    u0 = u1;
   }
 }
 
@@ -177,9 +167,9 @@ void TimeStepper::advance_in(const Steps& steps, double begin_N_m, double end_N_
 }
 
 void TimeStepper::linear_step(const Steps& steps, double u0, double u1) {
-  solver().solve(steps.turning, x_, motion_, {time_s_, steps.length_s, u0, u1});
-  if (steps.energy) ledger_->add((*steps.energy)(x_, u0, u1, solver().inputs().f0(0)));
-  finish(solver().end(), steps.length_s);
+  solver_.solve(steps.turning, x_, motion_, {time_s_, steps.length_s, u0, u1});
+  if (steps.energy) ledger_->add((*steps.energy)(x_, u0, u1, solver_.inputs().f0(0)));
+  finish(solver_.end(), steps.length_s);
 }
 
 void TimeStepper::step(const Steps& steps, double u0, double u1) {
@@ -187,7 +177,7 @@ void TimeStepper::step(const Steps& steps, double u0, double u1) {
   // In a fit friction may change within the shortest of the steps.
   const bool must_be_resolved = steps.shorter || plan_->options().resolve_every_mode;
   const bool is_solved =
-      solver().solve(table, x_, motion_, {time_s_, steps.length_s, u0, u1, must_be_resolved});
+      solver_.solve(table, x_, motion_, {time_s_, steps.length_s, u0, u1, must_be_resolved});
   const bool may_happen = is_solved && forces_->has_friction() && !is_quiet(table);
   if (steps.shorter && (!is_solved || may_happen)) {
     advance_in(*steps.shorter, u0, u1);
@@ -198,22 +188,22 @@ void TimeStepper::step(const Steps& steps, double u0, double u1) {
     return;
   }
   if (may_happen || ledger_ != nullptr) {
-    solver().expand(x_, motion_);
+    solver_.expand(x_, motion_);
     const std::optional<double> event = may_happen ? next_event() : std::nullopt;
     book(event.value_or(1.0));
     if (event) {
-      const double between = solver().inputs().torque(*event);
+      const double between = solver_.inputs().torque(*event);
       happen(*event, steps.length_s);
       free_step((1.0 - *event) * steps.length_s, between, u1, 0);
       return;
     }
   }
-  finish(solver().end(), steps.length_s);
+  finish(solver_.end(), steps.length_s);
 }
 
 void TimeStepper::free_step(double length_s, double u0, double u1, int halvings) {
   while (length_s > kNothingLeft * plan_->options().sample_time_s) {
-    if (!solver().solve_by_series(
+    if (!solver_.solve_by_series(
             x_, motion_, {time_s_, length_s, u0, u1, plan_->options().resolve_every_mode})) {
       halve(length_s, u0, u1, halvings);
       return;
@@ -224,17 +214,17 @@ void TimeStepper::free_step(double length_s, double u0, double u1, int halvings)
     book(event.value_or(1.0));
     if (!event) {
       if (is_forced) ++summary_.forced_rests;
-      finish(solver().series().at(1.0), length_s);
+      finish(solver_.series().at(1.0), length_s);
       return;
     }
-    u0 = solver().inputs().torque(*event);
+    u0 = solver_.inputs().torque(*event);
     happen(*event, length_s);
     length_s *= 1.0 - *event;
   }
 }
 
 void TimeStepper::book(double until) {
-  if (ledger_ != nullptr) ledger_->add(solver().series(), solver().inputs(), motion_, until);
+  if (ledger_ != nullptr) ledger_->add(solver_.series(), solver_.inputs(), motion_, until);
 }
 
 void TimeStepper::halve(double length_s, double u0, double u1, int halvings) {
@@ -250,7 +240,7 @@ void TimeStepper::halve(double length_s, double u0, double u1, int halvings) {
 
 bool TimeStepper::is_quiet(const StepTable& table) const {
   if (start_ != Start::inside) return false;
-  const StepInputs& inputs = solver().inputs();
+  const StepInputs& inputs = solver_.inputs();
   if (motion_ == HubMotion::held) {
     return table.watched.stays_above(-breakaway_N_m_, 1.0, x_, inputs) &&
            table.watched.stays_above(-breakaway_N_m_, -1.0, x_, inputs);
@@ -261,13 +251,13 @@ bool TimeStepper::is_quiet(const StepTable& table) const {
 std::optional<double> TimeStepper::next_event() const {
   if (motion_ != HubMotion::held) {
     const Eigen::RowVectorXd speed =
-        direction(motion_) * solver().series().of(plan_->velocity_row());
+        direction(motion_) * solver_.series().of(plan_->velocity_row());
     // Known zeros at r = 0 are divided out.
     const std::size_t zeros = start_ == Start::inside ? 0 : start_ == Start::hub_speed_zero ? 1 : 2;
     return first_crossing(as_span(speed).subspan(zeros));
   }
-  const StepInputs& inputs = solver().inputs();
-  Eigen::RowVectorXd needed = solver().series().of(arm_->reaction.state);
+  const StepInputs& inputs = solver_.inputs();
+  Eigen::RowVectorXd needed = solver_.series().of(arm_->reaction.state);
   needed(0) += arm_->reaction.actuator * inputs.u0 + arm_->reaction.force.dot(inputs.f0);
   needed(1) += arm_->reaction.actuator * (inputs.u1 - inputs.u0) +
                arm_->reaction.force.dot(inputs.force_slope());
@@ -285,9 +275,9 @@ std::optional<double> TimeStepper::next_event() const {
 
 void TimeStepper::happen(double r, double length_s) {
   const double passed_s = r * length_s;
-  const double u = solver().inputs().torque(r);
+  const double u = solver_.inputs().torque(r);
   const bool was_held = motion_ == HubMotion::held;
-  x_ = solver().series().at(r);
+  x_ = solver_.series().at(r);
   arm_->stop_hub(x_);
   time_s_ += passed_s;
   ++summary_.inner_steps;

@@ -54,18 +54,15 @@ class TimeStepper {
     return motion_ == HubMotion::held ? arm_->held : arm_->turning;
   }
   const SimulationSummary& summary() const { return summary_; }
-  int most_iterations() const;
+  int most_iterations() const { return solver_.most_iterations(); }
 
  private:
   /// What is known of the solution at the beginning of a step.
   enum class Start { inside, hub_speed_zero, hub_acceleration_zero };
 
-  /// The solver of the present part of a piece: before or after Z has settled.
-  StepSolver& solver() { return is_settled_ ? *settled_solver_ : solver_; }
-  const StepSolver& solver() const { return is_settled_ ? *settled_solver_ : solver_; }
-  void take_part(bool settled);
   void advance_in(const Steps& steps, double begin_N_m, double end_N_m);
-  void advance_by_series(double length_s, double u0, double u1);
+  void advance_by_series(const ModalDynamics& arm, double length_s, double begin_N_m,
+                         double end_N_m);
   void step(const Steps& steps, double u0, double u1);
   void linear_step(const Steps& steps, double u0, double u1);
   void free_step(double length_s, double u0, double u1, int halvings);
@@ -89,9 +86,7 @@ class TimeStepper {
   double breakaway_N_m_ = 0.0;
   double last_torque_N_m_ = 0.0;  // at the end of the last piece
   double time_s_ = 0.0;
-  bool is_settled_ = false;
   StepSolver solver_;
-  std::optional<StepSolver> settled_solver_;
   int events_at_once_ = 0;
   SimulationSummary summary_;
 };

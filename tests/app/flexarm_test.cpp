@@ -88,6 +88,19 @@ TEST_F(Flexarm, TheStarterFileStaysValidWithEveryOptionalKeyGiven) {
   EXPECT_TRUE(arm.effects.contains("coulomb_friction"));
 }
 
+TEST_F(Flexarm, TheStarterFileListsEveryEffectWithParametersAndUnits) {
+  run({"new", "rig.toml"});
+  const std::string starter = text_of("rig.toml");
+  for (const auto& definition : effects::vocabulary()) {
+    const auto at = starter.find("\n# " + definition->name + ": ");
+    ASSERT_NE(at, std::string::npos) << definition->name;
+    const std::string line = starter.substr(at + 1, starter.find('\n', at + 1) - at - 1);
+    for (const auto& parameter : definition->parameters) {
+      EXPECT_THAT(line, HasSubstr(parameter.name + " [" + parameter.unit + "]"));
+    }
+  }
+}
+
 TEST_F(Flexarm, NewDoesNotOverwriteUnlessForced) {
   run({"new", "rig.toml"});
   const std::string starter = text_of("rig.toml");

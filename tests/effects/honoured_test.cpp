@@ -1,5 +1,6 @@
 // Every effect is honoured where its ports are, and refused by name where they are not.
 #include "arm/input_error.hpp"
+#include "diagnose/planning/detection.hpp"
 #include "diagnose/search/hypothesis.hpp"
 #include "diagnose/search/problem.hpp"
 #include "effects/registry/vocabulary.hpp"
@@ -143,6 +144,24 @@ TEST_P(Honoured, ByWhatADiagnosisFits) {
     least = std::min(least, misfit(diagnose::Candidate{}.with(hypothesis, values)));
   }
   EXPECT_LT(least, kLeft * misfit({}));
+}
+
+TEST_P(Honoured, ByAPlan) {
+  constexpr double kNoise = 1e-4;  // shear of a slender beam is the least that has to show
+  constexpr double kLeastGain = 10.0;
+  diagnose::PlannedRun run;
+  run.id = "square";
+  run.torque = square_wave();
+  run.duration_s = kSample_s * static_cast<double>(square_wave().size());
+  run.sample_time_s = kSample_s;
+  for (const auto& sensor : sensors()) run.sensors.push_back({sensor, kNoise});
+  const diagnose::PlannedExperiment planned(ideal(), {run});
+  const auto all = diagnose::hypotheses(planned.experiment());
+  const auto hypothesis = std::ranges::find(all, GetParam(), &diagnose::Hypothesis::effect);
+  ASSERT_NE(hypothesis, all.end());
+  const auto found = diagnose::detect(planned, *hypothesis, kLeastGain);
+  EXPECT_TRUE(found.shows);
+  EXPECT_EQ(found.smallest.has_value(), !diagnose::growths_of(*hypothesis).empty());
 }
 
 TEST_P(Honoured, ShowsInFrequencyResponsesAsItSays) {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace flexarm::response {
@@ -15,8 +16,8 @@ namespace {
 /// |A| dt of a step where forces vary, so that the parabola through them resolves every mode: its
 /// error is of order 4 in this.
 constexpr double kLargestPhaseVarying_rad = 0.5;
-/// Parts in which a step is watched, at most: its table has that many rows.
-constexpr double kMostParts = 64.0;
+/// Likewise in a fit, where the steps that need it are halved.
+constexpr double kLargestPhaseOfFit_rad = 64.0;
 /// Time constants after which Z has settled: e^-40 = 4e-18 of what it was.
 constexpr double kSettling = 40.0;
 /// A piece is divided where Z settles within this part of it.
@@ -35,6 +36,10 @@ StepPlan::StepPlan(const ModalDynamics& arm, const AddedForces& forces, const Ac
       settling_s_(kSettling * actuator.lag_s) {
   velocity_row_.segment(arm.modes, arm.modes) = arm.hub_slope.transpose();
   if (!is_linear_ && arm.lagged_torque) settled_ = with_settled_torque(arm);
+  if (forces.has_friction()) {
+    watched_ = watched_readings(arm);
+    if (settled_) settled_watched_ = watched_readings(*settled_);
+  }
   const double h = options.sample_time_s;
   const double phi = TorquePath(actuator, {}, h, options.hold).delay_fraction();
   if (phi == 0.0) {
@@ -54,7 +59,8 @@ int StepPlan::substeps(const ModalDynamics& arm, double length_s) const {
   const double h = options_.sample_time_s;
   const bool as_asked = forces_->vary() || options_.resolve_every_mode;
   double count = as_asked ? std::ceil(options_.substeps * length_s / h - 1e-9) : 1.0;
-  double largest_phase = kMostParts * kLargestPhase_rad;
+  double largest_phase = std::numeric_limits<double>::infinity();
+  if (forces_->vary()) largest_phase = kLargestPhaseOfFit_rad;
   if (ledger_ != nullptr) largest_phase = kLargestPhase_rad;
   if (forces_->vary() && options_.resolve_every_mode) largest_phase = kLargestPhaseVarying_rad;
   if (!is_linear_) count = std::max(count, std::ceil(phase_rad(arm, length_s) / largest_phase));
@@ -67,31 +73,30 @@ int StepPlan::substeps(const ModalDynamics& arm, double length_s) const {
   return std::max(1, static_cast<int>(count));
 }
 
-Steps StepPlan::steps_in_parts(const ModalDynamics& arm, int count, double length_s,
-                               int parts) const {
-  const bool has_friction = forces_->has_friction();
-  const bool vary = forces_->vary();
+StepPlan::WatchedReadings StepPlan::watched_readings(const ModalDynamics& arm) const {
   const Reading speed = {velocity_row_, 0.0, Eigen::RowVectorXd::Zero(arm.turning.force.cols())};
-  Steps made{.count = count, .length_s = length_s};
-  made.turning = step_table(arm.turning, has_friction ? &speed : nullptr, length_s, parts, vary,
-                            options_.precision);
-  if (has_friction) {
-    made.held = step_table(arm.held, &arm.reaction, length_s, parts, vary, options_.precision);
+  return {std::make_shared<const ReadingModes>(arm, false, speed),
+          std::make_shared<const ReadingModes>(arm, true, arm.reaction)};
+}
+
+Steps StepPlan::steps_with_shorter(const ModalDynamics& arm, int count, double step_s) const {
+  const WatchedReadings& watched = &arm == arm_ ? watched_ : settled_watched_;
+  const bool vary = forces_->vary();
+  Steps made{.count = count, .length_s = step_s};
+  made.turning = step_table(arm.turning, watched.speed, step_s, vary, options_.precision);
+  if (forces_->has_friction()) {
+    made.held = step_table(arm.held, watched.reaction, step_s, vary, options_.precision);
   }
-  if (parts > 1) {
-    made.shorter =
-        std::make_shared<const Steps>(steps_in_parts(arm, 2, 0.5 * length_s, (parts + 1) / 2));
+  if (!is_linear_ && phase_rad(arm, step_s) > kLargestPhase_rad * (1.0 + 1e-9)) {
+    made.shorter = std::make_shared<const Steps>(steps_with_shorter(arm, 2, 0.5 * step_s));
   }
   return made;
 }
 
 Steps StepPlan::steps(const ModalDynamics& arm, double length_s) const {
   const int count = substeps(arm, length_s);
-  const double step_s = length_s / count;
-  const double phase = is_linear_ ? 0.0 : phase_rad(arm, step_s) / kLargestPhase_rad;
-  const int parts = std::max(1, static_cast<int>(std::ceil(phase - 1e-9)));
-  Steps made = steps_in_parts(arm, count, step_s, parts);
-  if (is_linear_ && ledger_ != nullptr) made.energy = ledger_->step_energy(step_s);
+  Steps made = steps_with_shorter(arm, count, length_s / count);
+  if (is_linear_ && ledger_ != nullptr) made.energy = ledger_->step_energy(made.length_s);
   return made;
 }
 

@@ -70,10 +70,17 @@ class StepPlan {
   bool is_linear() const { return is_linear_; }
 
  private:
+  /// What shows that the hub stops or turns loose; null without friction.
+  struct WatchedReadings {
+    std::shared_ptr<const ReadingModes> speed = {};
+    std::shared_ptr<const ReadingModes> reaction = {};
+  };
+
   Steps steps(const ModalDynamics& arm, double length_s) const;
   PieceSteps piece_steps(double length_s) const;
-  /// Steps of that length, each watched in so many parts.
-  Steps steps_in_parts(const ModalDynamics& arm, int count, double length_s, int parts) const;
+  WatchedReadings watched_readings(const ModalDynamics& arm) const;
+  /// So many steps of that length.
+  Steps steps_with_shorter(const ModalDynamics& arm, int count, double step_s) const;
 
   const ModalDynamics* arm_;
   std::optional<ModalDynamics> settled_;
@@ -82,12 +89,14 @@ class StepPlan {
   const EnergyLedger* ledger_;
   bool is_linear_;
   Eigen::RowVectorXd velocity_row_;
+  WatchedReadings watched_;
+  WatchedReadings settled_watched_;
   double settling_s_;
   std::array<PieceSteps, 3> regular_;
 };
 
 /// |A| dt of a step that is solved by power series: with 1 the series has some 20 terms and loses
-/// no digit, and no mode turns by more than 1 rad between two looks at the hub.
+/// no digit.
 inline constexpr double kLargestPhase_rad = 1.0;
 
 /// |A| dt of a step in which every mode is resolved.

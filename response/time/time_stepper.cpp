@@ -240,12 +240,9 @@ void TimeStepper::halve(double length_s, double u0, double u1, int halvings) {
 
 bool TimeStepper::is_quiet(const StepTable& table) const {
   if (start_ != Start::inside) return false;
-  const StepInputs& inputs = solver_.inputs();
-  if (motion_ == HubMotion::held) {
-    return table.watched.stays_above(-breakaway_N_m_, 1.0, x_, inputs) &&
-           table.watched.stays_above(-breakaway_N_m_, -1.0, x_, inputs);
-  }
-  return table.watched.stays_above(0.0, direction(motion_), x_, inputs);
+  const auto [least, largest] = table.watched(x_, solver_.end(), solver_.inputs());
+  if (motion_ == HubMotion::held) return least > -breakaway_N_m_ && largest < breakaway_N_m_;
+  return motion_ == HubMotion::forward ? least > 0.0 : largest < 0.0;
 }
 
 std::optional<double> TimeStepper::next_event() const {

@@ -1,0 +1,144 @@
+#include "response/time/reading_bound.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <Eigen/QR>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <cstddef>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace flexarm::response {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+/// Orthonormal columns orthogonal to `direction`.
+MatrixXd complement(const Eigen::VectorXd& direction) {
+  const MatrixXd column = direction;
+  const MatrixXd q = Eigen::HouseholderQR<MatrixXd>(column).householderQ();
+  return q.rightCols(direction.size() - 1);
+}
+
+/// The entries of X from `first` on whose second derivative is not 0 and that the reading depends
+/// on: not W, and neither the angle of an arm without a spring nor a settled Z, each of which would
+/// make a double eigenvalue 0.
+std::vector<Index> watched_entries(const LinearSystem& system, const Reading& reading,
+                                   Index first) {
+  std::vector<Index> entries;
+  for (Index i = first; i < system.a.rows(); ++i) {
+    const bool is_curved =
+        !system.a.row(i).isZero(0.0) || system.actuator(i) != 0.0 ||
+        !system.force.row(i).isZero(0.0);
+    const double others = system.a.col(i).cwiseAbs().sum() - std::abs(system.a(i, i));
+    if (is_curved && (others > 0.0 || reading.state(i) != 0.0)) entries.push_back(i);
+  }
+  return entries;
+}
+
+/// Orthonormal columns that span X'' but for the entries that do not count. While the hub is held
+/// its acceleration b p' is 0, and with it that of its angle b (q/sigma).
+MatrixXd basis_of_second_derivative(const ModalDynamics& arm, bool is_held,
+                                    const Reading& reading) {
+  const LinearSystem& system = is_held ? arm.held : arm.turning;
+  const Index held = is_held ? 2 * (arm.modes - 1) : 0;
+  const auto entries = watched_entries(system, reading, is_held ? 2 * arm.modes : 0);
+  MatrixXd basis = MatrixXd::Zero(arm.size(), held + static_cast<Index>(entries.size()));
+  if (is_held) {
+    const Index n = arm.modes;
+    basis.block(0, 0, n, n - 1) = complement(arm.hub_slope.cwiseQuotient(arm.scale_rad_per_s));
+    basis.block(n, n - 1, n, n - 1) = complement(arm.hub_slope);
+  }
+  for (std::size_t k = 0; k < entries.size(); ++k) {
+    basis(entries[k], held + static_cast<Index>(k)) = 1.0;
+  }
+  return basis;
+}
+
+MatrixXd parts(const Eigen::MatrixXcd& rows) {
+  MatrixXd made(2 * rows.rows(), rows.cols());
+  made << rows.real(), rows.imag();
+  return made;
+}
+
+Eigen::ArrayXd sizes(const Eigen::VectorXd& parts) {
+  const Index count = parts.size() / 2;
+  return (parts.head(count).array().square() + parts.tail(count).array().square()).sqrt();
+}
+
+}  // namespace
+
+ReadingModes::ReadingModes(const ModalDynamics& arm, bool is_held, const Reading& watched)
+    : reading(watched) {
+  const LinearSystem& system = is_held ? arm.held : arm.turning;
+  const Index n = arm.size();
+  const Index m = system.force.cols();
+  // X'' = A (A X + b u + r u' + B f) + b u' + B f', X''' = A X'' + B f''.
+  MatrixXd curvature(n, n + 2 + 2 * m);
+  const Eigen::VectorXd rate =
+      system.actuator_rate.size() > 0 ? system.actuator_rate : Eigen::VectorXd::Zero(n).eval();
+  curvature << system.a * system.a, system.a * system.actuator, system.a * rate + system.actuator,
+      system.a * system.force, system.force;
+
+  const MatrixXd basis = basis_of_second_derivative(arm, is_held, reading);
+  second.setZero(0, curvature.cols());
+  third_by_force.setZero(0, m);
+  if (basis.cols() == 0) return;
+  const Eigen::EigenSolver<MatrixXd> solver(MatrixXd(basis.transpose() * system.a * basis));
+  if (solver.info() != Eigen::Success) {
+    rates.setConstant(1, std::numeric_limits<double>::quiet_NaN());
+    gains.setOnes(1);
+    second.setZero(2, curvature.cols());
+    third_by_force.setZero(2, m);
+    return;
+  }
+  const Eigen::MatrixXcd vectors = solver.eigenvectors();
+  const Eigen::MatrixXcd into = Eigen::PartialPivLU<Eigen::MatrixXcd>(vectors).solve(
+      basis.transpose().cast<std::complex<double>>());
+  const Eigen::RowVectorXcd out = (reading.state * basis) * vectors;
+  std::vector<Index> upper;
+  for (Index k = 0; k < basis.cols(); ++k) {
+    if (solver.eigenvalues()(k).imag() >= 0.0) upper.push_back(k);
+  }
+  rates = solver.eigenvalues()(upper);
+  gains = (rates.imag().array() > 0.0).select(2.0, Eigen::ArrayXd::Ones(rates.size())) *
+          out(upper).cwiseAbs().transpose().array();
+  second = parts(into(upper, Eigen::all) * curvature);
+  third_by_force = parts(into(upper, Eigen::all) * system.force);
+}
+
+ReadingBound::ReadingBound(std::shared_ptr<const ReadingModes> modes, double step_s)
+    : modes_(std::move(modes)), step_s_(step_s) {
+  const Eigen::ArrayXd speed = modes_->rates.cwiseAbs();
+  const Eigen::ArrayXd growth = (modes_->rates.real().array().max(0.0) * step_s).exp();
+  const Eigen::ArrayXd kappa = speed.inverse().min(step_s);
+  const double chord = step_s * step_s / 8.0;
+  by_second_ = modes_->gains.array() * growth * (2.0 * speed.square().inverse()).min(chord);
+  by_third_ = kappa * (by_second_ + modes_->gains.array() * growth * chord);
+}
+
+ReadingBound::Range ReadingBound::operator()(const Eigen::VectorXd& x0, const Eigen::VectorXd& x1,
+                                             const StepInputs& inputs) const {
+  const Index n = x0.size();
+  const Index m = inputs.f0.size();
+  Eigen::VectorXd z(n + 2 + 2 * m);
+  z << x0, inputs.u0, (inputs.u1 - inputs.u0) / step_s_, inputs.f0, inputs.force_slope() / step_s_;
+  const Eigen::VectorXd bend = inputs.force_square() * (2.0 / (step_s_ * step_s_));
+  const Reading& reading = modes_->reading;
+  const double sag = (by_second_ * sizes(modes_->second * z)).sum() +
+                     (by_third_ * sizes(modes_->third_by_force * bend)).sum() +
+                     std::abs(reading.force.dot(bend)) * step_s_ * step_s_ / 8.0;
+  const double begin =
+      reading.state.dot(x0) + reading.actuator * inputs.u0 + reading.force.dot(inputs.f0);
+  const double end =
+      reading.state.dot(x1) + reading.actuator * inputs.u1 + reading.force.dot(inputs.f1);
+  return {std::min(begin, end) - sag, std::max(begin, end) + sag};
+}
+
+}  // namespace flexarm::response

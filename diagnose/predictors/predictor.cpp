@@ -186,9 +186,15 @@ ModeChoice modes_needed(const Experiment& experiment, const Observations& observ
     for (std::size_t c = 0; c < observations.channels.size(); ++c) {
       const ObservedChannel& channel = observations.channels[c];
       if (!runs[channel.run]) continue;
-      const auto signal = most.segment(channel.first, channel.count).array();
-      choice.errors[c] = off.segment(channel.first, channel.count).norm() /
-                         (signal - signal.mean()).matrix().norm();
+      const auto size = [&channel](const Eigen::VectorXd& all) {
+        const auto signal = all.segment(channel.first, channel.count).array();
+        return (signal - signal.mean()).matrix().norm();
+      };
+      const double error = off.segment(channel.first, channel.count).norm();
+      const double simulated = size(most);
+      // A hub that friction holds for the whole run has no signal of its own.
+      const double signal = simulated > 0.0 ? simulated : size(observations.values);
+      choice.errors[c] = error > 0.0 ? error / signal : 0.0;
       is_enough = is_enough && choice.errors[c] <= std::max(kModeError, 0.1 * channel.noise);
     }
     if (is_enough) return choice;

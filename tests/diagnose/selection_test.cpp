@@ -82,6 +82,21 @@ TEST(Problem, LogarithmsOfResponsesShowAnEffectBesideAnotherThatIsOff) {
   EXPECT_GT(lost.sum_of_squares, 100.0 * found.sum_of_squares);
 }
 
+TEST(Problem, OfAnArmThatFrictionHoldsHasTheDataForResiduals) {
+  Experiment experiment = simulated_experiment({}, {.duration_s = 1.0});
+  effects::put(experiment.arm, "coulomb_friction", {{"torque", 100.0}});
+  const Problem problem(experiment);
+  const auto residuals = problem.residuals(problem.as_filed(), problem.validation_runs());
+  ASSERT_TRUE(residuals);
+  const Observations& observations = problem.observations();
+  for (const ObservedChannel& channel : observations.channels) {
+    if (!problem.validation_runs()[channel.run]) continue;
+    for (Eigen::Index k = channel.first; k < channel.first + channel.count; ++k) {
+      EXPECT_EQ((*residuals)(k), observations.values(k) / observations.deviations(k));
+    }
+  }
+}
+
 TEST(Selection, ExchangesACauseThatStandsInThePlaceOfAnother) {
   // By itself each of the two is best at a value that hides the other; a soft place does better.
   const Experiment experiment =

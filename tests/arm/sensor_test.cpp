@@ -1,5 +1,6 @@
 #include "arm/sensor.hpp"
 
+#include "arm/arm.hpp"
 #include "arm/input_error.hpp"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,5 @@
 #include "diagnose/symptoms/hub_torque.hpp"
+#include "effects/registry/vocabulary.hpp"
 #include "tests/diagnose/symptoms_fixture.hpp"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,5 @@
 #include "arm/linear_arm.hpp"
+#include "effects/registry/vocabulary.hpp"
 #include "laws/effect_arms.hpp"
 #include "laws/subjects.hpp"
 #include "response/any_formulation.hpp"

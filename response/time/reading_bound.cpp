@@ -33,9 +33,8 @@ std::vector<Index> watched_entries(const LinearSystem& system, const Reading& re
                                    Index first) {
   std::vector<Index> entries;
   for (Index i = first; i < system.a.rows(); ++i) {
-    const bool is_curved =
-        !system.a.row(i).isZero(0.0) || system.actuator(i) != 0.0 ||
-        !system.force.row(i).isZero(0.0);
+    const bool is_curved = !system.a.row(i).isZero(0.0) || system.actuator(i) != 0.0 ||
+                           !system.force.row(i).isZero(0.0);
     const double others = system.a.col(i).cwiseAbs().sum() - std::abs(system.a(i, i));
     if (is_curved && (others > 0.0 || reading.state(i) != 0.0)) entries.push_back(i);
   }
@@ -113,8 +112,9 @@ ReadingModes::ReadingModes(const ModalDynamics& arm, bool is_held, const Reading
   third_by_force = parts(into(upper, Eigen::all) * system.force);
 }
 
-ReadingBound::ReadingBound(std::shared_ptr<const ReadingModes> modes, double step_s)
-    : modes_(std::move(modes)), step_s_(step_s) {
+ReadingBound::ReadingBound(std::shared_ptr<const ReadingModes> modes, double step_s,
+                           bool forces_vary)
+    : modes_(std::move(modes)), step_s_(step_s), forces_vary_(forces_vary) {
   const Eigen::ArrayXd speed = modes_->rates.cwiseAbs();
   const Eigen::ArrayXd growth = (modes_->rates.real().array().max(0.0) * step_s).exp();
   const Eigen::ArrayXd kappa = speed.inverse().min(step_s);
@@ -127,13 +127,22 @@ ReadingBound::Range ReadingBound::operator()(const Eigen::VectorXd& x0, const Ei
                                              const StepInputs& inputs) const {
   const Index n = x0.size();
   const Index m = inputs.f0.size();
-  Eigen::VectorXd z(n + 2 + 2 * m);
-  z << x0, inputs.u0, (inputs.u1 - inputs.u0) / step_s_, inputs.f0, inputs.force_slope() / step_s_;
-  const Eigen::VectorXd bend = inputs.force_square() * (2.0 / (step_s_ * step_s_));
   const Reading& reading = modes_->reading;
-  const double sag = (by_second_ * sizes(modes_->second * z)).sum() +
-                     (by_third_ * sizes(modes_->third_by_force * bend)).sum() +
-                     std::abs(reading.force.dot(bend)) * step_s_ * step_s_ / 8.0;
+  Eigen::VectorXd z(n + 2 + 2 * m);
+  z.head(n) = x0;
+  z(n) = inputs.u0;
+  z(n + 1) = (inputs.u1 - inputs.u0) / step_s_;
+  z.segment(n + 2, m) = inputs.f0;
+  double sag = 0.0;
+  if (forces_vary_) {
+    z.tail(m) = inputs.force_slope() / step_s_;
+    const Eigen::VectorXd bend = inputs.force_square() * (2.0 / (step_s_ * step_s_));
+    sag = (by_third_ * sizes(modes_->third_by_force * bend)).sum() +
+          std::abs(reading.force.dot(bend)) * step_s_ * step_s_ / 8.0;
+  } else {
+    z.tail(m).setZero();
+  }
+  sag += (by_second_ * sizes(modes_->second * z)).sum();
   const double begin =
       reading.state.dot(x0) + reading.actuator * inputs.u0 + reading.force.dot(inputs.f0);
   const double end =

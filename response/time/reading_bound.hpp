@@ -37,7 +37,7 @@ struct ReadingModes {
 class ReadingBound {
  public:
   ReadingBound() = default;
-  ReadingBound(std::shared_ptr<const ReadingModes> modes, double step_s);
+  ReadingBound(std::shared_ptr<const ReadingModes> modes, double step_s, bool forces_vary);
 
   struct Range {
     double least;
@@ -50,6 +50,7 @@ class ReadingBound {
  private:
   std::shared_ptr<const ReadingModes> modes_;
   double step_s_ = 0.0;
+  bool forces_vary_ = false;
   Eigen::ArrayXd by_second_;  ///< factor of |a_k|
   Eigen::ArrayXd by_third_;   ///< factor of |g_k|
 };

@@ -93,7 +93,7 @@ struct WatchedStep {
     largest = std::max(begin, *std::ranges::max_element(values));
     size = reading.state.cwiseAbs() * x0.cwiseAbs();
     const auto modes = std::make_shared<const ReadingModes>(arm, is_held, reading);
-    range = ReadingBound(modes, inputs.length_s)(x0, x1, inputs);
+    range = ReadingBound(modes, inputs.length_s, true)(x0, x1, inputs);
     sag = std::min(begin, values.back()) - range.least;
   }
 

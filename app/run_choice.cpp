@@ -5,6 +5,7 @@
 #include "arm/nearest_name.hpp"
 #include "arm/number.hpp"
 #include "arm/range.hpp"
+#include "measured/files/controller_keys.hpp"
 #include "measured/files/time_record.hpp"
 
 #include <CLI/CLI.hpp>
@@ -194,6 +195,43 @@ PlannedRun run_of_file(const std::string& file) {
           false};
 }
 
+arm::Controller read_controller(const std::string& text) {
+  if (text.find('=') != std::string::npos) {
+    return measured::parse_controller_keys(text, "--controller");
+  }
+  return measured::read_controller_file(text);
+}
+
+/// The run in closed loop whose reference would be the torque of `run`.
+PlannedRun in_closed_loop(PlannedRun run, const arm::Controller& controller) {
+  const std::string unit(arm::unit(controller.sensors.front()));
+  for (auto& key : run.keys) {
+    if (key.unit == "N m") key.unit = unit;
+  }
+  run.reference = {unit, std::move(run.torque.torque_N_m)};
+  run.torque = {};
+  run.controller = controller;
+  return run;
+}
+
+PlannedRun run_of_reference_file(const std::string& file, const arm::Controller& controller) {
+  measured::TimeRecord record = measured::read_reference(file);
+  const arm::Sensor& sensor = controller.sensors.front();
+  if (std::holds_alternative<arm::PidController>(controller.law) &&
+      record.reference.unit != arm::unit(sensor)) {
+    throw InputError(fmt::format("{}: reference in {}; must be in {}, the unit of {}",
+                                 arm::shown(file), record.reference.unit, arm::unit(sensor),
+                                 arm::to_string(sensor)));
+  }
+  PlannedRun run;
+  run.id = id_of_file(file);
+  run.excitation = std::filesystem::path(file).filename().string();
+  run.time_s = std::move(record.time_s);
+  run.reference = std::move(record.reference);
+  run.controller = controller;
+  return run;
+}
+
 /// "random", "random-2", ...: ids that were not typed are counted where they are in use.
 void count_equal_ids(std::vector<PlannedRun>& runs) {
   std::set<std::string> used;
@@ -242,8 +280,16 @@ std::string id_of_file(const std::string& file) {
 std::vector<PlannedRun> RunChoice::runs(const arm::Arm& arm,
                                         const std::vector<double>& payload_masses_kg) const {
   std::vector<std::string> typed = excitations;
-  if (typed.empty() && torque_files.empty()) typed = {"bang-bang"};
-  if (typed.empty() && (duration_s || period_s)) {
+  if (typed.empty() && torque_files.empty() && references.empty()) typed = {"bang-bang"};
+  if (references.empty() != controller.empty()) {
+    throw InputError(references.empty() ? "--controller: needs --reference"
+                                        : "--reference: needs --controller");
+  }
+  const auto is_file = [](const std::string& text) {
+    return text.ends_with(".csv") || std::filesystem::is_regular_file(text);
+  };
+  const bool has_sampled = !typed.empty() || !std::ranges::all_of(references, is_file);
+  if (!has_sampled && (duration_s || period_s)) {
     throw InputError(fmt::format("{}: only with --excitation; a torque file has its own",
                                  duration_s ? "--duration" : "--period"));
   }
@@ -251,30 +297,46 @@ std::vector<PlannedRun> RunChoice::runs(const arm::Arm& arm,
   const auto is_stepped = [](const std::string& text) {
     return text.substr(0, text.find(':')) == response::kSteppedSine;
   };
-  if (!typed.empty() && (duration_s || period_s) && std::ranges::all_of(typed, is_stepped)) {
+  if (!typed.empty() && references.empty() && (duration_s || period_s) &&
+      std::ranges::all_of(typed, is_stepped)) {
     throw InputError(
         fmt::format("{}: not with a stepped sine", duration_s ? "--duration" : "--period"));
   }
-  for (std::size_t i = 0; i < typed.size(); ++i) {
+  const auto add_typed = [&](const char* option, const std::string& text, std::uint64_t own_seed) {
     TypedRun run;
     try {
-      run = read_run(typed[i], seed + i);
+      run = read_run(text, own_seed);
     } catch (const InputError& error) {
-      throw InputError(fmt::format("--excitation {}: {}", arm::shown(typed[i]), error.what()));
+      throw InputError(fmt::format("{} {}: {}", option, arm::shown(text), error.what()));
     }
     PlannedRun planned =
         plan(run, duration_s.value_or(kDefaultDuration_s), period_s.value_or(kDefaultPeriod_s));
     if (run.payload_kg) {
       if (!payload_masses_kg.empty()) {
-        throw InputError(
-            "--payload-mass: applies to all runs; not together with the key payload of "
-            "--excitation");
+        throw InputError(fmt::format(
+            "--payload-mass: applies to all runs; not together with the key payload of {}",
+            option));
       }
       planned.payload = arm::Payload{*run.payload_kg, arm.payload.inertia_kg_m2};
     }
     plain.push_back(std::move(planned));
-  }
+  };
+  for (std::size_t i = 0; i < typed.size(); ++i) add_typed("--excitation", typed[i], seed + i);
   for (const auto& file : torque_files) plain.push_back(run_of_file(file));
+  if (!references.empty()) {
+    const arm::Controller loop = read_controller(controller);
+    for (std::size_t i = 0; i < references.size(); ++i) {
+      if (is_stepped(references[i])) {
+        throw InputError("--reference stepped-sine: only for --excitation");
+      }
+      if (is_file(references[i])) {
+        plain.push_back(run_of_reference_file(references[i], loop));
+        continue;
+      }
+      add_typed("--reference", references[i], seed + typed.size() + i);
+      plain.back() = in_closed_loop(std::move(plain.back()), loop);
+    }
+  }
 
   std::vector<PlannedRun> runs;
   for (const double mass_kg : payload_masses_kg) {
@@ -295,9 +357,10 @@ void add_run_choice(CLI::App& parser, RunChoice& choice) {
           "--excitation", choice.excitations,
           "KIND:KEY=VALUE,... in N m, s and Hz. KIND is bang-bang (amplitude, pulse, start, pairs; "
           "pairs=0: to the end of the run), step (amplitude, start), random (rms, from, to, seed), "
-          "multisine (rms, from, to, period, detection, seed), chirp (amplitude, from, to, sweep) "
-          "or stepped-sine (amplitude, offset, from and to or bands=FROM:TO/FROM:TO/..., step or "
-          "points, settle, cycles). All kinds: id, payload [kg], purpose. Repeat for more runs")
+          "multisine (rms, from, to, period, detection, seed), chirp (amplitude, from, to, sweep), "
+          "staircase (amplitude of a step, dwell, start, levels) or stepped-sine (amplitude, "
+          "offset, from and to or bands=FROM:TO/FROM:TO/..., step or points, settle, cycles). All "
+          "kinds: id, payload [kg], purpose. Repeat for more runs")
       ->check(not_empty())
       ->allow_extra_args(false);
   parser
@@ -305,6 +368,19 @@ void add_run_choice(CLI::App& parser, RunChoice& choice) {
                   "CSV file with the torque over time, or a time record. Repeat for more runs")
       ->check(not_empty())
       ->allow_extra_args(false);
+  parser
+      .add_option("--reference", choice.references,
+                  "Closed loop: reference of the controller, KIND:KEY=VALUE,... as for "
+                  "--excitation with the unit of its sensor in place of N m, or a CSV file with "
+                  "the columns time [s] and reference [UNIT]. Repeat for more runs")
+      ->check(not_empty())
+      ->allow_extra_args(false);
+  parser
+      .add_option("--controller", choice.controller,
+                  "Controller of --reference: KEY=VALUE,... with sensor, kp, kd, ki, derivative "
+                  "(error or measurement), limit [N m] and sample_time [s], or a TOML file with "
+                  "these keys or A, B, C, D")
+      ->check(not_empty());
   parser.add_option("--duration", choice.duration_s,
                     fmt::format("Duration of each excitation [s]; default {}", kDefaultDuration_s));
   parser.add_option("--period", choice.period_s,

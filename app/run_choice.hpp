@@ -1,7 +1,9 @@
 #pragma once
 
 #include "app/arm_choice.hpp"
+#include "arm/controller.hpp"
 #include "measured/files/measurement.hpp"
+#include "measured/files/time_record.hpp"
 #include "response/excitation/excitation_keys.hpp"
 #include "response/time/stepped_sine.hpp"
 
@@ -37,12 +39,17 @@ struct PlannedRun {
   bool has_own_id = false;  ///< typed, not made from the excitation
   /// In place of times and torque.
   std::optional<response::SteppedSine> stepped_sine = {};
+  /// Of a closed loop, in place of the torque.
+  std::optional<arm::Controller> controller = {};
+  measured::Reference reference = {};
 };
 
-/// The runs that a command simulates: each excitation and each torque file with each payload.
+/// The runs that a command simulates: each excitation, torque file and reference with each payload.
 struct RunChoice {
   std::vector<std::string> excitations;  ///< KIND:KEY=VALUE,...; none and no file: bang-bang
   std::vector<std::string> torque_files;
+  std::vector<std::string> references;  ///< of closed loops: KIND:KEY=VALUE,... or a CSV file
+  std::string controller;               ///< of them: KEY=VALUE,... or a TOML file
   std::optional<double> duration_s;
   std::optional<double> period_s;
   std::uint64_t seed = 1;
@@ -64,7 +71,8 @@ measured::Purpose read_purpose(std::string_view value);
 /// An id made of the name of a file.
 std::string id_of_file(const std::string& file);
 
-/// Adds `--excitation`, `--torque`, `--duration`, `--period` and `--seed` to a command.
+/// Adds `--excitation`, `--torque`, `--reference`, `--controller`, `--duration`, `--period` and
+/// `--seed` to a command.
 void add_run_choice(CLI::App& parser, RunChoice& choice);
 
 }  // namespace flexarm::app

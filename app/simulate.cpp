@@ -191,6 +191,19 @@ void print_results(const SimulateArguments& arguments, const std::vector<Planned
   if (!notes.empty()) print(notes + "\n");
 }
 
+/// Throws unless the sensors that controllers read are simulated.
+void require_read_sensors(const std::vector<PlannedRun>& plan,
+                          const std::vector<ChosenSensor>& sensors) {
+  for (const auto& run : plan) {
+    if (!run.controller) continue;
+    for (const auto& sensor : run.controller->sensors) {
+      if (std::ranges::count(sensors, sensor, &ChosenSensor::sensor) > 0) continue;
+      throw arm::InputError(fmt::format("--controller: reads {}, which is not among --sensor",
+                                        arm::to_string(sensor)));
+    }
+  }
+}
+
 /// Throws for options that a stepped sine has no use for.
 void require_fitting(const SimulateArguments& arguments, const std::vector<PlannedRun>& plan) {
   const auto stepped =
@@ -227,6 +240,7 @@ int run_simulate(SimulateArguments arguments) {
   const auto sensors = arguments.sensors.sensors(arm);
   const auto plan = arguments.runs.runs(arm, arguments.arm.payload_masses_kg);
   require_fitting(arguments, plan);
+  require_read_sensors(plan, sensors);
   prepare(arguments);
 
   const auto experiment = simulate_experiment(arm, plan, sensors, options);

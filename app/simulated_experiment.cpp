@@ -4,6 +4,7 @@
 #include "measured/files/arm_file.hpp"
 #include "measured/files/measurement.hpp"
 #include "report/progress.hpp"
+#include "response/time/arm_simulator.hpp"
 #include "response/time/step_check.hpp"
 #include "response/time/time_model.hpp"
 
@@ -90,14 +91,20 @@ void require_finite(const std::vector<double>& reading, const arm::Sensor& senso
                   run.record.time_s[static_cast<std::size_t>(wrong - reading.begin())]));
 }
 
-/// Simulates a run that has its torque.
+/// Simulates a run that has its torque, or its loop.
 void step(report::SimulatedRun& run, const PayloadModel& model,
           const std::vector<arm::Sensor>& sensors, const response::SimulationOptions& options,
           bool check_step) {
-  const auto& torque_N_m = run.record.torque_N_m;
-  SampleProgress progress(fmt::format("{}, samples", run.id), torque_N_m.size());
-  run.simulation = response::simulate(model.model, model.parts, sensors, torque_N_m, options,
-                                      std::ref(progress));
+  auto& torque_N_m = run.record.torque_N_m;
+  SampleProgress progress(fmt::format("{}, samples", run.id), run.record.time_s.size());
+  if (run.controller) {
+    run.simulation = response::ArmSimulator(model.model, model.parts, sensors, options)
+                         .run({*run.controller, run.record.reference.values}, std::ref(progress));
+    torque_N_m = run.simulation.commanded_torque_N_m;
+  } else {
+    run.simulation = response::simulate(model.model, model.parts, sensors, torque_N_m, options,
+                                        std::ref(progress));
+  }
   if (!check_step) return;
   SampleProgress finer(fmt::format("{} in smaller steps, samples", run.id), torque_N_m.size());
   run.step_error = response::check_step(run.simulation, model.model, model.parts, sensors,
@@ -131,6 +138,8 @@ report::SimulatedRun run_in_time(const PlannedRun& plan, std::size_t index,
   run.payload = payload;
   run.record.time_s = plan.time_s;
   run.record.torque_N_m = plan.torque.torque_N_m;
+  run.record.reference = plan.reference;
+  run.controller = plan.controller;
 
   response::SimulationOptions stepping;
   stepping.sample_time_s = measured::sampling_period_s(run.record);
@@ -220,6 +229,10 @@ std::vector<measured::NamedContent> measurement_folder(const std::string& name,
     } else {
       entry.torque_hold = hold == response::TorqueHold::zero ? measured::TorqueHold::zero
                                                              : measured::TorqueHold::first;
+      if (planned.controller) {
+        entry.controller = planned.controller;
+        entry.reference = measured::ColumnMapping{std::string(measured::kReferenceColumn), "", 1.0};
+      }
       files.push_back({entry.file, measured::format_time_record(in_time->record)});
       files.push_back({planned.id + ".svg", report::time_svg(written_arm.name, *in_time)});
       ++in_time;

@@ -12,6 +12,7 @@ void thin(measured::TimeRecord& record, std::size_t samples) {
   record.time_s.resize(kept);
   record.torque_N_m.resize(kept);
   for (auto& channel : record.channels) channel.values.resize(kept);
+  if (!record.reference.values.empty()) record.reference.values.resize(kept);
 }
 
 void thin(measured::FrequencyRecord& record, std::size_t /*samples*/) {

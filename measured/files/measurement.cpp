@@ -1,8 +1,10 @@
 #include "measured/files/measurement.hpp"
 
 #include "arm/input_error.hpp"
+#include "measured/files/controller_keys.hpp"
 #include "measured/files/payload_keys.hpp"
 #include "measured/files/text_file.hpp"
+#include "measured/files/time_record.hpp"
 #include "measured/files/toml_document.hpp"
 #include "measured/files/toml_faults.hpp"
 #include "measured/files/toml_node.hpp"
@@ -44,8 +46,10 @@ std::string_view word_of(const Table& table, T value) {
 }
 
 const std::vector<std::string> kTopKeys = {"name", "arm", "run"};
-const std::vector<std::string> kRunKeys = {"id",          "kind",    "file",    "purpose",
-                                           "torque_hold", "payload", "initial", "columns"};
+const std::vector<std::string> kRunKeys = {"id",          "kind",    "file",
+                                           "purpose",     "torque_hold", "payload",
+                                           "initial",     "columns", "reference",
+                                           "controller"};
 const std::vector<std::string> kColumnKeys = {"name", "unit", "scale"};
 
 class MeasurementReader : measured::TomlFaults {
@@ -108,7 +112,9 @@ class MeasurementReader : measured::TomlFaults {
         run.payload = read_payload(*this, node);
       } else if (leaf == "columns") {
         run.columns = read_columns(node);
-      } else {
+      } else if (leaf == "controller") {
+        run.controller = read_controller(*this, "run.controller.", node);
+      } else if (leaf != "reference") {
         unknown("run.", leaf, node, kRunKeys);
       }
     }
@@ -116,11 +122,67 @@ class MeasurementReader : measured::TomlFaults {
     if (!run.columns.empty() && run.kind != RunKind::time) {
       fault(line_of(*table.get("columns")), "run.columns: only for time runs");
     }
+    read_loop(table, run);
     const int line = line_of(table);
     require(table, line, "run.id", "id", "a quoted name");
     require(table, line, "run.kind", "kind", "\"time\", \"frf\" or \"modal\"");
     require(table, line, "run.file", "file", "the run's CSV file, relative to this file");
     return run;
+  }
+
+  /// The reference of a closed loop, and what else must hold for it; the controller has been read.
+  void read_loop(const toml::table& table, Run& run) {
+    const auto* reference = table.get("reference");
+    const auto* controller = table.get("controller");
+    if (reference == nullptr && controller == nullptr) return;
+    const auto* first = controller == nullptr ? reference : controller;
+    if (run.kind != RunKind::time) {
+      fault(line_of(*first), fmt::format("run.{}: only for time runs",
+                                         controller == nullptr ? "reference" : "controller"));
+      return;
+    }
+    if (controller == nullptr || reference == nullptr) {
+      fault(line_of(*first),
+            controller == nullptr
+                ? fmt::format("run.reference{}: needs a controller, as in controller = {{ sensor = "
+                              "\"hub_angle\", kp = 2.5, kd = 0.1 }}",
+                              measured::equals_value(*reference))
+                : "run.controller: needs the column with its reference, as in reference = "
+                  "\"reference\"");
+      return;
+    }
+    read_reference(*reference, run);
+    if (run.torque_hold == TorqueHold::first) {
+      fault(line_of(*table.get("torque_hold")),
+            "run.torque_hold = \"first\": must be \"zero\" where a controller made the torque, "
+            "which it holds between its samples");
+    }
+    run.torque_hold_is_known = true;
+  }
+
+  void read_reference(const toml::node& node, Run& run) {
+    constexpr const char* kKey = "run.reference";
+    if (run.columns.empty()) {
+      run.reference.emplace();
+      read_text(kKey, node, "the quoted name of a column", run.reference->name);
+      if (!run.reference->name.empty() && run.reference->name != kReferenceColumn) {
+        fault(line_of(node), fmt::format("{} = \"{}\": not a column of a time record; must be "
+                                         "\"{}\", which is reference [UNIT] in its header",
+                                         kKey, arm::shown(run.reference->name), kReferenceColumn));
+      }
+      return;
+    }
+    if (run.controller->sensors.empty()) return;  // which is a fault of its own
+    const std::string sensor = arm::to_string(run.controller->sensors.front());
+    if (node.is_table()) {
+      run.reference = read_mapping(kKey, sensor, node);
+      return;
+    }
+    const auto of_sensor = run.columns.find(sensor);
+    run.reference = of_sensor == run.columns.end() ? ColumnMapping() : of_sensor->second;
+    run.reference->name.clear();
+    read_text(kKey, node, "the quoted name of a column, or a table, as in { name = \"Cmd\", unit = "
+              "\"deg\" }", run.reference->name);
   }
 
   void read_id(const toml::node& node, Run& run) {
@@ -247,6 +309,25 @@ Measurement parse_measurement(std::string_view toml, const std::string& file_nam
 Measurement read_measurement(const std::filesystem::path& path) {
   return parse_measurement(measured::read_text_file(path, kLargestMeasurement_bytes),
                            arm::shown(path.string()));
+}
+
+int line_of_run_key(const std::filesystem::path& measurement_file, const std::string& run_id,
+                    const std::string& key) {
+  const std::string text = measured::read_text_file(measurement_file, kLargestMeasurement_bytes);
+  const toml::table document = measured::parse_toml(text, measurement_file.string());
+  const auto* runs = document.get_as<toml::array>("run");
+  for (std::size_t i = 0; runs != nullptr && i < runs->size(); ++i) {
+    const auto* run = (*runs)[i].as_table();
+    if (run == nullptr || run->at_path("id").value<std::string>() != run_id) continue;
+    std::string path = key;
+    while (true) {
+      if (const auto* node = run->at_path(path).node()) return TomlFaults::line_of(*node);
+      const auto dot = path.rfind('.');
+      if (dot == std::string::npos) return TomlFaults::line_of(*run);
+      path.resize(dot);
+    }
+  }
+  return 0;
 }
 
 std::vector<std::filesystem::path> files_of(const std::filesystem::path& measurement_file,

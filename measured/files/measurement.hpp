@@ -1,5 +1,6 @@
 #pragma once
 
+#include "arm/controller.hpp"
 #include "arm/payload.hpp"
 #include "measured/files/column_mapping.hpp"
 
@@ -41,6 +42,11 @@ struct Run {
   InitialState initial = InitialState::rest;
   ColumnMappings columns = {};       ///< of a time run whose file is a foreign log; otherwise empty
   bool torque_hold_is_known = true;  ///< false: the file of a time run does not say
+  /// Of a time run in closed loop: the column with the reference, and what made the torque of it.
+  /// Both or none. `reference` of a time record is its column "reference"; of a foreign log it has
+  /// the unit and scale of the first sensor's column, unless it is given its own.
+  std::optional<ColumnMapping> reference = {};
+  std::optional<arm::Controller> controller = {};
 
   bool operator==(const Run&) const = default;
 };
@@ -65,7 +71,8 @@ std::string_view to_string(InitialState initial);
 /// Throws InputError with one line `FILE:LINE: KEY = VALUE: what is wrong; what is allowed`: for a
 /// file that cannot be read or is not TOML, an unknown key (with the name that was probably meant),
 /// a value of the wrong type or out of its range, a missing key, no run, a run id given twice, and
-/// `columns` that cannot be (`require_valid`) or stand in a run of another kind than `time`.
+/// `columns` that cannot be (`require_valid`) or stand in a run of another kind than `time`, and a
+/// controller that cannot be (`arm::require_valid`), without a reference, or the other way round.
 Measurement read_measurement(const std::filesystem::path& path);
 
 /// The same for the text of a file; `file_name` stands in the errors.
@@ -77,6 +84,11 @@ std::string format_measurement(const Measurement& measurement);
 
 /// `format_measurement` written to `path`, whole or not at all (measured/files/atomic_file.hpp).
 void write_measurement(const Measurement& measurement, const std::filesystem::path& path);
+
+/// The line of `key`, "controller" or "controller.kp", of the run of that id in the measurement
+/// file: of the key that holds it where it is not there, and 0 where that is not there either.
+int line_of_run_key(const std::filesystem::path& measurement_file, const std::string& run_id,
+                    const std::string& key);
 
 /// The measurement file, the arm's and the runs'.
 std::vector<std::filesystem::path> files_of(const std::filesystem::path& measurement_file,

@@ -2,6 +2,7 @@
 #include "arm/utf8.hpp"
 #include "measured/files/arm_file.hpp"
 #include "measured/files/atomic_file.hpp"
+#include "measured/files/controller_keys.hpp"
 #include "measured/files/measurement.hpp"
 #include "measured/files/payload_keys.hpp"
 
@@ -62,6 +63,11 @@ std::string format_measurement(const Measurement& measurement) {
           "columns." + (name.find('@') == std::string::npos ? name : measured::toml_string(name));
       line(key.c_str(), format_mapping(key, mapping));
     }
+    if (run.reference) {
+      line("reference", run.columns.empty() ? quoted("run.reference", run.reference->name)
+                                            : format_mapping("run.reference", *run.reference));
+    }
+    if (run.controller) line("controller", format_controller(*run.controller));
   }
   return out;
 }

@@ -3,16 +3,88 @@
 #include "arm/input_error.hpp"
 #include "measured/files/foreign_table.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <stdexcept>
+#include <string>
+#include <utility>
+#include <variant>
 
 namespace flexarm::measured {
+
+namespace {
+
+using arm::InputError;
+
+/// The reference is the column of a log, read as the sensor's that the controller reads first.
+Reference reference_of(const ForeignTable& table, const Run& run, const std::string& file_name) {
+  const arm::Sensor sensor = run.controller->sensors.front();
+  ColumnMappings columns = run.columns;
+  std::erase_if(columns, [](const auto& named) { return sensor_of(named.first).has_value(); });
+  columns.emplace(arm::to_string(sensor), *run.reference);
+  TimeRecord record = time_record_of(table, columns, file_name);
+  const auto channel = std::ranges::find(record.channels, sensor, &Channel::sensor);
+  return {std::string(arm::unit(sensor)), std::move(channel->values)};
+}
+
+TimeRecord read_log(const std::filesystem::path& file, const Run& run) {
+  const ForeignTable table = read_foreign_table(file);
+  const std::string file_name = arm::shown(file.string());
+  TimeRecord record = time_record_of(table, run.columns, file_name);
+  if (!run.reference) return record;
+  try {
+    find_column(table, run.reference->name);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("reference = \"{}\": {}", arm::shown(run.reference->name),
+                                 error.what()),
+                     "reference");
+  }
+  record.reference = reference_of(table, run, file_name);
+  return record;
+}
+
+/// Throws InputError, with the key in the run, for a record that the run's loop does not fit.
+void require_loop_fits(const TimeRecord& record, const Run& run, const std::string& file_name) {
+  if (record.reference.values.empty()) {
+    throw InputError(fmt::format("reference = \"{}\": no column {} [UNIT] in {}",
+                                 run.reference->name, kReferenceColumn, file_name),
+                     "reference");
+  }
+  const arm::Controller& controller = *run.controller;
+  const arm::Sensor& sensor = controller.sensors.front();
+  if (std::holds_alternative<arm::PidController>(controller.law) &&
+      record.reference.unit != arm::unit(sensor)) {
+    throw InputError(
+        fmt::format("reference = \"{}\": in {} in {}; must be in {}, the unit of {}",
+                    run.reference->name, record.reference.unit, file_name, arm::unit(sensor),
+                    arm::to_string(sensor)),
+        "reference");
+  }
+  try {
+    arm::samples_per_period(controller, sampling_period_s(record));
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("controller.{} ({})", error.what(), file_name),
+                     "controller.sample_time");
+  }
+}
+
+}  // namespace
 
 RunData read_run(const std::filesystem::path& measurement_file, const Run& run) {
   const std::filesystem::path file = beside(measurement_file, run.file);
   switch (run.kind) {
     case RunKind::time:
-      if (run.columns.empty()) return read_time_record(file);
-      return time_record_of(read_foreign_table(file), run.columns, arm::shown(file.string()));
+      try {
+        TimeRecord record = run.columns.empty() ? read_time_record(file) : read_log(file, run);
+        if (run.controller) require_loop_fits(record, run, arm::shown(file.string()));
+        return record;
+      } catch (const InputError& error) {
+        if (error.key().empty()) throw;  // about the run's own file
+        throw arm::located(InputError(fmt::format("run.{}", error.what())),
+                           arm::shown(measurement_file.string()),
+                           line_of_run_key(measurement_file, run.id, error.key()));
+      }
     case RunKind::frf:
       return read_frequency_record(file);
     case RunKind::modal:

@@ -27,12 +27,24 @@ namespace {
 
 using arm::InputError;
 
-constexpr std::string_view kForm = "time [s],torque [N m],hub_angle [rad],...";
+/// Columns that a file must have: of a time record, and of one that is read for its reference.
+constexpr std::array kOfRecord = {kTime, kTorque};
+constexpr std::array kOfReference = {kTime, kReferenceColumn};
 
-/// A column of the file; `sensor` is empty for time and torque.
+/// The header of a file that must have those columns.
+std::string_view form(std::span<const std::string_view> required) {
+  return required.back() == kReferenceColumn ? "time [s],reference [rad]"
+                                             : "time [s],torque [N m],hub_angle [rad],...";
+}
+
+/// The SI units of sensors, in any of which a reference may be.
+constexpr std::array<std::string_view, 5> kSensorUnits = {"rad", "rad/s", "m", "m/s^2", "1"};
+
+/// A column of the file; `sensor` is empty for time, torque and reference.
 struct Column {
   std::string name;  ///< without its unit: "hub_angle"
   Unit unit;
+  std::string_view si_unit;
   std::optional<arm::Sensor> sensor;
   std::vector<double> values;
 };
@@ -52,7 +64,8 @@ std::string_view name_in(std::string_view header) {
 /// The sensor of that name. The error says, unlike `arm::parse_sensor`, that time and torque are
 /// columns too.
 arm::Sensor sensor_of(std::string_view name) {
-  const std::vector<std::string> beside = {std::string(kTime), std::string(kTorque)};
+  const std::vector<std::string> beside = {std::string(kTime), std::string(kTorque),
+                                           std::string(kReferenceColumn)};
   if (const auto meant = arm::nearest_name(name, beside)) {
     throw InputError(
         fmt::format("column {}: unknown (did you mean {}?)", arm::shown(name), *meant));
@@ -60,21 +73,28 @@ arm::Sensor sensor_of(std::string_view name) {
   try {
     return arm::parse_sensor(name);
   } catch (const InputError& error) {
-    throw InputError(fmt::format("column: {}; besides time and torque", error.what()));
+    throw InputError(fmt::format("column: {}; besides time, torque and reference", error.what()));
   }
 }
 
-Unit unit_of(std::string_view name, std::optional<std::string_view> given,
-             std::string_view si_unit) {
-  const auto allowed = units_for(si_unit);
+/// Sets the column's unit: `given`, which belongs to one of `si_units`.
+void take_unit(Column& column, std::optional<std::string_view> given,
+               std::span<const std::string_view> si_units) {
   std::vector<std::string> names;
-  for (const auto& unit : allowed) {
-    if (unit.name == given) return unit;
-    names.emplace_back(unit.name);
+  for (const std::string_view si_unit : si_units) {
+    for (const auto& unit : units_for(si_unit)) {
+      names.emplace_back(unit.name);
+      if (unit.name != given) continue;
+      column.unit = unit;
+      column.si_unit = si_unit;
+      return;
+    }
   }
+  const std::string& name = column.name;
   if (!given) {
     throw InputError(fmt::format("column {}: unit missing; write {} [{}]; allowed: {}",
-                                 arm::shown(name), name, si_unit, fmt::join(names, ", ")));
+                                 arm::shown(name), name, si_units.front(),
+                                 fmt::join(names, ", ")));
   }
   throw InputError(fmt::format("column {}: unit {} unknown{}; allowed: {}", name,
                                arm::shown(*given), arm::did_you_mean(*given, names),
@@ -84,19 +104,25 @@ Unit unit_of(std::string_view name, std::optional<std::string_view> given,
 Column read_column(std::string_view header) {
   Column column;
   const std::string_view name = name_in(header);
-  std::string_view si_unit = "s";
+  column.name = name;
+  if (name == kReferenceColumn) {
+    take_unit(column, unit_in(header), kSensorUnits);
+    return column;
+  }
+  std::array<std::string_view, 1> si_unit = {"s"};
   if (name == kTorque) {
-    si_unit = "N m";
+    si_unit = {"N m"};
   } else if (name != kTime) {
     column.sensor = sensor_of(name);
-    si_unit = arm::unit(*column.sensor);
+    column.name = arm::to_string(*column.sensor);
+    si_unit = {arm::unit(*column.sensor)};
   }
-  column.name = column.sensor ? arm::to_string(*column.sensor) : std::string(name);
-  column.unit = unit_of(column.name, unit_in(header), si_unit);
+  take_unit(column, unit_in(header), si_unit);
   return column;
 }
 
-std::vector<Column> read_time_header(std::span<const std::string_view> cells) {
+std::vector<Column> read_time_header(std::span<const std::string_view> cells,
+                                     std::span<const std::string_view> required) {
   if (cells.size() == 1 && cells[0].find_first_of(";\t") != std::string::npos) {
     throw InputError("cells must be separated by commas, and numbers have a decimal point");
   }
@@ -108,9 +134,9 @@ std::vector<Column> read_time_header(std::span<const std::string_view> cells) {
     }
     columns.push_back(std::move(column));
   }
-  for (const auto& name : {kTime, kTorque}) {
+  for (const auto& name : required) {
     if (std::ranges::count(columns, name, &Column::name) == 0) {
-      throw InputError(fmt::format("column {}: missing; the header is {}", name, kForm));
+      throw InputError(fmt::format("column {}: missing; the header is {}", name, form(required)));
     }
   }
   return columns;
@@ -142,6 +168,8 @@ TimeRecord record_of(std::vector<Column>&& columns) {
   for (auto& column : columns) {
     if (column.sensor) {
       record.channels.push_back({*column.sensor, std::move(column.values)});
+    } else if (column.name == kReferenceColumn) {
+      record.reference = {std::string(column.si_unit), std::move(column.values)};
     } else {
       (column.name == kTime ? record.time_s : record.torque_N_m) = std::move(column.values);
     }
@@ -160,7 +188,13 @@ void require_writable(const TimeRecord& record) {
   const std::size_t samples = record.time_s.size();
   bool even = record.torque_N_m.size() == samples;
   for (const auto& channel : record.channels) even = even && channel.values.size() == samples;
+  const Reference& reference = record.reference;
+  even = even && (reference.values.empty() || reference.values.size() == samples);
   if (!even) throw std::invalid_argument("columns of different length");
+  if (std::ranges::count(kSensorUnits, reference.unit) != (reference.values.empty() ? 0 : 1)) {
+    throw std::invalid_argument("a reference without its unit, or a unit without reference");
+  }
+  require_finite_values(kReferenceColumn, reference.values);
   require_finite_values(kTime, record.time_s);
   require_finite_values(kTorque, record.torque_N_m);
   for (const auto& channel : record.channels) {
@@ -182,13 +216,16 @@ double sampling_period_s(const TimeRecord& record) {
          static_cast<double>(record.time_s.size() - 1);
 }
 
-TimeRecord parse_time_record(std::string_view csv, const std::string& file_name) {
+namespace {
+
+TimeRecord parse_record(std::string_view csv, const std::string& file_name,
+                        std::span<const std::string_view> required) {
   CsvReader reader(csv);
   std::vector<Column> columns;
   std::vector<int> lines;
   try {
-    if (!reader.next()) throw InputError(fmt::format("empty; the header is {}", kForm));
-    columns = read_time_header(reader.cells());
+    if (!reader.next()) throw InputError(fmt::format("empty; the header is {}", form(required)));
+    columns = read_time_header(reader.cells(), required);
     while (reader.next()) {
       read_row(reader.cells(), columns);
       lines.push_back(reader.line());
@@ -207,9 +244,23 @@ TimeRecord parse_time_record(std::string_view csv, const std::string& file_name)
   return record;
 }
 
+}  // namespace
+
+TimeRecord parse_time_record(std::string_view csv, const std::string& file_name) {
+  return parse_record(csv, file_name, kOfRecord);
+}
+
 TimeRecord read_time_record(const std::filesystem::path& path) {
   return parse_time_record(measured::read_text_file(path, kLargestRecord_bytes),
                            arm::shown(path.string()));
+}
+
+TimeRecord read_reference(const std::filesystem::path& path) {
+  TimeRecord record = parse_record(measured::read_text_file(path, kLargestRecord_bytes),
+                                   arm::shown(path.string()), kOfReference);
+  record.torque_N_m.assign(record.time_s.size(), 0.0);
+  record.channels.clear();
+  return record;
 }
 
 std::string format_time_record(const TimeRecord& record) {
@@ -218,6 +269,8 @@ std::string format_time_record(const TimeRecord& record) {
   for (const auto& channel : record.channels) {
     out += fmt::format(",{} [{}]", arm::to_string(channel.sensor), arm::unit(channel.sensor));
   }
+  const Reference& reference = record.reference;
+  if (!reference.values.empty()) out += fmt::format(",{} [{}]", kReferenceColumn, reference.unit);
   out += '\n';
   for (std::size_t i = 0; i < record.time_s.size(); ++i) {
     append_number(out, record.time_s[i]);
@@ -226,6 +279,10 @@ std::string format_time_record(const TimeRecord& record) {
     for (const auto& channel : record.channels) {
       out += ',';
       append_number(out, channel.values[i]);
+    }
+    if (!reference.values.empty()) {
+      out += ',';
+      append_number(out, reference.values[i]);
     }
     out += '\n';
   }

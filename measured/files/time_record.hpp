@@ -17,12 +17,25 @@ struct Channel {
   bool operator==(const Channel&) const = default;
 };
 
+/// The name of the column of a time record that has the reference: `reference [rad]`.
+inline constexpr std::string_view kReferenceColumn = "reference";
+
+/// What a closed loop was to follow, a value a sample, in an SI unit of the sensors (`arm::unit`).
+/// Empty, with an empty unit, where the loop was open.
+struct Reference {
+  std::string unit;
+  std::vector<double> values;
+
+  bool operator==(const Reference&) const = default;
+};
+
 /// A run in time, evenly sampled: commanded torque and what the sensors read. All vectors are of
 /// one length, 2 or more; without channels it is a torque alone.
 struct TimeRecord {
   std::vector<double> time_s;
   std::vector<double> torque_N_m;
   std::vector<Channel> channels;  ///< no sensor twice
+  Reference reference = {};
 
   bool operator==(const TimeRecord&) const = default;
 };
@@ -36,7 +49,7 @@ inline constexpr double kMostJitter_periods = 0.05;
 double sampling_period_s(const TimeRecord& record);
 
 /// Reads a time record (CSV, docs/formats.md): `time [s],torque [N m]` and any subset of the
-/// sensors, columns in any order, units as `units_for` has them.
+/// sensors, and perhaps `reference`, columns in any order, units as `units_for` has them.
 ///
 /// Throws InputError with one line `FILE:LINE: what is wrong; what is allowed`: for a file that
 /// cannot be read or has no samples, a column that is unknown, missing or given twice, an unknown
@@ -46,6 +59,11 @@ TimeRecord read_time_record(const std::filesystem::path& path);
 
 /// The same for the text of a file; `file_name` stands in the errors.
 TimeRecord parse_time_record(std::string_view csv, const std::string& file_name);
+
+/// The reference of a file that has `time [s]` and `reference [UNIT]`, and perhaps other columns of
+/// a time record: a record whose torque is zero and that has no channels. Throws as
+/// `read_time_record`.
+TimeRecord read_reference(const std::filesystem::path& path);
 
 /// The record as the text of a file, in SI units; `parse_time_record` reads the same record back,
 /// every double bit for bit. Throws std::invalid_argument for vectors of unlike length, and

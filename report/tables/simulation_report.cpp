@@ -1,5 +1,6 @@
 #include "report/tables/simulation_report.hpp"
 
+#include "measured/files/controller_keys.hpp"
 #include "report/figures/sensor_label.hpp"
 #include "report/figures/svg.hpp"
 #include "report/figures/time_figure.hpp"
@@ -32,12 +33,21 @@ Peak peak_of(const std::vector<double>& values) {
 
 /// The excitation with its numbers, and how many lines it has.
 std::string excitation_text(const SimulatedRun& run) {
-  std::string text = response::describe(run.excitation, run.keys);
+  std::string text = (run.controller ? "reference " : "") +
+                     response::describe(run.excitation, run.keys);
   if (!run.lines_Hz.empty()) text += fmt::format(", {} lines", run.lines_Hz.size());
   if (!run.detection_Hz.empty())
     text += fmt::format(", {} detection line{}", run.detection_Hz.size(),
                         run.detection_Hz.size() == 1 ? "" : "s");
   return text;
+}
+
+/// Null where the loop is open.
+nlohmann::ordered_json loop_json(const SimulatedRun& run) {
+  if (!run.controller) return nullptr;
+  return {{"controller", measured::format_controller(*run.controller)},
+          {"reference_unit", run.record.reference.unit},
+          {"reference", run.record.reference.values}};
 }
 
 nlohmann::ordered_json energy_json(const response::EnergyBalance& energy) {
@@ -201,8 +211,12 @@ std::string time_svg(const std::string& arm_name, const SimulatedRun& run) {
   }
   plot.panels.push_back(std::move(torque));
   for (const auto& channel : run.record.channels) {
-    plot.panels.push_back(
-        {sensor_label(channel.sensor), axis_unit(channel.sensor), {{"", channel.values}}});
+    TimePanel panel{sensor_label(channel.sensor), axis_unit(channel.sensor), {}};
+    panel.curves = {{"", channel.values}};
+    if (run.controller && channel.sensor == run.controller->sensors.front()) {
+      panel.curves = {{"measured", channel.values}, {"reference", run.record.reference.values}};
+    }
+    plot.panels.push_back(std::move(panel));
   }
   return to_svg(time_figure(plot));
 }
@@ -223,6 +237,7 @@ nlohmann::ordered_json runs_json(const std::vector<SimulatedRun>& runs) {
                        {"stepping", stepping_json(run.simulation.summary)},
                        {"time_s", run.record.time_s},
                        {"torque_N_m", run.record.torque_N_m},
+                       {"loop", loop_json(run)},
                        {"hub_torque_N_m", run.simulation.hub_torque_N_m},
                        {"channels", channels}});
   }

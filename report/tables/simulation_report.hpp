@@ -1,6 +1,7 @@
 #pragma once
 
 #include "arm/arm.hpp"
+#include "arm/controller.hpp"
 #include "measured/files/time_record.hpp"
 #include "report/tables/table.hpp"
 #include "response/excitation/excitation_keys.hpp"
@@ -8,6 +9,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,6 +29,8 @@ struct SimulatedRun {
   double fall_rate_rad_per_s = 0.0;  ///< of an arm that stands up: undamped poles +- this; else 0
   std::vector<double> step_error;  ///< one a channel: largest difference to a tenfold smaller step,
                                    ///< over the largest size; empty when not asked for
+  std::optional<arm::Controller> controller = {};  ///< of a closed loop; its excitation is the
+                                                   ///< record's reference
 };
 
 /// Excitation, duration, peak and root mean square of the torque of each run.

@@ -219,6 +219,29 @@ SampledTorque sampled(const Chirp& signal, const SampleGrid& grid) {
   return result;
 }
 
+SampledTorque sampled(const Staircase& signal, const SampleGrid& grid) {
+  arm::require_in_range("staircase.amplitude", signal.amplitude_N_m, "N m", arm::kAnyFinite);
+  arm::require_in_range("staircase.dwell", signal.dwell_s, "s", arm::kPositive);
+  require_time("staircase.start", signal.start_s, grid);
+  if (signal.levels < 1) {
+    throw arm::out_of_range("staircase.levels", signal.levels, "", "1 or more");
+  }
+  const std::size_t start = nearest_sample(signal.start_s, grid);
+  const std::size_t dwell = nearest_sample(signal.dwell_s, grid);
+  if (dwell == 0) {
+    throw arm::out_of_range("staircase.dwell", signal.dwell_s, "s",
+                            fmt::format("a sampling period, {:.6g} s, or more", grid.period_s));
+  }
+  const auto levels = static_cast<std::size_t>(signal.levels);
+  SampledTorque result{std::vector<double>(grid.samples), {}, {}};
+  for (std::size_t k = start; k < grid.samples; ++k) {
+    const std::size_t step = ((k - start) / dwell + 1) % (2 * levels);
+    result.torque_N_m[k] =
+        signal.amplitude_N_m * static_cast<double>(std::min(step, 2 * levels - step));
+  }
+  return result;
+}
+
 /// `time_s` moved to the nearest sample.
 void round_to_samples(double& time_s, const SampleGrid& grid) {
   constexpr double kRounding_periods = 1e-6;
@@ -232,6 +255,7 @@ struct NameOf {
   std::string_view operator()(const RandomNoise&) const { return "random"; }
   std::string_view operator()(const Multisine&) const { return "multisine"; }
   std::string_view operator()(const Chirp&) const { return "chirp"; }
+  std::string_view operator()(const Staircase&) const { return "staircase"; }
 };
 
 }  // namespace
@@ -257,6 +281,9 @@ Excitation in_whole_samples(const Excitation& excitation, const SampleGrid& grid
     round_to_samples(step->start_s, grid);
   } else if (auto* multisine = std::get_if<Multisine>(&made)) {
     round_to_samples(multisine->period_s, grid);
+  } else if (auto* staircase = std::get_if<Staircase>(&made)) {
+    round_to_samples(staircase->dwell_s, grid);
+    round_to_samples(staircase->start_s, grid);
   }
   return made;
 }

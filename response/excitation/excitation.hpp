@@ -75,9 +75,18 @@ struct Chirp {
   Sweep sweep = Sweep::logarithmic;
 };
 
-using Excitation = std::variant<BangBang, Step, RandomNoise, Multisine, Chirp>;
+/// Steps of one size, each held for a dwell: up from 0 to `levels` times the size and down to 0
+/// again, and so on to the end of the record. Start and dwell are rounded to whole samples.
+struct Staircase {
+  double amplitude_N_m = 0.05;  ///< of one step
+  double dwell_s = 0.5;
+  double start_s = 0.0;  ///< of the first step
+  int levels = 3;
+};
 
-/// "bang-bang", "step", "random", "multisine", "chirp".
+using Excitation = std::variant<BangBang, Step, RandomNoise, Multisine, Chirp, Staircase>;
+
+/// "bang-bang", "step", "random", "multisine", "chirp", "staircase".
 std::string_view name(const Excitation& excitation);
 
 /// A torque, and the lines it is made of.

@@ -57,6 +57,13 @@ std::vector<Slot> slots_of(Chirp& signal) {
           {"sweep", "", &signal.sweep}};
 }
 
+std::vector<Slot> slots_of(Staircase& signal) {
+  return {{"amplitude", "N m", &signal.amplitude_N_m},
+          {"dwell", "s", &signal.dwell_s},
+          {"start", "s", &signal.start_s},
+          {"levels", "", &signal.levels}};
+}
+
 constexpr std::array<std::pair<Sweep, const char*>, 2> kSweeps = {
     {{Sweep::linear, "linear"}, {Sweep::logarithmic, "logarithmic"}}};
 
@@ -120,7 +127,7 @@ const std::vector<std::string>& excitation_names() {
     std::vector<std::string> all;
     for (const Excitation& excitation :
          {Excitation(BangBang{}), Excitation(Step{}), Excitation(RandomNoise{}),
-          Excitation(Multisine{}), Excitation(Chirp{})}) {
+          Excitation(Multisine{}), Excitation(Chirp{}), Excitation(Staircase{})}) {
       all.emplace_back(name(excitation));
     }
     return all;
@@ -131,7 +138,7 @@ const std::vector<std::string>& excitation_names() {
 Excitation excitation_of(std::string_view typed, const std::vector<std::string>& further) {
   for (const Excitation& excitation :
        {Excitation(BangBang{}), Excitation(Step{}), Excitation(RandomNoise{}),
-        Excitation(Multisine{}), Excitation(Chirp{})}) {
+        Excitation(Multisine{}), Excitation(Chirp{}), Excitation(Staircase{})}) {
     if (name(excitation) == typed) return excitation;
   }
   std::vector<std::string> allowed = excitation_names();

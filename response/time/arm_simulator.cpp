@@ -2,6 +2,7 @@
 
 #include "arm/input_error.hpp"
 #include "arm/linear_arm.hpp"
+#include "response/time/controller_run.hpp"
 #include "response/time/propagator.hpp"
 #include "response/time/sensor_readings.hpp"
 #include "response/time/simulation_input.hpp"
@@ -48,26 +49,108 @@ Sampling sampling(double samples_per_period) {
   return samples_per_period < kFineSamplesPerPeriod ? Sampling::coarse : Sampling::fine;
 }
 
-/// Steps through the samples of a torque; `at_sample(k, time, actuator torque)`, called at each,
-/// says whether to go on. The last sample is looked at, not stepped from.
-template <class AtSample>
-void step_through(TimeStepper& stepper, const TorquePath& path, double sample_time_s,
-                  std::size_t samples, AtSample at_sample) {
-  TorquePath::Pieces pieces;
-  for (std::size_t k = 0; k < samples; ++k) {
-    const double time_s = static_cast<double>(k) * sample_time_s;
-    path.pieces(k, pieces);
-    stepper.take_up(pieces.front().begin_N_m, time_s);
-    if (!at_sample(k, time_s, pieces.front().begin_N_m) || k + 1 == samples) return;
-    for (const TorquePiece& piece : pieces) {
-      const double begin_s = time_s + piece.begin * sample_time_s;
-      if (piece.begin > 0.0) stepper.take_up(piece.begin_N_m, begin_s);
-      stepper.advance(piece, begin_s);
+}  // namespace
+
+/// The commanded torque of a run, sample by sample: given, or made by a controller on the way.
+class ArmSimulator::Commands {
+ public:
+  /// Of an open loop. `torque_N_m` must outlive the object.
+  Commands(const ArmSimulator& arm, std::span<const double> torque_N_m)
+      : arm_(&arm), torque_N_m_(torque_N_m) {
+    require_simulable(arm.parts_, torque_N_m, arm.options_);
+  }
+
+  /// Of a closed loop. `loop` must outlive the object.
+  Commands(const ArmSimulator& arm, const ClosedLoop& loop)
+      : arm_(&arm),
+        loop_(&loop),
+        made_N_m_(loop.reference.size()),
+        torque_N_m_(made_N_m_),
+        readings_(std::in_place, arm.arm_, arm.parts_, arm.sensors_) {
+    const auto& options = arm.options_;
+    require_options(options);
+    if (options.hold != TorqueHold::zero) {
+      throw arm::InputError("torque hold: must be zero-order in a closed loop");
+    }
+    if (loop.reference.empty()) throw arm::InputError("reference: there are no samples");
+    for (std::size_t k = 0; k < loop.reference.size(); ++k) {
+      if (std::isfinite(loop.reference[k])) continue;
+      throw arm::InputError(fmt::format("reference = {} at sample {} (from 0): must be finite",
+                                        loop.reference[k], k));
+    }
+    arm::require_valid(loop.controller);
+    for (const arm::Sensor& sensor : loop.controller.sensors) {
+      const auto found = std::ranges::find(arm.sensors_, sensor);
+      if (found == arm.sensors_.end()) {
+        throw arm::InputError(
+            fmt::format("controller: its sensor {} is not simulated", arm::to_string(sensor)));
+      }
+      places_.push_back(found - arm.sensors_.begin());
+    }
+    period_ = static_cast<std::size_t>(
+        arm::samples_per_period(loop.controller, options.sample_time_s));
+    run_.emplace(loop.controller, static_cast<double>(period_) * options.sample_time_s,
+                 loop.controller_state);
+    read_.resize(places_.size());
+  }
+  Commands(const Commands&) = delete;
+  Commands& operator=(const Commands&) = delete;
+
+  /// As many as samples; up to the sample that was reached.
+  std::span<const double> torque_N_m() const { return torque_N_m_; }
+  std::vector<double> take_torque_N_m() { return std::move(made_N_m_); }
+
+  /// Before the torque of sample `k` is taken up; `actuator_N_m` is that of the actuator until now.
+  void reach(std::size_t k, const TimeStepper& stepper, double actuator_N_m) {
+    if (loop_ == nullptr) return;
+    if (k % period_ != 0) {
+      made_N_m_[k] = made_N_m_[k - 1];
+      return;
+    }
+    const Eigen::VectorXd& now = readings_->read(stepper, actuator_N_m);
+    for (std::size_t j = 0; j < places_.size(); ++j) read_[j] = now(places_[j]);
+    made_N_m_[k] = run_->command(loop_->reference[k], read_);
+    const double sample_time_s = arm_->options_.sample_time_s;
+    if (!std::isfinite(made_N_m_[k])) {
+      throw too_large("torque of the controller", static_cast<double>(k) * sample_time_s);
+    }
+    require_command(arm_->parts_, made_N_m_[k], k, sample_time_s);
+  }
+
+  /// Steps through the samples; `at_sample(k, time, actuator torque)`, called at each, says whether
+  /// to go on. The last sample is looked at, not stepped from.
+  template <class AtSample>
+  void step_through(TimeStepper& stepper, AtSample at_sample) {
+    const auto& options = arm_->options_;
+    const TorquePath path(arm_->parts_.actuator, torque_N_m_, options.sample_time_s, options.hold);
+    TorquePath::Pieces pieces;
+    double actuator_N_m = 0.0;
+    for (std::size_t k = 0; k < torque_N_m_.size(); ++k) {
+      const double time_s = static_cast<double>(k) * options.sample_time_s;
+      reach(k, stepper, actuator_N_m);
+      path.pieces(k, pieces);
+      stepper.take_up(pieces.front().begin_N_m, time_s);
+      if (!at_sample(k, time_s, pieces.front().begin_N_m) || k + 1 == torque_N_m_.size()) return;
+      for (const TorquePiece& piece : pieces) {
+        const double begin_s = time_s + piece.begin * options.sample_time_s;
+        if (piece.begin > 0.0) stepper.take_up(piece.begin_N_m, begin_s);
+        stepper.advance(piece, begin_s);
+      }
+      actuator_N_m = pieces.back().end_N_m;
     }
   }
-}
 
-}  // namespace
+ private:
+  const ArmSimulator* arm_;
+  const ClosedLoop* loop_ = nullptr;
+  std::vector<double> made_N_m_;
+  std::span<const double> torque_N_m_;
+  std::optional<SensorReadings> readings_;
+  std::vector<Index> places_;  // of the controller's sensors
+  std::size_t period_ = 1;     // of the controller, in samples
+  std::optional<ControllerRun> run_;
+  std::vector<double> read_;
+};
 
 ArmSimulator::ArmSimulator(const arm::ModalModel& model, const ArmParts& parts,
                            std::span<const arm::Sensor> sensors, const SimulationOptions& options)
@@ -84,8 +167,17 @@ ArmSimulator::ArmSimulator(const arm::ModalModel& model, const ArmParts& parts,
 
 Simulation ArmSimulator::run(std::span<const double> torque_N_m,
                              const SimulationProgress& progress) const {
-  require_simulable(parts_, torque_N_m, options_);
-  const TorquePath path(parts_.actuator, torque_N_m, options_.sample_time_s, options_.hold);
+  Commands commands(*this, torque_N_m);
+  return run(commands, progress);
+}
+
+Simulation ArmSimulator::run(const ClosedLoop& loop, const SimulationProgress& progress) const {
+  Commands commands(*this, loop);
+  return run(commands, progress);
+}
+
+Simulation ArmSimulator::run(Commands& commands, const SimulationProgress& progress) const {
+  const std::size_t samples = commands.torque_N_m().size();
   std::optional<EnergyLedger> ledger = ledger_;
   TimeStepper stepper(plan_, ledger ? &*ledger : nullptr);
   SensorReadings readings(arm_, parts_, sensors_);
@@ -94,7 +186,7 @@ Simulation ArmSimulator::run(std::span<const double> torque_N_m,
   bool go_on = true;
   const auto record = [&](std::size_t k, double time_s, double actuator_N_m) {
     made.time_s.push_back(time_s);
-    made.commanded_torque_N_m.push_back(torque_N_m[k]);
+    made.commanded_torque_N_m.push_back(commands.torque_N_m()[k]);
     made.hub_torque_N_m.push_back(stepper.hub_torque_N_m(actuator_N_m));
     if (!std::isfinite(made.hub_torque_N_m.back())) throw too_large("torque at the hub", time_s);
     const Eigen::VectorXd& now = readings.read(stepper, actuator_N_m);
@@ -107,12 +199,12 @@ Simulation ArmSimulator::run(std::span<const double> torque_N_m,
       ledger->close_sample(stepper.state());
       if (!std::isfinite(ledger->balance().residual_J())) throw too_large("energy", time_s);
     }
-    if (progress && k % kProgressInterval == 0 && k + 1 < torque_N_m.size()) {
-      go_on = progress(static_cast<double>(k) / static_cast<double>(torque_N_m.size()));
+    if (progress && k % kProgressInterval == 0 && k + 1 < samples) {
+      go_on = progress(static_cast<double>(k) / static_cast<double>(samples));
     }
     return go_on;
   };
-  step_through(stepper, path, options_.sample_time_s, torque_N_m.size(), record);
+  commands.step_through(stepper, record);
   if (ledger) made.energy = ledger->balance();
   made.summary = stepper.summary();
   made.summary.most_iterations = stepper.most_iterations();
@@ -125,19 +217,31 @@ Simulation ArmSimulator::run(std::span<const double> torque_N_m,
 
 Eigen::MatrixXd ArmSimulator::readings(std::span<const double> torque_N_m,
                                        const Eigen::VectorXd& initial) const {
-  require_simulable(parts_, torque_N_m, options_);
-  const TorquePath path(parts_.actuator, torque_N_m, options_.sample_time_s, options_.hold);
+  Commands commands(*this, torque_N_m);
+  return readings(commands, initial);
+}
+
+ClosedLoopReadings ArmSimulator::closed_loop_readings(const ClosedLoop& loop,
+                                                      const Eigen::VectorXd& initial) const {
+  Commands commands(*this, loop);
+  ClosedLoopReadings made;
+  made.readings = readings(commands, initial);
+  made.torque_N_m = commands.take_torque_N_m();
+  return made;
+}
+
+Eigen::MatrixXd ArmSimulator::readings(Commands& commands, const Eigen::VectorXd& initial) const {
   TimeStepper stepper(plan_, nullptr);
   if (initial.size() > 0) stepper.put(initial, false);
   SensorReadings readings(arm_, parts_, sensors_);
-  Eigen::MatrixXd made(static_cast<Index>(torque_N_m.size()), static_cast<Index>(sensors_.size()));
-  step_through(stepper, path, options_.sample_time_s, torque_N_m.size(),
-               [&](std::size_t k, double time_s, double actuator_N_m) {
-                 const Eigen::VectorXd& now = readings.read(stepper, actuator_N_m);
-                 if (!now.allFinite()) throw too_large("reading", time_s);
-                 made.row(static_cast<Index>(k)) = now.transpose();
-                 return true;
-               });
+  Eigen::MatrixXd made(static_cast<Index>(commands.torque_N_m().size()),
+                       static_cast<Index>(sensors_.size()));
+  commands.step_through(stepper, [&](std::size_t k, double time_s, double actuator_N_m) {
+    const Eigen::VectorXd& now = readings.read(stepper, actuator_N_m);
+    if (!now.allFinite()) throw too_large("reading", time_s);
+    made.row(static_cast<Index>(k)) = now.transpose();
+    return true;
+  });
   return made;
 }
 

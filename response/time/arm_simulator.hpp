@@ -2,6 +2,7 @@
 
 #include "arm/formulation.hpp"
 #include "response/time/added_forces.hpp"
+#include "response/time/closed_loop.hpp"
 #include "response/time/energy_ledger.hpp"
 #include "response/time/modal_dynamics.hpp"
 #include "response/time/simulation.hpp"
@@ -39,12 +40,30 @@ class ArmSimulator {
   Eigen::MatrixXd readings(std::span<const double> torque_N_m,
                            const Eigen::VectorXd& initial = {}) const;
 
+  /// In closed loop, from rest, as `closed_loop_readings`; the controller's torque is the commanded
+  /// one. Throws InputError as that does.
+  Simulation run(const ClosedLoop& loop, const SimulationProgress& progress = {}) const;
+
+  /// Readings and torque in closed loop, from the state `initial` (at rest where it is empty). They
+  /// are, to the last bit, those of `readings` with that torque. Throws InputError for a controller
+  /// that is not valid, whose period is no whole multiple of the sample time, or that reads another
+  /// sensor than this object's; for a first-order hold, a reference that is empty or not finite,
+  /// and for torques and readings that are too large for a number: of a loop that is unstable.
+  /// Concurrent calls are safe.
+  ClosedLoopReadings closed_loop_readings(const ClosedLoop& loop,
+                                          const Eigen::VectorXd& initial = {}) const;
+
   /// Readings of the arm left alone from each unit state, the samples of all sensors one after the
   /// other in a column (as the columns above), a column a state. Without friction and forces that
   /// vary.
   Eigen::MatrixXd free_readings(std::size_t samples) const;
 
  private:
+  class Commands;
+
+  Simulation run(Commands& commands, const SimulationProgress& progress) const;
+  Eigen::MatrixXd readings(Commands& commands, const Eigen::VectorXd& initial) const;
+
   ArmParts parts_;
   std::vector<arm::Sensor> sensors_;
   SimulationOptions options_;

@@ -10,8 +10,23 @@
 
 namespace flexarm::response {
 
-void require_simulable(const ArmParts& parts, std::span<const double> torque_N_m,
-                       const SimulationOptions& options) {
+void require_command(const ArmParts& parts, double torque_N_m, std::size_t k,
+                     double sample_time_s) {
+  // Half: torques between two samples are formed from their difference.
+  constexpr double kLargest = 0.5 * std::numeric_limits<double>::max();
+  if (std::abs(parts.actuator.mapped(torque_N_m)) <= kLargest) return;
+  if (std::isfinite(torque_N_m)) {
+    throw arm::InputError(
+        fmt::format("torque = {} N m at {:.6g} s: numeric overflow in the actuator model",
+                    torque_N_m, static_cast<double>(k) * sample_time_s),
+        "torque");
+  }
+  throw arm::InputError(
+      fmt::format("torque = {} N m at sample {} (from 0): must be finite", torque_N_m, k),
+      "torque");
+}
+
+void require_options(const SimulationOptions& options) {
   using arm::require_in_range;
   require_in_range("sample time", options.sample_time_s, "s", arm::kPositive);
   if (options.substeps < 0 || options.substeps > kMostSubsteps) {
@@ -22,20 +37,14 @@ void require_simulable(const ArmParts& parts, std::span<const double> torque_N_m
   if (options.most_iterations < 1) {
     throw arm::out_of_range("most iterations", options.most_iterations, "", "1 or more");
   }
+}
+
+void require_simulable(const ArmParts& parts, std::span<const double> torque_N_m,
+                       const SimulationOptions& options) {
+  require_options(options);
   if (torque_N_m.empty()) throw arm::InputError("torque: there are no samples");
   for (std::size_t k = 0; k < torque_N_m.size(); ++k) {
-    // Half: torques between two samples are formed from their difference.
-    constexpr double kLargest = 0.5 * std::numeric_limits<double>::max();
-    if (std::abs(parts.actuator.mapped(torque_N_m[k])) <= kLargest) continue;
-    if (std::isfinite(torque_N_m[k])) {
-      throw arm::InputError(
-          fmt::format("torque = {} N m at {:.6g} s: numeric overflow in the actuator model",
-                      torque_N_m[k], static_cast<double>(k) * options.sample_time_s),
-          "torque");
-    }
-    throw arm::InputError(
-        fmt::format("torque = {} N m at sample {} (from 0): must be finite", torque_N_m[k], k),
-        "torque");
+    require_command(parts, torque_N_m[k], k, options.sample_time_s);
   }
 }
 

@@ -208,11 +208,14 @@ TEST_F(JsonSchema, WhatSimulateWritesIsWhatTheDocumentSays) {
   EXPECT_EQ(ended.status, 0) << ended.errors;
   const Ended plain = run({"simulate", "--json", "plain.json"});
   EXPECT_EQ(plain.status, 0) << plain.errors;
+  const Ended loop = run({"simulate", "--reference", "step", "--controller", "kp=0.1,kd=0.05",
+                          "--json", "loop.json"});
+  EXPECT_EQ(loop.status, 0) << loop.errors;
   const Ended stepped = run({"simulate", "--excitation", "stepped-sine:from=1,to=5,points=3",
                              "--noise-of", "hub_angle=1e-3", "--json", "stepped.json"});
   EXPECT_EQ(stepped.status, 0) << stepped.errors;
   expect_as_documented({Json::parse(text_of("out.json")), Json::parse(text_of("plain.json")),
-                        Json::parse(text_of("stepped.json"))},
+                        Json::parse(text_of("stepped.json")), Json::parse(text_of("loop.json"))},
                        "flexarm.simulate/1");
 }
 

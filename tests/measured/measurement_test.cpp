@@ -101,7 +101,7 @@ const std::vector<Mistake> kMeasurementMistakes = {
      "3: runs: unknown key (did you mean run?); allowed: name, arm, run"},
     {"KeyOfARunMisspelt", kMeasurementHead + kRun + "purpos = \"estimation\"\n",
      "7: run.purpos: unknown key (did you mean purpose?); allowed: id, kind, file, purpose, "
-     "torque_hold, payload, initial, columns"},
+     "torque_hold, payload, initial, columns, reference, controller"},
     {"KindUnknown", kMeasurementHead + "[[run]]\nid = \"a\"\nkind = \"tme\"\nfile = \"a.csv\"\n",
      "5: run.kind = \"tme\": must be time or frf or modal (did you mean time?)"},
     {"KindMissing", kMeasurementHead + "[[run]]\nid = \"a\"\nfile = \"a.csv\"\n",

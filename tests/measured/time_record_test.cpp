@@ -159,7 +159,7 @@ const std::vector<Mistake> kTimeRecordMistakes = {
     {"SensorMisspelt", "time [s],torque [N m],hub_angel [rad]\n0,0,0\n",
      "1: column: sensor hub_angel: unknown (did you mean hub_angle?); allowed: hub_angle, "
      "hub_velocity, tip_acceleration, tip_displacement, tip_deflection, strain@X (X in metres from "
-     "the hub); besides time and torque"},
+     "the hub); besides time, torque and reference"},
     {"TorqueMisspelt", "time [s],torqe [N m]\n", "1: column torqe: unknown (did you mean torque?)"},
     {"UnitMisspelt", "time [s],torque [N m],hub_angle [dge]\n",
      "1: column hub_angle: unit dge unknown (did you mean deg?); allowed: rad, deg"},

@@ -53,6 +53,17 @@ TEST(BangBang, PairsFillTheRecordWhenAsked) {
   EXPECT_EQ(std::ranges::count(torque, 0.0), 4000 - 13 * 300);
 }
 
+TEST(Staircase, ClimbsAndDescends) {
+  const Staircase stairs{.amplitude_N_m = 0.5, .dwell_s = 0.3, .start_s = 0.2, .levels = 2};
+  const auto torque = sample(stairs, {20, 0.1}).torque_N_m;
+  EXPECT_EQ(torque, (std::vector<double>{0.0, 0.0, 0.5, 0.5, 0.5, 1.0, 1.0, 1.0, 0.5, 0.5,
+                                         0.5, 0.0, 0.0, 0.0, 0.5, 0.5, 0.5, 1.0, 1.0, 1.0}));
+  const auto rounded = std::get<Staircase>(
+      in_whole_samples(Staircase{.dwell_s = 0.3004, .start_s = 0.2003}, {20, 0.1}));
+  EXPECT_EQ(rounded.dwell_s, 0.3);
+  EXPECT_EQ(rounded.start_s, 0.2);
+}
+
 TEST(Excitation, IsSaidInWholeSamplesAsItIsSampled) {
   const SampleGrid grid{40, 0.1};
   const auto pulses = std::get<BangBang>(
@@ -251,6 +262,9 @@ const std::vector<Mistake> kMistakes = {
     {"GroupOfOne", Multisine{0.1, 1.0, 50.0, 0.0, 1},
      "multisine.detection = 1: must be 0, or at least 2: one of so many odd lines is a detection "
      "line"},
+    {"DwellBelowASample", Staircase{0.1, 0.0005},
+     "staircase.dwell = 0.0005 s: must be a sampling period, 0.002 s, or more"},
+    {"NoLevel", Staircase{.levels = 0}, "staircase.levels = 0: must be 1 or more"},
     {"ChirpFromZero", Chirp{0.1, 0.0, 50.0}, "chirp.from = 0 Hz: must be a finite number above 0"},
 };
 

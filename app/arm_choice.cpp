@@ -6,6 +6,7 @@
 #include "arm/input_error.hpp"
 #include "arm/linear_arm.hpp"
 #include "arm/plausibility.hpp"
+#include "arm/rigid_hub.hpp"
 #include "effects/registry/vocabulary.hpp"
 #include "measured/files/arm_file.hpp"
 #include "report/tables/text_table.hpp"
@@ -33,10 +34,19 @@ std::string describe_effect(const std::string& name, const arm::Effect& effect) 
   return fmt::format("with {}{}{}", name, parts.empty() ? "" : ": ", fmt::join(parts, ", "));
 }
 
+/// Throws InputError for an arm that no formulation takes.
+void require_usable(const arm::Arm& arm) {
+  if (arm::has_beam(arm)) {
+    arm::require_computable(arm);
+  } else {
+    arm::require_valid(arm);
+  }
+}
+
 arm::Arm read(const std::string& file) {
   arm::Arm arm = measured::read_arm_file(file, effects::vocabulary());
   try {
-    arm::require_computable(arm);
+    require_usable(arm);
   } catch (const arm::InputError& error) {
     throw arm::located(error, file, 0);
   }
@@ -58,7 +68,7 @@ std::vector<arm::Arm> ArmChoice::arms() const {
     arms.push_back(base);
     arms.back().payload.mass_kg = mass;
   }
-  for (const auto& arm : arms) arm::require_computable(arm);
+  for (const auto& arm : arms) require_usable(arm);
   return arms;
 }
 
@@ -85,16 +95,20 @@ std::filesystem::path folder_of(const std::filesystem::path& out, const arm::Arm
 
 std::string describe(const arm::Arm& arm) {
   const arm::LinearArm linear = arm::linear_arm(arm);
-  std::string lines = fmt::format(
-      "{}\n"
-      "l {:g} m, EI {:.6g} N m^2, m {:.6g} kg/m, I_T {:.6g} kg m^2\n"
-      "Ih {:g} kg m^2 (epsilon {:.4g}), Mp {:g} kg (eta {:.4g}), Ip {:g} kg m^2\n"
-      "kv {:g} s, c {:g} N m s/rad\n",
-      arm.name.empty() ? "arm" : arm.name, linear.length_m, linear.flexural_rigidity_N_m2,
-      linear.linear_density_kg_per_m, arm::total_inertia_kg_m2(linear), linear.hub_inertia_kg_m2,
-      arm::hub_inertia_ratio(arm), linear.payload_mass_kg, arm::payload_mass_ratio(arm),
-      linear.payload_tip_inertia_kg_m2, linear.kelvin_voigt_s,
-      linear.hub_viscous_friction_N_m_s_per_rad);
+  std::string lines = fmt::format("{}\n", arm.name.empty() ? "arm" : arm.name);
+  if (arm::has_beam(arm)) {
+    lines += fmt::format(
+        "l {:g} m, EI {:.6g} N m^2, m {:.6g} kg/m, I_T {:.6g} kg m^2\n"
+        "Ih {:g} kg m^2 (epsilon {:.4g}), Mp {:g} kg (eta {:.4g}), Ip {:g} kg m^2\n"
+        "kv {:g} s, c {:g} N m s/rad\n",
+        linear.length_m, linear.flexural_rigidity_N_m2, linear.linear_density_kg_per_m,
+        arm::total_inertia_kg_m2(linear), linear.hub_inertia_kg_m2, arm::hub_inertia_ratio(arm),
+        linear.payload_mass_kg, arm::payload_mass_ratio(arm), linear.payload_tip_inertia_kg_m2,
+        linear.kelvin_voigt_s, linear.hub_viscous_friction_N_m_s_per_rad);
+  } else {
+    lines += fmt::format("rigid hub without a beam\nIh {:g} kg m^2, c {:g} N m s/rad\n",
+                         linear.hub_inertia_kg_m2, linear.hub_viscous_friction_N_m_s_per_rad);
+  }
   for (const auto& [name, effect] : arm.effects) lines += describe_effect(name, effect) + "\n";
   if (!arm.effects.empty()) lines += "(values include the linear effects)\n";
   for (const auto& note : arm::plausibility_notes(arm)) {

@@ -2,6 +2,7 @@
 #include "app/command.hpp"
 #include "app/output_choice.hpp"
 #include "app/standard_output.hpp"
+#include "arm/rigid_hub.hpp"
 #include "compare/comparison.hpp"
 #include "compare/measured.hpp"
 #include "measured/files/atomic_file.hpp"
@@ -127,6 +128,7 @@ int run_compare(const CompareArguments& arguments) {
                             : measured::read_modal_table(arguments.measured_file);
   const auto options = options_of(arguments, measured);
   const auto arms = arguments.arm.arms();
+  for (const auto& arm : arms) arm::require_beam(arm, "compare");
   arguments.output.prepare();
 
   std::string text;  // printed last: a reader that goes away costs no file

@@ -1,6 +1,7 @@
 #include "app/formulation_choice.hpp"
 
 #include "arm/input_error.hpp"
+#include "arm/rigid_hub.hpp"
 #include "response/arm_parts.hpp"
 #include "response/formulation_maker.hpp"
 #include "response/settings.hpp"
@@ -24,6 +25,13 @@ void refuse(const char* option, const std::optional<T>& value, const std::string
 ChosenFormulation FormulationChoice::make(const arm::Arm& whole, int roots) const {
   const arm::Arm arm = response::take_apart(whole).linear;
   response::require_formulation("--formulation", name);
+  if (!arm::has_beam(arm)) {
+    refuse("--elements", elements, "a rigid hub");
+    refuse("--degree", degree, "a rigid hub");
+    refuse("--basis", basis, "a rigid hub");
+    refuse("--functions", functions, "a rigid hub");
+    return {std::string(response::RigidHub::kName), "", response::RigidHub(arm)};
+  }
   if (name == exact_tf::ExactArm::kName) {
     refuse("--elements", elements, name);
     refuse("--degree", degree, name);

@@ -8,6 +8,7 @@
 #include "arm/linear_arm.hpp"
 #include "arm/nearest_name.hpp"
 #include "arm/range.hpp"
+#include "arm/rigid_hub.hpp"
 #include "compare/identification.hpp"
 #include "effects/registry/vocabulary.hpp"
 #include "measured/files/arm_file.hpp"
@@ -123,7 +124,7 @@ measured::IdentificationOptions options_of(const IdentifyArguments& arguments,
   measured::IdentificationOptions options;
   options.spectrum = arguments.spectrum.settings();
   options.peaks.place = arguments.spectrum.place();
-  options.check.length_m = arm::linear_arm(arm).length_m;
+  if (arm::has_beam(arm)) options.check.length_m = arm::linear_arm(arm).length_m;
   options.check.total_inertia_kg_m2 = arm::total_inertia_kg_m2(arm);
   options.fit = !arguments.no_fit;
   if (arguments.modes && *arguments.modes < 1) {

@@ -5,6 +5,7 @@
 #include "app/standard_output.hpp"
 #include "arm/input_error.hpp"
 #include "arm/linear_arm.hpp"
+#include "arm/rigid_hub.hpp"
 #include "compare/shapes.hpp"
 #include "exact_tf/certificate.hpp"
 #include "measured/files/atomic_file.hpp"
@@ -125,6 +126,7 @@ int run_modes(const ModesArguments& arguments) {
   std::string text;  // printed last: a reader that goes away costs no file
   nlohmann::ordered_json documents = nlohmann::ordered_json::array();
   const auto arms = arguments.arm.arms();
+  for (const auto& arm : arms) arm::require_beam(arm, "modes");
   for (const auto& arm : arms) {
     for (const auto& sensor : sensors) arm::require_valid(sensor, arm);
   }

@@ -5,6 +5,7 @@
 #include "app/standard_output.hpp"
 #include "app/state_space_file.hpp"
 #include "arm/input_error.hpp"
+#include "arm/rigid_hub.hpp"
 #include "measured/files/atomic_file.hpp"
 #include "report/figures/response_plots.hpp"
 #include "report/json/arm_json.hpp"
@@ -38,7 +39,7 @@ constexpr std::size_t kPrintedFrequencies = 25;
 struct ResponseArguments {
   ArmChoice arm;
   FormulationChoice formulation;
-  std::vector<std::string> sensors = {"hub_angle", "tip_acceleration"};
+  std::vector<std::string> sensors;  ///< empty: hub angle and, with a beam, tip acceleration
   response::ResponseOptions options;
   std::string state_space_file;
   bool modes_alone = false;
@@ -158,8 +159,12 @@ std::string next_step(const ResponseArguments& arguments) {
 }
 
 int run_response(const ResponseArguments& arguments) {
-  const auto options = options_of(arguments);
+  auto options = options_of(arguments);
   const auto arms = arguments.arm.arms();
+  if (options.sensors.empty()) {
+    options.sensors = {{arm::SensorKind::hub_angle}};
+    if (arm::has_beam(arms.front())) options.sensors.push_back({arm::SensorKind::tip_acceleration});
+  }
   for (const auto& arm : arms) {
     for (const auto& sensor : options.sensors) arm::require_responsive(sensor, arm);
   }
@@ -215,10 +220,12 @@ Command add_response(CLI::App& program) {
       "Compute frequency response, factored and modal forms, and state space of an arm");
   add_arm_choice(*parser, arguments->arm);
   add_formulation_choice(*parser, arguments->formulation);
-  parser->add_option("--sensor", arguments->sensors, "Sensors, comma-separated")
+  parser
+      ->add_option("--sensor", arguments->sensors,
+                   "Sensors, comma-separated; default: hub_angle and, with a beam, "
+                   "tip_acceleration")
       ->delimiter(',')
-      ->allow_extra_args(false)
-      ->capture_default_str();
+      ->allow_extra_args(false);
   parser->add_option("--from-Hz", options.from_Hz,
                      "Lowest frequency; default: well below the first pole");
   parser->add_option("--to-Hz", options.to_Hz,

@@ -4,6 +4,7 @@
 #include "arm/input_error.hpp"
 #include "arm/number.hpp"
 #include "arm/range.hpp"
+#include "arm/rigid_hub.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -49,7 +50,12 @@ void set_number(const char* option, const std::string& text, std::vector<ChosenS
 std::vector<ChosenSensor> SensorChoice::sensors(const arm::Arm& arm) const {
   arm::require_in_range("--noise", relative_noise, "", arm::kNotNegative);
   std::vector<ChosenSensor> sensors;
-  for (const auto& name : names) {
+  std::vector<std::string> typed = names;
+  if (typed.empty()) {
+    typed = {"hub_angle", "hub_velocity"};
+    if (arm::has_beam(arm)) typed.emplace_back("tip_acceleration");
+  }
+  for (const auto& name : typed) {
     const arm::Sensor sensor = arm::parse_sensor(name);
     arm::require_valid(sensor, arm);
     if (std::ranges::count(sensors, sensor, &ChosenSensor::sensor) > 0) {
@@ -70,10 +76,12 @@ std::vector<ChosenSensor> SensorChoice::sensors(const arm::Arm& arm) const {
 }
 
 void add_sensor_choice(CLI::App& parser, SensorChoice& choice) {
-  parser.add_option("--sensor", choice.names, "Sensors, comma-separated")
+  parser
+      .add_option("--sensor", choice.names,
+                  "Sensors, comma-separated; default: hub_angle, hub_velocity and, with a beam, "
+                  "tip_acceleration")
       ->delimiter(',')
-      ->allow_extra_args(false)
-      ->capture_default_str();
+      ->allow_extra_args(false);
   parser.add_option(
       "--noise", choice.relative_noise,
       "White noise on all sensors: standard deviation relative to that of the signal");

@@ -21,7 +21,8 @@ struct ChosenSensor {
 
 /// The sensors of a simulated experiment.
 struct SensorChoice {
-  std::vector<std::string> names = {"hub_angle", "hub_velocity", "tip_acceleration"};
+  /// Empty: hub angle, hub velocity and, with a beam, tip acceleration.
+  std::vector<std::string> names;
   double relative_noise = 0.0;
   std::vector<std::string> noises;         ///< SENSOR=STD
   std::vector<std::string> quantisations;  ///< SENSOR=STEP

@@ -82,7 +82,8 @@ std::string starter_text() {
       "name = {}\n",
       measured::toml_string(starter.name));
   for (const auto& table : arm::arm_tables()) {
-    out += fmt::format("\n[{}]\n", table);
+    out += fmt::format("\n[{}]{}\n", table,
+                       table == "beam" ? "  # left out: a rigid hub, without payload" : "");
     for (const auto& key : arm::arm_keys()) {
       if (key.table == table) append_key(out, key, starter, example);
     }

@@ -5,6 +5,7 @@
 #include "app/standard_output.hpp"
 #include "app/version.hpp"
 #include "arm/input_error.hpp"
+#include "arm/rigid_hub.hpp"
 #include "compare/paper/paper_sweeps.hpp"
 #include "compare/sweeps/sweep_result.hpp"
 #include "measured/files/atomic_file.hpp"
@@ -60,6 +61,7 @@ struct SweepArguments {
 
 arm::Arm arm_of(const SweepArguments& arguments) {
   const auto arms = arguments.arm.arms();
+  for (const auto& arm : arms) arm::require_beam(arm, "sweep");
   if (arms.size() > 1) {
     throw arm::InputError(
         "--payload-mass: needs one value; for several use --over payload.mass=A,B,C");

@@ -3,6 +3,7 @@
 #include "arm/arm_keys.hpp"
 #include "arm/input_error.hpp"
 #include "arm/linear_arm.hpp"
+#include "arm/rigid_hub.hpp"
 #include "arm/sensor.hpp"
 #include "arm/uncertainties.hpp"
 
@@ -36,6 +37,10 @@ void require_on_beam(const Arm& arm) {
 }  // namespace
 
 void require_valid(const Arm& arm) {
+  if (!has_beam(arm)) {
+    require_valid_rigid_hub(arm);
+    return;
+  }
   require_valid(arm.beam);
   for (const auto& table : arm_tables()) require_in_range(arm, table);
   require_valid(arm.effects);

@@ -2,6 +2,7 @@
 
 #include "arm/input_error.hpp"
 #include "arm/linear_arm.hpp"
+#include "arm/rigid_hub.hpp"
 
 #include <fmt/format.h>
 
@@ -89,6 +90,7 @@ void require_moderate_effects(const LinearArm& arm) {
 
 void require_computable(const Arm& arm) {
   require_valid(arm);
+  require_beam(arm, "formulation");
   const LinearArm linear = linear_arm(arm);
   const double l = linear.length_m;
   const double mass_kg = linear.linear_density_kg_per_m * l;

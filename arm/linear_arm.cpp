@@ -1,6 +1,7 @@
 #include "arm/linear_arm.hpp"
 
 #include "arm/input_error.hpp"
+#include "arm/rigid_hub.hpp"
 
 #include <cmath>
 
@@ -64,10 +65,12 @@ LinearArm linear_arm(const Arm& given) {
   const Arm arm = with_changed_numbers(given);
   const LinearTerms terms = linear_terms_of(given.effects, arm);
   LinearArm linear;
-  linear.length_m = arm.beam.length_m;
-  linear.flexural_rigidity_N_m2 = arm.beam.flexural_rigidity_N_m2();
-  linear.linear_density_kg_per_m = arm.beam.linear_density_kg_per_m();
-  linear.thickness_m = arm.beam.thickness_m;
+  if (has_beam(arm)) {
+    linear.length_m = arm.beam.length_m;
+    linear.flexural_rigidity_N_m2 = arm.beam.flexural_rigidity_N_m2();
+    linear.linear_density_kg_per_m = arm.beam.linear_density_kg_per_m();
+    linear.thickness_m = arm.beam.thickness_m;
+  }
   linear.shear = terms.shear;
   linear.kelvin_voigt_s = arm.damping.kelvin_voigt_s + terms.damping.kelvin_voigt_s;
   linear.air_damping_N_s_per_m2 = terms.damping.air_N_s_per_m2;

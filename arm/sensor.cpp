@@ -4,6 +4,7 @@
 #include "arm/linear_arm.hpp"
 #include "arm/nearest_name.hpp"
 #include "arm/number.hpp"
+#include "arm/rigid_hub.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -88,6 +89,7 @@ bool is_collocated(const Sensor& sensor) {
 }
 
 Sensor placed(const Sensor& sensor, const Arm& arm) {
+  if (!is_collocated(sensor)) require_beam(arm, "sensor " + to_string(sensor));
   if (sensor.kind != SensorKind::strain) return sensor;
   const double length_m = changed_length_m(arm);
   const double position_m = sensor.position_m == arm.beam.length_m ? length_m : sensor.position_m;

@@ -1,5 +1,6 @@
 #include "compare/identification.hpp"
 
+#include "arm/rigid_hub.hpp"
 #include "compare/features.hpp"
 #include "compare/standard_models.hpp"
 #include "response/any_formulation.hpp"
@@ -31,7 +32,9 @@ AnalyticalPole pole_of(const arm::PolePair& pair) {
 
 AnalyticalGains gains_of(const std::string& model, const response::AnyFormulation& formulation,
                          int count) {
-  const auto modes = response::modal_model(formulation, count, std::span(&kTip, 1), {});
+  const bool has_tip = arm::has_beam(response::arm_of(formulation));
+  const auto modes =
+      response::modal_model(formulation, count, std::span(&kTip, has_tip ? 1 : 0), {});
   AnalyticalGains gains{model, modes.modal_mass_kg_m2, {}, {}};
   for (std::size_t i = 1; i < modes.modes.size(); ++i) {
     gains.hub_slope.push_back(modes.modes[i].hub_slope);
@@ -144,7 +147,9 @@ AnalyticalModes analytical_modes(const arm::Arm& arm, std::span<const arm::Senso
       }
     }
     analytical.gains.push_back(
-        gains_of(model.name, formulation, static_cast<int>(analytical.poles.size())));
+        gains_of(std::string(response::name(formulation)), formulation,
+                 std::max(1, static_cast<int>(analytical.poles.size()))));
+    if (!arm::has_beam(arm)) break;  // the others are the same
   }
   return analytical;
 }

@@ -3,6 +3,7 @@
 #include "arm/input_error.hpp"
 #include "arm/linear_arm.hpp"
 #include "arm/plausibility.hpp"
+#include "arm/rigid_hub.hpp"
 #include "effects/registry/vocabulary.hpp"
 #include "measured/checks/data_check.hpp"
 #include "measured/files/arm_file.hpp"
@@ -26,7 +27,7 @@ void keep_usable(const Experiment& experiment, measured::MeasuredRun& run, const
   const arm::Arm arm = arm_in(experiment, run.run);
   measured::DataCheckOptions options;
   const arm::LinearArm linear = arm::linear_arm(arm);
-  options.length_m = linear.length_m;
+  if (arm::has_beam(arm)) options.length_m = linear.length_m;
   options.total_inertia_kg_m2 = arm::total_inertia_kg_m2(linear);
   options.starts_at_rest = run.run.initial == measured::InitialState::rest;
   const auto findings = measured::check_data(record, options);
@@ -79,6 +80,10 @@ Experiment read_experiment(const fs::path& measurement_file) {
                                            effects::vocabulary());
   experiment.notices = arm::plausibility_notes(experiment.arm);
   for (const measured::Run& run : measurement.runs) {
+    if (run.kind == measured::RunKind::modal) {
+      arm::require_beam(experiment.arm, fmt::format("{}: run {}: a modal table",
+                                                    measurement_file.string(), run.id));
+    }
     measured::MeasuredRun read{run, measured::read_run(measurement_file, run)};
     if (run.kind == measured::RunKind::time) {
       keep_usable(experiment, read, measured::beside(measurement_file, run.file).string(),

@@ -1,11 +1,13 @@
 #include "diagnose/formulation_check.hpp"
 
 #include "arm/input_error.hpp"
+#include "arm/rigid_hub.hpp"
 #include "compare/comparison.hpp"
 
 namespace flexarm::diagnose {
 
 FormulationCheck check_formulations(const arm::Arm& arm, const std::vector<arm::Sensor>& sensors) {
+  if (!arm::has_beam(arm)) return {.refused = "an arm without a beam has one formulation"};
   compare::Options options;
   options.poles = kCheckedRoots;
   options.non_collocated_zeros = kCheckedRoots;

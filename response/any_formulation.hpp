@@ -4,6 +4,7 @@
 #include "assumed_modes/assumed_modes_arm.hpp"
 #include "exact_tf/exact_arm.hpp"
 #include "fem/fem_arm.hpp"
+#include "response/rigid_hub.hpp"
 
 #include <complex>
 #include <span>
@@ -16,10 +17,12 @@ namespace flexarm::response {
 static_assert(arm::Formulation<exact_tf::ExactArm>);
 static_assert(arm::Formulation<fem::FemArm>);
 static_assert(arm::Formulation<assumed_modes::AssumedModesArm>);
+static_assert(arm::Formulation<RigidHub>);
 
-/// A formulation chosen at run time. The functions below are the concept's, on whichever it is.
+/// A formulation chosen at run time; an arm without a beam has its own. The functions below are
+/// the concept's, on whichever it is.
 using AnyFormulation =
-    std::variant<exact_tf::ExactArm, fem::FemArm, assumed_modes::AssumedModesArm>;
+    std::variant<exact_tf::ExactArm, fem::FemArm, assumed_modes::AssumedModesArm, RigidHub>;
 
 std::string_view name(const AnyFormulation& formulation);
 const arm::Arm& arm_of(const AnyFormulation& formulation);

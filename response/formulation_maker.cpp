@@ -2,6 +2,7 @@
 
 #include "arm/input_error.hpp"
 #include "arm/nearest_name.hpp"
+#include "arm/rigid_hub.hpp"
 #include "response/arm_parts.hpp"
 #include "response/settings.hpp"
 
@@ -26,6 +27,7 @@ AnyFormulation make_formulation(std::string_view formulation, const arm::Arm& ar
   require_formulation("formulation", formulation);
   arm::require_count(roots);
   arm::Arm linear = take_apart(arm).linear;
+  if (!arm::has_beam(linear)) return RigidHub(std::move(linear));
   if (formulation == exact_tf::ExactArm::kName) return exact_tf::ExactArm(std::move(linear));
   if (roots > kMostRoots) {
     throw arm::out_of_range(
@@ -41,7 +43,7 @@ AnyFormulation with_arm(const AnyFormulation& formulation, const arm::Arm& arm) 
   return std::visit(
       [&linear](const auto& f) -> AnyFormulation {
         using F = std::decay_t<decltype(f)>;
-        if constexpr (std::is_same_v<F, exact_tf::ExactArm>) {
+        if constexpr (std::is_same_v<F, exact_tf::ExactArm> || std::is_same_v<F, RigidHub>) {
           return F(linear);
         } else {
           return F(linear, f.options());

@@ -14,8 +14,9 @@ inline constexpr std::array<std::string_view, 3> kFormulationNames = {
 void require_formulation(std::string_view key, std::string_view name);
 
 /// The formulation of that name for the arm's linear effects alone, at settings fine enough for
-/// `roots` roots (response/settings.hpp). Actuator, sensor and nonlinear effects are taken off:
-/// response/arm_parts.hpp says who honours them.
+/// `roots` roots (response/settings.hpp); RigidHub for an arm without a beam, whatever the name.
+/// Actuator, sensor and nonlinear effects are taken off: response/arm_parts.hpp says who honours
+/// them.
 ///
 /// Throws InputError for an unknown name, an arm that the formulation refuses, and more roots than
 /// kMostRoots by a discrete formulation.

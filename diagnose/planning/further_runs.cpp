@@ -3,6 +3,7 @@
 #include "arm/arm.hpp"
 #include "arm/input_error.hpp"
 #include "arm/linear_arm.hpp"
+#include "arm/rigid_hub.hpp"
 #include "exact_tf/exact_arm.hpp"
 #include "response/arm_parts.hpp"
 
@@ -32,10 +33,13 @@ constexpr double kPulse_s = 0.3;
 constexpr int kFurtherLines = 200;
 /// A response at higher frequencies ends at so many times the highest.
 constexpr double kHigher = 4.0;
+/// Highest frequency of a response of a hub without a beam [Hz].
+constexpr double kHighestOfRigidHub_Hz = 10.0;
 /// Poles, and zeros of a sensor, that a modal table may have more.
 constexpr int kFurtherRoots = 2;
 
 std::vector<arm::Sensor> further_sensors(const arm::Arm& arm) {
+  if (!arm::has_beam(arm)) return {{arm::SensorKind::hub_angle}, {arm::SensorKind::hub_velocity}};
   std::vector<arm::Sensor> all = {{arm::SensorKind::hub_angle},
                                   {arm::SensorKind::hub_velocity},
                                   {arm::SensorKind::tip_acceleration},
@@ -70,8 +74,10 @@ void scale_amplitude(PlannedRun& run, double factor) {
       std::get<response::Excitation>(run.torque));
 }
 
-/// Highest flexible pole that a run should reach [Hz]: the third.
+/// Highest flexible pole that a run should reach [Hz]: the third, or a frequency at which the
+/// inertia of a hub without a beam is all that acts.
 double third_pole_Hz(const arm::Arm& arm) {
+  if (!arm::has_beam(arm)) return kHighestOfRigidHub_Hz;
   const exact_tf::ExactArm exact(response::take_apart(arm).linear);
   return std::abs(exact.damped_poles(3).flexible.back().first_rad_per_s) / (2.0 * std::numbers::pi);
 }
@@ -130,6 +136,7 @@ void add_conditions(Gatherer& all, const arm::Arm& arm, const PlannedRun& run) {
   const arm::LinearArm linear = arm::linear_arm(arm);
   const double beam_kg = linear.linear_density_kg_per_m * linear.length_m;
   for (const double part : kPayloadParts) {
+    if (!arm::has_beam(arm)) break;
     PlannedRun loaded = run;
     loaded.payload = run.payload.value_or(arm.payload);
     const double further_kg = std::stod(fmt::format("{:.2g}", part * beam_kg));

@@ -1,5 +1,6 @@
 #include "diagnose/symptoms/frequency_bands.hpp"
 
+#include "arm/rigid_hub.hpp"
 #include "exact_tf/exact_arm.hpp"
 #include "measured/spectra/fourier.hpp"
 #include "measured/spectra/window.hpp"
@@ -14,6 +15,7 @@
 namespace flexarm::diagnose {
 
 std::vector<FrequencyBand> frequency_bands(const arm::Arm& arm, double top_Hz) {
+  if (!arm::has_beam(arm)) return {{"all frequencies", 0.0, top_Hz}};
   std::vector<double> modes_Hz;
   const exact_tf::ExactArm exact(response::take_apart(arm).linear);
   for (const double omega : exact.poles(kMostBandModes).omega_rad_per_s) {

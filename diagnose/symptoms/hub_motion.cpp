@@ -1,5 +1,6 @@
 #include "diagnose/symptoms/hub_motion.hpp"
 
+#include "arm/rigid_hub.hpp"
 #include "exact_tf/exact_arm.hpp"
 #include "response/arm_parts.hpp"
 
@@ -48,10 +49,14 @@ const std::vector<double>* values_of(const measured::TimeRecord& record, arm::Se
   return at == record.channels.end() ? nullptr : &at->values;
 }
 
-/// Half of the samples that a slope of the angle is taken over.
-std::size_t samples_of_slope(const arm::Arm& arm, double period_s) {
-  const exact_tf::ExactArm exact(response::take_apart(arm).linear);
-  const double mode_s = 2.0 * std::numbers::pi / exact.poles(1).omega_rad_per_s.front();
+/// Half of the samples that a slope of the angle is taken over: by the first mode, or without a
+/// beam by the time midway, in ratio, between a sample and the record.
+std::size_t samples_of_slope(const arm::Arm& arm, double period_s, std::size_t samples) {
+  double mode_s = period_s * std::sqrt(static_cast<double>(samples));
+  if (arm::has_beam(arm)) {
+    const exact_tf::ExactArm exact(response::take_apart(arm).linear);
+    mode_s = 2.0 * std::numbers::pi / exact.poles(1).omega_rad_per_s.front();
+  }
   return static_cast<std::size_t>(std::max(1.0, 0.5 * kSlope_periods * mode_s / period_s));
 }
 
@@ -98,7 +103,7 @@ std::vector<HubMotion> hub_motions(const SymptomsInput& input) {
     motion.hold = run.torque_hold;
     motion.time_s = record->time_s;
     motion.torque_N_m = record->torque_N_m;
-    const std::size_t half = samples_of_slope(arm, period_s);
+    const std::size_t half = samples_of_slope(arm, period_s, record->time_s.size());
     motion.velocity_rad_per_s = velocity != nullptr ? *velocity : slope(*angle, period_s, half);
     motion.angle_rad = angle != nullptr ? *angle : integral(*velocity, period_s);
     motion.acceleration_rad_per_s2 = slope(motion.velocity_rad_per_s, period_s, 1);

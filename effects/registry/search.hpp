@@ -13,7 +13,8 @@ namespace flexarm::effects {
 /// Sizes by which a parameter of an effect is small or large in an experiment.
 struct Scales {
   arm::Arm arm;                      ///< as its file has it
-  arm::LinearArm beam;               ///< its linear equations
+  /// Its linear equations; of a rigid hub with a beam whose sizes are those of hub and runs.
+  arm::LinearArm beam;
   std::vector<arm::Sensor> sensors;  ///< of `time` and `frf` runs
   bool has_payload_mass = false;     ///< in some run
   double torque_rms_N_m = 0.0;       ///< of all `time` runs; 0 where there are none

@@ -190,7 +190,8 @@ class Reader {
 
   void require_all_given() {
     for (const auto& key : arm::arm_keys()) {
-      if (!key.required || lines_.contains(key.name())) continue;
+      const bool is_left_out = key.table == "beam" && !lines_.contains("beam");
+      if (!key.required || is_left_out || lines_.contains(key.name())) continue;
       fault(key.name(), fmt::format(": missing; must be {} [{}]", to_string(key.range), key.unit));
     }
   }
@@ -227,8 +228,8 @@ class Reader {
 arm::Arm parse_arm(std::string_view toml, const std::string& file_name,
                    const arm::Vocabulary& vocabulary) {
   if (toml.find_first_not_of(" \t\r\n") == std::string_view::npos) {
-    throw located(arm::InputError("empty; an arm file needs at least [beam] and [hub]; flexarm new "
-                                  "writes an example"),
+    throw located(arm::InputError("empty; an arm file needs at least [hub], and [beam] unless it "
+                                  "is a rigid hub; flexarm new writes an example"),
                   file_name, 1);
   }
   return Reader(file_name, vocabulary).read(parse_toml(toml, file_name));

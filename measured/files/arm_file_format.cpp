@@ -1,5 +1,6 @@
 #include "arm/arm_keys.hpp"
 #include "arm/input_error.hpp"
+#include "arm/rigid_hub.hpp"
 #include "arm/uncertainties.hpp"
 #include "arm/utf8.hpp"
 #include "measured/files/arm_file.hpp"
@@ -16,6 +17,7 @@ namespace flexarm::measured {
 namespace {
 
 void append_keys(std::string& out, const arm::Arm& arm, const std::string& table) {
+  if (table == "beam" && !arm::has_beam(arm)) return;
   std::string lines;
   for (const auto& key : arm::arm_keys()) {
     if (key.table != table) continue;

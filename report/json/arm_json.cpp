@@ -1,6 +1,7 @@
 #include "report/json/arm_json.hpp"
 
 #include "arm/effects.hpp"
+#include "arm/rigid_hub.hpp"
 
 namespace flexarm::report {
 
@@ -27,20 +28,23 @@ nlohmann::ordered_json effects_json(const arm::Effects& effects) {
 }  // namespace
 
 nlohmann::ordered_json arm_json(const arm::Arm& arm) {
+  const auto of_beam = [&arm](auto number) {
+    return number_json(arm::has_beam(arm) ? std::optional<double>(number()) : std::nullopt);
+  };
   return {
       {"name", arm.name},
-      {"length_m", arm.beam.length_m},
-      {"flexural_rigidity_N_m2", arm.beam.flexural_rigidity_N_m2()},
-      {"linear_density_kg_per_m", arm.beam.linear_density_kg_per_m()},
+      {"length_m", of_beam([&] { return arm.beam.length_m; })},
+      {"flexural_rigidity_N_m2", of_beam([&] { return arm.beam.flexural_rigidity_N_m2(); })},
+      {"linear_density_kg_per_m", of_beam([&] { return arm.beam.linear_density_kg_per_m(); })},
       {"hub_inertia_kg_m2", arm.hub.inertia_kg_m2},
       {"hub_viscous_friction_N_m_s_per_rad", arm.hub.viscous_friction_N_m_s_per_rad},
       {"payload_mass_kg", arm.payload.mass_kg},
       {"payload_inertia_kg_m2", arm.payload.inertia_kg_m2},
       {"kelvin_voigt_s", arm.damping.kelvin_voigt_s},
       {"total_inertia_kg_m2", arm::total_inertia_kg_m2(arm)},
-      {"hub_inertia_ratio", arm::hub_inertia_ratio(arm)},
-      {"payload_mass_ratio", arm::payload_mass_ratio(arm)},
-      {"payload_inertia_ratio", arm::payload_inertia_ratio(arm)},
+      {"hub_inertia_ratio", of_beam([&] { return arm::hub_inertia_ratio(arm); })},
+      {"payload_mass_ratio", of_beam([&] { return arm::payload_mass_ratio(arm); })},
+      {"payload_inertia_ratio", of_beam([&] { return arm::payload_inertia_ratio(arm); })},
       {"effects", effects_json(arm.effects)},
   };
 }

@@ -107,7 +107,7 @@ Json arm_file_schema(const std::vector<effects::Entry>& entries) {
   tables["effects"] = object_schema(std::move(known), Json::array());
   Json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"},
                  {"title", "flexarm arm file"}};
-  schema.update(object_schema(std::move(tables), {"beam", "hub"}));
+  schema.update(object_schema(std::move(tables), {"hub"}));
   return schema;
 }
 

@@ -1,6 +1,7 @@
 #include "response/frequency/response_study.hpp"
 
 #include "arm/input_error.hpp"
+#include "arm/rigid_hub.hpp"
 #include "response/arm_parts.hpp"
 #include "response/frequency/modal_response.hpp"
 #include "response/residual_mode.hpp"
@@ -19,7 +20,20 @@ using Complex = std::complex<double>;
 constexpr double kBelowFirstPole = 20.0;
 constexpr double kBelowLowestPole = 5.0;
 
+/// Decades around the corner of a hub without a beam: where its friction or its spring ends to act.
+FrequencyGrid grid_of_hub(const AnyFormulation& formulation, const ResponseOptions& options) {
+  constexpr double kDecades = 100.0;
+  const double corner = std::abs(damped_poles(formulation, 1).lowest.second_rad_per_s);
+  const double middle_Hz = corner > 0.0 ? corner / (2.0 * std::numbers::pi) : 1.0;
+  FrequencyGrid grid;
+  grid.from_Hz = options.from_Hz.value_or(middle_Hz / kDecades);
+  grid.to_Hz = options.to_Hz.value_or(middle_Hz * kDecades);
+  grid.points = options.points;
+  return grid;
+}
+
 FrequencyGrid grid_of(const AnyFormulation& formulation, const ResponseOptions& options) {
+  if (!arm::has_beam(arm_of(formulation))) return grid_of_hub(formulation, options);
   // The pole beyond those asked for, where the model has one.
   const auto pole_set = poles(formulation, options.modes + 1);
   const auto& known = pole_set.omega_rad_per_s;
@@ -56,6 +70,7 @@ std::vector<double> frequencies(const AnyFormulation& formulation, const Respons
   for (const auto& pair : study.damped_poles.flexible) features.push_back(pair.first_rad_per_s);
   const int count = static_cast<int>(study.damped_poles.flexible.size());
   for (const auto& sensor : options.sensors) {
+    if (count == 0) break;  // a rigid hub has no zeros
     for (const auto& zero : zeros(formulation, sensor, count).s_rad_per_s) {
       if (zero.real() == 0.0) features.push_back(zero);
     }
@@ -78,6 +93,7 @@ FrequencyResponse response_of(const StateSpace& system, const std::vector<double
 }  // namespace
 
 int roots_needed(const arm::Arm& arm, const ResponseOptions& options) {
+  if (!arm::has_beam(arm)) return options.modes + 1;
   constexpr int kSofter = 3;  // poles that a soft root, a crack and shear bring down at most
   constexpr double kMost = 1e9;
   double highest_Hz = options.to_Hz.value_or(0.0);

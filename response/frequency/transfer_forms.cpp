@@ -28,8 +28,11 @@ Complex power_of(Complex s, int n) {
   return n < 0 ? 1.0 / power : power;
 }
 
-/// |z| of the pole nearest to the origin, the rigid-body mode's left out.
+/// |z| of the pole nearest to the origin, the rigid-body mode's left out; 1 where there is none.
 double nearest_pole(const ProductFactors& factors) {
+  if (factors.omega_rad_per_s.empty()) {
+    return factors.turns_freely ? 1.0 : factors.lowest_omega_squared_rad2_per_s2;
+  }
   const double first = factors.omega_rad_per_s.front() * factors.omega_rad_per_s.front();
   if (factors.turns_freely) return first;
   return std::min(first, std::abs(factors.lowest_omega_squared_rad2_per_s2));

@@ -36,6 +36,7 @@ TEST(ArmFileSchema, HasEveryEffectAndItsRequiredKeys) {
   EXPECT_EQ(known.at("coulomb_friction").at("properties").at("torque").at("minimum"), 0.0);
   EXPECT_FALSE(known.at("shear_and_rotary_inertia").contains("required"));
   EXPECT_EQ(schema.at("properties").at("beam").at("required"), nlohmann::ordered_json({"length"}));
+  EXPECT_EQ(schema.at("required"), nlohmann::ordered_json::array({"hub"}));  // a rigid hub
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include "arm/arm_keys.hpp"
 #include "arm/input_error.hpp"
+#include "arm/rigid_hub.hpp"
 #include "effects/registry/vocabulary.hpp"
 
 #include <gmock/gmock.h>
@@ -68,6 +69,20 @@ TEST(ArmFile, ABeamMayBeGivenByRigidityAndDensityAlone) {
   EXPECT_EQ(arm.beam.flexural_rigidity_N_m2(), 3.7);
   EXPECT_EQ(arm.beam.linear_density_kg_per_m(), 0.16);
   EXPECT_EQ(parse_arm(format_arm(arm), "again", effects::vocabulary()), arm);
+}
+
+TEST(ArmFile, WithoutABeamItIsARigidHub) {
+  const Arm arm = parse_arm(
+      "[hub]\ninertia = 95.1\ninertia_uncertainty = 0.02\nviscous_friction = 203.5\n"
+      "[effects.coulomb_friction]\ntorque = 20.4\n[effects.sensor_lag]\ntime_constant = 1e-3\n"
+      "sensor = \"hub_angle\"\n",
+      "arm.toml", effects::vocabulary());
+  EXPECT_FALSE(has_beam(arm));
+  EXPECT_EQ(arm.hub.inertia_kg_m2, 95.1);
+  EXPECT_EQ(total_inertia_kg_m2(arm), 95.1);
+  const std::string text = format_arm(arm);
+  EXPECT_EQ(text.find("beam"), std::string::npos) << text;
+  EXPECT_EQ(parse_arm(text, "again", effects::vocabulary()), arm);
 }
 
 TEST(ArmFile, DottedKeysAndInlineTablesAreTheSameFile) {

@@ -3,6 +3,7 @@
 #include "arm/arm.hpp"
 #include "arm/ports.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,6 +45,12 @@ struct HubLaws {
   double friction_scale_rad_per_s() const;
 };
 
+/// A torque on the hub that nobody recorded, as a stationary first-order Gauss-Markov process: its
+/// autocorrelation falls as e^(-|t|/T).
+struct HubDisturbance {
+  double correlation_time_s = 0.0;  ///< T, above 0
+};
+
 /// An arm taken apart by who honours its effects: a formulation those of the linear arm, response/
 /// the others.
 struct ArmParts {
@@ -52,6 +59,8 @@ struct ArmParts {
   HubLaws hub = {};
   std::vector<OfEffect<arm::BeamForce>> beam_forces = {};
   std::vector<arm::SensorStage> sensor_stages = {};  ///< one a sensor at most, with a lag above 0
+  /// A state of the time model that a Kalman filter moves; 0 without one.
+  std::optional<HubDisturbance> disturbance = {};
 };
 
 /// Adds what an effect does through ports outside of the linear arm; a stage of the torque's path

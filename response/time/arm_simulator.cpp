@@ -245,20 +245,75 @@ Eigen::MatrixXd ArmSimulator::readings(Commands& commands, const Eigen::VectorXd
   return made;
 }
 
+Eigen::MatrixXd ArmSimulator::transition() const {
+  return propagator(arm_.turning, options_.sample_time_s, 1.0, options_.precision).state;
+}
+
+Eigen::MatrixXd ArmSimulator::linear_readings() const {
+  Eigen::MatrixXd made(static_cast<Index>(sensors_.size()), states());
+  for (Index j = 0; j < made.rows(); ++j) {
+    made.row(j) = arm_.turning.sensors[static_cast<std::size_t>(j)].state;
+  }
+  return made;
+}
+
 Eigen::MatrixXd ArmSimulator::free_readings(std::size_t samples) const {
   const auto n = static_cast<Index>(samples);
-  const Eigen::MatrixXd step =
-      propagator(arm_.turning, options_.sample_time_s, 1.0, options_.precision).state;
-  const auto& sensors = arm_.turning.sensors;
-  Eigen::MatrixXd made(n * static_cast<Index>(sensors.size()), states());
+  const Eigen::MatrixXd step = transition();
+  const Eigen::MatrixXd at_once = linear_readings();
+  Eigen::MatrixXd made(n * at_once.rows(), states());
   // Row k of a sensor is its row of readings times the k-th power of the step.
-  for (std::size_t j = 0; j < sensors.size(); ++j) {
-    Eigen::RowVectorXd row = sensors[j].state;
+  for (Index j = 0; j < at_once.rows(); ++j) {
+    Eigen::RowVectorXd row = at_once.row(j);
     for (Index k = 0; k < n; ++k) {
-      made.row(static_cast<Index>(j) * n + k) = row;
+      made.row(j * n + k) = row;
       row = row * step;
     }
   }
+  return made;
+}
+
+SampledSystem ArmSimulator::sampled(double disturbance_N_m,
+                                    const Eigen::VectorXd& deviations) const {
+  const Index d = arm_.disturbance.value();
+  SampledSystem made{transition(), linear_readings(),
+                     Eigen::MatrixXd::Zero(states(), states()), deviations.cwiseAbs2()};
+  // From sample to sample a stationary disturbance forgets 1 - e^(-2 h/T) of its variance.
+  const double kept = made.transition(d, d);
+  made.process_covariance(d, d) =
+      std::pow(disturbance_N_m / arm_.disturbance_N_m, 2) * (1.0 - kept * kept);
+  return made;
+}
+
+FilteredRun ArmSimulator::filtered(std::span<const double> torque_N_m,
+                                   const Eigen::MatrixXd& measured,
+                                   const FilterGains& gains) const {
+  require_simulable(parts_, torque_N_m, options_);
+  const TorquePath path(parts_.actuator, torque_N_m, options_.sample_time_s, options_.hold);
+  TimeStepper stepper(plan_, nullptr);
+  SensorReadings readings(arm_, parts_, sensors_);
+  FilteredRun made{.innovations = {measured.rows(), measured.cols()}};
+  Eigen::VectorXd state;
+  Eigen::VectorXd innovation;
+  step_through(stepper, path, options_.sample_time_s, torque_N_m.size(),
+               [&](std::size_t k, double time_s, double actuator_N_m) {
+                 const auto row = static_cast<Index>(k);
+                 innovation = measured.row(row).transpose() - readings.read(stepper, actuator_N_m);
+                 innovation = innovation.array().isNaN().select(0.0, innovation);
+                 state = stepper.state();
+                 state.noalias() += gains.at(k).gain * innovation;
+                 if (!state.allFinite()) throw too_large("filtered state", time_s);
+                 stepper.put(state, stepper.motion() == HubMotion::held);
+                 stepper.take_up(actuator_N_m, time_s);
+                 made.innovations.row(row) = innovation.transpose();
+                 made.disturbance_N_m.push_back(
+                     arm_.disturbance ? arm_.disturbance_N_m * state(*arm_.disturbance) : 0.0);
+                 made.hub_angle_rad.push_back(stepper.hub_angle());
+                 const bool is_held = stepper.motion() == HubMotion::held;
+                 made.hub_velocity_rad_per_s.push_back(
+                     is_held ? 0.0 : arm_.hub_velocity(stepper.state()));
+                 return true;
+               });
   return made;
 }
 

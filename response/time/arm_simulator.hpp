@@ -4,6 +4,7 @@
 #include "response/time/added_forces.hpp"
 #include "response/time/closed_loop.hpp"
 #include "response/time/energy_ledger.hpp"
+#include "response/time/kalman_filter.hpp"
 #include "response/time/modal_dynamics.hpp"
 #include "response/time/simulation.hpp"
 #include "response/time/step_plan.hpp"
@@ -16,6 +17,17 @@
 
 namespace flexarm::response {
 
+/// What a Kalman filter makes of a run.
+struct FilteredRun {
+  /// Measured minus predicted from the samples before, a row a sample and a column a sensor; 0 for
+  /// readings that are missing.
+  Eigen::MatrixXd innovations;
+  // The state at each sample, its own readings included.
+  std::vector<double> disturbance_N_m = {};
+  std::vector<double> hub_angle_rad = {};
+  std::vector<double> hub_velocity_rad_per_s = {};
+};
+
 /// An arm with all that a torque does not change, for any number of runs: `simulate` is one of
 /// them, fits make them by the thousand.
 class ArmSimulator {
@@ -26,6 +38,7 @@ class ArmSimulator {
   ArmSimulator(const ArmSimulator&) = delete;
   ArmSimulator& operator=(const ArmSimulator&) = delete;
 
+  std::span<const arm::Sensor> sensors() const { return sensors_; }
   /// Entries of the state, ModalDynamics::size().
   Eigen::Index states() const { return arm_.size(); }
   /// No friction, and no force that varies with the state: responses add up.
@@ -58,11 +71,25 @@ class ArmSimulator {
   /// vary.
   Eigen::MatrixXd free_readings(std::size_t samples) const;
 
+  /// The filter for the arm that turns without friction and forces that vary: readings with white
+  /// noise of these deviations, a column a sensor, and a disturbance of the hub torque
+  /// (ArmParts::disturbance, required) of that stationary deviation, which changes at the samples.
+  SampledSystem sampled(double disturbance_N_m, const Eigen::VectorXd& deviations) const;
+
+  /// The arm follows the `measured` readings (a row a sample and a column a sensor, not a number
+  /// where one is missing) by `gains`, at rest before the first sample, and goes from sample to
+  /// sample as in `readings`: friction and forces act on the filtered motion. A hub that friction
+  /// holds stays held until the torque, disturbance included, breaks it loose.
+  FilteredRun filtered(std::span<const double> torque_N_m, const Eigen::MatrixXd& measured,
+                       const FilterGains& gains) const;
+
  private:
   class Commands;
 
   Simulation run(Commands& commands, const SimulationProgress& progress) const;
   Eigen::MatrixXd readings(Commands& commands, const Eigen::VectorXd& initial) const;
+  Eigen::MatrixXd transition() const;
+  Eigen::MatrixXd linear_readings() const;
 
   ArmParts parts_;
   std::vector<arm::Sensor> sensors_;

@@ -30,12 +30,13 @@ void require_complete(const arm::ModalModel& model, std::size_t sensors) {
   }
 }
 
-/// Where Z, W and the laws' own states stand in X.
+/// Where Z, W, d and the laws' own states stand in X.
 struct Layout {
   Index n = 0;
   bool modal_forces = false;  // f is n modal forces, else one torque on the hub
   std::optional<Index> lagged_torque;
   std::vector<std::optional<Index>> lagged_readings;  // one a sensor
+  std::optional<Index> disturbance;
   Index law_states = 0;  // of laws of hub torque, at the end of X and f
   Index size = 0;
 
@@ -50,7 +51,7 @@ struct Accelerations {
   Eigen::MatrixXd force;
 };
 
-/// Torque per unit of Z: the column of A is then as long as sigma_0.
+/// Torque per unit of Z and of d: the column of A is then as long as sigma_0.
 double torque_scale(const ModalDynamics& arm) {
   return arm.scale_rad_per_s(0) * arm.modal_mass_kg_m2 / arm.hub_slope.norm();
 }
@@ -68,6 +69,7 @@ Accelerations accelerations(const ModalDynamics& arm, const Layout& layout) {
   } else {
     made.actuator = per_torque;
   }
+  if (layout.disturbance) made.state.col(*layout.disturbance) = per_torque * torque_scale(arm);
   made.force.setZero(layout.n, layout.forces());
   if (layout.modal_forces) {
     made.force.leftCols(layout.n).setIdentity();
@@ -125,6 +127,10 @@ LinearSystem assemble(const ModalDynamics& arm, const ArmParts& parts, const Lay
   system.force.setZero(layout.size, layout.forces());
   system.force.middleRows(layout.n, layout.n) = motion.force;
   system.force.bottomRightCorner(layout.law_states, layout.law_states).setIdentity();
+  if (layout.disturbance) {
+    system.a(*layout.disturbance, *layout.disturbance) =
+        -1.0 / parts.disturbance->correlation_time_s;
+  }
   if (layout.lagged_torque) {
     const double rate = 1.0 / parts.actuator.lag_s;
     system.a(*layout.lagged_torque, *layout.lagged_torque) = -rate;
@@ -168,6 +174,7 @@ Layout layout_of(const arm::ModalModel& model, const ArmParts& parts,
     const bool is_lagged = lag_of(parts, sensor) > 0.0;
     layout.lagged_readings.push_back(is_lagged ? std::optional(layout.size++) : std::nullopt);
   }
+  if (parts.disturbance) layout.disturbance = layout.size++;
   for (const auto& [effect, law] : parts.hub.smooth) layout.law_states += law.states;
   layout.size += layout.law_states;
   return layout;
@@ -239,6 +246,10 @@ ModalDynamics modal_dynamics(const arm::ModalModel& model, const ArmParts& parts
                              std::span<const arm::Sensor> sensors) {
   const bool modal_forces = !parts.beam_forces.empty();
   require_complete(model, sensors.size());
+  if (parts.disturbance) {
+    arm::require_in_range("correlation time", parts.disturbance->correlation_time_s, "s",
+                          arm::kPositive);
+  }
   const Layout layout = layout_of(model, parts, sensors, modal_forces);
   ModalDynamics arm = coordinates(model, layout);
   const Accelerations turning = accelerations(arm, layout);
@@ -248,6 +259,8 @@ ModalDynamics modal_dynamics(const arm::ModalModel& model, const ArmParts& parts
   arm.first_law_state = layout.size - layout.law_states;
   arm.law_state_count = layout.law_states;
   arm.lagged_torque = layout.lagged_torque;
+  arm.disturbance = layout.disturbance;
+  if (layout.disturbance) arm.disturbance_N_m = torque_scale(arm);
   arm.hub_force.setZero(layout.forces());
   if (modal_forces) {
     arm.hub_force.head(layout.n) = arm.hub_slope / arm.modal_mass_kg_m2;
@@ -267,6 +280,7 @@ ModalDynamics modal_dynamics(const arm::ModalModel& model, const ArmParts& parts
   // Torque on the hub counts to the last bit: friction holds against just its size.
   arm.reaction.actuator = arm.hub_torque.actuator;
   if (layout.lagged_torque) arm.reaction.state(*layout.lagged_torque) = torque_scale(arm);
+  if (layout.disturbance) arm.reaction.state(*layout.disturbance) = torque_scale(arm);
   if (!modal_forces) arm.reaction.force(0) = 1.0;
   arm.fastest_rate_rad_per_s = fastest_rate_rad_per_s(arm.turning);
   return arm;

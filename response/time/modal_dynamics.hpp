@@ -24,9 +24,10 @@ struct Reading {
 ///
 ///     X' = A X + actuator u + actuator_rate u' + force f,
 ///
-/// X = (sigma_i q_i; q_i'; Z; W; z), N entries: sigma_i = omega_i, or that of the first flexible
+/// X = (sigma_i q_i; q_i'; Z; W; d; z), N entries: sigma_i = omega_i, or that of the first flexible
 /// mode where omega_i is less, makes A nearly antisymmetric; Z is the lagged torque and W the
-/// lagged readings, each scaled so that its couplings are no larger than A's other entries. u is
+/// lagged readings, each scaled so that its couplings are no larger than A's other entries; d is a disturbance of the
+/// hub torque, scaled as Z, which decays unless a filter moves it. u is
 /// the torque behind delay, gain and clipping; f the torques and forces that are added at the arm,
 /// a torque on the hub [N m] or n modal forces [1/s^2], and behind them the rates z' of the laws'
 /// own states: m entries.
@@ -57,6 +58,8 @@ struct ModalDynamics {
   Eigen::Index first_law_state = 0;  ///< where z begins in X
   Eigen::Index law_state_count = 0;
   std::optional<Eigen::Index> lagged_torque = {};  ///< row of Z
+  std::optional<Eigen::Index> disturbance = {};    ///< row of d
+  double disturbance_N_m = 0.0;                    ///< torque of a unit of d
   double modal_mass_kg_m2 = 0.0;
   Eigen::VectorXd hub_slope;            ///< n
   Eigen::VectorXd scale_rad_per_s;      ///< sigma, n

@@ -1,0 +1,169 @@
+// The arm simulator as a Kalman filter.
+#include "response/excitation/excitation.hpp"
+#include "response/formulation_maker.hpp"
+#include "response/time/arm_simulator.hpp"
+#include "response/time/random_numbers.hpp"
+#include "response/time/time_model.hpp"
+#include "tests/response/simulation_models.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <numeric>
+#include <vector>
+
+namespace flexarm::response {
+namespace {
+
+using Eigen::Index;
+
+constexpr int kFlexibleModes = 3;
+constexpr double kStep_s = 2e-3;
+constexpr std::size_t kSamples = 4000;
+constexpr double kCorrelation_s = 0.1;
+constexpr double kDisturbance_N_m = 0.02;
+
+class FilteredRunTest : public testing::Test {
+ protected:
+  FilteredRunTest() {
+    arm_.damping.kelvin_voigt_s = 1.2e-4;
+    arm_.hub.viscous_friction_N_m_s_per_rad = 2e-3;
+    torque_ = sample(RandomNoise{.rms_N_m = 0.08, .from_Hz = 0.2, .to_Hz = 40.0, .seed = 4},
+                     SampleGrid{kSamples, kStep_s})
+                  .torque_N_m;
+  }
+
+  /// The simulator of the arm as it is now.
+  void make() {
+    parts_ = take_apart(arm_);
+    parts_.disturbance = HubDisturbance{kCorrelation_s};
+    simulator_ = std::make_unique<ArmSimulator>(
+        time_model(make_formulation("exact_tf", parts_.linear, kFlexibleModes), parts_,
+                   kFlexibleModes, sensors_),
+        parts_, sensors_, options_of_fit(kStep_s, TorqueHold::zero));
+  }
+
+  FilterGains steady() const {
+    return {{}, filter_gain(simulator_->sampled(kDisturbance_N_m, deviations_))};
+  }
+
+  std::vector<arm::Sensor> sensors_ = {kHubAngle, kHubVelocity};
+  Eigen::VectorXd deviations_ = Eigen::Vector2d(1e-3, 1e-2);
+  arm::Arm arm_ = arm::paper_arm();
+  ArmParts parts_;
+  std::vector<double> torque_;
+  std::unique_ptr<ArmSimulator> simulator_;
+};
+
+TEST_F(FilteredRunTest, WhatTheArmItselfShowsLeavesNoInnovation) {
+  for (const bool has_friction : {false, true}) {
+    if (has_friction) arm_.effects = {effects::named("coulomb_friction", {{"torque", 0.02}})};
+    make();
+    const FilterGains gains = steady();
+    const Eigen::MatrixXd shown = simulator_->readings(torque_);
+    const FilteredRun run = simulator_->filtered(torque_, shown, gains);
+    // Rounding of each sample's readings, which the filter feeds back.
+    constexpr double kRounding = 1e-11;
+    EXPECT_LE(run.innovations.cwiseAbs().maxCoeff(), kRounding * shown.cwiseAbs().maxCoeff())
+        << has_friction;
+  }
+}
+
+/// A disturbance of known statistics that is recorded nowhere, and noise of known deviation.
+TEST_F(FilteredRunTest, InnovationsOfTheRightModelAreWhiteAndOfTheStatedCovariance) {
+  make();
+  RandomNumbers random(7);
+  const double kept = std::exp(-kStep_s / kCorrelation_s);
+  std::vector<double> disturbance = {kDisturbance_N_m * random.normal()};
+  std::vector<double> acting = torque_;
+  for (std::size_t k = 0; k < kSamples; ++k) {
+    // Its mean over the sample, in which the model lets it decay.
+    acting[k] += disturbance[k] * (1.0 - kept) * kCorrelation_s / kStep_s;
+    disturbance.push_back(kept * disturbance[k] +
+                          kDisturbance_N_m * std::sqrt(1.0 - kept * kept) * random.normal());
+  }
+  Eigen::MatrixXd measured = simulator_->readings(acting);
+  for (Index j = 0; j < measured.cols(); ++j) {
+    for (double& value : measured.col(j)) value += deviations_(j) * random.normal();
+  }
+  const FilterGains gains = steady();
+  const FilteredRun run = simulator_->filtered(torque_, measured, gains);
+  const Eigen::LLT<Eigen::MatrixXd> covariance(gains.steady.innovation_covariance);
+  // Behind the first second, in which the filter finds the disturbance.
+  const Eigen::MatrixXd settled = run.innovations.bottomRows(3500).transpose();
+  const Eigen::MatrixXd standard = covariance.matrixL().solve(settled);
+  const auto n = static_cast<double>(standard.size());
+  // 3.5 standard deviations of chi^2/n and of an autocorrelation.
+  EXPECT_NEAR(standard.squaredNorm() / n, 1.0, 3.5 * std::sqrt(2.0 / n));
+  for (Index j = 0; j < standard.rows(); ++j) {
+    const Eigen::VectorXd u = standard.row(j);
+    const Index last = u.size() - 1;
+    EXPECT_LE(std::abs(u.head(last).dot(u.tail(last)) / u.squaredNorm()),
+              3.5 / std::sqrt(static_cast<double>(u.size())))
+        << j;
+  }
+  // The estimate follows the disturbance.
+  double error = 0.0;
+  for (std::size_t k = 500; k < kSamples; ++k) {
+    error += std::pow(run.disturbance_N_m[k] - disturbance[k], 2);
+  }
+  EXPECT_LE(std::sqrt(error / (kSamples - 500.0)), 0.7 * kDisturbance_N_m);
+}
+
+/// A state that nobody knows, with a prior as wide: all samples are as likely as stated.
+TEST_F(FilteredRunTest, FromAnUnknownStateTheFirstInnovationsAreOfTheirStatedCovariance) {
+  make();
+  RandomNumbers random(11);
+  const std::size_t samples = 400;
+  const std::vector<double> torque(torque_.begin(), torque_.begin() + samples);
+  const double spread = 0.3;
+  const Eigen::MatrixXd prior =
+      spread * spread * Eigen::MatrixXd::Identity(simulator_->states(), simulator_->states());
+  const FilterGains gains =
+      filter_gains_from(simulator_->sampled(1e-6, deviations_), prior, samples);
+  double squares = 0.0;
+  double count = 0.0;
+  for (int repeat = 0; repeat < 40; ++repeat) {
+    Eigen::VectorXd state(simulator_->states());
+    for (double& value : state) value = spread * random.normal();
+    Eigen::MatrixXd measured = simulator_->readings(torque, state);
+    for (Index j = 0; j < measured.cols(); ++j) {
+      for (double& value : measured.col(j)) value += deviations_(j) * random.normal();
+    }
+    const FilteredRun run = simulator_->filtered(torque, measured, gains);
+    for (Index k = 0; k < 20; ++k) {
+      const auto& covariance = gains.at(static_cast<std::size_t>(k)).innovation_covariance;
+      const Eigen::VectorXd e = run.innovations.row(k);
+      squares += e.dot(covariance.llt().solve(e));
+      count += static_cast<double>(e.size());
+    }
+  }
+  EXPECT_NEAR(squares / count, 1.0, 3.5 * std::sqrt(2.0 / count));
+}
+
+TEST_F(FilteredRunTest, AMissingReadingHasNoInnovationAndMovesNothing) {
+  make();
+  const FilterGains gains = steady();
+  Eigen::MatrixXd measured = simulator_->readings(torque_);
+  measured.col(0).segment(100, 200).setConstant(std::numeric_limits<double>::quiet_NaN());
+  const FilteredRun run = simulator_->filtered(torque_, measured, gains);
+  EXPECT_TRUE(run.innovations.col(0).segment(100, 200).isZero());
+  EXPECT_LE(run.innovations.cwiseAbs().maxCoeff(), 1e-11);
+}
+
+/// Friction that is above all torques holds the hub, whatever the noise of the readings.
+TEST_F(FilteredRunTest, AHubThatFrictionHoldsStaysHeld) {
+  arm_.effects = {effects::named("coulomb_friction", {{"torque", 10.0}})};
+  make();
+  RandomNumbers random(3);
+  Eigen::MatrixXd measured(static_cast<Index>(kSamples), 2);
+  for (double& value : measured.reshaped()) value = 1e-3 * random.normal();
+  const FilterGains gains = steady();
+  const FilteredRun run = simulator_->filtered(torque_, measured, gains);
+  for (const double velocity : run.hub_velocity_rad_per_s) EXPECT_EQ(velocity, 0.0);
+}
+
+}  // namespace
+}  // namespace flexarm::response

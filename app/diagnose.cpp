@@ -47,6 +47,7 @@ struct DiagnoseArguments {
   std::string file;
   std::vector<std::string> effects;
   int most_causes = diagnose::SelectionOptions{}.most_causes;
+  std::string predictor = "auto";
   std::string folder;
   bool force = false;
   std::string json_file;
@@ -70,7 +71,17 @@ fs::path extended_beside(const std::string& json_file) {
   return fs::path(json_file).replace_extension(kExtendedArm);
 }
 
-/// Throws for outputs that could not be written, or would take the place of what is read: before
+/// Empty: by evidence.
+std::optional<diagnose::PredictorKind> chosen_predictor(const std::string& word) {
+  if (word == "auto") return std::nullopt;
+  for (const auto kind : diagnose::kPredictors) {
+    if (word == diagnose::to_string(kind)) return kind;
+  }
+  throw arm::InputError(fmt::format("--predictor {}: must be auto, output_error or grey_box",
+                                    arm::shown(word)));
+}
+
+/// Throws for an unknown predictor, and for outputs that could not be written, or would take the place of what is read: before
 /// the work, not after it.
 void prepare(const DiagnoseArguments& arguments, const diagnose::Experiment& experiment) {
   if (arguments.force && arguments.folder.empty()) {
@@ -79,6 +90,7 @@ void prepare(const DiagnoseArguments& arguments, const diagnose::Experiment& exp
   if (arguments.most_causes < 1) {
     throw arm::out_of_range("--max-causes", arguments.most_causes, "", "1 or more");
   }
+  chosen_predictor(arguments.predictor);
   if (!arguments.json_file.empty()) {
     const std::string option = "--json " + arm::shown(arguments.json_file);
     const fs::path beside = extended_beside(arguments.json_file);
@@ -100,6 +112,7 @@ diagnose::Diagnosis diagnose_with_progress(const DiagnoseArguments& arguments,
   };
   diagnose::SelectionOptions options;
   options.most_causes = arguments.most_causes;
+  options.predictor = chosen_predictor(arguments.predictor);
   auto diagnosis = diagnose::diagnose(
       experiment, chosen_hypotheses(arguments.effects, diagnose::hypotheses(experiment)), options,
       tell);
@@ -112,6 +125,8 @@ std::string text_of(const diagnose::Diagnosis& diagnosis) {
   for (const auto& notice : diagnosis.notices) text += report::to_paragraph("note: " + notice, 2);
   if (!text.empty()) text += "\n";
   text += report::to_paragraph(report::verdict_text(diagnosis)) + "\n";
+  const std::string predictor = report::predictor_text(diagnosis);
+  if (!predictor.empty()) text += report::to_paragraph(predictor) + "\n";
   const std::string wrong = report::what_is_wrong_text(diagnosis.symptoms);
   if (!wrong.empty()) text += wrong + "\n";
   if (!diagnosis.causes.empty()) {
@@ -216,6 +231,11 @@ Command add_diagnose(CLI::App& program) {
   parser->add_option("FILE", arguments->file, "measurement.toml")->required()->check(not_empty());
   add_effect_choice(*parser, arguments->effects);
   parser->add_option("--max-causes", arguments->most_causes, "The most causes to name")
+      ->capture_default_str();
+  parser
+      ->add_option("--predictor", arguments->predictor,
+                   "How time runs are predicted: auto, output_error (the torque alone drives the "
+                   "arm) or grey_box (a Kalman filter, with an unrecorded torque on the hub)")
       ->capture_default_str();
   parser
       ->add_option("--out", arguments->folder,

@@ -20,10 +20,10 @@ std::string odds_text(double odds) {
 }
 
 std::vector<std::string> evidence_for(const Hypothesis& hypothesis, double share,
-                                      const std::vector<Rival>& rivals) {
+                                      bool is_of_disturbance, const std::vector<Rival>& rivals) {
   std::vector<std::string> evidence = {
-      fmt::format("It explains {:.1f} % of the excess residual that is left without it.",
-                  100.0 * share),
+      fmt::format("It explains {:.1f} % of the {} that is left without it.", 100.0 * share,
+                  is_of_disturbance ? "variance of the unrecorded hub torque" : "excess residual"),
       fmt::format("Its signature: {}.", hypothesis.entry->speaks_for)};
   if (rivals.empty()) return evidence;
   const Rival& next = rivals.front();
@@ -74,7 +74,7 @@ Cause cause_of(const Selection& selection, std::size_t index, const Posterior& p
     if (rival.odds > kIndistinguishableOdds) break;
     if (std::ranges::find(confusable, name) == confusable.end()) confusable.push_back(name);
   }
-  cause.evidence = evidence_for(effect, cause.share, rivals);
+  cause.evidence = evidence_for(effect, cause.share, without.estimation.disturbance.has_value(), rivals);
   cause.refuted_by = effect.entry->refuted_by;
   return cause;
 }

@@ -110,6 +110,15 @@ void say_timing(const Experiment& experiment, const Selection& selection,
   }
 }
 
+std::optional<DisturbanceGain> disturbance_gain(const Selection& selection) {
+  const auto& before = selection.nothing.estimation.disturbance;
+  const auto& after = selection.chosen.estimation.disturbance;
+  if (!before || !after) return std::nullopt;
+  return DisturbanceGain{selection.problem.predictor().noise()->correlation_time_s,
+                         before->deviation_N_m, after->deviation_N_m,
+                         before->deviation_N_m / before->relative};
+}
+
 /// By the torque hold, constant or linear between samples, that leaves the smaller error; where
 /// both leave about as much, that with fewer causes.
 Diagnosis with_nearest_hold(const Experiment& experiment, const std::vector<Hypothesis>& hypotheses,
@@ -135,7 +144,15 @@ Diagnosis with_nearest_hold(const Experiment& experiment, const std::vector<Hypo
   return tried[1].causes.size() < tried[0].causes.size() ? tried[1] : tried[0];
 }
 
-std::vector<NearMiss> near_misses(const Selection& selection, const Posterior& posterior) {
+/// The explanation of a set by simulation.
+Misfit simulated(const PredictedSelection& predicted, const Explanation& set) {
+  if (predicted.predictor == PredictorKind::output_error) return set.estimation;
+  return explain(predicted.simulated, evaluated(predicted.simulated, set.fit.candidate)).estimation;
+}
+
+std::vector<NearMiss> near_misses(const PredictedSelection& predicted,
+                                  const Posterior& posterior) {
+  const Selection& selection = predicted.selection;
   std::vector<NearMiss> found;
   for (const auto* tried : {&selection.singles, &selection.combinations}) {
     for (const Explanation& one : *tried) {
@@ -143,7 +160,7 @@ std::vector<NearMiss> near_misses(const Selection& selection, const Posterior& p
       if (candidate.labels() == selection.chosen.fit.candidate.labels()) continue;
       found.push_back({candidate.label(), posterior.of_set(candidate),
                        share_taken(selection.nothing.estimation, one.estimation),
-                       lead(one, selection.nothing), one.estimation.relative_error});
+                       lead(one, selection.nothing), simulated(predicted, one).relative_error});
     }
   }
   std::ranges::stable_sort(found, [](const NearMiss& one, const NearMiss& other) {
@@ -160,46 +177,55 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
   if (!holds_are_known(experiment)) {
     return with_nearest_hold(experiment, hypotheses, options, progress);
   }
-  const Selection selection = select(Problem(experiment), hypotheses, options, progress);
-  const Problem& problem = selection.problem;
+  const PredictedSelection predicted =
+      select_by_evidence(experiment, hypotheses, options, progress);
+  const Selection& selection = predicted.selection;
   Diagnosis made;
   made.notices = experiment.notices;
   made.cancelled = selection.cancelled;
   if (made.cancelled) return made;
+  made.predictor = predicted.predictor;
+  made.predictor_reason = predicted.reason;
+  made.disturbance = disturbance_gain(selection);
   const Candidate& chosen = selection.chosen.fit.candidate;
   const std::vector<double> errors = standard_errors(
-      chosen, coordinate_errors(problem, selection.chosen, options.further_modes));
+      chosen, coordinate_errors(selection.problem, selection.chosen, options.further_modes));
   const Posterior posterior = posterior_of(selection, hypotheses.size(), options);
   made.causes = causes_of(selection, posterior, errors);
   made.something_else = posterior.of_something_else();
   say_timing(experiment, selection, made.notices);
+  // What is left is judged by simulation, whichever predictor found the effects.
+  const Problem& problem = predicted.simulated;
   const Explanation as_filed = explain(problem, evaluated(problem, problem.as_filed()));
-  made.verdict = verdict_of(selection.chosen, as_filed);
-  made.estimation_test = selection.chosen.estimation_test;
-  made.validation_test = selection.chosen.validation_test;
+  const Explanation extended = made.predictor == PredictorKind::output_error
+                                   ? selection.chosen
+                                   : explain(problem, evaluated(problem, chosen));
+  made.verdict = verdict_of(extended, as_filed);
+  made.estimation_test = extended.estimation_test;
+  made.validation_test = extended.validation_test;
   made.converged = selection.chosen.fit.converged;
   made.evaluations = selection.chosen.fit.evaluations;
-  made.estimation = gain_between(as_filed.estimation, selection.chosen.estimation);
+  made.estimation = gain_between(as_filed.estimation, extended.estimation);
   if (as_filed.validation.count > 0.0) {
-    made.validation = gain_between(as_filed.validation, selection.chosen.validation);
+    made.validation = gain_between(as_filed.validation, extended.validation);
   }
   // Of all runs: those that were fitted and those that were held out.
   const Eigen::VectorXd before = as_filed.fit.residuals + as_filed.held_out;
-  const Eigen::VectorXd after = selection.chosen.fit.residuals + selection.chosen.held_out;
+  const Eigen::VectorXd after = extended.fit.residuals + extended.held_out;
   made.channels = channel_gains(problem, before, after);
   made.overlays = overlays(problem.observations(), before, after);
   made.symptoms = symptoms_of({problem, before, after, chosen},
-                              drift_of(problem, selection, made.verdict, made.causes));
+                              drift_of(selection.problem, selection, made.verdict, made.causes));
   made.refitted = refitted_numbers(selection, errors);
   made.extended_arm = chosen.extend(experiment.arm);
   made.formulations = check_formulations(made.extended_arm, scales_of(experiment).sensors);
   if (made.verdict == Verdict::unexplained || made.verdict == Verdict::partly_explained) {
-    made.near_misses = near_misses(selection, posterior);
+    made.near_misses = near_misses(predicted, posterior);
   }
   ReportedWork work(progress);
   try {
     made.next_experiments =
-        what_next(problem, selection, made.verdict != Verdict::unexplained, work);
+        what_next(selection.problem, selection, made.verdict != Verdict::unexplained, work);
   } catch (const Cancelled&) {
     made.cancelled = true;
   }

@@ -3,7 +3,7 @@
 #include "diagnose/cause.hpp"
 #include "diagnose/formulation_check.hpp"
 #include "diagnose/planning/next_experiments.hpp"
-#include "diagnose/search/selection.hpp"
+#include "diagnose/search/predictor_choice.hpp"
 #include "diagnose/symptoms/symptoms.hpp"
 #include "diagnose/verdict.hpp"
 
@@ -35,6 +35,15 @@ struct ChannelGain {
   Gain error;
 };
 
+/// What the stochastic grey box leaves to a torque on the hub that nobody recorded, standard
+/// deviations.
+struct DisturbanceGain {
+  double correlation_time_s = 0.0;
+  double before_N_m = 0.0;  ///< of the arm file, uncertain numbers refitted
+  double after_N_m = 0.0;   ///< of the extended arm
+  double torque_rms_N_m = 0.0;  ///< of the commanded torque
+};
+
 /// A channel as it was measured and as the simulation has it, without causes and with them; numbers
 /// as `Observations` has them.
 struct Overlay {
@@ -49,7 +58,10 @@ struct Diagnosis {
   Verdict verdict = Verdict::adequate;
   std::vector<Cause> causes;  ///< in order of what each explains
   double something_else = 0.0;  ///< posterior probability of it, beside causes or by itself
-  Gain estimation;
+  PredictorKind predictor = PredictorKind::output_error;  ///< that the causes were named by
+  std::string predictor_reason;  ///< a sentence; empty without `time` runs
+  std::optional<DisturbanceGain> disturbance;  ///< by grey_box
+  Gain estimation;  ///< by output error, as the residuals and tests below
   std::optional<Gain> validation;
   ResidualTest estimation_test;  ///< of the extended arm
   ResidualTest validation_test;

@@ -1,15 +1,13 @@
 #include "diagnose/predictors/predictor.hpp"
 
+#include "diagnose/predictors/initial_state.hpp"
 #include "diagnose/predictors/predicted_roots.hpp"
 #include "response/formulation_maker.hpp"
 #include "response/frequency/frequency_response.hpp"
 #include "response/time/time_model.hpp"
 
-#include <Eigen/QR>
-
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 #include <variant>
 
@@ -25,44 +23,34 @@ std::vector<arm::Sensor> sensors_of(const measured::TimeRecord& record) {
   return sensors;
 }
 
-/// What a run from an unknown state shows, `simulated` from rest being known: its state is that
-/// which brings the readings nearest to those `measured`, in standard deviations. With forces that
-/// are not linear by Gauss-Newton steps, with the linear arm's derivatives.
-Eigen::MatrixXd from_nearest_state(const response::ArmSimulator& simulation,
-                                   const std::vector<double>& torque_N_m,
-                                   const Eigen::MatrixXd& from_rest,
-                                   const Eigen::VectorXd& measured,
-                                   const Eigen::VectorXd& deviations) {
-  constexpr int kSteps = 20;
+/// What a run from an unknown state shows, `from_rest` being known: its state is the most likely
+/// one. With forces that are not linear by Gauss-Newton steps, with the linear arm's derivatives.
+Eigen::MatrixXd from_likely_state(const response::ArmSimulator& simulation,
+                                  const std::vector<double>& torque_N_m,
+                                  const Eigen::MatrixXd& from_rest,
+                                  const Eigen::VectorXd& measured,
+                                  const Eigen::VectorXd& deviations) {
+  constexpr int kSteps = 10;
   constexpr double kShorter = 0.3;
-  constexpr double kNearEnough = 1e-6;  // the sum of squares falls by less than this part of it
+  constexpr double kShortest = 0.05;
+  constexpr double kNearEnough = 1e-4;  // the sum of squares falls by less than this part of it
   const Eigen::MatrixXd free = simulation.free_readings(torque_N_m.size());
-  const Eigen::VectorXd scale = (deviations.cwiseInverse().asDiagonal() * free)
-                                    .colwise()
-                                    .norm()
-                                    .transpose()
-                                    .cwiseMax(std::numeric_limits<double>::min());
-  const Eigen::MatrixXd weighted =
-      deviations.cwiseInverse().asDiagonal() * free * scale.cwiseInverse().asDiagonal();
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> nearest(weighted);
-  const auto off = [&](const Eigen::MatrixXd& readings) {
-    return Eigen::VectorXd((measured - readings.reshaped()).cwiseQuotient(deviations));
-  };
-  const auto towards = [&](const Eigen::MatrixXd& readings) {
-    return Eigen::VectorXd(nearest.solve(off(readings)).cwiseQuotient(scale));
+  const InitialStateEstimator estimator(free, deviations, measured);
+  Eigen::VectorXd state = Eigen::VectorXd::Zero(simulation.states());
+  const auto left = [&](const Eigen::MatrixXd& readings) {
+    return Eigen::VectorXd(measured - readings.reshaped());
   };
   if (simulation.is_linear()) {
-    const Eigen::VectorXd made = from_rest.reshaped() + free * towards(from_rest);
+    const Eigen::VectorXd made = from_rest.reshaped() + free * estimator.step(left(from_rest), state);
     return made.reshaped(from_rest.rows(), from_rest.cols());
   }
-  Eigen::VectorXd state = Eigen::VectorXd::Zero(simulation.states());
   Eigen::MatrixXd made = from_rest;
   double length = 1.0;
-  for (int step = 0; step < kSteps; ++step) {
-    const Eigen::VectorXd further = state + length * towards(made);
+  for (int step = 0; step < kSteps && length > kShortest; ++step) {
+    const Eigen::VectorXd further = state + length * estimator.step(left(made), state);
     const Eigen::MatrixXd there = simulation.readings(torque_N_m, further);
-    const double before = off(made).squaredNorm();
-    const double after = off(there).squaredNorm();
+    const double before = estimator.cost(left(made), state);
+    const double after = estimator.cost(left(there), further);
     if (after < before) {
       state = further;
       made = there;
@@ -108,8 +96,11 @@ response::TorqueHold simulated_hold(measured::TorqueHold hold) {
 }
 
 Predictor::Predictor(const Experiment& experiment, const Observations& observations,
-                     int flexible_modes)
-    : experiment_(&experiment), flexible_modes_(flexible_modes), observations_(observations) {
+                     int flexible_modes, std::optional<NoiseModel> noise)
+    : experiment_(&experiment),
+      flexible_modes_(flexible_modes),
+      observations_(observations),
+      noise_(std::move(noise)) {
   for (std::size_t r = 0; r < experiment.runs.size(); ++r) {
     const auto& [run, data] = experiment.runs[r];
     const auto* record = std::get_if<measured::TimeRecord>(&data);
@@ -126,48 +117,116 @@ Predictor::Predictor(const Experiment& experiment, const Observations& observati
     if (at == conditions_.end()) at = conditions_.insert(at, {payload, sensors, options, {}});
     at->runs.push_back(r);
   }
+  if (!noise_) return;
+  const std::vector<bool> all(experiment.runs.size(), true);
+  for (const RunInnovations& run : innovations(experiment.arm, all, *noise_)) {
+    log_determinants_.push_back(run.log_determinant);
+  }
 }
 
-Eigen::VectorXd Predictor::operator()(const arm::Arm& arm, const std::vector<bool>& runs) const {
-  const auto& first = observations_.first_of_run;
-  Eigen::VectorXd values = Eigen::VectorXd::Zero(first.back());
-  const auto stretch = [&](std::size_t r) {
-    return values.segment(first[r], first[r + 1] - first[r]);
-  };
+void Predictor::for_each_time_run(const arm::Arm& arm, const std::vector<bool>& runs,
+                                  const NoiseModel* noise, const UseSimulation& use) const {
   arm::Arm with_payload = arm;
   for (const Condition& condition : conditions_) {
     if (std::ranges::none_of(condition.runs, [&](std::size_t r) { return runs[r]; })) continue;
     with_payload.payload = condition.payload;
-    const response::ArmParts parts = response::take_apart(with_payload);
+    response::ArmParts parts = response::take_apart(with_payload);
+    if (noise != nullptr) parts.disturbance = {noise->correlation_time_s};
     const auto model =
         response::time_model(response::make_formulation("exact_tf", parts.linear, flexible_modes_),
                              parts, flexible_modes_, condition.sensors);
     const response::ArmSimulator simulation(model, parts, condition.sensors, condition.options);
     for (const std::size_t r : condition.runs) {
-      if (!runs[r]) continue;
-      const auto& [run, data] = experiment_->runs[r];
-      const auto& torque_N_m = std::get<measured::TimeRecord>(data).torque_N_m;
-      Eigen::MatrixXd readings = simulation.readings(torque_N_m);
-      if (run.initial == measured::InitialState::free) {
-        const Eigen::Index n = first[r + 1] - first[r];
-        readings = from_nearest_state(simulation, torque_N_m, readings,
-                                      observations_.values.segment(first[r], n),
-                                      observations_.deviations.segment(first[r], n));
-      }
-      stretch(r) = readings.reshaped();
+      if (runs[r]) use(r, simulation);
     }
   }
+}
+
+void Predictor::predict_other_runs(const arm::Arm& arm, const std::vector<bool>& runs,
+                                   Eigen::VectorXd& values) const {
+  arm::Arm with_payload = arm;
   for (std::size_t r = 0; r < experiment_->runs.size(); ++r) {
     const auto& [run, data] = experiment_->runs[r];
     if (!runs[r]) continue;
     with_payload.payload = run.payload.value_or(arm.payload);
+    const auto [first, count] = stretch(r);
     if (const auto* record = std::get_if<measured::FrequencyRecord>(&data)) {
-      predict(with_payload, *record, stretch(r));
+      predict(with_payload, *record, values.segment(first, count));
     } else if (const auto* table = std::get_if<measured::ModalTable>(&data)) {
-      predict_roots(with_payload, *table, stretch(r));
+      predict_roots(with_payload, *table, values.segment(first, count));
     }
   }
+}
+
+Eigen::VectorXd Predictor::operator()(const arm::Arm& arm, const std::vector<bool>& runs) const {
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(observations_.values.size());
+  const auto simulate = [&](std::size_t r, const response::ArmSimulator& simulation) {
+    const auto& [run, data] = experiment_->runs[r];
+    const auto [first, count] = stretch(r);
+    const auto& torque_N_m = std::get<measured::TimeRecord>(data).torque_N_m;
+    Eigen::MatrixXd readings = simulation.readings(torque_N_m);
+    if (run.initial == measured::InitialState::free) {
+      readings = from_likely_state(simulation, torque_N_m, readings,
+                                   observations_.values.segment(first, count),
+                                   observations_.deviations.segment(first, count));
+    }
+    values.segment(first, count) = readings.reshaped();
+  };
+  for_each_time_run(arm, runs, nullptr, simulate);
+  predict_other_runs(arm, runs, values);
   return values;
+}
+
+RunInnovations Predictor::filtered(std::size_t r, const response::ArmSimulator& simulation,
+                                   const NoiseModel& noise) const {
+  const auto& [run, data] = experiment_->runs[r];
+  const auto [first, count] = stretch(r);
+  std::vector<double> deviations;
+  for (const ObservedChannel& channel : observations_.channels) {
+    if (channel.run != r) continue;
+    deviations.push_back(observations_.deviations(channel.first) *
+                         noise.reading_factor(channel.sensor));
+  }
+  return filter_run(simulation,
+                    {std::get<measured::TimeRecord>(data).torque_N_m,
+                     observations_.values.segment(first, count),
+                     Eigen::VectorXd::Map(deviations.data(), std::ssize(deviations)),
+                     run.initial == measured::InitialState::free},
+                    noise.disturbance_N_m);
+}
+
+Eigen::VectorXd Predictor::residuals(const arm::Arm& arm, const std::vector<bool>& runs) const {
+  if (!noise_) {
+    return (observations_.values - (*this)(arm, runs)).cwiseQuotient(observations_.deviations);
+  }
+  Eigen::VectorXd made = observations_.values;
+  predict_other_runs(arm, runs, made);
+  made = (observations_.values - made).cwiseQuotient(observations_.deviations);
+  const auto innovated = innovations(arm, runs, *noise_);
+  for (std::size_t r = 0; r < innovated.size(); ++r) {
+    const auto [first, count] = stretch(r);
+    if (innovated[r].standardised.size() == 0) continue;
+    const double more = innovated[r].log_determinant - log_determinants_[r];
+    made.segment(first, count) =
+        innovated[r].standardised * std::exp(more / (2.0 * static_cast<double>(count)));
+  }
+  return made;
+}
+
+std::vector<RunInnovations> Predictor::innovations(const arm::Arm& arm,
+                                                   const std::vector<bool>& runs,
+                                                   const NoiseModel& noise) const {
+  std::vector<RunInnovations> made(runs.size());
+  for_each_time_run(arm, runs, &noise,
+                    [&](std::size_t r, const response::ArmSimulator& simulation) {
+                      made[r] = filtered(r, simulation, noise);
+                    });
+  return made;
+}
+
+std::pair<Index, Index> Predictor::stretch(std::size_t run) const {
+  const auto& first = observations_.first_of_run;
+  return {first[run], first[run + 1] - first[run]};
 }
 
 ModeChoice modes_needed(const Experiment& experiment, const Observations& observations) {

@@ -2,11 +2,16 @@
 
 #include "diagnose/experiment.hpp"
 #include "diagnose/observations.hpp"
+#include "diagnose/predictors/filtered_run.hpp"
+#include "diagnose/predictors/noise_model.hpp"
 #include "response/time/arm_simulator.hpp"
 
 #include <Eigen/Core>
 
 #include <cstddef>
+#include <functional>
+#include <optional>
+#include <utility>
 #include <vector>
 
 namespace flexarm::diagnose {
@@ -14,21 +19,42 @@ namespace flexarm::diagnose {
 /// As the simulation names what the torque does between samples.
 response::TorqueHold simulated_hold(measured::TorqueHold hold);
 
-/// What an arm should have shown in the runs of an experiment.
+/// What an arm should have shown in the runs of an experiment, by one of two models of `time` runs:
+///
+/// - output error: the torque alone drives the arm from its initial state;
+/// - stochastic grey box, with a noise model: a Kalman filter predicts each sample from all samples
+///   before it [Kristensen2004].
 class Predictor {
  public:
   /// `flexible_modes` move in a simulated run, which is stepped as response::options_of_fit where
   /// forces are not linear; poles, zeros and frequency responses are exact. A run from an unknown
-  /// state begins in that which brings it nearest to what was measured. `experiment` must outlive
-  /// the object.
-  Predictor(const Experiment& experiment, const Observations& observations, int flexible_modes);
+  /// state begins in the most likely one. `experiment` must outlive the object.
+  Predictor(const Experiment& experiment, const Observations& observations, int flexible_modes,
+            std::optional<NoiseModel> noise = {});
 
-  /// One number for each of the experiment's `Observations`, run after run, of those `runs` alone;
-  /// the others are 0. `arm` is the experiment's with effects; each run sets its own payload.
-  /// Throws InputError for an arm that cannot be computed. Concurrent calls are safe.
+  /// What the arm shows by output error: one number for each of the experiment's `Observations`,
+  /// run after run, of those `runs` alone; the others are 0. `arm` is the experiment's with
+  /// effects; each run sets its own payload. Throws InputError for an arm that cannot be computed.
+  /// Concurrent calls are safe.
   Eigen::VectorXd operator()(const arm::Arm& arm, const std::vector<bool>& runs) const;
 
+  /// Measured minus predicted in standard deviations; those of other runs mean nothing. With a
+  /// noise model the innovations of `time` runs, independent of each other, times
+  ///
+  ///     (|S|/|S_0|)^(1/(2 n))
+  ///
+  /// for the n readings of a run, S the covariance of their innovations by `arm` and S_0 that by
+  /// the experiment's arm: the arm that makes their squares least is the most likely one where the scale of all
+  /// noise is free.
+  Eigen::VectorXd residuals(const arm::Arm& arm, const std::vector<bool>& runs) const;
+
+  /// By a noise model, which need not be the predictor's: of each of these `time` runs; empty for
+  /// others.
+  std::vector<RunInnovations> innovations(const arm::Arm& arm, const std::vector<bool>& runs,
+                                          const NoiseModel& noise) const;
+
   int flexible_modes() const { return flexible_modes_; }
+  const std::optional<NoiseModel>& noise() const { return noise_; }
 
  private:
   /// Runs that one simulation serves.
@@ -38,11 +64,24 @@ class Predictor {
     response::SimulationOptions options;
     std::vector<std::size_t> runs;
   };
+  using UseSimulation = std::function<void(std::size_t run, const response::ArmSimulator&)>;
+
+  /// With a disturbance of the hub torque where there is `noise`.
+  void for_each_time_run(const arm::Arm& arm, const std::vector<bool>& runs,
+                         const NoiseModel* noise, const UseSimulation& use) const;
+  void predict_other_runs(const arm::Arm& arm, const std::vector<bool>& runs,
+                          Eigen::VectorXd& values) const;
+  RunInnovations filtered(std::size_t run, const response::ArmSimulator& simulation,
+                          const NoiseModel& noise) const;
+  /// Where a run begins in Observations, and how many numbers it has.
+  std::pair<Eigen::Index, Eigen::Index> stretch(std::size_t run) const;
 
   const Experiment* experiment_;
   int flexible_modes_;
   Observations observations_;
+  std::optional<NoiseModel> noise_;
   std::vector<Condition> conditions_;  // of `time` runs
+  std::vector<double> log_determinants_;  // ln |S_0| of each run, with a noise model
 };
 
 /// Flexible modes that move in simulated runs, and the error of leaving the others out.

@@ -5,6 +5,26 @@
 
 namespace flexarm::diagnose {
 
+namespace {
+
+/// With what a stochastic grey-box model leaves to the disturbance, if the problem has one. What
+/// is left is then noise where the innovations are white and the disturbance is negligible.
+void weigh_disturbance(const Problem& problem, const Candidate& candidate,
+                       const Eigen::VectorXd& residuals, const std::vector<bool>& runs,
+                       Misfit& misfit, ResidualTest& test) {
+  if (!problem.predictor().noise() || misfit.count == 0.0) return;
+  misfit.disturbance = problem.disturbance_left(candidate, runs);
+  for (const ObservedChannel& channel : problem.observations().channels) {
+    const auto kind = problem.experiment().runs[channel.run].run.kind;
+    if (!runs[channel.run] || kind == measured::RunKind::time) continue;
+    misfit.disturbance->minus_two_log_likelihood +=
+        residuals.segment(channel.first, channel.count).squaredNorm();
+  }
+  test.level_p_value = misfit.disturbance->relative <= kNegligibleDisturbance ? 1.0 : 0.0;
+}
+
+}  // namespace
+
 Explanation explain(const Problem& problem, Fit fit) {
   Explanation made;
   const Observations& observations = problem.observations();
@@ -16,12 +36,16 @@ Explanation explain(const Problem& problem, Fit fit) {
   made.estimation.nuisance_squares = fit.residuals.tail(nuisances).squaredNorm();
   made.estimation_test =
       test_residuals(observations, problem.experiment(), fit.residuals, problem.estimation_runs());
+  weigh_disturbance(problem, fit.candidate, fit.residuals, problem.estimation_runs(),
+                    made.estimation, made.estimation_test);
   if (const auto held_out = problem.residuals(fit.candidate, problem.validation_runs())) {
     made.held_out = *held_out;
     made.validation =
         misfit(observations, problem.experiment(), *held_out, problem.validation_runs());
     made.validation_test =
         test_residuals(observations, problem.experiment(), *held_out, problem.validation_runs());
+    weigh_disturbance(problem, fit.candidate, *held_out, problem.validation_runs(),
+                      made.validation, made.validation_test);
   }
   made.fit = std::move(fit);
   return made;

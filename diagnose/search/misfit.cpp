@@ -27,6 +27,10 @@ double independent(const Eigen::Ref<const Eigen::VectorXd>& residuals, measured:
 }
 
 double Misfit::excess() const {
+  if (disturbance) {
+    const double ratio = disturbance->relative / kNegligibleDisturbance;
+    return std::max(0.0, ratio * ratio - 1.0) + nuisance_excess();
+  }
   return beyond_chance(sum_of_squares, (1.0 + kNoiseKnown) * count, count) + nuisance_excess();
 }
 
@@ -35,14 +39,20 @@ double Misfit::nuisance_excess() const {
 }
 
 double Misfit::variance() const {
-  return std::max(1.0, sum_of_squares / count);
+  const double mean_square = sum_of_squares / count;
+  return disturbance ? mean_square : std::max(1.0, mean_square);
 }
 
 double Misfit::variance_of_estimates() const {
   return variance() * count / std::max(1.0, independent);
 }
 
+double Misfit::minus_two_log_likelihood() const {
+  return disturbance ? disturbance->minus_two_log_likelihood : sum_of_squares;
+}
+
 double Misfit::unexplained_error() const {
+  if (disturbance) return disturbance->relative;
   return std::sqrt(std::max(0.0, relative_error * relative_error - noise_floor * noise_floor));
 }
 
@@ -91,11 +101,12 @@ double share_taken(const Misfit& before, const Misfit& after) {
 double information_gain(const Misfit& simpler, const Misfit& fuller, int more_parameters) {
   const double n = std::max(2.0, fuller.independent);
   const double displaced = simpler.nuisance_squares - fuller.nuisance_squares;
-  const double squares = simpler.sum_of_squares - fuller.sum_of_squares;
+  const bool has_free_scale = !fuller.disturbance && fuller.variance() > 1.0;
   // With the scale at the noise this is the difference of sums of squares.
-  const double likelihood = fuller.variance() > 1.0
-                                ? n * std::log(simpler.variance() / fuller.variance())
-                                : squares * n / fuller.count;
+  const double likelihood =
+      has_free_scale ? n * std::log(simpler.variance() / fuller.variance())
+                     : (simpler.minus_two_log_likelihood() - fuller.minus_two_log_likelihood()) *
+                           n / fuller.count;
   return likelihood + displaced - more_parameters * std::log(n);
 }
 

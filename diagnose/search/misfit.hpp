@@ -4,9 +4,19 @@
 
 #include <Eigen/Core>
 
+#include <optional>
 #include <vector>
 
 namespace flexarm::diagnose {
+
+/// What a stochastic grey-box model leaves of `time` runs to the disturbance of the hub torque.
+struct DisturbanceLeft {
+  double deviation_N_m = 0.0;  ///< most likely one, the rest of the noise model as it is
+  double relative = 0.0;       ///< to the root mean square of the commanded torque
+  double minus_two_log_likelihood = 0.0;  ///< with that deviation, without n ln 2 pi
+};
+/// A relative deviation below this is nothing beside the torque.
+inline constexpr double kNegligibleDisturbance = 0.01;
 
 /// What residuals say of the runs that they are of.
 struct Misfit {
@@ -25,18 +35,25 @@ struct Misfit {
   double nuisances = 0.0;
   double nuisance_squares = 0.0;
 
+  /// Of a stochastic grey-box model. The residuals are then innovations of a scale that is free,
+  /// and what is left is the disturbance.
+  std::optional<DisturbanceLeft> disturbance = {};
+
   /// Squares beyond those of the noise, whose level is known to `kNoiseKnown` of its power, and
   /// beyond what chance adds to so many of them, `kChance` standard deviations sqrt(2 n); of
-  /// nuisances those beyond chance.
+  /// nuisances those beyond chance. With a disturbance its variance beyond the negligible one, in
+  /// units of that.
   double excess() const;
   double nuisance_excess() const;
   bool is_noise() const { return excess() == 0.0; }
-  /// Mean square of the residuals, never below that of the noise; and what it amounts to in the
+  /// Mean square of the residuals, never below that of the noise where this is known; and what it amounts to in the
   /// variance of an estimate, by the independent numbers among them.
   double variance() const;
   double variance_of_estimates() const;
-  /// What is not noise, relative to the signal.
+  /// What is not noise, relative to the signal; the disturbance relative to the torque.
   double unexplained_error() const;
+  /// Up to a constant: that of the disturbance, else the sum of squares.
+  double minus_two_log_likelihood() const;
 };
 /// Part of its power to which the level of a channel's noise is known.
 inline constexpr double kNoiseKnown = 0.1;
@@ -63,7 +80,8 @@ double share_taken(const Misfit& before, const Misfit& after);
 ///
 ///     n ln(s_simpler^2/s_fuller^2) + d_simpler^2 - d_fuller^2 - k ln n
 ///
-/// d^2 being the squares of nuisances, for k parameters more. Above 10 is decisive (Kass &
+/// d^2 being the squares of nuisances, for k parameters more; with a disturbance the difference of
+/// -2 ln L in the place of the first term, times the part of the numbers that is independent. Above 10 is decisive (Kass &
 /// Raftery 1995).
 double information_gain(const Misfit& simpler, const Misfit& fuller, int more_parameters);
 

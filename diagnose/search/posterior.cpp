@@ -11,7 +11,7 @@ namespace {
 /// Of all runs, with those of the arm's uncertain numbers: what a set leaves, and what is expected
 /// of noise.
 double squares_of(const Explanation& set) {
-  return set.estimation.sum_of_squares + set.validation.sum_of_squares +
+  return set.estimation.minus_two_log_likelihood() + set.validation.minus_two_log_likelihood() +
          set.estimation.nuisance_squares;
 }
 double squares_of_noise(const Explanation& set) {
@@ -25,9 +25,12 @@ Posterior::Posterior(std::vector<const Explanation*> sets, std::size_t hypothese
   const auto best_set = std::ranges::min_element(sets, {}, [](const Explanation* set) {
     return squares_of(*set);
   });
-  double least = squares_of(**best_set) - (*best_set)->estimation.excess() -
-                 (*best_set)->validation.excess();
-  if (std::ranges::none_of(sets, &Explanation::leaves_noise)) {
+  double least = squares_of(**best_set);
+  const bool has_known_noise = !(*best_set)->estimation.disturbance;
+  if (has_known_noise) {
+    least -= (*best_set)->estimation.excess() + (*best_set)->validation.excess();
+  }
+  if (has_known_noise && std::ranges::none_of(sets, &Explanation::leaves_noise)) {
     least = std::min(least, squares_of_noise(**best_set));
   }
   const double cost_of_cause = 2.0 * std::log(static_cast<double>(hypotheses));

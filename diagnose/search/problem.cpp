@@ -1,10 +1,11 @@
 #include "diagnose/search/problem.hpp"
 
-#include "arm/input_error.hpp"
 #include "diagnose/noise_floor.hpp"
+#include "diagnose/predictors/noise_estimate.hpp"
 
 #include <cmath>
 #include <complex>
+#include <stdexcept>
 #include <utility>
 
 namespace flexarm::diagnose {
@@ -43,7 +44,7 @@ Predictor predictor_for(const Experiment& experiment, Observations& observations
   ModeChoice modes{options.flexible_modes.value_or(0)};
   if (!options.flexible_modes) modes = modes_needed(experiment, observations);
   widen(observations, modes.errors);
-  return {experiment, observations, modes.flexible_modes};
+  return {experiment, observations, modes.flexible_modes, options.noise};
 }
 
 }  // namespace
@@ -65,14 +66,14 @@ Problem::Problem(const Experiment& experiment, Observations observations,
 
 Problem Problem::with_modes(int flexible_modes) const {
   Problem made = *this;
-  made.predictor_ = Predictor(*experiment_, observations_, flexible_modes);
+  made.predictor_ = Predictor(*experiment_, observations_, flexible_modes, predictor_.noise());
   return made;
 }
 
 void Problem::replace_torques(Experiment experiment) {
   own_experiment_ = std::make_shared<const Experiment>(std::move(experiment));
   experiment_ = own_experiment_.get();
-  predictor_ = Predictor(*experiment_, observations_, predictor_.flexible_modes());
+  predictor_ = Predictor(*experiment_, observations_, predictor_.flexible_modes(), predictor_.noise());
 }
 
 bool Problem::lower_noise(const Candidate& candidate) {
@@ -95,6 +96,29 @@ bool Problem::lower_noise(const Candidate& candidate) {
   return fell;
 }
 
+bool Problem::estimate_noise(const Candidate& candidate) {
+  const NoiseModel present = *predictor_.noise();
+  const arm::Arm arm = candidate.extend(experiment_->arm);
+  const NoiseEstimator estimator(*experiment_, observations_, predictor_);
+  const double before =
+      estimator.disturbance(arm, estimation_runs_, present).minus_two_log_likelihood;
+  const NoiseEstimate found = estimator.model(arm, estimation_runs_, {present});
+  if (!(found.minus_two_log_likelihood < before - kMoreLikely)) return false;
+  predictor_ =
+      Predictor(*experiment_, observations_, predictor_.flexible_modes(), found.model);
+  return true;
+}
+
+DisturbanceLeft Problem::disturbance_left(const Candidate& candidate,
+                                          const std::vector<bool>& runs) const {
+  const NoiseEstimator estimator(*experiment_, observations_, predictor_);
+  const NoiseEstimate found =
+      estimator.disturbance(candidate.extend(experiment_->arm), runs, *predictor_.noise());
+  const double deviation_N_m = found.model.disturbance_N_m;
+  return {deviation_N_m, deviation_N_m / estimator.torque_rms_N_m(),
+          found.minus_two_log_likelihood};
+}
+
 Candidate Problem::as_filed() const {
   return {.nuisances = std::vector<double>(experiment_->arm.relative_uncertainties.size())};
 }
@@ -108,11 +132,11 @@ std::optional<Eigen::VectorXd> Problem::residuals(const Candidate& candidate,
                                                   const std::vector<bool>& runs) const {
   Eigen::VectorXd made;
   try {
-    made = predictor_(candidate.extend(experiment_->arm), runs);
-  } catch (const arm::InputError&) {
+    made = predictor_.residuals(candidate.extend(experiment_->arm), runs);
+  } catch (const std::runtime_error&) {
+    // An arm that is none, or whose equations no step solves.
     return std::nullopt;
   }
-  made = (observations_.values - made).cwiseQuotient(observations_.deviations);
   for (const ObservedChannel& channel : observations_.channels) {
     auto part = made.segment(channel.first, channel.count);
     if (!runs[channel.run]) {

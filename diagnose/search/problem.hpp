@@ -3,6 +3,7 @@
 #include "diagnose/observations.hpp"
 #include "diagnose/predictors/predictor.hpp"
 #include "diagnose/search/candidate.hpp"
+#include "diagnose/search/misfit.hpp"
 
 #include <Eigen/Core>
 
@@ -18,6 +19,8 @@ struct ProblemOptions {
   /// same to first order near the minimum, and far from it with one minimum where the difference
   /// has one for every resonance that meets another.
   bool logarithmic_responses = false;
+  /// Of `time` runs: stochastic grey box with it, output error without.
+  std::optional<NoiseModel> noise = {};
 };
 
 /// An experiment with all that is needed to hold a candidate against it.
@@ -47,6 +50,14 @@ class Problem {
   /// else nothing is changed.
   bool lower_noise(const Candidate& candidate);
   static constexpr double kLower = 0.05;
+
+  /// With a noise model: takes up the most likely one for a candidate where that is more likely by
+  /// more than `kMoreLikely` of -2 ln L. Returns whether it did.
+  bool estimate_noise(const Candidate& candidate);
+  static constexpr double kMoreLikely = 2.0;
+  /// With a noise model: the disturbance that a candidate leaves in these runs.
+  DisturbanceLeft disturbance_left(const Candidate& candidate,
+                                   const std::vector<bool>& runs) const;
 
   /// The arm as its file describes it, without effects.
   Candidate as_filed() const;

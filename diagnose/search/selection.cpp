@@ -115,7 +115,10 @@ class Search {
   void see_noise(Selection& made) {
     const Explanation* best = &made.chosen;
     if (best->fit.candidate.effects.empty() && !made.singles.empty()) best = &made.singles.front();
-    if (problem_.lower_noise(best->fit.candidate)) refit(made);
+    const bool is_changed = problem_.predictor().noise()
+                                ? problem_.estimate_noise(best->fit.candidate)
+                                : problem_.lower_noise(best->fit.candidate);
+    if (is_changed) refit(made);
   }
 
   /// All that was fitted to all data once more, from where it is, with the problem as it is now.
@@ -143,7 +146,7 @@ class Search {
   /// Where a little is left and the timing of the torque leaves noise of it: the torques as that
   /// timing has them, and what has been fitted once more.
   void correct_timing(Selection& made) {
-    if (made.timing || made.chosen.leaves_noise() ||
+    if (problem_.predictor().noise() || made.timing || made.chosen.leaves_noise() ||
         made.chosen.estimation.unexplained_error() > options_.largest_timing_error) {
       return;
     }

@@ -2,13 +2,29 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
+#include <string_view>
 
 namespace flexarm::diagnose {
+
+/// How `time` runs are predicted (predictors/predictor.hpp).
+enum class PredictorKind { output_error, grey_box };
+inline constexpr std::array kPredictors = {PredictorKind::output_error, PredictorKind::grey_box};
+
+/// "grey_box".
+constexpr std::string_view to_string(PredictorKind kind) {
+  return kind == PredictorKind::output_error ? "output_error" : "grey_box";
+}
 
 /// Every threshold of the search, each with what it enforces.
 struct SelectionOptions {
   /// Causes named <= this.
   int most_causes = 3;
+  /// Chosen by evidence (predictor_choice.hpp) unless given.
+  std::optional<PredictorKind> predictor = {};
+  /// The grey box is taken where what output error leaves is a disturbance of the hub torque >=
+  /// this part of the commanded torque's root mean square.
+  double least_disturbance = 0.03;
 
   // An effect is named beside others only where all of these hold (admission.hpp).
   /// Delta BIC (misfit.hpp) without it >= this.

@@ -48,6 +48,19 @@ Json formulations_json(const diagnose::FormulationCheck& check) {
           {"quantity", check.quantity}};
 }
 
+Json prediction_json(const diagnose::Diagnosis& diagnosis) {
+  Json json = {{"predictor", to_string(diagnosis.predictor)},
+               {"reason", diagnosis.predictor_reason},
+               {"disturbance", nullptr}};
+  if (const auto& disturbance = diagnosis.disturbance) {
+    json["disturbance"] = {{"before", disturbance->before_N_m},
+                           {"after", disturbance->after_N_m},
+                           {"torque_rms", disturbance->torque_rms_N_m},
+                           {"correlation_time", disturbance->correlation_time_s}};
+  }
+  return json;
+}
+
 }  // namespace
 
 Json diagnosis_json(const diagnose::Diagnosis& diagnosis, const std::string& extended_arm) {
@@ -84,6 +97,7 @@ Json diagnosis_json(const diagnose::Diagnosis& diagnosis, const std::string& ext
           {"symptoms", statements_json(symptoms)},
           {"causes", causes},
           {"something_else", diagnosis.something_else},
+          {"prediction", prediction_json(diagnosis)},
           {"gain", gain},
           {"residual_test",
            {{"estimation", test_json(diagnosis.estimation_test)},

@@ -94,8 +94,9 @@ std::string verdict_text(const diagnose::Diagnosis& diagnosis) {
   const double before = 100.0 * diagnosis.estimation.before;
   const double after = 100.0 * diagnosis.estimation.after;
   const double noise = 100.0 * diagnosis.estimation.noise_floor;
-  const std::string fall = fmt::format(
-      "NRMSE falls from {:.3g} to {:.3g} %; the noise floor is {:.3g} %.", before, after, noise);
+  const std::string fall =
+      fmt::format("NRMSE {} from {:.3g} to {:.3g} %; the noise floor is {:.3g} %.",
+                  after <= before ? "falls" : "rises", before, after, noise);
   switch (diagnosis.verdict) {
     case diagnose::Verdict::adequate:
       return fmt::format(
@@ -114,6 +115,17 @@ std::string verdict_text(const diagnose::Diagnosis& diagnosis) {
           kLeastProbability, after, noise, not_noise(diagnosis));
   }
   return "";
+}
+
+std::string predictor_text(const diagnose::Diagnosis& diagnosis) {
+  if (!diagnosis.disturbance) return "";
+  const diagnose::DisturbanceGain& left = *diagnosis.disturbance;
+  return fmt::format(
+      "Predictor: stochastic grey box ({}). The standard deviation of the unrecorded hub torque is "
+      "{:.3g} N m with the arm file and {:.3g} N m with the extended arm; the commanded torque is "
+      "{:.3g} N m rms. Its correlation time is {:.2g} s. NRMSE below is that of a simulation.",
+      diagnosis.predictor_reason, left.before_N_m, left.after_N_m, left.torque_rms_N_m,
+      left.correlation_time_s);
 }
 
 Table cause_table(const diagnose::Diagnosis& diagnosis) {

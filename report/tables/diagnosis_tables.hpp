@@ -10,6 +10,10 @@ namespace flexarm::report {
 /// The verdict in a sentence or two, as an engineer would say it.
 std::string verdict_text(const diagnose::Diagnosis& diagnosis);
 
+/// Why the effects were named by a stochastic grey box, and the disturbance of the hub torque
+/// before and after; empty by output error.
+std::string predictor_text(const diagnose::Diagnosis& diagnosis);
+
 /// The causes, a row a parameter, with standard errors and shares.
 Table cause_table(const diagnose::Diagnosis& diagnosis);
 

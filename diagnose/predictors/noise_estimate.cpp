@@ -1,0 +1,163 @@
+#include "diagnose/predictors/noise_estimate.hpp"
+
+#include "arm/input_error.hpp"
+
+#include <boost/math/tools/minima.hpp>
+#include <nlopt.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+namespace flexarm::diagnose {
+
+namespace {
+
+/// Of -2 ln L: a difference that no decision depends on.
+constexpr double kNearEnough = 0.2;
+constexpr int kMostEvaluations = 200;
+/// Bits of the logarithm of the deviation, over the width of its bounds: 0.4 %.
+constexpr int kBits = 12;
+constexpr std::uintmax_t kMostBrentSteps = 30;
+/// Natural logarithm of a first step.
+constexpr double kFirstStep = 1.0;
+/// Bounds: of the deviation over the torque's root mean square, of the correlation time over the
+/// sampling period (least) and over the longest run (most), of reading factors.
+constexpr double kLeastDisturbance = 1e-6;
+constexpr double kMostDisturbance = 100.0;
+constexpr double kLeastCorrelation = 1.0 / 3.0;
+constexpr double kMostReadingFactor = 1e6;
+constexpr double kStartDisturbance = 0.1;
+/// Stands for -2 ln L where there is none.
+constexpr double kImpossible = std::numeric_limits<double>::max();
+
+}  // namespace
+
+NoiseEstimator::NoiseEstimator(const Experiment& experiment, const Observations& observations,
+                               const Predictor& predictor, std::function<void()> go_on)
+    : predictor_(&predictor), go_on_(std::move(go_on)) {
+  double squares = 0.0;
+  double samples = 0.0;
+  double longest_s = 0.0;
+  for (const auto& run : experiment.runs) {
+    const auto* record = std::get_if<measured::TimeRecord>(&run.data);
+    if (record == nullptr) continue;
+    for (const double torque : record->torque_N_m) squares += torque * torque;
+    const auto n = static_cast<double>(record->torque_N_m.size());
+    const double period_s = measured::sampling_period_s(*record);
+    samples += n;
+    period_s_ = period_s_ > 0.0 ? std::min(period_s_, period_s) : period_s;
+    longest_s = std::max(longest_s, n * period_s);
+  }
+  torque_rms_N_m_ = std::sqrt(squares / samples);
+  lower_ = {std::log(kLeastDisturbance * torque_rms_N_m_),
+            std::log(kLeastCorrelation * period_s_)};
+  upper_ = {std::log(kMostDisturbance * torque_rms_N_m_), std::log(longest_s)};
+  for (const ObservedChannel& channel : observations.channels) {
+    const bool is_time = experiment.runs[channel.run].run.kind == measured::RunKind::time;
+    if (!is_time || std::ranges::find(sensors_, channel.sensor) != sensors_.end()) continue;
+    sensors_.push_back(channel.sensor);
+    lower_.push_back(0.0);
+    upper_.push_back(std::log(kMostReadingFactor));
+  }
+}
+
+double NoiseEstimator::minus_two_log_likelihood(const arm::Arm& arm, const std::vector<bool>& runs,
+                                                const NoiseModel& model) const {
+  if (go_on_) go_on_();
+  double sum = 0.0;
+  try {
+    for (const RunInnovations& run : predictor_->innovations(arm, runs, model)) {
+      sum += run.standardised.squaredNorm() + run.log_determinant;
+    }
+  } catch (const std::runtime_error&) {
+    // An arm that is none, or whose equations no step solves.
+    return kImpossible;
+  }
+  return std::isfinite(sum) ? sum : kImpossible;
+}
+
+NoiseModel NoiseEstimator::model_at(const std::vector<double>& logarithms) const {
+  NoiseModel made{std::exp(logarithms[0]), std::exp(logarithms[1])};
+  for (std::size_t j = 0; j < sensors_.size(); ++j) {
+    made.reading_factors[sensors_[j]] = std::exp(logarithms[2 + j]);
+  }
+  return made;
+}
+
+std::vector<double> NoiseEstimator::place_of(const NoiseModel& model) const {
+  std::vector<double> place = {std::log(model.disturbance_N_m), std::log(model.correlation_time_s)};
+  for (const std::string& sensor : sensors_) {
+    place.push_back(std::log(model.reading_factor(sensor)));
+  }
+  for (std::size_t i = 0; i < place.size(); ++i) {
+    place[i] = std::clamp(place[i], lower_[i], upper_[i]);
+  }
+  return place;
+}
+
+NoiseEstimate NoiseEstimator::model(const arm::Arm& arm, const std::vector<bool>& runs,
+                                    const std::vector<NoiseModel>& starts) const {
+  struct Task {
+    const NoiseEstimator& estimator;
+    const arm::Arm& arm;
+    const std::vector<bool>& runs;
+    NoiseEstimate best;
+  } task{*this, arm, runs, {}};
+  task.best.minus_two_log_likelihood = std::numeric_limits<double>::infinity();
+  const nlopt::vfunc cost = [](const std::vector<double>& x, std::vector<double>&, void* data) {
+    Task& own = *static_cast<Task*>(data);
+    const NoiseModel model = own.estimator.model_at(x);
+    const double value = own.estimator.minus_two_log_likelihood(own.arm, own.runs, model);
+    ++own.best.evaluations;
+    if (value < own.best.minus_two_log_likelihood) {
+      own.best.minus_two_log_likelihood = value;
+      own.best.model = model;
+    }
+    return value;
+  };
+  std::vector<NoiseModel> begun = starts;
+  if (begun.empty()) {
+    for (const double samples : kCorrelationStarts) {
+      begun.push_back({kStartDisturbance * torque_rms_N_m_, samples * period_s_});
+    }
+  }
+  for (const NoiseModel& start : begun) {
+    nlopt::opt search(nlopt::LN_SBPLX, static_cast<unsigned>(lower_.size()));
+    search.set_lower_bounds(lower_);
+    search.set_upper_bounds(upper_);
+    search.set_min_objective(cost, &task);
+    search.set_ftol_abs(kNearEnough);
+    search.set_initial_step(kFirstStep);
+    search.set_maxeval(kMostEvaluations);
+    std::vector<double> place = place_of(start);
+    double least = 0.0;
+    search.optimize(place, least);
+  }
+  if (!(task.best.minus_two_log_likelihood < kImpossible)) {
+    throw arm::InputError("Kalman filter: the runs cannot be filtered with this arm");
+  }
+  return task.best;
+}
+
+NoiseEstimate NoiseEstimator::disturbance(const arm::Arm& arm, const std::vector<bool>& runs,
+                                          const NoiseModel& shared) const {
+  NoiseEstimate made{.model = shared};
+  const auto cost = [&](double logarithm) {
+    NoiseModel model = shared;
+    model.disturbance_N_m = std::exp(logarithm);
+    ++made.evaluations;
+    return minus_two_log_likelihood(arm, runs, model);
+  };
+  std::uintmax_t steps = kMostBrentSteps;
+  const auto [place, least] =
+      boost::math::tools::brent_find_minima(cost, lower_[0], upper_[0], kBits, steps);
+  made.model.disturbance_N_m = std::exp(place);
+  made.minus_two_log_likelihood = least;
+  return made;
+}
+
+}  // namespace flexarm::diagnose

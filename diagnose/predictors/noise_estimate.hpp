@@ -1,0 +1,55 @@
+#pragma once
+
+#include "diagnose/predictors/predictor.hpp"
+
+#include <functional>
+#include <vector>
+
+namespace flexarm::diagnose {
+
+/// A noise model with what it was found by.
+struct NoiseEstimate {
+  NoiseModel model;
+  double minus_two_log_likelihood = 0.0;  ///< of the runs' innovations, without n ln 2 pi
+  int evaluations = 0;                    ///< of that; 0: not run
+};
+
+/// Estimates noise models of `time` runs for an arm by maximum likelihood.
+class NoiseEstimator {
+ public:
+  /// `go_on` is called before each evaluation of the likelihood, and may throw to cancel. The
+  /// references must outlive the object.
+  NoiseEstimator(const Experiment& experiment, const Observations& observations,
+                 const Predictor& predictor, std::function<void()> go_on = {});
+
+  /// Over the disturbance's deviation and correlation time, and one reading factor a sensor, by
+  /// Subplex [Rowan1990] from `starts` or, without any, from `kCorrelationStarts`. Throws
+  /// InputError for an arm that cannot be computed.
+  NoiseEstimate model(const arm::Arm& arm, const std::vector<bool>& runs,
+                      const std::vector<NoiseModel>& starts = {}) const;
+  /// Over the disturbance's deviation alone, the rest as in `shared`, by Brent's method.
+  NoiseEstimate disturbance(const arm::Arm& arm, const std::vector<bool>& runs,
+                            const NoiseModel& shared) const;
+
+  /// Root mean square of the commanded torque of all `time` runs.
+  double torque_rms_N_m() const { return torque_rms_N_m_; }
+
+ private:
+  double minus_two_log_likelihood(const arm::Arm& arm, const std::vector<bool>& runs,
+                                  const NoiseModel& model) const;
+  NoiseModel model_at(const std::vector<double>& logarithms) const;
+  std::vector<double> place_of(const NoiseModel& model) const;
+
+  const Predictor* predictor_;
+  std::function<void()> go_on_;
+  double torque_rms_N_m_ = 0.0;
+  double period_s_ = 0.0;
+  std::vector<std::string> sensors_;
+  // Bounds of the logarithms: deviation, correlation time, factors of the sensors.
+  std::vector<double> lower_;
+  std::vector<double> upper_;
+};
+/// Correlation times to start from, in sampling periods.
+inline constexpr double kCorrelationStarts[] = {2.0, 50.0, 1000.0};
+
+}  // namespace flexarm::diagnose

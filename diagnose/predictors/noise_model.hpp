@@ -1,0 +1,23 @@
+#pragma once
+
+#include <map>
+#include <string>
+
+namespace flexarm::diagnose {
+
+/// What a stochastic grey-box model adds to an arm in `time` runs: a torque on the hub that nobody
+/// recorded (response::HubDisturbance), and what the sensors show beside the arm's motion.
+struct NoiseModel {
+  double disturbance_N_m = 0.0;     ///< stationary standard deviation, above 0
+  double correlation_time_s = 0.0;  ///< above 0
+  /// Standard deviation of a sensor's readings over that of its noise (Observations), 1 or more;
+  /// 1 where none is given.
+  std::map<std::string, double> reading_factors = {};
+
+  double reading_factor(const std::string& sensor) const {
+    const auto found = reading_factors.find(sensor);
+    return found == reading_factors.end() ? 1.0 : found->second;
+  }
+};
+
+}  // namespace flexarm::diagnose

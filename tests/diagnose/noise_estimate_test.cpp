@@ -1,0 +1,99 @@
+// Noise models of runs in which an unrecorded torque acts on the hub.
+#include "diagnose/predictors/noise_estimate.hpp"
+#include "diagnose/search/predictor_choice.hpp"
+#include "effects/registry/vocabulary.hpp"
+#include "response/time/random_numbers.hpp"
+#include "tests/diagnose/simulated_experiments.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace flexarm::diagnose {
+namespace {
+
+constexpr double kDisturbance_N_m = 0.01;
+constexpr double kCorrelation_s = 0.05;
+
+/// Half of the usual time: the grey box costs some ten times a simulation.
+constexpr SimulatedRuns kShortRuns{.duration_s = 2.0};
+
+/// The recorded torque lacks a Gauss-Markov part of what acted.
+Experiment with_unrecorded_torque(Experiment experiment, std::uint64_t seed) {
+  response::RandomNumbers random(seed);
+  for (auto& run : experiment.runs) {
+    auto& record = std::get<measured::TimeRecord>(run.data);
+    const double kept = std::exp(-measured::sampling_period_s(record) / kCorrelation_s);
+    double torque_N_m = kDisturbance_N_m * random.normal();
+    for (double& recorded : record.torque_N_m) {
+      recorded -= torque_N_m;
+      torque_N_m = kept * torque_N_m +
+                   kDisturbance_N_m * std::sqrt(1.0 - kept * kept) * random.normal();
+    }
+  }
+  return experiment;
+}
+
+std::vector<std::string> named_by(const Selection& selection) {
+  std::vector<std::string> names;
+  for (const Hypothesis& effect : selection.chosen.fit.candidate.effects) {
+    names.push_back(effect.effect);
+  }
+  return names;
+}
+
+TEST(NoiseEstimate, FindsDeviationAndCorrelationTimeOfAnUnrecordedTorque) {
+  const Experiment experiment = with_unrecorded_torque(simulated_experiment({}), 5);
+  const Problem problem(experiment);
+  const NoiseEstimator estimator(experiment, problem.observations(), problem.predictor());
+  const NoiseEstimate found =
+      estimator.model(trial_arm(), std::vector<bool>(experiment.runs.size(), true));
+  // Of some 16 s, 320 correlation times: 3 standard errors are 15 and 30 %.
+  EXPECT_NEAR(found.model.disturbance_N_m, kDisturbance_N_m, 0.15 * kDisturbance_N_m);
+  EXPECT_NEAR(found.model.correlation_time_s, kCorrelation_s, 0.35 * kCorrelation_s);
+  for (const auto& [sensor, factor] : found.model.reading_factors) {
+    EXPECT_LE(factor, 1.2) << sensor;
+  }
+}
+
+TEST(NoiseEstimate, OfARunWithoutDisturbanceIsNegligible) {
+  const Experiment experiment = simulated_experiment({}, kShortRuns);
+  const Problem problem(experiment);
+  const NoiseEstimator estimator(experiment, problem.observations(), problem.predictor());
+  const NoiseEstimate found =
+      estimator.model(trial_arm(), std::vector<bool>(experiment.runs.size(), true));
+  EXPECT_LE(found.model.disturbance_N_m, kNegligibleDisturbance * estimator.torque_rms_N_m());
+}
+
+TEST(PredictorChoice, OutputErrorWhereItLeavesNoise) {
+  const Experiment experiment =
+      simulated_experiment({effects::named("coulomb_friction", {{"torque", 0.01}})});
+  const auto made = select_by_evidence(
+      experiment, named(experiment, {"coulomb_friction", "hub_spring"}), {}, {});
+  EXPECT_EQ(made.predictor, PredictorKind::output_error);
+  EXPECT_THAT(named_by(made.selection), testing::ElementsAre("coulomb_friction"));
+}
+
+TEST(PredictorChoice, GreyBoxNamesFrictionUnderAnUnrecordedTorque) {
+  const Experiment experiment = with_unrecorded_torque(
+      simulated_experiment({effects::named("coulomb_friction", {{"torque", 0.02}})}, kShortRuns), 6);
+  const auto made = select_by_evidence(
+      experiment, named(experiment, {"coulomb_friction", "hub_spring", "payload_mass"}), {}, {});
+  EXPECT_EQ(made.predictor, PredictorKind::grey_box);
+  ASSERT_THAT(named_by(made.selection), testing::ElementsAre("coulomb_friction"));
+  EXPECT_NEAR(made.selection.chosen.fit.candidate.values.front(), 0.02, 0.002);
+}
+
+TEST(PredictorChoice, GreyBoxNamesNothingWhereOnlyAnUnrecordedTorqueIsHidden) {
+  const Experiment experiment = with_unrecorded_torque(simulated_experiment({}, kShortRuns), 8);
+  const auto made = select_by_evidence(
+      experiment, named(experiment, {"coulomb_friction", "hub_spring", "payload_mass"}), {}, {});
+  EXPECT_EQ(made.predictor, PredictorKind::grey_box);
+  EXPECT_THAT(named_by(made.selection), testing::IsEmpty());
+}
+
+}  // namespace
+}  // namespace flexarm::diagnose

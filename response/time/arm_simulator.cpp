@@ -288,32 +288,29 @@ SampledSystem ArmSimulator::sampled(double disturbance_N_m,
 FilteredRun ArmSimulator::filtered(std::span<const double> torque_N_m,
                                    const Eigen::MatrixXd& measured,
                                    const FilterGains& gains) const {
-  require_simulable(parts_, torque_N_m, options_);
-  const TorquePath path(parts_.actuator, torque_N_m, options_.sample_time_s, options_.hold);
+  Commands commands(*this, torque_N_m);
   TimeStepper stepper(plan_, nullptr);
   SensorReadings readings(arm_, parts_, sensors_);
   FilteredRun made{.innovations = {measured.rows(), measured.cols()}};
   Eigen::VectorXd state;
   Eigen::VectorXd innovation;
-  step_through(stepper, path, options_.sample_time_s, torque_N_m.size(),
-               [&](std::size_t k, double time_s, double actuator_N_m) {
-                 const auto row = static_cast<Index>(k);
-                 innovation = measured.row(row).transpose() - readings.read(stepper, actuator_N_m);
-                 innovation = innovation.array().isNaN().select(0.0, innovation);
-                 state = stepper.state();
-                 state.noalias() += gains.at(k).gain * innovation;
-                 if (!state.allFinite()) throw too_large("filtered state", time_s);
-                 stepper.put(state, stepper.motion() == HubMotion::held);
-                 stepper.take_up(actuator_N_m, time_s);
-                 made.innovations.row(row) = innovation.transpose();
-                 made.disturbance_N_m.push_back(
-                     arm_.disturbance ? arm_.disturbance_N_m * state(*arm_.disturbance) : 0.0);
-                 made.hub_angle_rad.push_back(stepper.hub_angle());
-                 const bool is_held = stepper.motion() == HubMotion::held;
-                 made.hub_velocity_rad_per_s.push_back(
-                     is_held ? 0.0 : arm_.hub_velocity(stepper.state()));
-                 return true;
-               });
+  commands.step_through(stepper, [&](std::size_t k, double time_s, double actuator_N_m) {
+    const auto row = static_cast<Index>(k);
+    innovation = measured.row(row).transpose() - readings.read(stepper, actuator_N_m);
+    innovation = innovation.array().isNaN().select(0.0, innovation);
+    state = stepper.state();
+    state.noalias() += gains.at(k).gain * innovation;
+    if (!state.allFinite()) throw too_large("filtered state", time_s);
+    stepper.put(state, stepper.motion() == HubMotion::held);
+    stepper.take_up(actuator_N_m, time_s);
+    made.innovations.row(row) = innovation.transpose();
+    made.disturbance_N_m.push_back(
+        arm_.disturbance ? arm_.disturbance_N_m * state(*arm_.disturbance) : 0.0);
+    made.hub_angle_rad.push_back(stepper.hub_angle());
+    const bool is_held = stepper.motion() == HubMotion::held;
+    made.hub_velocity_rad_per_s.push_back(is_held ? 0.0 : arm_.hub_velocity(stepper.state()));
+    return true;
+  });
   return made;
 }
 

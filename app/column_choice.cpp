@@ -4,7 +4,10 @@
 #include "arm/input_error.hpp"
 #include "arm/nearest_name.hpp"
 #include "arm/number.hpp"
+#include "measured/files/column_expression.hpp"
+#include "measured/files/column_lookup.hpp"
 #include "measured/files/column_name.hpp"
+#include "measured/files/delimited_line.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -24,11 +27,6 @@ using arm::InputError;
 using measured::ColumnLabel;
 using measured::ColumnMapping;
 
-const ColumnLabel* find(std::span<const ColumnLabel> columns, std::string_view name) {
-  const auto found = std::ranges::find(columns, name, &ColumnLabel::name);
-  return found == columns.end() ? nullptr : &*found;
-}
-
 /// What stands in front of the `count`-th colon from the right, and what is behind it.
 std::optional<std::pair<std::string_view, std::string_view>> split_at_colon(std::string_view text,
                                                                             int count) {
@@ -41,46 +39,69 @@ std::optional<std::pair<std::string_view, std::string_view>> split_at_colon(std:
   return std::pair{text.substr(0, at), text.substr(at + 1)};
 }
 
-/// Throws for a column that is not there; "Moment" may be meant as "Moment (N m)".
-[[noreturn]] void refuse(std::string_view name, std::span<const ColumnLabel> columns) {
+std::vector<std::string> names_of(std::span<const ColumnLabel> columns) {
   std::vector<std::string> names;
-  std::vector<std::string> bases;
-  for (const auto& column : columns) {
-    names.push_back(column.name);
-    bases.push_back(measured::split_column_name(column.name).base);
-  }
-  std::string meant = arm::did_you_mean(name, names);
-  if (const auto base = arm::nearest_name(name, bases); meant.empty() && base) {
-    const auto place = std::ranges::find(bases, *base) - bases.begin();
-    meant = fmt::format(" (did you mean {}?)", names[static_cast<std::size_t>(place)]);
-  }
-  throw InputError(fmt::format("column {}: not in the file{}; it has {}", arm::shown(name), meant,
-                               arm::shown(fmt::format("{}", fmt::join(names, ", ")), 400)));
+  for (const auto& column : columns) names.push_back(column.name);
+  return names;
 }
 
 /// NAME, NAME:UNIT or NAME:UNIT:SCALE; a name may hold colons, so that the file tells which it is.
 ColumnMapping read_mapping(const std::string& quantity, std::string_view text,
                            std::span<const ColumnLabel> columns) {
   ColumnMapping mapping;
-  const ColumnLabel* label = find(columns, text);
+  const std::vector<std::string> names = names_of(columns);
+  auto place = measured::column_place(names, text);
+  std::string_view name = text;
   std::string_view unit;
   std::string_view scale;
-  for (int colons = 1; label == nullptr && colons <= 2; ++colons) {
+  for (int colons = 1; !place && colons <= 2; ++colons) {
     const auto parts = split_at_colon(text, colons);
     if (!parts) break;
-    label = find(columns, parts->first);
+    name = parts->first;
+    place = measured::column_place(names, name);
     unit = parts->second.substr(0, parts->second.find(':'));
     scale = colons == 1 ? std::string_view() : parts->second.substr(unit.size() + 1);
   }
-  if (label == nullptr) {
-    refuse(text.substr(0, text.find(':')), columns);
-  }
-  mapping.name = label->name;
-  mapping.unit = unit.empty() ? label->unit : measured::canonical_unit(unit);
+  if (!place) throw measured::unknown_column(names, text.substr(0, text.find(':')));
+  const ColumnLabel& label = columns[*place];
+  // A name that several columns have is no place.
+  mapping.name = std::ranges::count(names, label.name) == 1 ? label.name : std::string(name);
+  mapping.unit = unit.empty() ? label.unit : measured::canonical_unit(unit);
   if (mapping.unit.empty()) mapping.unit = std::string(measured::si_unit_of(quantity));
-  if (!scale.empty()) mapping.scale = read_scale(scale);
+  mapping.scale =
+      scale.empty() ? measured::scale_of_unit(quantity, mapping.unit) : read_scale(scale);
   measured::require_valid(quantity, mapping, !scale.empty());
   return mapping;
+}
+
+/// QUANTITY or QUANTITY [UNIT] in front of the first =, the expression behind it.
+std::pair<std::string, ColumnMapping> read_computed(std::string_view text,
+                                                    std::span<const ColumnLabel> columns) {
+  const auto equals = text.find('=');
+  if (equals == std::string_view::npos) {
+    throw InputError("must be QUANTITY=EXPRESSION or QUANTITY [UNIT]=EXPRESSION");
+  }
+  std::string_view front = measured::trimmed(text.substr(0, equals));
+  ColumnMapping mapping;
+  if (const auto open = front.find('['); open != std::string_view::npos && front.ends_with(']')) {
+    mapping.unit = measured::canonical_unit(front.substr(open + 1, front.size() - open - 2));
+    front = measured::trimmed(front.substr(0, open));
+  }
+  std::string quantity = measured::standard_name(front);
+  if (mapping.unit.empty()) mapping.unit = std::string(measured::si_unit_of(quantity));
+  mapping.expression = std::string(measured::trimmed(text.substr(equals + 1)));
+  if (mapping.expression.empty()) throw InputError("no expression behind =");
+  measured::require_valid(quantity, mapping, false);
+  mapping.scale = measured::scale_of_unit(quantity, mapping.unit);
+  measured::columns_in(mapping.expression, names_of(columns));
+  return {std::move(quantity), std::move(mapping)};
+}
+
+void add_mapping(measured::ColumnMappings& mappings, const std::string& quantity,
+                 const ColumnMapping& mapping) {
+  if (!mappings.emplace(quantity, mapping).second) {
+    throw InputError(fmt::format("{} given twice", quantity));
+  }
 }
 
 }  // namespace
@@ -116,16 +137,38 @@ measured::ColumnMappings ColumnChoice::mappings(std::span<const ColumnLabel> col
       }
       const std::string quantity =
           measured::standard_name(std::string_view(text).substr(0, equals));
-      const auto mapping =
-          read_mapping(quantity, std::string_view(text).substr(equals + 1), columns);
-      if (!mappings.emplace(quantity, mapping).second) {
-        throw InputError(fmt::format("{} given twice", quantity));
-      }
+      add_mapping(mappings, quantity,
+                  read_mapping(quantity, std::string_view(text).substr(equals + 1), columns));
     } catch (const InputError& error) {
       throw InputError(fmt::format("--column {}: {}", arm::shown(text), error.what()));
     }
   }
+  const auto add_computed = [&](const char* option, const std::string& text) {
+    try {
+      const auto [quantity, mapping] = read_computed(text, columns);
+      add_mapping(mappings, quantity, mapping);
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("{}: {}", option, error.what()));
+    }
+  };
+  for (const auto& text : computed) {
+    add_computed(fmt::format("--compute {}", arm::shown(text, 200)).c_str(), text);
+  }
+  if (!torque.empty()) add_computed("--torque", "torque=" + torque);
   return mappings;
+}
+
+void ColumnChoice::set_time_unit(measured::ColumnMappings& mappings) const {
+  const auto time = mappings.find("time");
+  if (time_unit.empty() || time == mappings.end()) return;
+  if (measured::is_unit_of("time", time_unit)) {
+    time->second.unit = measured::canonical_unit(time_unit);
+    time->second.scale = measured::scale_of_unit("time", time->second.unit);
+    return;
+  }
+  const auto names = measured::unit_names("time");
+  throw InputError(fmt::format("--time-unit {}: must be {}{}", arm::shown(time_unit),
+                               fmt::join(names, " or "), arm::did_you_mean(time_unit, names)));
 }
 
 void add_column_choice(CLI::App& parser, ColumnChoice& choice) {
@@ -133,9 +176,26 @@ void add_column_choice(CLI::App& parser, ColumnChoice& choice) {
       .add_option("--column", choice.typed,
                   "QUANTITY=NAME:UNIT:SCALE: column NAME is time, torque or a sensor, in UNIT "
                   "(default: that of the file) times SCALE, e.g. 8.925 or 0.202*pi/180, a "
-                  "conversion factor to SI. Repeat for more columns")
+                  "conversion factor to SI. NAME can be #3, the third column. Repeat for more "
+                  "columns")
       ->check(not_empty())
       ->allow_extra_args(false);
+  parser
+      .add_option("--compute", choice.computed,
+                  "QUANTITY [UNIT]=EXPRESSION: a quantity computed from columns, e.g. "
+                  "\"hub_velocity [deg/s]=6*[Speed (rpm)]\"; UNIT of the result, default SI; "
+                  "names that are no plain words in brackets. Repeat for more")
+      ->check(not_empty())
+      ->allow_extra_args(false);
+  parser
+      .add_option("--torque", choice.torque,
+                  "Expression for the torque [N m], e.g. \"0.1574*(V - 0.518*omega)\"; as "
+                  "--compute torque=EXPRESSION")
+      ->check(not_empty());
+  parser
+      .add_option("--time-unit", choice.time_unit,
+                  "Unit of the time column instead of that of the file: s, ms, us, ...")
+      ->check(not_empty());
 }
 
 }  // namespace flexarm::app

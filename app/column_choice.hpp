@@ -13,16 +13,26 @@ class App;
 
 namespace flexarm::app {
 
-/// Which columns of a foreign file are what, as typed: QUANTITY=NAME:UNIT:SCALE.
+/// Which columns of a foreign file are what, as typed.
 struct ColumnChoice {
-  std::vector<std::string> typed;
+  std::vector<std::string> typed;     ///< QUANTITY=NAME:UNIT:SCALE
+  std::vector<std::string> computed;  ///< QUANTITY [UNIT]=EXPRESSION
+  std::string torque;                 ///< an expression, in N m
+  std::string time_unit;              ///< in place of that of the file
+
+  bool empty() const {
+    return typed.empty() && computed.empty() && torque.empty() && time_unit.empty();
+  }
 
   /// The mappings; what is not typed of a unit is the file's, or SI. Throws InputError for what
   /// cannot be read, and for columns that are not there (with the one that was probably meant).
   measured::ColumnMappings mappings(std::span<const measured::ColumnLabel> columns) const;
+
+  /// Puts `time_unit` into the mapping of the time. Throws InputError for a unit of no time.
+  void set_time_unit(measured::ColumnMappings& mappings) const;
 };
 
-/// Adds `--column` to a command.
+/// Adds `--column`, `--compute`, `--torque` and `--time-unit` to a command.
 void add_column_choice(CLI::App& parser, ColumnChoice& choice);
 
 /// A product of numbers and of pi, as in "0.202*pi/180". Throws InputError for any other text.

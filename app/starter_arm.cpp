@@ -74,6 +74,27 @@ arm::Arm starter_arm() {
   return starter;
 }
 
+std::string unfilled_text() {
+  const arm::Arm example = example_values();
+  std::string out =
+      "# Arm file for flexarm, SI units. NOTHING IS FILLED IN YET: no number of the arm is known.\n"
+      "# Remove the \"#\" in front of each known key and write its value. Required: beam.length,\n"
+      "# hub.inertia; youngs_modulus, width and thickness, or flexural_rigidity; density, width\n"
+      "# and thickness, or linear_density. Every other key is optional. The last column has\n"
+      "# examples of another arm. Until the required keys are given, the file is refused.\n";
+  for (const auto& table : arm::arm_tables()) {
+    out += fmt::format("\n[{}]\n", table);
+    for (const auto& key : arm::arm_keys()) {
+      if (key.table != table) continue;
+      fmt::format_to(std::back_inserter(out), "{:<28} # [{}] {}{}; e.g. {}\n",
+                     fmt::format("# {} =", key.leaf), key.unit, key.meaning,
+                     key.required ? "; required" : "",
+                     measured::toml_number(*key.get(example)));
+    }
+  }
+  return out + effects_text();
+}
+
 std::string starter_text() {
   const arm::Arm starter = starter_arm();
   const arm::Arm example = example_values();

@@ -13,4 +13,8 @@ arm::Arm starter_arm();
 /// An arm file of it that explains every key and effect.
 std::string starter_text();
 
+/// An arm file that explains every key and effect and gives none: reading it fails with the first
+/// required key, so that no command takes another arm for the one that was measured.
+std::string unfilled_text();
+
 }  // namespace flexarm::app

@@ -8,6 +8,7 @@ find_package(CLI11 REQUIRED)
 find_package(TBB REQUIRED)
 find_package(ZLIB REQUIRED)
 find_package(NLopt REQUIRED)
+find_package(muparser 2.3 REQUIRED)
 
 # Header-only: used as SYSTEM so that its warnings are not ours.
 find_path(SPECTRA_INCLUDE_DIR Spectra/SymGEigsShiftSolver.h REQUIRED)

@@ -17,11 +17,8 @@ struct ClockCheck {
   std::size_t count = 0;
 };
 
-/// Finds times that repeat or go back, gaps, and jitter. `times_s` holds two finite times or more.
-///
-/// A gap is a step that the times do not make up for: with e_k = t_k/period - k, the medians of e
-/// over the eight samples before and after it differ by more than 0.7 of a period. A time that is
-/// merely late leaves the medians where they are.
+/// Finds times that repeat or go back, gaps (`clock_steps`), and jitter. `times_s` holds two finite
+/// times or more.
 ClockCheck check_clock(std::span<const double> times_s, const DataCheckOptions& options);
 
 }  // namespace flexarm::measured

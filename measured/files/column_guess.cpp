@@ -1,6 +1,7 @@
 #include "measured/files/column_guess.hpp"
 
 #include "arm/input_error.hpp"
+#include "measured/files/column_lookup.hpp"
 #include "measured/files/column_name.hpp"
 
 #include <fmt/format.h>
@@ -32,10 +33,12 @@ const std::vector<Aliases>& aliases() {
         "commandedtorque", "torquecommand", "torquecmd", "moment", "drehmoment"}},
       {"hub_angle",
        {"hubangle", "theta", "angle", "motorangle", "shaftangle", "jointangle", "hub",
-        "hubposition", "motorposition", "encoder"}},
+        "hubposition", "motorposition", "encoder", "motorencoder", "shaftencoder", "linkangle",
+        "armangle", "loadangle", "winkel"}},
       {"hub_velocity",
-       {"hubvelocity", "hubspeed", "omega", "thetadot", "dtheta", "angularvelocity", "velocity",
-        "speed", "motorspeed", "motorvelocity", "tacho", "tachometer"}},
+       {"hubvelocity", "hubspeed", "omega", "thetadot", "dtheta", "angularvelocity",
+        "hubangularvelocity", "motorangularvelocity", "angularspeed", "angularrate", "hubrate",
+        "velocity", "speed", "motorspeed", "motorvelocity", "tacho", "tachometer"}},
       {"tip_acceleration",
        {"tipacceleration", "tipaccel", "tipacc", "acceleration", "accel", "acc", "accelerometer",
         "endpointacceleration"}},
@@ -76,13 +79,13 @@ std::vector<ColumnCandidate> candidates_for(const ColumnLabel& label, std::size_
     base = base.substr(point + 1);
   }
   if (const auto quantity = standard(base)) {
-    if (label.unit.empty() || unit_of(*quantity, label.unit)) return {{*quantity, column, true}};
+    if (is_unit_of(*quantity, label.unit)) return {{*quantity, column, true}};
     return {};
   }
   std::vector<ColumnCandidate> found;
   for (const auto& [quantity, names] : aliases()) {
     if (std::ranges::count(names, string_view(letters_of(base))) == 0) continue;
-    if (label.unit.empty() || unit_of(quantity, label.unit)) {
+    if (is_unit_of(quantity, label.unit)) {
       found.push_back({quantity, column, false});
     }
   }
@@ -94,7 +97,8 @@ std::vector<ColumnCandidate> by_unit(std::span<const ColumnLabel> columns,
                                      const std::string& quantity) {
   std::vector<ColumnCandidate> found;
   for (std::size_t i = 0; i < columns.size(); ++i) {
-    if (!columns[i].unit.empty() && unit_of(quantity, columns[i].unit)) {
+    if (columns[i].is_text || columns[i].unit.empty()) continue;
+    if (is_unit_of(quantity, columns[i].unit)) {
       found.push_back({quantity, i, false});
     }
   }
@@ -105,13 +109,16 @@ std::vector<ColumnCandidate> by_unit(std::span<const ColumnLabel> columns,
 
 ColumnGuess guess_columns(std::span<const ColumnLabel> columns, const ColumnMappings& given) {
   ColumnGuess guess{given, {}};
-  const auto is_given = [&](const ColumnLabel& label) {
-    return std::ranges::any_of(given,
-                               [&](const auto& entry) { return entry.second.name == label.name; });
-  };
+  std::vector<std::string> names;
+  for (const auto& column : columns) names.push_back(column.name);
+  std::vector<bool> is_given(columns.size(), false);
+  for (const auto& [quantity, mapping] : given) {
+    if (!mapping.expression.empty()) continue;
+    if (const auto place = column_place(names, mapping.name)) is_given[*place] = true;
+  }
   std::map<std::string, std::vector<ColumnCandidate>> by_quantity;
   for (std::size_t i = 0; i < columns.size(); ++i) {
-    if (is_given(columns[i])) continue;
+    if (is_given[i] || columns[i].is_text) continue;
     for (auto& candidate : candidates_for(columns[i], i)) {
       by_quantity[candidate.quantity].push_back(std::move(candidate));
     }
@@ -119,8 +126,7 @@ ColumnGuess guess_columns(std::span<const ColumnLabel> columns, const ColumnMapp
   for (const char* quantity : {"time", "torque"}) {
     auto& found = by_quantity[quantity];
     if (found.empty()) found = by_unit(columns, quantity);
-    std::erase_if(found,
-                  [&](const ColumnCandidate& entry) { return is_given(columns[entry.column]); });
+    std::erase_if(found, [&](const ColumnCandidate& entry) { return is_given[entry.column]; });
   }
   for (auto& [quantity, found] : by_quantity) {
     if (given.contains(quantity) || found.empty()) continue;
@@ -128,10 +134,10 @@ ColumnGuess guess_columns(std::span<const ColumnLabel> columns, const ColumnMapp
       std::erase_if(found, [](const ColumnCandidate& entry) { return !entry.is_standard; });
     }
     if (found.size() > 1) {
-      std::vector<std::string> names;
-      for (const auto& entry : found) names.push_back(columns[entry.column].name);
+      std::vector<std::string> alike;
+      for (const auto& entry : found) alike.push_back(columns[entry.column].name);
       guess.notes.push_back(fmt::format("{}: ambiguous ({}); choose with --column {}=NAME",
-                                        quantity, fmt::join(names, " or "), quantity));
+                                        quantity, fmt::join(alike, " or "), quantity));
       continue;
     }
     const ColumnLabel& label = columns[found.front().column];
@@ -139,7 +145,8 @@ ColumnGuess guess_columns(std::span<const ColumnLabel> columns, const ColumnMapp
     if (label.unit.empty()) {
       guess.notes.push_back(fmt::format("unit of {} not given; {} assumed", label.name, si_unit));
     }
-    guess.mappings[quantity] = {label.name, label.unit.empty() ? si_unit : label.unit, 1.0};
+    guess.mappings[quantity] = {label.name, label.unit.empty() ? si_unit : label.unit,
+                                scale_of_unit(quantity, label.unit)};
   }
   return guess;
 }

@@ -12,6 +12,7 @@ namespace flexarm::measured {
 struct ColumnLabel {
   std::string name;
   std::string unit;  ///< canonical; empty: not told
+  bool is_text = false;  ///< holds no numbers, and is no quantity
 };
 
 /// What columns were taken for.

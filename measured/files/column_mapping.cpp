@@ -2,6 +2,8 @@
 
 #include "arm/input_error.hpp"
 #include "arm/nearest_name.hpp"
+#include "measured/files/column_expression.hpp"
+#include "measured/files/column_lookup.hpp"
 #include "measured/files/column_name.hpp"
 #include "measured/files/record_constants.hpp"
 #include "measured/files/time_grid.hpp"
@@ -12,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <span>
 #include <utility>
 #include <vector>
@@ -22,13 +25,7 @@ namespace {
 
 using arm::InputError;
 
-std::vector<std::string> unit_names(std::string_view standard_name) {
-  std::vector<std::string> names;
-  for (const auto& unit : units_for(si_unit_of(standard_name))) names.emplace_back(unit.name);
-  return names;
-}
-
-/// A column of the log that is a quantity.
+/// What becomes a quantity.
 struct Source {
   std::string quantity;  ///< standard name
   ColumnMapping mapping;
@@ -38,12 +35,15 @@ struct Source {
 std::vector<std::optional<Source>> sources_of(const ForeignTable& table,
                                               const ColumnMappings& mappings) {
   std::vector<std::optional<Source>> sources(table.columns.size());
+  const std::vector<std::string> names = column_names(table);
   for (const auto& [quantity, mapping] : mappings) {
+    if (!mapping.expression.empty()) continue;
     const std::size_t place = find_column(table, mapping.name);
-    const auto alike = std::ranges::count(table.columns, mapping.name, &ForeignColumn::name);
+    const auto alike = std::ranges::count(names, mapping.name);
     if (alike > 1) {
-      throw InputError(fmt::format("column {}: {} columns of the file have this name",
-                                   arm::shown(mapping.name), alike));
+      throw InputError(fmt::format(
+          "column {}: {} columns of the file have this name; take one by its number, as in #{}",
+          arm::shown(mapping.name), alike, place + 1));
     }
     if (sources[place]) {
       throw InputError(fmt::format("column {}: assigned to {} and {}", arm::shown(mapping.name),
@@ -64,32 +64,55 @@ std::vector<std::optional<Source>> sources_of(const ForeignTable& table,
 }
 
 std::string column_list(const ForeignTable& table) {
-  std::vector<std::string> names;
-  for (const auto& column : table.columns) names.push_back(column.name);
-  return arm::shown(fmt::format("{}", fmt::join(names, ", ")), 400);
+  return arm::shown(fmt::format("{}", fmt::join(column_names(table), ", ")), 400);
 }
 
-std::vector<double> si_values(const ForeignTable& table, const ForeignColumn& column,
-                              const Source& source, std::size_t& row) {
+/// `what` names the numbers in an error: "column u".
+std::vector<double> si_values(const ForeignTable& table, const std::vector<double>& numbers,
+                              const std::string& what, const Source& source, std::size_t& row) {
   const auto& mapping = source.mapping;
+  const Unit unit = unit_of(source.quantity, mapping.unit).value_or(Unit{mapping.unit});
+  std::vector<double> values;
+  values.reserve(numbers.size());
+  for (row = 0; row < numbers.size(); ++row) {
+    values.push_back(unit.to_si(numbers[row] * mapping.scale));
+    if (std::isfinite(values.back())) continue;
+    throw InputError(fmt::format(
+        "{}: {} = {}{}: must be a finite number", source.quantity, what, numbers[row],
+        table.line_of_row.empty() ? fmt::format(" in row {}", row + 1) : " (or an empty cell)"));
+  }
+  row = 0;
+  return values;
+}
+
+std::vector<double> column_values(const ForeignTable& table, const ForeignColumn& column,
+                                  const Source& source, std::size_t& row) {
   if (column.is_text()) {
     throw InputError(fmt::format("column {} = {}: not a number; {} must be numeric",
                                  arm::shown(column.name), arm::shown(column.texts.front()),
                                  source.quantity));
   }
-  const Unit unit = unit_of(source.quantity, mapping.unit).value_or(Unit{mapping.unit});
-  std::vector<double> values;
-  values.reserve(column.values.size());
-  for (row = 0; row < column.values.size(); ++row) {
-    values.push_back(unit.to_si(column.values[row] * mapping.scale));
-    if (std::isfinite(values.back())) continue;
-    throw InputError(fmt::format(
-        "{}: column {} = {}{}: must be a finite number", source.quantity, arm::shown(column.name),
-        column.values[row],
-        table.line_of_row.empty() ? fmt::format(" in row {}", row + 1) : " (or an empty cell)"));
+  return si_values(table, column.values, "column " + arm::shown(column.name), source, row);
+}
+
+void add_quantity(TimeRecord& record, const std::string& quantity, std::vector<double> values) {
+  if (const auto sensor = sensor_of(quantity)) {
+    record.channels.push_back({*sensor, std::move(values)});
+  } else {
+    (quantity == kTime ? record.time_s : record.torque_N_m) = std::move(values);
   }
-  row = 0;
-  return values;
+}
+
+std::vector<double> computed_values(const ForeignTable& table, const Source& source,
+                                    std::span<const double> times_s, std::size_t& row) {
+  const auto& expression = source.mapping.expression;
+  std::vector<double> numbers;
+  try {
+    numbers = evaluate_expression(expression, table, times_s);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", source.quantity, error.what()));
+  }
+  return si_values(table, numbers, "expression " + arm::shown(expression), source, row);
 }
 
 }  // namespace
@@ -126,12 +149,37 @@ std::optional<Unit> unit_of(std::string_view standard_name, std::string_view uni
   return *found;
 }
 
+double scale_of_unit(std::string_view standard_name, std::string_view unit) {
+  return other_unit_scale(si_unit_of(standard_name), canonical_unit(unit)).value_or(1.0);
+}
+
+bool is_unit_of(std::string_view standard_name, std::string_view unit) {
+  return unit_of(standard_name, unit).has_value() ||
+         other_unit_scale(si_unit_of(standard_name), canonical_unit(unit)).has_value();
+}
+
+std::vector<std::string> unit_names(std::string_view standard_name) {
+  const std::string_view si_unit = si_unit_of(standard_name);
+  std::vector<std::string> names;
+  for (const auto& unit : units_for(si_unit)) names.emplace_back(unit.name);
+  for (const auto name : other_units(si_unit)) names.emplace_back(name);
+  return names;
+}
+
 void require_valid(const std::string& standard_name, const ColumnMapping& mapping, bool has_scale) {
-  if (mapping.name.empty()) throw InputError("name: missing; must be a column of the file");
+  if (!mapping.expression.empty()) {
+    if (!mapping.name.empty()) {
+      throw InputError("expression: given beside name; only one of the two");
+    }
+    require_expression(mapping.expression);
+  } else if (mapping.name.empty()) {
+    throw InputError(
+        "name: missing; must be a column of the file, or expression a formula of its columns");
+  }
   if (!std::isfinite(mapping.scale) || mapping.scale == 0.0) {
     throw InputError(fmt::format("scale = {}: must be a finite number, not 0", mapping.scale));
   }
-  if (has_scale || unit_of(standard_name, mapping.unit)) return;
+  if (has_scale || is_unit_of(standard_name, mapping.unit)) return;
   const auto names = unit_names(standard_name);
   throw InputError(fmt::format("unit = {}: not one of {}{}; give scale in {} per {}",
                                arm::shown(mapping.unit), fmt::join(names, ", "),
@@ -151,8 +199,33 @@ ColumnMappings standard_mapping(const std::string& header) {
   }
 }
 
-TimeRecord time_record_of(const ForeignTable& table, const ColumnMappings& mappings,
-                          const std::string& file_name) {
+std::vector<std::string> column_names(const ForeignTable& table) {
+  std::vector<std::string> names;
+  for (const auto& column : table.columns) names.push_back(column.name);
+  return names;
+}
+
+std::vector<std::size_t> places_used(const ColumnMappings& mappings,
+                                     const std::vector<std::string>& names) {
+  std::vector<std::size_t> places;
+  for (const auto& [quantity, mapping] : mappings) {
+    if (!mapping.expression.empty()) {
+      try {
+        std::ranges::copy(columns_in(mapping.expression, names), std::back_inserter(places));
+      } catch (const InputError& error) {
+        throw InputError(fmt::format("{}: {}", quantity, error.what()));
+      }
+    } else if (const auto place = column_place(names, mapping.name)) {
+      places.push_back(*place);
+    } else {
+      throw unknown_column(names, mapping.name);
+    }
+  }
+  return places;
+}
+
+TimeRecord uneven_record_of(const ForeignTable& table, const ColumnMappings& mappings,
+                            const std::string& file_name) {
   TimeRecord record;
   std::size_t row = 0;
   bool in_row = false;
@@ -161,12 +234,18 @@ TimeRecord time_record_of(const ForeignTable& table, const ColumnMappings& mappi
     in_row = true;
     for (std::size_t i = 0; i < sources.size(); ++i) {
       if (!sources[i]) continue;
-      auto values = si_values(table, table.columns[i], *sources[i], row);
-      if (const auto sensor = sensor_of(sources[i]->quantity)) {
-        record.channels.push_back({*sensor, std::move(values)});
-      } else {
-        (sources[i]->quantity == kTime ? record.time_s : record.torque_N_m) = std::move(values);
-      }
+      add_quantity(record, sources[i]->quantity,
+                   column_values(table, table.columns[i], *sources[i], row));
+    }
+    // The times first: rates are over them.
+    const auto compute = [&](const auto& entry) {
+      if (entry.second.expression.empty()) return;
+      add_quantity(record, entry.first,
+                   computed_values(table, {entry.first, entry.second}, record.time_s, row));
+    };
+    if (const auto time = mappings.find(std::string(kTime)); time != mappings.end()) compute(*time);
+    for (const auto& entry : mappings) {
+      if (entry.first != kTime) compute(entry);
     }
     in_row = false;
     for (const auto name : {kTime, kTorque}) {
@@ -183,6 +262,12 @@ TimeRecord time_record_of(const ForeignTable& table, const ColumnMappings& mappi
   } catch (const InputError& error) {
     throw arm::located(error, file_name, in_row ? line_of(table, row) : 0);
   }
+  return record;
+}
+
+TimeRecord time_record_of(const ForeignTable& table, const ColumnMappings& mappings,
+                          const std::string& file_name) {
+  TimeRecord record = uneven_record_of(table, mappings, file_name);
   if (const auto fault = grid_fault(record.time_s)) {
     throw arm::located(fault->error, file_name, line_of(table, fault->sample));
   }

@@ -5,20 +5,24 @@
 #include "measured/files/time_record.hpp"
 #include "measured/files/unit.hpp"
 
+#include <cstddef>
 #include <map>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace flexarm::measured {
 
 /// Which column of a foreign log is a quantity, and how its numbers become SI units:
-/// value [SI] = number in the column * scale * factor of `unit`.
+/// value [SI] = number in the column * scale * factor of `unit`. In place of a column, an expression
+/// of several (measured/files/column_expression.hpp).
 struct ColumnMapping {
-  std::string name;    ///< of the column, as the log has it
+  std::string name;    ///< of the column, as `column_place` takes it; empty with an expression
   std::string unit;    ///< one of `units_for` the quantity, or any other, which has no factor: then
                        ///< the scale carries into SI; empty: the SI unit
   double scale = 1.0;  ///< finite and not 0
+  std::string expression = {};  ///< in place of the name
 
   bool operator==(const ColumnMapping&) const = default;
 };
@@ -39,19 +43,43 @@ std::string_view si_unit_of(std::string_view standard_name);
 /// The unit of that name among those of the standard name; empty for a foreign one.
 std::optional<Unit> unit_of(std::string_view standard_name, std::string_view unit);
 
-/// Throws InputError for a mapping without a column's name, a scale that is 0 or not finite, and a
-/// foreign unit whose scale was not given (`has_scale`).
+/// The scale into SI that a unit stands for where none is given: that of `other_unit_scale`; 1 for
+/// any other.
+double scale_of_unit(std::string_view standard_name, std::string_view unit);
+
+/// Whether numbers in the unit are known in SI without a scale; so is an empty one, which is SI.
+bool is_unit_of(std::string_view standard_name, std::string_view unit);
+
+/// The units of which that is so.
+std::vector<std::string> unit_names(std::string_view standard_name);
+
+/// Throws InputError for a mapping without a column's name or an expression that can be read, or
+/// with both, a scale that is 0 or not finite, and a foreign unit whose scale was not given
+/// (`has_scale`).
 void require_valid(const std::string& standard_name, const ColumnMapping& mapping, bool has_scale);
 
 /// The standard mapping that a header in the form `hub_angle [rad]` says; none for any other.
 ColumnMappings standard_mapping(const std::string& header);
 
-/// The record of a foreign log: the columns that `mappings` name, and those that stand under a
-/// standard header, `hub_angle [rad]`, in the order of the log.
+/// Names of the columns of a table.
+std::vector<std::string> column_names(const ForeignTable& table);
+
+/// The places of the columns that the mappings take, by themselves or in an expression. Throws
+/// InputError for a column that is not there.
+std::vector<std::size_t> places_used(const ColumnMappings& mappings,
+                                     const std::vector<std::string>& names);
+
+/// The record of a foreign log, its times as they are: the columns that `mappings` name, and those
+/// that stand under a standard header, `hub_angle [rad]`, in the order of the log; then those that
+/// are computed.
 ///
 /// Throws InputError `FILE:LINE: what is wrong` for a column that is not there (with the one that
-/// was probably meant) or is there twice, time or torque missing, columns of unlike length, a cell
-/// that is no finite number, and times that `grid_fault` finds fault with.
+/// was probably meant) or is there twice, time or torque missing, columns of unlike length, and a
+/// cell that is no finite number.
+TimeRecord uneven_record_of(const ForeignTable& table, const ColumnMappings& mappings,
+                            const std::string& file_name);
+
+/// The same. Throws InputError also for times that `grid_fault` finds fault with.
 TimeRecord time_record_of(const ForeignTable& table, const ColumnMappings& mappings,
                           const std::string& file_name);
 

@@ -6,11 +6,9 @@
 namespace flexarm::measured {
 
 /// A unit in the spelling of docs/formats.md: "Nm" and "N*m" are "N m", "sec" is "s", "m/s2" is
-/// "m/s^2"; one that is not known is returned as it stands. Also strips one pair of brackets.
+/// "m/s^2" (`find_unit`); one that is not known is returned as it stands. Also strips one pair of
+/// brackets.
 std::string canonical_unit(std::string_view unit);
-
-/// Whether the canonical unit is one that logs use: those of docs/formats.md, V, A, N, Hz, rpm, ...
-bool is_known_unit(std::string_view canonical);
 
 /// A column's header taken apart.
 struct ColumnName {
@@ -19,7 +17,8 @@ struct ColumnName {
 };
 
 /// "Time (ms)", "torque [N m]", "t_s", "hub1_deg", "angle / rad": the unit in brackets, after a
-/// slash between blanks, or, when it is a known one, after the last underscores.
+/// slash between blanks, or, when it is a known one, after the last underscores or blanks. In
+/// brackets it may follow a word and "in", as in "angle (Theta in rad)"; "data(:,1)" has none.
 ColumnName split_column_name(std::string_view header);
 
 }  // namespace flexarm::measured

@@ -1,12 +1,13 @@
 #include "measured/files/foreign_table.hpp"
 
 #include "arm/input_error.hpp"
-#include "arm/nearest_name.hpp"
+#include "measured/files/column_lookup.hpp"
 #include "measured/files/column_name.hpp"
 #include "measured/files/delimited_line.hpp"
 #include "measured/files/record_constants.hpp"
 #include "measured/files/text_encoding.hpp"
 #include "measured/files/text_file.hpp"
+#include "measured/files/unit_spelling.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -95,6 +96,8 @@ std::size_t count_numbers(std::span<const string_view> cells, char decimal) {
 
 /// A row has two numbers or more: time and something measured.
 constexpr std::size_t kFewestNumbers = 2;
+/// A line of names in front of rows of more cells has at least so many, and half as many as cells.
+constexpr std::size_t kFewestNames = 3;
 
 /// A way to read the sample, and how much of it becomes numbers.
 struct Reading {
@@ -155,7 +158,7 @@ class TableReader {
     find_first_row();
     read_names();
     read_rows();
-    drop_empty_last_column();
+    drop_empty_last_columns();
     return std::move(table_);
   }
 
@@ -189,21 +192,26 @@ class TableReader {
   std::optional<std::vector<std::string>> names_in(string_view line) {
     const auto cells = splitter_.split_names(without_comment_mark(line));
     std::vector<std::string> names(cells.begin(), cells.end());
-    while (names.size() > reading_.cells && names.back().empty()) names.pop_back();
-    // A separator at the end of the rows alone makes an empty cell more.
-    if (names.size() + 1 == reading_.cells) names.emplace_back();
+    while (!names.empty() && names.back().empty()) names.pop_back();
+    // Columns at the end may have no names, and separators at the ends of rows make one more.
+    const bool are_enough = names.size() + 1 >= reading_.cells ||
+                            (reading_.dialect.separator != ' ' && names.size() >= kFewestNames &&
+                             2 * names.size() >= reading_.cells);
     const auto empty = std::ranges::count(names, std::string());
     const bool is_numbers = std::ranges::all_of(names, [&](const std::string& name) {
       return name.empty() || parse_cell(name, decimal()).has_value();
     });
-    if (names.size() != reading_.cells || empty > 1 || is_numbers) return std::nullopt;
+    if (!are_enough || names.size() > reading_.cells || empty > 1 || is_numbers) {
+      return std::nullopt;
+    }
+    names.resize(reading_.cells);
     return names;
   }
 
   static bool are_units(const std::vector<std::string>& cells) {
     return std::ranges::all_of(cells, [](const std::string& cell) {
       const bool in_brackets = cell.starts_with('[') || cell.starts_with('(');
-      return cell.empty() || in_brackets || is_known_unit(canonical_unit(cell));
+      return cell.empty() || in_brackets || is_canonical_unit(canonical_unit(cell));
     });
   }
 
@@ -312,10 +320,12 @@ class TableReader {
   }
 
   /// Left by separators at the ends of the lines.
-  void drop_empty_last_column() {
-    const ForeignColumn& last = table_.columns.back();
-    if (!holds_nothing(last) || !last.name.starts_with("column ")) return;
-    table_.columns.pop_back();
+  void drop_empty_last_columns() {
+    while (table_.columns.size() > 1) {
+      const ForeignColumn& last = table_.columns.back();
+      if (!holds_nothing(last) || !last.name.starts_with("column ")) return;
+      table_.columns.pop_back();
+    }
   }
 
   string_view text_;
@@ -331,13 +341,10 @@ class TableReader {
 
 std::size_t find_column(const ForeignTable& table, string_view name) {
   std::vector<std::string> names;
-  for (std::size_t i = 0; i < table.columns.size(); ++i) {
-    if (table.columns[i].name == name) return i;
-    names.push_back(table.columns[i].name);
-  }
-  throw InputError(fmt::format("column {}: not in the file{}; it has {}", arm::shown(name),
-                               arm::did_you_mean(name, names),
-                               arm::shown(fmt::format("{}", fmt::join(names, ", ")), 400)));
+  for (const auto& column : table.columns) names.push_back(column.name);
+  const auto place = column_place(names, name);
+  if (!place) throw unknown_column(names, name);
+  return *place;
 }
 
 int line_of(const ForeignTable& table, std::size_t row) {

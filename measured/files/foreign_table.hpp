@@ -25,8 +25,8 @@ struct ForeignTable {
   std::vector<std::string> assumptions;
 };
 
-/// Where the column of that name is; several may have one name. Throws InputError with the columns
-/// there are, and the one that was probably meant.
+/// Where the column of that name is (`column_place`); several may have one name. Throws InputError
+/// with the columns there are, and the one that was probably meant.
 std::size_t find_column(const ForeignTable& table, std::string_view name);
 
 /// "FILE:LINE: " row of the table in front of an error.

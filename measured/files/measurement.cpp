@@ -46,11 +46,10 @@ std::string_view word_of(const Table& table, T value) {
 }
 
 const std::vector<std::string> kTopKeys = {"name", "arm", "run"};
-const std::vector<std::string> kRunKeys = {"id",          "kind",    "file",
-                                           "purpose",     "torque_hold", "payload",
-                                           "initial",     "columns", "reference",
-                                           "controller"};
-const std::vector<std::string> kColumnKeys = {"name", "unit", "scale"};
+const std::vector<std::string> kRunKeys = {"id",          "kind",    "file",    "purpose",
+                                           "torque_hold", "payload", "initial", "columns",
+                                           "reference",   "controller"};
+const std::vector<std::string> kColumnKeys = {"name", "expression", "unit", "scale"};
 
 class MeasurementReader : measured::TomlFaults {
  public:
@@ -257,6 +256,8 @@ class MeasurementReader : measured::TomlFaults {
       const std::string leaf = arm::shown(leaf_key.str());
       if (leaf == "name") {
         take(leaf, value, mapping.name, "a quoted column name");
+      } else if (leaf == "expression") {
+        take(leaf, value, mapping.expression, "a quoted formula of columns");
       } else if (leaf == "unit") {
         take(leaf, value, mapping.unit, "a quoted unit");
       } else if (leaf == "scale") {
@@ -269,6 +270,7 @@ class MeasurementReader : measured::TomlFaults {
     if (!is_whole) return std::nullopt;
     try {
       require_valid(name, mapping, table->contains("scale"));
+      if (!table->contains("scale")) mapping.scale = scale_of_unit(name, mapping.unit);
     } catch (const InputError& error) {
       fault(line_of(node), fmt::format("{}.{}", key, error.what()));
       return std::nullopt;

@@ -25,7 +25,10 @@ std::string quoted(const std::string& key, const std::string& text) {
 }
 
 std::string format_mapping(const std::string& key, const ColumnMapping& mapping) {
-  std::string out = fmt::format("{{ name = {}", quoted(key + ".name", mapping.name));
+  std::string out =
+      mapping.expression.empty()
+          ? fmt::format("{{ name = {}", quoted(key + ".name", mapping.name))
+          : fmt::format("{{ expression = {}", quoted(key + ".expression", mapping.expression));
   if (!mapping.unit.empty()) {
     out += fmt::format(", unit = {}", quoted(key + ".unit", mapping.unit));
   }

@@ -15,8 +15,7 @@ struct GridFault {
 };
 
 /// The first fault of times that should be evenly spaced, or none: a time that is not later than
-/// the one before; samples that are missing (a step above 1.5 of the lower median step, unless more
-/// than a tenth of the steps are and not all of those are above 10); |t_k - (t_0 + k period)| >
+/// the one before; samples that are missing (`clock_steps`); |t_k - (t_0 + k period)| >
 /// kMostJitter_periods period. `times_s` holds two samples or more, all finite.
 std::optional<GridFault> grid_fault(std::span<const double> times_s);
 

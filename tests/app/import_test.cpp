@@ -1,3 +1,4 @@
+#include "arm/input_error.hpp"
 #include "effects/registry/vocabulary.hpp"
 #include "measured/files/arm_file.hpp"
 #include "measured/files/frequency_record.hpp"
@@ -50,8 +51,9 @@ TEST_F(Import, ALogIsReadAndWhatWasAssumedIsSaid) {
             HasSubstr("Moment (Nmm)"), HasSubstr("N mm"), HasSubstr("not used: Room"),
             HasSubstr("3 samples, one every 0.002 s"), HasSubstr("next: ")));
   const Json json = Json::parse(text_of("out.json"));
-  EXPECT_EQ(json["kind"], "time");
-  EXPECT_EQ(json["columns"][0]["name"], "Theta (deg)");
+  EXPECT_EQ(json["files"][0]["kind"], "time");
+  EXPECT_EQ(json["files"][0]["columns"][0]["name"], "Theta (deg)");
+  EXPECT_EQ(json["runs"][0]["samples"], 3);
   EXPECT_THAT(names_in(), ElementsAre("log.txt", "out.json"));
 }
 
@@ -76,12 +78,40 @@ TEST_F(Import, TheFolderIsAMeasurementInSi) {
   EXPECT_EQ(record.channels.at(0).values[0], std::numbers::pi / 2.0);
 }
 
-TEST_F(Import, WithoutAnArmOneToEditIsWritten) {
+/// No command takes another arm for the one that was measured.
+TEST_F(Import, WithoutAnArmAFileToFillInIsWritten) {
   write("log.txt", kLog);
-  EXPECT_EQ(import({"log.txt", "--out", "bench"}).status, 0);
-  EXPECT_NO_THROW(measured::read_arm_file(folder_ / "bench/arm.toml", effects::vocabulary()));
+  const Ended ended = import({"log.txt", "--out", "bench"});
+  EXPECT_EQ(ended.status, 0) << ended.errors;
+  EXPECT_THAT(ended.output, HasSubstr("arm.toml (its numbers are to be filled in)"));
+  const Ended diagnosed = run({"diagnose", "bench/measurement.toml"});
+  EXPECT_EQ(diagnosed.status, 2);
+  EXPECT_THAT(diagnosed.errors, AllOf(StartsWith("bench/arm.toml:"),
+                                      HasSubstr("beam.length: missing; must be")));
   EXPECT_THAT(import({"log.txt", "--out", "bench"}).errors, HasSubstr("--force replaces"));
   EXPECT_EQ(import({"log.txt", "--out", "bench", "--force"}).status, 0);
+}
+
+/// Each key that is filled in takes the next fault away, until none is left.
+TEST_F(Import, TheArmFileToFillInIsOneOnceItIsFilledIn) {
+  write("log.txt", kLog);
+  import({"log.txt", "--out", "bench"});
+  std::string text = text_of("bench/arm.toml");
+  const auto fill = [&](const std::string& key, const std::string& value) {
+    const std::string line = "# " + key + " =";
+    const auto at = text.find(line);
+    ASSERT_NE(at, std::string::npos) << key;
+    text.replace(at, line.size(), key + " = " + value);
+  };
+  const auto read = [&] { return measured::parse_arm(text, "arm.toml", effects::vocabulary()); };
+  EXPECT_THROW(read(), arm::InputError);
+  fill("length", "0.45");
+  fill("flexural_rigidity", "0.2455");
+  fill("linear_density", "0.133");
+  EXPECT_THROW(read(), arm::InputError);
+  fill("inertia", "0.002");
+  EXPECT_EQ(read().beam.length_m, 0.45);
+  EXPECT_EQ(read().hub.inertia_kg_m2, 0.002);
 }
 
 /// A log of the shape of the flexible-link rig's: current in place of torque, angles in degrees.
@@ -106,7 +136,7 @@ TEST_F(Import, ALogOfTheRigsShapeNeedsOneMapping) {
       bare,
       "rig.csv: torque: column not recognised; columns: t_s, i1_cmd_A, i1_meas_A, hub1_ref_deg, "
       "hub1_deg, tipdefl1_deg, hub2_deg; assign one with --column "
-      "torque=NAME:UNIT:SCALE");
+      "torque=NAME:UNIT:SCALE, or compute it with --torque EXPRESSION");
   std::vector<std::string> arguments = {"rig.csv", "--out", "rig"};
   arguments.insert(arguments.end(), kRigMapping.begin(), kRigMapping.end());
   const Ended ended = import(arguments);
@@ -192,7 +222,8 @@ TEST_F(Import, WhatCannotBeUsedIsOneLine) {
           "--column torqe=Room: torqe: unknown (did you mean "
           "torque?)");
   refused({"--column", "torque=Room:V"},
-          "--column torque=Room:V: unit = V: not one of N m, N mm; give scale in N m per V");
+          "--column torque=Room:V: unit = V: not one of N m, N mm, N cm, kN m, kgf cm, lbf in, lbf "
+          "ft, ozf in; give scale in N m per V");
   refused({"--column", "torque=Room:V:x"},
           "--column torque=Room:V:x: scale = x: must be a product of numbers and pi, as "
           "in 0.202*pi/180");

@@ -2,6 +2,7 @@
 
 #include "arm/input_error.hpp"
 #include "measured/files/column_name.hpp"
+#include "measured/files/unit_spelling.hpp"
 #include "tests/measured/mistake.hpp"
 
 #include <fmt/format.h>
@@ -167,8 +168,8 @@ TEST(ColumnName, UnitsHaveOneSpelling) {
   EXPECT_EQ(canonical_unit("\xc2\xb5s"), "us");
   EXPECT_EQ(canonical_unit("m/s\xc2\xb2"), "m/s^2");
   EXPECT_EQ(canonical_unit("furlong"), "furlong");
-  EXPECT_TRUE(is_known_unit("V"));
-  EXPECT_FALSE(is_known_unit("S"));
+  EXPECT_TRUE(is_canonical_unit("V"));
+  EXPECT_FALSE(is_canonical_unit("S"));
 }
 
 TEST(ColumnName, HeadersAreTakenApart) {

@@ -43,6 +43,32 @@ TEST(Measurement, ColumnsAreMappedByStandardName) {
                                                          {"strain@0.05", {"eps", "", 1.0}}}));
 }
 
+TEST(Measurement, AColumnMayBeComputed) {
+  const Measurement measurement = parse_measurement(
+      kMeasurementHead + kRun +
+          "columns.torque = { expression = \"0.1574*(V - 0.518*omega)\" }\n"
+          "columns.hub_velocity = { expression = \"ddt([Angle (deg)])\", unit = \"deg/s\" }\n",
+      "m.toml");
+  EXPECT_EQ(measurement.runs[0].columns,
+            (ColumnMappings{{"torque", {"", "", 1.0, "0.1574*(V - 0.518*omega)"}},
+                            {"hub_velocity", {"", "deg/s", 1.0, "ddt([Angle (deg)])"}}}));
+}
+
+/// A scale that is given is all that carries such a unit into SI.
+TEST(Measurement, AUnitBeyondThoseOfARecordStandsForItsScale) {
+  const auto scale_of = [](const std::string& keys) {
+    return parse_measurement(kMeasurementHead + kRun + "columns.torque = { name = \"T\", unit = " +
+                                 keys + " }\n",
+                             "m.toml")
+        .runs[0]
+        .columns.at("torque")
+        .scale;
+  };
+  EXPECT_EQ(scale_of("\"N cm\""), 0.01);
+  EXPECT_EQ(scale_of("\"N cm\", scale = 0.5"), 0.5);
+  EXPECT_EQ(scale_of("\"N mm\""), 1.0);
+}
+
 TEST(Measurement, WhatIsLeftOutHasItsDefault) {
   const Measurement measurement = parse_measurement("arm = \"x.toml\"\n" + kRun, "m.toml");
   EXPECT_EQ(measurement.name, "");
@@ -68,6 +94,7 @@ TEST(Measurement, WhatIsWrittenReadsBackEqual) {
     }
     if (run.kind == RunKind::time && chance()) {
       run.columns = {{"time", {"t \"s\"", "", 1.0}},
+                     {"torque", {"", "N mm", 2.0, "[a \"b\"]*2"}},
                      {"strain@0.05", {"eps", "V", static_cast<double>(random()) * 0x1p-70}}};
     }
     measurement.runs.push_back(run);
@@ -130,7 +157,8 @@ const std::vector<Mistake> kMeasurementMistakes = {
      "hub_velocity, tip_acceleration, tip_displacement, tip_deflection, strain@X (X in metres from "
      "the hub); besides time and torque"},
     {"ColumnWithoutName", kMeasurementHead + kRun + "columns = { time = { unit = \"ms\" } }\n",
-     "7: run.columns.time.name: missing; must be a column of the file"},
+     "7: run.columns.time.name: missing; must be a column of the file, or expression a formula of its "
+     "columns"},
     {"ColumnIsAText", kMeasurementHead + kRun + "columns = { time = \"t\" }\n",
      "7: run.columns.time = \"t\": a string; must be a table, as in { name = \"Time (ms)\", unit = "
      "\"ms\", scale = 1.0 }"},
@@ -139,14 +167,25 @@ const std::vector<Mistake> kMeasurementMistakes = {
      "\"N m\" } }"},
     {"ForeignUnitWithoutScale",
      kMeasurementHead + kRun + "columns = { torque = { name = \"Vm\", unit = \"V\" } }\n",
-     "7: run.columns.torque.unit = V: not one of N m, N mm; give scale in N m per V"},
+     "7: run.columns.torque.unit = V: not one of N m, N mm, N cm, kN m, kgf cm, lbf in, lbf ft, ozf "
+     "in; give scale in N m per V"},
+    {"NameBesideExpression",
+     kMeasurementHead + kRun + "columns = { torque = { name = \"Vm\", expression = \"2*Vm\" } }\n",
+     "7: run.columns.torque.expression: given beside name; only one of the two"},
+    {"ExpressionThatDoesNotParse",
+     kMeasurementHead + kRun + "columns = { torque = { expression = \"0.1*(V - w\" } }\n",
+     "7: run.columns.torque.expression = 0.1*(V - w: a parenthesis is not closed"},
+    {"ExpressionInAForeignUnit",
+     kMeasurementHead + kRun + "columns = { time = { expression = \"V\", unit = \"A\" } }\n",
+     "7: run.columns.time.unit = A: not one of s, ms, us, ns, min; give scale in s per A"},
     {"ScaleZero", kMeasurementHead + kRun + "columns = { torque = { name = \"Vm\", scale = 0 } }\n",
      "7: run.columns.torque.scale = 0: must be a finite number, not 0"},
     {"ScaleIsAText",
      kMeasurementHead + kRun + "columns = { torque = { name = \"Vm\", scale = \"1\" } }\n",
      "7: run.columns.torque.scale = \"1\": a string; must be a finite number, not 0"},
     {"ColumnKeyMisspelt", kMeasurementHead + kRun + "columns = { torque = { nam = \"Vm\" } }\n",
-     "7: run.columns.torque.nam: unknown key (did you mean name?); allowed: name, unit, scale"},
+     "7: run.columns.torque.nam: unknown key (did you mean name?); allowed: name, expression, unit, "
+     "scale"},
     {"PlaceAlongTheBeamTwice",
      kMeasurementHead + kRun +
          "columns.\"strain@0.05\" = { name = \"a\" }\ncolumns.\"strain@0.050\" = { name = \"b\" "

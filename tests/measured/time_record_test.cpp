@@ -200,20 +200,23 @@ const std::vector<Mistake> kTimeRecordMistakes = {
      "4: time = 0.002 s: below the previous sample at 0.004 s; must be strictly increasing"},
     {"OneSampleMissing", record_with(100, [](int k) { return 0.002 * (k < 50 ? k : k + 1); }),
      "52: gap: 1 sample is missing between 0.098 s and 0.102 s, where the step is 0.004 s and the "
-     "period 0.002 s; split the record there, or fill it"},
+     "period 0.002 s; split the record there, or fill it (flexarm import "
+     "does)"},
     {"SamplesMissingTwice",
      record_with(100, [](int k) { return 0.002 * (k + (k >= 50 ? 7 : 0) + (k >= 80 ? 2 : 0)); }),
      "52: gap: 7 samples are missing between 0.098 s and 0.114 s, where the step is 0.016 s and "
-     "the period 0.002 s, and 1 more gap; split the record there, or fill it"},
+     "the period 0.002 s, and 1 more gap; split the record there, or fill it (flexarm import "
+     "does)"},
     {"GapAfterFewSamples", kTimeHead + "0,0,0\n0.002,0,0\n1e9,0,0\n",
      "4: gap: 499999999998 samples are missing between 0.002 s and 1000000000 s, where the step is "
-     "1e+09 s and the period 0.002 s; split the record there, or fill it"},
+     "1e+09 s and the period 0.002 s; split the record there, or fill it (flexarm import "
+     "does)"},
     {"Jitter", record_with(101, [](int k) { return 0.002 * k + (k == 30 ? 0.0003 : 0.0); }),
      "32: time = 0.0603 s: jitter 0.15 of the sampling period 0.002 s; must be 0.05 or "
-     "less: write more digits, or resample"},
+     "less: write more digits, or resample (flexarm import does)"},
     {"TimesRoundedTooFar", record_with(101, [](int k) { return std::round(1.5 * k) / 1000.0; }),
      "3: time = 0.002 s: jitter 0.33 of the sampling period 0.0015 s; must be 0.05 or "
-     "less: write more digits, or resample"},
+     "less: write more digits, or resample (flexarm import does)"},
 };
 
 class TimeRecordMistake : public testing::TestWithParam<Mistake> {};

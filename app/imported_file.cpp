@@ -1,13 +1,16 @@
-#include "app/imported_run.hpp"
+#include "app/imported_file.hpp"
 
 #include "arm/input_error.hpp"
 #include "arm/range.hpp"
+#include "measured/checks/time_unit_check.hpp"
+#include "measured/files/raw_doubles.hpp"
 #include "measured/files/universal_grid.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <initializer_list>
@@ -90,7 +93,7 @@ std::vector<ColumnLabel> labels_of(const ForeignFile& file, RunKind kind) {
   std::vector<ColumnLabel> labels;
   if (kind == RunKind::time) {
     for (const auto& column : file.table.columns) {
-      if (!column.is_text()) labels.push_back({column.name, column.unit});
+      labels.push_back({column.name, column.unit, column.is_text()});
     }
   } else {
     for (const auto& response : file.responses) labels.push_back({response.name, response.unit});
@@ -115,29 +118,64 @@ void add_times(ForeignTable& table, double period_s) {
 void require_told(const measured::ColumnMappings& mappings,
                   const std::vector<ColumnLabel>& labels) {
   for (const auto& [quantity, otherwise] :
-       {std::pair{"time", ", or the sampling period with --period"}, std::pair{"torque", ""}}) {
+       {std::pair{"time", ", or the sampling period with --period"},
+        std::pair{"torque", ", or compute it with --torque EXPRESSION"}}) {
     if (mappings.contains(quantity)) continue;
     throw InputError(fmt::format(
         "{0}: column not recognised; columns: {1}; assign one with --column {0}=NAME:UNIT:SCALE{2}",
         quantity, join_names(labels), otherwise));
   }
+  const bool has_sensor = std::ranges::any_of(mappings, [](const auto& entry) {
+    return measured::sensor_of(entry.first).has_value();
+  });
+  if (has_sensor) return;
+  throw InputError(fmt::format(
+      "no column is a sensor; columns: {}; assign one with --column hub_angle=NAME:UNIT:SCALE",
+      join_names(labels)));
 }
 
-void read_text_kind(const ForeignFile& file, const std::string& name, ImportedRun& run) {
+void read_text_kind(const ForeignFile& file, ImportedFile& imported) {
   const std::string csv = csv_of(file.table);
-  if (run.kind == RunKind::modal) {
-    run.data = measured::parse_modal_table(csv, name);
+  const std::string name = arm::shown(imported.file);
+  if (imported.kind == RunKind::modal) {
+    imported.data = measured::parse_modal_table(csv, name);
   } else {
-    run.data = measured::parse_frequency_record(csv, name);
+    imported.data = measured::parse_frequency_record(csv, name);
   }
 }
 
-void read_mapped(ForeignFile& file, const std::string& name, const ColumnChoice& columns,
-                 std::optional<double> period_s, ImportedRun& run) {
-  const bool in_time = run.kind == RunKind::time;
-  if (in_time && period_s) add_times(file.table, *period_s);
-  const auto labels = labels_of(file, run.kind);
-  auto guess = measured::guess_columns(labels, columns.mappings(labels));
+/// "time: ... speaks for ms".
+void doubt_time(const FileChoice& choice, ImportedFile& imported) {
+  const auto* record = std::get_if<measured::TimeRecord>(&imported.data);
+  const auto time = imported.columns.find("time");
+  if (record == nullptr || time == imported.columns.end() || choice.period_s ||
+      !choice.columns.time_unit.empty()) {
+    return;
+  }
+  const auto doubt = measured::doubt_time_unit(*record);
+  if (!doubt) return;
+  constexpr std::array<std::pair<const char*, double>, 4> kUnits = {
+      {{"s", 1.0}, {"ms", 1e-3}, {"us", 1e-6}, {"ns", 1e-9}}};
+  const auto used = std::ranges::find(kUnits, time->second.unit, [](const auto& unit) {
+    return std::string_view(unit.first);
+  });
+  std::string remedy = "if it is in another unit, say so with --time-unit";
+  for (const auto& [unit, seconds] : kUnits) {
+    if (used == kUnits.end()) break;
+    if (std::abs(seconds / (used->second * doubt->factor) - 1.0) > 0.5) continue;
+    remedy = fmt::format("this speaks for {0}; if so, add --time-unit {0}", unit);
+  }
+  imported.warnings.push_back(fmt::format("time is read in {}, but {}; {}", time->second.unit,
+                                          doubt->evidence, remedy));
+}
+
+void read_mapped(ForeignFile& file, const FileChoice& choice, ImportedFile& imported) {
+  const std::string name = arm::shown(imported.file);
+  const bool in_time = imported.kind == RunKind::time;
+  if (in_time && choice.period_s) add_times(file.table, *choice.period_s);
+  const auto labels = labels_of(file, imported.kind);
+  auto guess = measured::guess_columns(labels, choice.columns.mappings(labels));
+  choice.columns.set_time_unit(guess.mappings);
   if (in_time) {
     require_told(guess.mappings, labels);
   } else {
@@ -145,41 +183,56 @@ void read_mapped(ForeignFile& file, const std::string& name, const ColumnChoice&
     std::erase_if(guess.mappings,
                   [](const auto& entry) { return !measured::sensor_of(entry.first).has_value(); });
   }
-  for (const auto& label : labels) {
-    const bool is_used = std::ranges::any_of(
-        guess.mappings, [&](const auto& entry) { return entry.second.name == label.name; });
-    if (!is_used) run.not_used.push_back(label.name);
+  std::vector<std::string> names;
+  for (const auto& label : labels) names.push_back(label.name);
+  const auto used = measured::places_used(guess.mappings, names);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (std::ranges::count(used, i) == 0) imported.not_used.push_back(names[i]);
   }
-  run.assumptions.insert(run.assumptions.end(), guess.notes.begin(), guess.notes.end());
-  run.columns = std::move(guess.mappings);
+  imported.assumptions.insert(imported.assumptions.end(), guess.notes.begin(), guess.notes.end());
+  imported.columns = std::move(guess.mappings);
   if (in_time) {
-    run.data = time_record_of(file.table, run.columns, name);
+    imported.data = uneven_record_of(file.table, imported.columns, name);
+    doubt_time(choice, imported);
   } else {
-    run.data = frequency_record_of(file, run.columns, name);
+    imported.data = frequency_record_of(file, imported.columns, name);
   }
+}
+
+ForeignFile read_file(const std::string& path, const FileChoice& choice, std::string& format) {
+  if (!choice.raw_columns) {
+    ForeignFile file = measured::read_foreign_file(path);
+    format = to_string(file.format);
+    return file;
+  }
+  ForeignFile file;
+  file.table = measured::read_raw_doubles(path, *choice.raw_columns);
+  format = "raw doubles";
+  return file;
 }
 
 }  // namespace
 
-ImportedRun import_run(const std::string& path, std::optional<RunKind> kind,
-                       const ColumnChoice& columns, std::optional<double> period_s) {
+ImportedFile import_file(const std::string& path, const FileChoice& choice) {
   const std::string name = arm::shown(path);
-  ForeignFile file = measured::read_foreign_file(path);
-  ImportedRun run;
-  run.format = file.format;
-  run.assumptions = file.table.assumptions;
+  ImportedFile imported;
+  imported.file = path;
+  ForeignFile file = read_file(path, choice, imported.format);
+  imported.assumptions = file.table.assumptions;
   try {
-    run.kind = kind_of(file, kind);
+    imported.kind = kind_of(file, choice.kind);
     const bool is_long_form =
-        run.kind != RunKind::time && file.format == measured::ForeignFormat::text;
-    if (is_long_form && !columns.typed.empty()) {
+        imported.kind != RunKind::time && file.format == measured::ForeignFormat::text;
+    if (is_long_form && !choice.columns.empty()) {
       throw InputError("--column: not applicable, this file names its columns");
     }
-    if (period_s && run.kind != RunKind::time) throw InputError("--period: only for time signals");
+    if (choice.period_s && imported.kind != RunKind::time) {
+      throw InputError("--period: only for time signals");
+    }
     if (is_long_form) {
-      read_text_kind(file, name, run);
+      read_text_kind(file, imported);
     } else {
-      read_mapped(file, name, columns, period_s, run);
+      read_mapped(file, choice, imported);
     }
   } catch (const InputError& error) {
     if (std::string_view(error.what()).starts_with(name + ":") ||
@@ -188,11 +241,8 @@ ImportedRun import_run(const std::string& path, std::optional<RunKind> kind,
     }
     throw arm::located(error, name, 0);
   }
-  for (const auto& column : file.table.columns) {
-    if (column.is_text() && run.kind == RunKind::time) run.not_used.push_back(column.name);
-  }
-  run.not_used.insert(run.not_used.end(), file.left_out.begin(), file.left_out.end());
-  return run;
+  imported.not_used.insert(imported.not_used.end(), file.left_out.begin(), file.left_out.end());
+  return imported;
 }
 
 }  // namespace flexarm::app

@@ -1,0 +1,141 @@
+#include "app/import_report.hpp"
+
+#include "arm/input_error.hpp"
+#include "report/json/json_document.hpp"
+#include "report/tables/text_table.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include <cstddef>
+#include <string_view>
+#include <utility>
+#include <variant>
+
+namespace flexarm::app {
+
+namespace {
+
+report::Table column_table(const ImportedFile& file) {
+  report::Table table{"", {{"quantity"}, {"column"}, {"unit"}, {"scale"}}};
+  for (const auto& [quantity, mapping] : file.columns) {
+    table.add_row({quantity, mapping.expression.empty() ? mapping.name : "= " + mapping.expression,
+                   mapping.unit, mapping.scale});
+  }
+  return table;
+}
+
+std::string counted(std::size_t count, const char* what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+/// "10000 samples, every 0.002 s, 4 sensors".
+std::string size_of(const measured::RunData& data) {
+  if (const auto* time = std::get_if<measured::TimeRecord>(&data)) {
+    return fmt::format("{}, one every {:.6g} s, of {}", counted(time->time_s.size(), "sample"),
+                       measured::sampling_period_s(*time),
+                       counted(time->channels.size(), "sensor") + " and the torque");
+  }
+  if (const auto* frequency = std::get_if<measured::FrequencyRecord>(&data)) {
+    std::vector<std::string> parts;
+    for (const auto& channel : frequency->channels) {
+      parts.push_back(fmt::format("{} at {} from {:g} to {:g} Hz", arm::to_string(channel.sensor),
+                                  counted(channel.frequency_Hz.size(), "frequency"),
+                                  channel.frequency_Hz.front(), channel.frequency_Hz.back()));
+    }
+    return fmt::format("{}", fmt::join(parts, "; "));
+  }
+  return counted(std::get<measured::ModalTable>(data).size(), "row");
+}
+
+std::string text_of(const ImportedFile& file) {
+  std::string out = report::to_paragraph(
+      fmt::format("{}: {}, read as {}", arm::shown(file.file), file.format, to_string(file.kind)));
+  for (const auto& sentence : file.warnings) {
+    out += report::to_paragraph("  warning: " + sentence, 4);
+  }
+  for (const auto& sentence : file.assumptions) out += report::to_paragraph("  " + sentence, 4);
+  if (!file.columns.empty()) out += "\n" + report::to_text(column_table(file)) + "\n";
+  if (!file.not_used.empty()) {
+    out += report::to_paragraph(
+        arm::shown(fmt::format("not used: {}", fmt::join(file.not_used, ", ")), 2000), 4);
+  }
+  return out;
+}
+
+std::string text_of(const ImportedRun& run) {
+  std::string out =
+      report::to_paragraph(fmt::format("run {}: {}", run.run.id, size_of(run.data)), 4);
+  for (const auto& note : run.notes) out += report::to_paragraph("  " + note, 4);
+  return out;
+}
+
+nlohmann::ordered_json text_or_null(std::string_view text) {
+  return text.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(text);
+}
+
+nlohmann::ordered_json json_of(const ImportedFile& file) {
+  nlohmann::ordered_json columns = nlohmann::ordered_json::array();
+  for (const auto& [quantity, mapping] : file.columns) {
+    columns.push_back({{"quantity", quantity},
+                       {"name", text_or_null(mapping.name)},
+                       {"expression", text_or_null(mapping.expression)},
+                       {"unit", mapping.unit},
+                       {"scale", mapping.scale}});
+  }
+  return {{"file", file.file},
+          {"format", file.format},
+          {"kind", to_string(file.kind)},
+          {"warnings", file.warnings},
+          {"assumptions", file.assumptions},
+          {"columns", columns},
+          {"not_used", file.not_used}};
+}
+
+nlohmann::ordered_json json_of(const ImportedRun& run) {
+  const auto* record = std::get_if<measured::TimeRecord>(&run.data);
+  nlohmann::ordered_json json = {
+      {"id", run.run.id},
+      {"source", run.source},
+      {"kind", to_string(run.run.kind)},
+      {"purpose", text_or_null(run.run.purpose ? to_string(*run.run.purpose) : "")},
+      {"samples", nullptr},
+      {"period_s", nullptr},
+      {"from_s", nullptr},
+      {"torque_hold", nullptr},
+      {"initial", nullptr},
+      {"notes", run.notes}};
+  if (record == nullptr) return json;
+  json["samples"] = record->time_s.size();
+  json["period_s"] = measured::sampling_period_s(*record);
+  json["from_s"] = record->time_s.front();
+  json["torque_hold"] = to_string(run.run.torque_hold);
+  json["initial"] = to_string(run.run.initial);
+  return json;
+}
+
+template <class Items>
+nlohmann::ordered_json list_of(const Items& items) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const auto& item : items) list.push_back(json_of(item));
+  return list;
+}
+
+}  // namespace
+
+std::string import_text(const std::vector<ImportedFile>& files,
+                        const std::vector<ImportedRun>& runs) {
+  std::string out;
+  for (const auto& file : files) out += text_of(file);
+  for (const auto& run : runs) out += text_of(run);
+  return out;
+}
+
+std::string import_json(const std::vector<ImportedFile>& files,
+                        const std::vector<ImportedRun>& runs) {
+  return report::json_document("flexarm.import/2",
+                               {{"files", list_of(files)}, {"runs", list_of(runs)}});
+}
+
+}  // namespace flexarm::app

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "app/column_choice.hpp"
+#include "measured/files/foreign_file.hpp"
+#include "measured/files/run_data.hpp"
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace flexarm::app {
+
+/// How a foreign file is read.
+struct FileChoice {
+  std::optional<measured::RunKind> kind;  ///< empty: that of what the file holds
+  ColumnChoice columns;
+  std::optional<double> period_s;          ///< makes the times of a file without any
+  std::optional<std::size_t> raw_columns;  ///< of a file of doubles
+};
+
+/// What a foreign file was read as, and how.
+struct ImportedFile {
+  std::string file;
+  std::string format;  ///< "delimited text", ...
+  measured::RunKind kind = measured::RunKind::time;
+  measured::RunData data;                ///< a time record may be uneven
+  measured::ColumnMappings columns;      ///< that were used
+  std::vector<std::string> assumptions;  ///< a sentence each
+  std::vector<std::string> warnings;     ///< a sentence each
+  std::vector<std::string> not_used;     ///< columns and what else the file holds
+};
+
+/// Reads a file.
+///
+/// Throws InputError with one line: as the readers do, for a file of two kinds, and, with the
+/// columns found, where time or torque cannot be told or nothing is a sensor.
+ImportedFile import_file(const std::string& file, const FileChoice& choice);
+
+}  // namespace flexarm::app

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "arm/input_error.hpp"
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace flexarm::measured {
+
+/// The number in "#3", counted from 1; empty for any other text.
+std::optional<std::size_t> column_number(std::string_view typed);
+
+/// The place, from 0, of the column that `typed` stands for among the names of a file's columns:
+/// the first one of that name; else the n-th for "#n" or "n"; else the only one that has this name
+/// without its unit, as "Moment" has of "Moment (N m)". Empty when there is none.
+std::optional<std::size_t> column_place(std::span<const std::string> names, std::string_view typed);
+
+/// "column NAME: not in the file (did you mean ...?); it has ...".
+arm::InputError unknown_column(std::span<const std::string> names, std::string_view typed);
+
+}  // namespace flexarm::measured

@@ -1,0 +1,323 @@
+#include "measured/files/even_record.hpp"
+
+#include "arm/input_error.hpp"
+#include "measured/files/record_range.hpp"
+#include "measured/files/sample_clock.hpp"
+#include "measured/files/time_grid.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <span>
+#include <utility>
+
+namespace flexarm::measured {
+
+namespace {
+
+/// Digits behind the point that times are searched for.
+constexpr int kMostDigits = 7;
+/// A time within this of a multiple of its last digit, relative to the digit and to the time.
+constexpr double kDigitError = 1e-6;
+constexpr double kRelativeDigitError = 1e-12;
+/// Rounded times lie off the grid by less than this in units of their last digit, peak to peak; a
+/// line by least squares need not be the best one.
+constexpr double kMostRounding = 1.1;
+/// A last digit above this part of the period explains lost samples as well as rounding does,
+constexpr double kCoarsestDigit_periods = 0.75;
+/// unless so many times repeat.
+constexpr double kFewestRepeats = 0.1;
+/// Samples that lie closer make a curve through them out of their noise.
+constexpr double kClosest_periods = 0.3;
+
+std::size_t repeats_in(std::span<const double> times_s) {
+  std::size_t repeats = 0;
+  for (std::size_t k = 1; k < times_s.size(); ++k) {
+    if (times_s[k] == times_s[k - 1]) ++repeats;
+  }
+  return repeats;
+}
+
+/// The last digit of the times, 0.001 s; empty where they have more digits than looked for.
+std::optional<double> last_digit_s(std::span<const double> times_s) {
+  for (int digits = 0; digits <= kMostDigits; ++digits) {
+    const double per_second = std::pow(10.0, digits);
+    const bool fits = std::ranges::all_of(times_s, [&](double time_s) {
+      const double scaled = time_s * per_second;
+      return std::abs(scaled - std::round(scaled)) <=
+             kDigitError + kRelativeDigitError * std::abs(scaled);
+    });
+    if (fits) return 1.0 / per_second;
+  }
+  return std::nullopt;
+}
+
+/// Steps of one period each.
+ClockSteps even_steps(std::size_t samples) {
+  ClockSteps steps;
+  steps.periods.assign(samples, 1.0);
+  steps.periods[0] = 0.0;
+  return steps;
+}
+
+std::vector<double> grid_from(double first_s, double period_s, std::size_t samples) {
+  std::vector<double> times_s(samples);
+  for (std::size_t k = 0; k < samples; ++k) {
+    times_s[k] = first_s + period_s * static_cast<double>(k);
+  }
+  return times_s;
+}
+
+/// The times a + period n_k with the places n_k of the samples on the grid, by least squares.
+std::vector<double> fitted_times(std::span<const double> times_s, const ClockSteps& steps,
+                                 double period_s) {
+  std::vector<double> at(times_s.size(), 0.0);
+  for (std::size_t k = 1; k < at.size(); ++k) at[k] = at[k - 1] + steps.periods[k];
+  double first_s = 0.0;
+  const auto count = static_cast<double>(times_s.size());
+  for (std::size_t k = 0; k < at.size(); ++k) first_s += (times_s[k] - period_s * at[k]) / count;
+  std::vector<double> fitted(at.size());
+  for (std::size_t k = 0; k < at.size(); ++k) fitted[k] = first_s + period_s * at[k];
+  return fitted;
+}
+
+/// Mean of the held torque over [from_s, from_s + period_s); `i` is the sample that holds at
+/// from_s.
+double mean_of_held(const TimeRecord& record, double from_s, double period_s, std::size_t& i) {
+  const auto& times_s = record.time_s;
+  while (i + 1 < times_s.size() && times_s[i + 1] <= from_s) ++i;
+  const double to_s = from_s + period_s;
+  double impulse = 0.0;
+  for (std::size_t j = i; j < times_s.size() && times_s[j] < to_s; ++j) {
+    const double end_s = j + 1 < times_s.size() ? std::min(times_s[j + 1], to_s) : to_s;
+    impulse += record.torque_N_m[j] * (end_s - std::max(times_s[j], from_s));
+  }
+  return impulse / period_s;
+}
+
+double linear_at(const TimeRecord& record, double time_s, std::size_t& i) {
+  const auto& times_s = record.time_s;
+  while (i + 2 < times_s.size() && times_s[i + 1] <= time_s) ++i;
+  const double part = (time_s - times_s[i]) / (times_s[i + 1] - times_s[i]);
+  return std::lerp(record.torque_N_m[i], record.torque_N_m[i + 1], part);
+}
+
+/// Samples of a curve, at times that lie no closer than `kClosest_periods`.
+struct Nodes {
+  std::vector<double> times_s;
+  std::vector<double> values;
+};
+
+/// Samples that lie closer together than that are one, their mean.
+Nodes nodes_of(const std::vector<double>& times_s, const std::vector<double>& values,
+               double period_s) {
+  Nodes nodes;
+  std::size_t first = 0;
+  for (std::size_t k = 1; k <= times_s.size(); ++k) {
+    if (k < times_s.size() && times_s[k] - times_s[first] < kClosest_periods * period_s) continue;
+    double time_s = 0.0;
+    double value = 0.0;
+    const auto count = static_cast<double>(k - first);
+    for (; first < k; ++first) {
+      time_s += times_s[first] / count;
+      value += values[first] / count;
+    }
+    nodes.times_s.push_back(time_s);
+    nodes.values.push_back(value);
+  }
+  return nodes;
+}
+
+/// The cubic through the four nodes around the time (Lagrange's form); `i` is the node in front of
+/// the last time asked for.
+double cubic_at(const Nodes& nodes, double time_s, std::size_t& i) {
+  constexpr std::size_t kPoints = 4;
+  const auto& times_s = nodes.times_s;
+  while (i + 2 < times_s.size() && times_s[i + 1] <= time_s) ++i;
+  const std::size_t first =
+      std::min(i == 0 ? 0 : i - 1, times_s.size() - std::min(times_s.size(), kPoints));
+  const std::size_t last = std::min(first + kPoints, times_s.size());
+  double value = 0.0;
+  for (std::size_t j = first; j < last; ++j) {
+    double weight = 1.0;
+    for (std::size_t k = first; k < last; ++k) {
+      if (k != j) weight *= (time_s - times_s[k]) / (times_s[j] - times_s[k]);
+    }
+    value += weight * nodes.values[j];
+  }
+  return value;
+}
+
+TimeRecord resampled(const TimeRecord& record, double period_s, TorqueHold hold) {
+  const double first_s = record.time_s.front();
+  const double last_s = record.time_s.back();
+  // A last time that lies on the grid but for rounding is a sample of it.
+  const double steps = std::floor((last_s - first_s) / period_s + kDigitError);
+  TimeRecord even{grid_from(first_s, period_s, static_cast<std::size_t>(steps) + 1), {}, {}};
+  std::size_t i = 0;
+  for (const double time_s : even.time_s) {
+    even.torque_N_m.push_back(hold == TorqueHold::zero
+                                  ? mean_of_held(record, time_s, period_s, i)
+                                  : linear_at(record, std::min(time_s, last_s), i));
+  }
+  for (const auto& channel : record.channels) {
+    const Nodes nodes = nodes_of(record.time_s, channel.values, period_s);
+    Channel values{channel.sensor, {}};
+    i = 0;
+    for (const double time_s : even.time_s) values.values.push_back(cubic_at(nodes, time_s, i));
+    even.channels.push_back(std::move(values));
+  }
+  return even;
+}
+
+/// Puts the parts of one record on even grids.
+class EvenMaker {
+ public:
+  explicit EvenMaker(const EvenOptions& options) : options_(options) {}
+
+  EvenRecords make(const TimeRecord& record) {
+    const auto& times_s = record.time_s;
+    std::vector<std::size_t> bounds = {0};
+    for (std::size_t k = 1; k < times_s.size(); ++k) {
+      if (times_s[k] < times_s[k - 1]) bounds.push_back(k);
+    }
+    if (bounds.size() > 1) {
+      note(fmt::format("times go back at {} place{}, first after {} s; the record is split there",
+                       bounds.size() - 1, bounds.size() == 2 ? "" : "s", times_s[bounds[1] - 1]));
+    }
+    bounds.push_back(times_s.size());
+    for (std::size_t i = 0; i + 1 < bounds.size(); ++i) {
+      add_part(samples_of(record, bounds[i], bounds[i + 1]));
+    }
+    if (out_.stretches.empty()) {
+      throw arm::InputError(fmt::format("time: no stretch of {} samples or more without a gap",
+                                        options_.fewest_samples));
+    }
+    return std::move(out_);
+  }
+
+ private:
+  void note(std::string text) { out_.notes.push_back(std::move(text)); }
+
+  /// A record whose times do not go back.
+  void add_part(TimeRecord part) {
+    if (is_too_short(part) || add_rounded(part)) return;
+    leave_out_repeats(part);
+    const ClockSteps steps = clock_steps(part.time_s);
+    std::size_t first = 0;
+    for (const std::size_t gap : steps.gaps) {
+      const double missing = steps.periods[gap] - 1.0;
+      if (missing <= static_cast<double>(options_.longest_filled_gap)) continue;
+      note(fmt::format("{:.15g} samples missing between {} s and {} s; the record is split there",
+                       missing, part.time_s[gap - 1], part.time_s[gap]));
+      add_stretch(samples_of(part, first, gap));
+      first = gap;
+    }
+    add_stretch(samples_of(part, first, part.time_s.size()));
+  }
+
+  bool is_too_short(const TimeRecord& part) {
+    if (part.time_s.size() >= options_.fewest_samples) return false;
+    note(fmt::format("{} sample{} at {} s left out: a stretch has {} or more", part.time_s.size(),
+                     part.time_s.size() == 1 ? "" : "s", part.time_s.front(),
+                     options_.fewest_samples));
+    return true;
+  }
+
+  /// Rounded times of an even grid; false for any other.
+  bool add_rounded(const TimeRecord& part) {
+    const auto& times_s = part.time_s;
+    const auto digit_s = last_digit_s(times_s);
+    if (!digit_s || times_s.back() <= times_s.front()) return false;
+    const ClockSteps steps = even_steps(times_s.size());
+    const Jitter jitter = jitter_of(times_s, steps, 0, times_s.size(), kMostJitter_periods);
+    const double repeats = static_cast<double>(repeats_in(times_s));
+    const bool is_rounding = jitter.range_periods * jitter.period_s <= kMostRounding * *digit_s &&
+                             (*digit_s <= kCoarsestDigit_periods * jitter.period_s ||
+                              repeats >= kFewestRepeats * static_cast<double>(times_s.size()));
+    if (!is_rounding) return false;
+    note(fmt::format("times are rounded to {} s; replaced by an even grid of period {:.6g} s",
+                     *digit_s, jitter.period_s));
+    TimeRecord even = part;
+    even.time_s = fitted_times(times_s, steps, jitter.period_s);
+    out_.stretches.push_back(std::move(even));
+    return true;
+  }
+
+  void leave_out_repeats(TimeRecord& part) {
+    const std::size_t repeats = repeats_in(part.time_s);
+    if (repeats == 0) return;
+    note(fmt::format("{} sample{} with the time of the sample before left out", repeats,
+                     repeats == 1 ? "" : "s"));
+    const std::vector<double> times_s = part.time_s;
+    const auto thin = [&](std::vector<double>& values) {
+      std::size_t kept = 0;
+      for (std::size_t k = 0; k < times_s.size(); ++k) {
+        if (k == 0 || times_s[k] != times_s[k - 1]) values[kept++] = values[k];
+      }
+      values.resize(kept);
+    };
+    thin(part.time_s);
+    thin(part.torque_N_m);
+    for (auto& channel : part.channels) thin(channel.values);
+  }
+
+  /// A record without long gaps.
+  void add_stretch(TimeRecord stretch) {
+    if (is_too_short(stretch)) return;
+    if (!grid_fault(stretch.time_s)) {
+      out_.stretches.push_back(std::move(stretch));
+      return;
+    }
+    const ClockSteps steps = clock_steps(stretch.time_s);
+    const Jitter jitter =
+        jitter_of(stretch.time_s, steps, 0, stretch.time_s.size(), kMostJitter_periods);
+    double missing = 0.0;
+    for (const std::size_t gap : steps.gaps) missing += steps.periods[gap] - 1.0;
+    if (missing > 0.0) {
+      note(
+          fmt::format("{:.15g} missing sample{} in {} gap{} filled by interpolation, the first "
+                      "after {} s",
+                      missing, missing == 1.0 ? "" : "s", steps.gaps.size(),
+                      steps.gaps.size() == 1 ? "" : "s", stretch.time_s[steps.gaps.front() - 1]));
+    }
+    const bool is_jittery = missing == 0.0 || jitter.most_periods > kMostJitter_periods;
+    const std::string measured =
+        fmt::format("sampling jitter up to {:.2g} of the period {:.6g} s (rms {:.2g})",
+                    jitter.most_periods, jitter.period_s, jitter.rms_periods);
+    if (is_jittery && options_.clock == Clock::stamped) {
+      note(measured +
+           fmt::format("; resampled to an even grid of period {:.6g} s: sensors by cubic "
+                       "interpolation, the torque {}",
+                       steps.period_s,
+                       options_.torque_hold == TorqueHold::zero ? "by its mean over each step"
+                                                                : "linearly"));
+      out_.stretches.push_back(resampled(stretch, steps.period_s, options_.torque_hold));
+      return;
+    }
+    if (is_jittery) note(measured + "; samples taken as even, their times replaced");
+    stretch.time_s = fitted_times(stretch.time_s, steps, jitter.period_s);
+    out_.stretches.push_back(missing > 0.0
+                                 ? resampled(stretch, jitter.period_s, options_.torque_hold)
+                                 : std::move(stretch));
+  }
+
+  const EvenOptions& options_;
+  EvenRecords out_;
+};
+
+}  // namespace
+
+std::string_view to_string(Clock clock) {
+  return clock == Clock::stamped ? "stamped" : "even";
+}
+
+EvenRecords make_even(const TimeRecord& record, const EvenOptions& options) {
+  if (!grid_fault(record.time_s)) return {{record}, {}};
+  return EvenMaker(options).make(record);
+}
+
+}  // namespace flexarm::measured

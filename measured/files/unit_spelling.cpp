@@ -1,0 +1,283 @@
+#include "measured/files/unit_spelling.hpp"
+
+#include "measured/files/delimited_line.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <iterator>
+#include <map>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace flexarm::measured {
+
+namespace {
+
+using std::string_view;
+
+/// A unit of one word; the others in lower case, unless case tells units apart.
+struct UnitWord {
+  const char* unit;
+  std::vector<string_view> others;
+};
+
+const std::vector<UnitWord>& unit_words() {
+  static const std::vector<UnitWord> words = {
+      {"s", {"sec", "secs", "second", "seconds", "sek"}},
+      {"ms", {"msec", "msecs", "millisec", "millisecond", "milliseconds", "millis"}},
+      {"us", {"usec", "usecs", "microsec", "microsecond", "microseconds", "micros"}},
+      {"ns", {"nsec", "nanosecond", "nanoseconds", "nanos"}},
+      {"min", {"minute", "minutes"}},
+      {"m", {"meter", "meters", "metre", "metres"}},
+      {"mm", {"millimeter", "millimeters", "millimetre", "millimetres"}},
+      {"cm", {"centimeter", "centimeters", "centimetre", "centimetres"}},
+      {"um", {"micron", "microns", "micrometer", "micrometers", "micrometre", "micrometres"}},
+      {"inch", {"inches"}},
+      {"rad", {"rads", "radian", "radians"}},
+      {"mrad", {"mrads", "milliradian", "milliradians"}},
+      {"deg", {"degs", "degree", "degrees"}},
+      {"rev", {"revs", "revolution", "revolutions", "turn", "turns"}},
+      {"rpm", {}},
+      {"g", {"gn", "gee"}},
+      {"mg", {}},
+      {"N", {"newton", "newtons"}},
+      {"mN", {"millinewton", "millinewtons"}},
+      {"kN", {"kilonewton", "kilonewtons"}},
+      {"1", {"dimensionless"}},
+      {"ustrain", {"ue", "ustrains", "microstrain", "microstrains"}},
+      {"mstrain", {"millistrain"}},
+      {"V", {"volt", "volts"}},
+      {"mV", {"millivolt", "millivolts"}},
+      {"A", {"amp", "amps", "ampere", "amperes"}},
+      {"mA", {"milliamp", "milliamps", "milliampere", "milliamperes"}},
+      {"Hz", {"hertz"}},
+      {"kHz", {"kilohertz"}},
+      {"counts", {"count", "cts", "ticks", "tick", "lsb"}},
+      {"%", {"percent"}},
+  };
+  return words;
+}
+
+/// Units of several words by their factors, and spellings that are no words between separators.
+struct CompoundUnit {
+  const char* unit;
+  std::vector<std::map<string_view, int>> factors;
+  std::vector<string_view> others;
+};
+
+const std::vector<CompoundUnit>& compound_units() {
+  static const std::vector<CompoundUnit> units = {
+      {"N m", {{{"N", 1}, {"m", 1}}}, {"Nm"}},
+      {"N mm", {{{"N", 1}, {"mm", 1}}, {{"mN", 1}, {"m", 1}}}, {"Nmm", "mNm"}},
+      {"N cm", {{{"N", 1}, {"cm", 1}}}, {"Ncm"}},
+      {"kN m", {{{"kN", 1}, {"m", 1}}}, {"kNm"}},
+      {"kgf cm", {}, {"kgfcm", "kgf*cm", "kgf-cm", "kgf.cm", "kgcm", "kg*cm", "kg-cm", "kg.cm"}},
+      {"lbf in",
+       {},
+       {"lbfin", "lbf*in", "lbf-in", "lbf.in", "lbin", "lb*in", "lb-in", "in-lb", "in-lbf",
+        "inlb"}},
+      {"lbf ft",
+       {},
+       {"lbfft", "lbf*ft", "lbf-ft", "lbf.ft", "lbft", "lb*ft", "lb-ft", "ft-lb", "ft-lbf",
+        "ftlb"}},
+      {"ozf in", {}, {"ozfin", "ozf*in", "ozf-in", "ozf.in", "ozin", "oz*in", "oz-in", "in-oz"}},
+      {"rad/s", {{{"rad", 1}, {"s", -1}}}, {"rad_s", "rads_s", "rads-1", "rads^-1"}},
+      {"mrad/s", {{{"mrad", 1}, {"s", -1}}}, {"mrad_s"}},
+      {"deg/s", {{{"deg", 1}, {"s", -1}}}, {"deg_s", "degs_s", "dps"}},
+      {"rev/s", {{{"rev", 1}, {"s", -1}}}, {"rps", "rev_s"}},
+      {"rpm", {{{"rev", 1}, {"min", -1}}}, {"1/min", "min-1", "min^-1", "rev_min", "u/min"}},
+      {"m/s^2", {{{"m", 1}, {"s", -2}}}, {"m_s2", "ms-2", "ms^-2", "mps2"}},
+      {"mm/s^2", {{{"mm", 1}, {"s", -2}}}, {"mm_s2"}},
+      {"cm/s^2", {{{"cm", 1}, {"s", -2}}}, {"cm_s2"}},
+      {"m/s", {{{"m", 1}, {"s", -1}}}, {"m_s", "mps"}},
+      {"mm/s", {{{"mm", 1}, {"s", -1}}}, {"mm_s"}},
+      {"ustrain", {{{"um", 1}, {"m", -1}}}, {"um_m"}},
+      {"mstrain", {{{"mm", 1}, {"m", -1}}}, {"mm_m"}},
+      {"1", {}, {"-", "m/m"}},
+  };
+  return units;
+}
+
+/// What is written with signs beyond ASCII, and with other words, in one way.
+constexpr std::array<std::pair<string_view, string_view>, 19> kSigns = {{
+    {"\xc2\xb5\xce\xb5", "ue"},       // micro sign, epsilon
+    {"\xce\xbc\xce\xb5", "ue"},       // mu, epsilon
+    {"\xc2\xb5", "u"},                // micro sign
+    {"\xce\xbc", "u"},                // mu
+    {"\xc2\xb0", "deg"},              // degree sign
+    {"\xc2\xba", "deg"},              // ordinal indicator
+    {"\xc2\xb7", "*"},                // middle dot
+    {"\xe2\x8b\x85", "*"},            // dot operator
+    {"\xc3\x97", "*"},                // multiplication sign
+    {"\xe2\x88\x97", "*"},            // asterisk operator
+    {"\xc2\xb2", "^2"},               // superscript 2
+    {"\xe2\x81\xbb\xc2\xb9", "^-1"},  // superscript minus, 1
+    {"\xe2\x81\xbb\xc2\xb2", "^-2"},  // superscript minus, 2
+    {"\xe2\x81\xbb\x31", "^-1"},      // superscript minus before a plain digit
+    {"\xe2\x88\x92", "-"},            // minus sign
+    {"\xe2\x88\x95", "/"},            // division slash
+    {"**", "^"},
+    {" per ", "/"},
+    {"_per_", "/"},
+}};
+
+std::string in_plain_signs(string_view text) {
+  std::string out;
+  while (!text.empty()) {
+    // Longer signs first: superscript minus and 2 before superscript 2.
+    string_view best;
+    string_view with;
+    for (const auto& [sign, plain] : kSigns) {
+      if (text.starts_with(sign) && sign.size() > best.size()) {
+        best = sign;
+        with = plain;
+      }
+    }
+    if (best.empty()) {
+      out += text.front();
+      text.remove_prefix(1);
+    } else {
+      out += with;
+      text.remove_prefix(best.size());
+    }
+  }
+  return out;
+}
+
+bool is_letter(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+}
+
+bool is_digit_of_unit(char c) {
+  return c >= '0' && c <= '9';
+}
+
+std::string in_lower_case(string_view text) {
+  std::string out(text);
+  std::ranges::transform(out, out.begin(), [](char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  });
+  return out;
+}
+
+std::string without_blanks(string_view text) {
+  std::string out;
+  std::ranges::copy_if(text, std::back_inserter(out), [](char c) { return !is_blank(c); });
+  return out;
+}
+
+/// Whether `typed` is that spelling; with `fold` in whatever case.
+bool is_spelling(string_view typed, string_view spelling, bool fold) {
+  return fold ? in_lower_case(typed) == in_lower_case(spelling) : typed == spelling;
+}
+
+string_view find_word(string_view typed, bool fold) {
+  for (const auto& word : unit_words()) {
+    if (is_spelling(typed, word.unit, fold)) return word.unit;
+    for (const auto other : word.others) {
+      if (is_spelling(typed, other, fold)) return word.unit;
+    }
+  }
+  return {};
+}
+
+string_view find_whole(string_view typed, bool fold) {
+  for (const auto& unit : compound_units()) {
+    if (is_spelling(typed, without_blanks(unit.unit), fold)) return unit.unit;
+    for (const auto other : unit.others) {
+      if (is_spelling(typed, other, fold)) return unit.unit;
+    }
+  }
+  return {};
+}
+
+/// Words between separators, with their powers.
+class FactorReader {
+ public:
+  FactorReader(string_view text, bool fold) : text_(text), fold_(fold) {}
+
+  std::optional<std::map<string_view, int>> read() {
+    std::map<string_view, int> factors;
+    int sign = 1;
+    while (true) {
+      skip_blanks();
+      const std::size_t begin = at_;
+      while (at_ < text_.size() && is_letter(text_[at_])) ++at_;
+      const string_view word = find_word(text_.substr(begin, at_ - begin), fold_);
+      if (word.empty() || word == "1") return std::nullopt;
+      const auto power = read_power();
+      if (!power) return std::nullopt;
+      factors[word] += sign * *power;
+      const std::size_t end = at_;
+      skip_blanks();
+      if (at_ == text_.size()) return factors;
+      const char c = text_[at_];
+      if (c == '/' || c == '*' || c == '.' || c == '-' || c == '_') {
+        ++at_;
+      } else if (at_ == end) {
+        return std::nullopt;
+      }
+      sign = c == '/' ? -1 : 1;
+    }
+  }
+
+ private:
+  void skip_blanks() {
+    while (at_ < text_.size() && is_blank(text_[at_])) ++at_;
+  }
+
+  /// 1 without a power; nothing for what is no power.
+  std::optional<int> read_power() {
+    std::size_t at = at_;
+    const bool is_marked = at < text_.size() && text_[at] == '^';
+    if (is_marked) ++at;
+    const bool is_negative = at < text_.size() && text_[at] == '-';
+    if (is_negative || (at < text_.size() && text_[at] == '+')) ++at;
+    if (at >= text_.size() || !is_digit_of_unit(text_[at])) {
+      if (is_marked) return std::nullopt;
+      return 1;
+    }
+    const int power = text_[at] - '0';
+    at_ = at + 1;
+    if (at_ < text_.size() && is_digit_of_unit(text_[at_])) return std::nullopt;
+    return is_negative ? -power : power;
+  }
+
+  string_view text_;
+  bool fold_;
+  std::size_t at_ = 0;
+};
+
+string_view find_spelled(string_view text, bool fold) {
+  if (const auto unit = find_word(text, fold); !unit.empty()) return unit;
+  if (const auto unit = find_whole(without_blanks(text), fold); !unit.empty()) return unit;
+  const auto factors = FactorReader(text, fold).read();
+  if (!factors) return {};
+  for (const auto& unit : compound_units()) {
+    if (std::ranges::count(unit.factors, *factors) > 0) return unit.unit;
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string find_unit(string_view text) {
+  const std::string plain = in_plain_signs(trimmed(text));
+  for (const bool fold : {false, true}) {
+    // A capital tells S (siemens), G (gauss) or M apart: units of one letter are not folded.
+    if (fold && plain.size() == 1) continue;
+    if (const auto unit = find_spelled(plain, fold); !unit.empty()) return std::string(unit);
+  }
+  return {};
+}
+
+bool is_canonical_unit(string_view unit) {
+  return std::ranges::count(unit_words(), unit,
+                            [](const auto& word) -> string_view { return word.unit; }) > 0 ||
+         std::ranges::count(compound_units(), unit,
+                            [](const auto& compound) -> string_view { return compound.unit; }) > 0;
+}
+
+}  // namespace flexarm::measured

@@ -1,0 +1,185 @@
+#include "measured/files/even_record.hpp"
+
+#include "arm/input_error.hpp"
+#include "measured/files/sample_clock.hpp"
+#include "measured/files/time_grid.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <random>
+
+namespace flexarm::measured {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr double kPeriod_s = 0.01;
+
+double angle_at(double time_s) {
+  return std::sin(2.0 * std::numbers::pi * 3.0 * time_s);
+}
+
+/// A record at the times, of a sine of 3 Hz, and of a torque that is the number of the sample.
+TimeRecord record_at(const std::vector<double>& times_s) {
+  TimeRecord record{times_s, {}, {{{arm::SensorKind::hub_angle, 0.0}, {}}}};
+  for (const double time_s : times_s) {
+    record.torque_N_m.push_back(static_cast<double>(record.torque_N_m.size()));
+    record.channels[0].values.push_back(angle_at(time_s));
+  }
+  return record;
+}
+
+std::vector<double> times_of(int samples, const std::function<double(int)>& time_s) {
+  std::vector<double> times_s;
+  for (int k = 0; k < samples; ++k) times_s.push_back(time_s(k));
+  return times_s;
+}
+
+/// Largest error of the angle of a stretch.
+double angle_error(const TimeRecord& record) {
+  double error = 0.0;
+  for (std::size_t k = 0; k < record.time_s.size(); ++k) {
+    error = std::max(error, std::abs(record.channels[0].values[k] - angle_at(record.time_s[k])));
+  }
+  return error;
+}
+
+TEST(EvenRecord, AnEvenOneIsReturnedBitForBit) {
+  const TimeRecord record = record_at(times_of(50, [](int k) { return k * kPeriod_s; }));
+  const EvenRecords even = make_even(record);
+  ASSERT_EQ(even.stretches.size(), 1U);
+  EXPECT_EQ(even.stretches[0], record);
+  EXPECT_TRUE(even.notes.empty());
+}
+
+/// A cubic through four points h apart errs by up to 3/128 (h w)^4: 2e-4 for steps of up to 1.4
+/// periods and 33 samples a cycle. Linear interpolation errs by (h w)^2/8 = 9e-3.
+TEST(EvenRecord, JitterIsResampledAtTheTimesOfTheSamples) {
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> jitter(-0.2, 0.2);
+  const TimeRecord record =
+      record_at(times_of(2000, [&](int k) { return (k + jitter(random)) * kPeriod_s; }));
+  const EvenRecords even = make_even(record);
+  ASSERT_EQ(even.stretches.size(), 1U);
+  ASSERT_EQ(even.notes.size(), 1U);
+  EXPECT_THAT(even.notes[0], HasSubstr("sampling jitter up to 0.2 of the period 0.01 s"));
+  EXPECT_THAT(even.notes[0], HasSubstr("sensors by cubic interpolation"));
+  EXPECT_FALSE(grid_fault(even.stretches[0].time_s));
+  EXPECT_NEAR(sampling_period_s(even.stretches[0]), kPeriod_s, 1e-3 * kPeriod_s);
+  constexpr double kLargestError = 2e-4;
+  EXPECT_LT(angle_error(even.stretches[0]), kLargestError);
+  EXPECT_GT(angle_error(make_even(record, {.clock = Clock::even}).stretches[0]),
+            100.0 * kLargestError);
+}
+
+/// The impulse of a held torque is that of its means over the new steps.
+TEST(EvenRecord, AHeldTorqueKeepsItsImpulse) {
+  std::mt19937_64 random(8);
+  std::uniform_real_distribution<double> jitter(-0.3, 0.3);
+  const TimeRecord record =
+      record_at(times_of(400, [&](int k) { return (k + jitter(random)) * kPeriod_s; }));
+  const TimeRecord even = make_even(record).stretches.at(0);
+  const double period_s = sampling_period_s(even);
+  double impulse = 0.0;
+  for (const double torque : even.torque_N_m) impulse += torque * period_s;
+  double expected = 0.0;
+  const double end_s = even.time_s.back() + period_s;
+  for (std::size_t k = 0; k < record.time_s.size() && record.time_s[k] < end_s; ++k) {
+    const double next_s =
+        k + 1 < record.time_s.size() ? std::min(record.time_s[k + 1], end_s) : end_s;
+    expected += record.torque_N_m[k] * (next_s - record.time_s[k]);
+  }
+  EXPECT_NEAR(impulse, expected, 1e-12 * expected);
+  const TimeRecord linear = make_even(record, {.torque_hold = TorqueHold::first}).stretches.at(0);
+  EXPECT_NE(linear.torque_N_m[100], even.torque_N_m[100]);
+}
+
+TEST(EvenRecord, ALateSampleIsNotAMissingOne) {
+  const auto times_s =
+      times_of(200, [](int k) { return (k + (k == 60 || k == 130 ? 0.9 : 0.0)) * kPeriod_s; });
+  EXPECT_TRUE(clock_steps(times_s).gaps.empty());
+  const auto fault = grid_fault(times_s);
+  ASSERT_TRUE(fault);
+  EXPECT_THAT(fault->error.what(), HasSubstr("jitter 0.9"));
+  const EvenRecords even = make_even(record_at(times_s));
+  ASSERT_EQ(even.stretches.size(), 1U);
+  EXPECT_EQ(even.stretches[0].time_s.size(), 200U);
+}
+
+TEST(EvenRecord, AStallWithABurstBehindIsNotAGap) {
+  const auto times_s = times_of(
+      200, [](int k) { return (k >= 80 && k < 84 ? 84.0 + 0.01 * (k - 84) : k) * kPeriod_s; });
+  EXPECT_TRUE(clock_steps(times_s).gaps.empty());
+}
+
+/// Noise of samples that are taken almost at once is not blown up by the curve through them.
+TEST(EvenRecord, SamplesThatLieCloseAreAveraged) {
+  TimeRecord record =
+      record_at(times_of(200, [](int k) { return (k + (k % 4 == 1 ? 0.99 : 0.0)) * kPeriod_s; }));
+  std::mt19937_64 random(9);
+  std::normal_distribution<double> noise(0.0, 0.01);
+  for (double& value : record.channels[0].values) value += noise(random);
+  EXPECT_LT(angle_error(make_even(record).stretches.at(0)), 0.06);
+}
+
+TEST(EvenRecord, RoundedTimesAreReplacedByTheirGrid) {
+  const double period_s = 0.0016;
+  const auto times_s =
+      times_of(300, [&](int k) { return std::round(1000.0 * period_s * k) / 1000.0; });
+  const TimeRecord record = record_at(times_s);
+  const EvenRecords even = make_even(record);
+  ASSERT_EQ(even.stretches.size(), 1U);
+  ASSERT_EQ(even.notes.size(), 1U);
+  EXPECT_THAT(even.notes[0], HasSubstr("times are rounded to 0.001 s"));
+  EXPECT_EQ(even.stretches[0].torque_N_m, record.torque_N_m);
+  EXPECT_NEAR(sampling_period_s(even.stretches[0]), period_s, 1e-3 * period_s);
+  // Coarser than the period: stamps repeat, and no sample is left out.
+  const auto coarse = record_at(times_of(300, [](int k) { return std::floor(0.6 * k) / 1000.0; }));
+  const EvenRecords finer = make_even(coarse);
+  ASSERT_EQ(finer.stretches.size(), 1U);
+  EXPECT_EQ(finer.stretches[0].time_s.size(), 300U);
+  EXPECT_NEAR(sampling_period_s(finer.stretches[0]), 0.0006, 1e-5);
+}
+
+TEST(EvenRecord, AShortGapIsFilledAndALongOneSplits) {
+  const auto gap_of = [](int missing) {
+    return record_at(times_of(200, [&](int k) { return (k < 100 ? k : k + missing) * kPeriod_s; }));
+  };
+  const EvenRecords filled = make_even(gap_of(2));
+  ASSERT_EQ(filled.stretches.size(), 1U);
+  EXPECT_EQ(filled.stretches[0].time_s.size(), 202U);
+  EXPECT_LT(angle_error(filled.stretches[0]), 0.02);
+  EXPECT_NEAR(filled.stretches[0].torque_N_m[100], 99.0, 1e-9);  // held through the gap
+  EXPECT_THAT(filled.notes[0], HasSubstr("2 missing samples in 1 gap filled by interpolation"));
+  const EvenRecords split = make_even(gap_of(4));
+  ASSERT_EQ(split.stretches.size(), 2U);
+  EXPECT_EQ(split.stretches[0].time_s.size(), 100U);
+  EXPECT_EQ(split.stretches[1].torque_N_m[0], 100.0);
+  EXPECT_THAT(split.notes[0], HasSubstr("4 samples missing between 0.99 s and 1.04 s"));
+  EXPECT_EQ(make_even(gap_of(2), {.longest_filled_gap = 1}).stretches.size(), 2U);
+}
+
+TEST(EvenRecord, TimesThatGoBackSplitAndRepeatsAreLeftOut) {
+  const EvenRecords back =
+      make_even(record_at(times_of(100, [](int k) { return (k % 50) * kPeriod_s; })));
+  ASSERT_EQ(back.stretches.size(), 2U);
+  EXPECT_EQ(back.stretches[1].torque_N_m[0], 50.0);
+  EXPECT_THAT(back.notes[0], HasSubstr("times go back at 1 place, first after 0.49 s"));
+  const EvenRecords repeated =
+      make_even(record_at(times_of(101, [](int k) { return (k <= 40 ? k : k - 1) * kPeriod_s; })));
+  ASSERT_EQ(repeated.stretches.size(), 1U);
+  EXPECT_EQ(repeated.stretches[0].time_s.size(), 100U);
+  EXPECT_EQ(repeated.stretches[0].torque_N_m[41], 42.0);
+  EXPECT_THAT(repeated.notes[0], HasSubstr("1 sample with the time of the sample before left out"));
+}
+
+TEST(EvenRecord, ARecordWithoutAStretchIsRefused) {
+  EXPECT_THROW(make_even(record_at({0.0, 0.01, 0.025, 0.5, 0.52})), arm::InputError);
+}
+
+}  // namespace
+}  // namespace flexarm::measured

@@ -1,0 +1,84 @@
+#include "measured/files/unit_spelling.hpp"
+
+#include "measured/files/column_mapping.hpp"
+#include "measured/files/column_name.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+#include <vector>
+
+namespace flexarm::measured {
+namespace {
+
+struct Spelled {
+  const char* unit;
+  std::vector<const char*> spellings;
+};
+
+TEST(UnitSpelling, EveryUsualOneIsKnown) {
+  const std::vector<Spelled> table = {
+      {"s", {"s", "sec", "Seconds", "SEC"}},
+      {"ms", {"ms", "msec", "milliseconds", "MS"}},
+      {"us", {"us", "\xc2\xb5s", "\xce\xbcs", "microseconds"}},
+      {"rad", {"rad", "rads", "Radians"}},
+      {"deg", {"deg", "\xc2\xb0", "degrees", "Deg"}},
+      {"rad/s",
+       {"rads/s", "rad/sec", "rad s-1", "rad.s^-1", "rad*s**-1", "radians per second", "rad_per_s",
+        "RAD/S", "rad s\xe2\x81\xbb\xc2\xb9", "rad / s"}},
+      {"deg/s", {"\xc2\xb0/s", "dps", "deg_s", "degrees/second", "deg\xc2\xb7s^-1"}},
+      {"rpm", {"rpm", "RPM", "rev/min", "1/min", "min-1", "U/min"}},
+      {"N m", {"Nm", "N*m", "N.m", "N-m", "N\xc2\xb7m", "N_m", "newton metres", "NM"}},
+      {"N mm", {"mNm", "mN m", "N*mm", "mN-m"}},
+      {"N cm", {"Ncm", "N cm"}},
+      {"ozf in", {"oz-in", "ozin"}},
+      {"m/s^2", {"m/s2", "m/s\xc2\xb2", "m/s/s", "m s^-2", "ms-2", "m/s**2", "m/sec^2"}},
+      {"mm/s^2", {"mm/s2", "mm/s^2"}},
+      {"g", {"g", "gn"}},
+      {"ustrain", {"\xc2\xb5\xce\xb5", "\xce\xbcm/m", "microstrain", "um/m", "\xc2\xb5strain"}},
+      {"V", {"V", "volts", "Volt"}},
+      {"mV", {"mV", "millivolts"}},
+      {"A", {"A", "amps"}},
+  };
+  for (const auto& [unit, spellings] : table) {
+    for (const char* spelling : spellings) EXPECT_EQ(find_unit(spelling), unit) << spelling;
+  }
+}
+
+TEST(UnitSpelling, WhatIsNoUnitIsNone) {
+  for (const char* text :
+       {"", "S", "M", "furlong", "rad s", "s/s", "m/s^", "theta", "N/m/", "rad//s", "m^12"}) {
+    EXPECT_EQ(find_unit(text), "") << text;
+  }
+}
+
+TEST(UnitSpelling, UnitsStandInHeadersInManyWays) {
+  const auto expect = [](const char* header, const char* base, const char* unit) {
+    const ColumnName name = split_column_name(header);
+    EXPECT_EQ(name.base, base) << header;
+    EXPECT_EQ(name.unit, unit) << header;
+  };
+  expect("Hubangle(Theta in rad)", "Hubangle", "rad");
+  expect("Hub Angular Velocity (rads/s)", "Hub Angular Velocity", "rad/s");
+  expect("Theta in rad", "Theta", "rad");
+  expect("theta_in_deg", "theta", "deg");
+  expect("Angle (deg, filtered)", "Angle", "deg");
+  expect("Hub Velocity degrees per second", "Hub Velocity", "deg/s");
+  expect("data(:,1)", "data(:,1)", "");
+  expect("theta(2)", "theta(2)", "");
+  expect("strain@0.05 [1]", "strain@0.05", "1");
+  expect("torque_min", "torque_min", "");
+}
+
+/// A unit beyond those of a record stands for its scale, where none is given.
+TEST(UnitSpelling, OtherUnitsHaveAScale) {
+  EXPECT_EQ(scale_of_unit("hub_velocity", "rpm"), 2.0 * std::numbers::pi / 60.0);
+  EXPECT_EQ(scale_of_unit("torque", "N cm"), 1e-2);
+  EXPECT_NEAR(scale_of_unit("torque", "oz-in"), 0.00706155, 1e-8);
+  EXPECT_EQ(scale_of_unit("hub_angle", "deg"), 1.0);  // a unit of a record has a factor
+  EXPECT_TRUE(is_unit_of("tip_deflection", "cm"));
+  EXPECT_FALSE(is_unit_of("torque", "V"));
+}
+
+}  // namespace
+}  // namespace flexarm::measured

@@ -20,9 +20,11 @@ struct ColumnChoice {
   std::string torque;                 ///< an expression, in N m
   std::string time_unit;              ///< in place of that of the file
 
-  bool empty() const {
-    return typed.empty() && computed.empty() && torque.empty() && time_unit.empty();
+  /// Whether there is more than names, which frequency responses have too.
+  bool is_for_signals() const {
+    return !computed.empty() || !torque.empty() || !time_unit.empty();
   }
+  bool empty() const { return typed.empty() && !is_for_signals(); }
 
   /// The mappings; what is not typed of a unit is the file's, or SI. Throws InputError for what
   /// cannot be read, and for columns that are not there (with the one that was probably meant).

@@ -49,7 +49,7 @@ std::string size_of(const measured::RunData& data) {
   return counted(std::get<measured::ModalTable>(data).size(), "row");
 }
 
-std::string text_of(const ImportedFile& file) {
+std::string import_text_of(const ImportedFile& file) {
   std::string out = report::to_paragraph(
       fmt::format("{}: {}, read as {}", arm::shown(file.file), file.format, to_string(file.kind)));
   for (const auto& sentence : file.warnings) {
@@ -64,7 +64,7 @@ std::string text_of(const ImportedFile& file) {
   return out;
 }
 
-std::string text_of(const ImportedRun& run) {
+std::string import_text_of(const ImportedRun& run) {
   std::string out =
       report::to_paragraph(fmt::format("run {}: {}", run.run.id, size_of(run.data)), 4);
   for (const auto& note : run.notes) out += report::to_paragraph("  " + note, 4);
@@ -75,7 +75,7 @@ nlohmann::ordered_json text_or_null(std::string_view text) {
   return text.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(text);
 }
 
-nlohmann::ordered_json json_of(const ImportedFile& file) {
+nlohmann::ordered_json import_json_of(const ImportedFile& file) {
   nlohmann::ordered_json columns = nlohmann::ordered_json::array();
   for (const auto& [quantity, mapping] : file.columns) {
     columns.push_back({{"quantity", quantity},
@@ -93,7 +93,7 @@ nlohmann::ordered_json json_of(const ImportedFile& file) {
           {"not_used", file.not_used}};
 }
 
-nlohmann::ordered_json json_of(const ImportedRun& run) {
+nlohmann::ordered_json import_json_of(const ImportedRun& run) {
   const auto* record = std::get_if<measured::TimeRecord>(&run.data);
   nlohmann::ordered_json json = {
       {"id", run.run.id},
@@ -118,7 +118,7 @@ nlohmann::ordered_json json_of(const ImportedRun& run) {
 template <class Items>
 nlohmann::ordered_json list_of(const Items& items) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const auto& item : items) list.push_back(json_of(item));
+  for (const auto& item : items) list.push_back(import_json_of(item));
   return list;
 }
 
@@ -127,8 +127,8 @@ nlohmann::ordered_json list_of(const Items& items) {
 std::string import_text(const std::vector<ImportedFile>& files,
                         const std::vector<ImportedRun>& runs) {
   std::string out;
-  for (const auto& file : files) out += text_of(file);
-  for (const auto& run : runs) out += text_of(run);
+  for (const auto& file : files) out += import_text_of(file);
+  for (const auto& run : runs) out += import_text_of(run);
   return out;
 }
 

@@ -47,7 +47,7 @@ RecordRange read_range(const std::string& option, std::string_view text, bool by
   }
 }
 
-Part read_run(const std::string& text) {
+Part read_part(const std::string& text) {
   const std::string option = fmt::format("--run {}", arm::shown(text));
   const auto equals = text.find('=');
   if (equals == std::string::npos || equals == 0) {
@@ -61,7 +61,7 @@ Part read_run(const std::string& text) {
 
 std::vector<Part> parts_of(const RunsChoice& choice, const std::string& file_id) {
   std::vector<Part> parts;
-  for (const auto& text : choice.runs) parts.push_back(read_run(text));
+  for (const auto& text : choice.runs) parts.push_back(read_part(text));
   if (!parts.empty()) return parts;
   const std::string id = choice.id.empty() ? file_id : require_id(choice.id);
   if (!choice.rows.empty()) {

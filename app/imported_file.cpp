@@ -173,6 +173,9 @@ void read_mapped(ForeignFile& file, const FileChoice& choice, ImportedFile& impo
   const std::string name = arm::shown(imported.file);
   const bool in_time = imported.kind == RunKind::time;
   if (in_time && choice.period_s) add_times(file.table, *choice.period_s);
+  if (!in_time && choice.columns.is_for_signals()) {
+    throw InputError("--compute, --torque, --time-unit: only for time signals");
+  }
   const auto labels = labels_of(file, imported.kind);
   auto guess = measured::guess_columns(labels, choice.columns.mappings(labels));
   choice.columns.set_time_unit(guess.mappings);
@@ -224,7 +227,7 @@ ImportedFile import_file(const std::string& path, const FileChoice& choice) {
     const bool is_long_form =
         imported.kind != RunKind::time && file.format == measured::ForeignFormat::text;
     if (is_long_form && !choice.columns.empty()) {
-      throw InputError("--column: not applicable, this file names its columns");
+      throw InputError("--column, --compute: not applicable, this file names its columns");
     }
     if (choice.period_s && imported.kind != RunKind::time) {
       throw InputError("--period: only for time signals");

@@ -14,7 +14,7 @@ namespace flexarm::measured {
 namespace {
 
 constexpr std::size_t kWindow = 10;         // samples over which angle and velocity are compared
-constexpr double kLeastCorrelation = 0.7;   // of the two
+constexpr double kLeastLikeness = 0.7;      // of the two
 constexpr double kPowerFactor = 1.5;        // off a power of 1000
 constexpr double kCertainFactor = 3.0;      // off 1
 constexpr double kLongestPeriod_s = 0.25;   // half a cycle of 2 Hz
@@ -47,7 +47,7 @@ std::optional<double> angle_per_integral(const TimeRecord& record) {
     xy += integral * change;
     yy += change * change;
   }
-  if (xx == 0.0 || yy == 0.0 || xy * xy <= kLeastCorrelation * kLeastCorrelation * xx * yy) {
+  if (xx == 0.0 || yy == 0.0 || xy * xy <= kLeastLikeness * kLeastLikeness * xx * yy) {
     return std::nullopt;
   }
   return std::abs(xy / xx);

@@ -8,12 +8,12 @@ namespace flexarm::measured {
 
 namespace {
 
-constexpr std::size_t kSide = 8;        // samples on each side of a step that may be a gap
+constexpr std::size_t kGapSide = 8;     // samples on each side of a step that may be a gap
 constexpr double kLongStep = 1.5;       // periods; a shorter step has lost nothing
 constexpr double kShift = 0.7;          // periods by which a gap shifts what follows
 constexpr std::size_t kMostLag = 16;    // samples; bursts and rounded times are shorter
 constexpr std::size_t kFewestLags = 4;  // in the record
-constexpr double kAlike = 0.1;          // steps this close to their median, relative to it,
+constexpr double kAlikeStep = 0.1;      // steps this close to their median, relative to it,
 constexpr double kMostAlike = 0.8;      // are nearly all from this part of them on
 
 /// The lower one of an even number of values: no mean of a step and a gap.
@@ -39,7 +39,7 @@ double period_of(std::span<const double> times_s) {
   const double step_s = median_period(times_s, 1);
   std::size_t alike = 0;
   for (std::size_t k = 1; k < times_s.size(); ++k) {
-    if (std::abs(times_s[k] - times_s[k - 1] - step_s) <= kAlike * step_s) ++alike;
+    if (std::abs(times_s[k] - times_s[k - 1] - step_s) <= kAlikeStep * step_s) ++alike;
   }
   const auto count = static_cast<double>(times_s.size() - 1);
   if (static_cast<double>(alike) >= kMostAlike * count) return step_s;
@@ -58,8 +58,8 @@ double median_lead(std::span<const double> times_s, std::size_t from, std::size_
 }
 
 double shift_at(std::span<const double> times_s, std::size_t k, double period_s) {
-  const std::size_t from = k > kSide ? k - kSide : 0;
-  const std::size_t to = std::min(times_s.size(), k + kSide);
+  const std::size_t from = k > kGapSide ? k - kGapSide : 0;
+  const std::size_t to = std::min(times_s.size(), k + kGapSide);
   return median_lead(times_s, k, to, period_s) - median_lead(times_s, from, k, period_s);
 }
 

@@ -146,7 +146,7 @@ std::string in_plain_signs(string_view text) {
   return out;
 }
 
-bool is_letter(char c) {
+bool is_unit_letter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
 }
 
@@ -204,7 +204,7 @@ class FactorReader {
     while (true) {
       skip_blanks();
       const std::size_t begin = at_;
-      while (at_ < text_.size() && is_letter(text_[at_])) ++at_;
+      while (at_ < text_.size() && is_unit_letter(text_[at_])) ++at_;
       const string_view word = find_word(text_.substr(begin, at_ - begin), fold_);
       if (word.empty() || word == "1") return std::nullopt;
       const auto power = read_power();

@@ -134,6 +134,14 @@ TEST(ForeignTable, WithoutAHeaderColumnsAreCounted) {
   EXPECT_THAT(table.assumptions, Contains("no header line; columns named column 1, column 2, ..."));
 }
 
+/// A header with fewer names than the rows have cells, and separators that end lines in any number.
+TEST(ForeignTable, ColumnsAtTheEndNeedNoNames) {
+  const auto table = parse_foreign_table("t\tu\ty\n0\t1\t2\t0\t0\t\n1\t1\t2\t0\t0\t\n", "log");
+  EXPECT_THAT(names_of(table), ElementsAre("t", "u", "y", "column 4", "column 5"));
+  const auto trailing = parse_foreign_table("t;u;y;;;\n0;1;2;;;\n1;1;2;;;\n", "log");
+  EXPECT_THAT(names_of(trailing), ElementsAre("t", "u", "y"));
+}
+
 TEST(ForeignTable, TextAndEmptyCellsAreKeptAsSuch) {
   const auto table =
       parse_foreign_table("date,t,u,y\n14 May,0,1,\n14 May,1,2,3\n14 May,2,3,4\n", "log");

@@ -155,11 +155,11 @@ TEST_F(JsonSchema, WhatNewWritesIsWhatTheDocumentSays) {
 }
 
 TEST_F(JsonSchema, WhatImportWritesIsWhatTheDocumentSays) {
-  write("log.csv", "t_s,torque_Nm,theta_rad,room\n0,1,0,2\n1,1,0,2\n2,1,0,2\n");
+  write("log.csv", "t_s,torque_Nm,theta_rad,room,door\n0,1,0,2,1\n1,1,0,2,1\n2,1,0,2,1\n");
   const Ended ended = run({"import", "log.csv", "--rows", "2:", "--compute", "hub_velocity=0*room",
                            "--json", "out.json"});
   EXPECT_EQ(ended.status, 0) << ended.errors;
-  write("p.csv", "sensor,feature,order,frequency [Hz]\n,pole,1,11.8\n");
+  write("p.csv", "sensor,feature,order,frequency [Hz]\n,pole,1,11.8\nhub_angle,zero,1,2.9\n");
   EXPECT_EQ(run({"import", "p.csv", "--json", "modal.json"}).status, 0);
   expect_as_documented({Json::parse(text_of("out.json")), Json::parse(text_of("modal.json"))},
                        "flexarm.import/2");

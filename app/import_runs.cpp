@@ -114,6 +114,21 @@ std::vector<ImportedRun> runs_of_part(const TimeRecord& record, const Part& part
   options.torque_hold = hold_of(choice);
   options.longest_filled_gap = static_cast<std::size_t>(choice.longest_filled_gap);
   measured::EvenRecords even = measured::make_even(wanted, options);
+  if (choice.decimation && even.stretches.size() > 1) {
+    const std::size_t fewest =
+        measured::fewest_samples(static_cast<std::size_t>(*choice.decimation));
+    const auto left_out = std::erase_if(
+        even.stretches, [&](const TimeRecord& stretch) { return stretch.time_s.size() < fewest; });
+    if (left_out > 0) {
+      even.notes.push_back(
+          fmt::format("{} of the stretches left out: shorter than the {} samples "
+                      "that --decimate needs",
+                      left_out, fewest));
+    }
+    if (even.stretches.empty()) {
+      throw InputError(fmt::format("--decimate: no stretch has the {} samples needed", fewest));
+    }
+  }
   std::vector<ImportedRun> runs;
   for (auto& stretch : even.stretches) {
     ImportedRun run{run_of(choice), {}, file, {}};

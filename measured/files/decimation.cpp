@@ -41,15 +41,19 @@ std::vector<double> decimation_filter(std::size_t factor) {
   return filter;
 }
 
+std::size_t fewest_samples(std::size_t factor) {
+  return decimation_filter(factor).size() + factor;
+}
+
 TimeRecord decimated(const TimeRecord& record, std::size_t factor) {
   const std::vector<double> filter = decimation_filter(factor);
   const std::size_t half = filter.size() / 2;
   const std::size_t samples = record.time_s.size();
-  if (samples < filter.size() + factor) {
+  if (samples < fewest_samples(factor)) {
     throw arm::InputError(
         fmt::format("{} samples are too few to decimate by {}, whose filter has {}; needs {} or "
                     "more",
-                    samples, factor, filter.size(), filter.size() + factor));
+                    samples, factor, filter.size(), fewest_samples(factor)));
   }
   std::vector<std::size_t> kept;
   for (std::size_t k = half; k + half < samples; k += factor) kept.push_back(k);

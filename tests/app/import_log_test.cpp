@@ -169,6 +169,18 @@ TEST_F(ImportLog, ADecimatedTorqueHasAFirstOrderHold) {
   EXPECT_NEAR(record.torque_N_m[10], record.time_s[10] * 1000.0, 1e-9);
 }
 
+TEST_F(ImportLog, AStretchThatIsTooShortToDecimateIsLeftOut) {
+  std::string log = "t_s,torque_Nm,theta_rad\n";
+  for (int k = 0; k < 600; ++k) log += fmt::format("{:.3f},0,0\n", 0.001 * (k < 550 ? k : k + 50));
+  write("log.csv", log);
+  const Ended ended = import({"log.csv", "--decimate", "2", "--out", "bench"});
+  ASSERT_EQ(ended.status, 0) << ended.errors;
+  EXPECT_THAT(ended.output, HasSubstr("1 of the stretches left out"));
+  ASSERT_EQ(measurement_in("bench").runs.size(), 1U);
+  EXPECT_EQ(measurement_in("bench").runs[0].id, "log");
+  EXPECT_LT(record_in("bench").time_s.back(), 0.55);
+}
+
 TEST_F(ImportLog, UnevenTimesAreResampledAndGapsSplit) {
   std::string log = "t_s,torque_Nm,theta_rad\n";
   for (int k = 0; k < 200; ++k) {

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cstddef>
+#include <iterator>
 #include <string_view>
 #include <utility>
 #include <variant>
@@ -56,7 +57,9 @@ std::string import_text_of(const ImportedFile& file) {
     out += report::to_paragraph("  warning: " + sentence, 4);
   }
   for (const auto& sentence : file.assumptions) out += report::to_paragraph("  " + sentence, 4);
-  if (!file.columns.empty()) out += "\n" + report::to_text(column_table(file)) + "\n";
+  if (!file.columns.empty()) {
+    fmt::format_to(std::back_inserter(out), "\n{}\n", report::to_text(column_table(file)));
+  }
   if (!file.not_used.empty()) {
     out += report::to_paragraph(
         arm::shown(fmt::format("not used: {}", fmt::join(file.not_used, ", ")), 2000), 4);

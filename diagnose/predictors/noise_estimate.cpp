@@ -17,13 +17,13 @@ namespace flexarm::diagnose {
 namespace {
 
 /// Of -2 ln L: a difference that no decision depends on.
-constexpr double kNearEnough = 0.2;
+constexpr double kLikelihoodTolerance = 0.2;
 constexpr int kMostEvaluations = 200;
 /// Bits of the logarithm of the deviation, over the width of its bounds: 0.4 %.
-constexpr int kBits = 12;
+constexpr int kDeviationBits = 12;
 constexpr std::uintmax_t kMostBrentSteps = 30;
 /// Natural logarithm of a first step.
-constexpr double kFirstStep = 1.0;
+constexpr double kFirstNoiseStep = 1.0;
 /// Bounds: of the deviation over the torque's root mean square, of the correlation time over the
 /// sampling period (least) and over the longest run (most), of reading factors.
 constexpr double kLeastDisturbance = 1e-6;
@@ -32,7 +32,7 @@ constexpr double kLeastCorrelation = 1.0 / 3.0;
 constexpr double kMostReadingFactor = 1e6;
 constexpr double kStartDisturbance = 0.1;
 /// Stands for -2 ln L where there is none.
-constexpr double kImpossible = std::numeric_limits<double>::max();
+constexpr double kNoLikelihood = std::numeric_limits<double>::max();
 
 }  // namespace
 
@@ -75,9 +75,9 @@ double NoiseEstimator::minus_two_log_likelihood(const arm::Arm& arm, const std::
     }
   } catch (const std::runtime_error&) {
     // An arm that is none, or whose equations no step solves.
-    return kImpossible;
+    return kNoLikelihood;
   }
-  return std::isfinite(sum) ? sum : kImpossible;
+  return std::isfinite(sum) ? sum : kNoLikelihood;
 }
 
 NoiseModel NoiseEstimator::model_at(const std::vector<double>& logarithms) const {
@@ -130,14 +130,14 @@ NoiseEstimate NoiseEstimator::model(const arm::Arm& arm, const std::vector<bool>
     search.set_lower_bounds(lower_);
     search.set_upper_bounds(upper_);
     search.set_min_objective(cost, &task);
-    search.set_ftol_abs(kNearEnough);
-    search.set_initial_step(kFirstStep);
+    search.set_ftol_abs(kLikelihoodTolerance);
+    search.set_initial_step(kFirstNoiseStep);
     search.set_maxeval(kMostEvaluations);
     std::vector<double> place = place_of(start);
     double least = 0.0;
     search.optimize(place, least);
   }
-  if (!(task.best.minus_two_log_likelihood < kImpossible)) {
+  if (!(task.best.minus_two_log_likelihood < kNoLikelihood)) {
     throw arm::InputError("Kalman filter: the runs cannot be filtered with this arm");
   }
   return task.best;
@@ -154,7 +154,7 @@ NoiseEstimate NoiseEstimator::disturbance(const arm::Arm& arm, const std::vector
   };
   std::uintmax_t steps = kMostBrentSteps;
   const auto [place, least] =
-      boost::math::tools::brent_find_minima(cost, lower_[0], upper_[0], kBits, steps);
+      boost::math::tools::brent_find_minima(cost, lower_[0], upper_[0], kDeviationBits, steps);
   made.model.disturbance_N_m = std::exp(place);
   made.minus_two_log_likelihood = least;
   return made;

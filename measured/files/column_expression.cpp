@@ -24,17 +24,17 @@ using std::string_view;
 constexpr string_view kRate = "ddt";
 
 /// A column, or its rate, in an expression.
-struct Reference {
+struct ColumnReference {
   std::string column;  ///< as typed
   bool is_rate = false;
 
-  bool operator==(const Reference&) const = default;
+  bool operator==(const ColumnReference&) const = default;
 };
 
 /// An expression with its columns replaced by names that muParser takes.
 struct Rewritten {
   std::string text;
-  std::vector<Reference> columns;   ///< one for each variable
+  std::vector<ColumnReference> columns;   ///< one for each variable
   std::vector<std::size_t> origin;  ///< of each character of `text`, its place in the expression
 };
 
@@ -103,7 +103,7 @@ class Rewriter {
     }
   }
 
-  void add_column(const Reference& reference, std::size_t end) {
+  void add_column(const ColumnReference& reference, std::size_t end) {
     auto found = std::ranges::find(out_.columns, reference);
     if (found == out_.columns.end()) found = out_.columns.insert(found, reference);
     const auto k = static_cast<std::size_t>(found - out_.columns.begin());

@@ -23,7 +23,7 @@ const std::vector<std::string> kLoop = {"simulate",
                                         "--reference",
                                         "staircase:amplitude=0.3,dwell=0.7,levels=2",
                                         "--controller",
-                                        "kp=0.2,kd=0.06,ki=0.05,limit=0.15,sample_time=0.004",
+                                        "kp=0.2,kd=0.01,ki=0.05,limit=0.15,sample_time=0.004",
                                         "--out",
                                         "loop"};
 
@@ -56,7 +56,7 @@ TEST_F(ClosedLoopCommand, WritesReferenceAndController) {
   ASSERT_EQ(measurement.runs.size(), 1U);
   EXPECT_EQ(measurement.runs[0].controller,
             (arm::Controller{.sensors = {{arm::SensorKind::hub_angle}},
-                             .law = arm::PidController{.kp = 0.2, .kd = 0.06, .ki = 0.05},
+                             .law = arm::PidController{.kp = 0.2, .kd = 0.01, .ki = 0.05},
                              .limit_N_m = 0.15,
                              .sample_time_s = 0.004}));
   const auto loop = record("loop");
@@ -64,7 +64,8 @@ TEST_F(ClosedLoopCommand, WritesReferenceAndController) {
   EXPECT_EQ(loop.reference.values[0], 0.3);
   EXPECT_EQ(loop.reference.values[400], 0.6);
   EXPECT_LE(std::ranges::max(loop.torque_N_m), 0.15);
-  // It follows the stairs, to a height of 0.6 rad.
+  // It follows the stairs, to a height of 0.6 rad, with overshoot: of the rigid arm the damping
+  // ratio is 0.05.
   const double highest = std::ranges::max(loop.channels[0].values);
   EXPECT_GT(highest, 0.4);
   EXPECT_LT(highest, 1.2);
@@ -74,7 +75,7 @@ TEST_F(ClosedLoopCommand, ItsReferenceFromAFileGivesTheSameRunAgain) {
   ASSERT_EQ(simulate({}).status, 0);
   const Ended ended =
       run({"simulate", "rig.toml", "--reference", "loop/staircase.csv", "--controller",
-           "kp=0.2,kd=0.06,ki=0.05,limit=0.15,sample_time=0.004", "--out", "again"});
+           "kp=0.2,kd=0.01,ki=0.05,limit=0.15,sample_time=0.004", "--out", "again"});
   ASSERT_EQ(ended.status, 0) << ended.errors;
   EXPECT_EQ(record("again"), record("loop"));
 }

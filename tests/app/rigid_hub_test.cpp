@@ -99,7 +99,7 @@ TEST_F(RigidHubCommand, WhatNeedsABeamIsRefusedInOneLine) {
   const auto refused = [&](const std::vector<std::string>& arguments, const std::string& what) {
     const Ended ended = run(arguments);
     EXPECT_EQ(ended.status, 2) << arguments[0];
-    EXPECT_EQ(ended.errors, "flexarm: " + what + ": needs a beam; the arm file has no [beam]\n");
+    EXPECT_EQ(ended.errors, what + ": needs a beam; the arm file has no [beam]\n");
   };
   refused({"modes", "hub.toml"}, "modes");
   refused({"compare", "hub.toml"}, "compare");

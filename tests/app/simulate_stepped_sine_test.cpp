@@ -150,7 +150,8 @@ TEST_F(SteppedSine, BadInputIsOneLineAndStatusTwo) {
   expect_refused(
       run({"simulate", "--excitation", "stepped-sin"}),
       "--excitation stepped-sin: excitation stepped-sin: unknown (did you mean "
-      "stepped-sine?); allowed: bang-bang, step, random, multisine, chirp, stepped-sine");
+      "stepped-sine?); allowed: bang-bang, step, random, multisine, chirp, staircase, "
+      "stepped-sine");
   expect_refused(run({"simulate", "--excitation", "stepped-sine", "--duration", "3"}),
                  "--duration: not with a stepped sine");
   expect_refused(run({"simulate", "--excitation", "stepped-sine:id=a", "--check-step"}),

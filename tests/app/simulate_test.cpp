@@ -212,12 +212,13 @@ TEST_F(Simulate, BadInputIsOneLineAndStatusTwo) {
         "0.8,1\n0.9,1\n1,1\n1.4,1\n");
   expect_refused(run({"simulate", "--torque", "gap.csv"}),
                  "gap.csv:13: gap: 3 samples are missing between 1 s and 1.4 s, where the step is "
-                 "0.4 s and the period 0.1 s; split the record there, or fill it");
+                 "0.4 s and the period 0.1 s; split the record there, or fill it (flexarm import "
+                 "does)");
   expect_refused(run({"simulate", "--torque", "gap.csv", "--duration", "3"}),
                  "--duration: only with --excitation; a torque file has its own");
   expect_refused(run({"simulate", "--excitation", "randm"}),
                  "--excitation randm: excitation randm: unknown (did you mean random?); allowed: "
-                 "bang-bang, step, random, multisine, chirp, stepped-sine");
+                 "bang-bang, step, random, multisine, chirp, staircase, stepped-sine");
   expect_refused(
       run({"simulate", "--excitation", "random:rsm=1"}),
       "--excitation random:rsm=1: random.rsm: unknown (did you mean rms?); allowed: rms, "

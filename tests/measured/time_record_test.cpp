@@ -177,8 +177,8 @@ const std::vector<Mistake> kTimeRecordMistakes = {
      "1: column strain@0.05: given twice"},
     {"HeaderMissing", "0,0,0\n0.002,0,0\n",
      "1: column: sensor 0: unknown; allowed: hub_angle, hub_velocity, tip_acceleration, "
-     "tip_displacement, tip_deflection, strain@X (X in metres from the hub); besides time and "
-     "torque"},
+     "tip_displacement, tip_deflection, strain@X (X in metres from the hub); besides time, torque "
+     "and reference"},
     {"Semicolons", "time [s];torque [N m]\n",
      "1: cells must be separated by commas, and numbers have a decimal point"},
     {"DecimalComma", kTimeHead + "0,0,0\n0,002,0,0\n",

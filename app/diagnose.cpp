@@ -56,8 +56,8 @@ struct DiagnoseArguments {
 std::string verdict_definitions() {
   std::string text = "Verdicts:\n";
   for (const auto verdict : diagnose::kVerdicts) {
-    text += fmt::format("  {:<18}{}\n", diagnose::to_string(verdict),
-                        diagnose::definition_of(verdict));
+    text +=
+        fmt::format("  {:<18}{}\n", diagnose::to_string(verdict), diagnose::definition_of(verdict));
   }
   return text + "\n";
 }
@@ -77,12 +77,12 @@ std::optional<diagnose::PredictorKind> chosen_predictor(const std::string& word)
   for (const auto kind : diagnose::kPredictors) {
     if (word == diagnose::to_string(kind)) return kind;
   }
-  throw arm::InputError(fmt::format("--predictor {}: must be auto, output_error or grey_box",
-                                    arm::shown(word)));
+  throw arm::InputError(
+      fmt::format("--predictor {}: must be auto, output_error or grey_box", arm::shown(word)));
 }
 
-/// Throws for an unknown predictor, and for outputs that could not be written, or would take the place of what is read: before
-/// the work, not after it.
+/// Throws for an unknown predictor, and for outputs that could not be written, or would take the
+/// place of what is read: before the work, not after it.
 void prepare(const DiagnoseArguments& arguments, const diagnose::Experiment& experiment) {
   if (arguments.force && arguments.folder.empty()) {
     throw arm::InputError("--force: needs --out FOLDER");
@@ -134,7 +134,8 @@ std::string text_of(const diagnose::Diagnosis& diagnosis) {
     for (const auto& cause : diagnosis.causes) {
       text += cause.effect + "\n";
       for (const auto& sentence : cause.evidence) text += report::to_paragraph("  " + sentence, 4);
-      text += report::to_paragraph("  Evidence against it would be: " + cause.refuted_by + ".", 4) + "\n";
+      text += report::to_paragraph("  Evidence against it would be: " + cause.refuted_by + ".", 4) +
+              "\n";
     }
   }
   if (!diagnosis.near_misses.empty()) {
@@ -148,9 +149,9 @@ std::string text_of(const diagnose::Diagnosis& diagnosis) {
   text += report::to_text(report::channel_gain_table(diagnosis), {.key_columns = 2});
   if (diagnosis.next_experiments.empty()) return text;
   return text + "\n" +
-         report::to_text(report::further_run_table(diagnosis.next_experiments,
-                                                   diagnosis.next_experiments.size(),
-                                                   "Recommended runs, by what they would distinguish"));
+         report::to_text(report::further_run_table(
+             diagnosis.next_experiments, diagnosis.next_experiments.size(),
+             "Recommended runs, by what they would distinguish"));
 }
 
 std::string json_of(const diagnose::Diagnosis& diagnosis, const std::string& extended_arm) {

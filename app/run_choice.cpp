@@ -6,6 +6,7 @@
 #include "arm/number.hpp"
 #include "arm/range.hpp"
 #include "measured/files/controller_keys.hpp"
+#include "measured/files/key_values.hpp"
 #include "measured/files/time_record.hpp"
 
 #include <CLI/CLI.hpp>
@@ -49,26 +50,10 @@ double read_payload(std::string_view value) {
   return *mass_kg;
 }
 
-using Keys = std::vector<std::pair<std::string, std::string>>;
+using Keys = measured::KeyValues;
 
-/// "KEY=VALUE,..."
 Keys read_keys(std::string_view text) {
-  Keys keys;
-  while (!text.empty()) {
-    const auto comma = std::min(text.find(','), text.size());
-    const std::string_view part = text.substr(0, comma);
-    text.remove_prefix(std::min(comma + 1, text.size()));
-    const auto equals = part.find('=');
-    if (equals == std::string_view::npos) {
-      throw InputError(fmt::format("{}: must be KEY=VALUE, separated by commas", arm::shown(part)));
-    }
-    const std::string key(part.substr(0, equals));
-    if (std::ranges::count(keys, key, &Keys::value_type::first) > 0) {
-      throw InputError(fmt::format("{}: given twice", arm::shown(key)));
-    }
-    keys.emplace_back(key, part.substr(equals + 1));
-  }
-  return keys;
+  return measured::read_key_values(text, "KEY=VALUE, separated by commas");
 }
 
 /// Sets what any run may be told, and takes it out of the keys.

@@ -74,7 +74,8 @@ Cause cause_of(const Selection& selection, std::size_t index, const Posterior& p
     if (rival.odds > kIndistinguishableOdds) break;
     if (std::ranges::find(confusable, name) == confusable.end()) confusable.push_back(name);
   }
-  cause.evidence = evidence_for(effect, cause.share, without.estimation.disturbance.has_value(), rivals);
+  cause.evidence =
+      evidence_for(effect, cause.share, without.estimation.disturbance.has_value(), rivals);
   cause.refuted_by = effect.entry->refuted_by;
   return cause;
 }

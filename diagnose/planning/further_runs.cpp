@@ -131,12 +131,12 @@ class Gatherer {
   std::vector<FurtherRun> made_;
 };
 
-/// What any run may have more: a payload, a sensor.
-void add_conditions(Gatherer& all, const arm::Arm& arm, const PlannedRun& run) {
+/// Payloads, which a hub without a beam does not carry.
+void add_payloads(Gatherer& all, const arm::Arm& arm, const PlannedRun& run) {
+  if (!arm::has_beam(arm)) return;
   const arm::LinearArm linear = arm::linear_arm(arm);
   const double beam_kg = linear.linear_density_kg_per_m * linear.length_m;
   for (const double part : kPayloadParts) {
-    if (!arm::has_beam(arm)) break;
     PlannedRun loaded = run;
     loaded.payload = run.payload.value_or(arm.payload);
     const double further_kg = std::stod(fmt::format("{:.2g}", part * beam_kg));
@@ -144,6 +144,11 @@ void add_conditions(Gatherer& all, const arm::Arm& arm, const PlannedRun& run) {
     all.add(std::move(loaded), fmt::format("{:g}kg", further_kg),
             fmt::format("payload +{:g} kg (known mass)", further_kg));
   }
+}
+
+/// What any run may have more: a payload, a sensor.
+void add_conditions(Gatherer& all, const arm::Arm& arm, const PlannedRun& run) {
+  add_payloads(all, arm, run);
   if (run.kind == RunKind::modal) return;
   for (const arm::Sensor& sensor : further_sensors(arm)) {
     if (std::ranges::find(run.sensors, sensor, &PlannedSensor::sensor) != run.sensors.end()) {

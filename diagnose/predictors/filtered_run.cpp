@@ -1,65 +1,76 @@
 #include "diagnose/predictors/filtered_run.hpp"
 
 #include "arm/input_error.hpp"
+#include "diagnose/predictors/initial_state.hpp"
 
 #include <Eigen/Cholesky>
 
-#include <limits>
+#include <cstddef>
 
 namespace flexarm::diagnose {
 
-namespace {
-
 using Eigen::Index;
 
-/// Covariance of an unknown initial state: what each state adds to the readings is about as large
-/// as the readings themselves.
-Eigen::MatrixXd prior_of_state(const response::ArmSimulator& simulation, const RecordedRun& run,
-                               const Eigen::VectorXd& deviations) {
-  const Eigen::MatrixXd per_state = simulation.free_readings(run.torque_N_m.size());
-  const double size = run.values.cwiseQuotient(deviations).norm();
-  const Eigen::VectorXd own =
-      (deviations.cwiseInverse().asDiagonal() * per_state).colwise().norm();
-  return (size * own.cwiseMax(std::numeric_limits<double>::min()).cwiseInverse())
-      .cwiseAbs2()
-      .asDiagonal();
+namespace {
+
+Eigen::LLT<Eigen::MatrixXd> factor(const response::FilterGain& filter) {
+  Eigen::LLT<Eigen::MatrixXd> covariance(filter.innovation_covariance);
+  if (covariance.info() != Eigen::Success) {
+    throw arm::InputError("Kalman filter: the covariance of the innovations is singular");
+  }
+  return covariance;
+}
+
+/// Calls use(filter, first, count) for each stretch of samples with one filter.
+template <class Use>
+void for_each_filter(const response::FilterGains& gains, Index samples, const Use& use) {
+  const auto begun = static_cast<Index>(gains.first.size());
+  for (Index k = 0; k < begun; ++k) use(gains.first[static_cast<std::size_t>(k)], k, Index{1});
+  if (samples > begun) use(gains.steady, begun, samples - begun);
 }
 
 }  // namespace
 
+response::FilterGains filter_gains(const response::ArmSimulator& simulation, const RecordedRun& run,
+                                   double disturbance_N_m) {
+  const response::SampledSystem sampled = simulation.sampled(disturbance_N_m, run.deviations);
+  if (!run.starts_free) return {{}, response::filter_gain(sampled)};
+  const std::size_t samples = run.torque_N_m.size();
+  const Eigen::VectorXd deviations =
+      run.deviations.transpose().replicate(static_cast<Index>(samples), 1).reshaped();
+  const Eigen::VectorXd prior =
+      prior_of_state(simulation.free_readings(samples), deviations, run.values);
+  return response::filter_gains_from(sampled, prior.cwiseAbs2().asDiagonal(), samples);
+}
+
+double log_determinant(const response::FilterGains& gains, std::size_t samples) {
+  double sum = 0.0;
+  for_each_filter(gains, static_cast<Index>(samples),
+                  [&](const response::FilterGain& filter, Index /*first*/, Index count) {
+                    const auto covariance = factor(filter);
+                    sum += 2.0 * covariance.matrixLLT().diagonal().array().log().sum() *
+                           static_cast<double>(count);
+                  });
+  return sum;
+}
+
 RunInnovations filter_run(const response::ArmSimulator& simulation, const RecordedRun& run,
                           double disturbance_N_m) {
   const auto samples = static_cast<Index>(run.torque_N_m.size());
-  const Index sensors = run.deviations.size();
-  const Eigen::MatrixXd measured = run.values.reshaped(samples, sensors);
-  const response::SampledSystem sampled = simulation.sampled(disturbance_N_m, run.deviations);
-  response::FilterGains gains;
-  if (run.starts_free) {
-    const Eigen::VectorXd deviations =
-        run.deviations.transpose().replicate(samples, 1).reshaped();
-    gains = response::filter_gains_from(sampled, prior_of_state(simulation, run, deviations),
-                                        run.torque_N_m.size());
-  } else {
-    gains.steady = response::filter_gain(sampled);
-  }
+  const Eigen::MatrixXd measured = run.values.reshaped(samples, run.deviations.size());
+  const response::FilterGains gains = filter_gains(simulation, run, disturbance_N_m);
   RunInnovations made;
   made.filtered = simulation.filtered(run.torque_N_m, measured, gains);
-  Eigen::MatrixXd standardised(samples, sensors);
-  const auto standardise = [&](const response::FilterGain& filter, Index first, Index count) {
-    const Eigen::LLT<Eigen::MatrixXd> covariance(filter.innovation_covariance);
-    if (covariance.info() != Eigen::Success) {
-      throw arm::InputError("Kalman filter: the covariance of the innovations is singular");
-    }
-    standardised.middleRows(first, count) =
-        covariance.matrixL()
-            .solve(made.filtered.innovations.middleRows(first, count).transpose())
-            .transpose();
-    made.log_determinant += 2.0 * covariance.matrixLLT().diagonal().array().log().sum() *
-                            static_cast<double>(count);
-  };
-  const auto begun = static_cast<Index>(gains.first.size());
-  for (Index k = 0; k < begun; ++k) standardise(gains.first[static_cast<std::size_t>(k)], k, 1);
-  if (samples > begun) standardise(gains.steady, begun, samples - begun);
+  made.log_determinant = log_determinant(gains, run.torque_N_m.size());
+  Eigen::MatrixXd standardised(samples, measured.cols());
+  for_each_filter(gains, samples,
+                  [&](const response::FilterGain& filter, Index first, Index count) {
+                    standardised.middleRows(first, count) =
+                        factor(filter)
+                            .matrixL()
+                            .solve(made.filtered.innovations.middleRows(first, count).transpose())
+                            .transpose();
+                  });
   made.standardised = standardised.reshaped();
   return made;
 }

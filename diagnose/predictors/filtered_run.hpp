@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include <cstddef>
 #include <span>
 
 namespace flexarm::diagnose {
@@ -13,7 +14,7 @@ struct RunInnovations {
   /// L^-1 e of each sample, where L L^T = S is the covariance of the innovations e: independent
   /// with variance 1 where the model is right. Laid out as a run of `Observations`.
   Eigen::VectorXd standardised;
-  double log_determinant = 0.0;  ///< sum of ln |S| over the samples
+  double log_determinant = 0.0;  ///< as the function has it
   response::FilteredRun filtered;
 };
 
@@ -23,6 +24,13 @@ struct RecordedRun {
   Eigen::VectorXd deviations;                ///< of the readings, a sensor each
   bool starts_free = false;                  ///< from an unknown state, which is estimated
 };
+
+/// The filter of a run, whatever it reads. Throws InputError as response::filter_gain.
+response::FilterGains filter_gains(const response::ArmSimulator& simulation, const RecordedRun& run,
+                                   double disturbance_N_m);
+
+/// Sum of ln |S| over so many samples, S the covariance of the innovations.
+double log_determinant(const response::FilterGains& gains, std::size_t samples);
 
 /// Throws InputError as response::ArmSimulator::filtered.
 RunInnovations filter_run(const response::ArmSimulator& simulation, const RecordedRun& run,

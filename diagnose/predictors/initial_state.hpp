@@ -7,13 +7,20 @@
 
 namespace flexarm::diagnose {
 
-/// Estimates the initial state of a run by weighted least squares, with a prior that bounds it:
-/// what each state adds to the readings is about as large as the readings themselves (one standard
-/// deviation). Without the prior, states that decay within a few samples would take any value.
+/// Prior standard deviations of an unknown initial state: what each state adds to the readings is
+/// about as large as the readings themselves. `per_state` is the change of the readings, sample by
+/// sample and sensor by sensor in a column, a column a state; `deviations` those of the readings,
+/// `measured` their sizes. A state that shows less than `kLeastShown` of what shows most is taken
+/// to show that, so that its deviation is finite.
+Eigen::VectorXd prior_of_state(const Eigen::MatrixXd& per_state, const Eigen::VectorXd& deviations,
+                               const Eigen::VectorXd& measured);
+inline constexpr double kLeastShown = 1e-9;
+
+/// Estimates the initial state of a run by weighted least squares with that prior. Without it,
+/// states that decay within a few samples would take any value.
 class InitialStateEstimator {
  public:
-  /// `per_state` is the change of the readings, sample by sample and sensor by sensor in a column,
-  /// a column a state; `deviations` those of the readings, `measured` their sizes.
+  /// Arguments as of prior_of_state.
   InitialStateEstimator(const Eigen::MatrixXd& per_state, const Eigen::VectorXd& deviations,
                         const Eigen::VectorXd& measured);
 
@@ -24,9 +31,8 @@ class InitialStateEstimator {
   double cost(const Eigen::VectorXd& left, const Eigen::VectorXd& state) const;
 
  private:
-  Eigen::VectorXd scale_;       // of a state: its unit over this is a unit of the scaled one
+  Eigen::VectorXd prior_;       // deviations of the states: what is solved for is relative to them
   Eigen::VectorXd deviations_;  // of the readings
-  double prior_ = 0.0;          // 1/deviation of a scaled state
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> solver_;
 };
 

@@ -3,12 +3,12 @@
 #include "arm/input_error.hpp"
 
 #include <boost/math/tools/minima.hpp>
-#include <nlopt.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <nlopt.hpp>
 #include <stdexcept>
 #include <utility>
 
@@ -53,8 +53,7 @@ NoiseEstimator::NoiseEstimator(const Experiment& experiment, const Observations&
     longest_s = std::max(longest_s, n * period_s);
   }
   torque_rms_N_m_ = std::sqrt(squares / samples);
-  lower_ = {std::log(kLeastDisturbance * torque_rms_N_m_),
-            std::log(kLeastCorrelation * period_s_)};
+  lower_ = {std::log(kLeastDisturbance * torque_rms_N_m_), std::log(kLeastCorrelation * period_s_)};
   upper_ = {std::log(kMostDisturbance * torque_rms_N_m_), std::log(longest_s)};
   for (const ObservedChannel& channel : observations.channels) {
     const bool is_time = experiment.runs[channel.run].run.kind == measured::RunKind::time;

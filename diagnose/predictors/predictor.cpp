@@ -27,8 +27,7 @@ std::vector<arm::Sensor> sensors_of(const measured::TimeRecord& record) {
 /// one. With forces that are not linear by Gauss-Newton steps, with the linear arm's derivatives.
 Eigen::MatrixXd from_likely_state(const response::ArmSimulator& simulation,
                                   const std::vector<double>& torque_N_m,
-                                  const Eigen::MatrixXd& from_rest,
-                                  const Eigen::VectorXd& measured,
+                                  const Eigen::MatrixXd& from_rest, const Eigen::VectorXd& measured,
                                   const Eigen::VectorXd& deviations) {
   constexpr int kSteps = 10;
   constexpr double kShorter = 0.3;
@@ -41,7 +40,8 @@ Eigen::MatrixXd from_likely_state(const response::ArmSimulator& simulation,
     return Eigen::VectorXd(measured - readings.reshaped());
   };
   if (simulation.is_linear()) {
-    const Eigen::VectorXd made = from_rest.reshaped() + free * estimator.step(left(from_rest), state);
+    const Eigen::VectorXd made =
+        from_rest.reshaped() + free * estimator.step(left(from_rest), state);
     return made.reshaped(from_rest.rows(), from_rest.cols());
   }
   Eigen::MatrixXd made = from_rest;
@@ -118,10 +118,14 @@ Predictor::Predictor(const Experiment& experiment, const Observations& observati
     at->runs.push_back(r);
   }
   if (!noise_) return;
-  const std::vector<bool> all(experiment.runs.size(), true);
-  for (const RunInnovations& run : innovations(experiment.arm, all, *noise_)) {
-    log_determinants_.push_back(run.log_determinant);
-  }
+  log_determinants_.resize(experiment.runs.size());
+  for_each_time_run(experiment.arm, std::vector<bool>(experiment.runs.size(), true), &*noise_,
+                    [&](std::size_t r, const response::ArmSimulator& simulation) {
+                      const RecordedRun run = recorded(r, *noise_);
+                      log_determinants_[r] =
+                          log_determinant(filter_gains(simulation, run, noise_->disturbance_N_m),
+                                          run.torque_N_m.size());
+                    });
 }
 
 void Predictor::for_each_time_run(const arm::Arm& arm, const std::vector<bool>& runs,
@@ -177,8 +181,7 @@ Eigen::VectorXd Predictor::operator()(const arm::Arm& arm, const std::vector<boo
   return values;
 }
 
-RunInnovations Predictor::filtered(std::size_t r, const response::ArmSimulator& simulation,
-                                   const NoiseModel& noise) const {
+RecordedRun Predictor::recorded(std::size_t r, const NoiseModel& noise) const {
   const auto& [run, data] = experiment_->runs[r];
   const auto [first, count] = stretch(r);
   std::vector<double> deviations;
@@ -187,12 +190,10 @@ RunInnovations Predictor::filtered(std::size_t r, const response::ArmSimulator& 
     deviations.push_back(observations_.deviations(channel.first) *
                          noise.reading_factor(channel.sensor));
   }
-  return filter_run(simulation,
-                    {std::get<measured::TimeRecord>(data).torque_N_m,
-                     observations_.values.segment(first, count),
-                     Eigen::VectorXd::Map(deviations.data(), std::ssize(deviations)),
-                     run.initial == measured::InitialState::free},
-                    noise.disturbance_N_m);
+  return {std::get<measured::TimeRecord>(data).torque_N_m,
+          observations_.values.segment(first, count),
+          Eigen::VectorXd::Map(deviations.data(), std::ssize(deviations)),
+          run.initial == measured::InitialState::free};
 }
 
 Eigen::VectorXd Predictor::residuals(const arm::Arm& arm, const std::vector<bool>& runs) const {
@@ -219,7 +220,7 @@ std::vector<RunInnovations> Predictor::innovations(const arm::Arm& arm,
   std::vector<RunInnovations> made(runs.size());
   for_each_time_run(arm, runs, &noise,
                     [&](std::size_t r, const response::ArmSimulator& simulation) {
-                      made[r] = filtered(r, simulation, noise);
+                      made[r] = filter_run(simulation, recorded(r, noise), noise.disturbance_N_m);
                     });
   return made;
 }

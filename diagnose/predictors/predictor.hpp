@@ -44,8 +44,8 @@ class Predictor {
   ///     (|S|/|S_0|)^(1/(2 n))
   ///
   /// for the n readings of a run, S the covariance of their innovations by `arm` and S_0 that by
-  /// the experiment's arm: the arm that makes their squares least is the most likely one where the scale of all
-  /// noise is free.
+  /// the experiment's arm: the arm that makes their squares least is the most likely one where the
+  /// scale of all noise is free.
   Eigen::VectorXd residuals(const arm::Arm& arm, const std::vector<bool>& runs) const;
 
   /// By a noise model, which need not be the predictor's: of each of these `time` runs; empty for
@@ -71,8 +71,8 @@ class Predictor {
                          const NoiseModel* noise, const UseSimulation& use) const;
   void predict_other_runs(const arm::Arm& arm, const std::vector<bool>& runs,
                           Eigen::VectorXd& values) const;
-  RunInnovations filtered(std::size_t run, const response::ArmSimulator& simulation,
-                          const NoiseModel& noise) const;
+  /// A `time` run with the readings' deviations by `noise`; it refers to this object.
+  RecordedRun recorded(std::size_t run, const NoiseModel& noise) const;
   /// Where a run begins in Observations, and how many numbers it has.
   std::pair<Eigen::Index, Eigen::Index> stretch(std::size_t run) const;
 
@@ -80,7 +80,7 @@ class Predictor {
   int flexible_modes_;
   Observations observations_;
   std::optional<NoiseModel> noise_;
-  std::vector<Condition> conditions_;  // of `time` runs
+  std::vector<Condition> conditions_;     // of `time` runs
   std::vector<double> log_determinants_;  // ln |S_0| of each run, with a noise model
 };
 

@@ -14,6 +14,34 @@
 
 namespace flexarm::diagnose {
 
+namespace {
+
+/// A beam by whose sizes effects on a rigid hub are looked for: with three times the hub's inertia
+/// in m l^3, and the frequency scale midway between the lowest and the highest frequency of the
+/// runs, in ratio.
+arm::LinearArm beam_beside(arm::LinearArm hub, const Experiment& experiment) {
+  double lowest = std::numeric_limits<double>::infinity();
+  double highest = 0.0;
+  for (const auto& [run, data] : experiment.runs) {
+    if (const auto* record = std::get_if<measured::TimeRecord>(&data)) {
+      lowest = std::min(lowest, 1.0 / (record->time_s.back() - record->time_s.front()));
+      highest = std::max(highest, 1.0 / measured::sampling_period_s(*record));
+    } else if (const auto* frequency = std::get_if<measured::FrequencyRecord>(&data)) {
+      for (const auto& channel : frequency->channels) {
+        highest = std::max(highest, 2.0 * std::numbers::pi * channel.frequency_Hz.back());
+        lowest = std::min(lowest, highest / static_cast<double>(channel.frequency_Hz.size()));
+      }
+    }
+  }
+  const double scale_rad_per_s = highest > 0.0 ? std::sqrt(lowest * highest) : 1.0;
+  hub.length_m = 1.0;
+  hub.linear_density_kg_per_m = 3.0 * hub.hub_inertia_kg_m2;
+  hub.flexural_rigidity_N_m2 = hub.linear_density_kg_per_m * scale_rad_per_s * scale_rad_per_s;
+  return hub;
+}
+
+}  // namespace
+
 std::string Hypothesis::label() const {
   return sensor.empty() ? effect : effect + " on " + sensor;
 }
@@ -90,34 +118,6 @@ arm::Arm extended(const arm::Arm& arm, const Hypothesis& hypothesis,
   made.effects[hypothesis.effect] = std::move(effect);
   return made;
 }
-
-namespace {
-
-/// A beam by whose sizes effects on a rigid hub are looked for: with three times the hub's inertia
-/// in m l^3, and the frequency scale midway between the lowest and the highest frequency of the
-/// runs, in ratio.
-arm::LinearArm beam_beside(arm::LinearArm hub, const Experiment& experiment) {
-  double lowest = std::numeric_limits<double>::infinity();
-  double highest = 0.0;
-  for (const auto& [run, data] : experiment.runs) {
-    if (const auto* record = std::get_if<measured::TimeRecord>(&data)) {
-      lowest = std::min(lowest, 1.0 / (record->time_s.back() - record->time_s.front()));
-      highest = std::max(highest, 1.0 / measured::sampling_period_s(*record));
-    } else if (const auto* frequency = std::get_if<measured::FrequencyRecord>(&data)) {
-      for (const auto& channel : frequency->channels) {
-        highest = std::max(highest, 2.0 * std::numbers::pi * channel.frequency_Hz.back());
-        lowest = std::min(lowest, highest / static_cast<double>(channel.frequency_Hz.size()));
-      }
-    }
-  }
-  const double scale_rad_per_s = highest > 0.0 ? std::sqrt(lowest * highest) : 1.0;
-  hub.length_m = 1.0;
-  hub.linear_density_kg_per_m = 3.0 * hub.hub_inertia_kg_m2;
-  hub.flexural_rigidity_N_m2 = hub.linear_density_kg_per_m * scale_rad_per_s * scale_rad_per_s;
-  return hub;
-}
-
-}  // namespace
 
 Scales scales_of(const Experiment& experiment) {
   Scales scales;

@@ -11,8 +11,8 @@ namespace flexarm::diagnose {
 
 /// What a stochastic grey-box model leaves of `time` runs to the disturbance of the hub torque.
 struct DisturbanceLeft {
-  double deviation_N_m = 0.0;  ///< most likely one, the rest of the noise model as it is
-  double relative = 0.0;       ///< to the root mean square of the commanded torque
+  double deviation_N_m = 0.0;             ///< most likely one, the rest of the noise model as it is
+  double relative = 0.0;                  ///< to the root mean square of the commanded torque
   double minus_two_log_likelihood = 0.0;  ///< with that deviation, without n ln 2 pi
 };
 /// A relative deviation below this is nothing beside the torque.
@@ -46,8 +46,8 @@ struct Misfit {
   double excess() const;
   double nuisance_excess() const;
   bool is_noise() const { return excess() == 0.0; }
-  /// Mean square of the residuals, never below that of the noise where this is known; and what it amounts to in the
-  /// variance of an estimate, by the independent numbers among them.
+  /// Mean square of the residuals, never below that of the noise where this is known; and what it
+  /// amounts to in the variance of an estimate, by the independent numbers among them.
   double variance() const;
   double variance_of_estimates() const;
   /// What is not noise, relative to the signal; the disturbance relative to the torque.
@@ -81,8 +81,8 @@ double share_taken(const Misfit& before, const Misfit& after);
 ///     n ln(s_simpler^2/s_fuller^2) + d_simpler^2 - d_fuller^2 - k ln n
 ///
 /// d^2 being the squares of nuisances, for k parameters more; with a disturbance the difference of
-/// -2 ln L in the place of the first term, times the part of the numbers that is independent. Above 10 is decisive (Kass &
-/// Raftery 1995).
+/// -2 ln L in the place of the first term, times the part of the numbers that is independent. Above
+/// 10 is decisive (Kass & Raftery 1995).
 double information_gain(const Misfit& simpler, const Misfit& fuller, int more_parameters);
 
 }  // namespace flexarm::diagnose

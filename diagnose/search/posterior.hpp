@@ -25,9 +25,9 @@ namespace flexarm::diagnose {
 /// damping ratios and amplitudes together.
 ///
 /// The prior of a set is the product over its causes of one over the number of hypotheses, and,
-/// where what it leaves is not noise (residual_test.hpp), SelectionOptions::prior_of_something_else.
-/// Each parameter costs `kParameterCost`. Sets that were not fitted, or whose parameters are not
-/// identified, have probability 0.
+/// where what it leaves is not noise (residual_test.hpp),
+/// SelectionOptions::prior_of_something_else. Each parameter costs `kParameterCost`. Sets that were
+/// not fitted, or whose parameters are not identified, have probability 0.
 class Posterior {
  public:
   /// `sets` must outlive the object: no cause, and sets of causes, each set once.

@@ -21,25 +21,6 @@ bool has_time_runs(const Problem& problem) {
   return false;
 }
 
-/// The most likely noise model of an arm; empty where its disturbance is below this part of the
-/// commanded torque's root mean square.
-std::optional<NoiseModel> disturbed(const Problem& problem, const arm::Arm& arm, double part,
-                                    const DiagnosisProgress& progress) {
-  const ReportedWork work(progress);
-  const Experiment& experiment = problem.experiment();
-  const NoiseEstimator estimator(experiment, problem.observations(), problem.predictor(),
-                                 [&work] { work.go_on(); });
-  const NoiseEstimate found = estimator.model(arm, problem.estimation_runs());
-  if (found.model.disturbance_N_m <= part * estimator.torque_rms_N_m()) return std::nullopt;
-  return found.model;
-}
-
-PredictedSelection cancelled(const Problem& problem) {
-  PredictedSelection made{Selection{problem}, PredictorKind::output_error, "", problem};
-  made.selection.cancelled = true;
-  return made;
-}
-
 }  // namespace
 
 PredictedSelection select_by_evidence(const Experiment& experiment,
@@ -69,26 +50,35 @@ PredictedSelection select_by_evidence(const Experiment& experiment,
     made.reason = "its residuals are noise";
     return made;
   }
+  const DiagnosisProgress second_half = half(0.5);
+  const ReportedWork work(second_half);
+  const NoiseEstimator estimator(experiment, made.simulated.observations(),
+                                 made.simulated.predictor(), [&work] { work.go_on(); });
+  const auto likely_noise = [&](const arm::Arm& arm) {
+    return estimator.model(arm, made.simulated.estimation_runs()).model;
+  };
   try {
     const arm::Arm extended = made.selection.chosen.fit.candidate.extend(experiment.arm);
-    if (!is_asked && !disturbed(made.simulated, extended, options.least_disturbance, half(0.5))) {
+    const double least_N_m = options.least_disturbance * estimator.torque_rms_N_m();
+    if (!is_asked && likely_noise(extended).disturbance_N_m <= least_N_m) {
       made.reason = "an unrecorded torque on the hub explains little of what it leaves";
       return made;
     }
     // The search begins with the arm as filed: what output error named may be wrong.
-    const auto noise = disturbed(made.simulated, experiment.arm, 0.0, half(0.5));
-    Problem filtered(experiment, made.simulated.observations(),
-                     {.flexible_modes = made.simulated.predictor().flexible_modes(),
-                      .noise = *noise});
-    made.selection = select(std::move(filtered), hypotheses, options, half(0.5));
+    const NoiseModel noise = likely_noise(experiment.arm);
+    Problem filtered(
+        experiment, made.simulated.observations(),
+        {.flexible_modes = made.simulated.predictor().flexible_modes(), .noise = noise});
+    made.selection = select(std::move(filtered), hypotheses, options, second_half);
     made.predictor = PredictorKind::grey_box;
     made.reason = is_asked ? "as asked for"
-                           : fmt::format("by output error the residuals are not noise; an "
-                                         "unrecorded hub torque of {:.3g} N m makes them more "
-                                         "likely",
-                                         noise->disturbance_N_m);
+                           : fmt::format(
+                                 "by output error the residuals are not noise; an "
+                                 "unrecorded hub torque of {:.3g} N m makes them more "
+                                 "likely",
+                                 noise.disturbance_N_m);
   } catch (const Cancelled&) {
-    return cancelled(problem);
+    made.selection.cancelled = true;
   } catch (const arm::InputError&) {
     made.reason = "no Kalman filter can be formed for the arm as filed";
   }

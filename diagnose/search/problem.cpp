@@ -73,7 +73,8 @@ Problem Problem::with_modes(int flexible_modes) const {
 void Problem::replace_torques(Experiment experiment) {
   own_experiment_ = std::make_shared<const Experiment>(std::move(experiment));
   experiment_ = own_experiment_.get();
-  predictor_ = Predictor(*experiment_, observations_, predictor_.flexible_modes(), predictor_.noise());
+  predictor_ =
+      Predictor(*experiment_, observations_, predictor_.flexible_modes(), predictor_.noise());
 }
 
 bool Problem::lower_noise(const Candidate& candidate) {
@@ -104,8 +105,7 @@ bool Problem::estimate_noise(const Candidate& candidate) {
       estimator.disturbance(arm, estimation_runs_, present).minus_two_log_likelihood;
   const NoiseEstimate found = estimator.model(arm, estimation_runs_, {present});
   if (!(found.minus_two_log_likelihood < before - kMoreLikely)) return false;
-  predictor_ =
-      Predictor(*experiment_, observations_, predictor_.flexible_modes(), found.model);
+  predictor_ = Predictor(*experiment_, observations_, predictor_.flexible_modes(), found.model);
   return true;
 }
 

@@ -43,12 +43,6 @@ std::vector<double> integral(const std::vector<double>& values, double period_s)
   return made;
 }
 
-const std::vector<double>* values_of(const measured::TimeRecord& record, arm::SensorKind kind) {
-  const auto at = std::ranges::find_if(
-      record.channels, [&](const auto& channel) { return channel.sensor.kind == kind; });
-  return at == record.channels.end() ? nullptr : &at->values;
-}
-
 /// Half of the samples that a slope of the angle is taken over: by the first mode, or without a
 /// beam by the time midway, in ratio, between a sample and the record.
 std::size_t samples_of_slope(const arm::Arm& arm, double period_s, std::size_t samples) {

@@ -21,12 +21,6 @@ constexpr double kLongestPeriod_s = 0.25;   // half a cycle of 2 Hz
 constexpr double kShortestPeriod_s = 1e-6;  // of any log of an arm
 constexpr double kThousand = 1000.0;
 
-const std::vector<double>* values_of(const TimeRecord& record, arm::SensorKind kind) {
-  const auto found = std::ranges::find_if(
-      record.channels, [&](const Channel& channel) { return channel.sensor.kind == kind; });
-  return found == record.channels.end() ? nullptr : &found->values;
-}
-
 /// Change of the angle over the integral of the velocity, by least squares; empty where the two are
 /// not alike.
 std::optional<double> angle_per_integral(const TimeRecord& record) {
@@ -57,7 +51,7 @@ std::optional<double> angle_per_integral(const TimeRecord& record) {
 
 std::optional<TimeUnitDoubt> doubt_time_unit(const TimeRecord& record) {
   if (const auto ratio = angle_per_integral(record)) {
-    if (*ratio<kCertainFactor&& * ratio> 1.0 / kCertainFactor) return std::nullopt;
+    if (*ratio > 1.0 / kCertainFactor && *ratio < kCertainFactor) return std::nullopt;
     const double power = std::round(std::log(*ratio) / std::log(kThousand));
     const double factor = std::pow(kThousand, power);
     const double off = *ratio / factor;

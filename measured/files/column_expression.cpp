@@ -34,8 +34,8 @@ struct ColumnReference {
 /// An expression with its columns replaced by names that muParser takes.
 struct Rewritten {
   std::string text;
-  std::vector<ColumnReference> columns;   ///< one for each variable
-  std::vector<std::size_t> origin;  ///< of each character of `text`, its place in the expression
+  std::vector<ColumnReference> columns;  ///< one for each variable
+  std::vector<std::size_t> origin;       ///< of each character of `text`, its place in the expression
 };
 
 std::string variable_name(std::size_t k) {

@@ -3,6 +3,7 @@
 #include "arm/input_error.hpp"
 #include "arm/number.hpp"
 #include "measured/files/arm_file.hpp"
+#include "measured/files/key_values.hpp"
 #include "measured/files/text_file.hpp"
 #include "measured/files/toml_document.hpp"
 #include "measured/files/toml_node.hpp"
@@ -223,25 +224,19 @@ arm::Controller read_controller_file(const std::filesystem::path& path) {
 }
 
 arm::Controller parse_controller_keys(std::string_view text, const std::string& where) {
-  const auto fault = [&where](const std::string& what) {
-    return arm::located(InputError(what), where, 0);
-  };
+  KeyValues keys;
+  try {
+    keys = read_key_values(text, "KEY=VALUE, separated by commas, or a TOML file");
+  } catch (const InputError& error) {
+    throw arm::located(error, where, 0);
+  }
   toml::table table;
-  while (!text.empty()) {
-    const auto comma = std::min(text.find(','), text.size());
-    const std::string_view part = text.substr(0, comma);
-    text.remove_prefix(std::min(comma + 1, text.size()));
-    const auto equals = part.find('=');
-    if (equals == std::string_view::npos) {
-      throw fault(fmt::format("{}: must be KEY=VALUE, separated by commas, or a TOML file",
-                              arm::shown(part)));
+  for (const auto& [key, value] : keys) {
+    if (const auto number = arm::parse_number<double>(value)) {
+      table.insert(key, *number);
+    } else {
+      table.insert(key, value);
     }
-    const std::string_view key = part.substr(0, equals);
-    const std::string_view value = part.substr(equals + 1);
-    const auto number = arm::parse_number<double>(value);
-    const bool is_new =
-        number ? table.insert(key, *number).second : table.insert(key, std::string(value)).second;
-    if (!is_new) throw fault(fmt::format("{}: given twice", arm::shown(key)));
   }
   TomlFaults faults(where);
   arm::Controller controller = ControllerReader(faults, "", table).read();

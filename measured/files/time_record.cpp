@@ -211,6 +211,12 @@ void append_number(std::string& out, double value) {
 
 }  // namespace
 
+const std::vector<double>* values_of(const TimeRecord& record, arm::SensorKind kind) {
+  const auto found = std::ranges::find_if(
+      record.channels, [&](const Channel& channel) { return channel.sensor.kind == kind; });
+  return found == record.channels.end() ? nullptr : &found->values;
+}
+
 double sampling_period_s(const TimeRecord& record) {
   return (record.time_s.back() - record.time_s.front()) /
          static_cast<double>(record.time_s.size() - 1);

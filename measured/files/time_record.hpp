@@ -48,6 +48,9 @@ inline constexpr double kMostJitter_periods = 0.05;
 /// The step of the grid that the times lie on: (last - first)/(samples - 1) [s].
 double sampling_period_s(const TimeRecord& record);
 
+/// The values of the first sensor of that kind; null without one.
+const std::vector<double>* values_of(const TimeRecord& record, arm::SensorKind kind);
+
 /// Reads a time record (CSV, docs/formats.md): `time [s],torque [N m]` and any subset of the
 /// sensors, and perhaps `reference`, columns in any order, units as `units_for` has them.
 ///

@@ -64,6 +64,11 @@ std::vector<Slot> slots_of(Staircase& signal) {
           {"levels", "", &signal.levels}};
 }
 
+/// Each kind of excitation, with its defaults.
+std::vector<Excitation> every_kind() {
+  return {BangBang{}, Step{}, RandomNoise{}, Multisine{}, Chirp{}, Staircase{}};
+}
+
 constexpr std::array<std::pair<Sweep, const char*>, 2> kSweeps = {
     {{Sweep::linear, "linear"}, {Sweep::logarithmic, "logarithmic"}}};
 
@@ -125,20 +130,14 @@ std::vector<Slot> slots_of(Excitation& excitation) {
 const std::vector<std::string>& excitation_names() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> all;
-    for (const Excitation& excitation :
-         {Excitation(BangBang{}), Excitation(Step{}), Excitation(RandomNoise{}),
-          Excitation(Multisine{}), Excitation(Chirp{}), Excitation(Staircase{})}) {
-      all.emplace_back(name(excitation));
-    }
+    for (const Excitation& excitation : every_kind()) all.emplace_back(name(excitation));
     return all;
   }();
   return names;
 }
 
 Excitation excitation_of(std::string_view typed, const std::vector<std::string>& further) {
-  for (const Excitation& excitation :
-       {Excitation(BangBang{}), Excitation(Step{}), Excitation(RandomNoise{}),
-        Excitation(Multisine{}), Excitation(Chirp{}), Excitation(Staircase{})}) {
+  for (const Excitation& excitation : every_kind()) {
     if (name(excitation) == typed) return excitation;
   }
   std::vector<std::string> allowed = excitation_names();

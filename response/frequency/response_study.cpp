@@ -69,8 +69,8 @@ std::vector<double> frequencies(const AnyFormulation& formulation, const Respons
   std::vector<Complex> features = {study.damped_poles.lowest.first_rad_per_s};
   for (const auto& pair : study.damped_poles.flexible) features.push_back(pair.first_rad_per_s);
   const int count = static_cast<int>(study.damped_poles.flexible.size());
+  if (count == 0) return refined_frequencies(grid, features);  // a rigid hub has no zeros
   for (const auto& sensor : options.sensors) {
-    if (count == 0) break;  // a rigid hub has no zeros
     for (const auto& zero : zeros(formulation, sensor, count).s_rad_per_s) {
       if (zero.real() == 0.0) features.push_back(zero);
     }

@@ -306,7 +306,6 @@ FilteredRun ArmSimulator::filtered(std::span<const double> torque_N_m,
     made.innovations.row(row) = innovation.transpose();
     made.disturbance_N_m.push_back(
         arm_.disturbance ? arm_.disturbance_N_m * state(*arm_.disturbance) : 0.0);
-    made.hub_angle_rad.push_back(stepper.hub_angle());
     const bool is_held = stepper.motion() == HubMotion::held;
     made.hub_velocity_rad_per_s.push_back(is_held ? 0.0 : arm_.hub_velocity(stepper.state()));
     return true;

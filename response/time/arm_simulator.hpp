@@ -24,7 +24,6 @@ struct FilteredRun {
   Eigen::MatrixXd innovations;
   // The state at each sample, its own readings included.
   std::vector<double> disturbance_N_m = {};
-  std::vector<double> hub_angle_rad = {};
   std::vector<double> hub_velocity_rad_per_s = {};
 };
 
@@ -38,7 +37,6 @@ class ArmSimulator {
   ArmSimulator(const ArmSimulator&) = delete;
   ArmSimulator& operator=(const ArmSimulator&) = delete;
 
-  std::span<const arm::Sensor> sensors() const { return sensors_; }
   /// Entries of the state, ModalDynamics::size().
   Eigen::Index states() const { return arm_.size(); }
   /// No friction, and no force that varies with the state: responses add up.

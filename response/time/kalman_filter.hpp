@@ -36,10 +36,11 @@ struct FilterGains {
   }
 };
 
-/// The filter long after the first sample. By the structure-preserving doubling algorithm [ChuFanLin2004] for the Riccati equation of the
-/// predicted covariance, from an exactly known state: `kDoublings` of them are 2^kDoublings
-/// samples. Ends before where the covariance no longer changes by `kSteady` of it. What no reading
-/// shows need not be steady: its covariance grows and does not enter the gain.
+/// The filter long after the first sample. By the structure-preserving doubling algorithm
+/// [ChuFanLin2004] for the Riccati equation of the predicted covariance, from an exactly known
+/// state: `kDoublings` of them are 2^kDoublings samples. Ends before where the covariance no longer
+/// changes by `kSteady` of it. What no reading shows need not be steady: its covariance grows and
+/// does not enter the gain.
 ///
 /// Throws InputError for variances that are not above 0, and where the covariance overflows.
 FilterGain filter_gain(const SampledSystem& system);

@@ -26,17 +26,17 @@ struct Reading {
 ///
 /// X = (sigma_i q_i; q_i'; Z; W; d; z), N entries: sigma_i = omega_i, or that of the first flexible
 /// mode where omega_i is less, makes A nearly antisymmetric; Z is the lagged torque and W the
-/// lagged readings, each scaled so that its couplings are no larger than A's other entries; d is a disturbance of the
-/// hub torque, scaled as Z, which decays unless a filter moves it. u is
-/// the torque behind delay, gain and clipping; f the torques and forces that are added at the arm,
-/// a torque on the hub [N m] or n modal forces [1/s^2], and behind them the rates z' of the laws'
-/// own states: m entries.
+/// lagged readings, each scaled so that its couplings are no larger than A's other entries; d is a
+/// disturbance of the hub torque, scaled as Z, which decays unless a filter moves it. u is the
+/// torque behind delay, gain and clipping; f the torques and forces that are added at the arm, a
+/// torque on the hub [N m] or n modal forces [1/s^2], and behind them the rates z' of the laws' own
+/// states: m entries.
 struct LinearSystem {
   Eigen::MatrixXd a;                   ///< N x N [1/s]
   Eigen::VectorXd actuator;            ///< N
   Eigen::VectorXd actuator_rate = {};  ///< N; empty but in with_settled_torque
   Eigen::MatrixXd force;               ///< N x m
-  Reading hub_acceleration;  ///< theta''
+  Reading hub_acceleration;            ///< theta''
   std::vector<Reading> sensors;
   std::vector<Eigen::Index> lagged_readings;  ///< rows of W; nothing else depends on W
 };

@@ -77,8 +77,8 @@ std::optional<diagnose::PredictorKind> chosen_predictor(const std::string& word)
   for (const auto kind : diagnose::kPredictors) {
     if (word == diagnose::to_string(kind)) return kind;
   }
-  throw arm::InputError(
-      fmt::format("--predictor {}: must be auto, output_error or grey_box", arm::shown(word)));
+  throw arm::InputError(fmt::format(
+      "--predictor {}: must be auto, output_error, grey_box or torque_balance", arm::shown(word)));
 }
 
 /// Throws for an unknown predictor, and for outputs that could not be written, or would take the
@@ -234,9 +234,11 @@ Command add_diagnose(CLI::App& program) {
   parser->add_option("--max-causes", arguments->most_causes, "The most causes to name")
       ->capture_default_str();
   parser
-      ->add_option("--predictor", arguments->predictor,
-                   "How time runs are predicted: auto, output_error (the torque alone drives the "
-                   "arm) or grey_box (a Kalman filter, with an unrecorded torque on the hub)")
+      ->add_option(
+          "--predictor", arguments->predictor,
+          "How time runs are predicted: output_error (the torque alone drives the arm), grey_box "
+                   "(a Kalman filter, with an unrecorded torque on the hub), torque_balance (the "
+                   "residual hub torque for the motion as filtered) or auto")
       ->capture_default_str();
   parser
       ->add_option("--out", arguments->folder,

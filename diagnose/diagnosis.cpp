@@ -115,7 +115,7 @@ std::optional<DisturbanceGain> disturbance_gain(const Selection& selection) {
   const auto& after = selection.chosen.estimation.disturbance;
   if (!before || !after) return std::nullopt;
   return DisturbanceGain{selection.problem.predictor().noise()->correlation_time_s,
-                         before->deviation_N_m, after->deviation_N_m,
+                         before->estimated_N_m, after->estimated_N_m,
                          before->deviation_N_m / before->relative};
 }
 

@@ -35,8 +35,8 @@ struct ChannelGain {
   Gain error;
 };
 
-/// What the stochastic grey box leaves to a torque on the hub that nobody recorded, standard
-/// deviations.
+/// What the stochastic grey box leaves to a torque on the hub that nobody recorded, root mean
+/// squares of the filter's estimates.
 struct DisturbanceGain {
   double correlation_time_s = 0.0;
   double before_N_m = 0.0;  ///< of the arm file, uncertain numbers refitted

@@ -1,10 +1,25 @@
 #include "effects/registry/entry.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <span>
 
 namespace flexarm::effects {
+
+namespace {
+
+constexpr double kFewestCycles = 1.5;
+constexpr double kMostCycles = 40.0;
+
+/// Half a period within the largest motion of a run: what shows less of it is a torque bias or a
+/// spring.
+double fewest_cycles(const Scales& scales) {
+  if (scales.hub_angle_range_rad == 0.0) return kFewestCycles;
+  return std::max(kFewestCycles, std::numbers::pi / scales.hub_angle_range_rad);
+}
+
+}  // namespace
 
 Entry torque_ripple() {
   return {
@@ -42,9 +57,10 @@ Entry torque_ripple() {
         return {
             {"amplitude", 3e-3 * scales.torque_rms_N_m, 2.0 * scales.torque_rms_N_m,
              Spacing::from_zero},
-            {"cycles", 1.5, 40.0},
+            {"cycles", fewest_cycles(scales), kMostCycles},
             {"phase", 0.0, 2.0 * std::numbers::pi, Spacing::linear, true}};
       },
+      .applies = [](const Scales& scales) { return fewest_cycles(scales) < kMostCycles; },
       // Of few cycles, over a part of a turn.
       .contains = {"hub_spring", "torque_bias"},
       .speaks_for = "residual hub torque periodic in the hub angle",

@@ -13,12 +13,20 @@ using Eigen::Index;
 
 namespace {
 
-Eigen::LLT<Eigen::MatrixXd> factor(const response::FilterGain& filter) {
-  Eigen::LLT<Eigen::MatrixXd> covariance(filter.innovation_covariance);
+Eigen::LLT<Eigen::MatrixXd> factor(const Eigen::MatrixXd& innovation_covariance) {
+  Eigen::LLT<Eigen::MatrixXd> covariance(innovation_covariance);
   if (covariance.info() != Eigen::Success) {
     throw arm::InputError("Kalman filter: the covariance of the innovations is singular");
   }
   return covariance;
+}
+
+/// The sensors of a run with the hub's in the first place.
+Eigen::PermutationMatrix<Eigen::Dynamic> hub_first(const RecordedRun& run) {
+  Eigen::PermutationMatrix<Eigen::Dynamic> order(run.deviations.size());
+  order.setIdentity();
+  if (run.hub_sensor) order.applyTranspositionOnTheRight(0, *run.hub_sensor);
+  return order;
 }
 
 /// Calls use(filter, first, count) for each stretch of samples with one filter.
@@ -47,7 +55,7 @@ double log_determinant(const response::FilterGains& gains, std::size_t samples) 
   double sum = 0.0;
   for_each_filter(gains, static_cast<Index>(samples),
                   [&](const response::FilterGain& filter, Index /*first*/, Index count) {
-                    const auto covariance = factor(filter);
+                    const auto covariance = factor(filter.innovation_covariance);
                     sum += 2.0 * covariance.matrixLLT().diagonal().array().log().sum() *
                            static_cast<double>(count);
                   });
@@ -62,15 +70,16 @@ RunInnovations filter_run(const response::ArmSimulator& simulation, const Record
   RunInnovations made;
   made.filtered = simulation.filtered(run.torque_N_m, measured, gains);
   made.log_determinant = log_determinant(gains, run.torque_N_m.size());
+  const auto order = hub_first(run);
   Eigen::MatrixXd standardised(samples, measured.cols());
-  for_each_filter(gains, samples,
-                  [&](const response::FilterGain& filter, Index first, Index count) {
-                    standardised.middleRows(first, count) =
-                        factor(filter)
-                            .matrixL()
-                            .solve(made.filtered.innovations.middleRows(first, count).transpose())
-                            .transpose();
-                  });
+  for_each_filter(
+      gains, samples, [&](const response::FilterGain& filter, Index first, Index count) {
+        const auto covariance = factor(order * filter.innovation_covariance * order.transpose());
+        const Eigen::MatrixXd innovations =
+            order * made.filtered.innovations.middleRows(first, count).transpose();
+        standardised.middleRows(first, count) =
+            (order.transpose() * covariance.matrixL().solve(innovations)).transpose();
+      });
   made.standardised = standardised.reshaped();
   return made;
 }

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 
 #include <cstddef>
+#include <optional>
 #include <span>
 
 namespace flexarm::diagnose {
@@ -12,7 +13,8 @@ namespace flexarm::diagnose {
 /// One `time` run seen by a Kalman filter.
 struct RunInnovations {
   /// L^-1 e of each sample, where L L^T = S is the covariance of the innovations e: independent
-  /// with variance 1 where the model is right. Laid out as a run of `Observations`.
+  /// with variance 1 where the model is right. Laid out as a run of `Observations`. The hub's
+  /// sensor is the first in e: the others are what they show beyond the hub's motion.
   Eigen::VectorXd standardised;
   double log_determinant = 0.0;  ///< as the function has it
   response::FilteredRun filtered;
@@ -20,9 +22,10 @@ struct RunInnovations {
 
 struct RecordedRun {
   std::span<const double> torque_N_m;
-  Eigen::Ref<const Eigen::VectorXd> values;  ///< as a run of `Observations`
-  Eigen::VectorXd deviations;                ///< of the readings, a sensor each
-  bool starts_free = false;                  ///< from an unknown state, which is estimated
+  Eigen::Ref<const Eigen::VectorXd> values;     ///< as a run of `Observations`
+  Eigen::VectorXd deviations;                   ///< of the readings, a sensor each
+  bool starts_free = false;                     ///< from an unknown state, which is estimated
+  std::optional<Eigen::Index> hub_sensor = {};  ///< the first of the hub's angle or velocity
 };
 
 /// The filter of a run, whatever it reads. Throws InputError as response::filter_gain.

@@ -36,6 +36,23 @@ constexpr double kNoLikelihood = std::numeric_limits<double>::max();
 
 }  // namespace
 
+double estimated_disturbance_N_m(const Predictor& predictor, const arm::Arm& arm,
+                                 const std::vector<bool>& runs, const NoiseModel& noise) {
+  double squares = 0.0;
+  double samples = 0.0;
+  try {
+    for (const RunInnovations& run : predictor.innovations(arm, runs, noise)) {
+      const auto& torque_N_m = run.filtered.disturbance_N_m;
+      squares += Eigen::VectorXd::Map(torque_N_m.data(), std::ssize(torque_N_m)).squaredNorm();
+      samples += static_cast<double>(torque_N_m.size());
+    }
+  } catch (const std::runtime_error&) {
+    // An arm that is none, or whose equations no step solves.
+    return std::numeric_limits<double>::infinity();
+  }
+  return samples > 0.0 ? std::sqrt(squares / samples) : 0.0;
+}
+
 NoiseEstimator::NoiseEstimator(const Experiment& experiment, const Observations& observations,
                                const Predictor& predictor, std::function<void()> go_on)
     : predictor_(&predictor), go_on_(std::move(go_on)) {

@@ -14,6 +14,11 @@ struct NoiseEstimate {
   int evaluations = 0;                    ///< of that; 0: not run
 };
 
+/// Root mean square of the filter's estimates of the disturbance in `time` runs; 0 without any,
+/// infinite for an arm that cannot be computed.
+double estimated_disturbance_N_m(const Predictor& predictor, const arm::Arm& arm,
+                                 const std::vector<bool>& runs, const NoiseModel& noise);
+
 /// Estimates noise models of `time` runs for an arm by maximum likelihood.
 class NoiseEstimator {
  public:

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 
 namespace flexarm::diagnose {
@@ -13,6 +14,8 @@ struct NoiseModel {
   /// Standard deviation of a sensor's readings over that of its noise (Observations), 1 or more;
   /// 1 where none is given.
   std::map<std::string, double> reading_factors = {};
+  /// By torque balance: the unit of the residuals that the disturbance's estimates are.
+  std::optional<double> balance_unit_N_m = {};
 
   double reading_factor(const std::string& sensor) const {
     const auto found = reading_factors.find(sensor);

@@ -88,6 +88,23 @@ void predict(const arm::Arm& arm, const measured::FrequencyRecord& record,
   }
 }
 
+/// Residuals of a torque balance, for the hub's innovations in `standardised`: the missing torque,
+/// and where friction of the arm holds the hub what that turned beyond `kFollows` standard
+/// deviations. The balance of a hub that rests says nothing of one that moved.
+Eigen::VectorXd balance_residuals(const response::FilteredRun& run, double unit_N_m,
+                                  const Eigen::VectorXd& standardised) {
+  constexpr double kFollows = 4.0;
+  Eigen::VectorXd made(standardised.size());
+  for (Index k = 0; k < made.size(); ++k) {
+    const auto sample = static_cast<std::size_t>(k);
+    const bool is_held = run.hub_velocity_rad_per_s[sample] == 0.0;
+    const double turned = is_held ? std::max(0.0, std::abs(standardised(k)) - kFollows) : 0.0;
+    const double missing = run.disturbance_N_m[sample] / unit_N_m;
+    made(k) = std::copysign(std::hypot(missing, turned), missing);
+  }
+  return made;
+}
+
 }  // namespace
 
 response::TorqueHold simulated_hold(measured::TorqueHold hold) {
@@ -181,6 +198,16 @@ Eigen::VectorXd Predictor::operator()(const arm::Arm& arm, const std::vector<boo
   return values;
 }
 
+std::optional<Index> Predictor::hub_sensor(std::size_t r) const {
+  const auto& channels = std::get<measured::TimeRecord>(experiment_->runs[r].data).channels;
+  for (const auto kind : {arm::SensorKind::hub_angle, arm::SensorKind::hub_velocity}) {
+    const auto found = std::ranges::find_if(
+        channels, [kind](const auto& channel) { return channel.sensor.kind == kind; });
+    if (found != channels.end()) return found - channels.begin();
+  }
+  return std::nullopt;
+}
+
 RecordedRun Predictor::recorded(std::size_t r, const NoiseModel& noise) const {
   const auto& [run, data] = experiment_->runs[r];
   const auto [first, count] = stretch(r);
@@ -193,7 +220,7 @@ RecordedRun Predictor::recorded(std::size_t r, const NoiseModel& noise) const {
   return {std::get<measured::TimeRecord>(data).torque_N_m,
           observations_.values.segment(first, count),
           Eigen::VectorXd::Map(deviations.data(), std::ssize(deviations)),
-          run.initial == measured::InitialState::free};
+          run.initial == measured::InitialState::free, hub_sensor(r)};
 }
 
 Eigen::VectorXd Predictor::residuals(const arm::Arm& arm, const std::vector<bool>& runs) const {
@@ -208,8 +235,17 @@ Eigen::VectorXd Predictor::residuals(const arm::Arm& arm, const std::vector<bool
     const auto [first, count] = stretch(r);
     if (innovated[r].standardised.size() == 0) continue;
     const double more = innovated[r].log_determinant - log_determinants_[r];
-    made.segment(first, count) =
-        innovated[r].standardised * std::exp(more / (2.0 * static_cast<double>(count)));
+    auto part = made.segment(first, count);
+    part = innovated[r].standardised;
+    const auto sensor = hub_sensor(r);
+    if (noise_->balance_unit_N_m && sensor) {
+      const RunInnovations& run = innovated[r];
+      const auto samples = std::ssize(run.filtered.disturbance_N_m);
+      auto of_hub = part.segment(*sensor * samples, samples);
+      of_hub = balance_residuals(run.filtered, *noise_->balance_unit_N_m, of_hub);
+    } else {
+      part *= std::exp(more / (2.0 * static_cast<double>(count)));
+    }
   }
   return made;
 }

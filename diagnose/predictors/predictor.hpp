@@ -19,11 +19,15 @@ namespace flexarm::diagnose {
 /// As the simulation names what the torque does between samples.
 response::TorqueHold simulated_hold(measured::TorqueHold hold);
 
-/// What an arm should have shown in the runs of an experiment, by one of two models of `time` runs:
+/// What an arm should have shown in the runs of an experiment, by one of three models of `time`
+/// runs:
 ///
 /// - output error: the torque alone drives the arm from its initial state;
 /// - stochastic grey box, with a noise model: a Kalman filter predicts each sample from all samples
-///   before it [Kristensen2004].
+///   before it [Kristensen2004];
+/// - torque balance at the hub, with a noise model that has a unit for it: the torque that is
+///   missing for the motion as that filter has it. The recorded torque and every law of the hub
+///   pass the same filter, as in inverse dynamics with parallel filtering [KhalilDombre2002].
 class Predictor {
  public:
   /// `flexible_modes` move in a simulated run, which is stepped as response::options_of_fit where
@@ -46,6 +50,12 @@ class Predictor {
   /// for the n readings of a run, S the covariance of their innovations by `arm` and S_0 that by
   /// the experiment's arm: the arm that makes their squares least is the most likely one where the
   /// scale of all noise is free.
+  ///
+  /// By torque balance the estimates of the disturbance in its unit are in the place of the
+  /// innovations of the hub's sensor, with what a hub that friction holds turned beyond chance; the
+  /// other sensors have those that the hub's motion leaves. The fast part of a disturbance does not
+  /// hide the slow one then, as it does in innovations, which are its changes from sample to
+  /// sample.
   Eigen::VectorXd residuals(const arm::Arm& arm, const std::vector<bool>& runs) const;
 
   /// By a noise model, which need not be the predictor's: of each of these `time` runs; empty for
@@ -73,6 +83,9 @@ class Predictor {
                           Eigen::VectorXd& values) const;
   /// A `time` run with the readings' deviations by `noise`; it refers to this object.
   RecordedRun recorded(std::size_t run, const NoiseModel& noise) const;
+  /// Index of the channel of a `time` run that shows the hub's motion, its angle before its
+  /// velocity; empty without any.
+  std::optional<Eigen::Index> hub_sensor(std::size_t run) const;
   /// Where a run begins in Observations, and how many numbers it has.
   std::pair<Eigen::Index, Eigen::Index> stretch(std::size_t run) const;
 

@@ -5,6 +5,7 @@
 #include <Eigen/Cholesky>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -80,6 +81,14 @@ bool clears_bars(const Explanation& fuller, const Explanation& simpler,
   if (share_taken(simpler.estimation, fuller.estimation) < options.least_share) return false;
   if (simpler.validation.is_noise()) return fuller.validation.is_noise();
   return share_taken(simpler.validation, fuller.validation) >= options.least_validated_share;
+}
+
+bool runs_away(const Explanation& explanation, const SelectionOptions& options) {
+  return std::ranges::any_of(
+      std::array{&explanation.estimation, &explanation.validation}, [&](const Misfit* misfit) {
+        return !misfit->disturbance && misfit->simulated > 0.0 &&
+               misfit->unexplained_error() > options.largest_error_left;
+      });
 }
 
 std::vector<LimitOfEffect> limits_in(const Candidate& candidate,

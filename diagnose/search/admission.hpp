@@ -30,6 +30,11 @@ bool is_identified(const Explanation& explanation);
 bool clears_bars(const Explanation& fuller, const Explanation& simpler,
                  const SelectionOptions& options);
 
+/// What a simulation leaves of `time` runs is near their signal's own size (options.
+/// largest_error_left): it has run away from the data, and no effect may be named. Never with a
+/// stochastic grey box, which follows the data.
+bool runs_away(const Explanation& explanation, const SelectionOptions& options);
+
 /// An effect of a candidate that has an effect of `hypotheses` as a limit, and that limit.
 struct LimitOfEffect {
   std::size_t effect = 0;  ///< index of Candidate::effects

@@ -1,6 +1,9 @@
 #include "diagnose/search/coarse.hpp"
 
+#include "measured/files/decimation.hpp"
+
 #include <algorithm>
+#include <iterator>
 #include <variant>
 
 namespace flexarm::diagnose {
@@ -30,15 +33,38 @@ void thin(measured::FrequencyRecord& record, std::size_t /*samples*/) {
 
 void thin(measured::ModalTable& /*table*/, std::size_t /*samples*/) {}
 
+Experiment estimation_part(const Experiment& experiment) {
+  Experiment made;
+  made.arm = experiment.arm;
+  std::ranges::copy_if(experiment.runs, std::back_inserter(made.runs), [](const auto& run) {
+    return run.run.purpose == measured::Purpose::estimation;
+  });
+  return made;
+}
+
 }  // namespace
 
 Experiment coarse(const Experiment& experiment, std::size_t samples) {
-  Experiment made;
-  made.arm = experiment.arm;
-  for (const auto& run : experiment.runs) {
-    if (run.run.purpose != measured::Purpose::estimation) continue;
-    made.runs.push_back(run);
-    std::visit([&](auto& data) { thin(data, samples); }, made.runs.back().data);
+  Experiment made = estimation_part(experiment);
+  for (auto& run : made.runs) {
+    std::visit([&](auto& data) { thin(data, samples); }, run.data);
+  }
+  return made;
+}
+
+Experiment coarse_whole(const Experiment& experiment, std::size_t samples) {
+  Experiment made = estimation_part(experiment);
+  for (auto& [run, data] : made.runs) {
+    auto* record = std::get_if<measured::TimeRecord>(&data);
+    if (record == nullptr) {
+      std::visit([&](auto& other) { thin(other, samples); }, data);
+      continue;
+    }
+    const std::size_t factor = (record->time_s.size() + samples - 1) / samples;
+    if (factor < 2 || record->time_s.size() < measured::fewest_samples(factor)) continue;
+    *record = measured::decimated(*record, factor);
+    run.torque_hold = measured::TorqueHold::first;
+    run.initial = measured::InitialState::free;
   }
   return made;
 }

@@ -47,13 +47,18 @@ ProblemOptions coarse_options(const Problem& problem, const SelectionOptions& op
           .noise = problem.predictor().noise()};
 }
 
+Experiment coarse_experiment(const Problem& problem, std::size_t samples) {
+  return problem.predictor().noise() ? coarse_whole(problem.experiment(), samples)
+                                     : coarse(problem.experiment(), samples);
+}
+
 }  // namespace
 
 EffectScan::EffectScan(const Problem& problem, const SelectionOptions& options, ReportedWork& work)
     : options_(options),
       work_(work),
-      coarse_experiment_(coarse(problem.experiment(), options.coarse_samples)),
-      short_experiment_(coarse(problem.experiment(), options.short_samples)),
+      coarse_experiment_(coarse_experiment(problem, options.coarse_samples)),
+      short_experiment_(coarse_experiment(problem, options.short_samples)),
       coarse_(coarse_experiment_, coarse_options(problem, options)),
       short_(short_experiment_, coarse_options(problem, options)) {}
 

@@ -1,24 +1,37 @@
 #include "diagnose/search/explanation.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace flexarm::diagnose {
 
 namespace {
 
+/// Mean square of residuals of a torque balance below which none is any better.
+constexpr double kLeastBalance = 1e-12;
+
 /// With what a stochastic grey-box model leaves to the disturbance, if the problem has one. What
-/// is left is then noise where the innovations are white and the disturbance is negligible.
+/// is left is then noise where the innovations are white and the disturbance is negligible. By
+/// torque balance the scale of each channel's residuals is free.
 void weigh_disturbance(const Problem& problem, const Candidate& candidate,
                        const Eigen::VectorXd& residuals, const std::vector<bool>& runs,
                        Misfit& misfit, ResidualTest& test) {
   if (!problem.predictor().noise() || misfit.count == 0.0) return;
   misfit.disturbance = problem.disturbance_left(candidate, runs);
+  double& likelihood = misfit.disturbance->minus_two_log_likelihood;
+  const bool is_balance = problem.predictor().noise()->balance_unit_N_m.has_value();
+  if (is_balance) likelihood = 0.0;
   for (const ObservedChannel& channel : problem.observations().channels) {
-    const auto kind = problem.experiment().runs[channel.run].run.kind;
-    if (!runs[channel.run] || kind == measured::RunKind::time) continue;
-    misfit.disturbance->minus_two_log_likelihood +=
-        residuals.segment(channel.first, channel.count).squaredNorm();
+    if (!runs[channel.run]) continue;
+    const bool is_time = problem.experiment().runs[channel.run].run.kind == measured::RunKind::time;
+    const auto n = static_cast<double>(channel.count);
+    const double squares = residuals.segment(channel.first, channel.count).squaredNorm();
+    if (!is_time) {
+      likelihood += squares;
+    } else if (is_balance) {
+      likelihood += n * std::log(std::max(squares / n, kLeastBalance));
+    }
   }
   test.level_p_value = misfit.disturbance->relative <= kNegligibleDisturbance ? 1.0 : 0.0;
 }
@@ -44,8 +57,8 @@ Explanation explain(const Problem& problem, Fit fit) {
         misfit(observations, problem.experiment(), *held_out, problem.validation_runs());
     made.validation_test =
         test_residuals(observations, problem.experiment(), *held_out, problem.validation_runs());
-    weigh_disturbance(problem, fit.candidate, *held_out, problem.validation_runs(),
-                      made.validation, made.validation_test);
+    weigh_disturbance(problem, fit.candidate, *held_out, problem.validation_runs(), made.validation,
+                      made.validation_test);
   }
   made.fit = std::move(fit);
   return made;

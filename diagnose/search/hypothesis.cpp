@@ -11,6 +11,7 @@
 #include <numbers>
 #include <utility>
 #include <variant>
+#include <vector>
 
 namespace flexarm::diagnose {
 
@@ -38,6 +39,14 @@ arm::LinearArm beam_beside(arm::LinearArm hub, const Experiment& experiment) {
   hub.linear_density_kg_per_m = 3.0 * hub.hub_inertia_kg_m2;
   hub.flexural_rigidity_N_m2 = hub.linear_density_kg_per_m * scale_rad_per_s * scale_rad_per_s;
   return hub;
+}
+
+/// Of the values that are numbers; 0 without any.
+double range_of(std::vector<double> values) {
+  std::erase_if(values, [](double value) { return std::isnan(value); });
+  if (values.empty()) return 0.0;
+  const auto [least, most] = std::ranges::minmax(values);
+  return most - least;
 }
 
 }  // namespace
@@ -149,7 +158,12 @@ Scales scales_of(const Experiment& experiment) {
         scales.torque_peak_N_m = std::max(scales.torque_peak_N_m, std::abs(torque));
       }
       samples += static_cast<double>(record->torque_N_m.size());
-      for (const auto& channel : record->channels) see(channel.sensor);
+      for (const auto& channel : record->channels) {
+        see(channel.sensor);
+        if (channel.sensor.kind != arm::SensorKind::hub_angle) continue;
+        scales.hub_angle_range_rad =
+            std::max(scales.hub_angle_range_rad, range_of(channel.values));
+      }
     } else if (const auto* frequency = std::get_if<measured::FrequencyRecord>(&data)) {
       for (const auto& channel : frequency->channels) {
         see(channel.sensor);

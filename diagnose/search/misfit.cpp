@@ -28,8 +28,11 @@ double independent(const Eigen::Ref<const Eigen::VectorXd>& residuals, measured:
 
 double Misfit::excess() const {
   if (disturbance) {
-    const double ratio = disturbance->relative / kNegligibleDisturbance;
-    return std::max(0.0, ratio * ratio - 1.0) + nuisance_excess();
+    if (disturbance->relative <= kNegligibleDisturbance) return nuisance_excess();
+    const double negligible_N_m =
+        kNegligibleDisturbance * disturbance->deviation_N_m / disturbance->relative;
+    const double ratio = disturbance->estimated_N_m / negligible_N_m;
+    return ratio * ratio + nuisance_excess();
   }
   return beyond_chance(sum_of_squares, (1.0 + kNoiseKnown) * count, count) + nuisance_excess();
 }
@@ -95,7 +98,8 @@ Misfit misfit(const Observations& observations, const Experiment& experiment,
 }
 
 double share_taken(const Misfit& before, const Misfit& after) {
-  return before.excess() > 0.0 ? 1.0 - after.excess() / before.excess() : 0.0;
+  if (!(before.excess() > 0.0) || !std::isfinite(after.excess())) return 0.0;
+  return 1.0 - after.excess() / before.excess();
 }
 
 double information_gain(const Misfit& simpler, const Misfit& fuller, int more_parameters) {

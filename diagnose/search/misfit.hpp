@@ -13,9 +13,12 @@ namespace flexarm::diagnose {
 struct DisturbanceLeft {
   double deviation_N_m = 0.0;             ///< most likely one, the rest of the noise model as it is
   double relative = 0.0;                  ///< to the root mean square of the commanded torque
+  /// Root mean square of the filter's estimates of it, with the noise model as it is. Most of it
+  /// may be slow, while the likelihood goes by what is fast: the deviation says little of it.
+  double estimated_N_m = 0.0;
   double minus_two_log_likelihood = 0.0;  ///< with that deviation, without n ln 2 pi
 };
-/// A relative deviation below this is nothing beside the torque.
+/// A relative deviation of this or less is nothing beside the torque.
 inline constexpr double kNegligibleDisturbance = 0.01;
 
 /// What residuals say of the runs that they are of.
@@ -41,8 +44,8 @@ struct Misfit {
 
   /// Squares beyond those of the noise, whose level is known to `kNoiseKnown` of its power, and
   /// beyond what chance adds to so many of them, `kChance` standard deviations sqrt(2 n); of
-  /// nuisances those beyond chance. With a disturbance its variance beyond the negligible one, in
-  /// units of that.
+  /// nuisances those beyond chance. With a disturbance that is not negligible the mean square of its
+  /// estimates, in units of the negligible variance.
   double excess() const;
   double nuisance_excess() const;
   bool is_noise() const { return excess() == 0.0; }
@@ -71,7 +74,8 @@ double relative_error(const Observations& observations, const Experiment& experi
 /// Numbers among the residuals of a channel that are independent, as Misfit::independent has them.
 double independent(const Eigen::Ref<const Eigen::VectorXd>& residuals, measured::RunKind kind);
 
-/// Part of what is beyond noise before that is not after; 0 without anything beyond noise.
+/// Part of what is beyond noise before that is not after; 0 without anything beyond noise before,
+/// or where what is left cannot be computed.
 double share_taken(const Misfit& before, const Misfit& after);
 
 /// How much better `fuller` explains the estimation data than `simpler`, in units of the Bayesian

@@ -8,6 +8,14 @@ namespace flexarm::diagnose {
 
 namespace {
 
+/// -2 ln of the likelihood of a set that leaves this excess over the `best`. With a stochastic grey
+/// box deviations are part of the model, and the likelihood is that of the innovations, by the
+/// independent numbers among those of the best.
+double cost_of_excess(double excess, const Misfit& best) {
+  if (best.disturbance) return excess * best.independent / best.count;
+  return kDiscrepancyFreedom * std::log1p(excess / kDiscrepancyFreedom);
+}
+
 /// Of all runs, with those of the arm's uncertain numbers: what a set leaves, and what is expected
 /// of noise.
 double squares_of(const Explanation& set) {
@@ -22,9 +30,8 @@ double squares_of_noise(const Explanation& set) {
 
 Posterior::Posterior(std::vector<const Explanation*> sets, std::size_t hypotheses,
                      const SelectionOptions& options) {
-  const auto best_set = std::ranges::min_element(sets, {}, [](const Explanation* set) {
-    return squares_of(*set);
-  });
+  const auto best_set =
+      std::ranges::min_element(sets, {}, [](const Explanation* set) { return squares_of(*set); });
   double least = squares_of(**best_set);
   const bool has_known_noise = !(*best_set)->estimation.disturbance;
   if (has_known_noise) {
@@ -40,11 +47,10 @@ Posterior::Posterior(std::vector<const Explanation*> sets, std::size_t hypothese
     const Candidate& candidate = set->fit.candidate;
     const double excess = std::max(0.0, squares_of(*set) - least);
     const bool is_complete = set->leaves_noise();
-    const double cost =
-        kDiscrepancyFreedom * std::log1p(excess / kDiscrepancyFreedom) +
-        cost_of_cause * static_cast<double>(candidate.effects.size()) +
-        kParameterCost * static_cast<double>(candidate.values.size()) +
-        (is_complete ? 0.0 : cost_of_else);
+    const double cost = cost_of_excess(excess, (*best_set)->estimation) +
+                        cost_of_cause * static_cast<double>(candidate.effects.size()) +
+                        kParameterCost * static_cast<double>(candidate.values.size()) +
+                        (is_complete ? 0.0 : cost_of_else);
     sets_.push_back({set, 0.0, cost, is_complete});
     best = std::min(best, cost);
   }
@@ -57,17 +63,18 @@ Posterior::Posterior(std::vector<const Explanation*> sets, std::size_t hypothese
   for (Weighed& weighed : sets_) weighed.probability /= sum;
 }
 
-double Posterior::of(const Hypothesis& cause) const { return of_any(cause, {}); }
+double Posterior::of(const Hypothesis& cause) const {
+  return of_any(cause, {});
+}
 
 double Posterior::of_any(const Hypothesis& cause,
                          const std::vector<const Hypothesis*>& others) const {
   double sum = 0.0;
   for (const Weighed& weighed : sets_) {
     const Candidate& candidate = weighed.set->fit.candidate;
-    const bool has_one = candidate.has(cause) ||
-                         std::ranges::any_of(others, [&](const Hypothesis* other) {
-                           return candidate.has(*other);
-                         });
+    const bool has_one =
+        candidate.has(cause) ||
+        std::ranges::any_of(others, [&](const Hypothesis* other) { return candidate.has(*other); });
     if (has_one) sum += weighed.probability;
   }
   return std::min(1.0, sum);

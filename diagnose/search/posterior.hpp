@@ -21,6 +21,9 @@ namespace flexarm::diagnose {
 /// leaves without its own excess (Misfit::excess). Where no set leaves noise, that excess is all
 /// beyond the expectation of noise: the uncertainty of the noise level excuses none of it.
 ///
+/// With a stochastic grey box, which has such a function for the hub torque, the likelihood is that
+/// of the innovations, its logarithm times the part of them that is independent.
+///
 /// d = `kDiscrepancyFreedom` is small because one thing that is wrong moves a few frequencies,
 /// damping ratios and amplitudes together.
 ///

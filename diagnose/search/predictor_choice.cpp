@@ -8,10 +8,15 @@
 #include <algorithm>
 #include <string_view>
 #include <utility>
+#include <variant>
 
 namespace flexarm::diagnose {
 
 namespace {
+
+/// Flexible modes of a Kalman filter <= this. What leaves no noise by output error is wrong by more
+/// than the modes beyond.
+constexpr int kMostFilteredModes = 6;
 
 bool has_time_runs(const Problem& problem) {
   const auto& runs = problem.experiment().runs;
@@ -19,6 +24,23 @@ bool has_time_runs(const Problem& problem) {
     if (problem.estimation_runs()[r] && runs[r].run.kind == measured::RunKind::time) return true;
   }
   return false;
+}
+
+bool shows_hub(const measured::TimeRecord& record) {
+  return std::ranges::any_of(record.channels, [](const auto& channel) {
+    return channel.sensor.kind == arm::SensorKind::hub_angle ||
+           channel.sensor.kind == arm::SensorKind::hub_velocity;
+  });
+}
+
+/// Of the predictors with a noise model: torque balance where each `time` run shows the hub.
+PredictorKind filtering_predictor(const Experiment& experiment, const SelectionOptions& options) {
+  if (options.predictor) return *options.predictor;
+  const bool is_seen = std::ranges::all_of(experiment.runs, [](const auto& run) {
+    const auto* record = std::get_if<measured::TimeRecord>(&run.data);
+    return record == nullptr || shows_hub(*record);
+  });
+  return is_seen ? PredictorKind::torque_balance : PredictorKind::grey_box;
 }
 
 }  // namespace
@@ -32,30 +54,34 @@ PredictedSelection select_by_evidence(const Experiment& experiment,
     return {select(problem, hypotheses, options, progress), PredictorKind::output_error, "",
             problem};
   }
+  const bool is_asked = options.predictor && options.predictor != PredictorKind::output_error;
+  PredictedSelection made{Selection{problem}, PredictorKind::output_error, "", problem};
   // Which predictor it will be is not known before the first half is done.
   const auto half = [&progress](double from) {
     return [&progress, from](std::string_view what, double done) {
       return !progress || progress(what, from + 0.5 * done);
     };
   };
-  PredictedSelection made{select(problem, hypotheses, options, half(0.0)),
-                          PredictorKind::output_error, "", problem};
-  made.simulated = made.selection.problem;
-  if (made.selection.cancelled || options.predictor == PredictorKind::output_error) {
-    made.reason = "as asked for";
-    return made;
+  if (!is_asked) {
+    made.selection = select(problem, hypotheses, options, half(0.0));
+    made.simulated = made.selection.problem;
+    if (made.selection.cancelled || options.predictor == PredictorKind::output_error) {
+      made.reason = "as asked for";
+      return made;
+    }
+    if (made.selection.chosen.leaves_noise()) {
+      made.reason = "its residuals are noise";
+      return made;
+    }
   }
-  const bool is_asked = options.predictor == PredictorKind::grey_box;
-  if (!is_asked && made.selection.chosen.leaves_noise()) {
-    made.reason = "its residuals are noise";
-    return made;
-  }
-  const DiagnosisProgress second_half = half(0.5);
+  const DiagnosisProgress second_half = is_asked ? progress : half(0.5);
   const ReportedWork work(second_half);
-  const NoiseEstimator estimator(experiment, made.simulated.observations(),
-                                 made.simulated.predictor(), [&work] { work.go_on(); });
+  const int modes = std::min(kMostFilteredModes, made.simulated.predictor().flexible_modes());
+  const Problem unfiltered = made.simulated.with_modes(modes);
+  const NoiseEstimator estimator(experiment, unfiltered.observations(), unfiltered.predictor(),
+                                 [&work] { work.go_on(); });
   const auto likely_noise = [&](const arm::Arm& arm) {
-    return estimator.model(arm, made.simulated.estimation_runs()).model;
+    return estimator.model(arm, unfiltered.estimation_runs()).model;
   };
   try {
     const arm::Arm extended = made.selection.chosen.fit.candidate.extend(experiment.arm);
@@ -65,21 +91,27 @@ PredictedSelection select_by_evidence(const Experiment& experiment,
       return made;
     }
     // The search begins with the arm as filed: what output error named may be wrong.
-    const NoiseModel noise = likely_noise(experiment.arm);
-    Problem filtered(
-        experiment, made.simulated.observations(),
-        {.flexible_modes = made.simulated.predictor().flexible_modes(), .noise = noise});
+    NoiseModel noise = likely_noise(experiment.arm);
+    made.predictor = filtering_predictor(experiment, options);
+    if (made.predictor == PredictorKind::torque_balance) {
+      noise.balance_unit_N_m = estimated_disturbance_N_m(
+          unfiltered.predictor(), experiment.arm, unfiltered.estimation_runs(), noise);
+    }
+    Problem filtered(experiment, unfiltered.observations(),
+                     {.flexible_modes = modes, .noise = noise});
     made.selection = select(std::move(filtered), hypotheses, options, second_half);
-    made.predictor = PredictorKind::grey_box;
-    made.reason = is_asked ? "as asked for"
-                           : fmt::format(
-                                 "by output error the residuals are not noise; an "
-                                 "unrecorded hub torque of {:.3g} N m makes them more "
-                                 "likely",
-                                 noise.disturbance_N_m);
+    made.reason = "as asked for";
+    if (!is_asked) {
+      made.reason = fmt::format(
+          "by output error the residuals are not noise; an unrecorded hub torque of {:.3g} N m "
+          "makes them more likely",
+          noise.disturbance_N_m);
+    }
   } catch (const Cancelled&) {
     made.selection.cancelled = true;
   } catch (const arm::InputError&) {
+    if (is_asked) throw;
+    made.predictor = PredictorKind::output_error;
     made.reason = "no Kalman filter can be formed for the arm as filed";
   }
   return made;

@@ -18,9 +18,11 @@ struct PredictedSelection {
   Problem simulated;
 };
 
-/// Selects effects by output error and, where that does not leave noise, by a stochastic grey box:
-/// if the most likely disturbance of the hub torque of the arm that output error made is
-/// options.least_disturbance or more. With options.predictor by that one.
+/// Selects effects by output error and, where that does not leave noise, by torque balance at the
+/// hub, or by a stochastic grey box where a `time` run does not show the hub's motion: if the most
+/// likely disturbance of the hub torque of the arm that output error made is
+/// options.least_disturbance or more. With options.predictor by that one; throws InputError where
+/// no Kalman filter can be formed for it.
 PredictedSelection select_by_evidence(const Experiment& experiment,
                                       const std::vector<Hypothesis>& hypotheses,
                                       const SelectionOptions& options,

@@ -103,8 +103,12 @@ bool Problem::estimate_noise(const Candidate& candidate) {
   const NoiseEstimator estimator(*experiment_, observations_, predictor_);
   const double before =
       estimator.disturbance(arm, estimation_runs_, present).minus_two_log_likelihood;
-  const NoiseEstimate found = estimator.model(arm, estimation_runs_, {present});
+  NoiseEstimate found = estimator.model(arm, estimation_runs_, {present});
   if (!(found.minus_two_log_likelihood < before - kMoreLikely)) return false;
+  if (present.balance_unit_N_m) {
+    found.model.balance_unit_N_m =
+        estimated_disturbance_N_m(predictor_, arm, estimation_runs_, found.model);
+  }
   predictor_ = Predictor(*experiment_, observations_, predictor_.flexible_modes(), found.model);
   return true;
 }
@@ -112,10 +116,11 @@ bool Problem::estimate_noise(const Candidate& candidate) {
 DisturbanceLeft Problem::disturbance_left(const Candidate& candidate,
                                           const std::vector<bool>& runs) const {
   const NoiseEstimator estimator(*experiment_, observations_, predictor_);
-  const NoiseEstimate found =
-      estimator.disturbance(candidate.extend(experiment_->arm), runs, *predictor_.noise());
+  const arm::Arm arm = candidate.extend(experiment_->arm);
+  const NoiseEstimate found = estimator.disturbance(arm, runs, *predictor_.noise());
   const double deviation_N_m = found.model.disturbance_N_m;
   return {deviation_N_m, deviation_N_m / estimator.torque_rms_N_m(),
+          estimated_disturbance_N_m(predictor_, arm, runs, *predictor_.noise()),
           found.minus_two_log_likelihood};
 }
 

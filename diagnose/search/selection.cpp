@@ -293,6 +293,7 @@ class Search {
   /// Without the causes that may not be named, one after the other: those with a parameter that the
   /// data do not identify, then the improbable ones.
   void leave_out_unnamed(Selection& made) {
+    if (runs_away(made.chosen, options_)) made.chosen = made.nothing;
     while (!made.chosen.fit.candidate.effects.empty()) {
       const Candidate& candidate = made.chosen.fit.candidate;
       auto unnamed = unidentified_effect(candidate, stated_errors(made.chosen));

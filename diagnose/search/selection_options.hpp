@@ -8,12 +8,21 @@
 namespace flexarm::diagnose {
 
 /// How `time` runs are predicted (predictors/predictor.hpp).
-enum class PredictorKind { output_error, grey_box };
-inline constexpr std::array kPredictors = {PredictorKind::output_error, PredictorKind::grey_box};
+enum class PredictorKind { output_error, grey_box, torque_balance };
+inline constexpr std::array kPredictors = {PredictorKind::output_error, PredictorKind::grey_box,
+                                           PredictorKind::torque_balance};
 
 /// "grey_box".
 constexpr std::string_view to_string(PredictorKind kind) {
-  return kind == PredictorKind::output_error ? "output_error" : "grey_box";
+  switch (kind) {
+    case PredictorKind::output_error:
+      return "output_error";
+    case PredictorKind::grey_box:
+      return "grey_box";
+    case PredictorKind::torque_balance:
+      return "torque_balance";
+  }
+  return "";
 }
 
 /// Every threshold of the search, each with what it enforces.
@@ -22,7 +31,7 @@ struct SelectionOptions {
   int most_causes = 3;
   /// Chosen by evidence (predictor_choice.hpp) unless given.
   std::optional<PredictorKind> predictor = {};
-  /// The grey box is taken where what output error leaves is a disturbance of the hub torque >=
+  /// Another one is taken where what output error leaves is a disturbance of the hub torque >=
   /// this part of the commanded torque's root mean square.
   double least_disturbance = 0.03;
 
@@ -37,6 +46,10 @@ struct SelectionOptions {
   /// Each parameter is identified by the standard errors that are stated (admission.hpp); these
   /// include the shift of the estimate by so many modes more (parameter_errors.hpp).
   int further_modes = 8;
+  /// By output error, what is left of the signal of simulated runs, for estimation as for
+  /// validation, <= this: where a simulation runs away from the data, whatever dissipates brings it
+  /// nearer.
+  double largest_error_left = 0.5;
   /// Posterior probability of it, or of a set of effects indistinguishable from it, >= this.
   double least_probability = 0.5;
 

@@ -19,6 +19,7 @@ struct Scales {
   bool has_payload_mass = false;     ///< in some run
   double torque_rms_N_m = 0.0;       ///< of all `time` runs; 0 where there are none
   double torque_peak_N_m = 0.0;
+  double hub_angle_range_rad = 0.0;  ///< largest of a `time` run; 0 where none shows it
   double speed_rms_rad_per_s = 1.0;  ///< of a rigid arm that this torque turns
   double shortest_time_s = 1e-3;     ///< half a sampling period, or 1/(20 highest frequency)
 

@@ -121,9 +121,12 @@ std::string predictor_text(const diagnose::Diagnosis& diagnosis) {
   if (!diagnosis.disturbance) return "";
   const diagnose::DisturbanceGain& left = *diagnosis.disturbance;
   return fmt::format(
-      "Predictor: stochastic grey box ({}). The standard deviation of the unrecorded hub torque is "
-      "{:.3g} N m with the arm file and {:.3g} N m with the extended arm; the commanded torque is "
-      "{:.3g} N m rms. Its correlation time is {:.2g} s. NRMSE below is that of a simulation.",
+      "Predictor: {} ({}). The unrecorded hub torque, as the filter estimates it, "
+      "is {:.3g} N m rms with the arm file and {:.3g} N m rms with the extended arm; the commanded "
+      "torque is {:.3g} N m rms. Its correlation time is {:.2g} s. NRMSE below is that of a "
+      "simulation.",
+      diagnosis.predictor == diagnose::PredictorKind::torque_balance ? "torque balance at the hub"
+                                                                     : "stochastic grey box",
       diagnosis.predictor_reason, left.before_N_m, left.after_N_m, left.torque_rms_N_m,
       left.correlation_time_s);
 }

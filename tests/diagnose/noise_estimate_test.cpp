@@ -77,21 +77,38 @@ TEST(PredictorChoice, OutputErrorWhereItLeavesNoise) {
   EXPECT_THAT(named_by(made.selection), testing::ElementsAre("coulomb_friction"));
 }
 
-TEST(PredictorChoice, GreyBoxNamesFrictionUnderAnUnrecordedTorque) {
+/// The filtering predictors, as they are asked for.
+class FilteringPredictor : public testing::TestWithParam<PredictorKind> {
+ protected:
+  static PredictedSelection selected(const Experiment& experiment) {
+    return select_by_evidence(
+        experiment, named(experiment, {"coulomb_friction", "hub_spring", "payload_mass"}),
+        {.predictor = GetParam()}, {});
+  }
+};
+INSTANTIATE_TEST_SUITE_P(All, FilteringPredictor,
+                         testing::Values(PredictorKind::grey_box, PredictorKind::torque_balance),
+                         [](const auto& kind) { return std::string(to_string(kind.param)); });
+
+TEST_P(FilteringPredictor, NamesFrictionUnderAnUnrecordedTorque) {
   const Experiment experiment = with_unrecorded_torque(
       simulated_experiment({effects::named("coulomb_friction", {{"torque", 0.02}})}, kShortRuns), 6);
-  const auto made = select_by_evidence(
-      experiment, named(experiment, {"coulomb_friction", "hub_spring", "payload_mass"}), {}, {});
-  EXPECT_EQ(made.predictor, PredictorKind::grey_box);
+  const auto made = selected(experiment);
+  EXPECT_EQ(made.predictor, GetParam());
   ASSERT_THAT(named_by(made.selection), testing::ElementsAre("coulomb_friction"));
   EXPECT_NEAR(made.selection.chosen.fit.candidate.values.front(), 0.02, 0.002);
 }
 
-TEST(PredictorChoice, GreyBoxNamesNothingWhereOnlyAnUnrecordedTorqueIsHidden) {
+TEST_P(FilteringPredictor, NamesNothingWhereOnlyAnUnrecordedTorqueIsHidden) {
   const Experiment experiment = with_unrecorded_torque(simulated_experiment({}, kShortRuns), 8);
+  EXPECT_THAT(named_by(selected(experiment).selection), testing::IsEmpty());
+}
+
+TEST(PredictorChoice, TorqueBalanceWhereOutputErrorDoesNotLeaveNoise) {
+  const Experiment experiment = with_unrecorded_torque(simulated_experiment({}, kShortRuns), 9);
   const auto made = select_by_evidence(
-      experiment, named(experiment, {"coulomb_friction", "hub_spring", "payload_mass"}), {}, {});
-  EXPECT_EQ(made.predictor, PredictorKind::grey_box);
+      experiment, named(experiment, {"coulomb_friction", "hub_spring"}), {}, {});
+  EXPECT_EQ(made.predictor, PredictorKind::torque_balance);
   EXPECT_THAT(named_by(made.selection), testing::IsEmpty());
 }
 

@@ -14,10 +14,6 @@ namespace flexarm::diagnose {
 
 namespace {
 
-/// Readings that repeat to the last digit leave no noise to be seen; this part of the signal then
-/// stands for what a model cannot be asked to reach.
-constexpr double kLeastNoise = 1e-6;
-
 /// Gathers channels one after the other.
 class Gathering {
  public:

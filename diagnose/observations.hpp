@@ -28,6 +28,10 @@ struct ObservedChannel {
   double floor() const { return std::hypot(noise, numerical_error); }
 };
 
+/// ObservedChannel::noise is this or more. Readings that repeat to the last digit leave no noise to
+/// be seen; this part of the signal then stands for what a model cannot be asked to reach.
+inline constexpr double kLeastNoise = 1e-6;
+
 /// All that an experiment measured, in one vector, run by run and channel by channel.
 struct Observations {
   Eigen::VectorXd values;

@@ -3,6 +3,7 @@
 #include "diagnose/noise_floor.hpp"
 #include "diagnose/predictors/noise_estimate.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <stdexcept>
@@ -87,13 +88,18 @@ bool Problem::lower_noise(const Candidate& candidate) {
     const Eigen::VectorXd part = left->segment(channel.first, channel.count);
     // Residuals are in standard deviations of noise and numerical error together.
     const double widened = channel.floor();
-    const double seen = widened * white_noise({part.data(), static_cast<std::size_t>(part.size())});
-    if (!(seen < channel.noise) || !(seen > 0.0)) continue;
+    const double seen = std::max(
+        kLeastNoise, widened * white_noise({part.data(), static_cast<std::size_t>(part.size())}));
+    if (!(seen < channel.noise)) continue;
     fell = fell || seen < (1.0 - kLower) * channel.noise;
     channel.noise = seen;
     lowered.deviations.segment(channel.first, channel.count) *= channel.floor() / widened;
   }
-  if (fell) observations_ = std::move(lowered);
+  if (fell) {
+    observations_ = std::move(lowered);
+    predictor_ =
+        Predictor(*experiment_, observations_, predictor_.flexible_modes(), predictor_.noise());
+  }
   return fell;
 }
 

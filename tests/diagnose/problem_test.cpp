@@ -1,0 +1,33 @@
+#include "diagnose/search/problem.hpp"
+
+#include "tests/diagnose/simulated_experiments.hpp"
+
+#include <gtest/gtest.h>
+
+#include <utility>
+
+namespace flexarm::diagnose {
+namespace {
+
+TEST(Problem, LoweredNoiseIsThatOfTheResiduals) {
+  const Experiment experiment = simulated_experiment({});
+  constexpr double kTooLarge = 10.0;
+  Observations observations = observe(experiment);
+  for (ObservedChannel& channel : observations.channels) channel.noise *= kTooLarge;
+  observations.deviations *= kTooLarge;
+  Problem problem(experiment, std::move(observations));
+  const Candidate truth = problem.as_filed();
+  const auto mean_square = [&] {
+    const auto residuals = problem.residuals(truth, problem.estimation_runs());
+    const Misfit left =
+        misfit(problem.observations(), experiment, residuals.value(), problem.estimation_runs());
+    return left.sum_of_squares / left.count;
+  };
+  EXPECT_LT(mean_square(), 2.0 / (kTooLarge * kTooLarge));
+  EXPECT_TRUE(problem.lower_noise(truth));
+  // The level of the noise is known to a tenth of its power.
+  EXPECT_NEAR(mean_square(), 1.0, kNoiseKnown);
+}
+
+}  // namespace
+}  // namespace flexarm::diagnose

@@ -24,10 +24,10 @@ void require_on_beam(const Arm& arm) {
   const Arm changed = with_changed_numbers(arm);
   for (const auto& [name, effect] : arm.effects) {
     if (effect.definition->require_fit) effect.definition->require_fit(effect, changed);
-    if (effect.sensor.empty()) continue;
+    if (!effect.definition->sensor) continue;
     const std::string key = fmt::format("effects.{}.sensor", name);
     try {
-      require_valid(parse_sensor(effect.sensor), arm);
+      require_valid(effect.acting_sensor(), arm);
     } catch (const InputError& error) {
       throw InputError(fmt::format("{}: {}", key, error.what()), key);
     }

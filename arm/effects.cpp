@@ -59,6 +59,7 @@ std::vector<Port> EffectDefinition::ports() const {
   std::vector<Port> made;
   if (arm_number) made.push_back(Port::arm_number);
   if (linear_term) made.push_back(Port::linear_term);
+  if (sensor_place) made.push_back(Port::sensor_place);
   if (torque_path) made.push_back(Port::torque_path);
   if (hub_torque) made.push_back(Port::hub_torque);
   if (beam_force) made.push_back(Port::beam_force);

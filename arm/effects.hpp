@@ -57,6 +57,7 @@ struct EffectDefinition {
   std::function<void(const Effect&, Arm&)> arm_number = {};
   /// The arm is given with the numbers that effects change.
   std::function<void(const Effect&, const Arm&, LinearTerms&)> linear_term = {};
+  std::function<SensorPlace(const Effect&)> sensor_place = {};
   std::function<TorqueStage(const Effect&)> torque_path = {};
   std::function<HubLaw(const Effect&)> hub_torque = {};
   std::function<BeamForce(const Effect&)> beam_force = {};
@@ -68,7 +69,8 @@ struct EffectDefinition {
 
   /// The ports that it acts through, one or more.
   std::vector<Port> ports() const;
-  /// All of them are of the linear arm: the equations that every formulation solves.
+  /// All of them are of the linear arm: the equations that every formulation solves, and where
+  /// gauges are on it.
   bool is_of_linear_arm() const;
 };
 

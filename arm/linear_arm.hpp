@@ -59,7 +59,8 @@ struct LinearArm {
 };
 
 /// The ports that enter the linear arm: what a formulation honours.
-inline constexpr std::array kLinearArmPorts = {Port::arm_number, Port::linear_term};
+inline constexpr std::array kLinearArmPorts = {Port::arm_number, Port::linear_term,
+                                               Port::sensor_place};
 
 /// The arm with the numbers that its effects change (Port::arm_number), and without these effects'
 /// terms.

@@ -8,6 +8,8 @@ std::string_view to_string(Port port) {
       return "arm_number";
     case Port::linear_term:
       return "linear_term";
+    case Port::sensor_place:
+      return "sensor_place";
     case Port::torque_path:
       return "torque_path";
     case Port::hub_torque:

@@ -15,12 +15,13 @@ namespace flexarm::arm {
 /// The ways in which an effect may act on an arm: a closed set. A formulation, the time stepper or
 /// a predictor honours a port or refuses it by name; none of them knows an effect.
 enum class Port {
-  arm_number,   ///< another number of the arm: rigidity, density, length, ... (struct Arm)
-  linear_term,  ///< a term of the linear arm (struct LinearTerms)
-  torque_path,  ///< a stage between the commanded torque and the hub (struct TorqueStage)
-  hub_torque,   ///< a law of torque on the hub (HubLaw)
-  beam_force,   ///< a force along the beam (struct BeamForce)
-  sensor_path,  ///< a stage between a sensor and its reading (struct SensorStage)
+  arm_number,    ///< another number of the arm: rigidity, density, length, ... (struct Arm)
+  linear_term,   ///< a term of the linear arm (struct LinearTerms)
+  sensor_place,  ///< another place of a strain gauge (struct SensorPlace)
+  torque_path,   ///< a stage between the commanded torque and the hub (struct TorqueStage)
+  hub_torque,    ///< a law of torque on the hub (HubLaw)
+  beam_force,    ///< a force along the beam (struct BeamForce)
+  sensor_path,   ///< a stage between a sensor and its reading (struct SensorStage)
 };
 
 /// "hub_torque".
@@ -144,10 +145,33 @@ struct BeamForce {
   std::function<double(double velocity_m_per_s)> force_N_per_m;
 };
 
-/// What a sensor's reading passes.
+/// The gauge `strain@X` sits at X + shift.
+struct SensorPlace {
+  Sensor sensor;
+  double shift_m = 0.0;
+
+  bool operator==(const SensorPlace&) const = default;
+};
+
+/// The reading is factor times the value.
+struct Gain {
+  double factor = 1.0;
+
+  bool operator==(const Gain&) const = default;
+};
+
+/// A constant that is added to the reading.
+struct Offset {
+  double value = 0.0;  ///< in the sensor's unit
+
+  bool operator==(const Offset&) const = default;
+};
+
+/// One stage of what a sensor's value passes before it is a reading. Stages of one sensor follow
+/// each other in the order of the alternatives.
 struct SensorStage {
   Sensor sensor;
-  Lag lag;
+  std::variant<Gain, Delay, Lag, Offset> what;
 
   bool operator==(const SensorStage&) const = default;
 };

@@ -52,7 +52,7 @@ void require_beam(const Arm& arm, std::string_view what) {
 }
 
 bool acts_without_beam(const EffectDefinition& definition) {
-  if (definition.beam_force) return false;
+  if (definition.beam_force || definition.sensor_place) return false;
   if (!definition.arm_number && !definition.linear_term) return true;
   Effect effect{.definition = std::shared_ptr<const EffectDefinition>(
                     std::shared_ptr<const EffectDefinition>(), &definition)};

@@ -44,6 +44,17 @@ double changed_length_m(const Arm& arm) {
   return with_changed_numbers(arm).beam.length_m;
 }
 
+/// Where a gauge is with the arm's effects, `length_m` being the length with them.
+double place_m(const Sensor& sensor, const Arm& arm, double length_m) {
+  double place_m = sensor.position_m == arm.beam.length_m ? length_m : sensor.position_m;
+  for (const auto& [name, effect] : arm.effects) {
+    if (!effect.definition->sensor_place) continue;
+    const SensorPlace moved = effect.definition->sensor_place(effect);
+    if (moved.sensor == sensor) place_m += moved.shift_m;
+  }
+  return place_m;
+}
+
 }  // namespace
 
 Sensor parse_sensor(std::string_view name) {
@@ -92,11 +103,13 @@ Sensor placed(const Sensor& sensor, const Arm& arm) {
   if (!is_collocated(sensor)) require_beam(arm, "sensor " + to_string(sensor));
   if (sensor.kind != SensorKind::strain) return sensor;
   const double length_m = changed_length_m(arm);
-  const double position_m = sensor.position_m == arm.beam.length_m ? length_m : sensor.position_m;
+  const double position_m = place_m(sensor, arm, length_m);
   if (!(position_m >= 0.0 && position_m <= length_m)) {
-    throw InputError(fmt::format("sensor {}: position must be from 0 to the beam's length, {} m{}",
-                                 to_string(sensor), length_m,
-                                 length_m == arm.beam.length_m ? "" : " with the arm's effects"));
+    const bool is_moved = position_m != sensor.position_m;
+    throw InputError(
+        fmt::format("sensor {}: {}position must be from 0 to the beam's length, {} m{}",
+                    to_string(sensor), is_moved ? fmt::format("is at {} m; ", position_m) : "",
+                    length_m, length_m == arm.beam.length_m ? "" : " with the arm's effects"));
   }
   if (!arm.beam.thickness_m) {
     throw InputError(fmt::format("sensor {}: needs beam.thickness", to_string(sensor)));
@@ -117,8 +130,7 @@ void require_valid(const Sensor& sensor, const Arm& arm) {
 bool is_responsive(const Sensor& sensor, const Arm& arm) {
   if (sensor.kind != SensorKind::strain) return true;
   const LinearArm linear = linear_arm(arm);
-  const bool is_at_tip =
-      sensor.position_m == arm.beam.length_m || sensor.position_m == linear.length_m;
+  const bool is_at_tip = place_m(sensor, arm, linear.length_m) == linear.length_m;
   return !is_at_tip || linear.payload_tip_inertia_kg_m2 != 0.0;
 }
 

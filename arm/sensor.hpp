@@ -45,7 +45,8 @@ bool is_collocated(const Sensor& sensor);
 
 /// The sensor at its place on the arm with the numbers that effects change (Port::arm_number).
 /// Strain at the tip of the file's beam is at the tip of the changed one; any other place keeps its
-/// distance from the root. Throws InputError as `require_valid`.
+/// distance from the root. From there effects move the gauge (Port::sensor_place). Throws
+/// InputError as `require_valid`.
 Sensor placed(const Sensor& sensor, const Arm& arm);
 std::vector<Sensor> placed(std::span<const Sensor> sensors, const Arm& arm);
 

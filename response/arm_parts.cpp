@@ -53,13 +53,30 @@ struct LawAdder {
   }
 };
 
-void add_sensor_stage(ArmParts& parts, const std::string& effect, const arm::SensorStage& stage) {
-  if (stage.lag.time_constant_s == 0.0) return;
-  if (std::ranges::find(parts.sensor_stages, stage.sensor, &arm::SensorStage::sensor) !=
-      parts.sensor_stages.end()) {
-    throw not_modelled(effect, arm::Port::sensor_path, "a second lag of a sensor is not modelled");
+/// Adds a stage to those of the same sensor. Each kind acts at its place in the chain, where gains
+/// multiply, and delays and offsets add up.
+struct SensorStageAdder {
+  SensorChain& chain;
+  const std::string& effect;
+
+  void operator()(const arm::Gain& gain) const { chain.gain *= gain.factor; }
+  void operator()(const arm::Delay& delay) const { chain.delay_s += delay.delay_s; }
+  void operator()(const arm::Lag& lag) const {
+    if (chain.lag_s > 0.0 && lag.time_constant_s > 0.0) {
+      throw not_modelled(effect, arm::Port::sensor_path,
+                         "a second lag of a sensor is not modelled");
+    }
+    chain.lag_s += lag.time_constant_s;
   }
-  parts.sensor_stages.push_back(stage);
+  void operator()(const arm::Offset& offset) const { chain.offset += offset.value; }
+};
+
+void add_sensor_stage(ArmParts& parts, const std::string& effect, const arm::SensorStage& stage) {
+  auto& chains = parts.sensor_chains;
+  auto chain = std::ranges::find(chains, stage.sensor, &SensorChain::sensor);
+  if (chain == chains.end()) chain = chains.insert(chain, SensorChain{stage.sensor});
+  std::visit(SensorStageAdder{*chain, effect}, stage.what);
+  if (*chain == SensorChain{stage.sensor}) chains.erase(chain);
 }
 
 }  // namespace
@@ -106,6 +123,11 @@ double Actuator::gain() const {
     if (map.is_proportional()) product *= map.slope(0.0);
   }
   return product;
+}
+
+SensorChain chain_of(std::span<const SensorChain> chains, const arm::Sensor& sensor) {
+  const auto found = std::ranges::find(chains, sensor, &SensorChain::sensor);
+  return found == chains.end() ? SensorChain{sensor} : *found;
 }
 
 arm::DryFriction::Size HubLaws::friction_at(double speed_rad_per_s) const {

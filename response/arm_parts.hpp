@@ -4,6 +4,7 @@
 #include "arm/ports.hpp"
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,21 @@ struct Actuator {
 
   bool operator==(const Actuator&) const = default;
 };
+
+/// What the value of a sensor passes before it is a reading: the factor, the delay, the lag; then
+/// the offset is added. The defaults change nothing.
+struct SensorChain {
+  arm::Sensor sensor;
+  double gain = 1.0;
+  double delay_s = 0.0;
+  double lag_s = 0.0;
+  double offset = 0.0;  ///< in the sensor's unit
+
+  bool operator==(const SensorChain&) const = default;
+};
+
+/// The sensor's of `chains`, or one that changes nothing.
+SensorChain chain_of(std::span<const SensorChain> chains, const arm::Sensor& sensor);
 
 /// Something that an effect does through a port, with the effect's name.
 template <class Part>
@@ -58,7 +74,7 @@ struct ArmParts {
   Actuator actuator = {};
   HubLaws hub = {};
   std::vector<OfEffect<arm::BeamForce>> beam_forces = {};
-  std::vector<arm::SensorStage> sensor_stages = {};  ///< one a sensor at most, with a lag above 0
+  std::vector<SensorChain> sensor_chains = {};  ///< one a sensor at most, each of some stage
   /// A state of the time model that a Kalman filter moves; 0 without one.
   std::optional<HubDisturbance> disturbance = {};
 };

@@ -1,11 +1,16 @@
 #include "response/linear_chain.hpp"
 
-#include <algorithm>
+#include <vector>
 
 namespace flexarm::response {
 
 LinearChain linear_chain(const ArmParts& parts) {
-  return {parts.actuator.gain(), parts.actuator.delay_s, parts.actuator.lag_s, parts.sensor_stages};
+  LinearChain made = {parts.actuator.gain(), parts.actuator.delay_s, parts.actuator.lag_s,
+                      parts.sensor_chains};
+  for (SensorChain& chain : made.sensor_chains) chain.offset = 0.0;
+  std::erase_if(made.sensor_chains,
+                [](const SensorChain& chain) { return chain == SensorChain{chain.sensor}; });
+  return made;
 }
 
 std::complex<double> actuator_response(const LinearChain& chain, std::complex<double> s_rad_per_s) {
@@ -14,9 +19,9 @@ std::complex<double> actuator_response(const LinearChain& chain, std::complex<do
 
 std::complex<double> reading_response(const LinearChain& chain, const arm::Sensor& sensor,
                                       std::complex<double> s_rad_per_s) {
-  const auto stage = std::ranges::find(chain.sensor_stages, sensor, &arm::SensorStage::sensor);
-  if (stage == chain.sensor_stages.end()) return 1.0;
-  return 1.0 / (1.0 + stage->lag.time_constant_s * s_rad_per_s);
+  const SensorChain of_sensor = chain_of(chain.sensor_chains, sensor);
+  return of_sensor.gain * std::exp(-s_rad_per_s * of_sensor.delay_s) /
+         (1.0 + of_sensor.lag_s * s_rad_per_s);
 }
 
 }  // namespace flexarm::response

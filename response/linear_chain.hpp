@@ -13,19 +13,19 @@ struct LinearChain {
   double gain = 1.0;
   double delay_s = 0.0;
   double lag_s = 0.0;
-  std::vector<arm::SensorStage> sensor_stages = {};  ///< one a sensor at most
+  std::vector<SensorChain> sensor_chains = {};  ///< one a sensor at most, without offsets
 
   bool operator==(const LinearChain&) const = default;
 };
 
 /// The linear part of the arm's actuator and sensor effects. Left out are those that
-/// `nonlinear_effects` names, and a bias, which moves the working point only.
+/// `nonlinear_effects` names, and a bias or a sensor's offset, which move the working point only.
 LinearChain linear_chain(const ArmParts& parts);
 
 /// T/tau = gain exp(-delay s)/(1 + lag s), the torque on the hub per commanded torque.
 std::complex<double> actuator_response(const LinearChain& chain, std::complex<double> s_rad_per_s);
 
-/// Reading per value of that sensor: 1/(1 + time_constant s) where it lags, else 1.
+/// Reading per value of that sensor, gain exp(-delay s)/(1 + lag s).
 std::complex<double> reading_response(const LinearChain& chain, const arm::Sensor& sensor,
                                       std::complex<double> s_rad_per_s);
 

@@ -24,6 +24,7 @@ StateSpace modes_alone(const arm::ModalModel& model, std::span<const arm::Sensor
   system.b = MatrixXd::Zero(2 * n, 1);
   system.c = MatrixXd::Zero(outputs, 2 * n);
   system.d = MatrixXd::Zero(outputs, 1);
+  system.output_delay_s = Eigen::VectorXd::Zero(outputs);
   for (Index i = 0; i < n; ++i) {
     const auto mode = static_cast<std::size_t>(i);
     system.states.push_back(fmt::format("q_{}", i));
@@ -79,16 +80,18 @@ void add_actuator(StateSpace& system, const LinearChain& chain) {
   system.b(torque, 0) = chain.gain / chain.lag_s;
 }
 
-/// The output of that sensor through 1/(1 + time_constant s).
-void add_sensor_lag(StateSpace& system, const arm::SensorStage& stage) {
-  const double time_constant_s = stage.lag.time_constant_s;
-  if (time_constant_s == 0.0) return;
+/// The output of that sensor through gain exp(-delay s)/(1 + lag s).
+void add_sensor_chain(StateSpace& system, const SensorChain& chain) {
   for (Index k = 0; k < system.c.rows(); ++k) {
-    if (system.sensors[static_cast<std::size_t>(k)] != stage.sensor) continue;
-    const Index reading = add_state(system, "reading of " + arm::to_string(stage.sensor));
-    system.a.row(reading) = system.c.row(k) / time_constant_s;
-    system.b(reading, 0) = system.d(k, 0) / time_constant_s;
-    system.a(reading, reading) = -1.0 / time_constant_s;
+    if (system.sensors[static_cast<std::size_t>(k)] != chain.sensor) continue;
+    system.c.row(k) *= chain.gain;
+    system.d(k, 0) *= chain.gain;
+    system.output_delay_s(k) = chain.delay_s;
+    if (chain.lag_s == 0.0) continue;
+    const Index reading = add_state(system, "reading of " + arm::to_string(chain.sensor));
+    system.a.row(reading) = system.c.row(k) / chain.lag_s;
+    system.b(reading, 0) = system.d(k, 0) / chain.lag_s;
+    system.a(reading, reading) = -1.0 / chain.lag_s;
     system.c.row(k).setZero();
     system.c(k, reading) = 1.0;
     system.d(k, 0) = 0.0;
@@ -102,7 +105,7 @@ StateSpace state_space(const arm::ModalModel& model, std::span<const arm::Sensor
   require_consistent(model, sensors);
   StateSpace system = modes_alone(model, sensors);
   add_actuator(system, chain);
-  for (const auto& stage : chain.sensor_stages) add_sensor_lag(system, stage);
+  for (const auto& of_sensor : chain.sensor_chains) add_sensor_chain(system, of_sensor);
   return system;
 }
 
@@ -112,9 +115,10 @@ std::vector<std::complex<double>> frequency_response(const StateSpace& system,
   Eigen::MatrixXcd pencil = -system.a.cast<Complex>();
   pencil.diagonal().array() += s_rad_per_s;
   const Eigen::VectorXcd states = pencil.partialPivLu().solve(system.b.col(0).cast<Complex>());
-  const Eigen::VectorXcd outputs =
-      (system.c.cast<Complex>() * states + system.d.col(0).cast<Complex>()) *
-      std::exp(-s_rad_per_s * system.delay_s);
+  const Eigen::ArrayXcd delays =
+      -s_rad_per_s * (system.output_delay_s.array() + system.delay_s).cast<Complex>();
+  const Eigen::ArrayXcd outputs =
+      (system.c.cast<Complex>() * states + system.d.col(0).cast<Complex>()).array() * delays.exp();
   return {outputs.begin(), outputs.end()};
 }
 

@@ -140,7 +140,19 @@ Problem PlannedExperiment::problem_of_the_arm() {
   }
   options_ = {.flexible_modes = modes_needed(experiment_, layout_).flexible_modes};
   const Predictor predict(experiment_, layout_, *options_.flexible_modes);
-  return problem(predict(experiment_.arm, std::vector<bool>(experiment_.runs.size(), true)));
+  const auto values = predict(experiment_.arm, std::vector<bool>(experiment_.runs.size(), true));
+  fill_in(values);
+  return problem(values);
+}
+
+void PlannedExperiment::fill_in(const Eigen::VectorXd& values) {
+  std::vector<std::size_t> next(experiment_.runs.size(), 0);  // channel of a run
+  for (const ObservedChannel& channel : layout_.channels) {
+    auto* record = std::get_if<measured::TimeRecord>(&experiment_.runs[channel.run].data);
+    if (record == nullptr) continue;
+    const auto part = values.segment(channel.first, channel.count);
+    record->channels[next[channel.run]++].values.assign(part.begin(), part.end());
+  }
 }
 
 Problem PlannedExperiment::problem(const Eigen::VectorXd& values) const {

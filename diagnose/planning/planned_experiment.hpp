@@ -46,6 +46,8 @@ class PlannedExperiment {
 
  private:
   Problem problem_of_the_arm();
+  /// Gives the `time` runs of the experiment these readings.
+  void fill_in(const Eigen::VectorXd& values);
 
   std::string notice_;
   Experiment experiment_;

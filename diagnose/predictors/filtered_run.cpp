@@ -48,7 +48,13 @@ response::FilterGains filter_gains(const response::ArmSimulator& simulation, con
       run.deviations.transpose().replicate(static_cast<Index>(samples), 1).reshaped();
   const Eigen::VectorXd prior =
       prior_of_state(simulation.free_readings(samples), deviations, run.values);
-  return response::filter_gains_from(sampled, prior.cwiseAbs2().asDiagonal(), samples);
+  Eigen::MatrixXd covariance =
+      Eigen::MatrixXd::Zero(sampled.transition.rows(), sampled.transition.cols());
+  covariance.diagonal().head(prior.size()) = prior.cwiseAbs2();
+  for (auto step = simulation.lead(samples); step > 0; --step) {
+    covariance = response::covariance_after_step(sampled, covariance);
+  }
+  return response::filter_gains_from(sampled, covariance, samples);
 }
 
 double log_determinant(const response::FilterGains& gains, std::size_t samples) {

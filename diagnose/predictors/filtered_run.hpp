@@ -28,14 +28,16 @@ struct RecordedRun {
   std::optional<Eigen::Index> hub_sensor = {};  ///< the first of the hub's angle or velocity
 };
 
-/// The filter of a run, whatever it reads. Throws InputError as response::filter_gain.
+/// The filter of a run, whatever it reads. Throws InputError as response::ArmSimulator::sampled and
+/// response::filter_gain.
 response::FilterGains filter_gains(const response::ArmSimulator& simulation, const RecordedRun& run,
                                    double disturbance_N_m);
 
 /// Sum of ln |S| over so many samples, S the covariance of the innovations.
 double log_determinant(const response::FilterGains& gains, std::size_t samples);
 
-/// Throws InputError as response::ArmSimulator::filtered.
+/// Throws InputError as `filter_gains` and response::ArmSimulator::filtered, and for innovations
+/// whose covariance is singular.
 RunInnovations filter_run(const response::ArmSimulator& simulation, const RecordedRun& run,
                           double disturbance_N_m);
 

@@ -154,6 +154,7 @@ NoiseEstimate NoiseEstimator::model(const arm::Arm& arm, const std::vector<bool>
     search.optimize(place, least);
   }
   if (!(task.best.minus_two_log_likelihood < kNoLikelihood)) {
+    predictor_->innovations(arm, runs, begun.front());  // throws where the arm is the reason
     throw arm::InputError("Kalman filter: the runs cannot be filtered with this arm");
   }
   return task.best;

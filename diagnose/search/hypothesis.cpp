@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <ranges>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -49,6 +50,47 @@ double range_of(std::vector<double> values) {
   return most - least;
 }
 
+void add_unknown(std::vector<arm::Sensor>& sensors, const arm::Sensor& sensor) {
+  if (std::ranges::find(sensors, sensor) == sensors.end()) sensors.push_back(sensor);
+}
+
+/// Of a modal table, those whose zeros it has.
+std::vector<arm::Sensor> sensors_in(const measured::RunData& data) {
+  std::vector<arm::Sensor> sensors;
+  if (const auto* record = std::get_if<measured::TimeRecord>(&data)) {
+    for (const auto& channel : record->channels) add_unknown(sensors, channel.sensor);
+  } else if (const auto* frequency = std::get_if<measured::FrequencyRecord>(&data)) {
+    for (const auto& channel : frequency->channels) add_unknown(sensors, channel.sensor);
+  } else {
+    for (const auto& entry : std::get<measured::ModalTable>(data)) {
+      if (entry.feature == measured::Feature::zero && entry.sensor) {
+        add_unknown(sensors, *entry.sensor);
+      }
+    }
+  }
+  return sensors;
+}
+
+Scales scales_of_sensor(Scales scales, const Experiment& experiment, const arm::Sensor& sensor) {
+  scales.sensor = sensor;
+  double squares = 0.0;
+  double samples = 0.0;
+  for (const auto& run : experiment.runs) {
+    const auto* record = std::get_if<measured::TimeRecord>(&run.data);
+    if (record == nullptr) continue;
+    for (const auto& channel : record->channels) {
+      if (channel.sensor != sensor) continue;
+      for (const double value : channel.values) {
+        if (std::isnan(value)) continue;  // missing
+        squares += value * value;
+        samples += 1.0;
+      }
+    }
+  }
+  if (samples > 0.0) scales.reading_rms = std::sqrt(squares / samples);
+  return scales;
+}
+
 }  // namespace
 
 std::string Hypothesis::label() const {
@@ -77,10 +119,10 @@ std::vector<double> Hypothesis::middle() const {
   return values;
 }
 
-const std::string& Hypothesis::unit_of(const SearchedParameter& parameter) const {
-  return std::ranges::find(entry->definition->parameters, parameter.name,
-                           &arm::EffectParameter::name)
-      ->unit;
+std::string Hypothesis::unit_of(const SearchedParameter& parameter) const {
+  return effects::unit_of(*std::ranges::find(entry->definition->parameters, parameter.name,
+                                             &arm::EffectParameter::name),
+                          sensor);
 }
 
 std::vector<Hypothesis> hypotheses(const Experiment& experiment) {
@@ -90,19 +132,23 @@ std::vector<Hypothesis> hypotheses(const Experiment& experiment) {
     const std::string& name = entry.definition->name;
     if (experiment.arm.effects.contains(name)) continue;
     if (!arm::has_beam(experiment.arm) && !arm::acts_without_beam(*entry.definition)) continue;
-    if (entry.applies && !entry.applies(scales)) continue;
-    const Hypothesis made{&entry, name, {}, entry.search(scales)};
-    if (!std::ranges::any_of(experiment.runs,
-                             [&](const auto& run) { return made.shows_in(run.run.kind); })) {
-      continue;
-    }
+    const auto add = [&](const Scales& its_scales, const std::string& sensor) {
+      if (entry.applies && !entry.applies(its_scales)) return;
+      all.push_back({&entry, name, sensor, entry.search(its_scales)});
+    };
+    const auto shown_in = [&](const measured::MeasuredRun& run) {
+      return Hypothesis{&entry, name}.shows_in(run.run.kind);
+    };
     if (!entry.definition->sensor) {
-      all.push_back(made);
+      if (std::ranges::any_of(experiment.runs, shown_in)) add(scales, {});
       continue;
     }
-    for (const arm::Sensor& sensor : scales.sensors) {
-      all.push_back(made);
-      all.back().sensor = arm::to_string(sensor);
+    std::vector<arm::Sensor> sensors;
+    for (const auto& run : experiment.runs | std::views::filter(shown_in)) {
+      for (const arm::Sensor& sensor : sensors_in(run.data)) add_unknown(sensors, sensor);
+    }
+    for (const arm::Sensor& sensor : sensors) {
+      add(scales_of_sensor(scales, experiment, sensor), arm::to_string(sensor));
     }
   }
   return all;
@@ -138,11 +184,6 @@ Scales scales_of(const Experiment& experiment) {
   double speed_squares = 0.0;
   double highest_Hz = 0.0;
   double period_s = 0.0;
-  const auto see = [&scales](const arm::Sensor& sensor) {
-    if (std::ranges::find(scales.sensors, sensor) == scales.sensors.end()) {
-      scales.sensors.push_back(sensor);
-    }
-  };
   for (const auto& [run, data] : experiment.runs) {
     scales.has_payload_mass =
         scales.has_payload_mass || arm_in(experiment, run).payload.mass_kg > 0.0;
@@ -159,14 +200,14 @@ Scales scales_of(const Experiment& experiment) {
       }
       samples += static_cast<double>(record->torque_N_m.size());
       for (const auto& channel : record->channels) {
-        see(channel.sensor);
+        add_unknown(scales.sensors, channel.sensor);
         if (channel.sensor.kind != arm::SensorKind::hub_angle) continue;
         scales.hub_angle_range_rad =
             std::max(scales.hub_angle_range_rad, range_of(channel.values));
       }
     } else if (const auto* frequency = std::get_if<measured::FrequencyRecord>(&data)) {
       for (const auto& channel : frequency->channels) {
-        see(channel.sensor);
+        add_unknown(scales.sensors, channel.sensor);
         highest_Hz = std::max(highest_Hz, channel.frequency_Hz.back());
       }
     }

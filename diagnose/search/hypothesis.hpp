@@ -32,12 +32,13 @@ struct Hypothesis {
   /// Its parameters, each at the middle of its range.
   std::vector<double> middle() const;
   /// Unit of a parameter; "1" for a plain number.
-  const std::string& unit_of(const SearchedParameter& parameter) const;
+  std::string unit_of(const SearchedParameter& parameter) const;
 };
 
 /// Every cause that the experiment's arm may have and its data may show, in the order of
 /// effects::entries(): not effects that the arm file already has, nor those that show in no kind of
-/// its runs. Of an effect on one sensor, one a sensor.
+/// its runs. Of an effect on one sensor, one for each sensor that is in such a run and that the
+/// effect applies to.
 std::vector<Hypothesis> hypotheses(const Experiment& experiment);
 
 /// Those of `all` that the effect becomes at a limit of its parameters.

@@ -109,10 +109,10 @@ PredictedSelection select_by_evidence(const Experiment& experiment,
     }
   } catch (const Cancelled&) {
     made.selection.cancelled = true;
-  } catch (const arm::InputError&) {
+  } catch (const arm::InputError& error) {
     if (is_asked) throw;
     made.predictor = PredictorKind::output_error;
-    made.reason = "no Kalman filter can be formed for the arm as filed";
+    made.reason = fmt::format("no Kalman filter can be formed ({})", error.what());
   }
   return made;
 }

@@ -24,7 +24,8 @@ enum class Shows {
 struct Entry {
   std::shared_ptr<const arm::EffectDefinition> definition;
   Shows shows = Shows::in_all;
-  /// Where its parameters are looked for, in the definition's order.
+  /// Where its parameters are looked for, in the definition's order. Of an effect on one sensor the
+  /// scales are those of that sensor, here and in `applies`.
   std::function<std::vector<SearchedParameter>(const Scales&)> search;
   /// Whether an experiment with these scales can have it; always, unless given.
   std::function<bool(const Scales&)> applies = {};

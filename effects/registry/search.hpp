@@ -6,9 +6,13 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace flexarm::effects {
+
+/// Unit of a parameter that has the unit of the sensor that its effect acts on.
+inline constexpr std::string_view kSensorUnit = "unit of the sensor";
 
 /// Sizes by which a parameter of an effect is small or large in an experiment.
 struct Scales {
@@ -16,8 +20,11 @@ struct Scales {
   /// Its linear equations; of a rigid hub with a beam whose sizes are those of hub and runs.
   arm::LinearArm beam;
   std::vector<arm::Sensor> sensors;  ///< of `time` and `frf` runs
-  bool has_payload_mass = false;     ///< in some run
-  double torque_rms_N_m = 0.0;       ///< of all `time` runs; 0 where there are none
+  /// The sensor that the effect acts on, where it acts on one.
+  std::optional<arm::Sensor> sensor = {};
+  double reading_rms = 0.0;       ///< of that sensor in all `time` runs, in its unit
+  bool has_payload_mass = false;  ///< in some run
+  double torque_rms_N_m = 0.0;    ///< of all `time` runs; 0 where there are none
   double torque_peak_N_m = 0.0;
   double hub_angle_range_rad = 0.0;  ///< largest of a `time` run; 0 where none shows it
   double speed_rms_rad_per_s = 1.0;  ///< of a rigid arm that this torque turns

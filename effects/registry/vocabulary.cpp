@@ -60,6 +60,11 @@ arm::Effects::value_type named(const std::string& name, std::map<std::string, do
   return {name, effect(name, std::move(parameters), std::move(sensor))};
 }
 
+std::string unit_of(const arm::EffectParameter& parameter, const std::string& sensor) {
+  const bool is_sensors = parameter.unit == kSensorUnit && !sensor.empty();
+  return is_sensors ? std::string(arm::unit(arm::parse_sensor(sensor))) : parameter.unit;
+}
+
 void put(arm::Arm& arm, const std::string& name, const std::map<std::string, double>& parameters,
          const std::string& sensor) {
   arm::Effect made = effect(name, parameters, sensor);

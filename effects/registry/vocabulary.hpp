@@ -30,6 +30,9 @@ arm::Effects::value_type named(const std::string& name, std::map<std::string, do
 /// The effect with the example values of its parameters.
 arm::Effect example(const arm::Vocabulary::value_type& definition);
 
+/// The unit of a parameter of an effect on that sensor, which is empty where it acts on none.
+std::string unit_of(const arm::EffectParameter& parameter, const std::string& sensor);
+
 /// Gives the arm the effect with these numbers. What it has of that effect keeps its other numbers.
 void put(arm::Arm& arm, const std::string& name, const std::map<std::string, double>& parameters,
          const std::string& sensor = {});

@@ -2,6 +2,7 @@
 
 #include "arm/effects.hpp"
 #include "arm/rigid_hub.hpp"
+#include "effects/registry/vocabulary.hpp"
 
 namespace flexarm::report {
 
@@ -15,7 +16,11 @@ nlohmann::ordered_json effects_json(const arm::Effects& effects) {
       const auto value = effect.parameters.find(parameter.name);
       if (value == effect.parameters.end()) continue;
       parameters.push_back(
-          {{"name", parameter.name}, {"value", value->second}, {"unit", parameter.unit}});
+          {{"name", parameter.name},
+           {"value", value->second},
+           {"unit", effects::unit_of(parameter, effect.definition->sensor
+                                                    ? arm::to_string(effect.acting_sensor())
+                                                    : std::string())}});
     }
     nlohmann::ordered_json entry = {
         {"effect", name}, {"parameters", parameters}, {"sensor", nullptr}};

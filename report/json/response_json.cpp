@@ -5,6 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+
 namespace flexarm::report {
 
 namespace {
@@ -21,9 +23,18 @@ Json chain_json(const response::LinearChain& chain) {
                {"actuator_lag_s", chain.lag_s},
                {"lagging_sensor", nullptr},
                {"sensor_lag_s", 0.0}};
-  if (!chain.sensor_stages.empty()) {
-    json["lagging_sensor"] = arm::to_string(chain.sensor_stages.front().sensor);
-    json["sensor_lag_s"] = chain.sensor_stages.front().lag.time_constant_s;
+  const auto lagging = std::ranges::find_if(chain.sensor_chains,
+                                            [](const auto& stages) { return stages.lag_s > 0.0; });
+  if (lagging != chain.sensor_chains.end()) {
+    json["lagging_sensor"] = arm::to_string(lagging->sensor);
+    json["sensor_lag_s"] = lagging->lag_s;
+  }
+  json["sensors"] = Json::array();
+  for (const auto& stages : chain.sensor_chains) {
+    json["sensors"].push_back({{"sensor", arm::to_string(stages.sensor)},
+                               {"gain", stages.gain},
+                               {"delay_s", stages.delay_s},
+                               {"lag_s", stages.lag_s}});
   }
   return json;
 }

@@ -26,6 +26,8 @@ std::string_view meaning_of(Port port) {
       return "a changed parameter of the arm";
     case Port::linear_term:
       return "a term of the linear arm";
+    case Port::sensor_place:
+      return "another place of a strain gauge";
     case Port::torque_path:
       return "a stage of the torque path, between commanded torque and hub";
     case Port::hub_torque:
@@ -153,13 +155,15 @@ std::string effects_document(const std::vector<effects::Entry>& entries) {
       "hub angle, y the displacement of the beam\n"
       "from the resting line, hub rotation included. A parameter without a range can have any "
       "finite value.\n\n"
-      "An effect acts through ports. All formulations support `arm_number` and `linear_term`; the "
-      "time simulation supports all ports.\n"
+      "An effect acts through ports. All formulations support `arm_number`, `linear_term` and "
+      "`sensor_place`; the time\n"
+      "simulation supports all ports.\n"
       "Poles, zeros and frequency responses do not include nonlinear effects, and state this.\n\n"
       "| port | the effect is |\n"
       "| --- | --- |\n";
-  for (const Port port : {Port::arm_number, Port::linear_term, Port::torque_path, Port::hub_torque,
-                          Port::beam_force, Port::sensor_path}) {
+  for (const Port port : {Port::arm_number, Port::linear_term, Port::sensor_place,
+                          Port::torque_path, Port::hub_torque, Port::beam_force,
+                          Port::sensor_path}) {
     text += fmt::format("| `{}` | {} |\n", to_string(port), meaning_of(port));
   }
   text += "\n## Overview\n\n| effect | parameters | meaning |\n| --- | --- | --- |\n";

@@ -80,8 +80,8 @@ Table response_poles_table(const response::ResponseStudy& study, std::size_t mos
              if_known(known, known ? in_Hz(study.poles.omega_rad_per_s[i]) : 0.0), flexible[i]);
   }
   if (study.chain.lag_s > 0.0) add_root(table, "actuator lag", kNone, -1.0 / study.chain.lag_s);
-  for (const auto& stage : study.chain.sensor_stages) {
-    add_root(table, "sensor lag", kNone, -1.0 / stage.lag.time_constant_s);
+  for (const auto& stages : study.chain.sensor_chains) {
+    if (stages.lag_s > 0.0) add_root(table, "sensor lag", kNone, -1.0 / stages.lag_s);
   }
   return table;
 }
@@ -242,9 +242,13 @@ std::vector<std::string> chain_notes(const response::ResponseStudy& study) {
   if (chain.delay_s > 0.0) parts.push_back(fmt::format("delay {:g} s", chain.delay_s));
   if (chain.gain != 1.0) parts.push_back(fmt::format("torque gain {:g}", chain.gain));
   if (chain.lag_s > 0.0) parts.push_back(fmt::format("actuator lag {:g} s", chain.lag_s));
-  for (const auto& stage : chain.sensor_stages) {
-    parts.push_back(
-        fmt::format("lag of {} {:g} s", arm::to_string(stage.sensor), stage.lag.time_constant_s));
+  for (const auto& stages : chain.sensor_chains) {
+    const std::string sensor = arm::to_string(stages.sensor);
+    if (stages.gain != 1.0) parts.push_back(fmt::format("gain of {} {:g}", sensor, stages.gain));
+    if (stages.delay_s > 0.0) {
+      parts.push_back(fmt::format("delay of {} {:g} s", sensor, stages.delay_s));
+    }
+    if (stages.lag_s > 0.0) parts.push_back(fmt::format("lag of {} {:g} s", sensor, stages.lag_s));
   }
   std::vector<std::string> notes;
   if (!parts.empty()) notes.push_back(fmt::format("included: {}", fmt::join(parts, ", ")));

@@ -46,6 +46,7 @@ Json state_space_json(const StateSpaceExport& state_space) {
   for (std::size_t k = 0; k < system.sensors.size(); ++k) {
     Json output = {{"sensor", arm::to_string(system.sensors[k])},
                    {"unit", std::string(arm::unit(system.sensors[k]))},
+                   {"delay_s", system.output_delay_s(static_cast<Eigen::Index>(k))},
                    {"re", Json::array()},
                    {"im", Json::array()}};
     for (const auto& value : response.values[k]) {
@@ -78,6 +79,7 @@ Table state_space_listing(const response::StateSpace& system) {
   add("C", system.c, outputs, system.states);
   add("D", system.d, outputs, input);
   add("delay_s", Eigen::MatrixXd::Constant(1, 1, system.delay_s), input, input);
+  add("output_delay_s", system.output_delay_s, outputs, input);
   return table;
 }
 
@@ -95,6 +97,7 @@ std::vector<measured::MatVariable> state_space_mat(const StateSpaceExport& state
       {"C", columns_of(system.c)},
       {"D", columns_of(system.d)},
       {"delay_s", measured::MatMatrix{1, 1, {system.delay_s}}},
+      {"output_delay_s", columns_of(system.output_delay_s)},
       {"states", system.states},
       {"sensors", sensor_names(system)},
       {"units", units},

@@ -118,8 +118,8 @@ ResponseStudy study_response(const arm::Arm& arm, const AnyFormulation& formulat
   ResponseStudy study;
   study.left_out = nonlinear_effects(arm);
   study.chain = linear_chain(take_apart(arm));
-  std::erase_if(study.chain.sensor_stages, [&](const arm::SensorStage& stage) {
-    return std::ranges::find(options.sensors, stage.sensor) == options.sensors.end();
+  std::erase_if(study.chain.sensor_chains, [&](const SensorChain& chain) {
+    return std::ranges::find(options.sensors, chain.sensor) == options.sensors.end();
   });
   study.poles = poles(formulation, options.modes);
   study.damped_poles = damped_poles(formulation, poles_up_to(formulation, options, grid.to_Hz));

@@ -28,7 +28,7 @@ struct ResponseOptions {
 /// The linear response of an arm from commanded torque to its sensors' readings.
 struct ResponseStudy {
   std::vector<std::string> left_out;  ///< nonlinear effects of the arm
-  LinearChain chain;                  ///< with the stages of sensors that are among `sensors`
+  LinearChain chain;                  ///< with the chains of sensors that are among `sensors`
   arm::PoleSet poles;
   arm::DampedPoleSet damped_poles;
   arm::ModalModel modes;                                ///< without residual mode

@@ -1,23 +1,17 @@
 #include "response/time/arm_simulator.hpp"
 
-#include "arm/input_error.hpp"
 #include "arm/linear_arm.hpp"
-#include "response/time/controller_run.hpp"
 #include "response/time/propagator.hpp"
 #include "response/time/sensor_readings.hpp"
 #include "response/time/simulation_input.hpp"
+#include "response/time/simulator_commands.hpp"
 #include "response/time/time_stepper.hpp"
-#include "response/time/torque_path.hpp"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
 #include <numbers>
-#include <string>
-#include <utility>
 
 namespace flexarm::response {
 
@@ -31,11 +25,6 @@ constexpr std::size_t kProgressInterval = 1 << 14;
 /// Of the forces of an inner step in a fit: far below any noise, and small enough that quotients of
 /// differences over 1e-5 of a parameter's range have four digits.
 constexpr double kFitForceTolerance = 1e-9;
-
-arm::InputError too_large(const std::string& what, double time_s) {
-  return arm::InputError(fmt::format(
-      "{} at {:.6g} s: numeric overflow; reduce the torque or the duration", what, time_s));
-}
 
 /// Samples per period of the highest mode.
 double samples_per_period(const ModalDynamics& arm, double sample_time_s) {
@@ -51,107 +40,6 @@ Sampling sampling(double samples_per_period) {
 
 }  // namespace
 
-/// The commanded torque of a run, sample by sample: given, or made by a controller on the way.
-class ArmSimulator::Commands {
- public:
-  /// Of an open loop. `torque_N_m` must outlive the object.
-  Commands(const ArmSimulator& arm, std::span<const double> torque_N_m)
-      : arm_(&arm), torque_N_m_(torque_N_m) {
-    require_simulable(arm.parts_, torque_N_m, arm.options_);
-  }
-
-  /// Of a closed loop. `loop` must outlive the object.
-  Commands(const ArmSimulator& arm, const ClosedLoop& loop)
-      : arm_(&arm),
-        loop_(&loop),
-        made_N_m_(loop.reference.size()),
-        torque_N_m_(made_N_m_),
-        readings_(std::in_place, arm.arm_, arm.parts_, arm.sensors_) {
-    const auto& options = arm.options_;
-    require_options(options);
-    if (options.hold != TorqueHold::zero) {
-      throw arm::InputError("torque hold: must be zero-order in a closed loop");
-    }
-    if (loop.reference.empty()) throw arm::InputError("reference: there are no samples");
-    for (std::size_t k = 0; k < loop.reference.size(); ++k) {
-      if (std::isfinite(loop.reference[k])) continue;
-      throw arm::InputError(fmt::format("reference = {} at sample {} (from 0): must be finite",
-                                        loop.reference[k], k));
-    }
-    arm::require_valid(loop.controller);
-    for (const arm::Sensor& sensor : loop.controller.sensors) {
-      const auto found = std::ranges::find(arm.sensors_, sensor);
-      if (found == arm.sensors_.end()) {
-        throw arm::InputError(
-            fmt::format("controller: its sensor {} is not simulated", arm::to_string(sensor)));
-      }
-      places_.push_back(found - arm.sensors_.begin());
-    }
-    period_ = static_cast<std::size_t>(
-        arm::samples_per_period(loop.controller, options.sample_time_s));
-    run_.emplace(loop.controller, static_cast<double>(period_) * options.sample_time_s,
-                 loop.controller_state);
-    read_.resize(places_.size());
-  }
-  Commands(const Commands&) = delete;
-  Commands& operator=(const Commands&) = delete;
-
-  /// As many as samples; up to the sample that was reached.
-  std::span<const double> torque_N_m() const { return torque_N_m_; }
-  std::vector<double> take_torque_N_m() { return std::move(made_N_m_); }
-
-  /// Before the torque of sample `k` is taken up; `actuator_N_m` is that of the actuator until now.
-  void reach(std::size_t k, const TimeStepper& stepper, double actuator_N_m) {
-    if (loop_ == nullptr) return;
-    if (k % period_ != 0) {
-      made_N_m_[k] = made_N_m_[k - 1];
-      return;
-    }
-    const Eigen::VectorXd& now = readings_->read(stepper, actuator_N_m);
-    for (std::size_t j = 0; j < places_.size(); ++j) read_[j] = now(places_[j]);
-    made_N_m_[k] = run_->command(loop_->reference[k], read_);
-    const double sample_time_s = arm_->options_.sample_time_s;
-    if (!std::isfinite(made_N_m_[k])) {
-      throw too_large("torque of the controller", static_cast<double>(k) * sample_time_s);
-    }
-    require_command(arm_->parts_, made_N_m_[k], k, sample_time_s);
-  }
-
-  /// Steps through the samples; `at_sample(k, time, actuator torque)`, called at each, says whether
-  /// to go on. The last sample is looked at, not stepped from.
-  template <class AtSample>
-  void step_through(TimeStepper& stepper, AtSample at_sample) {
-    const auto& options = arm_->options_;
-    const TorquePath path(arm_->parts_.actuator, torque_N_m_, options.sample_time_s, options.hold);
-    TorquePath::Pieces pieces;
-    double actuator_N_m = 0.0;
-    for (std::size_t k = 0; k < torque_N_m_.size(); ++k) {
-      const double time_s = static_cast<double>(k) * options.sample_time_s;
-      reach(k, stepper, actuator_N_m);
-      path.pieces(k, pieces);
-      stepper.take_up(pieces.front().begin_N_m, time_s);
-      if (!at_sample(k, time_s, pieces.front().begin_N_m) || k + 1 == torque_N_m_.size()) return;
-      for (const TorquePiece& piece : pieces) {
-        const double begin_s = time_s + piece.begin * options.sample_time_s;
-        if (piece.begin > 0.0) stepper.take_up(piece.begin_N_m, begin_s);
-        stepper.advance(piece, begin_s);
-      }
-      actuator_N_m = pieces.back().end_N_m;
-    }
-  }
-
- private:
-  const ArmSimulator* arm_;
-  const ClosedLoop* loop_ = nullptr;
-  std::vector<double> made_N_m_;
-  std::span<const double> torque_N_m_;
-  std::optional<SensorReadings> readings_;
-  std::vector<Index> places_;  // of the controller's sensors
-  std::size_t period_ = 1;     // of the controller, in samples
-  std::optional<ControllerRun> run_;
-  std::vector<double> read_;
-};
-
 ArmSimulator::ArmSimulator(const arm::ModalModel& model, const ArmParts& parts,
                            std::span<const arm::Sensor> sensors, const SimulationOptions& options)
     : parts_(parts),
@@ -163,7 +51,12 @@ ArmSimulator::ArmSimulator(const arm::ModalModel& model, const ArmParts& parts,
                                    std::in_place, arm_, forces_,
                                    arm::linear_arm(parts.linear).hub_viscous_friction_N_m_s_per_rad)
                              : std::nullopt),
-      plan_(arm_, forces_, parts.actuator, options, ledger_ ? &*ledger_ : nullptr) {}
+      times_(reading_times(parts.sensor_chains, sensors, options.sample_time_s)),
+      plan_(arm_, forces_, parts.actuator, options, ledger_ ? &*ledger_ : nullptr, times_.cuts()) {}
+
+std::ptrdiff_t ArmSimulator::lead(std::size_t samples) const {
+  return std::min(times_.longest_samples(), static_cast<std::ptrdiff_t>(samples));
+}
 
 Simulation ArmSimulator::run(std::span<const double> torque_N_m,
                              const SimulationProgress& progress) const {
@@ -177,34 +70,42 @@ Simulation ArmSimulator::run(const ClosedLoop& loop, const SimulationProgress& p
 }
 
 Simulation ArmSimulator::run(Commands& commands, const SimulationProgress& progress) const {
-  const std::size_t samples = commands.torque_N_m().size();
+  const std::span<const double> torque_N_m = commands.torque_N_m();
+  const ReadingPlan reading_plan = commands.reading_plan();
   std::optional<EnergyLedger> ledger = ledger_;
   TimeStepper stepper(plan_, ledger ? &*ledger : nullptr);
   SensorReadings readings(arm_, parts_, sensors_);
   Simulation made;
-  made.channels.resize(sensors_.size());
+  for (const arm::Sensor& sensor : sensors_) {
+    made.channels.emplace_back(torque_N_m.size(), chain_of(parts_.sensor_chains, sensor).offset);
+  }
   bool go_on = true;
-  const auto record = [&](std::size_t k, double time_s, double actuator_N_m) {
-    made.time_s.push_back(time_s);
-    made.commanded_torque_N_m.push_back(commands.torque_N_m()[k]);
-    made.hub_torque_N_m.push_back(stepper.hub_torque_N_m(actuator_N_m));
-    if (!std::isfinite(made.hub_torque_N_m.back())) throw too_large("torque at the hub", time_s);
-    const Eigen::VectorXd& now = readings.read(stepper, actuator_N_m);
-    for (std::size_t j = 0; j < made.channels.size(); ++j) {
-      const double reading = now(static_cast<Index>(j));
-      if (!std::isfinite(reading)) throw too_large(arm::to_string(sensors_[j]), time_s);
-      made.channels[j].push_back(reading);
+  const auto record = [&](const ReadingInstant& now) {
+    if (now.part == 0) {
+      made.time_s.push_back(now.time_s);
+      made.commanded_torque_N_m.push_back(torque_N_m[static_cast<std::size_t>(now.sample)]);
+      made.hub_torque_N_m.push_back(stepper.hub_torque_N_m(now.actuator_N_m));
+      if (!std::isfinite(made.hub_torque_N_m.back())) {
+        throw too_large("torque at the hub", now.time_s);
+      }
     }
+    reading_plan.at(now, stepper, readings, [&](std::size_t j, std::size_t k, double reading) {
+      if (!std::isfinite(reading)) throw too_large(arm::to_string(sensors_[j]), now.time_s);
+      made.channels[j][k] = reading;
+    });
+    if (now.part > 0) return true;
     if (ledger) {
       ledger->close_sample(stepper.state());
-      if (!std::isfinite(ledger->balance().residual_J())) throw too_large("energy", time_s);
+      if (!std::isfinite(ledger->balance().residual_J())) throw too_large("energy", now.time_s);
     }
-    if (progress && k % kProgressInterval == 0 && k + 1 < samples) {
-      go_on = progress(static_cast<double>(k) / static_cast<double>(samples));
+    const auto k = static_cast<std::size_t>(now.sample);
+    if (progress && k % kProgressInterval == 0 && k + 1 < torque_N_m.size()) {
+      go_on = progress(static_cast<double>(k) / static_cast<double>(torque_N_m.size()));
     }
     return go_on;
   };
-  commands.step_through(stepper, record);
+  commands.step_through(stepper, 0, record);
+  for (auto& channel : made.channels) channel.resize(made.time_s.size());
   if (ledger) made.energy = ledger->balance();
   made.summary = stepper.summary();
   made.summary.most_iterations = stepper.most_iterations();
@@ -231,85 +132,65 @@ ClosedLoopReadings ArmSimulator::closed_loop_readings(const ClosedLoop& loop,
 }
 
 Eigen::MatrixXd ArmSimulator::readings(Commands& commands, const Eigen::VectorXd& initial) const {
+  const std::size_t samples = commands.torque_N_m().size();
+  const ReadingPlan reading_plan = commands.reading_plan();
   TimeStepper stepper(plan_, nullptr);
-  if (initial.size() > 0) stepper.put(initial, false);
+  std::ptrdiff_t first = 0;
+  if (initial.size() > 0) {
+    stepper.put(initial, false);
+    first = -lead(samples);
+  }
   SensorReadings readings(arm_, parts_, sensors_);
-  Eigen::MatrixXd made(static_cast<Index>(commands.torque_N_m().size()),
-                       static_cast<Index>(sensors_.size()));
-  commands.step_through(stepper, [&](std::size_t k, double time_s, double actuator_N_m) {
-    const Eigen::VectorXd& now = readings.read(stepper, actuator_N_m);
-    if (!now.allFinite()) throw too_large("reading", time_s);
-    made.row(static_cast<Index>(k)) = now.transpose();
+  Eigen::MatrixXd made = unread(samples);
+  commands.step_through(stepper, first, [&](const ReadingInstant& now) {
+    const auto take = [&](std::size_t j, std::size_t k, double reading) {
+      if (!std::isfinite(reading)) throw too_large("reading", now.time_s);
+      made(static_cast<Index>(k), static_cast<Index>(j)) = reading;
+    };
+    reading_plan.at(now, stepper, readings, take);
     return true;
   });
   return made;
 }
 
-Eigen::MatrixXd ArmSimulator::transition() const {
-  return propagator(arm_.turning, options_.sample_time_s, 1.0, options_.precision).state;
+Eigen::MatrixXd ArmSimulator::unread(std::size_t samples) const {
+  Eigen::MatrixXd made(static_cast<Index>(samples), static_cast<Index>(sensors_.size()));
+  for (std::size_t j = 0; j < sensors_.size(); ++j) {
+    made.col(static_cast<Index>(j)).setConstant(chain_of(parts_.sensor_chains, sensors_[j]).offset);
+  }
+  return made;
+}
+
+Eigen::MatrixXd ArmSimulator::transition(double fraction) const {
+  return propagator(arm_.turning, fraction * options_.sample_time_s, 1.0, options_.precision).state;
 }
 
 Eigen::MatrixXd ArmSimulator::linear_readings() const {
   Eigen::MatrixXd made(static_cast<Index>(sensors_.size()), states());
-  for (Index j = 0; j < made.rows(); ++j) {
-    made.row(j) = arm_.turning.sensors[static_cast<std::size_t>(j)].state;
+  for (std::size_t j = 0; j < sensors_.size(); ++j) {
+    const auto row = static_cast<Index>(j);
+    made.row(row) = arm_.turning.sensors[j].state;
+    const double at = times_.sensors[j].at;
+    if (at > 0.0) made.row(row) = made.row(row) * transition(at);
   }
   return made;
 }
 
 Eigen::MatrixXd ArmSimulator::free_readings(std::size_t samples) const {
   const auto n = static_cast<Index>(samples);
-  const Eigen::MatrixXd step = transition();
-  const Eigen::MatrixXd at_once = linear_readings();
-  Eigen::MatrixXd made(n * at_once.rows(), states());
-  // Row k of a sensor is its row of readings times the k-th power of the step.
-  for (Index j = 0; j < at_once.rows(); ++j) {
-    Eigen::RowVectorXd row = at_once.row(j);
-    for (Index k = 0; k < n; ++k) {
-      made.row(j * n + k) = row;
+  const Eigen::MatrixXd step = transition(1.0);
+  const Eigen::MatrixXd taken = linear_readings();
+  Eigen::MatrixXd made = Eigen::MatrixXd::Zero(n * taken.rows(), states());
+  // From where it is first read on, the row of a sensor is its row of readings times a power of the
+  // step.
+  for (Index j = 0; j < taken.rows(); ++j) {
+    Eigen::RowVectorXd row = taken.row(j);
+    const auto later = times_.sensors[static_cast<std::size_t>(j)].samples_later;
+    for (Index k = later - lead(samples); k < n; ++k) {
+      if (k >= 0) made.row(j * n + k) = row;
       row = row * step;
     }
   }
-  return made;
-}
-
-SampledSystem ArmSimulator::sampled(double disturbance_N_m,
-                                    const Eigen::VectorXd& deviations) const {
-  const Index d = arm_.disturbance.value();
-  SampledSystem made{transition(), linear_readings(),
-                     Eigen::MatrixXd::Zero(states(), states()), deviations.cwiseAbs2()};
-  // From sample to sample a stationary disturbance forgets 1 - e^(-2 h/T) of its variance.
-  const double kept = made.transition(d, d);
-  made.process_covariance(d, d) =
-      std::pow(disturbance_N_m / arm_.disturbance_N_m, 2) * (1.0 - kept * kept);
-  return made;
-}
-
-FilteredRun ArmSimulator::filtered(std::span<const double> torque_N_m,
-                                   const Eigen::MatrixXd& measured,
-                                   const FilterGains& gains) const {
-  Commands commands(*this, torque_N_m);
-  TimeStepper stepper(plan_, nullptr);
-  SensorReadings readings(arm_, parts_, sensors_);
-  FilteredRun made{.innovations = {measured.rows(), measured.cols()}};
-  Eigen::VectorXd state;
-  Eigen::VectorXd innovation;
-  commands.step_through(stepper, [&](std::size_t k, double time_s, double actuator_N_m) {
-    const auto row = static_cast<Index>(k);
-    innovation = measured.row(row).transpose() - readings.read(stepper, actuator_N_m);
-    innovation = innovation.array().isNaN().select(0.0, innovation);
-    state = stepper.state();
-    state.noalias() += gains.at(k).gain * innovation;
-    if (!state.allFinite()) throw too_large("filtered state", time_s);
-    stepper.put(state, stepper.motion() == HubMotion::held);
-    stepper.take_up(actuator_N_m, time_s);
-    made.innovations.row(row) = innovation.transpose();
-    made.disturbance_N_m.push_back(
-        arm_.disturbance ? arm_.disturbance_N_m * state(*arm_.disturbance) : 0.0);
-    const bool is_held = stepper.motion() == HubMotion::held;
-    made.hub_velocity_rad_per_s.push_back(is_held ? 0.0 : arm_.hub_velocity(stepper.state()));
-    return true;
-  });
   return made;
 }
 

@@ -6,11 +6,13 @@
 #include "response/time/energy_ledger.hpp"
 #include "response/time/kalman_filter.hpp"
 #include "response/time/modal_dynamics.hpp"
+#include "response/time/reading_times.hpp"
 #include "response/time/simulation.hpp"
 #include "response/time/step_plan.hpp"
 
 #include <Eigen/Core>
 
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <vector>
@@ -46,8 +48,11 @@ class ArmSimulator {
   Simulation run(std::span<const double> torque_N_m, const SimulationProgress& progress = {}) const;
 
   /// Readings alone, a row a sample and a column a sensor, from the state `initial` (at rest where
-  /// it is empty). Throws InputError for a torque that `simulate` refuses, and for readings that
-  /// are too large for a number. Concurrent calls are safe.
+  /// it is empty). Where a sensor is delayed `initial` is the state as many samples before the
+  /// first as the longest delay needs, at most as many as there are: what a delayed sensor shows
+  /// first is then motion too, without commanded torque. At rest it shows nothing before the first
+  /// sample. Throws InputError for a torque that `simulate` refuses, and for readings that are too
+  /// large for a number. Concurrent calls are safe.
   Eigen::MatrixXd readings(std::span<const double> torque_N_m,
                            const Eigen::VectorXd& initial = {}) const;
 
@@ -69,9 +74,14 @@ class ArmSimulator {
   /// vary.
   Eigen::MatrixXd free_readings(std::size_t samples) const;
 
+  /// How many samples before the first the initial state of a run of so many samples is.
+  std::ptrdiff_t lead(std::size_t samples) const;
+
   /// The filter for the arm that turns without friction and forces that vary: readings with white
   /// noise of these deviations, a column a sensor, and a disturbance of the hub torque
   /// (ArmParts::disturbance, required) of that stationary deviation, which changes at the samples.
+  /// Its state is the arm's and, behind that, the readings of delayed sensors that are taken but
+  /// not measured yet. Throws InputError for more than `kMostPendingReadings` of them.
   SampledSystem sampled(double disturbance_N_m, const Eigen::VectorXd& deviations) const;
 
   /// The arm follows the `measured` readings (a row a sample and a column a sensor, not a number
@@ -86,7 +96,11 @@ class ArmSimulator {
 
   Simulation run(Commands& commands, const SimulationProgress& progress) const;
   Eigen::MatrixXd readings(Commands& commands, const Eigen::VectorXd& initial) const;
-  Eigen::MatrixXd transition() const;
+  /// What a sensor reads before the first sample reaches it, a row a sample and a column a sensor.
+  Eigen::MatrixXd unread(std::size_t samples) const;
+  /// Of the state over that part of a sample interval, N x N.
+  Eigen::MatrixXd transition(double fraction) const;
+  /// What is read in a sample interval (ReadingTimes), of the state at its beginning: p x N.
   Eigen::MatrixXd linear_readings() const;
 
   ArmParts parts_;
@@ -95,8 +109,12 @@ class ArmSimulator {
   ModalDynamics arm_;
   AddedForces forces_;
   std::optional<EnergyLedger> ledger_;  ///< as it is before a run
+  ReadingTimes times_;
   StepPlan plan_;
 };
+
+/// At so many the gain of a filter takes some ten milliseconds.
+inline constexpr std::ptrdiff_t kMostPendingReadings = 60;
 
 /// Options with which the readings of a fit are simulated: no energy balance, and a step a sample
 /// where forces vary, with an error of order 4 in it; reversals and rests of the hub are located

@@ -13,8 +13,9 @@ namespace flexarm::response {
 /// What makes the torque of an arm in closed loop: a controller, and the reference that it is to
 /// follow.
 ///
-/// It reads its sensors, their lag included, at sample 0 and after each of its periods, just before
-/// its torque jumps: an acceleration is that with the torque from before. What it commands is held,
+/// It reads its sensors as they are (gain, delay, lag, offset) at sample 0 and after each of its
+/// periods, just before its torque jumps: an acceleration is that with the torque from before; of a
+/// delayed sensor that with the torque from before the delayed instant. What it commands is held,
 /// and goes through the torque's path (delay, gain, saturation, lag, ...) to the hub.
 struct ClosedLoop {
   arm::Controller controller;

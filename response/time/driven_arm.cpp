@@ -130,7 +130,9 @@ DrivenArm::DrivenArm(const ModalDynamics& arm, const arm::ModalModel& model, con
   }
   const TorquePath path(actuator, command_N_m, sample_time_s_, TorqueHold::first);
   pieces_.resize(n);
-  for (std::size_t k = 0; k < n; ++k) path.pieces(lead + k, pieces_[k]);
+  for (std::size_t k = 0; k < n; ++k) {
+    path.pieces(static_cast<std::ptrdiff_t>(lead + k), pieces_[k]);
+  }
   SimulationOptions options;
   options.sample_time_s = sample_time_s_;
   options.hold = TorqueHold::first;

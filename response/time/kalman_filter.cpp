@@ -50,6 +50,12 @@ FilterGain gain_for(const SampledSystem& system, const Eigen::MatrixXd& p) {
 
 }  // namespace
 
+Eigen::MatrixXd covariance_after_step(const SampledSystem& system,
+                                      const Eigen::MatrixXd& covariance) {
+  return symmetric(system.transition * covariance * system.transition.transpose()) +
+         system.process_covariance;
+}
+
 FilterGain filter_gain(const SampledSystem& system) {
   if (!(system.reading_variances.minCoeff() > 0.0)) {
     throw arm::InputError("Kalman filter: the variance of a reading must be above 0");
@@ -69,8 +75,7 @@ FilterGains filter_gains_from(const SampledSystem& system,
     // Joseph's form, which stays positive whatever the rounding of the gain.
     const Eigen::MatrixXd rest = Eigen::MatrixXd::Identity(n, n) - now.gain * system.readings;
     p = rest * p * rest.transpose() + now.gain * noise * now.gain.transpose();
-    p = symmetric(system.transition * p * system.transition.transpose()) +
-        system.process_covariance;
+    p = covariance_after_step(system, p);
     made.first.push_back(now);
   }
   return made;

@@ -36,6 +36,10 @@ struct FilterGains {
   }
 };
 
+/// Covariance of the state, N x N, a sample after it is `covariance` and without readings.
+Eigen::MatrixXd covariance_after_step(const SampledSystem& system,
+                                      const Eigen::MatrixXd& covariance);
+
 /// The filter long after the first sample. By the structure-preserving doubling algorithm
 /// [ChuFanLin2004] for the Riccati equation of the predicted covariance, from an exactly known
 /// state: `kDoublings` of them are 2^kDoublings samples. Ends before where the covariance no longer

@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
@@ -94,7 +93,7 @@ Reading zero_reading(const Layout& layout) {
   return {Eigen::RowVectorXd::Zero(layout.size), 0.0, Eigen::RowVectorXd::Zero(layout.forces())};
 }
 
-/// What a sensor with these modal values reads before its lag.
+/// What a sensor with these modal values shows before gain and lag.
 Reading reading(const ModalDynamics& arm, const Layout& layout, const Accelerations& motion,
                 const Eigen::RowVectorXd& values, int derivatives) {
   Reading made = zero_reading(layout);
@@ -108,13 +107,14 @@ Reading reading(const ModalDynamics& arm, const Layout& layout, const Accelerati
   return made;
 }
 
-/// Time constant of the lag in a sensor's path; 0 without one.
-double lag_of(const ArmParts& parts, const arm::Sensor& sensor) {
-  const auto stage = std::ranges::find(parts.sensor_stages, sensor, &arm::SensorStage::sensor);
-  return stage == parts.sensor_stages.end() ? 0.0 : stage->lag.time_constant_s;
+Reading amplified(Reading reading, double gain) {
+  reading.state *= gain;
+  reading.actuator *= gain;
+  reading.force *= gain;
+  return reading;
 }
 
-/// The system with these accelerations; `sensors` are the readings before the lag.
+/// The system with these accelerations; `sensors` are the readings with gain and lag.
 LinearSystem assemble(const ModalDynamics& arm, const ArmParts& parts, const Layout& layout,
                       const Accelerations& motion, std::span<const arm::Sensor> sensors,
                       const arm::ModalModel& model) {
@@ -144,10 +144,12 @@ LinearSystem assemble(const ModalDynamics& arm, const ArmParts& parts, const Lay
     for (Index i = 0; i < layout.n; ++i) {
       values(i) = model.modes[static_cast<std::size_t>(i)].sensor_values[j];
     }
-    Reading read = reading(arm, layout, motion, values, arm::derivative_order(sensors[j]));
+    const SensorChain chain = chain_of(parts.sensor_chains, sensors[j]);
+    Reading read = amplified(
+        reading(arm, layout, motion, values, arm::derivative_order(sensors[j])), chain.gain);
     if (layout.lagged_readings[j]) {
       const Index w = *layout.lagged_readings[j];
-      const double rate = 1.0 / lag_of(parts, sensors[j]);
+      const double rate = 1.0 / chain.lag_s;
       const double sum = read.state.cwiseAbs().sum();
       const double scale = sum > 0.0 ? sum : 1.0;
       system.a.row(w) = read.state * (rate / scale);
@@ -171,7 +173,7 @@ Layout layout_of(const arm::ModalModel& model, const ArmParts& parts,
   layout.size = 2 * layout.n;
   if (parts.actuator.lag_s > 0.0) layout.lagged_torque = layout.size++;
   for (const arm::Sensor& sensor : sensors) {
-    const bool is_lagged = lag_of(parts, sensor) > 0.0;
+    const bool is_lagged = chain_of(parts.sensor_chains, sensor).lag_s > 0.0;
     layout.lagged_readings.push_back(is_lagged ? std::optional(layout.size++) : std::nullopt);
   }
   if (parts.disturbance) layout.disturbance = layout.size++;

@@ -1,7 +1,5 @@
 #include "response/time/sensor_readings.hpp"
 
-#include <algorithm>
-
 namespace flexarm::response {
 
 using Eigen::Index;
@@ -20,13 +18,17 @@ SensorReadings::Stack::Stack(const LinearSystem& system)
 
 SensorReadings::SensorReadings(const ModalDynamics& arm, const ArmParts& parts,
                                std::span<const arm::Sensor> sensors)
-    : turning_(arm.turning), held_(arm.held), now_(turning_.state.rows()) {
+    : turning_(arm.turning),
+      held_(arm.held),
+      gain_(turning_.state.rows()),
+      offset_(turning_.state.rows()),
+      now_(turning_.state.rows()) {
   for (std::size_t j = 0; j < sensors.size(); ++j) {
-    const bool is_lagged =
-        std::ranges::find(parts.sensor_stages, sensors[j], &arm::SensorStage::sensor) !=
-        parts.sensor_stages.end();
-    if (is_lagged) continue;
     const auto row = static_cast<Index>(j);
+    const SensorChain chain = chain_of(parts.sensor_chains, sensors[j]);
+    gain_(row) = chain.gain;
+    offset_(row) = chain.offset;
+    if (chain.lag_s > 0.0) continue;
     if (sensors[j].kind == arm::SensorKind::hub_angle) hub_angles_.push_back(row);
     if (sensors[j].kind == arm::SensorKind::hub_velocity) hub_velocities_.push_back(row);
   }
@@ -46,9 +48,10 @@ const Eigen::VectorXd& SensorReadings::read(const Eigen::VectorXd& x, const Eige
   now_ += readings.actuator * actuator_N_m;
   now_.noalias() += readings.force * f;
   if (held_angle_rad) {
-    for (const Index j : hub_angles_) now_(j) = *held_angle_rad;
+    for (const Index j : hub_angles_) now_(j) = gain_(j) * *held_angle_rad;
     for (const Index j : hub_velocities_) now_(j) = 0.0;
   }
+  now_ += offset_;
   return now_;
 }
 

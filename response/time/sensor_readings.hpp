@@ -9,7 +9,7 @@
 
 namespace flexarm::response {
 
-/// What sensors read of a TimeStepper, their lag included.
+/// What sensors read of a TimeStepper: with gain, lag and offset, before their delay.
 class SensorReadings {
  public:
   /// `arm` has the systems that the stepper steps.
@@ -35,6 +35,8 @@ class SensorReadings {
 
   Stack turning_;
   Stack held_;
+  Eigen::VectorXd gain_;
+  Eigen::VectorXd offset_;
   Eigen::VectorXd now_;
   std::vector<Eigen::Index> hub_angles_;  // sensors that stand still with the hub
   std::vector<Eigen::Index> hub_velocities_;

@@ -83,7 +83,7 @@ struct Simulation {
   std::vector<double> commanded_torque_N_m;
   std::vector<double> hub_torque_N_m;  ///< that reaches the hub: bias and ripple included, friction
                                        ///< not
-  std::vector<std::vector<double>> channels;  ///< one a sensor, in its unit; lag included
+  std::vector<std::vector<double>> channels;  ///< one a sensor, in its unit: what it reads
   EnergyBalance energy;                       ///< zeros unless asked for
   SimulationSummary summary;
 };
@@ -98,7 +98,8 @@ using SimulationProgress = std::function<bool(double fraction)>;
 /// with T = torque after the actuator, F = dry friction of the hub, and
 /// force_i = int force(v) phi_i dx over the stations of response/time/beam_forces.hpp. Derived
 /// sensors (velocity, acceleration) come from the state and the equations of motion, not from
-/// differences.
+/// differences. A delayed sensor is read at the delayed instants themselves, not between samples;
+/// it reads its offset alone until the first sample reaches it.
 ///
 /// Torque that is held or linear between samples, delays, lags, clipping and constant friction are
 /// stepped exactly; reversals, stops and breakaways of the hub are located on the exact solution.

@@ -1,7 +1,5 @@
 #include "response/time/simulation_input.hpp"
 
-#include "arm/input_error.hpp"
-
 #include <fmt/format.h>
 
 #include <cmath>
@@ -46,6 +44,11 @@ void require_simulable(const ArmParts& parts, std::span<const double> torque_N_m
   for (std::size_t k = 0; k < torque_N_m.size(); ++k) {
     require_command(parts, torque_N_m[k], k, options.sample_time_s);
   }
+}
+
+arm::InputError too_large(const std::string& what, double time_s) {
+  return arm::InputError(fmt::format(
+      "{} at {:.6g} s: numeric overflow; reduce the torque or the duration", what, time_s));
 }
 
 }  // namespace flexarm::response

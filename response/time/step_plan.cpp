@@ -26,7 +26,8 @@ constexpr double kLargestUnsettledPart = 0.5;
 }  // namespace
 
 StepPlan::StepPlan(const ModalDynamics& arm, const AddedForces& forces, const Actuator& actuator,
-                   const SimulationOptions& options, const EnergyLedger* ledger)
+                   const SimulationOptions& options, const EnergyLedger* ledger,
+                   std::span<const double> cuts)
     : arm_(&arm),
       forces_(&forces),
       options_(options),
@@ -41,12 +42,9 @@ StepPlan::StepPlan(const ModalDynamics& arm, const AddedForces& forces, const Ac
     if (settled_) settled_watched_ = watched_readings(*settled_);
   }
   const double h = options.sample_time_s;
-  const double phi = TorquePath(actuator, {}, h, options.hold).delay_fraction();
-  if (phi == 0.0) {
-    regular_[0] = piece_steps(h);
-  } else {
-    regular_[1] = piece_steps(phi * h);
-    regular_[2] = piece_steps((1.0 - phi) * h);
+  const std::vector<double> edges = TorquePath(actuator, {}, h, options.hold, cuts).edges();
+  for (std::size_t part = 0; part + 1 < edges.size(); ++part) {
+    regular_.push_back(piece_steps((edges[part + 1] - edges[part]) * h));
   }
 }
 

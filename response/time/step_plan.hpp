@@ -9,10 +9,11 @@
 
 #include <Eigen/Core>
 
-#include <array>
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <span>
+#include <vector>
 
 namespace flexarm::response {
 
@@ -44,14 +45,14 @@ struct PieceSteps {
 /// lag that is short in a piece the torque settles first; then the lag no longer limits a step.
 class StepPlan {
  public:
-  /// `arm`, `forces` and `ledger`, which may be null, must outlive the object.
+  /// `arm`, `forces` and `ledger`, which may be null, must outlive the object. `cuts` as
+  /// TorquePath.
   StepPlan(const ModalDynamics& arm, const AddedForces& forces, const Actuator& actuator,
-           const SimulationOptions& options, const EnergyLedger* ledger);
+           const SimulationOptions& options, const EnergyLedger* ledger,
+           std::span<const double> cuts = {});
 
-  /// For pieces of a length that comes again (TorquePiece::Length, but `other`).
-  const PieceSteps& regular(TorquePiece::Length length) const {
-    return regular_[static_cast<std::size_t>(length)];
-  }
+  /// For pieces that are the whole of this part of a sample interval (TorquePath::edges).
+  const PieceSteps& regular(std::size_t part) const { return regular_[part]; }
   Steps steps(double length_s) const { return steps(*arm_, length_s); }
   /// Inner steps of that length of `arm`, which is arm() or settled(). Throws InputError by the
   /// name of an effect that would need more than kMostSubsteps.
@@ -92,7 +93,7 @@ class StepPlan {
   WatchedReadings watched_;
   WatchedReadings settled_watched_;
   double settling_s_;
-  std::array<PieceSteps, 3> regular_;
+  std::vector<PieceSteps> regular_;  ///< one a part of a sample interval
 };
 
 /// |A| dt of a step that is solved by power series: with 1 the series has some 20 terms and loses

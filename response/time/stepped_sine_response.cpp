@@ -77,7 +77,7 @@ void drive(DrivenArm& arm, double periods, SteppedSineSummary& summary) {
 /// What a run has measured so far.
 class Measuring {
  public:
-  Measuring(std::span<const arm::Sensor> sensors, const SteppedSine& sine,
+  Measuring(const ArmParts& parts, std::span<const arm::Sensor> sensors, const SteppedSine& sine,
             const SteppedSineOptions& options)
       : sensors_(sensors.begin(), sensors.end()), cycles_(sine.cycles), options_(options) {
     options_.imperfections.resize(sensors.size());
@@ -85,6 +85,9 @@ class Measuring {
     made_.coherence.resize(sensors.size());
     made_.noise_deviation.resize(sensors.size());
     kept_.resize(sensors.size());
+    for (const arm::Sensor& sensor : sensors) {
+      delay_s_.push_back(chain_of(parts.sensor_chains, sensor).delay_s);
+    }
   }
 
   const SineCorrelation& correlation(int samples_per_period) {
@@ -110,7 +113,7 @@ class Measuring {
             fmt::format("{} at {} Hz: numeric overflow; reduce the torque or the settling time",
                         arm::to_string(sensors_[j]), frequency_Hz));
       }
-      made.values.push_back(part.whole / made.sine_N_m);
+      made.values.push_back(part.whole / made.sine_N_m * delayed(j, frequency_Hz));
       const auto& first = part.cycles.front();
       const auto& last = part.cycles.back();
       const double size = std::max(std::abs(first), std::abs(last));
@@ -153,7 +156,7 @@ class Measuring {
       for (std::size_t k = 0; k < kept_[j].size(); ++k) {
         response::impair(kept_[j][k], at, random);
         const auto part = correlation(samples_per_period_[k]).of(kept_[j][k]);
-        made_.values[j][k] = part.whole / sine_N_m_[k];
+        made_.values[j][k] = part.whole / sine_N_m_[k] * delayed(j, made_.frequency_Hz[k]);
         made_.coherence[j][k] = coherence_of(part.cycles);
       }
     }
@@ -162,6 +165,12 @@ class Measuring {
   SteppedSineResponse& made() { return made_; }
 
  private:
+  /// exp(-i omega delay): the cycles measured of a delayed sensor begin that much later.
+  std::complex<double> delayed(std::size_t sensor, double frequency_Hz) const {
+    const double turns = std::fmod(frequency_Hz * delay_s_[sensor], 1.0);
+    return std::polar(1.0, -2.0 * std::numbers::pi * turns);
+  }
+
   void keep(std::size_t sensor, std::vector<double> readings) {
     readings_ += static_cast<double>(readings.size());
     if (readings_ > kMostReadings) {
@@ -185,6 +194,7 @@ class Measuring {
   int cycles_;
   SteppedSineOptions options_;
   std::optional<SineCorrelation> correlation_;
+  std::vector<double> delay_s_;   // one a sensor
   std::vector<double> sine_N_m_;  // one a frequency, as is samples_per_period_
   std::vector<int> samples_per_period_;
   std::vector<Samples> kept_;  // of sensors with noise: samples of each frequency
@@ -212,7 +222,7 @@ SteppedSineResponse measure_stepped_sine(const arm::ModalModel& model, const Arm
       parts.hub.friction.empty() && parts.hub.smooth.empty() && parts.beam_forces.empty();
   // Wherever it stands the arm is the same: an angle that has grown costs digits.
   const bool turns_freely = arm.stiffness(0) == 0.0 && parts.hub.smooth.empty();
-  Measuring measuring(sensors, sine, options);
+  Measuring measuring(parts, sensors, sine, options);
   auto& summary = measuring.made().summary;
   summary.least_samples_per_period = kMostSamples;
   Eigen::VectorXd state = Eigen::VectorXd::Zero(arm.size());

@@ -63,6 +63,9 @@ int samples_per_period(bool is_linear, double frequency_Hz, double highest_Hz);
 /// of the reading over that of the commanded torque (response/time/sine_correlation.hpp). It is
 /// that of a linear arm to rounding: some 1e-13 of the largest term of the modal sum.
 ///
+/// Of a sensor that is delayed the cycles measured begin as much later: its delay turns the phase
+/// of its response, and no sample is taken between two others.
+///
 /// Noise acts on the samples: its relative part on the root mean square of the sines of the whole
 /// run.
 ///

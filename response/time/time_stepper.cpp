@@ -117,8 +117,8 @@ void TimeStepper::put(const Eigen::VectorXd& state, bool held) {
 void TimeStepper::advance(const TorquePiece& piece, double now_s) {
   time_s_ = now_s;
   last_torque_N_m_ = piece.end_N_m;
-  if (piece.length != TorquePiece::Length::other) {
-    const PieceSteps& steps = plan_->regular(piece.length);
+  if (piece.is_whole_part) {
+    const PieceSteps& steps = plan_->regular(piece.part);
     const double between = std::lerp(piece.begin_N_m, piece.end_N_m, steps.unsettled_part);
     advance_in(steps.unsettled, piece.begin_N_m, between);
     if (!steps.settled) return;

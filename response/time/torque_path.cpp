@@ -5,21 +5,26 @@
 
 namespace flexarm::response {
 
-namespace {
-
-/// A delay this near to whole samples is whole samples: delay/sample_time is rounded that much.
-constexpr double kWholeSample = 1e-9;
-
-}  // namespace
-
 TorquePath::TorquePath(const Actuator& actuator, std::span<const double> torque_N_m,
-                       double sample_time_s, TorqueHold hold)
-    : actuator_(actuator), bends_(actuator.bends()), torque_N_m_(torque_N_m), hold_(hold) {
-  const double delay = actuator.delay_s / sample_time_s;
-  delay_samples_ = std::floor(delay);
-  delay_fraction_ = delay - delay_samples_;
-  if (delay_fraction_ > 1.0 - kWholeSample) delay_samples_ += 1.0;
-  if (delay_fraction_ < kWholeSample || delay_fraction_ > 1.0 - kWholeSample) delay_fraction_ = 0.0;
+                       double sample_time_s, TorqueHold hold, std::span<const double> cuts)
+    : actuator_(actuator),
+      bends_(actuator.bends()),
+      torque_N_m_(torque_N_m),
+      hold_(hold),
+      delay_(sample_delay(actuator.delay_s, sample_time_s)),
+      edges_({0.0, 1.0}) {
+  const auto divide = [this](double at) {
+    if (std::abs(edges_[part_from(at)] - at) < 0.5 * kSameInstant) return;
+    edges_.insert(std::ranges::upper_bound(edges_, at), at);
+  };
+  divide(delay_.fraction);
+  for (const double cut : cuts) divide(cut);
+}
+
+std::size_t TorquePath::part_from(double cut) const {
+  const auto nearest =
+      std::ranges::min_element(edges_, {}, [cut](double edge) { return std::abs(edge - cut); });
+  return static_cast<std::size_t>(nearest - edges_.begin());
 }
 
 /// `command` is delayed, but not yet mapped.
@@ -42,35 +47,33 @@ void TorquePath::add(TorquePiece command, Pieces& pieces) const {
     piece.end = s == 1.0 ? command.end : begin + s * length;
     piece.begin_N_m = actuator_.mapped(from + done * (to - from));
     piece.end_N_m = actuator_.mapped(s == 1.0 ? to : from + s * (to - from));
-    if (breaks.size() > 1) piece.length = TorquePiece::Length::other;
+    piece.is_whole_part = breaks.size() == 1;
     if (piece.end > piece.begin) pieces.push_back(piece);
     done = s;
   }
 }
 
-void TorquePath::pieces(std::size_t k, Pieces& pieces) const {
+void TorquePath::pieces(std::ptrdiff_t k, Pieces& pieces) const {
   pieces.clear();
-  // The delayed command from sample j to j + 1, from `s` to `e` of the way.
-  const auto command = [&](double j, double s, double e, TorquePiece::Length length, double begin,
-                           double end) {
+  for (std::size_t part = 0; part + 1 < edges_.size(); ++part) {
+    const double begin = edges_[part];
+    const double end = edges_[part + 1];
+    // The sample whose command acts there, and how far it is from it to the next one.
+    const bool is_delayed = begin < delay_.fraction;
+    const double j = static_cast<double>(k) - delay_.samples - (is_delayed ? 1.0 : 0.0);
+    const double ahead = (is_delayed ? 1.0 : 0.0) - delay_.fraction;
     if (j < 0.0) {
-      add({begin, end, 0.0, 0.0, length}, pieces);
-      return;
+      add({begin, end, 0.0, 0.0, part}, pieces);
+      continue;
     }
     const auto at = static_cast<std::size_t>(j);
     const double left = torque_N_m_[at];
     const double right =
         hold_ == TorqueHold::first && at + 1 < torque_N_m_.size() ? torque_N_m_[at + 1] : left;
-    add({begin, end, left + s * (right - left), left + e * (right - left), length}, pieces);
-  };
-  const double j = static_cast<double>(k) - delay_samples_;
-  if (delay_fraction_ == 0.0) {
-    command(j, 0.0, 1.0, TorquePiece::Length::whole, 0.0, 1.0);
-    return;
+    const auto command = [&](double fraction) { return left + fraction * (right - left); };
+    const double to = end == delay_.fraction ? 1.0 : end + ahead;  // to the last bit
+    add({begin, end, command(begin + ahead), command(to), part}, pieces);
   }
-  command(j - 1.0, 1.0 - delay_fraction_, 1.0, TorquePiece::Length::before_delay, 0.0,
-          delay_fraction_);
-  command(j, 0.0, 1.0 - delay_fraction_, TorquePiece::Length::after_delay, delay_fraction_, 1.0);
 }
 
 }  // namespace flexarm::response

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "response/arm_parts.hpp"
+#include "response/time/sample_delay.hpp"
 #include "response/time/simulation.hpp"
 
 #include <cstddef>
@@ -11,31 +12,35 @@ namespace flexarm::response {
 
 /// A torque that goes straight from `begin_N_m` to `end_N_m` over a part of a sample interval.
 struct TorquePiece {
-  enum class Length { whole, before_delay, after_delay, other };
   double begin = 0.0;  ///< in samples, from 0
   double end = 1.0;    ///< to 1
   double begin_N_m = 0.0;
   double end_N_m = 0.0;
-  Length length = Length::whole;  ///< the same from sample to sample, unless `other`
+  std::size_t part = 0;       ///< of the interval, between two of TorquePath::edges
+  bool is_whole_part = true;  ///< its length then comes again from sample to sample
 };
 
 /// The commanded torque behind delay and maps, exactly: straight pieces between the breaks that the
-/// delayed samples and the bends of the maps make. The lag comes later. Before the first sample the
-/// command is zero.
+/// delayed samples, the bends of the maps and `cuts` make. The lag comes later. Before the first
+/// sample the command is zero.
 class TorquePath {
  public:
   using Pieces = std::vector<TorquePiece>;
 
-  /// `torque_N_m` must outlive the object.
+  /// `torque_N_m` must outlive the object. A piece ends at each of `cuts`, fractions of every
+  /// sample interval above 0 and below 1.
   TorquePath(const Actuator& actuator, std::span<const double> torque_N_m, double sample_time_s,
-             TorqueHold hold);
+             TorqueHold hold, std::span<const double> cuts = {});
 
-  /// The pieces from sample `k` to the next, in order, none empty. Behind the last sample the
-  /// command stays as it is.
-  void pieces(std::size_t k, Pieces& pieces) const;
+  /// The pieces from sample `k` to the next, in order, none empty; `k` may be before the first.
+  /// Behind the last sample the command stays as it is.
+  void pieces(std::ptrdiff_t k, Pieces& pieces) const;
 
-  /// The delay is whole samples and this fraction of one.
-  double delay_fraction() const { return delay_fraction_; }
+  /// Where every sample interval is divided, ascending from 0 to 1: at the delayed samples and at
+  /// the cuts.
+  const std::vector<double>& edges() const { return edges_; }
+  /// The part of the interval that begins at a cut, or at 0.
+  std::size_t part_from(double cut) const;
 
  private:
   void add(TorquePiece command, Pieces& pieces) const;
@@ -44,8 +49,8 @@ class TorquePath {
   std::vector<double> bends_;
   std::span<const double> torque_N_m_;
   TorqueHold hold_;
-  double delay_samples_ = 0.0;
-  double delay_fraction_ = 0.0;
+  SampleDelay delay_;
+  std::vector<double> edges_;
 };
 
 }  // namespace flexarm::response

@@ -45,6 +45,7 @@ TEST(EffectComparison, AnEffectInOneModelAloneDisagrees) {
     options.poles = 5;
     options.non_collocated_zeros = 2;
     options.response_points = 20;
+    options.sensors.push_back({arm::SensorKind::strain, 0.0});  // which gauge_position moves
     const Comparison comparison = compare({plain[0], standard_subjects(arm, 5)[1]}, options);
     EXPECT_FALSE(comparison.verdict.agree) << name;
     if (is_damping) {

@@ -31,9 +31,48 @@ TEST(Hypotheses, AreTheWholeVocabulary) {
   EXPECT_EQ(names.size(), effects::vocabulary().size());
 }
 
-TEST(Hypotheses, AreOneOfSensorLagASensor) {
+TEST(Hypotheses, AreOneASensorOfAnEffectOnASensor) {
   const auto all = hypotheses(short_experiment());
-  EXPECT_EQ(std::ranges::count(all, "sensor_lag", &Hypothesis::effect), 4);
+  for (const char* effect : {"sensor_lag", "sensor_gain", "sensor_offset", "sensor_delay"}) {
+    EXPECT_EQ(std::ranges::count(all, effect, &Hypothesis::effect), 4) << effect;
+  }
+}
+
+TEST(Hypotheses, MoveAStrainGaugeAlone) {
+  for (const Hypothesis& hypothesis : hypotheses(short_experiment())) {
+    if (hypothesis.effect != "gauge_position") continue;
+    EXPECT_EQ(arm::parse_sensor(hypothesis.sensor).kind, arm::SensorKind::strain);
+  }
+}
+
+TEST(Hypotheses, OfAnOffsetReachAsFarAsTheReadingsAndHaveTheirUnit) {
+  Experiment experiment = short_experiment();
+  experiment.runs.resize(1);
+  auto& record = std::get<measured::TimeRecord>(experiment.runs[0].data);
+  for (auto& channel : record.channels) std::ranges::fill(channel.values, 0.0);
+  std::ranges::fill(record.channels[0].values, -0.25);
+  const auto all = hypotheses(experiment);
+  EXPECT_EQ(std::ranges::count(all, "sensor_offset", &Hypothesis::effect), 1);
+  const auto offset = *std::ranges::find(all, "sensor_offset", &Hypothesis::effect);
+  EXPECT_EQ(offset.parameters[0].lowest, -0.5);
+  EXPECT_EQ(offset.parameters[0].highest, 0.5);
+  EXPECT_EQ(offset.unit_of(offset.parameters[0]), arm::unit(record.channels[0].sensor));
+}
+
+TEST(Hypotheses, OfAModalTableMoveTheGaugesWhoseZerosItHas) {
+  Experiment experiment = short_experiment();
+  experiment.runs.resize(1);
+  experiment.runs[0].run.kind = measured::RunKind::modal;
+  measured::ModalEntry zero;
+  zero.sensor = arm::parse_sensor("strain@0.05");
+  zero.feature = measured::Feature::zero;
+  zero.frequency_Hz = 20.0;
+  measured::ModalEntry hub_zero = zero;
+  hub_zero.sensor = arm::parse_sensor("hub_angle");
+  experiment.runs[0].data = measured::ModalTable{hub_zero, zero};
+  const auto all = hypotheses(experiment);
+  ASSERT_EQ(std::ranges::count(all, "gauge_position", &Hypothesis::effect), 1);
+  EXPECT_EQ(std::ranges::find(all, "gauge_position", &Hypothesis::effect)->sensor, "strain@0.05");
 }
 
 TEST(Hypotheses, ExtendTheArmToAValidOneOverTheirWholeRange) {

@@ -1,5 +1,7 @@
 // Noise models of runs in which an unrecorded torque acts on the hub.
+#include "arm/input_error.hpp"
 #include "diagnose/predictors/noise_estimate.hpp"
+#include "diagnose/search/fit.hpp"
 #include "diagnose/search/predictor_choice.hpp"
 #include "effects/registry/vocabulary.hpp"
 #include "response/time/random_numbers.hpp"
@@ -8,6 +10,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -75,6 +78,33 @@ TEST(PredictorChoice, OutputErrorWhereItLeavesNoise) {
       experiment, named(experiment, {"coulomb_friction", "hub_spring"}), {}, {});
   EXPECT_EQ(made.predictor, PredictorKind::output_error);
   EXPECT_THAT(named_by(made.selection), testing::ElementsAre("coulomb_friction"));
+}
+
+TEST(PredictorChoice, OutputErrorWhereASensorIsTooLateForAFilter) {
+  Experiment experiment = with_unrecorded_torque(simulated_experiment({}, kShortRuns), 8);
+  const std::string sensor = arm::to_string(
+      std::get<measured::TimeRecord>(experiment.runs.front().data).channels.front().sensor);
+  effects::put(experiment.arm, "sensor_delay", {{"delay", 0.5}}, sensor);
+  const auto some = named(experiment, {"coulomb_friction"});
+  const auto made = select_by_evidence(experiment, some, {}, {});
+  EXPECT_EQ(made.predictor, PredictorKind::output_error);
+  EXPECT_THAT(made.reason, testing::HasSubstr("no Kalman filter can be formed"));
+  EXPECT_THAT(made.reason, testing::HasSubstr("at most"));
+  EXPECT_THROW(select_by_evidence(experiment, some, {.predictor = PredictorKind::grey_box}, {}),
+               arm::InputError);
+}
+
+TEST(GreyBox, HasTheDelayOfALateSensorAsItsBestFit) {
+  const Experiment experiment = with_unrecorded_torque(
+      simulated_experiment({effects::named("sensor_delay", {{"delay", 0.009}}, "hub_angle")},
+                           kShortRuns),
+      6);
+  const Problem problem(experiment, {.noise = NoiseModel{kDisturbance_N_m, kCorrelation_s}});
+  const auto all = named(experiment, {"sensor_delay"});
+  const auto late = *std::ranges::find(all, "hub_angle", &Hypothesis::sensor);
+  const Fit found = fit(problem, Candidate{}.with(late, {0.0075}));
+  EXPECT_TRUE(found.converged);
+  EXPECT_NEAR(found.candidate.values.front(), 0.009, 2e-4);
 }
 
 /// The filtering predictors, as they are asked for.

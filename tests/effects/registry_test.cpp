@@ -28,6 +28,14 @@ Scales scales() {
   return made;
 }
 
+/// Those of an effect on one sensor are of the sensor that it acts on by itself.
+Scales scales_of(const Entry& entry) {
+  Scales made = scales();
+  made.sensor = entry.definition->sensor;
+  made.reading_rms = 0.3;
+  return made;
+}
+
 TEST(Registry, HasEachNameOnceAndWordsForAll) {
   std::set<std::string> names;
   for (const Entry& entry : entries()) {
@@ -69,7 +77,7 @@ TEST(Registry, LimitsAreEffectsOfFewerOrAsManyParameters) {
 
 TEST(Registry, EachParameterIsLookedForWithinItsRange) {
   for (const Entry& entry : entries()) {
-    const auto searched = entry.search(scales());
+    const auto searched = entry.search(scales_of(entry));
     const auto& parameters = entry.definition->parameters;
     ASSERT_EQ(searched.size(), parameters.size()) << entry.definition->name;
     for (std::size_t i = 0; i < searched.size(); ++i) {
@@ -86,7 +94,7 @@ TEST(Registry, EachParameterIsLookedForWithinItsRange) {
 
 TEST(Registry, ANeutralValueIsOneAtWhichTheSearchSaysThatNothingIsDone) {
   for (const Entry& entry : entries()) {
-    const auto searched = entry.search(scales());
+    const auto searched = entry.search(scales_of(entry));
     for (std::size_t i = 0; i < searched.size(); ++i) {
       const auto& neutral = entry.definition->parameters[i].neutral;
       if (!neutral) continue;

@@ -6,7 +6,8 @@
 
 namespace flexarm::report {
 
-/// An arm with an actuator, a sensor that lags, and friction that a linear response leaves out.
+/// An arm with an actuator, sensors that lag, are late and wrongly scaled, and friction that a
+/// linear response leaves out.
 inline arm::Arm sample_arm() {
   arm::Arm arm = arm::paper_arm();
   arm.damping.kelvin_voigt_s = 1e-4;
@@ -16,6 +17,8 @@ inline arm::Arm sample_arm() {
   effects::put(arm, "actuator_lag", {{"time_constant", 2e-3}});
   effects::put(arm, "torque_gain", {{"factor", 1.5}});
   effects::put(arm, "sensor_lag", {{"time_constant", 1e-3}});
+  effects::put(arm, "sensor_delay", {{"delay", 4e-3}});
+  effects::put(arm, "sensor_gain", {{"factor", 0.9}}, "hub_angle");
   return arm;
 }
 

@@ -22,7 +22,8 @@ using testing::Not;
 TEST(ResponseTables, WhatIsInTheResponseAndWhatIsNotIsSaid) {
   EXPECT_THAT(chain_notes(sample_study()),
               ElementsAre("included: delay 0.001 s, torque gain 1.5, actuator lag 0.002 s, "
-                          "lag of tip_acceleration 0.001 s",
+                          "delay of tip_acceleration 0.004 s, lag of tip_acceleration 0.001 s, "
+                          "gain of hub_angle 0.9",
                           "not included (nonlinear): coulomb_friction"));
   EXPECT_THAT(chain_notes(sample_study(arm::paper_arm())), ElementsAre());
 }

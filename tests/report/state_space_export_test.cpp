@@ -53,6 +53,10 @@ TEST(StateSpaceExport, JsonReadsBackToTheSameResponse) {
   read.b = matrix("B");
   read.c = matrix("C");
   read.d = matrix("D");
+  read.output_delay_s.resize(read.d.rows());
+  for (Eigen::Index k = 0; k < read.d.rows(); ++k) {
+    read.output_delay_s(k) = json["outputs"][static_cast<std::size_t>(k)]["delay_s"];
+  }
   EXPECT_EQ(read.a, study.state_space->a);
   EXPECT_EQ(distance(read, *study.state_space_response), 0.0);
   EXPECT_EQ(json["outputs"][1]["sensor"], "tip_acceleration");
@@ -66,8 +70,12 @@ TEST(StateSpaceExport, CsvReadsBackToTheSameResponse) {
   response::StateSpace read = *study.state_space;
   for (auto* matrix : {&read.a, &read.b, &read.c, &read.d}) matrix->setConstant(NAN);
   read.delay_s = NAN;
-  const std::map<std::string, Eigen::MatrixXd*> matrices = {
-      {"A", &read.a}, {"B", &read.b}, {"C", &read.c}, {"D", &read.d}};
+  Eigen::MatrixXd output_delay_s = Eigen::MatrixXd::Constant(2, 1, NAN);
+  const std::map<std::string, Eigen::MatrixXd*> matrices = {{"A", &read.a},
+                                                            {"B", &read.b},
+                                                            {"C", &read.c},
+                                                            {"D", &read.d},
+                                                            {"output_delay_s", &output_delay_s}};
   const auto rows = measured::parse_csv(csv, "state-space.csv");
   for (std::size_t i = 1; i < rows.size(); ++i) {
     const auto& cells = rows[i].cells;
@@ -78,6 +86,7 @@ TEST(StateSpaceExport, CsvReadsBackToTheSameResponse) {
       (*matrices.at(cells[0]))(std::stol(cells[1]) - 1, std::stol(cells[2]) - 1) = value;
     }
   }
+  read.output_delay_s = output_delay_s.col(0);
   EXPECT_EQ(read.a, study.state_space->a);
   EXPECT_EQ(read.delay_s, study.state_space->delay_s);
   EXPECT_EQ(distance(read, *study.state_space_response), 0.0);
@@ -102,6 +111,8 @@ TEST(StateSpaceExport, MatReadsBackToTheSameResponse) {
   system.c = matrix("C");
   system.d = matrix("D");
   system.delay_s = matrix("delay_s")(0, 0);
+  system.output_delay_s = matrix("output_delay_s").col(0);
+  EXPECT_EQ(system.output_delay_s(1), 4e-3);
   EXPECT_EQ(distance(system, *study.state_space_response), 0.0);
   EXPECT_EQ(std::get<measured::MatStrings>(read.at("sensors").value),
             (measured::MatStrings{"hub_angle", "tip_acceleration"}));

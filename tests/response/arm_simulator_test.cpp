@@ -108,6 +108,12 @@ INSTANTIATE_TEST_SUITE_P(
                  effects::named("sensor_lag", {{"time_constant", 2e-3}})},
                 kRoundingOfSteps,
                 0.0},
+        FitCase{"readings",
+                {effects::named("sensor_gain", {{"factor", 0.8}}),
+                 effects::named("sensor_delay", {{"delay", 3.7e-3}}),
+                 effects::named("sensor_offset", {{"value", 0.3}})},
+                kRoundingOfSteps,
+                0.0},
         FitCase{"clipped",
                 {effects::named("torque_dead_zone", {{"width", 0.02}}),
                  effects::named("torque_saturation", {{"limit", 0.09}})},
@@ -146,7 +152,9 @@ TEST(ArmSimulator, RefusesAReadingThatIsTooLarge) {
 TEST(ArmSimulator, GoesOnFromAStateAsFreeReadingsSay) {
   arm::Arm arm = arm::paper_arm();
   arm.damping.kelvin_voigt_s = 1.2e-4;
-  arm.effects = {effects::named("sensor_lag", {{"time_constant", 2e-3}})};
+  // Of the hub angle, the first of the sensors, the reading is late by a part of a sample.
+  arm.effects = {effects::named("sensor_lag", {{"time_constant", 2e-3}}),
+                 effects::named("sensor_delay", {{"delay", 7.3 * kStep_s}}, "hub_angle")};
   const auto sensors = four_sensors();
   const ArmParts parts = take_apart(arm);
   const arm::ModalModel model =

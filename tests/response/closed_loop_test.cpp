@@ -3,6 +3,7 @@
 #include "arm/input_error.hpp"
 #include "response/formulation_maker.hpp"
 #include "response/time/arm_simulator.hpp"
+#include "response/time/controller_run.hpp"
 #include "response/time/time_model.hpp"
 #include "tests/response/simulation_models.hpp"
 
@@ -338,6 +339,47 @@ TEST_F(FlexibleLoop, ReadsAnAccelerationBeforeItsOwnJump) {
     held.push_back(held.back());
     const Eigen::MatrixXd before = made.readings(held);
     EXPECT_NEAR(torque[k], -1e-4 * before(static_cast<Eigen::Index>(k), 2), 1e-15) << k;
+  }
+}
+
+/// Gain, offset and delay of the sensor that the controller reads: it commands by the readings.
+TEST_F(FlexibleLoop, ReadsItsSensorAsItIs) {
+  arm_.effects.insert(effects::named("sensor_gain", {{"factor", 0.8}}, "hub_angle"));
+  arm_.effects.insert(effects::named("sensor_offset", {{"value", 0.05}}, "hub_angle"));
+  const auto reference = square_wave(3000, 0.5);
+  for (const double late_samples : {0.4, 1.0, 2.3, 4.0}) {
+    arm_.effects["sensor_delay"] =
+        effects::effect("sensor_delay", {{"delay", late_samples * kLoopStep_s}}, "hub_angle");
+    const ArmSimulator made = simulator(options_of_fit(kLoopStep_s, TorqueHold::zero));
+    const auto closed = made.closed_loop_readings({controller_, reference});
+    EXPECT_EQ(closed.readings, made.readings(closed.torque_N_m)) << late_samples;
+    EXPECT_EQ(closed.readings(0, 0), 0.05);
+    ControllerRun controller(controller_, 2.0 * kLoopStep_s, {});
+    for (std::size_t k = 0; k < reference.size(); k += 2) {
+      const double read = closed.readings(static_cast<Eigen::Index>(k), 0);
+      ASSERT_NEAR(closed.torque_N_m[k], controller.command(reference[k], {&read, 1}), 1e-11)
+          << late_samples << ", " << k;
+    }
+    EXPECT_GT(closed.readings.col(0).maxCoeff(), 0.4);
+  }
+}
+
+TEST_F(FlexibleLoop, ReadsALateAccelerationBeforeTheJumpAtTheDelayedInstant) {
+  arm_.effects.clear();
+  const ArmSimulator on_time = simulator(options_of_fit(kLoopStep_s, TorqueHold::zero));
+  arm_.effects["sensor_delay"] =
+      effects::effect("sensor_delay", {{"delay", 2.0 * kLoopStep_s}}, "tip_acceleration");
+  controller_ = {.sensors = {kTipAcceleration}, .law = StateSpaceController{.d = {{1.0, -1e-4}}}};
+  std::vector<double> reference(400, 0.0);
+  reference[0] = 0.05;
+  const auto closed = simulator(options_of_fit(kLoopStep_s, TorqueHold::zero))
+                          .closed_loop_readings({controller_, reference});
+  EXPECT_EQ(closed.torque_N_m[2], 0.0) << "before the jump at the first sample";
+  for (const std::size_t k : {3UL, 4UL, 50UL}) {
+    const auto jump = static_cast<std::ptrdiff_t>(k) - 2;
+    std::vector<double> held(closed.torque_N_m.begin(), closed.torque_N_m.begin() + jump);
+    held.push_back(held.back());
+    EXPECT_NEAR(closed.torque_N_m[k], -1e-4 * on_time.readings(held)(jump, 2), 1e-15) << k;
   }
 }
 

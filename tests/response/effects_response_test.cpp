@@ -131,7 +131,7 @@ TEST(EffectsResponse, TheLowestPoleOfAnArmThatIsHeldIsAResonance) {
   EXPECT_EQ(study.resonances[0][0].order, 0);
   const double lowest = study.damped_poles.lowest.first_rad_per_s.imag();
   EXPECT_GT(lowest, 6.2832 * study.response.frequency_Hz.front());
-  EXPECT_TRUE(study.chain.sensor_stages.empty()) << "tip_acceleration is not asked for";
+  EXPECT_TRUE(study.chain.sensor_chains.empty()) << "tip_acceleration is not asked for";
   // A circle: below, above and its far point lie at equal distance from the centre.
   const auto& circle = study.resonances[0][0];
   const Complex centre = (circle.below + circle.above) / 2.0;

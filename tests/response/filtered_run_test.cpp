@@ -1,4 +1,5 @@
 // The arm simulator as a Kalman filter.
+#include "arm/input_error.hpp"
 #include "response/excitation/excitation.hpp"
 #include "response/formulation_maker.hpp"
 #include "response/time/arm_simulator.hpp"
@@ -6,6 +7,7 @@
 #include "response/time/time_model.hpp"
 #include "tests/response/simulation_models.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -35,6 +37,14 @@ class FilteredRunTest : public testing::Test {
                   .torque_N_m;
   }
 
+  /// Sensors that are not as they should be; the hub angle is late by so many samples.
+  void impair_sensors(double late_samples) {
+    arm_.effects.insert(effects::named("sensor_gain", {{"factor", 1.3}}, "hub_angle"));
+    arm_.effects.insert(effects::named("sensor_offset", {{"value", 0.2}}, "hub_velocity"));
+    arm_.effects.insert(
+        effects::named("sensor_delay", {{"delay", late_samples * kStep_s}}, "hub_angle"));
+  }
+
   /// The simulator of the arm as it is now.
   void make() {
     parts_ = take_apart(arm_);
@@ -48,6 +58,9 @@ class FilteredRunTest : public testing::Test {
   FilterGains steady() const {
     return {{}, filter_gain(simulator_->sampled(kDisturbance_N_m, deviations_))};
   }
+
+  void expect_white_innovations();
+  void expect_stated_covariance_from_an_unknown_state();
 
   std::vector<arm::Sensor> sensors_ = {kHubAngle, kHubVelocity};
   Eigen::VectorXd deviations_ = Eigen::Vector2d(1e-3, 1e-2);
@@ -71,8 +84,33 @@ TEST_F(FilteredRunTest, WhatTheArmItselfShowsLeavesNoInnovation) {
   }
 }
 
+TEST_F(FilteredRunTest, WhatSensorsAsTheyAreShowLeavesNoInnovation) {
+  for (const double late_samples : {0.3, 1.0, 2.4, 3.0, 59.5}) {
+    arm_.effects = {effects::named("coulomb_friction", {{"torque", 0.02}})};
+    impair_sensors(late_samples);
+    make();
+    const FilterGains gains = steady();
+    const Eigen::MatrixXd shown = simulator_->readings(torque_);
+    const FilteredRun run = simulator_->filtered(torque_, shown, gains);
+    constexpr double kRounding = 1e-11;
+    EXPECT_LE(run.innovations.cwiseAbs().maxCoeff(), kRounding * shown.cwiseAbs().maxCoeff())
+        << late_samples;
+  }
+}
+
+TEST_F(FilteredRunTest, RefusesSensorsThatAreTooLate) {
+  impair_sensors(60.5);
+  make();
+  try {
+    steady();
+    ADD_FAILURE() << "a filter with 61 pending readings";
+  } catch (const arm::InputError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("delayed by 61 samples in all; at most 60"));
+  }
+}
+
 /// A disturbance of known statistics that is recorded nowhere, and noise of known deviation.
-TEST_F(FilteredRunTest, InnovationsOfTheRightModelAreWhiteAndOfTheStatedCovariance) {
+void FilteredRunTest::expect_white_innovations() {
   make();
   RandomNumbers random(7);
   const double kept = std::exp(-kStep_s / kCorrelation_s);
@@ -112,17 +150,33 @@ TEST_F(FilteredRunTest, InnovationsOfTheRightModelAreWhiteAndOfTheStatedCovarian
   EXPECT_LE(std::sqrt(error / (kSamples - 500.0)), 0.7 * kDisturbance_N_m);
 }
 
+TEST_F(FilteredRunTest, InnovationsOfTheRightModelAreWhiteAndOfTheStatedCovariance) {
+  expect_white_innovations();
+}
+
+TEST_F(FilteredRunTest, SoAreThoseOfSensorsAsTheyAre) {
+  for (const double late_samples : {3.0, 6.4}) {
+    arm_.effects.clear();
+    impair_sensors(late_samples);
+    expect_white_innovations();
+  }
+}
+
 /// A state that nobody knows, with a prior as wide: all samples are as likely as stated.
-TEST_F(FilteredRunTest, FromAnUnknownStateTheFirstInnovationsAreOfTheirStatedCovariance) {
+void FilteredRunTest::expect_stated_covariance_from_an_unknown_state() {
   make();
   RandomNumbers random(11);
   const std::size_t samples = 400;
   const std::vector<double> torque(torque_.begin(), torque_.begin() + samples);
   const double spread = 0.3;
-  const Eigen::MatrixXd prior =
-      spread * spread * Eigen::MatrixXd::Identity(simulator_->states(), simulator_->states());
-  const FilterGains gains =
-      filter_gains_from(simulator_->sampled(1e-6, deviations_), prior, samples);
+  const SampledSystem sampled = simulator_->sampled(1e-6, deviations_);
+  Eigen::MatrixXd prior =
+      Eigen::MatrixXd::Zero(sampled.transition.rows(), sampled.transition.cols());
+  prior.diagonal().head(simulator_->states()).setConstant(spread * spread);
+  for (auto step = simulator_->lead(samples); step > 0; --step) {
+    prior = covariance_after_step(sampled, prior);
+  }
+  const FilterGains gains = filter_gains_from(sampled, prior, samples);
   double squares = 0.0;
   double count = 0.0;
   for (int repeat = 0; repeat < 40; ++repeat) {
@@ -141,6 +195,15 @@ TEST_F(FilteredRunTest, FromAnUnknownStateTheFirstInnovationsAreOfTheirStatedCov
     }
   }
   EXPECT_NEAR(squares / count, 1.0, 3.5 * std::sqrt(2.0 / count));
+}
+
+TEST_F(FilteredRunTest, FromAnUnknownStateTheFirstInnovationsAreOfTheirStatedCovariance) {
+  expect_stated_covariance_from_an_unknown_state();
+}
+
+TEST_F(FilteredRunTest, SoAreTheFirstOfSensorsAsTheyAre) {
+  impair_sensors(4.6);
+  expect_stated_covariance_from_an_unknown_state();
 }
 
 TEST_F(FilteredRunTest, AMissingReadingHasNoInnovationAndMovesNothing) {

@@ -67,7 +67,8 @@ TEST(FrequencyResponse, ThreeFormulationsAgree) {
 }
 
 TEST(FrequencyResponse, OnlyTheSensorThatIsNamedLags) {
-  const LinearChain chain{.sensor_stages = {{{arm::SensorKind::strain, 0.05}, {0.1}}}};
+  const LinearChain chain{
+      .sensor_chains = {{.sensor = {arm::SensorKind::strain, 0.05}, .lag_s = 0.1}}};
   const Complex s(0.0, 10.0);
   EXPECT_EQ(reading_response(chain, {arm::SensorKind::strain, 0.05}, s), 1.0 / (1.0 + 0.1 * s));
   EXPECT_EQ(reading_response(chain, {arm::SensorKind::strain, 0.06}, s), 1.0);

@@ -27,7 +27,7 @@ TEST(ShortSensorLag, IsExactBesideFriction) {
   torque.resize(200, 0.0);
   for (const double lag : {0.3, 1e-2, 5e-3, 1e-4, 1e-7}) {
     ArmParts parts = coulomb(kFriction_N_m);
-    parts.sensor_stages = {{kHubVelocity, {lag}}};
+    parts.sensor_chains = {{.sensor = kHubVelocity, .lag_s = lag}};
     const auto made = simulate(oscillator(1.0, 0.0), parts, hub_sensors(), torque,
                                {.sample_time_s = kSample_s, .energy = false});
     const auto through_lag = [lag](double t, double begin, double v, double a, double read) {
@@ -55,7 +55,7 @@ TEST(ShortSensorLag, CostsNoSteps) {
   torque.resize(2000, 0.02);
   const auto simulated = [&](double lag) {
     ArmParts parts = coulomb(0.1);
-    if (lag > 0.0) parts.sensor_stages = {{kHubVelocity, {lag}}};
+    if (lag > 0.0) parts.sensor_chains = {{.sensor = kHubVelocity, .lag_s = lag}};
     return simulate(two_masses(0.02, 0.05, 3.0), parts, hub_sensors(), torque, {.energy = false});
   };
   const auto at_once = simulated(0.0);

@@ -50,18 +50,27 @@ TEST(StateSpace, IsTheModalSum) {
   }
 }
 
-TEST(StateSpace, LagsAreStatesAndTheDelayStandsBeside) {
+TEST(StateSpace, LagsAreStatesAndDelaysStandBeside) {
   constexpr double kElimination = 1e-10;
-  const LinearChain chain{.gain = 1.3,
-                          .delay_s = 2e-3,
-                          .lag_s = 5e-3,
-                          .sensor_stages = {{{arm::SensorKind::tip_acceleration}, {1e-3}}}};
+  const LinearChain chain{
+      .gain = 1.3,
+      .delay_s = 2e-3,
+      .lag_s = 5e-3,
+      .sensor_chains = {{.sensor = {arm::SensorKind::tip_acceleration},
+                         .gain = 0.8,
+                         .delay_s = 4e-3,
+                         .lag_s = 1e-3},
+                        {.sensor = {arm::SensorKind::hub_angle}, .gain = -1.2}}};
   const auto model = model_of("exact_tf", damped_arm(), 3);
   const auto system = state_space(model, every_sensor(), chain);
   EXPECT_THAT(system.states, ElementsAre("q_0", "q_0'", "q_1", "q_1'", "q_2", "q_2'", "q_3", "q_3'",
                                          "hub torque", "reading of tip_acceleration"));
   EXPECT_EQ(system.a.rows(), 10);
   EXPECT_EQ(system.delay_s, 2e-3);
+  for (std::size_t k = 0; k < system.sensors.size(); ++k) {
+    const bool is_late = system.sensors[k].kind == arm::SensorKind::tip_acceleration;
+    EXPECT_EQ(system.output_delay_s(static_cast<Eigen::Index>(k)), is_late ? 4e-3 : 0.0);
+  }
   EXPECT_TRUE(system.d.isZero(0.0)) << "nothing passes two lags at once";
   for (const double omega : {0.5, 60.0, 700.0}) {
     EXPECT_LT(distance(system, model, chain, Complex(0.0, omega)), kElimination);

@@ -53,7 +53,15 @@ std::vector<std::pair<std::string, arm::Arm>> linear_arms() {
   effects::put(late, "actuator_lag", {{"time_constant", 0.004}});
   effects::put(late, "sensor_lag", {{"time_constant", 0.002}});
   effects::put(late, "torque_bias", {{"torque", 0.01}});
-  return {{"damped", damped}, {"free", free}, {"sprung", sprung}, {"late", late}};
+  arm::Arm read_wrongly = damped;
+  effects::put(read_wrongly, "sensor_gain", {{"factor", 1.3}}, "hub_angle");
+  effects::put(read_wrongly, "sensor_delay", {{"delay", 0.0071}}, "tip_acceleration");
+  effects::put(read_wrongly, "sensor_offset", {{"value", 0.05}}, "hub_velocity");
+  return {{"damped", damped},
+          {"free", free},
+          {"sprung", sprung},
+          {"late", late},
+          {"read wrongly", read_wrongly}};
 }
 
 double worst(const SteppedSineResponse& made, std::size_t sensor,

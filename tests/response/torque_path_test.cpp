@@ -18,7 +18,7 @@ constexpr double kChainRounding = 1e-12;  // of values of order 1 over some thou
 double at(const TorquePath& path, double samples) {
   TorquePath::Pieces pieces;
   const double k = std::floor(samples);
-  path.pieces(static_cast<std::size_t>(k), pieces);
+  path.pieces(static_cast<std::ptrdiff_t>(k), pieces);
   const double s = samples - k;
   for (const auto& piece : pieces) {
     if (s < piece.begin || s > piece.end) continue;
@@ -61,7 +61,8 @@ TEST(TorquePath, HeldTorqueBreaksWhereTheDelayedSampleBegins) {
   EXPECT_EQ(pieces[0].end, 0.25);
   EXPECT_EQ(pieces[0].end_N_m, 1.0);
   EXPECT_EQ(pieces[1].begin_N_m, 2.0);
-  EXPECT_EQ(pieces[1].length, TorquePiece::Length::after_delay);
+  EXPECT_EQ(pieces[1].part, 1U);
+  EXPECT_TRUE(pieces[1].is_whole_part);
 }
 
 TEST(TorquePath, ADelayOfWholeSamplesUpToRoundingHasNoBreak) {
@@ -138,7 +139,7 @@ TEST(ActuatorChain, RippleKeepsTheEnergyOfAPendulum) {
 TEST(SensorLag, ReadsThroughAFirstOrderLag) {
   ArmParts parts = coulomb(0.0);
   const double lag = 0.02;
-  parts.sensor_stages = {{kHubVelocity, {lag}}};
+  parts.sensor_chains = {{.sensor = kHubVelocity, .lag_s = lag}};
   const auto made = simulate(oscillator(1.0, 0.0), parts, hub_sensors(), step_torque(1.0, 300),
                              {.sample_time_s = 1e-3});
   for (std::size_t k = 0; k < made.time_s.size(); ++k) {

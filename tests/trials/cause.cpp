@@ -23,6 +23,7 @@ constexpr double kPeakTorque = 12.0;
 NaturalSizes::NaturalSizes(const TrialArm& of) {
   const TrueArm arm = true_arm(of.arm);
   length_m = arm.length_m;
+  thickness_m = arm.thickness_m.value();
   beam_kg = arm.linear_density_kg_per_m * length_m;
   spring_N_m_per_rad = arm.flexural_rigidity_N_m2 / length_m;
   omega_rad_per_s = std::sqrt(spring_N_m_per_rad / (beam_kg * length_m * length_m));
@@ -38,7 +39,7 @@ Parameters changed_factor(const NaturalSizes& /*natural*/, double size, const Ch
 
 bool Cause::shows_in(measured::RunKind kind) const {
   if (kind == measured::RunKind::frf) return shown_in != ShownIn::time;
-  return kind == measured::RunKind::time || shown_in == ShownIn::all;
+  return kind == measured::RunKind::time || (shown_in == ShownIn::all && !acts_on_gauge);
 }
 
 const std::vector<Cause>& causes() {

@@ -17,6 +17,7 @@ struct NaturalSizes {
   explicit NaturalSizes(const TrialArm& of);
 
   double length_m = 0.0;
+  double thickness_m = 0.0;
   double beam_kg = 0.0;
   double spring_N_m_per_rad = 0.0;  ///< EI/l
   double omega_rad_per_s = 0.0;     ///< sqrt(EI/(m l^4))
@@ -54,6 +55,7 @@ struct Cause {
   /// It may be drawn beside another.
   bool in_pairs = true;
   bool acts_on_drawn_sensor = false;
+  bool acts_on_gauge = false;  ///< the strain gauge; poles and zeros of a trial are not of it
   std::function<Parameters(const NaturalSizes& natural, double size, const Chance& chance)>
       parameters;
   std::function<void(const Parameters& of, const arm::Sensor& sensor, TrueArm& arm)> change;

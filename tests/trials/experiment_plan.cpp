@@ -41,7 +41,7 @@ const std::vector<arm::Sensor>& planned_sensors() {
   static const std::vector<arm::Sensor> sensors = {{arm::SensorKind::hub_angle, 0.0},
                                                    {arm::SensorKind::hub_velocity, 0.0},
                                                    {arm::SensorKind::tip_acceleration, 0.0},
-                                                   {arm::SensorKind::strain, 0.05}};
+                                                   kGauge};
   return sensors;
 }
 

@@ -22,6 +22,8 @@ struct PlannedRun {
 /// torques.
 std::vector<PlannedRun> plan(const TrialArm& of, measured::RunKind kind, Random& random);
 
+/// The strain gauge of time and frequency runs.
+inline constexpr arm::Sensor kGauge{arm::SensorKind::strain, 0.05};
 /// The sensors of time and frequency runs.
 const std::vector<arm::Sensor>& planned_sensors();
 /// `count` frequencies in equal ratios, from 0.5 Hz to beyond the arm's fourth pole.

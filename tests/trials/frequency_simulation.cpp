@@ -19,9 +19,10 @@ Complex chain_response(const TrueArm& arm, Complex s) {
   return gain * std::exp(-s * arm.torque_delay_s) / (1.0 + s * arm.torque_lag_s);
 }
 
-Complex lag_response(const TrueArm& arm, const arm::Sensor& sensor, Complex s) {
-  const auto* lag = find_lag(arm, sensor);
-  return lag == nullptr ? 1.0 : 1.0 / (1.0 + s * lag->time_constant_s);
+/// What is recorded per value of the sensor; an offset does not come back with the torque.
+Complex recorded(const TrueArm& arm, const arm::Sensor& sensor, Complex s) {
+  const TrueArm::SensorPath path = known_path(arm, sensor);
+  return path.gain * std::exp(-s * path.delay_s) / (1.0 + s * path.time_constant_s);
 }
 
 measured::ModalEntry entry(measured::Feature feature, int order, double omega_rad_per_s) {
@@ -39,7 +40,7 @@ std::vector<std::vector<Complex>> frequency_responses(const World& world,
                                                       std::span<const arm::Sensor> sensors,
                                                       std::span<const double> frequency_Hz) {
   const TrueArm arm = true_arm(world);
-  const ElementModel model(arm, PlantOptions{}.elements, sensors);
+  const ElementModel model(arm, PlantOptions{}.elements, really_placed(arm, sensors));
   std::vector<std::vector<Complex>> responses(sensors.size());
   for (const double frequency : frequency_Hz) {
     const Complex s(0.0, 2.0 * std::numbers::pi * frequency);
@@ -47,7 +48,7 @@ std::vector<std::vector<Complex>> frequency_responses(const World& world,
     for (std::size_t i = 0; i < sensors.size(); ++i) {
       const Complex value =
           std::pow(s, arm::derivative_order(sensors[i])) * model.reading(i).of(u, s);
-      responses[i].push_back(value * chain_response(arm, s) * lag_response(arm, sensors[i], s));
+      responses[i].push_back(value * chain_response(arm, s) * recorded(arm, sensors[i], s));
     }
   }
   return responses;

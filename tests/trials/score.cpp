@@ -68,11 +68,24 @@ Outcome outcome_of(const TrialResult& result, const Answer& answer) {
   return silent ? Outcome::abstained : outcome_of_named(result.hidden, answer);
 }
 
+/// An effect on another sensor than the hidden one is another cause.
+Answer with_sensors_in_names(Answer answer, const Truth& truth) {
+  for (NamedCause& cause : answer.causes) {
+    const HiddenCause* hidden = truth.world.find(cause.effect);
+    if (hidden != nullptr && hidden->sensor != cause.sensor) cause.effect += " on " + cause.sensor;
+  }
+  return answer;
+}
+
+bool is_angle(const std::string& parameter) {
+  return parameter == "phase" || parameter == "angle";
+}
+
 /// Distance of a found value, the shorter way around where it is an angle.
 double distance(const std::string& parameter, double found, double hidden) {
   const double difference = found - hidden;
-  return std::abs(parameter == "phase" ? std::remainder(difference, 2.0 * std::numbers::pi)
-                                       : difference);
+  return std::abs(is_angle(parameter) ? std::remainder(difference, 2.0 * std::numbers::pi)
+                                      : difference);
 }
 
 void compare_parameters(TrialResult& result, const Truth& truth, const Answer& answer) {
@@ -85,7 +98,7 @@ void compare_parameters(TrialResult& result, const Truth& truth, const Answer& a
       if (hidden == nullptr) continue;
       const double value = hidden->parameters.at(name);
       const double error = distance(name, found.value, value);
-      const double scale = name == "phase" ? 2.0 * std::numbers::pi : std::abs(value);
+      const double scale = is_angle(name) ? 2.0 * std::numbers::pi : std::abs(value);
       result.values += fmt::format(" ({:.4g})", value);
       ++result.parameters;
       if (error <= kRecovered * scale) ++result.recovered;
@@ -108,7 +121,8 @@ Outcome parse_outcome(std::string_view name) {
   return static_cast<Outcome>(at);
 }
 
-TrialResult score(const Truth& truth, const Answer& answer) {
+TrialResult score(const Truth& truth, const Answer& given) {
+  const Answer answer = with_sensors_in_names(given, truth);
   TrialResult result;
   result.id = truth.key.id();
   result.kind = measured::to_string(truth.key.kind);

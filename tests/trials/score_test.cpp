@@ -80,6 +80,19 @@ TEST(Score, ClaimsAreRightWhereTheCauseWasHidden) {
   EXPECT_FALSE(result.claims[1].right);
 }
 
+TEST(Score, AnEffectOnAnotherSensorIsAnotherCause) {
+  Truth truth = truth_of({"sensor_gain"});
+  truth.world.hidden[0].sensor = "hub_velocity";
+  NamedCause cause = named("sensor_gain");
+  cause.sensor = "hub_velocity";
+  EXPECT_EQ(outcome(truth, answered("explained", {cause})), Outcome::exact);
+  cause.sensor = "tip_acceleration";
+  const auto result = score(truth, answered("explained", {cause}));
+  EXPECT_EQ(result.outcome, Outcome::wrong);
+  EXPECT_EQ(result.parameters, 0);
+  EXPECT_FALSE(result.claims[0].right);
+}
+
 TEST(Score, WithNothingToNameSilenceIsRight) {
   EXPECT_EQ(outcome(truth_of({}), answered("adequate")), Outcome::quiet);
   EXPECT_EQ(outcome(truth_of({}), answered("explained", {named("gravity")})), Outcome::false_alarm);

@@ -29,10 +29,48 @@ std::vector<LaggedReading> lagged_readings(const TrueArm& arm,
                                            std::span<const arm::Sensor> sensors) {
   std::vector<LaggedReading> lagged;
   for (std::size_t i = 0; i < sensors.size(); ++i) {
-    const auto* lag = find_lag(arm, sensors[i]);
-    if (lag != nullptr) lagged.push_back({i, lag->time_constant_s});
+    const double time_constant_s = known_path(arm, sensors[i]).time_constant_s;
+    if (time_constant_s > 0.0) lagged.push_back({i, time_constant_s});
   }
   return lagged;
+}
+
+/// What a late sensor has seen: at both ends of each step, between which it went straight, but for
+/// h^2/8 of its second derivative.
+class LateReading {
+ public:
+  LateReading(std::size_t sensor, double delay_s, double step_s)
+      : sensor_(sensor), delay_steps_(delay_s / step_s) {}
+
+  std::size_t sensor() const { return sensor_; }
+  void note(double begin, double end) { steps_.push_back({begin, end}); }
+  /// At the end of the last step; at rest it was 0 before the first.
+  double value() const {
+    const double at = static_cast<double>(steps_.size()) - delay_steps_;
+    if (at < 0.0 || steps_.empty()) return 0.0;
+    const auto step = std::min(static_cast<std::size_t>(at), steps_.size() - 1);
+    const double part = at - static_cast<double>(step);
+    return (1.0 - part) * steps_[step].begin + part * steps_[step].end;
+  }
+
+ private:
+  struct Step {
+    double begin;
+    double end;
+  };
+  std::size_t sensor_;
+  double delay_steps_;
+  std::vector<Step> steps_;
+};
+
+std::vector<LateReading> late_readings(const TrueArm& arm, std::span<const arm::Sensor> sensors,
+                                       double step_s) {
+  std::vector<LateReading> late;
+  for (std::size_t i = 0; i < sensors.size(); ++i) {
+    const double delay_s = known_path(arm, sensors[i]).delay_s;
+    if (delay_s > 0.0) late.emplace_back(i, delay_s, step_s);
+  }
+  return late;
 }
 
 class NewmarkIntegrator {
@@ -41,13 +79,14 @@ class NewmarkIntegrator {
                     std::span<const double> torque_N_m, const TimeOptions& options)
       : sensors_(sensors),
         arm_(true_arm(world)),
-        plant_(make_plant(arm_, sensors, options.plant)),
+        plant_(make_plant(arm_, really_placed(arm_, sensors), options.plant)),
         chain_(arm_, torque_N_m, options.sample_time_s),
         torques_(arm_, {options.sample_time_s * static_cast<double>(torque_N_m.size()),
                         options.disturbance_seed}),
         friction_(arm_),
         lagged_(lagged_readings(arm_, sensors)),
-        step_s_(options.sample_time_s / options.substeps) {
+        step_s_(options.sample_time_s / options.substeps),
+        late_(late_readings(arm_, sensors, step_s_)) {
     const Eigen::Index n = plant_.hub.size();
     // Newmark's scheme for any beta as average acceleration (1/4) of an arm of another inertia:
     // the difference 1/4 - beta of the stiffness's part is one of mass.
@@ -75,6 +114,7 @@ class NewmarkIntegrator {
 
   /// One step from `from_s`.
   void step(double from_s) {
+    const std::vector<double> begin = late_.empty() ? std::vector<double>() : shown(from_s);
     const double torque = chain_.advance(from_s, step_s_);
     free_.noalias() = from_velocity_ * v_;
     free_.noalias() += from_displacement_ * u_;
@@ -106,12 +146,32 @@ class NewmarkIntegrator {
     }
     if (!torques_.none()) torques_.turned(step_s_ * plant_.hub.dot(middle_));
     for (LaggedReading& lagged : lagged_) pass_lag(lagged);
+    const Eigen::VectorXd v_begin = v_;
     u_ += step_s_ * middle_;
     v_ = 2.0 * middle_ - v_;
+    for (LateReading& late : late_) {
+      const double first = begin[late.sensor()];
+      late.note(first, shown_at_end(late.sensor(), first, v_begin));
+    }
   }
 
-  /// What the sensors read just after `time_s`.
+  /// What is recorded of the sensors just after `time_s`.
   std::vector<double> read(double time_s) const {
+    std::vector<double> values = shown(time_s);
+    for (const LateReading& late : late_) values[late.sensor()] = late.value();
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const TrueArm::SensorPath path = known_path(arm_, sensors_[i]);
+      values[i] = path.gain * values[i] + path.offset;
+    }
+    return values;
+  }
+
+ private:
+  bool has_beam_forces() const { return !arm_.beam_forces_N_per_m.empty(); }
+
+  /// What the sensors show just after `time_s` behind their lag, before gain, delay and offset:
+  /// gain, delay and lag may change places.
+  std::vector<double> shown(double time_s) const {
     const Eigen::VectorXd acceleration = acceleration_at(time_s);
     std::vector<double> values;
     for (std::size_t i = 0; i < sensors_.size(); ++i) {
@@ -127,8 +187,16 @@ class NewmarkIntegrator {
     return values;
   }
 
- private:
-  bool has_beam_forces() const { return !arm_.beam_forces_N_per_m.empty(); }
+  /// What a sensor shows at the end of the step that has been made, before the torque jumps there.
+  double shown_at_end(std::size_t sensor, double at_begin, const Eigen::VectorXd& v_begin) const {
+    const auto lagged = std::ranges::find(lagged_, sensor, &LaggedReading::sensor);
+    if (lagged != lagged_.end()) return lagged->value;
+    const auto row = plant_.readings.row(static_cast<Eigen::Index>(sensor));
+    const int order = arm::derivative_order(sensors_[sensor]);
+    if (order == 0) return row.dot(u_);
+    if (order == 1) return row.dot(v_);
+    return 2.0 * (row.dot(v_) - row.dot(v_begin)) / step_s_ - at_begin;
+  }
 
   /// Per length, at the stations.
   Eigen::VectorXd beam_forces(const Eigen::VectorXd& velocity) const {
@@ -177,6 +245,7 @@ class NewmarkIntegrator {
   DryFriction friction_;
   std::vector<LaggedReading> lagged_;
   double step_s_;
+  std::vector<LateReading> late_;
   Eigen::MatrixXd inverse_;  // (1 + h/2 D + beta h^2 W)^-1
   Eigen::MatrixXd from_velocity_;
   Eigen::MatrixXd from_displacement_;  // -h/2 of it times W

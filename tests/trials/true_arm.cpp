@@ -20,9 +20,24 @@ TrueArm true_arm(const arm::Arm& nominal) {
   return arm;
 }
 
-const TrueArm::SensorLag* find_lag(const TrueArm& arm, const arm::Sensor& sensor) {
-  const auto found = std::ranges::find(arm.sensor_lags, sensor, &TrueArm::SensorLag::sensor);
-  return found == arm.sensor_lags.end() ? nullptr : &*found;
+TrueArm::SensorPath& path_of(TrueArm& arm, const arm::Sensor& sensor) {
+  const auto found = std::ranges::find(arm.sensor_paths, sensor, &TrueArm::SensorPath::sensor);
+  if (found != arm.sensor_paths.end()) return *found;
+  return arm.sensor_paths.emplace_back(TrueArm::SensorPath{sensor});
+}
+
+TrueArm::SensorPath known_path(const TrueArm& arm, const arm::Sensor& sensor) {
+  const auto found = std::ranges::find(arm.sensor_paths, sensor, &TrueArm::SensorPath::sensor);
+  return found != arm.sensor_paths.end() ? *found : TrueArm::SensorPath{sensor};
+}
+
+std::vector<arm::Sensor> really_placed(const TrueArm& arm, std::span<const arm::Sensor> sensors) {
+  std::vector<arm::Sensor> made;
+  for (arm::Sensor sensor : sensors) {
+    sensor.position_m += known_path(arm, sensor).moved_m;
+    made.push_back(sensor);
+  }
+  return made;
 }
 
 }  // namespace flexarm::trials

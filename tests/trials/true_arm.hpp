@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace flexarm::trials {
@@ -31,10 +32,15 @@ struct TrueArm {
     std::function<double(double)> torque_N_m;
     double slope = 1.0;  ///< what stands for it in a frequency response
   };
-  /// First-order.
-  struct SensorLag {
+  /// Between what a sensor is to show and what is recorded: its value is taken elsewhere along the
+  /// beam, multiplied, delayed, lagged, shifted.
+  struct SensorPath {
     arm::Sensor sensor;
+    double moved_m = 0.0;  ///< a gauge's place, away from the hub
+    double gain = 1.0;
+    double delay_s = 0.0;
     double time_constant_s = 0.0;
+    double offset = 0.0;
   };
 
   double length_m = 0.0;
@@ -69,14 +75,18 @@ struct TrueArm {
   std::vector<FrictionSize> dry_frictions;
   /// Force per length on the beam by its velocity.
   std::vector<std::function<double(double velocity_m_per_s)>> beam_forces_N_per_m;
-  std::vector<SensorLag> sensor_lags;
+  std::vector<SensorPath> sensor_paths;  ///< of sensors that do not show what they should
 };
 
 /// The arm as its file has it. Effects do not enter.
 TrueArm true_arm(const arm::Arm& nominal);
 
-/// The lag of a sensor, or null.
-const TrueArm::SensorLag* find_lag(const TrueArm& arm, const arm::Sensor& sensor);
+/// The path of a sensor, which is added where there is none.
+TrueArm::SensorPath& path_of(TrueArm& arm, const arm::Sensor& sensor);
+/// The path of a sensor, or one that changes nothing.
+TrueArm::SensorPath known_path(const TrueArm& arm, const arm::Sensor& sensor);
+/// The sensors where they really are.
+std::vector<arm::Sensor> really_placed(const TrueArm& arm, std::span<const arm::Sensor> sensors);
 
 /// What the torque passes first.
 namespace torque_curve_order {

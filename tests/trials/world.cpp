@@ -1,6 +1,9 @@
 #include "tests/trials/world.hpp"
 
+#include "tests/trials/experiment_plan.hpp"
+
 #include <algorithm>
+#include <utility>
 
 namespace flexarm::trials {
 
@@ -26,8 +29,11 @@ TrueArm true_arm(const World& world) {
 World with_hidden(const World& world, const TrialArm& of, const Cause& cause, double size,
                   const Chance& chance) {
   World hidden = world;
-  hidden.hidden.push_back({cause.name, cause.parameters(NaturalSizes(of), size, chance),
-                           cause.acts_on_drawn_sensor ? chance.sensor : std::string()});
+  std::string sensor;
+  if (cause.acts_on_drawn_sensor) sensor = chance.sensor;
+  if (cause.acts_on_gauge) sensor = arm::to_string(kGauge);
+  hidden.hidden.push_back(
+      {cause.name, cause.parameters(NaturalSizes(of), size, chance), std::move(sensor)});
   return hidden;
 }
 

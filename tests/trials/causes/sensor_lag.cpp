@@ -15,7 +15,7 @@ Cause sensor_lag() {
           },
           .change =
               [](const Parameters& of, const arm::Sensor& sensor, TrueArm& arm) {
-                arm.sensor_lags.push_back({sensor, of.at("time_constant")});
+                path_of(arm, sensor).time_constant_s += of.at("time_constant");
               }};
 }
 

@@ -1,0 +1,109 @@
+#include "arm/input_error.hpp"
+#include "response/time/arm_simulator.hpp"
+#include "response/time/sensor_readings.hpp"
+#include "response/time/simulation_input.hpp"
+#include "response/time/simulator_commands.hpp"
+#include "response/time/time_stepper.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace flexarm::response {
+
+using Eigen::Index;
+
+// A reading that is later by n samples is taken n samples before it is measured: until then it is a
+// state of the sampled system beside the arm's N. Of each delayed sensor there are n of them, the
+// next one to be measured first.
+
+SampledSystem ArmSimulator::sampled(double disturbance_N_m,
+                                    const Eigen::VectorXd& deviations) const {
+  const Index pending = times_.pending_readings();
+  if (pending > kMostPendingReadings) {
+    throw arm::InputError(fmt::format(
+        "Kalman filter: readings that are delayed by {} samples in all; at most {} are possible",
+        pending, kMostPendingReadings));
+  }
+  const Index d = arm_.disturbance.value();
+  const Index n = states();
+  const Eigen::MatrixXd step = transition(1.0);
+  const Eigen::MatrixXd taken = linear_readings();
+  SampledSystem made{Eigen::MatrixXd::Zero(n + pending, n + pending),
+                     Eigen::MatrixXd::Zero(taken.rows(), n + pending),
+                     Eigen::MatrixXd::Zero(n + pending, n + pending), deviations.cwiseAbs2()};
+  made.transition.topLeftCorner(n, n) = step;
+  Index next = n;
+  for (Index j = 0; j < taken.rows(); ++j) {
+    const Index later = times_.sensors[static_cast<std::size_t>(j)].samples_later;
+    if (later == 0) {
+      made.readings.row(j).head(n) = taken.row(j);
+      continue;
+    }
+    made.readings(j, next) = 1.0;
+    made.transition.block(next, next + 1, later - 1, later - 1).setIdentity();
+    made.transition.row(next + later - 1).head(n) = taken.row(j);
+    next += later;
+  }
+  // From sample to sample a stationary disturbance forgets 1 - e^(-2 h/T) of its variance.
+  const double kept = step(d, d);
+  made.process_covariance(d, d) =
+      std::pow(disturbance_N_m / arm_.disturbance_N_m, 2) * (1.0 - kept * kept);
+  return made;
+}
+
+FilteredRun ArmSimulator::filtered(std::span<const double> torque_N_m,
+                                   const Eigen::MatrixXd& measured,
+                                   const FilterGains& gains) const {
+  Commands commands(*this, torque_N_m);
+  const ReadingPlan reading_plan = commands.reading_plan();
+  TimeStepper stepper(plan_, nullptr);
+  SensorReadings readings(arm_, parts_, sensors_);
+  FilteredRun made{.innovations = {measured.rows(), measured.cols()}};
+  Eigen::MatrixXd predicted = unread(torque_N_m.size());
+  Eigen::VectorXd state;
+  Eigen::VectorXd innovation;
+  Eigen::VectorXd correction;
+  const auto predict = [&](const ReadingInstant& now) {
+    reading_plan.at(now, stepper, readings, [&](std::size_t j, std::size_t k, double reading) {
+      predicted(static_cast<Index>(k), static_cast<Index>(j)) = reading;
+    });
+  };
+  const auto correct_pending = [&](Index row) {
+    Index next = states();
+    for (Index j = 0; j < predicted.cols(); ++j) {
+      const Index later = times_.sensors[static_cast<std::size_t>(j)].samples_later;
+      const Index behind = std::min(later, predicted.rows() - row) - 1;
+      if (behind > 0) {
+        predicted.col(j).segment(row + 1, behind) += correction.segment(next + 1, behind);
+      }
+      next += later;
+    }
+  };
+  commands.step_through(stepper, 0, [&](const ReadingInstant& now) {
+    predict(now);
+    if (now.part > 0) return true;
+    const Index row = now.sample;
+    innovation = (measured.row(row) - predicted.row(row)).transpose();
+    innovation = innovation.array().isNaN().select(0.0, innovation);
+    correction = gains.at(static_cast<std::size_t>(row)).gain * innovation;
+    state = stepper.state() + correction.head(states());
+    if (!state.allFinite()) throw too_large("filtered state", now.time_s);
+    stepper.put(state, stepper.motion() == HubMotion::held);
+    stepper.take_up(now.actuator_N_m, now.time_s);
+    correct_pending(row);
+    // What is taken now to be measured later is that of the corrected state.
+    if (times_.longest_samples() > 0) predict(now);
+    made.innovations.row(row) = innovation.transpose();
+    made.disturbance_N_m.push_back(
+        arm_.disturbance ? arm_.disturbance_N_m * state(*arm_.disturbance) : 0.0);
+    const bool is_held = stepper.motion() == HubMotion::held;
+    made.hub_velocity_rad_per_s.push_back(is_held ? 0.0 : arm_.hub_velocity(stepper.state()));
+    return true;
+  });
+  return made;
+}
+
+}  // namespace flexarm::response

@@ -38,9 +38,9 @@ TEST(EffectComparison, AnEffectInOneModelAloneDisagrees) {
   for (const auto& [name, arm] : laws::arms_with_one_effect()) {
     const auto& effects = arm.effects;
     // Damping moves responses, not undamped roots.
-    const bool is_damping = effects.contains("hub_viscous_friction") ||
-                            effects.contains("structural_damping") ||
-                            effects.contains("air_damping");
+    const bool is_damping =
+        effects.contains("hub_viscous_friction") || effects.contains("back_emf") ||
+        effects.contains("structural_damping") || effects.contains("air_damping");
     Options options;
     options.poles = 5;
     options.non_collocated_zeros = 2;

@@ -9,12 +9,13 @@ namespace flexarm::trials {
 
 /// A step of the simulation, seen from the hub.
 struct HubStep {
-  double time_s = 0.0;     ///< its middle
-  double angle_rad = 0.0;  ///< there
-  double turn_rad = 0.0;   ///< by which the hub turns in the step
+  double time_s = 0.0;           ///< its middle
+  double angle_rad = 0.0;        ///< there
+  double turn_rad = 0.0;         ///< by which the hub turns in the step
+  double speed_rad_per_s = 0.0;  ///< mean of the step
 };
 
-/// A torque on the hub that depends on its angle or on time, with a memory if it needs one.
+/// A torque on the hub that depends on its motion or on time, with a memory if it needs one.
 class HubTorque {
  public:
   HubTorque() = default;

@@ -127,9 +127,10 @@ class NewmarkIntegrator {
     for (int iteration = 0; iteration < kMostIterations; ++iteration) {
       next_ = free_;
       if (!torques_.none()) {
-        const double turn = step_s_ * plant_.hub.dot(middle_);
-        next_ +=
-            torques_.mean_N_m({from_s + 0.5 * step_s_, hub_angle + 0.5 * turn, turn}) * to_hub_;
+        const double speed = plant_.hub.dot(middle_);
+        const double turn = step_s_ * speed;
+        next_ += torques_.mean_N_m({from_s + 0.5 * step_s_, hub_angle + 0.5 * turn, turn, speed}) *
+                 to_hub_;
       }
       if (has_beam_forces()) next_.noalias() += beam_to_middle_ * beam_forces(middle_);
       if (!friction_.none()) {
@@ -221,7 +222,9 @@ class NewmarkIntegrator {
   Eigen::VectorXd acceleration_at(double time_s) const {
     const double mass = plant_.modal_mass_kg_m2;
     double torque = chain_.now(time_s);
-    if (!torques_.none()) torque += torques_.mean_N_m({time_s, plant_.hub.dot(u_), 0.0});
+    if (!torques_.none()) {
+      torque += torques_.mean_N_m({time_s, plant_.hub.dot(u_), 0.0, plant_.hub.dot(v_)});
+    }
     Eigen::VectorXd a = -(plant_.damping * v_) - plant_.stiffness * u_ + torque / mass * plant_.hub;
     if (has_beam_forces()) a += to_modes_ * beam_forces(v_);
     if (friction_.none()) return a;

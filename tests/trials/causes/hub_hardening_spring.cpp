@@ -5,7 +5,6 @@ namespace flexarm::trials {
 /// A torque -coefficient theta^3.
 Cause hub_hardening_spring() {
   return {.name = "hub_hardening_spring",
-          .outside = true,
           .shown_in = ShownIn::time,
           .acts_on = ActsOn::hub,
           .largest = 300.0,

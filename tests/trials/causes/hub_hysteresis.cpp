@@ -31,22 +31,23 @@ class DahlFriction : public HubTorque {
 
 /// Dahl's friction, of which the torque creeps up to its final size over an angle.
 Cause hub_hysteresis() {
-  return {
-      .name = "hub_hysteresis",
-      .outside = true,
-      .shown_in = ShownIn::time,
-      .acts_on = ActsOn::hub,
-      .parameters = [](const NaturalSizes& natural, double size,
-                       const Chance& chance) -> Parameters {
-        return {{"torque", size * natural.torque_N_m}, {"angle", between(0.05, 0.3, chance.place)}};
-      },
-      .change =
-          [](const Parameters& of, const arm::Sensor& /*sensor*/, TrueArm& arm) {
-            arm.hub_torques.push_back([last_N_m = of.at("torque"),
-                                       angle_rad = of.at("angle")](const RunConditions& /*run*/) {
-              return std::make_unique<DahlFriction>(last_N_m, angle_rad);
-            });
-          }};
+  return {.name = "hub_hysteresis",
+          .shown_in = ShownIn::time,
+          .acts_on = ActsOn::hub,
+          .parameters = [](const NaturalSizes& natural, double size,
+                           const Chance& chance) -> Parameters {
+            // Of the typical torque the friction creeps up over 10 to 100 mrad.
+            return {{"torque", size * natural.torque_N_m},
+                    {"stiffness", natural.torque_N_m / between(0.01, 0.1, chance.place)}};
+          },
+          .change =
+              [](const Parameters& of, const arm::Sensor& /*sensor*/, TrueArm& arm) {
+                arm.hub_torques.push_back(
+                    [last_N_m = of.at("torque"),
+                     stiffness = of.at("stiffness")](const RunConditions& /*run*/) {
+                      return std::make_unique<DahlFriction>(last_N_m, last_N_m / stiffness);
+                    });
+              }};
 }
 
 }  // namespace flexarm::trials

@@ -188,8 +188,8 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
   made.predictor_reason = predicted.reason;
   made.disturbance = disturbance_gain(selection);
   const Candidate& chosen = selection.chosen.fit.candidate;
-  const std::vector<double> errors = standard_errors(
-      chosen, coordinate_errors(selection.problem, selection.chosen, options.further_modes));
+  const std::vector<double> errors =
+      standard_errors(selection.problem, selection.chosen, options.further_modes);
   const Posterior posterior = posterior_of(selection, hypotheses.size(), options);
   made.causes = causes_of(selection, posterior, errors);
   made.something_else = posterior.of_something_else();

@@ -61,6 +61,7 @@ Candidate Growth::at(double strength) const {
       made.values[i] = parameter.value(other_places[other++]);
     } else if (parameter.spacing == effects::Spacing::from_zero && share) {
       made.values[i] = *share * parameter.highest;
+      if (parameter.above_previous) made.values[i] += made.values[i - 1];
     } else {
       made.values[i] = parameter.value(*neutral + strength * ((downward ? 0.0 : 1.0) - *neutral));
       if (parameter.spacing == effects::Spacing::from_zero)

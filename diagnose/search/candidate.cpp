@@ -30,13 +30,10 @@ std::vector<SearchedParameter> Candidate::parameters() const {
 }
 
 Eigen::VectorXd Candidate::coordinates() const {
-  const auto all = parameters();
-  const auto first = static_cast<Index>(nuisances.size());
-  Eigen::VectorXd made(first + static_cast<Index>(all.size()));
-  made.head(first) = Eigen::VectorXd::Map(nuisances.data(), first);
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    made(first + static_cast<Index>(i)) = all[i].coordinate(values[i]);
-  }
+  const std::vector<double> places = effects::coordinates_of(parameters(), values);
+  Eigen::VectorXd made(std::ssize(nuisances) + std::ssize(places));
+  made << Eigen::VectorXd::Map(nuisances.data(), std::ssize(nuisances)),
+      Eigen::VectorXd::Map(places.data(), std::ssize(places));
   return made;
 }
 
@@ -44,13 +41,13 @@ void Candidate::put(const Eigen::VectorXd& places) {
   const auto all = parameters();
   const auto first = static_cast<Index>(nuisances.size());
   Eigen::VectorXd::Map(nuisances.data(), first) = places.head(first);
-  values.resize(all.size());
+  std::vector<double> of_values(all.size());
   for (std::size_t i = 0; i < all.size(); ++i) {
-    double place = places(first + static_cast<Index>(i));
-    place =
+    const double place = places(first + static_cast<Index>(i));
+    of_values[i] =
         all[i].periodic ? place - std::floor(place) : std::clamp(place, -kBeyond, 1.0 + kBeyond);
-    values[i] = all[i].value(place);
   }
+  values = effects::values_at(all, of_values);
 }
 
 std::string Candidate::label() const {

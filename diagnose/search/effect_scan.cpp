@@ -28,16 +28,17 @@ std::vector<std::vector<double>> samples_of(const Hypothesis& hypothesis) {
     }
   }
   std::vector<std::vector<double>> samples = {{}};
-  for (const SearchedParameter& parameter : hypothesis.parameters) {
+  for (std::size_t i = 0; i < hypothesis.parameters.size(); ++i) {
     std::vector<std::vector<double>> longer;
     for (const auto& sample : samples) {
       for (const double place : places) {
         longer.push_back(sample);
-        longer.back().push_back(parameter.value(place));
+        longer.back().push_back(place);
       }
     }
     samples = std::move(longer);
   }
+  for (auto& sample : samples) sample = effects::values_at(hypothesis.parameters, sample);
   return samples;
 }
 
@@ -115,21 +116,22 @@ std::optional<Fit> EffectScan::look_from_limit(const Candidate& limit, std::size
                                                const Hypothesis& general) const {
   const std::vector<SearchedParameter>& known = limit.effects[index].parameters;
   const std::vector<double> known_values = limit.values_of(index);
-  std::vector<double> values = general.middle();
+  std::vector<double> places = effects::coordinates_of(general.parameters, general.middle());
   Candidate start = limit.without(index);
   const auto first = start.coordinates().size();
   std::vector<Index> scanned;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const auto same =
-        std::ranges::find(known, general.parameters[i].name, &SearchedParameter::name);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const SearchedParameter& parameter = general.parameters[i];
+    const auto same = std::ranges::find(known, parameter.name, &SearchedParameter::name);
     if (same == known.end()) {
       scanned.push_back(first + static_cast<Index>(i));
     } else {
-      values[i] = known_values[static_cast<std::size_t>(same - known.begin())];
+      places[i] =
+          parameter.coordinate(known_values[static_cast<std::size_t>(same - known.begin())]);
     }
   }
-  if (scanned.size() == values.size()) return std::nullopt;
-  start = start.with(general, values);
+  if (scanned.size() == places.size()) return std::nullopt;
+  start = start.with(general, effects::values_at(general.parameters, places));
   if (scanned.empty()) return coarse_fit(coarse_, start);
   return best_from_scan(coarse_, start, scanned);
 }

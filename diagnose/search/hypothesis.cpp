@@ -114,9 +114,7 @@ bool Hypothesis::contains(const std::string& other_effect) const {
 }
 
 std::vector<double> Hypothesis::middle() const {
-  std::vector<double> values;
-  for (const auto& parameter : parameters) values.push_back(parameter.value(0.5));
-  return values;
+  return effects::values_at(parameters, std::vector<double>(parameters.size(), 0.5));
 }
 
 std::string Hypothesis::unit_of(const SearchedParameter& parameter) const {

@@ -105,37 +105,39 @@ double students_widening(double freedom) {
          boost::math::quantile(boost::math::normal(), 0.975);
 }
 
-/// What a step in each place is in the parameter's own unit.
-Eigen::VectorXd slopes(const Candidate& candidate) {
+/// What a step in each coordinate changes of the nuisances and of the parameters, in their units: a
+/// row each.
+Eigen::MatrixXd slopes_of(const Candidate& candidate) {
   constexpr double kSlopeStep = 1e-6;
   const Eigen::VectorXd places = candidate.coordinates();
   const auto parameters = candidate.parameters();
   const auto first = places.size() - static_cast<Index>(parameters.size());
-  Eigen::VectorXd made = Eigen::VectorXd::Ones(places.size());
+  Eigen::MatrixXd made = Eigen::MatrixXd::Identity(places.size(), places.size());
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const Index at = first + static_cast<Index>(i);
-    made(at) = std::abs(parameters[i].value(places(at) + kSlopeStep) -
-                        parameters[i].value(places(at) - kSlopeStep)) /
-               (2.0 * kSlopeStep);
+    made(at, at) = (parameters[i].value(places(at) + kSlopeStep) -
+                    parameters[i].value(places(at) - kSlopeStep)) /
+                   (2.0 * kSlopeStep);
+    if (parameters[i].above_previous) made.row(at) += made.row(at - 1);
   }
   return made;
 }
 
-}  // namespace
-
-Eigen::VectorXd coordinate_errors(const Problem& problem, const Explanation& explanation,
-                                  int further_modes) {
+/// Of as many quantities as coordinates, which change with these as the rows of `slopes` say.
+Eigen::VectorXd errors_of_quantities(const Problem& problem, const Explanation& explanation,
+                                     int further_modes, const Eigen::MatrixXd& slopes) {
   const Fit& fit = explanation.fit;
   const Index n = fit.jacobian.cols();
   if (n == 0) return Eigen::VectorXd();
   const double scale = explanation.estimation.variance_of_estimates();
   const Eigen::LDLT<Eigen::MatrixXd> information(fit.jacobian.transpose() * fit.jacobian);
-  const Eigen::MatrixXd inverse = information.solve(Eigen::MatrixXd::Identity(n, n));
+  const Eigen::MatrixXd by_gradient = slopes * information.solve(Eigen::MatrixXd::Identity(n, n));
   const auto sandwich = [&](const Clusters& clusters) -> Eigen::VectorXd {
-    return (inverse * clusters.sum() * inverse).diagonal();
+    return (by_gradient * clusters.sum() * by_gradient.transpose()).diagonal();
   };
-  Eigen::VectorXd variances =
-      (inverse * scale).diagonal().cwiseMax(sandwich(clustered_by_stretches(problem, fit)));
+  Eigen::VectorXd variances = (by_gradient * slopes.transpose() * scale)
+                                  .diagonal()
+                                  .cwiseMax(sandwich(clustered_by_stretches(problem, fit)));
   const Clusters runs = clustered_by_runs(problem, fit);
   if (runs.freedom() >= 1.0) {
     const Eigen::VectorXd of_runs = sandwich(runs);
@@ -148,16 +150,25 @@ Eigen::VectorXd coordinate_errors(const Problem& problem, const Explanation& exp
   const Problem finer = problem.with_modes(problem.predictor().flexible_modes() + further_modes);
   if (const auto refined = finer.residuals(fit.candidate, problem.estimation_runs())) {
     const Eigen::VectorXd shift =
-        information.solve(fit.jacobian.transpose() * (*refined - fit.residuals));
+        by_gradient * (fit.jacobian.transpose() * (*refined - fit.residuals));
     variances += shift.cwiseAbs2();
   }
   return variances.cwiseMax(0.0).cwiseSqrt();
 }
 
-std::vector<double> standard_errors(const Candidate& candidate,
-                                    const Eigen::VectorXd& coordinate_errors) {
-  if (coordinate_errors.size() == 0) return {};
-  const Eigen::VectorXd errors = slopes(candidate).cwiseProduct(coordinate_errors);
+}  // namespace
+
+Eigen::VectorXd coordinate_errors(const Problem& problem, const Explanation& explanation,
+                                  int further_modes) {
+  const Index n = explanation.fit.jacobian.cols();
+  return errors_of_quantities(problem, explanation, further_modes, Eigen::MatrixXd::Identity(n, n));
+}
+
+std::vector<double> standard_errors(const Problem& problem, const Explanation& explanation,
+                                    int further_modes) {
+  if (explanation.fit.jacobian.cols() == 0) return {};
+  const Eigen::VectorXd errors = errors_of_quantities(problem, explanation, further_modes,
+                                                      slopes_of(explanation.fit.candidate));
   return {errors.begin(), errors.end()};
 }
 

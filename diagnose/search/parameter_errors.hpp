@@ -23,9 +23,10 @@ namespace flexarm::diagnose {
 /// shift: H^-1 J^T (r_finer - r).
 Eigen::VectorXd coordinate_errors(const Problem& problem, const Explanation& explanation,
                                   int further_modes);
-/// The same, each in its parameter's own unit; none of a fit that failed.
-std::vector<double> standard_errors(const Candidate& candidate,
-                                    const Eigen::VectorXd& coordinate_errors);
+/// The same of nuisances and parameters, each in its parameter's own unit; none of a fit that
+/// failed.
+std::vector<double> standard_errors(const Problem& problem, const Explanation& explanation,
+                                    int further_modes);
 /// Stretches of a run or channel that stand for independent ones.
 inline constexpr int kStretches = 10;
 

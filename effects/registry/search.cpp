@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 namespace flexarm::effects {
 
@@ -54,6 +55,26 @@ std::optional<double> SearchedParameter::neutral_coordinate() const {
   if (spacing == Spacing::from_zero || spacing == Spacing::from_infinity) return 0.0;
   if (!neutral) return std::nullopt;
   return coordinate(*neutral);
+}
+
+std::vector<double> values_at(std::span<const SearchedParameter> parameters,
+                              std::span<const double> coordinates) {
+  std::vector<double> values;
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const double base = parameters[i].above_previous ? values.back() : 0.0;
+    values.push_back(base + parameters[i].value(coordinates[i]));
+  }
+  return values;
+}
+
+std::vector<double> coordinates_of(std::span<const SearchedParameter> parameters,
+                                   std::span<const double> values) {
+  std::vector<double> coordinates;
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const double base = parameters[i].above_previous ? values[i - 1] : 0.0;
+    coordinates.push_back(parameters[i].coordinate(values[i] - base));
+  }
+  return coordinates;
 }
 
 }  // namespace flexarm::effects

@@ -5,6 +5,7 @@
 #include "arm/sensor.hpp"
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -56,12 +57,23 @@ struct SearchedParameter {
   bool periodic = false;  ///< the ends are the same
   /// Where the effect does nothing, if that is neither 0 nor infinity by the spacing.
   std::optional<double> neutral = {};
+  /// All this is of how much the parameter is above the one before it, not of the parameter itself:
+  /// from 0 on, it is never below that one.
+  bool above_previous = false;
 
-  /// The value at a coordinate, 0 at the lowest and 1 at the highest, and back.
+  /// The value (or how much it is above the one before it) at a coordinate, 0 at the lowest and 1
+  /// at the highest, and back.
   double value(double coordinate) const;
   double coordinate(double value) const;
   /// The coordinate where the effect does nothing, if the parameter has one.
   std::optional<double> neutral_coordinate() const;
 };
+
+/// The parameters of an effect, or of several one after the other, at these coordinates, and back.
+/// As many as there are parameters.
+std::vector<double> values_at(std::span<const SearchedParameter> parameters,
+                              std::span<const double> coordinates);
+std::vector<double> coordinates_of(std::span<const SearchedParameter> parameters,
+                                   std::span<const double> values);
 
 }  // namespace flexarm::effects

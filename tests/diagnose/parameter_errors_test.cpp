@@ -6,14 +6,16 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstddef>
 #include <string>
+#include <vector>
 
 namespace flexarm::diagnose {
 namespace {
 
 /// Of the first parameter.
 double standard_error(const Problem& problem, const Explanation& found, int further_modes = 0) {
-  return standard_errors(found.fit.candidate, coordinate_errors(problem, found, further_modes))[0];
+  return standard_errors(problem, found, further_modes)[0];
 }
 
 TEST(StandardErrors, AreTheSpreadOfEstimatesOverSeeds) {
@@ -68,6 +70,34 @@ TEST(StandardErrors, GrowWhereResidualsGoTogether) {
                hypothesis.parameters[0].value(found.fit.candidate.coordinates()(0) - 0.5e-6)) /
       1e-6;
   EXPECT_GT(standard_error(problem, found), 3.0 * of_least_squares);
+}
+
+/// The static torque is looked for as how much it is above the Coulomb torque: its error is that of
+/// a fit of the static torque itself.
+TEST(StandardErrors, OfAParameterAboveAnotherAreThoseOfItsOwn) {
+  const std::vector<double> truth = {0.01, 0.018, 0.2};
+  const Experiment experiment = simulated_experiment(
+      {effects::named("stribeck_friction",
+                      {{"torque", truth[0]}, {"static_torque", truth[1]}, {"velocity", truth[2]}})},
+      {.duration_s = 1.5});
+  const Problem problem(experiment);
+  Hypothesis hypothesis = named(experiment, {"stribeck_friction"}).front();
+  ASSERT_TRUE(hypothesis.parameters[1].above_previous);
+  const auto errors = [&] {
+    const Explanation found =
+        explain(problem, fit(problem, problem.as_filed().with(hypothesis, truth)));
+    EXPECT_GE(found.fit.candidate.values[1], found.fit.candidate.values[0]);
+    return standard_errors(problem, found, 0);
+  };
+  const std::vector<double> above = errors();
+  hypothesis.parameters[1].above_previous = false;
+  const std::vector<double> itself = errors();
+  ASSERT_EQ(above.size(), 3U);
+  for (std::size_t i = 0; i < above.size(); ++i) {
+    EXPECT_GT(above[i], 0.0);
+    // Both fits end within their tolerance of the same place, with derivatives by differences.
+    EXPECT_NEAR(above[i] / itself[i], 1.0, 0.02) << i;
+  }
 }
 
 }  // namespace

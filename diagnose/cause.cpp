@@ -5,6 +5,7 @@
 #include "diagnose/search/rivals.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -25,6 +26,10 @@ std::vector<std::string> evidence_for(const Hypothesis& hypothesis, double share
       fmt::format("It explains {:.1f} % of the {} that is left without it.", 100.0 * share,
                   is_of_disturbance ? "variance of the unrecorded hub torque" : "excess residual"),
       fmt::format("Its signature: {}.", hypothesis.entry->speaks_for)};
+  if (!hypothesis.other_names.empty()) {
+    evidence.push_back(fmt::format("The same model as {}: no data distinguish them.",
+                                   fmt::join(hypothesis.other_names, ", ")));
+  }
   if (rivals.empty()) return evidence;
   const Rival& next = rivals.front();
   evidence.push_back(
@@ -68,11 +73,15 @@ Cause cause_of(const Selection& selection, std::size_t index, const Posterior& p
   cause.confidence = posterior.of(effect);
   const std::vector<Rival> rivals = rivals_of(effect, selection, posterior);
   cause.class_confidence = class_probability(effect, rivals, posterior);
-  for (const Rival& rival : rivals) {
-    auto& confusable = cause.confusable_with;
-    const std::string& name = rival.effect->effect;
-    if (rival.odds > kIndistinguishableOdds) break;
+  auto& confusable = cause.confusable_with;
+  confusable = effect.other_names;
+  const auto add = [&confusable](const std::string& name) {
     if (std::ranges::find(confusable, name) == confusable.end()) confusable.push_back(name);
+  };
+  for (const Rival& rival : rivals) {
+    if (rival.odds > kIndistinguishableOdds) break;
+    add(rival.effect->effect);
+    std::ranges::for_each(rival.effect->other_names, add);
   }
   cause.evidence =
       evidence_for(effect, cause.share, without.estimation.disturbance.has_value(), rivals);

@@ -32,14 +32,15 @@ inline constexpr double kMoved = 2.0;
 /// One effect that the arm file lacks.
 struct Cause {
   std::string effect;
-  std::string sensor;  ///< of a sensor_lag
+  std::string sensor;  ///< of an effect on one sensor
   std::vector<ParameterEstimate> parameters;
-  /// Posterior probability of this effect (posterior.hpp).
+  /// Posterior probability of this effect (posterior.hpp), which names of the same model share.
   double confidence = 0.0;
   /// The same of this effect or one of `confusable_with` in its place.
   double class_confidence = 0.0;
   double share = 0.0;  ///< explained of the excess residual without it, the others refitted
-  /// Effects that these data do not distinguish from it (rivals.hpp).
+  /// Effects that these data do not distinguish from it: other names of the same model, and rivals
+  /// (rivals.hpp).
   std::vector<std::string> confusable_with;
   std::vector<std::string> evidence;  ///< sentences
   std::string refuted_by;

@@ -172,11 +172,10 @@ std::vector<NearMiss> near_misses(const PredictedSelection& predicted,
 
 }  // namespace
 
-Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& hypotheses,
+Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& all,
                    const SelectionOptions& options, const DiagnosisProgress& progress) {
-  if (!holds_are_known(experiment)) {
-    return with_nearest_hold(experiment, hypotheses, options, progress);
-  }
+  if (!holds_are_known(experiment)) return with_nearest_hold(experiment, all, options, progress);
+  const std::vector<Hypothesis> hypotheses = distinct(all);
   const PredictedSelection predicted =
       select_by_evidence(experiment, hypotheses, options, progress);
   const Selection& selection = predicted.selection;

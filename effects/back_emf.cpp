@@ -5,9 +5,7 @@ namespace flexarm::effects {
 Entry back_emf() {
   return {.definition = define(
               {.name = "back_emf",
-               .meaning = "torque commanded as a voltage: T = tau - constant theta'. At the hub it "
-                          "is the same term as `hub_viscous_friction`, so that no data "
-                          "distinguish the two",
+               .meaning = "torque commanded as a voltage: T = tau - constant theta'",
                .parameters = {{.name = "constant",
                                .unit = "N m s/rad",
                                .range = arm::kNotNegative,
@@ -26,6 +24,7 @@ Entry back_emf() {
                 arm::total_inertia_kg_m2(scales.beam) * arm::omega_scale_rad_per_s(scales.beam);
             return {{"constant", 1e-3 * natural, 3.0 * natural, Spacing::from_zero}};
           },
+          .same_as = {"hub_viscous_friction"},
           .speaks_for =
               "residual hub torque proportional to hub velocity where the torque is commanded as a "
               "voltage",

@@ -152,6 +152,26 @@ std::vector<Hypothesis> hypotheses(const Experiment& experiment) {
   return all;
 }
 
+std::vector<Hypothesis> distinct(std::vector<Hypothesis> all) {
+  std::vector<Hypothesis> made;
+  const auto is_same = [](const Hypothesis& one, const Hypothesis& other) {
+    return std::ranges::find(one.entry->same_as, other.effect) != one.entry->same_as.end();
+  };
+  // Those that name another as the same follow it.
+  std::ranges::stable_partition(
+      all, [](const Hypothesis& one) { return one.entry->same_as.empty(); });
+  for (Hypothesis& one : all) {
+    const auto same = std::ranges::find_if(
+        made, [&](const Hypothesis& other) { return is_same(one, other); });
+    if (same == made.end()) {
+      made.push_back(std::move(one));
+    } else {
+      same->other_names.push_back(one.effect);
+    }
+  }
+  return made;
+}
+
 std::vector<const Hypothesis*> limits_of(const Hypothesis& effect,
                                          const std::vector<Hypothesis>& all) {
   std::vector<const Hypothesis*> limits;

@@ -23,6 +23,8 @@ struct Hypothesis {
   std::string effect;                     ///< its name
   std::string sensor = {};                ///< the sensor it acts on, where it acts on one
   std::vector<SearchedParameter> parameters = {};
+  /// Effects that are the same model, for which this one stands (`distinct`).
+  std::vector<std::string> other_names = {};
 
   /// "sensor_lag on tip_acceleration".
   std::string label() const;
@@ -40,6 +42,10 @@ struct Hypothesis {
 /// its runs. Of an effect on one sensor, one for each sensor that is in such a run and that the
 /// effect applies to.
 std::vector<Hypothesis> hypotheses(const Experiment& experiment);
+
+/// `all` with one of those that are the same model (Entry::same_as), the others as its
+/// `other_names`.
+std::vector<Hypothesis> distinct(std::vector<Hypothesis> all);
 
 /// Those of `all` that the effect becomes at a limit of its parameters.
 std::vector<const Hypothesis*> limits_of(const Hypothesis& effect,

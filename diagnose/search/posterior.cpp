@@ -64,7 +64,7 @@ Posterior::Posterior(std::vector<const Explanation*> sets, std::size_t hypothese
 }
 
 double Posterior::of(const Hypothesis& cause) const {
-  return of_any(cause, {});
+  return of_any(cause, {}) / static_cast<double>(1 + cause.other_names.size());
 }
 
 double Posterior::of_any(const Hypothesis& cause,

@@ -27,19 +27,20 @@ namespace flexarm::diagnose {
 /// d = `kDiscrepancyFreedom` is small because one thing that is wrong moves a few frequencies,
 /// damping ratios and amplitudes together.
 ///
-/// The prior of a set is the product over its causes of one over the number of hypotheses, and,
-/// where what it leaves is not noise (residual_test.hpp),
-/// SelectionOptions::prior_of_something_else. Each parameter costs `kParameterCost`. Sets that were
-/// not fitted, or whose parameters are not identified, have probability 0.
+/// The prior of a set is the product over its causes of one over the number of distinct hypotheses,
+/// and, where what it leaves is not noise (residual_test.hpp),
+/// SelectionOptions::prior_of_something_else. Names of the same model share its probability. Each
+/// parameter costs `kParameterCost`. Sets that were not fitted, or whose parameters are not
+/// identified, have probability 0.
 class Posterior {
  public:
   /// `sets` must outlive the object: no cause, and sets of causes, each set once.
   Posterior(std::vector<const Explanation*> sets, std::size_t hypotheses,
             const SelectionOptions& options);
 
-  /// Of all sets that have this cause.
+  /// Of all sets that have this cause; shared evenly with its `other_names`.
   double of(const Hypothesis& cause) const;
-  /// Of all sets that have this cause, or one of `others` in its place.
+  /// Of all sets that have this cause, by whichever name, or one of `others` in its place.
   double of_any(const Hypothesis& cause, const std::vector<const Hypothesis*>& others) const;
   /// That something beyond the vocabulary is there, by itself or beside causes.
   double of_something_else() const;

@@ -31,6 +31,9 @@ struct Entry {
   std::function<bool(const Scales&)> applies = {};
   /// Effects that this one becomes at a limit of its parameters.
   std::vector<std::string> contains = {};
+  /// Effects that are the same model by another name: no data distinguish them from this one. They
+  /// have as many parameters, each with the same meaning to the model.
+  std::vector<std::string> same_as = {};
   std::string speaks_for;  ///< what the data show where it is the cause
   std::string refuted_by;  ///< what would show that it is not
 };

@@ -64,6 +64,7 @@ Json effects_json(const std::vector<effects::Entry>& entries) {
          {"ports", ports},
          {"shows_in", kinds_of_data(entry.shows)},
          {"contains", entry.contains},
+         {"same_as", entry.same_as},
          {"sensor", definition.sensor ? Json(arm::to_string(*definition.sensor)) : Json(nullptr)},
          {"parameters", parameters},
          {"evidence_for", entry.speaks_for},

@@ -89,6 +89,10 @@ std::string section(const effects::Entry& entry) {
   if (!entry.contains.empty()) {
     text += fmt::format("- limiting case: `{}`\n", fmt::join(entry.contains, "`, `"));
   }
+  if (!entry.same_as.empty()) {
+    text += fmt::format("- indistinguishable in any data: `{}`\n",
+                        fmt::join(entry.same_as, "`, `"));
+  }
   text += fmt::format("- evidence for it: {}\n- evidence against it: {}\n", entry.speaks_for,
                       entry.refuted_by);
   return text + fmt::format("\n```toml\n{}```\n\n", example_of(definition));
@@ -138,6 +142,9 @@ std::string effect_page(const effects::Entry& entry) {
                       shown_in(entry.shows));
   if (!entry.contains.empty()) {
     text += fmt::format("limiting case: {}\n", fmt::join(entry.contains, ", "));
+  }
+  if (!entry.same_as.empty()) {
+    text += fmt::format("indistinguishable in any data: {}\n", fmt::join(entry.same_as, ", "));
   }
   text += to_paragraph(fmt::format("evidence for it: {}.", entry.speaks_for), 2);
   text += to_paragraph(fmt::format("evidence against it: {}.", entry.refuted_by), 2);

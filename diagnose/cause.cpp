@@ -80,7 +80,8 @@ Cause cause_of(const Selection& selection, std::size_t index, const Posterior& p
   };
   for (const Rival& rival : rivals) {
     if (rival.odds > kIndistinguishableOdds) break;
-    add(rival.effect->effect);
+    // Of the same effect it is another sensor.
+    add(rival.effect->effect == effect.effect ? rival.effect->label() : rival.effect->effect);
     std::ranges::for_each(rival.effect->other_names, add);
   }
   cause.evidence =

@@ -96,7 +96,7 @@ std::vector<LimitOfEffect> limits_in(const Candidate& candidate,
   std::vector<LimitOfEffect> found;
   for (std::size_t i = 0; i < candidate.effects.size(); ++i) {
     for (const Hypothesis* limit : limits_of(candidate.effects[i], hypotheses)) {
-      if (!candidate.has(*limit)) found.push_back({i, limit});
+      if (!candidate.has_effect(limit->effect)) found.push_back({i, limit});
     }
   }
   return found;

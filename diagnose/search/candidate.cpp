@@ -63,7 +63,13 @@ std::set<std::string> Candidate::labels() const {
 }
 
 bool Candidate::has(const Hypothesis& hypothesis) const {
-  return std::ranges::find(effects, hypothesis.effect, &Hypothesis::effect) != effects.end();
+  return std::ranges::any_of(effects, [&](const Hypothesis& own) {
+    return own.effect == hypothesis.effect && own.sensor == hypothesis.sensor;
+  });
+}
+
+bool Candidate::has_effect(const std::string& effect) const {
+  return std::ranges::find(effects, effect, &Hypothesis::effect) != effects.end();
 }
 
 Candidate Candidate::with(const Hypothesis& hypothesis,

@@ -32,7 +32,10 @@ struct Candidate {
   std::string label() const;
   /// What the effects are, in whatever order: sensor_lag is another on each sensor.
   std::set<std::string> labels() const;
+  /// That effect, on that sensor where it acts on one.
   bool has(const Hypothesis& hypothesis) const;
+  /// That effect on whichever sensor: an arm has each effect once.
+  bool has_effect(const std::string& effect) const;
   /// With one effect more, at these values; without the `index`-th.
   Candidate with(const Hypothesis& hypothesis, const std::vector<double>& its_values) const;
   Candidate without(std::size_t index) const;

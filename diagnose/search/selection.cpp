@@ -178,7 +178,7 @@ class Search {
   std::vector<Explanation> all_with(const Candidate& base, std::vector<const Hypothesis*> others,
                                     std::string_view what, double from, double to,
                                     std::size_t refitted) {
-    std::erase_if(others, [&](const Hypothesis* other) { return base.has(*other); });
+    std::erase_if(others, [&](const Hypothesis* other) { return base.has_effect(other->effect); });
     if (!base.effects.empty()) others = scan_.promising(base, std::move(others), what);
     if (others.empty()) return {};
     const double middle = from + 0.6 * (to - from);

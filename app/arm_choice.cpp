@@ -10,12 +10,14 @@
 #include "effects/registry/vocabulary.hpp"
 #include "measured/files/arm_file.hpp"
 #include "report/tables/text_table.hpp"
+#include "response/arm_parts.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <variant>
 
 namespace flexarm::app {
 
@@ -31,6 +33,9 @@ std::string describe_effect(const std::string& name, const arm::Effect& effect) 
     parts.push_back(fmt::format("{} {:g}{}", parameter.name, value->second, unit));
   }
   if (!effect.sensor.empty()) parts.push_back(effect.sensor);
+  if (const auto* formula = std::get_if<arm::HubTorqueFormula>(&effect.definition->given)) {
+    parts.push_back("hub torque " + formula->text);
+  }
   return fmt::format("with {}{}{}", name, parts.empty() ? "" : ": ", fmt::join(parts, ", "));
 }
 
@@ -111,6 +116,11 @@ std::string describe(const arm::Arm& arm) {
   }
   for (const auto& [name, effect] : arm.effects) lines += describe_effect(name, effect) + "\n";
   if (!arm.effects.empty()) lines += "(values include the linear effects)\n";
+  for (const auto& [name, hypothesis] : arm.hypotheses) {
+    if (arm.effects.contains(name)) continue;
+    lines += fmt::format("not included (hypothesis, a number has no value): {}: hub torque {}\n",
+                         name, hypothesis.formula.text);
+  }
   for (const auto& note : arm::plausibility_notes(arm)) {
     lines += report::to_paragraph("note: " + note, 2);
   }
@@ -118,13 +128,26 @@ std::string describe(const arm::Arm& arm) {
 }
 
 std::string left_out_of_roots(const arm::Arm& arm) {
+  const auto nonlinear = response::nonlinear_effects(arm);
+  const auto linearised = response::linearised_effects(arm);
   std::vector<std::string> names;
   for (const auto& [name, effect] : arm.effects) {
-    if (!effect.definition->is_of_linear_arm()) names.push_back(name);
+    if (effect.definition->is_of_linear_arm()) continue;
+    const bool is_linear = effect.definition->linear_term &&
+                           std::ranges::find(nonlinear, name) == nonlinear.end();
+    if (!is_linear && std::ranges::find(linearised, name) == linearised.end()) {
+      names.push_back(name);
+    }
   }
-  if (names.empty()) return "";
-  return fmt::format("not included (not part of the linear equations): {}\n",
-                     fmt::join(names, ", "));
+  std::string text;
+  if (!names.empty()) {
+    text += fmt::format("not included (not part of the linear equations): {}\n",
+                        fmt::join(names, ", "));
+  }
+  if (!linearised.empty()) {
+    text += fmt::format("linearised at rest: {}\n", fmt::join(linearised, ", "));
+  }
+  return text;
 }
 
 }  // namespace flexarm::app

@@ -37,8 +37,9 @@ std::filesystem::path folder_of(const std::filesystem::path& out, const arm::Arm
 /// the head of an output.
 std::string describe(const arm::Arm& arm);
 
-/// A line that names the arm's effects that its poles, zeros and modes leave out, since they act
-/// outside its linear equations; empty where there are none.
+/// Lines that name the arm's effects that its poles, zeros and modes leave out, since they act
+/// outside its linear equations, and those that are there with their slopes at rest; empty where
+/// there are none.
 std::string left_out_of_roots(const arm::Arm& arm);
 
 }  // namespace flexarm::app

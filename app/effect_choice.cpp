@@ -24,14 +24,13 @@ std::vector<diagnose::Hypothesis> chosen_hypotheses(const std::vector<std::strin
                                                     const char* option) {
   if (chosen.empty()) return all;
   for (const auto& name : chosen) {
+    if (std::ranges::find(all, name, &diagnose::Hypothesis::effect) != all.end()) continue;
     if (effects::find(name) == nullptr) {
       throw arm::InputError(fmt::format("{} {}: {}", option, arm::shown(name),
                                         arm::unknown_effect(effects::vocabulary(), name)));
     }
-    if (std::ranges::find(all, name, &diagnose::Hypothesis::effect) == all.end()) {
-      throw arm::InputError(fmt::format(
-          "{} {}: has no influence on these runs, or is already in the arm file", option, name));
-    }
+    throw arm::InputError(fmt::format(
+        "{} {}: has no influence on these runs, or is already in the arm file", option, name));
   }
   std::erase_if(all, [&](const auto& hypothesis) {
     return std::ranges::find(chosen, hypothesis.effect) == chosen.end();

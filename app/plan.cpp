@@ -77,7 +77,8 @@ void prepare_outputs(const PlanArguments& arguments) {
 }
 
 diagnose::Plan plan_with_progress(const PlanArguments& arguments) {
-  const arm::Arm arm = measured::read_arm_file(arguments.arm_file, effects::vocabulary());
+  const arm::Arm arm = arm::without_hypotheses(
+      measured::read_arm_file(arguments.arm_file, effects::vocabulary()));
   const auto planned = diagnose::read_measurement_plan(arguments.plan_file);
   const auto possible = diagnose::hypotheses_of(arm, planned);
   const auto hypotheses = chosen_hypotheses(arguments.effects, possible);

@@ -57,6 +57,12 @@ std::string effects_text() {
       "# [effects.coulomb_friction]\n"
       "# torque = 0.012             # [N m]\n"
       "#\n"
+      "# A law of hub torque of your own, in theta [rad], omega [rad/s], tau [N m] and t [s]:\n"
+      "#\n"
+      "# [effects.my_cable]\n"
+      "# hub_torque = \"-k*theta^3\"\n"
+      "# k = 0.05                   # or { range = [0.001, 10] }, to be found by flexarm diagnose\n"
+      "#\n"
       "# Effect library:\n"
       "#\n";
   for (const auto& effect : effects::vocabulary()) {

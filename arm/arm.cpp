@@ -48,6 +48,12 @@ void require_valid(const Arm& arm) {
   require_valid_uncertainties(arm);
 }
 
+Arm without_hypotheses(const Arm& arm) {
+  Arm made = arm;
+  for (const auto& [name, hypothesis] : arm.hypotheses) made.effects.erase(name);
+  return made;
+}
+
 double total_inertia_kg_m2(const Arm& arm) {
   return total_inertia_kg_m2(linear_arm(arm));
 }

@@ -45,12 +45,18 @@ struct Arm {
   /// Standard deviations of numbers of the arm file relative to these, by key
   /// ("beam.youngs_modulus"; arm/uncertainties.hpp): what a fit may change beside effects.
   std::map<std::string, double> relative_uncertainties = {};
+  /// Laws of hub torque that the file states and whose numbers are to be found, by name. One whose
+  /// numbers have values beside their ranges is among the effects too.
+  std::map<std::string, HubTorqueHypothesis> hypotheses = {};
 
   bool operator==(const Arm&) const = default;
 };
 
 /// Throws InputError for the first value that is not finite or out of its range.
 void require_valid(const Arm& arm);
+
+/// The arm without the effects that are only supposed: those that are also hypotheses.
+Arm without_hypotheses(const Arm& arm);
 
 /// The figures below are those of the arm with its linear effects applied (arm/linear_arm.hpp).
 

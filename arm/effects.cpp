@@ -55,6 +55,14 @@ Sensor Effect::acting_sensor() const {
   return sensor.empty() ? definition->sensor.value() : parse_sensor(sensor);
 }
 
+bool Effect::operator==(const Effect& other) const {
+  if (parameters != other.parameters || sensor != other.sensor) return false;
+  if (definition == other.definition) return true;
+  return definition != nullptr && other.definition != nullptr &&
+         !std::holds_alternative<std::monostate>(definition->given) &&
+         definition->name == other.definition->name && definition->given == other.definition->given;
+}
+
 std::vector<Port> EffectDefinition::ports() const {
   std::vector<Port> made;
   if (arm_number) made.push_back(Port::arm_number);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "arm/hub_torque_formula.hpp"
+#include "arm/hub_torque_table.hpp"
 #include "arm/ports.hpp"
 #include "arm/range.hpp"
 
@@ -10,6 +12,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 namespace flexarm::arm {
@@ -42,7 +45,8 @@ struct Effect {
   /// The sensor it acts on. Throws InputError for a name that is no sensor's.
   Sensor acting_sensor() const;
 
-  bool operator==(const Effect&) const = default;
+  /// Definitions are the same, or stand alike in an arm file.
+  bool operator==(const Effect& other) const;
 };
 
 /// What an effect is and does: data and a function for each port that it acts through. An effect
@@ -53,6 +57,8 @@ struct EffectDefinition {
   std::vector<EffectParameter> parameters;
   /// Acts on one sensor: this one, unless the arm file's key `sensor` names another.
   std::optional<Sensor> sensor = {};
+  /// What an arm file states where it defines the effect itself (arm/given_effects.hpp).
+  std::variant<std::monostate, HubTorqueFormula, HubTorqueTable> given = {};
 
   std::function<void(const Effect&, Arm&)> arm_number = {};
   /// The arm is given with the numbers that effects change.

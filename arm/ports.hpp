@@ -137,7 +137,14 @@ struct DryFriction {
   std::optional<double> changes_over_rad_per_s = {};
 };
 
-using HubLaw = std::variant<ConstantHubTorque, SmoothHubTorque, DryFriction>;
+/// A smooth torque and dry friction beside it.
+struct HubTorqueWithFriction {
+  SmoothHubTorque smooth;
+  DryFriction friction;
+};
+
+using HubLaw =
+    std::variant<ConstantHubTorque, SmoothHubTorque, DryFriction, HubTorqueWithFriction>;
 
 /// Force per length on the beam by its velocity there, an odd function that takes energy:
 /// force(v) v <= 0.

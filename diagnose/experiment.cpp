@@ -79,6 +79,13 @@ Experiment read_experiment(const fs::path& measurement_file) {
   experiment.arm = measured::read_arm_file(measured::beside(measurement_file, measurement.arm),
                                            effects::vocabulary());
   experiment.notices = arm::plausibility_notes(experiment.arm);
+  for (const auto& [name, hypothesis] : experiment.arm.hypotheses) {
+    if (!experiment.arm.effects.contains(name)) continue;
+    experiment.notices.push_back(fmt::format(
+        "effects.{} has a range: it is tested as a hypothesis and is no part of the baseline",
+        name));
+  }
+  experiment.arm = arm::without_hypotheses(experiment.arm);
   for (const measured::Run& run : measurement.runs) {
     if (run.kind == measured::RunKind::modal) {
       arm::require_beam(experiment.arm, fmt::format("{}: run {}: a modal table",

@@ -2,11 +2,13 @@
 
 #include "arm/effects.hpp"
 #include "arm/input_error.hpp"
+#include "arm/linear_arm.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <limits>
+#include <memory>
 #include <utility>
 #include <variant>
 
@@ -51,7 +53,35 @@ struct LawAdder {
       hub.friction.push_back({effect, law});
     }
   }
+  void operator()(const arm::HubTorqueWithFriction& law) const {
+    (*this)(law.smooth);
+    (*this)(law.friction);
+  }
 };
+
+/// What the effect does to the linear arm alone.
+arm::Effect linear_part(const arm::Effect& effect) {
+  arm::EffectDefinition definition = *effect.definition;
+  definition.torque_path = {};
+  definition.hub_torque = {};
+  definition.beam_force = {};
+  definition.sensor_path = {};
+  arm::Effect made = effect;
+  made.definition = std::make_shared<const arm::EffectDefinition>(std::move(definition));
+  return made;
+}
+
+/// The arm with its effects on the linear arm alone.
+arm::Arm with_linear_effects(const arm::Arm& arm) {
+  arm::Arm made = arm;
+  std::erase_if(made.effects, [](const auto& effect) {
+    return !effect.second.definition->arm_number && !effect.second.definition->linear_term;
+  });
+  for (auto& [name, effect] : made.effects) {
+    if (!effect.definition->is_of_linear_arm()) effect = linear_part(effect);
+  }
+  return made;
+}
 
 /// Adds a stage to those of the same sensor. Each kind acts at its place in the chain, where gains
 /// multiply, and delays and offsets add up.
@@ -161,9 +191,7 @@ void add_effect(ArmParts& parts, const arm::Effect& effect) {
 
 ArmParts take_apart(const arm::Arm& arm) {
   arm::require_valid(arm);
-  ArmParts parts{.linear = arm};
-  std::erase_if(parts.linear.effects,
-                [](const auto& effect) { return !effect.second.definition->is_of_linear_arm(); });
+  ArmParts parts{.linear = with_linear_effects(arm)};
   std::vector<const arm::Effect*> ordered;
   for (const auto& [name, effect] : arm.effects) ordered.push_back(&effect);
   std::ranges::stable_sort(ordered, {}, [](const arm::Effect* effect) {
@@ -189,6 +217,19 @@ std::vector<std::string> nonlinear_effects(const arm::Arm& arm) {
   std::vector<std::string> names;
   for (const auto& [name, effect] : arm.effects) {
     if (is_nonlinear(effect)) names.push_back(name);
+  }
+  return names;
+}
+
+std::vector<std::string> linearised_effects(const arm::Arm& arm) {
+  std::vector<std::string> names;
+  const arm::Arm changed = arm::with_changed_numbers(arm);
+  for (const std::string& name : nonlinear_effects(arm)) {
+    const arm::Effect& effect = arm.effects.at(name);
+    if (!effect.definition->linear_term) continue;
+    arm::LinearTerms terms;
+    effect.definition->linear_term(effect, changed, terms);
+    if (terms != arm::LinearTerms{}) names.push_back(name);
   }
   return names;
 }

@@ -70,7 +70,9 @@ struct HubDisturbance {
 /// An arm taken apart by who honours its effects: a formulation those of the linear arm, response/
 /// the others.
 struct ArmParts {
-  arm::Arm linear;  ///< the arm with its effects on the linear arm alone
+  /// The arm with its effects on the linear arm alone; of an effect that acts elsewhere too, that
+  /// part.
+  arm::Arm linear;
   Actuator actuator = {};
   HubLaws hub = {};
   std::vector<OfEffect<arm::BeamForce>> beam_forces = {};
@@ -92,5 +94,8 @@ ArmParts take_apart(const arm::Arm& arm);
 /// not linear: maps of the torque that are not proportional, laws of hub torque, forces along the
 /// beam. (A constant torque shifts the working point only.) In the order of their names.
 std::vector<std::string> nonlinear_effects(const arm::Arm& arm);
+
+/// Those of them that are there with their slopes at rest, as terms of the linear arm.
+std::vector<std::string> linearised_effects(const arm::Arm& arm);
 
 }  // namespace flexarm::response

@@ -10,8 +10,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <memory>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace flexarm::response {
@@ -56,20 +58,18 @@ arm::Arm without_damping(const arm::Arm& arm) {
   arm::Arm undamped = arm;
   undamped.damping = {};
   undamped.hub.viscous_friction_N_m_s_per_rad = 0.0;
-  std::erase_if(undamped.effects, [&arm](const auto& named) {
-    const arm::Effect& effect = named.second;
-    if (!effect.definition->linear_term) return false;
-    arm::LinearTerms terms;
-    effect.definition->linear_term(effect, arm, terms);
-    if (terms.damping == arm::LinearTerms::Damping{}) return false;
-    terms.damping = {};
-    if (terms == arm::LinearTerms{} && !effect.definition->arm_number) return true;
-    throw arm::InputError(
-        fmt::format(
-            "effects.{}: port {}: damping combined with other terms has no static correction",
-            named.first, arm::to_string(arm::Port::linear_term)),
-        "effects." + named.first);
-  });
+  for (auto& [name, effect] : undamped.effects) {
+    if (!effect.definition->linear_term) continue;
+    arm::EffectDefinition definition = *effect.definition;
+    definition.linear_term = [term = definition.linear_term](const arm::Effect& of,
+                                                             const arm::Arm& whole,
+                                                             arm::LinearTerms& terms) {
+      const arm::LinearTerms::Damping before = terms.damping;
+      term(of, whole, terms);
+      terms.damping = before;
+    };
+    effect.definition = std::make_shared<const arm::EffectDefinition>(std::move(definition));
+  }
   return undamped;
 }
 

@@ -3,6 +3,7 @@
 #include "arm/effects.hpp"
 #include "arm/linear_arm.hpp"
 #include "arm/rigid_hub.hpp"
+#include "effects/registry/stated_entry.hpp"
 #include "effects/registry/vocabulary.hpp"
 
 #include <algorithm>
@@ -130,12 +131,13 @@ std::vector<Hypothesis> hypotheses(const Experiment& experiment) {
     const std::string& name = entry.definition->name;
     if (experiment.arm.effects.contains(name)) continue;
     if (!arm::has_beam(experiment.arm) && !arm::acts_without_beam(*entry.definition)) continue;
+    const std::shared_ptr<const effects::Entry> of_library(std::shared_ptr<void>(), &entry);
     const auto add = [&](const Scales& its_scales, const std::string& sensor) {
       if (entry.applies && !entry.applies(its_scales)) return;
-      all.push_back({&entry, name, sensor, entry.search(its_scales)});
+      all.push_back({of_library, name, sensor, entry.search(its_scales)});
     };
     const auto shown_in = [&](const measured::MeasuredRun& run) {
-      return Hypothesis{&entry, name}.shows_in(run.run.kind);
+      return Hypothesis{of_library, name}.shows_in(run.run.kind);
     };
     if (!entry.definition->sensor) {
       if (std::ranges::any_of(experiment.runs, shown_in)) add(scales, {});
@@ -147,6 +149,14 @@ std::vector<Hypothesis> hypotheses(const Experiment& experiment) {
     }
     for (const arm::Sensor& sensor : sensors) {
       add(scales_of_sensor(scales, experiment, sensor), arm::to_string(sensor));
+    }
+  }
+  for (const auto& [name, stated] : experiment.arm.hypotheses) {
+    const auto entry = std::make_shared<const effects::Entry>(effects::stated_entry(name, stated));
+    const Hypothesis made{entry, name, {}, entry->search(scales), stated.known};
+    if (std::ranges::any_of(experiment.runs,
+                            [&](const auto& run) { return made.shows_in(run.run.kind); })) {
+      all.push_back(made);
     }
   }
   return all;
@@ -184,11 +194,14 @@ std::vector<const Hypothesis*> limits_of(const Hypothesis& effect,
 arm::Arm extended(const arm::Arm& arm, const Hypothesis& hypothesis,
                   std::span<const double> values) {
   arm::Arm made = arm;
-  arm::Effect effect{.definition = hypothesis.entry->definition, .sensor = hypothesis.sensor};
+  arm::Effect effect{.definition = hypothesis.entry->definition,
+                     .parameters = hypothesis.known,
+                     .sensor = hypothesis.sensor};
   for (std::size_t i = 0; i < values.size(); ++i) {
     effect.parameters[hypothesis.parameters[i].name] = values[i];
   }
   made.effects[hypothesis.effect] = std::move(effect);
+  made.hypotheses.erase(hypothesis.effect);
   return made;
 }
 

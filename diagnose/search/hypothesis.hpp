@@ -4,6 +4,8 @@
 #include "diagnose/experiment.hpp"
 #include "effects/registry/entry.hpp"
 
+#include <map>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -17,12 +19,13 @@ using effects::Shows;
 /// The scales of an experiment, for where effects are looked for.
 Scales scales_of(const Experiment& experiment);
 
-/// An effect of the vocabulary as a possible cause.
+/// An effect as a possible cause: of the library, or a law that the arm file states.
 struct Hypothesis {
-  const effects::Entry* entry = nullptr;  ///< of effects::entries()
-  std::string effect;                     ///< its name
-  std::string sensor = {};                ///< the sensor it acts on, where it acts on one
+  std::shared_ptr<const effects::Entry> entry;
+  std::string effect;       ///< its name
+  std::string sensor = {};  ///< the sensor it acts on, where it acts on one
   std::vector<SearchedParameter> parameters = {};
+  std::map<std::string, double> known = {};  ///< of its other parameters
   /// Effects that are the same model, for which this one stands (`distinct`).
   std::vector<std::string> other_names = {};
 
@@ -40,7 +43,7 @@ struct Hypothesis {
 /// Every cause that the experiment's arm may have and its data may show, in the order of
 /// effects::entries(): not effects that the arm file already has, nor those that show in no kind of
 /// its runs. Of an effect on one sensor, one for each sensor that is in such a run and that the
-/// effect applies to.
+/// effect applies to. Behind them the arm's own hypotheses.
 std::vector<Hypothesis> hypotheses(const Experiment& experiment);
 
 /// `all` with one of those that are the same model (Entry::same_as), the others as its
@@ -51,7 +54,7 @@ std::vector<Hypothesis> distinct(std::vector<Hypothesis> all);
 std::vector<const Hypothesis*> limits_of(const Hypothesis& effect,
                                          const std::vector<Hypothesis>& all);
 
-/// The arm with the effect at these values, one a parameter.
+/// The arm with the effect at these values, one a parameter; it is no hypothesis of that arm.
 arm::Arm extended(const arm::Arm& arm, const Hypothesis& hypothesis,
                   std::span<const double> values);
 

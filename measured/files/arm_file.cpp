@@ -4,6 +4,7 @@
 #include "arm/input_error.hpp"
 #include "arm/nearest_name.hpp"
 #include "arm/uncertainties.hpp"
+#include "measured/files/stated_effect.hpp"
 #include "measured/files/text_file.hpp"
 #include "measured/files/toml_document.hpp"
 #include "measured/files/toml_node.hpp"
@@ -66,6 +67,10 @@ class Reader {
  private:
   void fault(const std::string& key, const std::string& what) {
     faults_.emplace(line_of(key), key + what);
+  }
+
+  FaultAtLine by_line() {
+    return [this](int line, const std::string& what) { faults_.emplace(line, what); };
   }
 
   void wrong_type(const std::string& key, const toml::node& node, const std::string& allowed) {
@@ -132,8 +137,13 @@ class Reader {
     note_line(key, node);
     const auto definition = arm::find_effect(vocabulary_, name);
     const auto* table = node.as_table();
+    if (table != nullptr && table->contains(kStatedLawKey)) {
+      read_stated(name, *table, definition != nullptr);
+      return;
+    }
     if (definition == nullptr) {
-      fault(key, ": " + arm::unknown_effect(vocabulary_, name));
+      fault(key, ": " + arm::unknown_effect(vocabulary_, name) +
+                     "; a law of your own needs the key hub_torque");
       return;
     }
     if (table == nullptr) {
@@ -149,6 +159,30 @@ class Reader {
     for (const auto& [leaf, value] : *table) {
       read_parameter(*definition, arm::shown(leaf.str()), value, effect);
     }
+  }
+
+  /// A law of the user's own: an effect where every number has a value, a hypothesis where one has
+  /// a range, or both.
+  void read_stated(const std::string& name, const toml::table& table, bool is_of_library) {
+    const std::string key = "effects." + name;
+    if (is_of_library) {
+      note_line(key + "." + kStatedLawKey, *table.get(kStatedLawKey));
+      fault(key + "." + kStatedLawKey,
+            fmt::format(": {} is an effect of the library; a law of your own needs another name",
+                        name));
+      return;
+    }
+    const auto stated = read_stated_effect(name, table, by_line());
+    if (!stated) return;
+    const auto& formula = std::get<arm::HubTorqueFormula>(stated->definition->given);
+    if (stated->values.size() == formula.numbers.size()) {
+      arm_.effects[name] = {.definition = stated->definition, .parameters = stated->values};
+    }
+    if (stated->ranges.empty()) return;
+    arm::HubTorqueHypothesis hypothesis{formula, stated->ranges, stated->values};
+    std::erase_if(hypothesis.known,
+                  [&](const auto& value) { return hypothesis.ranges.contains(value.first); });
+    arm_.hypotheses[name] = std::move(hypothesis);
   }
 
   void read_parameter(const arm::EffectDefinition& definition, const std::string& leaf,

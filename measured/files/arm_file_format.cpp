@@ -5,12 +5,15 @@
 #include "arm/utf8.hpp"
 #include "measured/files/arm_file.hpp"
 #include "measured/files/atomic_file.hpp"
+#include "measured/files/stated_effect.hpp"
 
 #include <fmt/format.h>
 
 #include <array>
 #include <charconv>
 #include <iterator>
+#include <map>
+#include <variant>
 
 namespace flexarm::measured {
 
@@ -79,7 +82,21 @@ std::string format_arm(const arm::Arm& arm) {
   std::string out;
   if (!arm.name.empty()) out += fmt::format("name = {}\n", toml_string(arm.name));
   for (const auto& table : arm::arm_tables()) append_keys(out, arm, table);
-  for (const auto& [name, effect] : arm.effects) append_effect(out, name, effect);
+  for (const auto& [name, effect] : arm.effects) {
+    if (const auto* formula = std::get_if<arm::HubTorqueFormula>(&effect.definition->given)) {
+      const auto hypothesis = arm.hypotheses.find(name);
+      out += format_stated_effect(name, *formula, effect.parameters,
+                                  hypothesis == arm.hypotheses.end()
+                                      ? std::map<std::string, arm::Interval>()
+                                      : hypothesis->second.ranges);
+    } else {
+      append_effect(out, name, effect);
+    }
+  }
+  for (const auto& [name, hypothesis] : arm.hypotheses) {
+    if (arm.effects.contains(name)) continue;
+    out += format_stated_effect(name, hypothesis.formula, hypothesis.known, hypothesis.ranges);
+  }
   return out;
 }
 

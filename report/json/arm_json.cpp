@@ -4,6 +4,8 @@
 #include "arm/rigid_hub.hpp"
 #include "effects/registry/vocabulary.hpp"
 
+#include <variant>
+
 namespace flexarm::report {
 
 namespace {
@@ -23,8 +25,11 @@ nlohmann::ordered_json effects_json(const arm::Effects& effects) {
                                                     : std::string())}});
     }
     nlohmann::ordered_json entry = {
-        {"effect", name}, {"parameters", parameters}, {"sensor", nullptr}};
+        {"effect", name}, {"parameters", parameters}, {"sensor", nullptr}, {"hub_torque", nullptr}};
     if (!effect.sensor.empty()) entry["sensor"] = effect.sensor;
+    if (const auto* formula = std::get_if<arm::HubTorqueFormula>(&effect.definition->given)) {
+      entry["hub_torque"] = formula->text;
+    }
     entries.push_back(std::move(entry));
   }
   return entries;

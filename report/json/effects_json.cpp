@@ -29,6 +29,25 @@ Json object_schema(Json properties, Json required) {
   return schema;
 }
 
+/// `[effects.NAME]` of a law of hub torque that the file states.
+Json stated_law_schema() {
+  const Json number = {{"type", "number"}};
+  const Json searched = object_schema(
+      {{"value", number},
+       {"range",
+        {{"type", "array"}, {"items", number}, {"minItems", 2}, {"maxItems", 2}}},
+       {"unit", {{"type", "string"}}}},
+      Json::array());
+  Json schema = object_schema(
+      {{"hub_torque",
+        {{"type", "string"},
+         {"description", "[N m] formula in theta [rad], omega [rad/s], tau [N m] and t [s]"}}}},
+      {"hub_torque"});
+  schema["description"] = "a stated law of hub torque; its other keys are the formula's numbers";
+  schema["additionalProperties"] = {{"anyOf", {number, searched}}};
+  return schema;
+}
+
 /// The kinds of runs, as measurement files name them.
 Json kinds_of_data(effects::Shows shows) {
   Json kinds = {"time"};
@@ -106,6 +125,7 @@ Json arm_file_schema(const std::vector<effects::Entry>& entries) {
     known[definition.name]["description"] = definition.meaning;
   }
   tables["effects"] = object_schema(std::move(known), Json::array());
+  tables["effects"]["additionalProperties"] = stated_law_schema();
   Json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"},
                  {"title", "flexarm arm file"}};
   schema.update(object_schema(std::move(tables), {"hub"}));

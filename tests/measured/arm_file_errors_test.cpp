@@ -83,7 +83,8 @@ const std::vector<Mistake> kMistakes = {
     {"EffectsInTheSingular", "# end\n", "[effect.coulomb_friction]\ntorque = 0.01\n",
      "10: effect: unknown table (did you mean effects?)" + kTopLevel},
     {"EffectMisspelt", "# end\n", "[effects.columb_friction]\ntorque = 0.01\n",
-     "10: effects.columb_friction: unknown effect (did you mean coulomb_friction?)" + kEffectNames},
+     "10: effects.columb_friction: unknown effect (did you mean coulomb_friction?)" + kEffectNames +
+         "; a law of your own needs the key hub_torque"},
     {"EffectWithoutATable", "# end\n", "[effects]\ncoulomb_friction = 0.01\n",
      "11: effects.coulomb_friction = 0.01: a number; must be a table: a line "
      "[effects.coulomb_friction], then its keys torque"},

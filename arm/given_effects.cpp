@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -62,6 +63,26 @@ std::shared_ptr<const EffectDefinition> define_effect(
   };
   made.hub_torque = [law_of](const Effect& effect) {
     return law_of(effect.parameters).beyond_slopes();
+  };
+  return std::make_shared<const EffectDefinition>(std::move(made));
+}
+
+std::shared_ptr<const EffectDefinition> define_effect(const HubTorqueTable& table) {
+  require_valid(table);
+  EffectDefinition made;
+  made.name = kHubTorqueTable;
+  made.meaning = "measured law of hub torque, a table over hub angle, hub velocity or both";
+  made.given = table;
+  made.hub_torque = [table](const Effect& /*effect*/) -> HubLaw {
+    SmoothHubTorque smooth{
+        [table](const HubState& hub, std::span<const double> /*z*/, std::span<double> /*rates*/) {
+          const auto value = table.smooth(hub.angle_rad, hub.velocity_rad_per_s);
+          return SmoothHubTorque::Value{value.torque_N_m, value.per_velocity_N_m_s};
+        }};
+    const DryFriction::Size friction{table.friction_N_m(), 0.0};
+    if (friction.torque_N_m == 0.0) return smooth;
+    return HubTorqueWithFriction{std::move(smooth),
+                                 {[friction](double /*speed*/) { return friction; }}};
   };
   return std::make_shared<const EffectDefinition>(std::move(made));
 }

@@ -19,6 +19,10 @@ std::shared_ptr<const EffectDefinition> define_effect(const std::string& name,
                                                       const HubTorqueFormula& formula,
                                                       const std::map<std::string, double>& typical);
 
+/// The effect `measured_hub_torque` of a table, without parameters. Throws InputError as
+/// require_valid(HubTorqueTable).
+std::shared_ptr<const EffectDefinition> define_effect(const HubTorqueTable& table);
+
 /// What stands for the unit of a number that the arm file gives none.
 inline constexpr const char* kUnitNotGiven = "SI";
 

@@ -4,6 +4,7 @@
 #include "arm/input_error.hpp"
 #include "arm/nearest_name.hpp"
 #include "arm/uncertainties.hpp"
+#include "measured/files/hub_torque_table_keys.hpp"
 #include "measured/files/stated_effect.hpp"
 #include "measured/files/text_file.hpp"
 #include "measured/files/toml_document.hpp"
@@ -137,6 +138,14 @@ class Reader {
     note_line(key, node);
     const auto definition = arm::find_effect(vocabulary_, name);
     const auto* table = node.as_table();
+    if (name == arm::kHubTorqueTable) {
+      if (table == nullptr) {
+        wrong_type(key, node, "a table with angle_rad, velocity_rad_per_s or both, and torque_N_m");
+      } else if (const auto read = read_hub_torque_table(*table, by_line())) {
+        arm_.effects[name] = {.definition = read};
+      }
+      return;
+    }
     if (table != nullptr && table->contains(kStatedLawKey)) {
       read_stated(name, *table, definition != nullptr);
       return;

@@ -5,6 +5,7 @@
 #include "arm/utf8.hpp"
 #include "measured/files/arm_file.hpp"
 #include "measured/files/atomic_file.hpp"
+#include "measured/files/hub_torque_table_keys.hpp"
 #include "measured/files/stated_effect.hpp"
 
 #include <fmt/format.h>
@@ -89,6 +90,8 @@ std::string format_arm(const arm::Arm& arm) {
                                   hypothesis == arm.hypotheses.end()
                                       ? std::map<std::string, arm::Interval>()
                                       : hypothesis->second.ranges);
+    } else if (const auto* table = std::get_if<arm::HubTorqueTable>(&effect.definition->given)) {
+      out += format_hub_torque_table(*table);
     } else {
       append_effect(out, name, effect);
     }

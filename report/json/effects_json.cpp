@@ -48,6 +48,18 @@ Json stated_law_schema() {
   return schema;
 }
 
+/// `[effects.measured_hub_torque]`.
+Json hub_torque_table_schema() {
+  const Json numbers = {{"type", "array"}, {"items", {{"type", "number"}}}};
+  Json schema = object_schema(
+      {{"angle_rad", numbers},
+       {"velocity_rad_per_s", numbers},
+       {"torque_N_m", {{"anyOf", {numbers, {{"type", "array"}, {"items", numbers}}}}}}},
+      {"torque_N_m"});
+  schema["description"] = "a measured law of hub torque over angle, velocity or both";
+  return schema;
+}
+
 /// The kinds of runs, as measurement files name them.
 Json kinds_of_data(effects::Shows shows) {
   Json kinds = {"time"};
@@ -124,6 +136,7 @@ Json arm_file_schema(const std::vector<effects::Entry>& entries) {
     known[definition.name] = object_schema(std::move(properties), std::move(required));
     known[definition.name]["description"] = definition.meaning;
   }
+  known[std::string(arm::kHubTorqueTable)] = hub_torque_table_schema();
   tables["effects"] = object_schema(std::move(known), Json::array());
   tables["effects"]["additionalProperties"] = stated_law_schema();
   Json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"},

@@ -167,7 +167,8 @@ std::string effects_document(const std::vector<effects::Entry>& entries) {
       "simulation supports all ports.\n"
       "Poles, zeros and frequency responses do not include nonlinear effects, and state this.\n\n"
       "Laws of hub torque that are not in the library can be stated in the arm file as a formula "
-      "([stated laws](formats.md#stated-laws)).\n\n"
+      "([stated laws](formats.md#stated-laws)) or as a\n"
+      "table, `measured_hub_torque` ([measured law](formats.md#measured-law)).\n\n"
       "| port | the effect is |\n"
       "| --- | --- |\n";
   for (const Port port : {Port::arm_number, Port::linear_term, Port::sensor_place,

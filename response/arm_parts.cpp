@@ -75,7 +75,8 @@ arm::Effect linear_part(const arm::Effect& effect) {
 arm::Arm with_linear_effects(const arm::Arm& arm) {
   arm::Arm made = arm;
   std::erase_if(made.effects, [](const auto& effect) {
-    return !effect.second.definition->arm_number && !effect.second.definition->linear_term;
+    const arm::EffectDefinition& does = *effect.second.definition;
+    return !does.arm_number && !does.linear_term && !does.sensor_place;
   });
   for (auto& [name, effect] : made.effects) {
     if (!effect.definition->is_of_linear_arm()) effect = linear_part(effect);

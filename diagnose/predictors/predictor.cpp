@@ -243,9 +243,8 @@ Eigen::VectorXd Predictor::residuals(const arm::Arm& arm, const std::vector<bool
       const auto samples = std::ssize(run.filtered.disturbance_N_m);
       auto of_hub = part.segment(*sensor * samples, samples);
       of_hub = balance_residuals(run.filtered, *noise_->balance_unit_N_m, of_hub);
-    } else {
-      part *= std::exp(more / (2.0 * static_cast<double>(count)));
     }
+    part *= std::exp(more / (2.0 * static_cast<double>(count)));
   }
   return made;
 }

@@ -56,6 +56,8 @@ class Predictor {
   /// other sensors have those that the hub's motion leaves. The fast part of a disturbance does not
   /// hide the slow one then, as it does in innovations, which are its changes from sample to
   /// sample.
+  /// The factor counts there as well: a filter that sees the hub later, or less, estimates a smaller
+  /// disturbance.
   Eigen::VectorXd residuals(const arm::Arm& arm, const std::vector<bool>& runs) const;
 
   /// By a noise model, which need not be the predictor's: of each of these `time` runs; empty for

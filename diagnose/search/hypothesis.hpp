@@ -21,8 +21,8 @@ Scales scales_of(const Experiment& experiment);
 
 /// An effect as a possible cause: of the library, or a law that the arm file states.
 struct Hypothesis {
-  std::shared_ptr<const effects::Entry> entry;
-  std::string effect;       ///< its name
+  std::shared_ptr<const effects::Entry> entry = {};
+  std::string effect = {};  ///< its name
   std::string sensor = {};  ///< the sensor it acts on, where it acts on one
   std::vector<SearchedParameter> parameters = {};
   std::map<std::string, double> known = {};  ///< of its other parameters

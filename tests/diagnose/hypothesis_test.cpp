@@ -21,8 +21,10 @@ Experiment short_experiment() {
 }
 
 TEST(Hypotheses, AreTheWholeVocabulary) {
+  // Long enough for the hub to turn by half a period of a torque ripple.
+  const Experiment experiment = simulated_experiment({}, {.duration_s = 2.0});
   std::set<std::string> names;
-  for (const Hypothesis& hypothesis : hypotheses(short_experiment())) {
+  for (const Hypothesis& hypothesis : hypotheses(experiment)) {
     names.insert(hypothesis.effect);
   }
   for (const auto& definition : effects::vocabulary()) {

@@ -31,7 +31,8 @@ TEST(EffectPage, NamesParametersPortAndKindsOfData) {
 TEST(ArmFileSchema, HasEveryEffectAndItsRequiredKeys) {
   const auto schema = report::arm_file_schema(entries());
   const auto& known = schema.at("properties").at("effects").at("properties");
-  EXPECT_EQ(known.size(), entries().size());
+  EXPECT_EQ(known.size(), entries().size() + 1);
+  EXPECT_TRUE(known.contains("measured_hub_torque"));
   EXPECT_EQ(known.at("coulomb_friction").at("required"), nlohmann::ordered_json({"torque"}));
   EXPECT_EQ(known.at("coulomb_friction").at("properties").at("torque").at("minimum"), 0.0);
   EXPECT_FALSE(known.at("shear_and_rotary_inertia").contains("required"));

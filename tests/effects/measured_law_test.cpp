@@ -34,8 +34,8 @@ response::Simulation in_time(const arm::Arm& arm, const std::vector<double>& tor
   return response::simulate(model, parts, sensors, torque, {.sample_time_s = sample_time_s});
 }
 
-constexpr double kHubInertia = 0.01;
-constexpr double kHubFriction = 0.004;
+constexpr double kTableHubInertia = 0.01;
+constexpr double kTableHubFriction = 0.004;
 
 /// Angle and velocity at each sample by Runge and Kutta's method for J theta'' = tau - c theta' +
 /// T(theta, theta'), T given on two axes; the torque is held from sample to sample.
@@ -50,7 +50,7 @@ std::vector<std::array<double, 2>> integrated(const Torque& law, const std::vect
   for (const double tau : torque) {
     states.push_back({angle, speed});
     const auto rate = [&](double a, double v) {
-      return (tau - kHubFriction * v + law(a, v)) / kHubInertia;
+      return (tau - kTableHubFriction * v + law(a, v)) / kTableHubInertia;
     };
     for (int i = 0; i < kSteps; ++i) {
       const double v1 = speed;
@@ -85,7 +85,7 @@ TEST(MeasuredLaw, MovesARigidHubAsAnIntegrationOfTheSameTable) {
     table.torque_N_m.insert(table.torque_N_m.end(), row.begin(), row.end());
   }
   arm::Arm hub;
-  hub.hub = {kHubInertia, kHubFriction};
+  hub.hub = {kTableHubInertia, kTableHubFriction};
   const double sample_time_s = 2e-3;
   std::vector<double> torque;
   for (int k = 0; k < 1500; ++k)
@@ -167,7 +167,7 @@ TEST(MeasuredLaw, OfALineIsViscousFriction) {
 TEST(MeasuredLaw, OfAnAngleIsASpring) {
   // Of a beam, as many modes with a spring hold another part of the motion.
   arm::Arm hub;
-  hub.hub = {kHubInertia, kHubFriction};
+  hub.hub = {kTableHubInertia, kTableHubFriction};
   arm::Arm library = hub;
   put(library, "hub_spring", {{"stiffness", 0.6}});
   expect_same_in_time(

@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -21,8 +22,8 @@ diagnose::Hypothesis stribeck_hypothesis() {
   scales.torque_rms_N_m = 0.1;
   scales.torque_peak_N_m = 0.2;
   scales.speed_rms_rad_per_s = 2.0;
-  const Entry& entry = *find("stribeck_friction");
-  return {&entry, "stribeck_friction", {}, entry.search(scales)};
+  const auto entry = std::make_shared<const Entry>(*find("stribeck_friction"));
+  return {entry, "stribeck_friction", {}, entry->search(scales)};
 }
 
 std::string refusal_of(const std::string& stribeck) {

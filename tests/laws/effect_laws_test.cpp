@@ -111,7 +111,8 @@ TEST_P(EffectLaws, TheModalSumTendsToTheTransferFunction) {
   Arm undamped = arm();
   undamped.hub.viscous_friction_N_m_s_per_rad = 0.0;
   undamped.damping.kelvin_voigt_s = 0.0;
-  for (const char* damping : {"hub_viscous_friction", "structural_damping", "air_damping"}) {
+  for (const char* damping :
+       {"hub_viscous_friction", "back_emf", "structural_damping", "air_damping"}) {
     undamped.effects.erase(damping);
   }
   const auto exact = make(undamped);

@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -144,7 +145,9 @@ class ArmGenerator {
     if (chance()) arm.payload = {not_negative(), not_negative()};
     if (chance()) arm.damping.kelvin_voigt_s = not_negative();
     for (const auto& definition : effects::vocabulary()) {
-      if (pick(4) == 0) arm.effects[definition->name] = effect(definition, arm.beam);
+      const bool needs_gauge = definition->name == "gauge_position";
+      if (pick(4) != 0 || (needs_gauge && !arm.beam.thickness_m)) continue;
+      arm.effects[definition->name] = effect(definition, arm.beam);
     }
     return arm;
   }
@@ -215,9 +218,15 @@ class ArmGenerator {
         value = beam.length_m * 0.25;
       }
       if (definition->name == "beam_length") value = 0.75;  // a crack stays on the beam
+      if (definition->name == "gauge_position") value = beam.length_m * 0.25;
+      if (definition->name == "stribeck_friction" && parameter.name == "static_torque") {
+        value = std::max(value, effect.parameters.at("torque"));
+      }
       effect.parameters[parameter.name] = value;
     }
-    if (definition->sensor && chance()) {
+    if (definition->name == "gauge_position") {
+      effect.sensor = "strain@0";
+    } else if (definition->sensor && chance()) {
       effect.sensor = beam.thickness_m && chance() ? "strain@0" : "hub_velocity";
     }
     return effect;

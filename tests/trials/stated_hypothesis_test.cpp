@@ -34,7 +34,10 @@ diagnose::Diagnosis diagnosed_with(const std::string& stated, const fs::path& fo
 
 class StatedHypothesis : public testing::Test {
  protected:
-  StatedHypothesis() : folder_(fs::path(testing::TempDir()) / "stated-hypothesis") {
+  /// One a test: they run side by side.
+  StatedHypothesis()
+      : folder_(fs::path(testing::TempDir()) /
+                testing::UnitTest::GetInstance()->current_test_info()->name()) {
     fs::remove_all(folder_);
   }
   ~StatedHypothesis() override { fs::remove_all(folder_); }

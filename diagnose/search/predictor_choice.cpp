@@ -33,6 +33,12 @@ bool shows_hub(const measured::TimeRecord& record) {
   });
 }
 
+/// What a hub sensor shows is the motion that the torque is balanced for, so that the balance does
+/// not judge that sensor.
+bool is_on_hub_sensor(const Hypothesis& hypothesis) {
+  return hypothesis.sensor == "hub_angle" || hypothesis.sensor == "hub_velocity";
+}
+
 /// Of the predictors with a noise model: torque balance where each `time` run shows the hub.
 PredictorKind filtering_predictor(const Experiment& experiment, const SelectionOptions& options) {
   if (options.predictor) return *options.predictor;
@@ -99,7 +105,9 @@ PredictedSelection select_by_evidence(const Experiment& experiment,
     }
     Problem filtered(experiment, unfiltered.observations(),
                      {.flexible_modes = modes, .noise = noise});
-    made.selection = select(std::move(filtered), hypotheses, options, second_half);
+    std::vector<Hypothesis> searched = hypotheses;
+    if (made.predictor == PredictorKind::torque_balance) std::erase_if(searched, is_on_hub_sensor);
+    made.selection = select(std::move(filtered), searched, options, second_half);
     made.reason = "as asked for";
     if (!is_asked) {
       made.reason = fmt::format(

@@ -1,5 +1,6 @@
 #include "arm/compiled_formula.hpp"
 
+#include "arm/formula_syntax.hpp"
 #include "arm/input_error.hpp"
 #include "arm/nearest_name.hpp"
 
@@ -33,10 +34,6 @@ bool is_letter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
 }
 
-bool is_decimal(char c) {
-  return c >= '0' && c <= '9';
-}
-
 /// What is no ASCII, such as Greek, is taken for a letter, so that it is refused as a whole word.
 bool is_of_word(char c) {
   return is_letter(c) || is_decimal(c) || c == '_' || static_cast<unsigned char>(c) >= 0x80U;
@@ -61,10 +58,9 @@ class FormulaReader {
   /// The text with sign(omega) replaced by a variable and blanks, so that places stay.
   std::string read() {
     while (at_ < text_.size()) {
-      const char c = text_[at_];
-      if (is_decimal(c) || (c == '.' && at_ + 1 < text_.size() && is_decimal(text_[at_ + 1]))) {
-        at_ = number_end();
-      } else if (is_of_word(c)) {
+      if (begins_number(text_, at_)) {
+        at_ = number_end(text_, at_);
+      } else if (is_of_word(text_[at_])) {
         read_word();
       } else {
         read_sign();
@@ -89,23 +85,6 @@ class FormulaReader {
           name);
     }
     names_.push_back(name);
-  }
-
-  /// "3e-2" whole, so that its e is no word.
-  std::size_t number_end() const {
-    std::size_t end = at_;
-    const auto skip = [&] {
-      while (end < text_.size() && (is_decimal(text_[end]) || text_[end] == '.')) ++end;
-    };
-    skip();
-    if (end >= text_.size() || (text_[end] != 'e' && text_[end] != 'E')) return end;
-    std::size_t exponent = end + 1;
-    if (exponent < text_.size() && (text_[exponent] == '+' || text_[exponent] == '-')) ++exponent;
-    if (exponent < text_.size() && is_decimal(text_[exponent])) {
-      end = exponent;
-      skip();
-    }
-    return end;
   }
 
   std::size_t behind_blanks(std::size_t at) const {
@@ -186,26 +165,6 @@ class FormulaReader {
   std::size_t at_ = 0;
 };
 
-std::string reason(const mu::ParserError& error, const std::string& text) {
-  switch (error.GetCode()) {
-    case mu::ecMISSING_PARENS:
-      return "a parenthesis is not closed";
-    case mu::ecUNEXPECTED_EOF:
-    case mu::ecEMPTY_EXPRESSION:
-      return "ends where a number, a variable or a function must follow";
-    case mu::ecTOO_MANY_PARAMS:
-      return "a function has too many arguments";
-    case mu::ecTOO_FEW_PARAMS:
-      return "a function has too few arguments";
-    default:
-      break;
-  }
-  // Errors of a token come with the place behind it or in front of it.
-  const auto place = static_cast<std::size_t>(std::max(0, error.GetPos()));
-  if (place >= text.size()) return "cannot be read at its end";
-  return fmt::format("cannot be read at character {}, {}", place + 1, shown(text.substr(place)));
-}
-
 }  // namespace
 
 /// A parser with the variables that it reads.
@@ -262,7 +221,9 @@ CompiledFormula::CompiledFormula(const std::string& text, const std::vector<std:
       throw InputError("has several values between commas; must have one");
     }
   } catch (const mu::ParserError& error) {
-    throw InputError(reason(error, text));
+    // Errors of a token come with the place behind it or in front of it.
+    const auto place = static_cast<std::size_t>(std::max(0, error.GetPos()));
+    throw InputError(syntax_fault(error, "a variable", text, place));
   }
   variables_ = reader.used();
   is_algebraic_ = reader.is_algebraic();

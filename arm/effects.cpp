@@ -55,6 +55,14 @@ Sensor Effect::acting_sensor() const {
   return sensor.empty() ? definition->sensor.value() : parse_sensor(sensor);
 }
 
+Effect redefined(const Effect& effect, const std::function<void(EffectDefinition&)>& change) {
+  EffectDefinition definition = *effect.definition;
+  change(definition);
+  Effect made = effect;
+  made.definition = std::make_shared<const EffectDefinition>(std::move(definition));
+  return made;
+}
+
 bool Effect::operator==(const Effect& other) const {
   if (parameters != other.parameters || sensor != other.sensor) return false;
   if (definition == other.definition) return true;

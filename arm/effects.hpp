@@ -80,6 +80,9 @@ struct EffectDefinition {
   bool is_of_linear_arm() const;
 };
 
+/// The effect with a definition of its own, as `change` leaves it.
+Effect redefined(const Effect& effect, const std::function<void(EffectDefinition&)>& change);
+
 /// Effects by name, as `[effects.NAME]` of an arm file.
 using Effects = std::map<std::string, Effect>;
 

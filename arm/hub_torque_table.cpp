@@ -98,8 +98,8 @@ double HubTorqueTable::friction_N_m() const {
 HubTorqueTable::Value HubTorqueTable::smooth(double angle_rad_, double velocity) const {
   const AxisPlace row = place_on(angle_rad, angle_rad_);
   const AxisPlace column = place_on(velocity_rad_per_s, velocity);
-  const double friction = friction_N_m();
   const std::size_t jump = jump_of(velocity_rad_per_s);
+  const double friction = jump == velocity_rad_per_s.size() ? 0.0 : jump_at(*this, 0, jump);
   // With F added at the velocities above 0 and taken off below it does not jump.
   const auto at = [&](std::size_t i, std::size_t j) {
     const double torque = torque_N_m[i * columns() + j];

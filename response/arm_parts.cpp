@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <memory>
 #include <utility>
 #include <variant>
 
@@ -61,14 +60,12 @@ struct LawAdder {
 
 /// What the effect does to the linear arm alone.
 arm::Effect linear_part(const arm::Effect& effect) {
-  arm::EffectDefinition definition = *effect.definition;
-  definition.torque_path = {};
-  definition.hub_torque = {};
-  definition.beam_force = {};
-  definition.sensor_path = {};
-  arm::Effect made = effect;
-  made.definition = std::make_shared<const arm::EffectDefinition>(std::move(definition));
-  return made;
+  return arm::redefined(effect, [](arm::EffectDefinition& definition) {
+    definition.torque_path = {};
+    definition.hub_torque = {};
+    definition.beam_force = {};
+    definition.sensor_path = {};
+  });
 }
 
 /// The arm with its effects on the linear arm alone.

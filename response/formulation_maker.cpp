@@ -10,7 +10,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <memory>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -60,15 +59,15 @@ arm::Arm without_damping(const arm::Arm& arm) {
   undamped.hub.viscous_friction_N_m_s_per_rad = 0.0;
   for (auto& [name, effect] : undamped.effects) {
     if (!effect.definition->linear_term) continue;
-    arm::EffectDefinition definition = *effect.definition;
-    definition.linear_term = [term = definition.linear_term](const arm::Effect& of,
-                                                             const arm::Arm& whole,
-                                                             arm::LinearTerms& terms) {
-      const arm::LinearTerms::Damping before = terms.damping;
-      term(of, whole, terms);
-      terms.damping = before;
-    };
-    effect.definition = std::make_shared<const arm::EffectDefinition>(std::move(definition));
+    effect = arm::redefined(effect, [](arm::EffectDefinition& definition) {
+      definition.linear_term = [term = definition.linear_term](const arm::Effect& of,
+                                                               const arm::Arm& whole,
+                                                               arm::LinearTerms& terms) {
+        const arm::LinearTerms::Damping before = terms.damping;
+        term(of, whole, terms);
+        terms.damping = before;
+      };
+    });
   }
   return undamped;
 }

@@ -11,8 +11,8 @@ namespace flexarm::diagnose {
 
 /// What a stochastic grey-box model leaves of `time` runs to the disturbance of the hub torque.
 struct DisturbanceLeft {
-  double deviation_N_m = 0.0;             ///< most likely one, the rest of the noise model as it is
-  double relative = 0.0;                  ///< to the root mean square of the commanded torque
+  double deviation_N_m = 0.0;  ///< most likely one, the rest of the noise model as it is
+  double relative = 0.0;       ///< to the root mean square of the commanded torque
   /// Root mean square of the filter's estimates of it, with the noise model as it is. Most of it
   /// may be slow, while the likelihood goes by what is fast: the deviation says little of it.
   double estimated_N_m = 0.0;

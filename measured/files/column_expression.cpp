@@ -1,5 +1,6 @@
 #include "measured/files/column_expression.hpp"
 
+#include "arm/formula_syntax.hpp"
 #include "arm/input_error.hpp"
 #include "arm/nearest_name.hpp"
 #include "measured/files/column_lookup.hpp"
@@ -35,7 +36,7 @@ struct ColumnReference {
 struct Rewritten {
   std::string text;
   std::vector<ColumnReference> columns;  ///< one for each variable
-  std::vector<std::size_t> origin;       ///< of each character of `text`, its place in the expression
+  std::vector<std::size_t> origin;  ///< of each character of `text`, its place in the expression
 };
 
 std::string variable_name(std::size_t k) {
@@ -54,10 +55,6 @@ bool begins_name(char c) {
          static_cast<unsigned char>(c) >= 0x80U;
 }
 
-bool is_digit(char c) {
-  return c >= '0' && c <= '9';
-}
-
 [[noreturn]] void refuse_expression(const std::string& expression, const std::string& why) {
   throw InputError(fmt::format("expression = {}: {}", arm::shown(expression, 200), why));
 }
@@ -74,8 +71,8 @@ class Rewriter {
         read_quoted();
       } else if (begins_name(c)) {
         read_name();
-      } else if (is_digit(c) || (c == '.' && at_ + 1 < all_.size() && is_digit(all_[at_ + 1]))) {
-        copy(number_end());
+      } else if (arm::begins_number(all_, at_)) {
+        copy(arm::number_end(all_, at_));
       } else if (c == '=' || c == '<' || c == '>' || c == '!') {
         read_comparison();
       } else if (c == '"' || c == '\'' || c == ';') {
@@ -130,9 +127,10 @@ class Rewriter {
   }
 
   std::size_t name_end(std::size_t at) const {
-    while (at < all_.size() && (begins_name(all_[at]) || is_digit(all_[at]) || all_[at] == '.')) {
-      ++at;
-    }
+    const auto is_of_name = [](char c) {
+      return begins_name(c) || arm::is_decimal(c) || c == '.';
+    };
+    while (at < all_.size() && is_of_name(all_[at])) ++at;
     return at;
   }
 
@@ -192,24 +190,6 @@ class Rewriter {
         arm::shown(name));
   }
 
-  /// "3e-2" whole, so that its e is no name.
-  std::size_t number_end() const {
-    std::size_t end = at_;
-    const auto digits = [&] {
-      while (end < all_.size() && (is_digit(all_[end]) || all_[end] == '.')) ++end;
-    };
-    digits();
-    if (end < all_.size() && (all_[end] == 'e' || all_[end] == 'E')) {
-      std::size_t exponent = end + 1;
-      if (exponent < all_.size() && (all_[exponent] == '+' || all_[exponent] == '-')) ++exponent;
-      if (exponent < all_.size() && is_digit(all_[exponent])) {
-        end = exponent;
-        digits();
-      }
-    }
-    return end;
-  }
-
   /// == <= >= != < >; a single = would assign.
   void read_comparison() {
     const bool is_pair = at_ + 1 < all_.size() && all_[at_ + 1] == '=';
@@ -227,25 +207,10 @@ class Rewriter {
 
 std::string reason_of(const mu::ParserError& error, const Rewritten& rewritten,
                       const std::string& expression) {
-  switch (error.GetCode()) {
-    case mu::ecMISSING_PARENS:
-      return "a parenthesis is not closed";
-    case mu::ecUNEXPECTED_EOF:
-    case mu::ecEMPTY_EXPRESSION:
-      return "ends where a number, a column or a function must follow";
-    case mu::ecTOO_MANY_PARAMS:
-      return "a function has too many arguments";
-    case mu::ecTOO_FEW_PARAMS:
-      return "a function has too few arguments";
-    default:
-      break;
-  }
   // Errors of a token come with the place behind it or in front of it.
   const auto place = static_cast<std::size_t>(std::max(0, error.GetPos()));
   const auto begin = place < rewritten.origin.size() ? rewritten.origin[place] : expression.size();
-  if (begin >= expression.size()) return "cannot be read at its end";
-  return fmt::format("cannot be read at character {}, {}", begin + 1,
-                     arm::shown(expression.substr(begin)));
+  return arm::syntax_fault(error, "a column", expression, begin);
 }
 
 /// Compiles the expression over variables at `cells` and hands the parser to `use`.

@@ -14,6 +14,7 @@
 #include "report/json/json_document.hpp"
 #include "report/progress.hpp"
 #include "report/tables/csv.hpp"
+#include "report/tables/empirical_law_table.hpp"
 #include "report/tables/diagnosis_tables.hpp"
 #include "report/tables/plan_tables.hpp"
 #include "report/tables/symptom_tables.hpp"
@@ -77,8 +78,10 @@ std::optional<diagnose::PredictorKind> chosen_predictor(const std::string& word)
   for (const auto kind : diagnose::kPredictors) {
     if (word == diagnose::to_string(kind)) return kind;
   }
-  throw arm::InputError(fmt::format(
-      "--predictor {}: must be auto, output_error, grey_box or torque_balance", arm::shown(word)));
+  throw arm::InputError(
+      fmt::format("--predictor {}: must be auto, output_error, closed_loop, grey_box or "
+                  "torque_balance",
+                  arm::shown(word)));
 }
 
 /// Throws for an unknown predictor, and for outputs that could not be written, or would take the
@@ -144,6 +147,9 @@ std::string text_of(const diagnose::Diagnosis& diagnosis) {
   if (!diagnosis.refitted.empty()) {
     text += report::to_text(report::refitted_table(diagnosis)) + "\n";
   }
+  if (const auto& law = diagnosis.empirical_law) {
+    text += report::to_paragraph(report::empirical_law_text(*law)) + "\n";
+  }
   text += report::to_paragraph(report::formulations_text(diagnosis.formulations)) + "\n";
   text += report::to_text(report::gain_table(diagnosis)) + "\n";
   text += report::to_text(report::channel_gain_table(diagnosis), {.key_columns = 2});
@@ -176,6 +182,9 @@ std::vector<measured::NamedContent> files_of(const diagnose::Diagnosis& diagnosi
   add_table("hub-torque.csv", report::hub_torque_table(symptoms));
   add_table("distortion.csv", report::distortion_table(symptoms));
   add_table("run-by-run.csv", report::run_value_table(symptoms));
+  if (const auto& law = diagnosis.empirical_law) {
+    add_table("empirical-law.csv", report::empirical_law_table(*law));
+  }
   for (auto& [name, svg] : plots.plots) add_file(name, std::move(svg), files);
   return files;
 }
@@ -236,9 +245,10 @@ Command add_diagnose(CLI::App& program) {
   parser
       ->add_option(
           "--predictor", arguments->predictor,
-          "How time runs are predicted: output_error (the torque alone drives the arm), grey_box "
-                   "(a Kalman filter, with an unrecorded torque on the hub), torque_balance (the "
-                   "residual hub torque for the motion as filtered) or auto")
+          "How time runs are predicted: output_error (the torque alone drives the arm), "
+          "closed_loop (the reference drives controller and arm), grey_box (a Kalman filter, with "
+          "an unrecorded torque on the hub), torque_balance (the residual hub torque for the "
+          "motion as filtered) or auto")
       ->capture_default_str();
   parser
       ->add_option("--out", arguments->folder,

@@ -3,6 +3,7 @@
 #include "diagnose/search/parameter_errors.hpp"
 #include "diagnose/search/reported_work.hpp"
 #include "diagnose/search/rivals.hpp"
+#include "diagnose/unknown/balanced_motion.hpp"
 
 #include <fmt/format.h>
 
@@ -146,7 +147,7 @@ Diagnosis with_nearest_hold(const Experiment& experiment, const std::vector<Hypo
 
 /// The explanation of a set by simulation.
 Misfit simulated(const PredictedSelection& predicted, const Explanation& set) {
-  if (predicted.predictor == PredictorKind::output_error) return set.estimation;
+  if (is_simulation(predicted.predictor)) return set.estimation;
   return explain(predicted.simulated, evaluated(predicted.simulated, set.fit.candidate)).estimation;
 }
 
@@ -196,7 +197,7 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
   // What is left is judged by simulation, whichever predictor found the effects.
   const Problem& problem = predicted.simulated;
   const Explanation as_filed = explain(problem, evaluated(problem, problem.as_filed()));
-  const Explanation extended = made.predictor == PredictorKind::output_error
+  const Explanation extended = is_simulation(made.predictor)
                                    ? selection.chosen
                                    : explain(problem, evaluated(problem, chosen));
   made.verdict = verdict_of(extended, as_filed);
@@ -215,8 +216,22 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
   made.overlays = overlays(problem.observations(), before, after);
   made.symptoms = symptoms_of({problem, before, after, chosen},
                               drift_of(selection.problem, selection, made.verdict, made.causes));
+  if (predicted.balance && made.symptoms.hub_torque.terms.empty()) {
+    // A simulation that runs away shows nothing of the torque that it lacks.
+    auto& statements = made.symptoms.statements;
+    std::erase_if(statements, [](const Symptom& symptom) {
+      return symptom.kind == SymptomKind::hub_torque;
+    });
+    statements.push_back(balance_symptom(*predicted.balance));
+    sort_by_significance(statements);
+  }
   made.refitted = refitted_numbers(selection, errors);
   made.extended_arm = chosen.extend(experiment.arm);
+  if (predicted.balance && made.verdict != Verdict::adequate &&
+      made.verdict != Verdict::explained) {
+    made.empirical_law = empirical_law(*predicted.balance, problem, chosen);
+  }
+  if (made.empirical_law) made.extended_arm = with_law(made.extended_arm, *made.empirical_law);
   made.formulations = check_formulations(made.extended_arm, scales_of(experiment).sensors);
   if (made.verdict == Verdict::unexplained || made.verdict == Verdict::partly_explained) {
     made.near_misses = near_misses(predicted, posterior);

@@ -5,6 +5,7 @@
 #include "diagnose/planning/next_experiments.hpp"
 #include "diagnose/search/predictor_choice.hpp"
 #include "diagnose/symptoms/symptoms.hpp"
+#include "diagnose/unknown/empirical_law.hpp"
 #include "diagnose/verdict.hpp"
 
 #include <optional>
@@ -72,7 +73,10 @@ struct Diagnosis {
   Symptoms symptoms;  ///< what is wrong without causes
   std::vector<RefittedNumber> refitted;
   FormulationCheck formulations;  ///< of the extended arm
-  arm::Arm extended_arm;  ///< the experiment's with the causes, uncertain numbers as refitted
+  /// What the causes leave of the hub torque, where no effect is it and a law describes it.
+  std::optional<EmpiricalLaw> empirical_law = {};
+  /// The experiment's with the causes, uncertain numbers as refitted, and the empirical law.
+  arm::Arm extended_arm;
   /// Where the residuals are not noise: the most probable sets that were not named.
   std::vector<NearMiss> near_misses;
   std::vector<NextExperiment> next_experiments;  ///< what_next

@@ -59,6 +59,19 @@ arm::Arm arm_in(const Experiment& experiment, const measured::Run& run) {
   return arm;
 }
 
+bool has_controllers(const Experiment& experiment) {
+  return std::ranges::any_of(experiment.runs,
+                             [](const auto& run) { return run.run.controller.has_value(); });
+}
+
+Experiment without_controllers(Experiment experiment) {
+  for (auto& [run, data] : experiment.runs) {
+    run.controller.reset();
+    run.reference.reset();
+  }
+  return experiment;
+}
+
 bool holds_are_known(const Experiment& experiment) {
   return std::ranges::all_of(experiment.runs,
                              [](const auto& run) { return run.run.torque_hold_is_known; });

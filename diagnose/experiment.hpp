@@ -21,6 +21,11 @@ struct Experiment {
 /// The arm of a run: with the run's payload in place of its own where it has one.
 arm::Arm arm_in(const Experiment& experiment, const measured::Run& run);
 
+/// Whether any run states the controller that made its torque; and the experiment with none that
+/// does: its torque is then what was recorded.
+bool has_controllers(const Experiment& experiment);
+Experiment without_controllers(Experiment experiment);
+
 /// Whether every `time` run says what its torque does between samples; and the experiment with
 /// those that do not taken for saying `hold`.
 bool holds_are_known(const Experiment& experiment);

@@ -46,13 +46,18 @@ class Gathering {
   std::vector<Eigen::Index> first_of_run_;
 };
 
+void gather(Gathering& all, std::size_t run, const std::string& name,
+            const std::vector<double>& samples) {
+  const double signal = measured::standard_deviation(samples);
+  const double noise = std::max(white_noise(samples), kLeastNoise * signal);
+  all.begin(run, name);
+  for (const double value : samples) all.add(value, noise);
+  all.end(noise / signal);
+}
+
 void gather(Gathering& all, std::size_t run, const measured::TimeRecord& record) {
   for (const auto& channel : record.channels) {
-    const double signal = measured::standard_deviation(channel.values);
-    const double noise = std::max(white_noise(channel.values), kLeastNoise * signal);
-    all.begin(run, arm::to_string(channel.sensor));
-    for (const double value : channel.values) all.add(value, noise);
-    all.end(noise / signal);
+    gather(all, run, arm::to_string(channel.sensor), channel.values);
   }
 }
 
@@ -114,7 +119,10 @@ Observations observe(const Experiment& experiment) {
   Gathering all;
   for (std::size_t r = 0; r < experiment.runs.size(); ++r) {
     all.begin_run();
-    std::visit([&](const auto& data) { gather(all, r, data); }, experiment.runs[r].data);
+    const auto& [run, data] = experiment.runs[r];
+    std::visit([&](const auto& own) { gather(all, r, own); }, data);
+    if (!run.controller) continue;
+    gather(all, r, std::string(kTorqueChannel), std::get<measured::TimeRecord>(data).torque_N_m);
   }
   return all.observations();
 }

@@ -8,16 +8,20 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace flexarm::diagnose {
 
+/// The channel of a controller's torque, behind those of the sensors.
+inline constexpr std::string_view kTorqueChannel = "torque";
+
 /// The numbers that one sensor gave in one run, a stretch of the vectors of `Observations`:
-/// readings of a `time` run; real and imaginary parts, frequency by frequency, of an `frf` run;
+/// readings of a `time` run, and the torque of one whose controller is stated; real and imaginary parts, frequency by frequency, of an `frf` run;
 /// of a `modal` run natural frequencies and damping ratios, entry by entry, as far as known.
 struct ObservedChannel {
   std::size_t run = 0;  ///< index of Experiment::runs
-  std::string sensor;   ///< "hub_angle"; of a modal run "hub_angle zero", "pole"
+  std::string sensor;   ///< "hub_angle", kTorqueChannel; of a modal run "hub_angle zero", "pole"
   Eigen::Index first = 0;
   Eigen::Index count = 0;
   double noise = 0.0;  ///< standard deviation over that of the signal; the noise floor

@@ -278,7 +278,7 @@ std::vector<PlannedRun> planned_as_measured(const Problem& problem) {
     planned.payload = run.payload;
     planned.torque_hold = run.torque_hold;
     for (const ObservedChannel& channel : problem.observations().channels) {
-      if (channel.run != r) continue;
+      if (channel.run != r || channel.sensor == kTorqueChannel) continue;
       // Of a response the noise of a channel is that of real and imaginary part together.
       const double parts = run.kind == RunKind::frf ? std::numbers::sqrt2 : 1.0;
       planned.sensors.push_back({arm::parse_sensor(channel.sensor), channel.noise / parts});

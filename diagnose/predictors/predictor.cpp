@@ -1,7 +1,7 @@
 #include "diagnose/predictors/predictor.hpp"
 
-#include "diagnose/predictors/initial_state.hpp"
 #include "diagnose/predictors/predicted_roots.hpp"
+#include "diagnose/predictors/simulated_run.hpp"
 #include "response/formulation_maker.hpp"
 #include "response/frequency/frequency_response.hpp"
 #include "response/time/time_model.hpp"
@@ -21,46 +21,6 @@ std::vector<arm::Sensor> sensors_of(const measured::TimeRecord& record) {
   std::vector<arm::Sensor> sensors;
   for (const auto& channel : record.channels) sensors.push_back(channel.sensor);
   return sensors;
-}
-
-/// What a run from an unknown state shows, `from_rest` being known: its state is the most likely
-/// one. With forces that are not linear by Gauss-Newton steps, with the linear arm's derivatives.
-Eigen::MatrixXd from_likely_state(const response::ArmSimulator& simulation,
-                                  const std::vector<double>& torque_N_m,
-                                  const Eigen::MatrixXd& from_rest, const Eigen::VectorXd& measured,
-                                  const Eigen::VectorXd& deviations) {
-  constexpr int kSteps = 10;
-  constexpr double kShorter = 0.3;
-  constexpr double kShortest = 0.05;
-  constexpr double kNearEnough = 1e-4;  // the sum of squares falls by less than this part of it
-  const Eigen::MatrixXd free = simulation.free_readings(torque_N_m.size());
-  const InitialStateEstimator estimator(free, deviations, measured);
-  Eigen::VectorXd state = Eigen::VectorXd::Zero(simulation.states());
-  const auto left = [&](const Eigen::MatrixXd& readings) {
-    return Eigen::VectorXd(measured - readings.reshaped());
-  };
-  if (simulation.is_linear()) {
-    const Eigen::VectorXd made =
-        from_rest.reshaped() + free * estimator.step(left(from_rest), state);
-    return made.reshaped(from_rest.rows(), from_rest.cols());
-  }
-  Eigen::MatrixXd made = from_rest;
-  double length = 1.0;
-  for (int step = 0; step < kSteps && length > kShortest; ++step) {
-    const Eigen::VectorXd further = state + length * estimator.step(left(made), state);
-    const Eigen::MatrixXd there = simulation.readings(torque_N_m, further);
-    const double before = estimator.cost(left(made), state);
-    const double after = estimator.cost(left(there), further);
-    if (after < before) {
-      state = further;
-      made = there;
-      length = std::min(1.0, length / kShorter);
-      if (before - after < kNearEnough * before) break;
-    } else {
-      length *= kShorter;
-    }
-  }
-  return made;
 }
 
 void predict(const arm::Arm& arm, const measured::FrequencyRecord& record,
@@ -182,16 +142,10 @@ void Predictor::predict_other_runs(const arm::Arm& arm, const std::vector<bool>&
 Eigen::VectorXd Predictor::operator()(const arm::Arm& arm, const std::vector<bool>& runs) const {
   Eigen::VectorXd values = Eigen::VectorXd::Zero(observations_.values.size());
   const auto simulate = [&](std::size_t r, const response::ArmSimulator& simulation) {
-    const auto& [run, data] = experiment_->runs[r];
     const auto [first, count] = stretch(r);
-    const auto& torque_N_m = std::get<measured::TimeRecord>(data).torque_N_m;
-    Eigen::MatrixXd readings = simulation.readings(torque_N_m);
-    if (run.initial == measured::InitialState::free) {
-      readings = from_likely_state(simulation, torque_N_m, readings,
-                                   observations_.values.segment(first, count),
-                                   observations_.deviations.segment(first, count));
-    }
-    values.segment(first, count) = readings.reshaped();
+    values.segment(first, count) =
+        simulated_run(simulation, experiment_->runs[r], observations_.values.segment(first, count),
+                      observations_.deviations.segment(first, count));
   };
   for_each_time_run(arm, runs, nullptr, simulate);
   predict_other_runs(arm, runs, values);

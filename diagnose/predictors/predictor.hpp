@@ -22,8 +22,9 @@ response::TorqueHold simulated_hold(measured::TorqueHold hold);
 /// What an arm should have shown in the runs of an experiment, by one of three models of `time`
 /// runs:
 ///
-/// - output error: the torque alone drives the arm from its initial state;
-/// - stochastic grey box, with a noise model: a Kalman filter predicts each sample from all samples
+/// - output error: the torque alone drives the arm from its initial state, or in closed loop, where
+///   the run states its controller, the reference alone drives both;
+/// - stochastic grey box, with a noise model, for runs that state no controller: a Kalman filter predicts each sample from all samples
 ///   before it [Kristensen2004];
 /// - torque balance at the hub, with a noise model that has a unit for it: the torque that is
 ///   missing for the motion as that filter has it. The recorded torque and every law of the hub
@@ -55,9 +56,8 @@ class Predictor {
   /// innovations of the hub's sensor, with what a hub that friction holds turned beyond chance; the
   /// other sensors have those that the hub's motion leaves. The fast part of a disturbance does not
   /// hide the slow one then, as it does in innovations, which are its changes from sample to
-  /// sample.
-  /// The factor counts there as well: a filter that sees the hub later, or less, estimates a smaller
-  /// disturbance.
+  /// sample. The factor counts there as well: a filter that sees the hub later, or less, estimates
+  /// a smaller disturbance.
   Eigen::VectorXd residuals(const arm::Arm& arm, const std::vector<bool>& runs) const;
 
   /// By a noise model, which need not be the predictor's: of each of these `time` runs; empty for

@@ -35,6 +35,11 @@ bool clears_bars(const Explanation& fuller, const Explanation& simpler,
 /// stochastic grey box, which follows the data.
 bool runs_away(const Explanation& explanation, const SelectionOptions& options);
 
+/// Without causes a simulation is off by more than options.runaway_error, and no effect by itself
+/// keeps it from running away: several of them are not searched for.
+bool is_out_of_reach(const Explanation& nothing, const std::vector<Explanation>& singles,
+                     const SelectionOptions& options);
+
 /// An effect of a candidate that has an effect of `hypotheses` as a limit, and that limit.
 struct LimitOfEffect {
   std::size_t effect = 0;  ///< index of Candidate::effects

@@ -53,20 +53,26 @@ Experiment coarse(const Experiment& experiment, std::size_t samples) {
 }
 
 Experiment coarse_whole(const Experiment& experiment, std::size_t samples) {
-  Experiment made = estimation_part(experiment);
+  Experiment made = decimated_whole(estimation_part(experiment), samples);
   for (auto& [run, data] : made.runs) {
-    auto* record = std::get_if<measured::TimeRecord>(&data);
-    if (record == nullptr) {
+    if (run.kind != measured::RunKind::time) {
       std::visit([&](auto& other) { thin(other, samples); }, data);
-      continue;
     }
+  }
+  return made;
+}
+
+Experiment decimated_whole(Experiment experiment, std::size_t samples) {
+  for (auto& [run, data] : experiment.runs) {
+    auto* record = std::get_if<measured::TimeRecord>(&data);
+    if (record == nullptr) continue;
     const std::size_t factor = (record->time_s.size() + samples - 1) / samples;
     if (factor < 2 || record->time_s.size() < measured::fewest_samples(factor)) continue;
     *record = measured::decimated(*record, factor);
     run.torque_hold = measured::TorqueHold::first;
     run.initial = measured::InitialState::free;
   }
-  return made;
+  return experiment;
 }
 
 }  // namespace flexarm::diagnose

@@ -15,4 +15,7 @@ Experiment coarse(const Experiment& experiment, std::size_t samples);
 Experiment coarse_whole(const Experiment& experiment, std::size_t samples);
 inline constexpr std::size_t kCoarseLines = 100;
 
+/// The experiment with longer `time` runs decimated like that.
+Experiment decimated_whole(Experiment experiment, std::size_t samples);
+
 }  // namespace flexarm::diagnose

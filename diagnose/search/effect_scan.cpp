@@ -53,12 +53,17 @@ Experiment coarse_experiment(const Problem& problem, std::size_t samples) {
                                      : coarse(problem.experiment(), samples);
 }
 
+std::size_t coarse_samples(const Problem& problem, const SelectionOptions& options) {
+  return has_controllers(problem.experiment()) ? options.coarse_loop_samples
+                                               : options.coarse_samples;
+}
+
 }  // namespace
 
 EffectScan::EffectScan(const Problem& problem, const SelectionOptions& options, ReportedWork& work)
     : options_(options),
       work_(work),
-      coarse_experiment_(coarse_experiment(problem, options.coarse_samples)),
+      coarse_experiment_(coarse_experiment(problem, coarse_samples(problem, options))),
       short_experiment_(coarse_experiment(problem, options.short_samples)),
       coarse_(coarse_experiment_, coarse_options(problem, options)),
       short_(short_experiment_, coarse_options(problem, options)) {}

@@ -1,13 +1,50 @@
 #include "diagnose/search/misfit.hpp"
 
+#include "measured/spectra/fourier.hpp"
+
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <cstddef>
+#include <vector>
 
 namespace flexarm::diagnose {
 
 using Eigen::Index;
 
 namespace {
+
+/// Autocorrelations about the mean at lags 0 to n - 1, by the transform of the values with as many
+/// zeros behind. Of values that are all the same they are not numbers.
+std::vector<double> autocorrelations(const Eigen::Ref<const Eigen::VectorXd>& values) {
+  const auto n = static_cast<std::size_t>(values.size());
+  const std::size_t padded = measured::fast_length(2 * n);
+  measured::RealTransform transform(padded);
+  std::vector<double> samples(padded, 0.0);
+  const double mean = values.mean();
+  std::ranges::transform(values, samples.begin(), [mean](double value) { return value - mean; });
+  std::vector<std::complex<double>> spectrum(transform.lines());
+  transform(samples, spectrum);
+  for (std::size_t k = 0; k < padded; ++k) {
+    samples[k] = std::norm(spectrum[std::min(k, padded - k)]);
+  }
+  transform(samples, spectrum);
+  std::vector<double> made(n);
+  for (std::size_t k = 0; k < n; ++k) made[k] = spectrum[k].real() / spectrum[0].real();
+  return made;
+}
+
+/// 1 + 2 (r_1 + r_2 + ...) up to where pairs of neighbours no longer add up to more than 0
+/// [Geyer1992]: beyond it correlations are chance.
+double correlated_samples(const std::vector<double>& correlations) {
+  double sum = -1.0;
+  for (std::size_t k = 0; k + 1 < correlations.size(); k += 2) {
+    const double pair = correlations[k] + correlations[k + 1];
+    if (!(pair > 0.0)) break;
+    sum += 2.0 * pair;
+  }
+  return std::max(1.0, sum);
+}
 
 /// Of n squares.
 double beyond_chance(double squares, double expected, double n) {
@@ -23,7 +60,9 @@ double independent(const Eigen::Ref<const Eigen::VectorXd>& residuals, measured:
   if (!(squares > 0.0)) return n;
   const Index last = residuals.size() - 1;
   const double r = std::clamp(residuals.head(last).dot(residuals.tail(last)) / squares, 0.0, 1.0);
-  return std::max(1.0, n * (1.0 - r) / (1.0 + r));
+  const double by_neighbours = n * (1.0 - r) / (1.0 + r);
+  const double by_all = n / correlated_samples(autocorrelations(residuals));
+  return std::max(1.0, std::min(by_neighbours, by_all));
 }
 
 double Misfit::excess() const {

@@ -25,8 +25,7 @@ inline constexpr double kNegligibleDisturbance = 0.01;
 struct Misfit {
   double count = 0.0;           ///< numbers in these runs
   double sum_of_squares = 0.0;  ///< of residuals in standard deviations of the noise
-  /// Part of `count` that is independent, by the correlation of neighbours in time:
-  /// n (1 - r)/(1 + r) of a channel; in frequency and modal data all are.
+  /// Part of `count` that is independent (`independent`); in frequency and modal data all are.
   double independent = 0.0;
   /// Root mean square over the channels' root mean square of the signal, mean of the channels: the
   /// relative error, and that which the noise alone would make.
@@ -71,7 +70,13 @@ Misfit misfit(const Observations& observations, const Experiment& experiment,
 double relative_error(const Observations& observations, const Experiment& experiment,
                       const ObservedChannel& channel, const Eigen::VectorXd& residuals);
 
-/// Numbers among the residuals of a channel that are independent, as Misfit::independent has them.
+/// Numbers among the n residuals of a channel of a `time` run that are independent: the less of
+///
+///     n (1 - r_1)/(1 + r_1)                by the correlation of neighbours,
+///     n / (1 + 2 (r_1 + r_2 + ... + r_m))  by all up to a lag m, about the mean,
+///
+/// m being where the sum of two neighbours is no longer above 0: the initial positive sequence of
+/// [Geyer1992]. The first counts a vibration, the second what stays for long beside fast parts.
 double independent(const Eigen::Ref<const Eigen::VectorXd>& residuals, measured::RunKind kind);
 
 /// Part of what is beyond noise before that is not after; 0 without anything beyond noise before,

@@ -1,11 +1,15 @@
 #include "diagnose/search/predictor_choice.hpp"
 
 #include "arm/input_error.hpp"
+#include "arm/sensor.hpp"
 #include "diagnose/predictors/noise_estimate.hpp"
+#include "diagnose/search/coarse.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
+#include <memory>
 #include <string_view>
 #include <utility>
 #include <variant>
@@ -18,25 +22,25 @@ namespace {
 /// than the modes beyond.
 constexpr int kMostFilteredModes = 6;
 
-bool has_time_runs(const Problem& problem) {
-  const auto& runs = problem.experiment().runs;
-  for (std::size_t r = 0; r < runs.size(); ++r) {
-    if (problem.estimation_runs()[r] && runs[r].run.kind == measured::RunKind::time) return true;
-  }
-  return false;
+/// NRMSE of a loop that is not that of the data.
+constexpr double kDiverged = 10.0;
+
+bool fits_time_runs(const Experiment& experiment) {
+  return std::ranges::any_of(experiment.runs, [](const auto& run) {
+    return run.run.purpose == measured::Purpose::estimation &&
+           run.run.kind == measured::RunKind::time;
+  });
 }
 
 bool shows_hub(const measured::TimeRecord& record) {
-  return std::ranges::any_of(record.channels, [](const auto& channel) {
-    return channel.sensor.kind == arm::SensorKind::hub_angle ||
-           channel.sensor.kind == arm::SensorKind::hub_velocity;
-  });
+  return std::ranges::any_of(
+      record.channels, [](const auto& channel) { return arm::is_collocated(channel.sensor); });
 }
 
 /// What a hub sensor shows is the motion that the torque is balanced for, so that the balance does
 /// not judge that sensor.
 bool is_on_hub_sensor(const Hypothesis& hypothesis) {
-  return hypothesis.sensor == "hub_angle" || hypothesis.sensor == "hub_velocity";
+  return !hypothesis.sensor.empty() && arm::is_collocated(arm::parse_sensor(hypothesis.sensor));
 }
 
 /// Of the predictors with a noise model: torque balance where each `time` run shows the hub.
@@ -49,79 +53,187 @@ PredictorKind filtering_predictor(const Experiment& experiment, const SelectionO
   return is_seen ? PredictorKind::torque_balance : PredictorKind::grey_box;
 }
 
+DiagnosisProgress part_of(const DiagnosisProgress& progress, double from, double to) {
+  return [&progress, from, to](std::string_view what, double done) {
+    return !progress || progress(what, from + (to - from) * done);
+  };
+}
+
+/// What is done by whichever predictor.
+struct Task {
+  const std::vector<Hypothesis>& hypotheses;
+  const SelectionOptions& options;
+
+  bool is_asked() const { return options.predictor.has_value(); }
+};
+
+/// Of one whose controllers are stated, with the loop if it can be simulated with the arm file.
+/// Else, and by output error where that is asked for, from the recorded torque; `note` says why.
+Problem simulated_problem(const Experiment& experiment, const SelectionOptions& options,
+                          std::string& note) {
+  if (!has_controllers(experiment)) return Problem(experiment);
+  if (options.predictor != PredictorKind::output_error) {
+    try {
+      Problem loop(experiment);
+      const auto left = loop.residuals(loop.as_filed(), loop.estimation_runs());
+      const auto& runs = loop.estimation_runs();
+      if (left && misfit(loop.observations(), experiment, *left, runs).relative_error < kDiverged) {
+        return loop;
+      }
+      note = "the loop diverges with the arm file; ";
+    } catch (const arm::InputError& error) {
+      note = fmt::format("the loop cannot be simulated with the arm file ({}); ", error.what());
+    }
+    if (options.predictor == PredictorKind::closed_loop) {
+      throw arm::InputError(
+          fmt::format("predictor closed_loop: {}", note.substr(0, note.rfind(';'))));
+    }
+  }
+  return Problem(std::make_shared<const Experiment>(without_controllers(experiment)), {});
+}
+
+PredictedSelection select_by_simulation(const Task& task, const Problem& problem,
+                                        const DiagnosisProgress& progress) {
+  Selection selection = select(problem, task.hypotheses, task.options, progress);
+  const Problem simulated = selection.problem;
+  const auto kind = has_controllers(problem.experiment()) ? PredictorKind::closed_loop
+                                                          : PredictorKind::output_error;
+  return {.selection = std::move(selection),
+          .predictor = kind,
+          .reason = "as asked for",
+          .simulated = simulated};
+}
+
+/// What a filter is given: the recorded torque, and whole runs decimated to what is enough for a
+/// torque on the hub.
+Problem filtered_problem(const Problem& simulated, const SelectionOptions& options) {
+  const int modes = std::min(kMostFilteredModes, simulated.predictor().flexible_modes());
+  const auto experiment = std::make_shared<const Experiment>(
+      decimated_whole(without_controllers(simulated.experiment()), options.filtered_samples));
+  return {experiment, {.flexible_modes = modes}};
+}
+
+/// The selection by a predictor with a noise model. Empty where that is not asked for and the
+/// disturbance of the arm that simulation made is small. Throws Cancelled, and InputError where no
+/// Kalman filter can be formed.
+std::optional<PredictedSelection> select_by_filter(const Task& task,
+                                                   const PredictedSelection& by_simulation,
+                                                   const DiagnosisProgress& progress) {
+  const auto& [hypotheses, options] = task;
+  const ReportedWork work(progress);
+  const Problem unfiltered = filtered_problem(by_simulation.simulated, options);
+  const Experiment& experiment = unfiltered.experiment();
+  const NoiseEstimator estimator(experiment, unfiltered.observations(), unfiltered.predictor(),
+                                 [&work] { work.go_on(); });
+  const auto likely_noise = [&](const arm::Arm& arm) {
+    return estimator.model(arm, unfiltered.estimation_runs()).model;
+  };
+  const arm::Arm extended = by_simulation.selection.chosen.fit.candidate.extend(experiment.arm);
+  const double least_N_m = options.least_disturbance * estimator.torque_rms_N_m();
+  if (!task.is_asked() && likely_noise(extended).disturbance_N_m <= least_N_m) return std::nullopt;
+  // The search begins with the arm as filed: what simulation named may be wrong.
+  NoiseModel noise = likely_noise(experiment.arm);
+  const PredictorKind kind = filtering_predictor(experiment, options);
+  std::vector<Hypothesis> searched = hypotheses;
+  if (kind == PredictorKind::torque_balance) {
+    noise.balance_unit_N_m = estimated_disturbance_N_m(unfiltered.predictor(), experiment.arm,
+                                                       unfiltered.estimation_runs(), noise);
+    std::erase_if(searched, is_on_hub_sensor);
+  }
+  PredictedSelection made{
+      .selection = select(unfiltered.with_noise(noise), searched, options, progress),
+      .predictor = kind,
+      .reason = "as asked for",
+      .simulated = by_simulation.simulated};
+  if (kind == PredictorKind::torque_balance) made.balance = made.selection.problem;
+  if (!task.is_asked()) {
+    made.reason = fmt::format(
+        "by simulation the residuals are not noise; an unrecorded hub torque of {:.3g} N m makes "
+        "them more likely",
+        noise.disturbance_N_m);
+  }
+  return made;
+}
+
+/// NRMSE on validation runs, or those for estimation where there are none, of a simulation with the
+/// chosen effects.
+double simulated_error(const PredictedSelection& made) {
+  const Problem& problem = made.simulated;
+  const auto validation = std::ranges::count(problem.validation_runs(), true);
+  const auto& runs = validation > 0 ? problem.validation_runs() : problem.estimation_runs();
+  const auto residuals = problem.residuals(made.selection.chosen.fit.candidate, runs);
+  if (!residuals) return std::numeric_limits<double>::infinity();
+  return misfit(problem.observations(), problem.experiment(), *residuals, runs).relative_error;
+}
+
+/// By simulation, and where that does not leave noise by a filter.
+PredictedSelection select_by_both(const Task& task, const Problem& problem,
+                                  const DiagnosisProgress& progress) {
+  PredictedSelection made = select_by_simulation(task, problem, part_of(progress, 0.0, 0.5));
+  if (made.selection.cancelled) return made;
+  if (made.selection.chosen.leaves_noise()) {
+    made.reason = "its residuals are noise";
+    return made;
+  }
+  made.reason = "an unrecorded torque on the hub explains little of what it leaves";
+  try {
+    auto filtered = select_by_filter(task, made, part_of(progress, 0.5, 1.0));
+    if (!filtered) return made;
+    const double by_filter = simulated_error(*filtered);
+    const double by_simulation = simulated_error(made);
+    if (filtered->selection.cancelled || by_filter <= by_simulation) return *std::move(filtered);
+    made.balance = filtered->balance;
+    made.reason = fmt::format(
+        "its residuals are not noise; with what a {} identifies NRMSE is {:.3g} %, with this "
+        "{:.3g} "
+        "%",
+        filtered->predictor == PredictorKind::torque_balance ? "torque balance"
+                                                             : "stochastic grey box",
+        100.0 * by_filter, 100.0 * by_simulation);
+  } catch (const Cancelled&) {
+    made.selection.cancelled = true;
+  } catch (const arm::InputError& error) {
+    made.reason = fmt::format("no Kalman filter can be formed ({})", error.what());
+  }
+  return made;
+}
+
+/// By the filter of options.predictor.
+PredictedSelection select_by_asked_filter(const Task& task, const Problem& problem,
+                                          const DiagnosisProgress& progress) {
+  PredictedSelection unsearched{
+      .selection = Selection{problem}, .reason = "", .simulated = problem};
+  try {
+    return *select_by_filter(task, unsearched, progress);
+  } catch (const Cancelled&) {
+    unsearched.selection.cancelled = true;
+    return unsearched;
+  }
+}
+
 }  // namespace
 
 PredictedSelection select_by_evidence(const Experiment& experiment,
                                       const std::vector<Hypothesis>& hypotheses,
                                       const SelectionOptions& options,
                                       const DiagnosisProgress& progress) {
-  const Problem problem(experiment);
-  if (!has_time_runs(problem)) {
-    return {select(problem, hypotheses, options, progress), PredictorKind::output_error, "",
-            problem};
+  const Task task{hypotheses, options};
+  const auto asked = options.predictor;
+  if (asked == PredictorKind::closed_loop && !has_controllers(experiment)) {
+    throw arm::InputError("predictor closed_loop: no run states its controller");
   }
-  const bool is_asked = options.predictor && options.predictor != PredictorKind::output_error;
-  PredictedSelection made{Selection{problem}, PredictorKind::output_error, "", problem};
-  // Which predictor it will be is not known before the first half is done.
-  const auto half = [&progress](double from) {
-    return [&progress, from](std::string_view what, double done) {
-      return !progress || progress(what, from + 0.5 * done);
-    };
-  };
-  if (!is_asked) {
-    made.selection = select(problem, hypotheses, options, half(0.0));
-    made.simulated = made.selection.problem;
-    if (made.selection.cancelled || options.predictor == PredictorKind::output_error) {
-      made.reason = "as asked for";
-      return made;
-    }
-    if (made.selection.chosen.leaves_noise()) {
-      made.reason = "its residuals are noise";
-      return made;
-    }
+  std::string note;
+  const Problem problem = simulated_problem(experiment, options, note);
+  if (!fits_time_runs(experiment)) {
+    PredictedSelection made = select_by_simulation(task, problem, progress);
+    made.reason.clear();
+    return made;
   }
-  const DiagnosisProgress second_half = is_asked ? progress : half(0.5);
-  const ReportedWork work(second_half);
-  const int modes = std::min(kMostFilteredModes, made.simulated.predictor().flexible_modes());
-  const Problem unfiltered = made.simulated.with_modes(modes);
-  const NoiseEstimator estimator(experiment, unfiltered.observations(), unfiltered.predictor(),
-                                 [&work] { work.go_on(); });
-  const auto likely_noise = [&](const arm::Arm& arm) {
-    return estimator.model(arm, unfiltered.estimation_runs()).model;
-  };
-  try {
-    const arm::Arm extended = made.selection.chosen.fit.candidate.extend(experiment.arm);
-    const double least_N_m = options.least_disturbance * estimator.torque_rms_N_m();
-    if (!is_asked && likely_noise(extended).disturbance_N_m <= least_N_m) {
-      made.reason = "an unrecorded torque on the hub explains little of what it leaves";
-      return made;
-    }
-    // The search begins with the arm as filed: what output error named may be wrong.
-    NoiseModel noise = likely_noise(experiment.arm);
-    made.predictor = filtering_predictor(experiment, options);
-    if (made.predictor == PredictorKind::torque_balance) {
-      noise.balance_unit_N_m = estimated_disturbance_N_m(
-          unfiltered.predictor(), experiment.arm, unfiltered.estimation_runs(), noise);
-    }
-    Problem filtered(experiment, unfiltered.observations(),
-                     {.flexible_modes = modes, .noise = noise});
-    std::vector<Hypothesis> searched = hypotheses;
-    if (made.predictor == PredictorKind::torque_balance) std::erase_if(searched, is_on_hub_sensor);
-    made.selection = select(std::move(filtered), searched, options, second_half);
-    made.reason = "as asked for";
-    if (!is_asked) {
-      made.reason = fmt::format(
-          "by output error the residuals are not noise; an unrecorded hub torque of {:.3g} N m "
-          "makes them more likely",
-          noise.disturbance_N_m);
-    }
-  } catch (const Cancelled&) {
-    made.selection.cancelled = true;
-  } catch (const arm::InputError& error) {
-    if (is_asked) throw;
-    made.predictor = PredictorKind::output_error;
-    made.reason = fmt::format("no Kalman filter can be formed ({})", error.what());
-  }
+  const auto selected = !asked                  ? select_by_both
+                        : is_simulation(*asked) ? select_by_simulation
+                                                : select_by_asked_filter;
+  PredictedSelection made = selected(task, problem, progress);
+  made.reason = note + made.reason;
   return made;
 }
 

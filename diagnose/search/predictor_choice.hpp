@@ -2,7 +2,6 @@
 
 #include "diagnose/search/selection.hpp"
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,16 +12,22 @@ struct PredictedSelection {
   Selection selection;
   PredictorKind predictor = PredictorKind::output_error;
   std::string reason;  ///< a sentence; empty without `time` runs
-  /// By output error, the noise of its channels as the selection by output error left it: what
+  /// The torque balance, where one was formed: with the noise of what was selected by it.
+  std::optional<Problem> balance = {};
+  /// By simulation, the noise of its channels as the selection by simulation left it: what
   /// simulations are compared with the data by.
   Problem simulated;
 };
 
-/// Selects effects by output error and, where that does not leave noise, by torque balance at the
-/// hub, or by a stochastic grey box where a `time` run does not show the hub's motion: if the most
-/// likely disturbance of the hub torque of the arm that output error made is
-/// options.least_disturbance or more. With options.predictor by that one; throws InputError where
-/// no Kalman filter can be formed for it.
+/// Selects effects by output error, in closed loop where runs state their controllers and the loop
+/// can be simulated with the arm file. Where that does not leave noise, and the most likely
+/// disturbance of the hub torque of the arm that it made is options.least_disturbance or more,
+/// effects are also selected by torque balance at the hub, or by a stochastic grey box where a
+/// `time` run does not show the hub's motion. Of both selections that one is taken with which
+/// simulations of validation runs (estimation runs without these) are nearer to the data.
+///
+/// With options.predictor by that one; throws InputError where it cannot be formed, or no run has a
+/// controller for it.
 PredictedSelection select_by_evidence(const Experiment& experiment,
                                       const std::vector<Hypothesis>& hypotheses,
                                       const SelectionOptions& options,

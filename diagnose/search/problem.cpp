@@ -65,9 +65,20 @@ Problem::Problem(const Experiment& experiment, Observations observations,
   }
 }
 
+Problem::Problem(std::shared_ptr<const Experiment> experiment, const ProblemOptions& options)
+    : Problem(*experiment, options) {
+  own_experiment_ = std::move(experiment);
+}
+
 Problem Problem::with_modes(int flexible_modes) const {
   Problem made = *this;
   made.predictor_ = Predictor(*experiment_, observations_, flexible_modes, predictor_.noise());
+  return made;
+}
+
+Problem Problem::with_noise(const NoiseModel& noise) const {
+  Problem made = *this;
+  made.predictor_ = Predictor(*experiment_, observations_, predictor_.flexible_modes(), noise);
   return made;
 }
 

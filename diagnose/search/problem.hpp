@@ -28,6 +28,8 @@ class Problem {
  public:
   /// `experiment` must outlive the object.
   explicit Problem(const Experiment& experiment, const ProblemOptions& options = {});
+  /// With an experiment that the object keeps.
+  Problem(std::shared_ptr<const Experiment> experiment, const ProblemOptions& options);
   /// With other standard deviations than those that the data show (`observe`).
   Problem(const Experiment& experiment, Observations observations,
           const ProblemOptions& options = {});
@@ -38,8 +40,14 @@ class Problem {
   const std::vector<bool>& estimation_runs() const { return estimation_runs_; }
   const std::vector<bool>& validation_runs() const { return validation_runs_; }
 
-  /// The same simulated with so many modes.
+  /// By output error from recorded torques.
+  bool is_driven_by_torque() const {
+    return !predictor_.noise() && !has_controllers(*experiment_);
+  }
+
+  /// The same simulated with so many modes, or by a filter.
   Problem with_modes(int flexible_modes) const;
+  Problem with_noise(const NoiseModel& noise) const;
 
   /// The same with what `experiment`, which the object keeps, has for torques.
   void replace_torques(Experiment experiment);
@@ -72,7 +80,7 @@ class Problem {
 
  private:
   const Experiment* experiment_;
-  std::shared_ptr<const Experiment> own_experiment_;  // where torques were replaced
+  std::shared_ptr<const Experiment> own_experiment_;  // where it is not the caller's
   Observations observations_;
   std::vector<bool> estimation_runs_;
   std::vector<bool> validation_runs_;

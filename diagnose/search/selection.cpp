@@ -63,7 +63,7 @@ class Search {
     made.chosen = made.nothing;
     see_noise(made);
     if (!is_enough(made)) try_singles(made);
-    if (!made.singles.empty()) {
+    if (!made.singles.empty() && !is_out_of_reach(made.nothing, made.singles, options_)) {
       extend(made);
       generalise(made);
     }
@@ -146,7 +146,7 @@ class Search {
   /// Where a little is left and the timing of the torque leaves noise of it: the torques as that
   /// timing has them, and what has been fitted once more.
   void correct_timing(Selection& made) {
-    if (problem_.predictor().noise() || made.timing || made.chosen.leaves_noise() ||
+    if (!problem_.is_driven_by_torque() || made.timing || made.chosen.leaves_noise() ||
         made.chosen.estimation.unexplained_error() > options_.largest_timing_error) {
       return;
     }

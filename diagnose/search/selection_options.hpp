@@ -7,16 +7,24 @@
 
 namespace flexarm::diagnose {
 
-/// How `time` runs are predicted (predictors/predictor.hpp).
-enum class PredictorKind { output_error, grey_box, torque_balance };
-inline constexpr std::array kPredictors = {PredictorKind::output_error, PredictorKind::grey_box,
-                                           PredictorKind::torque_balance};
+/// How `time` runs are predicted (predictors/predictor.hpp); closed_loop is output error with the
+/// controllers of the runs simulated too.
+enum class PredictorKind { output_error, closed_loop, grey_box, torque_balance };
+inline constexpr std::array kPredictors = {PredictorKind::output_error, PredictorKind::closed_loop,
+                                           PredictorKind::grey_box, PredictorKind::torque_balance};
+
+/// Without a noise model.
+constexpr bool is_simulation(PredictorKind kind) {
+  return kind == PredictorKind::output_error || kind == PredictorKind::closed_loop;
+}
 
 /// "grey_box".
 constexpr std::string_view to_string(PredictorKind kind) {
   switch (kind) {
     case PredictorKind::output_error:
       return "output_error";
+    case PredictorKind::closed_loop:
+      return "closed_loop";
     case PredictorKind::grey_box:
       return "grey_box";
     case PredictorKind::torque_balance:
@@ -50,6 +58,9 @@ struct SelectionOptions {
   /// validation, <= this: where a simulation runs away from the data, whatever dissipates brings it
   /// nearer.
   double largest_error_left = 0.5;
+  /// Where it is above this without causes, and no effect by itself brings it to
+  /// largest_error_left, the search by output error ends.
+  double runaway_error = 1.0;
   /// Posterior probability of it, or of a set of effects indistinguishable from it, >= this.
   double least_probability = 0.5;
 
@@ -78,8 +89,12 @@ struct SelectionOptions {
   std::size_t scanned_beside = 10;
   /// Of these refitted to all data <= this.
   std::size_t pairs_refitted = 5;
-  /// Samples of each run in the coarse look <= this.
+  /// Samples of each run in the coarse look <= this,
   std::size_t coarse_samples = 1200;
+  /// and in closed loop, where what a controller makes of the samples left out is not known.
+  std::size_t coarse_loop_samples = 6000;
+  /// Samples of each run that a filter follows <= this: it is decimated for that.
+  std::size_t filtered_samples = 4000;
   /// The same in a second look at effects of several parameters: where the hub turns another way
   /// from the start, nothing after it tells which value is nearer.
   std::size_t short_samples = 400;

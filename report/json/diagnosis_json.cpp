@@ -48,6 +48,17 @@ Json formulations_json(const diagnose::FormulationCheck& check) {
           {"quantity", check.quantity}};
 }
 
+Json empirical_law_json(const std::optional<diagnose::EmpiricalLaw>& law) {
+  if (!law) return nullptr;
+  return {{"angle", law->table.angle_rad},
+          {"velocity", law->table.velocity_rad_per_s},
+          {"torque", law->table.torque_N_m},
+          {"std_error", law->std_error_N_m},
+          {"explained_share", law->share},
+          {"before", law->error_before},
+          {"after", law->error_after}};
+}
+
 Json prediction_json(const diagnose::Diagnosis& diagnosis) {
   Json json = {{"predictor", to_string(diagnosis.predictor)},
                {"reason", diagnosis.predictor_reason},
@@ -113,6 +124,7 @@ Json diagnosis_json(const diagnose::Diagnosis& diagnosis, const std::string& ext
             {"run_consistency", run_consistency_json(symptoms)}}},
           {"candidates", candidates},
           {"uncertain_numbers", uncertain_numbers},
+          {"empirical_law", empirical_law_json(diagnosis.empirical_law)},
           {"formulations", formulations_json(diagnosis.formulations)},
           {"extended_arm", extended_arm.empty() ? Json(nullptr) : Json(extended_arm)},
           {"next_experiments", additional_runs_json(diagnosis.next_experiments)},

@@ -88,6 +88,20 @@ std::vector<Cell> gain_row(const std::string& runs, const diagnose::Gain& gain) 
   return {runs, 100.0 * gain.before, 100.0 * gain.after, 100.0 * gain.noise_floor};
 }
 
+std::string_view name_of(diagnose::PredictorKind predictor) {
+  switch (predictor) {
+    case diagnose::PredictorKind::output_error:
+      return "output error";
+    case diagnose::PredictorKind::closed_loop:
+      return "output error in closed loop";
+    case diagnose::PredictorKind::grey_box:
+      return "stochastic grey box";
+    case diagnose::PredictorKind::torque_balance:
+      return "torque balance at the hub";
+  }
+  return "";
+}
+
 }  // namespace
 
 std::string verdict_text(const diagnose::Diagnosis& diagnosis) {
@@ -118,17 +132,24 @@ std::string verdict_text(const diagnose::Diagnosis& diagnosis) {
 }
 
 std::string predictor_text(const diagnose::Diagnosis& diagnosis) {
-  if (!diagnosis.disturbance) return "";
+  if (diagnosis.predictor_reason.empty()) return "";
+  const std::string named =
+      fmt::format("Predictor: {} ({}).", name_of(diagnosis.predictor), diagnosis.predictor_reason);
+  if (diagnosis.predictor == diagnose::PredictorKind::closed_loop) {
+    return named +
+           " The reference drives the simulation; the torque is the controller's, and is "
+           "compared with the data like a sensor.";
+  }
+  if (!diagnosis.disturbance) return named;
   const diagnose::DisturbanceGain& left = *diagnosis.disturbance;
-  return fmt::format(
-      "Predictor: {} ({}). The unrecorded hub torque, as the filter estimates it, "
-      "is {:.3g} N m rms with the arm file and {:.3g} N m rms with the extended arm; the commanded "
-      "torque is {:.3g} N m rms. Its correlation time is {:.2g} s. NRMSE below is that of a "
-      "simulation.",
-      diagnosis.predictor == diagnose::PredictorKind::torque_balance ? "torque balance at the hub"
-                                                                     : "stochastic grey box",
-      diagnosis.predictor_reason, left.before_N_m, left.after_N_m, left.torque_rms_N_m,
-      left.correlation_time_s);
+  return named +
+         fmt::format(
+             " The unrecorded hub torque, as the filter estimates it, "
+             "is {:.3g} N m rms with the arm file and {:.3g} N m rms with the extended arm; the "
+             "commanded "
+             "torque is {:.3g} N m rms. Its correlation time is {:.2g} s. NRMSE below is that of a "
+             "simulation.",
+             left.before_N_m, left.after_N_m, left.torque_rms_N_m, left.correlation_time_s);
 }
 
 Table cause_table(const diagnose::Diagnosis& diagnosis) {

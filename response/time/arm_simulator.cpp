@@ -58,6 +58,13 @@ std::ptrdiff_t ArmSimulator::lead(std::size_t samples) const {
   return std::min(times_.longest_samples(), static_cast<std::ptrdiff_t>(samples));
 }
 
+Eigen::MatrixXd ArmSimulator::rigid_states() const {
+  Eigen::MatrixXd made = Eigen::MatrixXd::Zero(states(), 2);
+  made(0, 0) = arm_.scale_rad_per_s(0) / arm_.hub_slope(0);
+  made(arm_.modes, 1) = 1.0 / arm_.hub_slope(0);
+  return made;
+}
+
 Simulation ArmSimulator::run(std::span<const double> torque_N_m,
                              const SimulationProgress& progress) const {
   Commands commands(*this, torque_N_m);

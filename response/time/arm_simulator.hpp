@@ -41,6 +41,9 @@ class ArmSimulator {
 
   /// Entries of the state, ModalDynamics::size().
   Eigen::Index states() const { return arm_.size(); }
+  /// Two columns: the hub turned by 1 rad, and turning at 1 rad/s, in the first mode alone: that of
+  /// the rigid arm where nothing holds the hub.
+  Eigen::MatrixXd rigid_states() const;
   /// No friction, and no force that varies with the state: responses add up.
   bool is_linear() const { return plan_.is_linear(); }
 

@@ -1,0 +1,106 @@
+#include "diagnose/predictors/simulated_run.hpp"
+
+#include "diagnose/predictors/initial_state.hpp"
+
+#include <Eigen/QR>
+
+#include <algorithm>
+#include <cstddef>
+#include <variant>
+#include <vector>
+
+namespace flexarm::diagnose {
+
+using Eigen::Index;
+
+namespace {
+
+/// What a run from an unknown state shows, `from_rest` being known: its state is the most likely
+/// one. With forces that are not linear by Gauss-Newton steps, with the linear arm's derivatives.
+Eigen::MatrixXd from_likely_state(const response::ArmSimulator& simulation,
+                                  const std::vector<double>& torque_N_m,
+                                  const Eigen::MatrixXd& from_rest, const Eigen::VectorXd& measured,
+                                  const Eigen::VectorXd& deviations) {
+  constexpr int kSteps = 10;
+  constexpr double kShorter = 0.3;
+  constexpr double kShortest = 0.05;
+  constexpr double kNearEnough = 1e-4;  // the sum of squares falls by less than this part of it
+  const Eigen::MatrixXd free = simulation.free_readings(torque_N_m.size());
+  const InitialStateEstimator estimator(free, deviations, measured);
+  Eigen::VectorXd state = Eigen::VectorXd::Zero(simulation.states());
+  const auto left = [&](const Eigen::MatrixXd& readings) {
+    return Eigen::VectorXd(measured - readings.reshaped());
+  };
+  if (simulation.is_linear()) {
+    const Eigen::VectorXd made =
+        from_rest.reshaped() + free * estimator.step(left(from_rest), state);
+    return made.reshaped(from_rest.rows(), from_rest.cols());
+  }
+  Eigen::MatrixXd made = from_rest;
+  double length = 1.0;
+  for (int step = 0; step < kSteps && length > kShortest; ++step) {
+    const Eigen::VectorXd further = state + length * estimator.step(left(made), state);
+    const Eigen::MatrixXd there = simulation.readings(torque_N_m, further);
+    const double before = estimator.cost(left(made), state);
+    const double after = estimator.cost(left(there), further);
+    if (after < before) {
+      state = further;
+      made = there;
+      length = std::min(1.0, length / kShorter);
+      if (before - after < kNearEnough * before) break;
+    } else {
+      length *= kShorter;
+    }
+  }
+  return made;
+}
+
+/// Angle and velocity of the hub at the first sample, by a parabola through the first angles, or
+/// the first velocity; 0 where no sensor shows them.
+Eigen::Vector2d first_hub_motion(const measured::TimeRecord& record) {
+  constexpr std::size_t kSamples = 16;
+  Eigen::Vector2d motion = Eigen::Vector2d::Zero();
+  if (const auto* velocity = values_of(record, arm::SensorKind::hub_velocity)) {
+    motion(1) = velocity->front();
+  }
+  const auto* angle = values_of(record, arm::SensorKind::hub_angle);
+  if (angle == nullptr) return motion;
+  motion(0) = angle->front();
+  const auto n = static_cast<Index>(std::min(kSamples, angle->size()));
+  if (n < 3) return motion;
+  const Eigen::VectorXd time_s = measured::sampling_period_s(record) *
+                                 Eigen::VectorXd::LinSpaced(n, 0.0, static_cast<double>(n - 1));
+  Eigen::MatrixXd powers(n, 3);
+  powers << Eigen::VectorXd::Ones(n), time_s, time_s.cwiseAbs2();
+  return powers.householderQr().solve(Eigen::VectorXd::Map(angle->data(), n)).head<2>();
+}
+
+Eigen::VectorXd in_closed_loop(const response::ArmSimulator& simulation,
+                               const measured::MeasuredRun& run) {
+  const auto& record = std::get<measured::TimeRecord>(run.data);
+  const bool is_free = run.run.initial == measured::InitialState::free;
+  const Eigen::VectorXd initial =
+      is_free ? simulation.rigid_states() * first_hub_motion(record) : Eigen::VectorXd();
+  const auto made =
+      simulation.closed_loop_readings({*run.run.controller, record.reference.values}, initial);
+  const auto samples = std::ssize(made.torque_N_m);
+  Eigen::VectorXd shown(made.readings.size() + samples);
+  shown << made.readings.reshaped(), Eigen::VectorXd::Map(made.torque_N_m.data(), samples);
+  return shown;
+}
+
+}  // namespace
+
+Eigen::VectorXd simulated_run(const response::ArmSimulator& simulation,
+                              const measured::MeasuredRun& run, const Eigen::VectorXd& measured,
+                              const Eigen::VectorXd& deviations) {
+  if (run.run.controller) return in_closed_loop(simulation, run);
+  const auto& torque_N_m = std::get<measured::TimeRecord>(run.data).torque_N_m;
+  Eigen::MatrixXd readings = simulation.readings(torque_N_m);
+  if (run.run.initial == measured::InitialState::free) {
+    readings = from_likely_state(simulation, torque_N_m, readings, measured, deviations);
+  }
+  return readings.reshaped();
+}
+
+}  // namespace flexarm::diagnose

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "measured/run_identification.hpp"
+#include "response/time/arm_simulator.hpp"
+
+#include <Eigen/Core>
+
+namespace flexarm::diagnose {
+
+/// What a `time` run shows by simulation, as a run of `Observations`: its readings and, where it
+/// states its controller, the torque behind them. The recorded torque drives the arm, or the
+/// controller with the recorded reference.
+///
+/// A run from an unknown state begins in the most likely one by `measured` and its `deviations`. In
+/// closed loop it is the rigid arm's, with the angle and velocity of the hub that the first readings
+/// show: the controller takes out what vibrates at the start.
+///
+/// Throws InputError as response::ArmSimulator::readings and closed_loop_readings.
+Eigen::VectorXd simulated_run(const response::ArmSimulator& simulation,
+                              const measured::MeasuredRun& run, const Eigen::VectorXd& measured,
+                              const Eigen::VectorXd& deviations);
+
+}  // namespace flexarm::diagnose

@@ -300,7 +300,8 @@ class Search {
       if (!unnamed) unnamed = improbable_effect(made);
       if (!unnamed) return;
       const Candidate rest = candidate.without(*unnamed);
-      made.chosen = rest.effects.empty() ? made.nothing : fitted(rest);
+      made.chosen = fitted(rest);
+      if (!clears_bars(made.chosen, made.nothing, options_)) made.chosen = made.nothing;
     }
   }
 

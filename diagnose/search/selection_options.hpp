@@ -60,7 +60,7 @@ struct SelectionOptions {
   double largest_error_left = 0.5;
   /// Where it is above this without causes, and no effect by itself brings it to
   /// largest_error_left, the search by output error ends.
-  double runaway_error = 1.0;
+  double runaway_error = 10.0;
   /// Posterior probability of it, or of a set of effects indistinguishable from it, >= this.
   double least_probability = 0.5;
 

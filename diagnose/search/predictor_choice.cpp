@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <variant>
@@ -17,6 +18,8 @@ namespace {
 /// Flexible modes of a Kalman filter <= this. What leaves no noise by output error is wrong by more
 /// than the modes beyond.
 constexpr int kMostFilteredModes = 6;
+
+constexpr const char* kNoTime = "the time limit left no time for another";
 
 bool has_time_runs(const Problem& problem) {
   const auto& runs = problem.experiment().runs;
@@ -71,6 +74,10 @@ PredictedSelection select_by_evidence(const Experiment& experiment,
   if (!is_asked) {
     made.selection = select(problem, hypotheses, options, half(0.0));
     made.simulated = made.selection.problem;
+    if (made.selection.end) {
+      made.reason = kNoTime;
+      return made;
+    }
     if (made.selection.cancelled || options.predictor == PredictorKind::output_error) {
       made.reason = "as asked for";
       return made;
@@ -81,7 +88,7 @@ PredictedSelection select_by_evidence(const Experiment& experiment,
     }
   }
   const DiagnosisProgress second_half = is_asked ? progress : half(0.5);
-  const ReportedWork work(second_half);
+  ReportedWork work(second_half, options.deadline);
   const int modes = std::min(kMostFilteredModes, made.simulated.predictor().flexible_modes());
   const Problem unfiltered = made.simulated.with_modes(modes);
   const NoiseEstimator estimator(experiment, unfiltered.observations(), unfiltered.predictor(),
@@ -89,7 +96,13 @@ PredictedSelection select_by_evidence(const Experiment& experiment,
   const auto likely_noise = [&](const arm::Arm& arm) {
     return estimator.model(arm, unfiltered.estimation_runs()).model;
   };
+  const auto end_by_output_error = [&made](SearchEnd end) {
+    made.predictor = PredictorKind::output_error;
+    made.reason = kNoTime;
+    made.selection.end = std::move(end);
+  };
   try {
+    work.tell("the noise of a Kalman filter", 0.0);
     const arm::Arm extended = made.selection.chosen.fit.candidate.extend(experiment.arm);
     const double least_N_m = options.least_disturbance * estimator.torque_rms_N_m();
     if (!is_asked && likely_noise(extended).disturbance_N_m <= least_N_m) {
@@ -107,7 +120,12 @@ PredictedSelection select_by_evidence(const Experiment& experiment,
                      {.flexible_modes = modes, .noise = noise});
     std::vector<Hypothesis> searched = hypotheses;
     if (made.predictor == PredictorKind::torque_balance) std::erase_if(searched, is_on_hub_sensor);
-    made.selection = select(std::move(filtered), searched, options, second_half);
+    Selection selection = select(std::move(filtered), searched, options, second_half);
+    if (selection.end && !is_asked && selection.chosen.fit.candidate.effects.empty()) {
+      end_by_output_error(*selection.end);
+      return made;
+    }
+    made.selection = std::move(selection);
     made.reason = "as asked for";
     if (!is_asked) {
       made.reason = fmt::format(
@@ -116,7 +134,12 @@ PredictedSelection select_by_evidence(const Experiment& experiment,
           noise.disturbance_N_m);
     }
   } catch (const Cancelled&) {
-    made.selection.cancelled = true;
+    if (work.is_out_of_time()) {
+      if (is_asked) made.selection = select(problem, hypotheses, options, progress);
+      end_by_output_error({std::string(work.what()), {}});
+    } else {
+      made.selection.cancelled = true;
+    }
   } catch (const arm::InputError& error) {
     if (is_asked) throw;
     made.predictor = PredictorKind::output_error;

@@ -22,7 +22,8 @@ struct PredictedSelection {
 /// hub, or by a stochastic grey box where a `time` run does not show the hub's motion: if the most
 /// likely disturbance of the hub torque of the arm that output error made is
 /// options.least_disturbance or more. With options.predictor by that one; throws InputError where
-/// no Kalman filter can be formed for it.
+/// no Kalman filter can be formed for it. After options.deadline by output error, unless another
+/// had been asked for or names a cause.
 PredictedSelection select_by_evidence(const Experiment& experiment,
                                       const std::vector<Hypothesis>& hypotheses,
                                       const SelectionOptions& options,

@@ -5,8 +5,10 @@
 #include "app/interruption.hpp"
 #include "app/standard_output.hpp"
 #include "arm/input_error.hpp"
+#include "arm/range.hpp"
 #include "diagnose/diagnosis.hpp"
 #include "diagnose/search/hypothesis.hpp"
+#include "measured/checks/data_check.hpp"
 #include "measured/files/arm_file.hpp"
 #include "measured/files/atomic_file.hpp"
 #include "report/figures/diagnosis_figures.hpp"
@@ -25,9 +27,11 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -47,6 +51,9 @@ constexpr std::int64_t kDiagnosisSteps = 100;
 struct DiagnoseArguments {
   std::string file;
   std::vector<std::string> effects;
+  std::vector<std::string> excluded;
+  std::vector<std::string> accepted;
+  std::optional<double> time_limit_s;
   int most_causes = diagnose::SelectionOptions{}.most_causes;
   std::string predictor = "auto";
   std::string folder;
@@ -105,8 +112,24 @@ void prepare(const DiagnoseArguments& arguments, const diagnose::Experiment& exp
   require_place(arguments.folder, arguments.force, diagnosis_folder_kind());
 }
 
+/// Limits beyond this are none: a clock counts no further.
+constexpr double kLongestLimit_s = 1e9;
+
+using Clock = std::chrono::steady_clock;
+
+diagnose::Deadline deadline_of(const DiagnoseArguments& arguments, Clock::time_point begun) {
+  if (!arguments.time_limit_s) return std::nullopt;
+  arm::require_in_range("--time-limit", *arguments.time_limit_s, "s", arm::kPositive);
+  if (*arguments.time_limit_s > kLongestLimit_s) return std::nullopt;
+  const std::chrono::duration<double> limit(*arguments.time_limit_s);
+  return begun + std::chrono::duration_cast<Clock::duration>(limit);
+}
+
 diagnose::Diagnosis diagnose_with_progress(const DiagnoseArguments& arguments,
-                                           const diagnose::Experiment& experiment) {
+                                           const diagnose::Experiment& experiment,
+                                           const diagnose::Deadline& deadline) {
+  const auto hypotheses = without_excluded(
+      chosen_hypotheses(arguments.effects, diagnose::hypotheses(experiment)), arguments.excluded);
   const Interruption interruption;
   report::Progress progress("per cent of the diagnosis", kDiagnosisSteps);
   const auto tell = [&](std::string_view, double fraction) {
@@ -116,18 +139,24 @@ diagnose::Diagnosis diagnose_with_progress(const DiagnoseArguments& arguments,
   diagnose::SelectionOptions options;
   options.most_causes = arguments.most_causes;
   options.predictor = chosen_predictor(arguments.predictor);
-  auto diagnosis = diagnose::diagnose(
-      experiment, chosen_hypotheses(arguments.effects, diagnose::hypotheses(experiment)), options,
-      tell);
-  if (diagnosis.cancelled) interruption.end_program();
+  options.deadline = deadline;
+  auto diagnosis = diagnose::diagnose(experiment, hypotheses, options, tell);
+  if (diagnosis.cancelled || interruption.requested()) interruption.end_program();
+  diagnosis.excluded = arguments.excluded;
+  diagnosis.time_limit_s = arguments.time_limit_s;
   return diagnosis;
 }
 
 std::string text_of(const diagnose::Diagnosis& diagnosis) {
   std::string text;
   for (const auto& notice : diagnosis.notices) text += report::to_paragraph("note: " + notice, 2);
+  for (const auto& accepted : report::accepted_texts(diagnosis)) {
+    text += report::to_paragraph(accepted, 2);
+  }
   if (!text.empty()) text += "\n";
   text += report::to_paragraph(report::verdict_text(diagnosis)) + "\n";
+  const std::string search = report::search_text(diagnosis);
+  if (!search.empty()) text += report::to_paragraph(search) + "\n";
   const std::string predictor = report::predictor_text(diagnosis);
   if (!predictor.empty()) text += report::to_paragraph(predictor) + "\n";
   const std::string wrong = report::what_is_wrong_text(diagnosis.symptoms);
@@ -160,6 +189,11 @@ std::string text_of(const diagnose::Diagnosis& diagnosis) {
              "Recommended runs, by what they would distinguish"));
 }
 
+/// An incomplete search that names no cause has no extended arm to tell of.
+bool extends(const diagnose::Diagnosis& diagnosis) {
+  return !diagnosis.search_end || !diagnosis.causes.empty();
+}
+
 std::string json_of(const diagnose::Diagnosis& diagnosis, const std::string& extended_arm) {
   return report::json_document("flexarm.diagnosis/2",
                                report::diagnosis_json(diagnosis, extended_arm));
@@ -167,11 +201,12 @@ std::string json_of(const diagnose::Diagnosis& diagnosis, const std::string& ext
 
 std::vector<measured::NamedContent> files_of(const diagnose::Diagnosis& diagnosis,
                                              report::DiagnosisPlots plots) {
+  const std::string extended = extends(diagnosis) ? kExtendedArm : "";
   std::vector<measured::NamedContent> files = {
-      {kExtendedArm, measured::format_arm(diagnosis.extended_arm)},
       {"channels.csv", report::to_csv(report::channel_gain_table(diagnosis))},
       {"causes.csv", report::to_csv(report::cause_table(diagnosis))},
-      {kDiagnosisJson, json_of(diagnosis, kExtendedArm)}};
+      {kDiagnosisJson, json_of(diagnosis, extended)}};
+  if (!extended.empty()) files.push_back({extended, measured::format_arm(diagnosis.extended_arm)});
   const auto add_table = [&](const char* name, const report::Table& table) {
     if (!table.rows.empty()) files.push_back({name, report::to_csv(table)});
   };
@@ -201,17 +236,35 @@ std::string write_files(const DiagnoseArguments& arguments, const diagnose::Expe
         arguments.force ? measured::IfExists::replace : measured::IfExists::refuse);
   }
   if (!arguments.json_file.empty()) {
-    const fs::path beside = extended_beside(arguments.json_file);
-    measured::write_atomically(beside, measured::format_arm(diagnosis.extended_arm));
-    measured::write_atomically(arguments.json_file, json_of(diagnosis, beside.filename().string()));
+    std::string extended;
+    if (extends(diagnosis)) {
+      const fs::path beside = extended_beside(arguments.json_file);
+      measured::write_atomically(beside, measured::format_arm(diagnosis.extended_arm));
+      extended = beside.filename().string();
+    }
+    measured::write_atomically(arguments.json_file, json_of(diagnosis, extended));
   }
   return left_out;
 }
 
+std::vector<measured::Fault> accepted_faults(const std::vector<std::string>& checks) {
+  std::vector<measured::Fault> faults;
+  for (const auto& check : checks) {
+    try {
+      faults.push_back(measured::fault_of_check(check));
+    } catch (const arm::InputError& error) {
+      throw arm::InputError(std::string("--accept ") + error.what());
+    }
+  }
+  return faults;
+}
+
 int run_diagnose(const DiagnoseArguments& arguments) {
-  const diagnose::Experiment experiment = diagnose::read_experiment(arguments.file);
+  const diagnose::Deadline deadline = deadline_of(arguments, Clock::now());
+  const diagnose::Experiment experiment =
+      diagnose::read_experiment(arguments.file, accepted_faults(arguments.accepted));
   prepare(arguments, experiment);
-  const diagnose::Diagnosis diagnosis = diagnose_with_progress(arguments, experiment);
+  const diagnose::Diagnosis diagnosis = diagnose_with_progress(arguments, experiment, deadline);
   std::string text = text_of(diagnosis);
   std::string left_out;
   try {
@@ -240,6 +293,17 @@ Command add_diagnose(CLI::App& program) {
       "diagnose", "Name the causes of the differences between a simulation and measured data");
   parser->add_option("FILE", arguments->file, "measurement.toml")->required()->check(not_empty());
   add_effect_choice(*parser, arguments->effects);
+  const auto add_names = [&](const char* option, std::vector<std::string>& names,
+                             const char* help) {
+    parser->add_option(option, names, help)->delimiter(',')->allow_extra_args(false);
+  };
+  add_names("--exclude", arguments->excluded,
+            "Effects that are not searched for; on one sensor: \"sensor_gain on hub_angle\"");
+  add_names("--accept", arguments->accepted,
+            "Data checks whose findings are no faults of these data, e.g. dead_channel: they are "
+            "reported as accepted, and exclude no channel and no run");
+  parser->add_option("--time-limit", arguments->time_limit_s,
+                     "Seconds after which the search ends with the best so far");
   parser->add_option("--max-causes", arguments->most_causes, "The most causes to name")
       ->capture_default_str();
   parser

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <string_view>
 #include <utility>
@@ -120,6 +121,13 @@ std::optional<DisturbanceGain> disturbance_gain(const Selection& selection) {
                          before->deviation_N_m / before->relative};
 }
 
+/// What the first of two diagnoses may take: half of the time.
+Deadline halfway(const Deadline& deadline) {
+  if (!deadline) return deadline;
+  const auto now = std::chrono::steady_clock::now();
+  return now + (*deadline - now) / 2;
+}
+
 /// By the torque hold, constant or linear between samples, that leaves the smaller error; where
 /// both leave about as much, that with fewer causes.
 Diagnosis with_nearest_hold(const Experiment& experiment, const std::vector<Hypothesis>& hypotheses,
@@ -128,7 +136,9 @@ Diagnosis with_nearest_hold(const Experiment& experiment, const std::vector<Hypo
   std::vector<Diagnosis> tried;
   for (const auto hold : {measured::TorqueHold::zero, measured::TorqueHold::first}) {
     const double begun = 0.5 * static_cast<double>(tried.size());
-    tried.push_back(diagnose(with_hold(experiment, hold), hypotheses, options,
+    SelectionOptions its_options = options;
+    if (tried.empty()) its_options.deadline = halfway(options.deadline);
+    tried.push_back(diagnose(with_hold(experiment, hold), hypotheses, its_options,
                              [&](std::string_view what, double done) {
                                return !progress || progress(what, begun + 0.5 * done);
                              }));
@@ -139,6 +149,9 @@ Diagnosis with_nearest_hold(const Experiment& experiment, const std::vector<Hypo
                     hold == measured::TorqueHold::zero ? "constant" : "linear"));
     if (made.verdict == Verdict::adequate) return made;
   }
+  // What one of the two did not search for, neither did both.
+  if (!tried[0].search_end) tried[0].search_end = tried[1].search_end;
+  if (!tried[1].search_end) tried[1].search_end = tried[0].search_end;
   const double ratio = tried[1].estimation.after / tried[0].estimation.after;
   if (ratio > kAbout) return tried[0];
   if (ratio < 1.0 / kAbout) return tried[1];
@@ -182,6 +195,8 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
   const Selection& selection = predicted.selection;
   Diagnosis made;
   made.notices = experiment.notices;
+  made.accepted = experiment.accepted;
+  made.search_end = selection.end;
   made.cancelled = selection.cancelled;
   if (made.cancelled) return made;
   made.predictor = predicted.predictor;
@@ -200,7 +215,8 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
   const Explanation extended = is_simulation(made.predictor)
                                    ? selection.chosen
                                    : explain(problem, evaluated(problem, chosen));
-  made.verdict = verdict_of(extended, as_filed);
+  made.verdict = verdict_of(extended, as_filed,
+                            made.search_end ? SearchState::incomplete : SearchState::complete);
   made.estimation_test = extended.estimation_test;
   made.validation_test = extended.validation_test;
   made.converged = selection.chosen.fit.converged;
@@ -214,9 +230,13 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
   const Eigen::VectorXd after = extended.fit.residuals + extended.held_out;
   made.channels = channel_gains(problem, before, after);
   made.overlays = overlays(problem.observations(), before, after);
-  made.symptoms = symptoms_of({problem, before, after, chosen},
-                              drift_of(selection.problem, selection, made.verdict, made.causes));
-  if (predicted.balance && made.symptoms.hub_torque.terms.empty()) {
+  std::optional<RunDrift> drift;
+  if (!is_over(options.deadline)) {
+    drift = drift_of(selection.problem, selection, made.verdict, made.causes);
+  }
+  made.symptoms = symptoms_of({problem, before, after, chosen}, std::move(drift));
+  const bool has_balance = predicted.balance && !is_over(options.deadline);
+  if (has_balance && made.symptoms.hub_torque.terms.empty()) {
     // A simulation that runs away shows nothing of the torque that it lacks.
     auto& statements = made.symptoms.statements;
     std::erase_if(statements, [](const Symptom& symptom) {
@@ -227,21 +247,25 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
   }
   made.refitted = refitted_numbers(selection, errors);
   made.extended_arm = chosen.extend(experiment.arm);
-  if (predicted.balance && made.verdict != Verdict::adequate &&
-      made.verdict != Verdict::explained) {
+  const bool is_open =
+      made.verdict == Verdict::unexplained || made.verdict == Verdict::partly_explained;
+  if (has_balance && is_open) {
     made.empirical_law = empirical_law(*predicted.balance, problem, chosen);
   }
   if (made.empirical_law) made.extended_arm = with_law(made.extended_arm, *made.empirical_law);
   made.formulations = check_formulations(made.extended_arm, scales_of(experiment).sensors);
-  if (made.verdict == Verdict::unexplained || made.verdict == Verdict::partly_explained) {
+  if (is_open && !is_over(options.deadline)) {
     made.near_misses = near_misses(predicted, posterior);
   }
-  ReportedWork work(progress);
+  ReportedWork work(progress, options.deadline);
   try {
     made.next_experiments =
         what_next(selection.problem, selection, made.verdict != Verdict::unexplained, work);
   } catch (const Cancelled&) {
-    made.cancelled = true;
+    made.cancelled = !work.is_out_of_time();
+    if (!made.search_end) {
+      made.notices.emplace_back("the time limit left no time for the recommended runs");
+    }
   }
   return made;
 }

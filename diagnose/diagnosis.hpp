@@ -81,10 +81,15 @@ struct Diagnosis {
   std::vector<NearMiss> near_misses;
   std::vector<NextExperiment> next_experiments;  ///< what_next
   std::vector<std::string> notices;
+  std::vector<std::string> excluded;      ///< effects that whoever asked left out of the search
+  std::optional<double> time_limit_s;     ///< as asked for
+  std::optional<SearchEnd> search_end;    ///< where the time limit ended the search
+  std::vector<AcceptedFinding> accepted;  ///< of the experiment
   bool cancelled = false;
 };
 
-/// Diagnoses an experiment by these hypotheses.
+/// Diagnoses an experiment by these hypotheses. After options.deadline: by what had been fitted;
+/// the run-by-run estimates, near misses and further runs are left out.
 Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& hypotheses,
                    const SelectionOptions& options = {}, const DiagnosisProgress& progress = {});
 

@@ -5,7 +5,6 @@
 #include "arm/plausibility.hpp"
 #include "arm/rigid_hub.hpp"
 #include "effects/registry/vocabulary.hpp"
-#include "measured/checks/data_check.hpp"
 #include "measured/files/arm_file.hpp"
 
 #include <fmt/format.h>
@@ -20,9 +19,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// A channel that does not vary has no noise that it could be weighed by, whatever it shows.
+bool is_constant(const measured::TimeRecord& record, const std::string& name) {
+  const auto found = std::ranges::find(record.channels, name, [](const measured::Channel& one) {
+    return arm::to_string(one.sensor);
+  });
+  return found != record.channels.end() && std::ranges::all_of(found->values, [&](double value) {
+           return value == found->values.front();
+         });
+}
+
 /// Leaves dead channels out; throws InputError where nothing usable is left.
-void keep_usable(const Experiment& experiment, measured::MeasuredRun& run, const std::string& file,
-                 std::vector<std::string>& notices) {
+void keep_usable(Experiment& experiment, measured::MeasuredRun& run, const std::string& file,
+                 const std::vector<measured::Fault>& accepted) {
   auto& record = std::get<measured::TimeRecord>(run.data);
   const arm::Arm arm = arm_in(experiment, run.run);
   measured::DataCheckOptions options;
@@ -30,7 +39,16 @@ void keep_usable(const Experiment& experiment, measured::MeasuredRun& run, const
   if (arm::has_beam(arm)) options.length_m = linear.length_m;
   options.total_inertia_kg_m2 = arm::total_inertia_kg_m2(linear);
   options.starts_at_rest = run.run.initial == measured::InitialState::rest;
-  const auto findings = measured::check_data(record, options);
+  std::vector<measured::DataFinding> findings;
+  for (measured::DataFinding& finding : measured::check_data(record, options)) {
+    const bool must_go =
+        finding.fault == measured::Fault::dead_channel && is_constant(record, finding.channel);
+    if (must_go || std::ranges::find(accepted, finding.fault) == accepted.end()) {
+      findings.push_back(std::move(finding));
+    } else {
+      experiment.accepted.push_back({run.run.id, std::move(finding)});
+    }
+  }
   std::string why;  // the first of the channels left out
   for (const measured::DataFinding& finding : findings) {
     if (finding.fault == measured::Fault::zero_torque) {
@@ -40,8 +58,8 @@ void keep_usable(const Experiment& experiment, measured::MeasuredRun& run, const
     }
     const bool is_dead = finding.fault == measured::Fault::dead_channel;
     if (is_dead && why.empty()) why = finding.text;
-    notices.push_back(fmt::format("run {}: {}{}: {}", run.run.id, finding.channel,
-                                  is_dead ? " excluded" : "", finding.text));
+    experiment.notices.push_back(fmt::format("run {}: {}{}: {}", run.run.id, finding.channel,
+                                             is_dead ? " excluded" : "", finding.text));
   }
   measured::leave_out_dead_channels(record, findings);
   if (record.channels.empty()) {
@@ -85,7 +103,8 @@ Experiment with_hold(Experiment experiment, measured::TorqueHold hold) {
   return experiment;
 }
 
-Experiment read_experiment(const fs::path& measurement_file) {
+Experiment read_experiment(const fs::path& measurement_file,
+                           const std::vector<measured::Fault>& accepted) {
   const measured::Measurement measurement = measured::read_measurement(measurement_file);
   Experiment experiment;
   experiment.files = measured::files_of(measurement_file, measurement);
@@ -107,7 +126,7 @@ Experiment read_experiment(const fs::path& measurement_file) {
     measured::MeasuredRun read{run, measured::read_run(measurement_file, run)};
     if (run.kind == measured::RunKind::time) {
       keep_usable(experiment, read, measured::beside(measurement_file, run.file).string(),
-                  experiment.notices);
+                  accepted);
     }
     experiment.runs.push_back(std::move(read));
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "arm/arm.hpp"
+#include "measured/checks/data_check.hpp"
 #include "measured/run_identification.hpp"
 
 #include <filesystem>
@@ -9,6 +10,12 @@
 
 namespace flexarm::diagnose {
 
+/// A fault of a run that the user knows to be none.
+struct AcceptedFinding {
+  std::string run;
+  measured::DataFinding finding;
+};
+
 /// An arm as its file describes it, and what was measured on it.
 struct Experiment {
   arm::Arm arm;
@@ -16,6 +23,7 @@ struct Experiment {
   std::vector<measured::MeasuredRun> runs;
   std::vector<std::filesystem::path> files;  ///< that it was read from
   std::vector<std::string> notices;          ///< what was assumed or left out, a sentence each
+  std::vector<AcceptedFinding> accepted;     ///< faults that count as none
 };
 
 /// The arm of a run: with the run's payload in place of its own where it has one.
@@ -33,12 +41,15 @@ Experiment with_hold(Experiment experiment, measured::TorqueHold hold);
 
 /// Reads the measurement, its arm and the files of its runs.
 ///
-/// Channels that are dead are left out, with a notice. Where no run is for validation the
-/// conditions (payload, kind, torque) are split, with a notice (`split_purposes`).
+/// Channels that are dead are left out, with a notice. A finding of the data checks `accepted` has
+/// no such consequence, and is among Experiment::accepted in the place of the notices. Where no run
+/// is for validation the conditions (payload, kind, torque) are split, with a notice
+/// (`split_purposes`).
 ///
 /// Throws InputError `FILE:LINE: ...` where a reader does, for a run with a torque that is zero or
 /// with no usable channel, and for runs none of which is for estimation.
-Experiment read_experiment(const std::filesystem::path& measurement_file);
+Experiment read_experiment(const std::filesystem::path& measurement_file,
+                           const std::vector<measured::Fault>& accepted = {});
 
 /// Gives every run without a purpose one. Runs that say nothing are for estimation where another
 /// is for validation. Where none is, the last run of a payload is, of the payload with most runs;

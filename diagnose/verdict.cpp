@@ -23,15 +23,17 @@ std::string_view definition_of(Verdict verdict) {
     case Verdict::explained:
       return "The residuals of the extended arm are noise, and its fit converged.";
     case Verdict::partly_explained:
-      return "Effects are identified; the residuals are not noise, or the fit did not converge.";
+      return "Effects are identified; the residuals are not noise, the fit did not converge, or "
+             "the search is incomplete.";
     case Verdict::unexplained:
       return "No effect is identified; neither the baseline nor refitted numbers leave noise.";
   }
   return "";
 }
 
-Verdict verdict_of(const Explanation& chosen, const Explanation& as_filed) {
-  const bool is_explained = chosen.leaves_noise() && chosen.fit.converged;
+Verdict verdict_of(const Explanation& chosen, const Explanation& as_filed, SearchState search) {
+  const bool is_explained =
+      chosen.leaves_noise() && chosen.fit.converged && search == SearchState::complete;
   if (!chosen.fit.candidate.effects.empty()) {
     return is_explained ? Verdict::explained : Verdict::partly_explained;
   }

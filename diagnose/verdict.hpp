@@ -12,6 +12,8 @@ enum class Verdict { adequate, explained, partly_explained, unexplained };
 inline constexpr std::array kVerdicts = {Verdict::adequate, Verdict::explained,
                                          Verdict::partly_explained, Verdict::unexplained};
 
+enum class SearchState { complete, incomplete };
+
 /// "adequate", "explained", "partly_explained", "unexplained".
 std::string_view to_string(Verdict verdict);
 
@@ -21,7 +23,9 @@ std::string_view to_string(Verdict verdict);
 std::string_view definition_of(Verdict verdict);
 
 /// `chosen` is the extended arm: with the causes that are named, or with the uncertain numbers
-/// alone refitted. `as_filed` is the arm of the file, nothing refitted.
-Verdict verdict_of(const Explanation& chosen, const Explanation& as_filed);
+/// alone refitted. `as_filed` is the arm of the file, nothing refitted. A search that is incomplete
+/// has not shown that no other cause would do: what it names explains the data in part.
+Verdict verdict_of(const Explanation& chosen, const Explanation& as_filed,
+                   SearchState search = SearchState::complete);
 
 }  // namespace flexarm::diagnose

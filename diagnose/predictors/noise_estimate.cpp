@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <exception>
 #include <limits>
 #include <nlopt.hpp>
 #include <stdexcept>
@@ -122,12 +123,19 @@ NoiseEstimate NoiseEstimator::model(const arm::Arm& arm, const std::vector<bool>
     const arm::Arm& arm;
     const std::vector<bool>& runs;
     NoiseEstimate best;
-  } task{*this, arm, runs, {}};
+    std::exception_ptr ended_by;
+  } task{*this, arm, runs, {}, nullptr};
   task.best.minus_two_log_likelihood = std::numeric_limits<double>::infinity();
   const nlopt::vfunc cost = [](const std::vector<double>& x, std::vector<double>&, void* data) {
     Task& own = *static_cast<Task*>(data);
     const NoiseModel model = own.estimator.model_at(x);
-    const double value = own.estimator.minus_two_log_likelihood(own.arm, own.runs, model);
+    double value = 0.0;
+    try {
+      value = own.estimator.minus_two_log_likelihood(own.arm, own.runs, model);
+    } catch (...) {
+      own.ended_by = std::current_exception();  // NLopt passes no exception on but its own
+      throw nlopt::forced_stop();
+    }
     ++own.best.evaluations;
     if (value < own.best.minus_two_log_likelihood) {
       own.best.minus_two_log_likelihood = value;
@@ -151,7 +159,11 @@ NoiseEstimate NoiseEstimator::model(const arm::Arm& arm, const std::vector<bool>
     search.set_maxeval(kMostEvaluations);
     std::vector<double> place = place_of(start);
     double least = 0.0;
-    search.optimize(place, least);
+    try {
+      search.optimize(place, least);
+    } catch (const nlopt::forced_stop&) {
+      std::rethrow_exception(task.ended_by);
+    }
   }
   if (!(task.best.minus_two_log_likelihood < kNoLikelihood)) {
     predictor_->innovations(arm, runs, begun.front());  // throws where the arm is the reason

@@ -83,6 +83,18 @@ bool clears_bars(const Explanation& fuller, const Explanation& simpler,
   return share_taken(simpler.validation, fuller.validation) >= options.least_validated_share;
 }
 
+const Explanation* simplest(const std::vector<Explanation>& found, std::size_t effects,
+                            const SelectionOptions& options) {
+  const Explanation* best = nullptr;
+  for (const Explanation& other : found) {
+    if (other.fit.candidate.effects.size() != effects) continue;
+    const bool is_simpler =
+        best != nullptr && other.fit.candidate.values.size() < best->fit.candidate.values.size();
+    if (best == nullptr || (is_simpler && !clears_bars(*best, other, options))) best = &other;
+  }
+  return best;
+}
+
 bool runs_away(const Explanation& explanation, const SelectionOptions& options) {
   return std::ranges::any_of(
       std::array{&explanation.estimation, &explanation.validation}, [&](const Misfit* misfit) {

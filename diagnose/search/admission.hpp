@@ -30,6 +30,11 @@ bool is_identified(const Explanation& explanation);
 bool clears_bars(const Explanation& fuller, const Explanation& simpler,
                  const SelectionOptions& options);
 
+/// Of the sets of so many effects in `found`, which are sorted by fit, the best, or one with fewer
+/// parameters that it does not clear the bars over; null where there are none.
+const Explanation* simplest(const std::vector<Explanation>& found, std::size_t effects,
+                            const SelectionOptions& options);
+
 /// What a simulation leaves of `time` runs is near their signal's own size (options.
 /// largest_error_left): it has run away from the data, and no effect may be named. Never with a
 /// stochastic grey box, which follows the data.

@@ -162,6 +162,15 @@ std::vector<Hypothesis> hypotheses(const Experiment& experiment) {
   return all;
 }
 
+std::vector<Hypothesis> without(std::vector<Hypothesis> all,
+                                const std::vector<std::string>& excluded) {
+  std::erase_if(all, [&](const Hypothesis& one) {
+    return std::ranges::find(excluded, one.effect) != excluded.end() ||
+           std::ranges::find(excluded, one.label()) != excluded.end();
+  });
+  return all;
+}
+
 std::vector<Hypothesis> distinct(std::vector<Hypothesis> all) {
   std::vector<Hypothesis> made;
   const auto is_same = [](const Hypothesis& one, const Hypothesis& other) {

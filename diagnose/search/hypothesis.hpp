@@ -46,6 +46,11 @@ struct Hypothesis {
 /// effect applies to. Behind them the arm's own hypotheses.
 std::vector<Hypothesis> hypotheses(const Experiment& experiment);
 
+/// `all` without those named in `excluded`: an effect by its name, with every sensor, or an effect
+/// on one sensor by its label. A name of none of them changes nothing.
+std::vector<Hypothesis> without(std::vector<Hypothesis> all,
+                                const std::vector<std::string>& excluded);
+
 /// `all` with one of those that are the same model (Entry::same_as), the others as its
 /// `other_names`.
 std::vector<Hypothesis> distinct(std::vector<Hypothesis> all);

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <limits>
 #include <memory>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <variant>
@@ -21,6 +22,10 @@ namespace {
 /// Flexible modes of a Kalman filter <= this. What leaves no noise by output error is wrong by more
 /// than the modes beyond.
 constexpr int kMostFilteredModes = 6;
+
+/// A stage of the search that a time limit may end.
+constexpr const char* kNoiseStage = "the noise of a Kalman filter";
+constexpr const char* kNoTime = "the time limit left no time for another";
 
 /// NRMSE of a loop that is not that of the data.
 constexpr double kDiverged = 10.0;
@@ -120,7 +125,8 @@ std::optional<PredictedSelection> select_by_filter(const Task& task,
                                                    const PredictedSelection& by_simulation,
                                                    const DiagnosisProgress& progress) {
   const auto& [hypotheses, options] = task;
-  const ReportedWork work(progress);
+  ReportedWork work(progress, options.deadline);
+  work.tell(kNoiseStage, 0.0);
   const Problem unfiltered = filtered_problem(by_simulation.simulated, options);
   const Experiment& experiment = unfiltered.experiment();
   const NoiseEstimator estimator(experiment, unfiltered.observations(), unfiltered.predictor(),
@@ -171,6 +177,10 @@ PredictedSelection select_by_both(const Task& task, const Problem& problem,
                                   const DiagnosisProgress& progress) {
   PredictedSelection made = select_by_simulation(task, problem, part_of(progress, 0.0, 0.5));
   if (made.selection.cancelled) return made;
+  if (made.selection.end) {
+    made.reason = kNoTime;
+    return made;
+  }
   if (made.selection.chosen.leaves_noise()) {
     made.reason = "its residuals are noise";
     return made;
@@ -179,6 +189,11 @@ PredictedSelection select_by_both(const Task& task, const Problem& problem,
   try {
     auto filtered = select_by_filter(task, made, part_of(progress, 0.5, 1.0));
     if (!filtered) return made;
+    if (filtered->selection.end && filtered->selection.chosen.fit.candidate.effects.empty()) {
+      made.reason = kNoTime;
+      made.selection.end = filtered->selection.end;
+      return made;
+    }
     const double by_filter = simulated_error(*filtered);
     const double by_simulation = simulated_error(made);
     if (filtered->selection.cancelled || by_filter <= by_simulation) return *std::move(filtered);
@@ -191,7 +206,11 @@ PredictedSelection select_by_both(const Task& task, const Problem& problem,
                                                              : "stochastic grey box",
         100.0 * by_filter, 100.0 * by_simulation);
   } catch (const Cancelled&) {
-    made.selection.cancelled = true;
+    made.selection.cancelled = !is_over(task.options.deadline);
+    if (!made.selection.cancelled) {
+      made.reason = kNoTime;
+      made.selection.end = SearchEnd{kNoiseStage, {}};
+    }
   } catch (const arm::InputError& error) {
     made.reason = fmt::format("no Kalman filter can be formed ({})", error.what());
   }
@@ -206,6 +225,12 @@ PredictedSelection select_by_asked_filter(const Task& task, const Problem& probl
   try {
     return *select_by_filter(task, unsearched, progress);
   } catch (const Cancelled&) {
+    if (is_over(task.options.deadline)) {
+      PredictedSelection made = select_by_simulation(task, problem, progress);
+      made.reason = kNoTime;
+      made.selection.end = SearchEnd{kNoiseStage, {}};
+      return made;
+    }
     unsearched.selection.cancelled = true;
     return unsearched;
   }

@@ -24,7 +24,8 @@ struct PredictedSelection {
 /// disturbance of the hub torque of the arm that it made is options.least_disturbance or more,
 /// effects are also selected by torque balance at the hub, or by a stochastic grey box where a
 /// `time` run does not show the hub's motion. Of both selections that one is taken with which
-/// simulations of validation runs (estimation runs without these) are nearer to the data.
+/// simulations of validation runs (estimation runs without these) are nearer to the data. After
+/// options.deadline that by output error, unless the other names a cause.
 ///
 /// With options.predictor by that one; throws InputError where it cannot be formed, or no run has a
 /// controller for it.

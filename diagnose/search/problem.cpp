@@ -114,10 +114,10 @@ bool Problem::lower_noise(const Candidate& candidate) {
   return fell;
 }
 
-bool Problem::estimate_noise(const Candidate& candidate) {
+bool Problem::estimate_noise(const Candidate& candidate, std::function<void()> go_on) {
   const NoiseModel present = *predictor_.noise();
   const arm::Arm arm = candidate.extend(experiment_->arm);
-  const NoiseEstimator estimator(*experiment_, observations_, predictor_);
+  const NoiseEstimator estimator(*experiment_, observations_, predictor_, std::move(go_on));
   const double before =
       estimator.disturbance(arm, estimation_runs_, present).minus_two_log_likelihood;
   NoiseEstimate found = estimator.model(arm, estimation_runs_, {present});

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -60,8 +61,9 @@ class Problem {
   static constexpr double kLower = 0.05;
 
   /// With a noise model: takes up the most likely one for a candidate where that is more likely by
-  /// more than `kMoreLikely` of -2 ln L. Returns whether it did.
-  bool estimate_noise(const Candidate& candidate);
+  /// more than `kMoreLikely` of -2 ln L. Returns whether it did. `go_on` is called before each
+  /// evaluation of the likelihood, and may throw to cancel.
+  bool estimate_noise(const Candidate& candidate, std::function<void()> go_on = {});
   static constexpr double kMoreLikely = 2.0;
   /// With a noise model: the disturbance that a candidate leaves in these runs.
   DisturbanceLeft disturbance_left(const Candidate& candidate,

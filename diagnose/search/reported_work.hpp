@@ -1,9 +1,11 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <cstddef>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <string_view>
 #include <tbb/parallel_for.h>
 
@@ -14,17 +16,30 @@ namespace flexarm::diagnose {
 /// false cancels.
 using DiagnosisProgress = std::function<bool(std::string_view, double)>;
 
-/// Thrown out of work that was cancelled.
+/// When work must end with what it has; none: whenever it is done.
+using Deadline = std::optional<std::chrono::steady_clock::time_point>;
+
+inline bool is_over(const Deadline& deadline) {
+  return deadline && std::chrono::steady_clock::now() >= *deadline;
+}
+
+/// Thrown out of work that was cancelled, or whose time is over.
 struct Cancelled {};
 
 /// Work on all cores that tells how far it is. Throws Cancelled where the progress function
-/// cancels.
+/// cancels, and after the deadline.
 class ReportedWork {
  public:
   /// `progress` must outlive the object.
-  explicit ReportedWork(const DiagnosisProgress& progress) : progress_(progress) {}
+  explicit ReportedWork(const DiagnosisProgress& progress, const Deadline& deadline = {})
+      : progress_(progress), deadline_(deadline) {}
 
   double done() const { return done_; }  ///< the fraction that was told last
+  std::string_view what() const { return what_; }
+  /// The deadline, and not the progress function, ended it.
+  bool is_out_of_time() const { return is_out_of_time_; }
+  /// For what must still be done after it.
+  void lift_deadline() { deadline_.reset(); }
 
   /// `what` must outlive the object. Concurrent calls are safe.
   void tell(std::string_view what, double fraction) {
@@ -54,9 +69,14 @@ class ReportedWork {
  private:
   void ask() const {
     if (progress_ && !progress_(what_, done_)) throw Cancelled{};
+    if (!is_over(deadline_)) return;
+    is_out_of_time_ = true;
+    throw Cancelled{};
   }
 
   const DiagnosisProgress& progress_;
+  Deadline deadline_;
+  mutable std::atomic<bool> is_out_of_time_ = false;
   mutable std::mutex telling_;
   std::string_view what_;
   std::atomic<double> done_ = 0.0;

@@ -69,6 +69,23 @@ Posterior posterior_of(const Selection& selection, std::size_t hypotheses,
   return {sets, hypotheses, options};
 }
 
+std::optional<std::size_t> improbable_effect(const Selection& selection, std::size_t hypotheses,
+                                             const SelectionOptions& options) {
+  const Candidate& candidate = selection.chosen.fit.candidate;
+  const Posterior posterior = posterior_of(selection, hypotheses, options);
+  double least = options.least_probability;
+  std::optional<std::size_t> improbable;
+  for (std::size_t i = 0; i < candidate.effects.size(); ++i) {
+    const Hypothesis& effect = candidate.effects[i];
+    const double probability =
+        class_probability(effect, rivals_of(effect, selection, posterior), posterior);
+    if (probability >= least) continue;
+    least = probability;
+    improbable = i;
+  }
+  return improbable;
+}
+
 double class_probability(const Hypothesis& cause, const std::vector<Rival>& rivals,
                          const Posterior& posterior) {
   std::vector<const Hypothesis*> indistinguishable;

@@ -4,6 +4,7 @@
 #include "diagnose/search/selection.hpp"
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace flexarm::diagnose {
@@ -37,5 +38,10 @@ Posterior posterior_of(const Selection& selection, std::size_t hypotheses,
 /// That this cause, or one of its `rivals` that is indistinguishable from it, is there.
 double class_probability(const Hypothesis& cause, const std::vector<Rival>& rivals,
                          const Posterior& posterior);
+
+/// The least probable of the chosen causes, with what stands in its place as well, if that is too
+/// improbable to be named; `hypotheses` is the number that there are.
+std::optional<std::size_t> improbable_effect(const Selection& selection, std::size_t hypotheses,
+                                             const SelectionOptions& options);
 
 }  // namespace flexarm::diagnose

@@ -1,11 +1,12 @@
 #include "diagnose/search/selection.hpp"
 
 #include "diagnose/search/admission.hpp"
-#include "diagnose/search/effect_scan.hpp"
 #include "diagnose/search/parameter_errors.hpp"
 #include "diagnose/search/rivals.hpp"
+#include "diagnose/search/set_fits.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <iterator>
 #include <optional>
 #include <set>
@@ -43,8 +44,8 @@ class Search {
       : problem_(problem),
         hypotheses_(hypotheses),
         options_(options),
-        work_(progress),
-        scan_(problem, options, work_) {
+        work_(progress, options.deadline),
+        fits_(problem_, options, work_) {
     for (const Hypothesis& effect : hypotheses) {
       (is_general(effect) ? general_ : special_).push_back(&effect);
     }
@@ -59,7 +60,18 @@ class Search {
  private:
   Selection found() {
     Selection made{problem_};
-    made.nothing = fitted(problem_.as_filed());
+    try {
+      search(made);
+    } catch (const Cancelled&) {
+      if (!work_.is_out_of_time()) throw;
+      end_search(made);
+    }
+    made.rivals = indistinguishable_sets(made, posterior_of(made, hypotheses_.size(), options_));
+    return made;
+  }
+
+  void search(Selection& made) {
+    made.nothing = fits_.fitted(problem_.as_filed());
     made.chosen = made.nothing;
     see_noise(made);
     if (!is_enough(made)) try_singles(made);
@@ -68,28 +80,57 @@ class Search {
       generalise(made);
     }
     leave_out_unnamed(made);
-    made.rivals = indistinguishable_sets(made, posterior_of(made, hypotheses_.size(), options_));
-    return made;
+  }
+
+  /// The best so far, where the time is over. Of the singles it is one that may be named without
+  /// further fits: a general effect has its limits to be compared with.
+  void end_search(Selection& made) {
+    made.end = SearchEnd{std::string(work_.what()), fits_.untried()};
+    work_.lift_deadline();
+    if (made.nothing.fit.residuals.size() == 0) {
+      made.nothing = explain(problem_, fit(problem_, problem_.as_filed(), {.most_steps = 0}));
+      made.chosen = made.nothing;
+    }
+    if (made.chosen.fit.candidate.effects.empty()) {
+      const auto best = std::ranges::find_if(made.singles, [&](const Explanation& single) {
+        return !is_general(single.fit.candidate.effects.front()) &&
+               may_be_named(single, made.nothing);
+      });
+      if (best != made.singles.end()) made.chosen = *best;
+    }
+    leave_out_unnamed(made);
+  }
+
+  /// `change`, which changes the problem and fits what there is to it; where that is cancelled, the
+  /// problem is as it was before.
+  template <class Change>
+  void change_problem(Change change) {
+    const Problem before = problem_;
+    try {
+      change();
+    } catch (const Cancelled&) {
+      problem_ = before;
+      throw;
+    }
   }
 
   /// Effects by themselves. Those that have another as a limit come after it.
   void try_singles(Selection& made) {
     const Candidate& none = made.nothing.fit.candidate;
-    made.singles =
-        all_with(none, special_, kSingles, 0.0, 0.7 * kSinglesDone, options_.singles_refitted);
+    fits_.add_with(none, special_, kSingles, 0.7 * kSinglesDone, options_.singles_refitted,
+                   made.singles);
     see_noise(made);
     const std::vector<const Hypothesis*> general = general_effects(made.singles);
-    std::vector<Explanation> found(general.size());
-    work_.in_parallel(general.size(), kSingles, work_.done(), kSinglesDone, [&](std::size_t i) {
+    const std::vector<Explanation> special = made.singles;
+    const auto look = [&](std::size_t i) {
       const auto limit = std::ranges::find_if(
-          made.singles, [&](const Explanation& single) { return is_limit(single, *general[i]); });
-      found[i] = fitted((limit == made.singles.end()
-                             ? scan_.first_look(none, *general[i])
-                             : scan_.look_in_place(limit->fit.candidate, 0, *general[i]))
-                            .candidate);
-    });
-    std::ranges::copy_if(found, std::back_inserter(made.singles), is_identified);
-    sort_by_fit(made.singles);
+          special, [&](const Explanation& single) { return is_limit(single, *general[i]); });
+      return (limit == special.end()
+                  ? fits_.scan().first_look(none, *general[i])
+                  : fits_.scan().look_in_place(limit->fit.candidate, 0, *general[i]))
+          .candidate;
+    };
+    fits_.add_all(labels_with(none, general), kSingles, kSinglesDone, made.singles, look);
     see_noise(made);
   }
 
@@ -115,24 +156,34 @@ class Search {
   void see_noise(Selection& made) {
     const Explanation* best = &made.chosen;
     if (best->fit.candidate.effects.empty() && !made.singles.empty()) best = &made.singles.front();
-    const bool is_changed = problem_.predictor().noise()
-                                ? problem_.estimate_noise(best->fit.candidate)
-                                : problem_.lower_noise(best->fit.candidate);
-    if (is_changed) refit(made);
+    const Candidate candidate = best->fit.candidate;
+    change_problem([&] {
+      const bool is_changed = problem_.predictor().noise()
+                                  ? problem_.estimate_noise(candidate, [this] { work_.go_on(); })
+                                  : problem_.lower_noise(candidate);
+      if (is_changed) refit(made);
+    });
   }
 
-  /// All that was fitted to all data once more, from where it is, with the problem as it is now.
-  void refit(Selection& made) {
-    const auto again = [this](Explanation& explanation) {
-      explanation = fitted(explanation.fit.candidate);
+  /// All that was fitted to all data once more, from where it is, with the problem as it is now:
+  /// all of it, or nothing where that is cancelled.
+  void refit(Selection& made) const {
+    const auto again = [this](const Explanation& explanation) {
+      return fits_.fitted(explanation.fit.candidate);
     };
-    again(made.nothing);
-    again(made.chosen);
-    for (auto* explanations : {&made.singles, &made.combinations}) {
-      tbb::parallel_for(std::size_t{0}, explanations->size(),
-                        [&](std::size_t i) { again((*explanations)[i]); });
-      sort_by_fit(*explanations);
-    }
+    const auto all_again = [&](std::vector<Explanation> explanations) {
+      tbb::parallel_for(std::size_t{0}, explanations.size(),
+                        [&](std::size_t i) { explanations[i] = again(explanations[i]); });
+      sort_by_fit(explanations);
+      return explanations;
+    };
+    Explanation nothing = again(made.nothing);
+    Explanation chosen = again(made.chosen);
+    std::vector<Explanation> singles = all_again(made.singles);
+    made.combinations = all_again(made.combinations);
+    made.nothing = std::move(nothing);
+    made.chosen = std::move(chosen);
+    made.singles = std::move(singles);
   }
 
   /// The residual is noise, or what is not is about the error of a simulation.
@@ -152,44 +203,26 @@ class Search {
     }
     TorqueTiming timing = torque_timing(problem_, made.chosen.fit);
     if (timing.share < options_.least_timing_share) return;
+    change_problem([&] { correct_by(made, std::move(timing)); });
+  }
+
+  /// ... where it leaves noise; else it is undecided.
+  void correct_by(Selection& made, TorqueTiming timing) {
     const Problem as_recorded = problem_;
     problem_.replace_torques(retimed(problem_.experiment(), timing));
     // Once more from there: what the first step was too long for, and the runs for validation.
-    Explanation corrected = fitted(made.chosen.fit.candidate);
+    Explanation corrected = fits_.fitted(made.chosen.fit.candidate);
     problem_.replace_torques(
         retimed(problem_.experiment(), torque_timing(problem_, corrected.fit)));
     problem_.lower_noise(corrected.fit.candidate);
-    corrected = fitted(corrected.fit.candidate);
+    corrected = fits_.fitted(corrected.fit.candidate);
     if (!corrected.leaves_noise()) {
       problem_ = as_recorded;
       made.undecided_timing = std::move(timing);
       return;
     }
-    made.timing = std::move(timing);
     refit(made);
-  }
-
-  Explanation fitted(const Candidate& start) const {
-    return explain(problem_, fit(problem_, start, {.work = &work_}));
-  }
-
-  /// `base` with each of `others` that it has not, found by a scan of a coarse problem; the
-  /// `refitted` best of these fitted to all data, the best first.
-  std::vector<Explanation> all_with(const Candidate& base, std::vector<const Hypothesis*> others,
-                                    std::string_view what, double from, double to,
-                                    std::size_t refitted) {
-    std::erase_if(others, [&](const Hypothesis* other) { return base.has_effect(other->effect); });
-    if (!base.effects.empty()) others = scan_.promising(base, std::move(others), what);
-    if (others.empty()) return {};
-    const double middle = from + 0.6 * (to - from);
-    std::vector<Fit> looks = scan_.first_looks(base, others, what, from, middle);
-    looks.resize(std::min(refitted, looks.size()));
-    std::vector<Explanation> found(looks.size());
-    work_.in_parallel(looks.size(), what, middle, to,
-                      [&](std::size_t i) { found[i] = fitted(looks[i].candidate); });
-    std::erase_if(found, [](const Explanation& one) { return !is_identified(one); });
-    sort_by_fit(found);
-    return found;
+    made.timing = std::move(timing);
   }
 
   /// clears_bars against each set in which one of its effects is replaced by a limit of that: a
@@ -225,7 +258,7 @@ class Search {
     auto& kept = candidate.effects.size() == 1 ? made.singles : made.combinations;
     const auto same = find_set(kept, candidate.without(index).with(other, other.middle()));
     if (same != kept.end()) return *same;
-    Explanation found = fitted(scan_.look_in_place(candidate, index, other).candidate);
+    Explanation found = fits_.fitted(fits_.scan().look_in_place(candidate, index, other).candidate);
     kept.push_back(found);
     sort_by_fit(kept);
     return found;
@@ -238,19 +271,6 @@ class Search {
       if (is_admitted(made, *single, made.nothing)) return *find_set(made.singles, candidate);
     }
     return made.nothing;
-  }
-
-  /// Of the combinations of so many effects the best, or one with fewer parameters that it does
-  /// not clear the bars over; null where there are none.
-  const Explanation* simplest(const std::vector<Explanation>& found, std::size_t effects) const {
-    const Explanation* best = nullptr;
-    for (const Explanation& other : found) {
-      if (other.fit.candidate.effects.size() != effects) continue;
-      const bool is_simpler =
-          best != nullptr && other.fit.candidate.values.size() < best->fit.candidate.values.size();
-      if (best == nullptr || (is_simpler && !clears_bars(*best, other, options_))) best = &other;
-    }
-    return best;
   }
 
   void choose(Selection& made, Explanation best) {
@@ -269,7 +289,7 @@ class Search {
       const std::size_t causes = std::max<std::size_t>(made.chosen.fit.candidate.effects.size(), 1);
       if (static_cast<int>(causes) == options_.most_causes) return;
       combine_further(made);
-      const Explanation* larger = simplest(made.combinations, causes + 1);
+      const Explanation* larger = simplest(made.combinations, causes + 1, options_);
       if (larger == nullptr) return;
       const Explanation best = needed(exchanged(made, *larger));
       if (!is_admitted(made, best, made.chosen)) return;
@@ -297,30 +317,12 @@ class Search {
     while (!made.chosen.fit.candidate.effects.empty()) {
       const Candidate& candidate = made.chosen.fit.candidate;
       auto unnamed = unidentified_effect(candidate, stated_errors(made.chosen));
-      if (!unnamed) unnamed = improbable_effect(made);
+      if (!unnamed) unnamed = improbable_effect(made, hypotheses_.size(), options_);
       if (!unnamed) return;
       const Candidate rest = candidate.without(*unnamed);
-      made.chosen = fitted(rest);
+      made.chosen = fits_.fitted(rest);
       if (!clears_bars(made.chosen, made.nothing, options_)) made.chosen = made.nothing;
     }
-  }
-
-  /// The least probable of the chosen causes, with what stands in its place as well, if that is too
-  /// improbable to be named.
-  std::optional<std::size_t> improbable_effect(const Selection& made) const {
-    const Candidate& candidate = made.chosen.fit.candidate;
-    const Posterior posterior = posterior_of(made, hypotheses_.size(), options_);
-    double least = options_.least_probability;
-    std::optional<std::size_t> improbable;
-    for (std::size_t i = 0; i < candidate.effects.size(); ++i) {
-      const Hypothesis& effect = candidate.effects[i];
-      const double probability =
-          class_probability(effect, rivals_of(effect, made, posterior), posterior);
-      if (probability >= least) continue;
-      least = probability;
-      improbable = i;
-    }
-    return improbable;
   }
 
   /// One by itself at other values than its scan found: to be combined anew.
@@ -365,19 +367,10 @@ class Search {
   }
 
   /// `base` with any other special effect, among the combinations; nothing where these are there.
-  /// Of the same effects, begun from another, the better stays. General ones follow: generalise().
+  /// General ones follow: generalise().
   void combine(Selection& made, const Candidate& base, std::string_view what, double to) {
     if (!combined_.insert(base.labels()).second) return;
-    for (Explanation& found :
-         all_with(base, special_, what, work_.done(), to, options_.pairs_refitted)) {
-      const auto same = find_set(made.combinations, found.fit.candidate);
-      if (same == made.combinations.end()) {
-        made.combinations.push_back(std::move(found));
-      } else if (found.fit.sum_of_squares < same->fit.sum_of_squares) {
-        *same = std::move(found);
-      }
-    }
-    sort_by_fit(made.combinations);
+    fits_.add_with(base, special_, what, to, options_.pairs_refitted, made.combinations);
   }
 
   /// `explanation` without effects that the others, refitted, make superfluous: those that take
@@ -387,7 +380,7 @@ class Search {
     if (candidate.effects.size() < 2) return explanation;
     std::vector<Explanation> simpler(candidate.effects.size());
     tbb::parallel_for(std::size_t{0}, simpler.size(),
-                      [&](std::size_t i) { simpler[i] = fitted(candidate.without(i)); });
+                      [&](std::size_t i) { simpler[i] = fits_.fitted(candidate.without(i)); });
     sort_by_fit(simpler);
     for (const Explanation& one : simpler) {
       if (!clears_bars(explanation, one, options_)) return needed(one);
@@ -428,7 +421,7 @@ class Search {
   const std::vector<Hypothesis>& hypotheses_;
   const SelectionOptions& options_;
   ReportedWork work_;
-  EffectScan scan_;
+  SetFits fits_;
   std::vector<const Hypothesis*> general_;
   std::vector<const Hypothesis*> special_;    // the others
   std::set<std::set<std::string>> combined_;  // labels of what has been tried with any other

@@ -7,9 +7,17 @@
 #include "diagnose/search/torque_timing.hpp"
 
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace flexarm::diagnose {
+
+/// Where SelectionOptions::deadline ended a search.
+struct SearchEnd {
+  std::string stage;  ///< "effects one by one"
+  /// Sets of effects that were about to be tried at that stage, and were not fitted.
+  std::vector<std::string> untried;
+};
 
 /// How the causes were found.
 struct Selection {
@@ -26,12 +34,14 @@ struct Selection {
   std::optional<TorqueTiming> timing = {};  ///< by which torques were corrected
   /// That explains a good part of the excess residual, but does not leave noise: undecided.
   std::optional<TorqueTiming> undecided_timing = {};
+  std::optional<SearchEnd> end = {};  ///< of a search that is incomplete
   bool cancelled = false;
 };
 
 /// Looks for the causes of what `problem` shows beyond noise: each hypothesis by itself, scanned
 /// over its whole range and refitted; pairs of the best with any other; further ones while each
 /// takes its share; each of several exchanged for another while that fits better, and left out.
+/// After the deadline: the best so far, of what was fitted to all data.
 /// The problem that comes back has the noise level that the best single leaves to be seen, and
 /// torques corrected where their timing explains what is left.
 Selection select(Problem problem, const std::vector<Hypothesis>& hypotheses,

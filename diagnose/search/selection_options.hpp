@@ -1,5 +1,7 @@
 #pragma once
 
+#include "diagnose/search/reported_work.hpp"
+
 #include <array>
 #include <cstddef>
 #include <optional>
@@ -42,6 +44,9 @@ struct SelectionOptions {
   /// Another one is taken where what output error leaves is a disturbance of the hub torque >=
   /// this part of the commanded torque's root mean square.
   double least_disturbance = 0.03;
+
+  /// The search ends here with the best so far.
+  Deadline deadline = {};
 
   // An effect is named beside others only where all of these hold (admission.hpp).
   /// Delta BIC (misfit.hpp) without it >= this.

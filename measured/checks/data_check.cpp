@@ -1,5 +1,7 @@
 #include "measured/checks/data_check.hpp"
 
+#include "arm/input_error.hpp"
+#include "arm/nearest_name.hpp"
 #include "measured/checks/data_check_clock.hpp"
 #include "measured/checks/data_check_drift.hpp"
 #include "measured/checks/data_check_kinematics.hpp"
@@ -11,6 +13,9 @@
 #include "measured/checks/data_check_unit.hpp"
 #include "measured/checks/data_check_values.hpp"
 #include "measured/spectra/robust.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -138,6 +143,24 @@ std::string_view to_string(Fault fault) {
       return "zero torque";
   }
   throw std::invalid_argument("no such fault");
+}
+
+std::string check_name(Fault fault) {
+  std::string name(to_string(fault));
+  std::ranges::replace(name, ' ', '_');
+  return name;
+}
+
+Fault fault_of_check(std::string_view name) {
+  std::vector<std::string> names;
+  for (const Fault fault : kFaults) {
+    names.push_back(check_name(fault));
+    if (names.back() == name) return fault;
+  }
+  const std::string meant = arm::did_you_mean(name, names);
+  throw arm::InputError(
+      fmt::format("{}: unknown data check{}", arm::shown(name),
+                  meant.empty() ? fmt::format("; must be {}", fmt::join(names, ", ")) : meant));
 }
 
 std::vector<DataFinding> check_data(const TimeRecord& record, const DataCheckOptions& options) {

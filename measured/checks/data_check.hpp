@@ -2,6 +2,7 @@
 
 #include "measured/files/time_record.hpp"
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -28,8 +29,19 @@ enum class Fault {
   zero_torque,  ///< a torque that says nothing of what moves the arm
 };
 
+inline constexpr std::array kFaults = {
+    Fault::clock_jitter, Fault::missing_samples,  Fault::backward_time, Fault::saturation,
+    Fault::dead_channel, Fault::stuck_values,     Fault::quantisation,  Fault::spikes,
+    Fault::drift,        Fault::swapped_channels, Fault::sign_flipped,  Fault::wrong_unit,
+    Fault::delay,        Fault::zero_torque};
+
 /// "clock jitter", "missing samples": as in a sentence.
 std::string_view to_string(Fault fault);
+
+/// The name of its check, as an option has it: "clock_jitter", "sign_inverted".
+std::string check_name(Fault fault);
+/// The fault whose check has this name. Throws InputError for another, with the names.
+Fault fault_of_check(std::string_view name);
 
 /// One fault: what and where.
 struct DataFinding {

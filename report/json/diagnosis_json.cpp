@@ -72,6 +72,31 @@ Json prediction_json(const diagnose::Diagnosis& diagnosis) {
   return json;
 }
 
+Json search_json(const diagnose::Diagnosis& diagnosis) {
+  Json json = {{"complete", !diagnosis.search_end.has_value()},
+               {"time_limit", nullptr},
+               {"ended_at", nullptr},
+               {"untried", Json::array()},
+               {"excluded", diagnosis.excluded}};
+  if (diagnosis.time_limit_s) json["time_limit"] = *diagnosis.time_limit_s;
+  if (const auto& end = diagnosis.search_end) {
+    json["ended_at"] = end->stage;
+    json["untried"] = end->untried;
+  }
+  return json;
+}
+
+Json accepted_json(const std::vector<diagnose::AcceptedFinding>& accepted) {
+  Json json = Json::array();
+  for (const auto& [run, finding] : accepted) {
+    json.push_back({{"run", run},
+                    {"check", measured::check_name(finding.fault)},
+                    {"channel", finding.channel},
+                    {"text", finding.text}});
+  }
+  return json;
+}
+
 }  // namespace
 
 Json diagnosis_json(const diagnose::Diagnosis& diagnosis, const std::string& extended_arm) {
@@ -108,6 +133,7 @@ Json diagnosis_json(const diagnose::Diagnosis& diagnosis, const std::string& ext
           {"symptoms", statements_json(symptoms)},
           {"causes", causes},
           {"something_else", diagnosis.something_else},
+          {"search", search_json(diagnosis)},
           {"prediction", prediction_json(diagnosis)},
           {"gain", gain},
           {"residual_test",
@@ -128,7 +154,8 @@ Json diagnosis_json(const diagnose::Diagnosis& diagnosis, const std::string& ext
           {"formulations", formulations_json(diagnosis.formulations)},
           {"extended_arm", extended_arm.empty() ? Json(nullptr) : Json(extended_arm)},
           {"next_experiments", additional_runs_json(diagnosis.next_experiments)},
-          {"notices", diagnosis.notices}};
+          {"notices", diagnosis.notices},
+          {"accepted_checks", accepted_json(diagnosis.accepted)}};
 }
 
 }  // namespace flexarm::report

@@ -84,6 +84,16 @@ std::string not_noise(const diagnose::Diagnosis& diagnosis) {
   return text;
 }
 
+/// What may be there beside the named causes.
+std::string beyond_causes(const diagnose::Diagnosis& diagnosis) {
+  const bool is_noise = diagnosis.estimation_test.is_noise() &&
+                        (!diagnosis.validation || diagnosis.validation_test.is_noise());
+  if (!diagnosis.search_end || !is_noise) return " Something else is present.";
+  return " The residuals are noise, but the search is incomplete: other causes may explain the "
+         "data "
+         "as well.";
+}
+
 std::vector<Cell> gain_row(const std::string& runs, const diagnose::Gain& gain) {
   return {runs, 100.0 * gain.before, 100.0 * gain.after, 100.0 * gain.noise_floor};
 }
@@ -120,15 +130,44 @@ std::string verdict_text(const diagnose::Diagnosis& diagnosis) {
       return fmt::format("Explained by {}: the residuals are noise. {}", explanation_of(diagnosis),
                          fall);
     case diagnose::Verdict::partly_explained:
-      return fmt::format("Partly explained by {}. {}{} Something else is present.",
-                         explanation_of(diagnosis), fall, not_noise(diagnosis));
+      return fmt::format("Partly explained by {}. {}{}{}", explanation_of(diagnosis), fall,
+                         not_noise(diagnosis), beyond_causes(diagnosis));
     case diagnose::Verdict::unexplained:
       return fmt::format(
-          "Unexplained: no effect of the library has a probability of {:g} or more. NRMSE is "
-          "{:.3g} %; the noise floor is {:.3g} %.{}",
-          kLeastProbability, after, noise, not_noise(diagnosis));
+          "Unexplained: no effect {} has a probability of {:g} or more. NRMSE is {:.3g} %; the "
+          "noise "
+          "floor is {:.3g} %.{}",
+          diagnosis.search_end ? "that was tried" : "of the library", kLeastProbability, after,
+          noise, not_noise(diagnosis));
   }
   return "";
+}
+
+std::string search_text(const diagnose::Diagnosis& diagnosis) {
+  std::string text;
+  if (const auto& end = diagnosis.search_end) {
+    text = "The search is incomplete: the time limit";
+    if (diagnosis.time_limit_s) text += fmt::format(" of {:g} s", *diagnosis.time_limit_s);
+    text += fmt::format(" ended it at the stage \"{}\".", end->stage);
+    if (!end->untried.empty()) {
+      text += fmt::format(" Not tried at this stage: {}.", fmt::join(end->untried, ", "));
+    }
+    text += " Probabilities are relative to the sets of effects that were tried.";
+  }
+  if (!diagnosis.excluded.empty()) {
+    text += fmt::format("{}Excluded from the search: {}.", text.empty() ? "" : " ",
+                        fmt::join(diagnosis.excluded, ", "));
+  }
+  return text;
+}
+
+std::vector<std::string> accepted_texts(const diagnose::Diagnosis& diagnosis) {
+  std::vector<std::string> texts;
+  for (const auto& [run, finding] : diagnosis.accepted) {
+    texts.push_back(fmt::format("accepted: run {}: {}: {} ({})", run, finding.channel, finding.text,
+                                measured::check_name(finding.fault)));
+  }
+  return texts;
 }
 
 std::string predictor_text(const diagnose::Diagnosis& diagnosis) {

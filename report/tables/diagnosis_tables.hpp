@@ -4,11 +4,19 @@
 #include "report/tables/table.hpp"
 
 #include <string>
+#include <vector>
 
 namespace flexarm::report {
 
 /// The verdict in a sentence or two, as an engineer would say it.
 std::string verdict_text(const diagnose::Diagnosis& diagnosis);
+
+/// What was not searched for: sets of effects that the time limit left untried, excluded effects.
+/// Empty where the whole library was searched.
+std::string search_text(const diagnose::Diagnosis& diagnosis);
+
+/// A sentence for each fault of the data that counts as none.
+std::vector<std::string> accepted_texts(const diagnose::Diagnosis& diagnosis);
 
 /// Why the effects were named by a stochastic grey box, and the disturbance of the hub torque
 /// before and after; empty by output error.

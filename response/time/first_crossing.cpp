@@ -70,7 +70,10 @@ std::optional<double> first_crossing(std::span<const double> series) {
   for (std::size_t k = 3; k < series.size(); ++k) {
     search.third_derivative += static_cast<double>(k * (k - 1) * (k - 2)) * std::abs(series[k]);
   }
-  return search.within(0.0, series[0], 1.0, value(series, 1.0));
+  const double end = value(series, 1.0);
+  // No bound would ever hold in the halves of an interval.
+  if (!std::isfinite(end) || !std::isfinite(search.third_derivative)) return std::nullopt;
+  return search.within(0.0, series[0], 1.0, end);
 }
 
 }  // namespace flexarm::response

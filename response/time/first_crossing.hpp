@@ -16,7 +16,7 @@ double value(std::span<const double> series, double r);
 ///
 /// clears an interval, |p'| > M (b - a)/2 at its middle leaves one root at most, and any other
 /// interval is halved, earlier half first. Two crossings nearer than 2^-40 are one touch, which is
-/// none.
+/// none. Empty, too, for coefficients whose sum is too large for a number.
 std::optional<double> first_crossing(std::span<const double> series);
 
 }  // namespace flexarm::response

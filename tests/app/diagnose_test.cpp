@@ -1,11 +1,18 @@
 #include "tests/app/flexarm_fixture.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <cctype>
 #include <csignal>
+#include <functional>
+#include <random>
+#include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace flexarm::testing_app {
@@ -33,6 +40,21 @@ class Diagnose : public Flexarm {
                              "multisine:rms=0.05,from=0.5,to=60,id=multisine", "--out", "sim"});
     ASSERT_EQ(ended.status, 0) << ended.errors;
     write("sim/arm.toml", kDiagnosedArm);
+  }
+
+  /// In the run under random torque.
+  void replace_angle(const std::function<double()>& angle_rad) const {
+    std::istringstream lines(text_of("sim/random.csv"));
+    std::string replaced;
+    for (std::string line; std::getline(lines, line);) {
+      const bool is_sample = !line.empty() && (std::isdigit(line.front()) != 0);
+      const auto at = line.find(',', line.find(',') + 1);
+      replaced += is_sample ? fmt::format("{},{:.6f}{}", line.substr(0, at), angle_rad(),
+                                          line.substr(line.find(',', at + 1)))
+                            : line;
+      replaced += "\n";
+    }
+    write("sim/random.csv", replaced);
   }
 };
 
@@ -99,6 +121,84 @@ TEST_F(Diagnose, WhatCannotBeUsedIsOneLineAndNothingIsWritten) {
   EXPECT_THAT(silent.errors, HasSubstr("random.csv: run random: "));
   EXPECT_THAT(silent.errors, HasSubstr("torque"));
   EXPECT_EQ(silent.output, "");
+}
+
+TEST_F(Diagnose, ExcludedEffectsAreNotSearchedForAndListed) {
+  simulate("[effects.payload_mass]\nmass = 0.02\n");
+  const std::string file = "sim/measurement.toml";
+  const Ended ended =
+      run({"diagnose", file, "--effects", "payload_mass,time_delay,sensor_gain", "--exclude",
+           "payload_mass", "--exclude", "sensor_gain on tip_acceleration", "--json", "out.json"});
+  ASSERT_EQ(ended.status, 0) << ended.errors;
+  EXPECT_THAT(
+      ended.output,
+      HasSubstr("Excluded from the search: payload_mass, sensor_gain on tip_acceleration."));
+  const Json json = Json::parse(text_of("out.json"));
+  EXPECT_EQ(json["search"]["excluded"],
+            Json::array({"payload_mass", "sensor_gain on tip_acceleration"}));
+  EXPECT_EQ(json["search"]["complete"], true);
+  for (const auto& cause : json["causes"]) EXPECT_NE(cause["effect"], "payload_mass");
+  for (const auto& [names, what] : std::vector<std::pair<std::string, std::string>>{
+           {"payload_mas", "--exclude payload_mas: unknown effect (did you mean payload_mass?)"},
+           {"payload_mass on hub_angle", "payload_mass acts on no sensor"},
+           {"sensor_gain on hub_angel", "did you mean hub_angle?"},
+           {"payload_mass,time_delay,sensor_gain", "no effect is left to search for"}}) {
+    const Ended refused = run(
+        {"diagnose", file, "--effects", "payload_mass,time_delay,sensor_gain", "--exclude", names});
+    EXPECT_EQ(refused.status, 2) << names;
+    EXPECT_THAT(refused.errors, HasSubstr(what));
+    EXPECT_EQ(std::ranges::count(refused.errors, '\n'), 1) << refused.errors;
+  }
+}
+
+TEST_F(Diagnose, AnAcceptedCheckExcludesNoChannel) {
+  simulate("");
+  // The noise of a hub that is held.
+  replace_angle([noise = std::minstd_rand(1)]() mutable {
+    return 0.25 + 1e-6 * static_cast<double>(noise() % 2001);
+  });
+  const std::vector<std::string> plain = {
+      "diagnose", "sim/measurement.toml", "--effects", "hub_inertia", "--json", "out.json"};
+  const auto channels = [&](const std::vector<std::string>& command) {
+    const Ended ended = run(command);
+    EXPECT_EQ(ended.status, 0) << ended.errors;
+    return Json::parse(text_of("out.json"))["residual"]["channels"].size();
+  };
+  EXPECT_EQ(channels(plain), 3U);
+  std::vector<std::string> accepting = plain;
+  accepting.insert(accepting.end(), {"--accept", "dead_channel"});
+  EXPECT_EQ(channels(accepting), 4U);
+  const Json accepted = Json::parse(text_of("out.json"))["accepted_checks"];
+  ASSERT_EQ(accepted.size(), 1U);
+  EXPECT_EQ(accepted[0]["check"], "dead_channel");
+  EXPECT_EQ(accepted[0]["channel"], "hub_angle");
+  accepting.back() = "dead_channel";
+  replace_angle([] { return 0.25; });
+  EXPECT_EQ(channels(accepting), 3U) << "a constant has no noise";
+  accepting.back() = "dead_chanel";
+  const Ended misspelt = run(accepting);
+  EXPECT_EQ(misspelt.status, 2);
+  EXPECT_THAT(misspelt.errors, HasSubstr("--accept dead_chanel: unknown data check (did you mean "
+                                         "dead_channel?)"));
+}
+
+TEST_F(Diagnose, EndsAtItsTimeLimitWithWhatItHas) {
+  simulate("[effects.coulomb_friction]\ntorque = 0.01\n[effects.hub_spring]\nstiffness = 0.5\n");
+  const std::string file = "sim/measurement.toml";
+  const Ended ended = run({"diagnose", file, "--time-limit", "0.01", "--json", "out.json"});
+  ASSERT_EQ(ended.status, 0) << ended.errors;
+  EXPECT_THAT(ended.output, HasSubstr("The search is incomplete: the time limit of 0.01 s ended"));
+  const Json json = Json::parse(text_of("out.json"));
+  EXPECT_EQ(json["search"]["complete"], false);
+  EXPECT_EQ(json["search"]["time_limit"], 0.01);
+  EXPECT_EQ(json["verdict"], "unexplained");
+  EXPECT_EQ(json["extended_arm"], nullptr);
+  EXPECT_THAT(names_in(), Not(Contains("out.extended.toml")));
+  for (const char* limit : {"0", "-1", "inf", "nan", "soon"}) {
+    const Ended refused = run({"diagnose", file, "--time-limit", limit});
+    EXPECT_EQ(refused.status, 2) << limit;
+    EXPECT_THAT(refused.errors, HasSubstr("--time-limit")) << limit;
+  }
 }
 
 TEST_F(Diagnose, InterruptedItWritesNothing) {

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include <map>
+#include <random>
 #include <set>
 #include <string>
 #include <vector>
@@ -233,8 +234,12 @@ TEST_F(JsonSchema, WhatDiagnoseWritesIsWhatTheDocumentSays) {
       "[beam]\nlength = 0.96\nthickness = 0.003\nflexural_rigidity = 3.7\n"
       "linear_density = 0.165\n[hub]\ninertia = 0.0006\n[damping]\nkelvin_voigt = 1e-4\n";
   std::vector<Json> documents;
-  const auto diagnose = [&](const std::string& measurement, const std::string& effects) {
-    const Ended ended = run({"diagnose", measurement, "--effects", effects, "--json", "out.json"});
+  const auto diagnose = [&](const std::string& measurement, const std::string& effects,
+                            const std::vector<std::string>& further = {}) {
+    std::vector<std::string> arguments = {"diagnose", measurement, "--effects",
+                                          effects,    "--json",    "out.json"};
+    arguments.insert(arguments.end(), further.begin(), further.end());
+    const Ended ended = run(arguments);
     EXPECT_EQ(ended.status, 0) << ended.errors;
     documents.push_back(Json::parse(text_of("out.json")));
   };
@@ -254,6 +259,19 @@ TEST_F(JsonSchema, WhatDiagnoseWritesIsWhatTheDocumentSays) {
   diagnose("named/measurement.toml", "payload_mass,sensor_lag,root_compliance");
   simulate("unnamed", "[effects.coulomb_friction]\ntorque = 0.01\n");
   diagnose("unnamed/measurement.toml", "payload_mass,hub_inertia");
+  // A sensor that shows noise, which counts as no fault, and a search that ends at once.
+  std::minstd_rand random(1);
+  std::istringstream lines(measured::read_text_file(folder_ / "unnamed/random.csv", 1 << 24));
+  std::string stuck;
+  for (std::string line; std::getline(lines, line);) {
+    const bool is_sample = !line.empty() && line.find_first_of("0123456789") == 0;
+    const double noise = 0.25 + 1e-6 * static_cast<double>(random() % 2001);
+    stuck += (is_sample ? fmt::format("{},{:.6f}", line.substr(0, line.rfind(',')), noise) : line) +
+             "\n";
+  }
+  write("unnamed/random.csv", stuck);
+  diagnose("unnamed/measurement.toml", "payload_mass,hub_inertia",
+           {"--exclude", "hub_inertia", "--accept", "dead_channel", "--time-limit", "0.001"});
 
   write("arm.toml", arm);
   write("modal.csv",

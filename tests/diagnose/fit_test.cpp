@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <string_view>
 #include <thread>
 
@@ -91,6 +92,51 @@ TEST(Diagnose, EndsAtTheNextEvaluationWhenCancelled) {
   EXPECT_TRUE(made.cancelled);
   EXPECT_GE(asked, kCancelledAt);
   EXPECT_LE(asked, most_asked);
+}
+
+TEST(Diagnose, NamesNothingWhereTheDeadlineIsOverAtOnce) {
+  const Experiment experiment =
+      simulated_experiment({effects::named("coulomb_friction", {{"torque", 0.012}})});
+  const auto hypotheses = named(experiment, {"coulomb_friction", "time_delay", "torque_bias"});
+  SelectionOptions options;
+  options.deadline = std::chrono::steady_clock::now();
+  const Diagnosis none = diagnose(experiment, hypotheses, options);
+  EXPECT_FALSE(none.cancelled);
+  ASSERT_TRUE(none.search_end);
+  EXPECT_EQ(none.verdict, Verdict::unexplained);
+  EXPECT_TRUE(none.causes.empty());
+  EXPECT_TRUE(none.next_experiments.empty());
+}
+
+TEST(Diagnose, EndsWithTheBestSoFarAtTheDeadline) {
+  using Clock = std::chrono::steady_clock;
+  const Experiment experiment =
+      simulated_experiment({effects::named("coulomb_friction", {{"torque", 0.012}}),
+                            effects::named("time_delay", {{"delay", 0.001}})});
+  const auto hypotheses = named(experiment, {"coulomb_friction", "time_delay", "torque_bias"});
+  constexpr std::string_view kPairs = "pairs of effects";
+  // How long it takes to the pairs; then, at the pairs, the rest of a longer time is slept through.
+  const auto begun = Clock::now();
+  Clock::duration to_pairs{};
+  diagnose(experiment, hypotheses, {}, [&](std::string_view what, double) {
+    if (what == kPairs) to_pairs = Clock::now() - begun;
+    return what != kPairs;
+  });
+  ASSERT_GT(to_pairs.count(), 0);
+  SelectionOptions options;
+  options.deadline = Clock::now() + 3 * to_pairs + std::chrono::seconds(1);
+  const Diagnosis made =
+      diagnose(experiment, hypotheses, options, [&](std::string_view what, double) {
+        if (what == kPairs) std::this_thread::sleep_until(*options.deadline);
+        return true;
+      });
+  EXPECT_FALSE(made.cancelled);
+  ASSERT_TRUE(made.search_end);
+  EXPECT_EQ(made.search_end->stage, kPairs);
+  EXPECT_FALSE(made.search_end->untried.empty());
+  ASSERT_EQ(made.causes.size(), 1U);
+  EXPECT_EQ(made.causes.front().effect, "coulomb_friction");
+  EXPECT_EQ(made.verdict, Verdict::partly_explained);
 }
 
 TEST(Fit, AndScanEndWhereTheirWorkIsCancelled) {

@@ -62,6 +62,17 @@ TEST(NoiseEstimate, FindsDeviationAndCorrelationTimeOfAnUnrecordedTorque) {
   }
 }
 
+TEST(NoiseEstimate, EndsWhereItIsCancelled) {
+  const Experiment experiment = simulated_experiment({}, kShortRuns);
+  const Problem problem(experiment);
+  const NoiseEstimator estimator(experiment, problem.observations(), problem.predictor(),
+                                 [asked = 0]() mutable {
+                                   if (++asked == 5) throw Cancelled{};
+                                 });
+  EXPECT_THROW(estimator.model(trial_arm(), std::vector<bool>(experiment.runs.size(), true)),
+               Cancelled);
+}
+
 TEST(NoiseEstimate, OfARunWithoutDisturbanceIsNegligible) {
   const Experiment experiment = simulated_experiment({}, kShortRuns);
   const Problem problem(experiment);

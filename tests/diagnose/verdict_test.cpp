@@ -51,6 +51,15 @@ TEST(Verdict, OfAFitThatDidNotConvergeIsNeverExplained) {
             Verdict::unexplained);
 }
 
+TEST(Verdict, OfAnIncompleteSearchIsNeverExplained) {
+  const auto verdict = [](Effects effects, const Explanation& as_filed) {
+    return verdict_of(fitted(effects, Residuals::noise), as_filed, SearchState::incomplete);
+  };
+  EXPECT_EQ(verdict(Effects::one, kWrong), Verdict::partly_explained);
+  EXPECT_EQ(verdict(Effects::none, kWrong), Verdict::unexplained);
+  EXPECT_EQ(verdict(Effects::none, fitted(Effects::none, Residuals::noise)), Verdict::adequate);
+}
+
 TEST(Verdict, IsUnexplainedWithoutACause) {
   EXPECT_EQ(verdict_of(kWrong, kWrong), Verdict::unexplained);
 }

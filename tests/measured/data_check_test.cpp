@@ -1,5 +1,6 @@
 #include "measured/checks/data_check.hpp"
 
+#include "arm/input_error.hpp"
 #include "measured/files/measurement.hpp"
 #include "tests/measured/data_check_cases.hpp"
 
@@ -18,12 +19,6 @@ namespace flexarm::measured {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr Fault kFaults[] = {
-    Fault::clock_jitter, Fault::missing_samples,  Fault::backward_time, Fault::saturation,
-    Fault::dead_channel, Fault::stuck_values,     Fault::quantisation,  Fault::spikes,
-    Fault::drift,        Fault::swapped_channels, Fault::sign_flipped,  Fault::wrong_unit,
-    Fault::delay,        Fault::zero_torque};
 
 constexpr int kFiles = 50;
 /// Files of a kind in which something beside the planted fault may be found: the rates measured
@@ -83,6 +78,12 @@ TEST_P(PlantedFaults, AreFoundInEveryFile) {
   }
   RecordProperty("files_with_further_findings", with_further);
   EXPECT_LE(with_further, kMostFurther);
+}
+
+TEST(DataCheck, IsFoundByItsName) {
+  for (const Fault fault : kFaults) EXPECT_EQ(fault_of_check(check_name(fault)), fault);
+  EXPECT_EQ(fault_of_check("dead_channel"), Fault::dead_channel);
+  EXPECT_THROW(fault_of_check("dead channel"), arm::InputError);
 }
 
 INSTANTIATE_TEST_SUITE_P(, PlantedFaults, testing::ValuesIn(kFaults), [](const auto& entry) {

@@ -83,5 +83,25 @@ TEST(VerdictText, NamesThePartOfTheResidualTestThatFails) {
   EXPECT_THAT(text, EndsWith("Something else is present."));
 }
 
+TEST(VerdictText, OfAnIncompleteSearchLeavesOtherCausesOpen) {
+  Diagnosis made = with_gain(Verdict::partly_explained);
+  made.causes = {cause("coulomb_friction", 0.98)};
+  made.search_end = diagnose::SearchEnd{"pairs of effects", {"coulomb_friction + time_delay"}};
+  made.time_limit_s = 60.0;
+  EXPECT_THAT(verdict_text(made), EndsWith("other causes may explain the data as well."));
+  EXPECT_THAT(search_text(made), HasSubstr("the time limit of 60 s ended it at the stage \"pairs"));
+  EXPECT_THAT(search_text(made),
+              HasSubstr("Not tried at this stage: coulomb_friction + time_delay."));
+  made.estimation_test.level_p_value = 0.0;
+  EXPECT_THAT(verdict_text(made), EndsWith("Something else is present."));
+}
+
+TEST(SearchText, IsEmptyWhereAllWasSearched) {
+  Diagnosis made = with_gain(Verdict::explained);
+  EXPECT_EQ(search_text(made), "");
+  made.excluded = {"gravity"};
+  EXPECT_EQ(search_text(made), "Excluded from the search: gravity.");
+}
+
 }  // namespace
 }  // namespace flexarm::report

@@ -84,5 +84,13 @@ TEST(FirstCrossing, AgreesWithTheRootsItWasMadeFrom) {
   }
 }
 
+TEST(FirstCrossing, OfNumbersTooLargeIsNone) {
+  // Of a simulation that diverges: each half of an interval is as unbounded as the whole.
+  constexpr double kLargest = std::numeric_limits<double>::max();
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  EXPECT_FALSE(first_crossing(std::vector{1.0, kInfinity, -kInfinity, 0.0}));
+  EXPECT_FALSE(first_crossing(std::vector{1.0, 0.0, 0.0, kLargest, -kLargest}));
+}
+
 }  // namespace
 }  // namespace flexarm::response

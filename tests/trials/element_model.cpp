@@ -169,7 +169,13 @@ void ElementModel::lay_out(int elements, std::span<const arm::Sensor> sensors) {
 
 double ElementModel::tension_N(double position_m) const {
   const double beyond_m = arm_.length_m - position_m;
-  return arm_.gravity_m_per_s2 * (arm_.payload_kg + arm_.linear_density_kg_per_m * beyond_m);
+  // The mean thickness of what is beyond is that at its middle.
+  const double mean = arm_.thickness_ratio(position_m + 0.5 * beyond_m);
+  return arm_.gravity_m_per_s2 * (arm_.payload_kg + arm_.linear_density_kg_per_m * mean * beyond_m);
+}
+
+double ElementModel::rigidity_N_m2(double thickness_ratio) const {
+  return thickness_ratio * thickness_ratio * thickness_ratio * arm_.flexural_rigidity_N_m2;
 }
 
 double ElementModel::shear_rigidity_N() const {
@@ -190,12 +196,13 @@ ElementModel::Square ElementModel::square_of(const Element& element) const {
   const Eigen::Index n = element_size(shears);
   Square square{Eigen::MatrixXd::Zero(n, n), Eigen::MatrixXd::Zero(n, n),
                 Eigen::MatrixXd::Zero(n, n)};
-  const double m = arm_.linear_density_kg_per_m;
   for (const GaussPlace& gauss : kGauss) {
     const ElementShapes at = element_shapes(shears, element.length_m, gauss.part);
+    const double ratio = arm_.thickness_ratio(element.from_m + gauss.part * element.length_m);
+    const double m = ratio * arm_.linear_density_kg_per_m;
     const double dx = gauss.weight * element.length_m;
     const Eigen::MatrixXd bending =
-        dx * arm_.flexural_rigidity_N_m2 * at.curvature * at.curvature.transpose();
+        dx * rigidity_N_m2(ratio) * at.curvature * at.curvature.transpose();
     const Eigen::MatrixXd motion = dx * at.deflection * at.deflection.transpose();
     square.mass += m * motion;
     square.stiffness += bending + dx * tension_N(element.from_m + gauss.part * element.length_m) *
@@ -238,7 +245,8 @@ double ElementModel::twice_potential(const Eigen::VectorXd& u) const {
     for (const GaussPlace& gauss : kGauss) {
       const ElementShapes at = element_shapes(shears, element.length_m, gauss.part);
       const double slope = at.slope.dot(local);
-      double density = arm_.flexural_rigidity_N_m2 * std::pow(at.curvature.dot(local), 2) +
+      const double ratio = arm_.thickness_ratio(element.from_m + gauss.part * element.length_m);
+      double density = rigidity_N_m2(ratio) * std::pow(at.curvature.dot(local), 2) +
                        tension_N(element.from_m + gauss.part * element.length_m) * slope * slope;
       if (shears) density += shear_rigidity_N() * std::pow(slope - at.rotation.dot(local), 2);
       sum += gauss.weight * element.length_m * density;
@@ -292,7 +300,8 @@ ReadingRow ElementModel::strain_reading(double position_m) const {
   const Square square = square_of(element);
   const Eigen::Index node = at_tip ? square.mass.rows() - 1 : 1;
   const double sign = at_tip ? 1.0 : -1.0;
-  const double scale = sign * 0.5 * arm_.thickness_m.value() / arm_.flexural_rigidity_N_m2;
+  const double ratio = arm_.thickness_ratio(position_m);
+  const double scale = sign * 0.5 * ratio * arm_.thickness_m.value() / rigidity_N_m2(ratio);
   return {scale * spread(element, square.stiffness.row(node).transpose()),
           scale * spread(element, square.damping.row(node).transpose()),
           scale * spread(element, square.mass.row(node).transpose()), arm_.kelvin_voigt_s};

@@ -85,6 +85,7 @@ class ElementModel {
   ReadingRow make_reading(const arm::Sensor& sensor) const;
   ReadingRow strain_reading(double position_m) const;
   double tension_N(double position_m) const;
+  double rigidity_N_m2(double thickness_ratio) const;
   double shear_rigidity_N() const;
   /// Stiffness of hub and tip against turning, springs and weight together.
   double hub_stiffness_N_m() const;

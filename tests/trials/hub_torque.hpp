@@ -13,6 +13,8 @@ struct HubStep {
   double angle_rad = 0.0;        ///< there
   double turn_rad = 0.0;         ///< by which the hub turns in the step
   double speed_rad_per_s = 0.0;  ///< mean of the step
+  double driving_N_m = 0.0;      ///< what comes to the hub from the actuator, mean of the step
+  double duration_s = 0.0;
 };
 
 /// A torque on the hub that depends on its motion or on time, with a memory if it needs one.
@@ -27,6 +29,8 @@ class HubTorque {
   virtual double mean_N_m(const HubStep& step) const = 0;
   /// Takes note that the hub has turned.
   virtual void turned(double /*turn_rad*/) {}
+  /// Takes note of a step that has been made.
+  virtual void made(const HubStep& /*step*/) {}
 };
 
 /// What is not the same in every run.

@@ -14,8 +14,11 @@ double HubTorques::mean_N_m(const HubStep& step) const {
   return sum;
 }
 
-void HubTorques::turned(double turn_rad) {
-  for (const auto& torque : torques_) torque->turned(turn_rad);
+void HubTorques::made(const HubStep& step) {
+  for (const auto& torque : torques_) {
+    torque->turned(step.turn_rad);
+    torque->made(step);
+  }
 }
 
 double DryFriction::size_N_m(double speed_rad_per_s) const {

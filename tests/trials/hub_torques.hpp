@@ -14,7 +14,8 @@ class HubTorques {
 
   bool none() const { return torques_.empty(); }
   double mean_N_m(const HubStep& step) const;
-  void turned(double turn_rad);
+  /// Takes note of a step that has been made.
+  void made(const HubStep& step);
 
  private:
   std::vector<std::unique_ptr<HubTorque>> torques_;

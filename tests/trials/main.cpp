@@ -41,8 +41,8 @@ TrialOptions parse_options(CLI::App& app, int argc, char** argv) {
   app.add_option("--kind", choice.kinds, "time, frf, modal")->delimiter(',');
   app.add_option("--effects", choice.effects,
                  "Effects to simulate: names, several at once joined by +; or single (each of the "
-                 "library), "
-                 "pairs, none, outside")
+                 "library), one (drawn by chance), "
+                 "pairs, triples, none, outside, outside-pairs")
       ->delimiter(',');
   app.add_option("--strength", choice.strengths,
                  "faint, weak, middle, strong; default: all except faint")
@@ -51,6 +51,13 @@ TrialOptions parse_options(CLI::App& app, int argc, char** argv) {
                  "aluminium link, steel link, sandwich link, steel ruler; default: by chance");
   app.add_option("--size", choice.size,
                  "Size of the effect in place of the strengths; of a changed number its logarithm");
+  app.add_option(
+         "--dirt", choice.dirts,
+         "What a laboratory adds to time runs: all, none, or names as closed_loop; default: "
+         "none")
+      ->delimiter(',');
+  app.add_option("--dirt-size", choice.dirt_size, "Size of the dirt; 1 is usual, 0 none")
+      ->capture_default_str();
   app.add_option("--noise", choice.noises, "Noise-to-signal ratio")->delimiter(',');
   app.add_option("--trials", choice.trials, "Number of trials of each combination")
       ->capture_default_str();

@@ -15,8 +15,8 @@ namespace {
 constexpr std::string_view kHeader =
     "version,id,kind,arm,noise,strength,hidden,outside,error,outcome,verdict,named,claimed,right,"
     "class_size,parameters,recovered,covered,before,after,validation_after,validation_floor,time "
-    "[s],values,folder";
-constexpr std::size_t kColumns = 25;
+    "[s],dirt,dirt_answer,values,folder";
+constexpr std::size_t kColumns = 27;
 
 std::vector<std::string> parts_of(const std::string& text, char separator) {
   std::vector<std::string> parts;
@@ -68,6 +68,8 @@ TrialResult parse_line(const std::string& line) {
   result.validation_after = number();
   result.validation_floor = number();
   result.time_s = number();
+  result.dirt = text();
+  result.dirt_answer = parse_dirt_answer(text());
   result.values = text();
   result.folder = text();
   return result;
@@ -102,10 +104,11 @@ void append_result(const TrialResult& result, const std::filesystem::path& file)
          << fmt::format("{:.4g},{},{},{},{},{},", result.error, to_string(result.outcome),
                         result.verdict, fmt::join(result.named, "+"), fmt::join(claimed, "+"),
                         fmt::join(right, "+"))
-         << fmt::format("{},{},{},{},{:.4g},{:.4g},{:.4g},{:.4g},{:.2f},{},{}\n", result.class_size,
-                        result.parameters, result.recovered, result.covered, result.before,
-                        result.after, result.validation_after, result.validation_floor,
-                        result.time_s, result.values, result.folder);
+         << fmt::format("{},{},{},{},{:.4g},{:.4g},{:.4g},{:.4g},{:.2f},{},{},{},{}\n",
+                        result.class_size, result.parameters, result.recovered, result.covered,
+                        result.before, result.after, result.validation_after,
+                        result.validation_floor, result.time_s, result.dirt,
+                        to_string(result.dirt_answer), result.values, result.folder);
   if (!stream.flush()) throw std::runtime_error(file.string() + ": cannot be written");
 }
 

@@ -1,5 +1,7 @@
 #include "tests/trials/score.hpp"
 
+#include "tests/trials/dirt.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,6 +19,8 @@ namespace {
 constexpr std::array<std::string_view, 12> kOutcomes = {
     "exact", "in_class",    "partly",  "wrong",      "missed",   "abstained",
     "quiet", "false_alarm", "doubted", "recognised", "mistaken", "no_answer"};
+
+constexpr std::array<std::string_view, 3> kDirtAnswers = {"-", "named", "unnamed"};
 
 bool contains(const std::vector<std::string>& names, const std::string& name) {
   return std::ranges::find(names, name) != names.end();
@@ -55,7 +59,8 @@ Outcome outcome_of(const TrialResult& result, const Answer& answer) {
   const bool silent = answer.causes.empty();
   if (result.hidden.empty()) {
     if (!silent) return Outcome::false_alarm;
-    return answer.verdict == "adequate" ? Outcome::quiet : Outcome::doubted;
+    const bool is_quiet = answer.verdict == "adequate" || result.dirt_answer == DirtAnswer::named;
+    return is_quiet ? Outcome::quiet : Outcome::doubted;
   }
   if (answer.verdict == "adequate") return Outcome::missed;
   if (result.outside) {
@@ -75,6 +80,17 @@ Answer with_sensors_in_names(Answer answer, const Truth& truth) {
     if (hidden != nullptr && hidden->sensor != cause.sensor) cause.effect += " on " + cause.sensor;
   }
   return answer;
+}
+
+/// The cause is the dirt of the recording: by its own name, or in a class of few; not one that is
+/// hidden beside it.
+bool is_dirt(const NamedCause& cause, const Truth& truth) {
+  const auto& hidden = truth.key.hidden;
+  const auto& names = find_dirt(truth.key.dirt).named_as;
+  const bool is_hidden =
+      std::ranges::any_of(hidden, [&](const std::string& name) { return stands_for(cause, name); });
+  return !is_hidden && std::ranges::any_of(
+                           names, [&](const std::string& name) { return stands_for(cause, name); });
 }
 
 bool is_angle(const std::string& parameter) {
@@ -121,8 +137,20 @@ Outcome parse_outcome(std::string_view name) {
   return static_cast<Outcome>(at);
 }
 
+std::string_view to_string(DirtAnswer answer) {
+  return kDirtAnswers.at(static_cast<std::size_t>(answer));
+}
+
+DirtAnswer parse_dirt_answer(std::string_view name) {
+  const auto at = std::ranges::find(kDirtAnswers, name) - kDirtAnswers.begin();
+  if (static_cast<std::size_t>(at) == kDirtAnswers.size()) {
+    throw std::runtime_error(fmt::format("{}: no answer to dirt", name));
+  }
+  return static_cast<DirtAnswer>(at);
+}
+
 TrialResult score(const Truth& truth, const Answer& given) {
-  const Answer answer = with_sensors_in_names(given, truth);
+  Answer answer = with_sensors_in_names(given, truth);
   TrialResult result;
   result.id = truth.key.id();
   result.kind = measured::to_string(truth.key.kind);
@@ -136,13 +164,19 @@ TrialResult score(const Truth& truth, const Answer& given) {
                    static_cast<double>(truth.errors.size());
   }
   result.verdict = answer.verdict.empty() ? "-" : answer.verdict;
+  if (!truth.key.dirt.empty()) result.dirt = truth.key.dirt;
+  compare_parameters(result, truth, answer);
+  const std::size_t named_dirt =
+      std::erase_if(answer.causes, [&](const auto& cause) { return is_dirt(cause, truth); });
+  if (!find_dirt(truth.key.dirt).named_as.empty()) {
+    result.dirt_answer = named_dirt > 0 ? DirtAnswer::named : DirtAnswer::unnamed;
+  }
   for (const NamedCause& cause : answer.causes) {
     result.named.push_back(cause.effect);
     result.claims.push_back({cause.probability, contains(result.hidden, cause.effect)});
     result.class_size = std::max(result.class_size, 1 + cause.confusable_with.size());
   }
   result.outcome = outcome_of(result, answer);
-  compare_parameters(result, truth, answer);
   result.before = answer.estimation.before;
   result.after = answer.estimation.after;
   result.validation_after = answer.validation.after;

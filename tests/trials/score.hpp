@@ -44,7 +44,17 @@ struct Claim {
   bool right = false;  ///< it was hidden
 };
 
-/// One trial as a line of the results.
+/// What the program says of the dirt of a recording.
+enum class DirtAnswer {
+  none,     ///< there is no dirt, or it has no name in the library
+  named,    ///< by its effect, or a class of at most three with it
+  unnamed,  ///< it is not, though the library has it
+};
+std::string_view to_string(DirtAnswer answer);
+DirtAnswer parse_dirt_answer(std::string_view name);
+
+/// One trial as a line of the results. An effect that is the dirt of the recording is not among
+/// `named`, and counts neither for nor against the outcome.
 struct TrialResult {
   std::string version;  ///< of the program that answered
   std::string id;
@@ -68,6 +78,8 @@ struct TrialResult {
   double validation_after = 0.0;
   double validation_floor = 0.0;
   double time_s = 0.0;
+  std::string dirt = "-";  ///< "-" for none
+  DirtAnswer dirt_answer = DirtAnswer::none;
   std::string values;  ///< found (hidden), for a reader
   std::string folder;
 };

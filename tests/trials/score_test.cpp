@@ -106,6 +106,54 @@ TEST(Score, WithNothingToNameSilenceIsRight) {
   EXPECT_EQ(outcome(outside, answered("explained", {named("gravity")})), Outcome::mistaken);
 }
 
+TEST(Score, TheDirtOfARecordingIsNoPhysicalCause) {
+  Truth truth = truth_of({});
+  truth.key.dirt = "late_sensor";
+  truth.world.hidden.push_back({"sensor_delay", {{"torque", 0.01}}, "tip_acceleration"});
+  NamedCause delay = named("sensor_delay");
+  delay.sensor = "tip_acceleration";
+  auto result = score(truth, answered("explained", {delay}));
+  EXPECT_EQ(result.outcome, Outcome::quiet);
+  EXPECT_EQ(result.dirt_answer, DirtAnswer::named);
+  EXPECT_TRUE(result.named.empty());
+  result = score(truth, answered("partly_explained", {delay, named("gravity")}));
+  EXPECT_EQ(result.outcome, Outcome::false_alarm);
+  EXPECT_THAT(result.named, ElementsAre("gravity"));
+  result = score(truth, answered("unexplained"));
+  EXPECT_EQ(result.outcome, Outcome::doubted);
+  EXPECT_EQ(result.dirt_answer, DirtAnswer::unnamed);
+  // On another sensor it is another cause.
+  delay.sensor = "hub_velocity";
+  result = score(truth, answered("explained", {delay}));
+  EXPECT_EQ(result.outcome, Outcome::false_alarm);
+  EXPECT_EQ(result.dirt_answer, DirtAnswer::unnamed);
+}
+
+TEST(Score, BesideDirtTheHiddenCauseCounts) {
+  Truth truth = truth_of({"coulomb_friction"});
+  truth.key.dirt = "torque_offset";
+  truth.world.hidden.push_back({"torque_bias", {{"torque", 0.01}}});
+  const NamedCause friction = named("coulomb_friction");
+  auto result = score(truth, answered("explained", {friction, named("torque_bias")}));
+  EXPECT_EQ(result.outcome, Outcome::exact);
+  EXPECT_EQ(result.dirt_answer, DirtAnswer::named);
+  result = score(truth, answered("explained", {named("torque_bias", {"coulomb_friction"})}));
+  EXPECT_EQ(result.outcome, Outcome::in_class);
+  EXPECT_EQ(result.dirt_answer, DirtAnswer::unnamed);
+  truth.key.dirt = "drift";
+  EXPECT_EQ(score(truth, answered("explained", {friction})).dirt_answer, DirtAnswer::none);
+}
+
+TEST(Scorecard, HasALineAKindOfDirt) {
+  Truth truth = truth_of({});
+  truth.key.dirt = "drift";
+  const auto quiet = score(truth, answered("adequate"));
+  const auto alarm = score(truth, answered("explained", {named("gravity")}));
+  const std::string card = scorecard({quiet, alarm});
+  EXPECT_THAT(card, HasSubstr("| drift | 1/2 (50 %) | - |"));
+  EXPECT_THAT(card, HasSubstr("### With dirt"));
+}
+
 TEST(Score, OutcomesAreReadBack) {
   for (int i = 0; i <= static_cast<int>(Outcome::no_answer); ++i) {
     EXPECT_EQ(parse_outcome(to_string(static_cast<Outcome>(i))), static_cast<Outcome>(i));

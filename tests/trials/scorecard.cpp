@@ -3,6 +3,8 @@
 #include "arm/input_error.hpp"
 #include "tests/trials/calibration.hpp"
 #include "tests/trials/clopper_pearson.hpp"
+#include "tests/trials/dirt_table.hpp"
+#include "tests/trials/scorecard_parts.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -55,6 +57,16 @@ the factor exp(+-size).
 
 )";
 
+constexpr const char* kAboutDirt =
+    R"(## Recordings with dirt
+
+The same experiments as laboratories record them, one kind of dirt each (`tests/trials/dirt`). None
+of these trials is part of the tables above. Where the dirt is itself an effect of the library, it
+is judged apart, and a physical cause is one beside it. A wrong effect: one that is neither present
+nor the dirt.
+
+)";
+
 constexpr const char* kAboutReliability =
     R"(## Stated probabilities and intervals
 
@@ -62,35 +74,8 @@ Here an effect is correct only if it is the one present; members of its class do
 
 )";
 
-using Results = std::vector<TrialResult>;
-using Choice = std::function<bool(const TrialResult&)>;
-
-Results chosen(const Results& results, const Choice& choice) {
-  Results some;
-  std::ranges::copy_if(results, std::back_inserter(some), choice);
-  return some;
-}
-
-int count(const Results& results, const Choice& choice) {
-  return static_cast<int>(std::ranges::count_if(results, choice));
-}
-
-int count(const Results& results, Outcome outcome) {
-  return count(results, [&](const TrialResult& one) { return one.outcome == outcome; });
-}
-
-bool is_found(const TrialResult& one) {
-  return one.outcome == Outcome::exact || one.outcome == Outcome::in_class;
-}
-
 bool is_right(const TrialResult& one) {
   return is_found(one) || one.outcome == Outcome::quiet || one.outcome == Outcome::recognised;
-}
-
-/// "12/14 (86 %)".
-std::string part(int some, int all) {
-  if (all == 0) return "-";
-  return fmt::format("{}/{} ({:.0f} %)", some, all, 100.0 * some / all);
 }
 
 double median(std::vector<double> values) {
@@ -98,16 +83,6 @@ double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::ranges::nth_element(values, middle);
   return *middle;
-}
-
-std::string row(const std::string& name, const std::vector<std::string>& cells) {
-  return fmt::format("| {} | {} |\n", name, fmt::join(cells, " | "));
-}
-
-std::string header(const std::string& name, const std::vector<std::string>& cells) {
-  std::string text = row(name, cells) + "| --- |";
-  for (std::size_t i = 0; i < cells.size(); ++i) text += " ---: |";
-  return text + "\n";
 }
 
 /// Trials of one kind of data and one noise, or of all.
@@ -136,10 +111,6 @@ std::vector<Cell> cells_and_totals_of(const Results& results) {
   }
   cells.push_back({"all", results});
   return cells;
-}
-
-bool has_effects(const TrialResult& one, std::size_t effects) {
-  return one.hidden.size() == effects && !one.outside;
 }
 
 std::string noise_reached(const Results& results) {
@@ -392,8 +363,10 @@ void require_one_version(const Results& results, const std::string& version) {
 std::string scorecard(const Results& results) {
   if (results.empty()) return "No trials.\n";
   require_one_version(results, results.front().version);
-  const Results ruler = chosen(results, is_ruler);
-  const Results drawn = chosen(results, [](const TrialResult& one) { return !is_ruler(one); });
+  const Results clean = chosen(results, [](const TrialResult& one) { return one.dirt == "-"; });
+  const Results dirty = chosen(results, [](const TrialResult& one) { return one.dirt != "-"; });
+  const Results ruler = chosen(clean, is_ruler);
+  const Results drawn = chosen(clean, [](const TrialResult& one) { return !is_ruler(one); });
   const Results faint = chosen(drawn, is_faint);
   const Results judged = chosen(drawn, [](const TrialResult& one) { return !is_faint(one); });
   std::string text = fmt::format(kIntroduction, described(results.front().version), judged.size());
@@ -402,7 +375,9 @@ std::string scorecard(const Results& results) {
   text += "\n" + (kAboutReliability + reliability_table(judged)) + "\n" + coverage_table(judged);
   text += "\n" + (kAboutRuler + ruler_table(ruler));
   text += "\n" + (kAboutSmallest + smallest_table(drawn)) + "\nFaint effects:\n\n";
-  text += faint_table(faint) + "\n## Failures\n\n" + failure_list(judged);
+  text += faint_table(faint) + "\n" + (kAboutDirt + dirt_table(dirty));
+  text += "\n## Failures\n\n" + failure_list(judged);
+  if (!dirty.empty()) text += "\n### With dirt\n\n" + failure_list(dirty);
   return text;
 }
 

@@ -19,7 +19,7 @@ constexpr double kDampingPart = 0.02;
 constexpr double kErrorTolerance = 0.05;
 constexpr int kMostBisections = 14;
 /// A step of 0.1 ms and few modes are enough to compare a simulation with another of the same.
-constexpr TimeOptions kCoarseTime{
+const TimeOptions kCoarseTime{
     .sample_time_s = kSampleTime_s, .substeps = 20, .plant = {.flexible_modes = 6}};
 constexpr int kCoarseLines = 60;
 

@@ -1,5 +1,6 @@
 #include "tests/trials/time_simulation.hpp"
 
+#include "tests/trials/companions.hpp"
 #include "tests/trials/hub_torques.hpp"
 #include "tests/trials/torque_chain.hpp"
 
@@ -8,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <stdexcept>
 #include <vector>
 
@@ -86,6 +88,7 @@ class NewmarkIntegrator {
         friction_(arm_),
         lagged_(lagged_readings(arm_, sensors)),
         step_s_(options.sample_time_s / options.substeps),
+        duration_s_(options.sample_time_s * static_cast<double>(torque_N_m.size())),
         late_(late_readings(arm_, sensors, step_s_)) {
     const Eigen::Index n = plant_.hub.size();
     // Newmark's scheme for any beta as average acceleration (1/4) of an arm of another inertia:
@@ -105,6 +108,12 @@ class NewmarkIntegrator {
     to_hub_ = 0.5 * step_s_ / plant_.modal_mass_kg_m2 * (inverse_ * plant_.hub);
     hub_to_hub_ = plant_.hub.dot(to_hub_);
     u_ = v_ = middle_ = Eigen::VectorXd::Zero(n);
+    if (arm_.base) base_.emplace(*arm_.base);
+    if (arm_.slipping) {
+      slipping_.emplace(*arm_.slipping);
+      tip_to_middle_ = 0.5 * step_s_ / plant_.modal_mass_kg_m2 *
+                       (inverse_ * plant_.stations.bottomRows(1).row(0).transpose());
+    }
     if (has_beam_forces()) {
       to_modes_ = plant_.stations.transpose() * plant_.station_weights_m.asDiagonal() /
                   plant_.modal_mass_kg_m2;
@@ -121,16 +130,18 @@ class NewmarkIntegrator {
     free_ += torque * to_hub_;
     const double hub_speed = plant_.hub.dot(v_);
     const double hub_angle = plant_.hub.dot(u_);
-    const bool linear = torques_.none() && !has_beam_forces();
+    const bool linear = torques_.none() && !has_beam_forces() && arm_.softening == 0.0;
+    if (slipping_) free_ += slipping_->force_N() * tip_to_middle_;
     // Forces that depend on the motion: by fixed-point iteration, from the last step's motion.
     double before = plant_.hub.dot(middle_);
     for (int iteration = 0; iteration < kMostIterations; ++iteration) {
       next_ = free_;
       if (!torques_.none()) {
-        const double speed = plant_.hub.dot(middle_);
-        const double turn = step_s_ * speed;
-        next_ += torques_.mean_N_m({from_s + 0.5 * step_s_, hub_angle + 0.5 * turn, turn, speed}) *
-                 to_hub_;
+        next_ += torques_.mean_N_m(hub_step(from_s, hub_angle, torque)) * to_hub_;
+      }
+      if (arm_.softening > 0.0) {
+        next_ -=
+            softened(from_s + 0.5 * step_s_) * from_displacement_ * (u_ + 0.5 * step_s_ * middle_);
       }
       if (has_beam_forces()) next_.noalias() += beam_to_middle_ * beam_forces(middle_);
       if (!friction_.none()) {
@@ -145,11 +156,16 @@ class NewmarkIntegrator {
       }
       before = now;
     }
-    if (!torques_.none()) torques_.turned(step_s_ * plant_.hub.dot(middle_));
+    if (!torques_.none()) torques_.made(hub_step(from_s, hub_angle, torque));
+    if (base_) base_->step(-torque, step_s_);
     for (LaggedReading& lagged : lagged_) pass_lag(lagged);
     const Eigen::VectorXd v_begin = v_;
     u_ += step_s_ * middle_;
     v_ = 2.0 * middle_ - v_;
+    if (slipping_) {
+      slipping_->step(plant_.stations.bottomRows(1).row(0).dot(u_),
+                      plant_.stations.bottomRows(1).row(0).dot(v_), step_s_);
+    }
     for (LateReading& late : late_) {
       const double first = begin[late.sensor()];
       late.note(first, shown_at_end(late.sensor(), first, v_begin));
@@ -164,10 +180,35 @@ class NewmarkIntegrator {
       const TrueArm::SensorPath path = known_path(arm_, sensors_[i]);
       values[i] = path.gain * values[i] + path.offset;
     }
+    add_cross_talk(values);
     return values;
   }
 
  private:
+  /// The step from `from_s`, where the hub was at `angle_rad`, by the present mean motion.
+  HubStep hub_step(double from_s, double angle_rad, double driving_N_m) const {
+    const double speed = plant_.hub.dot(middle_);
+    const double turn = step_s_ * speed;
+    return {from_s + 0.5 * step_s_, angle_rad + 0.5 * turn, turn, speed, driving_N_m, step_s_};
+  }
+
+  /// Part of the stiffness that is lost at that time.
+  double softened(double time_s) const {
+    return arm_.softening * std::min(1.0, time_s / duration_s_);
+  }
+
+  void add_cross_talk(std::vector<double>& values) const {
+    const std::vector<double> own = values;
+    const auto at = [&](const arm::Sensor& sensor) {
+      return static_cast<std::size_t>(std::ranges::find(sensors_, sensor) - sensors_.begin());
+    };
+    for (const TrueArm::CrossTalk& one : arm_.cross_talks) {
+      const std::size_t from = at(one.from);
+      const std::size_t to = at(one.to);
+      if (from < own.size() && to < own.size()) values[to] += one.factor * own[from];
+    }
+  }
+
   bool has_beam_forces() const { return !arm_.beam_forces_N_per_m.empty(); }
 
   /// What the sensors show just after `time_s` behind their lag, before gain, delay and offset:
@@ -184,6 +225,7 @@ class NewmarkIntegrator {
       const auto row = plant_.readings.row(static_cast<Eigen::Index>(i));
       const int order = arm::derivative_order(sensors_[i]);
       values.push_back(row.dot(order == 0 ? u_ : order == 1 ? v_ : acceleration));
+      if (base_) values.back() -= base_->motion(sensors_[i].kind);
     }
     return values;
   }
@@ -194,8 +236,9 @@ class NewmarkIntegrator {
     if (lagged != lagged_.end()) return lagged->value;
     const auto row = plant_.readings.row(static_cast<Eigen::Index>(sensor));
     const int order = arm::derivative_order(sensors_[sensor]);
-    if (order == 0) return row.dot(u_);
-    if (order == 1) return row.dot(v_);
+    const double base = base_ ? base_->motion(sensors_[sensor].kind) : 0.0;
+    if (order == 0) return row.dot(u_) - base;
+    if (order == 1) return row.dot(v_) - base;
     return 2.0 * (row.dot(v_) - row.dot(v_begin)) / step_s_ - at_begin;
   }
 
@@ -223,10 +266,17 @@ class NewmarkIntegrator {
     const double mass = plant_.modal_mass_kg_m2;
     double torque = chain_.now(time_s);
     if (!torques_.none()) {
-      torque += torques_.mean_N_m({time_s, plant_.hub.dot(u_), 0.0, plant_.hub.dot(v_)});
+      torque += torques_.mean_N_m({.time_s = time_s,
+                                   .angle_rad = plant_.hub.dot(u_),
+                                   .speed_rad_per_s = plant_.hub.dot(v_),
+                                   .driving_N_m = torque});
     }
     Eigen::VectorXd a = -(plant_.damping * v_) - plant_.stiffness * u_ + torque / mass * plant_.hub;
     if (has_beam_forces()) a += to_modes_ * beam_forces(v_);
+    if (arm_.softening > 0.0) a += softened(time_s) * (plant_.stiffness * u_);
+    if (slipping_) {
+      a += slipping_->force_N() / mass * plant_.stations.bottomRows(1).row(0).transpose();
+    }
     if (friction_.none()) return a;
     const double speed = plant_.hub.dot(v_);
     double size = friction_.size_N_m(speed);
@@ -248,6 +298,10 @@ class NewmarkIntegrator {
   DryFriction friction_;
   std::vector<LaggedReading> lagged_;
   double step_s_;
+  double duration_s_;
+  std::optional<MovedBase> base_;
+  std::optional<SlippingPayload> slipping_;
+  Eigen::VectorXd tip_to_middle_;  // mean velocity per force at the tip
   std::vector<LateReading> late_;
   Eigen::MatrixXd inverse_;  // (1 + h/2 D + beta h^2 W)^-1
   Eigen::MatrixXd from_velocity_;
@@ -265,20 +319,35 @@ class NewmarkIntegrator {
 
 }  // namespace
 
+SimulatedRun simulate_run(const World& world, std::span<const arm::Sensor> sensors,
+                          std::span<const double> torque_N_m, const TimeOptions& options) {
+  SimulatedRun made;
+  // The integrator reads the command of a sample only when it is there.
+  made.torque_N_m.assign(torque_N_m.begin(), torque_N_m.end());
+  made.channels.resize(sensors.size());
+  NewmarkIntegrator integrator(world, sensors, made.torque_N_m, options);
+  const double step_s = options.sample_time_s / options.substeps;
+  for (std::size_t k = 0; k < torque_N_m.size(); ++k) {
+    const double sample_s = static_cast<double>(k) * options.sample_time_s;
+    if (options.control) made.torque_N_m[k] = options.control(k, integrator.read(sample_s));
+    const int read_at = options.late_substeps.empty() ? 0 : options.late_substeps.at(k);
+    for (int j = 0; j < options.substeps; ++j) {
+      const double time_s = sample_s + j * step_s;
+      if (j == read_at) {
+        const std::vector<double> values = integrator.read(time_s);
+        for (std::size_t i = 0; i < values.size(); ++i) made.channels[i].push_back(values[i]);
+      }
+      integrator.step(time_s);
+    }
+  }
+  return made;
+}
+
 std::vector<std::vector<double>> simulate_in_time(const World& world,
                                                   std::span<const arm::Sensor> sensors,
                                                   std::span<const double> torque_N_m,
                                                   const TimeOptions& options) {
-  NewmarkIntegrator integrator(world, sensors, torque_N_m, options);
-  std::vector<std::vector<double>> channels(sensors.size());
-  const double step_s = options.sample_time_s / options.substeps;
-  for (std::size_t k = 0; k < torque_N_m.size(); ++k) {
-    const double sample_s = static_cast<double>(k) * options.sample_time_s;
-    const std::vector<double> values = integrator.read(sample_s);
-    for (std::size_t i = 0; i < values.size(); ++i) channels[i].push_back(values[i]);
-    for (int j = 0; j < options.substeps; ++j) integrator.step(sample_s + j * step_s);
-  }
-  return channels;
+  return simulate_run(world, sensors, torque_N_m, options).channels;
 }
 
 }  // namespace flexarm::trials

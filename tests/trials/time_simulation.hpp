@@ -4,7 +4,9 @@
 #include "tests/trials/plant.hpp"
 #include "tests/trials/world.hpp"
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -15,6 +17,17 @@ struct TimeOptions {
   int substeps = 80;  ///< std::runtime_error where these are too long steps for the highest mode
   PlantOptions plant = {};
   std::uint64_t disturbance_seed = 1;
+  /// Sensors are read so many steps after each sample, fewer than `substeps`; empty: at it.
+  std::vector<int> late_substeps = {};
+  /// Closed loop: the command that holds from a sample on, by what the sensors read there. Empty:
+  /// the torque as it is given.
+  std::function<double(std::size_t sample, std::span<const double> readings)> control = {};
+};
+
+/// What is recorded of a run, one vector of readings a sensor.
+struct SimulatedRun {
+  std::vector<double> torque_N_m;  ///< as commanded
+  std::vector<std::vector<double>> channels;
 };
 
 /// What the sensors of an arm at rest read under a torque that holds from sample to sample, one
@@ -27,6 +40,10 @@ struct TimeOptions {
 ///
 /// Friction is a set-valued law for the speed at the end of each step. The speed, not its mean over
 /// the step, is what comes to rest: held to a mean of zero it would change its sign at every step.
+SimulatedRun simulate_run(const World& world, std::span<const arm::Sensor> sensors,
+                          std::span<const double> torque_N_m, const TimeOptions& options = {});
+
+/// The readings alone.
 std::vector<std::vector<double>> simulate_in_time(const World& world,
                                                   std::span<const arm::Sensor> sensors,
                                                   std::span<const double> torque_N_m,

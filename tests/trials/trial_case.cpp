@@ -4,6 +4,7 @@
 #include "measured/files/frequency_record.hpp"
 #include "measured/files/modal_table.hpp"
 #include "measured/files/time_record.hpp"
+#include "tests/trials/dirt.hpp"
 #include "tests/trials/excitations.hpp"
 #include "tests/trials/frequency_simulation.hpp"
 #include "tests/trials/time_simulation.hpp"
@@ -14,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace flexarm::trials {
 
@@ -29,34 +31,34 @@ constexpr double kAverages = 16.0;
 /// Standard deviations in a modal table are themselves estimates, known to this part.
 constexpr double kDeviationKnown = 0.02;
 
-double deviation(const std::vector<double>& values) {
-  double sum = 0.0;
-  double squares = 0.0;
-  for (const double value : values) {
-    sum += value;
-    squares += value * value;
-  }
-  const auto n = static_cast<double>(values.size());
-  return std::sqrt(std::max(0.0, squares / n - sum * sum / (n * n)));
-}
+/// A case as it is made.
+struct MadeCase {
+  const TrialKey& key;
+  const TrialArm& of;
+  const Dirt& dirt;
+};
 
-void write_time_run(const World& world, const PlannedRun& run, double noise, Random& random,
-                    std::uint64_t disturbance_seed, const fs::path& file) {
-  measured::TimeRecord record;
-  record.torque_N_m = run.torque_N_m;
-  for (std::size_t k = 0; k < run.torque_N_m.size(); ++k) {
-    record.time_s.push_back(static_cast<double>(k) * kSampleTime_s);
+Recording record_time_run(const MadeCase& made, const World& world, const PlannedRun& run,
+                          Random& random, Random& dirt_random, std::uint64_t disturbance_seed) {
+  Recording recording;
+  TimeOptions options{.sample_time_s = kSampleTime_s, .disturbance_seed = disturbance_seed};
+  if (made.dirt.simulation) {
+    made.dirt.simulation(made.key.dirt_size, made.of, dirt_random, options);
   }
   const auto& sensors = planned_sensors();
-  auto channels =
-      simulate_in_time(world, sensors, run.torque_N_m,
-                       {.sample_time_s = kSampleTime_s, .disturbance_seed = disturbance_seed});
+  SimulatedRun simulated = simulate_run(world, sensors, run.torque_N_m, options);
+  measured::TimeRecord& record = recording.record;
+  record.torque_N_m = std::move(simulated.torque_N_m);
+  for (std::size_t k = 0; k < record.torque_N_m.size(); ++k) {
+    record.time_s.push_back(static_cast<double>(k) * kSampleTime_s);
+  }
+  auto& channels = simulated.channels;
   for (std::size_t i = 0; i < sensors.size(); ++i) {
-    const double noise_deviation = noise * deviation(channels[i]);
+    const double noise_deviation = made.key.noise * deviation(channels[i]);
     for (double& value : channels[i]) value += noise_deviation * random.normal();
     record.channels.push_back({sensors[i], channels[i]});
   }
-  measured::write_time_record(record, file);
+  return recording;
 }
 
 void write_frequency_run(const World& world, const TrialArm& of, double noise, Random& random,
@@ -113,6 +115,12 @@ const TrialArm& choose_arm(const TrialKey& key, Random& random) {
 }  // namespace
 
 std::string TrialKey::name() const {
+  if (dirt.empty()) return clean_name();
+  const std::string how_much = dirt_size == 1.0 ? "" : fmt::format(" {:g}", dirt_size);
+  return clean_name() + "-" + dirt + how_much;
+}
+
+std::string TrialKey::clean_name() const {
   const std::string causes = hidden.empty() ? "none" : fmt::format("{}", fmt::join(hidden, "+"));
   const std::string where = arm.empty() ? "" : arm + "-";
   const std::string how_much = hidden.empty() ? "" : strength_name() + "-";
@@ -134,37 +142,53 @@ std::string TrialKey::folder_name() const {
 }
 
 Truth write_case(const TrialKey& key, const fs::path& folder) {
-  Random random(key.seed, key.name());
+  Random random(key.seed, key.clean_name());
+  Random dirt_random(key.seed, key.clean_name() + " dirt " + key.dirt);
   const TrialArm& of = choose_arm(key, random);
-  const std::vector<PlannedRun> runs = plan(of, key.kind, random);
+  const Dirt& dirt = find_dirt(key.dirt);
+  std::vector<PlannedRun> runs = plan(of, key.kind, random);
+  const double part = std::pow(dirt.strength, key.dirt_size);
   Truth truth{key, of.arm.name, World{of.arm}, {}, {}};
   for (const std::string& name : key.hidden) {
     const Cause& cause = find_cause(name);
     const Chance chance = draw_chance(random);
     const FoundSize found =
-        key.size ? FoundSize{*key.size, error_at(of, key.kind, runs, cause, chance, *key.size)}
-                 : find_size(of, key.kind, runs, cause, chance, error_of(key.strength, key.kind));
+        key.size
+            ? FoundSize{*key.size, error_at(of, key.kind, runs, cause, chance, *key.size)}
+            : find_size(of, key.kind, runs, cause, chance, part * error_of(key.strength, key.kind));
     truth.world = with_hidden(truth.world, of, cause, found.size, chance);
     truth.sizes.push_back(found.size);
     truth.errors.push_back(found.error);
   }
 
+  if (dirt.hide) truth.world = dirt.hide(key.dirt_size, of, truth.world, dirt_random);
+  if (dirt.plan) dirt.plan(key.dirt_size, runs);
+
   fs::create_directories(folder);
-  measured::write_arm_file(of.arm, folder / "arm.toml");
+  arm::Arm arm = of.arm;
+  if (dirt.arm_file) dirt.arm_file(key.dirt_size, dirt_random, arm);
+  measured::write_arm_file(arm, folder / "arm.toml");
   measured::Measurement measurement{.name = "trial", .arm = "arm.toml", .runs = {}};
+  const MadeCase made{key, of, dirt};
   std::uint64_t run_number = 0;
   for (const PlannedRun& run : runs) {
     const std::string file = run.id + ".csv";
-    measurement.runs.push_back({.id = run.id,
-                                .kind = key.kind,
-                                .file = file,
-                                .purpose = run.purpose,
-                                .payload = arm::Payload{run.payload_kg, 0.0}});
+    const measured::Run stated{.id = run.id,
+                               .kind = key.kind,
+                               .file = file,
+                               .purpose = run.purpose,
+                               .payload = arm::Payload{run.payload_kg, 0.0}};
+    measurement.runs.push_back(stated);
     World world = truth.world;
     world.arm.payload.mass_kg = run.payload_kg;
     ++run_number;
     if (key.kind == measured::RunKind::time) {
-      write_time_run(world, run, key.noise, random, key.seed * 100 + run_number, folder / file);
+      Recording recording =
+          record_time_run(made, world, run, random, dirt_random, key.seed * 100 + run_number);
+      recording.run = stated;
+      if (dirt.recording) dirt.recording(key.dirt_size, dirt_random, recording);
+      measurement.runs.back() = recording.run;
+      measured::write_time_record(recording.record, folder / file);
     } else if (key.kind == measured::RunKind::frf) {
       write_frequency_run(world, of, key.noise, random, folder / file);
     } else {
@@ -181,8 +205,9 @@ nlohmann::ordered_json truth_json(const Truth& truth) {
     causes[one.name] = one.parameters;
     if (!one.sensor.empty()) causes[one.name]["sensor"] = one.sensor;
   }
-  return {{"id", truth.key.id()}, {"seed", truth.key.seed}, {"arm", truth.arm},
-          {"causes", causes},     {"sizes", truth.sizes},   {"errors", truth.errors}};
+  return {{"id", truth.key.id()},  {"seed", truth.key.seed}, {"arm", truth.arm},
+          {"causes", causes},      {"sizes", truth.sizes},   {"errors", truth.errors},
+          {"dirt", truth.key.dirt}};
 }
 
 }  // namespace flexarm::trials

@@ -25,10 +25,14 @@ struct TrialKey {
   std::uint64_t seed = 1;
   std::string arm = {};             ///< empty: by chance
   std::optional<double> size = {};  ///< of each cause; else that of the strength
+  std::string dirt = {};            ///< of time runs (dirt.hpp); empty: none
+  double dirt_size = 1.0;
 
   /// "time-coulomb_friction-middle-0.5-1": noise in per cent; a given size in place of the
-  /// strength.
+  /// strength, and "-drift" behind it of a recording with dirt.
   std::string name() const;
+  /// The name of the same case without dirt, which has the same runs, causes and noise.
+  std::string clean_name() const;
   /// "middle", or the size that is given.
   std::string strength_name() const;
   /// The name with the seed behind it, "...@1".

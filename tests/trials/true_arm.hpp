@@ -43,9 +43,35 @@ struct TrueArm {
     double offset = 0.0;
   };
 
+  /// A sensor that reads a part of another one.
+  struct CrossTalk {
+    arm::Sensor from;
+    arm::Sensor to;
+    double factor = 0.0;  ///< in the unit of `to` over that of `from`
+  };
+  /// What carries the motor turns about its axis on a spring and a damper, as the torque reacts on
+  /// it; sensors at the hub read the motion against it.
+  struct TurningBase {
+    double inertia_kg_m2 = 0.0;
+    double stiffness_N_m_per_rad = 0.0;
+    double damping_N_m_s_per_rad = 0.0;
+  };
+  /// A mass at the tip on a stiff spring that slips beyond a force.
+  struct SlippingMass {
+    double mass_kg = 0.0;
+    double stiffness_N_per_m = 0.0;
+    double damping_N_s_per_m = 0.0;
+    double slip_N = 0.0;
+  };
+
   double length_m = 0.0;
   double flexural_rigidity_N_m2 = 0.0;
   double linear_density_kg_per_m = 0.0;
+  /// From the root to the tip the thickness falls by this part of its mean, evenly; rigidity goes
+  /// with its cube, density with it. Shear keeps the mean.
+  double taper = 0.0;
+  double softening =
+      0.0;  ///< part of the stiffness that is lost from begin to end of a run, evenly
   std::optional<double> width_m;
   std::optional<double> thickness_m;
   std::optional<double> shear_modulus_Pa;
@@ -76,6 +102,14 @@ struct TrueArm {
   /// Force per length on the beam by its velocity.
   std::vector<std::function<double(double velocity_m_per_s)>> beam_forces_N_per_m;
   std::vector<SensorPath> sensor_paths;  ///< of sensors that do not show what they should
+  std::vector<CrossTalk> cross_talks;
+  std::optional<TurningBase> base;
+  std::optional<SlippingMass> slipping;
+
+  /// Of the thickness over its mean.
+  double thickness_ratio(double position_m) const {
+    return 1.0 + taper * (0.5 - position_m / length_m);
+  }
 };
 
 /// The arm as its file has it. Effects do not enter.

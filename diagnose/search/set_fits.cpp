@@ -1,0 +1,71 @@
+#include "diagnose/search/set_fits.hpp"
+
+#include "diagnose/search/admission.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace flexarm::diagnose {
+
+Explanation SetFits::fitted(const Candidate& start) const {
+  return explain(problem_, fit(problem_, start, {.work = &work_}));
+}
+
+void SetFits::add_with(const Candidate& base, std::vector<const Hypothesis*> others,
+                       std::string_view what, double to, std::size_t most,
+                       std::vector<Explanation>& found) {
+  std::erase_if(others, [&](const Hypothesis* other) { return base.has_effect(other->effect); });
+  untried_ = labels_with(base, others);
+  if (!base.effects.empty()) others = scan_.promising(base, std::move(others), what);
+  if (others.empty()) return;
+  constexpr double kLooks = 0.6;
+  const double middle = work_.done() + kLooks * (to - work_.done());
+  std::vector<Fit> looks = scan_.first_looks(base, others, what, work_.done(), middle);
+  looks.resize(std::min(most, looks.size()));
+  std::vector<std::string> sets;
+  for (const Fit& look : looks) sets.push_back(look.candidate.label());
+  add_all(std::move(sets), what, to, found, [&](std::size_t i) { return looks[i].candidate; });
+}
+
+void SetFits::add_all(std::vector<std::string> sets, std::string_view what, double to,
+                      std::vector<Explanation>& found,
+                      const std::function<Candidate(std::size_t)>& candidate) {
+  std::vector<Explanation> made(sets.size());
+  untried_ = std::move(sets);
+  try {
+    work_.in_parallel(made.size(), what, work_.done(), to,
+                      [&](std::size_t i) { made[i] = fitted(candidate(i)); });
+  } catch (const Cancelled&) {
+    keep(std::move(made), found);
+    throw;
+  }
+  keep(std::move(made), found);
+}
+
+void SetFits::keep(std::vector<Explanation> made, std::vector<Explanation>& found) {
+  std::vector<std::string> untried;
+  for (std::size_t i = 0; i < made.size(); ++i) {
+    if (made[i].fit.residuals.size() == 0) {
+      untried.push_back(untried_[i]);
+      continue;
+    }
+    if (!is_identified(made[i])) continue;
+    const auto same = find_set(found, made[i].fit.candidate);
+    if (same == found.end()) {
+      found.push_back(std::move(made[i]));
+    } else if (made[i].fit.sum_of_squares < same->fit.sum_of_squares) {
+      *same = std::move(made[i]);
+    }
+  }
+  untried_ = std::move(untried);
+  sort_by_fit(found);
+}
+
+std::vector<std::string> labels_with(const Candidate& base,
+                                     const std::vector<const Hypothesis*>& others) {
+  std::vector<std::string> labels;
+  for (const Hypothesis* other : others) labels.push_back(base.with(*other, {}).label());
+  return labels;
+}
+
+}  // namespace flexarm::diagnose

@@ -1,0 +1,58 @@
+#pragma once
+
+#include "diagnose/search/effect_scan.hpp"
+#include "diagnose/search/explanation.hpp"
+#include "diagnose/search/reported_work.hpp"
+#include "diagnose/search/selection_options.hpp"
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace flexarm::diagnose {
+
+/// Sets of effects fitted to all data of a problem, many at a time. Throws Cancelled where the work
+/// is cancelled or its time is over; what had been fitted by then is kept.
+class SetFits {
+ public:
+  /// The references must outlive the object; the problem may change in between.
+  SetFits(const Problem& problem, const SelectionOptions& options, ReportedWork& work)
+      : problem_(problem), options_(options), work_(work), scan_(problem, options, work) {}
+
+  const EffectScan& scan() const { return scan_; }
+
+  /// From the candidate's own values.
+  Explanation fitted(const Candidate& start) const;
+
+  /// Adds to `found` `base` with each of `others` that it has not, found by a scan of a coarse
+  /// problem; the `most` best of these fitted to all data. As part of `what`, up to the fraction
+  /// `to` of the work.
+  void add_with(const Candidate& base, std::vector<const Hypothesis*> others, std::string_view what,
+                double to, std::size_t most, std::vector<Explanation>& found);
+
+  /// Fits candidate(i) for the i-th of `sets`, which are their labels, and adds those that are
+  /// identified to `found`, the best first. Of the same set, begun from another, the better stays.
+  void add_all(std::vector<std::string> sets, std::string_view what, double to,
+               std::vector<Explanation>& found,
+               const std::function<Candidate(std::size_t)>& candidate);
+
+  /// Of the sets that were to be added last those that were not fitted.
+  const std::vector<std::string>& untried() const { return untried_; }
+
+ private:
+  void keep(std::vector<Explanation> made, std::vector<Explanation>& found);
+
+  const Problem& problem_;
+  const SelectionOptions& options_;
+  ReportedWork& work_;
+  EffectScan scan_;
+  std::vector<std::string> untried_;
+};
+
+/// "hub_spring + time_delay" for each of `others`.
+std::vector<std::string> labels_with(const Candidate& base,
+                                     const std::vector<const Hypothesis*>& others);
+
+}  // namespace flexarm::diagnose

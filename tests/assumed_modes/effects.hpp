@@ -46,6 +46,12 @@ inline std::vector<NamedArm> arms_with_effects() {
        with(plain, "local_stiffness_loss", {{"position", 0.07}, {"stiffness", 1.0}})},
       {"crack near the tip",
        with(plain, "local_stiffness_loss", {{"position", 0.93}, {"stiffness", 1.0}})},
+      {"mass", with(plain, "attached_mass", {{"mass", 0.8}, {"position", 0.35}})},
+      {"mass near the tip", with(plain, "attached_mass", {{"mass", 0.8}, {"position", 0.96}})},
+      {"tuned mass",
+       with(plain, "tuned_mass",
+            {{"mass", 0.3}, {"frequency", 1.5}, {"damping_ratio", 0.1}, {"position", 0.7}})},
+      {"lossy root", with(plain, "root_damping", {{"stiffness", 4.0}, {"time", 0.02}})},
       {"soft root", with(plain, "root_compliance", {{"stiffness", 4.0}})},
       {"hub spring", with(plain, "hub_spring", {{"stiffness", 2.0}})},
       {"hub radius", with(plain, "hub_radius", {{"radius", 0.3}})},
@@ -65,6 +71,9 @@ inline std::vector<NamedArm> arms_with_effects() {
   all = with(all, "payload_offset", {{"offset", 0.05}});
   all = with(all, "gravity", {{"acceleration", 3.0}});
   all = with(all, "air_damping", {{"coefficient", 0.2}});
+  all = with(all, "attached_mass", {{"mass", 0.3}, {"position", 0.25}});
+  all = with(all, "tuned_mass",
+             {{"mass", 0.2}, {"frequency", 1.2}, {"damping_ratio", 0.1}, {"position", 0.7}});
   all.damping.kelvin_voigt_s = 2e-4;
   all.hub.viscous_friction_N_m_s_per_rad = 0.05;
   arms.push_back({"everything", all});

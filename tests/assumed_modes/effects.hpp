@@ -18,6 +18,17 @@ inline arm::Arm with(arm::Arm arm, const std::string& effect,
   return arm;
 }
 
+inline arm::Arm without_damping(arm::Arm arm) {
+  arm.damping = {};
+  arm.hub.viscous_friction_N_m_s_per_rad = 0.0;
+  const std::vector<std::pair<std::string, std::string>> dampings = {
+      {"air_damping", "coefficient"}, {"root_damping", "time"}, {"tuned_mass", "damping_ratio"}};
+  for (const auto& [name, parameter] : dampings) {
+    if (arm.effects.contains(name)) effects::put(arm, name, {{parameter, 0.0}});
+  }
+  return arm;
+}
+
 /// EI = m = l = 1 with a cross-section, so that shear counts: k G A l^2/EI = 3.8 (l/thickness)^2
 /// and rho I/(m l^2) = (thickness/l)^2/12.
 inline arm::Arm thick_arm(double thickness) {
@@ -71,9 +82,6 @@ inline std::vector<NamedArm> arms_with_effects() {
   all = with(all, "payload_offset", {{"offset", 0.05}});
   all = with(all, "gravity", {{"acceleration", 3.0}});
   all = with(all, "air_damping", {{"coefficient", 0.2}});
-  all = with(all, "attached_mass", {{"mass", 0.3}, {"position", 0.25}});
-  all = with(all, "tuned_mass",
-             {{"mass", 0.2}, {"frequency", 1.2}, {"damping_ratio", 0.1}, {"position", 0.7}});
   all.damping.kelvin_voigt_s = 2e-4;
   all.hub.viscous_friction_N_m_s_per_rad = 0.05;
   arms.push_back({"everything", all});

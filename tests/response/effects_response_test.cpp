@@ -32,7 +32,6 @@ std::vector<std::pair<std::string, arm::Arm>> varied_arms() {
       {"gravity", {{"acceleration", -0.5}}},
       {"root_compliance", {{"stiffness", 30.0}}},
       {"local_stiffness_loss", {{"position", 0.4}, {"stiffness", 40.0}}},
-      {"root_damping", {{"stiffness", 30.0}, {"time", 1e-3}}},
       {"attached_mass", {{"mass", 0.04}, {"position", 0.5}}},
       {"tuned_mass",
        {{"mass", 0.01}, {"frequency", 20.0}, {"damping_ratio", 0.05}, {"position", 0.6}}},

@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numbers>
+#include <string>
 
 namespace flexarm::arm {
 
@@ -73,7 +75,8 @@ void require_moderate_effects(const LinearArm& arm) {
         spring("effects.local_stiffness_loss.stiffness", arm.crack->stiffness_N_m_per_rad),
         kSmallestSpringRatio, kLargestSpringRatio);
   }
-  const double mass_kg = arm.linear_density_kg_per_m * l + arm.payload_mass_kg;
+  double mass_kg = arm.linear_density_kg_per_m * l + arm.payload_mass_kg;
+  for (const MassOnBeam& mass : arm.masses) mass_kg += mass.mass_kg;
   require_at_most({"effects.gravity.acceleration", arm.gravity_m_per_s2, "m/s^2",
                    torsion_N_m / (mass_kg * l), "EI/l^2 over the mass"},
                   kLargestWeightRatio);
@@ -83,6 +86,27 @@ void require_moderate_effects(const LinearArm& arm) {
       throw out_of_range("effects.shear_and_rotary_inertia: k G A l^2/EI", ratio, "",
                          fmt::format("{} or more", kSmallestShearRatio));
     }
+  }
+}
+
+void require_moderate_mass(const MassOnBeam& mass, const LinearArm& arm) {
+  const double beam_kg = arm.linear_density_kg_per_m * arm.length_m;
+  const auto key = [&](const char* parameter) {
+    return fmt::format("effects.{}_mass.{}", mass.suspension ? "tuned" : "attached", parameter);
+  };
+  const std::string mass_key = key("mass");
+  require_at_most({mass_key.c_str(), mass.mass_kg, "kg", beam_kg, "m l"}, kLargestCarriedRatio);
+  if (!mass.suspension) return;
+  const double natural = std::sqrt(mass.suspension->stiffness_N_per_m / mass.mass_kg);
+  constexpr double kTurn = 2.0 * std::numbers::pi;
+  const std::string frequency_key = key("frequency");
+  require_from_to({frequency_key.c_str(), natural / kTurn, "Hz", omega_scale_rad_per_s(arm) / kTurn,
+                   "sqrt(EI/(m l^4))/(2 pi)"},
+                  kSmallestTunedRatio, kLargestTunedRatio);
+  const double ratio = mass.suspension->damping_N_s_per_m / (2.0 * mass.mass_kg * natural);
+  if (!(ratio <= kLargestTunedDampingRatio)) {
+    throw out_of_range(key("damping_ratio"), ratio, "1",
+                       fmt::format("{} or less", kLargestTunedDampingRatio));
   }
 }
 
@@ -102,6 +126,7 @@ void require_computable(const Arm& arm) {
   require_ratio("payload.mass/(m l)", payload_mass_ratio(arm), kLargestPayloadRatio);
   require_ratio("payload.inertia/(m l^3)", payload_inertia_ratio(arm), kLargestPayloadRatio);
   require_moderate_effects(linear);
+  for (const MassOnBeam& mass : linear.masses) require_moderate_mass(mass, linear);
 }
 
 void require_count(int count) {

@@ -121,6 +121,13 @@ inline constexpr double kLargestSpringRatio = 1e9;
 inline constexpr double kLargestWeightRatio = 1e4;
 inline constexpr double kSmallestShearRatio = 10.0;
 
+/// Masses on the beam relative to m l, natural frequencies of suspended ones to sqrt(EI/(m l^4)),
+/// and their damping ratios.
+inline constexpr double kLargestCarriedRatio = 1e3;
+inline constexpr double kSmallestTunedRatio = 1e-2;
+inline constexpr double kLargestTunedRatio = 1e4;
+inline constexpr double kLargestTunedDampingRatio = 10.0;
+
 /// Throws InputError for an arm that is not valid (`require_valid`) or whose numbers, each valid by
 /// itself, lie outside the bounds above together.
 void require_computable(const Arm& arm);

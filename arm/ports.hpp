@@ -38,8 +38,28 @@ struct ShearAndRotaryInertia {
 struct RotationalSpring {
   double position_m = 0.0;  ///< from the beam's root, 0 or more and below its length
   double stiffness_N_m_per_rad = 0.0;
+  /// Its moment is stiffness (1 + retardation d/dt) times the jump; above 0 at the root only.
+  double retardation_s = 0.0;
 
   bool operator==(const RotationalSpring&) const = default;
+};
+
+/// A spring and a dashpot beside each other, both massless and straight.
+struct Suspension {
+  double stiffness_N_per_m = 0.0;
+  double damping_N_s_per_m = 0.0;
+
+  bool operator==(const Suspension&) const = default;
+};
+
+/// A point mass that the beam carries: fixed to its axis, or free to move across it on a
+/// suspension, perpendicular to the cross-section's rotation there.
+struct MassOnBeam {
+  double position_m = 0.0;  ///< from the beam's root, 0 or more and at most its length
+  double mass_kg = 0.0;
+  std::optional<Suspension> suspension = {};
+
+  bool operator==(const MassOnBeam&) const = default;
 };
 
 /// What effects add to the linear arm beyond its numbers; the defaults add nothing. Symbols are
@@ -57,6 +77,7 @@ struct LinearTerms {
   double hub_spring_N_m_per_rad = 0.0;  ///< ks, from the hub to ground
   /// In the beam, one at most; those at its root, position 0, are in series between hub and beam.
   std::vector<RotationalSpring> springs = {};
+  std::vector<MassOnBeam> masses = {};
   double tip_mass_kg = 0.0;        ///< beside the payload
   double tip_inertia_kg_m2 = 0.0;  ///< about the payload's centre of mass, beside its own
   double payload_offset_m = 0.0;   ///< of the payload's centre of mass beyond the tip

@@ -51,9 +51,21 @@ Matrix AdmissibleFunctions::rotation_products() const {
   return std::get<StrainFunctions>(functions_).rotation_products();
 }
 
-Matrix AdmissibleFunctions::slope_products(Real at_root, Real at_tip) const {
-  return std::visit(
-      [&](const auto& functions) { return functions.slope_products(at_root, at_tip); }, functions_);
+Matrix AdmissibleFunctions::slope_products(const ScaledArm& arm) const {
+  return std::visit([&](const auto& functions) { return functions.slope_products(arm); },
+                    functions_);
+}
+
+Vector AdmissibleFunctions::carried_displacement(std::size_t k) const {
+  return std::get<StrainFunctions>(functions_).carried_displacement(k);
+}
+
+Vector AdmissibleFunctions::root_turn() const {
+  return rotation(0) - hub_rotation();
+}
+
+Vector AdmissibleFunctions::extension(std::size_t k) const {
+  return std::get<StrainFunctions>(functions_).extension(k);
 }
 
 }  // namespace flexarm::assumed_modes

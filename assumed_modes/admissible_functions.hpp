@@ -6,6 +6,7 @@
 #include "assumed_modes/shape_functions.hpp"
 #include "assumed_modes/strain_functions.hpp"
 
+#include <cstddef>
 #include <variant>
 
 namespace flexarm::assumed_modes {
@@ -33,8 +34,15 @@ class AdmissibleFunctions {
   Matrix displacement_products() const;
   /// int psi_i psi_j, of an arm with shear.
   Matrix rotation_products() const;
-  /// int p y_i' y_j' with p linear between its values at root and tip.
-  Matrix slope_products(Real at_root, Real at_tip) const;
+  /// int p y_i' y_j' with p = arm.tension.
+  Matrix slope_products(const ScaledArm& arm) const;
+
+  /// Of the mass on the beam that is the arm's `carried` entry k: its displacement, and how far it
+  /// is from its place on the beam. The basis must be able to represent it.
+  Vector carried_displacement(std::size_t k) const;
+  Vector extension(std::size_t k) const;
+  /// psi(0) - theta of an arm whose root is compliant.
+  Vector root_turn() const;
 
  private:
   std::variant<StrainFunctions, ShapeFunctions> functions_;

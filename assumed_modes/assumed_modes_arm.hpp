@@ -22,8 +22,9 @@ struct AssumedModesOptions {
   Basis basis = Basis::legendre;
 
   /// Generalised coordinates n of a beam that is whole and bends only, the rigid rotation included;
-  /// 2 <= n <= kMaximumFunctions. Effects add their own with `legendre`: a soft root one, a crack
-  /// one and up to 15 more for its second piece, shear as many as bending has (StrainFunctions).
+  /// 2 <= n <= kMaximumFunctions. Effects add their own with `legendre`: a soft root, a crack and a
+  /// suspended mass one, crack and masses up to 15 for each further piece of the beam, and shear as
+  /// many as bending has (StrainFunctions).
   /// With Legendre functions 36 give ten poles and ten hub zeros to rounding and six tip zeros to
   /// 1e-9 for payloads of up to 10 m l and 0.1 m l^3 and hubs of up to 100 m l^3; 28 give 1e-10 on
   /// the paper's arm.
@@ -49,9 +50,10 @@ inline constexpr int kMaximumFunctions = 200;
 ///     m l^3 M q'' + C q' + (EI/l) K q = h tau,   theta = h . q.
 ///
 /// Every linear effect is honoured. `legendre` bends at a crack and at a soft root and shears, by
-/// functions made for each (StrainFunctions): Ritz values of poles and hub zeros converge from
-/// above and faster than any power of n whatever the effects. The other bases refuse
-/// root_compliance, local_stiffness_loss and shear_and_rotary_inertia by name. All bases are
+/// functions made for each (StrainFunctions), which may also break at masses on the beam: Ritz
+/// values of poles and hub zeros converge from above and faster than any power of n whatever the
+/// effects. The other bases refuse springs in the beam, masses on it and shear_and_rotary_inertia
+/// by the effect's name. All bases are
 /// orthonormal in strain energy, springs and shear included: K is diag(0, 1, ..., 1), to which a
 /// hub spring adds rank one and gravity a full matrix. All integrals are closed forms but gravity's
 /// on beam shapes, which is quadrature to rounding.

@@ -26,8 +26,9 @@ std::string_view to_string(Basis basis);
 Basis parse_basis(std::string_view name);
 
 /// Throws InputError for the effect of the arm that no function of the basis can follow, by name:
-/// shapes of a beam that is whole, fixed to the hub and rigid in shear neither bend at a crack or
-/// at a soft root nor shear. `legendre` has functions for each.
+/// shapes of a beam that is whole, bare between hub and tip, fixed to the hub and rigid in shear
+/// neither bend at a crack or at a soft root nor shear, nor does their shear force jump at a mass.
+/// `legendre` has functions for each.
 void require_representable(Basis basis, const arm::Arm& arm);
 /// Whether that does not throw.
 bool can_represent(Basis basis, const arm::Arm& arm);

@@ -6,6 +6,7 @@
 #include <Eigen/LU>
 #include <Eigen/QR>
 
+#include <cstddef>
 #include <limits>
 
 namespace flexarm::assumed_modes {
@@ -32,6 +33,10 @@ Matrix mass_rows(const AdmissibleFunctions& functions, const ScaledArm& arm, boo
   if (arm.shear) mass += arm.shear->rotary_inertia * functions.rotation_products();
   mass += arm.payload_mass * centre * (tip_is_held ? arm_of_centre : centre).transpose() +
           arm.payload_own_inertia * tip_rotation * tip_rotation.transpose();
+  for (std::size_t k = 0; k < arm.carried.size(); ++k) {
+    const Vector row = functions.carried_displacement(k);
+    mass += arm.carried[k].mass * row * row.transpose();
+  }
   return rows_beside_hub(mass, hub);
 }
 

@@ -1,9 +1,33 @@
 #include "assumed_modes/scaled_arm.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 namespace flexarm::assumed_modes {
+
+std::vector<Real> ScaledArm::breaks() const {
+  // Nearer to each other than this two places are one, the first; a sliver gains nothing.
+  constexpr Real kSamePlace = 1e-9L;
+  std::vector<Real> places;
+  if (crack) places.push_back(crack->position);
+  for (const Carried& mass : carried) {
+    const bool is_new = std::ranges::none_of(
+        places, [&](Real place) { return std::abs(place - mass.position) <= kSamePlace; });
+    const bool is_inside = mass.position > kSamePlace && 1 - mass.position > kSamePlace;
+    if (is_new && is_inside) places.push_back(mass.position);
+  }
+  std::ranges::sort(places);
+  return places;
+}
+
+Real ScaledArm::tension(Real xi) const {
+  Real beyond = payload_mass + (1 - xi);
+  for (const Carried& mass : carried) {
+    if (mass.position >= xi) beyond += mass.mass;
+  }
+  return weight * beyond;
+}
 
 ScaledArm scaled(const arm::LinearArm& arm) {
   const Real l = arm.length_m;
@@ -22,6 +46,14 @@ ScaledArm scaled(const arm::LinearArm& arm) {
   }
   if (arm.crack) {
     scaled.crack = {arm.crack->position_m / l, arm.crack->stiffness_N_m_per_rad / torsion_N_m};
+  }
+  scaled.root_retardation = arm.root_retardation_s * omega_rad_per_s;
+  for (const arm::MassOnBeam& mass : arm.masses) {
+    const arm::Suspension suspension = mass.suspension.value_or(arm::Suspension{});
+    scaled.carried.push_back(
+        {mass.position_m / l, mass.mass_kg / mass_kg,
+         suspension.stiffness_N_per_m * l * l / torsion_N_m,
+         suspension.damping_N_s_per_m * omega_rad_per_s * l * l / torsion_N_m});
   }
   if (arm.shear) {
     scaled.shear = {arm.shear->shear_rigidity_N * l / torsion_N_m,

@@ -4,6 +4,7 @@
 #include "assumed_modes/real.hpp"
 
 #include <optional>
+#include <vector>
 
 namespace flexarm::assumed_modes {
 
@@ -19,12 +20,24 @@ struct ScaledArm {
     Real rotary_inertia = 0;  ///< rho I/(m l^2)
   };
 
+  /// A mass on the beam.
+  struct Carried {
+    Real position = 0;   ///< Xk/l
+    Real mass = 0;       ///< mk/(m l)
+    Real stiffness = 0;  ///< kk l^3/EI of its suspension; 0 where it is fixed
+    Real damping = 0;    ///< ck l^2/sqrt(EI m l^2)
+
+    bool is_suspended() const { return stiffness > 0; }
+  };
+
   Real hub_inertia = 0;                ///< Ih/(m l^3)
   Real hub_radius = 0;                 ///< a/l
   Real hub_spring = 0;                 ///< ks l/EI
   std::optional<Real> root_stiffness;  ///< kr l/EI
+  Real root_retardation = 0;           ///< tr sqrt(EI/(m l^4))
   std::optional<Crack> crack;
   std::optional<Shear> shear;
+  std::vector<Carried> carried;  ///< by position
   Real payload_mass = 0;    ///< Mp/(m l)
   Real payload_offset = 0;  ///< Sp/(Mp l), of the payload's centre beyond the tip; 0 without Mp
   Real payload_own_inertia = 0;  ///< (Jp - Sp^2/Mp)/(m l^3), about that centre
@@ -35,6 +48,10 @@ struct ScaledArm {
   Real air_damping = 0;          ///< ca/(m sqrt(EI/(m l^4)))
 
   bool turns_freely() const { return hub_spring == 0 && weight == 0; }
+  /// Places inside the beam at which a solution is not smooth, ascending.
+  std::vector<Real> breaks() const;
+  /// g P l^2/EI at xi, that of a mass there included.
+  Real tension(Real xi) const;
 };
 
 ScaledArm scaled(const arm::LinearArm& arm);

@@ -65,7 +65,7 @@ Matrix ShapeFunctions::displacement_products() const {
   return products;
 }
 
-Matrix ShapeFunctions::slope_products(Real at_root, Real at_tip) const {
+Matrix ShapeFunctions::slope_products(const ScaledArm& arm) const {
   using Rule = boost::math::quadrature::gauss<Real, 20>;
   Matrix lower = Matrix::Zero(size(), size());
   const Real half = Real{0.5L} / static_cast<Real>(size());
@@ -74,7 +74,7 @@ Matrix ShapeFunctions::slope_products(Real at_root, Real at_tip) const {
     for (std::size_t i = 0; i < Rule::abscissa().size(); ++i) {
       for (const Real sign : {Real{-1}, Real{1}}) {
         const Real xi = centre + sign * half * Rule::abscissa()[i];
-        const Real weight = half * Rule::weights()[i] * (at_root + (at_tip - at_root) * xi);
+        const Real weight = half * Rule::weights()[i] * arm.tension(xi);
         lower.selfadjointView<Eigen::Lower>().rankUpdate(rotation(xi), weight);
       }
     }

@@ -26,9 +26,9 @@ class ShapeFunctions {
 
   /// int y_i y_j, in closed form.
   Matrix displacement_products() const;
-  /// int p y_i' y_j' with p linear between its values at root and tip, by Gauss's rule of 20 points
-  /// on panels as long as half a wave of the highest shape: exact to rounding.
-  Matrix slope_products(Real at_root, Real at_tip) const;
+  /// int p y_i' y_j' with p = arm.tension of an arm without masses between root and tip, by Gauss's
+  /// rule of 20 points on panels as long as half a wave of the highest shape: exact to rounding.
+  Matrix slope_products(const ScaledArm& arm) const;
 
  private:
   Vector with_rotation(Real rigid, const Vector& shapes) const;

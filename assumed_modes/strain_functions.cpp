@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace flexarm::assumed_modes {
 
@@ -26,14 +27,27 @@ void set_orthonormal(Matrix& series, Eigen::Index first, Eigen::Index count, Rea
 }  // namespace
 
 StrainFunctions::StrainFunctions(const ScaledArm& arm, StrainFunctionCount count) {
-  std::vector<Real> lengths = {1};
-  if (arm.crack) lengths = {arm.crack->position, 1 - arm.crack->position};
+  std::vector<Real> lengths;
+  Real from = 0;
+  const std::vector<Real> breaks = arm.breaks();
+  for (const Real place : breaks) {
+    lengths.push_back(place - from);
+    from = place;
+  }
+  lengths.push_back(1 - from);
   Eigen::Index polynomials = 0;
   for (const Real length : lengths) polynomials += functions_on(length, count);
 
   const Eigen::Index root = 1;
   const Eigen::Index crack = root + (arm.root_stiffness ? 1 : 0);
   Eigen::Index bending = crack + (arm.crack ? 1 : 0);
+  for (const ScaledArm::Carried& mass : arm.carried) {
+    carried_.push_back({mass.position});
+    if (mass.is_suspended()) {
+      carried_.back().function = bending++;
+      carried_.back().extension = 1 / std::sqrt(mass.stiffness);
+    }
+  }
   Eigen::Index shearing = bending + polynomials;
   const Eigen::Index size = shearing + (arm.shear ? polynomials : 0);
   bends_ = Vector::Zero(size);
@@ -44,7 +58,9 @@ StrainFunctions::StrainFunctions(const ScaledArm& arm, StrainFunctionCount count
   if (arm.root_stiffness) rotation(root) = 1 / std::sqrt(*arm.root_stiffness);
   Real start = 0;
   for (const Real length : lengths) {
-    if (start > 0) rotation(crack) = 1 / std::sqrt(arm.crack->stiffness);
+    if (arm.crack && start == arm.crack->position) {
+      rotation(crack) = 1 / std::sqrt(arm.crack->stiffness);
+    }
     const Eigen::Index here = functions_on(length, count);
     Piece piece{start, length, {}, {}, {}, Matrix::Zero(size, here + 2)};
     set_orthonormal(piece.curvature, bending, here, length);
@@ -61,15 +77,16 @@ StrainFunctions::StrainFunctions(const ScaledArm& arm, StrainFunctionCount count
 
     displacement = at_end(piece.displacement);
     rotation = at_end(piece.rotation);
-    start += length;
     bending += here;
     shearing += here;
+    if (pieces_.size() < breaks.size()) start = breaks[pieces_.size()];
     pieces_.push_back(std::move(piece));
   }
 }
 
 const StrainFunctions::Piece& StrainFunctions::piece_at(Real xi) const {
-  return xi > pieces_.front().length ? pieces_.back() : pieces_.front();
+  const auto beyond = std::ranges::upper_bound(pieces_, xi, {}, &Piece::start);
+  return *std::prev(beyond);
 }
 
 namespace {
@@ -109,15 +126,25 @@ Matrix StrainFunctions::rotation_products() const {
   return mirrored(sum);
 }
 
-Matrix StrainFunctions::slope_products(Real at_root, Real at_tip) const {
+Matrix StrainFunctions::slope_products(const ScaledArm& arm) const {
   Matrix sum = Matrix::Zero(size(), size());
   for (const Piece& piece : pieces_) {
-    const Real rise = (at_tip - at_root) * piece.length / 2;
-    const Real middle = at_root + (at_tip - at_root) * (piece.start + piece.length / 2);
+    const Real rise = -arm.weight * piece.length / 2;
+    const Real middle = arm.tension(piece.start + piece.length / 2);
     sum += middle * products(piece.slope, piece.slope, piece.length) +
            rise * products(times_t(piece.slope), piece.slope, piece.length);
   }
   return mirrored(sum);
+}
+
+Vector StrainFunctions::extension(std::size_t k) const {
+  const Carried& mass = carried_[k];
+  if (mass.function < 0) return Vector::Zero(size());
+  return mass.extension * Vector::Unit(size(), mass.function);
+}
+
+Vector StrainFunctions::carried_displacement(std::size_t k) const {
+  return displacement(carried_[k].position) + extension(k);
 }
 
 }  // namespace flexarm::assumed_modes

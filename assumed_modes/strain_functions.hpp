@@ -3,6 +3,7 @@
 #include "assumed_modes/real.hpp"
 #include "assumed_modes/scaled_arm.hpp"
 
+#include <cstddef>
 #include <vector>
 
 namespace flexarm::assumed_modes {
@@ -20,11 +21,13 @@ struct StrainFunctionCount {
 ///     the rigid rotation     y = a + xi, psi = 1: no strain
 ///     the soft root          psi = 1/sqrt(kr) behind it
 ///     the crack              psi = 1/sqrt(kc) behind it
+///     a suspended mass       its displacement is 1/sqrt(kk): y = psi = 0
 ///     bending of a piece     psi' = orthonormal Legendre polynomial there, zero elsewhere
 ///     shear of a piece       y' - psi = orthonormal Legendre polynomial over sqrt(k G A)
 ///
-/// in this order, each present where the arm has what it stands for; the beam is one piece, or two
-/// that meet at the crack. The strain energy matrix is diag(0, 1, ..., 1): a beam that is stiff in
+/// in this order, each present where the arm has what it stands for; the beam is one piece, or
+/// several that meet at crack and masses. In all but its own function a suspended mass moves with
+/// the beam. The strain energy matrix is diag(0, 1, ..., 1): a beam that is stiff in
 /// shear cannot lock, for y' = psi is among the functions. Every end value is left free and every
 /// solution is smooth on each piece, so that Ritz values converge faster than any power.
 ///
@@ -41,15 +44,19 @@ class StrainFunctions {
   Vector hub_rotation() const { return Vector::Unit(size(), 0); }
   Vector displacement(Real xi) const;
   Vector rotation(Real xi) const;
-  /// psi'; at the crack that on the side of the hub.
+  /// psi'; where pieces meet that on the side of the tip.
   Vector curvature(Real xi) const;
+  /// The displacement of a mass on the beam, that of `carried`'s entry k.
+  Vector carried_displacement(std::size_t k) const;
+  /// How far it is from its place on the beam; zero where it is fixed.
+  Vector extension(std::size_t k) const;
 
   /// int y_i y_j.
   Matrix displacement_products() const;
   /// int psi_i psi_j.
   Matrix rotation_products() const;
-  /// int p y_i' y_j' with p linear between its values at root and tip.
-  Matrix slope_products(Real at_root, Real at_tip) const;
+  /// int p y_i' y_j' with p = arm.tension.
+  Matrix slope_products(const ScaledArm& arm) const;
 
  private:
   /// Legendre series of every function on one piece.
@@ -63,7 +70,15 @@ class StrainFunctions {
   };
   const Piece& piece_at(Real xi) const;
 
+  /// A mass on the beam: where, and which function is its suspension's, with what value.
+  struct Carried {
+    Real position = 0;
+    Eigen::Index function = -1;  ///< -1 where it is fixed
+    Real extension = 0;
+  };
+
   std::vector<Piece> pieces_;
+  std::vector<Carried> carried_;
   Vector bends_;
 };
 

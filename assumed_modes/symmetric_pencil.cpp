@@ -56,12 +56,20 @@ SymmetricPencil equations_of(const AdmissibleFunctions& functions, const ScaledA
     pencil.lumped.push_back({tip + arm.payload_offset * tip_rotation, arm.payload_mass});
   }
   if (arm.payload_own_inertia > 0) pencil.lumped.push_back({tip_rotation, arm.payload_own_inertia});
+  for (std::size_t k = 0; k < arm.carried.size(); ++k) {
+    pencil.lumped.push_back({functions.carried_displacement(k), arm.carried[k].mass});
+  }
   if (arm.weight != 0) {
-    const Real at_tip = arm.weight * arm.payload_mass;
-    const Real at_root = at_tip + arm.weight;
-    pencil.gravity = functions.slope_products(at_root, at_tip) +
-                     at_root * arm.hub_radius * hub * hub.transpose() +
-                     at_tip * arm.payload_offset * tip_rotation * tip_rotation.transpose();
+    pencil.gravity = functions.slope_products(arm) +
+                     arm.tension(0) * arm.hub_radius * hub * hub.transpose() +
+                     arm.weight * arm.payload_mass * arm.payload_offset * tip_rotation *
+                         tip_rotation.transpose();
+    for (std::size_t k = 0; k < arm.carried.size(); ++k) {
+      if (!arm.carried[k].is_suspended()) continue;
+      const Matrix half = arm.weight * arm.carried[k].mass * functions.extension(k) *
+                          functions.rotation(arm.carried[k].position).transpose();
+      pencil.gravity += half + half.transpose();
+    }
   }
   return pencil;
 }

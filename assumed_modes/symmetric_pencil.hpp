@@ -24,7 +24,7 @@ struct SymmetricPencil {
   Vector strain;               ///< n
   Matrix gravity;              ///< n x n; empty where there is none
   Matrix spread;               ///< mass of the beam, n x n
-  std::vector<Lumped> lumped;  ///< hub, payload's mass, payload's inertia
+  std::vector<Lumped> lumped;  ///< hub, payload's mass, payload's inertia, masses on the beam
 
   Eigen::Index size() const { return strain.size(); }
   /// K and M, symmetric to the last bit.

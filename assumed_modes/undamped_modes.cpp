@@ -1,6 +1,7 @@
 #include "assumed_modes/undamped_modes.hpp"
 
 #include <cmath>
+#include <cstddef>
 #include <utility>
 
 namespace flexarm::assumed_modes {
@@ -55,7 +56,19 @@ ModalDamping modal_damping(const AdmissibleFunctions& functions, const ScaledArm
     lower += arm.air_damping * modes.vectors.transpose() * functions.displacement_products() *
              modes.vectors;
   }
-  if (arm.air_damping == 0 && (bends_only || arm.kelvin_voigt == 0)) {
+  bool springs_lose = arm.root_retardation > 0;
+  if (springs_lose) {
+    const Vector turn = modes.vectors.transpose() * functions.root_turn();
+    lower.selfadjointView<Eigen::Lower>().rankUpdate(
+        turn, arm.root_retardation * arm.root_stiffness.value());
+  }
+  for (std::size_t k = 0; k < arm.carried.size(); ++k) {
+    if (arm.carried[k].damping == 0) continue;
+    springs_lose = true;
+    const Vector extension = modes.vectors.transpose() * functions.extension(k);
+    lower.selfadjointView<Eigen::Lower>().rankUpdate(extension, arm.carried[k].damping);
+  }
+  if (arm.air_damping == 0 && !springs_lose && (bends_only || arm.kelvin_voigt == 0)) {
     damping.diagonal = lower.diagonal();
   }
   lower.selfadjointView<Eigen::Lower>().rankUpdate(damping.hub_rotation, damping.hub_friction);

@@ -14,16 +14,34 @@ Real hub_stiffness(const ArmInBeamUnits& arm) {
 template <class T>
 BeamAtFrequency<T> undamped(const ArmInBeamUnits& arm, const T& omega_squared) {
   const T square = -omega_squared;
-  return {square, square, arm.rotary_inertia * square, T(1.0L),
-          arm.hub_inertia * square + hub_stiffness(arm)};
+  return {square,
+          square,
+          arm.rotary_inertia * square,
+          T(1.0L),
+          T(arm.root_flexibility),
+          arm.hub_inertia * square + hub_stiffness(arm),
+          T(0.0L)};
 }
 
 }  // namespace
 
 Real ArmInBeamUnits::total_inertia() const {
   const Real reach = hub_radius + 1.0L;
-  return hub_inertia + hub_radius * reach + 1.0L / 3.0L + rotary_inertia +
-         payload_mass * reach * reach + 2.0L * payload_moment * reach + payload_inertia;
+  Real sum = hub_inertia + hub_radius * reach + 1.0L / 3.0L + rotary_inertia +
+             payload_mass * reach * reach + 2.0L * payload_moment * reach + payload_inertia;
+  for (const Carried& one : carried) {
+    sum += one.mass * (hub_radius + one.position) * (hub_radius + one.position);
+  }
+  return sum;
+}
+
+Real ArmInBeamUnits::tension(Real x) const {
+  if (gravity == 0.0L) return 0.0L;
+  Real beyond = payload_mass + (1.0L - x);
+  for (const Carried& one : carried) {
+    if (one.position >= x) beyond += one.mass;
+  }
+  return gravity * beyond;
 }
 
 ArmInBeamUnits in_beam_units(const arm::LinearArm& arm) {
@@ -43,6 +61,15 @@ ArmInBeamUnits in_beam_units(const arm::LinearArm& arm) {
   units.hub_spring = arm.hub_spring_N_m_per_rad / units.torque_scale_N_m;
   if (arm.root_stiffness_N_m_per_rad) {
     units.root_flexibility = units.torque_scale_N_m / *arm.root_stiffness_N_m_per_rad;
+  }
+  units.root_retardation = arm.root_retardation_s * omega;
+  for (const arm::MassOnBeam& one : arm.masses) {
+    ArmInBeamUnits::Carried carried{one.position_m / l, one.mass_kg / mass};
+    if (one.suspension) {
+      carried.omega_squared = one.suspension->stiffness_N_per_m / (one.mass_kg * omega * omega);
+      carried.damping = one.suspension->damping_N_s_per_m / (one.mass_kg * omega);
+    }
+    units.carried.push_back(carried);
   }
   units.payload_mass = arm.payload_mass_kg / mass;
   units.payload_moment = arm.payload_first_moment_kg_m / (mass * l);
@@ -72,9 +99,14 @@ BeamAtFrequency<Complex> undamped_at(const ArmInBeamUnits& arm, const Complex& o
 BeamAtFrequency<Complex> damped_at(const ArmInBeamUnits& arm, const Complex& s,
                                    const Complex& damping) {
   const Complex square = s * s;
-  return {square, square + arm.air_damping * damping * s, arm.rotary_inertia * square,
-          1.0L / (1.0L + arm.kelvin_voigt * damping * s),
-          arm.hub_inertia * square + arm.hub_friction * damping * s + hub_stiffness(arm)};
+  const Complex decay = damping * s;
+  return {square,
+          square + arm.air_damping * decay,
+          arm.rotary_inertia * square,
+          1.0L / (1.0L + arm.kelvin_voigt * decay),
+          arm.root_flexibility / (1.0L + arm.root_retardation * decay),
+          arm.hub_inertia * square + arm.hub_friction * decay + hub_stiffness(arm),
+          decay};
 }
 
 }  // namespace flexarm::exact_tf

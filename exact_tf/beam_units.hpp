@@ -4,6 +4,7 @@
 #include "exact_tf/scaled.hpp"
 
 #include <optional>
+#include <vector>
 
 namespace flexarm::exact_tf {
 
@@ -24,12 +25,14 @@ namespace flexarm::exact_tf {
 ///     M' = rho I s^2 psi - Q + g P y'
 ///     Q' = (m s^2 + ca s) y,
 ///
-/// an Euler-Bernoulli beam having phi = rho I = 0. Variations at the tip, the crack, the root and
-/// the hub:
+/// an Euler-Bernoulli beam having phi = rho I = 0. Variations at the tip, the crack, the masses on
+/// the beam, the root and the hub:
 ///
 ///     Q(l) = -s^2 (Mp y + Sp psi),   M(l) = -s^2 (Sp y + Jp psi) - g Sp psi
 ///     psi(X+) - psi(X-) = M(X)/kc,   y, M, Q continuous
-///     y(0) = a theta,   psi(0) - theta = M(0)/kr
+///     Q(Xk+) - Q(Xk-) = mk s^2 (y + uk),   M(Xk+) - M(Xk-) = g mk uk,   y, psi continuous
+///     (mk s^2 + ck s + kk) uk = -mk (s^2 y + g psi)   where mk is suspended, else uk = 0
+///     y(0) = a theta,   psi(0) - theta = M(0)/(kr (1 + tr s))
 ///     tau = (Ih s^2 + c s + ks + g P(0) a) theta - M(0) - a Q(0).
 ///
 /// The numbers of these equations in units of the beam: lengths in l, time in
@@ -44,6 +47,7 @@ struct ArmInBeamUnits {
   Real hub_friction = 0.0L;      ///< c omega_scale l/EI
   Real hub_spring = 0.0L;        ///< ks l/EI
   Real root_flexibility = 0.0L;  ///< EI/(l kr), 0 for a rigid root
+  Real root_retardation = 0.0L;  ///< tr omega_scale
 
   Real payload_mass = 0.0L;     ///< Mp/(m l)
   Real payload_moment = 0.0L;   ///< Sp/(m l^2)
@@ -52,6 +56,17 @@ struct ArmInBeamUnits {
   std::optional<Real> crack_position;  ///< X/l
   Real crack_flexibility = 0.0L;       ///< EI/(l kc)
 
+  /// A mass on the beam.
+  struct Carried {
+    Real position = 0.0L;       ///< Xk/l
+    Real mass = 0.0L;           ///< mk/(m l)
+    Real omega_squared = 0.0L;  ///< kk/(mk omega_scale^2); 0 where the mass is fixed
+    Real damping = 0.0L;        ///< ck/(mk omega_scale)
+
+    bool is_suspended() const { return omega_squared > 0.0L; }
+  };
+  std::vector<Carried> carried;  ///< by position
+
   Real shear_flexibility = 0.0L;  ///< EI/(kGA l^2)
   Real rotary_inertia = 0.0L;     ///< rho I/(m l^2)
   Real gravity = 0.0L;            ///< g m l^3/EI
@@ -59,8 +74,8 @@ struct ArmInBeamUnits {
   Real air_damping = 0.0L;        ///< ca/(m omega_scale)
 
   bool turns_freely() const { return hub_spring == 0.0L && gravity == 0.0L; }
-  /// g P at x in units of l, the axial tension.
-  Real tension(Real x) const { return gravity * (payload_mass + (1.0L - x)); }
+  /// g P in units of l, the axial tension, at x and just before it towards the root.
+  Real tension(Real x) const;
   /// I_T/(m l^3).
   Real total_inertia() const;
 };
@@ -75,7 +90,9 @@ struct BeamAtFrequency {
   T inertia;        ///< s^2 + ca s: Q' over y
   T rotary;         ///< rho I s^2
   T flexibility;    ///< 1/(1 + kv s): psi' over M
+  T root;           ///< (psi(0) - theta)/M(0)
   T hub_impedance;  ///< (tau + M(0) + a Q(0))/theta
+  T decay;          ///< s times what damping is multiplied by: suspensions have ck times it
 };
 
 /// The undamped arm at s^2 = -omega_squared, of either sign.

@@ -1,7 +1,9 @@
 #include "exact_tf/boundary_values.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
 
 namespace flexarm::exact_tf {
@@ -15,7 +17,8 @@ Real norm_of(const std::array<T, N>& values) {
   return std::sqrt(sum);
 }
 
-/// y(l) - (a + l) theta from the departure V of the plane's two states from the rigid rod's
+/// Times the D of all suspended masses, none of which is near 0: y(l) - (a + l) theta from the
+/// departure V of the plane's two states from the rigid rod's
 /// (1, 0, 0, 0) and (x - 1, 1, 0, 0). With f1 = psi - M/kr, f2 = y - a f1 taken at the root and
 /// c = (1 + a - f2 V2, 1 + f2 V1), the motion is V c and the rigid one, and the deflection
 ///
@@ -24,9 +27,25 @@ template <class T>
 T slight_deflection(const TransferChain<T>& chain) {
   auto departure = chain.tip_states();
   departure[0][kDisplacement] = departure[1][kRotation] = T(0.0L);
+  T resonances(1.0L);
   for (const auto& link : chain.links()) {
-    const auto transfer = chain.transfer(link);
     const Real from_tip = 1.0L - link.segment.right;
+    if (link.mass) {
+      const auto& mass = chain.masses()[*link.mass];
+      const T inverse = 1.0L / mass.resonance();
+      resonances *= mass.resonance();
+      const std::array<BeamState<T>, 2> rigid = {
+          {{T(1.0L), T(0.0L), T(0.0L), T(0.0L)}, {T(-from_tip), T(1.0L), T(0.0L), T(0.0L)}}};
+      for (std::size_t k = 0; k < 2; ++k) {
+        BeamState<T> whole = rigid[k];
+        for (std::size_t i = 0; i < 4; ++i) whole[i] += departure[k][i];
+        const auto passed = mass.to_left(whole);
+        departure[k][kMoment] = inverse * passed[kMoment];
+        departure[k][kForce] = inverse * passed[kForce];
+      }
+      continue;
+    }
+    const auto transfer = chain.transfer(link);
     std::array<BeamState<T>, 2> next{};
     for (std::size_t i = 0; i < 4; ++i) {
       for (std::size_t k = 0; k < 2; ++k) {
@@ -40,7 +59,7 @@ T slight_deflection(const TransferChain<T>& chain) {
     departure = next;
   }
   const Real radius = chain.arm().hub_radius;
-  const Real flexibility = chain.arm().root_flexibility;
+  const T& flexibility = chain.beam().root;
   const auto f1 = [&](const BeamState<T>& v) { return v[kRotation] - flexibility * v[kMoment]; };
   const auto f2 = [&](const BeamState<T>& v) { return v[kDisplacement] - radius * f1(v); };
   const T along_first = f2(departure[0]);
@@ -48,7 +67,7 @@ T slight_deflection(const TransferChain<T>& chain) {
   const Real reach = 1.0L + radius;
   const T root_rotation =
       (reach - along_second) * f1(departure[0]) + (1.0L + along_first) * f1(departure[1]);
-  return -along_second - reach * (along_first + root_rotation);
+  return resonances * (-along_second - reach * (along_first + root_rotation));
 }
 
 template <class T>
@@ -62,7 +81,13 @@ template <class T>
 SensorValue<T> deflection_value(const TransferChain<T>& chain, const RootValues<T>& root) {
   // Up to here no term of either form outgrows the others.
   constexpr Real kSlightGrowth = 3.0L;
-  if (chain.growth() <= kSlightGrowth) return {slight_deflection(chain), 0.0L, root.size};
+  constexpr Real kFarFromResonance = 0.5L;
+  const bool resonates = std::ranges::any_of(chain.masses(), [](const auto& mass) {
+    return std::abs(mass.resonance()) < kFarFromResonance;
+  });
+  if (chain.growth() <= kSlightGrowth && !resonates) {
+    return {slight_deflection(chain), 0.0L, root.size};
+  }
   const auto tip = tip_value(chain);
   const Real log_scale = std::max(root.log_scale, tip.log_scale);
   const Real root_factor = std::exp(root.log_scale - log_scale);
@@ -96,7 +121,7 @@ SensorValue<T> curvature_value(const TransferChain<T>& chain, Real x) {
 template <class T>
 RootValues<T> root_values(const TransferChain<T>& chain, const Bivector<T>& p, Real log_scale) {
   const Real radius = chain.arm().hub_radius;
-  const Real flexibility = chain.arm().root_flexibility;
+  const T& flexibility = chain.beam().root;
   const T hub_angle = p.displacement_rotation() - flexibility * p.displacement_moment();
   const T torque = chain.beam().hub_impedance * hub_angle - p.displacement_moment() +
                    radius * (p.rotation_moment() - p.displacement_force() +
@@ -135,8 +160,12 @@ template <class T>
 std::size_t link_at(const TransferChain<T>& chain, Real x) {
   const auto& links = chain.links();
   const auto found = std::ranges::find_if(
-      links, [x](const auto& link) { return !link.is_crack && link.segment.left() <= x; });
-  return found == links.end() ? links.size() - 1 : static_cast<std::size_t>(found - links.begin());
+      links, [x](const auto& link) { return link.is_segment() && link.segment.left() <= x; });
+  if (found != links.end()) return static_cast<std::size_t>(found - links.begin());
+  // Rounding has left x before the last segment, behind which a mass at the root may come.
+  const auto last = std::find_if(links.rbegin(), links.rend(),
+                                 [](const auto& link) { return link.is_segment(); });
+  return static_cast<std::size_t>(std::distance(last, links.rend())) - 1;
 }
 
 template RootValues<Real> root_values(const TransferChain<Real>&, const Bivector<Real>&, Real);

@@ -8,7 +8,8 @@
 namespace flexarm::exact_tf {
 
 /// The arm's motion under the tip's conditions and y(0) = a theta, which is unique up to a factor;
-/// scaled so that at s = 0 of a free arm it is y = a + x. Values are analytic functions of s (those
+/// scaled so that at s = 0 of a free arm it is y = a + x; the D of every suspended mass is a factor
+/// (see CarriedMass). Values are analytic functions of s (those
 /// of the undamped arm entire functions of s^2) in units of the beam, times exp(-log_scale):
 /// response per unit of torque is value/torque.
 template <class T>

@@ -41,7 +41,7 @@ ChainCount count_below(const TransferChain<Real>& chain) {
     chain.to_left(link, plane);
     if (opposite(plane.plane.displacement_rotation(), right.displacement_rotation())) {
       ++count.hub_held;
-    } else if (!link.is_crack) {
+    } else if (link.is_segment()) {
       count.hub_held += definite_pivots(chain.transfer(link), link.segment.length, right);
     }
   }

@@ -21,7 +21,8 @@ struct ChainCount {
 ///
 /// u_left = T_uu u + T_uf (Q, M), u_left = A u within the plane of states, p its minor of y and
 /// psi; det T_uf > 0 below the first clamped resonance. The crack's psi(X+) has the pivot kc
-/// p_left/p_right, psi(0) at a soft root kr hub_angle/p, the hub angle torque/hub_angle. Signs of
+/// p_left/p_right, the extension of a suspension kk D of which p is a multiple beyond it (see
+/// CarriedMass), psi(0) at a soft root kr hub_angle/p, the hub angle torque/hub_angle. Signs of
 /// the products telescope, so that the count's parity is that of the sign of the last function, and
 /// a sign that rounding turned where a minor all but vanishes is taken back by the next.
 ChainCount count_below(const TransferChain<Real>& chain);

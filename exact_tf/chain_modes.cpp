@@ -59,7 +59,7 @@ ChainModes::ChainModes(const ArmInBeamUnits& arm, std::span<const Real> omega_sq
     : arm_(arm), highest_(undamped_at(arm, largest_magnitude(omega_squared))) {
   const TransferChain<Real> chain(arm, highest_);
   for (const auto& link : chain.links()) {
-    if (!link.is_crack) segments_.push_back(link.segment);
+    if (link.is_segment()) segments_.push_back(link.segment);
   }
   modes_.reserve(omega_squared.size());
   for (const Real square : omega_squared) {
@@ -77,8 +77,28 @@ ChainModes::Mode ChainModes::rigid_body_mode() const {
     mode.series.emplace_back(arm_, at_rest, segment,
                              BeamState<Real>{arm_.hub_radius + segment.right, 1.0L, 0.0L, 0.0L});
   }
+  for (const auto& mass : arm_.carried) {
+    mode.carried.push_back({arm_.hub_radius + mass.position, 0.0L});
+  }
   sample(mode);
   return mode;
+}
+
+CarriedMotion ChainModes::motion_of(const TransferChain<Real>& chain, std::size_t k,
+                                    const BeamState<Real>& at_right,
+                                    const BeamState<Real>& at_left) const {
+  const Real y = at_right[kDisplacement];
+  if (!arm_.carried[k].is_suspended()) return {y, 0.0L};
+  constexpr Real kNearResonance = 0.1L;
+  const CarriedMass<Real>& mass = chain.masses()[k];
+  if (std::abs(mass.resonance()) > kNearResonance) {
+    const Real extension = mass.extension(at_right) / mass.resonance();
+    return {y + extension, extension};
+  }
+  // y all but vanishes: by the force that moves the mass.
+  const Real force = at_right[kForce] - at_left[kForce];
+  const Real displacement = force / (arm_.carried[k].mass * chain.beam().square);
+  return {displacement, displacement - y};
 }
 
 ChainModes::Mode ChainModes::mode_at(Real omega_squared) const {
@@ -104,10 +124,15 @@ ChainModes::Mode ChainModes::mode_at(Real omega_squared) const {
     return state;
   };
   Mode mode;
+  mode.carried.resize(arm_.carried.size());
   for (std::size_t i = 0; i < links.size(); ++i) {
-    if (links[i].is_crack) continue;
-    mode.series.emplace_back(arm_, chain.beam(), links[i].segment, state_at(i));
+    if (links[i].is_segment()) {
+      mode.series.emplace_back(arm_, chain.beam(), links[i].segment, state_at(i));
+    } else if (links[i].mass) {
+      mode.carried[*links[i].mass] = motion_of(chain, *links[i].mass, state_at(i), state_at(i + 1));
+    }
   }
+  mode.root_turn = arm_.root_flexibility * state_at(links.size())[kMoment];
   const Real waves = wave_number(arm_, chain.beam(), {1.0L, 1.0L});
   mode.hub_angle = hub_angle_of(chain, state_at(links.size()), waves);
   sample(mode);
@@ -129,13 +154,20 @@ void ChainModes::sample(Mode& mode) const {
 void ChainModes::normalise(Mode& mode) const {
   const Real tip = mode.tip[kDisplacement];
   const Real turn = mode.tip[kRotation];
-  const Real mass = integral(mode.displacements, mode.displacements) +
-                    arm_.rotary_inertia * integral(mode.rotations, mode.rotations) +
-                    arm_.hub_inertia * mode.hub_angle * mode.hub_angle +
-                    arm_.payload_mass * tip * tip + 2.0L * arm_.payload_moment * tip * turn +
-                    arm_.payload_inertia * turn * turn;
+  Real mass = integral(mode.displacements, mode.displacements) +
+              arm_.rotary_inertia * integral(mode.rotations, mode.rotations) +
+              arm_.hub_inertia * mode.hub_angle * mode.hub_angle + arm_.payload_mass * tip * tip +
+              2.0L * arm_.payload_moment * tip * turn + arm_.payload_inertia * turn * turn;
+  for (std::size_t k = 0; k < mode.carried.size(); ++k) {
+    mass += arm_.carried[k].mass * mode.carried[k].displacement * mode.carried[k].displacement;
+  }
   mode.scale = std::copysign(std::sqrt(arm_.total_inertia() / mass), mode.hub_angle);
   mode.hub_angle *= mode.scale;
+  mode.root_turn *= mode.scale;
+  for (CarriedMotion& motion : mode.carried) {
+    motion.displacement *= mode.scale;
+    motion.extension *= mode.scale;
+  }
   for (Real& value : mode.tip) value *= mode.scale;
   for (auto* values : {&mode.displacements, &mode.rotations, &mode.moments}) {
     for (Real& value : *values) value *= mode.scale;
@@ -181,6 +213,13 @@ Real ChainModes::damping(std::size_t i, std::size_t j) const {
   const Mode& a = modes_[i];
   const Mode& b = modes_[j];
   Real sum = arm_.hub_friction * a.hub_angle * b.hub_angle;
+  if (arm_.root_retardation > 0.0L) {
+    sum += arm_.root_retardation / arm_.root_flexibility * a.root_turn * b.root_turn;
+  }
+  for (std::size_t k = 0; k < arm_.carried.size(); ++k) {
+    sum += arm_.carried[k].mass * arm_.carried[k].damping * a.carried[k].extension *
+           b.carried[k].extension;
+  }
   if (arm_.kelvin_voigt > 0.0L) sum += arm_.kelvin_voigt * integral(a.moments, b.moments);
   if (arm_.air_damping > 0.0L) sum += arm_.air_damping * integral(a.displacements, b.displacements);
   return sum / arm_.total_inertia();

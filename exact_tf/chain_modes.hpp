@@ -8,6 +8,12 @@
 
 namespace flexarm::exact_tf {
 
+/// How a mass on the beam moves, and how far it is from its place on it.
+struct CarriedMotion {
+  Real displacement = 0.0L;
+  Real extension = 0.0L;
+};
+
 /// Modes of the undamped arm in units of the beam, scaled to the modal mass I_T/(m l^3) and a
 /// positive hub angle.
 ///
@@ -34,9 +40,11 @@ class ChainModes {
  private:
   struct Mode {
     Real hub_angle = 0.0L;
+    Real root_turn = 0.0L;                    ///< psi(0) - theta
     Real scale = 1.0L;                        ///< of `series`; of all else it is applied
     std::vector<SegmentSeries<Real>> series;  ///< one a segment, from the tip to the root
     BeamState<Real> tip{};
+    std::vector<CarriedMotion> carried;
     std::vector<Real> displacements;  ///< here and below at the points of the integrals
     std::vector<Real> rotations;
     std::vector<Real> moments;
@@ -44,6 +52,9 @@ class ChainModes {
 
   Mode rigid_body_mode() const;
   Mode mode_at(Real omega_squared) const;
+  /// Of the mass k, from the states on both its sides.
+  CarriedMotion motion_of(const TransferChain<Real>& chain, std::size_t k,
+                          const BeamState<Real>& at_right, const BeamState<Real>& at_left) const;
   void sample(Mode& mode) const;
   void normalise(Mode& mode) const;
   BeamState<Real> state(std::size_t mode, Real x) const;

@@ -75,8 +75,9 @@ Real wave_number(const ArmInBeamUnits& arm, const BeamAtFrequency<T>& beam,
                  const Segment& segment) {
   const Real flexibility = std::abs(beam.flexibility);
   const Real inertia = std::abs(beam.inertia);
+  const Real at_right = arm.tension(segment.right);
   const Real tension =
-      std::max(std::abs(arm.tension(segment.left())), std::abs(arm.tension(segment.right)));
+      std::max(std::abs(at_right + arm.gravity * segment.length), std::abs(at_right));
   return std::sqrt(std::sqrt(inertia * flexibility) + inertia * arm.shear_flexibility +
                    (std::abs(beam.rotary) + tension) * flexibility);
 }

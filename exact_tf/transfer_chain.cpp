@@ -45,11 +45,26 @@ TransferChain<T>::TransferChain(const ArmInBeamUnits& arm, const BeamAtFrequency
 
 template <class T>
 void TransferChain<T>::cut(const BeamAtFrequency<T>& cut_for) {
-  const Real crack = arm_.crack_position.value_or(0.0L);
-  add_piece(cut_for, crack, 1.0L);
-  if (!arm_.crack_position) return;
-  links_.push_back({{crack, 0.0L}, true, share(crack_transfer<T>(arm_))});
-  add_piece(cut_for, 0.0L, crack);
+  for (const auto& mass : arm_.carried) masses_.emplace_back(arm_, beam_, mass);
+  Real right = 1.0L;
+  const auto cut_at = [&](Real place) {
+    if (place < right) add_piece(cut_for, place, right);
+    right = place;
+  };
+  std::size_t left = masses_.size();
+  const auto add_masses_from = [&](Real place) {
+    for (; left > 0 && arm_.carried[left - 1].position >= place; --left) {
+      cut_at(arm_.carried[left - 1].position);
+      links_.push_back({.segment = {right, 0.0L}, .mass = left - 1});
+    }
+  };
+  if (arm_.crack_position) {
+    add_masses_from(*arm_.crack_position);
+    cut_at(*arm_.crack_position);
+    links_.push_back({{right, 0.0L}, true, share(crack_transfer<T>(arm_))});
+  }
+  add_masses_from(0.0L);
+  cut_at(0.0L);
 }
 
 template <class T>
@@ -62,8 +77,9 @@ std::size_t TransferChain<T>::share(const SegmentTransfer<T>& columns) {
 template <class T>
 void TransferChain<T>::add_piece(const BeamAtFrequency<T>& cut_for, Real left, Real right) {
   const Real shear = arm_.shear_flexibility;
-  const Real stretch = 1.0L + shear * std::min({0.0L, arm_.tension(left), arm_.tension(right)});
   const Real length = right - left;
+  const Real tension = arm_.tension(right);
+  const Real stretch = 1.0L + shear * std::min({0.0L, tension + arm_.gravity * length, tension});
   const Real waves = wave_number(arm_, cut_for, {right, length}) * length;
   const Real wanted =
       std::max(waves / (kLongestSegment * std::sqrt(stretch)),
@@ -110,19 +126,25 @@ ScaledPlane<T> TransferChain<T>::tip_plane() const {
 template <class T>
 ScaledFunctional<T> TransferChain<T>::root_functional() const {
   const Real radius = arm_.hub_radius;
-  return {{T(1.0L), T(-radius), T(radius * arm_.root_flexibility), T(0.0L)}, 0.0L};
+  return {{T(1.0L), T(-radius), radius * beam_.root, T(0.0L)}, 0.0L};
 }
 
 template <class T>
 void TransferChain<T>::to_left(const Link& link, ScaledPlane<T>& plane) const {
-  plane.plane = link.shared ? transfers_[*link.shared].compound * plane.plane
-                            : plane_at_left(arm_, beam_, link.segment, plane.plane);
+  if (link.mass) {
+    plane.plane = masses_[*link.mass].to_left(plane.plane);
+  } else {
+    plane.plane = link.shared ? transfers_[*link.shared].compound * plane.plane
+                              : plane_at_left(arm_, beam_, link.segment, plane.plane);
+  }
   keep_in_range(plane.plane.minors, plane.log_scale);
 }
 
 template <class T>
 void TransferChain<T>::to_right(const Link& link, ScaledFunctional<T>& functional) const {
-  if (link.shared) {
+  if (link.mass) {
+    functional.functional = masses_[*link.mass].to_right(functional.functional);
+  } else if (link.shared) {
     const auto& columns = transfers_[*link.shared].columns.columns;
     BeamState<T> result{};
     for (std::size_t j = 0; j < 4; ++j) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "exact_tf/bivector.hpp"
+#include "exact_tf/carried_mass.hpp"
 
 #include <cstddef>
 #include <optional>
@@ -20,8 +21,9 @@ struct ScaledFunctional {
   Real log_scale = 0.0L;
 };
 
-/// The beam at one frequency, cut into segments from the tip to the root, a crack being one without
-/// length.
+/// The beam at one frequency, cut into segments from the tip to the root, a crack or a mass on the
+/// beam being one without length. What has passed a suspended mass is multiplied by its D (see
+/// CarriedMass): planes, functionals, and so every value of the arm's motion by the product of all.
 ///
 /// What the tip's conditions leave is a plane of states, carried to the root as a bivector; the
 /// root's condition y(0) = a theta is a functional, carried to the tip as a row g(x) that gives at
@@ -52,11 +54,16 @@ class TransferChain {
     Segment segment;
     bool is_crack = false;
     std::optional<std::size_t> shared = std::nullopt;  ///< a transfer that other links share
+    std::optional<std::size_t> mass = std::nullopt;    ///< in `masses`
+
+    bool is_segment() const { return !is_crack && !mass; }
   };
   /// From the tip to the root.
   const std::vector<Link>& links() const { return links_; }
-  /// Computed anew where the link shares it with no other.
+  /// Computed anew where the link shares it with no other. Not of a mass.
   SegmentTransfer<T> transfer(const Link& link) const;
+  /// Of the arm's masses, by position.
+  const std::vector<CarriedMass<T>>& masses() const { return masses_; }
   /// The sum of K over the beam: states grow by its exponential at most.
   Real growth() const { return growth_; }
 
@@ -92,6 +99,7 @@ class TransferChain {
   bool with_planes_;
   std::vector<Link> links_;
   std::vector<Transfer> transfers_;
+  std::vector<CarriedMass<T>> masses_;
   Real growth_ = 0.0L;
 };
 

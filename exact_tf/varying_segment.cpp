@@ -76,7 +76,8 @@ class FunctionalRecursion {
       : beam_(beam),
         shear_(arm.shear_flexibility),
         length_(segment.length),
-        tension_{arm.tension(segment.left()), -arm.gravity * segment.length},
+        tension_{arm.tension(segment.right) + arm.gravity * segment.length,
+                 -arm.gravity * segment.length},
         stretch_{1.0L + shear_ * tension_.constant, shear_ * tension_.slope},
         term_(at_left) {}
 

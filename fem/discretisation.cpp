@@ -3,10 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 #include <complex>
 #include <cstddef>
 #include <numeric>
+#include <span>
 
 namespace flexarm::fem {
 
@@ -28,12 +29,6 @@ double torsion_N_m(const arm::LinearArm& arm) {
   return arm.flexural_rigidity_N_m2 / arm.length_m;
 }
 
-SplitMesh mesh_of(const arm::LinearArm& arm, const MeshOptions& options) {
-  std::vector<double> lengths = element_lengths(options, arm.length_m);
-  if (!arm.crack) return {std::move(lengths), 0};
-  return split_mesh(lengths, arm.crack->position_m / arm.length_m);
-}
-
 std::vector<double> positions(const std::vector<double>& lengths) {
   std::vector<double> nodes(lengths.size() + 1, 0.0);
   std::partial_sum(lengths.begin(), lengths.end(), nodes.begin() + 1);
@@ -51,6 +46,7 @@ Discretisation::Discretisation(const arm::LinearArm& arm, const MeshOptions& mes
       payload_inertia_(arm.payload_tip_inertia_kg_m2 / beam_inertia_kg_m2(arm)),
       hub_radius_(arm.hub_radius_m / arm.length_m),
       kelvin_voigt_(arm.kelvin_voigt_s * arm::omega_scale_rad_per_s(arm)),
+      root_retardation_(arm.root_retardation_s * arm::omega_scale_rad_per_s(arm)),
       hub_friction_(arm.hub_viscous_friction_N_m_s_per_rad * arm::omega_scale_rad_per_s(arm) /
                     torsion_N_m(arm)),
       air_damping_(arm.air_damping_N_s_per_m2 /
@@ -62,54 +58,69 @@ Discretisation::Discretisation(const arm::LinearArm& arm, const MeshOptions& mes
       rotary_inertia_(arm.shear
                           ? arm.shear->rotary_inertia_kg_m * arm.length_m / beam_inertia_kg_m2(arm)
                           : 0.0) {
-  SplitMesh split = mesh_of(arm, mesh);
-  lengths_ = std::move(split.lengths);
-  before_crack_ = split.before;
-  nodes_ = positions(lengths_);
+  for (const arm::MassOnBeam& mass : arm.masses) {
+    const arm::Suspension suspension = mass.suspension.value_or(arm::Suspension{});
+    const double length_m = arm.length_m;
+    const double stiffness = suspension.stiffness_N_per_m * length_m * length_m / torsion_N_m(arm);
+    const double damping = suspension.damping_N_s_per_m * arm::omega_scale_rad_per_s(arm) *
+                           length_m * length_m / torsion_N_m(arm);
+    carried_.push_back(
+        {mass.position_m / length_m, mass.mass_kg / beam_mass_kg(arm), stiffness, damping, 0});
+  }
+  place_nodes(mesh);
+  place_coordinates();
   place_natural_deformations();
   place_kinematics();
-
-  const auto length_of = [this](int e) { return lengths_[static_cast<std::size_t>(e)]; };
-  const auto beam_mass = [&](int e) { return element_.mass(length_of(e)); };
-  if (arm.shear) {
-    mass_ = assemble([&](int e) -> Eigen::MatrixXd {
-      return beam_mass(e) + rotary_inertia_ * element_.rotary_mass(length_of(e));
-    });
-  } else {
-    mass_ = assemble(beam_mass);
-  }
-  const int n = size();
-  mass_.coeffRef(0, 0) += arm.hub_inertia_kg_m2 / beam_inertia_kg_m2(arm);
-  mass_.coeffRef(n - 2, n - 2) += payload_mass_;
-  mass_.coeffRef(n - 2, n - 1) += payload_first_moment_;
-  mass_.coeffRef(n - 1, n - 2) += payload_first_moment_;
-  mass_.coeffRef(n - 1, n - 1) += payload_inertia_;
-  air_mass_.resize(n, n);
-  if (air_damping_ > 0.0) air_mass_ = assemble(beam_mass);
-  weight_.resize(n, n);
-  if (has_weight()) {
-    weight_ = assemble([&](int e) {
-      return element_.tension(length_of(e), tension(e), -gravity_ * length_of(e) / 2.0);
-    });
-    weight_.coeffRef(0, 0) += gravity_ * (payload_mass_ + 1.0) * hub_radius_;
-    weight_.coeffRef(n - 1, n - 1) += gravity_ * payload_first_moment_;
-  }
-
-  rigid_rotation_ = Eigen::VectorXd::Zero(n);
-  rigid_rotation_[0] = 1.0;
-  for (int e = 0; e < elements(); ++e) {
-    rigid_rotation_[place(e, 1).index] = 1.0;
-    rigid_rotation_[place(e, 2).index] = hub_radius_ + nodes_[static_cast<std::size_t>(e) + 1];
-    rigid_rotation_[place(e, 3).index] = 1.0;
-  }
-  rigid_momentum_ = mass_ * rigid_rotation_;
-  total_inertia_ = rigid_rotation_.dot(rigid_momentum_);
+  place_masses();
+  place_weight();
+  place_rigid_rotation();
 }
 
-int Discretisation::first_coordinate(int e) const {
-  const int root = arm_.root_stiffness_N_m_per_rad ? 1 : 0;
-  const int crack = arm_.crack && e >= before_crack_ ? 1 : 0;
-  return 1 + root + crack + e * coordinates_per_element();
+void Discretisation::place_nodes(const MeshOptions& options) {
+  constexpr double kSamePlace = kShortestElement;
+  // Root, nodes asked for, tip, with the elements before each.
+  std::vector<double> places = {0.0, 1.0};
+  const auto nearest = [&](double position) {
+    return std::ranges::min_element(
+        places, {}, [position](double place) { return std::abs(place - position); });
+  };
+  if (arm_.crack) places.insert(places.begin() + 1, arm_.crack->position_m / arm_.length_m);
+  for (const Carried& mass : carried_) {
+    if (std::abs(*nearest(mass.position) - mass.position) <= kSamePlace) continue;
+    places.insert(std::ranges::upper_bound(places, mass.position), mass.position);
+  }
+  SplitMesh split = split_mesh(element_lengths(options, arm_.length_m),
+                               std::span(places).subspan(1, places.size() - 2));
+  lengths_ = std::move(split.lengths);
+  nodes_ = positions(lengths_);
+  std::vector<int> before = std::move(split.before);
+  before.insert(before.begin(), 0);
+  before.push_back(elements());
+  const auto node_at = [&](double position) {
+    return before[static_cast<std::size_t>(nearest(position) - places.begin())];
+  };
+  if (arm_.crack) before_crack_ = node_at(arm_.crack->position_m / arm_.length_m);
+  for (Carried& mass : carried_) mass.node = node_at(mass.position);
+}
+
+void Discretisation::place_coordinates() {
+  int next = 1;
+  const auto add_suspended = [&](int node) {
+    for (Carried& mass : carried_) {
+      if (mass.node == node && mass.stiffness > 0.0) mass.displacement = next++;
+    }
+  };
+  if (arm_.root_stiffness_N_m_per_rad) spring_rotations_.push_back(next++ - 1);
+  for (int e = 0; e < elements(); ++e) {
+    add_suspended(e);
+    if (e == before_crack_) spring_rotations_.push_back(next++ - 1);
+    first_.push_back(next);
+    next += coordinates_per_element();
+  }
+  add_suspended(elements());
+  natural_stiffness_.setZero(next - 1);
+  natural_damping_.setZero(next - 1);
+  is_coordinate_.assign(static_cast<std::size_t>(next) - 1, false);
 }
 
 Discretisation::Place Discretisation::place(int e, int local) const {
@@ -119,8 +130,9 @@ Discretisation::Place Discretisation::place(int e, int local) const {
       if (e > 0) return place(e - 1, 2);
       return {hub_radius_ > 0.0 ? 0 : -1, hub_radius_};
     case 1:
-      // The hub's, the root's, the element's before, or that beyond the crack.
-      return {first - 1, 1.0};
+      if (e == before_crack_) return {first - 1, 1.0};
+      if (e > 0) return place(e - 1, 3);
+      return {arm_.root_stiffness_N_m_per_rad ? 1 : 0, 1.0};
     case 2:
     case 3:
       return {first + coordinates_per_element() - 4 + local, 1.0};
@@ -129,26 +141,34 @@ Discretisation::Place Discretisation::place(int e, int local) const {
   }
 }
 
+Discretisation::Place Discretisation::deflection_place(const Carried& mass) const {
+  return mass.node < elements() ? place(mass.node, 0) : place(mass.node - 1, 2);
+}
+
+Discretisation::Place Discretisation::rotation_place(const Carried& mass) const {
+  return mass.node < elements() ? place(mass.node, 1) : place(mass.node - 1, 3);
+}
+
 void Discretisation::place_natural_deformations() {
-  const int last = elements() - 1;
-  const auto count =
-      static_cast<std::size_t>(first_coordinate(last) + coordinates_per_element() - 1);
-  natural_stiffness_.resize(static_cast<Eigen::Index>(count));
-  bending_stiffness_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(count));
-  is_coordinate_.assign(count, false);
   if (const auto& root = arm_.root_stiffness_N_m_per_rad) {
     natural_stiffness_[0] = *root / torsion_N_m(arm_);
+    natural_damping_[0] = root_retardation_ * natural_stiffness_[0];
   }
   if (arm_.crack) {
-    natural_stiffness_[first_coordinate(before_crack_) - 2] =
+    natural_stiffness_[spring_rotations_.back()] =
         arm_.crack->stiffness_N_m_per_rad / torsion_N_m(arm_);
   }
-  for (int e = 0; e <= last; ++e) {
+  for (const Carried& mass : carried_) {
+    if (mass.displacement < 0) continue;
+    natural_stiffness_[mass.displacement - 1] = mass.stiffness;
+    natural_damping_[mass.displacement - 1] = mass.damping;
+  }
+  for (int e = 0; e < elements(); ++e) {
     const double h = lengths_[static_cast<std::size_t>(e)];
     int row = first_coordinate(e) - 1;
     const auto add = [&](double stiffness, bool bends, bool is_coordinate) {
       natural_stiffness_[row] = stiffness;
-      if (bends) bending_stiffness_[row] = stiffness;
+      if (bends) natural_damping_[row] = kelvin_voigt_ * stiffness;
       is_coordinate_[static_cast<std::size_t>(row)] = is_coordinate;
       ++row;
     };
@@ -186,7 +206,74 @@ Eigen::SparseMatrix<double> Discretisation::assemble(const ElementMatrix& elemen
 
 double Discretisation::tension(int e) const {
   const auto i = static_cast<std::size_t>(e);
-  return gravity_ * (payload_mass_ + 1.0 - (nodes_[i] + nodes_[i + 1]) / 2.0);
+  double beyond = payload_mass_ + 1.0 - (nodes_[i] + nodes_[i + 1]) / 2.0;
+  for (const Carried& mass : carried_) beyond += mass.node > e ? mass.mass : 0.0;
+  return gravity_ * beyond;
+}
+
+void Discretisation::place_masses() {
+  const auto length_of = [this](int e) { return lengths_[static_cast<std::size_t>(e)]; };
+  const auto beam_mass = [&](int e) { return element_.mass(length_of(e)); };
+  if (arm_.shear) {
+    mass_ = assemble([&](int e) -> Eigen::MatrixXd {
+      return beam_mass(e) + rotary_inertia_ * element_.rotary_mass(length_of(e));
+    });
+  } else {
+    mass_ = assemble(beam_mass);
+  }
+  const int tip = tip_deflection_index();
+  mass_.coeffRef(0, 0) += arm_.hub_inertia_kg_m2 / beam_inertia_kg_m2(arm_);
+  mass_.coeffRef(tip, tip) += payload_mass_;
+  mass_.coeffRef(tip, tip + 1) += payload_first_moment_;
+  mass_.coeffRef(tip + 1, tip) += payload_first_moment_;
+  mass_.coeffRef(tip + 1, tip + 1) += payload_inertia_;
+  for (const Carried& mass : carried_) {
+    const Place at = mass.displacement < 0 ? deflection_place(mass) : Place{mass.displacement, 1.0};
+    if (at.index >= 0) mass_.coeffRef(at.index, at.index) += at.factor * at.factor * mass.mass;
+  }
+  air_mass_.resize(size(), size());
+  if (air_damping_ > 0.0) air_mass_ = assemble(beam_mass);
+}
+
+void Discretisation::place_weight() {
+  weight_.resize(size(), size());
+  if (!has_weight()) return;
+  weight_ = assemble([&](int e) {
+    const double h = lengths_[static_cast<std::size_t>(e)];
+    return element_.tension(h, tension(e), -gravity_ * h / 2.0);
+  });
+  double all = payload_mass_ + 1.0;
+  for (const Carried& mass : carried_) all += mass.mass;
+  weight_.coeffRef(0, 0) += gravity_ * all * hub_radius_;
+  const int tip_rotation = tip_rotation_index();
+  weight_.coeffRef(tip_rotation, tip_rotation) += gravity_ * payload_first_moment_;
+  for (const Carried& mass : carried_) {
+    if (mass.displacement < 0) continue;
+    const auto add = [&](Place a, Place b, double value) {
+      if (a.index < 0) return;
+      weight_.coeffRef(a.index, b.index) += a.factor * value;
+      weight_.coeffRef(b.index, a.index) += a.factor * value;
+    };
+    const double pull = gravity_ * mass.mass;
+    add({mass.displacement, 1.0}, rotation_place(mass), pull);
+    add(deflection_place(mass), rotation_place(mass), -pull);
+  }
+}
+
+void Discretisation::place_rigid_rotation() {
+  rigid_rotation_ = Eigen::VectorXd::Zero(size());
+  rigid_rotation_[0] = 1.0;
+  for (int e = 0; e < elements(); ++e) {
+    rigid_rotation_[place(e, 1).index] = 1.0;
+    rigid_rotation_[place(e, 2).index] = hub_radius_ + nodes_[static_cast<std::size_t>(e) + 1];
+    rigid_rotation_[place(e, 3).index] = 1.0;
+  }
+  for (const Carried& mass : carried_) {
+    if (mass.displacement < 0) continue;
+    rigid_rotation_[mass.displacement] = hub_radius_ + nodes_[static_cast<std::size_t>(mass.node)];
+  }
+  rigid_momentum_ = mass_ * rigid_rotation_;
+  total_inertia_ = rigid_rotation_.dot(rigid_momentum_);
 }
 
 void Discretisation::place_kinematics() {
@@ -201,9 +288,14 @@ void Discretisation::place_kinematics() {
     triplets.emplace_back(0, 0, -1.0);
   }
   if (arm_.crack) {
-    const int beyond = first_coordinate(before_crack_) - 1;
-    triplets.emplace_back(beyond - 1, beyond, 1.0);
-    triplets.emplace_back(beyond - 1, beyond - 1, -1.0);
+    const int row = spring_rotations_.back();
+    add(row, place(before_crack_, 1), 1.0);
+    add(row, place(before_crack_ - 1, 3), -1.0);
+  }
+  for (const Carried& mass : carried_) {
+    if (mass.displacement < 0) continue;
+    add(mass.displacement - 1, {mass.displacement, 1.0}, 1.0);
+    add(mass.displacement - 1, deflection_place(mass), -1.0);
   }
   for (int e = 0; e < elements(); ++e) {
     const double h = lengths_[static_cast<std::size_t>(e)];
@@ -255,7 +347,7 @@ Eigen::SparseMatrix<double> Discretisation::stiffness() const {
 }
 
 Eigen::SparseMatrix<double> Discretisation::damping() const {
-  Eigen::SparseMatrix<double> c = assembled(kinematics_, kelvin_voigt_ * bending_stiffness_);
+  Eigen::SparseMatrix<double> c = assembled(kinematics_, natural_damping_);
   if (air_damping_ > 0.0) c += air_damping_ * air_mass_;
   c.coeffRef(0, 0) += hub_friction_;
   return c;
@@ -263,7 +355,8 @@ Eigen::SparseMatrix<double> Discretisation::damping() const {
 
 bool Discretisation::is_damped_in_proportion() const {
   if (hub_friction_ > 0.0 || air_damping_ > 0.0) return false;
-  return kelvin_voigt_ == 0.0 || (turns_freely() && natural_stiffness_ == bending_stiffness_);
+  if (natural_damping_.isZero(0.0)) return true;
+  return turns_freely() && natural_damping_ == kelvin_voigt_ * natural_stiffness_;
 }
 
 template <class Scalar>
@@ -280,10 +373,7 @@ template <class Scalar>
 Columns<Scalar> Discretisation::damping_products(const Columns<Scalar>& u,
                                                  const Columns<Scalar>& d) const {
   Columns<Scalar> products = hub_friction_ * (u.row(0).transpose() * u.row(0));
-  if (kelvin_voigt_ > 0.0) {
-    products += kelvin_voigt_ *
-                (d.transpose() * (bending_stiffness_.template cast<Scalar>().asDiagonal() * d));
-  }
+  products += d.transpose() * (natural_damping_.template cast<Scalar>().asDiagonal() * d);
   if (air_damping_ > 0.0) products += air_damping_ * (u.transpose() * (air_mass_ * u));
   return products;
 }

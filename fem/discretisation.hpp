@@ -18,23 +18,26 @@ using Columns = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
 /// forces in EI/l^2. With n generalised coordinates u,
 ///
 ///     M u_tt + C u_t + K u = e0 tau,   K = B^T D B + ks e0 e0^T + G,
-///     C = kv B^T D_b B + c e0 e0^T + ca A.
+///     C = B^T D_c B + c e0 e0^T + ca A.
 ///
 /// u(0) is the hub rotation theta; where the root is compliant the rotation of the beam's root
 /// follows; then for each element from root to tip its bubbles, its shear strains where the beam
-/// has any, and deflection and rotation at its outer end; after the element that ends at the crack
-/// the rotation beyond it. The root is carried by the hub, y(0) = a theta. Payload and hub stand in
-/// M. Suffix `c` (clamped) means the n - 1 coordinates without theta.
+/// has any, and deflection and rotation at its outer end. After the element that ends at a
+/// suspended mass or at the crack follow the mass's displacement z and the rotation beyond the
+/// crack. The root is carried by the hub, y(0) = a theta. Payload, hub and masses on the beam stand
+/// in M. Suffix `c` (clamped) means the n - 1 coordinates without theta.
 ///
-/// B takes the coordinates to n - 1 natural deformations: those of the elements (see BeamElement)
-/// and the rotations of the springs at root and crack. Deformation i stands for coordinate i + 1:
-/// bubbles and shear strains are their own, d1 stands for the outer deflection, d0 for the outer
-/// rotation, a spring for the rotation beyond it. The arm is statically determinate, so B of the
-/// clamped coordinates is square and block lower triangular. D is diagonal, D_b its part in
-/// bending. Solvers use B and D, never their product: assembled, it gives a rigid rotation,
-/// rounded, strain energy of the order h^-4 times epsilon.
+/// B takes the coordinates to n - 1 natural deformations: those of the elements (see BeamElement),
+/// the rotations of the springs at root and crack, and the extensions z - y of suspensions.
+/// Deformation i stands for coordinate i + 1: bubbles and shear strains are their own, d1 stands
+/// for the outer deflection, d0 for the outer rotation, a spring for the rotation beyond it, an
+/// extension for z. The arm is statically determinate, so B of the clamped coordinates is square
+/// and block lower triangular. D and D_c are diagonal: bending is damped by kv D, root and
+/// suspensions by what they have. Solvers use B and D, never their product: assembled, it gives a
+/// rigid rotation, rounded, strain energy of the order h^-4 times epsilon.
 ///
-/// G is the potential of the weight, A the beam's translational mass.
+/// G is the potential of the weight, A the beam's translational mass. Where mass and crack are at
+/// one place, the mass is beyond the crack.
 class Discretisation {
  public:
   /// Throws arm::InputError for options out of their range.
@@ -46,11 +49,12 @@ class Discretisation {
   int elements() const { return static_cast<int>(lengths_.size()); }
   const BeamElement& element() const { return element_; }
   const std::vector<double>& lengths() const { return lengths_; }
-  int tip_deflection_index() const { return size() - 2; }
+  int tip_deflection_index() const { return place(elements() - 1, 2).index; }
+  int tip_rotation_index() const { return place(elements() - 1, 3).index; }
   /// Bubbles, shear strains, deflection and rotation of one element.
   int coordinates_per_element() const { return element_.shape_functions() - 2; }
   /// The first of them.
-  int first_coordinate(int e) const;
+  int first_coordinate(int e) const { return first_[static_cast<std::size_t>(e)]; }
 
   /// n x n, symmetric positive definite.
   const Eigen::SparseMatrix<double>& mass() const { return mass_; }
@@ -63,11 +67,24 @@ class Discretisation {
   Eigen::SparseMatrix<double> damping() const;
   /// B, (n - 1) x n.
   const Eigen::SparseMatrix<double>& kinematics() const { return kinematics_; }
-  /// The diagonals of D and D_b, n - 1.
+  /// The diagonals of D and D_c, n - 1.
   const Eigen::VectorXd& natural_stiffness() const { return natural_stiffness_; }
-  const Eigen::VectorXd& bending_stiffness() const { return bending_stiffness_; }
+  const Eigen::VectorXd& natural_damping() const { return natural_damping_; }
   /// Deformation i is a coordinate of its own.
   bool is_coordinate(int i) const { return is_coordinate_[static_cast<std::size_t>(i)]; }
+
+  /// The rotations of the springs at root and crack among the natural deformations.
+  const std::vector<int>& spring_rotations() const { return spring_rotations_; }
+  /// A mass on the beam.
+  struct Carried {
+    double position;
+    double mass;
+    double stiffness;  ///< of its suspension; 0 where it is fixed
+    double damping;
+    int node;               ///< elements between it and the root
+    int displacement = -1;  ///< the coordinate z; -1 where it is fixed
+  };
+  const std::vector<Carried>& carried() const { return carried_; }
 
   /// r: unit rotation of the rigid arm, y = a + x.
   const Eigen::VectorXd& rigid_rotation() const { return rigid_rotation_; }
@@ -88,6 +105,8 @@ class Discretisation {
   double hub_radius() const { return hub_radius_; }
   /// kv, c, ca, ks.
   double kelvin_voigt() const { return kelvin_voigt_; }
+  /// tr.
+  double root_retardation() const { return root_retardation_; }
   double hub_friction() const { return hub_friction_; }
   double air_damping() const { return air_damping_; }
   double hub_spring() const { return hub_spring_; }
@@ -108,10 +127,11 @@ class Discretisation {
   };
   /// k(x) = max(x - position, 0) with psi = 1 beyond `position` in [0, 1], bending nowhere else.
   VirtualWork work_on_ramp(double position) const;
-  /// k = the clamped arm under a unit force at the tip: what its bending does, and the rest, its
-  /// shear and springs.
+  /// k = the clamped arm under a unit force at the tip: what its bending does, its root's spring,
+  /// and the rest, shear and crack.
   VirtualWork work_on_tip_bending() const;
-  VirtualWork work_on_tip_shear_and_springs() const;
+  VirtualWork work_on_tip_root() const;
+  VirtualWork work_on_tip_shear_and_crack() const;
 
   /// Deflection y(x) of the shape `u`, x in [0, 1].
   double deflection(const Eigen::VectorXd& u, double x) const;
@@ -123,6 +143,14 @@ class Discretisation {
     double factor;
   };
   Place place(int e, int local) const;
+  /// Deflection and rotation of the cross-section that a mass is fixed to.
+  Place deflection_place(const Carried& mass) const;
+  Place rotation_place(const Carried& mass) const;
+  void place_nodes(const MeshOptions& options);
+  void place_coordinates();
+  void place_masses();
+  void place_weight();
+  void place_rigid_rotation();
   void place_natural_deformations();
   void place_kinematics();
   /// The n x n sum of the elements' matrices, each `element_matrix(e)`.
@@ -131,17 +159,23 @@ class Discretisation {
   /// Tension in element e: P in its middle, and its rise over half of it.
   double tension(int e) const;
   VirtualWork work_on(const Eigen::VectorXd& shape) const;
+  /// Suspended masses go with the beam: no force is on them.
+  void place_suspended(Eigen::VectorXd& shape) const;
 
   arm::LinearArm arm_;
   BeamElement element_;
   std::vector<double> lengths_;
   std::vector<double> nodes_;
-  int before_crack_;  ///< elements between root and crack; 0 without a crack
+  int before_crack_ = -1;  ///< elements between root and crack; -1 without a crack
+  std::vector<Carried> carried_;
+  std::vector<int> first_;  ///< the first coordinate of each element
+  std::vector<int> spring_rotations_;
   double payload_mass_;
   double payload_first_moment_;
   double payload_inertia_;
   double hub_radius_;
   double kelvin_voigt_;
+  double root_retardation_;
   double hub_friction_;
   double air_damping_;
   double hub_spring_;
@@ -149,7 +183,7 @@ class Discretisation {
   double shear_rigidity_;
   double rotary_inertia_;
   Eigen::VectorXd natural_stiffness_;
-  Eigen::VectorXd bending_stiffness_;
+  Eigen::VectorXd natural_damping_;
   std::vector<bool> is_coordinate_;
   Eigen::SparseMatrix<double> kinematics_;
   Eigen::SparseMatrix<double> mass_;
@@ -157,7 +191,7 @@ class Discretisation {
   Eigen::SparseMatrix<double> weight_;
   Eigen::VectorXd rigid_rotation_;
   Eigen::VectorXd rigid_momentum_;
-  double total_inertia_;
+  double total_inertia_ = 0.0;
 };
 
 /// "200 elements of degree 3, payload mass 1.5 m l, payload inertia 0 m l^3", for errors.

@@ -21,9 +21,10 @@ class Discretisation;
 /// Elements are Euler-Bernoulli's with a continuous slope, or Timoshenko's with rotation and shear
 /// strain of their own where the arm has effects.shear_and_rotary_inertia (see BeamElement; they do
 /// not lock). A crack is a node at which the rotation jumps: the mesh is compressed on either side
-/// of it, so that no element grows and there is at most one more. A compliant root and a hub spring
-/// are further natural deformations, hub radius and payload offset change kinematics and mass,
-/// gravity adds the tension's stiffness.
+/// of it, so that no element grows and there is at most one more; masses on the beam have nodes of
+/// their own in the same way. A compliant root, suspensions and a hub spring are further natural
+/// deformations, hub radius and payload offset change kinematics and mass, gravity adds the
+/// tension's stiffness.
 ///
 /// The error of a frequency or a zero falls as h^(2p-2) with any effect, or exponentially with the
 /// degree p, down to some epsilon. It does not rise again on fine meshes: the stiffness is kept
@@ -65,7 +66,8 @@ class FemArm {
   const Options& options() const { return options_; }
   /// n = 1 + elements (degree - 1): the hub rotation and, for each element, its degree - 3
   /// bubbles, and deflection and rotation at its outer end. Shear adds degree - 1 to each element,
-  /// a compliant root 1, a crack 1 and the element that it divides.
+  /// a compliant root 1, a crack 1 and the element that it divides, a mass on the beam that element
+  /// and 1 where it is suspended.
   int degrees_of_freedom() const;
 
   /// `count.expected` is by Sylvester inertia where rounding of the assembled stiffness permits.
@@ -96,8 +98,9 @@ class FemArm {
   /// Consistent mass [kg m^2], stiffness [N m] and damping [N m s] for the coordinates theta [rad];
   /// the rotation of the beam's root where it is compliant; for each element l psi' amplitudes of
   /// the bubbles, amplitudes of the shear strains where the beam has any, y/l and psi at the outer
-  /// end; and the rotation beyond a crack after the element that ends there. n x n, symmetric. For
-  /// use outside; eigenvalues of the assembled stiffness carry errors of order epsilon h^-4.
+  /// end; after the element that ends there, displacements over l of suspended masses and the
+  /// rotation beyond a crack. n x n, symmetric. For use outside; eigenvalues of the assembled
+  /// stiffness carry errors of order epsilon h^-4.
   Eigen::SparseMatrix<double> mass_kg_m2() const;
   Eigen::SparseMatrix<double> stiffness_N_m() const;
   Eigen::SparseMatrix<double> damping_N_m_s() const;

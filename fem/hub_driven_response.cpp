@@ -10,7 +10,7 @@ namespace {
 using Complex = std::complex<double>;
 
 /// Along the arm: the two kinematic equations of an element before its coordinates, that of a
-/// spring before the rotation beyond it.
+/// spring or suspension before the coordinate beyond it.
 MixedOrder order_of(const Discretisation& model) {
   const auto n = static_cast<std::size_t>(model.clamped_size());
   MixedOrder slots{std::vector<int>(n), std::vector<int>(n, -1), 0};
@@ -29,6 +29,7 @@ MixedOrder order_of(const Discretisation& model) {
     next = first + model.coordinates_per_element();
     place(first, next);
   }
+  place(next, model.clamped_size());
   return slots;
 }
 
@@ -40,13 +41,13 @@ Eigen::SparseMatrix<Scalar> mixed_matrix(const Discretisation& model,
   const Eigen::SparseMatrix<double>& mass = model.mass();
   const Eigen::SparseMatrix<double>& b = model.kinematics();
   const Eigen::VectorXd& stiffness = model.natural_stiffness();
-  const Eigen::VectorXd& bending = model.bending_stiffness();
+  const Eigen::VectorXd& damping = model.natural_damping();
   std::vector<Eigen::Triplet<Scalar>> triplets;
   triplets.reserve(static_cast<std::size_t>(mass.nonZeros() + 2 * b.nonZeros() + stiffness.size() +
                                             model.air_mass().nonZeros() +
                                             model.weight().nonZeros()));
   for (int i = 0; i < model.clamped_size(); ++i) {
-    const Scalar d = bending[i] > 0.0 ? dynamics.bending * stiffness[i] : Scalar(stiffness[i]);
+    const Scalar d = stiffness[i] + dynamics.s * damping[i];
     const int row = kinematic[static_cast<std::size_t>(i)];
     const int own = coordinate[static_cast<std::size_t>(i)];
     if (row < 0) {
@@ -86,7 +87,7 @@ Eigen::SparseMatrix<Scalar> mixed_matrix(const Discretisation& model,
 }  // namespace
 
 Dynamics<Complex> damped_dynamics(const Discretisation& discretisation, Complex s) {
-  return {s * s, 1.0 + discretisation.kelvin_voigt() * s, discretisation.air_damping() * s,
+  return {s * s, s, discretisation.air_damping() * s,
           discretisation.hub_friction() * s + discretisation.hub_spring()};
 }
 
@@ -103,7 +104,7 @@ typename HubDrivenResponse<Scalar>::Shape HubDrivenResponse<Scalar>::solve(Vecto
                                                                            Scalar theta) const {
   factor_.solve(mixed);
   const Eigen::VectorXd& stiffness = model_.natural_stiffness();
-  const Eigen::VectorXd& bending = model_.bending_stiffness();
+  const Eigen::VectorXd& damping = model_.natural_damping();
   Shape shape{Vector(model_.size()), Vector(model_.clamped_size())};
   shape.u[0] = theta;
   for (int i = 0; i < model_.clamped_size(); ++i) {
@@ -112,8 +113,7 @@ typename HubDrivenResponse<Scalar>::Shape HubDrivenResponse<Scalar>::solve(Vecto
     if (kinematic < 0) {
       shape.d[i] = shape.u[i + 1];
     } else {
-      shape.d[i] = mixed[kinematic] / stiffness[i];
-      if (bending[i] > 0.0) shape.d[i] /= dynamics_.bending;
+      shape.d[i] = mixed[kinematic] / (stiffness[i] + dynamics_.s * damping[i]);
     }
   }
   return shape;

@@ -20,16 +20,16 @@ struct ShapeOf {
 /// The frequency s as the equations of motion have it.
 template <class Scalar>
 struct Dynamics {
-  Scalar w = 0.0;        ///< s^2
-  Scalar bending = 1.0;  ///< 1 + kv s
-  Scalar air = 0.0;      ///< ca s
-  Scalar hub = 0.0;      ///< c s + ks
+  Scalar w = 0.0;    ///< s^2
+  Scalar s = 0.0;    ///< of natural dampings; 0 without damping
+  Scalar air = 0.0;  ///< ca s
+  Scalar hub = 0.0;  ///< c s + ks
 };
 
 /// Without damping.
 template <class Scalar>
 Dynamics<Scalar> undamped_dynamics(const Discretisation& discretisation, Scalar w) {
-  return {w, 1.0, 0.0, discretisation.hub_spring()};
+  return {w, 0.0, 0.0, discretisation.hub_spring()};
 }
 Dynamics<std::complex<double>> damped_dynamics(const Discretisation& discretisation,
                                                std::complex<double> s);
@@ -45,7 +45,7 @@ struct MixedOrder {
 ///
 ///     (K(s) + ca s A + s^2 M) u = f,   K(s) = B^T D(s) B + (c s + ks) e0 e0^T + G,
 ///
-/// where bending has 1 + kv s times its stiffness D. Solved in mixed form for a prescribed hub
+/// with D(s) = D + s D_c. Solved in mixed form for a prescribed hub
 /// rotation, with bending moments, shear forces and spring torques q as unknowns beside u, so that
 /// no stiffness of order h^-3 is ever added to another:
 ///

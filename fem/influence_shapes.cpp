@@ -69,9 +69,20 @@ Discretisation::VirtualWork Discretisation::work_on_ramp(double position) const 
     }
   }
   const double arm = 1.0 - position;
-  work.inertia[size() - 2] += payload_mass_ * arm + payload_first_moment_;
-  work.inertia[size() - 1] += payload_first_moment_ * arm + payload_inertia_;
-  work.weight[size() - 1] += gravity_ * payload_first_moment_;
+  const int tip = tip_deflection_index();
+  work.inertia[tip] += payload_mass_ * arm + payload_first_moment_;
+  work.inertia[tip + 1] += payload_first_moment_ * arm + payload_inertia_;
+  work.weight[tip + 1] += gravity_ * payload_first_moment_;
+  for (const Carried& mass : carried_) {
+    if (mass.position <= position) continue;
+    const Place beam = deflection_place(mass);
+    const Place at = mass.displacement < 0 ? beam : Place{mass.displacement, 1.0};
+    if (at.index < 0) continue;
+    work.inertia[at.index] += at.factor * mass.mass * (mass.position - position);
+    if (mass.displacement < 0) continue;
+    work.weight[at.index] += gravity_ * mass.mass;
+    if (beam.index >= 0) work.weight[beam.index] -= beam.factor * gravity_ * mass.mass;
+  }
   if (air_damping_ == 0.0) work.air.resize(0);
   if (work.weight.isZero(0.0)) work.weight.resize(0);
   return work;
@@ -93,26 +104,51 @@ Discretisation::VirtualWork Discretisation::work_on_tip_bending() const {
     shape[place(e, 2).index] = x * x * (3.0 - x) / 6.0;
     shape[place(e, 3).index] = x * (2.0 - x) / 2.0;
   }
+  place_suspended(shape);
   return work_on(shape);
 }
 
-Discretisation::VirtualWork Discretisation::work_on_tip_shear_and_springs() const {
-  // The force has the arm 1 about the root and 1 - X about the crack.
-  const double root = arm_.root_stiffness_N_m_per_rad ? 1.0 / natural_stiffness_[0] : 0.0;
-  const double crack_at = nodes_[static_cast<std::size_t>(before_crack_)];
+Discretisation::VirtualWork Discretisation::work_on_tip_root() const {
+  if (!arm_.root_stiffness_N_m_per_rad) return {};
+  // The force has the arm 1 about the root.
+  const double rotation = 1.0 / natural_stiffness_[0];
+  Eigen::VectorXd shape = Eigen::VectorXd::Zero(size());
+  for (int e = 0; e < elements(); ++e) {
+    shape[place(e, 1).index] = rotation;
+    shape[place(e, 2).index] = rotation * nodes_[static_cast<std::size_t>(e) + 1];
+    shape[place(e, 3).index] = rotation;
+  }
+  place_suspended(shape);
+  return work_on(shape);
+}
+
+Discretisation::VirtualWork Discretisation::work_on_tip_shear_and_crack() const {
+  if (!arm_.shear && !arm_.crack) return {};
+  // The force has the arm 1 - X about the crack.
+  const double crack_at = arm_.crack ? nodes_[static_cast<std::size_t>(before_crack_)] : 1.0;
   const double crack =
-      arm_.crack ? (1.0 - crack_at) / natural_stiffness_[first_coordinate(before_crack_) - 2] : 0.0;
+      arm_.crack ? (1.0 - crack_at) / natural_stiffness_[spring_rotations_.back()] : 0.0;
   const double shear = arm_.shear ? 1.0 / shear_rigidity_ : 0.0;
   Eigen::VectorXd shape = Eigen::VectorXd::Zero(size());
   for (int e = 0; e < elements(); ++e) {
     const double x = nodes_[static_cast<std::size_t>(e) + 1];
-    const double rotation = root + (arm_.crack && e >= before_crack_ ? crack : 0.0);
+    const double rotation = arm_.crack && e >= before_crack_ ? crack : 0.0;
     if (place(e, 1).index > 0) shape[place(e, 1).index] = rotation;
-    shape[place(e, 2).index] = (root + shear) * x + crack * std::max(x - crack_at, 0.0);
+    shape[place(e, 2).index] = shear * x + crack * std::max(x - crack_at, 0.0);
     shape[place(e, 3).index] = rotation;
     if (arm_.shear) shape[place(e, 4 + element_.bubbles()).index] = shear;
   }
+  place_suspended(shape);
   return work_on(shape);
+}
+
+void Discretisation::place_suspended(Eigen::VectorXd& shape) const {
+  for (const Carried& mass : carried_) {
+    const Place at = deflection_place(mass);
+    if (mass.displacement >= 0 && at.index >= 0) {
+      shape[mass.displacement] = at.factor * shape[at.index];
+    }
+  }
 }
 
 double Discretisation::deflection(const Eigen::VectorXd& u, double x) const {

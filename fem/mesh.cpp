@@ -76,27 +76,41 @@ std::vector<double> element_lengths(const MeshOptions& options, double beam_leng
   return lengths;
 }
 
-SplitMesh split_mesh(const std::vector<double>& lengths, double position) {
+namespace {
+
+/// The elements with a share in the part from `from` to `to`, compressed to it.
+std::vector<double> part_of(const std::vector<double>& lengths, double from, double to) {
   constexpr double kNegligible = 1e-6;
-  std::size_t e = 0;
+  std::vector<double> part;
   double left = 0.0;
-  while (e + 1 < lengths.size() && left + lengths[e] < position) left += lengths[e++];
-  // The parts share element e, unless one of its ends is as good as the place itself.
-  const double here = lengths[e];
-  bool in_left = position - left > kNegligible * here || e == 0;
-  const bool in_right = left + here - position > kNegligible * here || e + 1 == lengths.size();
-  if (!in_left && !in_right) in_left = true;
-  const double left_sum = in_left ? left + here : left;
-  const double right_sum = in_right ? 1.0 - left : 1.0 - left - here;
+  for (std::size_t e = 0; e < lengths.size(); ++e) {
+    const double right = e + 1 < lengths.size() ? left + lengths[e] : 1.0;
+    if (std::min(right, to) - std::max(left, from) > kNegligible * lengths[e]) {
+      part.push_back(lengths[e]);
+    }
+    left = right;
+  }
+  if (part.empty()) part.push_back(1.0);
+  const double sum = std::reduce(part.begin(), part.end());
+  for (double& length : part) length *= (to - from) / sum;
+  return part;
+}
+
+}  // namespace
+
+SplitMesh split_mesh(const std::vector<double>& lengths, std::span<const double> positions) {
   SplitMesh split;
-  const std::size_t before = in_left ? e + 1 : e;
-  for (std::size_t i = 0; i < before; ++i) {
-    split.lengths.push_back(lengths[i] * (position / left_sum));
+  double from = 0.0;
+  const auto append = [&](double to) {
+    const std::vector<double> part = part_of(lengths, from, to);
+    split.lengths.insert(split.lengths.end(), part.begin(), part.end());
+    from = to;
+  };
+  for (const double position : positions) {
+    append(position);
+    split.before.push_back(static_cast<int>(split.lengths.size()));
   }
-  for (std::size_t i = in_right ? e : e + 1; i < lengths.size(); ++i) {
-    split.lengths.push_back(lengths[i] * ((1.0 - position) / right_sum));
-  }
-  split.before = static_cast<int>(before);
+  append(1.0);
   return split;
 }
 

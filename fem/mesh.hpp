@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 namespace flexarm::fem {
@@ -29,16 +30,16 @@ inline constexpr double kShortestElement = 1e-9;
 /// arm::InputError for options out of their range.
 std::vector<double> element_lengths(const MeshOptions& options, double beam_length_m);
 
-/// A mesh with a node at a given place.
+/// A mesh with nodes at given places.
 struct SplitMesh {
   std::vector<double> lengths;
-  int before = 0;  ///< elements from the root to that node
+  std::vector<int> before;  ///< elements from the root to each of these nodes
 };
 
-/// Divides a mesh at `position`, above 0 and below 1. Both parts keep the elements that they have a
-/// share in and are compressed to their own length: no element grows, and none becomes a sliver
-/// unless the part itself is one. There is one element more, or none more where a node lies within
-/// 10^-6 of the element there.
-SplitMesh split_mesh(const std::vector<double>& lengths, double position);
+/// Divides a mesh at `positions`, above 0 and below 1, ascending and different. Each part keeps the
+/// elements that it has a share in and is compressed to its own length: no element grows, and none
+/// becomes a sliver unless the part itself is one. There is one element more for each place, or
+/// none more where a node lies within 10^-6 of the element there.
+SplitMesh split_mesh(const std::vector<double>& lengths, std::span<const double> positions);
 
 }  // namespace flexarm::fem

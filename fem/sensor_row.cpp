@@ -24,7 +24,9 @@ Eigen::VectorXd sum(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
 }  // namespace
 
 SensorRow::SensorRow(const Discretisation& discretisation, const arm::Sensor& sensor)
-    : kelvin_voigt_(discretisation.kelvin_voigt()), air_damping_(discretisation.air_damping()) {
+    : kelvin_voigt_(discretisation.kelvin_voigt()),
+      root_retardation_(discretisation.root_retardation()),
+      air_damping_(discretisation.air_damping()) {
   const int n = discretisation.size();
   switch (sensor.kind) {
     case arm::SensorKind::hub_angle:
@@ -37,7 +39,8 @@ SensorRow::SensorRow(const Discretisation& discretisation, const arm::Sensor& se
       return;
     case arm::SensorKind::tip_deflection:
       bending_ = discretisation.work_on_tip_bending();
-      rest_ = discretisation.work_on_tip_shear_and_springs();
+      root_ = discretisation.work_on_tip_root();
+      rest_ = discretisation.work_on_tip_shear_and_crack();
       infinite_roots_ = 3;
       break;
     case arm::SensorKind::strain:
@@ -45,8 +48,8 @@ SensorRow::SensorRow(const Discretisation& discretisation, const arm::Sensor& se
       break;
   }
   by_equilibrium_ = true;
-  constant_ = sum(bending_.inertia, rest_.inertia);
-  Eigen::VectorXd weight = sum(bending_.weight, rest_.weight);
+  constant_ = sum(sum(bending_.inertia, root_.inertia), rest_.inertia);
+  Eigen::VectorXd weight = sum(sum(bending_.weight, root_.weight), rest_.weight);
   if (weight.size() > 0) {
     times_w_ = std::move(constant_);
     constant_ = std::move(weight);
@@ -65,7 +68,8 @@ Complex SensorRow::reading(const Eigen::VectorXcd& u, Complex s) const {
     return s * s * product(of.inertia, u) + s * air_damping_ * product(of.air, u) +
            product(of.weight, u);
   };
-  return -(work(bending_) / (1.0 + kelvin_voigt_ * s) + work(rest_));
+  const Complex root = work(root_) / (1.0 + root_retardation_ * s);
+  return -(work(bending_) / (1.0 + kelvin_voigt_ * s) + root + work(rest_));
 }
 
 double si_reading(const arm::LinearArm& arm, const arm::Sensor& sensor) {

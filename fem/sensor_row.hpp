@@ -20,9 +20,10 @@ namespace flexarm::fem {
 /// ramp max(x - X, 0) over 1 + kv s, so that the reading is the moment about X of all that lies
 /// beyond X; this is as accurate as deflections are (order h^(2p-2)), where the curvature of the
 /// shape functions is of order h^(p-1) only, and the same on both sides of a crack. For the tip
-/// deflection the shape is that of the clamped arm under a unit tip force, its bending over
-/// 1 + kv s; the form then equals y(l) - (a + l) theta exactly. Without gravity it takes out the
-/// root at s = 0 that the rigid rotation, which these sensors do not see, puts into the numerator.
+/// deflection the shape is that of the clamped arm under a unit tip force, its bending over 1 + kv
+/// s and its root's rotation over 1 + tr s; the form then equals y(l) - (a + l) theta exactly.
+/// Without gravity it takes out the root at s = 0 that the rigid rotation, which these sensors do
+/// not see, puts into the numerator.
 class SensorRow {
  public:
   using Complex = std::complex<double>;
@@ -47,11 +48,13 @@ class SensorRow {
   bool by_equilibrium_ = false;
   int infinite_roots_ = 2;
   double kelvin_voigt_;
+  double root_retardation_;
   double air_damping_;
   Eigen::VectorXd constant_;
   Eigen::VectorXd times_w_;
   Discretisation::VirtualWork bending_;
-  Discretisation::VirtualWork rest_;  ///< empty for strain
+  Discretisation::VirtualWork root_;  ///< here and below empty for strain
+  Discretisation::VirtualWork rest_;
 };
 
 /// Factor from the dimensionless reading (rotation 1, displacement l, curvature 1/l) to SI.

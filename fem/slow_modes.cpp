@@ -24,11 +24,13 @@ void orthonormalise(const Eigen::SparseMatrix<double>& mass, Eigen::MatrixXd& x)
   }
 }
 
-/// Coordinates on which the slow modes' loads act: the tip's two, and those beyond the springs.
+/// Coordinates on which the slow modes' loads act: the tip's two, those beyond the springs, and
+/// suspended masses.
 std::vector<Eigen::Index> loaded_coordinates(const Discretisation& model) {
-  std::vector<Eigen::Index> loaded = {model.size() - 2, model.size() - 1};
-  for (int i = 0; i < model.clamped_size(); ++i) {
-    if (model.bending_stiffness()[i] == 0.0 && !model.is_coordinate(i)) loaded.push_back(i + 1);
+  std::vector<Eigen::Index> loaded = {model.tip_deflection_index(), model.tip_rotation_index()};
+  for (const int i : model.spring_rotations()) loaded.push_back(i + 1);
+  for (const auto& mass : model.carried()) {
+    if (mass.displacement >= 0) loaded.push_back(mass.displacement);
   }
   return loaded;
 }
@@ -36,15 +38,16 @@ std::vector<Eigen::Index> loaded_coordinates(const Discretisation& model) {
 /// Upper bound of 1/omega_1^2 with the hub clamped, in excess of the beam alone.
 double excess(const Discretisation& model) {
   // Inertia about the root, of which that about the crack is a part.
-  const double inertia = 1.0 / 3.0 + model.payload_mass() + 2.0 * model.payload_first_moment() +
-                         model.payload_inertia();
+  double inertia = 1.0 / 3.0 + model.payload_mass() + 2.0 * model.payload_first_moment() +
+                   model.payload_inertia();
   double sum =
       model.payload_mass() / 3.0 + std::abs(model.payload_first_moment()) + model.payload_inertia();
-  for (int i = 0; i < model.clamped_size(); ++i) {
-    if (model.bending_stiffness()[i] == 0.0 && !model.is_coordinate(i)) {
-      sum += inertia / model.natural_stiffness()[i];
-    }
+  for (const auto& mass : model.carried()) {
+    inertia += mass.mass * mass.position * mass.position;
+    sum += mass.mass * std::pow(mass.position, 3) / 3.0;
+    if (mass.displacement >= 0) sum += mass.mass / mass.stiffness;
   }
+  for (const int i : model.spring_rotations()) sum += inertia / model.natural_stiffness()[i];
   return sum;
 }
 

@@ -94,7 +94,8 @@ FrequencyResponse response_of(const StateSpace& system, const std::vector<double
 
 int roots_needed(const arm::Arm& arm, const ResponseOptions& options) {
   if (!arm::has_beam(arm)) return options.modes + 1;
-  constexpr int kSofter = 3;  // poles that a soft root, a crack and shear bring down at most
+  // Poles that a soft root, a crack, masses on the beam and shear bring down or add at most.
+  constexpr int kSofter = 5;
   constexpr double kMost = 1e9;
   double highest_Hz = options.to_Hz.value_or(0.0);
   if (!options.frequency_Hz.empty()) highest_Hz = options.frequency_Hz.back();

@@ -18,6 +18,17 @@ inline arm::Arm with(arm::Arm arm, const std::string& effect,
   return arm;
 }
 
+inline arm::Arm without_damping(arm::Arm arm) {
+  arm.damping = {};
+  arm.hub.viscous_friction_N_m_s_per_rad = 0.0;
+  const std::vector<std::pair<std::string, std::string>> dampings = {
+      {"air_damping", "coefficient"}, {"root_damping", "time"}, {"tuned_mass", "damping_ratio"}};
+  for (const auto& [name, parameter] : dampings) {
+    if (arm.effects.contains(name)) effects::put(arm, name, {{parameter, 0.0}});
+  }
+  return arm;
+}
+
 /// EI = m = l = 1 with a cross-section, so that shear counts: k G A l^2/EI = 3.8 (l/thickness)^2
 /// and rho I/(m l^2) = (thickness/l)^2/12.
 inline arm::Arm thick_arm(double thickness) {
@@ -46,6 +57,12 @@ inline std::vector<NamedArm> arms_with_effects() {
        with(plain, "local_stiffness_loss", {{"position", 0.07}, {"stiffness", 1.0}})},
       {"crack near the tip",
        with(plain, "local_stiffness_loss", {{"position", 0.93}, {"stiffness", 1.0}})},
+      {"mass", with(plain, "attached_mass", {{"mass", 0.8}, {"position", 0.35}})},
+      {"mass near the tip", with(plain, "attached_mass", {{"mass", 0.8}, {"position", 0.96}})},
+      {"tuned mass",
+       with(plain, "tuned_mass",
+            {{"mass", 0.3}, {"frequency", 1.5}, {"damping_ratio", 0.1}, {"position", 0.7}})},
+      {"lossy root", with(plain, "root_damping", {{"stiffness", 4.0}, {"time", 0.02}})},
       {"soft root", with(plain, "root_compliance", {{"stiffness", 4.0}})},
       {"hub spring", with(plain, "hub_spring", {{"stiffness", 2.0}})},
       {"hub radius", with(plain, "hub_radius", {{"radius", 0.3}})},

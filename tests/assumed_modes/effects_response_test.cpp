@@ -65,10 +65,7 @@ TEST(EffectsResponse, MatricesAreSymmetricAndDefinite) {
 
 TEST(EffectsResponse, IsTheSumOverItsModes) {
   for (const auto& [name, arm] : testing_arms::arms_with_effects()) {
-    arm::Arm undamped = arm;
-    undamped.damping = {};
-    undamped.hub.viscous_friction_N_m_s_per_rad = 0.0;
-    undamped.effects.erase("air_damping");
+    const arm::Arm undamped = testing_arms::without_damping(arm);
     const AssumedModesArm model(undamped);
     const auto modal =
         model.modal_model(model.degrees_of_freedom() - 1, std::array{kTipDisplacement}, {});
@@ -159,10 +156,7 @@ TEST(EffectsResponse, DampedPolesMakeTheEquationsSingular) {
 TEST(EffectsResponse, ZerosAreWhereItVanishes) {
   constexpr double kVanishes = 1e-6;
   for (const auto& [name, arm] : testing_arms::arms_with_effects()) {
-    arm::Arm undamped = arm;
-    undamped.damping = {};
-    undamped.hub.viscous_friction_N_m_s_per_rad = 0.0;
-    undamped.effects.erase("air_damping");
+    const arm::Arm undamped = testing_arms::without_damping(arm);
     const AssumedModesArm model(undamped, {Basis::legendre, 40});
     for (const arm::Sensor& sensor :
          {kHubAngle, kTipDisplacement, kTipDeflection, testing_arms::strain_at(0.25),

@@ -3,6 +3,7 @@
 #include <boost/math/quadrature/gauss.hpp>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -119,6 +120,15 @@ TEST(StrainFunctions, StartAtTheHubAndAreWholeAtTheCrack) {
   EXPECT_LE((behind - before).cwiseAbs().maxCoeff(), 1e-13L);
 }
 
+/// An arm whose tension falls from `at_root` to `at_tip`.
+ScaledArm hanging(Real at_root, Real at_tip) {
+  constexpr Real kLeast = 1e-30L;
+  ScaledArm arm;
+  arm.weight = std::max(at_root - at_tip, kLeast);
+  arm.payload_mass = at_tip / arm.weight;
+  return arm;
+}
+
 TEST(StrainFunctions, ProductsMatchGaussQuadratureOfExactDegree) {
   const StrainFunctions functions(arm_with_everything(), {.on_whole_beam = kFunctions});
   const Matrix displacement = gram([&](Real xi) { return functions.displacement(xi); }, kEven);
@@ -128,7 +138,7 @@ TEST(StrainFunctions, ProductsMatchGaussQuadratureOfExactDegree) {
   EXPECT_LE((functions.rotation_products() - rotation).cwiseAbs().maxCoeff(),
             kIntegralRounding * rotation.norm());
   for (const Matrix& matrix : {functions.displacement_products(), functions.rotation_products(),
-                               functions.slope_products(3, 1)}) {
+                               functions.slope_products(hanging(3, 1))}) {
     EXPECT_EQ(matrix, matrix.transpose());
   }
 }
@@ -139,15 +149,34 @@ TEST(StrainFunctions, SlopeProductsOfABeamWithoutShearAreThoseOfItsRotation) {
   const StrainFunctions functions(arm, {.on_whole_beam = kFunctions});
   const auto tension = [](Real xi) { return 3 - 2 * xi; };
   const Matrix expected = gram([&](Real xi) { return functions.rotation(xi); }, tension);
-  EXPECT_LE((functions.slope_products(3, 1) - expected).cwiseAbs().maxCoeff(),
+  EXPECT_LE((functions.slope_products(hanging(3, 1)) - expected).cwiseAbs().maxCoeff(),
             kIntegralRounding * expected.norm());
   const StrainFunctions sheared(arm_with_everything(), {.on_whole_beam = kFunctions});
   // int y' p of the rigid rotation with a shear function: the function's own integral.
-  const Matrix products = sheared.slope_products(1, 1);
+  const Matrix products = sheared.slope_products(hanging(1, 1));
   for (Eigen::Index i = 0; i < sheared.size(); ++i) {
     const Real rise = sheared.displacement(1)(i) - sheared.displacement(0)(i);
     EXPECT_NEAR(static_cast<double>(products(0, i)), static_cast<double>(rise), 1e-15);
   }
+}
+
+TEST(StrainFunctions, ASuspendedMassMovesWithTheBeamButForItsOwnFunction) {
+  constexpr Real kStiffness = 4;
+  ScaledArm arm = arm_with_everything();
+  arm.carried = {{0.3L, 1, 0, 0}, {0.8L, 1, kStiffness, 0}};
+  const StrainFunctions functions(arm, {.on_whole_beam = kFunctions});
+  EXPECT_EQ(functions.extension(0), Vector::Zero(functions.size()));
+  EXPECT_EQ(functions.carried_displacement(0), functions.displacement(0.3L));
+  // One rotation, root, crack: its own function comes next.
+  constexpr Eigen::Index kOwn = 3;
+  EXPECT_EQ(functions.extension(1), 0.5L * Vector::Unit(functions.size(), kOwn));
+  EXPECT_EQ(functions.carried_displacement(1),
+            functions.displacement(0.8L) + functions.extension(1));
+  for (const Real xi : {0.1L, 0.5L, 0.8L, 1.0L}) {
+    EXPECT_EQ(functions.displacement(xi)(kOwn), 0);
+    EXPECT_EQ(functions.rotation(xi)(kOwn), 0);
+  }
+  EXPECT_EQ(functions.bends()(kOwn), 0);
 }
 
 TEST(StrainFunctions, ShortPiecesGetFewerAndSpacesGrow) {

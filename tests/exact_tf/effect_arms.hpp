@@ -35,6 +35,10 @@ inline std::vector<arm::Arm> arms_without_closed_form() {
       {"hub_radius", {{"radius", 0.2}}},
       {"root_compliance", {{"stiffness", 8.0}}},
       {"local_stiffness_loss", {{"position", 0.3}, {"stiffness", 3.0}}},
+      {"root_damping", {{"stiffness", 8.0}, {"time", 0.02}}},
+      {"attached_mass", {{"mass", 0.3}, {"position", 0.6}}},
+      {"tuned_mass",
+       {{"mass", 0.2}, {"frequency", 1.2}, {"damping_ratio", 0.1}, {"position", 0.8}}},
       {"hub_spring", {{"stiffness", 0.7}}},
       {"gravity", {{"acceleration", 1.5}}},
       {"shear_and_rotary_inertia", {}},
@@ -44,7 +48,8 @@ inline std::vector<arm::Arm> arms_without_closed_form() {
   arm::Arm all = base;
   for (const auto& [name, parameters] : effects) {
     arms.push_back(with_effect(base, name, parameters));
-    all = with_effect(all, name, parameters);
+    // The root has one spring.
+    if (name != "root_damping") all = with_effect(all, name, parameters);
   }
   arms.push_back(with_effect(base, "gravity", {{"acceleration", -1.0}}));
   all.name = "every effect";

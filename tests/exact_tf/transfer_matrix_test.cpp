@@ -16,6 +16,7 @@
 #include <complex>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace flexarm::exact_tf {
@@ -200,7 +201,11 @@ TEST_P(ArmWithEffects, HasZerosAtWhichTheSensorIsStill) {
   arm::Arm arm = GetParam();
   arm.damping.kelvin_voigt_s = 0.0;
   arm.hub.viscous_friction_N_m_s_per_rad = 0.0;
-  if (arm.effects.contains("air_damping")) effects::put(arm, "air_damping", {{"coefficient", 0}});
+  const std::vector<std::pair<std::string, std::string>> dampings = {
+      {"air_damping", "coefficient"}, {"root_damping", "time"}, {"tuned_mass", "damping_ratio"}};
+  for (const auto& [name, parameter] : dampings) {
+    if (arm.effects.contains(name)) effects::put(arm, name, {{parameter, 0.0}});
+  }
   const ExactArm exact(arm);
   constexpr int kCount = 10;
   for (const auto& sensor : all_sensors()) {

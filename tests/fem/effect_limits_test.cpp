@@ -14,6 +14,8 @@
 #include <cmath>
 #include <complex>
 #include <map>
+#include <numeric>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -79,6 +81,11 @@ TEST(EffectLimits, OfStiffSpringsAndShortHubsAreTheArmWithoutThem) {
   expect_first_order(
       [&](double x) {
         return with(plain, "hub_radius", {{"radius", x}});
+      },
+      1e-4, plain);
+  expect_first_order(
+      [&](double x) {
+        return with(plain, "attached_mass", {{"mass", x}, {"position", 0.37}});
       },
       1e-4, plain);
   expect_first_order(
@@ -261,24 +268,40 @@ TEST(Crack, StrainIsTheSameOnBothSidesOfIt) {
   }
 }
 
+TEST(SplitMesh, HasANodeAtEveryPlace) {
+  const std::vector<double> lengths(4, 0.25);
+  const std::vector<double> positions = {0.3, 0.5, 0.52};
+  const SplitMesh split = split_mesh(lengths, positions);
+  EXPECT_EQ(split.before, std::vector<int>({2, 3, 4}));
+  EXPECT_EQ(split.lengths.size(), 6u);
+  for (std::size_t k = 0; k < positions.size(); ++k) {
+    const auto node = split.lengths.begin() + split.before[k];
+    EXPECT_NEAR(std::accumulate(split.lengths.begin(), node, 0.0), positions[k], 1e-15);
+  }
+  EXPECT_NEAR(std::accumulate(split.lengths.begin(), split.lengths.end(), 0.0), 1.0, 1e-15);
+}
+
 TEST(SplitMesh, CompressesBothPartsAndMakesNoSliver) {
   const std::vector<double> lengths(5, 0.2);
-  const SplitMesh between = split_mesh(lengths, 0.5);
+  const auto split_at = [&](double position) {
+    return split_mesh(lengths, std::span(&position, 1));
+  };
+  const SplitMesh between = split_at(0.5);
   EXPECT_EQ(between.lengths.size(), 6u);
-  EXPECT_EQ(between.before, 3);
+  EXPECT_EQ(between.before.front(), 3);
   for (const double length : between.lengths) EXPECT_NEAR(length, 1.0 / 6.0, 1e-15);
-  const SplitMesh beside = split_mesh(lengths, 0.4 + 1e-5);
-  EXPECT_EQ(beside.before, 3);
+  const SplitMesh beside = split_at(0.4 + 1e-5);
+  EXPECT_EQ(beside.before.front(), 3);
   for (const double length : beside.lengths) EXPECT_GT(length, 0.13);
-  const SplitMesh on = split_mesh(lengths, 0.4);
+  const SplitMesh on = split_at(0.4);
   EXPECT_EQ(on.lengths.size(), 5u);
-  EXPECT_EQ(on.before, 2);
+  EXPECT_EQ(on.before.front(), 2);
   for (const double position : {1e-12, 0.1, 0.4 - 1e-12, 0.999, 1.0 - 1e-12}) {
-    const SplitMesh split = split_mesh(lengths, position);
+    const SplitMesh split = split_at(position);
     double left = 0.0;
     double all = 0.0;
     for (std::size_t i = 0; i < split.lengths.size(); ++i) {
-      if (static_cast<int>(i) < split.before) left += split.lengths[i];
+      if (static_cast<int>(i) < split.before.front()) left += split.lengths[i];
       all += split.lengths[i];
       EXPECT_LE(split.lengths[i], 0.2 * (1.0 + 1e-6));
     }

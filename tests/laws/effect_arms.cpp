@@ -3,7 +3,11 @@
 #include "arm/linear_arm.hpp"
 #include "effects/registry/vocabulary.hpp"
 
+#include <algorithm>
 #include <cstddef>
+#include <iterator>
+#include <set>
+#include <string>
 
 namespace flexarm::laws {
 
@@ -20,6 +24,16 @@ const arm::Effects& every_effect() {
     return made;
   }();
   return effects;
+}
+
+}  // namespace
+
+namespace {
+
+/// A root has one spring: these effects exclude each other.
+bool are_compatible(const std::string& first, const std::string& second) {
+  const std::set<std::string> root = {"root_compliance", "root_damping"};
+  return !(root.contains(first) && root.contains(second));
 }
 
 }  // namespace
@@ -47,6 +61,7 @@ std::vector<EffectArm> arms_with_two_effects() {
   std::vector<EffectArm> arms;
   for (auto first = every_effect().begin(); first != every_effect().end(); ++first) {
     for (auto second = std::next(first); second != every_effect().end(); ++second) {
+      if (!are_compatible(first->first, second->first)) continue;
       arm::Arm arm = damped_arm();
       arm.effects = {*first, *second};
       arms.push_back({first->first + "_and_" + second->first, arm});
@@ -57,7 +72,11 @@ std::vector<EffectArm> arms_with_two_effects() {
 
 EffectArm arm_with_every_effect() {
   arm::Arm arm = damped_arm();
-  arm.effects = every_effect();
+  for (const auto& [name, effect] : every_effect()) {
+    const bool fits = std::ranges::all_of(
+        arm.effects, [&](const auto& other) { return are_compatible(name, other.first); });
+    if (fits) arm.effects[name] = effect;
+  }
   return {"every_effect", arm};
 }
 

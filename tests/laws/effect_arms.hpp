@@ -25,10 +25,11 @@ arm::Arm damped_arm();
 /// One arm for every linear effect of the vocabulary.
 std::vector<EffectArm> arms_with_one_effect();
 
-/// One arm for every pair of them.
+/// One arm for every pair of them, but for root_compliance and root_damping, which exclude each
+/// other.
 std::vector<EffectArm> arms_with_two_effects();
 
-/// All at once.
+/// All at once that do not exclude each other.
 EffectArm arm_with_every_effect();
 
 /// The relative difference that two formulations of this arm may show: 1e-9, or 1e-8 with gravity

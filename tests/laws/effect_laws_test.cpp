@@ -3,6 +3,7 @@
 #include "effects/registry/vocabulary.hpp"
 #include "laws/effect_arms.hpp"
 #include "laws/subjects.hpp"
+#include "response/formulation_maker.hpp"
 
 #include <gtest/gtest.h>
 
@@ -107,15 +108,8 @@ TEST_P(EffectLaws, TheModalSumTendsToTheTransferFunction) {
   constexpr int kModes = 12;
   const std::array sensors = {kHubAngle, kTipDisplacement};
   const arm::ModalModel modal = response::modal_model(model, kModes, sensors, {});
-  // Without coupling by damping: the arm's own, taken off.
-  Arm undamped = arm();
-  undamped.hub.viscous_friction_N_m_s_per_rad = 0.0;
-  undamped.damping.kelvin_voigt_s = 0.0;
-  for (const char* damping :
-       {"hub_viscous_friction", "back_emf", "structural_damping", "air_damping"}) {
-    undamped.effects.erase(damping);
-  }
-  const auto exact = make(undamped);
+  // Without coupling by damping.
+  const auto exact = make(response::without_damping(arm()));
   const Complex s(0.0, 50.0);
   for (std::size_t k = 0; k < sensors.size(); ++k) {
     Complex sum = 0.0;
@@ -183,16 +177,21 @@ class EffectLimits : public testing::TestWithParam<Subject> {
 
 TEST_P(EffectLimits, AnEffectOfNoSizeChangesNothing) {
   const auto plain = poles({});
-  const arm::Effects neutral = {effects::named("hub_inertia", {{"factor", 1.0}}),
-                                effects::named("flexural_rigidity", {{"factor", 1.0}}),
-                                effects::named("linear_density", {{"factor", 1.0}}),
-                                effects::named("payload_mass", {{"mass", 0.0}}),
-                                effects::named("payload_inertia", {{"inertia", 0.0}}),
-                                effects::named("payload_offset", {{"offset", 0.0}}),
-                                effects::named("hub_radius", {{"radius", 0.0}}),
-                                effects::named("hub_spring", {{"stiffness", 0.0}}),
-                                effects::named("gravity", {{"acceleration", 0.0}}),
-                                effects::named("air_damping", {{"coefficient", 0.0}})};
+  const arm::Effects neutral = {
+      effects::named("hub_inertia", {{"factor", 1.0}}),
+      effects::named("flexural_rigidity", {{"factor", 1.0}}),
+      effects::named("linear_density", {{"factor", 1.0}}),
+      effects::named("payload_mass", {{"mass", 0.0}}),
+      effects::named("payload_inertia", {{"inertia", 0.0}}),
+      effects::named("payload_offset", {{"offset", 0.0}}),
+      effects::named("hub_radius", {{"radius", 0.0}}),
+      effects::named("hub_spring", {{"stiffness", 0.0}}),
+      effects::named("gravity", {{"acceleration", 0.0}}),
+      effects::named("attached_mass", {{"mass", 0.0}, {"position", 0.4}}),
+      effects::named(
+          "tuned_mass",
+          {{"mass", 0.0}, {"frequency", 14.0}, {"damping_ratio", 0.1}, {"position", 0.4}}),
+      effects::named("air_damping", {{"coefficient", 0.0}})};
   for (const auto& effect : neutral) {
     EXPECT_EQ(poles({effect}), plain) << effect.first;
   }
@@ -206,6 +205,8 @@ TEST_P(EffectLimits, SmallEffectsMoveThePolesInProportion) {
       {"gravity", {{"acceleration", 1e-6}}},
       {"hub_spring", {{"stiffness", 1e-6}}},
       {"root_compliance", {{"stiffness", 1e7}}},
+      {"root_damping", {{"stiffness", 1e7}, {"time", 1e-3}}},
+      {"attached_mass", {{"mass", 1e-7}, {"position", 0.4}}},
       {"local_stiffness_loss", {{"position", 0.4}, {"stiffness", 1e7}}}};
   for (const auto& [name, parameters] : small) {
     const auto moved = poles({effects::named(name, parameters)});

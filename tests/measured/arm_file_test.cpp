@@ -214,9 +214,7 @@ class ArmGenerator {
       if (parameter.otherwise && chance()) continue;
       double value = parameter.range.exclusive ? positive() : not_negative();
       if (parameter.range.minimum < 0.0 && chance()) value = -value;
-      if (definition->name == "local_stiffness_loss" && parameter.name == "position") {
-        value = beam.length_m * 0.25;
-      }
+      if (parameter.name == "position") value = beam.length_m * 0.25;
       if (definition->name == "beam_length") value = 0.75;  // a crack stays on the beam
       if (definition->name == "gauge_position") value = beam.length_m * 0.25;
       if (definition->name == "stribeck_friction" && parameter.name == "static_torque") {

@@ -7,14 +7,15 @@ M = EI (1 + kv s) psi' and the transverse force Q = kGA (y' - psi) + g P y':
     (kGA + g P) y' = Q + kGA psi        (without shear y' = psi)
     EI (1 + kv s) psi' = M
     M' = rho I s^2 psi - (Q - g P y')
-    Q' = (m s^2 + ca s) y,              P = Mp + m (l - x)
+    Q' = (m s^2 + ca s) y,              P = Mp + m (l - x) + masses on the beam beyond x
 
-    y(0) = a theta,  kr (psi(0) - theta) = M(0),  [psi] = M/kc at the crack
+    y(0) = a theta,  kr (1 + tr s) (psi(0) - theta) = M(0),  [psi] = M/kc at the crack
+    [Q] = mk s^2 (y + u),  [M] = g mk u,  (mk s^2 + ck s + kk) u = -mk (s^2 y + g psi) at a mass
     Q(l) = -s^2 (Mp y + Sp psi),  M(l) = -s^2 (Sp y + Jp psi) - g Sp psi
     tau = (Ih s^2 + c s + ks + g P(0) a) theta - a Q(0) - M(0)
 
-One power series in x from end to end (two with a crack), in as many digits as it cancels: no
-segments, no scaling, no discretisation. Run it to write effects.json beside itself; it needs mpmath
+One power series in x from end to end (one more for a crack and for each mass), in as many digits as
+it cancels: no segments, no scaling, no discretisation. Run it to write effects.json beside itself; it needs mpmath
 and takes some minutes.
 """
 import json
@@ -42,6 +43,9 @@ EFFECTS = {
     "payload_offset": dict(offset="0.03"),
     "air_damping": dict(coefficient="0.02"),
     "gravity": dict(acceleration="9.81"),
+    "attached_mass": dict(mass="0.04", position="0.5236"),
+    "tuned_mass": dict(mass="0.02", frequency="14", damping_ratio="0.05", position="0.6982"),
+    "root_damping": dict(stiffness="25", time="0.002"),
     "shear_and_rotary_inertia": dict(),
 }
 
@@ -67,7 +71,7 @@ CASES = [case("none", [])] + [case(e, [e]) for e in EFFECTS] + [
     case("spring_and_air", ["hub_spring", "air_damping"]),
     case("bare_with_crack", ["local_stiffness_loss"], hub=dict(inertia="5.86e-4"),
          payload=dict(mass="0", inertia="0"), damping=dict(kelvin_voigt="0")),
-    case("all", list(EFFECTS)),
+    case("all", [e for e in EFFECTS if e not in ("root_damping", "attached_mass", "tuned_mass")]),
 ]
 
 
@@ -97,11 +101,23 @@ class Arm:
         self.a = effect("hub_radius", "radius")
         self.c = number("hub", "viscous_friction") + effect("hub_viscous_friction", "coefficient")
         self.ks = effect("hub_spring", "stiffness")
-        self.kr = effect("root_compliance", "stiffness") or None
+        self.kr = effect("root_compliance", "stiffness") + effect("root_damping", "stiffness") or None
+        self.tr = effect("root_damping", "time")
         self.crack = None
         if "local_stiffness_loss" in c["effects"]:
             self.crack = (effect("local_stiffness_loss", "position"),
                           effect("local_stiffness_loss", "stiffness"))
+        # Position, mass, stiffness and damping; a mass without stiffness is fixed.
+        self.masses = []
+        if "attached_mass" in c["effects"]:
+            self.masses.append((effect("attached_mass", "position"), effect("attached_mass", "mass"),
+                                mpf(0), mpf(0)))
+        if "tuned_mass" in c["effects"]:
+            mass = effect("tuned_mass", "mass")
+            natural = 2 * mp.pi * effect("tuned_mass", "frequency")
+            self.masses.append((effect("tuned_mass", "position"), mass, mass * natural**2,
+                                2 * effect("tuned_mass", "damping_ratio") * natural * mass))
+        self.suspended = 1  # how much of the suspensions' damping is on
         self.Mp = number("payload", "mass") + effect("payload_mass", "mass")
         offset = effect("payload_offset", "offset")
         self.Sp = self.Mp * offset
@@ -109,10 +125,20 @@ class Arm:
         self.g = effect("gravity", "acceleration")
         self.total = (self.Ih + self.m * ((self.a + self.l)**3 - self.a**3) / 3 +
                       (self.rotary or 0) * self.l + self.Mp * (self.a + self.l)**2 +
-                      2 * self.Sp * (self.a + self.l) + self.Jp)
+                      2 * self.Sp * (self.a + self.l) + self.Jp +
+                      sum(m * (self.a + X)**2 for X, m, k, c in self.masses))
 
     def tension(self, x):
-        return self.g * (self.Mp + self.m * (self.l - x))
+        beyond = sum(m for X, m, k, c in self.masses if X > x)
+        return self.g * (self.Mp + self.m * (self.l - x) + beyond)
+
+    def resonance(self, s, damped):
+        """What vanishes where suspended masses do by themselves."""
+        product = mpf(1)
+        for X, m, k, c in self.masses:
+            if k:
+                product *= 1 + (self.suspended * c * s if damped else 0) / k + m * s**2 / k
+        return product
 
     def advance(self, state, x, h, s, damped):
         """The state (y, psi, M, Q) at x + h from that at x, by power series."""
@@ -147,17 +173,33 @@ class Arm:
         return total
 
     def field(self, state, s, damped, x_end):
-        """The state at x_end from that at the root, through the crack where it lies between."""
+        """The state at x_end from that at the root, through what lies between."""
+        places = [(X, 1, m, k, c) for X, m, k, c in self.masses]
+        if self.crack:
+            places.append((self.crack[0], 0))
         x = mpf(0)
-        if self.crack and self.crack[0] <= x_end:
-            state = self.advance(state, x, self.crack[0], s, damped)
-            state[1] += state[2] / self.crack[1]
-            x = self.crack[0]
+        for place in sorted(places):
+            X = place[0]
+            if X > x_end:
+                break
+            state = self.advance(state, x, X - x, s, damped) if X > x else state
+            x = X
+            if place[1] == 0:
+                state[1] += state[2] / self.crack[1]
+                continue
+            m, k, c = place[2:]
+            u = mpf(0)
+            if k:
+                dashpot = self.suspended * c * s if damped else 0
+                u = -m * (s**2 * state[0] + self.g * state[1]) / (m * s**2 + dashpot + k)
+            state[3] += m * s**2 * (state[0] + u)
+            state[2] += self.g * m * u
         return self.advance(state, x, x_end - x, s, damped) if x_end > x else state
 
     def solve(self, s, damped):
         """Determinant of the hub held, and root states (unit theta; unit M0; unit Q0) with tips."""
-        compliance = 1 / self.kr if self.kr else mpf(0)
+        loss = 1 + self.tr * s if damped else 1
+        compliance = 1 / (self.kr * loss) if self.kr else mpf(0)
         roots = [[self.a, mpf(1), mpf(0), mpf(0)], [mpf(0), compliance, mpf(1), mpf(0)],
                  [mpf(0), mpf(0), mpf(0), mpf(1)]]
         tips = [self.field(list(r), s, damped, self.l) for r in roots]
@@ -166,7 +208,9 @@ class Arm:
         held = gaps[1][0] * gaps[2][1] - gaps[2][0] * gaps[1][1]
         M0 = -(gaps[0][0] * gaps[2][1] - gaps[2][0] * gaps[0][1])  # times 1/held, for unit theta
         Q0 = -(gaps[1][0] * gaps[0][1] - gaps[0][0] * gaps[1][1])
-        return held, M0, Q0, roots, tips
+        # Each is linear in what a suspended mass does, and has its poles.
+        resonance = self.resonance(s, damped)
+        return held * resonance, M0 * resonance, Q0 * resonance, roots, tips
 
     def values(self, s, damped, sensors=()):
         """Functions of s: torque D and the sensors N for theta = held, so that sensor/tau = N/D."""
@@ -277,20 +321,24 @@ def reference(c, poles=6, tip_zeros=4):
     result["responses"] = responses
 
     damped = []
-    if arm.kv or arm.ca or arm.c:
+    if arm.kv or arm.ca or arm.c or arm.tr or any(c for X, m, k, c in arm.masses):
         for w in omegas[:4]:
             if arm.kv * w / 2 > mpf("0.9"):  # near or beyond critical: pairs meet and part
                 break
             # Continuation in damping, each step from the line through the last two.
-            kept = arm.kv, arm.ca, arm.c
+            kept = arm.kv, arm.ca, arm.c, arm.tr, mpf(1)
             before, s = mpc(0, w), mpc(0, w)
             for k in range(1, DAMPING_STEPS + 1):
-                arm.kv, arm.ca, arm.c = (value * k / DAMPING_STEPS for value in kept)
+                (arm.kv, arm.ca, arm.c, arm.tr,
+                 arm.suspended) = (value * k / DAMPING_STEPS for value in kept)
                 guess = 2 * s - before
                 before = s
+                # On the way fifteen digits do, beside those that cancel.
+                mp.dps = 70 if k == DAMPING_STEPS else 45
                 s = mp.findroot(lambda z: arm.values(z, True, ())[0],
-                                (guess, guess * (1 + mpc(0, "1e-6"))),
-                                solver="secant", tol=mpf(10)**-90, maxsteps=60, verify=False)
+                                (guess, guess * (1 + mpc(0, "1e-6"))), solver="secant",
+                                tol=mpf(10)**(-45 if k == DAMPING_STEPS else -15), maxsteps=60,
+                                verify=False)
             damped.append(digits(s))
     result["damped_pole_rad_per_s"] = damped
     return result

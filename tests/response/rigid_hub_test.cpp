@@ -198,10 +198,11 @@ TEST(RigidHub, TakesTheEffectsOfHubTorqueAndSensors) {
       "torque_bias",      "torque_dead_zone",  "torque_gain",          "torque_ripple",
       "torque_saturation"};
   const std::vector<std::string> of_beam = {
-      "air_damping",     "beam_length",        "beam_thickness",          "flexural_rigidity",
-      "gravity",         "hub_radius",         "linear_density",          "local_stiffness_loss",
-      "payload_inertia", "payload_mass",       "payload_offset",          "quadratic_drag",
-      "root_compliance", "structural_damping", "shear_and_rotary_inertia"};
+      "air_damping",     "beam_length",        "beam_thickness",           "flexural_rigidity",
+      "gravity",         "hub_radius",         "linear_density",           "local_stiffness_loss",
+      "payload_inertia", "payload_mass",       "payload_offset",           "quadratic_drag",
+      "root_compliance", "structural_damping", "shear_and_rotary_inertia", "attached_mass",
+      "tuned_mass",      "root_damping"};
   for (const auto& effect : effects::vocabulary()) {
     const bool acts = arm::acts_without_beam(*effect);
     const bool is_of_hub = std::ranges::count(known, effect->name) > 0;

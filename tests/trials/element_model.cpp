@@ -1,7 +1,5 @@
 #include "tests/trials/element_model.hpp"
 
-#include "tests/trials/beam_element.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -44,6 +42,18 @@ void add(std::vector<Eigen::Triplet<double>>& terms,
 void add_square(std::vector<Eigen::Triplet<double>>& terms, double k, Eigen::Index a,
                 Eigen::Index b, double factor) {
   add(terms, {{a, 1.0}, {b, factor}}, k * Eigen::Matrix2d::Ones());
+}
+
+/// k a b^T of sparse rows.
+void add_product(std::vector<Eigen::Triplet<double>>& terms, double k, const Eigen::VectorXd& a,
+                 const Eigen::VectorXd& b) {
+  for (Eigen::Index i = 0; i < a.size(); ++i) {
+    if (a(i) == 0.0) continue;
+    for (Eigen::Index j = 0; j < b.size(); ++j) {
+      if (b(j) == 0.0) continue;
+      terms.emplace_back(static_cast<int>(i), static_cast<int>(j), k * a(i) * b(j));
+    }
+  }
 }
 
 Eigen::SparseMatrix<double> assembled(Eigen::Index size,
@@ -90,17 +100,23 @@ ElementModel::ElementModel(const TrueArm& arm, int elements, std::span<const arm
   add_one(stiffness, tip_stiffness_N_m(), tip_rotation_);
   for (const Stretch& one : stretches_) {
     add_square(stiffness, one.stiffness_N_m_per_rad, one.beyond, one.before, -1.0);
+    add_square(damping, one.damping_N_m_s_per_rad, one.beyond, one.before, -1.0);
+  }
+  for (const auto& fixed : arm.point_masses) {
+    const Eigen::VectorXd row = deflection_row(fixed.position_m);
+    add_product(mass, fixed.mass_kg, row, row);
   }
   Eigen::Index own = size_ - static_cast<Eigen::Index>(arm.attached.size());
   for (const auto& attached : arm.attached) {
-    const Eigen::VectorXd row = deflection_row(attached.position_m);
-    Places places{{own, -1.0}};
-    for (Eigen::Index i = 0; i < size_; ++i) {
-      if (row(i) != 0.0) places.emplace_back(i, row(i));
+    const Eigen::VectorXd beside =
+        Eigen::VectorXd::Unit(size_, own) - deflection_row(attached.position_m);
+    add_product(stiffness, attached.stiffness_N_per_m, beside, beside);
+    add_product(damping, attached.damping_N_s_per_m, beside, beside);
+    if (arm.gravity_m_per_s2 != 0.0) {
+      const Eigen::VectorXd turn = rotation_row(attached.position_m);
+      add_product(stiffness, weight_N(attached), beside, turn);
+      add_product(stiffness, weight_N(attached), turn, beside);
     }
-    const auto n = static_cast<Eigen::Index>(places.size());
-    add(stiffness, places, Eigen::MatrixXd::Constant(n, n, attached.stiffness_N_per_m));
-    add(damping, places, Eigen::MatrixXd::Constant(n, n, attached.damping_N_s_per_m));
     add_one(mass, attached.mass_kg, own);
     rigid_(own++) = arm.hub_radius_m + attached.position_m;
   }
@@ -112,18 +128,26 @@ ElementModel::ElementModel(const TrueArm& arm, int elements, std::span<const arm
 
 void ElementModel::lay_out(int elements, std::span<const arm::Sensor> sensors) {
   const double length = arm_.length_m;
-  // Compliance of the springs at each place where the mesh has to have a node.
-  std::map<double, double> places = {{0.0, 0.0}, {length, 0.0}};
-  const auto place = [&](double position_m) -> double& {
-    for (auto& [at, compliance] : places) {
-      if (std::abs(at - position_m) <= kSamePlace * length) return compliance;
+  // Places where the mesh has to have a node, with the springs there.
+  struct Node {
+    double compliance_rad_per_N_m = 0.0;
+    double damping_N_m_s_per_rad = 0.0;
+  };
+  std::map<double, Node> places = {{0.0, {}}, {length, {}}};
+  const auto place = [&](double position_m) -> Node& {
+    for (auto& [at, node] : places) {
+      if (std::abs(at - position_m) <= kSamePlace * length) return node;
     }
     if (position_m < 0.0 || position_m > length) throw std::runtime_error("not on the beam");
     return places[position_m];
   };
   for (const auto& spring : arm_.springs) {
-    place(spring.position_m) += 1.0 / spring.stiffness_N_m_per_rad;
+    Node& node = place(spring.position_m);
+    node.compliance_rad_per_N_m += 1.0 / spring.stiffness_N_m_per_rad;
+    node.damping_N_m_s_per_rad += spring.damping_N_m_s_per_rad;
   }
+  for (const auto& fixed : arm_.point_masses) place(fixed.position_m);
+  for (const auto& attached : arm_.attached) place(attached.position_m);
   for (const arm::Sensor& sensor : sensors) {
     if (sensor.kind == arm::SensorKind::strain) place(sensor.position_m);
   }
@@ -140,10 +164,11 @@ void ElementModel::lay_out(int elements, std::span<const arm::Sensor> sensors) {
     const double from = at->first;
     const double span = std::next(at)->first - from;
     const int pieces = static_cast<int>(std::ceil(elements * span / length - kSamePlace));
-    if (at->second > 0.0) {
+    if (const Node& node = at->second; node.compliance_rad_per_N_m > 0.0) {
       const Eigen::Index before = rotation;
       rotation = further(1.0);
-      stretches_.push_back({rotation, before, 1.0 / at->second});
+      stretches_.push_back(
+          {rotation, before, 1.0 / node.compliance_rad_per_N_m, node.damping_N_m_s_per_rad});
     }
     for (int i = 0; i < pieces; ++i) {
       Element element{from + span * i / pieces, span / pieces, {deflection, {rotation, 1.0}}};
@@ -171,11 +196,23 @@ double ElementModel::tension_N(double position_m) const {
   const double beyond_m = arm_.length_m - position_m;
   // The mean thickness of what is beyond is that at its middle.
   const double mean = arm_.thickness_ratio(position_m + 0.5 * beyond_m);
-  return arm_.gravity_m_per_s2 * (arm_.payload_kg + arm_.linear_density_kg_per_m * mean * beyond_m);
+  double beyond_kg = arm_.payload_kg + arm_.linear_density_kg_per_m * mean * beyond_m;
+  const auto add_beyond = [&](const auto& masses) {
+    for (const auto& mass : masses) {
+      if (mass.position_m >= position_m) beyond_kg += mass.mass_kg;
+    }
+  };
+  add_beyond(arm_.point_masses);
+  add_beyond(arm_.attached);
+  return arm_.gravity_m_per_s2 * beyond_kg;
 }
 
 double ElementModel::rigidity_N_m2(double thickness_ratio) const {
   return thickness_ratio * thickness_ratio * thickness_ratio * arm_.flexural_rigidity_N_m2;
+}
+
+double ElementModel::weight_N(const TrueArm::AttachedMass& mass) const {
+  return arm_.gravity_m_per_s2 * mass.mass_kg;
 }
 
 double ElementModel::shear_rigidity_N() const {
@@ -234,8 +271,9 @@ double ElementModel::twice_potential(const Eigen::VectorXd& u) const {
   }
   Eigen::Index own = size_ - static_cast<Eigen::Index>(arm_.attached.size());
   for (const auto& attached : arm_.attached) {
-    sum += attached.stiffness_N_per_m *
-           std::pow(deflection_row(attached.position_m).dot(u) - u(own++), 2);
+    const double beside = u(own++) - deflection_row(attached.position_m).dot(u);
+    sum += beside * (attached.stiffness_N_per_m * beside +
+                     2.0 * weight_N(attached) * rotation_row(attached.position_m).dot(u));
   }
   Eigen::VectorXd local(element_size(shears));
   for (const Element& element : elements_) {
@@ -264,13 +302,24 @@ Eigen::VectorXd ElementModel::spread(const Element& element, const Eigen::Vector
   return row;
 }
 
+const ElementModel::Element& ElementModel::element_at(double position_m) const {
+  const double beyond_m = position_m + kSamePlace * arm_.length_m;
+  return *std::prev(std::ranges::upper_bound(elements_, beyond_m, {}, &Element::from_m));
+}
+
+ElementShapes ElementModel::shapes_at(const Element& element, double position_m) const {
+  const double part = std::clamp((position_m - element.from_m) / element.length_m, 0.0, 1.0);
+  return element_shapes(arm_.shear_coefficient.has_value(), element.length_m, part);
+}
+
 Eigen::VectorXd ElementModel::deflection_row(double position_m) const {
-  const auto beyond = std::ranges::upper_bound(elements_, position_m, {}, &Element::from_m);
-  const Element& element = *std::prev(beyond);
-  const double part = std::min(1.0, (position_m - element.from_m) / element.length_m);
-  return spread(
-      element,
-      element_shapes(arm_.shear_coefficient.has_value(), element.length_m, part).deflection);
+  const Element& element = element_at(position_m);
+  return spread(element, shapes_at(element, position_m).deflection);
+}
+
+Eigen::VectorXd ElementModel::rotation_row(double position_m) const {
+  const Element& element = element_at(position_m);
+  return spread(element, shapes_at(element, position_m).rotation);
 }
 
 ReadingRow ElementModel::make_reading(const arm::Sensor& sensor) const {

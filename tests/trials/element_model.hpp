@@ -1,6 +1,7 @@
 #pragma once
 
 #include "arm/sensor.hpp"
+#include "tests/trials/beam_element.hpp"
 #include "tests/trials/true_arm.hpp"
 
 #include <Eigen/Core>
@@ -29,15 +30,17 @@ struct ReadingRow {
 /// The trials' own model of the linear arm: finite elements of the energies
 ///
 ///     2 T = Ih theta_t^2 + int (m y_t^2 + rho I psi_t^2) dx + Mp (y_t + d psi_t)^2 + Ip psi_t^2
-///           + sum m_k z_t^2
+///           + sum m_p y_t^2 + sum m_k z_t^2
 ///     2 V = ks theta^2 + sum k [psi]^2 + int (EI psi'^2 + kGA (y' - psi)^2) dx
 ///           + sum k_k (y - z)^2 + 2 g (heights that masses gain)
-///     2 R = c theta_t^2 + int (kv EI psi'_t^2 + ca y_t^2) dx + sum c_k (y_t - z_t)^2
+///     2 R = c theta_t^2 + sum r [psi_t]^2 + int (kv EI psi'_t^2 + ca y_t^2) dx
+///           + sum c_k (y_t - z_t)^2
 ///
 /// with y(0) = radius theta; payload terms at the tip, d its centre's distance beyond; [psi] the
-/// jump of rotation at a spring, at the root from the hub's; z displacements of attached masses. A
-/// piece of beam that turns by y' lifts all that hangs beyond by y'^2/2 per length, the hub's arm
-/// by radius theta^2/2, the payload's by d psi^2/2. Attached masses do not weigh.
+/// jump of rotation at a spring, at the root from the hub's; m_p point masses fixed to the beam; z
+/// displacements of attached masses. A piece of beam that turns by y' lifts all that hangs beyond
+/// by y'^2/2 per length, the hub's arm by radius theta^2/2, the payload's by d psi^2/2. An attached
+/// mass is a distance z - y beside the beam, perpendicular to it: lifted by (z - y) psi more.
 class ElementModel {
  public:
   /// `elements` of equal length; a spring or a strain sensor within the beam divides one, so that
@@ -59,6 +62,8 @@ class ElementModel {
   double twice_potential(const Eigen::VectorXd& u) const;
   /// y(x) = row^T u.
   Eigen::VectorXd deflection_row(double position_m) const;
+  /// psi(x) = row^T u, where it jumps that on the side of the tip.
+  Eigen::VectorXd rotation_row(double position_m) const;
   /// Strain by the moment that equilibrium of the element beyond its place asks for: nodal moments
   /// are as exact as deflections, where the shapes' curvature is two orders less so.
   const ReadingRow& reading(std::size_t sensor) const { return readings_[sensor]; }
@@ -84,8 +89,12 @@ class ElementModel {
   Eigen::VectorXd spread(const Element& element, const Eigen::VectorXd& local) const;
   ReadingRow make_reading(const arm::Sensor& sensor) const;
   ReadingRow strain_reading(double position_m) const;
+  const Element& element_at(double position_m) const;
+  ElementShapes shapes_at(const Element& element, double position_m) const;
+  /// Just on the hub's side of the place.
   double tension_N(double position_m) const;
   double rigidity_N_m2(double thickness_ratio) const;
+  double weight_N(const TrueArm::AttachedMass& mass) const;
   double shear_rigidity_N() const;
   /// Stiffness of hub and tip against turning, springs and weight together.
   double hub_stiffness_N_m() const;
@@ -98,6 +107,7 @@ class ElementModel {
     Eigen::Index beyond;
     Eigen::Index before;
     double stiffness_N_m_per_rad;
+    double damping_N_m_s_per_rad;
   };
   std::vector<Stretch> stretches_;
   Eigen::Index size_ = 1;

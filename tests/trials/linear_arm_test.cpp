@@ -152,6 +152,7 @@ std::vector<LinearCase> linear_cases() {
     if (effects::find(cause.name) == nullptr) continue;
     const std::size_t arm = cause.shows_on_arm.empty() ? aluminium : sandwich;
     cases.push_back({cause.name, arm, {hidden_in(trial_arms()[arm], cause, kTypicalPart)}});
+    if (cause.name == "root_damping") continue;  // takes the place of root_compliance
     all.push_back(hidden_in(trial_arms()[sandwich], cause, 0.3 * kTypicalPart));
   }
   cases.push_back({"all", sandwich, all});
@@ -172,6 +173,15 @@ std::vector<LinearCase> linear_cases() {
                     {"local_stiffness_loss", {{"position", 0.333}, {"stiffness", 9.0}}},
                     {"hub_spring", {{"stiffness", 1.5}}},
                     {"hub_radius", {{"radius", 0.06}}}}});
+  cases.push_back(
+      {"hanging_masses",
+       aluminium,
+       {{"attached_mass", {{"mass", 0.06}, {"position", 0.5}}},
+        {"tuned_mass",
+         {{"mass", 0.05}, {"frequency", 9.0}, {"damping_ratio", 0.1}, {"position", 0.333}}},
+        {"local_stiffness_loss", {{"position", 0.333}, {"stiffness", 9.0}}},
+        {"gravity", {{"acceleration", 9.81}}},
+        {"hub_radius", {{"radius", 0.06}}}}});
   return cases;
 }
 

@@ -18,6 +18,12 @@ struct TrueArm {
   struct Spring {
     double position_m = 0.0;
     double stiffness_N_m_per_rad = 0.0;
+    double damping_N_m_s_per_rad = 0.0;  ///< beside a spring that is alone there
+  };
+  /// A mass that is fixed to the beam.
+  struct PointMass {
+    double position_m = 0.0;
+    double mass_kg = 0.0;
   };
   /// A mass on a spring and a damper beside each other, on the beam.
   struct AttachedMass {
@@ -77,6 +83,7 @@ struct TrueArm {
   std::optional<double> shear_modulus_Pa;
   std::optional<double> shear_coefficient;  ///< empty: the beam is Euler and Bernoulli's
   std::vector<Spring> springs;
+  std::vector<PointMass> point_masses;
   std::vector<AttachedMass> attached;
   double kelvin_voigt_s = 0.0;
   double air_damping_N_s_per_m2 = 0.0;

@@ -7,8 +7,6 @@ namespace flexarm::trials {
 /// A mass on a spring and a damper on the beam.
 Cause tuned_mass() {
   return {.name = "tuned_mass",
-          .outside = true,
-          .shown_in = ShownIn::time_and_frequency,
           .largest = 0.5,
           .parameters = [](const NaturalSizes& natural, double size, const Chance& chance)
               -> Parameters {  // 15.4 omega is the first pole of an arm of no hub inertia.
@@ -16,7 +14,7 @@ Cause tuned_mass() {
                     {"frequency", between(0.5, 3.0, chance.place) * 15.4 * natural.omega_rad_per_s /
                                       (2.0 * std::numbers::pi)},
                     {"damping_ratio", 0.02},
-                    {"position", between(0.4, 1.0, chance.ratio) * natural.length_m}};
+                    {"position", between(0.4, 0.9, chance.ratio) * natural.length_m}};
           },
           .change =
               [](const Parameters& of, const arm::Sensor& /*sensor*/, TrueArm& arm) {

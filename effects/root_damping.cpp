@@ -1,0 +1,71 @@
+#include "arm/input_error.hpp"
+#include "effects/registry/entry.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace flexarm::effects {
+
+namespace {
+
+/// What a spring and a dashpot in series with another spring do is not a stiffness and a time.
+void require_only_spring(const arm::Effect& effect, const arm::Arm& arm) {
+  for (const auto& [name, other] : arm.effects) {
+    if (other.definition == effect.definition || !other.definition->linear_term) continue;
+    arm::LinearTerms terms;
+    other.definition->linear_term(other, arm, terms);
+    const bool at_root = std::ranges::any_of(
+        terms.springs, [](const arm::RotationalSpring& one) { return one.position_m == 0.0; });
+    if (!at_root) continue;
+    throw arm::InputError(
+        fmt::format("effects.root_damping: the root has its spring already, by effects.{}; must be "
+                    "the only spring at the root, its stiffness included",
+                    name),
+        "effects.root_damping");
+  }
+}
+
+}  // namespace
+
+Entry root_damping() {
+  return {
+      .definition = define(
+          {.name = "root_damping",
+           .meaning = "rotational spring and dashpot beside each other between hub and beam "
+                      "root: moment stiffness (phi + time d phi/dt), phi the rotation between "
+                      "them. Instead of `root_compliance`, not beside it",
+           .parameters = {{.name = "stiffness",
+                           .unit = "N m/rad",
+                           .range = arm::kPositive,
+                           .meaning = "rotational stiffness",
+                           .example = 30.0,
+                           .neutral = std::numeric_limits<double>::infinity()},
+                          {.name = "time",
+                           .unit = "s",
+                           .range = arm::kNotNegative,
+                           .meaning = "damping coefficient over stiffness; times an angular "
+                                      "frequency it is the loss factor of the root there",
+                           .example = 2e-3}},
+           .linear_term =
+               [](const arm::Effect& effect, const arm::Arm& /*arm*/, arm::LinearTerms& terms) {
+                 terms.springs.push_back({0.0, effect.value("stiffness"), effect.value("time")});
+               },
+           .require_fit = require_only_spring}),
+      .shows = Shows::in_all,
+      .search = [](const Scales& scales) -> std::vector<SearchedParameter> {
+        const double bending = scales.bending_stiffness_N_m_per_rad();
+        const double scale_rad_per_s = arm::omega_scale_rad_per_s(scales.beam);
+        return {{"stiffness", 0.2 * bending, 1e3 * bending, Spacing::from_infinity},
+                {"time", 1e-4 / scale_rad_per_s, 1.0 / scale_rad_per_s}};
+      },
+      .contains = {"root_compliance"},
+      .speaks_for =
+          "lower poles and hub-angle zeros, with damping ratios in proportion to their shift",
+      .refuted_by =
+          "shifted poles without additional damping (that is root compliance), or damping "
+          "without shift"};
+}
+
+}  // namespace flexarm::effects

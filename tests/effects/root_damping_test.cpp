@@ -1,0 +1,119 @@
+// root_damping against the root compliance that it is at a real s, and against its limits.
+#include "arm/input_error.hpp"
+#include "effects/registry/vocabulary.hpp"
+#include "laws/effect_arms.hpp"
+#include "response/formulation_maker.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <complex>
+#include <string>
+#include <vector>
+
+namespace flexarm::effects {
+namespace {
+
+using Complex = std::complex<double>;
+
+constexpr int kRoots = 5;
+constexpr double kStiffness = 25.0;
+constexpr double kTime = 2e-3;
+
+arm::Arm with_root(double stiffness, double time) {
+  arm::Arm arm = laws::damped_arm();
+  put(arm, "root_damping", {{"stiffness", stiffness}, {"time", time}});
+  return arm;
+}
+
+arm::Arm with_compliance(double stiffness) {
+  arm::Arm arm = laws::damped_arm();
+  put(arm, "root_compliance", {{"stiffness", stiffness}});
+  return arm;
+}
+
+/// kr (1 + tr s) is a real stiffness where s is real.
+TEST(RootDamping, IsARootComplianceAtEachRealS) {
+  constexpr double kAgreement = 1e-9;
+  for (const double s : {2.0, 60.0, 900.0}) {
+    const arm::Arm soft = with_compliance(kStiffness * (1.0 + kTime * s));
+    for (const auto formulation : response::kFormulationNames) {
+      const auto lossy =
+          response::make_formulation(formulation, with_root(kStiffness, kTime), kRoots);
+      const auto reference = response::make_formulation(formulation, soft, kRoots);
+      for (const char* name :
+           {"hub_angle", "tip_displacement", "tip_deflection", "strain@0", "strain@0.3"}) {
+        const arm::Sensor sensor = arm::parse_sensor(name);
+        const Complex wanted = response::transfer_function(reference, sensor, s);
+        EXPECT_LE(std::abs(response::transfer_function(lossy, sensor, s) - wanted),
+                  kAgreement * std::abs(wanted))
+            << formulation << " " << name << " at " << s;
+      }
+    }
+  }
+}
+
+TEST(RootDamping, OfNoTimeIsRootCompliance) {
+  EXPECT_EQ(arm::linear_arm(with_root(kStiffness, 0.0)),
+            arm::linear_arm(with_compliance(kStiffness)));
+}
+
+TEST(RootDamping, LeavesTheUndampedPolesAndDampsEachMode) {
+  for (const auto formulation : response::kFormulationNames) {
+    const auto lossy =
+        response::make_formulation(formulation, with_root(kStiffness, kTime), kRoots);
+    const auto soft = response::make_formulation(formulation, with_compliance(kStiffness), kRoots);
+    EXPECT_EQ(response::poles(lossy, kRoots).omega_rad_per_s,
+              response::poles(soft, kRoots).omega_rad_per_s);
+    const auto damped = response::damped_poles(lossy, kRoots);
+    const auto before = response::damped_poles(soft, kRoots);
+    for (std::size_t i = 0; i < damped.flexible.size(); ++i) {
+      EXPECT_LT(damped.flexible[i].first_rad_per_s.real(),
+                before.flexible[i].first_rad_per_s.real())
+          << formulation << " pole " << i + 1;
+    }
+  }
+}
+
+/// A little damping: each mode's decay by the power that the root takes, D_ii/2.
+TEST(RootDamping, ALittleDampsAsItsProjectionSays) {
+  constexpr double kLittle = 1e-8;
+  constexpr double kSecondOrder = 1e-4;
+  for (const auto formulation : response::kFormulationNames) {
+    arm::Arm arm = with_root(kStiffness, kLittle);
+    arm.damping = {};
+    arm.hub.viscous_friction_N_m_s_per_rad = 0.0;
+    const auto model = response::make_formulation(formulation, arm, kRoots);
+    const auto modal = response::modal_model(model, kRoots, {}, {});
+    const auto damped = response::damped_poles(model, kRoots);
+    const std::size_t n = modal.modes.size();
+    for (std::size_t i = 1; i < n; ++i) {
+      const double decay = 0.5 * modal.damping_rad_per_s[i * n + i];
+      EXPECT_GT(decay, 0.0);
+      EXPECT_NEAR(-damped.flexible[i - 1].first_rad_per_s.real() / decay, 1.0, kSecondOrder)
+          << formulation << " pole " << i;
+    }
+  }
+}
+
+TEST(RootDamping, IsTheOnlySpringOfTheRoot) {
+  for (const char* other : {"root_compliance", "local_stiffness_loss"}) {
+    arm::Arm arm = with_root(kStiffness, kTime);
+    put(arm, other, {{"stiffness", 40.0}});
+    if (std::string(other) == "local_stiffness_loss") put(arm, other, {{"position", 0.0}});
+    try {
+      arm::require_valid(arm);
+      FAIL() << other;
+    } catch (const arm::InputError& error) {
+      EXPECT_EQ(std::string(error.what()),
+                std::string("effects.root_damping: the root has its spring already, by effects.") +
+                    other + "; must be the only spring at the root, its stiffness included");
+    }
+  }
+  arm::Arm crack = with_root(kStiffness, kTime);
+  put(crack, "local_stiffness_loss", {{"stiffness", 40.0}, {"position", 0.3}});
+  EXPECT_NO_THROW(arm::require_valid(crack));
+}
+
+}  // namespace
+}  // namespace flexarm::effects

@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <string_view>
 #include <utility>
@@ -119,13 +118,6 @@ std::optional<DisturbanceGain> disturbance_gain(const Selection& selection) {
   return DisturbanceGain{selection.problem.predictor().noise()->correlation_time_s,
                          before->estimated_N_m, after->estimated_N_m,
                          before->deviation_N_m / before->relative};
-}
-
-/// What the first of two diagnoses may take: half of the time.
-Deadline halfway(const Deadline& deadline) {
-  if (!deadline) return deadline;
-  const auto now = std::chrono::steady_clock::now();
-  return now + (*deadline - now) / 2;
 }
 
 /// By the torque hold, constant or linear between samples, that leaves the smaller error; where

@@ -172,15 +172,15 @@ double simulated_error(const PredictedSelection& made) {
   return misfit(problem.observations(), problem.experiment(), *residuals, runs).relative_error;
 }
 
-/// By simulation, and where that does not leave noise by a filter.
+/// By simulation, and where that does not leave noise by a filter; the first of them in half of the
+/// time.
 PredictedSelection select_by_both(const Task& task, const Problem& problem,
                                   const DiagnosisProgress& progress) {
-  PredictedSelection made = select_by_simulation(task, problem, part_of(progress, 0.0, 0.5));
+  SelectionOptions first = task.options;
+  first.deadline = halfway(task.options.deadline);
+  PredictedSelection made =
+      select_by_simulation({task.hypotheses, first}, problem, part_of(progress, 0.0, 0.5));
   if (made.selection.cancelled) return made;
-  if (made.selection.end) {
-    made.reason = kNoTime;
-    return made;
-  }
   if (made.selection.chosen.leaves_noise()) {
     made.reason = "its residuals are noise";
     return made;
@@ -189,18 +189,21 @@ PredictedSelection select_by_both(const Task& task, const Problem& problem,
   try {
     auto filtered = select_by_filter(task, made, part_of(progress, 0.5, 1.0));
     if (!filtered) return made;
-    if (filtered->selection.end && filtered->selection.chosen.fit.candidate.effects.empty()) {
+    Selection& other = filtered->selection;
+    if (other.end && other.chosen.fit.candidate.effects.empty()) {
       made.reason = kNoTime;
-      made.selection.end = filtered->selection.end;
+      made.selection.end = other.end;
       return made;
     }
     const double by_filter = simulated_error(*filtered);
     const double by_simulation = simulated_error(made);
-    if (filtered->selection.cancelled || by_filter <= by_simulation) return *std::move(filtered);
+    if (other.cancelled || by_filter <= by_simulation) {
+      if (!other.end) other.end = made.selection.end;
+      return *std::move(filtered);
+    }
     made.balance = filtered->balance;
     made.reason = fmt::format(
-        "its residuals are not noise; with what a {} identifies NRMSE is {:.3g} %, with this "
-        "{:.3g} "
+        "its residuals are not noise; with what a {} identifies NRMSE is {:.3g} %, with this {:.3g} "
         "%",
         filtered->predictor == PredictorKind::torque_balance ? "torque balance"
                                                              : "stochastic grey box",

@@ -23,6 +23,13 @@ inline bool is_over(const Deadline& deadline) {
   return deadline && std::chrono::steady_clock::now() >= *deadline;
 }
 
+/// Of the first of two pieces of work: half of the time that is left.
+inline Deadline halfway(const Deadline& deadline) {
+  if (!deadline) return deadline;
+  const auto now = std::chrono::steady_clock::now();
+  return now + (*deadline - now) / 2;
+}
+
 /// Thrown out of work that was cancelled, or whose time is over.
 struct Cancelled {};
 

@@ -17,8 +17,9 @@ namespace flexarm::diagnose {
 inline constexpr std::string_view kTorqueChannel = "torque";
 
 /// The numbers that one sensor gave in one run, a stretch of the vectors of `Observations`:
-/// readings of a `time` run, and the torque of one whose controller is stated; real and imaginary parts, frequency by frequency, of an `frf` run;
-/// of a `modal` run natural frequencies and damping ratios, entry by entry, as far as known.
+/// readings of a `time` run, and the torque of one whose controller is stated; real and imaginary
+/// parts, frequency by frequency, of an `frf` run; of a `modal` run natural frequencies and damping
+/// ratios, entry by entry, as far as known.
 struct ObservedChannel {
   std::size_t run = 0;  ///< index of Experiment::runs
   std::string sensor;   ///< "hub_angle", kTorqueChannel; of a modal run "hub_angle zero", "pole"

@@ -24,8 +24,8 @@ response::TorqueHold simulated_hold(measured::TorqueHold hold);
 ///
 /// - output error: the torque alone drives the arm from its initial state, or in closed loop, where
 ///   the run states its controller, the reference alone drives both;
-/// - stochastic grey box, with a noise model, for runs that state no controller: a Kalman filter predicts each sample from all samples
-///   before it [Kristensen2004];
+/// - stochastic grey box, with a noise model, for runs that state no controller: a Kalman filter
+///   predicts each sample from all samples before it [Kristensen2004];
 /// - torque balance at the hub, with a noise model that has a unit for it: the torque that is
 ///   missing for the motion as that filter has it. The recorded torque and every law of the hub
 ///   pass the same filter, as in inverse dynamics with parallel filtering [KhalilDombre2002].

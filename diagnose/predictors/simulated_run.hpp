@@ -12,8 +12,8 @@ namespace flexarm::diagnose {
 /// controller with the recorded reference.
 ///
 /// A run from an unknown state begins in the most likely one by `measured` and its `deviations`. In
-/// closed loop it is the rigid arm's, with the angle and velocity of the hub that the first readings
-/// show: the controller takes out what vibrates at the start.
+/// closed loop it is the rigid arm's, with the angle and velocity of the hub that the first
+/// readings show: the controller takes out what vibrates at the start.
 ///
 /// Throws InputError as response::ArmSimulator::readings and closed_loop_readings.
 Eigen::VectorXd simulated_run(const response::ArmSimulator& simulation,

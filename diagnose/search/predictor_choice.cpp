@@ -203,7 +203,8 @@ PredictedSelection select_by_both(const Task& task, const Problem& problem,
     }
     made.balance = filtered->balance;
     made.reason = fmt::format(
-        "its residuals are not noise; with what a {} identifies NRMSE is {:.3g} %, with this {:.3g} "
+        "its residuals are not noise; with what a {} identifies NRMSE is {:.3g} %, with this "
+        "{:.3g} "
         "%",
         filtered->predictor == PredictorKind::torque_balance ? "torque balance"
                                                              : "stochastic grey box",

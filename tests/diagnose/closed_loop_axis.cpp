@@ -48,8 +48,8 @@ measured::TimeRecord axis_record(const Axis& axis, std::uint64_t seed) {
     const double reading_rad = std::round(angle_rad / kAxisEncoder_rad) * kAxisEncoder_rad;
     const double rate = (reading_rad - before_rad) / kAxisPeriod_s;
     before_rad = reading_rad;
-    const double torque_N_m = kGain_N_m_per_rad * (reference_rad(time_s) - reading_rad) -
-                              kRateGain_N_m_s_per_rad * rate;
+    const double torque_N_m =
+        kGain_N_m_per_rad * (reference_rad(time_s) - reading_rad) - kRateGain_N_m_s_per_rad * rate;
     record.time_s.push_back(time_s);
     record.torque_N_m.push_back(torque_N_m);
     record.reference.values.push_back(reference_rad(time_s));
@@ -62,9 +62,9 @@ measured::TimeRecord axis_record(const Axis& axis, std::uint64_t seed) {
                                  axis.viscous_N_m_s_per_rad * velocity;
       if (velocity == 0.0 && std::abs(driving_N_m) <= axis.coulomb_N_m) continue;
       const double direction = velocity != 0.0 ? velocity : driving_N_m;
-      const double moved = velocity + kStep_s *
-                                          (driving_N_m - std::copysign(axis.coulomb_N_m, direction)) /
-                                          axis.inertia_kg_m2;
+      const double moved =
+          velocity +
+          kStep_s * (driving_N_m - std::copysign(axis.coulomb_N_m, direction)) / axis.inertia_kg_m2;
       velocity = velocity * moved < 0.0 ? 0.0 : moved;
       angle_rad += kStep_s * velocity;
     }
@@ -104,9 +104,8 @@ Experiment axis_experiment_with_controller(const Axis& axis) {
 }
 
 std::vector<Hypothesis> hypotheses_of_an_axis(const Experiment& experiment) {
-  return named(experiment,
-               {"actuator_lag", "coulomb_friction", "hub_inertia", "hub_spring", "time_delay",
-                "hub_viscous_friction", "torque_bias", "torque_gain"});
+  return named(experiment, {"actuator_lag", "coulomb_friction", "hub_inertia", "hub_spring",
+                            "time_delay", "hub_viscous_friction", "torque_bias", "torque_gain"});
 }
 
 void expect_friction_and_bias(const Selection& selection) {

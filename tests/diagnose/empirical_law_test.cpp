@@ -50,8 +50,7 @@ TEST(EmpiricalLaw, OverTheVelocityWithFriction) {
   // Friction that falls with the speed, to a third.
   const auto law = [](double, double velocity) {
     const double speed = std::abs(velocity);
-    return velocity == 0.0 ? 0.0
-                           : -std::copysign(0.2 + 0.4 * std::exp(-speed / 0.2), velocity);
+    return velocity == 0.0 ? 0.0 : -std::copysign(0.2 + 0.4 * std::exp(-speed / 0.2), velocity);
   };
   const Diagnosis diagnosis = diagnosed(axis_with(law));
   ASSERT_TRUE(diagnosis.empirical_law);

@@ -34,9 +34,9 @@ struct SimulatedRun {
 /// vector a sensor; accelerations are those just after a jump of the torque.
 ///
 /// Newmark's method [Newmark1959] with a fixed step and the gamma 1/2, beta 1/12 of
-/// [FoxGoodwin1949]: periods are right to (omega h)^4/480, where average acceleration would lengthen them by
-/// (omega h)^2/12, more than a fit to such data takes for chance. Stable for omega h < sqrt(6); the
-/// highest of the modes kept is far below.
+/// [FoxGoodwin1949]: periods are right to (omega h)^4/480, where average acceleration would lengthen
+/// them by (omega h)^2/12, more than a fit to such data takes for chance. Stable for omega h <
+/// sqrt(6); the highest of the modes kept is far below.
 ///
 /// Friction is a set-valued law for the speed at the end of each step. The speed, not its mean over
 /// the step, is what comes to rest: held to a mean of zero it would change its sign at every step.

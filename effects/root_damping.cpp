@@ -10,15 +10,22 @@ namespace flexarm::effects {
 
 namespace {
 
+bool is_at_root(const arm::Effect& effect, const arm::Arm& arm) {
+  arm::LinearTerms terms;
+  try {
+    effect.definition->linear_term(effect, arm, terms);
+  } catch (const arm::InputError&) {
+    return false;  // needs a number that the arm does not give, which is said where it is computed
+  }
+  return std::ranges::any_of(
+      terms.springs, [](const arm::RotationalSpring& one) { return one.position_m == 0.0; });
+}
+
 /// What a spring and a dashpot in series with another spring do is not a stiffness and a time.
 void require_only_spring(const arm::Effect& effect, const arm::Arm& arm) {
   for (const auto& [name, other] : arm.effects) {
     if (other.definition == effect.definition || !other.definition->linear_term) continue;
-    arm::LinearTerms terms;
-    other.definition->linear_term(other, arm, terms);
-    const bool at_root = std::ranges::any_of(
-        terms.springs, [](const arm::RotationalSpring& one) { return one.position_m == 0.0; });
-    if (!at_root) continue;
+    if (!is_at_root(other, arm)) continue;
     throw arm::InputError(
         fmt::format("effects.root_damping: the root has its spring already, by effects.{}; must be "
                     "the only spring at the root, its stiffness included",

@@ -192,7 +192,7 @@ PredictedSelection select_by_both(const Task& task, const Problem& problem,
     Selection& other = filtered->selection;
     if (other.end && other.chosen.fit.candidate.effects.empty()) {
       made.reason = kNoTime;
-      made.selection.end = other.end;
+      if (!made.selection.end) made.selection.end = other.end;
       return made;
     }
     const double by_filter = simulated_error(*filtered);
@@ -213,7 +213,7 @@ PredictedSelection select_by_both(const Task& task, const Problem& problem,
     made.selection.cancelled = !is_over(task.options.deadline);
     if (!made.selection.cancelled) {
       made.reason = kNoTime;
-      made.selection.end = SearchEnd{kNoiseStage, {}};
+      if (!made.selection.end) made.selection.end = SearchEnd{kNoiseStage, {}};
     }
   } catch (const arm::InputError& error) {
     made.reason = fmt::format("no Kalman filter can be formed ({})", error.what());

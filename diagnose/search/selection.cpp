@@ -88,6 +88,7 @@ class Search {
     made.end = SearchEnd{std::string(work_.what()), fits_.untried()};
     work_.lift_deadline();
     if (made.nothing.fit.residuals.size() == 0) {
+      made.end->untried = labels_with({}, special_);
       made.nothing = explain(problem_, fit(problem_, problem_.as_filed(), {.most_steps = 0}));
       made.chosen = made.nothing;
     }

@@ -110,7 +110,8 @@ FittedTable fitted(const Problem& balance, const arm::Arm& arm, arm::HubTorqueTa
     const Eigen::VectorXd left = here + jacobian * change;
     const double variance = left.squaredNorm() / independent(left, measured::RunKind::time);
     const Eigen::MatrixXd covariance = variance * solver.solve(Eigen::MatrixXd::Identity(n, n));
-    made.std_error_N_m = std::sqrt(covariance.diagonal().mean());
+    const auto variances = covariance.diagonal();
+    made.std_error_N_m = std::sqrt(quantile({variances.begin(), variances.end()}, 0.5));
   }
   made.table = std::move(table);
   return made;

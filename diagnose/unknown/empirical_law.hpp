@@ -10,7 +10,7 @@ namespace flexarm::diagnose {
 /// A law of hub torque that no effect of the library explains, as the data determine it.
 struct EmpiricalLaw {
   arm::HubTorqueTable table;   ///< over the velocity of the hub, its angle, or both
-  double std_error_N_m = 0.0;  ///< of the torques of the table, their root mean square
+  double std_error_N_m = 0.0;  ///< of the torques of the table, the median
   /// Part of the mean square of the estimated disturbance that it removes, on validation runs
   /// (estimation runs where there are none).
   double share = 0.0;

@@ -259,6 +259,19 @@ TEST_F(JsonSchema, WhatDiagnoseWritesIsWhatTheDocumentSays) {
   diagnose("named/measurement.toml", "payload_mass,sensor_lag,root_compliance");
   simulate("unnamed", "[effects.coulomb_friction]\ntorque = 0.01\n");
   diagnose("unnamed/measurement.toml", "payload_mass,hub_inertia");
+  // Laws of hub torque that no effect to be tested is, over velocity and over angle.
+  for (const auto* law : {"[effects.coulomb_friction]\ntorque = 0.01\n",
+                          "[effects.cogging]\nhub_torque = \"-0.03*sin(3*theta)\"\n"}) {
+    write("true.toml", arm + law);
+    EXPECT_EQ(run({"simulate", "true.toml", "--duration", "6", "--period", "0.002", "--sensor",
+                   "hub_angle", "--noise", "0.0002", "--excitation",
+                   "random:rms=0.05,to=3,id=first", "--excitation",
+                   "random:rms=0.05,to=3,id=second", "--out", "described", "--force"})
+                  .status,
+              0);
+    write("described/arm.toml", arm);
+    diagnose("described/measurement.toml", "payload_mass", {"--predictor", "torque_balance"});
+  }
   // A sensor that shows noise, which counts as no fault, and a search that ends at once.
   std::minstd_rand random(1);
   std::istringstream lines(measured::read_text_file(folder_ / "unnamed/random.csv", 1 << 24));

@@ -15,15 +15,15 @@
 namespace flexarm::effects {
 namespace {
 
-constexpr int kRoots = 5;
+constexpr int kMassRoots = 5;
 
 arm::Arm with_mass(arm::Arm arm, double mass_kg, double position_m) {
   put(arm, "attached_mass", {{"mass", mass_kg}, {"position", position_m}});
   return arm;
 }
 
-std::vector<double> poles(std::string_view formulation, const arm::Arm& arm) {
-  return response::poles(response::make_formulation(formulation, arm, kRoots), kRoots)
+std::vector<double> poles_with_mass(std::string_view formulation, const arm::Arm& arm) {
+  return response::poles(response::make_formulation(formulation, arm, kMassRoots), kMassRoots)
       .omega_rad_per_s;
 }
 
@@ -36,8 +36,8 @@ TEST(AttachedMass, AtTheTipIsAPayloadMass) {
   // The tip's own equations, and those of a place beside it.
   constexpr double kBeside = 1e-7;
   for (const auto formulation : response::kFormulationNames) {
-    const auto wanted = poles(formulation, payload);
-    const auto beside = poles(formulation, with_mass(arm, 0.03, length_m * (1.0 - kBeside)));
+    const auto wanted = poles_with_mass(formulation, payload);
+    const auto beside = poles_with_mass(formulation, with_mass(arm, 0.03, length_m * (1.0 - kBeside)));
     for (std::size_t i = 0; i < wanted.size(); ++i) {
       EXPECT_NEAR(beside[i] / wanted[i], 1.0, 10.0 * kBeside) << formulation << " pole " << i + 1;
     }
@@ -63,8 +63,8 @@ TEST(AttachedMass, AtTheRootTurnsWithTheHub) {
   arm::Arm heavier = arm;
   heavier.hub.inertia_kg_m2 += kMass * kRadius * kRadius;
   for (const auto formulation : response::kFormulationNames) {
-    const auto wanted = poles(formulation, heavier);
-    const auto found = poles(formulation, with_mass(arm, kMass, 0.0));
+    const auto wanted = poles_with_mass(formulation, heavier);
+    const auto found = poles_with_mass(formulation, with_mass(arm, kMass, 0.0));
     for (std::size_t i = 0; i < wanted.size(); ++i) {
       EXPECT_NEAR(found[i] / wanted[i], 1.0, kAgreement) << formulation << " pole " << i + 1;
     }
@@ -78,10 +78,10 @@ TEST(AttachedMass, ASmallOneLowersEachPoleByItsShapeThere) {
   const arm::Arm arm = laws::damped_arm();
   const std::vector<double> places_m = {0.3, 0.55, 0.8};
   for (const auto formulation : response::kFormulationNames) {
-    const auto model = response::make_formulation(formulation, arm, kRoots);
-    const auto modal = response::modal_model(model, kRoots, {}, places_m);
+    const auto model = response::make_formulation(formulation, arm, kMassRoots);
+    const auto modal = response::modal_model(model, kMassRoots, {}, places_m);
     for (std::size_t k = 0; k < places_m.size(); ++k) {
-      const auto moved = poles(formulation, with_mass(arm, kMass, places_m[k]));
+      const auto moved = poles_with_mass(formulation, with_mass(arm, kMass, places_m[k]));
       for (std::size_t i = 0; i < moved.size(); ++i) {
         const auto& mode = modal.modes[i + 1];
         // The rigid body, whose inertia grows as well, takes no part: phi is orthogonal to it.

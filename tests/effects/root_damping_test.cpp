@@ -16,7 +16,7 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr int kRoots = 5;
+constexpr int kLossyRoots = 5;
 constexpr double kStiffness = 25.0;
 constexpr double kTime = 2e-3;
 
@@ -39,8 +39,8 @@ TEST(RootDamping, IsARootComplianceAtEachRealS) {
     const arm::Arm soft = with_compliance(kStiffness * (1.0 + kTime * s));
     for (const auto formulation : response::kFormulationNames) {
       const auto lossy =
-          response::make_formulation(formulation, with_root(kStiffness, kTime), kRoots);
-      const auto reference = response::make_formulation(formulation, soft, kRoots);
+          response::make_formulation(formulation, with_root(kStiffness, kTime), kLossyRoots);
+      const auto reference = response::make_formulation(formulation, soft, kLossyRoots);
       for (const char* name :
            {"hub_angle", "tip_displacement", "tip_deflection", "strain@0", "strain@0.3"}) {
         const arm::Sensor sensor = arm::parse_sensor(name);
@@ -61,12 +61,12 @@ TEST(RootDamping, OfNoTimeIsRootCompliance) {
 TEST(RootDamping, LeavesTheUndampedPolesAndDampsEachMode) {
   for (const auto formulation : response::kFormulationNames) {
     const auto lossy =
-        response::make_formulation(formulation, with_root(kStiffness, kTime), kRoots);
-    const auto soft = response::make_formulation(formulation, with_compliance(kStiffness), kRoots);
-    EXPECT_EQ(response::poles(lossy, kRoots).omega_rad_per_s,
-              response::poles(soft, kRoots).omega_rad_per_s);
-    const auto damped = response::damped_poles(lossy, kRoots);
-    const auto before = response::damped_poles(soft, kRoots);
+        response::make_formulation(formulation, with_root(kStiffness, kTime), kLossyRoots);
+    const auto soft = response::make_formulation(formulation, with_compliance(kStiffness), kLossyRoots);
+    EXPECT_EQ(response::poles(lossy, kLossyRoots).omega_rad_per_s,
+              response::poles(soft, kLossyRoots).omega_rad_per_s);
+    const auto damped = response::damped_poles(lossy, kLossyRoots);
+    const auto before = response::damped_poles(soft, kLossyRoots);
     for (std::size_t i = 0; i < damped.flexible.size(); ++i) {
       EXPECT_LT(damped.flexible[i].first_rad_per_s.real(),
                 before.flexible[i].first_rad_per_s.real())
@@ -83,9 +83,9 @@ TEST(RootDamping, ALittleDampsAsItsProjectionSays) {
     arm::Arm arm = with_root(kStiffness, kLittle);
     arm.damping = {};
     arm.hub.viscous_friction_N_m_s_per_rad = 0.0;
-    const auto model = response::make_formulation(formulation, arm, kRoots);
-    const auto modal = response::modal_model(model, kRoots, {}, {});
-    const auto damped = response::damped_poles(model, kRoots);
+    const auto model = response::make_formulation(formulation, arm, kLossyRoots);
+    const auto modal = response::modal_model(model, kLossyRoots, {}, {});
+    const auto damped = response::damped_poles(model, kLossyRoots);
     const std::size_t n = modal.modes.size();
     for (std::size_t i = 1; i < n; ++i) {
       const double decay = 0.5 * modal.damping_rad_per_s[i * n + i];

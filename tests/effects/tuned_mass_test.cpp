@@ -18,7 +18,7 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr int kRoots = 6;
+constexpr int kTunedRoots = 6;
 
 struct Tuned {
   double mass_kg = 0.02;
@@ -50,8 +50,8 @@ std::vector<arm::Sensor> sensors() {
   return all;
 }
 
-std::vector<double> poles(std::string_view formulation, const arm::Arm& arm) {
-  return response::poles(response::make_formulation(formulation, arm, kRoots), kRoots)
+std::vector<double> poles_of_tuned(std::string_view formulation, const arm::Arm& arm) {
+  return response::poles(response::make_formulation(formulation, arm, kTunedRoots), kTunedRoots)
       .omega_rad_per_s;
 }
 
@@ -69,8 +69,8 @@ TEST(TunedMass, IsAFixedMassAtEachRealS) {
       const double mass_kg = tuned.mass_kg * guided / (s * s + guided);
       const arm::Arm fixed = with_fixed(laws::damped_arm(), mass_kg, position_m);
       for (const auto formulation : response::kFormulationNames) {
-        const auto suspended = response::make_formulation(formulation, arm, kRoots);
-        const auto reference = response::make_formulation(formulation, fixed, kRoots);
+        const auto suspended = response::make_formulation(formulation, arm, kTunedRoots);
+        const auto reference = response::make_formulation(formulation, fixed, kTunedRoots);
         for (const auto& sensor : sensors()) {
           const Complex wanted = response::transfer_function(reference, sensor, s);
           EXPECT_LE(std::abs(response::transfer_function(suspended, sensor, s) - wanted),
@@ -86,8 +86,8 @@ TEST(TunedMass, OnAStiffSuspensionIsAFixedMass) {
   Tuned tuned{.frequency_Hz = 3e3};
   const arm::Arm arm = laws::damped_arm();
   for (const auto formulation : response::kFormulationNames) {
-    const auto fixed = poles(formulation, with_fixed(arm, tuned.mass_kg, tuned.position_m));
-    const auto found = poles(formulation, with_tuned(arm, tuned));
+    const auto fixed = poles_of_tuned(formulation, with_fixed(arm, tuned.mass_kg, tuned.position_m));
+    const auto found = poles_of_tuned(formulation, with_tuned(arm, tuned));
     for (std::size_t i = 0; i < 4; ++i) {
       const double ratio = fixed[i] / (2.0 * std::numbers::pi * tuned.frequency_Hz);
       EXPECT_NEAR(found[i] / fixed[i], 1.0, ratio * ratio) << formulation << " pole " << i + 1;
@@ -100,15 +100,15 @@ TEST(TunedMass, OfNoWeightIsOnePoleMoreAndLeavesTheOthers) {
   constexpr double kTiny = 1e-6;
   const arm::Arm arm = laws::damped_arm();
   for (const auto formulation : response::kFormulationNames) {
-    auto wanted = poles(formulation, arm);
+    auto wanted = poles_of_tuned(formulation, arm);
     wanted.push_back(2.0 * std::numbers::pi * tuned.frequency_Hz);
     std::ranges::sort(wanted);
-    const auto found = poles(formulation, with_tuned(arm, tuned));
+    const auto found = poles_of_tuned(formulation, with_tuned(arm, tuned));
     for (std::size_t i = 0; i < found.size(); ++i) {
       EXPECT_NEAR(found[i] / wanted[i], 1.0, kTiny) << formulation << " pole " << i + 1;
     }
   }
-  EXPECT_EQ(poles("exact_tf", with_tuned(arm, {.mass_kg = 0.0})), poles("exact_tf", arm));
+  EXPECT_EQ(poles_of_tuned("exact_tf", with_tuned(arm, {.mass_kg = 0.0})), poles_of_tuned("exact_tf", arm));
 }
 
 TEST(TunedMass, WithoutDampingHoldsItsPlaceStillAtItsFrequency) {
@@ -118,7 +118,7 @@ TEST(TunedMass, WithoutDampingHoldsItsPlaceStillAtItsFrequency) {
   const Complex s(0.0, 2.0 * std::numbers::pi * 20.0);
   const auto tip = arm::parse_sensor("tip_displacement");
   for (const auto formulation : response::kFormulationNames) {
-    const auto model = response::make_formulation(formulation, arm, kRoots);
+    const auto model = response::make_formulation(formulation, arm, kTunedRoots);
     const double beside = std::abs(response::transfer_function(model, tip, 0.9 * s));
     EXPECT_LT(std::abs(response::transfer_function(model, tip, s)), 1e-9 * beside) << formulation;
     const auto zeros = response::zeros(model, tip, 4).s_rad_per_s;

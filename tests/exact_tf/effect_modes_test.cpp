@@ -1,5 +1,6 @@
 #include "damped_roots.hpp"
 #include "effect_arms.hpp"
+#include "arm/linear_arm.hpp"
 #include "exact_tf/exact_arm.hpp"
 
 #include <gtest/gtest.h>
@@ -138,6 +139,9 @@ TEST_P(EffectModalModel, AnswersAsTheTransferFunctionDoes) {
   const std::vector<arm::Sensor> sensors = {kHub, kTipDisplacement, {SensorKind::tip_deflection}};
   const auto half = exact.modal_model(30, sensors, {});
   const auto model = exact.modal_model(60, sensors, {});
+  // The tail behind 60 modes: at a root that loses energy the moment has another phase than in any
+  // mode, beside a much smaller response of the tip near its zero.
+  const double figure = arm::linear_arm(GetParam()).root_retardation_s > 0.0 ? 2e-4 : 2e-5;
   for (const std::complex<double> s : {std::complex(-0.2, 1.3), {0.0, 9.0}, {0.5, 0.0}}) {
     for (std::size_t k = 0; k < sensors.size(); ++k) {
       const auto wanted = exact.transfer_function(sensors[k], s);
@@ -145,7 +149,7 @@ TEST_P(EffectModalModel, AnswersAsTheTransferFunctionDoes) {
       // another phase than any mode has: the tail then falls as 1/n, otherwise faster.
       const double coarse = std::abs(modal_sum(half, s, k) - wanted);
       const double error = std::abs(modal_sum(model, s, k) - wanted);
-      EXPECT_LE(error, 1e-5 * std::abs(wanted)) << to_string(sensors[k]) << " at s = " << s;
+      EXPECT_LE(error, figure * std::abs(wanted)) << to_string(sensors[k]) << " at s = " << s;
       EXPECT_LE(error, 0.6 * coarse + 1e-11 * std::abs(wanted))
           << to_string(sensors[k]) << " at s = " << s;
     }

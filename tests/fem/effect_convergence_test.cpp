@@ -98,8 +98,9 @@ TEST_P(EffectOrder, OfCubicElementsIsFour) {
   expect_order(3, {44, 66, 99, 132}, 4.0);
 }
 TEST_P(EffectOrder, OfQuarticElementsIsSix) {
-  // Crack and masses are at elevenths of the beam.
-  if (places_m(GetParam().arm).size() > 1) {
+  // Crack and masses are at elevenths of the beam. Masses leave too much of the next order in
+  // elements that are not of one length.
+  if (!arm::linear_arm(GetParam().arm).masses.empty()) {
     expect_order(4, {22, 33}, 6.0);
   } else {
     expect_order(4, {19, 22, 33}, 6.0);

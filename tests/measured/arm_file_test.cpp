@@ -147,6 +147,8 @@ class ArmGenerator {
     for (const auto& definition : effects::vocabulary()) {
       const bool needs_gauge = definition->name == "gauge_position";
       if (pick(4) != 0 || (needs_gauge && !arm.beam.thickness_m)) continue;
+      // Which holds its root's only spring.
+      if (definition->name == "root_damping" && arm.effects.contains("root_compliance")) continue;
       arm.effects[definition->name] = effect(definition, arm.beam);
     }
     return arm;

@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -136,9 +135,10 @@ std::optional<PredictedSelection> select_by_filter(const Task& task,
   };
   const arm::Arm extended = by_simulation.selection.chosen.fit.candidate.extend(experiment.arm);
   const double least_N_m = options.least_disturbance * estimator.torque_rms_N_m();
-  if (!task.is_asked() && likely_noise(extended).disturbance_N_m <= least_N_m) return std::nullopt;
+  NoiseModel noise = likely_noise(extended);
+  if (!task.is_asked() && noise.disturbance_N_m <= least_N_m) return std::nullopt;
   // The search begins with the arm as filed: what simulation named may be wrong.
-  NoiseModel noise = likely_noise(experiment.arm);
+  if (extended != experiment.arm) noise = likely_noise(experiment.arm);
   const PredictorKind kind = filtering_predictor(experiment, options);
   std::vector<Hypothesis> searched = hypotheses;
   if (kind == PredictorKind::torque_balance) {
@@ -161,15 +161,10 @@ std::optional<PredictedSelection> select_by_filter(const Task& task,
   return made;
 }
 
-/// NRMSE on validation runs, or those for estimation where there are none, of a simulation with the
-/// chosen effects.
+/// Of a simulation with the chosen effects.
 double simulated_error(const PredictedSelection& made) {
-  const Problem& problem = made.simulated;
-  const auto validation = std::ranges::count(problem.validation_runs(), true);
-  const auto& runs = validation > 0 ? problem.validation_runs() : problem.estimation_runs();
-  const auto residuals = problem.residuals(made.selection.chosen.fit.candidate, runs);
-  if (!residuals) return std::numeric_limits<double>::infinity();
-  return misfit(problem.observations(), problem.experiment(), *residuals, runs).relative_error;
+  const Candidate& chosen = made.selection.chosen.fit.candidate;
+  return made.simulated.judged_error(chosen.extend(made.simulated.experiment().arm));
 }
 
 /// By simulation, and where that does not leave noise by a filter; the first of them in half of the
@@ -203,9 +198,8 @@ PredictedSelection select_by_both(const Task& task, const Problem& problem,
     }
     made.balance = filtered->balance;
     made.reason = fmt::format(
-        "its residuals are not noise; with what a {} identifies NRMSE is {:.3g} %, with this "
-        "{:.3g} "
-        "%",
+        "its residuals are not noise; with what a {} identifies NRMSE is {:.3g} %, "
+        "with this {:.3g} %",
         filtered->predictor == PredictorKind::torque_balance ? "torque balance"
                                                              : "stochastic grey box",
         100.0 * by_filter, 100.0 * by_simulation);

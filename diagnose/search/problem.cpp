@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -68,6 +69,21 @@ Problem::Problem(const Experiment& experiment, Observations observations,
 Problem::Problem(std::shared_ptr<const Experiment> experiment, const ProblemOptions& options)
     : Problem(*experiment, options) {
   own_experiment_ = std::move(experiment);
+}
+
+const std::vector<bool>& Problem::judged_runs() const {
+  return std::ranges::count(validation_runs_, true) > 0 ? validation_runs_ : estimation_runs_;
+}
+
+double Problem::judged_error(const arm::Arm& arm) const {
+  try {
+    const Eigen::VectorXd left = predictor_.residuals(arm, judged_runs());
+    const double error = misfit(observations_, *experiment_, left, judged_runs()).relative_error;
+    if (std::isfinite(error)) return error;
+  } catch (const std::runtime_error&) {
+    // An arm that is none, or a simulation that overflows.
+  }
+  return std::numeric_limits<double>::infinity();
 }
 
 Problem Problem::with_modes(int flexible_modes) const {

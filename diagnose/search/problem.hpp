@@ -40,6 +40,12 @@ class Problem {
   const Predictor& predictor() const { return predictor_; }
   const std::vector<bool>& estimation_runs() const { return estimation_runs_; }
   const std::vector<bool>& validation_runs() const { return validation_runs_; }
+  /// What a choice between models is judged by: the validation runs, or without any those for
+  /// estimation.
+  const std::vector<bool>& judged_runs() const;
+  /// NRMSE of an arm on the judged runs (Misfit::relative_error); infinite for one that cannot be
+  /// computed.
+  double judged_error(const arm::Arm& arm) const;
 
   /// By output error from recorded torques.
   bool is_driven_by_torque() const {

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -137,17 +136,6 @@ double left_to_disturbance(const Problem& balance, const arm::Arm& arm,
   return estimated_N_m * estimated_N_m;
 }
 
-double simulated_error(const Problem& simulated, const arm::Arm& arm,
-                       const std::vector<bool>& runs) {
-  try {
-    const Eigen::VectorXd left = simulated.predictor().residuals(arm, runs);
-    return misfit(simulated.observations(), simulated.experiment(), left, runs).relative_error;
-  } catch (const std::runtime_error&) {
-    // A simulation that overflows.
-    return std::numeric_limits<double>::infinity();
-  }
-}
-
 }  // namespace
 
 arm::Arm with_law(const arm::Arm& arm, const EmpiricalLaw& law) {
@@ -158,8 +146,7 @@ std::optional<EmpiricalLaw> empirical_law(const Problem& balance, const Problem&
                                           const Candidate& candidate) {
   const arm::Arm arm = candidate.extend(balance.experiment().arm);
   if (arm.effects.contains(std::string(arm::kHubTorqueTable))) return std::nullopt;
-  const bool has_validation = std::ranges::count(balance.validation_runs(), true) > 0;
-  const auto& runs = has_validation ? balance.validation_runs() : balance.estimation_runs();
+  const auto& runs = balance.judged_runs();
   const double before = left_to_disturbance(balance, arm, runs);
   std::optional<EmpiricalLaw> best;
   double least = (1.0 - kLeastShare) * before;
@@ -179,8 +166,8 @@ std::optional<EmpiricalLaw> empirical_law(const Problem& balance, const Problem&
     }
   }
   if (!best) return std::nullopt;
-  best->error_before = simulated_error(simulated, arm, runs);
-  best->error_after = simulated_error(simulated, with_law(arm, *best), runs);
+  best->error_before = simulated.judged_error(arm);
+  best->error_after = simulated.judged_error(with_law(arm, *best));
   if (!(best->error_after < best->error_before)) return std::nullopt;
   return best;
 }

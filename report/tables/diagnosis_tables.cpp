@@ -135,8 +135,7 @@ std::string verdict_text(const diagnose::Diagnosis& diagnosis) {
     case diagnose::Verdict::unexplained:
       return fmt::format(
           "Unexplained: no effect {} has a probability of {:g} or more. NRMSE is {:.3g} %; the "
-          "noise "
-          "floor is {:.3g} %.{}",
+          "noise floor is {:.3g} %.{}",
           diagnosis.search_end ? "that was tried" : "of the library", kLeastProbability, after,
           noise, not_noise(diagnosis));
   }
@@ -185,9 +184,8 @@ std::string predictor_text(const diagnose::Diagnosis& diagnosis) {
          fmt::format(
              " The unrecorded hub torque, as the filter estimates it, "
              "is {:.3g} N m rms with the arm file and {:.3g} N m rms with the extended arm; the "
-             "commanded "
-             "torque is {:.3g} N m rms. Its correlation time is {:.2g} s. NRMSE below is that of a "
-             "simulation.",
+             "commanded torque is {:.3g} N m rms. Its correlation time is {:.2g} s. NRMSE below is "
+             "that of a simulation.",
              left.before_N_m, left.after_N_m, left.torque_rms_N_m, left.correlation_time_s);
 }
 

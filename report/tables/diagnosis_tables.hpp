@@ -18,8 +18,8 @@ std::string search_text(const diagnose::Diagnosis& diagnosis);
 /// A sentence for each fault of the data that counts as none.
 std::vector<std::string> accepted_texts(const diagnose::Diagnosis& diagnosis);
 
-/// Why the effects were named by a stochastic grey box, and the disturbance of the hub torque
-/// before and after; empty by output error.
+/// The predictor and why it was that one; by a Kalman filter also the disturbance of the hub torque
+/// before and after. Empty without `time` runs.
 std::string predictor_text(const diagnose::Diagnosis& diagnosis);
 
 /// The causes, a row a parameter, with standard errors and shares.

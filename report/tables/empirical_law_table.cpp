@@ -21,8 +21,7 @@ std::string_view axes_of(const arm::HubTorqueTable& table) {
 std::string empirical_law_text(const diagnose::EmpiricalLaw& law) {
   std::string text = fmt::format(
       "Empirical law: a torque on the hub that depends on {} removes {:.3g} % of the mean square "
-      "of "
-      "the residual hub torque. With it in the extended arm, NRMSE of a simulation falls from "
+      "of the residual hub torque. With it in the extended arm, NRMSE of a simulation falls from "
       "{:.3g} to {:.3g} %. Median standard error of its torques: {:.2g} N m.",
       axes_of(law.table), 100.0 * law.share, 100.0 * law.error_before, 100.0 * law.error_after,
       law.std_error_N_m);

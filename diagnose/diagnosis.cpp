@@ -111,6 +111,37 @@ void say_timing(const Experiment& experiment, const Selection& selection,
   }
 }
 
+/// Of the channels whose noise is coloured: how many, and how strong it is.
+void say_noise(const Problem& problem, std::vector<std::string>& notices) {
+  if (!problem.has_coloured_noise()) return;
+  const auto& channels = problem.observations().channels;
+  const auto is_coloured = [](const ObservedChannel& channel) {
+    return channel.autoregression.order() > 0;
+  };
+  const auto strongest =
+      std::ranges::max_element(channels, {}, [&](const ObservedChannel& channel) {
+        return is_coloured(channel) ? channel.noise : 0.0;
+      });
+  notices.push_back(fmt::format(
+      "the noise of {} of {} channels is coloured, up to {:.3g} % of the signal ({} of run {}): an "
+      "autoregressive model of it was fitted to residuals that depend on no effect of the library",
+      std::ranges::count_if(channels, is_coloured), channels.size(), 100.0 * strongest->noise,
+      strongest->sensor, problem.experiment().runs[strongest->run].run.id));
+}
+
+void say_assumed_numbers(const arm::Arm& filed, const arm::Arm& searched,
+                         std::vector<std::string>& notices) {
+  std::vector<std::string> names;
+  for (const auto& [name, uncertainty] : searched.relative_uncertainties) {
+    if (!filed.relative_uncertainties.contains(name)) names.push_back(name);
+  }
+  if (names.empty()) return;
+  notices.push_back(fmt::format(
+      "no set of effects leaves noise with the numbers of the arm file: {} are refitted, each as "
+      "known to {:g} %; state their uncertainties",
+      fmt::join(names, ", "), 100.0 * searched.relative_uncertainties.at(names.front())));
+}
+
 std::optional<DisturbanceGain> disturbance_gain(const Selection& selection) {
   const auto& before = selection.nothing.estimation.disturbance;
   const auto& after = selection.chosen.estimation.disturbance;
@@ -201,6 +232,8 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
   made.causes = causes_of(selection, posterior, errors);
   made.something_else = posterior.of_something_else();
   say_timing(experiment, selection, made.notices);
+  say_noise(predicted.simulated, made.notices);
+  say_assumed_numbers(experiment.arm, selection.problem.experiment().arm, made.notices);
   // What is left is judged by simulation, whichever predictor found the effects.
   const Problem& problem = predicted.simulated;
   const Explanation as_filed = explain(problem, evaluated(problem, problem.as_filed()));
@@ -218,9 +251,11 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
     made.validation = gain_between(as_filed.validation, extended.validation);
   }
   // Of all runs: those that were fitted and those that were held out.
-  const Eigen::VectorXd before = as_filed.fit.residuals + as_filed.held_out;
-  const Eigen::VectorXd after = extended.fit.residuals + extended.held_out;
-  made.channels = channel_gains(problem, before, after);
+  const Eigen::VectorXd residuals_before = as_filed.fit.residuals + as_filed.held_out;
+  const Eigen::VectorXd residuals_after = extended.fit.residuals + extended.held_out;
+  made.channels = channel_gains(problem, residuals_before, residuals_after);
+  const Eigen::VectorXd before = coloured(problem.observations(), residuals_before);
+  const Eigen::VectorXd after = coloured(problem.observations(), residuals_after);
   made.overlays = overlays(problem.observations(), before, after);
   std::optional<RunDrift> drift;
   if (!is_over(options.deadline)) {
@@ -238,7 +273,8 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
     sort_by_significance(statements);
   }
   made.refitted = refitted_numbers(selection, errors);
-  made.extended_arm = chosen.extend(experiment.arm);
+  made.extended_arm = chosen.extend(problem.experiment().arm);
+  made.extended_arm.relative_uncertainties = experiment.arm.relative_uncertainties;
   const bool is_open =
       made.verdict == Verdict::unexplained || made.verdict == Verdict::partly_explained;
   if (has_balance && is_open) {

@@ -103,6 +103,19 @@ void gather(Gathering& all, std::size_t run, const measured::ModalTable& table) 
 
 }  // namespace
 
+void whiten(const Observations& observations, Eigen::VectorXd& errors) {
+  for (const ObservedChannel& channel : observations.channels) {
+    channel.autoregression.whiten(errors.segment(channel.first, channel.count));
+  }
+}
+
+Eigen::VectorXd coloured(const Observations& observations, Eigen::VectorXd residuals) {
+  for (const ObservedChannel& channel : observations.channels) {
+    channel.autoregression.colour(residuals.segment(channel.first, channel.count));
+  }
+  return residuals;
+}
+
 std::vector<ModalGroup> modal_groups(const measured::ModalTable& table) {
   std::vector<ModalGroup> groups;
   for (std::size_t i = 0; i < table.size(); ++i) {

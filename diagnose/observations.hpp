@@ -1,5 +1,6 @@
 #pragma once
 
+#include "diagnose/autoregression.hpp"
 #include "diagnose/experiment.hpp"
 
 #include <Eigen/Core>
@@ -29,6 +30,10 @@ struct ObservedChannel {
   /// The simulation's own error, in the same measure: never to be taken for physics.
   double numerical_error = 0.0;
 
+  /// How the noise of a `time` channel goes on from reading to reading; white where the data do
+  /// not show another (Problem::with_coloured_noise).
+  Autoregression autoregression = {};
+
   /// Both together: what residuals are in units of.
   double floor() const { return std::hypot(noise, numerical_error); }
 };
@@ -44,6 +49,11 @@ struct Observations {
   std::vector<ObservedChannel> channels;
   std::vector<Eigen::Index> first_of_run;  ///< where each run begins, and at last the end
 };
+
+/// Errors in standard deviations of each number, in their order, as independent residuals of unit
+/// variance; and back. Of channels whose noise is white, and behind the numbers, nothing changes.
+void whiten(const Observations& observations, Eigen::VectorXd& errors);
+Eigen::VectorXd coloured(const Observations& observations, Eigen::VectorXd residuals);
 
 /// Poles, or the zeros of one sensor, of a modal table: indices of its entries, in their order.
 struct ModalGroup {

@@ -78,6 +78,10 @@ std::vector<Fit> EffectScan::first_looks(const Candidate& base,
   return looks;
 }
 
+Fit EffectScan::first_look(const Candidate& base) const {
+  return coarse_fit(coarse_, base);
+}
+
 Fit EffectScan::first_look(const Candidate& base, const Hypothesis& other) const {
   const Candidate start = base.with(other, other.middle());
   const std::vector<Index> scanned = last_coordinates(start);

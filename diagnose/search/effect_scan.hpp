@@ -31,6 +31,8 @@ class EffectScan {
   std::vector<Fit> first_looks(const Candidate& base, const std::vector<const Hypothesis*>& others,
                                std::string_view what, double from, double to);
 
+  /// `base` refitted to the part of the data.
+  Fit first_look(const Candidate& base) const;
   /// `base` with `other`: a scan of that, then all refitted to the part of the data.
   Fit first_look(const Candidate& base, const Hypothesis& other) const;
   /// The same for `other` in place of the `index`-th effect of `candidate`. Where that is a limit

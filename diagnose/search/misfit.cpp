@@ -101,7 +101,9 @@ double Misfit::unexplained_error() const {
 double relative_error(const Observations& observations, const Experiment& experiment,
                       const ObservedChannel& channel, const Eigen::VectorXd& residuals) {
   const auto values = observations.values.segment(channel.first, channel.count).array();
-  const auto errors = residuals.segment(channel.first, channel.count).array() *
+  Eigen::VectorXd relative = residuals.segment(channel.first, channel.count);
+  channel.autoregression.colour(relative);
+  const auto errors = relative.array() *
                       observations.deviations.segment(channel.first, channel.count).array();
   const auto n = static_cast<double>(channel.count);
   if (experiment.runs[channel.run].run.kind == measured::RunKind::time) {

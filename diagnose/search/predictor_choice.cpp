@@ -2,6 +2,7 @@
 
 #include "arm/input_error.hpp"
 #include "arm/sensor.hpp"
+#include "arm/uncertainties.hpp"
 #include "diagnose/predictors/noise_estimate.hpp"
 #include "diagnose/search/coarse.hpp"
 
@@ -25,6 +26,10 @@ constexpr int kMostFilteredModes = 6;
 /// A stage of the search that a time limit may end.
 constexpr const char* kNoiseStage = "the noise of a Kalman filter";
 constexpr const char* kNoTime = "the time limit left no time for another";
+
+/// Relative standard deviation of a number that states none, where it is refitted: that of a
+/// catalogue's density, or of an inertia from a drawing.
+constexpr double kAssumedUncertainty = 0.1;
 
 /// NRMSE of a loop that is not that of the data.
 constexpr double kDiverged = 10.0;
@@ -108,6 +113,26 @@ PredictedSelection select_by_simulation(const Task& task, const Problem& problem
           .simulated = simulated};
 }
 
+/// Where effects do not leave noise: what numbers of the arm file that state no uncertainty explain
+/// if they are as uncertain as those of a data sheet, by themselves or beside one effect. Empty
+/// where that does not leave noise either.
+std::optional<PredictedSelection> select_with_assumed_numbers(const Task& task,
+                                                              const Problem& problem,
+                                                              const DiagnosisProgress& progress) {
+  auto assumed = std::make_shared<Experiment>(problem.experiment());
+  assumed->arm = arm::with_assumed_uncertainties(assumed->arm, kAssumedUncertainty);
+  if (assumed->arm == problem.experiment().arm) return std::nullopt;
+  SelectionOptions options = task.options;
+  options.deadline = halfway(options.deadline);
+  options.most_causes = 1;
+  PredictedSelection made = select_by_simulation(
+      {task.hypotheses, options},
+      Problem(assumed, {.flexible_modes = problem.predictor().flexible_modes()}), progress);
+  if (!made.selection.cancelled && !made.selection.chosen.leaves_noise()) return std::nullopt;
+  made.reason = "its residuals are noise if numbers of the arm file are refitted";
+  return made;
+}
+
 /// What a filter is given: the recorded torque, and whole runs decimated to what is enough for a
 /// torque on the hub.
 Problem filtered_problem(const Problem& simulated, const SelectionOptions& options) {
@@ -180,9 +205,12 @@ PredictedSelection select_by_both(const Task& task, const Problem& problem,
     made.reason = "its residuals are noise";
     return made;
   }
+  if (auto numbers = select_with_assumed_numbers(task, problem, part_of(progress, 0.5, 0.6))) {
+    return *std::move(numbers);
+  }
   made.reason = "an unrecorded torque on the hub explains little of what it leaves";
   try {
-    auto filtered = select_by_filter(task, made, part_of(progress, 0.5, 1.0));
+    auto filtered = select_by_filter(task, made, part_of(progress, 0.6, 1.0));
     if (!filtered) return made;
     Selection& other = filtered->selection;
     if (other.end && other.chosen.fit.candidate.effects.empty()) {

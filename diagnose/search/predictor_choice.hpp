@@ -20,7 +20,9 @@ struct PredictedSelection {
 };
 
 /// Selects effects by output error, in closed loop where runs state their controllers and the loop
-/// can be simulated with the arm file. Where that does not leave noise, and the most likely
+/// can be simulated with the arm file. Where that does not leave noise, but does so if numbers of
+/// the arm file that state no uncertainty are refitted, by themselves or beside one effect, that is
+/// taken: the problem's arm then has uncertainties for them. Else, where the most likely
 /// disturbance of the hub torque of the arm that it made is options.least_disturbance or more,
 /// effects are also selected by torque balance at the hub, or by a stochastic grey box where a
 /// `time` run does not show the hub's motion. Of both selections that one is taken with which

@@ -77,7 +77,8 @@ const std::vector<bool>& Problem::judged_runs() const {
 
 double Problem::judged_error(const arm::Arm& arm) const {
   try {
-    const Eigen::VectorXd left = predictor_.residuals(arm, judged_runs());
+    Eigen::VectorXd left = predictor_.residuals(arm, judged_runs());
+    whiten(observations_, left);
     const double error = misfit(observations_, *experiment_, left, judged_runs()).relative_error;
     if (std::isfinite(error)) return error;
   } catch (const std::runtime_error&) {
@@ -106,6 +107,7 @@ void Problem::replace_torques(Experiment experiment) {
 }
 
 bool Problem::lower_noise(const Candidate& candidate) {
+  if (has_coloured_noise()) return false;
   const auto left = residuals(candidate, std::vector<bool>(experiment_->runs.size(), true));
   if (!left) return false;
   Observations lowered = observations_;
@@ -128,6 +130,34 @@ bool Problem::lower_noise(const Candidate& candidate) {
         Predictor(*experiment_, observations_, predictor_.flexible_modes(), predictor_.noise());
   }
   return fell;
+}
+
+std::optional<Problem> Problem::with_coloured_noise(const Candidate& candidate) const {
+  const auto left = residuals(candidate, std::vector<bool>(experiment_->runs.size(), true));
+  if (!left) return std::nullopt;
+  const Eigen::VectorXd errors = coloured(observations_, *left);
+  Problem made = *this;
+  for (ObservedChannel& channel : made.observations_.channels) {
+    if (experiment_->runs[channel.run].run.kind != measured::RunKind::time) continue;
+    Eigen::VectorXd own = errors.segment(channel.first, channel.count);
+    const double seen = std::sqrt(own.squaredNorm() / static_cast<double>(channel.count));
+    if (!(seen > 0.0)) continue;
+    const double floor = seen * channel.floor();
+    channel.noise = std::sqrt(std::max(kLeastNoise * kLeastNoise,
+                                       floor * floor - std::pow(channel.numerical_error, 2)));
+    made.observations_.deviations.segment(channel.first, channel.count) *= seen;
+    own /= seen;
+    channel.autoregression = Autoregression(own, kMostOrder);
+  }
+  made.predictor_ =
+      Predictor(*experiment_, made.observations_, predictor_.flexible_modes(), predictor_.noise());
+  return made;
+}
+
+bool Problem::has_coloured_noise() const {
+  return std::ranges::any_of(observations_.channels, [](const ObservedChannel& channel) {
+    return channel.autoregression.order() > 0;
+  });
 }
 
 bool Problem::estimate_noise(const Candidate& candidate, std::function<void()> go_on) {
@@ -184,6 +214,7 @@ std::optional<Eigen::VectorXd> Problem::residuals(const Candidate& candidate,
       take_logarithms(part, channel, observations_);
     }
   }
+  whiten(observations_, made);
   const auto displaced = static_cast<Eigen::Index>(candidate.nuisances.size());
   made.conservativeResizeLike(Eigen::VectorXd::Zero(residual_count()));
   made.tail(displaced) = Eigen::VectorXd::Map(candidate.nuisances.data(), displaced);

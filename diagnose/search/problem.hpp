@@ -61,10 +61,17 @@ class Problem {
 
   /// Takes the noise of `time` channels down to what is seen of it under the residuals of a
   /// candidate, for all runs, where that is less: a signal that fills the spectrum hides it, what
-  /// is left of one does not. Returns whether the noise of any fell by more than `kLower` of it;
-  /// else nothing is changed.
+  /// is left of one does not. Coloured noise stays as it is. Returns whether the noise of any fell
+  /// by more than `kLower` of it; else nothing is changed.
   bool lower_noise(const Candidate& candidate);
   static constexpr double kLower = 0.05;
+
+  /// With the noise of `time` channels that is what a candidate leaves, white or not: its power, and
+  /// its autoregression up to order `kMostOrder`. Empty for a candidate that cannot be computed. The
+  /// residuals are those of generalised least squares.
+  std::optional<Problem> with_coloured_noise(const Candidate& candidate) const;
+  static constexpr int kMostOrder = 40;
+  bool has_coloured_noise() const;
 
   /// With a noise model: takes up the most likely one for a candidate where that is more likely by
   /// more than `kMoreLikely` of -2 ln L. Returns whether it did. `go_on` is called before each
@@ -78,9 +85,9 @@ class Problem {
   /// The arm as its file describes it, without effects.
   Candidate as_filed() const;
 
-  /// (measured - predicted)/deviation of the runs' numbers; 0 for those of other runs; behind them
-  /// the candidate's nuisances, which are what the file says of the arm's uncertain numbers in
-  /// standard deviations. Empty where the candidate's arm cannot be computed. Concurrent calls are
+  /// (measured - predicted)/deviation of the runs' numbers, whitened (observations.hpp); 0 for those
+  /// of other runs; behind them the candidate's nuisances, which are what the file says of the arm's
+  /// uncertain numbers in standard deviations. Empty where the candidate's arm cannot be computed. Concurrent calls are
   /// safe.
   std::optional<Eigen::VectorXd> residuals(const Candidate& candidate,
                                            const std::vector<bool>& runs) const;

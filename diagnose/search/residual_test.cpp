@@ -15,28 +15,6 @@ namespace {
 
 using Eigen::Index;
 
-/// P(chi^2_n(lambda) > value).
-double exceedance(double value, double n, double lambda) {
-  // Above this the series of the noncentral distribution is long, and Sankaran's normal
-  // approximation [Sankaran1963] is good to 1e-4.
-  constexpr double kLarge = 1e4;
-  if (n + lambda <= kLarge) {
-    if (lambda <= 0.0) {
-      return boost::math::cdf(complement(boost::math::chi_squared(n), std::max(0.0, value)));
-    }
-    return boost::math::cdf(
-        complement(boost::math::non_central_chi_squared(n, lambda), std::max(0.0, value)));
-  }
-  const double sum = n + lambda;
-  const double h = 1.0 - 2.0 * sum * (n + 3.0 * lambda) / (3.0 * std::pow(n + 2.0 * lambda, 2));
-  const double p = (n + 2.0 * lambda) / (sum * sum);
-  const double m = (h - 1.0) * (1.0 - 3.0 * h);
-  const double mean = 1.0 + h * p * (h - 1.0 - 0.5 * (2.0 - h) * m * p);
-  const double deviation = h * std::sqrt(2.0 * p * (1.0 + 0.5 * m * p));
-  return boost::math::cdf(
-      complement(boost::math::normal(mean, deviation), std::pow(value / sum, h)));
-}
-
 /// n (n + 2) sum_l rho_l^2/(n - l s) over lags l of `stride` s numbers each. The autocorrelation is
 /// about zero, which Boost's is not: a constant residual is no noise.
 double ljung_box(const Eigen::Ref<const Eigen::VectorXd>& residuals, int lags, Index stride) {
@@ -67,6 +45,31 @@ double bonferroni(double p_value, double tests) {
 
 }  // namespace
 
+double exceedance(double value, double n, double lambda) {
+  // Above this the series of the noncentral distribution is long, and Sankaran's normal
+  // approximation [Sankaran1963] is good to 1e-4.
+  constexpr double kLarge = 1e4;
+  if (n + lambda <= kLarge) {
+    if (lambda <= 0.0) {
+      return boost::math::cdf(complement(boost::math::chi_squared(n), std::max(0.0, value)));
+    }
+    return boost::math::cdf(
+        complement(boost::math::non_central_chi_squared(n, lambda), std::max(0.0, value)));
+  }
+  const double sum = n + lambda;
+  const double h = 1.0 - 2.0 * sum * (n + 3.0 * lambda) / (3.0 * std::pow(n + 2.0 * lambda, 2));
+  const double p = (n + 2.0 * lambda) / (sum * sum);
+  const double m = (h - 1.0) * (1.0 - 3.0 * h);
+  const double mean = 1.0 + h * p * (h - 1.0 - 0.5 * (2.0 - h) * m * p);
+  const double deviation = h * std::sqrt(2.0 * p * (1.0 + 0.5 * m * p));
+  return boost::math::cdf(
+      complement(boost::math::normal(mean, deviation), std::pow(value / sum, h)));
+}
+
+double residual_variance(const ObservedChannel& channel, double relative_error) {
+  return std::pow(relative_error / (channel.floor() * channel.autoregression.innovation()), 2);
+}
+
 bool ResidualTest::is_noise() const {
   return std::min({level_p_value, whiteness_p_value, nuisance_p_value}) >= kResidualLevel;
 }
@@ -83,7 +86,7 @@ ResidualTest test_residuals(const Observations& observations, const Experiment& 
     const auto n = static_cast<double>(channel.count);
     const measured::RunKind kind = experiment.runs[channel.run].run.kind;
     const bool is_simulated = kind == measured::RunKind::time;
-    const double granted = is_simulated ? std::pow(kSimulationError / channel.floor(), 2) : 0.0;
+    const double granted = is_simulated ? residual_variance(channel, kSimulationError) : 0.0;
     const Statistic own{part.squaredNorm() / (1.0 + kNoiseKnown), n, 4.0 * granted * n};
     worst_channel = std::min(worst_channel, own.p_value());
     channels += 1.0;

@@ -16,9 +16,9 @@ namespace flexarm::diagnose {
 ///     (1 + kNoiseKnown) chi^2_n(lambda),    lambda = sum_c n_c a_c,    a_c = (e/s_c)^2
 ///
 /// chi^2_n(lambda) the noncentral chi-squared variable, s_c the noise of channel c over its signal
-/// and e = `kSimulationError` the error over the signal that a simulation in time is granted (0 for
-/// `frf` and `modal` runs). Tested for all channels of the runs together, and for each channel by
-/// itself with twice that error.
+/// (of coloured noise the innovation) and e = `kSimulationError` the error over the signal that a
+/// simulation in time is granted (0 for `frf` and `modal` runs). Tested for all channels of the
+/// runs together, and for each channel by itself with twice that error.
 ///
 /// Whiteness. The Ljung-Box statistic of each channel's first lags [LjungBox1978], of `time`
 /// runs along time, of `frf` runs along the lines; its sum over the channels is at most a
@@ -36,6 +36,10 @@ inline constexpr double kResidualLevel = 1e-3;
 /// Of the signal, root mean square: what two converged simulations of one arm may differ by where
 /// a torque steps within a sampling period.
 inline constexpr double kSimulationError = 0.004;
+/// An error of a `time` channel relative to its signal, squared, in variances of its residuals.
+double residual_variance(const ObservedChannel& channel, double relative_error);
+/// P(chi^2_n(lambda) > value) of the noncentral chi-squared variable.
+double exceedance(double value, double n, double lambda);
 /// Lags of a channel <= this, and <= a quarter of its numbers.
 inline constexpr int kLags = 25;
 

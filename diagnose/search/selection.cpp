@@ -2,6 +2,7 @@
 
 #include "diagnose/search/admission.hpp"
 #include "diagnose/search/parameter_errors.hpp"
+#include "diagnose/search/problem_revision.hpp"
 #include "diagnose/search/rivals.hpp"
 #include "diagnose/search/set_fits.hpp"
 
@@ -45,7 +46,8 @@ class Search {
         hypotheses_(hypotheses),
         options_(options),
         work_(progress, options.deadline),
-        fits_(problem_, options, work_) {
+        fits_(problem_, options, work_),
+        revision_(problem_, hypotheses, options, fits_, work_) {
     for (const Hypothesis& effect : hypotheses) {
       (is_general(effect) ? general_ : special_).push_back(&effect);
     }
@@ -71,10 +73,12 @@ class Search {
   }
 
   void search(Selection& made) {
-    made.nothing = fits_.fitted(problem_.as_filed());
+    made.nothing = fits_.fitted(fits_.scan().first_look(problem_.as_filed()).candidate);
     made.chosen = made.nothing;
-    see_noise(made);
+    revision_.see_noise(made);
+    if (!is_enough(made)) revision_.colour_noise_of_nothing(made);
     if (!is_enough(made)) try_singles(made);
+    if (!is_enough(made)) revision_.colour_noise_beside_singles(made);
     if (!made.singles.empty() && !is_out_of_reach(made.nothing, made.singles, options_)) {
       extend(made);
       generalise(made);
@@ -102,25 +106,13 @@ class Search {
     leave_out_unnamed(made);
   }
 
-  /// `change`, which changes the problem and fits what there is to it; where that is cancelled, the
-  /// problem is as it was before.
-  template <class Change>
-  void change_problem(Change change) {
-    const Problem before = problem_;
-    try {
-      change();
-    } catch (const Cancelled&) {
-      problem_ = before;
-      throw;
-    }
-  }
-
   /// Effects by themselves. Those that have another as a limit come after it.
   void try_singles(Selection& made) {
     const Candidate& none = made.nothing.fit.candidate;
     fits_.add_with(none, special_, kSingles, 0.7 * kSinglesDone, options_.singles_refitted,
                    made.singles);
-    see_noise(made);
+    refit_nothing(made);
+    revision_.see_noise(made);
     const std::vector<const Hypothesis*> general = general_effects(made.singles);
     const std::vector<Explanation> special = made.singles;
     const auto look = [&](std::size_t i) {
@@ -132,7 +124,16 @@ class Search {
           .candidate;
     };
     fits_.add_all(labels_with(none, general), kSingles, kSinglesDone, made.singles, look);
-    see_noise(made);
+    revision_.see_noise(made);
+  }
+
+  /// The arm's uncertain numbers by themselves, from where the best single has them: what these
+  /// explain needs no effect.
+  void refit_nothing(Selection& made) const {
+    if (problem_.as_filed().nuisances.empty() || made.singles.empty()) return;
+    Explanation again = fits_.fitted(made.singles.front().fit.candidate.without(0));
+    const double before = made.nothing.fit.sum_of_squares;
+    if (again.fit.sum_of_squares < before) made.nothing = made.chosen = std::move(again);
   }
 
   /// Another effect is a limit of it.
@@ -153,77 +154,12 @@ class Search {
     return found;
   }
 
-  /// The noise that is seen under what the best so far leaves.
-  void see_noise(Selection& made) {
-    const Explanation* best = &made.chosen;
-    if (best->fit.candidate.effects.empty() && !made.singles.empty()) best = &made.singles.front();
-    const Candidate candidate = best->fit.candidate;
-    change_problem([&] {
-      const bool is_changed = problem_.predictor().noise()
-                                  ? problem_.estimate_noise(candidate, [this] { work_.go_on(); })
-                                  : problem_.lower_noise(candidate);
-      if (is_changed) refit(made);
-    });
-  }
-
-  /// All that was fitted to all data once more, from where it is, with the problem as it is now:
-  /// all of it, or nothing where that is cancelled.
-  void refit(Selection& made) const {
-    const auto again = [this](const Explanation& explanation) {
-      return fits_.fitted(explanation.fit.candidate);
-    };
-    const auto all_again = [&](std::vector<Explanation> explanations) {
-      tbb::parallel_for(std::size_t{0}, explanations.size(),
-                        [&](std::size_t i) { explanations[i] = again(explanations[i]); });
-      sort_by_fit(explanations);
-      return explanations;
-    };
-    Explanation nothing = again(made.nothing);
-    Explanation chosen = again(made.chosen);
-    std::vector<Explanation> singles = all_again(made.singles);
-    made.combinations = all_again(made.combinations);
-    made.nothing = std::move(nothing);
-    made.chosen = std::move(chosen);
-    made.singles = std::move(singles);
-  }
-
   /// The residual is noise, or what is not is about the error of a simulation.
   bool is_enough(const Selection& made) const {
     if (made.chosen.leaves_noise()) return true;
     const Misfit& left = made.chosen.estimation;
     return left.nuisance_excess() == 0.0 &&
            left.unexplained_error() <= left.simulated * options_.negligible_error;
-  }
-
-  /// Where a little is left and the timing of the torque leaves noise of it: the torques as that
-  /// timing has them, and what has been fitted once more.
-  void correct_timing(Selection& made) {
-    if (!problem_.is_driven_by_torque() || made.timing || made.chosen.leaves_noise() ||
-        made.chosen.estimation.unexplained_error() > options_.largest_timing_error) {
-      return;
-    }
-    TorqueTiming timing = torque_timing(problem_, made.chosen.fit);
-    if (timing.share < options_.least_timing_share) return;
-    change_problem([&] { correct_by(made, std::move(timing)); });
-  }
-
-  /// ... where it leaves noise; else it is undecided.
-  void correct_by(Selection& made, TorqueTiming timing) {
-    const Problem as_recorded = problem_;
-    problem_.replace_torques(retimed(problem_.experiment(), timing));
-    // Once more from there: what the first step was too long for, and the runs for validation.
-    Explanation corrected = fits_.fitted(made.chosen.fit.candidate);
-    problem_.replace_torques(
-        retimed(problem_.experiment(), torque_timing(problem_, corrected.fit)));
-    problem_.lower_noise(corrected.fit.candidate);
-    corrected = fits_.fitted(corrected.fit.candidate);
-    if (!corrected.leaves_noise()) {
-      problem_ = as_recorded;
-      made.undecided_timing = std::move(timing);
-      return;
-    }
-    refit(made);
-    made.timing = std::move(timing);
   }
 
   /// clears_bars against each set in which one of its effects is replaced by a limit of that: a
@@ -276,15 +212,16 @@ class Search {
 
   void choose(Selection& made, Explanation best) {
     made.chosen = std::move(best);
-    see_noise(made);
-    correct_timing(made);
+    revision_.see_noise(made);
+    revision_.correct_timing(made);
+    revision_.colour_noise_of_chosen(made);
   }
 
   void extend(Selection& made) {
     const Explanation single = best_single(made);
     // Timing is a nuisance: it loses against a cause that leaves noise, and wins over one that does
     // not.
-    if (!single.leaves_noise()) correct_timing(made);
+    if (!single.leaves_noise()) revision_.correct_timing(made);
     if (!is_enough(made)) choose(made, single);
     for (int round = 0; round < options_.most_rounds && !is_enough(made); ++round) {
       const std::size_t causes = std::max<std::size_t>(made.chosen.fit.candidate.effects.size(), 1);
@@ -423,6 +360,7 @@ class Search {
   const SelectionOptions& options_;
   ReportedWork work_;
   SetFits fits_;
+  ProblemRevision revision_;
   std::vector<const Hypothesis*> general_;
   std::vector<const Hypothesis*> special_;    // the others
   std::set<std::set<std::string>> combined_;  // labels of what has been tried with any other

@@ -1,11 +1,13 @@
 // What is not known of an experiment beside its causes: numbers of the arm, the state at the first
 // sample, the torque between samples.
+#include "arm/beam.hpp"
 #include "diagnose/diagnosis.hpp"
 #include "effects/registry/vocabulary.hpp"
 #include "tests/diagnose/simulated_experiments.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <variant>
@@ -39,6 +41,27 @@ TEST(UncertainNumber, IsRefittedWithinItsUncertaintyAndNotNamedAsACause) {
   EXPECT_LT(made.refitted[0].std_error, 0.001 * truth);
   EXPECT_DOUBLE_EQ(made.extended_arm.hub.inertia_kg_m2, made.refitted[0].value);
   EXPECT_GT(made.estimation.before, 2.0 * made.estimation.after);
+}
+
+TEST(UncertainNumber, IsAssumedOfNumbersThatStateNoneWhereNoEffectLeavesNoise) {
+  Experiment experiment = simulated_experiment({}, {.duration_s = 2.0});
+  const double inertia_kg_m2 = experiment.arm.hub.inertia_kg_m2;
+  experiment.arm.hub.inertia_kg_m2 *= 0.94;
+  arm::scale_linear_density(experiment.arm.beam, 1.07);
+  const Diagnosis made =
+      diagnose(experiment, named(experiment, {"root_compliance", "coulomb_friction"}));
+  EXPECT_EQ(made.verdict, Verdict::explained);
+  EXPECT_TRUE(made.causes.empty());
+  const auto refitted = std::ranges::find(made.refitted, "hub.inertia", &RefittedNumber::key);
+  ASSERT_NE(refitted, made.refitted.end());
+  EXPECT_TRUE(refitted->has_moved());
+  EXPECT_NEAR(refitted->value, inertia_kg_m2, kStandardErrors * refitted->std_error);
+  EXPECT_TRUE(std::ranges::any_of(made.notices, [](const std::string& notice) {
+    return notice.find("state their uncertainties") != std::string::npos;
+  }));
+  // The uncertainty is not written into the arm: nobody stated it.
+  EXPECT_TRUE(made.extended_arm.relative_uncertainties.empty());
+  EXPECT_DOUBLE_EQ(made.extended_arm.hub.inertia_kg_m2, refitted->value);
 }
 
 TEST(UncertainNumber, FarBeyondItsUncertaintyIsACause) {

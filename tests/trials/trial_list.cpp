@@ -117,8 +117,11 @@ std::vector<TrialKey> list_trials(const TrialChoice& choice) {
     const Dirt& dirt = find_dirt(key.dirt);
     const auto drawn = std::ranges::find(kDrawnSets, word, &DrawnSets::word);
     if (drawn != std::end(kDrawnSets)) {
-      Random random(key.seed, fmt::format("{} {} {}", drawn->purpose, measured::to_string(key.kind),
-                                          key.number));
+      // Other causes under each dirt; those without dirt are drawn by what they always were.
+      std::string drawing =
+          fmt::format("{} {} {}", drawn->purpose, measured::to_string(key.kind), key.number);
+      if (!key.dirt.empty()) drawing += " " + key.dirt;
+      Random random(key.seed, drawing);
       key.hidden = draw_set(*drawn, key.kind, dirt, random);
       add(key);
       return;

@@ -1,0 +1,185 @@
+#include "diagnose/search/dependence_test.hpp"
+
+#include "diagnose/search/residual_test.hpp"
+
+#include <Eigen/QR>
+#include <boost/math/distributions/normal.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <optional>
+#include <variant>
+
+namespace flexarm::diagnose {
+
+namespace {
+
+using Eigen::Index;
+
+/// Step in a place, for directions.
+constexpr double kProbeStep = 1e-2;
+/// Samples of the torque up to the sample that residuals are regressed on.
+constexpr Index kTorqueLags = 40;
+
+/// A few values of a hypothesis: beside where its single parameter does nothing, or over the
+/// ranges.
+std::vector<std::vector<double>> probes_of(const Hypothesis& hypothesis) {
+  std::vector<double> places = {0.2, 0.5, 0.8};
+  const auto neutral = hypothesis.parameters.front().neutral_coordinate();
+  if (hypothesis.parameters.size() == 1 && neutral) {
+    places = {*neutral < 0.5 ? *neutral + kProbeStep : *neutral - kProbeStep};
+  }
+  std::vector<std::vector<double>> probes;
+  for (const double place : places) {
+    const std::vector<double> all(hypothesis.parameters.size(), place);
+    probes.push_back(effects::values_at(hypothesis.parameters, all));
+  }
+  return probes;
+}
+
+struct Score {
+  double p_value = 1.0;  ///< of one test
+  double share = 0.0;    ///< of the squares of errors without whitening
+};
+
+double squared_cosine(const Eigen::VectorXd& one, const Eigen::VectorXd& other) {
+  const double squares = one.squaredNorm() * other.squaredNorm();
+  return squares > 0.0 ? std::pow(one.dot(other), 2) / squares : 0.0;
+}
+
+/// Root mean square of whitened residuals of these runs, relative to the signals.
+double relative_size(const Problem& problem, const Eigen::VectorXd& residuals,
+                     const std::vector<bool>& runs) {
+  const Eigen::VectorXd errors = coloured(problem.observations(), residuals);
+  double squares = 0.0;
+  double count = 0.0;
+  for (const ObservedChannel& channel : problem.observations().channels) {
+    if (!runs[channel.run]) continue;
+    squares +=
+        errors.segment(channel.first, channel.count).squaredNorm() * std::pow(channel.floor(), 2);
+    count += static_cast<double>(channel.count);
+  }
+  return std::sqrt(squares / count);
+}
+
+/// One set of runs: what the candidate leaves, and the directions that it has itself.
+struct ScoredRuns {
+  const std::vector<bool>& runs;
+  Eigen::VectorXd residuals;
+  Eigen::HouseholderQR<Eigen::MatrixXd> own;
+  Index own_count = 0;
+
+  /// Of a change that refitting makes too, or that cannot be computed, nothing.
+  Score of_change(const Problem& problem, const Candidate& changed) const {
+    const auto with = problem.residuals(changed, runs);
+    if (!with) return {};
+    const Eigen::VectorXd change = residuals - *with;
+    Eigen::VectorXd beyond = own.householderQ().adjoint() * change;
+    beyond.head(own_count).setZero();
+    beyond = own.householderQ() * beyond;
+    const double size = beyond.norm();
+    if (!(size > kLeastPart * change.norm())) return {};
+    const double z = beyond.dot(residuals) / size;
+    Score made{1.0, squared_cosine(coloured(problem.observations(), change),
+                                   coloured(problem.observations(), residuals))};
+    if (relative_size(problem, beyond * (z / size), runs) > kNegligibleDependence) {
+      made.p_value = 2.0 * boost::math::cdf(complement(boost::math::normal(), std::abs(z)));
+    }
+    return made;
+  }
+  /// Less of a change than this beyond refitting is rounding.
+  static constexpr double kLeastPart = 1e-4;
+
+  /// Of each channel of a `time` run on the torque up to the sample.
+  Score of_torque(const Problem& problem) const;
+};
+
+/// A column for each lag, the torque before the first sample being 0.
+Eigen::MatrixXd lagged(const std::vector<double>& torque_N_m) {
+  const auto n = std::ssize(torque_N_m);
+  Eigen::MatrixXd made = Eigen::MatrixXd::Zero(n, kTorqueLags);
+  const auto torque = Eigen::VectorXd::Map(torque_N_m.data(), n);
+  for (Index lag = 0; lag < std::min<Index>(kTorqueLags, n); ++lag) {
+    made.col(lag).tail(n - lag) = torque.head(n - lag);
+  }
+  return made;
+}
+
+Score ScoredRuns::of_torque(const Problem& problem) const {
+  double squares = 0.0;
+  double freedom = 0.0;
+  double granted = 0.0;
+  const auto& experiment = problem.experiment();
+  std::optional<std::size_t> run;
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> torque;
+  torque.setThreshold(kLeastPart);
+  for (const ObservedChannel& channel : problem.observations().channels) {
+    const auto* record = std::get_if<measured::TimeRecord>(&experiment.runs[channel.run].data);
+    if (!runs[channel.run] || record == nullptr) continue;
+    if (run != channel.run) {
+      run = channel.run;
+      torque.compute(lagged(record->torque_N_m));
+    }
+    const Eigen::VectorXd along =
+        torque.householderQ().adjoint() * residuals.segment(channel.first, channel.count);
+    squares += along.head(torque.rank()).squaredNorm();
+    freedom += static_cast<double>(torque.rank());
+    granted +=
+        residual_variance(channel, kNegligibleDependence) * static_cast<double>(channel.count);
+  }
+  return {freedom > 0.0 ? exceedance(squares, freedom, granted) : 1.0, 0.0};
+}
+
+std::optional<ScoredRuns> scored(const Problem& problem, const Candidate& fitted,
+                                 const std::vector<bool>& runs) {
+  if (std::ranges::count(runs, true) == 0) return std::nullopt;
+  const auto residuals = problem.residuals(fitted, runs);
+  if (!residuals) return std::nullopt;
+  const Eigen::VectorXd places = fitted.coordinates();
+  Eigen::MatrixXd directions(residuals->size(), places.size());
+  for (Index i = 0; i < places.size(); ++i) {
+    Eigen::VectorXd beside = places;
+    beside(i) += places(i) < 0.5 ? kProbeStep : -kProbeStep;
+    Candidate moved = fitted;
+    moved.put(beside);
+    const auto with = problem.residuals(moved, runs);
+    directions.col(i) = with.value_or(*residuals) - *residuals;
+  }
+  return ScoredRuns{runs, *residuals, Eigen::HouseholderQR<Eigen::MatrixXd>(directions),
+                    places.size()};
+}
+
+}  // namespace
+
+Dependence test_dependence(const Problem& problem, const Candidate& fitted,
+                           const std::vector<Hypothesis>& hypotheses, ReportedWork& work) {
+  std::vector<Candidate> changed;
+  for (const Hypothesis& hypothesis : hypotheses) {
+    if (fitted.has_effect(hypothesis.effect)) continue;
+    for (const auto& values : probes_of(hypothesis)) {
+      changed.push_back(fitted.with(hypothesis, values));
+    }
+  }
+  const std::array sets = {scored(problem, fitted, problem.estimation_runs()),
+                           scored(problem, fitted, problem.validation_runs())};
+  std::vector<Score> scores(sets.size() * changed.size());
+  work.in_parallel(scores.size(), "what residuals depend on", work.done(), work.done(),
+                   [&](std::size_t i) {
+                     work.go_on();
+                     const auto& set = sets[i / changed.size()];
+                     if (set) scores[i] = set->of_change(problem, changed[i % changed.size()]);
+                   });
+  if (problem.is_driven_by_torque()) {
+    for (const auto& set : sets) {
+      if (set) scores.push_back(set->of_torque(problem));
+    }
+  }
+  if (scores.empty()) return {};
+  const double least = std::ranges::min_element(scores, {}, &Score::p_value)->p_value;
+  return {std::min(1.0, static_cast<double>(scores.size()) * least),
+          std::ranges::max_element(scores, {}, &Score::share)->share};
+}
+
+}  // namespace flexarm::diagnose

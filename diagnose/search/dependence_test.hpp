@@ -1,0 +1,36 @@
+#pragma once
+
+#include "diagnose/search/candidate.hpp"
+#include "diagnose/search/problem.hpp"
+#include "diagnose/search/reported_work.hpp"
+
+#include <vector>
+
+namespace flexarm::diagnose {
+
+struct Dependence {
+  double p_value = 1.0;
+  /// Part of the squares of the errors, in standard deviations without whitening, along the change
+  /// that some hypothesis makes: the largest.
+  double largest_share = 0.0;
+};
+
+/// The test of the hypothesis that the residuals of a fitted candidate, independent with unit
+/// variance, do not depend on what the arm does. A coloured noise model makes the residuals of any
+/// candidate white: this is what tells noise from a model error.
+///
+/// Score tests [Rao1948] of every hypothesis that the candidate has not: where d is what it changes
+/// of the residuals r at some value, beyond what refitting the candidate takes of that change,
+/// z = d^T r/|d| is standard normal. By output error also a regression on the recorded torque up to
+/// the sample, channel by channel, whose sum of squares is chi-squared: for what no effect of the
+/// library describes. A dependence of `kNegligibleDependence` of the signal counts as none. The
+/// p-value is the least of all tests, of the estimation and of the validation runs, after
+/// Bonferroni. Throws Cancelled where the work is cancelled.
+Dependence test_dependence(const Problem& problem, const Candidate& fitted,
+                           const std::vector<Hypothesis>& hypotheses, ReportedWork& work);
+
+/// Root mean square, relative to the signal: the errors of two simulations are less alike than they
+/// are large (kSimulationError).
+inline constexpr double kNegligibleDependence = 0.0015;
+
+}  // namespace flexarm::diagnose

@@ -1,0 +1,122 @@
+#include "diagnose/search/problem_revision.hpp"
+
+#include "diagnose/search/admission.hpp"
+#include "diagnose/search/dependence_test.hpp"
+
+#include <algorithm>
+#include <tbb/parallel_for.h>
+#include <utility>
+
+namespace flexarm::diagnose {
+
+template <class Change>
+void ProblemRevision::change_problem(Change change) {
+  const Problem before = problem_;
+  try {
+    change();
+  } catch (const Cancelled&) {
+    problem_ = before;
+    throw;
+  }
+}
+
+/// All that was fitted to all data once more, from where it is, with the problem as it is now: all
+/// of it, or nothing where that is cancelled.
+void ProblemRevision::refit(Selection& made) const {
+  const auto again = [this](const Explanation& explanation) {
+    return fits_.fitted(explanation.fit.candidate);
+  };
+  const auto all_again = [&](std::vector<Explanation> explanations) {
+    tbb::parallel_for(std::size_t{0}, explanations.size(),
+                      [&](std::size_t i) { explanations[i] = again(explanations[i]); });
+    sort_by_fit(explanations);
+    return explanations;
+  };
+  Explanation nothing = again(made.nothing);
+  Explanation chosen = again(made.chosen);
+  std::vector<Explanation> singles = all_again(made.singles);
+  made.combinations = all_again(made.combinations);
+  made.nothing = std::move(nothing);
+  made.chosen = std::move(chosen);
+  made.singles = std::move(singles);
+}
+
+void ProblemRevision::see_noise(Selection& made) {
+  const Explanation* best = &made.chosen;
+  if (best->fit.candidate.effects.empty() && !made.singles.empty()) best = &made.singles.front();
+  const Candidate candidate = best->fit.candidate;
+  change_problem([&] {
+    const bool is_changed = problem_.predictor().noise()
+                                ? problem_.estimate_noise(candidate, [this] { work_.go_on(); })
+                                : problem_.lower_noise(candidate);
+    if (is_changed) refit(made);
+  });
+}
+
+void ProblemRevision::colour_noise_of_nothing(Selection& made) {
+  colour_noise(made, made.nothing, options_.least_share);
+}
+
+void ProblemRevision::colour_noise_beside_singles(Selection& made) {
+  if (std::ranges::any_of(made.singles, &Explanation::leaves_noise)) return;
+  if (colour_noise(made, made.nothing, 1.0) || made.singles.empty()) return;
+  colour_noise(made, made.singles.front(), 1.0);
+}
+
+void ProblemRevision::colour_noise_of_chosen(Selection& made) {
+  if (!made.chosen.leaves_noise()) colour_noise(made, made.chosen, 1.0);
+}
+
+bool ProblemRevision::is_for_timing(const Selection& made, const Explanation& left) const {
+  return problem_.is_driven_by_torque() && !made.timing &&
+         left.estimation.unexplained_error() <= options_.largest_timing_error;
+}
+
+/// With the noise that `best` leaves, if that is noise; of what it leaves an effect may account for
+/// so much before whitening. Returns whether it is.
+bool ProblemRevision::colour_noise(Selection& made, const Explanation& best, double largest_share) {
+  const bool is_known = problem_.predictor().noise() || problem_.has_coloured_noise();
+  if (is_known || runs_away(best, options_)) return false;
+  if (is_for_timing(made, best) && !made.undecided_timing &&
+      torque_timing(problem_, best.fit).share >= options_.least_timing_share) {
+    return false;
+  }
+  const auto coloured = problem_.with_coloured_noise(best.fit.candidate);
+  if (!coloured) return false;
+  const Explanation left = explain(*coloured, fit(*coloured, best.fit.candidate, {.work = &work_}));
+  if (!left.leaves_noise()) return false;
+  const Dependence found = test_dependence(*coloured, left.fit.candidate, hypotheses_, work_);
+  if (found.p_value < kResidualLevel || found.largest_share > largest_share) return false;
+  change_problem([&] {
+    problem_ = *coloured;
+    refit(made);
+  });
+  return true;
+}
+
+void ProblemRevision::correct_timing(Selection& made) {
+  if (made.chosen.leaves_noise() || !is_for_timing(made, made.chosen)) return;
+  TorqueTiming timing = torque_timing(problem_, made.chosen.fit);
+  if (timing.share < options_.least_timing_share) return;
+  change_problem([&] { correct_by(made, std::move(timing)); });
+}
+
+/// ... where it leaves noise; else it is undecided.
+void ProblemRevision::correct_by(Selection& made, TorqueTiming timing) {
+  const Problem as_recorded = problem_;
+  problem_.replace_torques(retimed(problem_.experiment(), timing));
+  // Once more from there: what the first step was too long for, and the runs for validation.
+  Explanation corrected = fits_.fitted(made.chosen.fit.candidate);
+  problem_.replace_torques(retimed(problem_.experiment(), torque_timing(problem_, corrected.fit)));
+  problem_.lower_noise(corrected.fit.candidate);
+  corrected = fits_.fitted(corrected.fit.candidate);
+  if (!corrected.leaves_noise()) {
+    problem_ = as_recorded;
+    made.undecided_timing = std::move(timing);
+    return;
+  }
+  refit(made);
+  made.timing = std::move(timing);
+}
+
+}  // namespace flexarm::diagnose

@@ -1,0 +1,107 @@
+#include "diagnose/autoregression.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <random>
+
+namespace flexarm::diagnose {
+namespace {
+
+using Eigen::Index;
+
+/// x_n = 1.5 x_{n-1} - 0.8 x_{n-2} + e_n, of variance 1: by its autocorrelations r_1 = 1.5/1.8 and
+/// r_2 = 1.5 r_1 - 0.8 the variance of e is 1 - 1.5 r_1 + 0.8 r_2.
+Eigen::VectorXd resonant_noise(Index count, std::uint64_t seed) {
+  std::mt19937_64 engine(seed);
+  std::normal_distribution<double> normal;
+  const double r_1 = 1.5 / 1.8;
+  const double r_2 = 1.5 * r_1 - 0.8;
+  const double innovation = std::sqrt(1.0 - 1.5 * r_1 + 0.8 * r_2);
+  Eigen::VectorXd made(count);
+  made(0) = normal(engine);
+  made(1) = r_1 * made(0) + std::sqrt(1.0 - r_1 * r_1) * normal(engine);
+  for (Index k = 2; k < count; ++k) {
+    made(k) = 1.5 * made(k - 1) - 0.8 * made(k - 2) + innovation * normal(engine);
+  }
+  return made;
+}
+
+double correlation(const Eigen::VectorXd& values, Index lag) {
+  const Index rest = values.size() - lag;
+  return values.head(rest).dot(values.tail(rest)) / values.squaredNorm();
+}
+
+constexpr Index kCount = 4000;
+/// A correlation of independent numbers varies by 1/sqrt(n); five standard deviations.
+const double kCorrelationOfNone = 5.0 / std::sqrt(static_cast<double>(kCount));
+
+TEST(Autoregression, LeavesIndependentNumbersOfUnitVariance) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    Eigen::VectorXd values = resonant_noise(kCount, seed);
+    const Autoregression noise(values, 20);
+    EXPECT_GE(noise.order(), 2) << seed;
+    EXPECT_GT(correlation(values, 1), 0.8) << seed;
+    noise.whiten(values);
+    // The root mean square of n normal numbers varies by 1/sqrt(2 n); five standard deviations.
+    EXPECT_NEAR(values.norm() / std::sqrt(kCount), 1.0, 5.0 / std::sqrt(2.0 * kCount)) << seed;
+    for (Index lag = 1; lag <= 10; ++lag) {
+      EXPECT_NEAR(correlation(values, lag), 0.0, kCorrelationOfNone) << seed << ", lag " << lag;
+    }
+  }
+}
+
+TEST(Autoregression, PredictsFromTheTwoNumbersBefore) {
+  // The answer to a single number: 1, -a_1, -a_2 over the deviation of the innovations.
+  const Autoregression noise(resonant_noise(kCount, 3), 2);
+  ASSERT_EQ(noise.order(), 2);
+  Eigen::VectorXd pulse = Eigen::VectorXd::Zero(6);
+  pulse(2) = 1.0;
+  noise.whiten(pulse);
+  // Coefficients of so many numbers vary by sqrt((1 - a_2^2)/n) = 0.01 (Box & Jenkins).
+  constexpr double kCoefficient = 0.05;
+  EXPECT_NEAR(pulse(3) / pulse(2), -1.5, kCoefficient);
+  EXPECT_NEAR(pulse(4) / pulse(2), 0.8, kCoefficient);
+  EXPECT_EQ(pulse(5), 0.0);
+}
+
+TEST(Autoregression, OfWhiteNoiseChangesLittle) {
+  std::mt19937_64 engine(8);
+  std::normal_distribution<double> normal;
+  Eigen::VectorXd values = Eigen::VectorXd::NullaryExpr(kCount, [&] { return normal(engine); });
+  const Eigen::VectorXd before = values;
+  const Autoregression noise(values, 20);
+  noise.whiten(values);
+  // Each order that the criterion takes in error moves the values by about 1/sqrt(n) of themselves.
+  EXPECT_LT((values - before).norm() / before.norm(), 0.1);
+}
+
+TEST(Autoregression, ColouringUndoesWhitening) {
+  const Eigen::VectorXd values = resonant_noise(300, 4);
+  const Autoregression noise(values, 20);
+  Eigen::VectorXd there_and_back = values;
+  noise.whiten(there_and_back);
+  noise.colour(there_and_back);
+  // A recursion of 300 steps whose poles are inside the unit circle.
+  EXPECT_LT((there_and_back - values).norm() / values.norm(), 1e-12);
+}
+
+TEST(Autoregression, OfASlowDriftStaysStable) {
+  Eigen::VectorXd drift = Eigen::VectorXd::LinSpaced(500, 0.0, 1.0);
+  drift *= std::sqrt(500.0) / drift.norm();
+  const Autoregression noise(drift, 20);
+  Eigen::VectorXd pulse = Eigen::VectorXd::Zero(500);
+  pulse(0) = 1.0;
+  noise.colour(pulse);
+  EXPECT_TRUE(pulse.allFinite());
+  EXPECT_LT(pulse.cwiseAbs().maxCoeff(), 10.0);
+}
+
+TEST(Autoregression, OfNothingIsWhite) {
+  EXPECT_EQ(Autoregression(Eigen::VectorXd::Zero(100), 20).order(), 0);
+  EXPECT_EQ(Autoregression(Eigen::VectorXd::Ones(3), 20).order(), 0);
+}
+
+}  // namespace
+}  // namespace flexarm::diagnose

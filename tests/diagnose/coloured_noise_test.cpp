@@ -1,0 +1,167 @@
+#include "diagnose/diagnosis.hpp"
+#include "diagnose/search/dependence_test.hpp"
+#include "effects/registry/vocabulary.hpp"
+#include "measured/spectra/robust.hpp"
+#include "tests/diagnose/simulated_experiments.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <numbers>
+#include <random>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace flexarm::diagnose {
+namespace {
+
+const std::vector<std::string> kSearched = {"coulomb_friction", "torque_bias", "torque_gain",
+                                            "hub_inertia", "sensor_lag"};
+
+/// What is added to a channel of this deviation, sample by sample.
+using Added = std::function<std::vector<double>(std::size_t samples, double period_s, double size,
+                                                std::mt19937_64& engine)>;
+
+Experiment with_added(Experiment experiment, const Added& added) {
+  std::mt19937_64 engine(11);
+  for (auto& run : experiment.runs) {
+    auto& record = std::get<measured::TimeRecord>(run.data);
+    for (auto& channel : record.channels) {
+      const double size = measured::standard_deviation(channel.values);
+      const auto more =
+          added(record.time_s.size(), measured::sampling_period_s(record), size, engine);
+      std::ranges::transform(channel.values, more, channel.values.begin(), std::plus{});
+    }
+  }
+  return experiment;
+}
+
+/// Of the first order, 3 % of the signal, correlated over 20 samples.
+std::vector<double> first_order(std::size_t samples, double /*period_s*/, double size,
+                                std::mt19937_64& engine) {
+  constexpr double kStay = 0.95;
+  std::normal_distribution<double> normal(0.0, 0.03 * size);
+  std::vector<double> made(samples);
+  double now = normal(engine);
+  for (double& value : made) {
+    value = now;
+    now = kStay * now + std::sqrt(1.0 - kStay * kStay) * normal(engine);
+  }
+  return made;
+}
+
+/// An amplifier that warms: 20 % of the signal.
+std::vector<double> drift(std::size_t samples, double /*period_s*/, double size,
+                          std::mt19937_64& engine) {
+  const double sign = engine() % 2 == 0 ? 1.0 : -1.0;
+  std::vector<double> made(samples);
+  for (std::size_t k = 0; k < samples; ++k) {
+    made[k] = sign * 0.2 * size *
+              (1.0 - std::exp(-2.0 * static_cast<double>(k) / static_cast<double>(samples)));
+  }
+  return made;
+}
+
+std::vector<double> hum(std::size_t samples, double period_s, double size,
+                        std::mt19937_64& engine) {
+  std::uniform_real_distribution<double> phase(0.0, 2.0 * std::numbers::pi);
+  const double at_first = phase(engine);
+  std::vector<double> made(samples);
+  for (std::size_t k = 0; k < samples; ++k) {
+    made[k] =
+        0.05 * size *
+        std::sin(2.0 * std::numbers::pi * 50.0 * period_s * static_cast<double>(k) + at_first);
+  }
+  return made;
+}
+
+bool says_coloured(const Diagnosis& made) {
+  return std::ranges::any_of(made.notices, [](const std::string& notice) {
+    return notice.find("coloured") != std::string::npos;
+  });
+}
+
+struct Dirty {
+  std::string name;
+  Added added;
+  double level;  ///< NRMSE that it makes
+};
+
+class ColouredNoise : public testing::TestWithParam<Dirty> {};
+
+TEST_P(ColouredNoise, WithNothingHiddenIsAdequate) {
+  const Experiment experiment = with_added(simulated_experiment({}), GetParam().added);
+  const Diagnosis made = diagnose(experiment, named(experiment, kSearched));
+  EXPECT_EQ(made.verdict, Verdict::adequate) << to_string(made.verdict);
+  EXPECT_TRUE(made.causes.empty());
+  EXPECT_TRUE(says_coloured(made));
+  // The error of the simulation is as large as it is, and the noise floor says so.
+  EXPECT_NEAR(made.estimation.before, GetParam().level, 0.3 * GetParam().level);
+  EXPECT_NEAR(made.estimation.noise_floor, made.estimation.before, 0.1 * made.estimation.before);
+}
+
+class FrictionUnderColouredNoise : public testing::TestWithParam<Dirty> {};
+
+TEST_P(FrictionUnderColouredNoise, IsFound) {
+  constexpr double kHidden_N_m = 0.02;
+  const Experiment experiment = with_added(
+      simulated_experiment({effects::named("coulomb_friction", {{"torque", kHidden_N_m}})}),
+      GetParam().added);
+  const Diagnosis made = diagnose(experiment, named(experiment, kSearched));
+  EXPECT_EQ(made.verdict, Verdict::explained) << to_string(made.verdict);
+  ASSERT_EQ(made.causes.size(), 1U);
+  EXPECT_EQ(made.causes[0].effect, "coulomb_friction");
+  const auto& found = made.causes[0].parameters.front();
+  // Three standard errors: one trial in 400 is beyond.
+  EXPECT_NEAR(found.value, kHidden_N_m, 3.0 * found.std_error);
+  EXPECT_LT(found.std_error, 0.1 * kHidden_N_m);
+}
+
+std::string name_of(const testing::TestParamInfo<Dirty>& one) {
+  return one.param.name;
+}
+
+INSTANTIATE_TEST_SUITE_P(, ColouredNoise,
+                         testing::Values(Dirty{"first_order", first_order, 0.03},
+                                         Dirty{"drift", drift, 0.12}, Dirty{"hum", hum, 0.035}),
+                         name_of);
+// Not under drift: a torque bias accounts for as much of one.
+INSTANTIATE_TEST_SUITE_P(, FrictionUnderColouredNoise,
+                         testing::Values(Dirty{"first_order", first_order, 0.03},
+                                         Dirty{"hum", hum, 0.035}),
+                         name_of);
+
+/// A torque that is 10 % less than the file says: the model error is as smooth as noise can be.
+TEST(ColouredNoiseModel, IsNotTakenUpForAModelError) {
+  const Experiment experiment =
+      simulated_experiment({effects::named("torque_gain", {{"factor", 0.9}})}, {.duration_s = 2.0});
+  SelectionOptions options;
+  options.predictor = PredictorKind::output_error;
+  const Diagnosis made = diagnose(experiment, named(experiment, {"hub_inertia"}), options);
+  EXPECT_NE(made.verdict, Verdict::adequate);
+  EXPECT_FALSE(says_coloured(made));
+}
+
+TEST(Dependence, IsSeenOfWhatAnEffectChangesAndNotOfNoise) {
+  const auto dependence = [](const arm::Effects& hidden) {
+    const Experiment experiment = with_added(simulated_experiment(hidden), first_order);
+    const Problem white(experiment);
+    const auto coloured = white.with_coloured_noise(white.as_filed());
+    const DiagnosisProgress none;
+    ReportedWork work(none);
+    return test_dependence(*coloured, coloured->as_filed(), named(experiment, kSearched), work);
+  };
+  const Dependence of_noise = dependence({});
+  EXPECT_GT(of_noise.p_value, 0.01);
+  EXPECT_LT(of_noise.largest_share, 0.2);
+  const Dependence of_gain = dependence({effects::named("torque_gain", {{"factor", 0.9}})});
+  EXPECT_LT(of_gain.p_value, 1e-6);
+  EXPECT_GT(of_gain.largest_share, 0.8);
+}
+
+}  // namespace
+}  // namespace flexarm::diagnose

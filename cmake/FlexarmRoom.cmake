@@ -25,18 +25,24 @@ function(flexarm_room name)
           FILE_SET HEADERS DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/flexarm")
 endfunction()
 
-# flexarm_test(NAME SOURCES ... USES ... LIBRARIES ... [SHARDS n])
+# flexarm_test(NAME SOURCES ... USES ... LIBRARIES ... [SHARDS n] [COMPUTES])
 #   One GoogleTest program; every TEST in it is a test of ctest. SHARDS is for a program of so many
 #   short TESTs that starting it for each takes longer than they do: NAME.shard_1 to NAME.shard_n
-#   are then its tests of ctest, and the output of one that fails names the TEST.
+#   are then its tests of ctest, and the output of one that fails names the TEST. COMPUTES is for
+#   sources that compute with Eigen: of templates that a library instantiates as well the linker
+#   takes the program's, and those must be optimised too.
 function(flexarm_test name)
-  cmake_parse_arguments(CHECK "" "SHARDS" "SOURCES;USES;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(CHECK "COMPUTES" "SHARDS" "SOURCES;USES;LIBRARIES" ${ARGN})
   add_executable(${name} ${CHECK_SOURCES})
   list(TRANSFORM CHECK_USES PREPEND flexarm::)
   target_link_libraries(${name} PRIVATE ${CHECK_USES} flexarm::effects ${CHECK_LIBRARIES} GTest::gtest_main
                         GTest::gmock fmt::fmt flexarm_flags)
   target_compile_definitions(${name} PRIVATE FLEXARM_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-  flexarm_optimise(${name} test)
+  if(CHECK_COMPUTES)
+    flexarm_optimise(${name} full)
+  else()
+    flexarm_optimise(${name} test)
+  endif()
   # The slowest takes half a minute; sanitizers slow it tenfold.
   if(FLEXARM_SANITIZE)
     set(limit_s 1500)

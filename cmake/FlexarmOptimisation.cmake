@@ -4,7 +4,7 @@ option(FLEXARM_PRECOMPILED_HEADERS "Parse the headers of libraries once" ON)
 # -DCMAKE_UNITY_BUILD_BATCH_SIZE=0 (a room in one batch) tells of all of them.
 option(FLEXARM_UNITY_BUILD "Compile the sources of a room in batches" ON)
 if(NOT DEFINED CMAKE_UNITY_BUILD_BATCH_SIZE)
-  set(CMAKE_UNITY_BUILD_BATCH_SIZE 8)
+  set(CMAKE_UNITY_BUILD_BATCH_SIZE 24)
 endif()
 
 # What computes is optimised in full. What writes or reads need not be, nor need the tests: they

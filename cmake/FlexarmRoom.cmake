@@ -25,21 +25,41 @@ function(flexarm_room name)
           FILE_SET HEADERS DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/flexarm")
 endfunction()
 
-# flexarm_test(NAME SOURCES ... USES ... LIBRARIES ...)
-#   One GoogleTest program; every TEST in it is a test of ctest.
+# flexarm_test(NAME SOURCES ... USES ... LIBRARIES ... [SHARDS n] [COMPUTES])
+#   One GoogleTest program; every TEST in it is a test of ctest. SHARDS is for a program of so many
+#   short TESTs that starting it for each takes longer than they do: NAME.shard_1 to NAME.shard_n
+#   are then its tests of ctest, and the output of one that fails names the TEST. COMPUTES is for
+#   sources that compute with Eigen: of templates that a library instantiates as well the linker
+#   takes the program's, and those must be optimised too.
 function(flexarm_test name)
-  cmake_parse_arguments(CHECK "" "" "SOURCES;USES;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(CHECK "COMPUTES" "SHARDS" "SOURCES;USES;LIBRARIES" ${ARGN})
   add_executable(${name} ${CHECK_SOURCES})
   list(TRANSFORM CHECK_USES PREPEND flexarm::)
   target_link_libraries(${name} PRIVATE ${CHECK_USES} flexarm::effects ${CHECK_LIBRARIES} GTest::gtest_main
                         GTest::gmock fmt::fmt flexarm_flags)
   target_compile_definitions(${name} PRIVATE FLEXARM_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-  flexarm_optimise(${name} test)
+  if(CHECK_COMPUTES)
+    flexarm_optimise(${name} full)
+  else()
+    flexarm_optimise(${name} test)
+  endif()
   # The slowest takes half a minute; sanitizers slow it tenfold.
   if(FLEXARM_SANITIZE)
     set(limit_s 1500)
   else()
     set(limit_s 300)
+  endif()
+  if(CHECK_SHARDS)
+    foreach(shard RANGE 1 ${CHECK_SHARDS})
+      math(EXPR index "${shard} - 1")
+      add_test(NAME ${name}.shard_${shard} COMMAND ${name})
+      # What a TEST skips would not be seen among others that pass: it may not skip anything.
+      set_tests_properties(${name}.shard_${shard} PROPERTIES
+        ENVIRONMENT "GTEST_TOTAL_SHARDS=${CHECK_SHARDS};GTEST_SHARD_INDEX=${index}"
+        FAIL_REGULAR_EXPRESSION "\\[  SKIPPED \\]"
+        TIMEOUT ${limit_s})
+    endforeach()
+    return()
   endif()
   # Under sanitizers on a busy machine a program may take longer than CMake's 5 s to list its tests.
   gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 120

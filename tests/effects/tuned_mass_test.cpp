@@ -41,7 +41,7 @@ arm::Arm with_fixed(arm::Arm arm, double mass_kg, double position_m) {
   return arm;
 }
 
-std::vector<arm::Sensor> sensors() {
+std::vector<arm::Sensor> tuned_sensors() {
   std::vector<arm::Sensor> all;
   for (const char* name :
        {"hub_angle", "tip_displacement", "tip_deflection", "strain@0.05", "strain@0.75"}) {
@@ -71,7 +71,7 @@ TEST(TunedMass, IsAFixedMassAtEachRealS) {
       for (const auto formulation : response::kFormulationNames) {
         const auto suspended = response::make_formulation(formulation, arm, kTunedRoots);
         const auto reference = response::make_formulation(formulation, fixed, kTunedRoots);
-        for (const auto& sensor : sensors()) {
+        for (const auto& sensor : tuned_sensors()) {
           const Complex wanted = response::transfer_function(reference, sensor, s);
           EXPECT_LE(std::abs(response::transfer_function(suspended, sensor, s) - wanted),
                     kAgreement * std::abs(wanted))

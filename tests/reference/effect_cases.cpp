@@ -19,7 +19,7 @@ std::vector<double> numbers(const json& list) {
   return values;
 }
 
-EffectResponse response(const json& point) {
+EffectResponse effect_response(const json& point) {
   EffectResponse result;
   for (const auto& [key, value] : point.items()) {
     if (key == "s_rad_per_s") {
@@ -46,7 +46,7 @@ EffectCase effect_case(const json& values) {
     auto& by_sensor = each.mode_values.emplace_back();
     for (const auto& [sensor, text] : mode.items()) by_sensor[sensor] = number(text);
   }
-  for (const json& point : values.at("responses")) each.responses.push_back(response(point));
+  for (const json& point : values.at("responses")) each.responses.push_back(effect_response(point));
   for (const json& pole : values.at("damped_pole_rad_per_s")) {
     each.damped_pole_rad_per_s.push_back(complex_number(pole));
   }

@@ -21,9 +21,9 @@ namespace {
 
 using Eigen::Index;
 
-constexpr int kFlexibleModes = 3;
-constexpr double kStep_s = 2e-3;
-constexpr std::size_t kSamples = 4000;
+constexpr int kFilteredModes = 3;
+constexpr double kFilteredStep_s = 2e-3;
+constexpr std::size_t kFilteredSamples = 4000;
 constexpr double kCorrelation_s = 0.1;
 constexpr double kDisturbance_N_m = 0.02;
 
@@ -33,7 +33,7 @@ class FilteredRunTest : public testing::Test {
     arm_.damping.kelvin_voigt_s = 1.2e-4;
     arm_.hub.viscous_friction_N_m_s_per_rad = 2e-3;
     torque_ = sample(RandomNoise{.rms_N_m = 0.08, .from_Hz = 0.2, .to_Hz = 40.0, .seed = 4},
-                     SampleGrid{kSamples, kStep_s})
+                     SampleGrid{kFilteredSamples, kFilteredStep_s})
                   .torque_N_m;
   }
 
@@ -42,7 +42,7 @@ class FilteredRunTest : public testing::Test {
     arm_.effects.insert(effects::named("sensor_gain", {{"factor", 1.3}}, "hub_angle"));
     arm_.effects.insert(effects::named("sensor_offset", {{"value", 0.2}}, "hub_velocity"));
     arm_.effects.insert(
-        effects::named("sensor_delay", {{"delay", late_samples * kStep_s}}, "hub_angle"));
+        effects::named("sensor_delay", {{"delay", late_samples * kFilteredStep_s}}, "hub_angle"));
   }
 
   /// The simulator of the arm as it is now.
@@ -50,9 +50,9 @@ class FilteredRunTest : public testing::Test {
     parts_ = take_apart(arm_);
     parts_.disturbance = HubDisturbance{kCorrelation_s};
     simulator_ = std::make_unique<ArmSimulator>(
-        time_model(make_formulation("exact_tf", parts_.linear, kFlexibleModes), parts_,
-                   kFlexibleModes, sensors_),
-        parts_, sensors_, options_of_fit(kStep_s, TorqueHold::zero));
+        time_model(make_formulation("exact_tf", parts_.linear, kFilteredModes), parts_,
+                   kFilteredModes, sensors_),
+        parts_, sensors_, options_of_fit(kFilteredStep_s, TorqueHold::zero));
   }
 
   FilterGains steady() const {
@@ -113,12 +113,12 @@ TEST_F(FilteredRunTest, RefusesSensorsThatAreTooLate) {
 void FilteredRunTest::expect_white_innovations() {
   make();
   RandomNumbers random(7);
-  const double kept = std::exp(-kStep_s / kCorrelation_s);
+  const double kept = std::exp(-kFilteredStep_s / kCorrelation_s);
   std::vector<double> disturbance = {kDisturbance_N_m * random.normal()};
   std::vector<double> acting = torque_;
-  for (std::size_t k = 0; k < kSamples; ++k) {
+  for (std::size_t k = 0; k < kFilteredSamples; ++k) {
     // Its mean over the sample, in which the model lets it decay.
-    acting[k] += disturbance[k] * (1.0 - kept) * kCorrelation_s / kStep_s;
+    acting[k] += disturbance[k] * (1.0 - kept) * kCorrelation_s / kFilteredStep_s;
     disturbance.push_back(kept * disturbance[k] +
                           kDisturbance_N_m * std::sqrt(1.0 - kept * kept) * random.normal());
   }
@@ -144,10 +144,10 @@ void FilteredRunTest::expect_white_innovations() {
   }
   // The estimate follows the disturbance.
   double error = 0.0;
-  for (std::size_t k = 500; k < kSamples; ++k) {
+  for (std::size_t k = 500; k < kFilteredSamples; ++k) {
     error += std::pow(run.disturbance_N_m[k] - disturbance[k], 2);
   }
-  EXPECT_LE(std::sqrt(error / (kSamples - 500.0)), 0.7 * kDisturbance_N_m);
+  EXPECT_LE(std::sqrt(error / (kFilteredSamples - 500.0)), 0.7 * kDisturbance_N_m);
 }
 
 TEST_F(FilteredRunTest, InnovationsOfTheRightModelAreWhiteAndOfTheStatedCovariance) {
@@ -221,7 +221,7 @@ TEST_F(FilteredRunTest, AHubThatFrictionHoldsStaysHeld) {
   arm_.effects = {effects::named("coulomb_friction", {{"torque", 10.0}})};
   make();
   RandomNumbers random(3);
-  Eigen::MatrixXd measured(static_cast<Index>(kSamples), 2);
+  Eigen::MatrixXd measured(static_cast<Index>(kFilteredSamples), 2);
   for (double& value : measured.reshaped()) value = 1e-3 * random.normal();
   const FilterGains gains = steady();
   const FilteredRun run = simulator_->filtered(torque_, measured, gains);

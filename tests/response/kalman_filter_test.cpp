@@ -40,7 +40,7 @@ TEST(KalmanFilter, OfARandomWalkIsTheClosedForm) {
   EXPECT_NEAR(filter.innovation_covariance(0, 0), p + kR, 1e-13);
 }
 
-SampledSystem oscillator(double kept) {
+SampledSystem sampled_oscillator(double kept) {
   const double c = std::cos(0.7);
   const double s = std::sin(0.7);
   SampledSystem system;
@@ -59,7 +59,7 @@ SampledSystem oscillator(double kept) {
 TEST(KalmanFilter, OfARigidBodyWithAModeIsWhatPlainStepsComeTo) {
   // Plain steps round some 1e-15 of the covariance per step; the gain forgets them.
   constexpr double kRounding = 1e-10;
-  const SampledSystem system = oscillator(1.0);
+  const SampledSystem system = sampled_oscillator(1.0);
   const FilterGain filter = filter_gain(system);
   const FilterGain steps = by_steps(system, 5000);
   EXPECT_LE((filter.gain - steps.gain).norm(), kRounding * steps.gain.norm());
@@ -68,7 +68,7 @@ TEST(KalmanFilter, OfARigidBodyWithAModeIsWhatPlainStepsComeTo) {
 }
 
 TEST(KalmanFilter, OfWhatNoReadingShowsDoesNotEnterTheGain) {
-  SampledSystem system = oscillator(1.0);
+  SampledSystem system = sampled_oscillator(1.0);
   const FilterGain whole = filter_gain(system);
   // A random walk beside it.
   const Eigen::Index n = 5;
@@ -85,7 +85,7 @@ TEST(KalmanFilter, OfWhatNoReadingShowsDoesNotEnterTheGain) {
 }
 
 TEST(KalmanFilter, RefusesReadingsWithoutNoise) {
-  SampledSystem system = oscillator(1.0);
+  SampledSystem system = sampled_oscillator(1.0);
   system.reading_variances(1) = 0.0;
   EXPECT_THROW(filter_gain(system), arm::InputError);
 }

@@ -18,6 +18,8 @@
 #include <map>
 #include <numbers>
 #include <set>
+#include <string>
+#include <vector>
 
 namespace flexarm::trials {
 namespace {
@@ -68,12 +70,18 @@ double clean_deviation(std::size_t channel) {
 constexpr std::size_t kDirtAngle = 0;
 constexpr std::size_t kDirtTip = 2;
 
-class EveryDirt : public testing::TestWithParam<Dirt> {};
-INSTANTIATE_TEST_SUITE_P(, EveryDirt, testing::ValuesIn(dirts()),
-                         [](const auto& one) { return one.param.name; });
+std::vector<std::string> names_of_dirts() {
+  std::vector<std::string> names;
+  for (const Dirt& dirt : dirts()) names.push_back(dirt.name);
+  return names;
+}
+
+class EveryDirt : public testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(, EveryDirt, testing::ValuesIn(names_of_dirts()),
+                         [](const auto& one) { return one.param; });
 
 TEST_P(EveryDirt, OfSizeZeroLeavesEverythingAsItIs) {
-  const Dirt& dirt = GetParam();
+  const Dirt& dirt = find_dirt(GetParam());
   const TrialArm& of = trial_arms().front();
   Random random(1, "test");
   if (dirt.recording) {

@@ -169,6 +169,18 @@ void doubt_time(const FileChoice& choice, ImportedFile& imported) {
                                           doubt->evidence, remedy));
 }
 
+/// Each sensor that the controller reads and no column is.
+void warn_of_unrecorded(const arm::Controller& controller, ImportedFile& imported) {
+  for (const arm::Sensor& sensor : controller.sensors) {
+    const std::string name = arm::to_string(sensor);
+    if (imported.columns.contains(name)) continue;
+    imported.warnings.push_back(fmt::format(
+        "the controller reads {0}, which is no column; the loop cannot be simulated with these "
+        "data, but with the recorded torque; assign a column with --column {0}=NAME:UNIT:SCALE",
+        name));
+  }
+}
+
 void read_mapped(ForeignFile& file, const FileChoice& choice, ImportedFile& imported) {
   const std::string name = arm::shown(imported.file);
   const bool in_time = imported.kind == RunKind::time;
@@ -209,6 +221,7 @@ void read_mapped(ForeignFile& file, const FileChoice& choice, ImportedFile& impo
     if (imported.reference) {
       const auto& [sensor, mapping] = *imported.reference;
       record.reference = reference_of(file.table, mapping, sensor, record.time_s, name);
+      warn_of_unrecorded(*choice.controller, imported);
     }
     imported.data = std::move(record);
     doubt_time(choice, imported);

@@ -215,6 +215,17 @@ TEST_F(ImportLoop, WhatIsNoLoopIsOneLine) {
           "law.toml:2: limit = -2 N m: must be a finite number above 0");
 }
 
+TEST_F(ImportLoop, AControllerOfASensorThatIsNotRecordedIsAWarning) {
+  write("log.csv", loop_log(20));
+  const Ended ended =
+      import({"--reference", "cmd_deg:m:0.1", "--controller", "sensor=tip_displacement,kp=1"});
+  ASSERT_EQ(ended.status, 0) << ended.errors;
+  EXPECT_THAT(ended.output,
+              HasSubstr("warning: the controller reads tip_displacement, which is no column"));
+  EXPECT_THAT(import({"--reference", "cmd_deg", "--controller", "kp=1"}).output,
+              Not(HasSubstr("warning")));
+}
+
 TEST_F(ImportLoop, AMissingValueOfTheReferenceIsNamedWithItsLine) {
   write("log.csv", "t_s,i_A,counts,cmd_deg\n0,0,0,1\n0.002,0,0,\n0.004,0,1,1\n");
   expect_refused(import({"--reference", "cmd_deg", "--controller", "kp=1"}),

@@ -158,13 +158,14 @@ inertia = 0.002
 [payload]
 mass = 0.05
 """
+ROTARY_TIP = -999 * ROTARY_GAIN  # -K2 - K4 per ms
 # voltage = K1 (reference - angle) - K2 tip - K3 velocity - K4 (rate of tip), K = 10, -1, 1, 1; the
 # state is the tip at the sample before, and the rate its backward difference over 1 ms.
 ROTARY_LAW = f"""sensor = ["hub_angle", "hub_velocity", "tip_deflection"]
 A = [[0.0]]
 B = [[0.0, 0.0, 0.0, 1.0]]
 C = [[{ROTARY_GAIN * 1000:.6g}]]
-D = [[{10 * ROTARY_GAIN:.6g}, {-10 * ROTARY_GAIN:.6g}, {-ROTARY_GAIN:.6g}, {-999 * ROTARY_GAIN:.8g}]]
+D = [[{10 * ROTARY_GAIN:.6g}, {-10 * ROTARY_GAIN:.6g}, {-ROTARY_GAIN:.6g}, {ROTARY_TIP:.8g}]]
 """
 ROTARY_RUNS = ["--time-unit", "ms", "--run", "up=344.9:349.8", "--run", "down=349.9:",
                "--validation", "down", "--torque", f"{ROTARY_GAIN}*[Output Voltage]",

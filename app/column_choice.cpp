@@ -45,10 +45,16 @@ std::vector<std::string> names_of(std::span<const ColumnLabel> columns) {
   return names;
 }
 
+/// NAME:UNIT:SCALE as typed; what is not typed is empty.
+struct TypedColumn {
+  std::size_t place = 0;
+  std::string_view name;
+  std::string_view unit;
+  std::string_view scale;
+};
+
 /// NAME, NAME:UNIT or NAME:UNIT:SCALE; a name may hold colons, so that the file tells which it is.
-ColumnMapping read_mapping(const std::string& quantity, std::string_view text,
-                           std::span<const ColumnLabel> columns) {
-  ColumnMapping mapping;
+TypedColumn read_column(std::string_view text, std::span<const ColumnLabel> columns) {
   const std::vector<std::string> names = names_of(columns);
   auto place = measured::column_place(names, text);
   std::string_view name = text;
@@ -63,38 +69,109 @@ ColumnMapping read_mapping(const std::string& quantity, std::string_view text,
     scale = colons == 1 ? std::string_view() : parts->second.substr(unit.size() + 1);
   }
   if (!place) throw measured::unknown_column(names, text.substr(0, text.find(':')));
-  const ColumnLabel& label = columns[*place];
-  // A name that several columns have is no place.
-  mapping.name = std::ranges::count(names, label.name) == 1 ? label.name : std::string(name);
-  mapping.unit = unit.empty() ? label.unit : measured::canonical_unit(unit);
+  return {*place, name, unit, scale};
+}
+
+/// As the file has it; a name that several columns have is no place.
+std::string name_of(const TypedColumn& typed, std::span<const ColumnLabel> columns) {
+  const std::string& name = columns[typed.place].name;
+  return std::ranges::count(columns, name, &ColumnLabel::name) == 1 ? name
+                                                                    : std::string(typed.name);
+}
+
+ColumnMapping mapping_of(const std::string& quantity, const TypedColumn& typed,
+                         std::span<const ColumnLabel> columns) {
+  ColumnMapping mapping;
+  mapping.name = name_of(typed, columns);
+  mapping.unit =
+      typed.unit.empty() ? columns[typed.place].unit : measured::canonical_unit(typed.unit);
   if (mapping.unit.empty()) mapping.unit = std::string(measured::si_unit_of(quantity));
-  mapping.scale =
-      scale.empty() ? measured::scale_of_unit(quantity, mapping.unit) : read_scale(scale);
-  measured::require_valid(quantity, mapping, !scale.empty());
+  mapping.scale = typed.scale.empty() ? measured::scale_of_unit(quantity, mapping.unit)
+                                      : read_scale(typed.scale);
+  measured::require_valid(quantity, mapping, !typed.scale.empty());
   return mapping;
 }
 
 /// QUANTITY or QUANTITY [UNIT] in front of the first =, the expression behind it.
-std::pair<std::string, ColumnMapping> read_computed(std::string_view text,
-                                                    std::span<const ColumnLabel> columns) {
+struct ComputedColumn {
+  std::string_view quantity;
+  std::string unit;  ///< empty: none typed
+  std::string expression;
+};
+
+ComputedColumn read_computed(std::string_view text) {
   const auto equals = text.find('=');
   if (equals == std::string_view::npos) {
     throw InputError("must be QUANTITY=EXPRESSION or QUANTITY [UNIT]=EXPRESSION");
   }
-  std::string_view front = measured::trimmed(text.substr(0, equals));
-  ColumnMapping mapping;
+  ComputedColumn computed;
+  computed.quantity = measured::trimmed(text.substr(0, equals));
+  std::string_view& front = computed.quantity;
   if (const auto open = front.find('['); open != std::string_view::npos && front.ends_with(']')) {
-    mapping.unit = measured::canonical_unit(front.substr(open + 1, front.size() - open - 2));
+    computed.unit = measured::canonical_unit(front.substr(open + 1, front.size() - open - 2));
     front = measured::trimmed(front.substr(0, open));
   }
-  std::string quantity = measured::standard_name(front);
-  if (mapping.unit.empty()) mapping.unit = std::string(measured::si_unit_of(quantity));
-  mapping.expression = std::string(measured::trimmed(text.substr(equals + 1)));
+  computed.expression = std::string(measured::trimmed(text.substr(equals + 1)));
+  return computed;
+}
+
+ColumnMapping mapping_of(const std::string& quantity, const ComputedColumn& computed,
+                         std::span<const ColumnLabel> columns) {
+  ColumnMapping mapping;
+  mapping.unit =
+      computed.unit.empty() ? std::string(measured::si_unit_of(quantity)) : computed.unit;
+  mapping.expression = computed.expression;
   if (mapping.expression.empty()) throw InputError("no expression behind =");
   measured::require_valid(quantity, mapping, false);
   mapping.scale = measured::scale_of_unit(quantity, mapping.unit);
   measured::columns_in(mapping.expression, names_of(columns));
-  return {std::move(quantity), std::move(mapping)};
+  return mapping;
+}
+
+/// "reference=...", "reference [deg]=...".
+bool is_of_reference(std::string_view text) {
+  const std::string_view front = text.substr(0, std::min(text.find('='), text.size()));
+  return front.size() < text.size() &&
+         measured::trimmed(front.substr(0, front.find('['))) == measured::kReferenceColumn;
+}
+
+/// What is typed of the reference.
+struct TypedReference {
+  std::string option;
+  std::string_view text;  ///< NAME:UNIT:SCALE, or QUANTITY [UNIT]=EXPRESSION
+  bool is_computed = false;
+};
+
+std::optional<TypedReference> typed_reference(const ColumnChoice& choice) {
+  std::vector<TypedReference> found;
+  if (!choice.reference.empty()) {
+    found.push_back(
+        {fmt::format("--reference {}", arm::shown(choice.reference)), choice.reference});
+  }
+  for (const std::string& text : choice.typed) {
+    if (!is_of_reference(text)) continue;
+    found.push_back({fmt::format("--column {}", arm::shown(text)),
+                     std::string_view(text).substr(text.find('=') + 1)});
+  }
+  for (const std::string& text : choice.computed) {
+    if (!is_of_reference(text)) continue;
+    found.push_back({fmt::format("--compute {}", arm::shown(text, 200)), text, true});
+  }
+  if (found.size() > 1) {
+    throw InputError(fmt::format("{}: reference given twice", found[1].option));
+  }
+  if (found.empty()) return std::nullopt;
+  return found.front();
+}
+
+/// The sensor in whose unit the reference is: of a state space the first that has the unit.
+arm::Sensor sensor_of_reference(const arm::Controller& controller, std::string_view unit) {
+  const auto& sensors = controller.sensors;
+  if (std::holds_alternative<arm::PidController>(controller.law)) return sensors.front();
+  const auto found = std::ranges::find_if(sensors, [&](const arm::Sensor& sensor) {
+    return measured::is_unit_of(arm::to_string(sensor), unit);
+  });
+  return found == sensors.end() ? sensors.front() : *found;
 }
 
 void add_mapping(measured::ColumnMappings& mappings, const std::string& quantity,
@@ -130,6 +207,7 @@ double read_scale(std::string_view text) {
 measured::ColumnMappings ColumnChoice::mappings(std::span<const ColumnLabel> columns) const {
   measured::ColumnMappings mappings;
   for (const auto& text : typed) {
+    if (is_of_reference(text)) continue;
     try {
       const auto equals = text.find('=');
       if (equals == std::string::npos) {
@@ -137,25 +215,72 @@ measured::ColumnMappings ColumnChoice::mappings(std::span<const ColumnLabel> col
       }
       const std::string quantity =
           measured::standard_name(std::string_view(text).substr(0, equals));
-      add_mapping(mappings, quantity,
-                  read_mapping(quantity, std::string_view(text).substr(equals + 1), columns));
+      const auto column = read_column(std::string_view(text).substr(equals + 1), columns);
+      add_mapping(mappings, quantity, mapping_of(quantity, column, columns));
     } catch (const InputError& error) {
       throw InputError(fmt::format("--column {}: {}", arm::shown(text), error.what()));
     }
   }
   const auto add_computed = [&](const char* option, const std::string& text) {
     try {
-      const auto [quantity, mapping] = read_computed(text, columns);
-      add_mapping(mappings, quantity, mapping);
+      const ComputedColumn column = read_computed(text);
+      const std::string quantity = measured::standard_name(column.quantity);
+      add_mapping(mappings, quantity, mapping_of(quantity, column, columns));
     } catch (const InputError& error) {
       throw InputError(fmt::format("{}: {}", option, error.what()));
     }
   };
   for (const auto& text : computed) {
+    if (is_of_reference(text)) continue;
     add_computed(fmt::format("--compute {}", arm::shown(text, 200)).c_str(), text);
   }
   if (!torque.empty()) add_computed("--torque", "torque=" + torque);
   return mappings;
+}
+
+std::string ColumnChoice::reference_option() const {
+  const auto typed_one = typed_reference(*this);
+  return typed_one ? typed_one->option : "";
+}
+
+std::optional<std::size_t> ColumnChoice::reference_place(
+    std::span<const ColumnLabel> columns) const {
+  const auto typed_one = typed_reference(*this);
+  if (typed_one->is_computed) return std::nullopt;
+  try {
+    return read_column(typed_one->text, columns).place;
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", typed_one->option, error.what()));
+  }
+}
+
+ReferenceColumn ColumnChoice::reference_column(std::span<const ColumnLabel> columns,
+                                               const measured::ColumnMappings& mappings,
+                                               const arm::Controller& controller) const {
+  const auto typed_one = typed_reference(*this);
+  try {
+    if (typed_one->is_computed) {
+      const ComputedColumn computed_one = read_computed(typed_one->text);
+      const arm::Sensor sensor = sensor_of_reference(controller, computed_one.unit);
+      return {sensor, mapping_of(arm::to_string(sensor), computed_one, columns)};
+    }
+    const TypedColumn column = read_column(typed_one->text, columns);
+    const std::string& told = columns[column.place].unit;
+    const auto of_sensor = mappings.find(arm::to_string(controller.sensors.front()));
+    const bool is_like_sensor =
+        column.unit.empty() && column.scale.empty() && of_sensor != mappings.end() &&
+        of_sensor->second.expression.empty() && (told.empty() || told == of_sensor->second.unit);
+    if (is_like_sensor) {
+      ColumnMapping mapping = of_sensor->second;
+      mapping.name = name_of(column, columns);
+      return {controller.sensors.front(), std::move(mapping)};
+    }
+    const std::string unit = column.unit.empty() ? told : measured::canonical_unit(column.unit);
+    const arm::Sensor sensor = sensor_of_reference(controller, unit);
+    return {sensor, mapping_of(arm::to_string(sensor), column, columns)};
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", typed_one->option, error.what()));
+  }
 }
 
 void ColumnChoice::set_time_unit(measured::ColumnMappings& mappings) const {
@@ -195,6 +320,12 @@ void add_column_choice(CLI::App& parser, ColumnChoice& choice) {
   parser
       .add_option("--time-unit", choice.time_unit,
                   "Unit of the time column instead of that of the file: s, ms, us, ...")
+      ->check(not_empty());
+  parser
+      .add_option("--reference", choice.reference,
+                  "NAME:UNIT:SCALE: column NAME is the reference of --controller; default of UNIT "
+                  "and SCALE: those of the sensor that the controller reads. A computed one: "
+                  "--compute reference=EXPRESSION")
       ->check(not_empty());
 }
 

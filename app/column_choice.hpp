@@ -1,7 +1,10 @@
 #pragma once
 
+#include "arm/controller.hpp"
 #include "measured/files/column_guess.hpp"
 
+#include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -13,16 +16,24 @@ class App;
 
 namespace flexarm::app {
 
-/// Which columns of a foreign file are what, as typed.
+/// The column with the reference of a closed loop; it is read like one of the sensor.
+struct ReferenceColumn {
+  arm::Sensor sensor;
+  measured::ColumnMapping mapping;
+};
+
+/// Which columns of a foreign file are what, as typed. The reference of a closed loop stands among
+/// them under the quantity "reference"; it is none of `mappings`.
 struct ColumnChoice {
   std::vector<std::string> typed;     ///< QUANTITY=NAME:UNIT:SCALE
   std::vector<std::string> computed;  ///< QUANTITY [UNIT]=EXPRESSION
   std::string torque;                 ///< an expression, in N m
   std::string time_unit;              ///< in place of that of the file
+  std::string reference;              ///< NAME:UNIT:SCALE
 
   /// Whether there is more than names, which frequency responses have too.
   bool is_for_signals() const {
-    return !computed.empty() || !torque.empty() || !time_unit.empty();
+    return !computed.empty() || !torque.empty() || !time_unit.empty() || !reference.empty();
   }
   bool empty() const { return typed.empty() && !is_for_signals(); }
 
@@ -30,11 +41,26 @@ struct ColumnChoice {
   /// cannot be read, and for columns that are not there (with the one that was probably meant).
   measured::ColumnMappings mappings(std::span<const measured::ColumnLabel> columns) const;
 
+  /// The option that states the reference; empty where none does. Throws InputError for two.
+  std::string reference_option() const;
+
+  /// The place of the column that is the reference; empty for a computed one. `reference_option`
+  /// is not empty. Throws InputError as `mappings`.
+  std::optional<std::size_t> reference_place(std::span<const measured::ColumnLabel> columns) const;
+
+  /// The reference of the controller, with the unit that it has in the file. Where none is typed,
+  /// unit and scale are those of the sensor that the controller reads first, among `mappings`,
+  /// unless the file tells another unit. Throws InputError as `mappings`, and for a unit that is
+  /// not the sensor's (of a state space: of none of its sensors).
+  ReferenceColumn reference_column(std::span<const measured::ColumnLabel> columns,
+                                   const measured::ColumnMappings& mappings,
+                                   const arm::Controller& controller) const;
+
   /// Puts `time_unit` into the mapping of the time. Throws InputError for a unit of no time.
   void set_time_unit(measured::ColumnMappings& mappings) const;
 };
 
-/// Adds `--column`, `--compute`, `--torque` and `--time-unit` to a command.
+/// Adds `--column`, `--compute`, `--torque`, `--time-unit` and `--reference` to a command.
 void add_column_choice(CLI::App& parser, ColumnChoice& choice);
 
 /// A product of numbers and of pi, as in "0.202*pi/180". Throws InputError for any other text.

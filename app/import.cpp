@@ -4,6 +4,7 @@
 #include "app/import_runs.hpp"
 #include "app/imported_file.hpp"
 #include "app/record_format.hpp"
+#include "app/run_choice.hpp"
 #include "app/standard_output.hpp"
 #include "app/starter_arm.hpp"
 #include "app/word.hpp"
@@ -39,6 +40,7 @@ struct ImportArguments {
   std::vector<std::string> files;
   FileChoice file;
   std::string kind;
+  std::string controller;
   RunsChoice runs;
   std::string arm_file;
   std::string folder;
@@ -115,8 +117,26 @@ void print_next(const ImportArguments& arguments, const std::vector<ImportedRun>
       arguments.arm_file.empty() ? "fill in the arm file, then  " : "modes of the arm with  "));
 }
 
-int run_import(const ImportArguments& arguments) {
+/// The controller that made the torque. Throws InputError for one without a reference, and the
+/// other way round.
+std::optional<arm::Controller> controller_of(const ImportArguments& arguments) {
+  const std::string reference = arguments.file.columns.reference_option();
+  if (arguments.controller.empty() && reference.empty()) return std::nullopt;
+  if (arguments.controller.empty()) {
+    throw arm::InputError(
+        fmt::format("{}: needs --controller, as in --controller kp=2.5,kd=0.1", reference));
+  }
+  if (reference.empty()) {
+    throw arm::InputError("--controller: needs the column with its reference, --reference COLUMN");
+  }
+  return read_controller(arguments.controller);
+}
+
+int run_import(const ImportArguments& typed) {
+  ImportArguments arguments = typed;
+  arguments.runs.controller = controller_of(arguments);
   FileChoice choice = arguments.file;
+  choice.controller = arguments.runs.controller;
   if (!arguments.kind.empty()) {
     choice.kind = read_word(
         "--kind", arguments.kind,
@@ -155,6 +175,12 @@ int run_import(const ImportArguments& arguments) {
 void add_file_options(CLI::App& parser, ImportArguments& arguments) {
   parser.add_option("FILE", arguments.files, "Input files")->required()->check(not_empty());
   add_column_choice(parser, arguments.file.columns);
+  parser
+      .add_option("--controller", arguments.controller,
+                  "Controller that made the torque of --reference: KEY=VALUE,... with sensor, kp, "
+                  "kd, ki, derivative (error or measurement), limit [N m] and sample_time [s], or "
+                  "a TOML file with these keys or A, B, C, D")
+      ->check(not_empty());
   parser.add_option("--kind", arguments.kind, "Content: time, frf or modal; default: detected");
   parser.add_option("--period", arguments.file.period_s,
                     "Sampling period [s] of a file without a time column");
@@ -190,7 +216,9 @@ Command add_import(CLI::App& program) {
       "Format of that file: csv, uff58, uff58b (binary) or mat; default: by its extension");
   parser->add_option("--json", arguments->json_file, "JSON file: content and assumptions")
       ->check(not_empty());
-  parser->footer(example("flexarm import simulated/bang-bang.csv --save-as bang-bang.uff"));
+  parser->footer(
+      example("flexarm import simulated/bang-bang.csv --reference reference "
+              "--controller kp=0.2,kd=0.01 --out measured"));
   return {parser, [arguments] { return run_import(*arguments); }};
 }
 

@@ -1,6 +1,7 @@
 #include "app/import_report.hpp"
 
 #include "arm/input_error.hpp"
+#include "measured/files/controller_keys.hpp"
 #include "report/json/json_document.hpp"
 #include "report/tables/text_table.hpp"
 
@@ -20,15 +21,17 @@ namespace {
 
 report::Table column_table(const ImportedFile& file) {
   report::Table table{"", {{"quantity"}, {"column"}, {"unit"}, {"scale"}}};
-  for (const auto& [quantity, mapping] : file.columns) {
+  const auto add = [&](const std::string& quantity, const measured::ColumnMapping& mapping) {
     table.add_row({quantity, mapping.expression.empty() ? mapping.name : "= " + mapping.expression,
                    mapping.unit, mapping.scale});
-  }
+  };
+  for (const auto& [quantity, mapping] : file.columns) add(quantity, mapping);
+  if (file.reference) add(std::string(measured::kReferenceColumn), file.reference->mapping);
   return table;
 }
 
-std::string counted(std::size_t count, const char* what) {
-  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+std::string counted(std::size_t count, const std::string& what) {
+  return fmt::format("{} {}", count, count == 1 ? what : what + "s");
 }
 
 /// "10000 samples, every 0.002 s, 4 sensors".
@@ -42,7 +45,7 @@ std::string size_of(const measured::RunData& data) {
     std::vector<std::string> parts;
     for (const auto& channel : frequency->channels) {
       parts.push_back(fmt::format("{} at {} from {:g} to {:g} Hz", arm::to_string(channel.sensor),
-                                  counted(channel.frequency_Hz.size(), "frequency"),
+                                  counted(channel.frequency_Hz.size(), "line"),
                                   channel.frequency_Hz.front(), channel.frequency_Hz.back()));
     }
     return fmt::format("{}", fmt::join(parts, "; "));
@@ -70,6 +73,13 @@ std::string import_text_of(const ImportedFile& file) {
 std::string import_text_of(const ImportedRun& run) {
   std::string out =
       report::to_paragraph(fmt::format("run {}: {}", run.run.id, size_of(run.data)), 4);
+  if (run.run.controller) {
+    const auto& reference = std::get<measured::TimeRecord>(run.data).reference;
+    out += report::to_paragraph(
+        fmt::format("  closed loop: controller {}, reference in {}",
+                    measured::format_controller(*run.run.controller), reference.unit),
+        4);
+  }
   for (const auto& note : run.notes) out += report::to_paragraph("  " + note, 4);
   return out;
 }
@@ -80,13 +90,15 @@ nlohmann::ordered_json text_or_null(std::string_view text) {
 
 nlohmann::ordered_json import_json_of(const ImportedFile& file) {
   nlohmann::ordered_json columns = nlohmann::ordered_json::array();
-  for (const auto& [quantity, mapping] : file.columns) {
+  const auto add = [&](std::string_view quantity, const measured::ColumnMapping& mapping) {
     columns.push_back({{"quantity", quantity},
                        {"name", text_or_null(mapping.name)},
                        {"expression", text_or_null(mapping.expression)},
                        {"unit", mapping.unit},
                        {"scale", mapping.scale}});
-  }
+  };
+  for (const auto& [quantity, mapping] : file.columns) add(quantity, mapping);
+  if (file.reference) add(measured::kReferenceColumn, file.reference->mapping);
   return {{"file", file.file},
           {"format", file.format},
           {"kind", to_string(file.kind)},
@@ -108,6 +120,8 @@ nlohmann::ordered_json import_json_of(const ImportedRun& run) {
       {"from_s", nullptr},
       {"torque_hold", nullptr},
       {"initial", nullptr},
+      {"controller", nullptr},
+      {"reference_unit", nullptr},
       {"notes", run.notes}};
   if (record == nullptr) return json;
   json["samples"] = record->time_s.size();
@@ -115,6 +129,8 @@ nlohmann::ordered_json import_json_of(const ImportedRun& run) {
   json["from_s"] = record->time_s.front();
   json["torque_hold"] = to_string(run.run.torque_hold);
   json["initial"] = to_string(run.run.initial);
+  if (run.run.controller) json["controller"] = measured::format_controller(*run.run.controller);
+  json["reference_unit"] = text_or_null(record->reference.unit);
   return json;
 }
 

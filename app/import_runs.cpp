@@ -16,6 +16,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstddef>
 #include <string_view>
 #include <utility>
 
@@ -101,7 +103,43 @@ measured::Run run_of(const RunsChoice& choice) {
     arm::require_in_range("--payload-inertia", inertia_kg_m2, "kg m^2", arm::kNotNegative);
     run.payload = arm::Payload{mass_kg, inertia_kg_m2};
   }
+  if (choice.controller) {
+    run.controller = choice.controller;
+    run.reference = measured::ColumnMapping{std::string(measured::kReferenceColumn), "", 1.0};
+  }
   return run;
+}
+
+/// Whether the controller's torque depends on what was before its first sample.
+bool has_memory(const arm::Controller& controller) {
+  if (const auto* law = std::get_if<arm::PidController>(&controller.law)) return law->ki != 0.0;
+  return !std::get<arm::StateSpaceController>(controller.law).a.empty();
+}
+
+/// Cuts the stretch in front of the first sample that the controller took, which it does at
+/// `file_start_s` and every period from there; a clock that was set back begins anew.
+void begin_with_controller(TimeRecord& stretch, std::vector<std::string>& notes,
+                           const arm::Controller& controller, double file_start_s) {
+  const double period_s = measured::sampling_period_s(stretch);
+  long samples_per_period = 1;
+  try {
+    samples_per_period = arm::samples_per_period(controller, period_s);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("--controller: {}", error.what()));
+  }
+  const double since_start_s = stretch.time_s.front() - file_start_s;
+  const long behind =
+      since_start_s < 0.0 ? 0 : std::lround(since_start_s / period_s) % samples_per_period;
+  if (behind == 0) return;
+  const auto skipped = static_cast<std::size_t>(samples_per_period - behind);
+  const std::size_t samples = stretch.time_s.size();
+  if (samples < skipped + 2) {
+    throw InputError(fmt::format("{} samples; the controller takes its first one after {} of them",
+                                 samples, skipped));
+  }
+  stretch = measured::samples_of(stretch, skipped, samples);
+  notes.push_back(fmt::format("{} sample{} left out in front of the first one of the controller",
+                              skipped, skipped == 1 ? "" : "s"));
 }
 
 /// The records that one part of a file becomes.
@@ -150,6 +188,13 @@ std::vector<ImportedRun> runs_of_part(const TimeRecord& record, const Part& part
       run.run.initial = InitialState::free;
       run.notes.emplace_back("initial state free: the run does not begin where the file does");
     }
+    if (choice.controller) {
+      begin_with_controller(stretch, run.notes, *choice.controller, record.time_s.front());
+      if (!is_start && has_memory(*choice.controller)) {
+        run.notes.emplace_back(
+            "the state of the controller at the first sample is not known and taken as 0");
+      }
+    }
     run.data = std::move(stretch);
     runs.push_back(std::move(run));
   }
@@ -177,6 +222,12 @@ void require_valid(const RunsChoice& choice, std::size_t files) {
           fmt::format("--fill-gaps {}: must be 0 or more", choice.longest_filled_gap));
   require(!choice.decimation || choice.hold != "zero",
           "--hold zero: not together with --decimate; a filtered torque has a first-order hold");
+  require(!choice.controller || choice.hold != "first",
+          "--hold first: not together with --controller, which holds its torque between its "
+          "samples");
+  require(!choice.controller || !choice.decimation,
+          "--decimate: not together with --controller; a filtered torque is not what the "
+          "controller commanded and held");
   run_of(choice);
   read_word("--clock", choice.clock, std::array{Clock::stamped, Clock::even});
   if (!choice.purpose.empty()) read_purpose(choice.purpose);

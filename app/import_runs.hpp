@@ -1,6 +1,7 @@
 #pragma once
 
 #include "app/imported_file.hpp"
+#include "arm/controller.hpp"
 #include "measured/files/measurement.hpp"
 
 #include <cstddef>
@@ -30,6 +31,7 @@ struct RunsChoice {
   std::vector<std::string> validation;  ///< ids of runs
   std::optional<double> payload_mass_kg;
   std::optional<double> payload_inertia_kg_m2;
+  std::optional<arm::Controller> controller;  ///< that made the torque of the files' references
 };
 
 /// A run of a measurement with its data.
@@ -43,8 +45,11 @@ struct ImportedRun {
 /// Throws InputError for what cannot be read, and for what does not go together.
 void require_valid(const RunsChoice& choice, std::size_t files);
 
-/// The runs of a file; `used_ids` are those of runs made before, and gets the new ones.
-/// Throws InputError for a range without samples, and what cannot be put on an even grid.
+/// The runs of a file; `used_ids` are those of runs made before, and gets the new ones. A run in
+/// closed loop begins with a sample of the controller: the first sample of the file, and every
+/// period of the controller from there.
+/// Throws InputError for a range without samples, what cannot be put on an even grid, and a
+/// controller whose period is no whole multiple of the record's.
 std::vector<ImportedRun> runs_of(const ImportedFile& file, const RunsChoice& choice,
                                  std::set<std::string>& used_ids);
 

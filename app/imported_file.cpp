@@ -169,15 +169,31 @@ void doubt_time(const FileChoice& choice, ImportedFile& imported) {
                                           doubt->evidence, remedy));
 }
 
+/// Each sensor that the controller reads and no column is.
+void warn_of_unrecorded(const arm::Controller& controller, ImportedFile& imported) {
+  for (const arm::Sensor& sensor : controller.sensors) {
+    const std::string name = arm::to_string(sensor);
+    if (imported.columns.contains(name)) continue;
+    imported.warnings.push_back(fmt::format(
+        "the controller reads {0}, which is no column; the loop cannot be simulated with these "
+        "data, but with the recorded torque; assign a column with --column {0}=NAME:UNIT:SCALE",
+        name));
+  }
+}
+
 void read_mapped(ForeignFile& file, const FileChoice& choice, ImportedFile& imported) {
   const std::string name = arm::shown(imported.file);
   const bool in_time = imported.kind == RunKind::time;
   if (in_time && choice.period_s) add_times(file.table, *choice.period_s);
-  if (!in_time && choice.columns.is_for_signals()) {
-    throw InputError("--compute, --torque, --time-unit: only for time signals");
+  if (!in_time && (choice.columns.is_for_signals() || choice.controller)) {
+    throw InputError("--compute, --torque, --time-unit, --reference: only for time signals");
   }
   const auto labels = labels_of(file, imported.kind);
-  auto guess = measured::guess_columns(labels, choice.columns.mappings(labels));
+  auto to_guess = labels;
+  const auto reference_place =
+      choice.controller ? choice.columns.reference_place(labels) : std::nullopt;
+  if (reference_place) to_guess[*reference_place].is_text = true;  // it is no other quantity
+  auto guess = measured::guess_columns(to_guess, choice.columns.mappings(labels));
   choice.columns.set_time_unit(guess.mappings);
   if (in_time) {
     require_told(guess.mappings, labels);
@@ -188,14 +204,26 @@ void read_mapped(ForeignFile& file, const FileChoice& choice, ImportedFile& impo
   }
   std::vector<std::string> names;
   for (const auto& label : labels) names.push_back(label.name);
-  const auto used = measured::places_used(guess.mappings, names);
+  auto used = measured::places_used(guess.mappings, names);
+  if (choice.controller) {
+    imported.reference =
+        choice.columns.reference_column(labels, guess.mappings, *choice.controller);
+    const auto more = measured::places_used({{"", imported.reference->mapping}}, names);
+    used.insert(used.end(), more.begin(), more.end());
+  }
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (std::ranges::count(used, i) == 0) imported.not_used.push_back(names[i]);
   }
   imported.assumptions.insert(imported.assumptions.end(), guess.notes.begin(), guess.notes.end());
   imported.columns = std::move(guess.mappings);
   if (in_time) {
-    imported.data = uneven_record_of(file.table, imported.columns, name);
+    measured::TimeRecord record = uneven_record_of(file.table, imported.columns, name);
+    if (imported.reference) {
+      const auto& [sensor, mapping] = *imported.reference;
+      record.reference = reference_of(file.table, mapping, sensor, record.time_s, name);
+      warn_of_unrecorded(*choice.controller, imported);
+    }
+    imported.data = std::move(record);
     doubt_time(choice, imported);
   } else {
     imported.data = frequency_record_of(file, imported.columns, name);
@@ -227,7 +255,8 @@ ImportedFile import_file(const std::string& path, const FileChoice& choice) {
     const bool is_long_form =
         imported.kind != RunKind::time && file.format == measured::ForeignFormat::text;
     if (is_long_form && !choice.columns.empty()) {
-      throw InputError("--column, --compute: not applicable, this file names its columns");
+      throw InputError(
+          "--column, --compute, --reference: not applicable, this file names its columns");
     }
     if (choice.period_s && imported.kind != RunKind::time) {
       throw InputError("--period: only for time signals");

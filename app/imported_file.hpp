@@ -1,6 +1,7 @@
 #pragma once
 
 #include "app/column_choice.hpp"
+#include "arm/controller.hpp"
 #include "measured/files/foreign_file.hpp"
 #include "measured/files/run_data.hpp"
 
@@ -15,8 +16,9 @@ namespace flexarm::app {
 struct FileChoice {
   std::optional<measured::RunKind> kind;  ///< empty: that of what the file holds
   ColumnChoice columns;
-  std::optional<double> period_s;          ///< makes the times of a file without any
-  std::optional<std::size_t> raw_columns;  ///< of a file of doubles
+  std::optional<arm::Controller> controller;  ///< given if and only if the reference is typed
+  std::optional<double> period_s;             ///< makes the times of a file without any
+  std::optional<std::size_t> raw_columns;     ///< of a file of doubles
 };
 
 /// What a foreign file was read as, and how.
@@ -24,11 +26,12 @@ struct ImportedFile {
   std::string file;
   std::string format;  ///< "delimited text", ...
   measured::RunKind kind = measured::RunKind::time;
-  measured::RunData data;                ///< a time record may be uneven
-  measured::ColumnMappings columns;      ///< that were used
-  std::vector<std::string> assumptions;  ///< a sentence each
-  std::vector<std::string> warnings;     ///< a sentence each
-  std::vector<std::string> not_used;     ///< columns and what else the file holds
+  measured::RunData data;                    ///< a time record may be uneven
+  measured::ColumnMappings columns;          ///< that were used
+  std::optional<ReferenceColumn> reference;  ///< of a time record in closed loop
+  std::vector<std::string> assumptions;      ///< a sentence each
+  std::vector<std::string> warnings;         ///< a sentence each
+  std::vector<std::string> not_used;         ///< columns and what else the file holds
 };
 
 /// Reads a file.

@@ -180,13 +180,6 @@ PlannedRun run_of_file(const std::string& file) {
           false};
 }
 
-arm::Controller read_controller(const std::string& text) {
-  if (text.find('=') != std::string::npos) {
-    return measured::parse_controller_keys(text, "--controller");
-  }
-  return measured::read_controller_file(text);
-}
-
 /// The run in closed loop whose reference would be the torque of `run`.
 PlannedRun in_closed_loop(PlannedRun run, const arm::Controller& controller) {
   const std::string unit(arm::unit(controller.sensors.front()));
@@ -235,6 +228,13 @@ void count_equal_ids(std::vector<PlannedRun>& runs) {
 }
 
 }  // namespace
+
+arm::Controller read_controller(const std::string& text) {
+  if (text.find('=') != std::string::npos) {
+    return measured::parse_controller_keys(text, "--controller");
+  }
+  return measured::read_controller_file(text);
+}
 
 std::string require_id(const std::string& id) {
   const bool is_hidden = id.starts_with('.');

@@ -62,6 +62,10 @@ struct RunChoice {
 inline constexpr double kDefaultDuration_s = 4.0;
 inline constexpr double kDefaultPeriod_s = 0.0005;
 
+/// What `--controller` states: KEY=VALUE,... or a TOML file. Throws InputError as
+/// measured/files/controller_keys.hpp.
+arm::Controller read_controller(const std::string& text);
+
 /// The id of a run, which names its files. Throws InputError for what is no name of a file.
 std::string require_id(const std::string& id);
 

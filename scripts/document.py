@@ -41,15 +41,19 @@ def write(path, text):
     os.replace(path + ".tmp", path)
 
 
-def arguments_of(usage, *more):
+def arguments_of(usage, *more, options=None):
     """Command line: the arguments `more`, each a name and its help, then `program` (default: that
-    of build/release). Ends the script with status 2 if it cannot be used."""
+    of build/release); `options`: each a list of words out of its choices, empty if not given.
+    Ends the script with status 2 if the program cannot be used."""
     parser = argparse.ArgumentParser(description=usage)
     for name, meaning in more:
         parser.add_argument(name, help=meaning)
     parser.add_argument("program", nargs="?", metavar="PROGRAM",
                         default=os.path.join(ROOT, "build/release/app/flexarm"),
                         help="default: build/release/app/flexarm")
+    for name, choices in (options or {}).items():
+        parser.add_argument(name, action="append", choices=choices, default=[],
+                            help="can be repeated; default: all")
     arguments = parser.parse_args()
     arguments.program = os.path.abspath(arguments.program)
     if not os.access(arguments.program, os.X_OK):

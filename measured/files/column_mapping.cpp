@@ -29,22 +29,29 @@ using arm::InputError;
 struct Source {
   std::string quantity;  ///< standard name
   ColumnMapping mapping;
+  std::string name = quantity;  ///< in an error
 };
+
+/// The place of the column of that name. Throws InputError where none has it, or several.
+std::size_t only_column(const ForeignTable& table, const std::string& name) {
+  const std::size_t place = find_column(table, name);
+  const auto alike = std::ranges::count(table.columns, name, &ForeignColumn::name);
+  if (alike > 1) {
+    throw InputError(
+        fmt::format("column {}: {} columns of the file have this name; take one by its number, as "
+                    "in #{}",
+                    arm::shown(name), alike, place + 1));
+  }
+  return place;
+}
 
 /// What each column of the table is, by its place.
 std::vector<std::optional<Source>> sources_of(const ForeignTable& table,
                                               const ColumnMappings& mappings) {
   std::vector<std::optional<Source>> sources(table.columns.size());
-  const std::vector<std::string> names = column_names(table);
   for (const auto& [quantity, mapping] : mappings) {
     if (!mapping.expression.empty()) continue;
-    const std::size_t place = find_column(table, mapping.name);
-    const auto alike = std::ranges::count(names, mapping.name);
-    if (alike > 1) {
-      throw InputError(fmt::format(
-          "column {}: {} columns of the file have this name; take one by its number, as in #{}",
-          arm::shown(mapping.name), alike, place + 1));
-    }
+    const std::size_t place = only_column(table, mapping.name);
     if (sources[place]) {
       throw InputError(fmt::format("column {}: assigned to {} and {}", arm::shown(mapping.name),
                                    sources[place]->quantity, quantity));
@@ -78,7 +85,7 @@ std::vector<double> si_values(const ForeignTable& table, const std::vector<doubl
     values.push_back(unit.to_si(numbers[row] * mapping.scale));
     if (std::isfinite(values.back())) continue;
     throw InputError(fmt::format(
-        "{}: {} = {}{}: must be a finite number", source.quantity, what, numbers[row],
+        "{}: {} = {}{}: must be a finite number", source.name, what, numbers[row],
         table.line_of_row.empty() ? fmt::format(" in row {}", row + 1) : " (or an empty cell)"));
   }
   row = 0;
@@ -90,7 +97,7 @@ std::vector<double> column_values(const ForeignTable& table, const ForeignColumn
   if (column.is_text()) {
     throw InputError(fmt::format("column {} = {}: not a number; {} must be numeric",
                                  arm::shown(column.name), arm::shown(column.texts.front()),
-                                 source.quantity));
+                                 source.name));
   }
   return si_values(table, column.values, "column " + arm::shown(column.name), source, row);
 }
@@ -110,7 +117,7 @@ std::vector<double> computed_values(const ForeignTable& table, const Source& sou
   try {
     numbers = evaluate_expression(expression, table, times_s);
   } catch (const InputError& error) {
-    throw InputError(fmt::format("{}: {}", source.quantity, error.what()));
+    throw InputError(fmt::format("{}: {}", source.name, error.what()));
   }
   return si_values(table, numbers, "expression " + arm::shown(expression), source, row);
 }
@@ -263,6 +270,33 @@ TimeRecord uneven_record_of(const ForeignTable& table, const ColumnMappings& map
     throw arm::located(error, file_name, in_row ? line_of(table, row) : 0);
   }
   return record;
+}
+
+Reference reference_of(const ForeignTable& table, const ColumnMapping& mapping,
+                       const arm::Sensor& sensor, std::span<const double> times_s,
+                       const std::string& file_name) {
+  const Source source{arm::to_string(sensor), mapping, std::string(kReferenceColumn)};
+  Reference reference{std::string(arm::unit(sensor)), {}};
+  std::size_t row = 0;
+  bool in_row = false;
+  try {
+    if (mapping.expression.empty()) {
+      const ForeignColumn& column = table.columns[only_column(table, mapping.name)];
+      in_row = true;
+      reference.values = column_values(table, column, source, row);
+    } else {
+      in_row = true;
+      reference.values = computed_values(table, source, times_s, row);
+    }
+    in_row = false;
+    if (reference.values.size() != times_s.size()) {
+      throw InputError(fmt::format("{}: {} values; the time has {}", kReferenceColumn,
+                                   reference.values.size(), times_s.size()));
+    }
+  } catch (const InputError& error) {
+    throw arm::located(error, file_name, in_row ? line_of(table, row) : 0);
+  }
+  return reference;
 }
 
 TimeRecord time_record_of(const ForeignTable& table, const ColumnMappings& mappings,

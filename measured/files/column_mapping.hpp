@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -79,7 +80,14 @@ std::vector<std::size_t> places_used(const ColumnMappings& mappings,
 TimeRecord uneven_record_of(const ForeignTable& table, const ColumnMappings& mappings,
                             const std::string& file_name);
 
-/// The same. Throws InputError also for times that `grid_fault` finds fault with.
+/// The reference of a closed loop in such a log, a value a row, in the SI unit of the `sensor` that
+/// the controller reads: `mapping` is that of a column of this sensor. `times_s` are those of the
+/// rows. Throws InputError `FILE:LINE: reference: ...` as `uneven_record_of`.
+Reference reference_of(const ForeignTable& table, const ColumnMapping& mapping,
+                       const arm::Sensor& sensor, std::span<const double> times_s,
+                       const std::string& file_name);
+
+/// `uneven_record_of`. Throws InputError also for times that `grid_fault` finds fault with.
 TimeRecord time_record_of(const ForeignTable& table, const ColumnMappings& mappings,
                           const std::string& file_name);
 

@@ -83,18 +83,18 @@ std::vector<double> fitted_times(std::span<const double> times_s, const ClockSte
   return fitted;
 }
 
-/// Mean of the held torque over [from_s, from_s + period_s); `i` is the sample that holds at
-/// from_s.
-double mean_of_held(const TimeRecord& record, double from_s, double period_s, std::size_t& i) {
-  const auto& times_s = record.time_s;
+/// Mean over [from_s, from_s + period_s) of what is held from sample to sample; `i` is the sample
+/// that holds at from_s.
+double mean_of_held(const std::vector<double>& times_s, const std::vector<double>& values,
+                    double from_s, double period_s, std::size_t& i) {
   while (i + 1 < times_s.size() && times_s[i + 1] <= from_s) ++i;
   const double to_s = from_s + period_s;
-  double impulse = 0.0;
+  double integral = 0.0;
   for (std::size_t j = i; j < times_s.size() && times_s[j] < to_s; ++j) {
     const double end_s = j + 1 < times_s.size() ? std::min(times_s[j + 1], to_s) : to_s;
-    impulse += record.torque_N_m[j] * (end_s - std::max(times_s[j], from_s));
+    integral += values[j] * (end_s - std::max(times_s[j], from_s));
   }
-  return impulse / period_s;
+  return integral / period_s;
 }
 
 double linear_at(const TimeRecord& record, double time_s, std::size_t& i) {
@@ -156,11 +156,25 @@ TimeRecord resampled(const TimeRecord& record, double period_s, TorqueHold hold)
   // A last time that lies on the grid but for rounding is a sample of it.
   const double steps = std::floor((last_s - first_s) / period_s + kDigitError);
   TimeRecord even{grid_from(first_s, period_s, static_cast<std::size_t>(steps) + 1), {}, {}};
+  const auto means_of = [&](const std::vector<double>& values) {
+    std::vector<double> means;
+    std::size_t i = 0;
+    for (const double time_s : even.time_s) {
+      means.push_back(mean_of_held(record.time_s, values, time_s, period_s, i));
+    }
+    return means;
+  };
   std::size_t i = 0;
-  for (const double time_s : even.time_s) {
-    even.torque_N_m.push_back(hold == TorqueHold::zero
-                                  ? mean_of_held(record, time_s, period_s, i)
-                                  : linear_at(record, std::min(time_s, last_s), i));
+  if (hold == TorqueHold::zero) {
+    even.torque_N_m = means_of(record.torque_N_m);
+  } else {
+    for (const double time_s : even.time_s) {
+      even.torque_N_m.push_back(linear_at(record, std::min(time_s, last_s), i));
+    }
+  }
+  even.reference.unit = record.reference.unit;
+  if (!record.reference.values.empty()) {
+    even.reference.values = means_of(record.reference.values);
   }
   for (const auto& channel : record.channels) {
     const Nodes nodes = nodes_of(record.time_s, channel.values, period_s);
@@ -262,6 +276,7 @@ class EvenMaker {
     thin(part.time_s);
     thin(part.torque_N_m);
     for (auto& channel : part.channels) thin(channel.values);
+    if (!part.reference.values.empty()) thin(part.reference.values);
   }
 
   /// A record without long gaps.
@@ -289,11 +304,13 @@ class EvenMaker {
                     jitter.most_periods, jitter.period_s, jitter.rms_periods);
     if (is_jittery && options_.clock == Clock::stamped) {
       note(measured +
-           fmt::format("; resampled to an even grid of period {:.6g} s: sensors by cubic "
-                       "interpolation, the torque {}",
-                       steps.period_s,
-                       options_.torque_hold == TorqueHold::zero ? "by its mean over each step"
-                                                                : "linearly"));
+           fmt::format(
+               "; resampled to an even grid of period {:.6g} s: sensors by cubic "
+               "interpolation, the torque {}{}",
+               steps.period_s,
+               options_.torque_hold == TorqueHold::zero ? "by its mean over each step" : "linearly",
+               stretch.reference.values.empty() ? ""
+                                                : ", the reference by its mean over each step"));
       out_.stretches.push_back(resampled(stretch, steps.period_s, options_.torque_hold));
       return;
     }

@@ -44,8 +44,9 @@ struct EvenRecords {
 /// - A stretch that is uneven by more than `kMostJitter_periods` is resampled to its median period:
 ///   sensors by the cubic through the four nearest samples, where samples closer than 0.3 periods
 ///   count as one, their mean; a torque of zero-order hold by its mean over each new step, which
-///   keeps its impulse; one of first-order hold linearly. With `Clock::even` the times alone are
-///   replaced.
+///   keeps its impulse; one of first-order hold linearly. A reference is held like the torque that
+///   a controller makes of it, and so is its mean over each new step. With `Clock::even` the times
+///   alone are replaced.
 ///
 /// `record` has two samples or more. Throws InputError where no stretch is long enough.
 EvenRecords make_even(const TimeRecord& record, const EvenOptions& options = {});

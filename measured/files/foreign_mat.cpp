@@ -65,6 +65,10 @@ void read_time_variables(const std::vector<MatVariable>& variables, ForeignFile&
                        split_column_name(headers[j]).unit,
                        {begin, begin + static_cast<std::ptrdiff_t>(values.rows)}});
   }
+  if (const auto* reference = find<MatMatrix>(variables, "reference")) {
+    const auto& unit = require<std::string>(variables, "reference_unit");
+    columns.push_back({fmt::format("{} [{}]", kReferenceColumn, unit), unit, reference->values});
+  }
 }
 
 void read_frequency_variables(const std::vector<MatVariable>& variables, ForeignFile& file) {

@@ -1,6 +1,7 @@
 #include "measured/files/key_values.hpp"
 
 #include "arm/input_error.hpp"
+#include "measured/files/delimited_line.hpp"
 
 #include <fmt/format.h>
 
@@ -12,17 +13,17 @@ KeyValues read_key_values(std::string_view text, std::string_view allowed) {
   KeyValues read;
   while (!text.empty()) {
     const auto comma = std::min(text.find(','), text.size());
-    const std::string_view part = text.substr(0, comma);
+    const std::string_view part = trimmed(text.substr(0, comma));
     text.remove_prefix(std::min(comma + 1, text.size()));
     const auto equals = part.find('=');
     if (equals == std::string_view::npos) {
       throw arm::InputError(fmt::format("{}: must be {}", arm::shown(part), allowed));
     }
-    const std::string key(part.substr(0, equals));
+    const std::string key(trimmed(part.substr(0, equals)));
     if (std::ranges::count(read, key, &KeyValues::value_type::first) > 0) {
       throw arm::InputError(fmt::format("{}: given twice", arm::shown(key)));
     }
-    read.emplace_back(key, part.substr(equals + 1));
+    read.emplace_back(key, trimmed(part.substr(equals + 1)));
   }
   return read;
 }

@@ -180,6 +180,7 @@ class MeasurementReader : measured::TomlFaults {
     const auto of_sensor = run.columns.find(sensor);
     run.reference = of_sensor == run.columns.end() ? ColumnMapping() : of_sensor->second;
     run.reference->name.clear();
+    run.reference->expression.clear();
     read_text(kKey, node, "the quoted name of a column, or a table, as in { name = \"Cmd\", unit = "
               "\"deg\" }", run.reference->name);
   }

@@ -83,6 +83,12 @@ std::vector<UniversalFunction> universal_functions(const TimeRecord& record) {
   for (const auto& channel : record.channels) {
     add(header_of(channel.sensor), sensor_axis(channel.sensor), channel.values);
   }
+  const Reference& reference = record.reference;
+  if (!reference.values.empty()) {
+    const std::string name(kReferenceColumn);
+    add(fmt::format("{} [{}]", name, reference.unit), {kGeneral, 0, 0, 0, name, reference.unit},
+        reference.values);
+  }
   return functions;
 }
 
@@ -120,6 +126,10 @@ std::vector<MatVariable> mat_variables(const TimeRecord& record) {
     values.values.insert(values.values.end(), channel.values.begin(), channel.values.end());
   }
   variables.push_back({"values", std::move(values)});
+  if (!record.reference.values.empty()) {
+    variables.push_back({"reference", column_of(record.reference.values)});
+    variables.push_back({"reference_unit", record.reference.unit});
+  }
   return variables;
 }
 

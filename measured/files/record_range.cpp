@@ -52,6 +52,8 @@ TimeRecord samples_of(const TimeRecord& record, std::size_t first, std::size_t l
   for (const auto& channel : record.channels) {
     samples.channels.push_back({channel.sensor, part(channel.values)});
   }
+  samples.reference.unit = record.reference.unit;
+  if (!record.reference.values.empty()) samples.reference.values = part(record.reference.values);
   return samples;
 }
 

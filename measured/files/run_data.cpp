@@ -1,11 +1,11 @@
 #include "measured/files/run_data.hpp"
 
 #include "arm/input_error.hpp"
+#include "measured/files/column_expression.hpp"
 #include "measured/files/foreign_table.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -17,30 +17,28 @@ namespace {
 
 using arm::InputError;
 
-/// The reference is the column of a log, read as the sensor's that the controller reads first.
-Reference reference_of(const ForeignTable& table, const Run& run, const std::string& file_name) {
-  const arm::Sensor sensor = run.controller->sensors.front();
-  ColumnMappings columns = run.columns;
-  std::erase_if(columns, [](const auto& named) { return sensor_of(named.first).has_value(); });
-  columns.emplace(arm::to_string(sensor), *run.reference);
-  TimeRecord record = time_record_of(table, columns, file_name);
-  const auto channel = std::ranges::find(record.channels, sensor, &Channel::sensor);
-  return {std::string(arm::unit(sensor)), std::move(channel->values)};
-}
-
 TimeRecord read_log(const std::filesystem::path& file, const Run& run) {
   const ForeignTable table = read_foreign_table(file);
   const std::string file_name = arm::shown(file.string());
   TimeRecord record = time_record_of(table, run.columns, file_name);
   if (!run.reference) return record;
+  const ColumnMapping& reference = *run.reference;
   try {
-    find_column(table, run.reference->name);
+    if (reference.expression.empty()) {
+      find_column(table, reference.name);
+    } else {
+      columns_in(reference.expression, column_names(table));
+    }
   } catch (const InputError& error) {
-    throw InputError(fmt::format("reference = \"{}\": {}", arm::shown(run.reference->name),
-                                 error.what()),
-                     "reference");
+    throw InputError(
+        reference.expression.empty()
+            ? fmt::format("reference = \"{}\": {}", arm::shown(reference.name), error.what())
+            : fmt::format("reference.{}", error.what()),
+        "reference");
   }
-  record.reference = reference_of(table, run, file_name);
+  // It is read as the sensor that the controller reads first.
+  record.reference =
+      reference_of(table, reference, run.controller->sensors.front(), record.time_s, file_name);
   return record;
 }
 

@@ -194,7 +194,7 @@ TEST_F(Import, FrequencyRecordsAndModalTablesAreReadToo) {
   ASSERT_EQ(import({"f.uff", "--out", "g"}).status, 0);
   EXPECT_EQ(run_in("g"), run_in("f"));
   expect_refused(import({"f.uff", "--time-unit", "ms"}),
-                 "--compute, --torque, --time-unit: only for time signals");
+                 "--compute, --torque, --time-unit, --reference: only for time signals");
   write("m.csv", "sensor,feature,order,frequency [Hz]\n,pole,1,11.8\nhub_angle,zero,1,2.9\n");
   ASSERT_EQ(import({"m.csv", "--out", "m"}).status, 0);
   EXPECT_EQ(std::get<measured::ModalTable>(run_in("m")).size(), 2U);
@@ -242,10 +242,11 @@ TEST_F(Import, WhatCannotBeUsedIsOneLine) {
 
 TEST_F(Import, TheExampleOfTheHelpWorks) {
   const Ended help = import({"--help"});
-  run({"simulate", "--duration", "1", "--period", "0.002", "--out", "simulated"});
+  run({"simulate", "--duration", "1", "--period", "0.002", "--reference", "bang-bang",
+       "--controller", "kp=0.2,kd=0.01", "--out", "simulated"});
   const Ended ended = run(example_in(help.output));
   EXPECT_EQ(ended.status, 0) << ended.errors;
-  EXPECT_THAT(ended.output, HasSubstr("wrote bang-bang.uff"));
+  EXPECT_THAT(ended.output, HasSubstr("wrote measured: measurement.toml"));
 }
 
 }  // namespace

@@ -254,6 +254,22 @@ TEST_F(LoopFolder, ALogHasItsReferenceByItsColumn) {
       "has t, u, enc, Cmd");
 }
 
+TEST_F(LoopFolder, AReferenceOfALogMayBeComputed) {
+  write("a.csv", "t;u;enc;Cmd\n0;1;0;90\n0.002;-2;-90;180\n");
+  const std::string columns =
+      "columns = { time = { name = \"t\" }, torque = { name = \"u\" }, hub_angle = { expression = "
+      "\"2*enc\", unit = \"deg\" } }\n";
+  const TimeRecord computed = read(
+      kLoopHead + columns + "reference = { expression = \"Cmd + enc\", unit = \"deg\" }\n" + kPid);
+  EXPECT_THAT(computed.reference.values, ElementsAre(std::numbers::pi / 2, std::numbers::pi / 2));
+  // The column in the unit of the sensor, not what the sensor is computed from.
+  const TimeRecord named = read(kLoopHead + columns + "reference = \"Cmd\"\n" + kPid);
+  EXPECT_THAT(named.reference.values, ElementsAre(std::numbers::pi / 2, std::numbers::pi));
+  EXPECT_EQ(refusal(kLoopHead + columns + "reference = { expression = \"2*cmd\" }\n" + kPid),
+            "m.toml:7: run.reference.expression = 2*cmd: column cmd: not in the file (did you mean "
+            "Cmd?); it has t, u, enc, Cmd");
+}
+
 TEST_F(LoopFolder, WhatTheRecordDoesNotFitIsSaidWithTheLineOfTheKey) {
   write("a.csv", "time [s],torque [N m],hub_angle [rad]\n0,1,0\n0.002,2,0.1\n");
   EXPECT_EQ(refusal(kLoopHead + kReferenceLine + kPid),

@@ -48,6 +48,36 @@ double angle_error(const TimeRecord& record) {
   return error;
 }
 
+/// A reference is held, and where it steps no sample of it overshoots: it is the mean over the
+/// step.
+TEST(EvenRecord, AReferenceIsHeldLikeTheTorque) {
+  TimeRecord record =
+      record_at(times_of(200, [](int k) { return (k + (k % 3 == 1 ? 0.2 : 0.0)) * kPeriod_s; }));
+  for (std::size_t k = 0; k < record.time_s.size(); ++k) {
+    record.reference.values.push_back(3.0 * record.torque_N_m[k]);
+  }
+  record.reference.unit = "rad";
+  const EvenRecords even = make_even(record);
+  ASSERT_EQ(even.stretches.size(), 1U);
+  EXPECT_THAT(even.notes[0], HasSubstr(", the reference by its mean over each step"));
+  const TimeRecord& made = even.stretches[0];
+  EXPECT_EQ(made.reference.unit, "rad");
+  ASSERT_EQ(made.reference.values.size(), made.torque_N_m.size());
+  for (std::size_t k = 0; k < made.torque_N_m.size(); ++k) {
+    EXPECT_NEAR(made.reference.values[k], 3.0 * made.torque_N_m[k], 1e-9);
+  }
+}
+
+TEST(EvenRecord, ARepeatedSampleIsLeftOutOfTheReferenceToo) {
+  TimeRecord record =
+      record_at(times_of(100, [](int k) { return (k < 50 ? k : k - 1) * kPeriod_s; }));
+  record.reference = {"rad", record.torque_N_m};
+  const EvenRecords even = make_even(record);
+  ASSERT_EQ(even.stretches.size(), 1U);
+  EXPECT_EQ(even.stretches[0].reference.values, even.stretches[0].torque_N_m);
+  EXPECT_EQ(even.stretches[0].reference.values.size(), 99U);
+}
+
 TEST(EvenRecord, AnEvenOneIsReturnedBitForBit) {
   const TimeRecord record = record_at(times_of(50, [](int k) { return k * kPeriod_s; }));
   const EvenRecords even = make_even(record);

@@ -82,6 +82,22 @@ TEST(Decimation, ARecordThatIsTooShortIsRefused) {
   }
 }
 
+/// No controller makes a filtered torque of a reference.
+TEST(Decimation, LeavesAReferenceOut) {
+  TimeRecord record = sines(1.0, 1.0, 2000);
+  record.reference = {"rad", record.torque_N_m};
+  EXPECT_EQ(decimated(record, 5).reference, Reference());
+}
+
+TEST(RecordRange, HasTheReferenceOfItsSamples) {
+  TimeRecord record = sines(1.0, 2.0, 100);
+  record.reference = {"rad/s", record.time_s};
+  std::size_t first = 0;
+  const TimeRecord part = part_of(record, parse_range("11:20", true), first);
+  EXPECT_EQ(part.reference.unit, "rad/s");
+  EXPECT_EQ(part.reference.values, part.time_s);
+}
+
 TEST(RecordRange, IsOfRowsOrTimes) {
   const TimeRecord record = sines(1.0, 2.0, 100);
   std::size_t first = 0;

@@ -33,19 +33,19 @@ double correlation(const Eigen::VectorXd& values, Index lag) {
   return values.head(rest).dot(values.tail(rest)) / values.squaredNorm();
 }
 
-constexpr Index kCount = 4000;
+constexpr Index kNoiseLength = 4000;
 /// A correlation of independent numbers varies by 1/sqrt(n); five standard deviations.
-const double kCorrelationOfNone = 5.0 / std::sqrt(static_cast<double>(kCount));
+const double kCorrelationOfNone = 5.0 / std::sqrt(static_cast<double>(kNoiseLength));
 
 TEST(Autoregression, LeavesIndependentNumbersOfUnitVariance) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-    Eigen::VectorXd values = resonant_noise(kCount, seed);
+    Eigen::VectorXd values = resonant_noise(kNoiseLength, seed);
     const Autoregression noise(values, 20);
     EXPECT_GE(noise.order(), 2) << seed;
     EXPECT_GT(correlation(values, 1), 0.8) << seed;
     noise.whiten(values);
     // The root mean square of n normal numbers varies by 1/sqrt(2 n); five standard deviations.
-    EXPECT_NEAR(values.norm() / std::sqrt(kCount), 1.0, 5.0 / std::sqrt(2.0 * kCount)) << seed;
+    EXPECT_NEAR(values.norm() / std::sqrt(kNoiseLength), 1.0, 5.0 / std::sqrt(2.0 * kNoiseLength)) << seed;
     for (Index lag = 1; lag <= 10; ++lag) {
       EXPECT_NEAR(correlation(values, lag), 0.0, kCorrelationOfNone) << seed << ", lag " << lag;
     }
@@ -54,7 +54,7 @@ TEST(Autoregression, LeavesIndependentNumbersOfUnitVariance) {
 
 TEST(Autoregression, PredictsFromTheTwoNumbersBefore) {
   // The answer to a single number: 1, -a_1, -a_2 over the deviation of the innovations.
-  const Autoregression noise(resonant_noise(kCount, 3), 2);
+  const Autoregression noise(resonant_noise(kNoiseLength, 3), 2);
   ASSERT_EQ(noise.order(), 2);
   Eigen::VectorXd pulse = Eigen::VectorXd::Zero(6);
   pulse(2) = 1.0;
@@ -69,7 +69,7 @@ TEST(Autoregression, PredictsFromTheTwoNumbersBefore) {
 TEST(Autoregression, OfWhiteNoiseChangesLittle) {
   std::mt19937_64 engine(8);
   std::normal_distribution<double> normal;
-  Eigen::VectorXd values = Eigen::VectorXd::NullaryExpr(kCount, [&] { return normal(engine); });
+  Eigen::VectorXd values = Eigen::VectorXd::NullaryExpr(kNoiseLength, [&] { return normal(engine); });
   const Eigen::VectorXd before = values;
   const Autoregression noise(values, 20);
   noise.whiten(values);

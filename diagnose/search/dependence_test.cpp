@@ -1,5 +1,6 @@
 #include "diagnose/search/dependence_test.hpp"
 
+#include "diagnose/search/hub_torque_probes.hpp"
 #include "diagnose/search/residual_test.hpp"
 
 #include <Eigen/QR>
@@ -153,13 +154,15 @@ std::optional<ScoredRuns> scored(const Problem& problem, const Candidate& fitted
 
 }  // namespace
 
-Dependence test_dependence(const Problem& problem, const Candidate& fitted,
+DependenceTest test_dependence(const Problem& problem, const Candidate& fitted,
                            const std::vector<Hypothesis>& hypotheses, ReportedWork& work) {
   std::vector<Candidate> changed;
-  for (const Hypothesis& hypothesis : hypotheses) {
-    if (fitted.has_effect(hypothesis.effect)) continue;
-    for (const auto& values : probes_of(hypothesis)) {
-      changed.push_back(fitted.with(hypothesis, values));
+  for (const auto& all : {hypotheses, hub_torque_probes(problem.experiment())}) {
+    for (const Hypothesis& hypothesis : all) {
+      if (fitted.has_effect(hypothesis.effect)) continue;
+      for (const auto& values : probes_of(hypothesis)) {
+        changed.push_back(fitted.with(hypothesis, values));
+      }
     }
   }
   const std::array sets = {scored(problem, fitted, problem.estimation_runs()),

@@ -8,7 +8,7 @@
 
 namespace flexarm::diagnose {
 
-struct Dependence {
+struct DependenceTest {
   double p_value = 1.0;
   /// Part of the squares of the errors, in standard deviations without whitening, along the change
   /// that some hypothesis makes: the largest.
@@ -21,12 +21,13 @@ struct Dependence {
 ///
 /// Score tests [Rao1948] of every hypothesis that the candidate has not: where d is what it changes
 /// of the residuals r at some value, beyond what refitting the candidate takes of that change,
-/// z = d^T r/|d| is standard normal. By output error also a regression on the recorded torque up to
-/// the sample, channel by channel, whose sum of squares is chi-squared: for what no effect of the
-/// library describes. A dependence of `kNegligibleDependence` of the signal counts as none. The
-/// p-value is the least of all tests, of the estimation and of the validation runs, after
-/// Bonferroni. Throws Cancelled where the work is cancelled.
-Dependence test_dependence(const Problem& problem, const Candidate& fitted,
+/// z = d^T r/|d| is standard normal. For what no hypothesis describes, the same tests of laws of
+/// hub torque of any shape (hub_torque_probes.hpp), and by output error a regression on the
+/// recorded torque up to the sample, channel by channel, whose sum of squares is chi-squared. A
+/// dependence of `kNegligibleDependence` of the signal counts as none. The p-value is the least of
+/// all tests, of the estimation and of the validation runs, after Bonferroni. Throws Cancelled
+/// where the work is cancelled.
+DependenceTest test_dependence(const Problem& problem, const Candidate& fitted,
                            const std::vector<Hypothesis>& hypotheses, ReportedWork& work);
 
 /// Root mean square, relative to the signal: the errors of two simulations are less alike than they

@@ -1,3 +1,5 @@
+#include "arm/given_effects.hpp"
+#include "arm/hub_torque_table.hpp"
 #include "diagnose/diagnosis.hpp"
 #include "diagnose/search/dependence_test.hpp"
 #include "effects/registry/vocabulary.hpp"
@@ -155,12 +157,18 @@ TEST(Dependence, IsSeenOfWhatAnEffectChangesAndNotOfNoise) {
     ReportedWork work(none);
     return test_dependence(*coloured, coloured->as_filed(), named(experiment, kSearched), work);
   };
-  const Dependence of_noise = dependence({});
+  const DependenceTest of_noise = dependence({});
   EXPECT_GT(of_noise.p_value, 0.01);
   EXPECT_LT(of_noise.largest_share, 0.2);
-  const Dependence of_gain = dependence({effects::named("torque_gain", {{"factor", 0.9}})});
+  const DependenceTest of_gain = dependence({effects::named("torque_gain", {{"factor", 0.9}})});
   EXPECT_LT(of_gain.p_value, 1e-6);
   EXPECT_GT(of_gain.largest_share, 0.8);
+  // A cable that pulls beyond 0.05 rad: no effect of `kSearched`.
+  const arm::HubTorqueTable cable{.angle_rad = {-0.3, -0.05, 0.05, 0.3},
+                                  .torque_N_m = {0.05, 0.0, 0.0, -0.05}};
+  const DependenceTest of_law = dependence(
+      {{std::string(arm::kHubTorqueTable), {.definition = arm::define_effect(cable)}}});
+  EXPECT_LT(of_law.p_value, 1e-6);
 }
 
 }  // namespace

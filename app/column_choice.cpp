@@ -238,6 +238,20 @@ measured::ColumnMappings ColumnChoice::mappings(std::span<const ColumnLabel> col
   return mappings;
 }
 
+std::vector<std::size_t> ColumnChoice::left_out_places(
+    std::span<const ColumnLabel> columns) const {
+  std::vector<std::size_t> places;
+  for (const auto& name : left_out) {
+    const auto place = measured::column_place(names_of(columns), name);
+    if (!place) {
+      throw InputError(
+          fmt::format("--leave-out: {}", measured::unknown_column(names_of(columns), name).what()));
+    }
+    places.push_back(*place);
+  }
+  return places;
+}
+
 std::string ColumnChoice::reference_option() const {
   const auto typed_one = typed_reference(*this);
   return typed_one ? typed_one->option : "";
@@ -327,6 +341,11 @@ void add_column_choice(CLI::App& parser, ColumnChoice& choice) {
                   "and SCALE: those of the sensor that the controller reads. A computed one: "
                   "--compute reference=EXPRESSION")
       ->check(not_empty());
+  parser
+      .add_option("--leave-out", choice.left_out,
+                  "Column that is not imported although its name tells a quantity. Repeat for more")
+      ->check(not_empty())
+      ->allow_extra_args(false);
 }
 
 }  // namespace flexarm::app

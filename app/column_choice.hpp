@@ -30,16 +30,20 @@ struct ColumnChoice {
   std::string torque;                 ///< an expression, in N m
   std::string time_unit;              ///< in place of that of the file
   std::string reference;              ///< NAME:UNIT:SCALE
+  std::vector<std::string> left_out;  ///< names of columns that no quantity is guessed of
 
   /// Whether there is more than names, which frequency responses have too.
   bool is_for_signals() const {
     return !computed.empty() || !torque.empty() || !time_unit.empty() || !reference.empty();
   }
-  bool empty() const { return typed.empty() && !is_for_signals(); }
+  bool empty() const { return typed.empty() && left_out.empty() && !is_for_signals(); }
 
   /// The mappings; what is not typed of a unit is the file's, or SI. Throws InputError for what
   /// cannot be read, and for columns that are not there (with the one that was probably meant).
   measured::ColumnMappings mappings(std::span<const measured::ColumnLabel> columns) const;
+
+  /// The places of the columns that are left out. Throws InputError for one that is not there.
+  std::vector<std::size_t> left_out_places(std::span<const measured::ColumnLabel> columns) const;
 
   /// The option that states the reference; empty where none does. Throws InputError for two.
   std::string reference_option() const;
@@ -60,7 +64,8 @@ struct ColumnChoice {
   void set_time_unit(measured::ColumnMappings& mappings) const;
 };
 
-/// Adds `--column`, `--compute`, `--torque`, `--time-unit` and `--reference` to a command.
+/// Adds `--column`, `--compute`, `--torque`, `--time-unit`, `--reference` and `--leave-out` to a
+/// command.
 void add_column_choice(CLI::App& parser, ColumnChoice& choice);
 
 /// A product of numbers and of pi, as in "0.202*pi/180". Throws InputError for any other text.

@@ -190,9 +190,11 @@ void read_mapped(ForeignFile& file, const FileChoice& choice, ImportedFile& impo
   }
   const auto labels = labels_of(file, imported.kind);
   auto to_guess = labels;
-  const auto reference_place =
-      choice.controller ? choice.columns.reference_place(labels) : std::nullopt;
-  if (reference_place) to_guess[*reference_place].is_text = true;  // it is no other quantity
+  for (const auto place : choice.columns.left_out_places(labels)) to_guess[place].is_text = true;
+  if (choice.controller) {
+    // The reference is no other quantity.
+    if (const auto place = choice.columns.reference_place(labels)) to_guess[*place].is_text = true;
+  }
   auto guess = measured::guess_columns(to_guess, choice.columns.mappings(labels));
   choice.columns.set_time_unit(guess.mappings);
   if (in_time) {

@@ -254,8 +254,8 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
   const Eigen::VectorXd residuals_before = as_filed.fit.residuals + as_filed.held_out;
   const Eigen::VectorXd residuals_after = extended.fit.residuals + extended.held_out;
   made.channels = channel_gains(problem, residuals_before, residuals_after);
-  const Eigen::VectorXd before = coloured(problem.observations(), residuals_before);
-  const Eigen::VectorXd after = coloured(problem.observations(), residuals_after);
+  const Eigen::VectorXd before = to_errors(problem.observations(), residuals_before);
+  const Eigen::VectorXd after = to_errors(problem.observations(), residuals_after);
   made.overlays = overlays(problem.observations(), before, after);
   std::optional<RunDrift> drift;
   if (!is_over(options.deadline)) {

@@ -25,8 +25,9 @@ class Gathering {
     values_.push_back(value);
     deviations_.push_back(deviation);
   }
-  void end(double noise) {
+  void end(double noise, bool logarithmic = false) {
     auto& channel = made_.back();
+    channel.logarithmic = logarithmic;
     channel.count = static_cast<Eigen::Index>(values_.size()) - channel.first;
     channel.noise = noise;
     if (channel.count == 0) made_.pop_back();
@@ -65,16 +66,16 @@ void gather(Gathering& all, std::size_t run, const measured::FrequencyRecord& re
   for (const auto& channel : record.channels) {
     const std::vector<double> scatter = relative_scatter(channel);
     all.begin(run, arm::to_string(channel.sensor));
-    double squares = 0.0;
+    double weights = 0.0;
     for (std::size_t k = 0; k < scatter.size(); ++k) {
       const double relative = std::max(scatter[k], kLeastNoise);
       const double deviation =
           std::max(relative * std::abs(channel.response[k]), std::numeric_limits<double>::min());
       all.add(channel.response[k].real(), deviation);
       all.add(channel.response[k].imag(), deviation);
-      squares += 2.0 * relative * relative;
+      weights += 1.0 / (2.0 * relative * relative);
     }
-    all.end(std::sqrt(squares / static_cast<double>(scatter.size())));
+    all.end(std::sqrt(static_cast<double>(scatter.size()) / weights), true);
   }
 }
 
@@ -101,17 +102,52 @@ void gather(Gathering& all, std::size_t run, const measured::ModalTable& table) 
   }
 }
 
-}  // namespace
+using Line = std::complex<double>;
 
-void whiten(const Observations& observations, Eigen::VectorXd& errors) {
-  for (const ObservedChannel& channel : observations.channels) {
-    channel.autoregression.whiten(errors.segment(channel.first, channel.count));
+/// What `to` makes of each line of a response, given the measured one too.
+void change_lines(const Observations& observations, const ObservedChannel& channel,
+                  Eigen::Ref<Eigen::VectorXd> lines, Line (*to)(Line measured, Line line)) {
+  for (Eigen::Index k = 0; k < channel.count; k += 2) {
+    const Eigen::Index at = channel.first + k;
+    const Line measured = Line(observations.values(at), observations.values(at + 1)) /
+                          observations.deviations(at);
+    const Line made = to(measured, {lines(k), lines(k + 1)});
+    lines(k) = made.real();
+    lines(k + 1) = made.imag();
   }
 }
 
-Eigen::VectorXd coloured(const Observations& observations, Eigen::VectorXd residuals) {
+Line residual_of(Line measured, Line error) {
+  const double size = std::abs(measured);
+  if (size >= kResponseFloor) return size * std::log(measured / (measured - error));
+  const double length = std::abs(error);
+  return length == 0.0 ? error
+                       : kResponseFloor * std::log1p(length / kResponseFloor) / length * error;
+}
+
+Line error_of(Line measured, Line residual) {
+  const double size = std::abs(measured);
+  if (size >= kResponseFloor) return measured * (1.0 - std::exp(-residual / size));
+  const double length = std::abs(residual);
+  return length == 0.0 ? residual
+                       : kResponseFloor * std::expm1(length / kResponseFloor) / length * residual;
+}
+
+}  // namespace
+
+void to_residuals(const Observations& observations, Eigen::VectorXd& errors) {
   for (const ObservedChannel& channel : observations.channels) {
-    channel.autoregression.colour(residuals.segment(channel.first, channel.count));
+    auto own = errors.segment(channel.first, channel.count);
+    channel.autoregression.whiten(own);
+    if (channel.logarithmic) change_lines(observations, channel, own, residual_of);
+  }
+}
+
+Eigen::VectorXd to_errors(const Observations& observations, Eigen::VectorXd residuals) {
+  for (const ObservedChannel& channel : observations.channels) {
+    auto own = residuals.segment(channel.first, channel.count);
+    channel.autoregression.colour(own);
+    if (channel.logarithmic) change_lines(observations, channel, own, error_of);
   }
   return residuals;
 }

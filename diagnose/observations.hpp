@@ -26,9 +26,12 @@ struct ObservedChannel {
   std::string sensor;   ///< "hub_angle", kTorqueChannel; of a modal run "hub_angle zero", "pole"
   Eigen::Index first = 0;
   Eigen::Index count = 0;
-  double noise = 0.0;  ///< standard deviation over that of the signal; the noise floor
+  /// Standard deviation over that of the signal; the noise floor. Of a response the deviation of
+  /// both parts over the modulus, root mean square of the lines by their weights in a fit.
+  double noise = 0.0;
   /// The simulation's own error, in the same measure: never to be taken for physics.
   double numerical_error = 0.0;
+  bool logarithmic = false;  ///< lines of a response that `to_residuals` takes logarithms of
 
   /// How the noise of a `time` channel goes on from reading to reading; white where the data do
   /// not show another (Problem::with_coloured_noise).
@@ -50,10 +53,22 @@ struct Observations {
   std::vector<Eigen::Index> first_of_run;  ///< where each run begins, and at last the end
 };
 
-/// Errors in standard deviations of each number, in their order, as independent residuals of unit
-/// variance; and back. Of channels whose noise is white, and behind the numbers, nothing changes.
-void whiten(const Observations& observations, Eigen::VectorXd& errors);
-Eigen::VectorXd coloured(const Observations& observations, Eigen::VectorXd residuals);
+/// Residuals of errors in standard deviations of each number, in their order; and back. Behind the
+/// numbers nothing changes.
+///
+/// - `time` channels: whitened, independent with unit variance; the same where noise is white.
+/// - Lines of a logarithmic channel: of the simulated response p and the measured one h, in standard
+///   deviations,
+///
+///       |h| ln(h/p)                              where |h| >= kResponseFloor,
+///       k ln(1 + |h - p|/k) (h - p)/|h - p|      elsewhere, k = kResponseFloor,
+///
+///   which are h - p where they are near each other, and grow as the logarithm of their ratio where
+///   they are not. A resonance of little damping at another frequency would otherwise weigh by its
+///   height, which says nothing of how far away it is.
+void to_residuals(const Observations& observations, Eigen::VectorXd& errors);
+Eigen::VectorXd to_errors(const Observations& observations, Eigen::VectorXd residuals);
+inline constexpr double kResponseFloor = 3.0;
 
 /// Poles, or the zeros of one sensor, of a modal table: indices of its entries, in their order.
 struct ModalGroup {

@@ -137,6 +137,7 @@ std::optional<Eigen::VectorXd> PlannedExperiment::change_by(const Candidate& can
 Problem PlannedExperiment::problem_of_the_arm() {
   for (ObservedChannel& channel : layout_.channels) {
     channel.noise = noise_of(runs_[channel.run], channel.sensor);
+    channel.logarithmic = false;  // what effects change is to add up
   }
   options_ = {.flexible_modes = modes_needed(experiment_, layout_).flexible_modes};
   const Predictor predict(experiment_, layout_, *options_.flexible_modes);

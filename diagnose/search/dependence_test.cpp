@@ -53,7 +53,7 @@ double squared_cosine(const Eigen::VectorXd& one, const Eigen::VectorXd& other) 
 /// Root mean square of whitened residuals of these runs, relative to the signals.
 double relative_size(const Problem& problem, const Eigen::VectorXd& residuals,
                      const std::vector<bool>& runs) {
-  const Eigen::VectorXd errors = coloured(problem.observations(), residuals);
+  const Eigen::VectorXd errors = to_errors(problem.observations(), residuals);
   double squares = 0.0;
   double count = 0.0;
   for (const ObservedChannel& channel : problem.observations().channels) {
@@ -83,8 +83,8 @@ struct ScoredRuns {
     const double size = beyond.norm();
     if (!(size > kLeastPart * change.norm())) return {};
     const double z = beyond.dot(residuals) / size;
-    Score made{1.0, squared_cosine(coloured(problem.observations(), change),
-                                   coloured(problem.observations(), residuals))};
+    Score made{1.0, squared_cosine(to_errors(problem.observations(), change),
+                                   to_errors(problem.observations(), residuals))};
     if (relative_size(problem, beyond * (z / size), runs) > kNegligibleDependence) {
       made.p_value = 2.0 * boost::math::cdf(complement(boost::math::normal(), std::abs(z)));
     }

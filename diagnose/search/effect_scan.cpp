@@ -44,7 +44,6 @@ std::vector<std::vector<double>> samples_of(const Hypothesis& hypothesis) {
 
 ProblemOptions coarse_options(const Problem& problem, const SelectionOptions& options) {
   return {.flexible_modes = std::min(options.coarse_modes, problem.predictor().flexible_modes()),
-          .logarithmic_responses = true,
           .noise = problem.predictor().noise()};
 }
 

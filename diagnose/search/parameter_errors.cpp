@@ -153,6 +153,9 @@ Eigen::VectorXd errors_of_quantities(const Problem& problem, const Explanation& 
         by_gradient * (fit.jacobian.transpose() * (*refined - fit.residuals));
     variances += shift.cwiseAbs2();
   }
+  // What is known of a nuisance without data holds however large the residuals are.
+  auto nuisances = variances.head(static_cast<Index>(fit.candidate.nuisances.size()));
+  nuisances = nuisances.cwiseMin(1.0);
   return variances.cwiseMax(0.0).cwiseSqrt();
 }
 

@@ -4,11 +4,13 @@
 #include "arm/sensor.hpp"
 #include "arm/uncertainties.hpp"
 #include "diagnose/predictors/noise_estimate.hpp"
+#include "diagnose/predictors/response_runs.hpp"
 #include "diagnose/search/coarse.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -30,6 +32,9 @@ constexpr const char* kNoTime = "the time limit left no time for another";
 /// Relative standard deviation of a number that states none, where it is refitted: that of a
 /// catalogue's density, or of an inertia from a drawing.
 constexpr double kAssumedUncertainty = 0.1;
+
+/// A simulation that errs less than this more than another is about as good.
+constexpr double kAbout = 1.05;
 
 /// NRMSE of a loop that is not that of the data.
 constexpr double kDiverged = 10.0;
@@ -186,6 +191,46 @@ std::optional<PredictedSelection> select_by_filter(const Task& task,
   return made;
 }
 
+/// The selection by the frequency responses of the runs. Empty where no torque is rich enough.
+std::optional<PredictedSelection> select_by_responses(const Task& task,
+                                                      const PredictedSelection& by_simulation,
+                                                      const DiagnosisProgress& progress) {
+  auto responses = as_responses(by_simulation.simulated.experiment());
+  if (!responses) return std::nullopt;
+  std::vector<Hypothesis> searched = task.hypotheses;
+  std::erase_if(searched, [](const Hypothesis& hypothesis) {
+    return !hypothesis.shows_in(measured::RunKind::frf);
+  });
+  SelectionOptions options = task.options;
+  if (!task.is_asked()) options.deadline = halfway(options.deadline);
+  const Problem problem(std::make_shared<const Experiment>(*std::move(responses)), {});
+  return PredictedSelection{.selection = select(problem, searched, options, progress),
+                            .predictor = PredictorKind::frequency_response,
+                            .reason = "as asked for",
+                            .simulated = by_simulation.simulated};
+}
+
+/// Root mean square of what the chosen effects leave, over that of the noise.
+double over_noise(const Selection& selection) {
+  const Explanation& chosen = selection.chosen;
+  const Misfit& judged = chosen.validation.count > 0.0 ? chosen.validation : chosen.estimation;
+  return std::sqrt(judged.sum_of_squares / judged.count);
+}
+
+/// Whether responses are nearer to their noise with what they identify than simulations are with
+/// what these do, and a simulation with the effects of the former, refitted, errs no more: what
+/// shows in time alone, as dry friction does, is noise of a response.
+bool responses_are_better(const PredictedSelection& by_responses, const PredictedSelection& made) {
+  const Candidate& named = by_responses.selection.chosen.fit.candidate;
+  if (named.effects.empty()) return false;
+  if (!(over_noise(by_responses.selection) < over_noise(made.selection))) return false;
+  const Problem& simulated = made.simulated;
+  const auto& arm = simulated.experiment().arm;
+  const Candidate refitted = fit(simulated, named).candidate;
+  const double error = simulated.judged_error(made.selection.chosen.fit.candidate.extend(arm));
+  return simulated.judged_error(refitted.extend(arm)) <= kAbout * error;
+}
+
 /// Of a simulation with the chosen effects.
 double simulated_error(const PredictedSelection& made) {
   const Candidate& chosen = made.selection.chosen.fit.candidate;
@@ -209,8 +254,18 @@ PredictedSelection select_by_both(const Task& task, const Problem& problem,
     return *std::move(numbers);
   }
   made.reason = "an unrecorded torque on the hub explains little of what it leaves";
+  if (auto responses = select_by_responses(task, made, part_of(progress, 0.6, 0.7))) {
+    if (responses->selection.cancelled) return *std::move(responses);
+    if (responses_are_better(*responses, made)) {
+      responses->reason = fmt::format(
+          "their residuals have {:.3g} times the standard deviation of their noise; those of a "
+          "simulation have {:.3g} times that of theirs",
+          over_noise(responses->selection), over_noise(made.selection));
+      return *std::move(responses);
+    }
+  }
   try {
-    auto filtered = select_by_filter(task, made, part_of(progress, 0.6, 1.0));
+    auto filtered = select_by_filter(task, made, part_of(progress, 0.7, 1.0));
     if (!filtered) return made;
     Selection& other = filtered->selection;
     if (other.end && other.chosen.fit.candidate.effects.empty()) {
@@ -262,6 +317,20 @@ PredictedSelection select_by_asked_filter(const Task& task, const Problem& probl
   }
 }
 
+/// By responses. Throws InputError where no torque is rich enough.
+PredictedSelection select_by_asked_responses(const Task& task, const Problem& problem,
+                                             const DiagnosisProgress& progress) {
+  auto made = select_by_responses(
+      task, {.selection = Selection{problem}, .reason = "", .simulated = problem}, progress);
+  if (!made) {
+    throw arm::InputError(fmt::format(
+        "predictor frequency_response: no torque is rich enough; a run needs {} lines of a response "
+        "with a standard deviation of {:g} % or less, over a factor of {:g} in frequency",
+        kLeastLines, 100.0 * kLargestLineError, kLeastSpan));
+  }
+  return *std::move(made);
+}
+
 }  // namespace
 
 PredictedSelection select_by_evidence(const Experiment& experiment,
@@ -280,9 +349,10 @@ PredictedSelection select_by_evidence(const Experiment& experiment,
     made.reason.clear();
     return made;
   }
-  const auto selected = !asked                  ? select_by_both
-                        : is_simulation(*asked) ? select_by_simulation
-                                                : select_by_asked_filter;
+  const auto selected = !asked                                          ? select_by_both
+                        : is_simulation(*asked)                         ? select_by_simulation
+                        : *asked == PredictorKind::frequency_response ? select_by_asked_responses
+                                                                        : select_by_asked_filter;
   PredictedSelection made = selected(task, problem, progress);
   made.reason = note + made.reason;
   return made;

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <limits>
 #include <stdexcept>
 #include <utility>
@@ -26,21 +25,6 @@ void widen(Observations& observations, const std::vector<double>& errors) {
   }
 }
 
-/// In the place of a channel's residuals; the factor turns them by the phase of the response.
-void take_logarithms(Eigen::Ref<Eigen::VectorXd> residuals, const ObservedChannel& channel,
-                     const Observations& observations) {
-  for (Eigen::Index k = 0; k < channel.count; k += 2) {
-    const Eigen::Index at = channel.first + k;
-    const std::complex measured(observations.values(at), observations.values(at + 1));
-    const double deviation = observations.deviations(at);
-    const std::complex predicted =
-        measured - deviation * std::complex(residuals(k), residuals(k + 1));
-    const std::complex ratio = std::log(measured / predicted) * (std::abs(measured) / deviation);
-    residuals(k) = ratio.real();
-    residuals(k + 1) = ratio.imag();
-  }
-}
-
 Predictor predictor_for(const Experiment& experiment, Observations& observations,
                         const ProblemOptions& options) {
   ModeChoice modes{options.flexible_modes.value_or(0)};
@@ -58,7 +42,6 @@ Problem::Problem(const Experiment& experiment, Observations observations,
                  const ProblemOptions& options)
     : experiment_(&experiment),
       observations_(std::move(observations)),
-      logarithmic_responses_(options.logarithmic_responses),
       predictor_(predictor_for(experiment, observations_, options)) {
   for (const auto& run : experiment.runs) {
     estimation_runs_.push_back(run.run.purpose == measured::Purpose::estimation);
@@ -78,7 +61,7 @@ const std::vector<bool>& Problem::judged_runs() const {
 double Problem::judged_error(const arm::Arm& arm) const {
   try {
     Eigen::VectorXd left = predictor_.residuals(arm, judged_runs());
-    whiten(observations_, left);
+    to_residuals(observations_, left);
     const double error = misfit(observations_, *experiment_, left, judged_runs()).relative_error;
     if (std::isfinite(error)) return error;
   } catch (const std::runtime_error&) {
@@ -135,7 +118,7 @@ bool Problem::lower_noise(const Candidate& candidate) {
 std::optional<Problem> Problem::with_coloured_noise(const Candidate& candidate) const {
   const auto left = residuals(candidate, std::vector<bool>(experiment_->runs.size(), true));
   if (!left) return std::nullopt;
-  const Eigen::VectorXd errors = coloured(observations_, *left);
+  const Eigen::VectorXd errors = to_errors(observations_, *left);
   Problem made = *this;
   for (ObservedChannel& channel : made.observations_.channels) {
     if (experiment_->runs[channel.run].run.kind != measured::RunKind::time) continue;
@@ -206,15 +189,9 @@ std::optional<Eigen::VectorXd> Problem::residuals(const Candidate& candidate,
     return std::nullopt;
   }
   for (const ObservedChannel& channel : observations_.channels) {
-    auto part = made.segment(channel.first, channel.count);
-    if (!runs[channel.run]) {
-      part.setZero();
-    } else if (logarithmic_responses_ &&
-               experiment_->runs[channel.run].run.kind == measured::RunKind::frf) {
-      take_logarithms(part, channel, observations_);
-    }
+    if (!runs[channel.run]) made.segment(channel.first, channel.count).setZero();
   }
-  whiten(observations_, made);
+  to_residuals(observations_, made);
   const auto displaced = static_cast<Eigen::Index>(candidate.nuisances.size());
   made.conservativeResizeLike(Eigen::VectorXd::Zero(residual_count()));
   made.tail(displaced) = Eigen::VectorXd::Map(candidate.nuisances.data(), displaced);

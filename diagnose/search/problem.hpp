@@ -16,10 +16,6 @@ namespace flexarm::diagnose {
 
 struct ProblemOptions {
   std::optional<int> flexible_modes = {};  ///< of simulated runs; as many as needed unless given
-  /// Residuals of frequency responses are ln(measured/predicted), over the relative deviation: the
-  /// same to first order near the minimum, and far from it with one minimum where the difference
-  /// has one for every resonance that meets another.
-  bool logarithmic_responses = false;
   /// Of `time` runs: stochastic grey box with it, output error without.
   std::optional<NoiseModel> noise = {};
 };
@@ -99,7 +95,6 @@ class Problem {
   Observations observations_;
   std::vector<bool> estimation_runs_;
   std::vector<bool> validation_runs_;
-  bool logarithmic_responses_;
   Predictor predictor_;
 };
 

@@ -10,12 +10,20 @@
 namespace flexarm::diagnose {
 
 /// How `time` runs are predicted (predictors/predictor.hpp); closed_loop is output error with the
-/// controllers of the runs simulated too.
-enum class PredictorKind { output_error, closed_loop, grey_box, torque_balance };
+/// controllers of the runs simulated too. frequency_response compares the responses that are
+/// estimated of the runs (predictors/response_runs.hpp).
+enum class PredictorKind {
+  output_error,
+  closed_loop,
+  grey_box,
+  torque_balance,
+  frequency_response
+};
 inline constexpr std::array kPredictors = {PredictorKind::output_error, PredictorKind::closed_loop,
-                                           PredictorKind::grey_box, PredictorKind::torque_balance};
+                                           PredictorKind::grey_box, PredictorKind::torque_balance,
+                                           PredictorKind::frequency_response};
 
-/// Without a noise model.
+/// Runs are simulated in time, without a noise model.
 constexpr bool is_simulation(PredictorKind kind) {
   return kind == PredictorKind::output_error || kind == PredictorKind::closed_loop;
 }
@@ -31,6 +39,8 @@ constexpr std::string_view to_string(PredictorKind kind) {
       return "grey_box";
     case PredictorKind::torque_balance:
       return "torque_balance";
+    case PredictorKind::frequency_response:
+      return "frequency_response";
   }
   return "";
 }

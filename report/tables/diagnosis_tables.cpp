@@ -108,6 +108,8 @@ std::string_view name_of(diagnose::PredictorKind predictor) {
       return "stochastic grey box";
     case diagnose::PredictorKind::torque_balance:
       return "torque balance at the hub";
+    case diagnose::PredictorKind::frequency_response:
+      return "frequency response";
   }
   return "";
 }

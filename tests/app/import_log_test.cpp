@@ -73,6 +73,17 @@ TEST_F(ImportLog, ATorqueIsComputedFromVoltageAndVelocity) {
   EXPECT_EQ(record.channels.size(), 3U);
 }
 
+TEST_F(ImportLog, AColumnThatIsLeftOutIsNoSensor) {
+  write("log.csv", "t_s,torque_Nm,theta_rad,omega_rad_s\n0,1,2,3\n1,1,2,3\n2,1,2,3\n");
+  const Ended ended = import({"log.csv", "--leave-out", "omega_rad_s", "--out", "bench"});
+  ASSERT_EQ(ended.status, 0) << ended.errors;
+  ASSERT_EQ(record_in("bench").channels.size(), 1U);
+  EXPECT_EQ(record_in("bench").channels[0].sensor.kind, arm::SensorKind::hub_angle);
+  expect_refused(import({"log.csv", "--leave-out", "omega", "--leave-out", "omgea_rad_s"}),
+                 "--leave-out: column omgea_rad_s: not in the file (did you mean omega_rad_s?); it "
+                 "has t_s, torque_Nm, theta_rad, omega_rad_s");
+}
+
 TEST_F(ImportLog, MillisecondsCalledSecondsAreAWarning) {
   write("log.txt", teaching_log(300));
   const Ended ended = import({"log.txt", kTeachingTorque[0], kTeachingTorque[1]});

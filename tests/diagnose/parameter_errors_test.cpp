@@ -100,5 +100,19 @@ TEST(StandardErrors, OfAParameterAboveAnotherAreThoseOfItsOwn) {
   }
 }
 
+TEST(StandardErrors, OfAnUncertainNumberAreAtMostItsUncertainty) {
+  // Residuals of many times the signal.
+  Experiment experiment = simulated_experiment({effects::named("torque_gain", {{"factor", 20.0}})},
+                                               {.duration_s = 1.0});
+  experiment.arm.relative_uncertainties = {{"damping.kelvin_voigt", 0.05}};
+  const Problem problem(experiment);
+  const Explanation found = explain(problem, fit(problem, problem.as_filed()));
+  ASSERT_GT(found.estimation.relative_error, 0.9);
+  const auto errors = standard_errors(problem, found, 0);
+  ASSERT_EQ(errors.size(), 1U);
+  // Data with such residuals say nothing of it.
+  EXPECT_EQ(errors[0], 1.0);
+}
+
 }  // namespace
 }  // namespace flexarm::diagnose

@@ -103,7 +103,7 @@ TEST(BeamLength, IsFoundByAFitThatScansItsWholeRange) {
   for (const double factor : {0.65, 0.98, 1.5}) {
     const auto experiment = measured_on(with_length(loaded_arm(), factor),
                                         {"hub_angle", "tip_acceleration", "strain@0.05"});
-    const diagnose::Problem problem(experiment, {.logarithmic_responses = true});
+    const diagnose::Problem problem(experiment);
     const auto start = diagnose::Candidate{}.with(hypothesis_of(experiment), {1.0});
     const auto found = diagnose::fit(problem, diagnose::scan(problem, start, 60));
     EXPECT_TRUE(found.converged);

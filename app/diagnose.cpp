@@ -154,6 +154,8 @@ std::string text_of(const diagnose::Diagnosis& diagnosis) {
     text += report::to_paragraph(accepted, 2);
   }
   if (!text.empty()) text += "\n";
+  const std::string implausible = report::implausible_numbers_text(diagnosis);
+  if (!implausible.empty()) text += report::to_paragraph(implausible) + "\n";
   text += report::to_paragraph(report::verdict_text(diagnosis)) + "\n";
   const std::string search = report::search_text(diagnosis);
   if (!search.empty()) text += report::to_paragraph(search) + "\n";

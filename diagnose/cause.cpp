@@ -114,9 +114,10 @@ std::vector<RefittedNumber> refitted_numbers(const Selection& selection,
   for (const auto& [name, uncertainty] : arm.relative_uncertainties) {
     const auto& key = *std::ranges::find(arm::arm_keys(), name, &arm::ArmKey::name);
     const double value = *key.get(refitted);
-    const double deviation = errors[numbers.size()];
+    const double error = errors[numbers.size()];
     numbers.push_back(
-        {name, *key.get(arm), uncertainty, value, value * uncertainty * deviation, key.unit});
+        {name, *key.get(arm), uncertainty, value, value * uncertainty * error, key.unit,
+         selection.chosen.fit.candidate.nuisances[numbers.size()]});
   }
   return numbers;
 }

@@ -23,6 +23,7 @@ struct RefittedNumber {
   double value = 0.0;
   double std_error = 0.0;
   std::string unit;
+  double deviation = 0.0;  ///< ln(value/file_value)/uncertainty: in standard deviations
 
   /// It differs from the file's by more than `kMoved` standard errors of the fit.
   bool has_moved() const;

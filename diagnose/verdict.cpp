@@ -1,5 +1,8 @@
 #include "diagnose/verdict.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace flexarm::diagnose {
 
 std::string_view to_string(Verdict verdict) {
@@ -21,19 +24,23 @@ std::string_view definition_of(Verdict verdict) {
     case Verdict::adequate:
       return "The residuals of the baseline are noise.";
     case Verdict::explained:
-      return "The residuals of the extended arm are noise, and its fit converged.";
+      return "The residuals of the extended arm are noise, its fit converged, and its numbers are "
+             "plausible.";
     case Verdict::partly_explained:
-      return "Effects are identified; the residuals are not noise, the fit did not converge, or "
-             "the search is incomplete.";
+      return "Effects are identified; the residuals are not noise, the fit did not converge, a "
+             "number is implausible, or the search is incomplete.";
     case Verdict::unexplained:
-      return "No effect is identified; neither the baseline nor refitted numbers leave noise.";
+      return "No effect is identified; neither the baseline nor plausible numbers leave noise.";
   }
   return "";
 }
 
 Verdict verdict_of(const Explanation& chosen, const Explanation& as_filed, SearchState search) {
-  const bool is_explained =
-      chosen.leaves_noise() && chosen.fit.converged && search == SearchState::complete;
+  const bool is_plausible = std::ranges::all_of(
+      chosen.fit.candidate.nuisances,
+      [](double deviation) { return std::abs(deviation) <= kPlausibleDeviation; });
+  const bool is_explained = chosen.leaves_noise() && chosen.fit.converged && is_plausible &&
+                            search == SearchState::complete;
   if (!chosen.fit.candidate.effects.empty()) {
     return is_explained ? Verdict::explained : Verdict::partly_explained;
   }

@@ -17,6 +17,10 @@ enum class SearchState { complete, incomplete };
 /// "adequate", "explained", "partly_explained", "unexplained".
 std::string_view to_string(Verdict verdict);
 
+/// An uncertain number that is refitted by more standard deviations than this is implausible:
+/// something else is wrong.
+inline constexpr double kPlausibleDeviation = 3.0;
+
 /// The one definition, which the help and the documents repeat word for word. Residuals "are noise"
 /// where those of the estimation and those of the validation runs pass the residual test
 /// (residual_test.hpp).

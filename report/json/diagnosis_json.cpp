@@ -118,7 +118,8 @@ Json diagnosis_json(const diagnose::Diagnosis& diagnosis, const std::string& ext
                                  {"value", number.value},
                                  {"std_error", number.std_error},
                                  {"unit", number.unit},
-                                 {"has_moved", number.has_moved()}});
+                                 {"has_moved", number.has_moved()},
+                                 {"deviation", number.deviation}});
   }
   const diagnose::Symptoms& symptoms = diagnosis.symptoms;
   Json candidates = Json::array();

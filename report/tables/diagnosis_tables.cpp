@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -115,6 +116,19 @@ std::string_view name_of(diagnose::PredictorKind predictor) {
 }
 
 }  // namespace
+
+std::string implausible_numbers_text(const diagnose::Diagnosis& diagnosis) {
+  std::vector<std::string> numbers;
+  for (const auto& number : diagnosis.refitted) {
+    if (std::abs(number.deviation) <= diagnose::kPlausibleDeviation) continue;
+    numbers.push_back(fmt::format("{} = {:.5g} {} ({:.2g} standard deviations from {:.5g} {})",
+                                  number.key, number.value, number.unit,
+                                  std::abs(number.deviation), number.file_value, number.unit));
+  }
+  if (numbers.empty()) return "";
+  return fmt::format("Implausible after the fit: {}. Check the arm file first.",
+                     fmt::join(numbers, ", "));
+}
 
 std::string verdict_text(const diagnose::Diagnosis& diagnosis) {
   const double before = 100.0 * diagnosis.estimation.before;

@@ -8,6 +8,9 @@
 
 namespace flexarm::report {
 
+/// The uncertain numbers that were refitted by more than kPlausibleDeviation; empty without any.
+std::string implausible_numbers_text(const diagnose::Diagnosis& diagnosis);
+
 /// The verdict in a sentence or two, as an engineer would say it.
 std::string verdict_text(const diagnose::Diagnosis& diagnosis);
 

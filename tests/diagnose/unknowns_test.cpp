@@ -73,6 +73,16 @@ TEST(UncertainNumber, FarBeyondItsUncertaintyIsACause) {
   EXPECT_EQ(made.causes[0].effect, "hub_inertia");
 }
 
+TEST(UncertainNumber, FarBeyondItsUncertaintyIsNoExplanation) {
+  Experiment experiment = simulated_experiment({});
+  experiment.arm.hub.inertia_kg_m2 *= 1.2;
+  experiment.arm.relative_uncertainties = {{"hub.inertia", 0.02}};
+  const Diagnosis made = diagnose(experiment, named(experiment, {"payload_mass"}));
+  EXPECT_NE(made.verdict, Verdict::explained);
+  ASSERT_EQ(made.refitted.size(), 1U);
+  EXPECT_LT(made.refitted[0].deviation, -kPlausibleDeviation);
+}
+
 TEST(UncertainNumber, LeavesTheCauseBesideItToBeFound) {
   Experiment experiment =
       simulated_experiment({effects::named("root_compliance", {{"stiffness", 60.0}})});

@@ -51,6 +51,19 @@ TEST(Verdict, OfAFitThatDidNotConvergeIsNeverExplained) {
             Verdict::unexplained);
 }
 
+TEST(Verdict, OfANumberBeyondThreeStandardDeviationsIsNeverExplained) {
+  const auto verdict = [](Effects effects, double deviation) {
+    Explanation made = fitted(effects, Residuals::noise);
+    made.fit.candidate.nuisances = {0.1, deviation};
+    return verdict_of(made, kWrong);
+  };
+  for (const double sign : {-1.0, 1.0}) {
+    EXPECT_EQ(verdict(Effects::one, 2.9 * sign), Verdict::explained);
+    EXPECT_EQ(verdict(Effects::one, 3.1 * sign), Verdict::partly_explained);
+    EXPECT_EQ(verdict(Effects::none, 3.1 * sign), Verdict::unexplained);
+  }
+}
+
 TEST(Verdict, OfAnIncompleteSearchIsNeverExplained) {
   const auto verdict = [](Effects effects, const Explanation& as_filed) {
     return verdict_of(fitted(effects, Residuals::noise), as_filed, SearchState::incomplete);

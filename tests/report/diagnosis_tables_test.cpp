@@ -47,6 +47,16 @@ TEST(VerdictText, HasTheUncertainNumberThatExplainsTheDataInFront) {
   EXPECT_THAT(verdict_text(made), HasSubstr("NRMSE falls from 107 to 1 %"));
 }
 
+TEST(ImplausibleNumbersText, HasThoseBeyondThreeStandardDeviations) {
+  Diagnosis made = with_gain(Verdict::partly_explained);
+  made.refitted = {number("beam.length", 0.51, 0.0002), number("beam.thickness", 0.6, 0.001)};
+  EXPECT_EQ(implausible_numbers_text(made), "");
+  made.refitted[1].deviation = -4.2;
+  const std::string text = implausible_numbers_text(made);
+  EXPECT_THAT(text, HasSubstr("beam.thickness = 0.6 m (4.2 standard deviations from "));
+  EXPECT_THAT(text, Not(HasSubstr("beam.length")));
+}
+
 TEST(VerdictText, HasANumberThatMovedBesideTheCause) {
   Diagnosis made = with_gain(Verdict::explained);
   made.causes = {cause("coulomb_friction", 0.98)};

@@ -106,18 +106,17 @@ std::vector<Cause> causes_of(const Selection& selection, const Posterior& poster
   return causes;
 }
 
-std::vector<RefittedNumber> refitted_numbers(const Selection& selection,
+std::vector<RefittedNumber> refitted_numbers(const arm::Arm& arm,
+                                             const std::vector<double>& deviations,
                                              const std::vector<double>& errors) {
-  const arm::Arm& arm = selection.problem.experiment().arm;
-  const arm::Arm refitted = arm::with_deviations(arm, selection.chosen.fit.candidate.nuisances);
+  const arm::Arm refitted = arm::with_deviations(arm, deviations);
   std::vector<RefittedNumber> numbers;
   for (const auto& [name, uncertainty] : arm.relative_uncertainties) {
     const auto& key = *std::ranges::find(arm::arm_keys(), name, &arm::ArmKey::name);
     const double value = *key.get(refitted);
-    const double error = errors[numbers.size()];
-    numbers.push_back(
-        {name, *key.get(arm), uncertainty, value, value * uncertainty * error, key.unit,
-         selection.chosen.fit.candidate.nuisances[numbers.size()]});
+    const std::size_t i = numbers.size();
+    numbers.push_back({name, *key.get(arm), uncertainty, value, value * uncertainty * errors[i],
+                       key.unit, deviations[i]});
   }
   return numbers;
 }

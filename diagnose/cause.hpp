@@ -51,8 +51,10 @@ struct Cause {
 std::vector<Cause> causes_of(const Selection& selection, const Posterior& posterior,
                              const std::vector<double>& errors);
 
-/// The uncertain numbers of the arm as the choice has them.
-std::vector<RefittedNumber> refitted_numbers(const Selection& selection,
+/// The uncertain numbers of the arm with these deviations, in standard deviations of their
+/// uncertainty; `errors` are theirs.
+std::vector<RefittedNumber> refitted_numbers(const arm::Arm& arm,
+                                             const std::vector<double>& deviations,
                                              const std::vector<double>& errors);
 
 }  // namespace flexarm::diagnose

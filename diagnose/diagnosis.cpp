@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <string_view>
 #include <utility>
 
@@ -64,15 +65,15 @@ std::vector<Overlay> overlays(const Observations& observations, const Eigen::Vec
 
 /// Refitted run by run: of the causes the leading one, else the best effect by itself where
 /// something is wrong.
-std::optional<RunDrift> drift_of(const Problem& problem, const Selection& selection,
-                                 Verdict verdict, const std::vector<Cause>& causes) {
+std::optional<RunDrift> drift_of(const Selection& selection, Verdict verdict,
+                                 const std::vector<Cause>& causes) {
   const bool is_wrong = verdict == Verdict::unexplained && !selection.singles.empty();
   if (causes.empty() && !is_wrong) return std::nullopt;
   const Candidate& candidate =
       causes.empty() ? selection.singles.front().fit.candidate : selection.chosen.fit.candidate;
   std::size_t leading = 0;
   while (!causes.empty() && candidate.effects[leading].effect != causes.front().effect) ++leading;
-  return run_drift(problem, candidate, leading);
+  return run_drift(selection.problem, candidate, leading);
 }
 
 Gain gain_between(const Misfit& before, const Misfit& after) {
@@ -181,25 +182,56 @@ Diagnosis with_nearest_hold(const Experiment& experiment, const std::vector<Hypo
   return tried[1].causes.size() < tried[0].causes.size() ? tried[1] : tried[0];
 }
 
-/// The explanation of a set by simulation.
-Misfit simulated(const PredictedSelection& predicted, const Explanation& set) {
-  if (is_simulation(predicted.predictor)) return set.estimation;
-  return explain(predicted.simulated, evaluated(predicted.simulated, set.fit.candidate)).estimation;
+/// One of the selections that a diagnosis is made of.
+struct JudgedSelection {
+  const Selection& selection;
+  Posterior posterior;
+  std::vector<double> errors;  ///< of nuisances and parameters of what is chosen
+
+  JudgedSelection(const Selection& made, std::size_t hypotheses, const SelectionOptions& options)
+      : selection(made),
+        posterior(posterior_of(made, hypotheses, options)),
+        errors(standard_errors(made.problem, made.chosen, options.further_modes)) {}
+
+  const Candidate& chosen() const { return selection.chosen.fit.candidate; }
+  std::vector<Cause> causes() const { return causes_of(selection, posterior, errors); }
+};
+
+/// Of the nuisances, which each selection estimates: the smaller one.
+std::vector<double> least_errors(const std::vector<JudgedSelection>& judged) {
+  std::vector<double> errors = judged.back().errors;
+  for (const JudgedSelection& one : judged) {
+    const std::size_t count = std::min(errors.size(), one.chosen().nuisances.size());
+    for (std::size_t i = 0; i < count; ++i) errors[i] = std::min(errors[i], one.errors[i]);
+  }
+  return errors;
 }
 
-std::vector<NearMiss> near_misses(const PredictedSelection& predicted,
-                                  const Posterior& posterior) {
-  const Selection& selection = predicted.selection;
-  std::vector<NearMiss> found;
+/// Those that were fitted and not named.
+void add_near_misses(const PredictedSelection& predicted, const JudgedSelection& judged,
+                     std::vector<NearMiss>& found) {
+  const Selection& selection = judged.selection;
   for (const auto* tried : {&selection.singles, &selection.combinations}) {
     for (const Explanation& one : *tried) {
       const Candidate& candidate = one.fit.candidate;
       if (candidate.labels() == selection.chosen.fit.candidate.labels()) continue;
-      found.push_back({candidate.label(), posterior.of_set(candidate),
+      Misfit left = one.estimation;
+      if (!is_simulation(predicted.predictor)) {
+        const bool is_whole = &selection != &predicted.selection;
+        const Candidate whole = is_whole ? candidate : predicted.whole(candidate);
+        left = explain(predicted.simulated, evaluated(predicted.simulated, whole)).estimation;
+      }
+      found.push_back({candidate.label(), judged.posterior.of_set(candidate),
                        share_taken(selection.nothing.estimation, one.estimation),
-                       lead(one, selection.nothing), simulated(predicted, one).relative_error});
+                       lead(one, selection.nothing), left.relative_error});
     }
   }
+}
+
+std::vector<NearMiss> near_misses(const PredictedSelection& predicted,
+                                  const std::vector<JudgedSelection>& all) {
+  std::vector<NearMiss> found;
+  for (const JudgedSelection& judged : all) add_near_misses(predicted, judged, found);
   std::ranges::stable_sort(found, [](const NearMiss& one, const NearMiss& other) {
     return std::pair(-one.probability, one.error) < std::pair(-other.probability, other.error);
   });
@@ -225,12 +257,16 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
   made.predictor = predicted.predictor;
   made.predictor_reason = predicted.reason;
   made.disturbance = disturbance_gain(selection);
-  const Candidate& chosen = selection.chosen.fit.candidate;
-  const std::vector<double> errors =
-      standard_errors(selection.problem, selection.chosen, options.further_modes);
-  const Posterior posterior = posterior_of(selection, hypotheses.size(), options);
-  made.causes = causes_of(selection, posterior, errors);
-  made.something_else = posterior.of_something_else();
+  const Candidate chosen = predicted.whole(selection.chosen.fit.candidate);
+  std::vector<JudgedSelection> judged;
+  if (predicted.by_motion) judged.emplace_back(*predicted.by_motion, hypotheses.size(), options);
+  judged.emplace_back(selection, hypotheses.size(), options);
+  double nothing_else = 1.0;
+  for (const JudgedSelection& one : judged) {
+    std::ranges::move(one.causes(), std::back_inserter(made.causes));
+    nothing_else *= 1.0 - one.posterior.of_something_else();
+  }
+  made.something_else = 1.0 - nothing_else;
   say_timing(experiment, selection, made.notices);
   say_noise(predicted.simulated, made.notices);
   say_assumed_numbers(experiment.arm, selection.problem.experiment().arm, made.notices);
@@ -244,7 +280,9 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
                             made.search_end ? SearchState::incomplete : SearchState::complete);
   made.estimation_test = extended.estimation_test;
   made.validation_test = extended.validation_test;
-  made.converged = selection.chosen.fit.converged;
+  made.converged = std::ranges::all_of(judged, [](const JudgedSelection& one) {
+    return one.selection.chosen.fit.converged;
+  });
   made.evaluations = selection.chosen.fit.evaluations;
   made.estimation = gain_between(as_filed.estimation, extended.estimation);
   if (as_filed.validation.count > 0.0) {
@@ -259,7 +297,9 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
   made.overlays = overlays(problem.observations(), before, after);
   std::optional<RunDrift> drift;
   if (!is_over(options.deadline)) {
-    drift = drift_of(selection.problem, selection, made.verdict, made.causes);
+    const bool is_of_motion = judged.size() > 1 && judged.back().chosen().effects.empty();
+    const JudgedSelection& leading = is_of_motion ? judged.front() : judged.back();
+    drift = drift_of(leading.selection, made.verdict, leading.causes());
   }
   made.symptoms = symptoms_of({problem, before, after, chosen}, std::move(drift));
   const bool has_balance = predicted.balance && !is_over(options.deadline);
@@ -272,18 +312,20 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
     statements.push_back(balance_symptom(*predicted.balance));
     sort_by_significance(statements);
   }
-  made.refitted = refitted_numbers(selection, errors);
+  made.refitted = refitted_numbers(problem.experiment().arm, chosen.nuisances,
+                                   least_errors(judged));
   made.extended_arm = chosen.extend(problem.experiment().arm);
   made.extended_arm.relative_uncertainties = experiment.arm.relative_uncertainties;
   const bool is_open =
       made.verdict == Verdict::unexplained || made.verdict == Verdict::partly_explained;
   if (has_balance && is_open) {
-    made.empirical_law = empirical_law(*predicted.balance, problem, chosen);
+    made.empirical_law =
+        empirical_law(*predicted.balance, problem, selection.chosen.fit.candidate);
   }
   if (made.empirical_law) made.extended_arm = with_law(made.extended_arm, *made.empirical_law);
   made.formulations = check_formulations(made.extended_arm, scales_of(experiment).sensors);
   if (is_open && !is_over(options.deadline)) {
-    made.near_misses = near_misses(predicted, posterior);
+    made.near_misses = near_misses(predicted, judged);
   }
   ReportedWork work(progress, options.deadline);
   try {

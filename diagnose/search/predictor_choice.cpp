@@ -1,11 +1,7 @@
 #include "diagnose/search/predictor_choice.hpp"
 
 #include "arm/input_error.hpp"
-#include "arm/sensor.hpp"
-#include "arm/uncertainties.hpp"
-#include "diagnose/predictors/noise_estimate.hpp"
 #include "diagnose/predictors/response_runs.hpp"
-#include "diagnose/search/coarse.hpp"
 
 #include <fmt/format.h>
 
@@ -13,25 +9,11 @@
 #include <cmath>
 #include <memory>
 #include <string>
-#include <string_view>
 #include <utility>
-#include <variant>
 
 namespace flexarm::diagnose {
 
 namespace {
-
-/// Flexible modes of a Kalman filter <= this. What leaves no noise by output error is wrong by more
-/// than the modes beyond.
-constexpr int kMostFilteredModes = 6;
-
-/// A stage of the search that a time limit may end.
-constexpr const char* kNoiseStage = "the noise of a Kalman filter";
-constexpr const char* kNoTime = "the time limit left no time for another";
-
-/// Relative standard deviation of a number that states none, where it is refitted: that of a
-/// catalogue's density, or of an inertia from a drawing.
-constexpr double kAssumedUncertainty = 0.1;
 
 /// A simulation that errs less than this more than another is about as good.
 constexpr double kAbout = 1.05;
@@ -45,41 +27,6 @@ bool fits_time_runs(const Experiment& experiment) {
            run.run.kind == measured::RunKind::time;
   });
 }
-
-bool shows_hub(const measured::TimeRecord& record) {
-  return std::ranges::any_of(
-      record.channels, [](const auto& channel) { return arm::is_collocated(channel.sensor); });
-}
-
-/// What a hub sensor shows is the motion that the torque is balanced for, so that the balance does
-/// not judge that sensor.
-bool is_on_hub_sensor(const Hypothesis& hypothesis) {
-  return !hypothesis.sensor.empty() && arm::is_collocated(arm::parse_sensor(hypothesis.sensor));
-}
-
-/// Of the predictors with a noise model: torque balance where each `time` run shows the hub.
-PredictorKind filtering_predictor(const Experiment& experiment, const SelectionOptions& options) {
-  if (options.predictor) return *options.predictor;
-  const bool is_seen = std::ranges::all_of(experiment.runs, [](const auto& run) {
-    const auto* record = std::get_if<measured::TimeRecord>(&run.data);
-    return record == nullptr || shows_hub(*record);
-  });
-  return is_seen ? PredictorKind::torque_balance : PredictorKind::grey_box;
-}
-
-DiagnosisProgress part_of(const DiagnosisProgress& progress, double from, double to) {
-  return [&progress, from, to](std::string_view what, double done) {
-    return !progress || progress(what, from + (to - from) * done);
-  };
-}
-
-/// What is done by whichever predictor.
-struct Task {
-  const std::vector<Hypothesis>& hypotheses;
-  const SelectionOptions& options;
-
-  bool is_asked() const { return options.predictor.has_value(); }
-};
 
 /// Of one whose controllers are stated, with the loop if it can be simulated with the arm file.
 /// Else, and by output error where that is asked for, from the recorded torque; `note` says why.
@@ -106,110 +53,6 @@ Problem simulated_problem(const Experiment& experiment, const SelectionOptions& 
   return Problem(std::make_shared<const Experiment>(without_controllers(experiment)), {});
 }
 
-PredictedSelection select_by_simulation(const Task& task, const Problem& problem,
-                                        const DiagnosisProgress& progress) {
-  Selection selection = select(problem, task.hypotheses, task.options, progress);
-  const Problem simulated = selection.problem;
-  const auto kind = has_controllers(problem.experiment()) ? PredictorKind::closed_loop
-                                                          : PredictorKind::output_error;
-  return {.selection = std::move(selection),
-          .predictor = kind,
-          .reason = "as asked for",
-          .simulated = simulated};
-}
-
-/// Where effects do not leave noise: what numbers of the arm file that state no uncertainty explain
-/// if they are as uncertain as those of a data sheet, by themselves or beside one effect. Empty
-/// where that does not leave noise either.
-std::optional<PredictedSelection> select_with_assumed_numbers(const Task& task,
-                                                              const Problem& problem,
-                                                              const DiagnosisProgress& progress) {
-  auto assumed = std::make_shared<Experiment>(problem.experiment());
-  assumed->arm = arm::with_assumed_uncertainties(assumed->arm, kAssumedUncertainty);
-  if (assumed->arm == problem.experiment().arm) return std::nullopt;
-  SelectionOptions options = task.options;
-  options.deadline = halfway(options.deadline);
-  options.most_causes = 1;
-  PredictedSelection made = select_by_simulation(
-      {task.hypotheses, options},
-      Problem(assumed, {.flexible_modes = problem.predictor().flexible_modes()}), progress);
-  if (!made.selection.cancelled && !made.selection.chosen.leaves_noise()) return std::nullopt;
-  made.reason = "its residuals are noise if numbers of the arm file are refitted";
-  return made;
-}
-
-/// What a filter is given: the recorded torque, and whole runs decimated to what is enough for a
-/// torque on the hub.
-Problem filtered_problem(const Problem& simulated, const SelectionOptions& options) {
-  const int modes = std::min(kMostFilteredModes, simulated.predictor().flexible_modes());
-  const auto experiment = std::make_shared<const Experiment>(
-      decimated_whole(without_controllers(simulated.experiment()), options.filtered_samples));
-  return {experiment, {.flexible_modes = modes}};
-}
-
-/// The selection by a predictor with a noise model. Empty where that is not asked for and the
-/// disturbance of the arm that simulation made is small. Throws Cancelled, and InputError where no
-/// Kalman filter can be formed.
-std::optional<PredictedSelection> select_by_filter(const Task& task,
-                                                   const PredictedSelection& by_simulation,
-                                                   const DiagnosisProgress& progress) {
-  const auto& [hypotheses, options] = task;
-  ReportedWork work(progress, options.deadline);
-  work.tell(kNoiseStage, 0.0);
-  const Problem unfiltered = filtered_problem(by_simulation.simulated, options);
-  const Experiment& experiment = unfiltered.experiment();
-  const NoiseEstimator estimator(experiment, unfiltered.observations(), unfiltered.predictor(),
-                                 [&work] { work.go_on(); });
-  const auto likely_noise = [&](const arm::Arm& arm) {
-    return estimator.model(arm, unfiltered.estimation_runs()).model;
-  };
-  const arm::Arm extended = by_simulation.selection.chosen.fit.candidate.extend(experiment.arm);
-  const double least_N_m = options.least_disturbance * estimator.torque_rms_N_m();
-  NoiseModel noise = likely_noise(extended);
-  if (!task.is_asked() && noise.disturbance_N_m <= least_N_m) return std::nullopt;
-  // The search begins with the arm as filed: what simulation named may be wrong.
-  if (extended != experiment.arm) noise = likely_noise(experiment.arm);
-  const PredictorKind kind = filtering_predictor(experiment, options);
-  std::vector<Hypothesis> searched = hypotheses;
-  if (kind == PredictorKind::torque_balance) {
-    noise.balance_unit_N_m = estimated_disturbance_N_m(unfiltered.predictor(), experiment.arm,
-                                                       unfiltered.estimation_runs(), noise);
-    std::erase_if(searched, is_on_hub_sensor);
-  }
-  PredictedSelection made{
-      .selection = select(unfiltered.with_noise(noise), searched, options, progress),
-      .predictor = kind,
-      .reason = "as asked for",
-      .simulated = by_simulation.simulated};
-  if (kind == PredictorKind::torque_balance) made.balance = made.selection.problem;
-  if (!task.is_asked()) {
-    made.reason = fmt::format(
-        "by simulation the residuals are not noise; an unrecorded hub torque of {:.3g} N m makes "
-        "them more likely",
-        noise.disturbance_N_m);
-  }
-  return made;
-}
-
-/// The selection by the frequency responses of the runs. Empty where no torque is rich enough.
-std::optional<PredictedSelection> select_by_responses(const Task& task,
-                                                      const PredictedSelection& by_simulation,
-                                                      const DiagnosisProgress& progress) {
-  auto responses = as_responses(by_simulation.simulated.experiment());
-  if (!responses) return std::nullopt;
-  std::vector<Hypothesis> searched = task.hypotheses;
-  std::erase_if(searched, [](const Hypothesis& hypothesis) {
-    return !hypothesis.shows_in(measured::RunKind::frf);
-  });
-  SelectionOptions options = task.options;
-  if (!task.is_asked()) options.deadline = halfway(options.deadline);
-  const Problem problem(std::make_shared<const Experiment>(*std::move(responses)), {});
-  return PredictedSelection{.selection = select(problem, searched, options, progress),
-                            .predictor = PredictorKind::frequency_response,
-                            .reason = "as asked for",
-                            .simulated = by_simulation.simulated};
-}
-
 /// Root mean square of what the chosen effects leave, over that of the noise.
 double over_noise(const Selection& selection) {
   const Explanation& chosen = selection.chosen;
@@ -233,13 +76,13 @@ bool responses_are_better(const PredictedSelection& by_responses, const Predicte
 
 /// Of a simulation with the chosen effects.
 double simulated_error(const PredictedSelection& made) {
-  const Candidate& chosen = made.selection.chosen.fit.candidate;
+  const Candidate chosen = made.whole(made.selection.chosen.fit.candidate);
   return made.simulated.judged_error(chosen.extend(made.simulated.experiment().arm));
 }
 
 /// By simulation, and where that does not leave noise by a filter; the first of them in half of the
 /// time.
-PredictedSelection select_by_both(const Task& task, const Problem& problem,
+PredictedSelection select_by_both(const SelectionTask& task, const Problem& problem,
                                   const DiagnosisProgress& progress) {
   SelectionOptions first = task.options;
   first.deadline = halfway(task.options.deadline);
@@ -268,7 +111,7 @@ PredictedSelection select_by_both(const Task& task, const Problem& problem,
     auto filtered = select_by_filter(task, made, part_of(progress, 0.7, 1.0));
     if (!filtered) return made;
     Selection& other = filtered->selection;
-    if (other.end && other.chosen.fit.candidate.effects.empty()) {
+    if (other.end && filtered->whole(other.chosen.fit.candidate).effects.empty()) {
       made.reason = kNoTime;
       if (!made.selection.end) made.selection.end = other.end;
       return made;
@@ -299,7 +142,7 @@ PredictedSelection select_by_both(const Task& task, const Problem& problem,
 }
 
 /// By the filter of options.predictor.
-PredictedSelection select_by_asked_filter(const Task& task, const Problem& problem,
+PredictedSelection select_by_asked_filter(const SelectionTask& task, const Problem& problem,
                                           const DiagnosisProgress& progress) {
   PredictedSelection unsearched{
       .selection = Selection{problem}, .reason = "", .simulated = problem};
@@ -318,7 +161,7 @@ PredictedSelection select_by_asked_filter(const Task& task, const Problem& probl
 }
 
 /// By responses. Throws InputError where no torque is rich enough.
-PredictedSelection select_by_asked_responses(const Task& task, const Problem& problem,
+PredictedSelection select_by_asked_responses(const SelectionTask& task, const Problem& problem,
                                              const DiagnosisProgress& progress) {
   auto made = select_by_responses(
       task, {.selection = Selection{problem}, .reason = "", .simulated = problem}, progress);
@@ -337,10 +180,13 @@ PredictedSelection select_by_evidence(const Experiment& experiment,
                                       const std::vector<Hypothesis>& hypotheses,
                                       const SelectionOptions& options,
                                       const DiagnosisProgress& progress) {
-  const Task task{hypotheses, options};
+  const SelectionTask task{hypotheses, options};
   const auto asked = options.predictor;
   if (asked == PredictorKind::closed_loop && !has_controllers(experiment)) {
     throw arm::InputError("predictor closed_loop: no run states its controller");
+  }
+  if (asked == PredictorKind::driven_by_motion) {
+    return select_by_motion(task, experiment, progress);
   }
   std::string note;
   const Problem problem = simulated_problem(experiment, options, note);

@@ -153,5 +153,27 @@ TEST(PredictorChoice, TorqueBalanceWhereOutputErrorDoesNotLeaveNoise) {
   EXPECT_THAT(named_by(made.selection), testing::IsEmpty());
 }
 
+TEST(PredictorChoice, BeamIsJudgedByTheMotionAndTheHubByItsTorqueBalance) {
+  const Experiment experiment = with_unrecorded_torque(
+      simulated_experiment({effects::named("coulomb_friction", {{"torque", 0.02}}),
+                            effects::named("flexural_rigidity", {{"factor", 0.9}})},
+                           kShortRuns),
+      6);
+  const auto made = select_by_evidence(
+      experiment, named(experiment, {"coulomb_friction", "hub_spring", "flexural_rigidity"}), {},
+      {});
+  ASSERT_EQ(made.predictor, PredictorKind::torque_balance);
+  ASSERT_TRUE(made.by_motion);
+  ASSERT_THAT(named_by(*made.by_motion), testing::ElementsAre("flexural_rigidity"));
+  ASSERT_THAT(named_by(made.selection), testing::ElementsAre("coulomb_friction"));
+  const Candidate whole = made.whole(made.selection.chosen.fit.candidate);
+  ASSERT_EQ(whole.values.size(), 2U);
+  EXPECT_NEAR(whole.values[0], 0.9, 0.01);
+  EXPECT_NEAR(whole.values[1], 0.02, 0.002);
+  // The arm of the balance has the beam's effect already.
+  const arm::Arm& balanced = made.selection.problem.experiment().arm;
+  EXPECT_TRUE(balanced.effects.contains("flexural_rigidity"));
+}
+
 }  // namespace
 }  // namespace flexarm::diagnose

@@ -1,0 +1,222 @@
+#include "diagnose/search/predicted_selection.hpp"
+
+#include "arm/input_error.hpp"
+#include "arm/sensor.hpp"
+#include "arm/uncertainties.hpp"
+#include "diagnose/motion_drive.hpp"
+#include "diagnose/predictors/noise_estimate.hpp"
+#include "diagnose/predictors/response_runs.hpp"
+#include "diagnose/search/coarse.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+
+namespace flexarm::diagnose {
+
+namespace {
+
+/// Flexible modes of a Kalman filter <= this. What leaves no noise by output error is wrong by more
+/// than the modes beyond.
+constexpr int kMostFilteredModes = 6;
+
+/// Relative standard deviation of a number that states none, where it is refitted: that of a
+/// catalogue's density, or of an inertia from a drawing.
+constexpr double kAssumedUncertainty = 0.1;
+
+bool shows_hub(const measured::TimeRecord& record) {
+  return std::ranges::any_of(
+      record.channels, [](const auto& channel) { return arm::is_collocated(channel.sensor); });
+}
+
+/// What a hub sensor shows is the motion that the torque is balanced for, so that the balance does
+/// not judge that sensor.
+bool is_on_hub_sensor(const Hypothesis& hypothesis) {
+  return !hypothesis.sensor.empty() && arm::is_collocated(arm::parse_sensor(hypothesis.sensor));
+}
+
+/// Of the predictors with a noise model: torque balance where each `time` run shows the hub.
+PredictorKind filtering_predictor(const Experiment& experiment, const SelectionOptions& options) {
+  if (options.predictor) return *options.predictor;
+  const bool is_seen = std::ranges::all_of(experiment.runs, [](const auto& run) {
+    const auto* record = std::get_if<measured::TimeRecord>(&run.data);
+    return record == nullptr || shows_hub(*record);
+  });
+  return is_seen ? PredictorKind::torque_balance : PredictorKind::grey_box;
+}
+
+/// What a filter is given: the recorded torque, and whole runs decimated to what is enough for a
+/// torque on the hub.
+Problem filtered_problem(const Experiment& experiment, int flexible_modes,
+                         const SelectionOptions& options) {
+  const auto decimated = std::make_shared<const Experiment>(
+      decimated_whole(without_controllers(experiment), options.filtered_samples));
+  return {decimated, {.flexible_modes = std::min(kMostFilteredModes, flexible_modes)}};
+}
+
+/// What acts on the hub or its torque, and is not in the arm.
+std::vector<Hypothesis> of_hub_alone(std::vector<Hypothesis> hypotheses, const arm::Arm& arm) {
+  std::erase_if(hypotheses, [&](const Hypothesis& one) {
+    return acts_beside_motion(one) || arm.effects.contains(one.effect);
+  });
+  return hypotheses;
+}
+
+/// By motion in half of the time; empty where that is not the input of every run.
+std::optional<Selection> of_the_rest(const SelectionTask& task, const Experiment& experiment,
+                                     const DiagnosisProgress& progress) {
+  SelectionOptions options = task.options;
+  options.deadline = halfway(options.deadline);
+  try {
+    return select_by_motion({task.hypotheses, options}, experiment, progress).selection;
+  } catch (const arm::InputError&) {
+    return std::nullopt;  // a run without a hub sensor, or without another one
+  }
+}
+
+}  // namespace
+
+Candidate PredictedSelection::whole(Candidate candidate) const {
+  if (!by_motion) return candidate;
+  Candidate made = by_motion->chosen.fit.candidate;
+  std::ranges::move(candidate.effects, std::back_inserter(made.effects));
+  std::ranges::move(candidate.values, std::back_inserter(made.values));
+  // Both deviate from the number of the file by their sum: its logarithm is what is normal.
+  for (std::size_t i = 0; i < made.nuisances.size(); ++i) {
+    made.nuisances[i] += candidate.nuisances[i];
+  }
+  return made;
+}
+
+DiagnosisProgress part_of(const DiagnosisProgress& progress, double from, double to) {
+  return [&progress, from, to](std::string_view what, double done) {
+    return !progress || progress(what, from + (to - from) * done);
+  };
+}
+
+PredictedSelection select_by_simulation(const SelectionTask& task, const Problem& problem,
+                                        const DiagnosisProgress& progress) {
+  Selection selection = select(problem, task.hypotheses, task.options, progress);
+  const Problem simulated = selection.problem;
+  auto kind = PredictorKind::output_error;
+  if (has_controllers(problem.experiment())) kind = PredictorKind::closed_loop;
+  if (is_driven_by_motion(problem.experiment())) kind = PredictorKind::driven_by_motion;
+  return {.selection = std::move(selection),
+          .predictor = kind,
+          .reason = "as asked for",
+          .simulated = simulated};
+}
+
+std::optional<PredictedSelection> select_with_assumed_numbers(const SelectionTask& task,
+                                                              const Problem& problem,
+                                                              const DiagnosisProgress& progress) {
+  auto assumed = std::make_shared<Experiment>(problem.experiment());
+  assumed->arm = arm::with_assumed_uncertainties(assumed->arm, kAssumedUncertainty);
+  if (assumed->arm == problem.experiment().arm) return std::nullopt;
+  SelectionOptions options = task.options;
+  options.deadline = halfway(options.deadline);
+  options.most_causes = 1;
+  PredictedSelection made = select_by_simulation(
+      {task.hypotheses, options},
+      Problem(assumed, {.flexible_modes = problem.predictor().flexible_modes()}), progress);
+  if (!made.selection.cancelled && !made.selection.chosen.leaves_noise()) return std::nullopt;
+  made.reason = "its residuals are noise if numbers of the arm file are refitted";
+  return made;
+}
+
+PredictedSelection select_by_motion(const SelectionTask& task, const Experiment& experiment,
+                                    const DiagnosisProgress& progress) {
+  std::vector<Hypothesis> searched = task.hypotheses;
+  std::erase_if(searched, [](const Hypothesis& one) { return !acts_beside_motion(one); });
+  const Problem driven(
+      std::make_shared<const Experiment>(driven_by_motion(without_controllers(experiment))), {});
+  return select_by_simulation({searched, task.options}, driven, progress);
+}
+
+std::optional<PredictedSelection> select_by_filter(const SelectionTask& task,
+                                                   const PredictedSelection& by_simulation,
+                                                   const DiagnosisProgress& progress) {
+  const auto& [hypotheses, options] = task;
+  ReportedWork work(progress, options.deadline);
+  work.tell(kNoiseStage, 0.0);
+  Experiment experiment = by_simulation.simulated.experiment();
+  const int modes = by_simulation.simulated.predictor().flexible_modes();
+  const auto estimator_of = [&work](const Problem& problem) {
+    return NoiseEstimator(problem.experiment(), problem.observations(), problem.predictor(),
+                          [&work] { work.go_on(); });
+  };
+  if (!task.is_asked()) {
+    const Problem unfiltered = filtered_problem(experiment, modes, options);
+    const NoiseEstimator estimator = estimator_of(unfiltered);
+    const arm::Arm extended =
+        by_simulation.selection.chosen.fit.candidate.extend(experiment.arm);
+    const NoiseModel left = estimator.model(extended, unfiltered.estimation_runs()).model;
+    const double least_N_m = options.least_disturbance * estimator.torque_rms_N_m();
+    if (left.disturbance_N_m <= least_N_m) return std::nullopt;
+  }
+  const PredictorKind kind = filtering_predictor(experiment, options);
+  std::vector<Hypothesis> searched = hypotheses;
+  std::optional<Selection> by_motion;
+  if (kind == PredictorKind::torque_balance) std::erase_if(searched, is_on_hub_sensor);
+  if (kind == PredictorKind::torque_balance && !task.is_asked()) {
+    by_motion = of_the_rest(task, experiment, part_of(progress, 0.0, 0.5));
+  }
+  if (by_motion) {
+    if (by_motion->cancelled) throw Cancelled();
+    experiment.arm = by_motion->chosen.fit.candidate.extend(experiment.arm);
+    searched = of_hub_alone(std::move(searched), experiment.arm);
+  }
+  // The search begins with the arm as filed: what simulation named may be wrong.
+  const Problem unfiltered = filtered_problem(experiment, modes, options);
+  NoiseModel noise =
+      estimator_of(unfiltered).model(unfiltered.experiment().arm, unfiltered.estimation_runs()).model;
+  if (kind == PredictorKind::torque_balance) {
+    noise.balance_unit_N_m = estimated_disturbance_N_m(
+        unfiltered.predictor(), unfiltered.experiment().arm, unfiltered.estimation_runs(), noise);
+  }
+  PredictedSelection made{
+      .selection = select(unfiltered.with_noise(noise), searched, options,
+                          by_motion ? part_of(progress, 0.5, 1.0) : progress),
+      .predictor = kind,
+      .reason = "as asked for",
+      .by_motion = std::move(by_motion),
+      .simulated = by_simulation.simulated};
+  if (kind == PredictorKind::torque_balance) made.balance = made.selection.problem;
+  if (made.by_motion && !made.selection.end) made.selection.end = made.by_motion->end;
+  if (!task.is_asked()) {
+    made.reason = fmt::format(
+        "by simulation the residuals are not noise; an unrecorded hub torque of {:.3g} N m makes "
+        "them more likely{}",
+        noise.disturbance_N_m,
+        made.by_motion ? "; effects on beam, payload and sensors are those that the measured motion "
+                         "of the hub shows (driven_by_motion)"
+                       : "");
+  }
+  return made;
+}
+
+std::optional<PredictedSelection> select_by_responses(const SelectionTask& task,
+                                                      const PredictedSelection& by_simulation,
+                                                      const DiagnosisProgress& progress) {
+  auto responses = as_responses(by_simulation.simulated.experiment());
+  if (!responses) return std::nullopt;
+  std::vector<Hypothesis> searched = task.hypotheses;
+  std::erase_if(searched, [](const Hypothesis& hypothesis) {
+    return !hypothesis.shows_in(measured::RunKind::frf);
+  });
+  SelectionOptions options = task.options;
+  if (!task.is_asked()) options.deadline = halfway(options.deadline);
+  const Problem problem(std::make_shared<const Experiment>(*std::move(responses)), {});
+  return PredictedSelection{.selection = select(problem, searched, options, progress),
+                            .predictor = PredictorKind::frequency_response,
+                            .reason = "as asked for",
+                            .simulated = by_simulation.simulated};
+}
+
+}  // namespace flexarm::diagnose

@@ -1,0 +1,76 @@
+#pragma once
+
+#include "diagnose/search/selection.hpp"
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace flexarm::diagnose {
+
+/// A selection with the predictor of `time` runs that it was made by, and why by that one.
+struct PredictedSelection {
+  Selection selection;
+  PredictorKind predictor = PredictorKind::output_error;
+  std::string reason;  ///< a sentence; empty without `time` runs
+  /// Where the hub was judged apart, by torque balance: the selection by the measured motion, of
+  /// what acts on beam, payload and sensors. `selection` is then of the arm with its effects.
+  std::optional<Selection> by_motion = {};
+  /// The torque balance, where one was formed: with the noise of what was selected by it.
+  std::optional<Problem> balance = {};
+  /// By simulation, the noise of its channels as the selection by simulation left it: what
+  /// simulations are compared with the data by.
+  Problem simulated;
+
+  /// A candidate of `selection` with the effects of `by_motion`: one of the experiment's arm.
+  Candidate whole(Candidate candidate) const;
+};
+
+/// What is done by whichever predictor; both must outlive the object.
+struct SelectionTask {
+  const std::vector<Hypothesis>& hypotheses;
+  const SelectionOptions& options;
+
+  bool is_asked() const { return options.predictor.has_value(); }
+};
+
+/// A part of the whole progress.
+DiagnosisProgress part_of(const DiagnosisProgress& progress, double from, double to);
+
+/// What the reason says where the time limit ended the search before another predictor.
+inline constexpr const char* kNoTime = "the time limit left no time for another";
+/// A stage of the search that a time limit may end.
+inline constexpr const char* kNoiseStage = "the noise of a Kalman filter";
+
+/// By output error, in closed loop where the problem's runs state their controllers, or driven by
+/// the motion of its runs.
+PredictedSelection select_by_simulation(const SelectionTask& task, const Problem& problem,
+                                        const DiagnosisProgress& progress);
+
+/// Where effects do not leave noise: what numbers of the arm file that state no uncertainty explain
+/// if they are as uncertain as those of a data sheet, by themselves or beside one effect. Empty
+/// where that does not leave noise either.
+std::optional<PredictedSelection> select_with_assumed_numbers(const SelectionTask& task,
+                                                              const Problem& problem,
+                                                              const DiagnosisProgress& progress);
+
+/// Of what acts on beam, payload and sensors, by the measured motion of the hub. Throws InputError
+/// where that is not the input of every run (driven_by_motion).
+PredictedSelection select_by_motion(const SelectionTask& task, const Experiment& experiment,
+                                    const DiagnosisProgress& progress);
+
+/// The selection by a predictor with a noise model. Empty where that is not asked for and the
+/// disturbance of the arm that simulation made is small. A torque balance that is not asked for is
+/// of the hub alone, with what the measured motion says of the rest, where that can be the input.
+/// Throws Cancelled, and InputError where no Kalman filter can be formed.
+std::optional<PredictedSelection> select_by_filter(const SelectionTask& task,
+                                                   const PredictedSelection& by_simulation,
+                                                   const DiagnosisProgress& progress);
+
+/// The selection by the frequency responses of the runs. Empty where no torque is rich enough.
+std::optional<PredictedSelection> select_by_responses(const SelectionTask& task,
+                                                      const PredictedSelection& by_simulation,
+                                                      const DiagnosisProgress& progress);
+
+}  // namespace flexarm::diagnose

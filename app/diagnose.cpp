@@ -87,7 +87,7 @@ std::optional<diagnose::PredictorKind> chosen_predictor(const std::string& word)
   }
   throw arm::InputError(
       fmt::format("--predictor {}: must be auto, output_error, closed_loop, grey_box, "
-                  "torque_balance or frequency_response",
+                  "torque_balance, driven_by_motion or frequency_response",
                   arm::shown(word)));
 }
 
@@ -314,7 +314,9 @@ Command add_diagnose(CLI::App& program) {
           "How time runs are predicted: output_error (the torque alone drives the arm), "
           "closed_loop (the reference drives controller and arm), grey_box (a Kalman filter, with "
           "an unrecorded torque on the hub), torque_balance (the residual hub torque for the "
-          "motion as filtered), frequency_response (responses estimated of the runs) or auto")
+          "motion as filtered), driven_by_motion (the measured motion of the hub drives the beam; "
+          "torque and hub are not judged), frequency_response (responses estimated of the runs) or "
+          "auto")
       ->capture_default_str();
   parser
       ->add_option("--out", arguments->folder,

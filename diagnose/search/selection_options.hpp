@@ -17,15 +17,20 @@ enum class PredictorKind {
   closed_loop,
   grey_box,
   torque_balance,
+  driven_by_motion,
   frequency_response
 };
-inline constexpr std::array kPredictors = {PredictorKind::output_error, PredictorKind::closed_loop,
-                                           PredictorKind::grey_box, PredictorKind::torque_balance,
+inline constexpr std::array kPredictors = {PredictorKind::output_error,
+                                           PredictorKind::closed_loop,
+                                           PredictorKind::grey_box,
+                                           PredictorKind::torque_balance,
+                                           PredictorKind::driven_by_motion,
                                            PredictorKind::frequency_response};
 
 /// Runs are simulated in time, without a noise model.
 constexpr bool is_simulation(PredictorKind kind) {
-  return kind == PredictorKind::output_error || kind == PredictorKind::closed_loop;
+  return kind == PredictorKind::output_error || kind == PredictorKind::closed_loop ||
+         kind == PredictorKind::driven_by_motion;
 }
 
 /// "grey_box".
@@ -39,6 +44,8 @@ constexpr std::string_view to_string(PredictorKind kind) {
       return "grey_box";
     case PredictorKind::torque_balance:
       return "torque_balance";
+    case PredictorKind::driven_by_motion:
+      return "driven_by_motion";
     case PredictorKind::frequency_response:
       return "frequency_response";
   }

@@ -189,9 +189,9 @@ struct JudgedSelection {
   Posterior posterior;
   std::vector<double> errors;  ///< of nuisances and parameters of what is chosen
 
-  JudgedSelection(const Selection& made, std::size_t hypotheses, const SelectionOptions& options)
+  JudgedSelection(const Selection& made, const SelectionOptions& options)
       : selection(made),
-        posterior(posterior_of(made, hypotheses, options)),
+        posterior(posterior_of(made, options)),
         errors(standard_errors(made.problem, made.chosen, options.further_modes)) {}
 
   const Candidate& chosen() const { return selection.chosen.fit.candidate; }
@@ -263,8 +263,8 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
   made.disturbance = disturbance_gain(selection);
   const Candidate chosen = predicted.whole(selection.chosen.fit.candidate);
   std::vector<JudgedSelection> judged;
-  if (predicted.by_motion) judged.emplace_back(*predicted.by_motion, hypotheses.size(), options);
-  judged.emplace_back(selection, hypotheses.size(), options);
+  if (predicted.by_motion) judged.emplace_back(*predicted.by_motion, options);
+  judged.emplace_back(selection, options);
   double nothing_else = 1.0;
   for (const JudgedSelection& one : judged) {
     std::ranges::move(one.causes(), std::back_inserter(made.causes));

@@ -52,8 +52,7 @@ std::vector<Explanation> indistinguishable_sets(const Selection& selection,
   return found;
 }
 
-Posterior posterior_of(const Selection& selection, std::size_t hypotheses,
-                       const SelectionOptions& options) {
+Posterior posterior_of(const Selection& selection, const SelectionOptions& options) {
   std::vector<const Explanation*> sets = {&selection.nothing};
   const auto is_new = [&sets](const Explanation& explanation) {
     return std::ranges::none_of(sets, [&](const Explanation* set) {
@@ -66,13 +65,13 @@ Posterior posterior_of(const Selection& selection, std::size_t hypotheses,
       if (is_identified(explanation) && is_new(explanation)) sets.push_back(&explanation);
     }
   }
-  return {sets, hypotheses, options};
+  return {sets, selection.hypotheses, options};
 }
 
-std::optional<std::size_t> improbable_effect(const Selection& selection, std::size_t hypotheses,
+std::optional<std::size_t> improbable_effect(const Selection& selection,
                                              const SelectionOptions& options) {
   const Candidate& candidate = selection.chosen.fit.candidate;
-  const Posterior posterior = posterior_of(selection, hypotheses, options);
+  const Posterior posterior = posterior_of(selection, options);
   double least = options.least_probability;
   std::optional<std::size_t> improbable;
   for (std::size_t i = 0; i < candidate.effects.size(); ++i) {

@@ -32,16 +32,15 @@ std::vector<Explanation> indistinguishable_sets(const Selection& selection,
 inline constexpr double kIndistinguishableOdds = 20.0;
 
 /// Of the sets that were fitted: no cause, singles, combinations, the chosen one.
-Posterior posterior_of(const Selection& selection, std::size_t hypotheses,
-                       const SelectionOptions& options);
+Posterior posterior_of(const Selection& selection, const SelectionOptions& options);
 
 /// That this cause, or one of its `rivals` that is indistinguishable from it, is there.
 double class_probability(const Hypothesis& cause, const std::vector<Rival>& rivals,
                          const Posterior& posterior);
 
 /// The least probable of the chosen causes, with what stands in its place as well, if that is too
-/// improbable to be named; `hypotheses` is the number that there are.
-std::optional<std::size_t> improbable_effect(const Selection& selection, std::size_t hypotheses,
+/// improbable to be named.
+std::optional<std::size_t> improbable_effect(const Selection& selection,
                                              const SelectionOptions& options);
 
 }  // namespace flexarm::diagnose

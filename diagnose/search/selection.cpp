@@ -61,14 +61,14 @@ class Search {
 
  private:
   Selection found() {
-    Selection made{problem_};
+    Selection made{.problem = problem_, .hypotheses = hypotheses_.size()};
     try {
       search(made);
     } catch (const Cancelled&) {
       if (!work_.is_out_of_time()) throw;
       end_search(made);
     }
-    made.rivals = indistinguishable_sets(made, posterior_of(made, hypotheses_.size(), options_));
+    made.rivals = indistinguishable_sets(made, posterior_of(made, options_));
     return made;
   }
 
@@ -255,7 +255,7 @@ class Search {
     while (!made.chosen.fit.candidate.effects.empty()) {
       const Candidate& candidate = made.chosen.fit.candidate;
       auto unnamed = unidentified_effect(candidate, stated_errors(made.chosen));
-      if (!unnamed) unnamed = improbable_effect(made, hypotheses_.size(), options_);
+      if (!unnamed) unnamed = improbable_effect(made, options_);
       if (!unnamed) return;
       const Candidate rest = candidate.without(*unnamed);
       made.chosen = fits_.fitted(rest);

@@ -6,6 +6,7 @@
 #include "diagnose/search/selection_options.hpp"
 #include "diagnose/search/torque_timing.hpp"
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,6 +25,7 @@ struct Selection {
   /// The problem as it was solved: with the noise that the residuals of the best single show
   /// (Problem::lower_noise), and the torques as their timing corrects them.
   Problem problem;
+  std::size_t hypotheses = 0;             ///< how many were searched among
   Explanation nothing = {};               ///< no cause; the arm's uncertain numbers refitted
   std::vector<Explanation> singles = {};  ///< hypotheses by themselves, the best first
   std::vector<Explanation> combinations =

@@ -86,8 +86,8 @@ std::optional<diagnose::PredictorKind> chosen_predictor(const std::string& word)
     if (word == diagnose::to_string(kind)) return kind;
   }
   throw arm::InputError(
-      fmt::format("--predictor {}: must be auto, output_error, closed_loop, grey_box or "
-                  "torque_balance",
+      fmt::format("--predictor {}: must be auto, output_error, closed_loop, grey_box, "
+                  "torque_balance or driven_by_motion",
                   arm::shown(word)));
 }
 
@@ -312,7 +312,8 @@ Command add_diagnose(CLI::App& program) {
           "How time runs are predicted: output_error (the torque alone drives the arm), "
           "closed_loop (the reference drives controller and arm), grey_box (a Kalman filter, with "
           "an unrecorded torque on the hub), torque_balance (the residual hub torque for the "
-          "motion as filtered) or auto")
+          "motion as filtered), driven_by_motion (the measured motion of the hub drives the beam; "
+          "torque and hub are not judged) or auto")
       ->capture_default_str();
   parser
       ->add_option("--out", arguments->folder,

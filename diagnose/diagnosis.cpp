@@ -1,5 +1,6 @@
 #include "diagnose/diagnosis.hpp"
 
+#include "diagnose/motion_drive.hpp"
 #include "diagnose/search/parameter_errors.hpp"
 #include "diagnose/search/reported_work.hpp"
 #include "diagnose/search/rivals.hpp"
@@ -211,7 +212,10 @@ std::vector<NearMiss> near_misses(const PredictedSelection& predicted,
 
 Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& all,
                    const SelectionOptions& options, const DiagnosisProgress& progress) {
-  if (!holds_are_known(experiment)) return with_nearest_hold(experiment, all, options, progress);
+  const bool is_by_motion = options.predictor == PredictorKind::driven_by_motion;
+  if (!is_by_motion && !holds_are_known(experiment)) {
+    return with_nearest_hold(experiment, all, options, progress);
+  }
   const std::vector<Hypothesis> hypotheses = distinct(all);
   const PredictedSelection predicted =
       select_by_evidence(experiment, hypotheses, options, progress);
@@ -232,6 +236,10 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
   made.causes = causes_of(selection, posterior, errors);
   made.something_else = posterior.of_something_else();
   say_timing(experiment, selection, made.notices);
+  if (is_by_motion) {
+    made.notices.push_back(
+        motion_notice(selection.problem.experiment(), selection.problem.observations()));
+  }
   say_noise(predicted.simulated, made.notices);
   say_assumed_numbers(experiment.arm, selection.problem.experiment().arm, made.notices);
   // What is left is judged by simulation, whichever predictor found the effects.

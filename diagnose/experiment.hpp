@@ -1,6 +1,7 @@
 #pragma once
 
 #include "arm/arm.hpp"
+#include "diagnose/measured_motion.hpp"
 #include "measured/checks/data_check.hpp"
 #include "measured/run_identification.hpp"
 
@@ -24,6 +25,9 @@ struct Experiment {
   std::vector<std::filesystem::path> files;  ///< that it was read from
   std::vector<std::string> notices;          ///< what was assumed or left out, a sentence each
   std::vector<AcceptedFinding> accepted;     ///< faults that count as none
+  /// Of an experiment that is driven by motion (driven_by_motion), one a run, all of which are
+  /// `time` runs: the hub turns like that, and no torque has any influence. Else empty.
+  std::vector<MeasuredMotion> motions = {};
 };
 
 /// The arm of a run: with the run's payload in place of its own where it has one.
@@ -33,6 +37,11 @@ arm::Arm arm_in(const Experiment& experiment, const measured::Run& run);
 /// does: its torque is then what was recorded.
 bool has_controllers(const Experiment& experiment);
 Experiment without_controllers(Experiment experiment);
+
+/// Whether the hub's motion is the input of the runs.
+inline bool is_driven_by_motion(const Experiment& experiment) {
+  return !experiment.motions.empty();
+}
 
 /// Whether every `time` run says what its torque does between samples; and the experiment with
 /// those that do not taken for saying `hold`.

@@ -3,6 +3,7 @@
 #include "arm/effects.hpp"
 #include "arm/input_error.hpp"
 #include "arm/linear_arm.hpp"
+#include "arm/rigid_hub.hpp"
 
 #include <fmt/format.h>
 
@@ -197,6 +198,20 @@ ArmParts take_apart(const arm::Arm& arm) {
     return stage ? stage(*effect).order : 0;
   });
   for (const arm::Effect* effect : ordered) add_effect(parts, *effect);
+  return parts;
+}
+
+ArmParts with_driven_hub(ArmParts parts) {
+  arm::require_beam(parts.linear, "a hub whose motion is given");
+  std::erase_if(parts.linear.effects, [](const auto& effect) {
+    return arm::acts_without_beam(*effect.second.definition);
+  });
+  const double inertia_kg_m2 = arm::total_inertia_kg_m2(arm::linear_arm(parts.linear));
+  parts.linear.hub.inertia_kg_m2 = kDrivenHubInertia * inertia_kg_m2;
+  parts.linear.hub.viscous_friction_N_m_s_per_rad = 0.0;
+  parts.actuator = {};
+  parts.hub = {};
+  parts.hub_is_driven = true;
   return parts;
 }
 

@@ -79,6 +79,9 @@ struct ArmParts {
   std::vector<SensorChain> sensor_chains = {};  ///< one a sensor at most, each of some stage
   /// A state of the time model that a Kalman filter moves; 0 without one.
   std::optional<HubDisturbance> disturbance = {};
+  /// The hub turns as it is told (with_driven_hub): the command is its angular acceleration in
+  /// rad/s^2, in the place of a torque.
+  bool hub_is_driven = false;
 };
 
 /// Adds what an effect does through ports outside of the linear arm; a stage of the torque's path
@@ -89,6 +92,14 @@ void add_effect(ArmParts& parts, const arm::Effect& effect);
 /// torque or of a sensor that is not modelled: two lags, or a map that is not proportional behind a
 /// lag.
 ArmParts take_apart(const arm::Arm& arm);
+
+/// The arm of `parts` with a hub whose motion is given: what acts on the hub alone, its inertia,
+/// spring, friction and laws, and the path of the torque, has no influence and is left out. The
+/// hub's inertia is then `kDrivenHubInertia` times that of the arm, which the modes depend on, and
+/// the motion does not: the modes are nearly those of the arm with its hub clamped, and few suffice.
+/// Throws InputError for an arm without a beam.
+ArmParts with_driven_hub(ArmParts parts);
+inline constexpr double kDrivenHubInertia = 1e4;
 
 /// Names of the arm's effects that poles, zeros and frequency responses leave out because they are
 /// not linear: maps of the torque that are not proportional, laws of hub torque, forces along the

@@ -84,8 +84,11 @@ Predictor::Predictor(const Experiment& experiment, const Observations& observati
     if (record == nullptr) continue;
     const arm::Payload payload = run.payload.value_or(experiment.arm.payload);
     const auto sensors = sensors_of(*record);
-    const response::SimulationOptions options = response::options_of_fit(
-        measured::sampling_period_s(*record), simulated_hold(run.torque_hold));
+    // A hub that is driven has an acceleration that is linear between samples.
+    const auto hold = is_driven_by_motion(experiment) ? response::TorqueHold::first
+                                                      : simulated_hold(run.torque_hold);
+    const response::SimulationOptions options =
+        response::options_of_fit(measured::sampling_period_s(*record), hold);
     auto at = std::ranges::find_if(conditions_, [&](const Condition& condition) {
       return condition.payload == payload && condition.sensors == sensors &&
              condition.options.sample_time_s == options.sample_time_s &&
@@ -113,6 +116,7 @@ void Predictor::for_each_time_run(const arm::Arm& arm, const std::vector<bool>& 
     with_payload.payload = condition.payload;
     response::ArmParts parts = response::take_apart(with_payload);
     if (noise != nullptr) parts.disturbance = {noise->correlation_time_s};
+    if (is_driven_by_motion(*experiment_)) parts = response::with_driven_hub(std::move(parts));
     const auto model =
         response::time_model(response::make_formulation("exact_tf", parts.linear, flexible_modes_),
                              parts, flexible_modes_, condition.sensors);
@@ -143,9 +147,13 @@ Eigen::VectorXd Predictor::operator()(const arm::Arm& arm, const std::vector<boo
   Eigen::VectorXd values = Eigen::VectorXd::Zero(observations_.values.size());
   const auto simulate = [&](std::size_t r, const response::ArmSimulator& simulation) {
     const auto [first, count] = stretch(r);
+    const Eigen::VectorXd measured = observations_.values.segment(first, count);
+    const Eigen::VectorXd deviations = observations_.deviations.segment(first, count);
+    const auto& run = experiment_->runs[r];
     values.segment(first, count) =
-        simulated_run(simulation, experiment_->runs[r], observations_.values.segment(first, count),
-                      observations_.deviations.segment(first, count));
+        is_driven_by_motion(*experiment_)
+            ? driven_run(simulation, experiment_->motions[r].motion, run, measured, deviations)
+            : simulated_run(simulation, run, measured, deviations);
   };
   for_each_time_run(arm, runs, nullptr, simulate);
   predict_other_runs(arm, runs, values);
@@ -217,6 +225,38 @@ std::vector<RunInnovations> Predictor::innovations(const arm::Arm& arm,
 std::pair<Index, Index> Predictor::stretch(std::size_t run) const {
   const auto& first = observations_.first_of_run;
   return {first[run], first[run + 1] - first[run]};
+}
+
+// Moves are not what the likelihood of a smoothing assumes: those of simulated arms were off by up to
+// 1.2 times what it says.
+constexpr double kMotionDoubt = 1.2;
+
+std::vector<double> errors_of_motion(const Experiment& experiment,
+                                     const Observations& observations, int flexible_modes) {
+  Experiment displaced = experiment;
+  for (auto& [sensor, noise, motion, error] : displaced.motions) {
+    motion.angle_rad += error.angle_rad;
+    motion.velocity_rad_per_s += error.velocity_rad_per_s;
+    for (std::size_t k = 0; k < motion.acceleration_rad_per_s2.size(); ++k) {
+      motion.acceleration_rad_per_s2[k] += error.acceleration_rad_per_s2[k];
+    }
+  }
+  std::vector<double> made(observations.channels.size(), 0.0);
+  const std::vector<bool> all(experiment.runs.size(), true);
+  try {
+    const Eigen::VectorXd off =
+        Predictor(displaced, observations, flexible_modes)(experiment.arm, all) -
+        Predictor(experiment, observations, flexible_modes)(experiment.arm, all);
+    for (std::size_t c = 0; c < made.size(); ++c) {
+      const ObservedChannel& channel = observations.channels[c];
+      const auto signal = observations.values.segment(channel.first, channel.count).array();
+      made[c] = kMotionDoubt * off.segment(channel.first, channel.count).norm() /
+                (signal - signal.mean()).matrix().norm();
+    }
+  } catch (const std::runtime_error&) {
+    // An arm that is none, or a simulation that overflows.
+  }
+  return made;
 }
 
 ModeChoice modes_needed(const Experiment& experiment, const Observations& observations) {

@@ -19,11 +19,13 @@ namespace flexarm::diagnose {
 /// As the simulation names what the torque does between samples.
 response::TorqueHold simulated_hold(measured::TorqueHold hold);
 
-/// What an arm should have shown in the runs of an experiment, by one of three models of `time`
+/// What an arm should have shown in the runs of an experiment, by one of four models of `time`
 /// runs:
 ///
 /// - output error: the torque alone drives the arm from its initial state, or in closed loop, where
 ///   the run states its controller, the reference alone drives both;
+/// - driven by motion, in an experiment that is (driven_by_motion): the hub turns as measured, and
+///   what acts on it has no influence;
 /// - stochastic grey box, with a noise model, for runs that state no controller: a Kalman filter
 ///   predicts each sample from all samples before it [Kristensen2004];
 /// - torque balance at the hub, with a noise model that has a unit for it: the torque that is
@@ -112,5 +114,11 @@ ModeChoice modes_needed(const Experiment& experiment, const Observations& observ
 inline constexpr double kModeError = 1e-4;
 inline constexpr int kFewestModes = 4;
 inline constexpr int kMostModes = 16;
+
+/// Of an experiment that is driven by motion: what the error of the motion (MeasuredMotion::error)
+/// adds to what the arm as filed shows, of each channel the root mean square over the deviation of
+/// the measured signal. Of an arm that cannot be computed 0.
+std::vector<double> errors_of_motion(const Experiment& experiment,
+                                     const Observations& observations, int flexible_modes);
 
 }  // namespace flexarm::diagnose

@@ -15,32 +15,42 @@ using Eigen::Index;
 
 namespace {
 
-/// What a run from an unknown state shows, `from_rest` being known: its state is the most likely
-/// one. With forces that are not linear by Gauss-Newton steps, with the linear arm's derivatives.
+/// The initial states that are possible: `known`, and any combination of the columns of `unknown`
+/// beside it.
+struct InitialStates {
+  Eigen::VectorXd known;
+  Eigen::MatrixXd unknown;
+};
+
+/// What a run from an unknown state shows, `from_known` being what it shows from the known part: its
+/// state is the most likely one. With forces that are not linear by Gauss-Newton steps, with the
+/// linear arm's derivatives.
 Eigen::MatrixXd from_likely_state(const response::ArmSimulator& simulation,
                                   const std::vector<double>& torque_N_m,
-                                  const Eigen::MatrixXd& from_rest, const Eigen::VectorXd& measured,
+                                  const InitialStates& initial, const Eigen::MatrixXd& from_known,
+                                  const Eigen::VectorXd& measured,
                                   const Eigen::VectorXd& deviations) {
   constexpr int kSteps = 10;
   constexpr double kShorter = 0.3;
   constexpr double kShortest = 0.05;
   constexpr double kNearEnough = 1e-4;  // the sum of squares falls by less than this part of it
-  const Eigen::MatrixXd free = simulation.free_readings(torque_N_m.size());
+  const Eigen::MatrixXd free = simulation.free_readings(torque_N_m.size()) * initial.unknown;
   const InitialStateEstimator estimator(free, deviations, measured);
-  Eigen::VectorXd state = Eigen::VectorXd::Zero(simulation.states());
+  Eigen::VectorXd state = Eigen::VectorXd::Zero(initial.unknown.cols());
   const auto left = [&](const Eigen::MatrixXd& readings) {
     return Eigen::VectorXd(measured - readings.reshaped());
   };
   if (simulation.is_linear()) {
     const Eigen::VectorXd made =
-        from_rest.reshaped() + free * estimator.step(left(from_rest), state);
-    return made.reshaped(from_rest.rows(), from_rest.cols());
+        from_known.reshaped() + free * estimator.step(left(from_known), state);
+    return made.reshaped(from_known.rows(), from_known.cols());
   }
-  Eigen::MatrixXd made = from_rest;
+  Eigen::MatrixXd made = from_known;
   double length = 1.0;
   for (int step = 0; step < kSteps && length > kShortest; ++step) {
     const Eigen::VectorXd further = state + length * estimator.step(left(made), state);
-    const Eigen::MatrixXd there = simulation.readings(torque_N_m, further);
+    const Eigen::MatrixXd there =
+        simulation.readings(torque_N_m, initial.known + initial.unknown * further);
     const double before = estimator.cost(left(made), state);
     const double after = estimator.cost(left(there), further);
     if (after < before) {
@@ -98,7 +108,29 @@ Eigen::VectorXd simulated_run(const response::ArmSimulator& simulation,
   const auto& torque_N_m = std::get<measured::TimeRecord>(run.data).torque_N_m;
   Eigen::MatrixXd readings = simulation.readings(torque_N_m);
   if (run.run.initial == measured::InitialState::free) {
-    readings = from_likely_state(simulation, torque_N_m, readings, measured, deviations);
+    const auto states = simulation.states();
+    const InitialStates any{Eigen::VectorXd::Zero(states),
+                            Eigen::MatrixXd::Identity(states, states)};
+    readings = from_likely_state(simulation, torque_N_m, any, readings, measured, deviations);
+  }
+  return readings.reshaped();
+}
+
+Eigen::VectorXd driven_run(const response::ArmSimulator& simulation,
+                           const PrescribedMotion& motion, const measured::MeasuredRun& run,
+                           const Eigen::VectorXd& measured, const Eigen::VectorXd& deviations) {
+  const auto& record = std::get<measured::TimeRecord>(run.data);
+  const auto& command = motion.acceleration_rad_per_s2;
+  // The state is that so many samples before the first, from where the hub turns evenly.
+  const double before_s =
+      static_cast<double>(simulation.lead(command.size())) * measured::sampling_period_s(record);
+  const Eigen::Vector2d hub(motion.angle_rad - before_s * motion.velocity_rad_per_s,
+                            motion.velocity_rad_per_s);
+  const InitialStates initial{simulation.rigid_states() * hub,
+                              simulation.states_of_resting_hub()};
+  Eigen::MatrixXd readings = simulation.readings(command, initial.known);
+  if (run.run.initial == measured::InitialState::free) {
+    readings = from_likely_state(simulation, command, initial, readings, measured, deviations);
   }
   return readings.reshaped();
 }

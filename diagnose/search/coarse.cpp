@@ -3,7 +3,6 @@
 #include "measured/files/decimation.hpp"
 
 #include <algorithm>
-#include <iterator>
 #include <variant>
 
 namespace flexarm::diagnose {
@@ -36,9 +35,11 @@ void thin(measured::ModalTable& /*table*/, std::size_t /*samples*/) {}
 Experiment estimation_part(const Experiment& experiment) {
   Experiment made;
   made.arm = experiment.arm;
-  std::ranges::copy_if(experiment.runs, std::back_inserter(made.runs), [](const auto& run) {
-    return run.run.purpose == measured::Purpose::estimation;
-  });
+  for (std::size_t r = 0; r < experiment.runs.size(); ++r) {
+    if (experiment.runs[r].run.purpose != measured::Purpose::estimation) continue;
+    made.runs.push_back(experiment.runs[r]);
+    if (is_driven_by_motion(experiment)) made.motions.push_back(experiment.motions[r]);
+  }
   return made;
 }
 
@@ -48,6 +49,12 @@ Experiment coarse(const Experiment& experiment, std::size_t samples) {
   Experiment made = estimation_part(experiment);
   for (auto& run : made.runs) {
     std::visit([&](auto& data) { thin(data, samples); }, run.data);
+  }
+  for (MeasuredMotion& measured : made.motions) {
+    for (auto* motion : {&measured.motion, &measured.error}) {
+      auto& accelerations = motion->acceleration_rad_per_s2;
+      accelerations.resize(std::min(accelerations.size(), samples));
+    }
   }
   return made;
 }

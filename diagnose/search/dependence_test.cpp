@@ -92,7 +92,8 @@ struct ScoredRuns {
   /// Less of a change than this beyond refitting is rounding.
   static constexpr double kLeastPart = 1e-4;
 
-  /// Of each channel of a `time` run on the torque up to the sample.
+  /// Of each channel of a `time` run on the torque up to the sample, or on the hub's acceleration
+  /// where that drives the arm.
   Score of_torque(const Problem& problem) const;
 };
 
@@ -120,7 +121,9 @@ Score ScoredRuns::of_torque(const Problem& problem) const {
     if (!runs[channel.run] || record == nullptr) continue;
     if (run != channel.run) {
       run = channel.run;
-      torque.compute(lagged(record->torque_N_m));
+      const bool is_driven = is_driven_by_motion(experiment);
+      torque.compute(lagged(is_driven ? experiment.motions[*run].motion.acceleration_rad_per_s2
+                                      : record->torque_N_m));
     }
     const Eigen::VectorXd along =
         torque.householderQ().adjoint() * residuals.segment(channel.first, channel.count);
@@ -171,7 +174,7 @@ Dependence test_dependence(const Problem& problem, const Candidate& fitted,
                      const auto& set = sets[i / changed.size()];
                      if (set) scores[i] = set->of_change(problem, changed[i % changed.size()]);
                    });
-  if (problem.is_driven_by_torque()) {
+  if (problem.is_driven_by_torque() || is_driven_by_motion(problem.experiment())) {
     for (const auto& set : sets) {
       if (set) scores.push_back(set->of_torque(problem));
     }

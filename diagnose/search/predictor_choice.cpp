@@ -3,6 +3,7 @@
 #include "arm/input_error.hpp"
 #include "arm/sensor.hpp"
 #include "arm/uncertainties.hpp"
+#include "diagnose/motion_drive.hpp"
 #include "diagnose/predictors/noise_estimate.hpp"
 #include "diagnose/search/coarse.hpp"
 
@@ -105,8 +106,9 @@ PredictedSelection select_by_simulation(const Task& task, const Problem& problem
                                         const DiagnosisProgress& progress) {
   Selection selection = select(problem, task.hypotheses, task.options, progress);
   const Problem simulated = selection.problem;
-  const auto kind = has_controllers(problem.experiment()) ? PredictorKind::closed_loop
-                                                          : PredictorKind::output_error;
+  auto kind = PredictorKind::output_error;
+  if (has_controllers(problem.experiment())) kind = PredictorKind::closed_loop;
+  if (is_driven_by_motion(problem.experiment())) kind = PredictorKind::driven_by_motion;
   return {.selection = std::move(selection),
           .predictor = kind,
           .reason = "as asked for",
@@ -262,6 +264,15 @@ PredictedSelection select_by_asked_filter(const Task& task, const Problem& probl
   }
 }
 
+/// With the hub's motion as the input.
+PredictedSelection select_by_motion(const Task& task, const Experiment& experiment,
+                                    const DiagnosisProgress& progress) {
+  std::vector<Hypothesis> searched = task.hypotheses;
+  std::erase_if(searched, [](const Hypothesis& one) { return !acts_beside_motion(one); });
+  const Problem driven(std::make_shared<const Experiment>(driven_by_motion(experiment)), {});
+  return select_by_simulation({searched, task.options}, driven, progress);
+}
+
 }  // namespace
 
 PredictedSelection select_by_evidence(const Experiment& experiment,
@@ -272,6 +283,9 @@ PredictedSelection select_by_evidence(const Experiment& experiment,
   const auto asked = options.predictor;
   if (asked == PredictorKind::closed_loop && !has_controllers(experiment)) {
     throw arm::InputError("predictor closed_loop: no run states its controller");
+  }
+  if (asked == PredictorKind::driven_by_motion) {
+    return select_by_motion(task, experiment, progress);
   }
   std::string note;
   const Problem problem = simulated_problem(experiment, options, note);

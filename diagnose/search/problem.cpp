@@ -45,6 +45,13 @@ Predictor predictor_for(const Experiment& experiment, Observations& observations
                         const ProblemOptions& options) {
   ModeChoice modes{options.flexible_modes.value_or(0)};
   if (!options.flexible_modes) modes = modes_needed(experiment, observations);
+  if (is_driven_by_motion(experiment)) {
+    modes.errors.resize(observations.channels.size(), 0.0);
+    const auto of_motion = errors_of_motion(experiment, observations, modes.flexible_modes);
+    for (std::size_t c = 0; c < of_motion.size(); ++c) {
+      modes.errors[c] = std::hypot(modes.errors[c], of_motion[c]);
+    }
+  }
   widen(observations, modes.errors);
   return {experiment, observations, modes.flexible_modes, options.noise};
 }

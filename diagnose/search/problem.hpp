@@ -49,7 +49,8 @@ class Problem {
 
   /// By output error from recorded torques.
   bool is_driven_by_torque() const {
-    return !predictor_.noise() && !has_controllers(*experiment_);
+    return !predictor_.noise() && !has_controllers(*experiment_) &&
+           !is_driven_by_motion(*experiment_);
   }
 
   /// The same simulated with so many modes, or by a filter.

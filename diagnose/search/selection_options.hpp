@@ -11,13 +11,21 @@ namespace flexarm::diagnose {
 
 /// How `time` runs are predicted (predictors/predictor.hpp); closed_loop is output error with the
 /// controllers of the runs simulated too.
-enum class PredictorKind { output_error, closed_loop, grey_box, torque_balance };
-inline constexpr std::array kPredictors = {PredictorKind::output_error, PredictorKind::closed_loop,
-                                           PredictorKind::grey_box, PredictorKind::torque_balance};
+enum class PredictorKind {
+  output_error,
+  closed_loop,
+  grey_box,
+  torque_balance,
+  driven_by_motion
+};
+inline constexpr std::array kPredictors = {
+    PredictorKind::output_error, PredictorKind::closed_loop, PredictorKind::grey_box,
+    PredictorKind::torque_balance, PredictorKind::driven_by_motion};
 
 /// Without a noise model.
 constexpr bool is_simulation(PredictorKind kind) {
-  return kind == PredictorKind::output_error || kind == PredictorKind::closed_loop;
+  return kind == PredictorKind::output_error || kind == PredictorKind::closed_loop ||
+         kind == PredictorKind::driven_by_motion;
 }
 
 /// "grey_box".
@@ -31,6 +39,8 @@ constexpr std::string_view to_string(PredictorKind kind) {
       return "grey_box";
     case PredictorKind::torque_balance:
       return "torque_balance";
+    case PredictorKind::driven_by_motion:
+      return "driven_by_motion";
   }
   return "";
 }

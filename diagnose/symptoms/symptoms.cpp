@@ -15,7 +15,8 @@ Symptoms symptoms_of(const SymptomsInput& input, std::optional<RunDrift> drift) 
   };
   made.bands = band_errors(input);
   add(error_symptoms(input, made.bands));
-  add(trend_symptoms(input));
+  // The torque is no input of an arm that is driven by motion.
+  if (!is_driven_by_motion(input.problem.experiment())) add(trend_symptoms(input));
   made.roots = root_shifts(input);
   add(root_symptoms(made.roots));
   made.hub_torque = hub_torque(hub_motions(input),

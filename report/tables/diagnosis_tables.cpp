@@ -108,6 +108,8 @@ std::string_view name_of(diagnose::PredictorKind predictor) {
       return "stochastic grey box";
     case diagnose::PredictorKind::torque_balance:
       return "torque balance at the hub";
+    case diagnose::PredictorKind::driven_by_motion:
+      return "driven by motion";
   }
   return "";
 }
@@ -177,6 +179,10 @@ std::string predictor_text(const diagnose::Diagnosis& diagnosis) {
     return named +
            " The reference drives the simulation; the torque is the controller's, and is "
            "compared with the data like a sensor.";
+  }
+  if (diagnosis.predictor == diagnose::PredictorKind::driven_by_motion) {
+    return named +
+           " The measured motion of the hub drives the simulation; torque and hub are not judged.";
   }
   if (!diagnosis.disturbance) return named;
   const diagnose::DisturbanceGain& left = *diagnosis.disturbance;

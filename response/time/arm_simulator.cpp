@@ -7,6 +7,8 @@
 #include "response/time/simulator_commands.hpp"
 #include "response/time/time_stepper.hpp"
 
+#include <Eigen/QR>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -62,6 +64,20 @@ Eigen::MatrixXd ArmSimulator::rigid_states() const {
   Eigen::MatrixXd made = Eigen::MatrixXd::Zero(states(), 2);
   made(0, 0) = arm_.scale_rad_per_s(0) / arm_.hub_slope(0);
   made(arm_.modes, 1) = 1.0 / arm_.hub_slope(0);
+  return made;
+}
+
+Eigen::MatrixXd ArmSimulator::states_of_resting_hub() const {
+  const Index n = arm_.modes;
+  // What is orthogonal to the row that shows the hub.
+  const auto beside = [n](const Eigen::VectorXd& shown) -> Eigen::MatrixXd {
+    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(shown);
+    return Eigen::MatrixXd(qr.householderQ()).rightCols(n - 1);
+  };
+  Eigen::MatrixXd made = Eigen::MatrixXd::Zero(states(), states() - 2);
+  made.topLeftCorner(n, n - 1) = beside(arm_.hub_slope.cwiseQuotient(arm_.scale_rad_per_s));
+  made.block(n, n - 1, n, n - 1) = beside(arm_.hub_slope);
+  made.bottomRightCorner(states() - 2 * n, states() - 2 * n).setIdentity();
   return made;
 }
 

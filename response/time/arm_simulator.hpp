@@ -44,6 +44,8 @@ class ArmSimulator {
   /// Two columns: the hub turned by 1 rad, and turning at 1 rad/s, in the first mode alone: that of
   /// the rigid arm where nothing holds the hub.
   Eigen::MatrixXd rigid_states() const;
+  /// A basis of the states with the hub at rest at angle 0, N x (N - 2).
+  Eigen::MatrixXd states_of_resting_hub() const;
   /// No friction, and no force that varies with the state: responses add up.
   bool is_linear() const { return plan_.is_linear(); }
 

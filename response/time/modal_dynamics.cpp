@@ -89,6 +89,11 @@ Accelerations held_hub(const Accelerations& free, const Eigen::VectorXd& hub_slo
                               : Eigen::MatrixXd::Zero(n, layout.forces()).eval()};
 }
 
+/// The hub's acceleration is the command.
+Accelerations driven_hub(const Accelerations& held, const Eigen::VectorXd& hub_slope) {
+  return {held.state, hub_slope / hub_slope.squaredNorm(), held.force};
+}
+
 Reading zero_reading(const Layout& layout) {
   return {Eigen::RowVectorXd::Zero(layout.size), 0.0, Eigen::RowVectorXd::Zero(layout.forces())};
 }
@@ -254,8 +259,9 @@ ModalDynamics modal_dynamics(const arm::ModalModel& model, const ArmParts& parts
   }
   const Layout layout = layout_of(model, parts, sensors, modal_forces);
   ModalDynamics arm = coordinates(model, layout);
-  const Accelerations turning = accelerations(arm, layout);
-  const Accelerations held = held_hub(turning, arm.hub_slope, layout);
+  const Accelerations free = accelerations(arm, layout);
+  const Accelerations held = held_hub(free, arm.hub_slope, layout);
+  const Accelerations turning = parts.hub_is_driven ? driven_hub(held, arm.hub_slope) : free;
   arm.turning = assemble(arm, parts, layout, turning, sensors, model);
   arm.held = assemble(arm, parts, layout, held, sensors, model);
   arm.first_law_state = layout.size - layout.law_states;

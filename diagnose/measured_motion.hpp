@@ -20,11 +20,12 @@ struct PrescribedMotion {
 /// Readings without their noise, by penalised least squares [Whittaker1923]: the values
 /// that make
 ///
-///     sum (reading - value)^2 + mu sum (d-th difference of the values)^2
+///     sum (reading - value)^2 + mu sum (w d-th difference of the values)^2
 ///
 /// least. They are the most likely ones where the noise is white and the differences are, of
-/// standard deviations s and s/sqrt(mu); s and mu are those of the restricted likelihood
-/// [PattersonThompson1971]. The filter has no delay, and passes what stands out of the noise.
+/// standard deviations s and s/(w sqrt(mu)). s and mu are those of the restricted likelihood
+/// [PattersonThompson1971]; the weights w follow the local size of the differences: a hub moves and
+/// rests. The filter has no delay, and passes what stands out of the noise.
 struct SmoothedReadings {
   std::vector<double> values;
   double noise = 0.0;    ///< s, in the unit of the readings

@@ -150,7 +150,7 @@ std::optional<DisturbanceGain> disturbance_gain(const Selection& selection) {
   if (!before || !after) return std::nullopt;
   return DisturbanceGain{selection.problem.predictor().noise()->correlation_time_s,
                          before->estimated_N_m, after->estimated_N_m,
-                         before->deviation_N_m / before->relative};
+                         before->torque_rms_N_m};
 }
 
 /// By the torque hold, constant or linear between samples, that leaves the smaller error; where

@@ -98,8 +98,11 @@ const Explanation* simplest(const std::vector<Explanation>& found, std::size_t e
 bool runs_away(const Explanation& explanation, const SelectionOptions& options) {
   return std::ranges::any_of(
       std::array{&explanation.estimation, &explanation.validation}, [&](const Misfit* misfit) {
-        return !misfit->disturbance && misfit->simulated > 0.0 &&
-               misfit->unexplained_error() > options.largest_error_left;
+        if (misfit->simulated == 0.0) return false;
+        const auto& disturbance = misfit->disturbance;
+        const double left =
+            disturbance ? disturbance->estimated_relative() : misfit->unexplained_error();
+        return left > options.largest_error_left;
       });
 }
 

@@ -36,8 +36,8 @@ const Explanation* simplest(const std::vector<Explanation>& found, std::size_t e
                             const SelectionOptions& options);
 
 /// What a simulation leaves of `time` runs is near their signal's own size (options.
-/// largest_error_left): it has run away from the data, and no effect may be named. Never with a
-/// stochastic grey box, which follows the data.
+/// largest_error_left): it has run away from the data, and no effect may be named. With a
+/// disturbance: what it leaves to that is near the size of the commanded torque.
 bool runs_away(const Explanation& explanation, const SelectionOptions& options);
 
 /// Without causes a simulation is off by more than options.runaway_error, and no effect by itself

@@ -33,7 +33,7 @@ void weigh_disturbance(const Problem& problem, const Candidate& candidate,
       likelihood += n * std::log(std::max(squares / n, kLeastBalance));
     }
   }
-  test.level_p_value = misfit.disturbance->relative <= kNegligibleDisturbance ? 1.0 : 0.0;
+  test.level_p_value = misfit.disturbance->relative() <= kNegligibleDisturbance ? 1.0 : 0.0;
 }
 
 }  // namespace

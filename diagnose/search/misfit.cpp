@@ -67,9 +67,9 @@ double independent(const Eigen::Ref<const Eigen::VectorXd>& residuals, measured:
 
 double Misfit::excess() const {
   if (disturbance) {
-    if (disturbance->relative <= kNegligibleDisturbance) return nuisance_excess();
+    if (disturbance->relative() <= kNegligibleDisturbance) return nuisance_excess();
     const double negligible_N_m =
-        kNegligibleDisturbance * disturbance->deviation_N_m / disturbance->relative;
+        kNegligibleDisturbance * disturbance->torque_rms_N_m;
     const double ratio = disturbance->estimated_N_m / negligible_N_m;
     return ratio * ratio + nuisance_excess();
   }
@@ -94,7 +94,7 @@ double Misfit::minus_two_log_likelihood() const {
 }
 
 double Misfit::unexplained_error() const {
-  if (disturbance) return disturbance->relative;
+  if (disturbance) return disturbance->relative();
   return std::sqrt(std::max(0.0, relative_error * relative_error - noise_floor * noise_floor));
 }
 

@@ -12,11 +12,15 @@ namespace flexarm::diagnose {
 /// What a stochastic grey-box model leaves of `time` runs to the disturbance of the hub torque.
 struct DisturbanceLeft {
   double deviation_N_m = 0.0;  ///< most likely one, the rest of the noise model as it is
-  double relative = 0.0;       ///< to the root mean square of the commanded torque
+  double torque_rms_N_m = 0.0;  ///< of the commanded torque, above 0
   /// Root mean square of the filter's estimates of it, with the noise model as it is. Most of it
   /// may be slow, while the likelihood goes by what is fast: the deviation says little of it.
   double estimated_N_m = 0.0;
   double minus_two_log_likelihood = 0.0;  ///< with that deviation, without n ln 2 pi
+
+  /// To the commanded torque: the deviation, and the estimates.
+  double relative() const { return deviation_N_m / torque_rms_N_m; }
+  double estimated_relative() const { return estimated_N_m / torque_rms_N_m; }
 };
 /// A relative deviation of this or less is nothing beside the torque.
 inline constexpr double kNegligibleDisturbance = 0.01;

@@ -56,7 +56,7 @@ class Posterior {
   };
   std::vector<Weighed> sets_;
 };
-inline constexpr double kDiscrepancyFreedom = 4.0;
+inline constexpr double kDiscrepancyFreedom = 6.0;
 /// -2 ln of what a parameter costs.
 inline constexpr double kParameterCost = 4.0;
 

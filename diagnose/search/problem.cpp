@@ -172,7 +172,7 @@ DisturbanceLeft Problem::disturbance_left(const Candidate& candidate,
   const arm::Arm arm = candidate.extend(experiment_->arm);
   const NoiseEstimate found = estimator.disturbance(arm, runs, *predictor_.noise());
   const double deviation_N_m = found.model.disturbance_N_m;
-  return {deviation_N_m, deviation_N_m / estimator.torque_rms_N_m(),
+  return {deviation_N_m, estimator.torque_rms_N_m(),
           estimated_disturbance_N_m(predictor_, arm, runs, *predictor_.noise()),
           found.minus_two_log_likelihood};
 }

@@ -49,9 +49,9 @@ TEST(Posterior, IsSureOfACauseThatLeavesNoise) {
 }
 
 TEST(Posterior, PrefersSomethingElseToACauseThatRemovesAPart) {
-  // Of a deviation of another kind one of many effects removes nine tenths by chance.
+  // Of a deviation of another kind one of many effects removes three quarters by chance.
   const Explanation nothing = set_of({}, 1e6);
-  const Explanation wrong = set_of({"hub_inertia"}, 1e5);
+  const Explanation wrong = set_of({"hub_inertia"}, 2.5e5);
   const Posterior posterior({&nothing, &wrong}, kHypotheses, {});
   EXPECT_LT(posterior.of({.effect = "hub_inertia"}), 0.5);
   EXPECT_DOUBLE_EQ(posterior.of_something_else(), 1.0);

@@ -60,6 +60,17 @@ Problem filtered_problem(const Experiment& experiment, int flexible_modes,
   return {decimated, {.flexible_modes = std::min(kMostFilteredModes, flexible_modes)}};
 }
 
+/// With the readings of hub sensors alone.
+Experiment seen_at_hub(Experiment experiment) {
+  for (auto& run : experiment.runs) {
+    auto* record = std::get_if<measured::TimeRecord>(&run.data);
+    if (record == nullptr) continue;
+    std::erase_if(record->channels,
+                  [](const auto& channel) { return !arm::is_collocated(channel.sensor); });
+  }
+  return experiment;
+}
+
 /// What acts on the hub or its torque, and is not in the arm.
 std::vector<Hypothesis> of_hub_alone(std::vector<Hypothesis> hypotheses, const arm::Arm& arm) {
   std::erase_if(hypotheses, [&](const Hypothesis& one) {
@@ -169,6 +180,7 @@ std::optional<PredictedSelection> select_by_filter(const SelectionTask& task,
   }
   if (by_motion) {
     if (by_motion->cancelled) throw Cancelled();
+    experiment = seen_at_hub(std::move(experiment));
     experiment.arm = by_motion->chosen.fit.candidate.extend(experiment.arm);
     searched = of_hub_alone(std::move(searched), experiment.arm);
   }

@@ -50,6 +50,21 @@ void require_at_most(const Size& size, double most) {
                                  size.beam_size_text));
 }
 
+void require_moderate_drive(const Drive& drive, const LinearArm& arm) {
+  const double l = arm.length_m;
+  require_from_to({"effects.drive_compliance.stiffness", drive.stiffness_N_m_per_rad, "N m/rad",
+                   arm.flexural_rigidity_N_m2 / l, "EI/l"},
+                  kSmallestSpringRatio, kLargestSpringRatio);
+  const double inertia_kg_m2 = arm.linear_density_kg_per_m * l * l * l;
+  const double least = kSmallestRotorRatio * inertia_kg_m2 / arm.hub_inertia_kg_m2;
+  const double share = drive.rotor_inertia_kg_m2 / arm.hub_inertia_kg_m2;
+  if (!(share >= least && share <= 1.0 - kSmallestRestOfHub)) {
+    throw out_of_range("effects.drive_compliance.rotor_share", share, "",
+                       fmt::format("from {:.6g}, {} m l^3 over hub.inertia, to 1 - {}", least,
+                                   kSmallestRotorRatio, kSmallestRestOfHub));
+  }
+}
+
 /// Sizes of effects in units of the beam's own, within which every formulation keeps nine digits.
 void require_moderate_effects(const LinearArm& arm) {
   const double l = arm.length_m;
@@ -70,6 +85,7 @@ void require_moderate_effects(const LinearArm& arm) {
     require_from_to(spring("effects.root_compliance.stiffness", *arm.root_stiffness_N_m_per_rad),
                     kSmallestSpringRatio, kLargestSpringRatio);
   }
+  if (arm.drive) require_moderate_drive(*arm.drive, arm);
   if (arm.crack) {
     require_from_to(
         spring("effects.local_stiffness_loss.stiffness", arm.crack->stiffness_N_m_per_rad),

@@ -80,11 +80,12 @@ struct ZeroSet {
 /// rigid-body mode is phi_0(x) = a + x; its sign is that of a positive hub slope.
 struct Mode {
   double omega_rad_per_s = 0.0;  ///< 0 for a lowest mode that nothing holds, or that falls
-  double hub_slope = 0.0;        ///< rotation of the hub [1]: phi'(0) where the root is rigid
+  /// Rotation on which the torque and the laws of hub torque act [1]: the rotor's; phi'(0) where
+  /// drive and root are rigid.
+  double hub_slope = 0.0;
   double damping_ratio = 0.0;    ///< projected, D_ii/(2 omega) of ModalModel; 0 where omega is 0
-  std::vector<double>
-      sensor_values;  ///< per sensor, before time derivatives: hub rotation, phi(l),
-                      ///< phi(l) - (a + l) hub rotation, thickness/2 psi'(X)
+  std::vector<double> sensor_values;   ///< per sensor, before time derivatives: hub_slope, phi(l),
+                                       ///< phi(l) - (a + l) theta, thickness/2 psi'(X)
   std::vector<double> displacement_m;  ///< phi at the stations asked for
 };
 
@@ -95,7 +96,8 @@ struct Mode {
 ///     D_ij = (2 R)_ij/I_T of arm/linear_arm.hpp,
 ///
 /// equation (33) of the paper put right. Without shear (2 R)_ij is
-/// kv EI int phi_i'' phi_j'' dx + c theta_i theta_j + ca int phi_i phi_j dx.
+/// kv EI int phi_i'' phi_j'' dx + c hub_slope_i hub_slope_j + ca int phi_i phi_j dx, beside what
+/// the dashpots of drive, root and suspensions take.
 struct ModalModel {
   double modal_mass_kg_m2 = 0.0;  ///< I_T
   std::vector<Mode> modes;        ///< n: the lowest (rigid-body) mode, then the flexible ones
@@ -120,6 +122,11 @@ inline constexpr double kSmallestSpringRatio = 1e-6;
 inline constexpr double kLargestSpringRatio = 1e9;
 inline constexpr double kLargestWeightRatio = 1e4;
 inline constexpr double kSmallestShearRatio = 10.0;
+
+/// The rotor's inertia relative to m l^3, and the part of the hub's inertia that is not the rotor's
+/// relative to all of it.
+inline constexpr double kSmallestRotorRatio = 1e-9;
+inline constexpr double kSmallestRestOfHub = 1e-9;
 
 /// Masses on the beam relative to m l, natural frequencies of suspended ones to sqrt(EI/(m l^4)),
 /// and their damping ratios.

@@ -67,7 +67,7 @@ LinearTerms linear_terms(const Arm& arm) {
 }
 
 bool LinearArm::is_plain() const {
-  return !shear && !crack && masses.empty() && !root_stiffness_N_m_per_rad &&
+  return !shear && !crack && !drive && masses.empty() && !root_stiffness_N_m_per_rad &&
          air_damping_N_s_per_m2 == 0.0 && hub_radius_m == 0.0 && hub_spring_N_m_per_rad == 0.0 &&
          payload_first_moment_kg_m == 0.0 && gravity_m_per_s2 == 0.0;
 }
@@ -82,7 +82,7 @@ bool LinearArm::is_damped() const {
   };
   return kelvin_voigt_s > 0.0 || air_damping_N_s_per_m2 > 0.0 ||
          hub_viscous_friction_N_m_s_per_rad > 0.0 || root_retardation_s > 0.0 ||
-         std::ranges::any_of(masses, is_damped_mass);
+         (drive && drive->retardation_s > 0.0) || std::ranges::any_of(masses, is_damped_mass);
 }
 
 LinearArm linear_arm(const Arm& given) {
@@ -100,6 +100,7 @@ LinearArm linear_arm(const Arm& given) {
   linear.air_damping_N_s_per_m2 = terms.damping.air_N_s_per_m2;
 
   linear.hub_inertia_kg_m2 = arm.hub.inertia_kg_m2;
+  linear.drive = terms.drive;
   linear.hub_radius_m = terms.hub_radius_m;
   linear.hub_viscous_friction_N_m_s_per_rad =
       arm.hub.viscous_friction_N_m_s_per_rad + terms.damping.hub_N_m_s_per_rad;

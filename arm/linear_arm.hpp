@@ -15,21 +15,23 @@ namespace flexarm::arm {
 /// x is measured along the beam from its root, a = hub radius, theta the hub angle, y(x, t) the
 /// displacement of the beam's axis from the resting line, psi the rotation of its cross-section,
 /// [psi] the jump at the crack X. Hub and root: y(0) = a theta. Without shear psi = y', without
-/// root compliance psi(0) = theta. The beam carries masses mk at Xk, which move by y(Xk) + uk, with
-/// uk = 0 where there is no suspension.
+/// root compliance psi(0) = theta. The rotor, a part Jr of the hub's inertia, turns by theta_m;
+/// without a compliant drive theta_m = theta and Jr is any part. The beam carries masses mk at Xk,
+/// which move by y(Xk) + uk, with uk = 0 where there is no suspension.
 ///
-///     2 T = Ih theta_t^2 + int (m y_t^2 + rho I psi_t^2) dx
+///     2 T = Jr theta_m_t^2 + (Ih - Jr) theta_t^2 + int (m y_t^2 + rho I psi_t^2) dx
 ///           + Mp y_t(l)^2 + 2 Sp y_t(l) psi_t(l) + Jp psi_t(l)^2 + sum mk (y_t(Xk) + uk_t)^2
-///     2 V = ks theta^2 + kr (psi(0) - theta)^2 + kc [psi]^2
+///     2 V = ks theta_m^2 + kd (theta_m - theta)^2 + kr (psi(0) - theta)^2 + kc [psi]^2
 ///           + int (EI psi'^2 + kGA (y' - psi)^2) dx + sum kk uk^2
 ///           + g (P(0) a theta^2 + int P y'^2 dx + Sp psi(l)^2 + sum 2 mk uk psi(Xk)),
 ///     P(x) = Mp + m (l - x) + sum over Xk > x of mk   (P(0) with those at 0)
-///     2 R = c theta_t^2 + tr kr (psi_t(0) - theta_t)^2 + int (kv EI psi'_t^2 + ca y_t^2) dx
-///           + sum ck uk_t^2   (half the power lost)
+///     2 R = c theta_m_t^2 + td kd (theta_m_t - theta_t)^2 + tr kr (psi_t(0) - theta_t)^2
+///           + int (kv EI psi'_t^2 + ca y_t^2) dx + sum ck uk_t^2   (half the power lost)
 ///
-/// and the torque does the work tau theta. The crack and the shear lose no energy. The terms in g
-/// are the potential of the mass beyond each place, the hub's arm a, the payload's offset and the
-/// masses' own motion across the beam included.
+/// and the torque does the work tau theta_m. The hub's sensors show theta_m, and every law of hub
+/// torque acts on the rotor: where motor, brushes, bearings and encoder are. The crack and the
+/// shear lose no energy. The terms in g are the potential of the mass beyond each place, the hub's
+/// arm a, the payload's offset and the masses' own motion across the beam included.
 struct LinearArm {
   double length_m = 0.0;                 ///< l, of the beam alone
   double flexural_rigidity_N_m2 = 0.0;   ///< EI
@@ -42,7 +44,8 @@ struct LinearArm {
   double kelvin_voigt_s = 0.0;            ///< kv
   double air_damping_N_s_per_m2 = 0.0;    ///< ca
 
-  double hub_inertia_kg_m2 = 0.0;                    ///< Ih
+  double hub_inertia_kg_m2 = 0.0;                    ///< Ih, the rotor's part included
+  std::optional<Drive> drive;                        ///< Jr, kd, td; empty: the drive is rigid
   double hub_radius_m = 0.0;                         ///< a
   double hub_viscous_friction_N_m_s_per_rad = 0.0;   ///< c
   double hub_spring_N_m_per_rad = 0.0;               ///< ks

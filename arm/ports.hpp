@@ -44,6 +44,17 @@ struct RotationalSpring {
   bool operator==(const RotationalSpring&) const = default;
 };
 
+/// What the motor turns the hub through: its rotor, and a rotational spring and a dashpot beside
+/// each other between rotor and hub, of moment stiffness (1 + retardation d/dt) times the rotation
+/// between them.
+struct Drive {
+  double rotor_inertia_kg_m2 = 0.0;  ///< a part of the hub's inertia: above 0 and below it
+  double stiffness_N_m_per_rad = 0.0;
+  double retardation_s = 0.0;
+
+  bool operator==(const Drive&) const = default;
+};
+
 /// A spring and a dashpot beside each other, both massless and straight.
 struct Suspension {
   double stiffness_N_per_m = 0.0;
@@ -74,7 +85,8 @@ struct LinearTerms {
   };
 
   double hub_radius_m = 0.0;            ///< a
-  double hub_spring_N_m_per_rad = 0.0;  ///< ks, from the hub to ground
+  double hub_spring_N_m_per_rad = 0.0;  ///< ks, from the hub's rotor to ground
+  std::optional<Drive> drive = {};      ///< between rotor and hub; one at most
   /// In the beam, one at most; those at its root, position 0, are in series between hub and beam.
   std::vector<RotationalSpring> springs = {};
   std::vector<MassOnBeam> masses = {};

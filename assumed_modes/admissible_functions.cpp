@@ -26,8 +26,13 @@ const Vector& AdmissibleFunctions::bends() const {
                     functions_);
 }
 
+Vector AdmissibleFunctions::motor_rotation() const {
+  return std::visit([](const auto& functions) { return functions.motor_rotation(); }, functions_);
+}
+
 Vector AdmissibleFunctions::hub_rotation() const {
-  return std::visit([](const auto& functions) { return functions.hub_rotation(); }, functions_);
+  return std::visit([](const auto& functions) -> Vector { return functions.hub_rotation(); },
+                    functions_);
 }
 
 Vector AdmissibleFunctions::displacement(Real xi) const {
@@ -62,6 +67,10 @@ Vector AdmissibleFunctions::carried_displacement(std::size_t k) const {
 
 Vector AdmissibleFunctions::root_turn() const {
   return rotation(0) - hub_rotation();
+}
+
+Vector AdmissibleFunctions::drive_turn() const {
+  return hub_rotation() - motor_rotation();
 }
 
 Vector AdmissibleFunctions::extension(std::size_t k) const {

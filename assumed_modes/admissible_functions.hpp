@@ -23,7 +23,8 @@ class AdmissibleFunctions {
   Eigen::Index size() const;
   /// 1 where the strain energy is bending, 0 for the rotation, springs and shear.
   const Vector& bends() const;
-  /// theta.
+  /// theta_m, on which the torque acts; theta.
+  Vector motor_rotation() const;
   Vector hub_rotation() const;
   /// y, psi, psi' at xi in [0, 1].
   Vector displacement(Real xi) const;
@@ -41,8 +42,9 @@ class AdmissibleFunctions {
   /// is from its place on the beam. The basis must be able to represent it.
   Vector carried_displacement(std::size_t k) const;
   Vector extension(std::size_t k) const;
-  /// psi(0) - theta of an arm whose root is compliant.
+  /// psi(0) - theta of an arm whose root is compliant, theta - theta_m of one whose drive is.
   Vector root_turn() const;
+  Vector drive_turn() const;
 
  private:
   std::variant<StrainFunctions, ShapeFunctions> functions_;

@@ -109,10 +109,10 @@ arm::ZeroSet AssumedModesArm::hub_zeros(int count) const {
 arm::ZeroSet AssumedModesArm::output_zeros(const arm::Sensor& sensor, int count) const {
   const bool tip_is_held = sensor.kind == arm::SensorKind::tip_acceleration ||
                            sensor.kind == arm::SensorKind::tip_displacement;
+  const ScaledArm beyond = beyond_drive(scaled_);
   const auto with_more_functions = [&](int more) {
-    const AdmissibleFunctions functions(options_.basis, scaled_, options_.functions, more);
-    return pencil_zeros(functions, scaled_, output_row(sensor, linear_, functions).row,
-                        tip_is_held);
+    const AdmissibleFunctions functions(options_.basis, beyond, options_.functions, more);
+    return pencil_zeros(functions, beyond, output_row(sensor, linear_, functions).row, tip_is_held);
   };
   const std::array checks = {with_more_functions(2), with_more_functions(4)};
   arm::ZeroSet result =
@@ -155,7 +155,7 @@ arm::ModalModel AssumedModesArm::modal_model(int count, std::span<const arm::Sen
       take(model.modes[static_cast<std::size_t>(k)], static_cast<double>(values(k)));
     }
   };
-  for_each_mode({1, functions_.hub_rotation()},
+  for_each_mode({1, functions_.motor_rotation()},
                 [](arm::Mode& mode, double value) { mode.hub_slope = value; });
   for (const arm::Sensor& sensor : sensors) {
     for_each_mode(output_row(arm::placed(sensor, arm_), linear_, functions_),

@@ -22,12 +22,11 @@ struct AssumedModesOptions {
   Basis basis = Basis::legendre;
 
   /// Generalised coordinates n of a beam that is whole and bends only, the rigid rotation included;
-  /// 2 <= n <= kMaximumFunctions. Effects add their own with `legendre`: a soft root, a crack and a
-  /// suspended mass one, crack and masses up to 15 for each further piece of the beam, and shear as
-  /// many as bending has (StrainFunctions).
-  /// With Legendre functions 36 give ten poles and ten hub zeros to rounding and six tip zeros to
-  /// 1e-9 for payloads of up to 10 m l and 0.1 m l^3 and hubs of up to 100 m l^3; 28 give 1e-10 on
-  /// the paper's arm.
+  /// 2 <= n <= kMaximumFunctions. Effects add their own with `legendre`: a soft drive or root, a
+  /// crack and a suspended mass one, crack and masses up to 15 for each further piece of the beam,
+  /// and shear as many as bending has (StrainFunctions). With Legendre functions 36 give ten poles
+  /// and ten hub zeros to rounding and six tip zeros to 1e-9 for payloads of up to 10 m l and 0.1 m
+  /// l^3 and hubs of up to 100 m l^3; 28 give 1e-10 on the paper's arm.
   int functions = 36;
 
   /// A zero s of a sensor away from the hub is trusted when the nearest zeros s' with 2 and
@@ -47,16 +46,16 @@ inline constexpr int kMaximumFunctions = 200;
 /// with q in radians and psi_i = y_i' on a beam without shear. From the energies of
 /// arm/linear_arm.hpp, torque tau on the hub gives
 ///
-///     m l^3 M q'' + C q' + (EI/l) K q = h tau,   theta = h . q.
+///     m l^3 M q'' + C q' + (EI/l) K q = h tau,   theta_m = h . q.
 ///
-/// Every linear effect is honoured. `legendre` bends at a crack and at a soft root and shears, by
-/// functions made for each (StrainFunctions), which may also break at masses on the beam: Ritz
-/// values of poles and hub zeros converge from above and faster than any power of n whatever the
-/// effects. The other bases refuse springs in the beam, masses on it and shear_and_rotary_inertia
-/// by the effect's name. All bases are
-/// orthonormal in strain energy, springs and shear included: K is diag(0, 1, ..., 1), to which a
-/// hub spring adds rank one and gravity a full matrix. All integrals are closed forms but gravity's
-/// on beam shapes, which is quadrature to rounding.
+/// Every linear effect is honoured. `legendre` turns in a soft drive, bends at a crack and at a
+/// soft root and shears, by functions made for each (StrainFunctions), which may also break at
+/// masses on the beam: Ritz values of poles and hub zeros converge from above and faster than any
+/// power of n whatever the effects. The other bases refuse springs in the beam, masses on it and
+/// shear_and_rotary_inertia by the effect's name. All bases are orthonormal in strain energy,
+/// springs and shear included: K is diag(0, 1, ..., 1), to which a hub spring adds rank one and
+/// gravity a full matrix. All integrals are closed forms but gravity's on beam shapes, which is
+/// quadrature to rounding.
 ///
 /// An arm that stands up (gravity below 0) has a lowest mode that falls, omega^2 < 0; it is refused
 /// when another does, which means that its flexible modes buckle. Its hub zeros may be real.

@@ -40,7 +40,7 @@ Basis parse_basis(std::string_view name) {
 namespace {
 
 /// The first effect of the arm that beam shapes cannot follow, by name, or null: one that breaks
-/// the beam's slope or shear force, or lets its cross-sections turn by themselves.
+/// the beam's slope or shear force, or lets its cross-sections or its hub turn by themselves.
 const std::string* unrepresentable_effect(Basis basis, const arm::Arm& arm) {
   if (basis == Basis::legendre) return nullptr;
   const arm::Arm changed = arm::with_changed_numbers(arm);
@@ -48,7 +48,8 @@ const std::string* unrepresentable_effect(Basis basis, const arm::Arm& arm) {
     if (!effect.definition->linear_term) continue;
     arm::LinearTerms terms;
     effect.definition->linear_term(effect, changed, terms);
-    if (!terms.springs.empty() || !terms.masses.empty() || terms.shear) return &name;
+    const bool turns_by_itself = terms.drive || !terms.springs.empty() || terms.shear;
+    if (turns_by_itself || !terms.masses.empty()) return &name;
   }
   return nullptr;
 }

@@ -27,8 +27,8 @@ Basis parse_basis(std::string_view name);
 
 /// Throws InputError for the effect of the arm that no function of the basis can follow, by name:
 /// shapes of a beam that is whole, bare between hub and tip, fixed to the hub and rigid in shear
-/// neither bend at a crack or at a soft root nor shear, nor does their shear force jump at a mass.
-/// `legendre` has functions for each.
+/// neither turn in a soft drive, bend at a crack or at a soft root nor shear, nor does their shear
+/// force jump at a mass. `legendre` has functions for each.
 void require_representable(Basis basis, const arm::Arm& arm);
 /// Whether that does not throw.
 bool can_represent(Basis basis, const arm::Arm& arm);

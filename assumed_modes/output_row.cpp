@@ -10,7 +10,7 @@ OutputRow output_row(const arm::Sensor& sensor, const arm::LinearArm& arm,
   switch (sensor.kind) {
     case arm::SensorKind::hub_angle:
     case arm::SensorKind::hub_velocity:
-      return {1, functions.hub_rotation()};
+      return {1, functions.motor_rotation()};
     case arm::SensorKind::tip_acceleration:
     case arm::SensorKind::tip_displacement:
       return {length, functions.displacement(1)};

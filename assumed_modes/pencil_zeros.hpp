@@ -17,7 +17,8 @@ struct PencilZeros {
   bool converged = false;
 };
 
-/// Zeros of hub torque to the output b: sigma^2 at which the Rosenbrock pencil
+/// Zeros of hub torque to the output b, of an arm whose drive is rigid: sigma^2 at which the
+/// Rosenbrock pencil
 ///
 ///     [ K + sigma^2 M   -a ]
 ///     [ b^T              0 ]

@@ -38,7 +38,14 @@ ScaledArm scaled(const arm::LinearArm& arm) {
   const Real omega_rad_per_s = std::sqrt(torsion_N_m / inertia_kg_m2);
 
   ScaledArm scaled;
-  scaled.hub_inertia = arm.hub_inertia_kg_m2 / inertia_kg_m2;
+  Real hub_kg_m2 = arm.hub_inertia_kg_m2;
+  if (arm.drive) {
+    scaled.drive = {arm.drive->rotor_inertia_kg_m2 / inertia_kg_m2,
+                    arm.drive->stiffness_N_m_per_rad / torsion_N_m,
+                    arm.drive->retardation_s * omega_rad_per_s};
+    hub_kg_m2 -= arm.drive->rotor_inertia_kg_m2;
+  }
+  scaled.hub_inertia = hub_kg_m2 / inertia_kg_m2;
   scaled.hub_radius = arm.hub_radius_m / l;
   scaled.hub_spring = arm.hub_spring_N_m_per_rad / torsion_N_m;
   if (arm.root_stiffness_N_m_per_rad) {
@@ -78,6 +85,11 @@ ScaledArm scaled(const arm::LinearArm& arm) {
   scaled.hub_friction = arm.hub_viscous_friction_N_m_s_per_rad * omega_rad_per_s / torsion_N_m;
   scaled.air_damping = arm.air_damping_N_s_per_m2 / (density * omega_rad_per_s);
   return scaled;
+}
+
+ScaledArm beyond_drive(ScaledArm arm) {
+  arm.drive.reset();
+  return arm;
 }
 
 }  // namespace flexarm::assumed_modes

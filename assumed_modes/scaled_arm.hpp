@@ -20,6 +20,12 @@ struct ScaledArm {
     Real rotary_inertia = 0;  ///< rho I/(m l^2)
   };
 
+  struct Drive {
+    Real rotor_inertia = 0;  ///< Jr/(m l^3)
+    Real stiffness = 0;      ///< kd l/EI
+    Real retardation = 0;    ///< td sqrt(EI/(m l^4))
+  };
+
   /// A mass on the beam.
   struct Carried {
     Real position = 0;   ///< Xk/l
@@ -30,7 +36,8 @@ struct ScaledArm {
     bool is_suspended() const { return stiffness > 0; }
   };
 
-  Real hub_inertia = 0;                ///< Ih/(m l^3)
+  std::optional<Drive> drive;          ///< empty where it is rigid
+  Real hub_inertia = 0;                ///< Ih/(m l^3), less the rotor's part beyond a drive
   Real hub_radius = 0;                 ///< a/l
   Real hub_spring = 0;                 ///< ks l/EI
   std::optional<Real> root_stiffness;  ///< kr l/EI
@@ -55,5 +62,9 @@ struct ScaledArm {
 };
 
 ScaledArm scaled(const arm::LinearArm& arm);
+
+/// The arm beyond its drive, the torque on the hub itself. What the drive passes on is a factor of
+/// every response beyond it: their zeros are those of this arm.
+ScaledArm beyond_drive(ScaledArm arm);
 
 }  // namespace flexarm::assumed_modes

@@ -8,8 +8,8 @@
 namespace flexarm::assumed_modes {
 
 /// The rigid rotation a + xi and the first shapes of a classical beam, y_i = psi_i + a psi_i'(0),
-/// in units of l. The strain energy matrix is diag(0, 1, ..., 1). No shape bends at a crack or at a
-/// soft root, nor shears.
+/// in units of l. The strain energy matrix is diag(0, 1, ..., 1). No shape turns in
+/// a soft drive, bends at a crack or at a soft root, nor shears.
 class ShapeFunctions {
  public:
   /// `basis` is any but legendre; `shapes` >= 1.
@@ -18,8 +18,9 @@ class ShapeFunctions {
   Eigen::Index size() const { return bends_.size(); }
   /// 0 for the rotation, 1 for the shapes.
   const Vector& bends() const { return bends_; }
-  /// (1, psi_i'(0)).
+  /// (1, psi_i'(0)), the drive being rigid.
   Vector hub_rotation() const { return rotation(0); }
+  Vector motor_rotation() const { return hub_rotation(); }
   Vector displacement(Real xi) const;
   Vector rotation(Real xi) const;
   Vector curvature(Real xi) const;

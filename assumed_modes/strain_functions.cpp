@@ -38,7 +38,8 @@ StrainFunctions::StrainFunctions(const ScaledArm& arm, StrainFunctionCount count
   Eigen::Index polynomials = 0;
   for (const Real length : lengths) polynomials += functions_on(length, count);
 
-  const Eigen::Index root = 1;
+  const Eigen::Index drive = 1;
+  const Eigen::Index root = drive + (arm.drive ? 1 : 0);
   const Eigen::Index crack = root + (arm.root_stiffness ? 1 : 0);
   Eigen::Index bending = crack + (arm.crack ? 1 : 0);
   for (const ScaledArm::Carried& mass : arm.carried) {
@@ -53,8 +54,10 @@ StrainFunctions::StrainFunctions(const ScaledArm& arm, StrainFunctionCount count
   bends_ = Vector::Zero(size);
   bends_.segment(bending, polynomials).setOnes();
 
-  Vector displacement = arm.hub_radius * Vector::Unit(size, 0);
-  Vector rotation = Vector::Unit(size, 0);
+  hub_rotation_ = Vector::Unit(size, 0);
+  if (arm.drive) hub_rotation_(drive) = 1 / std::sqrt(arm.drive->stiffness);
+  Vector displacement = arm.hub_radius * hub_rotation_;
+  Vector rotation = hub_rotation_;
   if (arm.root_stiffness) rotation(root) = 1 / std::sqrt(*arm.root_stiffness);
   Real start = 0;
   for (const Real length : lengths) {

@@ -18,7 +18,8 @@ struct StrainFunctionCount {
 /// Admissible functions given by their strains: one strain at a time, the others zero, and y and
 /// psi follow by integration from the hub. In units of l, they are
 ///
-///     the rigid rotation     y = a + xi, psi = 1: no strain
+///     the rigid rotation     y = a + xi, psi = 1, rotor and hub 1: no strain
+///     the drive              y = (a + xi)/sqrt(kd), psi and hub 1/sqrt(kd), the rotor at rest
 ///     the soft root          psi = 1/sqrt(kr) behind it
 ///     the crack              psi = 1/sqrt(kc) behind it
 ///     a suspended mass       its displacement is 1/sqrt(kk): y = psi = 0
@@ -41,7 +42,9 @@ class StrainFunctions {
   Eigen::Index size() const { return bends_.size(); }
   /// 1 where the strain energy of a function is bending, 0 for the rotation, springs and shear.
   const Vector& bends() const { return bends_; }
-  Vector hub_rotation() const { return Vector::Unit(size(), 0); }
+  /// theta_m, on which the torque acts; theta.
+  Vector motor_rotation() const { return Vector::Unit(size(), 0); }
+  const Vector& hub_rotation() const { return hub_rotation_; }
   Vector displacement(Real xi) const;
   Vector rotation(Real xi) const;
   /// psi'; where pieces meet that on the side of the tip.
@@ -80,6 +83,7 @@ class StrainFunctions {
   std::vector<Piece> pieces_;
   std::vector<Carried> carried_;
   Vector bends_;
+  Vector hub_rotation_;
 };
 
 }  // namespace flexarm::assumed_modes

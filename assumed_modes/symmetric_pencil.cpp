@@ -51,7 +51,9 @@ SymmetricPencil equations_of(const AdmissibleFunctions& functions, const ScaledA
   if (arm.shear) {
     pencil.spread += arm.shear->rotary_inertia * functions.rotation_products();
   }
-  pencil.lumped.push_back({hub, arm.hub_inertia, arm.hub_spring});
+  const Real motor_inertia = arm.drive ? arm.drive->rotor_inertia : arm.hub_inertia;
+  pencil.lumped.push_back({functions.motor_rotation(), motor_inertia, arm.hub_spring});
+  if (arm.drive) pencil.lumped.push_back({hub, arm.hub_inertia});
   if (arm.payload_mass > 0) {
     pencil.lumped.push_back({tip + arm.payload_offset * tip_rotation, arm.payload_mass});
   }

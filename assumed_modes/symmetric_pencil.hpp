@@ -24,7 +24,9 @@ struct SymmetricPencil {
   Vector strain;               ///< n
   Matrix gravity;              ///< n x n; empty where there is none
   Matrix spread;               ///< mass of the beam, n x n
-  std::vector<Lumped> lumped;  ///< hub, payload's mass, payload's inertia, masses on the beam
+  /// What the torque acts on, rotor or hub; the hub beyond a drive, payload's mass, payload's
+  /// inertia, masses on the beam.
+  std::vector<Lumped> lumped;
 
   Eigen::Index size() const { return strain.size(); }
   /// K and M, symmetric to the last bit.
@@ -54,8 +56,9 @@ struct WithoutRotation {
 /// in which the row of a great mass m_k does not cancel.
 WithoutRotation without_rigid_mode(const SymmetricPencil& pencil);
 
-/// Functions that keep the hub from turning; the Ritz values of these are the zeros of the hub
-/// angle. `lumped` must begin with the hub, whose inertia and spring drop out.
+/// Functions that keep the rotor, or the hub of a rigid drive, from turning; the Ritz values of
+/// these are the zeros of the hub angle. `lumped` must begin with it; its inertia and spring drop
+/// out.
 WithoutRotation with_hub_held(const SymmetricPencil& pencil);
 
 /// 2-norm condition number of `mass` scaled to a unit diagonal: how far the functions are from

@@ -42,7 +42,7 @@ ModalDamping modal_damping(const AdmissibleFunctions& functions, const ScaledArm
                            const RitzPairs& modes) {
   ModalDamping damping;
   damping.hub_friction = arm.hub_friction;
-  damping.hub_rotation = modes.vectors.transpose() * functions.hub_rotation();
+  damping.hub_rotation = modes.vectors.transpose() * functions.motor_rotation();
   const Eigen::Index n = modes.mass.size();
   const bool bends_only = functions.bends().tail(n - 1).minCoeff() == 1 && arm.turns_freely();
   Matrix lower = Matrix::Zero(n, n);
@@ -61,6 +61,12 @@ ModalDamping modal_damping(const AdmissibleFunctions& functions, const ScaledArm
     const Vector turn = modes.vectors.transpose() * functions.root_turn();
     lower.selfadjointView<Eigen::Lower>().rankUpdate(
         turn, arm.root_retardation * arm.root_stiffness.value());
+  }
+  if (arm.drive && arm.drive->retardation > 0) {
+    springs_lose = true;
+    const Vector turn = modes.vectors.transpose() * functions.drive_turn();
+    lower.selfadjointView<Eigen::Lower>().rankUpdate(turn,
+                                                     arm.drive->retardation * arm.drive->stiffness);
   }
   for (std::size_t k = 0; k < arm.carried.size(); ++k) {
     if (arm.carried[k].damping == 0) continue;

@@ -10,7 +10,8 @@ namespace flexarm::assumed_modes {
 /// restoring force the lowest is the rigid rotation itself, its stiffness exactly 0.
 RitzPairs undamped_modes(const SymmetricPencil& pencil, bool turns_freely);
 
-/// The zeros of the hub angle: Ritz values, without vectors, of the arm whose hub is held.
+/// The zeros of the hub angle: Ritz values, without vectors, of the arm whose hub, or rotor of a
+/// compliant drive, is held.
 RitzPairs hub_held_values(const SymmetricPencil& pencil);
 
 /// What takes energy out of the arm, in coordinates that make `mass` and `stiffness` of RitzPairs
@@ -18,7 +19,7 @@ RitzPairs hub_held_values(const SymmetricPencil& pencil);
 struct ModalDamping {
   Matrix whole;
   Real hub_friction = 0;
-  Vector hub_rotation;  ///< of each mode
+  Vector hub_rotation;  ///< of each mode, where the torque acts
   /// `whole` less hub_friction hub_rotation hub_rotation^T, where that is diagonal to the last bit:
   /// Kelvin-Voigt damping alone, and nothing but bending stiffness. Empty otherwise.
   Vector diagonal;

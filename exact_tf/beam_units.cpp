@@ -6,20 +6,37 @@ namespace flexarm::exact_tf {
 
 namespace {
 
-/// ks + g P(0) a, in units of EI/l.
-Real hub_stiffness(const ArmInBeamUnits& arm) {
-  return arm.hub_spring + arm.tension(0.0L) * arm.hub_radius;
+/// What the hub's weight does, g P(0) a, in units of EI/l.
+Real hub_weight(const ArmInBeamUnits& arm) {
+  return arm.tension(0.0L) * arm.hub_radius;
+}
+
+/// Impedances of what turns by theta and by theta_m; `on_motor` is that of the laws at the motor.
+template <class T>
+struct Impedances {
+  T hub;
+  T rotor;
+};
+template <class T>
+Impedances<T> impedances(const ArmInBeamUnits& arm, const T& square, const T& on_motor) {
+  if (arm.has_rigid_drive()) {
+    return {arm.hub_inertia * square + (on_motor + hub_weight(arm)), T(0.0L)};
+  }
+  return {arm.hub_inertia * square + hub_weight(arm), arm.rotor_inertia * square + on_motor};
 }
 
 template <class T>
 BeamAtFrequency<T> undamped(const ArmInBeamUnits& arm, const T& omega_squared) {
   const T square = -omega_squared;
+  const auto impedance = impedances<T>(arm, square, T(arm.hub_spring));
   return {square,
           square,
           arm.rotary_inertia * square,
           T(1.0L),
           T(arm.root_flexibility),
-          arm.hub_inertia * square + hub_stiffness(arm),
+          T(arm.drive_flexibility),
+          impedance.hub,
+          impedance.rotor,
           T(0.0L)};
 }
 
@@ -27,7 +44,7 @@ BeamAtFrequency<T> undamped(const ArmInBeamUnits& arm, const T& omega_squared) {
 
 Real ArmInBeamUnits::total_inertia() const {
   const Real reach = hub_radius + 1.0L;
-  Real sum = hub_inertia + hub_radius * reach + 1.0L / 3.0L + rotary_inertia +
+  Real sum = hub_inertia + rotor_inertia + hub_radius * reach + 1.0L / 3.0L + rotary_inertia +
              payload_mass * reach * reach + 2.0L * payload_moment * reach + payload_inertia;
   for (const Carried& one : carried) {
     sum += one.mass * (hub_radius + one.position) * (hub_radius + one.position);
@@ -55,7 +72,14 @@ ArmInBeamUnits in_beam_units(const arm::LinearArm& arm) {
   units.torque_scale_N_m = rigidity / l;
   const Real omega = units.omega_scale_rad_per_s;
 
-  units.hub_inertia = arm.hub_inertia_kg_m2 / (mass * l * l);
+  Real hub_kg_m2 = arm.hub_inertia_kg_m2;
+  if (arm.drive) {
+    hub_kg_m2 -= arm.drive->rotor_inertia_kg_m2;
+    units.rotor_inertia = arm.drive->rotor_inertia_kg_m2 / (mass * l * l);
+    units.drive_flexibility = units.torque_scale_N_m / arm.drive->stiffness_N_m_per_rad;
+    units.drive_retardation = arm.drive->retardation_s * omega;
+  }
+  units.hub_inertia = hub_kg_m2 / (mass * l * l);
   units.hub_radius = arm.hub_radius_m / l;
   units.hub_friction = arm.hub_viscous_friction_N_m_s_per_rad * omega / units.torque_scale_N_m;
   units.hub_spring = arm.hub_spring_N_m_per_rad / units.torque_scale_N_m;
@@ -100,12 +124,16 @@ BeamAtFrequency<Complex> damped_at(const ArmInBeamUnits& arm, const Complex& s,
                                    const Complex& damping) {
   const Complex square = s * s;
   const Complex decay = damping * s;
+  const auto impedance =
+      impedances<Complex>(arm, square, arm.hub_friction * decay + arm.hub_spring);
   return {square,
           square + arm.air_damping * decay,
           arm.rotary_inertia * square,
           1.0L / (1.0L + arm.kelvin_voigt * decay),
           arm.root_flexibility / (1.0L + arm.root_retardation * decay),
-          arm.hub_inertia * square + arm.hub_friction * decay + hub_stiffness(arm),
+          arm.drive_flexibility / (1.0L + arm.drive_retardation * decay),
+          impedance.hub,
+          impedance.rotor,
           decay};
 }
 

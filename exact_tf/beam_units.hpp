@@ -33,7 +33,12 @@ namespace flexarm::exact_tf {
 ///     Q(Xk+) - Q(Xk-) = mk s^2 (y + uk),   M(Xk+) - M(Xk-) = g mk uk,   y, psi continuous
 ///     (mk s^2 + ck s + kk) uk = -mk (s^2 y + g psi)   where mk is suspended, else uk = 0
 ///     y(0) = a theta,   psi(0) - theta = M(0)/(kr (1 + tr s))
-///     tau = (Ih s^2 + c s + ks + g P(0) a) theta - M(0) - a Q(0).
+///     taud = ((Ih - Jr) s^2 + g P(0) a) theta - M(0) - a Q(0)
+///     theta_m - theta = taud/(kd (1 + td s))
+///     tau = (Jr s^2 + c s + ks) theta_m + taud,
+///
+/// taud being what the drive passes on to the hub. Where the drive is rigid, theta_m = theta and
+/// the rotor is a part of the hub.
 ///
 /// The numbers of these equations in units of the beam: lengths in l, time in
 /// sqrt(m l^4/EI), moments in EI/l, forces in EI/l^2.
@@ -42,7 +47,11 @@ struct ArmInBeamUnits {
   Real length_m = 0.0L;               ///< l
   Real torque_scale_N_m = 0.0L;       ///< EI/l
 
-  Real hub_inertia = 0.0L;       ///< Ih/(m l^3)
+  /// What of Ih/(m l^3) turns by theta, and by theta_m where the drive is compliant.
+  Real hub_inertia = 0.0L;
+  Real rotor_inertia = 0.0L;
+  Real drive_flexibility = 0.0L;  ///< EI/(l kd), 0 for a rigid drive
+  Real drive_retardation = 0.0L;  ///< td omega_scale
   Real hub_radius = 0.0L;        ///< a/l
   Real hub_friction = 0.0L;      ///< c omega_scale l/EI
   Real hub_spring = 0.0L;        ///< ks l/EI
@@ -73,6 +82,7 @@ struct ArmInBeamUnits {
   Real kelvin_voigt = 0.0L;       ///< kv omega_scale
   Real air_damping = 0.0L;        ///< ca/(m omega_scale)
 
+  bool has_rigid_drive() const { return drive_flexibility == 0.0L; }
   bool turns_freely() const { return hub_spring == 0.0L && gravity == 0.0L; }
   /// g P in units of l, the axial tension, at x and just before it towards the root.
   Real tension(Real x) const;
@@ -91,7 +101,9 @@ struct BeamAtFrequency {
   T rotary;         ///< rho I s^2
   T flexibility;    ///< 1/(1 + kv s): psi' over M
   T root;           ///< (psi(0) - theta)/M(0)
-  T hub_impedance;  ///< (tau + M(0) + a Q(0))/theta
+  T drive;          ///< (theta_m - theta)/taud
+  T hub_impedance;  ///< (taud + M(0) + a Q(0))/theta; what acts on the rotor included where rigid
+  T rotor_impedance;  ///< (tau - taud)/theta_m; 0 where the drive is rigid
   T decay;          ///< s times what damping is multiplied by: suspensions have ck times it
 };
 

@@ -123,10 +123,12 @@ RootValues<T> root_values(const TransferChain<T>& chain, const Bivector<T>& p, R
   const Real radius = chain.arm().hub_radius;
   const T& flexibility = chain.beam().root;
   const T hub_angle = p.displacement_rotation() - flexibility * p.displacement_moment();
-  const T torque = chain.beam().hub_impedance * hub_angle - p.displacement_moment() +
-                   radius * (p.rotation_moment() - p.displacement_force() +
-                             radius * (p.rotation_force() - flexibility * p.moment_force()));
-  return {hub_angle, torque, log_scale, norm_of(p.minors)};
+  const T passed_on = chain.beam().hub_impedance * hub_angle - p.displacement_moment() +
+                      radius * (p.rotation_moment() - p.displacement_force() +
+                                radius * (p.rotation_force() - flexibility * p.moment_force()));
+  const T motor_angle = hub_angle + chain.beam().drive * passed_on;
+  const T torque = passed_on + chain.beam().rotor_impedance * motor_angle;
+  return {hub_angle, motor_angle, torque, log_scale, norm_of(p.minors)};
 }
 
 template <class T>
@@ -143,7 +145,7 @@ SensorValue<T> sensor_value(const TransferChain<T>& chain, arm::SensorKind kind,
     case arm::SensorKind::hub_angle:
     case arm::SensorKind::hub_velocity: {
       const auto root = at_root();
-      return {root.hub_angle, root.log_scale, root.size};
+      return {root.motor_angle, root.log_scale, root.size};
     }
     case arm::SensorKind::tip_displacement:
     case arm::SensorKind::tip_acceleration:

@@ -14,8 +14,9 @@ namespace flexarm::exact_tf {
 /// response per unit of torque is value/torque.
 template <class T>
 struct RootValues {
-  T hub_angle{};  ///< theta; its roots are the poles with the hub held
-  T torque{};     ///< tau; its roots are the poles
+  T hub_angle{};    ///< theta; its roots are the poles with the hub held
+  T motor_angle{};  ///< theta_m; its roots are the poles with the rotor held
+  T torque{};       ///< tau; its roots are the poles
   Real log_scale = 0.0L;
   Real size = 1.0L;  ///< of what the values are made of, continuous in s
 };
@@ -33,7 +34,7 @@ struct SensorValue {
   Real size = 1.0L;
 };
 
-/// What a sensor shows before time derivatives, in units of the beam: theta, y(l),
+/// What a sensor shows before time derivatives, in units of the beam: theta_m, y(l),
 /// y(l) - (a + l) theta or psi'(X), X in units of l. The deflection keeps its digits where it is
 /// small beside both of its terms. `root` saves its computation where it is known.
 template <class T>

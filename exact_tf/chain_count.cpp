@@ -47,7 +47,8 @@ ChainCount count_below(const TransferChain<Real>& chain) {
   }
   count.values = root_values(chain, plane.plane, plane.log_scale);
   if (opposite(count.values.hub_angle, plane.plane.displacement_rotation())) ++count.hub_held;
-  count.poles = count.hub_held + (opposite(count.values.torque, count.values.hub_angle) ? 1 : 0);
+  if (opposite(count.values.motor_angle, count.values.hub_angle)) ++count.hub_held;
+  count.poles = count.hub_held + (opposite(count.values.torque, count.values.motor_angle) ? 1 : 0);
   return count;
 }
 

@@ -78,7 +78,7 @@ ChainEigenvalues find_chain_hub_zeros(const ArmInBeamUnits& arm, int count) {
   const CountedFunction function = {[&](Real lambda) { return count_at(arm, lambda).hub_held; },
                                     [&](Real lambda) {
                                       const auto values = count_at(arm, lambda).values;
-                                      return values.hub_angle / values.size;
+                                      return values.motor_angle / values.size;
                                     }};
   return eigenvalues(lowest_roots(function, below_all(function), count));
 }

@@ -19,7 +19,7 @@ struct ChainEigenvalues {
 /// flexible ones. `count.found` and `count.expected` count flexible ones.
 ChainEigenvalues find_chain_poles(const ArmInBeamUnits& arm, int count);
 
-/// The `count` lowest eigenvalues with the hub held.
+/// The `count` lowest eigenvalues with the rotor held, or the hub where the drive is rigid.
 ChainEigenvalues find_chain_hub_zeros(const ArmInBeamUnits& arm, int count);
 
 /// No flexible mode of the arm has a negative eigenvalue; its lowest, of a standing arm that falls,

@@ -53,6 +53,41 @@ Real hub_angle_of(const TransferChain<Real>& chain, const BeamState<Real>& root,
              : root[kRotation] - arm.root_flexibility * root[kMoment];
 }
 
+/// With a compliant drive a pole has taud + rotor_impedance theta_m = 0, so that
+///
+///     theta = (1 + drive rotor_impedance) theta_m
+///     M(0) + a Q(0) = (hub_impedance (1 + drive rotor_impedance) + rotor_impedance) theta_m:
+///
+/// theta_m from the one of them in which rounding does less. The first all but vanishes where the
+/// rotor vibrates by itself, the second where the load does.
+HubMotion motion_beyond_drive(const TransferChain<Real>& chain, const BeamState<Real>& root,
+                              Real waves) {
+  const auto& arm = chain.arm();
+  const Real rotor = chain.beam().rotor_impedance;
+  const Real hub = chain.beam().hub_impedance;
+  const Real turning = chain.beam().drive * rotor;
+  const Real radius = arm.hub_radius;
+  const Real angle = root[kRotation] - arm.root_flexibility * root[kMoment];
+  const Real moment = root[kMoment] + radius * root[kForce];
+  const Real along_hub = 1.0L + turning;
+  const Real along_torque = hub * along_hub + rotor;
+  const Real by_hub = angle / along_hub;
+  const Real by_torque = moment / along_torque;
+  const Real lost_by_hub = (1.0L + std::abs(turning * by_hub)) / std::abs(along_hub);
+  const Real lost_by_torque =
+      (waves + radius * radius * waves * waves * waves +
+       (std::abs(hub) * (1.0L + std::abs(turning)) + std::abs(rotor)) * std::abs(by_torque)) /
+      std::abs(along_torque);
+  if (lost_by_hub <= lost_by_torque) return {angle, by_hub};
+  return {along_hub * by_torque, by_torque};
+}
+
+HubMotion hub_motion_of(const TransferChain<Real>& chain, const BeamState<Real>& root, Real waves) {
+  if (!chain.arm().has_rigid_drive()) return motion_beyond_drive(chain, root, waves);
+  const Real angle = hub_angle_of(chain, root, waves);
+  return {angle, angle};
+}
+
 }  // namespace
 
 ChainModes::ChainModes(const ArmInBeamUnits& arm, std::span<const Real> omega_squared)
@@ -71,7 +106,7 @@ ChainModes::ChainModes(const ArmInBeamUnits& arm, std::span<const Real> omega_sq
 
 ChainModes::Mode ChainModes::rigid_body_mode() const {
   Mode mode;
-  mode.hub_angle = 1.0L;
+  mode.hub = {1.0L, 1.0L};
   const auto at_rest = undamped_at(arm_, Real(0.0L));
   for (const Segment& segment : segments_) {
     mode.series.emplace_back(arm_, at_rest, segment,
@@ -134,7 +169,7 @@ ChainModes::Mode ChainModes::mode_at(Real omega_squared) const {
   }
   mode.root_turn = arm_.root_flexibility * state_at(links.size())[kMoment];
   const Real waves = wave_number(arm_, chain.beam(), {1.0L, 1.0L});
-  mode.hub_angle = hub_angle_of(chain, state_at(links.size()), waves);
+  mode.hub = hub_motion_of(chain, state_at(links.size()), waves);
   sample(mode);
   return mode;
 }
@@ -156,13 +191,16 @@ void ChainModes::normalise(Mode& mode) const {
   const Real turn = mode.tip[kRotation];
   Real mass = integral(mode.displacements, mode.displacements) +
               arm_.rotary_inertia * integral(mode.rotations, mode.rotations) +
-              arm_.hub_inertia * mode.hub_angle * mode.hub_angle + arm_.payload_mass * tip * tip +
-              2.0L * arm_.payload_moment * tip * turn + arm_.payload_inertia * turn * turn;
+              arm_.hub_inertia * mode.hub.angle * mode.hub.angle +
+              arm_.rotor_inertia * mode.hub.motor_angle * mode.hub.motor_angle +
+              arm_.payload_mass * tip * tip + 2.0L * arm_.payload_moment * tip * turn +
+              arm_.payload_inertia * turn * turn;
   for (std::size_t k = 0; k < mode.carried.size(); ++k) {
     mass += arm_.carried[k].mass * mode.carried[k].displacement * mode.carried[k].displacement;
   }
-  mode.scale = std::copysign(std::sqrt(arm_.total_inertia() / mass), mode.hub_angle);
-  mode.hub_angle *= mode.scale;
+  mode.scale = std::copysign(std::sqrt(arm_.total_inertia() / mass), mode.hub.motor_angle);
+  mode.hub.angle *= mode.scale;
+  mode.hub.motor_angle *= mode.scale;
   mode.root_turn *= mode.scale;
   for (CarriedMotion& motion : mode.carried) {
     motion.displacement *= mode.scale;
@@ -212,7 +250,11 @@ Real ChainModes::curvature(std::size_t mode, Real x) const {
 Real ChainModes::damping(std::size_t i, std::size_t j) const {
   const Mode& a = modes_[i];
   const Mode& b = modes_[j];
-  Real sum = arm_.hub_friction * a.hub_angle * b.hub_angle;
+  Real sum = arm_.hub_friction * a.hub.motor_angle * b.hub.motor_angle;
+  if (arm_.drive_retardation > 0.0L) {
+    sum += arm_.drive_retardation / arm_.drive_flexibility * (a.hub.motor_angle - a.hub.angle) *
+           (b.hub.motor_angle - b.hub.angle);
+  }
   if (arm_.root_retardation > 0.0L) {
     sum += arm_.root_retardation / arm_.root_flexibility * a.root_turn * b.root_turn;
   }

@@ -8,6 +8,12 @@
 
 namespace flexarm::exact_tf {
 
+/// How hub and rotor turn; as one where the drive is rigid.
+struct HubMotion {
+  Real angle = 0.0L;        ///< theta
+  Real motor_angle = 0.0L;  ///< theta_m
+};
+
 /// How a mass on the beam moves, and how far it is from its place on it.
 struct CarriedMotion {
   Real displacement = 0.0L;
@@ -15,7 +21,7 @@ struct CarriedMotion {
 };
 
 /// Modes of the undamped arm in units of the beam, scaled to the modal mass I_T/(m l^3) and a
-/// positive hub angle.
+/// positive angle of the rotor.
 ///
 /// A mode's state at x is that of the plane of the tip's states at which the root's functional
 /// vanishes (exact_tf/transfer_chain.hpp); within a segment it is the series from the segment's
@@ -29,7 +35,8 @@ class ChainModes {
   ChainModes(const ArmInBeamUnits& arm, std::span<const Real> omega_squared);
 
   std::size_t size() const { return modes_.size(); }
-  Real hub_angle(std::size_t mode) const { return modes_[mode].hub_angle; }
+  Real hub_angle(std::size_t mode) const { return modes_[mode].hub.angle; }
+  Real motor_angle(std::size_t mode) const { return modes_[mode].hub.motor_angle; }
   Real tip_displacement(std::size_t mode) const;
   Real displacement(std::size_t mode, Real x) const;
   Real curvature(std::size_t mode, Real x) const;  ///< psi' = M
@@ -39,7 +46,7 @@ class ChainModes {
 
  private:
   struct Mode {
-    Real hub_angle = 0.0L;
+    HubMotion hub;
     Real root_turn = 0.0L;                    ///< psi(0) - theta
     Real scale = 1.0L;                        ///< of `series`; of all else it is applied
     std::vector<SegmentSeries<Real>> series;  ///< one a segment, from the tip to the root

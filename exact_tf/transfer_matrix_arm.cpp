@@ -72,7 +72,7 @@ Real modal_value(const ChainModes& modes, std::size_t i, arm::SensorKind kind, R
   switch (kind) {
     case arm::SensorKind::hub_angle:
     case arm::SensorKind::hub_velocity:
-      return modes.hub_angle(i);
+      return modes.motor_angle(i);
     case arm::SensorKind::tip_displacement:
     case arm::SensorKind::tip_acceleration:
       return modes.tip_displacement(i);
@@ -186,7 +186,7 @@ arm::ModalModel TransferMatrixArm::modal_model(int count, std::span<const arm::S
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     arm::Mode mode;
     mode.omega_rad_per_s = rounded(std::sqrt(std::max(0.0L, roots.omega_squared[i])) * scale);
-    mode.hub_slope = rounded(shapes.hub_angle(i));
+    mode.hub_slope = rounded(shapes.motor_angle(i));
     if (mode.omega_rad_per_s > 0.0) {
       mode.damping_ratio =
           rounded(shapes.damping(i, i) / (2.0L * std::sqrt(roots.omega_squared[i])));

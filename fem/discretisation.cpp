@@ -110,6 +110,7 @@ void Discretisation::place_coordinates() {
       if (mass.node == node && mass.stiffness > 0.0) mass.displacement = next++;
     }
   };
+  if (arm_.drive) spring_rotations_.push_back(next++ - 1);
   if (arm_.root_stiffness_N_m_per_rad) spring_rotations_.push_back(next++ - 1);
   for (int e = 0; e < elements(); ++e) {
     add_suspended(e);
@@ -128,11 +129,11 @@ Discretisation::Place Discretisation::place(int e, int local) const {
   switch (local) {
     case 0:
       if (e > 0) return place(e - 1, 2);
-      return {hub_radius_ > 0.0 ? 0 : -1, hub_radius_};
+      return {hub_radius_ > 0.0 ? hub_index() : -1, hub_radius_};
     case 1:
       if (e == before_crack_) return {first - 1, 1.0};
       if (e > 0) return place(e - 1, 3);
-      return {arm_.root_stiffness_N_m_per_rad ? 1 : 0, 1.0};
+      return {hub_index() + (arm_.root_stiffness_N_m_per_rad ? 1 : 0), 1.0};
     case 2:
     case 3:
       return {first + coordinates_per_element() - 4 + local, 1.0};
@@ -150,9 +151,14 @@ Discretisation::Place Discretisation::rotation_place(const Carried& mass) const 
 }
 
 void Discretisation::place_natural_deformations() {
+  if (const auto& drive = arm_.drive) {
+    natural_stiffness_[0] = drive->stiffness_N_m_per_rad / torsion_N_m(arm_);
+    natural_damping_[0] =
+        drive->retardation_s * arm::omega_scale_rad_per_s(arm_) * natural_stiffness_[0];
+  }
   if (const auto& root = arm_.root_stiffness_N_m_per_rad) {
-    natural_stiffness_[0] = *root / torsion_N_m(arm_);
-    natural_damping_[0] = root_retardation_ * natural_stiffness_[0];
+    natural_stiffness_[hub_index()] = *root / torsion_N_m(arm_);
+    natural_damping_[hub_index()] = root_retardation_ * natural_stiffness_[hub_index()];
   }
   if (arm_.crack) {
     natural_stiffness_[spring_rotations_.back()] =
@@ -222,7 +228,10 @@ void Discretisation::place_masses() {
     mass_ = assemble(beam_mass);
   }
   const int tip = tip_deflection_index();
-  mass_.coeffRef(0, 0) += arm_.hub_inertia_kg_m2 / beam_inertia_kg_m2(arm_);
+  const double rotor_kg_m2 = arm_.drive ? arm_.drive->rotor_inertia_kg_m2 : 0.0;
+  mass_.coeffRef(0, 0) += rotor_kg_m2 / beam_inertia_kg_m2(arm_);
+  mass_.coeffRef(hub_index(), hub_index()) +=
+      (arm_.hub_inertia_kg_m2 - rotor_kg_m2) / beam_inertia_kg_m2(arm_);
   mass_.coeffRef(tip, tip) += payload_mass_;
   mass_.coeffRef(tip, tip + 1) += payload_first_moment_;
   mass_.coeffRef(tip + 1, tip) += payload_first_moment_;
@@ -244,7 +253,7 @@ void Discretisation::place_weight() {
   });
   double all = payload_mass_ + 1.0;
   for (const Carried& mass : carried_) all += mass.mass;
-  weight_.coeffRef(0, 0) += gravity_ * all * hub_radius_;
+  weight_.coeffRef(hub_index(), hub_index()) += gravity_ * all * hub_radius_;
   const int tip_rotation = tip_rotation_index();
   weight_.coeffRef(tip_rotation, tip_rotation) += gravity_ * payload_first_moment_;
   for (const Carried& mass : carried_) {
@@ -263,6 +272,7 @@ void Discretisation::place_weight() {
 void Discretisation::place_rigid_rotation() {
   rigid_rotation_ = Eigen::VectorXd::Zero(size());
   rigid_rotation_[0] = 1.0;
+  rigid_rotation_[hub_index()] = 1.0;
   for (int e = 0; e < elements(); ++e) {
     rigid_rotation_[place(e, 1).index] = 1.0;
     rigid_rotation_[place(e, 2).index] = hub_radius_ + nodes_[static_cast<std::size_t>(e) + 1];
@@ -283,10 +293,12 @@ void Discretisation::place_kinematics() {
   const auto add = [&](int row, Place at, double value) {
     if (at.index >= 0) triplets.emplace_back(row, at.index, at.factor * value);
   };
-  if (arm_.root_stiffness_N_m_per_rad) {
-    triplets.emplace_back(0, 1, 1.0);
-    triplets.emplace_back(0, 0, -1.0);
-  }
+  const auto add_turn = [&](int from) {
+    triplets.emplace_back(from, from + 1, 1.0);
+    triplets.emplace_back(from, from, -1.0);
+  };
+  if (arm_.drive) add_turn(0);
+  if (arm_.root_stiffness_N_m_per_rad) add_turn(hub_index());
   if (arm_.crack) {
     const int row = spring_rotations_.back();
     add(row, place(before_crack_, 1), 1.0);

@@ -20,19 +20,20 @@ using Columns = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
 ///     M u_tt + C u_t + K u = e0 tau,   K = B^T D B + ks e0 e0^T + G,
 ///     C = B^T D_c B + c e0 e0^T + ca A.
 ///
-/// u(0) is the hub rotation theta; where the root is compliant the rotation of the beam's root
-/// follows; then for each element from root to tip its bubbles, its shear strains where the beam
-/// has any, and deflection and rotation at its outer end. After the element that ends at a
-/// suspended mass or at the crack follow the mass's displacement z and the rotation beyond the
-/// crack. The root is carried by the hub, y(0) = a theta. Payload, hub and masses on the beam stand
-/// in M. Suffix `c` (clamped) means the n - 1 coordinates without theta.
+/// u(0) is the rotation on which the torque acts, that of the rotor; where the drive is compliant
+/// the hub rotation theta follows, and where the root is that of the beam's root. Where the drive
+/// is rigid theta is u(0). Then for each element from root to tip its bubbles, its shear strains
+/// where the beam has any, and deflection and rotation at its outer end. After the element that
+/// ends at a suspended mass or at the crack follow the mass's displacement z and the rotation
+/// beyond the crack. The root is carried by the hub, y(0) = a theta. Payload, hub and masses on the
+/// beam stand in M. Suffix `c` (clamped) means the n - 1 coordinates without u(0).
 ///
 /// B takes the coordinates to n - 1 natural deformations: those of the elements (see BeamElement),
-/// the rotations of the springs at root and crack, and the extensions z - y of suspensions.
+/// the rotations of the springs at drive, root and crack, and the extensions z - y of suspensions.
 /// Deformation i stands for coordinate i + 1: bubbles and shear strains are their own, d1 stands
 /// for the outer deflection, d0 for the outer rotation, a spring for the rotation beyond it, an
 /// extension for z. The arm is statically determinate, so B of the clamped coordinates is square
-/// and block lower triangular. D and D_c are diagonal: bending is damped by kv D, root and
+/// and block lower triangular. D and D_c are diagonal: bending is damped by kv D, drive, root and
 /// suspensions by what they have. Solvers use B and D, never their product: assembled, it gives a
 /// rigid rotation, rounded, strain energy of the order h^-4 times epsilon.
 ///
@@ -46,6 +47,8 @@ class Discretisation {
   const arm::LinearArm& arm() const { return arm_; }
   int size() const { return static_cast<int>(mass_.rows()); }
   int clamped_size() const { return size() - 1; }
+  /// The coordinate that is theta: 1 where the drive is compliant, else 0.
+  int hub_index() const { return arm_.drive ? 1 : 0; }
   int elements() const { return static_cast<int>(lengths_.size()); }
   const BeamElement& element() const { return element_; }
   const std::vector<double>& lengths() const { return lengths_; }
@@ -73,7 +76,7 @@ class Discretisation {
   /// Deformation i is a coordinate of its own.
   bool is_coordinate(int i) const { return is_coordinate_[static_cast<std::size_t>(i)]; }
 
-  /// The rotations of the springs at root and crack among the natural deformations.
+  /// The rotations of the springs at drive, root and crack among the natural deformations.
   const std::vector<int>& spring_rotations() const { return spring_rotations_; }
   /// A mass on the beam.
   struct Carried {

@@ -22,8 +22,8 @@ class Discretisation;
 /// strain of their own where the arm has effects.shear_and_rotary_inertia (see BeamElement; they do
 /// not lock). A crack is a node at which the rotation jumps: the mesh is compressed on either side
 /// of it, so that no element grows and there is at most one more; masses on the beam have nodes of
-/// their own in the same way. A compliant root, suspensions and a hub spring are further natural
-/// deformations, hub radius and payload offset change kinematics and mass, gravity adds the
+/// their own in the same way. A compliant drive or root, suspensions and a hub spring are further
+/// natural deformations, hub radius and payload offset change kinematics and mass, gravity adds the
 /// tension's stiffness.
 ///
 /// The error of a frequency or a zero falls as h^(2p-2) with any effect, or exponentially with the
@@ -66,8 +66,8 @@ class FemArm {
   const Options& options() const { return options_; }
   /// n = 1 + elements (degree - 1): the hub rotation and, for each element, its degree - 3
   /// bubbles, and deflection and rotation at its outer end. Shear adds degree - 1 to each element,
-  /// a compliant root 1, a crack 1 and the element that it divides, a mass on the beam that element
-  /// and 1 where it is suspended.
+  /// a compliant drive 1, a compliant root 1, a crack 1 and the element that it divides, a mass on
+  /// the beam that element and 1 where it is suspended.
   int degrees_of_freedom() const;
 
   /// `count.expected` is by Sylvester inertia where rounding of the assembled stiffness permits.
@@ -95,8 +95,9 @@ class FemArm {
   std::complex<double> transfer_function(const arm::Sensor& sensor,
                                          std::complex<double> s_rad_per_s) const;
 
-  /// Consistent mass [kg m^2], stiffness [N m] and damping [N m s] for the coordinates theta [rad];
-  /// the rotation of the beam's root where it is compliant; for each element l psi' amplitudes of
+  /// Consistent mass [kg m^2], stiffness [N m] and damping [N m s] for the coordinates theta_m, the
+  /// rotor's rotation [rad]; theta where the drive is compliant; the rotation of the beam's root
+  /// where it is; for each element l psi' amplitudes of
   /// the bubbles, amplitudes of the shear strains where the beam has any, y/l and psi at the outer
   /// end; after the element that ends there, displacements over l of suspended masses and the
   /// rotation beyond a crack. n x n, symmetric. For use outside; eigenvalues of the assembled

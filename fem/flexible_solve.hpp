@@ -13,7 +13,7 @@ namespace flexarm::fem {
 /// What holds the hub while the arm vibrates.
 enum class HubSupport {
   free,     ///< its own spring and weight, or nothing: the poles
-  clamped,  ///< theta = 0: the zeros of a collocated sensor
+  clamped,  ///< u(0) = 0: the zeros of a collocated sensor
 };
 
 /// A displacement and the natural deformations that it came from.
@@ -39,7 +39,7 @@ class FlexibleSolve {
 
   /// Loads less the part that accelerates the rigid arm: f - M r (r^T f)/(r^T M r).
   Eigen::VectorXd self_equilibrated(const Eigen::VectorXd& f) const;
-  /// The response to the loads `f`, n; of the clamped arm that with theta = 0.
+  /// The response to the loads `f`, n; of the clamped arm that with u(0) = 0.
   Deformed operator()(const Eigen::VectorXd& f) const;
 
  private:

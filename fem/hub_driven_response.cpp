@@ -101,12 +101,12 @@ HubDrivenResponse<Scalar>::HubDrivenResponse(const Discretisation& discretisatio
 
 template <class Scalar>
 typename HubDrivenResponse<Scalar>::Shape HubDrivenResponse<Scalar>::solve(Vector mixed,
-                                                                           Scalar theta) const {
+                                                                           Scalar rotation) const {
   factor_.solve(mixed);
   const Eigen::VectorXd& stiffness = model_.natural_stiffness();
   const Eigen::VectorXd& damping = model_.natural_damping();
   Shape shape{Vector(model_.size()), Vector(model_.clamped_size())};
-  shape.u[0] = theta;
+  shape.u[0] = rotation;
   for (int i = 0; i < model_.clamped_size(); ++i) {
     shape.u[i + 1] = mixed[order_.coordinate[static_cast<std::size_t>(i)]];
     const int kinematic = order_.kinematic[static_cast<std::size_t>(i)];
@@ -168,9 +168,9 @@ typename HubDrivenResponse<Scalar>::Shape HubDrivenResponse<Scalar>::to_loads_of
   Shape loaded = to_loads(f);
   // Reciprocity: what of the loads the hub feels.
   const Scalar felt = turned.u.cwiseProduct(f).sum();
-  const Scalar theta = felt / hub_torque(turned.u);
-  loaded.u += theta * turned.u;
-  loaded.d += theta * turned.d;
+  const Scalar rotation = felt / hub_torque(turned.u);
+  loaded.u += rotation * turned.u;
+  loaded.d += rotation * turned.d;
   return loaded;
 }
 

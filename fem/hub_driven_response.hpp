@@ -45,11 +45,11 @@ struct MixedOrder {
 ///
 ///     (K(s) + ca s A + s^2 M) u = f,   K(s) = B^T D(s) B + (c s + ks) e0 e0^T + G,
 ///
-/// with D(s) = D + s D_c. Solved in mixed form for a prescribed hub
-/// rotation, with bending moments, shear forces and spring torques q as unknowns beside u, so that
-/// no stiffness of order h^-3 is ever added to another:
+/// with D(s) = D + s D_c. Solved in mixed form for a prescribed rotation
+/// u(0) of the hub or its rotor, with bending moments, shear forces and spring torques q as
+/// unknowns beside u, so that no stiffness of order h^-3 is ever added to another:
 ///
-///     B u - D(s)^-1 q = 0,   B^T q + (G + ca s A + s^2 M) u = f,   u(0) = theta given.
+///     B u - D(s)^-1 q = 0,   B^T q + (G + ca s A + s^2 M) u = f,   u(0) given.
 ///
 /// The unknowns are ordered along the arm and eliminated by LU with partial pivoting: a narrow
 /// band, in which rounding perturbs only neighbours, so that a response that decays by many
@@ -64,9 +64,9 @@ class HubDrivenResponse {
   HubDrivenResponse(const Discretisation& discretisation, const Dynamics<Scalar>& dynamics);
 
   bool singular() const { return factor_.singular(); }
-  /// For theta = 1 and no other load.
+  /// For u(0) = 1 and no other load.
   Shape to_unit_rotation() const;
-  /// For theta = 0 and the loads `f`, n; f(0) is not used.
+  /// For u(0) = 0 and the loads `f`, n; f(0) is not used.
   Shape to_loads(const Vector& f) const;
   /// With the hub free, under the loads `f`, n; `turned` is the response to unit rotation. Not
   /// finite at a pole.
@@ -76,7 +76,7 @@ class HubDrivenResponse {
   Scalar hub_torque(const Vector& u) const;
 
  private:
-  Shape solve(Vector mixed, Scalar theta) const;
+  Shape solve(Vector mixed, Scalar rotation) const;
 
   const Discretisation& model_;
   Dynamics<Scalar> dynamics_;

@@ -111,7 +111,7 @@ Discretisation::VirtualWork Discretisation::work_on_tip_bending() const {
 Discretisation::VirtualWork Discretisation::work_on_tip_root() const {
   if (!arm_.root_stiffness_N_m_per_rad) return {};
   // The force has the arm 1 about the root.
-  const double rotation = 1.0 / natural_stiffness_[0];
+  const double rotation = 1.0 / natural_stiffness_[hub_index()];
   Eigen::VectorXd shape = Eigen::VectorXd::Zero(size());
   for (int e = 0; e < elements(); ++e) {
     shape[place(e, 1).index] = rotation;

@@ -21,7 +21,7 @@ struct NewtonResult {
 /// The numerator of hub torque to the reading c(w)^T u as a function of w = s^2, dimensionless and
 /// undamped,
 ///
-///     N(w) = F(w) prod_i (1 + w/omega_i^2),   F(w) = c(w)^T u(w) for theta = 1.
+///     N(w) = F(w) prod_i (1 + w/omega_i^2),   F(w) = c(w)^T u(w) for u(0) = 1.
 ///
 /// F has its poles where the arm vibrates with the hub clamped, at w = -omega_i^2; the lowest
 /// are taken out. Each value costs one factorisation, linear in the number of elements.

@@ -36,6 +36,7 @@ SensorRow::SensorRow(const Discretisation& discretisation, const arm::Sensor& se
     case arm::SensorKind::tip_acceleration:
     case arm::SensorKind::tip_displacement:
       constant_ = Eigen::VectorXd::Unit(n, discretisation.tip_deflection_index());
+      infinite_roots_ += discretisation.hub_index();
       return;
     case arm::SensorKind::tip_deflection:
       bending_ = discretisation.work_on_tip_bending();
@@ -48,6 +49,7 @@ SensorRow::SensorRow(const Discretisation& discretisation, const arm::Sensor& se
       break;
   }
   by_equilibrium_ = true;
+  infinite_roots_ += discretisation.hub_index();
   constant_ = sum(sum(bending_.inertia, root_.inertia), rest_.inertia);
   Eigen::VectorXd weight = sum(sum(bending_.weight, root_.weight), rest_.weight);
   if (weight.size() > 0) {

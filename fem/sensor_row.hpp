@@ -40,8 +40,9 @@ class SensorRow {
   const Eigen::VectorXd& constant() const { return constant_; }
   const Eigen::VectorXd& times_w() const { return times_w_; }
   /// Roots at infinity of the Rosenbrock pencil, of order n + 1, with this row: 2 for a general
-  /// constant one, one more where c^T M^-1 e0 = 0, the influence shape having no hub rotation; one
-  /// less for a row that has the factor w.
+  /// constant one, one more where c^T M^-1 e0 = 0, the influence shape having no hub rotation, and
+  /// one more where the torque reaches what the row reads through the drive's spring; one less for
+  /// a row that has the factor w.
   int infinite_roots() const { return infinite_roots_; }
 
  private:

@@ -47,7 +47,12 @@ double excess(const Discretisation& model) {
     sum += mass.mass * std::pow(mass.position, 3) / 3.0;
     if (mass.displacement >= 0) sum += mass.mass / mass.stiffness;
   }
-  for (const int i : model.spring_rotations()) sum += inertia / model.natural_stiffness()[i];
+  for (const int i : model.spring_rotations()) {
+    // About the axis, what is beyond the drive is all but the rotor.
+    const bool is_drive = i < model.hub_index();
+    const double beyond = is_drive ? model.total_inertia() - model.mass().coeff(0, 0) : inertia;
+    sum += beyond / model.natural_stiffness()[i];
+  }
   return sum;
 }
 

@@ -13,7 +13,7 @@ struct VibrationModes {
   double lowest_omega_squared = 0.0;  ///< of the mode below the flexible ones; 0 where clamped
   Deformed lowest;                    ///< its shape, u^T M u = 1; empty where clamped
   Eigen::VectorXd omega_squared;      ///< ascending
-  Eigen::MatrixXd shapes;             ///< n x count, u^T M u = 1; row 0 is theta (0 where clamped)
+  Eigen::MatrixXd shapes;             ///< n x count, u^T M u = 1; row 0 is u(0) (0 where clamped)
   Eigen::MatrixXd deformations;       ///< (n - 1) x count, the natural ones
   int iterations = 0;                 ///< operator applications of the iterative solver, else 0
   /// largest_change <= max(1e-8, tolerance).

@@ -66,6 +66,7 @@ arm::Arm without_damping(const arm::Arm& arm) {
         const arm::LinearTerms::Damping before = terms.damping;
         term(of, whole, terms);
         terms.damping = before;
+        if (terms.drive) terms.drive->retardation_s = 0.0;
         for (auto& spring : terms.springs) spring.retardation_s = 0.0;
         for (auto& mass : terms.masses) {
           if (mass.suspension) mass.suspension->damping_N_s_per_m = 0.0;

@@ -22,7 +22,10 @@ inline arm::Arm without_damping(arm::Arm arm) {
   arm.damping = {};
   arm.hub.viscous_friction_N_m_s_per_rad = 0.0;
   const std::vector<std::pair<std::string, std::string>> dampings = {
-      {"air_damping", "coefficient"}, {"root_damping", "time"}, {"tuned_mass", "damping_ratio"}};
+      {"air_damping", "coefficient"},
+      {"drive_compliance", "time"},
+      {"root_damping", "time"},
+      {"tuned_mass", "damping_ratio"}};
   for (const auto& [name, parameter] : dampings) {
     if (arm.effects.contains(name)) effects::put(arm, name, {{parameter, 0.0}});
   }
@@ -63,6 +66,8 @@ inline std::vector<NamedArm> arms_with_effects() {
        with(plain, "tuned_mass",
             {{"mass", 0.3}, {"frequency", 1.5}, {"damping_ratio", 0.1}, {"position", 0.7}})},
       {"lossy root", with(plain, "root_damping", {{"stiffness", 4.0}, {"time", 0.02}})},
+      {"soft drive",
+       with(plain, "drive_compliance", {{"stiffness", 6.0}, {"rotor_share", 0.4}, {"time", 0.03}})},
       {"soft root", with(plain, "root_compliance", {{"stiffness", 4.0}})},
       {"hub spring", with(plain, "hub_spring", {{"stiffness", 2.0}})},
       {"hub radius", with(plain, "hub_radius", {{"radius", 0.3}})},
@@ -77,6 +82,7 @@ inline std::vector<NamedArm> arms_with_effects() {
   arm::Arm all = with(thick_arm(0.15), "shear_and_rotary_inertia", {{"shear_coefficient", 0.8}});
   all = with(all, "local_stiffness_loss", {{"position", 0.4}, {"stiffness", 3.0}});
   all = with(all, "root_compliance", {{"stiffness", 10.0}});
+  all = with(all, "drive_compliance", {{"stiffness", 8.0}, {"rotor_share", 0.7}, {"time", 0.01}});
   all = with(all, "hub_spring", {{"stiffness", 1.5}});
   all = with(all, "hub_radius", {{"radius", 0.1}});
   all = with(all, "payload_offset", {{"offset", 0.05}});

@@ -179,6 +179,24 @@ TEST(StrainFunctions, ASuspendedMassMovesWithTheBeamButForItsOwnFunction) {
   EXPECT_EQ(functions.bends()(kOwn), 0);
 }
 
+TEST(StrainFunctions, ADriveTurnsHubAndBeamAgainstTheRotor) {
+  ScaledArm arm = arm_with_everything();
+  arm.drive = {0.05L, 4, 0};
+  const StrainFunctions functions(arm, {.on_whole_beam = kFunctions});
+  constexpr Eigen::Index kOwn = 1;
+  EXPECT_EQ(functions.motor_rotation(), Vector::Unit(functions.size(), 0));
+  EXPECT_EQ(functions.hub_rotation() - functions.motor_rotation(),
+            0.5L * Vector::Unit(functions.size(), kOwn));
+  constexpr Real kSumRounding = 10 * std::numeric_limits<Real>::epsilon();
+  for (const Real xi : {0.0L, 0.1L, 0.5L, 1.0L}) {
+    const Real along = functions.displacement(xi)(kOwn) - (arm.hub_radius + xi) / 2;
+    EXPECT_LE(std::abs(along), kSumRounding);
+    EXPECT_LE(std::abs(functions.rotation(xi)(kOwn) - 0.5L), kSumRounding);
+    EXPECT_EQ(functions.curvature(xi)(kOwn), 0);
+  }
+  EXPECT_EQ(functions.bends()(kOwn), 0);
+}
+
 TEST(StrainFunctions, ShortPiecesGetFewerAndSpacesGrow) {
   ScaledArm arm;
   arm.crack = {0.07L, 2};

@@ -202,7 +202,10 @@ TEST_P(ArmWithEffects, HasZerosAtWhichTheSensorIsStill) {
   arm.damping.kelvin_voigt_s = 0.0;
   arm.hub.viscous_friction_N_m_s_per_rad = 0.0;
   const std::vector<std::pair<std::string, std::string>> dampings = {
-      {"air_damping", "coefficient"}, {"root_damping", "time"}, {"tuned_mass", "damping_ratio"}};
+      {"air_damping", "coefficient"},
+      {"drive_compliance", "time"},
+      {"root_damping", "time"},
+      {"tuned_mass", "damping_ratio"}};
   for (const auto& [name, parameter] : dampings) {
     if (arm.effects.contains(name)) effects::put(arm, name, {{parameter, 0.0}});
   }

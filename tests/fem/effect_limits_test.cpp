@@ -75,6 +75,11 @@ TEST(EffectLimits, OfStiffSpringsAndShortHubsAreTheArmWithoutThem) {
       1e-4, plain);
   expect_first_order(
       [&](double x) {
+        return with(plain, "drive_compliance", {{"stiffness", 1.0 / x}, {"rotor_share", 0.5}});
+      },
+      1e-5, plain);
+  expect_first_order(
+      [&](double x) {
         return with(plain, "local_stiffness_loss", {{"position", 0.37}, {"stiffness", 1.0 / x}});
       },
       1e-4, plain);

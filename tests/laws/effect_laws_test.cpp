@@ -205,6 +205,7 @@ TEST_P(EffectLimits, SmallEffectsMoveThePolesInProportion) {
       {"gravity", {{"acceleration", 1e-6}}},
       {"hub_spring", {{"stiffness", 1e-6}}},
       {"root_compliance", {{"stiffness", 1e7}}},
+      {"drive_compliance", {{"stiffness", 1e7}, {"rotor_share", 0.5}}},
       {"root_damping", {{"stiffness", 1e7}, {"time", 1e-3}}},
       {"attached_mass", {{"mass", 1e-7}, {"position", 0.4}}},
       {"local_stiffness_loss", {{"position", 0.4}, {"stiffness", 1e7}}}};

@@ -2,6 +2,7 @@
 
 #include "arm/arm_keys.hpp"
 #include "arm/input_error.hpp"
+#include "arm/linear_arm.hpp"
 #include "arm/rigid_hub.hpp"
 #include "effects/registry/vocabulary.hpp"
 
@@ -149,6 +150,9 @@ class ArmGenerator {
       if (pick(4) != 0 || (needs_gauge && !arm.beam.thickness_m)) continue;
       // Which holds its root's only spring.
       if (definition->name == "root_damping" && arm.effects.contains("root_compliance")) continue;
+      // Which divides the hub's inertia.
+      const bool is_drive = definition->name == "drive_compliance";
+      if (is_drive && with_changed_numbers(arm).hub.inertia_kg_m2 == 0.0) continue;
       arm.effects[definition->name] = effect(definition, arm.beam);
     }
     return arm;
@@ -217,6 +221,7 @@ class ArmGenerator {
       double value = parameter.range.exclusive ? positive() : not_negative();
       if (parameter.range.minimum < 0.0 && chance()) value = -value;
       if (parameter.name == "position") value = beam.length_m * 0.25;
+      if (parameter.name == "rotor_share") value = 0.25;
       if (definition->name == "beam_length") value = 0.75;  // a crack stays on the beam
       if (definition->name == "gauge_position") value = beam.length_m * 0.25;
       if (definition->name == "stribeck_friction" && parameter.name == "static_torque") {

@@ -12,7 +12,8 @@ M = EI (1 + kv s) psi' and the transverse force Q = kGA (y' - psi) + g P y':
     y(0) = a theta,  kr (1 + tr s) (psi(0) - theta) = M(0),  [psi] = M/kc at the crack
     [Q] = mk s^2 (y + u),  [M] = g mk u,  (mk s^2 + ck s + kk) u = -mk (s^2 y + g psi) at a mass
     Q(l) = -s^2 (Mp y + Sp psi),  M(l) = -s^2 (Sp y + Jp psi) - g Sp psi
-    tau = (Ih s^2 + c s + ks + g P(0) a) theta - a Q(0) - M(0)
+    taud = ((Ih - Jr) s^2 + g P(0) a) theta - a Q(0) - M(0) = kd (1 + td s) (theta_m - theta)
+    tau = (Jr s^2 + c s + ks) theta_m + taud,   theta_m the hub angle that sensors show
 
 One power series in x from end to end (one more for a crack and for each mass), in as many digits as
 it cancels: no segments, no scaling, no discretisation. Run it to write effects.json beside itself; it needs mpmath
@@ -46,6 +47,7 @@ EFFECTS = {
     "attached_mass": dict(mass="0.04", position="0.5236"),
     "tuned_mass": dict(mass="0.02", frequency="14", damping_ratio="0.05", position="0.6982"),
     "root_damping": dict(stiffness="25", time="0.002"),
+    "drive_compliance": dict(stiffness="40", rotor_share="0.6", time="0.001"),
     "shear_and_rotary_inertia": dict(),
 }
 
@@ -71,7 +73,9 @@ CASES = [case("none", [])] + [case(e, [e]) for e in EFFECTS] + [
     case("spring_and_air", ["hub_spring", "air_damping"]),
     case("bare_with_crack", ["local_stiffness_loss"], hub=dict(inertia="5.86e-4"),
          payload=dict(mass="0", inertia="0"), damping=dict(kelvin_voigt="0")),
-    case("all", [e for e in EFFECTS if e not in ("root_damping", "attached_mass", "tuned_mass")]),
+    case("all", [e for e in EFFECTS if e not in ("root_damping", "attached_mass", "tuned_mass",
+                                                 "drive_compliance")]),
+    case("drive_and_root", ["drive_compliance", "root_compliance", "hub_spring", "hub_radius", "gravity"]),
 ]
 
 
@@ -103,6 +107,9 @@ class Arm:
         self.ks = effect("hub_spring", "stiffness")
         self.kr = effect("root_compliance", "stiffness") + effect("root_damping", "stiffness") or None
         self.tr = effect("root_damping", "time")
+        self.drive = effect("drive_compliance", "stiffness") or None
+        self.Jr = self.Ih * effect("drive_compliance", "rotor_share")
+        self.td = effect("drive_compliance", "time")
         self.crack = None
         if "local_stiffness_loss" in c["effects"]:
             self.crack = (effect("local_stiffness_loss", "position"),
@@ -216,12 +223,16 @@ class Arm:
         """Functions of s: torque D and the sensors N for theta = held, so that sensor/tau = N/D."""
         held, M0, Q0, roots, tips = self.solve(s, damped)
         friction = self.c * s if damped else 0
-        D = ((self.Ih * s**2 + friction + self.ks + self.tension(0) * self.a) * held - self.a * Q0 - M0)
+        passed_on = ((self.Ih - self.Jr) * s**2 + self.tension(0) * self.a) * held - self.a * Q0 - M0
+        motor = held
+        if self.drive:
+            motor += passed_on / (self.drive * (1 + self.td * s if damped else 1))
+        D = (self.Jr * s**2 + friction + self.ks) * motor + passed_on
 
         def combined(states, i):
             return held * states[0][i] + M0 * states[1][i] + Q0 * states[2][i]
 
-        shown = {"hub_angle": held}
+        shown = {"hub_angle": motor}
         tip = combined(tips, 0)
         shown["tip_displacement"] = tip
         shown["tip_deflection"] = tip - (self.a + self.l) * held
@@ -321,15 +332,15 @@ def reference(c, poles=6, tip_zeros=4):
     result["responses"] = responses
 
     damped = []
-    if arm.kv or arm.ca or arm.c or arm.tr or any(c for X, m, k, c in arm.masses):
+    if arm.kv or arm.ca or arm.c or arm.tr or arm.td or any(c for X, m, k, c in arm.masses):
         for w in omegas[:4]:
             if arm.kv * w / 2 > mpf("0.9"):  # near or beyond critical: pairs meet and part
                 break
             # Continuation in damping, each step from the line through the last two.
-            kept = arm.kv, arm.ca, arm.c, arm.tr, mpf(1)
+            kept = arm.kv, arm.ca, arm.c, arm.tr, arm.td, mpf(1)
             before, s = mpc(0, w), mpc(0, w)
             for k in range(1, DAMPING_STEPS + 1):
-                (arm.kv, arm.ca, arm.c, arm.tr,
+                (arm.kv, arm.ca, arm.c, arm.tr, arm.td,
                  arm.suspended) = (value * k / DAMPING_STEPS for value in kept)
                 guess = 2 * s - before
                 before = s

@@ -30,6 +30,7 @@ std::vector<std::pair<std::string, arm::Arm>> varied_arms() {
       {"hub_spring", {{"stiffness", 0.5}}},
       {"gravity", {{"acceleration", 9.81}}},
       {"gravity", {{"acceleration", -0.5}}},
+      {"drive_compliance", {{"stiffness", 30.0}, {"rotor_share", 0.6}}},
       {"root_compliance", {{"stiffness", 30.0}}},
       {"local_stiffness_loss", {{"position", 0.4}, {"stiffness", 40.0}}},
       {"attached_mass", {{"mass", 0.04}, {"position", 0.5}}},

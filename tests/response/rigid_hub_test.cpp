@@ -202,7 +202,7 @@ TEST(RigidHub, TakesTheEffectsOfHubTorqueAndSensors) {
       "gravity",         "hub_radius",         "linear_density",           "local_stiffness_loss",
       "payload_inertia", "payload_mass",       "payload_offset",           "quadratic_drag",
       "root_compliance", "structural_damping", "shear_and_rotary_inertia", "attached_mass",
-      "tuned_mass",      "root_damping"};
+      "tuned_mass",      "root_damping",       "drive_compliance"};
   for (const auto& effect : effects::vocabulary()) {
     const bool acts = arm::acts_without_beam(*effect);
     const bool is_of_hub = std::ranges::count(known, effect->name) > 0;

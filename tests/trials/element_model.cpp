@@ -92,8 +92,11 @@ ElementModel::ElementModel(const TrueArm& arm, int elements, std::span<const arm
   const auto add_one = [](Terms& terms, double k, Eigen::Index at) {
     terms.emplace_back(static_cast<int>(at), static_cast<int>(at), k);
   };
-  add_one(mass, arm.hub_inertia_kg_m2, kHub);
-  add_one(stiffness, hub_stiffness_N_m(), kHub);
+  const double rotor_share = arm.gear ? arm.gear->rotor_share : 1.0;
+  add_one(mass, rotor_share * arm.hub_inertia_kg_m2, kHub);
+  add_one(mass, (1.0 - rotor_share) * arm.hub_inertia_kg_m2, load_);
+  add_one(stiffness, arm.hub_spring_N_m_per_rad, kHub);
+  add_one(stiffness, hub_stiffness_N_m(), load_);
   add_one(damping, arm.hub_damping_N_m_s_per_rad, kHub);
   add_square(mass, arm.payload_kg, tip_deflection_, tip_rotation_, arm.payload_offset_m);
   add_one(mass, arm.payload_inertia_kg_m2, tip_rotation_);
@@ -152,10 +155,15 @@ void ElementModel::lay_out(int elements, std::span<const arm::Sensor> sensors) {
     if (sensor.kind == arm::SensorKind::strain) place(sensor.position_m);
   }
   const bool shears = arm_.shear_coefficient.has_value();
-  const std::pair<Eigen::Index, double> root{kHub, arm_.hub_radius_m};
+  if (arm_.gear) {
+    load_ = size_++;
+    stretches_.push_back(
+        {load_, kHub, arm_.gear->stiffness_N_m_per_rad, arm_.gear->damping_N_m_s_per_rad});
+  }
+  const std::pair<Eigen::Index, double> root{load_, arm_.hub_radius_m};
   std::pair<Eigen::Index, double> deflection = root;
-  Eigen::Index rotation = kHub;
-  std::vector<std::pair<Eigen::Index, double>> rigid = {{kHub, 1.0}};
+  Eigen::Index rotation = load_;
+  std::vector<std::pair<Eigen::Index, double>> rigid = {{kHub, 1.0}, {load_, 1.0}};
   const auto further = [&](double rigid_value) {
     rigid.emplace_back(size_, rigid_value);
     return size_++;
@@ -221,7 +229,7 @@ double ElementModel::shear_rigidity_N() const {
 }
 
 double ElementModel::hub_stiffness_N_m() const {
-  return arm_.hub_spring_N_m_per_rad + tension_N(0.0) * arm_.hub_radius_m;
+  return tension_N(0.0) * arm_.hub_radius_m;
 }
 
 double ElementModel::tip_stiffness_N_m() const {
@@ -264,7 +272,8 @@ double ElementModel::total_inertia_kg_m2() const {
 
 double ElementModel::twice_potential(const Eigen::VectorXd& u) const {
   const bool shears = arm_.shear_coefficient.has_value();
-  double sum = hub_stiffness_N_m() * u(kHub) * u(kHub) +
+  double sum = arm_.hub_spring_N_m_per_rad * u(kHub) * u(kHub) +
+               hub_stiffness_N_m() * u(load_) * u(load_) +
                tip_stiffness_N_m() * u(tip_rotation_) * u(tip_rotation_);
   for (const Stretch& one : stretches_) {
     sum += one.stiffness_N_m_per_rad * std::pow(u(one.beyond) - u(one.before), 2);
@@ -332,7 +341,7 @@ ReadingRow ElementModel::make_reading(const arm::Sensor& sensor) const {
   }
   row.stiffness(tip_deflection_) = 1.0;
   if (sensor.kind == arm::SensorKind::tip_deflection) {
-    row.stiffness(kHub) = -(arm_.hub_radius_m + arm_.length_m);
+    row.stiffness(load_) = -(arm_.hub_radius_m + arm_.length_m);
   }
   return row;
 }

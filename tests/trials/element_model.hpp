@@ -29,18 +29,20 @@ struct ReadingRow {
 
 /// The trials' own model of the linear arm: finite elements of the energies
 ///
-///     2 T = Ih theta_t^2 + int (m y_t^2 + rho I psi_t^2) dx + Mp (y_t + d psi_t)^2 + Ip psi_t^2
-///           + sum m_p y_t^2 + sum m_k z_t^2
-///     2 V = ks theta^2 + sum k [psi]^2 + int (EI psi'^2 + kGA (y' - psi)^2) dx
-///           + sum k_k (y - z)^2 + 2 g (heights that masses gain)
-///     2 R = c theta_t^2 + sum r [psi_t]^2 + int (kv EI psi'_t^2 + ca y_t^2) dx
-///           + sum c_k (y_t - z_t)^2
+///     2 T = Jr theta_m_t^2 + (Ih - Jr) theta_t^2 + int (m y_t^2 + rho I psi_t^2) dx
+///           + Mp (y_t + d psi_t)^2 + Ip psi_t^2 + sum m_p y_t^2 + sum m_k z_t^2
+///     2 V = ks theta_m^2 + kg (theta - theta_m)^2 + sum k [psi]^2
+///           + int (EI psi'^2 + kGA (y' - psi)^2) dx + sum k_k (y - z)^2
+///           + 2 g (heights that masses gain)
+///     2 R = c theta_m_t^2 + rg (theta_t - theta_m_t)^2 + sum r [psi_t]^2
+///           + int (kv EI psi'_t^2 + ca y_t^2) dx + sum c_k (y_t - z_t)^2
 ///
-/// with y(0) = radius theta; payload terms at the tip, d its centre's distance beyond; [psi] the
-/// jump of rotation at a spring, at the root from the hub's; m_p point masses fixed to the beam; z
-/// displacements of attached masses. A piece of beam that turns by y' lifts all that hangs beyond
-/// by y'^2/2 per length, the hub's arm by radius theta^2/2, the payload's by d psi^2/2. An attached
-/// mass is a distance z - y beside the beam, perpendicular to it: lifted by (z - y) psi more.
+/// with y(0) = radius theta; theta_m of the rotor, which is theta without a gear; payload terms at
+/// the tip, d its centre's distance beyond; [psi] the jump of rotation at a spring, at the root
+/// from the hub's; m_p point masses fixed to the beam; z displacements of attached masses. A piece
+/// of beam that turns by y' lifts all that hangs beyond by y'^2/2 per length, the hub's arm by
+/// radius theta^2/2, the payload's by d psi^2/2. An attached mass is a distance z - y beside the
+/// beam, perpendicular to it: lifted by (z - y) psi more.
 class ElementModel {
  public:
   /// `elements` of equal length; a spring or a strain sensor within the beam divides one, so that
@@ -51,7 +53,7 @@ class ElementModel {
   const Eigen::SparseMatrix<double>& mass() const { return mass_; }
   const Eigen::SparseMatrix<double>& stiffness() const { return stiffness_; }
   const Eigen::SparseMatrix<double>& damping() const { return damping_; }
-  /// theta is the first coordinate.
+  /// theta_m, on which the motor acts and which the hub's sensors read, is the first coordinate.
   static constexpr Eigen::Index kHub = 0;
   /// Neither spring nor weight holds the hub.
   bool turns_freely() const;
@@ -96,7 +98,7 @@ class ElementModel {
   double rigidity_N_m2(double thickness_ratio) const;
   double weight_N(const TrueArm::AttachedMass& mass) const;
   double shear_rigidity_N() const;
-  /// Stiffness of hub and tip against turning, springs and weight together.
+  /// Stiffness of hub and tip against turning, by their weight.
   double hub_stiffness_N_m() const;
   double tip_stiffness_N_m() const;
 
@@ -111,6 +113,7 @@ class ElementModel {
   };
   std::vector<Stretch> stretches_;
   Eigen::Index size_ = 1;
+  Eigen::Index load_ = kHub;  // theta
   Eigen::Index tip_deflection_ = 0;
   Eigen::Index tip_rotation_ = 0;
   Eigen::VectorXd rigid_;  // the arm turned by 1

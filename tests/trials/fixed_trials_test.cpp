@@ -64,6 +64,12 @@ TEST(FixedTrial, AnActuatorsLagInFrequency) {
   EXPECT_THAT(answer.effects, ElementsAre("actuator_lag"));
 }
 
+TEST(FixedTrial, ASoftDriveInFrequency) {
+  const FixedAnswer answer = diagnosed({.kind = RunKind::frf, .hidden = {"drive_compliance"}});
+  EXPECT_EQ(answer.verdict, diagnose::Verdict::explained);
+  EXPECT_THAT(answer.effects, ElementsAre("drive_compliance"));
+}
+
 TEST(FixedTrial, ThePayloadsCentreInPolesAndZeros) {
   const FixedAnswer answer = diagnosed({.kind = RunKind::modal, .hidden = {"payload_offset"}});
   EXPECT_EQ(answer.verdict, diagnose::Verdict::explained);

@@ -20,6 +20,12 @@ struct TrueArm {
     double stiffness_N_m_per_rad = 0.0;
     double damping_N_m_s_per_rad = 0.0;  ///< beside a spring that is alone there
   };
+  /// A gear between the motor's rotor and the hub that the beam is on.
+  struct Gear {
+    double rotor_share = 0.0;  ///< of hub_inertia_kg_m2
+    double stiffness_N_m_per_rad = 0.0;
+    double damping_N_m_s_per_rad = 0.0;
+  };
   /// A mass that is fixed to the beam.
   struct PointMass {
     double position_m = 0.0;
@@ -89,7 +95,8 @@ struct TrueArm {
   double air_damping_N_s_per_m2 = 0.0;
   double gravity_m_per_s2 = 0.0;  ///< along the arm, from the hub to the tip
 
-  double hub_inertia_kg_m2 = 0.0;
+  double hub_inertia_kg_m2 = 0.0;  ///< of rotor and hub together
+  std::optional<Gear> gear;        ///< empty: rotor and hub are one
   double hub_radius_m = 0.0;  ///< from the axis to the beam
   double hub_damping_N_m_s_per_rad = 0.0;
   double hub_spring_N_m_per_rad = 0.0;

@@ -1,0 +1,77 @@
+#include "arm/input_error.hpp"
+#include "effects/registry/entry.hpp"
+
+#include <limits>
+
+namespace flexarm::effects {
+
+namespace {
+
+void require_divisible_hub(const arm::Effect& effect, const arm::Arm& arm) {
+  const double share = effect.value("rotor_share");
+  if (share >= 1.0) {
+    throw arm::out_of_range("effects.drive_compliance.rotor_share", share, "",
+                            "above 0 and below 1");
+  }
+  if (!(arm.hub.inertia_kg_m2 > 0.0)) {
+    throw arm::InputError(
+        "effects.drive_compliance: rotor and hub share hub.inertia; must be above 0",
+        "effects.drive_compliance");
+  }
+}
+
+void add_drive(const arm::Effect& effect, const arm::Arm& arm, arm::LinearTerms& terms) {
+  terms.drive = arm::Drive{effect.value("rotor_share") * arm.hub.inertia_kg_m2,
+                           effect.value("stiffness"), effect.value("time")};
+}
+
+}  // namespace
+
+Entry drive_compliance() {
+  return {
+      .definition = define(
+          {.name = "drive_compliance",
+           .meaning = "rotational spring and dashpot beside each other, a gear or a coupling, "
+                      "between the rotor and the rest of the hub: moment stiffness (phi + time d "
+                      "phi/dt), phi the rotation between them. Torque, hub friction, hub springs "
+                      "and hub sensors are at the rotor",
+           .parameters = {{.name = "stiffness",
+                           .unit = "N m/rad",
+                           .range = arm::kPositive,
+                           .meaning = "rotational stiffness",
+                           .example = 30.0,
+                           .neutral = std::numeric_limits<double>::infinity()},
+                          {.name = "rotor_share",
+                           .unit = "1",
+                           .range = arm::kPositive,
+                           .meaning = "the rotor's part of hub.inertia, below 1",
+                           .example = 0.6},
+                          {.name = "time",
+                           .unit = "s",
+                           .range = arm::kNotNegative,
+                           .meaning = "damping coefficient over stiffness; times an angular "
+                                      "frequency it is the loss factor of the drive there",
+                           .example = 1e-3,
+                           .otherwise = 0.0}},
+           .linear_term = add_drive,
+           .require_fit = require_divisible_hub}),
+      .shows = Shows::in_all,
+      .search = [](const Scales& scales) -> std::vector<SearchedParameter> {
+        const double bending = scales.bending_stiffness_N_m_per_rad();
+        const double scale_rad_per_s = arm::omega_scale_rad_per_s(scales.beam);
+        return {{"stiffness", 0.2 * bending, 1e3 * bending, Spacing::from_infinity},
+                {"rotor_share", 0.02, 0.98, Spacing::linear},
+                {"time", 1e-4 / scale_rad_per_s, 1.0 / scale_rad_per_s}};
+      },
+      .applies = [](const Scales& scales) { return scales.arm.hub.inertia_kg_m2 > 0.0; },
+      // As rotor_share nears 1, on a hub without radius.
+      .contains = {"root_compliance", "root_damping"},
+      .speaks_for =
+          "one pole more than the beam has, and with it one zero of the hub angle; above it the "
+          "hub sensors show the rotor alone; unchanged zeros of the tip and the gauges",
+      .refuted_by =
+          "hub-angle zeros of the arm with a rigid drive, or responses that ask for all of the "
+          "hub's inertia on one side of the spring (that is root compliance)"};
+}
+
+}  // namespace flexarm::effects

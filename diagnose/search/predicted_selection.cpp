@@ -162,14 +162,14 @@ std::optional<PredictedSelection> select_by_filter(const SelectionTask& task,
     return NoiseEstimator(problem.experiment(), problem.observations(), problem.predictor(),
                           [&work] { work.go_on(); });
   };
+  std::optional<NoiseModel> left;  // by what simulation named
+  const arm::Arm extended = by_simulation.selection.chosen.fit.candidate.extend(experiment.arm);
   if (!task.is_asked()) {
     const Problem unfiltered = filtered_problem(experiment, modes, options);
     const NoiseEstimator estimator = estimator_of(unfiltered);
-    const arm::Arm extended =
-        by_simulation.selection.chosen.fit.candidate.extend(experiment.arm);
-    const NoiseModel left = estimator.model(extended, unfiltered.estimation_runs()).model;
+    left = estimator.model(extended, unfiltered.estimation_runs()).model;
     const double least_N_m = options.least_disturbance * estimator.torque_rms_N_m();
-    if (left.disturbance_N_m <= least_N_m) return std::nullopt;
+    if (left->disturbance_N_m <= least_N_m) return std::nullopt;
   }
   const PredictorKind kind = filtering_predictor(experiment, options);
   std::vector<Hypothesis> searched = hypotheses;
@@ -186,11 +186,13 @@ std::optional<PredictedSelection> select_by_filter(const SelectionTask& task,
   }
   // The search begins with the arm as filed: what simulation named may be wrong.
   const Problem unfiltered = filtered_problem(experiment, modes, options);
+  const bool is_known = left && !by_motion && extended == experiment.arm;
   NoiseModel noise =
-      estimator_of(unfiltered).model(unfiltered.experiment().arm, unfiltered.estimation_runs()).model;
+      is_known ? *left
+               : estimator_of(unfiltered).model(experiment.arm, unfiltered.estimation_runs()).model;
   if (kind == PredictorKind::torque_balance) {
-    noise.balance_unit_N_m = estimated_disturbance_N_m(
-        unfiltered.predictor(), unfiltered.experiment().arm, unfiltered.estimation_runs(), noise);
+    noise.balance_unit_N_m = estimated_disturbance_N_m(unfiltered.predictor(), experiment.arm,
+                                                       unfiltered.estimation_runs(), noise);
   }
   PredictedSelection made{
       .selection = select(unfiltered.with_noise(noise), searched, options,

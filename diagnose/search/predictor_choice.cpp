@@ -122,7 +122,9 @@ PredictedSelection select_by_both(const SelectionTask& task, const Problem& prob
       if (!other.end) other.end = made.selection.end;
       return *std::move(filtered);
     }
-    made.balance = filtered->balance;
+    const bool is_of_filed_arm =
+        !filtered->by_motion || filtered->by_motion->chosen.fit.candidate.effects.empty();
+    if (is_of_filed_arm) made.balance = filtered->balance;
     made.reason = fmt::format(
         "its residuals are not noise; with what a {} identifies NRMSE is {:.3g} %, "
         "with this {:.3g} %",

@@ -2,6 +2,7 @@
 
 #include "arm/input_error.hpp"
 #include "diagnose/predictors/response_runs.hpp"
+#include "diagnose/unknown/empirical_law.hpp"
 
 #include <fmt/format.h>
 
@@ -80,6 +81,18 @@ double simulated_error(const PredictedSelection& made) {
   return made.simulated.judged_error(chosen.extend(made.simulated.experiment().arm));
 }
 
+/// With what a filter names; where that is nothing, with the law of hub torque that its torque
+/// balance shows. A cause that is named where such a law acts explains a part of it.
+double error_by_filter(const PredictedSelection& made) {
+  const Candidate chosen = made.whole(made.selection.chosen.fit.candidate);
+  if (chosen.effects.empty() && made.balance) {
+    if (const auto law = empirical_law(*made.balance, made.simulated, chosen)) {
+      return law->error_after;
+    }
+  }
+  return simulated_error(made);
+}
+
 /// By simulation, and where that does not leave noise by a filter; the first of them in half of the
 /// time.
 PredictedSelection select_by_both(const SelectionTask& task, const Problem& problem,
@@ -116,7 +129,7 @@ PredictedSelection select_by_both(const SelectionTask& task, const Problem& prob
       if (!made.selection.end) made.selection.end = other.end;
       return made;
     }
-    const double by_filter = simulated_error(*filtered);
+    const double by_filter = error_by_filter(*filtered);
     const double by_simulation = simulated_error(made);
     if (other.cancelled || by_filter <= by_simulation) {
       if (!other.end) other.end = made.selection.end;
@@ -126,8 +139,7 @@ PredictedSelection select_by_both(const SelectionTask& task, const Problem& prob
         !filtered->by_motion || filtered->by_motion->chosen.fit.candidate.effects.empty();
     if (is_of_filed_arm) made.balance = filtered->balance;
     made.reason = fmt::format(
-        "its residuals are not noise; with what a {} identifies NRMSE is {:.3g} %, "
-        "with this {:.3g} %",
+        "its residuals are not noise; with what a {} shows NRMSE is {:.3g} %, with this {:.3g} %",
         filtered->predictor == PredictorKind::torque_balance ? "torque balance"
                                                              : "stochastic grey box",
         100.0 * by_filter, 100.0 * by_simulation);

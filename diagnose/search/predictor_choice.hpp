@@ -14,9 +14,10 @@ namespace flexarm::diagnose {
 /// arm that it made is options.least_disturbance or more, effects are also selected by torque
 /// balance at the hub, or by a stochastic grey box where a `time` run does not show the hub's
 /// motion. Where runs have other sensors too, what acts on beam, payload and sensors is selected by
-/// the measured motion before, and the torque balance is for the rest. Of both selections that one is taken with which
-/// simulations of validation runs (estimation runs without these) are nearer to the data. After
-/// options.deadline that by output error, unless the other names a cause.
+/// the measured motion before, and the torque balance is for the rest. Of both selections that one
+/// is taken with which simulations of validation runs (estimation runs without these) are nearer to
+/// the data; where the torque balance names nothing, with the law of hub torque that it shows
+/// (empirical_law.hpp). After options.deadline that by output error, unless the other names a cause.
 ///
 /// With options.predictor by that one; throws InputError where it cannot be formed, or no run has a
 /// controller for it.

@@ -42,12 +42,20 @@ std::vector<std::vector<double>> probes_of(const Hypothesis& hypothesis) {
 
 struct Score {
   double p_value = 1.0;  ///< of one test
-  double share = 0.0;    ///< of the squares of errors without whitening
+  double share = 0.0;    ///< of the squares of errors in white noise
 };
 
 double squared_cosine(const Eigen::VectorXd& one, const Eigen::VectorXd& other) {
   const double squares = one.squaredNorm() * other.squaredNorm();
   return squares > 0.0 ? std::pow(one.dot(other), 2) / squares : 0.0;
+}
+
+/// Errors that whitened residuals are of, in the standard deviations of the noise of `white`.
+Eigen::VectorXd errors_in(const Problem& white, const Problem& problem,
+                          const Eigen::VectorXd& residuals) {
+  const auto to_white = problem.observations().deviations.array() /
+                        white.observations().deviations.array();
+  return to_errors(problem.observations(), residuals).array() * to_white;
 }
 
 /// Root mean square of whitened residuals of these runs, relative to the signals.
@@ -73,7 +81,7 @@ struct ScoredRuns {
   Index own_count = 0;
 
   /// Of a change that refitting makes too, or that cannot be computed, nothing.
-  Score of_change(const Problem& problem, const Candidate& changed) const {
+  Score of_change(const Problem& problem, const Problem& white, const Candidate& changed) const {
     const auto with = problem.residuals(changed, runs);
     if (!with) return {};
     const Eigen::VectorXd change = residuals - *with;
@@ -83,8 +91,8 @@ struct ScoredRuns {
     const double size = beyond.norm();
     if (!(size > kLeastPart * change.norm())) return {};
     const double z = beyond.dot(residuals) / size;
-    Score made{1.0, squared_cosine(to_errors(problem.observations(), change),
-                                   to_errors(problem.observations(), residuals))};
+    Score made{1.0, squared_cosine(errors_in(white, problem, change),
+                                   errors_in(white, problem, residuals))};
     if (relative_size(problem, beyond * (z / size), runs) > kNegligibleDependence) {
       made.p_value = 2.0 * boost::math::cdf(complement(boost::math::normal(), std::abs(z)));
     }
@@ -157,8 +165,9 @@ std::optional<ScoredRuns> scored(const Problem& problem, const Candidate& fitted
 
 }  // namespace
 
-DependenceTest test_dependence(const Problem& problem, const Candidate& fitted,
-                           const std::vector<Hypothesis>& hypotheses, ReportedWork& work) {
+DependenceTest test_dependence(const Problem& problem, const Problem& white,
+                               const Candidate& fitted, const std::vector<Hypothesis>& hypotheses,
+                               ReportedWork& work) {
   std::vector<Candidate> changed;
   for (const auto& all : {hypotheses, hub_torque_probes(problem.experiment())}) {
     for (const Hypothesis& hypothesis : all) {
@@ -175,7 +184,7 @@ DependenceTest test_dependence(const Problem& problem, const Candidate& fitted,
                    [&](std::size_t i) {
                      work.go_on();
                      const auto& set = sets[i / changed.size()];
-                     if (set) scores[i] = set->of_change(problem, changed[i % changed.size()]);
+                     if (set) scores[i] = set->of_change(problem, white, changed[i % changed.size()]);
                    });
   if (problem.is_driven_by_torque() || is_driven_by_motion(problem.experiment())) {
     for (const auto& set : sets) {

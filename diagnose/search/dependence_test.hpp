@@ -10,7 +10,7 @@ namespace flexarm::diagnose {
 
 struct DependenceTest {
   double p_value = 1.0;
-  /// Part of the squares of the errors, in standard deviations without whitening, along the change
+  /// Part of the squares of the errors, in standard deviations of white noise, along the change
   /// that some hypothesis makes: the largest.
   double largest_share = 0.0;
 };
@@ -25,10 +25,11 @@ struct DependenceTest {
 /// hub torque of any shape (hub_torque_probes.hpp), and by output error a regression on the
 /// recorded torque up to the sample, channel by channel, whose sum of squares is chi-squared. A
 /// dependence of `kNegligibleDependence` of the signal counts as none. The p-value is the least of
-/// all tests, of the estimation and of the validation runs, after Bonferroni. Throws Cancelled
-/// where the work is cancelled.
-DependenceTest test_dependence(const Problem& problem, const Candidate& fitted,
-                           const std::vector<Hypothesis>& hypotheses, ReportedWork& work);
+/// all tests, of the estimation and of the validation runs, after Bonferroni. `white` is the problem
+/// without the coloured noise. Throws Cancelled where the work is cancelled.
+DependenceTest test_dependence(const Problem& problem, const Problem& white,
+                               const Candidate& fitted, const std::vector<Hypothesis>& hypotheses,
+                               ReportedWork& work);
 
 /// Root mean square, relative to the signal: the errors of two simulations are less alike than they
 /// are large (kSimulationError).

@@ -148,6 +148,18 @@ TEST(ColouredNoiseModel, IsNotTakenUpForAModelError) {
   EXPECT_FALSE(says_coloured(made));
 }
 
+/// A constant is predicted from the reading before as well as any coloured noise is.
+TEST(ColouredNoiseModel, IsNotTakenUpForAnOffsetOfOneSensor) {
+  constexpr double kOffset = 0.05;
+  const Experiment experiment = simulated_experiment(
+      {effects::named("sensor_offset", {{"value", kOffset}}, "hub_velocity")});
+  const Diagnosis made = diagnose(experiment, named(experiment, {"sensor_offset", "hub_inertia"}));
+  ASSERT_EQ(made.causes.size(), 1U);
+  EXPECT_EQ(made.causes[0].sensor, "hub_velocity");
+  EXPECT_NEAR(made.causes[0].parameters.front().value, kOffset, 0.01 * kOffset);
+  EXPECT_FALSE(says_coloured(made));
+}
+
 TEST(Dependence, IsSeenOfWhatAnEffectChangesAndNotOfNoise) {
   const auto dependence = [](const arm::Effects& hidden) {
     const Experiment experiment = with_added(simulated_experiment(hidden), first_order);
@@ -155,7 +167,8 @@ TEST(Dependence, IsSeenOfWhatAnEffectChangesAndNotOfNoise) {
     const auto coloured = white.with_coloured_noise(white.as_filed());
     const DiagnosisProgress none;
     ReportedWork work(none);
-    return test_dependence(*coloured, coloured->as_filed(), named(experiment, kSearched), work);
+    return test_dependence(*coloured, white, coloured->as_filed(), named(experiment, kSearched),
+                           work);
   };
   const DependenceTest of_noise = dependence({});
   EXPECT_GT(of_noise.p_value, 0.01);

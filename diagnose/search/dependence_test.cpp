@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <iterator>
 #include <optional>
@@ -167,7 +168,7 @@ std::optional<ScoredRuns> scored(const Problem& problem, const Candidate& fitted
 
 DependenceTest test_dependence(const Problem& problem, const Problem& white,
                                const Candidate& fitted, const std::vector<Hypothesis>& hypotheses,
-                               ReportedWork& work) {
+                               ReportedWork& work, double level) {
   std::vector<Candidate> changed;
   for (const auto& all : {hypotheses, hub_torque_probes(problem.experiment())}) {
     for (const Hypothesis& hypothesis : all) {
@@ -179,21 +180,28 @@ DependenceTest test_dependence(const Problem& problem, const Problem& white,
   }
   const std::array sets = {scored(problem, fitted, problem.estimation_runs()),
                            scored(problem, fitted, problem.validation_runs())};
-  std::vector<Score> scores(sets.size() * changed.size());
-  work.in_parallel(scores.size(), "what residuals depend on", work.done(), work.done(),
-                   [&](std::size_t i) {
-                     work.go_on();
-                     const auto& set = sets[i / changed.size()];
-                     if (set) scores[i] = set->of_change(problem, white, changed[i % changed.size()]);
-                   });
-  if (problem.is_driven_by_torque() || is_driven_by_motion(problem.experiment())) {
-    for (const auto& set : sets) {
-      if (set) scores.push_back(set->of_torque(problem));
-    }
+  const bool is_driven = problem.is_driven_by_torque() || is_driven_by_motion(problem.experiment());
+  std::vector<Score> scores(sets.size() * (changed.size() + 1));
+  const auto tests = static_cast<double>(scores.size());
+  std::atomic<bool> is_rejected = false;
+  const auto keep = [&](std::size_t i, const Score& score) {
+    scores[i] = score;
+    if (tests * score.p_value < level) is_rejected = true;
+  };
+  // On the torque first: no simulation is needed for that.
+  for (std::size_t i = 0; i < sets.size() && is_driven; ++i) {
+    if (sets[i]) keep(i, sets[i]->of_torque(problem));
   }
-  if (scores.empty()) return {};
+  work.in_parallel(scores.size() - sets.size(), "what residuals depend on", work.done(),
+                   work.done(), [&](std::size_t i) {
+                     work.go_on();
+                     const auto& set = sets[i % sets.size()];
+                     if (!set || is_rejected) return;
+                     keep(i + sets.size(),
+                          set->of_change(problem, white, changed[i / sets.size()]));
+                   });
   const double least = std::ranges::min_element(scores, {}, &Score::p_value)->p_value;
-  return {std::min(1.0, static_cast<double>(scores.size()) * least),
+  return {std::min(1.0, tests * least),
           std::ranges::max_element(scores, {}, &Score::share)->share};
 }
 

@@ -78,7 +78,6 @@ class Search {
     revision_.see_noise(made);
     if (!is_enough(made)) revision_.colour_noise_of_nothing(made);
     if (!is_enough(made)) try_singles(made);
-    if (!is_enough(made)) revision_.colour_noise_beside_singles(made);
     if (!made.singles.empty() && !is_out_of_reach(made.nothing, made.singles, options_)) {
       extend(made);
       generalise(made);
@@ -87,7 +86,8 @@ class Search {
   }
 
   /// The best so far, where the time is over. Of the singles it is one that may be named without
-  /// further fits: a general effect has its limits to be compared with.
+  /// further fits: a general effect has its limits to be compared with, and where general effects
+  /// were not tried, one that does not leave noise may stand for one of them.
   void end_search(Selection& made) {
     made.end = SearchEnd{std::string(work_.what()), fits_.untried()};
     work_.lift_deadline();
@@ -101,7 +101,9 @@ class Search {
         return !is_general(single.fit.candidate.effects.front()) &&
                may_be_named(single, made.nothing);
       });
-      if (best != made.singles.end()) made.chosen = *best;
+      const bool is_decided = are_general_tried_ || (best != made.singles.end() &&
+                                                     (best->leaves_noise() || !is_a_limit(*best)));
+      if (best != made.singles.end() && is_decided) made.chosen = *best;
     }
     leave_out_unnamed(made);
   }
@@ -113,18 +115,50 @@ class Search {
                    made.singles);
     refit_nothing(made);
     revision_.see_noise(made);
-    const std::vector<const Hypothesis*> general = general_effects(made.singles);
+    revision_.colour_noise_beside_singles(made);
+    if (is_enough(made)) return;
     const std::vector<Explanation> special = made.singles;
-    const auto look = [&](std::size_t i) {
-      const auto limit = std::ranges::find_if(
-          special, [&](const Explanation& single) { return is_limit(single, *general[i]); });
-      return (limit == special.end()
-                  ? fits_.scan().first_look(none, *general[i])
-                  : fits_.scan().look_in_place(limit->fit.candidate, 0, *general[i]))
-          .candidate;
-    };
-    fits_.add_all(labels_with(none, general), kSingles, kSinglesDone, made.singles, look);
+    try_general(made, special);
     revision_.see_noise(made);
+    const bool is_general_best =
+        !made.singles.empty() && is_general(made.singles.front().fit.candidate.effects.front());
+    if (is_general_best) revision_.colour_noise_beside_singles(made);
+  }
+
+  /// General effects from where the best of their limits is. Fitted to all data are those that come
+  /// near to the best of the others.
+  void try_general(Selection& made, const std::vector<Explanation>& special) {
+    const Candidate& none = made.nothing.fit.candidate;
+    const std::vector<const Hypothesis*> general = general_effects(special);
+    std::vector<Candidate> looks(general.size());
+    work_.in_parallel(general.size(), kSingles, work_.done(), 0.9 * kSinglesDone,
+                      [&](std::size_t i) { looks[i] = general_look(none, special, *general[i]); });
+    if (!special.empty()) {
+      const double largest = options_.largest_of_general * special.front().fit.sum_of_squares;
+      std::erase_if(looks, [&](const Candidate& look) {
+        const auto left = problem_.residuals(look, problem_.estimation_runs());
+        return !left || left->squaredNorm() > largest;
+      });
+    }
+    std::vector<std::string> sets;
+    for (const Candidate& look : looks) sets.push_back(look.label());
+    fits_.add_all(std::move(sets), kSingles, kSinglesDone, made.singles,
+                  [&](std::size_t i) { return looks[i]; });
+    are_general_tried_ = true;
+  }
+
+  bool is_a_limit(const Explanation& single) const {
+    return std::ranges::any_of(
+        general_, [&](const Hypothesis* general) { return is_limit(single, *general); });
+  }
+
+  Candidate general_look(const Candidate& none, const std::vector<Explanation>& special,
+                         const Hypothesis& general) const {
+    const auto limit = std::ranges::find_if(
+        special, [&](const Explanation& single) { return is_limit(single, general); });
+    return (limit == special.end() ? fits_.scan().first_look(none, general)
+                                   : fits_.scan().look_in_place(limit->fit.candidate, 0, general))
+        .candidate;
   }
 
   /// The arm's uncertain numbers by themselves, from where the best single has them: what these
@@ -362,6 +396,7 @@ class Search {
   SetFits fits_;
   ProblemRevision revision_;
   std::vector<const Hypothesis*> general_;
+  bool are_general_tried_ = false;  // by themselves
   std::vector<const Hypothesis*> special_;    // the others
   std::set<std::set<std::string>> combined_;  // labels of what has been tried with any other
 };

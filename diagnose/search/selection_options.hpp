@@ -105,6 +105,9 @@ struct SelectionOptions {
   // How far the search goes.
   /// Singles refitted to all data <= this, the best of the coarse look.
   std::size_t singles_refitted = 8;
+  /// A general effect is refitted to all data where its coarse look leaves <= this times the sum of
+  /// squares that the best of the others leaves.
+  double largest_of_general = 4.0;
   /// Singles that are bases of pairs <= this.
   std::size_t pair_bases = 3;
   /// Effects scanned beside a base <= this: those whose directions the residuals have most of.

@@ -28,6 +28,8 @@ struct Dirt {
   std::string name;
   /// Effects of the library that are this dirt: who names one names the dirt, no physical cause.
   std::vector<std::string> named_as = {};
+  /// Effects on numbers that the arm file says are uncertain: those are refitted, not named.
+  std::vector<std::string> refitted = {};
   /// Readings are gone, or are those of another sensor: causes on a sensor are not hidden beside
   /// it.
   bool changes_sensors = false;

@@ -32,7 +32,10 @@ Strength parse_strength(const std::string& name) {
 
 /// The dirt leaves something to be seen of the cause, and is not the same.
 bool goes_with(const Cause& cause, const Dirt& dirt) {
-  return std::ranges::find(dirt.named_as, cause.name) == dirt.named_as.end() &&
+  const auto is_in = [&](const std::vector<std::string>& names) {
+    return std::ranges::find(names, cause.name) != names.end();
+  };
+  return !is_in(dirt.named_as) && !is_in(dirt.refitted) &&
          !(dirt.changes_sensors && cause.acts_on == ActsOn::sensor);
 }
 

@@ -4,6 +4,7 @@
 #include "diagnose/search/scan.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 namespace flexarm::diagnose {
@@ -14,6 +15,9 @@ namespace {
 
 constexpr int kCoarseSteps = 8;
 constexpr double kCoarseTolerance = 1e-4;
+/// Of uncertain numbers on each side. A record in which the phase of a mode turns over has many
+/// minima within these.
+constexpr double kScannedDeviations = 2.5;
 
 /// A few values of a hypothesis' parameters: over their ranges, and of a single one so near to
 /// where it does nothing that the change is its direction.
@@ -78,7 +82,22 @@ std::vector<Fit> EffectScan::first_looks(const Candidate& base,
 }
 
 Fit EffectScan::first_look(const Candidate& base) const {
-  return coarse_fit(coarse_, base);
+  Fit look = coarse_fit(coarse_, base);
+  if (base.nuisances.empty()) return look;
+  std::vector<Index> scanned(base.nuisances.size());
+  std::iota(scanned.begin(), scanned.end(), Index{0});
+  const ScanOptions scan_options{.evaluations = options_.scan_evaluations.back(),
+                                 .starts = options_.scan_starts,
+                                 .lowest = -kScannedDeviations,
+                                 .highest = kScannedDeviations,
+                                 .work = &work_};
+  for (const Problem* problem : {&short_, &coarse_}) {
+    for (const Candidate& place : scan(*problem, base, scanned, scan_options)) {
+      Fit found = coarse_fit(coarse_, coarse_fit(*problem, place).candidate);
+      if (found.sum_of_squares < look.sum_of_squares) look = std::move(found);
+    }
+  }
+  return look;
 }
 
 Fit EffectScan::first_look(const Candidate& base, const Hypothesis& other) const {

@@ -31,7 +31,7 @@ class EffectScan {
   std::vector<Fit> first_looks(const Candidate& base, const std::vector<const Hypothesis*>& others,
                                std::string_view what, double from, double to);
 
-  /// `base` refitted to the part of the data.
+  /// `base` refitted to the part of the data, its uncertain numbers from a scan of them too.
   Fit first_look(const Candidate& base) const;
   /// `base` with `other`: a scan of that, then all refitted to the part of the data.
   Fit first_look(const Candidate& base, const Hypothesis& other) const;

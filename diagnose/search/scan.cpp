@@ -25,24 +25,26 @@ class ScannedSum {
   };
 
   ScannedSum(const Problem& problem, const Candidate& start, const std::vector<Index>& coordinates,
-             const ReportedWork* work)
+             const ScanOptions& options)
       : problem_(problem),
         candidate_(start),
         all_(start.coordinates()),
         coordinates_(coordinates),
-        work_(work) {}
+        options_(options) {}
 
+  /// `scanned` from 0 to 1.
   Candidate candidate_at(const Eigen::VectorXd& scanned) const {
     Candidate made = candidate_;
     Eigen::VectorXd all = all_;
-    all(coordinates_) = scanned;
+    all(coordinates_) =
+        options_.lowest + (options_.highest - options_.lowest) * scanned.array();
     made.put(all);
     return made;
   }
 
   /// The logarithm, which DIRECT-L compares between boxes of different size.
   double log_at(const Eigen::VectorXd& scanned) {
-    if (work_ != nullptr) work_->go_on();
+    if (options_.work != nullptr) options_.work->go_on();
     const auto residuals = problem_.residuals(candidate_at(scanned), problem_.estimation_runs());
     const double sum =
         residuals ? residuals->squaredNorm() : std::numeric_limits<double>::infinity();
@@ -70,7 +72,7 @@ class ScannedSum {
   const Candidate& candidate_;
   Eigen::VectorXd all_;
   const std::vector<Index>& coordinates_;
-  const ReportedWork* work_;
+  const ScanOptions& options_;
   std::vector<Place> places_;
 };
 
@@ -123,7 +125,7 @@ std::vector<Candidate> scan(const Problem& problem, const Candidate& start,
   const auto dimension = static_cast<Index>(coordinates.size());
   const bool by_grid = options.method == ScanMethod::grid ||
                        (options.method == ScanMethod::by_dimension && dimension <= kMostOfGrid);
-  ScannedSum sum(problem, start, coordinates, options.work);
+  ScannedSum sum(problem, start, coordinates, options);
   (by_grid ? try_grid : try_direct)(sum, dimension, options.evaluations);
   return sum.best(options.starts);
 }

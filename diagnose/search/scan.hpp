@@ -21,11 +21,14 @@ struct ScanOptions {
   int evaluations = 40;
   int starts = 1;  ///< places returned <=
   ScanMethod method = ScanMethod::by_dimension;
+  /// Range of the coordinates: the whole one of parameters; nuisances are in standard deviations.
+  double lowest = 0.0;
+  double highest = 1.0;
   const ReportedWork* work = nullptr;  ///< that the scan is part of; asked before each evaluation
 };
 
 /// Starts for fits: `start` with the `coordinates` (of Candidate::coordinates()) at those places of
-/// their whole range at which the sum of squares of the estimation runs is smallest, the best
+/// their range at which the sum of squares of the estimation runs is smallest, the best
 /// first. They differ by a tenth of a range in at least one coordinate. Where runs are simulated
 /// the sum of squares has many minima, each as wide as a few parts in a hundred of a frequency.
 /// Throws Cancelled where the work is cancelled.

@@ -43,6 +43,26 @@ TEST(UncertainNumber, IsRefittedWithinItsUncertaintyAndNotNamedAsACause) {
   EXPECT_GT(made.estimation.before, 2.0 * made.estimation.after);
 }
 
+/// Beside a cause the sum of squares over these numbers has many minima.
+TEST(UncertainNumber, SeveralAreRefittedBesideACause) {
+  constexpr double kHidden_kg_m2 = 1e-4;
+  Experiment experiment =
+      simulated_experiment({effects::named("payload_inertia", {{"inertia", kHidden_kg_m2}})},
+                           {.duration_s = 8.0});
+  arm::Arm& arm = experiment.arm;
+  arm::scale_flexural_rigidity(arm.beam, 1.22);
+  arm::scale_linear_density(arm.beam, 0.91);
+  arm.hub.inertia_kg_m2 *= 1.13;
+  arm.relative_uncertainties = {
+      {"beam.flexural_rigidity", 0.1}, {"beam.linear_density", 0.05}, {"hub.inertia", 0.06}};
+  const Diagnosis made = diagnose(experiment, named(experiment, {"payload_inertia", "time_delay"}));
+  EXPECT_EQ(made.verdict, Verdict::explained);
+  ASSERT_EQ(made.causes.size(), 1U);
+  const ParameterEstimate& found = made.causes[0].parameters.front();
+  EXPECT_NEAR(found.value, kHidden_kg_m2, kStandardErrors * found.std_error);
+  EXPECT_LT(found.std_error, 0.01 * kHidden_kg_m2);
+}
+
 TEST(UncertainNumber, IsAssumedOfNumbersThatStateNoneWhereNoEffectLeavesNoise) {
   Experiment experiment = simulated_experiment({}, {.duration_s = 2.0});
   const double inertia_kg_m2 = experiment.arm.hub.inertia_kg_m2;

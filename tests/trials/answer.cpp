@@ -1,5 +1,6 @@
 #include "tests/trials/answer.hpp"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <chrono>
@@ -56,6 +57,9 @@ pid_t start(std::vector<std::string> arguments, const fs::path& log) {
   return child;
 }
 
+/// A process is killed after so many times the limit that it was given.
+constexpr double kPatience = 2.0;
+
 /// Whether the process ended by itself, with success.
 bool ends_well(pid_t child, double time_limit_s) {
   constexpr std::chrono::milliseconds kLook(5);
@@ -92,9 +96,9 @@ Answer ask(const fs::path& program, const fs::path& case_folder, const fs::path&
   const auto started = Clock::now();
   const pid_t child =
       start({program.string(), "diagnose", (case_folder / "measurement.toml").string(), "--json",
-             json_file.string()},
+             json_file.string(), "--time-limit", fmt::format("{}", time_limit_s)},
             work_folder / "diagnosis.log");
-  const bool well = ends_well(child, time_limit_s);
+  const bool well = ends_well(child, kPatience * time_limit_s);
   const double time_s = std::chrono::duration<double>(Clock::now() - started).count();
   Answer answer = well ? read_answer(json_file) : Answer{};
   answer.time_s = time_s;

@@ -40,7 +40,7 @@ struct Answer {
 Answer read_answer(const std::filesystem::path& json_file);
 
 /// Runs `program diagnose` on the measurement in `case_folder` and reads its answer; the program
-/// writes into `work_folder`. It is ended after `time_limit_s`.
+/// writes into `work_folder`. After `time_limit_s` it answers with the best so far.
 Answer ask(const std::filesystem::path& program, const std::filesystem::path& case_folder,
            const std::filesystem::path& work_folder, double time_limit_s);
 

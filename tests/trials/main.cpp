@@ -30,7 +30,7 @@ struct TrialOptions {
   std::string keep;
   std::string results = "trials.csv";
   std::string scorecard;
-  double time_limit_s = 600.0;
+  double time_limit_s = 120.0;
   int jobs = 1;
   bool list = false;
 };
@@ -74,7 +74,8 @@ TrialOptions parse_options(CLI::App& app, int argc, char** argv) {
   app.add_option("--built-from", options.version,
                  "Version of the program, stored with the results; one version per file")
       ->capture_default_str();
-  app.add_option("--time-limit", options.time_limit_s, "Time limit of one diagnosis [s]")
+  app.add_option("--time-limit", options.time_limit_s,
+                 "Time after which a diagnosis answers with the best so far [s]")
       ->capture_default_str();
   app.add_option("--jobs", options.jobs, "Number of parallel trials")->capture_default_str();
   app.add_flag("--list", options.list, "List the trials without running them");

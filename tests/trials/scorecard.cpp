@@ -26,7 +26,8 @@ Version: {}.
 {} simulated experiments on three arms: aluminium, steel, and a sandwich with low shear stiffness.
 The arm file given to `flexarm diagnose` lacks one or two effects, or none. `scripts/trials`
 generates the data with an independent simulator (`tests/trials`): its own finite elements,
-Newmark's method, and each effect implemented anew.
+Newmark's method, and each effect implemented anew. It gives each diagnosis two minutes
+(`--time-limit`), after which that answers with the best so far.
 
 Columns: kind of data and noise-to-signal ratio. For poles and zeros the standard deviation of the
 frequencies is a fifth of that ratio, that of the damping ratios ten times. The strength of an

@@ -59,8 +59,9 @@ Outcome outcome_of(const TrialResult& result, const Answer& answer) {
   const bool silent = answer.causes.empty();
   if (result.hidden.empty()) {
     if (!silent) return Outcome::false_alarm;
-    const bool is_quiet = answer.verdict == "adequate" || result.dirt_answer == DirtAnswer::named;
-    return is_quiet ? Outcome::quiet : Outcome::doubted;
+    // Explained without a cause: by the arm's uncertain numbers.
+    const bool is_quiet = answer.verdict == "adequate" || answer.verdict == "explained";
+    return is_quiet || result.dirt_answer == DirtAnswer::named ? Outcome::quiet : Outcome::doubted;
   }
   if (answer.verdict == "adequate") return Outcome::missed;
   if (result.outside) {

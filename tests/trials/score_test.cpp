@@ -97,6 +97,7 @@ TEST(Score, WithNothingToNameSilenceIsRight) {
   EXPECT_EQ(outcome(truth_of({}), answered("adequate")), Outcome::quiet);
   EXPECT_EQ(outcome(truth_of({}), answered("explained", {named("gravity")})), Outcome::false_alarm);
   EXPECT_EQ(outcome(truth_of({}), answered("unexplained")), Outcome::doubted);
+  EXPECT_EQ(outcome(truth_of({}), answered("explained")), Outcome::quiet);
   const Truth outside = truth_of({"random_disturbance"});
   EXPECT_EQ(outcome(outside, answered("unexplained")), Outcome::recognised);
   EXPECT_EQ(outcome(outside, answered("partly_explained", {named("gravity")})), Outcome::wrong);

@@ -130,20 +130,15 @@ class Search {
   void try_general(Selection& made, const std::vector<Explanation>& special) {
     const Candidate& none = made.nothing.fit.candidate;
     const std::vector<const Hypothesis*> general = general_effects(special);
-    std::vector<Candidate> looks(general.size());
-    work_.in_parallel(general.size(), kSingles, work_.done(), 0.9 * kSinglesDone,
-                      [&](std::size_t i) { looks[i] = general_look(none, special, *general[i]); });
-    if (!special.empty()) {
-      const double largest = options_.largest_of_general * special.front().fit.sum_of_squares;
-      std::erase_if(looks, [&](const Candidate& look) {
-        const auto left = problem_.residuals(look, problem_.estimation_runs());
-        return !left || left->squaredNorm() > largest;
-      });
-    }
-    std::vector<std::string> sets;
-    for (const Candidate& look : looks) sets.push_back(look.label());
-    fits_.add_all(std::move(sets), kSingles, kSinglesDone, made.singles,
-                  [&](std::size_t i) { return looks[i]; });
+    const auto near = [&](std::size_t i) -> std::optional<Candidate> {
+      Candidate look = general_look(none, special, *general[i]);
+      if (special.empty()) return look;
+      const auto left = problem_.residuals(look, problem_.estimation_runs());
+      const double most = options_.largest_of_general * special.front().fit.sum_of_squares;
+      if (!left || left->squaredNorm() > most) return std::nullopt;
+      return look;
+    };
+    fits_.add_all(labels_with(none, general), kSingles, kSinglesDone, made.singles, near);
     are_general_tried_ = true;
   }
 

@@ -29,12 +29,14 @@ void SetFits::add_with(const Candidate& base, std::vector<const Hypothesis*> oth
 
 void SetFits::add_all(std::vector<std::string> sets, std::string_view what, double to,
                       std::vector<Explanation>& found,
-                      const std::function<Candidate(std::size_t)>& candidate) {
-  std::vector<Explanation> made(sets.size());
+                      const std::function<std::optional<Candidate>(std::size_t)>& candidate) {
+  std::vector<std::optional<Explanation>> made(sets.size(), Explanation{});
   untried_ = std::move(sets);
   try {
-    work_.in_parallel(made.size(), what, work_.done(), to,
-                      [&](std::size_t i) { made[i] = fitted(candidate(i)); });
+    work_.in_parallel(made.size(), what, work_.done(), to, [&](std::size_t i) {
+      const auto start = candidate(i);
+      made[i] = start ? std::optional(fitted(*start)) : std::nullopt;
+    });
   } catch (const Cancelled&) {
     keep(std::move(made), found);
     throw;
@@ -42,19 +44,23 @@ void SetFits::add_all(std::vector<std::string> sets, std::string_view what, doub
   keep(std::move(made), found);
 }
 
-void SetFits::keep(std::vector<Explanation> made, std::vector<Explanation>& found) {
+/// `made` are of the sets of `untried_`: empty where no fit was needed, without residuals where
+/// none was made.
+void SetFits::keep(std::vector<std::optional<Explanation>> made, std::vector<Explanation>& found) {
   std::vector<std::string> untried;
   for (std::size_t i = 0; i < made.size(); ++i) {
-    if (made[i].fit.residuals.size() == 0) {
+    if (!made[i]) continue;
+    Explanation& one = *made[i];
+    if (one.fit.residuals.size() == 0) {
       untried.push_back(untried_[i]);
       continue;
     }
-    if (!is_identified(made[i])) continue;
-    const auto same = find_set(found, made[i].fit.candidate);
+    if (!is_identified(one)) continue;
+    const auto same = find_set(found, one.fit.candidate);
     if (same == found.end()) {
-      found.push_back(std::move(made[i]));
-    } else if (made[i].fit.sum_of_squares < same->fit.sum_of_squares) {
-      *same = std::move(made[i]);
+      found.push_back(std::move(one));
+    } else if (one.fit.sum_of_squares < same->fit.sum_of_squares) {
+      *same = std::move(one);
     }
   }
   untried_ = std::move(untried);

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,15 +35,16 @@ class SetFits {
 
   /// Fits candidate(i) for the i-th of `sets`, which are their labels, and adds those that are
   /// identified to `found`, the best first. Of the same set, begun from another, the better stays.
+  /// Where candidate(i) is empty, that set needs no fit.
   void add_all(std::vector<std::string> sets, std::string_view what, double to,
                std::vector<Explanation>& found,
-               const std::function<Candidate(std::size_t)>& candidate);
+               const std::function<std::optional<Candidate>(std::size_t)>& candidate);
 
   /// Of the sets that were to be added last those that were not fitted.
   const std::vector<std::string>& untried() const { return untried_; }
 
  private:
-  void keep(std::vector<Explanation> made, std::vector<Explanation>& found);
+  void keep(std::vector<std::optional<Explanation>> made, std::vector<Explanation>& found);
 
   const Problem& problem_;
   const SelectionOptions& options_;

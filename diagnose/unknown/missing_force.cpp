@@ -12,6 +12,7 @@
 #include <iterator>
 #include <numeric>
 #include <utility>
+#include <variant>
 
 namespace flexarm::diagnose {
 
@@ -70,8 +71,8 @@ class WeightedResiduals {
   WeightedResiduals(const ResidualSpectra& spectra, Eigen::MatrixXcd errors)
       : errors_(std::move(errors)),
         noise_(spectra.noise),
-        weights_((spectra.noise + kRelativeError * kRelativeError * spectra.excess).cwiseInverse()) {
-  }
+        weights_(
+            (spectra.noise + kRelativeError * kRelativeError * spectra.excess).cwiseInverse()) {}
 
   /// E^H W E - sum W N of each line.
   Eigen::ArrayXd total() const {
@@ -86,10 +87,10 @@ class WeightedResiduals {
       const double norm = squared.dot(weights_.col(k));
       // A sensor that errs may be none of this run's; the place may lie on a node of the torque.
       if (!(norm > 0.0) || !std::isfinite(norm)) continue;
-      const Eigen::VectorXcd weighted = weights_.col(k).cast<Complex>().cwiseProduct(errors_.col(k));
+      const Eigen::VectorXcd weighted =
+          weights_.col(k).cast<Complex>().cwiseProduct(errors_.col(k));
       const double found = std::norm(response.col(k).dot(weighted));
-      const double by_noise =
-          squared.cwiseProduct(weights_.col(k).cwiseAbs2()).dot(noise_.col(k));
+      const double by_noise = squared.cwiseProduct(weights_.col(k).cwiseAbs2()).dot(noise_.col(k));
       made.explained(k) = (found - by_noise) / norm;
       made.power(k) = (found - by_noise) / (norm * norm);
     }
@@ -147,8 +148,7 @@ void add_parts(const ResidualSpectra& segment, const Eigen::ArrayXd& total,
     const Index count = (band + 1) * total.size() / bands - from;
     Part part{segment.run, tried.segments.size(), total.segment(from, count).sum(), {}};
     for (const FittedForce& force : forces) {
-      part.left.push_back(adjusted *
-                          (part.total - force.explained.segment(from, count).sum()));
+      part.left.push_back(adjusted * (part.total - force.explained.segment(from, count).sum()));
     }
     tried.parts.push_back(std::move(part));
   }
@@ -238,12 +238,13 @@ std::vector<double> left_by(const Tried& tried, const PlacesOfPort& places) {
 }
 
 /// sum values/sum totals with its standard error by the jackknife.
-struct Ratio {
+struct JackknifedRatio {
   double value = 0.0;
   double std_error = 0.0;
 };
 
-Ratio ratio(const std::vector<double>& values, const std::vector<Part>& parts) {
+JackknifedRatio jackknifed_ratio(const std::vector<double>& values,
+                                 const std::vector<Part>& parts) {
   double sum = 0.0;
   double total = 0.0;
   for (std::size_t g = 0; g < parts.size(); ++g) {
@@ -284,7 +285,7 @@ TriedPort tried_port(const Tried& tried, const PlacesOfPort& places) {
     made.share.sensors.push_back(to_string(sensor));
   }
   made.share.place = place.what;
-  const Ratio left = ratio(made.left, tried.parts);
+  const JackknifedRatio left = jackknifed_ratio(made.left, tried.parts);
   made.share.share = 1.0 - left.value;
   made.share.std_error = left.std_error;
   return made;
@@ -357,13 +358,14 @@ std::optional<MissingForce> missing_force(const Problem& problem, const arm::Arm
                            [](const TriedPort& port) { return port.share.share; });
   for (TriedPort& port : ports) {
     port.share.distance_std_error =
-        ratio(difference(port.left, ports.front().left), tried.parts).std_error;
+        jackknifed_ratio(difference(port.left, ports.front().left), tried.parts).std_error;
     made.ports.push_back(port.share);
   }
   const std::size_t alike = indistinguishable(made.ports);
   if (made.ports.front().share < kLeastPortShare || alike > kMostPorts) return made;
   made.stated = alike;
-  if (tried.places[ports.front().place].spread.empty()) made.size = size_of(tried, ports.front().place);
+  if (tried.places[ports.front().place].spread.empty())
+    made.size = size_of(tried, ports.front().place);
   return made;
 }
 

@@ -16,8 +16,8 @@ namespace flexarm::diagnose {
 struct PortShare {
   ForcePort port = ForcePort::hub;
   std::vector<std::string> sensors = {};  ///< that err; ForcePort::sensor
-  std::string place;       ///< of the places of the port the best: "force at 0.192 m"
-  double share = 0.0;      ///< adjusted for the force's own freedom; below 0 for a worse than chance
+  std::string place;   ///< of the places of the port the best: "force at 0.192 m"
+  double share = 0.0;  ///< adjusted for the force's own freedom; below 0 for a worse than chance
   double std_error = 0.0;  ///< of the share
   /// Standard error of the distance to the share of the best port; 0 for that.
   double distance_std_error = 0.0;
@@ -26,7 +26,7 @@ struct PortShare {
 /// How large the missing force is that the best port would have.
 struct ForceSize {
   std::string unit;
-  double rms = 0.0;  ///< mean of the runs' mean squares, on lines beyond noise
+  double rms = 0.0;                      ///< mean of the runs' mean squares, on lines beyond noise
   std::optional<double> std_error = {};  ///< by the spread of the segments; empty for one
   double from_Hz = 0.0;                  ///< a tenth of its mean square is below,
   double to_Hz = 0.0;                    ///< and a tenth above
@@ -40,15 +40,15 @@ struct MissingForce {
   std::size_t stated = 0;
   /// Where `stated` is above 0, and the best is no force that is spread along the beam.
   std::optional<ForceSize> size = {};
-  std::size_t lines = 0;               ///< that are beyond noise, of all segments
+  std::size_t lines = 0;  ///< that are beyond noise, of all segments
 };
 inline constexpr double kLeastPortShare = 0.5;
 inline constexpr std::size_t kMostPorts = 2;
 
 /// Tests for each port whether one unknown force there explains what a simulation of `time` runs
 /// leaves. On each line f of a segment (residual_spectra.hpp) the residuals of the sensors are a
-/// vector E, and a force F at a port p makes h_p(f) F of them (port_responses.hpp). The shape of the
-/// vector says where the force acts; F is free on every line. With the weights
+/// vector E, and a force F at a port p makes h_p(f) F of them (port_responses.hpp). The shape of
+/// the vector says where the force acts; F is free on every line. With the weights
 ///
 ///     W_j = 1/(N_j + kRelativeError^2 X_j),
 ///
@@ -56,9 +56,10 @@ inline constexpr std::size_t kMostPorts = 2;
 ///
 ///     U = E^H W E - |h^H W E|^2/(h^H W h),
 ///
-/// less what it leaves of the noise, sum W_j N_j - h^H W^2 N h/(h^H W h). X_j stands for the error of
-/// h itself. It makes every line with a clear residual count alike, and so do the sensors, whatever
-/// their noise. One complex number explains 1/n of any n sensors' residuals, so that the share is
+/// less what it leaves of the noise, sum W_j N_j - h^H W^2 N h/(h^H W h). X_j stands for the error
+/// of h itself. It makes every line with a clear residual count alike, and so do the sensors,
+/// whatever their noise. One complex number explains 1/n of any n sensors' residuals, so that the
+/// share is
 ///
 ///     1 - sum n/(n - 1) U/sum T,     T = E^H W E - sum W_j N_j,
 ///

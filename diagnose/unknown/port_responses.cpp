@@ -19,8 +19,8 @@ namespace flexarm::diagnose {
 namespace {
 
 using Complex = std::complex<double>;
-using Eigen::Index;
 using arm::SensorKind;
+using Eigen::Index;
 
 /// Of a term over the arm's own mass, inertia or compliance: small, so that modes stay where they
 /// are; the difference that it makes keeps ten digits.
@@ -103,18 +103,20 @@ std::vector<ForcePlace> sensor_places(std::span<const arm::Sensor> sensors) {
   std::vector<ForcePlace> places;
   std::vector<arm::Sensor> of_hub;
   for (const arm::Sensor& sensor : sensors) {
-    places.push_back({ForcePort::sensor, "error of " + to_string(sensor),
-                      std::string(arm::unit(sensor)), {sensor}});
+    places.push_back({ForcePort::sensor,
+                      "error of " + to_string(sensor),
+                      std::string(arm::unit(sensor)),
+                      {sensor}});
     if (is_collocated(sensor)) of_hub.push_back(sensor);
   }
   if (of_hub.size() > 1) {
-    places.push_back({ForcePort::sensor, "error of the hub angle that its sensors share", "rad",
-                      of_hub});
+    places.push_back(
+        {ForcePort::sensor, "error of the hub angle that its sensors share", "rad", of_hub});
   }
   return places;
 }
 
-Complex power(Complex s, int exponent) {
+Complex raised(Complex s, int exponent) {
   Complex made = 1.0;
   for (int i = 0; i < exponent; ++i) made *= s;
   return made;
@@ -186,8 +188,8 @@ Eigen::MatrixXcd PortResponses::to_hub_torque(const arm::Arm& arm) const {
                                                  sensors, frequency_Hz_);
   Eigen::MatrixXcd responses(std::ssize(sensors), std::ssize(frequency_Hz_));
   for (Index j = 0; j < responses.rows(); ++j) {
-    responses.row(j) = Eigen::RowVectorXcd::Map(
-        made.values[static_cast<std::size_t>(j)].data(), responses.cols());
+    responses.row(j) =
+        Eigen::RowVectorXcd::Map(made.values[static_cast<std::size_t>(j)].data(), responses.cols());
   }
   return responses;
 }
@@ -199,7 +201,7 @@ Eigen::MatrixXcd PortResponses::of_sensor_error(const ForcePlace& place) const {
     const arm::Sensor& sensor = sensors_[static_cast<std::size_t>(j)];
     if (std::ranges::find(place.sensors, sensor) == place.sensors.end()) continue;
     for (Index k = 0; k < made.cols(); ++k) {
-      made(j, k) = is_shared ? power(s(k), arm::derivative_order(sensor)) : Complex(1.0);
+      made(j, k) = is_shared ? raised(s(k), arm::derivative_order(sensor)) : Complex(1.0);
     }
   }
   return made;
@@ -210,15 +212,14 @@ Eigen::MatrixXcd PortResponses::to_placed(const PlacedTerm& placed) const {
   const Eigen::MatrixXcd more = to_hub_torque(placed.term(arm_, 2.0 * placed.size)) - bare_;
   const Index hub = bare_.rows() - 1;
   for (Index k = 0; k < made.cols(); ++k) {
-    const Complex z = placed.size * power(s(k), placed.power);
+    const Complex z = placed.size * raised(s(k), placed.power);
     const Complex squared = -0.5 / z / (1.0 / made(hub, k) - 1.0 / more(hub, k));
     made.col(k) *= std::sqrt(squared) / made(hub, k);
   }
   return made;
 }
 
-std::vector<Eigen::MatrixXcd> PortResponses::operator()(
-    std::span<const ForcePlace> places) const {
+std::vector<Eigen::MatrixXcd> PortResponses::operator()(std::span<const ForcePlace> places) const {
   const Index sensors = chains_.rows();
   std::vector<Eigen::MatrixXcd> placed(places.size());
   for (std::size_t i = 0; i < places.size(); ++i) {

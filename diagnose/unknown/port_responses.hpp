@@ -56,12 +56,12 @@ struct ForcePlace {
 /// rotation inside the beam.
 std::vector<ForcePlace> force_places(const arm::Arm& arm, std::span<const arm::Sensor> sensors);
 
-/// What the sensors of one arm read per unit of force at its ports, on lines f, with the linear part
-/// of the arm's sensor effects. By exact_tf, so that no mode is left out.
+/// What the sensors of one arm read per unit of force at its ports, on lines f, with the linear
+/// part of the arm's sensor effects. By exact_tf, so that no mode is left out.
 ///
-/// A force at a place is had from a term that acts there. With H(s) the responses to the hub torque,
-/// u(s) those to a unit force at the place, v(s) the place's motion per hub torque, and g(s) that
-/// per force at the place, the arm with the term has the responses
+/// A force at a place is had from a term that acts there. With H(s) the responses to the hub
+/// torque, u(s) those to a unit force at the place, v(s) the place's motion per hub torque, and
+/// g(s) that per force at the place, the arm with the term has the responses
 ///
 ///     H_z = H - u v/(1/z + g),                                   (Sherman and Morrison)
 ///

@@ -42,8 +42,7 @@ class Segment {
 
   const std::vector<double>& frequency_Hz() const { return frequency_Hz_; }
 
-  Eigen::VectorXcd transformed(std::span<const double> values, int differences,
-                               std::size_t first) {
+  Eigen::VectorXcd transformed(std::span<const double> values, int differences, std::size_t first) {
     std::vector<double> stretch(window_.size());
     measured::copy_differenced({values, differences}, first, stretch);
     for (std::size_t m = 0; m < stretch.size(); ++m) stretch[m] *= window_[m];
@@ -129,7 +128,7 @@ Eigen::MatrixXd smoothed(const Eigen::MatrixXd& values) {
 }
 
 /// What a run's channels leave, in their units, those of its sensors and that of its torque.
-struct RunErrors {
+struct ChannelErrors {
   std::vector<const ObservedChannel*> channels;
   std::vector<arm::Sensor> sensors;
   std::vector<std::vector<double>> values;
@@ -137,8 +136,9 @@ struct RunErrors {
   std::vector<double> torque_N_m;
 };
 
-RunErrors errors_of(const Problem& problem, std::size_t run, const Eigen::VectorXd& errors) {
-  RunErrors made;
+ChannelErrors channel_errors_of(const Problem& problem, std::size_t run,
+                                const Eigen::VectorXd& errors) {
+  ChannelErrors made;
   const Observations& observations = problem.observations();
   for (const ObservedChannel& channel : observations.channels) {
     if (channel.run != run) continue;
@@ -158,7 +158,7 @@ RunErrors errors_of(const Problem& problem, std::size_t run, const Eigen::Vector
   return made;
 }
 
-void keep(const std::vector<Index>& lines, ResidualSpectra& spectra) {
+void keep_lines(const std::vector<Index>& lines, ResidualSpectra& spectra) {
   const auto chosen = [&lines](auto& matrix) { matrix = matrix(Eigen::all, lines).eval(); };
   chosen(spectra.errors);
   chosen(spectra.noise);
@@ -182,7 +182,7 @@ void keep_excess(ResidualSpectra& spectra) {
   for (Index k = 0; k < power.cols(); ++k) {
     if (power.col(k).cwiseQuotient(noise.col(k)).maxCoeff() > kBeyondNoise) lines.push_back(k);
   }
-  keep(lines, spectra);
+  keep_lines(lines, spectra);
 }
 
 }  // namespace
@@ -197,7 +197,7 @@ std::vector<ResidualSpectra> residual_spectra(const Problem& problem,
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const auto* record = std::get_if<measured::TimeRecord>(&runs[r].data);
     if (record == nullptr || record->time_s.size() < kFewestSamples) continue;
-    const RunErrors run = errors_of(problem, r, errors);
+    const ChannelErrors run = channel_errors_of(problem, r, errors);
     const std::size_t usable = record->time_s.size() - kBefore;
     const double period_s = measured::sampling_period_s(*record);
     const std::size_t samples = measured::fast_length_within(std::min(usable, kLongestSegment));

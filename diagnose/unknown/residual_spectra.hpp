@@ -29,8 +29,8 @@ struct ResidualSpectra {
 /// `kHighestPart` of the Nyquist frequency on which the power of some sensor, mean of
 /// 2 kNeighbours + 1 lines, is above `kBeyondNoise` times its noise: by chance in one of 10^4.
 ///
-/// `errors` are those of `problem`, in standard deviations (to_errors). Segments that are not finite
-/// are left out, and those without a line.
+/// `errors` are those of `problem`, in standard deviations (to_errors). Segments that are not
+/// finite are left out, and those without a line.
 std::vector<ResidualSpectra> residual_spectra(const Problem& problem,
                                               const Eigen::VectorXd& errors);
 inline constexpr std::size_t kLongestSegment = 16384;

@@ -74,18 +74,25 @@ std::string name_of(const testing::TestParamInfo<HiddenAt>& info) {
 INSTANTIATE_TEST_SUITE_P(
     Effects, PortOfHidden,
     testing::Values(
-        HiddenAt{"coulomb_friction", {named("coulomb_friction", {{"torque", 0.01}})},
-                 ForcePort::hub, 0.95},
+        HiddenAt{"coulomb_friction",
+                 {named("coulomb_friction", {{"torque", 0.01}})},
+                 ForcePort::hub,
+                 0.95},
         HiddenAt{"hub_inertia", {named("hub_inertia", {{"factor", 1.4}})}, ForcePort::hub, 0.95},
-        HiddenAt{"root_compliance", {named("root_compliance", {{"stiffness", 40.0}})},
-                 ForcePort::root, 0.95},
-        HiddenAt{"attached_mass", {named("attached_mass", {{"mass", 0.02}, {"position", 0.5}})},
-                 ForcePort::beam, 0.9},
+        HiddenAt{"root_compliance",
+                 {named("root_compliance", {{"stiffness", 40.0}})},
+                 ForcePort::root,
+                 0.95},
+        HiddenAt{"attached_mass",
+                 {named("attached_mass", {{"mass", 0.02}, {"position", 0.5}})},
+                 ForcePort::beam,
+                 0.9},
         HiddenAt{"local_stiffness_loss",
                  {named("local_stiffness_loss", {{"stiffness", 40.0}, {"position", 0.5}})},
-                 ForcePort::beam, 0.9},
-        HiddenAt{"linear_density", {named("linear_density", {{"factor", 1.1}})}, ForcePort::beam,
-                 0.95},
+                 ForcePort::beam,
+                 0.9},
+        HiddenAt{
+            "linear_density", {named("linear_density", {{"factor", 1.1}})}, ForcePort::beam, 0.95},
         HiddenAt{"payload_mass", {named("payload_mass", {{"mass", 0.02}})}, ForcePort::tip, 0.95},
         HiddenAt{"sensor_gain", on_gauge("sensor_gain", "factor", 0.8), ForcePort::sensor, 0.95},
         HiddenAt{"sensor_delay", on_gauge("sensor_delay", "delay", 0.004), ForcePort::sensor,
@@ -169,8 +176,7 @@ TEST(PortResponses, OfAForceIsWhatAMassThereTakes) {
   for (Eigen::Index k = 0; k < before.cols(); ++k) {
     const std::complex<double> force_N = -kMass_kg * after(1, k);
     // The sign of a unit force is free.
-    const std::complex<double> sign =
-        of_force(0, k) * force_N / (after(0, k) - before(0, k));
+    const std::complex<double> sign = of_force(0, k) * force_N / (after(0, k) - before(0, k));
     EXPECT_NEAR(std::abs(sign), 1.0, 1e-6);
     for (Eigen::Index j = 0; j < before.rows(); ++j) {
       const std::complex<double> change = after(j, k) - before(j, k);
@@ -183,8 +189,8 @@ TEST(ResidualSpectra, OfWhiteNoiseHaveThePowerThatIsExpected) {
   // Counted where some sensor is far beyond: the others then show their noise.
   const Symptomatic data(simulated_experiment(on_gauge("sensor_gain", "factor", 0.5)));
   const SymptomsInput input = data.input();
-  const auto all = residual_spectra(input.problem,
-                                    to_errors(input.problem.observations(), input.before));
+  const auto all =
+      residual_spectra(input.problem, to_errors(input.problem.observations(), input.before));
   ASSERT_FALSE(all.empty());
   for (const ResidualSpectra& one : all) {
     for (Eigen::Index j = 0; j + 1 < one.errors.rows(); ++j) {

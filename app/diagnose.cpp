@@ -18,6 +18,7 @@
 #include "report/tables/csv.hpp"
 #include "report/tables/diagnosis_tables.hpp"
 #include "report/tables/empirical_law_table.hpp"
+#include "report/tables/missing_force_table.hpp"
 #include "report/tables/plan_tables.hpp"
 #include "report/tables/symptom_tables.hpp"
 #include "report/tables/text_table.hpp"
@@ -181,6 +182,9 @@ std::string text_of(const diagnose::Diagnosis& diagnosis) {
   if (const auto& law = diagnosis.empirical_law) {
     text += report::to_paragraph(report::empirical_law_text(*law)) + "\n";
   }
+  if (const auto& force = diagnosis.missing_force) {
+    text += report::to_paragraph(report::missing_force_text(*force)) + "\n";
+  }
   text += report::to_paragraph(report::formulations_text(diagnosis.formulations)) + "\n";
   text += report::to_text(report::gain_table(diagnosis)) + "\n";
   text += report::to_text(report::channel_gain_table(diagnosis), {.key_columns = 2});
@@ -221,6 +225,9 @@ std::vector<measured::NamedContent> files_of(const diagnose::Diagnosis& diagnosi
   add_table("run-by-run.csv", report::run_value_table(symptoms));
   if (const auto& law = diagnosis.empirical_law) {
     add_table("empirical-law.csv", report::empirical_law_table(*law));
+  }
+  if (const auto& force = diagnosis.missing_force) {
+    add_table("missing-force.csv", report::missing_force_table(*force));
   }
   for (auto& [name, svg] : plots.plots) add_file(name, std::move(svg), files);
   return files;

@@ -330,6 +330,9 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
     made.empirical_law =
         empirical_law(*predicted.balance, problem, selection.chosen.fit.candidate);
   }
+  if (is_open && !is_over(options.deadline)) {
+    made.missing_force = missing_force(problem, made.extended_arm, after);
+  }
   if (made.empirical_law) made.extended_arm = with_law(made.extended_arm, *made.empirical_law);
   made.formulations = check_formulations(made.extended_arm, scales_of(experiment).sensors);
   if (is_open && !is_over(options.deadline)) {

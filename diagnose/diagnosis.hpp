@@ -6,6 +6,7 @@
 #include "diagnose/search/predictor_choice.hpp"
 #include "diagnose/symptoms/symptoms.hpp"
 #include "diagnose/unknown/empirical_law.hpp"
+#include "diagnose/unknown/missing_force.hpp"
 #include "diagnose/verdict.hpp"
 
 #include <optional>
@@ -75,6 +76,8 @@ struct Diagnosis {
   FormulationCheck formulations;  ///< of the extended arm
   /// What the causes leave of the hub torque, where no effect is it and a law describes it.
   std::optional<EmpiricalLaw> empirical_law = {};
+  /// Where the force acts that the causes leave unexplained.
+  std::optional<MissingForce> missing_force = {};
   /// The experiment's with the causes, uncertain numbers as refitted, and the empirical law.
   arm::Arm extended_arm;
   /// Where the residuals are not noise: the most probable sets that were not named.

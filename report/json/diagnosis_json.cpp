@@ -59,6 +59,29 @@ Json empirical_law_json(const std::optional<diagnose::EmpiricalLaw>& law) {
           {"after", law->error_after}};
 }
 
+Json missing_force_json(const std::optional<diagnose::MissingForce>& force) {
+  if (!force) return nullptr;
+  Json json = {{"lines", force->lines}, {"ports", Json::array()}, {"force", nullptr}};
+  for (std::size_t i = 0; i < force->ports.size(); ++i) {
+    const diagnose::PortShare& port = force->ports[i];
+    json["ports"].push_back({{"port", to_string(port.port)},
+                             {"sensors", port.sensors},
+                             {"place", port.place},
+                             {"explained_share", port.share},
+                             {"std_error", port.std_error},
+                             {"distance_std_error", port.distance_std_error},
+                             {"stated", i < force->stated}});
+  }
+  if (const auto& size = force->size) {
+    json["force"] = {{"unit", size->unit},
+                     {"rms", size->rms},
+                     {"std_error", size->std_error ? Json(*size->std_error) : Json(nullptr)},
+                     {"from", size->from_Hz},
+                     {"to", size->to_Hz}};
+  }
+  return json;
+}
+
 Json prediction_json(const diagnose::Diagnosis& diagnosis) {
   Json json = {{"predictor", to_string(diagnosis.predictor)},
                {"reason", diagnosis.predictor_reason},
@@ -152,6 +175,7 @@ Json diagnosis_json(const diagnose::Diagnosis& diagnosis, const std::string& ext
           {"candidates", candidates},
           {"uncertain_numbers", uncertain_numbers},
           {"empirical_law", empirical_law_json(diagnosis.empirical_law)},
+          {"missing_force", missing_force_json(diagnosis.missing_force)},
           {"formulations", formulations_json(diagnosis.formulations)},
           {"extended_arm", extended_arm.empty() ? Json(nullptr) : Json(extended_arm)},
           {"next_experiments", additional_runs_json(diagnosis.next_experiments)},

@@ -272,6 +272,17 @@ TEST_F(JsonSchema, WhatDiagnoseWritesIsWhatTheDocumentSays) {
     write("described/arm.toml", arm);
     diagnose("described/measurement.toml", "payload_mass", {"--predictor", "torque_balance"});
   }
+  // A missing force whose port is determined.
+  write("true.toml", arm + "[effects.coulomb_friction]\ntorque = 0.01\n");
+  EXPECT_EQ(run({"simulate", "true.toml", "--duration", "4", "--period", "0.002", "--sensor",
+                 "hub_angle,tip_acceleration,strain@0.05", "--noise", "0.005", "--excitation",
+                 "random:rms=0.05,to=60,id=first", "--excitation",
+                 "random:rms=0.05,to=60,id=second", "--out", "missing"})
+                .status,
+            0);
+  write("missing/arm.toml", arm);
+  diagnose("missing/measurement.toml", "payload_mass", {"--predictor", "output_error"});
+  EXPECT_FALSE(documents.back()["missing_force"]["force"].is_null());
   // A sensor that shows noise, which counts as no fault, and a search that ends at once.
   std::minstd_rand random(1);
   std::istringstream lines(measured::read_text_file(folder_ / "unnamed/random.csv", 1 << 24));

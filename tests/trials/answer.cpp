@@ -38,6 +38,22 @@ NamedCause cause_of(const nlohmann::json& json) {
   return cause;
 }
 
+/// Those that are stated.
+std::vector<std::string> ports_of(const nlohmann::json& missing_force) {
+  std::vector<std::string> ports;
+  if (missing_force.is_null()) return ports;
+  for (const auto& port : missing_force.at("ports")) {
+    if (!port.at("stated").get<bool>()) continue;
+    ports.push_back(port.at("port"));
+    char separator = ' ';
+    for (const auto& sensor : port.at("sensors")) {
+      ports.back() += separator + sensor.get<std::string>();
+      separator = '+';
+    }
+  }
+  return ports;
+}
+
 /// Starts `arguments`, what it prints to `log`.
 pid_t start(std::vector<std::string> arguments, const fs::path& log) {
   std::vector<char*> words;
@@ -84,6 +100,7 @@ Answer read_answer(const fs::path& json_file) {
   Answer answer;
   answer.verdict = json.at("verdict");
   for (const auto& cause : json.at("causes")) answer.causes.push_back(cause_of(cause));
+  answer.ports = ports_of(json.at("missing_force"));
   answer.estimation = gain_of(json.at("gain").at("estimation"));
   answer.validation = gain_of(json.at("gain").at("validation"));
   return answer;

@@ -31,6 +31,8 @@ struct AnsweredGain {
 struct Answer {
   std::string verdict;  ///< empty where the program did not answer
   std::vector<NamedCause> causes;
+  /// Ports that the missing force is stated to act at: "hub", "sensor hub_angle+hub_velocity".
+  std::vector<std::string> ports;
   AnsweredGain estimation;
   AnsweredGain validation;
   double time_s = 0.0;

@@ -43,6 +43,8 @@ struct Cause {
   std::string name;
   /// The product has no name for it.
   bool outside = false;
+  /// Where the missing force acts, as answers name it (Answer::ports): of what is outside.
+  std::string port = {};
   ShownIn shown_in = ShownIn::all;
   ActsOn acts_on = ActsOn::linear_arm;
   /// The largest size that is still physical: beyond, the arm is another one. Sizes are ratios to

@@ -25,6 +25,10 @@ TEST(Causes, EveryEffectOfTheVocabularyHasATrial) {
   EXPECT_EQ(hidden, named);
 }
 
+TEST(Causes, OutsideTheVocabularyHaveAPort) {
+  for (const Cause& cause : causes()) EXPECT_EQ(cause.port.empty(), !cause.outside) << cause.name;
+}
+
 TEST(Causes, NoneIsCalledOutsideTheVocabularyThatIsIn) {
   for (const Cause& cause : causes()) {
     if (!cause.outside) continue;

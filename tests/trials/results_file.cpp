@@ -15,8 +15,8 @@ namespace {
 constexpr std::string_view kHeader =
     "version,id,kind,arm,noise,strength,hidden,outside,error,outcome,verdict,named,claimed,right,"
     "class_size,parameters,recovered,covered,before,after,validation_after,validation_floor,time "
-    "[s],dirt,dirt_answer,values,folder";
-constexpr std::size_t kColumns = 27;
+    "[s],dirt,dirt_answer,port,ports,values,folder";
+constexpr std::size_t kColumns = 29;
 
 std::vector<std::string> parts_of(const std::string& text, char separator) {
   std::vector<std::string> parts;
@@ -70,6 +70,8 @@ TrialResult parse_line(const std::string& line) {
   result.time_s = number();
   result.dirt = text();
   result.dirt_answer = parse_dirt_answer(text());
+  result.port_answer = parse_port_answer(text());
+  result.ports = parts_of(text(), ';');
   result.values = text();
   result.folder = text();
   return result;
@@ -104,11 +106,12 @@ void append_result(const TrialResult& result, const std::filesystem::path& file)
          << fmt::format("{:.4g},{},{},{},{},{},", result.error, to_string(result.outcome),
                         result.verdict, fmt::join(result.named, "+"), fmt::join(claimed, "+"),
                         fmt::join(right, "+"))
-         << fmt::format("{},{},{},{},{:.4g},{:.4g},{:.4g},{:.4g},{:.2f},{},{},{},{}\n",
+         << fmt::format("{},{},{},{},{:.4g},{:.4g},{:.4g},{:.4g},{:.2f},{},{},{},{},{},{}\n",
                         result.class_size, result.parameters, result.recovered, result.covered,
                         result.before, result.after, result.validation_after,
                         result.validation_floor, result.time_s, result.dirt,
-                        to_string(result.dirt_answer), result.values, result.folder);
+                        to_string(result.dirt_answer), to_string(result.port_answer),
+                        fmt::join(result.ports, ";"), result.values, result.folder);
   if (!stream.flush()) throw std::runtime_error(file.string() + ": cannot be written");
 }
 

@@ -22,6 +22,8 @@ constexpr std::array<std::string_view, 12> kOutcomes = {
 
 constexpr std::array<std::string_view, 3> kDirtAnswers = {"-", "named", "unnamed"};
 
+constexpr std::array<std::string_view, 4> kPortAnswers = {"-", "right", "wrong", "undetermined"};
+
 bool contains(const std::vector<std::string>& names, const std::string& name) {
   return std::ranges::find(names, name) != names.end();
 }
@@ -94,6 +96,15 @@ bool is_dirt(const NamedCause& cause, const Truth& truth) {
                            names, [&](const std::string& name) { return stands_for(cause, name); });
 }
 
+PortAnswer port_answer(const TrialResult& result, const Answer& answer) {
+  const bool is_asked = result.outside && result.hidden.size() == 1 &&
+                        result.kind == "time" && !answer.verdict.empty();
+  if (!is_asked) return PortAnswer::none;
+  if (answer.ports.empty()) return PortAnswer::undetermined;
+  const bool is_right = contains(answer.ports, find_cause(result.hidden.front()).port);
+  return is_right ? PortAnswer::right : PortAnswer::wrong;
+}
+
 bool is_angle(const std::string& parameter) {
   return parameter == "phase" || parameter == "angle";
 }
@@ -150,6 +161,18 @@ DirtAnswer parse_dirt_answer(std::string_view name) {
   return static_cast<DirtAnswer>(at);
 }
 
+std::string_view to_string(PortAnswer answer) {
+  return kPortAnswers.at(static_cast<std::size_t>(answer));
+}
+
+PortAnswer parse_port_answer(std::string_view name) {
+  const auto at = std::ranges::find(kPortAnswers, name) - kPortAnswers.begin();
+  if (static_cast<std::size_t>(at) == kPortAnswers.size()) {
+    throw std::runtime_error(fmt::format("{}: no answer to a port", name));
+  }
+  return static_cast<PortAnswer>(at);
+}
+
 TrialResult score(const Truth& truth, const Answer& given) {
   Answer answer = with_sensors_in_names(given, truth);
   TrialResult result;
@@ -178,6 +201,8 @@ TrialResult score(const Truth& truth, const Answer& given) {
     result.class_size = std::max(result.class_size, 1 + cause.confusable_with.size());
   }
   result.outcome = outcome_of(result, answer);
+  result.port_answer = port_answer(result, answer);
+  result.ports = answer.ports;
   result.before = answer.estimation.before;
   result.after = answer.estimation.after;
   result.validation_after = answer.validation.after;

@@ -53,6 +53,16 @@ enum class DirtAnswer {
 std::string_view to_string(DirtAnswer answer);
 DirtAnswer parse_dirt_answer(std::string_view name);
 
+/// Whether the port of the missing force is right where one cause outside the library is hidden.
+enum class PortAnswer {
+  none,          ///< another truth, or no answer
+  right,         ///< stated, alone or beside one that is indistinguishable
+  wrong,         ///< others are stated
+  undetermined,  ///< none is
+};
+std::string_view to_string(PortAnswer answer);
+PortAnswer parse_port_answer(std::string_view name);
+
 /// One trial as a line of the results. An effect that is the dirt of the recording is not among
 /// `named`, and counts neither for nor against the outcome.
 struct TrialResult {
@@ -80,6 +90,8 @@ struct TrialResult {
   double time_s = 0.0;
   std::string dirt = "-";  ///< "-" for none
   DirtAnswer dirt_answer = DirtAnswer::none;
+  PortAnswer port_answer = PortAnswer::none;
+  std::vector<std::string> ports;  ///< that are stated
   std::string values;  ///< found (hidden), for a reader
   std::string folder;
 };

@@ -107,6 +107,39 @@ TEST(Score, WithNothingToNameSilenceIsRight) {
   EXPECT_EQ(outcome(outside, answered("explained", {named("gravity")})), Outcome::mistaken);
 }
 
+TEST(Score, ThePortOfWhatIsOutsideIsRightAmongThoseStated) {
+  const auto port = [](const char* hidden, std::vector<std::string> ports) {
+    Answer answer = answered("unexplained");
+    answer.ports = std::move(ports);
+    return score(truth_of({hidden}), answer).port_answer;
+  };
+  EXPECT_EQ(port("backlash", {"hub"}), PortAnswer::right);
+  EXPECT_EQ(port("backlash", {"root", "hub"}), PortAnswer::right);
+  EXPECT_EQ(port("backlash", {"beam"}), PortAnswer::wrong);
+  EXPECT_EQ(port("backlash", {}), PortAnswer::undetermined);
+  EXPECT_EQ(port("cross_talk", {"sensor strain@0.05"}), PortAnswer::right);
+  EXPECT_EQ(port("cross_talk", {"sensor hub_angle"}), PortAnswer::wrong);
+  EXPECT_EQ(port("coulomb_friction", {"hub"}), PortAnswer::none);
+  EXPECT_EQ(score(truth_of({"backlash"}), Answer{}).port_answer, PortAnswer::none);
+}
+
+TEST(Scorecard, CountsThePortsThatAreRight) {
+  TrialResult one;
+  one.kind = "time";
+  one.noise = 0.005;
+  one.strength = "middle";
+  one.hidden = {"backlash"};
+  one.outside = true;
+  one.outcome = Outcome::recognised;
+  one.port_answer = PortAnswer::right;
+  TrialResult other = one;
+  other.port_answer = PortAnswer::undetermined;
+  TrialResult unasked = one;
+  unasked.port_answer = PortAnswer::none;
+  EXPECT_THAT(scorecard({one, other, unasked}),
+              HasSubstr("| effect outside the library: port right | 1/2 (50 %) |"));
+}
+
 TEST(Score, TheDirtOfARecordingIsNoPhysicalCause) {
   Truth truth = truth_of({});
   truth.key.dirt = "late_sensor";
@@ -187,6 +220,8 @@ TEST(ResultsFile, IsReadBack) {
   append_result(result, file);
   TrialResult quiet = score(truth_of({}), answered("adequate"));
   quiet.version = "0123abc";
+  quiet.port_answer = PortAnswer::right;
+  quiet.ports = {"hub", "sensor hub_angle+hub_velocity"};
   append_result(quiet, file);
   const auto read = read_results(file);
   ASSERT_EQ(read.size(), 2U);
@@ -200,6 +235,10 @@ TEST(ResultsFile, IsReadBack) {
   EXPECT_EQ(read[0].values, result.values);
   EXPECT_EQ(read[1].outcome, Outcome::quiet);
   EXPECT_TRUE(read[1].hidden.empty());
+  EXPECT_EQ(read[0].port_answer, PortAnswer::none);
+  EXPECT_TRUE(read[0].ports.empty());
+  EXPECT_EQ(read[1].port_answer, PortAnswer::right);
+  EXPECT_EQ(read[1].ports, quiet.ports);
   EXPECT_THAT(scorecard(read), HasSubstr("Version: 0123abc (clean source tree)."));
   EXPECT_THAT(scorecard(read), HasSubstr("| two effects: one identified | 1/1 (100 %) |"));
   EXPECT_THAT(scorecard(read),

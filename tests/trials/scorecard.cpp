@@ -183,6 +183,12 @@ std::string summary_table(const std::vector<Cell>& cells) {
         return part(count(some, Outcome::wrong) + count(some, Outcome::mistaken),
                     static_cast<int>(some.size()));
       });
+  add("effect outside the library: port right", [](const Results& all) {
+    const auto answered = [](const auto& one) { return one.port_answer != PortAnswer::none; };
+    const Results some = chosen(all, answered);
+    return part(count(some, [](const auto& one) { return one.port_answer == PortAnswer::right; }),
+                static_cast<int>(some.size()));
+  });
   add("parameters within 5 %", [](const Results& all) {
     int recovered = 0;
     int parameters = 0;

@@ -54,6 +54,7 @@ class GapDrive : public HubTorque {
 Cause backlash() {
   return {.name = "backlash",
           .outside = true,
+          .port = "hub",
           .shown_in = ShownIn::time,
           .acts_on = ActsOn::hub,
           .largest = 50.0,

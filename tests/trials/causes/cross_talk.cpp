@@ -8,6 +8,7 @@ namespace flexarm::trials {
 Cause cross_talk() {
   return {.name = "cross_talk",
           .outside = true,
+          .port = "sensor strain@0.05",
           .shown_in = ShownIn::time,
           .acts_on = ActsOn::sensor,
           .largest = 3.0,

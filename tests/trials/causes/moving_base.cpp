@@ -16,6 +16,7 @@ Cause moving_base() {
   return {
       .name = "moving_base",
       .outside = true,
+      .port = "sensor hub_angle+hub_velocity",
       .shown_in = ShownIn::time,
       .acts_on = ActsOn::hub,
       .largest = 3.0,

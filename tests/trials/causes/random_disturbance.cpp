@@ -52,6 +52,7 @@ Cause random_disturbance() {
   return {
       .name = "random_disturbance",
       .outside = true,
+      .port = "hub",
       .shown_in = ShownIn::time,
       .acts_on = ActsOn::hub,
       .parameters = [](const NaturalSizes& natural, double size,

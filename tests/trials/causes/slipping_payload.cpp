@@ -18,6 +18,7 @@ constexpr double kSlippingPayloadDampingRatio = 0.02;
 Cause slipping_payload() {
   return {.name = "slipping_payload",
           .outside = true,
+          .port = "tip",
           .shown_in = ShownIn::time,
           .acts_on = ActsOn::beam,
           .largest = 100.0,

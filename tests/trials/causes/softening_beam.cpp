@@ -6,6 +6,7 @@ namespace flexarm::trials {
 Cause softening_beam() {
   return {.name = "softening_beam",
           .outside = true,
+          .port = "beam",
           .shown_in = ShownIn::time,
           .acts_on = ActsOn::beam,
           .largest = 0.6,

@@ -19,6 +19,7 @@ constexpr double kStopImpactDampingRatio = 0.1;
 Cause stop_impact() {
   return {.name = "stop_impact",
           .outside = true,
+          .port = "hub",
           .shown_in = ShownIn::time,
           .acts_on = ActsOn::hub,
           .largest = 50.0,

@@ -7,6 +7,7 @@ namespace flexarm::trials {
 Cause tapered_beam() {
   return {.name = "tapered_beam",
           .outside = true,
+          .port = "beam",
           .acts_on = ActsOn::beam,
           .largest = 1.2,
           .parameters = [](const NaturalSizes& /*natural*/, double size,

@@ -1,0 +1,204 @@
+// At which port a force acts that the model lacks. Data are by finite elements and a time stepper,
+// what is fitted to them by exact_tf.
+#include "diagnose/unknown/missing_force.hpp"
+
+#include "diagnose/unknown/residual_spectra.hpp"
+#include "effects/registry/vocabulary.hpp"
+#include "tests/diagnose/symptoms_fixture.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+#include <variant>
+
+namespace flexarm::diagnose {
+namespace {
+
+using effects::named;
+
+std::optional<MissingForce> missing_in(const Experiment& experiment) {
+  const Symptomatic data(experiment);
+  const SymptomsInput input = data.input();
+  return missing_force(input.problem, experiment.arm,
+                       to_errors(input.problem.observations(), input.before));
+}
+
+std::optional<MissingForce> missing_with(const arm::Effects& hidden) {
+  return missing_in(simulated_experiment(hidden));
+}
+
+arm::Effects on_gauge(const std::string& effect, const std::string& parameter, double value) {
+  return {named(effect, {{parameter, value}}, "strain@0.05")};
+}
+
+/// Runs with these sensors alone.
+Experiment with_sensors(Experiment experiment, const std::vector<std::string>& names) {
+  for (auto& run : experiment.runs) {
+    auto& channels = std::get<measured::TimeRecord>(run.data).channels;
+    std::erase_if(channels, [&](const auto& channel) {
+      return std::ranges::find(names, to_string(channel.sensor)) == names.end();
+    });
+  }
+  return experiment;
+}
+
+struct HiddenAt {
+  std::string name;  ///< of the test
+  arm::Effects effects;
+  ForcePort port;
+  double share;  ///< that the port explains at least
+};
+
+class PortOfHidden : public testing::TestWithParam<HiddenAt> {};
+
+TEST_P(PortOfHidden, IsStatedAlone) {
+  const HiddenAt& hidden = GetParam();
+  const auto found = missing_with(hidden.effects);
+  ASSERT_TRUE(found);
+  ASSERT_EQ(found->stated, 1U);
+  const PortShare& best = found->ports.front();
+  EXPECT_EQ(to_string(best.port), to_string(hidden.port));
+  EXPECT_GT(best.share, hidden.share);
+  EXPECT_LT(best.share, 1.05);
+  EXPECT_GT(best.std_error, 0.0);
+  EXPECT_LT(best.std_error, 0.05);
+}
+
+std::string name_of(const testing::TestParamInfo<HiddenAt>& info) {
+  return info.param.name;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Effects, PortOfHidden,
+    testing::Values(
+        HiddenAt{"coulomb_friction",
+                 {named("coulomb_friction", {{"torque", 0.01}})},
+                 ForcePort::hub,
+                 0.95},
+        HiddenAt{"hub_inertia", {named("hub_inertia", {{"factor", 1.4}})}, ForcePort::hub, 0.95},
+        HiddenAt{"root_compliance",
+                 {named("root_compliance", {{"stiffness", 40.0}})},
+                 ForcePort::root,
+                 0.95},
+        HiddenAt{"attached_mass",
+                 {named("attached_mass", {{"mass", 0.02}, {"position", 0.5}})},
+                 ForcePort::beam,
+                 0.9},
+        HiddenAt{"local_stiffness_loss",
+                 {named("local_stiffness_loss", {{"stiffness", 40.0}, {"position", 0.5}})},
+                 ForcePort::beam,
+                 0.9},
+        HiddenAt{
+            "linear_density", {named("linear_density", {{"factor", 1.1}})}, ForcePort::beam, 0.95},
+        HiddenAt{"payload_mass", {named("payload_mass", {{"mass", 0.02}})}, ForcePort::tip, 0.95},
+        HiddenAt{"sensor_gain", on_gauge("sensor_gain", "factor", 0.8), ForcePort::sensor, 0.95},
+        HiddenAt{"sensor_delay", on_gauge("sensor_delay", "delay", 0.004), ForcePort::sensor,
+                 0.95}),
+    name_of);
+
+TEST(MissingForce, HasTheSizeOfTheFriction) {
+  constexpr double kFriction_N_m = 0.01;
+  const auto found = missing_with({named("coulomb_friction", {{"torque", kFriction_N_m}})});
+  ASSERT_TRUE(found && found->size);
+  // Its sign alone changes: the RMS value is the torque itself, but for the lowest lines and for
+  // the time that the hub rests.
+  EXPECT_EQ(found->size->unit, "N m");
+  EXPECT_NEAR(found->size->rms, kFriction_N_m, 0.1 * kFriction_N_m);
+  ASSERT_TRUE(found->size->std_error);
+  EXPECT_LT(*found->size->std_error, 0.1 * kFriction_N_m);
+  EXPECT_LT(found->size->from_Hz, found->size->to_Hz);
+}
+
+TEST(MissingForce, IsAtTheSensorThatErrs) {
+  const auto found = missing_with(on_gauge("sensor_gain", "factor", 0.8));
+  ASSERT_TRUE(found && found->stated == 1);
+  EXPECT_EQ(found->ports.front().sensors, std::vector<std::string>{"strain@0.05"});
+}
+
+TEST(MissingForce, IsAtThePlaceOfTheMass) {
+  const auto found = missing_with({named("attached_mass", {{"mass", 0.02}, {"position", 0.48}})});
+  ASSERT_TRUE(found && found->stated == 1);
+  EXPECT_EQ(found->ports.front().place, "force at 0.48 m");
+  EXPECT_GT(found->ports.front().share, 0.98);
+}
+
+TEST(MissingForce, OfNothingThereIsNone) {
+  EXPECT_FALSE(missing_with({}));
+}
+
+TEST(MissingForce, IsNotDeterminedByOneSensor) {
+  const auto experiment = simulated_experiment({named("coulomb_friction", {{"torque", 0.01}})});
+  const auto found = missing_in(with_sensors(experiment, {"hub_angle"}));
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->stated, 0U);
+  EXPECT_TRUE(found->ports.empty());
+  EXPECT_FALSE(found->size);
+}
+
+TEST(MissingForce, IsNotDeterminedByTwoSensorsOfOneMotion) {
+  const auto experiment = simulated_experiment({named("coulomb_friction", {{"torque", 0.01}})});
+  const auto found = missing_in(with_sensors(experiment, {"hub_angle", "hub_velocity"}));
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->stated, 0U);
+  EXPECT_GT(found->ports.size(), kMostPorts);
+}
+
+TEST(MissingForce, OfARigidHubThereIsNone) {
+  Experiment experiment = simulated_experiment({named("coulomb_friction", {{"torque", 0.01}})});
+  const Symptomatic data(experiment);
+  const SymptomsInput input = data.input();
+  arm::Arm without_beam = experiment.arm;
+  without_beam.beam = {};
+  EXPECT_FALSE(missing_force(input.problem, without_beam,
+                             to_errors(input.problem.observations(), input.before)));
+}
+
+TEST(PortResponses, OfAForceIsWhatAMassThereTakes) {
+  // A mass M pushes by -M a, a the acceleration of the arm that carries it: H_M - H = -M a u.
+  arm::Arm arm = trial_arm();
+  const std::vector<arm::Sensor> sensors = {{arm::SensorKind::hub_angle, 0.0},
+                                            {arm::SensorKind::tip_acceleration, 0.0},
+                                            {arm::SensorKind::strain, 0.05}};
+  const std::vector<double> frequency_Hz = {2.0, 9.0, 21.0, 44.0};
+  const auto places = force_places(arm, sensors);
+  const auto at_tip = std::ranges::find(places, "force at the tip", &ForcePlace::what);
+  ASSERT_NE(at_tip, places.end());
+  const PortResponses bare(arm, sensors, frequency_Hz);
+  const Eigen::MatrixXcd of_force = bare(std::vector{*at_tip}).front();
+  constexpr double kMass_kg = 0.1;
+  arm.effects = {named("payload_mass", {{"mass", kMass_kg}})};
+  const PortResponses heavy(arm, sensors, frequency_Hz);
+  const Eigen::MatrixXcd before = bare.of_command();
+  const Eigen::MatrixXcd after = heavy.of_command();
+  for (Eigen::Index k = 0; k < before.cols(); ++k) {
+    const std::complex<double> force_N = -kMass_kg * after(1, k);
+    // The sign of a unit force is free.
+    const std::complex<double> sign = of_force(0, k) * force_N / (after(0, k) - before(0, k));
+    EXPECT_NEAR(std::abs(sign), 1.0, 1e-6);
+    for (Eigen::Index j = 0; j < before.rows(); ++j) {
+      const std::complex<double> change = after(j, k) - before(j, k);
+      EXPECT_LT(std::abs(of_force(j, k) * force_N / sign - change), 1e-6 * std::abs(change));
+    }
+  }
+}
+
+TEST(ResidualSpectra, OfWhiteNoiseHaveThePowerThatIsExpected) {
+  // Counted where some sensor is far beyond: the others then show their noise.
+  const Symptomatic data(simulated_experiment(on_gauge("sensor_gain", "factor", 0.5)));
+  const SymptomsInput input = data.input();
+  const auto all =
+      residual_spectra(input.problem, to_errors(input.problem.observations(), input.before));
+  ASSERT_FALSE(all.empty());
+  for (const ResidualSpectra& one : all) {
+    for (Eigen::Index j = 0; j + 1 < one.errors.rows(); ++j) {
+      const double ratio = one.errors.row(j).cwiseAbs2().cwiseQuotient(one.noise.row(j)).mean();
+      EXPECT_NEAR(ratio, 1.0, 0.35) << to_string(one.sensors[static_cast<std::size_t>(j)]);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace flexarm::diagnose

@@ -102,6 +102,7 @@ Fit EffectScan::first_look(const Candidate& base) const {
 
 Fit EffectScan::first_look(const Candidate& base, const Hypothesis& other) const {
   const Candidate start = base.with(other, other.middle());
+  if (const auto friction = friction_scan(start)) return best_fit(coarse_, friction->starts);
   const std::vector<Index> scanned = last_coordinates(start);
   Fit look = best_from_scan(coarse_, start, scanned);
   const bool is_shorter =
@@ -110,6 +111,18 @@ Fit EffectScan::first_look(const Candidate& base, const Hypothesis& other) const
   const Fit at_first = best_from_scan(short_, start, scanned);
   Fit from_there = coarse_fit(coarse_, at_first.candidate);
   return from_there.sum_of_squares < look.sum_of_squares ? from_there : look;
+}
+
+std::optional<FrictionScan> EffectScan::friction_scan(const Candidate& start) const {
+  return scan_friction(coarse_, start,
+                       {.evaluations = options_.scan_evaluations.back(),
+                        .starts = options_.scan_starts,
+                        .work = &work_});
+}
+
+bool EffectScan::may_account(const Candidate& base, const Hypothesis& other) const {
+  const auto friction = friction_scan(base.with(other, other.middle()));
+  return !friction || friction->share >= options_.least_friction_share;
 }
 
 Fit EffectScan::coarse_fit(const Problem& problem, const Candidate& start) const {
@@ -123,9 +136,13 @@ Fit EffectScan::best_from_scan(const Problem& problem, const Candidate& start,
   const ScanOptions scan_options{.evaluations = options_.scan_evaluations[n - 1],
                                  .starts = n == 1 ? 1 : options_.scan_starts,
                                  .work = &work_};
+  return best_fit(problem, scan(problem, start, scanned, scan_options));
+}
+
+Fit EffectScan::best_fit(const Problem& problem, const std::vector<Candidate>& starts) const {
   std::optional<Fit> best;
-  for (const Candidate& place : scan(problem, start, scanned, scan_options)) {
-    Fit found = coarse_fit(problem, place);
+  for (const Candidate& start : starts) {
+    Fit found = coarse_fit(problem, start);
     if (!best || found.sum_of_squares < best->sum_of_squares) best = std::move(found);
   }
   return *best;

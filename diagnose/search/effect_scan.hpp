@@ -1,6 +1,7 @@
 #pragma once
 
 #include "diagnose/search/fit.hpp"
+#include "diagnose/search/friction_scan.hpp"
 #include "diagnose/search/reported_work.hpp"
 #include "diagnose/search/selection_options.hpp"
 
@@ -35,12 +36,17 @@ class EffectScan {
   Fit first_look(const Candidate& base) const;
   /// `base` with `other`: a scan of that, then all refitted to the part of the data.
   Fit first_look(const Candidate& base, const Hypothesis& other) const;
+  /// False for dry friction that changes with speed where the hub's signals show that it takes away
+  /// less than options.least_friction_share of what `base` leaves of them (friction_scan.hpp).
+  bool may_account(const Candidate& base, const Hypothesis& other) const;
   /// The same for `other` in place of the `index`-th effect of `candidate`. Where that is a limit
   /// of it, looked for from there too: at the limit's values of the parameters that both have.
   Fit look_in_place(const Candidate& candidate, std::size_t index, const Hypothesis& other) const;
 
  private:
   Fit coarse_fit(const Problem& problem, const Candidate& start) const;
+  std::optional<FrictionScan> friction_scan(const Candidate& start) const;
+  Fit best_fit(const Problem& problem, const std::vector<Candidate>& starts) const;
   Fit best_from_scan(const Problem& problem, const Candidate& start,
                      const std::vector<Eigen::Index>& scanned) const;
   /// Null where they have no parameter in common.

@@ -24,9 +24,9 @@ class ScannedSum {
     Eigen::VectorXd scanned;
   };
 
-  ScannedSum(const Problem& problem, const Candidate& start, const std::vector<Index>& coordinates,
+  ScannedSum(const SumOfSquares& sum, const Candidate& start, const std::vector<Index>& coordinates,
              const ScanOptions& options)
-      : problem_(problem),
+      : sum_(sum),
         candidate_(start),
         all_(start.coordinates()),
         coordinates_(coordinates),
@@ -45,9 +45,7 @@ class ScannedSum {
   /// The logarithm, which DIRECT-L compares between boxes of different size.
   double log_at(const Eigen::VectorXd& scanned) {
     if (options_.work != nullptr) options_.work->go_on();
-    const auto residuals = problem_.residuals(candidate_at(scanned), problem_.estimation_runs());
-    const double sum =
-        residuals ? residuals->squaredNorm() : std::numeric_limits<double>::infinity();
+    const double sum = sum_(candidate_at(scanned));
     places_.push_back({sum, scanned});
     return std::isfinite(sum) ? std::log(sum) : kImpossibleLog;
   }
@@ -68,7 +66,7 @@ class ScannedSum {
   }
 
  private:
-  const Problem& problem_;
+  const SumOfSquares& sum_;
   const Candidate& candidate_;
   Eigen::VectorXd all_;
   const std::vector<Index>& coordinates_;
@@ -120,12 +118,21 @@ void try_direct(ScannedSum& sum, Index dimension, int evaluations) {
 
 std::vector<Candidate> scan(const Problem& problem, const Candidate& start,
                             const std::vector<Index>& coordinates, const ScanOptions& options) {
+  const auto sum = [&](const Candidate& candidate) {
+    const auto residuals = problem.residuals(candidate, problem.estimation_runs());
+    return residuals ? residuals->squaredNorm() : std::numeric_limits<double>::infinity();
+  };
+  return scan(sum, start, coordinates, options);
+}
+
+std::vector<Candidate> scan(const SumOfSquares& sum_of_squares, const Candidate& start,
+                            const std::vector<Index>& coordinates, const ScanOptions& options) {
   // More dimensions than this leave a grid too few places along an axis.
   constexpr Index kMostOfGrid = 2;
   const auto dimension = static_cast<Index>(coordinates.size());
   const bool by_grid = options.method == ScanMethod::grid ||
                        (options.method == ScanMethod::by_dimension && dimension <= kMostOfGrid);
-  ScannedSum sum(problem, start, coordinates, options);
+  ScannedSum sum(sum_of_squares, start, coordinates, options);
   (by_grid ? try_grid : try_direct)(sum, dimension, options.evaluations);
   return sum.best(options.starts);
 }

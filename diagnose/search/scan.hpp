@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include <functional>
 #include <vector>
 
 namespace flexarm::diagnose {
@@ -33,6 +34,12 @@ struct ScanOptions {
 /// the sum of squares has many minima, each as wide as a few parts in a hundred of a frequency.
 /// Throws Cancelled where the work is cancelled.
 std::vector<Candidate> scan(const Problem& problem, const Candidate& start,
+                            const std::vector<Eigen::Index>& coordinates,
+                            const ScanOptions& options);
+
+/// The same for another sum of squares than that of a problem; infinite: no such candidate.
+using SumOfSquares = std::function<double(const Candidate&)>;
+std::vector<Candidate> scan(const SumOfSquares& sum_of_squares, const Candidate& start,
                             const std::vector<Eigen::Index>& coordinates,
                             const ScanOptions& options);
 

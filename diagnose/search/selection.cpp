@@ -131,6 +131,7 @@ class Search {
     const Candidate& none = made.nothing.fit.candidate;
     const std::vector<const Hypothesis*> general = general_effects(special);
     const auto near = [&](std::size_t i) -> std::optional<Candidate> {
+      if (!fits_.scan().may_account(none, *general[i])) return std::nullopt;
       Candidate look = general_look(none, special, *general[i]);
       if (special.empty()) return look;
       const auto left = problem_.residuals(look, problem_.estimation_runs());

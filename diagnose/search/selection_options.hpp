@@ -108,6 +108,10 @@ struct SelectionOptions {
   /// A general effect is refitted to all data where its coarse look leaves <= this times the sum of
   /// squares that the best of the others leaves.
   double largest_of_general = 4.0;
+  /// Friction that changes with speed is fitted by itself where it takes away this part or more of
+  /// what is beyond noise in the hub's signals: of its own, where the hub seldom rests, it takes
+  /// nearly all, and to be named it must take half.
+  double least_friction_share = 0.1;
   /// Singles that are bases of pairs <= this.
   std::size_t pair_bases = 3;
   /// Effects scanned beside a base <= this: those whose directions the residuals have most of.

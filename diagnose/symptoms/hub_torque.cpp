@@ -1,6 +1,6 @@
 #include "diagnose/symptoms/hub_torque.hpp"
 
-#include "diagnose/search/misfit.hpp"
+#include "diagnose/symptoms/hub_regression.hpp"
 
 #include <Eigen/Cholesky>
 #include <boost/math/distributions/complement.hpp>
@@ -10,7 +10,6 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <tbb/parallel_for.h>
 #include <utility>
 
 namespace flexarm::diagnose {
@@ -31,8 +30,6 @@ constexpr double kMostGrid = 400.0;
 /// Of the samples that show which multiple.
 constexpr std::size_t kRippleStride = 4;
 
-using Torques = std::vector<std::vector<double>>;  // one a run
-
 /// A dependence with the readings that it makes in all hub signals of all runs, in standard
 /// deviations of their noise: a column, of a ripple two.
 struct Tested {
@@ -40,134 +37,43 @@ struct Tested {
   Eigen::MatrixXd readings;
 };
 
-class HubRegression {
- public:
-  explicit HubRegression(const std::vector<HubMotion>& motions) : motions_(motions) {
-    Index n = 0;
-    for (const HubMotion& motion : motions) {
-      for (const HubReading& reading : motion.readings) {
-        n += static_cast<Index>(reading.residual.size());
-      }
-    }
-    residuals_.resize(n);
-    Index at = 0;
-    for (const HubMotion& motion : motions) {
-      for (const HubReading& reading : motion.readings) {
-        const auto count = static_cast<Index>(reading.residual.size());
-        residuals_.segment(at, count) =
-            Eigen::VectorXd::Map(reading.residual.data(), count) / reading.noise;
-        at += count;
-      }
-    }
-  }
-
-  const Eigen::VectorXd& residuals() const { return residuals_; }
-
-  Eigen::VectorXd readings(const Torques& torques) const {
-    Eigen::VectorXd made(residuals_.size());
-    Index at = 0;
-    for (std::size_t m = 0; m < motions_.size(); ++m) {
-      for (const HubReading& reading : motions_[m].readings) {
-        const std::vector<double> values = reading.response.reading(torques[m]);
-        const auto count = static_cast<Index>(values.size());
-        made.segment(at, count) = Eigen::VectorXd::Map(values.data(), count) / reading.noise;
-        at += count;
-      }
-    }
-    return made;
-  }
-
-  template <class Torque>
-  Tested tested(HubTorqueKind kind, const char* unit, Torque torque, double at = 0.0) const {
-    Torques torques;
-    for (const HubMotion& motion : motions_) {
-      auto& own = torques.emplace_back(motion.time_s.size());
-      for (std::size_t k = 0; k < own.size(); ++k) own[k] = torque(motion, k);
-    }
-    return {{.kind = kind, .unit = unit, .at = at}, readings(torques)};
-  }
-
-  /// Independent numbers among `left`: n (1 - r)/(1 + r) of each signal.
-  double independent(const Eigen::VectorXd& left) const {
-    double sum = 0.0;
-    Index at = 0;
-    for (const HubMotion& motion : motions_) {
-      for (const HubReading& reading : motion.readings) {
-        const auto count = static_cast<Index>(reading.residual.size());
-        sum += diagnose::independent(left.segment(at, count), measured::RunKind::time);
-        at += count;
-      }
-    }
-    return sum;
-  }
-
-  /// Residual torque of each run from `left` of the residuals, by its first hub signal.
-  Torques torques(const Eigen::VectorXd& left) const {
-    std::vector<Index> first_of_run = {0};
-    for (const HubMotion& motion : motions_) {
-      first_of_run.push_back(first_of_run.back() +
-                             static_cast<Index>(motion.time_s.size() * motion.readings.size()));
-    }
-    Torques made(motions_.size());
-    tbb::parallel_for(std::size_t{0}, motions_.size(), [&](std::size_t m) {
-      const HubReading& first = motions_[m].readings.front();
-      const auto count = static_cast<Index>(first.residual.size());
-      const Eigen::VectorXd own = left.segment(first_of_run[m], count) * first.noise;
-      made[m] = first.response.torque({own.data(), first.residual.size()}, first.noise);
-    });
-    return made;
-  }
-
- private:
-  const std::vector<HubMotion>& motions_;
-  Eigen::VectorXd residuals_;
-};
-
 double sign(double value) {
   return value == 0.0 ? 0.0 : std::copysign(1.0, value);
 }
 
-/// A value at the k-th sample as a torque has it: of one that is held to the next sample the mean
-/// of both, of what is linear between them.
-double at_sample(const HubMotion& motion, const std::vector<double>& values, std::size_t k) {
-  const bool is_held = motion.hold == measured::TorqueHold::zero && k + 1 < values.size();
-  return is_held ? 0.5 * (values[k] + values[k + 1]) : values[k];
-}
-
-/// The same of the sign of the velocity, which is not known within its noise: a hub at rest would
-/// else have signs at random.
-double sign_at_sample(const HubMotion& motion, std::size_t k) {
-  constexpr double kKnown = 2.0;  // deviations
-  const auto& speed = motion.velocity_rad_per_s;
-  const bool is_held = motion.hold == measured::TorqueHold::zero && k + 1 < speed.size();
-  const double other = is_held ? speed[k + 1] : speed[k];
-  const double size = std::max(std::abs(speed[k]) + std::abs(other),
-                               2.0 * kKnown * motion.velocity_noise_rad_per_s);
-  return size > 0.0 ? (speed[k] + other) / size : 0.0;
+template <class Torque>
+Tested tested(const HubRegression& all, HubTorqueKind kind, const char* unit, Torque torque,
+              double at = 0.0) {
+  HubTorques torques;
+  for (const HubMotion& motion : all.motions()) {
+    auto& own = torques.emplace_back(motion.time_s.size());
+    for (std::size_t k = 0; k < own.size(); ++k) own[k] = torque(motion, k);
+  }
+  return {{.kind = kind, .unit = unit, .at = at}, all.readings(torques)};
 }
 
 std::vector<Tested> simple_terms(const HubRegression& all, const std::vector<HubMotion>& motions) {
   using Motion = HubMotion;
   using Kind = HubTorqueKind;
   std::vector<Tested> made;
-  made.push_back(all.tested(Kind::coulomb_friction, "N m",
+  made.push_back(tested(all, Kind::coulomb_friction, "N m",
                             [](const Motion& m, std::size_t k) { return -sign_at_sample(m, k); }));
-  made.push_back(all.tested(
+  made.push_back(tested(all, 
       Kind::viscous_friction, "N m s/rad",
       [](const Motion& m, std::size_t k) { return -at_sample(m, m.velocity_rad_per_s, k); }));
-  made.push_back(all.tested(Kind::inertia, "kg m^2", [](const Motion& m, std::size_t k) {
+  made.push_back(tested(all, Kind::inertia, "kg m^2", [](const Motion& m, std::size_t k) {
     return -at_sample(m, m.acceleration_rad_per_s2, k);
   }));
-  made.push_back(all.tested(Kind::spring, "N m/rad", [](const Motion& m, std::size_t k) {
+  made.push_back(tested(all, Kind::spring, "N m/rad", [](const Motion& m, std::size_t k) {
     return -at_sample(m, m.angle_rad, k);
   }));
-  made.push_back(all.tested(Kind::bias, "N m", [](const Motion&, std::size_t) { return 1.0; }));
-  made.push_back(all.tested(Kind::time, "N m/s", [](const Motion& m, std::size_t k) {
+  made.push_back(tested(all, Kind::bias, "N m", [](const Motion&, std::size_t) { return 1.0; }));
+  made.push_back(tested(all, Kind::time, "N m/s", [](const Motion& m, std::size_t k) {
     return m.time_s[k] - 0.5 * (m.time_s.front() + m.time_s.back());
   }));
   made.push_back(
-      all.tested(Kind::gain, "1", [](const Motion& m, std::size_t k) { return m.torque_N_m[k]; }));
-  made.push_back(all.tested(Kind::dead_zone, "N m",
+      tested(all, Kind::gain, "1", [](const Motion& m, std::size_t k) { return m.torque_N_m[k]; }));
+  made.push_back(tested(all, Kind::dead_zone, "N m",
                             [](const Motion& m, std::size_t k) { return -sign(m.torque_N_m[k]); }));
   double largest_N_m = 0.0;
   for (const Motion& motion : motions) {
@@ -177,7 +83,7 @@ std::vector<Tested> simple_terms(const HubRegression& all, const std::vector<Hub
   }
   for (const double part : kSaturated) {
     const double from_N_m = part * largest_N_m;
-    made.push_back(all.tested(
+    made.push_back(tested(all, 
         Kind::saturation, "1",
         [&](const Motion& m, std::size_t k) {
           const double torque = m.torque_N_m[k];
@@ -206,7 +112,7 @@ std::vector<double> ripple_grid(const std::vector<HubMotion>& motions) {
 }
 
 /// The multiple of the angle at which `torques` have the largest part along its sine and cosine.
-double strongest_cycles(const std::vector<HubMotion>& motions, const Torques& torques,
+double strongest_cycles(const std::vector<HubMotion>& motions, const HubTorques& torques,
                         const std::vector<double>& grid) {
   double strongest = grid.front();
   double most = -1.0;
@@ -227,13 +133,13 @@ double strongest_cycles(const std::vector<HubMotion>& motions, const Torques& to
 }
 
 Tested ripple(const HubRegression& all, double cycles) {
-  Tested sine = all.tested(
+  Tested sine = tested(all, 
       HubTorqueKind::ripple, "N m",
       [&](const HubMotion& m, std::size_t k) {
         return std::sin(cycles * at_sample(m, m.angle_rad, k));
       },
       cycles);
-  const Tested cosine = all.tested(
+  const Tested cosine = tested(all, 
       HubTorqueKind::ripple, "N m",
       [&](const HubMotion& m, std::size_t k) { return std::cos(cycles * m.angle_rad[k]); });
   sine.readings.conservativeResize(Eigen::NoChange, 2);
@@ -317,9 +223,8 @@ HubTorque hub_torque(const std::vector<HubMotion>& motions, double least_error) 
   HubTorque made;
   if (motions.empty()) return made;
   const HubRegression all(motions);
-  const auto n = static_cast<double>(all.residuals().size());
   const double squares = all.residuals().squaredNorm();
-  const double beyond_noise = std::max(squares - n, std::sqrt(2.0 * n));
+  const double beyond_noise = all.beyond_noise();
   const bool is_wrong = error_beyond_noise(motions) >= least_error;
   std::vector<Tested> candidates = simple_terms(all, motions);
   const std::vector<double> grid = ripple_grid(motions);
@@ -329,7 +234,7 @@ HubTorque hub_torque(const std::vector<HubMotion>& motions, double least_error) 
   chosen.reserve(kMostHubTerms);
   Eigen::VectorXd left = all.residuals();
   while (true) {
-    Torques torques = all.torques(left);
+    HubTorques torques = all.torques(left);
     if (chosen.empty()) {
       for (std::size_t m = 0; m < motions.size(); ++m) {
         made.traces.push_back({motions[m].run_id, motions[m].time_s, torques[m],

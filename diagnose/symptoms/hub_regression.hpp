@@ -1,0 +1,48 @@
+#pragma once
+
+#include "diagnose/symptoms/hub_motion.hpp"
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <vector>
+
+namespace flexarm::diagnose {
+
+/// A torque on the hub [N m] at the samples of each motion.
+using HubTorques = std::vector<std::vector<double>>;
+
+/// The residuals of all hub signals, and what a torque on the hub makes of them. Laws of hub torque
+/// are evaluated at the measured motion: whatever their form, the arm answers them linearly, and
+/// the simulation may have gone another way.
+class HubRegression {
+ public:
+  /// `motions` must outlive the object.
+  explicit HubRegression(const std::vector<HubMotion>& motions);
+
+  const std::vector<HubMotion>& motions() const { return motions_; }
+  /// Of all motions and their readings, in standard deviations of the noise.
+  const Eigen::VectorXd& residuals() const { return residuals_; }
+  /// Sum of squares of the residuals beyond noise; at least its standard deviation by chance.
+  double beyond_noise() const;
+  /// What these torques make of the signals, in the order and units of the residuals.
+  Eigen::VectorXd readings(const HubTorques& torques) const;
+  /// Independent numbers among `left`: n (1 - r)/(1 + r) of each signal.
+  double independent(const Eigen::VectorXd& left) const;
+  /// Residual torque of each run from `left` of the residuals, by its first hub signal.
+  HubTorques torques(const Eigen::VectorXd& left) const;
+
+ private:
+  const std::vector<HubMotion>& motions_;
+  Eigen::VectorXd residuals_;
+};
+
+/// A value at the k-th sample as a torque has it: of one that is held to the next sample the mean
+/// of both, of what is linear between them.
+double at_sample(const HubMotion& motion, const std::vector<double>& values, std::size_t k);
+
+/// The same of the sign of the velocity, which is not known within its noise: a hub at rest would
+/// else have signs at random.
+double sign_at_sample(const HubMotion& motion, std::size_t k);
+
+}  // namespace flexarm::diagnose

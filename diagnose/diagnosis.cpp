@@ -149,8 +149,7 @@ std::optional<DisturbanceGain> disturbance_gain(const Selection& selection) {
   const auto& after = selection.chosen.estimation.disturbance;
   if (!before || !after) return std::nullopt;
   return DisturbanceGain{selection.problem.predictor().noise()->correlation_time_s,
-                         before->estimated_N_m, after->estimated_N_m,
-                         before->torque_rms_N_m};
+                         before->estimated_N_m, after->estimated_N_m, before->torque_rms_N_m};
 }
 
 /// By the torque hold, constant or linear between samples, that leaves the smaller error; where

@@ -208,8 +208,8 @@ std::optional<PredictedSelection> select_by_filter(const SelectionTask& task,
         "by simulation the residuals are not noise; an unrecorded hub torque of {:.3g} N m makes "
         "them more likely{}",
         noise.disturbance_N_m,
-        made.by_motion ? "; effects on beam, payload and sensors are those that the measured motion "
-                         "of the hub shows (driven_by_motion)"
+        made.by_motion ? "; effects on beam, payload and sensors are those that the measured "
+                         "motion of the hub shows (driven_by_motion)"
                        : "");
   }
   return made;

@@ -181,8 +181,8 @@ PredictedSelection select_by_asked_responses(const SelectionTask& task, const Pr
       task, {.selection = Selection{problem}, .reason = "", .simulated = problem}, progress);
   if (!made) {
     throw arm::InputError(fmt::format(
-        "predictor frequency_response: no torque is rich enough; a run needs {} lines of a response "
-        "with a standard deviation of {:g} % or less, over a factor of {:g} in frequency",
+        "predictor frequency_response: no torque is rich enough; a run needs {} lines of a "
+        "response with a standard deviation of {:g} % or less, over a factor of {:g} in frequency",
         kLeastLines, 100.0 * kLargestLineError, kLeastSpan));
   }
   return *std::move(made);
@@ -209,10 +209,10 @@ PredictedSelection select_by_evidence(const Experiment& experiment,
     made.reason.clear();
     return made;
   }
-  const auto selected = !asked                                          ? select_by_both
-                        : is_simulation(*asked)                         ? select_by_simulation
+  const auto selected = !asked                                        ? select_by_both
+                        : is_simulation(*asked)                       ? select_by_simulation
                         : *asked == PredictorKind::frequency_response ? select_by_asked_responses
-                                                                        : select_by_asked_filter;
+                                                                      : select_by_asked_filter;
   PredictedSelection made = selected(task, problem, progress);
   made.reason = note + made.reason;
   return made;

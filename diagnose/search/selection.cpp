@@ -391,7 +391,7 @@ class Search {
   SetFits fits_;
   ProblemRevision revision_;
   std::vector<const Hypothesis*> general_;
-  bool are_general_tried_ = false;  // by themselves
+  bool are_general_tried_ = false;            // by themselves
   std::vector<const Hypothesis*> special_;    // the others
   std::set<std::set<std::string>> combined_;  // labels of what has been tried with any other
 };

@@ -97,8 +97,8 @@ bool is_dirt(const NamedCause& cause, const Truth& truth) {
 }
 
 PortAnswer port_answer(const TrialResult& result, const Answer& answer) {
-  const bool is_asked = result.outside && result.hidden.size() == 1 &&
-                        result.kind == "time" && !answer.verdict.empty();
+  const bool is_asked = result.outside && result.hidden.size() == 1 && result.kind == "time" &&
+                        !answer.verdict.empty();
   if (!is_asked) return PortAnswer::none;
   if (answer.ports.empty()) return PortAnswer::undetermined;
   const bool is_right = contains(answer.ports, find_cause(result.hidden.front()).port);

@@ -325,10 +325,7 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
   made.extended_arm.relative_uncertainties = experiment.arm.relative_uncertainties;
   const bool is_open =
       made.verdict == Verdict::unexplained || made.verdict == Verdict::partly_explained;
-  if (has_balance && is_open) {
-    made.empirical_law =
-        empirical_law(*predicted.balance, problem, selection.chosen.fit.candidate);
-  }
+  if (has_balance && is_open) made.empirical_law = predicted.law_beside_causes();
   if (is_open && !is_over(options.deadline)) {
     made.missing_force = missing_force(problem, made.extended_arm, after);
   }

@@ -105,6 +105,11 @@ Candidate PredictedSelection::whole(Candidate candidate) const {
   return made;
 }
 
+std::optional<EmpiricalLaw> PredictedSelection::law_beside_causes() const {
+  if (law) return law->found;
+  return empirical_law(balance.value(), simulated, selection.chosen.fit.candidate);
+}
+
 DiagnosisProgress part_of(const DiagnosisProgress& progress, double from, double to) {
   return [&progress, from, to](std::string_view what, double done) {
     return !progress || progress(what, from + (to - from) * done);

@@ -2,7 +2,6 @@
 
 #include "arm/input_error.hpp"
 #include "diagnose/predictors/response_runs.hpp"
-#include "diagnose/unknown/empirical_law.hpp"
 
 #include <fmt/format.h>
 
@@ -82,13 +81,11 @@ double simulated_error(const PredictedSelection& made) {
 }
 
 /// With what a filter names; where that is nothing, with the law of hub torque that its torque
-/// balance shows. A cause that is named where such a law acts explains a part of it.
-double error_by_filter(const PredictedSelection& made) {
-  const Candidate chosen = made.whole(made.selection.chosen.fit.candidate);
-  if (chosen.effects.empty() && made.balance) {
-    if (const auto law = empirical_law(*made.balance, made.simulated, chosen)) {
-      return law->error_after;
-    }
+/// balance shows, which is kept. A cause that is named where such a law acts explains a part of it.
+double error_by_filter(PredictedSelection& made) {
+  if (made.names_nothing() && made.balance) {
+    made.law = SoughtLaw{made.law_beside_causes()};
+    if (made.law->found) return made.law->found->error_after;
   }
   return simulated_error(made);
 }
@@ -124,7 +121,7 @@ PredictedSelection select_by_both(const SelectionTask& task, const Problem& prob
     auto filtered = select_by_filter(task, made, part_of(progress, 0.7, 1.0));
     if (!filtered) return made;
     Selection& other = filtered->selection;
-    if (other.end && filtered->whole(other.chosen.fit.candidate).effects.empty()) {
+    if (other.end && filtered->names_nothing()) {
       made.reason = kNoTime;
       if (!made.selection.end) made.selection.end = other.end;
       return made;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <numbers>
 
 namespace flexarm::diagnose {
 
@@ -42,6 +44,17 @@ Autoregression::Autoregression(const Eigen::Ref<const Eigen::VectorXd>& values, 
   }
   predictors_.resize(best);
   deviations_.resize(best);
+}
+
+double Autoregression::power(double frequency) const {
+  if (order() == 0) return 1.0;
+  const Eigen::VectorXd& a = predictors_.back();
+  std::complex<double> sum = 1.0;
+  for (Index m = 0; m < a.size(); ++m) {
+    const double angle = -2.0 * std::numbers::pi * frequency * static_cast<double>(m + 1);
+    sum += a(m) * std::polar(1.0, angle);
+  }
+  return innovation() * innovation() / std::norm(sum);
 }
 
 double Autoregression::predicted(const Eigen::Ref<const Eigen::VectorXd>& values, Index k) const {

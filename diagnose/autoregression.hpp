@@ -24,6 +24,10 @@ class Autoregression {
   /// Standard deviation of what the numbers before leave of a number.
   double innovation() const { return deviations_.empty() ? 1.0 : deviations_.back(); }
 
+  /// Power spectrum at a frequency in cycles per sample, variance/|1 + sum a_m z^-m|^2 on the unit
+  /// circle; its mean over all frequencies is the unit variance.
+  double power(double frequency) const;
+
   /// Numbers of such noise turned into independent ones of unit variance, each the error of its
   /// prediction from all before it: the exact Gaussian likelihood, up to a factor that depends on
   /// the noise alone.

@@ -149,8 +149,7 @@ std::optional<DisturbanceGain> disturbance_gain(const Selection& selection) {
   const auto& after = selection.chosen.estimation.disturbance;
   if (!before || !after) return std::nullopt;
   return DisturbanceGain{selection.problem.predictor().noise()->correlation_time_s,
-                         before->estimated_N_m, after->estimated_N_m,
-                         before->torque_rms_N_m};
+                         before->estimated_N_m, after->estimated_N_m, before->torque_rms_N_m};
 }
 
 /// By the torque hold, constant or linear between samples, that leaves the smaller error; where
@@ -326,10 +325,7 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
   made.extended_arm.relative_uncertainties = experiment.arm.relative_uncertainties;
   const bool is_open =
       made.verdict == Verdict::unexplained || made.verdict == Verdict::partly_explained;
-  if (has_balance && is_open) {
-    made.empirical_law =
-        empirical_law(*predicted.balance, problem, selection.chosen.fit.candidate);
-  }
+  if (has_balance && is_open) made.empirical_law = predicted.law_beside_causes();
   if (is_open && !is_over(options.deadline)) {
     made.missing_force = missing_force(problem, made.extended_arm, after);
   }

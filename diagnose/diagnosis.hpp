@@ -41,8 +41,8 @@ struct ChannelGain {
 /// squares of the filter's estimates.
 struct DisturbanceGain {
   double correlation_time_s = 0.0;
-  double before_N_m = 0.0;  ///< of the arm file, uncertain numbers refitted
-  double after_N_m = 0.0;   ///< of the extended arm
+  double before_N_m = 0.0;      ///< of the arm file, uncertain numbers refitted
+  double after_N_m = 0.0;       ///< of the extended arm
   double torque_rms_N_m = 0.0;  ///< of the commanded torque
 };
 

@@ -1,7 +1,6 @@
 #include "arm/input_error.hpp"
 #include "effects/registry/entry.hpp"
-
-#include <limits>
+#include "effects/registry/rotational_spring.hpp"
 
 namespace flexarm::effects {
 
@@ -35,33 +34,20 @@ Entry drive_compliance() {
                       "between the rotor and the rest of the hub: moment stiffness (phi + time d "
                       "phi/dt), phi the rotation between them. Torque, hub friction, hub springs "
                       "and hub sensors are at the rotor",
-           .parameters = {{.name = "stiffness",
-                           .unit = "N m/rad",
-                           .range = arm::kPositive,
-                           .meaning = "rotational stiffness",
-                           .example = 30.0,
-                           .neutral = std::numeric_limits<double>::infinity()},
+           .parameters = {rotational_stiffness(30.0),
                           {.name = "rotor_share",
                            .unit = "1",
                            .range = arm::kPositive,
                            .meaning = "the rotor's part of hub.inertia, below 1",
                            .example = 0.6},
-                          {.name = "time",
-                           .unit = "s",
-                           .range = arm::kNotNegative,
-                           .meaning = "damping coefficient over stiffness; times an angular "
-                                      "frequency it is the loss factor of the drive there",
-                           .example = 1e-3,
-                           .otherwise = 0.0}},
+                          retardation_time("the drive", 1e-3, 0.0)},
            .linear_term = add_drive,
            .require_fit = require_divisible_hub}),
       .shows = Shows::in_all,
       .search = [](const Scales& scales) -> std::vector<SearchedParameter> {
-        const double bending = scales.bending_stiffness_N_m_per_rad();
-        const double scale_rad_per_s = arm::omega_scale_rad_per_s(scales.beam);
-        return {{"stiffness", 0.2 * bending, 1e3 * bending, Spacing::from_infinity},
+        return {searched_stiffness(scales),
                 {"rotor_share", 0.02, 0.98, Spacing::linear},
-                {"time", 1e-4 / scale_rad_per_s, 1.0 / scale_rad_per_s}};
+                searched_retardation_time(scales)};
       },
       .applies = [](const Scales& scales) { return scales.arm.hub.inertia_kg_m2 > 0.0; },
       // As rotor_share nears 1, on a hub without radius.

@@ -1,9 +1,8 @@
 #include "arm/input_error.hpp"
 #include "effects/registry/entry.hpp"
+#include "effects/registry/rotational_spring.hpp"
 
 #include <fmt/format.h>
-
-#include <limits>
 
 namespace flexarm::effects {
 
@@ -28,12 +27,7 @@ Entry local_stiffness_loss() {
                                .range = arm::kNotNegative,
                                .meaning = "distance from the beam root, less than the length",
                                .example = 0.31},
-                              {.name = "stiffness",
-                               .unit = "N m/rad",
-                               .range = arm::kPositive,
-                               .meaning = "rotational stiffness",
-                               .example = 15.0,
-                               .neutral = std::numeric_limits<double>::infinity()}},
+                              rotational_stiffness(15.0)},
                .linear_term =
                    [](const arm::Effect& effect, const arm::Arm& /*arm*/, arm::LinearTerms& terms) {
                      terms.springs.push_back({effect.value("position"), effect.value("stiffness")});
@@ -42,9 +36,8 @@ Entry local_stiffness_loss() {
           .shows = Shows::in_all,
           .search = [](const Scales& scales) -> std::vector<SearchedParameter> {
             const double length_m = scales.beam.length_m;
-            const double bending = scales.bending_stiffness_N_m_per_rad();
             return {{"position", 0.01 * length_m, 0.99 * length_m, Spacing::linear},
-                    {"stiffness", 0.2 * bending, 300.0 * bending, Spacing::from_infinity}};
+                    searched_stiffness(scales, 300.0)};
           },
           .contains = {"root_compliance"},
           .speaks_for =

@@ -1,10 +1,10 @@
 #include "arm/input_error.hpp"
 #include "effects/registry/entry.hpp"
+#include "effects/registry/rotational_spring.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 
 namespace flexarm::effects {
 
@@ -43,18 +43,7 @@ Entry root_damping() {
            .meaning = "rotational spring and dashpot beside each other between hub and beam "
                       "root: moment stiffness (phi + time d phi/dt), phi the rotation between "
                       "them. Instead of `root_compliance`, not beside it",
-           .parameters = {{.name = "stiffness",
-                           .unit = "N m/rad",
-                           .range = arm::kPositive,
-                           .meaning = "rotational stiffness",
-                           .example = 30.0,
-                           .neutral = std::numeric_limits<double>::infinity()},
-                          {.name = "time",
-                           .unit = "s",
-                           .range = arm::kNotNegative,
-                           .meaning = "damping coefficient over stiffness; times an angular "
-                                      "frequency it is the loss factor of the root there",
-                           .example = 2e-3}},
+           .parameters = {rotational_stiffness(30.0), retardation_time("the root", 2e-3)},
            .linear_term =
                [](const arm::Effect& effect, const arm::Arm& /*arm*/, arm::LinearTerms& terms) {
                  terms.springs.push_back({0.0, effect.value("stiffness"), effect.value("time")});
@@ -62,10 +51,7 @@ Entry root_damping() {
            .require_fit = require_only_spring}),
       .shows = Shows::in_all,
       .search = [](const Scales& scales) -> std::vector<SearchedParameter> {
-        const double bending = scales.bending_stiffness_N_m_per_rad();
-        const double scale_rad_per_s = arm::omega_scale_rad_per_s(scales.beam);
-        return {{"stiffness", 0.2 * bending, 1e3 * bending, Spacing::from_infinity},
-                {"time", 1e-4 / scale_rad_per_s, 1.0 / scale_rad_per_s}};
+        return {searched_stiffness(scales), searched_retardation_time(scales)};
       },
       .contains = {"root_compliance"},
       .speaks_for =

@@ -54,8 +54,8 @@ double squared_cosine(const Eigen::VectorXd& one, const Eigen::VectorXd& other) 
 /// Errors that whitened residuals are of, in the standard deviations of the noise of `white`.
 Eigen::VectorXd errors_in(const Problem& white, const Problem& problem,
                           const Eigen::VectorXd& residuals) {
-  const auto to_white = problem.observations().deviations.array() /
-                        white.observations().deviations.array();
+  const auto to_white =
+      problem.observations().deviations.array() / white.observations().deviations.array();
   return to_errors(problem.observations(), residuals).array() * to_white;
 }
 
@@ -201,8 +201,7 @@ DependenceTest test_dependence(const Problem& problem, const Problem& white,
                           set->of_change(problem, white, changed[i / sets.size()]));
                    });
   const double least = std::ranges::min_element(scores, {}, &Score::p_value)->p_value;
-  return {std::min(1.0, tests * least),
-          std::ranges::max_element(scores, {}, &Score::share)->share};
+  return {std::min(1.0, tests * least), std::ranges::max_element(scores, {}, &Score::share)->share};
 }
 
 }  // namespace flexarm::diagnose

@@ -25,9 +25,9 @@ struct DependenceTest {
 /// hub torque of any shape (hub_torque_probes.hpp), and by output error a regression on the
 /// recorded torque up to the sample, channel by channel, whose sum of squares is chi-squared. A
 /// dependence of `kNegligibleDependence` of the signal counts as none. The p-value is the least of
-/// all tests, of the estimation and of the validation runs, after Bonferroni. `white` is the problem
-/// without the coloured noise. After a rejection at `level` it ends: the rest is not computed.
-/// Throws Cancelled where the work is cancelled.
+/// all tests, of the estimation and of the validation runs, after Bonferroni. `white` is the
+/// problem without the coloured noise. After a rejection at `level` it ends: the rest is not
+/// computed. Throws Cancelled where the work is cancelled.
 DependenceTest test_dependence(const Problem& problem, const Problem& white,
                                const Candidate& fitted, const std::vector<Hypothesis>& hypotheses,
                                ReportedWork& work, double level = 0.0);

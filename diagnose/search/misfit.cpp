@@ -68,8 +68,7 @@ double independent(const Eigen::Ref<const Eigen::VectorXd>& residuals, measured:
 double Misfit::excess() const {
   if (disturbance) {
     if (disturbance->relative() <= kNegligibleDisturbance) return nuisance_excess();
-    const double negligible_N_m =
-        kNegligibleDisturbance * disturbance->torque_rms_N_m;
+    const double negligible_N_m = kNegligibleDisturbance * disturbance->torque_rms_N_m;
     const double ratio = disturbance->estimated_N_m / negligible_N_m;
     return ratio * ratio + nuisance_excess();
   }

@@ -11,7 +11,7 @@ namespace flexarm::diagnose {
 
 /// What a stochastic grey-box model leaves of `time` runs to the disturbance of the hub torque.
 struct DisturbanceLeft {
-  double deviation_N_m = 0.0;  ///< most likely one, the rest of the noise model as it is
+  double deviation_N_m = 0.0;   ///< most likely one, the rest of the noise model as it is
   double torque_rms_N_m = 0.0;  ///< of the commanded torque, above 0
   /// Root mean square of the filter's estimates of it, with the noise model as it is. Most of it
   /// may be slow, while the likelihood goes by what is fast: the deviation says little of it.
@@ -47,8 +47,8 @@ struct Misfit {
 
   /// Squares beyond those of the noise, whose level is known to `kNoiseKnown` of its power, and
   /// beyond what chance adds to so many of them, `kChance` standard deviations sqrt(2 n); of
-  /// nuisances those beyond chance. With a disturbance that is not negligible the mean square of its
-  /// estimates, in units of the negligible variance.
+  /// nuisances those beyond chance. With a disturbance that is not negligible the mean square of
+  /// its estimates, in units of the negligible variance.
   double excess() const;
   double nuisance_excess() const;
   bool is_noise() const { return excess() == 0.0; }

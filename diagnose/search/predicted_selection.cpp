@@ -105,6 +105,11 @@ Candidate PredictedSelection::whole(Candidate candidate) const {
   return made;
 }
 
+std::optional<EmpiricalLaw> PredictedSelection::law_beside_causes() const {
+  if (law) return law->found;
+  return empirical_law(balance.value(), simulated, selection.chosen.fit.candidate);
+}
+
 DiagnosisProgress part_of(const DiagnosisProgress& progress, double from, double to) {
   return [&progress, from, to](std::string_view what, double done) {
     return !progress || progress(what, from + (to - from) * done);
@@ -208,8 +213,8 @@ std::optional<PredictedSelection> select_by_filter(const SelectionTask& task,
         "by simulation the residuals are not noise; an unrecorded hub torque of {:.3g} N m makes "
         "them more likely{}",
         noise.disturbance_N_m,
-        made.by_motion ? "; effects on beam, payload and sensors are those that the measured motion "
-                         "of the hub shows (driven_by_motion)"
+        made.by_motion ? "; effects on beam, payload and sensors are those that the measured "
+                         "motion of the hub shows (driven_by_motion)"
                        : "");
   }
   return made;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "diagnose/search/selection.hpp"
+#include "diagnose/unknown/empirical_law.hpp"
 
 #include <optional>
 #include <string>
@@ -8,6 +9,11 @@
 #include <vector>
 
 namespace flexarm::diagnose {
+
+/// The outcome of a search for a law of hub torque beside the chosen causes: there may be none.
+struct SoughtLaw {
+  std::optional<EmpiricalLaw> found;
+};
 
 /// A selection with the predictor of `time` runs that it was made by, and why by that one.
 struct PredictedSelection {
@@ -19,12 +25,18 @@ struct PredictedSelection {
   std::optional<Selection> by_motion = {};
   /// The torque balance, where one was formed: with the noise of what was selected by it.
   std::optional<Problem> balance = {};
+  /// By that balance, where it was looked for already.
+  std::optional<SoughtLaw> law = {};
   /// By simulation, the noise of its channels as the selection by simulation left it: what
   /// simulations are compared with the data by.
   Problem simulated;
 
   /// A candidate of `selection` with the effects of `by_motion`: one of the experiment's arm.
   Candidate whole(Candidate candidate) const;
+  /// Neither `selection` nor `by_motion` has a cause.
+  bool names_nothing() const { return whole(selection.chosen.fit.candidate).effects.empty(); }
+  /// `law`, or now. `balance` must have been formed.
+  std::optional<EmpiricalLaw> law_beside_causes() const;
 };
 
 /// What is done by whichever predictor; both must outlive the object.

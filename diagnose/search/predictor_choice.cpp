@@ -2,7 +2,6 @@
 
 #include "arm/input_error.hpp"
 #include "diagnose/predictors/response_runs.hpp"
-#include "diagnose/unknown/empirical_law.hpp"
 
 #include <fmt/format.h>
 
@@ -82,13 +81,11 @@ double simulated_error(const PredictedSelection& made) {
 }
 
 /// With what a filter names; where that is nothing, with the law of hub torque that its torque
-/// balance shows. A cause that is named where such a law acts explains a part of it.
-double error_by_filter(const PredictedSelection& made) {
-  const Candidate chosen = made.whole(made.selection.chosen.fit.candidate);
-  if (chosen.effects.empty() && made.balance) {
-    if (const auto law = empirical_law(*made.balance, made.simulated, chosen)) {
-      return law->error_after;
-    }
+/// balance shows, which is kept. A cause that is named where such a law acts explains a part of it.
+double error_by_filter(PredictedSelection& made) {
+  if (made.names_nothing() && made.balance) {
+    made.law = SoughtLaw{made.law_beside_causes()};
+    if (made.law->found) return made.law->found->error_after;
   }
   return simulated_error(made);
 }
@@ -124,7 +121,7 @@ PredictedSelection select_by_both(const SelectionTask& task, const Problem& prob
     auto filtered = select_by_filter(task, made, part_of(progress, 0.7, 1.0));
     if (!filtered) return made;
     Selection& other = filtered->selection;
-    if (other.end && filtered->whole(other.chosen.fit.candidate).effects.empty()) {
+    if (other.end && filtered->names_nothing()) {
       made.reason = kNoTime;
       if (!made.selection.end) made.selection.end = other.end;
       return made;
@@ -181,8 +178,8 @@ PredictedSelection select_by_asked_responses(const SelectionTask& task, const Pr
       task, {.selection = Selection{problem}, .reason = "", .simulated = problem}, progress);
   if (!made) {
     throw arm::InputError(fmt::format(
-        "predictor frequency_response: no torque is rich enough; a run needs {} lines of a response "
-        "with a standard deviation of {:g} % or less, over a factor of {:g} in frequency",
+        "predictor frequency_response: no torque is rich enough; a run needs {} lines of a "
+        "response with a standard deviation of {:g} % or less, over a factor of {:g} in frequency",
         kLeastLines, 100.0 * kLargestLineError, kLeastSpan));
   }
   return *std::move(made);
@@ -209,10 +206,10 @@ PredictedSelection select_by_evidence(const Experiment& experiment,
     made.reason.clear();
     return made;
   }
-  const auto selected = !asked                                          ? select_by_both
-                        : is_simulation(*asked)                         ? select_by_simulation
+  const auto selected = !asked                                        ? select_by_both
+                        : is_simulation(*asked)                       ? select_by_simulation
                         : *asked == PredictorKind::frequency_response ? select_by_asked_responses
-                                                                        : select_by_asked_filter;
+                                                                      : select_by_asked_filter;
   PredictedSelection made = selected(task, problem, progress);
   made.reason = note + made.reason;
   return made;

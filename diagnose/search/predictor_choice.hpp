@@ -17,7 +17,8 @@ namespace flexarm::diagnose {
 /// the measured motion before, and the torque balance is for the rest. Of both selections that one
 /// is taken with which simulations of validation runs (estimation runs without these) are nearer to
 /// the data; where the torque balance names nothing, with the law of hub torque that it shows
-/// (empirical_law.hpp). After options.deadline that by output error, unless the other names a cause.
+/// (empirical_law.hpp). After options.deadline that by output error, unless the other names a
+/// cause.
 ///
 /// With options.predictor by that one; throws InputError where it cannot be formed, or no run has a
 /// controller for it.

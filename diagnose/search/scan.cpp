@@ -36,8 +36,7 @@ class ScannedSum {
   Candidate candidate_at(const Eigen::VectorXd& scanned) const {
     Candidate made = candidate_;
     Eigen::VectorXd all = all_;
-    all(coordinates_) =
-        options_.lowest + (options_.highest - options_.lowest) * scanned.array();
+    all(coordinates_) = options_.lowest + (options_.highest - options_.lowest) * scanned.array();
     made.put(all);
     return made;
   }

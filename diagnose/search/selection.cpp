@@ -1,6 +1,7 @@
 #include "diagnose/search/selection.hpp"
 
 #include "diagnose/search/admission.hpp"
+#include "diagnose/search/general_effects.hpp"
 #include "diagnose/search/parameter_errors.hpp"
 #include "diagnose/search/problem_revision.hpp"
 #include "diagnose/search/rivals.hpp"
@@ -8,7 +9,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <iterator>
 #include <optional>
 #include <set>
 #include <string>
@@ -34,10 +34,6 @@ std::vector<Candidate> candidates_of(const std::vector<Explanation>& sets) {
 
 constexpr std::string_view kSingles = "effects one by one";
 
-bool is_limit(const Explanation& single, const Hypothesis& general) {
-  return general.contains(single.fit.candidate.effects.front().effect);
-}
-
 class Search {
  public:
   Search(const Problem& problem, const std::vector<Hypothesis>& hypotheses,
@@ -47,11 +43,8 @@ class Search {
         options_(options),
         work_(progress, options.deadline),
         fits_(problem_, options, work_),
-        revision_(problem_, hypotheses, options, fits_, work_) {
-    for (const Hypothesis& effect : hypotheses) {
-      (is_general(effect) ? general_ : special_).push_back(&effect);
-    }
-  }
+        general_(problem_, hypotheses, options, fits_),
+        revision_(problem_, hypotheses, options, fits_, work_) {}
 
   Selection run() {
     Selection made = found();
@@ -92,18 +85,16 @@ class Search {
     made.end = SearchEnd{std::string(work_.what()), fits_.untried()};
     work_.lift_deadline();
     if (made.nothing.fit.residuals.size() == 0) {
-      made.end->untried = labels_with({}, special_);
+      made.end->untried = labels_with({}, general_.others());
       made.nothing = explain(problem_, fit(problem_, problem_.as_filed(), {.most_steps = 0}));
       made.chosen = made.nothing;
     }
     if (made.chosen.fit.candidate.effects.empty()) {
       const auto best = std::ranges::find_if(made.singles, [&](const Explanation& single) {
-        return !is_general(single.fit.candidate.effects.front()) &&
+        return !general_.has(single.fit.candidate.effects.front()) &&
                may_be_named(single, made.nothing);
       });
-      const bool is_decided = are_general_tried_ || (best != made.singles.end() &&
-                                                     (best->leaves_noise() || !is_a_limit(*best)));
-      if (best != made.singles.end() && is_decided) made.chosen = *best;
+      if (best != made.singles.end() && !general_.may_be_behind(*best)) made.chosen = *best;
     }
     leave_out_unnamed(made);
   }
@@ -111,50 +102,17 @@ class Search {
   /// Effects by themselves. Those that have another as a limit come after it.
   void try_singles(Selection& made) {
     const Candidate& none = made.nothing.fit.candidate;
-    fits_.add_with(none, special_, kSingles, 0.7 * kSinglesDone, options_.singles_refitted,
+    fits_.add_with(none, general_.others(), kSingles, 0.7 * kSinglesDone, options_.singles_refitted,
                    made.singles);
     refit_nothing(made);
     revision_.see_noise(made);
     revision_.colour_noise_beside_singles(made);
     if (is_enough(made)) return;
-    const std::vector<Explanation> special = made.singles;
-    try_general(made, special);
+    general_.try_by_themselves(made, kSingles, kSinglesDone);
     revision_.see_noise(made);
     const bool is_general_best =
-        !made.singles.empty() && is_general(made.singles.front().fit.candidate.effects.front());
+        !made.singles.empty() && general_.has(made.singles.front().fit.candidate.effects.front());
     if (is_general_best) revision_.colour_noise_beside_singles(made);
-  }
-
-  /// General effects from where the best of their limits is. Fitted to all data are those that come
-  /// near to the best of the others.
-  void try_general(Selection& made, const std::vector<Explanation>& special) {
-    const Candidate& none = made.nothing.fit.candidate;
-    const std::vector<const Hypothesis*> general = general_effects(special);
-    const auto near = [&](std::size_t i) -> std::optional<Candidate> {
-      if (!fits_.scan().may_account(none, *general[i])) return std::nullopt;
-      Candidate look = general_look(none, special, *general[i]);
-      if (special.empty()) return look;
-      const auto left = problem_.residuals(look, problem_.estimation_runs());
-      const double most = options_.largest_of_general * special.front().fit.sum_of_squares;
-      if (!left || left->squaredNorm() > most) return std::nullopt;
-      return look;
-    };
-    fits_.add_all(labels_with(none, general), kSingles, kSinglesDone, made.singles, near);
-    are_general_tried_ = true;
-  }
-
-  bool is_a_limit(const Explanation& single) const {
-    return std::ranges::any_of(
-        general_, [&](const Hypothesis* general) { return is_limit(single, *general); });
-  }
-
-  Candidate general_look(const Candidate& none, const std::vector<Explanation>& special,
-                         const Hypothesis& general) const {
-    const auto limit = std::ranges::find_if(
-        special, [&](const Explanation& single) { return is_limit(single, general); });
-    return (limit == special.end() ? fits_.scan().first_look(none, general)
-                                   : fits_.scan().look_in_place(limit->fit.candidate, 0, general))
-        .candidate;
   }
 
   /// The arm's uncertain numbers by themselves, from where the best single has them: what these
@@ -164,24 +122,6 @@ class Search {
     Explanation again = fits_.fitted(made.singles.front().fit.candidate.without(0));
     const double before = made.nothing.fit.sum_of_squares;
     if (again.fit.sum_of_squares < before) made.nothing = made.chosen = std::move(again);
-  }
-
-  /// Another effect is a limit of it.
-  bool is_general(const Hypothesis& effect) const {
-    return !limits_of(effect, hypotheses_).empty();
-  }
-
-  /// General effects to try by themselves: all if none of `singles` leaves noise, else those of
-  /// which a limit does.
-  std::vector<const Hypothesis*> general_effects(const std::vector<Explanation>& singles) const {
-    if (std::ranges::none_of(singles, &Explanation::leaves_noise)) return general_;
-    std::vector<const Hypothesis*> found;
-    std::ranges::copy_if(general_, std::back_inserter(found), [&](const Hypothesis* effect) {
-      return std::ranges::any_of(singles, [&](const Explanation& single) {
-        return single.leaves_noise() && is_limit(single, *effect);
-      });
-    });
-    return found;
   }
 
   /// The residual is noise, or what is not is about the error of a simulation.
@@ -270,7 +210,7 @@ class Search {
   void generalise(Selection& made) {
     const Candidate chosen = made.chosen.fit.candidate;
     for (std::size_t i = 0; i < chosen.effects.size() && !is_enough(made); ++i) {
-      for (const Hypothesis* general : general_) {
+      for (const Hypothesis* general : general_.all()) {
         if (!general->contains(chosen.effects[i].effect)) continue;
         const Explanation found = replaced(made, chosen, i, *general);
         if (may_be_named(found, made.chosen)) made.chosen = found;
@@ -322,7 +262,7 @@ class Search {
     std::vector<Hypothesis> special;
     for (const Explanation& single : singles) {
       const Hypothesis& effect = single.fit.candidate.effects.front();
-      if (special.size() < options_.pair_bases && !is_general(effect)) special.push_back(effect);
+      if (special.size() < options_.pair_bases && !general_.has(effect)) special.push_back(effect);
     }
     std::vector<Candidate> bases;
     for (const Explanation& single : singles) {
@@ -338,7 +278,7 @@ class Search {
   /// General ones follow: generalise().
   void combine(Selection& made, const Candidate& base, std::string_view what, double to) {
     if (!combined_.insert(base.labels()).second) return;
-    fits_.add_with(base, special_, what, to, options_.pairs_refitted, made.combinations);
+    fits_.add_with(base, general_.others(), what, to, options_.pairs_refitted, made.combinations);
   }
 
   /// `explanation` without effects that the others, refitted, make superfluous: those that take
@@ -390,10 +330,8 @@ class Search {
   const SelectionOptions& options_;
   ReportedWork work_;
   SetFits fits_;
+  GeneralEffects general_;
   ProblemRevision revision_;
-  std::vector<const Hypothesis*> general_;
-  bool are_general_tried_ = false;  // by themselves
-  std::vector<const Hypothesis*> special_;    // the others
   std::set<std::set<std::string>> combined_;  // labels of what has been tried with any other
 };
 

@@ -34,7 +34,7 @@ struct ForceSize {
 
 /// At which port a force acts that the model lacks.
 struct MissingForce {
-  std::vector<PortShare> ports;  ///< all that were tried, the largest share first
+  std::vector<PortShare> ports = {};  ///< all that were tried, the largest share first
   /// The first so many of `ports` are indistinguishable from the first. 0 where the port is not
   /// determined: none explains `kLeastPortShare`, or more than `kMostPorts` are indistinguishable.
   std::size_t stated = 0;
@@ -46,39 +46,23 @@ inline constexpr double kLeastPortShare = 0.5;
 inline constexpr std::size_t kMostPorts = 2;
 
 /// Tests for each port whether one unknown force there explains what a simulation of `time` runs
-/// leaves. On each line f of a segment (residual_spectra.hpp) the residuals of the sensors are a
-/// vector E, and a force F at a port p makes h_p(f) F of them (port_responses.hpp). The shape of
-/// the vector says where the force acts; F is free on every line. With the weights
+/// leaves (tried_places.hpp). The shape of the vector of the sensors' residuals says where the
+/// force acts. One complex number explains 1/n of any n sensors' residuals, so that the share is
 ///
-///     W_j = 1/(N_j + kRelativeError^2 X_j),
-///
-/// N_j the power of sensor j's noise and X_j that of its residual beyond noise, the best F leaves
-///
-///     U = E^H W E - |h^H W E|^2/(h^H W h),
-///
-/// less what it leaves of the noise, sum W_j N_j - h^H W^2 N h/(h^H W h). X_j stands for the error
-/// of h itself. It makes every line with a clear residual count alike, and so do the sensors,
-/// whatever their noise. One complex number explains 1/n of any n sensors' residuals, so that the
-/// share is
-///
-///     1 - sum n/(n - 1) U/sum T,     T = E^H W E - sum W_j N_j,
+///     1 - sum n/(n - 1) U/sum T,
 ///
 /// as with an adjusted coefficient of determination. A port with several places has in each run the
 /// one that is best in the other runs (in the other parts of a single run): the choice is paid for.
-/// Standard errors are by the jackknife [EfronTibshirani1993] over segments and, in each, `kBands`
-/// bands of equally many lines.
+/// Standard errors are by the jackknife over segments and, in each, `kBands` bands.
 ///
 /// A port is distinguishable from the best where its share is less by more than `kDistance`
 /// standard errors of the difference and leaves more than `kMoreLeft` of what the best leaves.
 ///
-/// `errors` are those of `problem` by `arm` in standard deviations (to_errors). In closed loop the
-/// part that the error of the simulated torque makes is taken off. Empty for an arm without a beam,
-/// for runs that are driven by motion, and where fewer than `kFewestLines` lines are beyond noise;
-/// without ports where those of runs with two sensors or more are fewer.
+/// `errors` are those of `problem` by `arm` in standard deviations (to_errors). Empty for an arm
+/// without a beam, for runs that are driven by motion, and where fewer than `kFewestLines` lines
+/// are beyond noise; without ports where those of runs with two sensors or more are fewer.
 std::optional<MissingForce> missing_force(const Problem& problem, const arm::Arm& arm,
                                           const Eigen::VectorXd& errors);
-inline constexpr double kRelativeError = 0.3;
-inline constexpr std::size_t kBands = 4;
 inline constexpr double kDistance = 2.0;
 inline constexpr double kMoreLeft = 1.1;
 inline constexpr std::size_t kFewestLines = 20;

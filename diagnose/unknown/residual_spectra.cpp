@@ -5,10 +5,12 @@
 #include "measured/spectra/spectra.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <numbers>
 #include <span>
+#include <utility>
 #include <variant>
 
 namespace flexarm::diagnose {
@@ -32,7 +34,9 @@ class Segment {
       : period_s_(period_s),
         window_(measured::window_values(measured::Window::hann, samples)),
         transform_(samples) {
-    for (std::size_t lag = 0; lag < 3; ++lag) products_[lag] = lagged_product(window_, lag);
+    for (std::size_t lag = 0; lag < products_.size(); ++lag) {
+      products_[lag] = lagged_product(window_, lag);
+    }
     const double n = static_cast<double>(samples);
     scale_ = std::sqrt(2.0 / (n * products_[0]));
     for (std::size_t k = kLowestLine; k < lines_end(); ++k) {
@@ -90,31 +94,10 @@ class Segment {
   double period_s_;
   std::vector<double> window_;
   measured::RealTransform transform_;
-  double products_[3] = {};
+  std::array<double, 3> products_ = {};
   double scale_ = 0.0;
   std::vector<double> frequency_Hz_;
 };
-
-/// |G|^2 of coloured noise of unit variance at frequencies in cycles per sample.
-Eigen::ArrayXd colour_of(const Autoregression& autoregression, const Eigen::ArrayXd& frequency) {
-  if (autoregression.order() == 0) return Eigen::ArrayXd::Ones(frequency.size());
-  // The response to one independent number behind those that the model begins with.
-  const Index begun = autoregression.order();
-  constexpr Index kMemory = 2000;
-  Eigen::VectorXd response = Eigen::VectorXd::Zero(begun + kMemory);
-  response(begun) = 1.0;
-  autoregression.colour(response);
-  Eigen::ArrayXd made(frequency.size());
-  for (Index k = 0; k < made.size(); ++k) {
-    Complex sum = 0.0;
-    for (Index m = 0; m < kMemory; ++m) {
-      sum += response(begun + m) *
-             std::polar(1.0, -2.0 * std::numbers::pi * frequency(k) * static_cast<double>(m));
-    }
-    made(k) = std::norm(sum);
-  }
-  return made;
-}
 
 /// Means of neighbouring lines, of each row.
 Eigen::MatrixXd smoothed(const Eigen::MatrixXd& values) {
@@ -129,6 +112,7 @@ Eigen::MatrixXd smoothed(const Eigen::MatrixXd& values) {
 
 /// What a run's channels leave, in their units, those of its sensors and that of its torque.
 struct ChannelErrors {
+  std::size_t run = 0;
   std::vector<const ObservedChannel*> channels;
   std::vector<arm::Sensor> sensors;
   std::vector<std::vector<double>> values;
@@ -139,6 +123,7 @@ struct ChannelErrors {
 ChannelErrors channel_errors_of(const Problem& problem, std::size_t run,
                                 const Eigen::VectorXd& errors) {
   ChannelErrors made;
+  made.run = run;
   const Observations& observations = problem.observations();
   for (const ObservedChannel& channel : observations.channels) {
     if (channel.run != run) continue;
@@ -185,47 +170,65 @@ void keep_excess(ResidualSpectra& spectra) {
   keep_lines(lines, spectra);
 }
 
+/// What the segments of a run have in common: sensors, lines and noise.
+ResidualSpectra common_to_segments(const ChannelErrors& run, const Segment& segment,
+                                   double period_s) {
+  ResidualSpectra made;
+  made.run = run.run;
+  made.sensors = run.sensors;
+  made.frequency_Hz = segment.frequency_Hz();
+  const auto lines = std::ssize(made.frequency_Hz);
+  made.noise.resize(std::ssize(run.sensors), lines);
+  for (Index j = 0; j < made.noise.rows(); ++j) {
+    const auto at = static_cast<std::size_t>(j);
+    const int differences = measured::differences_until_steady(run.sensors[at]);
+    made.noise.row(j) = segment.noise(run.deviations[at], differences);
+    for (Index k = 0; k < lines; ++k) {
+      made.noise(j, k) *= run.channels[at]->autoregression.power(
+          period_s * made.frequency_Hz[static_cast<std::size_t>(k)]);
+    }
+  }
+  return made;
+}
+
+void add_segments(const measured::TimeRecord& record, const ChannelErrors& run,
+                  std::vector<ResidualSpectra>& all) {
+  // Differences need two samples before the first.
+  constexpr std::size_t kBefore = 2;
+  const std::size_t end = record.time_s.size();
+  const double period_s = measured::sampling_period_s(record);
+  const std::size_t samples =
+      measured::fast_length_within(std::min(end - kBefore, kLongestSegment));
+  Segment segment(samples, period_s);
+  const ResidualSpectra common = common_to_segments(run, segment, period_s);
+  for (std::size_t first = kBefore; first + samples <= end; first += samples / 2) {
+    ResidualSpectra made = common;
+    made.errors.resize(common.noise.rows(), common.noise.cols());
+    for (Index j = 0; j < made.errors.rows(); ++j) {
+      const auto at = static_cast<std::size_t>(j);
+      const int differences = measured::differences_until_steady(run.sensors[at]);
+      made.errors.row(j) = segment.transformed(run.values[at], differences, first);
+    }
+    if (!run.torque_N_m.empty()) {
+      made.torque_errors = segment.transformed(run.torque_N_m, 0, first);
+    }
+    if (!made.errors.allFinite()) continue;
+    keep_excess(made);
+    if (!made.frequency_Hz.empty()) all.push_back(std::move(made));
+  }
+}
+
 }  // namespace
 
 std::vector<ResidualSpectra> residual_spectra(const Problem& problem,
                                               const Eigen::VectorXd& errors) {
-  // Differences need two samples before the first.
-  constexpr std::size_t kBefore = 2;
   constexpr std::size_t kFewestSamples = 64;
   std::vector<ResidualSpectra> all;
   const auto& runs = problem.experiment().runs;
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const auto* record = std::get_if<measured::TimeRecord>(&runs[r].data);
     if (record == nullptr || record->time_s.size() < kFewestSamples) continue;
-    const ChannelErrors run = channel_errors_of(problem, r, errors);
-    const std::size_t usable = record->time_s.size() - kBefore;
-    const double period_s = measured::sampling_period_s(*record);
-    const std::size_t samples = measured::fast_length_within(std::min(usable, kLongestSegment));
-    Segment segment(samples, period_s);
-    const auto lines = std::ssize(segment.frequency_Hz());
-    for (std::size_t first = kBefore; first + samples <= usable + kBefore; first += samples / 2) {
-      ResidualSpectra made;
-      made.run = r;
-      made.sensors = run.sensors;
-      made.frequency_Hz = segment.frequency_Hz();
-      made.errors.resize(std::ssize(run.sensors), lines);
-      made.noise.resize(std::ssize(run.sensors), lines);
-      const Eigen::ArrayXd frequency =
-          period_s * Eigen::ArrayXd::Map(segment.frequency_Hz().data(), lines);
-      for (Index j = 0; j < made.errors.rows(); ++j) {
-        const auto at = static_cast<std::size_t>(j);
-        const int differences = measured::differences_until_steady(run.sensors[at]);
-        made.errors.row(j) = segment.transformed(run.values[at], differences, first);
-        made.noise.row(j) = segment.noise(run.deviations[at], differences).array() *
-                            colour_of(run.channels[at]->autoregression, frequency);
-      }
-      if (!run.torque_N_m.empty()) {
-        made.torque_errors = segment.transformed(run.torque_N_m, 0, first);
-      }
-      if (!made.errors.allFinite()) continue;
-      keep_excess(made);
-      if (!made.frequency_Hz.empty()) all.push_back(std::move(made));
-    }
+    add_segments(*record, channel_errors_of(problem, r, errors), all);
   }
   return all;
 }

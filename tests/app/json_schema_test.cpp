@@ -15,7 +15,20 @@ namespace flexarm::testing_app {
 namespace {
 
 using Json = nlohmann::json;
-using JsonSchema = Flexarm;
+
+class JsonSchema : public Flexarm {
+ protected:
+  void succeed(const std::vector<std::string>& arguments) const {
+    const Ended ended = run(arguments);
+    EXPECT_EQ(ended.status, 0) << ended.errors;
+  }
+  /// What these write with --json.
+  Json written_by(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.end(), {"--json", "out.json"});
+    succeed(arguments);
+    return Json::parse(text_of("out.json"));
+  }
+};
 
 /// The types seen, or allowed, for the value at each path.
 using Types = std::map<std::string, std::set<std::string>>;
@@ -110,27 +123,17 @@ const char* const kSoftRoot =
 TEST_F(JsonSchema, WhatCompareWritesIsWhatTheDocumentSays) {
   write("soft.toml", kSoftRoot);
   write("modal.csv", "sensor,feature,order,frequency [Hz]\n,pole,1,12.00\nhub_angle,zero,1,\n");
-  const Ended ended = run({"compare", "--poles", "2", "--zeros", "2", "--sensor", "strain@0.25",
-                           "--measured", "modal.csv", "--json", "out.json"});
-  EXPECT_EQ(ended.status, 0) << ended.errors;
-  const Ended soft = run(
-      {"compare", "soft.toml", "--quick", "--poles", "2", "--zeros", "2", "--json", "soft.json"});
-  EXPECT_EQ(soft.status, 0) << soft.errors;
-  expect_as_documented({Json::parse(text_of("out.json")), Json::parse(text_of("soft.json"))},
-                       "flexarm.compare/1");
+  expect_as_documented(
+      {written_by({"compare", "--poles", "2", "--zeros", "2", "--sensor", "strain@0.25",
+                   "--measured", "modal.csv"}),
+       written_by({"compare", "soft.toml", "--quick", "--poles", "2", "--zeros", "2"})},
+      "flexarm.compare/1");
 }
 
 TEST_F(JsonSchema, WhatModesWritesIsWhatTheDocumentSays) {
-  const auto written_by = [&](std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), "modes");
-    arguments.insert(arguments.end(), {"--json", "out.json"});
-    const Ended ended = run(arguments);
-    EXPECT_EQ(ended.status, 0) << ended.errors;
-    return Json::parse(text_of("out.json"));
-  };
   write("soft.toml", kSoftRoot);
-  expect_as_documented({written_by({"--certificate"}), written_by({"soft.toml"}),
-                        written_by({"--formulation", "assumed_modes", "--functions", "12",
+  expect_as_documented({written_by({"modes", "--certificate"}), written_by({"modes", "soft.toml"}),
+                        written_by({"modes", "--formulation", "assumed_modes", "--functions", "12",
                                     "--modes", "9", "--sensor", "strain@0.25"})},
                        "flexarm.modes/1");
 }
@@ -140,47 +143,33 @@ TEST_F(JsonSchema, WhatResponseWritesIsWhatTheDocumentSays) {
   write("rig.toml", text_of("rig.toml") +
                         "\n[effects.coulomb_friction]\ntorque = 0.01\n"
                         "[effects.sensor_lag]\ntime_constant = 0.001\n");
-  const Ended plain = run({"response", "--json", "plain.json"});
-  EXPECT_EQ(plain.status, 0) << plain.errors;
-  const Ended whole =
-      run({"response", "rig.toml", "--state-space", "arm.json", "--json", "out.json"});
-  EXPECT_EQ(whole.status, 0) << whole.errors;
-  expect_as_documented({Json::parse(text_of("plain.json")), Json::parse(text_of("out.json"))},
-                       "flexarm.response/1");
+  expect_as_documented(
+      {written_by({"response"}), written_by({"response", "rig.toml", "--state-space", "arm.json"})},
+      "flexarm.response/1");
   expect_as_documented({Json::parse(text_of("arm.json"))}, "flexarm.state_space/1");
 }
 
 TEST_F(JsonSchema, WhatNewWritesIsWhatTheDocumentSays) {
-  EXPECT_EQ(run({"new", "rig.toml", "--json", "out.json"}).status, 0);
-  expect_as_documented({Json::parse(text_of("out.json"))}, "flexarm.new/1");
+  expect_as_documented({written_by({"new", "rig.toml"})}, "flexarm.new/1");
 }
 
 TEST_F(JsonSchema, WhatImportWritesIsWhatTheDocumentSays) {
   write("log.csv", "t_s,torque_Nm,theta_rad,room,door\n0,1,0,2,1\n1,1,0,2,1\n2,1,0,2,1\n");
-  const Ended ended = run({"import", "log.csv", "--rows", "2:", "--compute", "hub_velocity=0*room",
-                           "--json", "out.json"});
-  EXPECT_EQ(ended.status, 0) << ended.errors;
   write("p.csv", "sensor,feature,order,frequency [Hz]\n,pole,1,11.8\nhub_angle,zero,1,2.9\n");
-  EXPECT_EQ(run({"import", "p.csv", "--json", "modal.json"}).status, 0);
-  expect_as_documented({Json::parse(text_of("out.json")), Json::parse(text_of("modal.json"))},
-                       "flexarm.import/2");
+  expect_as_documented(
+      {written_by({"import", "log.csv", "--rows", "2:", "--compute", "hub_velocity=0*room"}),
+       written_by({"import", "p.csv"})},
+      "flexarm.import/2");
 }
 
 TEST_F(JsonSchema, WhatIdentifyWritesIsWhatTheDocumentSays) {
   write("rig.toml", std::string(kSoftRoot) + "[damping]\nkelvin_voigt = 2e-4\n");
-  EXPECT_EQ(run({"simulate", "rig.toml", "--period", "0.005", "--duration", "20", "--noise",
-                 "0.005", "--sensor", "hub_velocity,tip_acceleration", "--excitation",
-                 "multisine:rms=0.05,period=5,detection=4,to=60", "--excitation",
-                 "random:rms=0.05,payload=0.06", "--out", "sim"})
-                .status,
-            0);
-  const auto identified = [&](const std::string& file, const std::string& sensors) {
-    const Ended ended = run({"identify", file, "--json", "out.json", "--sensor", sensors});
-    EXPECT_EQ(ended.status, 0) << ended.errors;
-    return Json::parse(text_of("out.json"));
-  };
-  std::vector<Json> documents = {
-      identified("sim/measurement.toml", "hub_velocity,tip_acceleration")};
+  succeed({"simulate", "rig.toml", "--period", "0.005", "--duration", "20", "--noise", "0.005",
+           "--sensor", "hub_velocity,tip_acceleration", "--excitation",
+           "multisine:rms=0.05,period=5,detection=4,to=60", "--excitation",
+           "random:rms=0.05,payload=0.06", "--out", "sim"});
+  std::vector<Json> documents = {written_by(
+      {"identify", "sim/measurement.toml", "--sensor", "hub_velocity,tip_acceleration"})};
   // A dead sensor, a torque that is none, no gains, a table of which one frequency is missing.
   write(
       "dead.csv", "time [s],torque [N m],hub_angle [rad],tip_acceleration [m/s^2]\n" + [&] {
@@ -197,7 +186,8 @@ TEST_F(JsonSchema, WhatIdentifyWritesIsWhatTheDocumentSays) {
         "arm = \"rig.toml\"\n[[run]]\nid = \"dead\"\nkind = \"time\"\nfile = \"dead.csv\"\n"
         "[[run]]\nid = \"none\"\nkind = \"time\"\nfile = \"none.csv\"\n"
         "[[run]]\nid = \"table\"\nkind = \"modal\"\nfile = \"modal.csv\"\n");
-  documents.push_back(identified("measurement.toml", "hub_angle,tip_acceleration"));
+  documents.push_back(
+      written_by({"identify", "measurement.toml", "--sensor", "hub_angle,tip_acceleration"}));
   expect_as_documented(documents, "flexarm.identify/1");
 }
 
@@ -207,26 +197,18 @@ TEST_F(JsonSchema, WhatSimulateWritesIsWhatTheDocumentSays) {
         "linear_density = 0.165\n[hub]\ninertia = 0.0006\n"
         "[effects.sensor_lag]\ntime_constant = 0.001\nsensor = \"hub_angle\"\n"
         "[effects.coulomb_friction]\ntorque = 0.01\n");
-  const Ended ended =
-      run({"simulate", "rig.toml", "--excitation", "multisine:to=60,detection=3", "--excitation",
-           "bang-bang", "--check-step", "--duration", "1", "--json", "out.json"});
-  EXPECT_EQ(ended.status, 0) << ended.errors;
-  const Ended plain = run({"simulate", "--json", "plain.json"});
-  EXPECT_EQ(plain.status, 0) << plain.errors;
-  const Ended loop = run({"simulate", "--reference", "step", "--controller", "kp=0.1,kd=0.05",
-                          "--json", "loop.json"});
-  EXPECT_EQ(loop.status, 0) << loop.errors;
-  const Ended stepped = run({"simulate", "--excitation", "stepped-sine:from=1,to=5,points=3",
-                             "--noise-of", "hub_angle=1e-3", "--json", "stepped.json"});
-  EXPECT_EQ(stepped.status, 0) << stepped.errors;
-  expect_as_documented({Json::parse(text_of("out.json")), Json::parse(text_of("plain.json")),
-                        Json::parse(text_of("stepped.json")), Json::parse(text_of("loop.json"))},
-                       "flexarm.simulate/1");
+  expect_as_documented(
+      {written_by({"simulate", "rig.toml", "--excitation", "multisine:to=60,detection=3",
+                   "--excitation", "bang-bang", "--check-step", "--duration", "1"}),
+       written_by({"simulate"}),
+       written_by({"simulate", "--excitation", "stepped-sine:from=1,to=5,points=3", "--noise-of",
+                   "hub_angle=1e-3"}),
+       written_by({"simulate", "--reference", "step", "--controller", "kp=0.1,kd=0.05"})},
+      "flexarm.simulate/1");
 }
 
 TEST_F(JsonSchema, WhatPaperWritesIsWhatTheDocumentSays) {
-  EXPECT_EQ(run({"paper", "--json", "out.json"}).status, 0);
-  expect_as_documented({Json::parse(text_of("out.json"))}, "flexarm.paper/1");
+  expect_as_documented({written_by({"paper"})}, "flexarm.paper/1");
 }
 
 TEST_F(JsonSchema, WhatDiagnoseWritesIsWhatTheDocumentSays) {
@@ -236,23 +218,18 @@ TEST_F(JsonSchema, WhatDiagnoseWritesIsWhatTheDocumentSays) {
   std::vector<Json> documents;
   const auto diagnose = [&](const std::string& measurement, const std::string& effects,
                             const std::vector<std::string>& further = {}) {
-    std::vector<std::string> arguments = {"diagnose", measurement, "--effects",
-                                          effects,    "--json",    "out.json"};
+    std::vector<std::string> arguments = {"diagnose", measurement, "--effects", effects};
     arguments.insert(arguments.end(), further.begin(), further.end());
-    const Ended ended = run(arguments);
-    EXPECT_EQ(ended.status, 0) << ended.errors;
-    documents.push_back(Json::parse(text_of("out.json")));
+    documents.push_back(written_by(arguments));
   };
   std::string uncertain = arm;
   uncertain.replace(uncertain.find("\n[damping]"), 1, "\ninertia_uncertainty = 0.02\n");
   const auto simulate = [&](const std::string& folder, const std::string& hidden) {
     write("true.toml", arm + hidden + "[effects.sensor_lag]\ntime_constant = 0.004\n");
-    const Ended made =
-        run({"simulate", "true.toml", "--duration", "4", "--period", "0.002", "--sensor",
+    succeed({"simulate", "true.toml", "--duration", "4", "--period", "0.002", "--sensor",
              "hub_angle,tip_acceleration", "--noise", "0.005", "--excitation",
              "multisine:rms=0.05,from=0.5,to=60,period=1,detection=3,id=odd", "--excitation",
              "random:rms=0.05,to=60,id=random", "--out", folder});
-    EXPECT_EQ(made.status, 0) << made.errors;
     write(folder + "/arm.toml", uncertain);
   };
   simulate("named", "[effects.payload_mass]\nmass = 0.02\n");
@@ -263,23 +240,18 @@ TEST_F(JsonSchema, WhatDiagnoseWritesIsWhatTheDocumentSays) {
   for (const auto* law : {"[effects.coulomb_friction]\ntorque = 0.01\n",
                           "[effects.cogging]\nhub_torque = \"-0.03*sin(3*theta)\"\n"}) {
     write("true.toml", arm + law);
-    EXPECT_EQ(run({"simulate", "true.toml", "--duration", "6", "--period", "0.002", "--sensor",
-                   "hub_angle", "--noise", "0.0002", "--excitation",
-                   "random:rms=0.05,to=3,id=first", "--excitation",
-                   "random:rms=0.05,to=3,id=second", "--out", "described", "--force"})
-                  .status,
-              0);
+    succeed({"simulate", "true.toml", "--duration", "6", "--period", "0.002", "--sensor",
+             "hub_angle", "--noise", "0.0002", "--excitation", "random:rms=0.05,to=3,id=first",
+             "--excitation", "random:rms=0.05,to=3,id=second", "--out", "described", "--force"});
     write("described/arm.toml", arm);
     diagnose("described/measurement.toml", "payload_mass", {"--predictor", "torque_balance"});
   }
   // A missing force whose port is determined.
   write("true.toml", arm + "[effects.coulomb_friction]\ntorque = 0.01\n");
-  EXPECT_EQ(run({"simulate", "true.toml", "--duration", "4", "--period", "0.002", "--sensor",
-                 "hub_angle,tip_acceleration,strain@0.05", "--noise", "0.005", "--excitation",
-                 "random:rms=0.05,to=60,id=first", "--excitation",
-                 "random:rms=0.05,to=60,id=second", "--out", "missing"})
-                .status,
-            0);
+  succeed({"simulate", "true.toml", "--duration", "4", "--period", "0.002", "--sensor",
+           "hub_angle,tip_acceleration,strain@0.05", "--noise", "0.005", "--excitation",
+           "random:rms=0.05,to=60,id=first", "--excitation", "random:rms=0.05,to=60,id=second",
+           "--out", "missing"});
   write("missing/arm.toml", arm);
   diagnose("missing/measurement.toml", "payload_mass", {"--predictor", "output_error"});
   EXPECT_FALSE(documents.back()["missing_force"]["force"].is_null());
@@ -310,24 +282,22 @@ TEST_F(JsonSchema, WhatDiagnoseWritesIsWhatTheDocumentSays) {
 
 TEST_F(JsonSchema, WhatPlanWritesIsWhatTheDocumentSays) {
   run({"new", "rig.toml"});
-  const auto written_by = [&](const std::string& plan) {
+  const auto planned = [&](const std::string& plan) {
     write("plan.toml", plan);
-    const Ended ended = run({"plan", "rig.toml", "plan.toml", "--effects",
-                             "time_delay,actuator_lag,hub_inertia", "--json", "out.json"});
-    EXPECT_EQ(ended.status, 0) << ended.errors;
-    return Json::parse(text_of("out.json"));
+    return written_by(
+        {"plan", "rig.toml", "plan.toml", "--effects", "time_delay,actuator_lag,hub_inertia"});
   };
   expect_as_documented(
-      {written_by("[[run]]\nid = \"hub\"\nkind = \"frf\"\nsensors = [\"hub_angle\"]\n"
-                  "noise = 0.01\nfrequencies = { from = 0.5, to = 60.0, count = 60 }\n"),
-       written_by("[[run]]\nid = \"a\"\nkind = \"time\"\nsensors = [\"hub_angle\"]\n"
-                  "excitation = { kind = \"step\" }\nduration = 0.5\nsample_time = 0.002\n"
-                  "payload = { mass = 0.05 }\n")},
+      {planned("[[run]]\nid = \"hub\"\nkind = \"frf\"\nsensors = [\"hub_angle\"]\n"
+               "noise = 0.01\nfrequencies = { from = 0.5, to = 60.0, count = 60 }\n"),
+       planned("[[run]]\nid = \"a\"\nkind = \"time\"\nsensors = [\"hub_angle\"]\n"
+               "excitation = { kind = \"step\" }\nduration = 0.5\nsample_time = 0.002\n"
+               "payload = { mass = 0.05 }\n")},
       "flexarm.plan/2");
 }
 
 TEST_F(JsonSchema, WhatSweepWritesIsWhatTheDocumentSays) {
-  const auto written_by = [&](std::vector<std::string> arguments) {
+  const auto swept = [&](std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), "sweep");
     arguments.insert(arguments.end(), {"--json", "out.json"});
     EXPECT_NE(run(arguments).status, 2);
@@ -336,10 +306,10 @@ TEST_F(JsonSchema, WhatSweepWritesIsWhatTheDocumentSays) {
   write("soft.toml", kSoftRoot);
   // Assumed modes cannot tell the fourteenth zero of the tip from rounding.
   expect_as_documented(
-      {written_by({"soft.toml", "--over", "payload.mass=0,0.1", "--poles", "2", "--zeros", "1"}),
-       written_by({"--over", "damping.kelvin_voigt=0:1e-4:2", "--over", "payload.inertia=0:0.002:3",
-                   "--zeros", "14"}),
-       written_by({"--over", "payload.mass=log:0.01:1:2", "--roots-only", "--formulation", "fem"})},
+      {swept({"soft.toml", "--over", "payload.mass=0,0.1", "--poles", "2", "--zeros", "1"}),
+       swept({"--over", "damping.kelvin_voigt=0:1e-4:2", "--over", "payload.inertia=0:0.002:3",
+              "--zeros", "14"}),
+       swept({"--over", "payload.mass=log:0.01:1:2", "--roots-only", "--formulation", "fem"})},
       "flexarm.sweep/1");
 }
 

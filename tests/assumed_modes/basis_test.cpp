@@ -9,8 +9,8 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <stdexcept>
 #include <set>
+#include <stdexcept>
 #include <string>
 
 namespace flexarm::assumed_modes {

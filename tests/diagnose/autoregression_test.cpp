@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <complex>
 #include <cstdint>
+#include <numbers>
 #include <random>
 
 namespace flexarm::diagnose {
@@ -85,6 +87,31 @@ TEST(Autoregression, ColouringUndoesWhitening) {
   noise.colour(there_and_back);
   // A recursion of 300 steps whose poles are inside the unit circle.
   EXPECT_LT((there_and_back - values).norm() / values.norm(), 1e-12);
+}
+
+TEST(Autoregression, HasThePowerOfItsAnswerToAPulse) {
+  const Autoregression noise(resonant_noise(kNoiseLength, 5), 4);
+  ASSERT_GE(noise.order(), 2);
+  // By the time of the last sample 0.9^300 of it is left.
+  constexpr Index kPulse = 300;
+  Eigen::VectorXd pulse = Eigen::VectorXd::Zero(noise.order() + kPulse);
+  pulse(noise.order()) = 1.0;
+  noise.colour(pulse);
+  constexpr Index kFrequencies = 4096;
+  double mean = 0.0;
+  for (Index k = 0; k < kFrequencies; ++k) {
+    const double frequency = static_cast<double>(k) / kFrequencies;
+    const double power = noise.power(frequency);
+    mean += power / kFrequencies;
+    if (k % 512 != 0) continue;
+    std::complex<double> sum = 0.0;
+    for (Index m = 0; m < kPulse; ++m) {
+      const double angle = -2.0 * std::numbers::pi * frequency * static_cast<double>(m);
+      sum += pulse(noise.order() + m) * std::polar(1.0, angle);
+    }
+    EXPECT_NEAR(std::norm(sum) / power, 1.0, 1e-9) << frequency;
+  }
+  EXPECT_NEAR(mean, 1.0, 1e-9);
 }
 
 TEST(Autoregression, OfASlowDriftStaysStable) {

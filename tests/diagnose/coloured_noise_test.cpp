@@ -151,8 +151,8 @@ TEST(ColouredNoiseModel, IsNotTakenUpForAModelError) {
 /// A constant is predicted from the reading before as well as any coloured noise is.
 TEST(ColouredNoiseModel, IsNotTakenUpForAnOffsetOfOneSensor) {
   constexpr double kOffset = 0.05;
-  const Experiment experiment = simulated_experiment(
-      {effects::named("sensor_offset", {{"value", kOffset}}, "hub_velocity")});
+  const Experiment experiment =
+      simulated_experiment({effects::named("sensor_offset", {{"value", kOffset}}, "hub_velocity")});
   const Diagnosis made = diagnose(experiment, named(experiment, {"sensor_offset", "hub_inertia"}));
   ASSERT_EQ(made.causes.size(), 1U);
   EXPECT_EQ(made.causes[0].sensor, "hub_velocity");

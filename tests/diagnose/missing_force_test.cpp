@@ -10,9 +10,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <complex>
+#include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 namespace flexarm::diagnose {
 namespace {

@@ -46,9 +46,8 @@ TEST(UncertainNumber, IsRefittedWithinItsUncertaintyAndNotNamedAsACause) {
 /// Beside a cause the sum of squares over these numbers has many minima.
 TEST(UncertainNumber, SeveralAreRefittedBesideACause) {
   constexpr double kHidden_kg_m2 = 1e-4;
-  Experiment experiment =
-      simulated_experiment({effects::named("payload_inertia", {{"inertia", kHidden_kg_m2}})},
-                           {.duration_s = 8.0});
+  Experiment experiment = simulated_experiment(
+      {effects::named("payload_inertia", {{"inertia", kHidden_kg_m2}})}, {.duration_s = 8.0});
   arm::Arm& arm = experiment.arm;
   arm::scale_flexural_rigidity(arm.beam, 1.22);
   arm::scale_linear_density(arm.beam, 0.91);

@@ -4,12 +4,12 @@
 #include "effects/registry/vocabulary.hpp"
 #include "laws/effect_arms.hpp"
 #include "response/formulation_maker.hpp"
+#include "tests/effects/linear_effects.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <string_view>
 #include <vector>
 
 namespace flexarm::effects {
@@ -22,11 +22,6 @@ arm::Arm with_mass(arm::Arm arm, double mass_kg, double position_m) {
   return arm;
 }
 
-std::vector<double> poles_with_mass(std::string_view formulation, const arm::Arm& arm) {
-  return response::poles(response::make_formulation(formulation, arm, kMassRoots), kMassRoots)
-      .omega_rad_per_s;
-}
-
 TEST(AttachedMass, AtTheTipIsAPayloadMass) {
   const arm::Arm arm = laws::damped_arm();
   const double length_m = arm.beam.length_m;
@@ -36,8 +31,9 @@ TEST(AttachedMass, AtTheTipIsAPayloadMass) {
   // The tip's own equations, and those of a place beside it.
   constexpr double kBeside = 1e-7;
   for (const auto formulation : response::kFormulationNames) {
-    const auto wanted = poles_with_mass(formulation, payload);
-    const auto beside = poles_with_mass(formulation, with_mass(arm, 0.03, length_m * (1.0 - kBeside)));
+    const auto wanted = pole_frequencies(formulation, payload, kMassRoots);
+    const auto beside =
+        pole_frequencies(formulation, with_mass(arm, 0.03, length_m * (1.0 - kBeside)), kMassRoots);
     for (std::size_t i = 0; i < wanted.size(); ++i) {
       EXPECT_NEAR(beside[i] / wanted[i], 1.0, 10.0 * kBeside) << formulation << " pole " << i + 1;
     }
@@ -63,8 +59,8 @@ TEST(AttachedMass, AtTheRootTurnsWithTheHub) {
   arm::Arm heavier = arm;
   heavier.hub.inertia_kg_m2 += kMass * kRadius * kRadius;
   for (const auto formulation : response::kFormulationNames) {
-    const auto wanted = poles_with_mass(formulation, heavier);
-    const auto found = poles_with_mass(formulation, with_mass(arm, kMass, 0.0));
+    const auto wanted = pole_frequencies(formulation, heavier, kMassRoots);
+    const auto found = pole_frequencies(formulation, with_mass(arm, kMass, 0.0), kMassRoots);
     for (std::size_t i = 0; i < wanted.size(); ++i) {
       EXPECT_NEAR(found[i] / wanted[i], 1.0, kAgreement) << formulation << " pole " << i + 1;
     }
@@ -81,7 +77,8 @@ TEST(AttachedMass, ASmallOneLowersEachPoleByItsShapeThere) {
     const auto model = response::make_formulation(formulation, arm, kMassRoots);
     const auto modal = response::modal_model(model, kMassRoots, {}, places_m);
     for (std::size_t k = 0; k < places_m.size(); ++k) {
-      const auto moved = poles_with_mass(formulation, with_mass(arm, kMass, places_m[k]));
+      const auto moved =
+          pole_frequencies(formulation, with_mass(arm, kMass, places_m[k]), kMassRoots);
       for (std::size_t i = 0; i < moved.size(); ++i) {
         const auto& mode = modal.modes[i + 1];
         // The rigid body, whose inertia grows as well, takes no part: phi is orthogonal to it.

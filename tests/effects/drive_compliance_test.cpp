@@ -3,6 +3,7 @@
 #include "effects/registry/vocabulary.hpp"
 #include "laws/effect_arms.hpp"
 #include "response/formulation_maker.hpp"
+#include "tests/effects/linear_effects.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,7 +12,6 @@
 #include <cmath>
 #include <complex>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace flexarm::effects {
@@ -45,11 +45,6 @@ arm::Arm held_arm() {
   put(arm, "gravity", {{"acceleration", 9.81}});
   put(arm, "root_compliance", {{"stiffness", 25.0}});
   return arm;
-}
-
-std::vector<double> poles_of_driven(std::string_view formulation, const arm::Arm& arm) {
-  return response::poles(response::make_formulation(formulation, arm, kDrivenRoots), kDrivenRoots)
-      .omega_rad_per_s;
 }
 
 /// With the load's theta = G taud, y = Y taud and the rotor's impedance Z = Jr s^2 + c s + ks,
@@ -116,10 +111,10 @@ TEST(DriveCompliance, OfARigidBeamIsTwoInertiasOnASpring) {
 /// The poles of a stiff drive are off by a multiple of 1/kd: a tenth of it at ten times kd.
 TEST(DriveCompliance, OfAStiffDriveIsTheRigidOneToFirstOrder) {
   for (const auto formulation : response::kFormulationNames) {
-    const auto rigid = poles_of_driven(formulation, held_arm());
+    const auto rigid = pole_frequencies(formulation, held_arm(), kDrivenRoots);
     const auto off = [&](double stiffness) {
-      const auto moved = poles_of_driven(
-          formulation, with_drive(held_arm(), {.stiffness_N_m_per_rad = stiffness}));
+      const arm::Arm arm = with_drive(held_arm(), {.stiffness_N_m_per_rad = stiffness});
+      const auto moved = pole_frequencies(formulation, arm, kDrivenRoots);
       std::vector<double> change;
       for (std::size_t i = 0; i < rigid.size(); ++i) change.push_back(1.0 - moved[i] / rigid[i]);
       return change;
@@ -147,14 +142,9 @@ TEST(DriveCompliance, WithTheWholeHubAtTheRotorIsARootSpring) {
   for (const auto formulation : response::kFormulationNames) {
     const auto one = response::make_formulation(formulation, driven, kDrivenRoots);
     const auto other = response::make_formulation(formulation, root, kDrivenRoots);
-    for (const char* name : {"hub_angle", "tip_displacement", "strain@0.3"}) {
-      for (const Complex s : {Complex(0.0, 20.0), Complex(-4.0, 61.0), Complex(3.0, 300.0)}) {
-        const arm::Sensor sensor = arm::parse_sensor(name);
-        const Complex wanted = response::transfer_function(other, sensor, s);
-        EXPECT_LE(std::abs(response::transfer_function(one, sensor, s) - wanted),
-                  kFirstOrder * std::abs(wanted))
-            << formulation << " " << name << " at " << s;
-      }
+    for (const Complex s : {Complex(0.0, 20.0), Complex(-4.0, 61.0), Complex(3.0, 300.0)}) {
+      expect_same_responses(one, other, {"hub_angle", "tip_displacement", "strain@0.3"}, s,
+                            kFirstOrder);
     }
   }
 }
@@ -203,22 +193,10 @@ TEST(DriveCompliance, IsCounted) {
 /// A little damping: each mode's decay by the power that the drive takes, D_ii/2.
 TEST(DriveCompliance, ALittleDampsAsItsProjectionSays) {
   constexpr double kLittle = 1e-8;
-  constexpr double kSecondOrder = 1e-4;
   arm::Arm arm = with_drive(laws::damped_arm(), {.time_s = kLittle});
   arm.damping = {};
   arm.hub.viscous_friction_N_m_s_per_rad = 0.0;
-  for (const auto formulation : response::kFormulationNames) {
-    const auto model = response::make_formulation(formulation, arm, kDrivenRoots);
-    const auto modal = response::modal_model(model, kDrivenRoots, {}, {});
-    const auto damped = response::damped_poles(model, kDrivenRoots);
-    const std::size_t n = modal.modes.size();
-    for (std::size_t i = 1; i < n; ++i) {
-      const double decay = 0.5 * modal.damping_rad_per_s[i * n + i];
-      EXPECT_GT(decay, 0.0);
-      EXPECT_NEAR(-damped.flexible[i - 1].first_rad_per_s.real() / decay, 1.0, kSecondOrder)
-          << formulation << " pole " << i;
-    }
-  }
+  expect_decays_as_projected(arm, kDrivenRoots);
 }
 
 /// A rotor that vibrates by itself, all but decoupled: its mode keeps its digits. The slopes of the

@@ -3,18 +3,14 @@
 #include "effects/registry/vocabulary.hpp"
 #include "laws/effect_arms.hpp"
 #include "response/formulation_maker.hpp"
+#include "tests/effects/linear_effects.hpp"
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <complex>
 #include <string>
-#include <vector>
 
 namespace flexarm::effects {
 namespace {
-
-using Complex = std::complex<double>;
 
 constexpr int kLossyRoots = 5;
 constexpr double kStiffness = 25.0;
@@ -41,14 +37,10 @@ TEST(RootDamping, IsARootComplianceAtEachRealS) {
       const auto lossy =
           response::make_formulation(formulation, with_root(kStiffness, kTime), kLossyRoots);
       const auto reference = response::make_formulation(formulation, soft, kLossyRoots);
-      for (const char* name :
-           {"hub_angle", "tip_displacement", "tip_deflection", "strain@0", "strain@0.3"}) {
-        const arm::Sensor sensor = arm::parse_sensor(name);
-        const Complex wanted = response::transfer_function(reference, sensor, s);
-        EXPECT_LE(std::abs(response::transfer_function(lossy, sensor, s) - wanted),
-                  kAgreement * std::abs(wanted))
-            << formulation << " " << name << " at " << s;
-      }
+      expect_same_responses(
+          lossy, reference,
+          {"hub_angle", "tip_displacement", "tip_deflection", "strain@0", "strain@0.3"}, s,
+          kAgreement);
     }
   }
 }
@@ -78,22 +70,10 @@ TEST(RootDamping, LeavesTheUndampedPolesAndDampsEachMode) {
 /// A little damping: each mode's decay by the power that the root takes, D_ii/2.
 TEST(RootDamping, ALittleDampsAsItsProjectionSays) {
   constexpr double kLittle = 1e-8;
-  constexpr double kSecondOrder = 1e-4;
-  for (const auto formulation : response::kFormulationNames) {
-    arm::Arm arm = with_root(kStiffness, kLittle);
-    arm.damping = {};
-    arm.hub.viscous_friction_N_m_s_per_rad = 0.0;
-    const auto model = response::make_formulation(formulation, arm, kLossyRoots);
-    const auto modal = response::modal_model(model, kLossyRoots, {}, {});
-    const auto damped = response::damped_poles(model, kLossyRoots);
-    const std::size_t n = modal.modes.size();
-    for (std::size_t i = 1; i < n; ++i) {
-      const double decay = 0.5 * modal.damping_rad_per_s[i * n + i];
-      EXPECT_GT(decay, 0.0);
-      EXPECT_NEAR(-damped.flexible[i - 1].first_rad_per_s.real() / decay, 1.0, kSecondOrder)
-          << formulation << " pole " << i;
-    }
-  }
+  arm::Arm arm = with_root(kStiffness, kLittle);
+  arm.damping = {};
+  arm.hub.viscous_friction_N_m_s_per_rad = 0.0;
+  expect_decays_as_projected(arm, kLossyRoots);
 }
 
 TEST(RootDamping, IsTheOnlySpringOfTheRoot) {

@@ -3,6 +3,7 @@
 #include "effects/registry/vocabulary.hpp"
 #include "laws/effect_arms.hpp"
 #include "response/formulation_maker.hpp"
+#include "tests/effects/linear_effects.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,8 +11,6 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
-#include <string_view>
-#include <vector>
 
 namespace flexarm::effects {
 namespace {
@@ -41,20 +40,6 @@ arm::Arm with_fixed(arm::Arm arm, double mass_kg, double position_m) {
   return arm;
 }
 
-std::vector<arm::Sensor> tuned_sensors() {
-  std::vector<arm::Sensor> all;
-  for (const char* name :
-       {"hub_angle", "tip_displacement", "tip_deflection", "strain@0.05", "strain@0.75"}) {
-    all.push_back(arm::parse_sensor(name));
-  }
-  return all;
-}
-
-std::vector<double> poles_of_tuned(std::string_view formulation, const arm::Arm& arm) {
-  return response::poles(response::make_formulation(formulation, arm, kTunedRoots), kTunedRoots)
-      .omega_rad_per_s;
-}
-
 /// -s^2 m (c s + k)/(m s^2 + c s + k) is -s^2 M with a real M where s is real.
 TEST(TunedMass, IsAFixedMassAtEachRealS) {
   constexpr double kAgreement = 1e-9;
@@ -71,12 +56,10 @@ TEST(TunedMass, IsAFixedMassAtEachRealS) {
       for (const auto formulation : response::kFormulationNames) {
         const auto suspended = response::make_formulation(formulation, arm, kTunedRoots);
         const auto reference = response::make_formulation(formulation, fixed, kTunedRoots);
-        for (const auto& sensor : tuned_sensors()) {
-          const Complex wanted = response::transfer_function(reference, sensor, s);
-          EXPECT_LE(std::abs(response::transfer_function(suspended, sensor, s) - wanted),
-                    kAgreement * std::abs(wanted))
-              << formulation << " " << arm::to_string(sensor) << " at " << s;
-        }
+        expect_same_responses(
+            suspended, reference,
+            {"hub_angle", "tip_displacement", "tip_deflection", "strain@0.05", "strain@0.75"}, s,
+            kAgreement);
       }
     }
   }
@@ -86,8 +69,9 @@ TEST(TunedMass, OnAStiffSuspensionIsAFixedMass) {
   Tuned tuned{.frequency_Hz = 3e3};
   const arm::Arm arm = laws::damped_arm();
   for (const auto formulation : response::kFormulationNames) {
-    const auto fixed = poles_of_tuned(formulation, with_fixed(arm, tuned.mass_kg, tuned.position_m));
-    const auto found = poles_of_tuned(formulation, with_tuned(arm, tuned));
+    const auto fixed = pole_frequencies(
+        formulation, with_fixed(arm, tuned.mass_kg, tuned.position_m), kTunedRoots);
+    const auto found = pole_frequencies(formulation, with_tuned(arm, tuned), kTunedRoots);
     for (std::size_t i = 0; i < 4; ++i) {
       const double ratio = fixed[i] / (2.0 * std::numbers::pi * tuned.frequency_Hz);
       EXPECT_NEAR(found[i] / fixed[i], 1.0, ratio * ratio) << formulation << " pole " << i + 1;
@@ -100,15 +84,16 @@ TEST(TunedMass, OfNoWeightIsOnePoleMoreAndLeavesTheOthers) {
   constexpr double kTiny = 1e-6;
   const arm::Arm arm = laws::damped_arm();
   for (const auto formulation : response::kFormulationNames) {
-    auto wanted = poles_of_tuned(formulation, arm);
+    auto wanted = pole_frequencies(formulation, arm, kTunedRoots);
     wanted.push_back(2.0 * std::numbers::pi * tuned.frequency_Hz);
     std::ranges::sort(wanted);
-    const auto found = poles_of_tuned(formulation, with_tuned(arm, tuned));
+    const auto found = pole_frequencies(formulation, with_tuned(arm, tuned), kTunedRoots);
     for (std::size_t i = 0; i < found.size(); ++i) {
       EXPECT_NEAR(found[i] / wanted[i], 1.0, kTiny) << formulation << " pole " << i + 1;
     }
   }
-  EXPECT_EQ(poles_of_tuned("exact_tf", with_tuned(arm, {.mass_kg = 0.0})), poles_of_tuned("exact_tf", arm));
+  EXPECT_EQ(pole_frequencies("exact_tf", with_tuned(arm, {.mass_kg = 0.0}), kTunedRoots),
+            pole_frequencies("exact_tf", arm, kTunedRoots));
 }
 
 TEST(TunedMass, WithoutDampingHoldsItsPlaceStillAtItsFrequency) {

@@ -24,6 +24,15 @@ constexpr std::array<std::string_view, 3> kDirtAnswers = {"-", "named", "unnamed
 
 constexpr std::array<std::string_view, 4> kPortAnswers = {"-", "right", "wrong", "undetermined"};
 
+/// The value whose name stands at its place among `names`.
+template <class Value, std::size_t N>
+Value parsed(const std::array<std::string_view, N>& names, std::string_view name,
+             std::string_view what_else) {
+  const auto at = std::ranges::find(names, name);
+  if (at == names.end()) throw std::runtime_error(fmt::format("{}: {}", name, what_else));
+  return static_cast<Value>(at - names.begin());
+}
+
 bool contains(const std::vector<std::string>& names, const std::string& name) {
   return std::ranges::find(names, name) != names.end();
 }
@@ -97,8 +106,8 @@ bool is_dirt(const NamedCause& cause, const Truth& truth) {
 }
 
 PortAnswer port_answer(const TrialResult& result, const Answer& answer) {
-  const bool is_asked = result.outside && result.hidden.size() == 1 &&
-                        result.kind == "time" && !answer.verdict.empty();
+  const bool is_asked = result.outside && result.hidden.size() == 1 && result.kind == "time" &&
+                        !answer.verdict.empty();
   if (!is_asked) return PortAnswer::none;
   if (answer.ports.empty()) return PortAnswer::undetermined;
   const bool is_right = contains(answer.ports, find_cause(result.hidden.front()).port);
@@ -142,11 +151,7 @@ std::string_view to_string(Outcome outcome) {
 }
 
 Outcome parse_outcome(std::string_view name) {
-  const auto at = std::ranges::find(kOutcomes, name) - kOutcomes.begin();
-  if (static_cast<std::size_t>(at) == kOutcomes.size()) {
-    throw std::runtime_error(fmt::format("{}: no outcome", name));
-  }
-  return static_cast<Outcome>(at);
+  return parsed<Outcome>(kOutcomes, name, "no outcome");
 }
 
 std::string_view to_string(DirtAnswer answer) {
@@ -154,11 +159,7 @@ std::string_view to_string(DirtAnswer answer) {
 }
 
 DirtAnswer parse_dirt_answer(std::string_view name) {
-  const auto at = std::ranges::find(kDirtAnswers, name) - kDirtAnswers.begin();
-  if (static_cast<std::size_t>(at) == kDirtAnswers.size()) {
-    throw std::runtime_error(fmt::format("{}: no answer to dirt", name));
-  }
-  return static_cast<DirtAnswer>(at);
+  return parsed<DirtAnswer>(kDirtAnswers, name, "no answer to dirt");
 }
 
 std::string_view to_string(PortAnswer answer) {
@@ -166,11 +167,7 @@ std::string_view to_string(PortAnswer answer) {
 }
 
 PortAnswer parse_port_answer(std::string_view name) {
-  const auto at = std::ranges::find(kPortAnswers, name) - kPortAnswers.begin();
-  if (static_cast<std::size_t>(at) == kPortAnswers.size()) {
-    throw std::runtime_error(fmt::format("{}: no answer to a port", name));
-  }
-  return static_cast<PortAnswer>(at);
+  return parsed<PortAnswer>(kPortAnswers, name, "no answer to a port");
 }
 
 TrialResult score(const Truth& truth, const Answer& given) {

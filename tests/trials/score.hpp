@@ -92,7 +92,7 @@ struct TrialResult {
   DirtAnswer dirt_answer = DirtAnswer::none;
   PortAnswer port_answer = PortAnswer::none;
   std::vector<std::string> ports;  ///< that are stated
-  std::string values;  ///< found (hidden), for a reader
+  std::string values;              ///< found (hidden), for a reader
   std::string folder;
 };
 

@@ -97,7 +97,7 @@ struct TrueArm {
 
   double hub_inertia_kg_m2 = 0.0;  ///< of rotor and hub together
   std::optional<Gear> gear;        ///< empty: rotor and hub are one
-  double hub_radius_m = 0.0;  ///< from the axis to the beam
+  double hub_radius_m = 0.0;       ///< from the axis to the beam
   double hub_damping_N_m_s_per_rad = 0.0;
   double hub_spring_N_m_per_rad = 0.0;
 

@@ -1,0 +1,48 @@
+#pragma once
+
+#include "diagnose/search/selection.hpp"
+#include "diagnose/search/set_fits.hpp"
+
+#include <string_view>
+#include <vector>
+
+namespace flexarm::diagnose {
+
+/// The effects of a search that have another one of it as a limit. They are named for what they add
+/// to that one: by themselves they are tried behind the others, from where their limits are.
+class GeneralEffects {
+ public:
+  /// The references must outlive the object; the problem may change in between.
+  GeneralEffects(const Problem& problem, const std::vector<Hypothesis>& hypotheses,
+                 const SelectionOptions& options, SetFits& fits);
+
+  const std::vector<const Hypothesis*>& all() const { return general_; }
+  /// The special ones: the rest of the hypotheses.
+  const std::vector<const Hypothesis*>& others() const { return special_; }
+  bool has(const Hypothesis& effect) const;
+
+  /// By themselves, when made.singles are those of the others: all if none of these leaves noise,
+  /// else those of which a limit does. Each begins where the best of its limits is, and is fitted
+  /// to all data where it is near to the best of the others (options.largest_of_general). Adds to
+  /// made.singles; `what` and `to` as SetFits::add_all has them.
+  void try_by_themselves(Selection& made, std::string_view what, double to);
+
+  /// One that was not tried may be the cause: `single`, a limit of it, does not leave noise.
+  bool may_be_behind(const Explanation& single) const;
+
+ private:
+  std::vector<const Hypothesis*> worth_trying(const std::vector<Explanation>& special) const;
+  Candidate first_look(const Candidate& none, const std::vector<Explanation>& special,
+                       const Hypothesis& general) const;
+  bool is_near(const Candidate& look, const std::vector<Explanation>& special) const;
+
+  const Problem& problem_;
+  const std::vector<Hypothesis>& hypotheses_;
+  const SelectionOptions& options_;
+  SetFits& fits_;
+  std::vector<const Hypothesis*> general_;
+  std::vector<const Hypothesis*> special_;
+  bool are_tried_ = false;  // by themselves
+};
+
+}  // namespace flexarm::diagnose

@@ -19,13 +19,6 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   add_compile_options(--param=ggc-min-heapsize=1000000)
 endif()
 
-# Decompositions of Eigen's that many sources use, compiled once.
-add_library(flexarm_eigen STATIC "${CMAKE_CURRENT_LIST_DIR}/eigen_decompositions.cpp")
-target_include_directories(flexarm_eigen PRIVATE "${PROJECT_SOURCE_DIR}")
-target_link_libraries(flexarm_eigen PRIVATE "$<BUILD_INTERFACE:Eigen3::Eigen>")
-set_target_properties(flexarm_eigen PROPERTIES EXPORT_NAME eigen)
-install(TARGETS flexarm_eigen EXPORT flexarmTargets)
-
 # One target for each set of options: a precompiled header serves sources of the same options only.
 # Sources include what they use all the same; the preset `debug` holds them to it.
 function(flexarm_precompile how)
@@ -49,6 +42,25 @@ if(FLEXARM_PRECOMPILED_HEADERS)
                        LIBRARIES GTest::gmock GTest::gtest_main)
   endif()
 endif()
+
+# Decompositions of Eigen's that many sources use, compiled once. Not in one source: the time that
+# GCC needs for a template grows with the number of those it has met before.
+set(eigen_folder "${CMAKE_CURRENT_LIST_DIR}/eigen")
+add_library(flexarm_eigen STATIC
+  "${eigen_folder}/complex.cpp"
+  "${eigen_folder}/factors.cpp"
+  "${eigen_folder}/pencil.cpp"
+  "${eigen_folder}/schur.cpp"
+  "${eigen_folder}/self_adjoint.cpp"
+  "${eigen_folder}/singular_values.cpp")
+target_include_directories(flexarm_eigen PRIVATE "${PROJECT_SOURCE_DIR}")
+target_link_libraries(flexarm_eigen PRIVATE "$<BUILD_INTERFACE:Eigen3::Eigen>"
+                                            "$<BUILD_INTERFACE:fmt::fmt>")
+if(FLEXARM_PRECOMPILED_HEADERS)
+  target_precompile_headers(flexarm_eigen REUSE_FROM flexarm_precompiled_full)
+endif()
+set_target_properties(flexarm_eigen PROPERTIES EXPORT_NAME eigen)
+install(TARGETS flexarm_eigen EXPORT flexarmTargets)
 
 # flexarm_optimise(TARGET full|brief|test)
 function(flexarm_optimise target how)

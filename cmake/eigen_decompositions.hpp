@@ -1,7 +1,7 @@
 #pragma once
 
 // Decompositions that many sources use: they are most of the time of a clean build, and are
-// compiled once, in eigen_decompositions.cpp. The header is a precompiled one
+// compiled once, in cmake/eigen/*.cpp. The header is a precompiled one
 // (FlexarmOptimisation.cmake), so that sources need not know of it. It serves decompositions of
 // matrices: one of an expression is compiled where it stands.
 

@@ -78,26 +78,32 @@ double relative_size(const Problem& problem, const Eigen::VectorXd& residuals,
 struct ScoredRuns {
   const std::vector<bool>& runs;
   Eigen::VectorXd residuals;
+  Eigen::VectorXd time;  ///< from -1 to 1 along each channel of a `time` run, 0 elsewhere
   Eigen::HouseholderQR<Eigen::MatrixXd> own;
   Index own_count = 0;
 
-  /// Of a change that refitting makes too, or that cannot be computed, nothing.
+  /// Of the change that a candidate makes, and of one that grows from the begin of each run to its
+  /// end, as where a number drifts: `kTestsOfChange` tests.
   Score of_change(const Problem& problem, const Problem& white, const Candidate& changed) const {
     const auto with = problem.residuals(changed, runs);
     if (!with) return {};
     const Eigen::VectorXd change = residuals - *with;
+    return {std::min(p_value_along(problem, change),
+                     p_value_along(problem, change.cwiseProduct(time))),
+            squared_cosine(errors_in(white, problem, change),
+                           errors_in(white, problem, residuals))};
+  }
+  static constexpr double kTestsOfChange = 2.0;
+  /// 1 of a change that refitting makes too.
+  double p_value_along(const Problem& problem, const Eigen::VectorXd& change) const {
     Eigen::VectorXd beyond = own.householderQ().adjoint() * change;
     beyond.head(own_count).setZero();
     beyond = own.householderQ() * beyond;
     const double size = beyond.norm();
-    if (!(size > kLeastPart * change.norm())) return {};
+    if (!(size > kLeastPart * change.norm())) return 1.0;
     const double z = beyond.dot(residuals) / size;
-    Score made{1.0, squared_cosine(errors_in(white, problem, change),
-                                   errors_in(white, problem, residuals))};
-    if (relative_size(problem, beyond * (z / size), runs) > kNegligibleDependence) {
-      made.p_value = 2.0 * boost::math::cdf(complement(boost::math::normal(), std::abs(z)));
-    }
-    return made;
+    if (relative_size(problem, beyond * (z / size), runs) <= kNegligibleDependence) return 1.0;
+    return 2.0 * boost::math::cdf(complement(boost::math::normal(), std::abs(z)));
   }
   /// Less of a change than this beyond refitting is rounding.
   static constexpr double kLeastPart = 1e-4;
@@ -145,6 +151,16 @@ Score ScoredRuns::of_torque(const Problem& problem) const {
   return {freedom > 0.0 ? exceedance(squares, freedom, granted) : 1.0, 0.0};
 }
 
+Eigen::VectorXd time_along(const Problem& problem, Index size) {
+  Eigen::VectorXd time = Eigen::VectorXd::Zero(size);
+  const auto& runs = problem.experiment().runs;
+  for (const ObservedChannel& channel : problem.observations().channels) {
+    if (runs[channel.run].run.kind != measured::RunKind::time) continue;
+    time.segment(channel.first, channel.count).setLinSpaced(-1.0, 1.0);
+  }
+  return time;
+}
+
 std::optional<ScoredRuns> scored(const Problem& problem, const Candidate& fitted,
                                  const std::vector<bool>& runs) {
   if (std::ranges::count(runs, true) == 0) return std::nullopt;
@@ -160,17 +176,17 @@ std::optional<ScoredRuns> scored(const Problem& problem, const Candidate& fitted
     const auto with = problem.residuals(moved, runs);
     directions.col(i) = with.value_or(*residuals) - *residuals;
   }
-  return ScoredRuns{runs, *residuals, Eigen::HouseholderQR<Eigen::MatrixXd>(directions),
-                    places.size()};
+  return ScoredRuns{runs, *residuals, time_along(problem, residuals->size()),
+                    Eigen::HouseholderQR<Eigen::MatrixXd>(directions), places.size()};
 }
 
 }  // namespace
 
 DependenceTest test_dependence(const Problem& problem, const Problem& white,
-                               const Candidate& fitted, const std::vector<Hypothesis>& hypotheses,
-                               ReportedWork& work, double level) {
+                               const Candidate& fitted, ReportedWork& work, double level) {
   std::vector<Candidate> changed;
-  for (const auto& all : {hypotheses, hub_torque_probes(problem.experiment())}) {
+  const Experiment& experiment = problem.experiment();
+  for (const auto& all : {distinct(hypotheses(experiment)), hub_torque_probes(experiment)}) {
     for (const Hypothesis& hypothesis : all) {
       if (fitted.has_effect(hypothesis.effect)) continue;
       for (const auto& values : probes_of(hypothesis)) {
@@ -180,9 +196,11 @@ DependenceTest test_dependence(const Problem& problem, const Problem& white,
   }
   const std::array sets = {scored(problem, fitted, problem.estimation_runs()),
                            scored(problem, fitted, problem.validation_runs())};
-  const bool is_driven = problem.is_driven_by_torque() || is_driven_by_motion(problem.experiment());
+  const bool is_driven = problem.is_driven_by_torque() || is_driven_by_motion(experiment);
   std::vector<Score> scores(sets.size() * (changed.size() + 1));
-  const auto tests = static_cast<double>(scores.size());
+  const auto tests =
+      static_cast<double>(sets.size()) *
+      (1.0 + ScoredRuns::kTestsOfChange * static_cast<double>(changed.size()));
   std::atomic<bool> is_rejected = false;
   const auto keep = [&](std::size_t i, const Score& score) {
     scores[i] = score;

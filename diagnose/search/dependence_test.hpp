@@ -19,9 +19,10 @@ struct DependenceTest {
 /// variance, do not depend on what the arm does. A coloured noise model makes the residuals of any
 /// candidate white: this is what tells noise from a model error.
 ///
-/// Score tests [Rao1948] of every hypothesis that the candidate has not: where d is what it changes
-/// of the residuals r at some value, beyond what refitting the candidate takes of that change,
-/// z = d^T r/|d| is standard normal. For what no hypothesis describes, the same tests of laws of
+/// Score tests [Rao1948] of every hypothesis of the library that the candidate has not, whatever is
+/// searched for: where d is what it changes of the residuals r at some value, beyond what refitting
+/// the candidate takes of that change, z = d^T r/|d| is standard normal. So it is for d times the
+/// time from the middle of each run, about what a number that drifts makes. For what no hypothesis describes, the same tests of laws of
 /// hub torque of any shape (hub_torque_probes.hpp), and by output error a regression on the
 /// recorded torque up to the sample, channel by channel, whose sum of squares is chi-squared. A
 /// dependence of `kNegligibleDependence` of the signal counts as none. The p-value is the least of
@@ -29,8 +30,7 @@ struct DependenceTest {
 /// problem without the coloured noise. After a rejection at `level` it ends: the rest is not
 /// computed. Throws Cancelled where the work is cancelled.
 DependenceTest test_dependence(const Problem& problem, const Problem& white,
-                               const Candidate& fitted, const std::vector<Hypothesis>& hypotheses,
-                               ReportedWork& work, double level = 0.0);
+                               const Candidate& fitted, ReportedWork& work, double level = 0.0);
 
 /// Root mean square, relative to the signal: the errors of two simulations are less alike than they
 /// are large (kSimulationError).

@@ -86,7 +86,7 @@ bool ProblemRevision::colour_noise(Selection& made, const Explanation& best, dou
   const Explanation left = explain(*coloured, fit(*coloured, best.fit.candidate, {.work = &work_}));
   if (!left.leaves_noise()) return false;
   const DependenceTest found =
-      test_dependence(*coloured, problem_, left.fit.candidate, hypotheses_, work_, kResidualLevel);
+      test_dependence(*coloured, problem_, left.fit.candidate, work_, kResidualLevel);
   if (found.p_value < kResidualLevel || found.largest_share > largest_share) return false;
   change_problem([&] {
     problem_ = *coloured;

@@ -13,9 +13,9 @@ namespace flexarm::diagnose {
 class ProblemRevision {
  public:
   /// The references must outlive the object.
-  ProblemRevision(Problem& problem, const std::vector<Hypothesis>& hypotheses,
-                  const SelectionOptions& options, const SetFits& fits, ReportedWork& work)
-      : problem_(problem), hypotheses_(hypotheses), options_(options), fits_(fits), work_(work) {}
+  ProblemRevision(Problem& problem, const SelectionOptions& options, const SetFits& fits,
+                  ReportedWork& work)
+      : problem_(problem), options_(options), fits_(fits), work_(work) {}
 
   /// The noise that is seen under what the best so far leaves.
   void see_noise(Selection& made);
@@ -43,7 +43,6 @@ class ProblemRevision {
   void correct_by(Selection& made, TorqueTiming timing);
 
   Problem& problem_;
-  const std::vector<Hypothesis>& hypotheses_;
   const SelectionOptions& options_;
   const SetFits& fits_;
   ReportedWork& work_;

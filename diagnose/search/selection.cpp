@@ -44,7 +44,7 @@ class Search {
         work_(progress, options.deadline),
         fits_(problem_, options, work_),
         general_(problem_, hypotheses, options, fits_),
-        revision_(problem_, hypotheses, options, fits_, work_) {}
+        revision_(problem_, options, fits_, work_) {}
 
   Selection run() {
     Selection made = found();

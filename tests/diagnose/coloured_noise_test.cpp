@@ -167,8 +167,7 @@ TEST(Dependence, IsSeenOfWhatAnEffectChangesAndNotOfNoise) {
     const auto coloured = white.with_coloured_noise(white.as_filed());
     const DiagnosisProgress none;
     ReportedWork work(none);
-    return test_dependence(*coloured, white, coloured->as_filed(), named(experiment, kSearched),
-                           work);
+    return test_dependence(*coloured, white, coloured->as_filed(), work);
   };
   const DependenceTest of_noise = dependence({});
   EXPECT_GT(of_noise.p_value, 0.01);
@@ -176,7 +175,7 @@ TEST(Dependence, IsSeenOfWhatAnEffectChangesAndNotOfNoise) {
   const DependenceTest of_gain = dependence({effects::named("torque_gain", {{"factor", 0.9}})});
   EXPECT_LT(of_gain.p_value, 1e-6);
   EXPECT_GT(of_gain.largest_share, 0.8);
-  // A cable that pulls beyond 0.05 rad: no effect of `kSearched`.
+  // A cable that pulls beyond 0.05 rad: no effect of the library.
   const arm::HubTorqueTable cable{.angle_rad = {-0.3, -0.05, 0.05, 0.3},
                                   .torque_N_m = {0.05, 0.0, 0.0, -0.05}};
   const DependenceTest of_law = dependence(

@@ -13,6 +13,8 @@ namespace flexarm::diagnose {
 
 namespace {
 
+constexpr double kNoiseOfRest = 2.0;  // deviations
+
 /// Of the effect alone, where its friction changes with speed and it is nothing else.
 std::optional<arm::DryFriction> falling_friction(const arm::Arm& arm, const std::string& effect) {
   const response::HubLaws laws = response::take_apart(arm).hub;
@@ -23,6 +25,20 @@ std::optional<arm::DryFriction> falling_friction(const arm::Arm& arm, const std:
     return std::nullopt;
   }
   return own->part;
+}
+
+/// Part of the samples at which the velocity is zero within its noise.
+double part_at_rest(const std::vector<HubMotion>& motions) {
+  double at_rest = 0.0;
+  double samples = 0.0;
+  for (const HubMotion& motion : motions) {
+    for (std::size_t k = 0; k < motion.time_s.size(); ++k) {
+      const double speed = std::abs(at_sample(motion, motion.velocity_rad_per_s, k));
+      if (speed < kNoiseOfRest * motion.velocity_noise_rad_per_s) at_rest += 1.0;
+    }
+    samples += static_cast<double>(motion.time_s.size());
+  }
+  return at_rest / samples;
 }
 
 bool shows_hub_alone_in_time(const Problem& problem, const std::vector<HubMotion>& motions) {
@@ -53,6 +69,7 @@ std::optional<FrictionScan> scan_friction(const Problem& problem, const Candidat
   if (!residuals) return std::nullopt;
   const std::vector<HubMotion> motions = hub_motions({problem, *residuals, *residuals, base});
   if (!shows_hub_alone_in_time(problem, motions)) return std::nullopt;
+  if (part_at_rest(motions) > kMostRest) return std::nullopt;
   const HubRegression hub(motions);
   const auto left_by = [&](const Candidate& candidate) {
     try {

@@ -73,7 +73,7 @@ bool GeneralEffects::is_near(const Candidate& look, const std::vector<Explanatio
   if (special.empty()) return true;
   const auto left = problem_.residuals(look, problem_.estimation_runs());
   return left &&
-         left->squaredNorm() <= options_.largest_of_general * special.front().fit.sum_of_squares;
+         left->squaredNorm() <= options_.largest_of_looks * special.front().fit.sum_of_squares;
 }
 
 }  // namespace flexarm::diagnose

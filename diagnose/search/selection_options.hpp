@@ -105,12 +105,13 @@ struct SelectionOptions {
   // How far the search goes.
   /// Singles refitted to all data <= this, the best of the coarse look.
   std::size_t singles_refitted = 8;
-  /// A general effect is refitted to all data where its coarse look leaves <= this times the sum of
-  /// squares that the best of the others leaves.
-  double largest_of_general = 4.0;
+  /// What a coarse look found is refitted to all data where it leaves <= this times the sum of
+  /// squares that the best leaves: a general effect beside the best of the others, a further effect
+  /// beside the best of those looked at with the same base.
+  double largest_of_looks = 4.0;
   /// Friction that changes with speed is fitted by itself where it takes away this part or more of
-  /// what is beyond noise in the hub's signals: of its own, where the hub seldom rests, it takes
-  /// nearly all, and to be named it must take half.
+  /// what is beyond noise in the hub's signals: of its own it takes nearly all, and to be named it
+  /// must take half.
   double least_friction_share = 0.1;
   /// Singles that are bases of pairs <= this.
   std::size_t pair_bases = 3;

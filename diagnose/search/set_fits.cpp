@@ -22,6 +22,10 @@ void SetFits::add_with(const Candidate& base, std::vector<const Hypothesis*> oth
   const double middle = work_.done() + kLooks * (to - work_.done());
   std::vector<Fit> looks = scan_.first_looks(base, others, what, work_.done(), middle);
   looks.resize(std::min(most, looks.size()));
+  if (!base.effects.empty()) {
+    const double largest = options_.largest_of_looks * looks.front().sum_of_squares;
+    std::erase_if(looks, [&](const Fit& look) { return look.sum_of_squares > largest; });
+  }
   std::vector<std::string> sets;
   for (const Fit& look : looks) sets.push_back(look.candidate.label());
   add_all(std::move(sets), what, to, found, [&](std::size_t i) { return looks[i].candidate; });

@@ -160,14 +160,18 @@ TEST(ColouredNoiseModel, IsNotTakenUpForAnOffsetOfOneSensor) {
   EXPECT_FALSE(says_coloured(made));
 }
 
+/// Of an experiment as it is filed, beside coloured noise of what that leaves.
+DependenceTest dependence_of(const Experiment& experiment) {
+  const Problem white(experiment);
+  const auto coloured = white.with_coloured_noise(white.as_filed());
+  const DiagnosisProgress none;
+  ReportedWork work(none);
+  return test_dependence(*coloured, white, coloured->as_filed(), work);
+}
+
 TEST(Dependence, IsSeenOfWhatAnEffectChangesAndNotOfNoise) {
   const auto dependence = [](const arm::Effects& hidden) {
-    const Experiment experiment = with_added(simulated_experiment(hidden), first_order);
-    const Problem white(experiment);
-    const auto coloured = white.with_coloured_noise(white.as_filed());
-    const DiagnosisProgress none;
-    ReportedWork work(none);
-    return test_dependence(*coloured, white, coloured->as_filed(), work);
+    return dependence_of(with_added(simulated_experiment(hidden), first_order));
   };
   const DependenceTest of_noise = dependence({});
   EXPECT_GT(of_noise.p_value, 0.01);
@@ -181,6 +185,31 @@ TEST(Dependence, IsSeenOfWhatAnEffectChangesAndNotOfNoise) {
   const DependenceTest of_law = dependence(
       {{std::string(arm::kHubTorqueTable), {.definition = arm::define_effect(cable)}}});
   EXPECT_LT(of_law.p_value, 1e-6);
+}
+
+/// Readings go from those of a stiffer beam to those of a softer one, about as a beam's that warms;
+/// as filed it is midway.
+Experiment softening(double factor) {
+  Experiment made = simulated_experiment({});
+  const Experiment soft =
+      simulated_experiment({effects::named("flexural_rigidity", {{"factor", factor}})});
+  for (std::size_t r = 0; r < made.runs.size(); ++r) {
+    auto& record = std::get<measured::TimeRecord>(made.runs[r].data);
+    const auto& other = std::get<measured::TimeRecord>(soft.runs[r].data);
+    for (std::size_t c = 0; c < record.channels.size(); ++c) {
+      auto& values = record.channels[c].values;
+      for (std::size_t k = 0; k < values.size(); ++k) {
+        const double part = static_cast<double>(k) / static_cast<double>(values.size()) - 0.5;
+        values[k] = std::lerp(values[k], other.channels[c].values[k], part);
+      }
+    }
+  }
+  return made;
+}
+
+TEST(Dependence, IsSeenOfANumberThatDrifts) {
+  EXPECT_LT(dependence_of(softening(0.99)).p_value, 1e-6);
+  EXPECT_GT(dependence_of(softening(1.0)).p_value, 0.01);
 }
 
 }  // namespace

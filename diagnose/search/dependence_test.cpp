@@ -74,6 +74,10 @@ double relative_size(const Problem& problem, const Eigen::VectorXd& residuals,
   return std::sqrt(squares / count);
 }
 
+double negligible(const Problem& problem) {
+  return is_driven_by_motion(problem.experiment()) ? kNegligibleByMotion : kNegligibleDependence;
+}
+
 /// One set of runs: what the candidate leaves, and the directions that it has itself.
 struct ScoredRuns {
   const std::vector<bool>& runs;
@@ -102,7 +106,7 @@ struct ScoredRuns {
     const double size = beyond.norm();
     if (!(size > kLeastPart * change.norm())) return 1.0;
     const double z = beyond.dot(residuals) / size;
-    if (relative_size(problem, beyond * (z / size), runs) <= kNegligibleDependence) return 1.0;
+    if (relative_size(problem, beyond * (z / size), runs) <= negligible(problem)) return 1.0;
     return 2.0 * boost::math::cdf(complement(boost::math::normal(), std::abs(z)));
   }
   /// Less of a change than this beyond refitting is rounding.
@@ -146,7 +150,7 @@ Score ScoredRuns::of_torque(const Problem& problem) const {
     squares += along.head(torque.rank()).squaredNorm();
     freedom += static_cast<double>(torque.rank());
     granted +=
-        residual_variance(channel, kNegligibleDependence) * static_cast<double>(channel.count);
+        residual_variance(channel, negligible(problem)) * static_cast<double>(channel.count);
   }
   return {freedom > 0.0 ? exceedance(squares, freedom, granted) : 1.0, 0.0};
 }

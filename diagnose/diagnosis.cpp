@@ -326,9 +326,8 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
   const bool is_open =
       made.verdict == Verdict::unexplained || made.verdict == Verdict::partly_explained;
   if (has_balance && is_open) made.empirical_law = predicted.law_beside_causes();
-  if (is_open && !is_over(options.deadline)) {
-    made.missing_force = missing_force(problem, made.extended_arm, after);
-  }
+  // Seconds, and of most use where the time was too short for a name.
+  if (is_open) made.missing_force = missing_force(problem, made.extended_arm, after);
   if (made.empirical_law) made.extended_arm = with_law(made.extended_arm, *made.empirical_law);
   made.formulations = check_formulations(made.extended_arm, scales_of(experiment).sensors);
   if (is_open && !is_over(options.deadline)) {

@@ -120,7 +120,7 @@ std::optional<FrictionScan> EffectScan::friction_scan(const Candidate& start) co
                         .work = &work_});
 }
 
-bool EffectScan::may_account(const Candidate& base, const Hypothesis& other) const {
+bool EffectScan::may_explain(const Candidate& base, const Hypothesis& other) const {
   const auto friction = friction_scan(base.with(other, other.middle()));
   return !friction || friction->share >= options_.least_friction_share;
 }

@@ -36,12 +36,13 @@ class EffectScan {
   Fit first_look(const Candidate& base) const;
   /// `base` with `other`: a scan of that, then all refitted to the part of the data.
   Fit first_look(const Candidate& base, const Hypothesis& other) const;
-  /// False for dry friction that changes with speed where the hub's signals show that it takes away
-  /// less than options.least_friction_share of what `base` leaves of them (friction_scan.hpp).
-  bool may_account(const Candidate& base, const Hypothesis& other) const;
   /// The same for `other` in place of the `index`-th effect of `candidate`. Where that is a limit
   /// of it, looked for from there too: at the limit's values of the parameters that both have.
   Fit look_in_place(const Candidate& candidate, std::size_t index, const Hypothesis& other) const;
+  /// Without a fit: false for dry friction that changes with speed where it explains less than
+  /// options.least_friction_share of the excess residual that `base` leaves of the hub's signals
+  /// (friction_scan.hpp).
+  bool may_explain(const Candidate& base, const Hypothesis& other) const;
 
  private:
   Fit coarse_fit(const Problem& problem, const Candidate& start) const;

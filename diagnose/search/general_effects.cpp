@@ -33,7 +33,7 @@ void GeneralEffects::try_by_themselves(Selection& made, std::string_view what, d
   const std::vector<const Hypothesis*> tried = worth_trying(special);
   const auto near = [&](std::size_t i) {
     std::optional<Candidate> look;
-    if (!fits_.scan().may_account(none, *tried[i])) return look;
+    if (!fits_.scan().may_explain(none, *tried[i])) return look;
     look = first_look(none, special, *tried[i]);
     if (!is_near(*look, special)) look.reset();
     return look;

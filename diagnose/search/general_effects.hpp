@@ -22,8 +22,9 @@ class GeneralEffects {
   bool has(const Hypothesis& effect) const;
 
   /// By themselves, when made.singles are those of the others: all if none of these leaves noise,
-  /// else those of which a limit does. Each begins where the best of its limits is, and is fitted
-  /// to all data where it is near to the best of the others (options.largest_of_looks). Adds to
+  /// else those of which a limit does. Each that may explain the residuals
+  /// (EffectScan::may_explain) begins where the best of its limits is, and is fitted to all data
+  /// where it is near to the best of the others (options.largest_of_looks). Adds to
   /// made.singles; `what` and `to` as SetFits::add_all has them.
   void try_by_themselves(Selection& made, std::string_view what, double to);
 

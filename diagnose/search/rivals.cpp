@@ -89,7 +89,10 @@ double class_probability(const Hypothesis& cause, const std::vector<Rival>& riva
                          const Posterior& posterior) {
   std::vector<const Hypothesis*> indistinguishable;
   for (const Rival& rival : rivals) {
-    if (rival.odds <= kIndistinguishableOdds) indistinguishable.push_back(rival.effect);
+    const bool is_far_better = rival.odds * kIndistinguishableOdds < 1.0;
+    if (rival.odds <= kIndistinguishableOdds && !is_far_better) {
+      indistinguishable.push_back(rival.effect);
+    }
   }
   return posterior.of_any(cause, indistinguishable);
 }

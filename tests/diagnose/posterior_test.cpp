@@ -1,6 +1,7 @@
 #include "diagnose/search/posterior.hpp"
 
 #include "diagnose/search/admission.hpp"
+#include "diagnose/search/rivals.hpp"
 #include "tests/diagnose/simulated_experiments.hpp"
 
 #include <gtest/gtest.h>
@@ -65,6 +66,21 @@ TEST(Posterior, OfEqualSetsIsEqualAndOfTheirClassSure) {
   const Hypothesis other{.effect = "time_delay"};
   EXPECT_NEAR(posterior.of({.effect = "actuator_lag"}), 0.5, 1e-3);
   EXPECT_GT(posterior.of_any({.effect = "actuator_lag"}, {&other}), 0.999);
+}
+
+TEST(ClassProbability, CountsRivalsThatFitAsWellAndNoneThatIsFarBetter) {
+  const Explanation nothing = set_of({}, 1e6);
+  const Explanation lag = set_of({"actuator_lag"}, 0.0);
+  const Hypothesis rival{.effect = "time_delay"};
+  const auto of_class = [&](double excess) {
+    const Explanation worse = set_of({"time_delay"}, excess);
+    const Posterior posterior({&nothing, &lag, &worse}, kHypotheses, {});
+    const double odds = posterior.of_set(worse.fit.candidate) / posterior.of_set(lag.fit.candidate);
+    const Hypothesis better{.effect = "actuator_lag"};
+    return class_probability(rival, {{&better, odds, 0.0}}, posterior);
+  };
+  EXPECT_GT(of_class(0.0), 0.999);
+  EXPECT_LT(of_class(1e5), 0.001);
 }
 
 TEST(Posterior, PrefersFewerParametersOfEqualFit) {

@@ -85,12 +85,21 @@ Eigen::Vector2d first_hub_motion(const measured::TimeRecord& record) {
   return powers.householderQr().solve(Eigen::VectorXd::Map(angle->data(), n)).head<2>();
 }
 
+/// The state with which a run begins (ArmSimulator::readings) whose hub turns evenly up to the first
+/// sample, with that angle and velocity there, the beam straight.
+Eigen::VectorXd turning_evenly(const response::ArmSimulator& simulation,
+                               const measured::TimeRecord& record, const Eigen::Vector2d& hub) {
+  const auto lead = static_cast<double>(simulation.lead(record.time_s.size()));
+  const double before_s = lead * measured::sampling_period_s(record);
+  return simulation.rigid_states() * Eigen::Vector2d(hub(0) - before_s * hub(1), hub(1));
+}
+
 Eigen::VectorXd in_closed_loop(const response::ArmSimulator& simulation,
                                const measured::MeasuredRun& run) {
   const auto& record = std::get<measured::TimeRecord>(run.data);
   const bool is_free = run.run.initial == measured::InitialState::free;
   const Eigen::VectorXd initial =
-      is_free ? simulation.rigid_states() * first_hub_motion(record) : Eigen::VectorXd();
+      is_free ? turning_evenly(simulation, record, first_hub_motion(record)) : Eigen::VectorXd();
   const auto made =
       simulation.closed_loop_readings({*run.run.controller, record.reference.values}, initial);
   const auto samples = std::ssize(made.torque_N_m);
@@ -105,15 +114,16 @@ Eigen::VectorXd simulated_run(const response::ArmSimulator& simulation,
                               const measured::MeasuredRun& run, const Eigen::VectorXd& measured,
                               const Eigen::VectorXd& deviations) {
   if (run.run.controller) return in_closed_loop(simulation, run);
-  const auto& torque_N_m = std::get<measured::TimeRecord>(run.data).torque_N_m;
-  Eigen::MatrixXd readings = simulation.readings(torque_N_m);
-  if (run.run.initial == measured::InitialState::free) {
-    const auto states = simulation.states();
-    const InitialStates any{Eigen::VectorXd::Zero(states),
-                            Eigen::MatrixXd::Identity(states, states)};
-    readings = from_likely_state(simulation, torque_N_m, any, readings, measured, deviations);
+  const auto& record = std::get<measured::TimeRecord>(run.data);
+  const auto& torque_N_m = record.torque_N_m;
+  if (run.run.initial != measured::InitialState::free) {
+    return simulation.readings(torque_N_m).reshaped();
   }
-  return readings.reshaped();
+  const InitialStates initial{turning_evenly(simulation, record, first_hub_motion(record)),
+                              simulation.resolved_states()};
+  const Eigen::MatrixXd readings = simulation.readings(torque_N_m, initial.known);
+  return from_likely_state(simulation, torque_N_m, initial, readings, measured, deviations)
+      .reshaped();
 }
 
 Eigen::VectorXd driven_run(const response::ArmSimulator& simulation,
@@ -121,13 +131,9 @@ Eigen::VectorXd driven_run(const response::ArmSimulator& simulation,
                            const Eigen::VectorXd& measured, const Eigen::VectorXd& deviations) {
   const auto& record = std::get<measured::TimeRecord>(run.data);
   const auto& command = motion.acceleration_rad_per_s2;
-  // The state is that so many samples before the first, from where the hub turns evenly.
-  const double before_s =
-      static_cast<double>(simulation.lead(command.size())) * measured::sampling_period_s(record);
-  const Eigen::Vector2d hub(motion.angle_rad - before_s * motion.velocity_rad_per_s,
-                            motion.velocity_rad_per_s);
-  const InitialStates initial{simulation.rigid_states() * hub,
-                              simulation.states_of_resting_hub()};
+  const Eigen::Vector2d hub(motion.angle_rad, motion.velocity_rad_per_s);
+  const InitialStates initial{turning_evenly(simulation, record, hub),
+                              simulation.resolved_states_of_resting_hub()};
   Eigen::MatrixXd readings = simulation.readings(command, initial.known);
   if (run.run.initial == measured::InitialState::free) {
     readings = from_likely_state(simulation, command, initial, readings, measured, deviations);

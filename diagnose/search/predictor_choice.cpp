@@ -2,6 +2,7 @@
 
 #include "arm/input_error.hpp"
 #include "diagnose/predictors/response_runs.hpp"
+#include "diagnose/search/admission.hpp"
 
 #include <fmt/format.h>
 
@@ -103,8 +104,10 @@ PredictedSelection select_by_both(const SelectionTask& task, const Problem& prob
     made.reason = "its residuals are noise";
     return made;
   }
-  if (auto numbers = select_with_assumed_numbers(task, problem, part_of(progress, 0.5, 0.6))) {
-    return *std::move(numbers);
+  // Uncertain numbers do not keep from running away what no effect does.
+  if (!is_out_of_reach(made.selection.nothing, made.selection.singles, task.options)) {
+    auto numbers = select_with_assumed_numbers(task, problem, part_of(progress, 0.5, 0.6));
+    if (numbers) return *std::move(numbers);
   }
   made.reason = "an unrecorded torque on the hub explains little of what it leaves";
   if (auto responses = select_by_responses(task, made, part_of(progress, 0.6, 0.7))) {

@@ -67,17 +67,36 @@ Eigen::MatrixXd ArmSimulator::rigid_states() const {
   return made;
 }
 
-Eigen::MatrixXd ArmSimulator::states_of_resting_hub() const {
+Index ArmSimulator::resolved_modes() const {
+  const double nyquist_rad_per_s = std::numbers::pi / options_.sample_time_s;
+  const auto below = (arm_.stiffness.array() < nyquist_rad_per_s * nyquist_rad_per_s).count();
+  return std::min<Index>(arm_.modes, std::max<Index>(2, below));
+}
+
+Eigen::MatrixXd ArmSimulator::resolved_states() const {
   const Index n = arm_.modes;
+  const Index shown = resolved_modes();
+  const Index others = states() - 2 * n;
+  Eigen::MatrixXd made = Eigen::MatrixXd::Zero(states(), 2 * shown + others);
+  made.topLeftCorner(shown, shown).setIdentity();
+  made.block(n, shown, shown, shown).setIdentity();
+  made.bottomRightCorner(others, others).setIdentity();
+  return made;
+}
+
+Eigen::MatrixXd ArmSimulator::resolved_states_of_resting_hub() const {
+  const Index n = arm_.modes;
+  const Index shown = resolved_modes();
+  const Index others = states() - 2 * n;
   // What is orthogonal to the row that shows the hub.
-  const auto beside = [n](const Eigen::VectorXd& shown) -> Eigen::MatrixXd {
-    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(shown);
-    return Eigen::MatrixXd(qr.householderQ()).rightCols(n - 1);
+  const auto beside = [shown](const Eigen::VectorXd& of_hub) -> Eigen::MatrixXd {
+    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(of_hub.head(shown));
+    return Eigen::MatrixXd(qr.householderQ()).rightCols(shown - 1);
   };
-  Eigen::MatrixXd made = Eigen::MatrixXd::Zero(states(), states() - 2);
-  made.topLeftCorner(n, n - 1) = beside(arm_.hub_slope.cwiseQuotient(arm_.scale_rad_per_s));
-  made.block(n, n - 1, n, n - 1) = beside(arm_.hub_slope);
-  made.bottomRightCorner(states() - 2 * n, states() - 2 * n).setIdentity();
+  Eigen::MatrixXd made = Eigen::MatrixXd::Zero(states(), 2 * (shown - 1) + others);
+  made.topLeftCorner(shown, shown - 1) = beside(arm_.hub_slope.cwiseQuotient(arm_.scale_rad_per_s));
+  made.block(n, shown - 1, shown, shown - 1) = beside(arm_.hub_slope);
+  made.bottomRightCorner(others, others).setIdentity();
   return made;
 }
 

@@ -44,8 +44,13 @@ class ArmSimulator {
   /// Two columns: the hub turned by 1 rad, and turning at 1 rad/s, in the first mode alone: that of
   /// the rigid arm where nothing holds the hub.
   Eigen::MatrixXd rigid_states() const;
-  /// A basis of the states with the hub at rest at angle 0, N x (N - 2).
-  Eigen::MatrixXd states_of_resting_hub() const;
+  /// A basis of the states that samples show as motion: of the modes below the Nyquist
+  /// frequency, of the first two at least, and of all that is no mode (lags, states of laws). What
+  /// an unknown initial state is made of: modes above would take any amplitude, and dry friction
+  /// would follow each of their periods. N rows, a column a state.
+  Eigen::MatrixXd resolved_states() const;
+  /// Those of them with the hub at rest at angle 0: two columns less.
+  Eigen::MatrixXd resolved_states_of_resting_hub() const;
   /// No friction, and no force that varies with the state: responses add up.
   bool is_linear() const { return plan_.is_linear(); }
 
@@ -101,6 +106,8 @@ class ArmSimulator {
 
   Simulation run(Commands& commands, const SimulationProgress& progress) const;
   Eigen::MatrixXd readings(Commands& commands, const Eigen::VectorXd& initial) const;
+  /// How many modes resolved_states has, 1 for an arm of one mode.
+  Eigen::Index resolved_modes() const;
   /// What a sensor reads before the first sample reaches it, a row a sample and a column a sensor.
   Eigen::MatrixXd unread(std::size_t samples) const;
   /// Of the state over that part of a sample interval, N x N.

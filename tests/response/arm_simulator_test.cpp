@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -171,6 +172,30 @@ TEST(ArmSimulator, GoesOnFromAStateAsFreeReadingsSay) {
   const Eigen::MatrixXd from_state = simulator.readings(torque, initial);
   EXPECT_LE((from_state.reshaped() - expected).norm(), kRoundingOfSteps * expected.norm());
   EXPECT_GE((from_state - from_rest).norm(), 0.1 * from_rest.norm());
+}
+
+TEST(ArmSimulator, ResolvesTheModesBelowTheNyquistFrequency) {
+  const auto sensors = four_sensors();
+  const arm::Arm arm = arm::paper_arm();
+  const ArmParts parts = take_apart(arm);
+  const arm::ModalModel model =
+      time_model(make_formulation("exact_tf", arm, kFlexibleModes), parts, kFlexibleModes, sensors);
+  for (const double sample_time_s : {1e-3, 1e-2, 1.0}) {
+    const auto below = std::ranges::count_if(model.modes, [&](const auto& mode) {
+      return mode.omega_rad_per_s * sample_time_s < std::numbers::pi;
+    });
+    const auto expected = std::max<Eigen::Index>(2, below);
+    const ArmSimulator simulator(model, parts, sensors,
+                                 options_of_fit(sample_time_s, TorqueHold::zero));
+    EXPECT_EQ(simulator.resolved_states().cols(), 2 * expected) << sample_time_s;
+    const Eigen::MatrixXd resting = simulator.resolved_states_of_resting_hub();
+    ASSERT_EQ(resting.cols(), 2 * expected - 2) << sample_time_s;
+    EXPECT_EQ(resting.colPivHouseholderQr().rank(), resting.cols()) << sample_time_s;
+    // The hub's angle and velocity, the first two sensors, at the first sample.
+    const Eigen::MatrixXd shown = simulator.free_readings(1);
+    const Eigen::MatrixXd of_hub = shown.topRows(2) * resting;
+    EXPECT_LE(of_hub.cwiseAbs().maxCoeff(), kRoundingOfSteps * shown.topRows(2).norm());
+  }
 }
 
 }  // namespace

@@ -102,27 +102,42 @@ Fit EffectScan::first_look(const Candidate& base) const {
 
 Fit EffectScan::first_look(const Candidate& base, const Hypothesis& other) const {
   const Candidate start = base.with(other, other.middle());
-  if (const auto friction = friction_scan(start)) return best_fit(coarse_, friction->starts);
   const std::vector<Index> scanned = last_coordinates(start);
-  Fit look = best_from_scan(coarse_, start, scanned);
+  const auto law = hub_law_scan(coarse_, start);
+  const auto early_law = law ? hub_law_scan(short_, start) : std::nullopt;
+  if (law && !is_worth_a_fit(law, early_law)) {
+    return fit(coarse_, law->starts.front(), {.most_steps = 0, .work = &work_});
+  }
+  Fit look = law ? best_fit(coarse_, law->starts) : best_from_scan(coarse_, start, scanned);
   const bool is_shorter =
       short_.observations().values.size() < coarse_.observations().values.size();
   if (scanned.size() == 1 || !is_shorter) return look;
-  const Fit at_first = best_from_scan(short_, start, scanned);
+  const Fit at_first =
+      early_law ? best_fit(short_, early_law->starts) : best_from_scan(short_, start, scanned);
   Fit from_there = coarse_fit(coarse_, at_first.candidate);
   return from_there.sum_of_squares < look.sum_of_squares ? from_there : look;
 }
 
-std::optional<FrictionScan> EffectScan::friction_scan(const Candidate& start) const {
-  return scan_friction(coarse_, start,
-                       {.evaluations = options_.scan_evaluations.back(),
-                        .starts = options_.scan_starts,
-                        .work = &work_});
+std::optional<HubLawScan> EffectScan::hub_law_scan(const Problem& problem,
+                                                   const Candidate& start) const {
+  const std::size_t n =
+      std::min(start.effects.back().parameters.size(), options_.law_evaluations.size());
+  return scan_hub_law(problem, start,
+                      {.evaluations = options_.law_evaluations[n - 1],
+                       .starts = options_.scan_starts,
+                       .work = &work_});
+}
+
+bool EffectScan::is_worth_a_fit(const std::optional<HubLawScan>& law,
+                                const std::optional<HubLawScan>& early_law) const {
+  const double share = std::max(law->share, early_law ? early_law->share : 0.0);
+  return share >= options_.least_law_share;
 }
 
 bool EffectScan::may_explain(const Candidate& base, const Hypothesis& other) const {
-  const auto friction = friction_scan(base.with(other, other.middle()));
-  return !friction || friction->share >= options_.least_friction_share;
+  const Candidate start = base.with(other, other.middle());
+  const auto law = hub_law_scan(coarse_, start);
+  return !law || is_worth_a_fit(law, hub_law_scan(short_, start));
 }
 
 Fit EffectScan::coarse_fit(const Problem& problem, const Candidate& start) const {

@@ -95,6 +95,7 @@ std::vector<HubMotion> hub_motions(const SymptomsInput& input) {
     motion.run = r;
     motion.run_id = run.id;
     motion.hold = run.torque_hold;
+    motion.starts_free = run.initial == measured::InitialState::free;
     motion.time_s = record->time_s;
     motion.torque_N_m = record->torque_N_m;
     const std::size_t half = samples_of_slope(arm, period_s, record->time_s.size());

@@ -25,6 +25,23 @@ HubRegression::HubRegression(const std::vector<HubMotion>& motions) : motions_(m
       at += count;
     }
   }
+  take_out_initial_motion(residuals_);
+}
+
+void HubRegression::take_out_initial_motion(Eigen::VectorXd& signals) const {
+  Index at = 0;
+  for (const HubMotion& motion : motions_) {
+    const auto count = std::ssize(motion.time_s);
+    const Eigen::VectorXd time = Eigen::VectorXd::LinSpaced(count, -1.0, 1.0);
+    for (std::size_t i = 0; i < motion.readings.size(); ++i) {
+      if (motion.starts_free) {
+        auto signal = signals.segment(at, count);
+        const double slope = time.dot(signal) / time.squaredNorm();
+        signal.array() -= signal.mean() + slope * time.array();
+      }
+      at += count;
+    }
+  }
 }
 
 double HubRegression::beyond_noise() const {
@@ -43,6 +60,7 @@ Eigen::VectorXd HubRegression::readings(const HubTorques& torques) const {
       at += count;
     }
   }
+  take_out_initial_motion(made);
   return made;
 }
 

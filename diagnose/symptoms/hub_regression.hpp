@@ -14,7 +14,8 @@ using HubTorques = std::vector<std::vector<double>>;
 
 /// The residuals of all hub signals, and what a torque on the hub makes of them. Laws of hub torque
 /// are evaluated at the measured motion: whatever their form, the arm answers them linearly, and
-/// the simulation may have gone another way.
+/// the simulation may have gone another way. Of a run from an unknown state both are without a
+/// constant and a slope: another initial motion of the hub would take them.
 class HubRegression {
  public:
   /// `motions` must outlive the object.
@@ -33,6 +34,8 @@ class HubRegression {
   HubTorques torques(const Eigen::VectorXd& left) const;
 
  private:
+  void take_out_initial_motion(Eigen::VectorXd& signals) const;
+
   const std::vector<HubMotion>& motions_;
   Eigen::VectorXd residuals_;
 };

@@ -53,6 +53,21 @@ std::vector<double> pulse_response(const arm::Arm& arm, const arm::Sensor& senso
   return {made.data(), made.data() + made.size()};
 }
 
+/// Keeps the factors of each length: to compute them takes longer than a transform.
+Eigen::FFT<double>& fourier() {
+  thread_local Eigen::FFT<double> transform(Eigen::FFT<double>::impl_type(),
+                                            Eigen::FFT<double>::HalfSpectrum);
+  return transform;
+}
+
+std::vector<std::complex<double>> transformed(std::span<const double> values, std::size_t padded) {
+  std::vector<double> longer(values.begin(), values.end());
+  longer.resize(padded);
+  std::vector<std::complex<double>> spectrum;
+  fourier().fwd(spectrum, longer);
+  return spectrum;
+}
+
 /// From rest: what is before the first value is 0.
 std::vector<double> differenced(std::span<const double> values, int times) {
   std::vector<double> made(values.begin(), values.end());
@@ -68,39 +83,29 @@ HubResponse::HubResponse(const arm::Arm& arm, const arm::Sensor& sensor, int fle
                          measured::TorqueHold hold, double period_s, std::size_t samples)
     : samples_(samples),
       padded_(measured::fast_length((kPulseRecords + 1) * samples)),
+      padded_twofold_(measured::fast_length(2 * samples)),
       differences_(measured::differences_until_steady(sensor)) {
   const auto pulse =
       pulse_response(arm, sensor, flexible_modes, hold, period_s, kPulseRecords * samples);
-  response_ = transformed(std::span(pulse).first(samples));
+  response_ = transformed(std::span(pulse).first(samples), padded_twofold_);
   std::vector<double> steady = differenced(pulse, differences_);
   const std::vector<double> weights = fading(steady.size(), padded_);
   for (std::size_t k = 0; k < steady.size(); ++k) steady[k] *= weights[k];
-  steady_response_ = transformed(steady);
+  steady_response_ = transformed(steady, padded_);
 }
 
-HubResponse::Spectrum HubResponse::transformed(std::span<const double> values) const {
-  std::vector<double> padded(values.begin(), values.end());
-  padded.resize(padded_);
-  Eigen::FFT<double> transform;
-  transform.SetFlag(Eigen::FFT<double>::HalfSpectrum);
-  Spectrum spectrum;
-  transform.fwd(spectrum, padded);
-  return spectrum;
-}
-
-std::vector<double> HubResponse::transformed_back(const Spectrum& spectrum) const {
-  Eigen::FFT<double> transform;
-  transform.SetFlag(Eigen::FFT<double>::HalfSpectrum);
+std::vector<double> HubResponse::transformed_back(const Spectrum& spectrum,
+                                                  std::size_t padded) const {
   std::vector<double> values;
-  transform.inv(values, spectrum, static_cast<Eigen::Index>(padded_));
+  fourier().inv(values, spectrum, static_cast<Eigen::Index>(padded));
   values.resize(samples_);
   return values;
 }
 
 std::vector<double> HubResponse::reading(std::span<const double> torque_N_m) const {
-  Spectrum spectrum = transformed(torque_N_m);
+  Spectrum spectrum = transformed(torque_N_m, padded_twofold_);
   for (std::size_t k = 0; k < spectrum.size(); ++k) spectrum[k] *= response_[k];
-  return transformed_back(spectrum);
+  return transformed_back(spectrum, padded_twofold_);
 }
 
 std::vector<double> HubResponse::torque(std::span<const double> reading, double noise) const {
@@ -111,7 +116,7 @@ std::vector<double> HubResponse::torque(std::span<const double> reading, double 
     steady[k] *= weights[k];
     squares += weights[k] * weights[k];
   }
-  Spectrum spectrum = transformed(steady);
+  Spectrum spectrum = transformed(steady, padded_);
   std::vector<double> noise_power(spectrum.size());
   double largest = 0.0;
   for (std::size_t k = 0; k < spectrum.size(); ++k) {
@@ -141,7 +146,7 @@ std::vector<double> HubResponse::torque(std::span<const double> reading, double 
     const double power = std::norm(steady_response_[k]) + noise_power[k] / torque_power;
     spectrum[k] = power > 0.0 ? spectrum[k] * std::conj(steady_response_[k]) / power : 0.0;
   }
-  std::vector<double> made = transformed_back(spectrum);
+  std::vector<double> made = transformed_back(spectrum, padded_);
   for (std::size_t k = 0; k < samples_; ++k) made[k] /= weights[k];
   return made;
 }

@@ -40,13 +40,13 @@ class HubResponse {
  private:
   using Spectrum = std::vector<std::complex<double>>;
 
-  Spectrum transformed(std::span<const double> values) const;
-  std::vector<double> transformed_back(const Spectrum& spectrum) const;
+  std::vector<double> transformed_back(const Spectrum& spectrum, std::size_t padded) const;
 
   std::size_t samples_;
-  std::size_t padded_;
+  std::size_t padded_;          // of what comes round
+  std::size_t padded_twofold_;  // of a convolution
   int differences_;
-  Spectrum response_;
+  Spectrum response_;         // of padded_twofold_
   Spectrum steady_response_;  // differenced
 };
 

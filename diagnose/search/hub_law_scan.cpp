@@ -1,0 +1,101 @@
+#include "diagnose/search/hub_law_scan.hpp"
+
+#include "arm/input_error.hpp"
+#include "diagnose/symptoms/hub_regression.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <variant>
+
+namespace flexarm::diagnose {
+
+namespace {
+
+constexpr double kNoiseOfRest = 2.0;  // deviations
+
+bool is_scanned(const arm::HubLaw& law) {
+  if (const auto* smooth = std::get_if<arm::SmoothHubTorque>(&law)) return smooth->states == 0;
+  const auto* friction = std::get_if<arm::DryFriction>(&law);
+  return friction != nullptr && friction->changes_over_rad_per_s.has_value();
+}
+
+/// Of the effect of that name, where it is nothing else.
+std::optional<arm::HubLaw> hub_law(const arm::Arm& arm, const std::string& name) {
+  const arm::Effect& effect = arm.effects.at(name);
+  if (effect.definition->ports() != std::vector{arm::Port::hub_torque}) return std::nullopt;
+  const arm::HubLaw law = effect.definition->hub_torque(effect);
+  return is_scanned(law) ? std::optional(law) : std::nullopt;
+}
+
+/// Part of the samples at which the velocity is zero within its noise.
+double part_at_rest(const std::vector<HubMotion>& motions) {
+  double at_rest = 0.0;
+  double samples = 0.0;
+  for (const HubMotion& motion : motions) {
+    for (std::size_t k = 0; k < motion.time_s.size(); ++k) {
+      const double speed = std::abs(at_sample(motion, motion.velocity_rad_per_s, k));
+      if (speed < kNoiseOfRest * motion.velocity_noise_rad_per_s) at_rest += 1.0;
+    }
+    samples += static_cast<double>(motion.time_s.size());
+  }
+  return at_rest / samples;
+}
+
+bool shows_hub_alone_in_time(const Problem& problem, const std::vector<HubMotion>& motions) {
+  return problem.is_driven_by_torque() && motions.size() == problem.experiment().runs.size();
+}
+
+double torque_N_m(const arm::HubLaw& law, const HubMotion& motion, std::size_t k) {
+  const double velocity = at_sample(motion, motion.velocity_rad_per_s, k);
+  if (const auto* friction = std::get_if<arm::DryFriction>(&law)) {
+    return -sign_at_sample(motion, k) * friction->size(std::abs(velocity)).torque_N_m;
+  }
+  const arm::HubState hub{.angle_rad = at_sample(motion, motion.angle_rad, k),
+                          .velocity_rad_per_s = velocity,
+                          .torque_N_m = motion.torque_N_m[k],
+                          .time_s = at_sample(motion, motion.time_s, k) - motion.time_s.front()};
+  return std::get<arm::SmoothHubTorque>(law).law(hub, {}, {}).torque_N_m;
+}
+
+HubTorques torques_of(const arm::HubLaw& law, const std::vector<HubMotion>& motions) {
+  HubTorques made;
+  for (const HubMotion& motion : motions) {
+    auto& own = made.emplace_back(motion.time_s.size());
+    for (std::size_t k = 0; k < own.size(); ++k) own[k] = torque_N_m(law, motion, k);
+  }
+  return made;
+}
+
+}  // namespace
+
+std::optional<HubLawScan> scan_hub_law(const Problem& problem, const Candidate& start,
+                                       const ScanOptions& options) {
+  const arm::Arm& arm = problem.experiment().arm;
+  const std::string& effect = start.effects.back().effect;
+  const std::optional<arm::HubLaw> law = hub_law(start.extend(arm), effect);
+  if (!law) return std::nullopt;
+  const Candidate base = start.without(start.effects.size() - 1);
+  const auto residuals = problem.residuals(base, problem.estimation_runs());
+  if (!residuals) return std::nullopt;
+  const std::vector<HubMotion> motions = hub_motions({problem, *residuals, *residuals, base});
+  if (!shows_hub_alone_in_time(problem, motions)) return std::nullopt;
+  const bool is_friction = std::holds_alternative<arm::DryFriction>(*law);
+  if (is_friction && part_at_rest(motions) > kMostRest) return std::nullopt;
+  const HubRegression hub(motions);
+  const auto left_by = [&](const Candidate& candidate) {
+    try {
+      const auto torques = torques_of(hub_law(candidate.extend(arm), effect).value(), motions);
+      return (hub.residuals() - hub.readings(torques)).squaredNorm();
+    } catch (const arm::InputError&) {
+      return std::numeric_limits<double>::infinity();
+    }
+  };
+  HubLawScan made{scan(left_by, start, last_coordinates(start), options)};
+  const double taken = hub.residuals().squaredNorm() - left_by(made.starts.front());
+  made.share = std::clamp(taken / hub.beyond_noise(), 0.0, 1.0);
+  return made;
+}
+
+}  // namespace flexarm::diagnose

@@ -18,9 +18,9 @@ struct FrictionScan {
 /// linear (symptoms/hub_regression.hpp). A simulation has to follow how the friction changes within
 /// a step, at some ten times the cost of another one.
 ///
-/// Empty for another effect, where a run is not a `time` run by output error that shows the hub, and
-/// where the hub rests in more than `kMostRest` of the samples: what friction is then is not known
-/// by the velocity. Throws Cancelled where the work is cancelled.
+/// Empty for another effect, where a run is not a `time` run by output error that shows the hub,
+/// and where the hub rests in more than `kMostRest` of the samples: what friction is then is not
+/// known by the velocity. Throws Cancelled where the work is cancelled.
 std::optional<FrictionScan> scan_friction(const Problem& problem, const Candidate& start,
                                           const ScanOptions& options);
 inline constexpr double kMostRest = 0.1;

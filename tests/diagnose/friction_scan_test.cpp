@@ -52,8 +52,8 @@ TEST(FrictionScan, IsNotMadeWhereTheHubSticks) {
 }
 
 TEST(FrictionScan, LeavesWhatIsNoHubTorque) {
-  const Experiment experiment =
-      simulated_experiment({effects::named("sensor_delay", {{"delay", 0.006}}, "tip_acceleration")});
+  const Experiment experiment = simulated_experiment(
+      {effects::named("sensor_delay", {{"delay", 0.006}}, "tip_acceleration")});
   const auto made = scanned(Problem(experiment));
   ASSERT_TRUE(made);
   EXPECT_LT(made->share, SelectionOptions().least_friction_share);

@@ -20,7 +20,8 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
 endif()
 
 # One target for each set of options: a precompiled header serves sources of the same options only.
-# Sources include what they use all the same; the preset `debug` holds them to it.
+# Sources include what they use all the same; the preset `debug` holds them to it. A header is
+# worth it here if it takes a second to parse and most batches include it.
 function(flexarm_precompile how)
   cmake_parse_arguments(PARSED "" "" "HEADERS;LIBRARIES" ${ARGN})
   set(target flexarm_precompiled_${how})
@@ -31,14 +32,15 @@ function(flexarm_precompile how)
   target_precompile_headers(${target} PRIVATE
     <algorithm> <array> <cmath> <complex> <cstddef> <filesystem> <functional> <limits> <map>
     <memory> <numbers> <optional> <random> <ranges> <span> <stdexcept> <string> <string_view>
-    <utility> <variant> <vector> <fmt/format.h> <Eigen/SparseCore>
+    <utility> <variant> <vector> <fmt/format.h> <tbb/parallel_for.h> <Eigen/SparseCore>
     "${PROJECT_SOURCE_DIR}/cmake/eigen_decompositions.hpp" ${PARSED_HEADERS})
 endfunction()
 if(FLEXARM_PRECOMPILED_HEADERS)
-  flexarm_precompile(full)
-  flexarm_precompile(brief)
+  flexarm_precompile(full HEADERS <boost/math/distributions/normal.hpp>
+                     <boost/math/quadrature/gauss.hpp>)
+  flexarm_precompile(brief HEADERS <nlohmann/json.hpp>)
   if(FLEXARM_TESTS)
-    flexarm_precompile(test HEADERS <gmock/gmock.h> <gtest/gtest.h>
+    flexarm_precompile(test HEADERS <gmock/gmock.h> <gtest/gtest.h> <nlohmann/json.hpp>
                        LIBRARIES GTest::gmock GTest::gtest_main)
   endif()
 endif()
@@ -47,7 +49,6 @@ endif()
 # GCC needs for a template grows with the number of those it has met before.
 set(eigen_folder "${CMAKE_CURRENT_LIST_DIR}/eigen")
 add_library(flexarm_eigen STATIC
-  "${eigen_folder}/complex.cpp"
   "${eigen_folder}/factors.cpp"
   "${eigen_folder}/pencil.cpp"
   "${eigen_folder}/schur.cpp"

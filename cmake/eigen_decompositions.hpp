@@ -26,9 +26,10 @@ extern template class Eigen::GeneralizedEigenSolver<Eigen::MatrixXd>;
 extern template class Eigen::JacobiSVD<Eigen::MatrixXd>;
 extern template class Eigen::BDCSVD<Eigen::MatrixXd>;
 extern template class Eigen::PartialPivLU<Eigen::MatrixXcd>;
-extern template class Eigen::JacobiSVD<Eigen::MatrixXcd>;
 
 // An instantiated class leaves out what is itself a template.
+extern template void Eigen::ColPivHouseholderQR<Eigen::MatrixXd>::_solve_impl(
+    const Eigen::VectorXd&, Eigen::VectorXd&) const;
 extern template Eigen::LLT<Eigen::MatrixXd>& Eigen::LLT<Eigen::MatrixXd>::compute(
     const Eigen::EigenBase<Eigen::MatrixXd>&);
 extern template Eigen::LDLT<Eigen::MatrixXd>& Eigen::LDLT<Eigen::MatrixXd>::compute(

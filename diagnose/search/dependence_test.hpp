@@ -22,14 +22,15 @@ struct DependenceTest {
 /// Score tests [Rao1948] of every hypothesis of the library that the candidate has not, whatever is
 /// searched for: where d is what it changes of the residuals r at some value, beyond what refitting
 /// the candidate takes of that change, z = d^T r/|d| is standard normal. So it is for d times the
-/// time from the middle of each run, about what a number that drifts makes. For what no hypothesis describes, the same tests of laws of
-/// hub torque of any shape (hub_torque_probes.hpp), and by output error a regression on the
-/// recorded torque up to the sample, channel by channel, whose sum of squares is chi-squared. A
-/// dependence of `kNegligibleDependence` of the signal, by motion `kNegligibleByMotion`, counts as
-/// none. The p-value is the least of
-/// all tests, of the estimation and of the validation runs, after Bonferroni. `white` is the
-/// problem without the coloured noise. After a rejection at `level` it ends: the rest is not
-/// computed. Throws Cancelled where the work is cancelled.
+/// time from the middle of each run, about what a number that drifts makes. For what no hypothesis
+/// describes, the same tests of laws of hub torque of any shape (hub_torque_probes.hpp), and by
+/// output error a regression on the recorded torque up to the sample, channel by channel, whose sum
+/// of squares is chi-squared. A dependence of `kNegligibleDependence` of the signal, by motion
+/// `kNegligibleByMotion`, counts as none.
+///
+/// The p-value is the least of all tests, of the estimation and of the validation runs, after
+/// Bonferroni. `white` is the problem without the coloured noise. After a rejection at `level` it
+/// ends: the rest is not computed. Throws Cancelled where the work is cancelled.
 DependenceTest test_dependence(const Problem& problem, const Problem& white,
                                const Candidate& fitted, ReportedWork& work, double level = 0.0);
 

@@ -23,7 +23,7 @@ class EffectScan {
   EffectScan& operator=(const EffectScan&) = delete;
 
   /// The `scanned_beside` hypotheses that account, at some of a few values each, for most of what
-  /// `base` leaves: a score test without refitting.
+  /// `base` leaves: by the Lagrange multiplier test [Rao1948, Silvey1959], without refitting.
   std::vector<const Hypothesis*> promising(const Candidate& base,
                                            std::vector<const Hypothesis*> others,
                                            std::string_view what);

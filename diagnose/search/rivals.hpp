@@ -34,8 +34,9 @@ inline constexpr double kIndistinguishableOdds = 20.0;
 /// Of the sets that were fitted: no cause, singles, combinations, the chosen one.
 Posterior posterior_of(const Selection& selection, const SelectionOptions& options);
 
-/// That this cause, or one of its `rivals` that is indistinguishable from it, is there. A rival that
-/// is better by more than kIndistinguishableOdds, which could not be named, says nothing for it.
+/// That this cause, or one of its `rivals` that is indistinguishable from it, is there. A rival
+/// that is better by more than kIndistinguishableOdds, which could not be named, says nothing for
+/// it.
 double class_probability(const Hypothesis& cause, const std::vector<Rival>& rivals,
                          const Posterior& posterior);
 

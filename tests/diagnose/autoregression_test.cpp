@@ -47,7 +47,8 @@ TEST(Autoregression, LeavesIndependentNumbersOfUnitVariance) {
     EXPECT_GT(correlation(values, 1), 0.8) << seed;
     noise.whiten(values);
     // The root mean square of n normal numbers varies by 1/sqrt(2 n); five standard deviations.
-    EXPECT_NEAR(values.norm() / std::sqrt(kNoiseLength), 1.0, 5.0 / std::sqrt(2.0 * kNoiseLength)) << seed;
+    EXPECT_NEAR(values.norm() / std::sqrt(kNoiseLength), 1.0, 5.0 / std::sqrt(2.0 * kNoiseLength))
+        << seed;
     for (Index lag = 1; lag <= 10; ++lag) {
       EXPECT_NEAR(correlation(values, lag), 0.0, kCorrelationOfNone) << seed << ", lag " << lag;
     }
@@ -71,7 +72,8 @@ TEST(Autoregression, PredictsFromTheTwoNumbersBefore) {
 TEST(Autoregression, OfWhiteNoiseChangesLittle) {
   std::mt19937_64 engine(8);
   std::normal_distribution<double> normal;
-  Eigen::VectorXd values = Eigen::VectorXd::NullaryExpr(kNoiseLength, [&] { return normal(engine); });
+  Eigen::VectorXd values =
+      Eigen::VectorXd::NullaryExpr(kNoiseLength, [&] { return normal(engine); });
   const Eigen::VectorXd before = values;
   const Autoregression noise(values, 20);
   noise.whiten(values);

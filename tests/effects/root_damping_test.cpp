@@ -54,7 +54,8 @@ TEST(RootDamping, LeavesTheUndampedPolesAndDampsEachMode) {
   for (const auto formulation : response::kFormulationNames) {
     const auto lossy =
         response::make_formulation(formulation, with_root(kStiffness, kTime), kLossyRoots);
-    const auto soft = response::make_formulation(formulation, with_compliance(kStiffness), kLossyRoots);
+    const auto soft =
+        response::make_formulation(formulation, with_compliance(kStiffness), kLossyRoots);
     EXPECT_EQ(response::poles(lossy, kLossyRoots).omega_rad_per_s,
               response::poles(soft, kLossyRoots).omega_rad_per_s);
     const auto damped = response::damped_poles(lossy, kLossyRoots);

@@ -182,7 +182,8 @@ using HubLaw =
 /// Force per length on the beam by its velocity there, an odd function that takes energy:
 /// force(v) v <= 0.
 struct BeamForce {
-  std::function<double(double velocity_m_per_s)> force_N_per_m;
+  /// Adds the force per length [N/m] of each of the velocities [m/s] to that in its place.
+  std::function<void(std::span<const double> velocities, std::span<double> forces)> add;
 };
 
 /// The gauge `strain@X` sits at X + shift.

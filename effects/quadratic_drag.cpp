@@ -1,6 +1,8 @@
 #include "effects/registry/entry.hpp"
 
 #include <cmath>
+#include <cstddef>
+#include <span>
 
 namespace flexarm::effects {
 
@@ -18,7 +20,11 @@ Entry quadratic_drag() {
                           [](const arm::Effect& effect) {
                             const double coefficient = effect.value("coefficient");
                             return arm::BeamForce{
-                                [coefficient](double v) { return -coefficient * std::abs(v) * v; }};
+                                [coefficient](std::span<const double> v, std::span<double> forces) {
+                                  for (std::size_t i = 0; i < v.size(); ++i) {
+                                    forces[i] -= coefficient * std::abs(v[i]) * v[i];
+                                  }
+                                }};
                           }}),
           .shows = Shows::in_time,
           .search = [](const Scales& scales)

@@ -5,9 +5,10 @@
 
 #include <Eigen/Core>
 
+#include <cstddef>
 #include <optional>
+#include <span>
 #include <string_view>
-#include <vector>
 
 namespace flexarm::response {
 
@@ -24,21 +25,38 @@ inline double direction(HubMotion motion) {
   return motion == HubMotion::forward ? 1.0 : motion == HubMotion::backward ? -1.0 : 0.0;
 }
 
-/// The state of an arm at an instant, with the torque of its actuator.
-struct ArmInstant {
-  const Eigen::VectorXd& x;  ///< LinearSystem's X
+inline std::span<double> entries(Eigen::VectorXd& v) {
+  return {v.data(), static_cast<std::size_t>(v.size())};
+}
+inline std::span<const double> entries(const Eigen::VectorXd& v) {
+  return {v.data(), static_cast<std::size_t>(v.size())};
+}
+
+/// What forces are functions of at an instant.
+struct ForceInstant {
+  std::span<const double> arguments;  ///< of the state, AddedForces::form_arguments
   double actuator_N_m = 0.0;
   double time_s = 0.0;
 };
 
+/// The state of an arm with what forces make of it.
+struct ArmState {
+  Eigen::VectorXd x;           ///< LinearSystem's X
+  Eigen::VectorXd arguments;   ///< of the forces
+  Eigen::VectorXd along_beam;  ///< modal forces along the beam, n [1/s^2]; or empty
+};
+
 /// What acts on the arm beside the actuator's torque: laws of torque on the hub, forces along the
 /// beam. For each HubMotion a smooth function of the state, continued beyond the motion's end.
+///
+/// Of the state X forces depend on a few linear combinations alone, their arguments: the angle, the
+/// speed and the lagged torque of the hub, then the laws' own states, then, where forces act along
+/// the beam, the modal velocities. Where forces are constant there are none.
 class AddedForces {
  public:
   struct HubTorque {
     double torque_N_m = 0.0;
     double per_velocity_N_m_s = 0.0;  ///< d torque/d theta'
-    std::vector<double> rates = {};   ///< of the laws' own states
   };
 
   /// `arm` must outlive the object.
@@ -54,13 +72,23 @@ class AddedForces {
   arm::DryFriction::Size friction_at(double speed_rad_per_s) const {
     return hub_.friction_at(speed_rad_per_s);
   }
-  /// Laws without dry friction.
-  HubTorque smooth_torque(const ArmInstant& now) const;
-  /// Laws and dry friction.
-  HubTorque hub_torque(const ArmInstant& now, HubMotion motion) const;
-  /// f for what acts on the hub at that instant: with it the forces along the beam and the rates of
-  /// the laws' own states.
-  Eigen::VectorXd force(const ArmInstant& now, const HubTorque& hub) const;
+
+  void form_arguments(const Eigen::VectorXd& x, Eigen::VectorXd& arguments) const;
+  /// Arguments are these rows times X.
+  Eigen::MatrixXd argument_rows() const;
+  /// The hub's speed among the arguments.
+  static double hub_velocity(std::span<const double> arguments) { return arguments[kVelocity]; }
+
+  /// Arguments and forces along the beam of the state.
+  void look_at(ArmState& state) const;
+  /// Forces along the beam for these arguments, n [1/s^2]; none leave `made` empty.
+  void form_along_beam(std::span<const double> arguments, Eigen::VectorXd& made) const;
+  /// f in the place of `made`, with these forces along the beam.
+  HubTorque form(const ForceInstant& now, HubMotion motion, const Eigen::VectorXd& along_beam,
+                 Eigen::VectorXd& made) const;
+  /// Of the laws without dry friction.
+  double smooth_torque_N_m(const Eigen::VectorXd& x, double actuator_N_m, double time_s) const;
+
   /// The effect for which the hub is watched or forces are iterated, in inner steps; empty where
   /// the equations are linear.
   std::string_view effect_in_steps() const;
@@ -68,7 +96,14 @@ class AddedForces {
   double beam_power_W(const Eigen::VectorXd& x) const;
 
  private:
-  arm::HubState hub_state(const ArmInstant& now) const;
+  static constexpr std::size_t kAngle = 0;
+  static constexpr std::size_t kVelocity = 1;
+  static constexpr std::size_t kLaggedTorque = 2;
+  static constexpr std::size_t kLawStates = 3;  // the first of them
+
+  Eigen::Index argument_count() const;
+  HubTorque smooth_torque(const ForceInstant& now, std::span<double> rates) const;
+  HubTorque hub_torque(const ForceInstant& now, HubMotion motion, std::span<double> rates) const;
 
   const ModalDynamics* arm_;
   HubLaws hub_;

@@ -12,8 +12,9 @@ namespace flexarm::response {
 
 namespace {
 
-constexpr int kParts = 6;
-using GaussRule = boost::math::quadrature::gauss<double, 10>;
+constexpr int kPointsAPart = 10;
+constexpr int kParts = kBeamStations / kPointsAPart;
+using GaussRule = boost::math::quadrature::gauss<double, kPointsAPart>;
 
 }  // namespace
 
@@ -38,38 +39,42 @@ BeamForces::BeamForces(const arm::ModalModel& model, double length_m,
                        std::vector<OfEffect<arm::BeamForce>> laws)
     : laws_(std::move(laws)) {
   const BeamStations rule = beam_stations(length_m);
-  const auto stations = static_cast<Eigen::Index>(rule.stations_m.size());
   const auto n = static_cast<Eigen::Index>(model.modes.size());
-  shapes_.resize(stations, n);
+  shapes_.resize(kBeamStations, n);
   for (Eigen::Index i = 0; i < n; ++i) {
     const auto& shape = model.modes[static_cast<std::size_t>(i)].displacement_m;
     if (shape.size() != rule.stations_m.size()) {
       throw arm::InputError(
           fmt::format("effects.{}: mode {} has {} displacements: must be {}, at the stations of "
                       "forces along the beam",
-                      effect(), i, shape.size(), stations),
+                      effect(), i, shape.size(), kBeamStations),
           "effects." + effect());
     }
-    shapes_.col(i) = Eigen::Map<const Eigen::VectorXd>(shape.data(), stations);
+    shapes_.col(i) = AtStations::Map(shape.data());
   }
-  weights_ = Eigen::Map<const Eigen::VectorXd>(rule.weights_m.data(), stations);
-  weighted_shapes_ = shapes_.transpose() * weights_.asDiagonal() / model.modal_mass_kg_m2;
+  weights_m_ = AtStations::Map(rule.weights_m.data());
+  weights_per_modal_mass_ = weights_m_ / model.modal_mass_kg_m2;
 }
 
-Eigen::ArrayXd BeamForces::forces_N_per_m(const Eigen::ArrayXd& velocity_m_per_s) const {
-  Eigen::ArrayXd sum = Eigen::ArrayXd::Zero(velocity_m_per_s.size());
-  for (const auto& [effect, law] : laws_) sum += velocity_m_per_s.unaryExpr(law.force_N_per_m);
+BeamForces::AtStations BeamForces::forces_N_per_m(const AtStations& velocity_m_per_s) const {
+  AtStations sum = AtStations::Zero();
+  for (const auto& [effect, law] : laws_) {
+    law.add({velocity_m_per_s.data(), kBeamStations}, {sum.data(), kBeamStations});
+  }
   return sum;
 }
 
-Eigen::VectorXd BeamForces::modal_force(
-    const Eigen::Ref<const Eigen::VectorXd>& modal_velocity) const {
-  return weighted_shapes_ * forces_N_per_m(shapes_ * modal_velocity).matrix();
+void BeamForces::modal_force(std::span<const double> modal_velocity, Eigen::VectorXd& made) const {
+  const auto n = static_cast<Eigen::Index>(modal_velocity.size());
+  AtStations v;
+  v.noalias() = shapes_ * Eigen::VectorXd::Map(modal_velocity.data(), n);
+  const AtStations weighted = forces_N_per_m(v).cwiseProduct(weights_per_modal_mass_);
+  made.noalias() = shapes_.transpose() * weighted;
 }
 
 double BeamForces::power_W(const Eigen::Ref<const Eigen::VectorXd>& modal_velocity) const {
-  const Eigen::ArrayXd v = shapes_ * modal_velocity;
-  return -weights_.dot((forces_N_per_m(v) * v).matrix());
+  const AtStations v = shapes_ * modal_velocity;
+  return -weights_m_.dot(forces_N_per_m(v).cwiseProduct(v));
 }
 
 }  // namespace flexarm::response

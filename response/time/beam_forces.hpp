@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include <span>
 #include <vector>
 
 namespace flexarm::response {
@@ -14,6 +15,8 @@ struct BeamStations {
   std::vector<double> stations_m;
   std::vector<double> weights_m;
 };
+
+inline constexpr int kBeamStations = 60;
 
 /// Gauss' rule of 10 points on each of 6 equal parts of the beam. It is exact for the quadratic
 /// drag of the rigid rotation, and resolves shapes of some 25 half waves. Where v changes its sign
@@ -28,8 +31,8 @@ class BeamForces {
   BeamForces(const arm::ModalModel& model, double length_m,
              std::vector<OfEffect<arm::BeamForce>> laws);
 
-  /// int force(v) phi_i dx/I_T for the modal velocities, n [1/s^2].
-  Eigen::VectorXd modal_force(const Eigen::Ref<const Eigen::VectorXd>& modal_velocity) const;
+  /// int force(v) phi_i dx/I_T for the modal velocities, n [1/s^2] each.
+  void modal_force(std::span<const double> modal_velocity, Eigen::VectorXd& made) const;
   /// -int force(v) v dx, which is lost [W].
   double power_W(const Eigen::Ref<const Eigen::VectorXd>& modal_velocity) const;
 
@@ -37,12 +40,13 @@ class BeamForces {
   const std::string& effect() const { return laws_.front().effect; }
 
  private:
-  Eigen::ArrayXd forces_N_per_m(const Eigen::ArrayXd& velocity_m_per_s) const;
+  using AtStations = Eigen::Matrix<double, kBeamStations, 1>;
+  AtStations forces_N_per_m(const AtStations& velocity_m_per_s) const;
 
   std::vector<OfEffect<arm::BeamForce>> laws_;
-  Eigen::MatrixXd shapes_;           // stations x n
-  Eigen::MatrixXd weighted_shapes_;  // n x stations, times weight/I_T
-  Eigen::VectorXd weights_;
+  Eigen::Matrix<double, kBeamStations, Eigen::Dynamic> shapes_;
+  AtStations weights_m_;
+  AtStations weights_per_modal_mass_;  // [1/(kg m)]
 };
 
 }  // namespace flexarm::response

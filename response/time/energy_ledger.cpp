@@ -15,7 +15,7 @@ EnergyLedger::Powers EnergyLedger::powers(const Eigen::VectorXd& x, double actua
                                           double time_s, HubMotion motion) const {
   const double speed = motion == HubMotion::held ? 0.0 : arm_->hub_velocity(x);
   const double torque = arm_->hub_torque.state * x + arm_->hub_torque.actuator * actuator_N_m +
-                        forces_->smooth_torque({x, actuator_N_m, time_s}).torque_N_m;
+                        forces_->smooth_torque_N_m(x, actuator_N_m, time_s);
   const auto p = arm_->velocity(x);
   Powers made;
   made.work_in = torque * speed;

@@ -74,8 +74,8 @@ struct ModalDynamics {
   }
   auto velocity(const Eigen::VectorXd& x) const { return x.segment(modes, modes); }
   /// z, in the order of HubLaws::smooth.
-  std::span<const double> law_states(const Eigen::VectorXd& x) const {
-    return {x.data() + first_law_state, static_cast<std::size_t>(law_state_count)};
+  auto law_states(const Eigen::VectorXd& x) const {
+    return x.segment(first_law_state, law_state_count);
   }
   /// Modal velocities that leave the hub at rest, and nearest to those of `x`.
   void stop_hub(Eigen::VectorXd& x) const;

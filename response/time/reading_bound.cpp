@@ -66,9 +66,11 @@ MatrixXd parts(const Eigen::MatrixXcd& rows) {
   return made;
 }
 
-Eigen::ArrayXd sizes(const Eigen::VectorXd& parts) {
-  const Index count = parts.size() / 2;
-  return (parts.head(count).array().square() + parts.tail(count).array().square()).sqrt();
+/// sum over k of factor_k |a_k|.
+double sum_of_sizes(const Eigen::ArrayXd& factors, const Eigen::VectorXd& parts) {
+  const Index count = factors.size();
+  const auto squares = parts.head(count).array().square() + parts.tail(count).array().square();
+  return (factors * squares.sqrt()).sum();
 }
 
 }  // namespace
@@ -124,11 +126,12 @@ ReadingBound::ReadingBound(std::shared_ptr<const ReadingModes> modes, double ste
 }
 
 ReadingBound::Range ReadingBound::operator()(const Eigen::VectorXd& x0, const Eigen::VectorXd& x1,
-                                             const StepInputs& inputs) const {
+                                             const StepInputs& inputs, Workspace& workspace) const {
   const Index n = x0.size();
   const Index m = inputs.f0.size();
   const Reading& reading = modes_->reading;
-  Eigen::VectorXd z(n + 2 + 2 * m);
+  Eigen::VectorXd& z = workspace.known;
+  z.resize(n + 2 + 2 * m);
   z.head(n) = x0;
   z(n) = inputs.u0;
   z(n + 1) = (inputs.u1 - inputs.u0) / step_s_;
@@ -136,13 +139,15 @@ ReadingBound::Range ReadingBound::operator()(const Eigen::VectorXd& x0, const Ei
   double sag = 0.0;
   if (forces_vary_) {
     z.tail(m) = inputs.force_slope() / step_s_;
-    const Eigen::VectorXd bend = inputs.force_square() * (2.0 / (step_s_ * step_s_));
-    sag = (by_third_ * sizes(modes_->third_by_force * bend)).sum() +
-          std::abs(reading.force.dot(bend)) * step_s_ * step_s_ / 8.0;
+    workspace.bend = inputs.force_square() * (2.0 / (step_s_ * step_s_));
+    workspace.parts.noalias() = modes_->third_by_force * workspace.bend;
+    sag = sum_of_sizes(by_third_, workspace.parts) +
+          std::abs(reading.force.dot(workspace.bend)) * step_s_ * step_s_ / 8.0;
   } else {
     z.tail(m).setZero();
   }
-  sag += (by_second_ * sizes(modes_->second * z)).sum();
+  workspace.parts.noalias() = modes_->second * z;
+  sag += sum_of_sizes(by_second_, workspace.parts);
   const double begin =
       reading.state.dot(x0) + reading.actuator * inputs.u0 + reading.force.dot(inputs.f0);
   const double end =

@@ -43,9 +43,15 @@ class ReadingBound {
     double least;
     double largest;
   };
+  /// Memory to compute in, of any bounds one after the other.
+  struct Workspace {
+    Eigen::VectorXd known;  ///< X, u, u', f, f'
+    Eigen::VectorXd bend;   ///< f''
+    Eigen::VectorXd parts;  ///< of a or g
+  };
   /// Of the step from X = x0 to x1. NaN where A has no basis of eigenvectors.
-  Range operator()(const Eigen::VectorXd& x0, const Eigen::VectorXd& x1,
-                   const StepInputs& inputs) const;
+  Range operator()(const Eigen::VectorXd& x0, const Eigen::VectorXd& x1, const StepInputs& inputs,
+                   Workspace& workspace) const;
 
  private:
   std::shared_ptr<const ReadingModes> modes_;

@@ -36,7 +36,8 @@ SensorReadings::SensorReadings(const ModalDynamics& arm, const ArmParts& parts,
 
 const Eigen::VectorXd& SensorReadings::read(const TimeStepper& stepper, double actuator_N_m) {
   const bool is_held = stepper.motion() == HubMotion::held;
-  return read(stepper.state(), stepper.force(actuator_N_m), actuator_N_m,
+  stepper.form_force(actuator_N_m, force_);
+  return read(stepper.state(), force_, actuator_N_m,
               is_held ? std::optional(stepper.hub_angle()) : std::nullopt);
 }
 

@@ -38,6 +38,7 @@ class SensorReadings {
   Eigen::VectorXd gain_;
   Eigen::VectorXd offset_;
   Eigen::VectorXd now_;
+  Eigen::VectorXd force_;
   std::vector<Eigen::Index> hub_angles_;  // sensors that stand still with the hub
   std::vector<Eigen::Index> hub_velocities_;
 };

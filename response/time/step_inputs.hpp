@@ -18,8 +18,8 @@ struct StepInputs {
 
   double torque(double r) const { return u0 + r * (u1 - u0); }
   double time(double r) const { return begin_s + r * length_s; }
-  Eigen::VectorXd force_slope() const { return -3.0 * f0 + 4.0 * fm - f1; }    ///< at r = 0
-  Eigen::VectorXd force_square() const { return 2.0 * (f0 - 2.0 * fm + f1); }  ///< of r^2
+  auto force_slope() const { return -3.0 * f0 + 4.0 * fm - f1; }    ///< at r = 0, m
+  auto force_square() const { return 2.0 * (f0 - 2.0 * fm + f1); }  ///< of r^2, m
 };
 
 }  // namespace flexarm::response

@@ -34,6 +34,7 @@ StepPlan::StepPlan(const ModalDynamics& arm, const AddedForces& forces, const Ac
       ledger_(ledger),
       is_linear_(!forces.has_friction() && !forces.vary()),
       velocity_row_(Eigen::RowVectorXd::Zero(arm.size())),
+      argument_rows_(forces.argument_rows()),
       settling_s_(kSettling * actuator.lag_s) {
   velocity_row_.segment(arm.modes, arm.modes) = arm.hub_slope.transpose();
   if (!is_linear_ && arm.lagged_torque) settled_ = with_settled_torque(arm);
@@ -79,12 +80,12 @@ StepPlan::WatchedReadings StepPlan::watched_readings(const ModalDynamics& arm) c
 
 Steps StepPlan::steps_with_shorter(const ModalDynamics& arm, int count, double step_s) const {
   const WatchedReadings& watched = &arm == arm_ ? watched_ : settled_watched_;
-  const bool vary = forces_->vary();
+  const auto table = [&](const LinearSystem& system, const auto& reading) {
+    return step_table(system, argument_rows_, reading, step_s, options_.precision);
+  };
   Steps made{.count = count, .length_s = step_s};
-  made.turning = step_table(arm.turning, watched.speed, step_s, vary, options_.precision);
-  if (forces_->has_friction()) {
-    made.held = step_table(arm.held, watched.reaction, step_s, vary, options_.precision);
-  }
+  made.turning = table(arm.turning, watched.speed);
+  if (forces_->has_friction()) made.held = table(arm.held, watched.reaction);
   if (!is_linear_ && phase_rad(arm, step_s) > kLargestPhase_rad * (1.0 + 1e-9)) {
     made.shorter = std::make_shared<const Steps>(steps_with_shorter(arm, 2, 0.5 * step_s));
   }

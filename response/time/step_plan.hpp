@@ -92,6 +92,7 @@ class StepPlan {
   Eigen::RowVectorXd velocity_row_;
   WatchedReadings watched_;
   WatchedReadings settled_watched_;
+  Eigen::MatrixXd argument_rows_;  ///< of AddedForces
   double settling_s_;
   std::vector<PieceSteps> regular_;  ///< one a part of a sample interval
 };

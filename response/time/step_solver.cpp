@@ -3,77 +3,107 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <utility>
 
 namespace flexarm::response {
+
+namespace {
+
+/// Of the estimate of the change that a next iteration would make.
+constexpr double kMargin = 10.0;
+
+/// Largest change of speed in a step that is resolved, in scales of speed of friction; and that of
+/// a first iteration, which the next ones may bring below it.
+constexpr double kResolved = 0.25;
+constexpr double kRoughlyResolved = 0.5;
+
+}  // namespace
 
 StepSolver::StepSolver(const ModalDynamics& arm, const AddedForces& forces, double force_tolerance,
                        int most_iterations)
     : arm_(&arm),
       forces_(&forces),
       force_tolerance_(force_tolerance),
-      allowed_iterations_(most_iterations),
-      middle_(arm.size()),
-      end_(arm.size()) {}
+      allowed_iterations_(most_iterations) {}
 
 /// f at the begin of a step, where forces are constant all of f; else a guess for middle and end.
-void StepSolver::begin(const Eigen::VectorXd& x, HubMotion motion, const StepSpan& span,
-                       bool follows) {
+void StepSolver::begin(const ArmState& now, HubMotion motion, const StepSpan& span, bool follows) {
   inputs_.u0 = span.u0;
   inputs_.u1 = span.u1;
   inputs_.begin_s = span.begin_s;
   inputs_.length_s = span.length_s;
-  const ArmInstant now{x, span.u0, span.begin_s};
-  const auto hub = forces_->hub_torque(now, motion);
-  const double torque = hub.torque_N_m;
-  if (!forces_->vary()) {
-    inputs_.f0.setConstant(1, torque);
-    inputs_.fm.setConstant(1, torque);
-    inputs_.f1.setConstant(1, torque);
+  const ForceInstant instant{entries(now.arguments), span.u0, span.begin_s};
+  if (follows && forces_->vary()) {
+    // The last step's parabola at r = 3/2 and r = 2.
+    const auto go_on = [](double begin, double& middle, double& end) {
+      const double next = begin - 3.0 * middle + 3.0 * end;
+      end = 3.0 * begin - 8.0 * middle + 6.0 * end;
+      middle = next;
+    };
+    for (Eigen::Index i = 0; i < inputs_.f0.size(); ++i) {
+      go_on(inputs_.f0(i), inputs_.fm(i), inputs_.f1(i));
+    }
+    go_on(hub_torques_[0], hub_torques_[1], hub_torques_[2]);
+    hub_torques_[0] = forces_->form(instant, motion, now.along_beam, inputs_.f0).torque_N_m;
     return;
   }
-  if (!follows) {
-    inputs_.f0 = forces_->force(now, hub);
-    inputs_.fm = inputs_.f0;
-    inputs_.f1 = inputs_.f0;
-    hub_torques_.fill(torque);
-    return;
-  }
-  // The last step's parabola at r = 3/2 and r = 2.
-  const auto go_on = []<class Value>(const Value& begin, Value& middle, Value& end) {
-    const Value next = begin - 3.0 * middle + 3.0 * end;
-    end = 3.0 * begin - 8.0 * middle + 6.0 * end;
-    middle = next;
-  };
-  go_on(inputs_.f0, inputs_.fm, inputs_.f1);
-  go_on(hub_torques_[0], hub_torques_[1], hub_torques_[2]);
-  inputs_.f0 = forces_->force(now, hub);
-  hub_torques_[0] = torque;
+  hub_torques_.fill(forces_->form(instant, motion, now.along_beam, inputs_.f0).torque_N_m);
+  inputs_.fm = inputs_.f0;
+  inputs_.f1 = inputs_.f0;
 }
 
-bool StepSolver::solve(const StepTable& table, const Eigen::VectorXd& x, HubMotion motion,
+/// What is known when the step begins.
+void StepSolver::start(const StepTable& table, const Eigen::VectorXd& x) {
+  const Eigen::Index n = x.size();
+  known_.resize(table.end.cols());
+  known_.head(n) = x;
+  known_(n) = inputs_.u0;
+  known_(n + 1) = inputs_.u1;
+  known_.segment(n + 2, inputs_.f0.size()) = inputs_.f0;
+}
+
+bool StepSolver::solve(const StepTable& table, const ArmState& now, HubMotion motion,
                        const StepSpan& span) {
-  begin(x, motion, span, motion == last_motion_ && span.length_s == last_length_s_);
+  begin(now, motion, span, motion == last_motion_ && span.length_s == last_length_s_);
+  start(table, now.x);
   if (!forces_->vary()) {
-    end_.noalias() = table.end.state * x;
-    end_ += table.end.actuator_begin * span.u0 + table.end.actuator_end * span.u1 +
-            table.constant * inputs_.f0(0);
+    end_.noalias() = table.end * known_;
     return true;
   }
-  const auto known = [&](const Propagator& to) -> Eigen::VectorXd {
-    return to.state * x + to.actuator_begin * span.u0 + to.actuator_end * span.u1 +
-           to.force_begin * inputs_.f0;
-  };
-  const Eigen::VectorXd known_middle = known(table.middle);
-  const Eigen::VectorXd known_end = known(table.end);
   last_length_s_ = 0.0;
+  const Eigen::Index forces = inputs_.f0.size();
+  known_arguments_.noalias() = table.arguments_by_known * known_.head(known_.size() - 2 * forces);
+  const std::size_t half = static_cast<std::size_t>(known_arguments_.size()) / 2;
+  const auto is_within = [&](double resolved, double end_rad_per_s) {
+    return !span.must_be_resolved || is_resolved(AddedForces::hub_velocity(entries(now.arguments)),
+                                                 end_rad_per_s, motion, resolved);
+  };
+  double change = 0.0;
+  double slowest = 0.0;  // of change/last change
   for (int iteration = 1; iteration <= allowed_iterations_; ++iteration) {
-    middle_ = known_middle;
-    middle_ += table.middle.force_middle * inputs_.fm + table.middle.force_end * inputs_.f1;
-    end_ = known_end;
-    end_ += table.end.force_middle * inputs_.fm + table.end.force_end * inputs_.f1;
+    known_.tail(2 * forces) << inputs_.fm, inputs_.f1;
+    arguments_ = known_arguments_;
+    arguments_.noalias() += table.arguments_by_forces * known_.tail(2 * forces);
+    const auto arguments = entries(std::as_const(arguments_));
+    evaluate(arguments.first(half), 0.5, motion, middle_point_);
+    evaluate(arguments.last(half), 1.0, motion, end_point_);
     iterations_ = std::max(iterations_, iteration);
-    if (!improve(middle_, end_, motion)) continue;
-    if (span.must_be_resolved && !is_resolved(x, end_, motion)) return false;
+    const double end_speed = AddedForces::hub_velocity(arguments.last(half));
+    if (iteration == 1 && !is_within(kRoughlyResolved, end_speed)) return false;
+    const double last_change = change;
+    change = relative_change();
+    improve();
+    double left = change;
+    if (iteration > 1) {
+      slowest = std::max(slowest, change / last_change);
+      left *= std::min(1.0, kMargin * std::max(slowest, last_slowest_));
+    }
+    if (!(left <= force_tolerance_)) continue;
+    if (!is_within(kResolved, end_speed)) return false;
+    known_.tail(2 * forces) << inputs_.fm, inputs_.f1;
+    end_.noalias() = table.end * known_;
+    if (slowest > 0.0) last_slowest_ = slowest;
     last_motion_ = motion;
     last_length_s_ = span.length_s;
     return true;
@@ -81,46 +111,62 @@ bool StepSolver::solve(const StepTable& table, const Eigen::VectorXd& x, HubMoti
   return false;
 }
 
-bool StepSolver::solve_by_series(const Eigen::VectorXd& x, HubMotion motion, const StepSpan& span) {
-  begin(x, motion, span, false);
+bool StepSolver::solve_by_series(const ArmState& now, HubMotion motion, const StepSpan& span) {
+  begin(now, motion, span, false);
   last_length_s_ = 0.0;
   if (!forces_->vary()) {
-    expand(x, motion);
+    expand(now.x, motion);
+    end_ = series_.at(1.0);
     return true;
   }
   for (int iteration = 1; iteration <= allowed_iterations_; ++iteration) {
-    expand(x, motion);
+    expand(now.x, motion);
     iterations_ = std::max(iterations_, iteration);
-    const Eigen::VectorXd end = series_.at(1.0);
-    if (improve(series_.at(0.5), end, motion)) {
-      return !span.must_be_resolved || is_resolved(x, end, motion);
+    middle_ = series_.at(0.5);
+    forces_->form_arguments(middle_, arguments_);
+    evaluate(entries(std::as_const(arguments_)), 0.5, motion, middle_point_);
+    end_ = series_.at(1.0);
+    forces_->form_arguments(end_, arguments_);
+    const auto arguments = entries(std::as_const(arguments_));
+    evaluate(arguments, 1.0, motion, end_point_);
+    if (relative_change() <= force_tolerance_) {
+      return !span.must_be_resolved ||
+             is_resolved(AddedForces::hub_velocity(entries(now.arguments)),
+                         AddedForces::hub_velocity(arguments), motion, kResolved);
     }
+    improve();
   }
   return false;
 }
 
-/// True when f at these states is the f they were solved with. Else takes f from them, hub torque N
-/// by a Newton step: with the mobility mu of the hub, N changes its speed by Lobatto's weights,
+void StepSolver::evaluate(std::span<const double> arguments, double r, HubMotion motion,
+                          Point& point) const {
+  forces_->form_along_beam(arguments, point.along_beam);
+  point.hub = forces_->form({arguments, inputs_.torque(r), inputs_.time(r)}, motion,
+                            point.along_beam, point.force);
+}
+
+/// The largest change from f to the f that it leads to, at middle and end, relative to the largest
+/// f.
+double StepSolver::relative_change() const {
+  const auto largest = [](const auto& v) { return v.cwiseAbs().maxCoeff(); };
+  const double change =
+      std::max(largest(middle_point_.force - inputs_.fm), largest(end_point_.force - inputs_.f1));
+  const double size =
+      std::max({largest(inputs_.f0), largest(middle_point_.force), largest(end_point_.force)});
+  return size > 0.0 ? change / size : change;
+}
+
+/// Takes f at middle and end from the states that the last f leads to, hub torque N by a Newton
+/// step: with the mobility mu of the hub, N changes its speed by Lobatto's weights,
 ///
 ///     d theta'(1/2) = mu dt (dNm/3 - dN1/24),   d theta'(1) = mu dt (2 dNm/3 + dN1/6).
-bool StepSolver::improve(const Eigen::VectorXd& middle, const Eigen::VectorXd& end,
-                         HubMotion motion) {
-  const ArmInstant at_middle{middle, inputs_.torque(0.5), inputs_.time(0.5)};
-  const ArmInstant at_end{end, inputs_.u1, inputs_.time(1.0)};
-  const auto hub_middle = forces_->hub_torque(at_middle, motion);
-  const auto hub_end = forces_->hub_torque(at_end, motion);
-  const Eigen::VectorXd fm = forces_->force(at_middle, hub_middle);
-  const Eigen::VectorXd f1 = forces_->force(at_end, hub_end);
-  const auto largest = [](const Eigen::VectorXd& v) { return v.cwiseAbs().maxCoeff(); };
-  const double change = std::max(largest(fm - inputs_.fm), largest(f1 - inputs_.f1));
-  const double size = std::max({largest(inputs_.f0), largest(fm), largest(f1)});
-  if (change <= force_tolerance_ * size) return true;
-
-  const double rm = hub_middle.torque_N_m - hub_torques_[1];
-  const double r1 = hub_end.torque_N_m - hub_torques_[2];
+void StepSolver::improve() {
+  const double rm = middle_point_.hub.torque_N_m - hub_torques_[1];
+  const double r1 = end_point_.hub.torque_N_m - hub_torques_[2];
   const double mu_dt = inputs_.length_s * arm_->hub_slope.squaredNorm() / arm_->modal_mass_kg_m2;
-  const double jm = mu_dt * hub_middle.per_velocity_N_m_s;
-  const double j1 = mu_dt * hub_end.per_velocity_N_m_s;
+  const double jm = mu_dt * middle_point_.hub.per_velocity_N_m_s;
+  const double j1 = mu_dt * end_point_.hub.per_velocity_N_m_s;
   const double a = 1.0 - jm / 3.0;
   const double b = jm / 24.0;
   const double c = -j1 * 2.0 / 3.0;
@@ -128,25 +174,22 @@ bool StepSolver::improve(const Eigen::VectorXd& middle, const Eigen::VectorXd& e
   const double determinant = a * d - b * c;
   const double dm = (rm * d - b * r1) / determinant;
   const double d1 = (a * r1 - c * rm) / determinant;
-  inputs_.fm = fm + arm_->hub_force * (dm - rm);
-  inputs_.f1 = f1 + arm_->hub_force * (d1 - r1);
+  inputs_.fm = middle_point_.force + arm_->hub_force * (dm - rm);
+  inputs_.f1 = end_point_.force + arm_->hub_force * (d1 - r1);
   hub_torques_[1] += dm;
   hub_torques_[2] += d1;
-  return false;
 }
 
 /// Friction that changes with speed is a parabola over a step only where the speed changes by a
 /// part of the speed over which friction changes, or where friction no longer changes.
-bool StepSolver::is_resolved(const Eigen::VectorXd& begin, const Eigen::VectorXd& end,
-                             HubMotion motion) const {
-  constexpr double kLargestChange = 0.25;
+bool StepSolver::is_resolved(double begin_rad_per_s, double end_rad_per_s, HubMotion motion,
+                             double largest_change) const {
   constexpr double kFlat = 1e-3;  // change over one scale of speed, relative to breakaway
   const double scale = forces_->friction_scale_rad_per_s();
   if (direction(motion) == 0.0 || !std::isfinite(scale)) return true;
-  const double v0 = arm_->hub_velocity(begin);
-  const double v1 = arm_->hub_velocity(end);
-  if (std::abs(v1 - v0) <= kLargestChange * scale) return true;
-  const auto slowest = forces_->friction_at(std::min(std::abs(v0), std::abs(v1)));
+  if (std::abs(end_rad_per_s - begin_rad_per_s) <= largest_change * scale) return true;
+  const auto slowest =
+      forces_->friction_at(std::min(std::abs(begin_rad_per_s), std::abs(end_rad_per_s)));
   return std::abs(slowest.per_speed_N_m_s) * scale <= kFlat * forces_->breakaway_N_m();
 }
 

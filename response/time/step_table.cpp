@@ -2,12 +2,36 @@
 
 namespace flexarm::response {
 
-StepTable step_table(const LinearSystem& system, const std::shared_ptr<const ReadingModes>& watched,
-                     double step_s, bool forces_vary, Precision precision) {
+namespace {
+
+/// Of (X; u0; u1; f0; fm; f1).
+Eigen::MatrixXd of_everything(const Propagator& to) {
+  Eigen::MatrixXd made(to.state.rows(), to.state.cols() + 2 + 3 * to.force_begin.cols());
+  made << to.state, to.actuator_begin, to.actuator_end, to.force_begin, to.force_middle,
+      to.force_end;
+  return made;
+}
+
+}  // namespace
+
+StepTable step_table(const LinearSystem& system, const Eigen::MatrixXd& argument_rows,
+                     const std::shared_ptr<const ReadingModes>& watched, double step_s,
+                     Precision precision) {
+  const bool forces_vary = argument_rows.rows() > 0;
+  const Propagator end = propagator(system, step_s, 1.0, precision);
   StepTable table;
-  table.end = propagator(system, step_s, 1.0, precision);
-  if (forces_vary) table.middle = propagator(system, step_s, 0.5, precision);
-  table.constant = table.end.constant_force().col(0);
+  if (forces_vary) {
+    table.end = of_everything(end);
+    const Propagator middle = propagator(system, step_s, 0.5, precision);
+    Eigen::MatrixXd arguments(2 * argument_rows.rows(), table.end.cols());
+    arguments << argument_rows * of_everything(middle), argument_rows * table.end;
+    const Eigen::Index forces = 2 * system.force.cols();
+    table.arguments_by_known = arguments.leftCols(arguments.cols() - forces);
+    table.arguments_by_forces = arguments.rightCols(forces);
+  } else {
+    table.end.resize(end.state.rows(), end.state.cols() + 3);
+    table.end << end.state, end.actuator_begin, end.actuator_end, end.constant_force().col(0);
+  }
   if (watched) table.watched = ReadingBound(watched, step_s, forces_vary);
   return table;
 }

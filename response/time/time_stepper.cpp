@@ -51,7 +51,7 @@ TimeStepper::TimeStepper(const StepPlan& plan, EnergyLedger* ledger)
       arm_(&plan.arm()),
       forces_(&plan.forces()),
       ledger_(ledger),
-      x_(Eigen::VectorXd::Zero(plan.arm().size())),
+      state_{.x = Eigen::VectorXd::Zero(plan.arm().size()), .arguments = {}, .along_beam = {}},
       motion_(plan.forces().has_friction() ? HubMotion::held : HubMotion::frictionless),
       breakaway_N_m_(plan.forces().breakaway_N_m()),
       solver_(plan.arm(), plan.forces(), plan.options().force_tolerance,
@@ -60,26 +60,28 @@ TimeStepper::TimeStepper(const StepPlan& plan, EnergyLedger* ledger)
   const double part = plan.unsettled_part(h);
   summary_.substeps = plan.substeps(plan.arm(), part * h);
   if (part < 1.0) summary_.substeps += plan.substeps(*plan.settled(), (1.0 - part) * h);
+  forces_->look_at(state_);
 }
 
 double TimeStepper::hub_angle() const {
-  return motion_ == HubMotion::held ? held_angle_rad_ : arm_->hub_angle(x_);
+  return motion_ == HubMotion::held ? held_angle_rad_ : arm_->hub_angle(state_.x);
 }
 
-Eigen::VectorXd TimeStepper::force(double actuator_N_m) const {
-  const ArmInstant now{x_, actuator_N_m, time_s_};
-  return forces_->force(now, forces_->hub_torque(now, motion_));
+void TimeStepper::form_force(double actuator_N_m, Eigen::VectorXd& made) const {
+  forces_->form({entries(state_.arguments), actuator_N_m, time_s_}, motion_, state_.along_beam,
+                made);
 }
 
 double TimeStepper::hub_torque_N_m(double actuator_N_m) const {
-  return arm_->hub_torque.state.dot(x_) + arm_->hub_torque.actuator * actuator_N_m +
-         forces_->smooth_torque({x_, actuator_N_m, time_s_}).torque_N_m;
+  return arm_->hub_torque.state.dot(state_.x) + arm_->hub_torque.actuator * actuator_N_m +
+         forces_->smooth_torque_N_m(state_.x, actuator_N_m, time_s_);
 }
 
-double TimeStepper::reaction(const Eigen::VectorXd& x, double u, double time_s) const {
-  const ArmInstant now{x, u, time_s};
-  const Eigen::VectorXd f = forces_->force(now, forces_->smooth_torque(now));
-  return arm_->reaction.state.dot(x) + arm_->reaction.actuator * u + arm_->reaction.force.dot(f);
+double TimeStepper::reaction(double u) {
+  forces_->form({entries(state_.arguments), u, time_s_}, HubMotion::held, state_.along_beam,
+                force_);
+  return arm_->reaction.state.dot(state_.x) + arm_->reaction.actuator * u +
+         arm_->reaction.force.dot(force_);
 }
 
 void TimeStepper::take_up(double torque_N_m, double now_s) {
@@ -87,11 +89,11 @@ void TimeStepper::take_up(double torque_N_m, double now_s) {
   if (forces_->has_friction() && start_ != Start::inside && torque_N_m != last_torque_N_m_) {
     // It came to a turn at this very instant: what the torque was to do then no longer counts.
     motion_ = HubMotion::held;
-    held_angle_rad_ = arm_->hub_angle(x_);
+    held_angle_rad_ = arm_->hub_angle(state_.x);
     start_ = Start::inside;
   }
   if (motion_ != HubMotion::held) return;
-  const double needed = reaction(x_, torque_N_m, time_s_);
+  const double needed = reaction(torque_N_m);
   if (std::abs(needed) <= breakaway_N_m_) return;
   motion_ = turning_like(needed);
   start_ = Start::hub_speed_zero;
@@ -100,18 +102,20 @@ void TimeStepper::take_up(double torque_N_m, double now_s) {
 }
 
 void TimeStepper::put(const Eigen::VectorXd& state, bool held) {
-  x_ = state;
+  state_.x = state;
   start_ = Start::inside;
   events_at_once_ = 0;
-  if (!forces_->has_friction()) return;
-  const double speed = arm_->hub_velocity(x_);
-  if (held || speed == 0.0) {
-    motion_ = HubMotion::held;
-    arm_->stop_hub(x_);
-    held_angle_rad_ = arm_->hub_angle(x_);
-  } else {
-    motion_ = turning_like(speed);
+  if (forces_->has_friction()) {
+    const double speed = arm_->hub_velocity(state_.x);
+    if (held || speed == 0.0) {
+      motion_ = HubMotion::held;
+      arm_->stop_hub(state_.x);
+      held_angle_rad_ = arm_->hub_angle(state_.x);
+    } else {
+      motion_ = turning_like(speed);
+    }
   }
+  forces_->look_at(state_);
 }
 
 void TimeStepper::advance(const TorquePiece& piece, double now_s) {
@@ -167,9 +171,9 @@ void TimeStepper::advance_in(const Steps& steps, double begin_N_m, double end_N_
 }
 
 void TimeStepper::linear_step(const Steps& steps, double u0, double u1) {
-  solver_.solve(steps.turning, x_, motion_, {time_s_, steps.length_s, u0, u1});
-  if (steps.energy) ledger_->add((*steps.energy)(x_, u0, u1, solver_.inputs().f0(0)));
-  finish(solver_.end(), steps.length_s);
+  solver_.solve(steps.turning, state_, motion_, {time_s_, steps.length_s, u0, u1});
+  if (steps.energy) ledger_->add((*steps.energy)(state_.x, u0, u1, solver_.inputs().f0(0)));
+  finish(steps.length_s);
 }
 
 void TimeStepper::step(const Steps& steps, double u0, double u1) {
@@ -177,7 +181,7 @@ void TimeStepper::step(const Steps& steps, double u0, double u1) {
   // In a fit friction may change within the shortest of the steps.
   const bool must_be_resolved = steps.shorter || plan_->options().resolve_every_mode;
   const bool is_solved =
-      solver_.solve(table, x_, motion_, {time_s_, steps.length_s, u0, u1, must_be_resolved});
+      solver_.solve(table, state_, motion_, {time_s_, steps.length_s, u0, u1, must_be_resolved});
   const bool may_happen = is_solved && forces_->has_friction() && !is_quiet(table);
   if (steps.shorter && (!is_solved || may_happen)) {
     advance_in(*steps.shorter, u0, u1);
@@ -188,7 +192,7 @@ void TimeStepper::step(const Steps& steps, double u0, double u1) {
     return;
   }
   if (may_happen || ledger_ != nullptr) {
-    solver_.expand(x_, motion_);
+    solver_.expand(state_.x, motion_);
     const std::optional<double> event = may_happen ? next_event() : std::nullopt;
     book(event.value_or(1.0));
     if (event) {
@@ -198,13 +202,13 @@ void TimeStepper::step(const Steps& steps, double u0, double u1) {
       return;
     }
   }
-  finish(solver_.end(), steps.length_s);
+  finish(steps.length_s);
 }
 
 void TimeStepper::free_step(double length_s, double u0, double u1, int halvings) {
   while (length_s > kNothingLeft * plan_->options().sample_time_s) {
     if (!solver_.solve_by_series(
-            x_, motion_, {time_s_, length_s, u0, u1, plan_->options().resolve_every_mode})) {
+            state_, motion_, {time_s_, length_s, u0, u1, plan_->options().resolve_every_mode})) {
       halve(length_s, u0, u1, halvings);
       return;
     }
@@ -214,7 +218,7 @@ void TimeStepper::free_step(double length_s, double u0, double u1, int halvings)
     book(event.value_or(1.0));
     if (!event) {
       if (is_forced) ++summary_.forced_rests;
-      finish(solver_.series().at(1.0), length_s);
+      finish(length_s);
       return;
     }
     u0 = solver_.inputs().torque(*event);
@@ -238,9 +242,13 @@ void TimeStepper::halve(double length_s, double u0, double u1, int halvings) {
   free_step(0.5 * length_s, between, u1, halvings + 1);
 }
 
-bool TimeStepper::is_quiet(const StepTable& table) const {
+bool TimeStepper::is_quiet(const StepTable& table) {
   if (start_ != Start::inside) return false;
-  const auto [least, largest] = table.watched(x_, solver_.end(), solver_.inputs());
+  if (motion_ != HubMotion::held && direction(motion_) * arm_->hub_velocity(solver_.end()) <= 0.0) {
+    return false;
+  }
+  const auto [least, largest] =
+      table.watched(state_.x, solver_.end(), solver_.inputs(), workspace_);
   if (motion_ == HubMotion::held) return least > -breakaway_N_m_ && largest < breakaway_N_m_;
   return motion_ == HubMotion::forward ? least > 0.0 : largest < 0.0;
 }
@@ -274,16 +282,17 @@ void TimeStepper::happen(double r, double length_s) {
   const double passed_s = r * length_s;
   const double u = solver_.inputs().torque(r);
   const bool was_held = motion_ == HubMotion::held;
-  x_ = solver_.series().at(r);
-  arm_->stop_hub(x_);
+  state_.x = solver_.series().at(r);
+  arm_->stop_hub(state_.x);
   time_s_ += passed_s;
   ++summary_.inner_steps;
   if (was_held) {
     summary_.stick_time_s += passed_s;
-    arm_->set_hub_angle(x_, held_angle_rad_);
+    arm_->set_hub_angle(state_.x, held_angle_rad_);
   }
+  forces_->look_at(state_);
   events_at_once_ = r > kInstant ? 0 : events_at_once_ + 1;
-  const double needed = reaction(x_, u, time_s_);
+  const double needed = reaction(u);
   if (was_held && events_at_once_ <= kMostEventsAtOnce) {
     motion_ = turning_like(needed);
     start_ = Start::hub_acceleration_zero;
@@ -291,7 +300,7 @@ void TimeStepper::happen(double r, double length_s) {
   } else if (std::abs(needed) <= breakaway_N_m_ || events_at_once_ > kMostEventsAtOnce) {
     motion_ = HubMotion::held;
     start_ = Start::inside;
-    held_angle_rad_ = arm_->hub_angle(x_);
+    held_angle_rad_ = arm_->hub_angle(state_.x);
     ++summary_.stops;
   } else {
     if (motion_ != turning_like(needed)) ++summary_.reversals;
@@ -305,13 +314,15 @@ void TimeStepper::record_event() {
   if (summary_.event_times_s.size() < kRecordedEvents) summary_.event_times_s.push_back(time_s_);
 }
 
-void TimeStepper::finish(const Eigen::VectorXd& end, double duration_s) {
-  x_ = end;
+void TimeStepper::finish(double duration_s) {
+  state_.x = solver_.end();
   if (motion_ == HubMotion::held) {
-    arm_->stop_hub(x_);
-    arm_->set_hub_angle(x_, held_angle_rad_);
+    arm_->stop_hub(state_.x);
+    arm_->set_hub_angle(state_.x, held_angle_rad_);
     summary_.stick_time_s += duration_s;
   }
+  forces_->form_arguments(state_.x, state_.arguments);
+  state_.along_beam = solver_.along_beam();
   start_ = Start::inside;
   events_at_once_ = 0;
   time_s_ += duration_s;

@@ -43,11 +43,11 @@ class TimeStepper {
   /// turns as its speed says.
   void put(const Eigen::VectorXd& state, bool held);
 
-  const Eigen::VectorXd& state() const { return x_; }
+  const Eigen::VectorXd& state() const { return state_.x; }
   HubMotion motion() const { return motion_; }
   double hub_angle() const;
-  /// Added forces at the present state with that torque of the actuator, m.
-  Eigen::VectorXd force(double actuator_N_m) const;
+  /// Added forces at the present state with that torque of the actuator, in the place of `made`, m.
+  void form_force(double actuator_N_m, Eigen::VectorXd& made) const;
   /// T, without friction.
   double hub_torque_N_m(double actuator_N_m) const;
   const LinearSystem& system() const {
@@ -68,18 +68,19 @@ class TimeStepper {
   void free_step(double length_s, double u0, double u1, int halvings);
   void halve(double length_s, double u0, double u1, int halvings);
   void book(double until);
-  bool is_quiet(const StepTable& table) const;
+  bool is_quiet(const StepTable& table);
   std::optional<double> next_event() const;
-  double reaction(const Eigen::VectorXd& x, double u, double time_s) const;
+  double reaction(double u);
   void happen(double r, double length_s);
   void record_event();
-  void finish(const Eigen::VectorXd& end, double duration_s);
+  void finish(double duration_s);
 
   const StepPlan* plan_;
   const ModalDynamics* arm_;
   const AddedForces* forces_;
   EnergyLedger* ledger_;
-  Eigen::VectorXd x_;
+  ArmState state_;
+  Eigen::VectorXd force_;  // of the last reaction
   HubMotion motion_;
   Start start_ = Start::inside;
   double held_angle_rad_ = 0.0;
@@ -87,6 +88,7 @@ class TimeStepper {
   double last_torque_N_m_ = 0.0;  // at the end of the last piece
   double time_s_ = 0.0;
   StepSolver solver_;
+  ReadingBound::Workspace workspace_;
   int events_at_once_ = 0;
   SimulationSummary summary_;
 };

@@ -35,6 +35,12 @@ void TorquePath::add(TorquePiece command, Pieces& pieces) const {
   for (const double bend : bends_) {
     if ((bend - from) * (bend - to) < 0.0) breaks.push_back((bend - from) / (to - from));
   }
+  if (breaks.empty()) {
+    command.begin_N_m = actuator_.mapped(from);
+    command.end_N_m = actuator_.mapped(to);
+    if (command.end > command.begin) pieces.push_back(command);
+    return;
+  }
   if (to < from) std::ranges::reverse(breaks);
   breaks.push_back(1.0);
   const double begin = command.begin;
@@ -47,7 +53,7 @@ void TorquePath::add(TorquePiece command, Pieces& pieces) const {
     piece.end = s == 1.0 ? command.end : begin + s * length;
     piece.begin_N_m = actuator_.mapped(from + done * (to - from));
     piece.end_N_m = actuator_.mapped(s == 1.0 ? to : from + s * (to - from));
-    piece.is_whole_part = breaks.size() == 1;
+    piece.is_whole_part = false;
     if (piece.end > piece.begin) pieces.push_back(piece);
     done = s;
   }

@@ -93,7 +93,8 @@ struct WatchedStep {
     largest = std::max(begin, *std::ranges::max_element(values));
     size = reading.state.cwiseAbs() * x0.cwiseAbs();
     const auto modes = std::make_shared<const ReadingModes>(arm, is_held, reading);
-    range = ReadingBound(modes, inputs.length_s, true)(x0, x1, inputs);
+    ReadingBound::Workspace workspace;
+    range = ReadingBound(modes, inputs.length_s, true)(x0, x1, inputs, workspace);
     sag = std::min(begin, values.back()) - range.least;
   }
 

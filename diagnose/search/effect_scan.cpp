@@ -61,6 +61,10 @@ std::size_t coarse_samples(const Problem& problem, const SelectionOptions& optio
                                                : options.coarse_samples;
 }
 
+double larger_share(const HubLawScan& law, const std::optional<HubLawScan>& early_law) {
+  return early_law ? std::max(law.share, early_law->share) : law.share;
+}
+
 }  // namespace
 
 EffectScan::EffectScan(const Problem& problem, const SelectionOptions& options, ReportedWork& work)
@@ -105,7 +109,7 @@ Fit EffectScan::first_look(const Candidate& base, const Hypothesis& other) const
   const std::vector<Index> scanned = last_coordinates(start);
   const auto law = hub_law_scan(coarse_, start);
   const auto early_law = law ? hub_law_scan(short_, start) : std::nullopt;
-  if (law && !is_worth_a_fit(law, early_law)) {
+  if (law && larger_share(*law, early_law) < options_.least_law_share) {
     return fit(coarse_, law->starts.front(), {.most_steps = 0, .work = &work_});
   }
   Fit look = law ? best_fit(coarse_, law->starts) : best_from_scan(coarse_, start, scanned);
@@ -128,16 +132,12 @@ std::optional<HubLawScan> EffectScan::hub_law_scan(const Problem& problem,
                        .work = &work_});
 }
 
-bool EffectScan::is_worth_a_fit(const std::optional<HubLawScan>& law,
-                                const std::optional<HubLawScan>& early_law) const {
-  const double share = std::max(law->share, early_law ? early_law->share : 0.0);
-  return share >= options_.least_law_share;
-}
-
-bool EffectScan::may_explain(const Candidate& base, const Hypothesis& other) const {
+std::optional<double> EffectScan::share_of_law(const Candidate& base,
+                                               const Hypothesis& other) const {
   const Candidate start = base.with(other, other.middle());
   const auto law = hub_law_scan(coarse_, start);
-  return !law || is_worth_a_fit(law, hub_law_scan(short_, start));
+  if (!law) return std::nullopt;
+  return larger_share(*law, hub_law_scan(short_, start));
 }
 
 Fit EffectScan::coarse_fit(const Problem& problem, const Candidate& start) const {

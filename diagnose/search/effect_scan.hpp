@@ -39,17 +39,14 @@ class EffectScan {
   /// The same for `other` in place of the `index`-th effect of `candidate`. Where that is a limit
   /// of it, looked for from there too: at the limit's values of the parameters that both have.
   Fit look_in_place(const Candidate& candidate, std::size_t index, const Hypothesis& other) const;
-  /// Without a fit: false for a law of hub torque that explains less than options.least_law_share
-  /// of the excess residual that `base` leaves of the hub's signals (hub_law_scan.hpp).
-  bool may_explain(const Candidate& base, const Hypothesis& other) const;
+  /// Without a fit: part of the excess residual that `base` leaves of the hub's signals that a law
+  /// of hub torque explains (hub_law_scan.hpp), in the longer part of the data or in the shorter;
+  /// later the phase of a harmonic may be lost. Empty for other effects.
+  std::optional<double> share_of_law(const Candidate& base, const Hypothesis& other) const;
 
  private:
   Fit coarse_fit(const Problem& problem, const Candidate& start) const;
   std::optional<HubLawScan> hub_law_scan(const Problem& problem, const Candidate& start) const;
-  /// By the share of a law in the longer part of the data or, where there is such a scan, in the
-  /// shorter: later the phase of a harmonic may be lost.
-  bool is_worth_a_fit(const std::optional<HubLawScan>& law,
-                      const std::optional<HubLawScan>& early_law) const;
   Fit best_fit(const Problem& problem, const std::vector<Candidate>& starts) const;
   Fit best_from_scan(const Problem& problem, const Candidate& start,
                      const std::vector<Eigen::Index>& scanned) const;

@@ -13,6 +13,11 @@ bool is_limit(const Explanation& single, const Hypothesis& general) {
   return general.contains(single.fit.candidate.effects.front().effect);
 }
 
+/// One of them does.
+bool leave_noise(const std::vector<Explanation>& singles) {
+  return std::ranges::any_of(singles, &Explanation::leaves_noise);
+}
+
 }  // namespace
 
 GeneralEffects::GeneralEffects(const Problem& problem, const std::vector<Hypothesis>& hypotheses,
@@ -28,17 +33,31 @@ bool GeneralEffects::has(const Hypothesis& effect) const {
 }
 
 void GeneralEffects::try_by_themselves(Selection& made, std::string_view what, double to) {
-  const Candidate& none = made.nothing.fit.candidate;
+  const Candidate none = made.nothing.fit.candidate;
   const std::vector<Explanation> special = made.singles;
-  const std::vector<const Hypothesis*> tried = worth_trying(special);
-  const auto near = [&](std::size_t i) {
-    std::optional<Candidate> look;
-    if (!fits_.scan().may_explain(none, *tried[i])) return look;
-    look = first_look(none, special, *tried[i]);
-    if (!is_near(*look, special)) look.reset();
-    return look;
+  std::vector<const Hypothesis*> waiting = worth_trying(special);
+  const auto try_each = [&](const std::vector<const Hypothesis*>& tried) {
+    fits_.add_all(labels_with(none, tried), what, to, made.singles,
+                  [&](std::size_t i) { return near_look(none, special, *tried[i]); });
   };
-  fits_.add_all(labels_with(none, tried), what, to, made.singles, near);
+  try {
+    std::vector<const Hypothesis*> laws;  // that explain enough to be named
+    std::vector<const Hypothesis*> others;
+    for (const Hypothesis* general : waiting) {
+      const double share =
+          fits_.scan().share_of_law(none, *general).value_or(options_.least_law_share);
+      if (share < options_.least_law_share) continue;
+      (share < options_.least_share ? others : laws).push_back(general);
+    }
+    waiting = others;
+    try_each(laws);
+    const bool is_found = leave_noise(made.singles) && !leave_noise(special);
+    waiting.clear();
+    if (!is_found) try_each(others);
+  } catch (const Cancelled&) {
+    fits_.leave_untried(labels_with(none, waiting));
+    throw;
+  }
   are_tried_ = true;
 }
 
@@ -50,7 +69,7 @@ bool GeneralEffects::may_be_behind(const Explanation& single) const {
 
 std::vector<const Hypothesis*> GeneralEffects::worth_trying(
     const std::vector<Explanation>& special) const {
-  if (std::ranges::none_of(special, &Explanation::leaves_noise)) return general_;
+  if (!leave_noise(special)) return general_;
   std::vector<const Hypothesis*> found;
   std::ranges::copy_if(general_, std::back_inserter(found), [&](const Hypothesis* general) {
     return std::ranges::any_of(special, [&](const Explanation& single) {
@@ -60,20 +79,20 @@ std::vector<const Hypothesis*> GeneralEffects::worth_trying(
   return found;
 }
 
-Candidate GeneralEffects::first_look(const Candidate& none, const std::vector<Explanation>& special,
-                                     const Hypothesis& general) const {
+std::optional<Candidate> GeneralEffects::near_look(const Candidate& none,
+                                                   const std::vector<Explanation>& special,
+                                                   const Hypothesis& general) const {
   const auto limit = std::ranges::find_if(
       special, [&](const Explanation& single) { return is_limit(single, general); });
-  return (limit == special.end() ? fits_.scan().first_look(none, general)
-                                 : fits_.scan().look_in_place(limit->fit.candidate, 0, general))
-      .candidate;
-}
-
-bool GeneralEffects::is_near(const Candidate& look, const std::vector<Explanation>& special) const {
-  if (special.empty()) return true;
+  Candidate look =
+      (limit == special.end() ? fits_.scan().first_look(none, general)
+                              : fits_.scan().look_in_place(limit->fit.candidate, 0, general))
+          .candidate;
+  if (special.empty()) return look;
   const auto left = problem_.residuals(look, problem_.estimation_runs());
-  return left &&
-         left->squaredNorm() <= options_.largest_of_looks * special.front().fit.sum_of_squares;
+  const double most = options_.largest_of_looks * special.front().fit.sum_of_squares;
+  if (!left || left->squaredNorm() > most) return std::nullopt;
+  return look;
 }
 
 }  // namespace flexarm::diagnose

@@ -3,6 +3,7 @@
 #include "diagnose/search/selection.hpp"
 #include "diagnose/search/set_fits.hpp"
 
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -22,10 +23,12 @@ class GeneralEffects {
   bool has(const Hypothesis& effect) const;
 
   /// By themselves, when made.singles are those of the others: all if none of these leaves noise,
-  /// else those of which a limit does. Each that may explain the residuals
-  /// (EffectScan::may_explain) begins where the best of its limits is, and is fitted to all data
-  /// where it is near to the best of the others (options.largest_of_looks). Adds to
-  /// made.singles; `what` and `to` as SetFits::add_all has them.
+  /// else those of which a limit does. Laws of hub torque go before the rest where they explain
+  /// enough to be named (EffectScan::share_of_law), and the rest is left out where one of them then
+  /// leaves noise; laws that explain less than options.least_law_share are left out. Each begins
+  /// where the best of its limits is, and is fitted to all data where it is near to the best of the
+  /// others (options.largest_of_looks). Adds to made.singles; `what` and `to` as SetFits::add_all
+  /// has them.
   void try_by_themselves(Selection& made, std::string_view what, double to);
 
   /// One that was not tried may be the cause: `single`, a limit of it, does not leave noise.
@@ -33,9 +36,9 @@ class GeneralEffects {
 
  private:
   std::vector<const Hypothesis*> worth_trying(const std::vector<Explanation>& special) const;
-  Candidate first_look(const Candidate& none, const std::vector<Explanation>& special,
-                       const Hypothesis& general) const;
-  bool is_near(const Candidate& look, const std::vector<Explanation>& special) const;
+  /// Empty where it is far from the best of the special ones.
+  std::optional<Candidate> near_look(const Candidate& none, const std::vector<Explanation>& special,
+                                     const Hypothesis& general) const;
 
   const Problem& problem_;
   const std::vector<Hypothesis>& hypotheses_;

@@ -48,6 +48,10 @@ void SetFits::add_all(std::vector<std::string> sets, std::string_view what, doub
   keep(std::move(made), found);
 }
 
+void SetFits::leave_untried(const std::vector<std::string>& sets) {
+  untried_.insert(untried_.end(), sets.begin(), sets.end());
+}
+
 /// `made` are of the sets of `untried_`: empty where no fit was needed, without residuals where
 /// none was made.
 void SetFits::keep(std::vector<std::optional<Explanation>> made, std::vector<Explanation>& found) {

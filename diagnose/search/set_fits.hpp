@@ -43,6 +43,8 @@ class SetFits {
 
   /// Of the sets that were to be added last those that were not fitted.
   const std::vector<std::string>& untried() const { return untried_; }
+  /// More of them, which were to follow.
+  void leave_untried(const std::vector<std::string>& sets);
 
  private:
   void keep(std::vector<std::optional<Explanation>> made, std::vector<Explanation>& found);

@@ -11,6 +11,9 @@
 #include <complex>
 #include <vector>
 
+// GCC 12 leaves it out of sources that include the precompiled header.
+template class Eigen::JacobiSVD<Eigen::MatrixXcd>;
+
 namespace flexarm::assumed_modes {
 namespace {
 

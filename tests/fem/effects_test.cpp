@@ -15,6 +15,9 @@
 #include <string>
 #include <vector>
 
+// GCC 12 leaves it out of sources that include the precompiled header.
+template class Eigen::JacobiSVD<Eigen::MatrixXcd>;
+
 namespace flexarm::fem {
 namespace {
 

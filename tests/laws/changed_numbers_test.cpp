@@ -15,6 +15,7 @@
 #include <complex>
 #include <cstddef>
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace flexarm::laws {
@@ -114,7 +115,12 @@ TEST_P(ChangedNumbers, AreThoseOfTheFileInTime) {
   const auto simulated = [&](const Arm& arm, std::vector<Sensor> sensors) {
     auto parts = response::take_apart(arm);
     // Forces along the beam are summed at places of its own.
-    parts.beam_forces.push_back({"drag", {[](double v) { return -0.1 * v * std::abs(v); }}});
+    const auto drag = [](std::span<const double> velocities, std::span<double> forces) {
+      for (std::size_t i = 0; i < forces.size(); ++i) {
+        forces[i] -= 0.1 * velocities[i] * std::abs(velocities[i]);
+      }
+    };
+    parts.beam_forces.push_back({"drag", {drag}});
     const auto time_model = response::time_model(model(parts.linear), parts, kFewRoots, sensors);
     return response::ArmSimulator(time_model, parts, sensors,
                                   response::options_of_fit(2e-3, response::TorqueHold::zero))

@@ -144,12 +144,11 @@ Eigen::MatrixXd triangle(const Stretch& stretch, const BlockSet& blocks) {
   const Index columns =
       stretch.layout(blocks).first_reading() + static_cast<Index>(stretch.sensors.size());
   Eigen::MatrixXd work = Eigen::MatrixXd::Zero(columns + kChunk, columns);
-  Eigen::HouseholderQR<Eigen::MatrixXd> qr(work.rows(), columns);
   stretch.visit(blocks, [&](const Eigen::Ref<const Eigen::MatrixXd>& rows) {
     work.middleRows(columns, rows.rows()) = rows;
     work.bottomRows(kChunk - rows.rows()).setZero();
-    qr.compute(work);
-    work.topRows(columns) = qr.matrixQR().topRows(columns).triangularView<Eigen::Upper>();
+    const Eigen::HouseholderQR<Eigen::Ref<Eigen::MatrixXd>> in_place(work);
+    work.topRows(columns).triangularView<Eigen::StrictlyLower>().setZero();
   });
   return work.topRows(columns);
 }

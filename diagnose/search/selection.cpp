@@ -33,6 +33,7 @@ std::vector<Candidate> candidates_of(const std::vector<Explanation>& sets) {
 }
 
 constexpr std::string_view kSingles = "effects one by one";
+constexpr std::string_view kFurther = "further effects";
 
 class Search {
  public:
@@ -194,16 +195,50 @@ class Search {
     if (!single.leaves_noise()) revision_.correct_timing(made);
     if (!is_enough(made)) choose(made, single);
     for (int round = 0; round < options_.most_rounds && !is_enough(made); ++round) {
-      const std::size_t causes = std::max<std::size_t>(made.chosen.fit.candidate.effects.size(), 1);
-      if (static_cast<int>(causes) == options_.most_causes) return;
-      combine_further(made);
-      const Explanation* larger = simplest(made.combinations, causes + 1, options_);
-      if (larger == nullptr) return;
-      const Explanation best = needed(exchanged(made, *larger));
-      if (!is_admitted(made, best, made.chosen)) return;
-      if (best.fit.candidate.effects.size() == 1) replace_single(made, best);
-      choose(made, exchanged(made, best));
+      if (!add_causes(made)) return;
     }
+  }
+
+  /// Chooses a set with one cause more, or with two more where it takes both: of three effects of
+  /// like size none explains half of what is left without it until the other two are there. Returns
+  /// whether there is one to be admitted.
+  bool add_causes(Selection& made) {
+    const std::size_t causes = std::max<std::size_t>(made.chosen.fit.candidate.effects.size(), 1);
+    if (!has_room_beside(causes)) return false;
+    combine_further(made);
+    const auto one_more = best_of(made, causes + 1);
+    if (!one_more) return false;
+    if (choose_needed(made, *one_more)) return true;
+    if (!has_room_beside(causes + 1) || !is_worth_another(*one_more, made.chosen)) return false;
+    combine(made, one_more->fit.candidate, kFurther, halfway());
+    const auto two_more = best_of(made, causes + 2);
+    return two_more && choose_needed(made, *two_more);
+  }
+
+  bool has_room_beside(std::size_t causes) const {
+    return static_cast<int>(causes) < options_.most_causes;
+  }
+
+  /// Of so many causes, after exchanges; none where none was fitted.
+  std::optional<Explanation> best_of(Selection& made, std::size_t causes) {
+    const Explanation* found = simplest(made.combinations, causes, options_);
+    if (found == nullptr) return std::nullopt;
+    return exchanged(made, *found);
+  }
+
+  /// Of a set that may not be named: whether a further effect beside it is looked for.
+  bool is_worth_another(const Explanation& fuller, const Explanation& simpler) const {
+    return lead(fuller, simpler) >= options_.least_information_gain &&
+           share_taken(simpler.estimation, fuller.estimation) >= options_.least_share_ahead;
+  }
+
+  /// What is needed of it, where that is admitted.
+  bool choose_needed(Selection& made, const Explanation& fuller) {
+    const Explanation best = needed(fuller);
+    if (!is_admitted(made, best, made.chosen)) return false;
+    if (best.fit.candidate.effects.size() == 1) replace_single(made, best);
+    choose(made, exchanged(made, best));
+    return true;
   }
 
   /// Where something is left: each chosen effect exchanged for one that has it as a limit.
@@ -247,7 +282,7 @@ class Search {
   /// of two causes need not be the best by itself.
   void combine_further(Selection& made) {
     if (made.chosen.fit.candidate.effects.size() > 1) {
-      combine(made, made.chosen.fit.candidate, "further effects", halfway());
+      combine(made, made.chosen.fit.candidate, kFurther, halfway());
       return;
     }
     const std::vector<Candidate> bases = pair_bases(made.singles);

@@ -103,6 +103,9 @@ struct SelectionOptions {
   double least_timing_share = 0.5;
 
   // How far the search goes.
+  /// Beside a set of effects that may not be named one more is looked for where that set explains
+  /// this part or more of the excess residual.
+  double least_share_ahead = 0.25;
   /// Singles refitted to all data <= this, the best of the coarse look.
   std::size_t singles_refitted = 8;
   /// What a coarse look found is refitted to all data where it leaves <= this times the sum of

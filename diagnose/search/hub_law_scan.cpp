@@ -13,7 +13,8 @@ namespace flexarm::diagnose {
 
 namespace {
 
-constexpr double kNoiseOfRest = 2.0;  // deviations
+/// The hub is taken to rest below this velocity, in standard deviations of its noise.
+constexpr double kNoiseOfRest = 2.0;
 
 bool is_scanned(const arm::HubLaw& law) {
   if (const auto* smooth = std::get_if<arm::SmoothHubTorque>(&law)) return smooth->states == 0;
@@ -21,7 +22,7 @@ bool is_scanned(const arm::HubLaw& law) {
   return friction != nullptr && friction->changes_over_rad_per_s.has_value();
 }
 
-/// Of the effect of that name, where it is nothing else.
+/// The law of the effect of that name; empty unless that is scanned and all of the effect.
 std::optional<arm::HubLaw> hub_law(const arm::Arm& arm, const std::string& name) {
   const arm::Effect& effect = arm.effects.at(name);
   if (effect.definition->ports() != std::vector{arm::Port::hub_torque}) return std::nullopt;
@@ -41,10 +42,6 @@ double part_at_rest(const std::vector<HubMotion>& motions) {
     samples += static_cast<double>(motion.time_s.size());
   }
   return at_rest / samples;
-}
-
-bool shows_hub_alone_in_time(const Problem& problem, const std::vector<HubMotion>& motions) {
-  return problem.is_driven_by_torque() && motions.size() == problem.experiment().runs.size();
 }
 
 double torque_N_m(const arm::HubLaw& law, const HubMotion& motion, std::size_t k) {
@@ -72,15 +69,18 @@ HubTorques torques_of(const arm::HubLaw& law, const std::vector<HubMotion>& moti
 
 std::optional<HubLawScan> scan_hub_law(const Problem& problem, const Candidate& start,
                                        const ScanOptions& options) {
+  if (!problem.is_driven_by_torque()) return std::nullopt;
   const arm::Arm& arm = problem.experiment().arm;
   const std::string& effect = start.effects.back().effect;
   const std::optional<arm::HubLaw> law = hub_law(start.extend(arm), effect);
   if (!law) return std::nullopt;
   const Candidate base = start.without(start.effects.size() - 1);
-  const auto residuals = problem.residuals(base, problem.estimation_runs());
+  const std::vector<bool>& runs = problem.estimation_runs();
+  const auto residuals = problem.residuals(base, runs);
   if (!residuals) return std::nullopt;
-  const std::vector<HubMotion> motions = hub_motions({problem, *residuals, *residuals, base});
-  if (!shows_hub_alone_in_time(problem, motions)) return std::nullopt;
+  std::vector<HubMotion> motions = hub_motions({problem, *residuals, *residuals, base});
+  std::erase_if(motions, [&](const HubMotion& motion) { return !runs[motion.run]; });
+  if (std::ssize(motions) != std::ranges::count(runs, true)) return std::nullopt;
   const bool is_friction = std::holds_alternative<arm::DryFriction>(*law);
   if (is_friction && part_at_rest(motions) > kMostRest) return std::nullopt;
   const HubRegression hub(motions);

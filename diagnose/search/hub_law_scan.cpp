@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string>
 #include <variant>
 
 namespace flexarm::diagnose {
@@ -22,12 +21,19 @@ bool is_scanned(const arm::HubLaw& law) {
   return friction != nullptr && friction->changes_over_rad_per_s.has_value();
 }
 
-/// The law of the effect of that name; empty unless that is scanned and all of the effect.
-std::optional<arm::HubLaw> hub_law(const arm::Arm& arm, const std::string& name) {
-  const arm::Effect& effect = arm.effects.at(name);
-  if (effect.definition->ports() != std::vector{arm::Port::hub_torque}) return std::nullopt;
-  const arm::HubLaw law = effect.definition->hub_torque(effect);
-  return is_scanned(law) ? std::optional(law) : std::nullopt;
+/// The law of the candidate's last effect. Empty for a law that is not scanned, which it may be at
+/// some values of its parameters alone; for an effect that is more than a law; and for values that
+/// it cannot have.
+std::optional<arm::HubLaw> last_law(const Candidate& candidate, const arm::Arm& arm) {
+  try {
+    const arm::Arm extended = candidate.extend(arm);
+    const arm::Effect& effect = extended.effects.at(candidate.effects.back().effect);
+    if (effect.definition->ports() != std::vector{arm::Port::hub_torque}) return std::nullopt;
+    const arm::HubLaw law = effect.definition->hub_torque(effect);
+    return is_scanned(law) ? std::optional(law) : std::nullopt;
+  } catch (const arm::InputError&) {
+    return std::nullopt;
+  }
 }
 
 /// Part of the samples at which the velocity is zero within its noise.
@@ -71,8 +77,7 @@ std::optional<HubLawScan> scan_hub_law(const Problem& problem, const Candidate& 
                                        const ScanOptions& options) {
   if (!problem.is_driven_by_torque()) return std::nullopt;
   const arm::Arm& arm = problem.experiment().arm;
-  const std::string& effect = start.effects.back().effect;
-  const std::optional<arm::HubLaw> law = hub_law(start.extend(arm), effect);
+  const std::optional<arm::HubLaw> law = last_law(start, arm);
   if (!law) return std::nullopt;
   const Candidate base = start.without(start.effects.size() - 1);
   const std::vector<bool>& runs = problem.estimation_runs();
@@ -85,10 +90,11 @@ std::optional<HubLawScan> scan_hub_law(const Problem& problem, const Candidate& 
   if (is_friction && part_at_rest(motions) > kMostRest) return std::nullopt;
   const HubRegression hub(motions);
   const auto left_by = [&](const Candidate& candidate) {
+    const auto tried = last_law(candidate, arm);
+    if (!tried) return std::numeric_limits<double>::infinity();
     try {
-      const auto torques = torques_of(hub_law(candidate.extend(arm), effect).value(), motions);
-      return (hub.residuals() - hub.readings(torques)).squaredNorm();
-    } catch (const arm::InputError&) {
+      return (hub.residuals() - hub.readings(torques_of(*tried, motions))).squaredNorm();
+    } catch (const arm::InputError&) {  // of a formula that is not finite there
       return std::numeric_limits<double>::infinity();
     }
   };

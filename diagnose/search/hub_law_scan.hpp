@@ -16,11 +16,11 @@ struct HubLawScan {
 };
 
 /// Scans a law of hub torque, the last effect of `start`, by a regression on the measured motion of
-/// the estimation runs: the law's torque at that motion, the linear arm's response to this torque,
-/// and the sum of squares that it leaves of the hub's signals (symptoms/hub_regression.hpp). Each
-/// value tried by simulation would cost up to seven times a simulation of the linear arm, which
-/// iterates no forces (docs/numerics.md, section 7). The torque that the law may depend on is the
-/// commanded one.
+/// the estimation runs: the law's torque at that motion, the linear response to it of the arm as
+/// filed, and the sum of squares that this leaves of the hub's signals
+/// (symptoms/hub_regression.hpp). Simulated, each value would cost up to seven times a simulation
+/// of the linear arm, which iterates no forces (docs/numerics.md, section 7). The torque that the
+/// law may depend on is the commanded one.
 ///
 /// Empty for an effect that is more than such a law, for a constant torque, for dry friction that
 /// is the same at every speed, and for a law with states of its own. Empty unless all estimation

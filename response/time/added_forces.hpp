@@ -25,6 +25,7 @@ inline double direction(HubMotion motion) {
   return motion == HubMotion::forward ? 1.0 : motion == HubMotion::backward ? -1.0 : 0.0;
 }
 
+/// The vector's entries, where they are.
 inline std::span<double> entries(Eigen::VectorXd& v) {
   return {v.data(), static_cast<std::size_t>(v.size())};
 }

@@ -90,6 +90,19 @@ TEST(HubLawScan, IsOfTheEstimationRunsAlone) {
   EXPECT_EQ(with_validation->starts.front().values, without->starts.front().values);
 }
 
+TEST(HubLawScan, LeavesOutValuesAtWhichTheLawIsOfAnotherKind) {
+  const Experiment experiment = with_hidden(kFriction);
+  const Problem problem(experiment);
+  Hypothesis law = named(experiment, {kFriction.effect}).front();
+  // In the middle of the ranges both torques are equal: friction does not change with speed.
+  law.parameters[0] = {"torque", 0.005, 0.015, effects::Spacing::linear};
+  law.parameters[1] = {"static_torque", 0.005, 0.015, effects::Spacing::linear};
+  const auto made = scan_hub_law(problem, problem.as_filed().with(law, {0.008, 0.014, 0.2}),
+                                 {.evaluations = 1, .method = ScanMethod::grid});
+  ASSERT_TRUE(made);
+  EXPECT_EQ(made->share, 0.0);
+}
+
 TEST(HubLawScan, IsNotMadeOfFrictionWhereTheHubSticks) {
   // Breakaway is above the root mean square of the lower torque.
   const Experiment experiment = with_hidden(

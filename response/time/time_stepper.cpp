@@ -244,7 +244,7 @@ void TimeStepper::halve(double length_s, double u0, double u1, int halvings) {
 
 bool TimeStepper::is_quiet(const StepTable& table) {
   if (start_ != Start::inside) return false;
-  // The bound contains the end of the step: where this is no longer within, it need not be formed.
+  // The bound contains the value at the end: where that has left already, it need not be computed.
   if (motion_ != HubMotion::held && direction(motion_) * arm_->hub_velocity(solver_.end()) <= 0.0) {
     return false;
   }

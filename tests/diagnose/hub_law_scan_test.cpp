@@ -77,19 +77,6 @@ INSTANTIATE_TEST_SUITE_P(
         HiddenLaw{"disturbance_torque", {{"amplitude", 0.02}, {"frequency", 3.3}, {"phase", 2.0}}},
         HiddenLaw{"hub_hardening_spring", {{"coefficient", 0.5}}}));
 
-TEST(HubLawScan, IsOfTheEstimationRunsAlone) {
-  Experiment experiment = with_hidden(kFriction);
-  const auto with_validation = scanned(Problem(experiment), kFriction.effect);
-  const auto removed = std::erase_if(experiment.runs, [](const measured::MeasuredRun& run) {
-    return run.run.purpose == measured::Purpose::validation;
-  });
-  ASSERT_EQ(removed, 1U);
-  const auto without = scanned(Problem(experiment), kFriction.effect);
-  ASSERT_TRUE(with_validation && without);
-  EXPECT_EQ(with_validation->share, without->share);
-  EXPECT_EQ(with_validation->starts.front().values, without->starts.front().values);
-}
-
 TEST(HubLawScan, LeavesOutValuesAtWhichTheLawIsOfAnotherKind) {
   const Experiment experiment = with_hidden(kFriction);
   const Problem problem(experiment);

@@ -182,8 +182,9 @@ using HubLaw =
 /// Force per length on the beam by its velocity there, an odd function that takes energy:
 /// force(v) v <= 0.
 struct BeamForce {
-  /// Adds the force per length [N/m] of each of the velocities [m/s] to that in its place.
-  std::function<void(std::span<const double> velocities, std::span<double> forces)> add;
+  /// force_N_per_m[i] += force(velocity_m_per_s[i]); both have the same number of entries.
+  std::function<void(std::span<const double> velocity_m_per_s, std::span<double> force_N_per_m)>
+      add;
 };
 
 /// The gauge `strain@X` sits at X + shift.

@@ -19,12 +19,13 @@ Entry quadratic_drag() {
                       .beam_force =
                           [](const arm::Effect& effect) {
                             const double coefficient = effect.value("coefficient");
-                            return arm::BeamForce{
-                                [coefficient](std::span<const double> v, std::span<double> forces) {
-                                  for (std::size_t i = 0; i < v.size(); ++i) {
-                                    forces[i] -= coefficient * std::abs(v[i]) * v[i];
-                                  }
-                                }};
+                            return arm::BeamForce{[coefficient](std::span<const double> v_m_per_s,
+                                                                std::span<double> force_N_per_m) {
+                              for (std::size_t i = 0; i < v_m_per_s.size(); ++i) {
+                                const double v = v_m_per_s[i];
+                                force_N_per_m[i] -= coefficient * std::abs(v) * v;
+                              }
+                            }};
                           }}),
           .shows = Shows::in_time,
           .search = [](const Scales& scales)

@@ -15,16 +15,15 @@ using Eigen::Index;
 
 namespace {
 
-/// The initial states that are possible: `known`, and any combination of the columns of `unknown`
-/// beside it.
+/// The initial states that are possible: `known` plus any combination of the columns of `unknown`.
 struct InitialStates {
-  Eigen::VectorXd known;
-  Eigen::MatrixXd unknown;
+  Eigen::VectorXd known;    ///< N, of ArmSimulator
+  Eigen::MatrixXd unknown;  ///< N x k
 };
 
-/// What a run from an unknown state shows, `from_known` being what it shows from the known part: its
-/// state is the most likely one. With forces that are not linear by Gauss-Newton steps, with the
-/// linear arm's derivatives.
+/// Readings of a run from the most likely of these states, `from_known` being those from the known
+/// part alone: a row a sample and a column a sensor. With forces that are not linear by
+/// Gauss-Newton steps, with the linear arm's derivatives.
 Eigen::MatrixXd from_likely_state(const response::ArmSimulator& simulation,
                                   const std::vector<double>& torque_N_m,
                                   const InitialStates& initial, const Eigen::MatrixXd& from_known,
@@ -85,10 +84,11 @@ Eigen::Vector2d first_hub_motion(const measured::TimeRecord& record) {
   return powers.householderQr().solve(Eigen::VectorXd::Map(angle->data(), n)).head<2>();
 }
 
-/// The state with which a run begins (ArmSimulator::readings) whose hub turns evenly up to the first
-/// sample, with that angle and velocity there, the beam straight.
-Eigen::VectorXd turning_evenly(const response::ArmSimulator& simulation,
-                               const measured::TimeRecord& record, const Eigen::Vector2d& hub) {
+/// The initial state of ArmSimulator::readings, `lead` samples before the first, of an arm that
+/// turns as a rigid one at constant velocity: `hub` is its angle [rad] and velocity [rad/s] at the
+/// first sample.
+Eigen::VectorXd rigid_motion(const response::ArmSimulator& simulation,
+                             const measured::TimeRecord& record, const Eigen::Vector2d& hub) {
   const auto lead = static_cast<double>(simulation.lead(record.time_s.size()));
   const double before_s = lead * measured::sampling_period_s(record);
   return simulation.rigid_states() * Eigen::Vector2d(hub(0) - before_s * hub(1), hub(1));
@@ -99,7 +99,7 @@ Eigen::VectorXd in_closed_loop(const response::ArmSimulator& simulation,
   const auto& record = std::get<measured::TimeRecord>(run.data);
   const bool is_free = run.run.initial == measured::InitialState::free;
   const Eigen::VectorXd initial =
-      is_free ? turning_evenly(simulation, record, first_hub_motion(record)) : Eigen::VectorXd();
+      is_free ? rigid_motion(simulation, record, first_hub_motion(record)) : Eigen::VectorXd();
   const auto made =
       simulation.closed_loop_readings({*run.run.controller, record.reference.values}, initial);
   const auto samples = std::ssize(made.torque_N_m);
@@ -119,20 +119,20 @@ Eigen::VectorXd simulated_run(const response::ArmSimulator& simulation,
   if (run.run.initial != measured::InitialState::free) {
     return simulation.readings(torque_N_m).reshaped();
   }
-  const InitialStates initial{turning_evenly(simulation, record, first_hub_motion(record)),
+  const InitialStates initial{rigid_motion(simulation, record, first_hub_motion(record)),
                               simulation.resolved_states()};
   const Eigen::MatrixXd readings = simulation.readings(torque_N_m, initial.known);
   return from_likely_state(simulation, torque_N_m, initial, readings, measured, deviations)
       .reshaped();
 }
 
-Eigen::VectorXd driven_run(const response::ArmSimulator& simulation,
-                           const PrescribedMotion& motion, const measured::MeasuredRun& run,
-                           const Eigen::VectorXd& measured, const Eigen::VectorXd& deviations) {
+Eigen::VectorXd driven_run(const response::ArmSimulator& simulation, const PrescribedMotion& motion,
+                           const measured::MeasuredRun& run, const Eigen::VectorXd& measured,
+                           const Eigen::VectorXd& deviations) {
   const auto& record = std::get<measured::TimeRecord>(run.data);
   const auto& command = motion.acceleration_rad_per_s2;
   const Eigen::Vector2d hub(motion.angle_rad, motion.velocity_rad_per_s);
-  const InitialStates initial{turning_evenly(simulation, record, hub),
+  const InitialStates initial{rigid_motion(simulation, record, hub),
                               simulation.resolved_states_of_resting_hub()};
   Eigen::MatrixXd readings = simulation.readings(command, initial.known);
   if (run.run.initial == measured::InitialState::free) {

@@ -110,6 +110,7 @@ Fit EffectScan::first_look(const Candidate& base, const Hypothesis& other) const
   const auto law = hub_law_scan(coarse_, start);
   const auto early_law = law ? hub_law_scan(short_, start) : std::nullopt;
   if (law && larger_share(*law, early_law) < options_.least_law_share) {
+    // Simulated once, so that it can be compared with other looks.
     return fit(coarse_, law->starts.front(), {.most_steps = 0, .work = &work_});
   }
   Fit look = law ? best_fit(coarse_, law->starts) : best_from_scan(coarse_, start, scanned);

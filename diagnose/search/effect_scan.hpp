@@ -34,14 +34,16 @@ class EffectScan {
 
   /// `base` refitted to the part of the data, its uncertain numbers from a scan of them too.
   Fit first_look(const Candidate& base) const;
-  /// `base` with `other`: a scan of that, then all refitted to the part of the data.
+  /// `base` with `other`: a scan of that, then all refitted to the part of the data. A law of hub
+  /// torque that is scanned by regression and explains less than options.least_law_share stays as
+  /// the scan left it.
   Fit first_look(const Candidate& base, const Hypothesis& other) const;
   /// The same for `other` in place of the `index`-th effect of `candidate`. Where that is a limit
   /// of it, looked for from there too: at the limit's values of the parameters that both have.
   Fit look_in_place(const Candidate& candidate, std::size_t index, const Hypothesis& other) const;
-  /// Without a fit: part of the excess residual that `base` leaves of the hub's signals that a law
-  /// of hub torque explains (hub_law_scan.hpp), in the longer part of the data or in the shorter;
-  /// later the phase of a harmonic may be lost. Empty for other effects.
+  /// HubLawScan::share of a law of hub torque, without a fit: the larger one of those in the longer
+  /// and in the shorter part of the data. In the longer one the minima of a frequency are narrower,
+  /// and the scan may miss them. Empty for effects that are not scanned in this way.
   std::optional<double> share_of_law(const Candidate& base, const Hypothesis& other) const;
 
  private:

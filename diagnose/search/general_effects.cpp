@@ -13,8 +13,7 @@ bool is_limit(const Explanation& single, const Hypothesis& general) {
   return general.contains(single.fit.candidate.effects.front().effect);
 }
 
-/// One of them does.
-bool leave_noise(const std::vector<Explanation>& singles) {
+bool any_leaves_noise(const std::vector<Explanation>& singles) {
   return std::ranges::any_of(singles, &Explanation::leaves_noise);
 }
 
@@ -35,24 +34,24 @@ bool GeneralEffects::has(const Hypothesis& effect) const {
 void GeneralEffects::try_by_themselves(Selection& made, std::string_view what, double to) {
   const Candidate none = made.nothing.fit.candidate;
   const std::vector<Explanation> special = made.singles;
-  std::vector<const Hypothesis*> waiting = worth_trying(special);
+  std::vector<const Hypothesis*> waiting = worth_trying(special);  // for try_each
   const auto try_each = [&](const std::vector<const Hypothesis*>& tried) {
     fits_.add_all(labels_with(none, tried), what, to, made.singles,
                   [&](std::size_t i) { return near_look(none, special, *tried[i]); });
   };
   try {
-    std::vector<const Hypothesis*> laws;  // that explain enough to be named
+    std::vector<const Hypothesis*> likely_laws;
     std::vector<const Hypothesis*> others;
     for (const Hypothesis* general : waiting) {
-      const double share =
-          fits_.scan().share_of_law(none, *general).value_or(options_.least_law_share);
-      if (share < options_.least_law_share) continue;
-      (share < options_.least_share ? others : laws).push_back(general);
+      const std::optional<double> share = fits_.scan().share_of_law(none, *general);
+      if (share && *share < options_.least_law_share) continue;
+      const bool is_likely = share && *share >= options_.least_share;
+      (is_likely ? likely_laws : others).push_back(general);
     }
     waiting = others;
-    try_each(laws);
-    const bool is_found = leave_noise(made.singles) && !leave_noise(special);
+    try_each(likely_laws);
     waiting.clear();
+    const bool is_found = any_leaves_noise(made.singles) && !any_leaves_noise(special);
     if (!is_found) try_each(others);
   } catch (const Cancelled&) {
     fits_.leave_untried(labels_with(none, waiting));
@@ -69,7 +68,7 @@ bool GeneralEffects::may_be_behind(const Explanation& single) const {
 
 std::vector<const Hypothesis*> GeneralEffects::worth_trying(
     const std::vector<Explanation>& special) const {
-  if (!leave_noise(special)) return general_;
+  if (!any_leaves_noise(special)) return general_;
   std::vector<const Hypothesis*> found;
   std::ranges::copy_if(general_, std::back_inserter(found), [&](const Hypothesis* general) {
     return std::ranges::any_of(special, [&](const Explanation& single) {

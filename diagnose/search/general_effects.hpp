@@ -23,12 +23,13 @@ class GeneralEffects {
   bool has(const Hypothesis& effect) const;
 
   /// By themselves, when made.singles are those of the others: all if none of these leaves noise,
-  /// else those of which a limit does. Laws of hub torque go before the rest where they explain
-  /// enough to be named (EffectScan::share_of_law), and the rest is left out where one of them then
-  /// leaves noise; laws that explain less than options.least_law_share are left out. Each begins
-  /// where the best of its limits is, and is fitted to all data where it is near to the best of the
-  /// others (options.largest_of_looks). Adds to made.singles; `what` and `to` as SetFits::add_all
-  /// has them.
+  /// else those of which a limit does. By EffectScan::share_of_law, laws of hub torque below
+  /// options.least_law_share are left out, and those of options.least_share or more are tried
+  /// before the rest. The rest is left out where nothing left noise before and one of these does.
+  /// Each is looked for from the best of its limits, too, and is fitted to all data where it is
+  /// near to the best of the others (options.largest_of_looks). Adds to made.singles; `what` and
+  /// `to` as in SetFits::add_all. Throws Cancelled; SetFits::untried then has the labels of all
+  /// that were not fitted.
   void try_by_themselves(Selection& made, std::string_view what, double to);
 
   /// One that was not tried may be the cause: `single`, a limit of it, does not leave noise.

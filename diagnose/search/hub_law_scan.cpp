@@ -6,14 +6,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string>
 #include <variant>
 
 namespace flexarm::diagnose {
 
 namespace {
 
-constexpr double kNoiseOfRest = 2.0;  // deviations
+/// The hub is taken to rest below this velocity, in standard deviations of its noise.
+constexpr double kNoiseOfRest = 2.0;
 
 bool is_scanned(const arm::HubLaw& law) {
   if (const auto* smooth = std::get_if<arm::SmoothHubTorque>(&law)) return smooth->states == 0;
@@ -21,12 +21,19 @@ bool is_scanned(const arm::HubLaw& law) {
   return friction != nullptr && friction->changes_over_rad_per_s.has_value();
 }
 
-/// Of the effect of that name, where it is nothing else.
-std::optional<arm::HubLaw> hub_law(const arm::Arm& arm, const std::string& name) {
-  const arm::Effect& effect = arm.effects.at(name);
-  if (effect.definition->ports() != std::vector{arm::Port::hub_torque}) return std::nullopt;
-  const arm::HubLaw law = effect.definition->hub_torque(effect);
-  return is_scanned(law) ? std::optional(law) : std::nullopt;
+/// The law of the candidate's last effect. Empty for a law that is not scanned, which it may be at
+/// some values of its parameters alone; for an effect that is more than a law; and for values that
+/// it cannot have.
+std::optional<arm::HubLaw> last_law(const Candidate& candidate, const arm::Arm& arm) {
+  try {
+    const arm::Arm extended = candidate.extend(arm);
+    const arm::Effect& effect = extended.effects.at(candidate.effects.back().effect);
+    if (effect.definition->ports() != std::vector{arm::Port::hub_torque}) return std::nullopt;
+    const arm::HubLaw law = effect.definition->hub_torque(effect);
+    return is_scanned(law) ? std::optional(law) : std::nullopt;
+  } catch (const arm::InputError&) {
+    return std::nullopt;
+  }
 }
 
 /// Part of the samples at which the velocity is zero within its noise.
@@ -41,10 +48,6 @@ double part_at_rest(const std::vector<HubMotion>& motions) {
     samples += static_cast<double>(motion.time_s.size());
   }
   return at_rest / samples;
-}
-
-bool shows_hub_alone_in_time(const Problem& problem, const std::vector<HubMotion>& motions) {
-  return problem.is_driven_by_torque() && motions.size() == problem.experiment().runs.size();
 }
 
 double torque_N_m(const arm::HubLaw& law, const HubMotion& motion, std::size_t k) {
@@ -72,23 +75,26 @@ HubTorques torques_of(const arm::HubLaw& law, const std::vector<HubMotion>& moti
 
 std::optional<HubLawScan> scan_hub_law(const Problem& problem, const Candidate& start,
                                        const ScanOptions& options) {
+  if (!problem.is_driven_by_torque()) return std::nullopt;
   const arm::Arm& arm = problem.experiment().arm;
-  const std::string& effect = start.effects.back().effect;
-  const std::optional<arm::HubLaw> law = hub_law(start.extend(arm), effect);
+  const std::optional<arm::HubLaw> law = last_law(start, arm);
   if (!law) return std::nullopt;
   const Candidate base = start.without(start.effects.size() - 1);
-  const auto residuals = problem.residuals(base, problem.estimation_runs());
+  const std::vector<bool>& runs = problem.estimation_runs();
+  const auto residuals = problem.residuals(base, runs);
   if (!residuals) return std::nullopt;
-  const std::vector<HubMotion> motions = hub_motions({problem, *residuals, *residuals, base});
-  if (!shows_hub_alone_in_time(problem, motions)) return std::nullopt;
+  std::vector<HubMotion> motions = hub_motions({problem, *residuals, *residuals, base});
+  std::erase_if(motions, [&](const HubMotion& motion) { return !runs[motion.run]; });
+  if (std::ssize(motions) != std::ranges::count(runs, true)) return std::nullopt;
   const bool is_friction = std::holds_alternative<arm::DryFriction>(*law);
   if (is_friction && part_at_rest(motions) > kMostRest) return std::nullopt;
   const HubRegression hub(motions);
   const auto left_by = [&](const Candidate& candidate) {
+    const auto tried = last_law(candidate, arm);
+    if (!tried) return std::numeric_limits<double>::infinity();
     try {
-      const auto torques = torques_of(hub_law(candidate.extend(arm), effect).value(), motions);
-      return (hub.residuals() - hub.readings(torques)).squaredNorm();
-    } catch (const arm::InputError&) {
+      return (hub.residuals() - hub.readings(torques_of(*tried, motions))).squaredNorm();
+    } catch (const arm::InputError&) {  // of a formula that is not finite there
       return std::numeric_limits<double>::infinity();
     }
   };

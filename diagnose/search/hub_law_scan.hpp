@@ -7,22 +7,27 @@
 
 namespace flexarm::diagnose {
 
+/// What a scan of a law of hub torque found.
 struct HubLawScan {
-  std::vector<Candidate> starts;  ///< the best first
-  /// Part of what is beyond noise in the hub's signals that the best of them takes away.
+  std::vector<Candidate> starts;  ///< for fits, one or more, the best first
+  /// Part of the excess residual of the hub's signals (HubRegression::beyond_noise) that the best
+  /// of `starts` explains, 0 to 1.
   double share = 0.0;
 };
 
-/// A scan of a law of hub torque, the last effect of `start`, without simulating it: its torque is
-/// that at the measured motion, and what this makes of the hub's signals is linear
-/// (symptoms/hub_regression.hpp). A simulation has to iterate the torque within each step, or
-/// follow how friction changes in it, at some ten times the cost of another one.
+/// Scans a law of hub torque, the last effect of `start`, by a regression on the measured motion of
+/// the estimation runs: the law's torque at that motion, the linear response to it of the arm as
+/// filed, and the sum of squares that this leaves of the hub's signals
+/// (symptoms/hub_regression.hpp). Simulated, each value would cost up to seven times a simulation
+/// of the linear arm, which iterates no forces (docs/numerics.md, section 7). The torque that the
+/// law may depend on is the commanded one.
 ///
-/// Empty for an effect that is more than such a law; for a constant torque, and for dry friction
-/// that is the same at every speed; for a law with states of its own. Empty where a run is not a
-/// `time` run by output error that shows the hub. Of friction, empty where the hub rests in more
-/// than `kMostRest` of the samples: what it is then is not known by the velocity. Throws Cancelled
-/// where the work is cancelled.
+/// Empty for an effect that is more than such a law, for a constant torque, for dry friction that
+/// is the same at every speed, and for a law with states of its own. Empty unless all estimation
+/// runs are `time` runs by output error with a hub sensor. Empty for friction where the hub rests
+/// in more than `kMostRest` of the samples: the torque at rest is not a function of the velocity.
+/// Empty where `start` without the law cannot be simulated. Throws Cancelled where the work is
+/// cancelled.
 std::optional<HubLawScan> scan_hub_law(const Problem& problem, const Candidate& start,
                                        const ScanOptions& options);
 inline constexpr double kMostRest = 0.1;

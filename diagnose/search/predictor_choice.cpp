@@ -81,14 +81,10 @@ double simulated_error(const PredictedSelection& made) {
   return made.simulated.judged_error(chosen.extend(made.simulated.experiment().arm));
 }
 
-/// With what a filter names; where that is nothing, with the law of hub torque that its torque
-/// balance shows, which is kept. A cause that is named where such a law acts explains a part of it.
-double error_by_filter(PredictedSelection& made) {
-  if (made.names_nothing() && made.balance) {
-    made.law = SoughtLaw{made.law_beside_causes()};
-    if (made.law->found) return made.law->found->error_after;
-  }
-  return simulated_error(made);
+/// Of a simulation with what a filter found: the chosen effects, or the law of hub torque in their
+/// place.
+double error_by_filter(const PredictedSelection& made) {
+  return made.law && made.law->found ? made.law->found->error_after : simulated_error(made);
 }
 
 /// By simulation, and where that does not leave noise by a filter; the first of them in half of the
@@ -104,7 +100,7 @@ PredictedSelection select_by_both(const SelectionTask& task, const Problem& prob
     made.reason = "its residuals are noise";
     return made;
   }
-  // Uncertain numbers do not keep from running away what no effect does.
+  // Refitted numbers do not bring a simulation near the data that no effect brings near.
   if (!is_out_of_reach(made.selection.nothing, made.selection.singles, task.options)) {
     auto numbers = select_with_assumed_numbers(task, problem, part_of(progress, 0.5, 0.6));
     if (numbers) return *std::move(numbers);
@@ -128,6 +124,10 @@ PredictedSelection select_by_both(const SelectionTask& task, const Problem& prob
       made.reason = kNoTime;
       if (!made.selection.end) made.selection.end = other.end;
       return made;
+    }
+    // Only without causes: a cause that is named where such a law acts explains a part of it.
+    if (filtered->names_nothing() && filtered->balance) {
+      filtered->law = SoughtLaw{filtered->law_beside_causes()};
     }
     const double by_filter = error_by_filter(*filtered);
     const double by_simulation = simulated_error(made);

@@ -112,8 +112,9 @@ struct SelectionOptions {
   /// squares that the best leaves: a general effect beside the best of the others, a further effect
   /// beside the best of those looked at with the same base.
   double largest_of_looks = 4.0;
-  /// A law of hub torque is fitted by itself where it takes away this part or more of what is beyond
-  /// noise in the hub's signals: of its own it takes nearly all, and to be named it must take half.
+  /// A law of hub torque that is scanned by regression (hub_law_scan.hpp) is fitted where it
+  /// explains >= this part of the excess residual of the hub's signals. The true law explains
+  /// nearly all of it; one that is named explains least_share of the whole excess residual.
   double least_law_share = 0.1;
   /// Singles that are bases of pairs <= this.
   std::size_t pair_bases = 3;
@@ -134,7 +135,7 @@ struct SelectionOptions {
   int coarse_modes = 8;
   /// Values tried in a scan of an effect of 1, 2, 3 parameters or more.
   std::array<int, 3> scan_evaluations = {40, 90, 160};
-  /// The same of a law of hub torque, which is not simulated.
+  /// The same for a law of hub torque that is scanned by regression, not simulated.
   std::array<int, 3> law_evaluations = {60, 300, 1500};
   /// Of these begun a fit from <= this, for an effect of several parameters.
   int scan_starts = 3;

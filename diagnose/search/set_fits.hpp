@@ -41,9 +41,9 @@ class SetFits {
                std::vector<Explanation>& found,
                const std::function<std::optional<Candidate>(std::size_t)>& candidate);
 
-  /// Of the sets that were to be added last those that were not fitted.
+  /// Labels of the sets that were to be added last and were not fitted.
   const std::vector<std::string>& untried() const { return untried_; }
-  /// More of them, which were to follow.
+  /// Adds to untried() the labels of sets that would have followed, where the work ends before.
   void leave_untried(const std::vector<std::string>& sets);
 
  private:

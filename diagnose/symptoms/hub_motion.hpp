@@ -29,7 +29,7 @@ struct HubMotion {
   double velocity_noise_rad_per_s = 0.0;        ///< standard deviation
   std::vector<double> acceleration_rad_per_s2;  ///< slope of the velocity
   measured::TorqueHold hold = measured::TorqueHold::zero;
-  bool starts_free = false;          ///< the initial state is not known
+  bool starts_free = false;          ///< `initial = "free"`: the initial state is not known
   std::vector<HubReading> readings;  ///< hub velocity before hub angle
 };
 inline constexpr double kSlope_periods = 0.1;

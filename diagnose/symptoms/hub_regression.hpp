@@ -14,8 +14,9 @@ using HubTorques = std::vector<std::vector<double>>;
 
 /// The residuals of all hub signals, and what a torque on the hub makes of them. Laws of hub torque
 /// are evaluated at the measured motion: whatever their form, the arm answers them linearly, and
-/// the simulation may have gone another way. Of a run from an unknown state both are without a
-/// constant and a slope: another initial motion of the hub would take them.
+/// the simulation may have gone another way. In a run with an unknown initial state the
+/// least-squares line through each signal is taken out of both: another initial angle and velocity
+/// of a free hub would change the signals by such a line.
 class HubRegression {
  public:
   /// `motions` must outlive the object.
@@ -26,7 +27,8 @@ class HubRegression {
   const Eigen::VectorXd& residuals() const { return residuals_; }
   /// Sum of squares of the residuals beyond noise; at least its standard deviation by chance.
   double beyond_noise() const;
-  /// What these torques make of the signals, in the order and units of the residuals.
+  /// What these torques, one of each motion, make of the signals, in the order and units of the
+  /// residuals.
   Eigen::VectorXd readings(const HubTorques& torques) const;
   /// Independent numbers among `left`: n (1 - r)/(1 + r) of each signal.
   double independent(const Eigen::VectorXd& left) const;
@@ -34,6 +36,7 @@ class HubRegression {
   HubTorques torques(const Eigen::VectorXd& left) const;
 
  private:
+  /// Of `signals` in the order of the residuals: the lines of runs with an unknown initial state.
   void take_out_initial_motion(Eigen::VectorXd& signals) const;
 
   const std::vector<HubMotion>& motions_;

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <set>
 
 namespace flexarm::diagnose {
 
@@ -53,18 +54,26 @@ std::vector<double> pulse_response(const arm::Arm& arm, const arm::Sensor& senso
   return {made.data(), made.data() + made.size()};
 }
 
-/// Keeps the factors of each length: to compute them takes longer than a transform.
-Eigen::FFT<double>& fourier() {
+/// For transforms of `padded` real values and back. It keeps the factors of the lengths that its
+/// thread used, since they take longer to compute than a transform: some 20 bytes a value.
+Eigen::FFT<double>& fourier(std::size_t padded) {
+  constexpr std::size_t kMostLengths = 16;
+  thread_local std::set<std::size_t> lengths;
   thread_local Eigen::FFT<double> transform(Eigen::FFT<double>::impl_type(),
                                             Eigen::FFT<double>::HalfSpectrum);
+  if (lengths.insert(padded).second && lengths.size() > kMostLengths) {
+    transform.impl().clear();
+    lengths = {padded};
+  }
   return transform;
 }
 
+/// The spectrum of the values and zeros behind them, `padded` in all: padded/2 + 1 lines.
 std::vector<std::complex<double>> transformed(std::span<const double> values, std::size_t padded) {
   std::vector<double> longer(values.begin(), values.end());
   longer.resize(padded);
   std::vector<std::complex<double>> spectrum;
-  fourier().fwd(spectrum, longer);
+  fourier(padded).fwd(spectrum, longer);
   return spectrum;
 }
 
@@ -97,7 +106,7 @@ HubResponse::HubResponse(const arm::Arm& arm, const arm::Sensor& sensor, int fle
 std::vector<double> HubResponse::transformed_back(const Spectrum& spectrum,
                                                   std::size_t padded) const {
   std::vector<double> values;
-  fourier().inv(values, spectrum, static_cast<Eigen::Index>(padded));
+  fourier(padded).inv(values, spectrum, static_cast<Eigen::Index>(padded));
   values.resize(samples_);
   return values;
 }

@@ -43,11 +43,11 @@ class HubResponse {
   std::vector<double> transformed_back(const Spectrum& spectrum, std::size_t padded) const;
 
   std::size_t samples_;
-  std::size_t padded_;          // of what comes round
-  std::size_t padded_twofold_;  // of a convolution
+  std::size_t padded_;          // for what rings on, to fade before it comes round
+  std::size_t padded_twofold_;  // for a convolution of two records
   int differences_;
-  Spectrum response_;         // of padded_twofold_
-  Spectrum steady_response_;  // differenced
+  Spectrum response_;         // padded_twofold_/2 + 1
+  Spectrum steady_response_;  // padded_/2 + 1, differenced
 };
 
 }  // namespace flexarm::diagnose

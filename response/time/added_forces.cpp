@@ -42,7 +42,7 @@ Eigen::MatrixXd AddedForces::argument_rows() const {
   return made;
 }
 
-void AddedForces::look_at(ArmState& state) const {
+void AddedForces::update(ArmState& state) const {
   form_arguments(state.x, state.arguments);
   form_along_beam(entries(state.arguments), state.along_beam);
 }

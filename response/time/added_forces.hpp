@@ -25,6 +25,7 @@ inline double direction(HubMotion motion) {
   return motion == HubMotion::forward ? 1.0 : motion == HubMotion::backward ? -1.0 : 0.0;
 }
 
+/// The vector's entries, where they are.
 inline std::span<double> entries(Eigen::VectorXd& v) {
   return {v.data(), static_cast<std::size_t>(v.size())};
 }
@@ -34,24 +35,25 @@ inline std::span<const double> entries(const Eigen::VectorXd& v) {
 
 /// What forces are functions of at an instant.
 struct ForceInstant {
-  std::span<const double> arguments;  ///< of the state, AddedForces::form_arguments
+  std::span<const double> arguments;  ///< AddedForces::form_arguments of the state
   double actuator_N_m = 0.0;
   double time_s = 0.0;
 };
 
-/// The state of an arm with what forces make of it.
+/// The state of an arm, and what AddedForces computes of it once for all that needs it.
 struct ArmState {
-  Eigen::VectorXd x;           ///< LinearSystem's X
-  Eigen::VectorXd arguments;   ///< of the forces
-  Eigen::VectorXd along_beam;  ///< modal forces along the beam, n [1/s^2]; or empty
+  Eigen::VectorXd x;           ///< LinearSystem's X, N
+  Eigen::VectorXd arguments;   ///< AddedForces::form_arguments
+  Eigen::VectorXd along_beam;  ///< modal forces [1/s^2], n; empty without forces along the beam
 };
 
 /// What acts on the arm beside the actuator's torque: laws of torque on the hub, forces along the
 /// beam. For each HubMotion a smooth function of the state, continued beyond the motion's end.
 ///
-/// Of the state X forces depend on a few linear combinations alone, their arguments: the angle, the
-/// speed and the lagged torque of the hub, then the laws' own states, then, where forces act along
-/// the beam, the modal velocities. Where forces are constant there are none.
+/// Forces depend on the state X by their arguments alone, a few linear combinations of it, in this
+/// order: angle [rad] and velocity [rad/s] of the hub; the lagged torque [N m], 0 without a lag;
+/// the states of laws; with forces along the beam the n modal velocities [1/s]. Forces that are
+/// constant for each HubMotion have no arguments.
 class AddedForces {
  public:
   struct HubTorque {
@@ -73,20 +75,23 @@ class AddedForces {
     return hub_.friction_at(speed_rad_per_s);
   }
 
+  /// Writes the arguments at the state X = x to `arguments`.
   void form_arguments(const Eigen::VectorXd& x, Eigen::VectorXd& arguments) const;
-  /// Arguments are these rows times X.
+  /// The matrix that X is multiplied by for the arguments: a row an argument, N columns.
   Eigen::MatrixXd argument_rows() const;
-  /// The hub's speed among the arguments.
+  /// The hub's velocity [rad/s], one of the arguments; there must be any.
   static double hub_velocity(std::span<const double> arguments) { return arguments[kVelocity]; }
 
-  /// Arguments and forces along the beam of the state.
-  void look_at(ArmState& state) const;
-  /// Forces along the beam for these arguments, n [1/s^2]; none leave `made` empty.
+  /// Writes `arguments` and `along_beam` of the state.
+  void update(ArmState& state) const;
+  /// Writes the modal forces along the beam [1/s^2] to `made`: n entries. Does nothing without such
+  /// forces.
   void form_along_beam(std::span<const double> arguments, Eigen::VectorXd& made) const;
-  /// f in the place of `made`, with these forces along the beam.
+  /// Writes LinearSystem's f to `made`, m entries, `along_beam` being what form_along_beam gives
+  /// for these arguments. Returns the torque on the hub in it.
   HubTorque form(const ForceInstant& now, HubMotion motion, const Eigen::VectorXd& along_beam,
                  Eigen::VectorXd& made) const;
-  /// Of the laws without dry friction.
+  /// Torque on the hub without dry friction.
   double smooth_torque_N_m(const Eigen::VectorXd& x, double actuator_N_m, double time_s) const;
 
   /// The effect for which the hub is watched or forces are iterated, in inner steps; empty where
@@ -102,6 +107,7 @@ class AddedForces {
   static constexpr std::size_t kLawStates = 3;  // the first of them
 
   Eigen::Index argument_count() const;
+  // Both write the rates of the laws' states to `rates`.
   HubTorque smooth_torque(const ForceInstant& now, std::span<double> rates) const;
   HubTorque hub_torque(const ForceInstant& now, HubMotion motion, std::span<double> rates) const;
 

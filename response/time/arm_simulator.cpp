@@ -28,6 +28,9 @@ constexpr std::size_t kProgressInterval = 1 << 14;
 /// differences over 1e-5 of a parameter's range have four digits.
 constexpr double kFitForceTolerance = 1e-9;
 
+/// Of an unknown initial state: the rotation and the first flexible mode.
+constexpr Index kFewestResolvedModes = 2;
+
 /// Samples per period of the highest mode.
 double samples_per_period(const ModalDynamics& arm, double sample_time_s) {
   const double omega = std::sqrt(std::max(0.0, arm.stiffness.maxCoeff()));
@@ -70,32 +73,33 @@ Eigen::MatrixXd ArmSimulator::rigid_states() const {
 Index ArmSimulator::resolved_modes() const {
   const double nyquist_rad_per_s = std::numbers::pi / options_.sample_time_s;
   const auto below = (arm_.stiffness.array() < nyquist_rad_per_s * nyquist_rad_per_s).count();
-  return std::min<Index>(arm_.modes, std::max<Index>(2, below));
+  return std::min<Index>(arm_.modes, std::max<Index>(kFewestResolvedModes, below));
 }
 
 Eigen::MatrixXd ArmSimulator::resolved_states() const {
   const Index n = arm_.modes;
-  const Index shown = resolved_modes();
+  const Index resolved = resolved_modes();
   const Index others = states() - 2 * n;
-  Eigen::MatrixXd made = Eigen::MatrixXd::Zero(states(), 2 * shown + others);
-  made.topLeftCorner(shown, shown).setIdentity();
-  made.block(n, shown, shown, shown).setIdentity();
+  Eigen::MatrixXd made = Eigen::MatrixXd::Zero(states(), 2 * resolved + others);
+  made.topLeftCorner(resolved, resolved).setIdentity();
+  made.block(n, resolved, resolved, resolved).setIdentity();
   made.bottomRightCorner(others, others).setIdentity();
   return made;
 }
 
 Eigen::MatrixXd ArmSimulator::resolved_states_of_resting_hub() const {
   const Index n = arm_.modes;
-  const Index shown = resolved_modes();
+  const Index resolved = resolved_modes();
   const Index others = states() - 2 * n;
-  // What is orthogonal to the row that shows the hub.
-  const auto beside = [shown](const Eigen::VectorXd& of_hub) -> Eigen::MatrixXd {
-    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(of_hub.head(shown));
-    return Eigen::MatrixXd(qr.householderQ()).rightCols(shown - 1);
+  // Orthogonal to the row that gives the hub's angle or velocity.
+  const auto beside = [resolved](const Eigen::VectorXd& of_hub) -> Eigen::MatrixXd {
+    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(of_hub.head(resolved));
+    return Eigen::MatrixXd(qr.householderQ()).rightCols(resolved - 1);
   };
-  Eigen::MatrixXd made = Eigen::MatrixXd::Zero(states(), 2 * (shown - 1) + others);
-  made.topLeftCorner(shown, shown - 1) = beside(arm_.hub_slope.cwiseQuotient(arm_.scale_rad_per_s));
-  made.block(n, shown - 1, shown, shown - 1) = beside(arm_.hub_slope);
+  Eigen::MatrixXd made = Eigen::MatrixXd::Zero(states(), 2 * (resolved - 1) + others);
+  made.topLeftCorner(resolved, resolved - 1) =
+      beside(arm_.hub_slope.cwiseQuotient(arm_.scale_rad_per_s));
+  made.block(n, resolved - 1, resolved, resolved - 1) = beside(arm_.hub_slope);
   made.bottomRightCorner(others, others).setIdentity();
   return made;
 }

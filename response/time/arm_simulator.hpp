@@ -44,12 +44,12 @@ class ArmSimulator {
   /// Two columns: the hub turned by 1 rad, and turning at 1 rad/s, in the first mode alone: that of
   /// the rigid arm where nothing holds the hub.
   Eigen::MatrixXd rigid_states() const;
-  /// A basis of the states that samples show as motion: of the modes below the Nyquist
-  /// frequency, of the first two at least, and of all that is no mode (lags, states of laws). What
-  /// an unknown initial state is made of: modes above would take any amplitude, and dry friction
-  /// would follow each of their periods. N rows, a column a state.
+  /// A basis of what an unknown initial state is made of: displacement and velocity of the modes
+  /// below the Nyquist frequency, of the first two modes at least, and all states that are not of
+  /// modes (lags, states of laws). Samples do not determine the amplitudes of modes above it, and
+  /// dry friction would reverse with each of their periods. N rows, a column a state.
   Eigen::MatrixXd resolved_states() const;
-  /// Those of them with the hub at rest at angle 0: two columns less.
+  /// A basis of those of them with the hub at rest at angle 0: two columns less.
   Eigen::MatrixXd resolved_states_of_resting_hub() const;
   /// No friction, and no force that varies with the state: responses add up.
   bool is_linear() const { return plan_.is_linear(); }
@@ -106,7 +106,7 @@ class ArmSimulator {
 
   Simulation run(Commands& commands, const SimulationProgress& progress) const;
   Eigen::MatrixXd readings(Commands& commands, const Eigen::VectorXd& initial) const;
-  /// How many modes resolved_states has, 1 for an arm of one mode.
+  /// The number of modes of resolved_states; they are the first ones.
   Eigen::Index resolved_modes() const;
   /// What a sensor reads before the first sample reaches it, a row a sample and a column a sensor.
   Eigen::MatrixXd unread(std::size_t samples) const;

@@ -31,9 +31,10 @@ class BeamForces {
   BeamForces(const arm::ModalModel& model, double length_m,
              std::vector<OfEffect<arm::BeamForce>> laws);
 
-  /// int force(v) phi_i dx/I_T for the modal velocities, n [1/s^2] each.
+  /// Writes the modal forces int force(v) phi_i dx/I_T [1/s^2] to `made`, for the modal velocities
+  /// [1/s]: n entries each.
   void modal_force(std::span<const double> modal_velocity, Eigen::VectorXd& made) const;
-  /// -int force(v) v dx, which is lost [W].
+  /// Dissipated power -int force(v) v dx.
   double power_W(const Eigen::Ref<const Eigen::VectorXd>& modal_velocity) const;
 
   /// The first effect that acts along the beam.

@@ -87,8 +87,9 @@ struct ModalDynamics {
 /// Z' = u' in Z's units, whatever the lag. Of an arm whose Z is driven by u alone.
 ModalDynamics with_settled_torque(const ModalDynamics& arm);
 
-/// Of a hub that is driven (ArmParts::hub_is_driven) u is theta'' [rad/s^2]: the modal accelerations
-/// are those of the held hub and b u/(b^T b) beside them, so that theta'' = u to the last bit.
+/// Of a hub that is driven (ArmParts::hub_is_driven) u is theta'' [rad/s^2]: the modal
+/// accelerations are those of the held hub and b u/(b^T b) beside them, so that theta'' = u to the
+/// last bit.
 ///
 /// Throws InputError for a model whose parts do not fit together.
 ModalDynamics modal_dynamics(const arm::ModalModel& model, const ArmParts& parts,

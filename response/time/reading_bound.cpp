@@ -66,7 +66,8 @@ MatrixXd parts(const Eigen::MatrixXcd& rows) {
   return made;
 }
 
-/// sum over k of factor_k |a_k|.
+/// sum over k of factor_k |a_k|, `parts` being the real parts of a and behind them the imaginary
+/// ones.
 double sum_of_sizes(const Eigen::ArrayXd& factors, const Eigen::VectorXd& parts) {
   const Index count = factors.size();
   const auto squares = parts.head(count).array().square() + parts.tail(count).array().square();

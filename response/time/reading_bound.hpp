@@ -43,11 +43,12 @@ class ReadingBound {
     double least;
     double largest;
   };
-  /// Memory to compute in, of any bounds one after the other.
+  /// Vectors that a call computes in, so that it allocates no memory; different bounds may use one
+  /// in turn.
   struct Workspace {
-    Eigen::VectorXd known;  ///< X, u, u', f, f'
-    Eigen::VectorXd bend;   ///< f''
-    Eigen::VectorXd parts;  ///< of a or g
+    Eigen::VectorXd known;  ///< (X; u; u'; f; f') at the beginning, N + 2 + 2 m
+    Eigen::VectorXd bend;   ///< f'', m
+    Eigen::VectorXd parts;  ///< a or g, 2 K as in ReadingModes
   };
   /// Of the step from X = x0 to x1. NaN where A has no basis of eigenvectors.
   Range operator()(const Eigen::VectorXd& x0, const Eigen::VectorXd& x1, const StepInputs& inputs,

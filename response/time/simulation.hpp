@@ -21,8 +21,8 @@ struct SimulationOptions {
   /// Inner steps a sample, at least; more are taken where the solution asks for them.
   int substeps = 0;
   bool energy = true;  ///< form the energy balance; costs several times the simulation itself
-  /// Nonlinear forces of an inner step are found when none changes by more than this times the
-  /// largest of them.
+  /// Nonlinear forces of an inner step are iterated until one iteration changes none by more than
+  /// this times the largest of them, or the next would change none by a tenth of that (StepSolver).
   double force_tolerance = 1e-13;
   int most_iterations = 30;  ///< for those forces; an inner step that needs more is halved
   /// Where forces vary inner steps resolve the fastest mode; else `substeps` decide, which is

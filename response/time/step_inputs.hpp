@@ -18,8 +18,9 @@ struct StepInputs {
 
   double torque(double r) const { return u0 + r * (u1 - u0); }
   double time(double r) const { return begin_s + r * length_s; }
-  auto force_slope() const { return -3.0 * f0 + 4.0 * fm - f1; }    ///< at r = 0, m
-  auto force_square() const { return 2.0 * (f0 - 2.0 * fm + f1); }  ///< of r^2, m
+  // Coefficients of r and r^2 of the parabola, m entries: expressions that refer to this object.
+  auto force_slope() const { return -3.0 * f0 + 4.0 * fm - f1; }
+  auto force_square() const { return 2.0 * (f0 - 2.0 * fm + f1); }
 };
 
 }  // namespace flexarm::response

@@ -10,11 +10,11 @@ namespace flexarm::response {
 
 namespace {
 
-/// Of the estimate of the change that a next iteration would make.
+/// Of the tolerance over the next iteration's estimated change, with which that is left out.
 constexpr double kMargin = 10.0;
 
-/// Largest change of speed in a step that is resolved, in scales of speed of friction; and that of
-/// a first iteration, which the next ones may bring below it.
+/// Largest change of speed in a step that is resolved, in scales of speed of friction; and that
+/// after the first iteration, which the next ones may still bring below it.
 constexpr double kResolved = 0.25;
 constexpr double kRoughlyResolved = 0.5;
 
@@ -27,8 +27,11 @@ StepSolver::StepSolver(const ModalDynamics& arm, const AddedForces& forces, doub
       force_tolerance_(force_tolerance),
       allowed_iterations_(most_iterations) {}
 
-/// f at the begin of a step, where forces are constant all of f; else a guess for middle and end.
-void StepSolver::begin(const ArmState& now, HubMotion motion, const StepSpan& span, bool follows) {
+/// f at the beginning, and a guess for f at middle and end, which is exact where forces are
+/// constant: that at the beginning, or where the step `follows` another of its length the parabola
+/// of that.
+void StepSolver::form_inputs(const ArmState& now, HubMotion motion, const StepSpan& span,
+                             bool follows) {
   inputs_.u0 = span.u0;
   inputs_.u1 = span.u1;
   inputs_.begin_s = span.begin_s;
@@ -53,8 +56,8 @@ void StepSolver::begin(const ArmState& now, HubMotion motion, const StepSpan& sp
   inputs_.f1 = inputs_.f0;
 }
 
-/// What is known when the step begins.
-void StepSolver::start(const StepTable& table, const Eigen::VectorXd& x) {
+/// All that StepTable::end maps but f at middle and end.
+void StepSolver::form_known(const StepTable& table, const Eigen::VectorXd& x) {
   const Eigen::Index n = x.size();
   known_.resize(table.end.cols());
   known_.head(n) = x;
@@ -65,8 +68,8 @@ void StepSolver::start(const StepTable& table, const Eigen::VectorXd& x) {
 
 bool StepSolver::solve(const StepTable& table, const ArmState& now, HubMotion motion,
                        const StepSpan& span) {
-  begin(now, motion, span, motion == last_motion_ && span.length_s == last_length_s_);
-  start(table, now.x);
+  form_inputs(now, motion, span, motion == last_motion_ && span.length_s == last_length_s_);
+  form_known(table, now.x);
   if (!forces_->vary()) {
     end_.noalias() = table.end * known_;
     return true;
@@ -74,36 +77,36 @@ bool StepSolver::solve(const StepTable& table, const ArmState& now, HubMotion mo
   last_length_s_ = 0.0;
   const Eigen::Index forces = inputs_.f0.size();
   known_arguments_.noalias() = table.arguments_by_known * known_.head(known_.size() - 2 * forces);
-  const std::size_t half = static_cast<std::size_t>(known_arguments_.size()) / 2;
+  const std::size_t count = static_cast<std::size_t>(known_arguments_.size()) / 2;
   const auto is_within = [&](double resolved, double end_rad_per_s) {
     return !span.must_be_resolved || is_resolved(AddedForces::hub_velocity(entries(now.arguments)),
                                                  end_rad_per_s, motion, resolved);
   };
   double change = 0.0;
-  double slowest = 0.0;  // of change/last change
+  double rate = 0.0;  // of convergence
   for (int iteration = 1; iteration <= allowed_iterations_; ++iteration) {
     known_.tail(2 * forces) << inputs_.fm, inputs_.f1;
     arguments_ = known_arguments_;
     arguments_.noalias() += table.arguments_by_forces * known_.tail(2 * forces);
     const auto arguments = entries(std::as_const(arguments_));
-    evaluate(arguments.first(half), 0.5, motion, middle_point_);
-    evaluate(arguments.last(half), 1.0, motion, end_point_);
+    evaluate(arguments.first(count), 0.5, motion, middle_point_);
+    evaluate(arguments.last(count), 1.0, motion, end_point_);
     iterations_ = std::max(iterations_, iteration);
-    const double end_speed = AddedForces::hub_velocity(arguments.last(half));
+    const double end_speed = AddedForces::hub_velocity(arguments.last(count));
     if (iteration == 1 && !is_within(kRoughlyResolved, end_speed)) return false;
     const double last_change = change;
     change = relative_change();
     improve();
-    double left = change;
+    double estimate = change;
     if (iteration > 1) {
-      slowest = std::max(slowest, change / last_change);
-      left *= std::min(1.0, kMargin * std::max(slowest, last_slowest_));
+      rate = std::max(rate, change / last_change);
+      estimate *= std::min(1.0, kMargin * std::max(rate, last_rate_));
     }
-    if (!(left <= force_tolerance_)) continue;
+    if (!(estimate <= force_tolerance_)) continue;
     if (!is_within(kResolved, end_speed)) return false;
     known_.tail(2 * forces) << inputs_.fm, inputs_.f1;
     end_.noalias() = table.end * known_;
-    if (slowest > 0.0) last_slowest_ = slowest;
+    if (rate > 0.0) last_rate_ = rate;
     last_motion_ = motion;
     last_length_s_ = span.length_s;
     return true;
@@ -112,7 +115,7 @@ bool StepSolver::solve(const StepTable& table, const ArmState& now, HubMotion mo
 }
 
 bool StepSolver::solve_by_series(const ArmState& now, HubMotion motion, const StepSpan& span) {
-  begin(now, motion, span, false);
+  form_inputs(now, motion, span, false);
   last_length_s_ = 0.0;
   if (!forces_->vary()) {
     expand(now.x, motion);
@@ -146,8 +149,8 @@ void StepSolver::evaluate(std::span<const double> arguments, double r, HubMotion
                             point.along_beam, point.force);
 }
 
-/// The largest change from f to the f that it leads to, at middle and end, relative to the largest
-/// f.
+/// The largest change from f in inputs_ to the f that it leads to, at middle and end, relative to
+/// the largest f.
 double StepSolver::relative_change() const {
   const auto largest = [](const auto& v) { return v.cwiseAbs().maxCoeff(); };
   const double change =

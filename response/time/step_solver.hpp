@@ -29,12 +29,19 @@ struct StepSpan {
 /// through its values at begin, middle and end of the step (Lobatto's points), X(r) the exact
 /// solution for that parabola; of order 4 in the step. Unknown are f at middle and end; friction is
 /// iterated by Newton's method with the mobility of the hub alone, what is soft, by substitution.
-/// Of the states at middle and end an iteration forms what forces depend on, and no more.
+/// An iteration does not form the states at middle and end, but the arguments of the forces there
+/// (AddedForces).
 class StepSolver {
  public:
-  /// `arm` and `forces` must outlive the object. Forces are found when none changes by more than
-  /// `force_tolerance` times the largest, or when the next iteration would change none by a tenth
-  /// of that, at the slowest rate of convergence of this step and the one before.
+  /// `arm` and `forces` must outlive the object. With the tolerance t an iteration that changes the
+  /// forces at middle and end by d, the largest change relative to the largest force, is the last
+  /// where
+  ///
+  ///     d <= t,   or from the second one on   d q <= t/10.
+  ///
+  /// q estimates the rate of convergence: the largest ratio of d to that of the iteration before,
+  /// in this step and in the last one that `solve` iterated more than once. d q is about the next
+  /// iteration's d. A step by series ends with d <= t alone.
   StepSolver(const ModalDynamics& arm, const AddedForces& forces, double force_tolerance,
              int most_iterations);
 
@@ -45,31 +52,32 @@ class StepSolver {
     last_length_s_ = 0.0;
   }
   /// A step from `now` of the table's length; false where forces do not converge, or friction falls
-  /// too much over it: halve it then. Leaves inputs(), end() and along_beam(), not series().
+  /// too much over it: halve it then. Sets inputs(), end() and along_beam(), not series().
   bool solve(const StepTable& table, const ArmState& now, HubMotion motion, const StepSpan& span);
-  /// A step of any length. Leaves series() besides.
+  /// The same for a step of any length. Sets series(), too.
   bool solve_by_series(const ArmState& now, HubMotion motion, const StepSpan& span);
   /// Forms series() for the step that `solve` has solved from `x`.
   void expand(const Eigen::VectorXd& x, HubMotion motion);
 
-  /// X at the end.
+  /// X at the end, N.
   const Eigen::VectorXd& end() const { return end_; }
-  /// Forces along the beam at the end; empty without.
+  /// Modal forces along the beam at the end [1/s^2], n, of the last iteration: they differ from
+  /// those of end() within the tolerance. Empty without such forces.
   const Eigen::VectorXd& along_beam() const { return end_point_.along_beam; }
   const Expansion& series() const { return series_; }
   const StepInputs& inputs() const { return inputs_; }
   int most_iterations() const { return iterations_; }
 
  private:
-  /// Forces at the middle or the end, of the arguments that the last ones lead to.
+  /// Forces at the middle or the end, by the arguments that inputs_ lead to.
   struct Point {
     Eigen::VectorXd along_beam;
     Eigen::VectorXd force;
     AddedForces::HubTorque hub;
   };
 
-  void begin(const ArmState& now, HubMotion motion, const StepSpan& span, bool follows);
-  void start(const StepTable& table, const Eigen::VectorXd& x);
+  void form_inputs(const ArmState& now, HubMotion motion, const StepSpan& span, bool follows);
+  void form_known(const StepTable& table, const Eigen::VectorXd& x);
   bool is_resolved(double begin_rad_per_s, double end_rad_per_s, HubMotion motion,
                    double largest_change) const;
   void evaluate(std::span<const double> arguments, double r, HubMotion motion, Point& point) const;
@@ -84,11 +92,11 @@ class StepSolver {
   StepInputs inputs_;
   std::array<double, 3> hub_torques_ = {};  // in inputs_: begin, middle, end
   HubMotion last_motion_ = HubMotion::frictionless;
-  double last_slowest_ = 0.0;   // of the ratios of an iteration's change to the one before
-  double last_length_s_ = 0.0;  // 0: inputs_ are no guess for the next step
-  Eigen::VectorXd known_;       // StepTable's columns: X; u0; u1; T or f0, fm, f1
-  Eigen::VectorXd known_arguments_;
-  Eigen::VectorXd arguments_;  // middle; end
+  double last_rate_ = 0.0;           // of convergence, in the last step that was iterated
+  double last_length_s_ = 0.0;       // 0: inputs_ are no guess for the next step
+  Eigen::VectorXd known_;            // what StepTable::end maps
+  Eigen::VectorXd arguments_;        // of forces: at the middle; at the end
+  Eigen::VectorXd known_arguments_;  // the part of them that no iteration changes
   Point middle_point_;
   Point end_point_;
   Eigen::VectorXd middle_;

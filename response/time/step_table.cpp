@@ -4,8 +4,8 @@ namespace flexarm::response {
 
 namespace {
 
-/// Of (X; u0; u1; f0; fm; f1).
-Eigen::MatrixXd of_everything(const Propagator& to) {
+/// Maps (X; u0; u1; f0; fm; f1) to X there.
+Eigen::MatrixXd of_all_inputs(const Propagator& to) {
   Eigen::MatrixXd made(to.state.rows(), to.state.cols() + 2 + 3 * to.force_begin.cols());
   made << to.state, to.actuator_begin, to.actuator_end, to.force_begin, to.force_middle,
       to.force_end;
@@ -21,10 +21,10 @@ StepTable step_table(const LinearSystem& system, const Eigen::MatrixXd& argument
   const Propagator end = propagator(system, step_s, 1.0, precision);
   StepTable table;
   if (forces_vary) {
-    table.end = of_everything(end);
+    table.end = of_all_inputs(end);
     const Propagator middle = propagator(system, step_s, 0.5, precision);
     Eigen::MatrixXd arguments(2 * argument_rows.rows(), table.end.cols());
-    arguments << argument_rows * of_everything(middle), argument_rows * table.end;
+    arguments << argument_rows * of_all_inputs(middle), argument_rows * table.end;
     const Eigen::Index forces = 2 * system.force.cols();
     table.arguments_by_known = arguments.leftCols(arguments.cols() - forces);
     table.arguments_by_forces = arguments.rightCols(forces);

@@ -10,20 +10,23 @@
 
 namespace flexarm::response {
 
-/// Everything that is computed once for steps of one length with the hub turning or held.
+/// Everything that is computed once for steps of one length with the hub turning or held: what is
+/// at the end of a step, and at its middle, is linear in the state X at its beginning and in the
+/// StepInputs.
 struct StepTable {
-  /// X(end) of (X; u0; u1; T) for a constant torque T on the hub, m = 1, or of (X; u0; u1; f0; fm;
-  /// f1) where forces vary: N rows.
+  /// Maps to X at the end, N rows: (X; u0; u1; f0) where forces are constant, m = 1 then, else (X;
+  /// u0; u1; f0; fm; f1).
   Eigen::MatrixXd end;
-  // Only where forces vary: their arguments at the middle and behind them those at the end, of what
-  // is known when the step begins, (X; u0; u1; f0), and of (fm; f1).
+  // Where forces vary: maps to their arguments (AddedForces) at the middle and, behind these, at
+  // the end. Their sum over (X; u0; u1; f0), which a step begins with, and (fm; f1), which it
+  // iterates.
   Eigen::MatrixXd arguments_by_known;
   Eigen::MatrixXd arguments_by_forces;
   ReadingBound watched;
 };
 
-/// The arguments of forces that vary are `argument_rows` X; without rows forces are constant.
-/// `watched` may be null.
+/// `argument_rows` as AddedForces::argument_rows; without rows forces are constant. `watched` may
+/// be null.
 StepTable step_table(const LinearSystem& system, const Eigen::MatrixXd& argument_rows,
                      const std::shared_ptr<const ReadingModes>& watched, double step_s,
                      Precision precision);

@@ -60,7 +60,7 @@ TimeStepper::TimeStepper(const StepPlan& plan, EnergyLedger* ledger)
   const double part = plan.unsettled_part(h);
   summary_.substeps = plan.substeps(plan.arm(), part * h);
   if (part < 1.0) summary_.substeps += plan.substeps(*plan.settled(), (1.0 - part) * h);
-  forces_->look_at(state_);
+  forces_->update(state_);
 }
 
 double TimeStepper::hub_angle() const {
@@ -115,7 +115,7 @@ void TimeStepper::put(const Eigen::VectorXd& state, bool held) {
       motion_ = turning_like(speed);
     }
   }
-  forces_->look_at(state_);
+  forces_->update(state_);
 }
 
 void TimeStepper::advance(const TorquePiece& piece, double now_s) {
@@ -244,6 +244,7 @@ void TimeStepper::halve(double length_s, double u0, double u1, int halvings) {
 
 bool TimeStepper::is_quiet(const StepTable& table) {
   if (start_ != Start::inside) return false;
+  // The bound contains the value at the end: where that has left already, it need not be computed.
   if (motion_ != HubMotion::held && direction(motion_) * arm_->hub_velocity(solver_.end()) <= 0.0) {
     return false;
   }
@@ -290,7 +291,7 @@ void TimeStepper::happen(double r, double length_s) {
     summary_.stick_time_s += passed_s;
     arm_->set_hub_angle(state_.x, held_angle_rad_);
   }
-  forces_->look_at(state_);
+  forces_->update(state_);
   events_at_once_ = r > kInstant ? 0 : events_at_once_ + 1;
   const double needed = reaction(u);
   if (was_held && events_at_once_ <= kMostEventsAtOnce) {
@@ -322,7 +323,7 @@ void TimeStepper::finish(double duration_s) {
     summary_.stick_time_s += duration_s;
   }
   forces_->form_arguments(state_.x, state_.arguments);
-  state_.along_beam = solver_.along_beam();
+  state_.along_beam = solver_.along_beam();  // within the tolerance of the step
   start_ = Start::inside;
   events_at_once_ = 0;
   time_s_ += duration_s;

@@ -46,7 +46,8 @@ class TimeStepper {
   const Eigen::VectorXd& state() const { return state_.x; }
   HubMotion motion() const { return motion_; }
   double hub_angle() const;
-  /// Added forces at the present state with that torque of the actuator, in the place of `made`, m.
+  /// Writes the added forces, LinearSystem's f, at the present state with that torque of the
+  /// actuator to `made`: m entries.
   void form_force(double actuator_N_m, Eigen::VectorXd& made) const;
   /// T, without friction.
   double hub_torque_N_m(double actuator_N_m) const;

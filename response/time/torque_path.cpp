@@ -35,25 +35,19 @@ void TorquePath::add(TorquePiece command, Pieces& pieces) const {
   for (const double bend : bends_) {
     if ((bend - from) * (bend - to) < 0.0) breaks.push_back((bend - from) / (to - from));
   }
-  if (breaks.empty()) {
-    command.begin_N_m = actuator_.mapped(from);
-    command.end_N_m = actuator_.mapped(to);
-    if (command.end > command.begin) pieces.push_back(command);
-    return;
-  }
   if (to < from) std::ranges::reverse(breaks);
-  breaks.push_back(1.0);
   const double begin = command.begin;
   const double length = command.end - command.begin;
   double done = 0.0;
-  for (const double s : breaks) {
+  for (std::size_t i = 0; i <= breaks.size(); ++i) {
+    const double s = i < breaks.size() ? breaks[i] : 1.0;
     if (s <= done) continue;
     TorquePiece piece = command;
     piece.begin = begin + done * length;
     piece.end = s == 1.0 ? command.end : begin + s * length;
     piece.begin_N_m = actuator_.mapped(from + done * (to - from));
     piece.end_N_m = actuator_.mapped(s == 1.0 ? to : from + s * (to - from));
-    piece.is_whole_part = false;
+    piece.is_whole_part = breaks.empty();
     if (piece.end > piece.begin) pieces.push_back(piece);
     done = s;
   }

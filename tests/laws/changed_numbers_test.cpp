@@ -115,9 +115,9 @@ TEST_P(ChangedNumbers, AreThoseOfTheFileInTime) {
   const auto simulated = [&](const Arm& arm, std::vector<Sensor> sensors) {
     auto parts = response::take_apart(arm);
     // Forces along the beam are summed at places of its own.
-    const auto drag = [](std::span<const double> velocities, std::span<double> forces) {
-      for (std::size_t i = 0; i < forces.size(); ++i) {
-        forces[i] -= 0.1 * velocities[i] * std::abs(velocities[i]);
+    const auto drag = [](std::span<const double> v_m_per_s, std::span<double> force_N_per_m) {
+      for (std::size_t i = 0; i < v_m_per_s.size(); ++i) {
+        force_N_per_m[i] -= 0.1 * std::abs(v_m_per_s[i]) * v_m_per_s[i];
       }
     };
     parts.beam_forces.push_back({"drag", {drag}});

@@ -1,13 +1,12 @@
 #include "response/time/arm_simulator.hpp"
 
 #include "arm/linear_arm.hpp"
+#include "response/time/orthogonal_complement.hpp"
 #include "response/time/propagator.hpp"
 #include "response/time/sensor_readings.hpp"
 #include "response/time/simulation_input.hpp"
 #include "response/time/simulator_commands.hpp"
 #include "response/time/time_stepper.hpp"
-
-#include <Eigen/QR>
 
 #include <algorithm>
 #include <cmath>
@@ -88,14 +87,11 @@ Eigen::MatrixXd ArmSimulator::resolved_states_of_resting_hub() const {
   const Index n = arm_.modes;
   const Index shown = resolved_modes();
   const Index others = states() - 2 * n;
-  // What is orthogonal to the row that shows the hub.
-  const auto beside = [shown](const Eigen::VectorXd& of_hub) -> Eigen::MatrixXd {
-    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(of_hub.head(shown));
-    return Eigen::MatrixXd(qr.householderQ()).rightCols(shown - 1);
-  };
+  // What is orthogonal to the rows that show the hub.
   Eigen::MatrixXd made = Eigen::MatrixXd::Zero(states(), 2 * (shown - 1) + others);
-  made.topLeftCorner(shown, shown - 1) = beside(arm_.hub_slope.cwiseQuotient(arm_.scale_rad_per_s));
-  made.block(n, shown - 1, shown, shown - 1) = beside(arm_.hub_slope);
+  made.topLeftCorner(shown, shown - 1) =
+      orthogonal_complement(arm_.hub_slope.cwiseQuotient(arm_.scale_rad_per_s).head(shown));
+  made.block(n, shown - 1, shown, shown - 1) = orthogonal_complement(arm_.hub_slope.head(shown));
   made.bottomRightCorner(others, others).setIdentity();
   return made;
 }

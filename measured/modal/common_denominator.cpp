@@ -52,8 +52,11 @@ VectorXd solve(const MatrixXd& matrix, const VectorXd& right) {
   const VectorXd unit = scale.cwiseInverse();
   Eigen::CompleteOrthogonalDecomposition<MatrixXd> decomposition;
   decomposition.setThreshold(kRankTolerance);
-  decomposition.compute(unit.asDiagonal() * matrix * unit.asDiagonal());
-  return unit.cwiseProduct(decomposition.solve(unit.cwiseProduct(right)));
+  const MatrixXd scaled = unit.asDiagonal() * matrix * unit.asDiagonal();
+  decomposition.compute(scaled);
+  // A matrix, for the compiler takes seconds for each type of the right side.
+  const MatrixXd scaled_right = unit.asDiagonal() * right;
+  return unit.asDiagonal() * decomposition.solve(scaled_right);
 }
 
 }  // namespace

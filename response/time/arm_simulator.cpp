@@ -1,13 +1,12 @@
 #include "response/time/arm_simulator.hpp"
 
 #include "arm/linear_arm.hpp"
+#include "response/time/orthogonal_complement.hpp"
 #include "response/time/propagator.hpp"
 #include "response/time/sensor_readings.hpp"
 #include "response/time/simulation_input.hpp"
 #include "response/time/simulator_commands.hpp"
 #include "response/time/time_stepper.hpp"
-
-#include <Eigen/QR>
 
 #include <algorithm>
 #include <cmath>
@@ -27,6 +26,9 @@ constexpr std::size_t kProgressInterval = 1 << 14;
 /// Of the forces of an inner step in a fit: far below any noise, and small enough that quotients of
 /// differences over 1e-5 of a parameter's range have four digits.
 constexpr double kFitForceTolerance = 1e-9;
+/// Of a run: a second of computing at 30 iterations each, and far more than friction with a sharp
+/// fall needs.
+constexpr std::int64_t kMostHalvedStepsOfFit = 5000;
 
 /// Of an unknown initial state: the rotation and the first flexible mode.
 constexpr Index kFewestResolvedModes = 2;
@@ -91,15 +93,12 @@ Eigen::MatrixXd ArmSimulator::resolved_states_of_resting_hub() const {
   const Index n = arm_.modes;
   const Index resolved = resolved_modes();
   const Index others = states() - 2 * n;
-  // Orthogonal to the row that gives the hub's angle or velocity.
-  const auto beside = [resolved](const Eigen::VectorXd& of_hub) -> Eigen::MatrixXd {
-    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(of_hub.head(resolved));
-    return Eigen::MatrixXd(qr.householderQ()).rightCols(resolved - 1);
-  };
+  // What is orthogonal to the rows that show the hub.
   Eigen::MatrixXd made = Eigen::MatrixXd::Zero(states(), 2 * (resolved - 1) + others);
   made.topLeftCorner(resolved, resolved - 1) =
-      beside(arm_.hub_slope.cwiseQuotient(arm_.scale_rad_per_s));
-  made.block(n, resolved - 1, resolved, resolved - 1) = beside(arm_.hub_slope);
+      orthogonal_complement(arm_.hub_slope.cwiseQuotient(arm_.scale_rad_per_s).head(resolved));
+  made.block(n, resolved - 1, resolved, resolved - 1) =
+      orthogonal_complement(arm_.hub_slope.head(resolved));
   made.bottomRightCorner(others, others).setIdentity();
   return made;
 }
@@ -245,6 +244,7 @@ SimulationOptions options_of_fit(double sample_time_s, TorqueHold hold) {
           .hold = hold,
           .energy = false,
           .force_tolerance = kFitForceTolerance,
+          .most_halved_steps = kMostHalvedStepsOfFit,
           .resolve_every_mode = false,
           .precision = Precision::working};
 }

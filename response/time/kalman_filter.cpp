@@ -23,7 +23,8 @@ Eigen::MatrixXd predicted_covariance(const SampledSystem& system) {
   Eigen::MatrixXd g = system.readings.transpose() * weights.asDiagonal() * system.readings;
   Eigen::MatrixXd p = system.process_covariance;
   for (int doubling = 0; doubling < kDoublings; ++doubling) {
-    const Eigen::PartialPivLU<Eigen::MatrixXd> inverse(identity + g * p);
+    const Eigen::MatrixXd sum = identity + g * p;
+    const Eigen::PartialPivLU<Eigen::MatrixXd> inverse(sum);
     const Eigen::MatrixXd solved_a = inverse.solve(a);
     const Eigen::MatrixXd more = symmetric(a.transpose() * p * solved_a);
     g = symmetric(g + a * inverse.solve(g) * a.transpose());
@@ -39,12 +40,12 @@ Eigen::MatrixXd predicted_covariance(const SampledSystem& system) {
 
 /// For a state that is predicted with covariance `p`.
 FilterGain gain_for(const SampledSystem& system, const Eigen::MatrixXd& p) {
-  const Eigen::MatrixXd crossed = p * system.readings.transpose();
+  const Eigen::MatrixXd crossed = system.readings * p;
   FilterGain made;
-  made.innovation_covariance = symmetric(system.readings * crossed);
+  made.innovation_covariance = symmetric(crossed * system.readings.transpose());
   made.innovation_covariance.diagonal() += system.reading_variances;
   const Eigen::LDLT<Eigen::MatrixXd> covariance(made.innovation_covariance);
-  made.gain = covariance.solve(crossed.transpose()).transpose();
+  made.gain = covariance.solve(crossed).transpose();
   return made;
 }
 

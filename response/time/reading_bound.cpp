@@ -1,8 +1,9 @@
 #include "response/time/reading_bound.hpp"
 
+#include "response/time/orthogonal_complement.hpp"
+
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
-#include <Eigen/QR>
 
 #include <algorithm>
 #include <cmath>
@@ -18,13 +19,6 @@ namespace {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
-
-/// Orthonormal columns orthogonal to `direction`.
-MatrixXd complement(const Eigen::VectorXd& direction) {
-  const MatrixXd column = direction;
-  const MatrixXd q = Eigen::HouseholderQR<MatrixXd>(column).householderQ();
-  return q.rightCols(direction.size() - 1);
-}
 
 /// The entries of X from `first` on whose second derivative is not 0 and that the reading depends
 /// on: not W, and neither the angle of an arm without a spring nor a settled Z, each of which would
@@ -51,8 +45,9 @@ MatrixXd basis_of_second_derivative(const ModalDynamics& arm, bool is_held,
   MatrixXd basis = MatrixXd::Zero(arm.size(), held + static_cast<Index>(entries.size()));
   if (is_held) {
     const Index n = arm.modes;
-    basis.block(0, 0, n, n - 1) = complement(arm.hub_slope.cwiseQuotient(arm.scale_rad_per_s));
-    basis.block(n, n - 1, n, n - 1) = complement(arm.hub_slope);
+    basis.block(0, 0, n, n - 1) =
+        orthogonal_complement(arm.hub_slope.cwiseQuotient(arm.scale_rad_per_s));
+    basis.block(n, n - 1, n, n - 1) = orthogonal_complement(arm.hub_slope);
   }
   for (std::size_t k = 0; k < entries.size(); ++k) {
     basis(entries[k], held + static_cast<Index>(k)) = 1.0;

@@ -22,6 +22,7 @@ extern template class Eigen::HessenbergDecomposition<Eigen::MatrixXd>;
 extern template class Eigen::RealSchur<Eigen::MatrixXd>;
 extern template class Eigen::EigenSolver<Eigen::MatrixXd>;
 extern template class Eigen::RealQZ<Eigen::MatrixXd>;
+extern template class Eigen::GeneralizedEigenSolver<Eigen::MatrixXd>;
 extern template class Eigen::JacobiSVD<Eigen::MatrixXd>;
 extern template class Eigen::BDCSVD<Eigen::MatrixXd>;
 extern template class Eigen::PartialPivLU<Eigen::MatrixXcd>;

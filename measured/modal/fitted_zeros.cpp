@@ -104,33 +104,6 @@ Pencil pencil_of(const FittedTransfer& transfer, double omega) {
   return pencil;
 }
 
-/// One of each conjugate pair. From QZ by itself: Eigen's GeneralizedEigenSolver takes as long
-/// again to compile, for vectors.
-std::vector<Complex> finite_eigenvalues(const Pencil& pencil) {
-  const Eigen::RealQZ<MatrixXd> schur(pencil.a, pencil.e, false);
-  const MatrixXd& a = schur.matrixS();
-  const MatrixXd& e = schur.matrixT();
-  std::vector<Complex> found;
-  const auto add = [&](Complex alpha, double beta) {
-    if (std::abs(alpha) < kInfinite * std::abs(beta)) found.push_back(alpha / beta);
-  };
-  for (Index i = 0; i < a.rows(); ++i) {
-    if (i + 1 == a.rows() || a(i + 1, i) == 0.0) {
-      add(a(i, i), e(i, i));
-      continue;
-    }
-    // A conjugate pair: e is diagonal here, and beta the product of its two entries.
-    const double upper = a(i, i) * e(i + 1, i + 1);
-    const double lower = a(i + 1, i + 1) * e(i, i);
-    const double half = 0.5 * (upper - lower);
-    const double beta = e(i, i) * e(i + 1, i + 1);
-    const double square = half * half + a(i + 1, i) * a(i, i + 1) * beta;
-    add({lower + half, std::copysign(std::sqrt(std::abs(square)), beta)}, beta);
-    ++i;
-  }
-  return found;
-}
-
 double highest_pole(const BlockSet& set) {
   double highest = 0.0;
   for (const SecondOrderBlock& block : set.blocks) {
@@ -202,11 +175,16 @@ std::vector<FittedZero> fitted_zeros(const FittedTransfer& transfer, const Matri
   if (transfer.blocks().blocks.empty()) return {};
   const double highest = highest_pole(transfer.blocks());
   const Pencil pencil = pencil_of(transfer, highest);
+  Eigen::GeneralizedEigenSolver<MatrixXd> solver(pencil.a, pencil.e, false);
   std::vector<FittedZero> zeros;
-  for (Complex s : finite_eigenvalues(pencil)) {
-    s *= highest;
+  for (Index i = 0; i < pencil.a.rows(); ++i) {
+    const double beta = solver.betas()(i);
+    const Complex alpha = solver.alphas()(i);
+    if (std::abs(alpha) >= kInfinite * std::abs(beta)) continue;
+    Complex s = alpha / beta * highest;
     if (std::abs(s) <= kOrigin * highest) continue;
     if (std::abs(s.imag()) <= kReal * std::abs(s)) s = s.real();
+    if (s.imag() < 0.0) continue;
     zeros.push_back(zero_at(polished(transfer, s), transfer, covariance));
     FittedZero& zero = zeros.back();
     zero.in_band = zero.frequency_Hz >= from_Hz && zero.frequency_Hz <= to_Hz;

@@ -199,9 +199,9 @@ class Search {
     }
   }
 
-  /// Chooses a set with one cause more, or with two more where it takes both: of three effects of
-  /// like size none explains half of what is left without it until the other two are there. Returns
-  /// whether there is one to be admitted.
+  /// Chooses a set with one cause more, or with two more where it takes both: where effects act
+  /// alike in part, one may explain half of what is left only beside the other two. Returns whether
+  /// there is one to be admitted.
   bool add_causes(Selection& made) {
     const std::size_t causes = std::max<std::size_t>(made.chosen.fit.candidate.effects.size(), 1);
     if (!has_room_beside(causes)) return false;

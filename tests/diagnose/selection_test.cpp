@@ -10,6 +10,8 @@
 
 #include <complex>
 #include <cstddef>
+#include <set>
+#include <string>
 #include <variant>
 #include <vector>
 
@@ -129,6 +131,23 @@ TEST(Selection, ExchangesACauseThatStandsInThePlaceOfAnother) {
   for (const Explanation& rival : made.rivals) {
     EXPECT_GT(lead(made.chosen, rival), 10.0) << rival.fit.candidate.label();
   }
+}
+
+TEST(Selection, FindsThreeEffectsOfLikeSize) {
+  // By itself each leaves an excess sum of squares of 2e6.
+  const Experiment experiment =
+      simulated_experiment({effects::named("torque_bias", {{"torque", 1.916e-4}}),
+                            effects::named("hub_viscous_friction", {{"coefficient", 1.516e-3}}),
+                            effects::named("flexural_rigidity", {{"factor", 0.99544}})},
+                           {.duration_s = 1.5});
+  const Selection made =
+      select(Problem(experiment),
+             named(experiment, {"torque_bias", "hub_viscous_friction", "torque_gain",
+                                "flexural_rigidity", "payload_mass", "linear_density"}),
+             {});
+  const std::set<std::string> all = {"torque_bias", "hub_viscous_friction", "flexural_rigidity"};
+  EXPECT_EQ(made.chosen.fit.candidate.labels(), all);
+  EXPECT_TRUE(made.chosen.estimation.is_noise());
 }
 
 TEST(Selection, DoesNotTakeASmallEffectForTheTimingOfTheTorque) {

@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <stdexcept>
 
 namespace flexarm::response {
 namespace {
@@ -134,6 +136,23 @@ TEST(ActuatorChain, RippleKeepsTheEnergyOfAPendulum) {
   }
   EXPECT_GT(widest, 0.2);
   EXPECT_GT(made.summary.most_iterations, 1);
+}
+
+TEST(ActuatorChain, ARunWhoseStepsAreHalvedTooOftenIsGivenUp) {
+  ArmParts parts = coulomb(0.0);
+  put(parts, "torque_ripple", {{"amplitude", -2.0}, {"cycles", 3.0}, {"phase", 0.4}});
+  // Too few iterations for steps of this length.
+  SimulationOptions options{.sample_time_s = 0.1, .energy = false, .most_iterations = 3};
+  const auto made = [&] {
+    return simulate(oscillator(1.0, 0.0), parts, hub_sensors(), step_torque(0.0, 100), options)
+        .summary.halved_steps;
+  };
+  const std::int64_t needed = made();
+  ASSERT_GT(needed, 0);
+  options.most_halved_steps = needed;
+  EXPECT_EQ(made(), needed);
+  options.most_halved_steps = needed - 1;
+  EXPECT_THROW(made(), std::runtime_error);
 }
 
 TEST(SensorLag, ReadsThroughAFirstOrderLag) {

@@ -33,7 +33,6 @@ std::vector<Candidate> candidates_of(const std::vector<Explanation>& sets) {
 }
 
 constexpr std::string_view kSingles = "effects one by one";
-constexpr std::string_view kFurther = "further effects";
 
 class Search {
  public:
@@ -205,12 +204,12 @@ class Search {
   bool add_causes(Selection& made) {
     const std::size_t causes = std::max<std::size_t>(made.chosen.fit.candidate.effects.size(), 1);
     if (!has_room_beside(causes)) return false;
-    combine_further(made);
+    combine_further(made, made.chosen.fit.candidate);
     const auto one_more = best_of(made, causes + 1);
     if (!one_more) return false;
     if (choose_needed(made, *one_more)) return true;
     if (!has_room_beside(causes + 1) || !is_worth_another(*one_more, made.chosen)) return false;
-    combine(made, one_more->fit.candidate, kFurther, halfway());
+    combine_further(made, one_more->fit.candidate);
     const auto two_more = best_of(made, causes + 2);
     return two_more && choose_needed(made, *two_more);
   }
@@ -278,11 +277,11 @@ class Search {
     combined_.erase({effect.label()});
   }
 
-  /// The chosen causes with any other effect; of less than two, the best by themselves: the better
-  /// of two causes need not be the best by itself.
-  void combine_further(Selection& made) {
-    if (made.chosen.fit.candidate.effects.size() > 1) {
-      combine(made, made.chosen.fit.candidate, kFurther, halfway());
+  /// These causes with any other effect; of less than two, the best by themselves: the better of
+  /// two causes need not be the best by itself.
+  void combine_further(Selection& made, const Candidate& causes) {
+    if (causes.effects.size() > 1) {
+      combine(made, causes, "further effects", halfway());
       return;
     }
     const std::vector<Candidate> bases = pair_bases(made.singles);

@@ -26,8 +26,7 @@ constexpr std::size_t kProgressInterval = 1 << 14;
 /// Of the forces of an inner step in a fit: far below any noise, and small enough that quotients of
 /// differences over 1e-5 of a parameter's range have four digits.
 constexpr double kFitForceTolerance = 1e-9;
-/// Of a run: a second of computing at 30 iterations each, and far more than friction with a sharp
-/// fall needs.
+/// Of a run, which has some thousand samples: more than one in each.
 constexpr std::int64_t kMostHalvedStepsOfFit = 5000;
 
 /// Of an unknown initial state: the rotation and the first flexible mode.

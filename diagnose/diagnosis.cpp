@@ -148,8 +148,9 @@ std::optional<DisturbanceGain> disturbance_gain(const Selection& selection) {
   const auto& before = selection.nothing.estimation.disturbance;
   const auto& after = selection.chosen.estimation.disturbance;
   if (!before || !after) return std::nullopt;
-  return DisturbanceGain{selection.problem.predictor().noise()->correlation_time_s,
-                         before->estimated_N_m, after->estimated_N_m, before->torque_rms_N_m};
+  const NoiseModel& noise = *selection.problem.predictor().noise();
+  return DisturbanceGain{noise.correlation_time_s, before->estimated_N_m, after->estimated_N_m,
+                         before->torque_rms_N_m, noise.modal_force_N_m};
 }
 
 /// By the torque hold, constant or linear between samples, that leaves the smaller error; where

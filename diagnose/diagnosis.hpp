@@ -44,6 +44,8 @@ struct DisturbanceGain {
   double before_N_m = 0.0;      ///< of the arm file, uncertain numbers refitted
   double after_N_m = 0.0;       ///< of the extended arm
   double torque_rms_N_m = 0.0;  ///< of the commanded torque
+  /// Of forces on the flexible modes (response::ProcessNoise); 0 where the data ask for none.
+  double modal_force_N_m = 0.0;
 };
 
 /// A channel as it was measured and as the simulation has it, without causes and with them; numbers

@@ -39,9 +39,9 @@ void for_each_filter(const response::FilterGains& gains, Index samples, const Us
 
 }  // namespace
 
-response::FilterGains filter_gains(const response::ArmSimulator& simulation, const RecordedRun& run,
-                                   double disturbance_N_m) {
-  const response::SampledSystem sampled = simulation.sampled(disturbance_N_m, run.deviations);
+response::FilterGains filter_gains(const response::ArmSimulator& simulation,
+                                   const RecordedRun& run) {
+  const response::SampledSystem sampled = simulation.sampled(run.process, run.deviations);
   if (!run.starts_free) return {{}, response::filter_gain(sampled)};
   const std::size_t samples = run.torque_N_m.size();
   const Eigen::VectorXd deviations =
@@ -68,11 +68,10 @@ double log_determinant(const response::FilterGains& gains, std::size_t samples) 
   return sum;
 }
 
-RunInnovations filter_run(const response::ArmSimulator& simulation, const RecordedRun& run,
-                          double disturbance_N_m) {
+RunInnovations filter_run(const response::ArmSimulator& simulation, const RecordedRun& run) {
   const auto samples = static_cast<Index>(run.torque_N_m.size());
   const Eigen::MatrixXd measured = run.values.reshaped(samples, run.deviations.size());
-  const response::FilterGains gains = filter_gains(simulation, run, disturbance_N_m);
+  const response::FilterGains gains = filter_gains(simulation, run);
   RunInnovations made;
   made.filtered = simulation.filtered(run.torque_N_m, measured, gains);
   made.log_determinant = log_determinant(gains, run.torque_N_m.size());

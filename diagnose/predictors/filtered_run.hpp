@@ -24,21 +24,21 @@ struct RecordedRun {
   std::span<const double> torque_N_m;
   Eigen::Ref<const Eigen::VectorXd> values;     ///< as a run of `Observations`
   Eigen::VectorXd deviations;                   ///< of the readings, a sensor each
+  response::ProcessNoise process = {};
   bool starts_free = false;                     ///< from an unknown state, which is estimated
   std::optional<Eigen::Index> hub_sensor = {};  ///< the first of the hub's angle or velocity
 };
 
 /// The filter of a run, whatever it reads. Throws InputError as response::ArmSimulator::sampled and
 /// response::filter_gain.
-response::FilterGains filter_gains(const response::ArmSimulator& simulation, const RecordedRun& run,
-                                   double disturbance_N_m);
+response::FilterGains filter_gains(const response::ArmSimulator& simulation,
+                                   const RecordedRun& run);
 
 /// Sum of ln |S| over so many samples, S the covariance of the innovations.
 double log_determinant(const response::FilterGains& gains, std::size_t samples);
 
 /// Throws InputError as `filter_gains` and response::ArmSimulator::filtered, and for innovations
 /// whose covariance is singular.
-RunInnovations filter_run(const response::ArmSimulator& simulation, const RecordedRun& run,
-                          double disturbance_N_m);
+RunInnovations filter_run(const response::ArmSimulator& simulation, const RecordedRun& run);
 
 }  // namespace flexarm::diagnose

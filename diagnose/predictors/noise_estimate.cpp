@@ -80,6 +80,8 @@ NoiseEstimator::NoiseEstimator(const Experiment& experiment, const Observations&
     lower_.push_back(0.0);
     upper_.push_back(std::log(kMostReadingFactor));
   }
+  lower_.push_back(lower_.front());
+  upper_.push_back(upper_.front());
 }
 
 double NoiseEstimator::minus_two_log_likelihood(const arm::Arm& arm, const std::vector<bool>& runs,
@@ -102,6 +104,7 @@ NoiseModel NoiseEstimator::model_at(const std::vector<double>& logarithms) const
   for (std::size_t j = 0; j < sensors_.size(); ++j) {
     made.reading_factors[sensors_[j]] = std::exp(logarithms[2 + j]);
   }
+  if (logarithms.size() == lower_.size()) made.modal_force_N_m = std::exp(logarithms.back());
   return made;
 }
 
@@ -110,6 +113,7 @@ std::vector<double> NoiseEstimator::place_of(const NoiseModel& model) const {
   for (const std::string& sensor : sensors_) {
     place.push_back(std::log(model.reading_factor(sensor)));
   }
+  if (model.modal_force_N_m > 0.0) place.push_back(std::log(model.modal_force_N_m));
   for (std::size_t i = 0; i < place.size(); ++i) {
     place[i] = std::clamp(place[i], lower_[i], upper_[i]);
   }
@@ -118,6 +122,24 @@ std::vector<double> NoiseEstimator::place_of(const NoiseModel& model) const {
 
 NoiseEstimate NoiseEstimator::model(const arm::Arm& arm, const std::vector<bool>& runs,
                                     const std::vector<NoiseModel>& starts) const {
+  std::vector<NoiseModel> begun = starts;
+  if (begun.empty()) {
+    for (const double samples : kCorrelationStarts) {
+      begun.push_back({kStartDisturbance * torque_rms_N_m_, samples * period_s_});
+    }
+  }
+  return searched(arm, runs, begun);
+}
+
+NoiseEstimate NoiseEstimator::with_modal_force(const arm::Arm& arm, const std::vector<bool>& runs,
+                                               const NoiseEstimate& found) const {
+  const NoiseEstimate forced = along(&NoiseModel::modal_force_N_m, arm, runs, found.model);
+  const double bar = found.minus_two_log_likelihood - kLeastModalGain;
+  return forced.minus_two_log_likelihood < bar ? searched(arm, runs, {forced.model}) : found;
+}
+
+NoiseEstimate NoiseEstimator::searched(const arm::Arm& arm, const std::vector<bool>& runs,
+                                       const std::vector<NoiseModel>& starts) const {
   struct Task {
     const NoiseEstimator& estimator;
     const arm::Arm& arm;
@@ -143,21 +165,15 @@ NoiseEstimate NoiseEstimator::model(const arm::Arm& arm, const std::vector<bool>
     }
     return value;
   };
-  std::vector<NoiseModel> begun = starts;
-  if (begun.empty()) {
-    for (const double samples : kCorrelationStarts) {
-      begun.push_back({kStartDisturbance * torque_rms_N_m_, samples * period_s_});
-    }
-  }
-  for (const NoiseModel& start : begun) {
-    nlopt::opt search(nlopt::LN_SBPLX, static_cast<unsigned>(lower_.size()));
-    search.set_lower_bounds(lower_);
-    search.set_upper_bounds(upper_);
+  for (const NoiseModel& start : starts) {
+    std::vector<double> place = place_of(start);
+    nlopt::opt search(nlopt::LN_SBPLX, static_cast<unsigned>(place.size()));
+    search.set_lower_bounds({lower_.begin(), lower_.begin() + std::ssize(place)});
+    search.set_upper_bounds({upper_.begin(), upper_.begin() + std::ssize(place)});
     search.set_min_objective(cost, &task);
     search.set_ftol_abs(kLikelihoodTolerance);
     search.set_initial_step(kFirstNoiseStep);
     search.set_maxeval(kMostEvaluations);
-    std::vector<double> place = place_of(start);
     double least = 0.0;
     try {
       search.optimize(place, least);
@@ -166,7 +182,7 @@ NoiseEstimate NoiseEstimator::model(const arm::Arm& arm, const std::vector<bool>
     }
   }
   if (!(task.best.minus_two_log_likelihood < kNoLikelihood)) {
-    predictor_->innovations(arm, runs, begun.front());  // throws where the arm is the reason
+    predictor_->innovations(arm, runs, starts.front());  // throws where the arm is the reason
     throw arm::InputError("Kalman filter: the runs cannot be filtered with this arm");
   }
   return task.best;
@@ -174,17 +190,22 @@ NoiseEstimate NoiseEstimator::model(const arm::Arm& arm, const std::vector<bool>
 
 NoiseEstimate NoiseEstimator::disturbance(const arm::Arm& arm, const std::vector<bool>& runs,
                                           const NoiseModel& shared) const {
+  return along(&NoiseModel::disturbance_N_m, arm, runs, shared);
+}
+
+NoiseEstimate NoiseEstimator::along(double NoiseModel::*number, const arm::Arm& arm,
+                                    const std::vector<bool>& runs, const NoiseModel& shared) const {
   NoiseEstimate made{.model = shared};
   const auto cost = [&](double logarithm) {
     NoiseModel model = shared;
-    model.disturbance_N_m = std::exp(logarithm);
+    model.*number = std::exp(logarithm);
     ++made.evaluations;
     return minus_two_log_likelihood(arm, runs, model);
   };
   std::uintmax_t steps = kMostBrentSteps;
   const auto [place, least] =
       boost::math::tools::brent_find_minima(cost, lower_[0], upper_[0], kDeviationBits, steps);
-  made.model.disturbance_N_m = std::exp(place);
+  made.model.*number = std::exp(place);
   made.minus_two_log_likelihood = least;
   return made;
 }

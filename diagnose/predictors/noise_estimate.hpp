@@ -32,6 +32,10 @@ class NoiseEstimator {
   /// InputError for an arm that cannot be computed.
   NoiseEstimate model(const arm::Arm& arm, const std::vector<bool>& runs,
                       const std::vector<NoiseModel>& starts = {}) const;
+  /// `found`, or with forces on the flexible modes beside it where these lower -2 ln L by
+  /// `kLeastModalGain` or more.
+  NoiseEstimate with_modal_force(const arm::Arm& arm, const std::vector<bool>& runs,
+                                 const NoiseEstimate& found) const;
   /// Over the disturbance's deviation alone, the rest as in `shared`, by Brent's method.
   NoiseEstimate disturbance(const arm::Arm& arm, const std::vector<bool>& runs,
                             const NoiseModel& shared) const;
@@ -42,6 +46,14 @@ class NoiseEstimator {
  private:
   double minus_two_log_likelihood(const arm::Arm& arm, const std::vector<bool>& runs,
                                   const NoiseModel& model) const;
+  /// As `model` by Subplex from each of `starts`; over the modal forces too where the first of them
+  /// has some.
+  NoiseEstimate searched(const arm::Arm& arm, const std::vector<bool>& runs,
+                         const std::vector<NoiseModel>& starts) const;
+  /// The most likely value of one number of `shared` by Brent's method, in the bounds of the
+  /// disturbance's deviation.
+  NoiseEstimate along(double NoiseModel::*number, const arm::Arm& arm,
+                      const std::vector<bool>& runs, const NoiseModel& shared) const;
   NoiseModel model_at(const std::vector<double>& logarithms) const;
   std::vector<double> place_of(const NoiseModel& model) const;
 
@@ -50,10 +62,13 @@ class NoiseEstimator {
   double torque_rms_N_m_ = 0.0;
   double period_s_ = 0.0;
   std::vector<std::string> sensors_;
-  // Bounds of the logarithms: deviation, correlation time, factors of the sensors.
+  // Bounds of the logarithms: deviation, correlation time, factors of the sensors, and behind them
+  // the force on the modes.
   std::vector<double> lower_;
   std::vector<double> upper_;
 };
+/// A parameter more that is worth a delta BIC of 10 in 10^4 to 10^5 samples.
+inline constexpr double kLeastModalGain = 20.0;
 /// Correlation times to start from, in sampling periods.
 inline constexpr double kCorrelationStarts[] = {2.0, 50.0, 1000.0};
 

@@ -7,10 +7,12 @@
 namespace flexarm::diagnose {
 
 /// What a stochastic grey-box model adds to an arm in `time` runs: a torque on the hub that nobody
-/// recorded (response::HubDisturbance), and what the sensors show beside the arm's motion.
+/// recorded (response::HubDisturbance), forces on its flexible modes where the data ask for them,
+/// and what the sensors show beside the arm's motion.
 struct NoiseModel {
   double disturbance_N_m = 0.0;     ///< stationary standard deviation, above 0
   double correlation_time_s = 0.0;  ///< above 0
+  double modal_force_N_m = 0.0;     ///< as response::ProcessNoise has it
   /// Standard deviation of a sensor's readings over that of its noise (Observations), 1 or more;
   /// 1 where none is given.
   std::map<std::string, double> reading_factors = {};

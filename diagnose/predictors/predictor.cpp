@@ -103,8 +103,7 @@ Predictor::Predictor(const Experiment& experiment, const Observations& observati
                     [&](std::size_t r, const response::ArmSimulator& simulation) {
                       const RecordedRun run = recorded(r, *noise_);
                       log_determinants_[r] =
-                          log_determinant(filter_gains(simulation, run, noise_->disturbance_N_m),
-                                          run.torque_N_m.size());
+                          log_determinant(filter_gains(simulation, run), run.torque_N_m.size());
                     });
 }
 
@@ -182,6 +181,7 @@ RecordedRun Predictor::recorded(std::size_t r, const NoiseModel& noise) const {
   return {std::get<measured::TimeRecord>(data).torque_N_m,
           observations_.values.segment(first, count),
           Eigen::VectorXd::Map(deviations.data(), std::ssize(deviations)),
+          {noise.disturbance_N_m, noise.modal_force_N_m},
           run.initial == measured::InitialState::free, hub_sensor(r)};
 }
 
@@ -217,7 +217,7 @@ std::vector<RunInnovations> Predictor::innovations(const arm::Arm& arm,
   std::vector<RunInnovations> made(runs.size());
   for_each_time_run(arm, runs, &noise,
                     [&](std::size_t r, const response::ArmSimulator& simulation) {
-                      made[r] = filter_run(simulation, recorded(r, noise), noise.disturbance_N_m);
+                      made[r] = filter_run(simulation, recorded(r, noise));
                     });
   return made;
 }

@@ -167,14 +167,14 @@ std::optional<PredictedSelection> select_by_filter(const SelectionTask& task,
     return NoiseEstimator(problem.experiment(), problem.observations(), problem.predictor(),
                           [&work] { work.go_on(); });
   };
-  std::optional<NoiseModel> left;  // by what simulation named
+  std::optional<NoiseEstimate> left;  // by what simulation named
   const arm::Arm extended = by_simulation.selection.chosen.fit.candidate.extend(experiment.arm);
   if (!task.is_asked()) {
     const Problem unfiltered = filtered_problem(experiment, modes, options);
     const NoiseEstimator estimator = estimator_of(unfiltered);
-    left = estimator.model(extended, unfiltered.estimation_runs()).model;
+    left = estimator.model(extended, unfiltered.estimation_runs());
     const double least_N_m = options.least_disturbance * estimator.torque_rms_N_m();
-    if (left->disturbance_N_m <= least_N_m) return std::nullopt;
+    if (left->model.disturbance_N_m <= least_N_m) return std::nullopt;
   }
   const PredictorKind kind = filtering_predictor(experiment, options);
   std::vector<Hypothesis> searched = hypotheses;
@@ -192,9 +192,13 @@ std::optional<PredictedSelection> select_by_filter(const SelectionTask& task,
   // The search begins with the arm as filed: what simulation named may be wrong.
   const Problem unfiltered = filtered_problem(experiment, modes, options);
   const bool is_known = left && !by_motion && extended == experiment.arm;
-  NoiseModel noise =
-      is_known ? *left
-               : estimator_of(unfiltered).model(experiment.arm, unfiltered.estimation_runs()).model;
+  const NoiseEstimator estimator = estimator_of(unfiltered);
+  NoiseEstimate found =
+      is_known ? *left : estimator.model(experiment.arm, unfiltered.estimation_runs());
+  if (kind == PredictorKind::grey_box) {
+    found = estimator.with_modal_force(experiment.arm, unfiltered.estimation_runs(), found);
+  }
+  NoiseModel& noise = found.model;
   if (kind == PredictorKind::torque_balance) {
     noise.balance_unit_N_m = estimated_disturbance_N_m(unfiltered.predictor(), experiment.arm,
                                                        unfiltered.estimation_runs(), noise);

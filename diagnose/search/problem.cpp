@@ -157,6 +157,9 @@ bool Problem::estimate_noise(const Candidate& candidate, std::function<void()> g
   const double before =
       estimator.disturbance(arm, estimation_runs_, present).minus_two_log_likelihood;
   NoiseEstimate found = estimator.model(arm, estimation_runs_, {present});
+  if (!present.balance_unit_N_m) {
+    found = estimator.with_modal_force(arm, estimation_runs_, found);
+  }
   if (!(found.minus_two_log_likelihood < before - kMoreLikely)) return false;
   if (present.balance_unit_N_m) {
     found.model.balance_unit_N_m =

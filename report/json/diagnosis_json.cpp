@@ -90,7 +90,8 @@ Json prediction_json(const diagnose::Diagnosis& diagnosis) {
     json["disturbance"] = {{"before", disturbance->before_N_m},
                            {"after", disturbance->after_N_m},
                            {"torque_rms", disturbance->torque_rms_N_m},
-                           {"correlation_time", disturbance->correlation_time_s}};
+                           {"correlation_time", disturbance->correlation_time_s},
+                           {"modal_force", disturbance->modal_force_N_m}};
   }
   return json;
 }

@@ -202,7 +202,13 @@ std::string predictor_text(const diagnose::Diagnosis& diagnosis) {
   }
   if (!diagnosis.disturbance) return named;
   const diagnose::DisturbanceGain& left = *diagnosis.disturbance;
-  return named +
+  const std::string on_modes =
+      left.modal_force_N_m > 0.0
+          ? fmt::format(" White forces of {:.2g} N m on the flexible modes make the data more "
+                        "likely: on the beam, too, the model lacks a force.",
+                        left.modal_force_N_m)
+          : "";
+  return named + on_modes +
          fmt::format(
              " The unrecorded hub torque, as the filter estimates it, "
              "is {:.3g} N m rms with the arm file and {:.3g} N m rms with the extended arm; the "

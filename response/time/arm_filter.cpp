@@ -19,7 +19,7 @@ using Eigen::Index;
 // state of the sampled system beside the arm's N. Of each delayed sensor there are n of them, the
 // next one to be measured first.
 
-SampledSystem ArmSimulator::sampled(double disturbance_N_m,
+SampledSystem ArmSimulator::sampled(const ProcessNoise& noise,
                                     const Eigen::VectorXd& deviations) const {
   const Index pending = times_.pending_readings();
   if (pending > kMostPendingReadings) {
@@ -50,7 +50,12 @@ SampledSystem ArmSimulator::sampled(double disturbance_N_m,
   // From sample to sample a stationary disturbance forgets 1 - e^(-2 h/T) of its variance.
   const double kept = step(d, d);
   made.process_covariance(d, d) =
-      std::pow(disturbance_N_m / arm_.disturbance_N_m, 2) * (1.0 - kept * kept);
+      std::pow(noise.disturbance_N_m / arm_.disturbance_N_m, 2) * (1.0 - kept * kept);
+  const double pushed_rad_per_s =
+      noise.modal_force_N_m * options_.sample_time_s / arm_.modal_mass_kg_m2;
+  made.process_covariance.diagonal()
+      .segment(arm_.modes + 1, arm_.modes - 1)
+      .setConstant(pushed_rad_per_s * pushed_rad_per_s);
   return made;
 }
 

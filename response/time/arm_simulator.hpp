@@ -29,6 +29,15 @@ struct FilteredRun {
   std::vector<double> hub_velocity_rad_per_s = {};
 };
 
+/// What moves an arm that nobody recorded, changing at the samples.
+struct ProcessNoise {
+  double disturbance_N_m = 0.0;  ///< stationary standard deviation of ArmParts::disturbance
+  /// Standard deviation of a white force on each flexible mode, in units of a torque on a hub that
+  /// moves with slope 1 in that mode, over a sample. Such are the forces on the modes by a force
+  /// along a uniform beam that is white in time and place.
+  double modal_force_N_m = 0.0;
+};
+
 /// An arm with all that a torque does not change, for any number of runs: `simulate` is one of
 /// them, fits make them by the thousand.
 class ArmSimulator {
@@ -88,11 +97,11 @@ class ArmSimulator {
   std::ptrdiff_t lead(std::size_t samples) const;
 
   /// The filter for the arm that turns without friction and forces that vary: readings with white
-  /// noise of these deviations, a column a sensor, and a disturbance of the hub torque
-  /// (ArmParts::disturbance, required) of that stationary deviation, which changes at the samples.
+  /// noise of these deviations, a column a sensor, and what `noise` says. A disturbance of the hub
+  /// torque (ArmParts::disturbance) is required.
   /// Its state is the arm's and, behind that, the readings of delayed sensors that are taken but
   /// not measured yet. Throws InputError for more than `kMostPendingReadings` of them.
-  SampledSystem sampled(double disturbance_N_m, const Eigen::VectorXd& deviations) const;
+  SampledSystem sampled(const ProcessNoise& noise, const Eigen::VectorXd& deviations) const;
 
   /// The arm follows the `measured` readings (a row a sample and a column a sensor, not a number
   /// where one is missing) by `gains`, at rest before the first sample, and goes from sample to

@@ -72,7 +72,7 @@ TEST(InitialState, OfARunThatShowsNoAngleIsFiltered) {
   const Eigen::VectorXd strain = simulation.readings(torque_N_m).reshaped();
   const double deviation = 1e-3 * strain.cwiseAbs().maxCoeff();
   const RunInnovations run = filter_run(
-      simulation, {torque_N_m, strain, Eigen::VectorXd::Constant(1, deviation), true}, 0.01);
+      simulation, {torque_N_m, strain, Eigen::VectorXd::Constant(1, deviation), {0.01}, true});
   ASSERT_TRUE(run.standardised.allFinite());
   EXPECT_TRUE(std::isfinite(run.log_determinant));
   // Without noise the innovations of the true arm are far below their deviation.

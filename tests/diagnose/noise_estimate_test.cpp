@@ -4,7 +4,10 @@
 #include "diagnose/search/fit.hpp"
 #include "diagnose/search/predictor_choice.hpp"
 #include "effects/registry/vocabulary.hpp"
+#include "response/formulation_maker.hpp"
+#include "response/time/arm_simulator.hpp"
 #include "response/time/random_numbers.hpp"
+#include "response/time/time_model.hpp"
 #include "tests/diagnose/simulated_experiments.hpp"
 
 #include <gmock/gmock.h>
@@ -35,6 +38,42 @@ Experiment with_unrecorded_torque(Experiment experiment, std::uint64_t seed) {
       recorded -= torque_N_m;
       torque_N_m = kept * torque_N_m +
                    kDisturbance_N_m * std::sqrt(1.0 - kept * kept) * random.normal();
+    }
+  }
+  return experiment;
+}
+
+constexpr double kModalForce_N_m = 0.02;
+
+/// White forces act on the flexible modes of the beam, too: responses to impulses at the samples
+/// add up.
+Experiment with_forces_on_modes(Experiment experiment, std::uint64_t seed) {
+  const int flexible_modes = Problem(experiment).predictor().flexible_modes();
+  response::RandomNumbers random(seed);
+  for (auto& run : experiment.runs) {
+    auto& record = std::get<measured::TimeRecord>(run.data);
+    const double period_s = measured::sampling_period_s(record);
+    std::vector<arm::Sensor> sensors;
+    for (const measured::Channel& channel : record.channels) sensors.push_back(channel.sensor);
+    const response::ArmParts parts = response::take_apart(arm_in(experiment, run.run));
+    const arm::ModalModel model = response::time_model(
+        response::make_formulation("exact_tf", parts.linear, flexible_modes), parts,
+        flexible_modes, sensors);
+    const response::ArmSimulator simulator(
+        model, parts, sensors, response::options_of_fit(period_s, response::TorqueHold::zero));
+    const auto samples = static_cast<Eigen::Index>(record.time_s.size());
+    const Eigen::MatrixXd free = simulator.free_readings(record.time_s.size());
+    const Eigen::Index modes = flexible_modes + 1;
+    const double impulse_rad_per_s = kModalForce_N_m * period_s / model.modal_mass_kg_m2;
+    for (Eigen::Index k = 1; k < samples; ++k) {
+      for (Eigen::Index mode = 1; mode < modes; ++mode) {
+        const double size = impulse_rad_per_s * random.normal();
+        for (std::size_t j = 0; j < record.channels.size(); ++j) {
+          Eigen::VectorXd::Map(record.channels[j].values.data(), samples).tail(samples - k) +=
+              size * free.col(modes + mode)
+                         .segment(static_cast<Eigen::Index>(j) * samples, samples - k);
+        }
+      }
     }
   }
   return experiment;
@@ -80,6 +119,34 @@ TEST(NoiseEstimate, OfARunWithoutDisturbanceIsNegligible) {
   const NoiseEstimate found =
       estimator.model(trial_arm(), std::vector<bool>(experiment.runs.size(), true));
   EXPECT_LE(found.model.disturbance_N_m, kNegligibleDisturbance * estimator.torque_rms_N_m());
+}
+
+TEST(NoiseEstimate, FindsForcesOnTheModesBesideAnUnrecordedTorque) {
+  const Experiment experiment = with_forces_on_modes(
+      with_unrecorded_torque(simulated_experiment({}, kShortRuns), 5), 6);
+  const Problem problem(experiment);
+  const NoiseEstimator estimator(experiment, problem.observations(), problem.predictor());
+  const std::vector<bool> all(experiment.runs.size(), true);
+  const NoiseEstimate on_hub = estimator.model(trial_arm(), all);
+  EXPECT_EQ(on_hub.model.modal_force_N_m, 0.0);
+  const NoiseEstimate found = estimator.with_modal_force(trial_arm(), all, on_hub);
+  EXPECT_LT(found.minus_two_log_likelihood, on_hub.minus_two_log_likelihood - 100.0);
+  // What the modes above some hundred hertz show looks like noise of the acceleration, the least
+  // of which is what the data show by themselves (observe): forces are found too small by that.
+  EXPECT_NEAR(found.model.modal_force_N_m, kModalForce_N_m, 0.25 * kModalForce_N_m);
+  // Of 160 correlation times.
+  EXPECT_NEAR(found.model.disturbance_N_m, kDisturbance_N_m, 0.2 * kDisturbance_N_m);
+}
+
+TEST(NoiseEstimate, AsksForNoForcesOnTheModesWithoutAny) {
+  const Experiment experiment =
+      with_unrecorded_torque(simulated_experiment({}, kShortRuns), 5);
+  const Problem problem(experiment);
+  const NoiseEstimator estimator(experiment, problem.observations(), problem.predictor());
+  const std::vector<bool> all(experiment.runs.size(), true);
+  const NoiseEstimate on_hub = estimator.model(trial_arm(), all);
+  const NoiseEstimate found = estimator.with_modal_force(trial_arm(), all, on_hub);
+  EXPECT_EQ(found.model.modal_force_N_m, 0.0);
 }
 
 TEST(PredictorChoice, OutputErrorWhereItLeavesNoise) {

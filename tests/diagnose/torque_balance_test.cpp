@@ -40,7 +40,7 @@ TEST(TorqueBalance, NamesFrictionAndBiasOfAClosedLoop) {
 TEST(TorqueBalance, RunsAwayWhereMostOfTheTorqueIsLeftToADisturbance) {
   const Axis axis;
   const Experiment experiment = axis_experiment(axis);
-  const Problem balanced(experiment, {.noise = NoiseModel{1.0, 0.1, {}, 1.0}});
+  const Problem balanced(experiment, {.noise = NoiseModel{1.0, 0.1, 0.0, {}, 1.0}});
   const auto is_runaway = [&](const Candidate& candidate) {
     return runs_away(explain(balanced, fit(balanced, candidate)), {});
   };

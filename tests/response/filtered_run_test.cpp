@@ -56,7 +56,7 @@ class FilteredRunTest : public testing::Test {
   }
 
   FilterGains steady() const {
-    return {{}, filter_gain(simulator_->sampled(kDisturbance_N_m, deviations_))};
+    return {{}, filter_gain(simulator_->sampled({kDisturbance_N_m}, deviations_))};
   }
 
   void expect_white_innovations();
@@ -169,7 +169,7 @@ void FilteredRunTest::expect_stated_covariance_from_an_unknown_state() {
   const std::size_t samples = 400;
   const std::vector<double> torque(torque_.begin(), torque_.begin() + samples);
   const double spread = 0.3;
-  const SampledSystem sampled = simulator_->sampled(1e-6, deviations_);
+  const SampledSystem sampled = simulator_->sampled({1e-6}, deviations_);
   Eigen::MatrixXd prior =
       Eigen::MatrixXd::Zero(sampled.transition.rows(), sampled.transition.cols());
   prior.diagonal().head(simulator_->states()).setConstant(spread * spread);

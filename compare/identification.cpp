@@ -1,7 +1,6 @@
 #include "compare/identification.hpp"
 
 #include "arm/rigid_hub.hpp"
-#include "compare/features.hpp"
 #include "compare/standard_models.hpp"
 #include "response/any_formulation.hpp"
 #include "response/frequency/response_study.hpp"
@@ -41,31 +40,6 @@ AnalyticalGains gains_of(const std::string& model, const response::AnyFormulatio
     gains.tip_gain_m.push_back(modes.modes[i].sensor_values.front());
   }
   return gains;
-}
-
-/// Antiresonances [Hz], ascending.
-std::vector<double> antiresonances_Hz(const AnalyticalZeros& zeros) {
-  std::vector<double> frequencies;
-  for (const Complex& s : zeros.s_rad_per_s) {
-    if (s.real() == 0.0) frequencies.push_back(s.imag() / kTwoPi);
-  }
-  return frequencies;
-}
-
-/// Sets order and frequency of those among `roots` that stand for one of `analytical_Hz`.
-void match_with(const std::vector<double>& analytical_Hz,
-                const std::vector<IdentifiedRoot*>& roots) {
-  std::vector<Complex> reference(analytical_Hz.begin(), analytical_Hz.end());
-  std::vector<Complex> found;
-  for (const auto* root : roots) found.emplace_back(root->measured.frequency_Hz.value_or(kNaN));
-  const auto matched = match_nearest(reference, found);
-  for (std::size_t i = 0; i < matched.size(); ++i) {
-    if (!matched[i]) continue;
-    IdentifiedRoot& root =
-        *roots[static_cast<std::size_t>(std::ranges::find(found, *matched[i]) - found.begin())];
-    root.order = static_cast<int>(i) + 1;
-    root.analytical_Hz = analytical_Hz[i];
-  }
 }
 
 /// The highest frequency that the readings of a payload show [Hz].
@@ -129,7 +103,10 @@ AnalyticalModes analytical_modes(const arm::Arm& arm, std::span<const arm::Senso
   for (const auto& model : models) {
     const auto formulation = model.make(arm);
     if (analytical.gains.empty()) {
-      for (const auto& pair : response::damped_poles(formulation, roots).flexible) {
+      const arm::DampedPoleSet poles = response::damped_poles(formulation, roots);
+      const Complex lowest = poles.lowest.first_rad_per_s * poles.lowest.second_rad_per_s;
+      analytical.lowest_Hz = std::sqrt(std::max(lowest.real(), 0.0)) / kTwoPi;
+      for (const auto& pair : poles.flexible) {
         analytical.poles.push_back(pole_of(pair));
         if (analytical.poles.back().frequency_Hz > to_Hz) break;
       }
@@ -146,12 +123,26 @@ AnalyticalModes analytical_modes(const arm::Arm& arm, std::span<const arm::Senso
         analytical.response = response::study_response(arm, formulation, wanted).response;
       }
     }
-    analytical.gains.push_back(
-        gains_of(std::string(response::name(formulation)), formulation,
-                 std::max(1, static_cast<int>(analytical.poles.size()))));
+    analytical.gains.push_back(gains_of(std::string(response::name(formulation)), formulation,
+                                        std::max(1, static_cast<int>(analytical.poles.size()))));
     if (!arm::has_beam(arm)) break;  // the others are the same
   }
   return analytical;
+}
+
+ModelRoots model_roots(const AnalyticalModes& analytical) {
+  ModelRoots model{.lowest_Hz = analytical.lowest_Hz};
+  for (const auto& pole : analytical.poles) {
+    model.poles.push_back({pole.frequency_Hz, static_cast<int>(model.poles.size()) + 1});
+  }
+  for (const auto& zeros : analytical.zeros) {
+    auto& own = model.zeros.emplace_back(ModelRoots::Zeros{zeros.sensor, {}}).roots;
+    for (const Complex& s : zeros.s_rad_per_s) {
+      if (s.real() != 0.0) continue;
+      own.push_back({s.imag() / kTwoPi, static_cast<int>(own.size()) + 1});
+    }
+  }
+  return model;
 }
 
 double IdentifiedRoot::error_percent() const {
@@ -161,36 +152,27 @@ double IdentifiedRoot::error_percent() const {
 
 std::vector<IdentifiedRoot> beside_analytical(const measured::ModalTable& table,
                                               const AnalyticalModes& analytical) {
+  const ModelRoots model = model_roots(analytical);
+  const std::vector<RootOrder> orders = number_roots(table, model);
   std::vector<IdentifiedRoot> roots;
-  roots.reserve(table.size());
-  for (const auto& entry : table) roots.push_back({entry, {}, {}, {}});
-  const auto select = [&](measured::Feature feature, const std::optional<arm::Sensor>& sensor) {
-    std::vector<IdentifiedRoot*> selected;
-    for (auto& root : roots) {
-      if (root.measured.feature == feature && root.measured.sensor == sensor) {
-        selected.push_back(&root);
-      }
-    }
-    return selected;
-  };
-  std::vector<std::optional<arm::Sensor>> owners = {std::nullopt};
-  for (const auto& entry : table) {
-    if (std::ranges::find(owners, entry.sensor) == owners.end()) owners.push_back(entry.sensor);
-  }
-  std::vector<double> poles_Hz;
-  for (const auto& pole : analytical.poles) poles_Hz.push_back(pole.frequency_Hz);
-  for (const auto& owner : owners) {
-    match_with(poles_Hz, select(measured::Feature::pole, owner));
-    if (!owner) continue;
-    const auto zeros = std::ranges::find(analytical.zeros, *owner, &AnalyticalZeros::sensor);
-    if (zeros == analytical.zeros.end()) continue;
-    match_with(antiresonances_Hz(*zeros), select(measured::Feature::zero, owner));
-  }
-  for (auto& root : roots) {
-    if (root.order && root.measured.feature == measured::Feature::pole) {
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    IdentifiedRoot& root = roots.emplace_back(IdentifiedRoot{table[i], {}, {}, {}});
+    const int order = orders[i].order.value_or(0);
+    if (table[i].feature == measured::Feature::pole) {
+      const auto at = std::ranges::find(model.poles, order, &ModelRoot::order);
+      if (at == model.poles.end()) continue;
+      root.order = order;
+      root.analytical_Hz = at->frequency_Hz;
       root.analytical_damping_ratio =
-          analytical.poles[static_cast<std::size_t>(*root.order - 1)].damping_ratio;
+          analytical.poles[static_cast<std::size_t>(order - 1)].damping_ratio;
+      continue;
     }
+    const auto zeros = std::ranges::find(model.zeros, *table[i].sensor, &ModelRoots::Zeros::sensor);
+    if (zeros == model.zeros.end()) continue;
+    const auto at = std::ranges::find(zeros->roots, order, &ModelRoot::order);
+    if (at == zeros->roots.end()) continue;
+    root.order = order;
+    root.analytical_Hz = at->frequency_Hz;
   }
   return roots;
 }
@@ -222,15 +204,24 @@ std::vector<IdentifiedCondition> conditions_of(const measured::Identification& i
   for (auto& condition : conditions) {
     arm::Arm loaded = arm;
     loaded.payload = condition.payload;
-    condition.analytical =
-        analytical_modes(loaded, sensors, highest_Hz(identification, condition.payload, arm),
-                         range_of(identification, condition.payload, arm));
+    condition.analytical = analytical_modes(
+        loaded, sensors, needed_Hz(highest_Hz(identification, condition.payload, arm)),
+        range_of(identification, condition.payload, arm));
   }
   for (std::size_t i = 0; i < identification.readings.size(); ++i) {
     const auto& reading = identification.readings[i];
     auto& condition = condition_of(reading.payload);
     condition.readings.push_back(i);
-    condition.roots.push_back(beside_analytical(reading.table, condition.analytical));
+    // The zeros of one sensor number the poles of all.
+    measured::ModalTable all = reading.table;
+    for (std::size_t k = 0; k < identification.readings.size(); ++k) {
+      const auto& other = identification.readings[k];
+      if (k == i || other.method != reading.method || other.runs != reading.runs) continue;
+      all.insert(all.end(), other.table.begin(), other.table.end());
+    }
+    auto roots = beside_analytical(all, condition.analytical);
+    roots.resize(reading.table.size());
+    condition.roots.push_back(std::move(roots));
   }
   for (std::size_t i = 0; i < identification.fits.size(); ++i) {
     condition_of(identification.fits[i].payload).fits.push_back(i);

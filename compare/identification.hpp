@@ -2,6 +2,7 @@
 
 #include "arm/arm.hpp"
 #include "arm/sensor.hpp"
+#include "compare/root_numbering.hpp"
 #include "measured/run_identification.hpp"
 #include "response/frequency/frequency_response.hpp"
 
@@ -35,12 +36,21 @@ struct AnalyticalZeros {
 /// What an arm, in its linear effects, should show of a measurement; poles, zeros and responses by
 /// exact_tf.
 struct AnalyticalModes {
+  double lowest_Hz = 0.0;  ///< of the lowest mode; 0 where the arm turns freely
   std::vector<AnalyticalPole> poles;
   std::vector<AnalyticalZeros> zeros;
   std::vector<AnalyticalGains> gains;  ///< exact_tf, fem, assumed_modes
   response::FrequencyResponse
       response;  ///< through actuator and sensors; empty where not asked for
 };
+
+/// What measured roots are numbered by: poles, and antiresonances counted from 1.
+ModelRoots model_roots(const AnalyticalModes& analytical);
+
+/// What measured roots up to `to_Hz` are numbered by needs analytical ones up to this.
+inline constexpr double needed_Hz(double to_Hz) {
+  return kMostFactor * to_Hz;
+}
 
 /// Where responses are wanted.
 struct FrequencyRange {
@@ -65,8 +75,8 @@ struct IdentifiedRoot {
   double error_percent() const;
 };
 
-/// Nearest pairs first, each root once, no further apart than `kNearest` (compare/features.hpp).
-/// Measured zeros are antiresonances, and stand beside zeros on the imaginary axis.
+/// Numbered by compare/root_numbering.hpp, each root once a sensor. Measured zeros are
+/// antiresonances, and stand beside zeros on the imaginary axis.
 std::vector<IdentifiedRoot> beside_analytical(const measured::ModalTable& table,
                                               const AnalyticalModes& analytical);
 

@@ -1,5 +1,7 @@
 #include "compare/measured.hpp"
 
+#include "compare/root_numbering.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,34 +11,44 @@ namespace flexarm::compare {
 
 namespace {
 
-/// Frequencies [Hz] of the first model's poles, or of a sensor's zeros on the imaginary axis.
-std::vector<double> model_frequencies_Hz(const Comparison& comparison,
-                                         const std::optional<arm::Sensor>& zeros_of) {
-  std::vector<double> frequencies;
+/// The first model's poles, or a sensor's zeros on the imaginary axis, counted from 1.
+std::vector<ModelRoot> imaginary_roots(const Comparison& comparison,
+                                       const std::optional<arm::Sensor>& zeros_of) {
+  std::vector<ModelRoot> roots;
   for (const auto& row : comparison.roots) {
     const std::complex<double> s = *row.s_rad_per_s.front();
     if (row.family.zeros_of == zeros_of && s.real() == 0.0) {
-      frequencies.push_back(s.imag() / (2.0 * std::numbers::pi));
+      roots.push_back({s.imag() / (2.0 * std::numbers::pi), static_cast<int>(roots.size()) + 1});
     }
   }
-  return frequencies;
+  return roots;
 }
 
 }  // namespace
 
 std::vector<MeasuredRow> beside_model(const measured::ModalTable& measured,
                                       const Comparison& comparison) {
+  ModelRoots model{.poles = imaginary_roots(comparison, std::nullopt)};
+  for (const auto& sensor : sensors_with_zeros(measured)) {
+    model.zeros.push_back({sensor, imaginary_roots(comparison, sensor)});
+  }
+  const std::vector<RootOrder> orders = number_roots(measured, model);
   std::vector<MeasuredRow> rows;
-  for (const auto& feature : measured) {
-    const bool is_zero = feature.feature == measured::Feature::zero;
-    const auto frequencies =
-        model_frequencies_Hz(comparison, is_zero ? feature.sensor : std::nullopt);
-    MeasuredRow row{feature, std::nullopt, std::numeric_limits<double>::quiet_NaN()};
-    const auto index = static_cast<std::size_t>(feature.order - 1);
-    if (index < frequencies.size()) row.model_frequency_Hz = frequencies[index];
-    if (row.model_frequency_Hz && feature.frequency_Hz) {
+  for (std::size_t i = 0; i < measured.size(); ++i) {
+    const measured::ModalEntry& entry = measured[i];
+    MeasuredRow row{.measured = entry,
+                    .order = orders[i].order,
+                    .model_frequency_Hz = {},
+                    .error_percent = std::numeric_limits<double>::quiet_NaN()};
+    const auto& roots =
+        entry.feature == measured::Feature::zero
+            ? std::ranges::find(model.zeros, *entry.sensor, &ModelRoots::Zeros::sensor)->roots
+            : model.poles;
+    const auto at = std::ranges::find(roots, row.order.value_or(0), &ModelRoot::order);
+    if (at != roots.end()) row.model_frequency_Hz = at->frequency_Hz;
+    if (row.model_frequency_Hz && entry.frequency_Hz) {
       row.error_percent =
-          100.0 * (*feature.frequency_Hz - *row.model_frequency_Hz) / *row.model_frequency_Hz;
+          100.0 * (*entry.frequency_Hz - *row.model_frequency_Hz) / *row.model_frequency_Hz;
     }
     rows.push_back(row);
   }

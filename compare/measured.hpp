@@ -12,6 +12,7 @@ namespace flexarm::compare {
 /// A measured pole or zero beside the model's.
 struct MeasuredRow {
   measured::ModalEntry measured;
+  std::optional<int> order;  ///< as stated, or assigned (compare/root_numbering.hpp)
   /// The model's frequency for the same feature and order. A measured zero is an antiresonance, so
   /// zeros are counted along the imaginary axis; empty where the model has no such zero.
   std::optional<double> model_frequency_Hz;

@@ -4,6 +4,7 @@
 #include "arm/linear_arm.hpp"
 #include "arm/plausibility.hpp"
 #include "arm/rigid_hub.hpp"
+#include "diagnose/modal_orders.hpp"
 #include "effects/registry/vocabulary.hpp"
 #include "measured/files/arm_file.hpp"
 
@@ -128,6 +129,15 @@ Experiment read_experiment(const fs::path& measurement_file,
     if (run.kind == measured::RunKind::time) {
       keep_usable(experiment, read, measured::beside(measurement_file, run.file).string(),
                   accepted);
+    } else if (auto* table = std::get_if<measured::ModalTable>(&read.data)) {
+      for (const std::string& notice : put_orders(arm_in(experiment, run), *table)) {
+        experiment.notices.push_back(fmt::format("run {}: {}", run.id, notice));
+      }
+      if (table->empty()) {
+        throw arm::InputError(fmt::format(
+            "{}: run {}: no pole or zero can be assigned to one of the arm; state the orders",
+            measured::beside(measurement_file, run.file).string(), run.id));
+      }
     }
     experiment.runs.push_back(std::move(read));
   }

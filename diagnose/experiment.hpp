@@ -20,7 +20,8 @@ struct AcceptedFinding {
 /// An arm as its file describes it, and what was measured on it.
 struct Experiment {
   arm::Arm arm;
-  /// `time`, `frf` and `modal` runs, all of which have a purpose and at least one usable reading.
+  /// `time`, `frf` and `modal` runs, all of which have a purpose and at least one usable reading;
+  /// every entry of a modal table has an order.
   std::vector<measured::MeasuredRun> runs;
   std::vector<std::filesystem::path> files;  ///< that it was read from
   std::vector<std::string> notices;          ///< what was assumed or left out, a sentence each
@@ -53,10 +54,11 @@ Experiment with_hold(Experiment experiment, measured::TorqueHold hold);
 /// Channels that are dead are left out, with a notice. A finding of the data checks `accepted` has
 /// no such consequence, and is among Experiment::accepted in the place of the notices. Where no run
 /// is for validation the conditions (payload, kind, torque) are split, with a notice
-/// (`split_purposes`).
+/// (`split_purposes`). Entries of modal tables get the orders that they do not state
+/// (diagnose/modal_orders.hpp).
 ///
 /// Throws InputError `FILE:LINE: ...` where a reader does, for a run with a torque that is zero or
-/// with no usable channel, and for runs none of which is for estimation.
+/// with no usable channel or entry, and for runs none of which is for estimation.
 Experiment read_experiment(const std::filesystem::path& measurement_file,
                            const std::vector<measured::Fault>& accepted = {});
 

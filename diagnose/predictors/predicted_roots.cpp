@@ -53,7 +53,7 @@ Complex damped_zero(const exact_tf::ExactArm& exact, const arm::Sensor& sensor, 
 
 int highest_order(const measured::ModalTable& table, const ModalGroup& group) {
   int order = 1;
-  for (const std::size_t i : group.entries) order = std::max(order, table[i].order);
+  for (const std::size_t i : group.entries) order = std::max(order, table[i].order.value());
   return order;
 }
 
@@ -75,7 +75,7 @@ void predict_roots(const arm::Arm& arm, const measured::ModalTable& table,
     }
     for (const std::size_t i : group.entries) {
       const measured::ModalEntry& entry = table[i];
-      const auto k = static_cast<std::size_t>(entry.order - 1);
+      const auto k = static_cast<std::size_t>(entry.order.value() - 1);
       Root root;
       if (!group.zeros_of) {
         root = as_root(poles.flexible.at(k));

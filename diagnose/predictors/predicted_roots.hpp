@@ -10,7 +10,8 @@ namespace flexarm::diagnose {
 /// The natural frequencies [Hz] and damping ratios that a modal table of this arm should hold: in
 /// the order of `Observations`, the poles and then the zeros of each sensor. Poles are damped
 /// ones; zeros have the modulus of the undamped, and the damping ratio of the zero of the damped
-/// transfer function beside it. By exact_tf.
+/// transfer function beside it. By exact_tf. Every entry has an order
+/// (diagnose/modal_orders.hpp).
 void predict_roots(const arm::Arm& arm, const measured::ModalTable& table,
                    Eigen::Ref<Eigen::VectorXd> values);
 

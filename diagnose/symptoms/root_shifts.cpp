@@ -33,7 +33,7 @@ void add_table(const SymptomsInput& input, std::size_t run, const measured::Moda
       RootShift shift{.run = own.id,
                       .payload_kg = arm_in(experiment, own).payload.mass_kg,
                       .zero_of = group.zeros_of,
-                      .order = table[i].order,
+                      .order = table[i].order.value(),
                       .frequency_Hz = {},
                       .damping_ratio = {}};
       if (table[i].frequency_Hz) shift.frequency_Hz = next();
@@ -79,10 +79,11 @@ std::vector<RootShift> fitted(const SymptomsInput& input, std::size_t run,
   const arm::Arm arm = arm_in(experiment, own);
   arm::Arm extended = input.chosen.extend(experiment.arm);
   extended.payload = arm.payload;
+  const double to_Hz = compare::needed_Hz(top_Hz);
   const auto before =
-      compare::beside_analytical(table, compare::analytical_modes(arm, sensors, top_Hz));
+      compare::beside_analytical(table, compare::analytical_modes(arm, sensors, to_Hz));
   const auto after =
-      compare::beside_analytical(table, compare::analytical_modes(extended, sensors, top_Hz));
+      compare::beside_analytical(table, compare::analytical_modes(extended, sensors, to_Hz));
   std::vector<RootShift> shifts;
   for (std::size_t i = 0; i < before.size(); ++i) {
     const compare::IdentifiedRoot& root = before[i];

@@ -78,7 +78,7 @@ ModalHeader read_modal_header(const CsvRow& row) {
       throw InputError(fmt::format("column {}: given twice", name));
     }
   }
-  for (const char* name : {kSensor, kFeature, kOrder, kNumbers[0].name}) {
+  for (const char* name : {kSensor, kFeature, kNumbers[0].name}) {
     if (!header.contains(name)) {
       throw InputError(fmt::format("column {}: missing; the header is {}", name,
                                    fmt::join(column_names(), ",")));
@@ -124,11 +124,14 @@ ModalEntry read_entry(const CsvRow& row, const ModalHeader& header) {
     throw InputError("sensor: missing; a zero belongs to one sensor");
   }
 
-  const std::string& order = row.cells[header.at(kOrder)];
-  entry.order = number_cell<int>(order).value_or(0);
-  if (entry.order < 1) {
-    throw InputError(
-        fmt::format("order = {}: must be a whole number, 1 or more", arm::shown(order)));
+  const auto order = header.find(kOrder);
+  if (order != header.end() && !row.cells[order->second].empty()) {
+    const std::string& cell = row.cells[order->second];
+    entry.order = number_cell<int>(cell).value_or(0);
+    if (*entry.order < 1) {
+      throw InputError(
+          fmt::format("order = {}: must be a whole number, 1 or more, or empty", arm::shown(cell)));
+    }
   }
 
   for (const auto& column : kNumbers) {
@@ -162,12 +165,13 @@ ModalTable parse_modal_table(std::string_view csv, const std::string& file_name)
     for (std::size_t i = 1; i < rows.size(); ++i) {
       line = rows[i].line;
       const ModalEntry entry = read_entry(rows[i], header);
+      table.push_back(entry);
+      if (!entry.order) continue;
       const std::string what =
-          fmt::format("{} {} {}", sensor_name(entry), to_string(entry.feature), entry.order);
+          fmt::format("{} {} {}", sensor_name(entry), to_string(entry.feature), *entry.order);
       if (const auto [first, is_new] = line_of.emplace(what, line); !is_new) {
         throw InputError(fmt::format("{}: given twice; first on line {}", what, first->second));
       }
-      table.push_back(entry);
     }
     return table;
   } catch (const InputError& error) {
@@ -183,7 +187,8 @@ ModalTable read_modal_table(const std::filesystem::path& path) {
 std::string format_modal_table(const ModalTable& table) {
   std::string out = fmt::format("{}\n", fmt::join(column_names(), ","));
   for (const auto& entry : table) {
-    out += fmt::format("{},{},{}", sensor_name(entry), to_string(entry.feature), entry.order);
+    out += fmt::format("{},{},{}", sensor_name(entry), to_string(entry.feature),
+                       entry.order ? std::to_string(*entry.order) : "");
     for (const auto& column : kNumbers) {
       const auto value = entry.*column.member;
       out += value ? fmt::format(",{}", *value) : ",";

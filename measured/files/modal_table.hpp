@@ -20,7 +20,8 @@ std::string_view to_string(Feature feature);
 struct ModalEntry {
   std::optional<arm::Sensor> sensor;  ///< given for every zero; a pole is the same in all
   Feature feature = Feature::pole;
-  int order = 1;                       ///< flexible ones counted from 1
+  /// Flexible ones counted from 1; empty: not known, compare/root_numbering.hpp assigns one.
+  std::optional<int> order;
   std::optional<double> frequency_Hz;  ///< undamped natural frequency abs(s)/(2 pi), above 0
   std::optional<double> frequency_std_Hz;
   std::optional<double> damping_ratio;  ///< -Re s/abs(s), -1 to 1; below 0 on the right half plane

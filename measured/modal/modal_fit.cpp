@@ -409,7 +409,6 @@ ModalFit fit_modes(const FrequencyRecord& record, const ModalFitOptions& options
 
 ModalTable modal_table(const ModalFit& fit, double most_damping_ratio) {
   ModalTable table;
-  int order = 0;
   const auto above_zero = [](double deviation) {
     return std::isfinite(deviation) ? std::optional(deviation) : std::nullopt;
   };
@@ -417,20 +416,19 @@ ModalTable modal_table(const ModalFit& fit, double most_damping_ratio) {
     if (!pole.is_mode) continue;
     table.push_back({.sensor = std::nullopt,
                      .feature = Feature::pole,
-                     .order = ++order,
+                     .order = {},
                      .frequency_Hz = pole.frequency_Hz,
                      .frequency_std_Hz = above_zero(pole.frequency_std_Hz),
                      .damping_ratio = pole.damping_ratio,
                      .damping_ratio_std = above_zero(pole.damping_ratio_std)});
   }
   for (const FittedSensor& sensor : fit.sensors) {
-    order = 0;
     for (const FittedZero& zero : sensor.zeros) {
       if (!zero.in_band || !zero.is_told) continue;
       if (std::abs(zero.damping_ratio) > most_damping_ratio) continue;
       table.push_back({.sensor = sensor.sensor,
                        .feature = Feature::zero,
-                       .order = ++order,
+                       .order = {},
                        .frequency_Hz = zero.frequency_Hz,
                        .frequency_std_Hz = above_zero(zero.frequency_std_Hz),
                        .damping_ratio = zero.damping_ratio,

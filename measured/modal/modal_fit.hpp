@@ -140,7 +140,7 @@ ModalFit fit_modes(const FrequencyRecord& record, const ModalFitOptions& options
 inline constexpr std::size_t kLeastSamples = 64;
 inline constexpr std::size_t kLeastLines = 16;
 
-/// Modes and the antiresonances of each sensor in the band, counted from 1, with standard
+/// Modes and the antiresonances of each sensor in the band, without orders, with standard
 /// deviations. Zeros whose damping ratio is above `options`' bound for modes in size, the real ones
 /// of a tip that moves against the hub for one, are no antiresonances and left out.
 ModalTable modal_table(const ModalFit& fit, double most_damping_ratio = 0.7);

@@ -319,9 +319,13 @@ CircleSet nyquist_circles(const FrequencyChannel& channel, const CircleSettings&
 ModalTable modal_table(const arm::Sensor& sensor, const std::vector<NyquistCircle>& circles) {
   ModalTable table;
   for (const auto& circle : circles) {
-    table.push_back({sensor, Feature::pole, circle.order, circle.natural_frequency_Hz,
-                     circle.natural_frequency_std_Hz, circle.damping_ratio,
-                     circle.damping_ratio_std});
+    table.push_back({.sensor = sensor,
+                     .feature = Feature::pole,
+                     .order = {},
+                     .frequency_Hz = circle.natural_frequency_Hz,
+                     .frequency_std_Hz = circle.natural_frequency_std_Hz,
+                     .damping_ratio = circle.damping_ratio,
+                     .damping_ratio_std = circle.damping_ratio_std});
   }
   return table;
 }

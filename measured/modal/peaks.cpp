@@ -230,14 +230,11 @@ double natural_frequency_Hz(double peak_Hz, double damping_ratio, int derivative
 ModalTable modal_table(const arm::Sensor& sensor, std::span<const SpectralFeature> features,
                        PeakPlace place) {
   ModalTable table;
-  int poles = 0;
-  int zeros = 0;
   for (const auto& found : features) {
     ModalEntry entry;
     entry.sensor = sensor;
     entry.feature = found.feature;
     const bool is_pole = found.feature == Feature::pole;
-    entry.order = is_pole ? ++poles : ++zeros;
     entry.frequency_Hz = found.frequency_Hz;
     entry.frequency_std_Hz =
         found.frequency_uncertainty_Hz / (place == PeakPlace::on_line ? std::sqrt(3.0) : 1.0);

@@ -152,7 +152,7 @@ Json measured_json(const std::vector<compare::MeasuredRow>& rows) {
   for (const auto& row : rows) {
     measured.push_back({{"feature", measured::to_string(row.measured.feature)},
                         {"sensor", sensor_json(row.measured.sensor)},
-                        {"order", row.measured.order},
+                        {"order", row.order ? Json(*row.order) : Json(nullptr)},
                         {"measured_Hz", optional_json(row.measured.frequency_Hz)},
                         {"model_Hz", optional_json(row.model_frequency_Hz)},
                         {"error_percent", row.error_percent}});

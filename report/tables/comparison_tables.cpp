@@ -237,7 +237,7 @@ Table measured_table(const std::vector<compare::MeasuredRow>& rows) {
                {"error", "%", 3}}};
   for (const auto& row : rows) {
     table.add_row({std::string(measured::to_string(row.measured.feature)),
-                   std::int64_t{row.measured.order},
+                   row.order ? Cell(std::int64_t{*row.order}) : Cell(),
                    row.measured.sensor ? arm::to_string(*row.measured.sensor) : "",
                    row.measured.frequency_Hz.value_or(kMissing),
                    row.model_frequency_Hz.value_or(kMissing), row.error_percent});

@@ -101,18 +101,20 @@ Table gain_table(const measured::RunsFit& fit, const compare::AnalyticalModes& a
   add("I_T", Cell(), "kg m^2", "rigid body", fit.gains->total_inertia_kg_m2, inertia);
   std::vector<double> poles_Hz;
   for (const auto& pole : analytical.poles) poles_Hz.push_back(pole.frequency_Hz);
+  const auto roots = compare::beside_analytical(measured::modal_table(fit.fit), analytical);
   for (const auto& mode : fit.gains->modes) {
-    measured::ModalTable alone(1);
-    alone.front().frequency_Hz = mode.frequency_Hz;
-    const auto root = compare::beside_analytical(alone, analytical).front();
-    if (!root.order) continue;
-    const auto index = static_cast<std::size_t>(*root.order - 1);
+    const auto root = std::ranges::find_if(roots, [&](const compare::IdentifiedRoot& one) {
+      return one.measured.feature == measured::Feature::pole && one.order &&
+             one.measured.frequency_Hz == mode.frequency_Hz;
+    });
+    if (root == roots.end()) continue;
+    const auto index = static_cast<std::size_t>(*root->order - 1);
     std::vector<double> slopes, tips;
     for (const auto& gains : analytical.gains) {
       slopes.push_back(gains.hub_slope[index]);
       tips.push_back(gains.tip_gain_m[index]);
     }
-    const Cell order = std::int64_t(*root.order);
+    const Cell order = std::int64_t{*root->order};
     if (mode.hub_slope) add("phi'(0)", order, "1", "(48)", *mode.hub_slope, slopes);
     if (mode.hub_slope_of_product) {
       add("phi'(0)", order, "1", "(47), truncated", *mode.hub_slope_of_product, slopes);

@@ -110,6 +110,30 @@ TEST_F(Compare, AMeasuredTableWithAnErrorIsNamedByFileAndLine) {
               HasSubstr("none.csv: no such file"));
 }
 
+TEST_F(Compare, AMeasuredTableWithoutOrdersIsNumberedByInterlacing) {
+  // The default arm with a beam 96 % stiffer: 1.4 times its frequencies, pole 2 nearest to pole 3.
+  write("modal.csv",
+        "sensor,feature,frequency [Hz]\nhub_angle,zero,4.02\nhub_angle,pole,16.6\n"
+        "hub_angle,zero,25.2\nhub_angle,pole,45.2\nhub_angle,pole,5000\n");
+  const Ended ended = run({"compare", "--quick", "--measured", "modal.csv", "--json", "c.json"});
+  ASSERT_EQ(ended.status, 0) << ended.errors;
+  const auto rows = Json::parse(text_of("c.json"))["comparisons"][0]["measured"];
+  ASSERT_EQ(rows.size(), 5U);
+  // A root that is none of the arm's leaves nothing determined; without it all are.
+  EXPECT_TRUE(rows[4]["order"].is_null());
+  write("modal.csv",
+        "sensor,feature,frequency [Hz]\nhub_angle,zero,4.02\nhub_angle,pole,16.6\n"
+        "hub_angle,zero,25.2\nhub_angle,pole,45.2\n");
+  EXPECT_EQ(run({"compare", "--quick", "--measured", "modal.csv", "--json", "c.json"}).status, 0);
+  const auto numbered = Json::parse(text_of("c.json"))["comparisons"][0]["measured"];
+  std::vector<int> orders;
+  for (const auto& row : numbered) {
+    orders.push_back(row["order"]);
+    EXPECT_NEAR(row["error_percent"].get<double>(), 40.0, 0.5);
+  }
+  EXPECT_EQ(orders, (std::vector<int>{1, 1, 2, 2}));
+}
+
 TEST_F(Compare, LinearEffectsAreHonouredAndOthersNamedAsLeftOut) {
   write("rig.toml", std::string(kArm) +
                         "[effects.hub_spring]\nstiffness = 1.0\n"

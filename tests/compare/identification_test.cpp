@@ -14,8 +14,8 @@ namespace {
 using measured::Feature;
 using measured::ModalEntry;
 
-ModalEntry entry(const std::optional<arm::Sensor>& sensor, Feature feature, int order,
-                 double frequency_Hz) {
+ModalEntry entry(const std::optional<arm::Sensor>& sensor, Feature feature,
+                 std::optional<int> order, double frequency_Hz) {
   return {sensor, feature, order, frequency_Hz, {}, {}, {}};
 }
 
@@ -58,12 +58,12 @@ TEST(AnalyticalModes, HaveZerosOfStrainAtTheTipWhereAPayloadBendsIt) {
   EXPECT_EQ(analytical_modes(arm, std::array{at_the_tip}, 40.0).zeros.size(), 1U);
 }
 
-TEST(BesideAnalytical, FindsRootsWhateverTheirOrder) {
+TEST(BesideAnalytical, FindsRootsWithoutOrders) {
   const auto modes = modes_of(arm::paper_arm());
-  // The first pole was missed, and something else was seen.
+  // The first pole was missed, and something else was seen: by distance.
   const auto roots = beside_analytical(
-      {entry(kHubAngle, Feature::pole, 1, 20.5), entry(kHubAngle, Feature::pole, 2, 32.5),
-       entry(kHubAngle, Feature::zero, 1, 18.2)},
+      {entry(kHubAngle, Feature::pole, {}, 20.5), entry(kHubAngle, Feature::pole, {}, 32.5),
+       entry(kHubAngle, Feature::zero, {}, 18.2)},
       modes);
   EXPECT_FALSE(roots[0].order);
   EXPECT_TRUE(std::isnan(roots[0].error_percent()));
@@ -77,8 +77,8 @@ TEST(BesideAnalytical, FindsRootsWhateverTheirOrder) {
 
 TEST(BesideAnalytical, TakesARootOnce) {
   const auto roots = beside_analytical(
-      {entry(kHubAngle, Feature::pole, 1, 11.7), entry(kHubAngle, Feature::pole, 2, 11.9),
-       entry(kTipAcceleration, Feature::pole, 1, 11.7)},
+      {entry(kHubAngle, Feature::pole, {}, 11.7), entry(kHubAngle, Feature::pole, {}, 11.9),
+       entry(kTipAcceleration, Feature::pole, {}, 11.7)},
       modes_of(arm::paper_arm()));
   EXPECT_FALSE(roots[0].order);
   EXPECT_EQ(roots[1].order, 1);
@@ -86,9 +86,18 @@ TEST(BesideAnalytical, TakesARootOnce) {
 }
 
 TEST(BesideAnalytical, HasNoAntiresonanceWhereZerosAreReal) {
-  const auto roots = beside_analytical({entry(kTipAcceleration, Feature::zero, 1, 9.1)},
+  const auto roots = beside_analytical({entry(kTipAcceleration, Feature::zero, {}, 9.1)},
                                        modes_of(arm::paper_arm()));
   EXPECT_FALSE(roots[0].order);
+}
+
+TEST(BesideAnalytical, LeavesAStatedOrder) {
+  const auto modes = modes_of(arm::paper_arm());
+  const auto roots = beside_analytical(
+      {entry(kHubAngle, Feature::pole, 1, 32.0), entry(kHubAngle, Feature::pole, 9, 58.0)}, modes);
+  EXPECT_EQ(roots[0].order, 1);
+  EXPECT_EQ(roots[0].analytical_Hz, modes.poles[0].frequency_Hz);
+  EXPECT_FALSE(roots[1].order);  // not among these analytical ones
 }
 
 TEST(ConditionsOf, AreOneAPayload) {
@@ -105,6 +114,29 @@ TEST(ConditionsOf, AreOneAPayload) {
             conditions[0].analytical.poles[0].frequency_Hz);
   EXPECT_EQ(conditions[0].readings, (std::vector<std::size_t>{0}));
   EXPECT_EQ(conditions[1].readings, (std::vector<std::size_t>{1}));
+}
+
+TEST(ConditionsOf, NumberPolesOfASensorByTheZerosOfAnotherInTheSameRun) {
+  // A beam 96 % stiffer. Tip poles by themselves are nearest to none, and to pole 3.
+  constexpr double kHigher = 1.4;
+  const auto modes = modes_of(arm::paper_arm());
+  measured::ModalTable table;
+  for (const std::size_t k : {0U, 1U}) {
+    const double pole_Hz = kHigher * modes.poles[k].frequency_Hz;
+    const double zero_Hz = kHigher * modes.zeros[0].s_rad_per_s[k].imag() / (2.0 * M_PI);
+    table.push_back(entry(kTipAcceleration, Feature::pole, {}, pole_Hz));
+    table.push_back(entry(kHubAngle, Feature::pole, {}, pole_Hz));
+    table.push_back(entry(kHubAngle, Feature::zero, {}, zero_Hz));
+  }
+  const auto conditions = conditions_of(
+      measured::identify({{{.id = "a", .kind = measured::RunKind::modal, .file = "a.csv"}, table}}),
+      arm::paper_arm());
+  ASSERT_EQ(conditions[0].roots.size(), 2U);  // of the tip, of the hub
+  ASSERT_EQ(conditions[0].roots[0].size(), 2U);
+  for (const std::size_t k : {0U, 1U}) {
+    EXPECT_EQ(conditions[0].roots[0][k].order, static_cast<int>(k) + 1);
+    EXPECT_NEAR(conditions[0].roots[0][k].error_percent(), 40.0, 1e-9);
+  }
 }
 
 }  // namespace

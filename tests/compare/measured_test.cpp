@@ -58,6 +58,17 @@ TEST(Measured, APoleIsTheModelsWhicheverSensorSawIt) {
   }
 }
 
+TEST(Measured, OrdersThatAreNotStatedAreAssigned) {
+  // 1.4 times the model's: by distance no pole would be the model's first.
+  measured::ModalTable table = {measured_at(kHubAngle, Feature::pole, 1, 1.4 * 12.0),
+                                measured_at(kHubAngle, Feature::zero, 1, 1.4 * 3.0)};
+  for (auto& entry : table) entry.order.reset();
+  for (const auto& row : beside_model(table, model())) {
+    EXPECT_EQ(row.order, 1);
+    EXPECT_NEAR(row.error_percent, 40.0, 1e-9);
+  }
+}
+
 TEST(Measured, ZerosAreThoseOfTheirSensor) {
   EXPECT_DOUBLE_EQ(row_of(measured_at(kHubAngle, Feature::zero, 1, 3.0)).model_frequency_Hz.value(),
                    3.0);

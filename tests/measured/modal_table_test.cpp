@@ -39,6 +39,20 @@ TEST(ModalTable, ColumnsMayStandInAnyOrderAndUnknownOnesBeLeftOut) {
   EXPECT_EQ(table[1].frequency_Hz, std::nullopt);
 }
 
+TEST(ModalTable, MayStateNoOrders) {
+  const ModalTable some = parse_modal_table(
+      "sensor,feature,order,frequency [Hz]\nhub_angle,pole,,11.9\nhub_angle,pole,2,32\n"
+      "hub_angle,pole,,58\n",
+      "m");
+  ASSERT_EQ(some.size(), 3U);
+  EXPECT_FALSE(some[0].order);
+  EXPECT_EQ(some[1].order, 2);
+  EXPECT_EQ(parse_modal_table(format_modal_table(some), "m"), some);
+  const ModalTable none = parse_modal_table(
+      "sensor,feature,frequency [Hz]\nhub_angle,pole,11.9\nhub_angle,pole,32\n", "m");
+  EXPECT_FALSE(none.at(1).order);
+}
+
 TEST(ModalTable, WhatIsWrittenReadsBackEqual) {
   std::mt19937_64 random(20261120);
   const auto chance = [&] { return random() % 2 == 0; };
@@ -125,16 +139,16 @@ const std::vector<Mistake> kModalTableMistakes = {
      "2: feature = ploe: must be pole or zero (did you mean pole?)"},
     {"FeatureEmpty", kHeader + "\nhub_angle,,1,11.9,,,\n", "2: feature = : must be pole or zero"},
     {"OrderZero", kHeader + "\nhub_angle,pole,0,11.9,,,\n",
-     "2: order = 0: must be a whole number, 1 or more"},
+     "2: order = 0: must be a whole number, 1 or more, or empty"},
     {"OrderFractional", kHeader + "\nhub_angle,pole,1.5,11.9,,,\n",
-     "2: order = 1.5: must be a whole number, 1 or more"},
+     "2: order = 1.5: must be a whole number, 1 or more, or empty"},
     {"OrderTooLarge", kHeader + "\nhub_angle,pole,99999999999,11.9,,,\n",
-     "2: order = 99999999999: must be a whole number, 1 or more"},
+     "2: order = 99999999999: must be a whole number, 1 or more, or empty"},
     {"Twice",
      kHeader + "\nhub_angle,pole,1,11.9,,,\nhub_angle,zero,1,2,,,\nhub_angle,pole,1,12,,,\n",
      "4: hub_angle pole 1: given twice; first on line 2"},
     {"ControlCharacter", kHeader + "\nhub_angle,pole,\"1\n\",11.9,,,\n",
-     "2: order = 1\\x0a: must be a whole number, 1 or more"},
+     "2: order = 1\\x0a: must be a whole number, 1 or more, or empty"},
 };
 
 class ModalTableMistake : public testing::TestWithParam<Mistake> {};

@@ -149,13 +149,14 @@ TEST(NaturalFrequency, CorrectsThePeakOfEachKindOfSensor) {
   EXPECT_THROW(natural_frequency_Hz(1.0, 0.8, 0), std::invalid_argument);
 }
 
-TEST(ModalTableOfFeatures, NumbersPolesAndZerosAndCorrectsPoles) {
+TEST(ModalTableOfFeatures, StatesNoOrdersAndCorrectsPoles) {
   const arm::Sensor sensor = arm::parse_sensor("hub_angle");
   const auto found = features(0.12, 0.02, {});
   const auto table = modal_table(sensor, found, PeakPlace::resonance);
   ASSERT_EQ(table.size(), 2U);
-  EXPECT_EQ(table[0].order, 1);
-  EXPECT_EQ(table[1].order, 1);
+  EXPECT_EQ(table[0].feature, Feature::pole);
+  EXPECT_EQ(table[1].feature, Feature::zero);
+  EXPECT_FALSE(table[0].order || table[1].order);
   EXPECT_EQ(table[0].frequency_Hz.value(),
             natural_frequency_Hz(found[0].frequency_Hz, *found[0].damping_ratio, 0));
   EXPECT_EQ(table[1].frequency_Hz.value(), found[1].frequency_Hz);

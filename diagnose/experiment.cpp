@@ -4,6 +4,7 @@
 #include "arm/linear_arm.hpp"
 #include "arm/plausibility.hpp"
 #include "arm/rigid_hub.hpp"
+#include "diagnose/long_runs.hpp"
 #include "diagnose/modal_orders.hpp"
 #include "effects/registry/vocabulary.hpp"
 #include "measured/files/arm_file.hpp"
@@ -11,6 +12,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 #include <variant>
 
@@ -141,8 +143,14 @@ Experiment read_experiment(const fs::path& measurement_file,
     }
     experiment.runs.push_back(std::move(read));
   }
-  const std::string split = split_purposes(experiment.runs);
-  if (!split.empty()) experiment.notices.push_back(split);
+  const auto split = [&experiment] {
+    const std::string done = split_purposes(experiment.runs);
+    if (!done.empty()) experiment.notices.push_back(done);
+  };
+  // A single run that is long has stretches for both purposes.
+  if (experiment.runs.size() > 1) split();
+  std::ranges::move(cut_long_runs(experiment.runs), std::back_inserter(experiment.notices));
+  split();
   const bool fits = std::ranges::any_of(experiment.runs, [](const measured::MeasuredRun& run) {
     return run.run.purpose == measured::Purpose::estimation;
   });

@@ -54,8 +54,8 @@ Experiment with_hold(Experiment experiment, measured::TorqueHold hold);
 /// Channels that are dead are left out, with a notice. A finding of the data checks `accepted` has
 /// no such consequence, and is among Experiment::accepted in the place of the notices. Where no run
 /// is for validation the conditions (payload, kind, torque) are split, with a notice
-/// (`split_purposes`). Entries of modal tables get the orders that they do not state
-/// (diagnose/modal_orders.hpp).
+/// (`split_purposes`). Long runs are cut, with notices (diagnose/long_runs.hpp). Entries of modal
+/// tables get the orders that they do not state (diagnose/modal_orders.hpp).
 ///
 /// Throws InputError `FILE:LINE: ...` where a reader does, for a run with a torque that is zero or
 /// with no usable channel or entry, and for runs none of which is for estimation.

@@ -137,7 +137,8 @@ std::optional<MissingForce> missing_force(const Problem& problem, const arm::Arm
   if (made.ports.front().share < kLeastPortShare || alike > kMostPorts) return made;
   made.stated = alike;
   const std::size_t place = ports.front().place;
-  if (tried.places[place].spread.empty()) made.size = force_size(tried, place);
+  const bool has_size = tried.places[place].spread.empty() && !tried.segments.empty();
+  if (has_size) made.size = force_size(tried, place);
   return made;
 }
 

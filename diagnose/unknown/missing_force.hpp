@@ -30,16 +30,17 @@ struct MissingForce {
   /// The first so many of `ports` are indistinguishable from the first. 0 where the port is not
   /// determined: none explains `kLeastPortShare`, or more than `kMostPorts` are indistinguishable.
   std::size_t stated = 0;
-  /// That of the best port. Where `stated` is above 0, and it is no force spread along the beam.
+  /// That of the best port, of `time` runs. Where `stated` is above 0, and it is no force spread
+  /// along the beam.
   std::optional<ForceSize> size = {};
   std::size_t lines = 0;  ///< that are beyond noise, of all segments
 };
 inline constexpr double kLeastPortShare = 0.5;
 inline constexpr std::size_t kMostPorts = 2;
 
-/// Tests for each port whether one unknown force there explains what a simulation of `time` runs
-/// leaves (tried_places.hpp). The shape of the vector of the sensors' residuals says where the
-/// force acts. One complex number explains 1/n of any n sensors' residuals, so that the share is
+/// Tests for each port whether one unknown force there explains what is left of `time` and `frf`
+/// runs (tried_places.hpp). The shape of the vector of the sensors' residuals says where the force
+/// acts. One complex number explains 1/n of any n sensors' residuals, so that the share is
 ///
 ///     1 - sum n/(n - 1) U/sum T,
 ///

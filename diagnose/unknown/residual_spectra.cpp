@@ -218,6 +218,55 @@ void add_segments(const measured::TimeRecord& record, const ChannelErrors& run,
   }
 }
 
+/// What is left of the response of one sensor, and where its lines are.
+struct LeftOfResponse {
+  const measured::FrequencyChannel* response = nullptr;
+  const ObservedChannel* observed = nullptr;
+};
+
+void add_responses(const Problem& problem, const std::vector<LeftOfResponse>& sensors,
+                   const Eigen::VectorXd& errors, std::vector<ResidualSpectra>& all) {
+  const Eigen::VectorXd& deviations = problem.observations().deviations;
+  ResidualSpectra made;
+  made.run = sensors.front().observed->run;
+  made.is_per_torque = true;
+  const std::vector<double>& frequency_Hz = sensors.front().response->frequency_Hz;
+  // The arm turns without bound under a torque that stays.
+  const Index skipped = frequency_Hz.front() > 0.0 ? 0 : 1;
+  made.frequency_Hz.assign(frequency_Hz.begin() + skipped, frequency_Hz.end());
+  made.errors.resize(std::ssize(sensors), std::ssize(made.frequency_Hz));
+  made.noise.resizeLike(made.errors);
+  for (Index j = 0; j < made.errors.rows(); ++j) {
+    const auto& [response, observed] = sensors[static_cast<std::size_t>(j)];
+    made.sensors.push_back(response->sensor);
+    for (Index k = 0; k < made.errors.cols(); ++k) {
+      const Index at = observed->first + 2 * (k + skipped);
+      made.errors(j, k) = deviations(at) * Complex(errors(at), errors(at + 1));
+      // Of the real part and of the imaginary one.
+      made.noise(j, k) = 2.0 * deviations(at) * deviations(at);
+    }
+  }
+  if (!made.errors.allFinite()) return;
+  keep_excess(made);
+  if (!made.frequency_Hz.empty()) all.push_back(std::move(made));
+}
+
+void add_responses(const Problem& problem, std::size_t run, const measured::FrequencyRecord& record,
+                   const Eigen::VectorXd& errors, std::vector<ResidualSpectra>& all) {
+  std::vector<std::vector<LeftOfResponse>> sharing_lines;
+  for (const ObservedChannel& observed : problem.observations().channels) {
+    if (observed.run != run) continue;
+    const auto response = std::ranges::find(record.channels, arm::parse_sensor(observed.sensor),
+                                            &measured::FrequencyChannel::sensor);
+    auto group = std::ranges::find_if(sharing_lines, [&](const auto& other) {
+      return other.front().response->frequency_Hz == response->frequency_Hz;
+    });
+    if (group == sharing_lines.end()) group = sharing_lines.emplace(group);
+    group->push_back({&*response, &observed});
+  }
+  for (const auto& sensors : sharing_lines) add_responses(problem, sensors, errors, all);
+}
+
 }  // namespace
 
 std::vector<ResidualSpectra> residual_spectra(const Problem& problem,
@@ -226,6 +275,9 @@ std::vector<ResidualSpectra> residual_spectra(const Problem& problem,
   std::vector<ResidualSpectra> all;
   const auto& runs = problem.experiment().runs;
   for (std::size_t r = 0; r < runs.size(); ++r) {
+    if (const auto* responses = std::get_if<measured::FrequencyRecord>(&runs[r].data)) {
+      add_responses(problem, r, *responses, errors, all);
+    }
     const auto* record = std::get_if<measured::TimeRecord>(&runs[r].data);
     if (record == nullptr || record->time_s.size() < kFewestSamples) continue;
     add_segments(*record, channel_errors_of(problem, r, errors), all);

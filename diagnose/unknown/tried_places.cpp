@@ -164,7 +164,7 @@ TriedPlaces try_places(const Problem& problem, const arm::Arm& arm,
         made.power.push_back(forces.back().power);
       }
       add_parts(*segment, residuals.total(), forces, tried);
-      tried.segments.push_back(std::move(made));
+      if (!segment->is_per_torque) tried.segments.push_back(std::move(made));
     }
   }
   return tried;

@@ -28,7 +28,7 @@ struct TriedSegment {
 struct TriedPlaces {
   std::vector<ForcePlace> places;
   std::vector<TriedPart> parts;
-  std::vector<TriedSegment> segments;
+  std::vector<TriedSegment> segments;  ///< of `time` runs
 };
 
 /// On each line f of a segment (residual_spectra.hpp) the residuals of the sensors are a vector E,

@@ -26,7 +26,7 @@ constexpr std::size_t kProgressInterval = 1 << 14;
 /// Of the forces of an inner step in a fit: far below any noise, and small enough that quotients of
 /// differences over 1e-5 of a parameter's range have four digits.
 constexpr double kFitForceTolerance = 1e-9;
-/// Of a run, which has some thousand samples: more than one in each.
+/// Of a run of some thousand samples: more than one in each. A longer run may have one in each.
 constexpr std::int64_t kMostHalvedStepsOfFit = 5000;
 
 /// Of an unknown initial state: the rotation and the first flexible mode.

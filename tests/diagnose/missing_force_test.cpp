@@ -2,8 +2,11 @@
 // what is fitted to them by exact_tf.
 #include "diagnose/unknown/missing_force.hpp"
 
+#include "diagnose/diagnosis.hpp"
 #include "diagnose/unknown/residual_spectra.hpp"
 #include "effects/registry/vocabulary.hpp"
+#include "response/formulation_maker.hpp"
+#include "response/frequency/frequency_response.hpp"
 #include "tests/diagnose/symptoms_fixture.hpp"
 
 #include <gtest/gtest.h>
@@ -12,6 +15,7 @@
 #include <cmath>
 #include <complex>
 #include <optional>
+#include <random>
 #include <string>
 #include <variant>
 #include <vector>
@@ -30,6 +34,47 @@ std::optional<MissingForce> missing_in(const Experiment& experiment) {
 
 std::optional<MissingForce> missing_with(const arm::Effects& hidden) {
   return missing_in(simulated_experiment(hidden));
+}
+
+/// `frf` runs of `trial_arm` with hidden effects, with and without a payload, by finite elements;
+/// with noise of 1 %.
+Experiment measured_responses(const arm::Effects& hidden) {
+  constexpr double kNoise = 0.01;
+  constexpr int kModes = 16;
+  std::vector<double> frequency_Hz;
+  for (int k = 1; k <= 300; ++k) frequency_Hz.push_back(0.2 * k);
+  const std::vector<arm::Sensor> sensors = {arm::parse_sensor("hub_angle"),
+                                            arm::parse_sensor("tip_acceleration"),
+                                            arm::parse_sensor("strain@0.05")};
+  std::mt19937_64 engine(5);
+  std::normal_distribution<double> normal(0.0, kNoise / std::sqrt(2.0));
+  Experiment experiment;
+  experiment.arm = trial_arm();
+  for (const double payload_kg : {0.0, 0.06}) {
+    measured::MeasuredRun run;
+    run.run.id = payload_kg > 0.0 ? "payload" : "bare";
+    run.run.kind = measured::RunKind::frf;
+    run.run.purpose = measured::Purpose::estimation;
+    run.run.payload = arm::Payload{payload_kg, 0.0};
+    arm::Arm arm = arm_in(experiment, run.run);
+    arm.effects = hidden;
+    const response::ArmParts parts = response::take_apart(arm);
+    const auto made =
+        response::frequency_response(response::make_formulation("fem", parts.linear, kModes),
+                                     response::linear_chain(parts), sensors, frequency_Hz);
+    measured::FrequencyRecord record;
+    for (std::size_t j = 0; j < sensors.size(); ++j) {
+      measured::FrequencyChannel channel{sensors[j], frequency_Hz, {}, {}};
+      for (const std::complex<double> value : made.values[j]) {
+        channel.response.push_back(value * (1.0 + std::complex(normal(engine), normal(engine))));
+        channel.coherence.push_back(std::nan(""));
+      }
+      record.channels.push_back(std::move(channel));
+    }
+    run.data = std::move(record);
+    experiment.runs.push_back(std::move(run));
+  }
+  return experiment;
 }
 
 arm::Effects on_gauge(const std::string& effect, const std::string& parameter, double value) {
@@ -100,6 +145,53 @@ INSTANTIATE_TEST_SUITE_P(
         HiddenAt{"sensor_delay", on_gauge("sensor_delay", "delay", 0.004), ForcePort::sensor,
                  0.95}),
     name_of);
+
+class PortOfHiddenInResponses : public testing::TestWithParam<HiddenAt> {};
+
+TEST_P(PortOfHiddenInResponses, IsStatedAlone) {
+  const HiddenAt& hidden = GetParam();
+  const auto found = missing_in(measured_responses(hidden.effects));
+  ASSERT_TRUE(found);
+  ASSERT_EQ(found->stated, 1U);
+  EXPECT_EQ(to_string(found->ports.front().port), to_string(hidden.port));
+  EXPECT_GT(found->ports.front().share, hidden.share);
+  EXPECT_LT(found->ports.front().share, 1.05);
+  EXPECT_FALSE(found->size);  // it is per unit of torque
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Effects, PortOfHiddenInResponses,
+    testing::Values(
+        HiddenAt{"hub_inertia", {named("hub_inertia", {{"factor", 1.4}})}, ForcePort::hub, 0.95},
+        HiddenAt{"root_compliance",
+                 {named("root_compliance", {{"stiffness", 40.0}})},
+                 ForcePort::root,
+                 0.95},
+        HiddenAt{"attached_mass",
+                 {named("attached_mass", {{"mass", 0.02}, {"position", 0.5}})},
+                 ForcePort::beam,
+                 0.9},
+        HiddenAt{"payload_mass", {named("payload_mass", {{"mass", 0.02}})}, ForcePort::tip, 0.95},
+        HiddenAt{"sensor_delay", on_gauge("sensor_delay", "delay", 0.004), ForcePort::sensor,
+                 0.95}),
+    name_of);
+
+TEST(MissingForce, OfResponsesIsNamedWhereTheCauseIsExcluded) {
+  const Experiment experiment =
+      measured_responses({named("attached_mass", {{"mass", 0.05}, {"position", 0.5}})});
+  std::vector<Hypothesis> others = hypotheses(experiment);
+  std::erase_if(others, [](const Hypothesis& one) { return one.effect == "attached_mass"; });
+  std::erase_if(others, [](const Hypothesis& one) { return one.parameters.size() > 1; });
+  const Diagnosis made = diagnose(experiment, others, {.most_causes = 1});
+  EXPECT_NE(made.verdict, Verdict::adequate);
+  EXPECT_NE(made.verdict, Verdict::explained);
+  ASSERT_TRUE(made.missing_force);
+  EXPECT_EQ(to_string(made.missing_force->ports.front().port), to_string(ForcePort::beam));
+}
+
+TEST(MissingForce, OfResponsesOfTheArmThereIsNone) {
+  EXPECT_FALSE(missing_in(measured_responses({})));
+}
 
 TEST(MissingForce, HasTheSizeOfTheFriction) {
   constexpr double kFriction_N_m = 0.01;

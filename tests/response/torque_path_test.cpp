@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <stdexcept>
@@ -153,6 +154,20 @@ TEST(ActuatorChain, ARunWhoseStepsAreHalvedTooOftenIsGivenUp) {
   EXPECT_EQ(made(), needed);
   options.most_halved_steps = needed - 1;
   EXPECT_THROW(made(), std::runtime_error);
+}
+
+TEST(ActuatorChain, ARunMayHalveAStepForEachSampleItHasPassed) {
+  ArmParts parts = coulomb(0.0);
+  put(parts, "torque_ripple", {{"amplitude", -2.0}, {"cycles", 3.0}, {"phase", 0.4}});
+  // More than one halving per sample from the 178th on.
+  const SimulationOptions options{
+      .sample_time_s = 0.05, .energy = false, .most_iterations = 4, .most_halved_steps = 0};
+  const auto halved_steps = [&](std::size_t samples) {
+    return simulate(oscillator(1.0, 0.0), parts, hub_sensors(), step_torque(0.0, samples), options)
+        .summary.halved_steps;
+  };
+  EXPECT_GT(halved_steps(150), 50);
+  EXPECT_THROW(halved_steps(200), std::runtime_error);
 }
 
 TEST(SensorLag, ReadsThroughAFirstOrderLag) {

@@ -71,7 +71,7 @@ arm::Arm with_table(arm::Arm arm, const arm::HubTorqueTable& table) {
 /// A table with the torques of least squares.
 struct FittedTable {
   arm::HubTorqueTable table;
-  double std_error_N_m = 0.0;
+  std::vector<double> std_errors_N_m = {};  ///< of each
 };
 
 /// Whether a step of this torque upwards would make dry friction, by which the torque falls at
@@ -109,8 +109,8 @@ FittedTable fitted(const Problem& balance, const arm::Arm& arm, arm::HubTorqueTa
     const Eigen::VectorXd left = here + jacobian * change;
     const double variance = left.squaredNorm() / independent(left, measured::RunKind::time);
     const Eigen::MatrixXd covariance = variance * solver.solve(Eigen::MatrixXd::Identity(n, n));
-    const auto variances = covariance.diagonal();
-    made.std_error_N_m = std::sqrt(quantile({variances.begin(), variances.end()}, 0.5));
+    const Eigen::VectorXd std_errors = covariance.diagonal().cwiseSqrt();
+    made.std_errors_N_m = {std_errors.begin(), std_errors.end()};
   }
   made.table = std::move(table);
   return made;
@@ -159,8 +159,10 @@ std::optional<EmpiricalLaw> empirical_law(const Problem& balance, const Problem&
       const double left = left_to_disturbance(balance, with_table(arm, found.table), runs);
       if (!(left < (is_over_both && best ? kMuchLess * least : least))) continue;
       least = left;
-      best = EmpiricalLaw{
-          .table = found.table, .std_error_N_m = found.std_error_N_m, .share = 1.0 - left / before};
+      best = EmpiricalLaw{.table = found.table,
+                          .std_error_N_m = quantile(found.std_errors_N_m, 0.5),
+                          .std_errors_N_m = found.std_errors_N_m,
+                          .share = 1.0 - left / before};
     } catch (const std::runtime_error&) {
       // Torques that are no table, such as friction that drives.
     }
@@ -169,6 +171,7 @@ std::optional<EmpiricalLaw> empirical_law(const Problem& balance, const Problem&
   best->error_before = simulated.judged_error(arm);
   best->error_after = simulated.judged_error(with_law(arm, *best));
   if (!(best->error_after < best->error_before)) return std::nullopt;
+  best->means = torque_means(best->table, balanced_motion(balance, arm, runs));
   return best;
 }
 

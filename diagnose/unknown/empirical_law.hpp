@@ -2,21 +2,26 @@
 
 #include "arm/hub_torque_table.hpp"
 #include "diagnose/search/problem.hpp"
+#include "diagnose/unknown/torque_means.hpp"
 
 #include <optional>
+#include <vector>
 
 namespace flexarm::diagnose {
 
 /// A law of hub torque that no effect of the library explains, as the data determine it.
 struct EmpiricalLaw {
-  arm::HubTorqueTable table;   ///< over the velocity of the hub, its angle, or both
-  double std_error_N_m = 0.0;  ///< of the torques of the table, the median
+  arm::HubTorqueTable table;                ///< over the velocity of the hub, its angle, or both
+  double std_error_N_m = 0.0;               ///< of the torques of the table, the median
+  std::vector<double> std_errors_N_m = {};  ///< of each of them
   /// Part of the mean square of the estimated disturbance that it removes, on validation runs
   /// (estimation runs where there are none).
   double share = 0.0;
   /// NRMSE of simulations of the same runs, mean of the channels.
   double error_before = 0.0;
   double error_after = 0.0;
+  /// Of the residual hub torque that the table describes, on the same runs.
+  std::vector<std::vector<TorqueMean>> means = {};
 };
 
 /// The arm with the law.

@@ -5,17 +5,12 @@
 #include "diagnose/unknown/tried_places.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <iterator>
-#include <numeric>
-#include <utility>
 
 namespace flexarm::diagnose {
 
 namespace {
-
-using Eigen::Index;
 
 std::size_t lines_of(const std::vector<ResidualSpectra>& segments) {
   std::size_t lines = 0;
@@ -115,41 +110,6 @@ std::size_t indistinguishable(const std::vector<PortShare>& ports) {
   return static_cast<std::size_t>(other - ports.begin());
 }
 
-/// The frequency below which that part of the squares lies.
-double quantile_Hz(const std::vector<std::pair<double, double>>& power, double part) {
-  double all = 0.0;
-  for (const auto& [frequency_Hz, square] : power) all += square;
-  double sum = 0.0;
-  for (const auto& [frequency_Hz, square] : power) {
-    sum += square;
-    if (sum >= part * all) return frequency_Hz;
-  }
-  return power.back().first;
-}
-
-ForceSize size_of(const TriedPlaces& tried, std::size_t place) {
-  ForceSize size{.unit = tried.places[place].unit};
-  std::vector<double> squares;
-  std::vector<std::pair<double, double>> power;
-  for (const TriedSegment& segment : tried.segments) {
-    squares.push_back(std::max(0.0, segment.power[place].sum()));
-    for (std::size_t k = 0; k < segment.frequency_Hz.size(); ++k) {
-      power.emplace_back(segment.frequency_Hz[k], segment.power[place](static_cast<Index>(k)));
-    }
-  }
-  std::ranges::sort(power);
-  size.from_Hz = quantile_Hz(power, 0.1);
-  size.to_Hz = quantile_Hz(power, 0.9);
-  const auto n = static_cast<double>(squares.size());
-  const double mean = std::reduce(squares.begin(), squares.end()) / n;
-  size.rms = std::sqrt(mean);
-  if (squares.size() < 2 || mean == 0.0) return size;
-  double spread = 0.0;
-  for (const double square : squares) spread += (square - mean) * (square - mean);
-  size.std_error = 0.5 * std::sqrt(spread / (n * (n - 1.0))) / size.rms;
-  return size;
-}
-
 }  // namespace
 
 std::optional<MissingForce> missing_force(const Problem& problem, const arm::Arm& arm,
@@ -177,7 +137,7 @@ std::optional<MissingForce> missing_force(const Problem& problem, const arm::Arm
   if (made.ports.front().share < kLeastPortShare || alike > kMostPorts) return made;
   made.stated = alike;
   const std::size_t place = ports.front().place;
-  if (tried.places[place].spread.empty()) made.size = size_of(tried, place);
+  if (tried.places[place].spread.empty()) made.size = force_size(tried, place);
   return made;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "diagnose/search/problem.hpp"
+#include "diagnose/unknown/force_size.hpp"
 #include "diagnose/unknown/port_responses.hpp"
 
 #include <Eigen/Core>
@@ -23,22 +24,13 @@ struct PortShare {
   double distance_std_error = 0.0;
 };
 
-/// How large the missing force is that the best port would have.
-struct ForceSize {
-  std::string unit;
-  double rms = 0.0;                      ///< mean of the runs' mean squares, on lines beyond noise
-  std::optional<double> std_error = {};  ///< by the spread of the segments; empty for one
-  double from_Hz = 0.0;                  ///< a tenth of its mean square is below,
-  double to_Hz = 0.0;                    ///< and a tenth above
-};
-
 /// At which port a force acts that the model lacks.
 struct MissingForce {
   std::vector<PortShare> ports = {};  ///< all that were tried, the largest share first
   /// The first so many of `ports` are indistinguishable from the first. 0 where the port is not
   /// determined: none explains `kLeastPortShare`, or more than `kMostPorts` are indistinguishable.
   std::size_t stated = 0;
-  /// Where `stated` is above 0, and the best is no force that is spread along the beam.
+  /// That of the best port. Where `stated` is above 0, and it is no force spread along the beam.
   std::optional<ForceSize> size = {};
   std::size_t lines = 0;  ///< that are beyond noise, of all segments
 };

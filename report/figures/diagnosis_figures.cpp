@@ -2,6 +2,8 @@
 
 #include "measured/spectra/robust.hpp"
 #include "report/figures/frequency_response_figure.hpp"
+#include "report/figures/hub_law_figure.hpp"
+#include "report/figures/missing_force_figure.hpp"
 #include "report/figures/sensor_label.hpp"
 #include "report/figures/svg.hpp"
 
@@ -344,6 +346,12 @@ DiagnosisPlots diagnosis_plots(const Experiment& experiment, const Diagnosis& di
   if (depends_on_motion(torque)) {
     makers.emplace_back("hub-torque.svg",
                         [&] { return hub_torque_figure(torque, clearest(torque)); });
+  }
+  if (const auto& law = diagnosis.empirical_law) {
+    makers.emplace_back("hub-law.svg", [&] { return hub_law_figure(*law); });
+  }
+  if (const auto& force = diagnosis.missing_force; force && !force->ports.empty()) {
+    makers.emplace_back("missing-force.svg", [&] { return missing_force_figure(*force); });
   }
   DiagnosisPlots made;
   made.plots.resize(makers.size());

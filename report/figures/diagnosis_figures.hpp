@@ -18,7 +18,9 @@ struct DiagnosisPlots {
 
 /// Of each of the first `kMostDrawnRuns` runs in time "overlay-RUN.svg" (`overlay_figure`), of as
 /// many `frf` runs "frf-RUN-SENSOR.svg"; "hub-torque.svg" where a dependence of the residual torque
-/// on the hub's motion was found (`hub_torque_figure`).
+/// on the hub's motion was found (`hub_torque_figure`); "hub-law.svg" with an empirical law
+/// (`hub_law_figure`); "missing-force.svg" where ports of a missing force were tested
+/// (`missing_force_figure`).
 DiagnosisPlots diagnosis_plots(const diagnose::Experiment& experiment,
                                const diagnose::Diagnosis& diagnosis);
 inline constexpr std::size_t kMostDrawnRuns = 6;

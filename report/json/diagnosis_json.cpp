@@ -50,12 +50,21 @@ Json formulations_json(const diagnose::FormulationCheck& check) {
 
 Json empirical_law_json(const std::optional<diagnose::EmpiricalLaw>& law) {
   if (!law) return nullptr;
-  return {{"angle", law->table.angle_rad},
-          {"velocity", law->table.velocity_rad_per_s},
-          {"torque", law->table.torque_N_m},
-          {"std_error", law->std_error_N_m},
-          {"explained_share", law->share},
-          {"before", law->error_before},
+  const arm::HubTorqueTable& table = law->table;
+  Json means = Json::array();
+  for (std::size_t curve = 0; curve < law->means.size(); ++curve) {
+    for (const diagnose::TorqueMean& mean : law->means[curve]) {
+      Json& made = means.emplace_back(Json{{"angle", nullptr}, {"velocity", nullptr}});
+      made[table.angle_rad.empty() ? "velocity" : "angle"] = mean.at;
+      if (law->means.size() > 1) made["velocity"] = table.velocity_rad_per_s[curve];
+      made["torque"] = mean.torque_N_m;
+      made["std_error"] = mean.std_error_N_m;
+    }
+  }
+  return {{"angle", table.angle_rad},          {"velocity", table.velocity_rad_per_s},
+          {"torque", table.torque_N_m},        {"std_error", law->std_error_N_m},
+          {"std_errors", law->std_errors_N_m}, {"residual_means", std::move(means)},
+          {"explained_share", law->share},     {"before", law->error_before},
           {"after", law->error_after}};
 }
 
@@ -77,7 +86,18 @@ Json missing_force_json(const std::optional<diagnose::MissingForce>& force) {
                      {"rms", size->rms},
                      {"std_error", size->std_error ? Json(*size->std_error) : Json(nullptr)},
                      {"from", size->from_Hz},
-                     {"to", size->to_Hz}};
+                     {"to", size->to_Hz},
+                     {"spectrum", Json::array()}};
+    for (const diagnose::ForceBand& band : size->spectrum) {
+      const auto limit = [&](double std_errors) {
+        return band.std_error ? Json(band.rms_at(std_errors)) : Json(nullptr);
+      };
+      json["force"]["spectrum"].push_back({{"from", band.from_Hz},
+                                           {"to", band.to_Hz},
+                                           {"rms", band.rms()},
+                                           {"low", limit(-diagnose::kDistance)},
+                                           {"high", limit(diagnose::kDistance)}});
+    }
   }
   return json;
 }

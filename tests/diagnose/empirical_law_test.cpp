@@ -44,6 +44,14 @@ TEST(EmpiricalLaw, OverTheAngle) {
   }
   EXPECT_GT(found.share, 0.9);
   EXPECT_LT(found.error_after, 0.5 * found.error_before);
+  EXPECT_EQ(found.std_errors_N_m.size(), found.table.torque_N_m.size());
+  // The means of what it describes, over the angles of a move.
+  ASSERT_EQ(found.means.size(), 1U);
+  EXPECT_EQ(found.means.front().size(), std::size_t{kIntervals});
+  for (const TorqueMean& mean : found.means.front()) {
+    EXPECT_NEAR(mean.torque_N_m, law(mean.at, 0.0), kWithin_N_m + 3.0 * mean.std_error_N_m);
+    EXPECT_GT(mean.std_error_N_m, 0.0);
+  }
 }
 
 TEST(EmpiricalLaw, OverTheVelocityWithFriction) {

@@ -114,6 +114,23 @@ TEST(MissingForce, HasTheSizeOfTheFriction) {
   EXPECT_LT(found->size->from_Hz, found->size->to_Hz);
 }
 
+TEST(MissingForce, HasASpectrumInThirdOctavesThatAddsUpToItsSize) {
+  const auto found = missing_with({named("coulomb_friction", {{"torque", 0.01}})});
+  ASSERT_TRUE(found && found->size);
+  double mean_square = 0.0;
+  double above_Hz = 0.0;
+  for (const ForceBand& band : found->size->spectrum) {
+    EXPECT_NEAR(band.to_Hz / band.from_Hz, std::pow(10.0, 0.1), 1e-9);
+    EXPECT_GE(band.from_Hz, above_Hz * (1.0 - 1e-9));
+    above_Hz = band.to_Hz;
+    mean_square += band.mean_square;
+    ASSERT_TRUE(band.std_error);
+    EXPECT_LE(band.rms_at(-kDistance), band.rms());
+    EXPECT_GE(band.rms_at(kDistance), band.rms());
+  }
+  EXPECT_NEAR(std::sqrt(mean_square), found->size->rms, 1e-9 * found->size->rms);
+}
+
 TEST(MissingForce, IsAtTheSensorThatErrs) {
   const auto found = missing_with(on_gauge("sensor_gain", "factor", 0.8));
   ASSERT_TRUE(found && found->stated == 1);

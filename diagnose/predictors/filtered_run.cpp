@@ -90,4 +90,12 @@ RunInnovations filter_run(const response::ArmSimulator& simulation, const Record
   return made;
 }
 
+response::ErrorsAhead run_ahead(const response::ArmSimulator& simulation, const RecordedRun& run,
+                                double disturbance_N_m, const response::StartsAhead& starts) {
+  const Eigen::MatrixXd measured =
+      run.values.reshaped(std::ssize(run.torque_N_m), run.deviations.size());
+  return simulation.errors_ahead(run.torque_N_m, measured,
+                                 filter_gains(simulation, run, disturbance_N_m), starts);
+}
+
 }  // namespace flexarm::diagnose

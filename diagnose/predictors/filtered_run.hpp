@@ -41,4 +41,9 @@ double log_determinant(const response::FilterGains& gains, std::size_t samples);
 RunInnovations filter_run(const response::ArmSimulator& simulation, const RecordedRun& run,
                           double disturbance_N_m);
 
+/// What the same filter predicts ahead of its samples. Throws InputError as `filter_gains` and
+/// response::ArmSimulator::errors_ahead.
+response::ErrorsAhead run_ahead(const response::ArmSimulator& simulation, const RecordedRun& run,
+                                double disturbance_N_m, const response::StartsAhead& starts);
+
 }  // namespace flexarm::diagnose

@@ -20,6 +20,7 @@
 #include "report/tables/empirical_law_table.hpp"
 #include "report/tables/missing_force_table.hpp"
 #include "report/tables/plan_tables.hpp"
+#include "report/tables/prediction_error_table.hpp"
 #include "report/tables/symptom_tables.hpp"
 #include "report/tables/text_table.hpp"
 
@@ -188,6 +189,9 @@ std::string text_of(const diagnose::Diagnosis& diagnosis) {
   text += report::to_paragraph(report::formulations_text(diagnosis.formulations)) + "\n";
   text += report::to_text(report::gain_table(diagnosis)) + "\n";
   text += report::to_text(report::channel_gain_table(diagnosis), {.key_columns = 2});
+  if (!diagnosis.prediction_errors.empty()) {
+    text += "\n" + report::to_text(report::prediction_error_table(diagnosis.prediction_errors));
+  }
   if (diagnosis.next_experiments.empty()) return text;
   return text + "\n" +
          report::to_text(report::further_run_table(
@@ -223,6 +227,8 @@ std::vector<measured::NamedContent> files_of(const diagnose::Diagnosis& diagnosi
   add_table("hub-torque.csv", report::hub_torque_table(symptoms));
   add_table("distortion.csv", report::distortion_table(symptoms));
   add_table("run-by-run.csv", report::run_value_table(symptoms));
+  add_table("prediction-errors.csv",
+            report::channel_prediction_error_table(diagnosis.prediction_errors));
   if (const auto& law = diagnosis.empirical_law) {
     add_table("empirical-law.csv", report::empirical_law_table(*law));
   }

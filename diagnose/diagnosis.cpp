@@ -330,6 +330,10 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
   // Seconds, and of most use where the time was too short for a name.
   if (is_open) made.missing_force = missing_force(problem, made.extended_arm, after);
   if (made.empirical_law) made.extended_arm = with_law(made.extended_arm, *made.empirical_law);
+  const Problem& filtered = predicted.balance ? *predicted.balance : selection.problem;
+  if (filtered.predictor().noise() && !is_over(options.deadline)) {
+    made.prediction_errors = prediction_errors(filtered, experiment.arm, made.extended_arm);
+  }
   made.formulations = check_formulations(made.extended_arm, scales_of(experiment).sensors);
   if (is_open && !is_over(options.deadline)) {
     made.near_misses = near_misses(predicted, judged);

@@ -3,6 +3,7 @@
 #include "diagnose/cause.hpp"
 #include "diagnose/formulation_check.hpp"
 #include "diagnose/planning/next_experiments.hpp"
+#include "diagnose/prediction_errors.hpp"
 #include "diagnose/search/predictor_choice.hpp"
 #include "diagnose/symptoms/symptoms.hpp"
 #include "diagnose/unknown/empirical_law.hpp"
@@ -67,6 +68,8 @@ struct Diagnosis {
   std::optional<DisturbanceGain> disturbance;  ///< by grey_box
   Gain estimation;  ///< by output error, as the residuals and tests below
   std::optional<Gain> validation;
+  /// Of the arm file and the extended arm, where a Kalman filter was formed.
+  std::vector<PredictionError> prediction_errors = {};
   ResidualTest estimation_test;  ///< of the extended arm
   ResidualTest validation_test;
   bool converged = false;  ///< the fit of the extended arm

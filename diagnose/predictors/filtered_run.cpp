@@ -89,4 +89,11 @@ RunInnovations filter_run(const response::ArmSimulator& simulation, const Record
   return made;
 }
 
+response::ErrorsAhead run_ahead(const response::ArmSimulator& simulation, const RecordedRun& run,
+                                const response::StartsAhead& starts) {
+  const Eigen::MatrixXd measured =
+      run.values.reshaped(std::ssize(run.torque_N_m), run.deviations.size());
+  return simulation.errors_ahead(run.torque_N_m, measured, filter_gains(simulation, run), starts);
+}
+
 }  // namespace flexarm::diagnose

@@ -41,4 +41,9 @@ double log_determinant(const response::FilterGains& gains, std::size_t samples);
 /// whose covariance is singular.
 RunInnovations filter_run(const response::ArmSimulator& simulation, const RecordedRun& run);
 
+/// What the same filter predicts ahead of its samples. Throws InputError as `filter_gains` and
+/// response::ArmSimulator::errors_ahead.
+response::ErrorsAhead run_ahead(const response::ArmSimulator& simulation, const RecordedRun& run,
+                                const response::StartsAhead& starts);
+
 }  // namespace flexarm::diagnose

@@ -222,6 +222,17 @@ std::vector<RunInnovations> Predictor::innovations(const arm::Arm& arm,
   return made;
 }
 
+std::vector<response::ErrorsAhead> Predictor::errors_ahead(
+    const arm::Arm& arm, const std::vector<bool>& runs,
+    const std::vector<response::StartsAhead>& starts) const {
+  std::vector<response::ErrorsAhead> made(runs.size());
+  for_each_time_run(arm, runs, &*noise_,
+                    [&](std::size_t r, const response::ArmSimulator& simulation) {
+                      made[r] = run_ahead(simulation, recorded(r, *noise_), starts[r]);
+                    });
+  return made;
+}
+
 std::pair<Index, Index> Predictor::stretch(std::size_t run) const {
   const auto& first = observations_.first_of_run;
   return {first[run], first[run + 1] - first[run]};

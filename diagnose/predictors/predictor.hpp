@@ -67,6 +67,12 @@ class Predictor {
   std::vector<RunInnovations> innovations(const arm::Arm& arm, const std::vector<bool>& runs,
                                           const NoiseModel& noise) const;
 
+  /// By the noise model, which the predictor must have: what the filter of each of these `time`
+  /// runs predicts ahead, measured minus predicted; `starts` are one a run.
+  std::vector<response::ErrorsAhead> errors_ahead(
+      const arm::Arm& arm, const std::vector<bool>& runs,
+      const std::vector<response::StartsAhead>& starts) const;
+
   int flexible_modes() const { return flexible_modes_; }
   const std::optional<NoiseModel>& noise() const { return noise_; }
 

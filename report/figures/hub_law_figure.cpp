@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -67,6 +69,32 @@ Panel law_panel(const diagnose::EmpiricalLaw& law, std::size_t curve) {
   return panel;
 }
 
+/// A filled area within limits, with further points where its sides cross them.
+Series clipped(const Series& area, double low, double high) {
+  Series made{area.name, {}, {}, area.style};
+  const auto add = [&](std::size_t i, double part) {
+    const auto between = [&](const std::vector<double>& values) {
+      return part > 0.0 ? std::lerp(values[i], values[i + 1], part) : values[i];
+    };
+    made.x.push_back(between(area.x));
+    made.y.push_back(std::clamp(between(area.y), low, high));
+    made.y_to.push_back(std::clamp(between(area.y_to), low, high));
+  };
+  for (std::size_t i = 0; i < area.x.size(); ++i) {
+    add(i, 0.0);
+    if (i + 1 == area.x.size()) break;
+    std::set<double> crossings;
+    for (const auto* side : {&area.y, &area.y_to}) {
+      for (const double limit : {low, high}) {
+        const double part = (limit - (*side)[i]) / ((*side)[i + 1] - (*side)[i]);
+        if (part > 0.0 && part < 1.0) crossings.insert(part);
+      }
+    }
+    for (const double part : crossings) add(i, part);
+  }
+  return made;
+}
+
 /// Gives all panels one range, that of laws and means. Intervals end at its limits: one of a place
 /// that no sample is near would set the scale.
 void share_range(std::vector<Panel>& panels) {
@@ -87,11 +115,7 @@ void share_range(std::vector<Panel>& panels) {
     panel.y.minimum = low - margin;
     panel.y.maximum = high + margin;
     for (Series& series : panel.series) {
-      if (!series.style.filled) continue;
-      for (double& value : series.y) value = std::clamp(value, *panel.y.minimum, *panel.y.maximum);
-      for (double& value : series.y_to) {
-        value = std::clamp(value, *panel.y.minimum, *panel.y.maximum);
-      }
+      if (series.style.filled) series = clipped(series, *panel.y.minimum, *panel.y.maximum);
     }
   }
 }

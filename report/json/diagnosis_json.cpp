@@ -5,6 +5,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
 namespace flexarm::report {
 
 namespace {
@@ -105,13 +109,27 @@ Json missing_force_json(const std::optional<diagnose::MissingForce>& force) {
 Json prediction_json(const diagnose::Diagnosis& diagnosis) {
   Json json = {{"predictor", to_string(diagnosis.predictor)},
                {"reason", diagnosis.predictor_reason},
-               {"disturbance", nullptr}};
+               {"disturbance", nullptr},
+               {"errors", Json::array()}};
   if (const auto& disturbance = diagnosis.disturbance) {
     json["disturbance"] = {{"before", disturbance->before_N_m},
                            {"after", disturbance->after_N_m},
                            {"torque_rms", disturbance->torque_rms_N_m},
                            {"correlation_time", disturbance->correlation_time_s},
                            {"modal_force", disturbance->modal_force_N_m}};
+  }
+  for (const diagnose::PredictionError& error : diagnosis.prediction_errors) {
+    Json& made = json["errors"].emplace_back(
+        Json{{"run", error.run},
+             {"sensor", error.sensor},
+             {"samples_ahead", nullptr},
+             {"time_ahead", nullptr},
+             {"before", std::isfinite(error.before) ? Json(error.before) : Json(nullptr)},
+             {"after", std::isfinite(error.after) ? Json(error.after) : Json(nullptr)}});
+    if (error.samples_ahead) {
+      made["samples_ahead"] = *error.samples_ahead;
+      made["time_ahead"] = error.ahead_s;
+    }
   }
   return json;
 }

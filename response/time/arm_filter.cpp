@@ -59,15 +59,21 @@ SampledSystem ArmSimulator::sampled(const ProcessNoise& noise,
   return made;
 }
 
-FilteredRun ArmSimulator::filtered(std::span<const double> torque_N_m,
-                                   const Eigen::MatrixXd& measured,
-                                   const FilterGains& gains) const {
-  Commands commands(*this, torque_N_m);
+/// The filter at a sample, its readings included.
+struct ArmSimulator::FilteredSample {
+  Index row;
+  const TimeStepper& stepper;
+  const Eigen::VectorXd& innovation;
+  const Eigen::MatrixXd& predicted;  ///< what is taken already of later samples included
+};
+
+template <class AtSample>
+void ArmSimulator::follow(Commands& commands, const Eigen::MatrixXd& measured,
+                          const FilterGains& gains, AtSample at_sample) const {
   const ReadingPlan reading_plan = commands.reading_plan();
   TimeStepper stepper(plan_, nullptr);
   SensorReadings readings(arm_, parts_, sensors_);
-  FilteredRun made{.innovations = {measured.rows(), measured.cols()}};
-  Eigen::MatrixXd predicted = unread(torque_N_m.size());
+  Eigen::MatrixXd predicted = unread(static_cast<std::size_t>(measured.rows()));
   Eigen::VectorXd state;
   Eigen::VectorXd innovation;
   Eigen::VectorXd correction;
@@ -101,12 +107,54 @@ FilteredRun ArmSimulator::filtered(std::span<const double> torque_N_m,
     correct_pending(row);
     // What is taken now to be measured later is that of the corrected state.
     if (times_.longest_samples() > 0) predict(now);
-    made.innovations.row(row) = innovation.transpose();
+    at_sample(FilteredSample{row, stepper, innovation, predicted});
+    return true;
+  });
+}
+
+FilteredRun ArmSimulator::filtered(std::span<const double> torque_N_m,
+                                   const Eigen::MatrixXd& measured,
+                                   const FilterGains& gains) const {
+  Commands commands(*this, torque_N_m);
+  FilteredRun made{.innovations = {measured.rows(), measured.cols()}};
+  follow(commands, measured, gains, [&](const FilteredSample& now) {
+    const Eigen::VectorXd& state = now.stepper.state();
+    made.innovations.row(now.row) = now.innovation.transpose();
     made.disturbance_N_m.push_back(
         arm_.disturbance ? arm_.disturbance_N_m * state(*arm_.disturbance) : 0.0);
-    const bool is_held = stepper.motion() == HubMotion::held;
-    made.hub_velocity_rad_per_s.push_back(is_held ? 0.0 : arm_.hub_velocity(stepper.state()));
-    return true;
+    const bool is_held = now.stepper.motion() == HubMotion::held;
+    made.hub_velocity_rad_per_s.push_back(is_held ? 0.0 : arm_.hub_velocity(state));
+  });
+  return made;
+}
+
+ErrorsAhead ArmSimulator::errors_ahead(std::span<const double> torque_N_m,
+                                       const Eigen::MatrixXd& measured, const FilterGains& gains,
+                                       const StartsAhead& starts) const {
+  Commands commands(*this, torque_N_m);
+  const ReadingPlan reading_plan = commands.reading_plan();
+  SensorReadings readings(arm_, parts_, sensors_);
+  ErrorsAhead made(starts.horizons.size());
+  if (made.empty()) return made;
+  const Index furthest = starts.horizons.back();
+  follow(commands, measured, gains, [&](const FilteredSample& now) {
+    if (now.row % starts.stride != 0 || now.row + furthest >= measured.rows()) return;
+    TimeStepper ahead = now.stepper;
+    Eigen::MatrixXd predicted = now.predicted.middleRows(now.row, furthest + 1);
+    commands.step_through(ahead, now.row, [&](const ReadingInstant& at) {
+      reading_plan.at(at, ahead, readings, [&](std::size_t j, std::size_t k, double reading) {
+        const Index later = static_cast<Index>(k) - now.row;
+        if (later <= furthest) predicted(later, static_cast<Index>(j)) = reading;
+      });
+      return at.sample < now.row + furthest;
+    });
+    if (!predicted.allFinite()) {
+      throw too_large("reading", static_cast<double>(now.row) * options_.sample_time_s);
+    }
+    for (std::size_t h = 0; h < starts.horizons.size(); ++h) {
+      const Index later = starts.horizons[h];
+      made[h].push_back((measured.row(now.row + later) - predicted.row(later)).transpose());
+    }
   });
   return made;
 }

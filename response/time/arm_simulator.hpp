@@ -38,6 +38,16 @@ struct ProcessNoise {
   double modal_force_N_m = 0.0;
 };
 
+/// Where free simulations begin in a filtered run, and how far ahead they are compared with it.
+struct StartsAhead {
+  Eigen::Index stride = 1;                  ///< from the first sample on, every so many of them
+  std::vector<Eigen::Index> horizons = {};  ///< samples after the start, ascending, 1 or more
+};
+
+/// Measured minus predicted: of each horizon and each start one a sensor, not a number for readings
+/// that are missing.
+using ErrorsAhead = std::vector<std::vector<Eigen::VectorXd>>;
+
 /// An arm with all that a torque does not change, for any number of runs: `simulate` is one of
 /// them, fits make them by the thousand.
 class ArmSimulator {
@@ -110,8 +120,21 @@ class ArmSimulator {
   FilteredRun filtered(std::span<const double> torque_N_m, const Eigen::MatrixXd& measured,
                        const FilterGains& gains) const;
 
+  /// Errors of predictions from the samples of `filtered`: at each of `starts` that has the
+  /// furthest horizon in the run, the arm goes on from the filter's state without further readings.
+  /// The disturbance of the hub torque decays. Where `starts` has no horizon there is nothing.
+  /// Throws InputError as `filtered`, and for readings that are too large for a number.
+  ErrorsAhead errors_ahead(std::span<const double> torque_N_m, const Eigen::MatrixXd& measured,
+                           const FilterGains& gains, const StartsAhead& starts) const;
+
  private:
   class Commands;
+  struct FilteredSample;
+
+  /// The arm follows `measured` as in `filtered`; calls at_sample(FilteredSample) at each sample.
+  template <class AtSample>
+  void follow(Commands& commands, const Eigen::MatrixXd& measured, const FilterGains& gains,
+              AtSample at_sample) const;
 
   Simulation run(Commands& commands, const SimulationProgress& progress) const;
   Eigen::MatrixXd readings(Commands& commands, const Eigen::VectorXd& initial) const;

@@ -216,6 +216,40 @@ TEST_F(FilteredRunTest, AMissingReadingHasNoInnovationAndMovesNothing) {
   EXPECT_LE(run.innovations.cwiseAbs().maxCoeff(), 1e-11);
 }
 
+/// A filter that no reading corrects after a sample goes on freely from there: its innovations are
+/// the errors of predictions from that sample.
+TEST_F(FilteredRunTest, ErrorsAheadAreThoseOfAFilterWhoseGainEnds) {
+  const StartsAhead starts{.stride = 370, .horizons = {1, 10, 100}};
+  const std::size_t samples = 1100;
+  const std::vector<double> torque(torque_.begin(), torque_.begin() + samples);
+  for (const double late_samples : {0.0, 0.3, 6.4}) {
+    arm_.effects = {effects::named("coulomb_friction", {{"torque", 0.02}})};
+    if (late_samples > 0.0) impair_sensors(late_samples);
+    make();
+    const FilterGain filter = steady().steady;
+    const FilterGain ended{Eigen::MatrixXd::Zero(filter.gain.rows(), filter.gain.cols()),
+                           filter.innovation_covariance};
+    RandomNumbers random(5);
+    Eigen::MatrixXd measured = simulator_->readings(torque);
+    for (double& value : measured.reshaped()) value += 1e-2 * random.normal();
+    const ErrorsAhead errors = simulator_->errors_ahead(torque, measured, {{}, filter}, starts);
+    ASSERT_EQ(errors.size(), starts.horizons.size());
+    for (std::size_t h = 0; h < errors.size(); ++h) {
+      ASSERT_EQ(errors[h].size(), 3U);  // at 0, 370 and 740, but not at 1110
+      for (std::size_t i = 0; i < errors[h].size(); ++i) {
+        const auto start = static_cast<Index>(i) * starts.stride;
+        const FilterGains gains{
+            std::vector<FilterGain>(static_cast<std::size_t>(start) + 1, filter), ended};
+        const FilteredRun run = simulator_->filtered(torque, measured, gains);
+        const Eigen::VectorXd expected =
+            run.innovations.row(start + starts.horizons[h]).transpose();
+        EXPECT_LE((errors[h][i] - expected).norm(), 1e-12 * measured.cwiseAbs().maxCoeff())
+            << late_samples << " " << h << " " << i;
+      }
+    }
+  }
+}
+
 /// Friction that is above all torques holds the hub, whatever the noise of the readings.
 TEST_F(FilteredRunTest, AHubThatFrictionHoldsStaysHeld) {
   arm_.effects = {effects::named("coulomb_friction", {{"torque", 10.0}})};

@@ -29,7 +29,9 @@ std::vector<std::pair<std::string, measured::ModalTable>> modal_tables(
     std::map<std::string, measured::ModalTable> own;
     for (std::size_t i = 0; i < condition.readings.size(); ++i) {
       const auto& reading = identification.readings[condition.readings[i]];
-      if (reading.method == measured::Method::table) continue;
+      // Of several sensors' peaks a zero of the hub angle would stand in the table several times.
+      const bool is_repeated = reading.hub_held && reading.method != measured::Method::rational_fit;
+      if (reading.method == measured::Method::table || is_repeated) continue;
       auto& table = own[fmt::format("modal-{}-{}.csv", to_string(reading.method),
                                     report::joined(reading.runs))];
       std::ranges::copy(compare::in_analytical_order(condition.roots[i]),
@@ -57,7 +59,7 @@ std::vector<measured::NamedContent> identified_files(
     add(name, measured::format_modal_table(table));
   }
   for (const auto& run : identification.runs) {
-    if (!run.estimate) continue;
+    if (!run.estimate || run.hub_held()) continue;
     add(fmt::format("frf-{}.csv", run.run.id), measured::format_frequency_record(run.response));
   }
   for (auto& [name, svg] : report::identification_plots(identification, conditions)) {
@@ -71,6 +73,7 @@ std::vector<measured::NamedContent> identified_files(
       const report::IdentifiedData data{identification, condition, runs};
       add_table(fmt::format("poles-{}.csv", runs), report::pole_table(data));
       add_table(fmt::format("zeros-{}.csv", runs), report::zero_table(data));
+      add_table(fmt::format("held-poles-{}.csv", runs), report::held_pole_table(data));
       add_table(fmt::format("damping-{}.csv", runs), report::damping_table(data));
       add_table(fmt::format("real-zeros-{}.csv", runs), report::real_zero_table(data));
     }

@@ -4,6 +4,7 @@
 #include "app/interruption.hpp"
 #include "app/spectrum_choice.hpp"
 #include "app/standard_output.hpp"
+#include "app/word.hpp"
 #include "arm/input_error.hpp"
 #include "arm/linear_arm.hpp"
 #include "arm/nearest_name.hpp"
@@ -50,6 +51,7 @@ struct IdentifyArguments {
   std::vector<std::string> runs;
   std::vector<std::string> sensors;
   SpectrumChoice spectrum;
+  std::string input;
   bool no_fit = false;
   std::optional<int> modes;
   std::optional<double> from_Hz;
@@ -124,6 +126,9 @@ measured::IdentificationOptions options_of(const IdentifyArguments& arguments,
   measured::IdentificationOptions options;
   options.spectrum = arguments.spectrum.settings();
   options.peaks.place = arguments.spectrum.place();
+  if (!arguments.input.empty()) {
+    options.input = read_word("--input", arguments.input, measured::kResponseInputs);
+  }
   if (arm::has_beam(arm)) options.check.length_m = arm::linear_arm(arm).length_m;
   options.check.total_inertia_kg_m2 = arm::total_inertia_kg_m2(arm);
   options.fit = !arguments.no_fit;
@@ -179,11 +184,15 @@ std::string fit_text(const measured::RunsFit& fit, const measured::Identificatio
   const auto modes = std::ranges::count(fit.fit.poles, true, &measured::FittedPole::is_mode);
   const auto others = std::ssize(fit.fit.poles) - modes;
   std::string text = report::to_paragraph(
-      fmt::format("Modal fit of {}, {:.4g} to {:.4g} Hz: {} mode{}, {} other second-order "
+      fmt::format("Modal fit of {}{}, {:.4g} to {:.4g} Hz: {} mode{}, {} other second-order "
                   "section{}; {}{}",
-                  report::joined(report::ids_of(fit, identification)), fit.fit.band.from_Hz,
-                  fit.fit.band.to_Hz, modes, modes == 1 ? "" : "s", others, others == 1 ? "" : "s",
-                  fit.fit.order_reason, fit.fit.converged ? "" : "; not converged"),
+                  report::joined(report::ids_of(fit, identification)),
+                  fit.hub_held       ? ", responses to the hub motion"
+                  : fit.of_responses ? ", estimated responses"
+                                     : "",
+                  fit.fit.band.from_Hz, fit.fit.band.to_Hz, modes, modes == 1 ? "" : "s", others,
+                  others == 1 ? "" : "s", fit.fit.order_reason,
+                  fit.fit.converged ? "" : "; not converged"),
       2);
   if (fit.fit.robust_covariance) {
     text += report::to_paragraph(
@@ -224,8 +233,8 @@ std::string results_text(const measured::Identification& identification,
     }
     for (const auto& runs : report::sources(identification, condition)) {
       const report::IdentifiedData data{identification, condition, runs};
-      for (const auto& table :
-           {report::pole_table(data), report::zero_table(data), report::damping_table(data)}) {
+      for (const auto& table : {report::pole_table(data), report::held_pole_table(data),
+                                report::zero_table(data), report::damping_table(data)}) {
         text += table_text(table, 2);
       }
       text += table_text(report::real_zero_table(data), 1);
@@ -319,6 +328,9 @@ Command add_identify(CLI::App& program) {
       ->delimiter(',')
       ->allow_extra_args(false);
   add_spectrum_choice(*parser, arguments->spectrum);
+  parser->add_option("--input", arguments->input,
+                     "Input of the responses of time runs: torque, hub_angle or hub_velocity; "
+                     "default: torque, hub motion where the torque is unusable");
   parser->add_option("--from-Hz", arguments->from_Hz, "Lowest frequency of peaks and fits");
   parser->add_option("--to-Hz", arguments->to_Hz,
                      "Highest frequency; default: where the torque has power");

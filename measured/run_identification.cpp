@@ -1,6 +1,7 @@
 #include "measured/run_identification.hpp"
 
 #include "arm/input_error.hpp"
+#include "measured/modal/response_fit.hpp"
 #include "measured/modal/start_spectra.hpp"
 
 #include <fmt/format.h>
@@ -50,6 +51,7 @@ void read_circles_at_peaks(RunIdentification& made, CircleSettings settings) {
 /// so has a maximum near them.
 PeakSettings driven_peaks(PeakSettings peaks, const TimeRecord& record,
                           const FrequencyResponseEstimate& estimate) {
+  if (estimate.settings.estimator.hub_held()) return peaks;
   const double width_Hz = estimate.settings.periodic ? 0.0 : kWindowLines * estimate.spacing_Hz;
   const FitBand band = excited_band(record);
   peaks.from_Hz = std::max(peaks.from_Hz, band.from_Hz + width_Hz);
@@ -65,21 +67,21 @@ void study_time_run(TimeRecord& record, const IdentificationOptions& options,
   replace_spikes(record, made.findings);
   made.left_out = leave_out_dead_channels(record, made.findings);
   const auto no_torque = std::ranges::find(made.findings, Fault::zero_torque, &DataFinding::fault);
-  if (no_torque != made.findings.end()) {
-    made.refusal = no_torque->text;
-    return;
-  }
   if (record.channels.empty()) {
     made.refusal = made.left_out.empty() ? "no sensor was measured" : "every channel is dead";
     return;
   }
   SpectrumSettings spectrum = options.spectrum;
   spectrum.hold = made.run.torque_hold;
-  made.estimate = estimate_frequency_response(record, spectrum);
+  made.estimate = estimate_by_evidence(
+      record, spectrum, {options.input, no_torque == made.findings.end() ? "" : no_torque->text});
   made.features =
       spectral_features(*made.estimate, driven_peaks(options.peaks, record, *made.estimate));
   made.response = to_frequency_record(*made.estimate);
-  if (made.estimate->periodic) made.distortion = distortion(*made.estimate->periodic);
+  if (made.hub_held()) return;
+  if (made.estimate->periodic && !made.estimate->settings.estimator.instrument) {
+    made.distortion = distortion(*made.estimate->periodic);
+  }
   read_circles_at_peaks(made, options.circles);
 }
 
@@ -127,11 +129,38 @@ void study_frequency_run(FrequencyRecord record, const IdentificationOptions& op
   read_circles(made, options.circles);
 }
 
+/// With the hub held: zeros are those of the sensors all the same, poles are zeros of the hub
+/// angle.
+void read_off_held(ModalReading reading, const ModalTable& table,
+                   std::vector<ModalReading>& readings) {
+  ModalReading held = reading;
+  held.hub_held = true;
+  for (ModalEntry entry : table) {
+    if (entry.feature == Feature::zero) {
+      reading.table.push_back(std::move(entry));
+      continue;
+    }
+    entry.feature = Feature::zero;
+    entry.sensor = arm::Sensor{arm::SensorKind::hub_angle, 0.0};
+    held.table.push_back(std::move(entry));
+  }
+  for (auto* made : {&held, &reading}) {
+    if (!made->table.empty()) readings.push_back(std::move(*made));
+  }
+}
+
 void read_off(const RunIdentification& made, PeakPlace place, std::vector<ModalReading>& readings) {
   const auto add = [&](Method method, const arm::Sensor& sensor, ModalTable table) {
     if (table.empty()) return;
     readings.push_back({method, {made.run.id}, sensor, made.run.payload, std::move(table)});
   };
+  if (made.hub_held()) {
+    for (const auto& features : made.features) {
+      read_off_held({Method::response, {made.run.id}, features.sensor, made.run.payload, {}},
+                    modal_table(features.sensor, features.response, place), readings);
+    }
+    return;
+  }
   for (const auto& features : made.features) {
     add(Method::autopower, features.sensor,
         modal_table(features.sensor, features.autopower, place));
@@ -145,17 +174,23 @@ void read_off(const RunIdentification& made, PeakPlace place, std::vector<ModalR
 }
 
 /// A reading for each sensor of a table, that of poles of all sensors among them.
-void read_off(ModalReading reading, const ModalTable& table, std::vector<ModalReading>& readings) {
+void read_off(ModalReading reading, const ModalTable& table, bool hub_held,
+              std::vector<ModalReading>& readings) {
   std::vector<std::optional<arm::Sensor>> sensors;
   for (const ModalEntry& entry : table) {
     if (std::ranges::find(sensors, entry.sensor) == sensors.end()) sensors.push_back(entry.sensor);
   }
   for (const auto& sensor : sensors) {
     reading.sensor = sensor;
-    reading.table.clear();
-    std::ranges::copy_if(table, std::back_inserter(reading.table),
+    ModalTable own;
+    std::ranges::copy_if(table, std::back_inserter(own),
                          [&](const ModalEntry& entry) { return entry.sensor == sensor; });
-    readings.push_back(reading);
+    if (hub_held) {
+      read_off_held(reading, own, readings);
+    } else {
+      reading.table = std::move(own);
+      readings.push_back(reading);
+    }
   }
 }
 
@@ -178,11 +213,17 @@ std::vector<RunsFit> group_runs(const std::vector<MeasuredRun>& runs,
   std::vector<RunsFit> groups;
   for (std::size_t r = 0; r < runs.size(); ++r) {
     if (!studied[r].refusal.empty() || runs[r].run.kind == RunKind::modal) continue;
+    const auto& estimate = studied[r].estimate;
+    const bool of_responses = estimate && is_fitted_by_responses(*estimate);
     const auto group = std::ranges::find_if(groups, [&](const RunsFit& fitted) {
-      return fit_together(runs[fitted.runs.front()], runs[r]);
+      return !of_responses && !fitted.of_responses &&
+             fit_together(runs[fitted.runs.front()], runs[r]);
     });
     if (group == groups.end()) {
-      groups.push_back({.runs = {r}, .payload = runs[r].run.payload});
+      groups.push_back({.runs = {r},
+                        .payload = runs[r].run.payload,
+                        .of_responses = of_responses,
+                        .hub_held = studied[r].hub_held()});
     } else {
       group->runs.push_back(r);
     }
@@ -191,13 +232,16 @@ std::vector<RunsFit> group_runs(const std::vector<MeasuredRun>& runs,
 }
 
 /// Moves the records out of the runs: a run is in one fit.
-void fit(RunsFit& fitted, std::vector<MeasuredRun>& runs, const ModalFitOptions& options,
+void fit(RunsFit& fitted, std::vector<MeasuredRun>& runs,
+         const std::vector<RunIdentification>& studied, const ModalFitOptions& options,
          std::optional<double> total_inertia_kg_m2) {
   ModalFitOptions own = options;
   const MeasuredRun& first = runs[fitted.runs.front()];
   own.torque_hold = first.run.torque_hold;
   own.initial.clear();
-  if (const auto* record = std::get_if<FrequencyRecord>(&first.data)) {
+  if (fitted.of_responses) {
+    fitted.fit = fit_responses(*studied[fitted.runs.front()].estimate, own);
+  } else if (const auto* record = std::get_if<FrequencyRecord>(&first.data)) {
     fitted.fit = fit_modes(*record, own);
   } else {
     std::vector<TimeRecord> records;
@@ -207,7 +251,7 @@ void fit(RunsFit& fitted, std::vector<MeasuredRun>& runs, const ModalFitOptions&
     }
     fitted.fit = fit_modes(records, own);
   }
-  if (fitted.fit.cancelled) return;
+  if (fitted.fit.cancelled || fitted.hub_held) return;
   try {
     fitted.gains = modal_gains(fitted.fit, total_inertia_kg_m2);
   } catch (const arm::InputError& error) {
@@ -241,7 +285,7 @@ Identification identify(std::vector<MeasuredRun> runs, const IdentificationOptio
         study_frequency_run(*frequency, options, studied);
       } else {
         read_off({Method::table, {run.run.id}, std::nullopt, run.run.payload, {}},
-                 std::get<ModalTable>(run.data), made.readings);
+                 std::get<ModalTable>(run.data), false, made.readings);
       }
     } catch (const arm::InputError& error) {
       studied.refusal = error.what();
@@ -265,14 +309,14 @@ Identification identify(std::vector<MeasuredRun> runs, const IdentificationOptio
                    spectra_share + (1.0 - spectra_share) * all);
     };
     try {
-      fit(group, runs, own, options.total_inertia_kg_m2);
+      fit(group, runs, made.runs, own, options.total_inertia_kg_m2);
     } catch (const arm::InputError& error) {
       group.refusal = error.what();
     }
     if (group.fit.cancelled) return made;
     if (group.refusal.empty()) {
       read_off({Method::rational_fit, ids_of(group, made.runs), std::nullopt, group.payload, {}},
-               modal_table(group.fit, kMostZeroDamping), made.readings);
+               modal_table(group.fit, kMostZeroDamping), group.hub_held, made.readings);
     }
     made.fits.push_back(std::move(group));
   }

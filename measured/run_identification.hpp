@@ -6,7 +6,7 @@
 #include "measured/modal/modal_gains.hpp"
 #include "measured/modal/nyquist_circle.hpp"
 #include "measured/spectra/distortion.hpp"
-#include "measured/spectra/response_estimate.hpp"
+#include "measured/spectra/estimator_choice.hpp"
 #include "measured/spectra/spectral_features.hpp"
 
 #include <cstddef>
@@ -43,6 +43,9 @@ struct ModalReading {
   std::optional<arm::Sensor> sensor;  ///< empty: of all sensors at once
   std::optional<arm::Payload> payload;
   ModalTable table;
+  /// Poles of the beam with the hub held: in the table they are zeros of the hub angle, which the
+  /// same frequencies are.
+  bool hub_held = false;
 
   bool operator==(const ModalReading&) const = default;
 };
@@ -58,19 +61,26 @@ struct RunIdentification {
   std::string refusal = {};                ///< why nothing could be estimated; empty where it was
   std::vector<DataFinding> findings = {};  ///< faults of a `time` run
   std::vector<arm::Sensor> left_out = {};  ///< dead channels, which nothing is estimated from
-  FrequencyRecord response = {};  ///< of a `frf` run as it is, of a `time` run as estimated
+  /// Of a `frf` run as it is, of a `time` run as estimated, from the torque or the hub's motion.
+  FrequencyRecord response = {};
   std::optional<FrequencyResponseEstimate> estimate = {};  ///< of a `time` run
   std::vector<SensorFeatures> features = {};
   std::vector<SensorCircles> circles = {};
-  std::optional<Distortion> distortion = {};  ///< where the torque repeats itself
+  std::optional<Distortion> distortion = {};  ///< where the torque repeats itself, in open loop
+
+  /// Whether responses are those to the hub's motion.
+  bool hub_held() const { return estimate && estimate->settings.estimator.hub_held(); }
 };
 
-/// A rational fit of runs with one payload, torque hold and sampling period, or of one `frf` run.
+/// A rational fit of runs with one payload, torque hold and sampling period, of one `frf` run, or
+/// of the estimated responses of one run.
 struct RunsFit {
   std::vector<std::size_t> runs = {};  ///< indices
   std::optional<arm::Payload> payload = {};
   std::string refusal = {};  ///< why there is no fit; empty where there is
   ModalFit fit = {};
+  bool of_responses = false;  ///< measured/modal/response_fit.hpp; else sample by sample
+  bool hub_held = false;      ///< of responses to the hub's motion: no gains
   std::optional<ModalGains> gains = {};
   std::string gains_refusal = {};
 };
@@ -82,7 +92,8 @@ struct Identification {
 };
 
 struct IdentificationOptions {
-  SpectrumSettings spectrum = {};  ///< `hold` is each run's own
+  SpectrumSettings spectrum = {};            ///< `hold` and `estimator` are each run's own
+  std::optional<RecordedSignal> input = {};  ///< of responses of `time` runs; empty: by evidence
   PeakSettings peaks = {};
   CircleSettings circles = {};
   DataCheckOptions check = {};  ///< `starts_at_rest` is each run's own

@@ -51,6 +51,8 @@ struct ModalFitOptions {
   double averages = 1.0;
   /// Intervals right for coloured residuals: where they are coloured (empty), always, or never.
   std::optional<bool> robust = {};
+  /// What the covariance is multiplied by, of the transfers that were fitted; empty: 1.
+  std::function<double(std::span<const FittedTransfer>)> variance_factor = {};
   int most_iterations = 60;
   /// Called now and then with the fraction done; false ends the fit where it is.
   std::function<bool(double fraction)> progress = {};

@@ -2,8 +2,11 @@
 
 #include "arm/input_error.hpp"
 #include "measured/files/record_constants.hpp"
+#include "measured/spectra/instrument_response.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace flexarm::measured {
 
@@ -32,8 +35,18 @@ void take_off_hold(const std::vector<Complex>& hold, FrequencyResponseEstimators
 
 void from_segments(const TimeRecord& record, FrequencyResponseEstimate& made) {
   const double period_s = sampling_period_s(record);
-  const auto outputs = output_signals(record, made.settings.differences);
-  auto spectra = cross_spectra({record.torque_N_m}, outputs, period_s, made.settings.plan);
+  const Estimator& estimator = made.settings.estimator;
+  const Signal input = signal_of(record, estimator.input);
+  const auto outputs = output_signals(record, made.settings);
+  auto spectra = cross_spectra(input, outputs, period_s, made.settings.plan);
+  CrossSpectra of_instrument;
+  if (estimator.instrument) {
+    std::vector<Signal> all = outputs;
+    all.insert(all.begin(), input);
+    of_instrument =
+        cross_spectra(signal_of(record, *estimator.instrument), all, period_s, made.settings.plan);
+    made.input_relative_std = instrument_relative_std(of_instrument);
+  }
   made.averages = spectra.effective_averages;
   made.spacing_Hz = spectra.spacing_Hz;
   made.noise_bandwidth_Hz = spectra.noise_bandwidth_Hz;
@@ -42,23 +55,32 @@ void from_segments(const TimeRecord& record, FrequencyResponseEstimate& made) {
   const bool has_middle = made.settings.plan.segment_samples % 2 == 0;
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     ChannelEstimate channel;
-    channel.sensor = record.channels[i].sensor;
+    channel.sensor = record.channels[made.settings.outputs[i]].sensor;
     channel.estimators = estimate(spectra, i);
     take_off_hold(hold, channel.estimators);
-    channel.response = channel.estimators.h1;
+    if (estimator.instrument) {
+      channel.ratio = instrument_ratio(spectra, of_instrument, i);
+      for (std::size_t k = 0; k < lines; ++k) {
+        channel.response.push_back(channel.ratio.y[k] / (channel.ratio.x[k] * hold[k]));
+      }
+    } else {
+      channel.response = estimator.hub_held() ? channel.estimators.hv : channel.estimators.h1;
+    }
     for (std::size_t k = 0; k < lines; ++k) {
       const bool is_real = k == 0 || (has_middle && k + 1 == lines);
       channel.autopower_relative_std.push_back(relative_autopower_std(made.averages, is_real));
+      const double size = std::numbers::sqrt2 * std::abs(channel.response[k]);
       channel.relative_std.push_back(
-          relative_response_std(channel.estimators.coherence[k], made.averages));
-      channel.response_std.push_back(std::sqrt(2.0) * channel.relative_std[k] *
-                                     std::abs(channel.response[k]));
+          estimator.instrument
+              ? channel.ratio.deviation(k) / (std::abs(hold[k]) * size)
+              : relative_response_std(channel.estimators.coherence[k], made.averages));
+      channel.response_std.push_back(channel.relative_std[k] * size);
     }
     channel.autopower = std::move(spectra.outputs[i]);
     made.channels.push_back(std::move(channel));
   }
   made.frequency_Hz = std::move(spectra.frequency_Hz);
-  made.torque_autopower = std::move(spectra.input);
+  made.input_autopower = std::move(spectra.input);
 }
 
 /// Spectra of a period's power on the lines, noise of one period included: a sine of amplitude A
@@ -94,39 +116,45 @@ CrossSpectra period_power(const PeriodicSpectra& all, const std::vector<std::siz
 void from_periods(const TimeRecord& record, FrequencyResponseEstimate& made) {
   const double period_s = sampling_period_s(record);
   const auto& settings = made.settings;
-  const auto outputs = output_signals(record, settings.differences);
-  const auto all = periodic_spectra({record.torque_N_m}, outputs, period_s, settings.period.samples,
-                                    settings.period.periods - settings.left_out_periods);
+  const auto outputs = output_signals(record, settings);
+  const std::size_t periods = settings.period.periods - settings.left_out_periods;
+  const auto all = periodic_spectra(signal_of(record, settings.estimator.input), outputs, period_s,
+                                    settings.period.samples, periods);
   made.averages = 1.0 + all.degrees_of_freedom;
   made.spacing_Hz = made.noise_bandwidth_Hz =
       1.0 / (static_cast<double>(settings.period.samples) * period_s);
-  const auto driven = driven_lines(all);
+  // A motion falls with frequency: what is driven shows in what drives it.
+  const auto driven =
+      settings.estimator.instrument
+          ? driven_lines(periodic_spectra(signal_of(record, *settings.estimator.instrument), {},
+                                          period_s, settings.period.samples, periods))
+          : driven_lines(all);
   std::vector<std::size_t> lines;
   for (std::size_t k = 0; k < driven.size(); ++k) {
     if (!driven[k]) continue;
     lines.push_back(k);
     made.frequency_Hz.push_back(all.frequency_Hz[k]);
+    made.input_relative_std.push_back(all.input.noise_std[k] / std::abs(all.input.amplitude[k]));
   }
   auto spectra = period_power(all, lines, made.spacing_Hz);
   const auto hold = hold_at(made.frequency_Hz, period_s, settings);
   const auto& x = all.input;
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     ChannelEstimate channel;
-    channel.sensor = record.channels[i].sensor;
+    channel.sensor = record.channels[settings.outputs[i]].sensor;
     channel.estimators = estimate(spectra, i);
     take_off_hold(hold, channel.estimators);
     const auto& y = all.outputs[i];
     for (std::size_t j = 0; j < lines.size(); ++j) {
       const std::size_t k = lines[j];
-      const Complex ratio = y.amplitude[k] / x.amplitude[k];
-      channel.response.push_back(ratio / hold[j]);
-      // d(Y/X) = (dY - (Y/X) dX)/X.
-      const double variance =
-          (y.noise_std[k] * y.noise_std[k] + std::norm(ratio) * x.noise_std[k] * x.noise_std[k] -
-           2.0 * (std::conj(ratio) * all.covariance[i][k]).real()) /
-          std::norm(x.amplitude[k]);
-      channel.response_std.push_back(std::sqrt(std::max(variance, 0.0)) / std::abs(hold[j]));
-      if (std::isnan(variance)) {
+      channel.ratio.x.push_back(x.amplitude[k]);
+      channel.ratio.y.push_back(y.amplitude[k]);
+      channel.ratio.x_variance.push_back(x.noise_std[k] * x.noise_std[k]);
+      channel.ratio.y_variance.push_back(y.noise_std[k] * y.noise_std[k]);
+      channel.ratio.covariance.push_back(all.covariance[i][k]);
+      channel.response.push_back(y.amplitude[k] / (x.amplitude[k] * hold[j]));
+      channel.response_std.push_back(channel.ratio.deviation(j) / std::abs(hold[j]));
+      if (all.periods == 1) {
         channel.response_std.back() = kUnknown;
         channel.estimators.coherence[j] = kUnknown;
       }
@@ -139,7 +167,7 @@ void from_periods(const TimeRecord& record, FrequencyResponseEstimate& made) {
     channel.autopower = std::move(spectra.outputs[i]);
     made.channels.push_back(std::move(channel));
   }
-  made.torque_autopower = std::move(spectra.input);
+  made.input_autopower = std::move(spectra.input);
   made.periodic = all;
 }
 
@@ -160,16 +188,28 @@ FrequencyResponseEstimate estimate_frequency_response(const TimeRecord& record,
   return made;
 }
 
+bool is_excited(const FrequencyResponseEstimate& estimate, std::size_t line) {
+  if (estimate.input_relative_std.empty()) return true;
+  const double deviation = estimate.input_relative_std[line];
+  const bool one_period = estimate.periodic && estimate.periodic->periods == 1;
+  return one_period || deviation <= kMostInputStd;
+}
+
 FrequencyRecord to_frequency_record(const FrequencyResponseEstimate& estimate) {
   FrequencyRecord record;
+  const bool has_instrument = estimate.settings.estimator.instrument.has_value();
   for (const auto& channel : estimate.channels) {
     FrequencyChannel made{channel.sensor, {}, {}, {}};
     for (std::size_t k = 0; k < estimate.frequency_Hz.size(); ++k) {
       const Complex value = channel.response[k];
       if (estimate.frequency_Hz[k] == 0.0 || !std::isfinite(std::abs(value))) continue;
+      if (has_instrument && !is_excited(estimate, k)) continue;
       made.frequency_Hz.push_back(estimate.frequency_Hz[k]);
       made.response.push_back(value);
-      made.coherence.push_back(channel.estimators.coherence[k]);
+      const double spread = channel.relative_std[k];
+      made.coherence.push_back(has_instrument
+                                   ? 1.0 / (1.0 + 2.0 * (estimate.averages - 1.0) * spread * spread)
+                                   : channel.estimators.coherence[k]);
     }
     if (!made.response.empty()) record.channels.push_back(std::move(made));
   }

@@ -76,21 +76,21 @@ double half_power_width_Hz(const std::vector<double>& frequency_Hz,
   return edge(1) - edge(-1);
 }
 
-std::optional<Sharpest> sharpest_resonance(const TimeRecord& record,
-                                           const std::vector<int>& differences, Window window,
-                                           Detrend detrend) {
+std::optional<Sharpest> sharpest_resonance(const TimeRecord& record, const ChosenSettings& chosen) {
+  const Window window = chosen.plan.window;
   const std::size_t samples = std::min(record.torque_N_m.size() - 2, kPilotSamples);
   const double overlap = sufficient_overlap(window);
   SegmentPlan plan;
   plan.segment_samples = longest_segment(samples, window, overlap, kPilotAverages);
   plan.shift_samples = shift_of(plan.segment_samples, overlap);
   plan.window = window;
-  plan.detrend = detrend;
+  plan.detrend = chosen.plan.detrend;
   const std::size_t first = record.torque_N_m.size() - samples - 2;
-  auto outputs = output_signals(record, differences);
+  auto outputs = output_signals(record, chosen);
   for (auto& output : outputs) output.values = output.values.subspan(first);
-  const auto spectra = cross_spectra({std::span(record.torque_N_m).subspan(first)}, outputs,
-                                     sampling_period_s(record), plan);
+  Signal input = signal_of(record, chosen.estimator.input);
+  input.values = input.values.subspan(first);
+  const auto spectra = cross_spectra(input, outputs, sampling_period_s(record), plan);
   std::optional<Sharpest> sharpest;
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     const auto found = estimate(spectra, i);
@@ -146,7 +146,7 @@ void choose_segment(const TimeRecord& record, const SpectrumSettings& settings,
     return;
   }
   const std::size_t most = longest_segment(samples, plan.window, overlap, kFewestAverages);
-  const auto sharpest = sharpest_resonance(record, chosen.differences, plan.window, plan.detrend);
+  const auto sharpest = sharpest_resonance(record, chosen);
   std::string reason;
   if (!sharpest) {
     plan.segment_samples = most;
@@ -202,6 +202,17 @@ void choose_segments(const TimeRecord& record, const SpectrumSettings& settings,
        settings.overlap ? "given" : "more overlap adds less than 3 % effective averages"});
 }
 
+/// How the responses are estimated.
+std::string words_of(const ChosenSettings& chosen) {
+  const Estimator& estimator = chosen.estimator;
+  const std::string from = fmt::format("{} to sensors, ", to_string(estimator.input));
+  if (estimator.instrument) {
+    return fmt::format("{}{} as instrument", from, to_string(*estimator.instrument));
+  }
+  if (chosen.periodic) return from + "ratio of period means";
+  return from + (estimator.hub_held() ? "Hv" : "H1");
+}
+
 bool choose_period(const TimeRecord& record, const SpectrumSettings& settings,
                    ChosenSettings& chosen) {
   if (settings.periodic == false) {
@@ -209,19 +220,21 @@ bool choose_period(const TimeRecord& record, const SpectrumSettings& settings,
     return false;
   }
   const double period_s = sampling_period_s(record);
+  const auto excitation = signal_of(record, chosen.estimator.excitation()).values;
+  const auto name = to_string(chosen.estimator.excitation());
   if (settings.period_samples) {
-    chosen.period = periods_of(record.torque_N_m, *settings.period_samples);
+    chosen.period = periods_of(excitation, *settings.period_samples);
     if (chosen.period.periods == 0) {
       throw arm::InputError(fmt::format("period = {} samples: must be from 4 to the record's, {}",
                                         *settings.period_samples, record.torque_N_m.size()));
     }
-  } else if (const auto found = find_period(record.torque_N_m)) {
+  } else if (const auto found = find_period(excitation)) {
     chosen.period = *found;
   } else if (settings.periodic == true) {
-    throw arm::InputError(
-        "periodic: torque not periodic in this record; give its period, or treat it as random");
+    throw arm::InputError(fmt::format(
+        "periodic: {} not periodic in this record; give its period, or treat it as random", name));
   } else {
-    chosen.reports.push_back({"periodic", "no", "torque not periodic"});
+    chosen.reports.push_back({"periodic", "no", fmt::format("{} not periodic", name)});
     return false;
   }
   chosen.reports.push_back(
@@ -230,9 +243,9 @@ bool choose_period(const TimeRecord& record, const SpectrumSettings& settings,
                    in_samples(chosen.period.samples, period_s)),
        settings.period_samples
            ? "period given"
-           : fmt::format("periodic torque (deviation {:.1e} of its power): no window, no leakage",
+           : fmt::format("periodic {} (deviation {:.1e} of its power): no window, no leakage", name,
                          chosen.period.mismatch)});
-  const auto outputs = output_signals(record, chosen.differences);
+  const auto outputs = output_signals(record, chosen);
   chosen.left_out_periods =
       settings.leave_out_periods
           ? *settings.leave_out_periods
@@ -252,10 +265,10 @@ bool choose_period(const TimeRecord& record, const SpectrumSettings& settings,
 
 }  // namespace
 
-std::vector<Signal> output_signals(const TimeRecord& record, const std::vector<int>& differences) {
+std::vector<Signal> output_signals(const TimeRecord& record, const ChosenSettings& chosen) {
   std::vector<Signal> signals;
-  for (std::size_t i = 0; i < record.channels.size(); ++i) {
-    signals.push_back({record.channels[i].values, differences[i]});
+  for (std::size_t i = 0; i < chosen.outputs.size(); ++i) {
+    signals.push_back({record.channels[chosen.outputs[i]].values, chosen.differences[i]});
   }
   return signals;
 }
@@ -265,20 +278,38 @@ ChosenSettings choose_settings(const TimeRecord& record, const SpectrumSettings&
     throw arm::InputError(fmt::format("{} samples: a spectrum needs at least {}",
                                       record.torque_N_m.size(), kFewestSamples));
   }
-  const auto [least, most] = std::ranges::minmax(record.torque_N_m);
+  ChosenSettings chosen;
+  chosen.estimator = settings.estimator;
+  const bool hub_held = chosen.estimator.hub_held();
+  const auto input = signal_of(record, chosen.estimator.input).values;
+  const auto name = to_string(chosen.estimator.input);
+  if (input.empty()) {
+    throw arm::InputError(fmt::format("{}: not recorded; it is to be the input", name));
+  }
+  const auto [least, most] = std::ranges::minmax(input);
   if (least == most) {
     throw arm::InputError(fmt::format(
-        "torque = {} N m at all samples: a frequency response needs a varying torque", least));
+        "{} = {} {} at all samples: a frequency response needs a varying {}", name, least,
+        hub_held ? arm::unit(arm::parse_sensor(std::string(name))) : "N m", name));
   }
-  ChosenSettings chosen;
   chosen.hold = settings.hold;
-  chosen.hold_corrected = settings.correct_hold;
+  chosen.hold_corrected = settings.correct_hold && !hub_held;
   bool any = false;
-  for (const auto& channel : record.channels) {
+  for (std::size_t i = 0; i < record.channels.size(); ++i) {
+    const auto& channel = record.channels[i];
+    if (hub_held && (channel.sensor.kind == arm::SensorKind::hub_angle ||
+                     channel.sensor.kind == arm::SensorKind::hub_velocity)) {
+      continue;
+    }
+    chosen.outputs.push_back(i);
     const int needed =
         settings.difference.value_or(true) ? differences_until_steady(channel.sensor) : 0;
     chosen.differences.push_back(needed);
     any = any || needed > 0;
+  }
+  if (chosen.outputs.empty()) {
+    throw arm::InputError(
+        fmt::format("no sensor beside the hub's: responses to {} need one", name));
   }
   chosen.reports.push_back(
       {"differences", any ? "of angle and displacement twice, of velocity once" : "none",
@@ -287,6 +318,10 @@ ChosenSettings choose_settings(const TimeRecord& record, const SpectrumSettings&
              : "no drifting channel"});
   chosen.periodic = choose_period(record, settings, chosen);
   if (!chosen.periodic) choose_segments(record, settings, chosen);
+  if (!chosen.estimator.reason.empty()) {
+    chosen.reports.push_back({"estimator", words_of(chosen), chosen.estimator.reason});
+  }
+  if (hub_held) return chosen;
   chosen.reports.push_back({"hold", std::string(to_string(settings.hold)),
                             settings.correct_hold
                                 ? "hold response removed; aliases are not"

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "measured/files/measurement.hpp"
+#include "measured/spectra/estimator.hpp"
 #include "measured/spectra/period.hpp"
 #include "measured/spectra/spectra.hpp"
 
@@ -25,7 +26,8 @@ struct SpectrumSettings {
   std::optional<std::size_t> period_samples = {};  ///< makes the torque periodic
   std::optional<std::size_t> leave_out_periods = {};  ///< at the start, until the arm has settled
   TorqueHold hold = TorqueHold::zero;
-  bool correct_hold = true;  ///< H is divided by `hold_response`
+  bool correct_hold = true;  ///< H is divided by `hold_response`, where the torque is the input
+  Estimator estimator = {};
 };
 
 /// One setting in words.
@@ -41,14 +43,18 @@ struct ChosenSettings {
   SegmentPlan plan;                  ///< unless periodic
   Period period;                     ///< if periodic: the periods found
   std::size_t left_out_periods = 0;  ///< of those
-  std::vector<int> differences;      ///< one a channel
+  std::vector<std::size_t> outputs;  ///< channels that responses are estimated of
+  std::vector<int> differences;      ///< one an output
   TorqueHold hold = TorqueHold::zero;
   bool hold_corrected = true;
+  Estimator estimator;
   std::vector<SettingReport> reports;
 };
 
 /// Chooses what is not given:
-/// - periodic where the torque repeats itself (measured/spectra/period.hpp), then no window;
+/// - as outputs all channels; those but the hub's where its motion is the input;
+/// - periodic where the torque, or the instrument, repeats itself (measured/spectra/period.hpp),
+/// then no window;
 /// - Hann's window, as the paper has it, and the overlap that uses it up (`sufficient_overlap`);
 /// - a segment that resolves the sharpest resonance: lines a sixth of its half-power width apart,
 ///   so that Hann's noise bandwidth is a quarter of it and the top of the peak in power too low by
@@ -56,11 +62,11 @@ struct ChosenSettings {
 ///   and no shorter than 64 samples. The width is that of the narrowest peak of |H1| in a pilot
 ///   estimate with long segments over a million samples at most.
 ///
-/// Throws InputError for a record of fewer than 128 samples, a torque that is constant, and a given
-/// setting that the record has no room for.
+/// Throws InputError for a record of fewer than 128 samples, an input that is constant or was not
+/// recorded, no output, and a given setting that the record has no room for.
 ChosenSettings choose_settings(const TimeRecord& record, const SpectrumSettings& settings);
 
-/// The record's channels with the differences of `chosen`.
-std::vector<Signal> output_signals(const TimeRecord& record, const std::vector<int>& differences);
+/// The outputs of `chosen` with their differences.
+std::vector<Signal> output_signals(const TimeRecord& record, const ChosenSettings& chosen);
 
 }  // namespace flexarm::measured

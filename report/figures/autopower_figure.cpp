@@ -65,9 +65,8 @@ Figure autopower_figure(const measured::FrequencyResponseEstimate& estimate,
       poles_Hz.push_back(pole_Hz);
     }
   }
-  if (has_power(estimate.torque_autopower)) {
-    stack.panels.push_back(
-        spectrum_panel("torque", "N m", frequency_Hz, estimate.torque_autopower));
+  if (has_power(estimate.input_autopower)) {
+    stack.panels.push_back(spectrum_panel("torque", "N m", frequency_Hz, estimate.input_autopower));
     stack.panels.back().height = kTorqueHeight;
     fix_limits(stack.panels.back(), kLabelRoom);
   }

@@ -73,6 +73,7 @@ Figure response_figure(const Identification& identification, std::size_t index, 
 void add_run(const Identification& identification, std::size_t index,
              const compare::AnalyticalModes& analytical, std::vector<NamedPlot>& plots) {
   const RunIdentification& run = identification.runs[index];
+  if (run.hub_held()) return;  // the analytical responses are those to the torque
   const auto add = [&](const std::string& name, const Figure& figure) {
     plots.push_back({name + ".svg", to_svg(figure)});
   };

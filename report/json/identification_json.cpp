@@ -63,13 +63,18 @@ Json spectra_json(const measured::FrequencyResponseEstimate& estimate) {
                         {"response_std", channel.response_std},
                         {"coherence", channel.estimators.coherence}});
   }
-  return {{"settings", settings},
-          {"averages", estimate.averages},
-          {"spacing_Hz", estimate.spacing_Hz},
-          {"noise_bandwidth_Hz", estimate.noise_bandwidth_Hz},
-          {"frequency_Hz", estimate.frequency_Hz},
-          {"torque_autopower", estimate.torque_autopower},
-          {"channels", channels}};
+  const auto& estimator = estimate.settings.estimator;
+  return {
+      {"settings", settings},
+      {"input", to_string(estimator.input)},
+      {"instrument", estimator.instrument ? Json(to_string(*estimator.instrument)) : Json(nullptr)},
+      {"estimator_reason", estimator.reason},
+      {"averages", estimate.averages},
+      {"spacing_Hz", estimate.spacing_Hz},
+      {"noise_bandwidth_Hz", estimate.noise_bandwidth_Hz},
+      {"frequency_Hz", estimate.frequency_Hz},
+      {"input_autopower", estimate.input_autopower},
+      {"channels", channels}};
 }
 
 Json circles_json(const std::vector<measured::SensorCircles>& sensors) {
@@ -172,6 +177,7 @@ Json reading_json(const measured::ModalReading& reading,
           {"runs", reading.runs},
           {"sensor", reading.sensor ? Json(arm::to_string(*reading.sensor)) : Json(nullptr)},
           {"condition", condition},
+          {"hub_held", reading.hub_held},
           {"roots", roots}};
 }
 
@@ -253,6 +259,8 @@ Json fit_json(const measured::RunsFit& fitted, const measured::Identification& i
   for (const auto& sensor : fit.sensors) sensors.push_back(sensor_json(sensor));
   return {{"runs", ids_of(fitted, identification)},
           {"condition", condition},
+          {"data", fitted.of_responses ? "responses" : "as given"},
+          {"hub_held", fitted.hub_held},
           {"refusal", text(fitted.refusal)},
           {"converged", fit.converged},
           {"from_Hz", fit.band.from_Hz},

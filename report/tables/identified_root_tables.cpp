@@ -37,11 +37,13 @@ const ModalReading& reading_of(const IdentifiedData& data, std::size_t index) {
   return data.identification.readings[data.condition.readings[index]];
 }
 
-/// The readings of the runs whose roots have the feature.
-std::vector<std::size_t> readings_with(const IdentifiedData& data, Feature feature) {
+/// The readings of the runs whose roots have the feature, with the hub held or free.
+std::vector<std::size_t> readings_with(const IdentifiedData& data, Feature feature,
+                                       bool hub_held = false) {
   std::vector<std::size_t> found;
   for (std::size_t i = 0; i < data.condition.roots.size(); ++i) {
     if (joined(reading_of(data, i).runs) != data.runs) continue;
+    if (reading_of(data, i).hub_held != hub_held) continue;
     const bool has = std::ranges::any_of(data.condition.roots[i], [&](const IdentifiedRoot& root) {
       return root.measured.feature == feature;
     });
@@ -260,6 +262,31 @@ Table zero_table(const IdentifiedData& data) {
   }
   add_others(data, readings, Feature::zero, table);
   add_column(data, readings, "non-minimum phase", right_half_plane_zeros_of, table);
+  return table;
+}
+
+Table held_pole_table(const IdentifiedData& data) {
+  const auto readings = readings_with(data, Feature::zero, true);
+  Table table{fmt::format("{}: poles with the hub held, of responses to the hub motion", data.runs),
+              {{"method"},
+               {"sensor"},
+               {"pole"},
+               {"analytical", "Hz", 6},
+               {"measured", "Hz", 6},
+               {"+-", "Hz", 2},
+               {"error", "%", 3},
+               {"damping ratio", "", 4},
+               {"+-", "", 2}}};
+  for (const std::size_t i : readings) {
+    const auto& reading = reading_of(data, i);
+    for (const auto& root : data.condition.roots[i]) {
+      table.add_row({std::string(to_string(reading.method)), sensor_name(reading.sensor),
+                     root.order ? fmt::format("pole {}, hub held", *root.order) : "unmatched",
+                     cell(root.analytical_Hz), cell(root.measured.frequency_Hz),
+                     cell(root.measured.frequency_std_Hz), root.error_percent(),
+                     cell(root.measured.damping_ratio), cell(root.measured.damping_ratio_std)});
+    }
+  }
   return table;
 }
 

@@ -30,6 +30,10 @@ Table pole_table(const IdentifiedData& data);
 /// The same of the antiresonances of each sensor, each beside its own analytical one.
 Table zero_table(const IdentifiedData& data);
 
+/// Poles with the hub held, read off responses to the hub's motion: frequency, its standard error,
+/// distance from the analytical zero of the hub angle in per cent, and damping ratio.
+Table held_pole_table(const IdentifiedData& data);
+
 /// The paper's Table 5: damping ratios, in rows as in `pole_table`.
 Table damping_table(const IdentifiedData& data);
 

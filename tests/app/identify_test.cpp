@@ -6,7 +6,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace flexarm::testing_app {
 namespace {
@@ -167,6 +169,34 @@ TEST_F(Identify, ReadsTheModalRunOfAMeasurement) {
   EXPECT_EQ(ended.status, 0) << ended.errors;
   EXPECT_THAT(ended.output, AllOf(HasSubstr("table-4: poles"), HasSubstr("12.0500"),
                                   HasSubstr("2.90000"), Not(HasSubstr("Modal fit of"))));
+}
+
+TEST_F(Identify, TheHubMotionAsInputGivesPolesWithTheHubHeld) {
+  simulate("sim");
+  const Ended made = run({"simulate", "rig.toml", "--duration", "60", "--period", "0.005",
+                          "--sensor", "hub_angle,tip_acceleration", "--noise", "0.002",
+                          "--excitation", "random:rms=0.05,to=60,id=random", "--out", "held"});
+  ASSERT_EQ(made.status, 0) << made.errors;
+  const Ended ended =
+      run({"identify", "held/measurement.toml", "--input", "hub_angle", "--out", "out"});
+  EXPECT_EQ(ended.status, 0) << ended.errors;
+  EXPECT_THAT(ended.output,
+              AllOf(HasSubstr("estimator: hub_angle to sensors"), HasSubstr("pole 1, hub held"),
+                    HasSubstr("responses to the hub motion")));
+  EXPECT_THAT(names_in("out"),
+              AllOf(Contains("held-poles-random.csv"), Not(Contains("frf-random.csv"))));
+}
+
+TEST_F(Identify, AnInputThatCannotBeIsOneLine) {
+  simulate("sim");
+  for (const auto& [input, what] : std::map<std::string, std::string>{
+           {"hub_angel", "--input hub_angel: must be torque or hub_angle or hub_velocity"},
+           {"hub_angle", "run random: hub_angle: not recorded"}}) {
+    const Ended ended = run({"identify", "sim/measurement.toml", "--input", input});
+    EXPECT_EQ(ended.status, 2);
+    EXPECT_THAT(ended.errors, HasSubstr(what));
+    EXPECT_EQ(std::ranges::count(ended.errors, '\n'), 1) << ended.errors;
+  }
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ using testing::HasSubstr;
 measured::FrequencyResponseEstimate small_estimate() {
   measured::FrequencyResponseEstimate estimate;
   estimate.frequency_Hz = {0, 1, 2, 3, 4, 5};
-  estimate.torque_autopower = {1e-30, 2, 2, 2, 2, 2};
+  estimate.input_autopower = {1e-30, 2, 2, 2, 2, 2};
   for (const char* name : {"hub_angle", "tip_acceleration"}) {
     measured::ChannelEstimate channel;
     channel.sensor = arm::parse_sensor(name);
@@ -87,7 +87,7 @@ TEST(AutopowerFigure, LeavesOutASensorThatReadNothing) {
 TEST(AutopowerFigure, AnExactZeroOfTheSpectrumDoesNotSetTheScale) {
   auto estimate = small_estimate();
   estimate.frequency_Hz = many_frequencies_Hz();
-  estimate.torque_autopower = estimate.channels[0].autopower = estimate.channels[1].autopower =
+  estimate.input_autopower = estimate.channels[0].autopower = estimate.channels[1].autopower =
       many_values(1);
   estimate.channels[0].autopower[500] = 1e-40;
   EXPECT_GT(*autopower_figure(estimate, {}).stacks[0].panels[1].y.minimum, 1e-9);
@@ -103,7 +103,7 @@ TEST(AutopowerFigure, RefusesWhatCannotBeDrawn) {
 TEST(AutopowerFigure, OfManyLinesIsSmallAndKeepsThePeak) {
   measured::FrequencyResponseEstimate estimate;
   estimate.frequency_Hz = many_frequencies_Hz();
-  estimate.torque_autopower = many_values(1);
+  estimate.input_autopower = many_values(1);
   for (const char* name :
        {"hub_angle", "hub_velocity", "tip_acceleration", "tip_displacement", "strain@0.05"}) {
     measured::ChannelEstimate channel;

@@ -1,0 +1,105 @@
+#include "measured/modal/response_fit.hpp"
+
+#include "measured/files/sensor_columns.hpp"
+#include "measured/modal/common_noise.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace flexarm::measured {
+
+namespace {
+
+/// Fits with the deviations of the fit before.
+constexpr int kReweighings = 2;
+
+/// Of the real and of the imaginary part, each half of the second moment; no less than rounding.
+double part_of(double deviation, std::complex<double> value) {
+  return std::max(deviation / std::numbers::sqrt2,
+                  std::numeric_limits<double>::epsilon() * std::abs(value));
+}
+
+}  // namespace
+
+bool is_fitted_by_responses(const FrequencyResponseEstimate& estimate) {
+  const Estimator& estimator = estimate.settings.estimator;
+  if (estimator.instrument || estimator.hub_held()) return true;
+  if (!estimate.periodic || estimate.periodic->periods < 2) return false;
+  const PeriodicSignal& torque = estimate.periodic->input;
+  double signal = 0.0;
+  double noise = 0.0;
+  for (std::size_t k = 0; k < torque.amplitude.size(); ++k) {
+    signal += std::norm(torque.amplitude[k]);
+    noise += torque.noise_std[k] * torque.noise_std[k];
+  }
+  return static_cast<double>(estimate.periodic->periods) * noise > kMostTorqueNoise * signal;
+}
+
+ModalFit fit_responses(const FrequencyResponseEstimate& estimate, ModalFitOptions options) {
+  const Estimator& estimator = estimate.settings.estimator;
+  const std::size_t stride =
+      estimate.periodic ? 1
+                        : static_cast<std::size_t>(main_lobe_lines(estimate.settings.plan.window));
+  const int hub_derivatives = estimator.input == RecordedSignal::hub_velocity ? 1 : 2;
+  const auto s_at = [](double frequency_Hz) {
+    return std::complex<double>(0.0, 2.0 * std::numbers::pi * frequency_Hz);
+  };
+  const auto per_input = [&](double frequency_Hz) {
+    return estimator.hub_held() ? std::pow(s_at(frequency_Hz), -hub_derivatives)
+                                : std::complex<double>(1.0);
+  };
+  FrequencyRecord record;
+  std::vector<std::vector<std::size_t>> lines;
+  options.response_std.clear();
+  for (const ChannelEstimate& channel : estimate.channels) {
+    FrequencyChannel made{channel.sensor, {}, {}, {}};
+    auto& deviation = options.response_std.emplace_back();
+    auto& own = lines.emplace_back();
+    for (std::size_t k = 0; k < estimate.frequency_Hz.size(); k += stride) {
+      const std::complex<double> value = channel.response[k];
+      const double part = part_of(channel.response_std[k], value);
+      const bool is_known = std::isfinite(std::abs(value)) && std::isfinite(part);
+      if (estimate.frequency_Hz[k] == 0.0 || !is_known || !is_excited(estimate, k)) continue;
+      const auto factor = per_input(estimate.frequency_Hz[k]);
+      made.frequency_Hz.push_back(estimate.frequency_Hz[k]);
+      made.response.push_back(value * factor);
+      made.coherence.push_back(channel.estimators.coherence[k]);
+      deviation.push_back(std::abs(factor) * part);
+      own.push_back(k);
+    }
+    record.channels.push_back(std::move(made));
+  }
+  if (estimator.hub_held()) {
+    options.rigid_body = std::ranges::any_of(record.channels, [](const FrequencyChannel& channel) {
+      return !bends_only(channel.sensor.kind);
+    });
+  }
+  // Batches of lines do not hold: a pole is determined by the few lines of its resonance.
+  options.robust = false;
+  options.variance_factor = [&](std::span<const FittedTransfer> transfers) {
+    return common_noise_factor(record, options.response_std, transfers);
+  };
+  ModalFit fit = fit_modes(record, options);
+  for (int round = 0; round < kReweighings && !fit.cancelled; ++round) {
+    for (std::size_t j = 0; j < record.channels.size(); ++j) {
+      const ChannelEstimate& channel = estimate.channels[j];
+      if (channel.ratio.x.empty()) continue;
+      for (std::size_t i = 0; i < lines[j].size(); ++i) {
+        const std::size_t k = lines[j][i];
+        // From the ratio to the response that is fitted: hold and derivatives of the hub.
+        const auto factor =
+            record.channels[j].response[i] * channel.ratio.x[k] / channel.ratio.y[k];
+        const auto fitted = fit.transfers[j].value(s_at(estimate.frequency_Hz[k]));
+        options.response_std[j][i] =
+            std::abs(factor) *
+            part_of(channel.ratio.deviation(k, fitted / factor), channel.response[k]);
+      }
+    }
+    fit = fit_modes(record, options);
+  }
+  return fit;
+}
+
+}  // namespace flexarm::measured

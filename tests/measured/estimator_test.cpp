@@ -8,6 +8,7 @@
 #include "tests/measured/signals.hpp"
 
 #include <Eigen/Dense>
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unsupported/Eigen/MatrixFunctions>
@@ -236,14 +237,25 @@ TEST(ClosedLoopEstimate, AReferenceThatDoesNotExciteLeavesTheDirectEstimate) {
               HasSubstr("the reference "));
 }
 
-TEST(HubMotionEstimate, PolesWithTheHubHeldAreExactWhateverFrictionActsThere) {
+FitCase case_with_friction(std::uint64_t seed) {
   FitCase fit_case;
+  fit_case.seed = seed;
   fit_case.sensors = sensors_named({"hub_angle", "tip_acceleration", "strain@0.05"});
+  return fit_case;
+}
+
+TimeRecord record_with_friction(const FitCase& fit_case) {
   arm::Arm arm = fit_case.arm;
   effects::put(arm, "coulomb_friction", {{"torque", 0.012}});
   TimeRecord record = clean_record(fit_case, model_of(fit_case), response::take_apart(arm));
   add_noise(record, 0.01, fit_case.seed);
-  const Identification found = identified(record, {.input = RecordedSignal::hub_angle});
+  return record;
+}
+
+TEST(HubMotionEstimate, PolesWithTheHubHeldAreExactWhateverFrictionActsThere) {
+  const FitCase fit_case = case_with_friction(FitCase{}.seed);
+  const Identification found =
+      identified(record_with_friction(fit_case), {.input = RecordedSignal::hub_angle});
   EXPECT_EQ(estimator_of(found).instrument, RecordedSignal::torque);
   const auto zeros = exact_roots(model_of(fit_case), fit_case.sensors.size()).zeros[0];
   ASSERT_EQ(found.fits.size(), 1U);
@@ -312,6 +324,44 @@ TEST(TorqueNoise, IsAveragedOutOverPeriodsAndBiasesH1) {
   const double bias = low_by(made, true);
   EXPECT_GT(bias, 1e-3);
   EXPECT_LT(std::abs(low_by(made, false)), 0.3 * bias);
+}
+
+/// Root mean squares over seeds and the first three poles; prints what docs/measured-data.md states.
+TEST(EstimatorStudy, DISABLED_PrintsErrorsOverStandardErrors) {
+  constexpr int kSeeds = 6;
+  constexpr std::size_t kPoles = 3;
+  const auto print = [](const char* what, const auto& errors_of_seed) {
+    double frequency = 0.0;
+    double damping = 0.0;
+    for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+      for (const PoleErrors& errors : errors_of_seed(seed)) {
+        frequency += errors.frequency * errors.frequency;
+        damping += errors.damping * errors.damping;
+      }
+    }
+    constexpr double kCount = kSeeds * kPoles;
+    fmt::print("| {} | {:.2f} | {:.2f} |\n", what, std::sqrt(frequency / kCount),
+               std::sqrt(damping / kCount));
+  };
+  const auto all_errors = [](const ModalFit& fit, const auto& exact) {
+    std::vector<PoleErrors> all;
+    for (std::size_t i = 0; i < kPoles; ++i) all.push_back(errors_of(fit, exact[i]));
+    return all;
+  };
+  for (const std::size_t period : {0U, 2000U}) {
+    print(period == 0 ? "random reference" : "periodic reference", [&](std::uint64_t seed) {
+      const Loop loop = loop_of(period, seed);
+      return all_errors(identified(record_of(loop)).fits[0].fit,
+                        exact_roots(model_of(loop.fit_case), 0).poles);
+    });
+  }
+  print("hub held", [&](std::uint64_t seed) {
+    const FitCase fit_case = case_with_friction(seed);
+    const Identification found =
+        identified(record_with_friction(fit_case), {.input = RecordedSignal::hub_angle});
+    return all_errors(found.fits[0].fit,
+                      exact_roots(model_of(fit_case), fit_case.sensors.size()).zeros[0]);
+  });
 }
 
 }  // namespace

@@ -29,9 +29,10 @@ Eigen::MatrixXd from_likely_state(const response::ArmSimulator& simulation,
                                   const InitialStates& initial, const Eigen::MatrixXd& from_known,
                                   const Eigen::VectorXd& measured,
                                   const Eigen::VectorXd& deviations) {
-  constexpr int kSteps = 10;
+  // Where friction holds the hub the linear derivatives are far off: twenty short steps and more.
+  constexpr int kSteps = 30;
   constexpr double kShorter = 0.3;
-  constexpr double kShortest = 0.05;
+  constexpr double kShortest = 0.005;
   constexpr double kNearEnough = 1e-4;  // the sum of squares falls by less than this part of it
   const Eigen::MatrixXd free = simulation.free_readings(torque_N_m.size()) * initial.unknown;
   const InitialStateEstimator estimator(free, deviations, measured);

@@ -239,8 +239,8 @@ void TimeStepper::halve(double length_s, double u0, double u1, int halvings) {
   const SimulationOptions& options = plan_->options();
   if (++summary_.halved_steps > options.most_halved_steps &&
       static_cast<double>(summary_.halved_steps) * options.sample_time_s > time_s_) {
-    throw std::runtime_error(fmt::format("simulation: {} inner steps halved by {} s",
-                                         summary_.halved_steps, time_s_));
+    throw std::runtime_error(
+        fmt::format("simulation: {} inner steps halved by {} s", summary_.halved_steps, time_s_));
   }
   const double between = 0.5 * (u0 + u1);
   free_step(0.5 * length_s, u0, between, halvings + 1);

@@ -30,8 +30,11 @@ constexpr int kFewAngles = 9;
 constexpr int kSteps = 2;
 /// Of a difference quotient, over the estimated disturbance.
 constexpr double kPart = 0.1;
-/// A place that no sample is near has the torque 0 by this weight, over that of a mean place.
-constexpr double kRidge = 1e-6;
+/// A place that no sample is near has the torque of its neighbour by this weight, over that of a
+/// mean place; by the second, which is far less, that of a side which no sample is on is 0.
+constexpr double kLikeNeighbour = 1e-6;
+constexpr double kRidge = 1e-10;
+
 /// The value below which this part of the values is.
 double quantile(std::vector<double> values, double part) {
   std::erase_if(values, [](double value) { return std::isnan(value); });
@@ -81,6 +84,32 @@ bool is_above_jump(const arm::HubTorqueTable& table, std::size_t j) {
   return table.angle_rad.empty() && j > 0 && velocity[j] == 0.0 && velocity[j - 1] == 0.0;
 }
 
+/// Of the squares of differences between neighbouring torques, half the second derivatives. Where
+/// friction jumps there are no neighbours.
+Eigen::MatrixXd roughness(const arm::HubTorqueTable& table) {
+  const std::size_t columns = table.columns();
+  const std::size_t rows = std::max<std::size_t>(1, table.angle_rad.size());
+  const auto& velocity = table.velocity_rad_per_s;
+  Eigen::MatrixXd made = Eigen::MatrixXd::Zero(static_cast<Index>(rows * columns),
+                                               static_cast<Index>(rows * columns));
+  const auto join = [&](std::size_t one, std::size_t other) {
+    const auto i = static_cast<Index>(one);
+    const auto j = static_cast<Index>(other);
+    made(i, i) += 1.0;
+    made(j, j) += 1.0;
+    made(i, j) -= 1.0;
+    made(j, i) -= 1.0;
+  };
+  for (std::size_t row = 0; row < rows; ++row) {
+    for (std::size_t column = 0; column < columns; ++column) {
+      const std::size_t at = row * columns + column;
+      if (row + 1 < rows) join(at, at + columns);
+      if (column + 1 < columns && velocity[column] != velocity[column + 1]) join(at, at + 1);
+    }
+  }
+  return made;
+}
+
 /// From torques that are 0. Throws InputError where those of least squares are no table.
 FittedTable fitted(const Problem& balance, const arm::Arm& arm, arm::HubTorqueTable table,
                    double step_N_m) {
@@ -90,6 +119,7 @@ FittedTable fitted(const Problem& balance, const arm::Arm& arm, arm::HubTorqueTa
   const std::size_t places = std::max<std::size_t>(1, table.angle_rad.size()) * table.columns();
   table.torque_N_m.assign(places, 0.0);
   const auto n = static_cast<Index>(places);
+  const Eigen::MatrixXd rough = roughness(table);
   FittedTable made;
   for (int step = 0; step < kSteps; ++step) {
     const Eigen::VectorXd here = left_with(table);
@@ -101,9 +131,13 @@ FittedTable fitted(const Problem& balance, const arm::Arm& arm, arm::HubTorqueTa
       jacobian.col(static_cast<Index>(j)) = (left_with(beside) - here) / change_N_m;
     }
     Eigen::MatrixXd information = jacobian.transpose() * jacobian;
-    information.diagonal().array() += kRidge * information.diagonal().mean();
+    const double mean = information.diagonal().mean();
+    information += kLikeNeighbour * mean * rough;
+    information.diagonal().array() += kRidge * mean;
     const Eigen::LDLT<Eigen::MatrixXd> solver(information);
-    const Eigen::VectorXd change = -solver.solve(jacobian.transpose() * here);
+    const Eigen::VectorXd present = Eigen::VectorXd::Map(table.torque_N_m.data(), n);
+    const Eigen::VectorXd change =
+        -solver.solve(jacobian.transpose() * here + kLikeNeighbour * mean * (rough * present));
     for (std::size_t j = 0; j < places; ++j) table.torque_N_m[j] += change(static_cast<Index>(j));
     arm::require_valid(table);
     const Eigen::VectorXd left = here + jacobian * change;

@@ -62,7 +62,7 @@ Eigen::VectorXd innovation_deviations(const Problem& problem, std::size_t r) {
       parts, sensors,
       response::options_of_fit(measured::sampling_period_s(record),
                                simulated_hold(run.torque_hold)));
-  return response::filter_gain(simulator.sampled(kUnrecorded_N_m, noise))
+  return response::filter_gain(simulator.sampled({kUnrecorded_N_m}, noise))
       .innovation_covariance.diagonal()
       .cwiseSqrt();
 }

@@ -52,7 +52,6 @@ void keep_usable(Experiment& experiment, measured::MeasuredRun& run, const std::
       experiment.accepted.push_back({run.run.id, std::move(finding)});
     }
   }
-  measured::replace_spikes(record, findings);
   std::string why;  // the first of the channels left out
   for (const measured::DataFinding& finding : findings) {
     if (finding.fault == measured::Fault::zero_torque) {

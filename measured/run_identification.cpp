@@ -64,7 +64,6 @@ void study_time_run(TimeRecord& record, const IdentificationOptions& options,
   DataCheckOptions check = options.check;
   check.starts_at_rest = made.run.initial == InitialState::rest;
   made.findings = check_data(record, check);
-  replace_spikes(record, made.findings);
   made.left_out = leave_out_dead_channels(record, made.findings);
   const auto no_torque = std::ranges::find(made.findings, Fault::zero_torque, &DataFinding::fault);
   if (record.channels.empty()) {

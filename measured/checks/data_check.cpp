@@ -47,7 +47,6 @@ void append(std::vector<DataFinding>& all, const std::vector<DataFinding>& more,
             std::size_t first_sample = 0) {
   for (auto finding : more) {
     finding.first_sample += first_sample;
-    for (PredictedReading& reading : finding.predicted) reading.sample += first_sample;
     all.push_back(std::move(finding));
   }
 }
@@ -205,18 +204,6 @@ std::vector<arm::Sensor> leave_out_dead_channels(TimeRecord& record,
     return dead;
   });
   return left_out;
-}
-
-void replace_spikes(TimeRecord& record, std::vector<DataFinding>& findings) {
-  for (DataFinding& finding : findings) {
-    if (finding.predicted.empty()) continue;
-    const auto channel = std::ranges::find(
-        record.channels, finding.channel,
-        [](const Channel& one) { return arm::to_string(one.sensor); });
-    if (channel == record.channels.end()) continue;
-    for (const auto& [sample, value] : finding.predicted) channel->values[sample] = value;
-    finding.text += "; replaced by what the other samples and channels predict";
-  }
 }
 
 }  // namespace flexarm::measured

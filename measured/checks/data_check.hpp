@@ -43,12 +43,6 @@ std::string check_name(Fault fault);
 /// The fault whose check has this name. Throws InputError for another, with the names.
 Fault fault_of_check(std::string_view name);
 
-/// What a reading would be without its fault, in the channel's unit.
-struct PredictedReading {
-  std::size_t sample = 0;  ///< from 0
-  double value = 0.0;
-};
-
 /// One fault: what and where.
 struct DataFinding {
   Fault fault = Fault::clock_jitter;
@@ -57,8 +51,6 @@ struct DataFinding {
   double time_s = 0.0;           ///< as recorded for that sample
   double value = 0.0;            ///< the size, in the unit that `text` names
   std::string text;              ///< one sentence without a full stop
-  /// Of spikes: what the other samples and channels predict in their place.
-  std::vector<PredictedReading> predicted = {};
 };
 
 /// What is known of the arm, and how much of a fault is one. Sizes relative to a channel are in its
@@ -115,8 +107,5 @@ std::vector<DataFinding> check_data(const TimeRecord& record, const DataCheckOpt
 /// Takes the channels that `findings` call dead out of the record, and returns their sensors.
 std::vector<arm::Sensor> leave_out_dead_channels(TimeRecord& record,
                                                  const std::vector<DataFinding>& findings);
-
-/// Puts what is predicted in the place of each spike of `findings`, whose texts then say so.
-void replace_spikes(TimeRecord& record, std::vector<DataFinding>& findings);
 
 }  // namespace flexarm::measured

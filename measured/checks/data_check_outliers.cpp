@@ -10,7 +10,6 @@
 #include <array>
 #include <cmath>
 #include <set>
-#include <span>
 
 namespace flexarm::measured {
 
@@ -22,7 +21,6 @@ constexpr int kOtherReach = 1;   // samples
 constexpr std::size_t kAround = 12;
 constexpr double kAlone = 0.4;
 constexpr int kMostPasses = 6;
-constexpr int kRepairRounds = 3;
 /// Where more of the samples stand out, the residual is no noise with a few outliers.
 constexpr double kMostSpikes = 0.01;
 /// Keeps the normal equations solvable where columns are alike; far below any noise.
@@ -86,48 +84,22 @@ Prediction predict(const std::vector<Eigen::VectorXd>& values, std::size_t self,
   return prediction;
 }
 
-/// Residual of sample `k` with spikes at `spikes` taken out of the predictions that they entered.
-double left_beside(const Prediction& prediction, std::size_t k,
-                   std::span<const std::size_t> spikes) {
-  double left = prediction.left[k];
-  for (const std::size_t at : spikes) {
-    const auto lag = static_cast<std::ptrdiff_t>(at) - static_cast<std::ptrdiff_t>(k);
-    if (std::abs(lag) > kOwnReach) continue;
-    left += prediction.own[static_cast<std::size_t>(lag + kOwnReach)] * prediction.left[at];
-  }
-  return left;
-}
-
-/// Of the samples within kAround of `at` that are no spikes, the one that is farthest off.
-std::size_t farthest_beside(const Prediction& prediction, std::size_t at,
-                            std::span<const std::size_t> spikes) {
+/// Whether sample `at` stands alone: with the spike taken out of the predictions that it entered,
+/// nothing within kAround samples is kAlone of its size. What follows a jump is not alone.
+bool is_alone(const Prediction& prediction, std::size_t at) {
+  const double size = prediction.left[at];
   const std::size_t from = at > kAround ? at - kAround : 0;
   const std::size_t to = std::min(prediction.left.size(), at + kAround + 1);
-  std::size_t farthest = at;
-  double size = -1.0;
   for (std::size_t k = from; k < to; ++k) {
-    if (std::ranges::find(spikes, k) != spikes.end()) continue;
-    const double left = std::abs(left_beside(prediction, k, spikes));
-    if (left > size) {
-      farthest = k;
-      size = left;
+    if (k == at) continue;
+    double left = prediction.left[k];
+    const auto lag = static_cast<std::ptrdiff_t>(at) - static_cast<std::ptrdiff_t>(k);
+    if (std::abs(lag) <= kOwnReach) {
+      left += prediction.own[static_cast<std::size_t>(lag + kOwnReach)] * size;
     }
+    if (std::abs(left) > kAlone * std::abs(size)) return false;
   }
-  return farthest;
-}
-
-/// Whether sample `at` stands alone, or with one other that it does not enter the prediction of:
-/// nothing else within kAround samples is kAlone of their size. What follows a jump is not alone.
-bool is_alone(const Prediction& prediction, std::size_t at) {
-  const double size = std::abs(prediction.left[at]);
-  const std::array alone = {at};
-  const std::size_t other = farthest_beside(prediction, at, alone);
-  if (std::abs(left_beside(prediction, other, alone)) <= kAlone * size) return true;
-  if (std::max(at, other) - std::min(at, other) <= kOwnReach) return false;
-  const std::array both = {at, other};
-  const std::size_t third = farthest_beside(prediction, at, both);
-  return std::abs(left_beside(prediction, third, both)) <=
-         kAlone * std::min(size, std::abs(prediction.left[other]));
+  return true;
 }
 
 /// Samples that a jump of the torque shakes: it changes by half its standard deviation and by eight
@@ -190,41 +162,18 @@ std::vector<Outlier> leaders(const std::vector<Outlier>& all) {
   return chosen;
 }
 
-/// Sets each of these samples to its prediction. The others help to predict it: a few rounds.
-void repair(std::vector<Eigen::VectorXd>& values, const std::vector<std::set<std::size_t>>& spikes,
-            const std::vector<bool>& usable) {
-  for (int round = 0; round < kRepairRounds; ++round) {
-    for (std::size_t i = 1; i < values.size(); ++i) {
-      if (spikes[i].empty()) continue;
-      const Prediction prediction = predict(values, i, usable);
-      for (const std::size_t sample : spikes[i]) {
-        values[i][static_cast<Eigen::Index>(sample)] -= prediction.left[sample - kOwnReach];
-      }
-    }
-  }
-}
-
-DataFinding finding_of(const CheckedSignal& signal, const std::set<std::size_t>& spikes,
-                       const Eigen::VectorXd& repaired) {
-  DataFinding finding;
-  finding.fault = Fault::spikes;
-  finding.channel = signal.name;
-  const double offset = mean(signal.values);
-  const auto size = [&](const PredictedReading& one) {
-    return signal.values[one.sample] - one.value;
-  };
-  for (const std::size_t sample : spikes) {
-    const double value = repaired[static_cast<Eigen::Index>(sample)] * signal.deviation + offset;
-    finding.predicted.push_back({sample, value});
-    const double size_here = size(finding.predicted.back());
-    if (std::abs(size_here) > std::abs(finding.value)) finding.value = size_here;
-  }
-  const PredictedReading& first = finding.predicted.front();
-  finding.first_sample = first.sample;
-  finding.text =
-      fmt::format("{} has a spike of {:.4g} {} at sample {}{}", signal.name, size(first),
-                  arm::unit(*signal.sensor), first.sample + 1, more_places(spikes.size()));
-  return finding;
+DataFinding finding_of(const CheckedSignal& signal, const std::vector<Outlier>& outliers) {
+  const auto first = std::ranges::min_element(outliers, {}, &Outlier::sample);
+  const auto largest = std::ranges::max_element(
+      outliers, {}, [](const Outlier& outlier) { return std::abs(outlier.size); });
+  return {Fault::spikes,
+          signal.name,
+          first->sample,
+          0.0,
+          largest->size * signal.deviation,
+          fmt::format("{} has a spike of {:.4g} {} at sample {}{}", signal.name,
+                      first->size * signal.deviation, arm::unit(*signal.sensor), first->sample + 1,
+                      more_places(outliers.size()))};
 }
 
 }  // namespace
@@ -240,21 +189,20 @@ std::vector<DataFinding> check_spikes(std::span<const CheckedSignal> signals,
     const double scale = signal.deviation > 0.0 ? signal.deviation : 1.0;
     values.emplace_back((map.array() - mean(signal.values)) / scale);
   }
-  std::vector<std::set<std::size_t>> found(signals.size());
+  std::vector<std::vector<Outlier>> found(signals.size());
   for (int pass = 0; pass < kMostPasses; ++pass) {
     const auto chosen = leaders(outliers_of(values, usable, options));
     if (chosen.empty()) break;
     for (const auto& outlier : chosen) {
       values[outlier.signal][static_cast<Eigen::Index>(outlier.sample)] -= outlier.size;
-      found[outlier.signal].insert(outlier.sample);
+      found[outlier.signal].push_back(outlier);
     }
   }
-  repair(values, found, usable);
   std::vector<DataFinding> findings;
   for (std::size_t i = 1; i < signals.size(); ++i) {
     const auto most = std::max(10.0, kMostSpikes * static_cast<double>(samples));
     if (found[i].empty() || static_cast<double>(found[i].size()) > most) continue;
-    findings.push_back(finding_of(signals[i], found[i], values[i]));
+    findings.push_back(finding_of(signals[i], found[i]));
   }
   return findings;
 }

@@ -14,8 +14,7 @@ namespace flexarm::measured {
 /// and after, the torque up to two samples off and every other channel up to one sample off. For a
 /// linear arm that leaves noise, also where the torque jumps; the residual's robust deviation is
 /// the measure. The worst sample is repaired before the next is judged, so that a spike in one
-/// channel is not found in another that it helps to predict. Findings hold what the record, with
-/// every spike repaired, predicts in their places.
+/// channel is not found in another that it helps to predict.
 ///
 /// `signals[0]` is the torque, which is not searched; `usable` says which others are.
 std::vector<DataFinding> check_spikes(std::span<const CheckedSignal> signals,

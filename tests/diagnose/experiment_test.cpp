@@ -78,22 +78,6 @@ TEST_F(ExperimentFiles, WithADeadChannelLeaveItOutAndSaySo) {
   EXPECT_THAT(read.notices, testing::Contains(HasSubstr("tip_acceleration excluded")));
 }
 
-TEST_F(ExperimentFiles, WithSpikesAreRepairedUnlessTheyAreAccepted) {
-  const Experiment sound = simulated_experiment({}, {.duration_s = 1.0});
-  Experiment made = sound;
-  double& reading = record_in(made, 1).channels[2].values[300];
-  const double before = reading;
-  const double spike = 1e3;  // m/s^2; the largest of the run is a tenth of it
-  reading += spike;
-  const fs::path file = write(made);
-  Experiment read = read_experiment(file);
-  EXPECT_THAT(read.notices, testing::Contains(HasSubstr("replaced by")));
-  EXPECT_NEAR(record_in(read, 1).channels[2].values[300], before, 0.01 * spike);
-  Experiment accepted = read_experiment(file, {measured::Fault::spikes});
-  EXPECT_EQ(accepted.accepted.size(), 1U);
-  EXPECT_EQ(record_in(accepted, 1).channels[2].values[300], before + spike);
-}
-
 TEST_F(ExperimentFiles, WithATorqueThatIsZeroAreRefused) {
   Experiment made = simulated_experiment({}, {.duration_s = 1.0});
   std::ranges::fill(record_in(made, 0).torque_N_m, 0.0);

@@ -149,37 +149,6 @@ TEST(DataFindings, SayWhatAndWhere) {
   EXPECT_NE(findings[0].text.find("at sample 322"), std::string::npos) << findings[0].text;
 }
 
-TEST(DataFindings, OfSpikesSayWhatTheOthersPredict) {
-  // Two of them close together, too; errors of the predictions are of the size of the noise.
-  const auto sound = clean(7).record;
-  auto record = sound;
-  auto& channel = record.channels.front();
-  const double unit = deviation(channel.values);
-  const std::vector<std::size_t> samples = {200, 205, 321};
-  for (const std::size_t sample : samples) channel.values[sample] += 5.0 * unit;
-  auto findings = check_data(record);
-  ASSERT_EQ(findings.size(), 1U);
-  ASSERT_EQ(findings[0].predicted.size(), samples.size()) << findings[0].text;
-  replace_spikes(record, findings);
-  EXPECT_NE(findings[0].text.find("replaced"), std::string::npos) << findings[0].text;
-  constexpr double kNoise = 0.1;  // of the channel's deviation; 3 % of noise at most, three times
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    EXPECT_EQ(findings[0].predicted[i].sample, samples[i]);
-    EXPECT_NEAR(channel.values[samples[i]], sound.channels.front().values[samples[i]],
-                kNoise * unit);
-  }
-  channel.values = sound.channels.front().values;
-  EXPECT_EQ(record.channels, sound.channels);
-}
-
-TEST(DataFindings, AStepOfTwoSamplesIsNoSpike) {
-  auto record = clean(7).record;
-  auto& channel = record.channels.front();
-  const double unit = deviation(channel.values);
-  for (const std::size_t sample : {200U, 201U}) channel.values[sample] += 5.0 * unit;
-  for (const auto& finding : check_data(record)) EXPECT_NE(finding.fault, Fault::spikes);
-}
-
 TEST(DataFindings, ATimeThatRepeatsIsNoGap) {
   auto record = clean(3).record;
   record.time_s[100] = record.time_s[99];

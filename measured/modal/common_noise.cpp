@@ -1,57 +1,100 @@
 #include "measured/modal/common_noise.hpp"
 
-#include <algorithm>
+#include <Eigen/Dense>
+
+#include <cmath>
+#include <complex>
 #include <map>
 #include <numbers>
+#include <vector>
 
 namespace flexarm::measured {
 
 namespace {
 
-std::complex<double> s_at(double frequency_Hz) {
-  return {0.0, 2.0 * std::numbers::pi * frequency_Hz};
+/// A channel's line, by its index in `FrequencyRecord::channels`, and the gradient there.
+struct ScaledGradient {
+  std::size_t channel = 0;
+  Eigen::RowVectorXcd values;  ///< to all parameters, over the standard deviation
+};
+
+/// The lines of all channels, by frequency.
+std::map<double, std::vector<ScaledGradient>> gradients_by_line(
+    const ModalFit& fit, const FrequencyRecord& record,
+    const std::vector<std::vector<double>>& deviation) {
+  std::map<double, std::vector<ScaledGradient>> lines;
+  const Eigen::Index shared = fit.blocks.parameters();
+  for (std::size_t j = 0; j < record.channels.size(); ++j) {
+    const FrequencyChannel& channel = record.channels[j];
+    const FittedTransfer& transfer = fit.transfers[j];
+    double squares = 0.0;
+    for (std::size_t k = 0; k < channel.response.size(); ++k) {
+      const std::complex<double> s(0.0, 2.0 * std::numbers::pi * channel.frequency_Hz[k]);
+      squares += std::norm((channel.response[k] - transfer.value(s)) / deviation[j][k]);
+      const Eigen::RowVectorXcd gradient = transfer.gradient(s) / deviation[j][k];
+      auto& made = lines[channel.frequency_Hz[k]].emplace_back(
+          ScaledGradient{j, Eigen::RowVectorXcd::Zero(fit.covariance.cols())});
+      made.values.head(shared) = gradient.head(shared);
+      made.values.segment(fit.first_parameter(j), transfer.beta().size()) =
+          gradient.tail(transfer.beta().size());
+    }
+    const double rms = std::sqrt(squares / (2.0 * static_cast<double>(channel.response.size())));
+    for (const double frequency_Hz : channel.frequency_Hz) {
+      lines[frequency_Hz].back().values /= rms;
+    }
+  }
+  return lines;
+}
+
+/// Parameters whose variance is more than this times that with all others known are not identified;
+/// the products of the sandwich would lose half of the digits or more.
+constexpr double kMostVarianceInflation = 1e8;
+
+/// The covariance given the parameters that are not identified, 0 for them. `information` of the
+/// data: sum Re(z^H z).
+Eigen::MatrixXd of_identified(const Eigen::MatrixXd& covariance,
+                              const Eigen::VectorXd& information) {
+  std::vector<Eigen::Index> kept;
+  std::vector<Eigen::Index> given;
+  for (Eigen::Index i = 0; i < covariance.rows(); ++i) {
+    const bool is_identified = covariance(i, i) * information(i) <= kMostVarianceInflation;
+    (is_identified ? kept : given).push_back(i);
+  }
+  if (given.empty()) return covariance;
+  const Eigen::VectorXd scale = covariance(given, given).diagonal().cwiseSqrt().cwiseInverse();
+  const Eigen::MatrixXd correlation =
+      scale.asDiagonal() * covariance(given, given) * scale.asDiagonal();
+  const Eigen::MatrixXd cross = covariance(kept, given) * scale.asDiagonal();
+  Eigen::MatrixXd made = Eigen::MatrixXd::Zero(covariance.rows(), covariance.cols());
+  made(kept, kept) = covariance(kept, kept) -
+                     cross * correlation.completeOrthogonalDecomposition().solve(cross.transpose());
+  return made;
 }
 
 }  // namespace
 
-double common_noise_factor(const FrequencyRecord& record,
-                           const std::vector<std::vector<double>>& deviation,
-                           std::span<const FittedTransfer> transfers) {
-  const Eigen::Index parameters = transfers.front().blocks().parameters();
-  std::map<double, Eigen::ArrayXd> of_line;
-  Eigen::ArrayXd expected = Eigen::ArrayXd::Zero(parameters);
-  for (std::size_t j = 0; j < record.channels.size(); ++j) {
-    const FrequencyChannel& channel = record.channels[j];
-    std::vector<std::complex<double>> residual;
-    double variance = 0.0;
-    for (std::size_t k = 0; k < channel.response.size(); ++k) {
-      residual.push_back((channel.response[k] - transfers[j].value(s_at(channel.frequency_Hz[k]))) /
-                         deviation[j][k]);
-      variance += std::norm(residual[k]) / (2.0 * static_cast<double>(channel.response.size()));
-    }
-    for (std::size_t k = 0; k < channel.response.size(); ++k) {
-      const Eigen::ArrayXcd gradient = transfers[j]
-                                           .gradient(s_at(channel.frequency_Hz[k]))
-                                           .head(parameters)
-                                           .transpose()
-                                           .array() /
-                                       deviation[j][k];
-      expected += gradient.abs2() * variance;
-      const auto at =
-          of_line.try_emplace(channel.frequency_Hz[k], Eigen::ArrayXd::Zero(parameters)).first;
-      at->second += (gradient.conjugate() * residual[k]).real();
+Eigen::MatrixXd with_common_noise(
+    const ModalFit& fit, const FrequencyRecord& record,
+    const std::vector<std::vector<double>>& deviation,
+    const std::function<Eigen::MatrixXcd(double frequency_Hz)>& correlation_at) {
+  const Eigen::Index parameters = fit.covariance.rows();
+  Eigen::VectorXd information = Eigen::VectorXd::Zero(parameters);
+  Eigen::MatrixXd between = Eigen::MatrixXd::Zero(parameters, parameters);
+  for (const auto& [frequency_Hz, gradients] : gradients_by_line(fit, record, deviation)) {
+    const Eigen::MatrixXcd correlation = correlation_at(frequency_Hz);
+    for (const ScaledGradient& a : gradients) {
+      information += a.values.cwiseAbs2().transpose();
+      for (const ScaledGradient& b : gradients) {
+        if (a.channel == b.channel) continue;
+        const std::complex<double> of_errors =
+            correlation(static_cast<Eigen::Index>(a.channel), static_cast<Eigen::Index>(b.channel));
+        // Of two scores Re(z^H e): E[Re(u) Re(v)] = Re(E[u conj(v)])/2 of circular numbers.
+        between += (a.values.adjoint() * (std::conj(of_errors) * b.values)).real();
+      }
     }
   }
-  Eigen::ArrayXd together = Eigen::ArrayXd::Zero(parameters);
-  for (const auto& [frequency_Hz, score] : of_line) together += score.square();
-  double sum = 0.0;
-  double count = 0.0;
-  for (Eigen::Index p = 0; p < parameters; ++p) {
-    if (!(expected(p) > 0.0)) continue;
-    sum += together(p) / expected(p);
-    count += 1.0;
-  }
-  return count > 0.0 ? std::max(1.0, sum / count) : 1.0;
+  const Eigen::MatrixXd bread = of_identified(fit.covariance, information);
+  return fit.covariance + bread * between * bread;
 }
 
 }  // namespace flexarm::measured

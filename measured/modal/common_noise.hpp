@@ -1,23 +1,28 @@
 #pragma once
 
 #include "measured/files/frequency_record.hpp"
-#include "measured/modal/fitted_transfer.hpp"
+#include "measured/modal/modal_fit.hpp"
 
-#include <span>
+#include <Eigen/Core>
+
+#include <functional>
 #include <vector>
 
 namespace flexarm::measured {
 
-/// By how much the variance of fitted poles exceeds that of a fit, which takes the noise of lines
-/// to have the deviations given and the noise of sensors to be independent. A force that nobody
-/// recorded shows in all sensors on the same line, and most of all at resonances. With s_jk the
-/// score of sensor j on line k for a parameter of the blocks, and I_jk its variance in the fit,
+/// Covariance of fitted parameters where errors of different sensors on one line are correlated: a
+/// force that nobody recorded shows in all of them, as does noise of the input. The fit takes them
+/// as independent, with covariance C. With z_jk the gradient of response j on line k over its
+/// standard deviation, and rho_ij,k = E[conj(e_i) e_j]/sqrt(E|e_i|^2 E|e_j|^2) the correlation of
+/// the errors, it is the sandwich [White1980]
 ///
-///     mean over parameters of  sum_k (sum_j s_jk)^2 / sum_k sum_j I_jk,
+///     C + C sum_k sum_(i != j) Re(z_ik^H conj(rho_ij,k) z_jk) C.
 ///
-/// the cluster-robust over the fit's own [White1980]; 1 or more.
-double common_noise_factor(const FrequencyRecord& record,
-                           const std::vector<std::vector<double>>& deviation,
-                           std::span<const FittedTransfer> transfers);
+/// `deviation` of real and of imaginary part, as the fit had it; times the rms of the residuals.
+/// `correlation_at(frequency_Hz)`: of the channels of `record`, in their order.
+Eigen::MatrixXd with_common_noise(
+    const ModalFit& fit, const FrequencyRecord& record,
+    const std::vector<std::vector<double>>& deviation,
+    const std::function<Eigen::MatrixXcd(double frequency_Hz)>& correlation_at);
 
 }  // namespace flexarm::measured

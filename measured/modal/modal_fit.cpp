@@ -357,7 +357,7 @@ ModalFit fit_task(ModalFitTask task, const ModalFitOptions& options) {
     fit.parameters.segment(at, shared) = fit.transfers.back().beta();
     at += shared;
   }
-  if (options.variance_factor) fit.covariance *= options.variance_factor(fit.transfers);
+  if (options.covariance) fit.covariance = options.covariance(fit);
   describe_poles(fit, best);
   const bool unexplained = std::ranges::any_of(study.sensors, [](const ResidualQuality& residual) {
     return !residual.is_noise() && residual.relative > kOnlyRounding;

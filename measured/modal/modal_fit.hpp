@@ -22,6 +22,8 @@
 
 namespace flexarm::measured {
 
+struct ModalFit;
+
 struct ModalFitOptions {
   TorqueHold torque_hold = TorqueHold::zero;
   /// Of each record, or of all when it is one; at rest when empty.
@@ -51,8 +53,9 @@ struct ModalFitOptions {
   double averages = 1.0;
   /// Intervals right for coloured residuals: where they are coloured (empty), always, or never.
   std::optional<bool> robust = {};
-  /// What the covariance is multiplied by, of the transfers that were fitted; empty: 1.
-  std::function<double(std::span<const FittedTransfer>)> variance_factor = {};
+  /// The covariance in place of `ModalFit::covariance`, of a fit whose blocks, transfers and
+  /// covariance are known; empty: that.
+  std::function<Eigen::MatrixXd(const ModalFit&)> covariance = {};
   int most_iterations = 60;
   /// Called now and then with the fraction done; false ends the fit where it is.
   std::function<bool(double fraction)> progress = {};

@@ -2,6 +2,7 @@
 
 #include "measured/files/sensor_columns.hpp"
 #include "measured/modal/common_noise.hpp"
+#include "measured/spectra/error_correlation.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -43,13 +44,14 @@ ModalFit fit_responses(const FrequencyResponseEstimate& estimate, ModalFitOption
       estimate.periodic ? 1
                         : static_cast<std::size_t>(main_lobe_lines(estimate.settings.plan.window));
   const int hub_derivatives = estimator.input == RecordedSignal::hub_velocity ? 1 : 2;
-  const auto s_at = [](double frequency_Hz) {
-    return std::complex<double>(0.0, 2.0 * std::numbers::pi * frequency_Hz);
+  const auto s_at = [&](std::size_t k) {
+    return std::complex<double>(0.0, 2.0 * std::numbers::pi * estimate.frequency_Hz[k]);
   };
-  const auto per_input = [&](double frequency_Hz) {
-    return estimator.hub_held() ? std::pow(s_at(frequency_Hz), -hub_derivatives)
-                                : std::complex<double>(1.0);
+  // From an estimated response to the one that is fitted, and from the ratio of the signals.
+  const auto per_input = [&](std::size_t k) {
+    return estimator.hub_held() ? std::pow(s_at(k), -hub_derivatives) : std::complex<double>(1.0);
   };
+  const auto per_ratio = [&](std::size_t k) { return per_input(k) / estimate.hold[k]; };
   FrequencyRecord record;
   std::vector<std::vector<std::size_t>> lines;
   options.response_std.clear();
@@ -62,7 +64,7 @@ ModalFit fit_responses(const FrequencyResponseEstimate& estimate, ModalFitOption
       const double part = part_of(channel.response_std[k], value);
       const bool is_known = std::isfinite(std::abs(value)) && std::isfinite(part);
       if (estimate.frequency_Hz[k] == 0.0 || !is_known || !is_excited(estimate, k)) continue;
-      const auto factor = per_input(estimate.frequency_Hz[k]);
+      const auto factor = per_input(k);
       made.frequency_Hz.push_back(estimate.frequency_Hz[k]);
       made.response.push_back(value * factor);
       made.coherence.push_back(channel.estimators.coherence[k]);
@@ -78,8 +80,17 @@ ModalFit fit_responses(const FrequencyResponseEstimate& estimate, ModalFitOption
   }
   // Batches of lines do not hold: a pole is determined by the few lines of its resonance.
   options.robust = false;
-  options.variance_factor = [&](std::span<const FittedTransfer> transfers) {
-    return common_noise_factor(record, options.response_std, transfers);
+  options.covariance = [&](const ModalFit& fit) {
+    const auto correlation_at = [&](double frequency_Hz) {
+      const auto at = std::ranges::lower_bound(estimate.frequency_Hz, frequency_Hz);
+      const auto k = static_cast<std::size_t>(at - estimate.frequency_Hz.begin());
+      Eigen::VectorXcd ratios(std::ssize(fit.transfers));
+      for (std::size_t j = 0; j < fit.transfers.size(); ++j) {
+        ratios(static_cast<Eigen::Index>(j)) = fit.transfers[j].value(s_at(k)) / per_ratio(k);
+      }
+      return error_correlation(estimate.joint[k], ratios);
+    };
+    return with_common_noise(fit, record, options.response_std, correlation_at);
   };
   ModalFit fit = fit_modes(record, options);
   for (int round = 0; round < kReweighings && !fit.cancelled; ++round) {
@@ -88,13 +99,10 @@ ModalFit fit_responses(const FrequencyResponseEstimate& estimate, ModalFitOption
       if (channel.ratio.x.empty()) continue;
       for (std::size_t i = 0; i < lines[j].size(); ++i) {
         const std::size_t k = lines[j][i];
-        // From the ratio to the response that is fitted: hold and derivatives of the hub.
-        const auto factor =
-            record.channels[j].response[i] * channel.ratio.x[k] / channel.ratio.y[k];
-        const auto fitted = fit.transfers[j].value(s_at(estimate.frequency_Hz[k]));
+        const auto fitted = fit.transfers[j].value(s_at(k));
         options.response_std[j][i] =
-            std::abs(factor) *
-            part_of(channel.ratio.deviation(k, fitted / factor), channel.response[k]);
+            std::abs(per_ratio(k)) *
+            part_of(channel.ratio.deviation(k, fitted / per_ratio(k)), channel.response[k]);
       }
     }
     fit = fit_modes(record, options);

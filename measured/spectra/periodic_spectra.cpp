@@ -37,11 +37,12 @@ class LocalPolynomial {
     degrees_of_freedom_ = static_cast<double>(count - degree - 1);
   }
 
+  Eigen::Index lines() const { return powers_.rows(); }
   double degrees_of_freedom() const { return degrees_of_freedom_; }
   /// Variance of a line less the polynomial, over that of the line.
   double variance_factor() const { return 1.0 + inverse_.row(0).squaredNorm(); }
 
-  /// The lines around `line` of a transform.
+  /// The `lines()` around `line` of a transform.
   Eigen::VectorXcd around(const std::vector<Complex>& lines, std::size_t line) const {
     Eigen::VectorXcd values(static_cast<Eigen::Index>(offsets_.size()));
     for (std::size_t i = 0; i < offsets_.size(); ++i) {
@@ -124,9 +125,13 @@ PeriodicSpectra periodic_spectra(const Signal& input, std::span<const Signal> ou
   const LocalPolynomial local(std::max<std::size_t>(periods, 2));
   if (has_noise) made.degrees_of_freedom = local.degrees_of_freedom();
   const double to_amplitude = 2.0 / static_cast<double>(count);
+  const double to_variance = local.variance_factor() / local.degrees_of_freedom();
 
-  std::vector<Eigen::VectorXcd> input_residuals;
-  const auto read = [&](const Signal& signal, std::vector<Complex>* covariance) {
+  std::vector<Eigen::MatrixXcd> residuals;  // of each line, a column a signal
+  if (has_noise) {
+    residuals.assign(lines, Eigen::MatrixXcd(local.lines(), 1 + std::ssize(outputs)));
+  }
+  const auto read = [&](const Signal& signal, Eigen::Index column) {
     PeriodicSignal found;
     const auto values = last_differences(signal, count, period_samples);
     transform(values, spectrum);
@@ -140,17 +145,9 @@ PeriodicSpectra periodic_spectra(const Signal& input, std::span<const Signal> ou
         const auto around = local.around(spectrum, k * periods);
         const auto polynomial = local.coefficients(around);
         value -= polynomial(0);
-        Eigen::VectorXcd residual = local.residual(around, polynomial) * back;
-        noise = std::sqrt(residual.squaredNorm() / local.degrees_of_freedom() *
-                          local.variance_factor());
-        if (covariance != nullptr) {
-          covariance->push_back(input_residuals[k - 1].dot(residual) / local.degrees_of_freedom() *
-                                local.variance_factor());
-        } else {
-          input_residuals.push_back(std::move(residual));
-        }
-      } else if (covariance != nullptr) {
-        covariance->emplace_back(kUnknown, kUnknown);
+        auto residual = residuals[k - 1].col(column);
+        residual = local.residual(around, polynomial) * back;
+        noise = std::sqrt(residual.squaredNorm() * to_variance);
       }
       found.amplitude.push_back(value * back);
       found.noise_std.push_back(noise);
@@ -158,9 +155,12 @@ PeriodicSpectra periodic_spectra(const Signal& input, std::span<const Signal> ou
     }
     return found;
   };
-  made.input = read(input, nullptr);
+  made.input = read(input, 0);
   for (const auto& output : outputs) {
-    made.outputs.push_back(read(output, &made.covariance.emplace_back()));
+    made.outputs.push_back(read(output, 1 + std::ssize(made.outputs)));
+  }
+  for (const auto& residual : residuals) {
+    made.noise_covariance.emplace_back(residual.adjoint() * residual * to_variance);
   }
   return made;
 }

@@ -2,6 +2,8 @@
 
 #include "measured/spectra/spectra.hpp"
 
+#include <Eigen/Core>
+
 #include <complex>
 #include <cstddef>
 #include <span>
@@ -35,12 +37,14 @@ struct PeriodicSpectra {
   double degrees_of_freedom = 0.0;  ///< nu, complex ones, of each noise variance; 0 for one period
   PeriodicSignal input;
   std::vector<PeriodicSignal> outputs;
-  /// E[conj(d input) d output] of the amplitudes, one an output.
-  std::vector<std::vector<std::complex<double>>> covariance;
+  /// E[conj(d a) d b] of the amplitudes at each line; index 0 is the input, 1 + i output i. Empty
+  /// for one period.
+  std::vector<Eigen::MatrixXcd> noise_covariance;
 };
 
 /// Of the last `periods` periods of signals sampled `period_s` apart. Of an even number of samples
-/// a period, line n/2 is left out. Work and memory are those of one transform of all samples used.
+/// a period, line n/2 is left out. Work is that of one transform of all samples a signal; memory is that of a
+/// transform a signal.
 ///
 /// Throws InputError for a record that is shorter, a period of fewer than 4 samples, no period.
 PeriodicSpectra periodic_spectra(const Signal& input, std::span<const Signal> outputs,

@@ -2,6 +2,7 @@
 
 #include "arm/input_error.hpp"
 #include "measured/files/record_constants.hpp"
+#include "measured/spectra/error_correlation.hpp"
 #include "measured/spectra/instrument_response.hpp"
 
 #include <algorithm>
@@ -39,10 +40,13 @@ void from_segments(const TimeRecord& record, FrequencyResponseEstimate& made) {
   const Signal input = signal_of(record, estimator.input);
   const auto outputs = output_signals(record, made.settings);
   auto spectra = cross_spectra(input, outputs, period_s, made.settings.plan);
+  std::vector<Signal> all = outputs;
+  all.insert(all.begin(), input);
+  if (estimator.instrument || estimator.hub_held()) {
+    made.joint = joint_spectra(all, period_s, made.settings.plan);
+  }
   CrossSpectra of_instrument;
   if (estimator.instrument) {
-    std::vector<Signal> all = outputs;
-    all.insert(all.begin(), input);
     of_instrument =
         cross_spectra(signal_of(record, *estimator.instrument), all, period_s, made.settings.plan);
     made.input_relative_std = instrument_relative_std(of_instrument);
@@ -50,18 +54,18 @@ void from_segments(const TimeRecord& record, FrequencyResponseEstimate& made) {
   made.averages = spectra.effective_averages;
   made.spacing_Hz = spectra.spacing_Hz;
   made.noise_bandwidth_Hz = spectra.noise_bandwidth_Hz;
-  const auto hold = hold_at(spectra.frequency_Hz, period_s, made.settings);
+  made.hold = hold_at(spectra.frequency_Hz, period_s, made.settings);
   const std::size_t lines = spectra.frequency_Hz.size();
   const bool has_middle = made.settings.plan.segment_samples % 2 == 0;
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     ChannelEstimate channel;
     channel.sensor = record.channels[made.settings.outputs[i]].sensor;
     channel.estimators = estimate(spectra, i);
-    take_off_hold(hold, channel.estimators);
+    take_off_hold(made.hold, channel.estimators);
     if (estimator.instrument) {
       channel.ratio = instrument_ratio(spectra, of_instrument, i);
       for (std::size_t k = 0; k < lines; ++k) {
-        channel.response.push_back(channel.ratio.y[k] / (channel.ratio.x[k] * hold[k]));
+        channel.response.push_back(channel.ratio.y[k] / (channel.ratio.x[k] * made.hold[k]));
       }
     } else {
       channel.response = estimator.hub_held() ? channel.estimators.hv : channel.estimators.h1;
@@ -72,7 +76,7 @@ void from_segments(const TimeRecord& record, FrequencyResponseEstimate& made) {
       const double size = std::numbers::sqrt2 * std::abs(channel.response[k]);
       channel.relative_std.push_back(
           estimator.instrument
-              ? channel.ratio.deviation(k) / (std::abs(hold[k]) * size)
+              ? channel.ratio.deviation(k) / (std::abs(made.hold[k]) * size)
               : relative_response_std(channel.estimators.coherence[k], made.averages));
       channel.response_std.push_back(channel.relative_std[k] * size);
     }
@@ -107,7 +111,9 @@ CrossSpectra period_power(const PeriodicSpectra& all, const std::vector<std::siz
     for (const std::size_t k : lines) {
       const Complex both = std::conj(all.input.amplitude[k]) * all.outputs[i].amplitude[k];
       cross.push_back(density *
-                      (both + (all.periods > 1 ? periods * all.covariance[i][k] : Complex{})));
+                      (both + (all.periods > 1 ? periods * all.noise_covariance[k](
+                                                               0, 1 + static_cast<Eigen::Index>(i))
+                                               : Complex{})));
     }
   }
   return made;
@@ -135,15 +141,16 @@ void from_periods(const TimeRecord& record, FrequencyResponseEstimate& made) {
     lines.push_back(k);
     made.frequency_Hz.push_back(all.frequency_Hz[k]);
     made.input_relative_std.push_back(all.input.noise_std[k] / std::abs(all.input.amplitude[k]));
+    if (all.periods > 1) made.joint.push_back(all.noise_covariance[k]);
   }
   auto spectra = period_power(all, lines, made.spacing_Hz);
-  const auto hold = hold_at(made.frequency_Hz, period_s, settings);
+  made.hold = hold_at(made.frequency_Hz, period_s, settings);
   const auto& x = all.input;
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     ChannelEstimate channel;
     channel.sensor = record.channels[settings.outputs[i]].sensor;
     channel.estimators = estimate(spectra, i);
-    take_off_hold(hold, channel.estimators);
+    take_off_hold(made.hold, channel.estimators);
     const auto& y = all.outputs[i];
     for (std::size_t j = 0; j < lines.size(); ++j) {
       const std::size_t k = lines[j];
@@ -151,9 +158,11 @@ void from_periods(const TimeRecord& record, FrequencyResponseEstimate& made) {
       channel.ratio.y.push_back(y.amplitude[k]);
       channel.ratio.x_variance.push_back(x.noise_std[k] * x.noise_std[k]);
       channel.ratio.y_variance.push_back(y.noise_std[k] * y.noise_std[k]);
-      channel.ratio.covariance.push_back(all.covariance[i][k]);
-      channel.response.push_back(y.amplitude[k] / (x.amplitude[k] * hold[j]));
-      channel.response_std.push_back(channel.ratio.deviation(j) / std::abs(hold[j]));
+      channel.ratio.covariance.push_back(
+          all.periods > 1 ? all.noise_covariance[k](0, 1 + static_cast<Eigen::Index>(i))
+                          : Complex(kUnknown, kUnknown));
+      channel.response.push_back(y.amplitude[k] / (x.amplitude[k] * made.hold[j]));
+      channel.response_std.push_back(channel.ratio.deviation(j) / std::abs(made.hold[j]));
       if (all.periods == 1) {
         channel.response_std.back() = kUnknown;
         channel.estimators.coherence[j] = kUnknown;

@@ -7,6 +7,8 @@
 #include "measured/spectra/periodic_spectra.hpp"
 #include "measured/spectra/spectrum_settings.hpp"
 
+#include <Eigen/Core>
+
 #include <complex>
 #include <optional>
 #include <vector>
@@ -42,6 +44,11 @@ struct FrequencyResponseEstimate {
   std::vector<ChannelEstimate> channels;  ///< `settings.outputs`
   /// Effective averages nd; of a periodic torque 1 + degrees of freedom of each noise variance.
   double averages = 0.0;
+  std::vector<std::complex<double>> hold;  ///< responses are divided by it; 1 if not corrected
+  /// At each line, of the input (index 0) and the outputs (1 + i), for `error_correlation`: spectra
+  /// S_ab, or of a periodic input E[conj(d a) d b] of the amplitudes. Empty for random torque by
+  /// itself and for one period.
+  std::vector<Eigen::MatrixXcd> joint;
   double spacing_Hz = 0.0;          ///< of lines, driven or not
   double noise_bandwidth_Hz = 0.0;  ///< of the window
   ChosenSettings settings;
@@ -51,7 +58,7 @@ struct FrequencyResponseEstimate {
 /// Spectra, frequency responses and coherence of a record, (43)-(46) of the paper, each with its
 /// standard deviation. Settings that are not given are chosen from the data
 /// (measured/spectra/spectrum_settings.hpp), and reported with the reason. One pass over the record
-/// in memory of a few segments for random torque; of a periodic one, memory of a channel.
+/// in memory of a few segments for random torque; of a periodic one, memory of the record.
 ///
 /// Throws InputError for a record without channels, and as `choose_settings` does.
 FrequencyResponseEstimate estimate_frequency_response(const TimeRecord& record,

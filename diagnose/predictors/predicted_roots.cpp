@@ -1,8 +1,11 @@
 #include "diagnose/predictors/predicted_roots.hpp"
 
+#include "arm/input_error.hpp"
 #include "diagnose/observations.hpp"
 #include "exact_tf/exact_arm.hpp"
 #include "response/arm_parts.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -51,6 +54,26 @@ Complex damped_zero(const exact_tf::ExactArm& exact, const arm::Sensor& sensor, 
   return now;
 }
 
+/// The `count` lowest zeros on the imaginary axis, with Im s > 0.
+std::vector<Complex> antiresonances(const exact_tf::ExactArm& exact, const arm::Sensor& sensor,
+                                    int count) {
+  // Real zeros of a tip lie between antiresonances, or are all that there are.
+  constexpr int kLeastSearched = 32;
+  const int most = std::max(kLeastSearched, 4 * count);
+  std::vector<Complex> found;
+  for (int searched = count;; searched = std::min(2 * searched, most)) {
+    found.clear();
+    for (const Complex& s : exact.zeros(sensor, searched).s_rad_per_s) {
+      if (s.real() == 0.0) found.push_back(s);
+    }
+    if (std::ssize(found) >= count) return found;
+    if (searched == most) break;
+  }
+  throw arm::InputError(
+      fmt::format("{} zero {}: {} of the lowest {} zeros of the arm are on the imaginary axis",
+                  arm::to_string(sensor), count, found.size(), most));
+}
+
 int highest_order(const measured::ModalTable& table, const ModalGroup& group) {
   int order = 1;
   for (const std::size_t i : group.entries) order = std::max(order, table[i].order.value());
@@ -69,7 +92,7 @@ void predict_roots(const arm::Arm& arm, const measured::ModalTable& table,
     std::vector<Complex> zeros;
     arm::DampedPoleSet poles;
     if (group.zeros_of) {
-      zeros = exact.zeros(*group.zeros_of, count).s_rad_per_s;
+      zeros = antiresonances(exact, *group.zeros_of, count);
     } else {
       poles = exact.damped_poles(count);
     }

@@ -110,28 +110,43 @@ TEST_F(Compare, AMeasuredTableWithAnErrorIsNamedByFileAndLine) {
               HasSubstr("none.csv: no such file"));
 }
 
-TEST_F(Compare, AMeasuredTableWithoutOrdersIsNumberedByInterlacing) {
+class MeasuredTable : public Flexarm {
+ protected:
+  /// What stands beside the model for the rows of a table.
+  Json rows_beside_model(const std::string& modal_csv) {
+    write("modal.csv", modal_csv);
+    const Ended ended = run({"compare", "--quick", "--measured", "modal.csv", "--json", "c.json"});
+    EXPECT_EQ(ended.status, 0) << ended.errors;
+    EXPECT_THAT(ended.output, HasSubstr("Measured and exact_tf"));
+    return Json::parse(text_of("c.json"))["comparisons"][0]["measured"];
+  }
+};
+
+TEST_F(MeasuredTable, WithoutOrdersIsNumberedByInterlacing) {
   // The default arm with a beam 96 % stiffer: 1.4 times its frequencies, pole 2 nearest to pole 3.
-  write("modal.csv",
-        "sensor,feature,frequency [Hz]\nhub_angle,zero,4.02\nhub_angle,pole,16.6\n"
-        "hub_angle,zero,25.2\nhub_angle,pole,45.2\nhub_angle,pole,5000\n");
-  const Ended ended = run({"compare", "--quick", "--measured", "modal.csv", "--json", "c.json"});
-  ASSERT_EQ(ended.status, 0) << ended.errors;
-  const auto rows = Json::parse(text_of("c.json"))["comparisons"][0]["measured"];
-  ASSERT_EQ(rows.size(), 5U);
+  const std::string table =
+      "sensor,feature,frequency [Hz]\nhub_angle,zero,4.02\nhub_angle,pole,16.6\n"
+      "hub_angle,zero,25.2\nhub_angle,pole,45.2\n";
   // A root that is none of the arm's leaves nothing determined; without it all are.
-  EXPECT_TRUE(rows[4]["order"].is_null());
-  write("modal.csv",
-        "sensor,feature,frequency [Hz]\nhub_angle,zero,4.02\nhub_angle,pole,16.6\n"
-        "hub_angle,zero,25.2\nhub_angle,pole,45.2\n");
-  EXPECT_EQ(run({"compare", "--quick", "--measured", "modal.csv", "--json", "c.json"}).status, 0);
-  const auto numbered = Json::parse(text_of("c.json"))["comparisons"][0]["measured"];
+  const Json with_foreign = rows_beside_model(table + "hub_angle,pole,5000\n");
+  ASSERT_EQ(with_foreign.size(), 5U);
+  EXPECT_TRUE(with_foreign[4]["order"].is_null());
   std::vector<int> orders;
-  for (const auto& row : numbered) {
+  for (const auto& row : rows_beside_model(table)) {
     orders.push_back(row["order"]);
     EXPECT_NEAR(row["error_percent"].get<double>(), 40.0, 0.5);
   }
   EXPECT_EQ(orders, (std::vector<int>{1, 1, 2, 2}));
+}
+
+TEST_F(MeasuredTable, StandsBesideTheModels) {
+  const Json rows = rows_beside_model(
+      "sensor,feature,order,frequency [Hz]\nhub_angle,pole,1,12.00\n"
+      "strain@0.25,zero,1,20.508\n");
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_NEAR(rows[0]["model_Hz"].get<double>(), 11.8618, 1e-4);
+  EXPECT_NEAR(rows[0]["error_percent"].get<double>(), 1.165, 1e-3);
+  EXPECT_NEAR(rows[1]["model_Hz"].get<double>(), 20.3793, 1e-4) << "of a sensor not asked for";
 }
 
 TEST_F(Compare, LinearEffectsAreHonouredAndOthersNamedAsLeftOut) {
@@ -147,20 +162,6 @@ TEST_F(Compare, LinearEffectsAreHonouredAndOthersNamedAsLeftOut) {
     EXPECT_THAT(ended.output,
                 HasSubstr("not included (not part of the linear equations): coulomb_friction"));
   }
-}
-
-TEST_F(Compare, MeasuredFrequenciesStandBesideTheModels) {
-  write("modal.csv",
-        "sensor,feature,order,frequency [Hz]\nhub_angle,pole,1,12.00\n"
-        "strain@0.25,zero,1,20.508\n");
-  const Ended ended = run({"compare", "--quick", "--measured", "modal.csv", "--json", "out.json"});
-  EXPECT_EQ(ended.status, 0) << ended.errors;
-  EXPECT_THAT(ended.output, HasSubstr("Measured and exact_tf"));
-  const auto rows = Json::parse(text_of("out.json"))["comparisons"][0]["measured"];
-  ASSERT_EQ(rows.size(), 2U);
-  EXPECT_NEAR(rows[0]["model_Hz"].get<double>(), 11.8618, 1e-4);
-  EXPECT_NEAR(rows[0]["error_percent"].get<double>(), 1.165, 1e-3);
-  EXPECT_NEAR(rows[1]["model_Hz"].get<double>(), 20.3793, 1e-4) << "of a sensor not asked for";
 }
 
 TEST_F(Compare, TheFolderHoldsTablesAndPlots) {

@@ -118,6 +118,20 @@ std::string name_of(const testing::TestParamInfo<HiddenAt>& info) {
   return info.param.name;
 }
 
+// Both in runs of torque and in responses.
+const HiddenAt kHubInertia = {
+    "hub_inertia", {named("hub_inertia", {{"factor", 1.4}})}, ForcePort::hub, 0.95};
+const HiddenAt kRootCompliance = {
+    "root_compliance", {named("root_compliance", {{"stiffness", 40.0}})}, ForcePort::root, 0.95};
+const HiddenAt kAttachedMass = {"attached_mass",
+                                {named("attached_mass", {{"mass", 0.02}, {"position", 0.5}})},
+                                ForcePort::beam,
+                                0.9};
+const HiddenAt kPayloadMass = {
+    "payload_mass", {named("payload_mass", {{"mass", 0.02}})}, ForcePort::tip, 0.95};
+const HiddenAt kSensorDelay = {"sensor_delay", on_gauge("sensor_delay", "delay", 0.004),
+                               ForcePort::sensor, 0.95};
+
 INSTANTIATE_TEST_SUITE_P(
     Effects, PortOfHidden,
     testing::Values(
@@ -125,25 +139,16 @@ INSTANTIATE_TEST_SUITE_P(
                  {named("coulomb_friction", {{"torque", 0.01}})},
                  ForcePort::hub,
                  0.95},
-        HiddenAt{"hub_inertia", {named("hub_inertia", {{"factor", 1.4}})}, ForcePort::hub, 0.95},
-        HiddenAt{"root_compliance",
-                 {named("root_compliance", {{"stiffness", 40.0}})},
-                 ForcePort::root,
-                 0.95},
-        HiddenAt{"attached_mass",
-                 {named("attached_mass", {{"mass", 0.02}, {"position", 0.5}})},
-                 ForcePort::beam,
-                 0.9},
+        kHubInertia, kRootCompliance, kAttachedMass,
         HiddenAt{"local_stiffness_loss",
                  {named("local_stiffness_loss", {{"stiffness", 40.0}, {"position", 0.5}})},
                  ForcePort::beam,
                  0.9},
         HiddenAt{
             "linear_density", {named("linear_density", {{"factor", 1.1}})}, ForcePort::beam, 0.95},
-        HiddenAt{"payload_mass", {named("payload_mass", {{"mass", 0.02}})}, ForcePort::tip, 0.95},
+        kPayloadMass,
         HiddenAt{"sensor_gain", on_gauge("sensor_gain", "factor", 0.8), ForcePort::sensor, 0.95},
-        HiddenAt{"sensor_delay", on_gauge("sensor_delay", "delay", 0.004), ForcePort::sensor,
-                 0.95}),
+        kSensorDelay),
     name_of);
 
 class PortOfHiddenInResponses : public testing::TestWithParam<HiddenAt> {};
@@ -159,22 +164,10 @@ TEST_P(PortOfHiddenInResponses, IsStatedAlone) {
   EXPECT_FALSE(found->size);  // it is per unit of torque
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Effects, PortOfHiddenInResponses,
-    testing::Values(
-        HiddenAt{"hub_inertia", {named("hub_inertia", {{"factor", 1.4}})}, ForcePort::hub, 0.95},
-        HiddenAt{"root_compliance",
-                 {named("root_compliance", {{"stiffness", 40.0}})},
-                 ForcePort::root,
-                 0.95},
-        HiddenAt{"attached_mass",
-                 {named("attached_mass", {{"mass", 0.02}, {"position", 0.5}})},
-                 ForcePort::beam,
-                 0.9},
-        HiddenAt{"payload_mass", {named("payload_mass", {{"mass", 0.02}})}, ForcePort::tip, 0.95},
-        HiddenAt{"sensor_delay", on_gauge("sensor_delay", "delay", 0.004), ForcePort::sensor,
-                 0.95}),
-    name_of);
+INSTANTIATE_TEST_SUITE_P(Effects, PortOfHiddenInResponses,
+                         testing::Values(kHubInertia, kRootCompliance, kAttachedMass, kPayloadMass,
+                                         kSensorDelay),
+                         name_of);
 
 TEST(MissingForce, OfResponsesIsNamedWhereTheCauseIsExcluded) {
   const Experiment experiment =

@@ -96,7 +96,7 @@ TEST(ModalOrders, ThatCannotBeAssignedExcludeTheRoot) {
   EXPECT_EQ(orders_of(table), std::vector<int>{1});
 }
 
-/// Real zeros of the tip count in the orders of predict_roots; a measured one is an antiresonance.
+/// Real zeros of the tip have no order: the first antiresonance has order 1.
 TEST(ModalOrders, OfTipZerosAreThoseOfThePrediction) {
   arm::Arm arm = trial_arm();
   arm.payload = {0.05, 1e-3};
@@ -108,9 +108,31 @@ TEST(ModalOrders, OfTipZerosAreThoseOfThePrediction) {
   ModalTable table = {
       {tip, Feature::zero, {}, first->imag() / (2.0 * std::numbers::pi), {}, {}, {}}};
   put_orders(arm, table);
+  EXPECT_EQ(table[0].order, 1);
   Eigen::VectorXd predicted_Hz(1);
   predict_roots(arm, table, predicted_Hz);
   EXPECT_NEAR(predicted_Hz(0) / *table[0].frequency_Hz, 1.0, 1e-9);
+}
+
+TEST(ModalOrders, AZeroOnTheRealAxisIsLeftOut) {
+  const arm::Sensor tip{arm::SensorKind::tip_acceleration, 0.0};
+  ModalTable table = {{std::nullopt, Feature::pole, 1, 12.0, {}, {}, {}},
+                      {tip, Feature::zero, 1, 30.0, {}, -1.0, {}}};
+  EXPECT_THAT(
+      put_orders(trial_arm(), table),
+      ElementsAre("tip_acceleration zero at 30 Hz excluded: with a damping ratio of -1 it is "
+                  "no antiresonance"));
+  EXPECT_EQ(table.size(), 1U);
+}
+
+TEST(ModalOrders, AnAntiresonanceThatTheArmDoesNotHaveIsRefused) {
+  // The zeros of a uniform beam's bare tip are real.
+  arm::Arm arm = trial_arm();
+  arm.payload = {};
+  const arm::Sensor tip{arm::SensorKind::tip_acceleration, 0.0};
+  const ModalTable table = {{tip, Feature::zero, 2, 30.0, {}, {}, {}}};
+  Eigen::VectorXd predicted_Hz(1);
+  EXPECT_THROW(predict_roots(arm, table, predicted_Hz), arm::InputError);
 }
 
 TEST(ModalOrders, AreAssignedWhenAnExperimentIsRead) {

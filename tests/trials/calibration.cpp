@@ -50,12 +50,11 @@ std::string reliability_table(const std::vector<TrialResult>& results) {
       "| --- | ---: | ---: | ---: |\n";
   for (int i = 0; i < Reliability::kBins; ++i) {
     const ReliabilityBin& bin = all.bins[static_cast<std::size_t>(i)];
+    if (bin.claims == 0) continue;
     const int width = 100 / Reliability::kBins;
-    const std::string mean =
-        bin.claims == 0 ? "-"
-                        : fmt::format("{:.0f} %", 100.0 * bin.sum_of_probabilities / bin.claims);
-    text += fmt::format("| {} to {} | {} | {} | {} |\n", width * i, width * (i + 1), bin.claims,
-                        mean, with_bounds(bin.right, bin.claims));
+    text += fmt::format("| {} to {} | {} | {:.0f} % | {} |\n", width * i, width * (i + 1),
+                        bin.claims, 100.0 * bin.sum_of_probabilities / bin.claims,
+                        with_bounds(bin.right, bin.claims));
   }
   return text;
 }
@@ -67,9 +66,11 @@ std::string coverage_table(const std::vector<TrialResult>& results) {
   };
   std::map<std::string, Counts> by_kind;
   for (const TrialResult& one : results) {
+    if (one.parameters == 0) continue;
     by_kind[one.kind].parameters += one.parameters;
     by_kind[one.kind].covered += one.covered;
   }
+  if (by_kind.empty()) return "No parameter of an identified effect.\n";
   std::string text = "| data | parameters | within 1.96 standard errors |\n| --- | ---: | ---: |\n";
   for (const auto& [kind, counts] : by_kind) {
     text += fmt::format("| {} | {} | {} |\n", kind, counts.parameters,

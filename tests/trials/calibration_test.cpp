@@ -7,6 +7,7 @@ namespace flexarm::trials {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 TrialResult claiming(std::vector<Claim> claims) {
   TrialResult one;
@@ -34,7 +35,7 @@ TEST(Reliability, TableStatesBounds) {
   const std::string table = reliability_table(results);
   EXPECT_THAT(table, HasSubstr("Brier score 0.003 over 60 identified effects."));
   EXPECT_THAT(table, HasSubstr("| 90 to 100 | 60 | 95 % | 100 % (95 to 100 %) |"));
-  EXPECT_THAT(table, HasSubstr("| 0 to 10 | 0 | - | - |"));
+  EXPECT_THAT(table, Not(HasSubstr("| 0 to 10 |")));
   EXPECT_EQ(reliability_table({}), "No effect identified.\n");
 }
 

@@ -16,6 +16,7 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 
 Truth truth_of(std::vector<std::string> hidden) {
   Truth truth;
@@ -186,6 +187,16 @@ TEST(Scorecard, HasALineAKindOfDirt) {
   const std::string card = scorecard({quiet, alarm});
   EXPECT_THAT(card, HasSubstr("| drift | 1/2 (50 %) | - |"));
   EXPECT_THAT(card, HasSubstr("### With dirt"));
+  EXPECT_THAT(card, HasSubstr("\n2 of them are recorded with dirt"));
+}
+
+TEST(Scorecard, HasNoSectionWithoutTrials) {
+  Truth truth = truth_of({});
+  truth.key.dirt = "drift";
+  const std::string card = scorecard({score(truth, answered("adequate"))});
+  EXPECT_THAT(card, Not(HasSubstr("## Wrong geometry")));
+  EXPECT_THAT(card, Not(HasSubstr("## Results by effect")));
+  EXPECT_THAT(card, HasSubstr("### Stated probabilities and intervals"));
 }
 
 TEST(Score, OutcomesAreReadBack) {
@@ -339,7 +350,7 @@ TEST(Scorecard, WrongGeometryIsATableOfItsOwn) {
   const std::string card = scorecard({one, crack});
   EXPECT_THAT(card, HasSubstr("| beam_length, size 0.02, noise 1 % | 1/2 (50 %) | 1/2 (50 %) | "
                               "1/2 (50 %) |"));
-  EXPECT_THAT(card, HasSubstr("\n0 simulated experiments"));
+  EXPECT_THAT(card, HasSubstr("\n2 simulated experiments"));
 }
 
 }  // namespace

@@ -24,7 +24,8 @@ constexpr const char* kIntroduction =
 Version: {}.
 
 {} simulated experiments on three arms: aluminium, steel, and a sandwich with low shear stiffness.
-The arm file given to `flexarm diagnose` lacks one or two effects, or none. `scripts/trials`
+{} of them are recorded with dirt and stand in a section of their own. The arm file given to
+`flexarm diagnose` lacks one to three effects, or none. `scripts/trials`
 generates the data with an independent simulator (`tests/trials`): its own finite elements,
 Newmark's method, and each effect implemented anew. It gives each diagnosis two minutes
 (`--time-limit`), after which that answers with the best so far.
@@ -69,9 +70,7 @@ nor the dirt.
 )";
 
 constexpr const char* kAboutReliability =
-    R"(## Stated probabilities and intervals
-
-Here an effect is correct only if it is the one present; members of its class do not count.
+    R"(Here an effect is correct only if it is the one present; members of its class do not count.
 
 )";
 
@@ -102,9 +101,10 @@ std::vector<Cell> cells_of(const Results& results) {
   return cells;
 }
 
-/// Those of `cells_of`, then the kinds together.
+/// Those of `cells_of`, then the kinds together where there are several.
 std::vector<Cell> cells_and_totals_of(const Results& results) {
   std::vector<Cell> cells = cells_of(results);
+  if (cells.size() == 1) return cells;
   std::map<double, Results> by_noise;
   for (const auto& one : results) by_noise[one.noise].push_back(one);
   for (auto& [noise, some] : by_noise) {
@@ -132,7 +132,8 @@ std::string summary_table(const std::vector<Cell>& cells) {
                        const std::function<std::string(const Results&)>& value) {
     std::vector<std::string> values;
     for (const Cell& cell : cells) values.push_back(value(cell.results));
-    text += row(name, values);
+    // A row without trials says nothing.
+    if (std::ranges::count(values, "-") < std::ssize(values)) text += row(name, values);
   };
   const auto of_effects = [&](const std::string& name, std::size_t effects, const Choice& choice) {
     add(name, [&, effects](const Results& all) {
@@ -244,7 +245,6 @@ bool is_faint(const TrialResult& one) {
 }
 
 std::string faint_table(const Results& faint) {
-  if (faint.empty()) return "No trials.\n";
   std::vector<std::string> titles;
   std::vector<std::string> found;
   std::vector<std::string> wrong;
@@ -304,7 +304,6 @@ bool is_ruler(const TrialResult& one) {
 /// A line a wrong number: how often it, or its class, is named within two standard errors, and how
 /// often a crack is.
 std::string ruler_table(const Results& ruler) {
-  if (ruler.empty()) return "No trials.\n";
   std::map<std::string, Results> by_effect;
   for (const TrialResult& one : ruler) {
     by_effect[fmt::format("{}, size {}, noise {:g} %", fmt::join(one.hidden, "+"), one.strength,
@@ -376,14 +375,28 @@ std::string scorecard(const Results& results) {
   const Results drawn = chosen(clean, [](const TrialResult& one) { return !is_ruler(one); });
   const Results faint = chosen(drawn, is_faint);
   const Results judged = chosen(drawn, [](const TrialResult& one) { return !is_faint(one); });
-  std::string text = fmt::format(kIntroduction, described(results.front().version), judged.size());
-  text += "\n" + summary_table(cells_and_totals_of(judged));
-  text += "\n## Results by effect\n\n" + confusion_table(judged);
-  text += "\n" + (kAboutReliability + reliability_table(judged)) + "\n" + coverage_table(judged);
-  text += "\n" + (kAboutRuler + ruler_table(ruler));
-  text += "\n" + (kAboutSmallest + smallest_table(drawn)) + "\nFaint effects:\n\n";
-  text += faint_table(faint) + "\n" + (kAboutDirt + dirt_table(dirty));
-  text += "\n## Failures\n\n" + failure_list(judged);
+  const std::string probabilities = "Stated probabilities and intervals\n\n";
+  const auto reliability = [](const Results& some) {
+    return kAboutReliability + reliability_table(some) + "\n" + coverage_table(some);
+  };
+  std::string text =
+      fmt::format(kIntroduction, described(results.front().version), results.size(), dirty.size());
+  if (!judged.empty()) {
+    text += "\n" + summary_table(cells_and_totals_of(judged));
+    text += "\n## Results by effect\n\n" + confusion_table(judged);
+    text += "\n## " + probabilities + reliability(judged);
+  }
+  if (!ruler.empty()) text += "\n" + (kAboutRuler + ruler_table(ruler));
+  const bool has_single =
+      std::ranges::any_of(drawn, [](const TrialResult& one) { return has_effects(one, 1); });
+  if (has_single) text += "\n" + (kAboutSmallest + smallest_table(drawn));
+  if (!faint.empty()) text += "\nFaint effects:\n\n" + faint_table(faint);
+  if (!dirty.empty()) {
+    text += "\n" + (kAboutDirt + dirt_table(dirty));
+    text += "\n### " + probabilities + reliability(dirty);
+  }
+  text += "\n## Failures\n";
+  if (!judged.empty()) text += "\n" + failure_list(judged);
   if (!dirty.empty()) text += "\n### With dirt\n\n" + failure_list(dirty);
   return text;
 }

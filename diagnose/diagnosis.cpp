@@ -39,7 +39,8 @@ std::vector<ChannelGain> channel_gains(const Problem& problem, const Eigen::Vect
     gains.push_back({experiment.runs[channel.run].run.id,
                      channel.sensor,
                      {relative_error(observations, experiment, channel, before),
-                      relative_error(observations, experiment, channel, after), channel.noise}});
+                      relative_error(observations, experiment, channel, after), channel.noise,
+                      channel.numerical_error}});
   }
   return gains;
 }
@@ -78,7 +79,7 @@ std::optional<RunDrift> drift_of(const Selection& selection, Verdict verdict,
 }
 
 Gain gain_between(const Misfit& before, const Misfit& after) {
-  return {before.relative_error, after.relative_error, before.noise_floor};
+  return {before.relative_error, after.relative_error, before.noise_floor, before.numerical_error};
 }
 
 /// Largest deviation of the torque's timing, and the run it is in.
@@ -120,10 +121,9 @@ void say_noise(const Problem& problem, std::vector<std::string>& notices) {
   const auto is_coloured = [](const ObservedChannel& channel) {
     return channel.autoregression.order() > 0;
   };
-  const auto strongest =
-      std::ranges::max_element(channels, {}, [&](const ObservedChannel& channel) {
-        return is_coloured(channel) ? channel.noise : 0.0;
-      });
+  const auto strongest = std::ranges::max_element(
+      channels, {},
+      [&](const ObservedChannel& channel) { return is_coloured(channel) ? channel.noise : 0.0; });
   notices.push_back(fmt::format(
       "the noise of {} of {} channels is coloured, up to {:.3g} % of the signal ({} of run {}): an "
       "autoregressive model of it was fitted to residuals that depend on no effect of the library",
@@ -288,9 +288,8 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
                             made.search_end ? SearchState::incomplete : SearchState::complete);
   made.estimation_test = extended.estimation_test;
   made.validation_test = extended.validation_test;
-  made.converged = std::ranges::all_of(judged, [](const JudgedSelection& one) {
-    return one.selection.chosen.fit.converged;
-  });
+  made.converged = std::ranges::all_of(
+      judged, [](const JudgedSelection& one) { return one.selection.chosen.fit.converged; });
   made.evaluations = selection.chosen.fit.evaluations;
   made.estimation = gain_between(as_filed.estimation, extended.estimation);
   if (as_filed.validation.count > 0.0) {
@@ -314,14 +313,13 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
   if (has_balance && made.symptoms.hub_torque.terms.empty()) {
     // A simulation that runs away shows nothing of the torque that it lacks.
     auto& statements = made.symptoms.statements;
-    std::erase_if(statements, [](const Symptom& symptom) {
-      return symptom.kind == SymptomKind::hub_torque;
-    });
+    std::erase_if(statements,
+                  [](const Symptom& symptom) { return symptom.kind == SymptomKind::hub_torque; });
     statements.push_back(balance_symptom(*predicted.balance));
     sort_by_significance(statements);
   }
-  made.refitted = refitted_numbers(problem.experiment().arm, chosen.nuisances,
-                                   least_errors(judged));
+  made.refitted =
+      refitted_numbers(problem.experiment().arm, chosen.nuisances, least_errors(judged));
   made.extended_arm = chosen.extend(problem.experiment().arm);
   made.extended_arm.relative_uncertainties = experiment.arm.relative_uncertainties;
   const bool is_open =

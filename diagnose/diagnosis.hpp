@@ -30,6 +30,7 @@ struct Gain {
   double before = 0.0;
   double after = 0.0;
   double noise_floor = 0.0;
+  double numerical_error = 0.0;  ///< of the simulation (ObservedChannel::numerical_error)
 };
 
 struct ChannelGain {

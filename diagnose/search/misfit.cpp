@@ -126,12 +126,14 @@ Misfit misfit(const Observations& observations, const Experiment& experiment,
     made.independent += independent(part, experiment.runs[channel.run].run.kind);
     made.relative_error += relative_error(observations, experiment, channel, residuals);
     made.noise_floor += channel.noise;
+    made.numerical_error += channel.numerical_error;
     if (experiment.runs[channel.run].run.kind == measured::RunKind::time) made.simulated += 1.0;
     channels += 1.0;
   }
   if (channels > 0.0) {
     made.relative_error /= channels;
     made.noise_floor /= channels;
+    made.numerical_error /= channels;
     made.simulated /= channels;
   }
   return made;

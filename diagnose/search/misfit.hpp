@@ -35,6 +35,7 @@ struct Misfit {
   /// relative error, and that which the noise alone would make.
   double relative_error = 0.0;
   double noise_floor = 0.0;
+  double numerical_error = 0.0;  ///< of the simulation, in the same measure
   double simulated = 0.0;  ///< part of the channels that are of `time` runs
 
   /// Uncertain numbers of the arm, and the squares of what they are off, in standard deviations.

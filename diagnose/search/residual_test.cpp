@@ -46,15 +46,18 @@ double bonferroni(double p_value, double tests) {
 }  // namespace
 
 double exceedance(double value, double n, double lambda) {
+  // Chernoff: P(chi^2_n < z n) <= exp(-n (z - 1 - ln z)/2) for z < 1, less with lambda. Beyond the
+  // rounding of 1 this is 1, and Boost's incomplete gamma function overflows for n above 3500.
+  const double z = std::max(value, 0.0) / n;
+  if (z == 0.0 || (z < 1.0 && 0.5 * n * (z - 1.0 - std::log(z)) > 40.0)) return 1.0;
   // Above this the series of the noncentral distribution is long, and Sankaran's normal
   // approximation [Sankaran1963] is good to 1e-4.
   constexpr double kLarge = 1e4;
   if (n + lambda <= kLarge) {
     if (lambda <= 0.0) {
-      return boost::math::cdf(complement(boost::math::chi_squared(n), std::max(0.0, value)));
+      return boost::math::cdf(complement(boost::math::chi_squared(n), value));
     }
-    return boost::math::cdf(
-        complement(boost::math::non_central_chi_squared(n, lambda), std::max(0.0, value)));
+    return boost::math::cdf(complement(boost::math::non_central_chi_squared(n, lambda), value));
   }
   const double sum = n + lambda;
   const double h = 1.0 - 2.0 * sum * (n + 3.0 * lambda) / (3.0 * std::pow(n + 2.0 * lambda, 2));

@@ -16,7 +16,10 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json gain_json(const diagnose::Gain& gain) {
-  return {{"before", gain.before}, {"after", gain.after}, {"noise_floor", gain.noise_floor}};
+  return {{"before", gain.before},
+          {"after", gain.after},
+          {"noise_floor", gain.noise_floor},
+          {"numerical_error", gain.numerical_error}};
 }
 
 Json cause_json(const diagnose::Cause& cause) {

@@ -95,6 +95,21 @@ std::string beyond_causes(const diagnose::Diagnosis& diagnosis) {
          "as well.";
 }
 
+/// Whether residuals at the floor are of the simulation, not of the sensors.
+bool is_numerical(const diagnose::Gain& gain) {
+  return gain.numerical_error > gain.noise_floor;
+}
+
+/// "the noise floor is 0.1 %, the numerical error of the simulation 0.5 %".
+std::string floor_of(const diagnose::Gain& gain) {
+  std::string text = fmt::format("the noise floor is {:.3g} %", 100.0 * gain.noise_floor);
+  if (is_numerical(gain)) {
+    text += fmt::format(", the numerical error of the simulation {:.3g} %",
+                        100.0 * gain.numerical_error);
+  }
+  return text;
+}
+
 std::vector<Cell> gain_row(const std::string& runs, const diagnose::Gain& gain) {
   return {runs, 100.0 * gain.before, 100.0 * gain.after, 100.0 * gain.noise_floor};
 }
@@ -124,8 +139,8 @@ std::string implausible_numbers_text(const diagnose::Diagnosis& diagnosis) {
   for (const auto& number : diagnosis.refitted) {
     if (std::abs(number.deviation) <= diagnose::kPlausibleDeviation) continue;
     numbers.push_back(fmt::format("{} = {:.5g} {} ({:.2g} standard deviations from {:.5g} {})",
-                                  number.key, number.value, number.unit,
-                                  std::abs(number.deviation), number.file_value, number.unit));
+                                  number.key, number.value, number.unit, std::abs(number.deviation),
+                                  number.file_value, number.unit));
   }
   if (numbers.empty()) return "";
   return fmt::format("Implausible after the fit: {}. Check the arm file first.",
@@ -135,15 +150,16 @@ std::string implausible_numbers_text(const diagnose::Diagnosis& diagnosis) {
 std::string verdict_text(const diagnose::Diagnosis& diagnosis) {
   const double before = 100.0 * diagnosis.estimation.before;
   const double after = 100.0 * diagnosis.estimation.after;
-  const double noise = 100.0 * diagnosis.estimation.noise_floor;
-  const std::string fall =
-      fmt::format("NRMSE {} from {:.3g} to {:.3g} %; the noise floor is {:.3g} %.",
-                  after <= before ? "falls" : "rises", before, after, noise);
+  const std::string floor = floor_of(diagnosis.estimation);
+  const std::string fall = fmt::format("NRMSE {} from {:.3g} to {:.3g} %; {}.",
+                                       after <= before ? "falls" : "rises", before, after, floor);
   switch (diagnosis.verdict) {
     case diagnose::Verdict::adequate:
-      return fmt::format(
-          "Adequate: the residuals are noise. NRMSE is {:.3g} %; the noise floor is {:.3g} %.",
-          before, noise);
+      return fmt::format("Adequate: the residuals are {}. NRMSE is {:.3g} %; {}.",
+                         is_numerical(diagnosis.estimation)
+                             ? "within the numerical error of the simulation"
+                             : "noise",
+                         before, floor);
     case diagnose::Verdict::explained:
       return fmt::format("Explained by {}: the residuals are noise. {}", explanation_of(diagnosis),
                          fall);
@@ -152,10 +168,9 @@ std::string verdict_text(const diagnose::Diagnosis& diagnosis) {
                          not_noise(diagnosis), beyond_causes(diagnosis));
     case diagnose::Verdict::unexplained:
       return fmt::format(
-          "Unexplained: no effect {} has a probability of {:g} or more. NRMSE is {:.3g} %; the "
-          "noise floor is {:.3g} %.{}",
+          "Unexplained: no effect {} has a probability of {:g} or more. NRMSE is {:.3g} %; {}.{}",
           diagnosis.search_end ? "that was tried" : "of the library", kLeastProbability, after,
-          noise, not_noise(diagnosis));
+          floor, not_noise(diagnosis));
   }
   return "";
 }
@@ -204,9 +219,10 @@ std::string predictor_text(const diagnose::Diagnosis& diagnosis) {
   const diagnose::DisturbanceGain& left = *diagnosis.disturbance;
   const std::string on_modes =
       left.modal_force_N_m > 0.0
-          ? fmt::format(" White forces of {:.2g} N m on the flexible modes make the data more "
-                        "likely: on the beam, too, the model lacks a force.",
-                        left.modal_force_N_m)
+          ? fmt::format(
+                " White forces of {:.2g} N m on the flexible modes make the data more "
+                "likely: on the beam, too, the model lacks a force.",
+                left.modal_force_N_m)
           : "";
   return named + on_modes +
          fmt::format(

@@ -50,6 +50,17 @@ Eigen::VectorXd residuals(Eigen::Index count, double correlation, unsigned seed)
   return made;
 }
 
+TEST(Exceedance, OfValuesFarBelowTheMeanIsOne) {
+  for (const double n : {100.0, 4000.0, 9999.0, 1e5}) {
+    for (const double lambda : {0.0, 10.0, 0.5 * n}) {
+      EXPECT_EQ(exceedance(0.0, n, lambda), 1.0);
+      EXPECT_EQ(exceedance(1e-10, n, lambda), 1.0) << n;
+      // Where the distribution itself is evaluated: P(chi^2_100 < 70) = 0.01.
+      EXPECT_NEAR(exceedance(0.7 * n, n, lambda), 1.0, 0.02) << n;
+    }
+  }
+}
+
 TEST(ResidualTest, AcceptsNoise) {
   // At the level 0.001 a rejection in 200 has probability 0.2; more than two 0.001.
   const Channels channels(measured::RunKind::frf, 4);

@@ -47,6 +47,17 @@ TEST(VerdictText, HasTheUncertainNumberThatExplainsTheDataInFront) {
   EXPECT_THAT(verdict_text(made), HasSubstr("NRMSE falls from 107 to 1 %"));
 }
 
+TEST(VerdictText, TellsTheNumericalErrorFromNoise) {
+  Diagnosis made = with_gain(Verdict::adequate);
+  EXPECT_THAT(verdict_text(made), StartsWith("Adequate: the residuals are noise."));
+  EXPECT_THAT(verdict_text(made), EndsWith("the noise floor is 1 %."));
+  made.estimation.numerical_error = 0.05;
+  EXPECT_THAT(verdict_text(made),
+              StartsWith("Adequate: the residuals are within the numerical error"));
+  EXPECT_THAT(verdict_text(made),
+              EndsWith("the noise floor is 1 %, the numerical error of the simulation 5 %."));
+}
+
 TEST(ImplausibleNumbersText, HasThoseBeyondThreeStandardDeviations) {
   Diagnosis made = with_gain(Verdict::partly_explained);
   made.refitted = {number("beam.length", 0.51, 0.0002), number("beam.thickness", 0.6, 0.001)};

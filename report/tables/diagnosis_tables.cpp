@@ -110,6 +110,28 @@ std::string floor_of(const diagnose::Gain& gain) {
   return text;
 }
 
+/// Why no effect is named.
+std::string no_name_reason(const diagnose::Diagnosis& diagnosis) {
+  const diagnose::SelectionOptions bars;
+  if (diagnosis.near_misses.empty() ||
+      diagnosis.near_misses.front().probability < bars.least_probability) {
+    return fmt::format("no effect that was tried has a probability of {:g} or more",
+                       bars.least_probability);
+  }
+  const diagnose::NearMiss& best = diagnosis.near_misses.front();
+  const std::string named = fmt::format("no effect is identified. The most probable, {} ({:.2g}),",
+                                        best.effects, best.probability);
+  if (best.share < bars.least_share) {
+    return fmt::format("{} explains {:.0f} % of the excess residual; {:.0f} % are required", named,
+                       100.0 * best.share, 100.0 * bars.least_share);
+  }
+  if (best.error > bars.largest_error_left) {
+    return fmt::format("{} leaves a simulation with an NRMSE of {:.3g} %", named,
+                       100.0 * best.error);
+  }
+  return named + " has a parameter that the data do not determine, or fails on validation runs";
+}
+
 std::vector<Cell> gain_row(const std::string& runs, const diagnose::Gain& gain) {
   return {runs, 100.0 * gain.before, 100.0 * gain.after, 100.0 * gain.noise_floor};
 }
@@ -167,10 +189,8 @@ std::string verdict_text(const diagnose::Diagnosis& diagnosis) {
       return fmt::format("Partly explained by {}. {}{}{}", explanation_of(diagnosis), fall,
                          not_noise(diagnosis), beyond_causes(diagnosis));
     case diagnose::Verdict::unexplained:
-      return fmt::format(
-          "Unexplained: no effect {} has a probability of {:g} or more. NRMSE is {:.3g} %; {}.{}",
-          diagnosis.search_end ? "that was tried" : "of the library", kLeastProbability, after,
-          floor, not_noise(diagnosis));
+      return fmt::format("Unexplained: {}. NRMSE is {:.3g} %; {}.{}", no_name_reason(diagnosis),
+                         after, floor, not_noise(diagnosis));
   }
   return "";
 }

@@ -58,6 +58,19 @@ TEST(VerdictText, TellsTheNumericalErrorFromNoise) {
               EndsWith("the noise floor is 1 %, the numerical error of the simulation 5 %."));
 }
 
+TEST(VerdictText, SaysWhyAProbableEffectIsNotNamed) {
+  Diagnosis made = with_gain(Verdict::unexplained);
+  EXPECT_THAT(
+      verdict_text(made),
+      StartsWith("Unexplained: no effect that was tried has a probability of 0.5 or more."));
+  made.near_misses = {{"air_damping", 0.91, 0.004, 523.0, 0.985}};
+  EXPECT_THAT(verdict_text(made),
+              StartsWith("Unexplained: no effect is identified. The most probable, air_damping "
+                         "(0.91), explains 0 % of the excess residual; 50 % are required."));
+  made.near_misses.front().share = 0.9;
+  EXPECT_THAT(verdict_text(made), HasSubstr("leaves a simulation with an NRMSE of 98.5 %."));
+}
+
 TEST(ImplausibleNumbersText, HasThoseBeyondThreeStandardDeviations) {
   Diagnosis made = with_gain(Verdict::partly_explained);
   made.refitted = {number("beam.length", 0.51, 0.0002), number("beam.thickness", 0.6, 0.001)};

@@ -291,16 +291,35 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
   made.converged = std::ranges::all_of(
       judged, [](const JudgedSelection& one) { return one.selection.chosen.fit.converged; });
   made.evaluations = selection.chosen.fit.evaluations;
-  made.estimation = gain_between(as_filed.estimation, extended.estimation);
-  if (as_filed.validation.count > 0.0) {
-    made.validation = gain_between(as_filed.validation, extended.validation);
-  }
+  arm::Arm arm_of_effects = chosen.extend(problem.experiment().arm);
+  arm_of_effects.relative_uncertainties = experiment.arm.relative_uncertainties;
+  const bool is_open =
+      made.verdict == Verdict::unexplained || made.verdict == Verdict::partly_explained;
+  const bool has_balance = predicted.balance && !is_over(options.deadline);
+  if (has_balance && is_open) made.empirical_law = predicted.law_beside_causes();
+  made.extended_arm =
+      made.empirical_law ? with_law(arm_of_effects, *made.empirical_law) : arm_of_effects;
   // Of all runs: those that were fitted and those that were held out.
   const Eigen::VectorXd residuals_before = as_filed.fit.residuals + as_filed.held_out;
-  const Eigen::VectorXd residuals_after = extended.fit.residuals + extended.held_out;
+  const Eigen::VectorXd residuals_of_effects = extended.fit.residuals + extended.held_out;
+  const Eigen::VectorXd residuals_after =
+      made.empirical_law ? problem
+                               .residuals(made.extended_arm, chosen.nuisances,
+                                          std::vector<bool>(problem.experiment().runs.size(), true))
+                               .value_or(residuals_of_effects)
+                         : residuals_of_effects;
+  const auto gain = [&](const std::vector<bool>& runs) {
+    const auto of = [&](const Eigen::VectorXd& residuals) {
+      return misfit(problem.observations(), problem.experiment(), residuals, runs);
+    };
+    return gain_between(of(residuals_before), of(residuals_after));
+  };
+  made.estimation = gain(problem.estimation_runs());
+  if (as_filed.validation.count > 0.0) made.validation = gain(problem.validation_runs());
   made.channels = channel_gains(problem, residuals_before, residuals_after);
   const Eigen::VectorXd before = to_errors(problem.observations(), residuals_before);
   const Eigen::VectorXd after = to_errors(problem.observations(), residuals_after);
+  const Eigen::VectorXd errors_of_effects = to_errors(problem.observations(), residuals_of_effects);
   made.overlays = overlays(problem.observations(), before, after);
   std::optional<RunDrift> drift;
   if (!is_over(options.deadline)) {
@@ -309,7 +328,6 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
     drift = drift_of(leading.selection, made.verdict, leading.causes());
   }
   made.symptoms = symptoms_of({problem, before, after, chosen}, std::move(drift));
-  const bool has_balance = predicted.balance && !is_over(options.deadline);
   if (has_balance && made.symptoms.hub_torque.terms.empty()) {
     // A simulation that runs away shows nothing of the torque that it lacks.
     auto& statements = made.symptoms.statements;
@@ -320,14 +338,8 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
   }
   made.refitted =
       refitted_numbers(problem.experiment().arm, chosen.nuisances, least_errors(judged));
-  made.extended_arm = chosen.extend(problem.experiment().arm);
-  made.extended_arm.relative_uncertainties = experiment.arm.relative_uncertainties;
-  const bool is_open =
-      made.verdict == Verdict::unexplained || made.verdict == Verdict::partly_explained;
-  if (has_balance && is_open) made.empirical_law = predicted.law_beside_causes();
   // Seconds, and of most use where the time was too short for a name.
-  if (is_open) made.missing_force = missing_force(problem, made.extended_arm, after);
-  if (made.empirical_law) made.extended_arm = with_law(made.extended_arm, *made.empirical_law);
+  if (is_open) made.missing_force = missing_force(problem, arm_of_effects, errors_of_effects);
   const Problem& filtered = predicted.balance ? *predicted.balance : selection.problem;
   if (filtered.predictor().noise() && !is_over(options.deadline)) {
     made.prediction_errors = prediction_errors(filtered, experiment.arm, made.extended_arm);

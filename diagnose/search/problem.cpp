@@ -133,8 +133,8 @@ std::optional<Problem> Problem::with_coloured_noise(const Candidate& candidate) 
     const double seen = std::sqrt(own.squaredNorm() / static_cast<double>(channel.count));
     if (!(seen > 0.0)) continue;
     const double floor = seen * channel.floor();
-    channel.noise = std::sqrt(std::max(kLeastNoise * kLeastNoise,
-                                       floor * floor - std::pow(channel.numerical_error, 2)));
+    channel.noise = std::sqrt(
+        std::max(kLeastNoise * kLeastNoise, floor * floor - std::pow(channel.numerical_error, 2)));
     made.observations_.deviations.segment(channel.first, channel.count) *= seen;
     own /= seen;
     channel.autoregression = Autoregression(own, kMostOrder);
@@ -191,9 +191,20 @@ Eigen::Index Problem::residual_count() const {
 
 std::optional<Eigen::VectorXd> Problem::residuals(const Candidate& candidate,
                                                   const std::vector<bool>& runs) const {
+  try {
+    return residuals(candidate.extend(experiment_->arm), candidate.nuisances, runs);
+  } catch (const std::runtime_error&) {
+    // An arm that is none.
+    return std::nullopt;
+  }
+}
+
+std::optional<Eigen::VectorXd> Problem::residuals(const arm::Arm& arm,
+                                                  const std::vector<double>& nuisances,
+                                                  const std::vector<bool>& runs) const {
   Eigen::VectorXd made;
   try {
-    made = predictor_.residuals(candidate.extend(experiment_->arm), runs);
+    made = predictor_.residuals(arm, runs);
   } catch (const std::runtime_error&) {
     // An arm that is none, or whose equations no step solves.
     return std::nullopt;
@@ -202,9 +213,9 @@ std::optional<Eigen::VectorXd> Problem::residuals(const Candidate& candidate,
     if (!runs[channel.run]) made.segment(channel.first, channel.count).setZero();
   }
   to_residuals(observations_, made);
-  const auto displaced = static_cast<Eigen::Index>(candidate.nuisances.size());
+  const auto displaced = static_cast<Eigen::Index>(nuisances.size());
   made.conservativeResizeLike(Eigen::VectorXd::Zero(residual_count()));
-  made.tail(displaced) = Eigen::VectorXd::Map(candidate.nuisances.data(), displaced);
+  made.tail(displaced) = Eigen::VectorXd::Map(nuisances.data(), displaced);
   if (!made.allFinite()) return std::nullopt;
   return made;
 }

@@ -63,9 +63,9 @@ class Problem {
   bool lower_noise(const Candidate& candidate);
   static constexpr double kLower = 0.05;
 
-  /// With the noise of `time` channels that is what a candidate leaves, white or not: its power, and
-  /// its autoregression up to order `kMostOrder`. Empty for a candidate that cannot be computed. The
-  /// residuals are those of generalised least squares.
+  /// With the noise of `time` channels that is what a candidate leaves, white or not: its power,
+  /// and its autoregression up to order `kMostOrder`. Empty for a candidate that cannot be
+  /// computed. The residuals are those of generalised least squares.
   std::optional<Problem> with_coloured_noise(const Candidate& candidate) const;
   static constexpr int kMostOrder = 40;
   bool has_coloured_noise() const;
@@ -76,17 +76,20 @@ class Problem {
   bool estimate_noise(const Candidate& candidate, std::function<void()> go_on = {});
   static constexpr double kMoreLikely = 2.0;
   /// With a noise model: the disturbance that a candidate leaves in these runs.
-  DisturbanceLeft disturbance_left(const Candidate& candidate,
-                                   const std::vector<bool>& runs) const;
+  DisturbanceLeft disturbance_left(const Candidate& candidate, const std::vector<bool>& runs) const;
 
   /// The arm as its file describes it, without effects.
   Candidate as_filed() const;
 
-  /// (measured - predicted)/deviation of the runs' numbers, whitened (observations.hpp); 0 for those
-  /// of other runs; behind them the candidate's nuisances, which are what the file says of the arm's
-  /// uncertain numbers in standard deviations. Empty where the candidate's arm cannot be computed. Concurrent calls are
-  /// safe.
+  /// (measured - predicted)/deviation of the runs' numbers, whitened (observations.hpp); 0 for
+  /// those of other runs; behind them the candidate's nuisances, which are what the file says of
+  /// the arm's uncertain numbers in standard deviations. Empty where the candidate's arm cannot be
+  /// computed. Concurrent calls are safe.
   std::optional<Eigen::VectorXd> residuals(const Candidate& candidate,
+                                           const std::vector<bool>& runs) const;
+  /// The same of an arm, with the nuisances that it was made with.
+  std::optional<Eigen::VectorXd> residuals(const arm::Arm& arm,
+                                           const std::vector<double>& nuisances,
                                            const std::vector<bool>& runs) const;
   Eigen::Index residual_count() const;
 

@@ -173,8 +173,9 @@ std::string verdict_text(const diagnose::Diagnosis& diagnosis) {
   const double before = 100.0 * diagnosis.estimation.before;
   const double after = 100.0 * diagnosis.estimation.after;
   const std::string floor = floor_of(diagnosis.estimation);
-  const std::string fall = fmt::format("NRMSE {} from {:.3g} to {:.3g} %; {}.",
-                                       after <= before ? "falls" : "rises", before, after, floor);
+  const std::string fall =
+      fmt::format("NRMSE {} from {:.3g} to {:.3g} %{}; {}.", after <= before ? "falls" : "rises",
+                  before, after, diagnosis.empirical_law ? " with the empirical law" : "", floor);
   switch (diagnosis.verdict) {
     case diagnose::Verdict::adequate:
       return fmt::format("Adequate: the residuals are {}. NRMSE is {:.3g} %; {}.",
@@ -189,8 +190,10 @@ std::string verdict_text(const diagnose::Diagnosis& diagnosis) {
       return fmt::format("Partly explained by {}. {}{}{}", explanation_of(diagnosis), fall,
                          not_noise(diagnosis), beyond_causes(diagnosis));
     case diagnose::Verdict::unexplained:
-      return fmt::format("Unexplained: {}. NRMSE is {:.3g} %; {}.{}", no_name_reason(diagnosis),
-                         after, floor, not_noise(diagnosis));
+      return fmt::format(
+          "Unexplained: {}. {}{}", no_name_reason(diagnosis),
+          diagnosis.empirical_law ? fall : fmt::format("NRMSE is {:.3g} %; {}.", after, floor),
+          not_noise(diagnosis));
   }
   return "";
 }

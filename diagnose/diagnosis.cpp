@@ -300,8 +300,12 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
   const Eigen::VectorXd residuals_before = as_filed.fit.residuals + as_filed.held_out;
   const Eigen::VectorXd residuals_after = extended.fit.residuals + extended.held_out;
   made.channels = channel_gains(problem, residuals_before, residuals_after);
-  const Eigen::VectorXd before = to_errors(problem.observations(), residuals_before);
-  const Eigen::VectorXd after = to_errors(problem.observations(), residuals_after);
+  const auto errors_of = [&problem](const Eigen::VectorXd& residuals) {
+    return with_expected_errors(problem.observations(),
+                                to_errors(problem.observations(), residuals));
+  };
+  const Eigen::VectorXd before = errors_of(residuals_before);
+  const Eigen::VectorXd after = errors_of(residuals_after);
   made.overlays = overlays(problem.observations(), before, after);
   std::optional<RunDrift> drift;
   if (!is_over(options.deadline)) {

@@ -1,5 +1,7 @@
 #include "diagnose/autoregression.hpp"
 
+#include <Eigen/Cholesky>
+
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -80,6 +82,63 @@ void Autoregression::colour(Eigen::Ref<Eigen::VectorXd> values) const {
   if (order() == 0) return;
   for (Index k = 0; k < values.size(); ++k) {
     values(k) = values(k) * deviation(k) + predicted(values, k);
+  }
+}
+
+Eigen::VectorXd Autoregression::whitened_impulse(Index k, Index n) const {
+  Eigen::VectorXd made(std::min<Index>(order() + 1, n - k));
+  made(0) = 1.0 / deviation(k);
+  for (Index i = 1; i < made.size(); ++i) {
+    const Index m = std::min<Index>(k + i, order());
+    made(i) = predictors_[static_cast<std::size_t>(m - 1)](i - 1) / deviation(k + i);
+  }
+  return made;
+}
+
+void Autoregression::whiten(Eigen::Ref<Eigen::VectorXd> values,
+                            const std::vector<std::size_t>& left_out) const {
+  for (const std::size_t k : left_out) values(static_cast<Index>(k)) = 0.0;
+  whiten(values);
+  // Impulses further apart than the order do not overlap: each group by itself.
+  for (auto first = left_out.begin(); first != left_out.end() && order() > 0;) {
+    auto last = first + 1;
+    while (last != left_out.end() && *last <= *(last - 1) + static_cast<std::size_t>(order())) {
+      ++last;
+    }
+    const auto begin = static_cast<Index>(*first);
+    const auto end = std::min<Index>(values.size(), static_cast<Index>(*(last - 1)) + order() + 1);
+    Eigen::MatrixXd impulses = Eigen::MatrixXd::Zero(end - begin, last - first);
+    for (auto k = first; k != last; ++k) {
+      const Eigen::VectorXd own = whitened_impulse(static_cast<Index>(*k), values.size());
+      impulses.col(k - first).segment(static_cast<Index>(*k) - begin, own.size()) = own;
+    }
+    auto reached = values.segment(begin, end - begin);
+    const Eigen::MatrixXd products = impulses.transpose() * impulses;
+    const Eigen::VectorXd along = impulses.transpose() * reached;
+    reached -= impulses * Eigen::LDLT<Eigen::MatrixXd>(products).solve(along);
+    first = last;
+  }
+}
+
+void Autoregression::fill(Eigen::Ref<Eigen::VectorXd> values,
+                          const std::vector<std::size_t>& left_out) const {
+  if (left_out.empty()) return;
+  Eigen::VectorXd filled = values;
+  whiten(filled, left_out);
+  colour(filled);
+  for (const std::size_t k : left_out) {
+    values(static_cast<Index>(k)) = filled(static_cast<Index>(k));
+  }
+}
+
+void fill_by_autoregression(Eigen::Ref<Eigen::VectorXd> values,
+                            const std::vector<std::size_t>& left_out, int most_order) {
+  constexpr int kRounds = 3;
+  for (const std::size_t k : left_out) values(static_cast<Index>(k)) = 0.0;
+  for (int round = 0; round < kRounds && !left_out.empty(); ++round) {
+    const double size = values.norm() / std::sqrt(static_cast<double>(values.size()));
+    if (!(size > 0.0)) return;
+    Autoregression(values / size, most_order).fill(values, left_out);
   }
 }
 

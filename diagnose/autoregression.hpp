@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 
+#include <cstddef>
 #include <vector>
 
 namespace flexarm::diagnose {
@@ -35,12 +36,27 @@ class Autoregression {
   /// The inverse of `whiten`.
   void colour(Eigen::Ref<Eigen::VectorXd> values) const;
 
+  /// The same of numbers of which those at `left_out`, ascending, are not known: they are taken for
+  /// the most likely ones beside the others. The squares are then those of the others alone, with
+  /// `left_out.size()` degrees of freedom less, as by generalised least squares without them; where
+  /// the noise is white, 0 in their places.
+  void whiten(Eigen::Ref<Eigen::VectorXd> values, const std::vector<std::size_t>& left_out) const;
+  /// Puts the most likely numbers in the places `left_out`.
+  void fill(Eigen::Ref<Eigen::VectorXd> values, const std::vector<std::size_t>& left_out) const;
+
  private:
   double predicted(const Eigen::Ref<const Eigen::VectorXd>& values, Eigen::Index k) const;
   double deviation(Eigen::Index k) const;
+  /// What `whiten` makes of a 1 at place k of n numbers, from there on.
+  Eigen::VectorXd whitened_impulse(Eigen::Index k, Eigen::Index n) const;
 
   std::vector<Eigen::VectorXd> predictors_;  // a_1 ... a_m for m = 1 ... p
   std::vector<double> deviations_;           // of what is left after m numbers, m = 1 ... p
 };
+
+/// Numbers of which those at `left_out` are not known, with these filled in by the autoregression
+/// of all of them, up to order `most_order`: in a few rounds, in which either is known better.
+void fill_by_autoregression(Eigen::Ref<Eigen::VectorXd> values,
+                            const std::vector<std::size_t>& left_out, int most_order);
 
 }  // namespace flexarm::diagnose

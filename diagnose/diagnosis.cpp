@@ -302,12 +302,12 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
   // Of all runs: those that were fitted and those that were held out.
   const Eigen::VectorXd residuals_before = as_filed.fit.residuals + as_filed.held_out;
   const Eigen::VectorXd residuals_of_effects = extended.fit.residuals + extended.held_out;
-  const Eigen::VectorXd residuals_after =
-      made.empirical_law ? problem
-                               .residuals(made.extended_arm, chosen.nuisances,
-                                          std::vector<bool>(problem.experiment().runs.size(), true))
-                               .value_or(residuals_of_effects)
-                         : residuals_of_effects;
+  Eigen::VectorXd residuals_after = residuals_of_effects;
+  if (made.empirical_law) {
+    const std::vector<bool> all_runs(problem.experiment().runs.size(), true);
+    residuals_after = problem.residuals(made.extended_arm, chosen.nuisances, all_runs)
+                          .value_or(residuals_of_effects);
+  }
   const auto gain = [&](const std::vector<bool>& runs) {
     const auto of = [&](const Eigen::VectorXd& residuals) {
       return misfit(problem.observations(), problem.experiment(), residuals, runs);
@@ -317,9 +317,13 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
   made.estimation = gain(problem.estimation_runs());
   if (as_filed.validation.count > 0.0) made.validation = gain(problem.validation_runs());
   made.channels = channel_gains(problem, residuals_before, residuals_after);
-  const Eigen::VectorXd before = to_errors(problem.observations(), residuals_before);
-  const Eigen::VectorXd after = to_errors(problem.observations(), residuals_after);
-  const Eigen::VectorXd errors_of_effects = to_errors(problem.observations(), residuals_of_effects);
+  const auto errors_of = [&problem](const Eigen::VectorXd& residuals) {
+    return with_expected_errors(problem.observations(),
+                                to_errors(problem.observations(), residuals));
+  };
+  const Eigen::VectorXd before = errors_of(residuals_before);
+  const Eigen::VectorXd after = errors_of(residuals_after);
+  const Eigen::VectorXd errors_of_effects = errors_of(residuals_of_effects);
   made.overlays = overlays(problem.observations(), before, after);
   std::optional<RunDrift> drift;
   if (!is_over(options.deadline)) {

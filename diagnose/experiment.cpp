@@ -32,7 +32,7 @@ bool is_constant(const measured::TimeRecord& record, const std::string& name) {
          });
 }
 
-/// Leaves dead channels out; throws InputError where nothing usable is left.
+/// Leaves dead channels and outliers out; throws InputError where nothing usable is left.
 void keep_usable(Experiment& experiment, measured::MeasuredRun& run, const std::string& file,
                  const std::vector<measured::Fault>& accepted) {
   auto& record = std::get<measured::TimeRecord>(run.data);
@@ -63,6 +63,13 @@ void keep_usable(Experiment& experiment, measured::MeasuredRun& run, const std::
     if (is_dead && why.empty()) why = finding.text;
     experiment.notices.push_back(fmt::format("run {}: {}{}: {}", run.run.id, finding.channel,
                                              is_dead ? " excluded" : "", finding.text));
+  }
+  for (const measured::DataFinding& finding : findings) {
+    const std::size_t outliers = measured::leave_out_spikes(record, finding);
+    if (outliers == 0) continue;
+    experiment.notices.push_back(
+        fmt::format("{} of {} readings of {} in run {} are outliers and are left out", outliers,
+                    record.time_s.size(), finding.channel, run.run.id));
   }
   measured::leave_out_dead_channels(record, findings);
   if (record.channels.empty()) {

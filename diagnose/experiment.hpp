@@ -51,7 +51,8 @@ Experiment with_hold(Experiment experiment, measured::TorqueHold hold);
 
 /// Reads the measurement, its arm and the files of its runs.
 ///
-/// Channels that are dead are left out, with a notice. A finding of the data checks `accepted` has
+/// Channels that are dead are left out, with a notice, and so are readings that are outliers
+/// (measured::leave_out_spikes). A finding of the data checks `accepted` has
 /// no such consequence, and is among Experiment::accepted in the place of the notices. Where no run
 /// is for validation the conditions (payload, kind, torque) are split, with a notice
 /// (`split_purposes`). Long runs are cut, with notices (diagnose/long_runs.hpp). Entries of modal

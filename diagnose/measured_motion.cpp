@@ -67,60 +67,63 @@ Sparse differences_of(Index samples, int order, BeforeFirst before) {
 /// Penalised least squares with any penalty.
 class PenalisedFit {
  public:
-  PenalisedFit(const Eigen::VectorXd& readings, Sparse differences)
-      : readings_(readings),
+  /// `weights` are 1, or 0 for readings that are left out.
+  PenalisedFit(const Eigen::VectorXd& readings, const Eigen::VectorXd& weights, Sparse differences)
+      : readings_(readings.cwiseProduct(weights)),
+        weights_(weights),
         differences_(std::move(differences)),
         squares_(differences_.transpose() * differences_),
-        identity_(readings.size(), readings.size()) {
-    identity_.setIdentity();
-    solver_->analyzePattern(identity_ + squares_);
+        freedom_(static_cast<double>(differences_.rows() - weights.size()) + weights.sum()) {
+    solver_->analyzePattern(weighed() + squares_);
   }
 
   /// -2 ln of the restricted likelihood, up to a constant, with the most likely noise.
   double minus_two_log_likelihood(double log_penalty) {
     take(std::exp(log_penalty));
     const auto rank = static_cast<double>(differences_.rows());
-    return rank * std::log(variance()) + solver_->vectorD().array().log().sum() -
+    return freedom_ * std::log(variance()) + solver_->vectorD().array().log().sum() -
            rank * log_penalty;
   }
   void take(double penalty) {
     penalty_ = penalty;
-    solver_->factorize(identity_ + penalty * squares_);
+    solver_->factorize(weighed() + penalty * squares_);
     values_ = solved(readings_);
   }
   const Eigen::VectorXd& values() const { return values_; }
   double variance() const {
-    const double squares =
-        (readings_ - values_).squaredNorm() + penalty_ * (differences_ * values_).squaredNorm();
+    const double squares = (readings_ - weights_.cwiseProduct(values_)).squaredNorm() +
+                           penalty_ * (differences_ * values_).squaredNorm();
     const double least = kLeastVariance * readings_.squaredNorm();
-    return std::max({squares, least, std::numeric_limits<double>::min()}) /
-           static_cast<double>(differences_.rows());
+    return std::max({squares, least, std::numeric_limits<double>::min()}) / freedom_;
   }
-  /// Of the values' error, whose covariance is variance (1 + mu D^T D)^-1.
+  /// Of the values' error, whose covariance is variance (W + mu D^T D)^-1, W the weights.
   Eigen::VectorXd draw(response::RandomNumbers& random) const {
     const auto normal = [&random] { return random.normal(); };
     const Eigen::VectorXd of_readings = Eigen::VectorXd::NullaryExpr(readings_.size(), normal);
     const Eigen::VectorXd of_differences =
         Eigen::VectorXd::NullaryExpr(differences_.rows(), normal);
-    const Eigen::VectorXd both =
-        of_readings + std::sqrt(penalty_) * (differences_.transpose() * of_differences);
+    const Eigen::VectorXd both = weights_.cwiseProduct(of_readings) +
+                                 std::sqrt(penalty_) * (differences_.transpose() * of_differences);
     return std::sqrt(variance()) * solved(both);
   }
 
  private:
+  Sparse weighed() const { return Sparse(weights_.asDiagonal()); }
   Eigen::VectorXd solved(const Eigen::VectorXd& right) const {
     Eigen::VectorXd made = solver_->solve(right);
     for (int i = 0; i < kRefinements; ++i) {
       const Eigen::VectorXd bent = differences_ * made;
-      made += solver_->solve(right - made - penalty_ * (differences_.transpose() * bent));
+      made += solver_->solve(right - weights_.cwiseProduct(made) -
+                             penalty_ * (differences_.transpose() * bent));
     }
     return made;
   }
 
-  Eigen::VectorXd readings_;
+  Eigen::VectorXd readings_;  // 0 where they are left out
+  Eigen::VectorXd weights_;
   Sparse differences_;
   Sparse squares_;
-  Sparse identity_;
+  double freedom_;
   std::unique_ptr<Solver> solver_ = std::make_unique<Solver>();  // which is not copied
   double penalty_ = 0.0;
   Eigen::VectorXd values_;
@@ -194,18 +197,20 @@ PrescribedMotion motion_by_angles(const std::vector<double>& angles, double peri
 }  // namespace
 
 SmoothedReadings smooth(const std::vector<double>& readings, int differences, BeforeFirst before,
-                        std::uint64_t seed) {
+                        std::uint64_t seed, const std::vector<std::size_t>& left_out) {
   const Eigen::VectorXd as_read = Eigen::VectorXd::Map(readings.data(), std::ssize(readings));
   const Sparse plain = differences_of(as_read.size(), differences, before);
   response::RandomNumbers random(seed);
-  PenalisedFit fit(as_read, plain);
+  Eigen::VectorXd weights = Eigen::VectorXd::Ones(as_read.size());
+  for (const std::size_t k : left_out) weights(static_cast<Index>(k)) = 0.0;
+  PenalisedFit fit(as_read, weights, plain);
   double log_penalty = likely_log_penalty(fit);
   fit.take(std::exp(log_penalty));
   Eigen::VectorXd error = fit.draw(random);
   for (int pass = 0; pass < kWeightPasses; ++pass) {
     const Eigen::VectorXd squares =
         (plain * fit.values()).cwiseAbs2() + (plain * error).cwiseAbs2();
-    fit = PenalisedFit(as_read, Sparse(relative_weights(squares).asDiagonal() * plain));
+    fit = PenalisedFit(as_read, weights, Sparse(relative_weights(squares).asDiagonal() * plain));
     log_penalty = likely_log_penalty(fit);
     fit.take(std::exp(log_penalty));
     error = fit.draw(random);
@@ -217,8 +222,8 @@ SmoothedReadings smooth(const std::vector<double>& readings, int differences, Be
           {error.begin(), error.end()}};
 }
 
-MeasuredMotion motion_of_hub(const arm::Sensor& sensor, const std::vector<double>& values,
-                             double period_s, bool from_rest) {
+MeasuredMotion motion_of_hub(const measured::Channel& read, double period_s, bool from_rest) {
+  const auto& [sensor, values, left_out] = read;
   if (values.size() < kFewestReadings) {
     throw arm::InputError(fmt::format("{}: {} samples; the motion of the hub needs {} or more",
                                       arm::to_string(sensor), values.size(), kFewestReadings));
@@ -227,7 +232,7 @@ MeasuredMotion motion_of_hub(const arm::Sensor& sensor, const std::vector<double
   const bool is_angle = sensor.kind == arm::SensorKind::hub_angle;
   BeforeFirst before = BeforeFirst::unknown;
   if (from_rest) before = is_angle ? BeforeFirst::same : BeforeFirst::zero;
-  SmoothedReadings smoothed = smooth(values, is_angle ? 3 : 2, before, kSeed);
+  SmoothedReadings smoothed = smooth(values, is_angle ? 3 : 2, before, kSeed, left_out);
   if (!is_angle) {
     smoothed.values = integral_of(smoothed.values, period_s);
     smoothed.error = integral_of(smoothed.error, period_s);

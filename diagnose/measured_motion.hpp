@@ -22,10 +22,11 @@ struct PrescribedMotion {
 ///
 ///     sum (reading - value)^2 + mu sum (w d-th difference of the values)^2
 ///
-/// least. They are the most likely ones where the noise is white and the differences are, of
-/// standard deviations s and s/(w sqrt(mu)). s and mu are those of the restricted likelihood
-/// [PattersonThompson1971]; the weights w follow the local size of the differences: a hub moves and
-/// rests. The filter has no delay, and passes what stands out of the noise.
+/// least, the sum being over the readings that are not left out. They are the most likely ones
+/// where the noise is white and the differences are, of standard deviations s and s/(w sqrt(mu)). s
+/// and mu are those of the restricted likelihood [PattersonThompson1971]; the weights w follow the
+/// local size of the differences: a hub moves and rests. The filter has no delay, and passes what
+/// stands out of the noise.
 struct SmoothedReadings {
   std::vector<double> values;
   double noise = 0.0;    ///< s, in the unit of the readings
@@ -39,9 +40,9 @@ struct SmoothedReadings {
 enum class BeforeFirst { unknown, same, zero };
 
 /// `differences` d is 1 or more and below the number of readings. The time it takes is proportional
-/// to that. `seed` is that of the draw.
+/// to that. `seed` is that of the draw. Readings at `left_out` have no weight.
 SmoothedReadings smooth(const std::vector<double>& readings, int differences, BeforeFirst before,
-                        std::uint64_t seed);
+                        std::uint64_t seed, const std::vector<std::size_t>& left_out = {});
 
 /// How the hub moved in a `time` run by one of its sensors.
 struct MeasuredMotion {
@@ -51,12 +52,11 @@ struct MeasuredMotion {
   PrescribedMotion error;  ///< a draw of what may be wrong with it
 };
 
-/// `values` are readings of a hub angle or velocity, without what its chain does to them, a value
+/// `read` are readings of a hub angle or velocity, without what its chain does to them, a value
 /// every `period_s`, from rest or in the midst of a motion. An angle has white third differences
 /// (jumps of the torque), a velocity second ones; of a velocity the angle is the integral. Throws
 /// InputError for fewer than `kFewestReadings`.
-MeasuredMotion motion_of_hub(const arm::Sensor& sensor, const std::vector<double>& values,
-                             double period_s, bool from_rest);
+MeasuredMotion motion_of_hub(const measured::Channel& read, double period_s, bool from_rest);
 inline constexpr std::size_t kFewestReadings = 8;
 
 }  // namespace flexarm::diagnose

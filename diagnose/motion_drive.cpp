@@ -32,9 +32,9 @@ MeasuredMotion measured_motion(const measured::TimeRecord& record, const measure
         "be those of their instants",
         arm::to_string(seen->sensor)));
   }
-  std::vector<double> values = seen->values;
-  for (double& value : values) value = (value - chain.offset) / chain.gain;
-  return motion_of_hub(seen->sensor, values, measured::sampling_period_s(record),
+  measured::Channel read = *seen;
+  for (double& value : read.values) value = (value - chain.offset) / chain.gain;
+  return motion_of_hub(read, measured::sampling_period_s(record),
                        run.initial == measured::InitialState::rest);
 }
 

@@ -25,6 +25,7 @@ class Gathering {
     values_.push_back(value);
     deviations_.push_back(deviation);
   }
+  void leave_out(const std::vector<std::size_t>& numbers) { made_.back().left_out = numbers; }
   void end(double noise, bool logarithmic = false) {
     auto& channel = made_.back();
     channel.logarithmic = logarithmic;
@@ -48,17 +49,24 @@ class Gathering {
 };
 
 void gather(Gathering& all, std::size_t run, const std::string& name,
-            const std::vector<double>& samples) {
+            const std::vector<double>& samples, const std::vector<std::size_t>& left_out = {}) {
   const double signal = measured::standard_deviation(samples);
-  const double noise = std::max(white_noise(samples), kLeastNoise * signal);
+  Eigen::VectorXd expected = Eigen::VectorXd::Map(samples.data(), std::ssize(samples));
+  if (!left_out.empty()) {
+    expected.array() -= expected.mean();
+    fill_by_autoregression(expected, left_out, kMostNoiseOrder);
+  }
+  const double noise =
+      std::max(white_noise({expected.data(), samples.size()}), kLeastNoise * signal);
   all.begin(run, name);
   for (const double value : samples) all.add(value, noise);
+  all.leave_out(left_out);
   all.end(noise / signal);
 }
 
 void gather(Gathering& all, std::size_t run, const measured::TimeRecord& record) {
   for (const auto& channel : record.channels) {
-    gather(all, run, arm::to_string(channel.sensor), channel.values);
+    gather(all, run, arm::to_string(channel.sensor), channel.values, channel.left_out);
   }
 }
 
@@ -138,7 +146,7 @@ Line error_of(Line measured, Line residual) {
 void to_residuals(const Observations& observations, Eigen::VectorXd& errors) {
   for (const ObservedChannel& channel : observations.channels) {
     auto own = errors.segment(channel.first, channel.count);
-    channel.autoregression.whiten(own);
+    channel.autoregression.whiten(own, channel.left_out);
     if (channel.logarithmic) change_lines(observations, channel, own, residual_of);
   }
 }
@@ -150,6 +158,24 @@ Eigen::VectorXd to_errors(const Observations& observations, Eigen::VectorXd resi
     if (channel.logarithmic) change_lines(observations, channel, own, error_of);
   }
   return residuals;
+}
+
+Eigen::VectorXd weighing_deviations(const Observations& observations) {
+  Eigen::VectorXd made = observations.deviations;
+  for (const ObservedChannel& channel : observations.channels) {
+    for (const std::size_t k : channel.left_out) {
+      made(channel.first + static_cast<Eigen::Index>(k)) = std::numeric_limits<double>::infinity();
+    }
+  }
+  return made;
+}
+
+Eigen::VectorXd with_expected_errors(const Observations& observations, Eigen::VectorXd errors) {
+  for (const ObservedChannel& channel : observations.channels) {
+    fill_by_autoregression(errors.segment(channel.first, channel.count), channel.left_out,
+                           kMostNoiseOrder);
+  }
+  return errors;
 }
 
 std::vector<ModalGroup> modal_groups(const measured::ModalTable& table) {

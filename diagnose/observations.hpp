@@ -33,9 +33,16 @@ struct ObservedChannel {
   double numerical_error = 0.0;
   bool logarithmic = false;  ///< lines of a response that `to_residuals` takes logarithms of
 
+  /// Readings of a `time` channel that are none (measured::Channel::left_out), from 0 at `first`.
+  /// Their values have no weight: they are not among what residuals are counted by.
+  std::vector<std::size_t> left_out = {};
+
   /// How the noise of a `time` channel goes on from reading to reading; white where the data do
   /// not show another (Problem::with_coloured_noise).
   Autoregression autoregression = {};
+
+  /// Numbers with a weight.
+  Eigen::Index used() const { return count - static_cast<Eigen::Index>(left_out.size()); }
 
   /// Both together: what residuals are in units of.
   double floor() const { return std::hypot(noise, numerical_error); }
@@ -57,8 +64,10 @@ struct Observations {
 /// numbers nothing changes.
 ///
 /// - `time` channels: whitened, independent with unit variance; the same where noise is white.
-/// - Lines of a logarithmic channel: of the simulated response p and the measured one h, in standard
-///   deviations,
+///   Numbers that are left out are taken for the most likely ones beside the others
+///   (Autoregression::whiten), of which `to_errors` has the errors.
+/// - Lines of a logarithmic channel: of the simulated response p and the measured one h, in
+///   standard deviations,
 ///
 ///       |h| ln(h/p)                              where |h| >= kResponseFloor,
 ///       k ln(1 + |h - p|/k) (h - p)/|h - p|      elsewhere, k = kResponseFloor,
@@ -69,6 +78,14 @@ struct Observations {
 void to_residuals(const Observations& observations, Eigen::VectorXd& errors);
 Eigen::VectorXd to_errors(const Observations& observations, Eigen::VectorXd residuals);
 inline constexpr double kResponseFloor = 3.0;
+
+/// Standard deviations that weigh numbers in least squares: infinite for those left out.
+Eigen::VectorXd weighing_deviations(const Observations& observations);
+
+/// Errors (to_errors), with those of numbers left out as the others of their channel let expect:
+/// what spectra of them need.
+Eigen::VectorXd with_expected_errors(const Observations& observations, Eigen::VectorXd errors);
+inline constexpr int kMostNoiseOrder = 40;  ///< of an autoregression of errors
 
 /// Poles, or the zeros of one sensor, of a modal table: indices of its entries, in their order.
 struct ModalGroup {

@@ -29,11 +29,16 @@ struct PredictedRuns {
   std::vector<response::StartsAhead> starts;
 };
 
-/// Root mean square.
+/// Root mean square, of readings that are not missing.
 double rms_of(const std::vector<Eigen::VectorXd>& errors, Index sensor) {
   double squares = 0.0;
-  for (const Eigen::VectorXd& of_start : errors) squares += of_start(sensor) * of_start(sensor);
-  return std::sqrt(squares / static_cast<double>(errors.size()));
+  double count = 0.0;
+  for (const Eigen::VectorXd& of_start : errors) {
+    if (std::isnan(of_start(sensor))) continue;
+    squares += of_start(sensor) * of_start(sensor);
+    count += 1.0;
+  }
+  return std::sqrt(squares / count);
 }
 
 /// Of one arm, channel by channel: of each horizon, and of the simulation. Empty for an arm that
@@ -52,11 +57,11 @@ std::vector<double> errors_of(const Problem& filtered, const arm::Arm& arm,
       sensor = is_first ? 0 : sensor + 1;
       if (!predicted.runs[channel.run]) continue;
       const auto values = observations.values.segment(channel.first, channel.count);
-      const auto n = static_cast<double>(channel.count);
-      const double signal = std::sqrt((values.array() - values.mean()).square().sum() / n);
+      const double signal = std::sqrt((values.array() - values.mean()).square().mean());
       for (const auto& errors : ahead[channel.run]) made.push_back(rms_of(errors, sensor) / signal);
-      const auto left = values - simulated.segment(channel.first, channel.count);
-      made.push_back(left.norm() / std::sqrt(n) / signal);
+      Eigen::VectorXd left = values - simulated.segment(channel.first, channel.count);
+      for (const std::size_t k : channel.left_out) left(static_cast<Index>(k)) = 0.0;
+      made.push_back(left.norm() / std::sqrt(static_cast<double>(channel.used())) / signal);
     }
   } catch (const std::runtime_error&) {
     // An arm that is none, or a simulation that overflows.

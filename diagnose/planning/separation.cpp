@@ -37,7 +37,7 @@ double fitted_count(const Problem& problem) {
   return std::accumulate(channels.begin(), channels.end(), 0.0,
                          [&](double sum, const ObservedChannel& channel) {
                            const bool counts = problem.estimation_runs()[channel.run];
-                           return sum + (counts ? static_cast<double>(channel.count) : 0.0);
+                           return sum + (counts ? static_cast<double>(channel.used()) : 0.0);
                          });
 }
 

@@ -6,6 +6,11 @@
 #include <Eigen/Cholesky>
 
 #include <cstddef>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <utility>
+#include <vector>
 
 namespace flexarm::diagnose {
 
@@ -27,6 +32,31 @@ Eigen::PermutationMatrix<Eigen::Dynamic> hub_first(const RecordedRun& run) {
   order.setIdentity();
   if (run.hub_sensor) order.applyTranspositionOnTheRight(0, *run.hub_sensor);
   return order;
+}
+
+double log_determinant(const Eigen::MatrixXd& innovation_covariance) {
+  return 2.0 * factor(innovation_covariance).matrixLLT().diagonal().array().log().sum();
+}
+
+/// A row a sample and a column a sensor; not a number where a reading is missing.
+Eigen::MatrixXd measured_or_missing(const RecordedRun& run) {
+  Eigen::VectorXd values = run.values;
+  for (const Index k : run.missing) values(k) = std::numeric_limits<double>::quiet_NaN();
+  return values.reshaped(std::ssize(run.torque_N_m), run.deviations.size());
+}
+
+/// Of each sample with a missing reading the sensors whose readings are there, the hub's first.
+std::map<Index, std::vector<Index>> readings_beside_missing(const RecordedRun& run) {
+  const auto samples = std::ssize(run.torque_N_m);
+  std::vector<Index> sensors(static_cast<std::size_t>(run.deviations.size()));
+  std::iota(sensors.begin(), sensors.end(), Index{0});
+  const auto hub = static_cast<std::size_t>(run.hub_sensor.value_or(0));
+  std::swap(sensors.front(), sensors[hub]);
+  std::map<Index, std::vector<Index>> made;
+  for (const Index k : run.missing) {
+    std::erase(made.try_emplace(k % samples, sensors).first->second, k / samples);
+  }
+  return made;
 }
 
 /// Calls use(filter, first, count) for each stretch of samples with one filter.
@@ -57,24 +87,30 @@ response::FilterGains filter_gains(const response::ArmSimulator& simulation,
   return response::filter_gains_from(sampled, covariance, samples);
 }
 
-double log_determinant(const response::FilterGains& gains, std::size_t samples) {
+double log_determinant(const response::FilterGains& gains, const RecordedRun& run) {
   double sum = 0.0;
-  for_each_filter(gains, static_cast<Index>(samples),
+  for_each_filter(gains, std::ssize(run.torque_N_m),
                   [&](const response::FilterGain& filter, Index /*first*/, Index count) {
-                    const auto covariance = factor(filter.innovation_covariance);
-                    sum += 2.0 * covariance.matrixLLT().diagonal().array().log().sum() *
-                           static_cast<double>(count);
+                    sum +=
+                        log_determinant(filter.innovation_covariance) * static_cast<double>(count);
                   });
+  for (const auto& [sample, there] : readings_beside_missing(run)) {
+    const Eigen::MatrixXd& covariance =
+        gains.at(static_cast<std::size_t>(sample)).innovation_covariance;
+    sum -= log_determinant(covariance);
+    if (!there.empty()) sum += log_determinant(covariance(there, there));
+  }
   return sum;
 }
 
 RunInnovations filter_run(const response::ArmSimulator& simulation, const RecordedRun& run) {
   const auto samples = static_cast<Index>(run.torque_N_m.size());
-  const Eigen::MatrixXd measured = run.values.reshaped(samples, run.deviations.size());
+  const Eigen::MatrixXd measured = measured_or_missing(run);
   const response::FilterGains gains = filter_gains(simulation, run);
   RunInnovations made;
   made.filtered = simulation.filtered(run.torque_N_m, measured, gains);
-  made.log_determinant = log_determinant(gains, run.torque_N_m.size());
+  made.count = measured.size() - std::ssize(run.missing);
+  made.log_determinant = log_determinant(gains, run);
   const auto order = hub_first(run);
   Eigen::MatrixXd standardised(samples, measured.cols());
   for_each_filter(
@@ -85,15 +121,22 @@ RunInnovations filter_run(const response::ArmSimulator& simulation, const Record
         standardised.middleRows(first, count) =
             (order.transpose() * covariance.matrixL().solve(innovations)).transpose();
       });
+  for (const auto& [sample, there] : readings_beside_missing(run)) {
+    standardised.row(sample).setZero();
+    if (there.empty()) continue;
+    const response::FilterGain& filter = gains.at(static_cast<std::size_t>(sample));
+    const auto covariance = factor(filter.innovation_covariance(there, there));
+    const Eigen::VectorXd innovations = made.filtered.innovations.row(sample)(there).transpose();
+    standardised.row(sample)(there) = covariance.matrixL().solve(innovations).transpose();
+  }
   made.standardised = standardised.reshaped();
   return made;
 }
 
 response::ErrorsAhead run_ahead(const response::ArmSimulator& simulation, const RecordedRun& run,
                                 const response::StartsAhead& starts) {
-  const Eigen::MatrixXd measured =
-      run.values.reshaped(std::ssize(run.torque_N_m), run.deviations.size());
-  return simulation.errors_ahead(run.torque_N_m, measured, filter_gains(simulation, run), starts);
+  return simulation.errors_ahead(run.torque_N_m, measured_or_missing(run),
+                                 filter_gains(simulation, run), starts);
 }
 
 }  // namespace flexarm::diagnose

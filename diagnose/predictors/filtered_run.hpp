@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <vector>
 
 namespace flexarm::diagnose {
 
@@ -14,8 +15,10 @@ namespace flexarm::diagnose {
 struct RunInnovations {
   /// L^-1 e of each sample, where L L^T = S is the covariance of the innovations e: independent
   /// with variance 1 where the model is right. Laid out as a run of `Observations`. The hub's
-  /// sensor is the first in e: the others are what they show beyond the hub's motion.
+  /// sensor is the first in e: the others are what they show beyond the hub's motion. 0 for
+  /// readings that are missing; S is then that of the others.
   Eigen::VectorXd standardised;
+  Eigen::Index count = 0;        ///< of readings that are not missing
   double log_determinant = 0.0;  ///< as the function has it
   response::FilteredRun filtered;
 };
@@ -27,6 +30,7 @@ struct RecordedRun {
   response::ProcessNoise process = {};
   bool starts_free = false;                     ///< from an unknown state, which is estimated
   std::optional<Eigen::Index> hub_sensor = {};  ///< the first of the hub's angle or velocity
+  std::vector<Eigen::Index> missing = {};       ///< of `values`, those that are no readings
 };
 
 /// The filter of a run, whatever it reads. Throws InputError as response::ArmSimulator::sampled and
@@ -34,8 +38,9 @@ struct RecordedRun {
 response::FilterGains filter_gains(const response::ArmSimulator& simulation,
                                    const RecordedRun& run);
 
-/// Sum of ln |S| over so many samples, S the covariance of the innovations.
-double log_determinant(const response::FilterGains& gains, std::size_t samples);
+/// Sum of ln |S| over the samples of a run, S the covariance of the innovations of the readings
+/// that are not missing.
+double log_determinant(const response::FilterGains& gains, const RecordedRun& run);
 
 /// Throws InputError as `filter_gains` and response::ArmSimulator::filtered, and for innovations
 /// whose covariance is singular.

@@ -102,8 +102,7 @@ Predictor::Predictor(const Experiment& experiment, const Observations& observati
   for_each_time_run(experiment.arm, std::vector<bool>(experiment.runs.size(), true), &*noise_,
                     [&](std::size_t r, const response::ArmSimulator& simulation) {
                       const RecordedRun run = recorded(r, *noise_);
-                      log_determinants_[r] =
-                          log_determinant(filter_gains(simulation, run), run.torque_N_m.size());
+                      log_determinants_[r] = log_determinant(filter_gains(simulation, run), run);
                     });
 }
 
@@ -144,10 +143,11 @@ void Predictor::predict_other_runs(const arm::Arm& arm, const std::vector<bool>&
 
 Eigen::VectorXd Predictor::operator()(const arm::Arm& arm, const std::vector<bool>& runs) const {
   Eigen::VectorXd values = Eigen::VectorXd::Zero(observations_.values.size());
+  const Eigen::VectorXd weights = weighing_deviations(observations_);
   const auto simulate = [&](std::size_t r, const response::ArmSimulator& simulation) {
     const auto [first, count] = stretch(r);
     const Eigen::VectorXd measured = observations_.values.segment(first, count);
-    const Eigen::VectorXd deviations = observations_.deviations.segment(first, count);
+    const Eigen::VectorXd deviations = weights.segment(first, count);
     const auto& run = experiment_->runs[r];
     values.segment(first, count) =
         is_driven_by_motion(*experiment_)
@@ -173,8 +173,12 @@ RecordedRun Predictor::recorded(std::size_t r, const NoiseModel& noise) const {
   const auto& [run, data] = experiment_->runs[r];
   const auto [first, count] = stretch(r);
   std::vector<double> deviations;
+  std::vector<Index> missing;
   for (const ObservedChannel& channel : observations_.channels) {
     if (channel.run != r) continue;
+    for (const std::size_t k : channel.left_out) {
+      missing.push_back(channel.first - first + static_cast<Index>(k));
+    }
     deviations.push_back(observations_.deviations(channel.first) *
                          noise.reading_factor(channel.sensor));
   }
@@ -182,7 +186,9 @@ RecordedRun Predictor::recorded(std::size_t r, const NoiseModel& noise) const {
           observations_.values.segment(first, count),
           Eigen::VectorXd::Map(deviations.data(), std::ssize(deviations)),
           {noise.disturbance_N_m, noise.modal_force_N_m},
-          run.initial == measured::InitialState::free, hub_sensor(r)};
+          run.initial == measured::InitialState::free,
+          hub_sensor(r),
+          missing};
 }
 
 Eigen::VectorXd Predictor::residuals(const arm::Arm& arm, const std::vector<bool>& runs) const {
@@ -206,7 +212,7 @@ Eigen::VectorXd Predictor::residuals(const arm::Arm& arm, const std::vector<bool
       auto of_hub = part.segment(*sensor * samples, samples);
       of_hub = balance_residuals(run.filtered, *noise_->balance_unit_N_m, of_hub);
     }
-    part *= std::exp(more / (2.0 * static_cast<double>(count)));
+    part *= std::exp(more / (2.0 * static_cast<double>(innovated[r].count)));
   }
   return made;
 }

@@ -50,9 +50,9 @@ class Predictor {
   ///
   ///     (|S|/|S_0|)^(1/(2 n))
   ///
-  /// for the n readings of a run, S the covariance of their innovations by `arm` and S_0 that by
-  /// the experiment's arm: the arm that makes their squares least is the most likely one where the
-  /// scale of all noise is free.
+  /// for the n readings of a run that are not left out, S the covariance of their innovations by
+  /// `arm` and S_0 that by the experiment's arm: the arm that makes their squares least is the most
+  /// likely one where the scale of all noise is free.
   ///
   /// By torque balance the estimates of the disturbance in its unit are in the place of the
   /// innovations of the hub's sensor, with what a hub that friction holds turned beyond chance; the

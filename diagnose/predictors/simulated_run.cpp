@@ -65,24 +65,32 @@ Eigen::MatrixXd from_likely_state(const response::ArmSimulator& simulation,
   return made;
 }
 
-/// Angle and velocity of the hub at the first sample, by a parabola through the first angles, or
-/// the first velocity; 0 where no sensor shows them.
+/// Angle and velocity of the hub at the first sample, by a parabola through the first angles that
+/// are not left out, or the first velocity; 0 where no sensor shows them.
 Eigen::Vector2d first_hub_motion(const measured::TimeRecord& record) {
   constexpr std::size_t kSamples = 16;
   Eigen::Vector2d motion = Eigen::Vector2d::Zero();
   if (const auto* velocity = values_of(record, arm::SensorKind::hub_velocity)) {
     motion(1) = velocity->front();
   }
-  const auto* angle = values_of(record, arm::SensorKind::hub_angle);
-  if (angle == nullptr) return motion;
-  motion(0) = angle->front();
-  const auto n = static_cast<Index>(std::min(kSamples, angle->size()));
+  const auto angle = std::ranges::find(record.channels, arm::SensorKind::hub_angle,
+                                       [](const auto& channel) { return channel.sensor.kind; });
+  if (angle == record.channels.end()) return motion;
+  motion(0) = angle->values.front();
+  const auto n = static_cast<Index>(std::min(kSamples, angle->values.size()));
   if (n < 3) return motion;
   const Eigen::VectorXd time_s = measured::sampling_period_s(record) *
                                  Eigen::VectorXd::LinSpaced(n, 0.0, static_cast<double>(n - 1));
   Eigen::MatrixXd powers(n, 3);
   powers << Eigen::VectorXd::Ones(n), time_s, time_s.cwiseAbs2();
-  return powers.householderQr().solve(Eigen::VectorXd::Map(angle->data(), n)).head<2>();
+  Eigen::VectorXd weights = Eigen::VectorXd::Ones(n);
+  for (const std::size_t k : angle->left_out) {
+    if (static_cast<Index>(k) < n) weights(static_cast<Index>(k)) = 0.0;
+  }
+  const Eigen::MatrixXd weighted = weights.asDiagonal() * powers;
+  return weighted.householderQr()
+      .solve(weights.cwiseProduct(Eigen::VectorXd::Map(angle->values.data(), n)))
+      .head<2>();
 }
 
 /// The initial state of ArmSimulator::readings, `lead` samples before the first, of an arm that

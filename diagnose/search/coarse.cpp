@@ -13,7 +13,10 @@ void thin(measured::TimeRecord& record, std::size_t samples) {
   const std::size_t kept = std::min(record.time_s.size(), samples);
   record.time_s.resize(kept);
   record.torque_N_m.resize(kept);
-  for (auto& channel : record.channels) channel.values.resize(kept);
+  for (auto& channel : record.channels) {
+    channel.values.resize(kept);
+    std::erase_if(channel.left_out, [kept](std::size_t sample) { return sample >= kept; });
+  }
   if (!record.reference.values.empty()) record.reference.values.resize(kept);
 }
 

@@ -69,7 +69,7 @@ double relative_size(const Problem& problem, const Eigen::VectorXd& residuals,
     if (!runs[channel.run]) continue;
     squares +=
         errors.segment(channel.first, channel.count).squaredNorm() * std::pow(channel.floor(), 2);
-    count += static_cast<double>(channel.count);
+    count += static_cast<double>(channel.used());
   }
   return std::sqrt(squares / count);
 }
@@ -150,7 +150,7 @@ Score ScoredRuns::of_torque(const Problem& problem) const {
     squares += along.head(torque.rank()).squaredNorm();
     freedom += static_cast<double>(torque.rank());
     granted +=
-        residual_variance(channel, negligible(problem)) * static_cast<double>(channel.count);
+        residual_variance(channel, negligible(problem)) * static_cast<double>(channel.used());
   }
   return {freedom > 0.0 ? exceedance(squares, freedom, granted) : 1.0, 0.0};
 }

@@ -25,7 +25,7 @@ void weigh_disturbance(const Problem& problem, const Candidate& candidate,
   for (const ObservedChannel& channel : problem.observations().channels) {
     if (!runs[channel.run]) continue;
     const bool is_time = problem.experiment().runs[channel.run].run.kind == measured::RunKind::time;
-    const auto n = static_cast<double>(channel.count);
+    const auto n = static_cast<double>(channel.used());
     const double squares = residuals.segment(channel.first, channel.count).squaredNorm();
     if (!is_time) {
       likelihood += squares;

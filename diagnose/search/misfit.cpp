@@ -102,12 +102,12 @@ double relative_error(const Observations& observations, const Experiment& experi
   const auto values = observations.values.segment(channel.first, channel.count).array();
   Eigen::VectorXd relative = residuals.segment(channel.first, channel.count);
   channel.autoregression.colour(relative);
+  for (const std::size_t k : channel.left_out) relative(static_cast<Index>(k)) = 0.0;
   const auto errors = relative.array() *
                       observations.deviations.segment(channel.first, channel.count).array();
-  const auto n = static_cast<double>(channel.count);
+  const auto n = static_cast<double>(channel.used());
   if (experiment.runs[channel.run].run.kind == measured::RunKind::time) {
-    const double signal = (values - values.mean()).square().sum();
-    return std::sqrt(errors.square().sum() / signal);
+    return std::sqrt(errors.square().sum() / n / (values - values.mean()).square().mean());
   }
   // Weighted as in the fit: deviations are proportional to the noise floor.
   return channel.floor() *
@@ -121,9 +121,11 @@ Misfit misfit(const Observations& observations, const Experiment& experiment,
   for (const ObservedChannel& channel : observations.channels) {
     if (!runs[channel.run]) continue;
     const auto part = residuals.segment(channel.first, channel.count);
-    made.count += static_cast<double>(channel.count);
+    const auto used = static_cast<double>(channel.used());
+    made.count += used;
     made.sum_of_squares += part.squaredNorm();
-    made.independent += independent(part, experiment.runs[channel.run].run.kind);
+    made.independent += independent(part, experiment.runs[channel.run].run.kind) * used /
+                        static_cast<double>(channel.count);
     made.relative_error += relative_error(observations, experiment, channel, residuals);
     made.noise_floor += channel.noise;
     made.numerical_error += channel.numerical_error;

@@ -100,11 +100,12 @@ bool Problem::lower_noise(const Candidate& candidate) {
   if (has_coloured_noise()) return false;
   const auto left = residuals(candidate, std::vector<bool>(experiment_->runs.size(), true));
   if (!left) return false;
+  const Eigen::VectorXd expected = with_expected_errors(observations_, *left);
   Observations lowered = observations_;
   bool fell = false;
   for (ObservedChannel& channel : lowered.channels) {
     if (experiment_->runs[channel.run].run.kind != measured::RunKind::time) continue;
-    const Eigen::VectorXd part = left->segment(channel.first, channel.count);
+    const auto part = expected.segment(channel.first, channel.count);
     // Residuals are in standard deviations of noise and numerical error together.
     const double widened = channel.floor();
     const double seen = std::max(
@@ -125,7 +126,8 @@ bool Problem::lower_noise(const Candidate& candidate) {
 std::optional<Problem> Problem::with_coloured_noise(const Candidate& candidate) const {
   const auto left = residuals(candidate, std::vector<bool>(experiment_->runs.size(), true));
   if (!left) return std::nullopt;
-  const Eigen::VectorXd errors = to_errors(observations_, *left);
+  const Eigen::VectorXd errors =
+      with_expected_errors(observations_, to_errors(observations_, *left));
   Problem made = *this;
   for (ObservedChannel& channel : made.observations_.channels) {
     if (experiment_->runs[channel.run].run.kind != measured::RunKind::time) continue;
@@ -137,7 +139,7 @@ std::optional<Problem> Problem::with_coloured_noise(const Candidate& candidate) 
         std::max(kLeastNoise * kLeastNoise, floor * floor - std::pow(channel.numerical_error, 2)));
     made.observations_.deviations.segment(channel.first, channel.count) *= seen;
     own /= seen;
-    channel.autoregression = Autoregression(own, kMostOrder);
+    channel.autoregression = Autoregression(own, kMostNoiseOrder);
   }
   made.predictor_ =
       Predictor(*experiment_, made.observations_, predictor_.flexible_modes(), predictor_.noise());

@@ -64,10 +64,9 @@ class Problem {
   static constexpr double kLower = 0.05;
 
   /// With the noise of `time` channels that is what a candidate leaves, white or not: its power,
-  /// and its autoregression up to order `kMostOrder`. Empty for a candidate that cannot be
+  /// and its autoregression up to order `kMostNoiseOrder`. Empty for a candidate that cannot be
   /// computed. The residuals are those of generalised least squares.
   std::optional<Problem> with_coloured_noise(const Candidate& candidate) const;
-  static constexpr int kMostOrder = 40;
   bool has_coloured_noise() const;
 
   /// With a noise model: takes up the most likely one for a candidate where that is more likely by

@@ -86,7 +86,7 @@ ResidualTest test_residuals(const Observations& observations, const Experiment& 
   for (const ObservedChannel& channel : observations.channels) {
     if (!runs[channel.run]) continue;
     const auto part = residuals.segment(channel.first, channel.count);
-    const auto n = static_cast<double>(channel.count);
+    const auto n = static_cast<double>(channel.used());
     const measured::RunKind kind = experiment.runs[channel.run].run.kind;
     const bool is_simulated = kind == measured::RunKind::time;
     const double granted = is_simulated ? residual_variance(channel, kSimulationError) : 0.0;

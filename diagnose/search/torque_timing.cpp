@@ -58,7 +58,8 @@ Eigen::MatrixXd derivatives(const Problem& problem, const arm::Arm& arm, std::si
   const Eigen::VectorXd made = predictor(arm, std::vector<bool>(probes.runs.size(), true));
   Eigen::MatrixXd columns = made.head(kTimedStretches * count).reshaped(count, kTimedStretches);
   columns.colwise() -= made.tail(count);
-  return all.deviations.segment(first, count).cwiseInverse().asDiagonal() * columns / kProbe;
+  const Eigen::VectorXd weights = weighing_deviations(all).segment(first, count).cwiseInverse();
+  return weights.asDiagonal() * columns / kProbe;
 }
 
 /// The value with half the weight on either side; 0 of nothing.

@@ -47,6 +47,7 @@ void append(std::vector<DataFinding>& all, const std::vector<DataFinding>& more,
             std::size_t first_sample = 0) {
   for (auto finding : more) {
     finding.first_sample += first_sample;
+    for (PredictedReading& reading : finding.predicted) reading.sample += first_sample;
     all.push_back(std::move(finding));
   }
 }
@@ -80,8 +81,9 @@ std::vector<DataFinding> check_answers(std::span<const CheckedSignal> signals,
 /// values. A fault takes its channel out of what is asked next. A stretch that does not begin at
 /// rest may hold an arm at rest, which answers nothing.
 std::vector<DataFinding> compare(std::span<const CheckedSignal> signals, std::vector<bool> usable,
-                                 const std::vector<bool>& active, double period_s, bool from_rest,
-                                 const DataCheckOptions& options) {
+                                 const std::vector<bool>& active, const ClockCheck& clock,
+                                 bool from_rest, const DataCheckOptions& options) {
+  const double period_s = clock.period_s;
   std::vector<DataFinding> findings;
   const Transforms transforms = transform(signals, period_s, from_rest);
   std::vector<double> floor_power;
@@ -99,7 +101,7 @@ std::vector<DataFinding> compare(std::span<const CheckedSignal> signals, std::ve
   if (note(check_swaps(comparison()))) return findings;
   std::vector<bool> fine = usable;
   exclude(fine, signals, coarse);
-  note(check_spikes(signals, fine, options));
+  note(check_spikes(signals, fine, options, clock.findings.empty()));
   note(check_trends(signals, usable, options));
   if (from_rest) note(check_answers(signals, usable, active, period_s, options));
   note(check_signs(comparison()));
@@ -183,8 +185,8 @@ std::vector<DataFinding> check_data(const TimeRecord& record, const DataCheckOpt
       active.push_back(stretch[i].deviation >= kResting * all[i].deviation);
     }
     append(findings,
-           compare(stretch, usable, active, clock.period_s,
-                   options.starts_at_rest && clock.first == 0, options),
+           compare(stretch, usable, active, clock, options.starts_at_rest && clock.first == 0,
+                   options),
            clock.first);
   }
   for (auto& finding : findings) finding.time_s = record.time_s[finding.first_sample];
@@ -204,6 +206,20 @@ std::vector<arm::Sensor> leave_out_dead_channels(TimeRecord& record,
     return dead;
   });
   return left_out;
+}
+
+std::size_t leave_out_spikes(TimeRecord& record, const DataFinding& finding) {
+  const auto& spikes = finding.predicted;
+  const double most = kMostLeftOut * static_cast<double>(record.time_s.size());
+  const auto channel = std::ranges::find(record.channels, finding.channel, [](const Channel& one) {
+    return arm::to_string(one.sensor);
+  });
+  if (channel == record.channels.end() || static_cast<double>(spikes.size()) > most) return 0;
+  for (const auto& [sample, value] : spikes) {
+    channel->values[sample] = value;
+    channel->left_out.push_back(sample);
+  }
+  return spikes.size();
 }
 
 }  // namespace flexarm::measured

@@ -43,6 +43,12 @@ std::string check_name(Fault fault);
 /// The fault whose check has this name. Throws InputError for another, with the names.
 Fault fault_of_check(std::string_view name);
 
+/// What a reading would be without its fault, in the channel's unit.
+struct PredictedReading {
+  std::size_t sample = 0;  ///< from 0
+  double value = 0.0;
+};
+
 /// One fault: what and where.
 struct DataFinding {
   Fault fault = Fault::clock_jitter;
@@ -51,6 +57,8 @@ struct DataFinding {
   double time_s = 0.0;           ///< as recorded for that sample
   double value = 0.0;            ///< the size, in the unit that `text` names
   std::string text;              ///< one sentence without a full stop
+  /// Of spikes: what the other samples and channels predict in their place.
+  std::vector<PredictedReading> predicted = {};
 };
 
 /// What is known of the arm, and how much of a fault is one. Sizes relative to a channel are in its
@@ -107,5 +115,13 @@ std::vector<DataFinding> check_data(const TimeRecord& record, const DataCheckOpt
 /// Takes the channels that `findings` call dead out of the record, and returns their sensors.
 std::vector<arm::Sensor> leave_out_dead_channels(TimeRecord& record,
                                                  const std::vector<DataFinding>& findings);
+
+/// Leaves the spikes of a finding out of its channel (Channel::left_out) and puts what is predicted
+/// in their place; the number of them. Where they are more than `kMostLeftOut` of the samples they
+/// are no outliers of a channel but its noise: nothing is done then, and for other findings.
+std::size_t leave_out_spikes(TimeRecord& record, const DataFinding& finding);
+/// Estimates lose 1 - sqrt(0.95) = 2.5 % of their precision by as many. A sensor that is wrong more
+/// often has noise of another distribution, which its good readings show as well.
+inline constexpr double kMostLeftOut = 0.05;
 
 }  // namespace flexarm::measured

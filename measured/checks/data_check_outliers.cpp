@@ -9,7 +9,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <set>
+#include <span>
 
 namespace flexarm::measured {
 
@@ -20,7 +23,10 @@ constexpr int kTorqueReach = 2;  // samples
 constexpr int kOtherReach = 1;   // samples
 constexpr std::size_t kAround = 12;
 constexpr double kAlone = 0.4;
+/// Two spikes account for much of what is around them: less may be left.
+constexpr double kTwoNear = 0.2;
 constexpr int kMostPasses = 6;
+constexpr int kRepairRounds = 3;
 /// Where more of the samples stand out, the residual is no noise with a few outliers.
 constexpr double kMostSpikes = 0.01;
 /// Keeps the normal equations solvable where columns are alike; far below any noise.
@@ -50,6 +56,31 @@ std::vector<Lagged> regressors_of(std::size_t self, const std::vector<bool>& usa
   return regressors;
 }
 
+/// Least squares over samples [first, first + rows): reading less prediction, and the share of each
+/// regressor.
+struct Regression {
+  Eigen::VectorXd left;
+  Eigen::VectorXd shares;
+};
+
+Regression regress(const std::vector<Eigen::VectorXd>& values, std::size_t self,
+                   const std::vector<Lagged>& regressors, Eigen::Index first, Eigen::Index rows) {
+  const auto columns = static_cast<Eigen::Index>(regressors.size());
+  Eigen::MatrixXd matrix(rows, columns);
+  for (Eigen::Index j = 0; j < columns; ++j) {
+    const auto& [signal, lag] = regressors[static_cast<std::size_t>(j)];
+    matrix.col(j) = values[signal].segment(first + lag, rows);
+  }
+  const Eigen::VectorXd target = values[self].segment(first, rows);
+  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(columns, columns);
+  normal.selfadjointView<Eigen::Lower>().rankUpdate(matrix.transpose());
+  normal.diagonal().array() += kRidge * normal.diagonal().maxCoeff();
+  Regression made;
+  made.shares = normal.selfadjointView<Eigen::Lower>().ldlt().solve(matrix.transpose() * target);
+  made.left = target - matrix * made.shares;
+  return made;
+}
+
 /// Reading less prediction for samples [kOwnReach, count - kOwnReach), and the share in the
 /// prediction of each of the channel's own samples, by its lag + kOwnReach.
 struct Prediction {
@@ -60,46 +91,112 @@ struct Prediction {
 Prediction predict(const std::vector<Eigen::VectorXd>& values, std::size_t self,
                    const std::vector<bool>& usable) {
   const auto regressors = regressors_of(self, usable);
-  const Eigen::Index rows = values[0].size() - 2 * kOwnReach;
-  const auto columns = static_cast<Eigen::Index>(regressors.size());
-  Eigen::MatrixXd matrix(rows, columns);
-  for (Eigen::Index j = 0; j < columns; ++j) {
-    const auto& [signal, lag] = regressors[static_cast<std::size_t>(j)];
-    matrix.col(j) = values[signal].segment(kOwnReach + lag, rows);
-  }
-  const Eigen::VectorXd target = values[self].segment(kOwnReach, rows);
-  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(columns, columns);
-  normal.selfadjointView<Eigen::Lower>().rankUpdate(matrix.transpose());
-  normal.diagonal().array() += kRidge * normal.diagonal().maxCoeff();
-  const Eigen::VectorXd solution =
-      normal.selfadjointView<Eigen::Lower>().ldlt().solve(matrix.transpose() * target);
-  const Eigen::VectorXd left = target - matrix * solution;
-  Prediction prediction;
-  prediction.left.assign(left.data(), left.data() + left.size());
+  const Regression made =
+      regress(values, self, regressors, kOwnReach, values[0].size() - 2 * kOwnReach);
+  Prediction prediction{{made.left.begin(), made.left.end()}};
   for (std::size_t j = 0; j < regressors.size(); ++j) {
     if (regressors[j].signal != self) continue;
     prediction.own[static_cast<std::size_t>(regressors[j].lag + kOwnReach)] =
-        solution[static_cast<Eigen::Index>(j)];
+        made.shares[static_cast<Eigen::Index>(j)];
   }
   return prediction;
 }
 
-/// Whether sample `at` stands alone: with the spike taken out of the predictions that it entered,
-/// nothing within kAround samples is kAlone of its size. What follows a jump is not alone.
-bool is_alone(const Prediction& prediction, std::size_t at) {
-  const double size = prediction.left[at];
+/// Reading less prediction from what comes after, for all samples but the last 2 kOwnReach.
+std::vector<double> left_by_later(const std::vector<Eigen::VectorXd>& values, std::size_t self,
+                                  const std::vector<bool>& usable) {
+  std::vector<Lagged> regressors;
+  for (std::size_t i = 0; i < usable.size(); ++i) {
+    if (!usable[i]) continue;
+    const int reach = i == self ? 2 * kOwnReach : (i == 0 ? kTorqueReach : kOtherReach);
+    for (int lag = i == self ? 1 : 0; lag <= reach; ++lag) regressors.push_back({i, lag});
+  }
+  const Regression made = regress(values, self, regressors, 0, values[0].size() - 2 * kOwnReach);
+  return {made.left.begin(), made.left.end()};
+}
+
+/// One or two spikes with their sizes.
+struct Spikes {
+  std::array<std::size_t, 2> samples{};
+  std::array<double, 2> sizes{};
+  std::size_t count = 1;
+};
+
+/// The share of the sample `lag` later in the prediction of one.
+double share(const Prediction& prediction, std::ptrdiff_t lag) {
+  return std::abs(lag) > kOwnReach ? 0.0
+                                   : prediction.own[static_cast<std::size_t>(lag + kOwnReach)];
+}
+
+std::ptrdiff_t lag_between(std::size_t from, std::size_t to) {
+  return static_cast<std::ptrdiff_t>(to) - static_cast<std::ptrdiff_t>(from);
+}
+
+/// Two spikes enter the predictions of each other: left_a = size_a - share(b - a) size_b. Empty
+/// where they cannot be separated.
+std::optional<Spikes> two_spikes(const Prediction& prediction, std::size_t a, std::size_t b) {
+  constexpr double kSeparable = 0.1;
+  const double of_b = share(prediction, lag_between(a, b));
+  const double of_a = share(prediction, lag_between(b, a));
+  const double determinant = 1.0 - of_a * of_b;
+  if (determinant < kSeparable) return std::nullopt;
+  return Spikes{{a, b},
+                {(prediction.left[a] + of_b * prediction.left[b]) / determinant,
+                 (prediction.left[b] + of_a * prediction.left[a]) / determinant},
+                2};
+}
+
+/// The largest residual within kAround samples of `at` with these spikes taken out of the
+/// predictions that they entered, over the size of the smaller spike.
+double left_beside(const Prediction& prediction, std::size_t at, const Spikes& spikes) {
   const std::size_t from = at > kAround ? at - kAround : 0;
   const std::size_t to = std::min(prediction.left.size(), at + kAround + 1);
+  const auto own = std::span(spikes.samples).first(spikes.count);
+  double largest = 0.0;
   for (std::size_t k = from; k < to; ++k) {
-    if (k == at) continue;
+    if (std::ranges::find(own, k) != own.end()) continue;
     double left = prediction.left[k];
-    const auto lag = static_cast<std::ptrdiff_t>(at) - static_cast<std::ptrdiff_t>(k);
-    if (std::abs(lag) <= kOwnReach) {
-      left += prediction.own[static_cast<std::size_t>(lag + kOwnReach)] * size;
+    for (std::size_t i = 0; i < spikes.count; ++i) {
+      left += share(prediction, lag_between(k, spikes.samples[i])) * spikes.sizes[i];
     }
-    if (std::abs(left) > kAlone * std::abs(size)) return false;
+    largest = std::max(largest, std::abs(left));
   }
-  return true;
+  double smaller = std::abs(spikes.sizes[0]);
+  if (spikes.count == 2) smaller = std::min(smaller, std::abs(spikes.sizes[1]));
+  return smaller > 0.0 ? largest / smaller : std::numeric_limits<double>::infinity();
+}
+
+/// The size of a spike at `at` if it stands alone, or with one other: nothing else within kAround
+/// samples is kAlone of the smaller. What follows a jump is not alone, and may pass for two spikes
+/// that are near, in the predictions of each other: these are none if the torque shakes them. Of
+/// near ones those are taken that leave least.
+std::optional<double> size_of_spike(const Prediction& prediction, std::size_t at, bool is_shaken) {
+  const double alone = prediction.left[at];
+  if (left_beside(prediction, at, {{at}, {alone}}) <= kAlone) return alone;
+  const std::size_t from = at > kAround ? at - kAround : 0;
+  const std::size_t to = std::min(prediction.left.size(), at + kAround + 1);
+  std::optional<Spikes> best;
+  double least = kAlone;
+  for (std::size_t a = from; a < to; ++a) {
+    for (std::size_t b = a + 1; b < to; ++b) {
+      const bool is_here = a == at || b == at;
+      const bool is_near = b - a <= kOwnReach && std::abs(lag_between(at, a)) <= kOwnReach &&
+                           std::abs(lag_between(at, b)) <= kOwnReach;
+      if (!is_here && !is_near) continue;
+      if (is_shaken && b - a <= kOwnReach) continue;
+      const auto spikes = two_spikes(prediction, a, b);
+      if (!spikes) continue;
+      const double left = left_beside(prediction, at, *spikes);
+      if (left > (b - a <= kOwnReach ? std::min(least, kTwoNear) : least)) continue;
+      least = left;
+      best = spikes;
+    }
+  }
+  if (!best) return std::nullopt;
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (best->samples[i] == at) return best->sizes[i];
+  }
+  return std::nullopt;
 }
 
 /// Samples that a jump of the torque shakes: it changes by half its standard deviation and by eight
@@ -124,13 +221,52 @@ std::vector<bool> shaken_samples(const Eigen::VectorXd& torque) {
   return shaken;
 }
 
+/// Repairs the spikes among the first kOwnReach samples, which have few neighbours before them, and
+/// puts them into `found`. They stand alone if no residual of the kAround samples behind is kAlone
+/// of their size.
+void repair_begin(std::vector<Eigen::VectorXd>& values, const std::vector<bool>& usable,
+                  const std::vector<bool>& shaken, const DataCheckOptions& options,
+                  std::vector<std::set<std::size_t>>& found) {
+  for (std::size_t i = 1; i < values.size(); ++i) {
+    if (!usable[i]) continue;
+    for (std::size_t k = kOwnReach; k-- > 0;) {
+      const std::vector<double> left = left_by_later(values, i, usable);
+      const double size = std::abs(left[k]);
+      const double least =
+          std::max({options.least_spike, options.spike_deviations * robust_deviation(left),
+                    shaken[k] ? options.least_shaken_spike : 0.0});
+      const bool is_alone =
+          std::ranges::all_of(std::span(left).subspan(k + 1, kAround),
+                              [size](double beside) { return std::abs(beside) <= kAlone * size; });
+      if (size <= least || !is_alone) continue;
+      values[i][static_cast<Eigen::Index>(k)] -= left[k];
+      found[i].insert(k);
+    }
+  }
+}
+
+/// As `repair_begin` at both ends; the end is the begin of the reversed record.
+void repair_ends(std::vector<Eigen::VectorXd>& values, const std::vector<bool>& usable,
+                 std::vector<bool> shaken, const DataCheckOptions& options,
+                 std::vector<std::set<std::size_t>>& found) {
+  const auto reverse = [&] {
+    for (auto& signal : values) signal.reverseInPlace();
+    std::reverse(shaken.begin(), shaken.end());
+  };
+  repair_begin(values, usable, shaken, options, found);
+  reverse();
+  std::vector<std::set<std::size_t>> at_end(found.size());
+  repair_begin(values, usable, shaken, options, at_end);
+  reverse();
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    for (const std::size_t k : at_end[i]) found[i].insert(shaken.size() - 1 - k);
+  }
+}
+
 std::vector<Outlier> outliers_of(const std::vector<Eigen::VectorXd>& values,
-                                 const std::vector<bool>& usable, const DataCheckOptions& options) {
+                                 const std::vector<bool>& usable, const std::vector<bool>& shaken,
+                                 const DataCheckOptions& options) {
   std::vector<Outlier> all;
-  // A torque that is not known may jump anywhere.
-  const auto shaken = usable[0]
-                          ? shaken_samples(values[0])
-                          : std::vector<bool>(static_cast<std::size_t>(values[0].size()), true);
   for (std::size_t i = 1; i < values.size(); ++i) {
     if (!usable[i]) continue;
     const Prediction prediction = predict(values, i, usable);
@@ -138,10 +274,11 @@ std::vector<Outlier> outliers_of(const std::vector<Eigen::VectorXd>& values,
     // Values are in standard deviations of their channel.
     const double least = std::max(options.least_spike, options.spike_deviations * scale);
     for (std::size_t k = 0; k < prediction.left.size(); ++k) {
-      const double left = prediction.left[k];
-      if (std::abs(left) <= least || !is_alone(prediction, k)) continue;
-      if (shaken[k + kOwnReach] && std::abs(left) <= options.least_shaken_spike) continue;
-      all.push_back({i, k + kOwnReach, left, std::abs(left) / std::max(scale, 1e-12)});
+      if (std::abs(prediction.left[k]) <= least) continue;
+      const auto size = size_of_spike(prediction, k, shaken[k + kOwnReach]);
+      if (!size || std::abs(*size) <= least) continue;
+      if (shaken[k + kOwnReach] && std::abs(*size) <= options.least_shaken_spike) continue;
+      all.push_back({i, k + kOwnReach, *size, std::abs(*size) / std::max(scale, 1e-12)});
     }
   }
   std::ranges::sort(all, std::ranges::greater(), &Outlier::score);
@@ -162,25 +299,49 @@ std::vector<Outlier> leaders(const std::vector<Outlier>& all) {
   return chosen;
 }
 
-DataFinding finding_of(const CheckedSignal& signal, const std::vector<Outlier>& outliers) {
-  const auto first = std::ranges::min_element(outliers, {}, &Outlier::sample);
-  const auto largest = std::ranges::max_element(
-      outliers, {}, [](const Outlier& outlier) { return std::abs(outlier.size); });
-  return {Fault::spikes,
-          signal.name,
-          first->sample,
-          0.0,
-          largest->size * signal.deviation,
-          fmt::format("{} has a spike of {:.4g} {} at sample {}{}", signal.name,
-                      first->size * signal.deviation, arm::unit(*signal.sensor), first->sample + 1,
-                      more_places(outliers.size()))};
+/// Sets each of these samples to its prediction. The others help to predict it: a few rounds.
+void repair(std::vector<Eigen::VectorXd>& values, const std::vector<std::set<std::size_t>>& spikes,
+            const std::vector<bool>& usable) {
+  for (int round = 0; round < kRepairRounds; ++round) {
+    for (std::size_t i = 1; i < values.size(); ++i) {
+      if (spikes[i].empty()) continue;
+      const Prediction prediction = predict(values, i, usable);
+      for (const std::size_t sample : spikes[i]) {
+        if (sample < kOwnReach || sample - kOwnReach >= prediction.left.size()) continue;
+        values[i][static_cast<Eigen::Index>(sample)] -= prediction.left[sample - kOwnReach];
+      }
+    }
+  }
+}
+
+DataFinding finding_of(const CheckedSignal& signal, const std::set<std::size_t>& spikes,
+                       const Eigen::VectorXd& repaired) {
+  DataFinding finding;
+  finding.fault = Fault::spikes;
+  finding.channel = signal.name;
+  const double offset = mean(signal.values);
+  const auto size = [&](const PredictedReading& one) {
+    return signal.values[one.sample] - one.value;
+  };
+  for (const std::size_t sample : spikes) {
+    const double value = repaired[static_cast<Eigen::Index>(sample)] * signal.deviation + offset;
+    finding.predicted.push_back({sample, value});
+    const double size_here = size(finding.predicted.back());
+    if (std::abs(size_here) > std::abs(finding.value)) finding.value = size_here;
+  }
+  const PredictedReading& first = finding.predicted.front();
+  finding.first_sample = first.sample;
+  finding.text =
+      fmt::format("{} has a spike of {:.4g} {} at sample {}{}", signal.name, size(first),
+                  arm::unit(*signal.sensor), first.sample + 1, more_places(spikes.size()));
+  return finding;
 }
 
 }  // namespace
 
 std::vector<DataFinding> check_spikes(std::span<const CheckedSignal> signals,
                                       const std::vector<bool>& usable,
-                                      const DataCheckOptions& options) {
+                                      const DataCheckOptions& options, bool ends_are_sound) {
   const std::size_t samples = signals[0].values.size();
   std::vector<Eigen::VectorXd> values;
   for (const auto& signal : signals) {
@@ -189,20 +350,25 @@ std::vector<DataFinding> check_spikes(std::span<const CheckedSignal> signals,
     const double scale = signal.deviation > 0.0 ? signal.deviation : 1.0;
     values.emplace_back((map.array() - mean(signal.values)) / scale);
   }
-  std::vector<std::vector<Outlier>> found(signals.size());
+  // A torque that is not known may jump anywhere.
+  const auto shaken = usable[0] ? shaken_samples(values[0]) : std::vector<bool>(samples, true);
+  std::vector<std::set<std::size_t>> found(signals.size());
+  if (ends_are_sound) repair_ends(values, usable, shaken, options, found);
   for (int pass = 0; pass < kMostPasses; ++pass) {
-    const auto chosen = leaders(outliers_of(values, usable, options));
+    const auto chosen = leaders(outliers_of(values, usable, shaken, options));
     if (chosen.empty()) break;
     for (const auto& outlier : chosen) {
       values[outlier.signal][static_cast<Eigen::Index>(outlier.sample)] -= outlier.size;
-      found[outlier.signal].push_back(outlier);
+      found[outlier.signal].insert(outlier.sample);
     }
   }
+  repair(values, found, usable);
+  if (ends_are_sound) repair_ends(values, usable, shaken, options, found);
   std::vector<DataFinding> findings;
   for (std::size_t i = 1; i < signals.size(); ++i) {
     const auto most = std::max(10.0, kMostSpikes * static_cast<double>(samples));
     if (found[i].empty() || static_cast<double>(found[i].size()) > most) continue;
-    findings.push_back(finding_of(signals[i], found[i]));
+    findings.push_back(finding_of(signals[i], found[i], values[i]));
   }
   return findings;
 }

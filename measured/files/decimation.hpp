@@ -22,7 +22,8 @@ std::size_t fewest_samples(std::size_t factor);
 /// A filtered torque is no longer constant between samples: it is band-limited, and nearly linear
 /// from sample to sample (first-order hold). An arm that was at rest at the first sample need not
 /// be at the first one of the result. A reference is left out: no controller makes a filtered
-/// torque of it.
+/// torque of it. No sample of the result is left out (Channel::left_out): the values in the place
+/// of readings that are none have about 1/factor of the weight of a sample.
 ///
 /// `factor` is 2 or more. Throws InputError for a record of fewer than `fewest_samples`.
 TimeRecord decimated(const TimeRecord& record, std::size_t factor);

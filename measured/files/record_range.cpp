@@ -51,6 +51,10 @@ TimeRecord samples_of(const TimeRecord& record, std::size_t first, std::size_t l
   TimeRecord samples{part(record.time_s), part(record.torque_N_m), {}};
   for (const auto& channel : record.channels) {
     samples.channels.push_back({channel.sensor, part(channel.values)});
+    for (const std::size_t sample : channel.left_out) {
+      if (sample < first || sample >= last) continue;
+      samples.channels.back().left_out.push_back(sample - first);
+    }
   }
   samples.reference.unit = record.reference.unit;
   if (!record.reference.values.empty()) samples.reference.values = part(record.reference.values);

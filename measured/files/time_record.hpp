@@ -2,6 +2,7 @@
 
 #include "arm/sensor.hpp"
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -13,6 +14,9 @@ namespace flexarm::measured {
 struct Channel {
   arm::Sensor sensor;
   std::vector<double> values;
+  /// Samples whose readings are no such, ascending from 0; their values are put there for what
+  /// needs one at every sample. No file states any.
+  std::vector<std::size_t> left_out = {};
 
   bool operator==(const Channel&) const = default;
 };

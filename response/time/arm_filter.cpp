@@ -5,11 +5,13 @@
 #include "response/time/simulator_commands.hpp"
 #include "response/time/time_stepper.hpp"
 
+#include <Eigen/Cholesky>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <vector>
 
 namespace flexarm::response {
 
@@ -59,6 +61,27 @@ SampledSystem ArmSimulator::sampled(const ProcessNoise& noise,
   return made;
 }
 
+namespace {
+
+/// Innovations with those that are not numbers, their readings being missing, as the others of the
+/// sample let expect: e_m = S_mo S_oo^-1 e_o, S being their covariance. The gain P H^T S^-1 makes
+/// of all what that of the others alone, P H_o^T S_oo^-1, makes of e_o.
+Eigen::VectorXd with_expected(const Eigen::MatrixXd& covariance, Eigen::VectorXd innovation) {
+  std::vector<Index> missing;
+  std::vector<Index> there;
+  for (Index j = 0; j < innovation.size(); ++j) {
+    (std::isnan(innovation(j)) ? missing : there).push_back(j);
+  }
+  if (there.empty()) return Eigen::VectorXd::Zero(innovation.size());
+  const Eigen::MatrixXd own = covariance(there, there);
+  const Eigen::VectorXd others = innovation(there);
+  innovation(missing) =
+      covariance(missing, there) * Eigen::LDLT<Eigen::MatrixXd>(own).solve(others);
+  return innovation;
+}
+
+}  // namespace
+
 /// The filter at a sample, its readings included.
 struct ArmSimulator::FilteredSample {
   Index row;
@@ -97,9 +120,15 @@ void ArmSimulator::follow(Commands& commands, const Eigen::MatrixXd& measured,
     predict(now);
     if (now.part > 0) return true;
     const Index row = now.sample;
+    const FilterGain& filter = gains.at(static_cast<std::size_t>(row));
     innovation = (measured.row(row) - predicted.row(row)).transpose();
-    innovation = innovation.array().isNaN().select(0.0, innovation);
-    correction = gains.at(static_cast<std::size_t>(row)).gain * innovation;
+    innovation = predicted.row(row).transpose().array().isNaN().select(0.0, innovation);
+    if (innovation.hasNaN()) {
+      correction = filter.gain * with_expected(filter.innovation_covariance, innovation);
+      innovation = innovation.array().isNaN().select(0.0, innovation);
+    } else {
+      correction = filter.gain * innovation;
+    }
     state = stepper.state() + correction.head(states());
     if (!state.allFinite()) throw too_large("filtered state", now.time_s);
     stepper.put(state, stepper.motion() == HubMotion::held);

@@ -114,9 +114,10 @@ class ArmSimulator {
   SampledSystem sampled(const ProcessNoise& noise, const Eigen::VectorXd& deviations) const;
 
   /// The arm follows the `measured` readings (a row a sample and a column a sensor, not a number
-  /// where one is missing) by `gains`, at rest before the first sample, and goes from sample to
-  /// sample as in `readings`: friction and forces act on the filtered motion. A hub that friction
-  /// holds stays held until the torque, disturbance included, breaks it loose.
+  /// where one is missing: the state then moves by the others of the sample alone) by `gains`, at
+  /// rest before the first sample, and goes from sample to sample as in `readings`: friction and
+  /// forces act on the filtered motion. A hub that friction holds stays held until the torque,
+  /// disturbance included, breaks it loose.
   FilteredRun filtered(std::span<const double> torque_N_m, const Eigen::MatrixXd& measured,
                        const FilterGains& gains) const;
 

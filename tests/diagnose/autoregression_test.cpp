@@ -1,12 +1,16 @@
 #include "diagnose/autoregression.hpp"
 
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <cstdint>
 #include <numbers>
 #include <random>
+#include <vector>
 
 namespace flexarm::diagnose {
 namespace {
@@ -130,6 +134,58 @@ TEST(Autoregression, OfASlowDriftStaysStable) {
 TEST(Autoregression, OfNothingIsWhite) {
   EXPECT_EQ(Autoregression(Eigen::VectorXd::Zero(100), 20).order(), 0);
   EXPECT_EQ(Autoregression(Eigen::VectorXd::Ones(3), 20).order(), 0);
+}
+
+/// The likelihood of Gaussian noise of covariance R = (W^T W)^-1, W its whitening, by the numbers
+/// that are known, e_o: e_o^T R_oo^-1 e_o, and the most likely others R_mo R_oo^-1 e_o.
+TEST(Autoregression, TakesNumbersThatAreNotKnownForTheMostLikely) {
+  constexpr Index kCount = 60;
+  constexpr double kRounding = 1e-9;  // of matrices of condition 1e4 and less
+  const Autoregression noise(resonant_noise(kNoiseLength, 3), 5);
+  ASSERT_GE(noise.order(), 2);
+  const std::vector<std::size_t> left_out = {0, 1, 17, 19, 20, 21, 40, 58, 59};
+  std::vector<Index> missing;
+  std::vector<Index> known;
+  for (Index k = 0; k < kCount; ++k) {
+    const bool is_missing = std::ranges::count(left_out, static_cast<std::size_t>(k)) > 0;
+    (is_missing ? missing : known).push_back(k);
+  }
+  Eigen::MatrixXd whitening = Eigen::MatrixXd::Identity(kCount, kCount);
+  for (Index k = 0; k < kCount; ++k) noise.whiten(whitening.col(k));
+  const Eigen::MatrixXd covariance = (whitening.transpose() * whitening).inverse();
+  const Eigen::MatrixXd own = covariance(known, known);
+  const Eigen::VectorXd values = resonant_noise(kCount, 4);
+  const Eigen::VectorXd solved = own.llt().solve(Eigen::VectorXd(values(known)));
+
+  Eigen::VectorXd whitened = values;
+  whitened(missing).setConstant(100.0);
+  Eigen::VectorXd filled = whitened;
+  noise.whiten(whitened, left_out);
+  EXPECT_NEAR(whitened.squaredNorm(), values(known).dot(solved), kRounding);
+  noise.fill(filled, left_out);
+  EXPECT_LE((filled(missing) - covariance(missing, known) * solved).norm(), kRounding);
+  EXPECT_EQ(Eigen::VectorXd(filled(known)), Eigen::VectorXd(values(known)));
+  noise.colour(whitened);
+  EXPECT_LE((whitened - filled).norm(), kRounding);
+}
+
+TEST(Autoregression, FillsFromNumbersAlone) {
+  const Eigen::VectorXd values = resonant_noise(kNoiseLength, 6);
+  Eigen::VectorXd filled = values;
+  std::vector<std::size_t> left_out;
+  for (std::size_t k = 7; k < static_cast<std::size_t>(kNoiseLength); k += 50) {
+    left_out.push_back(k);
+    filled(static_cast<Index>(k)) = 100.0;
+  }
+  fill_by_autoregression(filled, left_out, 20);
+  // Both sides known the variance is that of the innovations over 1 + 1.5^2 + 0.8^2.
+  const double r_1 = 1.5 / 1.8;
+  const double innovation = 1.0 - 1.5 * r_1 + 0.8 * (1.5 * r_1 - 0.8);
+  const double variance = innovation / (1.0 + 1.5 * 1.5 + 0.8 * 0.8);
+  const auto count = static_cast<double>(left_out.size());
+  // Of a mean square of `count` numbers; four standard deviations.
+  EXPECT_LT((filled - values).squaredNorm() / count,
+            variance * (1.0 + 4.0 * std::sqrt(2.0 / count)));
 }
 
 }  // namespace

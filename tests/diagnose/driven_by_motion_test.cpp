@@ -151,6 +151,27 @@ TEST(MeasuredMotion, TakesTheNoiseOffReadings) {
   EXPECT_LT(rms(made.error), 2.0 * rms(error));
 }
 
+TEST(MeasuredMotion, DoesNotDependOnReadingsThatAreLeftOut) {
+  constexpr double kNoise = 1e-3;
+  response::RandomNumbers random(5);
+  std::vector<double> truth;
+  std::vector<double> readings;
+  for (int k = 0; k < 2000; ++k) {
+    truth.push_back(std::sin(3.0 * k * kPeriod_s) + 0.05 * std::sin(40.0 * k * kPeriod_s));
+    readings.push_back(truth.back() + kNoise * random.normal());
+  }
+  std::vector<std::size_t> left_out;
+  for (std::size_t k = 5; k < readings.size(); k += 37) left_out.push_back(k);
+  const SmoothedReadings sound = smooth(readings, 3, BeforeFirst::unknown, 1, left_out);
+  for (const std::size_t k : left_out) readings[k] += 100.0 * kNoise;
+  const SmoothedReadings made = smooth(readings, 3, BeforeFirst::unknown, 1, left_out);
+  EXPECT_EQ(made.values, sound.values);
+  EXPECT_NEAR(made.noise, kNoise, 0.1 * kNoise);
+  std::vector<double> error;
+  for (const std::size_t k : left_out) error.push_back(made.values[k] - truth[k]);
+  EXPECT_LT(rms(error), 0.6 * kNoise);
+}
+
 TEST(MeasuredMotion, LeavesReadingsWithoutNoiseAsTheyAre) {
   for (const double period_s : {1e-2, 1e-4}) {
     std::vector<double> readings;
@@ -168,7 +189,7 @@ TEST(MeasuredMotion, OfAVelocityIsItsIntegral) {
   std::vector<double> velocities;
   for (int k = 0; k < 2000; ++k) velocities.push_back(std::sin(5.0 * k * kPeriod_s));
   const MeasuredMotion made =
-      motion_of_hub({arm::SensorKind::hub_velocity}, velocities, kPeriod_s, true);
+      motion_of_hub({{arm::SensorKind::hub_velocity}, velocities}, kPeriod_s, true);
   const auto& found = made.motion.acceleration_rad_per_s2;
   for (std::size_t k = 10; k + 10 < found.size(); ++k) {
     ASSERT_NEAR(found[k], 5.0 * std::cos(5.0 * static_cast<double>(k) * kPeriod_s), 5e-3) << k;

@@ -78,6 +78,29 @@ TEST_F(ExperimentFiles, WithADeadChannelLeaveItOutAndSaySo) {
   EXPECT_THAT(read.notices, testing::Contains(HasSubstr("tip_acceleration excluded")));
 }
 
+TEST_F(ExperimentFiles, WithOutliersLeaveThemOutUnlessTheyAreAccepted) {
+  const Experiment sound = simulated_experiment({}, {.duration_s = 1.0});
+  Experiment made = sound;
+  double& reading = record_in(made, 1).channels[2].values[300];
+  const double before = reading;
+  const double spike = 1e3;  // m/s^2; the largest of the run is a tenth of it
+  reading += spike;
+  const fs::path file = write(made);
+  Experiment read = read_experiment(file);
+  EXPECT_THAT(read.notices, testing::Contains(HasSubstr("tip_acceleration has a spike")));
+  EXPECT_THAT(read.notices,
+              testing::Contains(HasSubstr("1 of 500 readings of tip_acceleration in run "
+                                          "random-high are outliers and are left out")));
+  EXPECT_THAT(record_in(read, 1).channels[2].left_out, testing::ElementsAre(300));
+  EXPECT_NEAR(record_in(read, 1).channels[2].values[300], before, 0.01 * spike);
+  EXPECT_THAT(record_in(read, 0).channels[2].left_out, testing::IsEmpty());
+  Experiment accepted = read_experiment(file, {measured::Fault::spikes});
+  EXPECT_EQ(accepted.accepted.size(), 1U);
+  EXPECT_THAT(accepted.notices, testing::Not(testing::Contains(HasSubstr("left out"))));
+  EXPECT_EQ(record_in(accepted, 1).channels[2].values[300], before + spike);
+  EXPECT_THAT(record_in(accepted, 1).channels[2].left_out, testing::IsEmpty());
+}
+
 TEST_F(ExperimentFiles, WithATorqueThatIsZeroAreRefused) {
   Experiment made = simulated_experiment({}, {.duration_s = 1.0});
   std::ranges::fill(record_in(made, 0).torque_N_m, 0.0);

@@ -149,6 +149,62 @@ TEST(DataFindings, SayWhatAndWhere) {
   EXPECT_NE(findings[0].text.find("at sample 322"), std::string::npos) << findings[0].text;
 }
 
+TEST(DataFindings, OfSpikesSayWhatTheOthersPredict) {
+  // Two of them close together and at the ends, too; errors of the predictions are of the size of
+  // the noise.
+  const auto sound = clean(7).record;
+  auto record = sound;
+  auto& channel = record.channels.front();
+  const double unit = deviation(channel.values);
+  const std::size_t last = channel.values.size() - 1;
+  const std::vector<std::size_t> samples = {1, 200, 205, 321, 450, 451, 520, 522, last};
+  for (const std::size_t sample : samples) channel.values[sample] += 5.0 * unit;
+  const auto findings = check_data(record);
+  ASSERT_EQ(findings.size(), 1U);
+  ASSERT_EQ(findings[0].predicted.size(), samples.size()) << findings[0].text;
+  EXPECT_EQ(leave_out_spikes(record, findings[0]), samples.size());
+  EXPECT_EQ(channel.left_out, samples);
+  constexpr double kNoise = 0.1;  // of the channel's deviation; 3 % of noise at most, three times
+  constexpr double kAtEnd = 3.0;  // a prediction from one side extrapolates
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const bool is_at_end = i == 0 || i + 1 == samples.size();
+    EXPECT_EQ(findings[0].predicted[i].sample, samples[i]);
+    EXPECT_NEAR(channel.values[samples[i]], sound.channels.front().values[samples[i]],
+                (is_at_end ? kAtEnd : 1.0) * kNoise * unit);
+  }
+  channel = sound.channels.front();
+  EXPECT_EQ(record.channels, sound.channels);
+}
+
+TEST(DataFindings, OfManySpikesLeaveNothingOut) {
+  DataFinding finding;
+  finding.fault = Fault::spikes;
+  finding.channel = "hub_angle";
+  TimeRecord record{std::vector<double>(100),
+                    std::vector<double>(100),
+                    {{{arm::SensorKind::hub_angle, 0.0}, std::vector<double>(100)}}};
+  const TimeRecord before = record;
+  const auto most = static_cast<std::size_t>(100.0 * kMostLeftOut);
+  for (std::size_t k = 0; k <= most; ++k) finding.predicted.push_back({15 * k, 1.0});
+  EXPECT_EQ(leave_out_spikes(record, finding), 0U);
+  EXPECT_EQ(record, before);
+  finding.predicted.pop_back();
+  EXPECT_EQ(leave_out_spikes(record, finding), most);
+  EXPECT_EQ(record.channels[0].left_out.size(), most);
+  finding.channel = "strain@0.1";
+  EXPECT_EQ(leave_out_spikes(record, finding), 0U);
+}
+
+TEST(DataFindings, ThreeSamplesInARowAreNoSpikes) {
+  auto record = clean(7).record;
+  auto& channel = record.channels.front();
+  const double unit = deviation(channel.values);
+  for (const std::size_t sample : {200U, 201U, 202U}) channel.values[sample] += 5.0 * unit;
+  for (const auto& finding : check_data(record)) {
+    EXPECT_NE(finding.fault, Fault::spikes) << finding.text;
+  }
+}
+
 TEST(DataFindings, ATimeThatRepeatsIsNoGap) {
   auto record = clean(3).record;
   record.time_s[100] = record.time_s[99];

@@ -98,6 +98,12 @@ TEST(RecordRange, HasTheReferenceOfItsSamples) {
   EXPECT_EQ(part.reference.values, part.time_s);
 }
 
+TEST(RecordRange, KnowsItsReadingsThatAreLeftOut) {
+  TimeRecord record = sines(1.0, 2.0, 100);
+  record.channels[0].left_out = {3, 10, 15, 20};
+  EXPECT_THAT(samples_of(record, 10, 20).channels[0].left_out, ElementsAre(0, 5));
+}
+
 TEST(RecordRange, IsOfRowsOrTimes) {
   const TimeRecord record = sines(1.0, 2.0, 100);
   std::size_t first = 0;

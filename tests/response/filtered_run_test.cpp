@@ -216,6 +216,33 @@ TEST_F(FilteredRunTest, AMissingReadingHasNoInnovationAndMovesNothing) {
   EXPECT_LE(run.innovations.cwiseAbs().maxCoeff(), 1e-11);
 }
 
+/// Like one whose innovation is what those of the other sensors let expect, which does not move the
+/// state beyond these.
+TEST_F(FilteredRunTest, BesideAMissingReadingTheOthersMoveTheState) {
+  make();
+  const FilterGains gains = steady();
+  constexpr Index kSample = 100;
+  RandomNumbers random(5);
+  Eigen::MatrixXd measured = simulator_->readings(torque_);
+  for (double& value : measured.reshaped()) value += 1e-3 * random.normal();
+  const Eigen::VectorXd innovation =
+      simulator_->filtered(torque_, measured, gains).innovations.row(kSample).transpose();
+  const Index others = innovation.size() - 1;
+  ASSERT_GT(others, 0);
+  const Eigen::MatrixXd covariance = gains.at(kSample).innovation_covariance;
+  const Eigen::MatrixXd own = covariance.bottomRightCorner(others, others);
+  const double expected =
+      covariance.row(0).tail(others).dot(own.llt().solve(innovation.tail(others)));
+  Eigen::MatrixXd as_expected = measured;
+  as_expected(kSample, 0) += expected - innovation(0);
+  measured(kSample, 0) = std::numeric_limits<double>::quiet_NaN();
+  FilteredRun run = simulator_->filtered(torque_, measured, gains);
+  EXPECT_EQ(run.innovations(kSample, 0), 0.0);
+  run.innovations(kSample, 0) = expected;
+  const FilteredRun same = simulator_->filtered(torque_, as_expected, gains);
+  EXPECT_LE((run.innovations - same.innovations).cwiseAbs().maxCoeff(), 1e-12);
+}
+
 /// A filter that no reading corrects after a sample goes on freely from there: its innovations are
 /// the errors of predictions from that sample.
 TEST_F(FilteredRunTest, ErrorsAheadAreThoseOfAFilterWhoseGainEnds) {

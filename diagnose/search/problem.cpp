@@ -13,6 +13,20 @@ namespace flexarm::diagnose {
 
 namespace {
 
+/// Whether the mean of errors is more than the mean of noise with the spectrum of the rest would
+/// be: an offset of the sensor, which an autoregression would hide. The variance of the mean of n
+/// numbers is the power at frequency 0 over n.
+bool has_constant(const Eigen::VectorXd& errors) {
+  constexpr double kMostDeviations = 5.0;
+  const auto n = static_cast<double>(errors.size());
+  const double mean = errors.mean();
+  const Eigen::VectorXd rest = errors.array() - mean;
+  const double size = rest.norm() / std::sqrt(n);
+  if (!(size > 0.0)) return mean != 0.0;
+  const double power = Autoregression(rest / size, kMostNoiseOrder).power(0.0);
+  return std::abs(mean) > kMostDeviations * size * std::sqrt(power / n);
+}
+
 /// With the simulation's own error beside the noise; the signal's deviation is that by which both
 /// are relative.
 void widen(Observations& observations, const std::vector<double>& errors) {
@@ -132,6 +146,7 @@ std::optional<Problem> Problem::with_coloured_noise(const Candidate& candidate) 
   for (ObservedChannel& channel : made.observations_.channels) {
     if (experiment_->runs[channel.run].run.kind != measured::RunKind::time) continue;
     Eigen::VectorXd own = errors.segment(channel.first, channel.count);
+    if (has_constant(own)) own.array() -= own.mean();
     const double seen = std::sqrt(own.squaredNorm() / static_cast<double>(channel.count));
     if (!(seen > 0.0)) continue;
     const double floor = seen * channel.floor();

@@ -160,6 +160,25 @@ TEST(ColouredNoiseModel, IsNotTakenUpForAnOffsetOfOneSensor) {
   EXPECT_FALSE(says_coloured(made));
 }
 
+/// Three wrong readings in a row are not recognised as outliers, and make the noise coloured.
+TEST(ColouredNoiseModel, IsNotTakenUpForAnOffsetBesideWrongReadings) {
+  constexpr double kOffset = 0.05;
+  Experiment experiment =
+      simulated_experiment({effects::named("sensor_offset", {{"value", kOffset}}, "hub_velocity")});
+  for (auto& run : experiment.runs) {
+    for (auto& channel : std::get<measured::TimeRecord>(run.data).channels) {
+      if (channel.sensor.kind != arm::SensorKind::hub_velocity) continue;
+      for (std::size_t k = 300; k < 303; ++k) channel.values[k] += 1.0;
+    }
+  }
+  const Diagnosis made = diagnose(experiment, named(experiment, {"sensor_offset", "hub_inertia"}));
+  EXPECT_NE(made.verdict, Verdict::adequate) << to_string(made.verdict);
+  ASSERT_EQ(made.causes.size(), 1U);
+  EXPECT_EQ(made.causes[0].sensor, "hub_velocity");
+  // Twelve readings of 8000 are wrong by 1 rad/s: 0.0015 rad/s on average.
+  EXPECT_NEAR(made.causes[0].parameters.front().value, kOffset, 0.06 * kOffset);
+}
+
 /// Of an experiment as it is filed, beside coloured noise of what that leaves.
 DependenceTest dependence_of(const Experiment& experiment) {
   const Problem white(experiment);
@@ -182,8 +201,8 @@ TEST(Dependence, IsSeenOfWhatAnEffectChangesAndNotOfNoise) {
   // A cable that pulls beyond 0.05 rad: no effect of the library.
   const arm::HubTorqueTable cable{.angle_rad = {-0.3, -0.05, 0.05, 0.3},
                                   .torque_N_m = {0.05, 0.0, 0.0, -0.05}};
-  const DependenceTest of_law = dependence(
-      {{std::string(arm::kHubTorqueTable), {.definition = arm::define_effect(cable)}}});
+  const DependenceTest of_law =
+      dependence({{std::string(arm::kHubTorqueTable), {.definition = arm::define_effect(cable)}}});
   EXPECT_LT(of_law.p_value, 1e-6);
 }
 

@@ -103,7 +103,7 @@ TEST_F(Sweep, BadInputIsOneLineAndStatusTwoBeforeAnyWork) {
 
 TEST_F(Sweep, CtrlCLeavesACheckpointFromWhichResumeMakesTheSameBytes) {
   // Two seconds or so on one thread, far more than it takes to interrupt it.
-  const std::string grid = "payload.mass=0:0.5:1500";
+  const std::string grid = "payload.mass=0:0.5:5000";
   const auto words = [&](const std::string& name) {
     return std::vector<std::string>{
         "sweep", "--over",   grid,        "--json",       (folder_ / name).string(), "--threads",
@@ -122,7 +122,7 @@ TEST_F(Sweep, CtrlCLeavesACheckpointFromWhichResumeMakesTheSameBytes) {
   resumed.emplace_back("--resume");
   const Ended finished = run(resumed);
   EXPECT_EQ(finished.status, 0) << finished.errors;
-  EXPECT_THAT(finished.output, HasSubstr(" of 1500 points from "));
+  EXPECT_THAT(finished.output, HasSubstr(" of 5000 points from "));
   EXPECT_THAT(names_in(), ElementsAre("out.json"));
 
   EXPECT_EQ(run(words("whole.json")).status, 0);

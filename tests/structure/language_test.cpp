@@ -28,11 +28,11 @@ const std::vector<std::string> kRooms = {"app",      "arm",      "assumed_modes"
                                          "measured", "report",   "response"};
 
 /// Not checked. Generated documents whose commands take long are checked by their templates.
-const std::set<std::string> kExempt = {
-    "docs/glossary.md",         // lists the retired phrases
-    "docs/case-rig.md",         // scripts/case-rig.md.in
-    "docs/scorecard.md",        // tests/trials/scorecard.cpp
-    "docs/scorecard-dirt.md"};  // likewise
+const std::set<std::string> kExempt = {"docs/glossary.md",        // lists the retired phrases
+                                       "docs/case-rig.md",        // scripts/case-rig.md.in
+                                       "docs/scorecard.md",       // tests/trials/scorecard.cpp
+                                       "docs/scorecard-dirt.md",  // likewise
+                                       "docs/scorecard-dirt-2.md"};
 
 std::string read(const fs::path& path) {
   std::ifstream file(path);

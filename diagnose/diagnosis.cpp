@@ -308,14 +308,13 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
     residuals_after = problem.residuals(made.extended_arm, chosen.nuisances, all_runs)
                           .value_or(residuals_of_effects);
   }
-  const auto gain = [&](const std::vector<bool>& runs) {
-    const auto of = [&](const Eigen::VectorXd& residuals) {
-      return misfit(problem.observations(), problem.experiment(), residuals, runs);
-    };
-    return gain_between(of(residuals_before), of(residuals_after));
+  const auto left = [&](const std::vector<bool>& runs) {
+    return misfit(problem.observations(), problem.experiment(), residuals_after, runs);
   };
-  made.estimation = gain(problem.estimation_runs());
-  if (as_filed.validation.count > 0.0) made.validation = gain(problem.validation_runs());
+  made.estimation = gain_between(as_filed.estimation, left(problem.estimation_runs()));
+  if (as_filed.validation.count > 0.0) {
+    made.validation = gain_between(as_filed.validation, left(problem.validation_runs()));
+  }
   made.channels = channel_gains(problem, residuals_before, residuals_after);
   const auto errors_of = [&problem](const Eigen::VectorXd& residuals) {
     return with_expected_errors(problem.observations(),

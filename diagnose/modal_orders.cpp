@@ -3,6 +3,7 @@
 #include "compare/identification.hpp"
 #include "compare/measured.hpp"
 #include "compare/root_numbering.hpp"
+#include "measured/modal/modal_fit.hpp"
 
 #include <fmt/format.h>
 
@@ -24,9 +25,9 @@ std::string name_of(const measured::ModalEntry& entry) {
 
 /// As `measured::modal_table` takes none from a fit.
 bool is_real_zero(const measured::ModalEntry& entry) {
-  constexpr double kMostDampingRatio = 0.7;
   return entry.feature == measured::Feature::zero &&
-         std::abs(entry.damping_ratio.value_or(0.0)) > kMostDampingRatio;
+         std::abs(entry.damping_ratio.value_or(0.0)) >
+             measured::ModalFitOptions{}.most_damping_ratio;
 }
 
 }  // namespace

@@ -80,13 +80,9 @@ const std::vector<bool>& Problem::judged_runs() const {
 }
 
 double Problem::judged_error(const arm::Arm& arm) const {
-  try {
-    Eigen::VectorXd left = predictor_.residuals(arm, judged_runs());
-    to_residuals(observations_, left);
-    const double error = misfit(observations_, *experiment_, left, judged_runs()).relative_error;
+  if (const auto left = residuals(arm, {}, judged_runs())) {
+    const double error = misfit(observations_, *experiment_, *left, judged_runs()).relative_error;
     if (std::isfinite(error)) return error;
-  } catch (const std::runtime_error&) {
-    // An arm that is none, or a simulation that overflows.
   }
   return std::numeric_limits<double>::infinity();
 }

@@ -80,7 +80,7 @@ ModalFit fit_responses(const FrequencyResponseEstimate& estimate, ModalFitOption
   }
   // Batches of lines do not hold: a pole is determined by the few lines of its resonance.
   options.robust = false;
-  options.covariance = [&](const ModalFit& fit) {
+  const auto with_correlation = [&](const ModalFit& fit) {
     const auto correlation_at = [&](double frequency_Hz) {
       const auto at = std::ranges::lower_bound(estimate.frequency_Hz, frequency_Hz);
       const auto k = static_cast<std::size_t>(at - estimate.frequency_Hz.begin());
@@ -92,11 +92,9 @@ ModalFit fit_responses(const FrequencyResponseEstimate& estimate, ModalFitOption
     };
     return with_common_noise(fit, record, options.response_std, correlation_at);
   };
-  ModalFit fit = fit_modes(record, options);
-  for (int round = 0; round < kReweighings && !fit.cancelled; ++round) {
+  const auto reweigh = [&](const ModalFit& fit) {
     for (std::size_t j = 0; j < record.channels.size(); ++j) {
       const ChannelEstimate& channel = estimate.channels[j];
-      if (channel.ratio.x.empty()) continue;
       for (std::size_t i = 0; i < lines[j].size(); ++i) {
         const std::size_t k = lines[j][i];
         const auto fitted = fit.transfers[j].value(s_at(k));
@@ -105,9 +103,16 @@ ModalFit fit_responses(const FrequencyResponseEstimate& estimate, ModalFitOption
             part_of(channel.ratio.deviation(k, fitted / per_ratio(k)), channel.response[k]);
       }
     }
-    fit = fit_modes(record, options);
+  };
+  const bool has_ratios = std::ranges::any_of(
+      estimate.channels, [](const ChannelEstimate& channel) { return !channel.ratio.x.empty(); });
+  for (int round = 0; has_ratios && round < kReweighings; ++round) {
+    const ModalFit fit = fit_modes(record, options);
+    if (fit.cancelled) return fit;
+    reweigh(fit);
   }
-  return fit;
+  options.covariance = with_correlation;
+  return fit_modes(record, options);
 }
 
 }  // namespace flexarm::measured

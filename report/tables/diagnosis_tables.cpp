@@ -114,9 +114,9 @@ std::string floor_of(const diagnose::Gain& gain) {
 std::string no_name_reason(const diagnose::Diagnosis& diagnosis) {
   const diagnose::SelectionOptions bars;
   if (diagnosis.near_misses.empty() ||
-      diagnosis.near_misses.front().probability < bars.least_probability) {
+      diagnosis.near_misses.front().probability < kLeastProbability) {
     return fmt::format("no effect that was tried has a probability of {:g} or more",
-                       bars.least_probability);
+                       kLeastProbability);
   }
   const diagnose::NearMiss& best = diagnosis.near_misses.front();
   const std::string named = fmt::format("no effect is identified. The most probable, {} ({:.2g}),",

@@ -131,16 +131,27 @@ double level(const Problem& problem, const ObservedChannel& channel) {
          static_cast<double>(channel.count);
 }
 
-TEST(MeasuredMotion, TakesTheNoiseOffReadings) {
-  constexpr double kNoise = 1e-3;
-  response::RandomNumbers random(5);
+constexpr double kNoise = 1e-3;
+
+struct NoisyMotion {
   std::vector<double> truth;
   std::vector<double> readings;
-  for (int k = 0; k < 4000; ++k) {
+};
+
+/// A slow and a fast sine, with white noise of kNoise.
+NoisyMotion noisy_motion(int samples) {
+  response::RandomNumbers random(5);
+  NoisyMotion made;
+  for (int k = 0; k < samples; ++k) {
     const double t = k * kPeriod_s;
-    truth.push_back(std::sin(3.0 * t) + 0.05 * std::sin(40.0 * t));
-    readings.push_back(truth.back() + kNoise * random.normal());
+    made.truth.push_back(std::sin(3.0 * t) + 0.05 * std::sin(40.0 * t));
+    made.readings.push_back(made.truth.back() + kNoise * random.normal());
   }
+  return made;
+}
+
+TEST(MeasuredMotion, TakesTheNoiseOffReadings) {
+  const auto [truth, readings] = noisy_motion(4000);
   const SmoothedReadings made = smooth(readings, 3, BeforeFirst::unknown, 1);
   EXPECT_NEAR(made.noise, kNoise, 0.1 * kNoise);
   std::vector<double> error;
@@ -152,14 +163,7 @@ TEST(MeasuredMotion, TakesTheNoiseOffReadings) {
 }
 
 TEST(MeasuredMotion, DoesNotDependOnReadingsThatAreLeftOut) {
-  constexpr double kNoise = 1e-3;
-  response::RandomNumbers random(5);
-  std::vector<double> truth;
-  std::vector<double> readings;
-  for (int k = 0; k < 2000; ++k) {
-    truth.push_back(std::sin(3.0 * k * kPeriod_s) + 0.05 * std::sin(40.0 * k * kPeriod_s));
-    readings.push_back(truth.back() + kNoise * random.normal());
-  }
+  auto [truth, readings] = noisy_motion(2000);
   std::vector<std::size_t> left_out;
   for (std::size_t k = 5; k < readings.size(); k += 37) left_out.push_back(k);
   const SmoothedReadings sound = smooth(readings, 3, BeforeFirst::unknown, 1, left_out);

@@ -278,16 +278,19 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
   }
   say_noise(predicted.simulated, made.notices);
   say_assumed_numbers(experiment.arm, selection.problem.experiment().arm, made.notices);
-  // What is left is judged by simulation, whichever predictor found the effects.
+  // What is left is judged by simulation, whichever predictor found the effects, but for noise of
+  // the recorded torque: a simulation adds it up.
   const Problem& problem = predicted.simulated;
   const Explanation as_filed = explain(problem, evaluated(problem, problem.as_filed()));
   const Explanation extended = is_simulation(made.predictor)
                                    ? selection.chosen
                                    : explain(problem, evaluated(problem, chosen));
-  made.verdict = verdict_of(extended, as_filed,
+  const bool is_by_filter = predicted.is_by_torque_noise();
+  const Explanation& tested = is_by_filter ? selection.chosen : extended;
+  made.verdict = verdict_of(tested, is_by_filter ? selection.nothing : as_filed,
                             made.search_end ? SearchState::incomplete : SearchState::complete);
-  made.estimation_test = extended.estimation_test;
-  made.validation_test = extended.validation_test;
+  made.estimation_test = tested.estimation_test;
+  made.validation_test = tested.validation_test;
   made.converged = std::ranges::all_of(
       judged, [](const JudgedSelection& one) { return one.selection.chosen.fit.converged; });
   made.evaluations = selection.chosen.fit.evaluations;

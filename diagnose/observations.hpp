@@ -31,6 +31,9 @@ struct ObservedChannel {
   double noise = 0.0;
   /// The simulation's own error, in the same measure: never to be taken for physics.
   double numerical_error = 0.0;
+  /// What noise of the recorded torque adds to a simulation, in the same measure; 0 where a filter
+  /// does not account for it (search/torque_noise.hpp).
+  double torque_error = 0.0;
   bool logarithmic = false;  ///< lines of a response that `to_residuals` takes logarithms of
 
   /// Readings of a `time` channel that are none (measured::Channel::left_out), from 0 at `first`.

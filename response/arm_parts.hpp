@@ -62,9 +62,12 @@ struct HubLaws {
 };
 
 /// A torque on the hub that nobody recorded, as a stationary first-order Gauss-Markov process: its
-/// autocorrelation falls as e^(-|t|/T).
+/// autocorrelation falls as e^(-|t|/T). With T = 0 it is white: another one at each sample of a
+/// filter, held to the next, as the error of a recorded torque is.
 struct HubDisturbance {
-  double correlation_time_s = 0.0;  ///< T, above 0
+  double correlation_time_s = 0.0;  ///< T, 0 or more
+
+  bool is_white() const { return correlation_time_s == 0.0; }
 };
 
 /// An arm taken apart by who honours its effects: a formulation those of the linear arm, response/

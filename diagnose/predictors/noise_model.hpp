@@ -3,6 +3,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace flexarm::diagnose {
 
@@ -18,6 +19,12 @@ struct NoiseModel {
   std::map<std::string, double> reading_factors = {};
   /// By torque balance: the unit of the residuals that the disturbance's estimates are.
   std::optional<double> balance_unit_N_m = {};
+  /// Of each run the standard deviation of white noise in its recorded torque (torque_noise.hpp).
+  /// Where it is given the disturbance is that noise, held from sample to sample: `disturbance_N_m`
+  /// and `correlation_time_s` have no influence, and no number of the model is estimated.
+  std::vector<double> torque_noise_N_m = {};
+
+  bool is_torque_noise() const { return !torque_noise_N_m.empty(); }
 
   double reading_factor(const std::string& sensor) const {
     const auto found = reading_factors.find(sensor);

@@ -113,7 +113,9 @@ void Predictor::for_each_time_run(const arm::Arm& arm, const std::vector<bool>& 
     if (std::ranges::none_of(condition.runs, [&](std::size_t r) { return runs[r]; })) continue;
     with_payload.payload = condition.payload;
     response::ArmParts parts = response::take_apart(with_payload);
-    if (noise != nullptr) parts.disturbance = {noise->correlation_time_s};
+    if (noise != nullptr) {
+      parts.disturbance = {noise->is_torque_noise() ? 0.0 : noise->correlation_time_s};
+    }
     if (is_driven_by_motion(*experiment_)) parts = response::with_driven_hub(std::move(parts));
     const auto model =
         response::time_model(response::make_formulation("exact_tf", parts.linear, flexible_modes_),
@@ -185,7 +187,8 @@ RecordedRun Predictor::recorded(std::size_t r, const NoiseModel& noise) const {
   return {std::get<measured::TimeRecord>(data).torque_N_m,
           observations_.values.segment(first, count),
           Eigen::VectorXd::Map(deviations.data(), std::ssize(deviations)),
-          {noise.disturbance_N_m, noise.modal_force_N_m},
+          {noise.is_torque_noise() ? noise.torque_noise_N_m[r] : noise.disturbance_N_m,
+           noise.modal_force_N_m},
           run.initial == measured::InitialState::free,
           hub_sensor(r),
           missing};
@@ -244,12 +247,12 @@ std::pair<Index, Index> Predictor::stretch(std::size_t run) const {
   return {first[run], first[run + 1] - first[run]};
 }
 
-// Moves are not what the likelihood of a smoothing assumes: those of simulated arms were off by up to
-// 1.2 times what it says.
+// Moves are not what the likelihood of a smoothing assumes: those of simulated arms were off by up
+// to 1.2 times what it says.
 constexpr double kMotionDoubt = 1.2;
 
-std::vector<double> errors_of_motion(const Experiment& experiment,
-                                     const Observations& observations, int flexible_modes) {
+std::vector<double> errors_of_motion(const Experiment& experiment, const Observations& observations,
+                                     int flexible_modes) {
   Experiment displaced = experiment;
   for (auto& [sensor, noise, motion, error] : displaced.motions) {
     motion.angle_rad += error.angle_rad;

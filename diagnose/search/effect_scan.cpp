@@ -46,14 +46,27 @@ std::vector<std::vector<double>> samples_of(const Hypothesis& hypothesis) {
   return samples;
 }
 
+/// The noise model for an experiment with the estimation runs alone.
+std::optional<NoiseModel> noise_of_estimation(const Problem& problem) {
+  std::optional<NoiseModel> noise = problem.predictor().noise();
+  if (!noise || !noise->is_torque_noise()) return noise;
+  std::vector<double> of_estimation_N_m;
+  for (std::size_t r = 0; r < noise->torque_noise_N_m.size(); ++r) {
+    if (problem.estimation_runs()[r]) of_estimation_N_m.push_back(noise->torque_noise_N_m[r]);
+  }
+  noise->torque_noise_N_m = std::move(of_estimation_N_m);
+  return noise;
+}
+
 ProblemOptions coarse_options(const Problem& problem, const SelectionOptions& options) {
   return {.flexible_modes = std::min(options.coarse_modes, problem.predictor().flexible_modes()),
-          .noise = problem.predictor().noise()};
+          .noise = noise_of_estimation(problem)};
 }
 
 Experiment coarse_experiment(const Problem& problem, std::size_t samples) {
-  return problem.predictor().noise() ? coarse_whole(problem.experiment(), samples)
-                                     : coarse(problem.experiment(), samples);
+  const auto& noise = problem.predictor().noise();
+  return noise && !noise->is_torque_noise() ? coarse_whole(problem.experiment(), samples)
+                                            : coarse(problem.experiment(), samples);
 }
 
 std::size_t coarse_samples(const Problem& problem, const SelectionOptions& options) {

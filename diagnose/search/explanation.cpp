@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <stdexcept>
 #include <utility>
 
 namespace flexarm::diagnose {
@@ -17,10 +19,11 @@ constexpr double kLeastBalance = 1e-12;
 void weigh_disturbance(const Problem& problem, const Candidate& candidate,
                        const Eigen::VectorXd& residuals, const std::vector<bool>& runs,
                        Misfit& misfit, ResidualTest& test) {
-  if (!problem.predictor().noise() || misfit.count == 0.0) return;
+  const auto& noise = problem.predictor().noise();
+  if (!noise || noise->is_torque_noise() || misfit.count == 0.0) return;
   misfit.disturbance = problem.disturbance_left(candidate, runs);
   double& likelihood = misfit.disturbance->minus_two_log_likelihood;
-  const bool is_balance = problem.predictor().noise()->balance_unit_N_m.has_value();
+  const bool is_balance = noise->balance_unit_N_m.has_value();
   if (is_balance) likelihood = 0.0;
   for (const ObservedChannel& channel : problem.observations().channels) {
     if (!runs[channel.run]) continue;
@@ -34,6 +37,34 @@ void weigh_disturbance(const Problem& problem, const Candidate& candidate,
     }
   }
   test.level_p_value = misfit.disturbance->relative() <= kNegligibleDisturbance ? 1.0 : 0.0;
+}
+
+/// With what a simulation errs by beyond what noise of the recorded torques adds to it, where that
+/// noise is the disturbance.
+void weigh_simulation(const Problem& problem, const Candidate& candidate,
+                      const std::vector<bool>& runs, Misfit& misfit, ResidualTest& test) {
+  const auto& noise = problem.predictor().noise();
+  if (!noise || !noise->is_torque_noise()) return;
+  const Observations& observations = problem.observations();
+  Eigen::VectorXd errors = observations.values;
+  try {
+    errors -= problem.predictor()(candidate.extend(problem.experiment().arm), runs);
+  } catch (const std::runtime_error&) {
+    // An arm that is none, or a simulation that overflows.
+    misfit.simulation_excess = std::numeric_limits<double>::infinity();
+  }
+  for (const ObservedChannel& channel : observations.channels) {
+    if (!runs[channel.run] || channel.torque_error == 0.0) continue;
+    for (const std::size_t k : channel.left_out) {
+      errors(channel.first + static_cast<Eigen::Index>(k)) = 0.0;
+    }
+    const double expected = observations.deviations(channel.first) *
+                            std::hypot(channel.floor(), channel.torque_error) / channel.floor();
+    const double squares = (errors.segment(channel.first, channel.count) / expected).squaredNorm();
+    const double most = kMostExpected * static_cast<double>(channel.used());
+    misfit.simulation_excess += std::max(0.0, squares - most);
+  }
+  if (misfit.simulation_excess > 0.0) test.level_p_value = 0.0;
 }
 
 }  // namespace
@@ -51,6 +82,8 @@ Explanation explain(const Problem& problem, Fit fit) {
       test_residuals(observations, problem.experiment(), fit.residuals, problem.estimation_runs());
   weigh_disturbance(problem, fit.candidate, fit.residuals, problem.estimation_runs(),
                     made.estimation, made.estimation_test);
+  weigh_simulation(problem, fit.candidate, problem.estimation_runs(), made.estimation,
+                   made.estimation_test);
   if (const auto held_out = problem.residuals(fit.candidate, problem.validation_runs())) {
     made.held_out = *held_out;
     made.validation =
@@ -59,6 +92,8 @@ Explanation explain(const Problem& problem, Fit fit) {
         test_residuals(observations, problem.experiment(), *held_out, problem.validation_runs());
     weigh_disturbance(problem, fit.candidate, *held_out, problem.validation_runs(), made.validation,
                       made.validation_test);
+    weigh_simulation(problem, fit.candidate, problem.validation_runs(), made.validation,
+                     made.validation_test);
   }
   made.fit = std::move(fit);
   return made;

@@ -72,7 +72,8 @@ double Misfit::excess() const {
     const double ratio = disturbance->estimated_N_m / negligible_N_m;
     return ratio * ratio + nuisance_excess();
   }
-  return beyond_chance(sum_of_squares, (1.0 + kNoiseKnown) * count, count) + nuisance_excess();
+  return beyond_chance(sum_of_squares, (1.0 + kNoiseKnown) * count, count) + simulation_excess +
+         nuisance_excess();
 }
 
 double Misfit::nuisance_excess() const {
@@ -103,8 +104,8 @@ double relative_error(const Observations& observations, const Experiment& experi
   Eigen::VectorXd relative = residuals.segment(channel.first, channel.count);
   channel.autoregression.colour(relative);
   for (const std::size_t k : channel.left_out) relative(static_cast<Index>(k)) = 0.0;
-  const auto errors = relative.array() *
-                      observations.deviations.segment(channel.first, channel.count).array();
+  const auto errors =
+      relative.array() * observations.deviations.segment(channel.first, channel.count).array();
   const auto n = static_cast<double>(channel.used());
   if (experiment.runs[channel.run].run.kind == measured::RunKind::time) {
     return std::sqrt(errors.square().sum() / n / (values - values.mean()).square().mean());

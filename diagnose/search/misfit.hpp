@@ -36,7 +36,7 @@ struct Misfit {
   double relative_error = 0.0;
   double noise_floor = 0.0;
   double numerical_error = 0.0;  ///< of the simulation, in the same measure
-  double simulated = 0.0;  ///< part of the channels that are of `time` runs
+  double simulated = 0.0;        ///< part of the channels that are of `time` runs
 
   /// Uncertain numbers of the arm, and the squares of what they are off, in standard deviations.
   double nuisances = 0.0;
@@ -46,10 +46,15 @@ struct Misfit {
   /// and what is left is the disturbance.
   std::optional<DisturbanceLeft> disturbance = {};
 
+  /// With noise of the recorded torques for the disturbance: squares of a simulation's errors, in
+  /// units of what it is expected to err by, beyond kMostExpected of them in a channel. A filter
+  /// follows what acts slowly, so that its residuals do not show it.
+  double simulation_excess = 0.0;
+
   /// Squares beyond those of the noise, whose level is known to `kNoiseKnown` of its power, and
   /// beyond what chance adds to so many of them, `kChance` standard deviations sqrt(2 n); of
-  /// nuisances those beyond chance. With a disturbance that is not negligible the mean square of
-  /// its estimates, in units of the negligible variance.
+  /// nuisances those beyond chance; and those of the simulation. With a disturbance that is not
+  /// negligible the mean square of its estimates, in units of the negligible variance.
   double excess() const;
   double nuisance_excess() const;
   bool is_noise() const { return excess() == 0.0; }
@@ -64,6 +69,9 @@ struct Misfit {
 };
 /// Part of its power to which the level of a channel's noise is known.
 inline constexpr double kNoiseKnown = 0.1;
+/// Squares of 4 standard deviations: what errors of a torque add up to in a run is about one normal
+/// number.
+inline constexpr double kMostExpected = 16.0;
 inline constexpr double kChance = 2.5;  ///< 0.6 % of normal numbers are beyond it
 
 /// `runs` as in Problem::residuals.

@@ -7,6 +7,7 @@
 #include "diagnose/predictors/noise_estimate.hpp"
 #include "diagnose/predictors/response_runs.hpp"
 #include "diagnose/search/coarse.hpp"
+#include "diagnose/search/torque_noise.hpp"
 
 #include <fmt/format.h>
 
@@ -203,13 +204,12 @@ std::optional<PredictedSelection> select_by_filter(const SelectionTask& task,
     noise.balance_unit_N_m = estimated_disturbance_N_m(unfiltered.predictor(), experiment.arm,
                                                        unfiltered.estimation_runs(), noise);
   }
-  PredictedSelection made{
-      .selection = select(unfiltered.with_noise(noise), searched, options,
-                          by_motion ? part_of(progress, 0.5, 1.0) : progress),
-      .predictor = kind,
-      .reason = "as asked for",
-      .by_motion = std::move(by_motion),
-      .simulated = by_simulation.simulated};
+  PredictedSelection made{.selection = select(unfiltered.with_noise(noise), searched, options,
+                                              by_motion ? part_of(progress, 0.5, 1.0) : progress),
+                          .predictor = kind,
+                          .reason = "as asked for",
+                          .by_motion = std::move(by_motion),
+                          .simulated = by_simulation.simulated};
   if (kind == PredictorKind::torque_balance) made.balance = made.selection.problem;
   if (made.by_motion && !made.selection.end) made.selection.end = made.by_motion->end;
   if (!task.is_asked()) {
@@ -222,6 +222,34 @@ std::optional<PredictedSelection> select_by_filter(const SelectionTask& task,
                        : "");
   }
   return made;
+}
+
+std::optional<PredictedSelection> select_with_torque_noise(const SelectionTask& task,
+                                                           const Problem& problem,
+                                                           const DiagnosisProgress& progress) {
+  if (has_controllers(problem.experiment())) return std::nullopt;
+  const Problem unfiltered =
+      filtered_problem(problem.experiment(), problem.predictor().flexible_modes(), task.options);
+  const auto noise = seen_torque_noise(unfiltered);
+  if (!noise) return std::nullopt;
+  SelectionOptions options = task.options;
+  options.deadline = halfway(options.deadline);
+  Selection selection = select(unfiltered.with_torque_noise(*noise, errors_of_torque(unfiltered)),
+                               task.hypotheses, options, progress);
+  const Candidate& chosen = selection.chosen.fit.candidate;
+  const bool is_found =
+      selection.chosen.leaves_noise() &&
+      is_more_likely(selection.problem, chosen.extend(unfiltered.experiment().arm), *noise);
+  if (!is_found && !selection.cancelled) return std::nullopt;
+  const double largest_N_m = std::ranges::max(noise->torque_noise_N_m);
+  return PredictedSelection{
+      .selection = std::move(selection),
+      .predictor = PredictorKind::grey_box,
+      .reason =
+          fmt::format("the recorded torque has white noise of {:.3g} N m rms, which makes the "
+                      "residuals noise",
+                      largest_N_m),
+      .simulated = problem.with_more_noise(errors_of_torque(problem))};
 }
 
 std::optional<PredictedSelection> select_by_responses(const SelectionTask& task,

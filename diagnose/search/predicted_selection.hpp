@@ -33,6 +33,12 @@ struct PredictedSelection {
 
   /// A candidate of `selection` with the effects of `by_motion`: one of the experiment's arm.
   Candidate whole(Candidate candidate) const;
+  /// With the noise of the recorded torques as the whole disturbance: the residuals of the filter,
+  /// not those of a simulation, are then what may be noise.
+  bool is_by_torque_noise() const {
+    const auto& noise = selection.problem.predictor().noise();
+    return noise && noise->is_torque_noise();
+  }
   /// Neither `selection` nor `by_motion` has a cause.
   bool names_nothing() const { return whole(selection.chosen.fit.candidate).effects.empty(); }
   /// `law`, or now. `balance` must have been formed.
@@ -79,6 +85,14 @@ PredictedSelection select_by_motion(const SelectionTask& task, const Experiment&
 std::optional<PredictedSelection> select_by_filter(const SelectionTask& task,
                                                    const PredictedSelection& by_simulation,
                                                    const DiagnosisProgress& progress);
+
+/// By a stochastic grey box whose disturbance is the noise of the recorded torques
+/// (torque_noise.hpp), in half of the time. Empty where these show none, or that does not leave
+/// noise, in a simulation too, or is less likely than the torques as they were recorded. The
+/// channels of `simulated` have what that noise adds to a simulation.
+std::optional<PredictedSelection> select_with_torque_noise(const SelectionTask& task,
+                                                           const Problem& problem,
+                                                           const DiagnosisProgress& progress);
 
 /// The selection by the frequency responses of the runs. Empty where no torque is rich enough.
 std::optional<PredictedSelection> select_by_responses(const SelectionTask& task,

@@ -91,6 +91,9 @@ double error_by_filter(const PredictedSelection& made) {
 /// time.
 PredictedSelection select_by_both(const SelectionTask& task, const Problem& problem,
                                   const DiagnosisProgress& progress) {
+  if (auto noisy = select_with_torque_noise(task, problem, part_of(progress, 0.0, 0.5))) {
+    return *std::move(noisy);
+  }
   SelectionOptions first = task.options;
   first.deadline = halfway(task.options.deadline);
   PredictedSelection made =

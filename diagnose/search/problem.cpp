@@ -133,6 +133,28 @@ bool Problem::lower_noise(const Candidate& candidate) {
   return fell;
 }
 
+Problem Problem::with_torque_noise(const NoiseModel& noise,
+                                   const std::vector<double>& errors) const {
+  Problem made = with_noise(noise);
+  for (std::size_t c = 0; c < errors.size(); ++c) {
+    made.observations_.channels[c].torque_error = errors[c];
+  }
+  return made;
+}
+
+Problem Problem::with_more_noise(const std::vector<double>& more) const {
+  Problem made = *this;
+  for (std::size_t c = 0; c < more.size(); ++c) {
+    ObservedChannel& channel = made.observations_.channels[c];
+    const double before = channel.floor();
+    channel.noise = std::hypot(channel.noise, more[c]);
+    made.observations_.deviations.segment(channel.first, channel.count) *= channel.floor() / before;
+  }
+  made.predictor_ =
+      Predictor(*experiment_, made.observations_, predictor_.flexible_modes(), predictor_.noise());
+  return made;
+}
+
 std::optional<Problem> Problem::with_coloured_noise(const Candidate& candidate) const {
   const auto left = residuals(candidate, std::vector<bool>(experiment_->runs.size(), true));
   if (!left) return std::nullopt;
@@ -165,6 +187,7 @@ bool Problem::has_coloured_noise() const {
 
 bool Problem::estimate_noise(const Candidate& candidate, std::function<void()> go_on) {
   const NoiseModel present = *predictor_.noise();
+  if (present.is_torque_noise()) return false;
   const arm::Arm arm = candidate.extend(experiment_->arm);
   const NoiseEstimator estimator(*experiment_, observations_, predictor_, std::move(go_on));
   const double before =

@@ -63,6 +63,11 @@ class Problem {
   bool lower_noise(const Candidate& candidate);
   static constexpr double kLower = 0.05;
 
+  /// With a noise model that is of the recorded torques, and what that noise adds to a simulation
+  /// (ObservedChannel::torque_error), one a channel.
+  Problem with_torque_noise(const NoiseModel& noise, const std::vector<double>& errors) const;
+  /// With noise of the channels, beside what they have, of this size over the signal's deviation.
+  Problem with_more_noise(const std::vector<double>& more) const;
   /// With the noise of `time` channels that is what a candidate leaves, white or not: its power,
   /// and its autoregression up to order `kMostNoiseOrder`. Empty for a candidate that cannot be
   /// computed. The residuals are those of generalised least squares.

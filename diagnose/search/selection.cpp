@@ -128,7 +128,7 @@ class Search {
   bool is_enough(const Selection& made) const {
     if (made.chosen.leaves_noise()) return true;
     const Misfit& left = made.chosen.estimation;
-    return left.nuisance_excess() == 0.0 &&
+    return left.nuisance_excess() == 0.0 && left.simulation_excess == 0.0 &&
            left.unexplained_error() <= left.simulated * options_.negligible_error;
   }
 

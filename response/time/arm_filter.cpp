@@ -31,7 +31,7 @@ SampledSystem ArmSimulator::sampled(const ProcessNoise& noise,
   }
   const Index d = arm_.disturbance.value();
   const Index n = states();
-  const Eigen::MatrixXd step = transition(1.0);
+  const Eigen::MatrixXd step = sample_transition();
   const Eigen::MatrixXd taken = linear_readings();
   SampledSystem made{Eigen::MatrixXd::Zero(n + pending, n + pending),
                      Eigen::MatrixXd::Zero(taken.rows(), n + pending),
@@ -90,6 +90,14 @@ struct ArmSimulator::FilteredSample {
   const Eigen::MatrixXd& predicted;  ///< what is taken already of later samples included
 };
 
+void ArmSimulator::forget_white_disturbance(TimeStepper& stepper, const ReadingInstant& now) const {
+  if (!parts_.disturbance || !parts_.disturbance->is_white()) return;
+  Eigen::VectorXd state = stepper.state();
+  state(arm_.disturbance.value()) = 0.0;
+  stepper.put(state, stepper.motion() == HubMotion::held);
+  stepper.take_up(now.actuator_N_m, now.time_s);
+}
+
 template <class AtSample>
 void ArmSimulator::follow(Commands& commands, const Eigen::MatrixXd& measured,
                           const FilterGains& gains, AtSample at_sample) const {
@@ -117,6 +125,7 @@ void ArmSimulator::follow(Commands& commands, const Eigen::MatrixXd& measured,
     }
   };
   commands.step_through(stepper, 0, [&](const ReadingInstant& now) {
+    if (now.part == 0) forget_white_disturbance(stepper, now);
     predict(now);
     if (now.part > 0) return true;
     const Index row = now.sample;
@@ -171,6 +180,7 @@ ErrorsAhead ArmSimulator::errors_ahead(std::span<const double> torque_N_m,
     TimeStepper ahead = now.stepper;
     Eigen::MatrixXd predicted = now.predicted.middleRows(now.row, furthest + 1);
     commands.step_through(ahead, now.row, [&](const ReadingInstant& at) {
+      if (at.part == 0 && at.sample > now.row) forget_white_disturbance(ahead, at);
       reading_plan.at(at, ahead, readings, [&](std::size_t j, std::size_t k, double reading) {
         const Index later = static_cast<Index>(k) - now.row;
         if (later <= furthest) predicted(later, static_cast<Index>(j)) = reading;

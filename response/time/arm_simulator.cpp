@@ -209,6 +209,14 @@ Eigen::MatrixXd ArmSimulator::transition(double fraction) const {
   return propagator(arm_.turning, fraction * options_.sample_time_s, 1.0, options_.precision).state;
 }
 
+Eigen::MatrixXd ArmSimulator::sample_transition() const {
+  Eigen::MatrixXd made = transition(1.0);
+  if (parts_.disturbance && parts_.disturbance->is_white()) {
+    made.row(arm_.disturbance.value()).setZero();
+  }
+  return made;
+}
+
 Eigen::MatrixXd ArmSimulator::linear_readings() const {
   Eigen::MatrixXd made(static_cast<Index>(sensors_.size()), states());
   for (std::size_t j = 0; j < sensors_.size(); ++j) {
@@ -222,7 +230,7 @@ Eigen::MatrixXd ArmSimulator::linear_readings() const {
 
 Eigen::MatrixXd ArmSimulator::free_readings(std::size_t samples) const {
   const auto n = static_cast<Index>(samples);
-  const Eigen::MatrixXd step = transition(1.0);
+  const Eigen::MatrixXd step = sample_transition();
   const Eigen::MatrixXd taken = linear_readings();
   Eigen::MatrixXd made = Eigen::MatrixXd::Zero(n * taken.rows(), states());
   // From where it is first read on, the row of a sensor is its row of readings times a power of the

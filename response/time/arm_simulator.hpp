@@ -19,6 +19,9 @@
 
 namespace flexarm::response {
 
+class TimeStepper;
+struct ReadingInstant;
+
 /// What a Kalman filter makes of a run.
 struct FilteredRun {
   /// Measured minus predicted from the samples before, a row a sample and a column a sensor; 0 for
@@ -145,6 +148,10 @@ class ArmSimulator {
   Eigen::MatrixXd unread(std::size_t samples) const;
   /// Of the state over that part of a sample interval, N x N.
   Eigen::MatrixXd transition(double fraction) const;
+  /// ... from sample to sample, where a white disturbance begins anew.
+  Eigen::MatrixXd sample_transition() const;
+  /// No disturbance, where it is white: that of this sample is not known yet.
+  void forget_white_disturbance(TimeStepper& stepper, const ReadingInstant& now) const;
   /// What is read in a sample interval (ReadingTimes), of the state at its beginning: p x N.
   Eigen::MatrixXd linear_readings() const;
 

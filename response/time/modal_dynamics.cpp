@@ -132,7 +132,7 @@ LinearSystem assemble(const ModalDynamics& arm, const ArmParts& parts, const Lay
   system.force.setZero(layout.size, layout.forces());
   system.force.middleRows(layout.n, layout.n) = motion.force;
   system.force.bottomRightCorner(layout.law_states, layout.law_states).setIdentity();
-  if (layout.disturbance) {
+  if (layout.disturbance && !parts.disturbance->is_white()) {
     system.a(*layout.disturbance, *layout.disturbance) =
         -1.0 / parts.disturbance->correlation_time_s;
   }
@@ -255,7 +255,7 @@ ModalDynamics modal_dynamics(const arm::ModalModel& model, const ArmParts& parts
   require_complete(model, sensors.size());
   if (parts.disturbance) {
     arm::require_in_range("correlation time", parts.disturbance->correlation_time_s, "s",
-                          arm::kPositive);
+                          arm::kNotNegative);
   }
   const Layout layout = layout_of(model, parts, sensors, modal_forces);
   ModalDynamics arm = coordinates(model, layout);

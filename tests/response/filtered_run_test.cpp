@@ -48,7 +48,7 @@ class FilteredRunTest : public testing::Test {
   /// The simulator of the arm as it is now.
   void make() {
     parts_ = take_apart(arm_);
-    parts_.disturbance = HubDisturbance{kCorrelation_s};
+    parts_.disturbance = HubDisturbance{correlation_s_};
     simulator_ = std::make_unique<ArmSimulator>(
         time_model(make_formulation("exact_tf", parts_.linear, kFilteredModes), parts_,
                    kFilteredModes, sensors_),
@@ -60,10 +60,13 @@ class FilteredRunTest : public testing::Test {
   }
 
   void expect_white_innovations();
+  /// ... and of the stated covariance, once the filter is steady.
+  void expect_white(const FilterGains& gains, const FilteredRun& run) const;
   void expect_stated_covariance_from_an_unknown_state();
 
   std::vector<arm::Sensor> sensors_ = {kHubAngle, kHubVelocity};
   Eigen::VectorXd deviations_ = Eigen::Vector2d(1e-3, 1e-2);
+  double correlation_s_ = kCorrelation_s;
   arm::Arm arm_ = arm::paper_arm();
   ArmParts parts_;
   std::vector<double> torque_;
@@ -128,6 +131,16 @@ void FilteredRunTest::expect_white_innovations() {
   }
   const FilterGains gains = steady();
   const FilteredRun run = simulator_->filtered(torque_, measured, gains);
+  expect_white(gains, run);
+  // The estimate follows the disturbance.
+  double error = 0.0;
+  for (std::size_t k = 500; k < kFilteredSamples; ++k) {
+    error += std::pow(run.disturbance_N_m[k] - disturbance[k], 2);
+  }
+  EXPECT_LE(std::sqrt(error / (kFilteredSamples - 500.0)), 0.7 * kDisturbance_N_m);
+}
+
+void FilteredRunTest::expect_white(const FilterGains& gains, const FilteredRun& run) const {
   const Eigen::LLT<Eigen::MatrixXd> covariance(gains.steady.innovation_covariance);
   // Behind the first second, in which the filter finds the disturbance.
   const Eigen::MatrixXd settled = run.innovations.bottomRows(3500).transpose();
@@ -142,12 +155,6 @@ void FilteredRunTest::expect_white_innovations() {
               3.5 / std::sqrt(static_cast<double>(u.size())))
         << j;
   }
-  // The estimate follows the disturbance.
-  double error = 0.0;
-  for (std::size_t k = 500; k < kFilteredSamples; ++k) {
-    error += std::pow(run.disturbance_N_m[k] - disturbance[k], 2);
-  }
-  EXPECT_LE(std::sqrt(error / (kFilteredSamples - 500.0)), 0.7 * kDisturbance_N_m);
 }
 
 TEST_F(FilteredRunTest, InnovationsOfTheRightModelAreWhiteAndOfTheStatedCovariance) {
@@ -159,6 +166,39 @@ TEST_F(FilteredRunTest, SoAreThoseOfSensorsAsTheyAre) {
     arm_.effects.clear();
     impair_sensors(late_samples);
     expect_white_innovations();
+  }
+}
+
+/// The error of a recorded torque acts for a sample, at once on a tip that moves with the hub.
+TEST_F(FilteredRunTest, InnovationsAreOfTheStatedCovarianceWhereTheTorqueIsRecordedWithNoise) {
+  sensors_ = {kHubAngle, kHubVelocity, {arm::SensorKind::tip_acceleration}};
+  deviations_ = Eigen::Vector3d(1e-3, 1e-2, 0.3);
+  correlation_s_ = 0.0;
+  make();
+  RandomNumbers random(13);
+  Eigen::MatrixXd measured = simulator_->readings(torque_);
+  for (Index j = 0; j < measured.cols(); ++j) {
+    for (double& value : measured.col(j)) value += deviations_(j) * random.normal();
+  }
+  std::vector<double> recorded = torque_;
+  for (double& torque_N_m : recorded) torque_N_m += kDisturbance_N_m * random.normal();
+  const FilterGains gains = steady();
+  const FilteredRun run = simulator_->filtered(recorded, measured, gains);
+  expect_white(gains, run);
+}
+
+/// Two samples ahead of one the error of its torque has acted, for one of them.
+TEST_F(FilteredRunTest, AWhiteDisturbanceIsForgottenInPredictionsAhead) {
+  correlation_s_ = 0.0;
+  make();
+  const FilterGains gains = steady();
+  const Eigen::MatrixXd shown = simulator_->readings(torque_);
+  const ErrorsAhead ahead = simulator_->errors_ahead(torque_, shown, gains, {50, {1, 20}});
+  constexpr double kRounding = 1e-10;
+  for (const auto& of_horizon : ahead) {
+    for (const Eigen::VectorXd& error : of_horizon) {
+      EXPECT_LE(error.cwiseAbs().maxCoeff(), kRounding * shown.cwiseAbs().maxCoeff());
+    }
   }
 }
 

@@ -1,0 +1,37 @@
+#pragma once
+
+#include "diagnose/predictors/noise_model.hpp"
+#include "diagnose/search/problem.hpp"
+
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace flexarm::diagnose {
+
+/// Standard deviation of the white noise in a recorded torque [N m]: the smaller of two bounds. One
+/// is of the quietest part of its spectrum (white_noise); the other, for a torque that is constant
+/// between jumps, the median change from sample to sample. 0 where that is kMostTorqueNoise of the
+/// torque's root mean square or more: a torque that fills the spectrum shows no noise.
+double torque_noise_N_m(std::span<const double> torque_N_m);
+inline constexpr double kMostTorqueNoise = 0.3;
+
+/// The same of each run, 0 of those that have no torque.
+std::vector<double> torque_noise_N_m(const Experiment& experiment);
+
+/// What the noise of the recorded torques adds to simulations from them of the arm as filed: of
+/// each channel the root mean square of kTorqueDraws draws, over the deviation of the measured
+/// signal; 0 for an arm that cannot be computed.
+std::vector<double> errors_of_torque(const Problem& problem);
+inline constexpr int kTorqueDraws = 8;
+
+/// The noise of the recorded torques of a problem, where it adds kLeastTorqueError of the noise of
+/// some channel or more to what is simulated from them; empty else.
+std::optional<NoiseModel> seen_torque_noise(const Problem& problem);
+inline constexpr double kLeastTorqueError = 0.5;
+
+/// Whether the readings of the estimation runs are more likely with that noise in the recorded
+/// torque than with the recorded torque as it was: what looks like noise may have moved the arm.
+bool is_more_likely(const Problem& problem, const arm::Arm& arm, const NoiseModel& noise);
+
+}  // namespace flexarm::diagnose

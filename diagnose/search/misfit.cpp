@@ -90,7 +90,7 @@ double Misfit::variance_of_estimates() const {
 }
 
 double Misfit::minus_two_log_likelihood() const {
-  return disturbance ? disturbance->minus_two_log_likelihood : sum_of_squares;
+  return disturbance ? disturbance->minus_two_log_likelihood : sum_of_squares + simulation_excess;
 }
 
 double Misfit::unexplained_error() const {

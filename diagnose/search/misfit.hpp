@@ -64,7 +64,8 @@ struct Misfit {
   double variance_of_estimates() const;
   /// What is not noise, relative to the signal; the disturbance relative to the torque.
   double unexplained_error() const;
-  /// Up to a constant: that of the disturbance, else the sum of squares.
+  /// Up to a constant: that of the disturbance, else the sum of squares with those of the
+  /// simulation.
   double minus_two_log_likelihood() const;
 };
 /// Part of its power to which the level of a channel's noise is known.

@@ -23,8 +23,8 @@ namespace flexarm::diagnose {
 
 namespace {
 
-/// Flexible modes of a Kalman filter <= this. What leaves no noise by output error is wrong by more
-/// than the modes beyond.
+/// Flexible modes of a Kalman filter that estimates a disturbance <= this. What leaves no noise by
+/// output error is wrong by more than the modes beyond.
 constexpr int kMostFilteredModes = 6;
 
 /// Relative standard deviation of a number that states none, where it is refitted: that of a
@@ -58,7 +58,7 @@ Problem filtered_problem(const Experiment& experiment, int flexible_modes,
                          const SelectionOptions& options) {
   const auto decimated = std::make_shared<const Experiment>(
       decimated_whole(without_controllers(experiment), options.filtered_samples));
-  return {decimated, {.flexible_modes = std::min(kMostFilteredModes, flexible_modes)}};
+  return {decimated, {.flexible_modes = flexible_modes}};
 }
 
 /// With the readings of hub sensors alone.
@@ -163,7 +163,8 @@ std::optional<PredictedSelection> select_by_filter(const SelectionTask& task,
   ReportedWork work(progress, options.deadline);
   work.tell(kNoiseStage, 0.0);
   Experiment experiment = by_simulation.simulated.experiment();
-  const int modes = by_simulation.simulated.predictor().flexible_modes();
+  const int modes =
+      std::min(kMostFilteredModes, by_simulation.simulated.predictor().flexible_modes());
   const auto estimator_of = [&work](const Problem& problem) {
     return NoiseEstimator(problem.experiment(), problem.observations(), problem.predictor(),
                           [&work] { work.go_on(); });

@@ -187,7 +187,6 @@ bool Problem::has_coloured_noise() const {
 
 bool Problem::estimate_noise(const Candidate& candidate, std::function<void()> go_on) {
   const NoiseModel present = *predictor_.noise();
-  if (present.is_torque_noise()) return false;
   const arm::Arm arm = candidate.extend(experiment_->arm);
   const NoiseEstimator estimator(*experiment_, observations_, predictor_, std::move(go_on));
   const double before =

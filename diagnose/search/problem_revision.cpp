@@ -46,7 +46,8 @@ void ProblemRevision::see_noise(Selection& made) {
   if (best->fit.candidate.effects.empty() && !made.singles.empty()) best = &made.singles.front();
   const Candidate candidate = best->fit.candidate;
   change_problem([&] {
-    const bool is_changed = problem_.predictor().noise()
+    const auto& noise = problem_.predictor().noise();
+    const bool is_changed = noise && !noise->is_torque_noise()
                                 ? problem_.estimate_noise(candidate, [this] { work_.go_on(); })
                                 : problem_.lower_noise(candidate);
     if (is_changed) refit(made);

@@ -229,28 +229,28 @@ std::optional<PredictedSelection> select_with_torque_noise(const SelectionTask& 
                                                            const Problem& problem,
                                                            const DiagnosisProgress& progress) {
   if (has_controllers(problem.experiment())) return std::nullopt;
-  const Problem unfiltered =
-      filtered_problem(problem.experiment(), problem.predictor().flexible_modes(), task.options);
-  const auto noise = seen_torque_noise(unfiltered);
-  if (!noise) return std::nullopt;
   SelectionOptions options = task.options;
   options.deadline = halfway(options.deadline);
-  Selection selection = select(unfiltered.with_torque_noise(*noise, errors_of_torque(unfiltered)),
-                               task.hypotheses, options, progress);
-  const Candidate& chosen = selection.chosen.fit.candidate;
-  const bool is_found =
-      selection.chosen.leaves_noise() &&
-      is_more_likely(selection.problem, chosen.extend(unfiltered.experiment().arm), *noise);
-  if (!is_found && !selection.cancelled) return std::nullopt;
-  const double largest_N_m = std::ranges::max(noise->torque_noise_N_m);
-  return PredictedSelection{
-      .selection = std::move(selection),
-      .predictor = PredictorKind::grey_box,
-      .reason =
-          fmt::format("the recorded torque has white noise of {:.3g} N m rms, which makes the "
-                      "residuals noise",
-                      largest_N_m),
-      .simulated = problem.with_more_noise(errors_of_torque(problem))};
+  try {
+    const auto noisy = with_torque_noise(
+        filtered_problem(problem.experiment(), problem.predictor().flexible_modes(), task.options));
+    if (!noisy) return std::nullopt;
+    Selection selection = select(*noisy, task.hypotheses, options, progress);
+    const arm::Arm arm = selection.chosen.fit.candidate.extend(noisy->experiment().arm);
+    const bool is_found =
+        selection.chosen.leaves_noise() && torque_noise_is_likely(selection.problem, arm);
+    if (!is_found && !selection.cancelled) return std::nullopt;
+    return PredictedSelection{
+        .selection = std::move(selection),
+        .predictor = PredictorKind::grey_box,
+        .reason =
+            fmt::format("the recorded torque has white noise of {:.3g} N m rms, which makes the "
+                        "residuals noise",
+                        std::ranges::max(noisy->predictor().noise()->torque_noise_N_m)),
+        .simulated = problem.with_more_noise(errors_of_torque(problem))};
+  } catch (const arm::InputError&) {
+    return std::nullopt;  // sensors that are too late for a Kalman filter
+  }
 }
 
 std::optional<PredictedSelection> select_by_responses(const SelectionTask& task,

@@ -86,17 +86,21 @@ std::vector<double> errors_of_torque(const Problem& problem) {
   return squares;
 }
 
-std::optional<NoiseModel> seen_torque_noise(const Problem& problem) {
-  NoiseModel made{.torque_noise_N_m = torque_noise_N_m(problem.experiment())};
-  if (std::ranges::max(made.torque_noise_N_m) == 0.0) return std::nullopt;
+std::optional<Problem> with_torque_noise(const Problem& problem) {
+  const NoiseModel noise{.torque_noise_N_m = torque_noise_N_m(problem.experiment())};
+  if (std::ranges::max(noise.torque_noise_N_m) == 0.0) return std::nullopt;
   const std::vector<double> errors = errors_of_torque(problem);
+  const auto& channels = problem.observations().channels;
   for (std::size_t c = 0; c < errors.size(); ++c) {
-    if (errors[c] >= kLeastTorqueError * problem.observations().channels[c].noise) return made;
+    if (errors[c] >= kLeastTorqueError * channels[c].noise) {
+      return problem.with_torque_noise(noise, errors);
+    }
   }
   return std::nullopt;
 }
 
-bool is_more_likely(const Problem& problem, const arm::Arm& arm, const NoiseModel& noise) {
+bool torque_noise_is_likely(const Problem& problem, const arm::Arm& arm) {
+  const NoiseModel& noise = problem.predictor().noise().value();
   NoiseModel without = noise;
   std::ranges::fill(without.torque_noise_N_m, 0.0);
   return minus_two_log_likelihood(problem, arm, noise) <

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "diagnose/predictors/noise_model.hpp"
 #include "diagnose/search/problem.hpp"
 
 #include <optional>
@@ -25,13 +24,15 @@ std::vector<double> torque_noise_N_m(const Experiment& experiment);
 std::vector<double> errors_of_torque(const Problem& problem);
 inline constexpr int kTorqueDraws = 8;
 
-/// The noise of the recorded torques of a problem, where it adds kLeastTorqueError of the noise of
-/// some channel or more to what is simulated from them; empty else.
-std::optional<NoiseModel> seen_torque_noise(const Problem& problem);
+/// A problem by output error with the noise of its recorded torques for the disturbance, where that
+/// adds kLeastTorqueError of the noise of some channel or more to what is simulated; empty else.
+/// Throws InputError where no Kalman filter can be formed.
+std::optional<Problem> with_torque_noise(const Problem& problem);
 inline constexpr double kLeastTorqueError = 0.5;
 
-/// Whether the readings of the estimation runs are more likely with that noise in the recorded
-/// torque than with the recorded torque as it was: what looks like noise may have moved the arm.
-bool is_more_likely(const Problem& problem, const arm::Arm& arm, const NoiseModel& noise);
+/// Of such a problem: whether the readings of the estimation runs are more likely with that noise
+/// in the recorded torque than with the torque as it was recorded: what looks like noise may have
+/// moved the arm. Throws InputError for an arm that cannot be computed.
+bool torque_noise_is_likely(const Problem& problem, const arm::Arm& arm);
 
 }  // namespace flexarm::diagnose

@@ -72,10 +72,10 @@ TEST(TorqueNoise, IsNotSeenInATorqueThatFillsTheSpectrum) {
 
 TEST(TorqueNoise, AddsToSimulationsWhatASimulationWithoutItIsWrongBy) {
   const Experiment clean = simulated_experiment({}, kShortRuns);
-  EXPECT_FALSE(seen_torque_noise(Problem(clean)));
+  EXPECT_FALSE(with_torque_noise(Problem(clean)));
   const Experiment noisy = with_recorded_noise(clean, 0.05);
   const Problem problem(noisy);
-  ASSERT_TRUE(seen_torque_noise(problem));
+  ASSERT_TRUE(with_torque_noise(problem));
   const std::vector<double> expected = errors_of_torque(problem);
   const auto left =
       problem.residuals(problem.as_filed(), std::vector<bool>(noisy.runs.size(), true));
@@ -117,15 +117,13 @@ TEST(TorqueNoise, OfTheArmAsFiledLeavesItAdequate) {
 /// What a controller makes of its sensors' noise is recorded as it was.
 TEST(TorqueNoise, ThatMovedTheArmIsNoErrorOfTheRecord) {
   const Experiment clean = simulated_experiment({}, kShortRuns);
-  const Problem problem(clean);
-  NoiseModel noise{.torque_noise_N_m = std::vector<double>(clean.runs.size(), 0.0)};
-  for (std::size_t r = 0; r < clean.runs.size(); ++r) {
-    noise.torque_noise_N_m[r] =
-        0.05 * rms(std::get<measured::TimeRecord>(clean.runs[r].data).torque_N_m);
-  }
-  EXPECT_FALSE(is_more_likely(problem, clean.arm, noise));
-  const Experiment noisy = with_recorded_noise(clean, 0.05);
-  EXPECT_TRUE(is_more_likely(Problem(noisy), clean.arm, noise));
+  const Experiment recorded = with_recorded_noise(clean, 0.05);
+  const auto noisy = with_torque_noise(Problem(recorded));
+  ASSERT_TRUE(noisy);
+  EXPECT_TRUE(torque_noise_is_likely(*noisy, clean.arm));
+  const std::vector<double> errors(noisy->observations().channels.size(), 0.0);
+  const Problem as_it_was = Problem(clean).with_torque_noise(*noisy->predictor().noise(), errors);
+  EXPECT_FALSE(torque_noise_is_likely(as_it_was, clean.arm));
 }
 
 }  // namespace

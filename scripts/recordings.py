@@ -9,12 +9,13 @@ from document import number
 
 @dataclass
 class Case:
-    """One diagnosis, of the measurement NAME/measurement.toml."""
+    """One diagnosis."""
     name: str
     heading: str
     prepare: list  # commands that make the measurement
     options: list  # of flexarm diagnose
     validation: tuple  # ids of the validation runs
+    measurement: str = ""  # folder of the measurement; empty: of the name of the case
 
 
 @dataclass
@@ -186,6 +187,9 @@ ROTARY = Recording(
              [["import", "DATA/rotary-arm/log.csv", *ROTARY_RUNS, "--decimate", "10", "--out",
                "open"]],
              ["--effects", ",".join(ROTARY_EFFECTS), "--time-limit", "90"], ("down",)),
+        Case("balance", "open loop, hub torque alone", [],
+             ["--effects", "hub_viscous_friction,coulomb_friction,hub_inertia,torque_gain",
+              "--predictor", "torque_balance"], ("down",), "open"),
     ],
     known=[
         Known("viscous friction, back-EMF included [N m s/rad]", (0.095, 0.095),
@@ -232,6 +236,9 @@ RULER_RUNS = ["import", "DATA/ruler-rig/log.csv", "--torque", "0.005*[Voltage]",
               "ruler.toml", "--out", "time"]
 
 
+RULER_CAUSES = ["torque_gain", "flexural_rigidity", "time_delay"]
+
+
 def ruler_gain(case):
     """Under a torque of +-0.06 N m a limit and a dead zone are a gain."""
     return named(case, ("torque_gain", "factor", 1.0, 0.0, "1"),
@@ -270,8 +277,13 @@ RULER = Recording(
               ["import", "identified/frf-first.csv", "identified/frf-second.csv", "--validation",
                "frf-second", "--arm", "ruler.toml", "--out", "responses"]],
              ["--time-limit", "60"], ("frf-second",)),
+        Case("grey", "in time, gain, rigidity and delay alone", [],
+             ["--effects", ",".join(RULER_CAUSES), "--predictor", "grey_box"], ("second",), "time"),
+        Case("known", "responses, gain, rigidity and delay alone", [],
+             ["--effects", ",".join(RULER_CAUSES)], ("frf-second",), "responses"),
     ],
-    known=ruler_known("time", "in time") + ruler_known("responses", "from responses"),
+    known=(ruler_known("time", "in time") + ruler_known("responses", "from responses") +
+           ruler_known("grey", "in time, these effects alone")),
     goals=[
         Goal("rigidity and gain (or saturation) named in one diagnosis", lambda outcomes: (
             "; ".join(" + ".join(f"`{cause['effect']}`" for cause in outcome.result["causes"])

@@ -101,10 +101,12 @@ std::optional<Problem> with_torque_noise(const Problem& problem) {
 
 bool torque_noise_is_likely(const Problem& problem, const arm::Arm& arm) {
   const NoiseModel& noise = problem.predictor().noise().value();
-  NoiseModel without = noise;
-  std::ranges::fill(without.torque_noise_N_m, 0.0);
-  return minus_two_log_likelihood(problem, arm, noise) <
-         minus_two_log_likelihood(problem, arm, without);
+  const double cost = minus_two_log_likelihood(problem, arm, noise);
+  return std::ranges::all_of(kOtherTorqueNoise, [&](double factor) {
+    NoiseModel other = noise;
+    for (double& torque_N_m : other.torque_noise_N_m) torque_N_m *= factor;
+    return cost < minus_two_log_likelihood(problem, arm, other);
+  });
 }
 
 }  // namespace flexarm::diagnose

@@ -2,6 +2,7 @@
 
 #include "diagnose/search/problem.hpp"
 
+#include <array>
 #include <optional>
 #include <span>
 #include <vector>
@@ -31,8 +32,12 @@ std::optional<Problem> with_torque_noise(const Problem& problem);
 inline constexpr double kLeastTorqueError = 0.5;
 
 /// Of such a problem: whether the readings of the estimation runs are more likely with that noise
-/// in the recorded torque than with the torque as it was recorded: what looks like noise may have
-/// moved the arm. Throws InputError for an arm that cannot be computed.
+/// in the recorded torque than with none and with kOtherTorqueNoise times as much. What looks like
+/// noise may have moved the arm, as it does in closed loop; and noise that takes up what the arm
+/// lacks is of another size than the record shows. Throws InputError for an arm that cannot be
+/// computed.
 bool torque_noise_is_likely(const Problem& problem, const arm::Arm& arm);
+/// Outside the scatter of torque_noise_N_m, of 10 %.
+inline constexpr std::array kOtherTorqueNoise = {0.0, 0.75, 1.33};
 
 }  // namespace flexarm::diagnose

@@ -20,6 +20,8 @@ namespace {
 
 constexpr int kSimulatedModes = 16;
 constexpr double kSampleTime_s = 2e-3;
+/// Of random numbers, beside those of the sensors.
+constexpr std::uint32_t kActingStream = 1000;
 
 struct RunToSimulate {
   std::string id;
@@ -49,7 +51,9 @@ measured::TimeRecord record_of(const RunToSimulate& plan, const arm::Arm& arm,
   }
   const response::SampleGrid grid{
       static_cast<std::size_t>(std::lround(runs.duration_s / kSampleTime_s)), kSampleTime_s};
-  const auto torque = response::sample(plan.torque, grid).torque_N_m;
+  auto torque = response::sample(plan.torque, grid).torque_N_m;
+  response::RandomNumbers acting(runs.seed + std::hash<std::string>{}(plan.id), kActingStream);
+  response::impair(torque, {.relative_noise = runs.acting_noise}, acting);
   const response::ArmParts parts = response::take_apart(arm);
   const auto model =
       response::time_model(response::make_formulation("fem", parts.linear, kSimulatedModes), parts,

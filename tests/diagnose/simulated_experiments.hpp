@@ -15,6 +15,7 @@ arm::Arm trial_arm();
 struct SimulatedRuns {
   double duration_s = 4.0;
   double relative_noise = 0.005;
+  double acting_noise = 0.0;  ///< white noise of the torque that acts and is recorded, over its rms
   std::uint64_t seed = 1;
 };
 

@@ -126,5 +126,20 @@ TEST(TorqueNoise, ThatMovedTheArmIsNoErrorOfTheRecord) {
   EXPECT_FALSE(torque_noise_is_likely(as_it_was, clean.arm));
 }
 
+/// Such noise is large enough to take up an error of the arm, by another size than the record
+/// shows.
+TEST(TorqueNoise, ThatMovedTheArmDoesNotHideACause) {
+  const arm::Effects hidden = {effects::named("flexural_rigidity", {{"factor", 0.98}})};
+  const Experiment experiment =
+      simulated_experiment(hidden, {.duration_s = 2.0, .acting_noise = 0.02});
+  ASSERT_TRUE(with_torque_noise(Problem(experiment)));
+  const auto tried = named(experiment, {"flexural_rigidity", "hub_inertia", "hub_spring"});
+  const Diagnosis made = diagnose(experiment, tried, {}, {});
+  EXPECT_EQ(made.verdict, Verdict::explained);
+  EXPECT_EQ(made.predictor, PredictorKind::output_error);
+  ASSERT_EQ(made.causes.size(), 1U);
+  EXPECT_EQ(made.causes.front().effect, "flexural_rigidity");
+}
+
 }  // namespace
 }  // namespace flexarm::diagnose

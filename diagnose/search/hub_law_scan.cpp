@@ -1,19 +1,28 @@
 #include "diagnose/search/hub_law_scan.hpp"
 
 #include "arm/input_error.hpp"
+#include "diagnose/search/least_squares.hpp"
 #include "diagnose/symptoms/hub_regression.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <utility>
 #include <variant>
 
 namespace flexarm::diagnose {
 
 namespace {
 
+using Eigen::Index;
+
 /// The hub is taken to rest below this velocity, in standard deviations of its noise.
 constexpr double kNoiseOfRest = 2.0;
+
+/// Of the refinement: the share to four digits.
+constexpr int kSteps = 8;
+constexpr double kTolerance = 1e-4;
 
 bool is_scanned(const arm::HubLaw& law) {
   if (const auto* smooth = std::get_if<arm::SmoothHubTorque>(&law)) return smooth->states == 0;
@@ -71,6 +80,55 @@ HubTorques torques_of(const arm::HubLaw& law, const std::vector<HubMotion>& moti
   return made;
 }
 
+/// Places of the last effect's parameters among those of a candidate.
+Eigen::VectorXd last_places(const Candidate& candidate) {
+  return candidate.coordinates()(last_coordinates(candidate));
+}
+
+void put_last(Candidate& candidate, const Eigen::VectorXd& places) {
+  Eigen::VectorXd all = candidate.coordinates();
+  all(last_coordinates(candidate)) = places;
+  candidate.put(all);
+}
+
+/// The candidate, and where parameters of its last effect have a neutral value, also with these
+/// beside it.
+std::vector<Candidate> refined_from(const Candidate& scanned) {
+  constexpr double kBeside = 1e-3;
+  const std::vector<SearchedParameter>& parameters = scanned.effects.back().parameters;
+  Eigen::VectorXd places = last_places(scanned);
+  bool has_neutral = false;
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const auto neutral = parameters[i].neutral_coordinate();
+    if (!neutral) continue;
+    places(static_cast<Index>(i)) = *neutral + std::copysign(kBeside, 0.5 - *neutral);
+    has_neutral = true;
+  }
+  if (!has_neutral) return {scanned};
+  Candidate beside = scanned;
+  put_last(beside, places);
+  return {scanned, beside};
+}
+
+/// What a candidate leaves of the hub's signals; empty for one whose last law is of another kind.
+using LeftBy = std::function<std::optional<Eigen::VectorXd>(const Candidate&)>;
+
+/// `from` with the law that leaves least, and its sum of squares.
+std::pair<Candidate, double> refined(const LeftBy& left_by, const Candidate& from, Index count,
+                                     const ReportedWork* work) {
+  Candidate found = from;
+  const auto left_at = [&](const Eigen::VectorXd& places) -> Eigen::VectorXd {
+    if (work != nullptr) work->go_on();
+    put_last(found, places);
+    const auto left = left_by(found);
+    return left ? *left : Eigen::VectorXd::Constant(count, kImpossibleResidual);
+  };
+  const LeastSquares best =
+      least_squares(left_at, last_places(from), {.most_steps = kSteps, .tolerance = kTolerance});
+  put_last(found, best.places);
+  return {found, best.residuals.squaredNorm()};
+}
+
 }  // namespace
 
 std::optional<HubLawScan> scan_hub_law(const Problem& problem, const Candidate& start,
@@ -89,18 +147,29 @@ std::optional<HubLawScan> scan_hub_law(const Problem& problem, const Candidate& 
   const bool is_friction = std::holds_alternative<arm::DryFriction>(*law);
   if (is_friction && part_at_rest(motions) > kMostRest) return std::nullopt;
   const HubRegression hub(motions);
-  const auto left_by = [&](const Candidate& candidate) {
+  const LeftBy left_by = [&](const Candidate& candidate) -> std::optional<Eigen::VectorXd> {
     const auto tried = last_law(candidate, arm);
-    if (!tried) return std::numeric_limits<double>::infinity();
+    if (!tried) return std::nullopt;
     try {
-      return (hub.residuals() - hub.readings(torques_of(*tried, motions))).squaredNorm();
+      return hub.residuals() - hub.readings(torques_of(*tried, motions));
     } catch (const arm::InputError&) {  // of a formula that is not finite there
-      return std::numeric_limits<double>::infinity();
+      return std::nullopt;
     }
   };
-  HubLawScan made{scan(left_by, start, last_coordinates(start), options)};
-  const double taken = hub.residuals().squaredNorm() - left_by(made.starts.front());
-  made.share = std::clamp(taken / hub.beyond_noise(), 0.0, 1.0);
+  const auto squares_left_by = [&](const Candidate& candidate) {
+    const auto left = left_by(candidate);
+    return left ? left->squaredNorm() : std::numeric_limits<double>::infinity();
+  };
+  HubLawScan made{scan(squares_left_by, start, last_coordinates(start), options)};
+  double least = squares_left_by(made.starts.front());
+  for (const Candidate& from : refined_from(made.starts.front())) {
+    if (!left_by(from)) continue;
+    const auto [found, left] = refined(left_by, from, hub.residuals().size(), options.work);
+    if (!(left < least)) continue;
+    least = left;
+    made.starts.front() = found;
+  }
+  made.share = std::clamp((hub.residuals().squaredNorm() - least) / hub.beyond_noise(), 0.0, 1.0);
   return made;
 }
 

@@ -73,6 +73,7 @@ class Search {
     if (!is_enough(made)) try_singles(made);
     if (!made.singles.empty() && !is_out_of_reach(made.nothing, made.singles, options_)) {
       extend(made);
+      widen(made);
       generalise(made);
     }
     leave_out_unnamed(made);
@@ -212,6 +213,31 @@ class Search {
     combine_further(made, one_more->fit.candidate);
     const auto two_more = best_of(made, causes + 2);
     return two_more && choose_needed(made, *two_more);
+  }
+
+  /// Where something is left, further pairs as bases of three: one effect may stand for two of
+  /// three causes, and the best pair then has it.
+  void widen(Selection& made) {
+    if (is_enough(made) || !has_room_beside(2)) return;
+    for (const Candidate& pair : triple_bases(made.combinations)) {
+      combine(made, pair, "further effects", halfway());
+      if (made.combinations.front().leaves_noise()) break;
+    }
+    if (const auto three = best_of(made, 3)) choose_needed(made, *three);
+  }
+
+  /// The best pairs of special effects.
+  std::vector<Candidate> triple_bases(const std::vector<Explanation>& combinations) const {
+    std::vector<Candidate> bases;
+    for (const Explanation& set : combinations) {
+      const Candidate& candidate = set.fit.candidate;
+      const bool is_special = std::ranges::none_of(
+          candidate.effects, [&](const Hypothesis& effect) { return general_.has(effect); });
+      if (bases.size() < options_.triple_bases && candidate.effects.size() == 2 && is_special) {
+        bases.push_back(candidate);
+      }
+    }
+    return bases;
   }
 
   bool has_room_beside(std::size_t causes) const {

@@ -118,6 +118,8 @@ struct SelectionOptions {
   double least_law_share = 0.1;
   /// Singles that are bases of pairs <= this.
   std::size_t pair_bases = 3;
+  /// Pairs that are bases of three effects <= this, where what is chosen does not leave noise.
+  std::size_t triple_bases = 5;
   /// Effects scanned beside a base <= this: those whose directions the residuals have most of.
   std::size_t scanned_beside = 10;
   /// Of these refitted to all data <= this.

@@ -1,6 +1,7 @@
 #include "diagnose/search/effect_scan.hpp"
 
 #include "diagnose/search/coarse.hpp"
+#include "diagnose/search/linear_refit.hpp"
 #include "diagnose/search/scan.hpp"
 
 #include <algorithm>
@@ -165,7 +166,11 @@ Fit EffectScan::best_from_scan(const Problem& problem, const Candidate& start,
   const ScanOptions scan_options{.evaluations = options_.scan_evaluations[n - 1],
                                  .starts = n == 1 ? 1 : options_.scan_starts,
                                  .work = &work_};
-  return best_fit(problem, scan(problem, start, scanned, scan_options));
+  const LinearRefit refit(problem, start.without(start.effects.size() - 1), work_);
+  const auto sum = [&](const Candidate& candidate) { return refit.sum_of_squares(candidate); };
+  std::vector<Candidate> starts = scan(sum, start, scanned, scan_options);
+  for (Candidate& one : starts) one = refit.refitted(one);
+  return best_fit(problem, starts);
 }
 
 Fit EffectScan::best_fit(const Problem& problem, const std::vector<Candidate>& starts) const {
@@ -211,8 +216,8 @@ std::optional<Fit> EffectScan::look_from_limit(const Candidate& limit, std::size
 
 std::vector<const Hypothesis*> EffectScan::promising(const Candidate& base,
                                                      std::vector<const Hypothesis*> others,
-                                                     std::string_view what) {
-  if (others.size() <= options_.scanned_beside) return others;
+                                                     std::size_t most, std::string_view what) {
+  if (others.size() <= most) return others;
   const Fit left = coarse_fit(coarse_, base);
   const Eigen::HouseholderQR<Eigen::MatrixXd> refitted(left.jacobian);
   std::vector<std::pair<double, const Hypothesis*>> shares(others.size());
@@ -221,7 +226,7 @@ std::vector<const Hypothesis*> EffectScan::promising(const Candidate& base,
   });
   std::ranges::stable_sort(shares, std::ranges::greater{}, &decltype(shares)::value_type::first);
   others.clear();
-  for (std::size_t i = 0; i < options_.scanned_beside; ++i) others.push_back(shares[i].second);
+  for (std::size_t i = 0; i < most; ++i) others.push_back(shares[i].second);
   return others;
 }
 

@@ -22,10 +22,10 @@ class EffectScan {
   EffectScan(const EffectScan&) = delete;
   EffectScan& operator=(const EffectScan&) = delete;
 
-  /// The `scanned_beside` hypotheses that account, at some of a few values each, for most of what
+  /// The `most` hypotheses that account, at some of a few values each, for most of what
   /// `base` leaves: by the Lagrange multiplier test [Rao1948, Silvey1959], without refitting.
   std::vector<const Hypothesis*> promising(const Candidate& base,
-                                           std::vector<const Hypothesis*> others,
+                                           std::vector<const Hypothesis*> others, std::size_t most,
                                            std::string_view what);
 
   /// `base` with each of the hypotheses as a scan of it found it, the best first.

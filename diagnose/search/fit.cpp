@@ -15,9 +15,9 @@ Fit fit(const Problem& problem, const Candidate& start, const FitOptions& option
     if (residuals) return *residuals;
     return Eigen::VectorXd::Constant(problem.residual_count(), kImpossibleResidual);
   };
-  LeastSquares found = least_squares(
-      residuals_at, start.coordinates(),
-      {.most_steps = options.most_steps, .tolerance = options.tolerance});
+  LeastSquares found =
+      least_squares(residuals_at, start.coordinates(),
+                    {.most_steps = options.most_steps, .tolerance = options.tolerance});
   made.candidate.put(found.places);
   made.sum_of_squares = found.residuals.squaredNorm();
   made.residuals = std::move(found.residuals);

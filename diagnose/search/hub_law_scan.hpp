@@ -19,10 +19,10 @@ struct HubLawScan {
 /// the estimation runs: the law's torque at that motion, the linear response to it of the arm as
 /// filed, and the sum of squares that this leaves of the hub's signals
 /// (symptoms/hub_regression.hpp). The best value is refined by least squares, from there and from
-/// beside the law's neutral value: a free hub answers a constant part of a law with a drift, so that
-/// the minimum may be narrower than the distance of the values that are scanned. Simulated, each value would cost up to seven times a simulation
-/// of the linear arm, which iterates no forces (docs/numerics.md, section 7). The torque that the
-/// law may depend on is the commanded one.
+/// beside the law's neutral value: a free hub answers a constant part of a law with a drift, so
+/// that the minimum may be narrower than the distance of the values that are scanned. Simulated,
+/// each value would cost up to seven times a simulation of the linear arm, which iterates no forces
+/// (docs/numerics.md, section 7). The torque that the law may depend on is the commanded one.
 ///
 /// Empty for an effect that is more than such a law, for a constant torque, for dry friction that
 /// is the same at every speed, and for a law with states of its own. Empty unless all estimation

@@ -19,6 +19,9 @@ namespace {
 /// A simulation that errs less than this more than another is about as good.
 constexpr double kAbout = 1.05;
 
+/// Three effects are found by simulation, and the search for them takes longest.
+constexpr double kSimulationTime = 0.75;
+
 /// NRMSE of a loop that is not that of the data.
 constexpr double kDiverged = 10.0;
 
@@ -87,15 +90,15 @@ double error_by_filter(const PredictedSelection& made) {
   return made.law && made.law->found ? made.law->found->error_after : simulated_error(made);
 }
 
-/// By simulation, and where that does not leave noise by a filter; the first of them in half of the
-/// time.
+/// By simulation, and where that does not leave noise by a filter; the first of them in
+/// kSimulationTime of the time.
 PredictedSelection select_by_both(const SelectionTask& task, const Problem& problem,
                                   const DiagnosisProgress& progress) {
   if (auto noisy = select_with_torque_noise(task, problem, part_of(progress, 0.0, 0.5))) {
     return *std::move(noisy);
   }
   SelectionOptions first = task.options;
-  first.deadline = halfway(task.options.deadline);
+  first.deadline = after_part(task.options.deadline, kSimulationTime);
   PredictedSelection made =
       select_by_simulation({task.hypotheses, first}, problem, part_of(progress, 0.0, 0.5));
   if (made.selection.cancelled) return made;

@@ -23,11 +23,15 @@ inline bool is_over(const Deadline& deadline) {
   return deadline && std::chrono::steady_clock::now() >= *deadline;
 }
 
-/// Of the first of two pieces of work: half of the time that is left.
-inline Deadline halfway(const Deadline& deadline) {
+/// Of the first of two pieces of work: after this part of the time that is left.
+inline Deadline after_part(const Deadline& deadline, double part) {
   if (!deadline) return deadline;
-  const auto now = std::chrono::steady_clock::now();
-  return now + (*deadline - now) / 2;
+  using Clock = std::chrono::steady_clock;
+  const auto now = Clock::now();
+  return now + std::chrono::duration_cast<Clock::duration>(part * (*deadline - now));
+}
+inline Deadline halfway(const Deadline& deadline) {
+  return after_part(deadline, 0.5);
 }
 
 /// Thrown out of work that was cancelled, or whose time is over.

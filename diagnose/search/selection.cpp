@@ -1,6 +1,7 @@
 #include "diagnose/search/selection.hpp"
 
 #include "diagnose/search/admission.hpp"
+#include "diagnose/search/bases.hpp"
 #include "diagnose/search/general_effects.hpp"
 #include "diagnose/search/parameter_errors.hpp"
 #include "diagnose/search/problem_revision.hpp"
@@ -33,6 +34,7 @@ std::vector<Candidate> candidates_of(const std::vector<Explanation>& sets) {
 }
 
 constexpr std::string_view kSingles = "effects one by one";
+constexpr std::string_view kExchanged = "exchanged effects";
 
 class Search {
  public:
@@ -75,6 +77,7 @@ class Search {
       extend(made);
       widen(made);
       generalise(made);
+      exchange_for_general(made);
     }
     leave_out_unnamed(made);
   }
@@ -103,7 +106,7 @@ class Search {
   /// Effects by themselves. Those that have another as a limit come after it.
   void try_singles(Selection& made) {
     const Candidate& none = made.nothing.fit.candidate;
-    fits_.add_with(none, general_.others(), kSingles, 0.7 * kSinglesDone, options_.singles_refitted,
+    fits_.add_with(none, general_.others(), kSingles, 0.7 * kSinglesDone, options_.single_effects,
                    made.singles);
     refit_nothing(made);
     revision_.see_noise(made);
@@ -219,25 +222,11 @@ class Search {
   /// three causes, and the best pair then has it.
   void widen(Selection& made) {
     if (is_enough(made) || !has_room_beside(2)) return;
-    for (const Candidate& pair : triple_bases(made.combinations)) {
+    for (const Candidate& pair : triple_bases(made.combinations, general_, options_)) {
       combine(made, pair, "further effects", halfway());
       if (made.combinations.front().leaves_noise()) break;
     }
     if (const auto three = best_of(made, 3)) choose_needed(made, *three);
-  }
-
-  /// The best pairs of special effects.
-  std::vector<Candidate> triple_bases(const std::vector<Explanation>& combinations) const {
-    std::vector<Candidate> bases;
-    for (const Explanation& set : combinations) {
-      const Candidate& candidate = set.fit.candidate;
-      const bool is_special = std::ranges::none_of(
-          candidate.effects, [&](const Hypothesis& effect) { return general_.has(effect); });
-      if (bases.size() < options_.triple_bases && candidate.effects.size() == 2 && is_special) {
-        bases.push_back(candidate);
-      }
-    }
-    return bases;
   }
 
   bool has_room_beside(std::size_t causes) const {
@@ -278,6 +267,18 @@ class Search {
     }
   }
 
+  /// Where something is left of several causes, each exchanged for general effects that none of the
+  /// chosen is a limit of: those that the residual without it has most of.
+  void exchange_for_general(Selection& made) {
+    const Candidate chosen = made.chosen.fit.candidate;
+    if (chosen.effects.size() < 2 || is_enough(made)) return;
+    for (std::size_t i = 0; i < chosen.effects.size(); ++i) {
+      fits_.add_with(chosen.without(i), general_.all(), kExchanged, halfway(),
+                     options_.general_effects, made.combinations);
+    }
+    if (const auto better = better_rival(made, made.chosen)) choose(made, *better);
+  }
+
   /// Without the causes that may not be named, one after the other: those with a parameter that the
   /// data do not identify, then the improbable ones.
   void leave_out_unnamed(Selection& made) {
@@ -310,35 +311,18 @@ class Search {
       combine(made, causes, "further effects", halfway());
       return;
     }
-    const std::vector<Candidate> bases = pair_bases(made.singles);
+    const std::vector<Candidate> bases = pair_bases(made.singles, general_, options_);
     const double step = (kPairsDone - kSinglesDone) / static_cast<double>(bases.size());
     for (std::size_t b = 0; b < bases.size(); ++b) {
       combine(made, bases[b], "pairs of effects", kSinglesDone + step * static_cast<double>(b + 1));
     }
   }
 
-  /// The best singles. A general effect is left out beside a limit of it: generalise() follows.
-  std::vector<Candidate> pair_bases(const std::vector<Explanation>& singles) const {
-    std::vector<Hypothesis> special;
-    for (const Explanation& single : singles) {
-      const Hypothesis& effect = single.fit.candidate.effects.front();
-      if (special.size() < options_.pair_bases && !general_.has(effect)) special.push_back(effect);
-    }
-    std::vector<Candidate> bases;
-    for (const Explanation& single : singles) {
-      const Hypothesis& effect = single.fit.candidate.effects.front();
-      if (bases.size() < options_.pair_bases && limits_of(effect, special).empty()) {
-        bases.push_back(single.fit.candidate);
-      }
-    }
-    return bases;
-  }
-
   /// `base` with any other special effect, among the combinations; nothing where these are there.
   /// General ones follow: generalise().
   void combine(Selection& made, const Candidate& base, std::string_view what, double to) {
     if (!combined_.insert(base.labels()).second) return;
-    fits_.add_with(base, general_.others(), what, to, options_.pairs_refitted, made.combinations);
+    fits_.add_with(base, general_.others(), what, to, options_.effects_beside, made.combinations);
   }
 
   /// `explanation` without effects that the others, refitted, make superfluous: those that take
@@ -362,7 +346,7 @@ class Search {
     for (int exchanges = 0; exchanges < options_.most_exchanges; ++exchanges) {
       const Candidate& candidate = best.fit.candidate;
       for (std::size_t i = 0; i < candidate.effects.size(); ++i) {
-        combine(made, candidate.without(i), "exchanged effects", halfway());
+        combine(made, candidate.without(i), kExchanged, halfway());
       }
       const auto better = better_rival(made, best);
       if (!better) break;

@@ -20,12 +20,10 @@ enum class PredictorKind {
   driven_by_motion,
   frequency_response
 };
-inline constexpr std::array kPredictors = {PredictorKind::output_error,
-                                           PredictorKind::closed_loop,
-                                           PredictorKind::grey_box,
-                                           PredictorKind::torque_balance,
-                                           PredictorKind::driven_by_motion,
-                                           PredictorKind::frequency_response};
+inline constexpr std::array kPredictors = {
+    PredictorKind::output_error,     PredictorKind::closed_loop,
+    PredictorKind::grey_box,         PredictorKind::torque_balance,
+    PredictorKind::driven_by_motion, PredictorKind::frequency_response};
 
 /// Runs are simulated in time, without a noise model.
 constexpr bool is_simulation(PredictorKind kind) {
@@ -52,10 +50,18 @@ constexpr std::string_view to_string(PredictorKind kind) {
   return "";
 }
 
+/// How many effects are tried with a base.
+struct Tried {
+  /// Scanned <= this: those whose directions the residuals have most of.
+  std::size_t scanned = 0;
+  /// Of these refitted to all data <= this, the best of their scans.
+  std::size_t refitted = 0;
+};
+
 /// Every threshold of the search, each with what it enforces.
 struct SelectionOptions {
-  /// Causes named <= this.
-  int most_causes = 3;
+  /// Causes named <= this: three of the arm, and one of its recording.
+  int most_causes = 4;
   /// Chosen by evidence (predictor_choice.hpp) unless given.
   std::optional<PredictorKind> predictor = {};
   /// Another one is taken where what output error leaves is a disturbance of the hub torque >=
@@ -106,8 +112,8 @@ struct SelectionOptions {
   /// Beside a set of effects that may not be named one more is looked for where that set explains
   /// this part or more of the excess residual.
   double least_share_ahead = 0.25;
-  /// Singles refitted to all data <= this, the best of the coarse look.
-  std::size_t singles_refitted = 8;
+  /// Effects by themselves: all are scanned.
+  Tried single_effects = {.refitted = 8};
   /// What a coarse look found is refitted to all data where it leaves <= this times the sum of
   /// squares that the best leaves: a general effect beside the best of the others, a further effect
   /// beside the best of those looked at with the same base.
@@ -120,10 +126,10 @@ struct SelectionOptions {
   std::size_t pair_bases = 3;
   /// Pairs that are bases of three effects <= this, where what is chosen does not leave noise.
   std::size_t triple_bases = 5;
-  /// Effects scanned beside a base <= this: those whose directions the residuals have most of.
-  std::size_t scanned_beside = 10;
-  /// Of these refitted to all data <= this.
-  std::size_t pairs_refitted = 5;
+  /// Effects beside a base,
+  Tried effects_beside = {.scanned = 10, .refitted = 5};
+  /// and general ones in place of one of several causes.
+  Tried general_effects = {.scanned = 3, .refitted = 2};
   /// Samples of each run in the coarse look <= this,
   std::size_t coarse_samples = 1200;
   /// and in closed loop, where what a controller makes of the samples left out is not known.

@@ -12,16 +12,18 @@ Explanation SetFits::fitted(const Candidate& start) const {
 }
 
 void SetFits::add_with(const Candidate& base, std::vector<const Hypothesis*> others,
-                       std::string_view what, double to, std::size_t most,
+                       std::string_view what, double to, const Tried& tried,
                        std::vector<Explanation>& found) {
   std::erase_if(others, [&](const Hypothesis* other) { return base.has_effect(other->effect); });
   untried_ = labels_with(base, others);
-  if (!base.effects.empty()) others = scan_.promising(base, std::move(others), what);
+  if (!base.effects.empty()) {
+    others = scan_.promising(base, std::move(others), tried.scanned, what);
+  }
   if (others.empty()) return;
   constexpr double kLooks = 0.6;
   const double middle = work_.done() + kLooks * (to - work_.done());
   std::vector<Fit> looks = scan_.first_looks(base, others, what, work_.done(), middle);
-  looks.resize(std::min(most, looks.size()));
+  looks.resize(std::min(tried.refitted, looks.size()));
   if (!base.effects.empty()) {
     const double largest = options_.largest_of_looks * looks.front().sum_of_squares;
     std::erase_if(looks, [&](const Fit& look) { return look.sum_of_squares > largest; });

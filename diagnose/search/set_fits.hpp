@@ -28,11 +28,12 @@ class SetFits {
   Explanation fitted(const Candidate& start) const;
 
   /// Adds to `found` `base` with each of `others` that it has not, found by a scan of a coarse
-  /// problem; the `most` best of these fitted to all data, beside effects of `base` those that come
-  /// near the best (options.largest_of_looks). As part of `what`, up to the fraction `to` of the
-  /// work.
+  /// problem; the tried.refitted best of these fitted to all data, beside effects of `base` those
+  /// that come near the best (options.largest_of_looks). Beside effects of `base` the
+  /// tried.scanned most promising are scanned (EffectScan::promising), else all. As part of `what`,
+  /// up to the fraction `to` of the work.
   void add_with(const Candidate& base, std::vector<const Hypothesis*> others, std::string_view what,
-                double to, std::size_t most, std::vector<Explanation>& found);
+                double to, const Tried& tried, std::vector<Explanation>& found);
 
   /// Fits candidate(i) for the i-th of `sets`, which are their labels, and adds those that are
   /// identified to `found`, the best first. Of the same set, begun from another, the better stays.

@@ -1,12 +1,14 @@
 // A few trials that every build has to pass, through the library. scripts/trials makes many more.
 #include "diagnose/diagnosis.hpp"
 #include "diagnose/search/hypothesis.hpp"
+#include "diagnose/search/selection.hpp"
 #include "tests/trials/trial_case.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -18,25 +20,31 @@ using measured::RunKind;
 using testing::AnyOf;
 using testing::ElementsAre;
 using testing::IsEmpty;
+using testing::UnorderedElementsAreArray;
 
 struct FixedAnswer {
   diagnose::Verdict verdict;
   std::vector<std::string> effects;
 };
 
-/// The effect `unknown` is not among those tried.
-FixedAnswer diagnosed(const TrialKey& key, const diagnose::SelectionOptions& options = {},
-                      const std::string& unknown = "") {
+diagnose::Experiment recorded(const TrialKey& key) {
   const fs::path folder = fs::path(testing::TempDir()) / ("trial-" + key.folder_name());
   fs::remove_all(folder);
   write_case(key, folder);
-  const diagnose::Experiment experiment = diagnose::read_experiment(folder / "measurement.toml");
+  diagnose::Experiment experiment = diagnose::read_experiment(folder / "measurement.toml");
+  fs::remove_all(folder);
+  return experiment;
+}
+
+/// The effect `unknown` is not among those tried.
+FixedAnswer diagnosed(const TrialKey& key, const diagnose::SelectionOptions& options = {},
+                      const std::string& unknown = "") {
+  const diagnose::Experiment experiment = recorded(key);
   auto hypotheses = diagnose::hypotheses(experiment);
   std::erase_if(hypotheses, [&](const auto& one) { return one.effect == unknown; });
   const auto diagnosis = diagnose::diagnose(experiment, hypotheses, options);
   FixedAnswer answer{diagnosis.verdict, {}};
   for (const auto& cause : diagnosis.causes) answer.effects.push_back(cause.effect);
-  fs::remove_all(folder);
   return answer;
 }
 
@@ -56,6 +64,22 @@ TEST(FixedTrial, FrictionInTime) {
   const FixedAnswer answer = diagnosed({.kind = RunKind::time, .hidden = {"coulomb_friction"}});
   EXPECT_EQ(answer.verdict, diagnose::Verdict::explained);
   EXPECT_THAT(answer.effects, ElementsAre("coulomb_friction"));
+}
+
+TEST(FixedTrial, ThreeEffectsOfWhichTwoActLikeAnother) {
+  // The inertia of the payload acts like the soft root and the lighter beam together: the best pair
+  // has it beside the friction, and no third effect beside these two leaves noise.
+  const std::vector<std::string> hidden = {"root_compliance", "linear_density",
+                                           "hub_viscous_friction"};
+  std::set<std::string> tried(hidden.begin(), hidden.end());
+  tried.insert({"payload_inertia", "payload_offset", "hub_inertia"});
+  const diagnose::Experiment experiment =
+      recorded({.kind = RunKind::time, .hidden = hidden, .seed = 2, .arm = "aluminium link"});
+  auto hypotheses = diagnose::hypotheses(experiment);
+  std::erase_if(hypotheses, [&](const auto& one) { return !tried.contains(one.effect); });
+  const auto chosen = select(diagnose::Problem(experiment), hypotheses, {}).chosen;
+  EXPECT_TRUE(chosen.leaves_noise());
+  EXPECT_THAT(chosen.fit.candidate.labels(), UnorderedElementsAreArray(hidden));
 }
 
 TEST(FixedTrial, AnActuatorsLagInFrequency) {

@@ -1,5 +1,6 @@
 #include "diagnose/predictors/predictor.hpp"
 
+#include "diagnose/parallel.hpp"
 #include "diagnose/predictors/predicted_roots.hpp"
 #include "diagnose/predictors/simulated_run.hpp"
 #include "response/formulation_maker.hpp"
@@ -8,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 #include <variant>
 
@@ -108,9 +110,13 @@ Predictor::Predictor(const Experiment& experiment, const Observations& observati
 
 void Predictor::for_each_time_run(const arm::Arm& arm, const std::vector<bool>& runs,
                                   const NoiseModel* noise, const UseSimulation& use) const {
-  arm::Arm with_payload = arm;
-  for (const Condition& condition : conditions_) {
-    if (std::ranges::none_of(condition.runs, [&](std::size_t r) { return runs[r]; })) continue;
+  in_parallel(conditions_.size(), [&](std::size_t c) {
+    const Condition& condition = conditions_[c];
+    std::vector<std::size_t> simulated;
+    std::ranges::copy_if(condition.runs, std::back_inserter(simulated),
+                         [&](std::size_t r) { return runs[r]; });
+    if (simulated.empty()) return;
+    arm::Arm with_payload = arm;
     with_payload.payload = condition.payload;
     response::ArmParts parts = response::take_apart(with_payload);
     if (noise != nullptr) {
@@ -121,10 +127,8 @@ void Predictor::for_each_time_run(const arm::Arm& arm, const std::vector<bool>& 
         response::time_model(response::make_formulation("exact_tf", parts.linear, flexible_modes_),
                              parts, flexible_modes_, condition.sensors);
     const response::ArmSimulator simulation(model, parts, condition.sensors, condition.options);
-    for (const std::size_t r : condition.runs) {
-      if (runs[r]) use(r, simulation);
-    }
-  }
+    in_parallel(simulated.size(), [&](std::size_t i) { use(simulated[i], simulation); });
+  });
 }
 
 void Predictor::predict_other_runs(const arm::Arm& arm, const std::vector<bool>& runs,

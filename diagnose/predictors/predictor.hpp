@@ -86,7 +86,7 @@ class Predictor {
   };
   using UseSimulation = std::function<void(std::size_t run, const response::ArmSimulator&)>;
 
-  /// With a disturbance of the hub torque where there is `noise`.
+  /// With a disturbance of the hub torque where there is `noise`. `use` is called concurrently.
   void for_each_time_run(const arm::Arm& arm, const std::vector<bool>& runs,
                          const NoiseModel* noise, const UseSimulation& use) const;
   void predict_other_runs(const arm::Arm& arm, const std::vector<bool>& runs,
@@ -124,7 +124,7 @@ inline constexpr int kMostModes = 16;
 /// Of an experiment that is driven by motion: what the error of the motion (MeasuredMotion::error)
 /// adds to what the arm as filed shows, of each channel the root mean square over the deviation of
 /// the measured signal. Of an arm that cannot be computed 0.
-std::vector<double> errors_of_motion(const Experiment& experiment,
-                                     const Observations& observations, int flexible_modes);
+std::vector<double> errors_of_motion(const Experiment& experiment, const Observations& observations,
+                                     int flexible_modes);
 
 }  // namespace flexarm::diagnose

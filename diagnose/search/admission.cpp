@@ -110,8 +110,8 @@ bool is_out_of_reach(const Explanation& nothing, const std::vector<Explanation>&
                      const SelectionOptions& options) {
   return runs_away(nothing, options) &&
          nothing.estimation.unexplained_error() > options.runaway_error &&
-         std::ranges::all_of(
-             singles, [&](const Explanation& single) { return runs_away(single, options); });
+         std::ranges::all_of(singles,
+                             [&](const Explanation& single) { return runs_away(single, options); });
 }
 
 std::vector<LimitOfEffect> limits_in(const Candidate& candidate,

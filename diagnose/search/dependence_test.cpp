@@ -92,10 +92,9 @@ struct ScoredRuns {
     const auto with = problem.residuals(changed, runs);
     if (!with) return {};
     const Eigen::VectorXd change = residuals - *with;
-    return {std::min(p_value_along(problem, change),
-                     p_value_along(problem, change.cwiseProduct(time))),
-            squared_cosine(errors_in(white, problem, change),
-                           errors_in(white, problem, residuals))};
+    return {
+        std::min(p_value_along(problem, change), p_value_along(problem, change.cwiseProduct(time))),
+        squared_cosine(errors_in(white, problem, change), errors_in(white, problem, residuals))};
   }
   static constexpr double kTestsOfChange = 2.0;
   /// 1 of a change that refitting makes too.
@@ -202,9 +201,8 @@ DependenceTest test_dependence(const Problem& problem, const Problem& white,
                            scored(problem, fitted, problem.validation_runs())};
   const bool is_driven = problem.is_driven_by_torque() || is_driven_by_motion(experiment);
   std::vector<Score> scores(sets.size() * (changed.size() + 1));
-  const auto tests =
-      static_cast<double>(sets.size()) *
-      (1.0 + ScoredRuns::kTestsOfChange * static_cast<double>(changed.size()));
+  const auto tests = static_cast<double>(sets.size()) *
+                     (1.0 + ScoredRuns::kTestsOfChange * static_cast<double>(changed.size()));
   std::atomic<bool> is_rejected = false;
   const auto keep = [&](std::size_t i, const Score& score) {
     scores[i] = score;

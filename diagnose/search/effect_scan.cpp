@@ -1,10 +1,12 @@
 #include "diagnose/search/effect_scan.hpp"
 
+#include "diagnose/parallel.hpp"
 #include "diagnose/search/coarse.hpp"
 #include "diagnose/search/linear_refit.hpp"
 #include "diagnose/search/scan.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <numeric>
 #include <utility>
 
@@ -174,12 +176,9 @@ Fit EffectScan::best_from_scan(const Problem& problem, const Candidate& start,
 }
 
 Fit EffectScan::best_fit(const Problem& problem, const std::vector<Candidate>& starts) const {
-  std::optional<Fit> best;
-  for (const Candidate& start : starts) {
-    Fit found = coarse_fit(problem, start);
-    if (!best || found.sum_of_squares < best->sum_of_squares) best = std::move(found);
-  }
-  return *best;
+  std::vector<Fit> found(starts.size());
+  in_parallel(starts.size(), [&](std::size_t i) { found[i] = coarse_fit(problem, starts[i]); });
+  return *std::ranges::min_element(found, {}, &Fit::sum_of_squares);
 }
 
 Fit EffectScan::look_in_place(const Candidate& candidate, std::size_t index,

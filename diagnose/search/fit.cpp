@@ -10,8 +10,9 @@ Fit fit(const Problem& problem, const Candidate& start, const FitOptions& option
   Fit made{.candidate = start};
   const auto residuals_at = [&](const Eigen::VectorXd& places) -> Eigen::VectorXd {
     if (options.work != nullptr) options.work->go_on();
-    made.candidate.put(places);
-    const auto residuals = problem.residuals(made.candidate, problem.estimation_runs());
+    Candidate tried = start;
+    tried.put(places);
+    const auto residuals = problem.residuals(tried, problem.estimation_runs());
     if (residuals) return *residuals;
     return Eigen::VectorXd::Constant(problem.residual_count(), kImpossibleResidual);
   };

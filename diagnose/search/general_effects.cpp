@@ -1,5 +1,7 @@
 #include "diagnose/search/general_effects.hpp"
 
+#include "diagnose/parallel.hpp"
+
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
@@ -42,11 +44,13 @@ void GeneralEffects::try_by_themselves(Selection& made, std::string_view what, d
   try {
     std::vector<const Hypothesis*> likely_laws;
     std::vector<const Hypothesis*> others;
-    for (const Hypothesis* general : waiting) {
-      const std::optional<double> share = fits_.scan().share_of_law(none, *general);
-      if (share && *share < options_.least_law_share) continue;
-      const bool is_likely = share && *share >= options_.least_share;
-      (is_likely ? likely_laws : others).push_back(general);
+    std::vector<std::optional<double>> shares(waiting.size());
+    in_parallel(waiting.size(),
+                [&](std::size_t i) { shares[i] = fits_.scan().share_of_law(none, *waiting[i]); });
+    for (std::size_t i = 0; i < waiting.size(); ++i) {
+      if (shares[i] && *shares[i] < options_.least_law_share) continue;
+      const bool is_likely = shares[i] && *shares[i] >= options_.least_share;
+      (is_likely ? likely_laws : others).push_back(waiting[i]);
     }
     waiting = others;
     try_each(likely_laws);

@@ -116,15 +116,16 @@ using LeftBy = std::function<std::optional<Eigen::VectorXd>(const Candidate&)>;
 /// `from` with the law that leaves least, and its sum of squares.
 std::pair<Candidate, double> refined(const LeftBy& left_by, const Candidate& from, Index count,
                                      const ReportedWork* work) {
-  Candidate found = from;
   const auto left_at = [&](const Eigen::VectorXd& places) -> Eigen::VectorXd {
     if (work != nullptr) work->go_on();
-    put_last(found, places);
-    const auto left = left_by(found);
+    Candidate tried = from;
+    put_last(tried, places);
+    const auto left = left_by(tried);
     return left ? *left : Eigen::VectorXd::Constant(count, kImpossibleResidual);
   };
   const LeastSquares best =
       least_squares(left_at, last_places(from), {.most_steps = kSteps, .tolerance = kTolerance});
+  Candidate found = from;
   put_last(found, best.places);
   return {found, best.residuals.squaredNorm()};
 }

@@ -177,11 +177,11 @@ std::vector<Hypothesis> distinct(std::vector<Hypothesis> all) {
     return std::ranges::find(one.entry->same_as, other.effect) != one.entry->same_as.end();
   };
   // Those that name another as the same follow it.
-  std::ranges::stable_partition(
-      all, [](const Hypothesis& one) { return one.entry->same_as.empty(); });
+  std::ranges::stable_partition(all,
+                                [](const Hypothesis& one) { return one.entry->same_as.empty(); });
   for (Hypothesis& one : all) {
-    const auto same = std::ranges::find_if(
-        made, [&](const Hypothesis& other) { return is_same(one, other); });
+    const auto same =
+        std::ranges::find_if(made, [&](const Hypothesis& other) { return is_same(one, other); });
     if (same == made.end()) {
       made.push_back(std::move(one));
     } else {
@@ -242,8 +242,7 @@ Scales scales_of(const Experiment& experiment) {
       for (const auto& channel : record->channels) {
         add_unknown(scales.sensors, channel.sensor);
         if (channel.sensor.kind != arm::SensorKind::hub_angle) continue;
-        scales.hub_angle_range_rad =
-            std::max(scales.hub_angle_range_rad, range_of(channel.values));
+        scales.hub_angle_range_rad = std::max(scales.hub_angle_range_rad, range_of(channel.values));
       }
     } else if (const auto* frequency = std::get_if<measured::FrequencyRecord>(&data)) {
       for (const auto& channel : frequency->channels) {

@@ -1,86 +1,170 @@
 #include "diagnose/search/least_squares.hpp"
 
+#include "diagnose/parallel.hpp"
+
+#include <Eigen/QR>
 #include <unsupported/Eigen/NonLinearOptimization>
+
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <utility>
 
 namespace flexarm::diagnose {
 
 namespace {
 
 using Eigen::Index;
+namespace status = Eigen::LevenbergMarquardtSpace;
 
 /// Step in a place of a difference quotient: beside it the rounding of a simulation, 1e-12, and
 /// its curvature are both small.
 constexpr double kStep = 1e-5;
+/// A Jacobian is updated where it predicted the change of the residuals to this part of that.
+constexpr double kPredicted = 0.3;
 
 /// Residuals by places, as the minimiser wants them.
-struct DifferencedResiduals {
+class DifferencedResiduals {
+ public:
   using Scalar = double;
   using InputType = Eigen::VectorXd;
   using ValueType = Eigen::VectorXd;
   using JacobianType = Eigen::MatrixXd;
   enum { InputsAtCompileTime = Eigen::Dynamic, ValuesAtCompileTime = Eigen::Dynamic };
 
-  const ResidualsAt& residuals_at;
-  int evaluations = 0;
-  Eigen::VectorXd last_places = {};
-  Eigen::VectorXd last = {};
+  DifferencedResiduals(const ResidualsAt& residuals_at, const Eigen::VectorXd& start)
+      : residuals_at_(residuals_at), here_(evaluated(start)) {}
 
-  Index inputs() const { return last_places.size(); }
-  Index values() const { return last.size(); }
+  Index inputs() const { return here_.places.size(); }
+  Index values() const { return here_.residuals.size(); }
+  int evaluations() const { return evaluations_; }
 
-  Eigen::VectorXd evaluate(const Eigen::VectorXd& places) {
-    ++evaluations;
-    return residuals_at(places);
-  }
-  /// The same; the minimiser asks for a place's derivatives when it has just had its residuals.
-  const Eigen::VectorXd& at(const Eigen::VectorXd& places) {
-    if (last_places.size() != places.size() || last_places != places || last.size() == 0) {
-      last = evaluate(places);
-      last_places = places;
-    }
-    return last;
-  }
+  /// Negative, which ends the minimisation, where an updated Jacobian misled it.
   int operator()(const Eigen::VectorXd& places, Eigen::VectorXd& residuals) {
-    residuals = at(places);
+    if (places != here_.places) {
+      Evaluated there = evaluated(places);
+      if (is_updated() && !(there.residuals.norm() < jacobian_->at.residuals.norm())) {
+        updates_ = false;
+        return -1;
+      }
+      here_ = std::move(there);
+    }
+    residuals = here_.residuals;
     return 0;
   }
+
+  /// By Broyden's update [Broyden1965] of the last one where that predicted the step well, by
+  /// difference quotients at first and else.
   int df(const Eigen::VectorXd& places, Eigen::MatrixXd& jacobian) {
-    const Eigen::VectorXd& here = at(places);
-    for (Index i = 0; i < inputs(); ++i) {
+    if (!try_update(at(places))) difference(places);
+    jacobian = jacobian_->values;
+    return 0;
+  }
+
+  /// By difference quotients.
+  const Eigen::MatrixXd& differenced(const Eigen::VectorXd& places) {
+    if (!jacobian_ || jacobian_->is_updated || jacobian_->at.places != places) difference(places);
+    return jacobian_->values;
+  }
+
+  const Eigen::VectorXd& residuals(const Eigen::VectorXd& places) { return at(places).residuals; }
+  /// The last Jacobian is no quotient of differences.
+  bool is_updated() const { return jacobian_ && jacobian_->is_updated; }
+
+ private:
+  struct Evaluated {
+    Eigen::VectorXd places;
+    Eigen::VectorXd residuals;
+  };
+  struct Jacobian {
+    Evaluated at;
+    Eigen::MatrixXd values;
+    bool is_updated = false;
+  };
+
+  Evaluated evaluated(const Eigen::VectorXd& places) {
+    ++evaluations_;
+    return {places, residuals_at_(places)};
+  }
+
+  /// The minimiser asks for a place's derivatives when it has just had its residuals, unless it
+  /// went back from another.
+  const Evaluated& at(const Eigen::VectorXd& places) {
+    if (places != here_.places) {
+      here_ = jacobian_ && jacobian_->at.places == places ? jacobian_->at : evaluated(places);
+    }
+    return here_;
+  }
+
+  void difference(const Eigen::VectorXd& places) {
+    Jacobian made{.at = at(places), .values = Eigen::MatrixXd(values(), inputs())};
+    in_parallel(static_cast<std::size_t>(inputs()), [&](std::size_t k) {
+      const auto i = static_cast<Index>(k);
       Eigen::VectorXd beside = places;
       const double step = places(i) < 0.5 ? kStep : -kStep;
       beside(i) += step;
-      jacobian.col(i) = (evaluate(beside) - here) / step;
-    }
-    return 0;
+      made.values.col(i) = (residuals_at_(beside) - made.at.residuals) / step;
+    });
+    evaluations_ += static_cast<int>(inputs());
+    jacobian_ = std::move(made);
   }
+
+  bool try_update(const Evaluated& there) {
+    if (!updates_ || !jacobian_) return false;
+    const Eigen::VectorXd step = there.places - jacobian_->at.places;
+    const double length = step.squaredNorm();
+    if (length == 0.0) return true;
+    const Eigen::VectorXd change = there.residuals - jacobian_->at.residuals;
+    const Eigen::VectorXd unpredicted = change - jacobian_->values * step;
+    if (!(unpredicted.norm() <= kPredicted * change.norm())) return false;
+    jacobian_->values.noalias() += unpredicted * (step / length).transpose();
+    jacobian_->at = there;
+    jacobian_->is_updated = true;
+    return true;
+  }
+
+  const ResidualsAt& residuals_at_;
+  int evaluations_ = 0;
+  Evaluated here_;
+  std::optional<Jacobian> jacobian_;
+  bool updates_ = true;
 };
+
+/// Whether a Gauss-Newton step would lower the sum of squares by no more than this part of it.
+bool is_least(const Eigen::VectorXd& residuals, const Eigen::MatrixXd& jacobian, double tolerance) {
+  const Eigen::HouseholderQR<Eigen::MatrixXd> factors(jacobian);
+  const Eigen::VectorXd turned = factors.householderQ().adjoint() * residuals;
+  const auto rank = std::min(jacobian.rows(), jacobian.cols());
+  return turned.head(rank).squaredNorm() <= tolerance * residuals.squaredNorm();
+}
 
 }  // namespace
 
 LeastSquares least_squares(const ResidualsAt& residuals, const Eigen::VectorXd& start,
                            const LeastSquaresOptions& options) {
-  DifferencedResiduals differenced{residuals};
+  DifferencedResiduals differenced(residuals, start);
   LeastSquares made{.places = start, .converged = start.size() == 0};
-  differenced.at(start);
-  if (start.size() > 0) {
-    Eigen::LevenbergMarquardt<DifferencedResiduals> minimiser(differenced);
-    minimiser.parameters.ftol = options.tolerance;
-    minimiser.parameters.xtol = options.tolerance;
-    auto status = minimiser.minimizeInit(made.places);
-    int steps = 0;
-    while (status == Eigen::LevenbergMarquardtSpace::Running ||
-           status == Eigen::LevenbergMarquardtSpace::NotStarted) {
-      if (steps++ == options.most_steps) break;
-      status = minimiser.minimizeOneStep(made.places);
+  Eigen::LevenbergMarquardt<DifferencedResiduals> minimiser(differenced);
+  minimiser.parameters.ftol = options.tolerance;
+  minimiser.parameters.xtol = options.tolerance;
+  int steps = 0;
+  while (start.size() > 0) {
+    auto ended = minimiser.minimizeInit(made.places);
+    while ((ended == status::Running || ended == status::NotStarted) &&
+           steps < options.most_steps) {
+      ++steps;
+      ended = minimiser.minimizeOneStep(made.places);
     }
-    made.converged = status != Eigen::LevenbergMarquardtSpace::Running &&
-                     status != Eigen::LevenbergMarquardtSpace::ImproperInputParameters;
+    made.converged = ended != status::Running && ended != status::ImproperInputParameters;
+    if (!differenced.is_updated()) break;
+    // What an updated Jacobian takes for the minimum need not be one.
+    made.converged = is_least(differenced.residuals(made.places),
+                              differenced.differenced(made.places), options.tolerance);
+    if (made.converged || steps == options.most_steps) break;
   }
-  made.jacobian.resize(differenced.values(), differenced.inputs());
-  differenced.df(made.places, made.jacobian);
-  made.residuals = differenced.at(made.places);
-  made.evaluations = differenced.evaluations;
+  made.residuals = differenced.residuals(made.places);
+  made.jacobian = differenced.differenced(made.places);
+  made.evaluations = differenced.evaluations();
   return made;
 }
 

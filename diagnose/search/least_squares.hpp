@@ -27,7 +27,9 @@ inline constexpr double kImpossibleResidual = 1e8;
 
 /// From `start` to the nearest minimum of the sum of squares (Levenberg-Marquardt), with
 /// derivatives by difference quotients over 1e-5 of a place: towards 0 above 0.5, away from it
-/// below. Without places the residuals are evaluated. Exceptions of `residuals` pass through.
+/// below. Between them the Jacobian is updated by the residuals of each step [Broyden1965], as long
+/// as it predicts these; the minimum is one by difference quotients. Without places the residuals
+/// are evaluated. `residuals` is called concurrently; its exceptions pass through.
 LeastSquares least_squares(const ResidualsAt& residuals, const Eigen::VectorXd& start,
                            const LeastSquaresOptions& options = {});
 

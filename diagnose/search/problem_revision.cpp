@@ -1,10 +1,10 @@
 #include "diagnose/search/problem_revision.hpp"
 
+#include "diagnose/parallel.hpp"
 #include "diagnose/search/admission.hpp"
 #include "diagnose/search/dependence_test.hpp"
 
 #include <algorithm>
-#include <tbb/parallel_for.h>
 #include <utility>
 
 namespace flexarm::diagnose {
@@ -27,8 +27,8 @@ void ProblemRevision::refit(Selection& made) const {
     return fits_.fitted(explanation.fit.candidate);
   };
   const auto all_again = [&](std::vector<Explanation> explanations) {
-    tbb::parallel_for(std::size_t{0}, explanations.size(),
-                      [&](std::size_t i) { explanations[i] = again(explanations[i]); });
+    in_parallel(explanations.size(),
+                [&](std::size_t i) { explanations[i] = again(explanations[i]); });
     sort_by_fit(explanations);
     return explanations;
   };

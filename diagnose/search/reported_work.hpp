@@ -1,5 +1,7 @@
 #pragma once
 
+#include "diagnose/parallel.hpp"
+
 #include <atomic>
 #include <chrono>
 #include <cstddef>
@@ -7,7 +9,6 @@
 #include <mutex>
 #include <optional>
 #include <string_view>
-#include <tbb/parallel_for.h>
 
 namespace flexarm::diagnose {
 
@@ -70,7 +71,7 @@ class ReportedWork {
   void in_parallel(std::size_t count, std::string_view what, double from, double to, Work work) {
     tell(what, from);
     std::atomic<std::size_t> done = 0;
-    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+    diagnose::in_parallel(count, [&](std::size_t i) {
       work(i);
       const double part = static_cast<double>(++done) / static_cast<double>(count);
       tell(what, from + part * (to - from));

@@ -1,10 +1,15 @@
 #include "diagnose/search/scan.hpp"
 
+#include "diagnose/parallel.hpp"
+
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <iterator>
 #include <limits>
 #include <nlopt.hpp>
 #include <numeric>
+#include <utility>
 
 namespace flexarm::diagnose {
 
@@ -43,10 +48,18 @@ class ScannedSum {
 
   /// The logarithm, which DIRECT-L compares between boxes of different size.
   double log_at(const Eigen::VectorXd& scanned) {
-    if (options_.work != nullptr) options_.work->go_on();
-    const double sum = sum_(candidate_at(scanned));
+    const double sum = sum_at(scanned);
     places_.push_back({sum, scanned});
     return std::isfinite(sum) ? std::log(sum) : kImpossibleLog;
+  }
+
+  /// Many at a time.
+  void try_all(std::vector<Eigen::VectorXd> places) {
+    std::vector<Place> tried(places.size());
+    in_parallel(places.size(), [&](std::size_t i) {
+      tried[i] = {sum_at(places[i]), std::move(places[i])};
+    });
+    std::ranges::move(tried, std::back_inserter(places_));
   }
 
   /// The best of the places that are apart.
@@ -65,6 +78,11 @@ class ScannedSum {
   }
 
  private:
+  double sum_at(const Eigen::VectorXd& scanned) const {
+    if (options_.work != nullptr) options_.work->go_on();
+    return sum_(candidate_at(scanned));
+  }
+
   const SumOfSquares& sum_;
   const Candidate& candidate_;
   Eigen::VectorXd all_;
@@ -77,16 +95,17 @@ void try_grid(ScannedSum& sum, Index dimension, int evaluations) {
   constexpr double kRounding = 1e-9;
   const int along_axis = static_cast<int>(
       std::floor(std::pow(evaluations, 1.0 / static_cast<double>(dimension)) + kRounding));
-  const auto places = std::lround(std::pow(along_axis, dimension));
-  for (long k = 0; k < places; ++k) {
-    Eigen::VectorXd place(dimension);
+  const auto count = std::lround(std::pow(along_axis, dimension));
+  std::vector<Eigen::VectorXd> places;
+  for (long k = 0; k < count; ++k) {
+    Eigen::VectorXd& place = places.emplace_back(dimension);
     long rest = k;
     for (double& coordinate : place) {
       coordinate = (static_cast<double>(rest % along_axis) + 0.5) / along_axis;
       rest /= along_axis;
     }
-    sum.log_at(place);
   }
+  sum.try_all(std::move(places));
 }
 
 void try_direct(ScannedSum& sum, Index dimension, int evaluations) {

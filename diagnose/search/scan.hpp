@@ -37,7 +37,8 @@ std::vector<Candidate> scan(const Problem& problem, const Candidate& start,
                             const std::vector<Eigen::Index>& coordinates,
                             const ScanOptions& options);
 
-/// The same for another sum of squares than that of a problem; infinite: no such candidate.
+/// The same for another sum of squares than that of a problem; infinite: no such candidate. It is
+/// called concurrently.
 using SumOfSquares = std::function<double(const Candidate&)>;
 std::vector<Candidate> scan(const SumOfSquares& sum_of_squares, const Candidate& start,
                             const std::vector<Eigen::Index>& coordinates,

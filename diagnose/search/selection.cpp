@@ -1,5 +1,6 @@
 #include "diagnose/search/selection.hpp"
 
+#include "diagnose/parallel.hpp"
 #include "diagnose/search/admission.hpp"
 #include "diagnose/search/bases.hpp"
 #include "diagnose/search/general_effects.hpp"
@@ -14,7 +15,6 @@
 #include <set>
 #include <string>
 #include <string_view>
-#include <tbb/parallel_for.h>
 #include <utility>
 
 namespace flexarm::diagnose {
@@ -331,8 +331,8 @@ class Search {
     const Candidate& candidate = explanation.fit.candidate;
     if (candidate.effects.size() < 2) return explanation;
     std::vector<Explanation> simpler(candidate.effects.size());
-    tbb::parallel_for(std::size_t{0}, simpler.size(),
-                      [&](std::size_t i) { simpler[i] = fits_.fitted(candidate.without(i)); });
+    in_parallel(simpler.size(),
+                [&](std::size_t i) { simpler[i] = fits_.fitted(candidate.without(i)); });
     sort_by_fit(simpler);
     for (const Explanation& one : simpler) {
       if (!clears_bars(explanation, one, options_)) return needed(one);

@@ -1,11 +1,11 @@
 #include "diagnose/search/torque_timing.hpp"
 
+#include "diagnose/parallel.hpp"
 #include "diagnose/search/misfit.hpp"
 
 #include <Eigen/Cholesky>
 
 #include <algorithm>
-#include <tbb/parallel_for.h>
 #include <utility>
 #include <variant>
 
@@ -87,7 +87,7 @@ TorqueTiming torque_timing(const Problem& problem, const Fit& fit) {
   const arm::Arm arm = fit.candidate.extend(experiment.arm);
   std::vector<Eigen::MatrixXd> columns(experiment.runs.size());
   std::vector<Eigen::LDLT<Eigen::MatrixXd>> information(experiment.runs.size());
-  tbb::parallel_for(std::size_t{0}, experiment.runs.size(), [&](std::size_t r) {
+  in_parallel(experiment.runs.size(), [&](std::size_t r) {
     if (experiment.runs[r].run.kind != measured::RunKind::time) return;
     columns[r] = derivatives(problem, arm, r);
     Eigen::MatrixXd of_run = columns[r].transpose() * columns[r];

@@ -1,10 +1,10 @@
 #include "diagnose/symptoms/hub_regression.hpp"
 
+#include "diagnose/parallel.hpp"
 #include "diagnose/search/misfit.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <tbb/parallel_for.h>
 
 namespace flexarm::diagnose {
 
@@ -84,7 +84,7 @@ HubTorques HubRegression::torques(const Eigen::VectorXd& left) const {
                            static_cast<Index>(motion.time_s.size() * motion.readings.size()));
   }
   HubTorques made(motions_.size());
-  tbb::parallel_for(std::size_t{0}, motions_.size(), [&](std::size_t m) {
+  in_parallel(motions_.size(), [&](std::size_t m) {
     const HubReading& first = motions_[m].readings.front();
     const auto count = std::ssize(first.residual);
     const Eigen::VectorXd own = left.segment(first_of_run[m], count) * first.noise;

@@ -2,10 +2,10 @@
 
 #include "arm/input_error.hpp"
 #include "compare/identification.hpp"
+#include "diagnose/parallel.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <tbb/parallel_for.h>
 #include <variant>
 
 namespace flexarm::diagnose {
@@ -116,7 +116,7 @@ std::vector<RootShift> fitted(const SymptomsInput& input, std::size_t run,
 std::vector<RootShift> root_shifts(const SymptomsInput& input) {
   const auto& runs = input.problem.experiment().runs;
   std::vector<std::vector<RootShift>> by_run(runs.size());
-  tbb::parallel_for(std::size_t{0}, runs.size(), [&](std::size_t r) {
+  in_parallel(runs.size(), [&](std::size_t r) {
     if (const auto* table = std::get_if<measured::ModalTable>(&runs[r].data)) {
       add_table(input, r, *table, by_run[r]);
     } else if (const auto* record = std::get_if<measured::FrequencyRecord>(&runs[r].data)) {

@@ -1,5 +1,6 @@
 #include "diagnose/symptoms/run_drift.hpp"
 
+#include "diagnose/parallel.hpp"
 #include "diagnose/search/misfit.hpp"
 
 #include <boost/math/distributions/chi_squared.hpp>
@@ -8,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tbb/parallel_for.h>
 
 namespace flexarm::diagnose {
 
@@ -90,7 +90,7 @@ std::optional<RunDrift> run_drift(const Problem& problem, const Candidate& candi
   const SearchedParameter& parameter = hypothesis.parameters.front();
   const auto& runs = problem.experiment().runs;
   std::vector<std::optional<RunFit>> fits(runs.size());
-  tbb::parallel_for(std::size_t{0}, runs.size(), [&](std::size_t r) {
+  in_parallel(runs.size(), [&](std::size_t r) {
     if (hypothesis.shows_in(runs[r].run.kind)) fits[r] = refitted(problem, candidate, at, r);
   });
   RunDrift made;

@@ -16,8 +16,6 @@ namespace {
 /// |A| dt of a step where forces vary, so that the parabola through them resolves every mode: its
 /// error is of order 4 in this.
 constexpr double kLargestPhaseVarying_rad = 0.5;
-/// Likewise in a fit, where the steps that need it are halved.
-constexpr double kLargestPhaseOfFit_rad = 64.0;
 /// Time constants after which Z has settled: e^-40 = 4e-18 of what it was.
 constexpr double kSettling = 40.0;
 /// A piece is divided where Z settles within this part of it.
@@ -59,8 +57,8 @@ int StepPlan::substeps(const ModalDynamics& arm, double length_s) const {
   const bool as_asked = forces_->vary() || options_.resolve_every_mode;
   double count = as_asked ? std::ceil(options_.substeps * length_s / h - 1e-9) : 1.0;
   double largest_phase = std::numeric_limits<double>::infinity();
-  if (forces_->vary()) largest_phase = kLargestPhaseOfFit_rad;
   if (ledger_ != nullptr) largest_phase = kLargestPhase_rad;
+  // In a fit the steps that need it are halved.
   if (forces_->vary() && options_.resolve_every_mode) largest_phase = kLargestPhaseVarying_rad;
   if (!is_linear_) count = std::max(count, std::ceil(phase_rad(arm, length_s) / largest_phase));
   if (!(count <= kMostSubsteps)) {

@@ -1,7 +1,7 @@
 #include "diagnose/search/effect_scan.hpp"
 
 #include "diagnose/parallel.hpp"
-#include "diagnose/search/coarse.hpp"
+#include "diagnose/search/additions.hpp"
 #include "diagnose/search/linear_refit.hpp"
 #include "diagnose/search/scan.hpp"
 
@@ -16,80 +16,15 @@ using Eigen::Index;
 
 namespace {
 
-constexpr int kCoarseSteps = 8;
-constexpr double kCoarseTolerance = 1e-4;
 /// Of uncertain numbers on each side. A record in which the phase of a mode turns over has many
 /// minima within these.
 constexpr double kScannedDeviations = 2.5;
-
-/// A few values of a hypothesis' parameters: over their ranges, and of a single one so near to
-/// where it does nothing that the change is its direction.
-std::vector<std::vector<double>> samples_of(const Hypothesis& hypothesis) {
-  std::vector<double> places = {0.2, 0.5, 0.8};
-  if (hypothesis.parameters.size() == 1) {
-    places = {0.15, 0.35, 0.45, 0.55, 0.65, 0.85};
-    const double neutral = hypothesis.parameters.front().neutral_coordinate().value_or(0.0);
-    for (const double change : {-0.002, 0.002, -0.01, 0.01, -0.04, 0.04}) {
-      const double place = neutral + change;
-      if (neutral > 0.0 && place > 0.0 && place < 1.0) places.push_back(place);
-    }
-  }
-  std::vector<std::vector<double>> samples = {{}};
-  for (std::size_t i = 0; i < hypothesis.parameters.size(); ++i) {
-    std::vector<std::vector<double>> longer;
-    for (const auto& sample : samples) {
-      for (const double place : places) {
-        longer.push_back(sample);
-        longer.back().push_back(place);
-      }
-    }
-    samples = std::move(longer);
-  }
-  for (auto& sample : samples) sample = effects::values_at(hypothesis.parameters, sample);
-  return samples;
-}
-
-/// The noise model for an experiment with the estimation runs alone.
-std::optional<NoiseModel> noise_of_estimation(const Problem& problem) {
-  std::optional<NoiseModel> noise = problem.predictor().noise();
-  if (!noise || !noise->is_torque_noise()) return noise;
-  std::vector<double> of_estimation_N_m;
-  for (std::size_t r = 0; r < noise->torque_noise_N_m.size(); ++r) {
-    if (problem.estimation_runs()[r]) of_estimation_N_m.push_back(noise->torque_noise_N_m[r]);
-  }
-  noise->torque_noise_N_m = std::move(of_estimation_N_m);
-  return noise;
-}
-
-ProblemOptions coarse_options(const Problem& problem, const SelectionOptions& options) {
-  return {.flexible_modes = std::min(options.coarse_modes, problem.predictor().flexible_modes()),
-          .noise = noise_of_estimation(problem)};
-}
-
-Experiment coarse_experiment(const Problem& problem, std::size_t samples) {
-  const auto& noise = problem.predictor().noise();
-  return noise && !noise->is_torque_noise() ? coarse_whole(problem.experiment(), samples)
-                                            : coarse(problem.experiment(), samples);
-}
-
-std::size_t coarse_samples(const Problem& problem, const SelectionOptions& options) {
-  return has_controllers(problem.experiment()) ? options.coarse_loop_samples
-                                               : options.coarse_samples;
-}
 
 double larger_share(const HubLawScan& law, const std::optional<HubLawScan>& early_law) {
   return early_law ? std::max(law.share, early_law->share) : law.share;
 }
 
 }  // namespace
-
-EffectScan::EffectScan(const Problem& problem, const SelectionOptions& options, ReportedWork& work)
-    : options_(options),
-      work_(work),
-      coarse_experiment_(coarse_experiment(problem, coarse_samples(problem, options))),
-      short_experiment_(coarse_experiment(problem, options.short_samples)),
-      coarse_(coarse_experiment_, coarse_options(problem, options)),
-      short_(short_experiment_, coarse_options(problem, options)) {}
 
 std::vector<Fit> EffectScan::first_looks(const Candidate& base,
                                          const std::vector<const Hypothesis*>& others,
@@ -102,7 +37,7 @@ std::vector<Fit> EffectScan::first_looks(const Candidate& base,
 }
 
 Fit EffectScan::first_look(const Candidate& base) const {
-  Fit look = coarse_fit(coarse_, base);
+  Fit look = coarse_fit(parts_.coarse(), base, work_);
   if (base.nuisances.empty()) return look;
   std::vector<Index> scanned(base.nuisances.size());
   std::iota(scanned.begin(), scanned.end(), Index{0});
@@ -111,9 +46,9 @@ Fit EffectScan::first_look(const Candidate& base) const {
                                  .lowest = -kScannedDeviations,
                                  .highest = kScannedDeviations,
                                  .work = &work_};
-  for (const Problem* problem : {&short_, &coarse_}) {
+  for (const Problem* problem : {&parts_.early(), &parts_.coarse()}) {
     for (const Candidate& place : scan(*problem, base, scanned, scan_options)) {
-      Fit found = coarse_fit(coarse_, coarse_fit(*problem, place).candidate);
+      Fit found = coarse_fit(parts_.coarse(), coarse_fit(*problem, place, work_).candidate, work_);
       if (found.sum_of_squares < look.sum_of_squares) look = std::move(found);
     }
   }
@@ -123,19 +58,18 @@ Fit EffectScan::first_look(const Candidate& base) const {
 Fit EffectScan::first_look(const Candidate& base, const Hypothesis& other) const {
   const Candidate start = base.with(other, other.middle());
   const std::vector<Index> scanned = last_coordinates(start);
-  const auto law = hub_law_scan(coarse_, start);
-  const auto early_law = law ? hub_law_scan(short_, start) : std::nullopt;
+  const auto law = hub_law_scan(parts_.coarse(), start);
+  const auto early_law = law ? hub_law_scan(parts_.early(), start) : std::nullopt;
   if (law && larger_share(*law, early_law) < options_.least_law_share) {
     // Simulated once, so that it can be compared with other looks.
-    return fit(coarse_, law->starts.front(), {.most_steps = 0, .work = &work_});
+    return fit(parts_.coarse(), law->starts.front(), {.most_steps = 0, .work = &work_});
   }
-  Fit look = law ? best_fit(coarse_, law->starts) : best_from_scan(coarse_, start, scanned);
-  const bool is_shorter =
-      short_.observations().values.size() < coarse_.observations().values.size();
-  if (scanned.size() == 1 || !is_shorter) return look;
-  const Fit at_first =
-      early_law ? best_fit(short_, early_law->starts) : best_from_scan(short_, start, scanned);
-  Fit from_there = coarse_fit(coarse_, at_first.candidate);
+  Fit look = law ? best_fit(parts_.coarse(), law->starts)
+                 : best_from_scan(parts_.coarse(), start, scanned);
+  if (scanned.size() == 1 || !parts_.is_early_shorter()) return look;
+  const Fit at_first = early_law ? best_fit(parts_.early(), early_law->starts)
+                                 : best_from_scan(parts_.early(), start, scanned);
+  Fit from_there = coarse_fit(parts_.coarse(), at_first.candidate, work_);
   return from_there.sum_of_squares < look.sum_of_squares ? from_there : look;
 }
 
@@ -152,14 +86,9 @@ std::optional<HubLawScan> EffectScan::hub_law_scan(const Problem& problem,
 std::optional<double> EffectScan::share_of_law(const Candidate& base,
                                                const Hypothesis& other) const {
   const Candidate start = base.with(other, other.middle());
-  const auto law = hub_law_scan(coarse_, start);
+  const auto law = hub_law_scan(parts_.coarse(), start);
   if (!law) return std::nullopt;
-  return larger_share(*law, hub_law_scan(short_, start));
-}
-
-Fit EffectScan::coarse_fit(const Problem& problem, const Candidate& start) const {
-  return fit(problem, start,
-             {.most_steps = kCoarseSteps, .tolerance = kCoarseTolerance, .work = &work_});
+  return larger_share(*law, hub_law_scan(parts_.early(), start));
 }
 
 Fit EffectScan::best_from_scan(const Problem& problem, const Candidate& start,
@@ -177,8 +106,20 @@ Fit EffectScan::best_from_scan(const Problem& problem, const Candidate& start,
 
 Fit EffectScan::best_fit(const Problem& problem, const std::vector<Candidate>& starts) const {
   std::vector<Fit> found(starts.size());
-  in_parallel(starts.size(), [&](std::size_t i) { found[i] = coarse_fit(problem, starts[i]); });
+  in_parallel(starts.size(),
+              [&](std::size_t i) { found[i] = coarse_fit(problem, starts[i], work_); });
   return *std::ranges::min_element(found, {}, &Fit::sum_of_squares);
+}
+
+Fit EffectScan::early_look(const Candidate& base, const Hypothesis& other) const {
+  const Candidate start = base.with(other, other.middle());
+  const auto law = hub_law_scan(parts_.early(), start);
+  return law ? best_fit(parts_.early(), law->starts)
+             : best_from_scan(parts_.early(), start, last_coordinates(start));
+}
+
+Fit EffectScan::early_look(const Candidate& candidate) const {
+  return coarse_fit(parts_.early(), candidate, work_);
 }
 
 Fit EffectScan::look_in_place(const Candidate& candidate, std::size_t index,
@@ -209,44 +150,21 @@ std::optional<Fit> EffectScan::look_from_limit(const Candidate& limit, std::size
   }
   if (scanned.size() == places.size()) return std::nullopt;
   start = start.with(general, effects::values_at(general.parameters, places));
-  if (scanned.empty()) return coarse_fit(coarse_, start);
-  return best_from_scan(coarse_, start, scanned);
+  if (scanned.empty()) return coarse_fit(parts_.coarse(), start, work_);
+  return best_from_scan(parts_.coarse(), start, scanned);
 }
 
 std::vector<const Hypothesis*> EffectScan::promising(const Candidate& base,
                                                      std::vector<const Hypothesis*> others,
                                                      std::size_t most, std::string_view what) {
   if (others.size() <= most) return others;
-  const Fit left = coarse_fit(coarse_, base);
-  const Eigen::HouseholderQR<Eigen::MatrixXd> refitted(left.jacobian);
-  std::vector<std::pair<double, const Hypothesis*>> shares(others.size());
-  work_.in_parallel(others.size(), what, work_.done(), work_.done(), [&](std::size_t i) {
-    shares[i] = {largest_part(left, refitted, *others[i]), others[i]};
-  });
-  std::ranges::stable_sort(shares, std::ranges::greater{}, &decltype(shares)::value_type::first);
+  work_.tell(what, work_.done());
+  const Fit left = coarse_fit(parts_.coarse(), base, work_);
+  std::vector<Addition> ranked = additions(parts_.coarse(), left, others, work_);
+  ranked.resize(std::min(most, ranked.size()));
   others.clear();
-  for (std::size_t i = 0; i < most; ++i) others.push_back(shares[i].second);
+  for (const Addition& addition : ranked) others.push_back(addition.effect);
   return others;
-}
-
-/// Part of the residuals of `left` along the change that the hypothesis makes, its parameters
-/// refitted: the largest of `samples_of` it.
-double EffectScan::largest_part(const Fit& left,
-                                const Eigen::HouseholderQR<Eigen::MatrixXd>& refitted,
-                                const Hypothesis& hypothesis) const {
-  double largest = 0.0;
-  for (const std::vector<double>& values : samples_of(hypothesis)) {
-    const auto with =
-        coarse_.residuals(left.candidate.with(hypothesis, values), coarse_.estimation_runs());
-    if (!with) continue;
-    // At the fit's minimum the residuals have no part along its own parameters.
-    Eigen::VectorXd change = refitted.householderQ().adjoint() * (left.residuals - *with);
-    change.head(left.jacobian.cols()).setZero();
-    change = refitted.householderQ() * change;
-    const double size = change.norm() * left.residuals.norm();
-    if (size > 0.0) largest = std::max(largest, change.dot(left.residuals) / size);
-  }
-  return largest;
 }
 
 }  // namespace flexarm::diagnose

@@ -1,11 +1,10 @@
 #pragma once
 
+#include "diagnose/search/coarse_problems.hpp"
 #include "diagnose/search/fit.hpp"
 #include "diagnose/search/hub_law_scan.hpp"
 #include "diagnose/search/reported_work.hpp"
 #include "diagnose/search/selection_options.hpp"
-
-#include <Eigen/QR>
 
 #include <optional>
 #include <string_view>
@@ -17,13 +16,11 @@ namespace flexarm::diagnose {
 /// Throws Cancelled where the work is cancelled.
 class EffectScan {
  public:
-  /// `options` and `work` must outlive the object.
-  EffectScan(const Problem& problem, const SelectionOptions& options, ReportedWork& work);
-  EffectScan(const EffectScan&) = delete;
-  EffectScan& operator=(const EffectScan&) = delete;
+  /// The references must outlive the object.
+  EffectScan(const CoarseProblems& parts, const SelectionOptions& options, ReportedWork& work)
+      : parts_(parts), options_(options), work_(work) {}
 
-  /// The `most` hypotheses that account, at some of a few values each, for most of what
-  /// `base` leaves: by the Lagrange multiplier test [Rao1948, Silvey1959], without refitting.
+  /// The `most` hypotheses that explain most of what `base` leaves (additions.hpp).
   std::vector<const Hypothesis*> promising(const Candidate& base,
                                            std::vector<const Hypothesis*> others, std::size_t most,
                                            std::string_view what);
@@ -38,6 +35,9 @@ class EffectScan {
   /// torque that is scanned by regression and explains less than options.least_law_share stays as
   /// the scan left it.
   Fit first_look(const Candidate& base, const Hypothesis& other) const;
+  /// `base` with `other` on the early part alone, and a candidate refitted to that.
+  Fit early_look(const Candidate& base, const Hypothesis& other) const;
+  Fit early_look(const Candidate& candidate) const;
   /// The same for `other` in place of the `index`-th effect of `candidate`. Where that is a limit
   /// of it, looked for from there too: at the limit's values of the parameters that both have.
   Fit look_in_place(const Candidate& candidate, std::size_t index, const Hypothesis& other) const;
@@ -47,7 +47,6 @@ class EffectScan {
   std::optional<double> share_of_law(const Candidate& base, const Hypothesis& other) const;
 
  private:
-  Fit coarse_fit(const Problem& problem, const Candidate& start) const;
   std::optional<HubLawScan> hub_law_scan(const Problem& problem, const Candidate& start) const;
   Fit best_fit(const Problem& problem, const std::vector<Candidate>& starts) const;
   Fit best_from_scan(const Problem& problem, const Candidate& start,
@@ -55,15 +54,10 @@ class EffectScan {
   /// Null where they have no parameter in common.
   std::optional<Fit> look_from_limit(const Candidate& limit, std::size_t index,
                                      const Hypothesis& general) const;
-  double largest_part(const Fit& left, const Eigen::HouseholderQR<Eigen::MatrixXd>& refitted,
-                      const Hypothesis& hypothesis) const;
 
+  const CoarseProblems& parts_;
   const SelectionOptions& options_;
   ReportedWork& work_;
-  Experiment coarse_experiment_;
-  Experiment short_experiment_;
-  Problem coarse_;
-  Problem short_;
 };
 
 }  // namespace flexarm::diagnose

@@ -27,9 +27,9 @@ class GeneralEffects {
   /// options.least_law_share are left out, and those of options.least_share or more are tried
   /// before the rest. The rest is left out where nothing left noise before and one of these does.
   /// Each is looked for from the best of its limits, too, and is fitted to all data where it is
-  /// near to the best of the others (options.largest_of_looks). Adds to made.singles; `what` and
-  /// `to` as in SetFits::add_all. Throws Cancelled; SetFits::untried then has the labels of all
-  /// that were not fitted.
+  /// near to the best of the others (options.largest_of_looks), on the early part first. Adds to
+  /// made.singles; `what` and `to` as in SetFits::add_all. Throws Cancelled; SetFits::untried then
+  /// has the labels of all that were not fitted.
   void try_by_themselves(Selection& made, std::string_view what, double to);
 
   /// One that was not tried may be the cause: `single`, a limit of it, does not leave noise.
@@ -37,9 +37,12 @@ class GeneralEffects {
 
  private:
   std::vector<const Hypothesis*> worth_trying(const std::vector<Explanation>& special) const;
-  /// Empty where it is far from the best of the special ones.
+  /// Of the best of the special ones, on the early part of the data.
+  double least_early_sum(const std::vector<Explanation>& special) const;
+  /// Empty where it is far from the best of the special ones, on the early part, where these leave
+  /// `early_sum`, or on all data.
   std::optional<Candidate> near_look(const Candidate& none, const std::vector<Explanation>& special,
-                                     const Hypothesis& general) const;
+                                     double early_sum, const Hypothesis& general) const;
 
   const Problem& problem_;
   const std::vector<Hypothesis>& hypotheses_;

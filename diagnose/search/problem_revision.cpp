@@ -64,8 +64,12 @@ void ProblemRevision::colour_noise_beside_singles(Selection& made) {
   colour_noise(made, made.singles.front(), 1.0);
 }
 
+void ProblemRevision::colour_noise_beside(Selection& made, const Explanation& set) {
+  if (!set.leaves_noise()) colour_noise(made, set, 1.0);
+}
+
 void ProblemRevision::colour_noise_of_chosen(Selection& made) {
-  if (!made.chosen.leaves_noise()) colour_noise(made, made.chosen, 1.0);
+  colour_noise_beside(made, made.chosen);
 }
 
 bool ProblemRevision::is_for_timing(const Selection& made, const Explanation& left) const {

@@ -27,6 +27,8 @@ class ProblemRevision {
   void colour_noise_of_nothing(Selection& made);
   /// Of what no cause, or the best single leaves, where no single leaves white noise.
   void colour_noise_beside_singles(Selection& made);
+  /// Of what this set of effects leaves, where that is not noise.
+  void colour_noise_beside(Selection& made, const Explanation& set);
   /// Of what the chosen causes leave, where that is not noise.
   void colour_noise_of_chosen(Selection& made);
 

@@ -2,12 +2,12 @@
 
 #include "diagnose/parallel.hpp"
 #include "diagnose/search/admission.hpp"
-#include "diagnose/search/bases.hpp"
 #include "diagnose/search/general_effects.hpp"
 #include "diagnose/search/parameter_errors.hpp"
 #include "diagnose/search/problem_revision.hpp"
 #include "diagnose/search/rivals.hpp"
 #include "diagnose/search/set_fits.hpp"
+#include "diagnose/search/set_search.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -23,8 +23,6 @@ namespace {
 
 /// Fraction of the work that is done with the effects by themselves.
 constexpr double kSinglesDone = 0.4;
-/// ... and when pairs of the best of them have been tried.
-constexpr double kPairsDone = 0.8;
 
 /// What the sets are, in their order: a look at one may add another.
 std::vector<Candidate> candidates_of(const std::vector<Explanation>& sets) {
@@ -34,6 +32,7 @@ std::vector<Candidate> candidates_of(const std::vector<Explanation>& sets) {
 }
 
 constexpr std::string_view kSingles = "effects one by one";
+constexpr std::string_view kSets = "sets of effects";
 constexpr std::string_view kExchanged = "exchanged effects";
 
 class Search {
@@ -75,7 +74,6 @@ class Search {
     if (!is_enough(made)) try_singles(made);
     if (!made.singles.empty() && !is_out_of_reach(made.nothing, made.singles, options_)) {
       extend(made);
-      widen(made);
       generalise(made);
       exchange_for_general(made);
     }
@@ -197,36 +195,54 @@ class Search {
     // not.
     if (!single.leaves_noise()) revision_.correct_timing(made);
     if (!is_enough(made)) choose(made, single);
-    for (int round = 0; round < options_.most_rounds && !is_enough(made); ++round) {
-      if (!add_causes(made)) return;
+    if (!is_enough(made)) try_sets(made);
+    if (!is_enough(made)) add_cause(made);
+  }
+
+  /// Sets of two effects, of three and of more; the best is chosen, with each of its effects
+  /// exchanged.
+  void try_sets(Selection& made) {
+    SetSearch search(fits_.parts(), general_.others(), options_, work_);
+    work_.tell(kSets, work_.done());
+    search.begin(made.nothing.fit.candidate, special_singles(made));
+    std::optional<Explanation> last;
+    for (std::size_t size = 2; has_room_beside(size - 1) && !is_enough(made); ++size) {
+      const std::vector<Candidate> sets = search.grow(kSets, halfway());
+      std::vector<std::string> labels;
+      for (const Candidate& set : sets) labels.push_back(set.label());
+      fits_.add_all(std::move(labels), kSets, halfway(), made.combinations,
+                    [&](std::size_t i) { return sets[i]; });
+      if (simplest(made.combinations, size, options_) == nullptr) break;
+      revision_.colour_noise_beside(made, *simplest(made.combinations, size, options_));
+      const Explanation best = *simplest(made.combinations, size, options_);
+      choose_needed(made, best);
+      if (made.chosen.fit.candidate.effects.size() == size) generalise(made);
+      if (size >= options_.tried_set_size && last && !is_worth_another(best, *last)) break;
+      last = best;
+    }
+    if (made.chosen.fit.candidate.effects.size() > 1) {
+      Explanation better = exchanged(made, made.chosen);
+      if (better.fit.candidate.labels() != made.chosen.fit.candidate.labels()) {
+        choose(made, std::move(better));
+      }
     }
   }
 
-  /// Chooses a set with one cause more, or with two more where it takes both: where effects act
-  /// alike in part, one may explain half of what is left only beside the other two. Returns whether
-  /// there is one to be admitted.
-  bool add_causes(Selection& made) {
-    const std::size_t causes = std::max<std::size_t>(made.chosen.fit.candidate.effects.size(), 1);
-    if (!has_room_beside(causes)) return false;
-    combine_further(made, made.chosen.fit.candidate);
+  std::vector<Candidate> special_singles(const Selection& made) const {
+    std::vector<Candidate> singles = candidates_of(made.singles);
+    std::erase_if(singles,
+                  [&](const Candidate& single) { return general_.has(single.effects.front()); });
+    return singles;
+  }
+
+  /// One effect more beside those that are chosen, by scans.
+  void add_cause(Selection& made) {
+    const Candidate chosen = made.chosen.fit.candidate;
+    const std::size_t causes = chosen.effects.size();
+    if (causes == 0 || !has_room_beside(causes)) return;
+    combine(made, chosen, "further effects", halfway());
     const auto one_more = best_of(made, causes + 1);
-    if (!one_more) return false;
-    if (choose_needed(made, *one_more)) return true;
-    if (!has_room_beside(causes + 1) || !is_worth_another(*one_more, made.chosen)) return false;
-    combine_further(made, one_more->fit.candidate);
-    const auto two_more = best_of(made, causes + 2);
-    return two_more && choose_needed(made, *two_more);
-  }
-
-  /// Where something is left, further pairs as bases of three: one effect may stand for two of
-  /// three causes, and the best pair then has it.
-  void widen(Selection& made) {
-    if (is_enough(made) || !has_room_beside(2)) return;
-    for (const Candidate& pair : triple_bases(made.combinations, general_, options_)) {
-      combine(made, pair, "further effects", halfway());
-      if (made.combinations.front().leaves_noise()) break;
-    }
-    if (const auto three = best_of(made, 3)) choose_needed(made, *three);
+    if (one_more) choose_needed(made, *one_more);
   }
 
   bool has_room_beside(std::size_t causes) const {
@@ -240,19 +256,17 @@ class Search {
     return exchanged(made, *found);
   }
 
-  /// Of a set that may not be named: whether a further effect beside it is looked for.
   bool is_worth_another(const Explanation& fuller, const Explanation& simpler) const {
     return lead(fuller, simpler) >= options_.least_information_gain &&
            share_taken(simpler.estimation, fuller.estimation) >= options_.least_share_ahead;
   }
 
   /// What is needed of it, where that is admitted.
-  bool choose_needed(Selection& made, const Explanation& fuller) {
+  void choose_needed(Selection& made, const Explanation& fuller) {
     const Explanation best = needed(fuller);
-    if (!is_admitted(made, best, made.chosen)) return false;
+    if (!is_admitted(made, best, made.chosen)) return;
     if (best.fit.candidate.effects.size() == 1) replace_single(made, best);
-    choose(made, exchanged(made, best));
-    return true;
+    choose(made, best);
   }
 
   /// Where something is left: each chosen effect exchanged for one that has it as a limit.
@@ -302,20 +316,6 @@ class Search {
     }
     sort_by_fit(made.singles);
     combined_.erase({effect.label()});
-  }
-
-  /// These causes with any other effect; of less than two, the best by themselves: the better of
-  /// two causes need not be the best by itself.
-  void combine_further(Selection& made, const Candidate& causes) {
-    if (causes.effects.size() > 1) {
-      combine(made, causes, "further effects", halfway());
-      return;
-    }
-    const std::vector<Candidate> bases = pair_bases(made.singles, general_, options_);
-    const double step = (kPairsDone - kSinglesDone) / static_cast<double>(bases.size());
-    for (std::size_t b = 0; b < bases.size(); ++b) {
-      combine(made, bases[b], "pairs of effects", kSinglesDone + step * static_cast<double>(b + 1));
-    }
   }
 
   /// `base` with any other special effect, among the combinations; nothing where these are there.

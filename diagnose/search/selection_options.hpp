@@ -109,23 +109,33 @@ struct SelectionOptions {
   double least_timing_share = 0.5;
 
   // How far the search goes.
-  /// Beside a set of effects that may not be named one more is looked for where that set explains
-  /// this part or more of the excess residual.
+  /// Larger sets are looked for where the last effect takes this part or more of what the best
+  /// set without it leaves.
   double least_share_ahead = 0.25;
   /// Effects by themselves: all are scanned.
   Tried single_effects = {.refitted = 8};
   /// What a coarse look found is refitted to all data where it leaves <= this times the sum of
   /// squares that the best leaves: a general effect beside the best of the others, a further effect
   /// beside the best of those looked at with the same base.
-  double largest_of_looks = 4.0;
+  double largest_of_looks = 2.0;
   /// A law of hub torque that is scanned by regression (hub_law_scan.hpp) is fitted where it
   /// explains >= this part of the excess residual of the hub's signals. The true law explains
   /// nearly all of it; one that is named explains least_share of the whole excess residual.
   double least_law_share = 0.1;
-  /// Singles that are bases of pairs <= this.
-  std::size_t pair_bases = 3;
-  /// Pairs that are bases of three effects <= this, where what is chosen does not leave noise.
-  std::size_t triple_bases = 5;
+  // Sets of several effects (set_search.hpp).
+  /// Sets of one effect less to which effects are added on the early part of the data, and effects
+  /// added to each, <= this;
+  std::size_t early_bases = 8;
+  std::size_t early_additions = 8;
+  /// of these refitted to the coarse part <= this;
+  std::size_t early_sets = 12;
+  /// the same additions on the coarse part;
+  std::size_t coarse_bases = 4;
+  std::size_t coarse_additions = 5;
+  /// and of all refitted to all data.
+  std::size_t sets_refitted = 6;
+  /// Sets of more effects than this are tried where the last one took least_share_ahead.
+  std::size_t tried_set_size = 3;
   /// Effects beside a base,
   Tried effects_beside = {.scanned = 10, .refitted = 5};
   /// and general ones in place of one of several causes.
@@ -149,8 +159,6 @@ struct SelectionOptions {
   int scan_starts = 3;
   /// Causes exchanged for others, one after the other, <= this.
   int most_exchanges = 4;
-  /// Rounds that each add a cause, or exchange some for others, <= this.
-  int most_rounds = 4;
 };
 
 }  // namespace flexarm::diagnose

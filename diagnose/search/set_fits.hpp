@@ -1,5 +1,6 @@
 #pragma once
 
+#include "diagnose/search/coarse_problems.hpp"
 #include "diagnose/search/effect_scan.hpp"
 #include "diagnose/search/explanation.hpp"
 #include "diagnose/search/reported_work.hpp"
@@ -20,8 +21,13 @@ class SetFits {
  public:
   /// The references must outlive the object; the problem may change in between.
   SetFits(const Problem& problem, const SelectionOptions& options, ReportedWork& work)
-      : problem_(problem), options_(options), work_(work), scan_(problem, options, work) {}
+      : problem_(problem),
+        options_(options),
+        work_(work),
+        parts_(problem, options),
+        scan_(parts_, options, work) {}
 
+  const CoarseProblems& parts() const { return parts_; }
   const EffectScan& scan() const { return scan_; }
 
   /// From the candidate's own values.
@@ -53,6 +59,7 @@ class SetFits {
   const Problem& problem_;
   const SelectionOptions& options_;
   ReportedWork& work_;
+  CoarseProblems parts_;
   EffectScan scan_;
   std::vector<std::string> untried_;
 };

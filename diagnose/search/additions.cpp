@@ -1,0 +1,131 @@
+#include "diagnose/search/additions.hpp"
+
+#include "diagnose/parallel.hpp"
+
+#include <Eigen/QR>
+
+#include <algorithm>
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <utility>
+
+namespace flexarm::diagnose {
+
+namespace {
+
+using Eigen::VectorXd;
+
+/// Sizes of the change that a value makes, where it is not of a single parameter with a value at
+/// which the effect does nothing.
+constexpr double kLeastSize = 0.25;
+constexpr double kMostSize = 2.5;
+/// A change that is smaller than this part of the residuals is rounding.
+constexpr double kLeastChange = 1e-6;
+
+using Places = std::vector<double>;
+
+/// A few values of a hypothesis' parameters, as places in their ranges: over these, and of a single
+/// one so near to where it does nothing that the change is its direction.
+std::vector<Places> samples_of(const Hypothesis& hypothesis) {
+  std::vector<double> places = {0.2, 0.5, 0.8};
+  if (hypothesis.parameters.size() == 1) {
+    places = {0.15, 0.35, 0.45, 0.55, 0.65, 0.85};
+    const double neutral = hypothesis.parameters.front().neutral_coordinate().value_or(0.0);
+    for (const double change : {-0.002, 0.002, -0.01, 0.01, -0.04, 0.04}) {
+      const double place = neutral + change;
+      if (neutral > 0.0 && place > 0.0 && place < 1.0) places.push_back(place);
+    }
+  }
+  std::vector<Places> samples = {{}};
+  for (std::size_t i = 0; i < hypothesis.parameters.size(); ++i) {
+    std::vector<Places> longer;
+    for (const Places& sample : samples) {
+      for (const double place : places) {
+        longer.push_back(sample);
+        longer.back().push_back(place);
+      }
+    }
+    samples = std::move(longer);
+  }
+  return samples;
+}
+
+/// Where a single parameter does nothing, as a place in its range.
+std::optional<double> neutral_place(const Hypothesis& hypothesis) {
+  if (hypothesis.parameters.size() != 1) return std::nullopt;
+  return hypothesis.parameters.front().neutral_coordinate();
+}
+
+/// Sizes that a change may have, the one at `places` being 1. At an end of a range places are not
+/// proportional to values.
+std::pair<double, double> sizes_of(const Hypothesis& hypothesis, const Places& places) {
+  const double neutral = neutral_place(hypothesis).value_or(0.0);
+  if (!(neutral > 0.0 && neutral < 1.0)) return {kLeastSize, kMostSize};
+  const double change = places.front() - neutral;
+  return std::minmax(-neutral / change, (1.0 - neutral) / change);
+}
+
+Places places_at(const Hypothesis& hypothesis, Places places, double size) {
+  if (const auto neutral = neutral_place(hypothesis)) {
+    places.front() = std::clamp(*neutral + size * (places.front() - *neutral), 0.0, 1.0);
+  }
+  return places;
+}
+
+/// Residuals without their part along the derivatives by the parameters of a fit.
+class Refitted {
+ public:
+  explicit Refitted(const Fit& base) : parameters_(base.jacobian.cols()) {
+    if (parameters_ > 0) derivatives_.compute(base.jacobian);
+  }
+  VectorXd operator()(const VectorXd& residuals) const {
+    if (parameters_ == 0) return residuals;
+    VectorXd turned = derivatives_.householderQ().adjoint() * residuals;
+    turned.head(parameters_).setZero();
+    return derivatives_.householderQ() * turned;
+  }
+
+ private:
+  Eigen::HouseholderQR<Eigen::MatrixXd> derivatives_;
+  Eigen::Index parameters_;
+};
+
+}  // namespace
+
+std::vector<Addition> additions(const Problem& problem, const Fit& base,
+                                const std::vector<const Hypothesis*>& others,
+                                const ReportedWork& work) {
+  const Refitted refitted(base);
+  const VectorXd left = refitted(base.residuals);
+  const auto of = [&](const Hypothesis& effect) {
+    Addition best{.share = -std::numeric_limits<double>::infinity()};
+    if (base.candidate.has_effect(effect.effect)) return best;
+    for (const Places& places : samples_of(effect)) {
+      work.go_on();
+      const auto with = problem.residuals(
+          base.candidate.with(effect, effects::values_at(effect.parameters, places)),
+          problem.estimation_runs());
+      if (!with) continue;
+      const VectorXd change = refitted(base.residuals - *with);
+      const double squares = change.squaredNorm();
+      if (!(squares > kLeastChange * kLeastChange * base.sum_of_squares)) continue;
+      const auto [least, most] = sizes_of(effect, places);
+      const double along = change.dot(left);
+      const double size = std::clamp(along / squares, least, most);
+      const double share = size * (2.0 * along - size * squares) / base.sum_of_squares;
+      if (share <= best.share) continue;
+      best = {&effect, effects::values_at(effect.parameters, places_at(effect, places, size)),
+              share};
+    }
+    return best;
+  };
+  std::vector<Addition> made(others.size());
+  in_parallel(others.size(), [&](std::size_t i) { made[i] = of(*others[i]); });
+  std::erase_if(made, [](const Addition& addition) { return addition.effect == nullptr; });
+  std::ranges::stable_sort(made, std::ranges::greater{}, &Addition::share);
+  return made;
+}
+
+}  // namespace flexarm::diagnose

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "diagnose/search/fit.hpp"
+#include "diagnose/search/problem.hpp"
+#include "diagnose/search/reported_work.hpp"
+
+#include <vector>
+
+namespace flexarm::diagnose {
+
+/// An effect beside a fitted candidate, by a score test.
+struct Addition {
+  const Hypothesis* effect = nullptr;
+  std::vector<double> values = {};  ///< a start for a fit
+  double share = 0.0;               ///< of the sum of squares that it explains, to first order
+};
+
+/// Each of `others` beside `base`, a fit of the problem, at that of a few values which explains
+/// most; the best first. By the Lagrange multiplier test [Rao1948, Silvey1959], without refitting:
+/// with r the residuals and c the change that a value makes of them, both without their parts along
+/// the derivatives J by the parameters of the base, the effect at the size a of that change
+/// explains
+///
+///     2 a c^T r - a^2 c^T c,    c = (I - J J^+)(r_0 - r_1).
+///
+/// A single parameter moves by a from where the effect does nothing, within its range; of others a
+/// is within a factor of a few. Effects that the base has, and those that no value makes an arm of,
+/// are left out. Throws Cancelled where the work is cancelled.
+std::vector<Addition> additions(const Problem& problem, const Fit& base,
+                                const std::vector<const Hypothesis*>& others,
+                                const ReportedWork& work);
+
+}  // namespace flexarm::diagnose

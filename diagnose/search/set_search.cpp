@@ -1,0 +1,84 @@
+#include "diagnose/search/set_search.hpp"
+
+#include "diagnose/parallel.hpp"
+#include "diagnose/search/additions.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
+#include <set>
+#include <string>
+#include <utility>
+
+namespace flexarm::diagnose {
+
+namespace {
+
+void append_best(const std::vector<Fit>& sets, std::size_t most, std::vector<Candidate>& to) {
+  for (std::size_t i = 0; i < std::min(most, sets.size()); ++i) to.push_back(sets[i].candidate);
+}
+
+}  // namespace
+
+void SetSearch::begin(const Candidate& nothing, const std::vector<Candidate>& singles) {
+  const Fit before = coarse_fit(parts_.early(), nothing, work_);
+  std::vector<Candidate> starts = singles;
+  add_larger(parts_.early(), {before}, 1, effects_.size(), starts);
+  early_sets_ = fitted(parts_.early(), starts);
+  coarse_sets_ = fitted(parts_.coarse(), singles);
+}
+
+std::vector<Candidate> SetSearch::grow(std::string_view what, double to) {
+  const double from = work_.done();
+  std::vector<Candidate> looks;
+  if (parts_.is_early_shorter()) {
+    std::vector<Candidate> starts;
+    add_larger(parts_.early(), early_sets_, options_.early_bases, options_.early_additions, starts);
+    early_sets_ = fitted(parts_.early(), starts);
+    append_best(early_sets_, options_.early_sets, looks);
+    work_.tell(what, from + 0.5 * (to - from));
+  }
+  add_larger(parts_.coarse(), coarse_sets_, options_.coarse_bases, options_.coarse_additions,
+             looks);
+  coarse_sets_ = fitted(parts_.coarse(), looks);
+  work_.tell(what, to);
+  std::vector<Candidate> best;
+  for (const Fit& set : coarse_sets_) {
+    const double largest = options_.largest_of_looks * coarse_sets_.front().sum_of_squares;
+    if (best.size() < options_.sets_refitted && set.sum_of_squares <= largest) {
+      best.push_back(set.candidate);
+    }
+  }
+  return best;
+}
+
+void SetSearch::add_larger(const Problem& part, const std::vector<Fit>& sets, std::size_t bases,
+                           std::size_t most, std::vector<Candidate>& starts) const {
+  std::vector<std::vector<Addition>> found(std::min(bases, sets.size()));
+  in_parallel(found.size(),
+              [&](std::size_t i) { found[i] = additions(part, sets[i], effects_, work_); });
+  std::set<std::set<std::string>> known;
+  for (const Candidate& start : starts) known.insert(start.labels());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    found[i].resize(std::min(most, found[i].size()));
+    for (const Addition& addition : found[i]) {
+      Candidate larger = sets[i].candidate.with(*addition.effect, addition.values);
+      if (known.insert(larger.labels()).second) starts.push_back(std::move(larger));
+    }
+  }
+}
+
+std::vector<Fit> SetSearch::fitted(const Problem& part,
+                                   const std::vector<Candidate>& starts) const {
+  std::vector<Fit> fits(starts.size());
+  in_parallel(starts.size(), [&](std::size_t i) { fits[i] = coarse_fit(part, starts[i], work_); });
+  std::ranges::stable_sort(fits, {}, &Fit::sum_of_squares);
+  std::set<std::set<std::string>> known;
+  std::vector<Fit> sets;
+  std::ranges::copy_if(std::make_move_iterator(fits.begin()), std::make_move_iterator(fits.end()),
+                       std::back_inserter(sets),
+                       [&](const Fit& one) { return known.insert(one.candidate.labels()).second; });
+  return sets;
+}
+
+}  // namespace flexarm::diagnose

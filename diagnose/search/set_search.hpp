@@ -1,0 +1,52 @@
+#pragma once
+
+#include "diagnose/search/coarse_problems.hpp"
+#include "diagnose/search/reported_work.hpp"
+#include "diagnose/search/selection_options.hpp"
+
+#include <string_view>
+#include <vector>
+
+namespace flexarm::diagnose {
+
+/// Sets of several effects, one more at a time, on the beginning of the runs. Of several effects
+/// that all shift frequencies none need be among the best by itself, and at the end of a lightly
+/// damped record each set has many minima. In its first few periods the residuals are nearly linear
+/// in the parameters, a score test tells which effects a set lacks, and a fit of few steps ends
+/// near the values that all of the record has.
+///
+/// Sets of n effects are made of the best of n - 1, each with those effects that the score test
+/// ranks first (additions.hpp), and fitted; on the early part, the best of which are refitted to
+/// the coarse part, and on the coarse part, where effects show that need time.
+class SetSearch {
+ public:
+  /// Of `effects`. The references must outlive the object.
+  SetSearch(const CoarseProblems& parts, std::vector<const Hypothesis*> effects,
+            const SelectionOptions& options, ReportedWork& work)
+      : parts_(parts), effects_(std::move(effects)), options_(options), work_(work) {}
+
+  /// Begins with effects by themselves: `singles`, and those that the score test makes of
+  /// `nothing`.
+  void begin(const Candidate& nothing, const std::vector<Candidate>& singles);
+  /// Sets of one effect more than before, the best of the coarse part first: options.sets_refitted
+  /// or less that come near it (options.largest_of_looks). As part of `what`, up to the fraction
+  /// `to` of the work. Throws Cancelled where the work is cancelled.
+  std::vector<Candidate> grow(std::string_view what, double to);
+
+ private:
+  /// Adds to `starts` each of the first `bases` of `sets` with the `most` effects that it lacks
+  /// most.
+  void add_larger(const Problem& part, const std::vector<Fit>& sets, std::size_t bases,
+                  std::size_t most, std::vector<Candidate>& starts) const;
+  /// The best first, each set once.
+  std::vector<Fit> fitted(const Problem& part, const std::vector<Candidate>& starts) const;
+
+  const CoarseProblems& parts_;
+  std::vector<const Hypothesis*> effects_;
+  const SelectionOptions& options_;
+  ReportedWork& work_;
+  std::vector<Fit> early_sets_ = {};
+  std::vector<Fit> coarse_sets_ = {};
+};
+
+}  // namespace flexarm::diagnose

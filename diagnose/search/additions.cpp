@@ -17,8 +17,7 @@ namespace {
 
 using Eigen::VectorXd;
 
-/// Sizes of the change that a value makes, where it is not of a single parameter with a value at
-/// which the effect does nothing.
+/// Sizes of the change that a value makes, where its range does not bound them.
 constexpr double kLeastSize = 0.25;
 constexpr double kMostSize = 2.5;
 /// A change that is smaller than this part of the residuals is rounding.
@@ -27,13 +26,12 @@ constexpr double kLeastChange = 1e-6;
 using Places = std::vector<double>;
 
 /// A few values of a hypothesis' parameters, as places in their ranges: over these, and of a single
-/// one so near to where it does nothing that the change is its direction.
+/// one near to where it does nothing, where the change is its direction.
 std::vector<Places> samples_of(const Hypothesis& hypothesis) {
-  std::vector<double> places = {0.2, 0.5, 0.8};
+  std::vector<double> places = {0.15, 0.5, 0.85};
   if (hypothesis.parameters.size() == 1) {
-    places = {0.15, 0.35, 0.45, 0.55, 0.65, 0.85};
     const double neutral = hypothesis.parameters.front().neutral_coordinate().value_or(0.0);
-    for (const double change : {-0.002, 0.002, -0.01, 0.01, -0.04, 0.04}) {
+    for (const double change : {0.004, -0.03, 0.03}) {
       const double place = neutral + change;
       if (neutral > 0.0 && place > 0.0 && place < 1.0) places.push_back(place);
     }
@@ -58,8 +56,8 @@ std::optional<double> neutral_place(const Hypothesis& hypothesis) {
   return hypothesis.parameters.front().neutral_coordinate();
 }
 
-/// Sizes that a change may have, the one at `places` being 1. At an end of a range places are not
-/// proportional to values.
+/// Sizes that a change may have, the one at `places` being 1: of a single parameter those within
+/// its range, where that goes on both sides of the value at which the effect does nothing.
 std::pair<double, double> sizes_of(const Hypothesis& hypothesis, const Places& places) {
   const double neutral = neutral_place(hypothesis).value_or(0.0);
   if (!(neutral > 0.0 && neutral < 1.0)) return {kLeastSize, kMostSize};
@@ -67,11 +65,28 @@ std::pair<double, double> sizes_of(const Hypothesis& hypothesis, const Places& p
   return std::minmax(-neutral / change, (1.0 - neutral) / change);
 }
 
-Places places_at(const Hypothesis& hypothesis, Places places, double size) {
-  if (const auto neutral = neutral_place(hypothesis)) {
-    places.front() = std::clamp(*neutral + size * (places.front() - *neutral), 0.0, 1.0);
+/// The place at which a single parameter does `size` times what it does at `place`. From zero or
+/// infinity an effect is proportional to the value or its reciprocal.
+double place_at(const SearchedParameter& parameter, double place, double size) {
+  switch (parameter.spacing) {
+    case effects::Spacing::from_zero:
+      return parameter.coordinate(size * parameter.value(place));
+    case effects::Spacing::from_infinity:
+      return parameter.coordinate(parameter.value(place) / size);
+    case effects::Spacing::linear:
+    case effects::Spacing::logarithmic:
+      break;
   }
-  return places;
+  const auto neutral = parameter.neutral_coordinate();
+  return neutral ? *neutral + size * (place - *neutral) : place;
+}
+
+std::vector<double> values_at(const Hypothesis& hypothesis, Places places, double size) {
+  if (places.size() == 1) {
+    places.front() =
+        std::clamp(place_at(hypothesis.parameters.front(), places.front(), size), 0.0, 1.0);
+  }
+  return effects::values_at(hypothesis.parameters, places);
 }
 
 /// Residuals without their part along the derivatives by the parameters of a fit.
@@ -116,8 +131,7 @@ std::vector<Addition> additions(const Problem& problem, const Fit& base,
       const double size = std::clamp(along / squares, least, most);
       const double share = size * (2.0 * along - size * squares) / base.sum_of_squares;
       if (share <= best.share) continue;
-      best = {&effect, effects::values_at(effect.parameters, places_at(effect, places, size)),
-              share};
+      best = {&effect, values_at(effect, places, size), share};
     }
     return best;
   };

@@ -23,9 +23,10 @@ struct Addition {
 ///
 ///     2 a c^T r - a^2 c^T c,    c = (I - J J^+)(r_0 - r_1).
 ///
-/// A single parameter moves by a from where the effect does nothing, within its range; of others a
-/// is within a factor of a few. Effects that the base has, and those that no value makes an arm of,
-/// are left out. Throws Cancelled where the work is cancelled.
+/// The start of a single parameter is where the effect does a times as much. With several
+/// parameters it is the value itself, and a is within a factor of a few. Effects that the base has,
+/// and those that no value makes an arm of, are left out. Throws Cancelled where the work is
+/// cancelled.
 std::vector<Addition> additions(const Problem& problem, const Fit& base,
                                 const std::vector<const Hypothesis*>& others,
                                 const ReportedWork& work);

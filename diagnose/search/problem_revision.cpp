@@ -21,10 +21,17 @@ void ProblemRevision::change_problem(Change change) {
 }
 
 /// All that was fitted to all data once more, from where it is, with the problem as it is now: all
-/// of it, or nothing where that is cancelled.
+/// of it, or nothing where that is cancelled. What is far from the best is only evaluated.
 void ProblemRevision::refit(Selection& made) const {
-  const auto again = [this](const Explanation& explanation) {
-    return fits_.fitted(explanation.fit.candidate);
+  double least = made.chosen.fit.sum_of_squares;
+  for (const auto* sets : {&made.singles, &made.combinations}) {
+    if (!sets->empty()) least = std::min(least, sets->front().fit.sum_of_squares);
+  }
+  const double most = options_.largest_of_looks * least;
+  const auto again = [&, this](const Explanation& explanation) {
+    const Candidate& candidate = explanation.fit.candidate;
+    if (explanation.fit.sum_of_squares <= most) return fits_.fitted(candidate);
+    return explain(problem_, fit(problem_, candidate, {.most_steps = 0, .work = &work_}));
   };
   const auto all_again = [&](std::vector<Explanation> explanations) {
     in_parallel(explanations.size(),
@@ -32,8 +39,8 @@ void ProblemRevision::refit(Selection& made) const {
     sort_by_fit(explanations);
     return explanations;
   };
-  Explanation nothing = again(made.nothing);
-  Explanation chosen = again(made.chosen);
+  Explanation nothing = fits_.fitted(made.nothing.fit.candidate);
+  Explanation chosen = fits_.fitted(made.chosen.fit.candidate);
   std::vector<Explanation> singles = all_again(made.singles);
   made.combinations = all_again(made.combinations);
   made.nothing = std::move(nothing);

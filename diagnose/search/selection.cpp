@@ -207,11 +207,8 @@ class Search {
     search.begin(made.nothing.fit.candidate, special_singles(made));
     std::optional<Explanation> last;
     for (std::size_t size = 2; has_room_beside(size - 1) && !is_enough(made); ++size) {
-      const std::vector<Candidate> sets = search.grow(kSets, halfway());
-      std::vector<std::string> labels;
-      for (const Candidate& set : sets) labels.push_back(set.label());
-      fits_.add_all(std::move(labels), kSets, halfway(), made.combinations,
-                    [&](std::size_t i) { return sets[i]; });
+      fits_.add_near(search.grow(kSets, halfway()), options_.sets_refitted, kSets, halfway(),
+                     made.combinations);
       if (simplest(made.combinations, size, options_) == nullptr) break;
       revision_.colour_noise_beside(made, *simplest(made.combinations, size, options_));
       const Explanation best = *simplest(made.combinations, size, options_);
@@ -322,7 +319,7 @@ class Search {
   /// General ones follow: generalise().
   void combine(Selection& made, const Candidate& base, std::string_view what, double to) {
     if (!combined_.insert(base.labels()).second) return;
-    fits_.add_with(base, general_.others(), what, to, options_.effects_beside, made.combinations);
+    fits_.add_beside(base, general_.others(), what, to, options_.effects_beside, made.combinations);
   }
 
   /// `explanation` without effects that the others, refitted, make superfluous: those that take

@@ -52,9 +52,9 @@ constexpr std::string_view to_string(PredictorKind kind) {
 
 /// How many effects are tried with a base.
 struct Tried {
-  /// Scanned <= this: those whose directions the residuals have most of.
-  std::size_t scanned = 0;
-  /// Of these refitted to all data <= this, the best of their scans.
+  /// Looked at <= this: those that explain most by a score test.
+  std::size_t looks = 0;
+  /// Of these refitted to all data <= this, the best.
   std::size_t refitted = 0;
 };
 
@@ -122,6 +122,7 @@ struct SelectionOptions {
   /// explains >= this part of the excess residual of the hub's signals. The true law explains
   /// nearly all of it; one that is named explains least_share of the whole excess residual.
   double least_law_share = 0.1;
+
   // Sets of several effects (set_search.hpp).
   /// Sets of one effect less to which effects are added on the early part of the data, and effects
   /// added to each, <= this;
@@ -136,10 +137,10 @@ struct SelectionOptions {
   std::size_t sets_refitted = 6;
   /// Sets of more effects than this are tried where the last one took least_share_ahead.
   std::size_t tried_set_size = 3;
-  /// Effects beside a base,
-  Tried effects_beside = {.scanned = 10, .refitted = 5};
+  /// Effects beside those that are chosen, or in place of one of them,
+  Tried effects_beside = {.looks = 10, .refitted = 5};
   /// and general ones in place of one of several causes.
-  Tried general_effects = {.scanned = 3, .refitted = 2};
+  Tried general_effects = {.looks = 3, .refitted = 2};
   /// Samples of each run in the coarse look <= this,
   std::size_t coarse_samples = 1200;
   /// and in closed loop, where what a controller makes of the samples left out is not known.

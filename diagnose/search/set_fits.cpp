@@ -1,6 +1,7 @@
 #include "diagnose/search/set_fits.hpp"
 
 #include "diagnose/search/admission.hpp"
+#include "diagnose/search/set_search.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -17,17 +18,40 @@ void SetFits::add_with(const Candidate& base, std::vector<const Hypothesis*> oth
   std::erase_if(others, [&](const Hypothesis* other) { return base.has_effect(other->effect); });
   untried_ = labels_with(base, others);
   if (!base.effects.empty()) {
-    others = scan_.promising(base, std::move(others), tried.scanned, what);
+    others = scan_.promising(base, std::move(others), tried.looks, what);
   }
   if (others.empty()) return;
   constexpr double kLooks = 0.6;
   const double middle = work_.done() + kLooks * (to - work_.done());
   std::vector<Fit> looks = scan_.first_looks(base, others, what, work_.done(), middle);
-  looks.resize(std::min(tried.refitted, looks.size()));
   if (!base.effects.empty()) {
-    const double largest = options_.largest_of_looks * looks.front().sum_of_squares;
-    std::erase_if(looks, [&](const Fit& look) { return look.sum_of_squares > largest; });
+    add_near(std::move(looks), tried.refitted, what, to, found);
+    return;
   }
+  looks.resize(std::min(tried.refitted, looks.size()));
+  add_looks(looks, what, to, found);
+}
+
+void SetFits::add_beside(const Candidate& base, const std::vector<const Hypothesis*>& others,
+                         std::string_view what, double to, const Tried& tried,
+                         std::vector<Explanation>& found) {
+  untried_.clear();
+  work_.tell(what, work_.done());
+  const SetSearch search(parts_, others, options_, work_);
+  add_near(search.beside(base, tried.looks), tried.refitted, what, to, found);
+}
+
+void SetFits::add_near(std::vector<Fit> looks, std::size_t most, std::string_view what, double to,
+                       std::vector<Explanation>& found) {
+  looks.resize(std::min(most, looks.size()));
+  if (looks.empty()) return;
+  const double largest = options_.largest_of_looks * looks.front().sum_of_squares;
+  std::erase_if(looks, [&](const Fit& look) { return look.sum_of_squares > largest; });
+  add_looks(looks, what, to, found);
+}
+
+void SetFits::add_looks(const std::vector<Fit>& looks, std::string_view what, double to,
+                        std::vector<Explanation>& found) {
   std::vector<std::string> sets;
   for (const Fit& look : looks) sets.push_back(look.candidate.label());
   add_all(std::move(sets), what, to, found, [&](std::size_t i) { return looks[i].candidate; });

@@ -36,10 +36,21 @@ class SetFits {
   /// Adds to `found` `base` with each of `others` that it has not, found by a scan of a coarse
   /// problem; the tried.refitted best of these fitted to all data, beside effects of `base` those
   /// that come near the best (options.largest_of_looks). Beside effects of `base` the
-  /// tried.scanned most promising are scanned (EffectScan::promising), else all. As part of `what`,
+  /// tried.looks most promising are scanned (EffectScan::promising), else all. As part of `what`,
   /// up to the fraction `to` of the work.
   void add_with(const Candidate& base, std::vector<const Hypothesis*> others, std::string_view what,
                 double to, const Tried& tried, std::vector<Explanation>& found);
+
+  /// Adds to `found` `base` with each of the tried.looks of `others` that it lacks most, by score
+  /// tests without scans (SetSearch::beside); the tried.refitted best of these fitted to all data
+  /// where they come near the best. As part of `what`, up to the fraction `to` of the work.
+  void add_beside(const Candidate& base, const std::vector<const Hypothesis*>& others,
+                  std::string_view what, double to, const Tried& tried,
+                  std::vector<Explanation>& found);
+  /// Adds to `found` looks, which are sorted by fit, fitted to all data: `most` or less that come
+  /// near the best (options.largest_of_looks).
+  void add_near(std::vector<Fit> looks, std::size_t most, std::string_view what, double to,
+                std::vector<Explanation>& found);
 
   /// Fits candidate(i) for the i-th of `sets`, which are their labels, and adds those that are
   /// identified to `found`, the best first. Of the same set, begun from another, the better stays.
@@ -54,6 +65,8 @@ class SetFits {
   void leave_untried(const std::vector<std::string>& sets);
 
  private:
+  void add_looks(const std::vector<Fit>& looks, std::string_view what, double to,
+                 std::vector<Explanation>& found);
   void keep(std::vector<std::optional<Explanation>> made, std::vector<Explanation>& found);
 
   const Problem& problem_;

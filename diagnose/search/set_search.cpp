@@ -28,8 +28,9 @@ void SetSearch::begin(const Candidate& nothing, const std::vector<Candidate>& si
   coarse_sets_ = fitted(parts_.coarse(), singles);
 }
 
-std::vector<Candidate> SetSearch::grow(std::string_view what, double to) {
+const std::vector<Fit>& SetSearch::grow(std::string_view what, double to) {
   const double from = work_.done();
+  work_.tell(what, from);
   std::vector<Candidate> looks;
   if (parts_.is_early_shorter()) {
     std::vector<Candidate> starts;
@@ -42,14 +43,18 @@ std::vector<Candidate> SetSearch::grow(std::string_view what, double to) {
              looks);
   coarse_sets_ = fitted(parts_.coarse(), looks);
   work_.tell(what, to);
-  std::vector<Candidate> best;
-  for (const Fit& set : coarse_sets_) {
-    const double largest = options_.largest_of_looks * coarse_sets_.front().sum_of_squares;
-    if (best.size() < options_.sets_refitted && set.sum_of_squares <= largest) {
-      best.push_back(set.candidate);
-    }
+  return coarse_sets_;
+}
+
+std::vector<Fit> SetSearch::beside(const Candidate& base, std::size_t most) const {
+  std::vector<Candidate> looks;
+  if (parts_.is_early_shorter()) {
+    std::vector<Candidate> starts;
+    add_larger(parts_.early(), {coarse_fit(parts_.early(), base, work_)}, 1, most, starts);
+    append_best(fitted(parts_.early(), starts), most, looks);
   }
-  return best;
+  add_larger(parts_.coarse(), {coarse_fit(parts_.coarse(), base, work_)}, 1, most, looks);
+  return fitted(parts_.coarse(), looks);
 }
 
 void SetSearch::add_larger(const Problem& part, const std::vector<Fit>& sets, std::size_t bases,

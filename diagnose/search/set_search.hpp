@@ -4,7 +4,9 @@
 #include "diagnose/search/reported_work.hpp"
 #include "diagnose/search/selection_options.hpp"
 
+#include <cstddef>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace flexarm::diagnose {
@@ -28,10 +30,12 @@ class SetSearch {
   /// Begins with effects by themselves: `singles`, and those that the score test makes of
   /// `nothing`.
   void begin(const Candidate& nothing, const std::vector<Candidate>& singles);
-  /// Sets of one effect more than before, the best of the coarse part first: options.sets_refitted
-  /// or less that come near it (options.largest_of_looks). As part of `what`, up to the fraction
-  /// `to` of the work. Throws Cancelled where the work is cancelled.
-  std::vector<Candidate> grow(std::string_view what, double to);
+  /// Sets of one effect more than before, fitted to the coarse part, the best first. As part of
+  /// `what`, up to the fraction `to` of the work. Throws Cancelled where the work is cancelled.
+  const std::vector<Fit>& grow(std::string_view what, double to);
+  /// `base` with each of the `most` effects that it lacks most, on the early part and on the coarse
+  /// part, fitted to the coarse part; the best first.
+  std::vector<Fit> beside(const Candidate& base, std::size_t most) const;
 
  private:
   /// Adds to `starts` each of the first `bases` of `sets` with the `most` effects that it lacks

@@ -120,7 +120,7 @@ TEST(VerdictText, NamesThePartOfTheResidualTestThatFails) {
 TEST(VerdictText, OfAnIncompleteSearchLeavesOtherCausesOpen) {
   Diagnosis made = with_gain(Verdict::partly_explained);
   made.causes = {cause("coulomb_friction", 0.98)};
-  made.search_end = diagnose::SearchEnd{"pairs of effects", {"coulomb_friction + time_delay"}};
+  made.search_end = diagnose::SearchEnd{"sets of effects", {"coulomb_friction + time_delay"}};
   made.time_limit_s = 60.0;
   EXPECT_THAT(verdict_text(made), EndsWith("other causes may explain the data as well."));
   EXPECT_THAT(search_text(made), HasSubstr("the time limit of 60 s ended it at the stage \"pairs"));

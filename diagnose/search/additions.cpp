@@ -1,8 +1,7 @@
 #include "diagnose/search/additions.hpp"
 
 #include "diagnose/parallel.hpp"
-
-#include <Eigen/QR>
+#include "diagnose/search/refit_projection.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -89,30 +88,12 @@ std::vector<double> values_at(const Hypothesis& hypothesis, Places places, doubl
   return effects::values_at(hypothesis.parameters, places);
 }
 
-/// Residuals without their part along the derivatives by the parameters of a fit.
-class Refitted {
- public:
-  explicit Refitted(const Fit& base) : parameters_(base.jacobian.cols()) {
-    if (parameters_ > 0) derivatives_.compute(base.jacobian);
-  }
-  VectorXd operator()(const VectorXd& residuals) const {
-    if (parameters_ == 0) return residuals;
-    VectorXd turned = derivatives_.householderQ().adjoint() * residuals;
-    turned.head(parameters_).setZero();
-    return derivatives_.householderQ() * turned;
-  }
-
- private:
-  Eigen::HouseholderQR<Eigen::MatrixXd> derivatives_;
-  Eigen::Index parameters_;
-};
-
 }  // namespace
 
 std::vector<Addition> additions(const Problem& problem, const Fit& base,
                                 const std::vector<const Hypothesis*>& others,
                                 const ReportedWork& work) {
-  const Refitted refitted(base);
+  const RefitProjection refitted(base.jacobian);
   const VectorXd left = refitted(base.residuals);
   const auto of = [&](const Hypothesis& effect) {
     Addition best{.share = -std::numeric_limits<double>::infinity()};

@@ -1,6 +1,7 @@
 #include "diagnose/search/dependence_test.hpp"
 
 #include "diagnose/search/hub_torque_probes.hpp"
+#include "diagnose/search/refit_projection.hpp"
 #include "diagnose/search/residual_test.hpp"
 
 #include <Eigen/QR>
@@ -83,8 +84,7 @@ struct ScoredRuns {
   const std::vector<bool>& runs;
   Eigen::VectorXd residuals;
   Eigen::VectorXd time;  ///< from -1 to 1 along each channel of a `time` run, 0 elsewhere
-  Eigen::HouseholderQR<Eigen::MatrixXd> own;
-  Index own_count = 0;
+  RefitProjection beyond_refit;
 
   /// Of the change that a candidate makes, and of one that grows from the begin of each run to its
   /// end, as where a number drifts: `kTestsOfChange` tests.
@@ -99,9 +99,7 @@ struct ScoredRuns {
   static constexpr double kTestsOfChange = 2.0;
   /// 1 of a change that refitting makes too.
   double p_value_along(const Problem& problem, const Eigen::VectorXd& change) const {
-    Eigen::VectorXd beyond = own.householderQ().adjoint() * change;
-    beyond.head(own_count).setZero();
-    beyond = own.householderQ() * beyond;
+    const Eigen::VectorXd beyond = beyond_refit(change);
     const double size = beyond.norm();
     if (!(size > kLeastPart * change.norm())) return 1.0;
     const double z = beyond.dot(residuals) / size;
@@ -180,7 +178,7 @@ std::optional<ScoredRuns> scored(const Problem& problem, const Candidate& fitted
     directions.col(i) = with.value_or(*residuals) - *residuals;
   }
   return ScoredRuns{runs, *residuals, time_along(problem, residuals->size()),
-                    Eigen::HouseholderQR<Eigen::MatrixXd>(directions), places.size()};
+                    RefitProjection(directions)};
 }
 
 }  // namespace

@@ -57,18 +57,15 @@ Fit EffectScan::first_look(const Candidate& base) const {
 
 Fit EffectScan::first_look(const Candidate& base, const Hypothesis& other) const {
   const Candidate start = base.with(other, other.middle());
-  const std::vector<Index> scanned = last_coordinates(start);
   const auto law = hub_law_scan(parts_.coarse(), start);
   const auto early_law = law ? hub_law_scan(parts_.early(), start) : std::nullopt;
   if (law && larger_share(*law, early_law) < options_.least_law_share) {
     // Simulated once, so that it can be compared with other looks.
     return fit(parts_.coarse(), law->starts.front(), {.most_steps = 0, .work = &work_});
   }
-  Fit look = law ? best_fit(parts_.coarse(), law->starts)
-                 : best_from_scan(parts_.coarse(), start, scanned);
-  if (scanned.size() == 1 || !parts_.is_early_shorter()) return look;
-  const Fit at_first = early_law ? best_fit(parts_.early(), early_law->starts)
-                                 : best_from_scan(parts_.early(), start, scanned);
+  Fit look = best_look(parts_.coarse(), start, law);
+  if (other.parameters.size() == 1 || !parts_.is_early_shorter()) return look;
+  const Fit at_first = best_look(parts_.early(), start, early_law);
   Fit from_there = coarse_fit(parts_.coarse(), at_first.candidate, work_);
   return from_there.sum_of_squares < look.sum_of_squares ? from_there : look;
 }
@@ -104,6 +101,11 @@ Fit EffectScan::best_from_scan(const Problem& problem, const Candidate& start,
   return best_fit(problem, starts);
 }
 
+Fit EffectScan::best_look(const Problem& part, const Candidate& start,
+                          const std::optional<HubLawScan>& law) const {
+  return law ? best_fit(part, law->starts) : best_from_scan(part, start, last_coordinates(start));
+}
+
 Fit EffectScan::best_fit(const Problem& problem, const std::vector<Candidate>& starts) const {
   std::vector<Fit> found(starts.size());
   in_parallel(starts.size(),
@@ -113,9 +115,7 @@ Fit EffectScan::best_fit(const Problem& problem, const std::vector<Candidate>& s
 
 Fit EffectScan::early_look(const Candidate& base, const Hypothesis& other) const {
   const Candidate start = base.with(other, other.middle());
-  const auto law = hub_law_scan(parts_.early(), start);
-  return law ? best_fit(parts_.early(), law->starts)
-             : best_from_scan(parts_.early(), start, last_coordinates(start));
+  return best_look(parts_.early(), start, hub_law_scan(parts_.early(), start));
 }
 
 Fit EffectScan::early_look(const Candidate& candidate) const {

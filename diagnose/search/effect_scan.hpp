@@ -48,6 +48,9 @@ class EffectScan {
 
  private:
   std::optional<HubLawScan> hub_law_scan(const Problem& problem, const Candidate& start) const;
+  /// From the places of the law's scan; without a law, of a scan of the last effect of `start`.
+  Fit best_look(const Problem& part, const Candidate& start,
+                const std::optional<HubLawScan>& law) const;
   Fit best_fit(const Problem& problem, const std::vector<Candidate>& starts) const;
   Fit best_from_scan(const Problem& problem, const Candidate& start,
                      const std::vector<Eigen::Index>& scanned) const;

@@ -37,13 +37,14 @@ bool GeneralEffects::has(const Hypothesis& effect) const {
 void GeneralEffects::try_by_themselves(Selection& made, std::string_view what, double to) {
   const Candidate none = made.nothing.fit.candidate;
   const std::vector<Explanation> special = made.singles;
-  const double early_sum = least_early_sum(special);
+  std::optional<double> early_sum;
   std::vector<const Hypothesis*> waiting = worth_trying(special);  // for try_each
   const auto try_each = [&](const std::vector<const Hypothesis*>& tried) {
     fits_.add_all(labels_with(none, tried), what, to, made.singles,
                   [&](std::size_t i) { return near_look(none, special, early_sum, *tried[i]); });
   };
   try {
+    if (!waiting.empty()) early_sum = least_early_sum(special);
     std::vector<const Hypothesis*> likely_laws;
     std::vector<const Hypothesis*> others;
     std::vector<std::optional<double>> shares(waiting.size());
@@ -84,8 +85,10 @@ std::vector<const Hypothesis*> GeneralEffects::worth_trying(
   return found;
 }
 
-double GeneralEffects::least_early_sum(const std::vector<Explanation>& special) const {
+std::optional<double> GeneralEffects::least_early_sum(
+    const std::vector<Explanation>& special) const {
   constexpr std::size_t kCompared = 3;
+  if (special.empty() || !fits_.parts().is_early_shorter()) return std::nullopt;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < std::min(kCompared, special.size()); ++i) {
     least = std::min(least, fits_.scan().early_look(special[i].fit.candidate).sum_of_squares);
@@ -95,16 +98,19 @@ double GeneralEffects::least_early_sum(const std::vector<Explanation>& special) 
 
 std::optional<Candidate> GeneralEffects::near_look(const Candidate& none,
                                                    const std::vector<Explanation>& special,
-                                                   double early_sum,
+                                                   const std::optional<double>& early_sum,
                                                    const Hypothesis& general) const {
   const auto limit = std::ranges::find_if(
       special, [&](const Explanation& single) { return is_limit(single, general); });
+  const auto is_far = [&](const Fit& early) {
+    return early.sum_of_squares > options_.largest_of_looks * *early_sum;
+  };
   // Far from the data on their beginning, it is further from all of them.
-  const double most_early = options_.largest_of_looks * early_sum;
-  const auto is_near = [&](const Fit& early) { return early.sum_of_squares <= most_early; };
-  const bool is_limit_near =
-      limit != special.end() && is_near(fits_.scan().early_look(limit->fit.candidate));
-  if (!is_limit_near && !is_near(fits_.scan().early_look(none, general))) return std::nullopt;
+  if (early_sum &&
+      (limit == special.end() || is_far(fits_.scan().early_look(limit->fit.candidate))) &&
+      is_far(fits_.scan().early_look(none, general))) {
+    return std::nullopt;
+  }
   Candidate look =
       (limit == special.end() ? fits_.scan().first_look(none, general)
                               : fits_.scan().look_in_place(limit->fit.candidate, 0, general))

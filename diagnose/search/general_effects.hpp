@@ -37,12 +37,14 @@ class GeneralEffects {
 
  private:
   std::vector<const Hypothesis*> worth_trying(const std::vector<Explanation>& special) const;
-  /// Of the best of the special ones, on the early part of the data.
-  double least_early_sum(const std::vector<Explanation>& special) const;
+  /// Of the best of the special ones, on the early part of the data; empty where there are none, or
+  /// no part is earlier.
+  std::optional<double> least_early_sum(const std::vector<Explanation>& special) const;
   /// Empty where it is far from the best of the special ones, on the early part, where these leave
   /// `early_sum`, or on all data.
   std::optional<Candidate> near_look(const Candidate& none, const std::vector<Explanation>& special,
-                                     double early_sum, const Hypothesis& general) const;
+                                     const std::optional<double>& early_sum,
+                                     const Hypothesis& general) const;
 
   const Problem& problem_;
   const std::vector<Hypothesis>& hypotheses_;

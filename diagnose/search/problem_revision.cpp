@@ -75,10 +75,6 @@ void ProblemRevision::colour_noise_beside(Selection& made, const Explanation& se
   if (!set.leaves_noise()) colour_noise(made, set, 1.0);
 }
 
-void ProblemRevision::colour_noise_of_chosen(Selection& made) {
-  colour_noise_beside(made, made.chosen);
-}
-
 bool ProblemRevision::is_for_timing(const Selection& made, const Explanation& left) const {
   return problem_.is_driven_by_torque() && !made.timing &&
          left.estimation.unexplained_error() <= options_.largest_timing_error;

@@ -29,8 +29,6 @@ class ProblemRevision {
   void colour_noise_beside_singles(Selection& made);
   /// Of what this set of effects leaves, where that is not noise.
   void colour_noise_beside(Selection& made, const Explanation& set);
-  /// Of what the chosen causes leave, where that is not noise.
-  void colour_noise_of_chosen(Selection& made);
 
   /// Where a little is left and the timing of the torque leaves noise of it: the torques as that
   /// timing has them; where it does not, it is undecided.

@@ -186,7 +186,7 @@ class Search {
     made.chosen = std::move(best);
     revision_.see_noise(made);
     revision_.correct_timing(made);
-    revision_.colour_noise_of_chosen(made);
+    revision_.colour_noise_beside(made, made.chosen);
   }
 
   void extend(Selection& made) {
@@ -202,11 +202,16 @@ class Search {
   /// Sets of two effects, of three and of more; the best is chosen, with each of its effects
   /// exchanged.
   void try_sets(Selection& made) {
+    const std::vector<Candidate> singles = special_singles(made);
+    // Of larger sets those with the best so far are told as untried: the others are not known yet.
+    const Candidate& leading = singles.empty() ? made.nothing.fit.candidate : singles.front();
+    fits_.leave_untried(labels_with(leading, general_.others()));
     SetSearch search(fits_.parts(), general_.others(), options_, work_);
     work_.tell(kSets, work_.done());
-    search.begin(made.nothing.fit.candidate, special_singles(made));
+    search.begin(made.nothing.fit.candidate, singles);
     std::optional<Explanation> last;
     for (std::size_t size = 2; has_room_beside(size - 1) && !is_enough(made); ++size) {
+      if (last) fits_.leave_untried(labels_with(last->fit.candidate, general_.others()));
       fits_.add_near(search.grow(kSets, halfway()), options_.sets_refitted, kSets, halfway(),
                      made.combinations);
       if (simplest(made.combinations, size, options_) == nullptr) break;
@@ -232,25 +237,18 @@ class Search {
     return singles;
   }
 
-  /// One effect more beside those that are chosen, by scans.
+  /// One effect more beside those that are chosen, after exchanges.
   void add_cause(Selection& made) {
     const Candidate chosen = made.chosen.fit.candidate;
     const std::size_t causes = chosen.effects.size();
     if (causes == 0 || !has_room_beside(causes)) return;
     combine(made, chosen, "further effects", halfway());
-    const auto one_more = best_of(made, causes + 1);
-    if (one_more) choose_needed(made, *one_more);
+    const Explanation* one_more = simplest(made.combinations, causes + 1, options_);
+    if (one_more != nullptr) choose_needed(made, exchanged(made, *one_more));
   }
 
   bool has_room_beside(std::size_t causes) const {
     return static_cast<int>(causes) < options_.most_causes;
-  }
-
-  /// Of so many causes, after exchanges; none where none was fitted.
-  std::optional<Explanation> best_of(Selection& made, std::size_t causes) {
-    const Explanation* found = simplest(made.combinations, causes, options_);
-    if (found == nullptr) return std::nullopt;
-    return exchanged(made, *found);
   }
 
   bool is_worth_another(const Explanation& fuller, const Explanation& simpler) const {

@@ -35,7 +35,7 @@ void SetFits::add_with(const Candidate& base, std::vector<const Hypothesis*> oth
 void SetFits::add_beside(const Candidate& base, const std::vector<const Hypothesis*>& others,
                          std::string_view what, double to, const Tried& tried,
                          std::vector<Explanation>& found) {
-  untried_.clear();
+  untried_ = labels_with(base, others);
   work_.tell(what, work_.done());
   const SetSearch search(parts_, others, options_, work_);
   add_near(search.beside(base, tried.looks), tried.refitted, what, to, found);
@@ -44,9 +44,10 @@ void SetFits::add_beside(const Candidate& base, const std::vector<const Hypothes
 void SetFits::add_near(std::vector<Fit> looks, std::size_t most, std::string_view what, double to,
                        std::vector<Explanation>& found) {
   looks.resize(std::min(most, looks.size()));
-  if (looks.empty()) return;
-  const double largest = options_.largest_of_looks * looks.front().sum_of_squares;
-  std::erase_if(looks, [&](const Fit& look) { return look.sum_of_squares > largest; });
+  if (!looks.empty()) {
+    const double largest = options_.largest_of_looks * looks.front().sum_of_squares;
+    std::erase_if(looks, [&](const Fit& look) { return look.sum_of_squares > largest; });
+  }
   add_looks(looks, what, to, found);
 }
 
@@ -104,7 +105,9 @@ void SetFits::keep(std::vector<std::optional<Explanation>> made, std::vector<Exp
 std::vector<std::string> labels_with(const Candidate& base,
                                      const std::vector<const Hypothesis*>& others) {
   std::vector<std::string> labels;
-  for (const Hypothesis* other : others) labels.push_back(base.with(*other, {}).label());
+  for (const Hypothesis* other : others) {
+    if (!base.has_effect(other->effect)) labels.push_back(base.with(*other, {}).label());
+  }
   return labels;
 }
 

@@ -77,7 +77,7 @@ class SetFits {
   std::vector<std::string> untried_;
 };
 
-/// "hub_spring + time_delay" for each of `others`.
+/// "hub_spring + time_delay" for each of `others` that `base` has not.
 std::vector<std::string> labels_with(const Candidate& base,
                                      const std::vector<const Hypothesis*>& others);
 

@@ -14,17 +14,19 @@ namespace flexarm::diagnose {
 
 namespace {
 
-void append_best(const std::vector<Fit>& sets, std::size_t most, std::vector<Candidate>& to) {
-  for (std::size_t i = 0; i < std::min(most, sets.size()); ++i) to.push_back(sets[i].candidate);
+std::vector<Candidate> best_of(const std::vector<Fit>& sets, std::size_t most) {
+  std::vector<Candidate> best;
+  for (std::size_t i = 0; i < std::min(most, sets.size()); ++i) best.push_back(sets[i].candidate);
+  return best;
 }
 
 }  // namespace
 
 void SetSearch::begin(const Candidate& nothing, const std::vector<Candidate>& singles) {
-  const Fit before = coarse_fit(parts_.early(), nothing, work_);
-  std::vector<Candidate> starts = singles;
-  add_larger(parts_.early(), {before}, 1, effects_.size(), starts);
-  early_sets_ = fitted(parts_.early(), starts);
+  if (parts_.is_early_shorter()) {
+    const Fit before = coarse_fit(parts_.early(), nothing, work_);
+    early_sets_ = larger(parts_.early(), {before}, 1, effects_.size(), singles);
+  }
   coarse_sets_ = fitted(parts_.coarse(), singles);
 }
 
@@ -33,32 +35,29 @@ const std::vector<Fit>& SetSearch::grow(std::string_view what, double to) {
   work_.tell(what, from);
   std::vector<Candidate> looks;
   if (parts_.is_early_shorter()) {
-    std::vector<Candidate> starts;
-    add_larger(parts_.early(), early_sets_, options_.early_bases, options_.early_additions, starts);
-    early_sets_ = fitted(parts_.early(), starts);
-    append_best(early_sets_, options_.early_sets, looks);
+    early_sets_ =
+        larger(parts_.early(), early_sets_, options_.early_bases, options_.early_additions);
+    looks = best_of(early_sets_, options_.early_sets);
     work_.tell(what, from + 0.5 * (to - from));
   }
-  add_larger(parts_.coarse(), coarse_sets_, options_.coarse_bases, options_.coarse_additions,
-             looks);
-  coarse_sets_ = fitted(parts_.coarse(), looks);
+  coarse_sets_ = larger(parts_.coarse(), coarse_sets_, options_.coarse_bases,
+                        options_.coarse_additions, std::move(looks));
   work_.tell(what, to);
   return coarse_sets_;
 }
 
 std::vector<Fit> SetSearch::beside(const Candidate& base, std::size_t most) const {
+  const auto larger_on = [&](const Problem& part, std::vector<Candidate> starts) {
+    return larger(part, {coarse_fit(part, base, work_)}, 1, most, std::move(starts));
+  };
   std::vector<Candidate> looks;
-  if (parts_.is_early_shorter()) {
-    std::vector<Candidate> starts;
-    add_larger(parts_.early(), {coarse_fit(parts_.early(), base, work_)}, 1, most, starts);
-    append_best(fitted(parts_.early(), starts), most, looks);
-  }
-  add_larger(parts_.coarse(), {coarse_fit(parts_.coarse(), base, work_)}, 1, most, looks);
-  return fitted(parts_.coarse(), looks);
+  if (parts_.is_early_shorter()) looks = best_of(larger_on(parts_.early(), {}), most);
+  return larger_on(parts_.coarse(), std::move(looks));
 }
 
-void SetSearch::add_larger(const Problem& part, const std::vector<Fit>& sets, std::size_t bases,
-                           std::size_t most, std::vector<Candidate>& starts) const {
+std::vector<Fit> SetSearch::larger(const Problem& part, const std::vector<Fit>& sets,
+                                   std::size_t bases, std::size_t most,
+                                   std::vector<Candidate> starts) const {
   std::vector<std::vector<Addition>> found(std::min(bases, sets.size()));
   in_parallel(found.size(),
               [&](std::size_t i) { found[i] = additions(part, sets[i], effects_, work_); });
@@ -67,10 +66,11 @@ void SetSearch::add_larger(const Problem& part, const std::vector<Fit>& sets, st
   for (std::size_t i = 0; i < found.size(); ++i) {
     found[i].resize(std::min(most, found[i].size()));
     for (const Addition& addition : found[i]) {
-      Candidate larger = sets[i].candidate.with(*addition.effect, addition.values);
-      if (known.insert(larger.labels()).second) starts.push_back(std::move(larger));
+      Candidate made = sets[i].candidate.with(*addition.effect, addition.values);
+      if (known.insert(made.labels()).second) starts.push_back(std::move(made));
     }
   }
+  return fitted(part, starts);
 }
 
 std::vector<Fit> SetSearch::fitted(const Problem& part,

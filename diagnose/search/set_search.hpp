@@ -38,11 +38,10 @@ class SetSearch {
   std::vector<Fit> beside(const Candidate& base, std::size_t most) const;
 
  private:
-  /// Adds to `starts` each of the first `bases` of `sets` with the `most` effects that it lacks
-  /// most.
-  void add_larger(const Problem& part, const std::vector<Fit>& sets, std::size_t bases,
-                  std::size_t most, std::vector<Candidate>& starts) const;
-  /// The best first, each set once.
+  /// `starts`, and each of the first `bases` of `sets` with the `most` effects that it lacks most,
+  /// fitted to `part`; the best first, each set once.
+  std::vector<Fit> larger(const Problem& part, const std::vector<Fit>& sets, std::size_t bases,
+                          std::size_t most, std::vector<Candidate> starts = {}) const;
   std::vector<Fit> fitted(const Problem& part, const std::vector<Candidate>& starts) const;
 
   const CoarseProblems& parts_;

@@ -134,6 +134,7 @@ TEST(Diagnose, EndsWithTheBestSoFarAtTheDeadline) {
   EXPECT_FALSE(made.cancelled);
   ASSERT_TRUE(made.search_end);
   EXPECT_EQ(made.search_end->stage, kSets);
+  EXPECT_FALSE(made.search_end->untried.empty());
   ASSERT_EQ(made.causes.size(), 1U);
   EXPECT_EQ(made.causes.front().effect, "coulomb_friction");
   EXPECT_EQ(made.verdict, Verdict::partly_explained);

@@ -123,7 +123,8 @@ TEST(VerdictText, OfAnIncompleteSearchLeavesOtherCausesOpen) {
   made.search_end = diagnose::SearchEnd{"sets of effects", {"coulomb_friction + time_delay"}};
   made.time_limit_s = 60.0;
   EXPECT_THAT(verdict_text(made), EndsWith("other causes may explain the data as well."));
-  EXPECT_THAT(search_text(made), HasSubstr("the time limit of 60 s ended it at the stage \"pairs"));
+  EXPECT_THAT(search_text(made),
+              HasSubstr("the time limit of 60 s ended it at the stage \"sets of effects\"."));
   EXPECT_THAT(search_text(made),
               HasSubstr("Not tried at this stage: coulomb_friction + time_delay."));
   made.estimation_test.level_p_value = 0.0;

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/QR>
+
+namespace flexarm::diagnose {
+
+/// (I - J J^+) x: changes x of the residuals without the part that refitting the parameters with
+/// the derivatives J makes as well, to first order.
+class RefitProjection {
+ public:
+  explicit RefitProjection(const Eigen::MatrixXd& jacobian) : parameters_(jacobian.cols()) {
+    if (parameters_ > 0) derivatives_.compute(jacobian);
+  }
+
+  Eigen::VectorXd operator()(const Eigen::VectorXd& change) const {
+    if (parameters_ == 0) return change;
+    Eigen::VectorXd beyond = derivatives_.householderQ().adjoint() * change;
+    beyond.head(parameters_).setZero();
+    return derivatives_.householderQ() * beyond;
+  }
+
+ private:
+  Eigen::HouseholderQR<Eigen::MatrixXd> derivatives_;
+  Eigen::Index parameters_;
+};
+
+}  // namespace flexarm::diagnose

@@ -1,6 +1,7 @@
 #include "diagnose/search/additions.hpp"
 
 #include "diagnose/parallel.hpp"
+#include "diagnose/search/hub_law_scan.hpp"
 #include "diagnose/search/refit_projection.hpp"
 
 #include <algorithm>
@@ -24,19 +25,29 @@ constexpr double kLeastChange = 1e-6;
 
 using Places = std::vector<double>;
 
-/// A few values of a hypothesis' parameters, as places in their ranges: over these, and of a single
-/// one near to where it does nothing, where the change is its direction.
+/// The parameter that gives the effect its size: the first with a value at which it does nothing.
+std::optional<std::size_t> size_parameter(const Hypothesis& hypothesis) {
+  const auto found = std::ranges::find_if(
+      hypothesis.parameters, [](const auto& one) { return one.neutral_coordinate().has_value(); });
+  if (found == hypothesis.parameters.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - hypothesis.parameters.begin());
+}
+
+/// A few values of a hypothesis' parameters, as places in their ranges: over these; of a single
+/// one also near to where it does nothing, where the change is its direction; of many one size.
 std::vector<Places> samples_of(const Hypothesis& hypothesis) {
-  std::vector<double> places = {0.15, 0.5, 0.85};
-  if (hypothesis.parameters.size() == 1) {
-    const double neutral = hypothesis.parameters.front().neutral_coordinate().value_or(0.0);
+  constexpr std::size_t kMany = 4;
+  const std::vector<double> spread = {0.15, 0.5, 0.85};
+  const std::size_t n = hypothesis.parameters.size();
+  const auto sized = size_parameter(hypothesis);
+  std::vector<Places> samples = {{}};
+  for (std::size_t i = 0; i < n; ++i) {
+    std::vector<double> places = n >= kMany && i == sized ? std::vector{0.5} : spread;
+    const double neutral = hypothesis.parameters[i].neutral_coordinate().value_or(0.0);
     for (const double change : {0.004, -0.03, 0.03}) {
       const double place = neutral + change;
-      if (neutral > 0.0 && place > 0.0 && place < 1.0) places.push_back(place);
+      if (n == 1 && neutral > 0.0 && place > 0.0 && place < 1.0) places.push_back(place);
     }
-  }
-  std::vector<Places> samples = {{}};
-  for (std::size_t i = 0; i < hypothesis.parameters.size(); ++i) {
     std::vector<Places> longer;
     for (const Places& sample : samples) {
       for (const double place : places) {
@@ -49,22 +60,17 @@ std::vector<Places> samples_of(const Hypothesis& hypothesis) {
   return samples;
 }
 
-/// Where a single parameter does nothing, as a place in its range.
-std::optional<double> neutral_place(const Hypothesis& hypothesis) {
-  if (hypothesis.parameters.size() != 1) return std::nullopt;
-  return hypothesis.parameters.front().neutral_coordinate();
-}
-
-/// Sizes that a change may have, the one at `places` being 1: of a single parameter those within
-/// its range, where that goes on both sides of the value at which the effect does nothing.
+/// Sizes that a change may have, the one at `places` being 1: those within the range of the
+/// parameter that gives it, where that goes on both sides of the value at which it does nothing.
 std::pair<double, double> sizes_of(const Hypothesis& hypothesis, const Places& places) {
-  const double neutral = neutral_place(hypothesis).value_or(0.0);
+  const auto sized = size_parameter(hypothesis);
+  const double neutral = sized ? *hypothesis.parameters[*sized].neutral_coordinate() : 0.0;
   if (!(neutral > 0.0 && neutral < 1.0)) return {kLeastSize, kMostSize};
-  const double change = places.front() - neutral;
+  const double change = places[*sized] - neutral;
   return std::minmax(-neutral / change, (1.0 - neutral) / change);
 }
 
-/// The place at which a single parameter does `size` times what it does at `place`. From zero or
+/// The place at which a parameter does `size` times what it does at `place`. From zero or
 /// infinity an effect is proportional to the value or its reciprocal.
 double place_at(const SearchedParameter& parameter, double place, double size) {
   switch (parameter.spacing) {
@@ -81,24 +87,38 @@ double place_at(const SearchedParameter& parameter, double place, double size) {
 }
 
 std::vector<double> values_at(const Hypothesis& hypothesis, Places places, double size) {
-  if (places.size() == 1) {
-    places.front() =
-        std::clamp(place_at(hypothesis.parameters.front(), places.front(), size), 0.0, 1.0);
+  if (const auto sized = size_parameter(hypothesis)) {
+    double& place = places[*sized];
+    place = std::clamp(place_at(hypothesis.parameters[*sized], place, size), 0.0, 1.0);
   }
   return effects::values_at(hypothesis.parameters, places);
+}
+
+/// Of a law of hub torque with several parameters: the best that a regression on the measured
+/// motion finds beside the base. A few values would miss its period.
+std::optional<Places> scanned_law(const Problem& problem, const Candidate& base,
+                                  const Hypothesis& effect, const SelectionOptions& options,
+                                  const ReportedWork& work) {
+  if (effect.parameters.size() < 2) return std::nullopt;
+  const auto law = scan_hub_law(problem, base.with(effect, effect.middle()),
+                                {.evaluations = options.law_evaluations, .work = &work});
+  if (!law) return std::nullopt;
+  const Candidate& best = law->starts.front();
+  return effects::coordinates_of(effect.parameters, best.values_of(best.effects.size() - 1));
 }
 
 }  // namespace
 
 std::vector<Addition> additions(const Problem& problem, const Fit& base,
                                 const std::vector<const Hypothesis*>& others,
-                                const ReportedWork& work) {
+                                const SelectionOptions& options, const ReportedWork& work) {
   const RefitProjection refitted(base.jacobian);
   const VectorXd left = refitted(base.residuals);
   const auto of = [&](const Hypothesis& effect) {
     Addition best{.share = -std::numeric_limits<double>::infinity()};
     if (base.candidate.has_effect(effect.effect)) return best;
-    for (const Places& places : samples_of(effect)) {
+    const auto law = scanned_law(problem, base.candidate, effect, options, work);
+    for (const Places& places : law ? std::vector<Places>{*law} : samples_of(effect)) {
       work.go_on();
       const auto with = problem.residuals(
           base.candidate.with(effect, effects::values_at(effect.parameters, places)),

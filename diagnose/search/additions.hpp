@@ -3,6 +3,7 @@
 #include "diagnose/search/fit.hpp"
 #include "diagnose/search/problem.hpp"
 #include "diagnose/search/reported_work.hpp"
+#include "diagnose/search/selection_options.hpp"
 
 #include <vector>
 
@@ -23,12 +24,13 @@ struct Addition {
 ///
 ///     2 a c^T r - a^2 c^T c,    c = (I - J J^+)(r_0 - r_1).
 ///
-/// The start of a single parameter is where the effect does a times as much. With several
-/// parameters it is the value itself, and a is within a factor of a few. Effects that the base has,
-/// and those that no value makes an arm of, are left out. Throws Cancelled where the work is
-/// cancelled.
+/// The start is where the effect does a times as much, by the first parameter that has a value at
+/// which it does nothing. Of a law of hub torque with several parameters the one value is that
+/// which a regression on the measured motion finds (hub_law_scan.hpp, options.law_evaluations).
+/// Effects that the base has, and those that no value makes an arm of, are left out. Throws
+/// Cancelled where the work is cancelled.
 std::vector<Addition> additions(const Problem& problem, const Fit& base,
                                 const std::vector<const Hypothesis*>& others,
-                                const ReportedWork& work);
+                                const SelectionOptions& options, const ReportedWork& work);
 
 }  // namespace flexarm::diagnose

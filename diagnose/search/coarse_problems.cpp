@@ -55,7 +55,11 @@ bool CoarseProblems::is_early_shorter() const {
 Fit coarse_fit(const Problem& part, const Candidate& start, const ReportedWork& work) {
   constexpr int kSteps = 8;
   constexpr double kTolerance = 1e-4;
-  return fit(part, start, {.most_steps = kSteps, .tolerance = kTolerance, .work = &work});
+  return fit(part, start,
+             {.most_steps = kSteps,
+              .tolerance = kTolerance,
+              .is_differenced_at_end = false,
+              .work = &work});
 }
 
 }  // namespace flexarm::diagnose

@@ -1,5 +1,6 @@
 #include "diagnose/search/dependence_test.hpp"
 
+#include "diagnose/search/channel_independence.hpp"
 #include "diagnose/search/hub_torque_probes.hpp"
 #include "diagnose/search/refit_projection.hpp"
 #include "diagnose/search/residual_test.hpp"
@@ -198,25 +199,31 @@ DependenceTest test_dependence(const Problem& problem, const Problem& white,
   const std::array sets = {scored(problem, fitted, problem.estimation_runs()),
                            scored(problem, fitted, problem.validation_runs())};
   const bool is_driven = problem.is_driven_by_torque() || is_driven_by_motion(experiment);
-  std::vector<Score> scores(sets.size() * (changed.size() + 1));
-  const auto tests = static_cast<double>(sets.size()) *
-                     (1.0 + ScoredRuns::kTestsOfChange * static_cast<double>(changed.size()));
+  constexpr std::size_t kWithoutChange = 2;  // on the torque, and of channels on each other
+  std::vector<Score> scores(sets.size() * (changed.size() + kWithoutChange));
+  const double tests = static_cast<double>(sets.size()) *
+                       (static_cast<double>(kWithoutChange) +
+                        ScoredRuns::kTestsOfChange * static_cast<double>(changed.size()));
   std::atomic<bool> is_rejected = false;
   const auto keep = [&](std::size_t i, const Score& score) {
     scores[i] = score;
     if (tests * score.p_value < level) is_rejected = true;
   };
-  // On the torque first: no simulation is needed for that.
+  // First what no simulation is needed for.
   for (std::size_t i = 0; i < sets.size() && is_driven; ++i) {
-    if (sets[i]) keep(i, sets[i]->of_torque(problem));
+    if (!sets[i]) continue;
+    keep(i, sets[i]->of_torque(problem));
+    // A measured motion that drives all sensors has one error for all.
+    if (!problem.is_driven_by_torque()) continue;
+    keep(sets.size() + i, {independence_p_value(problem, sets[i]->residuals, sets[i]->runs), 0.0});
   }
-  work.in_parallel(scores.size() - sets.size(), "what residuals depend on", work.done(),
-                   work.done(), [&](std::size_t i) {
+  const std::size_t first = kWithoutChange * sets.size();
+  work.in_parallel(scores.size() - first, "what residuals depend on", work.done(), work.done(),
+                   [&](std::size_t i) {
                      work.go_on();
                      const auto& set = sets[i % sets.size()];
                      if (!set || is_rejected) return;
-                     keep(i + sets.size(),
-                          set->of_change(problem, white, changed[i / sets.size()]));
+                     keep(first + i, set->of_change(problem, white, changed[i / sets.size()]));
                    });
   const double least = std::ranges::min_element(scores, {}, &Score::p_value)->p_value;
   return {std::min(1.0, tests * least), std::ranges::max_element(scores, {}, &Score::share)->share};

@@ -25,8 +25,10 @@ struct DependenceTest {
 /// time from the middle of each run, about what a number that drifts makes. For what no hypothesis
 /// describes, the same tests of laws of hub torque of any shape (hub_torque_probes.hpp), and by
 /// output error a regression on the recorded torque up to the sample, channel by channel, whose sum
-/// of squares is chi-squared. A dependence of `kNegligibleDependence` of the signal, by motion
-/// `kNegligibleByMotion`, counts as none.
+/// of squares is chi-squared. Where the recorded torque drives the arm, the sensors are also tested
+/// for independence of each other (channel_independence.hpp): the residuals that a force nobody
+/// recorded leaves need not depend on what the arm was told to do. A dependence of
+/// `kNegligibleDependence` of the signal, by motion `kNegligibleByMotion`, counts as none.
 ///
 /// The p-value is the least of all tests, of the estimation and of the validation runs, after
 /// Bonferroni. `white` is the problem without the coloured noise. After a rejection at `level` it

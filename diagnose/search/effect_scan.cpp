@@ -72,12 +72,9 @@ Fit EffectScan::first_look(const Candidate& base, const Hypothesis& other) const
 
 std::optional<HubLawScan> EffectScan::hub_law_scan(const Problem& problem,
                                                    const Candidate& start) const {
-  const std::size_t n =
-      std::min(start.effects.back().parameters.size(), options_.law_evaluations.size());
-  return scan_hub_law(problem, start,
-                      {.evaluations = options_.law_evaluations[n - 1],
-                       .starts = options_.scan_starts,
-                       .work = &work_});
+  return scan_hub_law(
+      problem, start,
+      {.evaluations = options_.law_evaluations, .starts = options_.scan_starts, .work = &work_});
 }
 
 std::optional<double> EffectScan::share_of_law(const Candidate& base,
@@ -122,6 +119,10 @@ Fit EffectScan::early_look(const Candidate& candidate) const {
   return coarse_fit(parts_.early(), candidate, work_);
 }
 
+Fit EffectScan::coarse_look(const Candidate& candidate) const {
+  return coarse_fit(parts_.coarse(), candidate, work_);
+}
+
 Fit EffectScan::look_in_place(const Candidate& candidate, std::size_t index,
                               const Hypothesis& other) const {
   Fit look = first_look(candidate.without(index), other);
@@ -160,7 +161,7 @@ std::vector<const Hypothesis*> EffectScan::promising(const Candidate& base,
   if (others.size() <= most) return others;
   work_.tell(what, work_.done());
   const Fit left = coarse_fit(parts_.coarse(), base, work_);
-  std::vector<Addition> ranked = additions(parts_.coarse(), left, others, work_);
+  std::vector<Addition> ranked = additions(parts_.coarse(), left, others, options_, work_);
   ranked.resize(std::min(most, ranked.size()));
   others.clear();
   for (const Addition& addition : ranked) others.push_back(addition.effect);

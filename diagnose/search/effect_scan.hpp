@@ -38,6 +38,8 @@ class EffectScan {
   /// `base` with `other` on the early part alone, and a candidate refitted to that.
   Fit early_look(const Candidate& base, const Hypothesis& other) const;
   Fit early_look(const Candidate& candidate) const;
+  /// A candidate refitted to the coarse part.
+  Fit coarse_look(const Candidate& candidate) const;
   /// The same for `other` in place of the `index`-th effect of `candidate`. Where that is a limit
   /// of it, looked for from there too: at the limit's values of the parameters that both have.
   Fit look_in_place(const Candidate& candidate, std::size_t index, const Hypothesis& other) const;

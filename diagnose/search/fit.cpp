@@ -2,9 +2,16 @@
 
 #include "diagnose/search/least_squares.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace flexarm::diagnose {
+
+double Fit::beyond_noise() const {
+  const auto n = static_cast<double>(residuals.size());
+  return std::max(sum_of_squares - n, std::sqrt(2.0 * n));
+}
 
 Fit fit(const Problem& problem, const Candidate& start, const FitOptions& options) {
   Fit made{.candidate = start};
@@ -16,9 +23,10 @@ Fit fit(const Problem& problem, const Candidate& start, const FitOptions& option
     if (residuals) return *residuals;
     return Eigen::VectorXd::Constant(problem.residual_count(), kImpossibleResidual);
   };
-  LeastSquares found =
-      least_squares(residuals_at, start.coordinates(),
-                    {.most_steps = options.most_steps, .tolerance = options.tolerance});
+  LeastSquares found = least_squares(residuals_at, start.coordinates(),
+                                     {.most_steps = options.most_steps,
+                                      .tolerance = options.tolerance,
+                                      .is_differenced_at_end = options.is_differenced_at_end});
   made.candidate.put(found.places);
   made.sum_of_squares = found.residuals.squaredNorm();
   made.residuals = std::move(found.residuals);

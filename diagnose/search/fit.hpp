@@ -16,6 +16,9 @@ struct Fit {
   Eigen::MatrixXd jacobian = {};
   int evaluations = 0;  ///< of the model
   bool converged = false;
+
+  /// Sum of squares beyond noise; at least its standard deviation by chance.
+  double beyond_noise() const;
 };
 
 struct FitOptions {
@@ -23,6 +26,7 @@ struct FitOptions {
   /// Converged where a step lowers the sum of squares by less than this part of it, or moves no
   /// place by more than this.
   double tolerance = 1e-7;
+  bool is_differenced_at_end = true;   ///< LeastSquaresOptions
   const ReportedWork* work = nullptr;  ///< that the fit is part of; asked before each evaluation
 };
 

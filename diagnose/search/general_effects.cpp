@@ -22,9 +22,9 @@ bool any_leaves_noise(const std::vector<Explanation>& singles) {
 
 }  // namespace
 
-GeneralEffects::GeneralEffects(const Problem& problem, const std::vector<Hypothesis>& hypotheses,
+GeneralEffects::GeneralEffects(const std::vector<Hypothesis>& hypotheses,
                                const SelectionOptions& options, SetFits& fits)
-    : problem_(problem), hypotheses_(hypotheses), options_(options), fits_(fits) {
+    : hypotheses_(hypotheses), options_(options), fits_(fits) {
   for (const Hypothesis& effect : hypotheses) {
     (has(effect) ? general_ : special_).push_back(&effect);
   }
@@ -37,14 +37,14 @@ bool GeneralEffects::has(const Hypothesis& effect) const {
 void GeneralEffects::try_by_themselves(Selection& made, std::string_view what, double to) {
   const Candidate none = made.nothing.fit.candidate;
   const std::vector<Explanation> special = made.singles;
-  std::optional<double> early_sum;
+  std::optional<LeastSums> least;
   std::vector<const Hypothesis*> waiting = worth_trying(special);  // for try_each
   const auto try_each = [&](const std::vector<const Hypothesis*>& tried) {
     fits_.add_all(labels_with(none, tried), what, to, made.singles,
-                  [&](std::size_t i) { return near_look(none, special, early_sum, *tried[i]); });
+                  [&](std::size_t i) { return near_look(none, special, least, *tried[i]); });
   };
   try {
-    if (!waiting.empty()) early_sum = least_early_sum(special);
+    if (!waiting.empty()) least = least_sums(special);
     std::vector<const Hypothesis*> likely_laws;
     std::vector<const Hypothesis*> others;
     std::vector<std::optional<double>> shares(waiting.size());
@@ -85,41 +85,52 @@ std::vector<const Hypothesis*> GeneralEffects::worth_trying(
   return found;
 }
 
-std::optional<double> GeneralEffects::least_early_sum(
+std::optional<GeneralEffects::LeastSums> GeneralEffects::least_sums(
     const std::vector<Explanation>& special) const {
   constexpr std::size_t kCompared = 3;
-  if (special.empty() || !fits_.parts().is_early_shorter()) return std::nullopt;
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < std::min(kCompared, special.size()); ++i) {
-    least = std::min(least, fits_.scan().early_look(special[i].fit.candidate).sum_of_squares);
+  const auto least_of = [&](const auto& look) {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < std::min(kCompared, special.size()); ++i) {
+      least = std::min(least, look(special[i].fit.candidate).sum_of_squares);
+    }
+    return least;
+  };
+  if (special.empty()) return std::nullopt;
+  const EffectScan& scan = fits_.scan();
+  LeastSums made{.coarse =
+                     least_of([&](const Candidate& single) { return scan.coarse_look(single); })};
+  if (fits_.parts().is_early_shorter()) {
+    made.early = least_of([&](const Candidate& single) { return scan.early_look(single); });
   }
-  return least;
+  return made;
 }
 
 std::optional<Candidate> GeneralEffects::near_look(const Candidate& none,
                                                    const std::vector<Explanation>& special,
-                                                   const std::optional<double>& early_sum,
+                                                   const std::optional<LeastSums>& least,
                                                    const Hypothesis& general) const {
+  const EffectScan& scan = fits_.scan();
+  if (!least) return scan.first_look(none, general).candidate;
   const auto limit = std::ranges::find_if(
       special, [&](const Explanation& single) { return is_limit(single, general); });
-  const auto is_far = [&](const Fit& early) {
-    return early.sum_of_squares > options_.largest_of_looks * *early_sum;
+  const bool has_limit = limit != special.end();
+  const auto is_far = [&](const Fit& look, double least_sum) {
+    return look.sum_of_squares > options_.largest_of_general * least_sum;
   };
-  // Far from the data on their beginning, it is further from all of them.
-  if (early_sum &&
-      (limit == special.end() || is_far(fits_.scan().early_look(limit->fit.candidate))) &&
-      is_far(fits_.scan().early_look(none, general))) {
+  // A cause by itself leaves less than those that are not, of each part of the data.
+  if (least->early &&
+      (!has_limit || is_far(scan.early_look(limit->fit.candidate), *least->early)) &&
+      is_far(scan.early_look(none, general), *least->early)) {
     return std::nullopt;
   }
-  Candidate look =
-      (limit == special.end() ? fits_.scan().first_look(none, general)
-                              : fits_.scan().look_in_place(limit->fit.candidate, 0, general))
-          .candidate;
-  if (special.empty()) return look;
-  const auto left = problem_.residuals(look, problem_.estimation_runs());
-  const double most = options_.largest_of_looks * special.front().fit.sum_of_squares;
-  if (!left || left->squaredNorm() > most) return std::nullopt;
-  return look;
+  const Fit look = has_limit ? scan.look_in_place(limit->fit.candidate, 0, general)
+                             : scan.first_look(none, general);
+  if (is_far(look, least->coarse)) return std::nullopt;
+  if (has_limit && !limit->leaves_noise()) {
+    const double limited = scan.coarse_look(limit->fit.candidate).beyond_noise();
+    if (look.beyond_noise() > options_.general_gain * limited) return std::nullopt;
+  }
+  return look.candidate;
 }
 
 }  // namespace flexarm::diagnose

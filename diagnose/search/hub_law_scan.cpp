@@ -4,10 +4,13 @@
 #include "diagnose/search/least_squares.hpp"
 #include "diagnose/symptoms/hub_regression.hpp"
 
+#include <Eigen/QR>
+
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
+#include <numbers>
+#include <optional>
 #include <utility>
 #include <variant>
 
@@ -110,18 +113,144 @@ std::vector<Candidate> refined_from(const Candidate& scanned) {
   return {scanned, beside};
 }
 
-/// What a candidate leaves of the hub's signals; empty for one whose last law is of another kind.
-using LeftBy = std::function<std::optional<Eigen::VectorXd>(const Candidate&)>;
+/// What laws of hub torque, the last effects of candidates, leave of the hub's signals.
+class LawRegression {
+ public:
+  /// The references must outlive the object.
+  LawRegression(const arm::Arm& arm, const std::vector<HubMotion>& motions)
+      : arm_(arm), motions_(motions), hub_(motions) {}
+
+  const HubRegression& hub() const { return hub_; }
+
+  /// Empty for a candidate whose last law is of another kind, or not finite at some motion.
+  std::optional<Eigen::VectorXd> readings(const Candidate& candidate) const {
+    const auto law = last_law(candidate, arm_);
+    if (!law) return std::nullopt;
+    try {
+      return hub_.readings(torques_of(*law, motions_));
+    } catch (const arm::InputError&) {
+      return std::nullopt;
+    }
+  }
+  std::optional<Eigen::VectorXd> left_by(const Candidate& candidate) const {
+    const auto made = readings(candidate);
+    return made ? std::optional<Eigen::VectorXd>(hub_.residuals() - *made) : std::nullopt;
+  }
+
+ private:
+  const arm::Arm& arm_;
+  const std::vector<HubMotion>& motions_;
+  HubRegression hub_;
+};
+
+/// The parameters of the last effect that a law's torque is linear in: amplitudes, all of which
+/// together it is in proportion to, and beside them the phase of a sine.
+class LinearParameters {
+ public:
+  /// Of `start`, each where readings at a few values confirm it.
+  LinearParameters(const LawRegression& laws, const Candidate& start) : laws_(laws) {
+    const std::vector<SearchedParameter>& parameters = start.effects.back().parameters;
+    first_ = start.values.size() - parameters.size();
+    for (std::size_t i = 0; i < parameters.size(); ++i) {
+      if (parameters[i].spacing == effects::Spacing::from_zero) amplitudes_.push_back(i);
+    }
+    const auto once = laws.readings(start);
+    if (amplitudes_.empty() || !once || !is_combination({2.0 * *once}, times(start, 2.0))) {
+      amplitudes_.clear();
+      return;
+    }
+    const auto periodic = std::ranges::find_if(parameters, &SearchedParameter::periodic);
+    if (periodic == parameters.end()) return;
+    phase_ = static_cast<std::size_t>(periodic - parameters.begin());
+    turn_ = periodic->highest - periodic->lowest;
+    const auto quarter = laws.readings(turned(start, 0.25));
+    if (!quarter ||
+        !is_combination((*once + *quarter) / std::numbers::sqrt2, turned(start, 0.125))) {
+      phase_.reset();
+    }
+  }
+
+  /// The coordinates of the last effect that `best` does not solve for: all but the first amplitude
+  /// and the phase.
+  std::vector<Index> other_coordinates(const Candidate& candidate) const {
+    std::vector<Index> others;
+    const std::vector<Index> all = last_coordinates(candidate);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const bool is_solved = !amplitudes_.empty() && (i == amplitudes_.front() || i == phase_);
+      if (!is_solved) others.push_back(all[i]);
+    }
+    return others;
+  }
+
+  /// `candidate` with those amplitudes within their ranges, in their ratio, and that phase which
+  /// leave least; and the sum of squares that it leaves. Infinite where it leaves nothing to
+  /// compare.
+  std::pair<Candidate, double> best(const Candidate& candidate) const {
+    const auto readings = laws_.readings(candidate);
+    if (!readings) return {candidate, std::numeric_limits<double>::infinity()};
+    const auto left = [&](const Eigen::VectorXd& made) {
+      return (laws_.hub().residuals() - made).squaredNorm();
+    };
+    if (amplitudes_.empty()) return {candidate, left(*readings)};
+    const auto quarter = phase_ ? laws_.readings(turned(candidate, 0.25)) : std::nullopt;
+    Eigen::MatrixXd terms(readings->size(), quarter ? 2 : 1);
+    terms.col(0) = *readings;
+    if (quarter) terms.col(1) = *quarter;
+    const Eigen::VectorXd solved = terms.colPivHouseholderQr().solve(laws_.hub().residuals());
+    constexpr double kLeast = 1e-2;
+    const double size =
+        std::clamp(quarter ? solved.norm() : solved(0), kLeast, largest_size(candidate));
+    if (!quarter) return {times(candidate, size), left(size * *readings)};
+    const double angle = std::atan2(solved(1), solved(0));
+    return {times(turned(candidate, angle / (2.0 * std::numbers::pi)), size),
+            left(size * (std::cos(angle) * *readings + std::sin(angle) * *quarter))};
+  }
+
+ private:
+  bool is_combination(const Eigen::VectorXd& expected, const Candidate& candidate) const {
+    constexpr double kRounding = 1e-9;
+    const auto made = laws_.readings(candidate);
+    return made && (*made - expected).norm() <= kRounding * expected.norm();
+  }
+  Candidate times(const Candidate& candidate, double size) const {
+    Candidate made = candidate;
+    for (const std::size_t i : amplitudes_) made.values[first_ + i] *= size;
+    return made;
+  }
+  Candidate turned(const Candidate& candidate, double turns) const {
+    Candidate made = candidate;
+    double& value = made.values[first_ + *phase_];
+    const double lowest = candidate.effects.back().parameters[*phase_].lowest;
+    const double place = (value - lowest) / turn_ + turns;
+    value = lowest + turn_ * (place - std::floor(place));
+    return made;
+  }
+  double largest_size(const Candidate& candidate) const {
+    double largest = std::numeric_limits<double>::max();
+    for (const std::size_t i : amplitudes_) {
+      const double highest = candidate.effects.back().parameters[i].highest;
+      largest = std::min(largest, highest / candidate.values[first_ + i]);
+    }
+    return std::max(largest, 1.0);
+  }
+
+  const LawRegression& laws_;
+  std::size_t first_ = 0;  // of the last effect's values
+  std::vector<std::size_t> amplitudes_;
+  std::optional<std::size_t> phase_ = {};
+  double turn_ = 0.0;
+};
 
 /// `from` with the law that leaves least, and its sum of squares.
-std::pair<Candidate, double> refined(const LeftBy& left_by, const Candidate& from, Index count,
+std::pair<Candidate, double> refined(const LawRegression& laws, const Candidate& from,
                                      const ReportedWork* work) {
   const auto left_at = [&](const Eigen::VectorXd& places) -> Eigen::VectorXd {
     if (work != nullptr) work->go_on();
     Candidate tried = from;
     put_last(tried, places);
-    const auto left = left_by(tried);
-    return left ? *left : Eigen::VectorXd::Constant(count, kImpossibleResidual);
+    const auto left = laws.left_by(tried);
+    return left ? *left
+                : Eigen::VectorXd::Constant(laws.hub().residuals().size(), kImpossibleResidual);
   };
   const LeastSquares best =
       least_squares(left_at, last_places(from), {.most_steps = kSteps, .tolerance = kTolerance});
@@ -133,7 +262,7 @@ std::pair<Candidate, double> refined(const LeftBy& left_by, const Candidate& fro
 }  // namespace
 
 std::optional<HubLawScan> scan_hub_law(const Problem& problem, const Candidate& start,
-                                       const ScanOptions& options) {
+                                       const HubLawScanOptions& options) {
   if (!problem.is_driven_by_torque()) return std::nullopt;
   const arm::Arm& arm = problem.experiment().arm;
   const std::optional<arm::HubLaw> law = last_law(start, arm);
@@ -147,29 +276,30 @@ std::optional<HubLawScan> scan_hub_law(const Problem& problem, const Candidate& 
   if (std::ssize(motions) != std::ranges::count(runs, true)) return std::nullopt;
   const bool is_friction = std::holds_alternative<arm::DryFriction>(*law);
   if (is_friction && part_at_rest(motions) > kMostRest) return std::nullopt;
-  const HubRegression hub(motions);
-  const LeftBy left_by = [&](const Candidate& candidate) -> std::optional<Eigen::VectorXd> {
-    const auto tried = last_law(candidate, arm);
-    if (!tried) return std::nullopt;
-    try {
-      return hub.residuals() - hub.readings(torques_of(*tried, motions));
-    } catch (const arm::InputError&) {  // of a formula that is not finite there
-      return std::nullopt;
-    }
-  };
-  const auto squares_left_by = [&](const Candidate& candidate) {
-    const auto left = left_by(candidate);
-    return left ? left->squaredNorm() : std::numeric_limits<double>::infinity();
-  };
-  HubLawScan made{scan(squares_left_by, start, last_coordinates(start), options)};
-  double least = squares_left_by(made.starts.front());
+  const LawRegression laws(arm, motions);
+  const LinearParameters linear(laws, start);
+  const std::vector<Index> scanned = linear.other_coordinates(start);
+  HubLawScan made;
+  if (scanned.empty()) {
+    made.starts = {start};
+  } else {
+    const std::size_t n = std::min(scanned.size(), options.evaluations.size());
+    made.starts = scan([&](const Candidate& candidate) { return linear.best(candidate).second; },
+                       start, scanned,
+                       {.evaluations = options.evaluations[n - 1],
+                        .starts = options.starts,
+                        .work = options.work});
+  }
+  for (Candidate& one : made.starts) one = linear.best(one).first;
+  double least = linear.best(made.starts.front()).second;
   for (const Candidate& from : refined_from(made.starts.front())) {
-    if (!left_by(from)) continue;
-    const auto [found, left] = refined(left_by, from, hub.residuals().size(), options.work);
+    if (!laws.readings(from)) continue;
+    const auto [found, left] = refined(laws, from, options.work);
     if (!(left < least)) continue;
     least = left;
     made.starts.front() = found;
   }
+  const HubRegression& hub = laws.hub();
   made.share = std::clamp((hub.residuals().squaredNorm() - least) / hub.beyond_noise(), 0.0, 1.0);
   return made;
 }

@@ -2,6 +2,7 @@
 
 #include "diagnose/search/scan.hpp"
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -15,14 +16,24 @@ struct HubLawScan {
   double share = 0.0;
 };
 
+struct HubLawScanOptions {
+  /// Values tried of a law with 1, 2, 3 parameters or more beside its amplitude and phase.
+  std::array<int, 3> evaluations = {300, 300, 1500};
+  int starts = 1;
+  const ReportedWork* work = nullptr;  ///< that the scan is part of; asked before each evaluation
+};
+
 /// Scans a law of hub torque, the last effect of `start`, by a regression on the measured motion of
 /// the estimation runs: the law's torque at that motion, the linear response to it of the arm as
 /// filed, and the sum of squares that this leaves of the hub's signals
-/// (symptoms/hub_regression.hpp). The best value is refined by least squares, from there and from
-/// beside the law's neutral value: a free hub answers a constant part of a law with a drift, so
-/// that the minimum may be narrower than the distance of the values that are scanned. Simulated,
-/// each value would cost up to seven times a simulation of the linear arm, which iterates no forces
-/// (docs/numerics.md, section 7). The torque that the law may depend on is the commanded one.
+/// (symptoms/hub_regression.hpp). Where a law is in proportion to its parameters of
+/// effects::Spacing::from_zero, its size is solved for at each value of the others, and so is the
+/// phase of a sine. The best value
+/// is refined by least squares, from there and from beside the law's neutral value: a free hub
+/// answers a constant part of a law with a drift, so that the minimum may be narrower than the
+/// distance of the values that are scanned. Simulated, each value would cost up to seven times a
+/// simulation of the linear arm, which iterates no forces (docs/numerics.md, section 7). The torque
+/// that the law may depend on is the commanded one.
 ///
 /// Empty for an effect that is more than such a law, for a constant torque, for dry friction that
 /// is the same at every speed, and for a law with states of its own. Empty unless all estimation
@@ -31,7 +42,7 @@ struct HubLawScan {
 /// Empty where `start` without the law cannot be simulated. Throws Cancelled where the work is
 /// cancelled.
 std::optional<HubLawScan> scan_hub_law(const Problem& problem, const Candidate& start,
-                                       const ScanOptions& options);
+                                       const HubLawScanOptions& options);
 inline constexpr double kMostRest = 0.1;
 
 }  // namespace flexarm::diagnose

@@ -70,6 +70,8 @@ class DifferencedResiduals {
   const Eigen::VectorXd& residuals(const Eigen::VectorXd& places) { return at(places).residuals; }
   /// The last Jacobian is no quotient of differences.
   bool is_updated() const { return jacobian_ && jacobian_->is_updated; }
+  /// A step by an updated Jacobian led up.
+  bool was_misled() const { return !updates_; }
 
  private:
   struct Evaluated {
@@ -157,13 +159,18 @@ LeastSquares least_squares(const ResidualsAt& residuals, const Eigen::VectorXd& 
     }
     made.converged = ended != status::Running && ended != status::ImproperInputParameters;
     if (!differenced.is_updated()) break;
+    if (!options.is_differenced_at_end && !differenced.was_misled()) break;
     // What an updated Jacobian takes for the minimum need not be one.
     made.converged = is_least(differenced.residuals(made.places),
                               differenced.differenced(made.places), options.tolerance);
     if (made.converged || steps == options.most_steps) break;
   }
   made.residuals = differenced.residuals(made.places);
-  made.jacobian = differenced.differenced(made.places);
+  if (options.is_differenced_at_end) {
+    made.jacobian = differenced.differenced(made.places);
+  } else {
+    differenced.df(made.places, made.jacobian);
+  }
   made.evaluations = differenced.evaluations();
   return made;
 }

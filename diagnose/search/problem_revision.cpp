@@ -85,6 +85,8 @@ bool ProblemRevision::is_for_timing(const Selection& made, const Explanation& le
 bool ProblemRevision::colour_noise(Selection& made, const Explanation& best, double largest_share) {
   const bool is_known = problem_.predictor().noise() || problem_.has_coloured_noise();
   if (is_known || runs_away(best, options_)) return false;
+  const std::pair same_fit(best.fit.candidate.labels(), best.fit.sum_of_squares);
+  if (dependent_.contains(same_fit)) return false;
   if (is_for_timing(made, best) && !made.undecided_timing &&
       torque_timing(problem_, best.fit).share >= options_.least_timing_share) {
     return false;
@@ -95,6 +97,7 @@ bool ProblemRevision::colour_noise(Selection& made, const Explanation& best, dou
   if (!left.leaves_noise()) return false;
   const DependenceTest found =
       test_dependence(*coloured, problem_, left.fit.candidate, work_, kResidualLevel);
+  if (found.p_value < kResidualLevel) dependent_.insert(same_fit);
   if (found.p_value < kResidualLevel || found.largest_share > largest_share) return false;
   change_problem([&] {
     problem_ = *coloured;

@@ -3,7 +3,9 @@
 #include "diagnose/search/selection.hpp"
 #include "diagnose/search/set_fits.hpp"
 
-#include <vector>
+#include <set>
+#include <string>
+#include <utility>
 
 namespace flexarm::diagnose {
 
@@ -46,6 +48,8 @@ class ProblemRevision {
   const SelectionOptions& options_;
   const SetFits& fits_;
   ReportedWork& work_;
+  /// Labels and sums of squares of fits whose residuals were found to depend on the motion.
+  std::set<std::pair<std::set<std::string>, double>> dependent_ = {};
 };
 
 }  // namespace flexarm::diagnose

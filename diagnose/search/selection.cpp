@@ -44,7 +44,7 @@ class Search {
         options_(options),
         work_(progress, options.deadline),
         fits_(problem_, options, work_),
-        general_(problem_, hypotheses, options, fits_),
+        general_(hypotheses, options, fits_),
         revision_(problem_, options, fits_, work_) {}
 
   Selection run() {
@@ -202,11 +202,11 @@ class Search {
   /// Sets of two effects, of three and of more; the best is chosen, with each of its effects
   /// exchanged.
   void try_sets(Selection& made) {
-    const std::vector<Candidate> singles = special_singles(made);
+    const std::vector<Candidate> singles = candidates_of(made.singles);
     // Of larger sets those with the best so far are told as untried: the others are not known yet.
     const Candidate& leading = singles.empty() ? made.nothing.fit.candidate : singles.front();
     fits_.leave_untried(labels_with(leading, general_.others()));
-    SetSearch search(fits_.parts(), general_.others(), options_, work_);
+    SetSearch search(fits_.parts(), general_.others(), general_.all(), options_, work_);
     work_.tell(kSets, work_.done());
     search.begin(made.nothing.fit.candidate, singles);
     std::optional<Explanation> last;
@@ -216,9 +216,8 @@ class Search {
                      made.combinations);
       if (simplest(made.combinations, size, options_) == nullptr) break;
       revision_.colour_noise_beside(made, *simplest(made.combinations, size, options_));
-      const Explanation best = *simplest(made.combinations, size, options_);
+      const Explanation best = specialised(made, *simplest(made.combinations, size, options_));
       choose_needed(made, best);
-      if (made.chosen.fit.candidate.effects.size() == size) generalise(made);
       if (size >= options_.tried_set_size && last && !is_worth_another(best, *last)) break;
       last = best;
     }
@@ -230,11 +229,14 @@ class Search {
     }
   }
 
-  std::vector<Candidate> special_singles(const Selection& made) const {
-    std::vector<Candidate> singles = candidates_of(made.singles);
-    std::erase_if(singles,
-                  [&](const Candidate& single) { return general_.has(single.effects.front()); });
-    return singles;
+  /// `found` with limits of its general effects in place of those that do not clear the bars over
+  /// them.
+  Explanation specialised(Selection& made, Explanation found) const {
+    for (const LimitOfEffect& of : limits_in(found.fit.candidate, hypotheses_)) {
+      const Explanation limited = replaced(made, found.fit.candidate, of.effect, *of.limit);
+      if (!clears_bars(found, limited, options_)) return specialised(made, limited);
+    }
+    return found;
   }
 
   /// One effect more beside those that are chosen, after exchanges.

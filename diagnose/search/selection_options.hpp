@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <string_view>
 
@@ -56,6 +57,17 @@ struct Tried {
   std::size_t looks = 0;
   /// Of these refitted to all data <= this, the best.
   std::size_t refitted = 0;
+};
+
+/// How sets of effects grow by one effect on a part of the data.
+struct SetGrowth {
+  /// Sets that effects are added to <= this, the best;
+  std::size_t bases = kAll;
+  /// effects added to each, special ones and general ones (which have another as a limit), <= this.
+  std::size_t special = kAll;
+  std::size_t general = kAll;
+
+  static constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
 };
 
 /// Every threshold of the search, each with what it enforces.
@@ -114,25 +126,26 @@ struct SelectionOptions {
   double least_share_ahead = 0.25;
   /// Effects by themselves: all are scanned.
   Tried single_effects = {.refitted = 8};
-  /// What a coarse look found is refitted to all data where it leaves <= this times the sum of
-  /// squares that the best leaves: a general effect beside the best of the others, a further effect
-  /// beside the best of those looked at with the same base.
+  /// Sets that a coarse look found are refitted to all data where they leave <= this times the sum
+  /// of squares that the best of them leaves.
   double largest_of_looks = 2.0;
+  /// A general effect is refitted to all data where its look leaves <= this times the sum of
+  /// squares that the best special effect leaves,
+  double largest_of_general = 1.2;
+  /// and beyond noise <= this times what a limit of it leaves. Sets with it go on where they do.
+  double general_gain = 0.7;
   /// A law of hub torque that is scanned by regression (hub_law_scan.hpp) is fitted where it
   /// explains >= this part of the excess residual of the hub's signals. The true law explains
   /// nearly all of it; one that is named explains least_share of the whole excess residual.
   double least_law_share = 0.1;
 
   // Sets of several effects (set_search.hpp).
-  /// Sets of one effect less to which effects are added on the early part of the data, and effects
-  /// added to each, <= this;
-  std::size_t early_bases = 8;
-  std::size_t early_additions = 8;
+  /// On the early part of the data,
+  SetGrowth early_growth = {.bases = 8, .special = 8, .general = 3};
   /// of these refitted to the coarse part <= this;
   std::size_t early_sets = 12;
-  /// the same additions on the coarse part;
-  std::size_t coarse_bases = 4;
-  std::size_t coarse_additions = 5;
+  /// on the coarse part;
+  SetGrowth coarse_growth = {.bases = 4, .special = 5, .general = 2};
   /// and of all refitted to all data.
   std::size_t sets_refitted = 6;
   /// Sets of more effects than this are tried where the last one took least_share_ahead.
@@ -154,8 +167,9 @@ struct SelectionOptions {
   int coarse_modes = 8;
   /// Values tried in a scan of an effect of 1, 2, 3 parameters or more.
   std::array<int, 3> scan_evaluations = {40, 90, 160};
-  /// The same for a law of hub torque that is scanned by regression, not simulated.
-  std::array<int, 3> law_evaluations = {60, 300, 1500};
+  /// The same for a law of hub torque that is scanned by regression, not simulated, with so many
+  /// parameters beside its amplitude and phase.
+  std::array<int, 3> law_evaluations = {300, 300, 1500};
   /// Of these begun a fit from <= this, for an effect of several parameters.
   int scan_starts = 3;
   /// Causes exchanged for others, one after the other, <= this.

@@ -37,7 +37,7 @@ void SetFits::add_beside(const Candidate& base, const std::vector<const Hypothes
                          std::vector<Explanation>& found) {
   untried_ = labels_with(base, others);
   work_.tell(what, work_.done());
-  const SetSearch search(parts_, others, options_, work_);
+  const SetSearch search(parts_, others, {}, options_, work_);
   add_near(search.beside(base, tried.looks), tried.refitted, what, to, found);
 }
 

@@ -2,6 +2,7 @@
 
 #include "diagnose/parallel.hpp"
 #include "diagnose/search/additions.hpp"
+#include "diagnose/search/rivals.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -20,12 +21,22 @@ std::vector<Candidate> best_of(const std::vector<Fit>& sets, std::size_t most) {
   return best;
 }
 
+/// `limited` is `general` with a limit of one of its effects in place of that.
+bool has_limit_in_place(const Candidate& limited, const Candidate& general) {
+  if (!is_rival(limited, general)) return false;
+  const auto own = std::ranges::find_if_not(
+      general.effects, [&](const Hypothesis& effect) { return limited.has(effect); });
+  return std::ranges::any_of(limited.effects, [&](const Hypothesis& effect) {
+    return !general.has(effect) && own->contains(effect.effect);
+  });
+}
+
 }  // namespace
 
 void SetSearch::begin(const Candidate& nothing, const std::vector<Candidate>& singles) {
   if (parts_.is_early_shorter()) {
     const Fit before = coarse_fit(parts_.early(), nothing, work_);
-    early_sets_ = larger(parts_.early(), {before}, 1, effects_.size(), singles);
+    early_sets_ = larger(parts_.early(), {before}, {.bases = 1}, singles);
   }
   coarse_sets_ = fitted(parts_.coarse(), singles);
 }
@@ -35,20 +46,19 @@ const std::vector<Fit>& SetSearch::grow(std::string_view what, double to) {
   work_.tell(what, from);
   std::vector<Candidate> looks;
   if (parts_.is_early_shorter()) {
-    early_sets_ =
-        larger(parts_.early(), early_sets_, options_.early_bases, options_.early_additions);
+    early_sets_ = larger(parts_.early(), early_sets_, options_.early_growth);
     looks = best_of(early_sets_, options_.early_sets);
     work_.tell(what, from + 0.5 * (to - from));
   }
-  coarse_sets_ = larger(parts_.coarse(), coarse_sets_, options_.coarse_bases,
-                        options_.coarse_additions, std::move(looks));
+  coarse_sets_ = larger(parts_.coarse(), coarse_sets_, options_.coarse_growth, std::move(looks));
   work_.tell(what, to);
   return coarse_sets_;
 }
 
 std::vector<Fit> SetSearch::beside(const Candidate& base, std::size_t most) const {
   const auto larger_on = [&](const Problem& part, std::vector<Candidate> starts) {
-    return larger(part, {coarse_fit(part, base, work_)}, 1, most, std::move(starts));
+    return larger(part, {coarse_fit(part, base, work_)},
+                  {.bases = 1, .special = most, .general = 0}, std::move(starts));
   };
   std::vector<Candidate> looks;
   if (parts_.is_early_shorter()) looks = best_of(larger_on(parts_.early(), {}), most);
@@ -56,21 +66,33 @@ std::vector<Fit> SetSearch::beside(const Candidate& base, std::size_t most) cons
 }
 
 std::vector<Fit> SetSearch::larger(const Problem& part, const std::vector<Fit>& sets,
-                                   std::size_t bases, std::size_t most,
-                                   std::vector<Candidate> starts) const {
-  std::vector<std::vector<Addition>> found(std::min(bases, sets.size()));
+                                   const SetGrowth& growth, std::vector<Candidate> starts) const {
+  std::vector<std::vector<Candidate>> found(std::min(growth.bases, sets.size()));
   in_parallel(found.size(),
-              [&](std::size_t i) { found[i] = additions(part, sets[i], effects_, work_); });
-  std::set<std::set<std::string>> known;
-  for (const Candidate& start : starts) known.insert(start.labels());
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    found[i].resize(std::min(most, found[i].size()));
-    for (const Addition& addition : found[i]) {
-      Candidate made = sets[i].candidate.with(*addition.effect, addition.values);
-      if (known.insert(made.labels()).second) starts.push_back(std::move(made));
-    }
+              [&](std::size_t i) { found[i] = with_additions(part, sets[i], growth); });
+  for (std::vector<Candidate>& of_one : found) {
+    std::ranges::move(of_one, std::back_inserter(starts));
   }
+  std::set<std::set<std::string>> known;
+  std::erase_if(starts,
+                [&](const Candidate& start) { return !known.insert(start.labels()).second; });
   return fitted(part, starts);
+}
+
+std::vector<Candidate> SetSearch::with_additions(const Problem& part, const Fit& set,
+                                                 const SetGrowth& growth) const {
+  std::vector<Candidate> made;
+  const auto add = [&](const std::vector<const Hypothesis*>& effects, std::size_t most) {
+    if (most == 0) return;
+    std::vector<Addition> found = additions(part, set, effects, options_, work_);
+    found.resize(std::min(most, found.size()));
+    for (const Addition& addition : found) {
+      made.push_back(set.candidate.with(*addition.effect, addition.values));
+    }
+  };
+  add(special_, growth.special);
+  add(general_, growth.general);
+  return made;
 }
 
 std::vector<Fit> SetSearch::fitted(const Problem& part,
@@ -78,12 +100,17 @@ std::vector<Fit> SetSearch::fitted(const Problem& part,
   std::vector<Fit> fits(starts.size());
   in_parallel(starts.size(), [&](std::size_t i) { fits[i] = coarse_fit(part, starts[i], work_); });
   std::ranges::stable_sort(fits, {}, &Fit::sum_of_squares);
-  std::set<std::set<std::string>> known;
   std::vector<Fit> sets;
-  std::ranges::copy_if(std::make_move_iterator(fits.begin()), std::make_move_iterator(fits.end()),
-                       std::back_inserter(sets),
-                       [&](const Fit& one) { return known.insert(one.candidate.labels()).second; });
+  std::ranges::copy_if(fits, std::back_inserter(sets),
+                       [&](const Fit& one) { return is_ahead_of_limits(one, fits); });
   return sets;
+}
+
+bool SetSearch::is_ahead_of_limits(const Fit& set, const std::vector<Fit>& sets) const {
+  return std::ranges::none_of(sets, [&](const Fit& other) {
+    return has_limit_in_place(other.candidate, set.candidate) &&
+           set.beyond_noise() > options_.general_gain * other.beyond_noise();
+  });
 }
 
 }  // namespace flexarm::diagnose

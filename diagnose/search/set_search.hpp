@@ -19,13 +19,21 @@ namespace flexarm::diagnose {
 ///
 /// Sets of n effects are made of the best of n - 1, each with those effects that the score test
 /// ranks first (additions.hpp), and fitted; on the early part, the best of which are refitted to
-/// the coarse part, and on the coarse part, where effects show that need time.
+/// the coarse part, and on the coarse part, where effects show that need time. A set with a general
+/// effect goes on where it leaves clearly less than the same set with a limit of that effect:
+/// options.general_gain.
 class SetSearch {
  public:
-  /// Of `effects`. The references must outlive the object.
-  SetSearch(const CoarseProblems& parts, std::vector<const Hypothesis*> effects,
-            const SelectionOptions& options, ReportedWork& work)
-      : parts_(parts), effects_(std::move(effects)), options_(options), work_(work) {}
+  /// Of `special` effects, and of `general` ones, which have another as a limit. The references
+  /// must outlive the object.
+  SetSearch(const CoarseProblems& parts, std::vector<const Hypothesis*> special,
+            std::vector<const Hypothesis*> general, const SelectionOptions& options,
+            ReportedWork& work)
+      : parts_(parts),
+        special_(std::move(special)),
+        general_(std::move(general)),
+        options_(options),
+        work_(work) {}
 
   /// Begins with effects by themselves: `singles`, and those that the score test makes of
   /// `nothing`.
@@ -33,19 +41,23 @@ class SetSearch {
   /// Sets of one effect more than before, fitted to the coarse part, the best first. As part of
   /// `what`, up to the fraction `to` of the work. Throws Cancelled where the work is cancelled.
   const std::vector<Fit>& grow(std::string_view what, double to);
-  /// `base` with each of the `most` effects that it lacks most, on the early part and on the coarse
-  /// part, fitted to the coarse part; the best first.
+  /// `base` with each of the special effects that it lacks most, on the early part and on the
+  /// coarse part, fitted to the coarse part; the best first.
   std::vector<Fit> beside(const Candidate& base, std::size_t most) const;
 
  private:
-  /// `starts`, and each of the first `bases` of `sets` with the `most` effects that it lacks most,
-  /// fitted to `part`; the best first, each set once.
-  std::vector<Fit> larger(const Problem& part, const std::vector<Fit>& sets, std::size_t bases,
-                          std::size_t most, std::vector<Candidate> starts = {}) const;
+  /// `starts`, and each of the best of `sets` with the effects that it lacks most, fitted to
+  /// `part`; the best first, each set once.
+  std::vector<Fit> larger(const Problem& part, const std::vector<Fit>& sets,
+                          const SetGrowth& growth, std::vector<Candidate> starts = {}) const;
+  std::vector<Candidate> with_additions(const Problem& part, const Fit& set,
+                                        const SetGrowth& growth) const;
   std::vector<Fit> fitted(const Problem& part, const std::vector<Candidate>& starts) const;
+  bool is_ahead_of_limits(const Fit& set, const std::vector<Fit>& sets) const;
 
   const CoarseProblems& parts_;
-  std::vector<const Hypothesis*> effects_;
+  std::vector<const Hypothesis*> special_;
+  std::vector<const Hypothesis*> general_;
   const SelectionOptions& options_;
   ReportedWork& work_;
   std::vector<Fit> early_sets_ = {};

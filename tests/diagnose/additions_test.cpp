@@ -22,7 +22,7 @@ class AdditionsToALateArm : public testing::Test {
     const ReportedWork work(progress);
     std::vector<const Hypothesis*> others;
     for (const Hypothesis& hypothesis : hypotheses_) others.push_back(&hypothesis);
-    return additions(problem_, fit(problem_, base), others, work);
+    return additions(problem_, fit(problem_, base), others, {}, work);
   }
   double left(const Candidate& candidate) const {
     return problem_.residuals(candidate, problem_.estimation_runs())->squaredNorm();

@@ -226,6 +226,29 @@ Experiment softening(double factor) {
   return made;
 }
 
+/// A tenth of another random torque acts beside the recorded one of the estimation runs: the arm is
+/// linear.
+Experiment with_unrecorded_torque() {
+  constexpr double kPart = 0.1;
+  Experiment made = simulated_experiment({});
+  const Experiment other = simulated_experiment({}, {.seed = 2});
+  for (std::size_t r = 0; r < made.runs.size(); ++r) {
+    if (made.runs[r].run.purpose != measured::Purpose::estimation) continue;
+    auto& record = std::get<measured::TimeRecord>(made.runs[r].data);
+    const auto& more = std::get<measured::TimeRecord>(other.runs[r].data);
+    for (std::size_t c = 0; c < record.channels.size(); ++c) {
+      std::ranges::transform(record.channels[c].values, more.channels[c].values,
+                             record.channels[c].values.begin(),
+                             [](double one, double two) { return one + kPart * two; });
+    }
+  }
+  return made;
+}
+
+TEST(Dependence, IsSeenOfATorqueThatNobodyRecorded) {
+  EXPECT_LT(dependence_of(with_unrecorded_torque()).p_value, 1e-6);
+}
+
 TEST(Dependence, IsSeenOfANumberThatDrifts) {
   EXPECT_LT(dependence_of(softening(0.99)).p_value, 1e-6);
   EXPECT_GT(dependence_of(softening(1.0)).p_value, 0.01);

@@ -46,7 +46,7 @@ TEST_F(GeneralEffectsOfFriction, EndWithALawThatLeavesNoise) {
   };
   ReportedWork work(count);
   SetFits fits(problem_, options_, work);
-  GeneralEffects general(problem_, hypotheses_, options_, fits);
+  GeneralEffects general(hypotheses_, options_, fits);
   Selection made = unsearched();
   general.try_by_themselves(made, "effects", 1.0);
   ASSERT_EQ(made.singles.size(), 1U);
@@ -59,7 +59,7 @@ TEST_F(GeneralEffectsOfFriction, AreAllUntriedWhereTheWorkEndsInTheirScans) {
   const DiagnosisProgress cancel = [](std::string_view, double) { return false; };
   ReportedWork work(cancel);
   SetFits fits(problem_, options_, work);
-  GeneralEffects general(problem_, hypotheses_, options_, fits);
+  GeneralEffects general(hypotheses_, options_, fits);
   Selection made = unsearched();
   EXPECT_THROW(general.try_by_themselves(made, "effects", 1.0), Cancelled);
   EXPECT_THAT(fits.untried(), ElementsAre("hub_hysteresis", "stribeck_friction"));

@@ -40,10 +40,8 @@ Experiment with_hidden(const HiddenLaw& hidden) {
 std::optional<HubLawScan> scanned(const Problem& problem, const std::string& effect) {
   const Hypothesis law = named(problem.experiment(), {effect}).front();
   const SelectionOptions options;
-  return scan_hub_law(
-      problem, problem.as_filed().with(law, law.middle()),
-      {.evaluations = options.law_evaluations[std::min<std::size_t>(law.parameters.size(), 3) - 1],
-       .starts = options.scan_starts});
+  return scan_hub_law(problem, problem.as_filed().with(law, law.middle()),
+                      {.evaluations = options.law_evaluations, .starts = options.scan_starts});
 }
 
 class HubLawScanOf : public testing::TestWithParam<HiddenLaw> {};
@@ -86,10 +84,26 @@ TEST(HubLawScan, LeavesOutValuesAtWhichTheLawIsOfAnotherKind) {
   // In the middle of the ranges both torques are equal: friction does not change with speed.
   law.parameters[0] = {"torque", 0.005, 0.015, effects::Spacing::linear};
   law.parameters[1] = {"static_torque", 0.005, 0.015, effects::Spacing::linear};
-  const auto made = scan_hub_law(problem, problem.as_filed().with(law, {0.008, 0.014, 0.2}),
-                                 {.evaluations = 1, .method = ScanMethod::grid});
+  law.parameters.pop_back();
+  law.known = {{"velocity", 0.2}};
+  const auto made = scan_hub_law(problem, problem.as_filed().with(law, {0.008, 0.014}),
+                                 {.evaluations = {1, 1, 1}});
   ASSERT_TRUE(made);
   EXPECT_EQ(made->share, 0.0);
+}
+
+/// Without a scan: the amplitude alone is not known.
+TEST(HubLawScan, SolvesForTheAmplitude) {
+  constexpr double kCoefficient = 0.5;
+  const Experiment experiment =
+      with_hidden({"hub_hardening_spring", {{"coefficient", kCoefficient}}});
+  const Problem problem(experiment);
+  Hypothesis law = named(experiment, {"hub_hardening_spring"}).front();
+  const double most = 10.0 * kCoefficient;
+  law.parameters[0] = {"coefficient", 0.01 * most, most, effects::Spacing::from_zero};
+  const auto made = scan_hub_law(problem, problem.as_filed().with(law, {most}), {});
+  ASSERT_TRUE(made);
+  EXPECT_NEAR(made->starts.front().values.front(), kCoefficient, 0.02 * kCoefficient);
 }
 
 TEST(HubLawScan, IsNotMadeOfFrictionWhereTheHubSticks) {

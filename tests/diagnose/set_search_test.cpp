@@ -25,7 +25,7 @@ class SetSearchOfThree : public testing::Test {
   SetSearch search(const CoarseProblems& parts, ReportedWork& work) const {
     std::vector<const Hypothesis*> effects;
     for (const Hypothesis& hypothesis : hypotheses_) effects.push_back(&hypothesis);
-    return {parts, effects, options_, work};
+    return {parts, effects, {}, options_, work};
   }
   static std::vector<std::set<std::string>> labels(const std::vector<Fit>& sets) {
     std::vector<std::set<std::string>> made;
@@ -71,7 +71,7 @@ TEST_F(SetSearchOfThree, BeginsWithTheSinglesThatItIsGiven) {
   const auto rigidity = named(experiment_, {"flexural_rigidity"}).front();
   const Candidate single = problem_.as_filed().with(rigidity, {0.97});
   const auto damping = named(experiment_, {"air_damping"}).front();
-  SetSearch from_single(parts, {&damping}, options_, work);
+  SetSearch from_single(parts, {&damping}, {}, options_, work);
   from_single.begin(problem_.as_filed(), {single});
   EXPECT_THAT(labels(from_single.grow("sets", 1.0)),
               Contains(std::set<std::string>{"air_damping", "flexural_rigidity"}));

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -205,7 +207,12 @@ std::string search_text(const diagnose::Diagnosis& diagnosis) {
     if (diagnosis.time_limit_s) text += fmt::format(" of {:g} s", *diagnosis.time_limit_s);
     text += fmt::format(" ended it at the stage \"{}\".", end->stage);
     if (!end->untried.empty()) {
-      text += fmt::format(" Not tried at this stage: {}.", fmt::join(end->untried, ", "));
+      constexpr std::size_t kListed = 6;
+      const std::size_t listed = std::min(kListed, end->untried.size());
+      text += fmt::format(" Not tried at this stage: {}",
+                          fmt::join(std::span(end->untried).first(listed), ", "));
+      const std::size_t others = end->untried.size() - listed;
+      text += others > 0 ? fmt::format(", and {} others.", others) : ".";
     }
     text += " Probabilities are relative to the sets of effects that were tried.";
   }

@@ -131,6 +131,15 @@ TEST(VerdictText, OfAnIncompleteSearchLeavesOtherCausesOpen) {
   EXPECT_THAT(verdict_text(made), EndsWith("Something else is present."));
 }
 
+TEST(SearchText, ListsTheFirstOfManyUntriedSets) {
+  Diagnosis made = with_gain(Verdict::unexplained);
+  made.search_end = diagnose::SearchEnd{"sets of effects", {"a", "b", "c", "d", "e", "f"}};
+  EXPECT_THAT(search_text(made), HasSubstr("Not tried at this stage: a, b, c, d, e, f."));
+  made.search_end->untried.insert(made.search_end->untried.end(), {"g", "h"});
+  EXPECT_THAT(search_text(made),
+              HasSubstr("Not tried at this stage: a, b, c, d, e, f, and 2 others."));
+}
+
 TEST(SearchText, IsEmptyWhereAllWasSearched) {
   Diagnosis made = with_gain(Verdict::explained);
   EXPECT_EQ(search_text(made), "");

@@ -83,6 +83,10 @@ bool clears_bars(const Explanation& fuller, const Explanation& simpler,
   return share_taken(simpler.validation, fuller.validation) >= options.least_validated_share;
 }
 
+bool is_ahead_of_limit(const Fit& general, const Fit& limited, const SelectionOptions& options) {
+  return beyond_noise(general.residuals) <= options.general_gain * beyond_noise(limited.residuals);
+}
+
 const Explanation* simplest(const std::vector<Explanation>& found, std::size_t effects,
                             const SelectionOptions& options) {
   const Explanation* best = nullptr;

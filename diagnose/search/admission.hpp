@@ -30,6 +30,10 @@ bool is_identified(const Explanation& explanation);
 bool clears_bars(const Explanation& fuller, const Explanation& simpler,
                  const SelectionOptions& options);
 
+/// On a part of the data, a fit of a set with a general effect leaves clearly less beyond noise
+/// than one with a limit of that effect: options.general_gain.
+bool is_ahead_of_limit(const Fit& general, const Fit& limited, const SelectionOptions& options);
+
 /// Of the sets of so many effects in `found`, which are sorted by fit, the best, or one with fewer
 /// parameters that it does not clear the bars over; null where there are none.
 const Explanation* simplest(const std::vector<Explanation>& found, std::size_t effects,

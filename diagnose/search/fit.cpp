@@ -2,16 +2,9 @@
 
 #include "diagnose/search/least_squares.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace flexarm::diagnose {
-
-double Fit::beyond_noise() const {
-  const auto n = static_cast<double>(residuals.size());
-  return std::max(sum_of_squares - n, std::sqrt(2.0 * n));
-}
 
 Fit fit(const Problem& problem, const Candidate& start, const FitOptions& options) {
   Fit made{.candidate = start};

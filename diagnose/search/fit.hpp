@@ -16,9 +16,6 @@ struct Fit {
   Eigen::MatrixXd jacobian = {};
   int evaluations = 0;  ///< of the model
   bool converged = false;
-
-  /// Sum of squares beyond noise; at least its standard deviation by chance.
-  double beyond_noise() const;
 };
 
 struct FitOptions {

@@ -1,6 +1,7 @@
 #include "diagnose/search/general_effects.hpp"
 
 #include "diagnose/parallel.hpp"
+#include "diagnose/search/admission.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -126,9 +127,9 @@ std::optional<Candidate> GeneralEffects::near_look(const Candidate& none,
   const Fit look = has_limit ? scan.look_in_place(limit->fit.candidate, 0, general)
                              : scan.first_look(none, general);
   if (is_far(look, least->coarse)) return std::nullopt;
-  if (has_limit && !limit->leaves_noise()) {
-    const double limited = scan.coarse_look(limit->fit.candidate).beyond_noise();
-    if (look.beyond_noise() > options_.general_gain * limited) return std::nullopt;
+  if (has_limit && !limit->leaves_noise() &&
+      !is_ahead_of_limit(look, scan.coarse_look(limit->fit.candidate), options_)) {
+    return std::nullopt;
   }
   return look.candidate;
 }

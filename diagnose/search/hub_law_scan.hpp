@@ -18,7 +18,7 @@ struct HubLawScan {
 
 struct HubLawScanOptions {
   /// Values tried of a law with 1, 2, 3 parameters or more beside its amplitude and phase.
-  std::array<int, 3> evaluations = {300, 300, 1500};
+  std::array<int, 3> evaluations = {};
   int starts = 1;
   const ReportedWork* work = nullptr;  ///< that the scan is part of; asked before each evaluation
 };

@@ -53,6 +53,11 @@ double beyond_chance(double squares, double expected, double n) {
 
 }  // namespace
 
+double beyond_noise(const Eigen::VectorXd& residuals) {
+  const auto n = static_cast<double>(residuals.size());
+  return std::max(residuals.squaredNorm() - n, std::sqrt(2.0 * n));
+}
+
 double independent(const Eigen::Ref<const Eigen::VectorXd>& residuals, measured::RunKind kind) {
   const auto n = static_cast<double>(residuals.size());
   if (kind != measured::RunKind::time || residuals.size() < 3) return n;

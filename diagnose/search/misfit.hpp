@@ -93,6 +93,10 @@ double relative_error(const Observations& observations, const Experiment& experi
 /// [Geyer1992]. The first counts a vibration, the second what stays for long beside fast parts.
 double independent(const Eigen::Ref<const Eigen::VectorXd>& residuals, measured::RunKind kind);
 
+/// Sum of squares of residuals, in standard deviations of the noise, beyond noise; at least its
+/// standard deviation by chance.
+double beyond_noise(const Eigen::VectorXd& residuals);
+
 /// Part of what is beyond noise before that is not after; 0 without anything beyond noise before,
 /// or where what is left cannot be computed.
 double share_taken(const Misfit& before, const Misfit& after);

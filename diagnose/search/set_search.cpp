@@ -2,6 +2,7 @@
 
 #include "diagnose/parallel.hpp"
 #include "diagnose/search/additions.hpp"
+#include "diagnose/search/admission.hpp"
 #include "diagnose/search/rivals.hpp"
 
 #include <algorithm>
@@ -109,7 +110,7 @@ std::vector<Fit> SetSearch::fitted(const Problem& part,
 bool SetSearch::is_ahead_of_limits(const Fit& set, const std::vector<Fit>& sets) const {
   return std::ranges::none_of(sets, [&](const Fit& other) {
     return has_limit_in_place(other.candidate, set.candidate) &&
-           set.beyond_noise() > options_.general_gain * other.beyond_noise();
+           !is_ahead_of_limit(set, other, options_);
   });
 }
 

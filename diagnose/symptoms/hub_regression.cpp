@@ -45,8 +45,7 @@ void HubRegression::take_out_initial_motion(Eigen::VectorXd& signals) const {
 }
 
 double HubRegression::beyond_noise() const {
-  const auto n = static_cast<double>(residuals_.size());
-  return std::max(residuals_.squaredNorm() - n, std::sqrt(2.0 * n));
+  return diagnose::beyond_noise(residuals_);
 }
 
 Eigen::VectorXd HubRegression::readings(const HubTorques& torques) const {

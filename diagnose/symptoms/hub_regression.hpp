@@ -25,7 +25,7 @@ class HubRegression {
   const std::vector<HubMotion>& motions() const { return motions_; }
   /// Of all motions and their readings, in standard deviations of the noise.
   const Eigen::VectorXd& residuals() const { return residuals_; }
-  /// Sum of squares of the residuals beyond noise; at least its standard deviation by chance.
+  /// Of the residuals.
   double beyond_noise() const;
   /// What these torques, one of each motion, make of the signals, in the order and units of the
   /// residuals.

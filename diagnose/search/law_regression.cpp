@@ -1,0 +1,160 @@
+#include "diagnose/search/law_regression.hpp"
+
+#include "arm/input_error.hpp"
+#include "diagnose/search/scan.hpp"
+
+#include <Eigen/QR>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <variant>
+
+namespace flexarm::diagnose {
+
+namespace {
+
+using Eigen::Index;
+
+bool is_scanned(const arm::HubLaw& law) {
+  if (const auto* smooth = std::get_if<arm::SmoothHubTorque>(&law)) return smooth->states == 0;
+  const auto* friction = std::get_if<arm::DryFriction>(&law);
+  return friction != nullptr && friction->changes_over_rad_per_s.has_value();
+}
+
+double torque_N_m(const arm::HubLaw& law, const HubMotion& motion, std::size_t k) {
+  const double velocity = at_sample(motion, motion.velocity_rad_per_s, k);
+  if (const auto* friction = std::get_if<arm::DryFriction>(&law)) {
+    return -sign_at_sample(motion, k) * friction->size(std::abs(velocity)).torque_N_m;
+  }
+  const arm::HubState hub{.angle_rad = at_sample(motion, motion.angle_rad, k),
+                          .velocity_rad_per_s = velocity,
+                          .torque_N_m = motion.torque_N_m[k],
+                          .time_s = at_sample(motion, motion.time_s, k) - motion.time_s.front()};
+  return std::get<arm::SmoothHubTorque>(law).law(hub, {}, {}).torque_N_m;
+}
+
+HubTorques torques_of(const arm::HubLaw& law, const std::vector<HubMotion>& motions) {
+  HubTorques made;
+  for (const HubMotion& motion : motions) {
+    auto& own = made.emplace_back(motion.time_s.size());
+    for (std::size_t k = 0; k < own.size(); ++k) own[k] = torque_N_m(law, motion, k);
+  }
+  return made;
+}
+
+}  // namespace
+
+std::optional<arm::HubLaw> last_law(const Candidate& candidate, const arm::Arm& arm) {
+  try {
+    const arm::Arm extended = candidate.extend(arm);
+    const arm::Effect& effect = extended.effects.at(candidate.effects.back().effect);
+    if (effect.definition->ports() != std::vector{arm::Port::hub_torque}) return std::nullopt;
+    const arm::HubLaw law = effect.definition->hub_torque(effect);
+    return is_scanned(law) ? std::optional(law) : std::nullopt;
+  } catch (const arm::InputError&) {
+    return std::nullopt;
+  }
+}
+
+std::optional<Eigen::VectorXd> LawRegression::readings(const Candidate& candidate) const {
+  const auto law = last_law(candidate, arm_);
+  if (!law) return std::nullopt;
+  try {
+    return hub_.readings(torques_of(*law, motions_));
+  } catch (const arm::InputError&) {
+    return std::nullopt;
+  }
+}
+
+std::optional<Eigen::VectorXd> LawRegression::left_by(const Candidate& candidate) const {
+  const auto made = readings(candidate);
+  return made ? std::optional<Eigen::VectorXd>(hub_.residuals() - *made) : std::nullopt;
+}
+
+LinearParameters::LinearParameters(const LawRegression& laws, const Candidate& start)
+    : laws_(laws) {
+  const std::vector<SearchedParameter>& parameters = start.effects.back().parameters;
+  first_ = start.values.size() - parameters.size();
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    if (parameters[i].spacing == effects::Spacing::from_zero) amplitudes_.push_back(i);
+  }
+  const auto once = laws.readings(start);
+  if (amplitudes_.empty() || !once || !is_combination({2.0 * *once}, times(start, 2.0))) {
+    amplitudes_.clear();
+    return;
+  }
+  const auto periodic = std::ranges::find_if(parameters, &SearchedParameter::periodic);
+  if (periodic == parameters.end()) return;
+  phase_ = static_cast<std::size_t>(periodic - parameters.begin());
+  turn_ = periodic->highest - periodic->lowest;
+  const auto quarter = laws.readings(turned(start, 0.25));
+  if (!quarter || !is_combination((*once + *quarter) / std::numbers::sqrt2, turned(start, 0.125))) {
+    phase_.reset();
+  }
+}
+
+std::vector<Index> LinearParameters::other_coordinates(const Candidate& candidate) const {
+  std::vector<Index> others;
+  const std::vector<Index> all = last_coordinates(candidate);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const bool is_solved = !amplitudes_.empty() && (i == amplitudes_.front() || i == phase_);
+    if (!is_solved) others.push_back(all[i]);
+  }
+  return others;
+}
+
+std::pair<Candidate, double> LinearParameters::best(const Candidate& candidate) const {
+  const auto readings = laws_.readings(candidate);
+  if (!readings) return {candidate, std::numeric_limits<double>::infinity()};
+  const auto left = [&](const Eigen::VectorXd& made) {
+    return (laws_.hub().residuals() - made).squaredNorm();
+  };
+  if (amplitudes_.empty()) return {candidate, left(*readings)};
+  const auto quarter = phase_ ? laws_.readings(turned(candidate, 0.25)) : std::nullopt;
+  Eigen::MatrixXd terms(readings->size(), quarter ? 2 : 1);
+  terms.col(0) = *readings;
+  if (quarter) terms.col(1) = *quarter;
+  const Eigen::VectorXd solved = terms.colPivHouseholderQr().solve(laws_.hub().residuals());
+  constexpr double kLeast = 1e-2;
+  const double size =
+      std::clamp(quarter ? solved.norm() : solved(0), kLeast, largest_size(candidate));
+  if (!quarter) return {times(candidate, size), left(size * *readings)};
+  const double angle = std::atan2(solved(1), solved(0));
+  return {times(turned(candidate, angle / (2.0 * std::numbers::pi)), size),
+          left(size * (std::cos(angle) * *readings + std::sin(angle) * *quarter))};
+}
+
+bool LinearParameters::is_combination(const Eigen::VectorXd& expected,
+                                      const Candidate& candidate) const {
+  constexpr double kRounding = 1e-9;
+  const auto made = laws_.readings(candidate);
+  return made && (*made - expected).norm() <= kRounding * expected.norm();
+}
+
+Candidate LinearParameters::times(const Candidate& candidate, double size) const {
+  Candidate made = candidate;
+  for (const std::size_t i : amplitudes_) made.values[first_ + i] *= size;
+  return made;
+}
+
+Candidate LinearParameters::turned(const Candidate& candidate, double turns) const {
+  Candidate made = candidate;
+  double& value = made.values[first_ + *phase_];
+  const double lowest = candidate.effects.back().parameters[*phase_].lowest;
+  const double place = (value - lowest) / turn_ + turns;
+  value = lowest + turn_ * (place - std::floor(place));
+  return made;
+}
+
+double LinearParameters::largest_size(const Candidate& candidate) const {
+  double largest = std::numeric_limits<double>::max();
+  for (const std::size_t i : amplitudes_) {
+    const double highest = candidate.effects.back().parameters[i].highest;
+    largest = std::min(largest, highest / candidate.values[first_ + i]);
+  }
+  return std::max(largest, 1.0);
+}
+
+}  // namespace flexarm::diagnose

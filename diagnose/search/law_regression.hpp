@@ -1,0 +1,72 @@
+#pragma once
+
+#include "arm/arm.hpp"
+#include "arm/ports.hpp"
+#include "diagnose/search/candidate.hpp"
+#include "diagnose/symptoms/hub_regression.hpp"
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace flexarm::diagnose {
+
+/// The law of hub torque that the candidate's last effect is, if that is scanned: smooth without
+/// states, or dry friction that changes with the speed. Empty for another law, which it may be at
+/// some values of its parameters alone; for an effect that is more than a law; and for values that
+/// it cannot have.
+std::optional<arm::HubLaw> last_law(const Candidate& candidate, const arm::Arm& arm);
+
+/// What laws of hub torque, the last effects of candidates, make of the hub's signals.
+class LawRegression {
+ public:
+  /// The references must outlive the object.
+  LawRegression(const arm::Arm& arm, const std::vector<HubMotion>& motions)
+      : arm_(arm), motions_(motions), hub_(motions) {}
+
+  const HubRegression& hub() const { return hub_; }
+
+  /// Empty for a candidate without a last_law, and where that is not finite at some motion.
+  std::optional<Eigen::VectorXd> readings(const Candidate& candidate) const;
+  /// The residuals without these.
+  std::optional<Eigen::VectorXd> left_by(const Candidate& candidate) const;
+
+ private:
+  const arm::Arm& arm_;
+  const std::vector<HubMotion>& motions_;
+  HubRegression hub_;
+};
+
+/// The parameters of the last effect that a law's torque is linear in: amplitudes, all of which
+/// together it is in proportion to, and beside them the phase of a sine.
+class LinearParameters {
+ public:
+  /// Of `start`, each where readings at a few values confirm it. `laws` must outlive the object.
+  LinearParameters(const LawRegression& laws, const Candidate& start);
+
+  /// The coordinates of the last effect that `best` does not solve for: all but the first amplitude
+  /// and the phase.
+  std::vector<Eigen::Index> other_coordinates(const Candidate& candidate) const;
+
+  /// `candidate` with those amplitudes within their ranges, in their ratio, and that phase which
+  /// leave least; and the sum of squares that it leaves. Infinite where it leaves nothing to
+  /// compare.
+  std::pair<Candidate, double> best(const Candidate& candidate) const;
+
+ private:
+  bool is_combination(const Eigen::VectorXd& expected, const Candidate& candidate) const;
+  Candidate times(const Candidate& candidate, double size) const;
+  Candidate turned(const Candidate& candidate, double turns) const;
+  double largest_size(const Candidate& candidate) const;
+
+  const LawRegression& laws_;
+  std::size_t first_ = 0;  // of the last effect's values
+  std::vector<std::size_t> amplitudes_;
+  std::optional<std::size_t> phase_ = {};
+  double turn_ = 0.0;
+};
+
+}  // namespace flexarm::diagnose

@@ -33,7 +33,7 @@ class InitialStateEstimator {
  private:
   Eigen::VectorXd prior_;       // deviations of the states: what is solved for is relative to them
   Eigen::VectorXd deviations_;  // of the readings
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> solver_;
+  Eigen::HouseholderQR<Eigen::MatrixXd> solver_;  // of full rank by the prior
 };
 
 }  // namespace flexarm::diagnose

@@ -5,7 +5,6 @@
 #include "diagnose/predictors/simulated_run.hpp"
 #include "response/formulation_maker.hpp"
 #include "response/frequency/frequency_response.hpp"
-#include "response/time/time_model.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -79,7 +78,8 @@ Predictor::Predictor(const Experiment& experiment, const Observations& observati
     : experiment_(&experiment),
       flexible_modes_(flexible_modes),
       observations_(observations),
-      noise_(std::move(noise)) {
+      noise_(std::move(noise)),
+      models_(std::make_shared<ModalModels>(flexible_modes)) {
   for (std::size_t r = 0; r < experiment.runs.size(); ++r) {
     const auto& [run, data] = experiment.runs[r];
     const auto* record = std::get_if<measured::TimeRecord>(&data);
@@ -123,10 +123,8 @@ void Predictor::for_each_time_run(const arm::Arm& arm, const std::vector<bool>& 
       parts.disturbance = {noise->is_torque_noise() ? 0.0 : noise->correlation_time_s};
     }
     if (is_driven_by_motion(*experiment_)) parts = response::with_driven_hub(std::move(parts));
-    const auto model =
-        response::time_model(response::make_formulation("exact_tf", parts.linear, flexible_modes_),
-                             parts, flexible_modes_, condition.sensors);
-    const response::ArmSimulator simulation(model, parts, condition.sensors, condition.options);
+    const auto model = models_->of(parts, condition.sensors);
+    const response::ArmSimulator simulation(*model, parts, condition.sensors, condition.options);
     in_parallel(simulated.size(), [&](std::size_t i) { use(simulated[i], simulation); });
   });
 }

@@ -3,6 +3,7 @@
 #include "diagnose/experiment.hpp"
 #include "diagnose/observations.hpp"
 #include "diagnose/predictors/filtered_run.hpp"
+#include "diagnose/predictors/modal_models.hpp"
 #include "diagnose/predictors/noise_model.hpp"
 #include "response/time/arm_simulator.hpp"
 
@@ -10,6 +11,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -103,6 +105,7 @@ class Predictor {
   int flexible_modes_;
   Observations observations_;
   std::optional<NoiseModel> noise_;
+  std::shared_ptr<ModalModels> models_;   // copies share it
   std::vector<Condition> conditions_;     // of `time` runs
   std::vector<double> log_determinants_;  // ln |S_0| of each run, with a noise model
 };

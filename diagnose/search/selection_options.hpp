@@ -66,6 +66,8 @@ struct SetGrowth {
   /// effects added to each, special ones and general ones (which have another as a limit), <= this.
   std::size_t special = kAll;
   std::size_t general = kAll;
+  /// Of all these sets fitted <= this: those that by the score test leave least.
+  std::size_t fitted = kAll;
 
   static constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
 };
@@ -145,7 +147,7 @@ struct SelectionOptions {
   /// of these refitted to the coarse part <= this;
   std::size_t early_sets = 12;
   /// on the coarse part;
-  SetGrowth coarse_growth = {.bases = 4, .special = 5, .general = 2};
+  SetGrowth coarse_growth = {.bases = 4, .special = 5, .general = 2, .fitted = 16};
   /// and of all refitted to all data.
   std::size_t sets_refitted = 6;
   /// Sets of more effects than this are tried where the last one took least_share_ahead.

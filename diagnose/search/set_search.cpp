@@ -68,27 +68,33 @@ std::vector<Fit> SetSearch::beside(const Candidate& base, std::size_t most) cons
 
 std::vector<Fit> SetSearch::larger(const Problem& part, const std::vector<Fit>& sets,
                                    const SetGrowth& growth, std::vector<Candidate> starts) const {
-  std::vector<std::vector<Candidate>> found(std::min(growth.bases, sets.size()));
+  std::vector<std::vector<Start>> found(std::min(growth.bases, sets.size()));
   in_parallel(found.size(),
               [&](std::size_t i) { found[i] = with_additions(part, sets[i], growth); });
-  for (std::vector<Candidate>& of_one : found) {
-    std::ranges::move(of_one, std::back_inserter(starts));
-  }
+  std::vector<Start> grown;
+  for (std::vector<Start>& of_one : found) std::ranges::move(of_one, std::back_inserter(grown));
+  std::ranges::stable_sort(grown, {}, &Start::expected);
   std::set<std::set<std::string>> known;
-  std::erase_if(starts,
-                [&](const Candidate& start) { return !known.insert(start.labels()).second; });
+  const auto is_known = [&](const Candidate& start) {
+    return !known.insert(start.labels()).second;
+  };
+  std::erase_if(starts, is_known);
+  std::erase_if(grown, [&](const Start& start) { return is_known(start.candidate); });
+  grown.resize(std::min(growth.fitted, grown.size()));
+  for (Start& start : grown) starts.push_back(std::move(start.candidate));
   return fitted(part, starts);
 }
 
-std::vector<Candidate> SetSearch::with_additions(const Problem& part, const Fit& set,
-                                                 const SetGrowth& growth) const {
-  std::vector<Candidate> made;
+std::vector<SetSearch::Start> SetSearch::with_additions(const Problem& part, const Fit& set,
+                                                        const SetGrowth& growth) const {
+  std::vector<Start> made;
   const auto add = [&](const std::vector<const Hypothesis*>& effects, std::size_t most) {
     if (most == 0) return;
     std::vector<Addition> found = additions(part, set, effects, options_, work_);
     found.resize(std::min(most, found.size()));
     for (const Addition& addition : found) {
-      made.push_back(set.candidate.with(*addition.effect, addition.values));
+      made.push_back({set.candidate.with(*addition.effect, addition.values),
+                      (1.0 - addition.share) * set.sum_of_squares});
     }
   };
   add(special_, growth.special);

@@ -46,12 +46,18 @@ class SetSearch {
   std::vector<Fit> beside(const Candidate& base, std::size_t most) const;
 
  private:
-  /// `starts`, and each of the best of `sets` with the effects that it lacks most, fitted to
-  /// `part`; the best first, each set once.
+  /// A set that is to be fitted, and the sum of squares that the score test expects it to leave.
+  struct Start {
+    Candidate candidate;
+    double expected = 0.0;
+  };
+
+  /// `starts`, and of the best of `sets`, each with the effects that it lacks most, those that are
+  /// expected to leave least, fitted to `part`; the best first, each set once.
   std::vector<Fit> larger(const Problem& part, const std::vector<Fit>& sets,
                           const SetGrowth& growth, std::vector<Candidate> starts = {}) const;
-  std::vector<Candidate> with_additions(const Problem& part, const Fit& set,
-                                        const SetGrowth& growth) const;
+  std::vector<Start> with_additions(const Problem& part, const Fit& set,
+                                    const SetGrowth& growth) const;
   std::vector<Fit> fitted(const Problem& part, const std::vector<Candidate>& starts) const;
   bool is_ahead_of_limits(const Fit& set, const std::vector<Fit>& sets) const;
 

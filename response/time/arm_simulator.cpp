@@ -230,17 +230,25 @@ Eigen::MatrixXd ArmSimulator::linear_readings() const {
 
 Eigen::MatrixXd ArmSimulator::free_readings(std::size_t samples) const {
   const auto n = static_cast<Index>(samples);
-  const Eigen::MatrixXd step = sample_transition();
   const Eigen::MatrixXd taken = linear_readings();
   Eigen::MatrixXd made = Eigen::MatrixXd::Zero(n * taken.rows(), states());
+  // Powers 1, 2, 4, ... of the step: they double the number of rows that are known.
+  std::vector<Eigen::MatrixXd> powers = {sample_transition()};
+  for (Index known = 2; known < n; known *= 2) powers.push_back(powers.back() * powers.back());
   // From where it is first read on, the row of a sensor is its row of readings times a power of the
   // step.
   for (Index j = 0; j < taken.rows(); ++j) {
     Eigen::RowVectorXd row = taken.row(j);
-    const auto later = times_.sensors[static_cast<std::size_t>(j)].samples_later;
-    for (Index k = later - lead(samples); k < n; ++k) {
-      if (k >= 0) made.row(j * n + k) = row;
-      row = row * step;
+    Index first = times_.sensors[static_cast<std::size_t>(j)].samples_later - lead(samples);
+    for (; first < 0; ++first) row = row * powers.front();
+    if (first >= n) continue;
+    auto of_sensor = made.middleRows(j * n + first, n - first);
+    of_sensor.row(0) = row;
+    Index known = 1;
+    for (const Eigen::MatrixXd& power : powers) {
+      const Index more = std::min(known, of_sensor.rows() - known);
+      of_sensor.middleRows(known, more).noalias() = of_sensor.topRows(more) * power;
+      known += more;
     }
   }
   return made;

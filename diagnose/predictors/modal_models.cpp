@@ -30,8 +30,9 @@ std::shared_ptr<const arm::ModalModel> ModalModels::of(const response::ArmParts&
   }
   wanted.model = computed();
   const std::lock_guard lock(mutex_);
-  if (entries_.size() == kKept)
+  if (entries_.size() == kKept) {
     entries_.erase(std::ranges::min_element(entries_, {}, &Entry::used));
+  }
   wanted.used = ++uses_;
   entries_.push_back(wanted);
   return wanted.model;

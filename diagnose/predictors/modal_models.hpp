@@ -13,9 +13,10 @@
 
 namespace flexarm::diagnose {
 
-/// Modal models by exact_tf of arms that are simulated, each of the last `kKept` computed once. Of
-/// the parameters that a fit moves, many leave the linear arm as it is: laws of hub torque, the
-/// path of the torque, sensors. Concurrent calls are safe, and give what a computation would.
+/// Modal models by exact_tf of arms that are simulated: the last `kKept` are kept. Of the
+/// parameters that a fit moves, many leave the linear arm as it is: laws of hub torque, the path of
+/// the torque, sensors. Concurrent calls are safe, and give what a computation would; of the same
+/// arm they may both compute it.
 class ModalModels {
  public:
   explicit ModalModels(int flexible_modes) : flexible_modes_(flexible_modes) {}

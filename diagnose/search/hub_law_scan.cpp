@@ -2,6 +2,7 @@
 
 #include "diagnose/search/law_regression.hpp"
 #include "diagnose/search/least_squares.hpp"
+#include "diagnose/search/misfit.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -128,8 +129,8 @@ std::optional<HubLawScan> scan_hub_law(const Problem& problem, const Candidate& 
     least = left;
     made.starts.front() = found;
   }
-  const HubRegression& hub = laws.hub();
-  made.share = std::clamp((hub.residuals().squaredNorm() - least) / hub.beyond_noise(), 0.0, 1.0);
+  const Eigen::VectorXd& of_hub = laws.hub().residuals();
+  made.share = std::clamp((of_hub.squaredNorm() - least) / beyond_noise(of_hub), 0.0, 1.0);
   return made;
 }
 

@@ -11,7 +11,7 @@ namespace flexarm::diagnose {
 /// What a scan of a law of hub torque found.
 struct HubLawScan {
   std::vector<Candidate> starts;  ///< for fits, one or more, the best first
-  /// Part of the excess residual of the hub's signals (HubRegression::beyond_noise) that the best
+  /// Part of the excess residual of the hub's signals (beyond_noise) that the best
   /// of `starts` explains, 0 to 1.
   double share = 0.0;
 };

@@ -44,10 +44,6 @@ void HubRegression::take_out_initial_motion(Eigen::VectorXd& signals) const {
   }
 }
 
-double HubRegression::beyond_noise() const {
-  return diagnose::beyond_noise(residuals_);
-}
-
 Eigen::VectorXd HubRegression::readings(const HubTorques& torques) const {
   Eigen::VectorXd made(residuals_.size());
   Index at = 0;

@@ -25,8 +25,6 @@ class HubRegression {
   const std::vector<HubMotion>& motions() const { return motions_; }
   /// Of all motions and their readings, in standard deviations of the noise.
   const Eigen::VectorXd& residuals() const { return residuals_; }
-  /// Of the residuals.
-  double beyond_noise() const;
   /// What these torques, one of each motion, make of the signals, in the order and units of the
   /// residuals.
   Eigen::VectorXd readings(const HubTorques& torques) const;

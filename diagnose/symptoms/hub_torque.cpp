@@ -1,5 +1,6 @@
 #include "diagnose/symptoms/hub_torque.hpp"
 
+#include "diagnose/search/misfit.hpp"
 #include "diagnose/symptoms/hub_regression.hpp"
 
 #include <Eigen/Cholesky>
@@ -57,9 +58,9 @@ std::vector<Tested> simple_terms(const HubRegression& all, const std::vector<Hub
   using Kind = HubTorqueKind;
   std::vector<Tested> made;
   made.push_back(tested(all, Kind::coulomb_friction, "N m",
-                            [](const Motion& m, std::size_t k) { return -sign_at_sample(m, k); }));
-  made.push_back(tested(all, 
-      Kind::viscous_friction, "N m s/rad",
+                        [](const Motion& m, std::size_t k) { return -sign_at_sample(m, k); }));
+  made.push_back(tested(
+      all, Kind::viscous_friction, "N m s/rad",
       [](const Motion& m, std::size_t k) { return -at_sample(m, m.velocity_rad_per_s, k); }));
   made.push_back(tested(all, Kind::inertia, "kg m^2", [](const Motion& m, std::size_t k) {
     return -at_sample(m, m.acceleration_rad_per_s2, k);
@@ -74,7 +75,7 @@ std::vector<Tested> simple_terms(const HubRegression& all, const std::vector<Hub
   made.push_back(
       tested(all, Kind::gain, "1", [](const Motion& m, std::size_t k) { return m.torque_N_m[k]; }));
   made.push_back(tested(all, Kind::dead_zone, "N m",
-                            [](const Motion& m, std::size_t k) { return -sign(m.torque_N_m[k]); }));
+                        [](const Motion& m, std::size_t k) { return -sign(m.torque_N_m[k]); }));
   double largest_N_m = 0.0;
   for (const Motion& motion : motions) {
     for (const double torque : motion.torque_N_m) {
@@ -83,8 +84,8 @@ std::vector<Tested> simple_terms(const HubRegression& all, const std::vector<Hub
   }
   for (const double part : kSaturated) {
     const double from_N_m = part * largest_N_m;
-    made.push_back(tested(all, 
-        Kind::saturation, "1",
+    made.push_back(tested(
+        all, Kind::saturation, "1",
         [&](const Motion& m, std::size_t k) {
           const double torque = m.torque_N_m[k];
           return -sign(torque) * std::max(0.0, std::abs(torque) - from_N_m);
@@ -133,15 +134,15 @@ double strongest_cycles(const std::vector<HubMotion>& motions, const HubTorques&
 }
 
 Tested ripple(const HubRegression& all, double cycles) {
-  Tested sine = tested(all, 
-      HubTorqueKind::ripple, "N m",
+  Tested sine = tested(
+      all, HubTorqueKind::ripple, "N m",
       [&](const HubMotion& m, std::size_t k) {
         return std::sin(cycles * at_sample(m, m.angle_rad, k));
       },
       cycles);
-  const Tested cosine = tested(all, 
-      HubTorqueKind::ripple, "N m",
-      [&](const HubMotion& m, std::size_t k) { return std::cos(cycles * m.angle_rad[k]); });
+  const Tested cosine =
+      tested(all, HubTorqueKind::ripple, "N m",
+             [&](const HubMotion& m, std::size_t k) { return std::cos(cycles * m.angle_rad[k]); });
   sine.readings.conservativeResize(Eigen::NoChange, 2);
   sine.readings.col(1) = cosine.readings.col(0);
   return sine;
@@ -180,9 +181,9 @@ Regressed regress(const Eigen::VectorXd& residuals, const std::vector<const Test
 }
 
 /// The last term of a regression beside the others, with its F test; `before` is the sum of squares
-/// without it.
-void put_last(const HubRegression& all, const Regressed& regressed, double before,
-              double beyond_noise, Tested& tested) {
+/// without it, `excess` that of the residuals beyond noise.
+void put_last(const HubRegression& all, const Regressed& regressed, double before, double excess,
+              Tested& tested) {
   HubTorqueTerm& term = tested.term;
   const Index own = tested.readings.cols();
   const Index last = regressed.coefficients.size() - own;
@@ -195,7 +196,7 @@ void put_last(const HubRegression& all, const Regressed& regressed, double befor
   const double of_residuals =
       std::sqrt(scale * regressed.covariance.diagonal().tail(own).maxCoeff());
   term.std_error = std::hypot(of_residuals, kFirstOrder * term.coefficient);
-  term.share = (before - left) / beyond_noise;
+  term.share = (before - left) / excess;
   const double freedom = static_cast<double>(own);
   const boost::math::fisher_f distribution(freedom, std::max(1.0, independent - freedom));
   term.probability = boost::math::cdf(
@@ -224,7 +225,7 @@ HubTorque hub_torque(const std::vector<HubMotion>& motions, double least_error) 
   if (motions.empty()) return made;
   const HubRegression all(motions);
   const double squares = all.residuals().squaredNorm();
-  const double beyond_noise = all.beyond_noise();
+  const double excess = beyond_noise(all.residuals());
   const bool is_wrong = error_beyond_noise(motions) >= least_error;
   std::vector<Tested> candidates = simple_terms(all, motions);
   const std::vector<double> grid = ripple_grid(motions);
@@ -249,8 +250,7 @@ HubTorque hub_torque(const std::vector<HubMotion>& motions, double least_error) 
     std::size_t best = 0;
     for (std::size_t i = 0; i < candidates.size(); ++i) {
       terms.push_back(&candidates[i]);
-      put_last(all, regress(all.residuals(), terms), left.squaredNorm(), beyond_noise,
-               candidates[i]);
+      put_last(all, regress(all.residuals(), terms), left.squaredNorm(), excess, candidates[i]);
       terms.pop_back();
       if (candidates[i].term.share > candidates[best].term.share) best = i;
     }
@@ -265,7 +265,7 @@ HubTorque hub_torque(const std::vector<HubMotion>& motions, double least_error) 
     for (const Tested& one : chosen) terms.push_back(&one);
     left = regress(all.residuals(), terms).left;
   }
-  made.share = std::min(1.0, (squares - left.squaredNorm()) / beyond_noise);
+  made.share = std::min(1.0, (squares - left.squaredNorm()) / excess);
   // Coefficients of each beside all the others.
   for (std::size_t i = 0; i < chosen.size(); ++i) {
     std::vector<const Tested*> terms;
@@ -276,7 +276,7 @@ HubTorque hub_torque(const std::vector<HubMotion>& motions, double least_error) 
     Tested& own = chosen[i];
     const double share = own.term.share;
     const double probability = own.term.probability;
-    put_last(all, regress(all.residuals(), terms), left.squaredNorm(), beyond_noise, own);
+    put_last(all, regress(all.residuals(), terms), left.squaredNorm(), excess, own);
     own.term.share = share;
     own.term.probability = probability;
     made.terms.push_back(own.term);

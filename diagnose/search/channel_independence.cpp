@@ -30,6 +30,12 @@ bool are_compared(const ObservedChannel& one, const ObservedChannel& other) {
   return place == Place::strain || place != place_of(other);
 }
 
+bool is_reading_in_time(const Problem& problem, const ObservedChannel& channel) {
+  const Experiment& experiment = problem.experiment();
+  return experiment.runs[channel.run].run.kind == measured::RunKind::time &&
+         channel.sensor != kTorqueChannel;
+}
+
 Eigen::VectorXd without_slow_part(const Eigen::Ref<const Eigen::VectorXd>& values) {
   const Index n = values.size();
   const auto time = Eigen::ArrayXd::LinSpaced(n, 0.5, static_cast<double>(n) - 0.5);
@@ -67,12 +73,10 @@ double granted_part(const ObservedChannel& channel) {
 
 double independence_p_value(const Problem& problem, const Eigen::VectorXd& residuals,
                             const std::vector<bool>& runs) {
-  const Experiment& experiment = problem.experiment();
   std::vector<const ObservedChannel*> compared;
   std::vector<Eigen::VectorXd> fast;
   for (const ObservedChannel& channel : problem.observations().channels) {
-    const bool is_time = experiment.runs[channel.run].run.kind == measured::RunKind::time;
-    if (!runs[channel.run] || !is_time || channel.sensor == kTorqueChannel) continue;
+    if (!runs[channel.run] || !is_reading_in_time(problem, channel)) continue;
     compared.push_back(&channel);
     fast.push_back(without_slow_part(residuals.segment(channel.first, channel.count)));
   }
@@ -91,6 +95,26 @@ double independence_p_value(const Problem& problem, const Eigen::VectorXd& resid
     }
   }
   return freedom > 0.0 ? exceedance(sum, freedom, granted) : 1.0;
+}
+
+bool exceeds_noise_of_one_sensor(const Problem& coloured, const Problem& white) {
+  const auto& channels = white.observations().channels;
+  const auto is_compared = [&](const ObservedChannel& channel) {
+    return white.is_driven_by_torque() &&
+           std::ranges::any_of(channels, [&](const ObservedChannel& other) {
+             return &other != &channel && is_reading_in_time(white, other) &&
+                    are_compared(channel, other);
+           });
+  };
+  for (std::size_t c = 0; c < channels.size(); ++c) {
+    const bool is_seen =
+        white.estimation_runs()[channels[c].run] && is_reading_in_time(white, channels[c]);
+    if (!is_seen || is_compared(channels[c])) continue;
+    const double granted =
+        std::max(kMostOfOneSensor * channels[c].noise, negligible_dependence(white));
+    if (coloured.observations().channels[c].noise > granted) return true;
+  }
+  return false;
 }
 
 }  // namespace flexarm::diagnose

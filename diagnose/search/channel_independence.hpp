@@ -29,4 +29,14 @@ double independence_p_value(const Problem& problem, const Eigen::VectorXd& resid
                             const std::vector<bool>& runs);
 inline constexpr int kSlowHalfPeriods = 9;
 
+/// Whether a channel whose independence of others is not tested has coloured noise of more than
+/// `kMostOfOneSensor` times its white noise, and of more than a negligible dependence: of a `time`
+/// run for estimation, in whose place no other sensor is, or without a recorded torque that drives
+/// the arm. A filter of order `kMostNoiseOrder` makes smooth model errors white too, and a short
+/// run at rest and two moves have few independent numbers to show on what these depend: one sensor
+/// cannot tell them from noise. Noise of sensors has a white part that is not far below the rest.
+bool exceeds_noise_of_one_sensor(const Problem& coloured, const Problem& white);
+/// White noise of 0.5 % beside noise of the first order of 3 % is a ratio of 6.
+inline constexpr double kMostOfOneSensor = 10.0;
+
 }  // namespace flexarm::diagnose

@@ -76,10 +76,6 @@ double relative_size(const Problem& problem, const Eigen::VectorXd& residuals,
   return std::sqrt(squares / count);
 }
 
-double negligible(const Problem& problem) {
-  return is_driven_by_motion(problem.experiment()) ? kNegligibleByMotion : kNegligibleDependence;
-}
-
 /// One set of runs: what the candidate leaves, and the directions that it has itself.
 struct ScoredRuns {
   const std::vector<bool>& runs;
@@ -104,7 +100,8 @@ struct ScoredRuns {
     const double size = beyond.norm();
     if (!(size > kLeastPart * change.norm())) return 1.0;
     const double z = beyond.dot(residuals) / size;
-    if (relative_size(problem, beyond * (z / size), runs) <= negligible(problem)) return 1.0;
+    if (relative_size(problem, beyond * (z / size), runs) <= negligible_dependence(problem))
+      return 1.0;
     return 2.0 * boost::math::cdf(complement(boost::math::normal(), std::abs(z)));
   }
   /// Less of a change than this beyond refitting is rounding.
@@ -147,8 +144,8 @@ Score ScoredRuns::of_torque(const Problem& problem) const {
         torque.householderQ().adjoint() * residuals.segment(channel.first, channel.count);
     squares += along.head(torque.rank()).squaredNorm();
     freedom += static_cast<double>(torque.rank());
-    granted +=
-        residual_variance(channel, negligible(problem)) * static_cast<double>(channel.used());
+    granted += residual_variance(channel, negligible_dependence(problem)) *
+               static_cast<double>(channel.used());
   }
   return {freedom > 0.0 ? exceedance(squares, freedom, granted) : 1.0, 0.0};
 }
@@ -183,6 +180,10 @@ std::optional<ScoredRuns> scored(const Problem& problem, const Candidate& fitted
 }
 
 }  // namespace
+
+double negligible_dependence(const Problem& problem) {
+  return is_driven_by_motion(problem.experiment()) ? kNegligibleByMotion : kNegligibleDependence;
+}
 
 DependenceTest test_dependence(const Problem& problem, const Problem& white,
                                const Candidate& fitted, ReportedWork& work, double level) {

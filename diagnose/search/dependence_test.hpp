@@ -43,5 +43,7 @@ inline constexpr double kNegligibleDependence = 0.0015;
 /// which depends on the motion. With nothing hidden and encoder counts of the hub it is up to 0.6 %
 /// along one direction.
 inline constexpr double kNegligibleByMotion = 0.01;
+/// Of the two the one that holds for a problem.
+double negligible_dependence(const Problem& problem);
 
 }  // namespace flexarm::diagnose

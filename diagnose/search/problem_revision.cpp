@@ -2,6 +2,7 @@
 
 #include "diagnose/parallel.hpp"
 #include "diagnose/search/admission.hpp"
+#include "diagnose/search/channel_independence.hpp"
 #include "diagnose/search/dependence_test.hpp"
 
 #include <algorithm>
@@ -92,7 +93,7 @@ bool ProblemRevision::colour_noise(Selection& made, const Explanation& best, dou
     return false;
   }
   const auto coloured = problem_.with_coloured_noise(best.fit.candidate);
-  if (!coloured) return false;
+  if (!coloured || exceeds_noise_of_one_sensor(*coloured, problem_)) return false;
   const Explanation left = explain(*coloured, fit(*coloured, best.fit.candidate, {.work = &work_}));
   if (!left.leaves_noise()) return false;
   const DependenceTest found =

@@ -1,6 +1,7 @@
 #include "arm/given_effects.hpp"
 #include "arm/hub_torque_table.hpp"
 #include "diagnose/diagnosis.hpp"
+#include "diagnose/search/channel_independence.hpp"
 #include "diagnose/search/dependence_test.hpp"
 #include "effects/registry/vocabulary.hpp"
 #include "measured/spectra/robust.hpp"
@@ -177,6 +178,29 @@ TEST(ColouredNoiseModel, IsNotTakenUpForAnOffsetBesideWrongReadings) {
   EXPECT_EQ(made.causes[0].sensor, "hub_velocity");
   // Twelve readings of 8000 are wrong by 1 rad/s: 0.0015 rad/s on average.
   EXPECT_NEAR(made.causes[0].parameters.front().value, kOffset, 0.06 * kOffset);
+}
+
+Experiment of_the_hub_alone(Experiment experiment) {
+  for (auto& run : experiment.runs) {
+    auto& channels = std::get<measured::TimeRecord>(run.data).channels;
+    std::erase_if(channels, [](const measured::Channel& channel) {
+      return channel.sensor.kind != arm::SensorKind::hub_angle;
+    });
+  }
+  return experiment;
+}
+
+bool exceeds_noise_of_one_sensor(const Experiment& experiment) {
+  const Problem white(experiment);
+  return exceeds_noise_of_one_sensor(*white.with_coloured_noise(white.as_filed()), white);
+}
+
+TEST(ColouredNoiseModel, OfOneSensorIsNotFarAboveItsWhiteNoise) {
+  const Experiment far_above = with_added(simulated_experiment({}), drift);
+  EXPECT_TRUE(exceeds_noise_of_one_sensor(of_the_hub_alone(far_above)));
+  EXPECT_FALSE(exceeds_noise_of_one_sensor(far_above));
+  const Experiment near = with_added(simulated_experiment({}), first_order);
+  EXPECT_FALSE(exceeds_noise_of_one_sensor(of_the_hub_alone(near)));
 }
 
 /// Of an experiment as it is filed, beside coloured noise of what that leaves.

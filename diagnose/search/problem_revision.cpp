@@ -92,19 +92,38 @@ bool ProblemRevision::colour_noise(Selection& made, const Explanation& best, dou
       torque_timing(problem_, best.fit).share >= options_.least_timing_share) {
     return false;
   }
-  const auto coloured = problem_.with_coloured_noise(best.fit.candidate);
-  if (!coloured || exceeds_noise_of_one_sensor(*coloured, problem_)) return false;
-  const Explanation left = explain(*coloured, fit(*coloured, best.fit.candidate, {.work = &work_}));
-  if (!left.leaves_noise()) return false;
+  const auto coloured = with_settled_noise(best.fit.candidate);
+  if (!coloured) return false;
   const DependenceTest found =
-      test_dependence(*coloured, problem_, left.fit.candidate, work_, kResidualLevel);
-  if (found.p_value < kResidualLevel) dependent_.insert(same_fit);
-  if (found.p_value < kResidualLevel || found.largest_share > largest_share) return false;
+      test_dependence(coloured->problem, problem_, coloured->fitted, work_, kDependenceLevel);
+  if (found.p_value < kDependenceLevel) dependent_.insert(same_fit);
+  if (found.p_value < kDependenceLevel || found.largest_share > largest_share) return false;
   change_problem([&] {
-    problem_ = *coloured;
+    problem_ = coloured->problem;
     refit(made);
   });
   return true;
+}
+
+/// Least squares in white noise leaves other errors than the fit beside their coloured noise, so
+/// that noise model and fit are made in turn until a fit moves residuals by less than `kSettled`
+/// standard deviations in all: iterated generalised least squares. Empty where what is left is not
+/// noise, or more than noise of one sensor.
+std::optional<ProblemRevision::ColouredFit> ProblemRevision::with_settled_noise(
+    Candidate candidate) const {
+  constexpr double kSettled = 0.5;
+  constexpr int kMostFits = 6;
+  std::optional<Problem> coloured;
+  for (int fits = 0; fits < kMostFits; ++fits) {
+    coloured = problem_.with_coloured_noise(candidate);
+    if (!coloured || exceeds_noise_of_one_sensor(*coloured, problem_)) return std::nullopt;
+    const Explanation left = explain(*coloured, fit(*coloured, candidate, {.work = &work_}));
+    if (!left.leaves_noise()) return std::nullopt;
+    const Eigen::VectorXd moved = left.fit.candidate.coordinates() - candidate.coordinates();
+    candidate = left.fit.candidate;
+    if ((left.fit.jacobian * moved).norm() <= kSettled) break;
+  }
+  return ColouredFit{*std::move(coloured), std::move(candidate)};
 }
 
 void ProblemRevision::correct_timing(Selection& made) {

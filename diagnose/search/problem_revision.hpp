@@ -3,6 +3,7 @@
 #include "diagnose/search/selection.hpp"
 #include "diagnose/search/set_fits.hpp"
 
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -37,11 +38,18 @@ class ProblemRevision {
   void correct_timing(Selection& made);
 
  private:
+  /// A problem with coloured noise, and the candidate that leaves this noise.
+  struct ColouredFit {
+    Problem problem;
+    Candidate fitted;
+  };
+
   template <class Change>
   void change_problem(Change change);
   void refit(Selection& made) const;
   bool is_for_timing(const Selection& made, const Explanation& left) const;
   bool colour_noise(Selection& made, const Explanation& best, double largest_share);
+  std::optional<ColouredFit> with_settled_noise(Candidate candidate) const;
   void correct_by(Selection& made, TorqueTiming timing);
 
   Problem& problem_;

@@ -36,9 +36,9 @@ struct DependenceTest {
 DependenceTest test_dependence(const Problem& problem, const Problem& white,
                                const Candidate& fitted, ReportedWork& work, double level = 0.0);
 
-/// p-value of five standard deviations of a normal number. The noise model is itself estimated of
-/// the residuals, and the noise need not be of its kind: an amplifier that warms makes a ramp.
-inline constexpr double kDependenceLevel = 5.7e-7;
+/// p-value of five standard deviations of a normal number, for noise that is not of the kind of the
+/// noise model: an amplifier that warms makes a ramp, of whose power few numbers tell.
+inline constexpr double kCertainDependence = 5.7e-7;
 
 /// Root mean square, relative to the signal: the errors of two simulations are less alike than they
 /// are large (kSimulationError).

@@ -63,17 +63,22 @@ void ProblemRevision::see_noise(Selection& made) {
 }
 
 void ProblemRevision::colour_noise_of_nothing(Selection& made) {
-  colour_noise(made, made.nothing, options_.least_share);
+  colour_noise(made, made.nothing, options_.least_share, kResidualLevel);
 }
 
 void ProblemRevision::colour_noise_beside_singles(Selection& made) {
   if (std::ranges::any_of(made.singles, &Explanation::leaves_noise)) return;
-  if (colour_noise(made, made.nothing, 1.0) || made.singles.empty()) return;
-  colour_noise(made, made.singles.front(), 1.0);
+  if (colour_noise(made, made.nothing, 1.0, kResidualLevel) || made.singles.empty()) return;
+  colour_noise(made, made.singles.front(), 1.0, kResidualLevel);
 }
 
 void ProblemRevision::colour_noise_beside(Selection& made, const Explanation& set) {
-  if (!set.leaves_noise()) colour_noise(made, set, 1.0);
+  if (!set.leaves_noise()) colour_noise(made, set, 1.0, kResidualLevel);
+}
+
+void ProblemRevision::colour_noise_at_last(Selection& made) {
+  if (colour_noise(made, made.nothing, 1.0, kCertainDependence)) return;
+  colour_noise(made, made.chosen, 1.0, kCertainDependence);
 }
 
 bool ProblemRevision::is_for_timing(const Selection& made, const Explanation& left) const {
@@ -81,13 +86,15 @@ bool ProblemRevision::is_for_timing(const Selection& made, const Explanation& le
          left.estimation.unexplained_error() <= options_.largest_timing_error;
 }
 
-/// With the noise that `best` leaves, if that is noise; of what it leaves an effect may account for
-/// so much before whitening. Returns whether it is.
-bool ProblemRevision::colour_noise(Selection& made, const Explanation& best, double largest_share) {
+/// With the noise that `best` leaves, if that is noise at `level` of the dependence test; of what
+/// it leaves an effect may account for so much before whitening. Returns whether it is.
+bool ProblemRevision::colour_noise(Selection& made, const Explanation& best, double largest_share,
+                                   double level) {
   const bool is_known = problem_.predictor().noise() || problem_.has_coloured_noise();
   if (is_known || runs_away(best, options_)) return false;
   const std::pair same_fit(best.fit.candidate.labels(), best.fit.sum_of_squares);
-  if (dependent_.contains(same_fit)) return false;
+  const auto dependence = dependence_.find(same_fit);
+  if (dependence != dependence_.end() && dependence->second < level) return false;
   if (is_for_timing(made, best) && !made.undecided_timing &&
       torque_timing(problem_, best.fit).share >= options_.least_timing_share) {
     return false;
@@ -95,9 +102,9 @@ bool ProblemRevision::colour_noise(Selection& made, const Explanation& best, dou
   const auto coloured = with_settled_noise(best.fit.candidate);
   if (!coloured) return false;
   const DependenceTest found =
-      test_dependence(coloured->problem, problem_, coloured->fitted, work_, kDependenceLevel);
-  if (found.p_value < kDependenceLevel) dependent_.insert(same_fit);
-  if (found.p_value < kDependenceLevel || found.largest_share > largest_share) return false;
+      test_dependence(coloured->problem, problem_, coloured->fitted, work_, level);
+  dependence_[same_fit] = found.p_value;
+  if (found.p_value < level || found.largest_share > largest_share) return false;
   change_problem([&] {
     problem_ = coloured->problem;
     refit(made);

@@ -3,6 +3,7 @@
 #include "diagnose/search/selection.hpp"
 #include "diagnose/search/set_fits.hpp"
 
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -32,6 +33,9 @@ class ProblemRevision {
   void colour_noise_beside_singles(Selection& made);
   /// Of what this set of effects leaves, where that is not noise.
   void colour_noise_beside(Selection& made, const Explanation& set);
+  /// Of what no cause, or the chosen set leaves, where the search has found nothing better: unless
+  /// it depends on the motion for certain (kCertainDependence).
+  void colour_noise_at_last(Selection& made);
 
   /// Where a little is left and the timing of the torque leaves noise of it: the torques as that
   /// timing has them; where it does not, it is undecided.
@@ -48,7 +52,7 @@ class ProblemRevision {
   void change_problem(Change change);
   void refit(Selection& made) const;
   bool is_for_timing(const Selection& made, const Explanation& left) const;
-  bool colour_noise(Selection& made, const Explanation& best, double largest_share);
+  bool colour_noise(Selection& made, const Explanation& best, double largest_share, double level);
   std::optional<ColouredFit> with_settled_noise(Candidate candidate) const;
   void correct_by(Selection& made, TorqueTiming timing);
 
@@ -56,8 +60,9 @@ class ProblemRevision {
   const SelectionOptions& options_;
   const SetFits& fits_;
   ReportedWork& work_;
-  /// Labels and sums of squares of fits whose residuals were found to depend on the motion.
-  std::set<std::pair<std::set<std::string>, double>> dependent_ = {};
+  /// p-values of the dependence test, by labels and sums of squares of the fits: bounds from above
+  /// of those that were rejected.
+  std::map<std::pair<std::set<std::string>, double>, double> dependence_ = {};
 };
 
 }  // namespace flexarm::diagnose

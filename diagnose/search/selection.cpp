@@ -77,6 +77,7 @@ class Search {
       generalise(made);
       exchange_for_general(made);
     }
+    if (!is_enough(made)) revision_.colour_noise_at_last(made);
     leave_out_unnamed(made);
   }
 

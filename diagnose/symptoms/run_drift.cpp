@@ -107,7 +107,9 @@ std::optional<RunDrift> run_drift(const Problem& problem, const Candidate& candi
         (parameter.value(fit.place + kPlaceStep) - parameter.value(fit.place - kPlaceStep)) /
         (2.0 * kPlaceStep);
     value.std_error = std::abs(slope) * fit.std_error;
-    if (!(value.std_error > 0.0) || !std::isfinite(value.value)) continue;
+    const double of_all = std::abs(candidate.values[static_cast<std::size_t>(at)]);
+    const bool is_shown = value.std_error > 0.0 && value.std_error < of_all;
+    if (!is_shown || !std::isfinite(value.value)) continue;
     made.values.push_back(value);
     weights += 1.0 / (value.std_error * value.std_error);
     sum += value.value / (value.std_error * value.std_error);

@@ -30,8 +30,9 @@ struct RunDrift {
 
 /// The first parameter of the `effect`-th of `candidate`'s effects, the others as they are, by
 /// Gauss-Newton steps in each run from where all runs have it. Standard errors as those of causes:
-/// widened by the size of what is left and its correlation. Empty where fewer than two runs show
-/// the effect.
+/// widened by the size of what is left and its correlation. Runs whose standard error is the value
+/// of all runs or more do not show the effect: a torque that never saturates says nothing of a
+/// limit. Empty where fewer than two do.
 std::optional<RunDrift> run_drift(const Problem& problem, const Candidate& candidate,
                                   std::size_t effect);
 

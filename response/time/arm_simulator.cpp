@@ -206,7 +206,7 @@ Eigen::MatrixXd ArmSimulator::unread(std::size_t samples) const {
 }
 
 Eigen::MatrixXd ArmSimulator::transition(double fraction) const {
-  return propagator(arm_.turning, fraction * options_.sample_time_s, 1.0, options_.precision).state;
+  return propagator(arm_.turning, fraction * options_.sample_time_s, options_.precision).state;
 }
 
 Eigen::MatrixXd ArmSimulator::sample_transition() const {

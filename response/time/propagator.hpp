@@ -4,6 +4,9 @@
 
 #include <Eigen/Core>
 
+#include <optional>
+#include <vector>
+
 namespace flexarm::response {
 
 /// The exact solution of a LinearSystem over one step of fixed length, for an actuator torque that
@@ -27,8 +30,7 @@ struct Propagator {
 /// once; in working precision it is up to |A dt| times as large, and formed ten times as fast.
 enum class Precision { extended, working };
 
-/// From t = 0 to `until` dt with the inputs defined on [0, dt], 0 < until <= 1. By the exponential
-/// of
+/// From t = 0 to dt. By the exponential of
 ///
 ///     [A B 0 0]
 ///     [0 0 1 0]  dt,   B = (actuator, force),
@@ -37,7 +39,20 @@ enum class Precision { extended, working };
 ///
 /// whose first row holds e^(A dt) and phi_k(A dt) B dt: t^k/k! of an input adds phi_(k+1). Where
 /// the system has it actuator_rate is another column of B.
-Propagator propagator(const LinearSystem& system, double step_s, double until = 1.0,
+Propagator propagator(const LinearSystem& system, double step_s,
                       Precision precision = Precision::extended);
+
+/// Of a step, with the inputs defined on all of it.
+struct StepPropagators {
+  std::optional<Propagator> middle;  ///< from its beginning to its middle
+  Propagator end;
+};
+
+/// Of steps of `step_s`, of half of it and so on, `halvings` times: the longest first. The
+/// exponential is formed for the shortest length and squared for the others: that costs a tenth of
+/// an exponential.
+std::vector<StepPropagators> halved_propagators(const LinearSystem& system, double step_s,
+                                                int halvings, bool with_middle,
+                                                Precision precision);
 
 }  // namespace flexarm::response

@@ -76,23 +76,33 @@ StepPlan::WatchedReadings StepPlan::watched_readings(const ModalDynamics& arm) c
           std::make_shared<const ReadingModes>(arm, true, arm.reaction)};
 }
 
-Steps StepPlan::steps_with_shorter(const ModalDynamics& arm, int count, double step_s) const {
-  const WatchedReadings& watched = &arm == arm_ ? watched_ : settled_watched_;
-  const auto table = [&](const LinearSystem& system, const auto& reading) {
-    return step_table(system, argument_rows_, reading, step_s, options_.precision);
-  };
-  Steps made{.count = count, .length_s = step_s};
-  made.turning = table(arm.turning, watched.speed);
-  if (forces_->has_friction()) made.held = table(arm.held, watched.reaction);
-  if (!is_linear_ && phase_rad(arm, step_s) > kLargestPhase_rad * (1.0 + 1e-9)) {
-    made.shorter = std::make_shared<const Steps>(steps_with_shorter(arm, 2, 0.5 * step_s));
-  }
-  return made;
-}
-
 Steps StepPlan::steps(const ModalDynamics& arm, double length_s) const {
   const int count = substeps(arm, length_s);
-  Steps made = steps_with_shorter(arm, count, length_s / count);
+  const double step_s = length_s / count;
+  const WatchedReadings& watched = &arm == arm_ ? watched_ : settled_watched_;
+  int halvings = 0;
+  while (!is_linear_ &&
+         phase_rad(arm, std::ldexp(step_s, -halvings)) > kLargestPhase_rad * (1.0 + 1e-9)) {
+    ++halvings;
+  }
+  const auto propagators = [&](const LinearSystem& system) {
+    return halved_propagators(system, step_s, halvings, argument_rows_.rows() > 0,
+                              options_.precision);
+  };
+  const auto turning = propagators(arm.turning);
+  const auto held =
+      forces_->has_friction() ? propagators(arm.held) : std::vector<StepPropagators>();
+  Steps made;
+  for (int level = halvings; level >= 0; --level) {
+    const auto at = static_cast<std::size_t>(level);
+    if (level < halvings) made = {.shorter = std::make_shared<const Steps>(std::move(made))};
+    made.count = level > 0 ? 2 : count;
+    made.length_s = std::ldexp(step_s, -level);
+    made.turning = step_table(turning[at], argument_rows_, watched.speed, made.length_s);
+    if (!held.empty()) {
+      made.held = step_table(held[at], argument_rows_, watched.reaction, made.length_s);
+    }
+  }
   if (is_linear_ && ledger_ != nullptr) made.energy = ledger_->step_energy(made.length_s);
   return made;
 }

@@ -80,8 +80,6 @@ class StepPlan {
   Steps steps(const ModalDynamics& arm, double length_s) const;
   PieceSteps piece_steps(double length_s) const;
   WatchedReadings watched_readings(const ModalDynamics& arm) const;
-  /// So many steps of that length.
-  Steps steps_with_shorter(const ModalDynamics& arm, int count, double step_s) const;
 
   const ModalDynamics* arm_;
   std::optional<ModalDynamics> settled_;

@@ -14,25 +14,22 @@ Eigen::MatrixXd of_all_inputs(const Propagator& to) {
 
 }  // namespace
 
-StepTable step_table(const LinearSystem& system, const Eigen::MatrixXd& argument_rows,
-                     const std::shared_ptr<const ReadingModes>& watched, double step_s,
-                     Precision precision) {
-  const bool forces_vary = argument_rows.rows() > 0;
-  const Propagator end = propagator(system, step_s, 1.0, precision);
+StepTable step_table(const StepPropagators& to, const Eigen::MatrixXd& argument_rows,
+                     const std::shared_ptr<const ReadingModes>& watched, double step_s) {
   StepTable table;
-  if (forces_vary) {
-    table.end = of_all_inputs(end);
-    const Propagator middle = propagator(system, step_s, 0.5, precision);
+  if (to.middle) {
+    table.end = of_all_inputs(to.end);
     Eigen::MatrixXd arguments(2 * argument_rows.rows(), table.end.cols());
-    arguments << argument_rows * of_all_inputs(middle), argument_rows * table.end;
-    const Eigen::Index forces = 2 * system.force.cols();
+    arguments << argument_rows * of_all_inputs(*to.middle), argument_rows * table.end;
+    const Eigen::Index forces = 2 * to.end.force_end.cols();
     table.arguments_by_known = arguments.leftCols(arguments.cols() - forces);
     table.arguments_by_forces = arguments.rightCols(forces);
   } else {
-    table.end.resize(end.state.rows(), end.state.cols() + 3);
-    table.end << end.state, end.actuator_begin, end.actuator_end, end.constant_force().col(0);
+    table.end.resize(to.end.state.rows(), to.end.state.cols() + 3);
+    table.end << to.end.state, to.end.actuator_begin, to.end.actuator_end,
+        to.end.constant_force().col(0);
   }
-  if (watched) table.watched = ReadingBound(watched, step_s, forces_vary);
+  if (watched) table.watched = ReadingBound(watched, step_s, to.middle.has_value());
   return table;
 }
 

@@ -25,10 +25,9 @@ struct StepTable {
   ReadingBound watched;
 };
 
-/// `argument_rows` as AddedForces::argument_rows; without rows forces are constant. `watched` may
-/// be null.
-StepTable step_table(const LinearSystem& system, const Eigen::MatrixXd& argument_rows,
-                     const std::shared_ptr<const ReadingModes>& watched, double step_s,
-                     Precision precision);
+/// Of a step of the system that the propagators are of: with a middle where forces vary. Their
+/// `argument_rows` as AddedForces::argument_rows. `watched` may be null.
+StepTable step_table(const StepPropagators& to, const Eigen::MatrixXd& argument_rows,
+                     const std::shared_ptr<const ReadingModes>& watched, double step_s);
 
 }  // namespace flexarm::response

@@ -15,6 +15,7 @@
 #include <random>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 namespace flexarm::diagnose {
@@ -102,6 +103,31 @@ TEST(RunDrift, OfAParameterThatChangesIsTold) {
   EXPECT_THAT(told.text, HasSubstr("estimates inconsistent between runs"));
   EXPECT_NEAR(drift->values[0].value, 1.2, 0.01);
   EXPECT_NEAR(drift->values[1].value, 1.4, 0.01);
+}
+
+double largest_torque_N_m(const Experiment& experiment, std::size_t run) {
+  const auto& torque = std::get<measured::TimeRecord>(experiment.runs[run].data).torque_N_m;
+  return std::abs(*std::ranges::max_element(torque, {}, [](double one) { return std::abs(one); }));
+}
+
+TEST(RunDrift, IsOfRunsThatShowTheParameter) {
+  const Experiment whole = simulated_experiment({});
+  std::vector<double> largest_N_m;
+  for (std::size_t r = 0; r < whole.runs.size(); ++r) {
+    largest_N_m.push_back(largest_torque_N_m(whole, r));
+  }
+  const double limit_N_m = 0.35 * *std::ranges::max_element(largest_N_m);
+  const auto clipped = static_cast<std::size_t>(
+      std::ranges::count_if(largest_N_m, [&](double most) { return most > limit_N_m; }));
+  ASSERT_GE(clipped, 2U);
+  ASSERT_LT(clipped, whole.runs.size());
+  const Symptomatic data(
+      simulated_experiment({effects::named("torque_saturation", {{"limit", limit_N_m}})}));
+  const auto drift = run_drift(
+      data.problem(), only(data.problem().experiment(), "torque_saturation", limit_N_m), 0);
+  ASSERT_TRUE(drift);
+  EXPECT_EQ(drift->values.size(), clipped);
+  for (const RunValue& value : drift->values) EXPECT_LT(value.std_error, 0.1 * limit_N_m);
 }
 
 /// Periods of an odd multisine with free lines, read by a sensor that distorts it by a cubic part.

@@ -78,12 +78,14 @@ struct WatchedStep {
     std::vector<double> values;
     for (int i = 1; i <= kPlaces; ++i) {
       const double r = static_cast<double>(i) / kPlaces;
-      const Propagator to = propagator(system, inputs.length_s, r);
-      x1 = to.state * x0 + to.actuator_begin * inputs.u0 + to.actuator_end * inputs.u1 +
-           to.force_begin * inputs.f0 + to.force_middle * inputs.fm + to.force_end * inputs.f1;
-      const double f = inputs.f0(0) + r * inputs.force_slope()(0) +
-                       r * r * inputs.force_square()(0);
-      values.push_back(value(reading, x1, inputs.torque(r), f));
+      const Propagator to = propagator(system, r * inputs.length_s);
+      const auto force_at = [&](double at) -> Eigen::VectorXd {
+        return inputs.f0 + at * inputs.force_slope() + at * at * inputs.force_square();
+      };
+      const Eigen::VectorXd f1 = force_at(r);
+      x1 = to.state * x0 + to.actuator_begin * inputs.u0 + to.actuator_end * inputs.torque(r) +
+           to.force_begin * inputs.f0 + to.force_middle * force_at(0.5 * r) + to.force_end * f1;
+      values.push_back(value(reading, x1, inputs.torque(r), f1(0)));
     }
     for (int i = 1; i <= kPlaces; ++i) {
       const double chord = std::lerp(begin, values.back(), static_cast<double>(i) / kPlaces);

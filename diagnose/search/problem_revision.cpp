@@ -119,7 +119,7 @@ bool ProblemRevision::colour_noise(Selection& made, const Explanation& best, dou
 std::optional<ProblemRevision::ColouredFit> ProblemRevision::with_settled_noise(
     Candidate candidate) const {
   constexpr double kSettled = 0.5;
-  constexpr int kMostFits = 6;
+  constexpr int kMostFits = 4;
   std::optional<Problem> coloured;
   for (int fits = 0; fits < kMostFits; ++fits) {
     coloured = problem_.with_coloured_noise(candidate);

@@ -29,12 +29,12 @@ double independence_p_value(const Problem& problem, const Eigen::VectorXd& resid
                             const std::vector<bool>& runs);
 inline constexpr int kSlowHalfPeriods = 9;
 
-/// Whether a channel whose independence of others is not tested has coloured noise of more than
-/// `kMostOfOneSensor` times its white noise, and of more than a negligible dependence: of a `time`
-/// run for estimation, in whose place no other sensor is, or without a recorded torque that drives
-/// the arm. A filter of order `kMostNoiseOrder` makes smooth model errors white too, and a short
-/// run at rest and two moves have few independent numbers to show on what these depend: one sensor
-/// cannot tell them from noise. Noise of sensors has a white part that is not far below the rest.
+/// Whether a channel of a `time` run for estimation has more coloured noise than one sensor can
+/// tell from a model error: more than `kMostOfOneSensor` times its white noise, and more than a
+/// negligible dependence. So it is for channels whose independence of others is not tested: no
+/// sensor of the run is at another place, or no recorded torque drives the arm. An autoregression
+/// makes a smooth model error white too, and noise of a sensor has a white part not far below the
+/// rest.
 bool exceeds_noise_of_one_sensor(const Problem& coloured, const Problem& white);
 /// White noise of 0.5 % beside noise of the first order of 3 % is a ratio of 6.
 inline constexpr double kMostOfOneSensor = 10.0;

@@ -100,8 +100,8 @@ struct ScoredRuns {
     const double size = beyond.norm();
     if (!(size > kLeastPart * change.norm())) return 1.0;
     const double z = beyond.dot(residuals) / size;
-    if (relative_size(problem, beyond * (z / size), runs) <= negligible_dependence(problem))
-      return 1.0;
+    const double along = relative_size(problem, beyond * (z / size), runs);
+    if (along <= negligible_dependence(problem)) return 1.0;
     return 2.0 * boost::math::cdf(complement(boost::math::normal(), std::abs(z)));
   }
   /// Less of a change than this beyond refitting is rounding.

@@ -100,7 +100,10 @@ bool ProblemRevision::colour_noise(Selection& made, const Explanation& best, dou
     return false;
   }
   const auto coloured = with_settled_noise(best.fit.candidate);
-  if (!coloured) return false;
+  if (!coloured) {
+    dependence_[same_fit] = 0.0;
+    return false;
+  }
   const DependenceTest found =
       test_dependence(coloured->problem, problem_, coloured->fitted, work_, level);
   dependence_[same_fit] = found.p_value;

@@ -61,7 +61,7 @@ class ProblemRevision {
   const SetFits& fits_;
   ReportedWork& work_;
   /// p-values of the dependence test, by labels and sums of squares of the fits: bounds from above
-  /// of those that were rejected.
+  /// of those that were rejected, 0 of those that leave no noise.
   std::map<std::pair<std::set<std::string>, double>, double> dependence_ = {};
 };
 

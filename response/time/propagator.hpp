@@ -49,8 +49,8 @@ struct StepPropagators {
 };
 
 /// Of steps of `step_s`, of half of it and so on, `halvings` times: the longest first. The
-/// exponential is formed for the shortest length and squared for the others: that costs a tenth of
-/// an exponential.
+/// exponential is formed for the shortest length and squared for the others: products of matrices
+/// in place of exponentials.
 std::vector<StepPropagators> halved_propagators(const LinearSystem& system, double step_s,
                                                 int halvings, bool with_middle,
                                                 Precision precision);

@@ -1,11 +1,9 @@
-#include "response/time/propagator.hpp"
+#include "tests/response/propagated_step.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
-#include <random>
-#include <vector>
 
 namespace flexarm::response {
 namespace {
@@ -29,41 +27,24 @@ LinearSystem oscillators(bool has_rate) {
   return made;
 }
 
-/// What acts in a step: u at both ends, and f at begin, middle and end.
-struct StepOfInputs {
-  double u0 = 0.3;
-  double u1 = -0.2;
-  Eigen::Vector2d f0 = {0.5, -0.1};
-  Eigen::Vector2d fm = {0.2, 0.4};
-  Eigen::Vector2d f1 = {-0.3, 0.6};
-
-  Eigen::Vector2d force(double r) const {
-    return f0 + r * (-3.0 * f0 + 4.0 * fm - f1) + r * r * (2.0 * f0 - 4.0 * fm + 2.0 * f1);
-  }
-  /// Of the part of the step from r to s.
-  StepOfInputs part(double r, double s) const {
-    return {std::lerp(u0, u1, r), std::lerp(u0, u1, s), force(r), force(0.5 * (r + s)), force(s)};
-  }
-};
-
-Eigen::VectorXd end_of(const Propagator& to, const Eigen::VectorXd& x, const StepOfInputs& inputs) {
-  return to.state * x + to.actuator_begin * inputs.u0 + to.actuator_end * inputs.u1 +
-         to.force_begin * inputs.f0 + to.force_middle * inputs.fm + to.force_end * inputs.f1;
-}
-
 class PropagatorOf : public testing::TestWithParam<bool> {
  protected:
   const LinearSystem system_ = oscillators(GetParam());
   const double step_s_ = 0.7;
   const Eigen::VectorXd x_ = Eigen::Vector4d(0.4, -0.2, 1.0, 0.3);
-  const StepOfInputs inputs_ = {};
+  const StepInputs inputs_ = {.u0 = 0.3,
+                              .u1 = -0.2,
+                              .length_s = step_s_,
+                              .f0 = Eigen::Vector2d(0.5, -0.1),
+                              .fm = Eigen::Vector2d(0.2, 0.4),
+                              .f1 = Eigen::Vector2d(-0.3, 0.6)};
 };
 
 TEST_P(PropagatorOf, AStepIsThatOfItsHalves) {
   const Propagator half = propagator(system_, 0.5 * step_s_);
-  const Eigen::VectorXd middle = end_of(half, x_, inputs_.part(0.0, 0.5));
-  const Eigen::VectorXd end = end_of(half, middle, inputs_.part(0.5, 1.0));
-  EXPECT_LE((end_of(propagator(system_, step_s_), x_, inputs_) - end).norm(), kSquaredRounding);
+  const Eigen::VectorXd middle = propagated(half, x_, part_of(inputs_, 0.0, 0.5));
+  const Eigen::VectorXd end = propagated(half, middle, part_of(inputs_, 0.5, 1.0));
+  EXPECT_LE((propagated(propagator(system_, step_s_), x_, inputs_) - end).norm(), kSquaredRounding);
 }
 
 TEST_P(PropagatorOf, HalvedStepsAreThoseFormedOneByOne) {
@@ -74,13 +55,13 @@ TEST_P(PropagatorOf, HalvedStepsAreThoseFormedOneByOne) {
       const double length_s = std::ldexp(step_s_, -level);
       const StepPropagators& to = halved[static_cast<std::size_t>(level)];
       const Propagator alone = propagator(system_, length_s);
-      EXPECT_LE((end_of(to.end, x_, inputs_) - end_of(alone, x_, inputs_)).norm(),
+      EXPECT_LE((propagated(to.end, x_, inputs_) - propagated(alone, x_, inputs_)).norm(),
                 kSquaredRounding);
       const Propagator to_middle = propagator(system_, 0.5 * length_s);
-      EXPECT_LE(
-          (end_of(to.middle.value(), x_, inputs_) - end_of(to_middle, x_, inputs_.part(0.0, 0.5)))
-              .norm(),
-          kSquaredRounding);
+      EXPECT_LE((propagated(to.middle.value(), x_, inputs_) -
+                 propagated(to_middle, x_, part_of(inputs_, 0.0, 0.5)))
+                    .norm(),
+                kSquaredRounding);
     }
   }
 }

@@ -1,9 +1,9 @@
 // The bound that excludes a stop or a breakaway of the hub within a step.
 #include "response/formulation_maker.hpp"
 #include "response/time/arm_simulator.hpp"
-#include "response/time/propagator.hpp"
 #include "response/time/reading_bound.hpp"
 #include "response/time/time_model.hpp"
+#include "tests/response/propagated_step.hpp"
 #include "tests/response/simulation_models.hpp"
 
 #include <gtest/gtest.h>
@@ -78,14 +78,9 @@ struct WatchedStep {
     std::vector<double> values;
     for (int i = 1; i <= kPlaces; ++i) {
       const double r = static_cast<double>(i) / kPlaces;
-      const Propagator to = propagator(system, r * inputs.length_s);
-      const auto force_at = [&](double at) -> Eigen::VectorXd {
-        return inputs.f0 + at * inputs.force_slope() + at * at * inputs.force_square();
-      };
-      const Eigen::VectorXd f1 = force_at(r);
-      x1 = to.state * x0 + to.actuator_begin * inputs.u0 + to.actuator_end * inputs.torque(r) +
-           to.force_begin * inputs.f0 + to.force_middle * force_at(0.5 * r) + to.force_end * f1;
-      values.push_back(value(reading, x1, inputs.torque(r), f1(0)));
+      const StepInputs until = part_of(inputs, 0.0, r);
+      x1 = propagated(propagator(system, until.length_s), x0, until);
+      values.push_back(value(reading, x1, until.u1, until.f1(0)));
     }
     for (int i = 1; i <= kPlaces; ++i) {
       const double chord = std::lerp(begin, values.back(), static_cast<double>(i) / kPlaces);

@@ -87,6 +87,13 @@ bool is_ahead_of_limit(const Fit& general, const Fit& limited, const SelectionOp
   return beyond_noise(general.residuals) <= options.general_gain * beyond_noise(limited.residuals);
 }
 
+bool is_near(const Fit& set, const Fit& best, const SelectionOptions& options) {
+  constexpr double kCoarse = 0.1;
+  const auto n = static_cast<double>(best.residuals.size());
+  return set.sum_of_squares <=
+         (1.0 + kCoarse) * n + options.largest_of_looks * beyond_noise(best.residuals);
+}
+
 const Explanation* simplest(const std::vector<Explanation>& found, std::size_t effects,
                             const SelectionOptions& options) {
   const Explanation* best = nullptr;

@@ -34,6 +34,11 @@ bool clears_bars(const Explanation& fuller, const Explanation& simpler,
 /// than one with a limit of that effect: options.general_gain.
 bool is_ahead_of_limit(const Fit& general, const Fit& limited, const SelectionOptions& options);
 
+/// Of two fits to the same data: the sum of squares that a set leaves is near the one that the best
+/// set leaves. Near is what is beyond noise by options.largest_of_looks times as much as of the
+/// best, and by a tenth of the noise, which a fit of few steps with few modes may be off by.
+bool is_near(const Fit& set, const Fit& best, const SelectionOptions& options);
+
 /// Of the sets of so many effects in `found`, which are sorted by fit, the best, or one with fewer
 /// parameters that it does not clear the bars over; null where there are none.
 const Explanation* simplest(const std::vector<Explanation>& found, std::size_t effects,

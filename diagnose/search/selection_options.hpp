@@ -125,11 +125,11 @@ struct SelectionOptions {
   // How far the search goes.
   /// Larger sets are looked for where the last effect takes this part or more of what the best
   /// set without it leaves.
-  double least_share_ahead = 0.25;
+  double least_share_ahead = 0.15;
   /// Effects by themselves: all are scanned.
   Tried single_effects = {.refitted = 8};
-  /// Sets that a coarse look found are refitted to all data where they leave <= this times the sum
-  /// of squares that the best of them leaves.
+  /// A set is near the best where it leaves beyond noise <= this times what that leaves (is_near):
+  /// of sets that a coarse look found those are refitted to all data.
   double largest_of_looks = 2.0;
   /// A general effect is refitted to all data where its look leaves <= this times the sum of
   /// squares that the best special effect leaves,
@@ -166,7 +166,7 @@ struct SelectionOptions {
   /// from the start, nothing after it tells which value is nearer.
   std::size_t short_samples = 400;
   /// Flexible modes in the coarse look <= this.
-  int coarse_modes = 8;
+  int coarse_modes = 6;
   /// Values tried in a scan of an effect of 1, 2, 3 parameters or more.
   std::array<int, 3> scan_evaluations = {40, 90, 160};
   /// The same for a law of hub torque that is scanned by regression, not simulated, with so many

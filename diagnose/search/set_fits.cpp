@@ -45,8 +45,8 @@ void SetFits::add_near(std::vector<Fit> looks, std::size_t most, std::string_vie
                        std::vector<Explanation>& found) {
   looks.resize(std::min(most, looks.size()));
   if (!looks.empty()) {
-    const double largest = options_.largest_of_looks * looks.front().sum_of_squares;
-    std::erase_if(looks, [&](const Fit& look) { return look.sum_of_squares > largest; });
+    const Fit best = looks.front();
+    std::erase_if(looks, [&](const Fit& look) { return !is_near(look, best, options_); });
   }
   add_looks(looks, what, to, found);
 }

@@ -35,7 +35,7 @@ class SetFits {
 
   /// Adds to `found` `base` with each of `others` that it has not, found by a scan of a coarse
   /// problem; the tried.refitted best of these fitted to all data, beside effects of `base` those
-  /// that come near the best (options.largest_of_looks). Beside effects of `base` the
+  /// that are near the best (is_near). Beside effects of `base` the
   /// tried.looks most promising are scanned (EffectScan::promising), else all. As part of `what`,
   /// up to the fraction `to` of the work.
   void add_with(const Candidate& base, std::vector<const Hypothesis*> others, std::string_view what,
@@ -48,7 +48,7 @@ class SetFits {
                   std::string_view what, double to, const Tried& tried,
                   std::vector<Explanation>& found);
   /// Adds to `found` looks, which are sorted by fit, fitted to all data: `most` or less that come
-  /// near the best (options.largest_of_looks).
+  /// near the best (is_near).
   void add_near(std::vector<Fit> looks, std::size_t most, std::string_view what, double to,
                 std::vector<Explanation>& found);
 

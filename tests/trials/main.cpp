@@ -30,7 +30,7 @@ struct TrialOptions {
   std::string keep;
   std::string results = "trials.csv";
   std::string scorecard;
-  double time_limit_s = 120.0;
+  double time_limit_s = 240.0;
   int jobs = 1;
   bool list = false;
 };

@@ -27,8 +27,8 @@ Version: {}.
 {} of them are recorded with dirt and stand in a section of their own. The arm file given to
 `flexarm diagnose` lacks one to three effects, or none. `scripts/trials`
 generates the data with an independent simulator (`tests/trials`): its own finite elements,
-Newmark's method, and each effect implemented anew. It gives each diagnosis two minutes
-(`--time-limit`), after which that answers with the best so far.
+Newmark's method, and each effect implemented anew. It gives each diagnosis four
+minutes of one core (`--time-limit`), after which that answers with the best so far.
 
 Columns: kind of data and noise-to-signal ratio. For poles and zeros the standard deviation of the
 frequencies is a fifth of that ratio, that of the damping ratios ten times. The strength of an

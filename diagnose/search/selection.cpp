@@ -105,6 +105,7 @@ class Search {
   /// Effects by themselves. Those that have another as a limit come after it.
   void try_singles(Selection& made) {
     const Candidate& none = made.nothing.fit.candidate;
+    fits_.lengthen_parts(made.nothing);
     fits_.add_with(none, general_.others(), kSingles, 0.7 * kSinglesDone, options_.single_effects,
                    made.singles);
     refit_nothing(made);
@@ -209,6 +210,7 @@ class Search {
     fits_.leave_untried(labels_with(leading, general_.others()));
     SetSearch search(fits_.parts(), general_.others(), general_.all(), options_, work_);
     work_.tell(kSets, work_.done());
+    fits_.lengthen_parts(made.singles.empty() ? made.nothing : made.singles.front());
     search.begin(made.nothing.fit.candidate, singles);
     std::optional<Explanation> last;
     for (std::size_t size = 2; has_room_beside(size - 1) && !is_enough(made); ++size) {
@@ -221,6 +223,7 @@ class Search {
       choose_needed(made, best);
       if (size >= options_.tried_set_size && last && !is_worth_another(best, *last)) break;
       last = best;
+      if (fits_.lengthen_parts(best)) search.refit();
     }
     if (made.chosen.fit.candidate.effects.size() > 1) {
       Explanation better = exchanged(made, made.chosen);

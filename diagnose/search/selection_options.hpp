@@ -160,6 +160,8 @@ struct SelectionOptions {
   std::size_t coarse_samples = 1200;
   /// and in closed loop, where what a controller makes of the samples left out is not known.
   std::size_t coarse_loop_samples = 6000;
+  /// and where what is left of all data shows late in the runs (CoarseProblems::lengthen).
+  std::size_t most_coarse_samples = 10000;
   /// Samples of each run that a filter follows <= this: it is decimated for that.
   std::size_t filtered_samples = 4000;
   /// The same in a second look at effects of several parameters: where the hub turns another way

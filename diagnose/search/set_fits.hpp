@@ -29,15 +29,19 @@ class SetFits {
 
   const CoarseProblems& parts() const { return parts_; }
   const EffectScan& scan() const { return scan_; }
+  /// CoarseProblems::lengthen, for what `left` leaves.
+  bool lengthen_parts(const Explanation& left) {
+    return parts_.lengthen(problem_, left.fit.residuals);
+  }
 
   /// From the candidate's own values.
   Explanation fitted(const Candidate& start) const;
 
   /// Adds to `found` `base` with each of `others` that it has not, found by a scan of a coarse
   /// problem; the tried.refitted best of these fitted to all data, beside effects of `base` those
-  /// that are near the best (is_near). Beside effects of `base` the
-  /// tried.looks most promising are scanned (EffectScan::promising), else all. As part of `what`,
-  /// up to the fraction `to` of the work.
+  /// that are near the best (is_near). Beside effects of `base` the tried.looks most promising are
+  /// scanned (EffectScan::promising), else all. As part of `what`, up to the fraction `to` of the
+  /// work.
   void add_with(const Candidate& base, std::vector<const Hypothesis*> others, std::string_view what,
                 double to, const Tried& tried, std::vector<Explanation>& found);
 

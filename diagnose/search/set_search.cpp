@@ -42,6 +42,11 @@ void SetSearch::begin(const Candidate& nothing, const std::vector<Candidate>& si
   coarse_sets_ = fitted(parts_.coarse(), singles);
 }
 
+void SetSearch::refit() {
+  early_sets_ = fitted(parts_.early(), best_of(early_sets_, options_.early_growth.bases));
+  coarse_sets_ = fitted(parts_.coarse(), best_of(coarse_sets_, options_.coarse_growth.bases));
+}
+
 const std::vector<Fit>& SetSearch::grow(std::string_view what, double to) {
   const double from = work_.done();
   work_.tell(what, from);

@@ -38,6 +38,8 @@ class SetSearch {
   /// Begins with effects by themselves: `singles`, and those that the score test makes of
   /// `nothing`.
   void begin(const Candidate& nothing, const std::vector<Candidate>& singles);
+  /// Fits the sets that it has once more, where parts have become longer.
+  void refit();
   /// Sets of one effect more than before, fitted to the coarse part, the best first. As part of
   /// `what`, up to the fraction `to` of the work. Throws Cancelled where the work is cancelled.
   const std::vector<Fit>& grow(std::string_view what, double to);

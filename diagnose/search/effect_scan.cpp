@@ -155,6 +155,12 @@ std::optional<Fit> EffectScan::look_from_limit(const Candidate& limit, std::size
   return best_from_scan(parts_.coarse(), start, scanned);
 }
 
+double EffectScan::share_of(const Candidate& base, const Hypothesis& other) const {
+  const Fit left = coarse_fit(parts_.coarse(), base, work_);
+  const auto found = additions(parts_.coarse(), left, {&other}, options_, work_);
+  return found.empty() ? 0.0 : found.front().share;
+}
+
 std::vector<const Hypothesis*> EffectScan::promising(const Candidate& base,
                                                      std::vector<const Hypothesis*> others,
                                                      std::size_t most, std::string_view what) {

@@ -20,6 +20,9 @@ class EffectScan {
   EffectScan(const CoarseProblems& parts, const SelectionOptions& options, ReportedWork& work)
       : parts_(parts), options_(options), work_(work) {}
 
+  /// Part of the sum of squares that `base` leaves which the score test says that a hypothesis
+  /// explains (additions.hpp).
+  double share_of(const Candidate& base, const Hypothesis& other) const;
   /// The `most` hypotheses that explain most of what `base` leaves (additions.hpp).
   std::vector<const Hypothesis*> promising(const Candidate& base,
                                            std::vector<const Hypothesis*> others, std::size_t most,

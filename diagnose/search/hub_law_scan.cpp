@@ -1,6 +1,7 @@
 #include "diagnose/search/hub_law_scan.hpp"
 
 #include "diagnose/search/law_regression.hpp"
+#include "diagnose/search/law_torques.hpp"
 #include "diagnose/search/least_squares.hpp"
 #include "diagnose/search/misfit.hpp"
 
@@ -16,9 +17,6 @@ namespace flexarm::diagnose {
 namespace {
 
 using Eigen::Index;
-
-/// The hub is taken to rest below this velocity, in standard deviations of its noise.
-constexpr double kNoiseOfRest = 2.0;
 
 /// Of the refinement: the share to four digits.
 constexpr int kSteps = 8;
@@ -101,8 +99,9 @@ std::optional<HubLawScan> scan_hub_law(const Problem& problem, const Candidate& 
   std::vector<HubMotion> motions = hub_motions({problem, *residuals, *residuals, base});
   std::erase_if(motions, [&](const HubMotion& motion) { return !runs[motion.run]; });
   if (std::ssize(motions) != std::ranges::count(runs, true)) return std::nullopt;
-  const bool is_friction = std::holds_alternative<arm::DryFriction>(*law);
-  if (is_friction && part_at_rest(motions) > kMostRest) return std::nullopt;
+  const auto* smooth = std::get_if<arm::SmoothHubTorque>(&*law);
+  const bool may_stick = smooth == nullptr || smooth->states > 0;
+  if (may_stick && part_at_rest(motions) > kMostRest) return std::nullopt;
   const LawRegression laws(arm, motions);
   const LinearParameters linear(laws, start);
   const std::vector<Index> scanned = linear.other_coordinates(start);

@@ -35,10 +35,11 @@ struct HubLawScanOptions {
 /// simulation of the linear arm, which iterates no forces (docs/numerics.md, section 7). The torque
 /// that the law may depend on is the commanded one.
 ///
-/// Empty for an effect that is more than such a law, for a constant torque, for dry friction that
-/// is the same at every speed, and for a law with states of its own. Empty unless all estimation
-/// runs are `time` runs by output error with a hub sensor. Empty for friction where the hub rests
-/// in more than `kMostRest` of the samples: the torque at rest is not a function of the velocity.
+/// Empty for an effect that is more than such a law, for a constant torque, and for dry friction
+/// that is the same at every speed. Empty unless all estimation runs are `time` runs by output
+/// error with a hub sensor. Empty for friction and for laws with states where the hub rests in more
+/// than `kMostRest` of the samples: the torque at rest is not a function of the velocity, and what
+/// moves the states is below the noise.
 /// Empty where `start` without the law cannot be simulated. Throws Cancelled where the work is
 /// cancelled.
 std::optional<HubLawScan> scan_hub_law(const Problem& problem, const Candidate& start,

@@ -1,6 +1,7 @@
 #include "diagnose/search/law_regression.hpp"
 
 #include "arm/input_error.hpp"
+#include "diagnose/search/law_torques.hpp"
 #include "diagnose/search/scan.hpp"
 
 #include <Eigen/QR>
@@ -9,6 +10,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <stdexcept>
 #include <variant>
 
 namespace flexarm::diagnose {
@@ -18,30 +20,9 @@ namespace {
 using Eigen::Index;
 
 bool is_scanned(const arm::HubLaw& law) {
-  if (const auto* smooth = std::get_if<arm::SmoothHubTorque>(&law)) return smooth->states == 0;
+  if (std::holds_alternative<arm::SmoothHubTorque>(law)) return true;
   const auto* friction = std::get_if<arm::DryFriction>(&law);
   return friction != nullptr && friction->changes_over_rad_per_s.has_value();
-}
-
-double torque_N_m(const arm::HubLaw& law, const HubMotion& motion, std::size_t k) {
-  const double velocity = at_sample(motion, motion.velocity_rad_per_s, k);
-  if (const auto* friction = std::get_if<arm::DryFriction>(&law)) {
-    return -sign_at_sample(motion, k) * friction->size(std::abs(velocity)).torque_N_m;
-  }
-  const arm::HubState hub{.angle_rad = at_sample(motion, motion.angle_rad, k),
-                          .velocity_rad_per_s = velocity,
-                          .torque_N_m = motion.torque_N_m[k],
-                          .time_s = at_sample(motion, motion.time_s, k) - motion.time_s.front()};
-  return std::get<arm::SmoothHubTorque>(law).law(hub, {}, {}).torque_N_m;
-}
-
-HubTorques torques_of(const arm::HubLaw& law, const std::vector<HubMotion>& motions) {
-  HubTorques made;
-  for (const HubMotion& motion : motions) {
-    auto& own = made.emplace_back(motion.time_s.size());
-    for (std::size_t k = 0; k < own.size(); ++k) own[k] = torque_N_m(law, motion, k);
-  }
-  return made;
 }
 
 }  // namespace
@@ -63,7 +44,8 @@ std::optional<Eigen::VectorXd> LawRegression::readings(const Candidate& candidat
   if (!law) return std::nullopt;
   try {
     return hub_.readings(torques_of(*law, motions_));
-  } catch (const arm::InputError&) {
+  } catch (const std::runtime_error&) {
+    // Not finite, or states that move too fast.
     return std::nullopt;
   }
 }

@@ -14,8 +14,8 @@
 
 namespace flexarm::diagnose {
 
-/// The law of hub torque that the candidate's last effect is, if that is scanned: smooth without
-/// states, or dry friction that changes with the speed. Empty for another law, which it may be at
+/// The law of hub torque that the candidate's last effect is, if that is scanned: smooth, or dry
+/// friction that changes with the speed. Empty for another law, which it may be at
 /// some values of its parameters alone; for an effect that is more than a law; and for values that
 /// it cannot have.
 std::optional<arm::HubLaw> last_law(const Candidate& candidate, const arm::Arm& arm);
@@ -29,7 +29,8 @@ class LawRegression {
 
   const HubRegression& hub() const { return hub_; }
 
-  /// Empty for a candidate without a last_law, and where that is not finite at some motion.
+  /// Empty for a candidate without a last_law, and where that is not finite, or too fast, at
+  /// some motion.
   std::optional<Eigen::VectorXd> readings(const Candidate& candidate) const;
   /// The residuals without these.
   std::optional<Eigen::VectorXd> left_by(const Candidate& candidate) const;

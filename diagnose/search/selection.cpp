@@ -78,6 +78,7 @@ class Search {
       exchange_for_general(made);
     }
     if (!is_enough(made)) revision_.colour_noise_at_last(made);
+    merge(made);
     leave_out_unnamed(made);
   }
 
@@ -292,6 +293,29 @@ class Search {
                      options_.general_effects, made.combinations);
     }
     if (const auto better = better_rival(made, made.chosen)) choose(made, *better);
+  }
+
+  /// Where noise is left: two of the causes may stand for one that has one of them as a limit. It
+  /// takes their place unless they fit decisively better.
+  void merge(Selection& made) const {
+    const Candidate chosen = made.chosen.fit.candidate;
+    if (!made.chosen.leaves_noise()) return;
+    for (std::size_t i = 0; i < chosen.effects.size(); ++i) {
+      for (const Hypothesis* general : general_.all()) {
+        if (!general->contains(chosen.effects[i].effect)) continue;
+        for (std::size_t other = 0; other < chosen.effects.size(); ++other) {
+          if (other == i || chosen.has_effect(general->effect)) continue;
+          const Candidate rest = chosen.without(other);
+          const std::size_t index = other < i ? i - 1 : i;
+          if (fits_.scan().share_of(rest.without(index), *general) < options_.least_share) continue;
+          const Explanation merged = replaced(made, rest, index, *general);
+          if (!merged.leaves_noise() || !may_be_named(merged, made.nothing)) continue;
+          if (lead(made.chosen, merged) >= options_.least_information_gain) continue;
+          made.chosen = merged;
+          return;
+        }
+      }
+    }
   }
 
   /// Without the causes that may not be named, one after the other: those with a parameter that the

@@ -1,6 +1,6 @@
 #include "diagnose/search/selection.hpp"
-#include "diagnose/search/scan.hpp"
 
+#include "diagnose/search/scan.hpp"
 #include "effects/registry/vocabulary.hpp"
 #include "measured/files/frequency_record.hpp"
 #include "response/time/random_numbers.hpp"
@@ -148,6 +148,25 @@ TEST(Selection, FindsThreeEffectsOfLikeSize) {
   const std::set<std::string> all = {"torque_bias", "hub_viscous_friction", "flexural_rigidity"};
   EXPECT_EQ(made.chosen.fit.candidate.labels(), all);
   EXPECT_TRUE(made.chosen.estimation.is_noise());
+}
+
+TEST(Selection, NamesOneEffectWhereTwoOthersStandForIt) {
+  // Over a small part of a turn gravity and a bias make the torque of a tilt.
+  const Experiment experiment =
+      simulated_experiment({effects::named("tilt", {{"amplitude", 0.01}, {"angle", 0.6}}),
+                            effects::named("sensor_delay", {{"delay", 0.004}}, "tip_acceleration")},
+                           {.duration_s = 1.5});
+  SelectionOptions options;
+  options.early_growth.general = 0;
+  options.coarse_growth.general = 0;
+  const Selection made = select(
+      Problem(experiment),
+      named(experiment, {"tilt", "gravity", "torque_bias", "sensor_delay", "flexural_rigidity"}),
+      options);
+  const Candidate& chosen = made.chosen.fit.candidate;
+  ASSERT_EQ(chosen.effects.size(), 2U) << chosen.label();
+  EXPECT_TRUE(chosen.has_effect("tilt")) << chosen.label();
+  EXPECT_TRUE(chosen.has_effect("sensor_delay")) << chosen.label();
 }
 
 TEST(Selection, DoesNotTakeASmallEffectForTheTimingOfTheTorque) {

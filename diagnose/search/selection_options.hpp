@@ -125,7 +125,7 @@ struct SelectionOptions {
   // How far the search goes.
   /// Larger sets are looked for where the last effect takes this part or more of what the best
   /// set without it leaves.
-  double least_share_ahead = 0.15;
+  double least_share_ahead = 0.05;
   /// Effects by themselves: all are scanned.
   Tried single_effects = {.refitted = 8};
   /// A set is near the best where it leaves beyond noise <= this times what that leaves (is_near):

@@ -24,14 +24,14 @@ void ProblemRevision::change_problem(Change change) {
 /// All that was fitted to all data once more, from where it is, with the problem as it is now: all
 /// of it, or nothing where that is cancelled. What is far from the best is only evaluated.
 void ProblemRevision::refit(Selection& made) const {
-  Fit best = made.chosen.fit;
+  const Fit* best = &made.chosen.fit;
   for (const auto* sets : {&made.singles, &made.combinations}) {
-    if (sets->empty() || !(sets->front().fit.sum_of_squares < best.sum_of_squares)) continue;
-    best = sets->front().fit;
+    if (sets->empty() || !(sets->front().fit.sum_of_squares < best->sum_of_squares)) continue;
+    best = &sets->front().fit;
   }
   const auto again = [&, this](const Explanation& explanation) {
     const Candidate& candidate = explanation.fit.candidate;
-    if (is_near(explanation.fit, best, options_)) return fits_.fitted(candidate);
+    if (is_near(explanation.fit, *best, options_)) return fits_.fitted(candidate);
     return explain(problem_, fit(problem_, candidate, {.most_steps = 0, .work = &work_}));
   };
   const auto all_again = [&](std::vector<Explanation> explanations) {

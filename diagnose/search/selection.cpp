@@ -303,8 +303,9 @@ class Search {
     for (std::size_t i = 0; i < chosen.effects.size(); ++i) {
       for (const Hypothesis* general : general_.all()) {
         if (!general->contains(chosen.effects[i].effect)) continue;
+        if (chosen.has_effect(general->effect)) continue;
         for (std::size_t other = 0; other < chosen.effects.size(); ++other) {
-          if (other == i || chosen.has_effect(general->effect)) continue;
+          if (other == i) continue;
           const Candidate rest = chosen.without(other);
           const std::size_t index = other < i ? i - 1 : i;
           if (fits_.scan().share_of(rest.without(index), *general) < options_.least_share) continue;

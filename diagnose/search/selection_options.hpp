@@ -160,13 +160,13 @@ struct SelectionOptions {
   std::size_t coarse_samples = 1200;
   /// and in closed loop, where what a controller makes of the samples left out is not known.
   std::size_t coarse_loop_samples = 6000;
-  /// and where what is left of all data shows late in the runs (CoarseProblems::lengthen).
+  /// and where what all data leave shows late in the runs (CoarseProblems::lengthen).
   std::size_t most_coarse_samples = 10000;
-  /// Samples of each run that a filter follows <= this: it is decimated for that.
-  std::size_t filtered_samples = 4000;
   /// The same in a second look at effects of several parameters: where the hub turns another way
   /// from the start, nothing after it tells which value is nearer.
   std::size_t short_samples = 400;
+  /// Samples of each run that a filter follows <= this: it is decimated for that.
+  std::size_t filtered_samples = 4000;
   /// Flexible modes in the coarse look <= this.
   int coarse_modes = 6;
   /// Values tried in a scan of an effect of 1, 2, 3 parameters or more.

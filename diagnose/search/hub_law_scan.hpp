@@ -39,9 +39,8 @@ struct HubLawScanOptions {
 /// that is the same at every speed. Empty unless all estimation runs are `time` runs by output
 /// error with a hub sensor. Empty for friction and for laws with states where the hub rests in more
 /// than `kMostRest` of the samples: the torque at rest is not a function of the velocity, and what
-/// moves the states is below the noise.
-/// Empty where `start` without the law cannot be simulated. Throws Cancelled where the work is
-/// cancelled.
+/// moves the states is below the noise. Empty where `start` without the law cannot be simulated.
+/// Throws Cancelled where the work is cancelled.
 std::optional<HubLawScan> scan_hub_law(const Problem& problem, const Candidate& start,
                                        const HubLawScanOptions& options);
 inline constexpr double kMostRest = 0.1;

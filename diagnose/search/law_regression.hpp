@@ -15,9 +15,8 @@
 namespace flexarm::diagnose {
 
 /// The law of hub torque that the candidate's last effect is, if that is scanned: smooth, or dry
-/// friction that changes with the speed. Empty for another law, which it may be at
-/// some values of its parameters alone; for an effect that is more than a law; and for values that
-/// it cannot have.
+/// friction that changes with the speed. Empty for another law, which it may be at some values of
+/// its parameters alone; for an effect that is more than a law; and for values that it cannot have.
 std::optional<arm::HubLaw> last_law(const Candidate& candidate, const arm::Arm& arm);
 
 /// What laws of hub torque, the last effects of candidates, make of the hub's signals.

@@ -25,6 +25,7 @@ using testing::UnorderedElementsAreArray;
 
 struct FixedAnswer {
   diagnose::Verdict verdict;
+  diagnose::PredictorKind predictor;
   std::vector<std::string> effects;
 };
 
@@ -37,16 +38,26 @@ diagnose::Experiment recorded(const TrialKey& key) {
   return experiment;
 }
 
+std::vector<diagnose::Hypothesis> hypotheses_of(const diagnose::Experiment& experiment,
+                                                const std::set<std::string>& tried) {
+  auto hypotheses = diagnose::hypotheses(experiment);
+  std::erase_if(hypotheses, [&](const auto& one) { return !tried.contains(one.effect); });
+  return hypotheses;
+}
+
+FixedAnswer answer_of(const diagnose::Diagnosis& diagnosis) {
+  FixedAnswer answer{diagnosis.verdict, diagnosis.predictor, {}};
+  for (const auto& cause : diagnosis.causes) answer.effects.push_back(cause.effect);
+  return answer;
+}
+
 /// The effect `unknown` is not among those tried.
 FixedAnswer diagnosed(const TrialKey& key, const diagnose::SelectionOptions& options = {},
                       const std::string& unknown = "") {
   const diagnose::Experiment experiment = recorded(key);
   auto hypotheses = diagnose::hypotheses(experiment);
   std::erase_if(hypotheses, [&](const auto& one) { return one.effect == unknown; });
-  const auto diagnosis = diagnose::diagnose(experiment, hypotheses, options);
-  FixedAnswer answer{diagnosis.verdict, {}};
-  for (const auto& cause : diagnosis.causes) answer.effects.push_back(cause.effect);
-  return answer;
+  return answer_of(diagnose::diagnose(experiment, hypotheses, options));
 }
 
 TEST(FixedTrial, NothingHiddenInTime) {
@@ -76,8 +87,7 @@ TEST(FixedTrial, ThreeEffectsOfWhichTwoActLikeAnother) {
   tried.insert({"payload_inertia", "payload_offset", "hub_inertia"});
   const diagnose::Experiment experiment =
       recorded({.kind = RunKind::time, .hidden = hidden, .seed = 2, .arm = "aluminium link"});
-  auto hypotheses = diagnose::hypotheses(experiment);
-  std::erase_if(hypotheses, [&](const auto& one) { return !tried.contains(one.effect); });
+  const auto hypotheses = hypotheses_of(experiment, tried);
   const auto chosen = select(diagnose::Problem(experiment), hypotheses, {}).chosen;
   EXPECT_TRUE(chosen.leaves_noise());
   EXPECT_THAT(chosen.fit.candidate.labels(), UnorderedElementsAreArray(hidden));
@@ -92,14 +102,11 @@ TEST(FixedTrial, ASecondCauseInClosedLoopIsNoNoiseOfTheTorque) {
   tried.insert({"hub_inertia", "linear_density"});
   const diagnose::Experiment experiment =
       recorded({.kind = RunKind::time, .hidden = hidden, .dirt = "closed_loop"});
-  auto hypotheses = diagnose::hypotheses(experiment);
-  std::erase_if(hypotheses, [&](const auto& one) { return !tried.contains(one.effect); });
-  const auto diagnosis = diagnose::diagnose(experiment, hypotheses, {});
-  EXPECT_EQ(diagnosis.verdict, diagnose::Verdict::explained);
-  EXPECT_EQ(diagnosis.predictor, diagnose::PredictorKind::output_error);
-  std::vector<std::string> named;
-  for (const auto& cause : diagnosis.causes) named.push_back(cause.effect);
-  EXPECT_THAT(named, UnorderedElementsAre("beam_thickness", "payload_mass"));
+  const FixedAnswer answer =
+      answer_of(diagnose::diagnose(experiment, hypotheses_of(experiment, tried), {}));
+  EXPECT_EQ(answer.verdict, diagnose::Verdict::explained);
+  EXPECT_EQ(answer.predictor, diagnose::PredictorKind::output_error);
+  EXPECT_THAT(answer.effects, UnorderedElementsAre("beam_thickness", "payload_mass"));
 }
 
 TEST(FixedTrial, AnActuatorsLagInFrequency) {

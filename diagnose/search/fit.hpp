@@ -19,7 +19,7 @@ struct Fit {
 };
 
 struct FitOptions {
-  int most_steps = 30;
+  int most_steps = 60;
   /// Converged where a step lowers the sum of squares by less than this part of it, or moves no
   /// place by more than this.
   double tolerance = 1e-7;

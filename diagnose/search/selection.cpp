@@ -176,13 +176,19 @@ class Search {
     return found;
   }
 
-  /// The best admitted single over none; `nothing` where there is none.
+  /// The best admitted single over none, or one with fewer parameters that fits as well by delta
+  /// BIC; `nothing` where there is none.
   Explanation best_single(Selection& made) const {
+    Explanation best = made.nothing;
     for (const Candidate& candidate : candidates_of(made.singles)) {
       const auto single = find_set(made.singles, candidate);
-      if (is_admitted(made, *single, made.nothing)) return *find_set(made.singles, candidate);
+      const bool is_first = best.fit.candidate.effects.empty();
+      const bool is_simpler = candidate.values.size() < best.fit.candidate.values.size() &&
+                              lead(best, *single) < options_.least_information_gain;
+      if (!(is_first || is_simpler)) continue;
+      if (is_admitted(made, *single, made.nothing)) best = *find_set(made.singles, candidate);
     }
-    return made.nothing;
+    return best;
   }
 
   void choose(Selection& made, Explanation best) {

@@ -78,6 +78,28 @@ TEST(FixedTrial, FrictionInTime) {
   EXPECT_THAT(answer.effects, ElementsAre("coulomb_friction"));
 }
 
+TEST(FixedTrial, ATenthOfAPeriodOfRippleInOneRun) {
+  // The hub turns by 0.37 rad, 0.7 rad of a ripple of two cycles per revolution. A tilt leaves
+  // 0.508 % of the signal, the ripple 0.504 % (delta BIC 248).
+  const FixedAnswer answer = diagnosed(
+      {.kind = RunKind::time, .hidden = {"torque_ripple"}, .seed = 2, .dirt = "single_run"});
+  EXPECT_EQ(answer.verdict, diagnose::Verdict::explained);
+  EXPECT_THAT(answer.effects, ElementsAre("torque_ripple"));
+}
+
+TEST(FixedTrial, OneCycleOfRippleIsATilt) {
+  // A tilt is a ripple of one cycle: that fits as well and has a parameter more.
+  const TrialKey key{.kind = RunKind::time, .hidden = {"tilt"}, .seed = 1, .dirt = "single_run"};
+  const diagnose::Experiment experiment = recorded(key);
+  const auto hypotheses =
+      hypotheses_of(experiment, {"tilt", "torque_ripple", "torque_bias", "hub_spring"});
+  const auto answer = diagnose::diagnose(experiment, hypotheses, {});
+  EXPECT_EQ(answer.verdict, diagnose::Verdict::explained);
+  ASSERT_EQ(answer.causes.size(), 1U);
+  EXPECT_EQ(answer.causes.front().effect, "tilt");
+  EXPECT_THAT(answer.causes.front().confusable_with, ElementsAre("torque_ripple"));
+}
+
 TEST(FixedTrial, ThreeEffectsOfWhichTwoActLikeAnother) {
   // The inertia of the payload acts like the soft root and the lighter beam together: the best pair
   // has it beside the friction, and no third effect beside these two leaves noise.

@@ -58,7 +58,11 @@ ArmSimulator::ArmSimulator(const arm::ModalModel& model, const ArmParts& parts,
                                    arm::linear_arm(parts.linear).hub_viscous_friction_N_m_s_per_rad)
                              : std::nullopt),
       times_(reading_times(parts.sensor_chains, sensors, options.sample_time_s)),
-      plan_(arm_, forces_, parts.actuator, options, ledger_ ? &*ledger_ : nullptr, times_.cuts()) {}
+      plan_(arm_, forces_, parts.actuator, options, ledger_ ? &*ledger_ : nullptr, times_.cuts()) {
+  if (!plan_.is_linear() || ledger_) return;
+  const TorquePath path(parts.actuator, {}, options.sample_time_s, options.hold, times_.cuts());
+  lifted_.emplace(plan_, parts_, sensors_, path, times_);
+}
 
 std::ptrdiff_t ArmSimulator::lead(std::size_t samples) const {
   return std::min(times_.longest_samples(), static_cast<std::ptrdiff_t>(samples));
@@ -163,7 +167,18 @@ Simulation ArmSimulator::run(Commands& commands, const SimulationProgress& progr
 Eigen::MatrixXd ArmSimulator::readings(std::span<const double> torque_N_m,
                                        const Eigen::VectorXd& initial) const {
   Commands commands(*this, torque_N_m);
-  return readings(commands, initial);
+  if (!lifted_) return readings(commands, initial);
+  const std::ptrdiff_t first = initial.size() > 0 ? -lead(torque_N_m.size()) : 0;
+  const auto torques = commands.path().whole_parts(first);
+  if (!torques) return readings(commands, initial);
+  Eigen::MatrixXd made = unread(torque_N_m.size());
+  lifted_->read(*torques, first, initial.size() > 0 ? initial : Eigen::VectorXd::Zero(states()),
+                made);
+  for (Index k = 0; k < made.rows(); ++k) {
+    if (made.row(k).allFinite()) continue;
+    throw too_large("reading", static_cast<double>(k) * options_.sample_time_s);
+  }
+  return made;
 }
 
 ClosedLoopReadings ArmSimulator::closed_loop_readings(const ClosedLoop& loop,

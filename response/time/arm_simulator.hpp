@@ -5,6 +5,7 @@
 #include "response/time/closed_loop.hpp"
 #include "response/time/energy_ledger.hpp"
 #include "response/time/kalman_filter.hpp"
+#include "response/time/lifted_arm.hpp"
 #include "response/time/modal_dynamics.hpp"
 #include "response/time/reading_times.hpp"
 #include "response/time/simulation.hpp"
@@ -93,7 +94,7 @@ class ArmSimulator {
   Simulation run(const ClosedLoop& loop, const SimulationProgress& progress = {}) const;
 
   /// Readings and torque in closed loop, from the state `initial` (at rest where it is empty). They
-  /// are, to the last bit, those of `readings` with that torque. Throws InputError for a controller
+  /// are those of `readings` with that torque, but for rounding. Throws InputError for a controller
   /// that is not valid, whose period is no whole multiple of the sample time, or that reads another
   /// sensor than this object's; for a first-order hold, a reference that is empty or not finite,
   /// and for torques and readings that are too large for a number: of a loop that is unstable.
@@ -163,6 +164,7 @@ class ArmSimulator {
   std::optional<EnergyLedger> ledger_;  ///< as it is before a run
   ReadingTimes times_;
   StepPlan plan_;
+  std::optional<LiftedArm> lifted_;  ///< of a linear arm without a ledger
 };
 
 /// At so many the gain of a filter takes some ten milliseconds.

@@ -31,6 +31,7 @@ class ArmSimulator::Commands {
   std::span<const double> torque_N_m() const { return torque_N_m_; }
   std::vector<double> take_torque_N_m() { return std::move(made_N_m_); }
 
+  const TorquePath& path() const { return *path_; }
   /// Of all sensors of the arm.
   ReadingPlan reading_plan() const;
 

@@ -27,8 +27,24 @@ std::size_t TorquePath::part_from(double cut) const {
   return static_cast<std::size_t>(nearest - edges_.begin());
 }
 
-/// `command` is delayed, but not yet mapped.
-void TorquePath::add(TorquePiece command, Pieces& pieces) const {
+TorquePiece TorquePath::command(std::ptrdiff_t k, std::size_t part) const {
+  const double begin = edges_[part];
+  const double end = edges_[part + 1];
+  // The sample whose command acts there, and how far it is from it to the next one.
+  const bool is_delayed = begin < delay_.fraction;
+  const double j = static_cast<double>(k) - delay_.samples - (is_delayed ? 1.0 : 0.0);
+  if (j < 0.0) return {begin, end, 0.0, 0.0, part};
+  const double ahead = (is_delayed ? 1.0 : 0.0) - delay_.fraction;
+  const auto at = static_cast<std::size_t>(j);
+  const double left = torque_N_m_[at];
+  const double right =
+      hold_ == TorqueHold::first && at + 1 < torque_N_m_.size() ? torque_N_m_[at + 1] : left;
+  const auto between = [&](double fraction) { return left + fraction * (right - left); };
+  const double to = end == delay_.fraction ? 1.0 : end + ahead;  // to the last bit
+  return {begin, end, between(begin + ahead), between(to), part};
+}
+
+void TorquePath::add(const TorquePiece& command, Pieces& pieces) const {
   const double from = command.begin_N_m;
   const double to = command.end_N_m;
   std::vector<double> breaks;
@@ -55,25 +71,28 @@ void TorquePath::add(TorquePiece command, Pieces& pieces) const {
 
 void TorquePath::pieces(std::ptrdiff_t k, Pieces& pieces) const {
   pieces.clear();
-  for (std::size_t part = 0; part + 1 < edges_.size(); ++part) {
-    const double begin = edges_[part];
-    const double end = edges_[part + 1];
-    // The sample whose command acts there, and how far it is from it to the next one.
-    const bool is_delayed = begin < delay_.fraction;
-    const double j = static_cast<double>(k) - delay_.samples - (is_delayed ? 1.0 : 0.0);
-    const double ahead = (is_delayed ? 1.0 : 0.0) - delay_.fraction;
-    if (j < 0.0) {
-      add({begin, end, 0.0, 0.0, part}, pieces);
-      continue;
+  for (std::size_t part = 0; part + 1 < edges_.size(); ++part) add(command(k, part), pieces);
+}
+
+std::optional<Eigen::MatrixXd> TorquePath::whole_parts(std::ptrdiff_t first) const {
+  const std::size_t parts = edges_.size() - 1;
+  const std::ptrdiff_t intervals = std::ssize(torque_N_m_) - first;
+  const bool is_held = hold_ == TorqueHold::zero;
+  Eigen::MatrixXd made(static_cast<Eigen::Index>(parts) * torques_of_part(), intervals);
+  for (std::ptrdiff_t i = 0; i < intervals; ++i) {
+    Eigen::Index row = 0;
+    for (std::size_t part = 0; part < parts; ++part) {
+      const TorquePiece piece = command(first + i, part);
+      made(row++, i) = actuator_.mapped(piece.begin_N_m);
+      if (is_held) continue;
+      const auto is_within = [&](double bend) {
+        return (bend - piece.begin_N_m) * (bend - piece.end_N_m) < 0.0;
+      };
+      if (std::ranges::any_of(bends_, is_within)) return std::nullopt;
+      made(row++, i) = actuator_.mapped(piece.end_N_m);
     }
-    const auto at = static_cast<std::size_t>(j);
-    const double left = torque_N_m_[at];
-    const double right =
-        hold_ == TorqueHold::first && at + 1 < torque_N_m_.size() ? torque_N_m_[at + 1] : left;
-    const auto command = [&](double fraction) { return left + fraction * (right - left); };
-    const double to = end == delay_.fraction ? 1.0 : end + ahead;  // to the last bit
-    add({begin, end, command(begin + ahead), command(to), part}, pieces);
   }
+  return made;
 }
 
 }  // namespace flexarm::response

@@ -4,7 +4,10 @@
 #include "response/time/sample_delay.hpp"
 #include "response/time/simulation.hpp"
 
+#include <Eigen/Core>
+
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -36,6 +39,12 @@ class TorquePath {
   /// Behind the last sample the command stays as it is.
   void pieces(std::ptrdiff_t k, Pieces& pieces) const;
 
+  /// The torques [N m] of the parts of the sample intervals from `first` on, up to that of the last
+  /// sample: a column an interval, and for each part torques_of_part() rows, the torque in it or
+  /// those at its beginning and its end. Empty where a map bends within a part.
+  std::optional<Eigen::MatrixXd> whole_parts(std::ptrdiff_t first) const;
+  int torques_of_part() const { return hold_ == TorqueHold::zero ? 1 : 2; }
+
   /// Where every sample interval is divided, ascending from 0 to 1: at the delayed samples and at
   /// the cuts.
   const std::vector<double>& edges() const { return edges_; }
@@ -43,7 +52,9 @@ class TorquePath {
   std::size_t part_from(double cut) const;
 
  private:
-  void add(TorquePiece command, Pieces& pieces) const;
+  /// The command in a part of the interval behind sample `k`, delayed and not yet mapped.
+  TorquePiece command(std::ptrdiff_t k, std::size_t part) const;
+  void add(const TorquePiece& command, Pieces& pieces) const;
 
   Actuator actuator_;
   std::vector<double> bends_;

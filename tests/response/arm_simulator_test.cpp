@@ -13,6 +13,7 @@
 #include <cmath>
 #include <numbers>
 #include <ostream>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -172,6 +173,38 @@ TEST(ArmSimulator, GoesOnFromAStateAsFreeReadingsSay) {
   const Eigen::MatrixXd from_state = simulator.readings(torque, initial);
   EXPECT_LE((from_state.reshaped() - expected).norm(), kRoundingOfSteps * expected.norm());
   EXPECT_GE((from_state - from_rest).norm(), 0.1 * from_rest.norm());
+}
+
+TEST(ArmSimulator, ReadsTheSameForAnyNumberOfSamples) {
+  // Readings of a linear arm are formed for blocks of samples (LiftedArm), the run step by step.
+  arm::Arm arm = arm::paper_arm();
+  arm.effects = {effects::named("time_delay", {{"delay", 2.3 * kStep_s}}),
+                 effects::named("torque_bias", {{"torque", 0.004}}),
+                 effects::named("sensor_offset", {{"value", 0.3}}, "strain@0.05"),
+                 effects::named("sensor_delay", {{"delay", 7.3 * kStep_s}}, "hub_angle")};
+  const auto sensors = four_sensors();
+  const ArmParts parts = take_apart(arm);
+  const arm::ModalModel model =
+      time_model(make_formulation("exact_tf", arm, kFlexibleModes), parts, kFlexibleModes, sensors);
+  const std::vector<double> all =
+      sample(RandomNoise{.rms_N_m = 0.08, .from_Hz = 0.2, .to_Hz = 40.0, .seed = 4},
+             SampleGrid{100, kStep_s})
+          .torque_N_m;
+  for (const TorqueHold hold : {TorqueHold::zero, TorqueHold::first}) {
+    const ArmSimulator simulator(model, parts, sensors, options_of_fit(kStep_s, hold));
+    for (const std::size_t samples : {1U, 2U, 8U, 15U, 16U, 17U, 32U, 33U, 100U}) {
+      const auto torque = std::span(all).first(samples);
+      const Simulation by_steps = simulator.run(torque);
+      const Eigen::MatrixXd made = simulator.readings(torque);
+      ASSERT_EQ(made.rows(), std::ssize(torque));
+      for (std::size_t j = 0; j < sensors.size(); ++j) {
+        const auto expected = Eigen::VectorXd::Map(by_steps.channels[j].data(), made.rows());
+        EXPECT_LE((made.col(static_cast<Eigen::Index>(j)) - expected).norm(),
+                  kRoundingOfSteps * expected.norm())
+            << samples << " samples, " << arm::to_string(sensors[j]);
+      }
+    }
+  }
 }
 
 TEST(ArmSimulator, ResolvesTheModesBelowTheNyquistFrequency) {

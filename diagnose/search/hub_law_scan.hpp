@@ -20,7 +20,7 @@ struct HubLawScanOptions {
   /// Values tried of a law with 1, 2, 3 parameters or more beside its amplitude and phase.
   std::array<int, 3> evaluations = {};
   int starts = 1;
-  const ReportedWork* work = nullptr;  ///< that the scan is part of; asked before each evaluation
+  const ReportedWork* work = nullptr;  ///< that the scan is part of; asked while it is refined
 };
 
 /// Scans a law of hub torque, the last effect of `start`, by a regression on the measured motion of
@@ -28,12 +28,11 @@ struct HubLawScanOptions {
 /// filed, and the sum of squares that this leaves of the hub's signals
 /// (symptoms/hub_regression.hpp). Where a law is in proportion to its parameters of
 /// effects::Spacing::from_zero, its size is solved for at each value of the others, and so is the
-/// phase of a sine. The best value
-/// is refined by least squares, from there and from beside the law's neutral value: a free hub
-/// answers a constant part of a law with a drift, so that the minimum may be narrower than the
-/// distance of the values that are scanned. Simulated, each value would cost up to seven times a
-/// simulation of the linear arm, which iterates no forces (docs/numerics.md, section 7). The torque
-/// that the law may depend on is the commanded one.
+/// phase of a sine. The values are those of a grid, which is computed once for all sets of effects
+/// beside the law (hub_laws.hpp). The best value is refined by least squares, from there and from
+/// beside the law's neutral value: a free hub answers a constant part of a law with a drift, so
+/// that the minimum may be narrower than the distance of the values of the grid. The torque that
+/// the law may depend on is the commanded one.
 ///
 /// Empty for an effect that is more than such a law, for a constant torque, and for dry friction
 /// that is the same at every speed. Empty unless all estimation runs are `time` runs by output
@@ -43,6 +42,5 @@ struct HubLawScanOptions {
 /// Throws Cancelled where the work is cancelled.
 std::optional<HubLawScan> scan_hub_law(const Problem& problem, const Candidate& start,
                                        const HubLawScanOptions& options);
-inline constexpr double kMostRest = 0.1;
 
 }  // namespace flexarm::diagnose

@@ -39,31 +39,47 @@ std::optional<arm::HubLaw> last_law(const Candidate& candidate, const arm::Arm& 
   }
 }
 
-std::optional<Eigen::VectorXd> LawRegression::readings(const Candidate& candidate) const {
+std::optional<HubTorques> LawRegression::torques(const Candidate& candidate) const {
   const auto law = last_law(candidate, arm_);
   if (!law) return std::nullopt;
   try {
-    return hub_.readings(torques_of(*law, motions_));
+    return torques_of(*law, motions_);
   } catch (const std::runtime_error&) {
     // Not finite, or states that move too fast.
     return std::nullopt;
   }
 }
 
-std::optional<Eigen::VectorXd> LawRegression::left_by(const Candidate& candidate) const {
-  const auto made = readings(candidate);
-  return made ? std::optional<Eigen::VectorXd>(hub_.residuals() - *made) : std::nullopt;
+std::optional<Eigen::VectorXd> LawRegression::readings(const Candidate& candidate) const {
+  const auto made = torques(candidate);
+  if (!made) return std::nullopt;
+  try {
+    return hub_.readings(*made);
+  } catch (const std::runtime_error&) {
+    return std::nullopt;  // too large
+  }
 }
 
-LinearParameters::LinearParameters(const LawRegression& laws, const Candidate& start)
-    : laws_(laws) {
+namespace {
+
+/// The readings are a multiple of what is expected.
+bool are_readings(const LawRegression& laws, const Candidate& candidate,
+                  const Eigen::VectorXd& expected) {
+  constexpr double kRounding = 1e-9;
+  const auto made = laws.readings(candidate);
+  return made && (*made - expected).norm() <= kRounding * expected.norm();
+}
+
+}  // namespace
+
+LinearParameters::LinearParameters(const LawRegression& laws, const Candidate& start) {
   const std::vector<SearchedParameter>& parameters = start.effects.back().parameters;
   first_ = start.values.size() - parameters.size();
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     if (parameters[i].spacing == effects::Spacing::from_zero) amplitudes_.push_back(i);
   }
   const auto once = laws.readings(start);
-  if (amplitudes_.empty() || !once || !is_combination({2.0 * *once}, times(start, 2.0))) {
+  if (amplitudes_.empty() || !once || !are_readings(laws, times(start, 2.0), 2.0 * *once)) {
     amplitudes_.clear();
     return;
   }
@@ -72,9 +88,10 @@ LinearParameters::LinearParameters(const LawRegression& laws, const Candidate& s
   phase_ = static_cast<std::size_t>(periodic - parameters.begin());
   turn_ = periodic->highest - periodic->lowest;
   const auto quarter = laws.readings(turned(start, 0.25));
-  if (!quarter || !is_combination((*once + *quarter) / std::numbers::sqrt2, turned(start, 0.125))) {
-    phase_.reset();
-  }
+  const auto is_sine = [&] {
+    return are_readings(laws, turned(start, 0.125), (*once + *quarter) / std::numbers::sqrt2);
+  };
+  if (!quarter || !is_sine()) phase_.reset();
 }
 
 std::vector<Index> LinearParameters::other_coordinates(const Candidate& candidate) const {
@@ -87,32 +104,33 @@ std::vector<Index> LinearParameters::other_coordinates(const Candidate& candidat
   return others;
 }
 
-std::pair<Candidate, double> LinearParameters::best(const Candidate& candidate) const {
-  const auto readings = laws_.readings(candidate);
-  if (!readings) return {candidate, std::numeric_limits<double>::infinity()};
-  const auto left = [&](const Eigen::VectorXd& made) {
-    return (laws_.hub().residuals() - made).squaredNorm();
-  };
-  if (amplitudes_.empty()) return {candidate, left(*readings)};
-  const auto quarter = phase_ ? laws_.readings(turned(candidate, 0.25)) : std::nullopt;
-  Eigen::MatrixXd terms(readings->size(), quarter ? 2 : 1);
-  terms.col(0) = *readings;
-  if (quarter) terms.col(1) = *quarter;
-  const Eigen::VectorXd solved = terms.colPivHouseholderQr().solve(laws_.hub().residuals());
-  constexpr double kLeast = 1e-2;
-  const double size =
-      std::clamp(quarter ? solved.norm() : solved(0), kLeast, largest_size(candidate));
-  if (!quarter) return {times(candidate, size), left(size * *readings)};
-  const double angle = std::atan2(solved(1), solved(0));
-  return {times(turned(candidate, angle / (2.0 * std::numbers::pi)), size),
-          left(size * (std::cos(angle) * *readings + std::sin(angle) * *quarter))};
+std::optional<Candidate> LinearParameters::quarter_of(const Candidate& candidate) const {
+  return phase_ ? std::optional(turned(candidate, 0.25)) : std::nullopt;
 }
 
-bool LinearParameters::is_combination(const Eigen::VectorXd& expected,
-                                      const Candidate& candidate) const {
-  constexpr double kRounding = 1e-9;
-  const auto made = laws_.readings(candidate);
-  return made && (*made - expected).norm() <= kRounding * expected.norm();
+std::pair<Candidate, double> LinearParameters::solved(const Candidate& candidate,
+                                                      const LawProducts& products) const {
+  constexpr double kLeast = 1e-2;
+  const auto& [rr, ra, rb, aa, ab, bb] = products;
+  // With `a` times the readings and `b` times those a quarter on.
+  const auto left = [&](double a, double b) {
+    return rr - 2.0 * (a * ra + b * rb) + a * a * aa + 2.0 * a * b * ab + b * b * bb;
+  };
+  if (amplitudes_.empty()) return {candidate, left(1.0, 0.0)};
+  const double largest = largest_size(candidate);
+  if (!phase_) {
+    const double size = std::clamp(aa > 0.0 ? ra / aa : 0.0, kLeast, largest);
+    return {times(candidate, size), left(size, 0.0)};
+  }
+  Eigen::Matrix2d normal;
+  normal << aa, ab, ab, bb;
+  // Of readings that are nearly the same the shortest solution.
+  const Eigen::Vector2d solution =
+      normal.completeOrthogonalDecomposition().solve(Eigen::Vector2d(ra, rb));
+  const double size = std::clamp(solution.norm(), kLeast, largest);
+  const double angle = std::atan2(solution(1), solution(0));
+  return {times(turned(candidate, angle / (2.0 * std::numbers::pi)), size),
+          left(size * std::cos(angle), size * std::sin(angle))};
 }
 
 Candidate LinearParameters::times(const Candidate& candidate, double size) const {

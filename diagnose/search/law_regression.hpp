@@ -28,11 +28,11 @@ class LawRegression {
 
   const HubRegression& hub() const { return hub_; }
 
-  /// Empty for a candidate without a last_law, and where that is not finite, or too fast, at
-  /// some motion.
+  /// The law's torques at the motions. Empty for a candidate without a last_law, and where that is
+  /// not finite, or too fast, at some motion.
+  std::optional<HubTorques> torques(const Candidate& candidate) const;
+  /// What these make of the signals; empty where they are.
   std::optional<Eigen::VectorXd> readings(const Candidate& candidate) const;
-  /// The residuals without these.
-  std::optional<Eigen::VectorXd> left_by(const Candidate& candidate) const;
 
  private:
   const arm::Arm& arm_;
@@ -40,29 +40,41 @@ class LawRegression {
   HubRegression hub_;
 };
 
+/// Scalar products of residuals r, the readings a of a law, and those b of the law a quarter of its
+/// phase on, 0 for a law that has none.
+struct LawProducts {
+  double rr = 0.0;
+  double ra = 0.0;
+  double rb = 0.0;
+  double aa = 0.0;
+  double ab = 0.0;
+  double bb = 0.0;
+};
+
 /// The parameters of the last effect that a law's torque is linear in: amplitudes, all of which
 /// together it is in proportion to, and beside them the phase of a sine.
 class LinearParameters {
  public:
-  /// Of `start`, each where readings at a few values confirm it. `laws` must outlive the object.
+  /// Of `start`, each where readings at a few values confirm it.
   LinearParameters(const LawRegression& laws, const Candidate& start);
 
-  /// The coordinates of the last effect that `best` does not solve for: all but the first amplitude
-  /// and the phase.
+  /// The coordinates of the last effect that `solved` does not solve for: all but the first
+  /// amplitude and the phase.
   std::vector<Eigen::Index> other_coordinates(const Candidate& candidate) const;
+  /// The candidate a quarter of its phase on; empty where there is no phase to solve for.
+  std::optional<Candidate> quarter_of(const Candidate& candidate) const;
 
   /// `candidate` with those amplitudes within their ranges, in their ratio, and that phase which
-  /// leave least; and the sum of squares that it leaves. Infinite where it leaves nothing to
-  /// compare.
-  std::pair<Candidate, double> best(const Candidate& candidate) const;
+  /// leave least of the residuals; and the sum of squares that it leaves. `products` are of its
+  /// readings and those of its quarter_of.
+  std::pair<Candidate, double> solved(const Candidate& candidate,
+                                      const LawProducts& products) const;
 
  private:
-  bool is_combination(const Eigen::VectorXd& expected, const Candidate& candidate) const;
   Candidate times(const Candidate& candidate, double size) const;
   Candidate turned(const Candidate& candidate, double turns) const;
   double largest_size(const Candidate& candidate) const;
 
-  const LawRegression& laws_;
   std::size_t first_ = 0;  // of the last effect's values
   std::vector<std::size_t> amplitudes_;
   std::optional<std::size_t> phase_ = {};

@@ -9,10 +9,13 @@
 
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <vector>
 
 namespace flexarm::diagnose {
+
+class HubLaws;
 
 struct ProblemOptions {
   std::optional<int> flexible_modes = {};  ///< of simulated runs; as many as needed unless given
@@ -97,13 +100,35 @@ class Problem {
                                            const std::vector<bool>& runs) const;
   Eigen::Index residual_count() const;
 
+  /// Its laws of hub torque, made when they are first asked for. Concurrent calls are safe.
+  HubLaws& hub_laws() const;
+
  private:
+  /// Made of one problem: a copy makes its own.
+  class KeptLaws {
+   public:
+    KeptLaws() = default;
+    KeptLaws(const KeptLaws& /*other*/) {}
+    KeptLaws& operator=(const KeptLaws& /*other*/) {
+      forget();
+      return *this;
+    }
+
+    HubLaws& of(const Problem& problem);
+    void forget();
+
+   private:
+    std::mutex mutex_;
+    std::shared_ptr<HubLaws> laws_;
+  };
+
   const Experiment* experiment_;
   std::shared_ptr<const Experiment> own_experiment_;  // where it is not the caller's
   Observations observations_;
   std::vector<bool> estimation_runs_;
   std::vector<bool> validation_runs_;
   Predictor predictor_;
+  mutable KeptLaws laws_;
 };
 
 }  // namespace flexarm::diagnose

@@ -63,17 +63,17 @@ class ScannedSum {
   }
 
   /// The best of the places that are apart.
-  std::vector<Candidate> best(int most) {
-    std::ranges::stable_sort(places_, {}, &Place::sum);
-    std::vector<Eigen::VectorXd> kept;
+  std::vector<Candidate> best(int most) const {
+    std::vector<Eigen::VectorXd> places;
+    std::vector<double> sums;
     for (const Place& place : places_) {
-      const bool is_apart = std::ranges::all_of(kept, [&](const Eigen::VectorXd& other) {
-        return (place.scanned - other).lpNorm<Eigen::Infinity>() >= kApart;
-      });
-      if (std::ssize(kept) < most && is_apart) kept.push_back(place.scanned);
+      places.push_back(place.scanned);
+      sums.push_back(place.sum);
     }
     std::vector<Candidate> found;
-    for (const Eigen::VectorXd& place : kept) found.push_back(candidate_at(place));
+    for (const std::size_t i : best_apart(places, sums, most)) {
+      found.push_back(candidate_at(places[i]));
+    }
     return found;
   }
 
@@ -90,23 +90,6 @@ class ScannedSum {
   const ScanOptions& options_;
   std::vector<Place> places_;
 };
-
-void try_grid(ScannedSum& sum, Index dimension, int evaluations) {
-  constexpr double kRounding = 1e-9;
-  const int along_axis = static_cast<int>(
-      std::floor(std::pow(evaluations, 1.0 / static_cast<double>(dimension)) + kRounding));
-  const auto count = std::lround(std::pow(along_axis, dimension));
-  std::vector<Eigen::VectorXd> places;
-  for (long k = 0; k < count; ++k) {
-    Eigen::VectorXd& place = places.emplace_back(dimension);
-    long rest = k;
-    for (double& coordinate : place) {
-      coordinate = (static_cast<double>(rest % along_axis) + 0.5) / along_axis;
-      rest /= along_axis;
-    }
-  }
-  sum.try_all(std::move(places));
-}
 
 void try_direct(ScannedSum& sum, Index dimension, int evaluations) {
   nlopt::opt search(nlopt::GN_DIRECT_L, static_cast<unsigned>(dimension));
@@ -151,8 +134,45 @@ std::vector<Candidate> scan(const SumOfSquares& sum_of_squares, const Candidate&
   const bool by_grid = options.method == ScanMethod::grid ||
                        (options.method == ScanMethod::by_dimension && dimension <= kMostOfGrid);
   ScannedSum sum(sum_of_squares, start, coordinates, options);
-  (by_grid ? try_grid : try_direct)(sum, dimension, options.evaluations);
+  if (by_grid) {
+    sum.try_all(grid_places(dimension, options.evaluations));
+  } else {
+    try_direct(sum, dimension, options.evaluations);
+  }
   return sum.best(options.starts);
+}
+
+std::vector<Eigen::VectorXd> grid_places(Index dimension, int evaluations) {
+  constexpr double kRounding = 1e-9;
+  const int along_axis = static_cast<int>(
+      std::floor(std::pow(evaluations, 1.0 / static_cast<double>(dimension)) + kRounding));
+  const auto count = std::lround(std::pow(along_axis, dimension));
+  std::vector<Eigen::VectorXd> places;
+  for (long k = 0; k < count; ++k) {
+    Eigen::VectorXd& place = places.emplace_back(dimension);
+    long rest = k;
+    for (double& coordinate : place) {
+      coordinate = (static_cast<double>(rest % along_axis) + 0.5) / along_axis;
+      rest /= along_axis;
+    }
+  }
+  return places;
+}
+
+std::vector<std::size_t> best_apart(const std::vector<Eigen::VectorXd>& places,
+                                    const std::vector<double>& sums, int most) {
+  std::vector<std::size_t> order(places.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return sums[i]; });
+  std::vector<std::size_t> kept;
+  for (const std::size_t i : order) {
+    if (std::ssize(kept) == most) break;
+    const bool is_apart = std::ranges::all_of(kept, [&](std::size_t other) {
+      return (places[i] - places[other]).lpNorm<Eigen::Infinity>() >= kApart;
+    });
+    if (is_apart) kept.push_back(i);
+  }
+  return kept;
 }
 
 std::vector<Index> last_coordinates(const Candidate& candidate) {

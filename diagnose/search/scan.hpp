@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include <cstddef>
 #include <functional>
 #include <vector>
 
@@ -43,6 +44,14 @@ using SumOfSquares = std::function<double(const Candidate&)>;
 std::vector<Candidate> scan(const SumOfSquares& sum_of_squares, const Candidate& start,
                             const std::vector<Eigen::Index>& coordinates,
                             const ScanOptions& options);
+
+/// The places of a grid in the unit cube of so many dimensions: the middles of equal boxes, as many
+/// along each axis as the evaluations allow.
+std::vector<Eigen::VectorXd> grid_places(Eigen::Index dimension, int evaluations);
+/// Of `places` with these sums of squares the indices of the best <= `most`, the best first, that
+/// differ by a tenth of a range in at least one coordinate.
+std::vector<std::size_t> best_apart(const std::vector<Eigen::VectorXd>& places,
+                                    const std::vector<double>& sums, int most);
 
 /// The coordinates of the last effect of the candidate.
 std::vector<Eigen::Index> last_coordinates(const Candidate& candidate);

@@ -70,6 +70,7 @@ std::vector<HubReading> readings_of(const SymptomsInput& input, std::size_t run,
     readings.push_back({HubResponse(arm, sensor, input.problem.predictor().flexible_modes(),
                                     input.problem.experiment().runs[run].run.torque_hold,
                                     measured::sampling_period_s(record), record.time_s.size()),
+                        channel->first,
                         {residual.begin(), residual.end()},
                         noise,
                         channel->noise});

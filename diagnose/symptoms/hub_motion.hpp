@@ -12,6 +12,7 @@ namespace flexarm::diagnose {
 /// A hub sensor of a run, with what the simulation without causes leaves of it.
 struct HubReading {
   HubResponse response;
+  Eigen::Index first = 0;        ///< of its numbers among those of the Observations
   std::vector<double> residual;  ///< measured less simulated, in the sensor's unit
   double noise = 0.0;            ///< its standard deviation
   double relative_noise = 0.0;   ///< over that of the signal

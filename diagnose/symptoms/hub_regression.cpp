@@ -59,6 +59,41 @@ Eigen::VectorXd HubRegression::readings(const HubTorques& torques) const {
   return made;
 }
 
+Eigen::VectorXd HubRegression::of_hub(const Eigen::VectorXd& of_problem) const {
+  Eigen::VectorXd made(residuals_.size());
+  Index at = 0;
+  for (const HubMotion& motion : motions_) {
+    const auto count = std::ssize(motion.time_s);
+    for (const HubReading& reading : motion.readings) {
+      made.segment(at, count) = of_problem.segment(reading.first, count);
+      at += count;
+    }
+  }
+  take_out_initial_motion(made);
+  return made;
+}
+
+Eigen::VectorXd HubRegression::adjoint(Eigen::VectorXd signals) const {
+  take_out_initial_motion(signals);  // an orthogonal projection
+  Index samples = 0;
+  for (const HubMotion& motion : motions_) samples += std::ssize(motion.time_s);
+  Eigen::VectorXd made = Eigen::VectorXd::Zero(samples);
+  Index at = 0;
+  Index first = 0;
+  for (const HubMotion& motion : motions_) {
+    const auto count = std::ssize(motion.time_s);
+    for (const HubReading& reading : motion.readings) {
+      const Eigen::VectorXd own = signals.segment(at, count) / reading.noise;
+      const std::vector<double> torque =
+          reading.response.adjoint({own.data(), motion.time_s.size()});
+      made.segment(first, count) += Eigen::VectorXd::Map(torque.data(), count);
+      at += count;
+    }
+    first += count;
+  }
+  return made;
+}
+
 double HubRegression::independent(const Eigen::VectorXd& left) const {
   double sum = 0.0;
   Index at = 0;

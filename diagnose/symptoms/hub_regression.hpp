@@ -25,9 +25,14 @@ class HubRegression {
   const std::vector<HubMotion>& motions() const { return motions_; }
   /// Of all motions and their readings, in standard deviations of the noise.
   const Eigen::VectorXd& residuals() const { return residuals_; }
+  /// Of the residuals of a problem those of these signals, in the order and units of residuals().
+  Eigen::VectorXd of_hub(const Eigen::VectorXd& of_problem) const;
   /// What these torques, one of each motion, make of the signals, in the order and units of the
   /// residuals.
   Eigen::VectorXd readings(const HubTorques& torques) const;
+  /// The product of `signals`, in the order of the residuals, with the transposed matrix of
+  /// `readings`: a value a sample of each motion, one motion after the other.
+  Eigen::VectorXd adjoint(Eigen::VectorXd signals) const;
   /// Independent numbers among `left`: n (1 - r)/(1 + r) of each signal.
   double independent(const Eigen::VectorXd& left) const;
   /// Residual torque of each run from `left` of the residuals, by its first hub signal.

@@ -35,23 +35,29 @@ std::vector<double> fading(std::size_t samples, std::size_t padded) {
   return weights;
 }
 
-/// Of 1 N m at the second sample, from there on: what is linear between samples rises before it.
-std::vector<double> pulse_response(const arm::Arm& arm, const arm::Sensor& sensor,
-                                   int flexible_modes, measured::TorqueHold hold, double period_s,
-                                   std::size_t samples) {
+std::shared_ptr<const response::ArmSimulator> linear_simulator(const arm::Arm& arm,
+                                                               const arm::Sensor& sensor,
+                                                               int flexible_modes,
+                                                               measured::TorqueHold hold,
+                                                               double period_s) {
   const std::vector<arm::Sensor> sensors = {sensor};
   response::ArmParts parts;  // without what is not linear
   parts.linear = response::take_apart(arm).linear;
   const auto model =
       response::time_model(response::make_formulation("exact_tf", parts.linear, flexible_modes),
                            parts, flexible_modes, sensors);
-  std::vector<double> pulse(samples + 1);
-  pulse[1] = 1.0;
-  const response::ArmSimulator simulator(model, parts, sensors,
-                                         response::options_of_fit(period_s, simulated_hold(hold)));
-  const Eigen::MatrixXd made =
-      simulator.readings(pulse).bottomRows(static_cast<Eigen::Index>(samples));
-  return {made.data(), made.data() + made.size()};
+  return std::make_shared<const response::ArmSimulator>(
+      model, parts, sensors, response::options_of_fit(period_s, simulated_hold(hold)));
+}
+
+/// Under a torque that is 0 one sample before the first: what is linear between samples rises from
+/// there.
+std::vector<double> simulated(const response::ArmSimulator& simulator,
+                              std::span<const double> torque_N_m) {
+  std::vector<double> longer = {0.0};
+  longer.insert(longer.end(), torque_N_m.begin(), torque_N_m.end());
+  const Eigen::MatrixXd made = simulator.readings(longer);
+  return {made.data() + 1, made.data() + made.size()};
 }
 
 /// For transforms of `padded` real values and back. It keeps the factors of the lengths that its
@@ -90,12 +96,14 @@ std::vector<double> differenced(std::span<const double> values, int times) {
 
 HubResponse::HubResponse(const arm::Arm& arm, const arm::Sensor& sensor, int flexible_modes,
                          measured::TorqueHold hold, double period_s, std::size_t samples)
-    : samples_(samples),
+    : simulator_(linear_simulator(arm, sensor, flexible_modes, hold, period_s)),
+      samples_(samples),
       padded_(measured::fast_length((kPulseRecords + 1) * samples)),
       padded_twofold_(measured::fast_length(2 * samples)),
       differences_(measured::differences_until_steady(sensor)) {
-  const auto pulse =
-      pulse_response(arm, sensor, flexible_modes, hold, period_s, kPulseRecords * samples);
+  std::vector<double> pulse(kPulseRecords * samples);
+  pulse.front() = 1.0;
+  pulse = simulated(*simulator_, pulse);
   response_ = transformed(std::span(pulse).first(samples), padded_twofold_);
   std::vector<double> steady = differenced(pulse, differences_);
   const std::vector<double> weights = fading(steady.size(), padded_);
@@ -112,8 +120,12 @@ std::vector<double> HubResponse::transformed_back(const Spectrum& spectrum,
 }
 
 std::vector<double> HubResponse::reading(std::span<const double> torque_N_m) const {
-  Spectrum spectrum = transformed(torque_N_m, padded_twofold_);
-  for (std::size_t k = 0; k < spectrum.size(); ++k) spectrum[k] *= response_[k];
+  return simulated(*simulator_, torque_N_m);
+}
+
+std::vector<double> HubResponse::adjoint(std::span<const double> values) const {
+  Spectrum spectrum = transformed(values, padded_twofold_);
+  for (std::size_t k = 0; k < spectrum.size(); ++k) spectrum[k] *= std::conj(response_[k]);
   return transformed_back(spectrum, padded_twofold_);
 }
 

@@ -3,17 +3,19 @@
 #include "arm/arm.hpp"
 #include "arm/sensor.hpp"
 #include "measured/files/measurement.hpp"
+#include "response/time/arm_simulator.hpp"
 
 #include <complex>
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <vector>
 
 namespace flexarm::diagnose {
 
 /// What a sensor of the linear arm, at rest before the first sample, answers to a torque on the hub
-/// that is given at samples: the convolution with its answer to one of 1 N m at one sample and 0 at
-/// the others, held as the run holds its torque, and what undoes it.
+/// that is given at samples and held as the run holds its torque: the convolution with its answer
+/// to one of 1 N m at one sample and 0 at the others; its adjoint; and what undoes it.
 class HubResponse {
  public:
   /// `flexible_modes` of exact_tf move. Throws InputError as they do.
@@ -24,6 +26,10 @@ class HubResponse {
 
   /// The reading under this torque, a value a sample of both.
   std::vector<double> reading(std::span<const double> torque_N_m) const;
+
+  /// The product of `values`, one a sample, with the transposed matrix of `reading`: the scalar
+  /// product of `values` with any reading is that of this with its torque.
+  std::vector<double> adjoint(std::span<const double> values) const;
 
   /// The torque [N m] whose reading this is, but for white noise of deviation `noise`, as far as
   /// the noise lets it be seen: Wiener's filter
@@ -42,6 +48,7 @@ class HubResponse {
 
   std::vector<double> transformed_back(const Spectrum& spectrum, std::size_t padded) const;
 
+  std::shared_ptr<const response::ArmSimulator> simulator_;
   std::size_t samples_;
   std::size_t padded_;          // for what rings on, to fade before it comes round
   std::size_t padded_twofold_;  // for a convolution of two records

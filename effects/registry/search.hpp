@@ -67,6 +67,8 @@ struct SearchedParameter {
   double coordinate(double value) const;
   /// The coordinate where the effect does nothing, if the parameter has one.
   std::optional<double> neutral_coordinate() const;
+
+  bool operator==(const SearchedParameter&) const = default;
 };
 
 /// The parameters of an effect, or of several one after the other, at these coordinates, and back.

@@ -1,6 +1,7 @@
 #include "diagnose/search/hub_law_scan.hpp"
 
 #include "diagnose/search/fit.hpp"
+#include "diagnose/search/hub_laws.hpp"
 #include "diagnose/search/selection_options.hpp"
 #include "diagnose/symptoms/hub_regression.hpp"
 #include "effects/registry/vocabulary.hpp"
@@ -14,6 +15,7 @@
 #include <map>
 #include <optional>
 #include <ostream>
+#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -132,6 +134,73 @@ TEST(HubLawScan, IsOfLawsThatASimulationIterates) {
   for (const auto* effect : {"coulomb_friction", "torque_bias", "flexural_rigidity"}) {
     EXPECT_FALSE(scanned(problem, effect)) << effect;
   }
+}
+
+TEST(HubLaws, AGridComparesAsTheResponseToItsTorque) {
+  // Torques are kept in single precision.
+  constexpr double kSinglePrecision = 1e-5;
+  const Experiment experiment =
+      with_hidden({"torque_ripple", {{"amplitude", 0.02}, {"cycles", 6.0}, {"phase", 1.1}}});
+  const Problem problem(experiment);
+  const auto all = problem.residuals(problem.as_filed(), problem.estimation_runs());
+  ASSERT_TRUE(all);
+  HubLaws& laws = problem.hub_laws();
+  ASSERT_TRUE(laws.are_shown());
+  const Eigen::VectorXd residuals = laws.residuals(*all);
+  for (const auto* effect : {"torque_ripple", "hub_hysteresis", "stribeck_friction", "tilt"}) {
+    const Hypothesis law = named(experiment, {effect}).front();
+    const Candidate start = Candidate{}.with(law, law.middle());
+    const HubLawGrid* grid = laws.grid(start, {30, 30, 30});
+    ASSERT_NE(grid, nullptr) << effect;
+    EXPECT_EQ(laws.grid(start, {30, 30, 30}), grid) << effect;
+    double last = 0.0;
+    for (const auto& [candidate, left] : grid->best(residuals, 3)) {
+      const auto readings = laws.regression().readings(candidate);
+      ASSERT_TRUE(readings) << effect;
+      EXPECT_NEAR(left, (residuals - *readings).squaredNorm(),
+                  kSinglePrecision * residuals.squaredNorm())
+          << effect;
+      EXPECT_GE(left, last) << effect;
+      last = left;
+    }
+  }
+}
+
+TEST(HubLaws, AreMadeAnewWhereTheNoiseHasChanged) {
+  const Experiment experiment = with_hidden(kFriction);
+  const Problem problem(experiment);
+  const Problem noisier =
+      problem.with_more_noise(std::vector<double>(problem.observations().channels.size(), 0.1));
+  const Eigen::VectorXd ones = Eigen::VectorXd::Ones(problem.residual_count());
+  const auto size = [&](const Problem& of) {
+    HubLaws& laws = of.hub_laws();
+    return laws.regression().hub().adjoint(laws.residuals(ones)).norm();
+  };
+  EXPECT_LT(size(noisier), 0.1 * size(problem));
+}
+
+TEST(HubRegression, HasTheAdjointOfItsReadings) {
+  constexpr double kRounding = 1e-9;  // convolutions of a thousand numbers by transforms
+  const Experiment experiment = with_hidden(kFriction);
+  const Problem problem(experiment);
+  HubLaws& laws = problem.hub_laws();
+  const HubRegression& hub = laws.regression().hub();
+  std::mt19937 random(3);
+  std::normal_distribution<double> number;
+  HubTorques torques;
+  std::vector<double> all;
+  for (const HubMotion& motion : hub.motions()) {
+    auto& of_motion = torques.emplace_back(motion.time_s.size());
+    std::ranges::generate(of_motion, [&] { return number(random); });
+    all.insert(all.end(), of_motion.begin(), of_motion.end());
+  }
+  const Eigen::VectorXd signals =
+      Eigen::VectorXd::NullaryExpr(hub.residuals().size(), [&](auto) { return number(random); });
+  const Eigen::VectorXd readings = hub.readings(torques);
+  const Eigen::VectorXd adjoint = hub.adjoint(signals);
+  ASSERT_EQ(adjoint.size(), std::ssize(all));
+  EXPECT_NEAR(readings.dot(signals), Eigen::VectorXd::Map(all.data(), adjoint.size()).dot(adjoint),
+              kRounding * readings.norm() * signals.norm());
 }
 
 TEST(HubRegression, TakesConstantAndSlopeOutOfRunsFromAnUnknownState) {

@@ -124,12 +124,15 @@ std::vector<std::pair<Candidate, double>> HubLawGrid::best(const Eigen::VectorXd
   const double rr = residuals.squaredNorm();
   std::vector<Candidate> solved(entries_.size());
   std::vector<double> sums(entries_.size(), std::numeric_limits<double>::infinity());
+  const auto product = [&](const Torques& torques) -> Eigen::VectorXf {
+    return torques.transpose() * along;
+  };
   const auto solve = [&](std::size_t i) {
     const Entry& entry = entries_[i];
     solved[i] = entry.law;
     if (!entry.has_readings) return;
-    const Torques& torques = torques_.empty() ? in_columns(hub_torques(entry.law)) : torques_[i];
-    const Eigen::VectorXf with_residuals = torques.transpose() * along;
+    const Eigen::VectorXf with_residuals =
+        torques_.empty() ? product(in_columns(hub_torques(entry.law))) : product(torques_[i]);
     LawProducts products = entry.products;
     products.rr = rr;
     products.ra = static_cast<double>(with_residuals(0));

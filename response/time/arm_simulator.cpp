@@ -59,9 +59,12 @@ ArmSimulator::ArmSimulator(const arm::ModalModel& model, const ArmParts& parts,
                              : std::nullopt),
       times_(reading_times(parts.sensor_chains, sensors, options.sample_time_s)),
       plan_(arm_, forces_, parts.actuator, options, ledger_ ? &*ledger_ : nullptr, times_.cuts()) {
-  if (!plan_.is_linear() || ledger_) return;
+  if (ledger_) return;
   const TorquePath path(parts.actuator, {}, options.sample_time_s, options.hold, times_.cuts());
-  lifted_.emplace(plan_, parts_, sensors_, path, times_);
+  if (plan_.is_linear()) lifted_.emplace(plan_, parts_, sensors_, path, times_);
+  if (TurningBlocks::are_possible(plan_, path)) {
+    blocks_.emplace(plan_, parts_, sensors_, path, times_);
+  }
 }
 
 std::ptrdiff_t ArmSimulator::lead(std::size_t samples) const {
@@ -167,10 +170,10 @@ Simulation ArmSimulator::run(Commands& commands, const SimulationProgress& progr
 Eigen::MatrixXd ArmSimulator::readings(std::span<const double> torque_N_m,
                                        const Eigen::VectorXd& initial) const {
   Commands commands(*this, torque_N_m);
-  if (!lifted_) return readings(commands, initial);
-  const std::ptrdiff_t first = initial.size() > 0 ? -lead(torque_N_m.size()) : 0;
+  if (!lifted_ && !blocks_) return readings(commands, initial, nullptr);
+  const std::ptrdiff_t first = first_interval(torque_N_m.size(), initial);
   const auto torques = commands.path().whole_parts(first);
-  if (!torques) return readings(commands, initial);
+  if (!lifted_ || !torques) return readings(commands, initial, torques ? &*torques : nullptr);
   Eigen::MatrixXd made = unread(torque_N_m.size());
   lifted_->read(*torques, first, initial.size() > 0 ? initial : Eigen::VectorXd::Zero(states()),
                 made);
@@ -185,29 +188,50 @@ ClosedLoopReadings ArmSimulator::closed_loop_readings(const ClosedLoop& loop,
                                                       const Eigen::VectorXd& initial) const {
   Commands commands(*this, loop);
   ClosedLoopReadings made;
-  made.readings = readings(commands, initial);
+  made.readings = readings(commands, initial, nullptr);
   made.torque_N_m = commands.take_torque_N_m();
   return made;
 }
 
-Eigen::MatrixXd ArmSimulator::readings(Commands& commands, const Eigen::VectorXd& initial) const {
+std::ptrdiff_t ArmSimulator::first_interval(std::size_t samples,
+                                            const Eigen::VectorXd& initial) const {
+  return initial.size() > 0 ? -lead(samples) : 0;
+}
+
+Eigen::MatrixXd ArmSimulator::readings(Commands& commands, const Eigen::VectorXd& initial,
+                                       const Eigen::MatrixXd* torques) const {
   const std::size_t samples = commands.torque_N_m().size();
   const ReadingPlan reading_plan = commands.reading_plan();
   TimeStepper stepper(plan_, nullptr);
-  std::ptrdiff_t first = 0;
-  if (initial.size() > 0) {
-    stepper.put(initial, false);
-    first = -lead(samples);
-  }
+  if (initial.size() > 0) stepper.put(initial, false);
+  const std::ptrdiff_t first = first_interval(samples, initial);
   SensorReadings readings(arm_, parts_, sensors_);
   Eigen::MatrixXd made = unread(samples);
-  commands.step_through(stepper, first, [&](const ReadingInstant& now) {
+  const auto at = [&](const ReadingInstant& now) {
     const auto take = [&](std::size_t j, std::size_t k, double reading) {
       if (!std::isfinite(reading)) throw too_large("reading", now.time_s);
       made(static_cast<Index>(k), static_cast<Index>(j)) = reading;
     };
     reading_plan.at(now, stepper, readings, take);
     return true;
+  };
+  if (torques == nullptr || !blocks_) {
+    commands.step_through(stepper, first, at);
+    return made;
+  }
+  TurningBlocks::Run blocks(*blocks_);
+  std::ptrdiff_t next_try = first;
+  commands.step_through(stepper, first, at, [&](std::ptrdiff_t k) -> std::ptrdiff_t {
+    const double turning = direction(stepper.motion());
+    const bool is_inside = k + TurningBlocks::kSamples < std::ssize(commands.torque_N_m());
+    if (k < next_try || turning == 0.0 || !is_inside) return 0;
+    Eigen::VectorXd x = stepper.state();
+    if (!blocks.go(*torques, first, k, turning, x, made)) {
+      next_try = k + TurningBlocks::kSamples / 2;
+      return 0;
+    }
+    stepper.put(x, false);
+    return TurningBlocks::kSamples;
   });
   return made;
 }

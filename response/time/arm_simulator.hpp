@@ -10,6 +10,7 @@
 #include "response/time/reading_times.hpp"
 #include "response/time/simulation.hpp"
 #include "response/time/step_plan.hpp"
+#include "response/time/turning_blocks.hpp"
 
 #include <Eigen/Core>
 
@@ -142,7 +143,12 @@ class ArmSimulator {
               AtSample at_sample) const;
 
   Simulation run(Commands& commands, const SimulationProgress& progress) const;
-  Eigen::MatrixXd readings(Commands& commands, const Eigen::VectorXd& initial) const;
+  /// Of an open loop with its `torques` (TorquePath::whole_parts from first_interval on) by blocks
+  /// where that is possible.
+  Eigen::MatrixXd readings(Commands& commands, const Eigen::VectorXd& initial,
+                           const Eigen::MatrixXd* torques) const;
+  /// The sample interval at whose beginning the state is `initial`.
+  std::ptrdiff_t first_interval(std::size_t samples, const Eigen::VectorXd& initial) const;
   /// The number of modes of resolved_states; they are the first ones.
   Eigen::Index resolved_modes() const;
   /// What a sensor reads before the first sample reaches it, a row a sample and a column a sensor.
@@ -164,7 +170,9 @@ class ArmSimulator {
   std::optional<EnergyLedger> ledger_;  ///< as it is before a run
   ReadingTimes times_;
   StepPlan plan_;
-  std::optional<LiftedArm> lifted_;  ///< of a linear arm without a ledger
+  // Without a ledger.
+  std::optional<LiftedArm> lifted_;      ///< of a linear arm
+  std::optional<TurningBlocks> blocks_;  ///< of an arm with constant friction
 };
 
 /// At so many the gain of a filter takes some ten milliseconds.

@@ -118,7 +118,23 @@ ReadingBound::ReadingBound(std::shared_ptr<const ReadingModes> modes, double ste
   const Eigen::ArrayXd kappa = speed.inverse().min(step_s);
   const double chord = step_s * step_s / 8.0;
   by_second_ = modes_->gains.array() * growth * (2.0 * speed.square().inverse()).min(chord);
+  if (growth.size() > 0) growth_ = growth.maxCoeff();
   by_third_ = kappa * (by_second_ + modes_->gains.array() * growth * chord);
+}
+
+ReadingBound::Departure ReadingBound::departure(const Eigen::VectorXd& x0, double u,
+                                                const Eigen::VectorXd& f,
+                                                Workspace& workspace) const {
+  const Index n = x0.size();
+  Eigen::VectorXd& z = workspace.known;
+  z.setZero(n + 2 + 2 * f.size());
+  z.head(n) = x0;
+  z(n) = u;
+  z.segment(n + 2, f.size()) = f;
+  workspace.parts.noalias() = modes_->second * z;
+  const double in_first = sum_of_sizes(by_second_, workspace.parts);
+  workspace.parts = modes_->second.col(n);
+  return {in_first, sum_of_sizes(by_second_, workspace.parts), growth_};
 }
 
 ReadingBound::Range ReadingBound::operator()(const Eigen::VectorXd& x0, const Eigen::VectorXd& x1,

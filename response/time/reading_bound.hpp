@@ -50,6 +50,18 @@ class ReadingBound {
     Eigen::VectorXd bend;   ///< f'', m
     Eigen::VectorXd parts;  ///< a or g, 2 K as in ReadingModes
   };
+  /// Of steps one after the other, u constant in each and f in all: what the reading departs from
+  /// the chords between its values at their ends. In the first at most `in_first`; in a later one
+  /// `per_torque` more for each unit that u has changed by since then, up or down; all times
+  /// `growth`, 1 or more, from step to step.
+  struct Departure {
+    double in_first;
+    double per_torque;
+    double growth;
+  };
+  /// Of steps from X = x0 with this u and f. NaN where A has no basis of eigenvectors.
+  Departure departure(const Eigen::VectorXd& x0, double u, const Eigen::VectorXd& f,
+                      Workspace& workspace) const;
   /// Of the step from X = x0 to x1. NaN where A has no basis of eigenvectors.
   Range operator()(const Eigen::VectorXd& x0, const Eigen::VectorXd& x1, const StepInputs& inputs,
                    Workspace& workspace) const;
@@ -60,6 +72,7 @@ class ReadingBound {
   bool forces_vary_ = false;
   Eigen::ArrayXd by_second_;  ///< factor of |a_k|
   Eigen::ArrayXd by_third_;   ///< factor of |g_k|
+  double growth_ = 1.0;       ///< of the fastest y_k that grows
 };
 
 }  // namespace flexarm::response

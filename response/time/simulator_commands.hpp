@@ -40,11 +40,21 @@ class ArmSimulator::Commands {
   /// last sample is looked at, not stepped from.
   template <class At>
   void step_through(TimeStepper& stepper, std::ptrdiff_t first, At at) {
+    step_through(stepper, first, at, [](std::ptrdiff_t) { return std::ptrdiff_t{0}; });
+  }
+  /// The same in an open loop. `leap(k)`, called before sample k, may take the stepper over some
+  /// samples, k the first of them, and says how many these are.
+  template <class At, class Leap>
+  void step_through(TimeStepper& stepper, std::ptrdiff_t first, At at, Leap leap) {
     const double sample_time_s = arm_->options_.sample_time_s;
     const auto end = std::ssize(torque_N_m_);
     TorquePath::Pieces pieces;
     double actuator_N_m = 0.0;
     for (std::ptrdiff_t k = first; k < end; ++k) {
+      if (const std::ptrdiff_t taken = leap(k); taken > 0) {
+        k += taken - 1;
+        continue;
+      }
       const double time_s = static_cast<double>(k) * sample_time_s;
       look({k, 0, time_s, actuator_N_m}, stepper);
       if (k >= 0) reach(static_cast<std::size_t>(k));

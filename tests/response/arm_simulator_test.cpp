@@ -207,6 +207,37 @@ TEST(ArmSimulator, ReadsTheSameForAnyNumberOfSamples) {
   }
 }
 
+TEST(ArmSimulator, ReadsFrictionInBlocksAsStepByStep) {
+  arm::Arm arm = arm::paper_arm();
+  arm.damping.kelvin_voigt_s = 1.2e-4;
+  arm.effects = {effects::named("coulomb_friction", {{"torque", 0.02}}),
+                 effects::named("torque_bias", {{"torque", 0.004}}),
+                 effects::named("torque_saturation", {{"limit", 0.3}}),
+                 effects::named("sensor_offset", {{"value", 0.3}}, "strain@0.05"),
+                 effects::named("sensor_delay", {{"delay", 3.0 * kStep_s}}, "hub_angle")};
+  const auto sensors = four_sensors();
+  const ArmParts parts = take_apart(arm);
+  const arm::ModalModel model =
+      time_model(make_formulation("exact_tf", arm, kFlexibleModes), parts, kFlexibleModes, sensors);
+  const ArmSimulator simulator(model, parts, sensors, options_of_fit(kStep_s, TorqueHold::zero));
+  // A hub that mostly sticks, that reverses now and then, and that mostly turns.
+  for (const double rms_N_m : {0.012, 0.05, 0.4}) {
+    const std::vector<double> torque =
+        sample(RandomNoise{.rms_N_m = rms_N_m, .from_Hz = 0.2, .to_Hz = 10.0, .seed = 4},
+               SampleGrid{kTwoSeconds, kStep_s})
+            .torque_N_m;
+    const Simulation by_steps = simulator.run(torque);
+    EXPECT_GE(by_steps.summary.stops + by_steps.summary.reversals, 1) << rms_N_m;
+    const Eigen::MatrixXd made = simulator.readings(torque);
+    for (std::size_t j = 0; j < sensors.size(); ++j) {
+      const auto expected = Eigen::VectorXd::Map(by_steps.channels[j].data(), made.rows());
+      EXPECT_LE((made.col(static_cast<Eigen::Index>(j)) - expected).norm(),
+                kRoundingOfSteps * expected.norm())
+          << rms_N_m << " N m, " << arm::to_string(sensors[j]);
+    }
+  }
+}
+
 TEST(ArmSimulator, ResolvesTheModesBelowTheNyquistFrequency) {
   constexpr double kRounding = 1e-13;  // sums of a few products
   const auto sensors = four_sensors();

@@ -1,7 +1,8 @@
 // The bound that excludes a stop or a breakaway of the hub within a step.
+#include "response/time/reading_bound.hpp"
+
 #include "response/formulation_maker.hpp"
 #include "response/time/arm_simulator.hpp"
-#include "response/time/reading_bound.hpp"
 #include "response/time/time_model.hpp"
 #include "tests/response/propagated_step.hpp"
 #include "tests/response/simulation_models.hpp"
@@ -118,11 +119,37 @@ TEST_P(BoundOfAReading, HoldsForAnyStateAndInputs) {
     Eigen::VectorXd x = entries(arm.size());
     if (is_held) arm.stop_hub(x);
     const double length_s = kLongest_s * std::pow(10.0, -(trial % 4));
-    const WatchedStep step(arm, is_held, x,
-                       {normal(random), normal(random), 0.0, length_s, entries(1), entries(1),
-                        entries(1)});
+    const WatchedStep step(
+        arm, is_held, x,
+        {normal(random), normal(random), 0.0, length_s, entries(1), entries(1), entries(1)});
     EXPECT_LE(step.range.least, step.least + kBoundRounding * step.size) << trial;
     EXPECT_GE(step.range.largest, step.largest - kBoundRounding * step.size) << trial;
+  }
+}
+
+TEST_P(BoundOfAReading, HoldsOverStepsOneAfterTheOther) {
+  constexpr int kSteps = 8;
+  const ModalDynamics arm = bounded(GetParam());
+  const Reading speed = watched_reading(arm, false);
+  const ReadingBound bound(std::make_shared<const ReadingModes>(arm, false, speed), kLongest_s,
+                           false);
+  ReadingBound::Workspace workspace;
+  std::mt19937_64 random(11);
+  std::normal_distribution<double> normal;
+  const Eigen::VectorXd force = Eigen::VectorXd::Constant(1, 0.3);
+  Eigen::VectorXd x = Eigen::VectorXd::NullaryExpr(arm.size(), [&] { return normal(random); });
+  double u = normal(random);
+  const auto [in_first, per_torque, growth] = bound.departure(x, u, force, workspace);
+  double changed = 0.0;
+  for (int i = 0; i < kSteps; ++i) {
+    const WatchedStep step(arm, false, x, {u, u, 0.0, kLongest_s, force, force, force});
+    EXPECT_LE(step.departure,
+              std::pow(growth, i) * (in_first + per_torque * changed) + kBoundRounding * step.size)
+        << i;
+    x = step.x1;
+    const double next = normal(random);
+    changed += std::abs(next - u);
+    u = next;
   }
 }
 

@@ -119,6 +119,8 @@ ReadingBound::ReadingBound(std::shared_ptr<const ReadingModes> modes, double ste
   const double chord = step_s * step_s / 8.0;
   by_second_ = modes_->gains.array() * growth * (2.0 * speed.square().inverse()).min(chord);
   if (growth.size() > 0) growth_ = growth.maxCoeff();
+  const Index states = modes_->second.cols() - 2 - 2 * modes_->third_by_force.cols();
+  per_torque_ = sum_of_sizes(by_second_, modes_->second.col(states));
   by_third_ = kappa * (by_second_ + modes_->gains.array() * growth * chord);
 }
 
@@ -132,9 +134,7 @@ ReadingBound::Departure ReadingBound::departure(const Eigen::VectorXd& x0, doubl
   z(n) = u;
   z.segment(n + 2, f.size()) = f;
   workspace.parts.noalias() = modes_->second * z;
-  const double in_first = sum_of_sizes(by_second_, workspace.parts);
-  workspace.parts = modes_->second.col(n);
-  return {in_first, sum_of_sizes(by_second_, workspace.parts), growth_};
+  return {sum_of_sizes(by_second_, workspace.parts), per_torque_, growth_};
 }
 
 ReadingBound::Range ReadingBound::operator()(const Eigen::VectorXd& x0, const Eigen::VectorXd& x1,

@@ -72,6 +72,7 @@ class ReadingBound {
   bool forces_vary_ = false;
   Eigen::ArrayXd by_second_;  ///< factor of |a_k|
   Eigen::ArrayXd by_third_;   ///< factor of |g_k|
+  double per_torque_ = 0.0;   ///< of a unit of u
   double growth_ = 1.0;       ///< of the fastest y_k that grows
 };
 

@@ -74,7 +74,7 @@ std::optional<HubLawScan> scan_hub_law(const Problem& problem, const Candidate& 
   HubLaws& laws = problem.hub_laws();
   const std::size_t last = start.effects.size() - 1;
   const Candidate law = Candidate{}.with(start.effects[last], start.values_of(last));
-  const HubLawGrid* grid = laws.grid(law, options.evaluations);
+  const HubLawGrid* grid = laws.grid(law, options.evaluations, options.work);
   if (grid == nullptr) return std::nullopt;
   const Candidate base = start.without(last);
   const auto all = problem.residuals(base, problem.estimation_runs());

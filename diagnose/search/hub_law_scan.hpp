@@ -20,7 +20,7 @@ struct HubLawScanOptions {
   /// Values tried of a law with 1, 2, 3 parameters or more beside its amplitude and phase.
   std::array<int, 3> evaluations = {};
   int starts = 1;
-  const ReportedWork* work = nullptr;  ///< that the scan is part of; asked while it is refined
+  const ReportedWork* work = nullptr;  ///< that the scan is part of; asked before each evaluation
 };
 
 /// Scans a law of hub torque, the last effect of `start`, by a regression on the measured motion of

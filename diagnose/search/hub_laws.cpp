@@ -70,7 +70,7 @@ bool is_same_law(const Candidate& one, const Candidate& other) {
 }  // namespace
 
 HubLawGrid::HubLawGrid(const LawRegression& laws, const Candidate& start,
-                       const std::array<int, 3>& evaluations)
+                       const std::array<int, 3>& evaluations, const ReportedWork* work)
     : laws_(laws), linear_(laws, start) {
   const std::vector<Index> scanned = linear_.other_coordinates(start);
   const std::size_t n = std::min(scanned.size(), evaluations.size());
@@ -87,7 +87,10 @@ HubLawGrid::HubLawGrid(const LawRegression& laws, const Candidate& start,
   const std::size_t columns = (linear_.quarter_of(start) ? 2 : 1) * entries_.size();
   const bool is_kept = samples * columns <= kMostKept;
   if (is_kept) torques_.resize(entries_.size());
-  in_parallel(entries_.size(), [&](std::size_t i) { compute(i, is_kept); });
+  in_parallel(entries_.size(), [&](std::size_t i) {
+    if (work != nullptr) work->go_on();
+    compute(i, is_kept);
+  });
 }
 
 std::vector<HubTorques> HubLawGrid::hub_torques(const Candidate& law) const {
@@ -165,7 +168,8 @@ bool HubLaws::is_told(const Candidate& start) const {
   return !may_stick || part_at_rest(motions_) <= kMostRest;
 }
 
-const HubLawGrid* HubLaws::grid(const Candidate& start, const std::array<int, 3>& evaluations) {
+const HubLawGrid* HubLaws::grid(const Candidate& start, const std::array<int, 3>& evaluations,
+                                const ReportedWork* work) {
   if (!are_shown() || !is_told(start)) return nullptr;
   Known* known = nullptr;
   {
@@ -177,7 +181,7 @@ const HubLawGrid* HubLaws::grid(const Candidate& start, const std::array<int, 3>
                                   : known_.emplace_back(new Known{start, evaluations}).get();
   }
   std::call_once(known->once, [&] {
-    known->grid = std::make_unique<const HubLawGrid>(*regression_, start, evaluations);
+    known->grid = std::make_unique<const HubLawGrid>(*regression_, start, evaluations, work);
   });
   return known->grid.get();
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "diagnose/search/law_regression.hpp"
+#include "diagnose/search/reported_work.hpp"
 
 #include <Eigen/Core>
 
@@ -23,9 +24,10 @@ class Problem;
 class HubLawGrid {
  public:
   /// Of the law that is the one effect of `start`: as many values as `evaluations` allows for 1, 2,
-  /// 3 parameters or more beside its amplitude and phase. `laws` must outlive the object.
+  /// 3 parameters or more beside its amplitude and phase. `laws` must outlive the object. `work`,
+  /// which may be null, is asked before each value. Throws Cancelled where it is cancelled.
   HubLawGrid(const LawRegression& laws, const Candidate& start,
-             const std::array<int, 3>& evaluations);
+             const std::array<int, 3>& evaluations, const ReportedWork* work = nullptr);
 
   /// The law at those values, amplitude and phase solved for, that leave least of the residuals of
   /// the hub's signals: <= `most`, the best first, apart as the places of a scan; each with the sum
@@ -68,8 +70,9 @@ class HubLaws {
   const LawRegression& regression() const { return *regression_; }
 
   /// Of the law that is the one effect of `start`; null for an effect that is more than a law, and
-  /// for a law that cannot be told by the measured motion (scan_hub_law).
-  const HubLawGrid* grid(const Candidate& start, const std::array<int, 3>& evaluations);
+  /// for a law that cannot be told by the measured motion (scan_hub_law). `work` as HubLawGrid.
+  const HubLawGrid* grid(const Candidate& start, const std::array<int, 3>& evaluations,
+                         const ReportedWork* work = nullptr);
 
  private:
   struct Known {

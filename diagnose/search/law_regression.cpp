@@ -43,7 +43,7 @@ std::optional<HubTorques> LawRegression::torques(const Candidate& candidate) con
   const auto law = last_law(candidate, arm_);
   if (!law) return std::nullopt;
   try {
-    return torques_of(*law, motions_);
+    return torques_of(*law, hub_.motions());
   } catch (const std::runtime_error&) {
     // Not finite, or states that move too fast.
     return std::nullopt;
@@ -62,7 +62,7 @@ std::optional<Eigen::VectorXd> LawRegression::readings(const Candidate& candidat
 
 namespace {
 
-/// The readings are a multiple of what is expected.
+/// The readings of the candidate are these, but for rounding.
 bool are_readings(const LawRegression& laws, const Candidate& candidate,
                   const Eigen::VectorXd& expected) {
   constexpr double kRounding = 1e-9;

@@ -24,7 +24,7 @@ class LawRegression {
  public:
   /// The references must outlive the object.
   LawRegression(const arm::Arm& arm, const std::vector<HubMotion>& motions)
-      : arm_(arm), motions_(motions), hub_(motions) {}
+      : arm_(arm), hub_(motions) {}
 
   const HubRegression& hub() const { return hub_; }
 
@@ -36,7 +36,6 @@ class LawRegression {
 
  private:
   const arm::Arm& arm_;
-  const std::vector<HubMotion>& motions_;
   HubRegression hub_;
 };
 

@@ -24,11 +24,6 @@ constexpr double kImpossibleLog = 40.0;
 /// The sum of squares over the scanned coordinates, and every place at which it was asked for.
 class ScannedSum {
  public:
-  struct Place {
-    double sum;
-    Eigen::VectorXd scanned;
-  };
-
   ScannedSum(const SumOfSquares& sum, const Candidate& start, const std::vector<Index>& coordinates,
              const ScanOptions& options)
       : sum_(sum),
@@ -49,30 +44,24 @@ class ScannedSum {
   /// The logarithm, which DIRECT-L compares between boxes of different size.
   double log_at(const Eigen::VectorXd& scanned) {
     const double sum = sum_at(scanned);
-    places_.push_back({sum, scanned});
+    places_.push_back(scanned);
+    sums_.push_back(sum);
     return std::isfinite(sum) ? std::log(sum) : kImpossibleLog;
   }
 
   /// Many at a time.
   void try_all(std::vector<Eigen::VectorXd> places) {
-    std::vector<Place> tried(places.size());
-    in_parallel(places.size(), [&](std::size_t i) {
-      tried[i] = {sum_at(places[i]), std::move(places[i])};
-    });
-    std::ranges::move(tried, std::back_inserter(places_));
+    std::vector<double> sums(places.size());
+    in_parallel(places.size(), [&](std::size_t i) { sums[i] = sum_at(places[i]); });
+    std::ranges::move(places, std::back_inserter(places_));
+    std::ranges::copy(sums, std::back_inserter(sums_));
   }
 
   /// The best of the places that are apart.
   std::vector<Candidate> best(int most) const {
-    std::vector<Eigen::VectorXd> places;
-    std::vector<double> sums;
-    for (const Place& place : places_) {
-      places.push_back(place.scanned);
-      sums.push_back(place.sum);
-    }
     std::vector<Candidate> found;
-    for (const std::size_t i : best_apart(places, sums, most)) {
-      found.push_back(candidate_at(places[i]));
+    for (const std::size_t i : best_apart(places_, sums_, most)) {
+      found.push_back(candidate_at(places_[i]));
     }
     return found;
   }
@@ -88,7 +77,8 @@ class ScannedSum {
   Eigen::VectorXd all_;
   const std::vector<Index>& coordinates_;
   const ScanOptions& options_;
-  std::vector<Place> places_;
+  std::vector<Eigen::VectorXd> places_;
+  std::vector<double> sums_;  ///< one a place
 };
 
 void try_direct(ScannedSum& sum, Index dimension, int evaluations) {

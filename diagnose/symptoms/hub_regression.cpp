@@ -10,100 +10,87 @@ namespace flexarm::diagnose {
 
 using Eigen::Index;
 
-HubRegression::HubRegression(const std::vector<HubMotion>& motions) : motions_(motions) {
-  Index n = 0;
-  for (const HubMotion& motion : motions) {
-    for (const HubReading& reading : motion.readings) n += std::ssize(reading.residual);
-  }
-  residuals_.resize(n);
-  Index at = 0;
-  for (const HubMotion& motion : motions) {
-    for (const HubReading& reading : motion.readings) {
-      const auto count = std::ssize(reading.residual);
-      residuals_.segment(at, count) =
-          Eigen::VectorXd::Map(reading.residual.data(), count) / reading.noise;
-      at += count;
+namespace {
+
+/// Calls use(m, reading, first, count) for each hub signal of motion m: its place in the order of
+/// the residuals.
+template <class Use>
+void for_each_signal(const std::vector<HubMotion>& motions, const Use& use) {
+  Index first = 0;
+  for (std::size_t m = 0; m < motions.size(); ++m) {
+    const auto count = std::ssize(motions[m].time_s);
+    for (const HubReading& reading : motions[m].readings) {
+      use(m, reading, first, count);
+      first += count;
     }
   }
+}
+
+}  // namespace
+
+HubRegression::HubRegression(const std::vector<HubMotion>& motions) : motions_(motions) {
+  Index n = 0;
+  for_each_signal(motions, [&](std::size_t, const HubReading&, Index, Index count) { n += count; });
+  residuals_.resize(n);
+  for_each_signal(motions, [&](std::size_t, const HubReading& reading, Index first, Index count) {
+    residuals_.segment(first, count) =
+        Eigen::VectorXd::Map(reading.residual.data(), count) / reading.noise;
+  });
   take_out_initial_motion(residuals_);
 }
 
 void HubRegression::take_out_initial_motion(Eigen::VectorXd& signals) const {
-  Index at = 0;
-  for (const HubMotion& motion : motions_) {
-    const auto count = std::ssize(motion.time_s);
+  for_each_signal(motions_, [&](std::size_t m, const HubReading&, Index first, Index count) {
+    if (!motions_[m].starts_free) return;
     const Eigen::VectorXd time = Eigen::VectorXd::LinSpaced(count, -1.0, 1.0);
-    for (std::size_t i = 0; i < motion.readings.size(); ++i) {
-      if (motion.starts_free) {
-        auto signal = signals.segment(at, count);
-        const double slope = time.dot(signal) / time.squaredNorm();
-        signal.array() -= signal.mean() + slope * time.array();
-      }
-      at += count;
-    }
-  }
+    auto signal = signals.segment(first, count);
+    const double slope = time.dot(signal) / time.squaredNorm();
+    signal.array() -= signal.mean() + slope * time.array();
+  });
 }
 
 Eigen::VectorXd HubRegression::readings(const HubTorques& torques) const {
   Eigen::VectorXd made(residuals_.size());
-  Index at = 0;
-  for (std::size_t m = 0; m < motions_.size(); ++m) {
-    for (const HubReading& reading : motions_[m].readings) {
-      const std::vector<double> values = reading.response.reading(torques[m]);
-      const auto count = std::ssize(values);
-      made.segment(at, count) = Eigen::VectorXd::Map(values.data(), count) / reading.noise;
-      at += count;
-    }
-  }
+  for_each_signal(
+      motions_, [&](std::size_t m, const HubReading& reading, Index first, Index count) {
+        const std::vector<double> values = reading.response.reading(torques[m]);
+        made.segment(first, count) = Eigen::VectorXd::Map(values.data(), count) / reading.noise;
+      });
   take_out_initial_motion(made);
   return made;
 }
 
 Eigen::VectorXd HubRegression::of_hub(const Eigen::VectorXd& of_problem) const {
   Eigen::VectorXd made(residuals_.size());
-  Index at = 0;
-  for (const HubMotion& motion : motions_) {
-    const auto count = std::ssize(motion.time_s);
-    for (const HubReading& reading : motion.readings) {
-      made.segment(at, count) = of_problem.segment(reading.first, count);
-      at += count;
-    }
-  }
+  for_each_signal(motions_, [&](std::size_t, const HubReading& reading, Index first, Index count) {
+    made.segment(first, count) = of_problem.segment(reading.first, count);
+  });
   take_out_initial_motion(made);
   return made;
 }
 
 Eigen::VectorXd HubRegression::adjoint(Eigen::VectorXd signals) const {
   take_out_initial_motion(signals);  // an orthogonal projection
-  Index samples = 0;
-  for (const HubMotion& motion : motions_) samples += std::ssize(motion.time_s);
-  Eigen::VectorXd made = Eigen::VectorXd::Zero(samples);
-  Index at = 0;
-  Index first = 0;
+  std::vector<Index> first_of_motion = {0};
   for (const HubMotion& motion : motions_) {
-    const auto count = std::ssize(motion.time_s);
-    for (const HubReading& reading : motion.readings) {
-      const Eigen::VectorXd own = signals.segment(at, count) / reading.noise;
-      const std::vector<double> torque =
-          reading.response.adjoint({own.data(), motion.time_s.size()});
-      made.segment(first, count) += Eigen::VectorXd::Map(torque.data(), count);
-      at += count;
-    }
-    first += count;
+    first_of_motion.push_back(first_of_motion.back() + std::ssize(motion.time_s));
   }
+  Eigen::VectorXd made = Eigen::VectorXd::Zero(first_of_motion.back());
+  for_each_signal(
+      motions_, [&](std::size_t m, const HubReading& reading, Index first, Index count) {
+        const Eigen::VectorXd own = signals.segment(first, count) / reading.noise;
+        const std::vector<double> torque =
+            reading.response.adjoint({own.data(), motions_[m].time_s.size()});
+        made.segment(first_of_motion[m], count) += Eigen::VectorXd::Map(torque.data(), count);
+      });
   return made;
 }
 
 double HubRegression::independent(const Eigen::VectorXd& left) const {
   double sum = 0.0;
-  Index at = 0;
-  for (const HubMotion& motion : motions_) {
-    for (const HubReading& reading : motion.readings) {
-      const auto count = std::ssize(reading.residual);
-      sum += diagnose::independent(left.segment(at, count), measured::RunKind::time);
-      at += count;
-    }
-  }
+  for_each_signal(motions_, [&](std::size_t, const HubReading&, Index first, Index count) {
+    sum += diagnose::independent(left.segment(first, count), measured::RunKind::time);
+  });
   return sum;
 }
 

@@ -215,17 +215,18 @@ Eigen::MatrixXd ArmSimulator::readings(Commands& commands, const Eigen::VectorXd
     reading_plan.at(now, stepper, readings, take);
     return true;
   };
-  if (torques == nullptr || !blocks_) {
+  if (torques == nullptr) {
     commands.step_through(stepper, first, at);
     return made;
   }
   TurningBlocks::Run blocks(*blocks_);
   std::ptrdiff_t next_try = first;
+  Eigen::VectorXd x;
   commands.step_through(stepper, first, at, [&](std::ptrdiff_t k) -> std::ptrdiff_t {
     const double turning = direction(stepper.motion());
     const bool is_inside = k + TurningBlocks::kSamples < std::ssize(commands.torque_N_m());
     if (k < next_try || turning == 0.0 || !is_inside) return 0;
-    Eigen::VectorXd x = stepper.state();
+    x = stepper.state();
     if (!blocks.go(*torques, first, k, turning, x, made)) {
       next_try = k + TurningBlocks::kSamples / 2;
       return 0;

@@ -143,8 +143,8 @@ class ArmSimulator {
               AtSample at_sample) const;
 
   Simulation run(Commands& commands, const SimulationProgress& progress) const;
-  /// Of an open loop with its `torques` (TorquePath::whole_parts from first_interval on) by blocks
-  /// where that is possible.
+  /// With the `torques` of an open loop (TorquePath::whole_parts from first_interval on) by
+  /// `blocks_` where the hub surely turns; step by step where they are null.
   Eigen::MatrixXd readings(Commands& commands, const Eigen::VectorXd& initial,
                            const Eigen::MatrixXd* torques) const;
   /// The sample interval at whose beginning the state is `initial`.

@@ -1,7 +1,5 @@
 #include "response/time/lifted_arm.hpp"
 
-#include <algorithm>
-
 namespace flexarm::response {
 
 using Eigen::Index;
@@ -27,11 +25,8 @@ void LiftedArm::read(const Eigen::MatrixXd& torques, std::ptrdiff_t first,
   read.colwise() += block_.readings_by_constants.col(0);
   for (Index j = 0; j < made.cols(); ++j) {
     const Eigen::MatrixXd of_sensor = read.middleRows(j * kSamples, kSamples);
-    const Index shift = first + times_.sensors[static_cast<std::size_t>(j)].samples_later;
-    const Index from = std::max<Index>(0, -shift);
-    const Index count = std::min(intervals, made.rows() - shift) - from;
-    if (count <= 0) continue;
-    made.col(j).segment(from + shift, count) = of_sensor.reshaped().segment(from, count);
+    put_readings(of_sensor.reshaped().head(intervals), first,
+                 times_.sensors[static_cast<std::size_t>(j)].samples_later, made.col(j));
   }
 }
 

@@ -1,6 +1,6 @@
 #include "response/time/lifted_block.hpp"
 
-#include <cstddef>
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -114,8 +114,7 @@ LiftedBlock lifted_block(const StepPlan& plan, const ArmParts& parts,
   const Index torques = end.torques.cols();
   const Index count = readings.state.rows();
 
-  LiftedBlock made{.samples = samples,
-                   .end_by_state = end.state,
+  LiftedBlock made{.end_by_state = end.state,
                    .end_by_torques = Eigen::MatrixXd(states, samples * torques),
                    .end_by_constants = Eigen::MatrixXd::Zero(states, 2),
                    .readings_by_state = Eigen::MatrixXd(samples * count, states),
@@ -146,6 +145,14 @@ LiftedBlock lifted_block(const StepPlan& plan, const ArmParts& parts,
     made.end_by_state = Eigen::MatrixXd(made.end_by_state * made.end_by_state);
   }
   return made;
+}
+
+void put_readings(const Eigen::Ref<const Eigen::VectorXd>& of_intervals, std::ptrdiff_t first,
+                  std::ptrdiff_t samples_later, Eigen::Ref<Eigen::VectorXd> made) {
+  const Index shift = first + samples_later;
+  const Index from = std::max<Index>(0, -shift);
+  const Index count = std::min(of_intervals.size(), made.size() - shift) - from;
+  if (count > 0) made.segment(from + shift, count) = of_intervals.segment(from, count);
 }
 
 }  // namespace flexarm::response

@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include <cstddef>
 #include <span>
 
 namespace flexarm::response {
@@ -18,7 +19,6 @@ namespace flexarm::response {
 /// end and the readings in it are sums of three products. The state is formed once a block, not at
 /// each sample.
 struct LiftedBlock {
-  Eigen::Index samples = 0;
   Eigen::MatrixXd end_by_state;
   Eigen::MatrixXd end_by_torques;
   Eigen::MatrixXd end_by_constants;
@@ -37,5 +37,10 @@ Eigen::MatrixXd constant_forces(const AddedForces& forces);
 LiftedBlock lifted_block(const StepPlan& plan, const ArmParts& parts,
                          std::span<const arm::Sensor> sensors, const TorquePath& path,
                          const ReadingTimes& times, Eigen::Index samples);
+
+/// Writes what a sensor reads in the sample intervals from `first` on, which may be before 0, to
+/// its column of `made`, a row a sample: `samples_later` as ReadingTimes has it.
+void put_readings(const Eigen::Ref<const Eigen::VectorXd>& of_intervals, std::ptrdiff_t first,
+                  std::ptrdiff_t samples_later, Eigen::Ref<Eigen::VectorXd> made);
 
 }  // namespace flexarm::response

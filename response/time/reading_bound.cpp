@@ -124,42 +124,45 @@ ReadingBound::ReadingBound(std::shared_ptr<const ReadingModes> modes, double ste
   by_third_ = kappa * (by_second_ + modes_->gains.array() * growth * chord);
 }
 
+template <class Slope>
+double ReadingBound::by_modes(const Eigen::VectorXd& x0, double u, double u_rate,
+                              const Eigen::VectorXd& f, const Slope& f_rate,
+                              Workspace& workspace) const {
+  const Index n = x0.size();
+  const Index m = f.size();
+  Eigen::VectorXd& z = workspace.known;
+  z.resize(n + 2 + 2 * m);
+  z.head(n) = x0;
+  z(n) = u;
+  z(n + 1) = u_rate;
+  z.segment(n + 2, m) = f;
+  z.tail(m) = f_rate;
+  workspace.parts.noalias() = modes_->second * z;
+  return sum_of_sizes(by_second_, workspace.parts);
+}
+
 ReadingBound::Departure ReadingBound::departure(const Eigen::VectorXd& x0, double u,
                                                 const Eigen::VectorXd& f,
                                                 Workspace& workspace) const {
-  const Index n = x0.size();
-  Eigen::VectorXd& z = workspace.known;
-  z.setZero(n + 2 + 2 * f.size());
-  z.head(n) = x0;
-  z(n) = u;
-  z.segment(n + 2, f.size()) = f;
-  workspace.parts.noalias() = modes_->second * z;
-  return {sum_of_sizes(by_second_, workspace.parts), per_torque_, growth_};
+  const auto none = Eigen::VectorXd::Zero(f.size());
+  return {by_modes(x0, u, 0.0, f, none, workspace), per_torque_, growth_};
 }
 
 ReadingBound::Range ReadingBound::operator()(const Eigen::VectorXd& x0, const Eigen::VectorXd& x1,
                                              const StepInputs& inputs, Workspace& workspace) const {
-  const Index n = x0.size();
-  const Index m = inputs.f0.size();
   const Reading& reading = modes_->reading;
-  Eigen::VectorXd& z = workspace.known;
-  z.resize(n + 2 + 2 * m);
-  z.head(n) = x0;
-  z(n) = inputs.u0;
-  z(n + 1) = (inputs.u1 - inputs.u0) / step_s_;
-  z.segment(n + 2, m) = inputs.f0;
+  const double u_rate = (inputs.u1 - inputs.u0) / step_s_;
   double sag = 0.0;
   if (forces_vary_) {
-    z.tail(m) = inputs.force_slope() / step_s_;
     workspace.bend = inputs.force_square() * (2.0 / (step_s_ * step_s_));
     workspace.parts.noalias() = modes_->third_by_force * workspace.bend;
     sag = sum_of_sizes(by_third_, workspace.parts) +
           std::abs(reading.force.dot(workspace.bend)) * step_s_ * step_s_ / 8.0;
+    sag += by_modes(x0, inputs.u0, u_rate, inputs.f0, inputs.force_slope() / step_s_, workspace);
   } else {
-    z.tail(m).setZero();
+    const auto none = Eigen::VectorXd::Zero(inputs.f0.size());
+    sag = by_modes(x0, inputs.u0, u_rate, inputs.f0, none, workspace);
   }
-  workspace.parts.noalias() = modes_->second * z;
-  sag += sum_of_sizes(by_second_, workspace.parts);
   const double begin =
       reading.state.dot(x0) + reading.actuator * inputs.u0 + reading.force.dot(inputs.f0);
   const double end =

@@ -67,6 +67,11 @@ class ReadingBound {
                    Workspace& workspace) const;
 
  private:
+  /// Of y_k without g_k, from X = x0 with these u, u', f and f'.
+  template <class Slope>
+  double by_modes(const Eigen::VectorXd& x0, double u, double u_rate, const Eigen::VectorXd& f,
+                  const Slope& f_rate, Workspace& workspace) const;
+
   std::shared_ptr<const ReadingModes> modes_;
   double step_s_ = 0.0;
   bool forces_vary_ = false;

@@ -53,11 +53,8 @@ bool TurningBlocks::Run::go(const Eigen::MatrixXd& torques, std::ptrdiff_t first
   readings_.noalias() += block.readings_by_torques * inputs_;
   if (!surely_turns(direction, x) || !readings_.allFinite()) return false;
   for (Index j = 0; j < made.cols(); ++j) {
-    const Index shift = k + blocks_.times_.sensors[static_cast<std::size_t>(j)].samples_later;
-    const Index from = std::max<Index>(0, -shift);
-    const Index count = std::min(kSamples, made.rows() - shift) - from;
-    if (count <= 0) continue;
-    made.col(j).segment(from + shift, count) = readings_.segment(j * kSamples + from, count);
+    put_readings(readings_.segment(j * kSamples, kSamples), k,
+                 blocks_.times_.sensors[static_cast<std::size_t>(j)].samples_later, made.col(j));
   }
   x = end_;
   return true;

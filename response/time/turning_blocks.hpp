@@ -6,7 +6,6 @@
 #include <Eigen/Core>
 
 #include <cstddef>
-#include <memory>
 #include <span>
 
 namespace flexarm::response {

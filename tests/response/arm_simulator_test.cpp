@@ -175,6 +175,17 @@ TEST(ArmSimulator, GoesOnFromAStateAsFreeReadingsSay) {
   EXPECT_GE((from_state - from_rest).norm(), 0.1 * from_rest.norm());
 }
 
+/// Readings of blocks of samples are those of the run, which goes step by step.
+void expect_readings_of(const Simulation& by_steps, const Eigen::MatrixXd& made,
+                        const std::vector<arm::Sensor>& sensors) {
+  for (std::size_t j = 0; j < sensors.size(); ++j) {
+    const auto expected = Eigen::VectorXd::Map(by_steps.channels[j].data(), made.rows());
+    EXPECT_LE((made.col(static_cast<Eigen::Index>(j)) - expected).norm(),
+              kRoundingOfSteps * expected.norm())
+        << arm::to_string(sensors[j]);
+  }
+}
+
 TEST(ArmSimulator, ReadsTheSameForAnyNumberOfSamples) {
   // Readings of a linear arm are formed for blocks of samples (LiftedArm), the run step by step.
   arm::Arm arm = arm::paper_arm();
@@ -194,15 +205,10 @@ TEST(ArmSimulator, ReadsTheSameForAnyNumberOfSamples) {
     const ArmSimulator simulator(model, parts, sensors, options_of_fit(kStep_s, hold));
     for (const std::size_t samples : {1U, 2U, 8U, 15U, 16U, 17U, 32U, 33U, 100U}) {
       const auto torque = std::span(all).first(samples);
-      const Simulation by_steps = simulator.run(torque);
+      SCOPED_TRACE(samples);
       const Eigen::MatrixXd made = simulator.readings(torque);
       ASSERT_EQ(made.rows(), std::ssize(torque));
-      for (std::size_t j = 0; j < sensors.size(); ++j) {
-        const auto expected = Eigen::VectorXd::Map(by_steps.channels[j].data(), made.rows());
-        EXPECT_LE((made.col(static_cast<Eigen::Index>(j)) - expected).norm(),
-                  kRoundingOfSteps * expected.norm())
-            << samples << " samples, " << arm::to_string(sensors[j]);
-      }
+      expect_readings_of(simulator.run(torque), made, sensors);
     }
   }
 }
@@ -228,13 +234,8 @@ TEST(ArmSimulator, ReadsFrictionInBlocksAsStepByStep) {
             .torque_N_m;
     const Simulation by_steps = simulator.run(torque);
     EXPECT_GE(by_steps.summary.stops + by_steps.summary.reversals, 1) << rms_N_m;
-    const Eigen::MatrixXd made = simulator.readings(torque);
-    for (std::size_t j = 0; j < sensors.size(); ++j) {
-      const auto expected = Eigen::VectorXd::Map(by_steps.channels[j].data(), made.rows());
-      EXPECT_LE((made.col(static_cast<Eigen::Index>(j)) - expected).norm(),
-                kRoundingOfSteps * expected.norm())
-          << rms_N_m << " N m, " << arm::to_string(sensors[j]);
-    }
+    SCOPED_TRACE(rms_N_m);
+    expect_readings_of(by_steps, simulator.readings(torque), sensors);
   }
 }
 

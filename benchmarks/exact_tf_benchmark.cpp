@@ -21,6 +21,7 @@
 namespace flexarm::benchmarks {
 namespace {
 
+using exact_tf::Arithmetic;
 using exact_tf::Certificate;
 using exact_tf::ExactArm;
 
@@ -117,15 +118,16 @@ const reference::EffectCase& effect_case(const std::string& name) {
 
 /// Ten poles, hub zeros and tip zeros of an arm with effects; error of the six poles and hub zeros
 /// that the reference has.
-void roots_with_effects(benchmark::State& state, const char* name) {
+void roots_with_effects(benchmark::State& state, const char* name,
+                        Arithmetic arithmetic = Arithmetic::extended) {
   const auto& known = effect_case(name);
   for (auto _ : state) {
-    const ExactArm exact(known.arm);
+    const ExactArm exact(known.arm, arithmetic);
     benchmark::DoNotOptimize(exact.poles(kPoles));
     benchmark::DoNotOptimize(exact.zeros(kHubAngle, kHubZeros));
     benchmark::DoNotOptimize(exact.zeros(kTipAcceleration, kTipZeros));
   }
-  const ExactArm exact(known.arm);
+  const ExactArm exact(known.arm, arithmetic);
   const auto poles = exact.poles(kPoles);
   const auto zeros = exact.zeros(kHubAngle, kHubZeros);
   double error = 0.0;
@@ -139,21 +141,24 @@ void roots_with_effects(benchmark::State& state, const char* name) {
   state.counters["error"] = error;
 }
 
-void damped_poles_with_effects(benchmark::State& state, const char* name) {
-  const ExactArm exact(effect_case(name).arm);
+void damped_poles_with_effects(benchmark::State& state, const char* name,
+                               Arithmetic arithmetic = Arithmetic::extended) {
+  const ExactArm exact(effect_case(name).arm, arithmetic);
   for (auto _ : state) benchmark::DoNotOptimize(exact.damped_poles(kPoles));
 }
 
-void modal_model_with_effects(benchmark::State& state, const char* name) {
-  const ExactArm exact(effect_case(name).arm);
+void modal_model_with_effects(benchmark::State& state, const char* name,
+                              Arithmetic arithmetic = Arithmetic::extended) {
+  const ExactArm exact(effect_case(name).arm, arithmetic);
   const std::vector<arm::Sensor> sensors = {kHubAngle, kTipAcceleration};
   for (auto _ : state) benchmark::DoNotOptimize(exact.modal_model(kPoles, sensors, {}));
 }
 
 /// The tip's response; error at the reference's points.
-void response_with_effects(benchmark::State& state, const char* name) {
+void response_with_effects(benchmark::State& state, const char* name,
+                           Arithmetic arithmetic = Arithmetic::extended) {
   const auto& known = effect_case(name);
-  const ExactArm exact(known.arm);
+  const ExactArm exact(known.arm, arithmetic);
   time_responses(state, exact, "tip_displacement");
   std::vector<std::complex<double>> found;
   std::vector<std::complex<double>> digits;
@@ -186,10 +191,31 @@ BENCHMARK_CAPTURE(roots_with_effects, gravity, "gravity")->Apply(repeated);
 BENCHMARK_CAPTURE(roots_with_effects, shear, "shear_and_rotary_inertia")->Apply(repeated);
 BENCHMARK_CAPTURE(roots_with_effects, all, "all")->Apply(repeated);
 BENCHMARK_CAPTURE(damped_poles_with_effects, all, "all")->Apply(repeated);
+BENCHMARK_CAPTURE(modal_model_with_effects, crack, "local_stiffness_loss")->Apply(repeated);
+BENCHMARK_CAPTURE(modal_model_with_effects, gravity, "gravity")->Apply(repeated);
 BENCHMARK_CAPTURE(modal_model_with_effects, all, "all")->Apply(repeated);
 BENCHMARK_CAPTURE(response_with_effects, crack, "local_stiffness_loss")->Apply(repeated);
 BENCHMARK_CAPTURE(response_with_effects, gravity, "gravity")->Apply(repeated);
 BENCHMARK_CAPTURE(response_with_effects, all, "all")->Apply(repeated);
+BENCHMARK_CAPTURE(roots_with_effects, crack_working, "local_stiffness_loss", Arithmetic::working)
+    ->Apply(repeated);
+BENCHMARK_CAPTURE(roots_with_effects, gravity_working, "gravity", Arithmetic::working)
+    ->Apply(repeated);
+BENCHMARK_CAPTURE(roots_with_effects, all_working, "all", Arithmetic::working)->Apply(repeated);
+BENCHMARK_CAPTURE(damped_poles_with_effects, all_working, "all", Arithmetic::working)
+    ->Apply(repeated);
+BENCHMARK_CAPTURE(modal_model_with_effects, crack_working, "local_stiffness_loss",
+                  Arithmetic::working)
+    ->Apply(repeated);
+BENCHMARK_CAPTURE(modal_model_with_effects, gravity_working, "gravity", Arithmetic::working)
+    ->Apply(repeated);
+BENCHMARK_CAPTURE(modal_model_with_effects, all_working, "all", Arithmetic::working)
+    ->Apply(repeated);
+BENCHMARK_CAPTURE(response_with_effects, crack_working, "local_stiffness_loss", Arithmetic::working)
+    ->Apply(repeated);
+BENCHMARK_CAPTURE(response_with_effects, gravity_working, "gravity", Arithmetic::working)
+    ->Apply(repeated);
+BENCHMARK_CAPTURE(response_with_effects, all_working, "all", Arithmetic::working)->Apply(repeated);
 BENCHMARK_CAPTURE(response, hub_angle, "hub_angle", &reference::ReferenceResponse::hub_angle, 1.0)
     ->Apply(repeated);
 BENCHMARK_CAPTURE(response, tip_displacement, "tip_displacement",

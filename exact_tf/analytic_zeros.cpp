@@ -287,6 +287,15 @@ AnalyticZeros ZeroSearch::run(int count) {
 
 }  // namespace
 
+AnalyticZeroOptions zero_options(Arithmetic arithmetic) {
+  AnalyticZeroOptions options;
+  if (arithmetic == Arithmetic::working) {
+    options.significand_bits = std::numeric_limits<double>::digits - 3;
+    options.secant_tolerance = 1e-13L;
+  }
+  return options;
+}
+
 AnalyticZeros find_analytic_zeros(const SectorFunction& function, int count,
                                   const AnalyticZeroOptions& options) {
   if (count < 1) throw std::invalid_argument("count of zeros must be 1 or more");

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "exact_tf/argument_principle.hpp"
+#include "exact_tf/arithmetic.hpp"
 
 #include <vector>
 
@@ -34,6 +35,10 @@ struct AnalyticZeroOptions {
   long most_function_values = 50'000'000;
   ContourOptions contour;
 };
+
+/// Those of a function that is evaluated in `arithmetic`: brackets and steps end where rounding of
+/// the values does not yet decide.
+AnalyticZeroOptions zero_options(Arithmetic arithmetic);
 
 /// Zeros of an entire function beside their number.
 struct AnalyticZeros {

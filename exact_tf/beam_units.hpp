@@ -42,77 +42,79 @@ namespace flexarm::exact_tf {
 ///
 /// The numbers of these equations in units of the beam: lengths in l, time in
 /// sqrt(m l^4/EI), moments in EI/l, forces in EI/l^2.
+template <class R>
 struct ArmInBeamUnits {
-  Real omega_scale_rad_per_s = 0.0L;  ///< sqrt(EI/(m l^4))
-  Real length_m = 0.0L;               ///< l
-  Real torque_scale_N_m = 0.0L;       ///< EI/l
+  R omega_scale_rad_per_s = 0;  ///< sqrt(EI/(m l^4))
+  R length_m = 0;               ///< l
+  R torque_scale_N_m = 0;       ///< EI/l
 
   /// What of Ih/(m l^3) turns by theta, and by theta_m where the drive is compliant.
-  Real hub_inertia = 0.0L;
-  Real rotor_inertia = 0.0L;
-  Real drive_flexibility = 0.0L;  ///< EI/(l kd), 0 for a rigid drive
-  Real drive_retardation = 0.0L;  ///< td omega_scale
-  Real hub_radius = 0.0L;        ///< a/l
-  Real hub_friction = 0.0L;      ///< c omega_scale l/EI
-  Real hub_spring = 0.0L;        ///< ks l/EI
-  Real root_flexibility = 0.0L;  ///< EI/(l kr), 0 for a rigid root
-  Real root_retardation = 0.0L;  ///< tr omega_scale
+  R hub_inertia = 0;
+  R rotor_inertia = 0;
+  R drive_flexibility = 0;  ///< EI/(l kd), 0 for a rigid drive
+  R drive_retardation = 0;  ///< td omega_scale
+  R hub_radius = 0;         ///< a/l
+  R hub_friction = 0;       ///< c omega_scale l/EI
+  R hub_spring = 0;         ///< ks l/EI
+  R root_flexibility = 0;   ///< EI/(l kr), 0 for a rigid root
+  R root_retardation = 0;   ///< tr omega_scale
 
-  Real payload_mass = 0.0L;     ///< Mp/(m l)
-  Real payload_moment = 0.0L;   ///< Sp/(m l^2)
-  Real payload_inertia = 0.0L;  ///< Jp/(m l^3)
+  R payload_mass = 0;     ///< Mp/(m l)
+  R payload_moment = 0;   ///< Sp/(m l^2)
+  R payload_inertia = 0;  ///< Jp/(m l^3)
 
-  std::optional<Real> crack_position;  ///< X/l
-  Real crack_flexibility = 0.0L;       ///< EI/(l kc)
+  std::optional<R> crack_position;  ///< X/l
+  R crack_flexibility = 0;          ///< EI/(l kc)
 
   /// A mass on the beam.
   struct Carried {
-    Real position = 0.0L;       ///< Xk/l
-    Real mass = 0.0L;           ///< mk/(m l)
-    Real omega_squared = 0.0L;  ///< kk/(mk omega_scale^2); 0 where the mass is fixed
-    Real damping = 0.0L;        ///< ck/(mk omega_scale)
+    R position = 0;       ///< Xk/l
+    R mass = 0;           ///< mk/(m l)
+    R omega_squared = 0;  ///< kk/(mk omega_scale^2); 0 where the mass is fixed
+    R damping = 0;        ///< ck/(mk omega_scale)
 
-    bool is_suspended() const { return omega_squared > 0.0L; }
+    bool is_suspended() const { return omega_squared > 0; }
   };
   std::vector<Carried> carried;  ///< by position
 
-  Real shear_flexibility = 0.0L;  ///< EI/(kGA l^2)
-  Real rotary_inertia = 0.0L;     ///< rho I/(m l^2)
-  Real gravity = 0.0L;            ///< g m l^3/EI
-  Real kelvin_voigt = 0.0L;       ///< kv omega_scale
-  Real air_damping = 0.0L;        ///< ca/(m omega_scale)
+  R shear_flexibility = 0;  ///< EI/(kGA l^2)
+  R rotary_inertia = 0;     ///< rho I/(m l^2)
+  R gravity = 0;            ///< g m l^3/EI
+  R kelvin_voigt = 0;       ///< kv omega_scale
+  R air_damping = 0;        ///< ca/(m omega_scale)
 
-  bool has_rigid_drive() const { return drive_flexibility == 0.0L; }
-  bool turns_freely() const { return hub_spring == 0.0L && gravity == 0.0L; }
+  bool has_rigid_drive() const { return drive_flexibility == 0; }
+  bool turns_freely() const { return hub_spring == 0 && gravity == 0; }
   /// g P in units of l, the axial tension, at x and just before it towards the root.
-  Real tension(Real x) const;
+  R tension(R x) const;
   /// I_T/(m l^3).
-  Real total_inertia() const;
+  R total_inertia() const;
 };
 
-/// Formed in long double from the arm's doubles, which count as exact.
-ArmInBeamUnits in_beam_units(const arm::LinearArm& arm);
+/// Formed in long double from the arm's doubles, which count as exact, and rounded to R.
+template <class R>
+ArmInBeamUnits<R> in_beam_units(const arm::LinearArm& arm);
 
 /// What of these equations depends on s, in the same units.
 template <class T>
 struct BeamAtFrequency {
-  T square;         ///< s^2
-  T inertia;        ///< s^2 + ca s: Q' over y
-  T rotary;         ///< rho I s^2
-  T flexibility;    ///< 1/(1 + kv s): psi' over M
-  T root;           ///< (psi(0) - theta)/M(0)
-  T drive;          ///< (theta_m - theta)/taud
-  T hub_impedance;  ///< (taud + M(0) + a Q(0))/theta; what acts on the rotor included where rigid
+  T square;           ///< s^2
+  T inertia;          ///< s^2 + ca s: Q' over y
+  T rotary;           ///< rho I s^2
+  T flexibility;      ///< 1/(1 + kv s): psi' over M
+  T root;             ///< (psi(0) - theta)/M(0)
+  T drive;            ///< (theta_m - theta)/taud
+  T hub_impedance;    ///< (taud + M(0) + a Q(0))/theta; what acts on the rotor included where rigid
   T rotor_impedance;  ///< (tau - taud)/theta_m; 0 where the drive is rigid
-  T decay;          ///< s times what damping is multiplied by: suspensions have ck times it
+  T decay;            ///< s times what damping is multiplied by: suspensions have ck times it
 };
 
-/// The undamped arm at s^2 = -omega_squared, of either sign.
-BeamAtFrequency<Real> undamped_at(const ArmInBeamUnits& arm, Real omega_squared);
-/// The undamped arm at complex s^2 = -omega_squared.
-BeamAtFrequency<Complex> undamped_at(const ArmInBeamUnits& arm, const Complex& omega_squared);
-/// The arm with all its damping times `damping`, at s in units of omega_scale.
-BeamAtFrequency<Complex> damped_at(const ArmInBeamUnits& arm, const Complex& s,
-                                   const Complex& damping = 1.0L);
+/// The undamped arm at s^2 = -omega_squared, of either sign or complex.
+template <class T>
+BeamAtFrequency<T> undamped_at(const ArmInBeamUnits<RealOf<T>>& arm, const T& omega_squared);
+/// The arm with all its damping times `damping`, at complex s in units of omega_scale.
+template <class R>
+BeamAtFrequency<std::complex<R>> damped_at(const ArmInBeamUnits<R>& arm, const std::complex<R>& s,
+                                           const std::complex<R>& damping = R(1));
 
 }  // namespace flexarm::exact_tf

@@ -11,8 +11,8 @@ namespace flexarm::exact_tf {
 namespace {
 
 template <std::size_t N, class T>
-Real norm_of(const std::array<T, N>& values) {
-  Real sum = 0.0L;
+RealOf<T> norm_of(const std::array<T, N>& values) {
+  RealOf<T> sum = 0;
   for (const T& value : values) sum += std::norm(value);
   return std::sqrt(sum);
 }
@@ -26,16 +26,16 @@ Real norm_of(const std::array<T, N>& values) {
 template <class T>
 T slight_deflection(const TransferChain<T>& chain) {
   auto departure = chain.tip_states();
-  departure[0][kDisplacement] = departure[1][kRotation] = T(0.0L);
-  T resonances(1.0L);
+  departure[0][kDisplacement] = departure[1][kRotation] = T(0);
+  T resonances(1);
   for (const auto& link : chain.links()) {
-    const Real from_tip = 1.0L - link.segment.right;
+    const RealOf<T> from_tip = 1 - link.segment.right;
     if (link.mass) {
       const auto& mass = chain.masses()[*link.mass];
-      const T inverse = 1.0L / mass.resonance();
+      const T inverse = RealOf<T>(1) / mass.resonance();
       resonances *= mass.resonance();
       const std::array<BeamState<T>, 2> rigid = {
-          {{T(1.0L), T(0.0L), T(0.0L), T(0.0L)}, {T(-from_tip), T(1.0L), T(0.0L), T(0.0L)}}};
+          {{T(1), T(0), T(0), T(0)}, {T(-from_tip), T(1), T(0), T(0)}}};
       for (std::size_t k = 0; k < 2; ++k) {
         BeamState<T> whole = rigid[k];
         for (std::size_t i = 0; i < 4; ++i) whole[i] += departure[k][i];
@@ -58,15 +58,15 @@ T slight_deflection(const TransferChain<T>& chain) {
     }
     departure = next;
   }
-  const Real radius = chain.arm().hub_radius;
+  const RealOf<T> radius = chain.arm().hub_radius;
   const T& flexibility = chain.beam().root;
   const auto f1 = [&](const BeamState<T>& v) { return v[kRotation] - flexibility * v[kMoment]; };
   const auto f2 = [&](const BeamState<T>& v) { return v[kDisplacement] - radius * f1(v); };
   const T along_first = f2(departure[0]);
   const T along_second = f2(departure[1]);
-  const Real reach = 1.0L + radius;
+  const RealOf<T> reach = 1 + radius;
   const T root_rotation =
-      (reach - along_second) * f1(departure[0]) + (1.0L + along_first) * f1(departure[1]);
+      (reach - along_second) * f1(departure[0]) + (RealOf<T>(1) + along_first) * f1(departure[1]);
   return resonances * (-along_second - reach * (along_first + root_rotation));
 }
 
@@ -80,36 +80,36 @@ SensorValue<T> tip_value(const TransferChain<T>& chain) {
 template <class T>
 SensorValue<T> deflection_value(const TransferChain<T>& chain, const RootValues<T>& root) {
   // Up to here no term of either form outgrows the others.
-  constexpr Real kSlightGrowth = 3.0L;
-  constexpr Real kFarFromResonance = 0.5L;
+  constexpr RealOf<T> kSlightGrowth = 3;
+  constexpr RealOf<T> kFarFromResonance = 0.5;
   const bool resonates = std::ranges::any_of(chain.masses(), [](const auto& mass) {
     return std::abs(mass.resonance()) < kFarFromResonance;
   });
   if (chain.growth() <= kSlightGrowth && !resonates) {
-    return {slight_deflection(chain), 0.0L, root.size};
+    return {slight_deflection(chain), RealOf<T>(0), root.size};
   }
   const auto tip = tip_value(chain);
-  const Real log_scale = std::max(root.log_scale, tip.log_scale);
-  const Real root_factor = std::exp(root.log_scale - log_scale);
-  const Real tip_factor = std::exp(tip.log_scale - log_scale);
-  const Real reach = 1.0L + chain.arm().hub_radius;
+  const RealOf<T> log_scale = std::max(root.log_scale, tip.log_scale);
+  const RealOf<T> root_factor = std::exp(root.log_scale - log_scale);
+  const RealOf<T> tip_factor = std::exp(tip.log_scale - log_scale);
+  const RealOf<T> reach = 1 + chain.arm().hub_radius;
   return {tip_factor * tip.value - reach * root_factor * root.hub_angle, log_scale,
           tip_factor * tip.size + root_factor * root.size};
 }
 
 template <class T>
-SensorValue<T> curvature_value(const TransferChain<T>& chain, Real x) {
+SensorValue<T> curvature_value(const TransferChain<T>& chain, RealOf<T> x) {
   const auto& links = chain.links();
   const std::size_t place = link_at(chain, x);
   auto plane = chain.tip_plane();
   for (std::size_t i = 0; i < place; ++i) chain.to_left(links[i], plane);
   auto functional = chain.root_functional();
   for (std::size_t i = links.size(); i-- > place;) chain.to_right(links[i], functional);
-  const Segment& segment = links[place].segment;
+  const Segment<RealOf<T>>& segment = links[place].segment;
   const SegmentSeries<T> series(chain.arm(), chain.beam(), segment,
                                 state_in_plane(functional.functional, plane.plane));
   const auto state = series.at((segment.right - x) / segment.length);
-  const Real log_scale = plane.log_scale + functional.log_scale;
+  const RealOf<T> log_scale = plane.log_scale + functional.log_scale;
   // Sizes here would jump with the cuts between segments; that at the root does not.
   for (std::size_t i = place; i < links.size(); ++i) chain.to_left(links[i], plane);
   return {chain.beam().flexibility * state[kMoment], log_scale,
@@ -119,8 +119,9 @@ SensorValue<T> curvature_value(const TransferChain<T>& chain, Real x) {
 }  // namespace
 
 template <class T>
-RootValues<T> root_values(const TransferChain<T>& chain, const Bivector<T>& p, Real log_scale) {
-  const Real radius = chain.arm().hub_radius;
+RootValues<T> root_values(const TransferChain<T>& chain, const Bivector<T>& p,
+                          RealOf<T> log_scale) {
+  const RealOf<T> radius = chain.arm().hub_radius;
   const T& flexibility = chain.beam().root;
   const T hub_angle = p.displacement_rotation() - flexibility * p.displacement_moment();
   const T passed_on = chain.beam().hub_impedance * hub_angle - p.displacement_moment() +
@@ -138,7 +139,7 @@ RootValues<T> root_values(const TransferChain<T>& chain) {
 }
 
 template <class T>
-SensorValue<T> sensor_value(const TransferChain<T>& chain, arm::SensorKind kind, Real position,
+SensorValue<T> sensor_value(const TransferChain<T>& chain, arm::SensorKind kind, RealOf<T> position,
                             const std::optional<RootValues<T>>& known_root) {
   const auto at_root = [&] { return known_root ? *known_root : root_values(chain); };
   switch (kind) {
@@ -159,7 +160,7 @@ SensorValue<T> sensor_value(const TransferChain<T>& chain, arm::SensorKind kind,
 }
 
 template <class T>
-std::size_t link_at(const TransferChain<T>& chain, Real x) {
+std::size_t link_at(const TransferChain<T>& chain, RealOf<T> x) {
   const auto& links = chain.links();
   const auto found = std::ranges::find_if(
       links, [x](const auto& link) { return link.is_segment() && link.segment.left() <= x; });
@@ -173,13 +174,27 @@ std::size_t link_at(const TransferChain<T>& chain, Real x) {
 template RootValues<Real> root_values(const TransferChain<Real>&, const Bivector<Real>&, Real);
 template RootValues<Complex> root_values(const TransferChain<Complex>&, const Bivector<Complex>&,
                                          Real);
+template RootValues<double> root_values(const TransferChain<double>&, const Bivector<double>&,
+                                        double);
+template RootValues<std::complex<double>> root_values(const TransferChain<std::complex<double>>&,
+                                                      const Bivector<std::complex<double>>&,
+                                                      double);
 template RootValues<Real> root_values(const TransferChain<Real>&);
 template RootValues<Complex> root_values(const TransferChain<Complex>&);
+template RootValues<double> root_values(const TransferChain<double>&);
+template RootValues<std::complex<double>> root_values(const TransferChain<std::complex<double>>&);
 template SensorValue<Real> sensor_value(const TransferChain<Real>&, arm::SensorKind, Real,
                                         const std::optional<RootValues<Real>>&);
 template SensorValue<Complex> sensor_value(const TransferChain<Complex>&, arm::SensorKind, Real,
                                            const std::optional<RootValues<Complex>>&);
+template SensorValue<double> sensor_value(const TransferChain<double>&, arm::SensorKind, double,
+                                          const std::optional<RootValues<double>>&);
+template SensorValue<std::complex<double>> sensor_value(
+    const TransferChain<std::complex<double>>&, arm::SensorKind, double,
+    const std::optional<RootValues<std::complex<double>>>&);
 template std::size_t link_at(const TransferChain<Real>&, Real);
 template std::size_t link_at(const TransferChain<Complex>&, Real);
+template std::size_t link_at(const TransferChain<double>&, double);
+template std::size_t link_at(const TransferChain<std::complex<double>>&, double);
 
 }  // namespace flexarm::exact_tf

@@ -17,32 +17,32 @@ struct RootValues {
   T hub_angle{};    ///< theta; its roots are the poles with the hub held
   T motor_angle{};  ///< theta_m; its roots are the poles with the rotor held
   T torque{};       ///< tau; its roots are the poles
-  Real log_scale = 0.0L;
-  Real size = 1.0L;  ///< of what the values are made of, continuous in s
+  RealOf<T> log_scale = 0;
+  RealOf<T> size = 1;  ///< of what the values are made of, continuous in s
 };
 
 template <class T>
 RootValues<T> root_values(const TransferChain<T>& chain, const Bivector<T>& root_plane,
-                          Real log_scale);
+                          RealOf<T> log_scale);
 template <class T>
 RootValues<T> root_values(const TransferChain<T>& chain);
 
 template <class T>
 struct SensorValue {
   T value{};
-  Real log_scale = 0.0L;
-  Real size = 1.0L;
+  RealOf<T> log_scale = 0;
+  RealOf<T> size = 1;
 };
 
 /// What a sensor shows before time derivatives, in units of the beam: theta_m, y(l),
 /// y(l) - (a + l) theta or psi'(X), X in units of l. The deflection keeps its digits where it is
 /// small beside both of its terms. `root` saves its computation where it is known.
 template <class T>
-SensorValue<T> sensor_value(const TransferChain<T>& chain, arm::SensorKind kind, Real position,
+SensorValue<T> sensor_value(const TransferChain<T>& chain, arm::SensorKind kind, RealOf<T> position,
                             const std::optional<RootValues<T>>& root = std::nullopt);
 
 /// The link that holds x, the one towards the tip where two meet.
 template <class T>
-std::size_t link_at(const TransferChain<T>& chain, Real x);
+std::size_t link_at(const TransferChain<T>& chain, RealOf<T> x);
 
 }  // namespace flexarm::exact_tf

@@ -3,20 +3,21 @@
 namespace flexarm::exact_tf {
 
 template <class T>
-CarriedMass<T>::CarriedMass(const ArmInBeamUnits& arm, const BeamAtFrequency<T>& beam,
-                            const ArmInBeamUnits::Carried& mass)
-    : resonance_(1.0L) {
+CarriedMass<T>::CarriedMass(const ArmInBeamUnits<RealOf<T>>& arm, const BeamAtFrequency<T>& beam,
+                            const typename ArmInBeamUnits<RealOf<T>>::Carried& mass)
+    : resonance_(T(1)) {
+  using R = RealOf<T>;
   if (!mass.is_suspended()) {
     force_y_ = -mass.mass * beam.square;
     return;
   }
-  const Real inverse = 1.0L / mass.omega_squared;
-  const T damped = 1.0L + inverse * mass.damping * beam.decay;
+  const R inverse = R(1) / mass.omega_squared;
+  const T damped = R(1) + inverse * mass.damping * beam.decay;
   resonance_ = damped + inverse * beam.square;
   along_y_ = -inverse * beam.square;
   along_psi_ = T(-inverse * arm.gravity);
   // m_y y + m_psi psi = -g mk D u, q_y y + q_psi psi = -mk s^2 (D y + D u).
-  const Real weight = arm.gravity * mass.mass;
+  const R weight = arm.gravity * mass.mass;
   moment_y_ = -weight * along_y_;
   moment_psi_ = -weight * along_psi_;
   force_y_ = -mass.mass * beam.square * damped;
@@ -54,5 +55,7 @@ BeamState<T> CarriedMass<T>::to_right(const BeamState<T>& functional) const {
 
 template class CarriedMass<Real>;
 template class CarriedMass<Complex>;
+template class CarriedMass<double>;
+template class CarriedMass<std::complex<double>>;
 
 }  // namespace flexarm::exact_tf

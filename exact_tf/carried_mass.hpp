@@ -15,8 +15,8 @@ namespace flexarm::exact_tf {
 template <class T>
 class CarriedMass {
  public:
-  CarriedMass(const ArmInBeamUnits& arm, const BeamAtFrequency<T>& beam,
-              const ArmInBeamUnits::Carried& mass);
+  CarriedMass(const ArmInBeamUnits<RealOf<T>>& arm, const BeamAtFrequency<T>& beam,
+              const typename ArmInBeamUnits<RealOf<T>>::Carried& mass);
 
   /// D.
   const T& resonance() const { return resonance_; }
@@ -44,5 +44,7 @@ class CarriedMass {
 
 extern template class CarriedMass<Real>;
 extern template class CarriedMass<Complex>;
+extern template class CarriedMass<double>;
+extern template class CarriedMass<std::complex<double>>;
 
 }  // namespace flexarm::exact_tf

@@ -4,40 +4,42 @@ namespace flexarm::exact_tf {
 
 namespace {
 
-bool opposite(Real a, Real b) {
-  return (a < 0.0L) != (b < 0.0L);
+template <class R>
+bool opposite(R a, R b) {
+  return (a < 0) != (b < 0);
 }
 
 /// Negative eigenvalues of B, 0 or 2, where they have one sign: that of
 /// det(T_uf) p_right (h^2 B_yy + B_psi psi) over p_right.
-int definite_pivots(const SegmentTransfer<Real>& transfer, Real length,
-                    const Bivector<Real>& right) {
+template <class R>
+int definite_pivots(const SegmentTransfer<R>& transfer, R length, const Bivector<R>& right) {
   const auto& c = transfer.columns;
   // States of the plane with (y, psi) = (p, 0) and (0, p).
-  const BeamState<Real> displaced = {right.displacement_rotation(), 0.0L, -right.rotation_moment(),
-                                     -right.rotation_force()};
-  const BeamState<Real> rotated = {0.0L, right.displacement_rotation(), right.displacement_moment(),
-                                   right.displacement_force()};
-  const auto at_left = [&](const BeamState<Real>& state, std::size_t i) {
-    Real sum = 0.0L;
+  const BeamState<R> displaced = {right.displacement_rotation(), 0, -right.rotation_moment(),
+                                  -right.rotation_force()};
+  const BeamState<R> rotated = {0, right.displacement_rotation(), right.displacement_moment(),
+                                right.displacement_force()};
+  const auto at_left = [&](const BeamState<R>& state, std::size_t i) {
+    R sum = 0;
     for (std::size_t j = 0; j < 4; ++j) sum += c[j][i] * state[j];
     return sum;
   };
-  const Real displacement_pivot = c[kMoment][kDisplacement] * at_left(displaced, kRotation) -
-                                  c[kMoment][kRotation] * at_left(displaced, kDisplacement);
-  const Real rotation_pivot = c[kForce][kRotation] * at_left(rotated, kDisplacement) -
-                              c[kForce][kDisplacement] * at_left(rotated, kRotation);
-  const Real trace = length * length * displacement_pivot + rotation_pivot;
+  const R displacement_pivot = c[kMoment][kDisplacement] * at_left(displaced, kRotation) -
+                               c[kMoment][kRotation] * at_left(displaced, kDisplacement);
+  const R rotation_pivot = c[kForce][kRotation] * at_left(rotated, kDisplacement) -
+                           c[kForce][kDisplacement] * at_left(rotated, kRotation);
+  const R trace = length * length * displacement_pivot + rotation_pivot;
   return opposite(trace, right.displacement_rotation()) ? 2 : 0;
 }
 
 }  // namespace
 
-ChainCount count_below(const TransferChain<Real>& chain) {
-  ChainCount count;
-  ScaledPlane<Real> plane = chain.tip_plane();
+template <class R>
+ChainCount<R> count_below(const TransferChain<R>& chain) {
+  ChainCount<R> count;
+  ScaledPlane<R> plane = chain.tip_plane();
   for (const auto& link : chain.links()) {
-    const Bivector<Real> right = plane.plane;
+    const Bivector<R> right = plane.plane;
     chain.to_left(link, plane);
     if (opposite(plane.plane.displacement_rotation(), right.displacement_rotation())) {
       ++count.hub_held;
@@ -51,5 +53,8 @@ ChainCount count_below(const TransferChain<Real>& chain) {
   count.poles = count.hub_held + (opposite(count.values.torque, count.values.motor_angle) ? 1 : 0);
   return count;
 }
+
+template ChainCount<Real> count_below(const TransferChain<Real>&);
+template ChainCount<double> count_below(const TransferChain<double>&);
 
 }  // namespace flexarm::exact_tf

@@ -5,10 +5,11 @@
 namespace flexarm::exact_tf {
 
 /// Numbers of eigenvalues omega^2 below the chain's, with the functions whose signs they step with.
+template <class R>
 struct ChainCount {
   int hub_held = 0;  ///< poles with the rotor, or a hub without, held: roots of motor_angle
   int poles = 0;     ///< the lowest mode's included: roots of torque
-  RootValues<Real> values;
+  RootValues<R> values;
 };
 
 /// The algorithm of [WittrickWilliams1971] on the undamped chain,
@@ -26,6 +27,7 @@ struct ChainCount {
 /// motor_angle/hub_angle, the motor's angle torque/motor_angle. Signs of
 /// the products telescope, so that the count's parity is that of the sign of the last function, and
 /// a sign that rounding turned where a minor all but vanishes is taken back by the next.
-ChainCount count_below(const TransferChain<Real>& chain);
+template <class R>
+ChainCount<R> count_below(const TransferChain<R>& chain);
 
 }  // namespace flexarm::exact_tf

@@ -17,13 +17,15 @@ struct ChainEigenvalues {
 
 /// The lowest mode's eigenvalue, 0 for an arm that turns freely, and after it the `count` lowest
 /// flexible ones. `count.found` and `count.expected` count flexible ones.
-ChainEigenvalues find_chain_poles(const ArmInBeamUnits& arm, int count);
+template <class R>
+ChainEigenvalues find_chain_poles(const ArmInBeamUnits<R>& arm, int count);
 
 /// The `count` lowest eigenvalues with the rotor held, or the hub where the drive is rigid.
-ChainEigenvalues find_chain_hub_zeros(const ArmInBeamUnits& arm, int count);
+template <class R>
+ChainEigenvalues find_chain_hub_zeros(const ArmInBeamUnits<R>& arm, int count);
 
 /// No flexible mode of the arm has a negative eigenvalue; its lowest, of a standing arm that falls,
 /// may. Without gravity always true.
-bool flexible_modes_are_stable(const ArmInBeamUnits& arm);
+bool flexible_modes_are_stable(const ArmInBeamUnits<Real>& arm);
 
 }  // namespace flexarm::exact_tf

@@ -27,9 +27,10 @@ arm::LinearArm honoured(const arm::Arm& arm) {
   return linear_arm(arm);
 }
 
-std::variant<PlainArm, TransferMatrixArm> engine_for(const arm::LinearArm& arm) {
-  if (arm.is_plain()) return PlainArm(arm);
-  return TransferMatrixArm(arm);
+std::variant<PlainArm, TransferMatrixArm> engine_for(const arm::LinearArm& arm,
+                                                     Arithmetic arithmetic) {
+  if (arm.is_plain()) return PlainArm(arm, arithmetic);
+  return TransferMatrixArm(arm, arithmetic);
 }
 
 /// Throws InputError by the name of an effect that leaves an arm without closed form.
@@ -42,8 +43,8 @@ const PlainArm& plain(const std::variant<PlainArm, TransferMatrixArm>& engine,
 
 }  // namespace
 
-ExactArm::ExactArm(arm::Arm arm)
-    : arm_(std::move(arm)), linear_(honoured(arm_)), engine_(engine_for(linear_)) {}
+ExactArm::ExactArm(arm::Arm arm, Arithmetic arithmetic)
+    : arm_(std::move(arm)), linear_(honoured(arm_)), engine_(engine_for(linear_, arithmetic)) {}
 
 std::vector<double> ExactArm::pole_lambdas(int count) const {
   require_count(count);

@@ -29,7 +29,7 @@ class ExactArm {
 
   /// Throws arm::InputError for an invalid arm, for an effect that is not honoured, and for an arm
   /// that stands up and whose flexible modes buckle.
-  explicit ExactArm(arm::Arm arm);
+  explicit ExactArm(arm::Arm arm, Arithmetic arithmetic = Arithmetic::extended);
 
   const arm::Arm& arm() const { return arm_; }
   /// What the equations are made of: the arm with its effects.

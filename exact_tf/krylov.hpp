@@ -14,21 +14,21 @@ namespace flexarm::exact_tf {
 /// over u^k, without the cancellation of these at small u. Meant for |u| of 3 at most.
 template <class T>
 T krylov_series(int k, const T& z) {
-  Real factorial = 1.0L;
-  for (int i = 2; i <= k; ++i) factorial *= static_cast<Real>(i);
-  T term(1.0L / factorial);
+  using R = RealOf<T>;
+  R factorial = 1;
+  for (int i = 2; i <= k; ++i) factorial *= static_cast<R>(i);
+  T term(1 / factorial);
   T sum = term;
-  for (int i = k; rough_size(term) > std::numeric_limits<Real>::epsilon() * rough_size(sum);
-       i += 4) {
-    const auto n = static_cast<Real>(i);
-    term *= z / ((n + 1.0L) * (n + 2.0L) * (n + 3.0L) * (n + 4.0L));
+  for (int i = k; rough_size(term) > std::numeric_limits<R>::epsilon() * rough_size(sum); i += 4) {
+    const auto n = static_cast<R>(i);
+    term *= z / ((n + 1) * (n + 2) * (n + 3) * (n + 4));
     sum += term;
   }
   return sum;
 }
 
 /// Below this |lambda| the closed forms cancel and the series are used.
-inline constexpr Real kSeriesBound = 2.0L;
+inline constexpr double kSeriesBound = 2.0;
 
 /// The products of trigonometric and hyperbolic functions that make up every characteristic
 /// function of a uniform beam: entire functions of z = lambda^4, for k = 0..4
@@ -39,21 +39,22 @@ inline constexpr Real kSeriesBound = 2.0L;
 /// K3 = (sin cosh - cos sinh)/(4 lambda^3), K4 = (1 - cos cosh)/(4 lambda^4).
 template <class T>
 struct BeamProducts {
-  T z;       ///< lambda^4, not scaled
-  Real one;  ///< 1, times exp(-log_scale) like the rest
+  T z;            ///< lambda^4, not scaled
+  RealOf<T> one;  ///< 1, times exp(-log_scale) like the rest
   T k0, k1, k2, k3, k4;
-  Real log_scale;  ///< Re lambda + Im lambda
+  RealOf<T> log_scale;  ///< Re lambda + Im lambda
 };
 
 /// For 0 <= arg lambda <= pi/4.
 template <class T>
 BeamProducts<T> beam_products(const T& lambda) {
-  const Real log_scale = real_part(lambda) + imaginary_part(lambda);
-  const Real one = std::exp(-log_scale);
+  using R = RealOf<T>;
+  const R log_scale = real_part(lambda) + imaginary_part(lambda);
+  const R one = std::exp(-log_scale);
   const T square = lambda * lambda;
   const T z = square * square;
   if (std::abs(lambda) < kSeriesBound) {
-    const T argument = -4.0L * z;
+    const T argument = -R(4) * z;
     return {z,
             one,
             krylov_series(0, argument) * one,
@@ -70,10 +71,10 @@ BeamProducts<T> beam_products(const T& lambda) {
   return {z,
           one,
           cos_cosh,
-          (cos_sinh + sin_cosh) / (2.0L * lambda),
-          t.sin * t.sinh / (2.0L * square),
-          (sin_cosh - cos_sinh) / (4.0L * square * lambda),
-          (one - cos_cosh) / (4.0L * z),
+          (cos_sinh + sin_cosh) / (R(2) * lambda),
+          t.sin * t.sinh / (R(2) * square),
+          (sin_cosh - cos_sinh) / (R(4) * square * lambda),
+          (one - cos_cosh) / (R(4) * z),
           log_scale};
 }
 

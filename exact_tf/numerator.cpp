@@ -13,7 +13,7 @@ struct FieldWeights {
   T sine;    ///< of 2 sin, 2 sinh
   T cosine;  ///< of 2 cos, 2 cosh
   T linear;  ///< of cosh + cos, sinh + sin
-  Real oscillating_sign;
+  RealOf<T> oscillating_sign;
 };
 
 /// y or y''/z at xi = 1 - x, times exp(-(a + b xi)). With A = lambda, B = lambda xi, and f0..f3 the
@@ -22,14 +22,14 @@ struct FieldWeights {
 /// and cos A. The growing parts of f in the factor of exp(A) cancel by algebra instead of by
 /// subtraction.
 template <class T>
-T field(const FieldWeights<T>& w, const T& lambda, Real xi) {
-  const Real a = real_part(lambda);
-  const Real b = imaginary_part(lambda);
+T field(const FieldWeights<T>& w, const T& lambda, RealOf<T> xi) {
+  const RealOf<T> a = real_part(lambda);
+  const RealOf<T> b = imaginary_part(lambda);
   const T at = lambda * xi;
   const auto end = scaled_trigonometry(lambda);
   const auto t = scaled_trigonometry(at);
-  const Real to_hyperbolic = std::exp(-(a - b) * xi);  // exp(-b xi) to exp(-a xi)
-  const Real from_exponential = std::exp(-(a + b) * xi);
+  const RealOf<T> to_hyperbolic = std::exp(-(a - b) * xi);  // exp(-b xi) to exp(-a xi)
+  const RealOf<T> from_exponential = std::exp(-(a + b) * xi);
   const T exp_minus = conjugate(phase_factor(at)) * from_exponential;  // exp(-b xi) e^-B
   const T exp_plus = phase_factor(at);                                 // exp(-a xi) e^B
   const T sum_cosh = t.cosh + t.cos * to_hyperbolic;                   // f0
@@ -38,26 +38,28 @@ T field(const FieldWeights<T>& w, const T& lambda, Real xi) {
   T difference_sinh = t.sinh - t.sin * to_hyperbolic;                  // f3
   T decaying = exp_minus + t.sin - t.cos;                              // f2 - f3
   T growing = exp_plus - (t.sin + t.cos) * to_hyperbolic;              // f2 + f3
-  if (std::abs(at) < 1.0L) {
+  if (std::abs(at) < RealOf<T>(1)) {
     const T square = at * at;
     const T z = square * square;
-    const Real scale = std::exp(-a * xi);
-    difference_cosh = 2.0L * square * krylov_series(2, z) * scale;
-    difference_sinh = 2.0L * square * at * krylov_series(3, z) * scale;
+    const RealOf<T> scale = std::exp(-a * xi);
+    difference_cosh = RealOf<T>(2) * square * krylov_series(2, z) * scale;
+    difference_sinh = RealOf<T>(2) * square * at * krylov_series(3, z) * scale;
     decaying = (difference_cosh - difference_sinh) / to_hyperbolic;
     growing = difference_cosh + difference_sinh;
   }
-  const T with_exp_plus = w.cubic * decaying + 2.0L * (w.sine * t.sin + w.cosine * t.cos) +
+  const T with_exp_plus = w.cubic * decaying + RealOf<T>(2) * (w.sine * t.sin + w.cosine * t.cos) +
                           w.linear * (exp_minus + t.cos - t.sin);
   const T with_exp_minus = -w.cubic * growing +
-                           2.0L * (w.cosine * t.cos - w.sine * t.sin) * to_hyperbolic -
+                           RealOf<T>(2) * (w.cosine * t.cos - w.sine * t.sin) * to_hyperbolic -
                            w.linear * (exp_plus + (t.cos + t.sin) * to_hyperbolic);
-  const T with_sin = w.cubic * difference_cosh + 2.0L * w.sine * t.sinh - w.linear * sum_cosh;
-  const T with_cos = w.linear * sum_sinh + 2.0L * w.cosine * t.cosh - w.cubic * difference_sinh;
-  return 0.5L * phase_factor(lambda) * with_exp_plus +
-         0.5L * std::exp(-2.0L * a + (a - b) * xi) * conjugate(phase_factor(lambda)) *
-             with_exp_minus +
-         w.oscillating_sign * std::exp(-(a - b) * (1.0L - xi)) *
+  const T with_sin =
+      w.cubic * difference_cosh + RealOf<T>(2) * w.sine * t.sinh - w.linear * sum_cosh;
+  const T with_cos =
+      w.linear * sum_sinh + RealOf<T>(2) * w.cosine * t.cosh - w.cubic * difference_sinh;
+  return RealOf<T>(0.5) * phase_factor(lambda) * with_exp_plus +
+         RealOf<T>(0.5) * std::exp(-RealOf<T>(2) * a + (a - b) * xi) *
+             conjugate(phase_factor(lambda)) * with_exp_minus +
+         w.oscillating_sign * std::exp(-(a - b) * (RealOf<T>(1) - xi)) *
              (end.sin * with_sin + end.cos * with_cos);
 }
 
@@ -68,7 +70,7 @@ struct KrylovValues {
 };
 
 template <class T>
-KrylovValues<T> krylov_values(const T& z, Real xi) {
+KrylovValues<T> krylov_values(const T& z, RealOf<T> xi) {
   const T argument = z * (xi * xi * xi * xi);
   return {krylov_series(0, argument), krylov_series(1, argument) * xi,
           krylov_series(2, argument) * (xi * xi), krylov_series(3, argument) * (xi * xi * xi)};
@@ -76,11 +78,13 @@ KrylovValues<T> krylov_values(const T& z, Real xi) {
 
 }  // namespace
 
-InertiaRatios inertia_ratios(const arm::LinearArm& arm) {
+template <class R>
+InertiaRatiosIn<R> inertia_ratios(const arm::LinearArm& arm) {
   const Real l = arm.length_m;
   const Real mass = arm.linear_density_kg_per_m * l;
-  return {arm.hub_inertia_kg_m2 / (mass * l * l), arm.payload_mass_kg / mass,
-          arm.payload_tip_inertia_kg_m2 / (mass * l * l)};
+  return {static_cast<R>(arm.hub_inertia_kg_m2 / (mass * l * l)),
+          static_cast<R>(arm.payload_mass_kg / mass),
+          static_cast<R>(arm.payload_tip_inertia_kg_m2 / (mass * l * l))};
 }
 
 Real distance_from_tip(double length_m, double position_m) {
@@ -89,42 +93,43 @@ Real distance_from_tip(double length_m, double position_m) {
 }
 
 template <class T>
-Scaled<T> hub_angle_numerator(const InertiaRatios& ratios, const T& lambda) {
+Scaled<T> hub_angle_numerator(const InertiaRatiosIn<RealOf<T>>& ratios, const T& lambda) {
   const auto k = beam_products(lambda);
   return {hub_angle_value(ratios, k), k.log_scale};
 }
 
 template <class T>
-Scaled<T> pole_characteristic(const InertiaRatios& ratios, const T& lambda) {
+Scaled<T> pole_characteristic(const InertiaRatiosIn<RealOf<T>>& ratios, const T& lambda) {
   const auto k = beam_products(lambda);
   return {pole_value(ratios, k), k.log_scale};
 }
 
 template <class T>
-Scaled<T> tip_numerator(const InertiaRatios& ratios, const T& lambda) {
-  const Real mu = ratios.payload_inertia;
-  const Real a = real_part(lambda);
+Scaled<T> tip_numerator(const InertiaRatiosIn<RealOf<T>>& ratios, const T& lambda) {
+  const RealOf<T> mu = ratios.payload_inertia;
+  const RealOf<T> a = real_part(lambda);
   const T square = lambda * lambda;
   if (std::abs(lambda) < kSeriesBound) {
     const T z = square * square;
     return {(krylov_series(1, z) - mu * z * krylov_series(2, z)) * std::exp(-a), a};
   }
   const auto t = scaled_trigonometry(lambda);
-  const Real to_hyperbolic = std::exp(imaginary_part(lambda) - a);
-  return {(t.sinh + t.sin * to_hyperbolic) / (2.0L * lambda) -
-              0.5L * mu * square * (t.cosh - t.cos * to_hyperbolic),
+  const RealOf<T> to_hyperbolic = std::exp(imaginary_part(lambda) - a);
+  return {(t.sinh + t.sin * to_hyperbolic) / (RealOf<T>(2) * lambda) -
+              RealOf<T>(0.5) * mu * square * (t.cosh - t.cos * to_hyperbolic),
           a};
 }
 
 template <class T>
-Scaled<T> tip_deflection_numerator(const InertiaRatios& ratios, const T& lambda) {
+Scaled<T> tip_deflection_numerator(const InertiaRatiosIn<RealOf<T>>& ratios, const T& lambda) {
   const auto k = beam_products(lambda);
   if (std::abs(lambda) < kSeriesBound) {
-    const Real eta = ratios.payload_mass;
-    const Real mu = ratios.payload_inertia;
+    const RealOf<T> eta = ratios.payload_mass;
+    const RealOf<T> mu = ratios.payload_inertia;
     const T c5 = krylov_series(5, k.z) * k.one;
     const T c2 = krylov_series(2, k.z) * k.one;
-    return {c5 + 2.0L * k.k4 + 2.0L * eta * k.k3 + mu * (k.k1 - c2) - 2.0L * eta * mu * k.z * k.k4,
+    return {c5 + RealOf<T>(2) * k.k4 + RealOf<T>(2) * eta * k.k3 + mu * (k.k1 - c2) -
+                RealOf<T>(2) * eta * mu * k.z * k.k4,
             k.log_scale};
   }
   const T tip = tip_numerator(ratios, lambda).value * std::exp(-imaginary_part(lambda));
@@ -132,14 +137,15 @@ Scaled<T> tip_deflection_numerator(const InertiaRatios& ratios, const T& lambda)
 }
 
 template <class T>
-Scaled<T> curvature_numerator(const InertiaRatios& ratios, const T& lambda, Real from_tip) {
-  const Real eta = ratios.payload_mass;
-  const Real mu = ratios.payload_inertia;
-  const Real log_scale = real_part(lambda) + imaginary_part(lambda) * from_tip;
+Scaled<T> curvature_numerator(const InertiaRatiosIn<RealOf<T>>& ratios, const T& lambda,
+                              RealOf<T> from_tip) {
+  const RealOf<T> eta = ratios.payload_mass;
+  const RealOf<T> mu = ratios.payload_inertia;
+  const RealOf<T> log_scale = real_part(lambda) + imaginary_part(lambda) * from_tip;
   const T square = lambda * lambda;
   if (std::abs(lambda) < kSeriesBound) {
     const T z = square * square;
-    const auto at_hub = krylov_values(z, 1.0L);
+    const auto at_hub = krylov_values(z, RealOf<T>(1));
     const auto here = krylov_values(z, from_tip);
     const T value = at_hub.c1 * here.c2 - at_hub.c0 * here.c3 +
                     eta * (at_hub.c1 * here.c1 - z * at_hub.c3 * here.c3) +
@@ -147,20 +153,22 @@ Scaled<T> curvature_numerator(const InertiaRatios& ratios, const T& lambda, Real
                     eta * mu * z * (at_hub.c3 * here.c0 - at_hub.c2 * here.c1);
     return {value * std::exp(-log_scale), log_scale};
   }
-  const FieldWeights<T> weights{0.25L / (square * lambda), 0.25L * eta / square, T(0.25L * mu),
-                                0.25L * eta * mu * lambda, 1.0L};
+  const FieldWeights<T> weights{RealOf<T>(0.25) / (square * lambda), RealOf<T>(0.25) * eta / square,
+                                T(RealOf<T>(0.25) * mu), RealOf<T>(0.25) * eta * mu * lambda,
+                                RealOf<T>(1)};
   return {field(weights, lambda, from_tip), log_scale};
 }
 
 template <class T>
-Scaled<T> displacement_numerator(const InertiaRatios& ratios, const T& lambda, Real from_tip) {
-  const Real eta = ratios.payload_mass;
-  const Real mu = ratios.payload_inertia;
-  const Real log_scale = real_part(lambda) + imaginary_part(lambda) * from_tip;
+Scaled<T> displacement_numerator(const InertiaRatiosIn<RealOf<T>>& ratios, const T& lambda,
+                                 RealOf<T> from_tip) {
+  const RealOf<T> eta = ratios.payload_mass;
+  const RealOf<T> mu = ratios.payload_inertia;
+  const RealOf<T> log_scale = real_part(lambda) + imaginary_part(lambda) * from_tip;
   const T square = lambda * lambda;
   if (std::abs(lambda) < kSeriesBound) {
     const T z = square * square;
-    const auto at_hub = krylov_values(z, 1.0L);
+    const auto at_hub = krylov_values(z, RealOf<T>(1));
     const auto here = krylov_values(z, from_tip);
     const T value = at_hub.c1 * here.c0 - at_hub.c0 * here.c1 +
                     eta * z * (at_hub.c1 * here.c3 - at_hub.c3 * here.c1) -
@@ -168,14 +176,15 @@ Scaled<T> displacement_numerator(const InertiaRatios& ratios, const T& lambda, R
                     eta * mu * z * z * (at_hub.c3 * here.c2 - at_hub.c2 * here.c3);
     return {value * std::exp(-log_scale), log_scale};
   }
-  const FieldWeights<T> weights{0.25L * eta * mu * square * lambda, T(-0.25L * eta),
-                                -0.25L * mu * square, 0.25L / lambda, -1.0L};
+  const FieldWeights<T> weights{RealOf<T>(0.25) * eta * mu * square * lambda,
+                                T(-RealOf<T>(0.25) * eta), -RealOf<T>(0.25) * mu * square,
+                                RealOf<T>(0.25) / lambda, -RealOf<T>(1)};
   return {field(weights, lambda, from_tip), log_scale};
 }
 
 template <class T>
 Scaled<T> sensor_numerator(const arm::LinearArm& arm, const arm::Sensor& sensor, const T& lambda) {
-  const InertiaRatios ratios = inertia_ratios(arm);
+  const auto ratios = inertia_ratios<RealOf<T>>(arm);
   switch (sensor.kind) {
     case arm::SensorKind::hub_angle:
     case arm::SensorKind::hub_velocity:
@@ -186,18 +195,20 @@ Scaled<T> sensor_numerator(const arm::LinearArm& arm, const arm::Sensor& sensor,
     case arm::SensorKind::tip_deflection:
       return tip_deflection_numerator(ratios, lambda);
     case arm::SensorKind::strain:
-      return curvature_numerator(ratios, lambda,
-                                 distance_from_tip(arm.length_m, sensor.position_m));
+      return curvature_numerator(
+          ratios, lambda,
+          static_cast<RealOf<T>>(distance_from_tip(arm.length_m, sensor.position_m)));
   }
   throw std::logic_error("sensor kind outside its enumeration");
 }
 
-Complex sensor_factor(const arm::LinearArm& arm, const arm::Sensor& sensor, const Complex& s,
-                      const Complex& z) {
-  const Real l = arm.length_m;
+template <class R>
+std::complex<R> sensor_factor(const arm::LinearArm& arm, const arm::Sensor& sensor,
+                              const std::complex<R>& s, const std::complex<R>& z) {
+  const R l = arm.length_m;
   switch (sensor.kind) {
     case arm::SensorKind::hub_angle:
-      return 1.0L;
+      return R(1);
     case arm::SensorKind::hub_velocity:
       return s;
     case arm::SensorKind::tip_displacement:
@@ -207,25 +218,54 @@ Complex sensor_factor(const arm::LinearArm& arm, const arm::Sensor& sensor, cons
     case arm::SensorKind::tip_deflection:
       return l * z;
     case arm::SensorKind::strain:
-      return 0.5L * arm.thickness_m.value() / l * z;
+      return R(0.5) * R(arm.thickness_m.value()) / l * z;
   }
   throw std::logic_error("sensor kind outside its enumeration");
 }
 
-template Scaled<Real> hub_angle_numerator(const InertiaRatios&, const Real&);
-template Scaled<Complex> hub_angle_numerator(const InertiaRatios&, const Complex&);
-template Scaled<Real> pole_characteristic(const InertiaRatios&, const Real&);
-template Scaled<Complex> pole_characteristic(const InertiaRatios&, const Complex&);
-template Scaled<Real> tip_numerator(const InertiaRatios&, const Real&);
-template Scaled<Complex> tip_numerator(const InertiaRatios&, const Complex&);
-template Scaled<Real> tip_deflection_numerator(const InertiaRatios&, const Real&);
-template Scaled<Complex> tip_deflection_numerator(const InertiaRatios&, const Complex&);
-template Scaled<Real> curvature_numerator(const InertiaRatios&, const Real&, Real);
-template Scaled<Complex> curvature_numerator(const InertiaRatios&, const Complex&, Real);
-template Scaled<Real> displacement_numerator(const InertiaRatios&, const Real&, Real);
-template Scaled<Complex> displacement_numerator(const InertiaRatios&, const Complex&, Real);
+template Scaled<Real> hub_angle_numerator(const InertiaRatiosIn<Real>&, const Real&);
+template Scaled<Complex> hub_angle_numerator(const InertiaRatiosIn<Real>&, const Complex&);
+template Scaled<double> hub_angle_numerator(const InertiaRatiosIn<double>&, const double&);
+template Scaled<std::complex<double>> hub_angle_numerator(const InertiaRatiosIn<double>&,
+                                                          const std::complex<double>&);
+template Scaled<Real> pole_characteristic(const InertiaRatiosIn<Real>&, const Real&);
+template Scaled<Complex> pole_characteristic(const InertiaRatiosIn<Real>&, const Complex&);
+template Scaled<double> pole_characteristic(const InertiaRatiosIn<double>&, const double&);
+template Scaled<std::complex<double>> pole_characteristic(const InertiaRatiosIn<double>&,
+                                                          const std::complex<double>&);
+template Scaled<Real> tip_numerator(const InertiaRatiosIn<Real>&, const Real&);
+template Scaled<Complex> tip_numerator(const InertiaRatiosIn<Real>&, const Complex&);
+template Scaled<double> tip_numerator(const InertiaRatiosIn<double>&, const double&);
+template Scaled<std::complex<double>> tip_numerator(const InertiaRatiosIn<double>&,
+                                                    const std::complex<double>&);
+template Scaled<Real> tip_deflection_numerator(const InertiaRatiosIn<Real>&, const Real&);
+template Scaled<Complex> tip_deflection_numerator(const InertiaRatiosIn<Real>&, const Complex&);
+template Scaled<double> tip_deflection_numerator(const InertiaRatiosIn<double>&, const double&);
+template Scaled<std::complex<double>> tip_deflection_numerator(const InertiaRatiosIn<double>&,
+                                                               const std::complex<double>&);
+template Scaled<Real> curvature_numerator(const InertiaRatiosIn<Real>&, const Real&, Real);
+template Scaled<Complex> curvature_numerator(const InertiaRatiosIn<Real>&, const Complex&, Real);
+template Scaled<double> curvature_numerator(const InertiaRatiosIn<double>&, const double&, double);
+template Scaled<std::complex<double>> curvature_numerator(const InertiaRatiosIn<double>&,
+                                                          const std::complex<double>&, double);
+template Scaled<Real> displacement_numerator(const InertiaRatiosIn<Real>&, const Real&, Real);
+template Scaled<Complex> displacement_numerator(const InertiaRatiosIn<Real>&, const Complex&, Real);
+template Scaled<double> displacement_numerator(const InertiaRatiosIn<double>&, const double&,
+                                               double);
+template Scaled<std::complex<double>> displacement_numerator(const InertiaRatiosIn<double>&,
+                                                             const std::complex<double>&, double);
 template Scaled<Real> sensor_numerator(const arm::LinearArm&, const arm::Sensor&, const Real&);
 template Scaled<Complex> sensor_numerator(const arm::LinearArm&, const arm::Sensor&,
                                           const Complex&);
+template Scaled<double> sensor_numerator(const arm::LinearArm&, const arm::Sensor&, const double&);
+template Scaled<std::complex<double>> sensor_numerator(const arm::LinearArm&, const arm::Sensor&,
+                                                       const std::complex<double>&);
+template InertiaRatios inertia_ratios(const arm::LinearArm&);
+template InertiaRatiosIn<double> inertia_ratios(const arm::LinearArm&);
+template Complex sensor_factor(const arm::LinearArm&, const arm::Sensor&, const Complex&,
+                               const Complex&);
+template std::complex<double> sensor_factor(const arm::LinearArm&, const arm::Sensor&,
+                                            const std::complex<double>&,
+                                            const std::complex<double>&);
 
 }  // namespace flexarm::exact_tf

@@ -8,15 +8,18 @@
 namespace flexarm::exact_tf {
 
 /// The three numbers that the arm's characteristic functions depend on, formed in long double from
-/// the arm's doubles, which count as exact.
-struct InertiaRatios {
-  Real hub_inertia = 0.0L;      ///< epsilon = Ih/(m l^3)
-  Real payload_mass = 0.0L;     ///< eta = Mp/(m l)
-  Real payload_inertia = 0.0L;  ///< mu = Ip/(m l^3)
+/// the arm's doubles, which count as exact, and rounded to R.
+template <class R>
+struct InertiaRatiosIn {
+  R hub_inertia = 0;      ///< epsilon = Ih/(m l^3)
+  R payload_mass = 0;     ///< eta = Mp/(m l)
+  R payload_inertia = 0;  ///< mu = Ip/(m l^3)
 };
+using InertiaRatios = InertiaRatiosIn<Real>;
 
 /// For an arm that `is_plain`.
-InertiaRatios inertia_ratios(const arm::LinearArm& arm);
+template <class R = Real>
+InertiaRatiosIn<R> inertia_ratios(const arm::LinearArm& arm);
 
 /// The boundary value problem of arm/arm.hpp, which is that of a plain arm, with x in units of l
 /// and
@@ -47,51 +50,54 @@ InertiaRatios inertia_ratios(const arm::LinearArm& arm);
 /// N_hub = (1 + K0)/2 - 2 eta z K3 - mu z K1 + 2 eta mu z^2 K4; log_scale = a + b. Its roots are
 /// the poles of the arm with its hub held.
 template <class T>
-T hub_angle_value(const InertiaRatios& ratios, const BeamProducts<T>& k) {
-  const Real eta = ratios.payload_mass;
-  const Real mu = ratios.payload_inertia;
-  return 0.5L * (k.one + k.k0) - k.z * (2.0L * eta * k.k3 + mu * k.k1) +
-         2.0L * eta * mu * k.z * k.z * k.k4;
+T hub_angle_value(const InertiaRatiosIn<RealOf<T>>& ratios, const BeamProducts<T>& k) {
+  const RealOf<T> eta = ratios.payload_mass;
+  const RealOf<T> mu = ratios.payload_inertia;
+  return RealOf<T>(0.5) * (k.one + k.k0) - k.z * (RealOf<T>(2) * eta * k.k3 + mu * k.k1) +
+         RealOf<T>(2) * eta * mu * k.z * k.z * k.k4;
 }
 
 /// Y = y''(0)/z = 2 K3 + 2 eta K2 + mu K0 - 2 eta mu z K3; log_scale = a + b. Its roots are the
 /// poles of the arm without hub inertia.
 template <class T>
-T hub_moment_value(const InertiaRatios& ratios, const BeamProducts<T>& k) {
-  const Real eta = ratios.payload_mass;
-  const Real mu = ratios.payload_inertia;
-  return 2.0L * k.k3 + 2.0L * eta * k.k2 + mu * k.k0 - 2.0L * eta * mu * k.z * k.k3;
+T hub_moment_value(const InertiaRatiosIn<RealOf<T>>& ratios, const BeamProducts<T>& k) {
+  const RealOf<T> eta = ratios.payload_mass;
+  const RealOf<T> mu = ratios.payload_inertia;
+  return RealOf<T>(2) * k.k3 + RealOf<T>(2) * eta * k.k2 + mu * k.k0 -
+         RealOf<T>(2) * eta * mu * k.z * k.k3;
 }
 
 /// E = epsilon N_hub + Y, with E(0) = I_T/(m l^3); log_scale = a + b.
 template <class T>
-T pole_value(const InertiaRatios& ratios, const BeamProducts<T>& k) {
+T pole_value(const InertiaRatiosIn<RealOf<T>>& ratios, const BeamProducts<T>& k) {
   return ratios.hub_inertia * hub_angle_value(ratios, k) + hub_moment_value(ratios, k);
 }
 
 /// N_hub; log_scale = a + b.
 template <class T>
-Scaled<T> hub_angle_numerator(const InertiaRatios& ratios, const T& lambda);
+Scaled<T> hub_angle_numerator(const InertiaRatiosIn<RealOf<T>>& ratios, const T& lambda);
 
 /// E; log_scale = a + b.
 template <class T>
-Scaled<T> pole_characteristic(const InertiaRatios& ratios, const T& lambda);
+Scaled<T> pole_characteristic(const InertiaRatiosIn<RealOf<T>>& ratios, const T& lambda);
 
 /// N_tip = C1 - mu z C2, for tip displacement and tip acceleration; log_scale = a.
 template <class T>
-Scaled<T> tip_numerator(const InertiaRatios& ratios, const T& lambda);
+Scaled<T> tip_numerator(const InertiaRatiosIn<RealOf<T>>& ratios, const T& lambda);
 
 /// N_deflection = (N_tip - N_hub)/z; log_scale = a + b.
 template <class T>
-Scaled<T> tip_deflection_numerator(const InertiaRatios& ratios, const T& lambda);
+Scaled<T> tip_deflection_numerator(const InertiaRatiosIn<RealOf<T>>& ratios, const T& lambda);
 
 /// N_curvature = y''(X)/z, `from_tip` = xi = 1 - X/l in [0, 1]; log_scale = a + b xi.
 template <class T>
-Scaled<T> curvature_numerator(const InertiaRatios& ratios, const T& lambda, Real from_tip);
+Scaled<T> curvature_numerator(const InertiaRatiosIn<RealOf<T>>& ratios, const T& lambda,
+                              RealOf<T> from_tip);
 
 /// y at x = 1 - xi, `from_tip` = xi; log_scale = a + b xi. Accurate relative to the largest |y|.
 template <class T>
-Scaled<T> displacement_numerator(const InertiaRatios& ratios, const T& lambda, Real from_tip);
+Scaled<T> displacement_numerator(const InertiaRatiosIn<RealOf<T>>& ratios, const T& lambda,
+                                 RealOf<T> from_tip);
 
 /// xi = 1 - X/l, formed so that no digit is lost near the tip.
 Real distance_from_tip(double length_m, double position_m);
@@ -103,7 +109,8 @@ Scaled<T> sensor_numerator(const arm::LinearArm& arm, const arm::Sensor& sensor,
 
 /// What stands in front of that numerator in the list above, time derivatives and half the
 /// thickness included: tau to sensor is sensor_factor N/D. `z` belongs to `s` [rad/s].
-Complex sensor_factor(const arm::LinearArm& arm, const arm::Sensor& sensor, const Complex& s,
-                      const Complex& z);
+template <class R>
+std::complex<R> sensor_factor(const arm::LinearArm& arm, const arm::Sensor& sensor,
+                              const std::complex<R>& s, const std::complex<R>& z);
 
 }  // namespace flexarm::exact_tf

@@ -77,6 +77,32 @@ arm::PolePair kelvin_voigt_pair(Real omega, Real kelvin_voigt_s) {
   return {static_cast<double>(omega * omega / far), static_cast<double>(far)};
 }
 
+/// PlainArm::transfer_functions in R.
+template <class R>
+std::vector<std::complex<double>> closed_responses(const arm::LinearArm& arm,
+                                                   std::span<const arm::Sensor> sensors,
+                                                   std::complex<double> s_rad_per_s) {
+  const std::complex<R> s(s_rad_per_s.real(), s_rad_per_s.imag());
+  const auto ratios = inertia_ratios<R>(arm);
+  const auto frequency = complex_frequency(arm, s);
+  const auto products = beam_products(frequency.lambda);
+  const R l = arm.length_m;
+  const R beam_inertia = arm.linear_density_kg_per_m * (l * l * l);
+  const R friction = arm.hub_viscous_friction_N_m_s_per_rad;
+  const std::complex<R> denominator =
+      beam_inertia * (s * s) * frequency.at_z(pole_value(ratios, products)) +
+      friction * s * frequency.at_z(hub_angle_value(ratios, products));
+  std::vector<std::complex<double>> values;
+  for (const arm::Sensor& sensor : sensors) {
+    const auto numerator = sensor_numerator(arm, sensor, frequency.lambda);
+    const std::complex<R> value = sensor_factor(arm, sensor, s, frequency.z) *
+                                  frequency.at_z(numerator.value) / denominator *
+                                  std::exp(numerator.log_scale - products.log_scale);
+    values.emplace_back(static_cast<double>(value.real()), static_cast<double>(value.imag()));
+  }
+  return values;
+}
+
 }  // namespace
 
 void require_plain(const arm::Arm& arm, std::string_view who) {
@@ -95,7 +121,8 @@ void require_plain(const arm::Arm& arm, std::string_view who) {
   }
 }
 
-PlainArm::PlainArm(const arm::LinearArm& arm) : arm_(arm), ratios_(inertia_ratios(arm)) {}
+PlainArm::PlainArm(const arm::LinearArm& arm, Arithmetic arithmetic)
+    : arm_(arm), ratios_(inertia_ratios(arm)), arithmetic_(arithmetic) {}
 
 std::vector<double> PlainArm::pole_lambdas(int count) const {
   return rounded(find_poles(ratios_, count).lambda);
@@ -140,12 +167,20 @@ arm::DampedPoleSet PlainArm::damped_poles(int count) const {
   const Real l = arm_.length_m;
   const Real beam_inertia = arm_.linear_density_kg_per_m * (l * l * l);
   // D/s = m l^3 s E + c N_hub.
-  const auto characteristic = [&](const Complex& s, const Complex& damping) -> Scaled<Complex> {
+  const auto value_at = [&](const auto& ratios, const auto& s, const auto& damping) {
+    using R = decltype(ratios.hub_inertia);
     const auto frequency = complex_frequency(arm_, s, damping);
     const auto products = beam_products(frequency.lambda);
-    return {beam_inertia * s * frequency.at_z(pole_value(ratios_, products)) +
-                friction * damping * frequency.at_z(hub_angle_value(ratios_, products)),
-            products.log_scale};
+    const auto value =
+        static_cast<R>(beam_inertia) * s * frequency.at_z(pole_value(ratios, products)) +
+        static_cast<R>(friction) * damping * frequency.at_z(hub_angle_value(ratios, products));
+    return Scaled<Complex>{in<Real>(value), products.log_scale};
+  };
+  const auto working_ratios = inertia_ratios<double>(arm_);
+  const auto characteristic = [&](const Complex& s, const Complex& damping) {
+    return arithmetic_ == Arithmetic::working
+               ? value_at(working_ratios, in<double>(s), in<double>(damping))
+               : value_at(ratios_, s, damping);
   };
   return follow_damping(characteristic, kelvin_voigt_s, modes);
 }
@@ -163,7 +198,8 @@ arm::ZeroSet PlainArm::hub_zeros(int count) const {
 }
 
 arm::ZeroSet PlainArm::zeros(const arm::Sensor& sensor, int count) const {
-  return is_collocated(sensor) ? hub_zeros(count) : find_sensor_zeros(arm_, sensor, count);
+  return is_collocated(sensor) ? hub_zeros(count)
+                               : find_sensor_zeros(arm_, sensor, count, arithmetic_);
 }
 
 std::vector<arm::Mode> PlainArm::modes(int count, std::span<const arm::Sensor> sensors,
@@ -218,24 +254,8 @@ arm::ModalModel PlainArm::modal_model(int count, std::span<const arm::Sensor> se
 
 std::vector<std::complex<double>> PlainArm::transfer_functions(
     std::span<const arm::Sensor> sensors, std::complex<double> s_rad_per_s) const {
-  const Complex s(s_rad_per_s.real(), s_rad_per_s.imag());
-  const auto frequency = complex_frequency(arm_, s);
-  const auto products = beam_products(frequency.lambda);
-  const Real l = arm_.length_m;
-  const Real beam_inertia = arm_.linear_density_kg_per_m * (l * l * l);
-  const Real friction = arm_.hub_viscous_friction_N_m_s_per_rad;
-  const Complex denominator =
-      beam_inertia * (s * s) * frequency.at_z(pole_value(ratios_, products)) +
-      friction * s * frequency.at_z(hub_angle_value(ratios_, products));
-  std::vector<std::complex<double>> values;
-  for (const arm::Sensor& sensor : sensors) {
-    const auto numerator = sensor_numerator(arm_, sensor, frequency.lambda);
-    const Complex value = sensor_factor(arm_, sensor, s, frequency.z) *
-                          frequency.at_z(numerator.value) / denominator *
-                          std::exp(numerator.log_scale - products.log_scale);
-    values.emplace_back(static_cast<double>(value.real()), static_cast<double>(value.imag()));
-  }
-  return values;
+  return arithmetic_ == Arithmetic::working ? closed_responses<double>(arm_, sensors, s_rad_per_s)
+                                            : closed_responses<Real>(arm_, sensors, s_rad_per_s);
 }
 
 }  // namespace flexarm::exact_tf

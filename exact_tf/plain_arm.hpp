@@ -2,6 +2,7 @@
 
 #include "arm/formulation.hpp"
 #include "arm/linear_arm.hpp"
+#include "exact_tf/arithmetic.hpp"
 #include "exact_tf/numerator.hpp"
 
 #include <complex>
@@ -20,7 +21,7 @@ void require_plain(const arm::Arm& arm, std::string_view who);
 /// approximation. Questions, counts and errors are those of ExactArm.
 class PlainArm {
  public:
-  explicit PlainArm(const arm::LinearArm& arm);
+  explicit PlainArm(const arm::LinearArm& arm, Arithmetic arithmetic = Arithmetic::extended);
 
   const InertiaRatios& ratios() const { return ratios_; }
 
@@ -43,6 +44,7 @@ class PlainArm {
  private:
   arm::LinearArm arm_;
   InertiaRatios ratios_;
+  Arithmetic arithmetic_;
 };
 
 }  // namespace flexarm::exact_tf

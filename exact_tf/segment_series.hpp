@@ -13,17 +13,19 @@ using BeamState = std::array<T, 4>;
 enum StateIndex : std::size_t { kDisplacement, kRotation, kMoment, kForce };
 
 /// A piece of the beam in units of l.
+template <class R>
 struct Segment {
-  Real right = 1.0L;   ///< x of its end towards the tip
-  Real length = 0.0L;  ///< h
+  R right = 1;   ///< x of its end towards the tip
+  R length = 0;  ///< h
 
-  Real left() const { return right - length; }
+  R left() const { return right - length; }
 };
 
 /// K of K^2 = sqrt(|q f|) + |q| phi + |r f| + |g P f|, with q = s^2 + ca s, r = rho I s^2,
 /// f = 1/(1 + kv s), in units of the beam: no solution varies faster than exp(K x).
 template <class T>
-Real wave_number(const ArmInBeamUnits& arm, const BeamAtFrequency<T>& beam, const Segment& segment);
+RealOf<T> wave_number(const ArmInBeamUnits<RealOf<T>>& arm, const BeamAtFrequency<T>& beam,
+                      const Segment<RealOf<T>>& segment);
 
 /// The state within a segment, from its value at the right end, as the power series in
 /// u = (right - x)/h. With tension g P = G0 + G1 u and 1 + phi g P = D0 + D1 u, both linear, and w
@@ -41,11 +43,11 @@ Real wave_number(const ArmInBeamUnits& arm, const BeamAtFrequency<T>& beam, cons
 template <class T>
 class SegmentSeries {
  public:
-  SegmentSeries(const ArmInBeamUnits& arm, const BeamAtFrequency<T>& beam, const Segment& segment,
-                const BeamState<T>& at_right);
+  SegmentSeries(const ArmInBeamUnits<RealOf<T>>& arm, const BeamAtFrequency<T>& beam,
+                const Segment<RealOf<T>>& segment, const BeamState<T>& at_right);
 
   /// 0 <= u <= 1.
-  BeamState<T> at(Real u) const;
+  BeamState<T> at(RealOf<T> u) const;
 
  private:
   std::vector<BeamState<T>> coefficients_;
@@ -62,11 +64,12 @@ struct SegmentTransfer {
 
 /// By the series of each column, or without gravity by that of exact_tf/uniform_segment.hpp.
 template <class T>
-SegmentTransfer<T> segment_transfer(const ArmInBeamUnits& arm, const BeamAtFrequency<T>& beam,
-                                    const Segment& segment);
+SegmentTransfer<T> segment_transfer(const ArmInBeamUnits<RealOf<T>>& arm,
+                                    const BeamAtFrequency<T>& beam,
+                                    const Segment<RealOf<T>>& segment);
 
 /// psi jumps by M/kc: going towards the root it loses crack_flexibility M.
 template <class T>
-SegmentTransfer<T> crack_transfer(const ArmInBeamUnits& arm);
+SegmentTransfer<T> crack_transfer(const ArmInBeamUnits<RealOf<T>>& arm);
 
 }  // namespace flexarm::exact_tf

@@ -47,13 +47,17 @@ arm::ZeroSet find_sensor_zeros(const SectorFunction& numerator, Real omega_scale
 }
 
 arm::ZeroSet find_sensor_zeros(const arm::LinearArm& arm, const arm::Sensor& sensor, int count,
-                               const AnalyticZeroOptions& options) {
-  const auto numerator = [&](const Complex& lambda) -> Complex {
+                               Arithmetic arithmetic) {
+  const auto value_at = [&](const auto& lambda) -> Complex {
     // Real lambda costs half as much.
-    if (lambda.imag() == 0.0L) return sensor_numerator(arm, sensor, lambda.real()).value;
-    return sensor_numerator(arm, sensor, lambda).value;
+    if (lambda.imag() == 0) return sensor_numerator(arm, sensor, lambda.real()).value;
+    return in<Real>(sensor_numerator(arm, sensor, lambda).value);
   };
-  return find_sensor_zeros(numerator, frequency_scale_rad_per_s(arm), count, options);
+  const auto numerator = [&](const Complex& lambda) {
+    return arithmetic == Arithmetic::working ? value_at(in<double>(lambda)) : value_at(lambda);
+  };
+  return find_sensor_zeros(numerator, frequency_scale_rad_per_s(arm), count,
+                           zero_options(arithmetic));
 }
 
 }  // namespace flexarm::exact_tf

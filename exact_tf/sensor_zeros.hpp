@@ -18,6 +18,6 @@ arm::ZeroSet find_sensor_zeros(const SectorFunction& numerator, Real omega_scale
 /// strain at the root without hub inertia, which follows the torque. For a sensor that the arm
 /// carries (`require_valid`) and that does not read zero at every s (`require_responsive`).
 arm::ZeroSet find_sensor_zeros(const arm::LinearArm& arm, const arm::Sensor& sensor, int count,
-                               const AnalyticZeroOptions& options = {});
+                               Arithmetic arithmetic = Arithmetic::extended);
 
 }  // namespace flexarm::exact_tf

@@ -9,12 +9,14 @@
 
 namespace flexarm::exact_tf {
 
-inline constexpr Real kNegligibleTerm = 0.01L * std::numeric_limits<Real>::epsilon();
+template <class R>
+inline constexpr R kNegligibleTerm = std::numeric_limits<R>::epsilon() / 100;
 
 /// Terms of exp(size) that are not negligible.
-inline int likely_terms(Real size) {
+template <class R>
+int likely_terms(R size) {
   int n = 1;
-  for (Real term = size; term > kNegligibleTerm; term *= size / static_cast<Real>(n)) ++n;
+  for (R term = size; term > kNegligibleTerm<R>; term *= size / static_cast<R>(n)) ++n;
   return n;
 }
 
@@ -26,6 +28,7 @@ auto sum_series(Recursion& recursion, int likely, Take take) {
   constexpr int kPeriod = 4;
   constexpr int kMostTerms = 400;
   auto sum = recursion.term();
+  using R = RealOf<typename decltype(sum)::value_type>;
   int negligible = 0;
   for (int n = 1; negligible < kPeriod; ++n) {
     if (n > kMostTerms) throw std::logic_error("segment too long for its power series");
@@ -36,7 +39,7 @@ auto sum_series(Recursion& recursion, int likely, Take take) {
     if (n < likely) continue;
     bool changes = false;
     for (std::size_t i = 0; i < sum.size(); ++i) {
-      changes = changes || rough_size(term[i]) > kNegligibleTerm * rough_size(sum[i]);
+      changes = changes || rough_size(term[i]) > kNegligibleTerm<R> * rough_size(sum[i]);
     }
     negligible = changes ? 0 : negligible + 1;
   }

@@ -10,34 +10,38 @@ namespace flexarm::exact_tf {
 
 namespace {
 
-constexpr Real kLongestSegment = 3.0L;
-constexpr Real kLargestStretch = 0.25L;
-constexpr Real kMostSegments = 1e6L;
+constexpr double kLongestSegment = 3.0;
+constexpr double kLargestStretch = 0.25;
+constexpr double kMostSegments = 1e6;
 
 /// Beyond this a factor is taken out; products of two such numbers are still held.
-constexpr Real kLarge = 1e1000L;
+template <class R>
+constexpr R kLarge = 1e100;
+template <>
+constexpr Real kLarge<Real> = 1e1000L;
 
 template <std::size_t N, class T>
-void keep_in_range(std::array<T, N>& values, Real& log_scale) {
+void keep_in_range(std::array<T, N>& values, RealOf<T>& log_scale) {
+  constexpr RealOf<T> kLargest = kLarge<RealOf<T>>;
   const bool large = std::ranges::any_of(values, [](const T& value) {
-    return std::abs(real_part(value)) > kLarge || std::abs(imaginary_part(value)) > kLarge;
+    return std::abs(real_part(value)) > kLargest || std::abs(imaginary_part(value)) > kLargest;
   });
   if (!large) return;
-  for (T& value : values) value *= 1.0L / kLarge;
-  log_scale += std::log(kLarge);
+  for (T& value : values) value *= 1 / kLargest;
+  log_scale += std::log(kLargest);
 }
 
 }  // namespace
 
 template <class T>
-TransferChain<T>::TransferChain(const ArmInBeamUnits& arm, const BeamAtFrequency<T>& beam,
+TransferChain<T>::TransferChain(const ArmInBeamUnits<R>& arm, const BeamAtFrequency<T>& beam,
                                 bool with_planes)
     : arm_(arm), beam_(beam), with_planes_(with_planes) {
   cut(beam);
 }
 
 template <class T>
-TransferChain<T>::TransferChain(const ArmInBeamUnits& arm, const BeamAtFrequency<T>& beam,
+TransferChain<T>::TransferChain(const ArmInBeamUnits<R>& arm, const BeamAtFrequency<T>& beam,
                                 const BeamAtFrequency<T>& cut_for)
     : arm_(arm), beam_(beam), with_planes_(true) {
   cut(cut_for);
@@ -46,25 +50,25 @@ TransferChain<T>::TransferChain(const ArmInBeamUnits& arm, const BeamAtFrequency
 template <class T>
 void TransferChain<T>::cut(const BeamAtFrequency<T>& cut_for) {
   for (const auto& mass : arm_.carried) masses_.emplace_back(arm_, beam_, mass);
-  Real right = 1.0L;
-  const auto cut_at = [&](Real place) {
+  R right = 1;
+  const auto cut_at = [&](R place) {
     if (place < right) add_piece(cut_for, place, right);
     right = place;
   };
   std::size_t left = masses_.size();
-  const auto add_masses_from = [&](Real place) {
+  const auto add_masses_from = [&](R place) {
     for (; left > 0 && arm_.carried[left - 1].position >= place; --left) {
       cut_at(arm_.carried[left - 1].position);
-      links_.push_back({.segment = {right, 0.0L}, .mass = left - 1});
+      links_.push_back({.segment = {right, 0}, .mass = left - 1});
     }
   };
   if (arm_.crack_position) {
     add_masses_from(*arm_.crack_position);
     cut_at(*arm_.crack_position);
-    links_.push_back({{right, 0.0L}, true, share(crack_transfer<T>(arm_))});
+    links_.push_back({{right, 0}, true, share(crack_transfer<T>(arm_))});
   }
-  add_masses_from(0.0L);
-  cut_at(0.0L);
+  add_masses_from(R(0));
+  cut_at(R(0));
 }
 
 template <class T>
@@ -75,23 +79,22 @@ std::size_t TransferChain<T>::share(const SegmentTransfer<T>& columns) {
 }
 
 template <class T>
-void TransferChain<T>::add_piece(const BeamAtFrequency<T>& cut_for, Real left, Real right) {
-  const Real shear = arm_.shear_flexibility;
-  const Real length = right - left;
-  const Real tension = arm_.tension(right);
-  const Real stretch = 1.0L + shear * std::min({0.0L, tension + arm_.gravity * length, tension});
-  const Real waves = wave_number(arm_, cut_for, {right, length}) * length;
-  const Real wanted =
-      std::max(waves / (kLongestSegment * std::sqrt(stretch)),
-               shear * std::abs(arm_.gravity) * length / (kLargestStretch * stretch));
+void TransferChain<T>::add_piece(const BeamAtFrequency<T>& cut_for, R left, R right) {
+  const R shear = arm_.shear_flexibility;
+  const R length = right - left;
+  const R tension = arm_.tension(right);
+  const R stretch = 1 + shear * std::min({R(0), tension + arm_.gravity * length, tension});
+  const R waves = wave_number(arm_, cut_for, {right, length}) * length;
+  const R wanted = std::max(waves / (kLongestSegment * std::sqrt(stretch)),
+                            shear * std::abs(arm_.gravity) * length / (kLargestStretch * stretch));
   if (!(wanted < kMostSegments)) throw std::domain_error("exact_tf: s is too near to -1/kv");
   growth_ += waves;
   const long count = std::max(1L, std::lround(std::ceil(wanted)));
-  const Real step = length / static_cast<Real>(count);
+  const R step = length / static_cast<R>(count);
   std::optional<std::size_t> shared;
-  if (arm_.gravity == 0.0L) shared = share(segment_transfer(arm_, beam_, {right, step}));
+  if (arm_.gravity == 0) shared = share(segment_transfer(arm_, beam_, {right, step}));
   for (long i = 0; i < count; ++i) {
-    Segment segment{right - static_cast<Real>(i) * step, step};
+    Segment<R> segment{right - static_cast<R>(i) * step, step};
     if (i + 1 == count) segment.length = segment.right - left;
     links_.push_back({segment, false, shared});
   }
@@ -107,9 +110,9 @@ template <class T>
 std::array<BeamState<T>, 2> TransferChain<T>::tip_states() const {
   const T square = beam_.square;
   const T coupling = -square * arm_.payload_moment;
-  return {{{T(1.0L), T(0.0L), coupling, -square * arm_.payload_mass},
-           {T(0.0L), T(1.0L),
-            -square * arm_.payload_inertia - T(arm_.gravity * arm_.payload_moment), coupling}}};
+  return {{{T(1), T(0), coupling, -square * arm_.payload_mass},
+           {T(0), T(1), -square * arm_.payload_inertia - T(arm_.gravity * arm_.payload_moment),
+            coupling}}};
 }
 
 template <class T>
@@ -125,8 +128,8 @@ ScaledPlane<T> TransferChain<T>::tip_plane() const {
 
 template <class T>
 ScaledFunctional<T> TransferChain<T>::root_functional() const {
-  const Real radius = arm_.hub_radius;
-  return {{T(1.0L), T(-radius), radius * beam_.root, T(0.0L)}, 0.0L};
+  const R radius = arm_.hub_radius;
+  return {{T(1), T(-radius), radius * beam_.root, T(0)}, R(0)};
 }
 
 template <class T>
@@ -173,5 +176,7 @@ ScaledFunctional<T> TransferChain<T>::tip_functional() const {
 
 template class TransferChain<Real>;
 template class TransferChain<Complex>;
+template class TransferChain<double>;
+template class TransferChain<std::complex<double>>;
 
 }  // namespace flexarm::exact_tf

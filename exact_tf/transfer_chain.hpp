@@ -13,12 +13,12 @@ namespace flexarm::exact_tf {
 template <class T>
 struct ScaledPlane {
   Bivector<T> plane;
-  Real log_scale = 0.0L;
+  RealOf<T> log_scale = 0;
 };
 template <class T>
 struct ScaledFunctional {
   BeamState<T> functional{};
-  Real log_scale = 0.0L;
+  RealOf<T> log_scale = 0;
 };
 
 /// The beam at one frequency, cut into segments from the tip to the root, a crack or a mass on the
@@ -42,16 +42,19 @@ struct ScaledFunctional {
 template <class T>
 class TransferChain {
  public:
+  using R = RealOf<T>;
+
   /// Throws std::domain_error where K is not finite or a million segments would not do: within
   /// rounding of s = -1/kv.
   /// Without planes `to_left` and `root_plane` must not be called.
-  TransferChain(const ArmInBeamUnits& arm, const BeamAtFrequency<T>& beam, bool with_planes = true);
+  TransferChain(const ArmInBeamUnits<R>& arm, const BeamAtFrequency<T>& beam,
+                bool with_planes = true);
   /// Cut as for the frequency of `cut_for`, which must be no lower.
-  TransferChain(const ArmInBeamUnits& arm, const BeamAtFrequency<T>& beam,
+  TransferChain(const ArmInBeamUnits<R>& arm, const BeamAtFrequency<T>& beam,
                 const BeamAtFrequency<T>& cut_for);
 
   struct Link {
-    Segment segment;
+    Segment<R> segment;
     bool is_crack = false;
     std::optional<std::size_t> shared = std::nullopt;  ///< a transfer that other links share
     std::optional<std::size_t> mass = std::nullopt;    ///< in `masses`
@@ -65,7 +68,7 @@ class TransferChain {
   /// Of the arm's masses, by position.
   const std::vector<CarriedMass<T>>& masses() const { return masses_; }
   /// The sum of K over the beam: states grow by its exponential at most.
-  Real growth() const { return growth_; }
+  R growth() const { return growth_; }
 
   /// Q(l) and M(l) over y(l) = 1, psi(l) = 0 and y(l) = 0, psi(l) = 1.
   std::array<BeamState<T>, 2> tip_states() const;
@@ -81,7 +84,7 @@ class TransferChain {
   ScaledPlane<T> root_plane() const;
   ScaledFunctional<T> tip_functional() const;
 
-  const ArmInBeamUnits& arm() const { return arm_; }
+  const ArmInBeamUnits<R>& arm() const { return arm_; }
   const BeamAtFrequency<T>& beam() const { return beam_; }
 
  private:
@@ -91,16 +94,16 @@ class TransferChain {
   };
 
   void cut(const BeamAtFrequency<T>& cut_for);
-  void add_piece(const BeamAtFrequency<T>& cut_for, Real left, Real right);
+  void add_piece(const BeamAtFrequency<T>& cut_for, R left, R right);
   std::size_t share(const SegmentTransfer<T>& columns);
 
-  const ArmInBeamUnits& arm_;
+  const ArmInBeamUnits<R>& arm_;
   BeamAtFrequency<T> beam_;
   bool with_planes_;
   std::vector<Link> links_;
   std::vector<Transfer> transfers_;
   std::vector<CarriedMass<T>> masses_;
-  Real growth_ = 0.0L;
+  R growth_ = 0;
 };
 
 }  // namespace flexarm::exact_tf

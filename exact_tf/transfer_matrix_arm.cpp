@@ -13,7 +13,9 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <type_traits>
 #include <utility>
+#include <variant>
 
 namespace flexarm::exact_tf {
 
@@ -28,7 +30,7 @@ void require_chain_count(int count) {
 }
 
 /// A standing beam buckles at some acceleration below 0; found to four digits.
-double buckling_acceleration(ArmInBeamUnits units, double acceleration_m_per_s2) {
+double buckling_acceleration(ArmInBeamUnits<Real> units, double acceleration_m_per_s2) {
   const Real given = units.gravity;
   Real stable = 0.0L;
   Real unstable = 1.0L;
@@ -46,8 +48,9 @@ double rounded(Real value) {
 
 /// No power of s is left in front of a sensor's numerator: what shows no rigid motion starts with
 /// s^2, unless gravity bends the beam at rest.
-bool vanishes_at_rest(const ArmInBeamUnits& arm, arm::SensorKind kind) {
-  return arm.gravity == 0.0L &&
+template <class R>
+bool vanishes_at_rest(const ArmInBeamUnits<R>& arm, arm::SensorKind kind) {
+  return arm.gravity == 0 &&
          (kind == arm::SensorKind::tip_deflection || kind == arm::SensorKind::strain);
 }
 
@@ -67,8 +70,9 @@ Real sensor_unit(const arm::LinearArm& arm, arm::SensorKind kind) {
   throw std::logic_error("sensor kind outside its enumeration");
 }
 
-Real modal_value(const ChainModes& modes, std::size_t i, arm::SensorKind kind, Real position,
-                 Real reach) {
+template <class R>
+R modal_value(const ChainModes<R>& modes, std::size_t i, arm::SensorKind kind, R position,
+              R reach) {
   switch (kind) {
     case arm::SensorKind::hub_angle:
     case arm::SensorKind::hub_velocity:
@@ -84,22 +88,18 @@ Real modal_value(const ChainModes& modes, std::size_t i, arm::SensorKind kind, R
   throw std::logic_error("sensor kind outside its enumeration");
 }
 
-}  // namespace
-
-TransferMatrixArm::TransferMatrixArm(const arm::LinearArm& arm)
-    : arm_(arm), units_(in_beam_units(arm)) {
-  if (!flexible_modes_are_stable(units_)) {
-    throw arm::out_of_range(
-        "effects.gravity.acceleration", arm.gravity_m_per_s2, "m/s^2",
-        fmt::format("above {:.4g} m/s^2, the buckling limit of the inverted arm",
-                    buckling_acceleration(units_, arm.gravity_m_per_s2)));
-  }
+template <class R>
+std::vector<R> all_in(const std::vector<Real>& values) {
+  std::vector<R> made;
+  for (const Real value : values) made.push_back(static_cast<R>(value));
+  return made;
 }
+// What TransferMatrixArm answers, in R.
 
-arm::PoleSet TransferMatrixArm::poles(int count) const {
-  require_chain_count(count);
-  auto roots = find_chain_poles(units_, count);
-  const Real scale = units_.omega_scale_rad_per_s;
+template <class R>
+arm::PoleSet chain_poles(const ArmInBeamUnits<R>& units, int count) {
+  auto roots = find_chain_poles(units, count);
+  const Real scale = units.omega_scale_rad_per_s;
   arm::PoleSet set;
   set.lowest_omega_squared_rad2_per_s2 = rounded(roots.omega_squared.front() * scale * scale);
   for (std::size_t i = 1; i < roots.omega_squared.size(); ++i) {
@@ -110,37 +110,41 @@ arm::PoleSet TransferMatrixArm::poles(int count) const {
   return set;
 }
 
-arm::DampedPoleSet TransferMatrixArm::damped_poles(int count) const {
-  require_chain_count(count);
-  const auto roots = find_chain_poles(units_, count);
-  const Real scale = units_.omega_scale_rad_per_s;
-  const ChainModes shapes(units_, roots.omega_squared);
+template <class R>
+arm::DampedPoleSet chain_damped_poles(const ArmInBeamUnits<R>& units, double kelvin_voigt_s,
+                                      int count) {
+  using T = std::complex<R>;
+  const auto roots = find_chain_poles(units, count);
+  const ChainModes<R> shapes(units, all_in<R>(roots.omega_squared));
+  const Real scale = units.omega_scale_rad_per_s;
   std::vector<UndampedMode> modes;
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     const Real omega_squared = roots.omega_squared[i];
     modes.push_back({omega_squared * scale * scale,
-                     (shapes.damping(i, i) - units_.kelvin_voigt * omega_squared) * scale});
+                     (shapes.damping(i, i) - units.kelvin_voigt * omega_squared) * scale});
   }
   const auto characteristic = [&](const Complex& s, const Complex& damping) -> Scaled<Complex> {
-    const Complex in_units = s / scale;
+    const T in_units = in<R>(s / scale);
     try {
-      const TransferChain<Complex> chain(units_, damped_at(units_, in_units, damping));
+      const TransferChain<T> chain(units, damped_at(units, in_units, in<R>(damping)));
       const auto values = root_values(chain);
-      return {units_.turns_freely() ? values.torque / in_units : values.torque, values.log_scale};
+      const T value = units.turns_freely() ? values.torque / in_units : values.torque;
+      return {in<Real>(value), values.log_scale};
     } catch (const std::domain_error&) {
       return {std::numeric_limits<Real>::quiet_NaN(), 0.0L};
     }
   };
-  return follow_damping(characteristic, arm_.kelvin_voigt_s, modes);
+  return follow_damping(characteristic, kelvin_voigt_s, modes);
 }
 
-arm::ZeroSet TransferMatrixArm::hub_zeros(int count) const {
+template <class R>
+arm::ZeroSet chain_hub_zeros(const ArmInBeamUnits<R>& units, int count) {
   // One eigenvalue at most is negative, and another may be nearer to 0.
-  const int looked_for = arm_.gravity_m_per_s2 < 0.0 ? count + 1 : count;
-  auto roots = find_chain_hub_zeros(units_, looked_for);
+  const int looked_for = units.gravity < 0 ? count + 1 : count;
+  auto roots = find_chain_hub_zeros(units, looked_for);
   std::ranges::sort(roots.omega_squared, {}, [](Real square) { return std::abs(square); });
   roots.omega_squared.resize(static_cast<std::size_t>(count));
-  const Real scale = units_.omega_scale_rad_per_s;
+  const Real scale = units.omega_scale_rad_per_s;
   arm::ZeroSet set;
   for (const Real square : roots.omega_squared) {
     const double size = rounded(std::sqrt(std::abs(square)) * scale);
@@ -153,35 +157,39 @@ arm::ZeroSet TransferMatrixArm::hub_zeros(int count) const {
   return set;
 }
 
-arm::ZeroSet TransferMatrixArm::zeros(const arm::Sensor& sensor, int count) const {
-  require_chain_count(count);
-  if (is_collocated(sensor)) return hub_zeros(count);
-  const Real position = in_units(sensor.position_m);
-  const bool divided = vanishes_at_rest(units_, sensor.kind);
+template <class R>
+arm::ZeroSet chain_zeros(const ArmInBeamUnits<R>& units, const arm::Sensor& sensor, int count) {
+  constexpr auto arithmetic =
+      std::is_same_v<R, double> ? Arithmetic::working : Arithmetic::extended;
+  if (is_collocated(sensor)) return chain_hub_zeros(units, count);
+  const R position = sensor.position_m / units.length_m;
+  const bool divided = vanishes_at_rest(units, sensor.kind);
   const bool with_planes = derivative_order(sensor) == 0;
   const auto value_at = [&](const auto& z) {
     using T = std::remove_cvref_t<decltype(z)>;
-    const TransferChain<T> chain(units_, undamped_at(units_, z), with_planes);
+    const TransferChain<T> chain(units, undamped_at(units, z), with_planes);
     const auto value = sensor_value(chain, sensor.kind, position);
     return value.value / (divided ? z * value.size : T(value.size));
   };
   const auto numerator = [&](const Complex& lambda) -> Complex {
     const Complex square = lambda * lambda;
-    const Complex z = square * square;
-    return z.imag() == 0.0L ? Complex(value_at(z.real())) : value_at(z);
+    const std::complex<R> z = in<R>(square * square);
+    return z.imag() == 0 ? Complex(value_at(z.real())) : in<Real>(value_at(z));
   };
-  return find_sensor_zeros(numerator, units_.omega_scale_rad_per_s, count);
+  return find_sensor_zeros(numerator, units.omega_scale_rad_per_s, count, zero_options(arithmetic));
 }
 
-arm::ModalModel TransferMatrixArm::modal_model(int count, std::span<const arm::Sensor> sensors,
-                                               std::span<const double> stations_m) const {
-  require_chain_count(count);
-  const auto roots = find_chain_poles(units_, count);
-  const ChainModes shapes(units_, roots.omega_squared);
-  const Real scale = units_.omega_scale_rad_per_s;
-  const Real reach = 1.0L + units_.hub_radius;
+template <class R>
+arm::ModalModel chain_model(const arm::LinearArm& arm, const ArmInBeamUnits<R>& units, int count,
+                            std::span<const arm::Sensor> sensors,
+                            std::span<const double> stations_m) {
+  const auto roots = find_chain_poles(units, count);
+  const ChainModes<R> shapes(units, all_in<R>(roots.omega_squared));
+  const Real scale = units.omega_scale_rad_per_s;
+  const R reach = 1 + units.hub_radius;
+  const auto in_units = [&](double position_m) -> R { return position_m / units.length_m; };
   arm::ModalModel model;
-  model.modal_mass_kg_m2 = arm::total_inertia_kg_m2(arm_);
+  model.modal_mass_kg_m2 = arm::total_inertia_kg_m2(arm);
   model.lowest_omega_squared_rad2_per_s2 = rounded(roots.omega_squared.front() * scale * scale);
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     arm::Mode mode;
@@ -193,12 +201,12 @@ arm::ModalModel TransferMatrixArm::modal_model(int count, std::span<const arm::S
     }
     for (const auto& sensor : sensors) {
       mode.sensor_values.push_back(
-          rounded(sensor_unit(arm_, sensor.kind) *
+          rounded(sensor_unit(arm, sensor.kind) *
                   modal_value(shapes, i, sensor.kind, in_units(sensor.position_m), reach)));
     }
     for (const double station_m : stations_m) {
       mode.displacement_m.push_back(
-          rounded(units_.length_m * shapes.displacement(i, in_units(station_m))));
+          rounded(units.length_m * shapes.displacement(i, in_units(station_m))));
     }
     model.modes.push_back(std::move(mode));
   }
@@ -212,6 +220,68 @@ arm::ModalModel TransferMatrixArm::modal_model(int count, std::span<const arm::S
   return model;
 }
 
+template <class R>
+std::vector<std::complex<double>> chain_responses(const arm::LinearArm& arm,
+                                                  const ArmInBeamUnits<R>& units,
+                                                  std::span<const arm::Sensor> sensors,
+                                                  std::complex<double> s_rad_per_s) {
+  using T = std::complex<R>;
+  const T s(s_rad_per_s.real(), s_rad_per_s.imag());
+  const TransferChain<T> chain(units, damped_at(units, s / units.omega_scale_rad_per_s));
+  const auto root = root_values(chain);
+  std::vector<std::complex<double>> values;
+  for (const arm::Sensor& sensor : sensors) {
+    const auto output =
+        sensor_value<T>(chain, sensor.kind, R(sensor.position_m / units.length_m), root);
+    const auto unit = static_cast<R>(sensor_unit(arm, sensor.kind)) / units.torque_scale_N_m;
+    T value = unit * std::exp(output.log_scale - root.log_scale) * output.value / root.torque;
+    for (int i = 0; i < derivative_order(sensor); ++i) value *= s;
+    values.emplace_back(rounded(value.real()), rounded(value.imag()));
+  }
+  return values;
+}
+
+}  // namespace
+
+TransferMatrixArm::TransferMatrixArm(const arm::LinearArm& arm, Arithmetic arithmetic)
+    : arm_(arm), units_(in_beam_units<Real>(arm)) {
+  const auto& exact = std::get<ArmInBeamUnits<Real>>(units_);
+  if (!flexible_modes_are_stable(exact)) {
+    throw arm::out_of_range(
+        "effects.gravity.acceleration", arm.gravity_m_per_s2, "m/s^2",
+        fmt::format("above {:.4g} m/s^2, the buckling limit of the inverted arm",
+                    buckling_acceleration(exact, arm.gravity_m_per_s2)));
+  }
+  if (arithmetic == Arithmetic::working) units_ = in_beam_units<double>(arm);
+}
+
+arm::PoleSet TransferMatrixArm::poles(int count) const {
+  require_chain_count(count);
+  return std::visit([&](const auto& units) { return chain_poles(units, count); }, units_);
+}
+
+arm::DampedPoleSet TransferMatrixArm::damped_poles(int count) const {
+  require_chain_count(count);
+  const auto poles = [&](const auto& units) {
+    return chain_damped_poles(units, arm_.kelvin_voigt_s, count);
+  };
+  return std::visit(poles, units_);
+}
+
+arm::ZeroSet TransferMatrixArm::zeros(const arm::Sensor& sensor, int count) const {
+  require_chain_count(count);
+  return std::visit([&](const auto& units) { return chain_zeros(units, sensor, count); }, units_);
+}
+
+arm::ModalModel TransferMatrixArm::modal_model(int count, std::span<const arm::Sensor> sensors,
+                                               std::span<const double> stations_m) const {
+  require_chain_count(count);
+  const auto model = [&](const auto& units) {
+    return chain_model(arm_, units, count, sensors, stations_m);
+  };
+  return std::visit(model, units_);
+}
+
 std::vector<arm::Mode> TransferMatrixArm::modes(int count, std::span<const arm::Sensor> sensors,
                                                 std::span<const double> stations_m) const {
   auto model = modal_model(count, sensors, stations_m);
@@ -221,19 +291,10 @@ std::vector<arm::Mode> TransferMatrixArm::modes(int count, std::span<const arm::
 
 std::vector<std::complex<double>> TransferMatrixArm::transfer_functions(
     std::span<const arm::Sensor> sensors, std::complex<double> s_rad_per_s) const {
-  const Complex s(s_rad_per_s.real(), s_rad_per_s.imag());
-  const TransferChain<Complex> chain(units_, damped_at(units_, s / units_.omega_scale_rad_per_s));
-  const auto root = root_values(chain);
-  std::vector<std::complex<double>> values;
-  for (const arm::Sensor& sensor : sensors) {
-    const auto output =
-        sensor_value<Complex>(chain, sensor.kind, in_units(sensor.position_m), root);
-    Complex value = sensor_unit(arm_, sensor.kind) / units_.torque_scale_N_m *
-                    std::exp(output.log_scale - root.log_scale) * output.value / root.torque;
-    for (int i = 0; i < derivative_order(sensor); ++i) value *= s;
-    values.emplace_back(rounded(value.real()), rounded(value.imag()));
-  }
-  return values;
+  const auto responses = [&](const auto& units) {
+    return chain_responses(arm_, units, sensors, s_rad_per_s);
+  };
+  return std::visit(responses, units_);
 }
 
 }  // namespace flexarm::exact_tf

@@ -2,10 +2,12 @@
 
 #include "arm/formulation.hpp"
 #include "arm/linear_arm.hpp"
+#include "exact_tf/arithmetic.hpp"
 #include "exact_tf/beam_units.hpp"
 
 #include <complex>
 #include <span>
+#include <variant>
 #include <vector>
 
 namespace flexarm::exact_tf {
@@ -20,7 +22,8 @@ class TransferMatrixArm {
   static constexpr int kMostRoots = 2000;
 
   /// Throws arm::InputError for an arm that stands up and whose flexible modes buckle.
-  explicit TransferMatrixArm(const arm::LinearArm& arm);
+  explicit TransferMatrixArm(const arm::LinearArm& arm,
+                             Arithmetic arithmetic = Arithmetic::extended);
 
   arm::PoleSet poles(int count) const;
   arm::DampedPoleSet damped_poles(int count) const;
@@ -34,11 +37,8 @@ class TransferMatrixArm {
                                                        std::complex<double> s_rad_per_s) const;
 
  private:
-  arm::ZeroSet hub_zeros(int count) const;
-  Real in_units(double position_m) const { return position_m / units_.length_m; }
-
   arm::LinearArm arm_;
-  ArmInBeamUnits units_;
+  std::variant<ArmInBeamUnits<Real>, ArmInBeamUnits<double>> units_;
 };
 
 }  // namespace flexarm::exact_tf

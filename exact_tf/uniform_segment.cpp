@@ -18,16 +18,17 @@ struct ExponentialWeights {
 
 template <class T>
 ExponentialWeights<T> exponential_weights(const T& trace, const T& determinant) {
-  constexpr Real kNegligible = 0.01L * std::numeric_limits<Real>::epsilon();
-  const Real size =
-      0.5L * std::abs(trace) + std::sqrt(0.25L * std::norm(trace) + std::abs(determinant));
+  using R = RealOf<T>;
+  constexpr R kNegligible = R(0.01) * std::numeric_limits<R>::epsilon();
+  const R size =
+      R(0.5) * std::abs(trace) + std::sqrt(R(0.25) * std::norm(trace) + std::abs(determinant));
   ExponentialWeights<T> weights;
-  T p(0.0L);
-  T r(1.0L);
-  Real factorial = 0.5L;  // 1/(2m)!
-  Real bound = 1.0L;      // of the terms from the first on
+  T p(0);
+  T r(1);
+  R factorial = R(0.5);  // 1/(2m)!
+  R bound = R(1);        // of the terms from the first on
   for (int m = 1; bound > kNegligible; ++m) {
-    const Real next = factorial / static_cast<Real>(2 * m + 1);
+    const R next = factorial / static_cast<R>(2 * m + 1);
     weights.c0_less_one += factorial * p;
     weights.c2 += factorial * r;
     weights.c1_less_one += next * p;
@@ -35,15 +36,15 @@ ExponentialWeights<T> exponential_weights(const T& trace, const T& determinant) 
     const T r_next = p + trace * r;
     p = -determinant * r;
     r = r_next;
-    factorial = next / static_cast<Real>(2 * m + 2);
-    bound *= size / static_cast<Real>((2 * m - 1) * (2 * m));
+    factorial = next / static_cast<R>(2 * m + 2);
+    bound *= size / static_cast<R>((2 * m - 1) * (2 * m));
   }
   return weights;
 }
 
 /// A v without its factor -h.
 template <class T>
-BeamState<T> derivative(const ArmInBeamUnits& arm, const BeamAtFrequency<T>& beam,
+BeamState<T> derivative(const ArmInBeamUnits<RealOf<T>>& arm, const BeamAtFrequency<T>& beam,
                         const BeamState<T>& v) {
   return {v[kRotation] + arm.shear_flexibility * v[kForce], beam.flexibility * v[kMoment],
           beam.rotary * v[kRotation] - v[kForce], beam.inertia * v[kDisplacement]};
@@ -52,9 +53,10 @@ BeamState<T> derivative(const ArmInBeamUnits& arm, const BeamAtFrequency<T>& bea
 }  // namespace
 
 template <class T>
-SegmentTransfer<T> uniform_transfer(const ArmInBeamUnits& arm, const BeamAtFrequency<T>& beam,
-                                    Real length) {
-  const Real square = length * length;
+SegmentTransfer<T> uniform_transfer(const ArmInBeamUnits<RealOf<T>>& arm,
+                                    const BeamAtFrequency<T>& beam, RealOf<T> length) {
+  using R = RealOf<T>;
+  const R square = length * length;
   const T shear = arm.shear_flexibility * beam.inertia;
   const T rotary = beam.rotary * beam.flexibility;
   const auto c =
@@ -63,7 +65,7 @@ SegmentTransfer<T> uniform_transfer(const ArmInBeamUnits& arm, const BeamAtFrequ
   SegmentTransfer<T> transfer{};
   for (std::size_t j = 0; j < 4; ++j) {
     BeamState<T> unit{};
-    unit[j] = T(1.0L);
+    unit[j] = T(1);
     const auto once = derivative(arm, beam, unit);
     const auto twice = derivative(arm, beam, once);
     const auto thrice = derivative(arm, beam, twice);
@@ -76,7 +78,7 @@ SegmentTransfer<T> uniform_transfer(const ArmInBeamUnits& arm, const BeamAtFrequ
     bending[j] += c.c0_less_one;
     BeamState<T>& column = transfer.columns[j];
     column = bending;
-    column[j] += T(1.0L);
+    column[j] += T(1);
     for (std::size_t i = 0; i < 4; ++i) column[i] -= length * once[i];
     if (j > kRotation) continue;
     for (std::size_t i = 0; i < 4; ++i) {
@@ -88,9 +90,13 @@ SegmentTransfer<T> uniform_transfer(const ArmInBeamUnits& arm, const BeamAtFrequ
   return transfer;
 }
 
-template SegmentTransfer<Real> uniform_transfer(const ArmInBeamUnits&, const BeamAtFrequency<Real>&,
-                                                Real);
-template SegmentTransfer<Complex> uniform_transfer(const ArmInBeamUnits&,
+template SegmentTransfer<Real> uniform_transfer(const ArmInBeamUnits<Real>&,
+                                                const BeamAtFrequency<Real>&, Real);
+template SegmentTransfer<Complex> uniform_transfer(const ArmInBeamUnits<Real>&,
                                                    const BeamAtFrequency<Complex>&, Real);
+template SegmentTransfer<double> uniform_transfer(const ArmInBeamUnits<double>&,
+                                                  const BeamAtFrequency<double>&, double);
+template SegmentTransfer<std::complex<double>> uniform_transfer(
+    const ArmInBeamUnits<double>&, const BeamAtFrequency<std::complex<double>>&, double);
 
 }  // namespace flexarm::exact_tf

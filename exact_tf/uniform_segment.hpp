@@ -16,7 +16,7 @@ namespace flexarm::exact_tf {
 ///     exp A = c0 + c2 A^2 + A (c1 + c3 A^2),   A^(2m) = p_m + r_m A^2,
 ///     c0, c2 = sum (p_m, r_m)/(2m)!,   c1, c3 = sum (p_m, r_m)/(2m + 1)!.
 template <class T>
-SegmentTransfer<T> uniform_transfer(const ArmInBeamUnits& arm, const BeamAtFrequency<T>& beam,
-                                    Real length);
+SegmentTransfer<T> uniform_transfer(const ArmInBeamUnits<RealOf<T>>& arm,
+                                    const BeamAtFrequency<T>& beam, RealOf<T> length);
 
 }  // namespace flexarm::exact_tf

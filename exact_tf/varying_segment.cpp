@@ -7,9 +7,10 @@ namespace flexarm::exact_tf {
 namespace {
 
 /// A linear function of the variable of a series times a series, by the coefficients of both.
+template <class R>
 struct Linear {
-  Real constant;
-  Real slope;
+  R constant;
+  R slope;
 
   template <class T>
   T times(const T& now, const T& before) const {
@@ -18,20 +19,22 @@ struct Linear {
   /// The coefficient of x in (constant + slope u) x = value.
   template <class T>
   T divide(const T& value, const T& before) const {
-    return slope == 0.0L && constant == 1.0L ? value : (value - slope * before) / constant;
+    return slope == 0 && constant == 1 ? value : (value - slope * before) / constant;
   }
 };
 
 template <class T>
 class PlaneRecursion {
  public:
-  PlaneRecursion(const ArmInBeamUnits& arm, const BeamAtFrequency<T>& beam, const Segment& segment,
-                 const Bivector<T>& at_right)
+  using R = RealOf<T>;
+
+  PlaneRecursion(const ArmInBeamUnits<RealOf<T>>& arm, const BeamAtFrequency<T>& beam,
+                 const Segment<RealOf<T>>& segment, const Bivector<T>& at_right)
       : beam_(beam),
         shear_(arm.shear_flexibility),
         length_(segment.length),
         tension_{arm.tension(segment.right), arm.gravity * segment.length},
-        stretch_{1.0L + shear_ * tension_.constant, shear_ * tension_.slope},
+        stretch_{R(1) + shear_ * tension_.constant, shear_ * tension_.slope},
         term_(at_right.minors) {}
 
   const std::array<T, 6>& term() const { return term_; }
@@ -40,11 +43,11 @@ class PlaneRecursion {
     const auto& [y_psi, y_moment, y_force, psi_moment, psi_force, moment_force] = term_;
     const std::array<T, 4> slope = {
         stretch_.divide(T(-y_psi - shear_ * y_force), before_[kDisplacement]),
-        shear_ == 0.0L ? T(0.0L) : stretch_.divide(T(-shear_ * psi_force), before_[kRotation]),
+        shear_ == 0 ? T(0) : stretch_.divide(T(-shear_ * psi_force), before_[kRotation]),
         stretch_.divide(T(psi_moment - shear_ * moment_force), before_[kMoment]),
         stretch_.divide(psi_force, before_[kForce])};
     const auto pulled = [&](std::size_t j) { return tension_.times(slope[j], before_[j]); };
-    const Real step = -length_ / static_cast<Real>(++order_);
+    const R step = -length_ / static_cast<R>(++order_);
     const T& f = beam_.flexibility;
     const T& q = beam_.inertia;
     const T& r = beam_.rotary;
@@ -59,10 +62,10 @@ class PlaneRecursion {
 
  private:
   const BeamAtFrequency<T>& beam_;
-  Real shear_;
-  Real length_;
-  Linear tension_;
-  Linear stretch_;
+  R shear_;
+  R length_;
+  Linear<R> tension_;
+  Linear<R> stretch_;
   std::array<T, 6> term_;
   std::array<T, 4> before_{};
   int order_ = 0;
@@ -71,14 +74,16 @@ class PlaneRecursion {
 template <class T>
 class FunctionalRecursion {
  public:
-  FunctionalRecursion(const ArmInBeamUnits& arm, const BeamAtFrequency<T>& beam,
-                      const Segment& segment, const BeamState<T>& at_left)
+  using R = RealOf<T>;
+
+  FunctionalRecursion(const ArmInBeamUnits<RealOf<T>>& arm, const BeamAtFrequency<T>& beam,
+                      const Segment<RealOf<T>>& segment, const BeamState<T>& at_left)
       : beam_(beam),
         shear_(arm.shear_flexibility),
         length_(segment.length),
         tension_{arm.tension(segment.right) + arm.gravity * segment.length,
                  -arm.gravity * segment.length},
-        stretch_{1.0L + shear_ * tension_.constant, shear_ * tension_.slope},
+        stretch_{R(1) + shear_ * tension_.constant, shear_ * tension_.slope},
         term_(at_left) {}
 
   const BeamState<T>& term() const { return term_; }
@@ -87,7 +92,7 @@ class FunctionalRecursion {
     const BeamState<T> g = term_;
     const T slope = stretch_.divide(
         T(g[kDisplacement] + tension_.times(g[kMoment], moment_before_)), slope_before_);
-    const Real step = -length_ / static_cast<Real>(++order_);
+    const R step = -length_ / static_cast<R>(++order_);
     term_ = {step * (beam_.inertia * g[kForce]), step * (slope + beam_.rotary * g[kMoment]),
              step * (beam_.flexibility * g[kRotation]), step * (shear_ * slope - g[kMoment])};
     slope_before_ = slope;
@@ -96,10 +101,10 @@ class FunctionalRecursion {
 
  private:
   const BeamAtFrequency<T>& beam_;
-  Real shear_;
-  Real length_;
-  Linear tension_;
-  Linear stretch_;
+  R shear_;
+  R length_;
+  Linear<R> tension_;
+  Linear<R> stretch_;
   BeamState<T> term_;
   T slope_before_{};
   T moment_before_{};
@@ -109,29 +114,45 @@ class FunctionalRecursion {
 }  // namespace
 
 template <class T>
-Bivector<T> plane_at_left(const ArmInBeamUnits& arm, const BeamAtFrequency<T>& beam,
-                          const Segment& segment, const Bivector<T>& at_right) {
+Bivector<T> plane_at_left(const ArmInBeamUnits<RealOf<T>>& arm, const BeamAtFrequency<T>& beam,
+                          const Segment<RealOf<T>>& segment, const Bivector<T>& at_right) {
   PlaneRecursion<T> recursion(arm, beam, segment, at_right);
-  const Real waves = 2.0L * wave_number(arm, beam, segment) * segment.length;
+  const RealOf<T> waves = 2 * wave_number(arm, beam, segment) * segment.length;
   return {sum_series(recursion, likely_terms(waves), [](int, const auto&) {})};
 }
 
 template <class T>
-BeamState<T> functional_at_right(const ArmInBeamUnits& arm, const BeamAtFrequency<T>& beam,
-                                 const Segment& segment, const BeamState<T>& at_left) {
+BeamState<T> functional_at_right(const ArmInBeamUnits<RealOf<T>>& arm,
+                                 const BeamAtFrequency<T>& beam, const Segment<RealOf<T>>& segment,
+                                 const BeamState<T>& at_left) {
   FunctionalRecursion<T> recursion(arm, beam, segment, at_left);
-  const Real waves = wave_number(arm, beam, segment) * segment.length;
+  const RealOf<T> waves = wave_number(arm, beam, segment) * segment.length;
   return sum_series(recursion, likely_terms(waves), [](int, const auto&) {});
 }
 
-template Bivector<Real> plane_at_left(const ArmInBeamUnits&, const BeamAtFrequency<Real>&,
-                                      const Segment&, const Bivector<Real>&);
-template Bivector<Complex> plane_at_left(const ArmInBeamUnits&, const BeamAtFrequency<Complex>&,
-                                         const Segment&, const Bivector<Complex>&);
-template BeamState<Real> functional_at_right(const ArmInBeamUnits&, const BeamAtFrequency<Real>&,
-                                             const Segment&, const BeamState<Real>&);
-template BeamState<Complex> functional_at_right(const ArmInBeamUnits&,
-                                                const BeamAtFrequency<Complex>&, const Segment&,
-                                                const BeamState<Complex>&);
+template Bivector<Real> plane_at_left(const ArmInBeamUnits<Real>&, const BeamAtFrequency<Real>&,
+                                      const Segment<Real>&, const Bivector<Real>&);
+template Bivector<Complex> plane_at_left(const ArmInBeamUnits<Real>&,
+                                         const BeamAtFrequency<Complex>&, const Segment<Real>&,
+                                         const Bivector<Complex>&);
+template Bivector<double> plane_at_left(const ArmInBeamUnits<double>&,
+                                        const BeamAtFrequency<double>&, const Segment<double>&,
+                                        const Bivector<double>&);
+template Bivector<std::complex<double>> plane_at_left(const ArmInBeamUnits<double>&,
+                                                      const BeamAtFrequency<std::complex<double>>&,
+                                                      const Segment<double>&,
+                                                      const Bivector<std::complex<double>>&);
+template BeamState<Real> functional_at_right(const ArmInBeamUnits<Real>&,
+                                             const BeamAtFrequency<Real>&, const Segment<Real>&,
+                                             const BeamState<Real>&);
+template BeamState<Complex> functional_at_right(const ArmInBeamUnits<Real>&,
+                                                const BeamAtFrequency<Complex>&,
+                                                const Segment<Real>&, const BeamState<Complex>&);
+template BeamState<double> functional_at_right(const ArmInBeamUnits<double>&,
+                                               const BeamAtFrequency<double>&,
+                                               const Segment<double>&, const BeamState<double>&);
+template BeamState<std::complex<double>> functional_at_right(
+    const ArmInBeamUnits<double>&, const BeamAtFrequency<std::complex<double>>&,
+    const Segment<double>&, const BeamState<std::complex<double>>&);
 
 }  // namespace flexarm::exact_tf

@@ -21,14 +21,15 @@ namespace flexarm::exact_tf {
 ///
 /// q = s^2 + ca s, r = rho I s^2, f = 1/(1 + kv s).
 template <class T>
-Bivector<T> plane_at_left(const ArmInBeamUnits& arm, const BeamAtFrequency<T>& beam,
-                          const Segment& segment, const Bivector<T>& at_right);
+Bivector<T> plane_at_left(const ArmInBeamUnits<RealOf<T>>& arm, const BeamAtFrequency<T>& beam,
+                          const Segment<RealOf<T>>& segment, const Bivector<T>& at_right);
 
 /// The functional g, in 1 - u from the left end: with D w = g_y + G g_M,
 ///
 ///     g_y' = -h q g_Q, g_psi' = -h (w + r g_M), g_M' = -h f g_psi, g_Q' = -h (phi w - g_M).
 template <class T>
-BeamState<T> functional_at_right(const ArmInBeamUnits& arm, const BeamAtFrequency<T>& beam,
-                                 const Segment& segment, const BeamState<T>& at_left);
+BeamState<T> functional_at_right(const ArmInBeamUnits<RealOf<T>>& arm,
+                                 const BeamAtFrequency<T>& beam, const Segment<RealOf<T>>& segment,
+                                 const BeamState<T>& at_left);
 
 }  // namespace flexarm::exact_tf

@@ -39,6 +39,12 @@ AnyFormulation make_formulation(std::string_view formulation, const arm::Arm& ar
   return assumed_modes::AssumedModesArm(std::move(linear), assumed_modes_settings(roots));
 }
 
+AnyFormulation formulation_of_fit(const arm::Arm& arm) {
+  arm::Arm linear = take_apart(arm).linear;
+  if (!arm::has_beam(linear)) return RigidHub(std::move(linear));
+  return exact_tf::ExactArm(std::move(linear), exact_tf::Arithmetic::working);
+}
+
 AnyFormulation with_arm(const AnyFormulation& formulation, const arm::Arm& arm) {
   const arm::Arm linear = take_apart(arm).linear;
   return std::visit(

@@ -22,6 +22,10 @@ void require_formulation(std::string_view key, std::string_view name);
 /// kMostRoots by a discrete formulation.
 AnyFormulation make_formulation(std::string_view formulation, const arm::Arm& arm, int roots);
 
+/// exact_tf of the arm's linear effects, in working arithmetic: for the evaluations of a fit.
+/// RigidHub for an arm without a beam.
+AnyFormulation formulation_of_fit(const arm::Arm& arm);
+
 /// The same formulation at the same settings for another arm, whose linear effects alone count.
 AnyFormulation with_arm(const AnyFormulation& formulation, const arm::Arm& arm);
 

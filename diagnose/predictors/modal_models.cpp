@@ -11,9 +11,8 @@ namespace flexarm::diagnose {
 std::shared_ptr<const arm::ModalModel> ModalModels::of(const response::ArmParts& parts,
                                                        std::span<const arm::Sensor> sensors) {
   const auto computed = [&] {
-    return std::make_shared<const arm::ModalModel>(
-        response::time_model(response::make_formulation("exact_tf", parts.linear, flexible_modes_),
-                             parts, flexible_modes_, sensors));
+    return std::make_shared<const arm::ModalModel>(response::time_model(
+        response::formulation_of_fit(parts.linear), parts, flexible_modes_, sensors));
   };
   if (!arm::has_beam(parts.linear)) return computed();
   Entry wanted{.arm = arm::linear_arm(parts.linear),

@@ -84,7 +84,7 @@ int highest_order(const measured::ModalTable& table, const ModalGroup& group) {
 
 void predict_roots(const arm::Arm& arm, const measured::ModalTable& table,
                    Eigen::Ref<Eigen::VectorXd> values) {
-  const exact_tf::ExactArm exact(response::take_apart(arm).linear);
+  const exact_tf::ExactArm exact(response::take_apart(arm).linear, exact_tf::Arithmetic::working);
   const bool is_damped = exact.linear().is_damped();
   Eigen::Index at = 0;
   for (const ModalGroup& group : modal_groups(table)) {

@@ -27,7 +27,7 @@ std::vector<arm::Sensor> sensors_of(const measured::TimeRecord& record) {
 void predict(const arm::Arm& arm, const measured::FrequencyRecord& record,
              Eigen::Ref<Eigen::VectorXd> values) {
   const response::ArmParts parts = response::take_apart(arm);
-  const auto formulation = response::make_formulation("exact_tf", arm, 1);
+  const auto formulation = response::formulation_of_fit(arm);
   const auto chain = response::linear_chain(parts);
   Index at = 0;
   for (auto first = record.channels.begin(); first != record.channels.end();) {

@@ -43,9 +43,8 @@ std::shared_ptr<const response::ArmSimulator> linear_simulator(const arm::Arm& a
   const std::vector<arm::Sensor> sensors = {sensor};
   response::ArmParts parts;  // without what is not linear
   parts.linear = response::take_apart(arm).linear;
-  const auto model =
-      response::time_model(response::make_formulation("exact_tf", parts.linear, flexible_modes),
-                           parts, flexible_modes, sensors);
+  const auto model = response::time_model(response::formulation_of_fit(parts.linear), parts,
+                                          flexible_modes, sensors);
   return std::make_shared<const response::ArmSimulator>(
       model, parts, sensors, response::options_of_fit(period_s, simulated_hold(hold)));
 }

@@ -185,8 +185,8 @@ Complex PortResponses::s(Index line) const {
 Eigen::MatrixXcd PortResponses::to_hub_torque(const arm::Arm& arm) const {
   std::vector<arm::Sensor> sensors = sensors_;
   sensors.push_back({SensorKind::hub_angle, 0.0});
-  const auto made = response::frequency_response(response::make_formulation("exact_tf", arm, 1), {},
-                                                 sensors, frequency_Hz_);
+  const auto made =
+      response::frequency_response(response::formulation_of_fit(arm), {}, sensors, frequency_Hz_);
   Eigen::MatrixXcd responses(std::ssize(sensors), std::ssize(frequency_Hz_));
   for (Index j = 0; j < responses.rows(); ++j) {
     responses.row(j) =

@@ -129,7 +129,7 @@ TEST_P(PlainArmByTransferMatrices, HasTheSameModalModel) {
 }
 
 TEST_P(PlainArmByTransferMatrices, CountsTheSameRootsBelowAnyFrequency) {
-  const auto units = in_beam_units(linear_);
+  const auto units = in_beam_units<Real>(linear_);
   const auto ratios = inertia_ratios(linear_);
   for (int i = 1; i < 3000; ++i) {
     const Real lambda = 0.0171L * i;
@@ -166,7 +166,7 @@ class ArmWithEffects : public testing::TestWithParam<arm::Arm> {};
 
 TEST_P(ArmWithEffects, HasEveryRootOfItsCount) {
   const ExactArm exact(GetParam());
-  const auto units = in_beam_units(exact.linear());
+  const auto units = in_beam_units<Real>(exact.linear());
   constexpr int kCount = 60;
   const auto poles = find_chain_poles(units, kCount);
   const auto zeros = find_chain_hub_zeros(units, kCount + 1);

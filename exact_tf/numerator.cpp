@@ -23,13 +23,14 @@ struct FieldWeights {
 /// subtraction.
 template <class T>
 T field(const FieldWeights<T>& w, const T& lambda, RealOf<T> xi) {
-  const RealOf<T> a = real_part(lambda);
-  const RealOf<T> b = imaginary_part(lambda);
+  using R = RealOf<T>;
+  const R a = real_part(lambda);
+  const R b = imaginary_part(lambda);
   const T at = lambda * xi;
   const auto end = scaled_trigonometry(lambda);
   const auto t = scaled_trigonometry(at);
-  const RealOf<T> to_hyperbolic = std::exp(-(a - b) * xi);  // exp(-b xi) to exp(-a xi)
-  const RealOf<T> from_exponential = std::exp(-(a + b) * xi);
+  const R to_hyperbolic = std::exp(-(a - b) * xi);  // exp(-b xi) to exp(-a xi)
+  const R from_exponential = std::exp(-(a + b) * xi);
   const T exp_minus = conjugate(phase_factor(at)) * from_exponential;  // exp(-b xi) e^-B
   const T exp_plus = phase_factor(at);                                 // exp(-a xi) e^B
   const T sum_cosh = t.cosh + t.cos * to_hyperbolic;                   // f0
@@ -38,28 +39,26 @@ T field(const FieldWeights<T>& w, const T& lambda, RealOf<T> xi) {
   T difference_sinh = t.sinh - t.sin * to_hyperbolic;                  // f3
   T decaying = exp_minus + t.sin - t.cos;                              // f2 - f3
   T growing = exp_plus - (t.sin + t.cos) * to_hyperbolic;              // f2 + f3
-  if (std::abs(at) < RealOf<T>(1)) {
+  if (std::abs(at) < R(1)) {
     const T square = at * at;
     const T z = square * square;
-    const RealOf<T> scale = std::exp(-a * xi);
-    difference_cosh = RealOf<T>(2) * square * krylov_series(2, z) * scale;
-    difference_sinh = RealOf<T>(2) * square * at * krylov_series(3, z) * scale;
+    const R scale = std::exp(-a * xi);
+    difference_cosh = R(2) * square * krylov_series(2, z) * scale;
+    difference_sinh = R(2) * square * at * krylov_series(3, z) * scale;
     decaying = (difference_cosh - difference_sinh) / to_hyperbolic;
     growing = difference_cosh + difference_sinh;
   }
-  const T with_exp_plus = w.cubic * decaying + RealOf<T>(2) * (w.sine * t.sin + w.cosine * t.cos) +
+  const T with_exp_plus = w.cubic * decaying + R(2) * (w.sine * t.sin + w.cosine * t.cos) +
                           w.linear * (exp_minus + t.cos - t.sin);
   const T with_exp_minus = -w.cubic * growing +
-                           RealOf<T>(2) * (w.cosine * t.cos - w.sine * t.sin) * to_hyperbolic -
+                           R(2) * (w.cosine * t.cos - w.sine * t.sin) * to_hyperbolic -
                            w.linear * (exp_plus + (t.cos + t.sin) * to_hyperbolic);
-  const T with_sin =
-      w.cubic * difference_cosh + RealOf<T>(2) * w.sine * t.sinh - w.linear * sum_cosh;
-  const T with_cos =
-      w.linear * sum_sinh + RealOf<T>(2) * w.cosine * t.cosh - w.cubic * difference_sinh;
-  return RealOf<T>(0.5) * phase_factor(lambda) * with_exp_plus +
-         RealOf<T>(0.5) * std::exp(-RealOf<T>(2) * a + (a - b) * xi) *
-             conjugate(phase_factor(lambda)) * with_exp_minus +
-         w.oscillating_sign * std::exp(-(a - b) * (RealOf<T>(1) - xi)) *
+  const T with_sin = w.cubic * difference_cosh + R(2) * w.sine * t.sinh - w.linear * sum_cosh;
+  const T with_cos = w.linear * sum_sinh + R(2) * w.cosine * t.cosh - w.cubic * difference_sinh;
+  return R(0.5) * phase_factor(lambda) * with_exp_plus +
+         R(0.5) * std::exp(-R(2) * a + (a - b) * xi) * conjugate(phase_factor(lambda)) *
+             with_exp_minus +
+         w.oscillating_sign * std::exp(-(a - b) * (R(1) - xi)) *
              (end.sin * with_sin + end.cos * with_cos);
 }
 
@@ -106,30 +105,31 @@ Scaled<T> pole_characteristic(const InertiaRatiosIn<RealOf<T>>& ratios, const T&
 
 template <class T>
 Scaled<T> tip_numerator(const InertiaRatiosIn<RealOf<T>>& ratios, const T& lambda) {
-  const RealOf<T> mu = ratios.payload_inertia;
-  const RealOf<T> a = real_part(lambda);
+  using R = RealOf<T>;
+  const R mu = ratios.payload_inertia;
+  const R a = real_part(lambda);
   const T square = lambda * lambda;
   if (std::abs(lambda) < kSeriesBound) {
     const T z = square * square;
     return {(krylov_series(1, z) - mu * z * krylov_series(2, z)) * std::exp(-a), a};
   }
   const auto t = scaled_trigonometry(lambda);
-  const RealOf<T> to_hyperbolic = std::exp(imaginary_part(lambda) - a);
-  return {(t.sinh + t.sin * to_hyperbolic) / (RealOf<T>(2) * lambda) -
-              RealOf<T>(0.5) * mu * square * (t.cosh - t.cos * to_hyperbolic),
+  const R to_hyperbolic = std::exp(imaginary_part(lambda) - a);
+  return {(t.sinh + t.sin * to_hyperbolic) / (R(2) * lambda) -
+              R(0.5) * mu * square * (t.cosh - t.cos * to_hyperbolic),
           a};
 }
 
 template <class T>
 Scaled<T> tip_deflection_numerator(const InertiaRatiosIn<RealOf<T>>& ratios, const T& lambda) {
+  using R = RealOf<T>;
   const auto k = beam_products(lambda);
   if (std::abs(lambda) < kSeriesBound) {
-    const RealOf<T> eta = ratios.payload_mass;
-    const RealOf<T> mu = ratios.payload_inertia;
+    const R eta = ratios.payload_mass;
+    const R mu = ratios.payload_inertia;
     const T c5 = krylov_series(5, k.z) * k.one;
     const T c2 = krylov_series(2, k.z) * k.one;
-    return {c5 + RealOf<T>(2) * k.k4 + RealOf<T>(2) * eta * k.k3 + mu * (k.k1 - c2) -
-                RealOf<T>(2) * eta * mu * k.z * k.k4,
+    return {c5 + R(2) * k.k4 + R(2) * eta * k.k3 + mu * (k.k1 - c2) - R(2) * eta * mu * k.z * k.k4,
             k.log_scale};
   }
   const T tip = tip_numerator(ratios, lambda).value * std::exp(-imaginary_part(lambda));
@@ -139,13 +139,14 @@ Scaled<T> tip_deflection_numerator(const InertiaRatiosIn<RealOf<T>>& ratios, con
 template <class T>
 Scaled<T> curvature_numerator(const InertiaRatiosIn<RealOf<T>>& ratios, const T& lambda,
                               RealOf<T> from_tip) {
-  const RealOf<T> eta = ratios.payload_mass;
-  const RealOf<T> mu = ratios.payload_inertia;
-  const RealOf<T> log_scale = real_part(lambda) + imaginary_part(lambda) * from_tip;
+  using R = RealOf<T>;
+  const R eta = ratios.payload_mass;
+  const R mu = ratios.payload_inertia;
+  const R log_scale = real_part(lambda) + imaginary_part(lambda) * from_tip;
   const T square = lambda * lambda;
   if (std::abs(lambda) < kSeriesBound) {
     const T z = square * square;
-    const auto at_hub = krylov_values(z, RealOf<T>(1));
+    const auto at_hub = krylov_values(z, R(1));
     const auto here = krylov_values(z, from_tip);
     const T value = at_hub.c1 * here.c2 - at_hub.c0 * here.c3 +
                     eta * (at_hub.c1 * here.c1 - z * at_hub.c3 * here.c3) +
@@ -153,22 +154,22 @@ Scaled<T> curvature_numerator(const InertiaRatiosIn<RealOf<T>>& ratios, const T&
                     eta * mu * z * (at_hub.c3 * here.c0 - at_hub.c2 * here.c1);
     return {value * std::exp(-log_scale), log_scale};
   }
-  const FieldWeights<T> weights{RealOf<T>(0.25) / (square * lambda), RealOf<T>(0.25) * eta / square,
-                                T(RealOf<T>(0.25) * mu), RealOf<T>(0.25) * eta * mu * lambda,
-                                RealOf<T>(1)};
+  const FieldWeights<T> weights{R(0.25) / (square * lambda), R(0.25) * eta / square,
+                                T(R(0.25) * mu), R(0.25) * eta * mu * lambda, R(1)};
   return {field(weights, lambda, from_tip), log_scale};
 }
 
 template <class T>
 Scaled<T> displacement_numerator(const InertiaRatiosIn<RealOf<T>>& ratios, const T& lambda,
                                  RealOf<T> from_tip) {
-  const RealOf<T> eta = ratios.payload_mass;
-  const RealOf<T> mu = ratios.payload_inertia;
-  const RealOf<T> log_scale = real_part(lambda) + imaginary_part(lambda) * from_tip;
+  using R = RealOf<T>;
+  const R eta = ratios.payload_mass;
+  const R mu = ratios.payload_inertia;
+  const R log_scale = real_part(lambda) + imaginary_part(lambda) * from_tip;
   const T square = lambda * lambda;
   if (std::abs(lambda) < kSeriesBound) {
     const T z = square * square;
-    const auto at_hub = krylov_values(z, RealOf<T>(1));
+    const auto at_hub = krylov_values(z, R(1));
     const auto here = krylov_values(z, from_tip);
     const T value = at_hub.c1 * here.c0 - at_hub.c0 * here.c1 +
                     eta * z * (at_hub.c1 * here.c3 - at_hub.c3 * here.c1) -
@@ -176,15 +177,15 @@ Scaled<T> displacement_numerator(const InertiaRatiosIn<RealOf<T>>& ratios, const
                     eta * mu * z * z * (at_hub.c3 * here.c2 - at_hub.c2 * here.c3);
     return {value * std::exp(-log_scale), log_scale};
   }
-  const FieldWeights<T> weights{RealOf<T>(0.25) * eta * mu * square * lambda,
-                                T(-RealOf<T>(0.25) * eta), -RealOf<T>(0.25) * mu * square,
-                                RealOf<T>(0.25) / lambda, -RealOf<T>(1)};
+  const FieldWeights<T> weights{R(0.25) * eta * mu * square * lambda, T(-R(0.25) * eta),
+                                -R(0.25) * mu * square, R(0.25) / lambda, -R(1)};
   return {field(weights, lambda, from_tip), log_scale};
 }
 
 template <class T>
 Scaled<T> sensor_numerator(const arm::LinearArm& arm, const arm::Sensor& sensor, const T& lambda) {
-  const auto ratios = inertia_ratios<RealOf<T>>(arm);
+  using R = RealOf<T>;
+  const auto ratios = inertia_ratios<R>(arm);
   switch (sensor.kind) {
     case arm::SensorKind::hub_angle:
     case arm::SensorKind::hub_velocity:
@@ -196,8 +197,7 @@ Scaled<T> sensor_numerator(const arm::LinearArm& arm, const arm::Sensor& sensor,
       return tip_deflection_numerator(ratios, lambda);
     case arm::SensorKind::strain:
       return curvature_numerator(
-          ratios, lambda,
-          static_cast<RealOf<T>>(distance_from_tip(arm.length_m, sensor.position_m)));
+          ratios, lambda, static_cast<R>(distance_from_tip(arm.length_m, sensor.position_m)));
   }
   throw std::logic_error("sensor kind outside its enumeration");
 }

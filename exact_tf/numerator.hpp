@@ -51,20 +51,21 @@ InertiaRatiosIn<R> inertia_ratios(const arm::LinearArm& arm);
 /// the poles of the arm with its hub held.
 template <class T>
 T hub_angle_value(const InertiaRatiosIn<RealOf<T>>& ratios, const BeamProducts<T>& k) {
-  const RealOf<T> eta = ratios.payload_mass;
-  const RealOf<T> mu = ratios.payload_inertia;
-  return RealOf<T>(0.5) * (k.one + k.k0) - k.z * (RealOf<T>(2) * eta * k.k3 + mu * k.k1) +
-         RealOf<T>(2) * eta * mu * k.z * k.z * k.k4;
+  using R = RealOf<T>;
+  const R eta = ratios.payload_mass;
+  const R mu = ratios.payload_inertia;
+  return R(0.5) * (k.one + k.k0) - k.z * (R(2) * eta * k.k3 + mu * k.k1) +
+         R(2) * eta * mu * k.z * k.z * k.k4;
 }
 
 /// Y = y''(0)/z = 2 K3 + 2 eta K2 + mu K0 - 2 eta mu z K3; log_scale = a + b. Its roots are the
 /// poles of the arm without hub inertia.
 template <class T>
 T hub_moment_value(const InertiaRatiosIn<RealOf<T>>& ratios, const BeamProducts<T>& k) {
-  const RealOf<T> eta = ratios.payload_mass;
-  const RealOf<T> mu = ratios.payload_inertia;
-  return RealOf<T>(2) * k.k3 + RealOf<T>(2) * eta * k.k2 + mu * k.k0 -
-         RealOf<T>(2) * eta * mu * k.z * k.k3;
+  using R = RealOf<T>;
+  const R eta = ratios.payload_mass;
+  const R mu = ratios.payload_inertia;
+  return R(2) * k.k3 + R(2) * eta * k.k2 + mu * k.k0 - R(2) * eta * mu * k.z * k.k3;
 }
 
 /// E = epsilon N_hub + Y, with E(0) = I_T/(m l^3); log_scale = a + b.

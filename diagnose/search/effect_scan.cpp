@@ -127,16 +127,22 @@ Fit EffectScan::look_in_place(const Candidate& candidate, std::size_t index,
                               const Hypothesis& other) const {
   Fit look = first_look(candidate.without(index), other);
   if (!other.contains(candidate.effects[index].effect)) return look;
-  std::optional<Fit> near_limit = look_from_limit(candidate, index, other);
+  std::optional<Fit> near_limit = look_with_limits_values(candidate, index, other);
   return near_limit && near_limit->sum_of_squares < look.sum_of_squares ? *near_limit : look;
 }
 
-std::optional<Fit> EffectScan::look_from_limit(const Candidate& limit, std::size_t index,
-                                               const Hypothesis& general) const {
-  const std::vector<SearchedParameter>& known = limit.effects[index].parameters;
-  const std::vector<double> known_values = limit.values_of(index);
+Fit EffectScan::look_from_limit(const Candidate& limited, std::size_t index,
+                                const Hypothesis& general) const {
+  const std::optional<Fit> look = look_with_limits_values(limited, index, general);
+  return look ? *look : look_in_place(limited, index, general);
+}
+
+std::optional<Fit> EffectScan::look_with_limits_values(const Candidate& limited, std::size_t index,
+                                                       const Hypothesis& general) const {
+  const std::vector<SearchedParameter>& known = limited.effects[index].parameters;
+  const std::vector<double> known_values = limited.values_of(index);
   std::vector<double> places = effects::coordinates_of(general.parameters, general.middle());
-  Candidate start = limit.without(index);
+  Candidate start = limited.without(index);
   const auto first = start.coordinates().size();
   std::vector<Index> scanned;
   for (std::size_t i = 0; i < places.size(); ++i) {

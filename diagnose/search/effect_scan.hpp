@@ -46,6 +46,10 @@ class EffectScan {
   /// The same for `other` in place of the `index`-th effect of `candidate`. Where that is a limit
   /// of it, looked for from there too: at the limit's values of the parameters that both have.
   Fit look_in_place(const Candidate& candidate, std::size_t index, const Hypothesis& other) const;
+  /// Of these the second look alone: with `general` in place of the `index`-th effect of
+  /// `limited`, a limit of it, and the limit's values of the parameters that both have; the others
+  /// are scanned. Where they have none in common, look_in_place.
+  Fit look_from_limit(const Candidate& limited, std::size_t index, const Hypothesis& general) const;
   /// HubLawScan::share of a law of hub torque, without a fit: the larger one of those in the longer
   /// and in the shorter part of the data. In the longer one the minima of a frequency are narrower,
   /// and the scan may miss them. Empty for effects that are not scanned in this way.
@@ -59,9 +63,9 @@ class EffectScan {
   Fit best_fit(const Problem& problem, const std::vector<Candidate>& starts) const;
   Fit best_from_scan(const Problem& problem, const Candidate& start,
                      const std::vector<Eigen::Index>& scanned) const;
-  /// Null where they have no parameter in common.
-  std::optional<Fit> look_from_limit(const Candidate& limit, std::size_t index,
-                                     const Hypothesis& general) const;
+  /// Empty where they have no parameter in common.
+  std::optional<Fit> look_with_limits_values(const Candidate& limited, std::size_t index,
+                                             const Hypothesis& general) const;
 
   const CoarseProblems& parts_;
   const SelectionOptions& options_;

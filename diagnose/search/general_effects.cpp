@@ -106,12 +106,14 @@ std::optional<GeneralEffects::LeastSums> GeneralEffects::least_sums(
   return made;
 }
 
-std::optional<Candidate> GeneralEffects::near_look(const Candidate& none,
-                                                   const std::vector<Explanation>& special,
-                                                   const std::optional<LeastSums>& least,
-                                                   const Hypothesis& general) const {
+std::optional<SetFits::Start> GeneralEffects::near_look(const Candidate& none,
+                                                        const std::vector<Explanation>& special,
+                                                        const std::optional<LeastSums>& least,
+                                                        const Hypothesis& general) const {
+  // What it must leave less is options_.least_information_gain and the price of its parameters.
+  const double least_gain = 0.5 * options_.least_information_gain;
   const EffectScan& scan = fits_.scan();
-  if (!least) return scan.first_look(none, general).candidate;
+  if (!least) return SetFits::Start{scan.first_look(none, general).candidate};
   const auto limit = std::ranges::find_if(
       special, [&](const Explanation& single) { return is_limit(single, general); });
   const bool has_limit = limit != special.end();
@@ -124,14 +126,18 @@ std::optional<Candidate> GeneralEffects::near_look(const Candidate& none,
       is_far(scan.early_look(none, general), *least->early)) {
     return std::nullopt;
   }
+  if (has_limit && limit->leaves_noise()) {
+    const Fit look = scan.look_from_limit(limit->fit.candidate, 0, general);
+    if (is_far(look, least->coarse)) return std::nullopt;
+    return SetFits::Start{look.candidate, limit->fit.sum_of_squares - least_gain};
+  }
   const Fit look = has_limit ? scan.look_in_place(limit->fit.candidate, 0, general)
                              : scan.first_look(none, general);
   if (is_far(look, least->coarse)) return std::nullopt;
-  if (has_limit && !limit->leaves_noise() &&
-      !is_ahead_of_limit(look, scan.coarse_look(limit->fit.candidate), options_)) {
+  if (has_limit && !is_ahead_of_limit(look, scan.coarse_look(limit->fit.candidate), options_)) {
     return std::nullopt;
   }
-  return look.candidate;
+  return SetFits::Start{look.candidate};
 }
 
 }  // namespace flexarm::diagnose

@@ -28,7 +28,9 @@ class GeneralEffects {
   /// before the rest. The rest is left out where nothing left noise before and one of these does.
   /// Each is looked for from the best of its limits, too, and is fitted to all data where it leaves
   /// no more than the best of the others (options.largest_of_general), of the early part first, and
-  /// is ahead of that limit (options.general_gain). Adds to made.singles; `what` and `to` as in
+  /// is ahead of that limit (options.general_gain). Where that limit leaves noise, it is looked for
+  /// from there alone, and a fit ends where it cannot leave less than the limit by half of
+  /// options.least_information_gain. Adds to made.singles; `what` and `to` as in
   /// SetFits::add_all. Throws Cancelled; SetFits::untried then has the labels of all that were not
   /// fitted.
   void try_by_themselves(Selection& made, std::string_view what, double to);
@@ -47,9 +49,10 @@ class GeneralEffects {
   std::optional<LeastSums> least_sums(const std::vector<Explanation>& special) const;
   /// Empty where it leaves more than the best of the special ones, of one part or the other, or is
   /// not ahead of its limit.
-  std::optional<Candidate> near_look(const Candidate& none, const std::vector<Explanation>& special,
-                                     const std::optional<LeastSums>& least,
-                                     const Hypothesis& general) const;
+  std::optional<SetFits::Start> near_look(const Candidate& none,
+                                          const std::vector<Explanation>& special,
+                                          const std::optional<LeastSums>& least,
+                                          const Hypothesis& general) const;
 
   const std::vector<Hypothesis>& hypotheses_;
   const SelectionOptions& options_;

@@ -6,6 +6,7 @@
 #include <unsupported/Eigen/NonLinearOptimization>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <utility>
@@ -22,6 +23,16 @@ namespace status = Eigen::LevenbergMarquardtSpace;
 constexpr double kStep = 1e-5;
 /// A Jacobian is updated where it predicted the change of the residuals to this part of that.
 constexpr double kPredicted = 0.3;
+/// The minimum is no further below than this times what a Jacobian leads to, near it.
+constexpr double kMostBeyond = 4.0;
+
+/// Part of the sum of squares that a Gauss-Newton step takes away.
+double explained(const Eigen::VectorXd& residuals, const Eigen::MatrixXd& jacobian) {
+  const Eigen::HouseholderQR<Eigen::MatrixXd> factors(jacobian);
+  const Eigen::VectorXd turned = factors.householderQ().adjoint() * residuals;
+  const auto rank = std::min(jacobian.rows(), jacobian.cols());
+  return turned.head(rank).squaredNorm();
+}
 
 /// Residuals by places, as the minimiser wants them.
 class DifferencedResiduals {
@@ -70,6 +81,13 @@ class DifferencedResiduals {
   const Eigen::VectorXd& residuals(const Eigen::VectorXd& places) { return at(places).residuals; }
   /// The last Jacobian is no quotient of differences.
   bool is_updated() const { return jacobian_ && jacobian_->is_updated; }
+  /// By the last Jacobian, where it was formed, the minimum is above that.
+  bool is_minimum_above(double sum_of_squares) const {
+    if (!std::isfinite(sum_of_squares)) return false;
+    const Eigen::VectorXd& residuals = jacobian_->at.residuals;
+    return residuals.squaredNorm() - kMostBeyond * explained(residuals, jacobian_->values) >
+           sum_of_squares;
+  }
   /// A step by an updated Jacobian led up.
   bool was_misled() const { return !updates_; }
 
@@ -134,10 +152,7 @@ class DifferencedResiduals {
 
 /// Whether a Gauss-Newton step would lower the sum of squares by no more than this part of it.
 bool is_least(const Eigen::VectorXd& residuals, const Eigen::MatrixXd& jacobian, double tolerance) {
-  const Eigen::HouseholderQR<Eigen::MatrixXd> factors(jacobian);
-  const Eigen::VectorXd turned = factors.householderQ().adjoint() * residuals;
-  const auto rank = std::min(jacobian.rows(), jacobian.cols());
-  return turned.head(rank).squaredNorm() <= tolerance * residuals.squaredNorm();
+  return explained(residuals, jacobian) <= tolerance * residuals.squaredNorm();
 }
 
 }  // namespace
@@ -150,13 +165,18 @@ LeastSquares least_squares(const ResidualsAt& residuals, const Eigen::VectorXd& 
   minimiser.parameters.ftol = options.tolerance;
   minimiser.parameters.xtol = options.tolerance;
   int steps = 0;
+  constexpr int kAgreeing = 2;
+  int above = 0;  // Jacobians, one after the other, whose minimum is out of reach
   while (start.size() > 0) {
     auto ended = minimiser.minimizeInit(made.places);
     while ((ended == status::Running || ended == status::NotStarted) &&
-           steps < options.most_steps) {
+           steps < options.most_steps && above < kAgreeing) {
       ++steps;
       ended = minimiser.minimizeOneStep(made.places);
+      above = differenced.is_minimum_above(options.highest_minimum) ? above + 1 : 0;
     }
+    made.is_out_of_reach = above == kAgreeing;
+    if (made.is_out_of_reach) break;
     made.converged = ended != status::Running && ended != status::ImproperInputParameters;
     if (!differenced.is_updated()) break;
     if (!options.is_differenced_at_end && !differenced.was_misled()) break;
@@ -166,7 +186,7 @@ LeastSquares least_squares(const ResidualsAt& residuals, const Eigen::VectorXd& 
     if (made.converged || steps == options.most_steps) break;
   }
   made.residuals = differenced.residuals(made.places);
-  if (options.is_differenced_at_end) {
+  if (options.is_differenced_at_end && !made.is_out_of_reach) {
     made.jacobian = differenced.differenced(made.places);
   } else {
     differenced.df(made.places, made.jacobian);

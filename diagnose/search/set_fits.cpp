@@ -55,18 +55,24 @@ void SetFits::add_looks(const std::vector<Fit>& looks, std::string_view what, do
                         std::vector<Explanation>& found) {
   std::vector<std::string> sets;
   for (const Fit& look : looks) sets.push_back(look.candidate.label());
-  add_all(std::move(sets), what, to, found, [&](std::size_t i) { return looks[i].candidate; });
+  add_all(std::move(sets), what, to, found,
+          [&](std::size_t i) { return Start{looks[i].candidate}; });
 }
 
 void SetFits::add_all(std::vector<std::string> sets, std::string_view what, double to,
                       std::vector<Explanation>& found,
-                      const std::function<std::optional<Candidate>(std::size_t)>& candidate) {
+                      const std::function<std::optional<Start>(std::size_t)>& start) {
   std::vector<std::optional<Explanation>> made(sets.size(), Explanation{});
   untried_ = std::move(sets);
   try {
     work_.in_parallel(made.size(), what, work_.done(), to, [&](std::size_t i) {
-      const auto start = candidate(i);
-      made[i] = start ? std::optional(fitted(*start)) : std::nullopt;
+      std::optional<Explanation> of_set;
+      if (const auto from = start(i)) {
+        Fit best = fit(problem_, from->candidate,
+                       {.highest_minimum = from->highest_minimum, .work = &work_});
+        if (!best.is_out_of_reach) of_set = explain(problem_, std::move(best));
+      }
+      made[i] = std::move(of_set);
     });
   } catch (const Cancelled&) {
     keep(std::move(made), found);

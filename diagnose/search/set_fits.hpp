@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -56,12 +57,17 @@ class SetFits {
   void add_near(std::vector<Fit> looks, std::size_t most, std::string_view what, double to,
                 std::vector<Explanation>& found);
 
-  /// Fits candidate(i) for the i-th of `sets`, which are their labels, and adds those that are
-  /// identified to `found`, the best first. Of the same set, begun from another, the better stays.
-  /// Where candidate(i) is empty, that set needs no fit.
+  /// Where a fit begins, and the sum of squares that it must come below to be of use.
+  struct Start {
+    Candidate candidate;
+    double highest_minimum = std::numeric_limits<double>::infinity();
+  };
+  /// Fits start(i) for the i-th of `sets`, which are their labels, and adds those that are
+  /// identified, and come below start(i).highest_minimum, to `found`, the best first. Of the same
+  /// set, begun from another, the better stays. Where start(i) is empty, that set needs no fit.
   void add_all(std::vector<std::string> sets, std::string_view what, double to,
                std::vector<Explanation>& found,
-               const std::function<std::optional<Candidate>(std::size_t)>& candidate);
+               const std::function<std::optional<Start>(std::size_t)>& start);
 
   /// Labels of the sets that were to be added last and were not fitted.
   const std::vector<std::string>& untried() const { return untried_; }

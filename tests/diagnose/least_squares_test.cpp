@@ -64,6 +64,20 @@ TEST(LeastSquares, FollowsABentValley) {
   EXPECT_NEAR(found.places(1), 1.0, 1e-6);
 }
 
+TEST(LeastSquares, EndsWhereTheMinimumIsOutOfReach) {
+  const auto residuals = [](const Eigen::VectorXd& places) { return decay(places, 0.1); };
+  const Eigen::Vector3d start(0.4, 0.6, 0.4);
+  const double least = least_squares(residuals, start).residuals.squaredNorm();
+  const LeastSquares reached = least_squares(residuals, start, {.highest_minimum = 1.001 * least});
+  EXPECT_FALSE(reached.is_out_of_reach);
+  EXPECT_TRUE(reached.converged);
+  EXPECT_NEAR(reached.residuals.squaredNorm(), least, 1e-6 * least);
+  const LeastSquares left = least_squares(residuals, start, {.highest_minimum = 0.5 * least});
+  EXPECT_TRUE(left.is_out_of_reach);
+  EXPECT_FALSE(left.converged);
+  EXPECT_LT(left.evaluations, reached.evaluations);
+}
+
 TEST(LeastSquares, WithoutStepsIsWhereItBegan) {
   const Eigen::Vector3d start(0.5, 0.5, 0.5);
   const LeastSquares found = least_squares(

@@ -1,5 +1,6 @@
 #include "arm/input_error.hpp"
 #include "response/time/arm_simulator.hpp"
+#include "response/time/lifted_filter.hpp"
 #include "response/time/sensor_readings.hpp"
 #include "response/time/simulation_input.hpp"
 #include "response/time/simulator_commands.hpp"
@@ -150,10 +151,37 @@ void ArmSimulator::follow(Commands& commands, const Eigen::MatrixXd& measured,
   });
 }
 
+FilteredRun ArmSimulator::filtered_in_blocks(const TorquePath& path, const Eigen::MatrixXd& torques,
+                                             const Eigen::MatrixXd& measured,
+                                             const FilterGains& gains) const {
+  Eigen::MatrixXd shown = Eigen::MatrixXd::Zero(2, states());
+  if (arm_.disturbance) shown(0, *arm_.disturbance) = arm_.disturbance_N_m;
+  shown.row(1) = plan_.velocity_row();
+  const bool is_white = parts_.disturbance && parts_.disturbance->is_white();
+  const LiftedFilter filter(interval_map(plan_, parts_, sensors_, path, times_),
+                            is_white ? arm_.disturbance : std::nullopt, shown);
+  const Eigen::MatrixXd followed = filter.follow(torques, measured, gains);
+  for (Index k = 0; k < followed.rows(); ++k) {
+    if (followed.row(k).allFinite()) continue;
+    throw too_large("filtered state", static_cast<double>(k) * options_.sample_time_s);
+  }
+  const auto column = [&](Index j) {
+    const auto values = followed.col(j);
+    return std::vector<double>(values.begin(), values.end());
+  };
+  return {followed.leftCols(measured.cols()), column(measured.cols()), column(measured.cols() + 1)};
+}
+
 FilteredRun ArmSimulator::filtered(std::span<const double> torque_N_m,
                                    const Eigen::MatrixXd& measured,
                                    const FilterGains& gains) const {
   Commands commands(*this, torque_N_m);
+  const bool is_whole = !measured.hasNaN() && times_.longest_samples() == 0;
+  if (lifted_ && is_whole) {
+    if (const auto torques = commands.path().whole_parts(0)) {
+      return filtered_in_blocks(commands.path(), *torques, measured, gains);
+    }
+  }
   FilteredRun made{.innovations = {measured.rows(), measured.cols()}};
   follow(commands, measured, gains, [&](const FilteredSample& now) {
     const Eigen::VectorXd& state = now.stepper.state();

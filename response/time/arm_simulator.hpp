@@ -142,6 +142,10 @@ class ArmSimulator {
   void follow(Commands& commands, const Eigen::MatrixXd& measured, const FilterGains& gains,
               AtSample at_sample) const;
 
+  /// `filtered` of a linear arm whose sensors have no delay, without missing readings.
+  FilteredRun filtered_in_blocks(const TorquePath& path, const Eigen::MatrixXd& torques,
+                                 const Eigen::MatrixXd& measured, const FilterGains& gains) const;
+
   Simulation run(Commands& commands, const SimulationProgress& progress) const;
   /// With the `torques` of an open loop (TorquePath::whole_parts from first_interval on) by
   /// `blocks_` where the hub surely turns; step by step where they are null.

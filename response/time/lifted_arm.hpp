@@ -15,7 +15,8 @@ class LiftedArm {
   /// `plan` is of a linear arm; see lifted_block.
   LiftedArm(const StepPlan& plan, const ArmParts& parts, std::span<const arm::Sensor> sensors,
             const TorquePath& path, const ReadingTimes& times)
-      : times_(times), block_(lifted_block(plan, parts, sensors, path, times, kSamples)) {}
+      : times_(times),
+        block_(lifted_block(interval_map(plan, parts, sensors, path, times), kSamples)) {}
 
   /// Writes to `made`, a row a sample and a column a sensor, what is read in the sample intervals
   /// from `first` on, which may be before 0, with the state `initial` at the beginning of that.

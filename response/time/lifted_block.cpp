@@ -10,21 +10,8 @@ namespace {
 
 using Eigen::Index;
 
-/// Rows that are linear in X and the torques at the beginning of a sample interval, and in c.
-struct AffineRows {
-  Eigen::MatrixXd state;
-  Eigen::MatrixXd torques;
-  Eigen::MatrixXd constants;
-};
-
-/// What a sample interval does: X at its end, and what is read in it.
-struct IntervalMap {
-  AffineRows end;
-  AffineRows readings;
-};
-
-AffineRows rows(Index count, Index states, Index torques) {
-  return {Eigen::MatrixXd::Zero(count, states), Eigen::MatrixXd::Zero(count, torques),
+AffineRows rows(Index count, Index states, Index inputs) {
+  return {Eigen::MatrixXd::Zero(count, states), Eigen::MatrixXd::Zero(count, inputs),
           Eigen::MatrixXd::Zero(count, 2)};
 }
 
@@ -32,8 +19,8 @@ AffineRows rows(Index count, Index states, Index torques) {
 void read(const Reading& reading, const AffineRows& now, Index column,
           const Eigen::MatrixXd& forces, Index row, AffineRows& readings) {
   readings.state.row(row).noalias() = reading.state * now.state;
-  readings.torques.row(row).noalias() = reading.state * now.torques;
-  readings.torques(row, column) += reading.actuator;
+  readings.inputs.row(row).noalias() = reading.state * now.inputs;
+  readings.inputs(row, column) += reading.actuator;
   readings.constants.row(row) += reading.state * now.constants + reading.force * forces;
 }
 
@@ -44,8 +31,8 @@ void step(const StepTable& table, const Eigen::RowVectorXd& begin, const Eigen::
   const Index n = now.state.rows();
   const auto by_state = table.end.leftCols(n);
   now.state = by_state * now.state;
-  now.torques = by_state * now.torques;
-  now.torques.middleCols(column, begin.size()) +=
+  now.inputs = by_state * now.inputs;
+  now.inputs.middleCols(column, begin.size()) +=
       table.end.col(n) * begin + table.end.col(n + 1) * end;
   now.constants = by_state * now.constants + table.end.col(n + 2) * force;
 }
@@ -54,37 +41,6 @@ void step(const StepTable& table, const Eigen::RowVectorXd& begin, const Eigen::
 Eigen::RowVectorXd torque_in_part(double passed, Index torques_of_part) {
   if (torques_of_part == 1) return Eigen::RowVectorXd::Ones(1);
   return Eigen::RowVector2d(1.0 - passed, passed);
-}
-
-IntervalMap interval_map(const StepPlan& plan, const TorquePath& path, const ReadingTimes& times,
-                         const Eigen::VectorXd& offsets) {
-  const LinearSystem& system = plan.arm().turning;
-  const Index states = plan.arm().size();
-  const auto parts = path.edges().size() - 1;
-  const Index of_part = path.torques_of_part();
-  const Index torques = static_cast<Index>(parts) * of_part;
-  const Eigen::MatrixXd forces = constant_forces(plan.forces());
-  AffineRows now = rows(states, states, torques);
-  now.state.setIdentity();
-  const Index watched = plan.forces().has_friction() ? 1 : 0;
-  AffineRows readings = rows(offsets.size() + watched, states, torques);
-  readings.constants.col(0).head(offsets.size()) = offsets;
-  if (watched > 0) readings.state.bottomRows(1) = plan.velocity_row();
-  for (std::size_t part = 0; part < parts; ++part) {
-    const Index column = static_cast<Index>(part) * of_part;
-    for (std::size_t j = 0; j < system.sensors.size(); ++j) {
-      if (path.part_from(times.sensors[j].at) != part) continue;
-      read(system.sensors[j], now, column, forces, static_cast<Index>(j), readings);
-    }
-    const Steps& steps = plan.regular(part).unsettled;
-    for (int i = 0; i < steps.count; ++i) {
-      const auto at = [&](int behind) {
-        return torque_in_part(static_cast<double>(behind) / steps.count, of_part);
-      };
-      step(steps.turning, at(i), at(i + 1), column, forces.row(0), now);
-    }
-  }
-  return {std::move(now), std::move(readings)};
 }
 
 }  // namespace
@@ -102,27 +58,57 @@ Eigen::MatrixXd constant_forces(const AddedForces& forces) {
   return made;
 }
 
-LiftedBlock lifted_block(const StepPlan& plan, const ArmParts& parts,
+IntervalMap interval_map(const StepPlan& plan, const ArmParts& parts,
                          std::span<const arm::Sensor> sensors, const TorquePath& path,
-                         const ReadingTimes& times, Index samples) {
+                         const ReadingTimes& times) {
   Eigen::VectorXd offsets(static_cast<Index>(sensors.size()));
   for (std::size_t j = 0; j < sensors.size(); ++j) {
     offsets(static_cast<Index>(j)) = chain_of(parts.sensor_chains, sensors[j]).offset;
   }
-  const auto [end, readings] = interval_map(plan, path, times, offsets);
+  const LinearSystem& system = plan.arm().turning;
+  const Index states = plan.arm().size();
+  const auto part_count = path.edges().size() - 1;
+  const Index of_part = path.torques_of_part();
+  const Index torques = static_cast<Index>(part_count) * of_part;
+  const Eigen::MatrixXd forces = constant_forces(plan.forces());
+  AffineRows now = rows(states, states, torques);
+  now.state.setIdentity();
+  const Index watched = plan.forces().has_friction() ? 1 : 0;
+  AffineRows readings = rows(offsets.size() + watched, states, torques);
+  readings.constants.col(0).head(offsets.size()) = offsets;
+  if (watched > 0) readings.state.bottomRows(1) = plan.velocity_row();
+  for (std::size_t part = 0; part < part_count; ++part) {
+    const Index column = static_cast<Index>(part) * of_part;
+    for (std::size_t j = 0; j < system.sensors.size(); ++j) {
+      if (path.part_from(times.sensors[j].at) != part) continue;
+      read(system.sensors[j], now, column, forces, static_cast<Index>(j), readings);
+    }
+    const Steps& steps = plan.regular(part).unsettled;
+    for (int i = 0; i < steps.count; ++i) {
+      const auto at = [&](int behind) {
+        return torque_in_part(static_cast<double>(behind) / steps.count, of_part);
+      };
+      step(steps.turning, at(i), at(i + 1), column, forces.row(0), now);
+    }
+  }
+  return {std::move(now), std::move(readings)};
+}
+
+LiftedBlock lifted_block(const IntervalMap& interval, Index samples) {
+  const auto& [end, readings] = interval;
   const Index states = end.state.rows();
-  const Index torques = end.torques.cols();
+  const Index inputs = end.inputs.cols();
   const Index count = readings.state.rows();
 
   LiftedBlock made{.end_by_state = end.state,
-                   .end_by_torques = Eigen::MatrixXd(states, samples * torques),
+                   .end_by_inputs = Eigen::MatrixXd(states, samples * inputs),
                    .end_by_constants = Eigen::MatrixXd::Zero(states, 2),
                    .readings_by_state = Eigen::MatrixXd(samples * count, states),
-                   .readings_by_torques = Eigen::MatrixXd::Zero(samples * count, samples * torques),
+                   .readings_by_inputs = Eigen::MatrixXd::Zero(samples * count, samples * inputs),
                    .readings_by_constants = Eigen::MatrixXd(samples * count, 2)};
-  // What the torques of an interval do to X, and to the readings, so many intervals later.
-  Eigen::MatrixXd carried = end.torques;
-  std::vector<Eigen::MatrixXd> responses = {readings.torques};
+  // What the inputs of an interval do to X, and to the readings, so many intervals later.
+  Eigen::MatrixXd carried = end.inputs;
+  std::vector<Eigen::MatrixXd> responses = {readings.inputs};
   Eigen::MatrixXd seen = readings.state;  // of X at the beginning of the block
   for (Index i = 0; i < samples; ++i) {
     for (Index j = 0; j < count; ++j) {
@@ -131,11 +117,11 @@ LiftedBlock lifted_block(const StepPlan& plan, const ArmParts& parts,
       made.readings_by_constants.row(row) =
           readings.constants.row(j) + readings.state.row(j) * made.end_by_constants;
       for (Index k = 0; k <= i; ++k) {
-        made.readings_by_torques.block(row, k * torques, 1, torques) =
+        made.readings_by_inputs.block(row, k * inputs, 1, inputs) =
             responses[static_cast<std::size_t>(i - k)].row(j);
       }
     }
-    made.end_by_torques.middleCols((samples - 1 - i) * torques, torques) = carried;
+    made.end_by_inputs.middleCols((samples - 1 - i) * inputs, inputs) = carried;
     responses.emplace_back(readings.state * carried);
     carried = end.state * carried;
     seen = seen * end.state;
@@ -143,6 +129,34 @@ LiftedBlock lifted_block(const StepPlan& plan, const ArmParts& parts,
   }
   for (Index known = 1; known < samples; known *= 2) {
     made.end_by_state = Eigen::MatrixXd(made.end_by_state * made.end_by_state);
+  }
+  return made;
+}
+
+Eigen::MatrixXd read_in_blocks(const LiftedBlock& block, Index samples,
+                               const Eigen::MatrixXd& inputs, const Eigen::VectorXd& initial) {
+  const Index intervals = inputs.cols();
+  const Index blocks = (intervals + samples - 1) / samples;
+  Eigen::MatrixXd of_blocks = Eigen::MatrixXd::Zero(samples * inputs.rows(), blocks);
+  of_blocks.reshaped().head(inputs.size()) = inputs.reshaped();
+  Eigen::MatrixXd states(initial.size(), blocks);
+  if (blocks > 0) states.col(0) = initial;
+  if (blocks > 1) {
+    auto ends = states.rightCols(blocks - 1);
+    ends.noalias() = block.end_by_inputs * of_blocks.leftCols(blocks - 1);
+    ends.colwise() += block.end_by_constants.col(0);
+  }
+  for (Index b = 1; b < blocks; ++b) {
+    states.col(b).noalias() += block.end_by_state * states.col(b - 1);
+  }
+  Eigen::MatrixXd read = block.readings_by_state * states;
+  read.noalias() += block.readings_by_inputs * of_blocks;
+  read.colwise() += block.readings_by_constants.col(0);
+  const Index count = read.rows() / samples;
+  Eigen::MatrixXd made(intervals, count);
+  for (Index j = 0; j < count; ++j) {
+    const Eigen::MatrixXd of_reading = read.middleRows(j * samples, samples);
+    made.col(j) = of_reading.reshaped().head(intervals);
   }
   return made;
 }

@@ -13,30 +13,52 @@
 
 namespace flexarm::response {
 
-/// An arm whose hub turns one way, or has no friction, over a block of samples at once: the lifted
-/// system [Bamieh1991]. With X at the beginning of the block, the torques of its samples
-/// (TorquePath::whole_parts, one sample after the other) and c = (1; direction(motion)), X at its
-/// end and the readings in it are sums of three products. The state is formed once a block, not at
-/// each sample.
+/// Rows that are linear in X at the beginning of a sample interval, in the inputs of the interval
+/// and in c = (1; direction(motion)).
+struct AffineRows {
+  Eigen::MatrixXd state;
+  Eigen::MatrixXd inputs;
+  Eigen::MatrixXd constants;  ///< 2 columns
+};
+
+/// What a sample interval does.
+struct IntervalMap {
+  AffineRows end;       ///< X at its end
+  AffineRows readings;  ///< what is read in it
+};
+
+/// Of an arm whose hub turns one way, or has no friction. The inputs are the torques of the
+/// interval (TorquePath::whole_parts); behind the sensors the velocity of the hub is read where the
+/// arm has friction. `plan` is of an arm whose forces are constant for each motion, with no ledger;
+/// `path` and `times` are those of any run of it.
+IntervalMap interval_map(const StepPlan& plan, const ArmParts& parts,
+                         std::span<const arm::Sensor> sensors, const TorquePath& path,
+                         const ReadingTimes& times);
+
+/// A block of sample intervals at once: the lifted system [Bamieh1991]. With X at the beginning of
+/// the block, the inputs of its intervals, one after the other, and c, X at its end and the
+/// readings in it are sums of three products. The state is formed once a block, not at each sample.
 struct LiftedBlock {
   Eigen::MatrixXd end_by_state;
-  Eigen::MatrixXd end_by_torques;
+  Eigen::MatrixXd end_by_inputs;
   Eigen::MatrixXd end_by_constants;
-  /// Of all samples of the first sensor, then of the next one; behind the sensors the velocity of
-  /// the hub where the arm has friction. Of a sample is what is read in its interval.
+  /// Of all intervals for the first reading, then for the next one.
   Eigen::MatrixXd readings_by_state;
-  Eigen::MatrixXd readings_by_torques;
+  Eigen::MatrixXd readings_by_inputs;
   Eigen::MatrixXd readings_by_constants;
 };
 
+/// `samples` is a power of 2.
+LiftedBlock lifted_block(const IntervalMap& interval, Eigen::Index samples);
+
+/// The readings of block after block with c = (1; 0), from the state `initial` on: a row an
+/// interval and a column a reading, for `inputs` with a column an interval. `block` is of
+/// `samples`.
+Eigen::MatrixXd read_in_blocks(const LiftedBlock& block, Eigen::Index samples,
+                               const Eigen::MatrixXd& inputs, const Eigen::VectorXd& initial);
+
 /// LinearSystem's f of an arm whose forces are constant for each motion, by c: m rows, 2 columns.
 Eigen::MatrixXd constant_forces(const AddedForces& forces);
-
-/// `plan` is of an arm whose forces are constant for each motion, with no ledger; `path` and
-/// `times` are those of any run of it; `samples` is a power of 2.
-LiftedBlock lifted_block(const StepPlan& plan, const ArmParts& parts,
-                         std::span<const arm::Sensor> sensors, const TorquePath& path,
-                         const ReadingTimes& times, Eigen::Index samples);
 
 /// Writes what a sensor reads in the sample intervals from `first` on, which may be before 0, to
 /// its column of `made`, a row a sample: `samples_later` as ReadingTimes has it.

@@ -18,7 +18,7 @@ TurningBlocks::TurningBlocks(const StepPlan& plan, const ArmParts& parts,
                              std::span<const arm::Sensor> sensors, const TorquePath& path,
                              const ReadingTimes& times)
     : times_(times),
-      block_(lifted_block(plan, parts, sensors, path, times, kSamples)),
+      block_(lifted_block(interval_map(plan, parts, sensors, path, times), kSamples)),
       plan_(&plan),
       forces_(constant_forces(plan.forces())) {}
 
@@ -47,10 +47,10 @@ bool TurningBlocks::Run::go(const Eigen::MatrixXd& torques, std::ptrdiff_t first
   inputs_ = torques.row(0).segment(k - first, kSamples).transpose();
   end_.noalias() = block.end_by_constants * constants;
   end_.noalias() += block.end_by_state * x;
-  end_.noalias() += block.end_by_torques * inputs_;
+  end_.noalias() += block.end_by_inputs * inputs_;
   readings_.noalias() = block.readings_by_constants * constants;
   readings_.noalias() += block.readings_by_state * x;
-  readings_.noalias() += block.readings_by_torques * inputs_;
+  readings_.noalias() += block.readings_by_inputs * inputs_;
   if (!surely_turns(direction, x) || !readings_.allFinite()) return false;
   for (Index j = 0; j < made.cols(); ++j) {
     put_readings(readings_.segment(j * kSamples, kSamples), k,

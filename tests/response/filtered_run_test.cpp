@@ -246,6 +246,48 @@ TEST_F(FilteredRunTest, SoAreTheFirstOfSensorsAsTheyAre) {
   expect_stated_covariance_from_an_unknown_state();
 }
 
+/// A run without missing readings is filtered in blocks of samples; where the last reading is
+/// missing from sample to sample.
+TEST_F(FilteredRunTest, IsTheSameInBlocksAsFromSampleToSample) {
+  constexpr double kRounding = 1e-9;  // of noise and signals of the order of 1e-3 to 1
+  arm_.effects.insert(effects::named("sensor_gain", {{"factor", 1.3}}, "hub_angle"));
+  arm_.effects.insert(effects::named("sensor_offset", {{"value", 0.2}}, "hub_velocity"));
+  arm_.effects.insert(effects::named("sensor_lag", {{"time_constant", 3e-3}}, "hub_velocity"));
+  arm_.effects.insert(effects::named("actuator_lag", {{"time_constant", 4e-3}}));
+  arm_.effects.insert(effects::named("time_delay", {{"delay", 1.3 * kFilteredStep_s}}));
+  arm_.effects.insert(effects::named("torque_bias", {{"torque", 5e-3}}));
+  torque_.resize(kFilteredSamples - 3);
+  RandomNumbers random(6);
+  for (const double correlation_s : {kCorrelation_s, 0.0}) {
+    correlation_s_ = correlation_s;
+    make();
+    Eigen::MatrixXd measured = simulator_->readings(torque_);
+    for (Index j = 0; j < measured.cols(); ++j) {
+      for (double& value : measured.col(j)) value += deviations_(j) * random.normal();
+    }
+    const auto system = simulator_->sampled({kDisturbance_N_m}, deviations_);
+    const Eigen::MatrixXd unknown =
+        Eigen::MatrixXd::Identity(simulator_->states(), simulator_->states());
+    const FilterGains from_unknown = filter_gains_from(system, unknown, torque_.size());
+    ASSERT_FALSE(from_unknown.first.empty());
+    for (const FilterGains& gains : {steady(), from_unknown}) {
+      const FilteredRun in_blocks = simulator_->filtered(torque_, measured, gains);
+      Eigen::MatrixXd without_last = measured;
+      without_last.bottomRows(1).setConstant(std::numeric_limits<double>::quiet_NaN());
+      const FilteredRun stepped = simulator_->filtered(torque_, without_last, gains);
+      const Index others = measured.rows() - 1;
+      EXPECT_LE((in_blocks.innovations - stepped.innovations).topRows(others).cwiseAbs().maxCoeff(),
+                kRounding);
+      for (std::size_t k = 0; k < static_cast<std::size_t>(others); ++k) {
+        ASSERT_NEAR(in_blocks.disturbance_N_m[k], stepped.disturbance_N_m[k], kRounding) << k;
+        ASSERT_NEAR(in_blocks.hub_velocity_rad_per_s[k], stepped.hub_velocity_rad_per_s[k],
+                    kRounding)
+            << k;
+      }
+    }
+  }
+}
+
 TEST_F(FilteredRunTest, AMissingReadingHasNoInnovationAndMovesNothing) {
   make();
   const FilterGains gains = steady();

@@ -32,7 +32,8 @@ class LiftedFilter {
   /// The system above with this gain.
   IntervalMap with(const FilterGain& filter) const;
 
-  static constexpr Eigen::Index kSamples = 16;
+  /// Products with the readings grow with it, those with the state fall.
+  static constexpr Eigen::Index kSamples = 8;
 
   IntervalMap interval_;
   Eigen::MatrixXd shown_;

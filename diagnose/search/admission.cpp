@@ -33,16 +33,6 @@ Eigen::VectorXd errors_of_least_squares(const Explanation& explanation) {
   });
 }
 
-/// The distance of a coordinate from where its effect does nothing, or from where nothing is known
-/// of it.
-double significant_distance(const SearchedParameter& parameter, double coordinate) {
-  if (const auto neutral = parameter.neutral_coordinate()) return std::abs(coordinate - *neutral);
-  if (parameter.spacing == effects::Spacing::logarithmic) {
-    return 1.0 / std::log(parameter.highest / parameter.lowest);  // a change by the value itself
-  }
-  return 0.5;
-}
-
 }  // namespace
 
 std::optional<std::size_t> unidentified_effect(const Candidate& candidate,
@@ -56,7 +46,7 @@ std::optional<std::size_t> unidentified_effect(const Candidate& candidate,
       const double place = coordinates(at);
       const double may_be = kMayBe * errors(at);
       const bool is_inside = place + may_be > kAtEnd && place - may_be < 1.0 - kAtEnd;
-      const bool is_significant = errors(at) < significant_distance(parameter, place);
+      const bool is_significant = errors(at) < parameter.size(place);
       if (!is_significant || !(parameter.periodic || is_inside)) return i;
       ++at;
     }

@@ -57,6 +57,17 @@ std::optional<double> SearchedParameter::neutral_coordinate() const {
   return coordinate(*neutral);
 }
 
+double SearchedParameter::size(double coordinate) const {
+  const auto of_growing = [coordinate](double low, double high) {
+    const double rate = std::log1p(high / low);
+    return -std::expm1(-rate * coordinate) / rate;
+  };
+  if (spacing == Spacing::from_zero) return of_growing(lowest, highest);
+  if (spacing == Spacing::from_infinity) return of_growing(1.0 / highest, 1.0 / lowest);
+  if (neutral) return std::abs(coordinate - *neutral_coordinate());
+  return spacing == Spacing::logarithmic ? 1.0 / std::log(highest / lowest) : 0.5;
+}
+
 std::vector<double> values_at(std::span<const SearchedParameter> parameters,
                               std::span<const double> coordinates) {
   std::vector<double> values;

@@ -17,7 +17,7 @@ inline constexpr std::string_view kSensorUnit = "unit of the sensor";
 
 /// Sizes by which a parameter of an effect is small or large in an experiment.
 struct Scales {
-  arm::Arm arm;                      ///< as its file has it
+  arm::Arm arm;  ///< as its file has it
   /// Its linear equations; of a rigid hub with a beam whose sizes are those of hub and runs.
   arm::LinearArm beam;
   std::vector<arm::Sensor> sensors;  ///< of `time` and `frf` runs
@@ -67,6 +67,11 @@ struct SearchedParameter {
   double coordinate(double value) const;
   /// The coordinate where the effect does nothing, if the parameter has one.
   std::optional<double> neutral_coordinate() const;
+  /// What a coordinate there is from where the effect does nothing. From zero, and for the
+  /// reciprocal from infinity, it is by the derivative there: the standard error of the coordinate
+  /// is a part of this as that of the value is of the value. Where there is no such place it is
+  /// that of the value itself, or half of a linear range.
+  double size(double coordinate) const;
 
   bool operator==(const SearchedParameter&) const = default;
 };

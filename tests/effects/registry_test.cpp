@@ -107,6 +107,27 @@ TEST(Registry, ANeutralValueIsOneAtWhichTheSearchSaysThatNothingIsDone) {
   }
 }
 
+TEST(Registry, TheSizeOfACoordinateIsThatOfItsValueByTheDerivative) {
+  const SearchedParameter from_zero{"torque", 3e-3, 3.0, Spacing::from_zero};
+  const SearchedParameter from_infinity{"stiffness", 2.0, 5e3, Spacing::from_infinity};
+  const SearchedParameter logarithmic{"time", 1e-3, 1.0, Spacing::logarithmic};
+  constexpr double kStep = 1e-6;
+  constexpr double kOfQuotients = 1e-5;
+  for (const double at : {0.05, 0.4, 0.9}) {
+    const auto change = [at](const auto& value) {
+      return (value(at + kStep) - value(at - kStep)) / (2.0 * kStep);
+    };
+    const auto torque = [&](double place) { return from_zero.value(place); };
+    EXPECT_NEAR(from_zero.size(at) * change(torque) / torque(at), 1.0, kOfQuotients) << at;
+    const auto compliance = [&](double place) { return 1.0 / from_infinity.value(place); };
+    EXPECT_NEAR(from_infinity.size(at) * change(compliance) / compliance(at), 1.0, kOfQuotients) << at;
+    const auto time = [&](double place) { return logarithmic.value(place); };
+    EXPECT_NEAR(logarithmic.size(at) * change(time) / time(at), 1.0, kOfQuotients) << at;
+  }
+  const SearchedParameter with_neutral{"factor", 0.5, 2.5, Spacing::linear, false, 1.0};
+  EXPECT_DOUBLE_EQ(with_neutral.size(0.75), 0.5);
+}
+
 TEST(Registry, RefusesAnUnknownNameWithWhatWasMeant) {
   try {
     effect("coulomb_frction", {});

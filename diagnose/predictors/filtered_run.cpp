@@ -67,27 +67,8 @@ void for_each_filter(const response::FilterGains& gains, Index samples, const Us
   if (samples > begun) use(gains.steady, begun, samples - begun);
 }
 
-}  // namespace
-
-response::FilterGains filter_gains(const response::ArmSimulator& simulation,
-                                   const RecordedRun& run) {
-  const response::SampledSystem sampled = simulation.sampled(run.process, run.deviations);
-  if (!run.starts_free) return {{}, response::filter_gain(sampled)};
-  const std::size_t samples = run.torque_N_m.size();
-  const Eigen::VectorXd deviations =
-      run.deviations.transpose().replicate(static_cast<Index>(samples), 1).reshaped();
-  const Eigen::VectorXd prior =
-      prior_of_state(simulation.free_readings(samples), deviations, run.values);
-  Eigen::MatrixXd covariance =
-      Eigen::MatrixXd::Zero(sampled.transition.rows(), sampled.transition.cols());
-  covariance.diagonal().head(prior.size()) = prior.cwiseAbs2();
-  for (auto step = simulation.lead(samples); step > 0; --step) {
-    covariance = response::covariance_after_step(sampled, covariance);
-  }
-  return response::filter_gains_from(sampled, covariance, samples);
-}
-
-double log_determinant(const response::FilterGains& gains, const RecordedRun& run) {
+/// Sum of ln |S| over the samples.
+double sum_of_log_determinants(const response::FilterGains& gains, const RecordedRun& run) {
   double sum = 0.0;
   for_each_filter(gains, std::ssize(run.torque_N_m),
                   [&](const response::FilterGain& filter, Index /*first*/, Index count) {
@@ -103,29 +84,55 @@ double log_determinant(const response::FilterGains& gains, const RecordedRun& ru
   return sum;
 }
 
-RunInnovations filter_run(const response::ArmSimulator& simulation, const RecordedRun& run) {
+response::FilterGains gains_of(const response::ArmSimulator& simulation,
+                               const response::SampledSystem& system, const RecordedRun& run) {
+  if (!run.starts_free) return {{}, response::filter_gain(system)};
+  const std::size_t samples = run.torque_N_m.size();
+  const Eigen::VectorXd deviations =
+      run.deviations.transpose().replicate(static_cast<Index>(samples), 1).reshaped();
+  const Eigen::VectorXd prior =
+      prior_of_state(simulation.free_readings(samples), deviations, run.values);
+  Eigen::MatrixXd covariance =
+      Eigen::MatrixXd::Zero(system.transition.rows(), system.transition.cols());
+  covariance.diagonal().head(prior.size()) = prior.cwiseAbs2();
+  for (auto step = simulation.lead(samples); step > 0; --step) {
+    covariance = response::covariance_after_step(system, covariance);
+  }
+  return response::filter_gains_from(system, covariance, samples);
+}
+
+}  // namespace
+
+RunFilter run_filter(const response::ArmSimulator& simulation,
+                     const response::SampledSystem& system, const RecordedRun& run) {
+  RunFilter made{.gains = gains_of(simulation, system, run)};
+  made.log_determinant = sum_of_log_determinants(made.gains, run);
+  return made;
+}
+
+RunInnovations filter_run(const response::ArmSimulator& simulation, const RecordedRun& run,
+                          const RunFilter& filter) {
   const auto samples = static_cast<Index>(run.torque_N_m.size());
   const Eigen::MatrixXd measured = measured_or_missing(run);
-  const response::FilterGains gains = filter_gains(simulation, run);
+  const response::FilterGains& gains = filter.gains;
   RunInnovations made;
   made.filtered = simulation.filtered(run.torque_N_m, measured, gains);
   made.count = measured.size() - std::ssize(run.missing);
-  made.log_determinant = log_determinant(gains, run);
+  made.log_determinant = filter.log_determinant;
   const auto order = hub_first(run);
   Eigen::MatrixXd standardised(samples, measured.cols());
-  for_each_filter(
-      gains, samples, [&](const response::FilterGain& filter, Index first, Index count) {
-        const auto covariance = factor(order * filter.innovation_covariance * order.transpose());
-        const Eigen::MatrixXd innovations =
-            order * made.filtered.innovations.middleRows(first, count).transpose();
-        standardised.middleRows(first, count) =
-            (order.transpose() * covariance.matrixL().solve(innovations)).transpose();
-      });
+  for_each_filter(gains, samples, [&](const response::FilterGain& gain, Index first, Index count) {
+    const auto covariance = factor(order * gain.innovation_covariance * order.transpose());
+    const Eigen::MatrixXd innovations =
+        order * made.filtered.innovations.middleRows(first, count).transpose();
+    standardised.middleRows(first, count) =
+        (order.transpose() * covariance.matrixL().solve(innovations)).transpose();
+  });
   for (const auto& [sample, there] : readings_beside_missing(run)) {
     standardised.row(sample).setZero();
     if (there.empty()) continue;
-    const response::FilterGain& filter = gains.at(static_cast<std::size_t>(sample));
-    const auto covariance = factor(filter.innovation_covariance(there, there));
+    const response::FilterGain& gain = gains.at(static_cast<std::size_t>(sample));
+    const auto covariance = factor(gain.innovation_covariance(there, there));
     const Eigen::VectorXd innovations = made.filtered.innovations.row(sample)(there).transpose();
     standardised.row(sample)(there) = covariance.matrixL().solve(innovations).transpose();
   }
@@ -134,9 +141,8 @@ RunInnovations filter_run(const response::ArmSimulator& simulation, const Record
 }
 
 response::ErrorsAhead run_ahead(const response::ArmSimulator& simulation, const RecordedRun& run,
-                                const response::StartsAhead& starts) {
-  return simulation.errors_ahead(run.torque_N_m, measured_or_missing(run),
-                                 filter_gains(simulation, run), starts);
+                                const RunFilter& filter, const response::StartsAhead& starts) {
+  return simulation.errors_ahead(run.torque_N_m, measured_or_missing(run), filter.gains, starts);
 }
 
 }  // namespace flexarm::diagnose

@@ -79,7 +79,8 @@ Predictor::Predictor(const Experiment& experiment, const Observations& observati
       flexible_modes_(flexible_modes),
       observations_(observations),
       noise_(std::move(noise)),
-      models_(std::make_shared<ModalModels>(flexible_modes)) {
+      models_(std::make_shared<ModalModels>(flexible_modes)),
+      filters_(std::make_shared<RunFilters>(experiment.runs.size())) {
   for (std::size_t r = 0; r < experiment.runs.size(); ++r) {
     const auto& [run, data] = experiment.runs[r];
     const auto* record = std::get_if<measured::TimeRecord>(&data);
@@ -104,7 +105,7 @@ Predictor::Predictor(const Experiment& experiment, const Observations& observati
   for_each_time_run(experiment.arm, std::vector<bool>(experiment.runs.size(), true), &*noise_,
                     [&](std::size_t r, const response::ArmSimulator& simulation) {
                       const RecordedRun run = recorded(r, *noise_);
-                      log_determinants_[r] = log_determinant(filter_gains(simulation, run), run);
+                      log_determinants_[r] = filters_->of(r, simulation, run)->log_determinant;
                     });
 }
 
@@ -228,7 +229,8 @@ std::vector<RunInnovations> Predictor::innovations(const arm::Arm& arm,
   std::vector<RunInnovations> made(runs.size());
   for_each_time_run(arm, runs, &noise,
                     [&](std::size_t r, const response::ArmSimulator& simulation) {
-                      made[r] = filter_run(simulation, recorded(r, noise));
+                      const RecordedRun run = recorded(r, noise);
+                      made[r] = filter_run(simulation, run, *filters_->of(r, simulation, run));
                     });
   return made;
 }
@@ -237,10 +239,11 @@ std::vector<response::ErrorsAhead> Predictor::errors_ahead(
     const arm::Arm& arm, const std::vector<bool>& runs,
     const std::vector<response::StartsAhead>& starts) const {
   std::vector<response::ErrorsAhead> made(runs.size());
-  for_each_time_run(arm, runs, &*noise_,
-                    [&](std::size_t r, const response::ArmSimulator& simulation) {
-                      made[r] = run_ahead(simulation, recorded(r, *noise_), starts[r]);
-                    });
+  for_each_time_run(
+      arm, runs, &*noise_, [&](std::size_t r, const response::ArmSimulator& simulation) {
+        const RecordedRun run = recorded(r, *noise_);
+        made[r] = run_ahead(simulation, run, *filters_->of(r, simulation, run), starts[r]);
+      });
   return made;
 }
 

@@ -5,6 +5,7 @@
 #include "diagnose/predictors/filtered_run.hpp"
 #include "diagnose/predictors/modal_models.hpp"
 #include "diagnose/predictors/noise_model.hpp"
+#include "diagnose/predictors/run_filters.hpp"
 #include "response/time/arm_simulator.hpp"
 
 #include <Eigen/Core>
@@ -105,7 +106,9 @@ class Predictor {
   int flexible_modes_;
   Observations observations_;
   std::optional<NoiseModel> noise_;
-  std::shared_ptr<ModalModels> models_;   // copies share it
+  // Copies share both.
+  std::shared_ptr<ModalModels> models_;
+  std::shared_ptr<RunFilters> filters_;
   std::vector<Condition> conditions_;     // of `time` runs
   std::vector<double> log_determinants_;  // ln |S_0| of each run, with a noise model
 };

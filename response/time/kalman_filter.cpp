@@ -51,6 +51,15 @@ FilterGain gain_for(const SampledSystem& system, const Eigen::MatrixXd& p) {
 
 }  // namespace
 
+bool SampledSystem::operator==(const SampledSystem& other) const {
+  if (transition.rows() != other.transition.rows() || readings.rows() != other.readings.rows()) {
+    return false;
+  }
+  return transition == other.transition && readings == other.readings &&
+         process_covariance == other.process_covariance &&
+         reading_variances == other.reading_variances;
+}
+
 Eigen::MatrixXd covariance_after_step(const SampledSystem& system,
                                       const Eigen::MatrixXd& covariance) {
   return symmetric(system.transition * covariance * system.transition.transpose()) +

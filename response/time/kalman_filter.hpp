@@ -17,6 +17,8 @@ struct SampledSystem {
   Eigen::MatrixXd readings;            ///< H, p x N
   Eigen::MatrixXd process_covariance;  ///< of w, N x N
   Eigen::VectorXd reading_variances;   ///< of v, p, each above 0
+
+  bool operator==(const SampledSystem& other) const;
 };
 
 /// The Kalman filter of a system at one sample. Its innovation e moves the state at that sample by

@@ -15,7 +15,7 @@ LiftedFilter::LiftedFilter(const IntervalMap& interval, std::optional<Index> for
   for (auto* matrix : {&end.state, &end.inputs, &end.constants}) matrix->row(*forgotten).setZero();
 }
 
-IntervalMap LiftedFilter::with(const FilterGain& filter) const {
+IntervalMap LiftedFilter::closed_by(const FilterGain& filter) const {
   const auto& [end, read] = interval_;
   const Index states = end.state.rows();
   const Index sensors = read.state.rows();
@@ -60,7 +60,7 @@ Eigen::MatrixXd LiftedFilter::follow(const Eigen::MatrixXd& torques,
   }
   if (begun == samples) return made;
   made.bottomRows(samples - begun) =
-      read_in_blocks(lifted_block(with(gains.steady), kSamples), kSamples,
+      read_in_blocks(lifted_block(closed_by(gains.steady), kSamples), kSamples,
                      inputs.rightCols(samples - begun), state);
   return made;
 }

@@ -30,7 +30,7 @@ class LiftedFilter {
 
  private:
   /// The system above with this gain.
-  IntervalMap with(const FilterGain& filter) const;
+  IntervalMap closed_by(const FilterGain& filter) const;
 
   /// Products with the readings grow with it, those with the state fall.
   static constexpr Eigen::Index kSamples = 8;

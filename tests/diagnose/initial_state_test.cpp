@@ -1,6 +1,7 @@
 // Unknown initial states and their prior.
-#include "diagnose/predictors/filtered_run.hpp"
 #include "diagnose/predictors/initial_state.hpp"
+
+#include "diagnose/predictors/filtered_run.hpp"
 #include "response/formulation_maker.hpp"
 #include "response/time/time_model.hpp"
 #include "tests/diagnose/simulated_experiments.hpp"
@@ -71,8 +72,11 @@ TEST(InitialState, OfARunThatShowsNoAngleIsFiltered) {
   for (int k = 0; k < 500; ++k) torque_N_m.push_back(0.05 * std::sin(0.1 * k));
   const Eigen::VectorXd strain = simulation.readings(torque_N_m).reshaped();
   const double deviation = 1e-3 * strain.cwiseAbs().maxCoeff();
-  const RunInnovations run = filter_run(
-      simulation, {torque_N_m, strain, Eigen::VectorXd::Constant(1, deviation), {0.01}, true});
+  const RecordedRun recorded{
+      torque_N_m, strain, Eigen::VectorXd::Constant(1, deviation), {0.01}, true};
+  const RunFilter filter =
+      run_filter(simulation, simulation.sampled(recorded.process, recorded.deviations), recorded);
+  const RunInnovations run = filter_run(simulation, recorded, filter);
   ASSERT_TRUE(run.standardised.allFinite());
   EXPECT_TRUE(std::isfinite(run.log_determinant));
   // Without noise the innovations of the true arm are far below their deviation.

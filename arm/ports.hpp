@@ -151,6 +151,10 @@ struct SmoothHubTorque {
   std::function<Value(const HubState& hub, std::span<const double> z, std::span<double> rates)> law;
   int states = 0;
   bool depends_on_time = false;
+  /// Of states that move with the angle alone, however fast, and are of the order of 1: writes what
+  /// z is after the hub has turned by that angle, one way, to `after`. Empty for other laws.
+  std::function<void(double turn_rad, std::span<const double> z, std::span<double> after)>
+      after_turn = {};
 };
 
 /// A torque on the hub that never changes.
@@ -176,8 +180,7 @@ struct HubTorqueWithFriction {
   DryFriction friction;
 };
 
-using HubLaw =
-    std::variant<ConstantHubTorque, SmoothHubTorque, DryFriction, HubTorqueWithFriction>;
+using HubLaw = std::variant<ConstantHubTorque, SmoothHubTorque, DryFriction, HubTorqueWithFriction>;
 
 /// Force per length on the beam by its velocity there, an odd function that takes energy:
 /// force(v) v <= 0.

@@ -31,7 +31,12 @@ arm::HubLaw dahl_friction(const arm::Effect& effect) {
             rates[0] = per_angle * (speed - std::abs(speed) * z[0]);
             return arm::SmoothHubTorque::Value{-torque_N_m * z[0], 0.0};
           },
-      .states = 1};
+      .states = 1,
+      .after_turn =
+          [per_angle](double turn_rad, std::span<const double> z, std::span<double> after) {
+            const double steady = std::copysign(1.0, turn_rad);
+            after[0] = steady + (z[0] - steady) * std::exp(-per_angle * std::abs(turn_rad));
+          }};
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include "arm/linear_arm.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <span>
 #include <utility>
@@ -15,7 +16,11 @@ AddedForces::AddedForces(const ModalDynamics& arm, const HubLaws& hub,
       beam_(std::move(beam)),
       friction_scale_rad_per_s_(hub_.friction_scale_rad_per_s()),
       breakaway_N_m_(hub_.friction_at(0.0).torque_N_m),
-      vary_(beam_ || !hub_.smooth.empty() || std::isfinite(friction_scale_rad_per_s_)) {}
+      vary_(beam_ || !hub_.smooth.empty() || std::isfinite(friction_scale_rad_per_s_)),
+      states_move_by_turn_(arm.law_state_count > 0 &&
+                           std::ranges::all_of(hub_.smooth, [](const auto& of_effect) {
+                             return of_effect.part.states == 0 || of_effect.part.after_turn;
+                           })) {}
 
 Eigen::Index AddedForces::argument_count() const {
   if (!vary_) return 0;
@@ -40,6 +45,17 @@ Eigen::MatrixXd AddedForces::argument_rows() const {
     made.col(i) = of_unit;
   }
   return made;
+}
+
+void AddedForces::turn_states(std::span<const double> from, std::span<double> arguments) const {
+  const double turn_rad = arguments[kAngle] - from[kAngle];
+  std::size_t first = kLawStates;
+  for (const auto& [effect, law] : hub_.smooth) {
+    const auto count = static_cast<std::size_t>(law.states);
+    if (count == 0) continue;
+    law.after_turn(turn_rad, from.subspan(first, count), arguments.subspan(first, count));
+    first += count;
+  }
 }
 
 void AddedForces::update(ArmState& state) const {

@@ -82,6 +82,16 @@ class AddedForces {
   /// The hub's velocity [rad/s], one of the arguments; there must be any.
   static double hub_velocity(std::span<const double> arguments) { return arguments[kVelocity]; }
 
+  /// Laws have states, and all of these move with the hub's angle alone (after_turn).
+  bool states_move_by_turn() const { return states_move_by_turn_; }
+  /// Writes the states of laws after the hub has turned, one way, from where it has the arguments
+  /// `from`, to the angle that `arguments` has, to `arguments`.
+  void turn_states(std::span<const double> from, std::span<double> arguments) const;
+  /// The states of laws among the arguments.
+  auto law_states(std::span<const double> arguments) const {
+    return arguments.subspan(kLawStates, static_cast<std::size_t>(arm_->law_state_count));
+  }
+
   /// Writes `arguments` and `along_beam` of the state.
   void update(ArmState& state) const;
   /// Writes the modal forces along the beam [1/s^2] to `made`: n entries. Does nothing without such
@@ -117,6 +127,7 @@ class AddedForces {
   double friction_scale_rad_per_s_;
   double breakaway_N_m_;
   bool vary_;
+  bool states_move_by_turn_;
 };
 
 /// Those of an arm's parts; `model` is the one that `arm` was made of.

@@ -21,11 +21,12 @@ constexpr double kRoughlyResolved = 0.5;
 }  // namespace
 
 StepSolver::StepSolver(const ModalDynamics& arm, const AddedForces& forces, double force_tolerance,
-                       int most_iterations)
+                       int most_iterations, bool turns_states)
     : arm_(&arm),
       forces_(&forces),
       force_tolerance_(force_tolerance),
-      allowed_iterations_(most_iterations) {}
+      allowed_iterations_(most_iterations),
+      turns_states_(turns_states && forces.states_move_by_turn()) {}
 
 /// f at the beginning, and a guess for f at middle and end, which is exact where forces are
 /// constant: that at the beginning, or where the step `follows` another of its length the parabola
@@ -88,15 +89,18 @@ bool StepSolver::solve(const StepTable& table, const ArmState& now, HubMotion mo
     known_.tail(2 * forces) << inputs_.fm, inputs_.f1;
     arguments_ = known_arguments_;
     arguments_.noalias() += table.arguments_by_forces * known_.tail(2 * forces);
-    const auto arguments = entries(std::as_const(arguments_));
-    evaluate(arguments.first(count), 0.5, motion, middle_point_);
-    evaluate(arguments.last(count), 1.0, motion, end_point_);
+    const auto middle = entries(arguments_).first(count);
+    const auto end = entries(arguments_).last(count);
+    const bool is_turned = try_turn(now, middle, end);
+    evaluate(middle, 0.5, motion, middle_point_);
+    evaluate(end, 1.0, motion, end_point_);
     iterations_ = std::max(iterations_, iteration);
-    const double end_speed = AddedForces::hub_velocity(arguments.last(count));
+    const double end_speed = AddedForces::hub_velocity(end);
     if (iteration == 1 && !is_within(kRoughlyResolved, end_speed)) return false;
     const double last_change = change;
-    change = relative_change();
+    change = relative_change(is_turned);
     improve();
+    if (is_turned) take_mean_rates(now, end);
     double estimate = change;
     if (iteration > 1) {
       rate = std::max(rate, change / last_change);
@@ -104,7 +108,8 @@ bool StepSolver::solve(const StepTable& table, const ArmState& now, HubMotion mo
     }
     if (!(estimate <= force_tolerance_)) continue;
     if (!is_within(kResolved, end_speed)) return false;
-    known_.tail(2 * forces) << inputs_.fm, inputs_.f1;
+    if (turns_states_ && !are_states_resolved(now, middle, end, is_turned)) return false;
+    known_.tail(3 * forces) << inputs_.f0, inputs_.fm, inputs_.f1;
     end_.noalias() = table.end * known_;
     if (rate > 0.0) last_rate_ = rate;
     last_motion_ = motion;
@@ -126,20 +131,75 @@ bool StepSolver::solve_by_series(const ArmState& now, HubMotion motion, const St
     expand(now.x, motion);
     iterations_ = std::max(iterations_, iteration);
     middle_ = series_.at(0.5);
-    forces_->form_arguments(middle_, arguments_);
-    evaluate(entries(std::as_const(arguments_)), 0.5, motion, middle_point_);
+    forces_->form_arguments(middle_, middle_arguments_);
     end_ = series_.at(1.0);
     forces_->form_arguments(end_, arguments_);
-    const auto arguments = entries(std::as_const(arguments_));
-    evaluate(arguments, 1.0, motion, end_point_);
-    if (relative_change() <= force_tolerance_) {
+    const auto middle = entries(middle_arguments_);
+    const auto end = entries(arguments_);
+    const bool is_turned = try_turn(now, middle, end);
+    evaluate(middle, 0.5, motion, middle_point_);
+    evaluate(end, 1.0, motion, end_point_);
+    if (relative_change(is_turned) <= force_tolerance_) {
+      if (turns_states_ && !are_states_resolved(now, middle, end, is_turned)) return false;
+      if (is_turned) {
+        take_mean_rates(now, end);
+        expand(now.x, motion);
+        end_ = series_.at(1.0);
+      }
       return !span.must_be_resolved ||
              is_resolved(AddedForces::hub_velocity(entries(now.arguments)),
-                         AddedForces::hub_velocity(arguments), motion, kResolved);
+                         AddedForces::hub_velocity(end), motion, kResolved);
     }
     improve();
+    if (is_turned) take_mean_rates(now, end);
   }
   return false;
+}
+
+/// Where the hub turns one way writes the states of laws at middle and end by its turn.
+bool StepSolver::try_turn(const ArmState& now, std::span<double> middle,
+                          std::span<double> end) const {
+  if (!turns_states_) return false;
+  const auto begin = entries(now.arguments);
+  const double speed = AddedForces::hub_velocity(begin);
+  if (!(speed * AddedForces::hub_velocity(middle) > 0.0) ||
+      !(speed * AddedForces::hub_velocity(end) > 0.0)) {
+    return false;
+  }
+  forces_->turn_states(begin, middle);
+  forces_->turn_states(begin, end);
+  return true;
+}
+
+/// Each state hardly moves; or the hub turns one way, and it moves as far in the second half as in
+/// the first, but for a half: a parabola goes through that.
+bool StepSolver::are_states_resolved(const ArmState& now, std::span<const double> middle,
+                                     std::span<const double> end, bool is_turned) const {
+  constexpr double kHardly = 0.01;
+  constexpr double kLeastPart = 0.5;
+  const auto before = forces_->law_states(entries(now.arguments));
+  const auto between = forces_->law_states(middle);
+  const auto after = forces_->law_states(end);
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    const double first = std::abs(between[i] - before[i]);
+    const double second = std::abs(after[i] - between[i]);
+    const double more = std::max(first, second);
+    const bool is_even = is_turned && std::min(first, second) >= kLeastPart * more;
+    if (!is_even && !(more <= kHardly)) return false;
+  }
+  return true;
+}
+
+/// Rates by which the states of laws come to what they are at the end.
+void StepSolver::take_mean_rates(const ArmState& now, std::span<const double> end) {
+  const auto before = forces_->law_states(entries(now.arguments));
+  const auto after = forces_->law_states(end);
+  const Eigen::Index first = inputs_.f0.size() - std::ssize(after);
+  for (std::size_t i = 0; i < after.size(); ++i) {
+    const double rate = (after[i] - before[i]) / inputs_.length_s;
+    const Eigen::Index at = first + static_cast<Eigen::Index>(i);
+    inputs_.f0(at) = inputs_.fm(at) = inputs_.f1(at) = rate;
+  }
 }
 
 void StepSolver::evaluate(std::span<const double> arguments, double r, HubMotion motion,
@@ -150,9 +210,10 @@ void StepSolver::evaluate(std::span<const double> arguments, double r, HubMotion
 }
 
 /// The largest change from f in inputs_ to the f that it leads to, at middle and end, relative to
-/// the largest f.
-double StepSolver::relative_change() const {
-  const auto largest = [](const auto& v) { return v.cwiseAbs().maxCoeff(); };
+/// the largest f; without the rates of laws' states that are turned.
+double StepSolver::relative_change(bool is_turned) const {
+  const Eigen::Index counted = inputs_.f0.size() - (is_turned ? arm_->law_state_count : 0);
+  const auto largest = [counted](const auto& v) { return v.head(counted).cwiseAbs().maxCoeff(); };
   const double change =
       std::max(largest(middle_point_.force - inputs_.fm), largest(end_point_.force - inputs_.f1));
   const double size =

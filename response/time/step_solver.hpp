@@ -42,8 +42,12 @@ class StepSolver {
   /// q estimates the rate of convergence: the largest ratio of d to that of the iteration before,
   /// in this step and in the last one that `solve` iterated more than once. d q is about the next
   /// iteration's d. A step by series ends with d <= t alone.
+  ///
+  /// With `turns_states` states of laws that move with the hub's angle alone are not integrated
+  /// while the hub turns one way, but formed at middle and end by AddedForces::turn_states: a step
+  /// resolves what they do, not their rates.
   StepSolver(const ModalDynamics& arm, const AddedForces& forces, double force_tolerance,
-             int most_iterations);
+             int most_iterations, bool turns_states);
 
   /// Goes on with the equations of `arm`, which must outlive the object: the same arm before or
   /// after Z has settled.
@@ -80,23 +84,29 @@ class StepSolver {
   void form_known(const StepTable& table, const Eigen::VectorXd& x);
   bool is_resolved(double begin_rad_per_s, double end_rad_per_s, HubMotion motion,
                    double largest_change) const;
+  bool try_turn(const ArmState& now, std::span<double> middle, std::span<double> end) const;
+  bool are_states_resolved(const ArmState& now, std::span<const double> middle,
+                           std::span<const double> end, bool is_turned) const;
+  void take_mean_rates(const ArmState& now, std::span<const double> end);
   void evaluate(std::span<const double> arguments, double r, HubMotion motion, Point& point) const;
-  double relative_change() const;
+  double relative_change(bool is_turned) const;
   void improve();
 
   const ModalDynamics* arm_;
   const AddedForces* forces_;
   double force_tolerance_;
   int allowed_iterations_;
+  bool turns_states_;
   int iterations_ = 0;
   StepInputs inputs_;
   std::array<double, 3> hub_torques_ = {};  // in inputs_: begin, middle, end
   HubMotion last_motion_ = HubMotion::frictionless;
-  double last_rate_ = 0.0;           // of convergence, in the last step that was iterated
-  double last_length_s_ = 0.0;       // 0: inputs_ are no guess for the next step
-  Eigen::VectorXd known_;            // what StepTable::end maps
-  Eigen::VectorXd arguments_;        // of forces: at the middle; at the end
-  Eigen::VectorXd known_arguments_;  // the part of them that no iteration changes
+  double last_rate_ = 0.0;            // of convergence, in the last step that was iterated
+  double last_length_s_ = 0.0;        // 0: inputs_ are no guess for the next step
+  Eigen::VectorXd known_;             // what StepTable::end maps
+  Eigen::VectorXd arguments_;         // of forces: at the middle; at the end
+  Eigen::VectorXd middle_arguments_;  // of a step by series
+  Eigen::VectorXd known_arguments_;   // the part of them that no iteration changes
   Point middle_point_;
   Point end_point_;
   Eigen::VectorXd middle_;

@@ -55,7 +55,7 @@ TimeStepper::TimeStepper(const StepPlan& plan, EnergyLedger* ledger)
       motion_(plan.forces().has_friction() ? HubMotion::held : HubMotion::frictionless),
       breakaway_N_m_(plan.forces().breakaway_N_m()),
       solver_(plan.arm(), plan.forces(), plan.options().force_tolerance,
-              plan.options().most_iterations) {
+              plan.options().most_iterations, !plan.options().resolve_every_mode) {
   const double h = plan.options().sample_time_s;
   const double part = plan.unsettled_part(h);
   summary_.substeps = plan.substeps(plan.arm(), part * h);
@@ -147,8 +147,8 @@ void TimeStepper::advance(const TorquePiece& piece, double now_s) {
 
 void TimeStepper::advance_by_series(const ModalDynamics& arm, double length_s, double begin_N_m,
                                     double end_N_m) {
-  const int count = std::max(plan_->substeps(arm, length_s),
-                             static_cast<int>(series_steps(arm, length_s)));
+  const int count =
+      std::max(plan_->substeps(arm, length_s), static_cast<int>(series_steps(arm, length_s)));
   double u0 = begin_N_m;
   for (int i = 1; i <= count; ++i) {
     const double u1 = torque_behind(i, count, begin_N_m, end_N_m);

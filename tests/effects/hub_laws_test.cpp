@@ -200,6 +200,34 @@ TEST(HubHysteresis, FollowsDahlsEquationThroughReversals) {
   EXPECT_GT(std::ranges::max(speed), 0.0);
 }
 
+/// The state after a turn is what its rates come to on the way.
+TEST(HubHysteresis, MovesItsStateByTheTurnAlone) {
+  constexpr int kParts = 4000;
+  constexpr double kOfEuler = 1e-3;  // first order, over 16 times the angle of presliding
+  const arm::Effect law =
+      effect("hub_hysteresis", {{"torque", kDahlTorque}, {"stiffness", kDahlStiffness}});
+  const auto friction = std::get<arm::SmoothHubTorque>(law.definition->hub_torque(law));
+  for (const double turn :
+       {2.0 * kDahlTorque / kDahlStiffness, -0.5 * kDahlTorque / kDahlStiffness}) {
+    for (const double begin : {0.0, -1.0, 0.6}) {
+      std::array<double, 1> after = {};
+      friction.after_turn(turn, std::array{begin}, after);
+      // At any speed.
+      for (const double speed : {0.01, 3.0}) {
+        const double velocity = std::copysign(speed, turn);
+        const double step_s = turn / velocity / kParts;
+        double z = begin;
+        for (int i = 0; i < kParts; ++i) {
+          std::array<double, 1> rate = {};
+          friction.law({.velocity_rad_per_s = velocity}, std::array{z}, rate);
+          z += step_s * rate[0];
+        }
+        EXPECT_NEAR(z, after[0], kOfEuler) << turn << " from " << begin;
+      }
+    }
+  }
+}
+
 TEST(HubHysteresis, BecomesCoulombFrictionAsItsStiffnessGrows) {
   const auto torque = slow_sine(1000);
   const auto limit = rigid_hub("coulomb_friction", {{"torque", kDahlTorque}}, torque);

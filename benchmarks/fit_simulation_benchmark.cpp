@@ -114,6 +114,7 @@ const FitCase kCoulomb = {"coulomb_friction", {{"torque", 0.012}}};
 const FitCase kStribeck = {"stribeck_friction",
                            {{"torque", 0.012}, {"static_torque", 0.016}, {"velocity", 0.2}}};
 const FitCase kHysteresis = {"hub_hysteresis", {{"torque", 0.012}, {"stiffness", 0.4}}};
+const FitCase kStiffHysteresis = {"hub_hysteresis", {{"torque", 0.012}, {"stiffness", 100.0}}};
 const FitCase kRipple = {"torque_ripple", {{"amplitude", 0.01}, {"cycles", 9.0}, {"phase", 0.4}}};
 const FitCase kHardening = {"hub_hardening_spring", {{"coefficient", 0.5}}};
 const FitCase kDrag = {"quadratic_drag", {{"coefficient", 0.02}}};
@@ -137,6 +138,7 @@ BENCHMARK_CAPTURE(fit_evaluation, coulomb, kCoulomb)->Apply(repeated);
 BENCHMARK_CAPTURE(fit_evaluation, coulomb_moving_first, moving(kCoulomb))->Apply(repeated);
 BENCHMARK_CAPTURE(fit_evaluation, stribeck, kStribeck)->Apply(repeated);
 BENCHMARK_CAPTURE(fit_evaluation, hysteresis, kHysteresis)->Apply(repeated);
+BENCHMARK_CAPTURE(fit_evaluation, stiff_hysteresis, kStiffHysteresis)->Apply(repeated);
 BENCHMARK_CAPTURE(fit_evaluation, ripple, kRipple)->Apply(repeated);
 BENCHMARK_CAPTURE(fit_evaluation, hardening_spring, kHardening)->Apply(repeated);
 BENCHMARK_CAPTURE(fit_evaluation, drag, kDrag)->Apply(repeated);

@@ -1,5 +1,7 @@
 #include "exact_tf/chain_count.hpp"
 
+#include "exact_tf/boundary_values.hpp"
+
 namespace flexarm::exact_tf {
 
 namespace {
@@ -35,8 +37,8 @@ int definite_pivots(const SegmentTransfer<R>& transfer, R length, const Bivector
 }  // namespace
 
 template <class R>
-ChainCount<R> count_below(const TransferChain<R>& chain) {
-  ChainCount<R> count;
+ChainCount count_below(const TransferChain<R>& chain) {
+  ChainCount count;
   ScaledPlane<R> plane = chain.tip_plane();
   for (const auto& link : chain.links()) {
     const Bivector<R> right = plane.plane;
@@ -47,14 +49,14 @@ ChainCount<R> count_below(const TransferChain<R>& chain) {
       count.hub_held += definite_pivots(chain.transfer(link), link.segment.length, right);
     }
   }
-  count.values = root_values(chain, plane.plane, plane.log_scale);
-  if (opposite(count.values.hub_angle, plane.plane.displacement_rotation())) ++count.hub_held;
-  if (opposite(count.values.motor_angle, count.values.hub_angle)) ++count.hub_held;
-  count.poles = count.hub_held + (opposite(count.values.torque, count.values.motor_angle) ? 1 : 0);
+  const RootValues<R> values = root_values(chain, plane.plane, plane.log_scale);
+  if (opposite(values.hub_angle, plane.plane.displacement_rotation())) ++count.hub_held;
+  if (opposite(values.motor_angle, values.hub_angle)) ++count.hub_held;
+  count.poles = count.hub_held + (opposite(values.torque, values.motor_angle) ? 1 : 0);
   return count;
 }
 
-template ChainCount<Real> count_below(const TransferChain<Real>&);
-template ChainCount<double> count_below(const TransferChain<double>&);
+template ChainCount count_below(const TransferChain<Real>&);
+template ChainCount count_below(const TransferChain<double>&);
 
 }  // namespace flexarm::exact_tf

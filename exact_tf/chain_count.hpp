@@ -1,15 +1,13 @@
 #pragma once
 
-#include "exact_tf/boundary_values.hpp"
+#include "exact_tf/transfer_chain.hpp"
 
 namespace flexarm::exact_tf {
 
-/// Numbers of eigenvalues omega^2 below the chain's, with the functions whose signs they step with.
-template <class R>
+/// Numbers of eigenvalues omega^2 below the chain's; they step with the signs of RootValues.
 struct ChainCount {
   int hub_held = 0;  ///< poles with the rotor, or a hub without, held: roots of motor_angle
   int poles = 0;     ///< the lowest mode's included: roots of torque
-  RootValues<R> values;
 };
 
 /// The algorithm of [WittrickWilliams1971] on the undamped chain,
@@ -28,6 +26,6 @@ struct ChainCount {
 /// the products telescope, so that the count's parity is that of the sign of the last function, and
 /// a sign that rounding turned where a minor all but vanishes is taken back by the next.
 template <class R>
-ChainCount<R> count_below(const TransferChain<R>& chain);
+ChainCount count_below(const TransferChain<R>& chain);
 
 }  // namespace flexarm::exact_tf

@@ -20,15 +20,8 @@ Real omega_squared_at(Real lambda) {
 }
 
 template <class R>
-ChainCount<R> count_at(const ArmInBeamUnits<R>& arm, Real lambda) {
-  const auto omega_squared = static_cast<R>(omega_squared_at(lambda));
-  return count_below(TransferChain<R>(arm, undamped_at<R>(arm, omega_squared)));
-}
-
-template <class R>
-RootValues<R> values_at(const ArmInBeamUnits<R>& arm, Real lambda) {
-  const auto omega_squared = static_cast<R>(omega_squared_at(lambda));
-  return root_values(TransferChain<R>(arm, undamped_at<R>(arm, omega_squared)));
+TransferChain<R> chain_at(const ArmInBeamUnits<R>& arm, Real lambda) {
+  return {arm, undamped_at<R>(arm, static_cast<R>(omega_squared_at(lambda)))};
 }
 
 /// Brackets end where rounding of the values does not yet decide.
@@ -71,10 +64,10 @@ ChainEigenvalues eigenvalues(RealRoots roots) {
 template <class R>
 ChainEigenvalues find_chain_poles(const ArmInBeamUnits<R>& arm, int count) {
   const RootSearchOptions options = search_options<R>();
-  const auto poles_below = [&](Real lambda) { return count_at(arm, lambda).poles; };
+  const auto poles_below = [&](Real lambda) { return count_below(chain_at(arm, lambda)).poles; };
   if (!arm.turns_freely()) {
     const CountedFunction function = {poles_below, [&](Real lambda) -> Real {
-                                        const auto values = values_at(arm, lambda);
+                                        const auto values = root_values(chain_at(arm, lambda));
                                         return values.torque / values.size;
                                       }};
     auto result = eigenvalues(lowest_roots(function, below_all(function), count + 1, options));
@@ -84,7 +77,7 @@ ChainEigenvalues find_chain_poles(const ArmInBeamUnits<R>& arm, int count) {
   }
   // The root 0 is divided out, and the search begins between it and the first flexible one.
   const CountedFunction function = {poles_below, [&](Real lambda) -> Real {
-                                      const auto values = values_at(arm, lambda);
+                                      const auto values = root_values(chain_at(arm, lambda));
                                       return -values.torque / values.size /
                                              omega_squared_at(lambda);
                                     }};
@@ -97,11 +90,12 @@ ChainEigenvalues find_chain_poles(const ArmInBeamUnits<R>& arm, int count) {
 
 template <class R>
 ChainEigenvalues find_chain_hub_zeros(const ArmInBeamUnits<R>& arm, int count) {
-  const CountedFunction function = {[&](Real lambda) { return count_at(arm, lambda).hub_held; },
-                                    [&](Real lambda) -> Real {
-                                      const auto values = values_at(arm, lambda);
-                                      return values.motor_angle / values.size;
-                                    }};
+  const CountedFunction function = {
+      [&](Real lambda) { return count_below(chain_at(arm, lambda)).hub_held; },
+      [&](Real lambda) -> Real {
+        const auto values = root_values(chain_at(arm, lambda));
+        return values.motor_angle / values.size;
+      }};
   return eigenvalues(lowest_roots(function, below_all(function), count, search_options<R>()));
 }
 
@@ -109,7 +103,7 @@ bool flexible_modes_are_stable(const ArmInBeamUnits<Real>& arm) {
   if (arm.gravity >= 0.0L) return true;
   // Under P > kGA the rod collapses by shear alone.
   if (1.0L + arm.shear_flexibility * arm.tension(0.0L) <= 0.0L) return false;
-  return count_at(arm, 0.0L).poles <= 1;
+  return count_below(chain_at(arm, 0.0L)).poles <= 1;
 }
 
 template ChainEigenvalues find_chain_poles(const ArmInBeamUnits<Real>&, int);

@@ -183,9 +183,8 @@ Scaled<T> displacement_numerator(const InertiaRatiosIn<RealOf<T>>& ratios, const
 }
 
 template <class T>
-Scaled<T> sensor_numerator(const arm::LinearArm& arm, const arm::Sensor& sensor, const T& lambda) {
-  using R = RealOf<T>;
-  const auto ratios = inertia_ratios<R>(arm);
+Scaled<T> sensor_numerator(const arm::LinearArm& arm, const InertiaRatiosIn<RealOf<T>>& ratios,
+                           const arm::Sensor& sensor, const T& lambda) {
   switch (sensor.kind) {
     case arm::SensorKind::hub_angle:
     case arm::SensorKind::hub_velocity:
@@ -197,7 +196,8 @@ Scaled<T> sensor_numerator(const arm::LinearArm& arm, const arm::Sensor& sensor,
       return tip_deflection_numerator(ratios, lambda);
     case arm::SensorKind::strain:
       return curvature_numerator(
-          ratios, lambda, static_cast<R>(distance_from_tip(arm.length_m, sensor.position_m)));
+          ratios, lambda,
+          static_cast<RealOf<T>>(distance_from_tip(arm.length_m, sensor.position_m)));
   }
   throw std::logic_error("sensor kind outside its enumeration");
 }
@@ -254,11 +254,15 @@ template Scaled<double> displacement_numerator(const InertiaRatiosIn<double>&, c
                                                double);
 template Scaled<std::complex<double>> displacement_numerator(const InertiaRatiosIn<double>&,
                                                              const std::complex<double>&, double);
-template Scaled<Real> sensor_numerator(const arm::LinearArm&, const arm::Sensor&, const Real&);
-template Scaled<Complex> sensor_numerator(const arm::LinearArm&, const arm::Sensor&,
-                                          const Complex&);
-template Scaled<double> sensor_numerator(const arm::LinearArm&, const arm::Sensor&, const double&);
-template Scaled<std::complex<double>> sensor_numerator(const arm::LinearArm&, const arm::Sensor&,
+template Scaled<Real> sensor_numerator(const arm::LinearArm&, const InertiaRatiosIn<Real>&,
+                                       const arm::Sensor&, const Real&);
+template Scaled<Complex> sensor_numerator(const arm::LinearArm&, const InertiaRatiosIn<Real>&,
+                                          const arm::Sensor&, const Complex&);
+template Scaled<double> sensor_numerator(const arm::LinearArm&, const InertiaRatiosIn<double>&,
+                                         const arm::Sensor&, const double&);
+template Scaled<std::complex<double>> sensor_numerator(const arm::LinearArm&,
+                                                       const InertiaRatiosIn<double>&,
+                                                       const arm::Sensor&,
                                                        const std::complex<double>&);
 template InertiaRatios inertia_ratios(const arm::LinearArm&);
 template InertiaRatiosIn<double> inertia_ratios(const arm::LinearArm&);

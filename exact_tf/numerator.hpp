@@ -104,9 +104,11 @@ Scaled<T> displacement_numerator(const InertiaRatiosIn<RealOf<T>>& ratios, const
 Real distance_from_tip(double length_m, double position_m);
 
 /// The numerator of a sensor, by its kind: hub_angle, hub_velocity -> N_hub; tip_acceleration,
-/// tip_displacement -> N_tip; tip_deflection -> N_deflection; strain -> N_curvature.
+/// tip_displacement -> N_tip; tip_deflection -> N_deflection; strain -> N_curvature. `ratios` are
+/// those of `arm`.
 template <class T>
-Scaled<T> sensor_numerator(const arm::LinearArm& arm, const arm::Sensor& sensor, const T& lambda);
+Scaled<T> sensor_numerator(const arm::LinearArm& arm, const InertiaRatiosIn<RealOf<T>>& ratios,
+                           const arm::Sensor& sensor, const T& lambda);
 
 /// What stands in front of that numerator in the list above, time derivatives and half the
 /// thickness included: tau to sensor is sensor_factor N/D. `z` belongs to `s` [rad/s].

@@ -80,10 +80,10 @@ arm::PolePair kelvin_voigt_pair(Real omega, Real kelvin_voigt_s) {
 /// PlainArm::transfer_functions in R.
 template <class R>
 std::vector<std::complex<double>> closed_responses(const arm::LinearArm& arm,
+                                                   const InertiaRatiosIn<R>& ratios,
                                                    std::span<const arm::Sensor> sensors,
                                                    std::complex<double> s_rad_per_s) {
   const std::complex<R> s(s_rad_per_s.real(), s_rad_per_s.imag());
-  const auto ratios = inertia_ratios<R>(arm);
   const auto frequency = complex_frequency(arm, s);
   const auto products = beam_products(frequency.lambda);
   const R l = arm.length_m;
@@ -94,7 +94,7 @@ std::vector<std::complex<double>> closed_responses(const arm::LinearArm& arm,
       friction * s * frequency.at_z(hub_angle_value(ratios, products));
   std::vector<std::complex<double>> values;
   for (const arm::Sensor& sensor : sensors) {
-    const auto numerator = sensor_numerator(arm, sensor, frequency.lambda);
+    const auto numerator = sensor_numerator(arm, ratios, sensor, frequency.lambda);
     const std::complex<R> value = sensor_factor(arm, sensor, s, frequency.z) *
                                   frequency.at_z(numerator.value) / denominator *
                                   std::exp(numerator.log_scale - products.log_scale);
@@ -122,7 +122,10 @@ void require_plain(const arm::Arm& arm, std::string_view who) {
 }
 
 PlainArm::PlainArm(const arm::LinearArm& arm, Arithmetic arithmetic)
-    : arm_(arm), ratios_(inertia_ratios(arm)), arithmetic_(arithmetic) {}
+    : arm_(arm),
+      ratios_(inertia_ratios<Real>(arm)),
+      working_ratios_(inertia_ratios<double>(arm)),
+      arithmetic_(arithmetic) {}
 
 std::vector<double> PlainArm::pole_lambdas(int count) const {
   return rounded(find_poles(ratios_, count).lambda);
@@ -176,10 +179,9 @@ arm::DampedPoleSet PlainArm::damped_poles(int count) const {
         static_cast<R>(friction) * damping * frequency.at_z(hub_angle_value(ratios, products));
     return Scaled<Complex>{in<Real>(value), products.log_scale};
   };
-  const auto working_ratios = inertia_ratios<double>(arm_);
   const auto characteristic = [&](const Complex& s, const Complex& damping) {
     return arithmetic_ == Arithmetic::working
-               ? value_at(working_ratios, in<double>(s), in<double>(damping))
+               ? value_at(working_ratios_, in<double>(s), in<double>(damping))
                : value_at(ratios_, s, damping);
   };
   return follow_damping(characteristic, kelvin_voigt_s, modes);
@@ -254,8 +256,9 @@ arm::ModalModel PlainArm::modal_model(int count, std::span<const arm::Sensor> se
 
 std::vector<std::complex<double>> PlainArm::transfer_functions(
     std::span<const arm::Sensor> sensors, std::complex<double> s_rad_per_s) const {
-  return arithmetic_ == Arithmetic::working ? closed_responses<double>(arm_, sensors, s_rad_per_s)
-                                            : closed_responses<Real>(arm_, sensors, s_rad_per_s);
+  return arithmetic_ == Arithmetic::working
+             ? closed_responses(arm_, working_ratios_, sensors, s_rad_per_s)
+             : closed_responses(arm_, ratios_, sensors, s_rad_per_s);
 }
 
 }  // namespace flexarm::exact_tf

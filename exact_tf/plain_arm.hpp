@@ -44,6 +44,7 @@ class PlainArm {
  private:
   arm::LinearArm arm_;
   InertiaRatios ratios_;
+  InertiaRatiosIn<double> working_ratios_;
   Arithmetic arithmetic_;
 };
 

@@ -48,13 +48,16 @@ arm::ZeroSet find_sensor_zeros(const SectorFunction& numerator, Real omega_scale
 
 arm::ZeroSet find_sensor_zeros(const arm::LinearArm& arm, const arm::Sensor& sensor, int count,
                                Arithmetic arithmetic) {
-  const auto value_at = [&](const auto& lambda) -> Complex {
+  const auto value_at = [&](const auto& ratios, const auto& lambda) -> Complex {
     // Real lambda costs half as much.
-    if (lambda.imag() == 0) return sensor_numerator(arm, sensor, lambda.real()).value;
-    return in<Real>(sensor_numerator(arm, sensor, lambda).value);
+    if (lambda.imag() == 0) return sensor_numerator(arm, ratios, sensor, lambda.real()).value;
+    return in<Real>(sensor_numerator(arm, ratios, sensor, lambda).value);
   };
+  const auto extended_ratios = inertia_ratios<Real>(arm);
+  const auto working_ratios = inertia_ratios<double>(arm);
   const auto numerator = [&](const Complex& lambda) {
-    return arithmetic == Arithmetic::working ? value_at(in<double>(lambda)) : value_at(lambda);
+    return arithmetic == Arithmetic::working ? value_at(working_ratios, in<double>(lambda))
+                                             : value_at(extended_ratios, lambda);
   };
   return find_sensor_zeros(numerator, frequency_scale_rad_per_s(arm), count,
                            zero_options(arithmetic));

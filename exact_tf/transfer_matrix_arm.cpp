@@ -94,6 +94,7 @@ std::vector<R> all_in(const std::vector<Real>& values) {
   for (const Real value : values) made.push_back(static_cast<R>(value));
   return made;
 }
+
 // What TransferMatrixArm answers, in R.
 
 template <class R>

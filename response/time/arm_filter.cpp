@@ -151,15 +151,14 @@ void ArmSimulator::follow(Commands& commands, const Eigen::MatrixXd& measured,
   });
 }
 
-FilteredRun ArmSimulator::filtered_in_blocks(const TorquePath& path, const Eigen::MatrixXd& torques,
+FilteredRun ArmSimulator::filtered_in_blocks(const Eigen::MatrixXd& torques,
                                              const Eigen::MatrixXd& measured,
                                              const FilterGains& gains) const {
   Eigen::MatrixXd shown = Eigen::MatrixXd::Zero(2, states());
   if (arm_.disturbance) shown(0, *arm_.disturbance) = arm_.disturbance_N_m;
   shown.row(1) = plan_.velocity_row();
   const bool is_white = parts_.disturbance && parts_.disturbance->is_white();
-  const LiftedFilter filter(interval_map(plan_, parts_, sensors_, path, times_),
-                            is_white ? arm_.disturbance : std::nullopt, shown);
+  const LiftedFilter filter(interval_, is_white ? arm_.disturbance : std::nullopt, shown);
   const Eigen::MatrixXd followed = filter.follow(torques, measured, gains);
   for (Index k = 0; k < followed.rows(); ++k) {
     if (followed.row(k).allFinite()) continue;
@@ -179,7 +178,7 @@ FilteredRun ArmSimulator::filtered(std::span<const double> torque_N_m,
   const bool is_whole = !measured.hasNaN() && times_.longest_samples() == 0;
   if (lifted_ && is_whole) {
     if (const auto torques = commands.path().whole_parts(0)) {
-      return filtered_in_blocks(commands.path(), *torques, measured, gains);
+      return filtered_in_blocks(*torques, measured, gains);
     }
   }
   FilteredRun made{.innovations = {measured.rows(), measured.cols()}};

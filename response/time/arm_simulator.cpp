@@ -61,10 +61,11 @@ ArmSimulator::ArmSimulator(const arm::ModalModel& model, const ArmParts& parts,
       plan_(arm_, forces_, parts.actuator, options, ledger_ ? &*ledger_ : nullptr, times_.cuts()) {
   if (ledger_) return;
   const TorquePath path(parts.actuator, {}, options.sample_time_s, options.hold, times_.cuts());
-  if (plan_.is_linear()) lifted_.emplace(plan_, parts_, sensors_, path, times_);
-  if (TurningBlocks::are_possible(plan_, path)) {
-    blocks_.emplace(plan_, parts_, sensors_, path, times_);
-  }
+  const bool can_turn_in_blocks = TurningBlocks::are_possible(plan_, path);
+  if (!plan_.is_linear() && !can_turn_in_blocks) return;
+  interval_ = interval_map(plan_, parts_, sensors_, path, times_);
+  if (plan_.is_linear()) lifted_.emplace(interval_, times_);
+  if (can_turn_in_blocks) blocks_.emplace(plan_, interval_, times_);
 }
 
 std::ptrdiff_t ArmSimulator::lead(std::size_t samples) const {

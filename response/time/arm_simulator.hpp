@@ -143,8 +143,9 @@ class ArmSimulator {
               AtSample at_sample) const;
 
   /// `filtered` of a linear arm whose sensors have no delay, without missing readings.
-  FilteredRun filtered_in_blocks(const TorquePath& path, const Eigen::MatrixXd& torques,
-                                 const Eigen::MatrixXd& measured, const FilterGains& gains) const;
+  /// `torques` are TorquePath::whole_parts.
+  FilteredRun filtered_in_blocks(const Eigen::MatrixXd& torques, const Eigen::MatrixXd& measured,
+                                 const FilterGains& gains) const;
 
   Simulation run(Commands& commands, const SimulationProgress& progress) const;
   /// With the `torques` of an open loop (TorquePath::whole_parts from first_interval on) by
@@ -175,6 +176,7 @@ class ArmSimulator {
   ReadingTimes times_;
   StepPlan plan_;
   // Without a ledger.
+  IntervalMap interval_;                 ///< of an arm that has one of these
   std::optional<LiftedArm> lifted_;      ///< of a linear arm
   std::optional<TurningBlocks> blocks_;  ///< of an arm with constant friction
 };

@@ -5,18 +5,15 @@
 #include <Eigen/Core>
 
 #include <cstddef>
-#include <span>
 
 namespace flexarm::response {
 
 /// The readings of a linear arm for blocks of samples.
 class LiftedArm {
  public:
-  /// `plan` is of a linear arm; see lifted_block.
-  LiftedArm(const StepPlan& plan, const ArmParts& parts, std::span<const arm::Sensor> sensors,
-            const TorquePath& path, const ReadingTimes& times)
-      : times_(times),
-        block_(lifted_block(interval_map(plan, parts, sensors, path, times), kSamples)) {}
+  /// `interval` is of a linear arm whose sensors are read at `times`.
+  LiftedArm(const IntervalMap& interval, const ReadingTimes& times)
+      : times_(times), block_(lifted_block(interval, kSamples)) {}
 
   /// Writes to `made`, a row a sample and a column a sensor, what is read in the sample intervals
   /// from `first` on, which may be before 0, with the state `initial` at the beginning of that.

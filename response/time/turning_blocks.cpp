@@ -14,11 +14,10 @@ bool TurningBlocks::are_possible(const StepPlan& plan, const TorquePath& path) {
   return steps.unsettled_part == 1.0 && steps.unsettled.count == 1;
 }
 
-TurningBlocks::TurningBlocks(const StepPlan& plan, const ArmParts& parts,
-                             std::span<const arm::Sensor> sensors, const TorquePath& path,
+TurningBlocks::TurningBlocks(const StepPlan& plan, const IntervalMap& interval,
                              const ReadingTimes& times)
     : times_(times),
-      block_(lifted_block(interval_map(plan, parts, sensors, path, times), kSamples)),
+      block_(lifted_block(interval, kSamples)),
       plan_(&plan),
       forces_(constant_forces(plan.forces())) {}
 

@@ -6,7 +6,6 @@
 #include <Eigen/Core>
 
 #include <cstddef>
-#include <span>
 
 namespace flexarm::response {
 
@@ -19,9 +18,8 @@ class TurningBlocks {
   /// samples, and a sample interval is one step.
   static bool are_possible(const StepPlan& plan, const TorquePath& path);
 
-  /// Of such an arm; see lifted_block.
-  TurningBlocks(const StepPlan& plan, const ArmParts& parts, std::span<const arm::Sensor> sensors,
-                const TorquePath& path, const ReadingTimes& times);
+  /// Of such an arm, whose sensors are read at `times`. `plan` must outlive the object.
+  TurningBlocks(const StepPlan& plan, const IntervalMap& interval, const ReadingTimes& times);
 
   /// One run. `blocks` must outlive the object.
   class Run {

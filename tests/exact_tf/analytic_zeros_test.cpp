@@ -311,11 +311,12 @@ TEST(AnalyticZeros, DoNotDependOnTheStepOfTheSearch) {
     const double mass = std::pow(10.0, -3.0 + 5.0 * uniform(generator));
     const double inertia = std::pow(10.0, -6.0 + 6.0 * uniform(generator));
     const arm::Arm arm = unit_arm(0.1, mass, inertia);
+    const arm::LinearArm linear = linear_arm(arm);
     const arm::Sensor sensor = trial % 4 == 0
                                    ? arm::Sensor{arm::SensorKind::tip_deflection}
                                    : arm::Sensor{arm::SensorKind::strain, uniform(generator)};
     const auto numerator = [&](const Complex& lambda) {
-      return sensor_numerator(linear_arm(arm), sensor, lambda).value;
+      return sensor_numerator(linear, inertia_ratios(linear), sensor, lambda).value;
     };
     AnalyticZeroOptions coarse;
     coarse.axis_step = 6.0L;

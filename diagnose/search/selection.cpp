@@ -228,7 +228,9 @@ class Search {
       revision_.colour_noise_beside(made, *simplest(made.combinations, size, options_));
       const Explanation best = specialised(made, *simplest(made.combinations, size, options_));
       choose_needed(made, best);
-      if (size >= options_.tried_set_size && last && !is_worth_another(best, *last)) break;
+      const bool is_ahead = !last || is_worth_another(best, *last) ||
+                            search.share_taken() >= options_.least_share_ahead;
+      if (size >= options_.tried_set_size && !is_ahead) break;
       last = best;
       if (fits_.lengthen_parts(best)) search.refit();
     }

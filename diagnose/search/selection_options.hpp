@@ -124,7 +124,7 @@ struct SelectionOptions {
 
   // How far the search goes.
   /// Larger sets are looked for where the last effect takes this part or more of what the best
-  /// set without it leaves.
+  /// set without it leaves, of all data or of the coarse part.
   double least_share_ahead = 0.05;
   /// Effects by themselves: all are scanned.
   Tried single_effects = {.refitted = 8};

@@ -3,6 +3,7 @@
 #include "diagnose/parallel.hpp"
 #include "diagnose/search/additions.hpp"
 #include "diagnose/search/admission.hpp"
+#include "diagnose/search/misfit.hpp"
 #include "diagnose/search/rivals.hpp"
 
 #include <algorithm>
@@ -32,6 +33,10 @@ bool has_limit_in_place(const Candidate& limited, const Candidate& general) {
   });
 }
 
+double least_beyond_noise(const std::vector<Fit>& sets) {
+  return sets.empty() ? 0.0 : beyond_noise(sets.front().residuals);
+}
+
 }  // namespace
 
 void SetSearch::begin(const Candidate& nothing, const std::vector<Candidate>& singles) {
@@ -56,7 +61,9 @@ const std::vector<Fit>& SetSearch::grow(std::string_view what, double to) {
     looks = best_of(early_sets_, options_.early_sets);
     work_.tell(what, from + 0.5 * (to - from));
   }
+  const double before = least_beyond_noise(coarse_sets_);
   coarse_sets_ = larger(parts_.coarse(), coarse_sets_, options_.coarse_growth, std::move(looks));
+  share_taken_ = before > 0.0 ? 1.0 - least_beyond_noise(coarse_sets_) / before : 0.0;
   work_.tell(what, to);
   return coarse_sets_;
 }

@@ -43,6 +43,9 @@ class SetSearch {
   /// Sets of one effect more than before, fitted to the coarse part, the best first. As part of
   /// `what`, up to the fraction `to` of the work. Throws Cancelled where the work is cancelled.
   const std::vector<Fit>& grow(std::string_view what, double to);
+  /// Part of what the best set left beyond noise on the coarse part that the effect which `grow`
+  /// added last takes away.
+  double share_taken() const { return share_taken_; }
   /// `base` with each of the special effects that it lacks most, on the early part and on the
   /// coarse part, fitted to the coarse part; the best first.
   std::vector<Fit> beside(const Candidate& base, std::size_t most) const;
@@ -70,6 +73,7 @@ class SetSearch {
   ReportedWork& work_;
   std::vector<Fit> early_sets_ = {};
   std::vector<Fit> coarse_sets_ = {};
+  double share_taken_ = 0.0;
 };
 
 }  // namespace flexarm::diagnose

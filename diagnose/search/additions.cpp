@@ -20,6 +20,8 @@ using Eigen::VectorXd;
 /// Sizes of the change that a value makes, where its range does not bound them.
 constexpr double kLeastSize = 0.25;
 constexpr double kMostSize = 2.5;
+/// Of the size that a test finds.
+constexpr double kNear = 0.05;
 /// A change that is smaller than this part of the residuals is rounding.
 constexpr double kLeastChange = 1e-6;
 
@@ -132,7 +134,8 @@ std::vector<Addition> additions(const Problem& problem, const Fit& base,
       const double size = std::clamp(along / squares, least, most);
       const double share = size * (2.0 * along - size * squares) / base.sum_of_squares;
       if (share <= best.share) continue;
-      best = {&effect, values_at(effect, places, size), share};
+      best = {&effect, values_at(effect, places, size), values_at(effect, places, kNear * size),
+              share};
     }
     return best;
   };

@@ -13,7 +13,9 @@ namespace flexarm::diagnose {
 struct Addition {
   const Hypothesis* effect = nullptr;
   std::vector<double> values = {};  ///< a start for a fit
-  double share = 0.0;               ///< of the sum of squares that it explains, to first order
+  /// Another one, at a twentieth of that size: near the base, where the change is nearly linear.
+  std::vector<double> values_near_base = {};
+  double share = 0.0;  ///< of the sum of squares that it explains, to first order
 };
 
 /// Each of `others` beside `base`, a fit of the problem, at that of a few values which explains

@@ -93,8 +93,10 @@ std::vector<Fit> SetSearch::larger(const Problem& part, const std::vector<Fit>& 
   std::erase_if(starts, is_known);
   std::erase_if(grown, [&](const Start& start) { return is_known(start.candidate); });
   grown.resize(std::min(growth.fitted, grown.size()));
-  for (Start& start : grown) starts.push_back(std::move(start.candidate));
-  return fitted(part, starts);
+  std::vector<Start> all;
+  for (Candidate& start : starts) all.push_back({.candidate = std::move(start)});
+  std::ranges::move(grown, std::back_inserter(all));
+  return fitted(part, all);
 }
 
 std::vector<SetSearch::Start> SetSearch::with_additions(const Problem& part, const Fit& set,
@@ -106,7 +108,9 @@ std::vector<SetSearch::Start> SetSearch::with_additions(const Problem& part, con
     found.resize(std::min(most, found.size()));
     for (const Addition& addition : found) {
       made.push_back({set.candidate.with(*addition.effect, addition.values),
-                      (1.0 - addition.share) * set.sum_of_squares});
+                      (1.0 - addition.share) * set.sum_of_squares,
+                      set.candidate.with(*addition.effect, addition.values_near_base),
+                      set.sum_of_squares});
     }
   };
   add(special_, growth.special);
@@ -116,8 +120,20 @@ std::vector<SetSearch::Start> SetSearch::with_additions(const Problem& part, con
 
 std::vector<Fit> SetSearch::fitted(const Problem& part,
                                    const std::vector<Candidate>& starts) const {
+  std::vector<Start> made;
+  for (const Candidate& start : starts) made.push_back({.candidate = start});
+  return fitted(part, made);
+}
+
+std::vector<Fit> SetSearch::fitted(const Problem& part, const std::vector<Start>& starts) const {
   std::vector<Fit> fits(starts.size());
-  in_parallel(starts.size(), [&](std::size_t i) { fits[i] = coarse_fit(part, starts[i], work_); });
+  in_parallel(starts.size(), [&](std::size_t i) {
+    const Start& start = starts[i];
+    fits[i] = coarse_fit(part, start.candidate, work_);
+    if (fits[i].sum_of_squares <= start.left_by_base) return;
+    Fit again = coarse_fit(part, start.near_base, work_);
+    if (again.sum_of_squares < fits[i].sum_of_squares) fits[i] = std::move(again);
+  });
   std::ranges::stable_sort(fits, {}, &Fit::sum_of_squares);
   std::vector<Fit> sets;
   std::ranges::copy_if(fits, std::back_inserter(sets),

@@ -5,6 +5,7 @@
 #include "diagnose/search/selection_options.hpp"
 
 #include <cstddef>
+#include <limits>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -51,10 +52,14 @@ class SetSearch {
   std::vector<Fit> beside(const Candidate& base, std::size_t most) const;
 
  private:
-  /// A set that is to be fitted, and the sum of squares that the score test expects it to leave.
+  /// A set that is to be fitted.
   struct Start {
     Candidate candidate;
-    double expected = 0.0;
+    double expected = 0.0;  ///< sum of squares that the score test expects it to leave
+    // Of a set with one effect more than a fitted one: where a fit from `candidate` leaves more
+    // than that left, it went astray, and begins again beside the fitted set.
+    Candidate near_base = {};
+    double left_by_base = std::numeric_limits<double>::infinity();
   };
 
   /// `starts`, and of the best of `sets`, each with the effects that it lacks most, those that are
@@ -63,6 +68,7 @@ class SetSearch {
                           const SetGrowth& growth, std::vector<Candidate> starts = {}) const;
   std::vector<Start> with_additions(const Problem& part, const Fit& set,
                                     const SetGrowth& growth) const;
+  std::vector<Fit> fitted(const Problem& part, const std::vector<Start>& starts) const;
   std::vector<Fit> fitted(const Problem& part, const std::vector<Candidate>& starts) const;
   bool is_ahead_of_limits(const Fit& set, const std::vector<Fit>& sets) const;
 

@@ -7,7 +7,10 @@
 #include <algorithm>
 #include <cstddef>
 #include <functional>
+#include <iterator>
 #include <limits>
+#include <map>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -96,6 +99,23 @@ std::vector<double> values_at(const Hypothesis& hypothesis, Places places, doubl
   return effects::values_at(hypothesis.parameters, places);
 }
 
+/// Some effects do nothing up to a threshold: an actuator saturates where a torque reaches its
+/// limit. Between neighbouring places one of which changes nothing, looks nearer to that one.
+template <class ChangesAt>
+void bisect_threshold(const std::map<double, bool>& changed, const ChangesAt& changes_at) {
+  constexpr int kBisections = 5;
+  const auto edge = std::ranges::adjacent_find(
+      changed, [](const auto& one, const auto& next) { return one.second != next.second; });
+  if (edge == changed.end()) return;
+  double idle = edge->first;
+  double active = std::next(edge)->first;
+  if (edge->second) std::swap(idle, active);
+  for (int i = 0; i < kBisections; ++i) {
+    const double between = std::midpoint(idle, active);
+    (changes_at({between}) ? active : idle) = between;
+  }
+}
+
 /// Of a law of hub torque with several parameters: the best that a regression on the measured
 /// motion finds beside the base. A few values would miss its period.
 std::optional<Places> scanned_law(const Problem& problem, const Candidate& base,
@@ -119,24 +139,32 @@ std::vector<Addition> additions(const Problem& problem, const Fit& base,
   const auto of = [&](const Hypothesis& effect) {
     Addition best{.share = -std::numeric_limits<double>::infinity()};
     if (base.candidate.has_effect(effect.effect)) return best;
-    const auto law = scanned_law(problem, base.candidate, effect, options, work);
-    for (const Places& places : law ? std::vector<Places>{*law} : samples_of(effect)) {
+    // Whether the effect changes residuals there.
+    const auto changes_at = [&](const Places& places) {
       work.go_on();
       const auto with = problem.residuals(
           base.candidate.with(effect, effects::values_at(effect.parameters, places)),
           problem.estimation_runs());
-      if (!with) continue;
+      if (!with) return true;
       const VectorXd change = refitted(base.residuals - *with);
       const double squares = change.squaredNorm();
-      if (!(squares > kLeastChange * kLeastChange * base.sum_of_squares)) continue;
+      if (!(squares > kLeastChange * kLeastChange * base.sum_of_squares)) return false;
       const auto [least, most] = sizes_of(effect, places);
       const double along = change.dot(left);
       const double size = std::clamp(along / squares, least, most);
       const double share = size * (2.0 * along - size * squares) / base.sum_of_squares;
-      if (share <= best.share) continue;
+      if (share <= best.share) return true;
       best = {&effect, values_at(effect, places, size), values_at(effect, places, kNear * size),
               share};
+      return true;
+    };
+    if (const auto law = scanned_law(problem, base.candidate, effect, options, work)) {
+      changes_at(*law);
+      return best;
     }
+    std::map<double, bool> changed;  // by the place of a single parameter
+    for (const Places& places : samples_of(effect)) changed[places.front()] = changes_at(places);
+    if (effect.parameters.size() == 1) bisect_threshold(changed, changes_at);
     return best;
   };
   std::vector<Addition> made(others.size());

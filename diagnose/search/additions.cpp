@@ -8,7 +8,6 @@
 #include <cstddef>
 #include <functional>
 #include <iterator>
-#include <limits>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -20,6 +19,8 @@ namespace {
 
 using Eigen::VectorXd;
 
+/// Starts of an effect at a place along the beam <= this.
+constexpr std::size_t kMostPlaces = 3;
 /// Sizes of the change that a value makes, where its range does not bound them.
 constexpr double kLeastSize = 0.25;
 constexpr double kMostSize = 2.5;
@@ -38,16 +39,31 @@ std::optional<std::size_t> size_parameter(const Hypothesis& hypothesis) {
   return static_cast<std::size_t>(found - hypothesis.parameters.begin());
 }
 
+/// A place along the beam: there is none where the effect does nothing.
+bool is_place(const SearchedParameter& parameter) {
+  return parameter.spacing == effects::Spacing::linear && !parameter.periodic &&
+         !parameter.neutral_coordinate();
+}
+
+/// The coordinate of an effect's place along the beam; 0 of one without.
+double place_along_beam(const Hypothesis& hypothesis, const Places& places) {
+  const auto found = std::ranges::find_if(hypothesis.parameters, is_place);
+  if (found == hypothesis.parameters.end()) return 0.0;
+  return places[static_cast<std::size_t>(found - hypothesis.parameters.begin())];
+}
+
 /// A few values of a hypothesis' parameters, as places in their ranges: over these; of a single
 /// one also near to where it does nothing, where the change is its direction; of many one size.
 std::vector<Places> samples_of(const Hypothesis& hypothesis) {
   constexpr std::size_t kMany = 4;
   const std::vector<double> spread = {0.15, 0.5, 0.85};
+  const std::vector<double> along_beam = {0.1, 0.3, 0.5, 0.7, 0.9};
   const std::size_t n = hypothesis.parameters.size();
   const auto sized = size_parameter(hypothesis);
   std::vector<Places> samples = {{}};
   for (std::size_t i = 0; i < n; ++i) {
-    std::vector<double> places = n >= kMany && i == sized ? std::vector{0.5} : spread;
+    std::vector<double> places = n > 1 && is_place(hypothesis.parameters[i]) ? along_beam : spread;
+    if (n >= kMany && i == sized) places = {0.5};
     const double neutral = hypothesis.parameters[i].neutral_coordinate().value_or(0.0);
     for (const double change : {0.004, -0.03, 0.03}) {
       const double place = neutral + change;
@@ -116,6 +132,19 @@ void bisect_threshold(const std::map<double, bool>& changed, const ChangesAt& ch
   }
 }
 
+/// The best, with the starts of the next ones.
+Addition best_of(const std::map<double, Addition>& at_places) {
+  std::vector<Addition> sorted;
+  for (const auto& [place, addition] : at_places) sorted.push_back(addition);
+  if (sorted.empty()) return {};
+  std::ranges::stable_sort(sorted, std::ranges::greater{}, &Addition::share);
+  Addition best = sorted.front();
+  for (std::size_t i = 1; i < std::min(kMostPlaces, sorted.size()); ++i) {
+    best.values_elsewhere.push_back(sorted[i].values);
+  }
+  return best;
+}
+
 /// Of a law of hub torque with several parameters: the best that a regression on the measured
 /// motion finds beside the base. A few values would miss its period.
 std::optional<Places> scanned_law(const Problem& problem, const Candidate& base,
@@ -137,8 +166,8 @@ std::vector<Addition> additions(const Problem& problem, const Fit& base,
   const RefitProjection refitted(base.jacobian);
   const VectorXd left = refitted(base.residuals);
   const auto of = [&](const Hypothesis& effect) {
-    Addition best{.share = -std::numeric_limits<double>::infinity()};
-    if (base.candidate.has_effect(effect.effect)) return best;
+    std::map<double, Addition> best_at;  // by the place along the beam
+    if (base.candidate.has_effect(effect.effect)) return Addition();
     // Whether the effect changes residuals there.
     const auto changes_at = [&](const Places& places) {
       work.go_on();
@@ -153,19 +182,23 @@ std::vector<Addition> additions(const Problem& problem, const Fit& base,
       const double along = change.dot(left);
       const double size = std::clamp(along / squares, least, most);
       const double share = size * (2.0 * along - size * squares) / base.sum_of_squares;
-      if (share <= best.share) return true;
-      best = {&effect, values_at(effect, places, size), values_at(effect, places, kNear * size),
-              share};
+      Addition& best = best_at[place_along_beam(effect, places)];
+      if (best.effect == nullptr || share > best.share) {
+        best = {.effect = &effect,
+                .values = values_at(effect, places, size),
+                .values_near_base = values_at(effect, places, kNear * size),
+                .share = share};
+      }
       return true;
     };
     if (const auto law = scanned_law(problem, base.candidate, effect, options, work)) {
       changes_at(*law);
-      return best;
+      return best_of(best_at);
     }
     std::map<double, bool> changed;  // by the place of a single parameter
     for (const Places& places : samples_of(effect)) changed[places.front()] = changes_at(places);
     if (effect.parameters.size() == 1) bisect_threshold(changed, changes_at);
-    return best;
+    return best_of(best_at);
   };
   std::vector<Addition> made(others.size());
   in_parallel(others.size(), [&](std::size_t i) { made[i] = of(*others[i]); });

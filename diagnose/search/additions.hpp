@@ -13,6 +13,9 @@ namespace flexarm::diagnose {
 struct Addition {
   const Hypothesis* effect = nullptr;
   std::vector<double> values = {};  ///< a start for a fit
+  /// Others, the best first: of an effect at a place along the beam, which does nearly the same at
+  /// several places.
+  std::vector<std::vector<double>> values_elsewhere = {};
   /// Another one, at a twentieth of that size: near the base, where the change is nearly linear.
   std::vector<double> values_near_base = {};
   double share = 0.0;  ///< of the sum of squares that it explains, to first order

@@ -107,10 +107,13 @@ std::vector<SetSearch::Start> SetSearch::with_additions(const Problem& part, con
     std::vector<Addition> found = additions(part, set, effects, options_, work_);
     found.resize(std::min(most, found.size()));
     for (const Addition& addition : found) {
-      made.push_back({set.candidate.with(*addition.effect, addition.values),
-                      (1.0 - addition.share) * set.sum_of_squares,
-                      set.candidate.with(*addition.effect, addition.values_near_base),
-                      set.sum_of_squares});
+      made.push_back({.candidate = set.candidate.with(*addition.effect, addition.values),
+                      .expected = (1.0 - addition.share) * set.sum_of_squares,
+                      .near_base = set.candidate.with(*addition.effect, addition.values_near_base),
+                      .left_by_base = set.sum_of_squares});
+      for (const std::vector<double>& values : addition.values_elsewhere) {
+        made.back().elsewhere.push_back(set.candidate.with(*addition.effect, values));
+      }
     }
   };
   add(special_, growth.special);
@@ -130,9 +133,12 @@ std::vector<Fit> SetSearch::fitted(const Problem& part, const std::vector<Start>
   in_parallel(starts.size(), [&](std::size_t i) {
     const Start& start = starts[i];
     fits[i] = coarse_fit(part, start.candidate, work_);
-    if (fits[i].sum_of_squares <= start.left_by_base) return;
-    Fit again = coarse_fit(part, start.near_base, work_);
-    if (again.sum_of_squares < fits[i].sum_of_squares) fits[i] = std::move(again);
+    const auto try_from = [&](const Candidate& other) {
+      Fit again = coarse_fit(part, other, work_);
+      if (again.sum_of_squares < fits[i].sum_of_squares) fits[i] = std::move(again);
+    };
+    std::ranges::for_each(start.elsewhere, try_from);
+    if (fits[i].sum_of_squares > start.left_by_base) try_from(start.near_base);
   });
   std::ranges::stable_sort(fits, {}, &Fit::sum_of_squares);
   std::vector<Fit> sets;

@@ -56,6 +56,7 @@ class SetSearch {
   struct Start {
     Candidate candidate;
     double expected = 0.0;  ///< sum of squares that the score test expects it to leave
+    std::vector<Candidate> elsewhere = {};  ///< the same set at other values
     // Of a set with one effect more than a fitted one: where a fit from `candidate` leaves more
     // than that left, it went astray, and begins again beside the fitted set.
     Candidate near_base = {};

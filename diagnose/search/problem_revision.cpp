@@ -72,8 +72,8 @@ void ProblemRevision::colour_noise_beside_singles(Selection& made) {
   colour_noise(made, made.singles.front(), 1.0, kResidualLevel);
 }
 
-void ProblemRevision::colour_noise_beside(Selection& made, const Explanation& set) {
-  if (!set.leaves_noise()) colour_noise(made, set, 1.0, kResidualLevel);
+bool ProblemRevision::colour_noise_beside(Selection& made, const Explanation& set) {
+  return !set.leaves_noise() && colour_noise(made, set, 1.0, kResidualLevel);
 }
 
 void ProblemRevision::colour_noise_at_last(Selection& made) {

@@ -31,8 +31,8 @@ class ProblemRevision {
   void colour_noise_of_nothing(Selection& made);
   /// Of what no cause, or the best single leaves, where no single leaves white noise.
   void colour_noise_beside_singles(Selection& made);
-  /// Of what this set of effects leaves, where that is not noise.
-  void colour_noise_beside(Selection& made, const Explanation& set);
+  /// Of what this set of effects leaves, where that is not noise. Returns whether it is taken up.
+  bool colour_noise_beside(Selection& made, const Explanation& set);
   /// Of what no cause, or the chosen set leaves, where the search has found nothing better: unless
   /// it depends on the motion for certain (kCertainDependence).
   void colour_noise_at_last(Selection& made);

@@ -240,6 +240,16 @@ class Search {
         choose(made, std::move(better));
       }
     }
+    if (last && !is_enough(made)) try_in_coloured_noise(made, *last);
+  }
+
+  /// Coloured noise is excess residual in white noise: beside it the last effects of `largest` may
+  /// not clear the bars. The best that exchanges make of it is tried in the noise that it leaves.
+  void try_in_coloured_noise(Selection& made, const Explanation& largest) {
+    const Explanation best = generalised(made, exchanged(made, largest));
+    if (!revision_.colour_noise_beside(made, best)) return;
+    const auto again = find_set(made.combinations, best.fit.candidate);
+    if (again != made.combinations.end()) choose_needed(made, specialised(made, *again));
   }
 
   /// `found` with limits of its general effects in place of those that do not clear the bars over
@@ -277,6 +287,21 @@ class Search {
     if (!is_admitted(made, best, made.chosen)) return;
     if (best.fit.candidate.effects.size() == 1) replace_single(made, best);
     choose(made, best);
+  }
+
+  /// `best` with each effect exchanged for one that has it as a limit where that fits better.
+  Explanation generalised(Selection& made, Explanation best) const {
+    for (std::size_t i = 0; i < best.fit.candidate.effects.size(); ++i) {
+      for (const Hypothesis* general : general_.all()) {
+        const Candidate candidate = best.fit.candidate;
+        if (!general->contains(candidate.effects[i].effect)) continue;
+        if (candidate.has_effect(general->effect)) continue;
+        Explanation found = replaced(made, candidate, i, *general);
+        const bool is_better = found.fit.sum_of_squares < best.fit.sum_of_squares;
+        if (is_better && is_identified(found)) return generalised(made, std::move(found));
+      }
+    }
+    return best;
   }
 
   /// Where something is left: each chosen effect exchanged for one that has it as a limit.

@@ -23,6 +23,11 @@ namespace status = Eigen::LevenbergMarquardtSpace;
 constexpr double kStep = 1e-5;
 /// A Jacobian is updated where it predicted the change of the residuals to this part of that.
 constexpr double kPredicted = 0.3;
+/// A step that lowers the sum of squares by so many times what the Jacobian expected is too short:
+/// residuals that jump, as where friction reverses, have larger derivatives than changes.
+constexpr double kBeyondExpected = 1.5;
+/// It is lengthened to at most so many times.
+constexpr double kMostTimes = 1024.0;
 /// The minimum is no further below than this times what a Jacobian leads to, near it.
 constexpr double kMostBeyond = 4.0;
 
@@ -79,6 +84,32 @@ class DifferencedResiduals {
   }
 
   const Eigen::VectorXd& residuals(const Eigen::VectorXd& places) { return at(places).residuals; }
+
+  /// Goes on along the step that the last Jacobian led to, to `places`, twice as far each time
+  /// while the sum of squares falls, if in this step and in the last one it fell by more than
+  /// expected. Returns whether it did.
+  bool go_further(Eigen::VectorXd& places) {
+    if (!jacobian_ || jacobian_->at.places == places) return false;
+    const auto& [begin, left] = jacobian_->at;
+    const Eigen::VectorXd step = places - begin;
+    const double before = left.squaredNorm();
+    const double expected = before - (left + jacobian_->values * step).squaredNorm();
+    double least = at(places).residuals.squaredNorm();
+    const bool fell_further = before - least > kBeyondExpected * expected;
+    if (!std::exchange(fell_further_, fell_further) || !fell_further) return false;
+    double times = 1.0;
+    while (times < kMostTimes) {
+      Evaluated further = evaluated(begin + 2.0 * times * step);
+      const double sum = further.residuals.squaredNorm();
+      if (!(sum < least)) break;
+      least = sum;
+      places = further.places;
+      here_ = std::move(further);
+      times *= 2.0;
+    }
+    return times > 1.0;
+  }
+
   /// The last Jacobian is no quotient of differences.
   bool is_updated() const { return jacobian_ && jacobian_->is_updated; }
   /// By the last Jacobian, where it was formed, the minimum is above that.
@@ -148,6 +179,7 @@ class DifferencedResiduals {
   Evaluated here_;
   std::optional<Jacobian> jacobian_;
   bool updates_ = true;
+  bool fell_further_ = false;  // in the last step, than its Jacobian expected
 };
 
 /// Whether a Gauss-Newton step would lower the sum of squares by no more than this part of it.
@@ -173,6 +205,9 @@ LeastSquares least_squares(const ResidualsAt& residuals, const Eigen::VectorXd& 
            steps < options.most_steps && above < kAgreeing) {
       ++steps;
       ended = minimiser.minimizeOneStep(made.places);
+      if (ended == status::Running && differenced.go_further(made.places)) {
+        ended = minimiser.minimizeInit(made.places);
+      }
       above = differenced.is_minimum_above(options.highest_minimum) ? above + 1 : 0;
     }
     made.is_out_of_reach = above == kAgreeing;

@@ -87,5 +87,22 @@ TEST(LeastSquares, WithoutStepsIsWhereItBegan) {
   EXPECT_EQ(found.evaluations, 4);
 }
 
+/// Where friction reverses, residuals jump with the parameters: their derivatives are far larger
+/// than what they change by over a step, and lead to steps that are far too short.
+TEST(LeastSquares, GoesFurtherThanSteepRipplesLead) {
+  constexpr Eigen::Index kCount = 500;
+  constexpr double kMinimum = 0.9;
+  constexpr double kHeight = 1e-3;
+  constexpr double kSlope = 8.0;  // of the ripples; that of the rest is 1
+  const auto residuals = [](const Eigen::VectorXd& places) -> Eigen::VectorXd {
+    return Eigen::VectorXd::NullaryExpr(kCount, [&](Eigen::Index k) {
+      const double phase = kSlope / kHeight * places(0) + static_cast<double>(k * k);
+      return places(0) - kMinimum + kHeight * std::sin(phase);
+    });
+  };
+  const LeastSquares found = least_squares(residuals, Eigen::VectorXd::Constant(1, 0.2));
+  EXPECT_NEAR(found.places(0), kMinimum, 10.0 * kHeight);
+}
+
 }  // namespace
 }  // namespace flexarm::diagnose

@@ -7,6 +7,7 @@
 #include "diagnose/search/problem_revision.hpp"
 #include "diagnose/search/rivals.hpp"
 #include "diagnose/search/set_fits.hpp"
+#include "diagnose/search/set_replacements.hpp"
 #include "diagnose/search/set_search.hpp"
 
 #include <algorithm>
@@ -45,6 +46,7 @@ class Search {
         work_(progress, options.deadline),
         fits_(problem_, options, work_),
         general_(hypotheses, options, fits_),
+        replacements_(hypotheses, options, fits_, general_),
         revision_(problem_, options, fits_, work_) {}
 
   Selection run() {
@@ -137,20 +139,8 @@ class Search {
            left.unexplained_error() <= left.simulated * options_.negligible_error;
   }
 
-  /// clears_bars against each set in which one of its effects is replaced by a limit of that: a
-  /// general effect is named for what it adds to the special one. `fuller` may be among the sets of
-  /// `made`, to which such a set is added.
-  bool clears_limits(Selection& made, const Explanation& fuller) const {
-    const std::vector<LimitOfEffect> limits = limits_in(fuller.fit.candidate, hypotheses_);
-    if (limits.empty()) return true;
-    const Explanation kept = fuller;
-    return std::ranges::all_of(limits, [&](const LimitOfEffect& of) {
-      return clears_bars(kept, replaced(made, kept.fit.candidate, of.effect, *of.limit), options_);
-    });
-  }
-
   bool is_admitted(Selection& made, const Explanation& fuller, const Explanation& simpler) const {
-    return may_be_named(fuller, simpler) && clears_limits(made, fuller);
+    return may_be_named(fuller, simpler) && replacements_.clears_limits(made, fuller);
   }
 
   /// Beyond clears_bars, each parameter is identified by the standard errors that are stated.
@@ -161,19 +151,6 @@ class Search {
 
   Eigen::VectorXd stated_errors(const Explanation& explanation) const {
     return coordinate_errors(problem_, explanation, options_.further_modes);
-  }
-
-  /// `candidate` with another effect in place of one of its own: as it was fitted before, or fitted
-  /// now and kept.
-  Explanation replaced(Selection& made, const Candidate& candidate, std::size_t index,
-                       const Hypothesis& other) const {
-    auto& kept = candidate.effects.size() == 1 ? made.singles : made.combinations;
-    const auto same = find_set(kept, candidate.without(index).with(other, other.middle()));
-    if (same != kept.end()) return *same;
-    Explanation found = fits_.fitted(fits_.scan().look_in_place(candidate, index, other).candidate);
-    kept.push_back(found);
-    sort_by_fit(kept);
-    return found;
   }
 
   /// The best admitted single over none, or one with fewer parameters that fits as well by delta
@@ -226,7 +203,8 @@ class Search {
                      made.combinations);
       if (simplest(made.combinations, size, options_) == nullptr) break;
       revision_.colour_noise_beside(made, *simplest(made.combinations, size, options_));
-      const Explanation best = specialised(made, *simplest(made.combinations, size, options_));
+      const Explanation best =
+          replacements_.specialised(made, *simplest(made.combinations, size, options_));
       choose_needed(made, best);
       const bool is_ahead = !last || is_worth_another(best, *last) ||
                             search.share_taken() >= options_.least_share_ahead;
@@ -246,20 +224,11 @@ class Search {
   /// Coloured noise is excess residual in white noise: beside it the last effects of `largest` may
   /// not clear the bars. The best that exchanges make of it is tried in the noise that it leaves.
   void try_in_coloured_noise(Selection& made, const Explanation& largest) {
-    const Explanation best = generalised(made, exchanged(made, largest));
+    const Explanation best = replacements_.generalised(made, exchanged(made, largest));
     if (!revision_.colour_noise_beside(made, best)) return;
     const auto again = find_set(made.combinations, best.fit.candidate);
-    if (again != made.combinations.end()) choose_needed(made, specialised(made, *again));
-  }
-
-  /// `found` with limits of its general effects in place of those that do not clear the bars over
-  /// them.
-  Explanation specialised(Selection& made, Explanation found) const {
-    for (const LimitOfEffect& of : limits_in(found.fit.candidate, hypotheses_)) {
-      const Explanation limited = replaced(made, found.fit.candidate, of.effect, *of.limit);
-      if (!clears_bars(found, limited, options_)) return specialised(made, limited);
-    }
-    return found;
+    if (again != made.combinations.end())
+      choose_needed(made, replacements_.specialised(made, *again));
   }
 
   /// One effect more beside those that are chosen, after exchanges.
@@ -283,25 +252,10 @@ class Search {
 
   /// What is needed of it, where that is admitted.
   void choose_needed(Selection& made, const Explanation& fuller) {
-    const Explanation best = needed(fuller);
+    const Explanation best = replacements_.needed(fuller);
     if (!is_admitted(made, best, made.chosen)) return;
     if (best.fit.candidate.effects.size() == 1) replace_single(made, best);
     choose(made, best);
-  }
-
-  /// `best` with each effect exchanged for one that has it as a limit where that fits better.
-  Explanation generalised(Selection& made, Explanation best) const {
-    for (std::size_t i = 0; i < best.fit.candidate.effects.size(); ++i) {
-      for (const Hypothesis* general : general_.all()) {
-        const Candidate candidate = best.fit.candidate;
-        if (!general->contains(candidate.effects[i].effect)) continue;
-        if (candidate.has_effect(general->effect)) continue;
-        Explanation found = replaced(made, candidate, i, *general);
-        const bool is_better = found.fit.sum_of_squares < best.fit.sum_of_squares;
-        if (is_better && is_identified(found)) return generalised(made, std::move(found));
-      }
-    }
-    return best;
   }
 
   /// Where something is left: each chosen effect exchanged for one that has it as a limit.
@@ -310,7 +264,7 @@ class Search {
     for (std::size_t i = 0; i < chosen.effects.size() && !is_enough(made); ++i) {
       for (const Hypothesis* general : general_.all()) {
         if (!general->contains(chosen.effects[i].effect)) continue;
-        const Explanation found = replaced(made, chosen, i, *general);
+        const Explanation found = replacements_.replaced(made, chosen, i, *general);
         if (may_be_named(found, made.chosen)) made.chosen = found;
       }
     }
@@ -342,7 +296,7 @@ class Search {
           const Candidate rest = chosen.without(other);
           const std::size_t index = other < i ? i - 1 : i;
           if (fits_.scan().share_of(rest.without(index), *general) < options_.least_share) continue;
-          const Explanation merged = replaced(made, rest, index, *general);
+          const Explanation merged = replacements_.replaced(made, rest, index, *general);
           if (!merged.leaves_noise() || !may_be_named(merged, made.nothing)) continue;
           if (lead(made.chosen, merged) >= options_.least_information_gain) continue;
           made.chosen = merged;
@@ -361,10 +315,18 @@ class Search {
       auto unnamed = unidentified_effect(candidate, stated_errors(made.chosen));
       if (!unnamed) unnamed = improbable_effect(made, options_);
       if (!unnamed) return;
-      const Candidate rest = candidate.without(*unnamed);
-      made.chosen = fits_.fitted(rest);
+      made.chosen = without(made, *unnamed);
       if (!clears_bars(made.chosen, made.nothing, options_)) made.chosen = made.nothing;
     }
+  }
+
+  /// The chosen set without one of its effects, fitted from its values; where the time is over, as
+  /// it was fitted before, if it was.
+  Explanation without(Selection& made, std::size_t effect) const {
+    const Candidate rest = made.chosen.fit.candidate.without(effect);
+    auto& kept = rest.effects.size() == 1 ? made.singles : made.combinations;
+    const auto same = find_set(kept, rest);
+    return made.end && same != kept.end() ? *same : fits_.fitted(rest);
   }
 
   /// One by itself at other values than its scan found: to be combined anew.
@@ -382,21 +344,6 @@ class Search {
   void combine(Selection& made, const Candidate& base, std::string_view what, double to) {
     if (!combined_.insert(base.labels()).second) return;
     fits_.add_beside(base, general_.others(), what, to, options_.effects_beside, made.combinations);
-  }
-
-  /// `explanation` without effects that the others, refitted, make superfluous: those that take
-  /// away less than an effect must.
-  Explanation needed(const Explanation& explanation) const {
-    const Candidate& candidate = explanation.fit.candidate;
-    if (candidate.effects.size() < 2) return explanation;
-    std::vector<Explanation> simpler(candidate.effects.size());
-    in_parallel(simpler.size(),
-                [&](std::size_t i) { simpler[i] = fits_.fitted(candidate.without(i)); });
-    sort_by_fit(simpler);
-    for (const Explanation& one : simpler) {
-      if (!clears_bars(explanation, one, options_)) return needed(one);
-    }
-    return explanation;
   }
 
   /// `best` with one cause after the other exchanged while that fits decisively better: of two
@@ -420,7 +367,7 @@ class Search {
       if (!is_rival(candidate, best.fit.candidate)) continue;
       const auto rival = find_set(made.combinations, candidate);
       if (lead(*rival, best) < options_.least_information_gain) continue;
-      if (clears_limits(made, *rival)) return *find_set(made.combinations, candidate);
+      if (replacements_.clears_limits(made, *rival)) return *find_set(made.combinations, candidate);
     }
     return std::nullopt;
   }
@@ -434,6 +381,7 @@ class Search {
   ReportedWork work_;
   SetFits fits_;
   GeneralEffects general_;
+  SetReplacements replacements_;
   ProblemRevision revision_;
   std::set<std::set<std::string>> combined_;  // labels of what has been tried with any other
 };

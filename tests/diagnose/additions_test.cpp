@@ -5,8 +5,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <set>
+#include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 namespace flexarm::diagnose {
@@ -67,6 +71,45 @@ TEST_F(AdditionsToALateArm, AreNoneOfTheEffectsThatTheBaseHas) {
 TEST_F(AdditionsToALateArm, EndWhereTheWorkIsCancelled) {
   const DiagnosisProgress cancel = [](std::string_view, double) { return false; };
   EXPECT_THROW(beside(problem_.as_filed(), cancel), Cancelled);
+}
+
+/// The additions of this effect beside nothing.
+std::vector<Addition> additions_of(const Experiment& experiment, const std::string& effect) {
+  const Problem problem(experiment);
+  const DiagnosisProgress silent;
+  const ReportedWork work(silent);
+  const std::vector<Hypothesis> hypotheses = named(experiment, {effect});
+  return additions(problem, fit(problem, problem.as_filed()), {&hypotheses.front()}, {}, work);
+}
+
+TEST(Additions, FindTheThresholdOfASaturation) {
+  double largest_N_m = 0.0;
+  for (const auto& run : simulated_experiment({}, {.duration_s = 1.0}).runs) {
+    for (const double torque_N_m : std::get<measured::TimeRecord>(run.data).torque_N_m) {
+      largest_N_m = std::max(largest_N_m, std::abs(torque_N_m));
+    }
+  }
+  // The values that are tried first are below and above it: of one quarter of the largest torque,
+  // and of more than that.
+  const double limit_N_m = 0.8 * largest_N_m;
+  const auto found = additions_of(
+      simulated_experiment({effects::named("torque_saturation", {{"limit", limit_N_m}})},
+                           {.duration_s = 1.0}),
+      "torque_saturation");
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_NEAR(found.front().values.front(), limit_N_m, 0.1 * limit_N_m);
+  EXPECT_GT(found.front().share, 0.5);
+}
+
+TEST(Additions, OfAMassBeginAtSeveralPlaces) {
+  const auto found = additions_of(
+      simulated_experiment({effects::named("attached_mass", {{"mass", 0.01}, {"position", 0.7}})},
+                           {.duration_s = 1.0}),
+      "attached_mass");
+  ASSERT_EQ(found.size(), 1U);
+  std::set<double> positions_m = {found.front().values.back()};
+  for (const auto& values : found.front().values_elsewhere) positions_m.insert(values.back());
+  EXPECT_EQ(positions_m.size(), 3U);
 }
 
 }  // namespace

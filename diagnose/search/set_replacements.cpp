@@ -1,0 +1,66 @@
+#include "diagnose/search/set_replacements.hpp"
+
+#include "diagnose/parallel.hpp"
+#include "diagnose/search/admission.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace flexarm::diagnose {
+
+Explanation SetReplacements::replaced(Selection& made, const Candidate& candidate,
+                                      std::size_t index, const Hypothesis& other) const {
+  auto& kept = candidate.effects.size() == 1 ? made.singles : made.combinations;
+  const auto same = find_set(kept, candidate.without(index).with(other, other.middle()));
+  if (same != kept.end()) return *same;
+  Explanation found = fits_.fitted(fits_.scan().look_in_place(candidate, index, other).candidate);
+  kept.push_back(found);
+  sort_by_fit(kept);
+  return found;
+}
+
+bool SetReplacements::clears_limits(Selection& made, const Explanation& fuller) const {
+  const std::vector<LimitOfEffect> limits = limits_in(fuller.fit.candidate, hypotheses_);
+  if (limits.empty()) return true;
+  const Explanation kept = fuller;
+  return std::ranges::all_of(limits, [&](const LimitOfEffect& of) {
+    return clears_bars(kept, replaced(made, kept.fit.candidate, of.effect, *of.limit), options_);
+  });
+}
+
+Explanation SetReplacements::specialised(Selection& made, Explanation found) const {
+  for (const LimitOfEffect& of : limits_in(found.fit.candidate, hypotheses_)) {
+    const Explanation limited = replaced(made, found.fit.candidate, of.effect, *of.limit);
+    if (!clears_bars(found, limited, options_)) return specialised(made, limited);
+  }
+  return found;
+}
+
+Explanation SetReplacements::generalised(Selection& made, Explanation best) const {
+  const Candidate candidate = best.fit.candidate;
+  for (std::size_t i = 0; i < candidate.effects.size(); ++i) {
+    for (const Hypothesis* general : general_.all()) {
+      if (!general->contains(candidate.effects[i].effect)) continue;
+      if (candidate.has_effect(general->effect)) continue;
+      Explanation found = replaced(made, candidate, i, *general);
+      const bool is_better = found.fit.sum_of_squares < best.fit.sum_of_squares;
+      if (is_better && is_identified(found)) return generalised(made, std::move(found));
+    }
+  }
+  return best;
+}
+
+Explanation SetReplacements::needed(const Explanation& explanation) const {
+  const Candidate& candidate = explanation.fit.candidate;
+  if (candidate.effects.size() < 2) return explanation;
+  std::vector<Explanation> simpler(candidate.effects.size());
+  in_parallel(simpler.size(),
+              [&](std::size_t i) { simpler[i] = fits_.fitted(candidate.without(i)); });
+  sort_by_fit(simpler);
+  for (const Explanation& one : simpler) {
+    if (!clears_bars(explanation, one, options_)) return needed(one);
+  }
+  return explanation;
+}
+
+}  // namespace flexarm::diagnose

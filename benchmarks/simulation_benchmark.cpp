@@ -1,5 +1,6 @@
 // Time responses: samples a second on one core beside the difference to inner steps ten times
 // smaller, for each kind of force.
+#include "benchmarks/comparison/friction_case.hpp"
 #include "benchmarks/simulation_case.hpp"
 #include "benchmarks/timing.hpp"
 #include "effects/registry/vocabulary.hpp"
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace flexarm::benchmarks {
 namespace {
@@ -38,7 +40,8 @@ ArmParts linear() {
 
 ArmParts coulomb() {
   ArmParts parts = linear();
-  response::add_effect(parts, effects::effect("coulomb_friction", {{"torque", 0.012}}));
+  response::add_effect(parts,
+                       effects::effect("coulomb_friction", {{"torque", kCoulombTorque_N_m}}));
   return parts;
 }
 
@@ -56,15 +59,19 @@ ArmParts drag() {
   return parts;
 }
 
+Simulation run_of(const SimulationCase& timed, const ArmParts& parts, int substeps, bool energy) {
+  return response::simulate(
+      timed.model, parts, timed.sensors, timed.torque_N_m,
+      {.sample_time_s = timed.sample_time_s, .substeps = substeps, .energy = energy});
+}
+
 void simulation(benchmark::State& state, ArmParts parts, bool energy) {
   const auto modes = static_cast<int>(state.range(0));
   const auto timed =
       simulation_case(modes, response::beam_stations(arm::paper_arm().beam.length_m).stations_m);
   parts.linear = timed.arm;
   const auto run = [&](int substeps) {
-    return response::simulate(
-        timed.model, parts, timed.sensors, timed.torque_N_m,
-        {.sample_time_s = timed.sample_time_s, .substeps = substeps, .energy = energy});
+    return run_of(timed, parts, substeps, energy);
   };
   for (auto _ : state) benchmark::DoNotOptimize(run(0));
   const auto made = run(0);
@@ -77,16 +84,67 @@ void simulation(benchmark::State& state, ArmParts parts, bool energy) {
   state.counters["difference"] = largest_difference(made, run(10 * summary.substeps));
 }
 
+/// Other tools take too long for all samples: the first second, with Coulomb friction.
+void second_with_friction(benchmark::State& state) {
+  const auto friction = friction_case(static_cast<int>(state.range(0)));
+  const auto run = [&](int substeps) {
+    return run_of(friction.timed, friction.parts, substeps, false);
+  };
+  for (auto _ : state) benchmark::DoNotOptimize(run(0));
+  const auto made = run(0);
+  state.counters["stick_time_s"] = made.summary.stick_time_s;
+  state.counters["difference"] =
+      largest_difference(made, run(kReferenceSubsteps * made.summary.substeps));
+}
+
+/// How the time grows with the number of modes and of samples.
+void growth(benchmark::State& state, ArmParts parts, int modes, int samples) {
+  const auto timed = simulation_case(modes, {}, static_cast<std::size_t>(samples));
+  parts.linear = timed.arm;
+  for (auto _ : state) benchmark::DoNotOptimize(run_of(timed, parts, 0, false));
+  state.SetComplexityN(state.range(0));
+}
+
+constexpr int kUsualModes = 10;
+constexpr int kUsualSamples = 100'000;
+
+void growth_with_modes(benchmark::State& state, ArmParts parts) {
+  growth(state, std::move(parts), static_cast<int>(state.range(0)), kUsualSamples);
+}
+
+void growth_with_samples(benchmark::State& state, ArmParts parts) {
+  growth(state, std::move(parts), kUsualModes, static_cast<int>(state.range(0)));
+}
+
 void repeated(benchmark::internal::Benchmark* benchmark) {
-  benchmark->ArgName("modes")->Arg(10)->Arg(20);
   benchmark->Repetitions(kRepetitions)->MinTime(kMinimumTime_s)->Unit(benchmark::kMillisecond);
 }
 
-BENCHMARK_CAPTURE(simulation, linear, linear(), false)->Apply(repeated);
-BENCHMARK_CAPTURE(simulation, coulomb, coulomb(), false)->Apply(repeated);
-BENCHMARK_CAPTURE(simulation, coulomb_with_energy, coulomb(), true)->Apply(repeated);
-BENCHMARK_CAPTURE(simulation, stribeck, stribeck(), false)->Apply(repeated);
-BENCHMARK_CAPTURE(simulation, coulomb_and_drag, drag(), false)->Apply(repeated);
+void by_modes(benchmark::internal::Benchmark* benchmark) {
+  benchmark->ArgName("modes")->Arg(5)->Arg(10)->Arg(20)->Arg(40);
+  repeated(benchmark);
+}
+
+void by_samples(benchmark::internal::Benchmark* benchmark) {
+  benchmark->ArgName("samples")->Arg(10'000)->Arg(100'000)->Arg(1'000'000);
+  repeated(benchmark);
+}
+
+void two_sizes(benchmark::internal::Benchmark* benchmark) {
+  benchmark->ArgName("modes")->Arg(10)->Arg(20);
+  repeated(benchmark);
+}
+
+BENCHMARK_CAPTURE(simulation, linear, linear(), false)->Apply(two_sizes);
+BENCHMARK_CAPTURE(simulation, coulomb, coulomb(), false)->Apply(two_sizes);
+BENCHMARK_CAPTURE(simulation, coulomb_with_energy, coulomb(), true)->Apply(two_sizes);
+BENCHMARK_CAPTURE(simulation, stribeck, stribeck(), false)->Apply(two_sizes);
+BENCHMARK_CAPTURE(simulation, coulomb_and_drag, drag(), false)->Apply(two_sizes);
+BENCHMARK(second_with_friction)->ArgName("modes")->Arg(kUsualModes)->Apply(repeated);
+BENCHMARK_CAPTURE(growth_with_modes, linear, linear())->Apply(by_modes);
+BENCHMARK_CAPTURE(growth_with_modes, coulomb, coulomb())->Apply(by_modes);
+BENCHMARK_CAPTURE(growth_with_samples, linear, linear())->Apply(by_samples);
+BENCHMARK_CAPTURE(growth_with_samples, coulomb, coulomb())->Apply(by_samples);
 
 }  // namespace
 }  // namespace flexarm::benchmarks

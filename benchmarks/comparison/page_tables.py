@@ -1,0 +1,175 @@
+"""The rows of docs/benchmarks.md: which measurement of flexarm stands beside which of another tool.
+
+Ours: subject of the Google Benchmark program, name, and the counter that is its error; or, for what
+no Google Benchmark program measures, file of rows and `work`. Theirs: file of rows and `work`.
+"""
+from typing import NamedTuple, Optional
+
+
+class Ours(NamedTuple):
+    subject: str
+    name: str
+    error: Optional[str] = None  # a counter
+
+
+class Measured(NamedTuple):
+    file: str
+    work: str
+
+
+class Row(NamedTuple):
+    work: str
+    ours: object
+    theirs: Measured
+    by: str  # the function of the other tool
+
+
+class Table(NamedTuple):
+    title: str
+    text: str  # what the errors are; what is in the times
+    rows: list
+
+
+class Growth(NamedTuple):
+    work: str
+    over: str
+    subject: str
+    name: str  # of the series, without the size
+    size: str  # name of the argument
+
+
+ROOTS = Table(
+    "Poles and zeros",
+    "The paper's arm. Errors of ten roots are the largest relative error of a frequency against 30 "
+    "digits. Of 1000 roots, that of flexarm is the certified bound of lambda, that of SciPy the "
+    "largest difference to flexarm. The script in SciPy finds brackets by a scan that NumPy does at "
+    "once.",
+    [Row("10 poles and 10 hub zeros, exact", Ours("exact_tf", "poles_and_hub_zeros", "error"),
+         Measured("roots_scipy", "brentq poles and hub zeros:10"), "brentq"),
+     Row("1000 poles, exact", Ours("exact_tf", "poles/roots:1000", "ulp"),
+         Measured("roots_scipy", "brentq poles:1000"), "brentq"),
+     Row("1000 hub zeros, exact", Ours("exact_tf", "hub_zeros/roots:1000", "ulp"),
+         Measured("roots_scipy", "brentq hub zeros:1000"), "brentq"),
+     Row("10 poles and 10 hub zeros, 29 cubic elements",
+         Ours("fem", "poles_and_hub_zeros/degree:3/elements:29", "error"),
+         Measured("control_octave", "pole and zero elements:29"), "pole, zero")])
+
+
+def elements_row(count, ours, solver):
+    return Row(f"10 poles, {count:,} cubic elements", Ours("fem", ours, "error"),
+               Measured("matrices_scipy", f"{solver} elements:{count}"), solver)
+
+
+MATRICES = Table(
+    "Finite elements and assumed modes",
+    "Ten poles of the paper's arm. Errors are the largest relative error of a frequency against the "
+    "exact value. Times of flexarm include assembly. SciPy gets the assembled stiffness and mass: "
+    "`eigh` as dense matrices, `eigsh` as sparse ones in shift-invert. The last two rows have the "
+    "default models of flexarm.",
+    [elements_row(29, "ten_poles/cubic_elements_29", "eigh"),
+     elements_row(100, "poles_of_cubic_elements/elements:100", "eigh"),
+     elements_row(300, "ten_poles/cubic_elements_300", "eigh"),
+     elements_row(29, "ten_poles/cubic_elements_29", "eigsh"),
+     *[elements_row(count, f"poles_of_cubic_elements/elements:{count}", "eigsh")
+       for count in (100, 1000, 10000, 100000)],
+     Row("10 poles, 4 elements of degree 15; SciPy: 100 cubic elements",
+         Ours("fem", "ten_poles/default_mesh", "error"),
+         Measured("matrices_scipy", "eigsh elements:100"), "eigsh"),
+     Row("10 poles, 36 Legendre functions", Ours("assumed_modes", "ten_poles", "error"),
+         Measured("matrices_scipy", "eigh functions:36"), "eigh")])
+
+
+def response_row(modes, file, work, by):
+    return Row(f"64 frequencies; other tool: {modes} modes",
+               Ours("exact_tf", "response/hub_angle", "error"),
+               Measured(file, f"{work} modes:{modes}"), by)
+
+
+RESPONSES = Table(
+    "Frequency responses",
+    "Hub angle of the damped arm from 0.1 to 200 Hz. Errors are the largest relative error of a value: "
+    "of flexarm against 25 digits, of the others against flexarm. They evaluate a modal state space. "
+    "Its error is that of the omitted modes, unless the method loses more. `freqresp` of SciPy goes "
+    "through the polynomials of the transfer function. A linear solve per frequency and partial "
+    "fractions are what a user of NumPy would write in its place. The time of partial fractions "
+    "includes the eigenvalues.",
+    [Row("64 frequencies; other tool: 10 modes", Ours("exact_tf", "response/hub_angle", "error"),
+         Measured("responses_scipy", "freqresp modes:10"), "freqresp"),
+     *[response_row(modes, "responses_scipy", "solve", "numpy.linalg.solve")
+       for modes in (10, 40, 160)],
+     *[response_row(modes, "responses_scipy", "partial fractions", "numpy.linalg.eig")
+       for modes in (10, 40, 160)],
+     *[response_row(modes, "control_octave", "freqresp", "freqresp")
+       for modes in (10, 40, 160)]])
+
+LINEAR = Table(
+    "Linear time simulation",
+    "100,000 samples at 10 kHz, 10 flexible modes, 4 sensors, zero-order hold of the torque. The "
+    "error of flexarm is the difference to inner steps ten times smaller. Errors of the others are "
+    "differences to flexarm. Each is the largest of the four sensors, relative to their peaks. The "
+    "target of the project is a ratio of 50 to `dlsim`.",
+    [Row("linear arm", Ours("simulation", "simulation/linear/modes:10", "difference"),
+         Measured("simulation_scipy", "dlsim modes:10"), "dlsim"),
+     Row("linear arm", Ours("simulation", "simulation/linear/modes:10", "difference"),
+         Measured("simulation_scipy", "lsim modes:10"), "lsim"),
+     Row("linear arm", Ours("simulation", "simulation/linear/modes:10", "difference"),
+         Measured("control_octave", "lsim modes:10"), "lsim")])
+
+SECOND = Ours("simulation", "second_with_friction/modes:10", "difference")
+
+
+def tanh_row(method, width):
+    return Row(f"10 modes; other tool: tanh of width {width} rad/s", SECOND,
+               Measured("friction_scipy", f"{method} width:{width}"), f"solve_ivp, {method}")
+
+
+def chain_row(links, timestep_us, steps, kind):
+    return Row(f"10 modes; other tool: {links} links, step {timestep_us} us, {kind} friction",
+               Measured("friction_mujoco", "flexarm modes:10"),
+               Measured("friction_mujoco", f"links:{links} steps:{steps} {kind}"), "mj_step")
+
+
+FRICTION = Table(
+    "Dry friction with stick",
+    "The first second of the same simulation, 10,000 samples, with Coulomb friction of 0.012 N m at "
+    "the hub. `solve_ivp` needs a smooth friction: a tanh of the hub velocity over the stated width. "
+    "Its tolerances are 1e-6 relative and 1e-9 absolute. Radau has the Jacobian. Errors of these rows "
+    "are those of the linear simulation, against flexarm with inner steps ten times smaller. MuJoCo "
+    "simulates a chain of rigid links with springs. Its friction is soft: with its own constants, or "
+    "stiff with a time constant of two steps and an impedance of 0.9999. Errors of these rows are "
+    "those of hub angle and hub velocity against flexarm with 40 modes and ten inner steps per "
+    "sample. The target of the project is a ratio of 1000 to `solve_ivp` at comparable error.",
+    [*[tanh_row("LSODA", width) for width in ("0.01", "0.001", "0.0001")],
+     tanh_row("Radau", "0.001"),
+     chain_row(20, 100, 1, "soft"), chain_row(10, 100, 1, "stiff"), chain_row(20, 100, 1, "stiff"),
+     chain_row(20, 10, 10, "stiff"), chain_row(40, 10, 10, "stiff")])
+
+SPECTRA = Table(
+    "Spectra",
+    "An hour at 1 kHz of torque and five sensors: power and cross spectra in half-overlapped segments "
+    "of 8192 samples with a Hann window. The error of SciPy is the largest difference to flexarm, "
+    "relative to the largest line.",
+    [Row("6 power spectra, 5 cross spectra", Ours("spectra", "cross_spectra"),
+         Measured("spectra_scipy", "welch and csd"), "welch, csd")])
+
+COMPARISONS = [ROOTS, MATRICES, RESPONSES, LINEAR, FRICTION, SPECTRA]
+
+GROWTH = [
+    Growth("poles of `exact_tf`", "roots", "exact_tf", "poles", "roots"),
+    Growth("hub zeros of `exact_tf`", "roots", "exact_tf", "hub_zeros", "roots"),
+    Growth("10 poles of cubic elements", "elements", "fem", "poles_of_cubic_elements", "elements"),
+    Growth("linear simulation, 100,000 samples", "modes", "simulation", "growth_with_modes/linear",
+           "modes"),
+    Growth("simulation with Coulomb friction, 100,000 samples", "modes", "simulation",
+           "growth_with_modes/coulomb", "modes"),
+    Growth("linear simulation, 10 modes", "samples", "simulation", "growth_with_samples/linear",
+           "samples"),
+    Growth("simulation with Coulomb friction, 10 modes", "samples", "simulation",
+           "growth_with_samples/coulomb", "samples")]
+
+# Files of rows of sweep_benchmark, by number of payloads.
+SWEEP_PAYLOADS = (500, 1000, 2000, 4000)
+
+# What Debian has each tool in.
+PACKAGES = {"scipy": "python3-scipy", "octave": "octave-control", "mujoco": "libmujoco-dev"}
+TOOLS = {"scipy": "SciPy", "octave": "Octave", "mujoco": "MuJoCo"}

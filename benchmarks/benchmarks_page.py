@@ -42,7 +42,7 @@ class Results:
         """processor_s and error of a measurement; None where it was not made."""
         if isinstance(what, Ours):
             run = self.google[what.subject][what.name]
-            error = run.get(what.error) if what.error else None
+            error = run[what.error] if what.error else None
             return {"processor_s": run["processor_s"],
                     "error": error * ULP if what.error == "ulp" else error}
         if what.file not in self.rows:
@@ -87,20 +87,22 @@ def error_text(error):
 
 
 def tool_of(file):
-    return file.rsplit("_", 1)[1]
+    return file.rsplit("_", 1)[-1]
+
+
+def two_digits(ratio):
+    return document.number(float(f"{ratio:.2g}"), 2)
 
 
 def comparison_row(results, row):
-    tool = tool_of(row.theirs.file)
-    name = f"{page_tables.TOOLS[tool]} `{row.by}`"
     ours = results.find(row.ours)
     theirs = results.find(row.theirs)
-    missing = f"not measured: package {page_tables.PACKAGES[tool]}"
+    missing = f"not measured: package {page_tables.PACKAGES[tool_of(row.theirs.file)]}"
     head = ["-", "-"] if ours is None else [time_text(ours["processor_s"]), error_text(ours["error"])]
     if theirs is None:
-        return [row.work, *head, name, missing, "-", "-"]
-    return [row.work, *head, name, time_text(theirs["processor_s"]), error_text(theirs["error"]),
-            document.number(theirs["processor_s"] / ours["processor_s"], 2)]
+        return [row.work, *head, row.by, missing, "-", "-"]
+    return [row.work, *head, row.by, time_text(theirs["processor_s"]), error_text(theirs["error"]),
+            two_digits(theirs["processor_s"] / ours["processor_s"])]
 
 
 def comparison(results, table):

@@ -88,8 +88,9 @@ function rows = simulation_rows (folder)
 end
 
 pkg load control
-folder = argv (){end - 1};
-rows_file = argv (){end};
+words = argv ();
+folder = words{end - 1};
+rows_file = words{end};
 root = fileparts (fileparts (fileparts (mfilename ("fullpathext"))));
 rows = [roots_rows(folder, root), response_rows(folder), simulation_rows(folder)];
 version_of_control = pkg ("list", "control"){1}.version;

@@ -21,7 +21,7 @@ class Row(NamedTuple):
     work: str
     ours: object
     theirs: Measured
-    by: str  # the function of the other tool
+    by: str  # the other tool, its function and settings
 
 
 class Table(NamedTuple):
@@ -45,19 +45,19 @@ ROOTS = Table(
     "largest difference to flexarm. The script in SciPy finds brackets by a scan that NumPy does at "
     "once.",
     [Row("10 poles and 10 hub zeros, exact", Ours("exact_tf", "poles_and_hub_zeros", "error"),
-         Measured("roots_scipy", "brentq poles and hub zeros:10"), "brentq"),
+         Measured("roots_scipy", "brentq poles and hub zeros:10"), "SciPy `brentq`"),
      Row("1000 poles, exact", Ours("exact_tf", "poles/roots:1000", "ulp"),
-         Measured("roots_scipy", "brentq poles:1000"), "brentq"),
+         Measured("roots_scipy", "brentq poles:1000"), "SciPy `brentq`"),
      Row("1000 hub zeros, exact", Ours("exact_tf", "hub_zeros/roots:1000", "ulp"),
-         Measured("roots_scipy", "brentq hub zeros:1000"), "brentq"),
+         Measured("roots_scipy", "brentq hub zeros:1000"), "SciPy `brentq`"),
      Row("10 poles and 10 hub zeros, 29 cubic elements",
          Ours("fem", "poles_and_hub_zeros/degree:3/elements:29", "error"),
-         Measured("control_octave", "pole and zero elements:29"), "pole, zero")])
+         Measured("control_octave", "pole and zero elements:29"), "Octave `pole`, `zero`")])
 
 
 def elements_row(count, ours, solver):
     return Row(f"10 poles, {count:,} cubic elements", Ours("fem", ours, "error"),
-               Measured("matrices_scipy", f"{solver} elements:{count}"), solver)
+               Measured("matrices_scipy", f"{solver} elements:{count}"), f"SciPy `{solver}`")
 
 
 MATRICES = Table(
@@ -72,17 +72,15 @@ MATRICES = Table(
      elements_row(29, "ten_poles/cubic_elements_29", "eigsh"),
      *[elements_row(count, f"poles_of_cubic_elements/elements:{count}", "eigsh")
        for count in (100, 1000, 10000, 100000)],
-     Row("10 poles, 4 elements of degree 15; SciPy: 100 cubic elements",
-         Ours("fem", "ten_poles/default_mesh", "error"),
-         Measured("matrices_scipy", "eigsh elements:100"), "eigsh"),
+     Row("10 poles, 4 elements of degree 15", Ours("fem", "ten_poles/default_mesh", "error"),
+         Measured("matrices_scipy", "eigsh elements:100"), "SciPy `eigsh`, 100 cubic elements"),
      Row("10 poles, 36 Legendre functions", Ours("assumed_modes", "ten_poles", "error"),
-         Measured("matrices_scipy", "eigh functions:36"), "eigh")])
+         Measured("matrices_scipy", "eigh functions:36"), "SciPy `eigh`")])
 
 
-def response_row(modes, file, work, by):
-    return Row(f"64 frequencies; other tool: {modes} modes",
-               Ours("exact_tf", "response/hub_angle", "error"),
-               Measured(file, f"{work} modes:{modes}"), by)
+def response_row(file, work, by, modes):
+    return Row("64 frequencies, exact", Ours("exact_tf", "response/hub_angle", "error"),
+               Measured(file, f"{work} modes:{modes}"), f"{by}, {modes} modes")
 
 
 RESPONSES = Table(
@@ -93,13 +91,11 @@ RESPONSES = Table(
     "through the polynomials of the transfer function. A linear solve per frequency and partial "
     "fractions are what a user of NumPy would write in its place. The time of partial fractions "
     "includes the eigenvalues.",
-    [Row("64 frequencies; other tool: 10 modes", Ours("exact_tf", "response/hub_angle", "error"),
-         Measured("responses_scipy", "freqresp modes:10"), "freqresp"),
-     *[response_row(modes, "responses_scipy", "solve", "numpy.linalg.solve")
-       for modes in (10, 40, 160)],
-     *[response_row(modes, "responses_scipy", "partial fractions", "numpy.linalg.eig")
-       for modes in (10, 40, 160)],
-     *[response_row(modes, "control_octave", "freqresp", "freqresp")
+    [response_row("responses_scipy", "freqresp", "SciPy `freqresp`", 10),
+     *[response_row(file, work, by, modes)
+       for file, work, by in (("responses_scipy", "solve", "NumPy `linalg.solve`"),
+                              ("responses_scipy", "partial fractions", "NumPy `linalg.eig`"),
+                              ("control_octave", "freqresp", "Octave `freqresp`"))
        for modes in (10, 40, 160)]])
 
 LINEAR = Table(
@@ -109,24 +105,24 @@ LINEAR = Table(
     "differences to flexarm. Each is the largest of the four sensors, relative to their peaks. The "
     "target of the project is a ratio of 50 to `dlsim`.",
     [Row("linear arm", Ours("simulation", "simulation/linear/modes:10", "difference"),
-         Measured("simulation_scipy", "dlsim modes:10"), "dlsim"),
+         Measured("simulation_scipy", "dlsim modes:10"), "SciPy `dlsim`"),
      Row("linear arm", Ours("simulation", "simulation/linear/modes:10", "difference"),
-         Measured("simulation_scipy", "lsim modes:10"), "lsim"),
+         Measured("simulation_scipy", "lsim modes:10"), "SciPy `lsim`"),
      Row("linear arm", Ours("simulation", "simulation/linear/modes:10", "difference"),
-         Measured("control_octave", "lsim modes:10"), "lsim")])
+         Measured("control_octave", "lsim modes:10"), "Octave `lsim`")])
 
 SECOND = Ours("simulation", "second_with_friction/modes:10", "difference")
 
 
 def tanh_row(method, width):
-    return Row(f"10 modes; other tool: tanh of width {width} rad/s", SECOND,
-               Measured("friction_scipy", f"{method} width:{width}"), f"solve_ivp, {method}")
+    return Row("a second, 10 modes", SECOND, Measured("friction_scipy", f"{method} width:{width}"),
+               f"SciPy `solve_ivp`, {method}, width {width} rad/s")
 
 
 def chain_row(links, timestep_us, steps, kind):
-    return Row(f"10 modes; other tool: {links} links, step {timestep_us} us, {kind} friction",
-               Measured("friction_mujoco", "flexarm modes:10"),
-               Measured("friction_mujoco", f"links:{links} steps:{steps} {kind}"), "mj_step")
+    return Row("a second, 10 modes", Measured("friction_mujoco", "flexarm modes:10"),
+               Measured("friction_mujoco", f"links:{links} steps:{steps} {kind}"),
+               f"MuJoCo `mj_step`, {links} links, step {timestep_us} us, {kind} friction")
 
 
 FRICTION = Table(
@@ -150,7 +146,7 @@ SPECTRA = Table(
     "of 8192 samples with a Hann window. The error of SciPy is the largest difference to flexarm, "
     "relative to the largest line.",
     [Row("6 power spectra, 5 cross spectra", Ours("spectra", "cross_spectra"),
-         Measured("spectra_scipy", "welch and csd"), "welch, csd")])
+         Measured("spectra_scipy", "welch and csd"), "SciPy `welch`, `csd`")])
 
 COMPARISONS = [ROOTS, MATRICES, RESPONSES, LINEAR, FRICTION, SPECTRA]
 

@@ -101,6 +101,8 @@ def comparison_row(results, row):
     head = ["-", "-"] if ours is None else [time_text(ours["processor_s"]), error_text(ours["error"])]
     if theirs is None:
         return [row.work, *head, row.by, missing, "-", "-"]
+    if "failure" in theirs:
+        return [row.work, *head, row.by, f"fails: {theirs['failure']}", "-", "-"]
     return [row.work, *head, row.by, time_text(theirs["processor_s"]), error_text(theirs["error"]),
             two_digits(theirs["processor_s"] / ours["processor_s"])]
 

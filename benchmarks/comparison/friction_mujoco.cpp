@@ -37,6 +37,7 @@ using namespace flexarm;
 constexpr int kModes = 10;
 constexpr int kReferenceModes = 40;
 constexpr int kRepetitions = 3;
+constexpr double kLong_s = 3.0;  ///< is not repeated
 
 struct HubMotion {
   std::vector<double> angle_rad;
@@ -139,7 +140,9 @@ nlohmann::json row(const std::string& work, const HubMotion& exact, const Run& r
   for (int repetition = 0; repetition < kRepetitions; ++repetition) {
     const std::clock_t begin = std::clock();
     made = run();
-    least_s = std::min(least_s, static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
+    const double spent_s = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+    least_s = std::min(least_s, spent_s);
+    if (spent_s > kLong_s) break;
   }
   const double angle = relative_difference(made.angle_rad, exact.angle_rad);
   const double velocity = relative_difference(made.velocity_rad_per_s, exact.velocity_rad_per_s);
@@ -160,7 +163,7 @@ int measure(const std::filesystem::path& rows_file) {
   rows.push_back(row(fmt::format("flexarm modes:{}", kModes), exact,
                      [&] { return by_flexarm(friction, 0); }));
   for (const Chain& chain : {Chain{20, 1, true}, Chain{10, 1, false}, Chain{20, 1, false},
-                             Chain{20, 10, false}, Chain{40, 10, false}}) {
+                             Chain{40, 2, false}, Chain{80, 8, false}}) {
     const double timestep_s = friction.timed.sample_time_s / chain.steps_per_sample;
     const Model model = loaded(model_text(friction.timed.arm, chain, timestep_s));
     rows.push_back(row(fmt::format("links:{} steps:{} {}", chain.links, chain.steps_per_sample,

@@ -54,6 +54,11 @@ class Rows:
                          if name not in ("work", "processor_s") and value is not None)
         print(f"{work:<64} {1e3 * processor_s:>9.4g} ms  {more}", flush=True)
 
+    def add_failure(self, work, error):
+        """The tool gave no result: the name of its exception stands for the numbers."""
+        self.rows.append({"work": work, "failure": type(error).__name__})
+        print(f"{work:<64} {error}", flush=True)
+
     def write(self, path):
         write_rows(path, self.tool, self.rows)
 

@@ -2,8 +2,8 @@
 // time, processor time, what each formulation takes of it, how many times as fast two threads are.
 //
 // sweep_benchmark [POINTS [ROWS]]: processor time is what the machine's other load does not change;
-// the ratio of elapsed times means something on a machine that is quiet. ROWS: file for the times in
-// the form of comparison/measured_rows.py.
+// the ratio of elapsed times means something on a machine that is quiet. ROWS: file for the times
+// in the form of comparison/measured_rows.py.
 #include "benchmarks/comparison/raw_files.hpp"
 #include "compare/sweeps/sweep_result.hpp"
 
@@ -15,8 +15,8 @@
 #include <cstdlib>
 #include <ctime>
 #include <string>
-#include <vector>
 #include <tbb/global_control.h>
+#include <vector>
 
 namespace flexarm::benchmarks {
 namespace {

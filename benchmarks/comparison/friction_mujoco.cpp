@@ -1,6 +1,6 @@
-// A second with Coulomb friction at the hub in MuJoCo: the beam as a chain of rigid links. Each link
-// of length h = l/n is joined to the next by a spring EI/h and a dashpot kv EI/h; half a link is
-// fixed to the hub and half a link ends the chain. Friction is the joint's frictionloss, a
+// A second with Coulomb friction at the hub in MuJoCo: the beam as a chain of rigid links. Each
+// link of length h = l/n is joined to the next by a spring EI/h and a dashpot kv EI/h; half a link
+// is fixed to the hub and half a link ends the chain. Friction is the joint's frictionloss, a
 // constraint that MuJoCo softens.
 //
 // Beside it flexarm with ten modes. Errors are those of hub angle and hub velocity against flexarm
@@ -12,8 +12,6 @@
 
 #include <fmt/format.h>
 
-#include <mujoco/mujoco.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -23,6 +21,7 @@
 #include <fstream>
 #include <limits>
 #include <memory>
+#include <mujoco/mujoco.h>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -72,13 +71,15 @@ std::string model_text(const arm::Arm& arm, const Chain& chain, double timestep_
   std::string text = fmt::format(
       "<mujoco><option timestep=\"{}\" gravity=\"0 0 0\" solver=\"Newton\" tolerance=\"1e-12\">"
       "<flag contact=\"disable\"/></option><worldbody><body>"
-      "<joint type=\"hinge\" axis=\"0 0 1\" armature=\"{}\" damping=\"{}\" frictionloss=\"{}\" {}/>",
+      "<joint type=\"hinge\" axis=\"0 0 1\" armature=\"{}\" damping=\"{}\" frictionloss=\"{}\" "
+      "{}/>",
       timestep_s, arm.hub.inertia_kg_m2, arm.hub.viscous_friction_N_m_s_per_rad,
       benchmarks::kCoulombTorque_N_m, friction_attributes(chain, timestep_s));
   text += link_text(density, link_m / 2.0);
   for (int i = 1; i <= chain.links; ++i) {
     text += fmt::format(
-        "<body pos=\"{} 0 0\"><joint type=\"hinge\" axis=\"0 0 1\" stiffness=\"{}\" damping=\"{}\"/>",
+        "<body pos=\"{} 0 0\"><joint type=\"hinge\" axis=\"0 0 1\" stiffness=\"{}\" "
+        "damping=\"{}\"/>",
         i == 1 ? link_m / 2.0 : link_m, stiffness_N_m, arm.damping.kelvin_voigt_s * stiffness_N_m);
     text += link_text(density, i == chain.links ? link_m / 2.0 : link_m);
   }
@@ -114,11 +115,9 @@ HubMotion by_mujoco(const mjModel& model, const Chain& chain, std::span<const do
 }
 
 HubMotion by_flexarm(const benchmarks::FrictionCase& friction, int substeps) {
-  auto made = response::simulate(friction.timed.model, friction.parts, friction.timed.sensors,
-                                 friction.timed.torque_N_m,
-                                 {.sample_time_s = friction.timed.sample_time_s,
-                                  .substeps = substeps,
-                                  .energy = false});
+  auto made = response::simulate(
+      friction.timed.model, friction.parts, friction.timed.sensors, friction.timed.torque_N_m,
+      {.sample_time_s = friction.timed.sample_time_s, .substeps = substeps, .energy = false});
   return {std::move(made.channels[0]), std::move(made.channels[1])};
 }
 
@@ -160,19 +159,18 @@ int measure(const std::filesystem::path& rows_file) {
   const auto exact =
       by_flexarm(benchmarks::friction_case(kReferenceModes), benchmarks::kReferenceSubsteps);
   auto rows = nlohmann::json::array();
-  rows.push_back(row(fmt::format("flexarm modes:{}", kModes), exact,
-                     [&] { return by_flexarm(friction, 0); }));
+  rows.push_back(
+      row(fmt::format("flexarm modes:{}", kModes), exact, [&] { return by_flexarm(friction, 0); }));
   for (const Chain& chain : {Chain{20, 1, true}, Chain{10, 1, false}, Chain{20, 1, false},
                              Chain{40, 2, false}, Chain{80, 8, false}}) {
     const double timestep_s = friction.timed.sample_time_s / chain.steps_per_sample;
     const Model model = loaded(model_text(friction.timed.arm, chain, timestep_s));
     rows.push_back(row(fmt::format("links:{} steps:{} {}", chain.links, chain.steps_per_sample,
                                    chain.soft ? "soft" : "stiff"),
-                       exact,
-                       [&] { return by_mujoco(*model, chain, friction.timed.torque_N_m); }));
+                       exact, [&] { return by_mujoco(*model, chain, friction.timed.torque_N_m); }));
   }
-  benchmarks::write_json(
-      rows_file, {{"tool", fmt::format("MuJoCo {}", mj_versionString())}, {"rows", rows}});
+  benchmarks::write_json(rows_file,
+                         {{"tool", fmt::format("MuJoCo {}", mj_versionString())}, {"rows", rows}});
   return 0;
 }
 

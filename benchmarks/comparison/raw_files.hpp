@@ -1,8 +1,7 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
-
 #include <Eigen/Core>
+#include <nlohmann/json.hpp>
 
 #include <cstddef>
 #include <filesystem>

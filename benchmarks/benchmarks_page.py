@@ -13,6 +13,7 @@ import os
 import re
 import subprocess
 import sys
+import textwrap
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 sys.path[:0] = [os.path.join(ROOT, "scripts"), os.path.join(ROOT, "benchmarks/comparison")]
@@ -73,6 +74,11 @@ def least_times(made):
     return least
 
 
+def paragraph(text):
+    return textwrap.fill(" ".join(text.split()), 120, break_long_words=False,
+                         break_on_hyphens=False)
+
+
 def time_text(time_s):
     for unit, name in ((1.0, "s"), (1e-3, "ms"), (1e-6, "us")):
         if time_s >= unit:
@@ -109,7 +115,7 @@ def comparison_row(results, row):
 
 def comparison(results, table):
     header = ["work", "flexarm", "error", "other tool", "its time", "its error", "ratio of times"]
-    return f"## {table.title}\n\n{table.text}\n\n" + document.table(
+    return f"## {table.title}\n\n{paragraph(table.text)}\n\n" + document.table(
         header, [comparison_row(results, row) for row in table.rows])
 
 
@@ -142,17 +148,14 @@ def growth(results):
     rows.append(growth_cells("sweep, three formulations, one thread", "payloads", payloads,
                              [sweep(n, 1)["processor_s"] for n in payloads]))
     one, two = sweep(payloads[-1], 1), sweep(payloads[-1], 2)
-    return f"""## Growth
-
-Processor time over size. The slope is that of the logarithms, by least squares over all sizes
-measured: 1 is linear growth.
-
-{document.table(["work", "over", "sizes", "smallest", "largest", "slope"], rows)}
-
-A sweep of {payloads[-1]:,} payloads takes {time_text(one["elapsed_s"])} of elapsed time on one thread
-and {time_text(two["elapsed_s"])} on two. That is a factor of
-{document.number(one["elapsed_s"] / two["elapsed_s"], 3)}. Processor time changes by a factor of
-{document.number(two["processor_s"] / one["processor_s"], 3)}."""
+    text = paragraph("""Processor time over size. The slope is that of the logarithms, by least squares
+        over all sizes measured: 1 is linear growth.""")
+    threads = paragraph(f"""A sweep of {payloads[-1]:,} payloads takes {time_text(one["elapsed_s"])} of
+        elapsed time on one thread and {time_text(two["elapsed_s"])} on two, a factor of
+        {document.number(one["elapsed_s"] / two["elapsed_s"], 3)}. Its processor time on two is
+        {document.number(two["processor_s"] / one["processor_s"], 3)} times that on one.""")
+    header = ["work", "over", "sizes", "smallest", "largest", "slope"]
+    return f"## Growth\n\n{text}\n\n{document.table(header, rows)}\n\n{threads}"
 
 
 def target_text(row):
@@ -169,12 +172,10 @@ def commands(results):
              time_text(row["elapsed_s"]), f"{row['memory_MB']:.0f} MB",
              row.get("verdict", "-").replace("_", " "), target_text(row)]
             for row in results.rows["commands"].values()]
-    return f"""## Whole commands
-
-Each command runs once, on all cores. Processor time is that of all its threads, memory the largest
-resident set.
-
-{document.table(["command", "data", "processor time", "elapsed", "memory", "verdict", "target"], rows)}"""
+    text = paragraph("""Each command runs once, on all cores. Processor time is that of all its
+        threads, memory the largest resident set.""")
+    header = ["command", "data", "processor time", "elapsed", "memory", "verdict", "target"]
+    return f"## Whole commands\n\n{text}\n\n{document.table(header, rows)}"
 
 
 def output_of(*command):
@@ -210,14 +211,13 @@ def facts(results):
 
 
 def page(results):
-    parts = [f"""# Benchmarks
-
-`scripts/bench` writes this page. Each figure of flexarm stands beside what a user would take in its
-place, measured in the same run on the same work. Times are processor times on one thread, the least
-of several repetitions. A ratio above 1 means that flexarm takes less time than the other tool, one
-below 1 that it takes more. Ratios carry over to other machines better than times do.
-
-{facts(results)}"""]
+    text = paragraph("""`scripts/bench` writes this page. Each figure of flexarm stands beside what a
+        user would take in its place, measured in the same run on the same work. Times are processor
+        times on one thread, the least of several repetitions. A ratio above 1 means that flexarm
+        takes less time than the other tool, one below 1 that it takes more. Errors belong to the
+        ratio: the tools often differ more in error than in time. Ratios carry over to other machines
+        better than times do.""")
+    parts = [f"# Benchmarks\n\n{text}\n\n{facts(results)}"]
     parts += [comparison(results, table) for table in page_tables.COMPARISONS]
     parts += [growth(results), commands(results)]
     return "\n\n".join(parts) + "\n"

@@ -4,6 +4,7 @@
 #include "benchmarks/simulation_case.hpp"
 #include "benchmarks/timing.hpp"
 #include "effects/registry/vocabulary.hpp"
+#include "response/time/arm_simulator.hpp"
 #include "response/time/beam_forces.hpp"
 #include "response/time/simulation.hpp"
 
@@ -21,15 +22,17 @@ namespace {
 using response::ArmParts;
 using response::Simulation;
 
+using Channels = std::vector<std::vector<double>>;
+
 /// Largest difference of two runs over all sensors, each relative to its peak.
-double largest_difference(const Simulation& a, const Simulation& b) {
+double largest_difference(const Channels& a, const Channels& b) {
   double worst = 0.0;
-  for (std::size_t j = 0; j < a.channels.size(); ++j) {
+  for (std::size_t j = 0; j < a.size(); ++j) {
     double peak = 0.0;
     double difference = 0.0;
-    for (std::size_t k = 0; k < a.channels[j].size(); ++k) {
-      peak = std::max(peak, std::abs(b.channels[j][k]));
-      difference = std::max(difference, std::abs(a.channels[j][k] - b.channels[j][k]));
+    for (std::size_t k = 0; k < a[j].size(); ++k) {
+      peak = std::max(peak, std::abs(b[j][k]));
+      difference = std::max(difference, std::abs(a[j][k] - b[j][k]));
     }
     worst = std::max(worst, difference / peak);
   }
@@ -85,7 +88,8 @@ void simulation(benchmark::State& state, const std::string& name, ArmParts parts
   state.counters["substeps"] = summary.substeps;
   static std::map<std::pair<std::string, int>, double> known;
   const auto key = std::pair(name, modes);
-  if (!known.contains(key)) known[key] = largest_difference(made, run(10 * summary.substeps));
+  if (!known.contains(key))
+    known[key] = largest_difference(made.channels, run(10 * summary.substeps).channels);
   state.counters["difference"] = known[key];
 }
 
@@ -99,7 +103,26 @@ void second_with_friction(benchmark::State& state) {
   const auto made = run(0);
   state.counters["stick_time_s"] = made.summary.stick_time_s;
   state.counters["difference"] =
-      largest_difference(made, run(kReferenceSubsteps * made.summary.substeps));
+      largest_difference(made.channels, run(kReferenceSubsteps * made.summary.substeps).channels);
+}
+
+/// The same work as a fit does it, which needs readings alone and takes samples in blocks; the
+/// simulator is part of the time. Difference to a simulation with smaller steps.
+void readings_of_fit(benchmark::State& state, ArmParts parts, std::size_t samples) {
+  const auto timed = simulation_case(static_cast<int>(state.range(0)), {}, samples);
+  parts.linear = timed.arm;
+  const auto run = [&]() -> Eigen::MatrixXd {
+    const response::ArmSimulator simulator(
+        timed.model, parts, timed.sensors,
+        response::options_of_fit(timed.sample_time_s, response::TorqueHold::zero));
+    return simulator.readings(timed.torque_N_m);
+  };
+  for (auto _ : state) benchmark::DoNotOptimize(run());
+  const Eigen::MatrixXd made = run();
+  Channels channels;
+  for (const auto column : made.colwise()) channels.emplace_back(column.begin(), column.end());
+  state.counters["difference"] =
+      largest_difference(channels, run_of(timed, parts, kReferenceSubsteps, false).channels);
 }
 
 /// How the time grows with the number of modes and of samples.
@@ -148,6 +171,14 @@ BENCHMARK_CAPTURE(simulation, stribeck, "stribeck", stribeck(), false)->Apply(tw
 BENCHMARK_CAPTURE(simulation, coulomb_and_drag, "coulomb_and_drag", drag(), false)
     ->Apply(two_sizes);
 BENCHMARK(second_with_friction)->ArgName("modes")->Arg(kUsualModes)->Apply(repeated);
+BENCHMARK_CAPTURE(readings_of_fit, linear, linear(), kUsualSamples)
+    ->ArgName("modes")
+    ->Arg(kUsualModes)
+    ->Apply(repeated);
+BENCHMARK_CAPTURE(readings_of_fit, coulomb, coulomb(), kFrictionSamples)
+    ->ArgName("modes")
+    ->Arg(kUsualModes)
+    ->Apply(repeated);
 BENCHMARK_CAPTURE(growth_with_modes, linear, linear())->Apply(by_modes);
 BENCHMARK_CAPTURE(growth_with_modes, coulomb, coulomb())->Apply(by_modes);
 BENCHMARK_CAPTURE(growth_with_samples, linear, linear())->Apply(by_samples);

@@ -98,37 +98,41 @@ RESPONSES = Table(
                             ("control_octave", "freqresp", "Octave `freqresp`"))
      for modes in (10, 40, 160)])
 
+LINEAR_ARM = Ours("simulation", "simulation/linear/modes:10", "difference")
+LINEAR_FIT = Ours("simulation", "readings_of_fit/linear/modes:10", "difference")
+DLSIM = (Measured("simulation_scipy", "dlsim modes:10"), "SciPy `dlsim`")
+LSIM = (Measured("simulation_scipy", "lsim modes:10"), "SciPy `lsim`")
+OCTAVE_LSIM = (Measured("control_octave", "lsim modes:10"), "Octave `lsim`")
+
 LINEAR = Table(
     "Linear time simulation",
-    "100,000 samples at 10 kHz, 10 flexible modes, 4 sensors, zero-order hold of the torque. The "
+    "100,000 samples at 10 kHz, 10 flexible modes, 4 sensors, zero-order hold of the torque. A fit "
+    "takes readings alone, in blocks of samples; it is the same work as that of the other tools. The "
     "error of flexarm is the difference to inner steps ten times smaller. Errors of the others are "
     "differences to flexarm. Each is the largest of the four sensors, relative to their peaks. The "
     "target of the project is a ratio of 50 to `dlsim`.",
-    [Row("linear arm", Ours("simulation", "simulation/linear/modes:10", "difference"),
-         Measured("simulation_scipy", "dlsim modes:10"), "SciPy `dlsim`"),
-     Row("linear arm", Ours("simulation", "simulation/linear/modes:10", "difference"),
-         Measured("simulation_scipy", "lsim modes:10"), "SciPy `lsim`"),
-     Row("linear arm", Ours("simulation", "simulation/linear/modes:10", "difference"),
-         Measured("control_octave", "lsim modes:10"), "Octave `lsim`")])
+    [*[Row("`flexarm simulate`", LINEAR_ARM, *other) for other in (DLSIM, LSIM, OCTAVE_LSIM)],
+     *[Row("readings of a fit", LINEAR_FIT, *other) for other in (DLSIM, LSIM, OCTAVE_LSIM)]])
 
 SECOND = Ours("simulation", "second_with_friction/modes:10", "difference")
+SECOND_OF_FIT = Ours("simulation", "readings_of_fit/coulomb/modes:10", "difference")
 
 
-def tanh_row(method, width, tolerance):
-    return Row("a second, 10 modes", SECOND,
+def tanh_row(method, width, tolerance, work="`flexarm simulate`", ours=SECOND):
+    return Row(work, ours,
                Measured("friction_scipy", f"{method} width:{width} tolerance:{tolerance}"),
                f"SciPy `solve_ivp`, {method}, width {width} rad/s, tolerance {tolerance}")
 
 
 def chain_row(links, steps, kind):
-    return Row("a second, 10 modes", Measured("friction_mujoco", "flexarm modes:10"),
+    return Row("`flexarm simulate`", Measured("friction_mujoco", "flexarm modes:10"),
                Measured("friction_mujoco", f"links:{links} steps:{steps} {kind}"),
                f"MuJoCo `mj_step`, {links} links, step {100 / steps:g} us, {kind} friction")
 
 
 FRICTION = Table(
     "Dry friction with stick",
-    "The first second of the same simulation, 10,000 samples, with Coulomb friction of 0.012 N m at "
+    "The first second of the same simulation, 10,000 samples and 10 modes, with Coulomb friction of 0.012 N m at "
     "the hub. `solve_ivp` needs a smooth friction: a tanh of the hub velocity over the stated width. "
     "The absolute tolerance is a thousandth of the relative one. Radau has the Jacobian. MuJoCo "
     "simulates a chain of rigid links with springs. Its friction is soft with MuJoCo's own constants. "
@@ -141,6 +145,7 @@ FRICTION = Table(
     [tanh_row("LSODA", "0.001", "1e-06"), tanh_row("Radau", "0.001", "1e-06"),
      tanh_row("LSODA", "1e-05", "1e-06"), tanh_row("LSODA", "1e-07", "1e-08"),
      tanh_row("LSODA", "1e-08", "1e-10"),
+     tanh_row("LSODA", "1e-08", "1e-10", "readings of a fit", SECOND_OF_FIT),
      chain_row(20, 1, "soft"), chain_row(10, 1, "stiff"), chain_row(20, 1, "stiff"),
      chain_row(40, 2, "stiff"), chain_row(80, 8, "stiff")])
 

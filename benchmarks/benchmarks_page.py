@@ -104,7 +104,9 @@ def comparison_row(results, row):
     ours = results.find(row.ours)
     theirs = results.find(row.theirs)
     missing = f"not measured: package {page_tables.PACKAGES[tool_of(row.theirs.file)]}"
-    head = ["-", "-"] if ours is None else [time_text(ours["processor_s"]), error_text(ours["error"])]
+    head = ["-", "-"]
+    if ours is not None:
+        head = [time_text(ours["processor_s"]), error_text(ours["error"])]
     if theirs is None:
         return [row.work, *head, row.by, missing, "-", "-"]
     if "failure" in theirs:
@@ -129,7 +131,8 @@ def slope(x, y):
 
 def growth_cells(work, over, sizes, times_s):
     return [work, over, f"{sizes[0]:,} to {sizes[-1]:,}", time_text(times_s[0]),
-            time_text(times_s[-1]), f"{slope(sizes, times_s):.2f}"]
+            time_text(times_s[-1]), f"{slope(sizes, times_s):.2f}",
+            f"{slope(sizes[-2:], times_s[-2:]):.2f}"]
 
 
 def growth(results):
@@ -149,12 +152,12 @@ def growth(results):
                              [sweep(n, 1)["processor_s"] for n in payloads]))
     one, two = sweep(payloads[-1], 1), sweep(payloads[-1], 2)
     text = paragraph("""Processor time over size. The slope is that of the logarithms, by least squares
-        over all sizes measured: 1 is linear growth.""")
+        over all sizes measured, and over the two largest: 1 is linear growth.""")
     threads = paragraph(f"""A sweep of {payloads[-1]:,} payloads takes {time_text(one["elapsed_s"])} of
         elapsed time on one thread and {time_text(two["elapsed_s"])} on two, a factor of
         {document.number(one["elapsed_s"] / two["elapsed_s"], 3)}. Its processor time on two is
         {document.number(two["processor_s"] / one["processor_s"], 3)} times that on one.""")
-    header = ["work", "over", "sizes", "smallest", "largest", "slope"]
+    header = ["work", "over", "sizes", "smallest", "largest", "slope", "last slope"]
     return f"## Growth\n\n{text}\n\n{document.table(header, rows)}\n\n{threads}"
 
 
@@ -179,7 +182,8 @@ def commands(results):
 
 
 def output_of(*command):
-    return subprocess.run(command, check=True, capture_output=True, text=True, cwd=ROOT).stdout.strip()
+    done = subprocess.run(command, check=True, capture_output=True, text=True, cwd=ROOT)
+    return done.stdout.strip()
 
 
 def machine():

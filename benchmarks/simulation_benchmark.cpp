@@ -149,7 +149,7 @@ void repeated(benchmark::internal::Benchmark* benchmark) {
 }
 
 void by_modes(benchmark::internal::Benchmark* benchmark) {
-  benchmark->ArgName("modes")->Arg(5)->Arg(10)->Arg(20)->Arg(40);
+  benchmark->ArgName("modes")->Arg(5)->Arg(10)->Arg(20)->Arg(40)->Arg(80);
   repeated(benchmark);
 }
 

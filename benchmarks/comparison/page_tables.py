@@ -98,6 +98,8 @@ RESPONSES = Table(
                             ("control_octave", "freqresp", "Octave `freqresp`"))
      for modes in (10, 40, 160)])
 
+SIMULATE = "`response::simulate`"
+READINGS = "`ArmSimulator::readings`"
 LINEAR_ARM = Ours("simulation", "simulation/linear/modes:10", "difference")
 LINEAR_FIT = Ours("simulation", "readings_of_fit/linear/modes:10", "difference")
 DLSIM = (Measured("simulation_scipy", "dlsim modes:10"), "SciPy `dlsim`")
@@ -106,31 +108,32 @@ OCTAVE_LSIM = (Measured("control_octave", "lsim modes:10"), "Octave `lsim`")
 
 LINEAR = Table(
     "Linear time simulation",
-    "100,000 samples at 10 kHz, 10 flexible modes, 4 sensors, zero-order hold of the torque. The "
-    "simulator of a fit returns readings alone and takes samples in blocks. The error of flexarm is "
-    "the difference to inner steps ten times smaller. Errors of the others are differences to flexarm. "
+    "100,000 samples at 10 kHz, 10 flexible modes, 4 sensors, zero-order hold of the torque. "
+    "`response::simulate` is what `flexarm simulate` calls. `ArmSimulator::readings` is what fits "
+    "call: it returns readings alone and takes samples in blocks. The error of flexarm is the "
+    "difference to inner steps ten times smaller. Errors of the others are differences to flexarm. "
     "Each is the largest of the four sensors, relative to their peaks. The target of the project is a "
     "ratio of 50 to `dlsim`.",
-    [*[Row("`flexarm simulate`", LINEAR_ARM, *other) for other in (DLSIM, LSIM, OCTAVE_LSIM)],
-     *[Row("readings of a fit", LINEAR_FIT, *other) for other in (DLSIM, LSIM, OCTAVE_LSIM)]])
+    [*[Row(SIMULATE, LINEAR_ARM, *other) for other in (DLSIM, LSIM, OCTAVE_LSIM)],
+     *[Row(READINGS, LINEAR_FIT, *other) for other in (DLSIM, LSIM, OCTAVE_LSIM)]])
 
 SECOND = Ours("simulation", "second_with_friction/modes:10", "difference")
 SECOND_OF_FIT = Ours("simulation", "readings_of_fit/coulomb/modes:10", "difference")
 
 
-def tanh_row(method, width, tolerance, work="`flexarm simulate`", ours=SECOND):
+def tanh_row(method, width, tolerance, work=SIMULATE, ours=SECOND):
     return Row(work, ours,
                Measured("friction_scipy", f"{method} width:{width} tolerance:{tolerance}"),
                f"SciPy `solve_ivp`, {method}, width {width} rad/s, tolerance {tolerance}")
 
 
-def events_row(tolerance, work="`flexarm simulate`", ours=SECOND):
+def events_row(tolerance, work=SIMULATE, ours=SECOND):
     return Row(work, ours, Measured("stick_scipy", f"events tolerance:{tolerance}"),
                f"SciPy `solve_ivp`, DOP853, events, tolerance {tolerance}")
 
 
 def chain_row(links, steps, kind):
-    return Row("`flexarm simulate`", Measured("friction_mujoco", "flexarm modes:10"),
+    return Row(SIMULATE, Measured("friction_mujoco", "flexarm modes:10"),
                Measured("friction_mujoco", f"links:{links} steps:{steps} {kind}"),
                f"MuJoCo `mj_step`, {links} links, step {100 / steps:g} us, {kind} friction")
 
@@ -152,9 +155,9 @@ FRICTION = Table(
     [tanh_row("LSODA", "0.001", "1e-06"), tanh_row("Radau", "0.001", "1e-06"),
      tanh_row("LSODA", "1e-05", "1e-06"), tanh_row("LSODA", "1e-07", "1e-08"),
      tanh_row("LSODA", "1e-08", "1e-10"),
-     tanh_row("LSODA", "1e-08", "1e-10", "readings of a fit", SECOND_OF_FIT),
+     tanh_row("LSODA", "1e-08", "1e-10", READINGS, SECOND_OF_FIT),
      events_row("1e-06"), events_row("1e-10"),
-     events_row("1e-10", "readings of a fit", SECOND_OF_FIT),
+     events_row("1e-10", READINGS, SECOND_OF_FIT),
      chain_row(20, 1, "soft"), chain_row(10, 1, "stiff"), chain_row(20, 1, "stiff"),
      chain_row(40, 2, "stiff"), chain_row(80, 8, "stiff")])
 

@@ -155,7 +155,9 @@ def growth(results):
         over all sizes measured, and over the two largest: 1 is linear growth.""")
     threads = paragraph(f"""A sweep of {payloads[-1]:,} payloads takes {time_text(one["elapsed_s"])} of
         elapsed time on one thread and {time_text(two["elapsed_s"])} on two, a factor of
-        {document.number(one["elapsed_s"] / two["elapsed_s"], 3)}. Its processor time on two is
+        {document.number(one["elapsed_s"] / two["elapsed_s"], 3)}. On two threads it had
+        {document.number(two["processor_s"] / two["elapsed_s"], 3)} cores; other programs on the
+        machine had the rest. Its processor time on two is
         {document.number(two["processor_s"] / one["processor_s"], 3)} times that on one.""")
     header = ["work", "over", "sizes", "smallest", "largest", "slope", "last slope"]
     return f"## Growth\n\n{text}\n\n{document.table(header, rows)}\n\n{threads}"

@@ -25,6 +25,13 @@ void poles_and_hub_zeros(benchmark::State& state, Basis basis, const arm::Arm& a
   score_poles_and_hub_zeros(state, [&] { return model_of(state, basis, arm); });
 }
 
+/// Construction and ten poles with the default options.
+void ten_poles(benchmark::State& state) {
+  const auto make = [] { return AssumedModesArm(arm::paper_arm()); };
+  for (auto _ : state) benchmark::DoNotOptimize(make().poles(kPoles));
+  state.counters["error"] = error_of_poles(make());
+}
+
 void tip_zeros(benchmark::State& state, Basis basis, const arm::Arm& arm) {
   score_tip_zeros(
       state, [&] { return model_of(state, basis, arm); }, kTipZeros);
@@ -68,6 +75,7 @@ BENCHMARK_CAPTURE(poles_and_hub_zeros, clamped_free_loaded, Basis::clamped_free,
 BENCHMARK_CAPTURE(poles_and_hub_zeros, pinned_free_loaded, Basis::pinned_free, loaded_arm())
     ->Apply(few_sizes);
 
+BENCHMARK(ten_poles)->Apply(repeated);
 BENCHMARK_CAPTURE(tip_zeros, legendre, Basis::legendre, arm::paper_arm())->Apply(many_sizes);
 BENCHMARK_CAPTURE(tip_zeros, legendre_loaded, Basis::legendre, loaded_arm())->Apply(few_sizes);
 BENCHMARK_CAPTURE(tip_zeros, clamped_with_payload_loaded, Basis::clamped_with_payload, loaded_arm())

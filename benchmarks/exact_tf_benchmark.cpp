@@ -13,6 +13,7 @@
 #include <complex>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -52,8 +53,25 @@ double worst_ulp_of(Certificate (*certified)(int), int count) {
   return known[key];
 }
 
+/// Largest relative error of ten poles and ten hub zeros against the reference's digits, in Hz.
+double error_of_reference_roots() {
+  const ExactArm exact(arm::paper_arm());
+  const auto& known = reference::case_named("paper");
+  std::vector<double> found_Hz;
+  std::vector<double> digits_Hz(known.pole_Hz.begin(), known.pole_Hz.end());
+  digits_Hz.insert(digits_Hz.end(), known.hub_zero_Hz.begin(), known.hub_zero_Hz.end());
+  for (const double omega_rad_per_s : exact.poles(kPoles).omega_rad_per_s) {
+    found_Hz.push_back(omega_rad_per_s / (2.0 * std::numbers::pi));
+  }
+  for (const auto s : exact.zeros(kHubAngle, kHubZeros).s_rad_per_s) {
+    found_Hz.push_back(s.imag() / (2.0 * std::numbers::pi));
+  }
+  return worst_relative_error(found_Hz, digits_Hz);
+}
+
 void poles_and_hub_zeros(benchmark::State& state) {
   time_poles_and_hub_zeros(state, [] { return ExactArm(arm::paper_arm()); });
+  state.counters["error"] = error_of_reference_roots();
   state.counters["ulp"] = std::max(worst_ulp_of(pole_certificate, kPoles),
                                    worst_ulp_of(hub_zero_certificate, kHubZeros));
 }

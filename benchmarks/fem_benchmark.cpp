@@ -115,6 +115,19 @@ BENCHMARK_CAPTURE(response, hub_angle, "hub_angle")->Apply(repeated);
 BENCHMARK_CAPTURE(response, tip_displacement, "tip_displacement")->Apply(repeated);
 BENCHMARK_CAPTURE(response, strain_at_quarter, "strain@0.24")->Apply(repeated);
 
+/// Construction and ten poles of the default mesh, or of few cubic elements.
+void ten_poles(benchmark::State& state, const fem::FemArm::Options& options) {
+  const auto make = [&] { return fem::FemArm(arm::paper_arm(), options); };
+  for (auto _ : state) benchmark::DoNotOptimize(make().poles(kPoles));
+  score_poles(state, make().poles(kPoles).omega_rad_per_s);
+}
+
+BENCHMARK_CAPTURE(ten_poles, default_mesh, {})->Apply(repeated);
+BENCHMARK_CAPTURE(ten_poles, cubic_elements_29, {.mesh = {.elements = 29}, .degree = 3})
+    ->Apply(repeated);
+BENCHMARK_CAPTURE(ten_poles, cubic_elements_300, {.mesh = {.elements = 300}, .degree = 3})
+    ->Apply(repeated);
+
 /// Construction and ten poles; the project's figure is an error of 1e-9 at 100,000 elements, and
 /// time and memory linear in their number.
 void poles_of_cubic_elements(benchmark::State& state) {

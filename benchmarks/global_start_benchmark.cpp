@@ -5,12 +5,14 @@
 // global_start_benchmark [TRIALS]
 #include "diagnose/search/fit.hpp"
 #include "diagnose/search/scan.hpp"
+#include "effects/registry/vocabulary.hpp"
 #include "tests/diagnose/simulated_experiments.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cstdlib>
+#include <map>
 #include <random>
 #include <string>
 #include <vector>
@@ -39,14 +41,14 @@ void run(const std::string& effect, int trials) {
   std::uniform_real_distribution<double> drawn(0.2, 0.95);
   Tally tally;
   for (int trial = 0; trial < trials; ++trial) {
-    flexarm::arm::Effect hidden;
+    std::map<std::string, double> hidden;
     std::vector<double> middle;
     for (const SearchedParameter& parameter : known.parameters) {
-      hidden.parameters[parameter.name] = parameter.value(drawn(generator));
+      hidden[parameter.name] = parameter.value(drawn(generator));
       middle.push_back(parameter.value(0.5));
     }
-    const Experiment experiment =
-        simulated_experiment({{effect, hidden}}, {.seed = static_cast<std::uint64_t>(trial + 1)});
+    const Experiment experiment = simulated_experiment(
+        {flexarm::effects::named(effect, hidden)}, {.seed = static_cast<std::uint64_t>(trial + 1)});
     const Problem problem(experiment);
     const auto hypothesis = named(experiment, {effect}).front();
     const Candidate start = Candidate{}.with(hypothesis, middle);

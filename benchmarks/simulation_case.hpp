@@ -10,9 +10,9 @@
 
 namespace flexarm::benchmarks {
 
-/// The simulation that is timed, here and by the sister script in Python: the paper's arm, damped,
-/// at 10 kHz (some eleven samples a period of the tenth mode), with four sensors, driven by random
-/// steps of torque, ten a second.
+/// The simulation that is timed, here and by other tools (benchmarks/comparison): the paper's arm,
+/// damped, at 10 kHz (some eleven samples a period of the tenth mode), with four sensors, driven by
+/// random steps of torque, ten a second.
 struct SimulationCase {
   arm::Arm arm;
   std::vector<arm::Sensor> sensors;
@@ -22,8 +22,8 @@ struct SimulationCase {
 };
 
 inline SimulationCase simulation_case(int flexible_modes,
-                                      const std::vector<double>& stations_m = {}) {
-  constexpr std::size_t kSamples = 100'000;
+                                      const std::vector<double>& stations_m = {},
+                                      std::size_t samples = 100'000) {
   constexpr std::size_t kSamplesAStep = 1000;
   SimulationCase made;
   made.arm = arm::paper_arm();
@@ -35,7 +35,7 @@ inline SimulationCase simulation_case(int flexible_modes,
   made.model = exact_tf::ExactArm(made.arm).modal_model(flexible_modes, made.sensors, stations_m);
   std::mt19937 random(1);
   std::uniform_real_distribution<double> torque(-0.05, 0.05);
-  while (made.torque_N_m.size() < kSamples) {
+  while (made.torque_N_m.size() < samples) {
     made.torque_N_m.insert(made.torque_N_m.end(), kSamplesAStep, torque(random));
   }
   return made;

@@ -1,8 +1,10 @@
 // A sweep of 10,000 payloads, ten poles and ten hub zeros a formulation, on one thread and on two:
 // time, processor time, what each formulation takes of it, how many times as fast two threads are.
 //
-// sweep_benchmark [POINTS]: processor time is what the machine's other load does not change; the
-// ratio of elapsed times means something on a machine that is quiet.
+// sweep_benchmark [POINTS [ROWS]]: processor time is what the machine's other load does not change;
+// the ratio of elapsed times means something on a machine that is quiet. ROWS: file for the times
+// in the form of comparison/measured_rows.py.
+#include "benchmarks/comparison/raw_files.hpp"
 #include "compare/sweeps/sweep_result.hpp"
 
 #include <fmt/format.h>
@@ -13,8 +15,8 @@
 #include <cstdlib>
 #include <ctime>
 #include <string>
-#include <vector>
 #include <tbb/global_control.h>
+#include <vector>
 
 namespace flexarm::benchmarks {
 namespace {
@@ -77,7 +79,17 @@ void print_row(const std::string& name, const ThreadTimes& times, double total_s
              times[0].elapsed_s / times[1].elapsed_s);
 }
 
-int run(int points) {
+nlohmann::json rows_of(const std::string& name, const ThreadTimes& times, int points) {
+  auto made = nlohmann::json::array();
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    made.push_back({{"work", fmt::format("{} payloads:{} threads:{}", name, points, k + 1)},
+                    {"processor_s", times[k].processor_s},
+                    {"elapsed_s", times[k].elapsed_s}});
+  }
+  return made;
+}
+
+int run(int points, const std::string& rows_file) {
   const auto models = compare::standard_models(kRoots);
   compare::SweepValues all_values;
   std::vector<ThreadTimes> times;
@@ -101,6 +113,9 @@ int run(int points) {
     print_row(models[m].name, times[m], all[0].processor_s, points);
   }
   print_row("all", all, all[0].processor_s, points);
+  if (!rows_file.empty()) {
+    write_json(rows_file, {{"tool", "flexarm"}, {"rows", rows_of("sweep", all, points)}});
+  }
 
   const auto result = compare::assemble(task_of(points, models), std::move(all_values), {}, {});
   fmt::print("\n");
@@ -116,5 +131,6 @@ int run(int points) {
 
 int main(int argc, char** argv) {
   constexpr int kPoints = 10'000;
-  return flexarm::benchmarks::run(argc > 1 ? std::max(2, std::atoi(argv[1])) : kPoints);
+  return flexarm::benchmarks::run(argc > 1 ? std::max(2, std::atoi(argv[1])) : kPoints,
+                                  argc > 2 ? argv[2] : "");
 }

@@ -1,28 +1,18 @@
 // Writes the record of spectra_benchmark and flexarm's spectra of it into a folder as raw doubles,
-// with a description in JSON, for benchmarks/spectra_scipy.py.
+// with a description in JSON, for spectra_scipy.py.
+#include "benchmarks/comparison/raw_files.hpp"
 #include "benchmarks/spectra_case.hpp"
 #include "measured/spectra/frequency_response.hpp"
 
 #include <nlohmann/json.hpp>
 
 #include <filesystem>
-#include <fstream>
 #include <iostream>
-
-namespace {
-
-template <class T>
-void write_raw(const std::filesystem::path& path, const std::vector<T>& values) {
-  std::ofstream file(path, std::ios::binary);
-  file.write(reinterpret_cast<const char*>(values.data()),
-             static_cast<std::streamsize>(values.size() * sizeof(T)));
-  if (!file) throw std::runtime_error("cannot write " + path.string());
-}
-
-}  // namespace
 
 int main(int argc, char** argv) {
   using namespace flexarm;
+  using benchmarks::write_json;
+  using benchmarks::write_raw;
   if (argc != 2) {
     std::cerr << "usage: spectra_files FOLDER\n";
     return 2;
@@ -43,9 +33,9 @@ int main(int argc, char** argv) {
     write_raw(folder / (name + "-cross.c128"), spectra.cross[i]);
     write_raw(folder / (name + "-coherence.f64"), measured::estimate(spectra, i).coherence);
   }
-  std::ofstream(folder / "case.json") << nlohmann::json{{"channels", outputs.size()},
-                                                        {"sampling_frequency_Hz", 1.0 / period_s},
-                                                        {"segment_samples", plan.segment_samples},
-                                                        {"shift_samples", plan.shift_samples}};
+  write_json(folder / "case.json", {{"channels", outputs.size()},
+                                    {"sampling_frequency_Hz", 1.0 / period_s},
+                                    {"segment_samples", plan.segment_samples},
+                                    {"shift_samples", plan.shift_samples}});
   return 0;
 }

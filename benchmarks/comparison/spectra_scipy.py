@@ -3,29 +3,24 @@
 and csd from the torque, then coherence, which forms the spectra anew. Time beside the largest
 difference to flexarm's, relative to the largest line; exit status 1 where one is above 1e-12.
 
-Usage: spectra_scipy.py FOLDER, as spectra_files FOLDER filled it
+Usage: spectra_scipy.py FOLDER ROWS, with FOLDER as spectra_files filled it
 """
 import os
-
-os.environ.setdefault("OMP_NUM_THREADS", "1")
-os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
-
-import json
 import sys
-import time
+
+import measured_rows
 
 import numpy as np
+import scipy
 from scipy import signal
 
-REPETITIONS = 3
 # Both sum some thousand segments of transforms of 8192 samples: 2e-16 times a few tens.
 TOLERANCE = 1e-12
 
 
 def main():
-    folder = sys.argv[1]
-    with open(os.path.join(folder, "case.json")) as file:
-        case = json.load(file)
+    folder, path = measured_rows.arguments()
+    case = measured_rows.document(folder, "case.json")
 
     def read(name, kind=np.float64):
         return np.fromfile(os.path.join(folder, name), dtype=kind)
@@ -55,23 +50,18 @@ def main():
     # A transform rounds every line by what its largest needs: of a ratio of powers a share of
     # sqrt(largest/own) more.
     own = [np.sqrt(p / np.max(p[1:])) for p in (read(f"channel-{i}-power.f64") for i in channels)]
-    agree = True
-    total = 0.0
+    rows = measured_rows.Rows(f"SciPy {scipy.__version__}")
     for name, (run, flexarm) in runs.items():
-        spent = []
-        for _ in range(REPETITIONS):
-            begin = time.process_time()
-            found = run()
-            spent.append(time.process_time() - begin)
+        spent_s, found = measured_rows.timed(run)
         weights = own if name == "coherence" else [1.0 / np.max(np.abs(b[1:])) for b in flexarm]
         # Line 0 holds what rounding leaves of the mean.
-        difference = max(np.max((np.abs(a - b) * w)[1:]) for a, b, w in zip(found, flexarm, weights))
-        agree = agree and difference < TOLERANCE
-        if name != "coherence":
-            total += min(spent)
-        print(f"{'scipy.signal.' + name:<64} {1e3 * min(spent):>9.4g} ms  "
-              f"difference {difference:<9.3g}")
-    print(f"{'scipy.signal.welch and csd together':<64} {1e3 * total:>9.4g} ms")
+        rows.add(name, spent_s, max(np.max((np.abs(a - b) * w)[1:])
+                                    for a, b, w in zip(found, flexarm, weights)))
+    of = {row["work"]: row for row in rows.rows}
+    rows.add("welch and csd", of["welch"]["processor_s"] + of["csd"]["processor_s"],
+             max(of["welch"]["error"], of["csd"]["error"]))
+    rows.write(path)
+    agree = all(row["error"] < TOLERANCE for row in rows.rows)
     return 0 if agree else 1
 
 

@@ -147,7 +147,8 @@ def growth(results):
     def sweep(payloads, threads):
         return results.rows[f"sweep_{payloads}"][f"sweep payloads:{payloads} threads:{threads}"]
 
-    payloads = page_tables.SWEEP_PAYLOADS
+    payloads = sorted(int(file.removeprefix("sweep_"))
+                      for file in results.rows if file.startswith("sweep_"))
     rows.append(growth_cells("sweep, three formulations, one thread", "payloads", payloads,
                              [sweep(n, 1)["processor_s"] for n in payloads]))
     one, two = sweep(payloads[-1], 1), sweep(payloads[-1], 2)

@@ -11,7 +11,6 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <string>
 #include <utility>
@@ -28,13 +27,7 @@ using Channels = std::vector<std::vector<double>>;
 double largest_difference(const Channels& a, const Channels& b) {
   double worst = 0.0;
   for (std::size_t j = 0; j < a.size(); ++j) {
-    double peak = 0.0;
-    double difference = 0.0;
-    for (std::size_t k = 0; k < a[j].size(); ++k) {
-      peak = std::max(peak, std::abs(b[j][k]));
-      difference = std::max(difference, std::abs(a[j][k] - b[j][k]));
-    }
-    worst = std::max(worst, difference / peak);
+    worst = std::max(worst, relative_difference(a[j], b[j]));
   }
   return worst;
 }
@@ -88,8 +81,10 @@ void simulation(benchmark::State& state, const std::string& name, ArmParts parts
   state.counters["substeps"] = summary.substeps;
   static std::map<std::pair<std::string, int>, double> known;
   const auto key = std::pair(name, modes);
-  if (!known.contains(key))
-    known[key] = largest_difference(made.channels, run(10 * summary.substeps).channels);
+  if (!known.contains(key)) {
+    known[key] =
+        largest_difference(made.channels, run(kReferenceSubsteps * summary.substeps).channels);
+  }
   state.counters["difference"] = known[key];
 }
 

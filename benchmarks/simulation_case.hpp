@@ -4,6 +4,8 @@
 #include "exact_tf/exact_arm.hpp"
 #include "response/time/simulation.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <random>
 #include <vector>
@@ -20,6 +22,18 @@ struct SimulationCase {
   std::vector<double> torque_N_m;
   double sample_time_s = 1e-4;
 };
+
+/// Largest difference of two signals, relative to the peak of `exact`.
+inline double relative_difference(const std::vector<double>& found,
+                                  const std::vector<double>& exact) {
+  double peak = 0.0;
+  double difference = 0.0;
+  for (std::size_t k = 0; k < exact.size(); ++k) {
+    peak = std::max(peak, std::abs(exact[k]));
+    difference = std::max(difference, std::abs(found[k] - exact[k]));
+  }
+  return difference / peak;
+}
 
 inline SimulationCase simulation_case(int flexible_modes,
                                       const std::vector<double>& stations_m = {},

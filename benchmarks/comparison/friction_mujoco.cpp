@@ -14,7 +14,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdio>
 #include <ctime>
 #include <filesystem>
@@ -121,16 +120,6 @@ HubMotion by_flexarm(const benchmarks::FrictionCase& friction, int substeps) {
   return {std::move(made.channels[0]), std::move(made.channels[1])};
 }
 
-double relative_difference(const std::vector<double>& found, const std::vector<double>& exact) {
-  double peak = 0.0;
-  double difference = 0.0;
-  for (std::size_t k = 0; k < exact.size(); ++k) {
-    peak = std::max(peak, std::abs(exact[k]));
-    difference = std::max(difference, std::abs(found[k] - exact[k]));
-  }
-  return difference / peak;
-}
-
 /// Runs and prints one simulation.
 template <class Run>
 nlohmann::json row(const std::string& work, const HubMotion& exact, const Run& run) {
@@ -143,8 +132,9 @@ nlohmann::json row(const std::string& work, const HubMotion& exact, const Run& r
     least_s = std::min(least_s, spent_s);
     if (spent_s > kLong_s) break;
   }
-  const double angle = relative_difference(made.angle_rad, exact.angle_rad);
-  const double velocity = relative_difference(made.velocity_rad_per_s, exact.velocity_rad_per_s);
+  const double angle = benchmarks::relative_difference(made.angle_rad, exact.angle_rad);
+  const double velocity =
+      benchmarks::relative_difference(made.velocity_rad_per_s, exact.velocity_rad_per_s);
   fmt::print("{:<64} {:>9.4g} ms  error {:.3g}  error_of_angle {:.3g}\n", work, 1e3 * least_s,
              std::max(angle, velocity), angle);
   std::fflush(stdout);

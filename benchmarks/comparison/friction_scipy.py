@@ -6,13 +6,13 @@ with true stick, relative to their peaks.
 
 Usage: friction_scipy.py FOLDER ROWS
 """
-import measured_rows
+from functools import partial
+
+from simulation_runs import HUB_VELOCITY, measure_friction, stretches
 
 import numpy as np
-import scipy
 from scipy.integrate import solve_ivp
 
-HUB_ANGLE, HUB_VELOCITY = 0, 1
 # Of the relative one.
 ABSOLUTE_TOLERANCE = 1e-3
 # Method, width [rad/s] and relative tolerance.
@@ -48,11 +48,9 @@ def simulated(case, method, width_rad_per_s, tolerance):
     arm = Arm(case, width_rad_per_s)
     torque = np.array(case["torque_N_m"])
     step_s = case["sample_time_s"]
-    begins = np.flatnonzero(np.diff(torque, prepend=np.nan) != 0.0)
-    ends = np.append(begins[1:], len(torque))
     state = np.zeros(len(arm.a))
     channels = []
-    for begin, end in zip(begins, ends):
+    for begin, end in stretches(torque):
         held = torque[begin]
         times = step_s * np.arange(end - begin + 1)
         options = {} if method == "LSODA" else {"jac": lambda _, x: arm.jacobian(x)}
@@ -65,17 +63,10 @@ def simulated(case, method, width_rad_per_s, tolerance):
 
 
 def main():
-    folder, path = measured_rows.arguments()
-    case = measured_rows.document(folder, "friction.json")
-    exact = np.array(case["channels"])[[HUB_ANGLE, HUB_VELOCITY]]
-    peaks = np.max(np.abs(exact), axis=1)
-    rows = measured_rows.Rows(f"SciPy {scipy.__version__}")
-    for method, width, tolerance in SETTINGS:
-        spent_s, channels = measured_rows.timed(lambda: simulated(case, method, width, tolerance))
-        found = channels[[HUB_ANGLE, HUB_VELOCITY]]
-        rows.add(f"{method} width:{width:g} tolerance:{tolerance:g}", spent_s,
-                 np.max(np.max(np.abs(found - exact), axis=1) / peaks))
-    rows.write(path)
+    measure_friction([(f"{method} width:{width:g} tolerance:{tolerance:g}",
+                       partial(simulated, method=method, width_rad_per_s=width,
+                               tolerance=tolerance))
+                      for method, width, tolerance in SETTINGS])
 
 
 if __name__ == "__main__":

@@ -184,9 +184,6 @@ GROWTH = [
     Growth("simulation with Coulomb friction, 10 modes", "samples", "simulation",
            "growth_with_samples/coulomb", "samples")]
 
-# Files of rows of sweep_benchmark, by number of payloads.
-SWEEP_PAYLOADS = (500, 1000, 2000, 4000)
-
 # What Debian has each tool in.
 PACKAGES = {"scipy": "python3-scipy", "octave": "octave-control", "mujoco": "libmujoco-dev"}
 TOOLS = {"scipy": "SciPy", "octave": "Octave", "mujoco": "MuJoCo"}

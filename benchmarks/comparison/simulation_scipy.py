@@ -5,6 +5,7 @@ to their peaks.
 Usage: simulation_scipy.py FOLDER ROWS
 """
 import measured_rows
+from simulation_runs import relative_difference
 
 import numpy as np
 import scipy
@@ -19,15 +20,14 @@ def main():
     torque = np.array(case["torque_N_m"])
     times = step_s * np.arange(len(torque))
     sampled = signal.cont2discrete(system, step_s, method="zoh")
-    flexarm = np.array(case["channels"]).T
-    peaks = np.max(np.abs(flexarm), axis=0)
+    flexarm = np.array(case["channels"])
     rows = measured_rows.Rows(f"SciPy {scipy.__version__}")
     runs = {"dlsim": lambda: signal.dlsim(sampled, torque)[1],
             "lsim": lambda: signal.lsim(system, torque, times, interp=False)[1]}
     for name, run in runs.items():
         spent_s, channels = measured_rows.timed(run)
         rows.add(f"{name} modes:{case['modes']}", spent_s,
-                 np.max(np.max(np.abs(channels - flexarm), axis=0) / peaks),
+                 relative_difference(channels.T, flexarm),
                  samples_per_s=len(torque) / spent_s)
     rows.write(path)
 

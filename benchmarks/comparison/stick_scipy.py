@@ -8,13 +8,13 @@ LSODA end in an error of its root finder. The hub slips in the direction sigma u
 
 Usage: stick_scipy.py FOLDER ROWS
 """
-import measured_rows
+from functools import partial
+
+from simulation_runs import HUB_VELOCITY, measure_friction, stretches
 
 import numpy as np
-import scipy
 from scipy.integrate import solve_ivp
 
-HUB_ANGLE, HUB_VELOCITY = 0, 1
 # Of the relative one.
 ABSOLUTE_TOLERANCE = 1e-3
 TOLERANCES = [1e-6, 1e-10]
@@ -59,12 +59,10 @@ def simulated(case, tolerance):
     arm = Arm(case)
     torque = np.array(case["torque_N_m"])
     step_s = case["sample_time_s"]
-    begins = np.flatnonzero(np.diff(torque, prepend=np.nan) != 0.0)
-    ends = np.append(begins[1:], len(torque))
     state = np.zeros(len(arm.a))
     direction = arm.direction_from_rest(state, torque[0])
     readings = np.empty((len(arm.c), len(torque)))
-    for begin, end in zip(begins, ends):
+    for begin, end in stretches(torque):
         held = torque[begin]
         times = step_s * np.arange(end - begin + 1)
         if direction == 0.0:
@@ -91,17 +89,8 @@ def simulated(case, tolerance):
 
 
 def main():
-    folder, path = measured_rows.arguments()
-    case = measured_rows.document(folder, "friction.json")
-    exact = np.array(case["channels"])[[HUB_ANGLE, HUB_VELOCITY]]
-    peaks = np.max(np.abs(exact), axis=1)
-    rows = measured_rows.Rows(f"SciPy {scipy.__version__}")
-    for tolerance in TOLERANCES:
-        spent_s, channels = measured_rows.timed(lambda: simulated(case, tolerance))
-        found = channels[[HUB_ANGLE, HUB_VELOCITY]]
-        rows.add(f"events tolerance:{tolerance:g}", spent_s,
-                 np.max(np.max(np.abs(found - exact), axis=1) / peaks))
-    rows.write(path)
+    measure_friction([(f"events tolerance:{tolerance:g}", partial(simulated, tolerance=tolerance))
+                      for tolerance in TOLERANCES])
 
 
 if __name__ == "__main__":

@@ -19,13 +19,13 @@ namespace {
 
 using Eigen::VectorXd;
 
-/// Starts of an effect at a place along the beam <= this.
-constexpr std::size_t kMostPlaces = 3;
 /// Sizes of the change that a value makes, where its range does not bound them.
 constexpr double kLeastSize = 0.25;
 constexpr double kMostSize = 2.5;
-/// Of the size that a test finds.
+/// values_near_base, of the size that a test finds.
 constexpr double kNear = 0.05;
+/// Starts of an effect at a place along the beam <= this.
+constexpr std::size_t kMostPlaces = 3;
 /// A change that is smaller than this part of the residuals is rounding.
 constexpr double kLeastChange = 1e-6;
 
@@ -115,36 +115,6 @@ std::vector<double> values_at(const Hypothesis& hypothesis, Places places, doubl
   return effects::values_at(hypothesis.parameters, places);
 }
 
-/// Some effects do nothing up to a threshold: an actuator saturates where a torque reaches its
-/// limit. Between neighbouring places one of which changes nothing, looks nearer to that one.
-template <class ChangesAt>
-void bisect_threshold(const std::map<double, bool>& changed, const ChangesAt& changes_at) {
-  constexpr int kBisections = 5;
-  const auto edge = std::ranges::adjacent_find(
-      changed, [](const auto& one, const auto& next) { return one.second != next.second; });
-  if (edge == changed.end()) return;
-  double idle = edge->first;
-  double active = std::next(edge)->first;
-  if (edge->second) std::swap(idle, active);
-  for (int i = 0; i < kBisections; ++i) {
-    const double between = std::midpoint(idle, active);
-    (changes_at({between}) ? active : idle) = between;
-  }
-}
-
-/// The best, with the starts of the next ones.
-Addition best_of(const std::map<double, Addition>& at_places) {
-  std::vector<Addition> sorted;
-  for (const auto& [place, addition] : at_places) sorted.push_back(addition);
-  if (sorted.empty()) return {};
-  std::ranges::stable_sort(sorted, std::ranges::greater{}, &Addition::share);
-  Addition best = sorted.front();
-  for (std::size_t i = 1; i < std::min(kMostPlaces, sorted.size()); ++i) {
-    best.values_elsewhere.push_back(sorted[i].values);
-  }
-  return best;
-}
-
 /// Of a law of hub torque with several parameters: the best that a regression on the measured
 /// motion finds beside the base. A few values would miss its period.
 std::optional<Places> scanned_law(const Problem& problem, const Candidate& base,
@@ -158,6 +128,87 @@ std::optional<Places> scanned_law(const Problem& problem, const Candidate& base,
   return effects::coordinates_of(effect.parameters, best.values_of(best.effects.size() - 1));
 }
 
+/// The score test of one effect beside a fit, value by value.
+class EffectScore {
+ public:
+  /// `refitted` is of the fit's Jacobian, `left` its residuals without their parts along that. The
+  /// references must outlive the object.
+  EffectScore(const Problem& problem, const Fit& base, const RefitProjection& refitted,
+              const VectorXd& left, const Hypothesis& effect, const ReportedWork& work)
+      : problem_(problem),
+        base_(base),
+        refitted_(refitted),
+        left_(left),
+        effect_(effect),
+        work_(work) {}
+
+  /// Returns whether the effect changes residuals there.
+  bool try_at(const Places& places) {
+    work_.go_on();
+    const auto with = problem_.residuals(
+        base_.candidate.with(effect_, effects::values_at(effect_.parameters, places)),
+        problem_.estimation_runs());
+    if (!with) return true;
+    const VectorXd change = refitted_(base_.residuals - *with);
+    const double squares = change.squaredNorm();
+    if (!(squares > kLeastChange * kLeastChange * base_.sum_of_squares)) return false;
+    const auto [least, most] = sizes_of(effect_, places);
+    const double along = change.dot(left_);
+    const double size = std::clamp(along / squares, least, most);
+    const double share = size * (2.0 * along - size * squares) / base_.sum_of_squares;
+    Addition& best = best_at_[place_along_beam(effect_, places)];
+    if (best.effect == nullptr || share > best.share) {
+      best = {.effect = &effect_,
+              .values = values_at(effect_, places, size),
+              .values_near_base = values_at(effect_, places, kNear * size),
+              .share = share};
+    }
+    return true;
+  }
+
+  /// Some effects of one parameter do nothing up to a threshold: an actuator saturates where a
+  /// torque reaches its limit. Between neighbours of these places, one of which changes nothing,
+  /// looks nearer to that one.
+  void try_threshold(const std::vector<Places>& samples) {
+    constexpr int kBisections = 5;
+    std::map<double, bool> changes;
+    for (const Places& places : samples) changes[places.front()] = try_at(places);
+    const auto edge = std::ranges::adjacent_find(
+        changes, [](const auto& one, const auto& next) { return one.second != next.second; });
+    if (edge == changes.end()) return;
+    double idle = edge->first;
+    double active = std::next(edge)->first;
+    if (edge->second) std::swap(idle, active);
+    for (int i = 0; i < kBisections; ++i) {
+      const double between = std::midpoint(idle, active);
+      (try_at({between}) ? active : idle) = between;
+    }
+  }
+
+  /// The best, with the starts of the next ones along the beam; without an effect where none
+  /// changed anything.
+  Addition best() const {
+    std::vector<Addition> sorted;
+    for (const auto& [place, addition] : best_at_) sorted.push_back(addition);
+    if (sorted.empty()) return {};
+    std::ranges::stable_sort(sorted, std::ranges::greater{}, &Addition::share);
+    Addition best = sorted.front();
+    for (std::size_t i = 1; i < std::min(kMostPlaces, sorted.size()); ++i) {
+      best.values_elsewhere.push_back(sorted[i].values);
+    }
+    return best;
+  }
+
+ private:
+  const Problem& problem_;
+  const Fit& base_;
+  const RefitProjection& refitted_;
+  const VectorXd& left_;
+  const Hypothesis& effect_;
+  const ReportedWork& work_;
+  std::map<double, Addition> best_at_ = {};  // by the place along the beam
+};
+
 }  // namespace
 
 std::vector<Addition> additions(const Problem& problem, const Fit& base,
@@ -165,40 +216,17 @@ std::vector<Addition> additions(const Problem& problem, const Fit& base,
                                 const SelectionOptions& options, const ReportedWork& work) {
   const RefitProjection refitted(base.jacobian);
   const VectorXd left = refitted(base.residuals);
-  const auto of = [&](const Hypothesis& effect) {
-    std::map<double, Addition> best_at;  // by the place along the beam
-    if (base.candidate.has_effect(effect.effect)) return Addition();
-    // Whether the effect changes residuals there.
-    const auto changes_at = [&](const Places& places) {
-      work.go_on();
-      const auto with = problem.residuals(
-          base.candidate.with(effect, effects::values_at(effect.parameters, places)),
-          problem.estimation_runs());
-      if (!with) return true;
-      const VectorXd change = refitted(base.residuals - *with);
-      const double squares = change.squaredNorm();
-      if (!(squares > kLeastChange * kLeastChange * base.sum_of_squares)) return false;
-      const auto [least, most] = sizes_of(effect, places);
-      const double along = change.dot(left);
-      const double size = std::clamp(along / squares, least, most);
-      const double share = size * (2.0 * along - size * squares) / base.sum_of_squares;
-      Addition& best = best_at[place_along_beam(effect, places)];
-      if (best.effect == nullptr || share > best.share) {
-        best = {.effect = &effect,
-                .values = values_at(effect, places, size),
-                .values_near_base = values_at(effect, places, kNear * size),
-                .share = share};
-      }
-      return true;
-    };
+  const auto of = [&](const Hypothesis& effect) -> Addition {
+    if (base.candidate.has_effect(effect.effect)) return {};
+    EffectScore score(problem, base, refitted, left, effect, work);
     if (const auto law = scanned_law(problem, base.candidate, effect, options, work)) {
-      changes_at(*law);
-      return best_of(best_at);
+      score.try_at(*law);
+    } else if (effect.parameters.size() == 1) {
+      score.try_threshold(samples_of(effect));
+    } else {
+      for (const Places& places : samples_of(effect)) score.try_at(places);
     }
-    std::map<double, bool> changed;  // by the place of a single parameter
-    for (const Places& places : samples_of(effect)) changed[places.front()] = changes_at(places);
-    if (effect.parameters.size() == 1) bisect_threshold(changed, changes_at);
-    return best_of(best_at);
+    return score.best();
   };
   std::vector<Addition> made(others.size());
   in_parallel(others.size(), [&](std::size_t i) { made[i] = of(*others[i]); });

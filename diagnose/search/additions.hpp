@@ -22,7 +22,8 @@ struct Addition {
 };
 
 /// Each of `others` beside `base`, a fit of the problem, at that of a few values which explains
-/// most; the best first. By the Lagrange multiplier test [Rao1948, Silvey1959], without refitting:
+/// most; the best first. Of an effect that does nothing at some of them these are bisected for the
+/// threshold. By the Lagrange multiplier test [Rao1948, Silvey1959], without refitting:
 /// with r the residuals and c the change that a value makes of them, both without their parts along
 /// the derivatives J by the parameters of the base, the effect at the size a of that change
 /// explains

@@ -227,8 +227,8 @@ class Search {
     const Explanation best = replacements_.generalised(made, exchanged(made, largest));
     if (!revision_.colour_noise_beside(made, best)) return;
     const auto again = find_set(made.combinations, best.fit.candidate);
-    if (again != made.combinations.end())
-      choose_needed(made, replacements_.specialised(made, *again));
+    if (again == made.combinations.end()) return;
+    choose_needed(made, replacements_.specialised(made, *again));
   }
 
   /// One effect more beside those that are chosen, after exchanges.
@@ -315,18 +315,9 @@ class Search {
       auto unnamed = unidentified_effect(candidate, stated_errors(made.chosen));
       if (!unnamed) unnamed = improbable_effect(made, options_);
       if (!unnamed) return;
-      made.chosen = without(made, *unnamed);
+      made.chosen = replacements_.without(made, candidate, *unnamed);
       if (!clears_bars(made.chosen, made.nothing, options_)) made.chosen = made.nothing;
     }
-  }
-
-  /// The chosen set without one of its effects, fitted from its values; where the time is over, as
-  /// it was fitted before, if it was.
-  Explanation without(Selection& made, std::size_t effect) const {
-    const Candidate rest = made.chosen.fit.candidate.without(effect);
-    auto& kept = rest.effects.size() == 1 ? made.singles : made.combinations;
-    const auto same = find_set(kept, rest);
-    return made.end && same != kept.end() ? *same : fits_.fitted(rest);
   }
 
   /// One by itself at other values than its scan found: to be combined anew.

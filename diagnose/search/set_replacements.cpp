@@ -8,15 +8,32 @@
 
 namespace flexarm::diagnose {
 
+namespace {
+
+/// The sets of `made` that this one is among once it is fitted.
+std::vector<Explanation>& sets_with(Selection& made, const Candidate& set) {
+  return set.effects.size() == 1 ? made.singles : made.combinations;
+}
+
+}  // namespace
+
 Explanation SetReplacements::replaced(Selection& made, const Candidate& candidate,
                                       std::size_t index, const Hypothesis& other) const {
-  auto& kept = candidate.effects.size() == 1 ? made.singles : made.combinations;
+  auto& kept = sets_with(made, candidate);
   const auto same = find_set(kept, candidate.without(index).with(other, other.middle()));
   if (same != kept.end()) return *same;
   Explanation found = fits_.fitted(fits_.scan().look_in_place(candidate, index, other).candidate);
   kept.push_back(found);
   sort_by_fit(kept);
   return found;
+}
+
+Explanation SetReplacements::without(Selection& made, const Candidate& candidate,
+                                     std::size_t index) const {
+  const Candidate rest = candidate.without(index);
+  auto& kept = sets_with(made, rest);
+  const auto same = find_set(kept, rest);
+  return made.end && same != kept.end() ? *same : fits_.fitted(rest);
 }
 
 bool SetReplacements::clears_limits(Selection& made, const Explanation& fuller) const {

@@ -23,6 +23,9 @@ class SetReplacements {
   /// now and kept.
   Explanation replaced(Selection& made, const Candidate& candidate, std::size_t index,
                        const Hypothesis& other) const;
+  /// `candidate` without one of its effects, fitted from its values; where `made` has ended, as it
+  /// was fitted before, if it was.
+  Explanation without(Selection& made, const Candidate& candidate, std::size_t index) const;
   /// clears_bars against each set in which one of its effects is replaced by a limit of that: a
   /// general effect is named for what it adds to the special one. `fuller` may be among the sets of
   /// `made`.

@@ -44,12 +44,14 @@ void SetSearch::begin(const Candidate& nothing, const std::vector<Candidate>& si
     const Fit before = coarse_fit(parts_.early(), nothing, work_);
     early_sets_ = larger(parts_.early(), {before}, {.bases = 1}, singles);
   }
-  coarse_sets_ = fitted(parts_.coarse(), singles);
+  coarse_sets_ = fitted(parts_.coarse(), starts_at(singles));
 }
 
 void SetSearch::refit() {
-  early_sets_ = fitted(parts_.early(), best_of(early_sets_, options_.early_growth.bases));
-  coarse_sets_ = fitted(parts_.coarse(), best_of(coarse_sets_, options_.coarse_growth.bases));
+  early_sets_ =
+      fitted(parts_.early(), starts_at(best_of(early_sets_, options_.early_growth.bases)));
+  coarse_sets_ =
+      fitted(parts_.coarse(), starts_at(best_of(coarse_sets_, options_.coarse_growth.bases)));
 }
 
 const std::vector<Fit>& SetSearch::grow(std::string_view what, double to) {
@@ -93,8 +95,7 @@ std::vector<Fit> SetSearch::larger(const Problem& part, const std::vector<Fit>& 
   std::erase_if(starts, is_known);
   std::erase_if(grown, [&](const Start& start) { return is_known(start.candidate); });
   grown.resize(std::min(growth.fitted, grown.size()));
-  std::vector<Start> all;
-  for (Candidate& start : starts) all.push_back({.candidate = std::move(start)});
+  std::vector<Start> all = starts_at(starts);
   std::ranges::move(grown, std::back_inserter(all));
   return fitted(part, all);
 }
@@ -121,11 +122,10 @@ std::vector<SetSearch::Start> SetSearch::with_additions(const Problem& part, con
   return made;
 }
 
-std::vector<Fit> SetSearch::fitted(const Problem& part,
-                                   const std::vector<Candidate>& starts) const {
+std::vector<SetSearch::Start> SetSearch::starts_at(const std::vector<Candidate>& candidates) {
   std::vector<Start> made;
-  for (const Candidate& start : starts) made.push_back({.candidate = start});
-  return fitted(part, made);
+  for (const Candidate& candidate : candidates) made.push_back({.candidate = candidate});
+  return made;
 }
 
 std::vector<Fit> SetSearch::fitted(const Problem& part, const std::vector<Start>& starts) const {

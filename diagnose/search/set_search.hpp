@@ -69,8 +69,8 @@ class SetSearch {
                           const SetGrowth& growth, std::vector<Candidate> starts = {}) const;
   std::vector<Start> with_additions(const Problem& part, const Fit& set,
                                     const SetGrowth& growth) const;
+  static std::vector<Start> starts_at(const std::vector<Candidate>& candidates);
   std::vector<Fit> fitted(const Problem& part, const std::vector<Start>& starts) const;
-  std::vector<Fit> fitted(const Problem& part, const std::vector<Candidate>& starts) const;
   bool is_ahead_of_limits(const Fit& set, const std::vector<Fit>& sets) const;
 
   const CoarseProblems& parts_;

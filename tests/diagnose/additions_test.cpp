@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
-#include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
@@ -74,38 +73,64 @@ TEST_F(AdditionsToALateArm, EndWhereTheWorkIsCancelled) {
 }
 
 /// The additions of this effect beside nothing.
-std::vector<Addition> additions_of(const Experiment& experiment, const std::string& effect) {
+std::vector<Addition> additions_of(const Experiment& experiment, const Hypothesis& effect) {
   const Problem problem(experiment);
   const DiagnosisProgress silent;
   const ReportedWork work(silent);
-  const std::vector<Hypothesis> hypotheses = named(experiment, {effect});
-  return additions(problem, fit(problem, problem.as_filed()), {&hypotheses.front()}, {}, work);
+  return additions(problem, fit(problem, problem.as_filed()), {&effect}, {}, work);
+}
+
+double largest_torque_N_m(const measured::MeasuredRun& run) {
+  double largest_N_m = 0.0;
+  for (const double torque_N_m : std::get<measured::TimeRecord>(run.data).torque_N_m) {
+    largest_N_m = std::max(largest_N_m, std::abs(torque_N_m));
+  }
+  return largest_N_m;
+}
+
+constexpr SimulatedRuns kOneSecond{.duration_s = 1.0};
+constexpr double kLimited = 0.8;
+
+/// The runs of an actuator that saturates at kLimited of the largest torque of this run.
+Experiment saturated(double largest_N_m) {
+  return simulated_experiment(
+      {effects::named("torque_saturation", {{"limit", kLimited * largest_N_m}})}, kOneSecond);
+}
+
+TEST(Additions, BeginNearTheLimitOfASaturation) {
+  double largest_N_m = 0.0;
+  for (const auto& run : simulated_experiment({}, kOneSecond).runs) {
+    largest_N_m = std::max(largest_N_m, largest_torque_N_m(run));
+  }
+  const Experiment experiment = saturated(largest_N_m);
+  const auto found = additions_of(experiment, named(experiment, {"torque_saturation"}).front());
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_NEAR(found.front().values.front(), kLimited * largest_N_m, 0.1 * kLimited * largest_N_m);
+  EXPECT_GT(found.front().share, 0.5);
 }
 
 TEST(Additions, FindTheThresholdOfASaturation) {
-  double largest_N_m = 0.0;
-  for (const auto& run : simulated_experiment({}, {.duration_s = 1.0}).runs) {
-    for (const double torque_N_m : std::get<measured::TimeRecord>(run.data).torque_N_m) {
-      largest_N_m = std::max(largest_N_m, std::abs(torque_N_m));
-    }
-  }
-  // The values that are tried first are below and above it: of one quarter of the largest torque,
-  // and of more than that.
-  const double limit_N_m = 0.8 * largest_N_m;
-  const auto found = additions_of(
-      simulated_experiment({effects::named("torque_saturation", {{"limit", limit_N_m}})},
-                           {.duration_s = 1.0}),
-      "torque_saturation");
+  // Values are tried over the torque of all runs: of a run with a small torque the larger ones do
+  // nothing, and the next one does far too much. It leads to 2.7 times the limit, which does
+  // nothing.
+  const Experiment bare = simulated_experiment({}, kOneSecond);
+  const double largest_N_m = largest_torque_N_m(bare.runs[0]);
+  ASSERT_LT(largest_N_m, 0.5 * largest_torque_N_m(bare.runs[1]));
+  const Experiment all = saturated(largest_N_m);
+  Experiment with_small_torque = all;
+  with_small_torque.runs.resize(1);
+  const auto found = additions_of(with_small_torque, named(all, {"torque_saturation"}).front());
   ASSERT_EQ(found.size(), 1U);
-  EXPECT_NEAR(found.front().values.front(), limit_N_m, 0.1 * limit_N_m);
+  // It saturates.
+  EXPECT_LT(found.front().values.front(), largest_N_m);
+  EXPECT_NEAR(found.front().values.front(), kLimited * largest_N_m, 0.2 * kLimited * largest_N_m);
   EXPECT_GT(found.front().share, 0.5);
 }
 
 TEST(Additions, OfAMassBeginAtSeveralPlaces) {
-  const auto found = additions_of(
-      simulated_experiment({effects::named("attached_mass", {{"mass", 0.01}, {"position", 0.7}})},
-                           {.duration_s = 1.0}),
-      "attached_mass");
+  const Experiment experiment = simulated_experiment(
+      {effects::named("attached_mass", {{"mass", 0.01}, {"position", 0.7}})}, {.duration_s = 1.0});
+  const auto found = additions_of(experiment, named(experiment, {"attached_mass"}).front());
   ASSERT_EQ(found.size(), 1U);
   std::set<double> positions_m = {found.front().values.back()};
   for (const auto& values : found.front().values_elsewhere) positions_m.insert(values.back());

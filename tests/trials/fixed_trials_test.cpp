@@ -45,6 +45,19 @@ std::vector<diagnose::Hypothesis> hypotheses_of(const diagnose::Experiment& expe
   return hypotheses;
 }
 
+/// Those of the effects that are there and of some others.
+std::vector<diagnose::Hypothesis> hypotheses_of(const diagnose::Experiment& experiment,
+                                                const TrialKey& key, std::set<std::string> others) {
+  others.insert(key.hidden.begin(), key.hidden.end());
+  return hypotheses_of(experiment, others);
+}
+
+/// The search by output error among these.
+diagnose::Explanation chosen_of(const TrialKey& key, const std::set<std::string>& others) {
+  const diagnose::Experiment experiment = recorded(key);
+  return select(diagnose::Problem(experiment), hypotheses_of(experiment, key, others), {}).chosen;
+}
+
 FixedAnswer answer_of(const diagnose::Diagnosis& diagnosis) {
   FixedAnswer answer{diagnosis.verdict, diagnosis.predictor, {}};
   for (const auto& cause : diagnosis.causes) answer.effects.push_back(cause.effect);
@@ -105,22 +118,11 @@ TEST(FixedTrial, ThreeEffectsOfWhichTwoActLikeAnother) {
   // has it beside the friction, and no third effect beside these two leaves noise.
   const std::vector<std::string> hidden = {"root_compliance", "linear_density",
                                            "hub_viscous_friction"};
-  std::set<std::string> tried(hidden.begin(), hidden.end());
-  tried.insert({"payload_inertia", "payload_offset", "hub_inertia"});
-  const diagnose::Experiment experiment =
-      recorded({.kind = RunKind::time, .hidden = hidden, .seed = 2, .arm = "aluminium link"});
-  const auto hypotheses = hypotheses_of(experiment, tried);
-  const auto chosen = select(diagnose::Problem(experiment), hypotheses, {}).chosen;
+  const auto chosen =
+      chosen_of({.kind = RunKind::time, .hidden = hidden, .seed = 2, .arm = "aluminium link"},
+                {"payload_inertia", "payload_offset", "hub_inertia"});
   EXPECT_TRUE(chosen.leaves_noise());
   EXPECT_THAT(chosen.fit.candidate.labels(), UnorderedElementsAreArray(hidden));
-}
-
-/// The search by output error, with the effects that are there and some others.
-diagnose::Explanation chosen_of(const TrialKey& key, const std::set<std::string>& others) {
-  const diagnose::Experiment experiment = recorded(key);
-  std::set<std::string> tried(key.hidden.begin(), key.hidden.end());
-  tried.insert(others.begin(), others.end());
-  return select(diagnose::Problem(experiment), hypotheses_of(experiment, tried), {}).chosen;
 }
 
 TEST(FixedTrial, AFourthEffectThatShowsLate) {
@@ -177,13 +179,12 @@ TEST(FixedTrial, ASecondCauseInClosedLoopIsNoNoiseOfTheTorque) {
   // The controller turns the noise of its sensors into torque, which is recorded as it was. Taken
   // for an error of the record it makes residuals noise beside the rigidity alone. That is 0.6 %
   // off, and is beside a thickness that is 1 % off part of it.
-  const std::vector<std::string> hidden = {"flexural_rigidity", "beam_thickness", "payload_mass"};
-  std::set<std::string> tried(hidden.begin(), hidden.end());
-  tried.insert({"hub_inertia", "linear_density"});
-  const diagnose::Experiment experiment =
-      recorded({.kind = RunKind::time, .hidden = hidden, .dirt = "closed_loop"});
-  const FixedAnswer answer =
-      answer_of(diagnose::diagnose(experiment, hypotheses_of(experiment, tried), {}));
+  const TrialKey key{.kind = RunKind::time,
+                     .hidden = {"flexural_rigidity", "beam_thickness", "payload_mass"},
+                     .dirt = "closed_loop"};
+  const diagnose::Experiment experiment = recorded(key);
+  const FixedAnswer answer = answer_of(diagnose::diagnose(
+      experiment, hypotheses_of(experiment, key, {"hub_inertia", "linear_density"}), {}));
   EXPECT_EQ(answer.verdict, diagnose::Verdict::explained);
   EXPECT_EQ(answer.predictor, diagnose::PredictorKind::output_error);
   EXPECT_THAT(answer.effects, UnorderedElementsAre("beam_thickness", "payload_mass"));

@@ -31,25 +31,10 @@ constexpr double kLeastChange = 1e-6;
 
 using Places = std::vector<double>;
 
-/// The parameter that gives the effect its size: the first with a value at which it does nothing.
-std::optional<std::size_t> size_parameter(const Hypothesis& hypothesis) {
-  const auto found = std::ranges::find_if(
-      hypothesis.parameters, [](const auto& one) { return one.neutral_coordinate().has_value(); });
-  if (found == hypothesis.parameters.end()) return std::nullopt;
-  return static_cast<std::size_t>(found - hypothesis.parameters.begin());
-}
-
-/// A place along the beam: there is none where the effect does nothing.
-bool is_place(const SearchedParameter& parameter) {
-  return parameter.spacing == effects::Spacing::linear && !parameter.periodic &&
-         !parameter.neutral_coordinate();
-}
-
 /// The coordinate of an effect's place along the beam; 0 of one without.
 double place_along_beam(const Hypothesis& hypothesis, const Places& places) {
-  const auto found = std::ranges::find_if(hypothesis.parameters, is_place);
-  if (found == hypothesis.parameters.end()) return 0.0;
-  return places[static_cast<std::size_t>(found - hypothesis.parameters.begin())];
+  const auto place = hypothesis.place_parameter();
+  return place ? places[*place] : 0.0;
 }
 
 /// A few values of a hypothesis' parameters, as places in their ranges: over these; of a single
@@ -59,10 +44,10 @@ std::vector<Places> samples_of(const Hypothesis& hypothesis) {
   const std::vector<double> spread = {0.15, 0.5, 0.85};
   const std::vector<double> along_beam = {0.1, 0.3, 0.5, 0.7, 0.9};
   const std::size_t n = hypothesis.parameters.size();
-  const auto sized = size_parameter(hypothesis);
+  const auto sized = hypothesis.size_parameter();
   std::vector<Places> samples = {{}};
   for (std::size_t i = 0; i < n; ++i) {
-    std::vector<double> places = n > 1 && is_place(hypothesis.parameters[i]) ? along_beam : spread;
+    std::vector<double> places = n > 1 && i == hypothesis.place_parameter() ? along_beam : spread;
     if (n >= kMany && i == sized) places = {0.5};
     const double neutral = hypothesis.parameters[i].neutral_coordinate().value_or(0.0);
     for (const double change : {0.004, -0.03, 0.03}) {
@@ -84,7 +69,7 @@ std::vector<Places> samples_of(const Hypothesis& hypothesis) {
 /// Sizes that a change may have, the one at `places` being 1: those within the range of the
 /// parameter that gives it, where that goes on both sides of the value at which it does nothing.
 std::pair<double, double> sizes_of(const Hypothesis& hypothesis, const Places& places) {
-  const auto sized = size_parameter(hypothesis);
+  const auto sized = hypothesis.size_parameter();
   const double neutral = sized ? *hypothesis.parameters[*sized].neutral_coordinate() : 0.0;
   if (!(neutral > 0.0 && neutral < 1.0)) return {kLeastSize, kMostSize};
   const double change = places[*sized] - neutral;
@@ -108,7 +93,7 @@ double place_at(const SearchedParameter& parameter, double place, double size) {
 }
 
 std::vector<double> values_at(const Hypothesis& hypothesis, Places places, double size) {
-  if (const auto sized = size_parameter(hypothesis)) {
+  if (const auto sized = hypothesis.size_parameter()) {
     double& place = places[*sized];
     place = std::clamp(place_at(hypothesis.parameters[*sized], place, size), 0.0, 1.0);
   }

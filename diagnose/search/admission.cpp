@@ -54,14 +54,16 @@ std::optional<std::size_t> unidentified_effect(const Candidate& candidate,
   return std::nullopt;
 }
 
-bool is_identified(const Explanation& explanation) {
+std::optional<std::size_t> unidentified_effect(const Explanation& explanation) {
   const Candidate& candidate = explanation.fit.candidate;
-  if (candidate.parameters().empty()) return true;
+  if (candidate.parameters().empty()) return std::nullopt;
   const Eigen::VectorXd coordinates = candidate.coordinates();
-  if (!coordinates.allFinite() || explanation.fit.jacobian.cols() != coordinates.size()) {
-    return false;
-  }
-  return !unidentified_effect(candidate, errors_of_least_squares(explanation));
+  if (!coordinates.allFinite() || explanation.fit.jacobian.cols() != coordinates.size()) return 0;
+  return unidentified_effect(candidate, errors_of_least_squares(explanation));
+}
+
+bool is_identified(const Explanation& explanation) {
+  return !unidentified_effect(explanation);
 }
 
 bool clears_bars(const Explanation& fuller, const Explanation& simpler,

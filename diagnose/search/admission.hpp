@@ -20,8 +20,10 @@ namespace flexarm::diagnose {
 std::optional<std::size_t> unidentified_effect(const Candidate& candidate,
                                                const Eigen::VectorXd& errors);
 
-/// No effect of it is unidentified, by the standard errors of least squares, widened by the
-/// residuals where these are above the noise.
+/// The same by the standard errors of least squares, widened by the residuals where these are above
+/// the noise.
+std::optional<std::size_t> unidentified_effect(const Explanation& explanation);
+/// No effect of it is unidentified by those.
 bool is_identified(const Explanation& explanation);
 
 /// Whether the effects that `fuller` has beyond `simpler` may be named: they are identified and

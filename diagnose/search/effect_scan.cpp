@@ -20,6 +20,17 @@ namespace {
 /// minima within these.
 constexpr double kScannedDeviations = 2.5;
 
+/// The coordinates of where along the beam the last effect is, and of its size.
+std::vector<Index> place_and_size(const Candidate& candidate) {
+  const Hypothesis& effect = candidate.effects.back();
+  std::vector<Index> coordinates;
+  for (const auto parameter : {effect.place_parameter(), effect.size_parameter()}) {
+    if (!parameter) continue;
+    coordinates.push_back(last_coordinates(candidate)[*parameter]);
+  }
+  return coordinates;
+}
+
 double larger_share(const HubLawScan& law, const std::optional<HubLawScan>& early_law) {
   return early_law ? std::max(law.share, early_law->share) : law.share;
 }
@@ -93,9 +104,17 @@ Fit EffectScan::best_from_scan(const Problem& problem, const Candidate& start,
                                  .work = &work_};
   const LinearRefit refit(problem, start.without(start.effects.size() - 1), work_);
   const auto sum = [&](const Candidate& candidate) { return refit.sum_of_squares(candidate); };
-  std::vector<Candidate> starts = scan(sum, start, scanned, scan_options);
-  for (Candidate& one : starts) one = refit.refitted(one);
-  return best_fit(problem, starts);
+  const auto best_at = [&](std::vector<Candidate> starts) {
+    for (Candidate& one : starts) one = refit.refitted(one);
+    return best_fit(problem, starts);
+  };
+  Fit found = best_at(scan(sum, start, scanned, scan_options));
+  if (n < 3 || !start.effects.back().place_parameter()) return found;
+  Fit moved = best_at(scan(sum, found.candidate, place_and_size(found.candidate),
+                           {.evaluations = options_.scan_evaluations[1],
+                            .starts = options_.scan_starts,
+                            .work = &work_}));
+  return moved.sum_of_squares < found.sum_of_squares ? moved : found;
 }
 
 Fit EffectScan::best_look(const Problem& part, const Candidate& start,

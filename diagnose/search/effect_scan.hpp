@@ -61,6 +61,8 @@ class EffectScan {
   Fit best_look(const Problem& part, const Candidate& start,
                 const std::optional<HubLawScan>& law) const;
   Fit best_fit(const Problem& problem, const std::vector<Candidate>& starts) const;
+  /// Of an effect of three parameters or more at a place along the beam, the place and the size are
+  /// scanned once more beside what was found of the others: each place may have a minimum.
   Fit best_from_scan(const Problem& problem, const Candidate& start,
                      const std::vector<Eigen::Index>& scanned) const;
   /// Empty where they have no parameter in common.

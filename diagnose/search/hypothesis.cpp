@@ -92,6 +92,13 @@ Scales scales_of_sensor(Scales scales, const Experiment& experiment, const arm::
   return scales;
 }
 
+template <class Test>
+std::optional<std::size_t> first_of(const std::vector<SearchedParameter>& parameters, Test test) {
+  const auto found = std::ranges::find_if(parameters, test);
+  if (found == parameters.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - parameters.begin());
+}
+
 }  // namespace
 
 std::string Hypothesis::label() const {
@@ -116,6 +123,16 @@ bool Hypothesis::contains(const std::string& other_effect) const {
 
 std::vector<double> Hypothesis::middle() const {
   return effects::values_at(parameters, std::vector<double>(parameters.size(), 0.5));
+}
+
+std::optional<std::size_t> Hypothesis::size_parameter() const {
+  return first_of(parameters, [](const auto& one) { return one.neutral_coordinate().has_value(); });
+}
+
+std::optional<std::size_t> Hypothesis::place_parameter() const {
+  return first_of(parameters, [](const SearchedParameter& one) {
+    return one.spacing == effects::Spacing::linear && !one.periodic && !one.neutral_coordinate();
+  });
 }
 
 std::string Hypothesis::unit_of(const SearchedParameter& parameter) const {

@@ -4,8 +4,10 @@
 #include "diagnose/experiment.hpp"
 #include "effects/registry/entry.hpp"
 
+#include <cstddef>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -36,6 +38,10 @@ struct Hypothesis {
   bool contains(const std::string& other_effect) const;
   /// Its parameters, each at the middle of its range.
   std::vector<double> middle() const;
+  /// The parameter that gives the effect its size: the first with a value at which it does nothing.
+  std::optional<std::size_t> size_parameter() const;
+  /// The parameter that is a place along the beam: there is none where the effect does nothing.
+  std::optional<std::size_t> place_parameter() const;
   /// Unit of a parameter; "1" for a plain number.
   std::string unit_of(const SearchedParameter& parameter) const;
 };

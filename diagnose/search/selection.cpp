@@ -77,6 +77,7 @@ class Search {
     if (!made.singles.empty() && !is_out_of_reach(made.nothing, made.singles, options_)) {
       extend(made);
       generalise(made);
+      if (!is_enough(made)) try_in_coloured_noise(made, made.chosen);
       exchange_for_general(made);
     }
     if (!is_enough(made)) revision_.colour_noise_at_last(made);
@@ -201,16 +202,18 @@ class Search {
       if (last) fits_.leave_untried(labels_with(last->fit.candidate, general_.others()));
       fits_.add_near(search.grow(kSets, halfway()), options_.sets_refitted, kSets, halfway(),
                      made.combinations);
-      if (simplest(made.combinations, size, options_) == nullptr) break;
-      revision_.colour_noise_beside(made, *simplest(made.combinations, size, options_));
-      const Explanation best =
-          replacements_.specialised(made, *simplest(made.combinations, size, options_));
-      choose_needed(made, best);
-      const bool is_ahead = !last || is_worth_another(best, *last) ||
-                            search.share_taken() >= options_.least_share_ahead;
+      bool is_ahead = search.share_taken() >= options_.least_share_ahead;
+      // Where no set of this size is identified, a larger one may be.
+      const Explanation* const largest = best_of_size(made, size, last);
+      if (largest != nullptr) {
+        revision_.colour_noise_beside(made, *largest);
+        const Explanation best = replacements_.specialised(made, *best_of_size(made, size, last));
+        choose_needed(made, best);
+        is_ahead = is_ahead || !last || is_worth_another(best, *last);
+        last = best;
+      }
       if (size >= options_.tried_set_size && !is_ahead) break;
-      last = best;
-      if (fits_.lengthen_parts(best)) search.refit();
+      if (last && fits_.lengthen_parts(*last)) search.refit();
     }
     if (made.chosen.fit.candidate.effects.size() > 1) {
       Explanation better = exchanged(made, made.chosen);
@@ -218,16 +221,32 @@ class Search {
         choose(made, std::move(better));
       }
     }
-    if (last && !is_enough(made)) try_in_coloured_noise(made, *last);
+    if (last && !is_enough(made)) try_in_coloured_noise(made, exchanged(made, *last));
   }
 
-  /// Coloured noise is excess residual in white noise: beside it the last effects of `largest` may
-  /// not clear the bars. The best that exchanges make of it is tried in the noise that it leaves.
+  /// The simplest set of `size` effects; one with an effect less where that fits as well and the
+  /// search has found it only now, better than `last`.
+  const Explanation* best_of_size(const Selection& made, std::size_t size,
+                                  const std::optional<Explanation>& last) const {
+    const Explanation* const largest = simplest(made.combinations, size, options_);
+    const Explanation* const smaller = simplest(made.combinations, size - 1, options_);
+    if (smaller == nullptr || !last || lead(*smaller, *last) < options_.least_information_gain) {
+      return largest;
+    }
+    const bool is_needed =
+        largest != nullptr && lead(*largest, *smaller) >= options_.least_information_gain;
+    return is_needed ? largest : smaller;
+  }
+
+  /// Coloured noise is excess residual in white noise: beside it the last effects of `largest`, or
+  /// a general effect in place of its limit, may not clear the bars. The best that general effects
+  /// make of it is tried in the noise that it leaves.
   void try_in_coloured_noise(Selection& made, const Explanation& largest) {
-    const Explanation best = replacements_.generalised(made, exchanged(made, largest));
+    const Explanation best = replacements_.generalised(made, largest);
     if (!revision_.colour_noise_beside(made, best)) return;
-    const auto again = find_set(made.combinations, best.fit.candidate);
-    if (again == made.combinations.end()) return;
+    auto& kept = best.fit.candidate.effects.size() == 1 ? made.singles : made.combinations;
+    const auto again = find_set(kept, best.fit.candidate);
+    if (again == kept.end()) return;
     choose_needed(made, replacements_.specialised(made, *again));
   }
 

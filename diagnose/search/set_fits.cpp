@@ -70,7 +70,8 @@ void SetFits::add_all(std::vector<std::string> sets, std::string_view what, doub
       if (const auto from = start(i)) {
         Fit best = fit(problem_, from->candidate,
                        {.highest_minimum = from->highest_minimum, .work = &work_});
-        if (!best.is_out_of_reach) of_set = explain(problem_, std::move(best));
+        if (!best.is_out_of_reach)
+          of_set = without_unidentified(explain(problem_, std::move(best)));
       }
       made[i] = std::move(of_set);
     });
@@ -83,6 +84,17 @@ void SetFits::add_all(std::vector<std::string> sets, std::string_view what, doub
 
 void SetFits::leave_untried(const std::vector<std::string>& sets) {
   untried_.insert(untried_.end(), sets.begin(), sets.end());
+}
+
+/// An effect that the others do not need may have led the fit to their values.
+Explanation SetFits::without_unidentified(Explanation set) const {
+  constexpr std::size_t kLeast = 2;
+  while (set.fit.candidate.effects.size() > kLeast) {
+    const auto unidentified = unidentified_effect(set);
+    if (!unidentified) break;
+    set = fitted(set.fit.candidate.without(*unidentified));
+  }
+  return set;
 }
 
 /// `made` are of the sets of `untried_`: empty where no fit was needed, without residuals where

@@ -184,6 +184,7 @@ void TimeStepper::step(const Steps& steps, double u0, double u1) {
       solver_.solve(table, state_, motion_, {time_s_, steps.length_s, u0, u1, must_be_resolved});
   const bool may_happen = is_solved && forces_->has_friction() && !is_quiet(table);
   if (steps.shorter && (!is_solved || may_happen)) {
+    if (!is_solved) count_halving();
     advance_in(*steps.shorter, u0, u1);
     return;
   }
@@ -236,15 +237,19 @@ void TimeStepper::halve(double length_s, double u0, double u1, int halvings) {
     throw std::runtime_error(fmt::format(
         "simulation: inner step at {} s does not converge at the minimum step size", time_s_));
   }
+  count_halving();
+  const double between = 0.5 * (u0 + u1);
+  free_step(0.5 * length_s, u0, between, halvings + 1);
+  free_step(0.5 * length_s, between, u1, halvings + 1);
+}
+
+void TimeStepper::count_halving() {
   const SimulationOptions& options = plan_->options();
   if (++summary_.halved_steps > options.most_halved_steps &&
       static_cast<double>(summary_.halved_steps) * options.sample_time_s > time_s_) {
     throw std::runtime_error(
         fmt::format("simulation: {} inner steps halved by {} s", summary_.halved_steps, time_s_));
   }
-  const double between = 0.5 * (u0 + u1);
-  free_step(0.5 * length_s, u0, between, halvings + 1);
-  free_step(0.5 * length_s, between, u1, halvings + 1);
 }
 
 bool TimeStepper::is_quiet(const StepTable& table) {

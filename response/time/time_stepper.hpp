@@ -68,6 +68,7 @@ class TimeStepper {
   void linear_step(const Steps& steps, double u0, double u1);
   void free_step(double length_s, double u0, double u1, int halvings);
   void halve(double length_s, double u0, double u1, int halvings);
+  void count_halving();
   void book(double until);
   bool is_quiet(const StepTable& table);
   std::optional<double> next_event() const;

@@ -33,6 +33,17 @@ Eigen::VectorXd errors_of_least_squares(const Explanation& explanation) {
   });
 }
 
+/// The share that counts for the bars. The level of noise is known to a part of its power, and an
+/// error that this hides may be far above that of a simulation where noise is strong: what the
+/// fuller set takes away of it, noise was not.
+double share_named(const Misfit& simpler, const Misfit& fuller, const SelectionOptions& options) {
+  const double hidden = simpler.unexplained_error();
+  const bool is_hidden = simpler.is_noise() && fuller.is_noise() && !simpler.disturbance &&
+                         hidden > options.negligible_error;
+  if (!is_hidden) return share_taken(simpler, fuller);
+  return 1.0 - std::pow(fuller.unexplained_error() / hidden, 2);
+}
+
 }  // namespace
 
 std::optional<std::size_t> unidentified_effect(const Candidate& candidate,
@@ -70,7 +81,8 @@ bool clears_bars(const Explanation& fuller, const Explanation& simpler,
                  const SelectionOptions& options) {
   if (!is_identified(fuller)) return false;
   if (lead(fuller, simpler) < options.least_information_gain) return false;
-  if (share_taken(simpler.estimation, fuller.estimation) < options.least_share) return false;
+  if (share_named(simpler.estimation, fuller.estimation, options) < options.least_share)
+    return false;
   if (simpler.validation.is_noise()) return fuller.validation.is_noise();
   return share_taken(simpler.validation, fuller.validation) >= options.least_validated_share;
 }

@@ -147,5 +147,25 @@ TEST(Admission, NeedsAParameterLargerThanTheErrorThatIsStated) {
   EXPECT_EQ(unidentified_effect(candidate, Eigen::VectorXd()), 0) << "a fit that failed";
 }
 
+TEST(Admission, CountsAnErrorThatTheToleranceOfTheNoiseLevelHides) {
+  // A power of 1.08 times that of the noise is noise within the tolerance. Beside noise of 15 % of
+  // the signal it may hide an error of 4 %, beside noise of 0.5 % only one of 0.14 %.
+  const auto clears_beside = [](double noise_floor) {
+    Explanation simpler = at_coordinate(0.4, 0.01);
+    Explanation fuller = simpler;
+    simpler.fit.candidate = {};
+    simpler.estimation.sum_of_squares = 1.08 * kNumbers;
+    for (Explanation* set : {&simpler, &fuller}) {
+      Misfit& left = set->estimation;
+      left.noise_floor = noise_floor;
+      left.relative_error = noise_floor * std::sqrt(left.sum_of_squares / kNumbers);
+    }
+    EXPECT_TRUE(simpler.estimation.is_noise());
+    return clears_bars(fuller, simpler, {});
+  };
+  EXPECT_TRUE(clears_beside(0.15));
+  EXPECT_FALSE(clears_beside(0.005));
+}
+
 }  // namespace
 }  // namespace flexarm::diagnose

@@ -138,7 +138,6 @@ std::optional<PredictedSelection> select_with_assumed_numbers(const SelectionTas
   if (assumed->arm == problem.experiment().arm) return std::nullopt;
   SelectionOptions options = task.options;
   options.deadline = halfway(options.deadline);
-  options.most_causes = 1;
   PredictedSelection made = select_by_simulation(
       {task.hypotheses, options},
       Problem(assumed, {.flexible_modes = problem.predictor().flexible_modes()}), progress);

@@ -67,8 +67,8 @@ PredictedSelection select_by_simulation(const SelectionTask& task, const Problem
                                         const DiagnosisProgress& progress);
 
 /// Where effects do not leave noise: what numbers of the arm file that state no uncertainty explain
-/// if they are as uncertain as those of a data sheet, by themselves or beside one effect. Empty
-/// where that does not leave noise either.
+/// if they are as uncertain as those of a data sheet, by themselves or beside effects, in half of
+/// the time. Empty where that does not leave noise either.
 std::optional<PredictedSelection> select_with_assumed_numbers(const SelectionTask& task,
                                                               const Problem& problem,
                                                               const DiagnosisProgress& progress);

@@ -28,6 +28,8 @@ constexpr std::size_t kProgressInterval = 1 << 14;
 constexpr double kFitForceTolerance = 1e-9;
 /// Of a run of some thousand samples: more than one in each. A longer run may have one in each.
 constexpr std::int64_t kMostHalvedStepsOfFit = 5000;
+/// Friction that sticks and slips takes two or three inner steps a sample.
+constexpr double kMostStepsPerSampleOfFit = 100.0;
 
 /// Of an unknown initial state: the rotation and the first flexible mode.
 constexpr Index kFewestResolvedModes = 2;
@@ -301,6 +303,7 @@ SimulationOptions options_of_fit(double sample_time_s, TorqueHold hold) {
           .energy = false,
           .force_tolerance = kFitForceTolerance,
           .most_halved_steps = kMostHalvedStepsOfFit,
+          .most_steps_per_sample = kMostStepsPerSampleOfFit,
           .resolve_every_mode = false,
           .precision = Precision::working};
 }

@@ -29,6 +29,9 @@ struct SimulationOptions {
   /// A run that asks for more of them than this and than the samples it has passed throws
   /// std::runtime_error: friction that changes within nearly every step would cost minutes.
   std::int64_t most_halved_steps = std::numeric_limits<std::int64_t>::max();
+  /// So does a run that takes more inner steps than this for each sample it has passed, and than
+  /// 50 000: where a mode is stiff, the halves in which friction may change can be without end.
+  double most_steps_per_sample = std::numeric_limits<double>::infinity();
   /// Where forces vary inner steps resolve the fastest mode; else `substeps` decide, which is
   /// enough for fits.
   bool resolve_every_mode = true;

@@ -21,6 +21,8 @@ constexpr double kAtBreakaway = 1e-13;
 /// Rests of a step shorter than this times the sample time are not taken.
 constexpr double kNothingLeft = 1e-15;
 constexpr int kMostHalvings = 30;
+/// A run is held to SimulationOptions::most_steps_per_sample from here on.
+constexpr std::int64_t kLeastSteps = 50'000;
 /// A linear arm's piece of a length that does not come again is stepped by series up to this many
 /// of them; a matrix exponential costs as much.
 constexpr double kMostSeriesSteps = 50.0;
@@ -177,6 +179,7 @@ void TimeStepper::linear_step(const Steps& steps, double u0, double u1) {
 }
 
 void TimeStepper::step(const Steps& steps, double u0, double u1) {
+  count_step();
   const StepTable& table = motion_ == HubMotion::held ? steps.held : steps.turning;
   // In a fit friction may change within the shortest of the steps.
   const bool must_be_resolved = steps.shorter || plan_->options().resolve_every_mode;
@@ -249,6 +252,14 @@ void TimeStepper::count_halving() {
       static_cast<double>(summary_.halved_steps) * options.sample_time_s > time_s_) {
     throw std::runtime_error(
         fmt::format("simulation: {} inner steps halved by {} s", summary_.halved_steps, time_s_));
+  }
+}
+
+void TimeStepper::count_step() {
+  const SimulationOptions& options = plan_->options();
+  if (++steps_ > kLeastSteps && static_cast<double>(steps_) * options.sample_time_s >
+                                    options.most_steps_per_sample * time_s_) {
+    throw std::runtime_error(fmt::format("simulation: {} inner steps by {} s", steps_, time_s_));
   }
 }
 

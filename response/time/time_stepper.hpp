@@ -7,6 +7,7 @@
 #include "response/time/step_solver.hpp"
 #include "response/time/torque_path.hpp"
 
+#include <cstdint>
 #include <optional>
 
 namespace flexarm::response {
@@ -69,6 +70,7 @@ class TimeStepper {
   void free_step(double length_s, double u0, double u1, int halvings);
   void halve(double length_s, double u0, double u1, int halvings);
   void count_halving();
+  void count_step();
   void book(double until);
   bool is_quiet(const StepTable& table);
   std::optional<double> next_event() const;
@@ -92,6 +94,7 @@ class TimeStepper {
   StepSolver solver_;
   ReadingBound::Workspace workspace_;
   int events_at_once_ = 0;
+  std::int64_t steps_ = 0;  // inner steps, those that were halved among them
   SimulationSummary summary_;
 };
 

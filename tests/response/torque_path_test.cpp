@@ -168,6 +168,19 @@ TEST(ActuatorChain, HalvedStepsOfTablesAreCounted) {
       std::runtime_error);
 }
 
+TEST(ActuatorChain, ARunOfTooManyStepsPerSampleIsGivenUp) {
+  // At least one inner step a sample, which are counted from the 50 000th on.
+  SimulationOptions options{.sample_time_s = 0.01, .energy = false, .most_steps_per_sample = 0.5};
+  const auto run = [&](std::size_t samples) {
+    return simulate(oscillator(1.0, 16.0), coulomb(0.5), hub_sensors(), step_torque(1.0, samples),
+                    options);
+  };
+  EXPECT_NO_THROW(run(20'000));
+  EXPECT_THROW(run(60'000), std::runtime_error);
+  options.most_steps_per_sample = 100.0;
+  EXPECT_NO_THROW(run(60'000));
+}
+
 TEST(ActuatorChain, ARunMayHalveAStepForEachSampleItHasPassed) {
   ArmParts parts = coulomb(0.0);
   put(parts, "torque_ripple", {{"amplitude", -2.0}, {"cycles", 3.0}, {"phase", 0.4}});

@@ -204,6 +204,21 @@ TEST(FixedTrial, ThreeEffectsOfWhichNoTwoAreIdentified) {
   EXPECT_THAT(chosen.fit.candidate.labels(), UnorderedElementsAreArray(hidden));
 }
 
+TEST(FixedTrial, ThreeEffectsBesideNumbersThatAreWrong) {
+  // Rigidity and mass of the beam and inertia of the hub are wrong by some per cent, and the file
+  // does not say so.
+  const TrialKey key{.kind = RunKind::time,
+                     .hidden = {"tilt", "attached_mass", "torque_saturation"},
+                     .number = 2,
+                     .seed = 13,
+                     .dirt = "undeclared_numbers"};
+  const diagnose::Experiment experiment = recorded(key);
+  const FixedAnswer answer = answer_of(
+      diagnose::diagnose(experiment, hypotheses_of(experiment, key, {"torque_bias"}), {}));
+  EXPECT_EQ(answer.verdict, diagnose::Verdict::explained);
+  EXPECT_THAT(answer.effects, UnorderedElementsAreArray(key.hidden));
+}
+
 TEST(FixedTrial, ASoftDriveUnderDrift) {
   // The drift of a sensor is a third of what a soft root leaves, so that a soft drive in its place
   // does not clear the bars in white noise.

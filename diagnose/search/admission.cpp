@@ -34,14 +34,13 @@ Eigen::VectorXd errors_of_least_squares(const Explanation& explanation) {
 }
 
 /// The share that counts for the bars. The level of noise is known to a part of its power, and an
-/// error that this hides may be far above that of a simulation where noise is strong: what the
-/// fuller set takes away of it, noise was not.
+/// error that this hides may be far above that of a simulation where noise is strong. Where the
+/// fuller set leaves none, that error was no noise.
 double share_named(const Misfit& simpler, const Misfit& fuller, const SelectionOptions& options) {
-  const double hidden = simpler.unexplained_error();
   const bool is_hidden = simpler.is_noise() && fuller.is_noise() && !simpler.disturbance &&
-                         hidden > options.negligible_error;
-  if (!is_hidden) return share_taken(simpler, fuller);
-  return 1.0 - std::pow(fuller.unexplained_error() / hidden, 2);
+                         simpler.unexplained_error() > options.negligible_error &&
+                         fuller.unexplained_error() <= options.negligible_error;
+  return is_hidden ? 1.0 : share_taken(simpler, fuller);
 }
 
 }  // namespace

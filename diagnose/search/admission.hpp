@@ -29,7 +29,7 @@ bool is_identified(const Explanation& explanation);
 /// Whether the effects that `fuller` has beyond `simpler` may be named: they are identified and
 /// clear the bars of `options`. Validation runs that are noise without the effects must be noise
 /// with them. Where `simpler` leaves noise within the tolerance of its level, and an error above
-/// options.negligible_error, that error counts as excess residual.
+/// options.negligible_error that `fuller` does not leave, that error counts as excess residual.
 bool clears_bars(const Explanation& fuller, const Explanation& simpler,
                  const SelectionOptions& options);
 

@@ -109,9 +109,9 @@ Fit EffectScan::best_from_scan(const Problem& problem, const Candidate& start,
     return best_fit(problem, starts);
   };
   Fit found = best_at(scan(sum, start, scanned, scan_options));
-  if (n < 3 || !start.effects.back().place_parameter()) return found;
+  if (std::ssize(scanned) <= kMostOfGrid || !start.effects.back().place_parameter()) return found;
   Fit moved = best_at(scan(sum, found.candidate, place_and_size(found.candidate),
-                           {.evaluations = options_.scan_evaluations[1],
+                           {.evaluations = options_.scan_evaluations[kMostOfGrid - 1],
                             .starts = options_.scan_starts,
                             .work = &work_}));
   return moved.sum_of_squares < found.sum_of_squares ? moved : found;

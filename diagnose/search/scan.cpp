@@ -118,8 +118,6 @@ std::vector<Candidate> scan(const Problem& problem, const Candidate& start,
 
 std::vector<Candidate> scan(const SumOfSquares& sum_of_squares, const Candidate& start,
                             const std::vector<Index>& coordinates, const ScanOptions& options) {
-  // More dimensions than this leave a grid too few places along an axis.
-  constexpr Index kMostOfGrid = 2;
   const auto dimension = static_cast<Index>(coordinates.size());
   const bool by_grid = options.method == ScanMethod::grid ||
                        (options.method == ScanMethod::by_dimension && dimension <= kMostOfGrid);

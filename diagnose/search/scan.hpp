@@ -12,6 +12,9 @@
 
 namespace flexarm::diagnose {
 
+/// More dimensions than this leave a grid too few places along an axis.
+inline constexpr Eigen::Index kMostOfGrid = 2;
+
 /// docs/numerics.md section 8 compares them.
 enum class ScanMethod {
   by_dimension,  ///< grid of one or two coordinates, else DIRECT-L

@@ -80,8 +80,8 @@ bool clears_bars(const Explanation& fuller, const Explanation& simpler,
                  const SelectionOptions& options) {
   if (!is_identified(fuller)) return false;
   if (lead(fuller, simpler) < options.least_information_gain) return false;
-  if (share_named(simpler.estimation, fuller.estimation, options) < options.least_share)
-    return false;
+  const double share = share_named(simpler.estimation, fuller.estimation, options);
+  if (share < options.least_share) return false;
   if (simpler.validation.is_noise()) return fuller.validation.is_noise();
   return share_taken(simpler.validation, fuller.validation) >= options.least_validated_share;
 }

@@ -35,6 +35,13 @@ bool GeneralEffects::has(const Hypothesis& effect) const {
   return !limits_of(effect, hypotheses_).empty();
 }
 
+std::vector<const Hypothesis*> GeneralEffects::with_limit(const Hypothesis& effect) const {
+  std::vector<const Hypothesis*> found;
+  std::ranges::copy_if(general_, std::back_inserter(found),
+                       [&](const Hypothesis* general) { return general->contains(effect.effect); });
+  return found;
+}
+
 void GeneralEffects::try_by_themselves(Selection& made, std::string_view what, double to) {
   const Candidate none = made.nothing.fit.candidate;
   const std::vector<Explanation> special = made.singles;
@@ -70,8 +77,7 @@ void GeneralEffects::try_by_themselves(Selection& made, std::string_view what, d
 
 bool GeneralEffects::may_be_behind(const Explanation& single) const {
   return !are_tried_ && !single.leaves_noise() &&
-         std::ranges::any_of(general_,
-                             [&](const Hypothesis* general) { return is_limit(single, *general); });
+         !with_limit(single.fit.candidate.effects.front()).empty();
 }
 
 std::vector<const Hypothesis*> GeneralEffects::worth_trying(

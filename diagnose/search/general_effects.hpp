@@ -21,6 +21,8 @@ class GeneralEffects {
   /// The special ones: the rest of the hypotheses.
   const std::vector<const Hypothesis*>& others() const { return special_; }
   bool has(const Hypothesis& effect) const;
+  /// Those that have this effect as a limit.
+  std::vector<const Hypothesis*> with_limit(const Hypothesis& effect) const;
 
   /// By themselves, when made.singles are those of the others: all if none of these leaves noise,
   /// else those of which a limit does. By EffectScan::share_of_law, laws of hub torque below

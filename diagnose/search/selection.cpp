@@ -244,7 +244,7 @@ class Search {
   void try_in_coloured_noise(Selection& made, const Explanation& largest) {
     const Explanation best = replacements_.generalised(made, largest);
     if (!revision_.colour_noise_beside(made, best)) return;
-    auto& kept = best.fit.candidate.effects.size() == 1 ? made.singles : made.combinations;
+    auto& kept = made.sets_like(best.fit.candidate);
     const auto again = find_set(kept, best.fit.candidate);
     if (again == kept.end()) return;
     choose_needed(made, replacements_.specialised(made, *again));
@@ -281,8 +281,7 @@ class Search {
   void generalise(Selection& made) {
     const Candidate chosen = made.chosen.fit.candidate;
     for (std::size_t i = 0; i < chosen.effects.size() && !is_enough(made); ++i) {
-      for (const Hypothesis* general : general_.all()) {
-        if (!general->contains(chosen.effects[i].effect)) continue;
+      for (const Hypothesis* general : general_.with_limit(chosen.effects[i])) {
         const Explanation found = replacements_.replaced(made, chosen, i, *general);
         if (may_be_named(found, made.chosen)) made.chosen = found;
       }
@@ -307,8 +306,7 @@ class Search {
     const Candidate chosen = made.chosen.fit.candidate;
     if (!made.chosen.leaves_noise()) return;
     for (std::size_t i = 0; i < chosen.effects.size(); ++i) {
-      for (const Hypothesis* general : general_.all()) {
-        if (!general->contains(chosen.effects[i].effect)) continue;
+      for (const Hypothesis* general : general_.with_limit(chosen.effects[i])) {
         if (chosen.has_effect(general->effect)) continue;
         for (std::size_t other = 0; other < chosen.effects.size(); ++other) {
           if (other == i) continue;

@@ -38,6 +38,11 @@ struct Selection {
   std::optional<TorqueTiming> undecided_timing = {};
   std::optional<SearchEnd> end = {};  ///< of a search that is incomplete
   bool cancelled = false;
+
+  /// Those with as many effects as `set`: `singles` or `combinations`.
+  std::vector<Explanation>& sets_like(const Candidate& set) {
+    return set.effects.size() == 1 ? singles : combinations;
+  }
 };
 
 /// Looks for the causes of what `problem` shows beyond noise: each hypothesis by itself, scanned

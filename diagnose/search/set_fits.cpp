@@ -70,8 +70,9 @@ void SetFits::add_all(std::vector<std::string> sets, std::string_view what, doub
       if (const auto from = start(i)) {
         Fit best = fit(problem_, from->candidate,
                        {.highest_minimum = from->highest_minimum, .work = &work_});
-        if (!best.is_out_of_reach)
+        if (!best.is_out_of_reach) {
           of_set = without_unidentified(explain(problem_, std::move(best)));
+        }
       }
       made[i] = std::move(of_set);
     });

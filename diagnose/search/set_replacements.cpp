@@ -8,18 +8,9 @@
 
 namespace flexarm::diagnose {
 
-namespace {
-
-/// The sets of `made` that this one is among once it is fitted.
-std::vector<Explanation>& sets_with(Selection& made, const Candidate& set) {
-  return set.effects.size() == 1 ? made.singles : made.combinations;
-}
-
-}  // namespace
-
 Explanation SetReplacements::replaced(Selection& made, const Candidate& candidate,
                                       std::size_t index, const Hypothesis& other) const {
-  auto& kept = sets_with(made, candidate);
+  auto& kept = made.sets_like(candidate);
   const auto same = find_set(kept, candidate.without(index).with(other, other.middle()));
   if (same != kept.end()) return *same;
   Explanation found = fits_.fitted(fits_.scan().look_in_place(candidate, index, other).candidate);
@@ -31,7 +22,7 @@ Explanation SetReplacements::replaced(Selection& made, const Candidate& candidat
 Explanation SetReplacements::without(Selection& made, const Candidate& candidate,
                                      std::size_t index) const {
   const Candidate rest = candidate.without(index);
-  auto& kept = sets_with(made, rest);
+  auto& kept = made.sets_like(rest);
   const auto same = find_set(kept, rest);
   return made.end && same != kept.end() ? *same : fits_.fitted(rest);
 }
@@ -56,8 +47,7 @@ Explanation SetReplacements::specialised(Selection& made, Explanation found) con
 Explanation SetReplacements::generalised(Selection& made, Explanation best) const {
   const Candidate candidate = best.fit.candidate;
   for (std::size_t i = 0; i < candidate.effects.size(); ++i) {
-    for (const Hypothesis* general : general_.all()) {
-      if (!general->contains(candidate.effects[i].effect)) continue;
+    for (const Hypothesis* general : general_.with_limit(candidate.effects[i])) {
       if (candidate.has_effect(general->effect)) continue;
       Explanation found = replaced(made, candidate, i, *general);
       const bool is_better = found.fit.sum_of_squares < best.fit.sum_of_squares;

@@ -247,20 +247,22 @@ void TimeStepper::halve(double length_s, double u0, double u1, int halvings) {
 }
 
 void TimeStepper::count_halving() {
-  const SimulationOptions& options = plan_->options();
-  if (++summary_.halved_steps > options.most_halved_steps &&
-      static_cast<double>(summary_.halved_steps) * options.sample_time_s > time_s_) {
+  if (is_too_many(++summary_.halved_steps, plan_->options().most_halved_steps, 1.0)) {
     throw std::runtime_error(
         fmt::format("simulation: {} inner steps halved by {} s", summary_.halved_steps, time_s_));
   }
 }
 
 void TimeStepper::count_step() {
-  const SimulationOptions& options = plan_->options();
-  if (++steps_ > kLeastSteps && static_cast<double>(steps_) * options.sample_time_s >
-                                    options.most_steps_per_sample * time_s_) {
+  if (is_too_many(++steps_, kLeastSteps, plan_->options().most_steps_per_sample)) {
     throw std::runtime_error(fmt::format("simulation: {} inner steps by {} s", steps_, time_s_));
   }
+}
+
+/// Than `least`, and than so many for each sample that the run has passed.
+bool TimeStepper::is_too_many(std::int64_t steps, std::int64_t least, double per_sample) const {
+  return steps > least &&
+         static_cast<double>(steps) * plan_->options().sample_time_s > per_sample * time_s_;
 }
 
 bool TimeStepper::is_quiet(const StepTable& table) {

@@ -71,6 +71,7 @@ class TimeStepper {
   void halve(double length_s, double u0, double u1, int halvings);
   void count_halving();
   void count_step();
+  bool is_too_many(std::int64_t steps, std::int64_t least, double per_sample) const;
   void book(double until);
   bool is_quiet(const StepTable& table);
   std::optional<double> next_event() const;

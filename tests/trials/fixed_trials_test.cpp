@@ -59,6 +59,13 @@ diagnose::Explanation chosen_of(const TrialKey& key, const std::set<std::string>
   return select(diagnose::Problem(experiment), hypotheses_of(experiment, key, others), {}).chosen;
 }
 
+/// That finds what is hidden and nothing else, and leaves noise.
+void expect_hidden_found(const TrialKey& key, const std::set<std::string>& others) {
+  const diagnose::Explanation chosen = chosen_of(key, others);
+  EXPECT_TRUE(chosen.leaves_noise());
+  EXPECT_THAT(chosen.fit.candidate.labels(), UnorderedElementsAreArray(key.hidden));
+}
+
 FixedAnswer answer_of(const diagnose::Diagnosis& diagnosis) {
   FixedAnswer answer{diagnosis.verdict, diagnosis.predictor, {}};
   for (const auto& cause : diagnosis.causes) answer.effects.push_back(cause.effect);
@@ -117,13 +124,11 @@ TEST(FixedTrial, OneCycleOfRippleIsATilt) {
 TEST(FixedTrial, ThreeEffectsOfWhichTwoActLikeAnother) {
   // The inertia of the payload acts like the soft root and the lighter beam together: the best pair
   // has it beside the friction, and no third effect beside these two leaves noise.
-  const std::vector<std::string> hidden = {"root_compliance", "linear_density",
-                                           "hub_viscous_friction"};
-  const auto chosen =
-      chosen_of({.kind = RunKind::time, .hidden = hidden, .seed = 2, .arm = "aluminium link"},
-                {"payload_inertia", "payload_offset", "hub_inertia"});
-  EXPECT_TRUE(chosen.leaves_noise());
-  EXPECT_THAT(chosen.fit.candidate.labels(), UnorderedElementsAreArray(hidden));
+  expect_hidden_found({.kind = RunKind::time,
+                       .hidden = {"root_compliance", "linear_density", "hub_viscous_friction"},
+                       .seed = 2,
+                       .arm = "aluminium link"},
+                      {"payload_inertia", "payload_offset", "hub_inertia"});
 }
 
 TEST(FixedTrial, AFourthEffectThatShowsLate) {
@@ -157,12 +162,11 @@ TEST(FixedTrial, TwoEffectsThatHideEachOther) {
 
 TEST(FixedTrial, AMassInTheRightOneOfSeveralPlaces) {
   // At 0.21 m it does nearly what it does at 0.80 m, where it is: 3.2 % of the signal are left.
-  const std::vector<std::string> hidden = {"beam_length", "tuned_mass", "structural_damping"};
-  const auto chosen =
-      chosen_of({.kind = RunKind::time, .hidden = hidden, .seed = 11, .dirt = "hub_sensors_only"},
-                {"beam_thickness"});
-  EXPECT_TRUE(chosen.leaves_noise());
-  EXPECT_THAT(chosen.fit.candidate.labels(), UnorderedElementsAreArray(hidden));
+  expect_hidden_found({.kind = RunKind::time,
+                       .hidden = {"beam_length", "tuned_mass", "structural_damping"},
+                       .seed = 11,
+                       .dirt = "hub_sensors_only"},
+                      {"beam_thickness"});
 }
 
 TEST(FixedTrial, AMassOnASpringUnderNoisyTorque) {
@@ -182,26 +186,23 @@ TEST(FixedTrial, AMassOnASpringUnderNoisyTorque) {
 TEST(FixedTrial, AnEffectThatTheOthersDoNotNeed) {
   // The search comes from a longer, a thinner and a softer beam to the crack and the soft drive.
   // Beside these no other number of the beam changes anything, so that no such set is identified.
-  const std::vector<std::string> hidden = {"drive_compliance", "local_stiffness_loss",
-                                           "hub_viscous_friction"};
-  const auto chosen = chosen_of(
-      {.kind = RunKind::time, .hidden = hidden, .seed = 12, .dirt = "outliers"},
+  expect_hidden_found(
+      {.kind = RunKind::time,
+       .hidden = {"drive_compliance", "local_stiffness_loss", "hub_viscous_friction"},
+       .seed = 12,
+       .dirt = "outliers"},
       {"root_compliance", "beam_length", "beam_thickness", "flexural_rigidity", "attached_mass",
        "root_damping", "tuned_mass", "linear_density", "payload_inertia"});
-  EXPECT_TRUE(chosen.leaves_noise());
-  EXPECT_THAT(chosen.fit.candidate.labels(), UnorderedElementsAreArray(hidden));
 }
 
 TEST(FixedTrial, ThreeEffectsOfWhichNoTwoAreIdentified) {
   // Of all pairs the disturbance and a mass on a spring come nearest on the first part of the data,
   // where the mass, with any damping, stands for damping and inertia.
-  const std::vector<std::string> hidden = {"structural_damping", "payload_inertia",
-                                           "disturbance_torque"};
-  const auto chosen =
-      chosen_of({.kind = RunKind::time, .hidden = hidden, .seed = 12, .dirt = "hub_sensors_only"},
-                {"tuned_mass", "attached_mass", "payload_offset", "drive_compliance"});
-  EXPECT_TRUE(chosen.leaves_noise());
-  EXPECT_THAT(chosen.fit.candidate.labels(), UnorderedElementsAreArray(hidden));
+  expect_hidden_found({.kind = RunKind::time,
+                       .hidden = {"structural_damping", "payload_inertia", "disturbance_torque"},
+                       .seed = 12,
+                       .dirt = "hub_sensors_only"},
+                      {"tuned_mass", "attached_mass", "payload_offset", "drive_compliance"});
 }
 
 TEST(FixedTrial, ThreeEffectsBesideNumbersThatAreWrong) {
@@ -222,23 +223,20 @@ TEST(FixedTrial, ThreeEffectsBesideNumbersThatAreWrong) {
 TEST(FixedTrial, ASoftDriveUnderDrift) {
   // The drift of a sensor is a third of what a soft root leaves, so that a soft drive in its place
   // does not clear the bars in white noise.
-  const auto chosen = chosen_of(
+  expect_hidden_found(
       {.kind = RunKind::time, .hidden = {"drive_compliance"}, .seed = 12, .dirt = "drift"},
       {"root_compliance", "root_damping", "payload_inertia", "linear_density", "hub_inertia",
        "sensor_offset"});
-  EXPECT_TRUE(chosen.leaves_noise());
-  EXPECT_THAT(chosen.fit.candidate.labels(), ElementsAre("drive_compliance"));
 }
 
 TEST(FixedTrial, ThreeEffectsUnderDrift) {
   // The sensors drift by up to a fifth of their signals, beside which no set of effects clears the
   // bars; a constant torque does nearly what the tilt does.
-  const std::vector<std::string> hidden = {"payload_offset", "tilt", "linear_density"};
-  const auto chosen =
-      chosen_of({.kind = RunKind::time, .hidden = hidden, .seed = 11, .dirt = "drift"},
-                {"torque_bias", "sensor_offset"});
-  EXPECT_TRUE(chosen.leaves_noise());
-  EXPECT_THAT(chosen.fit.candidate.labels(), UnorderedElementsAreArray(hidden));
+  expect_hidden_found({.kind = RunKind::time,
+                       .hidden = {"payload_offset", "tilt", "linear_density"},
+                       .seed = 11,
+                       .dirt = "drift"},
+                      {"torque_bias", "sensor_offset"});
 }
 
 TEST(FixedTrial, ASecondCauseInClosedLoopIsNoNoiseOfTheTorque) {

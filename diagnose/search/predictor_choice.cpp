@@ -65,14 +65,17 @@ double over_noise(const Selection& selection) {
 }
 
 /// Whether responses are nearer to their noise with what they identify than simulations are with
-/// what these do, and a simulation with the effects of the former, refitted, errs no more: what
-/// shows in time alone, as dry friction does, is noise of a response.
+/// what these do. With the effects of the former a simulation may err no more than the baseline,
+/// and, refitted, no more than with those of the latter: what shows in time alone, as dry friction
+/// does, is noise of a response.
 bool responses_are_better(const PredictedSelection& by_responses, const PredictedSelection& made) {
   const Candidate& named = by_responses.selection.chosen.fit.candidate;
   if (named.effects.empty()) return false;
   if (!(over_noise(by_responses.selection) < over_noise(made.selection))) return false;
   const Problem& simulated = made.simulated;
   const auto& arm = simulated.experiment().arm;
+  const double baseline_error = simulated.judged_error(simulated.as_filed().extend(arm));
+  if (simulated.judged_error(named.extend(arm)) > kAbout * baseline_error) return false;
   const Candidate refitted = fit(simulated, named).candidate;
   const double error = simulated.judged_error(made.selection.chosen.fit.candidate.extend(arm));
   return simulated.judged_error(refitted.extend(arm)) <= kAbout * error;

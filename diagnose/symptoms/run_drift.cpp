@@ -23,6 +23,11 @@ constexpr int kMostRunSteps = 4;
 constexpr double kLastStep = 0.1;
 constexpr double kLastChange = 0.003;
 
+/// From the value where the effect does nothing: that of a stiffness, infinity, is as 0 here.
+double size_of(const SearchedParameter& parameter, double value) {
+  return std::abs(value - parameter.neutral.value_or(0.0));
+}
+
 struct RunFit {
   double place = 0.0;
   double std_error = 0.0;  ///< of the place; 0 where the run does not show the parameter
@@ -107,7 +112,7 @@ std::optional<RunDrift> run_drift(const Problem& problem, const Candidate& candi
         (parameter.value(fit.place + kPlaceStep) - parameter.value(fit.place - kPlaceStep)) /
         (2.0 * kPlaceStep);
     value.std_error = std::abs(slope) * fit.std_error;
-    const double of_all = std::abs(candidate.values[static_cast<std::size_t>(at)]);
+    const double of_all = size_of(parameter, candidate.values[static_cast<std::size_t>(at)]);
     const bool is_shown = value.std_error > 0.0 && value.std_error < of_all;
     if (!is_shown || !std::isfinite(value.value)) continue;
     made.values.push_back(value);
@@ -116,6 +121,7 @@ std::optional<RunDrift> run_drift(const Problem& problem, const Candidate& candi
   }
   if (made.values.size() < 2) return std::nullopt;
   made.mean = sum / weights;
+  made.size = size_of(parameter, made.mean);
   for (const RunValue& value : made.values) {
     made.chi_squared += std::pow((value.value - made.mean) / value.std_error, 2);
   }
@@ -133,7 +139,7 @@ std::vector<Symptom> drift_symptoms(const RunDrift& drift) {
   const std::string range = fmt::format("{:.4g} ± {:.2g}{} (run {}) to {:.4g} ± {:.2g}{} (run {})",
                                         least->value, least->std_error, unit, least->run,
                                         most->value, most->std_error, unit, most->run);
-  const double spread = (most->value - least->value) / std::abs(drift.mean);
+  const double spread = (most->value - least->value) / drift.size;
   if (one.is_significant && spread >= kLeastSpread) {
     one.text = fmt::format(
         "{}: estimates inconsistent between runs, {}. The parameter changes between runs, or "
@@ -141,7 +147,8 @@ std::vector<Symptom> drift_symptoms(const RunDrift& drift) {
         what, range);
   } else if (one.is_significant) {
     one.is_significant = false;
-    one.text = fmt::format("{}: estimates agree within {}, {}.", what, percent(spread), range);
+    one.text = fmt::format("{}: estimates agree within {} of the size of the effect, {}.", what,
+                           percent(spread), range);
   } else {
     one.text = fmt::format("{}: estimates consistent between runs, {}.", what, range);
   }

@@ -24,19 +24,20 @@ struct RunDrift {
   std::string unit;
   std::vector<RunValue> values;  ///< of runs that show the effect
   double mean = 0.0;             ///< weighted by the squares of the errors
+  double size = 0.0;             ///< of the mean, from the value where the effect does nothing
   double chi_squared = 0.0;      ///< of the spread, for one number less than there are values
   double probability = 1.0;      ///< of this spread or more from the errors alone
 };
 
 /// The first parameter of the `effect`-th of `candidate`'s effects, the others as they are, by
 /// Gauss-Newton steps in each run from where all runs have it. Standard errors as those of causes:
-/// widened by the size of what is left and its correlation. Runs whose standard error is the value
-/// of all runs or more do not show the effect: a torque that never saturates says nothing of a
-/// limit. Empty where fewer than two do.
+/// widened by the size of what is left and its correlation. Runs whose standard error is the size
+/// of the effect or more do not show it: a torque that never saturates says nothing of a limit.
+/// Empty where fewer than two do.
 std::optional<RunDrift> run_drift(const Problem& problem, const Candidate& candidate,
                                   std::size_t effect);
 
-/// One statement; significant where the spread is, and is more than `kLeastSpread` of the mean,
+/// One statement; significant where the spread is, and is more than `kLeastSpread` of the size,
 /// which is what the simulation's own errors make of it.
 std::vector<Symptom> drift_symptoms(const RunDrift& drift);
 inline constexpr double kLeastSpread = 0.05;

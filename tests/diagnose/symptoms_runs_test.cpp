@@ -105,6 +105,19 @@ TEST(RunDrift, OfAParameterThatChangesIsTold) {
   EXPECT_NEAR(drift->values[1].value, 1.4, 0.01);
 }
 
+TEST(RunDrift, IsOfTheSizeOfTheEffect) {
+  Experiment experiment = simulated_experiment({effects::named("hub_inertia", {{"factor", 0.9}})});
+  const Experiment other =
+      simulated_experiment({effects::named("hub_inertia", {{"factor", 0.91}})});
+  experiment.runs[1] = other.runs[1];
+  const Symptomatic data(std::move(experiment));
+  const auto drift =
+      run_drift(data.problem(), only(data.problem().experiment(), "hub_inertia", 0.9), 0);
+  ASSERT_TRUE(drift);
+  EXPECT_NEAR(drift->size, 0.1, 0.01);
+  EXPECT_TRUE(drift_symptoms(*drift).front().is_significant);
+}
+
 double largest_torque_N_m(const Experiment& experiment, std::size_t run) {
   const auto& torque = std::get<measured::TimeRecord>(experiment.runs[run].data).torque_N_m;
   return std::abs(*std::ranges::max_element(torque, {}, [](double one) { return std::abs(one); }));

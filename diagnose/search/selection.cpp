@@ -182,13 +182,12 @@ class Search {
     // not.
     if (!single.leaves_noise()) revision_.correct_timing(made);
     if (!is_enough(made)) choose(made, single);
-    if (!is_enough(made)) try_sets(made);
-    if (!is_enough(made)) add_cause(made);
+    if (!is_enough(made) && try_sets(made) && !is_enough(made)) add_cause(made);
   }
 
   /// Sets of two effects, of three and of more; the best is chosen, with each of its effects
-  /// exchanged.
-  void try_sets(Selection& made) {
+  /// exchanged. False where sets of two are so far from noise that the search is to end.
+  bool try_sets(Selection& made) {
     const std::vector<Candidate> singles = candidates_of(made.singles);
     // Of larger sets those with the best so far are told as untried: the others are not known yet.
     const Candidate& leading = singles.empty() ? made.nothing.fit.candidate : singles.front();
@@ -200,8 +199,9 @@ class Search {
     std::optional<Explanation> last;
     for (std::size_t size = 2; has_room_beside(size - 1) && !is_enough(made); ++size) {
       if (last) fits_.leave_untried(labels_with(last->fit.candidate, general_.others()));
-      fits_.add_near(search.grow(kSets, halfway()), options_.sets_refitted, kSets, halfway(),
-                     made.combinations);
+      const std::vector<Fit>& grown = search.grow(kSets, halfway());
+      if (size == 2 && search.rms_over_noise() > options_.largest_of_pairs) return false;
+      fits_.add_near(grown, options_.sets_refitted, kSets, halfway(), made.combinations);
       bool is_ahead = search.share_taken() >= options_.least_share_ahead;
       // Where no set of this size is identified, a larger one may be.
       const Explanation* const largest = best_of_size(made, size, last);
@@ -222,6 +222,7 @@ class Search {
       }
     }
     if (last && !is_enough(made)) try_in_coloured_noise(made, exchanged(made, *last));
+    return true;
   }
 
   /// The simplest set of `size` effects; one with an effect less where that fits as well and the

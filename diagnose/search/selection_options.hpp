@@ -103,6 +103,9 @@ struct SelectionOptions {
   /// Where it is above this without causes, and no effect by itself brings it to
   /// largest_error_left, the search by output error ends.
   double runaway_error = 10.0;
+  /// Where the best set of two effects leaves on the beginning of the runs more than this, as RMS
+  /// value of the residuals in standard deviations of their noise, the search ends.
+  double largest_of_pairs = std::numeric_limits<double>::infinity();
   /// Posterior probability of it, or of a set of effects indistinguishable from it, >= this.
   double least_probability = 0.5;
 

@@ -7,6 +7,7 @@
 #include "diagnose/search/rivals.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <iterator>
 #include <set>
@@ -68,6 +69,13 @@ const std::vector<Fit>& SetSearch::grow(std::string_view what, double to) {
   share_taken_ = before > 0.0 ? 1.0 - least_beyond_noise(coarse_sets_) / before : 0.0;
   work_.tell(what, to);
   return coarse_sets_;
+}
+
+double SetSearch::rms_over_noise() const {
+  const std::vector<Fit>& sets = parts_.is_early_shorter() ? early_sets_ : coarse_sets_;
+  if (sets.empty()) return 0.0;
+  const Eigen::VectorXd& left = sets.front().residuals;
+  return left.norm() / std::sqrt(static_cast<double>(left.size()));
 }
 
 std::vector<Fit> SetSearch::beside(const Candidate& base, std::size_t most) const {

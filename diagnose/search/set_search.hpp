@@ -47,6 +47,8 @@ class SetSearch {
   /// Part of what the best set left beyond noise on the coarse part that the effect which `grow`
   /// added last takes away.
   double share_taken() const { return share_taken_; }
+  /// RMS value of what the best set leaves on the early part, in standard deviations of the noise.
+  double rms_over_noise() const;
   /// `base` with each of the special effects that it lacks most, on the early part and on the
   /// coarse part, fitted to the coarse part; the best first.
   std::vector<Fit> beside(const Candidate& base, std::size_t most) const;

@@ -133,21 +133,32 @@ TEST(Selection, ExchangesACauseThatStandsInThePlaceOfAnother) {
   }
 }
 
-TEST(Selection, FindsThreeEffectsOfLikeSize) {
-  // By itself each leaves an excess sum of squares of 2e6.
+/// By itself each of its three effects leaves an excess sum of squares of 2e6.
+Selection selected_of_three_effects(const SelectionOptions& options) {
   const Experiment experiment =
       simulated_experiment({effects::named("torque_bias", {{"torque", 1.916e-4}}),
                             effects::named("hub_viscous_friction", {{"coefficient", 1.516e-3}}),
                             effects::named("flexural_rigidity", {{"factor", 0.99544}})},
                            {.duration_s = 1.5});
-  const Selection made =
-      select(Problem(experiment),
-             named(experiment, {"torque_bias", "hub_viscous_friction", "torque_gain",
-                                "flexural_rigidity", "payload_mass", "linear_density"}),
-             {});
+  return select(Problem(experiment),
+                named(experiment, {"torque_bias", "hub_viscous_friction", "torque_gain",
+                                   "flexural_rigidity", "payload_mass", "linear_density"}),
+                options);
+}
+
+TEST(Selection, FindsThreeEffectsOfLikeSize) {
+  const Selection made = selected_of_three_effects({});
   const std::set<std::string> all = {"torque_bias", "hub_viscous_friction", "flexural_rigidity"};
   EXPECT_EQ(made.chosen.fit.candidate.labels(), all);
   EXPECT_TRUE(made.chosen.estimation.is_noise());
+}
+
+TEST(Selection, EndsWhereTheBestPairLeavesMoreThanItMay) {
+  constexpr double kLessThanNoise = 0.5;
+  const Selection made = selected_of_three_effects({.largest_of_pairs = kLessThanNoise});
+  EXPECT_TRUE(made.combinations.empty());
+  EXPECT_LE(made.chosen.fit.candidate.effects.size(), 1U);
+  EXPECT_FALSE(made.chosen.leaves_noise());
 }
 
 TEST(Selection, NamesOneEffectWhereTwoOthersStandForIt) {

@@ -24,10 +24,10 @@ struct DependenceTest {
 /// the candidate takes of that change, z = d^T r/|d| is standard normal. So it is for d times the
 /// time from the middle of each run, about what a number that drifts makes. For what no hypothesis
 /// describes, the same tests of laws of hub torque of any shape (hub_torque_probes.hpp), and by
-/// output error a regression on the recorded torque up to the sample, channel by channel, whose sum
-/// of squares is chi-squared. Where the recorded torque drives the arm, the sensors are also tested
-/// for independence of each other (channel_independence.hpp): the residuals that a force nobody
-/// recorded leaves need not depend on what the arm was told to do. A dependence of
+/// output error a regression on the recorded torque up to the sample, sensor by sensor, whose sum
+/// of squares over the runs is chi-squared. Where the recorded torque drives the arm, the sensors
+/// are also tested for independence of each other (channel_independence.hpp): the residuals that a
+/// force nobody recorded leaves need not depend on what the arm was told to do. A dependence of
 /// `kNegligibleDependence` of the signal, by motion `kNegligibleByMotion`, counts as none.
 ///
 /// The p-value is the least of all tests, of the estimation and of the validation runs, after

@@ -1,6 +1,7 @@
 #include "diagnose/search/predicted_selection.hpp"
 
 #include "arm/input_error.hpp"
+#include "arm/linear_arm.hpp"
 #include "arm/sensor.hpp"
 #include "arm/uncertainties.hpp"
 #include "diagnose/motion_drive.hpp"
@@ -82,6 +83,15 @@ std::vector<Hypothesis> of_hub_alone(std::vector<Hypothesis> hypotheses, const a
     return acts_beside_motion(one) || arm.effects.contains(one.effect);
   });
   return hypotheses;
+}
+
+/// Linear, and without loss at the hub: the error of the reaction of a beam that is wrong is, too.
+bool acts_like_reaction(const Hypothesis& one, const arm::Arm& arm) {
+  const auto friction_N_m_s_per_rad = [](const arm::Arm& of) {
+    return arm::linear_arm(of).hub_viscous_friction_N_m_s_per_rad;
+  };
+  return one.shows_in(measured::RunKind::frf) &&
+         friction_N_m_s_per_rad(extended(arm, one, one.middle())) == friction_N_m_s_per_rad(arm);
 }
 
 /// By motion in half of the time; empty where that is not the input of every run.
@@ -194,6 +204,10 @@ std::optional<PredictedSelection> select_by_filter(const SelectionTask& task,
     experiment = seen_at_hub(std::move(experiment));
     experiment.arm = by_motion->chosen.fit.candidate.extend(experiment.arm);
     searched = of_hub_alone(std::move(searched), experiment.arm);
+    if (!by_motion->chosen.leaves_noise()) {
+      std::erase_if(searched,
+                    [&](const Hypothesis& one) { return acts_like_reaction(one, experiment.arm); });
+    }
   }
   // The search begins with the arm as filed: what simulation named may be wrong.
   const Problem unfiltered = filtered_problem(experiment, modes, options);

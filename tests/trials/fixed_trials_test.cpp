@@ -259,10 +259,33 @@ TEST(FixedTrial, AMovingBaseIsNoGainOfASensor) {
   // they show a gain of 2.3, with which a simulation errs 32 % of the signal, after 14 %.
   const TrialKey key{.kind = RunKind::time, .hidden = {"moving_base"}, .seed = 13};
   const diagnose::Experiment experiment = recorded(key);
-  const FixedAnswer answer = answer_of(
-      diagnose::diagnose(experiment, hypotheses_of(experiment, {"sensor_gain"}), {}));
+  const FixedAnswer answer =
+      answer_of(diagnose::diagnose(experiment, hypotheses_of(experiment, {"sensor_gain"}), {}));
   EXPECT_EQ(answer.verdict, diagnose::Verdict::unexplained);
   EXPECT_THAT(answer.effects, IsEmpty());
+}
+
+TEST(FixedTrial, AMovingBaseIsNoNoiseOfTheHubsSensors) {
+  // It adds 11 % to the hub velocity, and nothing to strain and acceleration of the tip.
+  const TrialKey key{.kind = RunKind::time, .hidden = {"moving_base"}, .seed = 14};
+  const diagnose::Experiment experiment = recorded(key);
+  const FixedAnswer answer =
+      answer_of(diagnose::diagnose(experiment, hypotheses_of(experiment, {"sensor_gain"}), {}));
+  EXPECT_EQ(answer.verdict, diagnose::Verdict::unexplained);
+}
+
+TEST(FixedTrial, ATaperedBeamIsNoInertiaOfTheHub) {
+  // The balance of the hub's torque with the reaction of a beam that is not uniform shows a hub
+  // inertia of 0.973 with probability 1. By simulation numbers of the beam fit alike.
+  const TrialKey key{.kind = RunKind::time, .hidden = {"tapered_beam"}, .seed = 13};
+  const diagnose::Experiment experiment = recorded(key);
+  const FixedAnswer answer = answer_of(diagnose::diagnose(
+      experiment,
+      hypotheses_of(experiment, {"hub_inertia", "linear_density", "flexural_rigidity",
+                                 "beam_thickness", "beam_length"}),
+      {}));
+  EXPECT_NE(answer.verdict, diagnose::Verdict::explained);
+  EXPECT_EQ(answer.predictor, diagnose::PredictorKind::output_error);
 }
 
 TEST(FixedTrial, AnActuatorsLagInFrequency) {

@@ -80,21 +80,19 @@ double independence_p_value(const Problem& problem, const Eigen::VectorXd& resid
     compared.push_back(&channel);
     fast.push_back(without_slow_part(residuals.segment(channel.first, channel.count)));
   }
-  double sum = 0.0;
-  double freedom = 0.0;
-  double granted = 0.0;
+  ChiSquaredStatistic all;
   for (std::size_t i = 0; i < compared.size(); ++i) {
     for (std::size_t j = i + 1; j < compared.size(); ++j) {
       if (!are_compared(*compared[i], *compared[j])) continue;
       const auto n = static_cast<double>(compared[i]->count);
       const int lags = std::min(kLags, static_cast<int>(compared[i]->count / 4));
       const double of_pair = 2.0 * lags + 1.0;
-      sum += cross_correlation_statistic(fast[i], fast[j], lags);
-      freedom += of_pair;
-      granted += n * granted_part(*compared[i]) * granted_part(*compared[j]);
+      all.value += cross_correlation_statistic(fast[i], fast[j], lags);
+      all.freedom += of_pair;
+      all.lambda += n * granted_part(*compared[i]) * granted_part(*compared[j]);
     }
   }
-  return freedom > 0.0 ? exceedance(sum, freedom, granted) : 1.0;
+  return all.p_value();
 }
 
 bool exceeds_noise_of_one_sensor(const Problem& coloured, const Problem& white) {

@@ -127,12 +127,7 @@ Eigen::MatrixXd lagged(const std::vector<double>& torque_N_m) {
 }
 
 Score ScoredRuns::of_torque(const Problem& problem) const {
-  struct Sums {
-    double squares = 0.0;
-    double freedom = 0.0;
-    double granted = 0.0;
-  };
-  std::map<std::string, Sums> of_sensors;
+  std::map<std::string, ChiSquaredStatistic> of_sensors;
   const auto& experiment = problem.experiment();
   std::optional<std::size_t> run;
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> torque;
@@ -148,18 +143,15 @@ Score ScoredRuns::of_torque(const Problem& problem) const {
     }
     const Eigen::VectorXd along =
         torque.householderQ().adjoint() * residuals.segment(channel.first, channel.count);
-    Sums& sums = of_sensors[channel.sensor];
-    sums.squares += along.head(torque.rank()).squaredNorm();
-    sums.freedom += static_cast<double>(torque.rank());
-    sums.granted += residual_variance(channel, negligible_dependence(problem)) *
-                    static_cast<double>(channel.used());
+    ChiSquaredStatistic& own = of_sensors[channel.sensor];
+    own.value += along.head(torque.rank()).squaredNorm();
+    own.freedom += static_cast<double>(torque.rank());
+    own.lambda += residual_variance(channel, negligible_dependence(problem)) *
+                  static_cast<double>(channel.used());
   }
   double least = 1.0;
-  for (const auto& [sensor, sums] : of_sensors) {
-    if (sums.freedom == 0.0) continue;
-    least = std::min(least, exceedance(sums.squares, sums.freedom, sums.granted));
-  }
-  return {std::min(1.0, least * static_cast<double>(of_sensors.size())), 0.0};
+  for (const auto& [sensor, own] : of_sensors) least = std::min(least, own.p_value());
+  return {bonferroni(least, static_cast<double>(of_sensors.size())), 0.0};
 }
 
 Eigen::VectorXd time_along(const Problem& problem, Index size) {
@@ -239,7 +231,7 @@ DependenceTest test_dependence(const Problem& problem, const Problem& white,
                      keep(first + i, set->of_change(problem, white, changed[i / sets.size()]));
                    });
   const double least = std::ranges::min_element(scores, {}, &Score::p_value)->p_value;
-  return {std::min(1.0, tests * least), std::ranges::max_element(scores, {}, &Score::share)->share};
+  return {bonferroni(least, tests), std::ranges::max_element(scores, {}, &Score::share)->share};
 }
 
 }  // namespace flexarm::diagnose

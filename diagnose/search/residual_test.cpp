@@ -30,20 +30,11 @@ double ljung_box(const Eigen::Ref<const Eigen::VectorXd>& residuals, int lags, I
   return static_cast<double>(n) * static_cast<double>(n + 2) * sum;
 }
 
-/// A sum that is compared with a noncentral chi-squared variable.
-struct Statistic {
-  double value = 0.0;
-  double freedom = 0.0;
-  double lambda = 0.0;
-
-  double p_value() const { return freedom > 0.0 ? exceedance(value, freedom, lambda) : 1.0; }
-};
+}  // namespace
 
 double bonferroni(double p_value, double tests) {
   return std::min(1.0, tests * p_value);
 }
-
-}  // namespace
 
 double exceedance(double value, double n, double lambda) {
   // Chernoff: P(chi^2_n < z n) <= exp(-n (z - 1 - ln z)/2) for z < 1, less with lambda. Beyond the
@@ -79,8 +70,8 @@ bool ResidualTest::is_noise() const {
 
 ResidualTest test_residuals(const Observations& observations, const Experiment& experiment,
                             const Eigen::VectorXd& residuals, const std::vector<bool>& runs) {
-  Statistic level;
-  Statistic whiteness;
+  ChiSquaredStatistic level;
+  ChiSquaredStatistic whiteness;
   double worst_channel = 1.0;
   double channels = 0.0;
   for (const ObservedChannel& channel : observations.channels) {
@@ -90,7 +81,7 @@ ResidualTest test_residuals(const Observations& observations, const Experiment& 
     const measured::RunKind kind = experiment.runs[channel.run].run.kind;
     const bool is_simulated = kind == measured::RunKind::time;
     const double granted = is_simulated ? residual_variance(channel, kSimulationError) : 0.0;
-    const Statistic own{part.squaredNorm() / (1.0 + kNoiseKnown), n, 4.0 * granted * n};
+    const ChiSquaredStatistic own{part.squaredNorm() / (1.0 + kNoiseKnown), n, 4.0 * granted * n};
     worst_channel = std::min(worst_channel, own.p_value());
     channels += 1.0;
     level.value += own.value;
@@ -104,7 +95,8 @@ ResidualTest test_residuals(const Observations& observations, const Experiment& 
     whiteness.lambda += n * lags * std::pow(granted / (1.0 + granted), 2);
   }
   const auto nuisances = residuals.tail(residuals.size() - observations.values.size());
-  const Statistic nuisance{nuisances.squaredNorm(), static_cast<double>(nuisances.size()), 0.0};
+  const ChiSquaredStatistic nuisance{nuisances.squaredNorm(), static_cast<double>(nuisances.size()),
+                                     0.0};
   const double tests =
       channels + 1.0 + (whiteness.freedom > 0.0 ? 1.0 : 0.0) + (nuisance.freedom > 0.0 ? 1.0 : 0.0);
   return {bonferroni(std::min(worst_channel, level.p_value()), tests),

@@ -40,6 +40,17 @@ inline constexpr double kSimulationError = 0.004;
 double residual_variance(const ObservedChannel& channel, double relative_error);
 /// P(chi^2_n(lambda) > value) of the noncentral chi-squared variable.
 double exceedance(double value, double n, double lambda);
+/// A sum that is compared with a noncentral chi-squared variable.
+struct ChiSquaredStatistic {
+  double value = 0.0;
+  double freedom = 0.0;
+  double lambda = 0.0;
+
+  /// 1 without degrees of freedom.
+  double p_value() const { return freedom > 0.0 ? exceedance(value, freedom, lambda) : 1.0; }
+};
+/// Of the least p-value of so many tests.
+double bonferroni(double p_value, double tests);
 /// Lags of a channel <= this, and <= a quarter of its numbers.
 inline constexpr int kLags = 25;
 

@@ -81,6 +81,12 @@ FixedAnswer diagnosed(const TrialKey& key, const diagnose::SelectionOptions& opt
   return answer_of(diagnose::diagnose(experiment, hypotheses, options));
 }
 
+/// Among the effects that are there, as far as the library has them, and some others.
+FixedAnswer diagnosed_among(const TrialKey& key, const std::set<std::string>& others) {
+  const diagnose::Experiment experiment = recorded(key);
+  return answer_of(diagnose::diagnose(experiment, hypotheses_of(experiment, key, others), {}));
+}
+
 TEST(FixedTrial, NothingHiddenInTime) {
   const FixedAnswer answer = diagnosed({.kind = RunKind::time});
   EXPECT_EQ(answer.verdict, diagnose::Verdict::adequate);
@@ -213,9 +219,7 @@ TEST(FixedTrial, ThreeEffectsBesideNumbersThatAreWrong) {
                      .number = 2,
                      .seed = 13,
                      .dirt = "undeclared_numbers"};
-  const diagnose::Experiment experiment = recorded(key);
-  const FixedAnswer answer = answer_of(
-      diagnose::diagnose(experiment, hypotheses_of(experiment, key, {"torque_bias"}), {}));
+  const FixedAnswer answer = diagnosed_among(key, {"torque_bias"});
   EXPECT_EQ(answer.verdict, diagnose::Verdict::explained);
   EXPECT_THAT(answer.effects, UnorderedElementsAreArray(key.hidden));
 }
@@ -246,9 +250,7 @@ TEST(FixedTrial, ASecondCauseInClosedLoopIsNoNoiseOfTheTorque) {
   const TrialKey key{.kind = RunKind::time,
                      .hidden = {"flexural_rigidity", "beam_thickness", "payload_mass"},
                      .dirt = "closed_loop"};
-  const diagnose::Experiment experiment = recorded(key);
-  const FixedAnswer answer = answer_of(diagnose::diagnose(
-      experiment, hypotheses_of(experiment, key, {"hub_inertia", "linear_density"}), {}));
+  const FixedAnswer answer = diagnosed_among(key, {"hub_inertia", "linear_density"});
   EXPECT_EQ(answer.verdict, diagnose::Verdict::explained);
   EXPECT_EQ(answer.predictor, diagnose::PredictorKind::output_error);
   EXPECT_THAT(answer.effects, UnorderedElementsAre("beam_thickness", "payload_mass"));
@@ -258,9 +260,7 @@ TEST(FixedTrial, AMovingBaseIsNoGainOfASensor) {
   // Its motion is as large as the hub's near a resonance, where most lines of the responses are:
   // they show a gain of 2.3, with which a simulation errs 32 % of the signal, after 14 %.
   const TrialKey key{.kind = RunKind::time, .hidden = {"moving_base"}, .seed = 13};
-  const diagnose::Experiment experiment = recorded(key);
-  const FixedAnswer answer =
-      answer_of(diagnose::diagnose(experiment, hypotheses_of(experiment, {"sensor_gain"}), {}));
+  const FixedAnswer answer = diagnosed_among(key, {"sensor_gain"});
   EXPECT_EQ(answer.verdict, diagnose::Verdict::unexplained);
   EXPECT_THAT(answer.effects, IsEmpty());
 }
@@ -268,9 +268,7 @@ TEST(FixedTrial, AMovingBaseIsNoGainOfASensor) {
 TEST(FixedTrial, AMovingBaseIsNoNoiseOfTheHubsSensors) {
   // It adds 11 % to the hub velocity, and nothing to strain and acceleration of the tip.
   const TrialKey key{.kind = RunKind::time, .hidden = {"moving_base"}, .seed = 14};
-  const diagnose::Experiment experiment = recorded(key);
-  const FixedAnswer answer =
-      answer_of(diagnose::diagnose(experiment, hypotheses_of(experiment, {"sensor_gain"}), {}));
+  const FixedAnswer answer = diagnosed_among(key, {"sensor_gain"});
   EXPECT_EQ(answer.verdict, diagnose::Verdict::unexplained);
 }
 
@@ -278,12 +276,8 @@ TEST(FixedTrial, ATaperedBeamIsNoInertiaOfTheHub) {
   // The balance of the hub's torque with the reaction of a beam that is not uniform shows a hub
   // inertia of 0.973 with probability 1. By simulation numbers of the beam fit alike.
   const TrialKey key{.kind = RunKind::time, .hidden = {"tapered_beam"}, .seed = 13};
-  const diagnose::Experiment experiment = recorded(key);
-  const FixedAnswer answer = answer_of(diagnose::diagnose(
-      experiment,
-      hypotheses_of(experiment, {"hub_inertia", "linear_density", "flexural_rigidity",
-                                 "beam_thickness", "beam_length"}),
-      {}));
+  const FixedAnswer answer = diagnosed_among(
+      key, {"hub_inertia", "linear_density", "flexural_rigidity", "beam_thickness", "beam_length"});
   EXPECT_NE(answer.verdict, diagnose::Verdict::explained);
   EXPECT_EQ(answer.predictor, diagnose::PredictorKind::output_error);
 }

@@ -13,6 +13,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 
@@ -160,23 +161,40 @@ std::optional<std::pair<Change, std::pair<const RunErrors*, const RunErrors*>>> 
   return found;
 }
 
-/// "2.1 times smaller"
-std::string times(double factor) {
-  return factor < 1.0 ? fmt::format("{:.2g} times smaller", 1.0 / factor)
-                      : fmt::format("{:.2g} times larger", factor);
+/// "2.1 times smaller at <one> than at <other>"
+std::string compared(const Change& change, std::string_view one, std::string_view other,
+                     bool is_significant) {
+  const double factor = change.factor();
+  if (!is_significant) {
+    return fmt::format(
+        "Residual relative to torque: no significant difference between {} and {} (factor {:.2g})",
+        one, other, factor);
+  }
+  const std::string size = factor < 1.0 ? fmt::format("{:.2g} times smaller", 1.0 / factor)
+                                        : fmt::format("{:.2g} times larger", factor);
+  return fmt::format("Residual relative to torque: {} at {} than at {}", size, one, other);
 }
 
 std::string torque_text(const Change& change, const RunErrors& low, const RunErrors& high,
                         bool is_significant) {
-  const std::string text = fmt::format(
-      "Residual relative to torque: {} at {:.2g} N m rms (run {}) than at {:.2g} N m rms (run {})",
-      times(change.factor()), high.torque_rms_N_m, high.id, low.torque_rms_N_m, low.id);
-  if (!is_significant) return text + " (not significant).";
+  const auto torque = [](const RunErrors& run) {
+    return fmt::format("{:.2g} N m rms (run {})", run.torque_rms_N_m, run.id);
+  };
+  const std::string text = compared(change, torque(high), torque(low), is_significant);
+  if (!is_significant) return text + ".";
   if (change.logarithm < 0.0) {
     return text +
            ". The discrepancy does not scale with amplitude: Coulomb friction, dead zone or bias.";
   }
   return text + ". The discrepancy grows faster than amplitude: saturation or drag.";
+}
+
+std::string payload_text(const Change& change, const RunErrors& light, const RunErrors& heavy,
+                         bool is_significant) {
+  const auto payload = [](const RunErrors& run) {
+    return fmt::format("payload {:.3g} kg (run {})", run.payload_kg, run.id);
+  };
+  return compared(change, payload(heavy), payload(light), is_significant) + ".";
 }
 
 }  // namespace
@@ -201,11 +219,7 @@ std::vector<Symptom> trend_symptoms(const SymptomsInput& input) {
     const auto& [found, pair] = *payloads;
     const auto& [light, heavy] = pair;
     Symptom one = symptom(SymptomKind::trend, "", found.probability, kTests);
-    one.text = fmt::format(
-        "Residual relative to torque: {} with payload {:.3g} kg (run {}) than with {:.3g} kg (run "
-        "{}){}.",
-        times(found.factor()), heavy->payload_kg, heavy->id, light->payload_kg, light->id,
-        one.is_significant ? "" : " (not significant)");
+    one.text = payload_text(found, *light, *heavy, one.is_significant);
     made.push_back(std::move(one));
   }
   return made;

@@ -46,10 +46,20 @@ void EnergyLedger::add(const Expansion& solution, const StepInputs& inputs, HubM
   }
 }
 
-void EnergyLedger::add(const StepEnergy::Amounts& amounts) {
+void EnergyLedger::add(const StepEnergy& energy, const StepInputs& inputs, HubMotion motion,
+                       const Eigen::VectorXd& begin, const Eigen::VectorXd& end) {
+  const StepEnergy::Amounts amounts =
+      energy(begin, {.actuator_begin = inputs.u0,
+                     .actuator_end = inputs.u1,
+                     .added = inputs.f0(0),
+                     .added_smooth = forces_->smooth_torque_N_m(begin, inputs.u0, inputs.begin_s)});
   balance_.work_in_J += amounts.work_in_J;
   balance_.viscous_J += amounts.viscous_J;
   balance_.material_air_J += amounts.material_air_J;
+  // Friction whose size is constant does work on the angle that the hub turns by.
+  const double turned_rad = direction(motion) * (arm_->hub_angle(end) - arm_->hub_angle(begin));
+  const double speed_rad_per_s = std::abs(turned_rad) / inputs.length_s;
+  balance_.dry_friction_J += forces_->friction_at(speed_rad_per_s).torque_N_m * turned_rad;
 }
 
 void EnergyLedger::close_sample(const Eigen::VectorXd& x) {

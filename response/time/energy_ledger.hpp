@@ -22,10 +22,13 @@ class EnergyLedger {
   /// The part of a step from r = 0 to `until`, by Gauss' rule of 7 points on the solution: powers
   /// are of degree 14 to rounding where |A| dt is 1.
   void add(const Expansion& solution, const StepInputs& inputs, HubMotion motion, double until);
-  /// A whole step without friction, drag or ripple.
-  void add(const StepEnergy::Amounts& amounts);
-  /// What such steps of one length do.
-  StepEnergy step_energy(double step_s) const { return {*arm_, hub_viscous_friction_, step_s}; }
+  /// A whole step of constant forces from `begin` to `end`, which `energy` is of.
+  void add(const StepEnergy& energy, const StepInputs& inputs, HubMotion motion,
+           const Eigen::VectorXd& begin, const Eigen::VectorXd& end);
+  /// Of such steps of `arm`: that of the ledger, or its with_settled_torque.
+  StepEnergy step_energy(const ModalDynamics& arm, StepEnergy::Hub hub, double step_s) const {
+    return {arm, hub, hub_viscous_friction_, step_s};
+  }
   /// At a sample: state of the energies, and what the steps since the last sample have lost.
   void close_sample(const Eigen::VectorXd& x);
 

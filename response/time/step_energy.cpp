@@ -101,28 +101,32 @@ Eigen::MatrixXd root_of(const Eigen::MatrixXd& form) {
 
 }  // namespace
 
-StepEnergy::StepEnergy(const ModalDynamics& arm, double hub_viscous_friction_N_m_s_per_rad,
+StepEnergy::StepEnergy(const ModalDynamics& arm, Hub hub, double hub_viscous_friction_N_m_s_per_rad,
                        double step_s) {
+  const LinearSystem& system = hub == Hub::held ? arm.held : arm.turning;
   const Index size = arm.size();
   const Index u = size;
   const Index change = size + 1;
   const Index f = size + 2;
-  Eigen::MatrixXd chain = Eigen::MatrixXd::Zero(size + 3, size + 3);
-  chain.topLeftCorner(size, size) = arm.turning.a * step_s;
-  chain.col(u).head(size) = arm.turning.actuator * step_s;
-  chain.col(f).head(size) = arm.turning.force * step_s;
+  const Index smooth = size + 3;
+  const Index all = size + 4;
+  Eigen::MatrixXd chain = Eigen::MatrixXd::Zero(all, all);
+  chain.topLeftCorner(size, size) = system.a * step_s;
+  chain.col(u).head(size) = system.actuator * step_s;
+  if (system.actuator_rate.size() > 0) chain.col(change).head(size) = system.actuator_rate;
+  chain.col(f).head(size) = system.force * step_s;
   chain(u, change) = 1.0;
 
   const Index n = arm.modes;
   Integrands integrands;
-  integrands.torque.setZero(size + 3);
+  integrands.torque.setZero(all);
   integrands.torque.head(size) = arm.hub_torque.state;
   integrands.torque(u) = arm.hub_torque.actuator;
-  integrands.torque(f) = 1.0;
-  integrands.speed.setZero(size + 3);
-  integrands.speed.segment(n, n) = arm.hub_slope.transpose();
+  integrands.torque(smooth) = 1.0;
+  integrands.speed.setZero(all);
+  if (hub == Hub::turning) integrands.speed.segment(n, n) = arm.hub_slope.transpose();
   integrands.viscous = std::sqrt(hub_viscous_friction_N_m_s_per_rad) * integrands.speed;
-  integrands.material_air.setZero(n, size + 3);
+  integrands.material_air.setZero(n, all);
   integrands.material_air.middleCols(n, n) =
       root_of(arm.modal_mass_kg_m2 * arm.damping -
               hub_viscous_friction_N_m_s_per_rad * arm.hub_slope * arm.hub_slope.transpose());
@@ -135,10 +139,10 @@ StepEnergy::StepEnergy(const ModalDynamics& arm, double hub_viscous_friction_N_m
   material_air_ = std::move(made.material_air);
 }
 
-StepEnergy::Amounts StepEnergy::operator()(const Eigen::VectorXd& x, double u0, double u1,
-                                           double hub_torque_N_m) const {
+StepEnergy::Amounts StepEnergy::operator()(const Eigen::VectorXd& x, const Torques& torques) const {
   Eigen::VectorXd z(work_.rows());
-  z << x, u0, u1 - u0, hub_torque_N_m;
+  z << x, torques.actuator_begin, torques.actuator_end - torques.actuator_begin, torques.added,
+      torques.added_smooth;
   return {z.dot(work_ * z), (viscous_ * z).squaredNorm(), (material_air_ * z).squaredNorm()};
 }
 

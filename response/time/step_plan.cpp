@@ -60,13 +60,15 @@ int StepPlan::substeps(const ModalDynamics& arm, double length_s) const {
   if (ledger_ != nullptr) largest_phase = kLargestPhase_rad;
   // In a fit the steps that need it are halved.
   if (forces_->vary() && options_.resolve_every_mode) largest_phase = kLargestPhaseVarying_rad;
-  if (!is_linear_) count = std::max(count, std::ceil(phase_rad(arm, length_s) / largest_phase));
-  if (!(count <= kMostSubsteps)) {
+  double most = count;  // steps as short as events may need
+  if (!is_linear_) most = std::max(count, std::ceil(phase_rad(arm, length_s) / largest_phase));
+  if (!(most <= kMostSubsteps)) {
     throw arm::InputError(fmt::format(
         "effects.{}: needs {:g} inner steps per sample of {} s (fastest rate {:g} rad/s), at most "
         "{}: reduce the damping or the sampling period",
-        forces_->effect_in_steps(), count, h, arm.fastest_rate_rad_per_s, kMostSubsteps));
+        forces_->effect_in_steps(), most, h, arm.fastest_rate_rad_per_s, kMostSubsteps));
   }
+  if (forces_->vary()) count = most;
   return std::max(1, static_cast<int>(count));
 }
 
@@ -102,8 +104,11 @@ Steps StepPlan::steps(const ModalDynamics& arm, double length_s) const {
     if (!held.empty()) {
       made.held = step_table(held[at], argument_rows_, watched.reaction, made.length_s);
     }
+    if (ledger_ == nullptr || forces_->vary()) continue;
+    using Hub = StepEnergy::Hub;
+    made.turning_energy = ledger_->step_energy(arm, Hub::turning, made.length_s);
+    if (!held.empty()) made.held_energy = ledger_->step_energy(arm, Hub::held, made.length_s);
   }
-  if (is_linear_ && ledger_ != nullptr) made.energy = ledger_->step_energy(made.length_s);
   return made;
 }
 

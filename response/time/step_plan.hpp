@@ -23,7 +23,9 @@ struct Steps {
   double length_s = 0.0;
   StepTable turning = {};
   StepTable held = {};
-  std::optional<StepEnergy> energy = {};  ///< of a linear arm whose energy is booked
+  /// Where energy is booked and forces are constant; that of a held hub where there is friction.
+  std::optional<StepEnergy> turning_energy = {};
+  std::optional<StepEnergy> held_energy = {};
   /// Two steps of half the length, for a step in which the hub may come to rest or turn loose, or
   /// whose forces do not converge; null where the step is short enough for a power series.
   std::shared_ptr<const Steps> shorter = {};
@@ -39,7 +41,7 @@ struct PieceSteps {
 /// How an arm is stepped through the samples of a torque: what does not depend on the torque, and
 /// is computed once for any number of runs.
 ///
-/// A step of constant forces is exact however long it is. Without a ledger it is as long as the
+/// A step of constant forces is exact however long it is, its energy too. It is as long as the
 /// piece of torque, and the hub's speed (or the torque that holds it) is watched within it; the few
 /// steps in which the hub may come to rest or turn loose are halved until that is seen. Behind a
 /// lag that is short in a piece the torque settles first; then the lag no longer limits a step.

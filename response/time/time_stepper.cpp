@@ -174,7 +174,7 @@ void TimeStepper::advance_in(const Steps& steps, double begin_N_m, double end_N_
 
 void TimeStepper::linear_step(const Steps& steps, double u0, double u1) {
   solver_.solve(steps.turning, state_, motion_, {time_s_, steps.length_s, u0, u1});
-  if (steps.energy) ledger_->add((*steps.energy)(state_.x, u0, u1, solver_.inputs().f0(0)));
+  book_whole(steps);
   finish(steps.length_s);
 }
 
@@ -195,17 +195,17 @@ void TimeStepper::step(const Steps& steps, double u0, double u1) {
     halve(steps.length_s, u0, u1, 0);
     return;
   }
-  if (may_happen || ledger_ != nullptr) {
+  if (may_happen) {
     solver_.expand(state_.x, motion_);
-    const std::optional<double> event = may_happen ? next_event() : std::nullopt;
-    book(event.value_or(1.0));
-    if (event) {
+    if (const std::optional<double> event = next_event()) {
+      book(*event);
       const double between = solver_.inputs().torque(*event);
       happen(*event, steps.length_s);
       free_step((1.0 - *event) * steps.length_s, between, u1, 0);
       return;
     }
   }
+  book_whole(steps);
   finish(steps.length_s);
 }
 
@@ -233,6 +233,17 @@ void TimeStepper::free_step(double length_s, double u0, double u1, int halvings)
 
 void TimeStepper::book(double until) {
   if (ledger_ != nullptr) ledger_->add(solver_.series(), solver_.inputs(), motion_, until);
+}
+
+void TimeStepper::book_whole(const Steps& steps) {
+  if (ledger_ == nullptr) return;
+  const auto& energy = motion_ == HubMotion::held ? steps.held_energy : steps.turning_energy;
+  if (energy) {
+    ledger_->add(*energy, solver_.inputs(), motion_, state_.x, solver_.end());
+    return;
+  }
+  solver_.expand(state_.x, motion_);
+  book(1.0);
 }
 
 void TimeStepper::halve(double length_s, double u0, double u1, int halvings) {

@@ -73,6 +73,7 @@ class TimeStepper {
   void count_step();
   bool is_too_many(std::int64_t steps, std::int64_t least, double per_sample) const;
   void book(double until);
+  void book_whole(const Steps& steps);
   bool is_quiet(const StepTable& table);
   std::optional<double> next_event() const;
   double reaction(double u);

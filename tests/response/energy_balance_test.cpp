@@ -44,40 +44,53 @@ TEST(EnergyBalance, IsNotFormedUnlessAskedFor) {
   EXPECT_EQ(made.energy.work_in_J, 0.0);
 }
 
-/// One step of a turning hub that was solved with some friction torque, booked by the true law.
-EnergyBalance booked(double friction_N_m, double law_N_m) {
-  const auto sensors = hub_sensors();
-  ArmParts parts = coulomb(0.0);
-  parts.hub.friction.push_back({"coulomb_friction", {[law_N_m](double) {
-                                  return arm::DryFriction::Size{law_N_m, 0.0};
-                                }}});
-  const ModalDynamics arm = modal_dynamics(two_masses(0.01, 0.05, 3.0), parts, sensors);
-  const AddedForces forces(arm, parts.hub, std::nullopt);
-  EnergyLedger ledger(arm, forces, 0.0);
-  StepInputs inputs{.u0 = 0.3,
-                    .u1 = 0.3,
-                    .f0 = Eigen::VectorXd::Constant(1, -friction_N_m),
-                    .fm = Eigen::VectorXd::Constant(1, -friction_N_m),
-                    .f1 = Eigen::VectorXd::Constant(1, -friction_N_m)};
-  Expansion solution;
-  solution.compute(arm.turning, 0.01, Eigen::VectorXd::Zero(arm.size()),
-                   {arm.turning.actuator * 0.3 - arm.turning.force * friction_N_m,
-                    Eigen::VectorXd::Zero(arm.size()), Eigen::VectorXd::Zero(arm.size())});
-  ledger.add(solution, inputs, HubMotion::forward, 1.0);
-  ledger.close_sample(solution.at(1.0));
-  return ledger.balance();
-}
+/// How a step is booked: by quadrature of the solution, or as a whole one of constant forces.
+class BookedStep : public testing::TestWithParam<bool> {
+ protected:
+  /// One step of a turning hub that was solved with some friction torque, booked by the true law.
+  static EnergyBalance booked(double friction_N_m, double law_N_m) {
+    constexpr double kStep_s = 0.01;
+    const auto sensors = hub_sensors();
+    ArmParts parts = coulomb(0.0);
+    parts.hub.friction.push_back({"coulomb_friction", {[law_N_m](double) {
+                                    return arm::DryFriction::Size{law_N_m, 0.0};
+                                  }}});
+    const ModalDynamics arm = modal_dynamics(two_masses(0.01, 0.05, 3.0), parts, sensors);
+    const AddedForces forces(arm, parts.hub, std::nullopt);
+    EnergyLedger ledger(arm, forces, 0.0);
+    const Eigen::VectorXd friction = Eigen::VectorXd::Constant(1, -friction_N_m);
+    const StepInputs inputs{
+        .u0 = 0.3, .u1 = 0.3, .length_s = kStep_s, .f0 = friction, .fm = friction, .f1 = friction};
+    const Eigen::VectorXd begin = Eigen::VectorXd::Zero(arm.size());
+    Expansion solution;
+    solution.compute(arm.turning, kStep_s, begin,
+                     {arm.turning.actuator * 0.3 - arm.turning.force * friction_N_m, begin, begin});
+    const Eigen::VectorXd end = solution.at(1.0);
+    if (GetParam()) {
+      ledger.add(ledger.step_energy(arm, StepEnergy::Hub::turning, kStep_s), inputs,
+                 HubMotion::forward, begin, end);
+    } else {
+      ledger.add(solution, inputs, HubMotion::forward, 1.0);
+    }
+    ledger.close_sample(end);
+    return ledger.balance();
+  }
+};
 
-TEST(EnergyBalance, FrictionOfTheWrongSignLeavesAResidual) {
+TEST_P(BookedStep, FrictionOfTheWrongSignLeavesAResidual) {
   const EnergyBalance right = booked(0.1, 0.1);
   EXPECT_LT(std::abs(right.residual_J()), 1e-14 * right.work_in_J);
   const EnergyBalance wrong = booked(-0.1, 0.1);
   EXPECT_LT(wrong.residual_J(), -0.5 * wrong.work_in_J);  // energy was created
 }
 
-TEST(EnergyBalance, ALawOfTheWrongSignShowsAsALossBelowZero) {
+TEST_P(BookedStep, ALawOfTheWrongSignShowsAsALossBelowZero) {
   EXPECT_LT(booked(-0.1, -0.1).lowest_loss_J, -0.1 * booked(-0.1, -0.1).work_in_J);
 }
+
+INSTANTIATE_TEST_SUITE_P(Energy, BookedStep, testing::Bool(), [](const auto& tested) {
+  return tested.param ? "AsAWhole" : "ByQuadrature";
+});
 
 }  // namespace
 }  // namespace flexarm::response

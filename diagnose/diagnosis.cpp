@@ -271,6 +271,7 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
     nothing_else *= 1.0 - one.posterior.of_something_else();
   }
   made.something_else = 1.0 - nothing_else;
+  made.inconsistent = predicted.all_inconsistent();
   say_timing(experiment, selection, made.notices);
   if (is_by_motion) {
     made.notices.push_back(
@@ -332,6 +333,7 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
     const bool is_of_motion = judged.size() > 1 && judged.back().chosen().effects.empty();
     const JudgedSelection& leading = is_of_motion ? judged.front() : judged.back();
     drift = drift_of(leading.selection, made.verdict, leading.causes());
+    if (made.causes.empty() && !made.inconsistent.empty()) drift = made.inconsistent.front();
   }
   made.symptoms = symptoms_of({problem, before, after, chosen}, std::move(drift));
   if (has_balance && made.symptoms.hub_torque.terms.empty()) {

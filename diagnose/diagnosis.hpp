@@ -88,6 +88,7 @@ struct Diagnosis {
   arm::Arm extended_arm;
   /// Where the residuals are not noise: the most probable sets that were not named.
   std::vector<NearMiss> near_misses;
+  std::vector<RunDrift> inconsistent = {};  ///< of effects that are not named for it
   std::vector<NextExperiment> next_experiments;  ///< what_next
   std::vector<std::string> notices;
   std::vector<std::string> excluded;      ///< effects that whoever asked left out of the search

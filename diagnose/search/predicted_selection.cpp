@@ -120,6 +120,22 @@ Candidate PredictedSelection::whole(Candidate candidate) const {
   return made;
 }
 
+std::vector<RunDrift> PredictedSelection::all_inconsistent() const {
+  const Candidate named = whole(selection.chosen.fit.candidate);
+  std::vector<RunDrift> made;
+  const auto add = [&](const std::vector<RunDrift>& drifts) {
+    for (const RunDrift& drift : drifts) {
+      const bool is_known = std::ranges::any_of(
+          made, [&](const RunDrift& one) { return one.effect == drift.effect; });
+      if (!is_known && !named.has_effect(drift.effect)) made.push_back(drift);
+    }
+  };
+  add(inconsistent);
+  if (by_motion) add(by_motion->inconsistent);
+  add(selection.inconsistent);
+  return made;
+}
+
 std::optional<EmpiricalLaw> PredictedSelection::law_beside_causes() const {
   if (law) return law->found;
   return empirical_law(balance.value(), simulated, selection.chosen.fit.candidate);

@@ -30,6 +30,8 @@ struct PredictedSelection {
   /// By simulation, the noise of its channels as the selection by simulation left it: what
   /// simulations are compared with the data by.
   Problem simulated;
+  /// Of effects that simulation did not name for it, where `selection` is by another predictor.
+  std::vector<RunDrift> inconsistent = {};
 
   /// A candidate of `selection` with the effects of `by_motion`: one of the experiment's arm.
   Candidate whole(Candidate candidate) const;
@@ -39,6 +41,8 @@ struct PredictedSelection {
     const auto& noise = selection.problem.predictor().noise();
     return noise && noise->is_torque_noise();
   }
+  /// Of `selection`, of `by_motion` and by simulation: of effects that none of them has.
+  std::vector<RunDrift> all_inconsistent() const;
   /// Neither `selection` nor `by_motion` has a cause.
   bool names_nothing() const { return whole(selection.chosen.fit.candidate).effects.empty(); }
   /// `law`, or now. `balance` must have been formed.

@@ -133,6 +133,7 @@ PredictedSelection select_by_both(const SelectionTask& task, const Problem& prob
   if (auto responses = select_by_responses(task, made, part_of(progress, 0.6, 0.7))) {
     if (responses->selection.cancelled) return *std::move(responses);
     if (responses_are_better(*responses, made)) {
+      responses->inconsistent = made.selection.inconsistent;
       responses->reason = fmt::format(
           "their residuals have {:.3g} times the standard deviation of their noise; those of a "
           "simulation have {:.3g} times that of theirs",
@@ -156,6 +157,7 @@ PredictedSelection select_by_both(const SelectionTask& task, const Problem& prob
     const double by_filter = error_by_filter(*filtered);
     const double by_simulation = simulated_error(made);
     if (other.cancelled || by_filter <= by_simulation) {
+      filtered->inconsistent = made.selection.inconsistent;
       if (!other.end) other.end = made.selection.end;
       return *std::move(filtered);
     }

@@ -59,10 +59,17 @@ Posterior posterior_of(const Selection& selection, const SelectionOptions& optio
       return set->fit.candidate.labels() == explanation.fit.candidate.labels();
     });
   };
+  const auto is_inconsistent = [&](const Explanation& explanation) {
+    return !explanation.leaves_noise() &&
+           std::ranges::any_of(selection.inconsistent, [&](const RunDrift& drift) {
+             return explanation.fit.candidate.has_effect(drift.effect);
+           });
+  };
   if (is_new(selection.chosen)) sets.push_back(&selection.chosen);
   for (const auto* found : {&selection.singles, &selection.combinations}) {
     for (const Explanation& explanation : *found) {
-      if (is_identified(explanation) && is_new(explanation)) sets.push_back(&explanation);
+      if (is_inconsistent(explanation) || !is_identified(explanation)) continue;
+      if (is_new(explanation)) sets.push_back(&explanation);
     }
   }
   return {sets, selection.hypotheses, options};

@@ -31,7 +31,8 @@ std::vector<Explanation> indistinguishable_sets(const Selection& selection,
 /// Rivals of odds <= this are indistinguishable from the cause.
 inline constexpr double kIndistinguishableOdds = 20.0;
 
-/// Of the sets that were fitted: no cause, singles, combinations, the chosen one.
+/// Of the sets that were fitted: no cause, singles, combinations, the chosen one; not those that
+/// leave no noise and have an effect of `selection.inconsistent`.
 Posterior posterior_of(const Selection& selection, const SelectionOptions& options);
 
 /// That this cause, or one of its `rivals` that is indistinguishable from it, is there. A rival

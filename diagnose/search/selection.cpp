@@ -325,17 +325,35 @@ class Search {
   }
 
   /// Without the causes that may not be named, one after the other: those with a parameter that the
-  /// data do not identify, then the improbable ones.
+  /// data do not identify, those whose estimates are inconsistent between runs, then the improbable
+  /// ones.
   void leave_out_unnamed(Selection& made) {
     if (runs_away(made.chosen, options_)) made.chosen = made.nothing;
     while (!made.chosen.fit.candidate.effects.empty()) {
       const Candidate& candidate = made.chosen.fit.candidate;
       auto unnamed = unidentified_effect(candidate, stated_errors(made.chosen));
+      if (!unnamed) unnamed = inconsistent_cause(made);
       if (!unnamed) unnamed = improbable_effect(made, options_);
       if (!unnamed) return;
       made.chosen = replacements_.without(made, candidate, *unnamed);
       if (!clears_bars(made.chosen, made.nothing, options_)) made.chosen = made.nothing;
     }
+  }
+
+  /// Where what is left is no noise: an effect that would be named by itself, and stands for
+  /// another one, as it has other values in each run.
+  std::optional<std::size_t> inconsistent_cause(Selection& made) const {
+    if (made.chosen.leaves_noise()) return std::nullopt;
+    const Candidate& candidate = made.chosen.fit.candidate;
+    const Posterior posterior = posterior_of(made, options_);
+    for (std::size_t i = 0; i < candidate.effects.size(); ++i) {
+      if (posterior.of(candidate.effects[i]) < options_.least_probability) continue;
+      auto estimates = inconsistent_estimates(problem_, candidate, i);
+      if (!estimates) continue;
+      made.inconsistent.push_back(*std::move(estimates));
+      return i;
+    }
+    return std::nullopt;
   }
 
   /// One by itself at other values than its scan found: to be combined anew.

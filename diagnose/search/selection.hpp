@@ -3,6 +3,7 @@
 #include "diagnose/search/explanation.hpp"
 #include "diagnose/search/posterior.hpp"
 #include "diagnose/search/reported_work.hpp"
+#include "diagnose/search/run_drift.hpp"
 #include "diagnose/search/selection_options.hpp"
 #include "diagnose/search/torque_timing.hpp"
 
@@ -33,6 +34,8 @@ struct Selection {
   Explanation chosen = {};  ///< `nothing`, or with the causes
   /// The chosen one with a cause exchanged for one that is indistinguishable from it (rivals.hpp).
   std::vector<Explanation> rivals = {};
+  /// Of effects that the chosen one would have but for it (inconsistent_estimates).
+  std::vector<RunDrift> inconsistent = {};
   std::optional<TorqueTiming> timing = {};  ///< by which torques were corrected
   /// That explains a good part of the excess residual, but does not leave noise: undecided.
   std::optional<TorqueTiming> undecided_timing = {};

@@ -1,6 +1,7 @@
 #include "diagnose/symptoms/symptoms.hpp"
 
 #include "diagnose/search/selection.hpp"
+#include "diagnose/symptoms/drift_symptoms.hpp"
 #include "diagnose/symptoms/error_trends.hpp"
 
 #include <iterator>

@@ -1,10 +1,10 @@
 #pragma once
 
+#include "diagnose/search/run_drift.hpp"
 #include "diagnose/symptoms/band_errors.hpp"
 #include "diagnose/symptoms/hub_torque.hpp"
 #include "diagnose/symptoms/root_shifts.hpp"
 #include "diagnose/symptoms/run_distortion.hpp"
-#include "diagnose/symptoms/run_drift.hpp"
 
 #include <optional>
 #include <vector>

@@ -195,6 +195,10 @@ Json diagnosis_json(const diagnose::Diagnosis& diagnosis, const std::string& ext
                           {"delta_bic", miss.information},
                           {"nrmse", miss.error}});
   }
+  Json inconsistent = Json::array();
+  for (const auto& drift : diagnosis.inconsistent) {
+    inconsistent.push_back(run_consistency_json(drift));
+  }
   return {{"verdict", to_string(diagnosis.verdict)},
           {"symptoms", statements_json(symptoms)},
           {"causes", causes},
@@ -213,8 +217,10 @@ Json diagnosis_json(const diagnose::Diagnosis& diagnosis, const std::string& ext
             {"roots", root_shifts_json(symptoms)},
             {"hub_torque", hub_torque_json(symptoms)},
             {"distortion", distortion_json(symptoms)},
-            {"run_consistency", run_consistency_json(symptoms)}}},
+            {"run_consistency",
+             symptoms.drift ? run_consistency_json(*symptoms.drift) : Json(nullptr)}}},
           {"candidates", candidates},
+          {"inconsistent_effects", inconsistent},
           {"uncertain_numbers", uncertain_numbers},
           {"empirical_law", empirical_law_json(diagnosis.empirical_law)},
           {"missing_force", missing_force_json(diagnosis.missing_force)},

@@ -102,19 +102,14 @@ Json distortion_json(const diagnose::Symptoms& symptoms) {
   return all;
 }
 
-Json run_consistency_json(const diagnose::Symptoms& symptoms) {
-  if (!symptoms.drift) return nullptr;
-  const auto& drift = *symptoms.drift;
+Json run_consistency_json(const diagnose::RunDrift& drift) {
   Json values = Json::array();
   for (const auto& value : drift.values) {
     values.push_back({{"run", value.run}, {"value", value.value}, {"std_error", value.std_error}});
   }
-  return {{"effect", drift.effect},
-          {"parameter", drift.parameter},
-          {"unit", drift.unit},
-          {"values", values},
-          {"mean", drift.mean},
-          {"chi_squared", drift.chi_squared},
+  return {{"effect", drift.effect},      {"parameter", drift.parameter},
+          {"unit", drift.unit},          {"values", values},
+          {"mean", drift.mean},          {"chi_squared", drift.chi_squared},
           {"p_value", drift.probability}};
 }
 

@@ -112,9 +112,31 @@ std::string floor_of(const diagnose::Gain& gain) {
   return text;
 }
 
+/// "root_compliance stiffness: 786 N m/rad (run low) to 906 N m/rad (run high)".
+std::string inconsistency_text(const diagnose::RunDrift& drift) {
+  const auto [least, most] = drift.range();
+  const std::string unit = drift.unit == "1" ? "" : " " + drift.unit;
+  return fmt::format("{} {}: {:.4g}{} (run {}) to {:.4g}{} (run {})", drift.effect, drift.parameter,
+                     least.value, unit, least.run, most.value, unit, most.run);
+}
+
+/// The effects that are not named beside causes, for that their estimates differ.
+std::string inconsistent_text(const diagnose::Diagnosis& diagnosis) {
+  std::vector<std::string> all;
+  for (const auto& drift : diagnosis.inconsistent) all.push_back(inconsistency_text(drift));
+  if (all.empty()) return "";
+  return fmt::format(" Not identified, because the estimates from each run are inconsistent: {}.",
+                     fmt::join(all, "; "));
+}
+
 /// Why no effect is named.
 std::string no_name_reason(const diagnose::Diagnosis& diagnosis) {
   const diagnose::SelectionOptions bars;
+  if (!diagnosis.inconsistent.empty()) {
+    return "no effect is identified. The one that fits best has inconsistent estimates from each "
+           "run: " +
+           inconsistency_text(diagnosis.inconsistent.front());
+  }
   if (diagnosis.near_misses.empty() ||
       diagnosis.near_misses.front().probability < kLeastProbability) {
     return fmt::format("no effect that was tried has a probability of {:g} or more",
@@ -189,8 +211,9 @@ std::string verdict_text(const diagnose::Diagnosis& diagnosis) {
       return fmt::format("Explained by {}: the residuals are noise. {}", explanation_of(diagnosis),
                          fall);
     case diagnose::Verdict::partly_explained:
-      return fmt::format("Partly explained by {}. {}{}{}", explanation_of(diagnosis), fall,
-                         not_noise(diagnosis), beyond_causes(diagnosis));
+      return fmt::format("Partly explained by {}. {}{}{}{}", explanation_of(diagnosis), fall,
+                         not_noise(diagnosis), beyond_causes(diagnosis),
+                         inconsistent_text(diagnosis));
     case diagnose::Verdict::unexplained:
       return fmt::format(
           "Unexplained: {}. {}{}", no_name_reason(diagnosis),

@@ -71,6 +71,23 @@ TEST(VerdictText, SaysWhyAProbableEffectIsNotNamed) {
   EXPECT_THAT(verdict_text(made), HasSubstr("leaves a simulation with an NRMSE of 98.5 %."));
 }
 
+TEST(VerdictText, SaysWhoseEstimatesAreInconsistent) {
+  const diagnose::RunDrift drift{.effect = "root_compliance",
+                                 .parameter = "stiffness",
+                                 .unit = "N m/rad",
+                                 .values = {{"high", 906.0, 1.5}, {"low", 786.0, 1.5}}};
+  const std::string range =
+      "root_compliance stiffness: 786 N m/rad (run low) to 906 N m/rad (run high).";
+  Diagnosis made = with_gain(Verdict::unexplained);
+  made.inconsistent = {drift};
+  EXPECT_THAT(verdict_text(made), HasSubstr("has inconsistent estimates from each run: " + range));
+  made = with_gain(Verdict::partly_explained);
+  made.causes = {cause("coulomb_friction", 0.98)};
+  made.inconsistent = {drift};
+  EXPECT_THAT(verdict_text(made),
+              EndsWith("the estimates from each run are inconsistent: " + range));
+}
+
 TEST(ImplausibleNumbersText, HasThoseBeyondThreeStandardDeviations) {
   Diagnosis made = with_gain(Verdict::partly_explained);
   made.refitted = {number("beam.length", 0.51, 0.0002), number("beam.thickness", 0.6, 0.001)};

@@ -274,12 +274,21 @@ TEST(FixedTrial, AMovingBaseIsNoNoiseOfTheHubsSensors) {
 
 TEST(FixedTrial, ATaperedBeamIsNoInertiaOfTheHub) {
   // The balance of the hub's torque with the reaction of a beam that is not uniform shows a hub
-  // inertia of 0.973 with probability 1. By simulation numbers of the beam fit alike.
+  // inertia of 0.973 with probability 1. By simulation the density fits alike, but each run asks
+  // for another one: 0.967 to 0.978.
   const TrialKey key{.kind = RunKind::time, .hidden = {"tapered_beam"}, .seed = 13};
-  const FixedAnswer answer = diagnosed_among(
-      key, {"hub_inertia", "linear_density", "flexural_rigidity", "beam_thickness", "beam_length"});
-  EXPECT_NE(answer.verdict, diagnose::Verdict::explained);
-  EXPECT_EQ(answer.predictor, diagnose::PredictorKind::output_error);
+  const FixedAnswer answer = diagnosed_among(key, {"hub_inertia", "linear_density"});
+  EXPECT_EQ(answer.verdict, diagnose::Verdict::unexplained);
+  EXPECT_THAT(answer.effects, IsEmpty());
+}
+
+TEST(FixedTrial, ABacklashIsNoSoftRoot) {
+  // A root of 842 N m/rad leaves 4.4 of 18 % of the signals, but each run asks for another
+  // stiffness: 786 to 906 N m/rad.
+  const TrialKey key{.kind = RunKind::time, .hidden = {"backlash"}, .seed = 16};
+  const FixedAnswer answer = diagnosed_among(key, {"root_compliance"});
+  EXPECT_EQ(answer.verdict, diagnose::Verdict::unexplained);
+  EXPECT_THAT(answer.effects, IsEmpty());
 }
 
 TEST(FixedTrial, AnActuatorsLagInFrequency) {

@@ -1,11 +1,11 @@
-#include "diagnose/symptoms/run_drift.hpp"
+#include "diagnose/search/run_drift.hpp"
 
+#include "arm/linear_arm.hpp"
 #include "diagnose/parallel.hpp"
 #include "diagnose/search/misfit.hpp"
 
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/complement.hpp>
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -26,6 +26,24 @@ constexpr double kLastChange = 0.003;
 /// From the value where the effect does nothing: that of a stiffness, infinity, is as 0 here.
 double size_of(const SearchedParameter& parameter, double value) {
   return std::abs(value - parameter.neutral.value_or(0.0));
+}
+
+arm::LinearArm without_damping(arm::LinearArm arm) {
+  arm.kelvin_voigt_s = 0.0;
+  arm.air_damping_N_s_per_m2 = 0.0;
+  arm.hub_viscous_friction_N_m_s_per_rad = 0.0;
+  arm.root_retardation_s = 0.0;
+  if (arm.drive) arm.drive->retardation_s = 0.0;
+  for (arm::MassOnBeam& mass : arm.masses) {
+    if (mass.suspension) mass.suspension->damping_N_s_per_m = 0.0;
+  }
+  return arm;
+}
+
+bool changes_mass_or_stiffness(const Candidate& candidate, std::size_t effect,
+                               const arm::Arm& arm) {
+  const arm::Arm changed = extended(arm, candidate.effects[effect], candidate.values_of(effect));
+  return without_damping(arm::linear_arm(changed)) != without_damping(arm::linear_arm(arm));
 }
 
 struct RunFit {
@@ -92,7 +110,9 @@ std::optional<RunDrift> run_drift(const Problem& problem, const Candidate& candi
   for (std::size_t i = 0; i < effect; ++i) {
     at += static_cast<Index>(candidate.effects[i].parameters.size());
   }
-  const SearchedParameter& parameter = hypothesis.parameters.front();
+  const std::size_t sized = hypothesis.size_parameter().value_or(0);
+  at += static_cast<Index>(sized);
+  const SearchedParameter& parameter = hypothesis.parameters[sized];
   const auto& runs = problem.experiment().runs;
   std::vector<std::optional<RunFit>> fits(runs.size());
   in_parallel(runs.size(), [&](std::size_t r) {
@@ -130,29 +150,24 @@ std::optional<RunDrift> run_drift(const Problem& problem, const Candidate& candi
   return made;
 }
 
-std::vector<Symptom> drift_symptoms(const RunDrift& drift) {
-  const auto [least, most] = std::ranges::minmax_element(drift.values, {}, &RunValue::value);
-  const std::string unit = drift.unit == "1" ? "" : " " + drift.unit;
-  Symptom one = symptom(SymptomKind::drift, "", drift.probability, 1);
-  const std::string what =
-      fmt::format("{} {}, estimated from each run", drift.effect, drift.parameter);
-  const std::string range = fmt::format("{:.4g} ± {:.2g}{} (run {}) to {:.4g} ± {:.2g}{} (run {})",
-                                        least->value, least->std_error, unit, least->run,
-                                        most->value, most->std_error, unit, most->run);
-  const double spread = (most->value - least->value) / drift.size;
-  if (one.is_significant && spread >= kLeastSpread) {
-    one.text = fmt::format(
-        "{}: estimates inconsistent between runs, {}. The parameter changes between runs, or "
-        "another effect is present.",
-        what, range);
-  } else if (one.is_significant) {
-    one.is_significant = false;
-    one.text = fmt::format("{}: estimates agree within {} of the size of the effect, {}.", what,
-                           percent(spread), range);
-  } else {
-    one.text = fmt::format("{}: estimates consistent between runs, {}.", what, range);
+std::pair<RunValue, RunValue> RunDrift::range() const {
+  const auto [least, most] = std::ranges::minmax(values, {}, &RunValue::value);
+  return {least, most};
+}
+
+double RunDrift::spread() const {
+  const auto [least, most] = range();
+  return (most.value - least.value) / size;
+}
+
+std::optional<RunDrift> inconsistent_estimates(const Problem& problem, const Candidate& candidate,
+                                               std::size_t effect) {
+  if (!changes_mass_or_stiffness(candidate, effect, problem.experiment().arm)) return std::nullopt;
+  auto drift = run_drift(problem, candidate, effect);
+  if (!drift || drift->probability >= kInconsistentLevel || drift->spread() < kMostSpread) {
+    return std::nullopt;
   }
-  return {one};
+  return drift;
 }
 
 }  // namespace flexarm::diagnose

@@ -1,6 +1,7 @@
 #include "diagnose/diagnosis.hpp"
 
 #include "diagnose/motion_drive.hpp"
+#include "diagnose/search/least_squares.hpp"
 #include "diagnose/search/parameter_errors.hpp"
 #include "diagnose/search/reported_work.hpp"
 #include "diagnose/search/rivals.hpp"
@@ -21,13 +22,14 @@ namespace {
 /// Of those that were not named, as many are told.
 constexpr std::size_t kNearMisses = 5;
 
-/// A candidate as it is, not fitted.
+/// A candidate as it is, not fitted; where it cannot be simulated all its residuals are
+/// kImpossibleResidual.
 Fit evaluated(const Problem& problem, const Candidate& candidate) {
-  Fit made{.candidate = candidate, .converged = true};
-  if (const auto residuals = problem.residuals(candidate, problem.estimation_runs())) {
-    made.residuals = *residuals;
-  }
-  return made;
+  const Eigen::VectorXd impossible =
+      Eigen::VectorXd::Constant(problem.residual_count(), kImpossibleResidual);
+  return {.candidate = candidate,
+          .residuals = problem.residuals(candidate, problem.estimation_runs()).value_or(impossible),
+          .converged = true};
 }
 
 std::vector<ChannelGain> channel_gains(const Problem& problem, const Eigen::VectorXd& before,
@@ -208,7 +210,7 @@ std::vector<double> least_errors(const std::vector<JudgedSelection>& judged) {
   return errors;
 }
 
-/// Those that were fitted and not named.
+/// Those that were fitted and not named, without those that cannot be simulated.
 void add_near_misses(const PredictedSelection& predicted, const JudgedSelection& judged,
                      std::vector<NearMiss>& found) {
   const Selection& selection = judged.selection;
@@ -220,7 +222,9 @@ void add_near_misses(const PredictedSelection& predicted, const JudgedSelection&
       if (!is_simulation(predicted.predictor)) {
         const bool is_whole = &selection != &predicted.selection;
         const Candidate whole = is_whole ? candidate : predicted.whole(candidate);
-        left = explain(predicted.simulated, evaluated(predicted.simulated, whole)).estimation;
+        const Fit simulated = evaluated(predicted.simulated, whole);
+        if (simulated.residuals.maxCoeff() == kImpossibleResidual) continue;
+        left = explain(predicted.simulated, simulated).estimation;
       }
       found.push_back({candidate.label(), judged.posterior.of_set(candidate),
                        share_taken(selection.nothing.estimation, one.estimation),

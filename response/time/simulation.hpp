@@ -26,8 +26,8 @@ struct SimulationOptions {
   /// this times the largest of them, or the next would change none by a tenth of that (StepSolver).
   double force_tolerance = 1e-13;
   int most_iterations = 30;  ///< for those forces; an inner step that needs more is halved
-  /// A run that asks for more of them than this and than the samples it has passed throws
-  /// std::runtime_error: friction that changes within nearly every step would cost minutes.
+  /// A run that halves more steps by power series than this, and than the samples it has passed,
+  /// throws std::runtime_error: friction that changes within nearly every one would cost minutes.
   std::int64_t most_halved_steps = std::numeric_limits<std::int64_t>::max();
   /// So does a run that takes more inner steps than this for each sample it has passed, and than
   /// 50 000: where a mode is stiff, the halves in which friction may change can be without end.

@@ -187,7 +187,7 @@ void TimeStepper::step(const Steps& steps, double u0, double u1) {
       solver_.solve(table, state_, motion_, {time_s_, steps.length_s, u0, u1, must_be_resolved});
   const bool may_happen = is_solved && forces_->has_friction() && !is_quiet(table);
   if (steps.shorter && (!is_solved || may_happen)) {
-    if (!is_solved) count_halving();
+    if (!is_solved) ++summary_.halved_steps;
     advance_in(*steps.shorter, u0, u1);
     return;
   }
@@ -251,17 +251,14 @@ void TimeStepper::halve(double length_s, double u0, double u1, int halvings) {
     throw std::runtime_error(fmt::format(
         "simulation: inner step at {} s does not converge at the minimum step size", time_s_));
   }
-  count_halving();
+  ++summary_.halved_steps;
+  if (is_too_many(++series_halvings_, plan_->options().most_halved_steps, 1.0)) {
+    throw std::runtime_error(
+        fmt::format("simulation: {} inner steps halved by {} s", series_halvings_, time_s_));
+  }
   const double between = 0.5 * (u0 + u1);
   free_step(0.5 * length_s, u0, between, halvings + 1);
   free_step(0.5 * length_s, between, u1, halvings + 1);
-}
-
-void TimeStepper::count_halving() {
-  if (is_too_many(++summary_.halved_steps, plan_->options().most_halved_steps, 1.0)) {
-    throw std::runtime_error(
-        fmt::format("simulation: {} inner steps halved by {} s", summary_.halved_steps, time_s_));
-  }
 }
 
 void TimeStepper::count_step() {

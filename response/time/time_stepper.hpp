@@ -69,7 +69,6 @@ class TimeStepper {
   void linear_step(const Steps& steps, double u0, double u1);
   void free_step(double length_s, double u0, double u1, int halvings);
   void halve(double length_s, double u0, double u1, int halvings);
-  void count_halving();
   void count_step();
   bool is_too_many(std::int64_t steps, std::int64_t least, double per_sample) const;
   void book(double until);
@@ -97,6 +96,7 @@ class TimeStepper {
   ReadingBound::Workspace workspace_;
   int events_at_once_ = 0;
   std::int64_t steps_ = 0;  // inner steps, those that were halved among them
+  std::int64_t series_halvings_ = 0;
   SimulationSummary summary_;
 };
 

@@ -156,16 +156,17 @@ TEST(ActuatorChain, ARunWhoseStepsAreHalvedTooOftenIsGivenUp) {
   EXPECT_THROW(made(), std::runtime_error);
 }
 
-TEST(ActuatorChain, HalvedStepsOfTablesAreCounted) {
+TEST(ActuatorChain, HalvedStepsOfTablesAreCountedAndNotBounded) {
   ArmParts parts = coulomb(0.0);
   put(parts, "torque_ripple", {{"amplitude", -2.0}, {"cycles", 3.0}, {"phase", 0.4}});
   // A step of a sample turns the oscillator by 8 rad: there are tables for its halves and quarters,
   // and their forces converge before steps are short enough for a power series.
   const SimulationOptions options{
       .sample_time_s = 2.0, .energy = false, .most_halved_steps = 100, .resolve_every_mode = false};
-  EXPECT_THROW(
-      simulate(oscillator(1.0, 16.0), parts, hub_sensors(), step_torque(0.0, 400), options),
-      std::runtime_error);
+  // Stribeck friction takes two or three of them a sample, which cost little.
+  const Simulation made =
+      simulate(oscillator(1.0, 16.0), parts, hub_sensors(), step_torque(0.0, 400), options);
+  EXPECT_GT(made.summary.halved_steps, options.most_halved_steps);
 }
 
 TEST(ActuatorChain, ARunOfTooManyStepsPerSampleIsGivenUp) {

@@ -282,6 +282,16 @@ TEST(FixedTrial, ATaperedBeamIsNoInertiaOfTheHub) {
   EXPECT_THAT(answer.effects, IsEmpty());
 }
 
+TEST(FixedTrial, StribeckFrictionIsMoreThanCoulombFriction) {
+  // Most samples need two or three shorter steps: friction falls by a third as the hub comes to
+  // rest, twenty times a second.
+  const FixedAnswer answer =
+      diagnosed_among({.kind = RunKind::time, .hidden = {"stribeck_friction"}},
+                      {"stribeck_friction", "coulomb_friction", "hub_viscous_friction"});
+  EXPECT_EQ(answer.verdict, diagnose::Verdict::explained);
+  EXPECT_THAT(answer.effects, ElementsAre("stribeck_friction"));
+}
+
 TEST(FixedTrial, ABacklashIsNoSoftRoot) {
   // A root of 842 N m/rad leaves 4.4 of 18 % of the signals, but each run asks for another
   // stiffness: 786 to 906 N m/rad.

@@ -1,7 +1,6 @@
 #include "diagnose/diagnosis.hpp"
 
 #include "diagnose/motion_drive.hpp"
-#include "diagnose/search/least_squares.hpp"
 #include "diagnose/search/parameter_errors.hpp"
 #include "diagnose/search/reported_work.hpp"
 #include "diagnose/search/rivals.hpp"
@@ -22,13 +21,10 @@ namespace {
 /// Of those that were not named, as many are told.
 constexpr std::size_t kNearMisses = 5;
 
-/// A candidate as it is, not fitted; where it cannot be simulated all its residuals are
-/// kImpossibleResidual.
+/// A candidate as it is, not fitted.
 Fit evaluated(const Problem& problem, const Candidate& candidate) {
-  const Eigen::VectorXd impossible =
-      Eigen::VectorXd::Constant(problem.residual_count(), kImpossibleResidual);
   return {.candidate = candidate,
-          .residuals = problem.residuals(candidate, problem.estimation_runs()).value_or(impossible),
+          .residuals = residuals_or_impossible(problem, candidate),
           .converged = true};
 }
 
@@ -218,17 +214,20 @@ void add_near_misses(const PredictedSelection& predicted, const JudgedSelection&
     for (const Explanation& one : *tried) {
       const Candidate& candidate = one.fit.candidate;
       if (candidate.labels() == selection.chosen.fit.candidate.labels()) continue;
-      Misfit left = one.estimation;
+      double error = one.estimation.relative_error;
       if (!is_simulation(predicted.predictor)) {
         const bool is_whole = &selection != &predicted.selection;
         const Candidate whole = is_whole ? candidate : predicted.whole(candidate);
-        const Fit simulated = evaluated(predicted.simulated, whole);
-        if (simulated.residuals.maxCoeff() == kImpossibleResidual) continue;
-        left = explain(predicted.simulated, simulated).estimation;
+        const Problem& problem = predicted.simulated;
+        const auto left = problem.residuals(whole, problem.estimation_runs());
+        if (!left) continue;
+        error =
+            misfit(problem.observations(), problem.experiment(), *left, problem.estimation_runs())
+                .relative_error;
       }
       found.push_back({candidate.label(), judged.posterior.of_set(candidate),
                        share_taken(selection.nothing.estimation, one.estimation),
-                       lead(one, selection.nothing), left.relative_error});
+                       lead(one, selection.nothing), error});
     }
   }
 }
@@ -336,8 +335,9 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
   if (!is_over(options.deadline)) {
     const bool is_of_motion = judged.size() > 1 && judged.back().chosen().effects.empty();
     const JudgedSelection& leading = is_of_motion ? judged.front() : judged.back();
-    drift = drift_of(leading.selection, made.verdict, leading.causes());
-    if (made.causes.empty() && !made.inconsistent.empty()) drift = made.inconsistent.front();
+    drift = made.causes.empty() && !made.inconsistent.empty()
+                ? made.inconsistent.front()
+                : drift_of(leading.selection, made.verdict, leading.causes());
   }
   made.symptoms = symptoms_of({problem, before, after, chosen}, std::move(drift));
   if (has_balance && made.symptoms.hub_torque.terms.empty()) {

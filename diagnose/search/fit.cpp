@@ -6,15 +6,20 @@
 
 namespace flexarm::diagnose {
 
+Eigen::VectorXd residuals_or_impossible(const Problem& problem, const Candidate& candidate) {
+  if (auto residuals = problem.residuals(candidate, problem.estimation_runs())) {
+    return *std::move(residuals);
+  }
+  return Eigen::VectorXd::Constant(problem.residual_count(), kImpossibleResidual);
+}
+
 Fit fit(const Problem& problem, const Candidate& start, const FitOptions& options) {
   Fit made{.candidate = start};
   const auto residuals_at = [&](const Eigen::VectorXd& places) -> Eigen::VectorXd {
     if (options.work != nullptr) options.work->go_on();
     Candidate tried = start;
     tried.put(places);
-    const auto residuals = problem.residuals(tried, problem.estimation_runs());
-    if (residuals) return *residuals;
-    return Eigen::VectorXd::Constant(problem.residual_count(), kImpossibleResidual);
+    return residuals_or_impossible(problem, tried);
   };
   LeastSquares found = least_squares(residuals_at, start.coordinates(),
                                      {.most_steps = options.most_steps,

@@ -3,6 +3,7 @@
 #include "arm/linear_arm.hpp"
 #include "diagnose/parallel.hpp"
 #include "diagnose/search/misfit.hpp"
+#include "response/formulation_maker.hpp"
 
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/complement.hpp>
@@ -28,22 +29,13 @@ double size_of(const SearchedParameter& parameter, double value) {
   return std::abs(value - parameter.neutral.value_or(0.0));
 }
 
-arm::LinearArm without_damping(arm::LinearArm arm) {
-  arm.kelvin_voigt_s = 0.0;
-  arm.air_damping_N_s_per_m2 = 0.0;
-  arm.hub_viscous_friction_N_m_s_per_rad = 0.0;
-  arm.root_retardation_s = 0.0;
-  if (arm.drive) arm.drive->retardation_s = 0.0;
-  for (arm::MassOnBeam& mass : arm.masses) {
-    if (mass.suspension) mass.suspension->damping_N_s_per_m = 0.0;
-  }
-  return arm;
-}
-
 bool changes_mass_or_stiffness(const Candidate& candidate, std::size_t effect,
                                const arm::Arm& arm) {
-  const arm::Arm changed = extended(arm, candidate.effects[effect], candidate.values_of(effect));
-  return without_damping(arm::linear_arm(changed)) != without_damping(arm::linear_arm(arm));
+  const auto undamped = [](const arm::Arm& of) {
+    return arm::linear_arm(response::without_damping(of));
+  };
+  return undamped(extended(arm, candidate.effects[effect], candidate.values_of(effect))) !=
+         undamped(arm);
 }
 
 struct RunFit {

@@ -12,7 +12,6 @@ nlohmann::ordered_json bands_json(const diagnose::Symptoms& symptoms);
 nlohmann::ordered_json root_shifts_json(const diagnose::Symptoms& symptoms);
 nlohmann::ordered_json hub_torque_json(const diagnose::Symptoms& symptoms);
 nlohmann::ordered_json distortion_json(const diagnose::Symptoms& symptoms);
-/// Null where no parameter was refitted.
 nlohmann::ordered_json run_consistency_json(const diagnose::RunDrift& drift);
 
 }  // namespace flexarm::report

@@ -37,23 +37,32 @@ double place_along_beam(const Hypothesis& hypothesis, const Places& places) {
   return place ? places[*place] : 0.0;
 }
 
-/// A few values of a hypothesis' parameters, as places in their ranges: over these; of a single
-/// one also near to where it does nothing, where the change is its direction; of many one size.
+constexpr double kMiddle = 0.5;
+const std::vector<double> kSpread = {0.15, kMiddle, 0.85};
+
+/// Places in the range of its one parameter. Beside a value within the range at which it does
+/// nothing: the change there is its direction. Else the middle, and near to where it does nothing.
+std::vector<double> first_places(const SearchedParameter& parameter) {
+  constexpr double kBeside = 0.03;
+  const auto neutral = parameter.neutral_coordinate();
+  if (!neutral) return kSpread;
+  if (*neutral > 0.0 && *neutral < 1.0) {
+    return {*neutral + std::copysign(kBeside, kMiddle - *neutral)};
+  }
+  return {*neutral < kMiddle ? kSpread.front() : kSpread.back(), kMiddle};
+}
+
+/// A few values of a hypothesis' parameters, as places in their ranges: over these, and of several
+/// at one size.
 std::vector<Places> samples_of(const Hypothesis& hypothesis) {
-  constexpr std::size_t kMany = 4;
-  const std::vector<double> spread = {0.15, 0.5, 0.85};
   const std::vector<double> along_beam = {0.1, 0.3, 0.5, 0.7, 0.9};
   const std::size_t n = hypothesis.parameters.size();
   const auto sized = hypothesis.size_parameter();
   std::vector<Places> samples = {{}};
   for (std::size_t i = 0; i < n; ++i) {
-    std::vector<double> places = n > 1 && i == hypothesis.place_parameter() ? along_beam : spread;
-    if (n >= kMany && i == sized) places = {0.5};
-    const double neutral = hypothesis.parameters[i].neutral_coordinate().value_or(0.0);
-    for (const double change : {0.004, -0.03, 0.03}) {
-      const double place = neutral + change;
-      if (n == 1 && neutral > 0.0 && place > 0.0 && place < 1.0) places.push_back(place);
-    }
+    std::vector<double> places = i == hypothesis.place_parameter() ? along_beam : kSpread;
+    if (i == sized) places = {kMiddle};
+    if (n == 1) places = first_places(hypothesis.parameters.front());
     std::vector<Places> longer;
     for (const Places& sample : samples) {
       for (const double place : places) {
@@ -100,17 +109,21 @@ std::vector<double> values_at(const Hypothesis& hypothesis, Places places, doubl
   return effects::values_at(hypothesis.parameters, places);
 }
 
+Places places_of(const Hypothesis& hypothesis, const std::vector<double>& values) {
+  return effects::coordinates_of(hypothesis.parameters, values);
+}
+
 /// Of a law of hub torque with several parameters: the best that a regression on the measured
 /// motion finds beside the base. A few values would miss its period.
-std::optional<Places> scanned_law(const Problem& problem, const Candidate& base,
-                                  const Hypothesis& effect, const SelectionOptions& options,
-                                  const ReportedWork& work) {
+std::optional<Places> scanned_law(const Problem& problem, const Fit& base, const Hypothesis& effect,
+                                  const SelectionOptions& options, const ReportedWork& work) {
   if (effect.parameters.size() < 2) return std::nullopt;
-  const auto law = scan_hub_law(problem, base.with(effect, effect.middle()),
-                                {.evaluations = options.law_evaluations, .work = &work});
+  const auto law = scan_hub_law(
+      problem, base.candidate.with(effect, effect.middle()),
+      {.evaluations = options.law_evaluations, .base_residuals = &base.residuals, .work = &work});
   if (!law) return std::nullopt;
   const Candidate& best = law->starts.front();
-  return effects::coordinates_of(effect.parameters, best.values_of(best.effects.size() - 1));
+  return places_of(effect, best.values_of(best.effects.size() - 1));
 }
 
 /// The score test of one effect beside a fit, value by value.
@@ -141,12 +154,17 @@ class EffectScore {
     const double along = change.dot(left_);
     const double size = std::clamp(along / squares, least, most);
     const double share = size * (2.0 * along - size * squares) / base_.sum_of_squares;
-    Addition& best = best_at_[place_along_beam(effect_, places)];
-    if (best.effect == nullptr || share > best.share) {
-      best = {.effect = &effect_,
-              .values = values_at(effect_, places, size),
-              .values_near_base = values_at(effect_, places, kNear * size),
-              .share = share};
+    const bool has_its_sign = along > 0.0 || least < 0.0;
+    Tried& tried = best_at_[place_along_beam(effect_, places)];
+    if (has_its_sign) {
+      tried.potential = std::max(tried.potential, along * along / squares / base_.sum_of_squares);
+    }
+    if (tried.addition.effect == nullptr || share > tried.addition.share) {
+      tried.size = size;
+      tried.addition = {.effect = &effect_,
+                        .values = values_at(effect_, places, size),
+                        .values_near_base = values_at(effect_, places, kNear * size),
+                        .share = share};
     }
     return true;
   }
@@ -157,7 +175,11 @@ class EffectScore {
   void try_threshold(const std::vector<Places>& samples) {
     constexpr int kBisections = 5;
     std::map<double, bool> changes;
-    for (const Places& places : samples) changes[places.front()] = try_at(places);
+    const auto try_each = [&](double place) { changes[place] = try_at({place}); };
+    for (const Places& places : samples) try_each(places.front());
+    const auto is_idle = [](const auto& tried) { return !tried.second; };
+    if (std::ranges::none_of(changes, is_idle)) return;
+    std::ranges::for_each(kSpread, try_each);
     const auto edge = std::ranges::adjacent_find(
         changes, [](const auto& one, const auto& next) { return one.second != next.second; });
     if (edge == changes.end()) return;
@@ -170,53 +192,100 @@ class EffectScore {
     }
   }
 
+  /// Part of the sum of squares that it explains at whatever size, to first order.
+  double potential() const {
+    double most = 0.0;
+    for (const auto& [place, tried] : best_at_) most = std::max(most, tried.potential);
+    return most;
+  }
+
+  /// At the sizes that lead to, at the best places along the beam: a change is not quite
+  /// proportional to its size.
+  void refine() {
+    constexpr int kSizes = 2;
+    constexpr double kSameSize = 0.1;
+    for (const double place : best_places()) {
+      const Tried& best = best_at_[place];
+      for (int i = 0; i < kSizes && std::abs(best.size - 1.0) > kSameSize; ++i) {
+        try_at(places_of(effect_, best.addition.values));
+      }
+    }
+  }
+
   /// The best, with the starts of the next ones along the beam; without an effect where none
   /// changed anything.
   Addition best() const {
-    std::vector<Addition> sorted;
-    for (const auto& [place, addition] : best_at_) sorted.push_back(addition);
-    if (sorted.empty()) return {};
-    std::ranges::stable_sort(sorted, std::ranges::greater{}, &Addition::share);
-    Addition best = sorted.front();
-    for (std::size_t i = 1; i < std::min(kMostPlaces, sorted.size()); ++i) {
-      best.values_elsewhere.push_back(sorted[i].values);
+    const std::vector<double> places = best_places();
+    if (places.empty()) return {};
+    Addition best = best_at_.at(places.front()).addition;
+    for (std::size_t i = 1; i < places.size(); ++i) {
+      best.values_elsewhere.push_back(best_at_.at(places[i]).addition.values);
     }
     return best;
   }
 
  private:
+  /// At one place along the beam.
+  struct Tried {
+    double potential = 0.0;
+    double size = 0.0;  ///< of `addition`, relative to where it was looked at
+    Addition addition = {};
+  };
+
+  /// <= kMostPlaces along the beam, the best first.
+  std::vector<double> best_places() const {
+    std::vector<double> places;
+    for (const auto& [place, tried] : best_at_) places.push_back(place);
+    std::ranges::stable_sort(places, std::ranges::greater{},
+                             [&](double place) { return best_at_.at(place).addition.share; });
+    places.resize(std::min(kMostPlaces, places.size()));
+    return places;
+  }
+
   const Problem& problem_;
   const Fit& base_;
   const RefitProjection& refitted_;
   const VectorXd& left_;
   const Hypothesis& effect_;
   const ReportedWork& work_;
-  std::map<double, Addition> best_at_ = {};  // by the place along the beam
+  std::map<double, Tried> best_at_ = {};  // by the place along the beam
 };
 
 }  // namespace
 
 std::vector<Addition> additions(const Problem& problem, const Fit& base,
-                                const std::vector<const Hypothesis*>& others,
+                                std::vector<const Hypothesis*> others, std::size_t most,
                                 const SelectionOptions& options, const ReportedWork& work) {
+  constexpr std::size_t kRefined = 2;  // times as many as are asked for
+  std::erase_if(others,
+                [&](const Hypothesis* other) { return base.candidate.has_effect(other->effect); });
   const RefitProjection refitted(base.jacobian);
   const VectorXd left = refitted(base.residuals);
-  const auto of = [&](const Hypothesis& effect) -> Addition {
-    if (base.candidate.has_effect(effect.effect)) return {};
-    EffectScore score(problem, base, refitted, left, effect, work);
-    if (const auto law = scanned_law(problem, base.candidate, effect, options, work)) {
-      score.try_at(*law);
+  std::vector<EffectScore> scores;
+  for (const Hypothesis* other : others) {
+    scores.emplace_back(problem, base, refitted, left, *other, work);
+  }
+  in_parallel(scores.size(), [&](std::size_t i) {
+    const Hypothesis& effect = *others[i];
+    if (const auto law = scanned_law(problem, base, effect, options, work)) {
+      scores[i].try_at(*law);
     } else if (effect.parameters.size() == 1) {
-      score.try_threshold(samples_of(effect));
+      scores[i].try_threshold(samples_of(effect));
     } else {
-      for (const Places& places : samples_of(effect)) score.try_at(places);
+      for (const Places& places : samples_of(effect)) scores[i].try_at(places);
     }
-    return score.best();
-  };
-  std::vector<Addition> made(others.size());
-  in_parallel(others.size(), [&](std::size_t i) { made[i] = of(*others[i]); });
-  std::erase_if(made, [](const Addition& addition) { return addition.effect == nullptr; });
+  });
+  std::vector<EffectScore*> ranked;
+  for (EffectScore& score : scores) ranked.push_back(&score);
+  std::ranges::stable_sort(ranked, std::ranges::greater{}, &EffectScore::potential);
+  ranked.resize(std::min(ranked.size(), kRefined * std::min(most, ranked.size())));
+  in_parallel(ranked.size(), [&](std::size_t i) { ranked[i]->refine(); });
+  std::vector<Addition> made;
+  for (const EffectScore* score : ranked) {
+    if (Addition best = score->best(); best.effect != nullptr) made.push_back(std::move(best));
+  }
   std::ranges::stable_sort(made, std::ranges::greater{}, &Addition::share);
+  made.resize(std::min(most, made.size()));
   return made;
 }
 

@@ -43,6 +43,12 @@ double share_named(const Misfit& simpler, const Misfit& fuller, const SelectionO
   return is_hidden ? 1.0 : share_taken(simpler, fuller);
 }
 
+/// The sum of squares of noise, and what a fit of few steps with few modes may be off by: a tenth.
+double most_of_noise(const Fit& fit) {
+  constexpr double kCoarse = 0.1;
+  return (1.0 + kCoarse) * static_cast<double>(fit.residuals.size());
+}
+
 }  // namespace
 
 std::optional<std::size_t> unidentified_effect(const Candidate& candidate,
@@ -91,10 +97,12 @@ bool is_ahead_of_limit(const Fit& general, const Fit& limited, const SelectionOp
 }
 
 bool is_near(const Fit& set, const Fit& best, const SelectionOptions& options) {
-  constexpr double kCoarse = 0.1;
-  const auto n = static_cast<double>(best.residuals.size());
   return set.sum_of_squares <=
-         (1.0 + kCoarse) * n + options.largest_of_looks * beyond_noise(best.residuals);
+         most_of_noise(best) + options.largest_of_looks * beyond_noise(best.residuals);
+}
+
+bool is_near_noise(const Fit& look) {
+  return look.sum_of_squares <= most_of_noise(look);
 }
 
 const Explanation* simplest(const std::vector<Explanation>& found, std::size_t effects,

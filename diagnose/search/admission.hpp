@@ -41,6 +41,8 @@ bool is_ahead_of_limit(const Fit& general, const Fit& limited, const SelectionOp
 /// set leaves. Near is what is beyond noise by options.largest_of_looks times as much as of the
 /// best, and by a tenth of the noise, which a fit of few steps with few modes may be off by.
 bool is_near(const Fit& set, const Fit& best, const SelectionOptions& options);
+/// A fit leaves what is near to noise in that way.
+bool is_near_noise(const Fit& look);
 
 /// Of the sets of so many effects in `found`, which are sorted by fit, the best, or one with fewer
 /// parameters that it does not clear the bars over; null where there are none.

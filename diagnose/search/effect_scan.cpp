@@ -182,7 +182,7 @@ std::optional<Fit> EffectScan::look_with_limits_values(const Candidate& limited,
 
 double EffectScan::share_of(const Candidate& base, const Hypothesis& other) const {
   const Fit left = coarse_fit(parts_.coarse(), base, work_);
-  const auto found = additions(parts_.coarse(), left, {&other}, options_, work_);
+  const auto found = additions(parts_.coarse(), left, {&other}, 1, options_, work_);
   return found.empty() ? 0.0 : found.front().share;
 }
 
@@ -192,8 +192,7 @@ std::vector<const Hypothesis*> EffectScan::promising(const Candidate& base,
   if (others.size() <= most) return others;
   work_.tell(what, work_.done());
   const Fit left = coarse_fit(parts_.coarse(), base, work_);
-  std::vector<Addition> ranked = additions(parts_.coarse(), left, others, options_, work_);
-  ranked.resize(std::min(most, ranked.size()));
+  const auto ranked = additions(parts_.coarse(), left, std::move(others), most, options_, work_);
   others.clear();
   for (const Addition& addition : ranked) others.push_back(addition.effect);
   return others;

@@ -77,8 +77,13 @@ std::optional<HubLawScan> scan_hub_law(const Problem& problem, const Candidate& 
   const HubLawGrid* grid = laws.grid(law, options.evaluations, options.work);
   if (grid == nullptr) return std::nullopt;
   const Candidate base = start.without(last);
-  const auto all = problem.residuals(base, problem.estimation_runs());
-  if (!all) return std::nullopt;
+  std::optional<Eigen::VectorXd> simulated;
+  const Eigen::VectorXd* all = options.base_residuals;
+  if (all == nullptr) {
+    simulated = problem.residuals(base, problem.estimation_runs());
+    if (!simulated) return std::nullopt;
+    all = &*simulated;
+  }
   const Eigen::VectorXd residuals = laws.residuals(*all);
   std::vector<std::pair<Candidate, double>> found = grid->best(residuals, options.starts);
   auto& [best, least] = found.front();

@@ -20,6 +20,8 @@ struct HubLawScanOptions {
   /// Values tried of a law with 1, 2, 3 parameters or more beside its amplitude and phase.
   std::array<int, 3> evaluations = {};
   int starts = 1;
+  /// Residuals of `start` without the law, where they are known.
+  const Eigen::VectorXd* base_residuals = nullptr;
   const ReportedWork* work = nullptr;  ///< that the scan is part of; asked before each evaluation
 };
 

@@ -43,16 +43,14 @@ double least_beyond_noise(const std::vector<Fit>& sets) {
 void SetSearch::begin(const Candidate& nothing, const std::vector<Candidate>& singles) {
   if (parts_.is_early_shorter()) {
     const Fit before = coarse_fit(parts_.early(), nothing, work_);
-    early_sets_ = larger(parts_.early(), {before}, {.bases = 1}, singles);
+    early_sets_ = larger(parts_.early(), {before}, {.bases = 1}, fitted(parts_.early(), singles));
   }
-  coarse_sets_ = fitted(parts_.coarse(), starts_at(singles));
+  coarse_sets_ = fitted(parts_.coarse(), singles);
 }
 
 void SetSearch::refit() {
-  early_sets_ =
-      fitted(parts_.early(), starts_at(best_of(early_sets_, options_.early_growth.bases)));
-  coarse_sets_ =
-      fitted(parts_.coarse(), starts_at(best_of(coarse_sets_, options_.coarse_growth.bases)));
+  early_sets_ = fitted(parts_.early(), best_of(early_sets_, options_.early_growth.bases));
+  coarse_sets_ = fitted(parts_.coarse(), best_of(coarse_sets_, options_.coarse_growth.bases));
 }
 
 const std::vector<Fit>& SetSearch::grow(std::string_view what, double to) {
@@ -65,7 +63,7 @@ const std::vector<Fit>& SetSearch::grow(std::string_view what, double to) {
     work_.tell(what, from + 0.5 * (to - from));
   }
   const double before = least_beyond_noise(coarse_sets_);
-  coarse_sets_ = larger(parts_.coarse(), coarse_sets_, options_.coarse_growth, std::move(looks));
+  coarse_sets_ = larger_on_coarse(looks, coarse_sets_, options_.coarse_growth);
   share_taken_ = before > 0.0 ? 1.0 - least_beyond_noise(coarse_sets_) / before : 0.0;
   work_.tell(what, to);
   return coarse_sets_;
@@ -79,33 +77,38 @@ double SetSearch::rms_over_noise() const {
 }
 
 std::vector<Fit> SetSearch::beside(const Candidate& base, std::size_t most) const {
-  const auto larger_on = [&](const Problem& part, std::vector<Candidate> starts) {
-    return larger(part, {coarse_fit(part, base, work_)},
-                  {.bases = 1, .special = most, .general = 0}, std::move(starts));
-  };
+  const SetGrowth growth{.bases = 1, .special = most, .general = 0};
   std::vector<Candidate> looks;
-  if (parts_.is_early_shorter()) looks = best_of(larger_on(parts_.early(), {}), most);
-  return larger_on(parts_.coarse(), std::move(looks));
+  if (parts_.is_early_shorter()) {
+    const Fit early = coarse_fit(parts_.early(), base, work_);
+    looks = best_of(larger(parts_.early(), {early}, growth), most);
+  }
+  return larger_on_coarse(looks, {coarse_fit(parts_.coarse(), base, work_)}, growth);
+}
+
+std::vector<Fit> SetSearch::larger_on_coarse(const std::vector<Candidate>& looks,
+                                             const std::vector<Fit>& sets,
+                                             const SetGrowth& growth) const {
+  std::vector<Fit> looked = fitted(parts_.coarse(), looks);
+  if (!looked.empty() && is_near_noise(looked.front())) return looked;
+  return larger(parts_.coarse(), sets, growth, std::move(looked));
 }
 
 std::vector<Fit> SetSearch::larger(const Problem& part, const std::vector<Fit>& sets,
-                                   const SetGrowth& growth, std::vector<Candidate> starts) const {
+                                   const SetGrowth& growth, std::vector<Fit> known) const {
   std::vector<std::vector<Start>> found(std::min(growth.bases, sets.size()));
   in_parallel(found.size(),
               [&](std::size_t i) { found[i] = with_additions(part, sets[i], growth); });
   std::vector<Start> grown;
   for (std::vector<Start>& of_one : found) std::ranges::move(of_one, std::back_inserter(grown));
   std::ranges::stable_sort(grown, {}, &Start::expected);
-  std::set<std::set<std::string>> known;
-  const auto is_known = [&](const Candidate& start) {
-    return !known.insert(start.labels()).second;
-  };
-  std::erase_if(starts, is_known);
-  std::erase_if(grown, [&](const Start& start) { return is_known(start.candidate); });
+  std::set<std::set<std::string>> labels;
+  for (const Fit& set : known) labels.insert(set.candidate.labels());
+  std::erase_if(
+      grown, [&](const Start& start) { return !labels.insert(start.candidate.labels()).second; });
   grown.resize(std::min(growth.fitted, grown.size()));
-  std::vector<Start> all = starts_at(starts);
-  std::ranges::move(grown, std::back_inserter(all));
-  return fitted(part, all);
+  std::ranges::move(fits(part, grown), std::back_inserter(known));
+  return ahead_of_limits(std::move(known));
 }
 
 std::vector<SetSearch::Start> SetSearch::with_additions(const Problem& part, const Fit& set,
@@ -113,9 +116,7 @@ std::vector<SetSearch::Start> SetSearch::with_additions(const Problem& part, con
   std::vector<Start> made;
   const auto add = [&](const std::vector<const Hypothesis*>& effects, std::size_t most) {
     if (most == 0) return;
-    std::vector<Addition> found = additions(part, set, effects, options_, work_);
-    found.resize(std::min(most, found.size()));
-    for (const Addition& addition : found) {
+    for (const Addition& addition : additions(part, set, effects, most, options_, work_)) {
       made.push_back({.candidate = set.candidate.with(*addition.effect, addition.values),
                       .expected = (1.0 - addition.share) * set.sum_of_squares,
                       .near_base = set.candidate.with(*addition.effect, addition.values_near_base),
@@ -130,29 +131,37 @@ std::vector<SetSearch::Start> SetSearch::with_additions(const Problem& part, con
   return made;
 }
 
-std::vector<SetSearch::Start> SetSearch::starts_at(const std::vector<Candidate>& candidates) {
-  std::vector<Start> made;
-  for (const Candidate& candidate : candidates) made.push_back({.candidate = candidate});
+std::vector<Fit> SetSearch::fitted(const Problem& part,
+                                   const std::vector<Candidate>& candidates) const {
+  std::vector<Start> starts;
+  std::set<std::set<std::string>> labels;
+  for (const Candidate& candidate : candidates) {
+    if (labels.insert(candidate.labels()).second) starts.push_back({.candidate = candidate});
+  }
+  return ahead_of_limits(fits(part, starts));
+}
+
+std::vector<Fit> SetSearch::fits(const Problem& part, const std::vector<Start>& starts) const {
+  std::vector<Fit> made(starts.size());
+  in_parallel(starts.size(), [&](std::size_t i) {
+    const Start& start = starts[i];
+    made[i] = coarse_fit(part, start.candidate, work_);
+    const auto try_from = [&](const Candidate& other) {
+      Fit again = coarse_fit(part, other, work_);
+      if (again.sum_of_squares < made[i].sum_of_squares) made[i] = std::move(again);
+    };
+    std::ranges::for_each(start.elsewhere, try_from);
+    if (made[i].sum_of_squares > start.left_by_base) try_from(start.near_base);
+  });
   return made;
 }
 
-std::vector<Fit> SetSearch::fitted(const Problem& part, const std::vector<Start>& starts) const {
-  std::vector<Fit> fits(starts.size());
-  in_parallel(starts.size(), [&](std::size_t i) {
-    const Start& start = starts[i];
-    fits[i] = coarse_fit(part, start.candidate, work_);
-    const auto try_from = [&](const Candidate& other) {
-      Fit again = coarse_fit(part, other, work_);
-      if (again.sum_of_squares < fits[i].sum_of_squares) fits[i] = std::move(again);
-    };
-    std::ranges::for_each(start.elsewhere, try_from);
-    if (fits[i].sum_of_squares > start.left_by_base) try_from(start.near_base);
-  });
-  std::ranges::stable_sort(fits, {}, &Fit::sum_of_squares);
-  std::vector<Fit> sets;
-  std::ranges::copy_if(fits, std::back_inserter(sets),
-                       [&](const Fit& one) { return is_ahead_of_limits(one, fits); });
-  return sets;
+std::vector<Fit> SetSearch::ahead_of_limits(std::vector<Fit> sets) const {
+  std::ranges::stable_sort(sets, {}, &Fit::sum_of_squares);
+  std::vector<Fit> ahead;
+  std::ranges::copy_if(sets, std::back_inserter(ahead),
+                       [&](const Fit& one) { return is_ahead_of_limits(one, sets); });
+  return ahead;
 }
 
 bool SetSearch::is_ahead_of_limits(const Fit& set, const std::vector<Fit>& sets) const {

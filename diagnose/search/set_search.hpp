@@ -65,14 +65,22 @@ class SetSearch {
     double left_by_base = std::numeric_limits<double>::infinity();
   };
 
-  /// `starts`, and of the best of `sets`, each with the effects that it lacks most, those that are
-  /// expected to leave least, fitted to `part`; the best first, each set once.
+  /// `known`, which are fits to `part`, and of the best of `sets`, each with the effects that it
+  /// lacks most, those that are expected to leave least, fitted; the best first, each set once.
   std::vector<Fit> larger(const Problem& part, const std::vector<Fit>& sets,
-                          const SetGrowth& growth, std::vector<Candidate> starts = {}) const;
+                          const SetGrowth& growth, std::vector<Fit> known = {}) const;
+  /// The same on the coarse part, `looks` fitted to it being known. These alone where one of them
+  /// leaves noise: others that do take the place of one of its effects, and are among exchanges.
+  std::vector<Fit> larger_on_coarse(const std::vector<Candidate>& looks,
+                                    const std::vector<Fit>& sets, const SetGrowth& growth) const;
   std::vector<Start> with_additions(const Problem& part, const Fit& set,
                                     const SetGrowth& growth) const;
-  static std::vector<Start> starts_at(const std::vector<Candidate>& candidates);
-  std::vector<Fit> fitted(const Problem& part, const std::vector<Start>& starts) const;
+  /// One a start.
+  std::vector<Fit> fits(const Problem& part, const std::vector<Start>& starts) const;
+  /// Each set once, without those that are not ahead of one with a limit of an effect; the best
+  /// first.
+  std::vector<Fit> fitted(const Problem& part, const std::vector<Candidate>& candidates) const;
+  std::vector<Fit> ahead_of_limits(std::vector<Fit> sets) const;
   bool is_ahead_of_limits(const Fit& set, const std::vector<Fit>& sets) const;
 
   const CoarseProblems& parts_;

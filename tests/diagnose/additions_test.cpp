@@ -25,7 +25,7 @@ class AdditionsToALateArm : public testing::Test {
     const ReportedWork work(progress);
     std::vector<const Hypothesis*> others;
     for (const Hypothesis& hypothesis : hypotheses_) others.push_back(&hypothesis);
-    return additions(problem_, fit(problem_, base), others, {}, work);
+    return additions(problem_, fit(problem_, base), others, others.size(), {}, work);
   }
   double left(const Candidate& candidate) const {
     return problem_.residuals(candidate, problem_.estimation_runs())->squaredNorm();
@@ -77,7 +77,7 @@ std::vector<Addition> additions_of(const Experiment& experiment, const Hypothesi
   const Problem problem(experiment);
   const DiagnosisProgress silent;
   const ReportedWork work(silent);
-  return additions(problem, fit(problem, problem.as_filed()), {&effect}, {}, work);
+  return additions(problem, fit(problem, problem.as_filed()), {&effect}, 1, {}, work);
 }
 
 double largest_torque_N_m(const measured::MeasuredRun& run) {

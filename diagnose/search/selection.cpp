@@ -314,10 +314,10 @@ class Search {
           const Candidate rest = chosen.without(other);
           const std::size_t index = other < i ? i - 1 : i;
           if (fits_.scan().share_of(rest.without(index), *general) < options_.least_share) continue;
-          const Explanation merged = replacements_.replaced(made, rest, index, *general);
-          if (!merged.leaves_noise() || !may_be_named(merged, made.nothing)) continue;
-          if (lead(made.chosen, merged) >= options_.least_information_gain) continue;
-          made.chosen = merged;
+          const auto merged = replacements_.replaced_near_noise(made, rest, index, *general);
+          if (!merged || !merged->leaves_noise() || !may_be_named(*merged, made.nothing)) continue;
+          if (lead(made.chosen, *merged) >= options_.least_information_gain) continue;
+          made.chosen = *merged;
           return;
         }
       }

@@ -146,11 +146,11 @@ struct SelectionOptions {
 
   // Sets of several effects (set_search.hpp).
   /// On the early part of the data,
-  SetGrowth early_growth = {.bases = 8, .special = 8, .general = 3};
+  SetGrowth early_growth = {.bases = 8, .special = 8, .general = 3, .fitted = 32};
   /// of these refitted to the coarse part <= this;
   std::size_t early_sets = 12;
   /// on the coarse part;
-  SetGrowth coarse_growth = {.bases = 4, .special = 5, .general = 2, .fitted = 16};
+  SetGrowth coarse_growth = {.bases = 4, .special = 5, .general = 2, .fitted = 10};
   /// and of all refitted to all data.
   std::size_t sets_refitted = 6;
   /// Sets of more effects than this are tried where the last one took least_share_ahead.

@@ -4,6 +4,9 @@
 #include "diagnose/search/set_search.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
 #include <utility>
 
 namespace flexarm::diagnose {
@@ -44,19 +47,42 @@ void SetFits::add_beside(const Candidate& base, const std::vector<const Hypothes
 void SetFits::add_near(std::vector<Fit> looks, std::size_t most, std::string_view what, double to,
                        std::vector<Explanation>& found) {
   looks.resize(std::min(most, looks.size()));
-  if (!looks.empty()) {
-    const Fit best = looks.front();
-    std::erase_if(looks, [&](const Fit& look) { return !is_near(look, best, options_); });
-  }
+  if (looks.empty()) return;
+  const Fit best = looks.front();
+  std::erase_if(looks, [&](const Fit& look) {
+    const auto known = find_set(found, look.candidate);
+    return !is_near(look, best, options_) || (known != found.end() && known->leaves_noise());
+  });
+  const auto has_more_parameters = [&](const Fit& look) {
+    return look.candidate.values.size() > best.candidate.values.size();
+  };
+  const auto more = std::ranges::stable_partition(looks, std::not_fn(has_more_parameters));
+  const std::vector<Fit> others(more.begin(), more.end());
+  looks.erase(more.begin(), more.end());
   add_looks(looks, what, to, found);
+  add_looks(others, what, to, found);
+}
+
+double SetFits::highest_of_use(const Candidate& set, const std::vector<Explanation>& found) const {
+  constexpr double kDecisive = 4.0;  // times as much: odds of e^20
+  const auto best = std::ranges::find_if(found, [&](const Explanation& other) {
+    return other.leaves_noise() && other.fit.candidate.effects.size() == set.effects.size();
+  });
+  if (best == found.end()) return std::numeric_limits<double>::infinity();
+  const double more = static_cast<double>(set.values.size()) -
+                      static_cast<double>(best->fit.candidate.values.size());
+  return best->fit.sum_of_squares - more * std::log(best->estimation.independent) +
+         kDecisive * options_.least_information_gain;
 }
 
 void SetFits::add_looks(const std::vector<Fit>& looks, std::string_view what, double to,
                         std::vector<Explanation>& found) {
   std::vector<std::string> sets;
   for (const Fit& look : looks) sets.push_back(look.candidate.label());
-  add_all(std::move(sets), what, to, found,
-          [&](std::size_t i) { return Start{looks[i].candidate}; });
+  const std::vector<Explanation> before = found;
+  add_all(std::move(sets), what, to, found, [&](std::size_t i) {
+    return Start{looks[i].candidate, highest_of_use(looks[i].candidate, before)};
+  });
 }
 
 void SetFits::add_all(std::vector<std::string> sets, std::string_view what, double to,

@@ -53,7 +53,8 @@ class SetFits {
                   std::string_view what, double to, const Tried& tried,
                   std::vector<Explanation>& found);
   /// Adds to `found` looks, which are sorted by fit, fitted to all data: `most` or less that come
-  /// near the best (is_near).
+  /// near the best (is_near), and are not in `found` leaving noise. Those with more parameters than
+  /// the best look are fitted behind the others, as far as they may be of use (highest_of_use).
   void add_near(std::vector<Fit> looks, std::size_t most, std::string_view what, double to,
                 std::vector<Explanation>& found);
 
@@ -78,6 +79,10 @@ class SetFits {
  private:
   void add_looks(const std::vector<Fit>& looks, std::string_view what, double to,
                  std::vector<Explanation>& found);
+  /// The sum of squares above which a set is out of the question beside one of as many effects in
+  /// `found` that leaves noise: with its parameters it would be worse by four times
+  /// options.least_information_gain. Infinite where there is none.
+  double highest_of_use(const Candidate& set, const std::vector<Explanation>& found) const;
   Explanation without_unidentified(Explanation set) const;
   void keep(std::vector<std::optional<Explanation>> made, std::vector<Explanation>& found);
 

@@ -13,7 +13,24 @@ Explanation SetReplacements::replaced(Selection& made, const Candidate& candidat
   auto& kept = made.sets_like(candidate);
   const auto same = find_set(kept, candidate.without(index).with(other, other.middle()));
   if (same != kept.end()) return *same;
-  Explanation found = fits_.fitted(fits_.scan().look_in_place(candidate, index, other).candidate);
+  return fitted_and_kept(kept, fits_.scan().look_in_place(candidate, index, other));
+}
+
+std::optional<Explanation> SetReplacements::replaced_near_noise(Selection& made,
+                                                                const Candidate& candidate,
+                                                                std::size_t index,
+                                                                const Hypothesis& other) const {
+  auto& kept = made.sets_like(candidate);
+  const auto same = find_set(kept, candidate.without(index).with(other, other.middle()));
+  if (same != kept.end()) return *same;
+  const Fit look = fits_.scan().look_in_place(candidate, index, other);
+  if (!is_near_noise(look)) return std::nullopt;
+  return fitted_and_kept(kept, look);
+}
+
+Explanation SetReplacements::fitted_and_kept(std::vector<Explanation>& kept,
+                                             const Fit& look) const {
+  Explanation found = fits_.fitted(look.candidate);
   kept.push_back(found);
   sort_by_fit(kept);
   return found;

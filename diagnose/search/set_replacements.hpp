@@ -23,6 +23,9 @@ class SetReplacements {
   /// now and kept.
   Explanation replaced(Selection& made, const Candidate& candidate, std::size_t index,
                        const Hypothesis& other) const;
+  /// The same; empty where the set, not fitted before, is far from noise on the coarse part.
+  std::optional<Explanation> replaced_near_noise(Selection& made, const Candidate& candidate,
+                                                 std::size_t index, const Hypothesis& other) const;
   /// `candidate` without one of its effects, fitted from its values; where `made` has ended, as it
   /// was fitted before, if it was.
   Explanation without(Selection& made, const Candidate& candidate, std::size_t index) const;
@@ -40,6 +43,8 @@ class SetReplacements {
   Explanation needed(const Explanation& explanation) const;
 
  private:
+  Explanation fitted_and_kept(std::vector<Explanation>& kept, const Fit& look) const;
+
   const std::vector<Hypothesis>& hypotheses_;
   const SelectionOptions& options_;
   const SetFits& fits_;

@@ -24,6 +24,16 @@ std::vector<Candidate> best_of(const std::vector<Fit>& sets, std::size_t most) {
   return best;
 }
 
+/// Of fits to the early part those that the coarse part is to be asked for: where one leaves noise,
+/// those that do.
+std::vector<Candidate> looks_of(const std::vector<Fit>& early, std::size_t most) {
+  std::vector<Fit> asked = early;
+  if (!early.empty() && is_near_noise(early.front())) {
+    std::erase_if(asked, [](const Fit& fit) { return !is_near_noise(fit); });
+  }
+  return best_of(asked, most);
+}
+
 /// `limited` is `general` with a limit of one of its effects in place of that.
 bool has_limit_in_place(const Candidate& limited, const Candidate& general) {
   if (!is_rival(limited, general)) return false;
@@ -43,7 +53,9 @@ double least_beyond_noise(const std::vector<Fit>& sets) {
 void SetSearch::begin(const Candidate& nothing, const std::vector<Candidate>& singles) {
   if (parts_.is_early_shorter()) {
     const Fit before = coarse_fit(parts_.early(), nothing, work_);
-    early_sets_ = larger(parts_.early(), {before}, {.bases = 1}, fitted(parts_.early(), singles));
+    early_sets_ =
+        larger(parts_.early(), {before}, {.bases = 1, .fitted = options_.early_growth.fitted},
+               fitted(parts_.early(), singles));
   }
   coarse_sets_ = fitted(parts_.coarse(), singles);
 }
@@ -59,7 +71,7 @@ const std::vector<Fit>& SetSearch::grow(std::string_view what, double to) {
   std::vector<Candidate> looks;
   if (parts_.is_early_shorter()) {
     early_sets_ = larger(parts_.early(), early_sets_, options_.early_growth);
-    looks = best_of(early_sets_, options_.early_sets);
+    looks = looks_of(early_sets_, options_.early_sets);
     work_.tell(what, from + 0.5 * (to - from));
   }
   const double before = least_beyond_noise(coarse_sets_);
@@ -81,7 +93,7 @@ std::vector<Fit> SetSearch::beside(const Candidate& base, std::size_t most) cons
   std::vector<Candidate> looks;
   if (parts_.is_early_shorter()) {
     const Fit early = coarse_fit(parts_.early(), base, work_);
-    looks = best_of(larger(parts_.early(), {early}, growth), most);
+    looks = looks_of(larger(parts_.early(), {early}, growth), most);
   }
   return larger_on_coarse(looks, {coarse_fit(parts_.coarse(), base, work_)}, growth);
 }

@@ -3,6 +3,7 @@
 #include "diagnose/parallel.hpp"
 #include "diagnose/search/additions.hpp"
 #include "diagnose/search/linear_refit.hpp"
+#include "diagnose/search/misfit.hpp"
 #include "diagnose/search/scan.hpp"
 
 #include <algorithm>
@@ -74,11 +75,19 @@ Fit EffectScan::first_look(const Candidate& base, const Hypothesis& other) const
     // Simulated once, so that it can be compared with other looks.
     return fit(parts_.coarse(), law->starts.front(), {.most_steps = 0, .work = &work_});
   }
-  Fit look = best_look(parts_.coarse(), start, law);
-  if (other.parameters.size() == 1 || !parts_.is_early_shorter()) return look;
+  if (other.parameters.size() == 1 || !parts_.is_early_shorter()) {
+    return best_look(parts_.coarse(), start, law);
+  }
   const Fit at_first = best_look(parts_.early(), start, early_law);
   Fit from_there = coarse_fit(parts_.coarse(), at_first.candidate, work_);
+  if (!law && shows_early(base, at_first)) return from_there;
+  Fit look = best_look(parts_.coarse(), start, law);
   return from_there.sum_of_squares < look.sum_of_squares ? from_there : look;
+}
+
+bool EffectScan::shows_early(const Candidate& base, const Fit& at_first) const {
+  const double before = beyond_noise(early_look(base).residuals);
+  return beyond_noise(at_first.residuals) <= (1.0 - options_.least_share) * before;
 }
 
 std::optional<HubLawScan> EffectScan::hub_law_scan(const Problem& problem,

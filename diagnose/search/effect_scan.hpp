@@ -34,9 +34,10 @@ class EffectScan {
 
   /// `base` refitted to the part of the data, its uncertain numbers from a scan of them too.
   Fit first_look(const Candidate& base) const;
-  /// `base` with `other`: a scan of that, then all refitted to the part of the data. A law of hub
-  /// torque that is scanned by regression and explains less than options.least_law_share stays as
-  /// the scan left it.
+  /// `base` with `other`: a scan of that, then all refitted to the part of the data. An effect of
+  /// several parameters that explains options.least_share of the early part is scanned on that
+  /// alone. A law of hub torque that is scanned by regression and explains less than
+  /// options.least_law_share stays as the scan left it.
   Fit first_look(const Candidate& base, const Hypothesis& other) const;
   /// `base` with `other` on the early part alone, and a candidate refitted to that.
   Fit early_look(const Candidate& base, const Hypothesis& other) const;
@@ -56,6 +57,8 @@ class EffectScan {
   std::optional<double> share_of_law(const Candidate& base, const Hypothesis& other) const;
 
  private:
+  /// `at_first`, on the early part, leaves little of what `base` leaves there.
+  bool shows_early(const Candidate& base, const Fit& at_first) const;
   std::optional<HubLawScan> hub_law_scan(const Problem& problem, const Candidate& start) const;
   /// From the places of the law's scan; without a law, of a scan of the last effect of `start`.
   Fit best_look(const Problem& part, const Candidate& start,

@@ -23,7 +23,11 @@ std::optional<Explanation> SetReplacements::replaced_near_noise(Selection& made,
   auto& kept = made.sets_like(candidate);
   const auto same = find_set(kept, candidate.without(index).with(other, other.middle()));
   if (same != kept.end()) return *same;
-  const Fit look = fits_.scan().look_in_place(candidate, index, other);
+  const EffectScan& scan = fits_.scan();
+  const bool is_far_early = fits_.parts().is_early_shorter() &&
+                            !is_near_noise(scan.early_look(candidate.without(index), other));
+  if (is_far_early) return std::nullopt;
+  const Fit look = scan.look_in_place(candidate, index, other);
   if (!is_near_noise(look)) return std::nullopt;
   return fitted_and_kept(kept, look);
 }

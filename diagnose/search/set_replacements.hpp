@@ -23,7 +23,7 @@ class SetReplacements {
   /// now and kept.
   Explanation replaced(Selection& made, const Candidate& candidate, std::size_t index,
                        const Hypothesis& other) const;
-  /// The same; empty where the set, not fitted before, is far from noise on the coarse part.
+  /// The same; empty where the set, not fitted before, is far from noise on a part of the data.
   std::optional<Explanation> replaced_near_noise(Selection& made, const Candidate& candidate,
                                                  std::size_t index, const Hypothesis& other) const;
   /// `candidate` without one of its effects, fitted from its values; where `made` has ended, as it

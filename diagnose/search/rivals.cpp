@@ -14,6 +14,15 @@ bool is_rival(const Candidate& one, const Candidate& other) {
   return one.effects.size() == other.effects.size() && shared + 1 == std::ssize(one.effects);
 }
 
+bool has_limit_in_place(const Candidate& limited, const Candidate& general) {
+  if (!is_rival(limited, general)) return false;
+  const auto own = std::ranges::find_if_not(
+      general.effects, [&](const Hypothesis& effect) { return limited.has(effect); });
+  return std::ranges::any_of(limited.effects, [&](const Hypothesis& effect) {
+    return !general.has(effect) && own->contains(effect.effect);
+  });
+}
+
 std::vector<Rival> rivals_of(const Hypothesis& cause, const Selection& selection,
                              const Posterior& posterior) {
   std::vector<Rival> found;
@@ -65,10 +74,17 @@ Posterior posterior_of(const Selection& selection, const SelectionOptions& optio
              return explanation.fit.candidate.has_effect(drift.effect);
            });
   };
-  if (is_new(selection.chosen)) sets.push_back(&selection.chosen);
+  const Explanation& chosen = selection.chosen;
+  const auto adds_nothing = [&](const Explanation& explanation) {
+    return chosen.leaves_noise() &&
+           has_limit_in_place(chosen.fit.candidate, explanation.fit.candidate) &&
+           !clears_bars(explanation, chosen, options);
+  };
+  if (is_new(chosen)) sets.push_back(&chosen);
   for (const auto* found : {&selection.singles, &selection.combinations}) {
     for (const Explanation& explanation : *found) {
-      if (is_inconsistent(explanation) || !is_identified(explanation)) continue;
+      if (is_inconsistent(explanation) || adds_nothing(explanation)) continue;
+      if (!is_identified(explanation)) continue;
       if (is_new(explanation)) sets.push_back(&explanation);
     }
   }

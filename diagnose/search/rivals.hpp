@@ -19,6 +19,9 @@ struct Rival {
 /// One that has another effect in the place of one of the other's.
 bool is_rival(const Candidate& one, const Candidate& other);
 
+/// `limited` is `general` with a limit of one of its effects in place of that.
+bool has_limit_in_place(const Candidate& limited, const Candidate& general);
+
 /// The rivals of a cause among the sets that were fitted, the nearest first; one that has the cause
 /// as a limit is none. Pointers are into `selection`.
 std::vector<Rival> rivals_of(const Hypothesis& cause, const Selection& selection,
@@ -31,8 +34,10 @@ std::vector<Explanation> indistinguishable_sets(const Selection& selection,
 /// Rivals of odds <= this are indistinguishable from the cause.
 inline constexpr double kIndistinguishableOdds = 20.0;
 
-/// Of the sets that were fitted: no cause, singles, combinations, the chosen one; not those that
-/// leave no noise and have an effect of `selection.inconsistent`.
+/// Of the sets that were fitted: no cause, singles, combinations, the chosen one. Not those that
+/// leave no noise and have an effect of `selection.inconsistent`. Where the chosen one leaves
+/// noise, not those with a general effect in place of its limit there that do not clear the bars
+/// over it: they are the chosen one with a parameter that is not needed.
 Posterior posterior_of(const Selection& selection, const SelectionOptions& options);
 
 /// That this cause, or one of its `rivals` that is indistinguishable from it, is there. A rival

@@ -185,34 +185,37 @@ class Search {
     if (!is_enough(made) && try_sets(made) && !is_enough(made)) add_cause(made);
   }
 
-  /// Sets of two effects, of three and of more; the best is chosen, with each of its effects
-  /// exchanged. False where sets of two are so far from noise that the search is to end.
+  /// Sets of two effects, of three and of more, as long as the last effect takes enough; the best
+  /// is chosen, with each of its effects exchanged. Returns whether one more beside those that are
+  /// chosen has not been tried yet, and may be of use.
   bool try_sets(Selection& made) {
     const std::vector<Candidate> singles = candidates_of(made.singles);
     // Of larger sets those with the best so far are told as untried: the others are not known yet.
-    const Candidate& leading = singles.empty() ? made.nothing.fit.candidate : singles.front();
-    fits_.leave_untried(labels_with(leading, general_.others()));
+    const Explanation single = made.singles.empty() ? made.nothing : made.singles.front();
+    fits_.leave_untried(labels_with(single.fit.candidate, general_.others()));
     SetSearch search(fits_.parts(), general_.others(), general_.all(), options_, work_);
     work_.tell(kSets, work_.done());
-    fits_.lengthen_parts(made.singles.empty() ? made.nothing : made.singles.front());
+    fits_.lengthen_parts(single);
     search.begin(made.nothing.fit.candidate, singles);
     std::optional<Explanation> last;
-    for (std::size_t size = 2; has_room_beside(size - 1) && !is_enough(made); ++size) {
+    bool is_ahead = true;
+    std::size_t size = 1;
+    while (is_ahead && has_room_beside(size) && !is_enough(made)) {
+      ++size;
       if (last) fits_.leave_untried(labels_with(last->fit.candidate, general_.others()));
       const std::vector<Fit>& grown = search.grow(kSets, halfway());
       if (size == 2 && search.rms_over_noise() > options_.largest_of_pairs) return false;
       fits_.add_near(grown, options_.sets_refitted, kSets, halfway(), made.combinations);
-      bool is_ahead = search.share_taken() >= options_.least_share_ahead;
+      is_ahead = search.share_taken() >= options_.least_share_ahead;
       // Where no set of this size is identified, a larger one may be.
       const Explanation* const largest = best_of_size(made, size, last);
       if (largest != nullptr) {
         revision_.colour_noise_beside(made, *largest);
         const Explanation best = replacements_.specialised(made, *best_of_size(made, size, last));
         choose_needed(made, best);
-        is_ahead = is_ahead || !last || is_worth_another(best, *last);
+        is_ahead = is_ahead || is_worth_another(best, last.value_or(single));
         last = best;
       }
-      if (size >= options_.tried_set_size && !is_ahead) break;
       if (last && fits_.lengthen_parts(*last)) search.refit();
     }
     if (made.chosen.fit.candidate.effects.size() > 1) {
@@ -221,8 +224,10 @@ class Search {
         choose(made, std::move(better));
       }
     }
-    if (last && !is_enough(made)) try_in_coloured_noise(made, exchanged(made, *last));
-    return true;
+    if (last && !is_enough(made)) {
+      try_in_coloured_noise(made, is_ahead ? exchanged(made, *last) : *last);
+    }
+    return made.chosen.fit.candidate.effects.size() >= size;
   }
 
   /// The simplest set of `size` effects; one with an effect less where that fits as well and the

@@ -34,16 +34,6 @@ std::vector<Candidate> looks_of(const std::vector<Fit>& early, std::size_t most)
   return best_of(asked, most);
 }
 
-/// `limited` is `general` with a limit of one of its effects in place of that.
-bool has_limit_in_place(const Candidate& limited, const Candidate& general) {
-  if (!is_rival(limited, general)) return false;
-  const auto own = std::ranges::find_if_not(
-      general.effects, [&](const Hypothesis& effect) { return limited.has(effect); });
-  return std::ranges::any_of(limited.effects, [&](const Hypothesis& effect) {
-    return !general.has(effect) && own->contains(effect.effect);
-  });
-}
-
 double least_beyond_noise(const std::vector<Fit>& sets) {
   return sets.empty() ? 0.0 : beyond_noise(sets.front().residuals);
 }

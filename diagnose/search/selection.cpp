@@ -208,12 +208,14 @@ class Search {
       fits_.add_near(grown, options_.sets_refitted, kSets, halfway(), made.combinations);
       is_ahead = search.share_taken() >= options_.least_share_ahead;
       // Where no set of this size is identified, a larger one may be.
-      const Explanation* const largest = best_of_size(made, size, last);
+      const Explanation smaller = last.value_or(single);
+      const Explanation* const largest = best_of_size(made, size, smaller);
       if (largest != nullptr) {
         revision_.colour_noise_beside(made, *largest);
-        const Explanation best = replacements_.specialised(made, *best_of_size(made, size, last));
+        const Explanation best =
+            replacements_.specialised(made, *best_of_size(made, size, smaller));
         choose_needed(made, best);
-        is_ahead = is_ahead || is_worth_another(best, last.value_or(single));
+        is_ahead = is_ahead || is_worth_another(best, smaller);
         last = best;
       }
       if (last && fits_.lengthen_parts(*last)) search.refit();
@@ -233,10 +235,10 @@ class Search {
   /// The simplest set of `size` effects; one with an effect less where that fits as well and the
   /// search has found it only now, better than `last`.
   const Explanation* best_of_size(const Selection& made, std::size_t size,
-                                  const std::optional<Explanation>& last) const {
+                                  const Explanation& last) const {
     const Explanation* const largest = simplest(made.combinations, size, options_);
     const Explanation* const smaller = simplest(made.combinations, size - 1, options_);
-    if (smaller == nullptr || !last || lead(*smaller, *last) < options_.least_information_gain) {
+    if (smaller == nullptr || lead(*smaller, last) < options_.least_information_gain) {
       return largest;
     }
     const bool is_needed =
@@ -361,14 +363,16 @@ class Search {
     return std::nullopt;
   }
 
-  /// One by itself at other values than its scan found: to be combined anew.
+  /// One by itself that its scan did not find, or at other values: to be combined anew.
   void replace_single(Selection& made, const Explanation& better) {
-    const Hypothesis& effect = better.fit.candidate.effects.front();
-    for (Explanation& single : made.singles) {
-      if (single.fit.candidate.has(effect)) single = better;
+    const auto known = find_set(made.singles, better.fit.candidate);
+    if (known != made.singles.end()) {
+      *known = better;
+    } else {
+      made.singles.push_back(better);
     }
     sort_by_fit(made.singles);
-    combined_.erase({effect.label()});
+    combined_.erase(better.fit.candidate.labels());
   }
 
   /// `base` with any other special effect, among the combinations; nothing where these are there.

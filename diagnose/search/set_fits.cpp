@@ -115,8 +115,7 @@ void SetFits::leave_untried(const std::vector<std::string>& sets) {
 
 /// An effect that the others do not need may have led the fit to their values.
 Explanation SetFits::without_unidentified(Explanation set) const {
-  constexpr std::size_t kLeast = 2;
-  while (set.fit.candidate.effects.size() > kLeast) {
+  while (set.fit.candidate.effects.size() > 1) {
     const auto unidentified = unidentified_effect(set);
     if (!unidentified) break;
     set = fitted(set.fit.candidate.without(*unidentified));

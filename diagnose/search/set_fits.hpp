@@ -64,9 +64,9 @@ class SetFits {
     double highest_minimum = std::numeric_limits<double>::infinity();
   };
   /// Fits start(i) for the i-th of `sets`, which are their labels, and adds those that are
-  /// identified, and come below start(i).highest_minimum, to `found`, the best first. Sets of more
-  /// than two effects are added without those that are not identified. Of the same set, begun from
-  /// another, the better stays. Where start(i) is empty, that set needs no fit.
+  /// identified, and come below start(i).highest_minimum, to `found`, the best first. Sets of several
+  /// effects are added without those that are not identified. Of the same set, begun from another,
+  /// the better stays. Where start(i) is empty, that set needs no fit.
   void add_all(std::vector<std::string> sets, std::string_view what, double to,
                std::vector<Explanation>& found,
                const std::function<std::optional<Start>(std::size_t)>& start);

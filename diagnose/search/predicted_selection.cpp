@@ -32,9 +32,9 @@ constexpr int kMostFilteredModes = 6;
 /// catalogue's density, or of an inertia from a drawing.
 constexpr double kAssumedUncertainty = 0.1;
 /// Of a search beside refitted numbers, of which only what leaves noise is reported
-/// (SelectionOptions::largest_of_pairs). In three blind trials of three effects the best two left
-/// 1.4 to 3.9; in recordings of rigs that no set explains, 115 to 4100.
-constexpr double kLargestOfPairs = 30.0;
+/// (SelectionOptions::largest_of_pairs). In four blind trials of three effects the best two left
+/// 1.4 to 7.1; in recordings of rigs that no set explains, 115 to 4100.
+constexpr double kLargestOfPairs = 15.0;
 
 bool shows_hub(const measured::TimeRecord& record) {
   return std::ranges::any_of(

@@ -182,7 +182,17 @@ class Search {
     // not.
     if (!single.leaves_noise()) revision_.correct_timing(made);
     if (!is_enough(made)) choose(made, single);
-    if (!is_enough(made) && try_sets(made) && !is_enough(made)) add_cause(made);
+    if (is_enough(made) || !may_sets_explain(made)) return;
+    if (try_sets(made) && !is_enough(made)) add_cause(made);
+  }
+
+  /// Laws of hub torque add up in the torque that is missing from a balance: of several that
+  /// explain it one explains a part by itself.
+  bool may_sets_explain(const Selection& made) const {
+    const Misfit& before = made.nothing.estimation;
+    return !before.disturbance || std::ranges::any_of(made.singles, [&](const Explanation& single) {
+      return share_taken(before, single.estimation) >= options_.least_share_ahead;
+    });
   }
 
   /// Sets of two effects, of three and of more, as long as the last effect takes enough; the best
@@ -205,7 +215,9 @@ class Search {
       if (last) fits_.leave_untried(labels_with(last->fit.candidate, general_.others()));
       const std::vector<Fit>& grown = search.grow(kSets, halfway());
       if (size == 2 && search.rms_over_noise() > options_.largest_of_pairs) return false;
-      fits_.add_near(grown, options_.sets_refitted, kSets, halfway(), made.combinations);
+      const bool is_near = !grown.empty() && is_near_noise(grown.front());
+      fits_.add_near(grown, is_near ? options_.sets_refitted : options_.far_sets_refitted, kSets,
+                     halfway(), made.combinations);
       is_ahead = search.share_taken() >= options_.least_share_ahead;
       // Where no set of this size is identified, a larger one may be.
       const Explanation smaller = last.value_or(single);

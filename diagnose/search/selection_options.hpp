@@ -153,8 +153,9 @@ struct SelectionOptions {
   std::size_t early_sets = 12;
   /// on the coarse part;
   SetGrowth coarse_growth = {.bases = 4, .special = 5, .general = 2, .fitted = 10};
-  /// and of all refitted to all data.
+  /// and of all refitted to all data, where the best leaves noise there and where it does not.
   std::size_t sets_refitted = 6;
+  std::size_t far_sets_refitted = 2;
   /// Effects beside those that are chosen, or in place of one of them,
   Tried effects_beside = {.looks = 10, .refitted = 5};
   /// and general ones in place of one of several causes.

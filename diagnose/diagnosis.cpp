@@ -259,6 +259,7 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
   made.notices = experiment.notices;
   made.accepted = experiment.accepted;
   made.search_end = selection.end;
+  made.ruled_out = selection.ruled_out;
   made.cancelled = selection.cancelled;
   if (made.cancelled) return made;
   made.predictor = predicted.predictor;

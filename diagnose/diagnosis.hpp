@@ -94,6 +94,7 @@ struct Diagnosis {
   std::vector<std::string> excluded;      ///< effects that whoever asked left out of the search
   std::optional<double> time_limit_s;     ///< as asked for
   std::optional<SearchEnd> search_end;    ///< where the time limit ended the search
+  std::vector<RuledOut> ruled_out;        ///< effects that a look at a part of the data ruled out
   std::vector<AcceptedFinding> accepted;  ///< of the experiment
   bool cancelled = false;
 };

@@ -136,6 +136,14 @@ bool is_out_of_reach(const Explanation& nothing, const std::vector<Explanation>&
                              [&](const Explanation& single) { return runs_away(single, options); });
 }
 
+bool may_sets_explain(const Explanation& nothing, const std::vector<Explanation>& singles,
+                      const SelectionOptions& options) {
+  return !nothing.estimation.disturbance ||
+         std::ranges::any_of(singles, [&](const Explanation& single) {
+           return share_taken(nothing.estimation, single.estimation) >= options.least_share_ahead;
+         });
+}
+
 std::vector<LimitOfEffect> limits_in(const Candidate& candidate,
                                      const std::vector<Hypothesis>& hypotheses) {
   std::vector<LimitOfEffect> found;

@@ -59,6 +59,11 @@ bool runs_away(const Explanation& explanation, const SelectionOptions& options);
 bool is_out_of_reach(const Explanation& nothing, const std::vector<Explanation>& singles,
                      const SelectionOptions& options);
 
+/// Laws of hub torque add up in the torque that is missing from a balance: of several that explain
+/// it one explains options.least_share_ahead by itself. Else sets may explain what no single does.
+bool may_sets_explain(const Explanation& nothing, const std::vector<Explanation>& singles,
+                      const SelectionOptions& options);
+
 /// An effect of a candidate that has an effect of `hypotheses` as a limit, and that limit.
 struct LimitOfEffect {
   std::size_t effect = 0;  ///< index of Candidate::effects

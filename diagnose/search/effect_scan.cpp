@@ -38,6 +38,11 @@ double larger_share(const HubLawScan& law, const std::optional<HubLawScan>& earl
 
 }  // namespace
 
+double explained_share(const Fit& before, const Fit& after) {
+  const double left = beyond_noise(after.residuals) / beyond_noise(before.residuals);
+  return std::clamp(1.0 - left, 0.0, 1.0);
+}
+
 std::vector<Fit> EffectScan::first_looks(const Candidate& base,
                                          const std::vector<const Hypothesis*>& others,
                                          std::string_view what, double from, double to) {
@@ -80,14 +85,10 @@ Fit EffectScan::first_look(const Candidate& base, const Hypothesis& other) const
   }
   const Fit at_first = best_look(parts_.early(), start, early_law);
   Fit from_there = coarse_fit(parts_.coarse(), at_first.candidate, work_);
-  if (!law && shows_early(base, at_first)) return from_there;
+  if (!law && explained_share(early_look(base), at_first) >= options_.least_share)
+    return from_there;
   Fit look = best_look(parts_.coarse(), start, law);
   return from_there.sum_of_squares < look.sum_of_squares ? from_there : look;
-}
-
-bool EffectScan::shows_early(const Candidate& base, const Fit& at_first) const {
-  const double before = beyond_noise(early_look(base).residuals);
-  return beyond_noise(at_first.residuals) <= (1.0 - options_.least_share) * before;
 }
 
 std::optional<HubLawScan> EffectScan::hub_law_scan(const Problem& problem,

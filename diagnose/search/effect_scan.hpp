@@ -12,6 +12,10 @@
 
 namespace flexarm::diagnose {
 
+/// Of the excess residual that one fit leaves, the part that another one to the same data does not,
+/// 0 to 1.
+double explained_share(const Fit& before, const Fit& after);
+
 /// The first look at effects: scans over their whole ranges on a part of the data with few modes.
 /// Throws Cancelled where the work is cancelled.
 class EffectScan {
@@ -57,8 +61,6 @@ class EffectScan {
   std::optional<double> share_of_law(const Candidate& base, const Hypothesis& other) const;
 
  private:
-  /// `at_first`, on the early part, leaves little of what `base` leaves there.
-  bool shows_early(const Candidate& base, const Fit& at_first) const;
   std::optional<HubLawScan> hub_law_scan(const Problem& problem, const Candidate& start) const;
   /// From the places of the law's scan; without a law, of a scan of the last effect of `start`.
   Fit best_look(const Problem& part, const Candidate& start,

@@ -48,8 +48,15 @@ void GeneralEffects::try_by_themselves(Selection& made, std::string_view what, d
   std::optional<LeastSums> least;
   std::vector<const Hypothesis*> waiting = worth_trying(special);  // for try_each
   const auto try_each = [&](const std::vector<const Hypothesis*>& tried) {
-    fits_.add_all(labels_with(none, tried), what, to, made.singles,
-                  [&](std::size_t i) { return near_look(none, special, least, *tried[i]); });
+    std::vector<double> shares(tried.size(), -1.0);  // of those that need no fit
+    fits_.add_all(labels_with(none, tried), what, to, made.singles, [&](std::size_t i) {
+      auto start = near_look(none, special, least, *tried[i], shares[i]);
+      if (start) shares[i] = -1.0;
+      return start;
+    });
+    for (std::size_t i = 0; i < tried.size(); ++i) {
+      if (shares[i] >= 0.0) made.ruled_out.push_back({tried[i]->label(), shares[i]});
+    }
   };
   try {
     if (!waiting.empty()) least = least_sums(special);
@@ -59,7 +66,10 @@ void GeneralEffects::try_by_themselves(Selection& made, std::string_view what, d
     in_parallel(waiting.size(),
                 [&](std::size_t i) { shares[i] = fits_.scan().share_of_law(none, *waiting[i]); });
     for (std::size_t i = 0; i < waiting.size(); ++i) {
-      if (shares[i] && *shares[i] < options_.least_law_share) continue;
+      if (shares[i] && *shares[i] < options_.least_law_share) {
+        made.ruled_out.push_back({waiting[i]->label(), *shares[i]});
+        continue;
+      }
       const bool is_likely = shares[i] && *shares[i] >= options_.least_share;
       (is_likely ? likely_laws : others).push_back(waiting[i]);
     }
@@ -115,7 +125,8 @@ std::optional<GeneralEffects::LeastSums> GeneralEffects::least_sums(
 std::optional<SetFits::Start> GeneralEffects::near_look(const Candidate& none,
                                                         const std::vector<Explanation>& special,
                                                         const std::optional<LeastSums>& least,
-                                                        const Hypothesis& general) const {
+                                                        const Hypothesis& general,
+                                                        double& share) const {
   // What it must leave less is options_.least_information_gain and the price of its parameters.
   const double least_gain = 0.5 * options_.least_information_gain;
   const EffectScan& scan = fits_.scan();
@@ -128,17 +139,20 @@ std::optional<SetFits::Start> GeneralEffects::near_look(const Candidate& none,
   };
   // A cause by itself leaves less than those that are not, of each part of the data.
   if (least->early &&
-      (!has_limit || is_far(scan.early_look(limit->fit.candidate), *least->early)) &&
-      is_far(scan.early_look(none, general), *least->early)) {
-    return std::nullopt;
+      (!has_limit || is_far(scan.early_look(limit->fit.candidate), *least->early))) {
+    const Fit look = scan.early_look(none, general);
+    share = explained_share(scan.early_look(none), look);
+    if (is_far(look, *least->early)) return std::nullopt;
   }
   if (has_limit && limit->leaves_noise()) {
     const Fit look = scan.look_from_limit(limit->fit.candidate, 0, general);
+    share = explained_share(scan.coarse_look(none), look);
     if (is_far(look, least->coarse)) return std::nullopt;
     return SetFits::Start{look.candidate, limit->fit.sum_of_squares - least_gain};
   }
   const Fit look = has_limit ? scan.look_in_place(limit->fit.candidate, 0, general)
                              : scan.first_look(none, general);
+  share = explained_share(scan.coarse_look(none), look);
   if (is_far(look, least->coarse)) return std::nullopt;
   if (has_limit && !is_ahead_of_limit(look, scan.coarse_look(limit->fit.candidate), options_)) {
     return std::nullopt;

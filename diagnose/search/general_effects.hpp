@@ -33,8 +33,8 @@ class GeneralEffects {
   /// is ahead of that limit (options.general_gain). Where that limit leaves noise, it is looked for
   /// from there alone, and a fit ends where it cannot leave less than the limit by half of
   /// options.least_information_gain. Adds to made.singles; `what` and `to` as in
-  /// SetFits::add_all. Throws Cancelled; SetFits::untried then has the labels of all that were not
-  /// fitted.
+  /// SetFits::add_all. What is left out is added to made.ruled_out. Throws Cancelled;
+  /// SetFits::untried then has the labels of all that were not fitted.
   void try_by_themselves(Selection& made, std::string_view what, double to);
 
   /// One that was not tried may be the cause: `single`, a limit of it, does not leave noise.
@@ -50,11 +50,11 @@ class GeneralEffects {
   /// Empty where there are none.
   std::optional<LeastSums> least_sums(const std::vector<Explanation>& special) const;
   /// Empty where it leaves more than the best of the special ones, of one part or the other, or is
-  /// not ahead of its limit.
+  /// not ahead of its limit; `share` is then RuledOut::share.
   std::optional<SetFits::Start> near_look(const Candidate& none,
                                           const std::vector<Explanation>& special,
                                           const std::optional<LeastSums>& least,
-                                          const Hypothesis& general) const;
+                                          const Hypothesis& general, double& share) const;
 
   const std::vector<Hypothesis>& hypotheses_;
   const SelectionOptions& options_;

@@ -65,6 +65,7 @@ class Search {
       end_search(made);
     }
     made.rivals = indistinguishable_sets(made, posterior_of(made, options_));
+    std::ranges::stable_sort(made.ruled_out, std::ranges::greater{}, &RuledOut::share);
     return made;
   }
 
@@ -110,8 +111,13 @@ class Search {
   void try_singles(Selection& made) {
     const Candidate& none = made.nothing.fit.candidate;
     fits_.lengthen_parts(made.nothing);
-    fits_.add_with(none, general_.others(), kSingles, 0.7 * kSinglesDone, options_.single_effects,
-                   made.singles);
+    const std::vector<Fit> left_out =
+        fits_.add_with(none, general_.others(), kSingles, 0.7 * kSinglesDone,
+                       options_.single_effects, made.singles);
+    const Fit before = fits_.scan().coarse_look(none);
+    for (const Fit& look : left_out) {
+      made.ruled_out.push_back({look.candidate.label(), explained_share(before, look)});
+    }
     refit_nothing(made);
     revision_.see_noise(made);
     revision_.colour_noise_beside_singles(made);
@@ -182,17 +188,8 @@ class Search {
     // not.
     if (!single.leaves_noise()) revision_.correct_timing(made);
     if (!is_enough(made)) choose(made, single);
-    if (is_enough(made) || !may_sets_explain(made)) return;
+    if (is_enough(made) || !may_sets_explain(made.nothing, made.singles, options_)) return;
     if (try_sets(made) && !is_enough(made)) add_cause(made);
-  }
-
-  /// Laws of hub torque add up in the torque that is missing from a balance: of several that
-  /// explain it one explains a part by itself.
-  bool may_sets_explain(const Selection& made) const {
-    const Misfit& before = made.nothing.estimation;
-    return !before.disturbance || std::ranges::any_of(made.singles, [&](const Explanation& single) {
-      return share_taken(before, single.estimation) >= options_.least_share_ahead;
-    });
   }
 
   /// Sets of two effects, of three and of more, as long as the last effect takes enough; the best

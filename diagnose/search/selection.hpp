@@ -21,6 +21,14 @@ struct SearchEnd {
   std::vector<std::string> untried;
 };
 
+/// An effect that was not fitted to all data, as a look at a part of them ruled it out.
+struct RuledOut {
+  std::string effect;  ///< its label
+  /// Of the excess residual of that part that it explains there at its best values, 0 to 1; a law
+  /// of hub torque that is scanned by regression, of that of the hub's signals.
+  double share = 0.0;
+};
+
 /// How the causes were found.
 struct Selection {
   /// The problem as it was solved: with the noise that the residuals of the best single show
@@ -32,6 +40,7 @@ struct Selection {
   std::vector<Explanation> combinations =
       {};                   ///< of two effects or more, those tried; the best first
   Explanation chosen = {};  ///< `nothing`, or with the causes
+  std::vector<RuledOut> ruled_out = {};  ///< by themselves, those that explain most first
   /// The chosen one with a cause exchanged for one that is indistinguishable from it (rivals.hpp).
   std::vector<Explanation> rivals = {};
   /// Of effects that the chosen one would have but for it (inconsistent_estimates).

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <functional>
 #include <limits>
 #include <utility>
@@ -15,24 +16,26 @@ Explanation SetFits::fitted(const Candidate& start) const {
   return explain(problem_, fit(problem_, start, {.work = &work_}));
 }
 
-void SetFits::add_with(const Candidate& base, std::vector<const Hypothesis*> others,
-                       std::string_view what, double to, const Tried& tried,
-                       std::vector<Explanation>& found) {
+std::vector<Fit> SetFits::add_with(const Candidate& base, std::vector<const Hypothesis*> others,
+                                   std::string_view what, double to, const Tried& tried,
+                                   std::vector<Explanation>& found) {
   std::erase_if(others, [&](const Hypothesis* other) { return base.has_effect(other->effect); });
   untried_ = labels_with(base, others);
   if (!base.effects.empty()) {
     others = scan_.promising(base, std::move(others), tried.looks, what);
   }
-  if (others.empty()) return;
+  if (others.empty()) return {};
   constexpr double kLooks = 0.6;
   const double middle = work_.done() + kLooks * (to - work_.done());
   std::vector<Fit> looks = scan_.first_looks(base, others, what, work_.done(), middle);
+  const auto refitted = static_cast<std::ptrdiff_t>(std::min(looks.size(), tried.refitted));
   if (!base.effects.empty()) {
-    add_near(std::move(looks), tried.refitted, what, to, found);
-    return;
+    add_near(looks, tried.refitted, what, to, found);
+  } else {
+    add_looks({looks.begin(), looks.begin() + refitted}, what, to, found);
   }
-  looks.resize(std::min(tried.refitted, looks.size()));
-  add_looks(looks, what, to, found);
+  looks.erase(looks.begin(), looks.begin() + refitted);
+  return looks;
 }
 
 void SetFits::add_beside(const Candidate& base, const std::vector<const Hypothesis*>& others,

@@ -43,8 +43,10 @@ class SetFits {
   /// that are near the best (is_near). Beside effects of `base` the tried.looks most promising are
   /// scanned (EffectScan::promising), else all. As part of `what`, up to the fraction `to` of the
   /// work.
-  void add_with(const Candidate& base, std::vector<const Hypothesis*> others, std::string_view what,
-                double to, const Tried& tried, std::vector<Explanation>& found);
+  /// Returns the other looks, the best first.
+  std::vector<Fit> add_with(const Candidate& base, std::vector<const Hypothesis*> others,
+                            std::string_view what, double to, const Tried& tried,
+                            std::vector<Explanation>& found);
 
   /// Adds to `found` `base` with each of the tried.looks of `others` that it lacks most, by score
   /// tests without scans (SetSearch::beside); the tried.refitted best of these fitted to all data
@@ -64,9 +66,9 @@ class SetFits {
     double highest_minimum = std::numeric_limits<double>::infinity();
   };
   /// Fits start(i) for the i-th of `sets`, which are their labels, and adds those that are
-  /// identified, and come below start(i).highest_minimum, to `found`, the best first. Sets of several
-  /// effects are added without those that are not identified. Of the same set, begun from another,
-  /// the better stays. Where start(i) is empty, that set needs no fit.
+  /// identified, and come below start(i).highest_minimum, to `found`, the best first. Sets of
+  /// several effects are added without those that are not identified. Of the same set, begun from
+  /// another, the better stays. Where start(i) is empty, that set needs no fit.
   void add_all(std::vector<std::string> sets, std::string_view what, double to,
                std::vector<Explanation>& found,
                const std::function<std::optional<Start>(std::size_t)>& start);

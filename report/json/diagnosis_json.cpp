@@ -142,7 +142,11 @@ Json search_json(const diagnose::Diagnosis& diagnosis) {
                {"time_limit", nullptr},
                {"ended_at", nullptr},
                {"untried", Json::array()},
+               {"ruled_out", Json::array()},
                {"excluded", diagnosis.excluded}};
+  for (const auto& [effect, share] : diagnosis.ruled_out) {
+    json["ruled_out"].push_back({{"effect", effect}, {"explained_share", share}});
+  }
   if (diagnosis.time_limit_s) json["time_limit"] = *diagnosis.time_limit_s;
   if (const auto& end = diagnosis.search_end) {
     json["ended_at"] = end->stage;

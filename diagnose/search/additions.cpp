@@ -41,13 +41,16 @@ constexpr double kMiddle = 0.5;
 const std::vector<double> kSpread = {0.15, kMiddle, 0.85};
 
 /// Places in the range of its one parameter. Beside a value within the range at which it does
-/// nothing: the change there is its direction. Else the middle, and near to where it does nothing.
+/// nothing: next to it the change is its direction, and further off, on either side, that of an
+/// effect that is larger. Else the middle, and near to where it does nothing.
 std::vector<double> first_places(const SearchedParameter& parameter) {
-  constexpr double kBeside = 0.03;
   const auto neutral = parameter.neutral_coordinate();
   if (!neutral) return kSpread;
   if (*neutral > 0.0 && *neutral < 1.0) {
-    return {*neutral + std::copysign(kBeside, kMiddle - *neutral)};
+    std::vector<double> places;
+    for (const double change : {0.004, -0.03, 0.03}) places.push_back(*neutral + change);
+    std::erase_if(places, [](double place) { return place <= 0.0 || place >= 1.0; });
+    return places;
   }
   return {*neutral < kMiddle ? kSpread.front() : kSpread.back(), kMiddle};
 }

@@ -233,7 +233,9 @@ TEST_F(JsonSchema, WhatDiagnoseWritesIsWhatTheDocumentSays) {
     write(folder + "/arm.toml", uncertain);
   };
   simulate("named", "[effects.payload_mass]\nmass = 0.02\n");
-  diagnose("named/measurement.toml", "payload_mass,sensor_lag,root_compliance");
+  diagnose("named/measurement.toml",
+           "payload_mass,sensor_lag,root_compliance,linear_density,flexural_rigidity,beam_length,"
+           "air_damping,hub_viscous_friction,torque_gain,payload_inertia,time_delay");
   simulate("unnamed", "[effects.coulomb_friction]\ntorque = 0.01\n");
   diagnose("unnamed/measurement.toml", "payload_mass,hub_inertia");
   // Laws of hub torque that no effect to be tested is, over velocity and over angle.

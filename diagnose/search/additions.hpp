@@ -31,7 +31,7 @@ struct Addition {
 ///     2 a c^T r - a^2 c^T c,    c = (I - J J^+)(r_0 - r_1).
 ///
 /// The start is where the effect does a times as much, by the first parameter that has a value at
-/// which it does nothing. Each effect is tried at one size of that parameter, or two. Those with
+/// which it does nothing. Each effect is tried at one to three sizes of that parameter. Those with
 /// the largest (c^T r)^2 / c^T c, twice as many as are asked for, are tried again at the sizes that
 /// these lead to. Of an effect that does nothing at some values these are bisected for the
 /// threshold. Of a law of hub torque with several parameters the one value is that which a

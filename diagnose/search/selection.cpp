@@ -218,11 +218,12 @@ class Search {
       is_ahead = search.share_taken() >= options_.least_share_ahead;
       // Where no set of this size is identified, a larger one may be.
       const Explanation smaller = last.value_or(single);
-      const Explanation* const largest = best_of_size(made, size, smaller);
+      const Explanation* largest = best_of_size(made, size, smaller);
+      if (largest != nullptr && revision_.colour_noise_beside(made, *largest)) {
+        largest = best_of_size(made, size, smaller);  // in that noise there may be none
+      }
       if (largest != nullptr) {
-        revision_.colour_noise_beside(made, *largest);
-        const Explanation best =
-            replacements_.specialised(made, *best_of_size(made, size, smaller));
+        const Explanation best = replacements_.specialised(made, *largest);
         choose_needed(made, best);
         is_ahead = is_ahead || is_worth_another(best, smaller);
         last = best;

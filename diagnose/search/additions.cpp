@@ -37,6 +37,7 @@ double place_along_beam(const Hypothesis& hypothesis, const Places& places) {
   return place ? places[*place] : 0.0;
 }
 
+/// Places over a range.
 constexpr double kMiddle = 0.5;
 const std::vector<double> kSpread = {0.15, kMiddle, 0.85};
 
@@ -202,8 +203,8 @@ class EffectScore {
     return most;
   }
 
-  /// At the sizes that lead to, at the best places along the beam: a change is not quite
-  /// proportional to its size.
+  /// Tries the sizes that the first ones lead to, at the best places along the beam: a change is
+  /// not quite proportional to its size.
   void refine() {
     constexpr int kSizes = 2;
     constexpr double kSameSize = 0.1;

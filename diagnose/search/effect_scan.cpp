@@ -85,8 +85,9 @@ Fit EffectScan::first_look(const Candidate& base, const Hypothesis& other) const
   }
   const Fit at_first = best_look(parts_.early(), start, early_law);
   Fit from_there = coarse_fit(parts_.coarse(), at_first.candidate, work_);
-  if (!law && explained_share(early_look(base), at_first) >= options_.least_share)
-    return from_there;
+  const bool shows_early =
+      !law && explained_share(early_look(base), at_first) >= options_.least_share;
+  if (shows_early) return from_there;
   Fit look = best_look(parts_.coarse(), start, law);
   return from_there.sum_of_squares < look.sum_of_squares ? from_there : look;
 }

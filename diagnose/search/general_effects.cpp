@@ -45,21 +45,20 @@ std::vector<const Hypothesis*> GeneralEffects::with_limit(const Hypothesis& effe
 void GeneralEffects::try_by_themselves(Selection& made, std::string_view what, double to) {
   const Candidate none = made.nothing.fit.candidate;
   const std::vector<Explanation> special = made.singles;
-  std::optional<LeastSums> least;
+  std::optional<LeftOfParts> left;
   std::vector<const Hypothesis*> waiting = worth_trying(special);  // for try_each
   const auto try_each = [&](const std::vector<const Hypothesis*>& tried) {
-    std::vector<double> shares(tried.size(), -1.0);  // of those that need no fit
+    std::vector<Look> looks(tried.size());
     fits_.add_all(labels_with(none, tried), what, to, made.singles, [&](std::size_t i) {
-      auto start = near_look(none, special, least, *tried[i], shares[i]);
-      if (start) shares[i] = -1.0;
-      return start;
+      looks[i] = near_look(none, special, left, *tried[i]);
+      return looks[i].start;
     });
     for (std::size_t i = 0; i < tried.size(); ++i) {
-      if (shares[i] >= 0.0) made.ruled_out.push_back({tried[i]->label(), shares[i]});
+      if (!looks[i].start) made.ruled_out.push_back({tried[i]->label(), looks[i].share});
     }
   };
   try {
-    if (!waiting.empty()) least = least_sums(special);
+    if (!waiting.empty()) left = left_of_parts(none, special);
     std::vector<const Hypothesis*> likely_laws;
     std::vector<const Hypothesis*> others;
     std::vector<std::optional<double>> shares(waiting.size());
@@ -102,62 +101,60 @@ std::vector<const Hypothesis*> GeneralEffects::worth_trying(
   return found;
 }
 
-std::optional<GeneralEffects::LeastSums> GeneralEffects::least_sums(
-    const std::vector<Explanation>& special) const {
+std::optional<GeneralEffects::LeftOfParts> GeneralEffects::left_of_parts(
+    const Candidate& none, const std::vector<Explanation>& special) const {
   constexpr std::size_t kCompared = 3;
-  const auto least_of = [&](const auto& look) {
+  const auto left_of = [&](const auto& look) {
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < std::min(kCompared, special.size()); ++i) {
       least = std::min(least, look(special[i].fit.candidate).sum_of_squares);
     }
-    return least;
+    return LeftOfPart{look(none), least};
   };
   if (special.empty()) return std::nullopt;
   const EffectScan& scan = fits_.scan();
-  LeastSums made{.coarse =
-                     least_of([&](const Candidate& single) { return scan.coarse_look(single); })};
+  LeftOfParts made{.coarse =
+                       left_of([&](const Candidate& single) { return scan.coarse_look(single); })};
   if (fits_.parts().is_early_shorter()) {
-    made.early = least_of([&](const Candidate& single) { return scan.early_look(single); });
+    made.early = left_of([&](const Candidate& single) { return scan.early_look(single); });
   }
   return made;
 }
 
-std::optional<SetFits::Start> GeneralEffects::near_look(const Candidate& none,
-                                                        const std::vector<Explanation>& special,
-                                                        const std::optional<LeastSums>& least,
-                                                        const Hypothesis& general,
-                                                        double& share) const {
+GeneralEffects::Look GeneralEffects::near_look(const Candidate& none,
+                                               const std::vector<Explanation>& special,
+                                               const std::optional<LeftOfParts>& left,
+                                               const Hypothesis& general) const {
   // What it must leave less is options_.least_information_gain and the price of its parameters.
   const double least_gain = 0.5 * options_.least_information_gain;
   const EffectScan& scan = fits_.scan();
-  if (!least) return SetFits::Start{scan.first_look(none, general).candidate};
+  if (!left) return {SetFits::Start{scan.first_look(none, general).candidate}};
   const auto limit = std::ranges::find_if(
       special, [&](const Explanation& single) { return is_limit(single, general); });
   const bool has_limit = limit != special.end();
-  const auto is_far = [&](const Fit& look, double least_sum) {
-    return look.sum_of_squares > options_.largest_of_general * least_sum;
+  const auto is_far = [&](const Fit& look, const LeftOfPart& part) {
+    return look.sum_of_squares > options_.largest_of_general * part.least;
+  };
+  const auto ruled_out = [](const Fit& look, const LeftOfPart& part) {
+    return Look{.share = explained_share(part.by_none, look)};
   };
   // A cause by itself leaves less than those that are not, of each part of the data.
-  if (least->early &&
-      (!has_limit || is_far(scan.early_look(limit->fit.candidate), *least->early))) {
+  if (left->early && (!has_limit || is_far(scan.early_look(limit->fit.candidate), *left->early))) {
     const Fit look = scan.early_look(none, general);
-    share = explained_share(scan.early_look(none), look);
-    if (is_far(look, *least->early)) return std::nullopt;
+    if (is_far(look, *left->early)) return ruled_out(look, *left->early);
   }
   if (has_limit && limit->leaves_noise()) {
     const Fit look = scan.look_from_limit(limit->fit.candidate, 0, general);
-    share = explained_share(scan.coarse_look(none), look);
-    if (is_far(look, least->coarse)) return std::nullopt;
-    return SetFits::Start{look.candidate, limit->fit.sum_of_squares - least_gain};
+    if (is_far(look, left->coarse)) return ruled_out(look, left->coarse);
+    return {SetFits::Start{look.candidate, limit->fit.sum_of_squares - least_gain}};
   }
   const Fit look = has_limit ? scan.look_in_place(limit->fit.candidate, 0, general)
                              : scan.first_look(none, general);
-  share = explained_share(scan.coarse_look(none), look);
-  if (is_far(look, least->coarse)) return std::nullopt;
+  if (is_far(look, left->coarse)) return ruled_out(look, left->coarse);
   if (has_limit && !is_ahead_of_limit(look, scan.coarse_look(limit->fit.candidate), options_)) {
-    return std::nullopt;
+    return ruled_out(look, left->coarse);
   }
-  return SetFits::Start{look.candidate};
+  return {SetFits::Start{look.candidate}};
 }
 
 }  // namespace flexarm::diagnose

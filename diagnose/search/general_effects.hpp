@@ -42,19 +42,27 @@ class GeneralEffects {
 
  private:
   std::vector<const Hypothesis*> worth_trying(const std::vector<Explanation>& special) const;
-  /// What the best of the special ones leave of parts of the data.
-  struct LeastSums {
-    std::optional<double> early = {};  ///< empty where no part is earlier
-    double coarse = 0.0;
+  /// Of a part of the data, what no effect leaves, and the least sum of squares that the best of
+  /// the special ones leave.
+  struct LeftOfPart {
+    Fit by_none;
+    double least = 0.0;
   };
-  /// Empty where there are none.
-  std::optional<LeastSums> least_sums(const std::vector<Explanation>& special) const;
-  /// Empty where it leaves more than the best of the special ones, of one part or the other, or is
-  /// not ahead of its limit; `share` is then RuledOut::share.
-  std::optional<SetFits::Start> near_look(const Candidate& none,
-                                          const std::vector<Explanation>& special,
-                                          const std::optional<LeastSums>& least,
-                                          const Hypothesis& general, double& share) const;
+  struct LeftOfParts {
+    std::optional<LeftOfPart> early = {};  ///< empty where no part is earlier
+    LeftOfPart coarse;
+  };
+  /// Empty where there are no special ones.
+  std::optional<LeftOfParts> left_of_parts(const Candidate& none,
+                                           const std::vector<Explanation>& special) const;
+  /// Where a fit to all data begins, or what rules the effect out: it leaves more than the best of
+  /// the special ones, of one part or the other, or is not ahead of its limit.
+  struct Look {
+    std::optional<SetFits::Start> start = {};
+    double share = 0.0;  ///< RuledOut::share, without a start
+  };
+  Look near_look(const Candidate& none, const std::vector<Explanation>& special,
+                 const std::optional<LeftOfParts>& left, const Hypothesis& general) const;
 
   const std::vector<Hypothesis>& hypotheses_;
   const SelectionOptions& options_;

@@ -217,7 +217,7 @@ class Search {
                      halfway(), made.combinations);
       is_ahead = search.share_taken() >= options_.least_share_ahead;
       // Where no set of this size is identified, a larger one may be.
-      const Explanation smaller = last.value_or(single);
+      const Explanation& smaller = last ? *last : single;
       const Explanation* largest = best_of_size(made, size, smaller);
       if (largest != nullptr && revision_.colour_noise_beside(made, *largest)) {
         largest = best_of_size(made, size, smaller);  // in that noise there may be none

@@ -60,10 +60,13 @@ void SetFits::add_near(std::vector<Fit> looks, std::size_t most, std::string_vie
     return look.candidate.values.size() > best.candidate.values.size();
   };
   const auto more = std::ranges::stable_partition(looks, std::not_fn(has_more_parameters));
-  const std::vector<Fit> others(more.begin(), more.end());
-  looks.erase(more.begin(), more.end());
-  add_looks(looks, what, to, found);
-  add_looks(others, what, to, found);
+  try {
+    add_looks({looks.begin(), more.begin()}, what, to, found);
+  } catch (const Cancelled&) {
+    for (const Fit& look : more) leave_untried({look.candidate.label()});
+    throw;
+  }
+  add_looks(more, what, to, found);
 }
 
 double SetFits::highest_of_use(const Candidate& set, const std::vector<Explanation>& found) const {
@@ -78,14 +81,15 @@ double SetFits::highest_of_use(const Candidate& set, const std::vector<Explanati
          kDecisive * options_.least_information_gain;
 }
 
-void SetFits::add_looks(const std::vector<Fit>& looks, std::string_view what, double to,
+void SetFits::add_looks(std::span<const Fit> looks, std::string_view what, double to,
                         std::vector<Explanation>& found) {
   std::vector<std::string> sets;
-  for (const Fit& look : looks) sets.push_back(look.candidate.label());
-  const std::vector<Explanation> before = found;
-  add_all(std::move(sets), what, to, found, [&](std::size_t i) {
-    return Start{looks[i].candidate, highest_of_use(looks[i].candidate, before)};
-  });
+  std::vector<Start> starts;
+  for (const Fit& look : looks) {
+    sets.push_back(look.candidate.label());
+    starts.push_back({look.candidate, highest_of_use(look.candidate, found)});
+  }
+  add_all(std::move(sets), what, to, found, [&](std::size_t i) { return starts[i]; });
 }
 
 void SetFits::add_all(std::vector<std::string> sets, std::string_view what, double to,

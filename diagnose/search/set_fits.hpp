@@ -10,6 +10,7 @@
 #include <functional>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -42,8 +43,7 @@ class SetFits {
   /// problem; the tried.refitted best of these fitted to all data, beside effects of `base` those
   /// that are near the best (is_near). Beside effects of `base` the tried.looks most promising are
   /// scanned (EffectScan::promising), else all. As part of `what`, up to the fraction `to` of the
-  /// work.
-  /// Returns the other looks, the best first.
+  /// work. Returns the other looks, the best first.
   std::vector<Fit> add_with(const Candidate& base, std::vector<const Hypothesis*> others,
                             std::string_view what, double to, const Tried& tried,
                             std::vector<Explanation>& found);
@@ -79,7 +79,7 @@ class SetFits {
   void leave_untried(const std::vector<std::string>& sets);
 
  private:
-  void add_looks(const std::vector<Fit>& looks, std::string_view what, double to,
+  void add_looks(std::span<const Fit> looks, std::string_view what, double to,
                  std::vector<Explanation>& found);
   /// The sum of squares above which a set is out of the question beside one of as many effects in
   /// `found` that leaves noise: with its parameters it would be worse by four times

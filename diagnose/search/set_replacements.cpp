@@ -10,31 +10,36 @@ namespace flexarm::diagnose {
 
 Explanation SetReplacements::replaced(Selection& made, const Candidate& candidate,
                                       std::size_t index, const Hypothesis& other) const {
-  auto& kept = made.sets_like(candidate);
-  const auto same = find_set(kept, candidate.without(index).with(other, other.middle()));
-  if (same != kept.end()) return *same;
-  return fitted_and_kept(kept, fits_.scan().look_in_place(candidate, index, other));
+  if (auto known = fitted_before(made, candidate, index, other)) return *std::move(known);
+  return fitted_and_kept(made, fits_.scan().look_in_place(candidate, index, other));
 }
 
 std::optional<Explanation> SetReplacements::replaced_near_noise(Selection& made,
                                                                 const Candidate& candidate,
                                                                 std::size_t index,
                                                                 const Hypothesis& other) const {
-  auto& kept = made.sets_like(candidate);
-  const auto same = find_set(kept, candidate.without(index).with(other, other.middle()));
-  if (same != kept.end()) return *same;
+  if (auto known = fitted_before(made, candidate, index, other)) return known;
   const EffectScan& scan = fits_.scan();
   const bool is_far_early = fits_.parts().is_early_shorter() &&
                             !is_near_noise(scan.early_look(candidate.without(index), other));
   if (is_far_early) return std::nullopt;
   const Fit look = scan.look_in_place(candidate, index, other);
   if (!is_near_noise(look)) return std::nullopt;
-  return fitted_and_kept(kept, look);
+  return fitted_and_kept(made, look);
 }
 
-Explanation SetReplacements::fitted_and_kept(std::vector<Explanation>& kept,
-                                             const Fit& look) const {
+std::optional<Explanation> SetReplacements::fitted_before(Selection& made,
+                                                          const Candidate& candidate,
+                                                          std::size_t index,
+                                                          const Hypothesis& other) {
+  auto& kept = made.sets_like(candidate);
+  const auto same = find_set(kept, candidate.without(index).with(other, other.middle()));
+  return same != kept.end() ? std::optional(*same) : std::nullopt;
+}
+
+Explanation SetReplacements::fitted_and_kept(Selection& made, const Fit& look) const {
   Explanation found = fits_.fitted(look.candidate);
+  auto& kept = made.sets_like(look.candidate);
   kept.push_back(found);
   sort_by_fit(kept);
   return found;

@@ -43,7 +43,9 @@ class SetReplacements {
   Explanation needed(const Explanation& explanation) const;
 
  private:
-  Explanation fitted_and_kept(std::vector<Explanation>& kept, const Fit& look) const;
+  static std::optional<Explanation> fitted_before(Selection& made, const Candidate& candidate,
+                                                  std::size_t index, const Hypothesis& other);
+  Explanation fitted_and_kept(Selection& made, const Fit& look) const;
 
   const std::vector<Hypothesis>& hypotheses_;
   const SelectionOptions& options_;

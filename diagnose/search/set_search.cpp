@@ -24,14 +24,11 @@ std::vector<Candidate> best_of(const std::vector<Fit>& sets, std::size_t most) {
   return best;
 }
 
-/// Of fits to the early part those that the coarse part is to be asked for: where one leaves noise,
-/// those that do.
+/// Of fits to the early part, which are sorted, those that the coarse part is to be asked for:
+/// where one leaves noise, those that do.
 std::vector<Candidate> looks_of(const std::vector<Fit>& early, std::size_t most) {
-  std::vector<Fit> asked = early;
-  if (!early.empty() && is_near_noise(early.front())) {
-    std::erase_if(asked, [](const Fit& fit) { return !is_near_noise(fit); });
-  }
-  return best_of(asked, most);
+  const auto noise = std::ranges::find_if_not(early, is_near_noise) - early.begin();
+  return best_of(early, noise > 0 ? std::min(most, static_cast<std::size_t>(noise)) : most);
 }
 
 double least_beyond_noise(const std::vector<Fit>& sets) {

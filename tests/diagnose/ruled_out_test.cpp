@@ -46,7 +46,7 @@ void PrintTo(const HiddenCauses& hidden, std::ostream* out) {
   *out << hidden.name;
 }
 
-/// HiddenCauses effects in runs of 1.5 s, looked for among fourteen.
+/// Hidden effects in runs of 1.5 s, looked for among fourteen.
 class RuledOutEffects : public testing::TestWithParam<HiddenCauses> {
  protected:
   Selection selected(const SelectionOptions& options) const {

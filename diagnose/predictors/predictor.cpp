@@ -247,6 +247,36 @@ std::vector<response::ErrorsAhead> Predictor::errors_ahead(
   return made;
 }
 
+Predictor::BalancedTorque Predictor::balanced_torque(std::size_t r) const {
+  const Condition& condition = *std::ranges::find_if(conditions_, [r](const Condition& one) {
+    return std::ranges::find(one.runs, r) != one.runs.end();
+  });
+  arm::Arm with_payload = experiment_->arm;
+  with_payload.payload = condition.payload;
+  const response::ArmParts all = response::take_apart(with_payload);
+  response::ArmParts parts;
+  parts.linear = all.linear;
+  parts.sensor_chains = all.sensor_chains;
+  parts.disturbance = {noise_->correlation_time_s};
+  const auto model = models_->of(parts, condition.sensors);
+  const response::ArmSimulator simulation(*model, parts, condition.sensors, condition.options);
+  const RecordedRun run = recorded(r, *noise_);
+  const response::FilterGains steady{
+      {}, response::filter_gain(simulation.sampled(run.process, run.deviations))};
+  // A torque that is linear between samples rises from the sample before.
+  const std::size_t samples = run.torque_N_m.size();
+  std::vector<double> pulse_N_m(samples + 1);
+  pulse_N_m[1] = 1.0;
+  const auto nothing = Eigen::MatrixXd::Zero(std::ssize(pulse_N_m), run.deviations.size());
+  const auto filtered = simulation.filtered(pulse_N_m, nothing, steady);
+  BalancedTorque made{.first =
+                          stretch(r).first + hub_sensor(r).value() * static_cast<Index>(samples)};
+  for (std::size_t k = 1; k < pulse_N_m.size(); ++k) {
+    made.pulse_response.push_back(-filtered.disturbance_N_m[k] / *noise_->balance_unit_N_m);
+  }
+  return made;
+}
+
 std::pair<Index, Index> Predictor::stretch(std::size_t run) const {
   const auto& first = observations_.first_of_run;
   return {first[run], first[run + 1] - first[run]};

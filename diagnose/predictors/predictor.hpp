@@ -76,8 +76,19 @@ class Predictor {
       const arm::Arm& arm, const std::vector<bool>& runs,
       const std::vector<response::StartsAhead>& starts) const;
 
+  /// By torque balance, of a `time` run: which residuals are those of the missing torque, and what
+  /// a torque of 1 N m at the first sample, 0 at the others and held as the run's torque, takes
+  /// from them, a value a sample. It is that of the experiment's arm without forces that are not
+  /// linear, long after the filter's start.
+  struct BalancedTorque {
+    Eigen::Index first = 0;  ///< of the residuals
+    std::vector<double> pulse_response = {};
+  };
+  BalancedTorque balanced_torque(std::size_t run) const;
+
   int flexible_modes() const { return flexible_modes_; }
   const std::optional<NoiseModel>& noise() const { return noise_; }
+  bool is_torque_balance() const { return noise_ && noise_->balance_unit_N_m; }
 
  private:
   /// Runs that one simulation serves.

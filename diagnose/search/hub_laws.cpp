@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 #include <tuple>
 #include <variant>
 
@@ -35,10 +34,35 @@ double part_at_rest(const std::vector<HubMotion>& motions) {
   return at_rest / samples;
 }
 
+/// Motions with what a torque on the hub makes of the residuals of all its sensors.
+std::vector<HubMotion> simulated_motions(const Problem& problem) {
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(problem.residual_count());
+  return hub_motions({problem, none, none, problem.as_filed()});
+}
+
+/// Motions with what a torque on the hub makes of the missing torque of a balance. An initial state
+/// that is not known is the filter's.
+std::vector<HubMotion> balanced_motions(const Problem& problem) {
+  std::vector<HubMotion> made;
+  for (std::size_t r = 0; r < problem.experiment().runs.size(); ++r) {
+    auto motion = problem.estimation_runs()[r] ? hub_motion(problem, r) : std::nullopt;
+    if (!motion) continue;
+    const auto [first, pulse_response] = problem.predictor().balanced_torque(r);
+    motion->starts_free = false;
+    motion->readings = {{.response = HubResponse(pulse_response),
+                         .first = first,
+                         .residual = std::vector<double>(pulse_response.size()),
+                         .noise = 1.0}};
+    made.push_back(*std::move(motion));
+  }
+  return made;
+}
+
 /// Of the estimation runs; empty unless each of them shows the hub.
 std::vector<HubMotion> estimation_motions(const Problem& problem) {
-  const Eigen::VectorXd none = Eigen::VectorXd::Zero(problem.residual_count());
-  std::vector<HubMotion> motions = hub_motions({problem, none, none, problem.as_filed()});
+  std::vector<HubMotion> motions = problem.predictor().is_torque_balance()
+                                       ? balanced_motions(problem)
+                                       : simulated_motions(problem);
   const std::vector<bool>& runs = problem.estimation_runs();
   std::erase_if(motions, [&](const HubMotion& motion) { return !runs[motion.run]; });
   if (std::ssize(motions) != std::ranges::count(runs, true)) motions.clear();
@@ -106,18 +130,16 @@ void HubLawGrid::compute(std::size_t index, bool is_kept) {
   Entry& entry = entries_[index];
   const std::vector<HubTorques> torques = hub_torques(entry.law);
   if (torques.empty()) return;
-  try {
-    const Eigen::VectorXd own = laws_.hub().readings(torques.front());
-    entry.products.aa = own.squaredNorm();
-    if (torques.size() > 1) {
-      const Eigen::VectorXd turned = laws_.hub().readings(torques.back());
-      entry.products.ab = own.dot(turned);
-      entry.products.bb = turned.squaredNorm();
-    }
-  } catch (const std::runtime_error&) {
-    return;  // too large
+  const Eigen::VectorXd own = laws_.hub().readings(torques.front());
+  entry.products.aa = own.squaredNorm();
+  if (torques.size() > 1) {
+    const Eigen::VectorXd turned = laws_.hub().readings(torques.back());
+    entry.products.ab = own.dot(turned);
+    entry.products.bb = turned.squaredNorm();
   }
-  entry.has_readings = true;
+  // Else it is too large.
+  entry.has_readings = std::isfinite(entry.products.aa + entry.products.bb);
+  if (!entry.has_readings) return;
   if (is_kept) torques_[index] = in_columns(torques);
 }
 
@@ -151,7 +173,7 @@ std::vector<std::pair<Candidate, double>> HubLawGrid::best(const Eigen::VectorXd
 }
 
 HubLaws::HubLaws(const Problem& problem) : arm_(problem.experiment().arm) {
-  if (!problem.is_driven_by_torque()) return;
+  if (!problem.is_driven_by_torque() && !problem.predictor().is_torque_balance()) return;
   motions_ = estimation_motions(problem);
   if (!motions_.empty()) regression_.emplace(arm_, motions_);
 }

@@ -63,7 +63,8 @@ class HubLaws {
   /// The experiment of `problem` must outlive the object.
   explicit HubLaws(const Problem& problem);
 
-  /// All estimation runs are `time` runs by output error with a hub sensor. Else there is nothing.
+  /// All estimation runs are `time` runs with a hub sensor, by output error or torque balance. Else
+  /// there is nothing.
   bool are_shown() const { return regression_.has_value(); }
   /// Of residuals of the problem those of the hub's signals.
   Eigen::VectorXd residuals(const Eigen::VectorXd& of_problem) const;

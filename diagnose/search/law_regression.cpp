@@ -53,11 +53,9 @@ std::optional<HubTorques> LawRegression::torques(const Candidate& candidate) con
 std::optional<Eigen::VectorXd> LawRegression::readings(const Candidate& candidate) const {
   const auto made = torques(candidate);
   if (!made) return std::nullopt;
-  try {
-    return hub_.readings(*made);
-  } catch (const std::runtime_error&) {
-    return std::nullopt;  // too large
-  }
+  Eigen::VectorXd readings = hub_.readings(*made);
+  if (!readings.allFinite()) return std::nullopt;  // too large
+  return readings;
 }
 
 namespace {

@@ -212,9 +212,7 @@ class Search {
       if (last) fits_.leave_untried(labels_with(last->fit.candidate, general_.others()));
       const std::vector<Fit>& grown = search.grow(kSets, halfway());
       if (size == 2 && search.rms_over_noise() > options_.largest_of_pairs) return false;
-      const bool is_near = !grown.empty() && is_near_noise(grown.front());
-      fits_.add_near(grown, is_near ? options_.sets_refitted : options_.far_sets_refitted, kSets,
-                     halfway(), made.combinations);
+      fits_.add_near(grown, options_.sets_refitted, kSets, halfway(), made.combinations);
       is_ahead = search.share_taken() >= options_.least_share_ahead;
       // Where no set of this size is identified, a larger one may be.
       const Explanation& smaller = last ? *last : single;

@@ -21,7 +21,8 @@ struct SearchEnd {
   std::vector<std::string> untried;
 };
 
-/// An effect that was not fitted to all data, as a look at a part of them ruled it out.
+/// An effect that was not fitted to all data, as a look at a part of them ruled it out; or not to
+/// the end, as it is decisively worse than another one that leaves noise.
 struct RuledOut {
   std::string effect;  ///< its label
   /// Of the excess residual of that part that it explains there at its best values, 0 to 1; a law

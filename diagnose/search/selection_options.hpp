@@ -153,7 +153,8 @@ struct SelectionOptions {
   std::size_t early_sets = 12;
   /// on the coarse part;
   SetGrowth coarse_growth = {.bases = 4, .special = 5, .general = 2, .fitted = 10};
-  /// and of all refitted to all data, where the best leaves noise there and where it does not.
+  /// and of all refitted to all data; of these and of any other sets, where the best does not leave
+  /// noise on the coarse part, far_sets_refitted or less.
   std::size_t sets_refitted = 6;
   std::size_t far_sets_refitted = 2;
   /// Effects beside those that are chosen, or in place of one of them,

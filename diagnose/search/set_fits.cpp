@@ -7,10 +7,19 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <utility>
 
 namespace flexarm::diagnose {
+
+namespace {
+
+/// Effects by themselves that are fitted before the others: where one leaves noise, these may be
+/// out of the question.
+constexpr std::size_t kFittedFirst = 2;
+
+}  // namespace
 
 Explanation SetFits::fitted(const Candidate& start) const {
   return explain(problem_, fit(problem_, start, {.work = &work_}));
@@ -28,14 +37,15 @@ std::vector<Fit> SetFits::add_with(const Candidate& base, std::vector<const Hypo
   constexpr double kLooks = 0.6;
   const double middle = work_.done() + kLooks * (to - work_.done());
   std::vector<Fit> looks = scan_.first_looks(base, others, what, work_.done(), middle);
-  const auto refitted = static_cast<std::ptrdiff_t>(std::min(looks.size(), tried.refitted));
   if (!base.effects.empty()) {
     add_near(looks, tried.refitted, what, to, found);
-  } else {
-    add_looks({looks.begin(), looks.begin() + refitted}, what, to, found);
+    return {};
   }
-  looks.erase(looks.begin(), looks.begin() + refitted);
-  return looks;
+  const std::span<const Fit> best(looks.begin(), std::min(looks.size(), tried.refitted));
+  const std::size_t first = std::min(best.size(), kFittedFirst);
+  std::vector<Fit> left_out = add_in_turn(best.first(first), best.subspan(first), what, to, found);
+  left_out.insert(left_out.end(), looks.begin() + std::ssize(best), looks.end());
+  return left_out;
 }
 
 void SetFits::add_beside(const Candidate& base, const std::vector<const Hypothesis*>& others,
@@ -49,9 +59,10 @@ void SetFits::add_beside(const Candidate& base, const std::vector<const Hypothes
 
 void SetFits::add_near(std::vector<Fit> looks, std::size_t most, std::string_view what, double to,
                        std::vector<Explanation>& found) {
-  looks.resize(std::min(most, looks.size()));
   if (looks.empty()) return;
   const Fit best = looks.front();
+  if (!is_near_noise(best)) most = std::min(most, options_.far_sets_refitted);
+  looks.resize(std::min(most, looks.size()));
   std::erase_if(looks, [&](const Fit& look) {
     const auto known = find_set(found, look.candidate);
     return !is_near(look, best, options_) || (known != found.end() && known->leaves_noise());
@@ -60,41 +71,63 @@ void SetFits::add_near(std::vector<Fit> looks, std::size_t most, std::string_vie
     return look.candidate.values.size() > best.candidate.values.size();
   };
   const auto more = std::ranges::stable_partition(looks, std::not_fn(has_more_parameters));
+  add_in_turn({looks.begin(), more.begin()}, more, what, to, found);
+}
+
+std::vector<Fit> SetFits::add_in_turn(std::span<const Fit> looks, std::span<const Fit> others,
+                                      std::string_view what, double to,
+                                      std::vector<Explanation>& found) {
+  std::vector<Fit> out_of_reach;
   try {
-    add_looks({looks.begin(), more.begin()}, what, to, found);
+    out_of_reach = add_looks(looks, what, to, found);
   } catch (const Cancelled&) {
-    for (const Fit& look : more) leave_untried({look.candidate.label()});
+    for (const Fit& look : others) leave_untried({look.candidate.label()});
     throw;
   }
-  add_looks(more, what, to, found);
+  std::ranges::move(add_looks(others, what, to, found), std::back_inserter(out_of_reach));
+  return out_of_reach;
 }
 
 double SetFits::highest_of_use(const Candidate& set, const std::vector<Explanation>& found) const {
   constexpr double kDecisive = 4.0;  // times as much: odds of e^20
   const auto best = std::ranges::find_if(found, [&](const Explanation& other) {
-    return other.leaves_noise() && other.fit.candidate.effects.size() == set.effects.size();
+    return other.fit.candidate.effects.size() == set.effects.size();
   });
-  if (best == found.end()) return std::numeric_limits<double>::infinity();
+  constexpr double kAny = std::numeric_limits<double>::infinity();
+  if (best == found.end()) return kAny;
+  const bool leaves_noise = best->leaves_noise();
+  // Larger sets begin with effects that fit badly by themselves; and a disturbance is not judged by
+  // a sum of squares.
+  if (!leaves_noise && (set.effects.size() == 1 || best->estimation.disturbance)) return kAny;
+  const double n = std::max(2.0, best->estimation.independent);
   const double more = static_cast<double>(set.values.size()) -
                       static_cast<double>(best->fit.candidate.values.size());
-  return best->fit.sum_of_squares - more * std::log(best->estimation.independent) +
-         kDecisive * options_.least_information_gain;
+  const double least = best->fit.sum_of_squares;
+  const double worse = kDecisive * options_.least_information_gain - more * std::log(n);
+  // The scale is free where the best leaves more than noise (information_gain).
+  return leaves_noise ? least + worse : least * std::exp(worse / n);
 }
 
-void SetFits::add_looks(std::span<const Fit> looks, std::string_view what, double to,
-                        std::vector<Explanation>& found) {
+std::vector<Fit> SetFits::add_looks(std::span<const Fit> looks, std::string_view what, double to,
+                                    std::vector<Explanation>& found) {
   std::vector<std::string> sets;
   std::vector<Start> starts;
   for (const Fit& look : looks) {
     sets.push_back(look.candidate.label());
     starts.push_back({look.candidate, highest_of_use(look.candidate, found)});
   }
-  add_all(std::move(sets), what, to, found, [&](std::size_t i) { return starts[i]; });
+  std::vector<Fit> out_of_reach;
+  for (const std::size_t i :
+       add_all(std::move(sets), what, to, found, [&](std::size_t k) { return starts[k]; })) {
+    out_of_reach.push_back(looks[i]);
+  }
+  return out_of_reach;
 }
 
-void SetFits::add_all(std::vector<std::string> sets, std::string_view what, double to,
-                      std::vector<Explanation>& found,
-                      const std::function<std::optional<Start>(std::size_t)>& start) {
+std::vector<std::size_t> SetFits::add_all(
+    std::vector<std::string> sets, std::string_view what, double to,
+    std::vector<Explanation>& found,
+    const std::function<std::optional<Start>(std::size_t)>& start) {
   std::vector<std::optional<Explanation>> made(sets.size(), Explanation{});
   untried_ = std::move(sets);
   try {
@@ -113,7 +146,12 @@ void SetFits::add_all(std::vector<std::string> sets, std::string_view what, doub
     keep(std::move(made), found);
     throw;
   }
+  std::vector<std::size_t> of_no_use;
+  for (std::size_t i = 0; i < made.size(); ++i) {
+    if (!made[i]) of_no_use.push_back(i);
+  }
   keep(std::move(made), found);
+  return of_no_use;
 }
 
 void SetFits::leave_untried(const std::vector<std::string>& sets) {

@@ -43,7 +43,8 @@ class SetFits {
   /// problem; the tried.refitted best of these fitted to all data, beside effects of `base` those
   /// that are near the best (is_near). Beside effects of `base` the tried.looks most promising are
   /// scanned (EffectScan::promising), else all. As part of `what`, up to the fraction `to` of the
-  /// work. Returns the other looks, the best first.
+  /// work. Of effects by themselves, returns the looks that were not fitted, or not to the end as
+  /// they are out of the question (highest_of_use), the best first.
   std::vector<Fit> add_with(const Candidate& base, std::vector<const Hypothesis*> others,
                             std::string_view what, double to, const Tried& tried,
                             std::vector<Explanation>& found);
@@ -54,8 +55,9 @@ class SetFits {
   void add_beside(const Candidate& base, const std::vector<const Hypothesis*>& others,
                   std::string_view what, double to, const Tried& tried,
                   std::vector<Explanation>& found);
-  /// Adds to `found` looks, which are sorted by fit, fitted to all data: `most` or less that come
-  /// near the best (is_near), and are not in `found` leaving noise. Those with more parameters than
+  /// Adds to `found` looks, which are sorted by fit, fitted to all data: `most` or less, and where
+  /// the best does not leave noise options.far_sets_refitted or less, that come near the best
+  /// (is_near), and are not in `found` leaving noise. Those with more parameters than
   /// the best look are fitted behind the others, as far as they may be of use (highest_of_use).
   void add_near(std::vector<Fit> looks, std::size_t most, std::string_view what, double to,
                 std::vector<Explanation>& found);
@@ -68,10 +70,11 @@ class SetFits {
   /// Fits start(i) for the i-th of `sets`, which are their labels, and adds those that are
   /// identified, and come below start(i).highest_minimum, to `found`, the best first. Sets of
   /// several effects are added without those that are not identified. Of the same set, begun from
-  /// another, the better stays. Where start(i) is empty, that set needs no fit.
-  void add_all(std::vector<std::string> sets, std::string_view what, double to,
-               std::vector<Explanation>& found,
-               const std::function<std::optional<Start>(std::size_t)>& start);
+  /// another, the better stays. Where start(i) is empty, that set needs no fit. Returns which
+  /// those are, and which do not come below their highest_minimum.
+  std::vector<std::size_t> add_all(std::vector<std::string> sets, std::string_view what, double to,
+                                   std::vector<Explanation>& found,
+                                   const std::function<std::optional<Start>(std::size_t)>& start);
 
   /// Labels of the sets that were to be added last and were not fitted.
   const std::vector<std::string>& untried() const { return untried_; }
@@ -79,11 +82,16 @@ class SetFits {
   void leave_untried(const std::vector<std::string>& sets);
 
  private:
-  void add_looks(std::span<const Fit> looks, std::string_view what, double to,
-                 std::vector<Explanation>& found);
-  /// The sum of squares above which a set is out of the question beside one of as many effects in
-  /// `found` that leaves noise: with its parameters it would be worse by four times
-  /// options.least_information_gain. Infinite where there is none.
+  /// Returns those that are out of the question (highest_of_use).
+  std::vector<Fit> add_looks(std::span<const Fit> looks, std::string_view what, double to,
+                             std::vector<Explanation>& found);
+  /// add_looks(looks), then of others.
+  std::vector<Fit> add_in_turn(std::span<const Fit> looks, std::span<const Fit> others,
+                               std::string_view what, double to, std::vector<Explanation>& found);
+  /// The sum of squares above which a set is out of the question beside the best of as many effects
+  /// in `found`: with its parameters it would be worse by four times options.least_information_gain
+  /// (information_gain). Infinite where there is none; and for an effect by itself, which is where
+  /// larger sets begin, unless one leaves noise.
   double highest_of_use(const Candidate& set, const std::vector<Explanation>& found) const;
   Explanation without_unidentified(Explanation set) const;
   void keep(std::vector<std::optional<Explanation>> made, std::vector<Explanation>& found);

@@ -4,6 +4,7 @@
 #include "diagnose/symptoms/symptoms_input.hpp"
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,8 @@ struct HubMotion {
 };
 inline constexpr double kSlope_periods = 0.1;
 
+/// Of a run, without readings; empty unless it is in time and measured the hub's motion.
+std::optional<HubMotion> hub_motion(const Problem& problem, std::size_t run);
 /// Of the runs in time with a hub sensor.
 std::vector<HubMotion> hub_motions(const SymptomsInput& input);
 

@@ -35,27 +35,21 @@ std::vector<double> fading(std::size_t samples, std::size_t padded) {
   return weights;
 }
 
-std::shared_ptr<const response::ArmSimulator> linear_simulator(const arm::Arm& arm,
-                                                               const arm::Sensor& sensor,
-                                                               int flexible_modes,
-                                                               measured::TorqueHold hold,
-                                                               double period_s) {
+/// Of a sensor of the linear arm to a torque of 1 N m at the first of so many samples. What is
+/// linear between samples rises from a sample before that.
+std::vector<double> pulse_response(const arm::Arm& arm, const arm::Sensor& sensor,
+                                   int flexible_modes, measured::TorqueHold hold, double period_s,
+                                   std::size_t samples) {
   const std::vector<arm::Sensor> sensors = {sensor};
   response::ArmParts parts;  // without what is not linear
   parts.linear = response::take_apart(arm).linear;
   const auto model = response::time_model(response::formulation_of_fit(parts.linear), parts,
                                           flexible_modes, sensors);
-  return std::make_shared<const response::ArmSimulator>(
-      model, parts, sensors, response::options_of_fit(period_s, simulated_hold(hold)));
-}
-
-/// Under a torque that is 0 one sample before the first: what is linear between samples rises from
-/// there.
-std::vector<double> simulated(const response::ArmSimulator& simulator,
-                              std::span<const double> torque_N_m) {
-  std::vector<double> longer = {0.0};
-  longer.insert(longer.end(), torque_N_m.begin(), torque_N_m.end());
-  const Eigen::MatrixXd made = simulator.readings(longer);
+  const response::ArmSimulator simulator(model, parts, sensors,
+                                         response::options_of_fit(period_s, simulated_hold(hold)));
+  std::vector<double> pulse(samples + 1);
+  pulse[1] = 1.0;
+  const Eigen::MatrixXd made = simulator.readings(pulse);
   return {made.data() + 1, made.data() + made.size()};
 }
 
@@ -95,16 +89,21 @@ std::vector<double> differenced(std::span<const double> values, int times) {
 
 HubResponse::HubResponse(const arm::Arm& arm, const arm::Sensor& sensor, int flexible_modes,
                          measured::TorqueHold hold, double period_s, std::size_t samples)
-    : simulator_(linear_simulator(arm, sensor, flexible_modes, hold, period_s)),
-      samples_(samples),
+    : HubResponse(
+          pulse_response(arm, sensor, flexible_modes, hold, period_s, kPulseRecords * samples),
+          samples, measured::differences_until_steady(sensor)) {}
+
+HubResponse::HubResponse(const std::vector<double>& pulse_response)
+    : HubResponse(pulse_response, pulse_response.size(), 0) {}
+
+HubResponse::HubResponse(const std::vector<double>& pulse_response, std::size_t samples,
+                         int differences)
+    : samples_(samples),
       padded_(measured::fast_length((kPulseRecords + 1) * samples)),
       padded_twofold_(measured::fast_length(2 * samples)),
-      differences_(measured::differences_until_steady(sensor)) {
-  std::vector<double> pulse(kPulseRecords * samples);
-  pulse.front() = 1.0;
-  pulse = simulated(*simulator_, pulse);
-  response_ = transformed(std::span(pulse).first(samples), padded_twofold_);
-  std::vector<double> steady = differenced(pulse, differences_);
+      differences_(differences),
+      response_(transformed(std::span(pulse_response).first(samples), padded_twofold_)) {
+  std::vector<double> steady = differenced(pulse_response, differences_);
   const std::vector<double> weights = fading(steady.size(), padded_);
   for (std::size_t k = 0; k < steady.size(); ++k) steady[k] *= weights[k];
   steady_response_ = transformed(steady, padded_);
@@ -119,7 +118,9 @@ std::vector<double> HubResponse::transformed_back(const Spectrum& spectrum,
 }
 
 std::vector<double> HubResponse::reading(std::span<const double> torque_N_m) const {
-  return simulated(*simulator_, torque_N_m);
+  Spectrum spectrum = transformed(torque_N_m, padded_twofold_);
+  for (std::size_t k = 0; k < spectrum.size(); ++k) spectrum[k] *= response_[k];
+  return transformed_back(spectrum, padded_twofold_);
 }
 
 std::vector<double> HubResponse::adjoint(std::span<const double> values) const {

@@ -13,14 +13,17 @@
 
 namespace flexarm::diagnose {
 
-/// What a sensor of the linear arm, at rest before the first sample, answers to a torque on the hub
-/// that is given at samples and held as the run holds its torque: the convolution with its answer
-/// to one of 1 N m at one sample and 0 at the others; its adjoint; and what undoes it.
+/// What answers a torque on the hub that is given at samples, and that is 0 before the first, in
+/// proportion to it: the convolution with its answer to one of 1 N m at one sample and 0 at the
+/// others; its adjoint; and what undoes it.
 class HubResponse {
  public:
-  /// `flexible_modes` of exact_tf move. Throws InputError as they do.
+  /// A sensor of the linear arm, at rest before the first sample, under a torque that is held as
+  /// the run holds its torque. `flexible_modes` of exact_tf move. Throws InputError as they do.
   HubResponse(const arm::Arm& arm, const arm::Sensor& sensor, int flexible_modes,
               measured::TorqueHold hold, double period_s, std::size_t samples);
+  /// What has this answer to 1 N m at the first sample, a value a sample, and has died after that.
+  explicit HubResponse(const std::vector<double>& pulse_response);
 
   std::size_t samples() const { return samples_; }
 
@@ -46,9 +49,11 @@ class HubResponse {
  private:
   using Spectrum = std::vector<std::complex<double>>;
 
+  /// Of an answer that is followed for `kPulseRecords` records of so many samples.
+  HubResponse(const std::vector<double>& pulse_response, std::size_t samples, int differences);
+
   std::vector<double> transformed_back(const Spectrum& spectrum, std::size_t padded) const;
 
-  std::shared_ptr<const response::ArmSimulator> simulator_;
   std::size_t samples_;
   std::size_t padded_;          // for what rings on, to fade before it comes round
   std::size_t padded_twofold_;  // for a convolution of two records

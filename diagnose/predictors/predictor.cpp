@@ -3,7 +3,6 @@
 #include "diagnose/parallel.hpp"
 #include "diagnose/predictors/predicted_roots.hpp"
 #include "diagnose/predictors/simulated_run.hpp"
-#include "response/formulation_maker.hpp"
 #include "response/frequency/frequency_response.hpp"
 
 #include <algorithm>
@@ -24,11 +23,12 @@ std::vector<arm::Sensor> sensors_of(const measured::TimeRecord& record) {
   return sensors;
 }
 
-void predict(const arm::Arm& arm, const measured::FrequencyRecord& record,
+/// Values of a run's responses, with what kept(sensors, frequencies) gives for those of `arm`
+/// alone.
+template <class Kept>
+void predict(const arm::Arm& arm, const measured::FrequencyRecord& record, const Kept& kept,
              Eigen::Ref<Eigen::VectorXd> values) {
-  const response::ArmParts parts = response::take_apart(arm);
-  const auto formulation = response::formulation_of_fit(arm);
-  const auto chain = response::linear_chain(parts);
+  const auto chain = response::linear_chain(response::take_apart(arm));
   Index at = 0;
   for (auto first = record.channels.begin(); first != record.channels.end();) {
     // Neighbours with the same frequencies at once, as they mostly are.
@@ -37,8 +37,7 @@ void predict(const arm::Arm& arm, const measured::FrequencyRecord& record,
     });
     std::vector<arm::Sensor> sensors;
     for (auto channel = first; channel != last; ++channel) sensors.push_back(channel->sensor);
-    const auto made =
-        response::frequency_response(formulation, chain, sensors, first->frequency_Hz);
+    const auto made = response::with_chain(*kept(sensors, first->frequency_Hz), chain);
     for (const auto& of_sensor : made.values) {
       for (const auto& value : of_sensor) {
         values(at++) = value.real();
@@ -80,7 +79,8 @@ Predictor::Predictor(const Experiment& experiment, const Observations& observati
       observations_(observations),
       noise_(std::move(noise)),
       models_(std::make_shared<ModalModels>(flexible_modes)),
-      filters_(std::make_shared<RunFilters>(experiment.runs.size())) {
+      filters_(std::make_shared<RunFilters>(experiment.runs.size())),
+      responses_(std::make_shared<ArmResponses>(experiment.runs.size())) {
   for (std::size_t r = 0; r < experiment.runs.size(); ++r) {
     const auto& [run, data] = experiment.runs[r];
     const auto* record = std::get_if<measured::TimeRecord>(&data);
@@ -139,7 +139,10 @@ void Predictor::predict_other_runs(const arm::Arm& arm, const std::vector<bool>&
     with_payload.payload = run.payload.value_or(arm.payload);
     const auto [first, count] = stretch(r);
     if (const auto* record = std::get_if<measured::FrequencyRecord>(&data)) {
-      predict(with_payload, *record, values.segment(first, count));
+      const auto kept = [&](const auto& sensors, const auto& frequency_Hz) {
+        return responses_->of(r, with_payload, sensors, frequency_Hz);
+      };
+      predict(with_payload, *record, kept, values.segment(first, count));
     } else if (const auto* table = std::get_if<measured::ModalTable>(&data)) {
       predict_roots(with_payload, *table, values.segment(first, count));
     }

@@ -2,6 +2,7 @@
 
 #include "diagnose/experiment.hpp"
 #include "diagnose/observations.hpp"
+#include "diagnose/predictors/arm_responses.hpp"
 #include "diagnose/predictors/filtered_run.hpp"
 #include "diagnose/predictors/modal_models.hpp"
 #include "diagnose/predictors/noise_model.hpp"
@@ -117,9 +118,10 @@ class Predictor {
   int flexible_modes_;
   Observations observations_;
   std::optional<NoiseModel> noise_;
-  // Copies share both.
+  // Copies share these.
   std::shared_ptr<ModalModels> models_;
   std::shared_ptr<RunFilters> filters_;
+  std::shared_ptr<ArmResponses> responses_;
   std::vector<Condition> conditions_;     // of `time` runs
   std::vector<double> log_determinants_;  // ln |S_0| of each run, with a noise model
 };

@@ -108,7 +108,7 @@ HubLawGrid::HubLawGrid(const LawRegression& laws, const Candidate& start,
   }
   std::size_t samples = 0;
   for (const HubMotion& motion : laws.hub().motions()) samples += motion.time_s.size();
-  const std::size_t columns = (linear_.quarter_of(start) ? 2 : 1) * entries_.size();
+  const std::size_t columns = (linear_.companion_of(start) ? 2 : 1) * entries_.size();
   const bool is_kept = samples * columns <= kMostKept;
   if (is_kept) torques_.resize(entries_.size());
   in_parallel(entries_.size(), [&](std::size_t i) {
@@ -120,10 +120,10 @@ HubLawGrid::HubLawGrid(const LawRegression& laws, const Candidate& start,
 std::vector<HubTorques> HubLawGrid::hub_torques(const Candidate& law) const {
   const auto own = laws_.torques(law);
   if (!own) return {};
-  const auto quarter = linear_.quarter_of(law);
-  if (!quarter) return {*own};
-  const auto turned = laws_.torques(*quarter);
-  return turned ? std::vector{*own, *turned} : std::vector<HubTorques>{};
+  const auto companion = linear_.companion_of(law);
+  if (!companion) return {*own};
+  const auto of_companion = laws_.torques(*companion);
+  return of_companion ? std::vector{*own, *of_companion} : std::vector<HubTorques>{};
 }
 
 void HubLawGrid::compute(std::size_t index, bool is_kept) {
@@ -133,9 +133,9 @@ void HubLawGrid::compute(std::size_t index, bool is_kept) {
   const Eigen::VectorXd own = laws_.hub().readings(torques.front());
   entry.products.aa = own.squaredNorm();
   if (torques.size() > 1) {
-    const Eigen::VectorXd turned = laws_.hub().readings(torques.back());
-    entry.products.ab = own.dot(turned);
-    entry.products.bb = turned.squaredNorm();
+    const Eigen::VectorXd of_companion = laws_.hub().readings(torques.back());
+    entry.products.ab = own.dot(of_companion);
+    entry.products.bb = of_companion.squaredNorm();
   }
   // Else it is too large.
   entry.has_readings = std::isfinite(entry.products.aa + entry.products.bb);

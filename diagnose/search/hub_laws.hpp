@@ -40,10 +40,10 @@ class HubLawGrid {
     LawProducts products;  ///< of readings with readings
     bool has_readings = false;
   };
-  /// Of all motions, one after the other, of a law and of its quarter_of: one column or two.
+  /// Of all motions, one after the other, of a law and of its companion_of: one column or two.
   using Torques = Eigen::MatrixXf;
 
-  /// Those of `law` and its quarter_of; empty where one has none.
+  /// Those of `law` and its companion_of; empty where one has none.
   std::vector<HubTorques> hub_torques(const Candidate& law) const;
   void compute(std::size_t index, bool is_kept);
 

@@ -20,7 +20,9 @@ namespace {
 using Eigen::Index;
 
 bool is_scanned(const arm::HubLaw& law) {
-  if (std::holds_alternative<arm::SmoothHubTorque>(law)) return true;
+  if (const auto* smooth = std::get_if<arm::SmoothHubTorque>(&law)) {
+    return smooth->states == 0 || smooth->after_turn;
+  }
   const auto* friction = std::get_if<arm::DryFriction>(&law);
   return friction != nullptr && friction->changes_over_rad_per_s.has_value();
 }
@@ -45,7 +47,7 @@ std::optional<HubTorques> LawRegression::torques(const Candidate& candidate) con
   try {
     return torques_of(*law, hub_.motions());
   } catch (const std::runtime_error&) {
-    // Not finite, or states that move too fast.
+    // Not finite.
     return std::nullopt;
   }
 }
@@ -59,6 +61,9 @@ std::optional<Eigen::VectorXd> LawRegression::readings(const Candidate& candidat
 }
 
 namespace {
+
+/// Of amplitudes that are solved for, in those of the grid.
+constexpr double kLeastAmplitude = 1e-2;
 
 /// The readings of the candidate are these, but for rounding.
 bool are_readings(const LawRegression& laws, const Candidate& candidate,
@@ -82,7 +87,16 @@ LinearParameters::LinearParameters(const LawRegression& laws, const Candidate& s
     return;
   }
   const auto periodic = std::ranges::find_if(parameters, &SearchedParameter::periodic);
-  if (periodic == parameters.end()) return;
+  if (periodic == parameters.end()) {
+    if (amplitudes_.size() != 2) return;
+    second_ = amplitudes_.back();
+    const auto twice = laws.readings(times_each(start, 1.0, 2.0));
+    const auto is_linear = [&] {
+      return are_readings(laws, times_each(start, 1.0, 1.5), 0.5 * (*once + *twice));
+    };
+    if (!twice || !is_linear()) second_.reset();
+    return;
+  }
   phase_ = static_cast<std::size_t>(periodic - parameters.begin());
   turn_ = periodic->highest - periodic->lowest;
   const auto quarter = laws.readings(turned(start, 0.25));
@@ -96,19 +110,21 @@ std::vector<Index> LinearParameters::other_coordinates(const Candidate& candidat
   std::vector<Index> others;
   const std::vector<Index> all = last_coordinates(candidate);
   for (std::size_t i = 0; i < all.size(); ++i) {
-    const bool is_solved = !amplitudes_.empty() && (i == amplitudes_.front() || i == phase_);
+    const bool is_solved =
+        !amplitudes_.empty() && (i == amplitudes_.front() || i == phase_ || i == second_);
     if (!is_solved) others.push_back(all[i]);
   }
   return others;
 }
 
-std::optional<Candidate> LinearParameters::quarter_of(const Candidate& candidate) const {
-  return phase_ ? std::optional(turned(candidate, 0.25)) : std::nullopt;
+std::optional<Candidate> LinearParameters::companion_of(const Candidate& candidate) const {
+  if (phase_) return turned(candidate, 0.25);
+  return second_ ? std::optional(times_each(candidate, 1.0, 2.0)) : std::nullopt;
 }
 
 std::pair<Candidate, double> LinearParameters::solved(const Candidate& candidate,
                                                       const LawProducts& products) const {
-  constexpr double kLeast = 1e-2;
+  if (second_) return solved_for_both(candidate, products);
   const auto& [rr, ra, rb, aa, ab, bb] = products;
   // With `a` times the readings and `b` times those a quarter on.
   const auto left = [&](double a, double b) {
@@ -117,7 +133,7 @@ std::pair<Candidate, double> LinearParameters::solved(const Candidate& candidate
   if (amplitudes_.empty()) return {candidate, left(1.0, 0.0)};
   const double largest = largest_size(candidate);
   if (!phase_) {
-    const double size = std::clamp(aa > 0.0 ? ra / aa : 0.0, kLeast, largest);
+    const double size = std::clamp(aa > 0.0 ? ra / aa : 0.0, kLeastAmplitude, largest);
     return {times(candidate, size), left(size, 0.0)};
   }
   Eigen::Matrix2d normal;
@@ -125,15 +141,67 @@ std::pair<Candidate, double> LinearParameters::solved(const Candidate& candidate
   // Of readings that are nearly the same the shortest solution.
   const Eigen::Vector2d solution =
       normal.completeOrthogonalDecomposition().solve(Eigen::Vector2d(ra, rb));
-  const double size = std::clamp(solution.norm(), kLeast, largest);
+  const double size = std::clamp(solution.norm(), kLeastAmplitude, largest);
   const double angle = std::atan2(solution(1), solution(0));
   return {times(turned(candidate, angle / (2.0 * std::numbers::pi)), size),
           left(size * std::cos(angle), size * std::sin(angle))};
 }
 
+std::pair<Candidate, double> LinearParameters::solved_for_both(const Candidate& candidate,
+                                                               const LawProducts& products) const {
+  const auto& [rr, ra, rb, aa, ab, bb] = products;
+  // Of the readings U and W that the amplitudes make, a = U + W and b = U + 2 W.
+  Eigen::Matrix2d normal;
+  normal << 4.0 * aa - 4.0 * ab + bb, 3.0 * ab - 2.0 * aa - bb, 3.0 * ab - 2.0 * aa - bb,
+      aa - 2.0 * ab + bb;
+  const Eigen::Vector2d along(2.0 * ra - rb, rb - ra);
+  const auto left = [&](const Eigen::Vector2d& sizes) {
+    return rr - 2.0 * sizes.dot(along) + sizes.dot(normal * sizes);
+  };
+  const Eigen::Vector2d least(kLeastAmplitude, kLeastAmplitude);
+  const Eigen::Vector2d largest(largest_size(candidate, amplitudes_.front()),
+                                largest_size(candidate, *second_));
+  Eigen::Vector2d best = normal.completeOrthogonalDecomposition().solve(along);
+  if ((best.array() < least.array() || best.array() > largest.array()).any()) {
+    // The least is on an edge of the box.
+    best = least;
+    for (const Eigen::Index fixed : {0, 1}) {
+      const Eigen::Index free = 1 - fixed;
+      for (const double at : {least(fixed), largest(fixed)}) {
+        Eigen::Vector2d sizes;
+        sizes(fixed) = at;
+        const double size = normal(free, free) > 0.0
+                                ? (along(free) - normal(free, fixed) * at) / normal(free, free)
+                                : 0.0;
+        sizes(free) = std::clamp(size, least(free), largest(free));
+        if (left(sizes) < left(best)) best = sizes;
+      }
+    }
+  }
+  return {times_each(candidate, best(0), best(1)), left(best)};
+}
+
 Candidate LinearParameters::times(const Candidate& candidate, double size) const {
   Candidate made = candidate;
   for (const std::size_t i : amplitudes_) made.values[first_ + i] *= size;
+  return made;
+}
+
+Candidate LinearParameters::times_each(const Candidate& candidate, double first,
+                                       double second) const {
+  const auto is_above = [&](std::size_t i) {
+    return candidate.effects.back().parameters[i].above_previous;
+  };
+  std::vector<double> parts(candidate.values.begin() + static_cast<std::ptrdiff_t>(first_),
+                            candidate.values.end());
+  for (std::size_t i = parts.size(); i-- > 1;) parts[i] -= is_above(i) ? parts[i - 1] : 0.0;
+  parts[amplitudes_.front()] *= first;
+  parts[amplitudes_.back()] *= second;
+  Candidate made = candidate;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (i > 0 && is_above(i)) parts[i] += parts[i - 1];
+    made.values[first_ + i] = parts[i];
+  }
   return made;
 }
 
@@ -146,13 +214,17 @@ Candidate LinearParameters::turned(const Candidate& candidate, double turns) con
   return made;
 }
 
+double LinearParameters::largest_size(const Candidate& candidate, std::size_t amplitude) const {
+  const SearchedParameter& parameter = candidate.effects.back().parameters[amplitude];
+  const std::size_t i = first_ + amplitude;
+  const double base = parameter.above_previous ? candidate.values[i - 1] : 0.0;
+  return std::max(parameter.highest / (candidate.values[i] - base), 1.0);
+}
+
 double LinearParameters::largest_size(const Candidate& candidate) const {
   double largest = std::numeric_limits<double>::max();
-  for (const std::size_t i : amplitudes_) {
-    const double highest = candidate.effects.back().parameters[i].highest;
-    largest = std::min(largest, highest / candidate.values[first_ + i]);
-  }
-  return std::max(largest, 1.0);
+  for (const std::size_t i : amplitudes_) largest = std::min(largest, largest_size(candidate, i));
+  return largest;
 }
 
 }  // namespace flexarm::diagnose

@@ -1,7 +1,5 @@
 #include "diagnose/search/law_torques.hpp"
 
-#include <boost/numeric/odeint.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -10,9 +8,6 @@
 namespace flexarm::diagnose {
 
 namespace {
-
-namespace odeint = boost::numeric::odeint;
-using LawStates = std::vector<double>;
 
 std::vector<double> friction_torques(const arm::DryFriction& friction, const HubMotion& motion) {
   std::vector<double> made(motion.time_s.size());
@@ -23,68 +18,71 @@ std::vector<double> friction_torques(const arm::DryFriction& friction, const Hub
   return made;
 }
 
+arm::HubState hub_at_sample(const HubMotion& motion, std::size_t k) {
+  return {.angle_rad = at_sample(motion, motion.angle_rad, k),
+          .velocity_rad_per_s = at_sample(motion, motion.velocity_rad_per_s, k),
+          .torque_N_m = motion.torque_N_m[k],
+          .time_s = at_sample(motion, motion.time_s, k) - motion.time_s.front()};
+}
+
 /// Of a smooth law without states.
 std::vector<double> smooth_torques(const arm::SmoothHubTorque& smooth, const HubMotion& motion) {
   std::vector<double> made(motion.time_s.size());
   for (std::size_t k = 0; k < made.size(); ++k) {
-    const arm::HubState hub{.angle_rad = at_sample(motion, motion.angle_rad, k),
-                            .velocity_rad_per_s = at_sample(motion, motion.velocity_rad_per_s, k),
-                            .torque_N_m = motion.torque_N_m[k],
-                            .time_s = at_sample(motion, motion.time_s, k) - motion.time_s.front()};
-    made[k] = smooth.law(hub, {}, {}).torque_N_m;
+    made[k] = smooth.law(hub_at_sample(motion, k), {}, {}).torque_N_m;
   }
   return made;
 }
 
-/// The motion between samples.
-class ContinuousMotion {
- public:
-  explicit ContinuousMotion(const HubMotion& motion)
-      : motion_(motion), period_s_(motion.time_s[1] - motion.time_s[0]) {}
-
-  double period_s() const { return period_s_; }
-  arm::HubState at(double time_s) const {
-    const std::size_t last = motion_.time_s.size() - 1;
-    const auto k = std::min(static_cast<std::size_t>(std::max(0.0, time_s / period_s_)), last - 1);
-    const double part = std::clamp(time_s / period_s_ - static_cast<double>(k), 0.0, 1.0);
-    const auto between = [&](const std::vector<double>& values) {
-      return std::lerp(values[k], values[k + 1], part);
-    };
-    const double velocity = between(motion_.velocity_rad_per_s);
-    const bool rests = std::abs(velocity) < kNoiseOfRest * motion_.velocity_noise_rad_per_s;
-    return {.angle_rad = between(motion_.angle_rad),
-            .velocity_rad_per_s = rests ? 0.0 : velocity,
-            .torque_N_m = motion_.torque_N_m[k],
-            .time_s = time_s};
-  }
-
- private:
-  const HubMotion& motion_;
-  double period_s_;
+/// Angles that the hub turns forward and backward while its velocity goes in a straight line from
+/// `from` to `to` [rad/s], at rest below `rest`; both 0 or more.
+struct Turns {
+  double forward_rad;
+  double backward_rad;
 };
+Turns turns(double from, double to, double duration_s, double rest) {
+  const auto above = [&](double least, double most) {
+    if (!(most > rest)) return 0.0;
+    const double lower = std::max(least, rest);
+    const double part = most > least ? (most - lower) / (most - least) : 1.0;
+    return 0.5 * (most + lower) * part * duration_s;
+  };
+  const auto [least, most] = std::minmax(from, to);
+  return {above(least, most), above(-most, -least)};
+}
 
-std::vector<double> torques_with_states(const arm::SmoothHubTorque& smooth,
+/// Of a law whose states move with the hub's angle alone: exactly, along the motion that is linear
+/// between samples.
+std::vector<double> torques_after_turns(const arm::SmoothHubTorque& smooth,
                                         const HubMotion& motion) {
-  constexpr double kStateError = 1e-5;  // of states of order 1; the motion is known to its noise
-  if (motion.time_s.size() < 2) return std::vector<double>(motion.time_s.size(), 0.0);
-  const ContinuousMotion continuous(motion);
-  std::vector<double> instants_s(motion.time_s.size());
-  for (std::size_t k = 0; k < instants_s.size(); ++k) {
-    instants_s[k] = at_sample(motion, motion.time_s, k) - motion.time_s.front();
-  }
+  const auto& velocity = motion.velocity_rad_per_s;
+  const double rest = kNoiseOfRest * motion.velocity_noise_rad_per_s;
+  std::vector<double> states(static_cast<std::size_t>(smooth.states), 0.0);
+  std::vector<double> after(states.size());
+  std::vector<double> rates(states.size());
+  const auto turn = [&](double turn_rad) {
+    if (turn_rad == 0.0) return;
+    smooth.after_turn(turn_rad, states, after);
+    states = after;
+  };
+  const auto move = [&](double from, double to, double duration_s) {
+    const auto [forward, backward] = turns(from, to, duration_s, rest);
+    const bool slows = from > to;
+    turn(slows ? forward : -backward);
+    turn(slows ? -backward : forward);
+  };
   std::vector<double> made;
-  LawStates rates(static_cast<std::size_t>(smooth.states));
-  LawStates states(rates.size(), 0.0);
-  odeint::integrate_times(
-      odeint::make_controlled<odeint::runge_kutta_dopri5<LawStates>>(kStateError, kStateError),
-      [&](const LawStates& now, LawStates& rate, double time_s) {
-        smooth.law(continuous.at(time_s), now, rate);
-      },
-      states, instants_s.begin(), instants_s.end(), continuous.period_s(),
-      [&](const LawStates& now, double time_s) {
-        made.push_back(smooth.law(continuous.at(time_s), now, rates).torque_N_m);
-      },
-      odeint::max_step_checker(kMostLawSteps));
+  arm::HubState before;
+  for (std::size_t k = 0; k < motion.time_s.size(); ++k) {
+    const arm::HubState now = hub_at_sample(motion, k);
+    if (k > 0) {
+      const double sample_s = motion.time_s[k] - motion.time_s.front();
+      move(before.velocity_rad_per_s, velocity[k], sample_s - before.time_s);
+      move(velocity[k], now.velocity_rad_per_s, now.time_s - sample_s);
+    }
+    made.push_back(smooth.law(now, states, rates).torque_N_m);
+    before = now;
+  }
   return made;
 }
 
@@ -98,7 +96,7 @@ HubTorques torques_of(const arm::HubLaw& law, const std::vector<HubMotion>& moti
       continue;
     }
     const auto& smooth = std::get<arm::SmoothHubTorque>(law);
-    made.push_back(smooth.states > 0 ? torques_with_states(smooth, motion)
+    made.push_back(smooth.states > 0 ? torques_after_turns(smooth, motion)
                                      : smooth_torques(smooth, motion));
   }
   return made;

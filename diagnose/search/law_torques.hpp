@@ -11,13 +11,10 @@ namespace flexarm::diagnose {
 /// Torque of a law [N m] at the measured motion of the hub, of each run at each sample; under a
 /// zero-order hold midway to the next sample. `law` is smooth, or dry friction.
 ///
-/// States of a law begin at 0 and are integrated along the motion, which is linear between samples,
-/// by Dormand and Prince's method with step control (Boost.odeint). Below `kNoiseOfRest` standard
-/// deviations of its noise the velocity is then 0: noise alone would move the states.
-///
-/// Throws std::runtime_error where they move too fast for `kMostLawSteps` steps in a sample.
+/// States of a law, which must move with the hub's angle alone (arm::SmoothHubTorque::after_turn),
+/// begin at 0 and follow the motion, which is linear between samples, exactly. Below `kNoiseOfRest`
+/// standard deviations of its noise the velocity is then 0: noise alone would move the states.
 HubTorques torques_of(const arm::HubLaw& law, const std::vector<HubMotion>& motions);
-inline constexpr int kMostLawSteps = 500;
 
 /// The hub is taken to rest below this velocity, in standard deviations of its noise.
 inline constexpr double kNoiseOfRest = 2.0;

@@ -17,7 +17,7 @@ namespace {
 
 /// Effects by themselves that are fitted before the others: where one leaves noise, these may be
 /// out of the question.
-constexpr std::size_t kFittedFirst = 2;
+constexpr std::size_t kFittedFirst = 4;
 
 }  // namespace
 

@@ -15,6 +15,7 @@
 #include <cmath>
 #include <cstdint>
 #include <set>
+#include <utility>
 
 namespace flexarm::diagnose {
 
@@ -35,22 +36,35 @@ std::vector<double> fading(std::size_t samples, std::size_t padded) {
   return weights;
 }
 
-/// Of a sensor of the linear arm to a torque of 1 N m at the first of so many samples. What is
-/// linear between samples rises from a sample before that.
-std::vector<double> pulse_response(const arm::Arm& arm, const arm::Sensor& sensor,
-                                   int flexible_modes, measured::TorqueHold hold, double period_s,
-                                   std::size_t samples) {
+std::shared_ptr<const response::ArmSimulator> linear_simulator(const arm::Arm& arm,
+                                                               const arm::Sensor& sensor,
+                                                               int flexible_modes,
+                                                               measured::TorqueHold hold,
+                                                               double period_s) {
   const std::vector<arm::Sensor> sensors = {sensor};
   response::ArmParts parts;  // without what is not linear
   parts.linear = response::take_apart(arm).linear;
   const auto model = response::time_model(response::formulation_of_fit(parts.linear), parts,
                                           flexible_modes, sensors);
-  const response::ArmSimulator simulator(model, parts, sensors,
-                                         response::options_of_fit(period_s, simulated_hold(hold)));
-  std::vector<double> pulse(samples + 1);
-  pulse[1] = 1.0;
-  const Eigen::MatrixXd made = simulator.readings(pulse);
+  return std::make_shared<const response::ArmSimulator>(
+      model, parts, sensors, response::options_of_fit(period_s, simulated_hold(hold)));
+}
+
+/// Under a torque that is 0 one sample before the first: what is linear between samples rises from
+/// there.
+std::vector<double> simulated(const response::ArmSimulator& simulator,
+                              std::span<const double> torque_N_m) {
+  std::vector<double> longer = {0.0};
+  longer.insert(longer.end(), torque_N_m.begin(), torque_N_m.end());
+  const Eigen::MatrixXd made = simulator.readings(longer);
   return {made.data() + 1, made.data() + made.size()};
+}
+
+/// To a torque of 1 N m at the first of so many samples.
+std::vector<double> simulated_pulse(const response::ArmSimulator& simulator, std::size_t samples) {
+  std::vector<double> pulse_N_m(samples);
+  pulse_N_m.front() = 1.0;
+  return simulated(simulator, pulse_N_m);
 }
 
 /// For transforms of `padded` real values and back. It keeps the factors of the lengths that its
@@ -89,12 +103,17 @@ std::vector<double> differenced(std::span<const double> values, int times) {
 
 HubResponse::HubResponse(const arm::Arm& arm, const arm::Sensor& sensor, int flexible_modes,
                          measured::TorqueHold hold, double period_s, std::size_t samples)
-    : HubResponse(
-          pulse_response(arm, sensor, flexible_modes, hold, period_s, kPulseRecords * samples),
-          samples, measured::differences_until_steady(sensor)) {}
+    : HubResponse(linear_simulator(arm, sensor, flexible_modes, hold, period_s), samples,
+                  measured::differences_until_steady(sensor)) {}
 
 HubResponse::HubResponse(const std::vector<double>& pulse_response)
     : HubResponse(pulse_response, pulse_response.size(), 0) {}
+
+HubResponse::HubResponse(std::shared_ptr<const response::ArmSimulator> simulator,
+                         std::size_t samples, int differences)
+    : HubResponse(simulated_pulse(*simulator, kPulseRecords * samples), samples, differences) {
+  simulator_ = std::move(simulator);
+}
 
 HubResponse::HubResponse(const std::vector<double>& pulse_response, std::size_t samples,
                          int differences)
@@ -118,6 +137,7 @@ std::vector<double> HubResponse::transformed_back(const Spectrum& spectrum,
 }
 
 std::vector<double> HubResponse::reading(std::span<const double> torque_N_m) const {
+  if (simulator_) return simulated(*simulator_, torque_N_m);
   Spectrum spectrum = transformed(torque_N_m, padded_twofold_);
   for (std::size_t k = 0; k < spectrum.size(); ++k) spectrum[k] *= response_[k];
   return transformed_back(spectrum, padded_twofold_);

@@ -49,11 +49,15 @@ class HubResponse {
  private:
   using Spectrum = std::vector<std::complex<double>>;
 
+  HubResponse(std::shared_ptr<const response::ArmSimulator> simulator, std::size_t samples,
+              int differences);
   /// Of an answer that is followed for `kPulseRecords` records of so many samples.
   HubResponse(const std::vector<double>& pulse_response, std::size_t samples, int differences);
 
   std::vector<double> transformed_back(const Spectrum& spectrum, std::size_t padded) const;
 
+  /// Null where the answer is given. It takes less time than transforms.
+  std::shared_ptr<const response::ArmSimulator> simulator_;
   std::size_t samples_;
   std::size_t padded_;          // for what rings on, to fade before it comes round
   std::size_t padded_twofold_;  // for a convolution of two records

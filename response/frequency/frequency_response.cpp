@@ -9,6 +9,12 @@ namespace flexarm::response {
 FrequencyResponse frequency_response(const AnyFormulation& formulation, const LinearChain& chain,
                                      std::span<const arm::Sensor> sensors,
                                      std::span<const double> frequency_Hz) {
+  return with_chain(arm_response(formulation, sensors, frequency_Hz), chain);
+}
+
+FrequencyResponse arm_response(const AnyFormulation& formulation,
+                               std::span<const arm::Sensor> sensors,
+                               std::span<const double> frequency_Hz) {
   for (const auto& sensor : sensors) arm::require_valid(sensor, arm_of(formulation));
   require_ascending(frequency_Hz, "frequency");
   FrequencyResponse response;
@@ -16,14 +22,22 @@ FrequencyResponse frequency_response(const AnyFormulation& formulation, const Li
   response.sensors.assign(sensors.begin(), sensors.end());
   response.values.resize(sensors.size());
   for (const double frequency : frequency_Hz) {
-    const auto s = on_imaginary_axis(frequency);
-    const auto actuator = actuator_response(chain, s);
-    const auto values = transfer_functions(formulation, sensors, s);
-    for (std::size_t j = 0; j < sensors.size(); ++j) {
-      response.values[j].push_back(values[j] * actuator * reading_response(chain, sensors[j], s));
-    }
+    const auto values = transfer_functions(formulation, sensors, on_imaginary_axis(frequency));
+    for (std::size_t j = 0; j < sensors.size(); ++j) response.values[j].push_back(values[j]);
   }
   return response;
+}
+
+FrequencyResponse with_chain(FrequencyResponse of_arm, const LinearChain& chain) {
+  for (std::size_t k = 0; k < of_arm.frequency_Hz.size(); ++k) {
+    const auto s = on_imaginary_axis(of_arm.frequency_Hz[k]);
+    const auto actuator = actuator_response(chain, s);
+    for (std::size_t j = 0; j < of_arm.sensors.size(); ++j) {
+      auto& value = of_arm.values[j][k];
+      value = value * actuator * reading_response(chain, of_arm.sensors[j], s);
+    }
+  }
+  return of_arm;
 }
 
 std::complex<double> on_imaginary_axis(double frequency_Hz) {

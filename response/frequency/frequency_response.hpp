@@ -23,6 +23,13 @@ FrequencyResponse frequency_response(const AnyFormulation& formulation, const Li
                                      std::span<const arm::Sensor> sensors,
                                      std::span<const double> frequency_Hz);
 
+/// Of the arm alone: readings per torque on the hub. Throws InputError as frequency_response.
+FrequencyResponse arm_response(const AnyFormulation& formulation,
+                               std::span<const arm::Sensor> sensors,
+                               std::span<const double> frequency_Hz);
+/// Of the arm with that `of_arm`, behind and before a chain.
+FrequencyResponse with_chain(FrequencyResponse of_arm, const LinearChain& chain);
+
 /// s = i 2 pi f.
 std::complex<double> on_imaginary_axis(double frequency_Hz);
 

@@ -167,6 +167,59 @@ TEST(HubLawScan, SolvesForTheAmplitude) {
   EXPECT_NEAR(made->starts.front().values.front(), kCoefficient, 0.02 * kCoefficient);
 }
 
+/// Friction whose torques alone are not known, the first of them no more than `highest_N_m`, as a
+/// grid of one place solves for them.
+class TwoAmplitudes : public testing::Test {
+ protected:
+  std::pair<Candidate, double> solved(double highest_N_m) {
+    Hypothesis law = named(experiment_, {kFriction.effect}).front();
+    law.parameters.pop_back();
+    law.known = {{"velocity", kFriction.values.at("velocity")}};
+    law.parameters.front().lowest = 1e-2 * highest_N_m;
+    law.parameters.front().highest = highest_N_m;
+    const HubLawGrid* grid = laws().grid(Candidate{}.with(law, law.middle()), {});
+    return grid->best(residuals(), 1).front();
+  }
+  HubLaws& laws() { return problem_.hub_laws(); }
+  Eigen::VectorXd residuals() {
+    return laws().residuals(*problem_.residuals(problem_.as_filed(), problem_.estimation_runs()));
+  }
+
+ private:
+  const Experiment experiment_ = with_hidden(kFriction);
+  const Problem problem_ = Problem(experiment_);
+};
+
+TEST_F(TwoAmplitudes, LeaveTheLeastSumOfSquares) {
+  // The sign of a velocity is not known within its noise.
+  constexpr double kNear = 0.1;
+  constexpr double kSinglePrecision = 1e-5;  // of sums of thousands of products
+  const double torque = kFriction.values.at("torque");
+  const double static_torque = kFriction.values.at("static_torque");
+  const auto [best, least] = solved(10.0 * torque);
+  EXPECT_NEAR(best.values[0], torque, kNear * torque);
+  EXPECT_NEAR(best.values[1], static_torque, kNear * static_torque);
+  for (const double factor : {0.95, 1.05}) {
+    for (const std::size_t i : {0U, 1U}) {
+      Candidate other = best;
+      other.values[i] *= factor;
+      const auto readings = laws().regression().readings(other);
+      ASSERT_TRUE(readings);
+      EXPECT_GT((residuals() - *readings).squaredNorm(), (1.0 + kSinglePrecision) * least);
+    }
+  }
+}
+
+TEST_F(TwoAmplitudes, StayInTheirRanges) {
+  const double highest = 0.5 * kFriction.values.at("torque");
+  const auto [best, least] = solved(highest);
+  EXPECT_DOUBLE_EQ(best.values[0], highest);
+  // More of the fall takes a part of what is lacking.
+  EXPECT_GT(best.values[1] - best.values[0],
+            kFriction.values.at("static_torque") - kFriction.values.at("torque"));
+  EXPECT_LT(least, residuals().squaredNorm());
+}
+
 TEST(HubLawScan, IsNotMadeOfFrictionWhereTheHubSticks) {
   // Breakaway is above the root mean square of the lower torque.
   const Experiment experiment = with_hidden(

@@ -23,11 +23,9 @@ std::vector<arm::Sensor> sensors_of(const measured::TimeRecord& record) {
   return sensors;
 }
 
-/// Values of a run's responses, with what kept(sensors, frequencies) gives for those of `arm`
-/// alone.
-template <class Kept>
-void predict(const arm::Arm& arm, const measured::FrequencyRecord& record, const Kept& kept,
-             Eigen::Ref<Eigen::VectorXd> values) {
+/// Values of the run's responses.
+void predict(const arm::Arm& arm, std::size_t run, const measured::FrequencyRecord& record,
+             ArmResponses& responses, Eigen::Ref<Eigen::VectorXd> values) {
   const auto chain = response::linear_chain(response::take_apart(arm));
   Index at = 0;
   for (auto first = record.channels.begin(); first != record.channels.end();) {
@@ -37,7 +35,8 @@ void predict(const arm::Arm& arm, const measured::FrequencyRecord& record, const
     });
     std::vector<arm::Sensor> sensors;
     for (auto channel = first; channel != last; ++channel) sensors.push_back(channel->sensor);
-    const auto made = response::with_chain(*kept(sensors, first->frequency_Hz), chain);
+    const auto made =
+        response::with_chain(*responses.of(run, arm, sensors, first->frequency_Hz), chain);
     for (const auto& of_sensor : made.values) {
       for (const auto& value : of_sensor) {
         values(at++) = value.real();
@@ -139,10 +138,7 @@ void Predictor::predict_other_runs(const arm::Arm& arm, const std::vector<bool>&
     with_payload.payload = run.payload.value_or(arm.payload);
     const auto [first, count] = stretch(r);
     if (const auto* record = std::get_if<measured::FrequencyRecord>(&data)) {
-      const auto kept = [&](const auto& sensors, const auto& frequency_Hz) {
-        return responses_->of(r, with_payload, sensors, frequency_Hz);
-      };
-      predict(with_payload, *record, kept, values.segment(first, count));
+      predict(with_payload, r, *record, *responses_, values.segment(first, count));
     } else if (const auto* table = std::get_if<measured::ModalTable>(&data)) {
       predict_roots(with_payload, *table, values.segment(first, count));
     }

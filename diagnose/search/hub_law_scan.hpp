@@ -31,11 +31,11 @@ struct HubLawScanOptions {
 /// (symptoms/hub_regression.hpp); by torque balance, of the missing torque, which has passed the
 /// filter of the arm as filed (Predictor::balanced_torque). Where a law is in proportion to its
 /// parameters of effects::Spacing::from_zero, its size is solved for at each value of the others,
-/// and so is the phase of a sine. The values are those of a grid, which is computed once for all
-/// sets of effects beside the law (hub_laws.hpp). The best value is refined by least squares, from
-/// there and from beside the law's neutral value: a free hub answers a constant part of a law with
-/// a drift, so that the minimum may be narrower than the distance of the values of the grid. The
-/// torque that the law may depend on is the commanded one.
+/// and so is the phase of a sine, or the second of two such parameters. The values are those of a
+/// grid, which is computed once for all sets of effects beside the law (hub_laws.hpp). The best
+/// value is refined by least squares, from there and from beside the law's neutral value: a free
+/// hub answers a constant part of a law with a drift, so that the minimum may be narrower than the
+/// distance of the values of the grid. The torque that the law may depend on is the commanded one.
 ///
 /// Empty for an effect that is more than such a law, for a constant torque, and for dry friction
 /// that is the same at every speed. Empty unless all estimation runs are `time` runs with a hub

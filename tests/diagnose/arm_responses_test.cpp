@@ -54,7 +54,8 @@ TEST_F(ArmResponsesOfTwoRuns, AreOthersWhereItIsNot) {
   arm::Arm heavier = arm_;
   heavier.payload.mass_kg += 0.01;
   EXPECT_NE(of(heavier)->values, first->values);
-  EXPECT_NE(responses_.of(0, arm_, hub_and_strain(), std::vector{0.5, 3.0, 21.0})->values, first->values);
+  EXPECT_NE(responses_.of(0, arm_, hub_and_strain(), std::vector{0.5, 3.0, 21.0})->values,
+            first->values);
 }
 
 TEST_F(ArmResponsesOfTwoRuns, AreNotOfASensorThatTheArmCannotCarry) {

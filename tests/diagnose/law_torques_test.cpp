@@ -6,7 +6,6 @@
 
 #include <cmath>
 #include <cstddef>
-#include <variant>
 #include <vector>
 
 namespace flexarm::diagnose {

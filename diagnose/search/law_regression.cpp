@@ -65,6 +65,11 @@ namespace {
 /// Of amplitudes that are solved for, in those of the grid.
 constexpr double kLeastAmplitude = 1e-2;
 
+std::vector<double> parts_of_last(const Candidate& candidate) {
+  const std::size_t last = candidate.effects.size() - 1;
+  return effects::parts_of(candidate.effects[last].parameters, candidate.values_of(last));
+}
+
 /// The readings of the candidate are these, but for rounding.
 bool are_readings(const LawRegression& laws, const Candidate& candidate,
                   const Eigen::VectorXd& expected) {
@@ -189,20 +194,12 @@ Candidate LinearParameters::times(const Candidate& candidate, double size) const
 
 Candidate LinearParameters::times_each(const Candidate& candidate, double first,
                                        double second) const {
-  const auto is_above = [&](std::size_t i) {
-    return candidate.effects.back().parameters[i].above_previous;
-  };
-  std::vector<double> parts(candidate.values.begin() + static_cast<std::ptrdiff_t>(first_),
-                            candidate.values.end());
-  for (std::size_t i = parts.size(); i-- > 1;) parts[i] -= is_above(i) ? parts[i - 1] : 0.0;
+  const Hypothesis& effect = candidate.effects.back();
+  std::vector<double> parts = parts_of_last(candidate);
   parts[amplitudes_.front()] *= first;
   parts[amplitudes_.back()] *= second;
-  Candidate made = candidate;
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    if (i > 0 && is_above(i)) parts[i] += parts[i - 1];
-    made.values[first_ + i] = parts[i];
-  }
-  return made;
+  return candidate.without(candidate.effects.size() - 1)
+      .with(effect, effects::values_of(effect.parameters, std::move(parts)));
 }
 
 Candidate LinearParameters::turned(const Candidate& candidate, double turns) const {
@@ -216,9 +213,7 @@ Candidate LinearParameters::turned(const Candidate& candidate, double turns) con
 
 double LinearParameters::largest_size(const Candidate& candidate, std::size_t amplitude) const {
   const SearchedParameter& parameter = candidate.effects.back().parameters[amplitude];
-  const std::size_t i = first_ + amplitude;
-  const double base = parameter.above_previous ? candidate.values[i - 1] : 0.0;
-  return std::max(parameter.highest / (candidate.values[i] - base), 1.0);
+  return std::max(parameter.highest / parts_of_last(candidate)[amplitude], 1.0);
 }
 
 double LinearParameters::largest_size(const Candidate& candidate) const {

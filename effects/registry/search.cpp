@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 namespace flexarm::effects {
 
@@ -70,22 +71,38 @@ double SearchedParameter::size(double coordinate) const {
 
 std::vector<double> values_at(std::span<const SearchedParameter> parameters,
                               std::span<const double> coordinates) {
-  std::vector<double> values;
+  std::vector<double> parts;
   for (std::size_t i = 0; i < parameters.size(); ++i) {
-    const double base = parameters[i].above_previous ? values.back() : 0.0;
-    values.push_back(base + parameters[i].value(coordinates[i]));
+    parts.push_back(parameters[i].value(coordinates[i]));
   }
-  return values;
+  return values_of(parameters, std::move(parts));
 }
 
 std::vector<double> coordinates_of(std::span<const SearchedParameter> parameters,
                                    std::span<const double> values) {
-  std::vector<double> coordinates;
+  std::vector<double> coordinates = parts_of(parameters, values);
   for (std::size_t i = 0; i < parameters.size(); ++i) {
-    const double base = parameters[i].above_previous ? values[i - 1] : 0.0;
-    coordinates.push_back(parameters[i].coordinate(values[i] - base));
+    coordinates[i] = parameters[i].coordinate(coordinates[i]);
   }
   return coordinates;
+}
+
+std::vector<double> parts_of(std::span<const SearchedParameter> parameters,
+                             std::span<const double> values) {
+  std::vector<double> parts;
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const double base = parameters[i].above_previous ? values[i - 1] : 0.0;
+    parts.push_back(values[i] - base);
+  }
+  return parts;
+}
+
+std::vector<double> values_of(std::span<const SearchedParameter> parameters,
+                              std::vector<double> parts) {
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    if (parameters[i].above_previous) parts[i] += parts[i - 1];
+  }
+  return parts;
 }
 
 }  // namespace flexarm::effects

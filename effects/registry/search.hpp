@@ -83,4 +83,11 @@ std::vector<double> values_at(std::span<const SearchedParameter> parameters,
 std::vector<double> coordinates_of(std::span<const SearchedParameter> parameters,
                                    std::span<const double> values);
 
+/// Of values of these parameters, each itself, or how much it is above the one before it
+/// (SearchedParameter::above_previous), and back. As many as there are parameters.
+std::vector<double> parts_of(std::span<const SearchedParameter> parameters,
+                             std::span<const double> values);
+std::vector<double> values_of(std::span<const SearchedParameter> parameters,
+                              std::vector<double> parts);
+
 }  // namespace flexarm::effects

@@ -117,8 +117,8 @@ void change_lines(const Observations& observations, const ObservedChannel& chann
                   Eigen::Ref<Eigen::VectorXd> lines, Line (*to)(Line measured, Line line)) {
   for (Eigen::Index k = 0; k < channel.count; k += 2) {
     const Eigen::Index at = channel.first + k;
-    const Line measured = Line(observations.values(at), observations.values(at + 1)) /
-                          observations.deviations(at);
+    const Line measured =
+        Line(observations.values(at), observations.values(at + 1)) / observations.deviations(at);
     const Line made = to(measured, {lines(k), lines(k + 1)});
     lines(k) = made.real();
     lines(k + 1) = made.imag();
@@ -126,8 +126,14 @@ void change_lines(const Observations& observations, const ObservedChannel& chann
 }
 
 Line residual_of(Line measured, Line error) {
-  const double size = std::abs(measured);
-  if (size >= kResponseFloor) return size * std::log(measured / (measured - error));
+  const double square = std::norm(measured);
+  if (square >= kResponseFloor * kResponseFloor) {
+    // ln(h/p) = -ln(1 - z) with z = (h - p)/h, real and imaginary part by themselves: a complex
+    // logarithm costs five times as much.
+    const Line z = error * std::conj(measured) / square;
+    return std::sqrt(square) * Line(-0.5 * std::log1p(std::norm(z) - 2.0 * z.real()),
+                                    std::atan2(z.imag(), 1.0 - z.real()));
+  }
   const double length = std::abs(error);
   return length == 0.0 ? error
                        : kResponseFloor * std::log1p(length / kResponseFloor) / length * error;

@@ -80,7 +80,7 @@ Eigen::VectorXd column_of(const SensorColumn& column, const Eigen::MatrixXd& tri
 
 Eigen::MatrixXd column_derivatives(const SensorColumn& column, const Eigen::MatrixXd& triangle,
                                    const SignalLayout& layout, const BlockSet& blocks) {
-  if (column.kind != Kind::forced && column.kind != Kind::free) return {};
+  if (!column.is_of_block()) return {};
   if (blocks.is_held(column.block)) return {};
   const auto& [a1, a0] = blocks.blocks[column.block];
   const auto x = triangle.middleCols<4>(layout.block(column.block, column.kind == Kind::free));

@@ -22,6 +22,7 @@ struct SensorColumn {
   /// deviation over it. 0: nothing is known beforehand.
   double tightness = 0.0;
 
+  bool is_of_block() const { return kind == Kind::forced || kind == Kind::free; }
   /// Of all stretches alike.
   bool is_common() const { return kind != Kind::free && kind != Kind::offset; }
 
@@ -73,8 +74,8 @@ SensorModel sensor_model(const arm::Sensor& sensor, Eigen::Index index, const Bl
 Eigen::VectorXd column_of(const SensorColumn& column, const Eigen::MatrixXd& triangle,
                           const SignalLayout& layout, const BlockSet& blocks);
 
-/// Its derivatives to the block's own parameters: rows x 1 or 2; empty for a column without block, or
-/// of one that is held.
+/// Its derivatives to the block's own parameters: rows x 1 or 2; empty for a column without block,
+/// or of one that is held.
 Eigen::MatrixXd column_derivatives(const SensorColumn& column, const Eigen::MatrixXd& triangle,
                                    const SignalLayout& layout, const BlockSet& blocks);
 

@@ -46,6 +46,11 @@ std::vector<Candidate> grid(const BlockSearchOptions& options) {
       places.push_back({block_at(from * std::pow(options.band.to_Hz / from, share), damping)});
     }
   }
+  // A spring at the hub makes a mode of the rigid-body motion, which may lie below all lines.
+  for (const double below : {1.0, 1.6, 2.5}) {
+    const double frequency_Hz = options.band.from_Hz / below;
+    if (frequency_Hz > 0.0) places.push_back({block_at(frequency_Hz, 0.1)});
+  }
   for (const double beyond : {1.2, 1.6, 2.5}) {
     const double frequency_Hz = beyond * options.band.to_Hz;
     if (frequency_Hz < options.highest_Hz) places.push_back({block_at(frequency_Hz, 0.1)});
@@ -53,13 +58,17 @@ std::vector<Candidate> grid(const BlockSearchOptions& options) {
   return places;
 }
 
-/// Columns y_j and of the model of `chosen` blocks among `all`, on the triangles of all.
+/// Columns y_j and of the model of some blocks among `all`, on the triangles of all.
 class CandidateTriangles {
  public:
   CandidateTriangles(std::span<const Stretch> stretches, std::span<const arm::Sensor> sensors,
                      const BlockSet& all, const ColumnChoices& choices)
-      : stretches_(stretches), all_(all) {
-    for (const Stretch& stretch : stretches) triangles_.push_back(triangle(stretch, all));
+      : stretches_(stretches), all_(all), signals_(all) {
+    // Signals of derivatives are not needed. Held blocks have none, but no free motion either.
+    if (std::ranges::none_of(stretches, &Stretch::begins_in_motion)) {
+      signals_.held = signals_.blocks.size();
+    }
+    for (const Stretch& stretch : stretches) triangles_.push_back(triangle(stretch, signals_));
     for (std::size_t j = 0; j < sensors.size(); ++j) {
       models_.push_back(sensor_model(sensors[j], static_cast<Index>(j), all, stretches, choices));
     }
@@ -73,7 +82,7 @@ class CandidateTriangles {
       for (std::size_t r = 0; r < stretches_.size(); ++r) {
         const auto at = std::ranges::find(stretches_[r].sensors, static_cast<Index>(j));
         if (at == stretches_[r].sensors.end()) continue;
-        const SignalLayout layout = stretches_[r].layout(all_);
+        const SignalLayout layout = stretches_[r].layout(signals_);
         const VectorXd y =
             triangles_[r].col(layout.first_reading() + (at - stretches_[r].sensors.begin()));
         sum += static_cast<double>(stretches_[r].rows) * std::log(squares(j, r, y, held, added));
@@ -85,12 +94,10 @@ class CandidateTriangles {
  private:
   double squares(std::size_t j, std::size_t r, const VectorXd& y, std::size_t held,
                  std::size_t added) const {
-    const SignalLayout layout = stretches_[r].layout(all_);
+    const SignalLayout layout = stretches_[r].layout(signals_);
     std::vector<VectorXd> columns;
     for (const SensorColumn& column : models_[j].columns) {
-      const bool of_block =
-          column.kind == SensorColumn::Kind::forced || column.kind == SensorColumn::Kind::free;
-      if (of_block && column.block >= held && column.block != added) continue;
+      if (column.is_of_block() && column.block >= held && column.block != added) continue;
       const bool own =
           column.kind == SensorColumn::Kind::free || column.kind == SensorColumn::Kind::offset;
       if (own && column.stretch != r) continue;
@@ -104,6 +111,7 @@ class CandidateTriangles {
 
   std::span<const Stretch> stretches_;
   const BlockSet& all_;
+  BlockSet signals_;  // the blocks whose signals the triangles have
   std::vector<MatrixXd> triangles_;
   std::vector<SensorModel> models_;
 };
@@ -237,18 +245,11 @@ class Search {
   int prune() {
     int pruned = 0;
     while (flexible() > 1) {
-      std::size_t least = 0;
-      double lowest = std::numeric_limits<double>::infinity();
-      for (std::size_t m = options_.rigid ? 1 : 0; m < best_.blocks.blocks.size(); ++m) {
-        ProjectionOptions as_is = projection_;
-        as_is.most_iterations = 0;
-        const double bic = fit_blocks(stretches_, sensors_, without(m), choices_, as_is).bic();
-        if (bic >= lowest) continue;
-        lowest = bic;
-        least = m;
-      }
-      if (lowest > best_.bic() + kWorthRefitting) break;
-      BlockFit fewer = fit(without(least));
+      const std::size_t first = options_.rigid ? 1 : 0;
+      const std::vector<double> bic = bic_without_each(stretches_, best_, first);
+      const auto lowest = std::ranges::min_element(bic);
+      if (*lowest > best_.bic() + kWorthRefitting) break;
+      BlockFit fewer = fit(without(first + static_cast<std::size_t>(lowest - bic.begin())));
       if (fewer.bic() > best_.bic() + options_.bic_margin) break;
       best_ = std::move(fewer);
       ++pruned;

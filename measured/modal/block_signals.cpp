@@ -78,33 +78,62 @@ struct TimeRows {
 
 struct FrequencyRows {
   const FrequencyChannel& channel;
-  std::vector<double> deviation;
   std::vector<std::size_t> lines;
+  // Of the lines.
+  Eigen::ArrayXd omega_rad_per_s;
+  Eigen::ArrayXd weight;  ///< 1/deviation
+
+  FrequencyRows(const FrequencyChannel& of, std::vector<std::size_t> taken,
+                const std::vector<double>& deviation)
+      : channel(of),
+        lines(std::move(taken)),
+        omega_rad_per_s(static_cast<Index>(lines.size())),
+        weight(static_cast<Index>(lines.size())) {
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      const auto at = static_cast<Index>(i);
+      omega_rad_per_s(at) = 2.0 * std::numbers::pi * channel.frequency_Hz[lines[i]];
+      weight(at) = 1.0 / deviation[lines[i]];
+    }
+  }
 
   void operator()(const BlockSet& set, const RowVisitor& visitor) const {
     const SignalLayout layout = SignalLayout::of(set, false);
     const int derivatives = arm::derivative_order(channel.sensor);
-    const Index columns = layout.first_reading() + 1;
-    Eigen::VectorXcd row(columns);
     Eigen::MatrixXd rows;
-    for (std::size_t first = 0; first < lines.size(); first += kChunk / 2) {
-      const std::size_t count = std::min<std::size_t>(kChunk / 2, lines.size() - first);
-      rows.resize(2 * static_cast<Index>(count), columns);
-      for (std::size_t r = 0; r < count; ++r) {
-        const std::size_t k = lines[first + r];
-        const Complex s(0.0, 2.0 * std::numbers::pi * channel.frequency_Hz[k]);
-        for (std::size_t m = 0; m < set.blocks.size(); ++m) {
-          const Complex q = set.blocks[m].value(s);
-          row.segment<2>(layout.block(m, false)) << q, s * q;
-          if (!set.is_held(m)) row.segment<2>(layout.block(m, false) + 2) << q * q, s * q * q;
-        }
-        row(layout.torque()) = 1.0;
-        row(layout.remainder()) = derivatives == 0 ? 1.0 : derivatives == 1 ? s : s * s;
-        row(layout.one()) = 0.0;
-        row(layout.first_reading()) = channel.response[k];
-        row /= deviation[k];
-        rows.row(2 * static_cast<Index>(r)) = row.real();
-        rows.row(2 * static_cast<Index>(r) + 1) = row.imag();
+    for (Index first = 0; first < weight.size(); first += kChunk / 2) {
+      const Index count = std::min(kChunk / 2, weight.size() - first);
+      const Eigen::ArrayXd omega = omega_rad_per_s.segment(first, count);
+      rows.setZero(2 * count, layout.first_reading() + 1);
+      const auto put = [&](Index column, const Eigen::ArrayXd& real, const Eigen::ArrayXd& imag) {
+        rows(Eigen::seqN(0, count, 2), column) = weight.segment(first, count) * real;
+        rows(Eigen::seqN(1, count, 2), column) = weight.segment(first, count) * imag;
+      };
+      const Eigen::ArrayXd none = Eigen::ArrayXd::Zero(count);
+      const Eigen::ArrayXd ones = Eigen::ArrayXd::Ones(count);
+      for (std::size_t m = 0; m < set.blocks.size(); ++m) {
+        // 1/(a0 - omega^2 + j a1 omega)
+        const Eigen::ArrayXd real = set.blocks[m].a0_rad2_per_s2 - omega.square();
+        const Eigen::ArrayXd imag = set.blocks[m].a1_rad_per_s * omega;
+        const Eigen::ArrayXd square = real.square() + imag.square();
+        const Eigen::ArrayXd q_real = real / square;
+        const Eigen::ArrayXd q_imag = -imag / square;
+        const Index column = layout.block(m, false);
+        put(column, q_real, q_imag);
+        put(column + 1, -omega * q_imag, omega * q_real);
+        if (set.is_held(m)) continue;
+        const Eigen::ArrayXd p_real = q_real.square() - q_imag.square();
+        const Eigen::ArrayXd p_imag = 2.0 * q_real * q_imag;
+        put(column + 2, p_real, p_imag);
+        put(column + 3, -omega * p_imag, omega * p_real);
+      }
+      put(layout.torque(), ones, none);
+      if (derivatives == 0) put(layout.remainder(), ones, none);
+      if (derivatives == 1) put(layout.remainder(), none, omega);
+      if (derivatives == 2) put(layout.remainder(), -omega.square(), none);
+      for (Index r = 0; r < count; ++r) {
+        const Complex own = channel.response[lines[static_cast<std::size_t>(first + r)]];
+        rows(2 * r, layout.first_reading()) = weight(first + r) * own.real();
+        rows(2 * r + 1, layout.first_reading()) = weight(first + r) * own.imag();
       }
       visitor(rows);
     }
@@ -126,7 +155,7 @@ Stretch time_stretch(const TimeRecord& record, std::vector<Index> sensors, Torqu
 }
 
 Stretch frequency_stretch(const FrequencyChannel& channel, Index sensor,
-                          std::vector<double> deviation) {
+                          const std::vector<double>& deviation) {
   std::vector<std::size_t> lines;
   for (std::size_t k = 0; k < channel.frequency_Hz.size(); ++k) {
     if (channel.frequency_Hz[k] > 0.0 && std::isfinite(deviation[k])) lines.push_back(k);
@@ -137,7 +166,7 @@ Stretch frequency_stretch(const FrequencyChannel& channel, Index sensor,
           .in_time = false,
           .rows = rows,
           .duration_s = 0.0,
-          .visit = FrequencyRows{channel, std::move(deviation), std::move(lines)}};
+          .visit = FrequencyRows(channel, std::move(lines), deviation)};
 }
 
 Eigen::MatrixXd triangle(const Stretch& stretch, const BlockSet& blocks) {

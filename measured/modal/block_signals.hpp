@@ -24,8 +24,8 @@ struct SignalLayout {
   bool free = false;
 
   static SignalLayout of(const BlockSet& blocks, bool free) {
-    return {static_cast<Eigen::Index>(blocks.free_blocks()),
-            static_cast<Eigen::Index>(blocks.held), free};
+    return {static_cast<Eigen::Index>(blocks.free_blocks()), static_cast<Eigen::Index>(blocks.held),
+            free};
   }
   Eigen::Index block(std::size_t m, bool of_free) const {
     const auto at = static_cast<Eigen::Index>(m);
@@ -73,7 +73,7 @@ Stretch time_stretch(const TimeRecord& record, std::vector<Eigen::Index> sensors
 /// derivatives. `channel` must outlive the result; frequency 0 and lines of infinite deviation are
 /// left out.
 Stretch frequency_stretch(const FrequencyChannel& channel, Eigen::Index sensor,
-                          std::vector<double> deviation);
+                          const std::vector<double>& deviation);
 
 /// The upper triangular factor R of the stretch's rows, columns as the rows': rows = Q R, whatever
 /// their number. Householder, chunk by chunk: no digits are lost to squares.

@@ -1,5 +1,7 @@
 #include "measured/modal/variable_projection.hpp"
 
+#include "measured/modal/sensor_problem.hpp"
+
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
 
@@ -16,16 +18,17 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Columns that depend on others to this are left out of a sensor's model.
-constexpr double kDependent = 1e-11;
-/// Residuals below this times the reading's size are rounding, not noise.
-constexpr double kResidualRounding = 1e-13;
 /// A Newton step in log(omega) and damping ratios that rounding of the criterion may hide.
 constexpr double kRoundingStep = 1e-7;
 /// A fall of the criterion that is none, in units of the square of the step asked for.
 constexpr double kNoGain = 100.0;
 /// The largest step of log(omega) and of a damping ratio.
 constexpr double kLargestStep = 0.3;
+/// Of the slope at the beginning of a step, with the other sign: a step that ends on more of it has
+/// passed the minimum.
+constexpr double kPassed = 0.2;
+/// Steps are looked at for that where the minimum is within so many standard errors.
+constexpr double kNearMinimum = 2.0;
 /// Decay within a sampling period, as its exponent, that a step may reach: a block that is faster
 /// shows at samples as a constant beside the static remainder, both as large as they like.
 constexpr double kMostDecay = 7.0;
@@ -39,149 +42,6 @@ struct Evaluation {
   VectorXd gradient;     ///< of the criterion/2
   MatrixXd information;  ///< Gauss-Newton, of the criterion/2
   double criterion = 0.0;
-};
-
-/// A, dA beta and y of one sensor, of all its stretches.
-class SensorProblem {
- public:
-  SensorProblem(const SensorModel& model, Index index, const BlockSet& blocks,
-                std::span<const Stretch> stretches, std::span<const MatrixXd> triangles)
-      : model_(model), blocks_(blocks) {
-    Index rows = 0;
-    for (std::size_t r = 0; r < stretches.size(); ++r) {
-      const auto at = std::ranges::find(stretches[r].sensors, index);
-      if (at == stretches[r].sensors.end()) continue;
-      const Index reading = at - stretches[r].sensors.begin();
-      pieces_.push_back({r, rows, &triangles[r], stretches[r].layout(blocks), reading,
-                         stretches[r].weight(reading), static_cast<double>(stretches[r].rows)});
-      rows += triangles[r].rows();
-      values_ += static_cast<double>(stretches[r].rows);
-    }
-    const Index known =
-        std::ranges::count_if(model.columns, [](const auto& c) { return c.tightness > 0.0; });
-    a_ = MatrixXd::Zero(rows + known, static_cast<Index>(model.columns.size()));
-    y_ = VectorXd::Zero(rows + known);
-    // What is known beforehand is a row more: 0 = tightness coefficient, with the noise's
-    // deviation.
-    for (std::size_t i = 0; i < model.columns.size(); ++i) {
-      if (model.columns[i].tightness > 0.0) {
-        a_(rows++, static_cast<Index>(i)) = model.columns[i].tightness;
-      }
-    }
-    for (const Piece& piece : pieces_) {
-      const MatrixXd& triangle = *piece.triangle;
-      y_.segment(piece.first_row, triangle.rows()) =
-          piece.weight * triangle.col(piece.layout.first_reading() + piece.reading);
-      for (std::size_t i = 0; i < model.columns.size(); ++i) {
-        if (!has(piece, model.columns[i])) continue;
-        a_.block(piece.first_row, static_cast<Index>(i), triangle.rows(), 1) =
-            piece.weight * column_of(model.columns[i], triangle, piece.layout, blocks);
-      }
-    }
-  }
-
-  /// beta and the residual; adds the sensor's part to gradient and information.
-  SensorEstimate solve(VectorXd& gradient, MatrixXd& information) const {
-    if (a_.cols() == 0) return nothing_linear();
-    const VectorXd scale =
-        a_.colwise().norm().transpose().unaryExpr([](double n) { return n > 0.0 ? n : 1.0; });
-    const MatrixXd scaled = a_ * scale.cwiseInverse().asDiagonal();
-    Eigen::ColPivHouseholderQR<MatrixXd> qr;
-    qr.setThreshold(kDependent);
-    qr.compute(scaled);
-    const Index rank = qr.rank();
-    const auto in_range = [&](const MatrixXd& v) -> MatrixXd {  // scaled A^+ v
-      MatrixXd q = qr.householderQ().adjoint() * v;
-      MatrixXd x = MatrixXd::Zero(a_.cols(), v.cols());
-      if (rank == 0 || v.cols() == 0) return x;
-      x.topRows(rank) = qr.matrixQR()
-                            .topLeftCorner(rank, rank)
-                            .triangularView<Eigen::Upper>()
-                            .solve(q.topRows(rank));
-      return qr.colsPermutation() * x;
-    };
-    SensorEstimate estimate;
-    VectorXd unit_beta = in_range(y_);
-    VectorXd residual = y_ - scaled * unit_beta;
-    const VectorXd correction = in_range(residual);
-    unit_beta += correction;
-    residual -= scaled * correction;
-    estimate.beta = unit_beta.cwiseQuotient(scale);
-    estimate.rows = values_;
-    estimate.squares = squares_above_rounding(residual, y_);
-    for (const Piece& piece : pieces_) {
-      const double squares =
-          squares_above_rounding(residual.segment(piece.first_row, piece.triangle->rows()), y_);
-      estimate.stretches.push_back(
-          {piece.stretch, squares / (piece.weight * piece.weight), piece.rows});
-    }
-
-    const MatrixXd d = derivative(estimate.beta);
-    const MatrixXd unit_change = in_range(d);
-    const MatrixXd jacobian = -(d - scaled * unit_change);
-    estimate.to_theta = -(scale.cwiseInverse().asDiagonal() * unit_change);
-    const double weight = values_ / estimate.squares;
-    gradient += weight * (jacobian.transpose() * residual);
-    information += weight * (jacobian.transpose() * jacobian);
-
-    MatrixXd root = MatrixXd::Zero(a_.cols(), rank);
-    root.topRows(rank) = qr.matrixQR()
-                             .topLeftCorner(rank, rank)
-                             .triangularView<Eigen::Upper>()
-                             .solve(MatrixXd::Identity(rank, rank));
-    const MatrixXd spread = scale.cwiseInverse().asDiagonal() * (qr.colsPermutation() * root);
-    estimate.unit_inverse = spread * spread.transpose();
-    return estimate;
-  }
-
- private:
-  struct Piece {
-    std::size_t stretch;
-    Index first_row;
-    const MatrixXd* triangle;
-    SignalLayout layout;
-    Index reading;
-    double weight;
-    double rows;
-  };
-
-  /// Of a sensor that no block moves yet.
-  SensorEstimate nothing_linear() const {
-    return {.beta = VectorXd(0),
-            .squares = y_.squaredNorm(),
-            .rows = values_,
-            .unit_inverse = MatrixXd(0, 0),
-            .to_theta = MatrixXd(0, blocks_.parameters())};
-  }
-
-  static bool has(const Piece& piece, const SensorColumn& column) {
-    if (column.kind == SensorColumn::Kind::free && !piece.layout.free) return false;
-    return column.is_common() || column.stretch == piece.stretch;
-  }
-
-  /// dA/d theta_t beta, a column each.
-  MatrixXd derivative(const VectorXd& beta) const {
-    MatrixXd d = MatrixXd::Zero(a_.rows(), blocks_.parameters());
-    for (const Piece& piece : pieces_) {
-      for (std::size_t i = 0; i < model_.columns.size(); ++i) {
-        const SensorColumn& column = model_.columns[i];
-        if (!has(piece, column)) continue;
-        const MatrixXd of_column =
-            column_derivatives(column, *piece.triangle, piece.layout, blocks_);
-        if (of_column.size() == 0) continue;
-        d.block(piece.first_row, blocks_.first_parameter(column.block), of_column.rows(),
-                of_column.cols()) += piece.weight * beta(static_cast<Index>(i)) * of_column;
-      }
-    }
-    return d;
-  }
-
-  const SensorModel& model_;
-  const BlockSet& blocks_;
-  std::vector<Piece> pieces_;
-  MatrixXd a_;
-  VectorXd y_;
-  double values_ = 0.0;
 };
 
 class Fitter {
@@ -209,8 +69,7 @@ class Fitter {
     for (std::size_t j = 0; j < models_.size(); ++j) {
       const SensorProblem problem(models_[j], static_cast<Index>(j), blocks, stretches_, triangles);
       at.sensors.push_back(problem.solve(at.gradient, at.information));
-      const SensorEstimate& sensor = at.sensors.back();
-      at.criterion += sensor.rows * std::log(sensor.squares / sensor.rows);
+      at.criterion += at.sensors.back().criterion();
     }
     if (!std::isfinite(at.criterion)) at.criterion = std::numeric_limits<double>::infinity();
     return at;
@@ -294,6 +153,20 @@ VectorXd shortened(VectorXd step, const BlockSet& blocks) {
   return largest > kLargestStep ? VectorXd(step * (kLargestStep / largest)) : step;
 }
 
+/// The evaluation behind a step. Near the minimum a Gauss-Newton step in a block that the data
+/// hardly show may pass it: then this is where the slope along the step is 0, linear in between, if
+/// the criterion is lower there.
+Evaluation behind_step(const Fitter& fitter, const Evaluation& at, const VectorXd& step,
+                       bool is_near_minimum) {
+  const VectorXd theta = at.blocks.theta();
+  Evaluation end = fitter.evaluate(at.blocks.with(theta + step));
+  const double before = at.gradient.dot(step);
+  const double behind = end.gradient.dot(step);
+  if (!is_near_minimum || !(behind > -kPassed * before)) return end;
+  Evaluation between = fitter.evaluate(at.blocks.with(theta + before / (before - behind) * step));
+  return between.criterion < end.criterion ? between : end;
+}
+
 /// Coefficients of which something is known beforehand do not count as parameters.
 void finish(BlockFit& fit, const Evaluation& at) {
   fit.blocks = at.blocks;
@@ -326,10 +199,6 @@ void finish(BlockFit& fit, const Evaluation& at) {
 
 }  // namespace
 
-double squares_above_rounding(const VectorXd& residual, const VectorXd& readings) {
-  return residual.squaredNorm() + kResidualRounding * kResidualRounding * readings.squaredNorm();
-}
-
 double BlockFit::values() const {
   return std::accumulate(sensors.begin(), sensors.end(), 0.0,
                          [](double sum, const auto& sensor) { return sum + sensor.rows; });
@@ -355,8 +224,9 @@ BlockFit fit_blocks(std::span<const Stretch> stretches, std::span<const arm::Sen
   const double enough = options.step_in_standard_errors * options.step_in_standard_errors;
   fit.converged = start.blocks.empty();
   while (!fit.converged && fit.iterations < options.most_iterations && damping < kStiffest) {
-    const VectorXd newton = marquardt_step(at, held, 1e-14);
-    if (-newton.dot(at.gradient) < enough) {
+    // The square of the Newton step in standard errors, in their metric.
+    const double newton = -marquardt_step(at, held, 1e-14).dot(at.gradient);
+    if (newton < enough) {
       fit.converged = true;
       break;
     }
@@ -374,7 +244,9 @@ BlockFit fit_blocks(std::span<const Stretch> stretches, std::span<const arm::Sen
     const BlockSet there = at.blocks.with(theta + step);
     if (held.hold(fitter, there)) continue;
     std::optional<Evaluation> next;
-    if (fitter.is_admissible(there)) next = fitter.evaluate(there);
+    if (fitter.is_admissible(there)) {
+      next = behind_step(fitter, at, step, newton < kNearMinimum * kNearMinimum);
+    }
     if (next && next->criterion < at.criterion) {
       // A flat valley, along which steps are long and win nothing, is an end too.
       const bool no_gain = at.criterion - next->criterion < kNoGain * enough;
@@ -395,6 +267,29 @@ BlockFit fit_blocks(std::span<const Stretch> stretches, std::span<const arm::Sen
   fit.models = fitter.models();
   finish(fit, at);
   return fit;
+}
+
+std::vector<double> bic_without_each(std::span<const Stretch> stretches, const BlockFit& fit,
+                                     std::size_t first) {
+  std::vector<MatrixXd> triangles;
+  for (const Stretch& stretch : stretches) triangles.push_back(triangle(stretch, fit.blocks));
+  std::vector<double> made;
+  for (std::size_t m = first; m < fit.blocks.blocks.size(); ++m) {
+    double criterion = 0.0;
+    double parameters =
+        fit.parameter_count - static_cast<double>(fit.blocks.coefficient_derivatives(m).rows());
+    for (std::size_t j = 0; j < fit.models.size(); ++j) {
+      SensorModel fewer = fit.models[j];
+      parameters -=
+          static_cast<double>(std::erase_if(fewer.columns, [m](const SensorColumn& column) {
+            return column.is_of_block() && column.block == m;
+          }));
+      const SensorProblem problem(fewer, static_cast<Index>(j), fit.blocks, stretches, triangles);
+      criterion += problem.residual().criterion();
+    }
+    made.push_back(criterion + parameters * std::log(fit.values()));
+  }
+  return made;
 }
 
 }  // namespace flexarm::measured

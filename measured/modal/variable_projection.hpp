@@ -2,6 +2,7 @@
 
 #include "measured/files/sensor_columns.hpp"
 #include "measured/modal/block_signals.hpp"
+#include "measured/modal/sensor_problem.hpp"
 
 #include <Eigen/Core>
 
@@ -17,30 +18,6 @@ struct ProjectionOptions {
   int most_iterations = 60;
   /// Called before every evaluation, which passes over the data once; false ends the fit.
   std::function<bool()> go_on = {};
-};
-
-/// What a fit leaves of one sensor's readings in one stretch, without its weight.
-struct StretchResidual {
-  std::size_t stretch = 0;
-  double squares = 0.0;
-  double rows = 0.0;
-
-  double variance() const { return squares / rows; }
-};
-
-/// Sum of squares of a residual, and that of what rounding leaves of the readings.
-double squares_above_rounding(const Eigen::VectorXd& residual, const Eigen::VectorXd& readings);
-
-/// One sensor's linear parameters beta at the fitted theta. p is their number; the first `shared`
-/// columns of its model are common to all stretches.
-struct SensorEstimate {
-  Eigen::VectorXd beta;
-  double squares = 0.0;   ///< residual sum of squares, each times its stretch's weight squared
-  double rows = 0.0;      ///< values it is a sum over
-  double variance = 0.0;  ///< squares/(rows - parameters): of the noise
-  Eigen::MatrixXd unit_inverse;  ///< (A^T A)^-1, p x p
-  Eigen::MatrixXd to_theta;      ///< d beta/d theta, p x parameters of theta
-  std::vector<StretchResidual> stretches = {};
 };
 
 struct BlockFit {
@@ -72,5 +49,10 @@ struct BlockFit {
 BlockFit fit_blocks(std::span<const Stretch> stretches, std::span<const arm::Sensor> sensors,
                     const BlockSet& start, const ColumnChoices& choices,
                     const ProjectionOptions& options = {});
+
+/// BIC of `fit` without each of its blocks from `first` on, the others as they are. `fit` is of
+/// `stretches` and has no held blocks. One pass over the data for all.
+std::vector<double> bic_without_each(std::span<const Stretch> stretches, const BlockFit& fit,
+                                     std::size_t first);
 
 }  // namespace flexarm::measured

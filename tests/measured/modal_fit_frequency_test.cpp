@@ -1,4 +1,5 @@
 // Fits of frequency responses, on uneven grids, against the formulation that made them.
+#include "effects/registry/vocabulary.hpp"
 #include "measured/modal/modal_fit.hpp"
 #include "response/time/random_numbers.hpp"
 #include "tests/fit_cases/fit_cases.hpp"
@@ -8,6 +9,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <complex>
+#include <numbers>
 
 namespace flexarm::measured {
 namespace {
@@ -32,6 +35,35 @@ TEST(ModalFitOfResponses, WithModesBeyondTheBandHasThemInItsRemainder) {
   const FitErrors errors = errors_of(fit, exact_roots(model, fit_case.sensors.size()), false);
   EXPECT_LT(errors.frequency, 1e-6);
   EXPECT_LT(errors.damping_ratio, 1e-4);
+}
+
+TEST(ModalFitOfResponses, FindsTheModeOfAHubSpringBesideItsFirstLine) {
+  FitCase fit_case;
+  fit_case.modes = 4;
+  const double omega_rad_per_s = 2.0 * std::numbers::pi * 0.9;
+  fit_case.arm.hub.viscous_friction_N_m_s_per_rad =
+      0.26 * omega_rad_per_s * arm::total_inertia_kg_m2(fit_case.arm);
+  fit_case.arm.effects = {effects::named(
+      "hub_spring",
+      {{"stiffness", omega_rad_per_s * omega_rad_per_s * arm::total_inertia_kg_m2(fit_case.arm)}})};
+  const auto model = model_of(fit_case);
+  FrequencyRecord record = responses(fit_case, model, 500, 1000.0);
+  response::RandomNumbers random(5);
+  for (FrequencyChannel& channel : record.channels) {
+    for (Complex& value : channel.response) {
+      value *= 1.0 + 5e-3 * Complex(random.normal(), random.normal());
+    }
+  }
+  const ModalFit fit = fit_modes(record);
+  const ExactRoots exact = exact_roots(model, fit_case.sensors.size());
+  ASSERT_LT(natural_Hz(exact.poles[0]), 1.0);
+  EXPECT_TRUE(fit.converged);
+  // Others would take up what its absence leaves.
+  ASSERT_EQ(fit.poles.size(), exact.poles.size());
+  for (std::size_t i = 0; i < exact.poles.size(); ++i) {
+    EXPECT_NEAR(fit.poles[i].frequency_Hz / natural_Hz(exact.poles[i]), 1.0, 1e-3);
+    EXPECT_NEAR(fit.poles[i].damping_ratio / damping_of(exact.poles[i]), 1.0, 5e-3);
+  }
 }
 
 TEST(ModalFitOfResponses, WeighsLinesByTheirCoherence) {

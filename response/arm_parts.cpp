@@ -110,11 +110,6 @@ void add_sensor_stage(ArmParts& parts, const std::string& effect, const arm::Sen
 
 }  // namespace
 
-double Actuator::mapped(double command_N_m) const {
-  for (const auto& map : maps) command_N_m = map(command_N_m);
-  return command_N_m;
-}
-
 std::vector<double> Actuator::bends() const {
   // Bends of the maps so far; behind them each straight piece passes the bends of the next map.
   std::vector<double> found;

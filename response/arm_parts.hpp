@@ -18,7 +18,10 @@ struct Actuator {
   double lag_s = 0.0;
 
   /// The command behind the maps.
-  double mapped(double command_N_m) const;
+  double mapped(double command_N_m) const {
+    for (const auto& map : maps) command_N_m = map(command_N_m);
+    return command_N_m;
+  }
   /// The commands at which that bends, ascending.
   std::vector<double> bends() const;
   /// The product of the gains among the maps. Maps that are not proportional are left out.
@@ -99,8 +102,8 @@ ArmParts take_apart(const arm::Arm& arm);
 /// The arm of `parts` with a hub whose motion is given: what acts on the hub alone, its inertia,
 /// spring, friction and laws, and the path of the torque, has no influence and is left out. The
 /// hub's inertia is then `kDrivenHubInertia` times that of the arm, which the modes depend on, and
-/// the motion does not: the modes are nearly those of the arm with its hub clamped, and few suffice.
-/// Throws InputError for an arm without a beam.
+/// the motion does not: the modes are nearly those of the arm with its hub clamped, and few
+/// suffice. Throws InputError for an arm without a beam.
 ArmParts with_driven_hub(ArmParts parts);
 inline constexpr double kDrivenHubInertia = 1e4;
 

@@ -13,12 +13,16 @@ LinearRefit::LinearRefit(const Problem& problem, const Candidate& base, const Re
   if (parameters_ > 0) derivatives_.compute(as_it_is.jacobian);
 }
 
-double LinearRefit::sum_of_squares(const Candidate& candidate) const {
-  const auto residuals = problem_.residuals(candidate, problem_.estimation_runs());
-  if (!residuals) return std::numeric_limits<double>::infinity();
-  if (parameters_ == 0) return residuals->squaredNorm();
+std::optional<Eigen::VectorXd> LinearRefit::residuals(const Candidate& candidate) const {
+  auto residuals = problem_.residuals(candidate, problem_.estimation_runs());
+  if (!residuals || parameters_ == 0) return residuals;
   const Eigen::VectorXd turned = derivatives_.householderQ().adjoint() * *residuals;
-  return turned.tail(turned.size() - derivatives_.rank()).squaredNorm();
+  return turned.tail(turned.size() - derivatives_.rank());
+}
+
+double LinearRefit::sum_of_squares(const Candidate& candidate) const {
+  const auto left = residuals(candidate);
+  return left ? left->squaredNorm() : std::numeric_limits<double>::infinity();
 }
 
 Candidate LinearRefit::refitted(const Candidate& candidate) const {

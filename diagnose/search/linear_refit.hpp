@@ -7,6 +7,8 @@
 #include <Eigen/Core>
 #include <Eigen/QR>
 
+#include <optional>
+
 namespace flexarm::diagnose {
 
 /// What an effect leaves when the parameters of the effects beside it are refitted, to first order:
@@ -22,7 +24,10 @@ class LinearRefit {
   /// Cancelled where the work is cancelled.
   LinearRefit(const Problem& problem, const Candidate& base, const ReportedWork& work);
 
-  /// Of `base` with effects behind its own; infinite for one that cannot be computed.
+  /// r without J J^+ r in coordinates of their own: as many values fewer as J has columns. Of
+  /// `base` with effects behind its own; empty for one that cannot be computed.
+  std::optional<Eigen::VectorXd> residuals(const Candidate& candidate) const;
+  /// Of these; infinite for one that cannot be computed.
   double sum_of_squares(const Candidate& candidate) const;
   /// The candidate with the parameters of `base` moved to their least squares to first order; as it
   /// is where that leaves more.

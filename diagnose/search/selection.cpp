@@ -196,14 +196,13 @@ class Search {
   /// is chosen, with each of its effects exchanged. Returns whether one more beside those that are
   /// chosen has not been tried yet, and may be of use.
   bool try_sets(Selection& made) {
-    const std::vector<Candidate> singles = candidates_of(made.singles);
     // Of larger sets those with the best so far are told as untried: the others are not known yet.
     const Explanation single = made.singles.empty() ? made.nothing : made.singles.front();
     fits_.leave_untried(labels_with(single.fit.candidate, general_.others()));
     SetSearch search(fits_.parts(), general_.others(), general_.all(), options_, work_);
     work_.tell(kSets, work_.done());
     fits_.lengthen_parts(single);
-    search.begin(made.nothing.fit.candidate, singles);
+    search.begin(made.nothing.fit.candidate, candidates_of(made.singles));
     std::optional<Explanation> last;
     bool is_ahead = true;
     std::size_t size = 1;
@@ -235,7 +234,12 @@ class Search {
       }
     }
     if (last && !is_enough(made)) {
-      try_in_coloured_noise(made, is_ahead ? exchanged(made, *last) : *last);
+      const Explanation largest = is_ahead ? exchanged(made, *last) : *last;
+      // One that did not meet the bars may do so with other effects.
+      if (largest.fit.candidate.labels() != last->fit.candidate.labels()) {
+        choose_needed(made, largest);
+      }
+      try_in_coloured_noise(made, largest);
     }
     return made.chosen.fit.candidate.effects.size() >= size;
   }

@@ -160,7 +160,7 @@ struct SelectionOptions {
   /// Effects beside those that are chosen, or in place of one of them,
   Tried effects_beside = {.looks = 10, .refitted = 5};
   /// and general ones in place of one of several causes.
-  Tried general_effects = {.looks = 3, .refitted = 2};
+  Tried general_effects = {.looks = 5, .refitted = 2};
   /// Samples of each run in the coarse look <= this,
   std::size_t coarse_samples = 1200;
   /// and in closed loop, where what a controller makes of the samples left out is not known.

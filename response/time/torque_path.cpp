@@ -27,14 +27,18 @@ std::size_t TorquePath::part_from(double cut) const {
   return static_cast<std::size_t>(nearest - edges_.begin());
 }
 
+double TorquePath::acting_sample(std::ptrdiff_t k, std::size_t part) const {
+  const bool is_of_sample_before = edges_[part] < delay_.fraction;
+  return static_cast<double>(k) - delay_.samples - (is_of_sample_before ? 1.0 : 0.0);
+}
+
 TorquePiece TorquePath::command(std::ptrdiff_t k, std::size_t part) const {
   const double begin = edges_[part];
   const double end = edges_[part + 1];
-  // The sample whose command acts there, and how far it is from it to the next one.
-  const bool is_delayed = begin < delay_.fraction;
-  const double j = static_cast<double>(k) - delay_.samples - (is_delayed ? 1.0 : 0.0);
+  const double j = acting_sample(k, part);
   if (j < 0.0) return {begin, end, 0.0, 0.0, part};
-  const double ahead = (is_delayed ? 1.0 : 0.0) - delay_.fraction;
+  // How far it is from that sample to the next one.
+  const double ahead = (begin < delay_.fraction ? 1.0 : 0.0) - delay_.fraction;
   const auto at = static_cast<std::size_t>(j);
   const double left = torque_N_m_[at];
   const double right =
@@ -75,21 +79,36 @@ void TorquePath::pieces(std::ptrdiff_t k, Pieces& pieces) const {
 }
 
 std::optional<Eigen::MatrixXd> TorquePath::whole_parts(std::ptrdiff_t first) const {
+  if (hold_ == TorqueHold::zero) return held_parts(first);
   const std::size_t parts = edges_.size() - 1;
   const std::ptrdiff_t intervals = std::ssize(torque_N_m_) - first;
-  const bool is_held = hold_ == TorqueHold::zero;
   Eigen::MatrixXd made(static_cast<Eigen::Index>(parts) * torques_of_part(), intervals);
   for (std::ptrdiff_t i = 0; i < intervals; ++i) {
     Eigen::Index row = 0;
     for (std::size_t part = 0; part < parts; ++part) {
       const TorquePiece piece = command(first + i, part);
-      made(row++, i) = actuator_.mapped(piece.begin_N_m);
-      if (is_held) continue;
       const auto is_within = [&](double bend) {
         return (bend - piece.begin_N_m) * (bend - piece.end_N_m) < 0.0;
       };
       if (std::ranges::any_of(bends_, is_within)) return std::nullopt;
+      made(row++, i) = actuator_.mapped(piece.begin_N_m);
       made(row++, i) = actuator_.mapped(piece.end_N_m);
+    }
+  }
+  return made;
+}
+
+Eigen::MatrixXd TorquePath::held_parts(std::ptrdiff_t first) const {
+  const auto parts = std::ssize(edges_) - 1;
+  const std::ptrdiff_t intervals = std::ssize(torque_N_m_) - first;
+  const double before_run_N_m = actuator_.mapped(0.0);
+  Eigen::MatrixXd made(parts, intervals);
+  for (std::ptrdiff_t part = 0; part < parts; ++part) {
+    const double later = acting_sample(first, static_cast<std::size_t>(part));
+    for (std::ptrdiff_t i = 0; i < intervals; ++i) {
+      const double j = later + static_cast<double>(i);
+      made(part, i) =
+          j < 0.0 ? before_run_N_m : actuator_.mapped(torque_N_m_[static_cast<std::size_t>(j)]);
     }
   }
   return made;

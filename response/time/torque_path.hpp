@@ -52,6 +52,11 @@ class TorquePath {
   std::size_t part_from(double cut) const;
 
  private:
+  /// The sample whose command acts in a part of the interval behind sample `k`; below 0 before that
+  /// of the first.
+  double acting_sample(std::ptrdiff_t k, std::size_t part) const;
+  /// whole_parts of a torque that is held.
+  Eigen::MatrixXd held_parts(std::ptrdiff_t first) const;
   /// The command in a part of the interval behind sample `k`, delayed and not yet mapped.
   TorquePiece command(std::ptrdiff_t k, std::size_t part) const;
   void add(const TorquePiece& command, Pieces& pieces) const;

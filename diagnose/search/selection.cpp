@@ -394,16 +394,18 @@ class Search {
     fits_.add_beside(base, general_.others(), what, to, options_.effects_beside, made.combinations);
   }
 
-  /// `best` with one cause after the other exchanged while that fits decisively better: of two
-  /// causes the one may have been found by itself at a value that hides the other.
+  /// `best` with one cause after the other exchanged while that fits decisively better and takes
+  /// enough or leaves noise: one may have been found by itself at a value that hides the other.
   Explanation exchanged(Selection& made, Explanation best) {
-    for (int exchanges = 0; exchanges < options_.most_exchanges; ++exchanges) {
+    bool goes_on = true;
+    for (int exchanges = 0; goes_on && exchanges < options_.most_exchanges; ++exchanges) {
       const Candidate& candidate = best.fit.candidate;
       for (std::size_t i = 0; i < candidate.effects.size(); ++i) {
         combine(made, candidate.without(i), kExchanged, halfway());
       }
       const auto better = better_rival(made, best);
       if (!better) break;
+      goes_on = better->leaves_noise() || is_worth_another(*better, best);
       best = *better;
     }
     return best;

@@ -61,11 +61,13 @@ void SetFits::add_near(std::vector<Fit> looks, std::size_t most, std::string_vie
                        std::vector<Explanation>& found) {
   if (looks.empty()) return;
   const Fit best = looks.front();
-  if (!is_near_noise(best)) most = std::min(most, options_.far_sets_refitted);
+  const bool is_far = !is_near_noise(best);
+  if (is_far) most = std::min(most, options_.far_sets_refitted);
   looks.resize(std::min(most, looks.size()));
   std::erase_if(looks, [&](const Fit& look) {
     const auto known = find_set(found, look.candidate);
-    return !is_near(look, best, options_) || (known != found.end() && known->leaves_noise());
+    const bool is_of_no_use = known != found.end() && (is_far || known->leaves_noise());
+    return is_of_no_use || !is_near(look, best, options_);
   });
   const auto has_more_parameters = [&](const Fit& look) {
     return look.candidate.values.size() > best.candidate.values.size();

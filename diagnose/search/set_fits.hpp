@@ -57,8 +57,9 @@ class SetFits {
                   std::vector<Explanation>& found);
   /// Adds to `found` looks, which are sorted by fit, fitted to all data: `most` or less, and where
   /// the best does not leave noise options.far_sets_refitted or less, that come near the best
-  /// (is_near), and are not in `found` leaving noise. Those with more parameters than the best look
-  /// are fitted behind the others. Each is fitted as far as it may be of use (highest_of_use).
+  /// (is_near), and are not in `found`, or are there without leaving noise where the best look
+  /// does. Those with more parameters than the best look are fitted behind the others. Each is
+  /// fitted as far as it may be of use (highest_of_use).
   void add_near(std::vector<Fit> looks, std::size_t most, std::string_view what, double to,
                 std::vector<Explanation>& found);
 

@@ -86,9 +86,8 @@ class Search {
     leave_out_unnamed(made);
   }
 
-  /// The best so far, where the time is over. Of the singles it is one that may be named without
-  /// further fits: a general effect has its limits to be compared with, and where general effects
-  /// were not tried, one that does not leave noise may stand for one of them.
+  /// The best so far, where the time is over: of singles one that needs no further fits. General
+  /// ones have limits to be compared with; what leaves no noise may stand for one not tried yet.
   void end_search(Selection& made) {
     made.end = SearchEnd{std::string(work_.what()), fits_.untried()};
     work_.lift_deadline();
@@ -399,9 +398,8 @@ class Search {
   Explanation exchanged(Selection& made, Explanation best) {
     bool goes_on = true;
     for (int exchanges = 0; goes_on && exchanges < options_.most_exchanges; ++exchanges) {
-      const Candidate& candidate = best.fit.candidate;
-      for (std::size_t i = 0; i < candidate.effects.size(); ++i) {
-        combine(made, candidate.without(i), kExchanged, halfway());
+      for (std::size_t i = 0; i < best.fit.candidate.effects.size(); ++i) {
+        combine(made, best.fit.candidate.without(i), kExchanged, halfway());
       }
       const auto better = better_rival(made, best);
       if (!better) break;

@@ -112,6 +112,9 @@ void gather(Gathering& all, std::size_t run, const measured::ModalTable& table) 
 
 using Line = std::complex<double>;
 
+/// |p/h|^2 - 1 of a predicted response p that is far below the measured one h.
+constexpr double kFarBelow = -0.5;
+
 /// What `to` makes of each line of a response, given the measured one too.
 void change_lines(const Observations& observations, const ObservedChannel& channel,
                   Eigen::Ref<Eigen::VectorXd> lines, Line (*to)(Line measured, Line line)) {
@@ -129,10 +132,12 @@ Line residual_of(Line measured, Line error) {
   const double square = std::norm(measured);
   if (square >= kResponseFloor * kResponseFloor) {
     // ln(h/p) = -ln(1 - z) with z = (h - p)/h, real and imaginary part by themselves: a complex
-    // logarithm costs five times as much.
+    // logarithm costs five times as much. Far from h, p may be small beside it.
     const Line z = error * std::conj(measured) / square;
-    return std::sqrt(square) * Line(-0.5 * std::log1p(std::norm(z) - 2.0 * z.real()),
-                                    std::atan2(z.imag(), 1.0 - z.real()));
+    const double change = std::norm(z) - 2.0 * z.real();  // |p/h|^2 - 1
+    return std::sqrt(square) * (change < kFarBelow ? std::log(measured / (measured - error))
+                                                   : Line(-0.5 * std::log1p(change),
+                                                          std::atan2(z.imag(), 1.0 - z.real())));
   }
   const double length = std::abs(error);
   return length == 0.0 ? error

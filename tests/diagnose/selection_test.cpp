@@ -8,10 +8,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <complex>
 #include <cstddef>
 #include <set>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -79,6 +81,23 @@ TEST(Problem, ErrorsOfResponsesAreKeptByTheirResiduals) {
   EXPECT_LT(residuals.norm(), 0.5 * errors.norm());
   const Eigen::VectorXd again = to_errors(observations, residuals);
   EXPECT_LT((again - errors).cwiseAbs().cwiseQuotient(errors.cwiseAbs()).maxCoeff(), 1e-9);
+}
+
+TEST(Problem, ResidualsOfResponsesAreLogarithmsFarBelowTheMeasuredOnes) {
+  const Observations observations = observe(measured_response({}));
+  const Eigen::VectorXd measured = observations.values.cwiseQuotient(observations.deviations);
+  // 1e-12 is formed as a difference of 1 and itself: to 1e-4.
+  for (const auto& [ratio, accuracy] :
+       {std::pair{0.999, 1e-12}, std::pair{0.7, 1e-12}, std::pair{1e-12, 1e-4}}) {
+    Eigen::VectorXd residuals = (1.0 - ratio) * measured;
+    to_residuals(observations, residuals);
+    for (Eigen::Index k = 0; k < measured.size(); k += 2) {
+      const double size = measured.segment<2>(k).norm();
+      ASSERT_GT(size, kResponseFloor);
+      EXPECT_NEAR(residuals(k) / size, -std::log(ratio), accuracy);
+      EXPECT_NEAR(residuals(k + 1) / size, 0.0, accuracy);
+    }
+  }
 }
 
 TEST(Problem, ResidualsOfResponsesShowAnEffectBesideAnotherThatIsOff) {

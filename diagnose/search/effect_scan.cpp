@@ -3,7 +3,6 @@
 #include "diagnose/parallel.hpp"
 #include "diagnose/search/additions.hpp"
 #include "diagnose/search/line_scan.hpp"
-#include "diagnose/search/linear_refit.hpp"
 #include "diagnose/search/misfit.hpp"
 #include "diagnose/search/scan.hpp"
 
@@ -110,27 +109,15 @@ std::optional<double> EffectScan::share_of_law(const Candidate& base,
 
 Fit EffectScan::best_from_scan(const Problem& problem, const Candidate& start,
                                const std::vector<Index>& scanned) const {
+  const LinearRefit refit(problem, start.without(start.effects.size() - 1), work_);
+  if (scanned.size() == 1) {
+    const Candidate least = least_in_range(refit, start, scanned.front());
+    return coarse_fit(problem, refit.refitted(least), work_);
+  }
   const std::size_t n = std::min(scanned.size(), options_.scan_evaluations.size());
   const ScanOptions scan_options{.evaluations = options_.scan_evaluations[n - 1],
                                  .starts = options_.scan_starts,
                                  .work = &work_};
-  const LinearRefit refit(problem, start.without(start.effects.size() - 1), work_);
-  if (n == 1) {
-    const auto places = grid_places(1, options_.scan_evaluations.front());
-    const auto candidate_at = [&](int i) {
-      Candidate made = start;
-      Eigen::VectorXd coordinates = start.coordinates();
-      coordinates(scanned.front()) = places[static_cast<std::size_t>(i)](0);
-      made.put(coordinates);
-      return made;
-    };
-    const auto residuals_at = [&](int i) {
-      work_.go_on();
-      return refit.residuals(candidate_at(i));
-    };
-    const int best = least_on_line(residuals_at, static_cast<int>(places.size()));
-    return coarse_fit(problem, refit.refitted(candidate_at(best)), work_);
-  }
   const auto sum = [&](const Candidate& candidate) { return refit.sum_of_squares(candidate); };
   const auto best_at = [&](std::vector<Candidate> starts) {
     for (Candidate& one : starts) one = refit.refitted(one);
@@ -143,6 +130,23 @@ Fit EffectScan::best_from_scan(const Problem& problem, const Candidate& start,
                             .starts = options_.scan_starts,
                             .work = &work_}));
   return moved.sum_of_squares < found.sum_of_squares ? moved : found;
+}
+
+Candidate EffectScan::least_in_range(const LinearRefit& refit, const Candidate& start,
+                                     Index scanned) const {
+  const auto places = grid_places(1, options_.scan_evaluations.front());
+  const auto candidate_at = [&](int i) {
+    Candidate made = start;
+    Eigen::VectorXd coordinates = start.coordinates();
+    coordinates(scanned) = places[static_cast<std::size_t>(i)](0);
+    made.put(coordinates);
+    return made;
+  };
+  const auto residuals_at = [&](int i) {
+    work_.go_on();
+    return refit.residuals(candidate_at(i));
+  };
+  return candidate_at(least_on_line(residuals_at, static_cast<int>(places.size())));
 }
 
 Fit EffectScan::best_look(const Problem& part, const Candidate& start,

@@ -3,6 +3,7 @@
 #include "diagnose/search/coarse_problems.hpp"
 #include "diagnose/search/fit.hpp"
 #include "diagnose/search/hub_law_scan.hpp"
+#include "diagnose/search/linear_refit.hpp"
 #include "diagnose/search/reported_work.hpp"
 #include "diagnose/search/selection_options.hpp"
 
@@ -70,6 +71,9 @@ class EffectScan {
   /// scanned once more beside what was found of the others: each place may have a minimum.
   Fit best_from_scan(const Problem& problem, const Candidate& start,
                      const std::vector<Eigen::Index>& scanned) const;
+  /// `start` with the value of one coordinate, of those over its range, that leaves least.
+  Candidate least_in_range(const LinearRefit& refit, const Candidate& start,
+                           Eigen::Index scanned) const;
   /// Empty where they have no parameter in common.
   std::optional<Fit> look_with_limits_values(const Candidate& limited, std::size_t index,
                                              const Hypothesis& general) const;

@@ -40,9 +40,10 @@ struct BlockSearch {
 };
 
 /// Blocks one by one: of all stable poles of the chart, then of a coarse grid of heavily damped
-/// ones, the one that lowers the criterion most with all others held is added, and all are fitted.
-/// Ends when BIC [Schwarz1978] no longer falls by the margin, when nothing but rounding is left,
-/// or at the number asked for. Cost: two passes of wider rows and some ten narrow ones a block.
+/// ones and of places at the ends of the band and beyond, the one that lowers the criterion most
+/// with all others held is added, and all are fitted. Ends when BIC [Schwarz1978] no longer falls
+/// by the margin, when nothing but rounding is left, or at the number asked for. Cost: two passes
+/// of wider rows and some ten narrow ones a block.
 BlockSearch search_blocks(std::span<const Stretch> stretches, std::span<const arm::Sensor> sensors,
                           std::span<const StablePole> candidates, const ColumnChoices& choices,
                           const BlockSearchOptions& options, const ProjectionOptions& projection);

@@ -135,9 +135,9 @@ Line residual_of(Line measured, Line error) {
     // logarithm costs five times as much. Far from h, p may be small beside it.
     const Line z = error * std::conj(measured) / square;
     const double change = std::norm(z) - 2.0 * z.real();  // |p/h|^2 - 1
-    return std::sqrt(square) * (change < kFarBelow ? std::log(measured / (measured - error))
-                                                   : Line(-0.5 * std::log1p(change),
-                                                          std::atan2(z.imag(), 1.0 - z.real())));
+    const double size = std::sqrt(square);
+    if (change < kFarBelow) return size * std::log(measured / (measured - error));
+    return size * Line(-0.5 * std::log1p(change), std::atan2(z.imag(), 1.0 - z.real()));
   }
   const double length = std::abs(error);
   return length == 0.0 ? error

@@ -68,8 +68,9 @@ class LineScan {
   void look(int value) {
     auto& known = known_[static_cast<std::size_t>(value)];
     known = residuals_(value);
-    if (!known || !(known->norm() < least_)) return;
-    least_ = known->norm();
+    const double left = known ? known->norm() : kUnknown;
+    if (!(left < least_)) return;
+    least_ = left;
     best_ = value;
   }
 

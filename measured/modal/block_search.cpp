@@ -68,7 +68,7 @@ class CandidateTriangles {
     if (std::ranges::none_of(stretches, &Stretch::begins_in_motion)) {
       signals_.held = signals_.blocks.size();
     }
-    for (const Stretch& stretch : stretches) triangles_.push_back(triangle(stretch, signals_));
+    triangles_ = triangles(stretches, signals_);
     for (std::size_t j = 0; j < sensors.size(); ++j) {
       models_.push_back(sensor_model(sensors[j], static_cast<Index>(j), all, stretches, choices));
     }
@@ -98,9 +98,7 @@ class CandidateTriangles {
     std::vector<VectorXd> columns;
     for (const SensorColumn& column : models_[j].columns) {
       if (column.is_of_block() && column.block >= held && column.block != added) continue;
-      const bool own =
-          column.kind == SensorColumn::Kind::free || column.kind == SensorColumn::Kind::offset;
-      if (own && column.stretch != r) continue;
+      if (!column.is_common() && column.stretch != r) continue;
       columns.push_back(column_of(column, triangles_[r], layout, all_).normalized());
     }
     MatrixXd a(y.size(), static_cast<Index>(columns.size()));
@@ -122,11 +120,11 @@ std::size_t best_of(std::span<const Stretch> stretches, std::span<const arm::Sen
                     const ColumnChoices& choices) {
   BlockSet all = held;
   for (const Candidate& candidate : candidates) all.blocks.push_back(candidate.block);
-  const CandidateTriangles triangles(stretches, sensors, all, choices);
+  const CandidateTriangles of_all(stretches, sensors, all, choices);
   std::size_t best = 0;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t c = 0; c < candidates.size(); ++c) {
-    const double criterion = triangles.criterion(held.blocks.size(), held.blocks.size() + c);
+    const double criterion = of_all.criterion(held.blocks.size(), held.blocks.size() + c);
     if (criterion < least) {
       least = criterion;
       best = c;

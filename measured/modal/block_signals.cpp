@@ -182,4 +182,10 @@ Eigen::MatrixXd triangle(const Stretch& stretch, const BlockSet& blocks) {
   return work.topRows(columns);
 }
 
+std::vector<Eigen::MatrixXd> triangles(std::span<const Stretch> stretches, const BlockSet& blocks) {
+  std::vector<Eigen::MatrixXd> made;
+  for (const Stretch& stretch : stretches) made.push_back(triangle(stretch, blocks));
+  return made;
+}
+
 }  // namespace flexarm::measured

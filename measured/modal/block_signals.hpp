@@ -78,5 +78,7 @@ Stretch frequency_stretch(const FrequencyChannel& channel, Eigen::Index sensor,
 /// The upper triangular factor R of the stretch's rows, columns as the rows': rows = Q R, whatever
 /// their number. Householder, chunk by chunk: no digits are lost to squares.
 Eigen::MatrixXd triangle(const Stretch& stretch, const BlockSet& blocks);
+/// The same of each stretch.
+std::vector<Eigen::MatrixXd> triangles(std::span<const Stretch> stretches, const BlockSet& blocks);
 
 }  // namespace flexarm::measured

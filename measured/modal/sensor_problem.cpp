@@ -145,10 +145,10 @@ SensorEstimate SensorProblem::solve(VectorXd& gradient, MatrixXd& information) c
   return made;
 }
 
-SensorEstimate SensorProblem::residual() const {
-  if (a_.cols() == 0) return nothing_linear();
+double SensorProblem::criterion() const {
+  if (a_.cols() == 0) return nothing_linear().criterion();
   VectorXd residual;
-  return estimate(Projection(a_), residual);
+  return estimate(Projection(a_), residual).criterion();
 }
 
 SensorEstimate SensorProblem::nothing_linear() const {

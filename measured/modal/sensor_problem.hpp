@@ -49,8 +49,8 @@ class SensorProblem {
   /// beta and the residual; adds the sensor's part to the gradient and the Gauss-Newton information
   /// of half the criterion in theta.
   SensorEstimate solve(Eigen::VectorXd& gradient, Eigen::MatrixXd& information) const;
-  /// The same without what theta adds, and without errors.
-  SensorEstimate residual() const;
+  /// SensorEstimate::criterion, without what else solve() forms.
+  double criterion() const;
 
  private:
   class Projection;

@@ -1,7 +1,5 @@
 #include "measured/modal/variable_projection.hpp"
 
-#include "measured/modal/sensor_problem.hpp"
-
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
 
@@ -60,14 +58,13 @@ class Fitter {
   const std::vector<SensorModel>& models() const { return models_; }
 
   Evaluation evaluate(const BlockSet& blocks) const {
-    std::vector<MatrixXd> triangles;
-    for (const Stretch& stretch : stretches_) triangles.push_back(triangle(stretch, blocks));
+    const std::vector<MatrixXd> factors = triangles(stretches_, blocks);
     Evaluation at{.blocks = blocks,
                   .sensors = {},
                   .gradient = VectorXd::Zero(blocks.parameters()),
                   .information = MatrixXd::Zero(blocks.parameters(), blocks.parameters())};
     for (std::size_t j = 0; j < models_.size(); ++j) {
-      const SensorProblem problem(models_[j], static_cast<Index>(j), blocks, stretches_, triangles);
+      const SensorProblem problem(models_[j], static_cast<Index>(j), blocks, stretches_, factors);
       at.sensors.push_back(problem.solve(at.gradient, at.information));
       at.criterion += at.sensors.back().criterion();
     }
@@ -153,17 +150,17 @@ VectorXd shortened(VectorXd step, const BlockSet& blocks) {
   return largest > kLargestStep ? VectorXd(step * (kLargestStep / largest)) : step;
 }
 
-/// The evaluation behind a step. Near the minimum a Gauss-Newton step in a block that the data
-/// hardly show may pass it: then this is where the slope along the step is 0, linear in between, if
-/// the criterion is lower there.
+/// The evaluation behind a step, which leads to `there`. Near the minimum a Gauss-Newton step in a
+/// block that the data hardly show may pass it: then this is where the slope along the step is 0,
+/// linear in between, if the criterion is lower there.
 Evaluation behind_step(const Fitter& fitter, const Evaluation& at, const VectorXd& step,
-                       bool is_near_minimum) {
-  const VectorXd theta = at.blocks.theta();
-  Evaluation end = fitter.evaluate(at.blocks.with(theta + step));
+                       const BlockSet& there, bool is_near_minimum) {
+  Evaluation end = fitter.evaluate(there);
   const double before = at.gradient.dot(step);
   const double behind = end.gradient.dot(step);
   if (!is_near_minimum || !(behind > -kPassed * before)) return end;
-  Evaluation between = fitter.evaluate(at.blocks.with(theta + before / (before - behind) * step));
+  const VectorXd theta = at.blocks.theta() + before / (before - behind) * step;
+  Evaluation between = fitter.evaluate(at.blocks.with(theta));
   return between.criterion < end.criterion ? between : end;
 }
 
@@ -245,7 +242,7 @@ BlockFit fit_blocks(std::span<const Stretch> stretches, std::span<const arm::Sen
     if (held.hold(fitter, there)) continue;
     std::optional<Evaluation> next;
     if (fitter.is_admissible(there)) {
-      next = behind_step(fitter, at, step, newton < kNearMinimum * kNearMinimum);
+      next = behind_step(fitter, at, step, there, newton < kNearMinimum * kNearMinimum);
     }
     if (next && next->criterion < at.criterion) {
       // A flat valley, along which steps are long and win nothing, is an end too.
@@ -271,8 +268,7 @@ BlockFit fit_blocks(std::span<const Stretch> stretches, std::span<const arm::Sen
 
 std::vector<double> bic_without_each(std::span<const Stretch> stretches, const BlockFit& fit,
                                      std::size_t first) {
-  std::vector<MatrixXd> triangles;
-  for (const Stretch& stretch : stretches) triangles.push_back(triangle(stretch, fit.blocks));
+  const std::vector<MatrixXd> factors = triangles(stretches, fit.blocks);
   std::vector<double> made;
   for (std::size_t m = first; m < fit.blocks.blocks.size(); ++m) {
     double criterion = 0.0;
@@ -284,8 +280,8 @@ std::vector<double> bic_without_each(std::span<const Stretch> stretches, const B
           static_cast<double>(std::erase_if(fewer.columns, [m](const SensorColumn& column) {
             return column.is_of_block() && column.block == m;
           }));
-      const SensorProblem problem(fewer, static_cast<Index>(j), fit.blocks, stretches, triangles);
-      criterion += problem.residual().criterion();
+      const SensorProblem problem(fewer, static_cast<Index>(j), fit.blocks, stretches, factors);
+      criterion += problem.criterion();
     }
     made.push_back(criterion + parameters * std::log(fit.values()));
   }

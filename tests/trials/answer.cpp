@@ -8,6 +8,7 @@
 #include <fcntl.h>
 #include <fstream>
 #include <stdexcept>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
@@ -76,15 +77,19 @@ pid_t start(std::vector<std::string> arguments, const fs::path& log) {
 /// A process is killed after so many times the limit that it was given.
 constexpr double kPatience = 2.0;
 
-/// Whether the process ended by itself, with success.
-bool ends_well(pid_t child, double time_limit_s) {
+double seconds(const timeval& time) {
+  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+}
+
+/// Whether the process ended by itself, with success; what it used to `usage`.
+bool ends_well(pid_t child, double time_limit_s, rusage& usage) {
   constexpr std::chrono::milliseconds kLook(5);
   const auto limit = Clock::now() + std::chrono::duration<double>(time_limit_s);
   int status = 0;
-  while (::waitpid(child, &status, WNOHANG) == 0) {
+  while (::wait4(child, &status, WNOHANG, &usage) == 0) {
     if (Clock::now() > limit) {
       ::kill(child, SIGKILL);
-      ::waitpid(child, &status, 0);
+      ::wait4(child, &status, 0, &usage);
       return false;
     }
     std::this_thread::sleep_for(kLook);
@@ -115,10 +120,12 @@ Answer ask(const fs::path& program, const fs::path& case_folder, const fs::path&
       start({program.string(), "diagnose", (case_folder / "measurement.toml").string(), "--json",
              json_file.string(), "--time-limit", fmt::format("{}", time_limit_s)},
             work_folder / "diagnosis.log");
-  const bool well = ends_well(child, kPatience * time_limit_s);
+  rusage usage = {};
+  const bool well = ends_well(child, kPatience * time_limit_s, usage);
   const double time_s = std::chrono::duration<double>(Clock::now() - started).count();
   Answer answer = well ? read_answer(json_file) : Answer{};
   answer.time_s = time_s;
+  answer.processor_s = seconds(usage.ru_utime) + seconds(usage.ru_stime);
   return answer;
 }
 

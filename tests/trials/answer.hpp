@@ -35,7 +35,8 @@ struct Answer {
   std::vector<std::string> ports;
   AnsweredGain estimation;
   AnsweredGain validation;
-  double time_s = 0.0;
+  double time_s = 0.0;       ///< elapsed
+  double processor_s = 0.0;  ///< of all threads
 };
 
 /// Reads the JSON file of a diagnosis. Throws std::exception where it is none.

@@ -15,8 +15,8 @@ namespace {
 constexpr std::string_view kHeader =
     "version,id,kind,arm,noise,strength,hidden,outside,error,outcome,verdict,named,claimed,right,"
     "class_size,parameters,recovered,covered,before,after,validation_after,validation_floor,time "
-    "[s],dirt,dirt_answer,port,ports,values,folder";
-constexpr std::size_t kColumns = 29;
+    "[s],processor [s],dirt,dirt_answer,port,ports,values,folder";
+constexpr std::size_t kColumns = 30;
 
 std::vector<std::string> parts_of(const std::string& text, char separator) {
   std::vector<std::string> parts;
@@ -68,6 +68,7 @@ TrialResult parse_line(const std::string& line) {
   result.validation_after = number();
   result.validation_floor = number();
   result.time_s = number();
+  result.processor_s = number();
   result.dirt = text();
   result.dirt_answer = parse_dirt_answer(text());
   result.port_answer = parse_port_answer(text());
@@ -106,10 +107,10 @@ void append_result(const TrialResult& result, const std::filesystem::path& file)
          << fmt::format("{:.4g},{},{},{},{},{},", result.error, to_string(result.outcome),
                         result.verdict, fmt::join(result.named, "+"), fmt::join(claimed, "+"),
                         fmt::join(right, "+"))
-         << fmt::format("{},{},{},{},{:.4g},{:.4g},{:.4g},{:.4g},{:.2f},{},{},{},{},{},{}\n",
+         << fmt::format("{},{},{},{},{:.4g},{:.4g},{:.4g},{:.4g},{:.2f},{:.2f},{},{},{},{},{},{}\n",
                         result.class_size, result.parameters, result.recovered, result.covered,
                         result.before, result.after, result.validation_after,
-                        result.validation_floor, result.time_s, result.dirt,
+                        result.validation_floor, result.time_s, result.processor_s, result.dirt,
                         to_string(result.dirt_answer), to_string(result.port_answer),
                         fmt::join(result.ports, ";"), result.values, result.folder);
   if (!stream.flush()) throw std::runtime_error(file.string() + ": cannot be written");

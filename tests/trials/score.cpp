@@ -205,6 +205,7 @@ TrialResult score(const Truth& truth, const Answer& given) {
   result.validation_after = answer.validation.after;
   result.validation_floor = answer.validation.noise_floor;
   result.time_s = answer.time_s;
+  result.processor_s = answer.processor_s;
   return result;
 }
 

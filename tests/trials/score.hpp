@@ -87,8 +87,9 @@ struct TrialResult {
   double after = 0.0;
   double validation_after = 0.0;
   double validation_floor = 0.0;
-  double time_s = 0.0;
-  std::string dirt = "-";  ///< "-" for none
+  double time_s = 0.0;       ///< elapsed
+  double processor_s = 0.0;  ///< of all threads
+  std::string dirt = "-";    ///< "-" for none
   DirtAnswer dirt_answer = DirtAnswer::none;
   PortAnswer port_answer = PortAnswer::none;
   std::vector<std::string> ports;  ///< that are stated

@@ -228,6 +228,8 @@ TEST(ResultsFile, IsReadBack) {
                              answered("explained", {named("coulomb_friction")}));
   result.arm = "steel link";
   result.version = "0123abc";
+  result.time_s = 1.25;
+  result.processor_s = 2.5;
   append_result(result, file);
   TrialResult quiet = score(truth_of({}), answered("adequate"));
   quiet.version = "0123abc";
@@ -237,6 +239,8 @@ TEST(ResultsFile, IsReadBack) {
   const auto read = read_results(file);
   ASSERT_EQ(read.size(), 2U);
   EXPECT_EQ(read[0].id, result.id);
+  EXPECT_EQ(read[0].time_s, 1.25);
+  EXPECT_EQ(read[0].processor_s, 2.5);
   EXPECT_EQ(read[0].hidden, result.hidden);
   EXPECT_EQ(read[0].named, result.named);
   ASSERT_EQ(read[0].claims.size(), 1U);

@@ -212,12 +212,16 @@ std::string summary_table(const std::vector<Cell>& cells) {
   add("no answer", [](const Results& all) {
     return part(count(all, Outcome::no_answer), static_cast<int>(all.size()));
   });
-  add("wall time, one trial per core: median, maximum [s]", [](const Results& all) {
-    std::vector<double> times;
-    for (const auto& one : all) times.push_back(one.time_s);
-    if (times.empty()) return std::string("-");
-    return fmt::format("{:.1f}, {:.1f}", median(times), std::ranges::max(times));
-  });
+  const auto add_times = [&add](std::string_view what, double TrialResult::*time) {
+    add(fmt::format("{}: median, maximum [s]", what), [time](const Results& all) {
+      std::vector<double> times;
+      for (const auto& one : all) times.push_back(one.*time);
+      if (times.empty()) return std::string("-");
+      return fmt::format("{:.1f}, {:.1f}", median(times), std::ranges::max(times));
+    });
+  };
+  add_times("wall time, one trial per core", &TrialResult::time_s);
+  add_times("processor time", &TrialResult::processor_s);
   return text;
 }
 

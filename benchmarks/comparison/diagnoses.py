@@ -28,8 +28,8 @@ class Sample(NamedTuple):
 
 SAMPLES = [
     Sample("one cause, `time`", ["--kind", "time", "--effects", "one", "--trials", "10"], 3.0),
-    Sample("two causes, `time`", ["--kind", "time", "--effects", "pairs"], 10.0),
-    Sample("three causes, `time`", ["--kind", "time", "--effects", "triples"], 20.0),
+    Sample("two causes, `time`", ["--kind", "time", "--effects", "pairs", "--trials", "8"], 10.0),
+    Sample("three causes, `time`", ["--kind", "time", "--effects", "triples", "--trials", "6"], 20.0),
     Sample("outside the library, `time`",
            ["--kind", "time", "--effects", "random_disturbance,backlash,tapered_beam,cross_talk"],
            20.0),

@@ -32,10 +32,12 @@ std::string example(const std::string& line);
 CLI::Validator not_empty();
 
 Command add_compare(CLI::App& program);
+Command add_completion(CLI::App& program);
 Command add_diagnose(CLI::App& program);
 Command add_effects(CLI::App& program);
 Command add_identify(CLI::App& program);
 Command add_import(CLI::App& program);
+Command add_manual_pages(CLI::App& program);
 Command add_modes(CLI::App& program);
 Command add_new(CLI::App& program);
 Command add_paper(CLI::App& program);

@@ -58,10 +58,12 @@ int run(int argc, const char* const* argv) {
       "  flexarm paper             check of the paper's equations and tables\n\n"
       "Exit status: 0 success; 1 failure; 2 invalid input, with one line on standard error.");
   // In the order of a first session.
-  const std::array commands = {add_new(program),      add_modes(program),    add_response(program),
-                               add_identify(program), add_diagnose(program), add_simulate(program),
-                               add_import(program),   add_plan(program),     add_compare(program),
-                               add_sweep(program),    add_paper(program),    add_effects(program)};
+  const std::array commands = {
+      add_new(program),        add_modes(program),       add_response(program),
+      add_identify(program),   add_diagnose(program),    add_simulate(program),
+      add_import(program),     add_plan(program),        add_compare(program),
+      add_sweep(program),      add_paper(program),       add_effects(program),
+      add_completion(program), add_manual_pages(program)};
 
   try {
     program.parse(argc, argv);

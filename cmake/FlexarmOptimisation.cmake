@@ -61,7 +61,7 @@ if(FLEXARM_PRECOMPILED_HEADERS)
   target_precompile_headers(flexarm_eigen REUSE_FROM flexarm_precompiled_full)
 endif()
 set_target_properties(flexarm_eigen PROPERTIES EXPORT_NAME eigen)
-install(TARGETS flexarm_eigen EXPORT flexarmTargets)
+install(TARGETS flexarm_eigen EXPORT flexarmTargets COMPONENT development)
 
 # flexarm_optimise(TARGET full|brief|test)
 function(flexarm_optimise target how)

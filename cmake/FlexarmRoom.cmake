@@ -21,8 +21,10 @@ function(flexarm_room name)
     flexarm_optimise(${target} full)
   endif()
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
+  set_property(GLOBAL APPEND PROPERTY FLEXARM_ROOMS ${target})
   install(TARGETS ${target} EXPORT flexarmTargets
-          FILE_SET HEADERS DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/flexarm")
+          ARCHIVE COMPONENT development
+          FILE_SET HEADERS DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/flexarm" COMPONENT development)
 endfunction()
 
 # flexarm_test(NAME SOURCES ... USES ... LIBRARIES ... [SHARDS n] [COMPUTES])

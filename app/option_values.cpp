@@ -1,0 +1,87 @@
+#include "app/option_values.hpp"
+
+#include "diagnose/search/selection_options.hpp"
+#include "effects/registry/vocabulary.hpp"
+#include "measured/checks/data_check.hpp"
+
+#include <algorithm>
+#include <map>
+#include <string_view>
+
+namespace flexarm::app {
+
+namespace {
+
+using Words = std::vector<std::string>;
+
+Words effect_names() {
+  Words names;
+  for (const auto& entry : effects::entries()) names.push_back(entry.definition->name);
+  return names;
+}
+
+Words check_names() {
+  Words names;
+  for (const auto fault : measured::kFaults) names.push_back(measured::check_name(fault));
+  return names;
+}
+
+Words predictor_names() {
+  Words names = {"auto"};
+  for (const auto kind : diagnose::kPredictors) names.emplace_back(diagnose::to_string(kind));
+  return names;
+}
+
+/// An option has one meaning in all commands.
+std::map<std::string_view, Words> words_by_name() {
+  return {
+      {"--accept", check_names()},
+      {"--basis", {"legendre", "clamped_free", "pinned_free", "clamped_with_payload"}},
+      {"--clock", {"stamped", "even"}},
+      {"--detrend", {"none", "mean", "line"}},
+      {"--effects", effect_names()},
+      {"--exclude", effect_names()},
+      {"--figure", {"18", "19"}},
+      {"--formulation", {"exact_tf", "fem", "assumed_modes"}},
+      {"--hide-effects", effect_names()},
+      {"--hold", {"zero", "first"}},
+      {"--initial", {"rest", "free"}},
+      {"--input", {"torque", "hub_angle", "hub_velocity"}},
+      {"--kind", {"time", "frf", "modal"}},
+      {"--peaks", {"between", "on-line"}},
+      {"--predictor", predictor_names()},
+      {"--purpose", {"estimation", "validation"}},
+      {"--refit", effect_names()},
+      {"--sensor",
+       {"hub_angle", "hub_velocity", "tip_acceleration", "tip_displacement", "tip_deflection",
+        "strain@"}},
+      {"--time-unit", {"s", "ms", "us"}},
+      {"--to", {"csv", "uff58", "uff58b", "mat"}},
+      {"--window", {"hann", "rectangular", "hamming", "blackman", "flat-top"}},
+      {"NAME", effect_names()},
+      {"SHELL", {"bash", "zsh", "fish"}},
+  };
+}
+
+/// Text that is no file: expressions, names and lists of the user's own.
+constexpr std::string_view kOwnText[] = {"--column",       "--compute", "--excitation", "--id",
+                                         "--leave-out",    "--name",    "--noise-of",   "--over",
+                                         "--quantisation", "--rows",    "--run",        "--times",
+                                         "--validation",   "PART"};
+
+}  // namespace
+
+OptionValues values_of(const OptionDescription& option) {
+  if (option.value.empty()) return {};
+  const std::string& name = option.names.back();
+  static const auto words = words_by_name();
+  if (const auto known = words.find(name); known != words.end()) {
+    return {OptionValues::Kind::words, known->second};
+  }
+  if (name == "--out") return {OptionValues::Kind::folder};
+  const bool is_number = option.value == "FLOAT" || option.value == "INT" || option.value == "UINT";
+  if (is_number || std::ranges::find(kOwnText, name) != std::ranges::end(kOwnText)) return {};
+  return {OptionValues::Kind::file};
+}
+
+}  // namespace flexarm::app

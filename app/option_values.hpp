@@ -1,0 +1,21 @@
+#pragma once
+
+#include "app/option_tree.hpp"
+
+#include <string>
+#include <vector>
+
+namespace flexarm::app {
+
+/// What a shell offers for the value of an option or for a positional argument.
+struct OptionValues {
+  enum class Kind { none, words, file, folder };
+  Kind kind = Kind::none;
+  std::vector<std::string> words = {};
+};
+
+/// By the option's name: the words that it takes; a folder for `--out`; a file for any other text;
+/// nothing for a number, a flag, and text of the user's own.
+OptionValues values_of(const OptionDescription& option);
+
+}  // namespace flexarm::app

@@ -1,0 +1,49 @@
+import { blockContent } from "../blocks/block_content";
+import type { Block, PageDocument, Section } from "../contract";
+import type { Arrays } from "../document/arrays";
+import { blockFrame } from "./block_frame";
+import { contentsElement, followReading } from "./contents";
+import { html } from "./element";
+import { helpElement } from "./help";
+import { themeSwitch } from "./theme";
+import { verdictElement } from "./verdict";
+
+/** The whole page. */
+export function pageElement(page: PageDocument, arrays: Arrays): HTMLElement[] {
+  const sections = page.sections.map((section) => sectionElement(section, arrays));
+  const contents = contentsElement(page.sections);
+  followReading(contents, sections);
+  const header = html(
+    "header",
+    { class: "top" },
+    html("h1", {}, page.title),
+    html("div", { class: "tools" }, themeSwitch()),
+  );
+  const first = html("section", { class: "first", "aria-label": "Verdict" }, verdictElement(page));
+  if (page.headline) first.append(frameOf(page.headline, arrays, 2));
+  const main = html("main", {}, first, ...sections);
+  const footer = html(
+    "footer",
+    {},
+    helpElement(),
+    html("p", {}, `Made by ${page.program} with `, html("code", {}, page.command)),
+  );
+  const skip = html("a", { class: "skip", href: "#verdict" }, "Skip to the verdict");
+  return [skip, header, html("div", { class: "columns" }, contents, main), footer];
+}
+
+function sectionElement(section: Section, arrays: Arrays): HTMLElement {
+  const titleId = `${section.id}-title`;
+  const element = html("section", { id: section.id, "aria-labelledby": titleId });
+  element.append(html("h2", { id: titleId }, section.title));
+  for (const paragraph of section.text) element.append(html("p", {}, paragraph));
+  for (const block of section.blocks) element.append(frameOf(block, arrays, 3));
+  if (section.text.length === 0 && section.blocks.length === 0) {
+    element.append(html("p", { class: "note" }, "No data."));
+  }
+  return element;
+}
+
+function frameOf(block: Block, arrays: Arrays, level: 2 | 3): HTMLElement {
+  return blockFrame(block, blockContent(block, arrays), level);
+}

@@ -1,5 +1,8 @@
 import "uplot/dist/uPlot.min.css";
+import "./style/colours.css";
 import "./style/page.css";
+import "./style/blocks.css";
+import "./style/print.css";
 
 import type { PageDocument } from "./contract";
 import { Arrays } from "./document/arrays";

@@ -20,26 +20,36 @@ export interface BlockContent {
 
 /** Title, caption, content, links to its data and the data as a table. */
 export function blockFrame(block: Block, content: BlockContent, level: 2 | 3): HTMLElement {
-  const titleId = `${block.id}-title`;
-  const heading = html(level === 2 ? "h2" : "h3", { id: titleId }, block.title);
-  const frame = html("article", { id: block.id, class: `block ${block.kind}`, "aria-labelledby": titleId });
-  frame.append(heading);
+  const frame = titledFrame(block, level);
   if (block.caption !== "") frame.append(html("p", { class: "caption" }, block.caption));
   frame.append(content.element, dataBar(block, content));
-  if (content.draw) {
-    whenInView(frame, () => guarded(frame, () => content.draw?.()));
-  }
+  whenInView(frame, () => {
+    try {
+      content.draw?.();
+    } catch (error) {
+      frame.append(failure(error));
+    }
+  });
   return frame;
 }
 
-/** A block whose data cannot be drawn says so in its place; the rest of the page stays. */
-export function guarded(frame: HTMLElement, draw: () => void): void {
-  try {
-    draw();
-  } catch (error) {
-    const reason = error instanceof Error ? error.message : String(error);
-    frame.append(html("p", { class: "failure", role: "alert" }, `This block cannot be shown: ${reason}.`));
-  }
+/** A block whose data are damaged says so in its place; the rest of the page stays. */
+export function failedFrame(block: Block, level: 2 | 3, error: unknown): HTMLElement {
+  const frame = titledFrame(block, level);
+  frame.append(failure(error));
+  return frame;
+}
+
+function titledFrame(block: Block, level: 2 | 3): HTMLElement {
+  const titleId = `${block.id}-title`;
+  const frame = html("article", { id: block.id, class: `block ${block.kind}`, "aria-labelledby": titleId });
+  frame.append(html(level === 2 ? "h2" : "h3", { id: titleId }, block.title));
+  return frame;
+}
+
+function failure(error: unknown): HTMLElement {
+  const reason = error instanceof Error ? error.message : String(error);
+  return html("p", { class: "failure", role: "alert" }, `This block cannot be shown: ${reason}.`);
 }
 
 function dataBar(block: Block, content: BlockContent): HTMLElement {

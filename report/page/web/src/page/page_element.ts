@@ -1,7 +1,7 @@
 import { blockContent } from "../blocks/block_content";
 import type { Block, PageDocument, Section } from "../contract";
 import type { Arrays } from "../document/arrays";
-import { blockFrame } from "./block_frame";
+import { blockFrame, failedFrame } from "./block_frame";
 import { contentsElement, followReading } from "./contents";
 import { html } from "./element";
 import { helpElement } from "./help";
@@ -45,5 +45,9 @@ function sectionElement(section: Section, arrays: Arrays): HTMLElement {
 }
 
 function frameOf(block: Block, arrays: Arrays, level: 2 | 3): HTMLElement {
-  return blockFrame(block, blockContent(block, arrays), level);
+  try {
+    return blockFrame(block, blockContent(block, arrays), level);
+  } catch (error) {
+    return failedFrame(block, level, error);
+  }
 }

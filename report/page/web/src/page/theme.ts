@@ -22,10 +22,18 @@ export function onThemeChange(listener: () => void): void {
   listeners.push(listener);
 }
 
+const printers: ((on: boolean) => void)[] = [];
+
+/** Calls back before the page is printed, when its colours are those of paper, and afterwards. */
+export function onPaper(printer: (on: boolean) => void): void {
+  printers.push(printer);
+}
+
 /** Paper is light, whatever the screen is. */
 export function setPrinting(on: boolean): void {
   printing = on;
   apply();
+  for (const printer of printers) printer(on);
 }
 
 /** As the system has it, until the button is used. */

@@ -4,13 +4,13 @@ import "./style/page.css";
 import "./style/blocks.css";
 import "./style/print.css";
 
-import type { PageDocument } from "./contract";
-import { Arrays } from "./document/arrays";
-import { MalformedDocument } from "./document/checks";
-import { pageDocument } from "./document/page_document_check";
-import { html } from "./page/element";
-import { pageElement } from "./page/page_element";
-import { followPrinting } from "./page/printing";
+import type { PageDocument } from "./contract.js";
+import { Arrays } from "./document/arrays.js";
+import { MalformedDocument } from "./document/checks.js";
+import { pageDocument } from "./document/page_document_check.js";
+import { html } from "./page/element.js";
+import { pageElement } from "./page/page_element.js";
+import { followPrinting } from "./page/printing.js";
 
 function content(id: string): string {
   return document.getElementById(id)?.textContent?.trim() ?? "";

@@ -1,4 +1,4 @@
-import { numberText } from "./number_text";
+import { numberText } from "./number_text.js";
 
 export interface Tick {
   value: number;

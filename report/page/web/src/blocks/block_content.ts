@@ -1,12 +1,12 @@
-import type { Block } from "../contract";
-import type { Arrays } from "../document/arrays";
-import type { BlockContent } from "../page/block_frame";
-import { curvesBlock } from "./curves_block";
-import { mapBlock } from "./map_block";
-import { rankingBlock } from "./ranking_block";
-import { scatterBlock } from "./scatter_block";
-import { sweepBlock } from "./sweep_block";
-import { tableBlock } from "./table_block";
+import type { Block } from "../contract.js";
+import type { Arrays } from "../document/arrays.js";
+import type { BlockContent } from "../page/block_frame.js";
+import { curvesBlock } from "./curves_block.js";
+import { mapBlock } from "./map_block.js";
+import { rankingBlock } from "./ranking_block.js";
+import { scatterBlock } from "./scatter_block.js";
+import { sweepBlock } from "./sweep_block.js";
+import { tableBlock } from "./table_block.js";
 
 export function blockContent(block: Block, arrays: Arrays): BlockContent {
   switch (block.kind) {

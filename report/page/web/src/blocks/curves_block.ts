@@ -1,15 +1,15 @@
-import type { CurvesBlock } from "../contract";
-import { viewData, viewsData } from "../curves/view_data";
-import { ViewPlot } from "../curves/view_plot";
-import type { Arrays } from "../document/arrays";
-import type { BlockContent } from "../page/block_frame";
-import { button, html } from "../page/element";
-import { factList } from "../page/facts";
-import { followKeys } from "../page/plot_input";
-import { onPaper, onThemeChange } from "../page/theme";
-import { fileName } from "./file_name";
-import { Speech } from "./speech";
-import { viewChoice } from "./view_choice";
+import type { CurvesBlock } from "../contract.js";
+import { viewData, viewsData } from "../curves/view_data.js";
+import { ViewPlot } from "../curves/view_plot.js";
+import type { Arrays } from "../document/arrays.js";
+import type { BlockContent } from "../page/block_frame.js";
+import { button, html } from "../page/element.js";
+import { factList } from "../page/facts.js";
+import { followKeys } from "../page/plot_input.js";
+import { onPaper, onThemeChange } from "../page/theme.js";
+import { fileName } from "./file_name.js";
+import { Speech } from "./speech.js";
+import { viewChoice } from "./view_choice.js";
 
 /** Curves over a common x axis, one view at a time. */
 export function curvesBlock(block: CurvesBlock, arrays: Arrays): BlockContent {

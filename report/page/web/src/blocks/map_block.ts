@@ -1,19 +1,21 @@
-import { numberText, quantityText } from "../axes/number_text";
-import type { MapBlock, MapPoint } from "../contract";
-import { colourName } from "../curves/role_style";
-import type { BlockContent } from "../page/block_frame";
-import { button, html, svg } from "../page/element";
-import { linearMap, signedLogMap } from "../plane/axis_map";
-import { placeLabels } from "../plane/labels";
-import { kMarkWords, type Mark, markOf, markPath } from "../plane/marks";
-import { Picker, type Pickable } from "../plane/picker";
-import { Plane, type PlaneProjection } from "../plane/plane";
-import { type Entry, planeLegend } from "../plane/plane_legend";
-import { followWidth, plotBox, resetButton } from "../plane/plot_box";
-import { Speech } from "./speech";
+import { numberText, quantityText } from "../axes/number_text.js";
+import type { MapBlock, MapPoint } from "../contract.js";
+import { colourName, kRoleStyles } from "../curves/role_style.js";
+import type { BlockContent } from "../page/block_frame.js";
+import { button, html, svg } from "../page/element.js";
+import { linearMap, signedLogMap } from "../plane/axis_map.js";
+import { placeLabels } from "../plane/labels.js";
+import { kMarkWords, type Mark, markOf, markPath } from "../plane/marks.js";
+import { Picker, type Pickable } from "../plane/picker.js";
+import { Plane, type PlaneProjection } from "../plane/plane.js";
+import { type Entry, planeLegend } from "../plane/plane_legend.js";
+import { followWidth, plotBox, resetButton } from "../plane/plot_box.js";
+import { Speech } from "./speech.js";
 
 const kMarkSize = 5; // px
 const kSmallMark = 3.5; // where there are many
+const kBroadMark = 7; // of what lies below others: as broad as its curves
+const kBroad = 3; // px of stroke from which on a role is that
 const kMany = 200;
 
 interface Group {
@@ -49,6 +51,7 @@ export function mapBlock(block: MapBlock): BlockContent {
         reset.hidden = !isZoomed;
       },
       paint: (layer, to) => {
+        shadeRightHalfPlane(layer, to);
         for (const group of shown()) paintGroup(layer, to, group, block.points.length > kMany);
         paintLabels(layer, to, shown());
         picker.showOn(layer, to);
@@ -103,6 +106,8 @@ function groupsOf(points: MapPoint[]): Group[] {
 
 function paintGroup(layer: SVGGElement, to: PlaneProjection, { entry, points }: Group, isCrowded: boolean): void {
   const colour = `var(--${colourName(entry.role)})`;
+  const isBroad = kRoleStyles[entry.role].width >= kBroad;
+  const size = isCrowded ? kSmallMark : isBroad ? kBroadMark : kMarkSize;
   const bars: string[] = [];
   const marks: string[] = [];
   for (const point of points) {
@@ -111,18 +116,27 @@ function paintGroup(layer: SVGGElement, to: PlaneProjection, { entry, points }: 
     const { real_std: realStd = 0, imaginary_std: imaginaryStd = 0 } = point;
     if (realStd > 0) bars.push(`M${to.x(point.real - realStd)} ${y}H${to.x(point.real + realStd)}`);
     if (imaginaryStd > 0) bars.push(`M${x} ${to.y(point.imaginary - imaginaryStd)}V${to.y(point.imaginary + imaginaryStd)}`);
-    marks.push(markPath(entry.shape as Mark, x, y, isCrowded ? kSmallMark : kMarkSize));
+    marks.push(markPath(entry.shape as Mark, x, y, size));
   }
   layer.append(
     svg("path", { d: bars.join(""), stroke: colour, class: "bars" }),
-    svg("path", { d: marks.join(""), stroke: colour, class: `marks ${entry.shape}` }),
+    svg("path", { d: marks.join(""), stroke: colour, class: `marks ${entry.shape}${isBroad ? " broad" : ""}` }),
   );
 }
 
-/** The first detail of each root of the upper half plane; its conjugate has the same. */
+function shadeRightHalfPlane(layer: SVGGElement, to: PlaneProjection): void {
+  const left = Math.max(to.x(0), to.left);
+  if (left >= to.right) return;
+  const box = { x: left, y: to.top, width: to.right - left, height: to.bottom - to.top };
+  layer.append(svg("rect", { ...box, class: "right-half" }));
+}
+
+/** The first detail of each root of the first series; its conjugate has the same, and those of the
+ * other series lie close by. */
 function paintLabels(layer: SVGGElement, to: PlaneProjection, groups: Group[]): void {
-  const labels = groups
-    .flatMap((group) => group.points)
+  const points = groups.flatMap((group) => group.points);
+  const labels = points
+    .filter((point) => point.series === points[0]?.series)
     .filter((point) => point.imaginary >= 0 && point.details.length > 0)
     .map((point) => ({ x: to.x(point.real), y: to.y(point.imaginary), text: point.details[0]?.value ?? "" }))
     .filter(({ x, y }) => x >= to.left && x <= to.right && y >= to.top && y <= to.bottom);

@@ -1,7 +1,7 @@
-import type { RankingBlock } from "../contract";
-import type { BlockContent } from "../page/block_frame";
-import { html, svg } from "../page/element";
-import { factList } from "../page/facts";
+import type { RankingBlock } from "../contract.js";
+import type { BlockContent } from "../page/block_frame.js";
+import { html, svg } from "../page/element.js";
+import { factList } from "../page/facts.js";
 
 /** Causes by probability, as bars; the chosen ones are marked. */
 export function rankingBlock(block: RankingBlock): BlockContent {

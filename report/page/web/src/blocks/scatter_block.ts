@@ -1,19 +1,19 @@
-import { quantityText } from "../axes/number_text";
-import type { Axis, ScatterBlock, ScatterPanel } from "../contract";
-import { colourName, kRoleStyles } from "../curves/role_style";
-import { type Arrays, digitsOf } from "../document/arrays";
-import type { DataTable } from "../document/data_table";
-import type { BlockContent } from "../page/block_frame";
-import { html, svg } from "../page/element";
-import { factList } from "../page/facts";
-import { linearMap, logMap } from "../plane/axis_map";
-import { Picker, type Pickable } from "../plane/picker";
-import { Plane, type PlaneProjection } from "../plane/plane";
-import { planeLegend } from "../plane/plane_legend";
-import { followWidth, plotBox, resetButton } from "../plane/plot_box";
-import { fileName } from "./file_name";
-import { Speech } from "./speech";
-import { viewChoice } from "./view_choice";
+import { quantityText } from "../axes/number_text.js";
+import type { Axis, ScatterBlock, ScatterPanel } from "../contract.js";
+import { colourName, kRoleStyles } from "../curves/role_style.js";
+import { type Arrays, digitsOf } from "../document/arrays.js";
+import type { DataTable } from "../document/data_table.js";
+import type { BlockContent } from "../page/block_frame.js";
+import { html, svg } from "../page/element.js";
+import { factList } from "../page/facts.js";
+import { linearMap, logMap } from "../plane/axis_map.js";
+import { Picker, type Pickable } from "../plane/picker.js";
+import { Plane, type PlaneProjection } from "../plane/plane.js";
+import { planeLegend } from "../plane/plane_legend.js";
+import { followWidth, plotBox, resetButton } from "../plane/plot_box.js";
+import { fileName } from "./file_name.js";
+import { Speech } from "./speech.js";
+import { viewChoice } from "./view_choice.js";
 
 const kGrid = 1.5; // px within which points coincide
 const kMostPicked = 3000; // points that keys and pointer go through

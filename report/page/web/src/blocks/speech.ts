@@ -1,4 +1,4 @@
-import { html } from "../page/element";
+import { html } from "../page/element.js";
 
 const kPause_ms = 150; // while keys repeat nothing is said
 

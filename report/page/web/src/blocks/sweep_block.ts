@@ -1,16 +1,16 @@
-import { numberText, quantityText } from "../axes/number_text";
-import type { SweepBlock } from "../contract";
-import { colourName, kRoleStyles } from "../curves/role_style";
-import type { Arrays } from "../document/arrays";
-import { withUnit } from "../document/data_table";
-import type { BlockContent } from "../page/block_frame";
-import { html, svg } from "../page/element";
-import { linearMap, logMap, signedLogMap } from "../plane/axis_map";
-import { markPath } from "../plane/marks";
-import { Plane, type PlaneProjection } from "../plane/plane";
-import { planeLegend } from "../plane/plane_legend";
-import { followWidth, plotBox, resetButton } from "../plane/plot_box";
-import { readTracks, sweepTable, type Track } from "./sweep_tracks";
+import { numberText, quantityText } from "../axes/number_text.js";
+import type { SweepBlock } from "../contract.js";
+import { colourName, kRoleStyles } from "../curves/role_style.js";
+import type { Arrays } from "../document/arrays.js";
+import { withUnit } from "../document/data_table.js";
+import type { BlockContent } from "../page/block_frame.js";
+import { html, svg } from "../page/element.js";
+import { linearMap, logMap, signedLogMap } from "../plane/axis_map.js";
+import { markPath } from "../plane/marks.js";
+import { Plane, type PlaneProjection } from "../plane/plane.js";
+import { planeLegend } from "../plane/plane_legend.js";
+import { followWidth, plotBox, resetButton } from "../plane/plot_box.js";
+import { readTracks, sweepTable, type Track } from "./sweep_tracks.js";
 
 const kMarkSize = 5.5; // px
 

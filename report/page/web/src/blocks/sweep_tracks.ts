@@ -1,7 +1,7 @@
-import type { Role, SweepBlock } from "../contract";
-import { type Arrays, digitsOf } from "../document/arrays";
-import type { DataTable } from "../document/data_table";
-import type { Mark } from "../plane/marks";
+import type { Role, SweepBlock } from "../contract.js";
+import { type Arrays, digitsOf } from "../document/arrays.js";
+import type { DataTable } from "../document/data_table.js";
+import type { Mark } from "../plane/marks.js";
 
 export interface Track {
   label: string;

@@ -1,8 +1,9 @@
-import type { TableBlock } from "../contract";
-import { withUnit } from "../document/data_table";
-import type { BlockContent } from "../page/block_frame";
-import { button, html } from "../page/element";
-import { compareCells, scrolling } from "../page/table_element";
+import type { TableBlock } from "../contract.js";
+import { withUnit } from "../document/data_table.js";
+import type { BlockContent } from "../page/block_frame.js";
+import { button, html } from "../page/element.js";
+import { compareCells } from "../page/cells.js";
+import { scrolling } from "../page/table_element.js";
 
 type Direction = "ascending" | "descending";
 

@@ -1,4 +1,4 @@
-import { html } from "../page/element";
+import { html } from "../page/element.js";
 
 interface View {
   labels: string[];

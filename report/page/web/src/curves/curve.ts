@@ -1,7 +1,7 @@
-import type { Series } from "../contract";
-import type { Arrays } from "../document/arrays";
-import { EnvelopeCurve } from "./envelope_curve";
-import { SampleCurve } from "./sample_curve";
+import type { Series } from "../contract.js";
+import type { Arrays } from "../document/arrays.js";
+import { EnvelopeCurve } from "./envelope_curve.js";
+import { SampleCurve } from "./sample_curve.js";
 
 /** A range of numbers; empty while least > greatest. */
 export interface Range {

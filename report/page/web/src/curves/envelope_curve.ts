@@ -1,6 +1,6 @@
-import type { Envelope, Series } from "../contract";
-import type { Arrays } from "../document/arrays";
-import { type Curve, kEmpty, type Paint, type Projection, type Range, type Reading } from "./curve";
+import type { Envelope, Series } from "../contract.js";
+import type { Arrays } from "../document/arrays.js";
+import { type Curve, kEmpty, type Paint, type Projection, type Range, type Reading } from "./curve.js";
 
 type Level = Envelope["levels"][number];
 

@@ -1,9 +1,9 @@
-import { numberText, quantityText } from "../axes/number_text";
-import type { CurvesPanel } from "../contract";
-import { withUnit } from "../document/data_table";
-import { button, html, svg } from "../page/element";
-import type { Curve, Reading } from "./curve";
-import { colourName, kRoleStyles } from "./role_style";
+import { numberText, quantityText } from "../axes/number_text.js";
+import type { CurvesPanel } from "../contract.js";
+import { withUnit } from "../document/data_table.js";
+import { button, html, svg } from "../page/element.js";
+import type { Curve, Reading } from "./curve.js";
+import { colourName, kRoleStyles } from "./role_style.js";
 
 /** The quantity of a panel and its curves; a click hides or shows a curve. */
 export class Legend {

@@ -1,10 +1,11 @@
 import uPlot from "uplot";
 
-import { linearTicks, logTicks, type Tick } from "../axes/ticks";
-import type { Axis, CurvesPanel } from "../contract";
-import { colour } from "../page/theme";
-import { type Curve, joined, kEmpty, type Projection, type Range } from "./curve";
-import { colourName, kRoleStyles } from "./role_style";
+import { linearTicks, logTicks, type Tick } from "../axes/ticks.js";
+import type { Axis, CurvesPanel } from "../contract.js";
+import { colour } from "../page/theme.js";
+import { html } from "../page/element.js";
+import { type Curve, joined, kEmpty, type Projection, type Range, type Reading } from "./curve.js";
+import { colourName, kRoleStyles } from "./role_style.js";
 
 const kFont = "system-ui, sans-serif";
 const kFontSize = 12;
@@ -35,6 +36,7 @@ export class PanelPlot {
   /** Set while y is zoomed by hand. */
   private yChosen: Range | undefined;
   private isPlacingCursor = false;
+  private dots: HTMLElement[] = [];
 
   constructor(
     place: HTMLElement,
@@ -118,6 +120,28 @@ export class PanelPlot {
     this.isPlacingCursor = false;
   }
 
+  /** A dot on each curve at the cursor. */
+  showDots(readings: Map<Curve, Reading | undefined>): void {
+    for (const dot of this.dots) dot.remove();
+    this.dots = [];
+    const { over } = this.plot;
+    for (const [curve, reading] of readings) {
+      if (!reading || !this.options.isShown(curve)) continue;
+      const left = this.plot.valToPos(reading.x, "x");
+      for (const y of [reading.y, reading.greatest]) {
+        if (y === undefined) continue;
+        const top = this.plot.valToPos(y, "y");
+        if (!(left >= 0 && left <= over.clientWidth && top >= 0 && top <= over.clientHeight)) continue;
+        const dot = html("div", { class: "cursor-dot" });
+        dot.style.left = `${left}px`;
+        dot.style.top = `${top}px`;
+        dot.style.background = `var(--${colourName(curve.series.role)})`;
+        over.append(dot);
+        this.dots.push(dot);
+      }
+    }
+  }
+
   private scaleOf(axis: Axis, range: () => Range): uPlot.Scale {
     return {
       time: false,
@@ -169,12 +193,12 @@ export class PanelPlot {
     ctx.rect(left, top, width, height);
     ctx.clip();
     ctx.lineJoin = "round";
-    this.paintLevels(ctx, to);
     for (const curve of options.curves) {
       if (!options.isShown(curve)) continue;
       const { role } = curve.series;
       curve.paint(ctx, to, options.x, { ...kRoleStyles[role], colour: colour(colourName(role)) });
     }
+    this.paintLevels(ctx, to);
     ctx.restore();
   }
 

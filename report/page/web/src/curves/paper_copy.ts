@@ -1,4 +1,4 @@
-import { html } from "../page/element";
+import { html } from "../page/element.js";
 
 const kPaperWidth = 680; // px: the text width of A4 at 96 dots an inch
 const kPaperScale = 2.5; // dots of the picture in one of these

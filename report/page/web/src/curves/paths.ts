@@ -1,4 +1,4 @@
-import type { Projection } from "./curve";
+import type { Projection } from "./curve.js";
 
 /** The line through the samples from `first` up to `end`, with gaps where y is not a number. Of the
  * samples in one column of pixels the first, least, greatest and last are joined, which looks the

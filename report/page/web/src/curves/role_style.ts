@@ -1,4 +1,4 @@
-import type { Role } from "../contract";
+import type { Role } from "../contract.js";
 
 /** Stroke of each role, as in the SVG figures (report/figures/overlay_style.cpp, diagnosis_figures.cpp):
  * what is measured is broad and pale below, what coincides with it is narrow on top. The colours are

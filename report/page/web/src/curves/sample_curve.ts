@@ -1,7 +1,7 @@
-import type { Samples, Series } from "../contract";
-import type { Arrays } from "../document/arrays";
-import { type Curve, kEmpty, lowerBound, type Paint, type Projection, type Range, type Reading } from "./curve";
-import { bandPath, linePath } from "./paths";
+import type { Samples, Series } from "../contract.js";
+import type { Arrays } from "../document/arrays.js";
+import { type Curve, kEmpty, lowerBound, type Paint, type Projection, type Range, type Reading } from "./curve.js";
+import { bandPath, linePath } from "./paths.js";
 
 const kMarkedSpacing = 14; // px between samples from which on each has a dot
 const kDot = 2.2; // px

@@ -1,7 +1,7 @@
-import type { CurvesBlock, CurvesView, Numbers, Series } from "../contract";
-import { type Arrays, digitsOf } from "../document/arrays";
-import type { DataTable } from "../document/data_table";
-import { lowerBound } from "./curve";
+import type { CurvesBlock, CurvesView, Numbers, Series } from "../contract.js";
+import { type Arrays, digitsOf } from "../document/arrays.js";
+import type { DataTable } from "../document/data_table.js";
+import { lowerBound } from "./curve.js";
 
 interface Column {
   title: string;

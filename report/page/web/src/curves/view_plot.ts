@@ -1,15 +1,15 @@
-import { quantityText } from "../axes/number_text";
-import type { CurvesBlock, CurvesView } from "../contract";
-import type { Arrays } from "../document/arrays";
-import { withUnit } from "../document/data_table";
-import { html } from "../page/element";
-import { followGestures, type PlotInput } from "../page/plot_input";
-import { type Curve, curveOf, joined, kEmpty, type Range, type Reading } from "./curve";
-import { Legend, readingText } from "./legend";
-import { PanelPlot } from "./panel_plot";
-import { paperCopy } from "./paper_copy";
+import { quantityText } from "../axes/number_text.js";
+import type { CurvesBlock, CurvesView } from "../contract.js";
+import type { Arrays } from "../document/arrays.js";
+import { withUnit } from "../document/data_table.js";
+import { html } from "../page/element.js";
+import { followGestures, type PlotInput } from "../page/plot_input.js";
+import { type Curve, curveOf, joined, kEmpty, type Range, type Reading } from "./curve.js";
+import { Legend, readingText } from "./legend.js";
+import { PanelPlot } from "./panel_plot.js";
+import { paperCopy } from "./paper_copy.js";
 
-const kHeights = [300, 400, 480]; // px of one, two and more panels
+const kHeights = [280, 370, 430]; // px of one, two and more panels
 const kNarrow = 500;
 const kNarrowShare = 0.85;
 const kAxisHeight = 26;
@@ -19,6 +19,7 @@ interface Part {
   curves: Curve[];
   legend: Legend;
   place: HTMLElement;
+  element: HTMLElement;
   plot?: PanelPlot;
 }
 
@@ -41,12 +42,14 @@ export class ViewPlot implements PlotInput {
       const curves = panel.series.map((series) => curveOf(series, arrays));
       const legend = new Legend(panel, curves, hidden, () => this.showRange(this.x));
       const place = html("div", { class: "canvas", "aria-hidden": "true" });
-      this.element.append(html("div", { class: "panel" }, legend.element, place));
-      return { curves, legend, place };
+      const element = html("div", { class: "panel" }, legend.element, place);
+      this.element.append(element);
+      return { curves, legend, place, element };
     });
     this.extent = this.wholeRange();
     this.x = this.extent;
-    this.element.append(html("p", { class: "x-label" }, withUnit(block.x.label, block.x.unit)));
+    const xLabel = html("p", { class: "x-label" }, withUnit(block.x.label, block.x.unit));
+    this.parts.at(-1)?.element.append(xLabel);
   }
 
   /** Draws for the first time or at another width. */
@@ -170,6 +173,7 @@ export class ViewPlot implements PlotInput {
         if (text !== "" && !this.hidden.has(curve.series.label)) said.push(`${curve.series.label} ${text}`);
       }
       part.legend.show(readings);
+      part.plot?.showDots(readings);
     });
     const text = x === undefined ? "" : `${this.block.x.label} ${quantityText(x, this.block.x.unit)}`;
     this.on.cursor(text, speak ? [text, ...said].join("; ") : "");

@@ -1,5 +1,5 @@
-import type { ArrayRef, EvenRange, Numbers } from "../contract";
-import { MalformedDocument } from "./checks";
+import type { ArrayRef, EvenRange, Numbers } from "../contract.js";
+import { MalformedDocument } from "./checks.js";
 
 const kBytes = { f64: 8, f32: 4, i16: 2 } as const;
 const kGap = -32768; // of i16

@@ -1,4 +1,4 @@
-import { type DataTable, withUnit } from "./data_table";
+import { type DataTable, withUnit } from "./data_table.js";
 
 const kAllDigits = 17;
 

@@ -1,5 +1,5 @@
-import type { Axis, Block, Envelope, Fact, Numbers, PageDocument, Role, Samples } from "../contract";
-import { type Check, count, isRecord, list, number, object, oneOf, pair, tagged, text, truth } from "./checks";
+import type { Axis, Block, Envelope, Fact, Numbers, PageDocument, Role, Samples } from "../contract.js";
+import { type Check, count, isRecord, list, number, object, oneOf, pair, tagged, text, truth } from "./checks.js";
 
 const arrayRef = object(
   { type: oneOf("f64", "f32", "i16"), byte_offset: count, count },

@@ -1,9 +1,9 @@
-import type { Block } from "../contract";
-import { csv } from "../document/csv";
-import type { DataTable } from "../document/data_table";
-import { button, html } from "./element";
-import { whenInView } from "./in_view";
-import { tableElement, thinnedNote } from "./table_element";
+import type { Block } from "../contract.js";
+import { csv } from "../document/csv.js";
+import type { DataTable } from "../document/data_table.js";
+import { button, html } from "./element.js";
+import { whenInView } from "./in_view.js";
+import { tableElement, thinnedNote } from "./table_element.js";
 
 /** What a kind of block puts into its frame. */
 export interface BlockContent {

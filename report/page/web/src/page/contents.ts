@@ -1,5 +1,5 @@
-import type { Section } from "../contract";
-import { html } from "./element";
+import type { Section } from "../contract.js";
+import { html } from "./element.js";
 
 /** The list of the sections; the one that is read is marked. */
 export function contentsElement(sections: Section[]): HTMLElement {
@@ -7,7 +7,10 @@ export function contentsElement(sections: Section[]): HTMLElement {
     sections.map((section) => [section.id, html("a", { href: `#${section.id}` }, section.title)]),
   );
   const list = html("ol", {}, ...[...links.values()].map((link) => html("li", {}, link)));
-  return html("nav", { class: "contents", "aria-label": "Contents" }, html("details", { open: true }, html("summary", {}, "Contents"), list));
+  // On a narrow screen it stands between the verdict and the sections.
+  const isOpen = matchMedia("(min-width: 861px)").matches;
+  const details = html("details", { open: isOpen }, html("summary", {}, "Contents"), list);
+  return html("nav", { class: "contents", "aria-label": "Contents" }, details);
 }
 
 /** Marks the link of the section at the top of the window. */

@@ -1,5 +1,5 @@
-import type { Fact } from "../contract";
-import { html } from "./element";
+import type { Fact } from "../contract.js";
+import { html } from "./element.js";
 
 export function factList(facts: Fact[], name: string): HTMLElement {
   const list = html("dl", { class: name });

@@ -1,4 +1,4 @@
-import { html } from "./element";
+import { html } from "./element.js";
 
 const kKeys: [string, string][] = [
   ["←  →", "cursor to the next sample; with Shift by a tenth of the view"],

@@ -1,12 +1,12 @@
-import { blockContent } from "../blocks/block_content";
-import type { Block, PageDocument, Section } from "../contract";
-import type { Arrays } from "../document/arrays";
-import { blockFrame, failedFrame } from "./block_frame";
-import { contentsElement, followReading } from "./contents";
-import { html } from "./element";
-import { helpElement } from "./help";
-import { themeSwitch } from "./theme";
-import { verdictElement } from "./verdict";
+import { blockContent } from "../blocks/block_content.js";
+import type { Block, PageDocument, Section } from "../contract.js";
+import type { Arrays } from "../document/arrays.js";
+import { blockFrame, failedFrame } from "./block_frame.js";
+import { contentsElement, followReading } from "./contents.js";
+import { html } from "./element.js";
+import { helpElement } from "./help.js";
+import { themeSwitch } from "./theme.js";
+import { verdictElement } from "./verdict.js";
 
 /** The whole page. */
 export function pageElement(page: PageDocument, arrays: Arrays): HTMLElement[] {
@@ -21,7 +21,7 @@ export function pageElement(page: PageDocument, arrays: Arrays): HTMLElement[] {
   );
   const first = html("section", { class: "first", "aria-label": "Verdict" }, verdictElement(page));
   if (page.headline) first.append(frameOf(page.headline, arrays, 2));
-  const main = html("main", {}, first, ...sections);
+  const rest = html("div", { class: "sections" }, ...sections);
   const footer = html(
     "footer",
     {},
@@ -29,7 +29,7 @@ export function pageElement(page: PageDocument, arrays: Arrays): HTMLElement[] {
     html("p", {}, `Made by ${page.program} with `, html("code", {}, page.command)),
   );
   const skip = html("a", { class: "skip", href: "#verdict" }, "Skip to the verdict");
-  return [skip, header, html("div", { class: "columns" }, contents, main), footer];
+  return [skip, header, html("main", {}, first, contents, rest), footer];
 }
 
 function sectionElement(section: Section, arrays: Arrays): HTMLElement {

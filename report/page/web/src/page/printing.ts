@@ -1,5 +1,5 @@
-import { drawAll } from "./in_view";
-import { setPrinting } from "./theme";
+import { drawAll } from "./in_view.js";
+import { setPrinting } from "./theme.js";
 
 /** Paper gets what was not in view yet. */
 export function followPrinting(): void {

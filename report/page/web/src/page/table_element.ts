@@ -1,6 +1,6 @@
-import { leadingNumber, numberText } from "../axes/number_text";
-import { type DataTable, withUnit } from "../document/data_table";
-import { html } from "./element";
+import { numberText } from "../axes/number_text.js";
+import { type DataTable, withUnit } from "../document/data_table.js";
+import { html } from "./element.js";
 
 const kMostRows = 200;
 
@@ -42,14 +42,4 @@ export function tableElement(table: DataTable, name: string): HTMLElement {
 /** A wide table scrolls in its frame, also by keyboard, and not with the page. */
 export function scrolling(table: HTMLTableElement, name: string): HTMLElement {
   return html("div", { class: "scrolling", role: "region", tabindex: 0, "aria-label": name }, table);
-}
-
-/** Order of two cells: numbers by their value, before texts; texts as in a directory. */
-export function compareCells(a: string, b: string, numeric: boolean): number {
-  if (numeric) {
-    const [x, y] = [leadingNumber(a), leadingNumber(b)];
-    if (Number.isNaN(x) || Number.isNaN(y)) return Number(Number.isNaN(x)) - Number(Number.isNaN(y));
-    return x < y ? -1 : x > y ? 1 : 0;
-  }
-  return a.localeCompare(b, "en", { numeric: true });
 }

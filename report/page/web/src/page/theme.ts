@@ -1,4 +1,4 @@
-import { button } from "./element";
+import { button } from "./element.js";
 
 type Theme = "light" | "dark";
 

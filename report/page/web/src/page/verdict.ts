@@ -1,6 +1,6 @@
-import type { PageDocument, Verdict } from "../contract";
-import { html, svg } from "./element";
-import { factList } from "./facts";
+import type { PageDocument, Verdict } from "../contract.js";
+import { html, svg } from "./element.js";
+import { factList } from "./facts.js";
 
 /** Signs that differ in shape: tick, half disc, cross, bar. */
 const kSigns: Record<Verdict["status"], string> = {

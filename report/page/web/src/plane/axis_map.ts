@@ -1,5 +1,5 @@
-import { decadeText, linearTicks, logTicks, type Tick, ticksOfStep } from "../axes/ticks";
-import type { Axis } from "../contract";
+import { decadeText, linearTicks, logTicks, type Tick, ticksOfStep } from "../axes/ticks.js";
+import type { Axis } from "../contract.js";
 
 /** How values of an axis become even distances. Ranges and zooms are in these. */
 export interface AxisMap {
@@ -50,7 +50,7 @@ export function signedLogMap(numbers: Iterable<number>): AxisMap {
     ticks: (from, to, most) => {
       // Zoomed in between two decades: even steps, by their values.
       if (to - from < 1) return linearTicks(inverse(from), inverse(to), most);
-      const each = Math.ceil((to - from) / most);
+      const each = Math.max(1, Math.round((to - from) / most));
       const ticks: Tick[] = from <= 0 && to >= 0 ? [{ value: 0, text: "0" }] : [];
       const reach = Math.max(Math.abs(inverse(from)), Math.abs(inverse(to)));
       for (let exponent = Math.floor(Math.log10(v0)); 10 ** exponent <= reach; ++exponent) {

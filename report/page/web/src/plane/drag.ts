@@ -1,4 +1,4 @@
-import { svg } from "../page/element";
+import { svg } from "../page/element.js";
 
 interface Box {
   left: number;

@@ -1,5 +1,5 @@
-import { svg } from "../page/element";
-import type { PlaneProjection } from "./plane";
+import { svg } from "../page/element.js";
+import type { PlaneProjection } from "./plane.js";
 
 export interface Label {
   x: number; // px

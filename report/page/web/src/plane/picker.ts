@@ -1,7 +1,7 @@
-import type { Fact } from "../contract";
-import { html, svg } from "../page/element";
-import { factList } from "../page/facts";
-import type { Plane, PlaneProjection } from "./plane";
+import type { Fact } from "../contract.js";
+import { html, svg } from "../page/element.js";
+import { factList } from "../page/facts.js";
+import type { Plane, PlaneProjection } from "./plane.js";
 
 /** A point of a plane that can be picked by pointer or keys. */
 export interface Pickable {

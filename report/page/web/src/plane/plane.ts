@@ -1,11 +1,11 @@
-import { stepOf } from "../axes/ticks";
-import type { Axis } from "../contract";
-import { joined, kEmpty, type Range } from "../curves/curve";
-import { withUnit } from "../document/data_table";
-import { html, svg } from "../page/element";
-import { followGestures } from "../page/plot_input";
-import type { AxisMap } from "./axis_map";
-import { followDrag } from "./drag";
+import { stepOf } from "../axes/ticks.js";
+import type { Axis } from "../contract.js";
+import { joined, kEmpty, type Range } from "../curves/curve.js";
+import { withUnit } from "../document/data_table.js";
+import { html, svg } from "../page/element.js";
+import { followGestures } from "../page/plot_input.js";
+import type { AxisMap } from "./axis_map.js";
+import { followDrag } from "./drag.js";
 
 /** Distances of the two axes that are in view. */
 export interface View {
@@ -36,7 +36,9 @@ export interface PlaneProjection {
   bottom: number;
 }
 
-const kMargin = { left: 58, right: 14, top: 10, bottom: 40 };
+const kMargin = { right: 14, top: 10, bottom: 40 };
+const kLabelWidth = 26; // px of the label of the vertical axis, with gaps
+const kDigitWidth = 6.8; // of 12 px text
 const kTickSpacing_x = 70; // px
 const kTickSpacing_y = 40;
 const kRoom = 0.06; // of the range, around what is shown
@@ -52,6 +54,7 @@ export class Plane {
   private home: View = { x: { least: -1, greatest: 1 }, y: { least: -1, greatest: 1 } };
   private view: View = this.home;
   private width = 0;
+  private left = 0; // px of the vertical axis, by its texts
 
   constructor(private readonly options: PlaneOptions) {
     this.element.append(this.picture);
@@ -126,16 +129,24 @@ export class Plane {
   /** Fractions of the picture as fractions of the area within the axes. */
   private inner(at: { x: number; y: number }): { x: number; y: number } {
     const height = this.options.height(this.width);
-    const area = { width: this.width - kMargin.left - kMargin.right, height: height - kMargin.top - kMargin.bottom };
-    return { x: (at.x * this.width - kMargin.left) / area.width, y: (at.y * height - kMargin.top) / area.height };
+    const area = { width: this.width - this.left - kMargin.right, height: height - kMargin.top - kMargin.bottom };
+    return { x: (at.x * this.width - this.left) / area.width, y: (at.y * height - kMargin.top) / area.height };
+  }
+
+  private leftMargin(height: number): number {
+    const { least, greatest } = this.view.y;
+    const ticks = this.options.yMap.ticks(least, greatest, (height - kMargin.top - kMargin.bottom) / kTickSpacing_y);
+    const longest = Math.max(1, ...ticks.map((tick) => tick.text.length));
+    return Math.ceil(kLabelWidth + longest * kDigitWidth);
   }
 
   private render(): void {
     const { x, y, xMap, yMap, equalScales } = this.options;
     const height = this.options.height(this.width);
+    this.left = this.leftMargin(height);
     const frame = {
-      left: kMargin.left,
-      right: Math.max(this.width - kMargin.right, kMargin.left + 1),
+      left: this.left,
+      right: Math.max(this.width - kMargin.right, this.left + 1),
       top: kMargin.top,
       bottom: height - kMargin.bottom,
     };

@@ -1,7 +1,7 @@
-import type { Role } from "../contract";
-import { colourName, kRoleStyles } from "../curves/role_style";
-import { button, html, svg } from "../page/element";
-import { type Mark, markPath } from "./marks";
+import type { Role } from "../contract.js";
+import { colourName, kRoleStyles } from "../curves/role_style.js";
+import { button, html, svg } from "../page/element.js";
+import { type Mark, markPath } from "./marks.js";
 
 export interface Entry {
   name: string;

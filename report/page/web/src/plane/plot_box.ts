@@ -1,7 +1,7 @@
-import { button, html } from "../page/element";
-import { followKeys } from "../page/plot_input";
-import type { Picker } from "./picker";
-import type { Plane } from "./plane";
+import { button, html } from "../page/element.js";
+import { followKeys } from "../page/plot_input.js";
+import type { Picker } from "./picker.js";
+import type { Plane } from "./plane.js";
 
 /** A plane in a box that takes the focus: arrows go from point to point, with Shift they move the
  * view. */

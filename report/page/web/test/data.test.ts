@@ -17,7 +17,12 @@ async function csvOf(page: Page, link: Locator): Promise<{ name: string; rows: s
   const [download] = await Promise.all([page.waitForEvent("download"), link.click()]);
   const text = readFileSync(await download.path(), "utf8");
   assert.ok(text.endsWith("\r\n"));
-  return { name: download.suggestedFilename(), rows: text.trimEnd().split("\r\n").map((line) => line.split(",")) };
+  return { name: download.suggestedFilename(), rows: text.trimEnd().split("\r\n").map(fields) };
+}
+
+/** Fields of a line, of which some are in quotes. */
+function fields(line: string): string[] {
+  return [...line.matchAll(/(?:^|,)(?:"((?:[^"]|"")*)"|([^,]*))/g)].map((match) => match[1]?.replaceAll('""', '"') ?? match[2] ?? "");
 }
 
 test("the CSV file of a view has its samples", () =>
@@ -55,8 +60,7 @@ test("frequencies of several grids are one column; gaps are empty cells", () =>
     assert.equal(name, "bode.csv");
     const frequencies = rows.slice(1).map((row) => Number(row[0]));
     assert.ok(frequencies.every((f, i) => i === 0 || f > frequencies[i - 1]!));
-    const column = rows[0]!.indexOf('"magnitude');
-    assert.equal(column, 1, "a title with a comma is quoted");
+    assert.deepEqual(rows[0]?.slice(0, 2), ["frequency [Hz]", "magnitude, measured [rad/(N m)]"]);
     assert.ok(rows.some((row) => row[1] === "" && row.some((cell, i) => i > 0 && cell !== "")));
   }));
 

@@ -54,7 +54,10 @@ export function pixelsOf(block: Locator, colourName: string): Promise<number> {
     probe.remove();
     let count = 0;
     for (const canvas of element.querySelectorAll("canvas")) {
-      const data = canvas.getContext("2d")?.getImageData(0, 0, canvas.width, canvas.height).data ?? [];
+      const { width, height } = canvas;
+      const copy = new OffscreenCanvas(width, height).getContext("2d", { willReadFrequently: true });
+      copy?.drawImage(canvas, 0, 0);
+      const data = copy?.getImageData(0, 0, width, height).data ?? [];
       for (let i = 0; i < data.length; i += 4) {
         const near = [0, 1, 2].every((k) => Math.abs((data[i + k] ?? 0) - (wanted[k] ?? 0)) < 12);
         if (near && (data[i + 3] ?? 0) > 200) ++count;

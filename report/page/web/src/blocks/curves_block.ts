@@ -1,15 +1,18 @@
 import type { CurvesBlock } from "../contract.js";
 import { viewData, viewsData } from "../curves/view_data.js";
-import { ViewPlot } from "../curves/view_plot.js";
+import { ViewPlot, viewHeight } from "../curves/view_plot.js";
 import type { Arrays } from "../document/arrays.js";
 import type { BlockContent } from "../page/block_frame.js";
 import { button, html } from "../page/element.js";
 import { factList } from "../page/facts.js";
+import { attempted } from "../page/failure.js";
 import { followKeys } from "../page/plot_input.js";
 import { onPaper, onThemeChange } from "../page/theme.js";
 import { fileName } from "./file_name.js";
 import { Speech } from "./speech.js";
 import { viewChoice } from "./view_choice.js";
+
+const kBarHeight = 42; // of selectors and facts
 
 /** Curves over a common x axis, one view at a time. */
 export function curvesBlock(block: CurvesBlock, arrays: Arrays): BlockContent {
@@ -56,7 +59,7 @@ export function curvesBlock(block: CurvesBlock, arrays: Arrays): BlockContent {
   });
   const choice = viewChoice(block.id, block.choices, block.views, (view) => {
     shown = view;
-    draw();
+    attempted(element, draw);
     changed();
   });
   const element = html(
@@ -68,6 +71,7 @@ export function curvesBlock(block: CurvesBlock, arrays: Arrays): BlockContent {
   );
   return {
     element,
+    height: (width) => (block.views[0] ? viewHeight(block.views[0].panels.length, width) + kBarHeight : 0),
     draw: () => {
       draw();
       onThemeChange(() => plot?.redraw());

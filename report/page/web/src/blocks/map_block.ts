@@ -18,6 +18,12 @@ const kBroadMark = 7; // of what lies below others: as broad as its curves
 const kBroad = 3; // px of stroke from which on a role is that
 const kMany = 200;
 
+const kBarsHeight = 100; // of tools and legend
+
+function planeHeight(width: number): number {
+  return Math.round(Math.min(Math.max(320, width * 0.7), 560));
+}
+
 interface Group {
   entry: Entry;
   points: MapPoint[];
@@ -46,7 +52,7 @@ export function mapBlock(block: MapBlock): BlockContent {
       xMap: map("x"),
       yMap: map("y"),
       equalScales: false,
-      height: (width) => Math.round(Math.min(Math.max(320, width * 0.7), 560)),
+      height: planeHeight,
       onZoom: (isZoomed) => {
         reset.hidden = !isZoomed;
       },
@@ -87,6 +93,7 @@ export function mapBlock(block: MapBlock): BlockContent {
       block.points.length > 0
         ? html("div", {}, tools, legend, place, speech.element)
         : html("p", { class: "note" }, "No poles or zeros."),
+    height: (width) => (block.points.length > 0 ? planeHeight(width) + kBarsHeight : 0),
     draw: build,
     files: () => [{ label: "CSV", name: block.id, table: () => mapTable(block) }],
   };

@@ -6,6 +6,7 @@ import type { DataTable } from "../document/data_table.js";
 import type { BlockContent } from "../page/block_frame.js";
 import { html, svg } from "../page/element.js";
 import { factList } from "../page/facts.js";
+import { attempted } from "../page/failure.js";
 import { linearMap, logMap } from "../plane/axis_map.js";
 import { Picker, type Pickable } from "../plane/picker.js";
 import { Plane, type PlaneProjection } from "../plane/plane.js";
@@ -17,6 +18,13 @@ import { viewChoice } from "./view_choice.js";
 
 const kGrid = 1.5; // px within which points coincide
 const kMostPicked = 3000; // points that keys and pointer go through
+
+const kTwoColumnsFrom = 790; // px, as in style/blocks.css
+const kBarHeight = 40; // of selectors, of a legend
+
+function planeHeight(width: number, equalScales: boolean): number {
+  return Math.round(Math.min(Math.max(280, width * 0.75), equalScales ? 520 : 400));
+}
 
 /** Points without an order along x. */
 export function scatterBlock(block: ScatterBlock, arrays: Arrays): BlockContent {
@@ -33,12 +41,18 @@ export function scatterBlock(block: ScatterBlock, arrays: Arrays): BlockContent 
   };
   const choice = viewChoice(block.id, block.choices, block.views, (view) => {
     shown = view;
-    draw();
+    attempted(element, draw);
     changed();
   });
   const empty = block.views.length === 0 ? html("p", { class: "note" }, "No data.") : undefined;
+  const element = html("div", {}, html("div", { class: "view-bar" }, choice, facts), empty, place, speech.element);
   return {
-    element: html("div", {}, html("div", { class: "view-bar" }, choice, facts), empty, place, speech.element),
+    element,
+    height: (width) => {
+      const panels = block.views[0]?.panels ?? [];
+      const rows = width < kTwoColumnsFrom ? panels.length : Math.ceil(panels.length / 2);
+      return rows * (planeHeight(width, panels[0]?.equal_scales ?? false) + kBarHeight) + kBarHeight;
+    },
     draw,
     files: () => {
       const view = block.views[shown];
@@ -71,7 +85,7 @@ function panelElement(
     xMap: mapOf(panel.x),
     yMap: mapOf(panel.y),
     equalScales: panel.equal_scales,
-    height: (width) => Math.round(Math.min(Math.max(280, width * 0.75), panel.equal_scales ? 520 : 400)),
+    height: (width) => planeHeight(width, panel.equal_scales),
     onZoom: (isZoomed) => {
       reset.hidden = !isZoomed;
     },

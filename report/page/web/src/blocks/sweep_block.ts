@@ -14,6 +14,13 @@ import { readTracks, sweepTable, type Track } from "./sweep_tracks.js";
 
 const kMarkSize = 5.5; // px
 
+const kTwoColumnsFrom = 790; // px, as in style/blocks.css
+const kBarsHeight = 170; // of slider, events and legend
+
+function planeHeight(width: number): number {
+  return Math.round(Math.min(Math.max(300, width * 0.85), 460));
+}
+
 /** Poles and zeros over a parameter: their way in the s plane and their frequencies, with a slider. */
 export function sweepBlock(block: SweepBlock, arrays: Arrays): BlockContent {
   const values = arrays.read(block.values);
@@ -65,7 +72,7 @@ export function sweepBlock(block: SweepBlock, arrays: Arrays): BlockContent {
     xMap: planeMap("x"),
     yMap: planeMap("y"),
     equalScales: false,
-    height: (width) => Math.round(Math.min(Math.max(300, width * 0.85), 460)),
+    height: planeHeight,
     onZoom: onZoom(0),
     paint: (layer, to) => {
       for (const track of shown()) paintWay(layer, to, track, at);
@@ -78,7 +85,7 @@ export function sweepBlock(block: SweepBlock, arrays: Arrays): BlockContent {
     xMap: block.parameter.scale === "log" ? logMap() : linearMap(block.parameter),
     yMap: block.frequency.scale === "log" ? logMap() : linearMap(block.frequency),
     equalScales: false,
-    height: (width) => Math.round(Math.min(Math.max(300, width * 0.85), 460)),
+    height: planeHeight,
     onZoom: onZoom(1),
     paint: (layer, to) => {
       const marker = to.x(values[at] ?? NaN);
@@ -126,6 +133,8 @@ export function sweepBlock(block: SweepBlock, arrays: Arrays): BlockContent {
             ...boxes.map((box, i) => html("div", { class: "panel" }, html("div", { class: "legend-bar" }, resets[i]), box)),
           ),
         ),
+    height: (width) =>
+      isEmpty ? 0 : kBarsHeight + (width < kTwoColumnsFrom ? 2 * planeHeight(width) : planeHeight(width / 2)),
     draw: () => {
       moveTo(0);
       planes.forEach((plane, i) => followWidth(boxes[i] as HTMLElement, () => plane.draw()));

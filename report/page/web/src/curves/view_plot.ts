@@ -13,6 +13,8 @@ const kHeights = [280, 370, 430]; // px of one, two and more panels
 const kNarrow = 500;
 const kNarrowShare = 0.85;
 const kAxisHeight = 26;
+const kLegendHeight = 31;
+const kLabelHeight = 21;
 const kMostZoom = 1e7;
 
 interface Part {
@@ -224,11 +226,9 @@ export class ViewPlot implements PlotInput {
   }
 
   private height(panel: number, width: number): number {
-    const count = this.parts.length;
-    const whole = (kHeights[Math.min(count, kHeights.length) - 1] ?? 0) * (width < kNarrow ? kNarrowShare : 1);
     const shares = this.view.panels.map((other) => Math.max(other.height, 0.1));
     const share = (shares[panel] ?? 1) / shares.reduce((sum, value) => sum + value, 0);
-    return Math.round(whole * share + (panel === count - 1 ? kAxisHeight : 0));
+    return Math.round(areaHeight(shares.length, width) * share + (panel === shares.length - 1 ? kAxisHeight : 0));
   }
 
   private scaled(x: number): number {
@@ -248,4 +248,15 @@ export class ViewPlot implements PlotInput {
     const [least, greatest] = [this.scaled(this.x.least), this.scaled(this.x.greatest)];
     return this.unscaled(least + fraction * (greatest - least));
   }
+}
+
+/** Height of all panels without their legends and axes. */
+function areaHeight(panels: number, width: number): number {
+  const height = kHeights[Math.min(panels, kHeights.length) - 1] ?? 0;
+  return width < kNarrow ? height * kNarrowShare : height;
+}
+
+/** Height of a view that has not been drawn. */
+export function viewHeight(panels: number, width: number): number {
+  return areaHeight(panels, width) + panels * kLegendHeight + kAxisHeight + kLabelHeight;
 }

@@ -1,7 +1,9 @@
 import type { Block } from "../contract.js";
 import { csv } from "../document/csv.js";
 import type { DataTable } from "../document/data_table.js";
+import { blockWidth } from "./block_width.js";
 import { button, html } from "./element.js";
+import { attempted, failure } from "./failure.js";
 import { whenInView } from "./in_view.js";
 import { tableElement, thinnedNote } from "./table_element.js";
 
@@ -10,6 +12,8 @@ export interface BlockContent {
   element: HTMLElement;
   /** Called when the block comes into view for the first time. */
   draw?(): void;
+  /** About how high it is then. */
+  height?(width: number): number;
   /** The data shown, named; several where the block has further views. */
   files(): { label: string; name: string; table(): DataTable }[];
   /** Calls back whenever other data are shown. */
@@ -23,13 +27,14 @@ export function blockFrame(block: Block, content: BlockContent, level: 2 | 3): H
   const frame = titledFrame(block, level);
   if (block.caption !== "") frame.append(html("p", { class: "caption" }, block.caption));
   frame.append(content.element, dataBar(block, content));
-  whenInView(frame, () => {
-    try {
-      content.draw?.();
-    } catch (error) {
-      frame.append(failure(error));
-    }
-  });
+  if (content.draw) {
+    // Its height beforehand, so that a link to what is below leads there.
+    content.element.style.minHeight = `${content.height?.(blockWidth()) ?? 0}px`;
+    whenInView(frame, () => {
+      content.element.style.minHeight = "";
+      attempted(content.element, () => content.draw?.());
+    });
+  }
   return frame;
 }
 
@@ -47,15 +52,10 @@ function titledFrame(block: Block, level: 2 | 3): HTMLElement {
   return frame;
 }
 
-function failure(error: unknown): HTMLElement {
-  const reason = error instanceof Error ? error.message : String(error);
-  return html("p", { class: "failure", role: "alert" }, `This block cannot be shown: ${reason}.`);
-}
-
 function dataBar(block: Block, content: BlockContent): HTMLElement {
   const bar = html("div", { class: "data-bar" });
   const links = html("span", { class: "links" });
-  const showLinks = () => links.replaceChildren(...content.files().map((file) => csvLink(file, block)));
+  const showLinks = () => links.replaceChildren(...content.files().map((file) => csvLink(file, block, bar)));
   showLinks();
   bar.append(links);
   if (content.isTable) return bar;
@@ -68,7 +68,7 @@ function dataBar(block: Block, content: BlockContent): HTMLElement {
       const open = place.hidden;
       place.hidden = !open;
       toggle.setAttribute("aria-expanded", String(open));
-      fillTable();
+      attempted(place, fillTable);
     },
   );
   const fillTable = () => {
@@ -81,21 +81,27 @@ function dataBar(block: Block, content: BlockContent): HTMLElement {
   };
   content.onChange?.(() => {
     showLinks();
-    fillTable();
+    attempted(place, fillTable);
   });
   bar.append(toggle);
   return html("div", {}, bar, place);
 }
 
-function csvLink(file: ReturnType<BlockContent["files"]>[number], block: Block): HTMLAnchorElement {
+function csvLink(
+  file: ReturnType<BlockContent["files"]>[number],
+  block: Block,
+  bar: HTMLElement,
+): HTMLAnchorElement {
   const link = html(
     "a",
     { href: `#${block.id}`, download: `${file.name}.csv`, "aria-label": `${file.label} of ${block.title}` },
     file.label,
   );
   // The file is made when it is asked for: of a long record it takes a moment and memory.
-  link.addEventListener("click", () => {
-    const address = URL.createObjectURL(new Blob([csv(file.table())], { type: "text/csv" }));
+  link.addEventListener("click", (event) => {
+    let text = "";
+    if (!attempted(bar, () => (text = csv(file.table())))) return event.preventDefault();
+    const address = URL.createObjectURL(new Blob([text], { type: "text/csv" }));
     link.href = address;
     setTimeout(() => {
       link.href = `#${block.id}`;

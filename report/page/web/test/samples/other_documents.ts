@@ -35,13 +35,13 @@ function envelopeOf(record: Float64Array, step: number, arrays: ArrayWriter): En
   return { kind: "envelope", x: { start: 0, step, count: record.length }, levels };
 }
 
-/** Records of 10^6 samples. One motion is simulated and shown at ten amplitudes: the page does not
- * know. */
+/** Records of 10^6 samples: one motion that is repeated and dies away, at ten amplitudes. */
 export function longSample(runs = 10, count = 1_000_000): Sample {
   const arrays = new ArrayWriter();
   const step_s = 0.001;
   const swing = torqueOf(1);
-  const motion = simulated(kPaperArm, 0.002, (t) => swing(t % 9) * Math.sin(t / 40), count, step_s);
+  const part = simulated(kPaperArm, 0.002, (t) => swing(t % 9) * Math.sin(t / 13), count / 10, step_s).tipAcceleration_m_per_s2;
+  const record = Float64Array.from({ length: count }, (_, i) => part[i % part.length]! * (1 - i / count / 2));
   const views = Array.from({ length: runs }, (_, run) => ({
     labels: [`run ${run + 1}`],
     facts: [],
@@ -53,7 +53,7 @@ export function longSample(runs = 10, count = 1_000_000): Sample {
           label: role,
           role,
           draw: "line" as const,
-          data: envelopeOf(motion.tipAcceleration_m_per_s2.map((value) => value * (1 + 0.1 * run) * (1 - 0.3 * i)), step_s, arrays),
+          data: envelopeOf(record.map((value) => value * (1 + 0.1 * run) * (1 - 0.3 * i)), step_s, arrays),
         })),
         levels: [],
       },

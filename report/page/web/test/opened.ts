@@ -22,6 +22,7 @@ export async function opened(
   address: string,
   check: (page: Page) => Promise<void>,
   options: BrowserContextOptions = {},
+  script?: () => void,
 ): Promise<void> {
   assert.ok(browser);
   const context = await browser.newContext({ viewport: { width: 1280, height: 900 }, ...options });
@@ -35,6 +36,7 @@ export async function opened(
   page.on("request", (request) => {
     if (request.url() !== address && !request.url().startsWith("blob:")) complaints.push(`request of ${request.url()}`);
   });
+  if (script) await page.addInitScript(script);
   try {
     await page.goto(address);
     await check(page);

@@ -5,12 +5,11 @@ import { test } from "node:test";
 
 import type { Page } from "playwright-core";
 
-import { opened, withBrowser } from "./opened.js";
+import { opened } from "./opened.js";
 import { diagnosisSample } from "./samples/diagnosis_document.js";
 import { edgeSample } from "./samples/other_documents.js";
 import { written } from "./samples/written_page.js";
 
-withBrowser();
 const addresses = {
   diagnosis: written("diagnosis", diagnosisSample(2)),
   edges: written("edges", edgeSample()),

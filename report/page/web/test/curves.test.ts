@@ -3,12 +3,11 @@ import { test } from "node:test";
 
 import type { Locator, Page } from "playwright-core";
 
-import { opened, pixelsOf, withBrowser, xAtCursor } from "./opened.js";
+import { opened, pixelsOf, xAtCursor } from "./opened.js";
 import { diagnosisSample } from "./samples/diagnosis_document.js";
 import { kSamples, kStep_s } from "./samples/sample_runs.js";
 import { written } from "./samples/written_page.js";
 
-withBrowser();
 const diagnosis = written("diagnosis", diagnosisSample(2));
 const kLast_s = (kSamples - 1) * kStep_s;
 

@@ -4,12 +4,11 @@ import { test } from "node:test";
 
 import type { Locator, Page } from "playwright-core";
 
-import { opened, withBrowser } from "./opened.js";
+import { opened } from "./opened.js";
 import { diagnosisSample } from "./samples/diagnosis_document.js";
 import { channels, kSamples, kStep_s } from "./samples/sample_runs.js";
 import { written } from "./samples/written_page.js";
 
-withBrowser();
 const sample = diagnosisSample(2);
 const diagnosis = written("diagnosis", sample);
 

@@ -1,5 +1,5 @@
-import { after, before } from "node:test";
 import assert from "node:assert/strict";
+import { after } from "node:test";
 
 import type { Browser, BrowserContextOptions, Locator, Page } from "playwright-core";
 
@@ -7,15 +7,9 @@ import { launched } from "./browser.js";
 
 let browser: Browser | undefined;
 
-/** One browser for the tests of a file. */
-export function withBrowser(): void {
-  before(async () => {
-    browser = await launched();
-  });
-  after(async () => {
-    await browser?.close();
-  });
-}
+after(async () => {
+  await browser?.close();
+});
 
 /** Opens a page of its own. Any error on its console, or request besides the file, fails the test. */
 export async function opened(
@@ -24,7 +18,7 @@ export async function opened(
   options: BrowserContextOptions = {},
   script?: () => void,
 ): Promise<void> {
-  assert.ok(browser);
+  browser ??= await launched();
   const context = await browser.newContext({ viewport: { width: 1280, height: 900 }, ...options });
   const page = await context.newPage();
   page.setDefaultTimeout(10_000);

@@ -1,16 +1,14 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { opened, pixelsOf, withBrowser } from "./opened.js";
+import { opened, pixelsOf } from "./opened.js";
 import { diagnosisSample } from "./samples/diagnosis_document.js";
 import { longSample } from "./samples/other_documents.js";
 import { written } from "./samples/written_page.js";
 
-const kMostOpening_ms = 1000; // the bar for 6 runs of 4,000 samples
-const kOpenings = 4;
+const kMostOpening_s = 1; // the bar for 6 runs of 4,000 samples
 const kMostRedraw_ms = 100; // a zoom into a long record: an answer that is felt as immediate
 
-withBrowser();
 const diagnosis = written("diagnosis", diagnosisSample());
 
 test("the first screen has the verdict, its facts and the headline picture", () =>
@@ -34,22 +32,29 @@ test("the contents lead to each section", () =>
     assert.equal(await links.count(), 5);
     await links.filter({ hasText: "Poles and zeros" }).click();
     await page.locator("#map svg .marks").first().waitFor();
-    assert.ok(await page.locator("#roots").evaluate((section) => section.getBoundingClientRect().top < 200));
+    await page.waitForFunction(() => {
+      const top = document.getElementById("roots")?.getBoundingClientRect().top ?? NaN;
+      return top > -20 && top < 120;
+    });
     await page.locator('.contents a[href="#roots"][aria-current]').waitFor();
   }));
 
-// Other tests may run beside: the fastest of some openings is that of the page.
-test("opens in under a second with six runs of 4,000 samples", async () => {
-  const openings: number[] = [];
-  for (let i = 0; i < kOpenings; ++i) {
-    await opened(diagnosis, async (page) => {
-      const drawn = await page.waitForFunction(() => (window as unknown as { drawn_ms?: number }).drawn_ms);
-      openings.push(Number(await drawn.jsonValue()));
-    }, {}, notePictureDrawn);
-  }
-  const fastest = Math.min(...openings);
-  assert.ok(fastest < kMostOpening_ms, `opened after ${openings.map(Math.round).join(", ")} ms`);
-});
+// The processor's time of the page's process, all of its threads, from the start until the picture is
+// drawn: what other programs run beside does not count. With a core of its own it takes less time.
+test("opens in under a second with six runs of 4,000 samples", () =>
+  opened(
+    diagnosis,
+    async (page) => {
+      await page.waitForFunction(() => "drawn_ms" in window);
+      const session = await page.context().newCDPSession(page);
+      await session.send("Performance.enable");
+      const { metrics } = await session.send("Performance.getMetrics");
+      const opening_s = metrics.find((metric) => metric.name === "ProcessTime")?.value;
+      assert.ok(opening_s !== undefined && opening_s > 0 && opening_s < kMostOpening_s, `opened in ${opening_s} s`);
+    },
+    {},
+    notePictureDrawn,
+  ));
 
 /** Runs in the page, before its script: notes when the picture of the first screen is drawn. */
 function notePictureDrawn(): void {

@@ -3,12 +3,11 @@ import { test } from "node:test";
 
 import type { Locator, Page } from "playwright-core";
 
-import { opened, withBrowser } from "./opened.js";
+import { opened } from "./opened.js";
 import { diagnosisSample } from "./samples/diagnosis_document.js";
 import { mapPoints } from "./samples/sample_roots.js";
 import { written } from "./samples/written_page.js";
 
-withBrowser();
 const diagnosis = written("diagnosis", diagnosisSample(2));
 
 async function shown(page: Page, id: string): Promise<Locator> {

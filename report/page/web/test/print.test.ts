@@ -1,11 +1,10 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { opened, withBrowser } from "./opened.js";
+import { opened } from "./opened.js";
 import { diagnosisSample } from "./samples/diagnosis_document.js";
 import { written } from "./samples/written_page.js";
 
-withBrowser();
 const diagnosis = written("diagnosis", diagnosisSample(2));
 
 test("paper is light, has all sections and no controls", () =>

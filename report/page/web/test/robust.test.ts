@@ -1,12 +1,11 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { opened, withBrowser } from "./opened.js";
+import { opened } from "./opened.js";
 import { diagnosisSample } from "./samples/diagnosis_document.js";
 import { edgeSample, hostileSample, kHostile } from "./samples/other_documents.js";
 import { written, writtenRaw } from "./samples/written_page.js";
 
-withBrowser();
 
 test("labels that are HTML are shown as text", () =>
   opened(written("hostile", hostileSample()), async (page) => {

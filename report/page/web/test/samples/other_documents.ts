@@ -1,4 +1,4 @@
-import type { Block, Envelope, PageDocument } from "../../src/contract.js";
+import type { ArrayRef, Block, Envelope, PageDocument } from "../../src/contract.js";
 import { kPaperArm } from "./arm.js";
 import { ArrayWriter } from "./array_writer.js";
 import type { Sample } from "./diagnosis_document.js";
@@ -42,6 +42,21 @@ export function longSample(runs = 10, count = 1_000_000): Sample {
   const swing = torqueOf(1);
   const part = simulated(kPaperArm, 0.002, (t) => swing(t % 9) * Math.sin(t / 13), count / 10, step_s).tipAcceleration_m_per_s2;
   const record = Float64Array.from({ length: count }, (_, i) => part[i % part.length]! * (1 - i / count / 2));
+  const envelope = envelopeOf(record, step_s, arrays);
+  // The arrays hold the same steps at each amplitude; what a step is differs.
+  const scaled = (ref: ArrayRef, factor: number): ArrayRef => ({
+    ...ref,
+    scale: (ref.scale ?? 1) * factor,
+    offset: (ref.offset ?? 0) * factor,
+  });
+  const amplified = (factor: number): Envelope => ({
+    ...envelope,
+    levels: envelope.levels.map(({ samples_per_bucket, least, greatest }) => ({
+      samples_per_bucket,
+      least: scaled(least, factor),
+      greatest: scaled(greatest, factor),
+    })),
+  });
   const views = Array.from({ length: runs }, (_, run) => ({
     labels: [`run ${run + 1}`],
     facts: [],
@@ -53,7 +68,7 @@ export function longSample(runs = 10, count = 1_000_000): Sample {
           label: role,
           role,
           draw: "line" as const,
-          data: envelopeOf(record.map((value) => value * (1 + 0.1 * run) * (1 - 0.3 * i)), step_s, arrays),
+          data: amplified((1 + 0.1 * run) * (1 - 0.3 * i)),
         })),
         levels: [],
       },

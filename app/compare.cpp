@@ -1,5 +1,6 @@
 #include "app/arm_choice.hpp"
 #include "app/command.hpp"
+#include "app/list_option.hpp"
 #include "app/output_choice.hpp"
 #include "app/standard_output.hpp"
 #include "arm/rigid_hub.hpp"
@@ -170,9 +171,7 @@ Command add_compare(CLI::App& program) {
       ->add_option("--measured", arguments->measured_file,
                    "Measured poles and zeros (modal CSV), listed with those of the model")
       ->check(not_empty());
-  parser->add_option("--sensor", arguments->sensors, "Additional sensors, e.g. strain@0.05")
-      ->delimiter(',')
-      ->allow_extra_args(false);
+  add_list_option(*parser, "--sensor", arguments->sensors, "Additional sensors, e.g. strain@0.05");
   parser->add_option("--poles", arguments->options.poles, "Number of poles and hub zeros")
       ->capture_default_str();
   parser

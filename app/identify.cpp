@@ -2,6 +2,7 @@
 #include "app/command.hpp"
 #include "app/identified_files.hpp"
 #include "app/interruption.hpp"
+#include "app/list_option.hpp"
 #include "app/spectrum_choice.hpp"
 #include "app/standard_output.hpp"
 #include "app/word.hpp"
@@ -324,9 +325,8 @@ Command add_identify(CLI::App& program) {
   parser->add_option("--run", arguments->runs, "Run ids, comma-separated; default: all")
       ->delimiter(',')
       ->allow_extra_args(false);
-  parser->add_option("--sensor", arguments->sensors, "Sensors, comma-separated; default: all")
-      ->delimiter(',')
-      ->allow_extra_args(false);
+  add_list_option(*parser, "--sensor", arguments->sensors,
+                  "Sensors, comma-separated; default: all");
   add_spectrum_choice(*parser, arguments->spectrum);
   parser->add_option("--input", arguments->input,
                      "Input of the responses of time runs: torque, hub_angle or hub_velocity; "

@@ -56,6 +56,8 @@ int run(int argc, const char* const* argv) {
       "  flexarm sweep --figure 18 poles over payload\n"
       "  flexarm effects           list of the effects\n"
       "  flexarm paper             check of the paper's equations and tables\n\n"
+      "Numbers have a decimal point. The comma separates the items of a list: 0,0.05,0.2. What may "
+      "be\nmeant as a decimal comma, such as 0,05, is refused.\n"
       "Exit status: 0 success; 1 failure; 2 invalid input, with one line on standard error.");
   // In the order of a first session.
   const std::array commands = {add_new(program),      add_modes(program),    add_response(program),

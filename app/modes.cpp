@@ -1,6 +1,7 @@
 #include "app/arm_choice.hpp"
 #include "app/command.hpp"
 #include "app/formulation_choice.hpp"
+#include "app/list_option.hpp"
 #include "app/output_choice.hpp"
 #include "app/standard_output.hpp"
 #include "arm/input_error.hpp"
@@ -194,12 +195,8 @@ Command add_modes(CLI::App& program) {
   add_formulation_choice(*parser, arguments->formulation);
   parser->add_option("--modes", arguments->count, "Number of modes, and of zeros per sensor")
       ->capture_default_str();
-  parser
-      ->add_option("--sensor", arguments->sensors,
-                   "Sensors whose zeros are listed, comma-separated")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->capture_default_str();
+  add_list_option(*parser, "--sensor", arguments->sensors,
+                  "Sensors whose zeros are listed, comma-separated");
   parser->add_flag("--certificate", arguments->certificate,
                    "Certify the roots of exact_tf and their count by ball arithmetic");
   add_output_choice(*parser, arguments->output, "Folder for CSV tables and mode shapes as SVG");

@@ -1,6 +1,7 @@
 #include "app/arm_choice.hpp"
 #include "app/command.hpp"
 #include "app/formulation_choice.hpp"
+#include "app/list_option.hpp"
 #include "app/output_choice.hpp"
 #include "app/standard_output.hpp"
 #include "app/state_space_file.hpp"
@@ -220,12 +221,9 @@ Command add_response(CLI::App& program) {
       "Compute frequency response, factored and modal forms, and state space of an arm");
   add_arm_choice(*parser, arguments->arm);
   add_formulation_choice(*parser, arguments->formulation);
-  parser
-      ->add_option("--sensor", arguments->sensors,
-                   "Sensors, comma-separated; default: hub_angle and, with a beam, "
-                   "tip_acceleration")
-      ->delimiter(',')
-      ->allow_extra_args(false);
+  add_list_option(*parser, "--sensor", arguments->sensors,
+                  "Sensors, comma-separated; default: hub_angle and, with a beam, "
+                  "tip_acceleration");
   parser->add_option("--from-Hz", options.from_Hz,
                      "Lowest frequency; default: well below the first pole");
   parser->add_option("--to-Hz", options.to_Hz,
@@ -234,11 +232,8 @@ Command add_response(CLI::App& program) {
       ->add_option("--points", options.points,
                    "Number of logarithmic frequencies; refined at poles and zeros")
       ->capture_default_str();
-  parser
-      ->add_option("--frequencies", options.frequency_Hz,
-                   "Frequencies [Hz] instead of a range, comma-separated")
-      ->delimiter(',')
-      ->allow_extra_args(false);
+  add_list_option(*parser, "--frequencies", options.frequency_Hz,
+                  "Frequencies [Hz] instead of a range, comma-separated");
   parser
       ->add_option("--modes", options.modes,
                    "Number of poles, of zeros per sensor, and of flexible modes of the state space")

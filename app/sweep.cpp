@@ -1,6 +1,7 @@
 #include "app/arm_choice.hpp"
 #include "app/command.hpp"
 #include "app/interruption.hpp"
+#include "app/list_option.hpp"
 #include "app/output_choice.hpp"
 #include "app/standard_output.hpp"
 #include "app/version.hpp"
@@ -305,11 +306,8 @@ Command add_sweep(CLI::App& program) {
   parser->add_option("--poles", arguments->poles, "Number of poles, modes and hub zeros [5]");
   parser->add_option("--zeros", arguments->zeros,
                      "Number of zeros of each non-collocated sensor [4]");
-  parser
-      ->add_option("--sensor", arguments->sensors,
-                   "Sensors whose zeros are tracked [hub_angle,tip_acceleration]")
-      ->delimiter(',')
-      ->allow_extra_args(false);
+  add_list_option(*parser, "--sensor", arguments->sensors,
+                  "Sensors whose zeros are tracked [hub_angle,tip_acceleration]");
   parser->add_flag("--roots-only", arguments->roots_only,
                    "Skip hub slopes, end-point values and damping");
   parser

@@ -91,18 +91,23 @@ constexpr Word kVoltageWords[] = {"voltage", "motorvoltage", "outputvoltage", "a
                                   // French
                                   "tension", "tensionmoteur"};
 
+constexpr string_view kLengths[] = {"m", "mm", "cm", "um", "inch"};
+constexpr string_view kStrains[] = {"1", "ustrain", "mstrain", "%", "V", "mV", "mV/V"};
+constexpr string_view kCurrents[] = {"A", "mA"};
+constexpr string_view kVoltages[] = {"V", "mV"};
+
 constexpr string_view kPath =
-    "--column tip_deflection=NAME (relative to the rigid arm) or "
-    "--column tip_displacement=NAME (absolute)";
-constexpr string_view kGauge = "--column strain@X=NAME, X in m from the hub";
-constexpr string_view kCurrent = "--torque 'K*[{}]', K in N m/A";
-constexpr string_view kVoltage = "--torque 'K*[{}]', K in N m/V";
+    "--column 'tip_deflection={0}' (relative to the rigid arm) or "
+    "--column 'tip_displacement={0}' (absolute)";
+constexpr string_view kGauge = "--column 'strain@X={0}', X in m from the hub";
+constexpr string_view kCurrent = "--torque 'K*[{0}]', K in N m/A";
+constexpr string_view kVoltage = "--torque 'K*[{0}]', K in N m/V";
 
 constexpr std::array<OpenWords, 4> kOpen = {{
-    {kPathWords, "m", "a displacement", kPath},
-    {kStrainWords, "1", "a strain at a place that the file does not tell", kGauge},
-    {kCurrentWords, "A", "a motor current", kCurrent, true},
-    {kVoltageWords, "V", "a voltage", kVoltage, true},
+    {kPathWords, kLengths, "a displacement", kPath},
+    {kStrainWords, kStrains, "a strain at a place that the file does not tell", kGauge},
+    {kCurrentWords, kCurrents, "a motor current", kCurrent, true},
+    {kVoltageWords, kVoltages, "a voltage", kVoltage, true},
 }};
 
 /// Letters of German and French beyond ASCII, in UTF-8, as plain ones.

@@ -19,9 +19,9 @@ std::span<const QuantityWords> quantity_words();
 /// Words that tell what was measured, but not as which quantity it is to be read.
 struct OpenWords {
   std::span<const std::string_view> words;
-  std::string_view unit;     ///< of such a column, canonical; one in another unit is none of these
+  std::span<const std::string_view> units;  ///< canonical; a column in another is none of these
   std::string_view meaning;  ///< "a motor current"
-  std::string_view option;   ///< that states what it is; {} is the column's name
+  std::string_view option;   ///< that states what it is; {0} is the column's name
   bool may_be_torque = false;
 };
 

@@ -1,4 +1,6 @@
 #include "app/command.hpp"
+#include "app/json_file.hpp"
+#include "app/kept_inputs.hpp"
 #include "app/standard_output.hpp"
 #include "app/suggestion.hpp"
 #include "app/version.hpp"
@@ -68,7 +70,13 @@ int run(int argc, const char* const* argv) {
   try {
     program.parse(argc, argv);
     for (const auto& command : commands) {
-      if (command.parser->parsed()) return command.run();
+      if (!command.parser->parsed()) continue;
+      require_inputs_kept(*command.parser);
+      if (const auto* json = command.parser->get_option_no_throw("--json");
+          json != nullptr && json->count() > 0 && is_standard_output(json->as<std::string>())) {
+        reserve_standard_output();
+      }
+      return command.run();
     }
     print(program.help());
     return kSuccess;

@@ -18,7 +18,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr double kOneDegree = std::numbers::pi / 180.0;
 
 class ImportLanguage : public Flexarm {
  protected:
@@ -67,8 +67,8 @@ TEST_F(ImportLanguage, ALatin1LogOfAGermanLoggerIsMapped) {
   EXPECT_THAT(sensors_of(record), ElementsAre("hub_angle", "hub_velocity", "tip_acceleration"));
   EXPECT_EQ(record.time_s[1], 0.002);
   EXPECT_EQ(record.torque_N_m[2], 0.2);
-  EXPECT_NEAR(record.channels[0].values[1], 0.1 * kDegree, 1e-15);
-  EXPECT_NEAR(record.channels[1].values[2], 0.4 * kDegree, 1e-15);
+  EXPECT_NEAR(record.channels[0].values[1], 0.1 * kOneDegree, 1e-15);
+  EXPECT_NEAR(record.channels[1].values[2], 0.4 * kOneDegree, 1e-15);
   EXPECT_EQ(record.channels[2].values[1], 0.3);
   EXPECT_THAT(output_, HasSubstr("warning: not imported: Dehnung may be a strain"));
   EXPECT_THAT(output_, HasSubstr("--column 'strain@X=Dehnung'"));
@@ -98,7 +98,7 @@ TEST_F(ImportLanguage, AFrenchLogIsMapped) {
       "temps (s);couple (N.m);angle (degr\xc3\xa9s);vitesse (tr/min);acc\xc3\xa9l\xc3\xa9ration\n"
       "0,0;0,1;0,0;1,5;0,5\n0,1;0,1;0,1;3,0;1,5\n0,2;0,1;0,1;3,0;1,5\n");
   EXPECT_THAT(sensors_of(record), ElementsAre("hub_angle", "hub_velocity", "tip_acceleration"));
-  EXPECT_NEAR(record.channels[0].values[1], 0.1 * kDegree, 1e-15);
+  EXPECT_NEAR(record.channels[0].values[1], 0.1 * kOneDegree, 1e-15);
 }
 
 TEST_F(ImportLanguage, WhatIsNotSureIsAskedInOneLine) {

@@ -1,6 +1,7 @@
 #include "app/arm_choice.hpp"
 
 #include "app/command.hpp"
+#include "app/list_option.hpp"
 #include "arm/effects.hpp"
 #include "arm/formulation.hpp"
 #include "arm/input_error.hpp"
@@ -80,12 +81,8 @@ std::vector<arm::Arm> ArmChoice::arms() const {
 void add_arm_choice(CLI::App& parser, ArmChoice& choice) {
   parser.add_option("ARM", choice.file, "Arm file; default: the arm of the paper")
       ->check(not_empty());
-  parser
-      .add_option("--payload-mass", choice.payload_masses_kg,
-                  "Payload mass [kg] instead of that in the file; several, comma-separated")
-      ->delimiter(',')
-      ->check(not_empty())
-      ->allow_extra_args(false);
+  add_list_option(parser, "--payload-mass", choice.payload_masses_kg,
+                  "Payload mass [kg] instead of that in the file; several, comma-separated");
   parser.add_option(
       "--payload-inertia", choice.payload_inertia_kg_m2,
       "Payload inertia about its centre of mass [kg m^2] instead of that in the file");

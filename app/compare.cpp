@@ -1,5 +1,7 @@
 #include "app/arm_choice.hpp"
 #include "app/command.hpp"
+#include "app/json_file.hpp"
+#include "app/list_option.hpp"
 #include "app/output_choice.hpp"
 #include "app/standard_output.hpp"
 #include "arm/rigid_hub.hpp"
@@ -93,11 +95,16 @@ std::string comparison_text(const compare::Comparison& comparison,
   return text;
 }
 
-void write_folder(const fs::path& folder, const compare::Comparison& comparison,
-                  const std::vector<compare::MeasuredRow>& measured) {
-  measured::make_folder(folder);
+FolderKind comparison_folder_kind() {
+  return {"a comparison", {"roots.csv"}, {".csv", ".svg", ".pdf", ".png", ".json"}, true};
+}
+
+/// The files of one arm, in `folder` of the output folder.
+void add_files(const fs::path& folder, const compare::Comparison& comparison,
+               const std::vector<compare::MeasuredRow>& measured,
+               std::vector<measured::NamedContent>& files) {
   const auto write_csv = [&](const char* name, const report::Table& table) {
-    measured::write_atomically(folder / name, report::to_csv(table));
+    files.push_back({folder / name, report::to_csv(table)});
   };
   write_csv("roots.csv", report::root_listing(comparison));
   write_csv("shapes.csv", report::shapes_listing(comparison));
@@ -107,8 +114,8 @@ void write_folder(const fs::path& folder, const compare::Comparison& comparison,
     write_csv("convergence.csv", report::convergence_listing(comparison));
     write_csv("refinement.csv", report::refinement_listing(comparison));
   }
-  for (const auto& [name, svg] : report::comparison_plots(comparison)) {
-    measured::write_atomically(folder / name, svg);
+  for (auto& [name, svg] : report::comparison_plots(comparison)) {
+    files.push_back({folder / name, std::move(svg)});
   }
 }
 
@@ -129,11 +136,12 @@ int run_compare(const CompareArguments& arguments) {
   const auto options = options_of(arguments, measured);
   const auto arms = arguments.arm.arms();
   for (const auto& arm : arms) arm::require_beam(arm, "compare");
-  arguments.output.prepare();
+  arguments.output.prepare(comparison_folder_kind());
 
   std::string text;  // printed last: a reader that goes away costs no file
   std::size_t disagreeing = 0;
   std::vector<report::ComparedArm> results;
+  std::vector<measured::NamedContent> files;
   for (const auto& arm : arms) {
     const auto comparison = compare_with_progress(arm, options);
     const auto rows = compare::beside_model(measured, comparison);
@@ -141,14 +149,13 @@ int run_compare(const CompareArguments& arguments) {
     text += comparison_text(comparison, rows, arguments.full);
     if (arms.size() > 1) text += "\n";
     if (!arguments.output.folder.empty()) {
-      write_folder(folder_of(arguments.output.folder, arm, arms.size()), comparison, rows);
+      add_files(folder_of("", arm, arms.size()), comparison, rows, files);
     }
     if (!comparison.verdict.agree) ++disagreeing;
     results.push_back({comparison, rows});
   }
-  if (!arguments.output.json_file.empty()) {
-    measured::write_atomically(arguments.output.json_file, report::comparison_json(results));
-  }
+  if (!files.empty()) write_folder(arguments.output.folder, arguments.output.force, files);
+  write_json(arguments.output.json_file, report::comparison_json(results));
   if (arms.size() > 1) {
     text += disagreeing == 0 ? fmt::format("All {} arms: agree.\n", arms.size())
                              : fmt::format("{} of {} arms: DISAGREE.\n", disagreeing, arms.size());
@@ -170,9 +177,7 @@ Command add_compare(CLI::App& program) {
       ->add_option("--measured", arguments->measured_file,
                    "Measured poles and zeros (modal CSV), listed with those of the model")
       ->check(not_empty());
-  parser->add_option("--sensor", arguments->sensors, "Additional sensors, e.g. strain@0.05")
-      ->delimiter(',')
-      ->allow_extra_args(false);
+  add_list_option(*parser, "--sensor", arguments->sensors, "Additional sensors, e.g. strain@0.05");
   parser->add_option("--poles", arguments->options.poles, "Number of poles and hub zeros")
       ->capture_default_str();
   parser

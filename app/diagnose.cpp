@@ -3,6 +3,8 @@
 #include "app/file_names.hpp"
 #include "app/folder_place.hpp"
 #include "app/interruption.hpp"
+#include "app/json_file.hpp"
+#include "app/kept_inputs.hpp"
 #include "app/standard_output.hpp"
 #include "arm/input_error.hpp"
 #include "arm/range.hpp"
@@ -73,7 +75,7 @@ std::string verdict_definitions() {
 }
 
 FolderKind diagnosis_folder_kind() {
-  return {"a diagnosis", kDiagnosisJson, {".json", ".toml", ".csv", ".svg"}};
+  return {"a diagnosis", {kDiagnosisJson}, {".json", ".toml", ".csv", ".svg", ".pdf", ".png"}};
 }
 
 /// The file beside `json_file` that its extended arm is written to: out.json, out.extended.toml.
@@ -104,11 +106,11 @@ void prepare(const DiagnoseArguments& arguments, const diagnose::Experiment& exp
   }
   chosen_predictor(arguments.predictor);
   if (!arguments.json_file.empty()) {
-    const std::string option = "--json " + arm::shown(arguments.json_file);
-    const fs::path beside = extended_beside(arguments.json_file);
-    require_no_input(option, arguments.json_file, experiment.files);
-    require_no_input(option + ": " + beside.string(), beside, experiment.files);
+    require_no_input("--json", arguments.json_file, experiment.files);
+    require_no_input("--json: extended arm", extended_beside(arguments.json_file),
+                     experiment.files);
   }
+  if (!arguments.folder.empty()) require_no_input("--out", arguments.folder, experiment.files);
   require_json_place(arguments.json_file, arguments.folder);
   if (arguments.folder.empty()) return;
   require_place(arguments.folder, arguments.force, diagnosis_folder_kind());
@@ -246,18 +248,16 @@ std::string write_files(const DiagnoseArguments& arguments, const diagnose::Expe
   if (!arguments.folder.empty()) {
     report::DiagnosisPlots plots = report::diagnosis_plots(experiment, diagnosis);
     left_out = plots.left_out;
-    measured::write_folder_atomically(
-        arguments.folder, files_of(diagnosis, std::move(plots)),
-        arguments.force ? measured::IfExists::replace : measured::IfExists::refuse);
+    write_folder(arguments.folder, arguments.force, files_of(diagnosis, std::move(plots)));
   }
   if (!arguments.json_file.empty()) {
     std::string extended;
-    if (extends(diagnosis)) {
+    if (extends(diagnosis) && !is_standard_output(arguments.json_file)) {
       const fs::path beside = extended_beside(arguments.json_file);
       measured::write_atomically(beside, measured::format_arm(diagnosis.extended_arm));
       extended = beside.filename().string();
     }
-    measured::write_atomically(arguments.json_file, json_of(diagnosis, extended));
+    write_json(arguments.json_file, json_of(diagnosis, extended));
   }
   return left_out;
 }
@@ -338,7 +338,7 @@ Command add_diagnose(CLI::App& program) {
   parser->add_flag("--force", arguments->force, "Replace what this command wrote in the folder");
   parser
       ->add_option("--json", arguments->json_file,
-                   "File for the diagnosis; the extended arm is written beside it")
+                   "JSON file; the extended arm is written beside it; - for standard output")
       ->check(not_empty());
   parser->footer(verdict_definitions() +
                  example("flexarm diagnose simulated/measurement.toml --out diagnosis"));

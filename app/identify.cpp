@@ -2,6 +2,9 @@
 #include "app/command.hpp"
 #include "app/identified_files.hpp"
 #include "app/interruption.hpp"
+#include "app/json_file.hpp"
+#include "app/kept_inputs.hpp"
+#include "app/list_option.hpp"
 #include "app/spectrum_choice.hpp"
 #include "app/standard_output.hpp"
 #include "app/word.hpp"
@@ -252,10 +255,9 @@ void prepare(const IdentifyArguments& arguments, const measured::Measurement& me
   if (arguments.force && arguments.folder.empty()) {
     throw arm::InputError("--force: needs --out FOLDER");
   }
-  if (!arguments.json_file.empty()) {
-    require_no_input("--json " + arm::shown(arguments.json_file), arguments.json_file,
-                     measured::files_of(arguments.file, measurement));
-  }
+  const auto inputs = measured::files_of(arguments.file, measurement);
+  if (!arguments.json_file.empty()) require_no_input("--json", arguments.json_file, inputs);
+  if (!arguments.folder.empty()) require_no_input("--out", arguments.folder, inputs);
   require_json_place(arguments.json_file, arguments.folder);
   if (arguments.folder.empty()) return;
   report::run_gnuplot("");  // throws where there is none
@@ -272,11 +274,9 @@ void write_files(const IdentifyArguments& arguments, const std::string& measurem
   if (!arguments.folder.empty()) {
     auto files = identified_files(identification, conditions);
     files.push_back({kIdentifiedJson, json});
-    measured::write_folder_atomically(
-        arguments.folder, files,
-        arguments.force ? measured::IfExists::replace : measured::IfExists::refuse);
+    write_folder(arguments.folder, arguments.force, files);
   }
-  if (!arguments.json_file.empty()) measured::write_atomically(arguments.json_file, json);
+  write_json(arguments.json_file, json);
 }
 
 int run_identify(const IdentifyArguments& arguments) {
@@ -324,9 +324,8 @@ Command add_identify(CLI::App& program) {
   parser->add_option("--run", arguments->runs, "Run ids, comma-separated; default: all")
       ->delimiter(',')
       ->allow_extra_args(false);
-  parser->add_option("--sensor", arguments->sensors, "Sensors, comma-separated; default: all")
-      ->delimiter(',')
-      ->allow_extra_args(false);
+  add_list_option(*parser, "--sensor", arguments->sensors,
+                  "Sensors, comma-separated; default: all");
   add_spectrum_choice(*parser, arguments->spectrum);
   parser->add_option("--input", arguments->input,
                      "Input of the responses of time runs: torque, hub_angle or hub_velocity; "
@@ -348,7 +347,9 @@ Command add_identify(CLI::App& program) {
                    "New folder for modal tables, responses (CSV), figures (SVG) and JSON")
       ->check(not_empty());
   parser->add_flag("--force", arguments->force, "Overwrite a folder written by this command");
-  parser->add_option("--json", arguments->json_file, "JSON file, full precision")
+  parser
+      ->add_option("--json", arguments->json_file,
+                   "JSON file, full precision; - for standard output")
       ->check(not_empty());
   parser->footer(example("flexarm identify simulated/measurement.toml --out identified"));
   return {parser, [arguments] { return run_identify(*arguments); }};

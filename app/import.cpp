@@ -3,6 +3,7 @@
 #include "app/import_report.hpp"
 #include "app/import_runs.hpp"
 #include "app/imported_file.hpp"
+#include "app/json_file.hpp"
 #include "app/record_format.hpp"
 #include "app/run_choice.hpp"
 #include "app/standard_output.hpp"
@@ -64,13 +65,6 @@ void require_consistent(const ImportArguments& arguments) {
   if (arguments.record_file.empty() && !arguments.record_format.empty()) {
     throw arm::InputError("--to: needs --save-as");
   }
-  for (const auto& [option, file] : {std::pair{"--json", &arguments.json_file},
-                                     std::pair{"--save-as", &arguments.record_file}}) {
-    for (const auto& input : arguments.files) {
-      if (file->empty() || fs::weakly_canonical(*file) != fs::weakly_canonical(input)) continue;
-      throw arm::InputError(fmt::format("{} {}: is the input file", option, arm::shown(*file)));
-    }
-  }
   if (arguments.folder.empty()) {
     if (arguments.force) throw arm::InputError("--force: needs --out FOLDER");
     if (!arguments.name.empty()) throw arm::InputError("--name: needs --out FOLDER");
@@ -79,8 +73,8 @@ void require_consistent(const ImportArguments& arguments) {
   }
 }
 
-void write_folder(const ImportArguments& arguments, const std::vector<ImportedRun>& runs,
-                  const std::string& arm) {
+void write_measurement(const ImportArguments& arguments, const std::vector<ImportedRun>& runs,
+                       const std::string& arm) {
   measured::Measurement measurement{arguments.name, "arm.toml", {}};
   if (measurement.name.empty() && runs.size() == 1) measurement.name = runs.front().run.id;
   if (measurement.name.empty()) {
@@ -93,9 +87,7 @@ void write_folder(const ImportArguments& arguments, const std::vector<ImportedRu
   }
   contents.push_back({"arm.toml", arm});
   contents.push_back({"measurement.toml", measured::format_measurement(measurement)});
-  measured::write_folder_atomically(
-      arguments.folder, contents,
-      arguments.force ? measured::IfExists::replace : measured::IfExists::refuse);
+  write_folder(arguments.folder, arguments.force, contents);
 }
 
 void print_next(const ImportArguments& arguments, const std::vector<ImportedRun>& runs) {
@@ -163,11 +155,9 @@ int run_import(const ImportArguments& typed) {
         fmt::format("--save-as: writes a single run; the input makes {}", runs.size()));
   }
   print(import_text(files, runs));
-  if (!arguments.folder.empty()) write_folder(arguments, runs, arm);
+  if (!arguments.folder.empty()) write_measurement(arguments, runs, arm);
   if (format) write_record(runs.front().data, arguments.record_file, *format);
-  if (!arguments.json_file.empty()) {
-    measured::write_atomically(arguments.json_file, import_json(files, runs));
-  }
+  write_json(arguments.json_file, import_json(files, runs));
   print_next(arguments, runs);
   return kSuccess;
 }
@@ -214,7 +204,9 @@ Command add_import(CLI::App& program) {
   parser->add_option(
       "--to", arguments->record_format,
       "Format of that file: csv, uff58, uff58b (binary) or mat; default: by its extension");
-  parser->add_option("--json", arguments->json_file, "JSON file: content and assumptions")
+  parser
+      ->add_option("--json", arguments->json_file,
+                   "JSON file: content and assumptions; - for standard output")
       ->check(not_empty());
   parser->footer(
       example("flexarm import simulated/bang-bang.csv --reference reference "

@@ -1,4 +1,6 @@
 #include "app/command.hpp"
+#include "app/json_file.hpp"
+#include "app/kept_inputs.hpp"
 #include "app/standard_output.hpp"
 #include "app/suggestion.hpp"
 #include "app/version.hpp"
@@ -56,6 +58,8 @@ int run(int argc, const char* const* argv) {
       "  flexarm sweep --figure 18 poles over payload\n"
       "  flexarm effects           list of the effects\n"
       "  flexarm paper             check of the paper's equations and tables\n\n"
+      "Numbers have a decimal point. The comma separates the items of a list: 0,0.05,0.2. What may "
+      "be\nmeant as a decimal comma, such as 0,05, is refused.\n"
       "Exit status: 0 success; 1 failure; 2 invalid input, with one line on standard error.");
   // In the order of a first session.
   const std::array commands = {
@@ -68,7 +72,13 @@ int run(int argc, const char* const* argv) {
   try {
     program.parse(argc, argv);
     for (const auto& command : commands) {
-      if (command.parser->parsed()) return command.run();
+      if (!command.parser->parsed()) continue;
+      require_inputs_kept(*command.parser);
+      if (const auto* json = command.parser->get_option_no_throw("--json");
+          json != nullptr && json->count() > 0 && is_standard_output(json->as<std::string>())) {
+        reserve_standard_output();
+      }
+      return command.run();
     }
     print(program.help());
     return kSuccess;

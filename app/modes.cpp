@@ -1,6 +1,8 @@
 #include "app/arm_choice.hpp"
 #include "app/command.hpp"
 #include "app/formulation_choice.hpp"
+#include "app/json_file.hpp"
+#include "app/list_option.hpp"
 #include "app/output_choice.hpp"
 #include "app/standard_output.hpp"
 #include "arm/input_error.hpp"
@@ -117,6 +119,23 @@ nlohmann::ordered_json certificate_json(const std::vector<CertifiedList>& lists)
   return entries;
 }
 
+FolderKind modes_folder_kind() {
+  return {"the modes of an arm", {"modes.csv"}, {".csv", ".svg", ".pdf", ".png", ".json"}, true};
+}
+
+/// The files of one arm, in `folder` of the output folder.
+void add_files(const fs::path& folder, const arm::Arm& arm, const std::string& formulation,
+               const response::ModalSummary& summary, std::vector<measured::NamedContent>& files) {
+  const auto add_csv = [&](const char* name, const report::Table& table) {
+    files.push_back({folder / name, report::to_csv(table)});
+  };
+  add_csv("modes.csv", report::poles_table(arm, summary));
+  add_csv("damped_poles.csv", report::damped_poles_table(summary));
+  add_csv("zeros.csv", report::zeros_table(summary));
+  add_csv("shapes.csv", report::shapes_over_x_table(summary));
+  files.push_back({folder / "shapes.svg", report::shapes_svg(formulation, summary)});
+}
+
 int run_modes(const ModesArguments& arguments) {
   if (arguments.count < 1) throw arm::out_of_range("--modes", arguments.count, "", "1 or more");
   std::vector<arm::Sensor> sensors;
@@ -130,7 +149,8 @@ int run_modes(const ModesArguments& arguments) {
   for (const auto& arm : arms) {
     for (const auto& sensor : sensors) arm::require_valid(sensor, arm);
   }
-  arguments.output.prepare();
+  arguments.output.prepare(modes_folder_kind());
+  std::vector<measured::NamedContent> files;
   for (const auto& arm : arms) {
     const auto chosen = arguments.formulation.make(arm, arguments.count);
     const auto summary =
@@ -160,23 +180,12 @@ int run_modes(const ModesArguments& arguments) {
     documents.push_back(std::move(document));
 
     if (!arguments.output.folder.empty()) {
-      const fs::path folder = folder_of(arguments.output.folder, arm, arms.size());
-      measured::make_folder(folder);
-      measured::write_atomically(folder / "modes.csv",
-                                 report::to_csv(report::poles_table(arm, summary)));
-      measured::write_atomically(folder / "damped_poles.csv",
-                                 report::to_csv(report::damped_poles_table(summary)));
-      measured::write_atomically(folder / "zeros.csv",
-                                 report::to_csv(report::zeros_table(summary)));
-      measured::write_atomically(folder / "shapes.csv",
-                                 report::to_csv(report::shapes_over_x_table(summary)));
-      measured::write_atomically(folder / "shapes.svg", report::shapes_svg(chosen.name, summary));
+      add_files(folder_of("", arm, arms.size()), arm, chosen.name, summary, files);
     }
   }
-  if (!arguments.output.json_file.empty()) {
-    measured::write_atomically(arguments.output.json_file,
-                               report::json_document("flexarm.modes/1", {{"arms", documents}}));
-  }
+  if (!files.empty()) write_folder(arguments.output.folder, arguments.output.force, files);
+  write_json(arguments.output.json_file,
+             report::json_document("flexarm.modes/1", {{"arms", documents}}));
   if (!arguments.output.folder.empty()) text += fmt::format("wrote {}\n", arguments.output.folder);
   text += fmt::format("next: compare the three formulations with  flexarm compare{}\n",
                       arguments.arm.file.empty() ? "" : " " + arguments.arm.file);
@@ -194,12 +203,8 @@ Command add_modes(CLI::App& program) {
   add_formulation_choice(*parser, arguments->formulation);
   parser->add_option("--modes", arguments->count, "Number of modes, and of zeros per sensor")
       ->capture_default_str();
-  parser
-      ->add_option("--sensor", arguments->sensors,
-                   "Sensors whose zeros are listed, comma-separated")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->capture_default_str();
+  add_list_option(*parser, "--sensor", arguments->sensors,
+                  "Sensors whose zeros are listed, comma-separated");
   parser->add_flag("--certificate", arguments->certificate,
                    "Certify the roots of exact_tf and their count by ball arithmetic");
   add_output_choice(*parser, arguments->output, "Folder for CSV tables and mode shapes as SVG");

@@ -4,6 +4,7 @@
 #include "app/effect_choice.hpp"
 #include "app/folder_place.hpp"
 #include "app/interruption.hpp"
+#include "app/json_file.hpp"
 #include "app/standard_output.hpp"
 #include "arm/input_error.hpp"
 #include "effects/registry/vocabulary.hpp"
@@ -55,20 +56,13 @@ struct PlanArguments {
 };
 
 FolderKind plan_folder_kind() {
-  return {"a plan", kPlanJson, {".json", ".toml", ".csv", ".svg"}};
+  return {"a plan", {kPlanJson}, {".json", ".toml", ".csv", ".svg", ".pdf", ".png"}};
 }
 
-/// Throws for outputs that could not be written, or would take the place of what is read.
+/// Throws for outputs that could not be written.
 void prepare_outputs(const PlanArguments& arguments) {
   if (arguments.force && arguments.folder.empty()) {
     throw arm::InputError("--force: needs --out FOLDER");
-  }
-  const std::vector<fs::path> inputs = {arguments.arm_file, arguments.plan_file};
-  if (!arguments.json_file.empty()) {
-    require_no_input("--json " + arm::shown(arguments.json_file), arguments.json_file, inputs);
-  }
-  if (!arguments.better_file.empty()) {
-    require_no_input("--write " + arm::shown(arguments.better_file), arguments.better_file, inputs);
   }
   require_json_place(arguments.json_file, arguments.folder);
   if (arguments.folder.empty()) return;
@@ -127,12 +121,10 @@ void write_plan(const PlanArguments& arguments, const diagnose::Plan& plan) {
         {"separations.svg", report::to_svg(report::separation_figure(plan))},
         {kBetterPlan, better},
         {kPlanJson, json}};
-    measured::write_folder_atomically(
-        arguments.folder, files,
-        arguments.force ? measured::IfExists::replace : measured::IfExists::refuse);
+    write_folder(arguments.folder, arguments.force, files);
   }
   if (!arguments.better_file.empty()) measured::write_atomically(arguments.better_file, better);
-  if (!arguments.json_file.empty()) measured::write_atomically(arguments.json_file, json);
+  write_json(arguments.json_file, json);
 }
 
 int run_plan(const PlanArguments& arguments) {
@@ -181,7 +173,9 @@ Command add_plan(CLI::App& program) {
                    "New folder for the improved plan, CSV tables, a figure and JSON")
       ->check(not_empty());
   parser->add_flag("--force", arguments->force, "Overwrite a folder written by this command");
-  parser->add_option("--json", arguments->json_file, "JSON file, full precision")
+  parser
+      ->add_option("--json", arguments->json_file,
+                   "JSON file, full precision; - for standard output")
       ->check(not_empty());
   parser->footer(example("flexarm plan rig.toml measurement-plan.toml --write improved-plan.toml"));
   return {parser, [arguments] { return run_plan(*arguments); }};

@@ -1,6 +1,8 @@
 #include "app/arm_choice.hpp"
 #include "app/command.hpp"
 #include "app/formulation_choice.hpp"
+#include "app/json_file.hpp"
+#include "app/list_option.hpp"
 #include "app/output_choice.hpp"
 #include "app/standard_output.hpp"
 #include "app/state_space_file.hpp"
@@ -25,6 +27,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -116,11 +119,18 @@ std::string study_text(const response::ResponseStudy& study,
   return text;
 }
 
-void write_folder(const fs::path& folder, const std::string& formulation,
-                  const response::ResponseStudy& study) {
-  measured::make_folder(folder);
+FolderKind response_folder_kind() {
+  return {"a frequency response",
+          {"response.csv"},
+          {".csv", ".svg", ".pdf", ".png", ".json", ".mat"},
+          true};
+}
+
+/// The files of one arm, in `folder` of the output folder.
+void add_files(const fs::path& folder, const std::string& formulation,
+               const response::ResponseStudy& study, std::vector<measured::NamedContent>& files) {
   const auto write_csv = [&](const std::string& name, const report::Table& table) {
-    measured::write_atomically(folder / name, report::to_csv(table));
+    files.push_back({folder / name, report::to_csv(table)});
   };
   write_csv("poles.csv", report::response_poles_table(study, study.poles.omega_rad_per_s.size()));
   write_csv("response.csv", report::response_listing(study.response));
@@ -129,8 +139,8 @@ void write_folder(const fs::path& folder, const std::string& formulation,
     write_csv(fmt::format("factors-{}.csv", arm::to_string(study.response.sensors[k])),
               report::factors_table(study, k));
   }
-  for (const auto& [name, svg] : report::response_plots(formulation, study)) {
-    measured::write_atomically(folder / name, svg);
+  for (auto& [name, svg] : report::response_plots(formulation, study)) {
+    files.push_back({folder / name, std::move(svg)});
   }
 }
 
@@ -174,11 +184,9 @@ int run_response(const ResponseArguments& arguments) {
       throw arm::InputError("--state-space: needs one arm; --payload-mass has several values");
     }
   }
-  if (!arguments.state_space_file.empty() &&
-      arguments.state_space_file == arguments.output.json_file) {
-    throw arm::InputError("--json: same file as --state-space");
-  }
-  arguments.output.prepare();
+  arguments.output.prepare(response_folder_kind());
+  std::vector<measured::NamedContent> files;
+  std::optional<response::ResponseStudy> with_state_space;
 
   std::string text;  // printed last: a reader that goes away costs no file
   nlohmann::ordered_json documents = nlohmann::ordered_json::array();
@@ -193,18 +201,18 @@ int run_response(const ResponseArguments& arguments) {
         {"arm", report::arm_json(arm)}, {"model", chosen.name}, {"settings", chosen.settings}};
     document.update(report::response_json(study));
     documents.push_back(std::move(document));
-    if (options.state_space) write_state_space(study, arguments.state_space_file);
+    if (options.state_space) with_state_space = study;
     if (!arguments.output.folder.empty()) {
-      write_folder(folder_of(arguments.output.folder, arm, arms.size()), chosen.name, study);
+      add_files(folder_of("", arm, arms.size()), chosen.name, study, files);
       if (std::ranges::all_of(study.resonances, &std::vector<response::Resonance>::empty)) {
         text += "no Nyquist diagrams: no damped pole in the frequency range\n";
       }
     }
   }
-  if (!arguments.output.json_file.empty()) {
-    measured::write_atomically(arguments.output.json_file,
-                               report::json_document("flexarm.response/1", {{"arms", documents}}));
-  }
+  if (!files.empty()) write_folder(arguments.output.folder, arguments.output.force, files);
+  if (with_state_space) write_state_space(*with_state_space, arguments.state_space_file);
+  write_json(arguments.output.json_file,
+             report::json_document("flexarm.response/1", {{"arms", documents}}));
   text += next_step(arguments);
   print(text);
   return kSuccess;
@@ -220,12 +228,9 @@ Command add_response(CLI::App& program) {
       "Compute frequency response, factored and modal forms, and state space of an arm");
   add_arm_choice(*parser, arguments->arm);
   add_formulation_choice(*parser, arguments->formulation);
-  parser
-      ->add_option("--sensor", arguments->sensors,
-                   "Sensors, comma-separated; default: hub_angle and, with a beam, "
-                   "tip_acceleration")
-      ->delimiter(',')
-      ->allow_extra_args(false);
+  add_list_option(*parser, "--sensor", arguments->sensors,
+                  "Sensors, comma-separated; default: hub_angle and, with a beam, "
+                  "tip_acceleration");
   parser->add_option("--from-Hz", options.from_Hz,
                      "Lowest frequency; default: well below the first pole");
   parser->add_option("--to-Hz", options.to_Hz,
@@ -234,11 +239,8 @@ Command add_response(CLI::App& program) {
       ->add_option("--points", options.points,
                    "Number of logarithmic frequencies; refined at poles and zeros")
       ->capture_default_str();
-  parser
-      ->add_option("--frequencies", options.frequency_Hz,
-                   "Frequencies [Hz] instead of a range, comma-separated")
-      ->delimiter(',')
-      ->allow_extra_args(false);
+  add_list_option(*parser, "--frequencies", options.frequency_Hz,
+                  "Frequencies [Hz] instead of a range, comma-separated");
   parser
       ->add_option("--modes", options.modes,
                    "Number of poles, of zeros per sensor, and of flexible modes of the state space")

@@ -1,6 +1,7 @@
 #include "app/sensor_choice.hpp"
 
 #include "app/command.hpp"
+#include "app/list_option.hpp"
 #include "arm/input_error.hpp"
 #include "arm/number.hpp"
 #include "arm/range.hpp"
@@ -76,26 +77,17 @@ std::vector<ChosenSensor> SensorChoice::sensors(const arm::Arm& arm) const {
 }
 
 void add_sensor_choice(CLI::App& parser, SensorChoice& choice) {
-  parser
-      .add_option("--sensor", choice.names,
+  add_list_option(parser, "--sensor", choice.names,
                   "Sensors, comma-separated; default: hub_angle, hub_velocity and, with a beam, "
-                  "tip_acceleration")
-      ->delimiter(',')
-      ->allow_extra_args(false);
+                  "tip_acceleration");
   parser.add_option(
       "--noise", choice.relative_noise,
       "White noise on all sensors: standard deviation relative to that of the signal");
-  parser
-      .add_option(
-          "--noise-of", choice.noises,
-          "SENSOR=STD,...: additional white noise, standard deviation in the unit of the sensor")
-      ->delimiter(',')
-      ->allow_extra_args(false);
-  parser
-      .add_option("--quantisation", choice.quantisations,
-                  "SENSOR=STEP,...: quantisation step in the unit of the sensor")
-      ->delimiter(',')
-      ->allow_extra_args(false);
+  add_list_option(
+      parser, "--noise-of", choice.noises,
+      "SENSOR=STD,...: additional white noise, standard deviation in the unit of the sensor");
+  add_list_option(parser, "--quantisation", choice.quantisations,
+                  "SENSOR=STEP,...: quantisation step in the unit of the sensor");
 }
 
 }  // namespace flexarm::app

@@ -1,6 +1,7 @@
 #include "app/arm_choice.hpp"
 #include "app/command.hpp"
 #include "app/folder_place.hpp"
+#include "app/json_file.hpp"
 #include "app/simulated_experiment.hpp"
 #include "app/standard_output.hpp"
 #include "arm/input_error.hpp"
@@ -248,13 +249,10 @@ int run_simulate(SimulateArguments arguments) {
   if (!arguments.folder.empty()) {
     const std::string otherwise = arm.name.empty() ? "simulated" : arm.name + ", simulated";
     const std::string name = arguments.name.empty() ? otherwise : arguments.name;
-    measured::write_folder_atomically(
-        arguments.folder, measurement_folder(name, written, plan, experiment, options.hold),
-        arguments.force ? measured::IfExists::replace : measured::IfExists::refuse);
+    write_folder(arguments.folder, arguments.force,
+                 measurement_folder(name, written, plan, experiment, options.hold));
   }
-  if (!arguments.json_file.empty()) {
-    measured::write_atomically(arguments.json_file, json_text(arguments, arm, experiment));
-  }
+  write_json(arguments.json_file, json_text(arguments, arm, experiment));
   print(describe(arm));
   print_results(arguments, plan, experiment, !response::take_apart(arm).hub.friction.empty());
   if (arguments.folder.empty()) {
@@ -309,7 +307,9 @@ Command add_simulate(CLI::App& program) {
                    "Folder for measurement.toml, arm.toml, and a CSV file and figures for each run")
       ->check(not_empty());
   parser->add_flag("--force", arguments->force, "Overwrite the measurement in the folder");
-  parser->add_option("--json", arguments->json_file, "JSON file, full precision")
+  parser
+      ->add_option("--json", arguments->json_file,
+                   "JSON file, full precision; - for standard output")
       ->check(not_empty());
   parser->footer(
       example("flexarm simulate rig.toml --excitation bang-bang:amplitude=0.2,pulse=0.4 "

@@ -1,6 +1,8 @@
 #include "app/arm_choice.hpp"
 #include "app/command.hpp"
 #include "app/interruption.hpp"
+#include "app/json_file.hpp"
+#include "app/list_option.hpp"
 #include "app/output_choice.hpp"
 #include "app/standard_output.hpp"
 #include "app/version.hpp"
@@ -146,11 +148,34 @@ compare::SweepTask task_of(const SweepArguments& arguments) {
   return task;
 }
 
+constexpr const char* kCheckpoint = "sweep.checkpoint";
+
+FolderKind sweep_folder_kind() {
+  return {"a sweep",
+          {"sweep.csv", "figure-18.csv", "figure-19.csv", kCheckpoint},
+          {".csv", ".svg", ".pdf", ".png", ".json", ".checkpoint"}};
+}
+
 /// Beside the output, or nowhere.
 fs::path checkpoint_of(const OutputChoice& output) {
-  if (!output.folder.empty()) return fs::path(output.folder) / "sweep.checkpoint";
-  if (!output.json_file.empty()) return output.json_file + ".checkpoint";
-  return {};
+  if (!output.folder.empty()) return fs::path(output.folder) / kCheckpoint;
+  const bool has_file = !output.json_file.empty() && !is_standard_output(output.json_file);
+  return has_file ? output.json_file + ".checkpoint" : "";
+}
+
+/// The folder of an interrupted sweep is continued with --resume, or begun anew with --force.
+void prepare(const OutputChoice& output, bool resume) {
+  OutputChoice chosen = output;
+  const bool is_interrupted = !output.folder.empty() && has_only(output.folder, kCheckpoint);
+  if (is_interrupted && !resume && !output.force) {
+    throw arm::InputError(
+        fmt::format("{}: has the checkpoint of an interrupted sweep; --resume continues it, "
+                    "--force begins anew",
+                    arm::shown(output.folder)));
+  }
+  if (is_interrupted) chosen.force = true;
+  chosen.prepare(sweep_folder_kind());
+  if (!output.folder.empty()) measured::make_folder(output.folder);  // for the checkpoint
 }
 
 compare::SweepResult run_task(const compare::SweepTask& task, const SweepArguments& arguments,
@@ -200,24 +225,21 @@ void print_result(const compare::SweepResult& result, const arm::Arm& full_arm) 
   print(report::sweep_verdict_line(result) + "\n");
 }
 
-void write_figure(const fs::path& folder, int number, const compare::PaperSweep& figure,
-                  const compare::SweepResult& result) {
+std::vector<measured::NamedContent> figure_files(int number, const compare::PaperSweep& figure,
+                                                 const compare::SweepResult& result) {
   const std::string name = fmt::format("figure-{}", number);
-  measured::write_atomically(folder / (name + ".csv"), report::sweep_csv(result));
-  measured::write_atomically(folder / (name + ".svg"),
-                             report::to_svg(report::paper_sweep_figure(figure, result)));
+  return {{name + ".csv", report::sweep_csv(result)},
+          {name + ".svg", report::to_svg(report::paper_sweep_figure(figure, result))}};
 }
 
-void write_folder(const fs::path& folder, const compare::SweepResult& result) {
+std::vector<measured::NamedContent> sweep_files(const compare::SweepResult& result) {
   constexpr auto kAll = std::numeric_limits<std::size_t>::max();
-  measured::write_atomically(folder / "sweep.csv", report::sweep_csv(result));
-  measured::write_atomically(folder / "events.csv",
-                             report::to_csv(report::sweep_events_table(result, kAll)));
-  measured::write_atomically(folder / "agreement.csv",
-                             report::to_csv(report::sweep_agreement_table(result)));
-  for (const auto& [file, svg] : report::sweep_plots(result)) {
-    measured::write_atomically(folder / file, svg);
-  }
+  std::vector<measured::NamedContent> files = {
+      {"sweep.csv", report::sweep_csv(result)},
+      {"events.csv", report::to_csv(report::sweep_events_table(result, kAll))},
+      {"agreement.csv", report::to_csv(report::sweep_agreement_table(result))}};
+  for (auto& [name, svg] : report::sweep_plots(result)) files.push_back({name, std::move(svg)});
+  return files;
 }
 
 std::string next_step(const SweepArguments& arguments) {
@@ -255,8 +277,7 @@ int run_sweep(const SweepArguments& arguments) {
   const auto task = figure ? figure->task : task_of(arguments);
   refuse_swept(arguments.arm, task.axes);
   compare::require_valid(task);
-  if (!arguments.resume)
-    arguments.output.prepare();  // else a checkpoint is there, or it is refused
+  prepare(arguments.output, arguments.resume);
 
   const Interruption interruption;
   compare::SweepResult result;
@@ -266,16 +287,12 @@ int run_sweep(const SweepArguments& arguments) {
     say_interrupted(interrupted, checkpoint);
     interruption.end_program();
   }
-  if (!arguments.output.folder.empty()) {
-    if (figure) {
-      write_figure(arguments.output.folder, *arguments.figure, *figure, result);
-    } else {
-      write_folder(arguments.output.folder, result);
-    }
+  if (const auto& folder = arguments.output.folder; !folder.empty()) {
+    const bool is_begun = has_only(folder, kCheckpoint);
+    write_folder(folder, arguments.output.force || is_begun,
+                 figure ? figure_files(*arguments.figure, *figure, result) : sweep_files(result));
   }
-  if (!arguments.output.json_file.empty()) {
-    measured::write_atomically(arguments.output.json_file, report::sweep_json(result));
-  }
+  write_json(arguments.output.json_file, report::sweep_json(result));
   if (!checkpoint.empty()) fs::remove(checkpoint);
   print_result(result, arguments.arm.arms().front());
   print(next_step(arguments));
@@ -305,11 +322,8 @@ Command add_sweep(CLI::App& program) {
   parser->add_option("--poles", arguments->poles, "Number of poles, modes and hub zeros [5]");
   parser->add_option("--zeros", arguments->zeros,
                      "Number of zeros of each non-collocated sensor [4]");
-  parser
-      ->add_option("--sensor", arguments->sensors,
-                   "Sensors whose zeros are tracked [hub_angle,tip_acceleration]")
-      ->delimiter(',')
-      ->allow_extra_args(false);
+  add_list_option(*parser, "--sensor", arguments->sensors,
+                  "Sensors whose zeros are tracked [hub_angle,tip_acceleration]");
   parser->add_flag("--roots-only", arguments->roots_only,
                    "Skip hub slopes, end-point values and damping");
   parser

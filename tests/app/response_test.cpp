@@ -175,7 +175,7 @@ TEST_F(Response, BadInputIsOneLineAndStatusTwo) {
                  "--state-space arm.txt: unknown extension; allowed: .json, .csv, .mat");
   expect_refused(run({"response", "--frequencies", "1,5,2"}),
                  "--frequencies = 2 Hz: must be above 5 Hz, the one before");
-  expect_refused(run({"response", "--frequencies", "1,5", "--to-Hz", "9"}),
+  expect_refused(run({"response", "--frequencies", "1.0,5", "--to-Hz", "9"}),
                  "--frequencies: not together with --from-Hz or --to-Hz");
   expect_refused(run({"response", "--from-Hz", "0"}), "--from-Hz = 0 Hz: must be above 0");
   expect_refused(run({"response", "--from-Hz", "9", "--to-Hz", "3"}),

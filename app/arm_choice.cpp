@@ -2,6 +2,7 @@
 
 #include "app/command.hpp"
 #include "app/list_option.hpp"
+#include "app/screen.hpp"
 #include "arm/effects.hpp"
 #include "arm/formulation.hpp"
 #include "arm/input_error.hpp"
@@ -10,7 +11,6 @@
 #include "arm/rigid_hub.hpp"
 #include "effects/registry/vocabulary.hpp"
 #include "measured/files/arm_file.hpp"
-#include "report/tables/text_table.hpp"
 #include "response/arm_parts.hpp"
 
 #include <CLI/CLI.hpp>
@@ -111,7 +111,9 @@ std::string describe(const arm::Arm& arm) {
     lines += fmt::format("rigid hub without a beam\nIh {:g} kg m^2, c {:g} N m s/rad\n",
                          linear.hub_inertia_kg_m2, linear.hub_viscous_friction_N_m_s_per_rad);
   }
-  for (const auto& [name, effect] : arm.effects) lines += describe_effect(name, effect) + "\n";
+  for (const auto& [name, effect] : arm.effects) {
+    lines += screen_paragraph(describe_effect(name, effect), 2);
+  }
   if (!arm.effects.empty()) lines += "(values include the linear effects)\n";
   for (const auto& [name, hypothesis] : arm.hypotheses) {
     if (arm.effects.contains(name)) continue;
@@ -119,7 +121,7 @@ std::string describe(const arm::Arm& arm) {
                          name, hypothesis.formula.text);
   }
   for (const auto& note : arm::plausibility_notes(arm)) {
-    lines += report::to_paragraph("note: " + note, 2);
+    lines += screen_note(note);
   }
   return lines;
 }
@@ -130,8 +132,8 @@ std::string left_out_of_roots(const arm::Arm& arm) {
   std::vector<std::string> names;
   for (const auto& [name, effect] : arm.effects) {
     if (effect.definition->is_of_linear_arm()) continue;
-    const bool is_linear = effect.definition->linear_term &&
-                           std::ranges::find(nonlinear, name) == nonlinear.end();
+    const bool is_linear =
+        effect.definition->linear_term && std::ranges::find(nonlinear, name) == nonlinear.end();
     if (!is_linear && std::ranges::find(linearised, name) == linearised.end()) {
       names.push_back(name);
     }

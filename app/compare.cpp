@@ -3,6 +3,7 @@
 #include "app/json_file.hpp"
 #include "app/list_option.hpp"
 #include "app/output_choice.hpp"
+#include "app/screen.hpp"
 #include "app/standard_output.hpp"
 #include "arm/rigid_hub.hpp"
 #include "compare/comparison.hpp"
@@ -12,9 +13,9 @@
 #include "report/figures/comparison_plots.hpp"
 #include "report/json/comparison_json.hpp"
 #include "report/progress.hpp"
+#include "report/tables/comparison_overview.hpp"
 #include "report/tables/comparison_tables.hpp"
 #include "report/tables/csv.hpp"
-#include "report/tables/text_table.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -38,13 +39,17 @@ struct CompareArguments {
   compare::Options options;
   bool quick = false;
   bool full = false;
+  bool verbose = false;
   OutputChoice output;
 };
 
 compare::Options options_of(const CompareArguments& arguments,
                             const measured::ModalTable& measured) {
   compare::Options options = arguments.options;
-  options.refinements = !arguments.quick;
+  // The study takes most of the time: it runs where somebody sees it.
+  const bool is_shown =
+      arguments.verbose || !arguments.output.folder.empty() || !arguments.output.json_file.empty();
+  options.refinements = is_shown && !arguments.quick;
   const auto add = [&](const arm::Sensor& sensor) {
     if (std::ranges::find(options.sensors, sensor) == options.sensors.end()) {
       options.sensors.push_back(sensor);
@@ -55,44 +60,59 @@ compare::Options options_of(const CompareArguments& arguments,
   return options;
 }
 
-compare::Comparison compare_with_progress(const arm::Arm& arm, compare::Options options) {
-  std::unique_ptr<report::Progress> progress;
-  options.progress = [&progress](int, int total) {
-    if (!progress) progress = std::make_unique<report::Progress>("comparing", total);
-    progress->advance();
-  };
-  return compare::compare(arm, options);
+/// One comparison an arm, with a line of progress over all.
+std::vector<compare::Comparison> compare_with_progress(const std::vector<arm::Arm>& arms,
+                                                       compare::Options options) {
+  report::Progress progress("comparing");
+  std::vector<compare::Comparison> comparisons;
+  for (const auto& arm : arms) {
+    const auto before = static_cast<double>(comparisons.size());
+    options.progress = [&](int done, int total) {
+      const double of_this = static_cast<double>(done) / static_cast<double>(total);
+      progress.reach((before + of_this) / static_cast<double>(arms.size()));
+    };
+    comparisons.push_back(compare::compare(arm, options));
+  }
+  return comparisons;
 }
 
-std::string table_text(const report::Table& table, const report::TextOptions& options = {}) {
-  return report::to_text(table, options) + "\n";
-}
-
-std::string comparison_text(const compare::Comparison& comparison,
-                            const std::vector<compare::MeasuredRow>& measured, bool full) {
-  std::string text;
-  text += describe(comparison.arm) + "\n";
-  text += table_text(report::subjects_table(comparison));
-  for (const auto& table : report::root_tables(comparison)) text += table_text(table);
-  if (!measured.empty()) text += table_text(report::measured_table(measured));
-  if (full) text += table_text(report::notes_table(comparison));
+/// What was compared, root by root, and how fast each formulation converges.
+std::string details_text(const compare::Comparison& comparison, bool full) {
+  std::string text = screen_table(report::subjects_table(comparison));
+  for (const auto& table : report::root_tables(comparison)) text += screen_table(table);
+  if (full) text += screen_table(report::notes_table(comparison));
   if (!comparison.refinements.empty()) {
-    text += report::convergence_legend(comparison) + "\n";
-    for (const auto& table : report::convergence_tables(comparison)) text += table_text(table);
+    text += screen_paragraph(report::convergence_legend(comparison)) + "\n";
+    for (const auto& table : report::convergence_tables(comparison)) text += screen_table(table);
     if (!comparison.basis_notes.empty()) {
       text += "Bases of assumed_modes\n";
-      for (const auto& note : comparison.basis_notes) text += report::to_paragraph(note, 2);
+      for (const auto& note : comparison.basis_notes) text += screen_paragraph(note, 2);
       text += "\n";
     }
-    if (full) {
-      constexpr report::TextOptions kRootAndSeries{.key_columns = 3};
-      text += table_text(report::convergence_listing(comparison), kRootAndSeries);
-    }
+    if (full) text += screen_table(report::convergence_listing(comparison), 3);
   }
-  text += table_text(report::shapes_table(comparison));
-  text += table_text(report::responses_table(comparison));
-  text += report::verdict_line(comparison) + "\n";
-  return text;
+  return text + screen_table(report::shapes_table(comparison)) +
+         screen_table(report::responses_table(comparison));
+}
+
+std::string verdict_paragraph(const compare::Comparison& comparison) {
+  const std::string text = screen_paragraph(report::verdict_line(comparison));
+  return comparison.verdict.agree ? toned(text, "agree", Tone::good)
+                                  : toned(text, "DISAGREE", Tone::bad);
+}
+
+std::string comparison_text(const arm::Arm& arm, const compare::Comparison& comparison,
+                            const std::vector<compare::MeasuredRow>& measured,
+                            const CompareArguments& arguments) {
+  std::string text = verdict_paragraph(comparison) + "\n";
+  text += screen_rows(report::disagreements_table(comparison), kScreenRows, "--verbose");
+  text += describe(comparison.arm) + left_out_of_roots(arm) + "\n";
+  if (!measured.empty()) text += screen_table(report::measured_table(measured));
+  if (!arguments.verbose) {
+    text += screen_rows(report::roots_overview(comparison), kScreenRows, "--verbose");
+  }
+  text += screen_table(report::agreement_overview(comparison));
+  return arguments.verbose ? text + details_text(comparison, arguments.full) : text;
 }
 
 FolderKind comparison_folder_kind() {
@@ -122,14 +142,27 @@ void add_files(const fs::path& folder, const compare::Comparison& comparison,
 std::string next_step(const CompareArguments& arguments) {
   const std::string arm = arguments.arm.file.empty() ? "" : " " + arguments.arm.file;
   if (arguments.output.folder.empty()) {
-    return fmt::format("next: write plots and tables with  flexarm compare{} --out compared\n",
+    return fmt::format("{}next: write plots and tables with  flexarm compare{} --out compared\n",
+                       arguments.verbose
+                           ? ""
+                           : "details: every root of each formulation, convergence, mode "
+                             "shapes and responses with  --verbose\n",
                        arm);
   }
   return fmt::format("wrote {}\nnext: the modes of this arm with  flexarm modes{}\n",
                      arguments.output.folder, arm);
 }
 
-int run_compare(const CompareArguments& arguments) {
+std::string summary_of_arms(std::size_t count, std::size_t disagreeing) {
+  return disagreeing == 0
+             ? toned(fmt::format("All {} arms: agree.\n\n", count), "agree", Tone::good)
+             : toned(fmt::format("{} of {} arms: DISAGREE.\n\n", disagreeing, count), "DISAGREE",
+                     Tone::bad);
+}
+
+int run_compare(CompareArguments arguments) {
+  arguments.verbose = arguments.verbose || arguments.full;
+
   const auto measured = arguments.measured_file.empty()
                             ? measured::ModalTable{}
                             : measured::read_modal_table(arguments.measured_file);
@@ -142,12 +175,12 @@ int run_compare(const CompareArguments& arguments) {
   std::size_t disagreeing = 0;
   std::vector<report::ComparedArm> results;
   std::vector<measured::NamedContent> files;
-  for (const auto& arm : arms) {
-    const auto comparison = compare_with_progress(arm, options);
+  const auto comparisons = compare_with_progress(arms, options);
+  for (std::size_t i = 0; i < arms.size(); ++i) {
+    const auto& arm = arms[i];
+    const auto& comparison = comparisons[i];
     const auto rows = compare::beside_model(measured, comparison);
-    text += left_out_of_roots(arm);
-    text += comparison_text(comparison, rows, arguments.full);
-    if (arms.size() > 1) text += "\n";
+    text += comparison_text(arm, comparison, rows, arguments);
     if (!arguments.output.folder.empty()) {
       add_files(folder_of("", arm, arms.size()), comparison, rows, files);
     }
@@ -156,12 +189,8 @@ int run_compare(const CompareArguments& arguments) {
   }
   if (!files.empty()) write_folder(arguments.output.folder, arguments.output.force, files);
   write_json(arguments.output.json_file, report::comparison_json(results));
-  if (arms.size() > 1) {
-    text += disagreeing == 0 ? fmt::format("All {} arms: agree.\n", arms.size())
-                             : fmt::format("{} of {} arms: DISAGREE.\n", disagreeing, arms.size());
-  }
-  text += next_step(arguments);
-  print(text);
+  if (arms.size() > 1) text = summary_of_arms(arms.size(), disagreeing) + text;
+  print(text + next_step(arguments));
   return disagreeing == 0 ? kSuccess : kFailure;
 }
 
@@ -193,8 +222,10 @@ Command add_compare(CLI::App& program) {
                    "Relative accuracy for which the smallest model is sought")
       ->capture_default_str();
   parser->add_flag("--quick", arguments->quick, "Skip the convergence study");
+  add_verbose(*parser, arguments->verbose,
+              "Print every root of each formulation, convergence, mode shapes and responses");
   parser->add_flag("--full", arguments->full,
-                   "Print the convergence of every root and the root counts");
+                   "As --verbose, with the convergence of every root and the root counts");
   add_output_choice(*parser, arguments->output, "Folder for CSV tables and SVG plots");
   parser->footer("Exit status: 0 the formulations agree; 1 they do not; 2 unusable input.\n" +
                  example("flexarm compare rig.toml --poles 6 --out compared"));

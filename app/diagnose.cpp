@@ -2,9 +2,9 @@
 #include "app/effect_choice.hpp"
 #include "app/file_names.hpp"
 #include "app/folder_place.hpp"
-#include "app/interruption.hpp"
 #include "app/json_file.hpp"
 #include "app/kept_inputs.hpp"
+#include "app/screen.hpp"
 #include "app/standard_output.hpp"
 #include "arm/input_error.hpp"
 #include "arm/range.hpp"
@@ -24,7 +24,7 @@
 #include "report/tables/plan_tables.hpp"
 #include "report/tables/prediction_error_table.hpp"
 #include "report/tables/symptom_tables.hpp"
-#include "report/tables/text_table.hpp"
+#include "report/terminal.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -32,7 +32,7 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdint>
+#include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -49,8 +49,10 @@ namespace fs = std::filesystem;
 
 constexpr const char* kDiagnosisJson = "diagnosis.json";
 constexpr const char* kExtendedArm = "extended.toml";
-/// Steps of the progress line.
-constexpr std::int64_t kDiagnosisSteps = 100;
+/// Rows of tables that come behind the answer.
+constexpr std::size_t kFewRows = 4;
+/// Lines of findings.
+constexpr std::size_t kFindingLines = 14;
 
 struct DiagnoseArguments {
   std::string file;
@@ -62,6 +64,7 @@ struct DiagnoseArguments {
   std::string predictor = "auto";
   std::string folder;
   bool force = false;
+  bool verbose = false;
   std::string json_file;
 };
 
@@ -134,71 +137,105 @@ diagnose::Diagnosis diagnose_with_progress(const DiagnoseArguments& arguments,
                                            const diagnose::Deadline& deadline) {
   const auto hypotheses = without_excluded(
       chosen_hypotheses(arguments.effects, diagnose::hypotheses(experiment)), arguments.excluded);
-  const Interruption interruption;
-  report::Progress progress("per cent of the diagnosis", kDiagnosisSteps);
+  report::Progress progress("diagnosing");
   const auto tell = [&](std::string_view, double fraction) {
     progress.reach(fraction);
-    return !interruption.requested();
+    return true;
   };
   diagnose::SelectionOptions options;
   options.most_causes = arguments.most_causes;
   options.predictor = chosen_predictor(arguments.predictor);
   options.deadline = deadline;
   auto diagnosis = diagnose::diagnose(experiment, hypotheses, options, tell);
-  if (diagnosis.cancelled || interruption.requested()) interruption.end_program();
   diagnosis.excluded = arguments.excluded;
   diagnosis.time_limit_s = arguments.time_limit_s;
   return diagnosis;
 }
 
-std::string text_of(const diagnose::Diagnosis& diagnosis) {
+/// The verdict with its first word toned.
+std::string verdict_paragraph(const diagnose::Diagnosis& diagnosis) {
+  const std::string text = report::verdict_text(diagnosis);
+  const std::string word = text.substr(0, text.find_first_of(": "));
+  switch (diagnosis.verdict) {
+    case diagnose::Verdict::adequate:
+    case diagnose::Verdict::explained:
+      return toned(screen_paragraph(text), word, Tone::good);
+    case diagnose::Verdict::partly_explained:
+      return toned(screen_paragraph(text), word, Tone::warning);
+    case diagnose::Verdict::unexplained:
+      return toned(screen_paragraph(text), word, Tone::bad);
+  }
+  return screen_paragraph(text);
+}
+
+/// What restricts the verdict: the search, numbers, the data, what was accepted of them.
+std::string restrictions_text(const diagnose::Diagnosis& diagnosis) {
   std::string text;
-  for (const auto& notice : diagnosis.notices) text += report::to_paragraph("note: " + notice, 2);
-  for (const auto& accepted : report::accepted_texts(diagnosis)) {
-    text += report::to_paragraph(accepted, 2);
-  }
-  if (!text.empty()) text += "\n";
-  const std::string implausible = report::implausible_numbers_text(diagnosis);
-  if (!implausible.empty()) text += report::to_paragraph(implausible) + "\n";
-  text += report::to_paragraph(report::verdict_text(diagnosis)) + "\n";
   const std::string search = report::search_text(diagnosis);
-  if (!search.empty()) text += report::to_paragraph(search) + "\n";
+  if (!search.empty()) text += screen_note(search);
+  const std::string implausible = report::implausible_numbers_text(diagnosis);
+  if (!implausible.empty()) text += screen_note(implausible, "warning");
+  if (!diagnosis.formulations.agree) {
+    text += screen_note(report::formulations_text(diagnosis.formulations), "warning");
+  }
+  for (const auto& notice : diagnosis.notices) text += screen_note(notice);
+  for (const auto& accepted : report::accepted_texts(diagnosis)) {
+    text += screen_paragraph(accepted, 2);
+  }
+  return text.empty() ? text : text + "\n";
+}
+
+/// The residual analysis where effects do not explain the residuals, else for `--verbose`.
+bool shows_residuals(const diagnose::Diagnosis& diagnosis, bool verbose) {
+  return verbose || diagnosis.verdict == diagnose::Verdict::partly_explained ||
+         diagnosis.verdict == diagnose::Verdict::unexplained;
+}
+
+std::string evidence_text(const diagnose::Diagnosis& diagnosis) {
+  std::string text;
+  for (const auto& cause : diagnosis.causes) {
+    text += cause.effect + "\n";
+    for (const auto& sentence : cause.evidence) text += screen_paragraph("  " + sentence, 4);
+    text += screen_paragraph("  Evidence against it would be: " + cause.refuted_by + ".", 4) + "\n";
+  }
+  return text;
+}
+
+std::string text_of(const diagnose::Diagnosis& diagnosis, bool verbose) {
+  std::string text = verdict_paragraph(diagnosis) + "\n" + restrictions_text(diagnosis);
+  text += screen_table(report::cause_table(diagnosis), 2);
+  text += screen_table(report::gain_table(diagnosis));
+  if (verbose) text += evidence_text(diagnosis);
   const std::string predictor = report::predictor_text(diagnosis);
-  if (!predictor.empty()) text += report::to_paragraph(predictor) + "\n";
-  const std::string wrong = report::what_is_wrong_text(diagnosis.symptoms);
-  if (!wrong.empty()) text += wrong + "\n";
-  if (!diagnosis.causes.empty()) {
-    text += report::to_text(report::cause_table(diagnosis), {.key_columns = 2}) + "\n";
-    for (const auto& cause : diagnosis.causes) {
-      text += cause.effect + "\n";
-      for (const auto& sentence : cause.evidence) text += report::to_paragraph("  " + sentence, 4);
-      text += report::to_paragraph("  Evidence against it would be: " + cause.refuted_by + ".", 4) +
-              "\n";
-    }
+  if (!predictor.empty()) text += screen_paragraph(predictor) + "\n";
+  if (shows_residuals(diagnosis, verbose)) {
+    const std::string wrong =
+        report::what_is_wrong_text(diagnosis.symptoms, verbose ? kAllRows : kFindingLines,
+                                   std::min(screen_width(), report::kWidestText));
+    if (!wrong.empty()) text += wrong + "\n";
   }
-  if (!diagnosis.near_misses.empty()) {
-    text += report::to_text(report::near_miss_table(diagnosis)) + "\n";
-  }
-  if (!diagnosis.refitted.empty()) {
-    text += report::to_text(report::refitted_table(diagnosis)) + "\n";
-  }
+  text +=
+      screen_rows(report::near_miss_table(diagnosis), verbose ? kAllRows : kFewRows, "--verbose");
+  text += screen_table(report::refitted_table(diagnosis));
   if (const auto& law = diagnosis.empirical_law) {
-    text += report::to_paragraph(report::empirical_law_text(*law)) + "\n";
+    text += screen_paragraph(report::empirical_law_text(*law)) + "\n";
   }
   if (const auto& force = diagnosis.missing_force) {
-    text += report::to_paragraph(report::missing_force_text(*force)) + "\n";
+    text += screen_paragraph(report::missing_force_text(*force)) + "\n";
   }
-  text += report::to_paragraph(report::formulations_text(diagnosis.formulations)) + "\n";
-  text += report::to_text(report::gain_table(diagnosis)) + "\n";
-  text += report::to_text(report::channel_gain_table(diagnosis), {.key_columns = 2});
-  if (!diagnosis.prediction_errors.empty()) {
-    text += "\n" + report::to_text(report::prediction_error_table(diagnosis.prediction_errors));
+  if (verbose) {
+    if (diagnosis.formulations.agree) {
+      text += screen_paragraph(report::formulations_text(diagnosis.formulations)) + "\n";
+    }
+    text += screen_table(report::channel_gain_table(diagnosis), 2);
+    if (!diagnosis.prediction_errors.empty()) {
+      text += screen_table(report::prediction_error_table(diagnosis.prediction_errors));
+    }
   }
-  if (diagnosis.next_experiments.empty()) return text;
-  return text + "\n" +
-         report::to_text(report::further_run_table(
-             diagnosis.next_experiments, diagnosis.next_experiments.size(),
-             "Recommended runs, by what they would distinguish"));
+  return text + screen_rows(report::further_run_table(
+                                diagnosis.next_experiments, diagnosis.next_experiments.size(),
+                                "Recommended runs, by what they would distinguish"),
+                            verbose ? kAllRows : kFewRows, "--verbose");
 }
 
 /// An incomplete search that names no cause has no extended arm to tell of.
@@ -280,7 +317,7 @@ int run_diagnose(const DiagnoseArguments& arguments) {
       diagnose::read_experiment(arguments.file, accepted_faults(arguments.accepted));
   prepare(arguments, experiment);
   const diagnose::Diagnosis diagnosis = diagnose_with_progress(arguments, experiment, deadline);
-  std::string text = text_of(diagnosis);
+  std::string text = text_of(diagnosis, arguments.verbose);
   std::string left_out;
   try {
     left_out = write_files(arguments, experiment, diagnosis);
@@ -288,13 +325,18 @@ int run_diagnose(const DiagnoseArguments& arguments) {
     print(text);
     throw;
   }
+  const char* details = arguments.verbose
+                            ? ""
+                            : "details: evidence, residual analysis, channels, formulations with  "
+                              "--verbose\n";
   if (arguments.folder.empty()) {
-    text += fmt::format(
-        "\nnext: the extended arm and tables with  flexarm diagnose {} --out diagnosis\n",
-        arm::shown(arguments.file));
+    text += details;
+    text +=
+        fmt::format("next: the extended arm and tables with  flexarm diagnose {} --out diagnosis\n",
+                    arm::shown(arguments.file));
   } else {
-    if (!left_out.empty()) text += report::to_paragraph("\nnote: " + left_out, 2);
-    text += fmt::format("\nwrote {}\n", arguments.folder);
+    if (!left_out.empty()) text += screen_note(left_out);
+    text += details + fmt::format("wrote {}\n", arguments.folder);
   }
   print(text);
   return kSuccess;
@@ -317,6 +359,8 @@ Command add_diagnose(CLI::App& program) {
   add_names("--accept", arguments->accepted,
             "Data checks whose findings are no faults of these data, e.g. dead_channel: they are "
             "reported as accepted, and exclude no channel and no run");
+  add_verbose(*parser, arguments->verbose,
+              "Print evidence, residual analysis, NRMSE of each channel, formulations");
   parser->add_option("--time-limit", arguments->time_limit_s,
                      "Seconds after which the search ends with the best so far");
   parser->add_option("--max-causes", arguments->most_causes, "The most causes to name")

@@ -1,10 +1,10 @@
 #include "app/arm_choice.hpp"
 #include "app/command.hpp"
 #include "app/identified_files.hpp"
-#include "app/interruption.hpp"
 #include "app/json_file.hpp"
 #include "app/kept_inputs.hpp"
 #include "app/list_option.hpp"
+#include "app/screen.hpp"
 #include "app/spectrum_choice.hpp"
 #include "app/standard_output.hpp"
 #include "app/word.hpp"
@@ -24,8 +24,8 @@
 #include "report/json/json_document.hpp"
 #include "report/progress.hpp"
 #include "report/tables/identification_tables.hpp"
+#include "report/tables/identified_overview.hpp"
 #include "report/tables/identified_root_tables.hpp"
-#include "report/tables/text_table.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -33,7 +33,6 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -45,9 +44,6 @@ namespace flexarm::app {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Steps of the progress line.
-constexpr std::int64_t kIdentificationSteps = 100;
 
 struct IdentifyArguments {
   std::string file;
@@ -63,6 +59,7 @@ struct IdentifyArguments {
   std::optional<double> total_inertia_kg_m2;
   std::string folder;
   bool force = false;
+  bool verbose = false;
   std::string json_file;
 };
 
@@ -162,23 +159,14 @@ measured::IdentificationOptions options_of(const IdentifyArguments& arguments,
   return options;
 }
 
-/// Identifies with a line of progress, and ends the program where Ctrl-C came.
 measured::Identification identify_with_progress(std::vector<measured::MeasuredRun> runs,
                                                 measured::IdentificationOptions options) {
-  const Interruption interruption;
-  report::Progress progress("% of the identification", kIdentificationSteps);
+  report::Progress progress("identifying");
   options.progress = [&](std::string_view, double fraction) {
     progress.reach(fraction);
-    return !interruption.requested();
+    return true;
   };
-  auto identification = measured::identify(std::move(runs), options);
-  if (interruption.requested()) interruption.end_program();
-  return identification;
-}
-
-std::string table_text(const report::Table& table, std::size_t key_columns) {
-  if (table.rows.empty()) return "";
-  return report::to_text(table, {.key_columns = key_columns}) + "\n";
+  return measured::identify(std::move(runs), options);
 }
 
 std::string fit_text(const measured::RunsFit& fit, const measured::Identification& identification,
@@ -186,7 +174,7 @@ std::string fit_text(const measured::RunsFit& fit, const measured::Identificatio
   if (!fit.refusal.empty()) return "";
   const auto modes = std::ranges::count(fit.fit.poles, true, &measured::FittedPole::is_mode);
   const auto others = std::ssize(fit.fit.poles) - modes;
-  std::string text = report::to_paragraph(
+  std::string text = screen_paragraph(
       fmt::format("Modal fit of {}{}, {:.4g} to {:.4g} Hz: {} mode{}, {} other second-order "
                   "section{}; {}{}",
                   report::joined(report::ids_of(fit, identification)),
@@ -198,55 +186,72 @@ std::string fit_text(const measured::RunsFit& fit, const measured::Identificatio
                   fit.fit.converged ? "" : "; not converged"),
       2);
   if (fit.fit.robust_covariance) {
-    text += report::to_paragraph(
+    text += screen_paragraph(
         "  Residuals are not white: standard errors are robust (sandwich) estimates.", 2);
   }
   if (fit.fit.delay_s > 0.0) {
-    text += report::to_paragraph(
+    text += screen_paragraph(
         fmt::format("  Common delay or lag of {:.3g} ms indicated by the residues. Poles are "
                     "unaffected; zeros, slopes and gains are biased.",
                     1e3 * fit.fit.delay_s),
         2);
   }
-  text += "\n" + table_text(report::residual_table(fit), 1);
-  return text + table_text(report::gain_table(fit, analytical), 4);
+  text += "\n" + screen_table(report::residual_table(fit));
+  return text + screen_table(report::gain_table(fit, analytical), 4);
 }
 
-std::string results_text(const measured::Identification& identification,
+/// Empty where there is one payload.
+std::string payload_heading(const compare::IdentifiedCondition& condition, std::size_t conditions) {
+  if (conditions == 1) return "";
+  return fmt::format("Payload {:g} kg, {:g} kg m^2\n\n", condition.payload.mass_kg,
+                     condition.payload.inertia_kg_m2);
+}
+
+/// The settings of the spectra, the roots by every method and sensor, and the fits.
+std::string details_text(const measured::Identification& identification,
                          const std::vector<compare::IdentifiedCondition>& conditions) {
   std::string text;
-  for (const auto& note : report::data_notes(identification)) {
-    text += report::to_paragraph("note: " + note, 2);
-  }
-  if (!text.empty()) text += "\n";
   for (const auto& run : identification.runs) {
-    if (run.estimate) {
-      text += fmt::format("{}: spectra and frequency responses\n", run.run.id);
-      for (const auto& line : report::setting_lines(run)) {
-        text += report::to_paragraph("  " + line, 4);
-      }
-      text += "\n";
-    }
-    text += table_text(report::distortion_table(run), 1);
+    if (!run.estimate) continue;
+    text += fmt::format("{}: spectra and frequency responses\n", run.run.id);
+    for (const auto& line : report::setting_lines(run)) text += screen_paragraph("  " + line, 4);
+    text += "\n";
   }
   for (const auto& condition : conditions) {
-    if (conditions.size() > 1) {
-      text += fmt::format("Payload {:g} kg, {:g} kg m^2\n\n", condition.payload.mass_kg,
-                          condition.payload.inertia_kg_m2);
-    }
+    text += payload_heading(condition, conditions.size());
     for (const auto& runs : report::sources(identification, condition)) {
       const report::IdentifiedData data{identification, condition, runs};
       for (const auto& table : {report::pole_table(data), report::held_pole_table(data),
                                 report::zero_table(data), report::damping_table(data)}) {
-        text += table_text(table, 2);
+        text += screen_table(table, 2);
       }
-      text += table_text(report::real_zero_table(data), 1);
     }
     for (const std::size_t f : condition.fits) {
       text += fit_text(identification.fits[f], identification, condition.analytical);
     }
   }
   return text;
+}
+
+/// The roots, each by its best method, and what the data or the estimates fall short of.
+std::string results_text(const measured::Identification& identification,
+                         const std::vector<compare::IdentifiedCondition>& conditions) {
+  std::string text;
+  for (const auto& condition : conditions) {
+    text += payload_heading(condition, conditions.size());
+    for (const auto& runs : report::sources(identification, condition)) {
+      const report::IdentifiedData data{identification, condition, runs};
+      text += screen_table(report::identified_overview(data), 2);
+      text += screen_table(report::real_zero_table(data));
+    }
+  }
+  if (text.empty()) text = "No pole or zero was identified.\n\n";
+  for (const auto& run : identification.runs) {
+    text += screen_table(report::distortion_table(run));
+  }
+  const auto notes = report::data_notes(identification);
+  for (const auto& note : notes) text += screen_note(note);
+  return notes.empty() ? text : text + "\n";
 }
 
 /// Throws for outputs that could not be written, or would take the place of what is read: before
@@ -294,13 +299,19 @@ int run_identify(const IdentifyArguments& arguments) {
 
   const auto identification = identify_with_progress(std::move(runs), options);
   const auto conditions = compare::conditions_of(identification, arm);
-  std::string text = describe(arm) + left_out_of_roots(arm) + "\n";
-  text += results_text(identification, conditions);
+  std::string text = results_text(identification, conditions);
+  text += describe(arm) + left_out_of_roots(arm) + "\n";
+  if (arguments.verbose) text += details_text(identification, conditions);
   try {
     write_files(arguments, measurement.name, arm, identification, conditions);
   } catch (const arm::InputError&) {
     print(text);
     throw;
+  }
+  if (!arguments.verbose) {
+    text +=
+        "details: settings of the spectra with reasons, every method and sensor, gains, "
+        "residuals with  --verbose\n";
   }
   if (arguments.folder.empty()) {
     text += fmt::format(
@@ -342,6 +353,8 @@ Command add_identify(CLI::App& program) {
                      "Total inertia I_T [kg m^2] for slopes and gains; default: estimated from the "
                      "rigid-body mode");
   parser->add_flag("--no-fit", arguments->no_fit, "Spectra, peaks and circle fits only");
+  add_verbose(*parser, arguments->verbose,
+              "Print settings with reasons, every method and sensor, gains and residuals");
   parser
       ->add_option("--out", arguments->folder,
                    "New folder for modal tables, responses (CSV), figures (SVG) and JSON")

@@ -1,4 +1,5 @@
 #include "app/command.hpp"
+#include "app/interruption.hpp"
 #include "app/json_file.hpp"
 #include "app/kept_inputs.hpp"
 #include "app/standard_output.hpp"
@@ -101,6 +102,7 @@ int main(int argc, char** argv) {
   using namespace flexarm;
   // A closed pipe shows as EPIPE, so that it ends the program where it prints and nowhere else.
   std::signal(SIGPIPE, SIG_IGN);
+  app::end_at_once_when_interrupted();
   try {
     return app::run(argc, argv);
   } catch (const app::OutputClosed&) {

@@ -4,6 +4,7 @@
 #include "app/json_file.hpp"
 #include "app/list_option.hpp"
 #include "app/output_choice.hpp"
+#include "app/screen.hpp"
 #include "app/standard_output.hpp"
 #include "arm/input_error.hpp"
 #include "arm/linear_arm.hpp"
@@ -15,12 +16,12 @@
 #include "report/json/json_document.hpp"
 #include "report/tables/csv.hpp"
 #include "report/tables/modes_report.hpp"
-#include "report/tables/text_table.hpp"
 #include "response/settings.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <cstddef>
 #include <filesystem>
 #include <iterator>
 #include <memory>
@@ -33,12 +34,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Rows that are printed of each table.
+constexpr std::size_t kModesRows = 30;
+
 struct ModesArguments {
   ArmChoice arm;
   FormulationChoice formulation;
   int count = 5;
   std::vector<std::string> sensors = {"hub_angle", "tip_acceleration"};
   bool certificate = false;
+  bool verbose = false;
   OutputChoice output;
 };
 
@@ -156,16 +161,20 @@ int run_modes(const ModesArguments& arguments) {
     const auto summary =
         response::summarise(chosen.formulation, arguments.count, sensors,
                             compare::shape_stations_m(arm::linear_arm(arm).length_m));
+    const auto shown = [&arguments](const report::Table& table) {
+      return screen_rows(table, arguments.verbose ? kAllRows : kModesRows,
+                         "--verbose, --out or --json");
+    };
     text += describe(arm);
     text += left_out_of_roots(arm);
     text += fmt::format("by {}\n\n", response::formulation_label(chosen.name, chosen.settings));
-    text += report::to_text(report::poles_table(arm, summary)) + "\n";
+    text += shown(report::poles_table(arm, summary));
     const std::string lowest = report::lowest_mode_line(summary);
     if (!lowest.empty()) text += lowest + "\n";
     if (arm::linear_arm(arm).is_damped()) {
-      text += report::to_text(report::damped_poles_table(summary)) + "\n";
+      text += shown(report::damped_poles_table(summary));
     }
-    text += report::to_text(report::zeros_table(summary)) + "\n";
+    text += shown(report::zeros_table(summary));
     text += shortfalls(chosen, summary, arguments.count);
 
     nlohmann::ordered_json document = {
@@ -173,7 +182,7 @@ int run_modes(const ModesArguments& arguments) {
     document.update(report::modes_json(arm, summary));
     if (arguments.certificate) {
       const auto lists = certify(arm, sensors, arguments.count);
-      text += report::to_text(certificate_table(lists)) + "\n";
+      text += screen_table(certificate_table(lists));
       document["certificate"] = certificate_json(lists);
       for (const auto& list : lists) proved = proved && list.certificate.proved;
     }
@@ -207,6 +216,7 @@ Command add_modes(CLI::App& program) {
                   "Sensors whose zeros are listed, comma-separated");
   parser->add_flag("--certificate", arguments->certificate,
                    "Certify the roots of exact_tf and their count by ball arithmetic");
+  add_verbose(*parser, arguments->verbose, "Print all rows of long tables");
   add_output_choice(*parser, arguments->output, "Folder for CSV tables and mode shapes as SVG");
   parser->footer(example("flexarm modes rig.toml --sensor hub_angle,strain@0.05 --certificate"));
   return {parser, [arguments] { return run_modes(*arguments); }};

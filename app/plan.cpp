@@ -3,8 +3,8 @@
 #include "app/command.hpp"
 #include "app/effect_choice.hpp"
 #include "app/folder_place.hpp"
-#include "app/interruption.hpp"
 #include "app/json_file.hpp"
+#include "app/screen.hpp"
 #include "app/standard_output.hpp"
 #include "arm/input_error.hpp"
 #include "effects/registry/vocabulary.hpp"
@@ -18,13 +18,11 @@
 #include "report/progress.hpp"
 #include "report/tables/csv.hpp"
 #include "report/tables/plan_tables.hpp"
-#include "report/tables/text_table.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -39,8 +37,6 @@ namespace fs = std::filesystem;
 
 constexpr const char* kPlanJson = "plan.json";
 constexpr const char* kBetterPlan = "improved-plan.toml";
-/// Steps of the progress line.
-constexpr std::int64_t kPlanSteps = 100;
 /// Further runs that are printed.
 constexpr std::size_t kPrintedRuns = 8;
 
@@ -52,6 +48,7 @@ struct PlanArguments {
   std::string better_file;
   std::string folder;
   bool force = false;
+  bool verbose = false;
   std::string json_file;
 };
 
@@ -71,8 +68,8 @@ void prepare_outputs(const PlanArguments& arguments) {
 }
 
 diagnose::Plan plan_with_progress(const PlanArguments& arguments) {
-  const arm::Arm arm = arm::without_hypotheses(
-      measured::read_arm_file(arguments.arm_file, effects::vocabulary()));
+  const arm::Arm arm =
+      arm::without_hypotheses(measured::read_arm_file(arguments.arm_file, effects::vocabulary()));
   const auto planned = diagnose::read_measurement_plan(arguments.plan_file);
   const auto possible = diagnose::hypotheses_of(arm, planned);
   const auto hypotheses = chosen_hypotheses(arguments.effects, possible);
@@ -80,34 +77,39 @@ diagnose::Plan plan_with_progress(const PlanArguments& arguments) {
   prepare_outputs(arguments);
   diagnose::PlanOptions options;
   options.unknown = arguments.refitted;
-  const Interruption interruption;
-  report::Progress progress("% of the plan", kPlanSteps);
-  auto plan = diagnose::plan_experiment(arm, planned, hypotheses, options,
-                                        [&](std::string_view, double fraction) {
-                                          progress.reach(fraction);
-                                          return !interruption.requested();
-                                        });
-  if (plan.cancelled) interruption.end_program();
-  return plan;
+  report::Progress progress("planning");
+  return diagnose::plan_experiment(arm, planned, hypotheses, options,
+                                   [&](std::string_view, double fraction) {
+                                     progress.reach(fraction);
+                                     return true;
+                                   });
 }
 
-std::string text_of_plan(const diagnose::Plan& plan) {
-  std::string text;
-  for (const auto& notice : plan.notices) text += report::to_paragraph("note: " + notice, 2);
-  if (!text.empty()) text += "\n";
-  text += report::to_paragraph(report::plan_summary(plan)) + "\n";
-  text += report::to_text(report::detection_table(plan)) + "\n";
-  text += report::separation_matrix(plan);
-  if (plan.ties.empty()) return text;
-  text += "\n" + report::to_text(report::tie_table(plan), {.key_columns = 2}) + "\n";
-  text += report::to_text(
-      report::further_run_table(plan.further, kPrintedRuns, "Value of one additional run"));
+/// The runs that the improved plan adds, or that none helps; empty where all can be told apart.
+std::string improvement_text(const diagnose::Plan& plan) {
+  if (plan.ties.empty()) return "";
   if (plan.added.empty()) {
-    return text + "\nNone of the additional runs considered resolves an indistinguishable pair.\n";
+    return screen_paragraph(
+               "None of the additional runs considered resolves an indistinguishable pair.") +
+           "\n";
   }
-  return text + "\n" +
-         report::to_text(report::further_run_table(
-             plan.added, plan.added.size(), "Improved plan: additional runs, in order of choice"));
+  return screen_table(report::further_run_table(
+      plan.added, plan.added.size(), "Improved plan: additional runs, in order of choice"));
+}
+
+std::string text_of_plan(const diagnose::Plan& plan, bool verbose) {
+  std::string text = screen_paragraph(report::plan_summary(plan)) + "\n";
+  for (const auto& notice : plan.notices) text += screen_note(notice);
+  if (!plan.notices.empty()) text += "\n";
+  text += improvement_text(plan);
+  text += screen_rows(report::detection_table(plan), verbose ? kAllRows : kScreenRows,
+                      "--verbose, --out or --json");
+  if (!verbose) return text;
+  text += report::separation_matrix(plan) + "\n";
+  if (plan.ties.empty()) return text;
+  return text + screen_table(report::tie_table(plan), 2) +
+         screen_table(
+             report::further_run_table(plan.further, kPrintedRuns, "Value of one additional run"));
 }
 
 void write_plan(const PlanArguments& arguments, const diagnose::Plan& plan) {
@@ -129,20 +131,24 @@ void write_plan(const PlanArguments& arguments, const diagnose::Plan& plan) {
 
 int run_plan(const PlanArguments& arguments) {
   const diagnose::Plan plan = plan_with_progress(arguments);
-  std::string text = text_of_plan(plan);
+  std::string text = text_of_plan(plan, arguments.verbose);
   try {
     write_plan(arguments, plan);
   } catch (const arm::InputError&) {
     print(text);
     throw;
   }
+  if (!arguments.verbose) {
+    text +=
+        "details: separations, indistinguishable pairs, value of further runs with  --verbose\n";
+  }
   if (!arguments.folder.empty()) {
-    text += fmt::format("\nwrote {}\n", arguments.folder);
+    text += fmt::format("wrote {}\n", arguments.folder);
   } else if (!arguments.better_file.empty()) {
-    text += fmt::format("\nwrote {}\n", arguments.better_file);
+    text += fmt::format("wrote {}\n", arguments.better_file);
   } else {
     text +=
-        fmt::format("\nnext: write the improved plan with  flexarm plan {} {} --write {}\n",
+        fmt::format("next: write the improved plan with  flexarm plan {} {} --write {}\n",
                     arm::shown(arguments.arm_file), arm::shown(arguments.plan_file), kBetterPlan);
   }
   print(text);
@@ -166,6 +172,9 @@ Command add_plan(CLI::App& program) {
           "Effects treated as nuisance parameters, comma-separated; default: the arm file is exact")
       ->delimiter(',')
       ->allow_extra_args(false);
+  add_verbose(*parser, arguments->verbose,
+              "Print all effects, the matrix of separations, indistinguishable pairs and the value "
+              "of further runs");
   parser->add_option("--write", arguments->better_file, "File for the improved plan")
       ->check(not_empty());
   parser

@@ -4,6 +4,7 @@
 #include "app/json_file.hpp"
 #include "app/list_option.hpp"
 #include "app/output_choice.hpp"
+#include "app/screen.hpp"
 #include "app/standard_output.hpp"
 #include "app/state_space_file.hpp"
 #include "arm/input_error.hpp"
@@ -16,7 +17,6 @@
 #include "report/tables/csv.hpp"
 #include "report/tables/modes_report.hpp"
 #include "report/tables/response_tables.hpp"
-#include "report/tables/text_table.hpp"
 #include "response/frequency/response_study.hpp"
 #include "response/settings.hpp"
 
@@ -37,7 +37,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kPrintedFrequencies = 25;
+constexpr std::size_t kPrintedFrequencies = 12;
+constexpr std::size_t kVerboseFrequencies = 25;
 
 struct ResponseArguments {
   ArmChoice arm;
@@ -46,6 +47,7 @@ struct ResponseArguments {
   response::ResponseOptions options;
   std::string state_space_file;
   bool modes_alone = false;
+  bool verbose = false;
   OutputChoice output;
 };
 
@@ -91,31 +93,42 @@ ChosenFormulation make_formulation(const ResponseArguments& arguments, const arm
   return arguments.formulation.make(arm, roots);
 }
 
-std::string study_text(const response::ResponseStudy& study,
-                       const response::ResponseOptions& options) {
+/// The response as a product over poles and zeros and as a sum over modes.
+std::string forms_text(const response::ResponseStudy& study) {
   std::string text;
-  for (const auto& note : report::chain_notes(study)) text += report::to_paragraph(note, 2);
-  if (!report::chain_notes(study).empty()) text += "\n";
-  text += report::to_text(
-              report::response_poles_table(study, static_cast<std::size_t>(options.modes))) +
-          "\n";
   for (std::size_t k = 0; k < study.response.sensors.size(); ++k) {
     auto factors = report::factors_table(study, k);
-    text += factors.caption + "\n";
+    text += screen_paragraph(factors.caption);
     factors.caption.clear();
-    for (const auto& formula : report::formulas(study, k)) text += "  " + formula + "\n";
-    text += report::to_text(factors) + "\n";
+    for (const auto& formula : report::formulas(study, k)) {
+      text += screen_paragraph("  " + formula, 4);
+    }
+    text += screen_table(factors);
   }
+  return text;
+}
+
+std::string study_text(const response::ResponseStudy& study,
+                       const response::ResponseOptions& options, bool verbose) {
+  std::string text;
+  const auto notes = report::chain_notes(study);
+  for (const auto& note : notes) text += screen_paragraph(note, 2);
+  if (!notes.empty()) text += "\n";
   const auto frequencies = study.response.frequency_Hz.size();
   const bool listed = !options.frequency_Hz.empty();
-  auto table = report::response_table(study.response, listed ? 0 : kPrintedFrequencies);
+  auto table = report::response_table(study.response, listed    ? 0
+                                                      : verbose ? kVerboseFrequencies
+                                                                : kPrintedFrequencies);
   table.caption =
       table.rows.size() == frequencies
           ? fmt::format("Frequency response at {} frequencies", frequencies)
           : fmt::format("Frequency response at {} of {} frequencies (all with --out and --json)",
                         table.rows.size(), frequencies);
-  text += report::to_text(table) + "\n";
-  if (study.state_space) text += report::to_text(report::state_space_table(study)) + "\n";
+  text += screen_table(table);
+  text += screen_rows(report::response_poles_table(study, static_cast<std::size_t>(options.modes)),
+                      verbose ? kAllRows : kScreenRows, "--verbose, --out or --json");
+  if (verbose) text += forms_text(study);
+  if (study.state_space) text += screen_table(report::state_space_table(study));
   return text;
 }
 
@@ -146,7 +159,7 @@ void add_files(const fs::path& folder, const std::string& formulation,
 
 std::string next_step(const ResponseArguments& arguments) {
   const std::string arm = arguments.arm.file.empty() ? "" : " " + arguments.arm.file;
-  std::string lines;
+  std::string lines = arguments.verbose ? "" : "details: factored and modal form with  --verbose\n";
   if (!arguments.state_space_file.empty()) {
     lines += fmt::format("wrote {}\n", arguments.state_space_file);
   }
@@ -195,7 +208,7 @@ int run_response(const ResponseArguments& arguments) {
     const auto study = response::study_response(arm, chosen.formulation, options);
     text += describe(arm);
     text += fmt::format("by {}\n\n", response::formulation_label(chosen.name, chosen.settings));
-    text += study_text(study, options);
+    text += study_text(study, options, arguments.verbose);
 
     nlohmann::ordered_json document = {
         {"arm", report::arm_json(arm)}, {"model", chosen.name}, {"settings", chosen.settings}};
@@ -252,6 +265,8 @@ Command add_response(CLI::App& program) {
       ->check(not_empty());
   parser->add_flag("--modes-alone", arguments->modes_alone,
                    "State space without static correction for omitted modes");
+  add_verbose(*parser, arguments->verbose,
+              "Print the response as a product over poles and zeros and as a sum over modes");
   add_output_choice(*parser, arguments->output,
                     "Folder for CSV tables, Bode and Nyquist diagrams as SVG");
   parser->footer(example("flexarm response rig.toml --sensor hub_angle,strain@0.05 --to-Hz 200"));

@@ -2,6 +2,7 @@
 #include "app/command.hpp"
 #include "app/folder_place.hpp"
 #include "app/json_file.hpp"
+#include "app/screen.hpp"
 #include "app/simulated_experiment.hpp"
 #include "app/standard_output.hpp"
 #include "arm/input_error.hpp"
@@ -9,7 +10,6 @@
 #include "report/figures/gnuplot.hpp"
 #include "report/json/arm_json.hpp"
 #include "report/json/json_document.hpp"
-#include "report/tables/text_table.hpp"
 #include "response/settings.hpp"
 
 #include <CLI/CLI.hpp>
@@ -17,6 +17,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -38,6 +39,7 @@ struct SimulateArguments {
   std::string name;
   std::string folder;
   bool force = false;
+  bool verbose = false;
   std::string json_file;
 };
 
@@ -100,8 +102,8 @@ std::string rounding_notes(const std::vector<PlannedRun>& plan) {
       changes.push_back(fmt::format("{} {} {} is {} {}", name, typed, unit, taken, unit));
     }
     if (changes.empty()) continue;
-    notes += report::to_paragraph(
-        fmt::format("note: {}: {}: rounded to whole samples", run.id, fmt::join(changes, ", ")));
+    notes += screen_note(
+        fmt::format("{}: {}: rounded to whole samples", run.id, fmt::join(changes, ", ")));
   }
   return notes;
 }
@@ -111,8 +113,8 @@ std::string standing_notes(const std::vector<report::SimulatedRun>& runs) {
   std::string notes;
   for (const auto& run : runs) {
     if (run.fall_rate_rad_per_s == 0.0) continue;
-    notes += report::to_paragraph(
-        fmt::format("note: {}: statically unstable (inverted) arm: undamped poles at s = +-{:.6g} "
+    notes += screen_note(
+        fmt::format("{}: statically unstable (inverted) arm: undamped poles at s = +-{:.6g} "
                     "rad/s; the equations hold for small angles only",
                     run.id, run.fall_rate_rad_per_s));
   }
@@ -126,8 +128,8 @@ std::string sampling_notes(const SimulatedExperiment& experiment) {
     const auto& summary = run.simulation.summary;
     if (summary.sampling == response::Sampling::fine) continue;
     const double period_s = measured::sampling_period_s(run.record);
-    notes += report::to_paragraph(fmt::format(
-        "note: {}: highest mode {:.4g} Hz has {:.3g} samples per period: {}. Sampled values are "
+    notes += screen_note(fmt::format(
+        "{}: highest mode {:.4g} Hz has {:.3g} samples per period: {}. Sampled values are "
         "exact. Use a sampling period of {:.2g} s or fewer modes.",
         run.id, 1.0 / (summary.samples_per_period * period_s), summary.samples_per_period,
         summary.sampling == response::Sampling::aliased
@@ -144,8 +146,8 @@ std::string settling_notes(const std::vector<report::SteppedSineRun>& runs) {
   for (const auto& run : runs) {
     const auto& summary = run.measured.summary;
     if (summary.unsettled == 0) continue;
-    notes += report::to_paragraph(
-        fmt::format("note: {}: at {} of {} frequencies the response changed by more than {:g} "
+    notes += screen_note(
+        fmt::format("{}: at {} of {} frequencies the response changed by more than {:g} "
                     "between the first and the last measured cycle (largest change {:.2g} at {} "
                     "Hz): remaining transient, or a motion that is not periodic with the sine",
                     run.id, summary.unsettled, run.measured.frequency_Hz.size(),
@@ -154,42 +156,62 @@ std::string settling_notes(const std::vector<report::SteppedSineRun>& runs) {
   return notes;
 }
 
-void print_runs_in_time(const std::vector<report::SimulatedRun>& runs, bool has_dry_friction) {
+/// The largest residual of the energy balances, relative to the work.
+std::string energy_line(const std::vector<report::SimulatedRun>& runs) {
+  double residual = 0.0;
+  for (const auto& run : runs) {
+    residual =
+        std::max(residual, std::abs(report::relative_energy_residual(run.simulation.energy)));
+  }
+  return screen_paragraph(
+      fmt::format("Energy balance: largest residual {:.1e} of the work of the torque.", residual));
+}
+
+void print_runs_in_time(const std::vector<report::SimulatedRun>& runs, bool has_dry_friction,
+                        bool verbose) {
   if (runs.empty()) return;
-  print(report::to_text(report::torque_table(runs)) + "\n");
-  print(report::to_text(report::reading_table(runs), {.key_columns = 2}) + "\n");
-  print(report::to_text(report::energy_table(runs)) + "\n");
-  if (has_dry_friction) print(report::to_text(report::hub_motion_table(runs)) + "\n");
+  print(screen_table(report::reading_table(runs), 2));
+  if (has_dry_friction) print(screen_table(report::hub_motion_table(runs)));
+  print(screen_table(report::torque_table(runs)));
+  print(verbose ? screen_table(report::energy_table(runs)) : energy_line(runs) + "\n");
 }
 
 void print_stepped_runs(const std::vector<report::SteppedSineRun>& runs, bool has_dry_friction) {
   if (runs.empty()) return;
-  print(report::to_text(report::stepped_sine_table(runs)) + "\n");
-  print(report::to_text(report::stepped_response_table(runs), {.key_columns = 2}) + "\n");
-  if (has_dry_friction) print(report::to_text(report::stepped_hub_motion_table(runs)) + "\n");
+  print(screen_table(report::stepped_response_table(runs), 2));
+  if (has_dry_friction) print(screen_table(report::stepped_hub_motion_table(runs)));
+  print(screen_table(report::stepped_sine_table(runs)));
 }
 
 void print_results(const SimulateArguments& arguments, const std::vector<PlannedRun>& plan,
                    const SimulatedExperiment& experiment, bool has_dry_friction) {
   const auto& runs = experiment.runs;
-  const char* hold =
-      arguments.options.hold == response::TorqueHold::zero ? "zero-order hold" : "first-order hold";
-  print(fmt::format(
-      "by {}, {} flexible mode{}{}{}\n",
-      response::formulation_label(experiment.model, experiment.settings), experiment.modes,
-      experiment.modes == 1 ? "" : "s",
-      arguments.options.static_correction ? " and a residual mode" : "",
-      runs.empty() ? "" : fmt::format("; {} of the torque, initial state at rest", hold)));
-  if (experiment.modes < arguments.options.modes) {
-    print(fmt::format("{} of {} modes: {} has {} degrees of freedom\n", experiment.modes,
-                      arguments.options.modes, experiment.model, experiment.degrees_of_freedom));
-  }
-  print("\n");
-  print_runs_in_time(runs, has_dry_friction);
+  print_runs_in_time(runs, has_dry_friction, arguments.verbose);
   print_stepped_runs(experiment.stepped_runs, has_dry_friction);
   const std::string notes = rounding_notes(plan) + standing_notes(runs) +
                             sampling_notes(experiment) + settling_notes(experiment.stepped_runs);
   if (!notes.empty()) print(notes + "\n");
+}
+
+/// The arm and the model that it was simulated with.
+void print_model(const SimulateArguments& arguments, const arm::Arm& arm,
+                 const SimulatedExperiment& experiment) {
+  const char* hold =
+      arguments.options.hold == response::TorqueHold::zero ? "zero-order hold" : "first-order hold";
+  print(describe(arm));
+  print(screen_paragraph(fmt::format(
+      "by {}, {} flexible mode{}{}{}",
+      response::formulation_label(experiment.model, experiment.settings), experiment.modes,
+      experiment.modes == 1 ? "" : "s",
+      arguments.options.static_correction ? " and a residual mode" : "",
+      experiment.runs.empty() ? ""
+                              : fmt::format("; {} of the torque, initial state at rest", hold))));
+  if (experiment.modes < arguments.options.modes) {
+    print(screen_note(fmt::format("{} of {} modes: {} has {} degrees of freedom", experiment.modes,
+                                  arguments.options.modes, experiment.model,
+                                  experiment.degrees_of_freedom)));
+  }
+  print("\n");
 }
 
 /// Throws unless the sensors that controllers read are simulated.
@@ -253,7 +275,7 @@ int run_simulate(SimulateArguments arguments) {
                  measurement_folder(name, written, plan, experiment, options.hold));
   }
   write_json(arguments.json_file, json_text(arguments, arm, experiment));
-  print(describe(arm));
+  print_model(arguments, arm, experiment);
   print_results(arguments, plan, experiment, !response::take_apart(arm).hub.friction.empty());
   if (arguments.folder.empty()) {
     print(fmt::format("next: write it as a measurement with  flexarm simulate{} --out simulated\n",
@@ -301,6 +323,8 @@ Command add_simulate(CLI::App& program) {
                    "tests of a diagnosis")
       ->delimiter(',')
       ->allow_extra_args(false);
+  add_verbose(*parser, arguments->verbose,
+              "Print the parameters of each excitation and the energy balance");
   parser->add_option("--name", arguments->name, "Name of the measurement");
   parser
       ->add_option("--out", arguments->folder,

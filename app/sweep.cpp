@@ -4,6 +4,7 @@
 #include "app/json_file.hpp"
 #include "app/list_option.hpp"
 #include "app/output_choice.hpp"
+#include "app/screen.hpp"
 #include "app/standard_output.hpp"
 #include "app/version.hpp"
 #include "arm/input_error.hpp"
@@ -17,7 +18,6 @@
 #include "report/progress.hpp"
 #include "report/tables/csv.hpp"
 #include "report/tables/sweep_tables.hpp"
-#include "report/tables/text_table.hpp"
 #include "response/arm_parts.hpp"
 #include "response/formulation_maker.hpp"
 
@@ -58,6 +58,7 @@ struct SweepArguments {
   compare::SweepTolerances tolerances;
   int threads = 0;
   bool resume = false;
+  bool verbose = false;
   OutputChoice output;
 };
 
@@ -205,24 +206,28 @@ void say_interrupted(const compare::SweepInterrupted& interrupted, const fs::pat
   std::fwrite(line.data(), 1, line.size(), stderr);
 }
 
-void print_result(const compare::SweepResult& result, const arm::Arm& full_arm) {
-  print(describe(full_arm));
-  print(left_out_of_roots(full_arm));
-  print("\n" + report::sweep_axes_lines(result) + "\n");
-  print(report::to_text(report::sweep_models_table(result)) + "\n");
-  for (const auto& table : report::sweep_range_tables(result)) print(report::to_text(table) + "\n");
+std::string verdict_paragraph(const compare::SweepResult& result) {
+  const std::string text = screen_paragraph(report::sweep_verdict_line(result));
+  const std::string word = text.substr(0, text.find_first_of(": "));
+  return toned(text, word, result.agrees() ? Tone::good : Tone::bad) + "\n";
+}
+
+void print_result(const compare::SweepResult& result, const arm::Arm& full_arm, bool verbose) {
+  std::string text = result.agreement.empty() ? "" : verdict_paragraph(result);
+  if (!result.agrees() && !verbose) text += screen_table(report::sweep_agreement_table(result));
+  text += describe(full_arm) + left_out_of_roots(full_arm) + "\n";
+  text += screen_paragraph(report::sweep_axes_lines(result)) + "\n";
+  for (const auto& table : report::sweep_range_tables(result)) text += screen_table(table);
   if (!result.events.empty()) {
-    constexpr report::TextOptions kSensorAndTrack{.key_columns = 2};
-    print(report::to_text(report::sweep_events_table(result, kEventsPrinted), kSensorAndTrack));
-    if (result.events.size() > kEventsPrinted) {
-      print(fmt::format("... and {} more, in --out and --json\n",
-                        result.events.size() - kEventsPrinted));
-    }
-    print("\n");
+    text += screen_rows(report::sweep_events_table(result, result.events.size()),
+                        verbose ? kAllRows : kEventsPrinted, "--verbose, --out or --json", 2);
   }
-  if (result.agreement.empty()) return;
-  print(report::to_text(report::sweep_agreement_table(result)) + "\n");
-  print(report::sweep_verdict_line(result) + "\n");
+  if (verbose) {
+    for (const auto& table : report::sweep_mode_tables(result)) text += screen_table(table);
+    text += screen_table(report::sweep_models_table(result));
+    text += screen_table(report::sweep_agreement_table(result));
+  }
+  print(text);
 }
 
 std::vector<measured::NamedContent> figure_files(int number, const compare::PaperSweep& figure,
@@ -294,7 +299,7 @@ int run_sweep(const SweepArguments& arguments) {
   }
   write_json(arguments.output.json_file, report::sweep_json(result));
   if (!checkpoint.empty()) fs::remove(checkpoint);
-  print_result(result, arguments.arm.arms().front());
+  print_result(result, arguments.arm.arms().front(), arguments.verbose);
   print(next_step(arguments));
   return result.agrees() ? kSuccess : kFailure;
 }
@@ -332,6 +337,8 @@ Command add_sweep(CLI::App& program) {
       ->capture_default_str();
   parser->add_option("--threads", arguments->threads, "Maximum number of threads; 0: one per core")
       ->capture_default_str();
+  add_verbose(*parser, arguments->verbose,
+              "Print hub slopes, end-point values, models and the agreement of each quantity");
   parser->add_flag("--resume", arguments->resume,
                    "Resume an interrupted sweep from its checkpoint");
   add_output_choice(*parser, arguments->output, "Folder for CSV tables and SVG plots");

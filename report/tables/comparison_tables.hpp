@@ -24,7 +24,7 @@ Table notes_table(const compare::Comparison& comparison);
 /// Per family, one row a refinement series: order of convergence, floor, cheapest setting.
 std::vector<Table> convergence_tables(const compare::Comparison& comparison);
 
-/// What the columns of `convergence_tables` say: a paragraph that ends in a new line.
+/// What the columns of `convergence_tables` say: a paragraph.
 std::string convergence_legend(const compare::Comparison& comparison);
 
 /// One row a root and series, for CSV and for `--full`.

@@ -80,7 +80,7 @@ SweepResult sample_of_two() {
 
 TEST(SweepTables, ShowFirstLastAndExtremesNotEveryPoint) {
   const auto tables = sweep_range_tables(sample());
-  ASSERT_EQ(tables.size(), 6);
+  ASSERT_EQ(tables.size(), 4);
   EXPECT_EQ(to_csv(tables[1]),
             "track,axis,first [rad/s],last [rad/s],lowest [rad/s],at [kg m^2],highest [rad/s],"
             "at [kg m^2]\n"
@@ -90,12 +90,15 @@ TEST(SweepTables, ShowFirstLastAndExtremesNotEveryPoint) {
             "track,first,last,lowest,at [kg m^2],highest,at [kg m^2]\n"
             "1,0.6,1,0.6,0,1,0.0002\n");
   EXPECT_EQ(sweep_range_tables(sample(false)).size(), 4);
+  EXPECT_EQ(sweep_mode_tables(sample()).size(), 2);
+  EXPECT_EQ(sweep_mode_tables(sample(false)).size(), 0);
 }
 
 TEST(SweepTables, FitATerminal) {
   constexpr std::size_t kColumns = 100;
   for (const auto& result : {sample(), sample_of_two()}) {
     auto tables = sweep_range_tables(result);
+    for (auto& table : sweep_mode_tables(result)) tables.push_back(std::move(table));
     tables.push_back(sweep_agreement_table(result));
     tables.push_back(sweep_events_table(result, 10));
     tables.push_back(sweep_models_table(result));

@@ -1,11 +1,12 @@
 import assert from "node:assert/strict";
 import { after } from "node:test";
 
-import type { Browser, BrowserContextOptions, Locator, Page } from "playwright-core";
+import type { Browser, BrowserContext, BrowserContextOptions, Locator, Page } from "playwright-core";
 
 import { launched } from "./browser.js";
 
 let browser: Browser | undefined;
+let shared: BrowserContext | undefined; // of the tests without options of their own
 
 after(async () => {
   await browser?.close();
@@ -15,11 +16,11 @@ after(async () => {
 export async function opened(
   address: string,
   check: (page: Page) => Promise<void>,
-  options: BrowserContextOptions = {},
+  options?: BrowserContextOptions,
   script?: () => void,
 ): Promise<void> {
-  browser ??= await launched();
-  const context = await browser.newContext({ viewport: { width: 1280, height: 900 }, ...options });
+  const isAlone = options !== undefined;
+  const context = isAlone ? await newContext(options) : (shared ??= await newContext({}));
   const page = await context.newPage();
   page.setDefaultTimeout(10_000);
   const complaints: string[] = [];
@@ -36,8 +37,13 @@ export async function opened(
     await check(page);
     assert.deepEqual(complaints, []);
   } finally {
-    await context.close();
+    await (isAlone ? context.close() : page.close());
   }
+}
+
+async function newContext(options: BrowserContextOptions): Promise<BrowserContext> {
+  browser ??= await launched();
+  return browser.newContext({ viewport: { width: 1280, height: 900 }, ...options });
 }
 
 /** Number of pixels of a block's canvases with about this colour of the style sheet. */

@@ -34,7 +34,7 @@ test("numbers in texts are read for sorting", () => {
 test("linear ticks are at multiples of 1, 2 or 5, degrees at those of 90", () => {
   assert.deepEqual(texts(linearTicks(-0.25, 0.3, 6)), ["−0.2", "−0.1", "0", "0.1", "0.2", "0.3"]);
   assert.deepEqual(texts(linearTicks(0.9996, 1.0004, 5)), ["0.9996", "0.9998", "1", "1.0002", "1.0004"]);
-  assert.deepEqual(texts(linearTicks(-360, 0, 5, "°")), ["−360", "−270", "−180", "−90", "0"]);
+  assert.deepEqual(texts(linearTicks(-360, 0, 5, "deg")), ["−360", "−270", "−180", "−90", "0"]);
   assert.deepEqual(linearTicks(1, 1, 5), []);
 });
 

@@ -15,7 +15,7 @@ export function linearTicks(least: number, greatest: number, most: number, unit 
 
 export function stepOf(span: number, most: number, unit = ""): number {
   const wanted = span / Math.max(1, most);
-  if (unit === "°" && wanted > 5 && wanted <= 180) {
+  if ((unit === "°" || unit === "deg") && wanted > 5 && wanted <= 180) {
     return [15, 30, 45, 90, 180].find((step) => step >= wanted) ?? 180;
   }
   const power = 10 ** Math.floor(Math.log10(wanted));
@@ -36,6 +36,8 @@ export function ticksOfStep(least: number, greatest: number, step: number): Tick
   return ticks;
 }
 
+const kMinorShare = 0.7; // decades over ticks with room, up to which there are lines between them
+
 /** Ticks of a logarithmic axis: decades, with 2 and 5 between them where few decades are in view;
  * linear ones within less than a decade. */
 export function logTicks(least: number, greatest: number, most: number): Tick[] {
@@ -49,7 +51,7 @@ export function logTicks(least: number, greatest: number, most: number): Tick[] 
     for (let factor = 1; factor <= 9; ++factor) {
       const value = Number((factor * 10 ** exponent).toPrecision(12));
       if (value < least * (1 - 1e-9) || value > greatest * (1 + 1e-9)) continue;
-      if (factor > 1 && decades > 6) continue;
+      if (factor > 1 && decades > kMinorShare * most) continue;
       const named = labelled.includes(factor) && exponent % labelEach === 0;
       ticks.push({ value, text: named ? decadeText(factor, exponent) : "" });
     }

@@ -1,21 +1,21 @@
 import { numberText, quantityText } from "../axes/number_text.js";
 import type { MapBlock, MapPoint } from "../contract.js";
-import { colourName, kRoleStyles } from "../curves/role_style.js";
+import { colourName } from "../curves/role_style.js";
 import type { BlockContent } from "../page/block_frame.js";
 import { button, html, svg } from "../page/element.js";
+import { kPaperWidth } from "../page/paper.js";
 import { linearMap, signedLogMap } from "../plane/axis_map.js";
 import { placeLabels } from "../plane/labels.js";
 import { kMarkWords, type Mark, markOf, markPath } from "../plane/marks.js";
 import { Picker, type Pickable } from "../plane/picker.js";
 import { Plane, type PlaneProjection } from "../plane/plane.js";
 import { type Entry, planeLegend } from "../plane/plane_legend.js";
-import { followWidth, plotBox, resetButton } from "../plane/plot_box.js";
+import { keepDrawn, plotBox, resetButton } from "../plane/plot_box.js";
 import { Speech } from "./speech.js";
 
 const kMarkSize = 5; // px
+const kNestedSizes = [7.5, 5.5, 4, 3]; // of several series: where they coincide each shows
 const kSmallMark = 3.5; // where there are many
-const kBroadMark = 7; // of what lies below others: as broad as its curves
-const kBroad = 3; // px of stroke from which on a role is that
 const kMany = 200;
 
 const kBarsHeight = 100; // of tools and legend
@@ -26,6 +26,7 @@ function planeHeight(width: number): number {
 
 interface Group {
   entry: Entry;
+  size: number;
   points: MapPoint[];
 }
 
@@ -58,7 +59,7 @@ export function mapBlock(block: MapBlock): BlockContent {
       },
       paint: (layer, to) => {
         shadeRightHalfPlane(layer, to);
-        for (const group of shown()) paintGroup(layer, to, group, block.points.length > kMany);
+        for (const group of shown()) paintGroup(layer, to, group);
         paintLabels(layer, to, shown());
         picker.showOn(layer, to);
       },
@@ -72,7 +73,7 @@ export function mapBlock(block: MapBlock): BlockContent {
     const box = plotBox(plane, picker, block.title);
     place.replaceChildren(box);
     reset.hidden = true;
-    followWidth(box, () => plane.draw());
+    keepDrawn(plane, box, kPaperWidth);
   };
   const legend = planeLegend(
     groups.map((group) => group.entry),
@@ -101,20 +102,28 @@ export function mapBlock(block: MapBlock): BlockContent {
 
 function groupsOf(points: MapPoint[]): Group[] {
   const groups = new Map<string, Group>();
+  const series = [...new Set(points.map((point) => point.series))];
+  const sizeOf = (name: string) => {
+    if (points.length > kMany) return kSmallMark;
+    if (series.length === 1) return kMarkSize;
+    return kNestedSizes[Math.min(series.indexOf(name), kNestedSizes.length - 1)] ?? kMarkSize;
+  };
   for (const point of points) {
     const mark = markOf(point);
     const name = `${point.series}, ${kMarkWords[mark]}s`;
-    const group = groups.get(name) ?? { entry: { name, role: point.role, shape: mark }, points: [] };
+    const group = groups.get(name) ?? {
+      entry: { name, role: point.role, shape: mark },
+      size: sizeOf(point.series),
+      points: [],
+    };
     group.points.push(point);
     groups.set(name, group);
   }
   return [...groups.values()];
 }
 
-function paintGroup(layer: SVGGElement, to: PlaneProjection, { entry, points }: Group, isCrowded: boolean): void {
+function paintGroup(layer: SVGGElement, to: PlaneProjection, { entry, size, points }: Group): void {
   const colour = `var(--${colourName(entry.role)})`;
-  const isBroad = kRoleStyles[entry.role].width >= kBroad;
-  const size = isCrowded ? kSmallMark : isBroad ? kBroadMark : kMarkSize;
   const bars: string[] = [];
   const marks: string[] = [];
   for (const point of points) {
@@ -127,7 +136,7 @@ function paintGroup(layer: SVGGElement, to: PlaneProjection, { entry, points }: 
   }
   layer.append(
     svg("path", { d: bars.join(""), stroke: colour, class: "bars" }),
-    svg("path", { d: marks.join(""), stroke: colour, class: `marks ${entry.shape}${isBroad ? " broad" : ""}` }),
+    svg("path", { d: marks.join(""), stroke: colour, class: `marks ${entry.shape}` }),
   );
 }
 

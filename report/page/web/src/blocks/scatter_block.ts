@@ -7,11 +7,12 @@ import type { BlockContent } from "../page/block_frame.js";
 import { html, svg } from "../page/element.js";
 import { factList } from "../page/facts.js";
 import { attempted } from "../page/failure.js";
+import { kHalfPaperWidth, kPaperWidth } from "../page/paper.js";
 import { linearMap, logMap } from "../plane/axis_map.js";
 import { Picker, type Pickable } from "../plane/picker.js";
 import { Plane, type PlaneProjection } from "../plane/plane.js";
 import { planeLegend } from "../plane/plane_legend.js";
-import { followWidth, plotBox, resetButton } from "../plane/plot_box.js";
+import { keepDrawn, plotBox, resetButton } from "../plane/plot_box.js";
 import { fileName } from "./file_name.js";
 import { Speech } from "./speech.js";
 import { viewChoice } from "./view_choice.js";
@@ -37,7 +38,9 @@ export function scatterBlock(block: ScatterBlock, arrays: Arrays): BlockContent 
   const draw = () => {
     const view = block.views[shown];
     facts.replaceChildren(factList(view?.facts ?? [], "inline-facts"));
-    place.replaceChildren(...(view?.panels ?? []).map((panel) => panelElement(panel, block.title, arrays, hidden, speech)));
+    const panels = view?.panels ?? [];
+    const paperWidth = panels.length > 1 ? kHalfPaperWidth : kPaperWidth;
+    place.replaceChildren(...panels.map((panel) => panelElement(panel, block.title, arrays, hidden, speech, paperWidth)));
   };
   const choice = viewChoice(block.id, block.choices, block.views, (view) => {
     shown = view;
@@ -71,6 +74,7 @@ function panelElement(
   arrays: Arrays,
   hidden: Set<string>,
   speech: Speech,
+  paperWidth: number,
 ): HTMLElement {
   const series = panel.series.map((one) => {
     const [x, y] = [arrays.read(one.x), arrays.read(one.y)];
@@ -107,7 +111,7 @@ function panelElement(
     },
   );
   const box = plotBox(plane, picker, title);
-  followWidth(box, () => plane.draw());
+  keepDrawn(plane, box, paperWidth);
   return html("div", { class: "panel" }, html("div", { class: "legend-bar" }, legend, reset), box);
 }
 

@@ -5,11 +5,12 @@ import type { Arrays } from "../document/arrays.js";
 import { withUnit } from "../document/data_table.js";
 import type { BlockContent } from "../page/block_frame.js";
 import { html, svg } from "../page/element.js";
+import { kHalfPaperWidth } from "../page/paper.js";
 import { linearMap, logMap, signedLogMap } from "../plane/axis_map.js";
 import { markPath } from "../plane/marks.js";
 import { Plane, type PlaneProjection } from "../plane/plane.js";
 import { planeLegend } from "../plane/plane_legend.js";
-import { followWidth, plotBox, resetButton } from "../plane/plot_box.js";
+import { keepDrawn, plotBox, resetButton } from "../plane/plot_box.js";
 import { readTracks, sweepTable, type Track } from "./sweep_tracks.js";
 
 const kMarkSize = 5.5; // px
@@ -125,7 +126,7 @@ export function sweepBlock(block: SweepBlock, arrays: Arrays): BlockContent {
           {},
           control,
           block.events.length > 0 ? eventList(block, (value) => moveTo(nearestIndex(values, value))) : undefined,
-          eventNote,
+          block.events.length > 0 ? eventNote : undefined,
           legend,
           html(
             "div",
@@ -137,7 +138,7 @@ export function sweepBlock(block: SweepBlock, arrays: Arrays): BlockContent {
       isEmpty ? 0 : kBarsHeight + (width < kTwoColumnsFrom ? 2 * planeHeight(width) : planeHeight(width / 2)),
     draw: () => {
       moveTo(0);
-      planes.forEach((plane, i) => followWidth(boxes[i] as HTMLElement, () => plane.draw()));
+      planes.forEach((plane, i) => keepDrawn(plane, boxes[i] as HTMLElement, kHalfPaperWidth));
     },
     files: () => [{ label: "CSV", name: block.id, table: () => sweepTable(block, values, tracks) }],
   };

@@ -10,7 +10,7 @@ import { colourName, kRoleStyles } from "./role_style.js";
 const kFont = "system-ui, sans-serif";
 const kFontSize = 12;
 const kTickSpacing_x = 80; // px
-const kTickSpacing_y = 38;
+const kTickSpacing_y = 27;
 const kMargin = 0.06; // of the range of y, above and below
 
 export interface PanelOptions {

@@ -1,6 +1,6 @@
 import { html } from "../page/element.js";
+import { kPaperWidth } from "../page/paper.js";
 
-const kPaperWidth = 680; // px: the text width of A4 at 96 dots an inch
 const kPaperScale = 2.5; // dots of the picture in one of these
 
 /** A canvas as drawn by `draw` in the resolution of paper, shown in print alone. */

@@ -9,7 +9,7 @@ import { Legend, readingText } from "./legend.js";
 import { PanelPlot } from "./panel_plot.js";
 import { paperCopy } from "./paper_copy.js";
 
-const kHeights = [280, 370, 430]; // px of one, two and more panels
+const kHeights = [270, 350, 395]; // px of one, two and more panels
 const kNarrow = 500;
 const kNarrowShare = 0.85;
 const kAxisHeight = 26;

@@ -33,7 +33,8 @@ export function placeLabels(layer: SVGGElement, labels: Label[], to: PlaneProjec
   for (const { x, y, text } of labels) {
     if (placed >= kMostLabels) break;
     const width = text.length * kLetter;
-    const rows = [y - kHeight / 2, y - kHeight - 4, y + 4];
+    // Obliquely first: bars of standard deviations go along the axes.
+    const rows = [y - kHeight - 3, y + 3, y - kHeight / 2];
     const boxes = rows.flatMap((top) =>
       [x + kDistance, x - kDistance - width].map((left) => ({ left, right: left + width, top, bottom: top + kHeight })),
     );

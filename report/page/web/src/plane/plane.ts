@@ -40,7 +40,7 @@ const kMargin = { right: 14, top: 10, bottom: 40 };
 const kLabelWidth = 26; // px of the label of the vertical axis, with gaps
 const kDigitWidth = 6.8; // of 12 px text
 const kTickSpacing_x = 70; // px
-const kTickSpacing_y = 40;
+const kTickSpacing_y = 32;
 const kRoom = 0.06; // of the range, around what is shown
 const kMostZoom = 1e6;
 

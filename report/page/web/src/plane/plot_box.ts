@@ -1,5 +1,6 @@
 import { button, html } from "../page/element.js";
 import { followKeys } from "../page/plot_input.js";
+import { onPaper } from "../page/theme.js";
 import type { Picker } from "./picker.js";
 import type { Plane } from "./plane.js";
 
@@ -33,7 +34,8 @@ export function resetButton(onReset: () => void): HTMLButtonElement {
   return button("Whole range", { class: "reset", hidden: true }, onReset);
 }
 
-/** Calls back with the width of an element whenever it changes, and at first. */
-export function followWidth(element: HTMLElement, draw: () => void): void {
-  new ResizeObserver(() => draw()).observe(element);
+/** Draws a plane at first, whenever the width of its box changes, and in the width of paper. */
+export function keepDrawn(plane: Plane, box: HTMLElement, paperWidth: number): void {
+  new ResizeObserver(() => plane.draw()).observe(box);
+  onPaper((on) => plane.draw(on ? paperWidth : undefined));
 }

@@ -5,12 +5,17 @@ export interface Tick {
   text: string; // empty: a line without a label
 }
 
+const kLeastTicks = 3;
+const kCloser = 1.7;
+
 /** Ticks of a linear axis at multiples of 1, 2 or 5 times a power of ten; of an angle in degrees at
  * multiples of 15, 30, 45 or 90 where they fit. */
 export function linearTicks(least: number, greatest: number, most: number, unit = ""): Tick[] {
   const span = greatest - least;
   if (!(span > 0) || !Number.isFinite(span)) return [];
-  return ticksOfStep(least, greatest, stepOf(span, most, unit));
+  const ticks = ticksOfStep(least, greatest, stepOf(span, most, unit));
+  // One or two do not show a scale: closer ones, which still have room.
+  return ticks.length < kLeastTicks ? ticksOfStep(least, greatest, stepOf(span, kCloser * most, unit)) : ticks;
 }
 
 export function stepOf(span: number, most: number, unit = ""): number {

@@ -7,7 +7,8 @@
  *
  * The page holds two elements: <script type="application/json" id="document"> with a PageDocument,
  * and <script type="application/octet-stream" id="arrays"> with one base64 text, the bytes of all
- * arrays one behind the other, little-endian.
+ * arrays one behind the other, little-endian. In the JSON "<" is written as \u003c, so that no text
+ * ends the element; it has no NaN.
  */
 
 /** A range of the bytes of all arrays. `f64` and `f32` are numbers as they stand, NaN is a gap;
@@ -163,7 +164,8 @@ export interface ScatterPanel {
   series: { label: string; role: Role; draw: "line" | "points"; x: Numbers; y: Numbers }[];
 }
 
-/** Poles and zeros in the s plane. */
+/** Poles and zeros in the s plane. On a logarithmic axis, here and in a sweep, each place is
+ * sign(v) log10(1 + |v|/v0), v0 a third of the smallest number; the reader can change to and fro. */
 export interface MapBlock extends BlockBase {
   kind: "map";
   x: Axis;
@@ -181,7 +183,8 @@ export interface MapPoint {
   imaginary: number;
   real_std?: number;
   imaginary_std?: number;
-  details: Fact[]; // frequency, damping ratio, sensor
+  /** Frequency, damping ratio, sensor. The first one is the label beside the point. */
+  details: Fact[];
 }
 
 /** Causes by probability. */

@@ -1,21 +1,22 @@
 #include "app/arm_choice.hpp"
 #include "app/command.hpp"
 #include "app/json_file.hpp"
+#include "app/kept_inputs.hpp"
 #include "app/list_option.hpp"
+#include "app/measured_choice.hpp"
 #include "app/output_choice.hpp"
 #include "app/screen.hpp"
 #include "app/standard_output.hpp"
 #include "arm/rigid_hub.hpp"
 #include "compare/comparison.hpp"
-#include "compare/measured.hpp"
 #include "measured/files/atomic_file.hpp"
-#include "measured/files/modal_table.hpp"
 #include "report/figures/comparison_plots.hpp"
 #include "report/json/comparison_json.hpp"
 #include "report/progress.hpp"
 #include "report/tables/comparison_overview.hpp"
 #include "report/tables/comparison_tables.hpp"
 #include "report/tables/csv.hpp"
+#include "report/tables/measured_tables.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -24,6 +25,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace flexarm::app {
@@ -43,8 +45,7 @@ struct CompareArguments {
   OutputChoice output;
 };
 
-compare::Options options_of(const CompareArguments& arguments,
-                            const measured::ModalTable& measured) {
+compare::Options options_of(const CompareArguments& arguments, const MeasuredFile& measured) {
   compare::Options options = arguments.options;
   // The study takes most of the time: it runs where somebody sees it.
   const bool is_shown =
@@ -56,7 +57,7 @@ compare::Options options_of(const CompareArguments& arguments,
     }
   };
   for (const auto& name : arguments.sensors) add(arm::parse_sensor(name));
-  for (const auto& sensor : compare::sensors_with_zeros(measured)) add(sensor);
+  for (const auto& sensor : measured.sensors_with_zeros()) add(sensor);
   return options;
 }
 
@@ -74,6 +75,18 @@ std::vector<compare::Comparison> compare_with_progress(const std::vector<arm::Ar
     comparisons.push_back(compare::compare(arm, options));
   }
   return comparisons;
+}
+
+/// What was measured beside the models, and how far off it is.
+std::string measured_text(const compare::Comparison& comparison,
+                          const compare::MeasuredComparison& measured) {
+  std::string text = screen_table(report::measured_table(measured.rows, comparison.subjects), 3) +
+                     screen_table(report::measured_damping_table(measured.rows), 2);
+  const std::string summary = report::measured_summary(measured.rows);
+  if (!summary.empty()) text += screen_paragraph(summary) + "\n";
+  text += screen_table(report::measured_response_table(measured.responses), 2);
+  for (const auto& shapes : measured.shapes) text += screen_table(report::mac_table(shapes));
+  return text;
 }
 
 /// What was compared, root by root, and how fast each formulation converges.
@@ -102,12 +115,12 @@ std::string verdict_paragraph(const compare::Comparison& comparison) {
 }
 
 std::string comparison_text(const arm::Arm& arm, const compare::Comparison& comparison,
-                            const std::vector<compare::MeasuredRow>& measured,
+                            const compare::MeasuredComparison& measured,
                             const CompareArguments& arguments) {
   std::string text = verdict_paragraph(comparison) + "\n";
   text += screen_rows(report::disagreements_table(comparison), kScreenRows, "--verbose");
   text += describe(comparison.arm) + left_out_of_roots(arm) + "\n";
-  if (!measured.empty()) text += screen_table(report::measured_table(measured));
+  text += measured_text(comparison, measured);
   if (!arguments.verbose) {
     text += screen_rows(report::roots_overview(comparison), kScreenRows, "--verbose");
   }
@@ -121,7 +134,7 @@ FolderKind comparison_folder_kind() {
 
 /// The files of one arm, in `folder` of the output folder.
 void add_files(const fs::path& folder, const compare::Comparison& comparison,
-               const std::vector<compare::MeasuredRow>& measured,
+               const compare::MeasuredComparison& measured,
                std::vector<measured::NamedContent>& files) {
   const auto write_csv = [&](const char* name, const report::Table& table) {
     files.push_back({folder / name, report::to_csv(table)});
@@ -129,12 +142,20 @@ void add_files(const fs::path& folder, const compare::Comparison& comparison,
   write_csv("roots.csv", report::root_listing(comparison));
   write_csv("shapes.csv", report::shapes_listing(comparison));
   write_csv("responses.csv", report::responses_listing(comparison));
-  if (!measured.empty()) write_csv("measured.csv", report::measured_table(measured));
+  if (!measured.rows.empty()) {
+    write_csv("measured.csv", report::measured_table(measured.rows, comparison.subjects));
+  }
+  const auto damping = report::measured_damping_table(measured.rows);
+  if (!damping.rows.empty()) write_csv("measured-damping.csv", damping);
+  if (!measured.responses.empty()) {
+    write_csv("measured-responses.csv", report::measured_response_table(measured.responses));
+  }
+  if (!measured.shapes.empty()) write_csv("mac.csv", report::mac_listing(measured.shapes));
   if (!comparison.refinements.empty()) {
     write_csv("convergence.csv", report::convergence_listing(comparison));
     write_csv("refinement.csv", report::refinement_listing(comparison));
   }
-  for (auto& [name, svg] : report::comparison_plots(comparison)) {
+  for (auto& [name, svg] : report::comparison_plots(comparison, measured)) {
     files.push_back({folder / name, std::move(svg)});
   }
 }
@@ -164,11 +185,15 @@ int run_compare(CompareArguments arguments) {
   arguments.verbose = arguments.verbose || arguments.full;
 
   const auto measured = arguments.measured_file.empty()
-                            ? measured::ModalTable{}
-                            : measured::read_modal_table(arguments.measured_file);
+                            ? MeasuredFile{}
+                            : read_measured_file(arguments.measured_file);
   const auto options = options_of(arguments, measured);
   const auto arms = arguments.arm.arms();
   for (const auto& arm : arms) arm::require_beam(arm, "compare");
+  for (const auto& [option, output] : {std::pair{"--json", &arguments.output.json_file},
+                                       std::pair{"--out", &arguments.output.folder}}) {
+    if (!output->empty()) require_no_input(option, *output, measured.files);
+  }
   arguments.output.prepare(comparison_folder_kind());
 
   std::string text;  // printed last: a reader that goes away costs no file
@@ -179,16 +204,17 @@ int run_compare(CompareArguments arguments) {
   for (std::size_t i = 0; i < arms.size(); ++i) {
     const auto& arm = arms[i];
     const auto& comparison = comparisons[i];
-    const auto rows = compare::beside_model(measured, comparison);
-    text += comparison_text(arm, comparison, rows, arguments);
+    auto beside = beside_models(measured, arm, comparison);
+    text += comparison_text(arm, comparison, beside, arguments);
     if (!arguments.output.folder.empty()) {
-      add_files(folder_of("", arm, arms.size()), comparison, rows, files);
+      add_files(folder_of("", arm, arms.size()), comparison, beside, files);
     }
     if (!comparison.verdict.agree) ++disagreeing;
-    results.push_back({comparison, rows});
+    results.push_back({comparison, std::move(beside)});
   }
   if (!files.empty()) write_folder(arguments.output.folder, arguments.output.force, files);
   write_json(arguments.output.json_file, report::comparison_json(results));
+  for (const auto& note : measured.notes) text += screen_note(note) + "\n";
   if (arms.size() > 1) text = summary_of_arms(arms.size(), disagreeing) + text;
   print(text + next_step(arguments));
   return disagreeing == 0 ? kSuccess : kFailure;
@@ -204,7 +230,8 @@ Command add_compare(CLI::App& program) {
   add_arm_choice(*parser, arguments->arm);
   parser
       ->add_option("--measured", arguments->measured_file,
-                   "Measured poles and zeros (modal CSV), listed with those of the model")
+                   "Measurement beside the models: modal table or frequency responses (CSV), or "
+                   "measurement.toml with modal and frf runs")
       ->check(not_empty());
   add_list_option(*parser, "--sensor", arguments->sensors, "Additional sensors, e.g. strain@0.05");
   parser->add_option("--poles", arguments->options.poles, "Number of poles and hub zeros")

@@ -1,6 +1,7 @@
 #include "report/figures/bode_figure.hpp"
 
 #include "report/figures/overlay_style.hpp"
+#include "report/figures/phase.hpp"
 #include "report/figures/phase_panel.hpp"
 
 #include <fmt/format.h>
@@ -85,9 +86,11 @@ Panel phase_panel(const BodePlot& plot) {
   Panel panel;
   panel.height = 1.2;
   for (std::size_t c = 0; c < plot.curves.size(); ++c) {
-    panel.series.push_back(phase_series(plot.curves[c].name, plot.frequency_Hz,
-                                        phase_deg(plot.curves[c].response, plot.phase),
-                                        curve_style(plot, c)));
+    const BodeCurve& curve = plot.curves[c];
+    panel.series.push_back(phase_series(
+        curve.name, plot.frequency_Hz,
+        curve.phase_deg.empty() ? principal_phase_deg(curve.response) : curve.phase_deg,
+        curve_style(plot, c)));
   }
   panel.y = phase_axis(panel.series);
   return panel;

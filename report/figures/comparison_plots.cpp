@@ -2,6 +2,8 @@
 
 #include "report/figures/bode_figure.hpp"
 #include "report/figures/convergence_figure.hpp"
+#include "report/figures/frequency_response_figure.hpp"
+#include "report/figures/mac_figure.hpp"
 #include "report/figures/mode_shape_figure.hpp"
 #include "report/figures/pole_zero_figure.hpp"
 #include "report/figures/svg.hpp"
@@ -10,6 +12,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstddef>
 #include <numbers>
 #include <ranges>
 
@@ -85,12 +89,44 @@ std::vector<std::complex<double>> roots_of(const compare::Comparison& comparison
   return with_mirror_images(roots);
 }
 
-NamedPlot pole_zero_map(const compare::Comparison& comparison, const arm::Sensor& sensor) {
+/// A measured root and its conjugate; one without a damping ratio on the imaginary axis.
+void add_measured_root(const measured::ModalEntry& entry,
+                       std::vector<std::complex<double>>& roots) {
+  if (!entry.frequency_Hz) return;
+  const double omega_rad_per_s = 2.0 * std::numbers::pi * *entry.frequency_Hz;
+  const double damping_ratio = entry.damping_ratio.value_or(0.0);
+  const std::complex<double> s(
+      -damping_ratio * omega_rad_per_s,
+      omega_rad_per_s * std::sqrt(std::fmax(0.0, 1.0 - damping_ratio * damping_ratio)));
+  roots.push_back(s);
+  if (s.imag() != 0.0) roots.push_back(std::conj(s));
+}
+
+/// What was measured of the transfer function to a sensor. A pole is the same in all.
+PoleZeroSet measured_set(const std::vector<compare::MeasuredRow>& rows, const arm::Sensor& sensor) {
+  PoleZeroSet set{"measured", {}, {}};
+  for (const auto& row : rows) {
+    const auto& entry = row.measured;
+    if (entry.feature == measured::Feature::pole) {
+      add_measured_root(entry, set.poles_rad_per_s);
+    } else if (entry.sensor == sensor) {
+      add_measured_root(entry, set.zeros_rad_per_s);
+    }
+  }
+  return set;
+}
+
+NamedPlot pole_zero_map(const compare::Comparison& comparison, const arm::Sensor& sensor,
+                        const std::vector<compare::MeasuredRow>& rows) {
   PoleZeroPlot plot;
   plot.title = "Poles and zeros of torque to " + arm::to_string(sensor);
   for (std::size_t k = 0; k < comparison.subjects.size(); ++k) {
     plot.sets.push_back({comparison.subjects[k], roots_of(comparison, k, std::nullopt),
                          roots_of(comparison, k, sensor)});
+  }
+  if (auto set = measured_set(rows, sensor);
+      !set.poles_rad_per_s.empty() || !set.zeros_rad_per_s.empty()) {
+    plot.sets.push_back(std::move(set));
   }
   return {"pole-zero-" + arm::to_string(sensor) + ".svg", to_svg(pole_zero_figure(plot))};
 }
@@ -107,6 +143,27 @@ NamedPlot bode_diagram(const compare::Comparison& comparison,
   }
   plot.one_minus_coherence = response.one_minus_coherence;
   return {"bode-" + arm::to_string(response.sensor) + ".svg", to_svg(bode_figure(plot))};
+}
+
+NamedPlot measured_bode(const compare::MeasuredResponse& compared) {
+  const std::string sensor = arm::to_string(compared.measured.sensor);
+  FrequencyResponsePlot plot;
+  plot.title = compared.run.empty()
+                   ? fmt::format("Torque to {}, measured", sensor)
+                   : fmt::format("Torque to {}, measured: {}", sensor, compared.run);
+  for (std::size_t k = 0; k < compared.models.size(); ++k) {
+    plot.analytical.push_back(
+        {compared.models[k], compared.measured.frequency_Hz, compared.values[k]});
+  }
+  const std::string run = compared.run.empty() ? "" : "-" + compared.run;
+  return {fmt::format("bode-measured-{}{}.svg", sensor, run),
+          to_svg(frequency_response_figure(measured_response(compared.measured), plot))};
+}
+
+bool has_measured_values(const compare::MeasuredResponse& compared) {
+  return std::ranges::any_of(compared.measured.response, [](const std::complex<double> value) {
+    return std::isfinite(std::abs(value)) && value != 0.0;
+  });
 }
 
 NamedPlot mode_shapes(const compare::Comparison& comparison) {
@@ -129,7 +186,8 @@ NamedPlot mode_shapes(const compare::Comparison& comparison) {
 
 }  // namespace
 
-std::vector<NamedPlot> comparison_plots(const compare::Comparison& comparison) {
+std::vector<NamedPlot> comparison_plots(const compare::Comparison& comparison,
+                                        const compare::MeasuredComparison& measured) {
   std::vector<NamedPlot> plots;
   add_convergence(
       comparison, "convergence", "Convergence of the relative error",
@@ -138,10 +196,17 @@ std::vector<NamedPlot> comparison_plots(const compare::Comparison& comparison) {
       comparison, "bases", "Bases of assumed_modes",
       [](const auto& curve) { return curve.formulation == "assumed_modes"; }, plots);
   for (const auto& response : comparison.responses) {
-    plots.push_back(pole_zero_map(comparison, response.sensor));
+    plots.push_back(pole_zero_map(comparison, response.sensor, measured.rows));
     plots.push_back(bode_diagram(comparison, response));
   }
   plots.push_back(mode_shapes(comparison));
+  for (const auto& response : measured.responses) {
+    if (has_measured_values(response)) plots.push_back(measured_bode(response));
+  }
+  for (std::size_t i = 0; i < measured.shapes.size(); ++i) {
+    plots.push_back({i == 0 ? "mac.svg" : fmt::format("mac-{}.svg", i + 1),
+                     to_svg(mac_figure(measured.shapes[i]))});
+  }
   return plots;
 }
 

@@ -164,11 +164,11 @@ Panel phase_panel(const MeasuredResponse& m, const std::vector<double>& interval
                   const std::vector<ModelCurve>& models) {
   Panel panel;
   panel.height = 1.1;
-  const auto phase = phase_deg(m.response, Phase::wrapped);
+  const auto phase = principal_phase_deg(m.response);
   panel.series.push_back(measured_phase(m, phase, interval));
   for (const auto& model : models) {
     panel.series.push_back(phase_series(model.name, model.frequency_Hz,
-                                        phase_deg(model.response, Phase::wrapped), model.style));
+                                        principal_phase_deg(model.response), model.style));
   }
   panel.y = phase_axis(panel.series);
   if (!interval.empty()) {

@@ -25,12 +25,12 @@ NamedPlot bode(const std::string& formulation, const response::ResponseStudy& st
   plot.title = "Torque to " + arm::to_string(sensor);
   plot.unit = response_unit(sensor);
   plot.frequency_Hz = study.response.frequency_Hz;
-  plot.curves.push_back({formulation, study.response.values[k]});
+  plot.curves.push_back({formulation, study.response.values[k], study.response.phase_deg[k]});
   if (study.state_space_response) {
-    plot.curves.push_back({"state space", study.state_space_response->values[k]});
+    plot.curves.push_back({"state space", study.state_space_response->values[k],
+                           study.state_space_response->phase_deg[k]});
   }
   plot.magnitude = Magnitude::decibel;
-  plot.phase = Phase::unwrapped;
   plot.poles_Hz.push_back(study.damped_poles.lowest.first_rad_per_s.imag() / kTwoPi);
   for (const auto& pole : study.damped_poles.flexible) {
     plot.poles_Hz.push_back(pole.first_rad_per_s.imag() / kTwoPi);

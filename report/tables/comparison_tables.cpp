@@ -228,24 +228,6 @@ Table responses_table(const compare::Comparison& comparison) {
   return table;
 }
 
-Table measured_table(const std::vector<compare::MeasuredRow>& rows) {
-  Table table{"Measured and exact_tf (zeros on the imaginary axis: antiresonances)",
-              {{"feature"},
-               {"no."},
-               {"sensor"},
-               {"measured", "Hz", 5},
-               {"model", "Hz", 6},
-               {"error", "%", 3}}};
-  for (const auto& row : rows) {
-    table.add_row({std::string(measured::to_string(row.measured.feature)),
-                   row.order ? Cell(std::int64_t{*row.order}) : Cell(),
-                   row.measured.sensor ? arm::to_string(*row.measured.sensor) : "",
-                   row.measured.frequency_Hz.value_or(kMissing),
-                   row.model_frequency_Hz.value_or(kMissing), row.error_percent});
-  }
-  return table;
-}
-
 std::string convergence_legend(const compare::Comparison& comparison) {
   return fmt::format(
       "Convergence with respect to {0}, over all roots of a family: range of the order "

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "compare/comparison.hpp"
-#include "compare/measured.hpp"
 #include "report/tables/table.hpp"
 
 #include <vector>
@@ -44,9 +43,6 @@ Table responses_table(const compare::Comparison& comparison);
 
 /// Responses over frequency, for CSV.
 Table responses_listing(const compare::Comparison& comparison);
-
-/// Measured modal data beside the first model's.
-Table measured_table(const std::vector<compare::MeasuredRow>& rows);
 
 /// The verdict in one line.
 std::string verdict_line(const compare::Comparison& comparison);

@@ -122,9 +122,10 @@ TEST_F(Identify, NothingThatIsReadOrOthersWroteIsReplaced) {
     EXPECT_EQ(ended.status, 2) << ended.output;
     return ended.errors;
   };
-  EXPECT_THAT(refused({"--out", "sim"}), HasSubstr("--force replaces an identification"));
-  EXPECT_THAT(refused({"--out", "sim", "--force"}), HasSubstr("contains no identified.json"));
-  EXPECT_THAT(refused({"--json", "sim/random.csv"}), HasSubstr("file of the measurement"));
+  EXPECT_THAT(refused({"--out", "sim"}), HasSubstr("has the input sim/measurement.toml in it"));
+  EXPECT_THAT(refused({"--out", "sim", "--force"}), HasSubstr("has the input"));
+  EXPECT_THAT(refused({"--json", "sim/random.csv"}), HasSubstr("would overwrite the input"));
+  EXPECT_THAT(refused({"--out", ".", "--force"}), HasSubstr("has the input"));
   EXPECT_EQ(text_of("sim/random.csv"), data);
   EXPECT_EQ(run({"identify", "sim/measurement.toml", "--no-fit", "--out", "out"}).status, 0);
   EXPECT_EQ(run({"identify", "sim/measurement.toml", "--no-fit", "--out", "out"}).status, 2);

@@ -122,10 +122,22 @@ const char* const kSoftRoot =
 
 TEST_F(JsonSchema, WhatCompareWritesIsWhatTheDocumentSays) {
   write("soft.toml", kSoftRoot);
-  write("modal.csv", "sensor,feature,order,frequency [Hz]\n,pole,1,12.00\nhub_angle,zero,1,\n");
+  write("modal.csv",
+        "sensor,feature,order,frequency [Hz],frequency_std [Hz],damping_ratio,damping_ratio_std,"
+        "shape_re\n,pole,1,12.00,0.1,0.01,0.001,\nhub_angle,zero,1,,,,,\n"
+        "strain@0,pole,1,,,,,1\nstrain@0.3,pole,1,,,,,1.5\n");
+  write("frf.csv",
+        "sensor,frequency [Hz],re,im,coherence\nhub_angle,1,0.1,0,0.9\n"
+        "hub_angle,2,0.2,0,\n");
+  write("m.toml", "arm = \"a.toml\"\n[[run]]\nid = \"sine\"\nkind = \"frf\"\nfile = \"frf.csv\"\n");
+  write("uncertain.toml", std::string(kSoftRoot).replace(7, 0, "length_uncertainty = 0.01\n"));
   expect_as_documented(
       {written_by({"compare", "--poles", "2", "--zeros", "2", "--sensor", "strain@0.25",
                    "--measured", "modal.csv"}),
+       written_by({"compare", "uncertain.toml", "--quick", "--poles", "2", "--zeros", "2",
+                   "--measured", "modal.csv"}),
+       written_by({"compare", "--quick", "--poles", "2", "--zeros", "2", "--measured", "frf.csv"}),
+       written_by({"compare", "--quick", "--poles", "2", "--zeros", "2", "--measured", "m.toml"}),
        written_by({"compare", "soft.toml", "--quick", "--poles", "2", "--zeros", "2"})},
       "flexarm.compare/1");
 }

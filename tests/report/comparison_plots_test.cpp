@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <string>
@@ -39,6 +40,20 @@ TEST(ComparisonPlots, AreWellFormedThoughRootsAndResponsesAreMissing) {
       UnorderedElementsAre("convergence-poles.svg", "pole-zero-hub_angle.svg", "bode-hub_angle.svg",
                            "pole-zero-tip_acceleration.svg", "bode-tip_acceleration.svg",
                            "pole-zero-strain@0.25.svg", "bode-strain@0.25.svg", "mode-shapes.svg"));
+}
+
+TEST(ComparisonPlots, WhatWasMeasuredIsDrawn) {
+  const auto sample = sample_comparison();
+  const auto plots = comparison_plots(sample.comparison, sample.measured);
+  for (const auto& plot : plots) expect_well_formed(plot.svg, plot.file_name);
+  const auto names = names_of(plots);
+  EXPECT_THAT(names, testing::IsSupersetOf({"bode-measured-hub_angle-sine.svg", "mac.svg"}));
+  const auto without = comparison_plots(sample.comparison);
+  const auto map_of = [](const std::vector<NamedPlot>& all) {
+    return std::ranges::find(all, "pole-zero-hub_angle.svg", &NamedPlot::file_name)->svg;
+  };
+  EXPECT_THAT(map_of(plots), testing::HasSubstr("measured"));
+  EXPECT_THAT(map_of(without), testing::Not(testing::HasSubstr("measured")));
 }
 
 TEST(ComparisonPlots, AModelWithoutAnyRootOrNumberIsDrawnAllTheSame) {

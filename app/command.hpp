@@ -34,6 +34,7 @@ CLI::Validator not_empty();
 Command add_compare(CLI::App& program);
 Command add_completion(CLI::App& program);
 Command add_diagnose(CLI::App& program);
+Command add_doctor(CLI::App& program);
 Command add_effects(CLI::App& program);
 Command add_identify(CLI::App& program);
 Command add_import(CLI::App& program);

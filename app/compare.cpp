@@ -163,12 +163,11 @@ void add_files(const fs::path& folder, const compare::Comparison& comparison,
 std::string next_step(const CompareArguments& arguments) {
   const std::string arm = arguments.arm.file.empty() ? "" : " " + arguments.arm.file;
   if (arguments.output.folder.empty()) {
-    return fmt::format("{}next: write plots and tables with  flexarm compare{} --out compared\n",
-                       arguments.verbose
-                           ? ""
-                           : "details: every root of each formulation, convergence, mode "
-                             "shapes and responses with  --verbose\n",
-                       arm);
+    return fmt::format(
+        "{}next: write plots and tables with  flexarm compare{} --out compared\n",
+        details_line(arguments.verbose,
+                     "roots of each formulation, convergence, mode shapes, responses"),
+        arm);
   }
   return fmt::format("wrote {}\nnext: the modes of this arm with  flexarm modes{}\n",
                      arguments.output.folder, arm);

@@ -325,10 +325,8 @@ int run_diagnose(const DiagnoseArguments& arguments) {
     print(text);
     throw;
   }
-  const char* details = arguments.verbose
-                            ? ""
-                            : "details: evidence, residual analysis, channels, formulations with  "
-                              "--verbose\n";
+  const std::string details =
+      details_line(arguments.verbose, "evidence, residual analysis, channels, formulations");
   if (arguments.folder.empty()) {
     text += details;
     text +=

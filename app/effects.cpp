@@ -1,5 +1,6 @@
 #include "app/command.hpp"
 #include "app/json_file.hpp"
+#include "app/screen.hpp"
 #include "app/standard_output.hpp"
 #include "arm/input_error.hpp"
 #include "effects/registry/vocabulary.hpp"
@@ -47,9 +48,9 @@ int run_effects(const EffectsArguments& arguments) {
   } else if (arguments.markdown) {
     print(report::effects_document(effects::entries()));
   } else if (one != nullptr) {
-    print(report::effect_page(*one));
+    print(report::effect_page(*one, screen_width()));
   } else {
-    print(report::effect_list(effects::entries()) +
+    print(report::effect_list(effects::entries(), screen_width()) +
           "\nnext: details of one effect with  flexarm effects coulomb_friction\n");
   }
   return kSuccess;

@@ -241,7 +241,8 @@ std::string results_text(const measured::Identification& identification,
     text += payload_heading(condition, conditions.size());
     for (const auto& runs : report::sources(identification, condition)) {
       const report::IdentifiedData data{identification, condition, runs};
-      text += screen_table(report::identified_overview(data), 2);
+      text += screen_table(report::identified_poles_overview(data));
+      text += screen_table(report::identified_zeros_overview(data), 2);
       text += screen_table(report::real_zero_table(data));
     }
   }
@@ -308,11 +309,8 @@ int run_identify(const IdentifyArguments& arguments) {
     print(text);
     throw;
   }
-  if (!arguments.verbose) {
-    text +=
-        "details: settings of the spectra with reasons, every method and sensor, gains, "
-        "residuals with  --verbose\n";
-  }
+  text += details_line(arguments.verbose,
+                       "settings with reasons, every method and sensor, gains, residuals");
   if (arguments.folder.empty()) {
     text += fmt::format(
         "next: write figures and modal tables with  flexarm identify {} --out identified\n",

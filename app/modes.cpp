@@ -14,6 +14,7 @@
 #include "measured/files/atomic_file.hpp"
 #include "report/json/arm_json.hpp"
 #include "report/json/json_document.hpp"
+#include "report/progress.hpp"
 #include "report/tables/csv.hpp"
 #include "report/tables/modes_report.hpp"
 #include "response/settings.hpp"
@@ -26,6 +27,7 @@
 #include <iterator>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace flexarm::app {
@@ -141,6 +143,21 @@ void add_files(const fs::path& folder, const arm::Arm& arm, const std::string& f
   files.push_back({folder / "shapes.svg", report::shapes_svg(formulation, summary)});
 }
 
+/// Shapes are computed where they are written: of many modes they take most of the time.
+response::ModalSummary summarise_with_progress(const ModesArguments& arguments, const arm::Arm& arm,
+                                               const response::AnyFormulation& formulation,
+                                               const std::vector<arm::Sensor>& sensors) {
+  const bool has_shapes = !arguments.output.folder.empty() || !arguments.output.json_file.empty();
+  const auto stations_m =
+      has_shapes ? compare::shape_stations_m(arm::linear_arm(arm).length_m) : std::vector<double>{};
+  report::Progress progress("computing modes");
+  return response::summarise(formulation, arguments.count, sensors, stations_m,
+                             [&progress](std::string_view, double fraction) {
+                               progress.reach(fraction);
+                               return true;
+                             });
+}
+
 int run_modes(const ModesArguments& arguments) {
   if (arguments.count < 1) throw arm::out_of_range("--modes", arguments.count, "", "1 or more");
   std::vector<arm::Sensor> sensors;
@@ -158,9 +175,7 @@ int run_modes(const ModesArguments& arguments) {
   std::vector<measured::NamedContent> files;
   for (const auto& arm : arms) {
     const auto chosen = arguments.formulation.make(arm, arguments.count);
-    const auto summary =
-        response::summarise(chosen.formulation, arguments.count, sensors,
-                            compare::shape_stations_m(arm::linear_arm(arm).length_m));
+    const auto summary = summarise_with_progress(arguments, arm, chosen.formulation, sensors);
     const auto shown = [&arguments](const report::Table& table) {
       return screen_rows(table, arguments.verbose ? kAllRows : kModesRows,
                          "--verbose, --out or --json");

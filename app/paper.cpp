@@ -1,6 +1,7 @@
 #include "app/command.hpp"
 #include "app/folder_place.hpp"
 #include "app/json_file.hpp"
+#include "app/screen.hpp"
 #include "app/standard_output.hpp"
 #include "arm/input_error.hpp"
 #include "compare/paper/paper_topics.hpp"
@@ -31,6 +32,7 @@ struct PaperArguments {
   std::string out;
   bool force = false;
   std::string document;
+  bool verbose = false;
 };
 
 std::vector<measured::NamedContent> files_of(const compare::paper::Findings& findings) {
@@ -51,6 +53,14 @@ void update_document(const std::string& path, const compare::paper::Findings& fi
   }
 }
 
+/// The verdicts: what of the paper holds.
+std::string overview_text(const compare::paper::Findings& findings) {
+  return screen_paragraph(report::paper_verdict_line(findings)) + "\n" +
+         screen_table(report::paper_overview(findings)) +
+         screen_paragraph(report::paper_cells_line(findings)) +
+         details_line(false, "each check with its finding and values");
+}
+
 int run_paper(const PaperArguments& arguments) {
   if (!arguments.out.empty()) {
     require_place(arguments.out, arguments.force,
@@ -60,7 +70,9 @@ int run_paper(const PaperArguments& arguments) {
   }
   require_json_place(arguments.json, arguments.out);
   const auto findings = compare::paper::check_paper();
-  const std::string text = report::paper_text(findings, arguments.part);
+  const bool is_whole = arguments.part.empty() && !arguments.verbose;
+  const std::string text =
+      is_whole ? overview_text(findings) : report::paper_text(findings, arguments.part);
   if (text.empty()) {
     throw arm::InputError(fmt::format(
         "no part \"{}\": give an equation number (22) or a word of a heading (\"Table 6\")",
@@ -87,6 +99,7 @@ Command add_paper(CLI::App& program) {
       "paper", "Check each equation and table of the paper against the three formulations");
   parser->add_option("PART", arguments->part,
                      "Only this part: equation number, or words such as \"Table 6\"");
+  add_verbose(*parser, arguments->verbose, "Print every check with its finding and values");
   parser->add_option("--json", arguments->json, "JSON file with all values; - for standard output")
       ->check(not_empty());
   parser->add_option("--out", arguments->out, "Write text, CSV and JSON to this folder")

@@ -138,10 +138,7 @@ int run_plan(const PlanArguments& arguments) {
     print(text);
     throw;
   }
-  if (!arguments.verbose) {
-    text +=
-        "details: separations, indistinguishable pairs, value of further runs with  --verbose\n";
-  }
+  text += details_line(arguments.verbose, "separations, indistinguishable pairs, further runs");
   if (!arguments.folder.empty()) {
     text += fmt::format("wrote {}\n", arguments.folder);
   } else if (!arguments.better_file.empty()) {

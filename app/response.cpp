@@ -37,6 +37,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// A matrix of so many modes takes 0.8 GB.
+constexpr int kMostModes = 10000;
 constexpr std::size_t kPrintedFrequencies = 12;
 constexpr std::size_t kVerboseFrequencies = 25;
 
@@ -54,7 +56,11 @@ struct ResponseArguments {
 /// The options as the library takes them. Throws InputError for what is wrong in itself.
 response::ResponseOptions options_of(const ResponseArguments& arguments) {
   response::ResponseOptions options = arguments.options;
-  if (options.modes < 1) throw arm::out_of_range("--modes", options.modes, "", "1 or more");
+  if (options.modes < 1 || options.modes > kMostModes) {
+    throw arm::out_of_range(
+        "--modes", options.modes, "",
+        fmt::format("from 1 to {} (the damping between all pairs of modes is kept)", kMostModes));
+  }
   for (const auto& name : arguments.sensors) options.sensors.push_back(arm::parse_sensor(name));
   const bool grid = options.from_Hz || options.to_Hz;
   if (!options.frequency_Hz.empty()) {
@@ -159,7 +165,7 @@ void add_files(const fs::path& folder, const std::string& formulation,
 
 std::string next_step(const ResponseArguments& arguments) {
   const std::string arm = arguments.arm.file.empty() ? "" : " " + arguments.arm.file;
-  std::string lines = arguments.verbose ? "" : "details: factored and modal form with  --verbose\n";
+  std::string lines = details_line(arguments.verbose, "factored and modal form");
   if (!arguments.state_space_file.empty()) {
     lines += fmt::format("wrote {}\n", arguments.state_space_file);
   }

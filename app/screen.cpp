@@ -67,6 +67,10 @@ std::string screen_note(std::string_view text, std::string_view kind) {
   return toned(screen_paragraph(fmt::format("{} {}", mark, text), 2), mark, Tone::warning);
 }
 
+std::string details_line(bool verbose, std::string_view what) {
+  return verbose ? "" : screen_paragraph(fmt::format("details ({}): --verbose", what));
+}
+
 void add_verbose(CLI::App& parser, bool& verbose, const std::string& content) {
   parser.add_flag("-v,--verbose", verbose, content);
 }

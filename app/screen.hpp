@@ -40,6 +40,9 @@ std::string toned(std::string text, std::string_view word, Tone tone);
 /// A paragraph "note: text" or "warning: text", with its first word toned.
 std::string screen_note(std::string_view text, std::string_view kind = "note");
 
+/// "details: WHAT: --verbose"; empty where they are there.
+std::string details_line(bool verbose, std::string_view what);
+
 /// `-v,--verbose`: `content` is what it adds.
 void add_verbose(CLI::App& parser, bool& verbose, const std::string& content);
 

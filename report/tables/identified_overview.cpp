@@ -33,9 +33,11 @@ struct ReadRoot {
 
   /// Roots with the same key are the same root.
   std::tuple<Feature, bool, std::string, int> key() const {
-    const bool is_pole = root->measured.feature == Feature::pole || hub_held;
-    return {root->measured.feature, hub_held, is_pole ? "" : sensor, root->order.value_or(0)};
+    return {root->measured.feature, hub_held, is_pole() ? "" : sensor, root->order.value_or(0)};
   }
+
+  /// With the hub held, the zeros of the hub angle are poles.
+  bool is_pole() const { return root->measured.feature == Feature::pole || hub_held; }
 
   /// Smaller is better.
   std::tuple<std::ptrdiff_t, double> rank() const {
@@ -44,9 +46,8 @@ struct ReadRoot {
   }
 
   std::string name() const {
-    const char* kind = root->measured.feature == Feature::pole || hub_held ? "pole" : "zero";
     const std::string number = root->order ? fmt::format("{}", *root->order) : "unmatched";
-    return fmt::format("{} {}{}", kind, number, hub_held ? ", hub held" : "");
+    return number + (hub_held ? ", hub held" : "");
   }
 };
 
@@ -79,16 +80,10 @@ std::vector<ReadRoot> best_of(std::vector<ReadRoot> roots) {
 std::vector<ReadRoot> unmatched_of(const std::vector<ReadRoot>& roots,
                                    const std::vector<ReadRoot>& best) {
   std::vector<ReadRoot> found;
-  for (const Feature feature : {Feature::pole, Feature::zero}) {
-    std::size_t count = 0;
-    for (const auto& one : roots) {
-      const bool is_used = std::ranges::any_of(best, [&](const ReadRoot& other) {
-        return other.root->measured.feature == feature && other.method == one.method;
-      });
-      const bool is_other =
-          !one.root->order && one.root->measured.feature == feature && (is_used || best.empty());
-      if (is_other && count++ < kMostUnmatched) found.push_back(one);
-    }
+  for (const auto& one : roots) {
+    const bool is_used =
+        best.empty() || std::ranges::count(best, one.method, &ReadRoot::method) > 0;
+    if (!one.root->order && is_used && found.size() < kMostUnmatched) found.push_back(one);
   }
   return found;
 }
@@ -97,12 +92,21 @@ Cell optional_cell(const std::optional<double>& value) {
   return value ? Cell(*value) : Cell();
 }
 
+/// Poles, or zeros: the best readings, then the unnumbered ones.
+std::vector<ReadRoot> shown_roots(const IdentifiedData& data, bool poles) {
+  auto roots = roots_of(data);
+  std::erase_if(roots, [poles](const ReadRoot& one) { return one.is_pole() != poles; });
+  auto shown = best_of(roots);
+  const auto unmatched = unmatched_of(roots, shown);
+  shown.insert(shown.end(), unmatched.begin(), unmatched.end());
+  return shown;
+}
+
 }  // namespace
 
-Table identified_overview(const IdentifiedData& data) {
-  Table table{fmt::format("{}: undamped natural frequencies and damping ratios", data.runs),
-              {{"root"},
-               {"sensor"},
+Table identified_poles_overview(const IdentifiedData& data) {
+  Table table{fmt::format("{}: poles, undamped natural frequency and damping ratio", data.runs),
+              {{"pole"},
                {"method"},
                {"measured", "Hz", 6},
                qualifying("+-", "Hz", 2),
@@ -111,17 +115,31 @@ Table identified_overview(const IdentifiedData& data) {
                {"damping ratio", "", 4},
                qualifying("+-", "", 2),
                {"exact_tf", "", 4}}};
-  const auto roots = roots_of(data);
-  auto shown = best_of(roots);
-  const auto unmatched = unmatched_of(roots, shown);
-  shown.insert(shown.end(), unmatched.begin(), unmatched.end());
-  for (const auto& one : shown) {
+  for (const auto& one : shown_roots(data, true)) {
     const auto& measured = one.root->measured;
-    table.add_row({one.name(), one.sensor, std::string(to_string(one.method)),
+    table.add_row({one.name(), std::string(to_string(one.method)),
                    optional_cell(measured.frequency_Hz), optional_cell(measured.frequency_std_Hz),
                    optional_cell(one.root->analytical_Hz), one.root->error_percent(),
                    optional_cell(measured.damping_ratio), optional_cell(measured.damping_ratio_std),
                    optional_cell(one.root->analytical_damping_ratio)});
+  }
+  return table;
+}
+
+Table identified_zeros_overview(const IdentifiedData& data) {
+  Table table{fmt::format("{}: zeros, undamped natural frequency", data.runs),
+              {{"sensor"},
+               {"zero"},
+               {"method"},
+               {"measured", "Hz", 6},
+               qualifying("+-", "Hz", 2),
+               {"exact_tf", "Hz", 6},
+               qualifying("error", "%", 2)}};
+  for (const auto& one : shown_roots(data, false)) {
+    const auto& measured = one.root->measured;
+    table.add_row({one.sensor, one.name(), std::string(to_string(one.method)),
+                   optional_cell(measured.frequency_Hz), optional_cell(measured.frequency_std_Hz),
+                   optional_cell(one.root->analytical_Hz), one.root->error_percent()});
   }
   return table;
 }

@@ -34,6 +34,7 @@ CLI::Validator not_empty();
 Command add_compare(CLI::App& program);
 Command add_diagnose(CLI::App& program);
 Command add_effects(CLI::App& program);
+Command add_export(CLI::App& program);
 Command add_identify(CLI::App& program);
 Command add_import(CLI::App& program);
 Command add_modes(CLI::App& program);

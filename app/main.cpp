@@ -52,6 +52,7 @@ int run(int argc, const char* const* argv) {
       "  flexarm import log.csv    convert a log file to a measurement\n"
       "  flexarm identify simulated/measurement.toml  poles, zeros, damping, gains\n"
       "  flexarm diagnose simulated/measurement.toml  effects that the simulation lacks\n"
+      "  flexarm export --fmu rig.toml an FMU for co-simulation in other tools\n"
       "  flexarm plan rig.toml measurement-plan.toml  detectability before an experiment\n"
       "  flexarm sweep --figure 18 poles over payload\n"
       "  flexarm effects           list of the effects\n"
@@ -61,7 +62,8 @@ int run(int argc, const char* const* argv) {
   const std::array commands = {add_new(program),      add_modes(program),    add_response(program),
                                add_identify(program), add_diagnose(program), add_simulate(program),
                                add_import(program),   add_plan(program),     add_compare(program),
-                               add_sweep(program),    add_paper(program),    add_effects(program)};
+                               add_sweep(program),    add_paper(program),    add_effects(program),
+                               add_export(program)};
 
   try {
     program.parse(argc, argv);

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include <filesystem>
+#include <utility>
 
 namespace flexarm::app {
 
@@ -26,9 +27,19 @@ arm::InputError not_a_diagnosis(const std::string& file, const std::string& why)
 
 }  // namespace
 
+std::map<std::string, double> ExportedArm::standard_deviations() const {
+  std::map<std::string, double> made;
+  for (const samples::Marginal& marginal : posterior.sets.front().marginals) {
+    made[marginal.key] = marginal.std_error;
+  }
+  return made;
+}
+
 ExportedArm read_exported_arm(const std::string& file) {
   if (fs::path(file).extension() != ".json") {
-    return {measured::read_arm_file(file, effects::vocabulary())};
+    arm::Arm arm = measured::read_arm_file(file, effects::vocabulary());
+    auto posterior = samples::posterior_of(arm);
+    return {std::move(arm), std::move(posterior)};
   }
   const std::string text = measured::read_text_file(file, kLargestDiagnosis_bytes);
   const auto json = nlohmann::json::parse(text, nullptr, false);
@@ -39,23 +50,16 @@ ExportedArm read_exported_arm(const std::string& file) {
   try {
     const auto& extended = json.at("extended_arm");
     if (extended.is_null()) {
-      throw arm::InputError(fmt::format("{}: the diagnosis has no extended arm", file));
+      throw arm::InputError("extended_arm: the diagnosis has none");
     }
     const fs::path arm_file = fs::path(file).parent_path() / extended.get<std::string>();
-    ExportedArm made{measured::read_arm_file(arm_file, effects::vocabulary())};
-    for (const auto& cause : json.at("causes")) {
-      for (const auto& [name, estimate] : cause.at("parameters").items()) {
-        made.standard_deviations[fmt::format("effects.{}.{}", cause.at("effect").get<std::string>(),
-                                             name)] = estimate.at("std_error").get<double>();
-      }
-    }
-    for (const auto& number : json.at("uncertain_numbers")) {
-      made.standard_deviations[number.at("key").get<std::string>()] =
-          number.at("std_error").get<double>();
-    }
-    return made;
+    arm::Arm arm = measured::read_arm_file(arm_file, effects::vocabulary());
+    auto posterior = samples::posterior_of(json, arm);
+    return {std::move(arm), std::move(posterior)};
   } catch (const nlohmann::json::exception& error) {
     throw not_a_diagnosis(file, error.what());
+  } catch (const arm::InputError& error) {
+    throw arm::located(error, file, 0);
   }
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "arm/arm.hpp"
+#include "export/samples/parameter_posterior.hpp"
 
 #include <map>
 #include <string>
@@ -10,9 +11,10 @@ namespace flexarm::app {
 /// The arm that a command exports.
 struct ExportedArm {
   arm::Arm arm;
-  /// Of its numbers and of its effects' parameters, "effects.coulomb_friction.torque", in their
-  /// units, where a diagnosis says them.
-  std::map<std::string, double> standard_deviations = {};
+  samples::ParameterPosterior posterior;
+
+  /// Of its numbers and of its effects' parameters, by key, in their units.
+  std::map<std::string, double> standard_deviations() const;
 };
 
 /// Reads an arm file, or the JSON of a diagnosis (*.json) and beside it the file of its extended

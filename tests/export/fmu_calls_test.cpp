@@ -17,7 +17,7 @@ namespace {
 using fmu::FmiVersion;
 using testing::HasSubstr;
 
-fmu::FmuRequest request(FmiVersion version) {
+fmu::FmuRequest simple_request(FmiVersion version) {
   arm::Arm arm = arm::paper_arm();
   arm.effects = {effects::named("coulomb_friction", {{"torque", 0.02}})};
   return {
@@ -29,11 +29,14 @@ fmu::FmuRequest request(FmiVersion version) {
       .model_identifier = "arm"};
 }
 
+std::string platform_of(FmiVersion version) {
+  return std::string(version == FmiVersion::v2 ? fmu::kFmi2Platform : fmu::kFmi3Platform);
+}
+
 class FmuCalls : public testing::TestWithParam<FmiVersion> {
  protected:
   FmuCalls()
-      : fmu_(fmu::make_fmu(request(GetParam())).archive,
-             std::string(GetParam() == FmiVersion::v2 ? fmu::kFmi2Platform : fmu::kFmi3Platform)),
+      : fmu_(fmu::make_fmu(simple_request(GetParam())).archive, platform_of(GetParam())),
         arm_(make()) {}
 
   std::unique_ptr<ImportedArm> make(const std::string& token = "") const {
@@ -82,13 +85,26 @@ TEST_P(FmuCalls, WithValuesOutOfRangeAreErrorsAndChangeNothing) {
   expect_error(arm_->set({"hub_angle"}, {1.0}), "setting hub_angle: neither an input nor a");
   expect_error(arm_->set_reference(1000, 1.0), "value reference 1000: unknown");
   ASSERT_EQ(arm_->start(), Result::ok);
-  EXPECT_EQ(arm_->value("beam.length"), *&arm::paper_arm().beam.length_m);
+  EXPECT_EQ(arm_->value("beam.length"), arm::paper_arm().beam.length_m);
   EXPECT_EQ(arm_->value("torque"), 0.0);
 }
 
 TEST_P(FmuCalls, WithNumbersThatDoNotFitTogetherFailWhereTheModelIsMade) {
-  // Both give the flexural rigidity.
-  arm_->set({"beam.youngs_modulus"}, {0.5 * arm_->value("beam.youngs_modulus")});
+  // The file gives the flexural rigidity too, so that it contradicts another modulus.
+  arm::Arm both = arm::paper_arm();
+  both.beam.given_flexural_rigidity_N_m2 = both.beam.flexural_rigidity_N_m2();
+  auto asked = simple_request(GetParam());
+  asked.arm = both;
+  const UnpackedFmu fmu(fmu::make_fmu(asked).archive, platform_of(GetParam()));
+  arm_ = GetParam() == FmiVersion::v2 ? instantiate2(fmu) : instantiate3(fmu);
+  const double modulus_Pa = 0.5 * *both.beam.youngs_modulus_Pa;
+  ASSERT_EQ(arm_->set({"beam.youngs_modulus"}, {modulus_Pa}), Result::ok);
+  expect_error(arm_->start(), "beam.flexural_rigidity");
+  // Both changed, they fit.
+  const double rigidity_N_m2 = 0.5 * *both.beam.given_flexural_rigidity_N_m2;
+  ASSERT_EQ(arm_->set({"beam.flexural_rigidity"}, {rigidity_N_m2}), Result::ok);
+  EXPECT_EQ(arm_->exit_initialisation(), Result::ok) << arm_->logged;
+  arm_.reset();
 }
 
 TEST_P(FmuCalls, WithOtherCommunicationPointsAreErrors) {
@@ -156,12 +172,12 @@ TEST_P(FmuCalls, ThatFailInAStepAreErrorsUntilAReset) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Versions, FmuCalls, testing::Values(FmiVersion::v2, FmiVersion::v3),
-                         [](const auto& info) {
-                           return info.param == FmiVersion::v2 ? "fmi2" : "fmi3";
+                         [](const auto& of) {
+                           return of.param == FmiVersion::v2 ? "fmi2" : "fmi3";
                          });
 
 TEST(FmuLibrary, HasEveryFunctionOfTheStandardAndNothingElse) {
-  const UnpackedFmu fmu(fmu::make_fmu(request(FmiVersion::v3)).archive,
+  const UnpackedFmu fmu(fmu::make_fmu(simple_request(FmiVersion::v3)).archive,
                         std::string(fmu::kFmi3Platform));
   for (const char* const name : {"fmi3GetVersion",
                                  "fmi3InstantiateModelExchange",

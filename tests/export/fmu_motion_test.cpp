@@ -36,10 +36,6 @@ struct MotionCase {
   arm::Effects effects = {};
 };
 
-void PrintTo(const MotionCase& of, std::ostream* to) {
-  *to << of.name;
-}
-
 const std::vector<MotionCase>& motion_cases() {
   using effects::named;
   static const std::vector<MotionCase> cases = {

@@ -21,7 +21,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 /// An arm with all effects that can stand together.
-fmu::FmuRequest request(FmiVersion version) {
+fmu::FmuRequest full_request(FmiVersion version) {
   arm::Arm arm = arm::paper_arm();
   arm.name = "rig <1> & \"2\"";
   arm.relative_uncertainties["beam.youngs_modulus"] = 0.03;
@@ -44,7 +44,8 @@ std::string platform(FmiVersion version) {
 
 class ModelDescription : public testing::TestWithParam<FmiVersion> {
  protected:
-  ModelDescription() : fmu_(fmu::make_fmu(request(GetParam())).archive, platform(GetParam())) {}
+  ModelDescription()
+      : fmu_(fmu::make_fmu(full_request(GetParam())).archive, platform(GetParam())) {}
 
   bool is_v2() const { return GetParam() == FmiVersion::v2; }
   UnpackedFmu fmu_;
@@ -105,9 +106,9 @@ TEST_P(ModelDescription, HasTheLibraryAndItsSourcesBesideIt) {
 }
 
 TEST_P(ModelDescription, IsTheSameForTheSameArmAndHasAnotherTokenForAnother) {
-  const auto first = fmu::make_fmu(request(GetParam()));
-  EXPECT_EQ(fmu::make_fmu(request(GetParam())).archive, first.archive);
-  auto other = request(GetParam());
+  const auto first = fmu::make_fmu(full_request(GetParam()));
+  EXPECT_EQ(fmu::make_fmu(full_request(GetParam())).archive, first.archive);
+  auto other = full_request(GetParam());
   other.arm.payload.mass_kg = 0.01;
   EXPECT_NE(fmu::make_fmu(other).description.settings.token, first.description.settings.token);
 }
@@ -193,12 +194,12 @@ TEST_P(ModelDescription, IsRefusedByTheCheckerWhereItBreaksARule) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Versions, ModelDescription,
-                         testing::Values(FmiVersion::v2, FmiVersion::v3), [](const auto& info) {
-                           return info.param == FmiVersion::v2 ? "fmi2" : "fmi3";
+                         testing::Values(FmiVersion::v2, FmiVersion::v3), [](const auto& of) {
+                           return of.param == FmiVersion::v2 ? "fmi2" : "fmi3";
                          });
 
 TEST(FmuRequest, OfAnEffectThatIsNotModelledIsRefusedByItsName) {
-  auto refused = request(FmiVersion::v2);
+  auto refused = full_request(FmiVersion::v2);
   refused.arm.effects["torque_bias"] =
       effects::example(arm::find_effect(effects::vocabulary(), "torque_bias"));
   arm::Effect late = effects::effect("torque_dead_zone", {{"width", 0.01}});
@@ -218,7 +219,7 @@ TEST(FmuRequest, OfAnEffectThatIsNotModelledIsRefusedByItsName) {
 }
 
 TEST(FmuRequest, OfASensorThatTheArmCannotCarryIsRefused) {
-  auto refused = request(FmiVersion::v2);
+  auto refused = full_request(FmiVersion::v2);
   refused.settings.sensors = {{arm::SensorKind::strain, 5.0}};
   EXPECT_THROW(fmu::make_fmu(refused), arm::InputError);
 }

@@ -15,7 +15,8 @@ constexpr zip_uint16_t kFirstDate = (1U << 5U) | 1U;
 constexpr zip_uint16_t kMidnight = 0;
 /// A regular file that everybody may read, as st_mode, in the upper half.
 constexpr zip_uint32_t kReadableFile = 0100644U << 16U;
-constexpr zip_uint32_t kBestCompression = 9;
+/// zlib's own choice between time and size.
+constexpr zip_uint32_t kCompression = 6;
 
 [[noreturn]] void fail(const char* reason) {
   throw std::runtime_error(fmt::format("ZIP archive: {}", reason));
@@ -35,7 +36,7 @@ void add(zip_t* archive, const measured::NamedContent& file) {
     fail(zip_strerror(archive));
   }
   const auto at = static_cast<zip_uint64_t>(index);
-  if (zip_set_file_compression(archive, at, ZIP_CM_DEFLATE, kBestCompression) != 0 ||
+  if (zip_set_file_compression(archive, at, ZIP_CM_DEFLATE, kCompression) != 0 ||
       zip_file_set_dostime(archive, at, kMidnight, kFirstDate, 0) != 0 ||
       zip_file_set_external_attributes(archive, at, 0, ZIP_OPSYS_UNIX, kReadableFile) != 0) {
     fail(zip_strerror(archive));

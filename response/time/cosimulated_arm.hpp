@@ -26,7 +26,7 @@ struct SampleInstant {
 /// point to the next the torque is constant.
 ///
 /// Where communication points are samples (whole multiples of the sample time since the beginning)
-/// the motion is that of `simulate` with the same torque and a zero-order hold, bit for bit. Other
+/// the motion is that of `simulate` with the same torque and a zero-order hold, to rounding. Other
 /// communication points are reached exactly, by inner steps of other lengths: what `simulate` steps
 /// exactly stays exact, forces that vary with the state have the same order of error, and such a
 /// step costs a matrix exponential or power series of its own.

@@ -36,6 +36,7 @@ Command add_completion(CLI::App& program);
 Command add_diagnose(CLI::App& program);
 Command add_doctor(CLI::App& program);
 Command add_effects(CLI::App& program);
+Command add_export(CLI::App& program);
 Command add_identify(CLI::App& program);
 Command add_import(CLI::App& program);
 Command add_manual_pages(CLI::App& program);

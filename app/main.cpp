@@ -74,7 +74,7 @@ int run(int argc, const char* const* argv) {
   const std::array commands = {
       in_group("First steps", {add_doctor(program), add_new(program), add_compare(program)}),
       in_group("One arm", {add_modes(program), add_response(program), add_simulate(program),
-                           add_sweep(program)}),
+                           add_sweep(program), add_export(program)}),
       in_group("Measured data", {add_import(program), add_identify(program), add_diagnose(program),
                                  add_plan(program)}),
       in_group("Reference", {add_effects(program), add_paper(program), add_completion(program)}),

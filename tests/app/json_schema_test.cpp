@@ -294,6 +294,18 @@ TEST_F(JsonSchema, WhatDiagnoseWritesIsWhatTheDocumentSays) {
   expect_as_documented(documents, "flexarm.diagnosis/2");
 }
 
+TEST_F(JsonSchema, WhatExportWritesIsWhatTheDocumentSays) {
+  write("rig.toml",
+        "[beam]\nlength = 0.5\nflexural_rigidity = 3.7\nlinear_density = 0.165\n[hub]\n"
+        "inertia = 0.0006\ninertia_uncertainty = 0.02\n"
+        "[effects.coulomb_friction]\ntorque = 0.01\n");
+  const auto state_space =
+      written_by({"export", "rig.toml", "--state-space", "samples.json", "--samples", "3"});
+  const auto fmu = written_by({"export", "rig.toml", "--fmu"});
+  expect_as_documented({state_space, fmu}, "flexarm.export/1");
+  expect_as_documented({Json::parse(text_of("samples.json"))}, "flexarm.state_space_samples/1");
+}
+
 TEST_F(JsonSchema, WhatPlanWritesIsWhatTheDocumentSays) {
   run({"new", "rig.toml"});
   const auto planned = [&](const std::string& plan) {

@@ -29,8 +29,9 @@ const std::map<std::string, Rooms>& allowed_arrows() {
     map["compare"] = {"arm", "effects", "exact_tf", "fem", "assumed_modes", "response", "measured"};
     map["diagnose"] = {"arm", "effects", "exact_tf", "response", "compare", "measured"};
     map["report"] = {"arm", "effects", "response", "compare", "measured", "diagnose"};
-    map["app"] = {"arm",      "effects",  "exact_tf", "fem",      "assumed_modes",
-                  "measured", "response", "compare",  "diagnose", "report"};
+    map["export"] = {"arm", "effects", "response", "compare", "measured", "diagnose"};
+    map["app"] = {"arm",      "effects",  "exact_tf", "fem",    "assumed_modes", "measured",
+                  "response", "compare",  "diagnose", "report", "export"};
     return map;
   }();
   return arrows;

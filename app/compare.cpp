@@ -3,6 +3,7 @@
 #include "app/json_file.hpp"
 #include "app/list_option.hpp"
 #include "app/output_choice.hpp"
+#include "app/report_choice.hpp"
 #include "app/screen.hpp"
 #include "app/standard_output.hpp"
 #include "arm/rigid_hub.hpp"
@@ -12,6 +13,7 @@
 #include "measured/files/modal_table.hpp"
 #include "report/figures/comparison_plots.hpp"
 #include "report/json/comparison_json.hpp"
+#include "report/page/compare_page.hpp"
 #include "report/progress.hpp"
 #include "report/tables/comparison_overview.hpp"
 #include "report/tables/comparison_tables.hpp"
@@ -41,6 +43,7 @@ struct CompareArguments {
   bool full = false;
   bool verbose = false;
   OutputChoice output;
+  ReportChoice report;
 };
 
 compare::Options options_of(const CompareArguments& arguments,
@@ -116,7 +119,7 @@ std::string comparison_text(const arm::Arm& arm, const compare::Comparison& comp
 }
 
 FolderKind comparison_folder_kind() {
-  return {"a comparison", {"roots.csv"}, {".csv", ".svg", ".pdf", ".png", ".json"}, true};
+  return {"a comparison", {"roots.csv"}, {".csv", ".svg", ".pdf", ".png", ".json", ".html"}, true};
 }
 
 /// The files of one arm, in `folder` of the output folder.
@@ -170,6 +173,7 @@ int run_compare(CompareArguments arguments) {
   const auto arms = arguments.arm.arms();
   for (const auto& arm : arms) arm::require_beam(arm, "compare");
   arguments.output.prepare(comparison_folder_kind());
+  arguments.report.prepare(arguments.output.folder);
 
   std::string text;  // printed last: a reader that goes away costs no file
   std::size_t disagreeing = 0;
@@ -189,8 +193,12 @@ int run_compare(CompareArguments arguments) {
   }
   if (!files.empty()) write_folder(arguments.output.folder, arguments.output.force, files);
   write_json(arguments.output.json_file, report::comparison_json(results));
+  if (arguments.report.is_given()) {
+    arguments.report.write(
+        report::page::compare_page(results, page_origin(subject_of(arguments.arm))));
+  }
   if (arms.size() > 1) text = summary_of_arms(arms.size(), disagreeing) + text;
-  print(text + next_step(arguments));
+  print(text + next_step(arguments) + arguments.report.last_line());
   return disagreeing == 0 ? kSuccess : kFailure;
 }
 
@@ -227,6 +235,7 @@ Command add_compare(CLI::App& program) {
   parser->add_flag("--full", arguments->full,
                    "As --verbose, with the convergence of every root and the root counts");
   add_output_choice(*parser, arguments->output, "Folder for CSV tables and SVG plots");
+  add_report_choice(*parser, arguments->report);
   parser->footer("Exit status: 0 the formulations agree; 1 they do not; 2 unusable input.\n" +
                  example("flexarm compare rig.toml --poles 6 --out compared"));
   return {parser, [arguments] { return run_compare(*arguments); }};

@@ -90,6 +90,10 @@ void add_arm_choice(CLI::App& parser, ArmChoice& choice) {
                     "Hub inertia [kg m^2] instead of that in the file");
 }
 
+std::string subject_of(const ArmChoice& choice) {
+  return choice.file.empty() ? "the paper's arm" : choice.file;
+}
+
 std::filesystem::path folder_of(const std::filesystem::path& out, const arm::Arm& arm,
                                 std::size_t arms) {
   return arms == 1 ? out : out / fmt::format("payload-{}kg", arm.payload.mass_kg);

@@ -5,6 +5,7 @@
 #include "app/list_option.hpp"
 #include "app/measured_choice.hpp"
 #include "app/output_choice.hpp"
+#include "app/report_choice.hpp"
 #include "app/screen.hpp"
 #include "app/standard_output.hpp"
 #include "arm/rigid_hub.hpp"
@@ -12,6 +13,7 @@
 #include "measured/files/atomic_file.hpp"
 #include "report/figures/comparison_plots.hpp"
 #include "report/json/comparison_json.hpp"
+#include "report/page/compare_page.hpp"
 #include "report/progress.hpp"
 #include "report/tables/comparison_overview.hpp"
 #include "report/tables/comparison_tables.hpp"
@@ -43,6 +45,7 @@ struct CompareArguments {
   bool full = false;
   bool verbose = false;
   OutputChoice output;
+  ReportChoice report;
 };
 
 compare::Options options_of(const CompareArguments& arguments, const MeasuredFile& measured) {
@@ -129,7 +132,7 @@ std::string comparison_text(const arm::Arm& arm, const compare::Comparison& comp
 }
 
 FolderKind comparison_folder_kind() {
-  return {"a comparison", {"roots.csv"}, {".csv", ".svg", ".pdf", ".png", ".json"}, true};
+  return {"a comparison", {"roots.csv"}, {".csv", ".svg", ".pdf", ".png", ".json", ".html"}, true};
 }
 
 /// The files of one arm, in `folder` of the output folder.
@@ -194,6 +197,7 @@ int run_compare(CompareArguments arguments) {
     if (!output->empty()) require_no_input(option, *output, measured.files);
   }
   arguments.output.prepare(comparison_folder_kind());
+  arguments.report.prepare(arguments.output.folder);
 
   std::string text;  // printed last: a reader that goes away costs no file
   std::size_t disagreeing = 0;
@@ -214,8 +218,12 @@ int run_compare(CompareArguments arguments) {
   if (!files.empty()) write_folder(arguments.output.folder, arguments.output.force, files);
   write_json(arguments.output.json_file, report::comparison_json(results));
   for (const auto& note : measured.notes) text += screen_note(note) + "\n";
+  if (arguments.report.is_given()) {
+    arguments.report.write(
+        report::page::compare_page(results, page_origin(subject_of(arguments.arm))));
+  }
   if (arms.size() > 1) text = summary_of_arms(arms.size(), disagreeing) + text;
-  print(text + next_step(arguments));
+  print(text + next_step(arguments) + arguments.report.last_line());
   return disagreeing == 0 ? kSuccess : kFailure;
 }
 
@@ -253,6 +261,7 @@ Command add_compare(CLI::App& program) {
   parser->add_flag("--full", arguments->full,
                    "As --verbose, with the convergence of every root and the root counts");
   add_output_choice(*parser, arguments->output, "Folder for CSV tables and SVG plots");
+  add_report_choice(*parser, arguments->report);
   parser->footer("Exit status: 0 the formulations agree; 1 they do not; 2 unusable input.\n" +
                  example("flexarm compare rig.toml --poles 6 --out compared"));
   return {parser, [arguments] { return run_compare(*arguments); }};

@@ -4,6 +4,7 @@
 #include "app/folder_place.hpp"
 #include "app/json_file.hpp"
 #include "app/kept_inputs.hpp"
+#include "app/report_choice.hpp"
 #include "app/screen.hpp"
 #include "app/standard_output.hpp"
 #include "arm/input_error.hpp"
@@ -16,6 +17,7 @@
 #include "report/figures/diagnosis_figures.hpp"
 #include "report/json/diagnosis_json.hpp"
 #include "report/json/json_document.hpp"
+#include "report/page/diagnose_page.hpp"
 #include "report/progress.hpp"
 #include "report/tables/csv.hpp"
 #include "report/tables/diagnosis_tables.hpp"
@@ -66,6 +68,7 @@ struct DiagnoseArguments {
   bool force = false;
   bool verbose = false;
   std::string json_file;
+  ReportChoice report;
 };
 
 std::string verdict_definitions() {
@@ -78,7 +81,8 @@ std::string verdict_definitions() {
 }
 
 FolderKind diagnosis_folder_kind() {
-  return {"a diagnosis", {kDiagnosisJson}, {".json", ".toml", ".csv", ".svg", ".pdf", ".png"}};
+  return {
+      "a diagnosis", {kDiagnosisJson}, {".json", ".toml", ".csv", ".svg", ".pdf", ".png", ".html"}};
 }
 
 /// The file beside `json_file` that its extended arm is written to: out.json, out.extended.toml.
@@ -115,6 +119,7 @@ void prepare(const DiagnoseArguments& arguments, const diagnose::Experiment& exp
   }
   if (!arguments.folder.empty()) require_no_input("--out", arguments.folder, experiment.files);
   require_json_place(arguments.json_file, arguments.folder);
+  arguments.report.prepare(arguments.folder, experiment.files);
   if (arguments.folder.empty()) return;
   require_place(arguments.folder, arguments.force, diagnosis_folder_kind());
 }
@@ -296,6 +301,10 @@ std::string write_files(const DiagnoseArguments& arguments, const diagnose::Expe
     }
     write_json(arguments.json_file, json_of(diagnosis, extended));
   }
+  if (arguments.report.is_given()) {
+    arguments.report.write(
+        report::page::diagnose_page(experiment, diagnosis, page_origin(arguments.file)));
+  }
   return left_out;
 }
 
@@ -336,6 +345,7 @@ int run_diagnose(const DiagnoseArguments& arguments) {
     if (!left_out.empty()) text += screen_note(left_out);
     text += details + fmt::format("wrote {}\n", arguments.folder);
   }
+  text += arguments.report.last_line();
   print(text);
   return kSuccess;
 }
@@ -382,6 +392,7 @@ Command add_diagnose(CLI::App& program) {
       ->add_option("--json", arguments->json_file,
                    "JSON file; the extended arm is written beside it; - for standard output")
       ->check(not_empty());
+  add_report_choice(*parser, arguments->report);
   parser->footer(verdict_definitions() +
                  example("flexarm diagnose simulated/measurement.toml --out diagnosis"));
   return {parser, [arguments] { return run_diagnose(*arguments); }};

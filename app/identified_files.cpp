@@ -45,7 +45,8 @@ std::vector<std::pair<std::string, measured::ModalTable>> modal_tables(
 }  // namespace
 
 FolderKind identified_folder_kind() {
-  return {"an identification", {kIdentifiedJson}, {".csv", ".svg", ".pdf", ".png", ".json"}};
+  return {
+      "an identification", {kIdentifiedJson}, {".csv", ".svg", ".pdf", ".png", ".json", ".html"}};
 }
 
 std::vector<measured::NamedContent> identified_files(

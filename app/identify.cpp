@@ -4,6 +4,7 @@
 #include "app/json_file.hpp"
 #include "app/kept_inputs.hpp"
 #include "app/list_option.hpp"
+#include "app/report_choice.hpp"
 #include "app/screen.hpp"
 #include "app/spectrum_choice.hpp"
 #include "app/standard_output.hpp"
@@ -22,6 +23,7 @@
 #include "report/json/arm_json.hpp"
 #include "report/json/identification_json.hpp"
 #include "report/json/json_document.hpp"
+#include "report/page/identify_page.hpp"
 #include "report/progress.hpp"
 #include "report/tables/identification_tables.hpp"
 #include "report/tables/identified_overview.hpp"
@@ -61,6 +63,7 @@ struct IdentifyArguments {
   bool force = false;
   bool verbose = false;
   std::string json_file;
+  ReportChoice report;
 };
 
 /// The runs asked for, all unless told. Throws InputError for one that there is not.
@@ -265,6 +268,7 @@ void prepare(const IdentifyArguments& arguments, const measured::Measurement& me
   if (!arguments.json_file.empty()) require_no_input("--json", arguments.json_file, inputs);
   if (!arguments.folder.empty()) require_no_input("--out", arguments.folder, inputs);
   require_json_place(arguments.json_file, arguments.folder);
+  arguments.report.prepare(arguments.folder, inputs);
   if (arguments.folder.empty()) return;
   report::run_gnuplot("");  // throws where there is none
   require_place(arguments.folder, arguments.force, identified_folder_kind());
@@ -297,6 +301,8 @@ int run_identify(const IdentifyArguments& arguments) {
   }
   select_sensors(arguments, runs);
   prepare(arguments, measurement);
+  std::vector<measured::MeasuredRun> recorded;  // the report shows them
+  if (arguments.report.is_given()) recorded = runs;
 
   const auto identification = identify_with_progress(std::move(runs), options);
   const auto conditions = compare::conditions_of(identification, arm);
@@ -305,6 +311,10 @@ int run_identify(const IdentifyArguments& arguments) {
   if (arguments.verbose) text += details_text(identification, conditions);
   try {
     write_files(arguments, measurement.name, arm, identification, conditions);
+    if (arguments.report.is_given()) {
+      arguments.report.write(report::page::identify_page(identification, conditions, recorded,
+                                                         page_origin(arguments.file)));
+    }
   } catch (const arm::InputError&) {
     print(text);
     throw;
@@ -318,6 +328,7 @@ int run_identify(const IdentifyArguments& arguments) {
   } else {
     text += fmt::format("wrote {}\n", arguments.folder);
   }
+  text += arguments.report.last_line();
   print(text);
   return kSuccess;
 }
@@ -362,6 +373,7 @@ Command add_identify(CLI::App& program) {
       ->add_option("--json", arguments->json_file,
                    "JSON file, full precision; - for standard output")
       ->check(not_empty());
+  add_report_choice(*parser, arguments->report);
   parser->footer(example("flexarm identify simulated/measurement.toml --out identified"));
   return {parser, [arguments] { return run_identify(*arguments); }};
 }

@@ -3,6 +3,7 @@
 #include "app/interruption.hpp"
 #include "app/json_file.hpp"
 #include "app/kept_inputs.hpp"
+#include "app/report_choice.hpp"
 #include "app/standard_output.hpp"
 #include "app/suggestion.hpp"
 #include "app/version.hpp"
@@ -115,6 +116,7 @@ int main(int argc, char** argv) {
   // A closed pipe shows as EPIPE, so that it ends the program where it prints and nowhere else.
   std::signal(SIGPIPE, SIG_IGN);
   app::end_at_once_when_interrupted();
+  app::note_command_line(argc, argv);
   try {
     return app::run(argc, argv);
   } catch (const app::OutputClosed&) {

@@ -4,6 +4,7 @@
 #include "app/effect_choice.hpp"
 #include "app/folder_place.hpp"
 #include "app/json_file.hpp"
+#include "app/report_choice.hpp"
 #include "app/screen.hpp"
 #include "app/standard_output.hpp"
 #include "arm/input_error.hpp"
@@ -15,6 +16,7 @@
 #include "report/figures/svg.hpp"
 #include "report/json/json_document.hpp"
 #include "report/json/plan_json.hpp"
+#include "report/page/plan_page.hpp"
 #include "report/progress.hpp"
 #include "report/tables/csv.hpp"
 #include "report/tables/plan_tables.hpp"
@@ -50,10 +52,11 @@ struct PlanArguments {
   bool force = false;
   bool verbose = false;
   std::string json_file;
+  ReportChoice report;
 };
 
 FolderKind plan_folder_kind() {
-  return {"a plan", {kPlanJson}, {".json", ".toml", ".csv", ".svg", ".pdf", ".png"}};
+  return {"a plan", {kPlanJson}, {".json", ".toml", ".csv", ".svg", ".pdf", ".png", ".html"}};
 }
 
 /// Throws for outputs that could not be written.
@@ -62,6 +65,7 @@ void prepare_outputs(const PlanArguments& arguments) {
     throw arm::InputError("--force: needs --out FOLDER");
   }
   require_json_place(arguments.json_file, arguments.folder);
+  arguments.report.prepare(arguments.folder);
   if (arguments.folder.empty()) return;
   require_place(arguments.folder, arguments.force, plan_folder_kind());
   report::run_gnuplot("");
@@ -127,6 +131,9 @@ void write_plan(const PlanArguments& arguments, const diagnose::Plan& plan) {
   }
   if (!arguments.better_file.empty()) measured::write_atomically(arguments.better_file, better);
   write_json(arguments.json_file, json);
+  if (arguments.report.is_given()) {
+    arguments.report.write(report::page::plan_page(plan, page_origin(arguments.plan_file)));
+  }
 }
 
 int run_plan(const PlanArguments& arguments) {
@@ -148,6 +155,7 @@ int run_plan(const PlanArguments& arguments) {
         fmt::format("next: write the improved plan with  flexarm plan {} {} --write {}\n",
                     arm::shown(arguments.arm_file), arm::shown(arguments.plan_file), kBetterPlan);
   }
+  text += arguments.report.last_line();
   print(text);
   return kSuccess;
 }
@@ -183,6 +191,7 @@ Command add_plan(CLI::App& program) {
       ->add_option("--json", arguments->json_file,
                    "JSON file, full precision; - for standard output")
       ->check(not_empty());
+  add_report_choice(*parser, arguments->report);
   parser->footer(example("flexarm plan rig.toml measurement-plan.toml --write improved-plan.toml"));
   return {parser, [arguments] { return run_plan(*arguments); }};
 }

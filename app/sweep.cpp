@@ -4,6 +4,7 @@
 #include "app/json_file.hpp"
 #include "app/list_option.hpp"
 #include "app/output_choice.hpp"
+#include "app/report_choice.hpp"
 #include "app/screen.hpp"
 #include "app/standard_output.hpp"
 #include "app/version.hpp"
@@ -15,6 +16,7 @@
 #include "report/figures/svg.hpp"
 #include "report/figures/sweep_figures.hpp"
 #include "report/json/sweep_json.hpp"
+#include "report/page/sweep_page.hpp"
 #include "report/progress.hpp"
 #include "report/tables/csv.hpp"
 #include "report/tables/sweep_tables.hpp"
@@ -60,6 +62,7 @@ struct SweepArguments {
   bool resume = false;
   bool verbose = false;
   OutputChoice output;
+  ReportChoice report;
 };
 
 arm::Arm arm_of(const SweepArguments& arguments) {
@@ -154,7 +157,7 @@ constexpr const char* kCheckpoint = "sweep.checkpoint";
 FolderKind sweep_folder_kind() {
   return {"a sweep",
           {"sweep.csv", "figure-18.csv", "figure-19.csv", kCheckpoint},
-          {".csv", ".svg", ".pdf", ".png", ".json", ".checkpoint"}};
+          {".csv", ".svg", ".pdf", ".png", ".json", ".html", ".checkpoint"}};
 }
 
 /// Beside the output, or nowhere.
@@ -283,6 +286,7 @@ int run_sweep(const SweepArguments& arguments) {
   refuse_swept(arguments.arm, task.axes);
   compare::require_valid(task);
   prepare(arguments.output, arguments.resume);
+  arguments.report.prepare(arguments.output.folder);
 
   const Interruption interruption;
   compare::SweepResult result;
@@ -298,9 +302,13 @@ int run_sweep(const SweepArguments& arguments) {
                  figure ? figure_files(*arguments.figure, *figure, result) : sweep_files(result));
   }
   write_json(arguments.output.json_file, report::sweep_json(result));
+  if (arguments.report.is_given()) {
+    arguments.report.write(
+        report::page::sweep_page(result, page_origin(subject_of(arguments.arm))));
+  }
   if (!checkpoint.empty()) fs::remove(checkpoint);
   print_result(result, arguments.arm.arms().front(), arguments.verbose);
-  print(next_step(arguments));
+  print(next_step(arguments) + arguments.report.last_line());
   return result.agrees() ? kSuccess : kFailure;
 }
 
@@ -342,6 +350,7 @@ Command add_sweep(CLI::App& program) {
   parser->add_flag("--resume", arguments->resume,
                    "Resume an interrupted sweep from its checkpoint");
   add_output_choice(*parser, arguments->output, "Folder for CSV tables and SVG plots");
+  add_report_choice(*parser, arguments->report);
   parser->footer("Exit status: 0 the formulations agree; 1 they do not; 2 unusable input.\n" +
                  example("flexarm sweep rig.toml --over payload.mass=0:0.5:50 --out swept"));
   return {parser, [arguments] { return run_sweep(*arguments); }};

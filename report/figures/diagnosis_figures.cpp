@@ -4,6 +4,7 @@
 #include "report/figures/frequency_response_figure.hpp"
 #include "report/figures/hub_law_figure.hpp"
 #include "report/figures/missing_force_figure.hpp"
+#include "report/figures/residual_torque.hpp"
 #include "report/figures/sensor_label.hpp"
 #include "report/figures/svg.hpp"
 
@@ -25,7 +26,6 @@ namespace {
 
 using diagnose::Diagnosis;
 using diagnose::Experiment;
-using diagnose::HubTorqueKind;
 using diagnose::Overlay;
 
 const Overlay* overlay_of(const Diagnosis& diagnosis, std::size_t run, const arm::Sensor& sensor) {
@@ -144,62 +144,6 @@ Figure response_overlay(const Experiment& experiment, const Overlay& overlay,
   return frequency_response_figure(measured_response(channel), plot);
 }
 
-constexpr std::size_t kBins = 24;
-
-/// Means of equally many samples, in the order of what they are drawn against.
-struct Binned {
-  std::vector<double> x;
-  std::vector<double> mean;
-  std::vector<double> std_error;
-
-  /// Spread of the means over their errors.
-  double contrast() const {
-    const double middle = measured::mean(mean);
-    double sum = 0.0;
-    for (std::size_t b = 0; b < mean.size(); ++b) {
-      sum += std::pow((mean[b] - middle) / std_error[b], 2);
-    }
-    return sum / static_cast<double>(mean.size());
-  }
-};
-
-Binned binned(const std::vector<double>& x, const std::vector<double>& y) {
-  std::vector<std::size_t> order(x.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::ranges::sort(order, {}, [&](std::size_t k) { return x[k]; });
-  Binned made;
-  for (std::size_t b = 0; b < kBins; ++b) {
-    const std::size_t from = b * order.size() / kBins;
-    const std::size_t to = (b + 1) * order.size() / kBins;
-    std::vector<double> own_x;
-    std::vector<double> own_y;
-    for (std::size_t i = from; i < to; ++i) {
-      own_x.push_back(x[order[i]]);
-      own_y.push_back(y[order[i]]);
-    }
-    if (own_y.size() < 2) continue;
-    made.x.push_back(measured::mean(own_x));
-    made.mean.push_back(measured::mean(own_y));
-    made.std_error.push_back(measured::standard_deviation(own_y) /
-                             std::sqrt(static_cast<double>(own_y.size() - 1)));
-  }
-  return made;
-}
-
-/// What the accepted terms that depend on the velocity, or on the angle, say; of a ripple, whose
-/// phase they do not tell, nothing.
-double found_torque(const diagnose::HubTorque& torque, bool of_velocity, double x) {
-  double sum = 0.0;
-  for (const auto& term : torque.terms) {
-    if (of_velocity && term.kind == HubTorqueKind::coulomb_friction) {
-      sum -= std::copysign(term.coefficient, term.coefficient * x);
-    }
-    if (of_velocity && term.kind == HubTorqueKind::viscous_friction) sum -= term.coefficient * x;
-    if (!of_velocity && term.kind == HubTorqueKind::spring) sum -= term.coefficient * x;
-  }
-  return sum;
-}
-
 Panel torque_panel(const diagnose::HubTorque& torque, const diagnose::HubTorqueTrace& trace,
                    bool of_velocity) {
   const auto& x = of_velocity ? trace.velocity_rad_per_s : trace.angle_rad;
@@ -228,7 +172,7 @@ Panel torque_panel(const diagnose::HubTorque& torque, const diagnose::HubTorqueT
     samples.y.push_back(trace.torque_N_m[k]);
   }
   panel.series.push_back(std::move(samples));
-  const Binned bins = binned(x, trace.torque_N_m);
+  const TorqueMeans bins = torque_means(x, trace.torque_N_m);
   Series bars{"mean ± 2 standard errors", {}, {}, {.colour = blue, .line_width_px = 1.5}};
   for (std::size_t b = 0; b < bins.x.size(); ++b) {
     for (const double side : {-2.0, 2.0}) {
@@ -244,34 +188,13 @@ Panel torque_panel(const diagnose::HubTorque& torque, const diagnose::HubTorqueT
        bins.x,
        bins.mean,
        {.colour = blue, .line = Line::none, .marker = Marker::disc, .marker_size = 0.5}});
-  const auto [least, most] = std::ranges::minmax_element(x);
-  Series found{"identified terms", {}, {}, {.colour = vermillion, .line_width_px = 2.0}};
-  const double tiny = 1e-9 * (*most - *least);
-  for (const double at : {*least, -tiny, tiny, *most}) {
-    if (at < *least || at > *most) continue;
-    found.x.push_back(at);
-    found.y.push_back(found_torque(torque, of_velocity, at));
-  }
-  if (std::ranges::any_of(found.y, [](double value) { return value != 0.0; })) {
-    panel.series.push_back(std::move(found));
+  if (TorqueLine found = identified_torque(torque, of_velocity, x); !found.torque_N_m.empty()) {
+    panel.series.push_back({"identified terms",
+                            std::move(found.x),
+                            std::move(found.torque_N_m),
+                            {.colour = vermillion, .line_width_px = 2.0}});
   }
   return panel;
-}
-
-bool depends_on_motion(const diagnose::HubTorque& torque) {
-  return std::ranges::any_of(torque.terms, [](const auto& term) {
-    return term.kind == HubTorqueKind::coulomb_friction ||
-           term.kind == HubTorqueKind::viscous_friction || term.kind == HubTorqueKind::spring ||
-           term.kind == HubTorqueKind::ripple;
-  });
-}
-
-/// The run whose residual torque shows most.
-const diagnose::HubTorqueTrace& clearest(const diagnose::HubTorque& torque) {
-  return *std::ranges::max_element(torque.traces, {}, [](const diagnose::HubTorqueTrace& trace) {
-    return std::max(binned(trace.velocity_rad_per_s, trace.torque_N_m).contrast(),
-                    binned(trace.angle_rad, trace.torque_N_m).contrast());
-  });
 }
 
 }  // namespace

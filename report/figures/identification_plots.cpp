@@ -33,25 +33,13 @@ std::vector<double> poles_Hz(const compare::AnalyticalModes& analytical) {
   return poles;
 }
 
-/// What the fit of a run says of a sensor.
-std::optional<measured::FittedTransfer> fitted(const Identification& identification,
-                                               std::size_t run, const arm::Sensor& sensor) {
-  for (const auto& fit : identification.fits) {
-    if (!fit.refusal.empty() || std::ranges::find(fit.runs, run) == fit.runs.end()) continue;
-    const auto at = std::ranges::find(fit.fit.sensors, sensor, &measured::FittedSensor::sensor);
-    if (at == fit.fit.sensors.end()) return std::nullopt;
-    return fit.fit.transfers[static_cast<std::size_t>(at - fit.fit.sensors.begin())];
-  }
-  return std::nullopt;
-}
-
 Figure response_figure(const Identification& identification, std::size_t index, std::size_t k,
                        const compare::AnalyticalModes& analytical) {
   const RunIdentification& run = identification.runs[index];
   const auto& channel = run.response.channels[k];
   FrequencyResponsePlot plot;
   plot.title = fmt::format("{}: torque to {}", run.run.id, arm::to_string(channel.sensor));
-  plot.fit = fitted(identification, index, channel.sensor);
+  plot.fit = fitted_transfer(identification, index, channel.sensor);
   plot.analytical_poles_Hz = poles_Hz(analytical);
   const auto& model = analytical.response;
   const auto sensor = std::ranges::find(model.sensors, channel.sensor);
@@ -104,6 +92,18 @@ void add_run(const Identification& identification, std::size_t index,
 }
 
 }  // namespace
+
+std::optional<measured::FittedTransfer> fitted_transfer(const Identification& identification,
+                                                        std::size_t run,
+                                                        const arm::Sensor& sensor) {
+  for (const auto& fit : identification.fits) {
+    if (!fit.refusal.empty() || std::ranges::find(fit.runs, run) == fit.runs.end()) continue;
+    const auto at = std::ranges::find(fit.fit.sensors, sensor, &measured::FittedSensor::sensor);
+    if (at == fit.fit.sensors.end()) return std::nullopt;
+    return fit.fit.transfers[static_cast<std::size_t>(at - fit.fit.sensors.begin())];
+  }
+  return std::nullopt;
+}
 
 std::vector<NamedPlot> identification_plots(
     const Identification& identification,

@@ -4,6 +4,8 @@
 #include "measured/run_identification.hpp"
 #include "report/figures/comparison_plots.hpp"
 
+#include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace flexarm::report {
@@ -14,5 +16,10 @@ namespace flexarm::report {
 std::vector<NamedPlot> identification_plots(
     const measured::Identification& identification,
     const std::vector<compare::IdentifiedCondition>& conditions);
+
+/// The transfer function of a sensor by the fit that the run, an index, is part of; empty where
+/// there is none.
+std::optional<measured::FittedTransfer> fitted_transfer(
+    const measured::Identification& identification, std::size_t run, const arm::Sensor& sensor);
 
 }  // namespace flexarm::report

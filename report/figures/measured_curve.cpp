@@ -10,12 +10,6 @@ namespace {
 constexpr std::size_t kFewPoints = 200;
 constexpr double kGap = 10.0;
 
-/// Whether a gap lies between point i - 1 and point i.
-bool gap_before(const std::vector<double>& x, std::size_t i) {
-  return i >= 2 && i + 1 < x.size() &&
-         x[i] - x[i - 1] > kGap * std::max(x[i - 1] - x[i - 2], x[i + 1] - x[i]);
-}
-
 void add_point(Series& series, double x, double y, double y_to) {
   series.x.push_back(x);
   series.y.push_back(y);
@@ -27,6 +21,11 @@ void add_gap(Series& series, double x) {
 }
 
 }  // namespace
+
+bool gap_before(const std::vector<double>& x, std::size_t i) {
+  return i >= 2 && i + 1 < x.size() &&
+         x[i] - x[i - 1] > kGap * std::max(x[i - 1] - x[i - 2], x[i + 1] - x[i]);
+}
 
 Series measured_curve(std::string name, const std::vector<double>& frequency_Hz,
                       const std::vector<double>& values) {

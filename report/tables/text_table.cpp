@@ -38,15 +38,6 @@ std::string padded(std::string_view text, std::size_t width, bool to_the_right) 
   return to_the_right ? blanks + std::string(text) : std::string(text) + blanks;
 }
 
-std::string cell_text(const Cell& cell, const Column& column) {
-  if (is_missing(cell)) return std::string(kMissingText);
-  if (const auto* number = std::get_if<double>(&cell)) {
-    return format_number(*number, column.significant_digits, column.notation);
-  }
-  if (const auto* count = std::get_if<std::int64_t>(&cell)) return fmt::format("{}", *count);
-  return std::get<std::string>(cell);
-}
-
 /// Characters in front of the decimal point, or of the exponent where there is no point.
 std::size_t whole_part(std::string_view number) {
   return std::min(number.find_first_of(".e"), number.size());
@@ -231,6 +222,15 @@ std::string records(const std::vector<RenderedColumn>& columns, std::size_t row_
 }
 
 }  // namespace
+
+std::string cell_text(const Cell& cell, const Column& column) {
+  if (is_missing(cell)) return std::string(kMissingText);
+  if (const auto* number = std::get_if<double>(&cell)) {
+    return format_number(*number, column.significant_digits, column.notation);
+  }
+  if (const auto* count = std::get_if<std::int64_t>(&cell)) return fmt::format("{}", *count);
+  return std::get<std::string>(cell);
+}
 
 std::string format_number(double value, int significant_digits, Notation notation) {
   if (std::isnan(value)) return std::string(kMissingText);

@@ -25,6 +25,9 @@ std::string to_text(const Table& table, const TextOptions& options = {});
 /// The table with its first `most` rows.
 Table first_rows(const Table& table, std::size_t most);
 
+/// One cell as `to_text` prints it, not padded; "-" for a missing one.
+std::string cell_text(const Cell& cell, const Column& column);
+
 /// `value` with exactly `significant_digits`, trailing zeros included ("12.0000"); 0 is "0".
 std::string format_number(double value, int significant_digits, Notation notation);
 

@@ -130,7 +130,7 @@ arm::Arm with_uncertainties(const arm::Arm& arm, const std::map<std::string, dou
   return changed;
 }
 
-std::string representation(const arm::Arm& arm) {
+std::string arm_text(const arm::Arm& arm) {
   std::string text = fmt::format("<flexarm.Arm '{}'", arm.name);
   const arm::LinearArm linear = arm::linear_arm(arm);
   if (arm::has_beam(arm)) {
@@ -233,7 +233,7 @@ void add_arm(py::module_& module) {
            "The arm without an effect that it has. Raises InputError where it has not.")
       .def("with_uncertainties", &with_uncertainties, py::arg("relative"),
            "The arm with relative standard deviations of numbers, by their key in an arm file: "
-           "{'beam.youngs_modulus': 0.05}. A diagnosis refits such numbers. Raises InputError for "
+           "{'hub.inertia': 0.05}. A diagnosis refits such numbers. Raises InputError for "
            "an unknown key and a value that is not above 0.")
       .def_property_readonly(
           "name", [](const Arm& arm) { return arm.name; }, "Its name.")
@@ -263,15 +263,14 @@ void add_arm(py::module_& module) {
                              "What is unusual about the numbers, a list of sentences.")
       .def(py::self == py::self)
       .def("__hash__", [](const Arm& arm) { return py::hash(py::str(measured::format_arm(arm))); })
-      .def("__repr__", &representation)
+      .def("__repr__", &arm_text)
       .def("_repr_html_",
            [](const py::object& self) {
              return py::module_::import("flexarm._html").attr("arm_table")(self);
            })
-      .def("__reduce__", [](const py::object& self) {
-        return py::make_tuple(py::type::of(self).attr("from_toml"),
-                              py::make_tuple(self.attr("to_toml")()));
-      });
+      .def(py::pickle(&measured::format_arm, [](const std::string& text) {
+        return measured::parse_arm(text, "<pickle>", effects::vocabulary());
+      }));
   add_numbers(type);
   add_arm_numbers(module);
   module.def(

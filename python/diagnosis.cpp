@@ -92,7 +92,7 @@ std::string number_with_error(const ParameterEstimate& estimate) {
                      unit);
 }
 
-std::string representation(const Cause& cause) {
+std::string cause_text(const Cause& cause) {
   Texts numbers;
   for (const auto& parameter : cause.parameters) numbers.push_back(number_with_error(parameter));
   return fmt::format("<flexarm.Cause {}{}: {}, probability {:.2g}>", cause.effect,
@@ -129,7 +129,7 @@ void add_estimates(py::module_& module) {
                     "Effects that these data do not distinguish from it, a list.")
       .def_readonly("evidence", &Cause::evidence, "Sentences, a list.")
       .def_readonly("evidence_against", &Cause::refuted_by, "What would speak against it.")
-      .def("__repr__", &representation);
+      .def("__repr__", &cause_text);
   py::class_<RefittedNumber>(module, "RefittedNumber", "An uncertain number that was refitted.")
       .def_readonly("key", &RefittedNumber::key, "Its key in the arm file.")
       .def_readonly("nominal_value", &RefittedNumber::file_value, "That of the file, in `unit`.")

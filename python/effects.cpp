@@ -29,7 +29,7 @@ std::map<std::string, std::string> units_of(const arm::Effect& effect) {
   return units;
 }
 
-std::string representation(const arm::Effect& effect) {
+std::string effect_text(const arm::Effect& effect) {
   std::vector<std::string> parts;
   const auto units = units_of(effect);
   for (const auto& [name, value] : effect.parameters) {
@@ -63,7 +63,7 @@ void add_effects(py::module_& module) {
           "meaning", [](const arm::Effect& effect) { return effect.definition->meaning; },
           "What it is.")
       .def("__eq__", [](const arm::Effect& a, const arm::Effect& b) { return a == b; })
-      .def("__repr__", &representation)
+      .def("__repr__", &effect_text)
       .attr("__hash__") = py::none();
 
   py::class_<arm::EffectParameter>(module, "EffectParameter", "A parameter of an effect.")

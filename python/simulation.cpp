@@ -134,23 +134,22 @@ void set_controller(response::RunChoice& runs, const py::object& controller) {
 }
 
 Experiment simulated(const arm::Arm& arm, const Settings& settings, const py::object& progress) {
-  Experiment experiment{arm, {}, settings.options, {}};
-  experiment.plan = settings.runs.runs(arm, {});
-  const auto sensors = settings.sensors.sensors(arm);
-  response::require_valid(settings.options, experiment.plan, sensors, as_argument);
-  const double pieces =
-      static_cast<double>(experiment.plan.size()) * (settings.options.check_step ? 2.0 : 1.0);
-  experiment.simulated = long_call("simulation", progress, [&](CallState& state) {
+  return long_call("simulation", progress, [&](CallState& state) {
+    Experiment experiment{arm, settings.runs.runs(arm, {}), settings.options, {}};
+    const auto sensors = settings.sensors.sensors(arm);
+    response::require_valid(settings.options, experiment.plan, sensors, as_argument);
+    const double pieces =
+        static_cast<double>(experiment.plan.size()) * (settings.options.check_step ? 2.0 : 1.0);
     double done = -1.0;
-    return response::simulate_experiment(arm, experiment.plan, sensors, settings.options,
-                                         [&](const std::string&, std::size_t) {
-                                           done += 1.0;
-                                           return [&state, done, pieces](double fraction) {
-                                             return state.reach((done + fraction) / pieces);
-                                           };
-                                         });
+    experiment.simulated = response::simulate_experiment(
+        arm, experiment.plan, sensors, settings.options, [&](const std::string&, std::size_t) {
+          done += 1.0;
+          return [&state, done, pieces](double fraction) {
+            return state.reach((done + fraction) / pieces);
+          };
+        });
+    return experiment;
   });
-  return experiment;
 }
 
 Experiment simulate_experiment(const arm::Arm& arm, const Texts& excitations,

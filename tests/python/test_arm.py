@@ -24,9 +24,9 @@ def refusal(*arguments, cwd=None):
 class Arms(unittest.TestCase):
     def test_numbers_have_their_units_in_their_names(self):
         arm = flexarm.Arm.paper()
-        self.assertEqual(arm.beam_length_m, 0.7)
+        self.assertEqual(arm.beam_length_m, 0.96)
         self.assertEqual(arm.payload_mass_kg, 0.0)
-        self.assertIsNone(arm.beam_flexural_rigidity_N_m2)
+        self.assertIsNone(arm.beam_shear_modulus_Pa)
         self.assertAlmostEqual(arm.flexural_rigidity_N_m2, 3.6918, places=4)
         for number in flexarm.arm_numbers():
             self.assertTrue(hasattr(arm, number.attribute), number)
@@ -74,12 +74,12 @@ class Arms(unittest.TestCase):
             self.assertTrue(effect.meaning and effect.evidence and effect.ports)
 
     def test_uncertainties_are_those_of_the_file(self):
-        arm = flexarm.Arm.paper().with_uncertainties({"beam.youngs_modulus": 0.05})
-        self.assertEqual(arm.uncertainties, {"beam.youngs_modulus": 0.05})
-        self.assertIn("youngs_modulus_uncertainty", arm.to_toml())
+        arm = flexarm.Arm.paper().with_uncertainties({"hub.inertia": 0.05})
+        self.assertEqual(arm.uncertainties, {"hub.inertia": 0.05})
+        self.assertIn("inertia_uncertainty", arm.to_toml())
 
     def test_shows_itself_as_a_table(self):
-        html = flexarm.Arm.paper().with_(name="<b>").with_effect("gravity")._repr_html_()
+        html = flexarm.Arm.paper().with_(name="<b>").with_effect("gravity", acceleration=9.81)._repr_html_()
         self.assertIn("beam.length (l)", html)
         self.assertIn("&lt;b&gt;", html)
         self.assertIn("gravity", html)

@@ -51,13 +51,13 @@ class Lock(unittest.TestCase):
         exact = flexarm.ExactTransferFunction(flexarm.Arm.paper())
         torque = flexarm.sampled_torque("multisine:to=60", duration_s=200.0, sample_time_s=1e-3)
         for call in (
-            lambda: exact.transfer_function("hub_angle", 1j * np.linspace(1.0, 900.0, 60000)),
-            lambda: exact.damped_poles(400),
+            lambda: exact.transfer_function("hub_angle", 1j * np.linspace(1.0, 900.0, 100000)),
+            lambda: exact.poles(20000),
             lambda: flexarm.simulate(flexarm.Arm.paper(), torque, sample_time_s=1e-3, modes=20),
         ):
             counted, elapsed_s = self.count_while(call)
-            self.assertGreater(elapsed_s, 0.02)
-            self.assertGreater(counted, 5)
+            self.assertGreater(elapsed_s, 0.05)
+            self.assertGreater(counted, 10)
 
     def test_one_formulation_serves_several_threads(self):
         exact = flexarm.ExactTransferFunction(flexarm.Arm.paper())

@@ -4,14 +4,13 @@
 #include "app/list_option.hpp"
 #include "app/screen.hpp"
 #include "arm/effects.hpp"
-#include "arm/formulation.hpp"
 #include "arm/input_error.hpp"
 #include "arm/linear_arm.hpp"
 #include "arm/plausibility.hpp"
 #include "arm/rigid_hub.hpp"
 #include "effects/registry/vocabulary.hpp"
-#include "measured/files/arm_file.hpp"
 #include "response/arm_parts.hpp"
+#include "response/usable_arm.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -40,29 +39,11 @@ std::string describe_effect(const std::string& name, const arm::Effect& effect) 
   return fmt::format("with {}{}{}", name, parts.empty() ? "" : ": ", fmt::join(parts, ", "));
 }
 
-/// Throws InputError for an arm that no formulation takes.
-void require_usable(const arm::Arm& arm) {
-  if (arm::has_beam(arm)) {
-    arm::require_computable(arm);
-  } else {
-    arm::require_valid(arm);
-  }
-}
-
-arm::Arm read(const std::string& file) {
-  arm::Arm arm = measured::read_arm_file(file, effects::vocabulary());
-  try {
-    require_usable(arm);
-  } catch (const arm::InputError& error) {
-    throw arm::located(error, file, 0);
-  }
-  return arm;
-}
-
 }  // namespace
 
 std::vector<arm::Arm> ArmChoice::arms() const {
-  arm::Arm base = file.empty() ? arm::paper_arm() : read(file);
+  arm::Arm base =
+      file.empty() ? arm::paper_arm() : response::read_usable_arm(file, effects::vocabulary());
   if (payload_inertia_kg_m2) base.payload.inertia_kg_m2 = *payload_inertia_kg_m2;
   if (hub_inertia_kg_m2) base.hub.inertia_kg_m2 = *hub_inertia_kg_m2;
   std::vector<arm::Arm> arms;
@@ -74,7 +55,7 @@ std::vector<arm::Arm> ArmChoice::arms() const {
     arms.push_back(base);
     arms.back().payload.mass_kg = mass;
   }
-  for (const auto& arm : arms) require_usable(arm);
+  for (const auto& arm : arms) response::require_usable(arm);
   return arms;
 }
 

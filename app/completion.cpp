@@ -2,7 +2,7 @@
 #include "app/completion_scripts.hpp"
 #include "app/option_tree.hpp"
 #include "app/standard_output.hpp"
-#include "app/word.hpp"
+#include "arm/read_word.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -59,7 +59,7 @@ Command add_completion(CLI::App& program) {
       "  fish  flexarm completion fish | source\n\n" +
       example("flexarm completion bash"));
   return {parser, [shell, &program] {
-            print(script(read_word("completion", *shell, kShells), program));
+            print(script(arm::read_word("completion", *shell, kShells), program));
             return kSuccess;
           }};
 }

@@ -8,15 +8,12 @@
 #include "app/screen.hpp"
 #include "app/standard_output.hpp"
 #include "arm/input_error.hpp"
-#include "arm/range.hpp"
 #include "diagnose/diagnosis.hpp"
-#include "diagnose/search/hypothesis.hpp"
-#include "measured/checks/data_check.hpp"
+#include "diagnose/diagnosis_request.hpp"
 #include "measured/files/arm_file.hpp"
 #include "measured/files/atomic_file.hpp"
 #include "report/figures/diagnosis_figures.hpp"
-#include "report/json/diagnosis_json.hpp"
-#include "report/json/json_document.hpp"
+#include "report/json/diagnosis_document.hpp"
 #include "report/page/diagnose_page.hpp"
 #include "report/progress.hpp"
 #include "report/tables/csv.hpp"
@@ -30,14 +27,11 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
-#include <filesystem>
 #include <memory>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -46,8 +40,6 @@
 namespace flexarm::app {
 
 namespace {
-
-namespace fs = std::filesystem;
 
 constexpr const char* kDiagnosisJson = "diagnosis.json";
 constexpr const char* kExtendedArm = "extended.toml";
@@ -58,12 +50,7 @@ constexpr std::size_t kFindingLines = 14;
 
 struct DiagnoseArguments {
   std::string file;
-  std::vector<std::string> effects;
-  std::vector<std::string> excluded;
-  std::vector<std::string> accepted;
-  std::optional<double> time_limit_s;
-  int most_causes = diagnose::SelectionOptions{}.most_causes;
-  std::string predictor = "auto";
+  diagnose::DiagnosisRequest request;
   std::string folder;
   bool force = false;
   bool verbose = false;
@@ -85,36 +72,16 @@ FolderKind diagnosis_folder_kind() {
       "a diagnosis", {kDiagnosisJson}, {".json", ".toml", ".csv", ".svg", ".pdf", ".png", ".html"}};
 }
 
-/// The file beside `json_file` that its extended arm is written to: out.json, out.extended.toml.
-fs::path extended_beside(const std::string& json_file) {
-  return fs::path(json_file).replace_extension(kExtendedArm);
-}
-
-/// Empty: by evidence.
-std::optional<diagnose::PredictorKind> chosen_predictor(const std::string& word) {
-  if (word == "auto") return std::nullopt;
-  for (const auto kind : diagnose::kPredictors) {
-    if (word == diagnose::to_string(kind)) return kind;
-  }
-  throw arm::InputError(
-      fmt::format("--predictor {}: must be auto, output_error, closed_loop, grey_box, "
-                  "torque_balance, driven_by_motion or frequency_response",
-                  arm::shown(word)));
-}
-
 /// Throws for an unknown predictor, and for outputs that could not be written, or would take the
 /// place of what is read: before the work, not after it.
 void prepare(const DiagnoseArguments& arguments, const diagnose::Experiment& experiment) {
   if (arguments.force && arguments.folder.empty()) {
     throw arm::InputError("--force: needs --out FOLDER");
   }
-  if (arguments.most_causes < 1) {
-    throw arm::out_of_range("--max-causes", arguments.most_causes, "", "1 or more");
-  }
-  chosen_predictor(arguments.predictor);
+  diagnose::require_valid(arguments.request);
   if (!arguments.json_file.empty()) {
     require_no_input("--json", arguments.json_file, experiment.files);
-    require_no_input("--json: extended arm", extended_beside(arguments.json_file),
+    require_no_input("--json: extended arm", report::extended_arm_beside(arguments.json_file),
                      experiment.files);
   }
   if (!arguments.folder.empty()) require_no_input("--out", arguments.folder, experiment.files);
@@ -124,37 +91,15 @@ void prepare(const DiagnoseArguments& arguments, const diagnose::Experiment& exp
   require_place(arguments.folder, arguments.force, diagnosis_folder_kind());
 }
 
-/// Limits beyond this are none: a clock counts no further.
-constexpr double kLongestLimit_s = 1e9;
-
-using Clock = std::chrono::steady_clock;
-
-diagnose::Deadline deadline_of(const DiagnoseArguments& arguments, Clock::time_point begun) {
-  if (!arguments.time_limit_s) return std::nullopt;
-  arm::require_in_range("--time-limit", *arguments.time_limit_s, "s", arm::kPositive);
-  if (*arguments.time_limit_s > kLongestLimit_s) return std::nullopt;
-  const std::chrono::duration<double> limit(*arguments.time_limit_s);
-  return begun + std::chrono::duration_cast<Clock::duration>(limit);
-}
-
 diagnose::Diagnosis diagnose_with_progress(const DiagnoseArguments& arguments,
                                            const diagnose::Experiment& experiment,
                                            const diagnose::Deadline& deadline) {
-  const auto hypotheses = without_excluded(
-      chosen_hypotheses(arguments.effects, diagnose::hypotheses(experiment)), arguments.excluded);
   report::Progress progress("diagnosing");
-  const auto tell = [&](std::string_view, double fraction) {
-    progress.reach(fraction);
-    return true;
-  };
-  diagnose::SelectionOptions options;
-  options.most_causes = arguments.most_causes;
-  options.predictor = chosen_predictor(arguments.predictor);
-  options.deadline = deadline;
-  auto diagnosis = diagnose::diagnose(experiment, hypotheses, options, tell);
-  diagnosis.excluded = arguments.excluded;
-  diagnosis.time_limit_s = arguments.time_limit_s;
-  return diagnosis;
+  return diagnose::diagnose(experiment, arguments.request, deadline,
+                            [&](std::string_view, double fraction) {
+                              progress.reach(fraction);
+                              return true;
+                            });
 }
 
 /// The verdict with its first word toned.
@@ -243,23 +188,13 @@ std::string text_of(const diagnose::Diagnosis& diagnosis, bool verbose) {
                             verbose ? kAllRows : kFewRows, "--verbose");
 }
 
-/// An incomplete search that names no cause has no extended arm to tell of.
-bool extends(const diagnose::Diagnosis& diagnosis) {
-  return !diagnosis.search_end || !diagnosis.causes.empty();
-}
-
-std::string json_of(const diagnose::Diagnosis& diagnosis, const std::string& extended_arm) {
-  return report::json_document("flexarm.diagnosis/2",
-                               report::diagnosis_json(diagnosis, extended_arm));
-}
-
 std::vector<measured::NamedContent> files_of(const diagnose::Diagnosis& diagnosis,
                                              report::DiagnosisPlots plots) {
-  const std::string extended = extends(diagnosis) ? kExtendedArm : "";
+  const std::string extended = diagnose::has_extended_arm(diagnosis) ? kExtendedArm : "";
   std::vector<measured::NamedContent> files = {
       {"channels.csv", report::to_csv(report::channel_gain_table(diagnosis))},
       {"causes.csv", report::to_csv(report::cause_table(diagnosis))},
-      {kDiagnosisJson, json_of(diagnosis, extended)}};
+      {kDiagnosisJson, report::diagnosis_document(diagnosis, extended)}};
   if (!extended.empty()) files.push_back({extended, measured::format_arm(diagnosis.extended_arm)});
   const auto add_table = [&](const char* name, const report::Table& table) {
     if (!table.rows.empty()) files.push_back({name, report::to_csv(table)});
@@ -292,14 +227,10 @@ std::string write_files(const DiagnoseArguments& arguments, const diagnose::Expe
     left_out = plots.left_out;
     write_folder(arguments.folder, arguments.force, files_of(diagnosis, std::move(plots)));
   }
-  if (!arguments.json_file.empty()) {
-    std::string extended;
-    if (extends(diagnosis) && !is_standard_output(arguments.json_file)) {
-      const fs::path beside = extended_beside(arguments.json_file);
-      measured::write_atomically(beside, measured::format_arm(diagnosis.extended_arm));
-      extended = beside.filename().string();
-    }
-    write_json(arguments.json_file, json_of(diagnosis, extended));
+  if (is_standard_output(arguments.json_file)) {
+    write_json(arguments.json_file, report::diagnosis_document(diagnosis, ""));
+  } else if (!arguments.json_file.empty()) {
+    report::write_diagnosis(diagnosis, arguments.json_file);
   }
   if (arguments.report.is_given()) {
     arguments.report.write(
@@ -308,22 +239,11 @@ std::string write_files(const DiagnoseArguments& arguments, const diagnose::Expe
   return left_out;
 }
 
-std::vector<measured::Fault> accepted_faults(const std::vector<std::string>& checks) {
-  std::vector<measured::Fault> faults;
-  for (const auto& check : checks) {
-    try {
-      faults.push_back(measured::fault_of_check(check));
-    } catch (const arm::InputError& error) {
-      throw arm::InputError(std::string("--accept ") + error.what());
-    }
-  }
-  return faults;
-}
-
 int run_diagnose(const DiagnoseArguments& arguments) {
-  const diagnose::Deadline deadline = deadline_of(arguments, Clock::now());
+  const auto begun = std::chrono::steady_clock::now();
+  const diagnose::Deadline deadline = diagnose::deadline_of(arguments.request, begun);
   const diagnose::Experiment experiment =
-      diagnose::read_experiment(arguments.file, accepted_faults(arguments.accepted));
+      diagnose::read_experiment(arguments.file, arguments.request);
   prepare(arguments, experiment);
   const diagnose::Diagnosis diagnosis = diagnose_with_progress(arguments, experiment, deadline);
   std::string text = text_of(diagnosis, arguments.verbose);
@@ -357,25 +277,25 @@ Command add_diagnose(CLI::App& program) {
   CLI::App* parser = program.add_subcommand(
       "diagnose", "Name the causes of the differences between a simulation and measured data");
   parser->add_option("FILE", arguments->file, "measurement.toml")->required()->check(not_empty());
-  add_effect_choice(*parser, arguments->effects);
+  add_effect_choice(*parser, arguments->request.effects);
   const auto add_names = [&](const char* option, std::vector<std::string>& names,
                              const char* help) {
     parser->add_option(option, names, help)->delimiter(',')->allow_extra_args(false);
   };
-  add_names("--exclude", arguments->excluded,
+  add_names("--exclude", arguments->request.excluded,
             "Effects that are not searched for; on one sensor: \"sensor_gain on hub_angle\"");
-  add_names("--accept", arguments->accepted,
+  add_names("--accept", arguments->request.accepted,
             "Data checks whose findings are no faults of these data, e.g. dead_channel: they are "
             "reported as accepted, and exclude no channel and no run");
   add_verbose(*parser, arguments->verbose,
               "Print evidence, residual analysis, NRMSE of each channel, formulations");
-  parser->add_option("--time-limit", arguments->time_limit_s,
+  parser->add_option("--time-limit", arguments->request.time_limit_s,
                      "Seconds after which the search ends with the best so far");
-  parser->add_option("--max-causes", arguments->most_causes, "The most causes to name")
+  parser->add_option("--max-causes", arguments->request.most_causes, "The most causes to name")
       ->capture_default_str();
   parser
       ->add_option(
-          "--predictor", arguments->predictor,
+          "--predictor", arguments->request.predictor,
           "How time runs are predicted: output_error (the torque alone drives the arm), "
           "closed_loop (the reference drives controller and arm), grey_box (a Kalman filter, with "
           "an unrecorded torque on the hub), torque_balance (the residual hub torque for the "

@@ -8,21 +8,13 @@
 #include "app/screen.hpp"
 #include "app/spectrum_choice.hpp"
 #include "app/standard_output.hpp"
-#include "app/word.hpp"
 #include "arm/input_error.hpp"
-#include "arm/linear_arm.hpp"
-#include "arm/nearest_name.hpp"
-#include "arm/range.hpp"
-#include "arm/rigid_hub.hpp"
 #include "compare/identification.hpp"
-#include "effects/registry/vocabulary.hpp"
-#include "measured/files/arm_file.hpp"
+#include "compare/identification_task.hpp"
 #include "measured/files/atomic_file.hpp"
 #include "measured/run_identification.hpp"
 #include "report/figures/gnuplot.hpp"
-#include "report/json/arm_json.hpp"
 #include "report/json/identification_json.hpp"
-#include "report/json/json_document.hpp"
 #include "report/page/identify_page.hpp"
 #include "report/progress.hpp"
 #include "report/tables/identification_tables.hpp"
@@ -31,11 +23,8 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <filesystem>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -45,122 +34,16 @@ namespace flexarm::app {
 
 namespace {
 
-namespace fs = std::filesystem;
-
 struct IdentifyArguments {
   std::string file;
-  std::vector<std::string> runs;
-  std::vector<std::string> sensors;
-  SpectrumChoice spectrum;
-  std::string input;
+  compare::IdentificationRequest request;
   bool no_fit = false;
-  std::optional<int> modes;
-  std::optional<double> from_Hz;
-  std::optional<double> to_Hz;
-  int highest_order = 32;
-  std::optional<double> total_inertia_kg_m2;
   std::string folder;
   bool force = false;
   bool verbose = false;
   std::string json_file;
   ReportChoice report;
 };
-
-/// The runs asked for, all unless told. Throws InputError for one that there is not.
-std::vector<measured::Run> chosen_runs(const IdentifyArguments& arguments,
-                                       const measured::Measurement& measurement) {
-  if (arguments.runs.empty()) return measurement.runs;
-  std::vector<std::string> ids;
-  for (const auto& run : measurement.runs) ids.push_back(run.id);
-  std::vector<measured::Run> chosen;
-  for (const auto& id : arguments.runs) {
-    const auto at = std::ranges::find(measurement.runs, id, &measured::Run::id);
-    if (at == measurement.runs.end()) {
-      throw arm::InputError(fmt::format("--run {}: no such run in {}{}; its runs are {}",
-                                        arm::shown(id), arguments.file, arm::did_you_mean(id, ids),
-                                        fmt::join(ids, ", ")));
-    }
-    if (std::ranges::find(chosen, id, &measured::Run::id) != chosen.end()) {
-      throw arm::InputError(fmt::format("--run {}: given twice", arm::shown(id)));
-    }
-    chosen.push_back(*at);
-  }
-  return chosen;
-}
-
-/// Leaves the sensors asked for in the data, all unless told. Throws InputError where none of the
-/// runs has one.
-void select_sensors(const IdentifyArguments& arguments, std::vector<measured::MeasuredRun>& runs) {
-  std::vector<arm::Sensor> wanted;
-  for (const auto& name : arguments.sensors) wanted.push_back(arm::parse_sensor(name));
-  if (wanted.empty()) return;
-  std::vector<bool> seen(wanted.size(), false);
-  const auto unwanted = [&](const arm::Sensor& sensor) {
-    const auto at = std::ranges::find(wanted, sensor);
-    if (at == wanted.end()) return true;
-    seen[static_cast<std::size_t>(at - wanted.begin())] = true;
-    return false;
-  };
-  for (auto& run : runs) {
-    if (auto* table = std::get_if<measured::ModalTable>(&run.data)) {
-      std::erase_if(*table,
-                    [&](const auto& entry) { return entry.sensor && unwanted(*entry.sensor); });
-      continue;
-    }
-    std::visit(
-        [&](auto& record) {
-          if constexpr (requires { record.channels; }) {
-            std::erase_if(record.channels,
-                          [&](const auto& channel) { return unwanted(channel.sensor); });
-          }
-        },
-        run.data);
-  }
-  for (std::size_t i = 0; i < wanted.size(); ++i) {
-    if (!seen[i]) {
-      throw arm::InputError(
-          fmt::format("--sensor {}: not measured in any run", arguments.sensors[i]));
-    }
-  }
-}
-
-measured::IdentificationOptions options_of(const IdentifyArguments& arguments,
-                                           const arm::Arm& arm) {
-  measured::IdentificationOptions options;
-  options.spectrum = arguments.spectrum.settings();
-  options.peaks.place = arguments.spectrum.place();
-  if (!arguments.input.empty()) {
-    options.input = read_word("--input", arguments.input, measured::kResponseInputs);
-  }
-  if (arm::has_beam(arm)) options.check.length_m = arm::linear_arm(arm).length_m;
-  options.check.total_inertia_kg_m2 = arm::total_inertia_kg_m2(arm);
-  options.fit = !arguments.no_fit;
-  if (arguments.modes && *arguments.modes < 1) {
-    throw arm::out_of_range("--modes", *arguments.modes, "", "1 or more");
-  }
-  if (arguments.highest_order < 2 || arguments.highest_order > 100) {
-    throw arm::out_of_range("--order", arguments.highest_order, "", "2 to 100");
-  }
-  if (arguments.total_inertia_kg_m2) {
-    arm::require_in_range("--total-inertia", *arguments.total_inertia_kg_m2, "kg m^2",
-                          arm::kPositive);
-  }
-  options.total_inertia_kg_m2 = arguments.total_inertia_kg_m2;
-  options.modal_fit.modes = arguments.modes;
-  options.modal_fit.highest_order = arguments.highest_order;
-  options.modal_fit.rigid_body = arm::linear_arm(arm).turns_freely();
-  if (arguments.from_Hz || arguments.to_Hz) {
-    const double from_Hz = arguments.from_Hz.value_or(0.0);
-    if (!(from_Hz >= 0.0)) throw arm::out_of_range("--from-Hz", from_Hz, "Hz", "0 or more");
-    if (!arguments.to_Hz || !(*arguments.to_Hz > from_Hz)) {
-      throw arm::InputError(fmt::format("--to-Hz: must be given, and above {:g} Hz", from_Hz));
-    }
-    options.modal_fit.band = {from_Hz, *arguments.to_Hz};
-    options.peaks.from_Hz = from_Hz;
-    options.peaks.to_Hz = *arguments.to_Hz;
-  }
-  return options;
-}
 
 measured::Identification identify_with_progress(std::vector<measured::MeasuredRun> runs,
                                                 measured::IdentificationOptions options) {
@@ -278,9 +161,8 @@ void write_files(const IdentifyArguments& arguments, const std::string& measurem
                  const arm::Arm& arm, const measured::Identification& identification,
                  const std::vector<compare::IdentifiedCondition>& conditions) {
   if (arguments.folder.empty() && arguments.json_file.empty()) return;
-  nlohmann::ordered_json document = {{"measurement", measurement}, {"arm", report::arm_json(arm)}};
-  document.update(report::identification_json(identification, conditions));
-  const std::string json = report::json_document("flexarm.identify/1", document);
+  const std::string json =
+      report::identification_document(measurement, arm, identification, conditions);
   if (!arguments.folder.empty()) {
     auto files = identified_files(identification, conditions);
     files.push_back({kIdentifiedJson, json});
@@ -290,27 +172,20 @@ void write_files(const IdentifyArguments& arguments, const std::string& measurem
 }
 
 int run_identify(const IdentifyArguments& arguments) {
-  const measured::Measurement measurement = measured::read_measurement(arguments.file);
-  const fs::path arm_file = measured::beside(arguments.file, measurement.arm);
-  const arm::Arm arm = measured::read_arm_file(arm_file, effects::vocabulary());
-  arm::require_valid(arm);
-  const auto options = options_of(arguments, arm);
-  std::vector<measured::MeasuredRun> runs;
-  for (const auto& run : chosen_runs(arguments, measurement)) {
-    runs.push_back({run, measured::read_run(arguments.file, run)});
-  }
-  select_sensors(arguments, runs);
-  prepare(arguments, measurement);
+  auto request = arguments.request;
+  request.fit = !arguments.no_fit;
+  auto task = compare::read_identification_task(arguments.file, request);
+  prepare(arguments, task.measurement);
   std::vector<measured::MeasuredRun> recorded;  // the report shows them
-  if (arguments.report.is_given()) recorded = runs;
+  if (arguments.report.is_given()) recorded = task.runs;
 
-  const auto identification = identify_with_progress(std::move(runs), options);
-  const auto conditions = compare::conditions_of(identification, arm);
+  const auto identification = identify_with_progress(std::move(task.runs), task.options);
+  const auto conditions = compare::conditions_of(identification, task.arm);
   std::string text = results_text(identification, conditions);
-  text += describe(arm) + left_out_of_roots(arm) + "\n";
+  text += describe(task.arm) + left_out_of_roots(task.arm) + "\n";
   if (arguments.verbose) text += details_text(identification, conditions);
   try {
-    write_files(arguments, measurement.name, arm, identification, conditions);
+    write_files(arguments, task.measurement.name, task.arm, identification, conditions);
     if (arguments.report.is_given()) {
       arguments.report.write(report::page::identify_page(identification, conditions, recorded,
                                                          page_origin(arguments.file)));
@@ -341,24 +216,25 @@ Command add_identify(CLI::App& program) {
       "identify",
       "Estimate spectra, poles, zeros, damping, hub slopes and gains from measured data");
   parser->add_option("FILE", arguments->file, "measurement.toml")->required()->check(not_empty());
-  parser->add_option("--run", arguments->runs, "Run ids, comma-separated; default: all")
+  parser->add_option("--run", arguments->request.runs, "Run ids, comma-separated; default: all")
       ->delimiter(',')
       ->allow_extra_args(false);
-  add_list_option(*parser, "--sensor", arguments->sensors,
+  add_list_option(*parser, "--sensor", arguments->request.sensors,
                   "Sensors, comma-separated; default: all");
-  add_spectrum_choice(*parser, arguments->spectrum);
-  parser->add_option("--input", arguments->input,
+  add_spectrum_choice(*parser, arguments->request.spectrum);
+  parser->add_option("--input", arguments->request.input,
                      "Input of the responses of time runs: torque, hub_angle or hub_velocity; "
                      "default: torque, hub motion where the torque is unusable");
-  parser->add_option("--from-Hz", arguments->from_Hz, "Lowest frequency of peaks and fits");
-  parser->add_option("--to-Hz", arguments->to_Hz,
+  parser->add_option("--from-Hz", arguments->request.from_Hz, "Lowest frequency of peaks and fits");
+  parser->add_option("--to-Hz", arguments->request.to_Hz,
                      "Highest frequency; default: where the torque has power");
-  parser->add_option("--modes", arguments->modes,
+  parser->add_option("--modes", arguments->request.modes,
                      "Number of flexible second-order sections; default: by BIC");
   parser
-      ->add_option("--order", arguments->highest_order, "Highest order of the stabilisation chart")
+      ->add_option("--order", arguments->request.highest_order,
+                   "Highest order of the stabilisation chart")
       ->capture_default_str();
-  parser->add_option("--total-inertia", arguments->total_inertia_kg_m2,
+  parser->add_option("--total-inertia", arguments->request.total_inertia_kg_m2,
                      "Total inertia I_T [kg m^2] for slopes and gains; default: estimated from the "
                      "rigid-body mode");
   parser->add_flag("--no-fit", arguments->no_fit, "Spectra, peaks and circle fits only");

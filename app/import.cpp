@@ -8,8 +8,8 @@
 #include "app/run_choice.hpp"
 #include "app/standard_output.hpp"
 #include "app/starter_arm.hpp"
-#include "app/word.hpp"
 #include "arm/input_error.hpp"
+#include "arm/read_word.hpp"
 #include "effects/registry/vocabulary.hpp"
 #include "measured/files/arm_file.hpp"
 #include "measured/files/atomic_file.hpp"
@@ -121,7 +121,7 @@ std::optional<arm::Controller> controller_of(const ImportArguments& arguments) {
   if (reference.empty()) {
     throw arm::InputError("--controller: needs the column with its reference, --reference COLUMN");
   }
-  return read_controller(arguments.controller);
+  return response::read_controller(arguments.controller, "--controller");
 }
 
 int run_import(const ImportArguments& typed) {
@@ -130,7 +130,7 @@ int run_import(const ImportArguments& typed) {
   FileChoice choice = arguments.file;
   choice.controller = arguments.runs.controller;
   if (!arguments.kind.empty()) {
-    choice.kind = read_word(
+    choice.kind = arm::read_word(
         "--kind", arguments.kind,
         std::array{measured::RunKind::time, measured::RunKind::frf, measured::RunKind::modal});
   }

@@ -8,13 +8,13 @@
 #include "app/screen.hpp"
 #include "app/standard_output.hpp"
 #include "arm/input_error.hpp"
+#include "diagnose/planning/plan_task.hpp"
 #include "effects/registry/vocabulary.hpp"
 #include "measured/files/arm_file.hpp"
 #include "measured/files/atomic_file.hpp"
 #include "report/figures/gnuplot.hpp"
 #include "report/figures/separation_figure.hpp"
 #include "report/figures/svg.hpp"
-#include "report/json/json_document.hpp"
 #include "report/json/plan_json.hpp"
 #include "report/page/plan_page.hpp"
 #include "report/progress.hpp"
@@ -23,7 +23,6 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <filesystem>
 #include <memory>
@@ -72,17 +71,13 @@ void prepare_outputs(const PlanArguments& arguments) {
 }
 
 diagnose::Plan plan_with_progress(const PlanArguments& arguments) {
-  const arm::Arm arm =
-      arm::without_hypotheses(measured::read_arm_file(arguments.arm_file, effects::vocabulary()));
-  const auto planned = diagnose::read_measurement_plan(arguments.plan_file);
-  const auto possible = diagnose::hypotheses_of(arm, planned);
-  const auto hypotheses = chosen_hypotheses(arguments.effects, possible);
-  chosen_hypotheses(arguments.refitted, possible, "--refit");  // throws for an unknown name
+  const arm::Arm arm = measured::read_arm_file(arguments.arm_file, effects::vocabulary());
+  const auto task =
+      diagnose::plan_task(arm, diagnose::read_measurement_plan(arguments.plan_file),
+                          {.effects = arguments.effects, .refitted = arguments.refitted});
   prepare_outputs(arguments);
-  diagnose::PlanOptions options;
-  options.unknown = arguments.refitted;
   report::Progress progress("planning");
-  return diagnose::plan_experiment(arm, planned, hypotheses, options,
+  return diagnose::plan_experiment(task.arm, task.planned, task.hypotheses, task.options,
                                    [&](std::string_view, double fraction) {
                                      progress.reach(fraction);
                                      return true;
@@ -118,7 +113,7 @@ std::string text_of_plan(const diagnose::Plan& plan, bool verbose) {
 
 void write_plan(const PlanArguments& arguments, const diagnose::Plan& plan) {
   const std::string better = diagnose::format_measurement_plan(plan.better);
-  const std::string json = report::json_document("flexarm.plan/2", report::plan_json(plan));
+  const std::string json = report::plan_document(plan);
   if (!arguments.folder.empty()) {
     const std::vector<measured::NamedContent> files = {
         {"effects.csv", report::to_csv(report::detection_table(plan))},

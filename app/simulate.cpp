@@ -1,15 +1,20 @@
 #include "app/arm_choice.hpp"
 #include "app/command.hpp"
 #include "app/folder_place.hpp"
+#include "app/formulation_choice.hpp"
 #include "app/json_file.hpp"
+#include "app/run_choice.hpp"
 #include "app/screen.hpp"
-#include "app/simulated_experiment.hpp"
+#include "app/sensor_choice.hpp"
 #include "app/standard_output.hpp"
 #include "arm/input_error.hpp"
-#include "arm/nearest_name.hpp"
 #include "report/figures/gnuplot.hpp"
-#include "report/json/arm_json.hpp"
-#include "report/json/json_document.hpp"
+#include "report/json/simulation_json.hpp"
+#include "report/measurement_folder.hpp"
+#include "report/progress.hpp"
+#include "report/tables/simulation_report.hpp"
+#include "report/tables/stepped_sine_report.hpp"
+#include "response/experiment/simulated_experiment.hpp"
 #include "response/settings.hpp"
 
 #include <CLI/CLI.hpp>
@@ -18,6 +23,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -33,7 +40,7 @@ struct SimulateArguments {
   ArmChoice arm;
   RunChoice runs;
   SensorChoice sensors;
-  ExperimentOptions options;
+  response::ExperimentOptions options;
   std::string hold = "zero";
   std::vector<std::string> hidden_effects;
   std::string name;
@@ -57,25 +64,6 @@ arm::Arm base_arm(const ArmChoice& choice) {
   return base.arms().front();
 }
 
-/// The arm with some of its effects, or all, left out.
-arm::Arm without_effects(const arm::Arm& arm, const std::vector<std::string>& hidden) {
-  arm::Arm seen = arm;
-  std::vector<std::string> names;
-  for (const auto& [name, effect] : arm.effects) names.push_back(name);
-  names.emplace_back("all");
-  for (const auto& name : hidden) {
-    if (name == "all") {
-      seen.effects.clear();
-    } else if (seen.effects.erase(name) == 0) {
-      throw arm::InputError(
-          fmt::format("--hide-effects {}: not an effect of the arm{}; its effects are {}",
-                      arm::shown(name), arm::did_you_mean(name, names),
-                      arm.effects.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
-    }
-  }
-  return seen;
-}
-
 void refuse_without_folder(const char* option, bool given) {
   if (given) throw arm::InputError(fmt::format("{}: needs --out FOLDER", option));
 }
@@ -91,6 +79,21 @@ void prepare(const SimulateArguments& arguments) {
   }
   report::run_gnuplot("");  // throws where there is none
   require_place(arguments.folder, arguments.force, measurement_folder_kind());
+}
+
+/// With a line of progress on standard error for each run.
+response::SimulatedExperiment simulate_with_progress(const arm::Arm& arm,
+                                                     const std::vector<PlannedRun>& plan,
+                                                     const std::vector<ChosenSensor>& sensors,
+                                                     const response::ExperimentOptions& options) {
+  const auto line_of = [](const std::string& label, std::size_t total) {
+    const auto line = std::make_shared<report::Progress>(label, static_cast<std::int64_t>(total));
+    return [line](double fraction) {
+      line->reach(fraction);
+      return true;
+    };
+  };
+  return response::simulate_experiment(arm, plan, sensors, options, line_of);
 }
 
 /// The numbers of excitations that samples could not take as they were typed.
@@ -122,7 +125,7 @@ std::string standing_notes(const std::vector<report::SimulatedRun>& runs) {
 }
 
 /// What the sampling does not show of the modes kept, once for each kind of run.
-std::string sampling_notes(const SimulatedExperiment& experiment) {
+std::string sampling_notes(const response::SimulatedExperiment& experiment) {
   std::string notes;
   for (const auto& run : experiment.runs) {
     const auto& summary = run.simulation.summary;
@@ -184,7 +187,7 @@ void print_stepped_runs(const std::vector<report::SteppedSineRun>& runs, bool ha
 }
 
 void print_results(const SimulateArguments& arguments, const std::vector<PlannedRun>& plan,
-                   const SimulatedExperiment& experiment, bool has_dry_friction) {
+                   const response::SimulatedExperiment& experiment, bool has_dry_friction) {
   const auto& runs = experiment.runs;
   print_runs_in_time(runs, has_dry_friction, arguments.verbose);
   print_stepped_runs(experiment.stepped_runs, has_dry_friction);
@@ -195,7 +198,7 @@ void print_results(const SimulateArguments& arguments, const std::vector<Planned
 
 /// The arm and the model that it was simulated with.
 void print_model(const SimulateArguments& arguments, const arm::Arm& arm,
-                 const SimulatedExperiment& experiment) {
+                 const response::SimulatedExperiment& experiment) {
   const char* hold =
       arguments.options.hold == response::TorqueHold::zero ? "zero-order hold" : "first-order hold";
   print(describe(arm));
@@ -214,67 +217,26 @@ void print_model(const SimulateArguments& arguments, const arm::Arm& arm,
   print("\n");
 }
 
-/// Throws unless the sensors that controllers read are simulated.
-void require_read_sensors(const std::vector<PlannedRun>& plan,
-                          const std::vector<ChosenSensor>& sensors) {
-  for (const auto& run : plan) {
-    if (!run.controller) continue;
-    for (const auto& sensor : run.controller->sensors) {
-      if (std::ranges::count(sensors, sensor, &ChosenSensor::sensor) > 0) continue;
-      throw arm::InputError(fmt::format("--controller: reads {}, which is not among --sensor",
-                                        arm::to_string(sensor)));
-    }
-  }
-}
-
-/// Throws for options that a stepped sine has no use for.
-void require_fitting(const SimulateArguments& arguments, const std::vector<PlannedRun>& plan) {
-  const auto stepped =
-      std::ranges::find_if(plan, [](const auto& run) { return run.stepped_sine.has_value(); });
-  if (stepped == plan.end() || !arguments.options.check_step) return;
-  throw arm::InputError(
-      fmt::format("--check-step: only for time runs; {} is a stepped sine", stepped->id));
-}
-
-std::string json_text(const SimulateArguments& arguments, const arm::Arm& arm,
-                      const SimulatedExperiment& experiment) {
-  return report::json_document(
-      "flexarm.simulate/1", {{"arm", report::arm_json(arm)},
-                             {"model", experiment.model},
-                             {"settings", experiment.settings},
-                             {"modes", experiment.modes},
-                             {"static_correction", arguments.options.static_correction},
-                             {"torque_hold", arguments.hold},
-                             {"runs", report::runs_json(experiment.runs)},
-                             {"stepped_runs", report::stepped_runs_json(experiment.stepped_runs)}});
-}
-
 int run_simulate(SimulateArguments arguments) {
   auto& options = arguments.options;
-  if (options.modes < 1) throw arm::out_of_range("--modes", options.modes, "", "1 or more");
-  if (options.substeps < 0 || options.substeps > response::kMostSubsteps) {
-    throw arm::out_of_range("--substeps", options.substeps, "",
-                            fmt::format("from 0 to {}", response::kMostSubsteps));
-  }
   options.hold = read_hold(arguments.hold);
   options.noise_seed = arguments.runs.seed;
   const arm::Arm arm = base_arm(arguments.arm);
-  const arm::Arm written = without_effects(arm, arguments.hidden_effects);
+  const arm::Arm written =
+      response::with_hidden_effects(arm, arguments.hidden_effects, "--hide-effects");
   const auto sensors = arguments.sensors.sensors(arm);
   const auto plan = arguments.runs.runs(arm, arguments.arm.payload_masses_kg);
-  require_fitting(arguments, plan);
-  require_read_sensors(plan, sensors);
+  response::require_valid(options, plan, sensors, arm::on_command_line);
   prepare(arguments);
 
-  const auto experiment = simulate_experiment(arm, plan, sensors, options);
+  const auto experiment = simulate_with_progress(arm, plan, sensors, options);
   // Files first: a reader of standard output that goes away costs none of them.
   if (!arguments.folder.empty()) {
-    const std::string otherwise = arm.name.empty() ? "simulated" : arm.name + ", simulated";
-    const std::string name = arguments.name.empty() ? otherwise : arguments.name;
+    const std::string name = arguments.name.empty() ? report::simulated_name(arm) : arguments.name;
     write_folder(arguments.folder, arguments.force,
-                 measurement_folder(name, written, plan, experiment, options.hold));
+                 report::measurement_folder(name, written, plan, experiment, options.hold));
   }
-  write_json(arguments.json_file, json_text(arguments, arm, experiment));
+  write_json(arguments.json_file, report::simulation_document(arm, experiment, options));
   print_model(arguments, arm, experiment);
   print_results(arguments, plan, experiment, !response::take_apart(arm).hub.friction.empty());
   if (arguments.folder.empty()) {

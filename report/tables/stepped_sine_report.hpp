@@ -4,8 +4,7 @@
 #include "measured/files/frequency_record.hpp"
 #include "report/figures/comparison_plots.hpp"
 #include "report/tables/table.hpp"
-#include "response/excitation/excitation_keys.hpp"
-#include "response/time/stepped_sine_response.hpp"
+#include "response/experiment/simulated_experiment.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -14,14 +13,7 @@
 
 namespace flexarm::report {
 
-/// A run of a simulated experiment that measured a frequency response sine by sine.
-struct SteppedSineRun {
-  std::string id;
-  std::vector<response::ExcitationKey> keys;
-  arm::Payload payload;
-  std::vector<arm::Sensor> sensors;
-  response::SteppedSineResponse measured;  ///< noise and all
-};
+using response::SteppedSineRun;
 
 /// The response as a frequency record has it.
 measured::FrequencyRecord frequency_record(const SteppedSineRun& run);

@@ -58,7 +58,7 @@ std::string word_for(Condition condition) {
 struct Check {
   std::string name;
   Condition condition = Condition::ok;
-  std::string found;
+  std::string found = {};
   std::string advice = {};            ///< what to do; empty where there is nothing
   std::optional<double> time_s = {};  ///< that it took
 };
@@ -90,7 +90,7 @@ std::string first_line_of(const char* command) {
 }
 
 Check libraries() {
-  std::string found;
+  std::string found = {};
   for (const auto& list : {numeric_libraries(), text_libraries()}) {
     for (const auto& [name, version] : list) {
       found += fmt::format("{}{} {}", found.empty() ? "" : ", ", name, version);

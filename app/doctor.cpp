@@ -90,7 +90,7 @@ std::string first_line_of(const char* command) {
 }
 
 Check libraries() {
-  std::string found = {};
+  std::string found;
   for (const auto& list : {numeric_libraries(), text_libraries()}) {
     for (const auto& [name, version] : list) {
       found += fmt::format("{}{} {}", found.empty() ? "" : ", ", name, version);
@@ -134,8 +134,9 @@ Check formulation(const std::string& name) {
 Check gnuplot() {
   Check check{"gnuplot"};
   try {
-    std::string version =
-        report::run_gnuplot("set print '-'\nprint GPVAL_VERSION, ' ', GPVAL_PATCHLEVEL\n");
+    std::string version = report::run_gnuplot(
+        "set print '-'\n"
+        "print sprintf('%.1f patchlevel %s', GPVAL_VERSION, GPVAL_PATCHLEVEL)\n");
     version = version.substr(0, version.find('\n'));
     const Stopwatch stopwatch;
     const std::string drawn = report::run_gnuplot("set terminal svg\nplot sin(x)\n");

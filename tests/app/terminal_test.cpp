@@ -5,7 +5,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <csignal>
+#include <map>
 #include <regex>
 #include <sstream>
 #include <string>
@@ -36,7 +39,7 @@ std::size_t widest_line(const std::string& output) {
 }
 
 TEST_F(Terminal, TablesAndTextFitItsWidth) {
-  for (const unsigned short columns : {40, 60, 80, 132}) {
+  for (const unsigned short columns : std::array<unsigned short, 4>{40, 60, 80, 132}) {
     const Ended ended = run_on_terminal(kQuick, columns);
     EXPECT_EQ(ended.status, 0) << ended.output;
     EXPECT_LE(widest_line(ended.output), columns) << ended.output;

@@ -118,7 +118,7 @@ Check formulation(const std::string& name) {
       const double pole_Hz = poles.omega_rad_per_s.at(i) / (2.0 * std::numbers::pi);
       largest = std::max(largest, std::abs(pole_Hz / kKnownPoles_Hz[i] - 1.0));
     }
-    check.found = fmt::format("{} poles of the paper's arm, off by {:.1e} at most",
+    check.found = fmt::format("{} poles of the paper's arm, relative error {:.1e}",
                               kKnownPoles_Hz.size(), largest);
     if (!(largest <= kPoleTolerance)) check.condition = Condition::failed;
   } catch (const std::exception& error) {

@@ -82,16 +82,18 @@ std::filesystem::path folder_of(const std::filesystem::path& out, const arm::Arm
 
 std::string describe(const arm::Arm& arm) {
   const arm::LinearArm linear = arm::linear_arm(arm);
-  std::string lines = fmt::format("{}\n", arm.name.empty() ? "arm" : arm.name);
+  std::string lines = screen_paragraph(arm.name.empty() ? "arm" : arm.name);
   if (arm::has_beam(arm)) {
-    lines += fmt::format(
-        "l {:g} m, EI {:.6g} N m^2, m {:.6g} kg/m, I_T {:.6g} kg m^2\n"
-        "Ih {:g} kg m^2 (epsilon {:.4g}), Mp {:g} kg (eta {:.4g}), Ip {:g} kg m^2\n"
-        "kv {:g} s, c {:g} N m s/rad\n",
-        linear.length_m, linear.flexural_rigidity_N_m2, linear.linear_density_kg_per_m,
-        arm::total_inertia_kg_m2(linear), linear.hub_inertia_kg_m2, arm::hub_inertia_ratio(arm),
-        linear.payload_mass_kg, arm::payload_mass_ratio(arm), linear.payload_tip_inertia_kg_m2,
-        linear.kelvin_voigt_s, linear.hub_viscous_friction_N_m_s_per_rad);
+    lines += screen_paragraph(
+        fmt::format("l {:g} m, EI {:.6g} N m^2, m {:.6g} kg/m, I_T {:.6g} kg m^2", linear.length_m,
+                    linear.flexural_rigidity_N_m2, linear.linear_density_kg_per_m,
+                    arm::total_inertia_kg_m2(linear)));
+    lines += screen_paragraph(
+        fmt::format("Ih {:g} kg m^2 (epsilon {:.4g}), Mp {:g} kg (eta {:.4g}), Ip {:g} kg m^2",
+                    linear.hub_inertia_kg_m2, arm::hub_inertia_ratio(arm), linear.payload_mass_kg,
+                    arm::payload_mass_ratio(arm), linear.payload_tip_inertia_kg_m2));
+    lines += screen_paragraph(fmt::format("kv {:g} s, c {:g} N m s/rad", linear.kelvin_voigt_s,
+                                          linear.hub_viscous_friction_N_m_s_per_rad));
   } else {
     lines += fmt::format("rigid hub without a beam\nIh {:g} kg m^2, c {:g} N m s/rad\n",
                          linear.hub_inertia_kg_m2, linear.hub_viscous_friction_N_m_s_per_rad);

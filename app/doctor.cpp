@@ -58,7 +58,7 @@ std::string word_for(Condition condition) {
 struct Check {
   std::string name;
   Condition condition = Condition::ok;
-  std::string found;
+  std::string found = {};
   std::string advice = {};            ///< what to do; empty where there is nothing
   std::optional<double> time_s = {};  ///< that it took
 };
@@ -118,7 +118,7 @@ Check formulation(const std::string& name) {
       const double pole_Hz = poles.omega_rad_per_s.at(i) / (2.0 * std::numbers::pi);
       largest = std::max(largest, std::abs(pole_Hz / kKnownPoles_Hz[i] - 1.0));
     }
-    check.found = fmt::format("{} poles of the paper's arm, off by {:.1e} at most",
+    check.found = fmt::format("{} poles of the paper's arm, relative error {:.1e}",
                               kKnownPoles_Hz.size(), largest);
     if (!(largest <= kPoleTolerance)) check.condition = Condition::failed;
   } catch (const std::exception& error) {
@@ -134,8 +134,9 @@ Check formulation(const std::string& name) {
 Check gnuplot() {
   Check check{"gnuplot"};
   try {
-    std::string version =
-        report::run_gnuplot("set print '-'\nprint GPVAL_VERSION, ' ', GPVAL_PATCHLEVEL\n");
+    std::string version = report::run_gnuplot(
+        "set print '-'\n"
+        "print sprintf('%.1f patchlevel %s', GPVAL_VERSION, GPVAL_PATCHLEVEL)\n");
     version = version.substr(0, version.find('\n'));
     const Stopwatch stopwatch;
     const std::string drawn = report::run_gnuplot("set terminal svg\nplot sin(x)\n");

@@ -76,6 +76,10 @@ std::string value_name(const OptionDescription& option) {
     default:
       break;
   }
+  // What is stated in the command line, although a file may state it as well.
+  for (const char* form : {"KEY=VALUE", "NAME:UNIT", "Expression"}) {
+    if (option.text.find(form) != std::string::npos) name = "TEXT";
+  }
   return name + (option.is_list ? ",..." : "");
 }
 

@@ -37,7 +37,7 @@ CLI::Option* add_list(CLI::App& parser, const std::string& name, std::vector<Ite
 
 CLI::Option* add_list_option(CLI::App& parser, const std::string& name,
                              std::vector<double>& numbers, const std::string& help) {
-  return add_list(parser, name, numbers, help, arm::number_list);
+  return add_list(parser, name, numbers, help, arm::number_list)->type_name("FLOAT");
 }
 
 CLI::Option* add_list_option(CLI::App& parser, const std::string& name,

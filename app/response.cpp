@@ -56,10 +56,11 @@ struct ResponseArguments {
 /// The options as the library takes them. Throws InputError for what is wrong in itself.
 response::ResponseOptions options_of(const ResponseArguments& arguments) {
   response::ResponseOptions options = arguments.options;
-  if (options.modes < 1 || options.modes > kMostModes) {
+  if (options.modes < 1) throw arm::out_of_range("--modes", options.modes, "", "1 or more");
+  if (options.modes > kMostModes) {
     throw arm::out_of_range(
         "--modes", options.modes, "",
-        fmt::format("from 1 to {} (the damping between all pairs of modes is kept)", kMostModes));
+        fmt::format("at most {} (the damping between all pairs of modes is kept)", kMostModes));
   }
   for (const auto& name : arguments.sensors) options.sensors.push_back(arm::parse_sensor(name));
   const bool grid = options.from_Hz || options.to_Hz;

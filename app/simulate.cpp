@@ -28,6 +28,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace flexarm::app {
@@ -170,12 +171,25 @@ std::string energy_line(const std::vector<report::SimulatedRun>& runs) {
       fmt::format("Energy balance: largest residual {:.1e} of the work of the torque.", residual));
 }
 
+/// A table whose last column says in a sentence what excites each run: the sentences below it.
+std::string with_sentences_below(report::Table table) {
+  std::string sentences;
+  for (auto& row : table.rows) {
+    sentences += screen_paragraph(fmt::format("{}: {}", std::get<std::string>(row.front()),
+                                              std::get<std::string>(row.back())),
+                                  2);
+    row.pop_back();
+  }
+  table.columns.pop_back();
+  return screen_table(table) + sentences + "\n";
+}
+
 void print_runs_in_time(const std::vector<report::SimulatedRun>& runs, bool has_dry_friction,
                         bool verbose) {
   if (runs.empty()) return;
   print(screen_table(report::reading_table(runs), 2));
   if (has_dry_friction) print(screen_table(report::hub_motion_table(runs)));
-  print(screen_table(report::torque_table(runs)));
+  print(with_sentences_below(report::torque_table(runs)));
   print(verbose ? screen_table(report::energy_table(runs)) : energy_line(runs) + "\n");
 }
 
@@ -183,7 +197,7 @@ void print_stepped_runs(const std::vector<report::SteppedSineRun>& runs, bool ha
   if (runs.empty()) return;
   print(screen_table(report::stepped_response_table(runs), 2));
   if (has_dry_friction) print(screen_table(report::stepped_hub_motion_table(runs)));
-  print(screen_table(report::stepped_sine_table(runs)));
+  print(with_sentences_below(report::stepped_sine_table(runs)));
 }
 
 void print_results(const SimulateArguments& arguments, const std::vector<PlannedRun>& plan,

@@ -33,8 +33,11 @@ struct ReadRoot {
 
   /// Roots with the same key are the same root.
   std::tuple<Feature, bool, std::string, int> key() const {
-    return {root->measured.feature, hub_held, is_pole() ? "" : sensor, root->order.value_or(0)};
+    return {root->measured.feature, hub_held, is_of_all() ? "" : sensor, root->order.value_or(0)};
   }
+
+  /// A given table may have its poles sensor by sensor.
+  bool is_of_all() const { return is_pole() && method != Method::table; }
 
   /// With the hub held, the zeros of the hub angle are poles.
   bool is_pole() const { return root->measured.feature == Feature::pole || hub_held; }
@@ -47,7 +50,8 @@ struct ReadRoot {
 
   std::string name() const {
     const std::string number = root->order ? fmt::format("{}", *root->order) : "unmatched";
-    return number + (hub_held ? ", hub held" : "");
+    const bool names_sensor = is_pole() && !is_of_all() && sensor != "all";
+    return number + (hub_held ? ", hub held" : "") + (names_sensor ? ", " + sensor : "");
   }
 };
 

@@ -219,6 +219,10 @@ TEST_F(JsonSchema, WhatSimulateWritesIsWhatTheDocumentSays) {
       "flexarm.simulate/1");
 }
 
+TEST_F(JsonSchema, WhatDoctorWritesIsWhatTheDocumentSays) {
+  expect_as_documented({written_by({"doctor"})}, "flexarm.doctor/1");
+}
+
 TEST_F(JsonSchema, WhatPaperWritesIsWhatTheDocumentSays) {
   expect_as_documented({written_by({"paper"})}, "flexarm.paper/1");
 }

@@ -21,7 +21,7 @@ TEST_F(Sweep, ThreeFormulationsAgreeAndTheLastLineSaysWhatIsNext) {
   EXPECT_EQ(ended.status, 0) << ended.errors;
   EXPECT_EQ(ended.errors, "");
   EXPECT_THAT(ended.output,
-              AllOf(StartsWith("aluminium link"), HasSubstr("11.86183"), HasSubstr("\nAgree: ")));
+              AllOf(StartsWith("Agree: "), HasSubstr("\naluminium link"), HasSubstr("11.86183")));
   EXPECT_THAT(ended.output,
               testing::EndsWith("\nnext: write curves and all values with  flexarm sweep --over "
                                 "payload.mass=0:0.3:4 --out swept\n"));
@@ -65,7 +65,7 @@ TEST_F(Sweep, ThreadsDoNotChangeAByte) {
 TEST_F(Sweep, DisagreementIsStatusOne) {
   const Ended ended = run({"sweep", "--over", "payload.mass=0:0.3:3", "--tolerance", "1e-18"});
   EXPECT_EQ(ended.status, 1);
-  EXPECT_THAT(ended.output, HasSubstr("\nDISAGREE: "));
+  EXPECT_THAT(ended.output, StartsWith("DISAGREE: "));
 }
 
 TEST_F(Sweep, FiguresOfThePaperAreSvgAndCsv) {

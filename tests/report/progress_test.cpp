@@ -116,7 +116,9 @@ TEST(TimeLeft, IsExactForAnEvenRate) {
   TimeLeft left;
   for (double elapsed_s = 0.0; elapsed_s < 40.0; elapsed_s += 0.1) {
     left.update(elapsed_s, elapsed_s / 40.0);
-    if (left.seconds()) EXPECT_NEAR(*left.seconds(), 40.0 - elapsed_s, 1e-9);
+    if (left.seconds()) {
+      EXPECT_NEAR(*left.seconds(), 40.0 - elapsed_s, 1e-9);
+    }
   }
   ASSERT_TRUE(left.seconds());
 }
@@ -129,7 +131,9 @@ TEST(TimeLeft, FollowsAChangeOfRateWithoutAJump) {
     left.update(elapsed_s,
                 std::min(elapsed_s, 10.0) / 30.0 + std::max(elapsed_s - 10.0, 0.0) / 300.0);
     if (!left.seconds()) continue;
-    if (before_s > 0.0) EXPECT_LT(std::abs(*left.seconds() - before_s), 1.5) << elapsed_s;
+    if (before_s > 0.0) {
+      EXPECT_LT(std::abs(*left.seconds() - before_s), 1.5) << elapsed_s;
+    }
     before_s = *left.seconds();
   }
   // 10 s are left. The mean rate is above that of the end: 6.9 s, and the estimate lags by 2 s.

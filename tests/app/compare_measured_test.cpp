@@ -11,7 +11,7 @@
 namespace flexarm::testing_app {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = nlohmann::json;
 using testing::AllOf;
 using testing::Contains;
 using testing::HasSubstr;

@@ -116,10 +116,10 @@ TEST(Measured, DampingRatiosAreThoseOfTheMode) {
   EXPECT_NEAR(row.damping_deviation, 2.0, 1e-12);
 }
 
-/// Frequencies are proportional to the root of the modulus: of 4 % they have 2 %.
+/// Frequencies are proportional to the root of the rigidity: of 4 % they have 2 %.
 TEST(Measured, UncertainNumbersOfTheArmMakeAStandardDeviation) {
   arm::Arm arm = arm::paper_arm();
-  arm.relative_uncertainties = {{"beam.youngs_modulus", 0.04}};
+  arm.relative_uncertainties = {{"beam.flexural_rigidity", 0.04}};
   Options few = quick();
   few.poles = 2;
   few.non_collocated_zeros = 1;

@@ -44,7 +44,7 @@ TEST(ContinuousPhase, OfAnUndampedArmCountsItsPolesAndZeros) {
   }
 }
 
-arm::Arm damped_arm() {
+arm::Arm delayed_damped_arm() {
   arm::Arm arm = arm::paper_arm();
   arm.damping.kelvin_voigt_s = 1e-4;
   arm.hub.viscous_friction_N_m_s_per_rad = 2e-3;
@@ -54,7 +54,7 @@ arm::Arm damped_arm() {
 }
 
 TEST(ContinuousPhase, IsTheSameOnEveryGrid) {
-  for (const arm::Arm& arm : {arm::paper_arm(), damped_arm()}) {
+  for (const arm::Arm& arm : {arm::paper_arm(), delayed_damped_arm()}) {
     const auto fine = phases_of(arm, {});
     for (std::size_t i = 0; i < fine.frequency_Hz.size(); i += 7) {
       const auto alone = phases_of(arm, {fine.frequency_Hz[i]});
@@ -67,7 +67,7 @@ TEST(ContinuousPhase, IsTheSameOnEveryGrid) {
 
 /// On a grid that is fine at its poles and zeros nothing jumps by a half turn.
 TEST(ContinuousPhase, IsContinuousThroughDampedPolesDelayAndLag) {
-  const auto phases = phases_of(damped_arm(), {}, "exact_tf", 4000);
+  const auto phases = phases_of(delayed_damped_arm(), {}, "exact_tf", 4000);
   for (const auto& phase : phases.phase_deg) {
     double largest = 0.0;
     for (std::size_t i = 1; i < phase.size(); ++i) {
@@ -81,9 +81,9 @@ TEST(ContinuousPhase, IsContinuousThroughDampedPolesDelayAndLag) {
 
 TEST(ContinuousPhase, IsThatOfEveryFormulation) {
   const std::vector<double> frequency_Hz = {0.5, 2.8, 2.9, 11.0, 12.5, 31.0, 60.0};
-  const auto exact = phases_of(damped_arm(), frequency_Hz);
+  const auto exact = phases_of(delayed_damped_arm(), frequency_Hz);
   for (const std::string name : {"fem", "assumed_modes"}) {
-    const auto other = phases_of(damped_arm(), frequency_Hz, name);
+    const auto other = phases_of(delayed_damped_arm(), frequency_Hz, name);
     for (std::size_t k = 0; k < 2; ++k) {
       for (std::size_t i = 0; i < frequency_Hz.size(); ++i) {
         EXPECT_NEAR(other.phase_deg[k][i], exact.phase_deg[k][i], 1e-4) << name;

@@ -2,6 +2,8 @@ import "uplot/dist/uPlot.min.css";
 import "./style/colours.css";
 import "./style/page.css";
 import "./style/blocks.css";
+import "./style/plots.css";
+import "./style/tables.css";
 import "./style/print.css";
 
 import type { PageDocument } from "./contract.js";

@@ -80,6 +80,26 @@ test("a drag zooms all panels of the block; a double click shows the whole again
     assert.deepEqual(await rangeInView(page, block), [0, Number(kLast_s.toPrecision(4))]);
   }));
 
+test("an upright drag zooms the vertical axis of its panel", () =>
+  opened(diagnosis, async (page) => {
+    const { block, over } = await plotOf(page, "overlay");
+    const picture = (panel: number) => block.locator("canvas").nth(panel).evaluate((canvas) => (canvas as HTMLCanvasElement).toDataURL());
+    const [first, second] = [await picture(0), await picture(1)];
+    const box = await over.boundingBox();
+    assert.ok(box);
+    await page.mouse.move(box.x + 100, box.y + 0.3 * box.height);
+    await page.mouse.down();
+    await page.mouse.move(box.x + 103, box.y + 0.7 * box.height, { steps: 4 });
+    await page.mouse.up();
+    await block.locator(".reset").waitFor();
+    assert.notEqual(await picture(0), first);
+    assert.equal(await picture(1), second);
+    assert.deepEqual(await rangeInView(page, block), [0, Number(kLast_s.toPrecision(4))]);
+    await block.locator(".reset").click();
+    await page.waitForTimeout(100);
+    assert.equal(await picture(0), first);
+  }));
+
 test("the wheel zooms with Ctrl about the pointer, and scrolls the page without", () =>
   opened(diagnosis, async (page) => {
     const { block, over } = await plotOf(page, "overlay");

@@ -2,6 +2,7 @@
 
 #include "arm/arm_keys.hpp"
 #include "arm/input_error.hpp"
+#include "arm/uncertainties.hpp"
 #include "effects/registry/vocabulary.hpp"
 #include "response/arm_parts.hpp"
 
@@ -99,6 +100,10 @@ void put_number(arm::Arm& arm, const std::string& name, double value) {
   if (const arm::ArmKey* const key = find_key(name)) {
     arm::require_in_range(name, value, key->unit, key->range);
     key->set(arm, value);
+    // What a rigidity or a density is used in place of must go on agreeing with it.
+    arm::Arm alone = arm;
+    alone.relative_uncertainties = {{name, 1.0}};
+    arm.beam = arm::with_deviations(alone, std::vector{0.0}).beam;
     return;
   }
   for (auto& [effect_name, effect] : arm.effects) {

@@ -124,7 +124,7 @@ TEST(ArmSamples, OfStatedUncertaintiesAreLogNormalAndIndependent) {
   }
   EXPECT_NEAR(product / kDraws, 0.0, kChance / std::sqrt(static_cast<double>(kDraws)));
   // The arms have them.
-  EXPECT_EQ(drawn.samples[7].arm.hub.inertia_kg_m2, std::exp(inertia[6]));
+  EXPECT_DOUBLE_EQ(drawn.samples[7].arm.hub.inertia_kg_m2, std::exp(inertia[6]));
 }
 
 TEST(ArmSamples, OfADiagnosisHaveItsSetsCorrelationAndLimits) {
@@ -174,11 +174,7 @@ TEST(ArmSamples, AreThoseOfTheirSeedAndTheFirstOnesOfAnyCount) {
 }
 
 TEST(ArmSamples, OfWhichNoneIsAllowedAreRefused) {
-  Json json = diagnosis();
-  auto& friction = json["posterior"][0]["parameters"][0];
-  friction["value"] = 0.02;
-  arm::Arm arm = extended_arm();
-  auto posterior = posterior_of(json, arm);
+  auto posterior = posterior_of(diagnosis(), extended_arm());
   posterior.sets.resize(1);
   posterior.sets[0].marginals[0].value = -1.0;
   EXPECT_THROW(draw(posterior, 1, 1), arm::InputError);

@@ -20,10 +20,11 @@ from flexarm import _progress
 
 # A call of some seconds: friction that varies with the speed is stepped with small steps.
 LONG = """
-import flexarm
+import flexarm, numpy
 arm = flexarm.Arm.paper().with_effect("stribeck_friction", torque=0.01, static_torque=0.02, velocity=0.1)
+torque = 0.05 * numpy.sin(numpy.arange(2_000_000) * 0.02)
 """
-LONG_CALL = 'flexarm.simulate(arm, "multisine:rms=0.05,to=60", duration_s=2000.0, sample_time_s=1e-3)'
+LONG_CALL = "flexarm.simulate(arm, torque, sample_time_s=1e-3)"
 STOPS_WITHIN_S = 0.5
 
 

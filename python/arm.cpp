@@ -67,7 +67,7 @@ std::string attribute_of(const arm::ArmKey& key) {
   return fmt::format("{}_{}_{}", key.table, key.leaf, unit_in_name(key.unit));
 }
 
-/// Sets the numbers that keyword arguments name; None takes one out that may be absent.
+/// Sets the numbers that keyword arguments name.
 void set_numbers(arm::Arm& arm, const py::kwargs& numbers) {
   std::vector<std::string> names = {"name"};
   for (const auto& key : arm::arm_keys()) names.push_back(attribute_of(key));

@@ -1,5 +1,7 @@
 #include "python/long_call.hpp"
 
+#include "report/time_left.hpp"
+
 #include <chrono>
 #include <condition_variable>
 #include <exception>
@@ -64,11 +66,19 @@ class Shown {
     if (callback_.is(py::bool_(false))) callback_ = py::none();
   }
 
-  void show(double fraction) const {
-    if (!callback_.is_none()) callback_(fraction);
+  void show(double fraction) {
+    if (callback_.is_none()) return;
+    if (!is_line_) {
+      callback_(fraction);
+      return;
+    }
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begun_;
+    time_left_.update(elapsed.count(), fraction);
+    const auto left_s = time_left_.seconds();
+    callback_(fraction, left_s ? report::time_left_text(*left_s) : "");
   }
   /// A callback hears of the end; a line is wiped.
-  void show_end() const {
+  void show_end() {
     if (!is_line_) show(1.0);
   }
   void close() const {
@@ -78,13 +88,15 @@ class Shown {
  private:
   py::object callback_;
   bool is_line_ = false;
+  std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
+  report::TimeLeft time_left_;
 };
 
 }  // namespace
 
 void run_long_call(const std::string& what, const py::object& progress,
                    const std::function<void(CallState&)>& work) {
-  const Shown shown(what, progress);
+  Shown shown(what, progress);
   CallState state;
   std::optional<py::error_already_set> raised;
   {

@@ -13,9 +13,11 @@ namespace flexarm::python {
 /// never touch Python.
 class CallState {
  public:
-  /// Tells the fraction done, 0 to 1; false: the work is to end.
+  /// Tells the fraction done, 0 to 1; less than before changes nothing. False: the work is to end.
   bool reach(double fraction) {
-    fraction_ = fraction;
+    double done = fraction_;
+    while (fraction > done && !fraction_.compare_exchange_weak(done, fraction)) {
+    }
     return !cancelled_;
   }
   double fraction() const { return fraction_; }

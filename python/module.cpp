@@ -12,6 +12,8 @@ PYBIND11_MODULE(_flexarm, module) {
   add_roots(module);
   add_responses(module);
   add_formulations(module);
+  add_controllers(module);
+  add_simulated_runs(module);
   add_simulation(module);
   add_measurements(module);
   add_identification(module);

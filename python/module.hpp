@@ -12,6 +12,8 @@ void add_effects(pybind11::module_& module);
 void add_roots(pybind11::module_& module);
 void add_responses(pybind11::module_& module);
 void add_formulations(pybind11::module_& module);
+void add_controllers(pybind11::module_& module);
+void add_simulated_runs(pybind11::module_& module);
 void add_simulation(pybind11::module_& module);
 void add_measurements(pybind11::module_& module);
 void add_identification(pybind11::module_& module);

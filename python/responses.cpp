@@ -57,7 +57,7 @@ namespace {
 using response::FrequencyResponse;
 using response::StateSpace;
 
-py::array_t<std::complex<double>> values_of(const FrequencyResponse& response) {
+py::array_t<std::complex<double>> all_values(const FrequencyResponse& response) {
   std::vector<std::complex<double>> values;
   for (const auto& row : response.values) values.insert(values.end(), row.begin(), row.end());
   return owned(std::move(values),
@@ -96,7 +96,7 @@ void add_frequency_response(py::module_& module) {
       .def_property_readonly(
           "units", [](const FrequencyResponse& self) { return units_of(self.sensors); },
           "Their units; values are in these per N m.")
-      .def_property_readonly("values", &values_of, "Complex array (sensors, frequencies).")
+      .def_property_readonly("values", &all_values, "Complex array (sensors, frequencies).")
       .def("__getitem__",
            [](const py::object& self, const std::string& sensor) {
              const auto& response = self.cast<const FrequencyResponse&>();

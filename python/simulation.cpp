@@ -1,12 +1,10 @@
 #include "arm/input_error.hpp"
 #include "measured/files/atomic_file.hpp"
-#include "measured/files/controller_keys.hpp"
 #include "python/argument_names.hpp"
 #include "python/arm.hpp"
 #include "python/arrays.hpp"
 #include "python/long_call.hpp"
 #include "python/module.hpp"
-#include "python/records.hpp"
 #include "report/json/simulation_json.hpp"
 #include "report/measurement_folder.hpp"
 #include "response/experiment/simulated_experiment.hpp"
@@ -30,7 +28,6 @@ namespace py = pybind11;
 namespace {
 
 using response::SimulatedRun;
-using response::SteppedSineRun;
 using Texts = std::vector<std::string>;
 
 /// A simulated experiment with what it was made of.
@@ -201,142 +198,6 @@ py::array_t<double> sampled_torque(const std::string& excitation, double duratio
   return owned(std::move(runs.runs(arm::paper_arm(), {}).front().torque.torque_N_m));
 }
 
-using Rows = arm::StateSpaceController::Rows;
-
-arm::Controller pid(double kp, double kd, double ki, const std::string& sensor,
-                    const std::string& derivative, std::optional<double> limit_N_m,
-                    std::optional<double> sample_time_s) {
-  using Derivative = arm::PidController::Derivative;
-  if (derivative != "error" && derivative != "measurement") {
-    throw arm::InputError(
-        fmt::format("derivative {}: must be error or measurement", arm::shown(derivative)));
-  }
-  const auto of = derivative == "error" ? Derivative::error : Derivative::measurement;
-  arm::Controller made{
-      {arm::parse_sensor(sensor)}, arm::PidController{kp, kd, ki, of}, limit_N_m, sample_time_s};
-  arm::require_valid(made);
-  return made;
-}
-
-arm::Controller state_space(const Rows& a, const Rows& b, const Rows& c, const Rows& d,
-                            const py::object& sensors, std::optional<double> limit_N_m,
-                            std::optional<double> sample_time_s) {
-  arm::Controller made{sensors_of(sensors), arm::StateSpaceController{a, b, c, d}, limit_N_m,
-                       sample_time_s};
-  arm::require_valid(made);
-  return made;
-}
-
-void add_controller(py::module_& module) {
-  py::class_<arm::Controller>(
-      module, "Controller",
-      "A sampled controller that makes the torque of a reference and of what sensors read.")
-      .def_static("pid", &pid, py::arg("kp") = 0.0, py::arg("kd") = 0.0, py::arg("ki") = 0.0,
-                  py::kw_only(), py::arg("sensor") = "hub_angle", py::arg("derivative") = "error",
-                  py::arg("limit_N_m") = py::none(), py::arg("sample_time_s") = py::none(),
-                  "Discrete PID of one sensor: gains in N m, N m s and N m/s per unit of the "
-                  "sensor, torque "
-                  "limit [N m], period [s] (None: that of the record). Raises InputError for "
-                  "numbers out of "
-                  "range.")
-      .def_static("state_space", &state_space, py::arg("A"), py::arg("B"), py::arg("C"),
-                  py::arg("D"), py::kw_only(), py::arg("sensors") = "hub_angle",
-                  py::arg("limit_N_m") = py::none(), py::arg("sample_time_s") = py::none(),
-                  "u_k = C x_k + D w_k, x_(k+1) = A x_k + B w_k with w = (reference, sensors); "
-                  "matrices by rows: A (n, n), B (n, 1 + sensors), C (1, n), D (1, 1 + sensors). "
-                  "Raises InputError for matrices that do not fit together.")
-      .def_static("read", &measured::read_controller_file, py::arg("path"),
-                  "Reads a controller file (TOML, docs/formats.md). Raises InputError.")
-      .def("__repr__", [](const arm::Controller& controller) {
-        return fmt::format("<flexarm.Controller {}>", measured::format_controller(controller));
-      });
-}
-
-void add_run(py::module_& module) {
-  auto run = py::class_<SimulatedRun>(
-      module, "SimulatedRun",
-      "A simulated time response. run['hub_angle'] is what the sensor reads, noise included, "
-      "read-only array (samples,) in its unit.");
-  add_record_access(run, &SimulatedRun::record);
-  run.def_readonly("id", &SimulatedRun::id, "Its id.")
-      .def_readonly("excitation", &SimulatedRun::excitation, "Kind of the excitation.")
-      .def(
-          "noise_free",
-          [](const py::object& self, const std::string& sensor) {
-            const auto& simulated = self.cast<const SimulatedRun&>();
-            return view<double>(simulated.simulation.channels[channel_of(simulated.record, sensor)],
-                                self);
-          },
-          py::arg("sensor"), "What the sensor reads without noise, array (samples,).")
-      .def_property_readonly(
-          "hub_torque_N_m",
-          [](const py::object& self) {
-            return view<double>(self.cast<const SimulatedRun&>().simulation.hub_torque_N_m, self);
-          },
-          "Torque that reaches the hub, friction left out [N m], array (samples,).")
-      .def_property_readonly(
-          "energy", [](const SimulatedRun& self) { return self.simulation.energy; },
-          "EnergyBalance [J].")
-      .def_property_readonly(
-          "summary", [](const SimulatedRun& self) { return self.simulation.summary; },
-          "SimulationSummary.")
-      .def_readonly("noise_deviation", &SimulatedRun::noise_deviation,
-                    "Standard deviation of the noise of each sensor, a list.")
-      .def_readonly("step_error", &SimulatedRun::step_error,
-                    "Relative difference of each sensor to a tenfold smaller step, a list; empty "
-                    "unless check_step was asked for.")
-      .def("__repr__", [](const SimulatedRun& self) {
-        return fmt::format("<flexarm.SimulatedRun '{}': {} samples of {:g} s, {}>", self.id,
-                           self.record.time_s.size(), measured::sampling_period_s(self.record),
-                           fmt::join(names_of_channels(self.record), ", "));
-      });
-  auto stepped = py::class_<SteppedSineRun>(
-      module, "SteppedSineRun",
-      "A simulated stepped-sine test. run['hub_angle'] is the measured response, read-only complex "
-      "array (frequencies,) in the unit of the sensor per N m.");
-  stepped.def_readonly("id", &SteppedSineRun::id, "Its id.")
-      .def_property_readonly(
-          "frequency_Hz",
-          [](const py::object& self) {
-            return view<double>(self.cast<const SteppedSineRun&>().measured.frequency_Hz, self);
-          },
-          "f [Hz], read-only array (frequencies,).")
-      .def_property_readonly(
-          "sensors", [](const SteppedSineRun& self) { return names_of(self.sensors); },
-          "Names of the sensors.")
-      .def("__getitem__", [](const py::object& self, const std::string& sensor) {
-        const auto& measured = self.cast<const SteppedSineRun&>();
-        return view<std::complex<double>>(
-            measured.measured.values[place_of(sensor, measured.sensors)], self);
-      });
-}
-
-void add_simulation_summaries(py::module_& module) {
-  using response::EnergyBalance;
-  using response::SimulationSummary;
-  py::class_<EnergyBalance>(module, "EnergyBalance",
-                            "Where the energy went, from the first sample to the last [J].")
-      .def_readonly("work_in_J", &EnergyBalance::work_in_J, "Work of the torque at the hub.")
-      .def_readonly("kinetic_J", &EnergyBalance::kinetic_J, "At the end.")
-      .def_readonly("potential_J", &EnergyBalance::potential_J, "At the end.")
-      .def_readonly("viscous_J", &EnergyBalance::viscous_J, "Lost in the hub's viscous friction.")
-      .def_readonly("material_air_J", &EnergyBalance::material_air_J,
-                    "Lost in the other linear damping.")
-      .def_readonly("dry_friction_J", &EnergyBalance::dry_friction_J, "Lost in dry friction.")
-      .def_readonly("drag_J", &EnergyBalance::drag_J, "Lost in quadratic drag.")
-      .def_property_readonly("dissipated_J", &EnergyBalance::dissipated_J, "All losses.")
-      .def_property_readonly("residual_J", &EnergyBalance::residual_J, "0 but for errors.");
-  py::class_<SimulationSummary>(module, "SimulationSummary", "What a simulation took.")
-      .def_readonly("steps", &SimulationSummary::steps, "From sample to sample.")
-      .def_readonly("inner_steps", &SimulationSummary::inner_steps, "Inner steps taken.")
-      .def_readonly("reversals", &SimulationSummary::reversals, "Of the hub, without a rest.")
-      .def_readonly("stops", &SimulationSummary::stops, "The hub came to rest in friction.")
-      .def_readonly("breakaways", &SimulationSummary::breakaways, "The hub left its rest.")
-      .def_readonly("stick_time_s", &SimulationSummary::stick_time_s, "Time at rest [s].")
-      .def_readonly("samples_per_period", &SimulationSummary::samples_per_period,
-                    "Samples a period of the highest mode.");
-}
-
 void write(const Experiment& experiment, const std::filesystem::path& folder,
            const std::string& name, const Texts& hide_effects) {
   const arm::Arm written =
@@ -397,9 +258,6 @@ constexpr const char* kSettings =
 }  // namespace
 
 void add_simulation(py::module_& module) {
-  add_controller(module);
-  add_simulation_summaries(module);
-  add_run(module);
   add_experiment(module);
   module.def(
       "simulate", &simulate, py::arg("arm"), py::arg("excitation") = py::none(), py::kw_only(),

@@ -25,30 +25,29 @@ class ProgressLine:
 
     def __init__(self, what):
         self._what = what
-        self._began = time.monotonic()
-        self._next = self._began + _QUIET_FOR_S
+        self._next = time.monotonic() + _QUIET_FOR_S
         self._width = 0
 
-    def __call__(self, fraction):
+    def __call__(self, fraction, left):
+        """`left` is a text, "8 s left", or empty."""
         now = time.monotonic()
         if now < self._next:
             return
         self._next = now + _INTERVAL_S
-        text = f"{self._what}  {100.0 * fraction:.0f} %"
-        if fraction > 0.05:
-            left_s = (now - self._began) * (1.0 - fraction) / fraction
-            text += f", {left_s:.0f} s left"
-        self._write(text)
+        self._write(f"{self._what}  {100.0 * fraction:.0f} %" + (f", {left}" if left else ""))
 
     def close(self):
         if self._width:
             self._write("")
-            sys.stderr.write("\r")
-            sys.stderr.flush()
+            self._width = 0
+            self._write("")
 
     def _write(self, text):
-        sys.stderr.write("\r" + text.ljust(self._width))
-        sys.stderr.flush()
+        try:
+            sys.stderr.write("\r" + text.ljust(self._width))
+            sys.stderr.flush()
+        except (OSError, ValueError):
+            pass  # a terminal that has gone away is no reason to stop the work
         self._width = len(text)
 
 

@@ -25,6 +25,15 @@ const MapSeries kAfterRoots{"extended arm", Role::after};
 
 constexpr const char* kSameRoots = "The extended arm has the same poles and zeros as the arm file.";
 
+constexpr const char* kMeasuredErrors = "Bars at measured poles and zeros show one standard error.";
+
+std::string caption_of_map(const diagnose::Diagnosis& diagnosis, bool is_same) {
+  std::string caption = diagnosis.symptoms.roots.empty() ? "" : kMeasuredErrors;
+  if (is_same && has_after(diagnosis))
+    caption += (caption.empty() ? "" : " ") + std::string(kSameRoots);
+  return caption;
+}
+
 /// Whether two arms differ in nothing that a map shows: effects that are not linear change neither.
 bool have_same_roots(const compare::AnalyticalModes& one, const compare::AnalyticalModes& other) {
   constexpr double kSameRoot = 1e-9;
@@ -168,8 +177,8 @@ std::vector<MapBlock> diagnosed_maps(const diagnose::Experiment& experiment,
         if (conditions.size() > 1) {
           title += fmt::format(", payload {:.4g} kg", condition.payload.mass_kg);
         }
-        MapBlock map = root_map("map-" + arm::to_string(sensor), title,
-                                is_same && has_after(diagnosis) ? kSameRoots : "");
+        MapBlock map =
+            root_map("map-" + arm::to_string(sensor), title, caption_of_map(diagnosis, is_same));
         add_measured(map, sensors, condition, experiment, diagnosis);
         add_poles(map, kBeforeRoots, poles);
         add_zeros(map, kBeforeRoots, shown_zeros(of_file, sensor, zeros_to_Hz));

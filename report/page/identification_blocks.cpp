@@ -288,7 +288,8 @@ std::vector<MapBlock> identified_maps(const IdentifiedRuns& runs) {
       if (runs.conditions.size() > 1) {
         title += fmt::format(", payload {} kg", number_of(condition.payload.mass_kg, 5));
       }
-      MapBlock map = root_map("map-" + arm::to_string(sensors.front()), title);
+      MapBlock map = root_map("map-" + arm::to_string(sensors.front()), title,
+                              "Bars at measured poles and zeros show one standard error.");
       for (const arm::Sensor& sensor : sensors) {
         add_identified(map, runs, condition, sensor, &sensor == &sensors.front());
       }

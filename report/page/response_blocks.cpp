@@ -4,6 +4,7 @@
 #include "measured/spectra/estimator_choice.hpp"
 #include "measured/spectra/response_estimate.hpp"
 #include "report/figures/frequency_response_figure.hpp"
+#include "report/figures/measured_curve.hpp"
 #include "report/page/excited_lines.hpp"
 #include "report/page/page_curves.hpp"
 #include "report/page/page_words.hpp"
@@ -33,18 +34,41 @@ struct ResponsePair {
   Responses after;
 };
 
-Series difference(const std::string& label, Role role, const ResponsePair& pair,
-                  const Responses& simulated) {
+/// A value of each line above 0 Hz, with gaps where nothing is known of the measured response,
+/// where the value has no place on a logarithmic axis, and over frequencies that were not measured.
+template <class ValueOfLine>
+Series line_series(const std::string& label, Role role, const MeasuredResponse& measured,
+                   const ValueOfLine& value_of) {
   std::vector<double> x;
   std::vector<double> y;
-  for (std::size_t k = 0; k < simulated.size(); ++k) {
-    const double size = std::abs(pair.measured.response[k]);
-    const double apart = std::abs(pair.measured.response[k] - simulated[k]) / size;
-    if (!(pair.measured.frequency_Hz[k] > 0.0)) continue;
-    x.push_back(pair.measured.frequency_Hz[k]);
-    y.push_back(apart > 0.0 && is_known(pair.measured.relative_std, k) ? apart : kUnknown);
+  for (std::size_t k = 0; k < measured.frequency_Hz.size(); ++k) {
+    const double f_Hz = measured.frequency_Hz[k];
+    if (!(f_Hz > 0.0)) continue;
+    if (gap_before(measured.frequency_Hz, k)) {
+      x.push_back(f_Hz);
+      y.push_back(kUnknown);
+    }
+    const double value = value_of(k);
+    x.push_back(f_Hz);
+    y.push_back(value > 0.0 && is_known(measured.relative_std, k) ? value : kUnknown);
   }
   return curve(label, role, std::move(x), std::move(y));
+}
+
+/// Of the simulated response from the measured one, relative.
+Series difference(const std::string& label, Role role, const ResponsePair& pair,
+                  const Responses& simulated) {
+  return line_series(label, role, pair.measured, [&](std::size_t k) {
+    const auto& measured = pair.measured.response[k];
+    return std::abs(measured - simulated[k]) / std::abs(measured);
+  });
+}
+
+/// sqrt(E|d response|^2) of the measured response relative to it: real and imaginary parts
+/// together.
+Series noise_series(const MeasuredResponse& measured) {
+  return line_series("noise", Role::noise, measured,
+                     [&](std::size_t k) { return std::sqrt(2.0) * measured.relative_std[k]; });
 }
 
 std::vector<CurvesPanel> response_panels(const ResponsePair& pair, bool has_causes) {
@@ -65,21 +89,13 @@ std::vector<CurvesPanel> response_panels(const ResponsePair& pair, bool has_caus
   if (has_causes) {
     apart.series.push_back(difference("extended arm", Role::residual_after, pair, pair.after));
   }
-  if (!pair.measured.relative_std.empty()) {
-    std::vector<double> x;
-    std::vector<double> noise;
-    for (std::size_t k = 0; k < f_Hz.size(); ++k) {
-      if (!(f_Hz[k] > 0.0)) continue;
-      // sqrt(E|d response|^2): real and imaginary parts together.
-      const double deviation = std::sqrt(2.0) * pair.measured.relative_std[k];
-      x.push_back(f_Hz[k]);
-      noise.push_back(deviation > 0.0 && is_known(pair.measured.relative_std, k) ? deviation
-                                                                                 : kUnknown);
-    }
-    if (has_number(noise)) {
-      apart.series.push_back(curve("noise", Role::noise, std::move(x), std::move(noise)));
-    }
+  if (has_number(pair.measured.relative_std)) {
+    apart.series.push_back(noise_series(pair.measured));
   }
+  std::erase_if(apart.series, [](const Series& series) {
+    return !has_number(std::get<std::vector<double>>(std::get<Samples>(series.data).y));
+  });
+  if (apart.series.empty()) return panels;
   panels.push_back(std::move(apart));
   return panels;
 }

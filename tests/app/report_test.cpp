@@ -154,6 +154,35 @@ TEST_F(Report, OfADiagnosisShowsTheCauseAndTheNumbersOfTheJson) {
   EXPECT_GE(marked, 2U);
 }
 
+TEST_F(Report, OfModalTablesShowsThemInAMap) {
+  const std::string measurement =
+      std::string(FLEXARM_SOURCE_DIR) + "/data/paper/diagnosis/tables-4-5.toml";
+  const ReadPage page = page_of({"diagnose", measurement, "--effects", "hub_inertia"});
+  EXPECT_EQ(page.document["headline"]["kind"], "map");
+  EXPECT_TRUE(page.block("overlay").is_null());
+}
+
+TEST_F(Report, OfResponsesShowsTheWorstOne) {
+  write("true.toml", kArmOfReport + "[effects.payload_mass]\nmass = 0.02\n");
+  const Ended simulated =
+      run({"simulate", "true.toml", "--noise", "0.001", "--sensor", "hub_angle,tip_acceleration",
+           "--excitation", "stepped-sine:amplitude=0.05,bands=2.5:3.5/11:13/34:37,step=0.1",
+           "--out", "sim"});
+  ASSERT_EQ(simulated.status, 0) << simulated.errors;
+  write("sim/arm.toml", kArmOfReport);
+  const ReadPage page = page_of({"diagnose", "sim/measurement.toml", "--effects", "payload_mass"});
+  // No curve crosses a band that was not measured: a gap before each of the second and third.
+  const Json views = page.block("response")["views"];
+  ASSERT_THAT(views, SizeIs(2));
+  for (const Json& panel : views[0]["panels"]) {
+    for (const Json& series : panel["series"]) {
+      const auto y = page.numbers(series["data"]["y"]);
+      EXPECT_GE(std::count_if(y.begin(), y.end(), [](double one) { return std::isnan(one); }), 2)
+          << panel["y"]["label"];
+    }
+  }
+}
+
 TEST_F(Report, OfAComparisonHasTheRootsOfTheJson) {
   write("arm.toml", kArmOfReport);
   const ReadPage page = page_of({"compare", "arm.toml", "--poles", "4", "--zeros", "3", "--quick",

@@ -1,5 +1,6 @@
 #include "app/command.hpp"
 #include "app/effect_choice.hpp"
+#include "app/figure_choice.hpp"
 #include "app/file_names.hpp"
 #include "app/folder_place.hpp"
 #include "app/json_file.hpp"
@@ -64,6 +65,7 @@ struct DiagnoseArguments {
   std::string predictor = "auto";
   std::string folder;
   bool force = false;
+  FigureChoice figures;
   bool verbose = false;
   std::string json_file;
 };
@@ -114,6 +116,7 @@ void prepare(const DiagnoseArguments& arguments, const diagnose::Experiment& exp
                      experiment.files);
   }
   if (!arguments.folder.empty()) require_no_input("--out", arguments.folder, experiment.files);
+  arguments.figures.require_valid(arguments.folder);
   require_json_place(arguments.json_file, arguments.folder);
   if (arguments.folder.empty()) return;
   require_place(arguments.folder, arguments.force, diagnosis_folder_kind());
@@ -249,7 +252,8 @@ std::string json_of(const diagnose::Diagnosis& diagnosis, const std::string& ext
 }
 
 std::vector<measured::NamedContent> files_of(const diagnose::Diagnosis& diagnosis,
-                                             report::DiagnosisPlots plots) {
+                                             const std::vector<report::NamedFigure>& figures,
+                                             const report::FigureOptions& options) {
   const std::string extended = extends(diagnosis) ? kExtendedArm : "";
   std::vector<measured::NamedContent> files = {
       {"channels.csv", report::to_csv(report::channel_gain_table(diagnosis))},
@@ -274,7 +278,9 @@ std::vector<measured::NamedContent> files_of(const diagnose::Diagnosis& diagnosi
   if (const auto& force = diagnosis.missing_force) {
     add_table("missing-force.csv", report::missing_force_table(*force));
   }
-  for (auto& [name, svg] : plots.plots) add_file(name, std::move(svg), files);
+  for (auto& [name, content] : report::figure_files(figures, options)) {
+    add_file(name, std::move(content), files);
+  }
   return files;
 }
 
@@ -283,9 +289,10 @@ std::string write_files(const DiagnoseArguments& arguments, const diagnose::Expe
                         const diagnose::Diagnosis& diagnosis) {
   std::string left_out;
   if (!arguments.folder.empty()) {
-    report::DiagnosisPlots plots = report::diagnosis_plots(experiment, diagnosis);
+    const report::DiagnosisPlots plots = report::diagnosis_plots(experiment, diagnosis);
     left_out = plots.left_out;
-    write_folder(arguments.folder, arguments.force, files_of(diagnosis, std::move(plots)));
+    write_folder(arguments.folder, arguments.force,
+                 files_of(diagnosis, plots.plots, arguments.figures.options()));
   }
   if (!arguments.json_file.empty()) {
     std::string extended;
@@ -380,6 +387,7 @@ Command add_diagnose(CLI::App& program) {
                    "New folder for the extended arm, tables as CSV, figures and the JSON")
       ->check(not_empty());
   parser->add_flag("--force", arguments->force, "Replace what this command wrote in the folder");
+  add_figure_choice(*parser, arguments->figures);
   parser
       ->add_option("--json", arguments->json_file,
                    "JSON file; the extended arm is written beside it; - for standard output")

@@ -1,5 +1,6 @@
 #include "app/arm_choice.hpp"
 #include "app/command.hpp"
+#include "app/figure_choice.hpp"
 #include "app/identified_files.hpp"
 #include "app/json_file.hpp"
 #include "app/kept_inputs.hpp"
@@ -18,7 +19,6 @@
 #include "measured/files/arm_file.hpp"
 #include "measured/files/atomic_file.hpp"
 #include "measured/run_identification.hpp"
-#include "report/figures/gnuplot.hpp"
 #include "report/json/arm_json.hpp"
 #include "report/json/identification_json.hpp"
 #include "report/json/json_document.hpp"
@@ -59,6 +59,7 @@ struct IdentifyArguments {
   std::optional<double> total_inertia_kg_m2;
   std::string folder;
   bool force = false;
+  FigureChoice figures;
   bool verbose = false;
   std::string json_file;
 };
@@ -263,9 +264,9 @@ void prepare(const IdentifyArguments& arguments, const measured::Measurement& me
   const auto inputs = measured::files_of(arguments.file, measurement);
   if (!arguments.json_file.empty()) require_no_input("--json", arguments.json_file, inputs);
   if (!arguments.folder.empty()) require_no_input("--out", arguments.folder, inputs);
+  arguments.figures.require_valid(arguments.folder);
   require_json_place(arguments.json_file, arguments.folder);
   if (arguments.folder.empty()) return;
-  report::run_gnuplot("");  // throws where there is none
   require_place(arguments.folder, arguments.force, identified_folder_kind());
 }
 
@@ -277,7 +278,7 @@ void write_files(const IdentifyArguments& arguments, const std::string& measurem
   document.update(report::identification_json(identification, conditions));
   const std::string json = report::json_document("flexarm.identify/1", document);
   if (!arguments.folder.empty()) {
-    auto files = identified_files(identification, conditions);
+    auto files = identified_files(identification, conditions, arguments.figures.options());
     files.push_back({kIdentifiedJson, json});
     write_folder(arguments.folder, arguments.force, files);
   }
@@ -357,9 +358,10 @@ Command add_identify(CLI::App& program) {
               "Print settings with reasons, every method and sensor, gains and residuals");
   parser
       ->add_option("--out", arguments->folder,
-                   "New folder for modal tables, responses (CSV), figures (SVG) and JSON")
+                   "New folder for modal tables, responses (CSV), figures and JSON")
       ->check(not_empty());
   parser->add_flag("--force", arguments->force, "Overwrite a folder written by this command");
+  add_figure_choice(*parser, arguments->figures);
   parser
       ->add_option("--json", arguments->json_file,
                    "JSON file, full precision; - for standard output")

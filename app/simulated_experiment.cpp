@@ -15,6 +15,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <iterator>
 #include <string>
 #include <utility>
 
@@ -207,9 +208,14 @@ std::vector<measured::NamedContent> measurement_folder(const std::string& name,
                                                        const arm::Arm& written_arm,
                                                        const std::vector<PlannedRun>& plan,
                                                        const SimulatedExperiment& experiment,
-                                                       response::TorqueHold hold) {
+                                                       response::TorqueHold hold,
+                                                       const report::FigureOptions& figures) {
   measured::Measurement measurement{name, "arm.toml", {}};
   std::vector<measured::NamedContent> files;
+  // Run by run: a figure holds its record.
+  const auto add_figures = [&](const std::vector<report::NamedFigure>& of_run) {
+    std::ranges::move(report::figure_files(of_run, figures), std::back_inserter(files));
+  };
   auto in_time = experiment.runs.begin();
   auto stepped = experiment.stepped_runs.begin();
   for (const auto& planned : plan) {
@@ -222,9 +228,7 @@ std::vector<measured::NamedContent> measurement_folder(const std::string& name,
       entry.kind = measured::RunKind::frf;
       files.push_back(
           {entry.file, measured::format_frequency_record(report::frequency_record(*stepped))});
-      for (auto& plot : report::stepped_sine_plots(written_arm.name, *stepped)) {
-        files.push_back({plot.file_name, std::move(plot.svg)});
-      }
+      add_figures(report::stepped_sine_plots(written_arm.name, *stepped));
       ++stepped;
     } else {
       entry.torque_hold = hold == response::TorqueHold::zero ? measured::TorqueHold::zero
@@ -234,7 +238,7 @@ std::vector<measured::NamedContent> measurement_folder(const std::string& name,
         entry.reference = measured::ColumnMapping{std::string(measured::kReferenceColumn), "", 1.0};
       }
       files.push_back({entry.file, measured::format_time_record(in_time->record)});
-      files.push_back({planned.id + ".svg", report::time_svg(written_arm.name, *in_time)});
+      add_figures({{planned.id, report::simulation_figure(written_arm.name, *in_time)}});
       ++in_time;
     }
     measurement.runs.push_back(std::move(entry));

@@ -4,6 +4,7 @@
 #include "app/run_choice.hpp"
 #include "app/sensor_choice.hpp"
 #include "measured/files/atomic_file.hpp"
+#include "report/figures/figure_files.hpp"
 #include "report/tables/simulation_report.hpp"
 #include "report/tables/stepped_sine_report.hpp"
 
@@ -40,11 +41,12 @@ SimulatedExperiment simulate_experiment(const arm::Arm& arm, const std::vector<P
                                         const ExperimentOptions& options);
 
 /// The files of the experiment's measurement folder: measurement.toml, arm.toml with `written_arm`,
-/// a CSV file and a figure for each run, of a stepped sine a figure a sensor.
+/// a CSV file and a figure for each run, of a stepped sine a figure a sensor, with `figures`.
 std::vector<measured::NamedContent> measurement_folder(const std::string& name,
                                                        const arm::Arm& written_arm,
                                                        const std::vector<PlannedRun>& plan,
                                                        const SimulatedExperiment& experiment,
-                                                       response::TorqueHold hold);
+                                                       response::TorqueHold hold,
+                                                       const report::FigureOptions& figures);
 
 }  // namespace flexarm::app

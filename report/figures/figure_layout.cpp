@@ -153,7 +153,9 @@ std::vector<Tick> ticks_of(const Axis& axis, const Range& range, double length_p
 /// Ticks and label of the vertical axes; room on the left of the stack for both.
 double lay_out_upright(const PanelStack& stack, const TextSize& text,
                        std::vector<PanelBox>& boxes) {
-  double widest_tick_px = 4.0 * text.character_px();
+  // Labels of a stack stand in one line, that of a panel with names as ticks by itself.
+  double widest_number_px = 4.0 * text.character_px();
+  std::vector<double> widest_px(boxes.size());
   int most_lines = 1;
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     PanelBox& box = boxes[i];
@@ -163,11 +165,18 @@ double lay_out_upright(const PanelStack& stack, const TextSize& text,
     box.y_label = upright_text(axis_text(stack.panels[i].y, exponent), height_px, text);
     most_lines = std::max(most_lines, line_count(box.y_label));
     for (const Tick& tick : box.y_ticks) {
-      widest_tick_px = std::max(widest_tick_px, text.width_px(tick.label));
+      widest_px[i] = std::max(widest_px[i], text.width_px(tick.label));
     }
+    if (stack.panels[i].y.ticks.empty())
+      widest_number_px = std::max(widest_number_px, widest_px[i]);
   }
-  const double margin_px = kEdge_px + most_lines * text.line_px() + widest_tick_px + kTick_px;
-  for (PanelBox& box : boxes) box.label_px = margin_px - kEdge_px / 2 - 0.5 * text.line_px();
+  const double furniture_px = kEdge_px + most_lines * text.line_px() + kTick_px;
+  double margin_px = 0.0;
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    const double own_px = furniture_px + std::max(widest_px[i], widest_number_px);
+    boxes[i].label_px = own_px - kEdge_px / 2 - 0.5 * text.line_px();
+    margin_px = std::max(margin_px, own_px);
+  }
   return margin_px;
 }
 

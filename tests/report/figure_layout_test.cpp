@@ -202,6 +202,16 @@ TEST(FigureLayout, AnAxisLabelLongerThanItsPanelHasLines) {
   EXPECT_GT(small.boxes[0][0].left_px, high.boxes[0][0].left_px);
 }
 
+TEST(FigureLayout, ALabelStandsBesideTheNumbersOfItsPanel) {
+  Figure figure = one_panel();
+  Panel names = figure.stacks[0].panels[0];
+  names.y.ticks = {{5.0, "sensor hub angle, hub velocity"}};
+  figure.stacks[0].panels.push_back(names);
+  const auto boxes = lay_out(figure).boxes[0];
+  EXPECT_LT(boxes[0].label_px, 0.5 * boxes[0].left_px);
+  EXPECT_GT(boxes[1].label_px, 0.8 * boxes[1].left_px);
+}
+
 TEST(FigureLayout, LongLegendEntriesAndTitlesHaveLines) {
   Figure figure = one_panel();
   figure.title = std::string(40, 'a') + " " + std::string(40, 'b') + " " + std::string(40, 'c');

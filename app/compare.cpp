@@ -137,7 +137,7 @@ FolderKind comparison_folder_kind() {
 
 /// The files of one arm, in `folder` of the output folder.
 void add_files(const fs::path& folder, const compare::Comparison& comparison,
-               const compare::MeasuredComparison& measured,
+               const compare::MeasuredComparison& measured, const FigureChoice& figures,
                std::vector<measured::NamedContent>& files) {
   const auto write_csv = [&](const char* name, const report::Table& table) {
     files.push_back({folder / name, report::to_csv(table)});
@@ -158,9 +158,7 @@ void add_files(const fs::path& folder, const compare::Comparison& comparison,
     write_csv("convergence.csv", report::convergence_listing(comparison));
     write_csv("refinement.csv", report::refinement_listing(comparison));
   }
-  for (auto& [name, svg] : report::comparison_plots(comparison, measured)) {
-    files.push_back({folder / name, std::move(svg)});
-  }
+  figures.add_to(files, folder, report::comparison_plots(comparison, measured));
 }
 
 std::string next_step(const CompareArguments& arguments) {
@@ -210,7 +208,8 @@ int run_compare(CompareArguments arguments) {
     auto beside = beside_models(measured, arm, comparison);
     text += comparison_text(arm, comparison, beside, arguments);
     if (!arguments.output.folder.empty()) {
-      add_files(folder_of("", arm, arms.size()), comparison, beside, files);
+      add_files(folder_of("", arm, arms.size()), comparison, beside, arguments.output.figures,
+                files);
     }
     if (!comparison.verdict.agree) ++disagreeing;
     results.push_back({comparison, std::move(beside)});
@@ -260,7 +259,7 @@ Command add_compare(CLI::App& program) {
               "Print every root of each formulation, convergence, mode shapes and responses");
   parser->add_flag("--full", arguments->full,
                    "As --verbose, with the convergence of every root and the root counts");
-  add_output_choice(*parser, arguments->output, "Folder for CSV tables and SVG plots");
+  add_output_choice(*parser, arguments->output, "Folder for CSV tables and figures");
   add_report_choice(*parser, arguments->report);
   parser->footer("Exit status: 0 the formulations agree; 1 they do not; 2 unusable input.\n" +
                  example("flexarm compare rig.toml --poles 6 --out compared"));

@@ -1,5 +1,6 @@
 #include "app/command.hpp"
 #include "app/effect_choice.hpp"
+#include "app/figure_choice.hpp"
 #include "app/file_names.hpp"
 #include "app/folder_place.hpp"
 #include "app/json_file.hpp"
@@ -53,6 +54,7 @@ struct DiagnoseArguments {
   diagnose::DiagnosisRequest request;
   std::string folder;
   bool force = false;
+  FigureChoice figures;
   bool verbose = false;
   std::string json_file;
   ReportChoice report;
@@ -85,6 +87,7 @@ void prepare(const DiagnoseArguments& arguments, const diagnose::Experiment& exp
                      experiment.files);
   }
   if (!arguments.folder.empty()) require_no_input("--out", arguments.folder, experiment.files);
+  arguments.figures.require_valid(arguments.folder);
   require_json_place(arguments.json_file, arguments.folder);
   arguments.report.prepare(arguments.folder, experiment.files);
   if (arguments.folder.empty()) return;
@@ -189,7 +192,8 @@ std::string text_of(const diagnose::Diagnosis& diagnosis, bool verbose) {
 }
 
 std::vector<measured::NamedContent> files_of(const diagnose::Diagnosis& diagnosis,
-                                             report::DiagnosisPlots plots) {
+                                             const std::vector<report::NamedFigure>& figures,
+                                             const report::FigureOptions& options) {
   const std::string extended = diagnose::has_extended_arm(diagnosis) ? kExtendedArm : "";
   std::vector<measured::NamedContent> files = {
       {"channels.csv", report::to_csv(report::channel_gain_table(diagnosis))},
@@ -214,7 +218,9 @@ std::vector<measured::NamedContent> files_of(const diagnose::Diagnosis& diagnosi
   if (const auto& force = diagnosis.missing_force) {
     add_table("missing-force.csv", report::missing_force_table(*force));
   }
-  for (auto& [name, svg] : plots.plots) add_file(name, std::move(svg), files);
+  for (auto& [name, content] : report::figure_files(figures, options)) {
+    add_file(name, std::move(content), files);
+  }
   return files;
 }
 
@@ -223,9 +229,10 @@ std::string write_files(const DiagnoseArguments& arguments, const diagnose::Expe
                         const diagnose::Diagnosis& diagnosis) {
   std::string left_out;
   if (!arguments.folder.empty()) {
-    report::DiagnosisPlots plots = report::diagnosis_plots(experiment, diagnosis);
+    const report::DiagnosisPlots plots = report::diagnosis_plots(experiment, diagnosis);
     left_out = plots.left_out;
-    write_folder(arguments.folder, arguments.force, files_of(diagnosis, std::move(plots)));
+    write_folder(arguments.folder, arguments.force,
+                 files_of(diagnosis, plots.plots, arguments.figures.options()));
   }
   if (is_standard_output(arguments.json_file)) {
     write_json(arguments.json_file, report::diagnosis_document(diagnosis, ""));
@@ -308,6 +315,7 @@ Command add_diagnose(CLI::App& program) {
                    "New folder for the extended arm, tables as CSV, figures and the JSON")
       ->check(not_empty());
   parser->add_flag("--force", arguments->force, "Replace what this command wrote in the folder");
+  add_figure_choice(*parser, arguments->figures);
   parser
       ->add_option("--json", arguments->json_file,
                    "JSON file; the extended arm is written beside it; - for standard output")

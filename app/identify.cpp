@@ -1,5 +1,6 @@
 #include "app/arm_choice.hpp"
 #include "app/command.hpp"
+#include "app/figure_choice.hpp"
 #include "app/identified_files.hpp"
 #include "app/json_file.hpp"
 #include "app/kept_inputs.hpp"
@@ -13,7 +14,6 @@
 #include "compare/identification_task.hpp"
 #include "measured/files/atomic_file.hpp"
 #include "measured/run_identification.hpp"
-#include "report/figures/gnuplot.hpp"
 #include "report/json/identification_json.hpp"
 #include "report/page/identify_page.hpp"
 #include "report/progress.hpp"
@@ -40,6 +40,7 @@ struct IdentifyArguments {
   bool no_fit = false;
   std::string folder;
   bool force = false;
+  FigureChoice figures;
   bool verbose = false;
   std::string json_file;
   ReportChoice report;
@@ -150,10 +151,10 @@ void prepare(const IdentifyArguments& arguments, const measured::Measurement& me
   const auto inputs = measured::files_of(arguments.file, measurement);
   if (!arguments.json_file.empty()) require_no_input("--json", arguments.json_file, inputs);
   if (!arguments.folder.empty()) require_no_input("--out", arguments.folder, inputs);
+  arguments.figures.require_valid(arguments.folder);
   require_json_place(arguments.json_file, arguments.folder);
   arguments.report.prepare(arguments.folder, inputs);
   if (arguments.folder.empty()) return;
-  report::run_gnuplot("");  // throws where there is none
   require_place(arguments.folder, arguments.force, identified_folder_kind());
 }
 
@@ -164,7 +165,7 @@ void write_files(const IdentifyArguments& arguments, const std::string& measurem
   const std::string json =
       report::identification_document(measurement, arm, identification, conditions);
   if (!arguments.folder.empty()) {
-    auto files = identified_files(identification, conditions);
+    auto files = identified_files(identification, conditions, arguments.figures.options());
     files.push_back({kIdentifiedJson, json});
     write_folder(arguments.folder, arguments.force, files);
   }
@@ -242,9 +243,10 @@ Command add_identify(CLI::App& program) {
               "Print settings with reasons, every method and sensor, gains and residuals");
   parser
       ->add_option("--out", arguments->folder,
-                   "New folder for modal tables, responses (CSV), figures (SVG) and JSON")
+                   "New folder for modal tables, responses (CSV), figures and JSON")
       ->check(not_empty());
   parser->add_flag("--force", arguments->force, "Overwrite a folder written by this command");
+  add_figure_choice(*parser, arguments->figures);
   parser
       ->add_option("--json", arguments->json_file,
                    "JSON file, full precision; - for standard output")

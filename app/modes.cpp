@@ -132,7 +132,8 @@ FolderKind modes_folder_kind() {
 
 /// The files of one arm, in `folder` of the output folder.
 void add_files(const fs::path& folder, const arm::Arm& arm, const std::string& formulation,
-               const response::ModalSummary& summary, std::vector<measured::NamedContent>& files) {
+               const response::ModalSummary& summary, const FigureChoice& figures,
+               std::vector<measured::NamedContent>& files) {
   const auto add_csv = [&](const char* name, const report::Table& table) {
     files.push_back({folder / name, report::to_csv(table)});
   };
@@ -140,7 +141,7 @@ void add_files(const fs::path& folder, const arm::Arm& arm, const std::string& f
   add_csv("damped_poles.csv", report::damped_poles_table(summary));
   add_csv("zeros.csv", report::zeros_table(summary));
   add_csv("shapes.csv", report::shapes_over_x_table(summary));
-  files.push_back({folder / "shapes.svg", report::shapes_svg(formulation, summary)});
+  figures.add_to(files, folder, {{"shapes", report::shapes_figure(formulation, summary)}});
 }
 
 /// Shapes are computed where they are written: of many modes they take most of the time.
@@ -204,7 +205,8 @@ int run_modes(const ModesArguments& arguments) {
     documents.push_back(std::move(document));
 
     if (!arguments.output.folder.empty()) {
-      add_files(folder_of("", arm, arms.size()), arm, chosen.name, summary, files);
+      add_files(folder_of("", arm, arms.size()), arm, chosen.name, summary,
+                arguments.output.figures, files);
     }
   }
   if (!files.empty()) write_folder(arguments.output.folder, arguments.output.force, files);
@@ -232,7 +234,7 @@ Command add_modes(CLI::App& program) {
   parser->add_flag("--certificate", arguments->certificate,
                    "Certify the roots of exact_tf and their count by ball arithmetic");
   add_verbose(*parser, arguments->verbose, "Print all rows of long tables");
-  add_output_choice(*parser, arguments->output, "Folder for CSV tables and mode shapes as SVG");
+  add_output_choice(*parser, arguments->output, "Folder for CSV tables and the mode shapes");
   parser->footer(example("flexarm modes rig.toml --sensor hub_angle,strain@0.05 --certificate"));
   return {parser, [arguments] { return run_modes(*arguments); }};
 }

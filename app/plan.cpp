@@ -2,6 +2,7 @@
 
 #include "app/command.hpp"
 #include "app/effect_choice.hpp"
+#include "app/figure_choice.hpp"
 #include "app/folder_place.hpp"
 #include "app/json_file.hpp"
 #include "app/report_choice.hpp"
@@ -12,9 +13,7 @@
 #include "effects/registry/vocabulary.hpp"
 #include "measured/files/arm_file.hpp"
 #include "measured/files/atomic_file.hpp"
-#include "report/figures/gnuplot.hpp"
 #include "report/figures/separation_figure.hpp"
-#include "report/figures/svg.hpp"
 #include "report/json/plan_json.hpp"
 #include "report/page/plan_page.hpp"
 #include "report/progress.hpp"
@@ -49,6 +48,7 @@ struct PlanArguments {
   std::string better_file;
   std::string folder;
   bool force = false;
+  FigureChoice figures;
   bool verbose = false;
   std::string json_file;
   ReportChoice report;
@@ -63,11 +63,11 @@ void prepare_outputs(const PlanArguments& arguments) {
   if (arguments.force && arguments.folder.empty()) {
     throw arm::InputError("--force: needs --out FOLDER");
   }
+  arguments.figures.require_valid(arguments.folder);
   require_json_place(arguments.json_file, arguments.folder);
   arguments.report.prepare(arguments.folder);
   if (arguments.folder.empty()) return;
   require_place(arguments.folder, arguments.force, plan_folder_kind());
-  report::run_gnuplot("");
 }
 
 diagnose::Plan plan_with_progress(const PlanArguments& arguments) {
@@ -115,13 +115,13 @@ void write_plan(const PlanArguments& arguments, const diagnose::Plan& plan) {
   const std::string better = diagnose::format_measurement_plan(plan.better);
   const std::string json = report::plan_document(plan);
   if (!arguments.folder.empty()) {
-    const std::vector<measured::NamedContent> files = {
+    std::vector<measured::NamedContent> files = {
         {"effects.csv", report::to_csv(report::detection_table(plan))},
         {"separations.csv", report::to_csv(report::separation_table(plan))},
         {"leads.csv", report::to_csv(report::lead_table(plan))},
-        {"separations.svg", report::to_svg(report::separation_figure(plan))},
         {kBetterPlan, better},
         {kPlanJson, json}};
+    arguments.figures.add_to(files, "", {{"separations", report::separation_figure(plan)}});
     write_folder(arguments.folder, arguments.force, files);
   }
   if (!arguments.better_file.empty()) measured::write_atomically(arguments.better_file, better);
@@ -182,6 +182,7 @@ Command add_plan(CLI::App& program) {
                    "New folder for the improved plan, CSV tables, a figure and JSON")
       ->check(not_empty());
   parser->add_flag("--force", arguments->force, "Overwrite a folder written by this command");
+  add_figure_choice(*parser, arguments->figures);
   parser
       ->add_option("--json", arguments->json_file,
                    "JSON file, full precision; - for standard output")

@@ -148,7 +148,8 @@ FolderKind response_folder_kind() {
 
 /// The files of one arm, in `folder` of the output folder.
 void add_files(const fs::path& folder, const std::string& formulation,
-               const response::ResponseStudy& study, std::vector<measured::NamedContent>& files) {
+               const response::ResponseStudy& study, const FigureChoice& figures,
+               std::vector<measured::NamedContent>& files) {
   const auto write_csv = [&](const std::string& name, const report::Table& table) {
     files.push_back({folder / name, report::to_csv(table)});
   };
@@ -159,9 +160,7 @@ void add_files(const fs::path& folder, const std::string& formulation,
     write_csv(fmt::format("factors-{}.csv", arm::to_string(study.response.sensors[k])),
               report::factors_table(study, k));
   }
-  for (auto& [name, svg] : report::response_plots(formulation, study)) {
-    files.push_back({folder / name, std::move(svg)});
-  }
+  figures.add_to(files, folder, report::response_plots(formulation, study));
 }
 
 std::string next_step(const ResponseArguments& arguments) {
@@ -223,7 +222,8 @@ int run_response(const ResponseArguments& arguments) {
     documents.push_back(std::move(document));
     if (options.state_space) with_state_space = study;
     if (!arguments.output.folder.empty()) {
-      add_files(folder_of("", arm, arms.size()), chosen.name, study, files);
+      add_files(folder_of("", arm, arms.size()), chosen.name, study, arguments.output.figures,
+                files);
       if (std::ranges::all_of(study.resonances, &std::vector<response::Resonance>::empty)) {
         text += "no Nyquist diagrams: no damped pole in the frequency range\n";
       }
@@ -274,8 +274,7 @@ Command add_response(CLI::App& program) {
                    "State space without static correction for omitted modes");
   add_verbose(*parser, arguments->verbose,
               "Print the response as a product over poles and zeros and as a sum over modes");
-  add_output_choice(*parser, arguments->output,
-                    "Folder for CSV tables, Bode and Nyquist diagrams as SVG");
+  add_output_choice(*parser, arguments->output, "Folder for CSV tables, Bode and Nyquist diagrams");
   parser->footer(example("flexarm response rig.toml --sensor hub_angle,strain@0.05 --to-Hz 200"));
   return {parser, [arguments] { return run_response(*arguments); }};
 }

@@ -1,5 +1,6 @@
 #include "app/arm_choice.hpp"
 #include "app/command.hpp"
+#include "app/figure_choice.hpp"
 #include "app/folder_place.hpp"
 #include "app/formulation_choice.hpp"
 #include "app/json_file.hpp"
@@ -8,7 +9,6 @@
 #include "app/sensor_choice.hpp"
 #include "app/standard_output.hpp"
 #include "arm/input_error.hpp"
-#include "report/figures/gnuplot.hpp"
 #include "report/json/simulation_json.hpp"
 #include "report/measurement_folder.hpp"
 #include "report/progress.hpp"
@@ -46,6 +46,7 @@ struct SimulateArguments {
   std::vector<std::string> hidden_effects;
   std::string name;
   std::string folder;
+  FigureChoice figures;
   bool force = false;
   bool verbose = false;
   std::string json_file;
@@ -71,6 +72,7 @@ void refuse_without_folder(const char* option, bool given) {
 
 /// Throws for outputs that could not be written: before the work, not after it.
 void prepare(const SimulateArguments& arguments) {
+  arguments.figures.require_valid(arguments.folder);
   require_json_place(arguments.json_file, arguments.folder);
   if (arguments.folder.empty()) {
     refuse_without_folder("--force", arguments.force);
@@ -78,7 +80,6 @@ void prepare(const SimulateArguments& arguments) {
     refuse_without_folder("--name", !arguments.name.empty());
     return;
   }
-  report::run_gnuplot("");  // throws where there is none
   require_place(arguments.folder, arguments.force, measurement_folder_kind());
 }
 
@@ -248,7 +249,8 @@ int run_simulate(SimulateArguments arguments) {
   if (!arguments.folder.empty()) {
     const std::string name = arguments.name.empty() ? report::simulated_name(arm) : arguments.name;
     write_folder(arguments.folder, arguments.force,
-                 report::measurement_folder(name, written, plan, experiment, options.hold));
+                 report::measurement_folder(name, written, plan, experiment, options.hold,
+                                            arguments.figures.options()));
   }
   write_json(arguments.json_file, report::simulation_document(arm, experiment, options));
   print_model(arguments, arm, experiment);
@@ -307,6 +309,7 @@ Command add_simulate(CLI::App& program) {
                    "Folder for measurement.toml, arm.toml, and a CSV file and figures for each run")
       ->check(not_empty());
   parser->add_flag("--force", arguments->force, "Overwrite the measurement in the folder");
+  add_figure_choice(*parser, arguments->figures);
   parser
       ->add_option("--json", arguments->json_file,
                    "JSON file, full precision; - for standard output")

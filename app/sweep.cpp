@@ -13,7 +13,6 @@
 #include "compare/paper/paper_sweeps.hpp"
 #include "compare/sweeps/sweep_result.hpp"
 #include "measured/files/atomic_file.hpp"
-#include "report/figures/svg.hpp"
 #include "report/figures/sweep_figures.hpp"
 #include "report/json/sweep_json.hpp"
 #include "report/page/sweep_page.hpp"
@@ -233,20 +232,23 @@ void print_result(const compare::SweepResult& result, const arm::Arm& full_arm, 
   print(text);
 }
 
-std::vector<measured::NamedContent> figure_files(int number, const compare::PaperSweep& figure,
-                                                 const compare::SweepResult& result) {
-  const std::string name = fmt::format("figure-{}", number);
-  return {{name + ".csv", report::sweep_csv(result)},
-          {name + ".svg", report::to_svg(report::paper_sweep_figure(figure, result))}};
+std::vector<measured::NamedContent> paper_files(const SweepArguments& arguments,
+                                                const compare::PaperSweep& figure,
+                                                const compare::SweepResult& result) {
+  const std::string name = fmt::format("figure-{}", *arguments.figure);
+  std::vector<measured::NamedContent> files = {{name + ".csv", report::sweep_csv(result)}};
+  arguments.output.figures.add_to(files, "", {{name, report::paper_sweep_figure(figure, result)}});
+  return files;
 }
 
-std::vector<measured::NamedContent> sweep_files(const compare::SweepResult& result) {
+std::vector<measured::NamedContent> sweep_files(const SweepArguments& arguments,
+                                                const compare::SweepResult& result) {
   constexpr auto kAll = std::numeric_limits<std::size_t>::max();
   std::vector<measured::NamedContent> files = {
       {"sweep.csv", report::sweep_csv(result)},
       {"events.csv", report::to_csv(report::sweep_events_table(result, kAll))},
       {"agreement.csv", report::to_csv(report::sweep_agreement_table(result))}};
-  for (auto& [name, svg] : report::sweep_plots(result)) files.push_back({name, std::move(svg)});
+  arguments.output.figures.add_to(files, "", report::sweep_plots(result));
   return files;
 }
 
@@ -258,7 +260,7 @@ std::string next_step(const SweepArguments& arguments) {
   }
   if (arguments.figure) {
     return fmt::format(
-        "next: write the figure as SVG and CSV with  flexarm sweep{} --figure {} --out figures\n",
+        "next: write the figure and its values with  flexarm sweep{} --figure {} --out figures\n",
         arm, *arguments.figure);
   }
   return fmt::format(
@@ -299,7 +301,7 @@ int run_sweep(const SweepArguments& arguments) {
   if (const auto& folder = arguments.output.folder; !folder.empty()) {
     const bool is_begun = has_only(folder, kCheckpoint);
     write_folder(folder, arguments.output.force || is_begun,
-                 figure ? figure_files(*arguments.figure, *figure, result) : sweep_files(result));
+                 figure ? paper_files(arguments, *figure, result) : sweep_files(arguments, result));
   }
   write_json(arguments.output.json_file, report::sweep_json(result));
   if (arguments.report.is_given()) {
@@ -349,7 +351,7 @@ Command add_sweep(CLI::App& program) {
               "Print hub slopes, end-point values, models and the agreement of each quantity");
   parser->add_flag("--resume", arguments->resume,
                    "Resume an interrupted sweep from its checkpoint");
-  add_output_choice(*parser, arguments->output, "Folder for CSV tables and SVG plots");
+  add_output_choice(*parser, arguments->output, "Folder for CSV tables and figures");
   add_report_choice(*parser, arguments->report);
   parser->footer("Exit status: 0 the formulations agree; 1 they do not; 2 unusable input.\n" +
                  example("flexarm sweep rig.toml --over payload.mass=0:0.5:50 --out swept"));

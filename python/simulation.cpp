@@ -207,7 +207,7 @@ void write(const Experiment& experiment, const std::filesystem::path& folder,
       folder,
       report::measurement_folder(name.empty() ? report::simulated_name(experiment.arm) : name,
                                  written, experiment.plan, experiment.simulated,
-                                 experiment.options.hold),
+                                 experiment.options.hold, {}),
       measured::IfExists::refuse);
 }
 

@@ -5,6 +5,8 @@
 #include "report/tables/simulation_report.hpp"
 #include "report/tables/stepped_sine_report.hpp"
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace flexarm::report {
@@ -12,9 +14,13 @@ namespace flexarm::report {
 std::vector<measured::NamedContent> measurement_folder(
     const std::string& name, const arm::Arm& written_arm,
     const std::vector<response::PlannedRun>& plan, const response::SimulatedExperiment& experiment,
-    response::TorqueHold hold) {
+    response::TorqueHold hold, const FigureOptions& figures) {
   measured::Measurement measurement{name, "arm.toml", {}};
   std::vector<measured::NamedContent> files;
+  // Run by run: a figure holds its record.
+  const auto add_figures = [&](const std::vector<NamedFigure>& of_run) {
+    std::ranges::move(figure_files(of_run, figures), std::back_inserter(files));
+  };
   auto in_time = experiment.runs.begin();
   auto stepped = experiment.stepped_runs.begin();
   for (const auto& planned : plan) {
@@ -26,9 +32,7 @@ std::vector<measured::NamedContent> measurement_folder(
     if (planned.stepped_sine) {
       entry.kind = measured::RunKind::frf;
       files.push_back({entry.file, measured::format_frequency_record(frequency_record(*stepped))});
-      for (auto& plot : stepped_sine_plots(written_arm.name, *stepped)) {
-        files.push_back({plot.file_name, std::move(plot.svg)});
-      }
+      add_figures(stepped_sine_plots(written_arm.name, *stepped));
       ++stepped;
     } else {
       entry.torque_hold = hold == response::TorqueHold::zero ? measured::TorqueHold::zero
@@ -38,7 +42,7 @@ std::vector<measured::NamedContent> measurement_folder(
         entry.reference = measured::ColumnMapping{std::string(measured::kReferenceColumn), "", 1.0};
       }
       files.push_back({entry.file, measured::format_time_record(in_time->record)});
-      files.push_back({planned.id + ".svg", time_svg(written_arm.name, *in_time)});
+      add_figures({{planned.id, simulation_figure(written_arm.name, *in_time)}});
       ++in_time;
     }
     measurement.runs.push_back(std::move(entry));

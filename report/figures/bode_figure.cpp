@@ -1,5 +1,6 @@
 #include "report/figures/bode_figure.hpp"
 
+#include "report/figures/meaning.hpp"
 #include "report/figures/overlay_style.hpp"
 #include "report/figures/phase.hpp"
 #include "report/figures/phase_panel.hpp"
@@ -19,13 +20,13 @@ constexpr double kSmallestDrawnDifference = 0x1p-53;
 
 /// One curve alone needs no broad band below others.
 Style curve_style(const BodePlot& plot, std::size_t index) {
-  return plot.curves.size() == 1 ? Style{.colour = blue, .line_width_px = 1.6}
+  return plot.curves.size() == 1 ? Style{.colour = kBaselineColour, .line_width_px = 1.6}
                                  : overlay_style(index);
 }
 
 Style root_style(bool pole) {
   Style style;
-  style.colour = pole ? vermillion : green;
+  style.colour = pole ? kPoleColour : kZeroColour;
   style.line = Line::none;
   style.marker = pole ? Marker::cross : Marker::circle;
   style.marker_size = 0.9;

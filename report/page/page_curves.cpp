@@ -57,10 +57,10 @@ Series to_series(const BodeCurve& curve, Role role, const GappedCurve& gapped, b
 /// Whether curves have a gap between drawn lines i - 1 and i.
 bool has_gap(const BodeCurve& curve, const std::vector<std::size_t>& lines, std::size_t i) {
   if (i == 0) return false;
-  if (gap_before(curve.frequency_Hz, lines[i])) return true;
+  if (begins_band(curve.frequency_Hz, lines[i])) return true;
   for (std::size_t line = lines[i - 1] + 1; line < lines[i]; ++line) {
     const bool is_unknown = !has_value(curve, line) || !is_known(curve.relative_std, line);
-    if (is_unknown || gap_before(curve.frequency_Hz, line)) return true;
+    if (is_unknown || begins_band(curve.frequency_Hz, line)) return true;
   }
   return false;
 }
@@ -165,7 +165,7 @@ std::vector<CurvesPanel> bode_panels(const std::string& unit,
     const auto all_lines = drawn_lines(curve, false);
     GappedCurve squared;
     for (const std::size_t line : all_lines) {
-      if (!squared.x.empty() && gap_before(curve.frequency_Hz, line)) {
+      if (!squared.x.empty() && begins_band(curve.frequency_Hz, line)) {
         squared.add(curve.frequency_Hz[line], kMissingNumber, kMissingNumber);
       }
       squared.add(curve.frequency_Hz[line], curve.coherence[line], kMissingNumber);

@@ -44,7 +44,7 @@ Series line_series(const std::string& label, Role role, const MeasuredResponse& 
   for (std::size_t k = 0; k < measured.frequency_Hz.size(); ++k) {
     const double f_Hz = measured.frequency_Hz[k];
     if (!(f_Hz > 0.0)) continue;
-    if (gap_before(measured.frequency_Hz, k)) {
+    if (begins_band(measured.frequency_Hz, k)) {
       x.push_back(f_Hz);
       y.push_back(kUnknown);
     }

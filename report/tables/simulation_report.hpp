@@ -3,6 +3,7 @@
 #include "arm/arm.hpp"
 #include "arm/controller.hpp"
 #include "measured/files/time_record.hpp"
+#include "report/figures/figure.hpp"
 #include "report/tables/table.hpp"
 #include "response/experiment/simulated_experiment.hpp"
 
@@ -35,7 +36,7 @@ double relative_energy_residual(const response::EnergyBalance& energy);
 /// Torque, then each sensor, over time: the paper's Figures 20 to 23 when the sensors are hub
 /// angle, hub velocity and tip acceleration. Commanded torque and that at the hub where they
 /// differ.
-std::string time_svg(const std::string& arm_name, const SimulatedRun& run);
+Figure simulation_figure(const std::string& arm_name, const SimulatedRun& run);
 
 /// Member `runs` of schema `flexarm.simulate/1` (docs/json.md).
 nlohmann::ordered_json runs_json(const std::vector<SimulatedRun>& runs);

@@ -1,5 +1,6 @@
 #include "report/tables/simulation_report.hpp"
 
+#include "report/figures/svg.hpp"
 #include "report/tables/text_table.hpp"
 
 #include <gmock/gmock.h>
@@ -76,9 +77,9 @@ TEST(SimulationReport, TorqueAndHubMotionAreTold) {
 
 TEST(SimulationReport, TheFigureShowsTheTorqueAtTheHubWhereItIsAnother) {
   SimulatedRun run = sample_run();
-  EXPECT_THAT(time_svg("rig", run), HasSubstr("<text>at the hub</text>"));
+  EXPECT_THAT(to_svg(simulation_figure("rig", run)), HasSubstr("<text>at the hub</text>"));
   run.simulation.hub_torque_N_m = run.record.torque_N_m;
-  const std::string svg = time_svg("rig", run);
+  const std::string svg = to_svg(simulation_figure("rig", run));
   EXPECT_THAT(svg, testing::Not(HasSubstr("at the hub")));
   EXPECT_THAT(svg, HasSubstr("<text>rig: first</text>"));
   EXPECT_THAT(svg, HasSubstr("<text>hub angle [rad]</text>"));

@@ -156,9 +156,9 @@ TEST(SweepJson, HasNullWhereATrackHasNoRoot) {
 
 std::vector<std::string> drawn(const SweepResult& result) {
   std::vector<std::string> names;
-  for (const auto& [name, svg] : sweep_plots(result)) {
+  for (const auto& [name, figure] : sweep_plots(result)) {
     names.push_back(name);
-    std::istringstream stream(svg);
+    std::istringstream stream(to_svg(figure));
     boost::property_tree::ptree tree;
     EXPECT_NO_THROW(read_xml(stream, tree)) << name;
   }
@@ -166,12 +166,11 @@ std::vector<std::string> drawn(const SweepResult& result) {
 }
 
 TEST(SweepFigures, AreWellFormedOverOneParameterAndTwo) {
-  EXPECT_THAT(drawn(sample()), ElementsAre("poles.svg", "damped-poles.svg",
-                                           "zeros-tip_acceleration.svg", "modes.svg"));
+  EXPECT_THAT(drawn(sample()),
+              ElementsAre("poles", "damped-poles", "zeros-tip_acceleration", "modes"));
   EXPECT_THAT(drawn(sample_of_two()),
-              ElementsAre("poles.svg", "damped-poles.svg", "damped-poles-2.svg",
-                          "zeros-tip_acceleration.svg", "zeros-tip_acceleration-2.svg", "modes.svg",
-                          "modes-2.svg"));
+              ElementsAre("poles", "damped-poles", "damped-poles-2", "zeros-tip_acceleration",
+                          "zeros-tip_acceleration-2", "modes", "modes-2"));
 }
 
 TEST(SweepFigures, ASinglePointAndAModelWithoutRootsAreDrawn) {

@@ -152,8 +152,11 @@ NamedPlot measured_bode(const compare::MeasuredResponse& compared) {
                    ? fmt::format("Torque to {}, measured", sensor)
                    : fmt::format("Torque to {}, measured: {}", sensor, compared.run);
   for (std::size_t k = 0; k < compared.models.size(); ++k) {
+    const bool has_curve = !compared.curves.empty();
     plot.analytical.push_back(
-        {compared.models[k], compared.measured.frequency_Hz, compared.values[k]});
+        {compared.models[k],
+         has_curve ? compared.curve_frequency_Hz : compared.measured.frequency_Hz,
+         has_curve ? compared.curves[k] : compared.values[k]});
   }
   const std::string run = compared.run.empty() ? "" : "-" + compared.run;
   return {fmt::format("bode-measured-{}{}.svg", sensor, run),

@@ -19,6 +19,21 @@ bool is_finite(std::complex<double> value) {
   return std::isfinite(value.real()) && std::isfinite(value.imag());
 }
 
+constexpr int kCurvePoints = 800;
+
+std::vector<double> curve_frequencies_Hz(const measured::FrequencyChannel& channel) {
+  std::vector<double> frequency_Hz = channel.frequency_Hz;
+  std::erase_if(frequency_Hz, [](double f) { return !(f > 0.0); });
+  if (frequency_Hz.size() < 2) return {};
+  const auto grid =
+      response::logarithmic_frequencies({frequency_Hz.front(), frequency_Hz.back(), kCurvePoints});
+  frequency_Hz.insert(frequency_Hz.end(), grid.begin(), grid.end());
+  std::ranges::sort(frequency_Hz);
+  const auto repeated = std::ranges::unique(frequency_Hz);
+  frequency_Hz.erase(repeated.begin(), repeated.end());
+  return frequency_Hz;
+}
+
 void add_errors(const std::vector<std::complex<double>>& model, MeasuredResponse& compared) {
   double error = 0.0;
   double power = 0.0;
@@ -52,7 +67,7 @@ std::vector<MeasuredResponse> responses_beside_models(const arm::Arm& arm, const
   std::vector<MeasuredResponse> compared;
   for (const auto& channel : record.channels) {
     range.to_Hz = std::fmax(*range.to_Hz, channel.frequency_Hz.back());
-    compared.push_back({run, channel, {}, {}, {}, {}});
+    compared.push_back({run, channel, {}, {}, {}, {}, curve_frequencies_Hz(channel), {}});
   }
   const int roots = std::min(response::roots_needed(parts.linear, range), response::kMostRoots);
   for (const auto& subject : standard_subjects(parts.linear, roots)) {
@@ -61,6 +76,11 @@ std::vector<MeasuredResponse> responses_beside_models(const arm::Arm& arm, const
       auto response = response::frequency_response(subject.formulation, chain, sensors,
                                                    each.measured.frequency_Hz);
       add_errors(response.values.front(), each);
+      if (!each.curve_frequency_Hz.empty()) {
+        each.curves.push_back(response::frequency_response(subject.formulation, chain, sensors,
+                                                           each.curve_frequency_Hz)
+                                  .values.front());
+      }
       each.models.push_back(subject.name);
       each.values.push_back(std::move(response.values.front()));
     }

@@ -23,6 +23,10 @@ struct MeasuredResponse {
   /// are finite.
   std::vector<double> relative_error_percent;
   std::vector<double> median_error_percent;  ///< [model], median of 100 |G_m - G|/|G_m|
+  /// For a curve from the first measured frequency above 0 to the last: evenly spaced on a
+  /// logarithmic axis, and the measured ones. Empty where there is no range.
+  std::vector<double> curve_frequency_Hz = {};
+  std::vector<std::vector<std::complex<double>>> curves = {};  ///< [model][frequency]
 };
 
 /// The measured responses of a run beside exact_tf, fem and assumed_modes. Throws InputError for a

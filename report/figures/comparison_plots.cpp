@@ -160,8 +160,11 @@ NamedFigure measured_bode(const compare::MeasuredResponse& compared) {
                    ? fmt::format("Torque to {}, measured", sensor_label(sensor))
                    : fmt::format("Torque to {}, measured: {}", sensor_label(sensor), compared.run);
   for (std::size_t k = 0; k < compared.models.size(); ++k) {
+    const bool has_curve = !compared.curves.empty();
     plot.analytical.push_back(
-        {in_words(compared.models[k]), compared.measured.frequency_Hz, compared.values[k]});
+        {in_words(compared.models[k]),
+         has_curve ? compared.curve_frequency_Hz : compared.measured.frequency_Hz,
+         has_curve ? compared.curves[k] : compared.values[k]});
   }
   const std::string run = compared.run.empty() ? "" : "-" + compared.run;
   return {fmt::format("bode-measured-{}{}", arm::to_string(sensor), run),

@@ -9,8 +9,8 @@
 #include "arm/plausibility.hpp"
 #include "arm/rigid_hub.hpp"
 #include "effects/registry/vocabulary.hpp"
+#include "measured/files/usable_arm.hpp"
 #include "response/arm_parts.hpp"
-#include "response/usable_arm.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -43,7 +43,7 @@ std::string describe_effect(const std::string& name, const arm::Effect& effect) 
 
 std::vector<arm::Arm> ArmChoice::arms() const {
   arm::Arm base =
-      file.empty() ? arm::paper_arm() : response::read_usable_arm(file, effects::vocabulary());
+      file.empty() ? arm::paper_arm() : measured::read_usable_arm(file, effects::vocabulary());
   if (payload_inertia_kg_m2) base.payload.inertia_kg_m2 = *payload_inertia_kg_m2;
   if (hub_inertia_kg_m2) base.hub.inertia_kg_m2 = *hub_inertia_kg_m2;
   std::vector<arm::Arm> arms;
@@ -55,7 +55,7 @@ std::vector<arm::Arm> ArmChoice::arms() const {
     arms.push_back(base);
     arms.back().payload.mass_kg = mass;
   }
-  for (const auto& arm : arms) response::require_usable(arm);
+  for (const auto& arm : arms) measured::require_usable(arm);
   return arms;
 }
 

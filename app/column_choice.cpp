@@ -239,8 +239,7 @@ measured::ColumnMappings ColumnChoice::mappings(std::span<const ColumnLabel> col
   return mappings;
 }
 
-std::vector<std::size_t> ColumnChoice::left_out_places(
-    std::span<const ColumnLabel> columns) const {
+std::vector<std::size_t> ColumnChoice::left_out_places(std::span<const ColumnLabel> columns) const {
   std::vector<std::size_t> places;
   for (const auto& name : left_out) {
     const auto place = measured::column_place(names_of(columns), name);

@@ -121,7 +121,7 @@ std::optional<arm::Controller> controller_of(const ImportArguments& arguments) {
   if (reference.empty()) {
     throw arm::InputError("--controller: needs the column with its reference, --reference COLUMN");
   }
-  return response::read_controller(arguments.controller, "--controller");
+  return experiment::read_controller(arguments.controller, "--controller");
 }
 
 int run_import(const ImportArguments& typed) {

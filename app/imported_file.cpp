@@ -141,9 +141,8 @@ void require_told(const measured::ColumnGuess& guess, const std::vector<ColumnLa
                     quantity, join_names(labels), otherwise,
                     quantity == std::string_view("torque") ? asked(guess, true) : ""));
   }
-  const bool has_sensor = std::ranges::any_of(mappings, [](const auto& entry) {
-    return measured::sensor_of(entry.first).has_value();
-  });
+  const bool has_sensor = std::ranges::any_of(
+      mappings, [](const auto& entry) { return measured::sensor_of(entry.first).has_value(); });
   if (has_sensor) return;
   for (const auto& [quantity, names] : guess.ambiguous) {
     throw InputError(
@@ -178,17 +177,16 @@ void doubt_time(const FileChoice& choice, ImportedFile& imported) {
   if (!doubt) return;
   constexpr std::array<std::pair<const char*, double>, 4> kUnits = {
       {{"s", 1.0}, {"ms", 1e-3}, {"us", 1e-6}, {"ns", 1e-9}}};
-  const auto used = std::ranges::find(kUnits, time->second.unit, [](const auto& unit) {
-    return std::string_view(unit.first);
-  });
+  const auto used = std::ranges::find(
+      kUnits, time->second.unit, [](const auto& unit) { return std::string_view(unit.first); });
   std::string remedy = "if it is in another unit, say so with --time-unit";
   for (const auto& [unit, seconds] : kUnits) {
     if (used == kUnits.end()) break;
     if (std::abs(seconds / (used->second * doubt->factor) - 1.0) > 0.5) continue;
     remedy = fmt::format("this speaks for {0}; if so, add --time-unit {0}", unit);
   }
-  imported.warnings.push_back(fmt::format("time is read in {}, but {}; {}", time->second.unit,
-                                          doubt->evidence, remedy));
+  imported.warnings.push_back(
+      fmt::format("time is read in {}, but {}; {}", time->second.unit, doubt->evidence, remedy));
 }
 
 /// Each sensor that the controller reads and no column is.

@@ -58,9 +58,9 @@ void add_run_choice(CLI::App& parser, RunChoice& choice) {
       ->check(not_empty());
   parser.add_option(
       "--duration", choice.duration_s,
-      fmt::format("Duration of each excitation [s]; default {}", response::kDefaultDuration_s));
+      fmt::format("Duration of each excitation [s]; default {}", experiment::kDefaultDuration_s));
   parser.add_option("--period", choice.period_s,
-                    fmt::format("Sampling period [s]; default {}", response::kDefaultPeriod_s));
+                    fmt::format("Sampling period [s]; default {}", experiment::kDefaultPeriod_s));
   parser
       .add_option("--seed", choice.seed,
                   "Seed of the noise; incremented for excitations without a seed")

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "response/experiment/run_choice.hpp"
+#include "experiment/run_choice.hpp"
 
 namespace CLI {
 class App;
@@ -8,11 +8,11 @@ class App;
 
 namespace flexarm::app {
 
-using response::id_of_file;
-using response::PlannedRun;
-using response::read_purpose;
-using response::require_id;
-using response::RunChoice;
+using experiment::id_of_file;
+using experiment::PlannedRun;
+using experiment::read_purpose;
+using experiment::require_id;
+using experiment::RunChoice;
 
 /// Adds `--excitation`, `--torque`, `--reference`, `--controller`, `--duration`, `--period` and
 /// `--seed` to a command.

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "response/experiment/sensor_choice.hpp"
+#include "experiment/sensor_choice.hpp"
 
 namespace CLI {
 class App;
@@ -8,8 +8,8 @@ class App;
 
 namespace flexarm::app {
 
-using response::ChosenSensor;
-using response::SensorChoice;
+using experiment::ChosenSensor;
+using experiment::SensorChoice;
 
 /// Adds `--sensor`, `--noise`, `--noise-of` and `--quantisation` to a command.
 void add_sensor_choice(CLI::App& parser, SensorChoice& choice);

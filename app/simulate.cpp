@@ -9,12 +9,12 @@
 #include "app/sensor_choice.hpp"
 #include "app/standard_output.hpp"
 #include "arm/input_error.hpp"
+#include "experiment/simulated_experiment.hpp"
 #include "report/json/simulation_json.hpp"
 #include "report/measurement_folder.hpp"
 #include "report/progress.hpp"
 #include "report/tables/simulation_report.hpp"
 #include "report/tables/stepped_sine_report.hpp"
-#include "response/experiment/simulated_experiment.hpp"
 #include "response/settings.hpp"
 
 #include <CLI/CLI.hpp>
@@ -41,7 +41,7 @@ struct SimulateArguments {
   ArmChoice arm;
   RunChoice runs;
   SensorChoice sensors;
-  response::ExperimentOptions options;
+  experiment::ExperimentOptions options;
   std::string hold = "zero";
   std::vector<std::string> hidden_effects;
   std::string name;
@@ -84,10 +84,9 @@ void prepare(const SimulateArguments& arguments) {
 }
 
 /// With a line of progress on standard error for each run.
-response::SimulatedExperiment simulate_with_progress(const arm::Arm& arm,
-                                                     const std::vector<PlannedRun>& plan,
-                                                     const std::vector<ChosenSensor>& sensors,
-                                                     const response::ExperimentOptions& options) {
+experiment::SimulatedExperiment simulate_with_progress(
+    const arm::Arm& arm, const std::vector<PlannedRun>& plan,
+    const std::vector<ChosenSensor>& sensors, const experiment::ExperimentOptions& options) {
   const auto line_of = [](const std::string& label, std::size_t total) {
     const auto line = std::make_shared<report::Progress>(label, static_cast<std::int64_t>(total));
     return [line](double fraction) {
@@ -95,7 +94,7 @@ response::SimulatedExperiment simulate_with_progress(const arm::Arm& arm,
       return true;
     };
   };
-  return response::simulate_experiment(arm, plan, sensors, options, line_of);
+  return experiment::simulate_experiment(arm, plan, sensors, options, line_of);
 }
 
 /// The numbers of excitations that samples could not take as they were typed.
@@ -127,7 +126,7 @@ std::string standing_notes(const std::vector<report::SimulatedRun>& runs) {
 }
 
 /// What the sampling does not show of the modes kept, once for each kind of run.
-std::string sampling_notes(const response::SimulatedExperiment& experiment) {
+std::string sampling_notes(const experiment::SimulatedExperiment& experiment) {
   std::string notes;
   for (const auto& run : experiment.runs) {
     const auto& summary = run.simulation.summary;
@@ -202,7 +201,7 @@ void print_stepped_runs(const std::vector<report::SteppedSineRun>& runs, bool ha
 }
 
 void print_results(const SimulateArguments& arguments, const std::vector<PlannedRun>& plan,
-                   const response::SimulatedExperiment& experiment, bool has_dry_friction) {
+                   const experiment::SimulatedExperiment& experiment, bool has_dry_friction) {
   const auto& runs = experiment.runs;
   print_runs_in_time(runs, has_dry_friction, arguments.verbose);
   print_stepped_runs(experiment.stepped_runs, has_dry_friction);
@@ -213,7 +212,7 @@ void print_results(const SimulateArguments& arguments, const std::vector<Planned
 
 /// The arm and the model that it was simulated with.
 void print_model(const SimulateArguments& arguments, const arm::Arm& arm,
-                 const response::SimulatedExperiment& experiment) {
+                 const experiment::SimulatedExperiment& experiment) {
   const char* hold =
       arguments.options.hold == response::TorqueHold::zero ? "zero-order hold" : "first-order hold";
   print(describe(arm));
@@ -238,10 +237,10 @@ int run_simulate(SimulateArguments arguments) {
   options.noise_seed = arguments.runs.seed;
   const arm::Arm arm = base_arm(arguments.arm);
   const arm::Arm written =
-      response::with_hidden_effects(arm, arguments.hidden_effects, "--hide-effects");
+      experiment::with_hidden_effects(arm, arguments.hidden_effects, "--hide-effects");
   const auto sensors = arguments.sensors.sensors(arm);
   const auto plan = arguments.runs.runs(arm, arguments.arm.payload_masses_kg);
-  response::require_valid(options, plan, sensors, arm::on_command_line);
+  experiment::require_valid(options, plan, sensors, arm::on_command_line);
   prepare(arguments);
 
   const auto experiment = simulate_with_progress(arm, plan, sensors, options);

@@ -8,8 +8,8 @@
 #include "arm/rigid_hub.hpp"
 #include "effects/registry/vocabulary.hpp"
 #include "measured/files/arm_file.hpp"
+#include "measured/files/usable_arm.hpp"
 #include "python/module.hpp"
-#include "response/usable_arm.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -276,7 +276,7 @@ void add_arm(py::module_& module) {
   module.def(
       "read_arm",
       [](const std::filesystem::path& path) {
-        return response::read_usable_arm(path, effects::vocabulary());
+        return measured::read_usable_arm(path, effects::vocabulary());
       },
       py::arg("path"),
       "Reads an arm file (TOML, docs/formats.md). Raises InputError 'FILE:LINE: ...' for a file "

@@ -7,6 +7,7 @@
 #include "python/long_call.hpp"
 #include "python/module.hpp"
 #include "report/figures/diagnosis_figures.hpp"
+#include "report/figures/figure_files.hpp"
 #include "report/json/diagnosis_document.hpp"
 #include "report/tables/diagnosis_tables.hpp"
 
@@ -80,8 +81,9 @@ std::vector<RunOverlay> overlays_of(const Diagnosed& self) {
 std::map<std::string, std::string> figures_of(const Diagnosed& self) {
   const py::gil_scoped_release without_lock;
   std::map<std::string, std::string> figures;
-  for (auto& [name, svg] : report::diagnosis_plots(self.experiment, self.diagnosis).plots) {
-    figures[name] = std::move(svg);
+  for (auto& file :
+       report::figure_files(report::diagnosis_plots(self.experiment, self.diagnosis).plots)) {
+    figures[file.name] = std::move(file.content);
   }
   return figures;
 }

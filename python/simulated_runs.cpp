@@ -1,7 +1,7 @@
+#include "experiment/simulated_experiment.hpp"
 #include "python/arrays.hpp"
 #include "python/module.hpp"
 #include "python/records.hpp"
-#include "response/experiment/simulated_experiment.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -16,8 +16,8 @@ namespace py = pybind11;
 
 namespace {
 
-using response::SimulatedRun;
-using response::SteppedSineRun;
+using experiment::SimulatedRun;
+using experiment::SteppedSineRun;
 
 void add_run(py::module_& module) {
   auto run = py::class_<SimulatedRun>(

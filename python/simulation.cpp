@@ -1,4 +1,5 @@
 #include "arm/input_error.hpp"
+#include "experiment/simulated_experiment.hpp"
 #include "measured/files/atomic_file.hpp"
 #include "python/argument_names.hpp"
 #include "python/arm.hpp"
@@ -7,7 +8,6 @@
 #include "python/module.hpp"
 #include "report/json/simulation_json.hpp"
 #include "report/measurement_folder.hpp"
-#include "response/experiment/simulated_experiment.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -27,22 +27,22 @@ namespace py = pybind11;
 
 namespace {
 
-using response::SimulatedRun;
+using experiment::SimulatedRun;
 using Texts = std::vector<std::string>;
 
 /// A simulated experiment with what it was made of.
 struct Experiment {
   arm::Arm arm;
-  std::vector<response::PlannedRun> plan;
-  response::ExperimentOptions options;
-  response::SimulatedExperiment simulated;
+  std::vector<experiment::PlannedRun> plan;
+  experiment::ExperimentOptions options;
+  experiment::SimulatedExperiment simulated;
 };
 
 /// What all simulations may be told.
 struct Settings {
-  response::RunChoice runs;
-  response::SensorChoice sensors;
-  response::ExperimentOptions options;
+  experiment::RunChoice runs;
+  experiment::SensorChoice sensors;
+  experiment::ExperimentOptions options;
 };
 
 std::vector<std::string> pairs(const std::map<std::string, double>& numbers) {
@@ -121,7 +121,7 @@ measured::TimeRecord record_of(const Numbers& values, double sample_time_s, cons
   return record;
 }
 
-void set_controller(response::RunChoice& runs, const py::object& controller) {
+void set_controller(experiment::RunChoice& runs, const py::object& controller) {
   if (controller.is_none()) return;
   if (py::isinstance<py::str>(controller)) {
     runs.controller = controller.cast<std::string>();
@@ -134,11 +134,11 @@ Experiment simulated(const arm::Arm& arm, const Settings& settings, const py::ob
   return long_call("simulation", progress, [&](CallState& state) {
     Experiment experiment{arm, settings.runs.runs(arm, {}), settings.options, {}};
     const auto sensors = settings.sensors.sensors(arm);
-    response::require_valid(settings.options, experiment.plan, sensors, as_argument);
+    experiment::require_valid(settings.options, experiment.plan, sensors, as_argument);
     const double pieces =
         static_cast<double>(experiment.plan.size()) * (settings.options.check_step ? 2.0 : 1.0);
     double done = -1.0;
-    experiment.simulated = response::simulate_experiment(
+    experiment.simulated = experiment::simulate_experiment(
         arm, experiment.plan, sensors, settings.options, [&](const std::string&, std::size_t) {
           done += 1.0;
           return [&state, done, pieces](double fraction) {
@@ -164,7 +164,7 @@ SimulatedRun simulate(const arm::Arm& arm, const py::object& excitation,
                       const py::object& progress, const py::kwargs& given) {
   Settings settings = settings_of(given);
   auto& runs = settings.runs;
-  const double sample_time_s = runs.period_s.value_or(response::kDefaultPeriod_s);
+  const double sample_time_s = runs.period_s.value_or(experiment::kDefaultPeriod_s);
   if (!excitation.is_none() && !reference.is_none()) {
     throw arm::InputError("excitation: not together with reference");
   }
@@ -190,7 +190,7 @@ SimulatedRun simulate(const arm::Arm& arm, const py::object& excitation,
 
 py::array_t<double> sampled_torque(const std::string& excitation, double duration_s,
                                    double sample_time_s) {
-  response::RunChoice runs;
+  experiment::RunChoice runs;
   runs.spelled = as_argument;
   runs.excitations = {excitation};
   runs.duration_s = duration_s;
@@ -201,7 +201,7 @@ py::array_t<double> sampled_torque(const std::string& excitation, double duratio
 void write(const Experiment& experiment, const std::filesystem::path& folder,
            const std::string& name, const Texts& hide_effects) {
   const arm::Arm written =
-      response::with_hidden_effects(experiment.arm, hide_effects, "hide_effects");
+      experiment::with_hidden_effects(experiment.arm, hide_effects, "hide_effects");
   const py::gil_scoped_release without_lock;
   measured::write_folder_atomically(
       folder,
@@ -278,8 +278,8 @@ void add_simulation(py::module_& module) {
               kSettings)
                  .c_str());
   module.def("sampled_torque", &sampled_torque, py::arg("excitation"), py::kw_only(),
-             py::arg("duration_s") = response::kDefaultDuration_s,
-             py::arg("sample_time_s") = response::kDefaultPeriod_s,
+             py::arg("duration_s") = experiment::kDefaultDuration_s,
+             py::arg("sample_time_s") = experiment::kDefaultPeriod_s,
              "The torque of an excitation 'KIND:KEY=VALUE,...' [N m], array (samples,). Raises "
              "InputError.");
 }

@@ -13,8 +13,9 @@ namespace flexarm::report {
 
 std::vector<measured::NamedContent> measurement_folder(
     const std::string& name, const arm::Arm& written_arm,
-    const std::vector<response::PlannedRun>& plan, const response::SimulatedExperiment& experiment,
-    response::TorqueHold hold, const FigureOptions& figures) {
+    const std::vector<experiment::PlannedRun>& plan,
+    const experiment::SimulatedExperiment& experiment, response::TorqueHold hold,
+    const FigureOptions& figures) {
   measured::Measurement measurement{name, "arm.toml", {}};
   std::vector<measured::NamedContent> files;
   // Run by run: a figure holds its record.

@@ -2,7 +2,7 @@
 
 #include "measured/files/atomic_file.hpp"
 #include "report/figures/figure_files.hpp"
-#include "response/experiment/simulated_experiment.hpp"
+#include "experiment/simulated_experiment.hpp"
 
 #include <string>
 #include <vector>
@@ -14,7 +14,7 @@ namespace flexarm::report {
 /// sensor, drawn with `figures`.
 std::vector<measured::NamedContent> measurement_folder(
     const std::string& name, const arm::Arm& written_arm,
-    const std::vector<response::PlannedRun>& plan, const response::SimulatedExperiment& experiment,
+    const std::vector<experiment::PlannedRun>& plan, const experiment::SimulatedExperiment& experiment,
     response::TorqueHold hold, const FigureOptions& figures);
 
 /// The name of the measurement where it is given none.

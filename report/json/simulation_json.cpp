@@ -10,8 +10,8 @@
 namespace flexarm::report {
 
 std::string simulation_document(const arm::Arm& arm,
-                                const response::SimulatedExperiment& experiment,
-                                const response::ExperimentOptions& options) {
+                                const experiment::SimulatedExperiment& experiment,
+                                const experiment::ExperimentOptions& options) {
   const char* hold = options.hold == response::TorqueHold::zero ? "zero" : "first";
   return json_document("flexarm.simulate/1",
                        {{"arm", arm_json(arm)},

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "response/experiment/simulated_experiment.hpp"
+#include "experiment/simulated_experiment.hpp"
 
 #include <string>
 
@@ -8,7 +8,7 @@ namespace flexarm::report {
 
 /// The document of `simulate --json` (docs/json.md).
 std::string simulation_document(const arm::Arm& arm,
-                                const response::SimulatedExperiment& experiment,
-                                const response::ExperimentOptions& options);
+                                const experiment::SimulatedExperiment& experiment,
+                                const experiment::ExperimentOptions& options);
 
 }  // namespace flexarm::report

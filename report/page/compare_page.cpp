@@ -1,6 +1,7 @@
 #include "report/page/compare_page.hpp"
 
 #include "report/page/comparison_blocks.hpp"
+#include "report/page/measured_blocks.hpp"
 #include "report/page/page_table.hpp"
 #include "report/page/page_words.hpp"
 #include "report/page/payload_sweep.hpp"
@@ -67,7 +68,7 @@ std::vector<Fact> comparison_facts(const std::vector<ComparedArm>& arms) {
   double error = 0.0;
   std::size_t measured = 0;
   for (const ComparedArm& arm : arms) {
-    for (const auto& row : arm.measured) {
+    for (const auto& row : arm.measured.rows) {
       if (std::isnan(row.error_percent)) continue;
       error = std::max(error, std::abs(row.error_percent));
       ++measured;
@@ -104,13 +105,18 @@ void add_roots(PageDocument& document, const NamedArm& arm) {
       "begins "
       "in the wrong direction.");
   for (MapBlock& map : comparison_maps(arm)) section.blocks.emplace_back(std::move(map));
-  add_table(section, measured_table(arm.arm->measured), "measured");
   std::size_t number = 0;
   for (const Table& table : root_tables(comparison)) {
     add_table(section, table, fmt::format("root-table-{}", ++number));
   }
   add_table(section, notes_table(comparison), "root-counts",
             "Roots found beside the number that an independent count expects.");
+  document.add(std::move(section));
+}
+
+void add_measured(PageDocument& document, const NamedArm& arm) {
+  Section section{"measured", titled("Measured and computed", arm)};
+  add_measured_tables(section, arm);
   document.add(std::move(section));
 }
 
@@ -165,10 +171,20 @@ PageDocument compare_page(const std::vector<ComparedArm>& arms, const PageOrigin
                         comparison_facts(arms),
                         {}};
   const auto names = named(arms);
-  if (auto block = comparison_responses(names); !block.views.empty()) {
-    document.headline = std::move(block);
+  auto measured = measured_responses(names);
+  auto responses = comparison_responses(names);
+  if (!measured.views.empty()) {
+    document.headline = std::move(measured);
+    Section section{"responses", "Frequency responses"};
+    if (!responses.views.empty()) section.blocks.emplace_back(std::move(responses));
+    document.add(std::move(section));
+  } else if (!responses.views.empty()) {
+    document.headline = std::move(responses);
   }
-  for (const NamedArm& arm : names) add_roots(document, arm);
+  for (const NamedArm& arm : names) {
+    add_measured(document, arm);
+    add_roots(document, arm);
+  }
   document.add(payload_section(arms));
   Section shapes{"shapes", "Mode shapes"};
   if (auto block = comparison_shapes(names); !block.views.empty()) {

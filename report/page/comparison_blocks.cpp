@@ -187,7 +187,7 @@ std::vector<MapBlock> comparison_maps(const NamedArm& arm) {
   for (const auto& sensors : sensors_by_zeros(all)) {
     MapBlock map = root_map("map-" + arm::to_string(sensors.front()), map_title(sensors),
                             coincide ? kCoincide : "");
-    for (const auto& row : arm.arm->measured) {
+    for (const auto& row : arm.arm->measured.rows) {
       const auto& entry = row.measured;
       const bool is_zero = entry.feature == measured::Feature::zero;
       const bool is_other = is_zero && std::ranges::find(sensors, *entry.sensor) == sensors.end();

@@ -155,7 +155,7 @@ std::vector<CurvesPanel> bode_panels(const std::string& unit,
     });
     std::vector<std::complex<double>> drawn;
     for (const std::size_t line : lines) drawn.push_back(curve.response[line]);
-    const auto degrees = phase_deg(drawn, Phase::wrapped);
+    const auto degrees = principal_phase_deg(drawn);
     auto angles = gapped(curve, lines, kPhaseWrap_deg, [&](std::size_t i) {
       return std::pair(degrees[i], kDegreesPerRadian * std_of(lines[i]));
     });

@@ -5,7 +5,7 @@
 #include "measured/files/time_record.hpp"
 #include "report/figures/figure.hpp"
 #include "report/tables/table.hpp"
-#include "response/experiment/simulated_experiment.hpp"
+#include "experiment/simulated_experiment.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -15,7 +15,7 @@
 
 namespace flexarm::report {
 
-using response::SimulatedRun;
+using experiment::SimulatedRun;
 
 /// Excitation, duration, peak and root mean square of the torque of each run.
 Table torque_table(const std::vector<SimulatedRun>& runs);

@@ -4,7 +4,7 @@
 #include "measured/files/frequency_record.hpp"
 #include "report/figures/figure.hpp"
 #include "report/tables/table.hpp"
-#include "response/experiment/simulated_experiment.hpp"
+#include "experiment/simulated_experiment.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -13,7 +13,7 @@
 
 namespace flexarm::report {
 
-using response::SteppedSineRun;
+using experiment::SteppedSineRun;
 
 /// The response as a frequency record has it.
 measured::FrequencyRecord frequency_record(const SteppedSineRun& run);

@@ -46,12 +46,12 @@ TEST(ComparisonPlots, AreWellFormedThoughRootsAndResponsesAreMissing) {
 TEST(ComparisonPlots, WhatWasMeasuredIsDrawn) {
   const auto sample = sample_comparison();
   const auto plots = comparison_plots(sample.comparison, sample.measured);
-  for (const auto& plot : plots) expect_well_formed(plot.svg, plot.file_name);
+  for (const auto& plot : plots) expect_well_formed(to_svg(plot.figure), plot.name);
   const auto names = names_of(plots);
-  EXPECT_THAT(names, testing::IsSupersetOf({"bode-measured-hub_angle-sine.svg", "mac.svg"}));
+  EXPECT_THAT(names, testing::IsSupersetOf({"bode-measured-hub_angle-sine", "mac"}));
   const auto without = comparison_plots(sample.comparison);
-  const auto map_of = [](const std::vector<NamedPlot>& all) {
-    return std::ranges::find(all, "pole-zero-hub_angle.svg", &NamedPlot::file_name)->svg;
+  const auto map_of = [](const std::vector<NamedFigure>& all) {
+    return to_svg(std::ranges::find(all, "pole-zero-hub_angle", &NamedFigure::name)->figure);
   };
   EXPECT_THAT(map_of(plots), testing::HasSubstr("measured"));
   EXPECT_THAT(map_of(without), testing::Not(testing::HasSubstr("measured")));

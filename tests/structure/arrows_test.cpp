@@ -25,13 +25,14 @@ const std::map<std::string, Rooms>& allowed_arrows() {
     map["fem"] = {"arm"};
     map["assumed_modes"] = {"arm"};
     map["measured"] = {"arm"};
-    map["response"] = {"arm", "measured", "exact_tf", "fem", "assumed_modes"};
+    map["response"] = {"arm", "exact_tf", "fem", "assumed_modes"};
+    map["experiment"] = {"arm", "measured", "response"};
     map["compare"] = {"arm", "effects", "exact_tf", "fem", "assumed_modes", "response", "measured"};
     map["diagnose"] = {"arm", "effects", "exact_tf", "response", "compare", "measured"};
-    map["report"] = {"arm", "effects", "response", "compare", "measured", "diagnose"};
+    map["report"] = {"arm", "effects", "response", "experiment", "compare", "measured", "diagnose"};
     map["export"] = {"arm", "effects", "response", "compare", "measured", "diagnose"};
-    map["app"] = {"arm",      "effects", "exact_tf", "fem",    "assumed_modes", "measured",
-                  "response", "compare", "diagnose", "report", "export"};
+    map["app"] = {"arm",      "effects",    "exact_tf", "fem",      "assumed_modes", "measured",
+                  "response", "experiment", "compare",  "diagnose", "report",        "export"};
     map["python"] = map["app"];
     return map;
   }();

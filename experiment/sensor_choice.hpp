@@ -8,12 +8,12 @@
 #include <string>
 #include <vector>
 
-namespace flexarm::response {
+namespace flexarm::experiment {
 
 /// A sensor and what it adds to what it measures.
 struct ChosenSensor {
   arm::Sensor sensor;
-  SensorImperfections imperfections;
+  response::SensorImperfections imperfections;
 };
 
 /// The sensors of a simulated experiment, in a user's words.
@@ -30,4 +30,4 @@ struct SensorChoice {
   std::vector<ChosenSensor> sensors(const arm::Arm& arm) const;
 };
 
-}  // namespace flexarm::response
+}  // namespace flexarm::experiment

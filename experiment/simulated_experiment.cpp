@@ -1,4 +1,4 @@
-#include "response/experiment/simulated_experiment.hpp"
+#include "experiment/simulated_experiment.hpp"
 
 #include "arm/input_error.hpp"
 #include "arm/nearest_name.hpp"
@@ -16,9 +16,14 @@
 #include <string>
 #include <utility>
 
-namespace flexarm::response {
+namespace flexarm::experiment {
 
 namespace {
+
+using response::ArmParts;
+using response::RandomNumbers;
+using response::SimulationOptions;
+using response::SteppedSineOptions;
 
 constexpr std::uint32_t kStreamsOfARun = 1000;
 
@@ -41,14 +46,14 @@ class Models {
     if (known != models_.end()) return *known;
     arm::Arm loaded = arm_;
     loaded.payload = payload;
-    PayloadModel made{payload, take_apart(loaded), {}};
+    PayloadModel made{payload, response::take_apart(loaded), {}};
     const auto chosen = options_.formulation.make(
         made.parts.linear, options_.modes + (options_.static_correction ? 1 : 0));
-    made.model = time_model(chosen.formulation, made.parts, options_.modes, sensors_,
-                            options_.static_correction);
+    made.model = response::time_model(chosen.formulation, made.parts, options_.modes, sensors_,
+                                      options_.static_correction);
     experiment_.model = chosen.name;
     experiment_.settings = chosen.settings;
-    experiment_.degrees_of_freedom = degrees_of_freedom(chosen.formulation);
+    experiment_.degrees_of_freedom = response::degrees_of_freedom(chosen.formulation);
     experiment_.modes = std::min(options_.modes, static_cast<int>(made.model.modes.size()) - 1);
     if (experiment_.degrees_of_freedom > 0) {
       experiment_.modes = std::min(experiment_.modes, experiment_.degrees_of_freedom - 1);
@@ -83,20 +88,20 @@ void step(SimulatedRun& run, const PayloadModel& model, const std::vector<arm::S
   auto& torque_N_m = run.record.torque_N_m;
   const auto progress = progress_of(fmt::format("{}, samples", run.id), run.record.time_s.size());
   if (run.controller) {
-    run.simulation = ArmSimulator(model.model, model.parts, sensors, options)
+    run.simulation = response::ArmSimulator(model.model, model.parts, sensors, options)
                          .run({*run.controller, run.record.reference.values}, progress);
     torque_N_m = run.simulation.commanded_torque_N_m;
   } else {
-    run.simulation =
-        simulate(model.model, model.parts, sensors, torque_N_m, options, std::ref(progress));
+    run.simulation = response::simulate(model.model, model.parts, sensors, torque_N_m, options,
+                                        std::ref(progress));
   }
   if (!run.simulation.summary.completed) throw ExperimentCancelled{};
   if (!compares_steps) return;
   const auto finer =
       progress_of(fmt::format("{} in smaller steps, samples", run.id), torque_N_m.size());
-  run.step_error =
-      check_step(run.simulation, model.model, model.parts, sensors, torque_N_m, options, finer)
-          .relative_difference;
+  run.step_error = response::check_step(run.simulation, model.model, model.parts, sensors,
+                                        torque_N_m, options, finer)
+                       .relative_difference;
   if (run.step_error.empty() && !sensors.empty()) throw ExperimentCancelled{};
 }
 
@@ -158,8 +163,8 @@ SteppedSineRun stepped_run(const PlannedRun& plan, std::size_t index, const arm:
   stepping.first_noise_stream = first_stream(index);
   const auto progress = progress_of(fmt::format("{}, frequencies", run.id),
                                     frequencies_Hz(*plan.stepped_sine).size());
-  run.measured = measure_stepped_sine(model.model, model.parts, run.sensors, *plan.stepped_sine,
-                                      stepping, progress);
+  run.measured = response::measure_stepped_sine(model.model, model.parts, run.sensors,
+                                                *plan.stepped_sine, stepping, progress);
   if (!run.measured.summary.completed) throw ExperimentCancelled{};
   return run;
 }
@@ -169,9 +174,9 @@ SteppedSineRun stepped_run(const PlannedRun& plan, std::size_t index, const arm:
 void require_valid(const ExperimentOptions& options, const std::vector<PlannedRun>& plan,
                    const std::vector<ChosenSensor>& sensors, const arm::OptionSpelling& spelled) {
   if (options.modes < 1) throw arm::out_of_range(spelled("modes"), options.modes, "", "1 or more");
-  if (options.substeps < 0 || options.substeps > kMostSubsteps) {
+  if (options.substeps < 0 || options.substeps > response::kMostSubsteps) {
     throw arm::out_of_range(spelled("substeps"), options.substeps, "",
-                            fmt::format("from 0 to {}", kMostSubsteps));
+                            fmt::format("from 0 to {}", response::kMostSubsteps));
   }
   for (const auto& run : plan) {
     if (run.stepped_sine && options.check_step) {
@@ -236,4 +241,4 @@ SimulatedExperiment simulate_experiment(const arm::Arm& arm, const std::vector<P
   return experiment;
 }
 
-}  // namespace flexarm::response
+}  // namespace flexarm::experiment

@@ -1,4 +1,4 @@
-#include "response/experiment/run_choice.hpp"
+#include "experiment/run_choice.hpp"
 
 #include "arm/input_error.hpp"
 #include "arm/nearest_name.hpp"
@@ -18,11 +18,17 @@
 #include <string_view>
 #include <utility>
 
-namespace flexarm::response {
+namespace flexarm::experiment {
 
 namespace {
 
 using arm::InputError;
+using response::Excitation;
+using response::ExcitationKey;
+using response::kSteppedSine;
+using response::Multisine;
+using response::SampleGrid;
+using response::SteppedSine;
 
 constexpr std::string_view kIdCharacters =
     "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_.";
@@ -77,12 +83,12 @@ TypedRun read_run(const std::string& text, std::uint64_t seed) {
   const std::string kind = text.substr(0, colon);
   TypedRun run;
   if (kind != kSteppedSine) {
-    run.excitation = excitation_of(kind, {std::string(kSteppedSine)});
+    run.excitation = response::excitation_of(kind, {std::string(kSteppedSine)});
   }
   Keys keys = read_keys(std::string_view(text).substr(std::min(colon + 1, text.size())));
   take_common_keys(run, keys);
   if (kind == kSteppedSine) {
-    run.stepped_sine = stepped_sine_of(keys, common);
+    run.stepped_sine = response::stepped_sine_of(keys, common);
     frequencies_Hz(*run.stepped_sine);  // throws for what cannot be
     return run;
   }
@@ -353,4 +359,4 @@ std::vector<PlannedRun> RunChoice::runs(const arm::Arm& arm,
   return runs;
 }
 
-}  // namespace flexarm::response
+}  // namespace flexarm::experiment

@@ -1,11 +1,11 @@
-#include "response/usable_arm.hpp"
+#include "measured/files/usable_arm.hpp"
 
 #include "arm/formulation.hpp"
 #include "arm/input_error.hpp"
 #include "arm/rigid_hub.hpp"
 #include "measured/files/arm_file.hpp"
 
-namespace flexarm::response {
+namespace flexarm::measured {
 
 void require_usable(const arm::Arm& arm) {
   if (arm::has_beam(arm)) {
@@ -16,7 +16,7 @@ void require_usable(const arm::Arm& arm) {
 }
 
 arm::Arm read_usable_arm(const std::filesystem::path& path, const arm::Vocabulary& vocabulary) {
-  arm::Arm arm = measured::read_arm_file(path, vocabulary);
+  arm::Arm arm = read_arm_file(path, vocabulary);
   try {
     require_usable(arm);
   } catch (const arm::InputError& error) {
@@ -25,4 +25,4 @@ arm::Arm read_usable_arm(const std::filesystem::path& path, const arm::Vocabular
   return arm;
 }
 
-}  // namespace flexarm::response
+}  // namespace flexarm::measured

@@ -1,4 +1,4 @@
-#include "response/experiment/sensor_choice.hpp"
+#include "experiment/sensor_choice.hpp"
 
 #include "arm/input_error.hpp"
 #include "arm/number.hpp"
@@ -10,11 +10,12 @@
 #include <algorithm>
 #include <string_view>
 
-namespace flexarm::response {
+namespace flexarm::experiment {
 
 namespace {
 
 using arm::InputError;
+using response::SensorImperfections;
 
 /// Reads SENSOR=NUMBER and sets the number of that sensor, which joins those `given`.
 void set_number(const SensorChoice& choice, const char* name, const std::string& text,
@@ -75,4 +76,4 @@ std::vector<ChosenSensor> SensorChoice::sensors(const arm::Arm& arm) const {
   return sensors;
 }
 
-}  // namespace flexarm::response
+}  // namespace flexarm::experiment

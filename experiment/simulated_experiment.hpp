@@ -1,7 +1,7 @@
 #pragma once
 
-#include "response/experiment/run_choice.hpp"
-#include "response/experiment/sensor_choice.hpp"
+#include "experiment/run_choice.hpp"
+#include "experiment/sensor_choice.hpp"
 #include "response/formulation_choice.hpp"
 #include "response/time/simulation.hpp"
 #include "response/time/stepped_sine_response.hpp"
@@ -14,18 +14,18 @@
 #include <string_view>
 #include <vector>
 
-namespace flexarm::response {
+namespace flexarm::experiment {
 
 /// A run of a simulated experiment.
 struct SimulatedRun {
   std::string id;
-  std::string excitation;            ///< "bang-bang", "torque.csv"
-  std::vector<ExcitationKey> keys;   ///< its numbers; none for a torque from a file
-  std::vector<double> lines_Hz;      ///< of a multisine
-  std::vector<double> detection_Hz;  ///< its lines that were left out
+  std::string excitation;                     ///< "bang-bang", "torque.csv"
+  std::vector<response::ExcitationKey> keys;  ///< its numbers; none for a torque from a file
+  std::vector<double> lines_Hz;               ///< of a multisine
+  std::vector<double> detection_Hz;           ///< its lines that were left out
   arm::Payload payload;
   measured::TimeRecord record;          ///< as the sensors read it, noise and all
-  Simulation simulation;                ///< without their noise; channels in the record's order
+  response::Simulation simulation;      ///< without their noise; channels in the record's order
   std::vector<double> noise_deviation;  ///< one a channel, in its unit
   double fall_rate_rad_per_s = 0.0;  ///< of an arm that stands up: undamped poles +- this; else 0
   std::vector<double> step_error;  ///< one a channel: largest difference to a tenfold smaller step,
@@ -37,18 +37,18 @@ struct SimulatedRun {
 /// A run of a simulated experiment that measured a frequency response sine by sine.
 struct SteppedSineRun {
   std::string id;
-  std::vector<ExcitationKey> keys;
+  std::vector<response::ExcitationKey> keys;
   arm::Payload payload;
   std::vector<arm::Sensor> sensors;
-  SteppedSineResponse measured;  ///< noise and all
+  response::SteppedSineResponse measured;  ///< noise and all
 };
 
 /// How an experiment is simulated.
 struct ExperimentOptions {
-  FormulationChoice formulation;
+  response::FormulationChoice formulation;
   int modes = 5;
   bool static_correction = false;
-  TorqueHold hold = TorqueHold::zero;
+  response::TorqueHold hold = response::TorqueHold::zero;
   int substeps = 0;
   bool check_step = false;
   std::uint64_t noise_seed = 1;
@@ -79,7 +79,8 @@ arm::Arm with_hidden_effects(const arm::Arm& arm, const std::vector<std::string>
 
 /// Makes the progress function of a piece of work: "random, samples", of so many of them. It
 /// returns false where the experiment is to end.
-using ProgressOf = std::function<SimulationProgress(const std::string& label, std::size_t total)>;
+using ProgressOf =
+    std::function<response::SimulationProgress(const std::string& label, std::size_t total)>;
 
 /// Simulates every run. Throws InputError, with the run's id in front, as `simulate` and
 /// `measure_stepped_sine`.
@@ -88,4 +89,4 @@ SimulatedExperiment simulate_experiment(const arm::Arm& arm, const std::vector<P
                                         const ExperimentOptions& options,
                                         const ProgressOf& progress_of);
 
-}  // namespace flexarm::response
+}  // namespace flexarm::experiment

@@ -14,7 +14,7 @@
 #include <string_view>
 #include <vector>
 
-namespace flexarm::response {
+namespace flexarm::experiment {
 
 /// A time of an excitation that was moved to whole samples.
 struct RoundedKey {
@@ -27,16 +27,16 @@ struct RoundedKey {
 /// A run that was asked for, with its torque: in time, or a stepped sine.
 struct PlannedRun {
   std::string id;
-  std::string excitation;           ///< its name, or that of the torque's file
-  std::vector<ExcitationKey> keys;  ///< as they were taken
+  std::string excitation;                     ///< its name, or that of the torque's file
+  std::vector<response::ExcitationKey> keys;  ///< as they were taken
   std::vector<double> time_s;
-  SampledTorque torque;
+  response::SampledTorque torque;
   std::optional<arm::Payload> payload;  ///< in place of the arm's own
   std::optional<measured::Purpose> purpose;
   std::vector<RoundedKey> rounded;
   bool has_own_id = false;  ///< typed, not made from the excitation
   /// In place of times and torque.
-  std::optional<SteppedSine> stepped_sine = {};
+  std::optional<response::SteppedSine> stepped_sine = {};
   /// Of a closed loop, in place of the torque.
   std::optional<arm::Controller> controller = {};
   measured::Reference reference = {};
@@ -79,4 +79,4 @@ measured::Purpose read_purpose(std::string_view value);
 /// An id made of the name of a file.
 std::string id_of_file(const std::string& file);
 
-}  // namespace flexarm::response
+}  // namespace flexarm::experiment

@@ -53,9 +53,14 @@ std::string size_of(const measured::RunData& data) {
   return counted(std::get<measured::ModalTable>(data).size(), "row");
 }
 
-std::string import_text_of(const ImportedFile& file) {
-  std::string out = screen_paragraph(
+std::string heading_of(const ImportedFile& file) {
+  return screen_paragraph(
       fmt::format("{}: {}, read as {}", arm::shown(file.file), file.format, to_string(file.kind)));
+}
+
+/// What is found below the heading of a file.
+std::string import_text_of(const ImportedFile& file) {
+  std::string out;
   for (const auto& sentence : file.warnings) {
     out += toned(screen_paragraph("  warning: " + sentence, 4), "warning:", Tone::warning);
   }
@@ -145,7 +150,13 @@ nlohmann::ordered_json list_of(const Items& items) {
 std::string import_text(const std::vector<ImportedFile>& files,
                         const std::vector<ImportedRun>& runs) {
   std::string out;
-  for (const auto& file : files) out += import_text_of(file);
+  // Logs of one logger are read alike: what is said of the first is not said again.
+  std::string said;
+  for (const auto& file : files) {
+    const std::string text = import_text_of(file);
+    out += heading_of(file) + (text == said ? "  read as the file above\n" : text);
+    said = text;
+  }
   for (const auto& run : runs) out += import_text_of(run);
   return out;
 }

@@ -169,7 +169,7 @@ void add_residuals(py::module_& module) {
                              "Simulated with the arm file.")
       .def_property_readonly("after", numbers(&diagnose::Overlay::after),
                              "Simulated with the extended arm.");
-  py::class_<Symptom>(module, "Symptom", "A statement of what is wrong, before any cause.")
+  py::class_<Symptom>(module, "Symptom", "A finding of the residual analysis.")
       .def_property_readonly(
           "kind", [](const Symptom& self) { return std::string(to_string(self.kind)); },
           "'error', 'trend', 'roots', 'hub_torque', 'distortion' or 'drift'.")
@@ -205,7 +205,9 @@ void add_diagnosis(py::module_& module) {
           "Posterior probability of a cause outside the library.")
       .def_property_readonly(
           "symptoms", [](const Diagnosed& self) { return self.diagnosis.symptoms.statements; },
-          "What is wrong without causes, a list of Symptom, the significant ones first.")
+          "Findings of the residual analysis of the baseline, a list of Symptom, the significant "
+          "ones "
+          "first.")
       .def_property_readonly(
           "refitted", [](const Diagnosed& self) { return self.diagnosis.refitted; },
           "Uncertain numbers as refitted, a list of RefittedNumber.")
@@ -227,7 +229,7 @@ void add_diagnosis(py::module_& module) {
             if (!diagnose::has_extended_arm(self.diagnosis)) return std::nullopt;
             return self.diagnosis.extended_arm;
           },
-          "The arm with the causes; None where an incomplete search names none.")
+          "The extended arm; None where an incomplete search names no cause.")
       .def_property_readonly(
           "is_complete",
           [](const Diagnosed& self) { return !self.diagnosis.search_end.has_value(); },

@@ -125,7 +125,7 @@ void add_base(py::module_& module) {
       .def("transfer_function", &transfer_function, py::arg("sensor"), py::arg("s_rad_per_s"),
            "Response of a sensor per torque on the hub at complex frequencies s [rad/s], damping "
            "included: complex array of the shape of s, or a number, in the unit of the sensor per "
-           "N m. Raises ValueError at s = 0 of an arm that turns freely. Near a pole it is huge or "
+           "N m. Raises ValueError at s = 0 of an arm with a free hub. Near a pole it is huge or "
            "not finite.")
       .def(
           "frequency_response",

@@ -118,8 +118,8 @@ void add_poles(py::module_& module) {
           "frequency_Hz", [](const PoleSet& poles) { return frequencies(poles.omega_rad_per_s); },
           "omega/(2 pi) [Hz], array (count,).")
       .def_readonly("lowest_omega_squared_rad2_per_s2", &PoleSet::lowest_omega_squared_rad2_per_s2,
-                    "omega^2 of the lowest mode [rad^2/s^2]: 0 for a free hub, below 0 for an arm "
-                    "that stands up.")
+                    "omega^2 of the lowest mode [rad^2/s^2]: 0 for a free hub, below 0 for an "
+                    "inverted arm.")
       .def_readonly("count", &PoleSet::count, "RootCount.")
       .def_readonly("summary", &PoleSet::summary, "SolveSummary.")
       .def("__len__", [](const PoleSet& poles) { return poles.omega_rad_per_s.size(); })
@@ -269,7 +269,7 @@ void add_modes(py::module_& module) {
       .def_property_readonly(
           "lowest_omega_squared_rad2_per_s2",
           [](const Modes& modes) { return modes.model.lowest_omega_squared_rad2_per_s2; },
-          "omega^2 of the lowest mode [rad^2/s^2], below 0 for an arm that stands up.")
+          "omega^2 of the lowest mode [rad^2/s^2], below 0 for an inverted arm.")
       .def_property_readonly(
           "hub_slope",
           [](const Modes& modes) {

@@ -34,12 +34,12 @@ TEST_F(FigureOptionsOf, WriteEachFormat) {
 }
 
 TEST_F(FigureOptionsOf, SetSizeAndFont) {
-  EXPECT_EQ(modes({"--out", "out", "--figure-size", "254x127mm", "--font", "DejaVu Serif",
+  EXPECT_EQ(modes({"--out", "out", "--figure-size", "254x140mm", "--font", "DejaVu Serif",
                    "--font-size", "12"})
                 .status,
             0);
   const std::string svg = text_of("out/shapes.svg");
-  EXPECT_THAT(svg, HasSubstr("width=\"960\" height=\"480\""));
+  EXPECT_THAT(svg, HasSubstr("width=\"960\" height=\"529\""));
   EXPECT_THAT(svg, HasSubstr("font-family=\"DejaVu Serif\""));
   EXPECT_THAT(svg, HasSubstr("font-size=\"16.00\""));
 }
@@ -87,7 +87,7 @@ TEST_F(FigureOptionsOf, AreThoseOfEveryCommandThatDraws) {
 
 TEST_F(FigureOptionsOf, AFolderWithPdfAndPngIsReplacedByForce) {
   const std::vector<std::string> simulate = {
-      "simulate", "rig.toml", "--duration", "0.5", "--out", "out", "--force", "--figure-format"};
+      "simulate", "rig.toml", "--duration", "1", "--out", "out", "--force", "--figure-format"};
   auto with = [&](const char* formats) {
     auto arguments = simulate;
     arguments.emplace_back(formats);

@@ -8,8 +8,16 @@ export interface Sample {
   arrays: ArrayWriter;
 }
 
+const made = new Map<number, Sample>(); // by runs: each takes a second or two
+
 /** A diagnosis with all kinds of blocks: Coulomb friction that the simulation lacks. */
 export function diagnosisSample(runs = 6): Sample {
+  const sample = made.get(runs) ?? newSample(runs);
+  made.set(runs, sample);
+  return sample;
+}
+
+function newSample(runs: number): Sample {
   const arrays = new ArrayWriter();
   const all = channels(runs).sort(
     (a, b) => nrmse_percent(b.measured, b.before) - nrmse_percent(a.measured, a.before),

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
 
 namespace flexarm::compare {
 
@@ -17,6 +18,18 @@ namespace {
 
 bool is_finite(std::complex<double> value) {
   return std::isfinite(value.real()) && std::isfinite(value.imag());
+}
+
+/// Without the lines that tell of noise alone; unknown coherences are none.
+measured::FrequencyChannel coherent_lines(const measured::FrequencyChannel& channel) {
+  measured::FrequencyChannel kept{channel.sensor, {}, {}, {}};
+  for (std::size_t k = 0; k < channel.frequency_Hz.size(); ++k) {
+    if (channel.coherence[k] < kLeastCoherence) continue;
+    kept.frequency_Hz.push_back(channel.frequency_Hz[k]);
+    kept.response.push_back(channel.response[k]);
+    kept.coherence.push_back(channel.coherence[k]);
+  }
+  return kept.frequency_Hz.empty() ? channel : kept;
 }
 
 constexpr int kCurvePoints = 800;
@@ -66,8 +79,13 @@ std::vector<MeasuredResponse> responses_beside_models(const arm::Arm& arm, const
   range.to_Hz = 0.0;
   std::vector<MeasuredResponse> compared;
   for (const auto& channel : record.channels) {
-    range.to_Hz = std::fmax(*range.to_Hz, channel.frequency_Hz.back());
-    compared.push_back({run, channel, {}, {}, {}, {}, curve_frequencies_Hz(channel), {}});
+    MeasuredResponse each;
+    each.run = run;
+    each.measured = coherent_lines(channel);
+    each.left_out = channel.frequency_Hz.size() - each.measured.frequency_Hz.size();
+    each.curve_frequency_Hz = curve_frequencies_Hz(each.measured);
+    range.to_Hz = std::fmax(*range.to_Hz, each.measured.frequency_Hz.back());
+    compared.push_back(std::move(each));
   }
   const int roots = std::min(response::roots_needed(parts.linear, range), response::kMostRoots);
   for (const auto& subject : standard_subjects(parts.linear, roots)) {

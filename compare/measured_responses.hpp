@@ -6,6 +6,7 @@
 #include "measured/files/frequency_record.hpp"
 
 #include <complex>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,6 +17,7 @@ namespace flexarm::compare {
 /// the linear effects of actuator and sensor.
 struct MeasuredResponse {
   std::string run;  ///< empty: of a file by itself
+  /// Lines with a coherence below `kLeastCoherence` are left out, unless all are.
   measured::FrequencyChannel measured;
   std::vector<std::string> models;
   std::vector<std::vector<std::complex<double>>> values;  ///< [model][frequency]
@@ -27,7 +29,12 @@ struct MeasuredResponse {
   /// logarithmic axis, and the measured ones. Empty where there is no range.
   std::vector<double> curve_frequency_Hz = {};
   std::vector<std::vector<std::complex<double>>> curves = {};  ///< [model][frequency]
+  std::size_t left_out = 0;                                    ///< lines
 };
+
+/// Below it most of the power of the sensor at a line is not the torque's: a difference from a
+/// model is that of noise.
+inline constexpr double kLeastCoherence = 0.5;
 
 /// The measured responses of a run beside exact_tf, fem and assumed_modes. Throws InputError for a
 /// sensor that the arm cannot carry.

@@ -110,7 +110,12 @@ std::string measured_summary(const std::vector<compare::MeasuredRow>& rows) {
 }
 
 Table measured_response_table(const std::vector<compare::MeasuredResponse>& responses) {
-  Table table{"Measured frequency responses and those of the models",
+  const bool is_whole =
+      std::ranges::all_of(responses, [](const auto& response) { return response.left_out == 0; });
+  Table table{is_whole ? "Measured frequency responses and those of the models"
+                       : fmt::format("Measured frequency responses and those of the models, at "
+                                     "lines with a coherence of {:g} or more",
+                                     compare::kLeastCoherence),
               {{"run"},
                {"sensor"},
                {"lines"},

@@ -46,6 +46,21 @@ TEST(MeasuredResponses, AGainIsARelativeErrorOfTheMeasured) {
   }
 }
 
+TEST(MeasuredResponses, LinesOfNoiseAreLeftOut) {
+  auto record = exact_record(1.0);
+  auto& channel = record.channels[0];
+  std::ranges::fill(channel.coherence, 0.9);
+  channel.coherence[1] = 0.1;
+  channel.response[1] *= 1e3;
+  const auto compared = responses_beside_models(arm::paper_arm(), "", record);
+  EXPECT_EQ(compared[0].left_out, 1U);
+  EXPECT_EQ(compared[0].measured.frequency_Hz.size(), channel.frequency_Hz.size() - 1);
+  EXPECT_LT(compared[0].relative_error_percent[0], kAgreement_percent);
+  std::ranges::fill(channel.coherence, 0.1);
+  EXPECT_EQ(responses_beside_models(arm::paper_arm(), "", record)[0].left_out, 0U)
+      << "of noise alone nothing else can be shown";
+}
+
 TEST(MeasuredResponses, ASensorThatTheArmCannotCarryIsRefused) {
   auto record = exact_record(1.0);
   record.channels[0].sensor = {arm::SensorKind::strain, 5.0};

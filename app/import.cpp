@@ -14,6 +14,7 @@
 #include "measured/files/arm_file.hpp"
 #include "measured/files/atomic_file.hpp"
 #include "measured/files/text_file.hpp"
+#include "report/progress.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -22,6 +23,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <iterator>
 #include <memory>
@@ -147,10 +149,14 @@ int run_import(const ImportArguments& typed) {
   std::vector<ImportedFile> files;
   std::vector<ImportedRun> runs;
   std::set<std::string> ids;
-  for (const auto& file : arguments.files) {
-    files.push_back(import_file(file, choice));
-    auto more = runs_of(files.back(), arguments.runs, ids);
-    std::ranges::move(more, std::back_inserter(runs));
+  {
+    report::Progress progress("reading files", static_cast<std::int64_t>(arguments.files.size()));
+    for (const auto& file : arguments.files) {
+      files.push_back(import_file(file, choice));
+      auto more = runs_of(files.back(), arguments.runs, ids);
+      std::ranges::move(more, std::back_inserter(runs));
+      progress.advance();
+    }
   }
   set_purposes(runs, arguments.runs);
   if (format && runs.size() > 1) {

@@ -24,8 +24,8 @@ SENSORS = "--sensor hub_angle,hub_velocity,tip_acceleration"
 
 CASES = [
     Case("the paper's arm", "modes {data}/paper/arm.toml"),
-    Case("the paper's arm, three formulations, measured roots",
-         "compare {data}/paper/arm.toml --measured {data}/paper/modal.csv"),
+    Case("the paper's arm, three formulations, convergence, measured roots",
+         "compare {data}/paper/arm.toml --measured {data}/paper/modal.csv --verbose"),
     Case("the paper's Figure 18", "sweep --figure 18 --out {work}/swept"),
     Case("the paper's experiment: 60 s of random torque and a stepped sine, 4 sensors",
          "simulate {work}/damped.toml --out {work}/experiment --payload-mass 0.06 --duration 60 "

@@ -1,5 +1,7 @@
 #include "diagnose/predictors/arm_responses.hpp"
 
+#include "arm/linear_arm.hpp"
+#include "arm/rigid_hub.hpp"
 #include "response/formulation_maker.hpp"
 
 namespace flexarm::diagnose {

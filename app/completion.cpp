@@ -10,39 +10,22 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace flexarm::app {
 
 namespace {
 
-enum class Shell { bash, zsh, fish };
+struct Shell {
+  std::string_view name;
+  std::string (*script)(const CommandDescription&, const std::vector<CommandDescription>&);
+};
 
-constexpr std::array kShells = {Shell::bash, Shell::zsh, Shell::fish};
+constexpr std::array kShells = {Shell{"bash", bash_completion}, Shell{"zsh", zsh_completion},
+                                Shell{"fish", fish_completion}};
 
-std::string_view to_string(Shell shell) {
-  switch (shell) {
-    case Shell::bash:
-      return "bash";
-    case Shell::zsh:
-      return "zsh";
-    case Shell::fish:
-      break;
-  }
-  return "fish";
-}
-
-std::string script(Shell shell, const CLI::App& program) {
-  const auto whole = describe_program(program);
-  const auto commands = describe_commands(program);
-  switch (shell) {
-    case Shell::bash:
-      return bash_completion(whole, commands);
-    case Shell::zsh:
-      return zsh_completion(whole, commands);
-    case Shell::fish:
-      break;
-  }
-  return fish_completion(whole, commands);
+std::string_view to_string(const Shell& shell) {
+  return shell.name;
 }
 
 }  // namespace
@@ -59,7 +42,8 @@ Command add_completion(CLI::App& program) {
       "  fish  flexarm completion fish | source\n\n" +
       example("flexarm completion bash"));
   return {parser, [shell, &program] {
-            print(script(read_word("completion", *shell, kShells), program));
+            const Shell chosen = read_word("completion", *shell, kShells);
+            print(chosen.script(describe_program(program), describe_commands(program)));
             return kSuccess;
           }};
 }

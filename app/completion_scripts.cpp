@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <map>
 
 namespace flexarm::app {
@@ -34,17 +35,10 @@ std::string command_names(const std::vector<CommandDescription>& commands) {
   return fmt::format("{}", fmt::join(names, " "));
 }
 
-/// The first positional argument, or null.
-const OptionDescription* argument_of(const CommandDescription& command) {
-  for (const auto& option : command.options) {
-    if (option.is_positional) return &option;
-  }
-  return nullptr;
-}
-
+/// Those of the first positional argument; none where there is none.
 OptionValues argument_values(const CommandDescription& command) {
-  const auto* argument = argument_of(command);
-  return argument == nullptr ? OptionValues{} : values_of(*argument);
+  const auto at = std::ranges::find_if(command.options, &OptionDescription::is_positional);
+  return at == command.options.end() ? OptionValues{} : values_of(*at);
 }
 
 std::string replaced(std::string text, const std::map<char, std::string>& replacements) {

@@ -3,6 +3,7 @@
 #include "diagnose/search/selection_options.hpp"
 #include "effects/registry/vocabulary.hpp"
 #include "measured/checks/data_check.hpp"
+#include "measured/spectra/estimator.hpp"
 
 #include <algorithm>
 #include <map>
@@ -26,9 +27,16 @@ Words check_names() {
   return names;
 }
 
+template <class Values>
+Words names_of(const Values& values) {
+  Words names;
+  for (const auto value : values) names.emplace_back(to_string(value));
+  return names;
+}
+
 Words predictor_names() {
-  Words names = {"auto"};
-  for (const auto kind : diagnose::kPredictors) names.emplace_back(diagnose::to_string(kind));
+  Words names = names_of(diagnose::kPredictors);
+  names.insert(names.begin(), "auto");
   return names;
 }
 
@@ -46,7 +54,7 @@ std::map<std::string_view, Words> words_by_name() {
       {"--hide-effects", effect_names()},
       {"--hold", {"zero", "first"}},
       {"--initial", {"rest", "free"}},
-      {"--input", {"torque", "hub_angle", "hub_velocity"}},
+      {"--input", names_of(measured::kResponseInputs)},
       {"--kind", {"time", "frf", "modal"}},
       {"--peaks", {"between", "on-line"}},
       {"--predictor", predictor_names()},

@@ -29,7 +29,6 @@ responses, identification and diagnosis, with a CMake package and a file for
 pkg-config.")
 
 # What a Debian package has to say of itself.
-find_program(GZIP_PROGRAM gzip REQUIRED)
 string(TIMESTAMP changed "%a, %d %b %Y %H:%M:%S +0000" UTC)
 set(changelog "${PROJECT_BINARY_DIR}/debian/changelog.Debian")
 file(CONFIGURE OUTPUT "${changelog}" CONTENT "flexarm (${PROJECT_VERSION}-1) unstable; urgency=medium

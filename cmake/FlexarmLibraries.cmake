@@ -36,6 +36,9 @@ add_library(flexarm_arb INTERFACE)
 target_include_directories(flexarm_arb SYSTEM INTERFACE "${ARB_INCLUDE_DIR}" "${FLINT_INCLUDE_DIR}")
 target_link_libraries(flexarm_arb INTERFACE "${ARB_LIBRARY}" "${FLINT_LIBRARY}")
 
+# Manual pages and changes of packages are compressed.
+find_program(GZIP_PROGRAM gzip REQUIRED)
+
 if(FLEXARM_TESTS)
   find_package(GTest REQUIRED)
   include(GoogleTest)

@@ -1,12 +1,10 @@
 #include "tests/app/flexarm_fixture.hpp"
+#include "tests/app/process.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <array>
-#include <cstdio>
 #include <iterator>
-#include <memory>
 #include <regex>
 #include <string>
 
@@ -20,13 +18,8 @@ using testing::StartsWith;
 
 /// What a shell command prints; `flexarm` is the program.
 std::string printed_by(const std::string& command) {
-  const std::string line =
-      "PATH=$(dirname " FLEXARM_PROGRAM "):$PATH; export PATH; " + command + " 2>&1";
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> pipe(::popen(line.c_str(), "r"), ::pclose);
-  std::string text;
-  std::array<char, 4096> part{};
-  while (std::fgets(part.data(), part.size(), pipe.get()) != nullptr) text += part.data();
-  return text;
+  return shell_output("PATH=$(dirname " FLEXARM_PROGRAM "):$PATH; export PATH; " + command +
+                      " 2>&1");
 }
 
 /// What bash offers for the last of `words`, one a line.

@@ -108,4 +108,13 @@ Ended interrupt_flexarm(const std::vector<std::string>& arguments, int signal) {
   return finish(child, captured.get(), errors.get());
 }
 
+std::string shell_output(const std::string& command, const std::string& folder) {
+  std::string text;
+  FILE* pipe = ::popen(("cd '" + folder + "' && " + command).c_str(), "r");
+  if (pipe == nullptr) return text;
+  for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) text += static_cast<char>(c);
+  ::pclose(pipe);
+  return text;
+}
+
 }  // namespace flexarm::testing_app

@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
-#include <cstdio>
 
 namespace flexarm::testing_app {
 namespace {
@@ -30,12 +29,7 @@ class Response : public Flexarm {
   }
   /// Standard output of a shell command in the folder.
   std::string output_of(const std::string& command) const {
-    std::string text;
-    FILE* pipe = ::popen(("cd '" + folder_.string() + "' && " + command).c_str(), "r");
-    if (pipe == nullptr) return text;
-    for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) text += static_cast<char>(c);
-    ::pclose(pipe);
-    return text;
+    return shell_output(command, folder_.string());
   }
 };
 

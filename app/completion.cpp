@@ -36,10 +36,11 @@ Command add_completion(CLI::App& program) {
       "completion", "Print the script that completes commands and options in a shell");
   parser->add_option("SHELL", *shell, "bash, zsh or fish")->required();
   parser->footer(
-      "An installed package has these scripts in place. Otherwise, in a start file of the shell:\n"
+      "Start files:\n"
       "  bash  source <(flexarm completion bash)\n"
       "  zsh   source <(flexarm completion zsh)     after compinit\n"
-      "  fish  flexarm completion fish | source\n\n" +
+      "  fish  flexarm completion fish | source\n"
+      "An installed package has these scripts in place.\n\n" +
       example("flexarm completion bash"));
   return {parser, [shell, &program] {
             const Shell chosen = read_word("completion", *shell, kShells);

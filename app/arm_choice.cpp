@@ -1,15 +1,15 @@
 #include "app/arm_choice.hpp"
 
 #include "app/command.hpp"
+#include "app/list_option.hpp"
+#include "app/screen.hpp"
 #include "arm/effects.hpp"
-#include "arm/formulation.hpp"
 #include "arm/input_error.hpp"
 #include "arm/linear_arm.hpp"
 #include "arm/plausibility.hpp"
 #include "arm/rigid_hub.hpp"
 #include "effects/registry/vocabulary.hpp"
-#include "measured/files/arm_file.hpp"
-#include "report/tables/text_table.hpp"
+#include "measured/files/usable_arm.hpp"
 #include "response/arm_parts.hpp"
 
 #include <CLI/CLI.hpp>
@@ -39,29 +39,11 @@ std::string describe_effect(const std::string& name, const arm::Effect& effect) 
   return fmt::format("with {}{}{}", name, parts.empty() ? "" : ": ", fmt::join(parts, ", "));
 }
 
-/// Throws InputError for an arm that no formulation takes.
-void require_usable(const arm::Arm& arm) {
-  if (arm::has_beam(arm)) {
-    arm::require_computable(arm);
-  } else {
-    arm::require_valid(arm);
-  }
-}
-
-arm::Arm read(const std::string& file) {
-  arm::Arm arm = measured::read_arm_file(file, effects::vocabulary());
-  try {
-    require_usable(arm);
-  } catch (const arm::InputError& error) {
-    throw arm::located(error, file, 0);
-  }
-  return arm;
-}
-
 }  // namespace
 
 std::vector<arm::Arm> ArmChoice::arms() const {
-  arm::Arm base = file.empty() ? arm::paper_arm() : read(file);
+  arm::Arm base =
+      file.empty() ? arm::paper_arm() : measured::read_usable_arm(file, effects::vocabulary());
   if (payload_inertia_kg_m2) base.payload.inertia_kg_m2 = *payload_inertia_kg_m2;
   if (hub_inertia_kg_m2) base.hub.inertia_kg_m2 = *hub_inertia_kg_m2;
   std::vector<arm::Arm> arms;
@@ -73,24 +55,24 @@ std::vector<arm::Arm> ArmChoice::arms() const {
     arms.push_back(base);
     arms.back().payload.mass_kg = mass;
   }
-  for (const auto& arm : arms) require_usable(arm);
+  for (const auto& arm : arms) measured::require_usable(arm);
   return arms;
 }
 
 void add_arm_choice(CLI::App& parser, ArmChoice& choice) {
   parser.add_option("ARM", choice.file, "Arm file; default: the arm of the paper")
       ->check(not_empty());
-  parser
-      .add_option("--payload-mass", choice.payload_masses_kg,
-                  "Payload mass [kg] instead of that in the file; several, comma-separated")
-      ->delimiter(',')
-      ->check(not_empty())
-      ->allow_extra_args(false);
+  add_list_option(parser, "--payload-mass", choice.payload_masses_kg,
+                  "Payload mass [kg] instead of that in the file; several, comma-separated");
   parser.add_option(
       "--payload-inertia", choice.payload_inertia_kg_m2,
       "Payload inertia about its centre of mass [kg m^2] instead of that in the file");
   parser.add_option("--hub-inertia", choice.hub_inertia_kg_m2,
                     "Hub inertia [kg m^2] instead of that in the file");
+}
+
+std::string subject_of(const ArmChoice& choice) {
+  return choice.file.empty() ? "the paper's arm" : choice.file;
 }
 
 std::filesystem::path folder_of(const std::filesystem::path& out, const arm::Arm& arm,
@@ -100,21 +82,25 @@ std::filesystem::path folder_of(const std::filesystem::path& out, const arm::Arm
 
 std::string describe(const arm::Arm& arm) {
   const arm::LinearArm linear = arm::linear_arm(arm);
-  std::string lines = fmt::format("{}\n", arm.name.empty() ? "arm" : arm.name);
+  std::string lines = screen_paragraph(arm.name.empty() ? "arm" : arm.name);
   if (arm::has_beam(arm)) {
-    lines += fmt::format(
-        "l {:g} m, EI {:.6g} N m^2, m {:.6g} kg/m, I_T {:.6g} kg m^2\n"
-        "Ih {:g} kg m^2 (epsilon {:.4g}), Mp {:g} kg (eta {:.4g}), Ip {:g} kg m^2\n"
-        "kv {:g} s, c {:g} N m s/rad\n",
-        linear.length_m, linear.flexural_rigidity_N_m2, linear.linear_density_kg_per_m,
-        arm::total_inertia_kg_m2(linear), linear.hub_inertia_kg_m2, arm::hub_inertia_ratio(arm),
-        linear.payload_mass_kg, arm::payload_mass_ratio(arm), linear.payload_tip_inertia_kg_m2,
-        linear.kelvin_voigt_s, linear.hub_viscous_friction_N_m_s_per_rad);
+    lines += screen_paragraph(
+        fmt::format("l {:g} m, EI {:.6g} N m^2, m {:.6g} kg/m, I_T {:.6g} kg m^2", linear.length_m,
+                    linear.flexural_rigidity_N_m2, linear.linear_density_kg_per_m,
+                    arm::total_inertia_kg_m2(linear)));
+    lines += screen_paragraph(
+        fmt::format("Ih {:g} kg m^2 (epsilon {:.4g}), Mp {:g} kg (eta {:.4g}), Ip {:g} kg m^2",
+                    linear.hub_inertia_kg_m2, arm::hub_inertia_ratio(arm), linear.payload_mass_kg,
+                    arm::payload_mass_ratio(arm), linear.payload_tip_inertia_kg_m2));
+    lines += screen_paragraph(fmt::format("kv {:g} s, c {:g} N m s/rad", linear.kelvin_voigt_s,
+                                          linear.hub_viscous_friction_N_m_s_per_rad));
   } else {
     lines += fmt::format("rigid hub without a beam\nIh {:g} kg m^2, c {:g} N m s/rad\n",
                          linear.hub_inertia_kg_m2, linear.hub_viscous_friction_N_m_s_per_rad);
   }
-  for (const auto& [name, effect] : arm.effects) lines += describe_effect(name, effect) + "\n";
+  for (const auto& [name, effect] : arm.effects) {
+    lines += screen_paragraph(describe_effect(name, effect), 2);
+  }
   if (!arm.effects.empty()) lines += "(values include the linear effects)\n";
   for (const auto& [name, hypothesis] : arm.hypotheses) {
     if (arm.effects.contains(name)) continue;
@@ -122,7 +108,7 @@ std::string describe(const arm::Arm& arm) {
                          name, hypothesis.formula.text);
   }
   for (const auto& note : arm::plausibility_notes(arm)) {
-    lines += report::to_paragraph("note: " + note, 2);
+    lines += screen_note(note);
   }
   return lines;
 }
@@ -133,8 +119,8 @@ std::string left_out_of_roots(const arm::Arm& arm) {
   std::vector<std::string> names;
   for (const auto& [name, effect] : arm.effects) {
     if (effect.definition->is_of_linear_arm()) continue;
-    const bool is_linear = effect.definition->linear_term &&
-                           std::ranges::find(nonlinear, name) == nonlinear.end();
+    const bool is_linear =
+        effect.definition->linear_term && std::ranges::find(nonlinear, name) == nonlinear.end();
     if (!is_linear && std::ranges::find(linearised, name) == linearised.end()) {
       names.push_back(name);
     }

@@ -29,6 +29,9 @@ struct ArmChoice {
 /// Adds `ARM` and the options that change its numbers to a command.
 void add_arm_choice(CLI::App& parser, ArmChoice& choice);
 
+/// What a report calls the choice: the arm file, or "the paper's arm".
+std::string subject_of(const ArmChoice& choice);
+
 /// Where the files of one of `arms` arms go: `out` itself, or a folder in it named for the payload.
 std::filesystem::path folder_of(const std::filesystem::path& out, const arm::Arm& arm,
                                 std::size_t arms);

@@ -1,6 +1,7 @@
 #include "app/column_choice.hpp"
 
 #include "app/command.hpp"
+#include "arm/decimal_comma.hpp"
 #include "arm/input_error.hpp"
 #include "arm/nearest_name.hpp"
 #include "arm/number.hpp"
@@ -194,8 +195,8 @@ double read_scale(std::string_view text) {
     if (!number) {
       throw InputError(
           fmt::format("scale = {}: must be a product of numbers and pi, as in "
-                      "0.202*pi/180",
-                      arm::shown(text)));
+                      "0.202*pi/180{}",
+                      arm::shown(text), arm::decimal_comma_hint(text)));
     }
     scale = divides ? scale / *number : scale * *number;
     if (end == rest.size()) return scale;
@@ -238,8 +239,7 @@ measured::ColumnMappings ColumnChoice::mappings(std::span<const ColumnLabel> col
   return mappings;
 }
 
-std::vector<std::size_t> ColumnChoice::left_out_places(
-    std::span<const ColumnLabel> columns) const {
+std::vector<std::size_t> ColumnChoice::left_out_places(std::span<const ColumnLabel> columns) const {
   std::vector<std::size_t> places;
   for (const auto& name : left_out) {
     const auto place = measured::column_place(names_of(columns), name);

@@ -2,7 +2,7 @@
 #include "app/completion_scripts.hpp"
 #include "app/option_tree.hpp"
 #include "app/standard_output.hpp"
-#include "app/word.hpp"
+#include "arm/read_word.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -43,7 +43,7 @@ Command add_completion(CLI::App& program) {
       "An installed package has these scripts in place.\n\n" +
       example("flexarm completion bash"));
   return {parser, [shell, &program] {
-            const Shell chosen = read_word("completion", *shell, kShells);
+            const Shell chosen = arm::read_word("completion", *shell, kShells);
             print(chosen.script(describe_program(program), describe_commands(program)));
             return kSuccess;
           }};

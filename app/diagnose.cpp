@@ -1,19 +1,21 @@
 #include "app/command.hpp"
 #include "app/effect_choice.hpp"
+#include "app/figure_choice.hpp"
 #include "app/file_names.hpp"
 #include "app/folder_place.hpp"
-#include "app/interruption.hpp"
+#include "app/json_file.hpp"
+#include "app/kept_inputs.hpp"
+#include "app/report_choice.hpp"
+#include "app/screen.hpp"
 #include "app/standard_output.hpp"
 #include "arm/input_error.hpp"
-#include "arm/range.hpp"
 #include "diagnose/diagnosis.hpp"
-#include "diagnose/search/hypothesis.hpp"
-#include "measured/checks/data_check.hpp"
+#include "diagnose/diagnosis_request.hpp"
 #include "measured/files/arm_file.hpp"
 #include "measured/files/atomic_file.hpp"
 #include "report/figures/diagnosis_figures.hpp"
-#include "report/json/diagnosis_json.hpp"
-#include "report/json/json_document.hpp"
+#include "report/json/diagnosis_document.hpp"
+#include "report/page/diagnose_page.hpp"
 #include "report/progress.hpp"
 #include "report/tables/csv.hpp"
 #include "report/tables/diagnosis_tables.hpp"
@@ -22,18 +24,15 @@
 #include "report/tables/plan_tables.hpp"
 #include "report/tables/prediction_error_table.hpp"
 #include "report/tables/symptom_tables.hpp"
-#include "report/tables/text_table.hpp"
+#include "report/terminal.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <chrono>
-#include <cstdint>
-#include <filesystem>
+#include <cstddef>
 #include <memory>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -43,24 +42,22 @@ namespace flexarm::app {
 
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr const char* kDiagnosisJson = "diagnosis.json";
 constexpr const char* kExtendedArm = "extended.toml";
-/// Steps of the progress line.
-constexpr std::int64_t kDiagnosisSteps = 100;
+/// Rows of tables that come behind the answer.
+constexpr std::size_t kFewRows = 4;
+/// Lines of findings.
+constexpr std::size_t kFindingLines = 14;
 
 struct DiagnoseArguments {
   std::string file;
-  std::vector<std::string> effects;
-  std::vector<std::string> excluded;
-  std::vector<std::string> accepted;
-  std::optional<double> time_limit_s;
-  int most_causes = diagnose::SelectionOptions{}.most_causes;
-  std::string predictor = "auto";
+  diagnose::DiagnosisRequest request;
   std::string folder;
   bool force = false;
+  FigureChoice figures;
+  bool verbose = false;
   std::string json_file;
+  ReportChoice report;
 };
 
 std::string verdict_definitions() {
@@ -73,24 +70,8 @@ std::string verdict_definitions() {
 }
 
 FolderKind diagnosis_folder_kind() {
-  return {"a diagnosis", kDiagnosisJson, {".json", ".toml", ".csv", ".svg"}};
-}
-
-/// The file beside `json_file` that its extended arm is written to: out.json, out.extended.toml.
-fs::path extended_beside(const std::string& json_file) {
-  return fs::path(json_file).replace_extension(kExtendedArm);
-}
-
-/// Empty: by evidence.
-std::optional<diagnose::PredictorKind> chosen_predictor(const std::string& word) {
-  if (word == "auto") return std::nullopt;
-  for (const auto kind : diagnose::kPredictors) {
-    if (word == diagnose::to_string(kind)) return kind;
-  }
-  throw arm::InputError(
-      fmt::format("--predictor {}: must be auto, output_error, closed_loop, grey_box, "
-                  "torque_balance, driven_by_motion or frequency_response",
-                  arm::shown(word)));
+  return {
+      "a diagnosis", {kDiagnosisJson}, {".json", ".toml", ".csv", ".svg", ".pdf", ".png", ".html"}};
 }
 
 /// Throws for an unknown predictor, and for outputs that could not be written, or would take the
@@ -99,123 +80,125 @@ void prepare(const DiagnoseArguments& arguments, const diagnose::Experiment& exp
   if (arguments.force && arguments.folder.empty()) {
     throw arm::InputError("--force: needs --out FOLDER");
   }
-  if (arguments.most_causes < 1) {
-    throw arm::out_of_range("--max-causes", arguments.most_causes, "", "1 or more");
-  }
-  chosen_predictor(arguments.predictor);
+  diagnose::require_valid(arguments.request);
   if (!arguments.json_file.empty()) {
-    const std::string option = "--json " + arm::shown(arguments.json_file);
-    const fs::path beside = extended_beside(arguments.json_file);
-    require_no_input(option, arguments.json_file, experiment.files);
-    require_no_input(option + ": " + beside.string(), beside, experiment.files);
+    require_no_input("--json", arguments.json_file, experiment.files);
+    require_no_input("--json: extended arm", report::extended_arm_beside(arguments.json_file),
+                     experiment.files);
   }
+  if (!arguments.folder.empty()) require_no_input("--out", arguments.folder, experiment.files);
+  arguments.figures.require_valid(arguments.folder);
   require_json_place(arguments.json_file, arguments.folder);
+  arguments.report.prepare(arguments.folder, experiment.files);
   if (arguments.folder.empty()) return;
   require_place(arguments.folder, arguments.force, diagnosis_folder_kind());
-}
-
-/// Limits beyond this are none: a clock counts no further.
-constexpr double kLongestLimit_s = 1e9;
-
-using Clock = std::chrono::steady_clock;
-
-diagnose::Deadline deadline_of(const DiagnoseArguments& arguments, Clock::time_point begun) {
-  if (!arguments.time_limit_s) return std::nullopt;
-  arm::require_in_range("--time-limit", *arguments.time_limit_s, "s", arm::kPositive);
-  if (*arguments.time_limit_s > kLongestLimit_s) return std::nullopt;
-  const std::chrono::duration<double> limit(*arguments.time_limit_s);
-  return begun + std::chrono::duration_cast<Clock::duration>(limit);
 }
 
 diagnose::Diagnosis diagnose_with_progress(const DiagnoseArguments& arguments,
                                            const diagnose::Experiment& experiment,
                                            const diagnose::Deadline& deadline) {
-  const auto hypotheses = without_excluded(
-      chosen_hypotheses(arguments.effects, diagnose::hypotheses(experiment)), arguments.excluded);
-  const Interruption interruption;
-  report::Progress progress("per cent of the diagnosis", kDiagnosisSteps);
-  const auto tell = [&](std::string_view, double fraction) {
-    progress.reach(fraction);
-    return !interruption.requested();
-  };
-  diagnose::SelectionOptions options;
-  options.most_causes = arguments.most_causes;
-  options.predictor = chosen_predictor(arguments.predictor);
-  options.deadline = deadline;
-  auto diagnosis = diagnose::diagnose(experiment, hypotheses, options, tell);
-  if (diagnosis.cancelled || interruption.requested()) interruption.end_program();
-  diagnosis.excluded = arguments.excluded;
-  diagnosis.time_limit_s = arguments.time_limit_s;
-  return diagnosis;
+  report::Progress progress("diagnosing");
+  return diagnose::diagnose(experiment, arguments.request, deadline,
+                            [&](std::string_view, double fraction) {
+                              progress.reach(fraction);
+                              return true;
+                            });
 }
 
-std::string text_of(const diagnose::Diagnosis& diagnosis) {
+/// The verdict with its first word toned.
+std::string verdict_paragraph(const diagnose::Diagnosis& diagnosis) {
+  const std::string text = report::verdict_text(diagnosis);
+  const std::string word = text.substr(0, text.find_first_of(": "));
+  switch (diagnosis.verdict) {
+    case diagnose::Verdict::adequate:
+    case diagnose::Verdict::explained:
+      return toned(screen_paragraph(text), word, Tone::good);
+    case diagnose::Verdict::partly_explained:
+      return toned(screen_paragraph(text), word, Tone::warning);
+    case diagnose::Verdict::unexplained:
+      return toned(screen_paragraph(text), word, Tone::bad);
+  }
+  return screen_paragraph(text);
+}
+
+/// What restricts the verdict: the search, numbers, the data, what was accepted of them.
+std::string restrictions_text(const diagnose::Diagnosis& diagnosis) {
   std::string text;
-  for (const auto& notice : diagnosis.notices) text += report::to_paragraph("note: " + notice, 2);
-  for (const auto& accepted : report::accepted_texts(diagnosis)) {
-    text += report::to_paragraph(accepted, 2);
-  }
-  if (!text.empty()) text += "\n";
-  const std::string implausible = report::implausible_numbers_text(diagnosis);
-  if (!implausible.empty()) text += report::to_paragraph(implausible) + "\n";
-  text += report::to_paragraph(report::verdict_text(diagnosis)) + "\n";
   const std::string search = report::search_text(diagnosis);
-  if (!search.empty()) text += report::to_paragraph(search) + "\n";
+  if (!search.empty()) text += screen_note(search);
+  const std::string implausible = report::implausible_numbers_text(diagnosis);
+  if (!implausible.empty()) text += screen_note(implausible, "warning");
+  if (!diagnosis.formulations.agree) {
+    text += screen_note(report::formulations_text(diagnosis.formulations), "warning");
+  }
+  for (const auto& notice : diagnosis.notices) text += screen_note(notice);
+  for (const auto& accepted : report::accepted_texts(diagnosis)) {
+    text += screen_paragraph(accepted, 2);
+  }
+  return text.empty() ? text : text + "\n";
+}
+
+/// The residual analysis where effects do not explain the residuals, else for `--verbose`.
+bool shows_residuals(const diagnose::Diagnosis& diagnosis, bool verbose) {
+  return verbose || diagnosis.verdict == diagnose::Verdict::partly_explained ||
+         diagnosis.verdict == diagnose::Verdict::unexplained;
+}
+
+std::string evidence_text(const diagnose::Diagnosis& diagnosis) {
+  std::string text;
+  for (const auto& cause : diagnosis.causes) {
+    text += cause.effect + "\n";
+    for (const auto& sentence : cause.evidence) text += screen_paragraph("  " + sentence, 4);
+    text += screen_paragraph("  Evidence against it would be: " + cause.refuted_by + ".", 4) + "\n";
+  }
+  return text;
+}
+
+std::string text_of(const diagnose::Diagnosis& diagnosis, bool verbose) {
+  std::string text = verdict_paragraph(diagnosis) + "\n" + restrictions_text(diagnosis);
+  text += screen_table(report::cause_table(diagnosis), 2);
+  text += screen_table(report::gain_table(diagnosis));
+  if (verbose) text += evidence_text(diagnosis);
   const std::string predictor = report::predictor_text(diagnosis);
-  if (!predictor.empty()) text += report::to_paragraph(predictor) + "\n";
-  const std::string wrong = report::what_is_wrong_text(diagnosis.symptoms);
-  if (!wrong.empty()) text += wrong + "\n";
-  if (!diagnosis.causes.empty()) {
-    text += report::to_text(report::cause_table(diagnosis), {.key_columns = 2}) + "\n";
-    for (const auto& cause : diagnosis.causes) {
-      text += cause.effect + "\n";
-      for (const auto& sentence : cause.evidence) text += report::to_paragraph("  " + sentence, 4);
-      text += report::to_paragraph("  Evidence against it would be: " + cause.refuted_by + ".", 4) +
-              "\n";
-    }
+  if (!predictor.empty()) text += screen_paragraph(predictor) + "\n";
+  if (shows_residuals(diagnosis, verbose)) {
+    const std::string wrong =
+        report::what_is_wrong_text(diagnosis.symptoms, verbose ? kAllRows : kFindingLines,
+                                   std::min(screen_width(), report::kWidestText));
+    if (!wrong.empty()) text += wrong + "\n";
   }
-  if (!diagnosis.near_misses.empty()) {
-    text += report::to_text(report::near_miss_table(diagnosis)) + "\n";
-  }
-  if (!diagnosis.refitted.empty()) {
-    text += report::to_text(report::refitted_table(diagnosis)) + "\n";
-  }
+  text +=
+      screen_rows(report::near_miss_table(diagnosis), verbose ? kAllRows : kFewRows, "--verbose");
+  text += screen_table(report::refitted_table(diagnosis));
   if (const auto& law = diagnosis.empirical_law) {
-    text += report::to_paragraph(report::empirical_law_text(*law)) + "\n";
+    text += screen_paragraph(report::empirical_law_text(*law)) + "\n";
   }
   if (const auto& force = diagnosis.missing_force) {
-    text += report::to_paragraph(report::missing_force_text(*force)) + "\n";
+    text += screen_paragraph(report::missing_force_text(*force)) + "\n";
   }
-  text += report::to_paragraph(report::formulations_text(diagnosis.formulations)) + "\n";
-  text += report::to_text(report::gain_table(diagnosis)) + "\n";
-  text += report::to_text(report::channel_gain_table(diagnosis), {.key_columns = 2});
-  if (!diagnosis.prediction_errors.empty()) {
-    text += "\n" + report::to_text(report::prediction_error_table(diagnosis.prediction_errors));
+  if (verbose) {
+    if (diagnosis.formulations.agree) {
+      text += screen_paragraph(report::formulations_text(diagnosis.formulations)) + "\n";
+    }
+    text += screen_table(report::channel_gain_table(diagnosis), 2);
+    if (!diagnosis.prediction_errors.empty()) {
+      text += screen_table(report::prediction_error_table(diagnosis.prediction_errors));
+    }
   }
-  if (diagnosis.next_experiments.empty()) return text;
-  return text + "\n" +
-         report::to_text(report::further_run_table(
-             diagnosis.next_experiments, diagnosis.next_experiments.size(),
-             "Recommended runs, by what they would distinguish"));
-}
-
-/// An incomplete search that names no cause has no extended arm to tell of.
-bool extends(const diagnose::Diagnosis& diagnosis) {
-  return !diagnosis.search_end || !diagnosis.causes.empty();
-}
-
-std::string json_of(const diagnose::Diagnosis& diagnosis, const std::string& extended_arm) {
-  return report::json_document("flexarm.diagnosis/2",
-                               report::diagnosis_json(diagnosis, extended_arm));
+  return text + screen_rows(report::further_run_table(
+                                diagnosis.next_experiments, diagnosis.next_experiments.size(),
+                                "Recommended runs, by what they would distinguish"),
+                            verbose ? kAllRows : kFewRows, "--verbose");
 }
 
 std::vector<measured::NamedContent> files_of(const diagnose::Diagnosis& diagnosis,
-                                             report::DiagnosisPlots plots) {
-  const std::string extended = extends(diagnosis) ? kExtendedArm : "";
+                                             const std::vector<report::NamedFigure>& figures,
+                                             const report::FigureOptions& options) {
+  const std::string extended = diagnose::has_extended_arm(diagnosis) ? kExtendedArm : "";
   std::vector<measured::NamedContent> files = {
       {"channels.csv", report::to_csv(report::channel_gain_table(diagnosis))},
       {"causes.csv", report::to_csv(report::cause_table(diagnosis))},
-      {kDiagnosisJson, json_of(diagnosis, extended)}};
+      {kDiagnosisJson, report::diagnosis_document(diagnosis, extended)}};
   if (!extended.empty()) files.push_back({extended, measured::format_arm(diagnosis.extended_arm)});
   const auto add_table = [&](const char* name, const report::Table& table) {
     if (!table.rows.empty()) files.push_back({name, report::to_csv(table)});
@@ -235,7 +218,9 @@ std::vector<measured::NamedContent> files_of(const diagnose::Diagnosis& diagnosi
   if (const auto& force = diagnosis.missing_force) {
     add_table("missing-force.csv", report::missing_force_table(*force));
   }
-  for (auto& [name, svg] : plots.plots) add_file(name, std::move(svg), files);
+  for (auto& [name, content] : report::figure_files(figures, options)) {
+    add_file(name, std::move(content), files);
+  }
   return files;
 }
 
@@ -244,43 +229,31 @@ std::string write_files(const DiagnoseArguments& arguments, const diagnose::Expe
                         const diagnose::Diagnosis& diagnosis) {
   std::string left_out;
   if (!arguments.folder.empty()) {
-    report::DiagnosisPlots plots = report::diagnosis_plots(experiment, diagnosis);
+    const report::DiagnosisPlots plots = report::diagnosis_plots(experiment, diagnosis);
     left_out = plots.left_out;
-    measured::write_folder_atomically(
-        arguments.folder, files_of(diagnosis, std::move(plots)),
-        arguments.force ? measured::IfExists::replace : measured::IfExists::refuse);
+    write_folder(arguments.folder, arguments.force,
+                 files_of(diagnosis, plots.plots, arguments.figures.options()));
   }
-  if (!arguments.json_file.empty()) {
-    std::string extended;
-    if (extends(diagnosis)) {
-      const fs::path beside = extended_beside(arguments.json_file);
-      measured::write_atomically(beside, measured::format_arm(diagnosis.extended_arm));
-      extended = beside.filename().string();
-    }
-    measured::write_atomically(arguments.json_file, json_of(diagnosis, extended));
+  if (is_standard_output(arguments.json_file)) {
+    write_json(arguments.json_file, report::diagnosis_document(diagnosis, ""));
+  } else if (!arguments.json_file.empty()) {
+    report::write_diagnosis(diagnosis, arguments.json_file);
+  }
+  if (arguments.report.is_given()) {
+    arguments.report.write(
+        report::page::diagnose_page(experiment, diagnosis, page_origin(arguments.file)));
   }
   return left_out;
 }
 
-std::vector<measured::Fault> accepted_faults(const std::vector<std::string>& checks) {
-  std::vector<measured::Fault> faults;
-  for (const auto& check : checks) {
-    try {
-      faults.push_back(measured::fault_of_check(check));
-    } catch (const arm::InputError& error) {
-      throw arm::InputError(std::string("--accept ") + error.what());
-    }
-  }
-  return faults;
-}
-
 int run_diagnose(const DiagnoseArguments& arguments) {
-  const diagnose::Deadline deadline = deadline_of(arguments, Clock::now());
+  const auto begun = std::chrono::steady_clock::now();
+  const diagnose::Deadline deadline = diagnose::deadline_of(arguments.request, begun);
   const diagnose::Experiment experiment =
-      diagnose::read_experiment(arguments.file, accepted_faults(arguments.accepted));
+      diagnose::read_experiment(arguments.file, arguments.request);
   prepare(arguments, experiment);
   const diagnose::Diagnosis diagnosis = diagnose_with_progress(arguments, experiment, deadline);
-  std::string text = text_of(diagnosis);
+  std::string text = text_of(diagnosis, arguments.verbose);
   std::string left_out;
   try {
     left_out = write_files(arguments, experiment, diagnosis);
@@ -288,14 +261,18 @@ int run_diagnose(const DiagnoseArguments& arguments) {
     print(text);
     throw;
   }
+  const std::string details =
+      details_line(arguments.verbose, "evidence, residual analysis, channels, formulations");
   if (arguments.folder.empty()) {
-    text += fmt::format(
-        "\nnext: the extended arm and tables with  flexarm diagnose {} --out diagnosis\n",
-        arm::shown(arguments.file));
+    text += details;
+    text +=
+        fmt::format("next: the extended arm and tables with  flexarm diagnose {} --out diagnosis\n",
+                    arm::shown(arguments.file));
   } else {
-    if (!left_out.empty()) text += report::to_paragraph("\nnote: " + left_out, 2);
-    text += fmt::format("\nwrote {}\n", arguments.folder);
+    if (!left_out.empty()) text += screen_note(left_out);
+    text += details + fmt::format("wrote {}\n", arguments.folder);
   }
+  text += arguments.report.last_line();
   print(text);
   return kSuccess;
 }
@@ -307,23 +284,25 @@ Command add_diagnose(CLI::App& program) {
   CLI::App* parser = program.add_subcommand(
       "diagnose", "Name the causes of the differences between a simulation and measured data");
   parser->add_option("FILE", arguments->file, "measurement.toml")->required()->check(not_empty());
-  add_effect_choice(*parser, arguments->effects);
+  add_effect_choice(*parser, arguments->request.effects);
   const auto add_names = [&](const char* option, std::vector<std::string>& names,
                              const char* help) {
     parser->add_option(option, names, help)->delimiter(',')->allow_extra_args(false);
   };
-  add_names("--exclude", arguments->excluded,
+  add_names("--exclude", arguments->request.excluded,
             "Effects that are not searched for; on one sensor: \"sensor_gain on hub_angle\"");
-  add_names("--accept", arguments->accepted,
+  add_names("--accept", arguments->request.accepted,
             "Data checks whose findings are no faults of these data, e.g. dead_channel: they are "
             "reported as accepted, and exclude no channel and no run");
-  parser->add_option("--time-limit", arguments->time_limit_s,
+  add_verbose(*parser, arguments->verbose,
+              "Print evidence, residual analysis, NRMSE of each channel, formulations");
+  parser->add_option("--time-limit", arguments->request.time_limit_s,
                      "Seconds after which the search ends with the best so far");
-  parser->add_option("--max-causes", arguments->most_causes, "The most causes to name")
+  parser->add_option("--max-causes", arguments->request.most_causes, "The most causes to name")
       ->capture_default_str();
   parser
       ->add_option(
-          "--predictor", arguments->predictor,
+          "--predictor", arguments->request.predictor,
           "How time runs are predicted: output_error (the torque alone drives the arm), "
           "closed_loop (the reference drives controller and arm), grey_box (a Kalman filter, with "
           "an unrecorded torque on the hub), torque_balance (the residual hub torque for the "
@@ -336,10 +315,12 @@ Command add_diagnose(CLI::App& program) {
                    "New folder for the extended arm, tables as CSV, figures and the JSON")
       ->check(not_empty());
   parser->add_flag("--force", arguments->force, "Replace what this command wrote in the folder");
+  add_figure_choice(*parser, arguments->figures);
   parser
       ->add_option("--json", arguments->json_file,
-                   "File for the diagnosis; the extended arm is written beside it")
+                   "JSON file; the extended arm is written beside it; - for standard output")
       ->check(not_empty());
+  add_report_choice(*parser, arguments->report);
   parser->footer(verdict_definitions() +
                  example("flexarm diagnose simulated/measurement.toml --out diagnosis"));
   return {parser, [arguments] { return run_diagnose(*arguments); }};

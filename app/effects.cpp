@@ -1,4 +1,6 @@
 #include "app/command.hpp"
+#include "app/json_file.hpp"
+#include "app/screen.hpp"
 #include "app/standard_output.hpp"
 #include "arm/input_error.hpp"
 #include "effects/registry/vocabulary.hpp"
@@ -38,18 +40,17 @@ int run_effects(const EffectsArguments& arguments) {
   }
   if (!arguments.json_file.empty()) {
     const auto chosen = one != nullptr ? std::vector{*one} : effects::entries();
-    measured::write_atomically(
-        arguments.json_file,
-        report::json_document("flexarm.effects/1", report::effects_json(chosen)));
+    write_json(arguments.json_file,
+               report::json_document("flexarm.effects/1", report::effects_json(chosen)));
   }
   if (arguments.schema) {
     print(report::arm_file_schema(effects::entries()).dump(2) + "\n");
   } else if (arguments.markdown) {
     print(report::effects_document(effects::entries()));
   } else if (one != nullptr) {
-    print(report::effect_page(*one));
+    print(report::effect_page(*one, screen_width()));
   } else {
-    print(report::effect_list(effects::entries()) +
+    print(report::effect_list(effects::entries(), screen_width()) +
           "\nnext: details of one effect with  flexarm effects coulomb_friction\n");
   }
   return kSuccess;
@@ -68,7 +69,8 @@ Command add_effects(CLI::App& program) {
       ->add_flag("--schema", arguments->schema,
                  "Print a JSON Schema of the arm file, for editors that check TOML")
       ->excludes(markdown);
-  parser->add_option("--json", arguments->json_file, "File for the library as JSON");
+  parser->add_option("--json", arguments->json_file,
+                     "File for the library as JSON; - for standard output");
   parser->footer(example("flexarm effects stribeck_friction"));
   return {parser, [arguments] { return run_effects(*arguments); }};
 }

@@ -1,13 +1,17 @@
 #include "app/folder_place.hpp"
 
+#include "app/json_file.hpp"
 #include "arm/input_error.hpp"
-#include "measured/files/atomic_file.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <filesystem>
+#include <iterator>
 #include <system_error>
+#include <unistd.h>
 
 namespace flexarm::app {
 
@@ -15,15 +19,39 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder that --force may replace holds the marker, and nothing that such a folder does not.
-void require_replaceable(const fs::path& folder, const FolderKind& kind) {
+bool has_entries(const fs::path& folder) {
   std::error_code error;
-  if (!fs::is_directory(folder, error) || fs::is_empty(folder, error)) return;
-  if (!fs::exists(folder / kind.marker, error)) {
+  return fs::is_directory(folder, error) && !fs::is_empty(folder, error);
+}
+
+bool has_marker(const fs::path& folder, const FolderKind& kind) {
+  return std::ranges::any_of(kind.markers,
+                             [&](const auto& marker) { return fs::exists(folder / marker); });
+}
+
+bool is_payload_folder(const fs::directory_entry& entry, const FolderKind& kind) {
+  return kind.has_payload_folders && entry.is_directory() && !entry.is_symlink() &&
+         entry.path().filename().string().starts_with("payload-");
+}
+
+/// A folder that --force may replace holds a marker, and nothing that such a folder does not.
+void require_replaceable(const fs::path& folder, const FolderKind& kind) {
+  if (!has_entries(folder)) return;
+  const bool has_payloads =
+      std::ranges::any_of(fs::directory_iterator(folder),
+                          [&](const auto& entry) { return is_payload_folder(entry, kind); });
+  if (!has_payloads && !has_marker(folder, kind)) {
     throw arm::InputError(fmt::format("{}: contains no {}; not overwritten by --force",
-                                      arm::shown(folder.string()), kind.marker));
+                                      arm::shown(folder.string()),
+                                      fmt::join(kind.markers, " or ")));
   }
+  FolderKind of_one_arm = kind;
+  of_one_arm.has_payload_folders = false;
   for (const auto& entry : fs::directory_iterator(folder)) {
+    if (is_payload_folder(entry, kind)) {
+      require_replaceable(entry.path(), of_one_arm);
+      continue;
+    }
     const bool is_ours = std::ranges::count(kind.endings, entry.path().extension().string()) > 0;
     if (entry.is_regular_file() && is_ours) continue;
     throw arm::InputError(fmt::format("{}: not part of {}; folder not overwritten by --force",
@@ -31,13 +59,29 @@ void require_replaceable(const fs::path& folder, const FolderKind& kind) {
   }
 }
 
+/// Throws where the folder, or those above it that are not there, cannot be made.
+void require_makeable(const fs::path& folder) {
+  fs::path there = folder.has_filename() ? folder : folder.parent_path();
+  std::error_code error;
+  while (!there.empty() && !fs::exists(there, error)) there = there.parent_path();
+  if (there.empty()) there = ".";
+  const int reason = !fs::is_directory(there, error)      ? ENOTDIR
+                     : ::access(there.c_str(), W_OK) != 0 ? errno
+                                                          : 0;
+  if (reason == 0) return;
+  throw arm::InputError(fmt::format("{}: cannot be made: {}", arm::shown(folder.string()),
+                                    std::generic_category().message(reason)));
+}
+
 }  // namespace
 
 FolderKind measurement_folder_kind() {
-  return {"a measurement", "measurement.toml", {".toml", ".csv", ".svg", ".json"}};
+  return {
+      "a measurement", {"measurement.toml"}, {".toml", ".csv", ".svg", ".pdf", ".png", ".json"}};
 }
 
 void require_place(const std::string& folder, bool force, const FolderKind& kind) {
+  require_makeable(folder);
   if (force) {
     require_replaceable(folder, kind);
     return;
@@ -49,21 +93,24 @@ void require_place(const std::string& folder, bool force, const FolderKind& kind
   }
 }
 
+bool has_only(const std::string& folder, const std::string& file) {
+  if (!has_entries(folder)) return false;
+  const auto entries = fs::directory_iterator(folder);
+  return std::ranges::all_of(
+      entries, [&](const auto& entry) { return entry.path().filename() == fs::path(file); });
+}
+
+void write_folder(const std::string& folder, bool force,
+                  std::span<const measured::NamedContent> files) {
+  measured::write_folder_atomically(
+      folder, files, force ? measured::IfExists::replace : measured::IfExists::refuse);
+}
+
 void require_json_place(const std::string& json_file, const std::string& folder) {
-  if (json_file.empty()) return;
+  if (json_file.empty() || is_standard_output(json_file)) return;
   const bool in_folder = !folder.empty() && fs::weakly_canonical(json_file).parent_path() ==
                                                 fs::weakly_canonical(folder);
   if (!in_folder) measured::require_writable(json_file);
-}
-
-void require_no_input(const std::string& option, const fs::path& file,
-                      const std::vector<fs::path>& inputs) {
-  const fs::path written = fs::weakly_canonical(file);
-  for (const fs::path& input : inputs) {
-    if (fs::weakly_canonical(input) == written) {
-      throw arm::InputError(option + ": file of the measurement");
-    }
-  }
 }
 
 }  // namespace flexarm::app

@@ -1,6 +1,8 @@
 #pragma once
 
-#include <filesystem>
+#include "measured/files/atomic_file.hpp"
+
+#include <span>
 #include <string>
 #include <vector>
 
@@ -9,24 +11,32 @@ namespace flexarm::app {
 /// What tells a folder that a command wrote from any other.
 struct FolderKind {
   std::string what;                  ///< "a measurement"
-  std::string marker;                ///< a file that such a folder has: "measurement.toml"
+  std::vector<std::string> markers;  ///< such a folder has one of these files
   std::vector<std::string> endings;  ///< of all of its files
+  bool has_payload_folders = false;  ///< or, of several arms, a folder payload-... for each
 };
 
 /// The folder of `simulate` and `import`.
 FolderKind measurement_folder_kind();
 
-/// Throws arm::InputError where a command must not write into `folder`: something is there already
-/// and `force` is not set, or what is there is not of the kind.
+/// The rule for the folder of every command: it is written whole or not at all, and one with files
+/// in it is replaced only with --force, and only if nothing but files of the kind is in it. It may
+/// hold a recording, or results that took hours; what is replaced leaves nothing behind that is not
+/// of the new results.
+///
+/// Throws arm::InputError where a command must not write into `folder`, or could not: before the
+/// work, not after it.
 void require_place(const std::string& folder, bool force, const FolderKind& kind);
+
+/// Whether the folder has the file, and nothing else.
+bool has_only(const std::string& folder, const std::string& file);
+
+/// Writes the files into the folder by the rule, once `require_place` has been asked.
+void write_folder(const std::string& folder, bool force,
+                  std::span<const measured::NamedContent> files);
 
 /// Throws arm::InputError where a `--json` file could not be written once `folder`, which may not
 /// be there yet, is: before the work, not after it.
 void require_json_place(const std::string& json_file, const std::string& folder);
-
-/// Throws arm::InputError, which begins with `option`, for a file to be written that is one of
-/// `inputs`.
-void require_no_input(const std::string& option, const std::filesystem::path& file,
-                      const std::vector<std::filesystem::path>& inputs);
 
 }  // namespace flexarm::app

@@ -45,12 +45,14 @@ std::vector<std::pair<std::string, measured::ModalTable>> modal_tables(
 }  // namespace
 
 FolderKind identified_folder_kind() {
-  return {"an identification", kIdentifiedJson, {".csv", ".svg", ".json"}};
+  return {
+      "an identification", {kIdentifiedJson}, {".csv", ".svg", ".pdf", ".png", ".json", ".html"}};
 }
 
 std::vector<measured::NamedContent> identified_files(
     const measured::Identification& identification,
-    const std::vector<compare::IdentifiedCondition>& conditions) {
+    const std::vector<compare::IdentifiedCondition>& conditions,
+    const report::FigureOptions& options) {
   std::vector<measured::NamedContent> files;
   const auto add = [&](const std::string& name, std::string content) {
     add_file(name, std::move(content), files);
@@ -62,8 +64,9 @@ std::vector<measured::NamedContent> identified_files(
     if (!run.estimate || run.hub_held()) continue;
     add(fmt::format("frf-{}.csv", run.run.id), measured::format_frequency_record(run.response));
   }
-  for (auto& [name, svg] : report::identification_plots(identification, conditions)) {
-    add(name, std::move(svg));
+  const auto figures = report::identification_plots(identification, conditions);
+  for (auto& [name, content] : report::figure_files(figures, options)) {
+    add(name, std::move(content));
   }
   const auto add_table = [&](const std::string& name, const report::Table& table) {
     if (!table.rows.empty()) add(name, report::to_csv(table));

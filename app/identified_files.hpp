@@ -3,6 +3,7 @@
 #include "app/folder_place.hpp"
 #include "compare/identification.hpp"
 #include "measured/files/atomic_file.hpp"
+#include "report/figures/figure_files.hpp"
 #include "measured/run_identification.hpp"
 
 #include <string>
@@ -18,9 +19,10 @@ FolderKind identified_folder_kind();
 
 /// What was identified as files: a modal table of each method and run, or runs of a fit, in the
 /// order of the analytical roots; each `time` run's response as a frequency record; tables as CSV;
-/// figures. Characters that do not belong in a file's name are '_'; no two have one name.
+/// figures with `options`. Characters that do not belong in a file's name are '_'; no two have one name.
 std::vector<measured::NamedContent> identified_files(
     const measured::Identification& identification,
-    const std::vector<compare::IdentifiedCondition>& conditions);
+    const std::vector<compare::IdentifiedCondition>& conditions,
+    const report::FigureOptions& options);
 
 }  // namespace flexarm::app

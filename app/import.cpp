@@ -3,12 +3,13 @@
 #include "app/import_report.hpp"
 #include "app/import_runs.hpp"
 #include "app/imported_file.hpp"
+#include "app/json_file.hpp"
 #include "app/record_format.hpp"
 #include "app/run_choice.hpp"
 #include "app/standard_output.hpp"
 #include "app/starter_arm.hpp"
-#include "app/word.hpp"
 #include "arm/input_error.hpp"
+#include "arm/read_word.hpp"
 #include "effects/registry/vocabulary.hpp"
 #include "measured/files/arm_file.hpp"
 #include "measured/files/atomic_file.hpp"
@@ -64,13 +65,6 @@ void require_consistent(const ImportArguments& arguments) {
   if (arguments.record_file.empty() && !arguments.record_format.empty()) {
     throw arm::InputError("--to: needs --save-as");
   }
-  for (const auto& [option, file] : {std::pair{"--json", &arguments.json_file},
-                                     std::pair{"--save-as", &arguments.record_file}}) {
-    for (const auto& input : arguments.files) {
-      if (file->empty() || fs::weakly_canonical(*file) != fs::weakly_canonical(input)) continue;
-      throw arm::InputError(fmt::format("{} {}: is the input file", option, arm::shown(*file)));
-    }
-  }
   if (arguments.folder.empty()) {
     if (arguments.force) throw arm::InputError("--force: needs --out FOLDER");
     if (!arguments.name.empty()) throw arm::InputError("--name: needs --out FOLDER");
@@ -79,8 +73,8 @@ void require_consistent(const ImportArguments& arguments) {
   }
 }
 
-void write_folder(const ImportArguments& arguments, const std::vector<ImportedRun>& runs,
-                  const std::string& arm) {
+void write_measurement(const ImportArguments& arguments, const std::vector<ImportedRun>& runs,
+                       const std::string& arm) {
   measured::Measurement measurement{arguments.name, "arm.toml", {}};
   if (measurement.name.empty() && runs.size() == 1) measurement.name = runs.front().run.id;
   if (measurement.name.empty()) {
@@ -93,9 +87,7 @@ void write_folder(const ImportArguments& arguments, const std::vector<ImportedRu
   }
   contents.push_back({"arm.toml", arm});
   contents.push_back({"measurement.toml", measured::format_measurement(measurement)});
-  measured::write_folder_atomically(
-      arguments.folder, contents,
-      arguments.force ? measured::IfExists::replace : measured::IfExists::refuse);
+  write_folder(arguments.folder, arguments.force, contents);
 }
 
 void print_next(const ImportArguments& arguments, const std::vector<ImportedRun>& runs) {
@@ -109,12 +101,15 @@ void print_next(const ImportArguments& arguments, const std::vector<ImportedRun>
   }
   std::vector<std::string> names;
   for (const auto& run : runs) names.push_back(run.run.file);
-  print(fmt::format(
-      "wrote {0}: measurement.toml, arm.toml{1} and {2}\n"
-      "next: {3}flexarm modes {0}/arm.toml\n",
-      arguments.folder, arguments.arm_file.empty() ? " (its numbers are to be filled in)" : "",
-      fmt::join(names, ", "),
-      arguments.arm_file.empty() ? "fill in the arm file, then  " : "modes of the arm with  "));
+  const bool has_arm = !arguments.arm_file.empty();
+  print(fmt::format("wrote {0}: measurement.toml, arm.toml{1} and {2}\nnext: {3}\n",
+                    arguments.folder, has_arm ? "" : " (its numbers are to be filled in)",
+                    fmt::join(names, ", "),
+                    has_arm ? fmt::format("compare simulation and measurement with  flexarm "
+                                          "diagnose {}/measurement.toml",
+                                          arguments.folder)
+                            : fmt::format("fill in the arm file, then  flexarm modes {}/arm.toml",
+                                          arguments.folder)));
 }
 
 /// The controller that made the torque. Throws InputError for one without a reference, and the
@@ -129,7 +124,7 @@ std::optional<arm::Controller> controller_of(const ImportArguments& arguments) {
   if (reference.empty()) {
     throw arm::InputError("--controller: needs the column with its reference, --reference COLUMN");
   }
-  return read_controller(arguments.controller);
+  return experiment::read_controller(arguments.controller, "--controller");
 }
 
 int run_import(const ImportArguments& typed) {
@@ -138,7 +133,7 @@ int run_import(const ImportArguments& typed) {
   FileChoice choice = arguments.file;
   choice.controller = arguments.runs.controller;
   if (!arguments.kind.empty()) {
-    choice.kind = read_word(
+    choice.kind = arm::read_word(
         "--kind", arguments.kind,
         std::array{measured::RunKind::time, measured::RunKind::frf, measured::RunKind::modal});
   }
@@ -163,11 +158,9 @@ int run_import(const ImportArguments& typed) {
         fmt::format("--save-as: writes a single run; the input makes {}", runs.size()));
   }
   print(import_text(files, runs));
-  if (!arguments.folder.empty()) write_folder(arguments, runs, arm);
+  if (!arguments.folder.empty()) write_measurement(arguments, runs, arm);
   if (format) write_record(runs.front().data, arguments.record_file, *format);
-  if (!arguments.json_file.empty()) {
-    measured::write_atomically(arguments.json_file, import_json(files, runs));
-  }
+  write_json(arguments.json_file, import_json(files, runs));
   print_next(arguments, runs);
   return kSuccess;
 }
@@ -214,7 +207,9 @@ Command add_import(CLI::App& program) {
   parser->add_option(
       "--to", arguments->record_format,
       "Format of that file: csv, uff58, uff58b (binary) or mat; default: by its extension");
-  parser->add_option("--json", arguments->json_file, "JSON file: content and assumptions")
+  parser
+      ->add_option("--json", arguments->json_file,
+                   "JSON file: content and assumptions; - for standard output")
       ->check(not_empty());
   parser->footer(
       example("flexarm import simulated/bang-bang.csv --reference reference "

@@ -1,9 +1,9 @@
 #include "app/import_report.hpp"
 
+#include "app/screen.hpp"
 #include "arm/input_error.hpp"
 #include "measured/files/controller_keys.hpp"
 #include "report/json/json_document.hpp"
-#include "report/tables/text_table.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -53,34 +53,38 @@ std::string size_of(const measured::RunData& data) {
   return counted(std::get<measured::ModalTable>(data).size(), "row");
 }
 
-std::string import_text_of(const ImportedFile& file) {
-  std::string out = report::to_paragraph(
+std::string heading_of(const ImportedFile& file) {
+  return screen_paragraph(
       fmt::format("{}: {}, read as {}", arm::shown(file.file), file.format, to_string(file.kind)));
+}
+
+/// What is found below the heading of a file.
+std::string import_text_of(const ImportedFile& file) {
+  std::string out;
   for (const auto& sentence : file.warnings) {
-    out += report::to_paragraph("  warning: " + sentence, 4);
+    out += toned(screen_paragraph("  warning: " + sentence, 4), "warning:", Tone::warning);
   }
-  for (const auto& sentence : file.assumptions) out += report::to_paragraph("  " + sentence, 4);
+  for (const auto& sentence : file.assumptions) out += screen_paragraph("  " + sentence, 4);
   if (!file.columns.empty()) {
-    fmt::format_to(std::back_inserter(out), "\n{}\n", report::to_text(column_table(file)));
+    out += "\n" + screen_table(column_table(file));
   }
   if (!file.not_used.empty()) {
-    out += report::to_paragraph(
+    out += screen_paragraph(
         arm::shown(fmt::format("not used: {}", fmt::join(file.not_used, ", ")), 2000), 4);
   }
   return out;
 }
 
 std::string import_text_of(const ImportedRun& run) {
-  std::string out =
-      report::to_paragraph(fmt::format("run {}: {}", run.run.id, size_of(run.data)), 4);
+  std::string out = screen_paragraph(fmt::format("run {}: {}", run.run.id, size_of(run.data)), 4);
   if (run.run.controller) {
     const auto& reference = std::get<measured::TimeRecord>(run.data).reference;
-    out += report::to_paragraph(
+    out += screen_paragraph(
         fmt::format("  closed loop: controller {}, reference in {}",
                     measured::format_controller(*run.run.controller), reference.unit),
         4);
   }
-  for (const auto& note : run.notes) out += report::to_paragraph("  " + note, 4);
+  for (const auto& note : run.notes) out += screen_paragraph("  " + note, 4);
   return out;
 }
 
@@ -146,7 +150,13 @@ nlohmann::ordered_json list_of(const Items& items) {
 std::string import_text(const std::vector<ImportedFile>& files,
                         const std::vector<ImportedRun>& runs) {
   std::string out;
-  for (const auto& file : files) out += import_text_of(file);
+  // Logs of one logger are read alike: what is said of the first is not said again.
+  std::string said;
+  for (const auto& file : files) {
+    const std::string text = import_text_of(file);
+    out += heading_of(file) + (text == said ? "  read as the file above\n" : text);
+    said = text;
+  }
   for (const auto& run : runs) out += import_text_of(run);
   return out;
 }

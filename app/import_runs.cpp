@@ -2,10 +2,10 @@
 
 #include "app/command.hpp"
 #include "app/run_choice.hpp"
-#include "app/word.hpp"
 #include "arm/input_error.hpp"
 #include "arm/nearest_name.hpp"
 #include "arm/range.hpp"
+#include "arm/read_word.hpp"
 #include "measured/files/decimation.hpp"
 #include "measured/files/even_record.hpp"
 #include "measured/files/record_range.hpp"
@@ -86,15 +86,15 @@ std::string unused_id(const std::string& id, std::set<std::string>& used_ids) {
 
 TorqueHold hold_of(const RunsChoice& choice) {
   if (choice.hold.empty()) return TorqueHold::zero;
-  return read_word("--hold", choice.hold, std::array{TorqueHold::zero, TorqueHold::first});
+  return arm::read_word("--hold", choice.hold, std::array{TorqueHold::zero, TorqueHold::first});
 }
 
 measured::Run run_of(const RunsChoice& choice) {
   measured::Run run;
   run.torque_hold = hold_of(choice);
   if (!choice.initial.empty()) {
-    run.initial =
-        read_word("--initial", choice.initial, std::array{InitialState::rest, InitialState::free});
+    run.initial = arm::read_word("--initial", choice.initial,
+                                 std::array{InitialState::rest, InitialState::free});
   }
   if (choice.payload_mass_kg || choice.payload_inertia_kg_m2) {
     const double mass_kg = choice.payload_mass_kg.value_or(0.0);
@@ -148,7 +148,7 @@ std::vector<ImportedRun> runs_of_part(const TimeRecord& record, const Part& part
   std::size_t first = 0;
   const TimeRecord wanted = part.range ? measured::part_of(record, *part.range, first) : record;
   measured::EvenOptions options;
-  options.clock = read_word("--clock", choice.clock, std::array{Clock::stamped, Clock::even});
+  options.clock = arm::read_word("--clock", choice.clock, std::array{Clock::stamped, Clock::even});
   options.torque_hold = hold_of(choice);
   options.longest_filled_gap = static_cast<std::size_t>(choice.longest_filled_gap);
   measured::EvenRecords even = measured::make_even(wanted, options);
@@ -229,7 +229,7 @@ void require_valid(const RunsChoice& choice, std::size_t files) {
           "--decimate: not together with --controller; a filtered torque is not what the "
           "controller commanded and held");
   run_of(choice);
-  read_word("--clock", choice.clock, std::array{Clock::stamped, Clock::even});
+  arm::read_word("--clock", choice.clock, std::array{Clock::stamped, Clock::even});
   if (!choice.purpose.empty()) read_purpose(choice.purpose);
   parts_of(choice, "run");
 }

@@ -115,23 +115,44 @@ void add_times(ForeignTable& table, double period_s) {
   table.columns.push_back({"time [s]", "s", measured::grid_points({0.0, period_s}, rows)});
 }
 
-void require_told(const measured::ColumnMappings& mappings,
-                  const std::vector<ColumnLabel>& labels) {
+/// "; Strom (A) may be a motor current; state it with ...", of the columns that may be it.
+std::string asked(const measured::ColumnGuess& guess, bool torque_alone) {
+  std::string text;
+  for (const auto& question : guess.questions) {
+    if (question.may_be_torque == torque_alone) text += "; " + question.sentence;
+  }
+  return text;
+}
+
+void require_told(const measured::ColumnGuess& guess, const std::vector<ColumnLabel>& labels) {
+  const measured::ColumnMappings& mappings = guess.mappings;
   for (const auto& [quantity, otherwise] :
        {std::pair{"time", ", or the sampling period with --period"},
         std::pair{"torque", ", or compute it with --torque EXPRESSION"}}) {
     if (mappings.contains(quantity)) continue;
-    throw InputError(fmt::format(
-        "{0}: column not recognised; columns: {1}; assign one with --column {0}=NAME:UNIT:SCALE{2}",
-        quantity, join_names(labels), otherwise));
+    if (const auto several = guess.ambiguous.find(quantity); several != guess.ambiguous.end()) {
+      throw InputError(
+          fmt::format("{0}: {1}? Choose one with --column {0}=NAME", quantity,
+                      arm::shown(fmt::format("{}", fmt::join(several->second, " or ")), 400)));
+    }
+    throw InputError(
+        fmt::format("{0}: column not recognised; columns: {1}; assign one with --column "
+                    "{0}=NAME:UNIT:SCALE{2}{3}",
+                    quantity, join_names(labels), otherwise,
+                    quantity == std::string_view("torque") ? asked(guess, true) : ""));
   }
-  const bool has_sensor = std::ranges::any_of(mappings, [](const auto& entry) {
-    return measured::sensor_of(entry.first).has_value();
-  });
+  const bool has_sensor = std::ranges::any_of(
+      mappings, [](const auto& entry) { return measured::sensor_of(entry.first).has_value(); });
   if (has_sensor) return;
-  throw InputError(fmt::format(
-      "no column is a sensor; columns: {}; assign one with --column hub_angle=NAME:UNIT:SCALE",
-      join_names(labels)));
+  for (const auto& [quantity, names] : guess.ambiguous) {
+    throw InputError(
+        fmt::format("no column is a sensor; {0}: {1}? Choose one with --column {0}=NAME", quantity,
+                    arm::shown(fmt::format("{}", fmt::join(names, " or ")), 400)));
+  }
+  throw InputError(
+      fmt::format("no column is a sensor; columns: {}; assign one with --column "
+                  "hub_angle=NAME:UNIT:SCALE{}",
+                  join_names(labels), asked(guess, false)));
 }
 
 void read_text_kind(const ForeignFile& file, ImportedFile& imported) {
@@ -156,17 +177,16 @@ void doubt_time(const FileChoice& choice, ImportedFile& imported) {
   if (!doubt) return;
   constexpr std::array<std::pair<const char*, double>, 4> kUnits = {
       {{"s", 1.0}, {"ms", 1e-3}, {"us", 1e-6}, {"ns", 1e-9}}};
-  const auto used = std::ranges::find(kUnits, time->second.unit, [](const auto& unit) {
-    return std::string_view(unit.first);
-  });
+  const auto used = std::ranges::find(
+      kUnits, time->second.unit, [](const auto& unit) { return std::string_view(unit.first); });
   std::string remedy = "if it is in another unit, say so with --time-unit";
   for (const auto& [unit, seconds] : kUnits) {
     if (used == kUnits.end()) break;
     if (std::abs(seconds / (used->second * doubt->factor) - 1.0) > 0.5) continue;
     remedy = fmt::format("this speaks for {0}; if so, add --time-unit {0}", unit);
   }
-  imported.warnings.push_back(fmt::format("time is read in {}, but {}; {}", time->second.unit,
-                                          doubt->evidence, remedy));
+  imported.warnings.push_back(
+      fmt::format("time is read in {}, but {}; {}", time->second.unit, doubt->evidence, remedy));
 }
 
 /// Each sensor that the controller reads and no column is.
@@ -179,6 +199,10 @@ void warn_of_unrecorded(const arm::Controller& controller, ImportedFile& importe
         "data, but with the recorded torque; assign a column with --column {0}=NAME:UNIT:SCALE",
         name));
   }
+}
+
+bool is_unused(const std::string& column, const ImportedFile& imported) {
+  return std::ranges::count(imported.not_used, column) > 0;
 }
 
 void read_mapped(ForeignFile& file, const FileChoice& choice, ImportedFile& imported) {
@@ -198,7 +222,7 @@ void read_mapped(ForeignFile& file, const FileChoice& choice, ImportedFile& impo
   auto guess = measured::guess_columns(to_guess, choice.columns.mappings(labels));
   choice.columns.set_time_unit(guess.mappings);
   if (in_time) {
-    require_told(guess.mappings, labels);
+    require_told(guess, labels);
   } else {
     // Time and torque are no responses.
     std::erase_if(guess.mappings,
@@ -217,6 +241,11 @@ void read_mapped(ForeignFile& file, const FileChoice& choice, ImportedFile& impo
     if (std::ranges::count(used, i) == 0) imported.not_used.push_back(names[i]);
   }
   imported.assumptions.insert(imported.assumptions.end(), guess.notes.begin(), guess.notes.end());
+  for (const auto& question : guess.questions) {
+    const bool is_needed_for_torque = question.may_be_torque && guess.mappings.contains("torque");
+    if (!in_time || is_needed_for_torque || !is_unused(question.column, imported)) continue;
+    imported.warnings.push_back("not imported: " + question.sentence);
+  }
   imported.columns = std::move(guess.mappings);
   if (in_time) {
     measured::TimeRecord record = uneven_record_of(file.table, imported.columns, name);

@@ -1,7 +1,10 @@
 #include "app/arm_choice.hpp"
 #include "app/command.hpp"
 #include "app/formulation_choice.hpp"
+#include "app/json_file.hpp"
+#include "app/list_option.hpp"
 #include "app/output_choice.hpp"
+#include "app/screen.hpp"
 #include "app/standard_output.hpp"
 #include "arm/input_error.hpp"
 #include "arm/linear_arm.hpp"
@@ -11,18 +14,20 @@
 #include "measured/files/atomic_file.hpp"
 #include "report/json/arm_json.hpp"
 #include "report/json/json_document.hpp"
+#include "report/progress.hpp"
 #include "report/tables/csv.hpp"
 #include "report/tables/modes_report.hpp"
-#include "report/tables/text_table.hpp"
 #include "response/settings.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <cstddef>
 #include <filesystem>
 #include <iterator>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace flexarm::app {
@@ -31,12 +36,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Rows that are printed of each table.
+constexpr std::size_t kModesRows = 30;
+
 struct ModesArguments {
   ArmChoice arm;
   FormulationChoice formulation;
   int count = 5;
   std::vector<std::string> sensors = {"hub_angle", "tip_acceleration"};
   bool certificate = false;
+  bool verbose = false;
   OutputChoice output;
 };
 
@@ -117,6 +126,39 @@ nlohmann::ordered_json certificate_json(const std::vector<CertifiedList>& lists)
   return entries;
 }
 
+FolderKind modes_folder_kind() {
+  return {"the modes of an arm", {"modes.csv"}, {".csv", ".svg", ".pdf", ".png", ".json"}, true};
+}
+
+/// The files of one arm, in `folder` of the output folder.
+void add_files(const fs::path& folder, const arm::Arm& arm, const std::string& formulation,
+               const response::ModalSummary& summary, const FigureChoice& figures,
+               std::vector<measured::NamedContent>& files) {
+  const auto add_csv = [&](const char* name, const report::Table& table) {
+    files.push_back({folder / name, report::to_csv(table)});
+  };
+  add_csv("modes.csv", report::poles_table(arm, summary));
+  add_csv("damped_poles.csv", report::damped_poles_table(summary));
+  add_csv("zeros.csv", report::zeros_table(summary));
+  add_csv("shapes.csv", report::shapes_over_x_table(summary));
+  figures.add_to(files, folder, {{"shapes", report::shapes_figure(formulation, summary)}});
+}
+
+/// Shapes are computed where they are written: of many modes they take most of the time.
+response::ModalSummary summarise_with_progress(const ModesArguments& arguments, const arm::Arm& arm,
+                                               const response::AnyFormulation& formulation,
+                                               const std::vector<arm::Sensor>& sensors) {
+  const bool has_shapes = !arguments.output.folder.empty() || !arguments.output.json_file.empty();
+  const auto stations_m =
+      has_shapes ? compare::shape_stations_m(arm::linear_arm(arm).length_m) : std::vector<double>{};
+  report::Progress progress("computing modes");
+  return response::summarise(formulation, arguments.count, sensors, stations_m,
+                             [&progress](std::string_view, double fraction) {
+                               progress.reach(fraction);
+                               return true;
+                             });
+}
+
 int run_modes(const ModesArguments& arguments) {
   if (arguments.count < 1) throw arm::out_of_range("--modes", arguments.count, "", "1 or more");
   std::vector<arm::Sensor> sensors;
@@ -130,22 +172,25 @@ int run_modes(const ModesArguments& arguments) {
   for (const auto& arm : arms) {
     for (const auto& sensor : sensors) arm::require_valid(sensor, arm);
   }
-  arguments.output.prepare();
+  arguments.output.prepare(modes_folder_kind());
+  std::vector<measured::NamedContent> files;
   for (const auto& arm : arms) {
     const auto chosen = arguments.formulation.make(arm, arguments.count);
-    const auto summary =
-        response::summarise(chosen.formulation, arguments.count, sensors,
-                            compare::shape_stations_m(arm::linear_arm(arm).length_m));
+    const auto summary = summarise_with_progress(arguments, arm, chosen.formulation, sensors);
+    const auto shown = [&arguments](const report::Table& table) {
+      return screen_rows(table, arguments.verbose ? kAllRows : kModesRows,
+                         "--verbose, --out or --json");
+    };
     text += describe(arm);
     text += left_out_of_roots(arm);
     text += fmt::format("by {}\n\n", response::formulation_label(chosen.name, chosen.settings));
-    text += report::to_text(report::poles_table(arm, summary)) + "\n";
+    text += shown(report::poles_table(arm, summary));
     const std::string lowest = report::lowest_mode_line(summary);
     if (!lowest.empty()) text += lowest + "\n";
     if (arm::linear_arm(arm).is_damped()) {
-      text += report::to_text(report::damped_poles_table(summary)) + "\n";
+      text += shown(report::damped_poles_table(summary));
     }
-    text += report::to_text(report::zeros_table(summary)) + "\n";
+    text += shown(report::zeros_table(summary));
     text += shortfalls(chosen, summary, arguments.count);
 
     nlohmann::ordered_json document = {
@@ -153,30 +198,20 @@ int run_modes(const ModesArguments& arguments) {
     document.update(report::modes_json(arm, summary));
     if (arguments.certificate) {
       const auto lists = certify(arm, sensors, arguments.count);
-      text += report::to_text(certificate_table(lists)) + "\n";
+      text += screen_table(certificate_table(lists));
       document["certificate"] = certificate_json(lists);
       for (const auto& list : lists) proved = proved && list.certificate.proved;
     }
     documents.push_back(std::move(document));
 
     if (!arguments.output.folder.empty()) {
-      const fs::path folder = folder_of(arguments.output.folder, arm, arms.size());
-      measured::make_folder(folder);
-      measured::write_atomically(folder / "modes.csv",
-                                 report::to_csv(report::poles_table(arm, summary)));
-      measured::write_atomically(folder / "damped_poles.csv",
-                                 report::to_csv(report::damped_poles_table(summary)));
-      measured::write_atomically(folder / "zeros.csv",
-                                 report::to_csv(report::zeros_table(summary)));
-      measured::write_atomically(folder / "shapes.csv",
-                                 report::to_csv(report::shapes_over_x_table(summary)));
-      measured::write_atomically(folder / "shapes.svg", report::shapes_svg(chosen.name, summary));
+      add_files(folder_of("", arm, arms.size()), arm, chosen.name, summary,
+                arguments.output.figures, files);
     }
   }
-  if (!arguments.output.json_file.empty()) {
-    measured::write_atomically(arguments.output.json_file,
-                               report::json_document("flexarm.modes/1", {{"arms", documents}}));
-  }
+  if (!files.empty()) write_folder(arguments.output.folder, arguments.output.force, files);
+  write_json(arguments.output.json_file,
+             report::json_document("flexarm.modes/1", {{"arms", documents}}));
   if (!arguments.output.folder.empty()) text += fmt::format("wrote {}\n", arguments.output.folder);
   text += fmt::format("next: compare the three formulations with  flexarm compare{}\n",
                       arguments.arm.file.empty() ? "" : " " + arguments.arm.file);
@@ -194,15 +229,12 @@ Command add_modes(CLI::App& program) {
   add_formulation_choice(*parser, arguments->formulation);
   parser->add_option("--modes", arguments->count, "Number of modes, and of zeros per sensor")
       ->capture_default_str();
-  parser
-      ->add_option("--sensor", arguments->sensors,
-                   "Sensors whose zeros are listed, comma-separated")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->capture_default_str();
+  add_list_option(*parser, "--sensor", arguments->sensors,
+                  "Sensors whose zeros are listed, comma-separated");
   parser->add_flag("--certificate", arguments->certificate,
                    "Certify the roots of exact_tf and their count by ball arithmetic");
-  add_output_choice(*parser, arguments->output, "Folder for CSV tables and mode shapes as SVG");
+  add_verbose(*parser, arguments->verbose, "Print all rows of long tables");
+  add_output_choice(*parser, arguments->output, "Folder for CSV tables and the mode shapes");
   parser->footer(example("flexarm modes rig.toml --sensor hub_angle,strain@0.05 --certificate"));
   return {parser, [arguments] { return run_modes(*arguments); }};
 }

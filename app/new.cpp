@@ -1,4 +1,5 @@
 #include "app/command.hpp"
+#include "app/json_file.hpp"
 #include "app/standard_output.hpp"
 #include "app/starter_arm.hpp"
 #include "arm/input_error.hpp"
@@ -27,11 +28,9 @@ int write_starter(const fs::path& path, bool force, const std::string& json) {
         fmt::format("{}: already exists; --force overwrites it", arm::shown(path.string())));
   }
   measured::write_atomically(path, starter_text());
-  if (!json.empty()) {
-    measured::write_atomically(
-        json, report::json_document("flexarm.new/1", {{"file", path.string()},
-                                                      {"arm", report::arm_json(starter_arm())}}));
-  }
+  write_json(json,
+             report::json_document("flexarm.new/1", {{"file", path.string()},
+                                                     {"arm", report::arm_json(starter_arm())}}));
   print(fmt::format("wrote {}\nnext: edit the values, then  flexarm modes {}\n",
                     arm::shown(path.string()), arm::shown(path.string())));
   return kSuccess;
@@ -49,8 +48,9 @@ Command add_new(CLI::App& program) {
   CLI::App* parser = program.add_subcommand("new", "Write a commented arm file template");
   parser->add_option("FILE", options->path, "Arm file to write, e.g. rig.toml")->required();
   parser->add_flag("--force", options->force, "Overwrite an existing file");
-  parser->add_option("--json", options->json,
-                     "JSON file with the numbers of the arm, full precision");
+  parser->add_option(
+      "--json", options->json,
+      "JSON file with the numbers of the arm, full precision; - for standard output");
   parser->footer(example("flexarm new rig.toml"));
   return {parser,
           [options] { return write_starter(options->path, options->force, options->json); }};

@@ -50,6 +50,7 @@ std::map<std::string_view, Words> words_by_name() {
       {"--effects", effect_names()},
       {"--exclude", effect_names()},
       {"--figure", {"18", "19"}},
+      {"--figure-format", {"svg", "pdf", "png"}},
       {"--formulation", {"exact_tf", "fem", "assumed_modes"}},
       {"--hide-effects", effect_names()},
       {"--hold", {"zero", "first"}},
@@ -72,10 +73,10 @@ std::map<std::string_view, Words> words_by_name() {
 }
 
 /// Text that is no file: expressions, names and lists of the user's own.
-constexpr std::string_view kOwnText[] = {"--column",       "--compute", "--excitation", "--id",
-                                         "--leave-out",    "--name",    "--noise-of",   "--over",
-                                         "--quantisation", "--rows",    "--run",        "--times",
-                                         "--validation",   "PART"};
+constexpr std::string_view kOwnText[] = {
+    "--column",    "--compute", "--excitation", "--figure-size", "--font",         "--id",
+    "--leave-out", "--name",    "--noise-of",   "--over",        "--quantisation", "--rows",
+    "--run",       "--times",   "--validation", "PART"};
 
 }  // namespace
 

@@ -1,4 +1,7 @@
 #include "app/command.hpp"
+#include "app/folder_place.hpp"
+#include "app/json_file.hpp"
+#include "app/screen.hpp"
 #include "app/standard_output.hpp"
 #include "arm/input_error.hpp"
 #include "compare/paper/paper_topics.hpp"
@@ -27,15 +30,16 @@ struct PaperArguments {
   std::string part;
   std::string json;
   std::string out;
+  bool force = false;
   std::string document;
+  bool verbose = false;
 };
 
-void write_folder(const fs::path& folder, const compare::paper::Findings& findings) {
-  measured::write_atomically(folder / "comparisons.csv",
-                             report::to_csv(report::paper_listing(findings)));
-  measured::write_atomically(folder / "cells.csv", report::to_csv(report::paper_cells(findings)));
-  measured::write_atomically(folder / "paper.json", report::paper_json(findings));
-  measured::write_atomically(folder / "paper.txt", report::paper_text(findings, ""));
+std::vector<measured::NamedContent> files_of(const compare::paper::Findings& findings) {
+  return {{"comparisons.csv", report::to_csv(report::paper_listing(findings))},
+          {"cells.csv", report::to_csv(report::paper_cells(findings))},
+          {"paper.json", report::paper_json(findings)},
+          {"paper.txt", report::paper_text(findings, "")}};
 }
 
 void update_document(const std::string& path, const compare::paper::Findings& findings) {
@@ -49,19 +53,33 @@ void update_document(const std::string& path, const compare::paper::Findings& fi
   }
 }
 
+/// The verdicts: what of the paper holds.
+std::string overview_text(const compare::paper::Findings& findings) {
+  return screen_paragraph(report::paper_verdict_line(findings)) + "\n" +
+         screen_table(report::paper_overview(findings)) +
+         screen_paragraph(report::paper_cells_line(findings)) +
+         details_line(false, "each check with its finding and values");
+}
+
 int run_paper(const PaperArguments& arguments) {
-  if (!arguments.out.empty()) measured::make_folder(arguments.out);
-  if (!arguments.json.empty()) measured::require_writable(arguments.json);
+  if (!arguments.out.empty()) {
+    require_place(arguments.out, arguments.force,
+                  {"the check of the paper", {"paper.json"}, {".csv", ".json", ".txt"}});
+  } else if (arguments.force) {
+    throw arm::InputError("--force: needs --out FOLDER");
+  }
+  require_json_place(arguments.json, arguments.out);
   const auto findings = compare::paper::check_paper();
-  const std::string text = report::paper_text(findings, arguments.part);
+  const bool is_whole = arguments.part.empty() && !arguments.verbose;
+  const std::string text =
+      is_whole ? overview_text(findings) : report::paper_text(findings, arguments.part);
   if (text.empty()) {
     throw arm::InputError(fmt::format(
         "no part \"{}\": give an equation number (22) or a word of a heading (\"Table 6\")",
         arguments.part));
   }
-  if (!arguments.json.empty())
-    measured::write_atomically(arguments.json, report::paper_json(findings));
-  if (!arguments.out.empty()) write_folder(arguments.out, findings);
+  if (!arguments.out.empty()) write_folder(arguments.out, arguments.force, files_of(findings));
+  write_json(arguments.json, report::paper_json(findings));
   if (!arguments.document.empty()) update_document(arguments.document, findings);
   print(text);
   for (const auto& written : {arguments.json, arguments.out, arguments.document}) {
@@ -81,10 +99,12 @@ Command add_paper(CLI::App& program) {
       "paper", "Check each equation and table of the paper against the three formulations");
   parser->add_option("PART", arguments->part,
                      "Only this part: equation number, or words such as \"Table 6\"");
-  parser->add_option("--json", arguments->json, "Write all values to this file")
+  add_verbose(*parser, arguments->verbose, "Print every check with its finding and values");
+  parser->add_option("--json", arguments->json, "JSON file with all values; - for standard output")
       ->check(not_empty());
   parser->add_option("--out", arguments->out, "Write text, CSV and JSON to this folder")
       ->check(not_empty());
+  parser->add_flag("--force", arguments->force, "Overwrite a folder written by this command");
   parser->add_option("--update", arguments->document,
                      "Update the marked blocks of this document (docs/paper.md)");
   parser->footer(example("flexarm paper 22"));

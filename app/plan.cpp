@@ -2,28 +2,27 @@
 
 #include "app/command.hpp"
 #include "app/effect_choice.hpp"
+#include "app/figure_choice.hpp"
 #include "app/folder_place.hpp"
-#include "app/interruption.hpp"
+#include "app/json_file.hpp"
+#include "app/report_choice.hpp"
+#include "app/screen.hpp"
 #include "app/standard_output.hpp"
 #include "arm/input_error.hpp"
+#include "diagnose/planning/plan_task.hpp"
 #include "effects/registry/vocabulary.hpp"
 #include "measured/files/arm_file.hpp"
 #include "measured/files/atomic_file.hpp"
-#include "report/figures/gnuplot.hpp"
 #include "report/figures/separation_figure.hpp"
-#include "report/figures/svg.hpp"
-#include "report/json/json_document.hpp"
 #include "report/json/plan_json.hpp"
+#include "report/page/plan_page.hpp"
 #include "report/progress.hpp"
 #include "report/tables/csv.hpp"
 #include "report/tables/plan_tables.hpp"
-#include "report/tables/text_table.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
-#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -38,8 +37,6 @@ namespace fs = std::filesystem;
 
 constexpr const char* kPlanJson = "plan.json";
 constexpr const char* kBetterPlan = "improved-plan.toml";
-/// Steps of the progress line.
-constexpr std::int64_t kPlanSteps = 100;
 /// Further runs that are printed.
 constexpr std::size_t kPrintedRuns = 8;
 
@@ -51,108 +48,109 @@ struct PlanArguments {
   std::string better_file;
   std::string folder;
   bool force = false;
+  FigureChoice figures;
+  bool verbose = false;
   std::string json_file;
+  ReportChoice report;
 };
 
 FolderKind plan_folder_kind() {
-  return {"a plan", kPlanJson, {".json", ".toml", ".csv", ".svg"}};
+  return {"a plan", {kPlanJson}, {".json", ".toml", ".csv", ".svg", ".pdf", ".png", ".html"}};
 }
 
-/// Throws for outputs that could not be written, or would take the place of what is read.
+/// Throws for outputs that could not be written.
 void prepare_outputs(const PlanArguments& arguments) {
   if (arguments.force && arguments.folder.empty()) {
     throw arm::InputError("--force: needs --out FOLDER");
   }
-  const std::vector<fs::path> inputs = {arguments.arm_file, arguments.plan_file};
-  if (!arguments.json_file.empty()) {
-    require_no_input("--json " + arm::shown(arguments.json_file), arguments.json_file, inputs);
-  }
-  if (!arguments.better_file.empty()) {
-    require_no_input("--write " + arm::shown(arguments.better_file), arguments.better_file, inputs);
-  }
+  arguments.figures.require_valid(arguments.folder);
   require_json_place(arguments.json_file, arguments.folder);
+  arguments.report.prepare(arguments.folder);
   if (arguments.folder.empty()) return;
   require_place(arguments.folder, arguments.force, plan_folder_kind());
-  report::run_gnuplot("");
 }
 
 diagnose::Plan plan_with_progress(const PlanArguments& arguments) {
-  const arm::Arm arm = arm::without_hypotheses(
-      measured::read_arm_file(arguments.arm_file, effects::vocabulary()));
-  const auto planned = diagnose::read_measurement_plan(arguments.plan_file);
-  const auto possible = diagnose::hypotheses_of(arm, planned);
-  const auto hypotheses = chosen_hypotheses(arguments.effects, possible);
-  chosen_hypotheses(arguments.refitted, possible, "--refit");  // throws for an unknown name
+  const arm::Arm arm = measured::read_arm_file(arguments.arm_file, effects::vocabulary());
+  const auto task =
+      diagnose::plan_task(arm, diagnose::read_measurement_plan(arguments.plan_file),
+                          {.effects = arguments.effects, .refitted = arguments.refitted});
   prepare_outputs(arguments);
-  diagnose::PlanOptions options;
-  options.unknown = arguments.refitted;
-  const Interruption interruption;
-  report::Progress progress("% of the plan", kPlanSteps);
-  auto plan = diagnose::plan_experiment(arm, planned, hypotheses, options,
-                                        [&](std::string_view, double fraction) {
-                                          progress.reach(fraction);
-                                          return !interruption.requested();
-                                        });
-  if (plan.cancelled) interruption.end_program();
-  return plan;
+  report::Progress progress("planning");
+  return diagnose::plan_experiment(task.arm, task.planned, task.hypotheses, task.options,
+                                   [&](std::string_view, double fraction) {
+                                     progress.reach(fraction);
+                                     return true;
+                                   });
 }
 
-std::string text_of_plan(const diagnose::Plan& plan) {
-  std::string text;
-  for (const auto& notice : plan.notices) text += report::to_paragraph("note: " + notice, 2);
-  if (!text.empty()) text += "\n";
-  text += report::to_paragraph(report::plan_summary(plan)) + "\n";
-  text += report::to_text(report::detection_table(plan)) + "\n";
-  text += report::separation_matrix(plan);
-  if (plan.ties.empty()) return text;
-  text += "\n" + report::to_text(report::tie_table(plan), {.key_columns = 2}) + "\n";
-  text += report::to_text(
-      report::further_run_table(plan.further, kPrintedRuns, "Value of one additional run"));
+/// The runs that the improved plan adds, or that none helps; empty where all can be told apart.
+std::string improvement_text(const diagnose::Plan& plan) {
+  if (plan.ties.empty()) return "";
   if (plan.added.empty()) {
-    return text + "\nNone of the additional runs considered resolves an indistinguishable pair.\n";
+    return screen_paragraph(
+               "None of the additional runs considered resolves an indistinguishable pair.") +
+           "\n";
   }
-  return text + "\n" +
-         report::to_text(report::further_run_table(
-             plan.added, plan.added.size(), "Improved plan: additional runs, in order of choice"));
+  return screen_table(report::further_run_table(
+      plan.added, plan.added.size(), "Improved plan: additional runs, in order of choice"));
+}
+
+std::string text_of_plan(const diagnose::Plan& plan, bool verbose) {
+  std::string text = screen_paragraph(report::plan_summary(plan)) + "\n";
+  for (const auto& notice : plan.notices) text += screen_note(notice);
+  if (!plan.notices.empty()) text += "\n";
+  text += improvement_text(plan);
+  text += screen_rows(report::detection_table(plan), verbose ? kAllRows : kScreenRows,
+                      "--verbose, --out or --json");
+  if (!verbose) return text;
+  text += report::separation_matrix(plan) + "\n";
+  if (plan.ties.empty()) return text;
+  return text + screen_table(report::tie_table(plan), 2) +
+         screen_table(
+             report::further_run_table(plan.further, kPrintedRuns, "Value of one additional run"));
 }
 
 void write_plan(const PlanArguments& arguments, const diagnose::Plan& plan) {
   const std::string better = diagnose::format_measurement_plan(plan.better);
-  const std::string json = report::json_document("flexarm.plan/2", report::plan_json(plan));
+  const std::string json = report::plan_document(plan);
   if (!arguments.folder.empty()) {
-    const std::vector<measured::NamedContent> files = {
+    std::vector<measured::NamedContent> files = {
         {"effects.csv", report::to_csv(report::detection_table(plan))},
         {"separations.csv", report::to_csv(report::separation_table(plan))},
         {"leads.csv", report::to_csv(report::lead_table(plan))},
-        {"separations.svg", report::to_svg(report::separation_figure(plan))},
         {kBetterPlan, better},
         {kPlanJson, json}};
-    measured::write_folder_atomically(
-        arguments.folder, files,
-        arguments.force ? measured::IfExists::replace : measured::IfExists::refuse);
+    arguments.figures.add_to(files, "", {{"separations", report::separation_figure(plan)}});
+    write_folder(arguments.folder, arguments.force, files);
   }
   if (!arguments.better_file.empty()) measured::write_atomically(arguments.better_file, better);
-  if (!arguments.json_file.empty()) measured::write_atomically(arguments.json_file, json);
+  write_json(arguments.json_file, json);
+  if (arguments.report.is_given()) {
+    arguments.report.write(report::page::plan_page(plan, page_origin(arguments.plan_file)));
+  }
 }
 
 int run_plan(const PlanArguments& arguments) {
   const diagnose::Plan plan = plan_with_progress(arguments);
-  std::string text = text_of_plan(plan);
+  std::string text = text_of_plan(plan, arguments.verbose);
   try {
     write_plan(arguments, plan);
   } catch (const arm::InputError&) {
     print(text);
     throw;
   }
+  text += details_line(arguments.verbose, "separations, indistinguishable pairs, further runs");
   if (!arguments.folder.empty()) {
-    text += fmt::format("\nwrote {}\n", arguments.folder);
+    text += fmt::format("wrote {}\n", arguments.folder);
   } else if (!arguments.better_file.empty()) {
-    text += fmt::format("\nwrote {}\n", arguments.better_file);
+    text += fmt::format("wrote {}\n", arguments.better_file);
   } else {
     text +=
-        fmt::format("\nnext: write the improved plan with  flexarm plan {} {} --write {}\n",
+        fmt::format("next: write the improved plan with  flexarm plan {} {} --write {}\n",
                     arm::shown(arguments.arm_file), arm::shown(arguments.plan_file), kBetterPlan);
   }
+  text += arguments.report.last_line();
   print(text);
   return kSuccess;
 }
@@ -174,6 +172,9 @@ Command add_plan(CLI::App& program) {
           "Effects treated as nuisance parameters, comma-separated; default: the arm file is exact")
       ->delimiter(',')
       ->allow_extra_args(false);
+  add_verbose(*parser, arguments->verbose,
+              "Print all effects, the matrix of separations, indistinguishable pairs and the value "
+              "of further runs");
   parser->add_option("--write", arguments->better_file, "File for the improved plan")
       ->check(not_empty());
   parser
@@ -181,8 +182,12 @@ Command add_plan(CLI::App& program) {
                    "New folder for the improved plan, CSV tables, a figure and JSON")
       ->check(not_empty());
   parser->add_flag("--force", arguments->force, "Overwrite a folder written by this command");
-  parser->add_option("--json", arguments->json_file, "JSON file, full precision")
+  add_figure_choice(*parser, arguments->figures);
+  parser
+      ->add_option("--json", arguments->json_file,
+                   "JSON file, full precision; - for standard output")
       ->check(not_empty());
+  add_report_choice(*parser, arguments->report);
   parser->footer(example("flexarm plan rig.toml measurement-plan.toml --write improved-plan.toml"));
   return {parser, [arguments] { return run_plan(*arguments); }};
 }

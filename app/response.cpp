@@ -1,7 +1,10 @@
 #include "app/arm_choice.hpp"
 #include "app/command.hpp"
 #include "app/formulation_choice.hpp"
+#include "app/json_file.hpp"
+#include "app/list_option.hpp"
 #include "app/output_choice.hpp"
+#include "app/screen.hpp"
 #include "app/standard_output.hpp"
 #include "app/state_space_file.hpp"
 #include "arm/input_error.hpp"
@@ -14,7 +17,6 @@
 #include "report/tables/csv.hpp"
 #include "report/tables/modes_report.hpp"
 #include "report/tables/response_tables.hpp"
-#include "report/tables/text_table.hpp"
 #include "response/frequency/response_study.hpp"
 #include "response/settings.hpp"
 
@@ -25,6 +27,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,7 +37,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kPrintedFrequencies = 25;
+/// A matrix of so many modes takes 0.8 GB.
+constexpr int kMostModes = 10000;
+constexpr std::size_t kPrintedFrequencies = 12;
+constexpr std::size_t kVerboseFrequencies = 25;
 
 struct ResponseArguments {
   ArmChoice arm;
@@ -43,6 +49,7 @@ struct ResponseArguments {
   response::ResponseOptions options;
   std::string state_space_file;
   bool modes_alone = false;
+  bool verbose = false;
   OutputChoice output;
 };
 
@@ -50,6 +57,11 @@ struct ResponseArguments {
 response::ResponseOptions options_of(const ResponseArguments& arguments) {
   response::ResponseOptions options = arguments.options;
   if (options.modes < 1) throw arm::out_of_range("--modes", options.modes, "", "1 or more");
+  if (options.modes > kMostModes) {
+    throw arm::out_of_range(
+        "--modes", options.modes, "",
+        fmt::format("at most {} (the damping between all pairs of modes is kept)", kMostModes));
+  }
   for (const auto& name : arguments.sensors) options.sensors.push_back(arm::parse_sensor(name));
   const bool grid = options.from_Hz || options.to_Hz;
   if (!options.frequency_Hz.empty()) {
@@ -88,39 +100,58 @@ ChosenFormulation make_formulation(const ResponseArguments& arguments, const arm
   return arguments.formulation.make(arm, roots);
 }
 
-std::string study_text(const response::ResponseStudy& study,
-                       const response::ResponseOptions& options) {
+/// The response as a product over poles and zeros and as a sum over modes.
+std::string forms_text(const response::ResponseStudy& study) {
   std::string text;
-  for (const auto& note : report::chain_notes(study)) text += report::to_paragraph(note, 2);
-  if (!report::chain_notes(study).empty()) text += "\n";
-  text += report::to_text(
-              report::response_poles_table(study, static_cast<std::size_t>(options.modes))) +
-          "\n";
   for (std::size_t k = 0; k < study.response.sensors.size(); ++k) {
     auto factors = report::factors_table(study, k);
-    text += factors.caption + "\n";
+    text += screen_paragraph(factors.caption);
     factors.caption.clear();
-    for (const auto& formula : report::formulas(study, k)) text += "  " + formula + "\n";
-    text += report::to_text(factors) + "\n";
+    for (const auto& formula : report::formulas(study, k)) {
+      text += screen_paragraph("  " + formula, 4);
+    }
+    text += screen_table(factors);
   }
+  return text;
+}
+
+std::string study_text(const response::ResponseStudy& study,
+                       const response::ResponseOptions& options, bool verbose) {
+  std::string text;
+  const auto notes = report::chain_notes(study);
+  for (const auto& note : notes) text += screen_paragraph(note, 2);
+  if (!notes.empty()) text += "\n";
   const auto frequencies = study.response.frequency_Hz.size();
   const bool listed = !options.frequency_Hz.empty();
-  auto table = report::response_table(study.response, listed ? 0 : kPrintedFrequencies);
+  auto table = report::response_table(study.response, listed    ? 0
+                                                      : verbose ? kVerboseFrequencies
+                                                                : kPrintedFrequencies);
   table.caption =
       table.rows.size() == frequencies
           ? fmt::format("Frequency response at {} frequencies", frequencies)
           : fmt::format("Frequency response at {} of {} frequencies (all with --out and --json)",
                         table.rows.size(), frequencies);
-  text += report::to_text(table) + "\n";
-  if (study.state_space) text += report::to_text(report::state_space_table(study)) + "\n";
+  text += screen_table(table);
+  text += screen_rows(report::response_poles_table(study, static_cast<std::size_t>(options.modes)),
+                      verbose ? kAllRows : kScreenRows, "--verbose, --out or --json");
+  if (verbose) text += forms_text(study);
+  if (study.state_space) text += screen_table(report::state_space_table(study));
   return text;
 }
 
-void write_folder(const fs::path& folder, const std::string& formulation,
-                  const response::ResponseStudy& study) {
-  measured::make_folder(folder);
+FolderKind response_folder_kind() {
+  return {"a frequency response",
+          {"response.csv"},
+          {".csv", ".svg", ".pdf", ".png", ".json", ".mat"},
+          true};
+}
+
+/// The files of one arm, in `folder` of the output folder.
+void add_files(const fs::path& folder, const std::string& formulation,
+               const response::ResponseStudy& study, const FigureChoice& figures,
+               std::vector<measured::NamedContent>& files) {
   const auto write_csv = [&](const std::string& name, const report::Table& table) {
-    measured::write_atomically(folder / name, report::to_csv(table));
+    files.push_back({folder / name, report::to_csv(table)});
   };
   write_csv("poles.csv", report::response_poles_table(study, study.poles.omega_rad_per_s.size()));
   write_csv("response.csv", report::response_listing(study.response));
@@ -129,14 +160,12 @@ void write_folder(const fs::path& folder, const std::string& formulation,
     write_csv(fmt::format("factors-{}.csv", arm::to_string(study.response.sensors[k])),
               report::factors_table(study, k));
   }
-  for (const auto& [name, svg] : report::response_plots(formulation, study)) {
-    measured::write_atomically(folder / name, svg);
-  }
+  figures.add_to(files, folder, report::response_plots(formulation, study));
 }
 
 std::string next_step(const ResponseArguments& arguments) {
   const std::string arm = arguments.arm.file.empty() ? "" : " " + arguments.arm.file;
-  std::string lines;
+  std::string lines = details_line(arguments.verbose, "factored and modal form");
   if (!arguments.state_space_file.empty()) {
     lines += fmt::format("wrote {}\n", arguments.state_space_file);
   }
@@ -174,11 +203,9 @@ int run_response(const ResponseArguments& arguments) {
       throw arm::InputError("--state-space: needs one arm; --payload-mass has several values");
     }
   }
-  if (!arguments.state_space_file.empty() &&
-      arguments.state_space_file == arguments.output.json_file) {
-    throw arm::InputError("--json: same file as --state-space");
-  }
-  arguments.output.prepare();
+  arguments.output.prepare(response_folder_kind());
+  std::vector<measured::NamedContent> files;
+  std::optional<response::ResponseStudy> with_state_space;
 
   std::string text;  // printed last: a reader that goes away costs no file
   nlohmann::ordered_json documents = nlohmann::ordered_json::array();
@@ -187,24 +214,25 @@ int run_response(const ResponseArguments& arguments) {
     const auto study = response::study_response(arm, chosen.formulation, options);
     text += describe(arm);
     text += fmt::format("by {}\n\n", response::formulation_label(chosen.name, chosen.settings));
-    text += study_text(study, options);
+    text += study_text(study, options, arguments.verbose);
 
     nlohmann::ordered_json document = {
         {"arm", report::arm_json(arm)}, {"model", chosen.name}, {"settings", chosen.settings}};
     document.update(report::response_json(study));
     documents.push_back(std::move(document));
-    if (options.state_space) write_state_space(study, arguments.state_space_file);
+    if (options.state_space) with_state_space = study;
     if (!arguments.output.folder.empty()) {
-      write_folder(folder_of(arguments.output.folder, arm, arms.size()), chosen.name, study);
+      add_files(folder_of("", arm, arms.size()), chosen.name, study, arguments.output.figures,
+                files);
       if (std::ranges::all_of(study.resonances, &std::vector<response::Resonance>::empty)) {
         text += "no Nyquist diagrams: no damped pole in the frequency range\n";
       }
     }
   }
-  if (!arguments.output.json_file.empty()) {
-    measured::write_atomically(arguments.output.json_file,
-                               report::json_document("flexarm.response/1", {{"arms", documents}}));
-  }
+  if (!files.empty()) write_folder(arguments.output.folder, arguments.output.force, files);
+  if (with_state_space) write_state_space(*with_state_space, arguments.state_space_file);
+  write_json(arguments.output.json_file,
+             report::json_document("flexarm.response/1", {{"arms", documents}}));
   text += next_step(arguments);
   print(text);
   return kSuccess;
@@ -220,12 +248,9 @@ Command add_response(CLI::App& program) {
       "Compute frequency response, factored and modal forms, and state space of an arm");
   add_arm_choice(*parser, arguments->arm);
   add_formulation_choice(*parser, arguments->formulation);
-  parser
-      ->add_option("--sensor", arguments->sensors,
-                   "Sensors, comma-separated; default: hub_angle and, with a beam, "
-                   "tip_acceleration")
-      ->delimiter(',')
-      ->allow_extra_args(false);
+  add_list_option(*parser, "--sensor", arguments->sensors,
+                  "Sensors, comma-separated; default: hub_angle and, with a beam, "
+                  "tip_acceleration");
   parser->add_option("--from-Hz", options.from_Hz,
                      "Lowest frequency; default: well below the first pole");
   parser->add_option("--to-Hz", options.to_Hz,
@@ -234,11 +259,8 @@ Command add_response(CLI::App& program) {
       ->add_option("--points", options.points,
                    "Number of logarithmic frequencies; refined at poles and zeros")
       ->capture_default_str();
-  parser
-      ->add_option("--frequencies", options.frequency_Hz,
-                   "Frequencies [Hz] instead of a range, comma-separated")
-      ->delimiter(',')
-      ->allow_extra_args(false);
+  add_list_option(*parser, "--frequencies", options.frequency_Hz,
+                  "Frequencies [Hz] instead of a range, comma-separated");
   parser
       ->add_option("--modes", options.modes,
                    "Number of poles, of zeros per sensor, and of flexible modes of the state space")
@@ -250,8 +272,9 @@ Command add_response(CLI::App& program) {
       ->check(not_empty());
   parser->add_flag("--modes-alone", arguments->modes_alone,
                    "State space without static correction for omitted modes");
-  add_output_choice(*parser, arguments->output,
-                    "Folder for CSV tables, Bode and Nyquist diagrams as SVG");
+  add_verbose(*parser, arguments->verbose,
+              "Print the response as a product over poles and zeros and as a sum over modes");
+  add_output_choice(*parser, arguments->output, "Folder for CSV tables, Bode and Nyquist diagrams");
   parser->footer(example("flexarm response rig.toml --sensor hub_angle,strain@0.05 --to-Hz 200"));
   return {parser, [arguments] { return run_response(*arguments); }};
 }

@@ -1,11 +1,6 @@
 #pragma once
 
-#include "arm/arm.hpp"
-#include "arm/sensor.hpp"
-#include "response/time/sensor_imperfections.hpp"
-
-#include <string>
-#include <vector>
+#include "experiment/sensor_choice.hpp"
 
 namespace CLI {
 class App;
@@ -13,24 +8,8 @@ class App;
 
 namespace flexarm::app {
 
-/// A sensor and what it adds to what it measures.
-struct ChosenSensor {
-  arm::Sensor sensor;
-  response::SensorImperfections imperfections;
-};
-
-/// The sensors of a simulated experiment.
-struct SensorChoice {
-  /// Empty: hub angle, hub velocity and, with a beam, tip acceleration.
-  std::vector<std::string> names;
-  double relative_noise = 0.0;
-  std::vector<std::string> noises;         ///< SENSOR=STD
-  std::vector<std::string> quantisations;  ///< SENSOR=STEP
-
-  /// Throws InputError for an unknown sensor, one given twice or that `arm` cannot carry, and for
-  /// numbers that are none.
-  std::vector<ChosenSensor> sensors(const arm::Arm& arm) const;
-};
+using experiment::ChosenSensor;
+using experiment::SensorChoice;
 
 /// Adds `--sensor`, `--noise`, `--noise-of` and `--quantisation` to a command.
 void add_sensor_choice(CLI::App& parser, SensorChoice& choice);

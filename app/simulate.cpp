@@ -1,14 +1,20 @@
 #include "app/arm_choice.hpp"
 #include "app/command.hpp"
+#include "app/figure_choice.hpp"
 #include "app/folder_place.hpp"
-#include "app/simulated_experiment.hpp"
+#include "app/formulation_choice.hpp"
+#include "app/json_file.hpp"
+#include "app/run_choice.hpp"
+#include "app/screen.hpp"
+#include "app/sensor_choice.hpp"
 #include "app/standard_output.hpp"
 #include "arm/input_error.hpp"
-#include "arm/nearest_name.hpp"
-#include "report/figures/gnuplot.hpp"
-#include "report/json/arm_json.hpp"
-#include "report/json/json_document.hpp"
-#include "report/tables/text_table.hpp"
+#include "experiment/simulated_experiment.hpp"
+#include "report/json/simulation_json.hpp"
+#include "report/measurement_folder.hpp"
+#include "report/progress.hpp"
+#include "report/tables/simulation_report.hpp"
+#include "report/tables/stepped_sine_report.hpp"
 #include "response/settings.hpp"
 
 #include <CLI/CLI.hpp>
@@ -16,9 +22,13 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace flexarm::app {
@@ -31,12 +41,14 @@ struct SimulateArguments {
   ArmChoice arm;
   RunChoice runs;
   SensorChoice sensors;
-  ExperimentOptions options;
+  experiment::ExperimentOptions options;
   std::string hold = "zero";
   std::vector<std::string> hidden_effects;
   std::string name;
   std::string folder;
+  FigureChoice figures;
   bool force = false;
+  bool verbose = false;
   std::string json_file;
 };
 
@@ -54,31 +66,13 @@ arm::Arm base_arm(const ArmChoice& choice) {
   return base.arms().front();
 }
 
-/// The arm with some of its effects, or all, left out.
-arm::Arm without_effects(const arm::Arm& arm, const std::vector<std::string>& hidden) {
-  arm::Arm seen = arm;
-  std::vector<std::string> names;
-  for (const auto& [name, effect] : arm.effects) names.push_back(name);
-  names.emplace_back("all");
-  for (const auto& name : hidden) {
-    if (name == "all") {
-      seen.effects.clear();
-    } else if (seen.effects.erase(name) == 0) {
-      throw arm::InputError(
-          fmt::format("--hide-effects {}: not an effect of the arm{}; its effects are {}",
-                      arm::shown(name), arm::did_you_mean(name, names),
-                      arm.effects.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
-    }
-  }
-  return seen;
-}
-
 void refuse_without_folder(const char* option, bool given) {
   if (given) throw arm::InputError(fmt::format("{}: needs --out FOLDER", option));
 }
 
 /// Throws for outputs that could not be written: before the work, not after it.
 void prepare(const SimulateArguments& arguments) {
+  arguments.figures.require_valid(arguments.folder);
   require_json_place(arguments.json_file, arguments.folder);
   if (arguments.folder.empty()) {
     refuse_without_folder("--force", arguments.force);
@@ -86,8 +80,21 @@ void prepare(const SimulateArguments& arguments) {
     refuse_without_folder("--name", !arguments.name.empty());
     return;
   }
-  report::run_gnuplot("");  // throws where there is none
   require_place(arguments.folder, arguments.force, measurement_folder_kind());
+}
+
+/// With a line of progress on standard error for each run.
+experiment::SimulatedExperiment simulate_with_progress(
+    const arm::Arm& arm, const std::vector<PlannedRun>& plan,
+    const std::vector<ChosenSensor>& sensors, const experiment::ExperimentOptions& options) {
+  const auto line_of = [](const std::string& label, std::size_t total) {
+    const auto line = std::make_shared<report::Progress>(label, static_cast<std::int64_t>(total));
+    return [line](double fraction) {
+      line->reach(fraction);
+      return true;
+    };
+  };
+  return experiment::simulate_experiment(arm, plan, sensors, options, line_of);
 }
 
 /// The numbers of excitations that samples could not take as they were typed.
@@ -99,8 +106,8 @@ std::string rounding_notes(const std::vector<PlannedRun>& plan) {
       changes.push_back(fmt::format("{} {} {} is {} {}", name, typed, unit, taken, unit));
     }
     if (changes.empty()) continue;
-    notes += report::to_paragraph(
-        fmt::format("note: {}: {}: rounded to whole samples", run.id, fmt::join(changes, ", ")));
+    notes += screen_note(
+        fmt::format("{}: {}: rounded to whole samples", run.id, fmt::join(changes, ", ")));
   }
   return notes;
 }
@@ -110,8 +117,8 @@ std::string standing_notes(const std::vector<report::SimulatedRun>& runs) {
   std::string notes;
   for (const auto& run : runs) {
     if (run.fall_rate_rad_per_s == 0.0) continue;
-    notes += report::to_paragraph(
-        fmt::format("note: {}: statically unstable (inverted) arm: undamped poles at s = +-{:.6g} "
+    notes += screen_note(
+        fmt::format("{}: statically unstable (inverted) arm: undamped poles at s = +-{:.6g} "
                     "rad/s; the equations hold for small angles only",
                     run.id, run.fall_rate_rad_per_s));
   }
@@ -119,14 +126,14 @@ std::string standing_notes(const std::vector<report::SimulatedRun>& runs) {
 }
 
 /// What the sampling does not show of the modes kept, once for each kind of run.
-std::string sampling_notes(const SimulatedExperiment& experiment) {
+std::string sampling_notes(const experiment::SimulatedExperiment& experiment) {
   std::string notes;
   for (const auto& run : experiment.runs) {
     const auto& summary = run.simulation.summary;
     if (summary.sampling == response::Sampling::fine) continue;
     const double period_s = measured::sampling_period_s(run.record);
-    notes += report::to_paragraph(fmt::format(
-        "note: {}: highest mode {:.4g} Hz has {:.3g} samples per period: {}. Sampled values are "
+    notes += screen_note(fmt::format(
+        "{}: highest mode {:.4g} Hz has {:.3g} samples per period: {}. Sampled values are "
         "exact. Use a sampling period of {:.2g} s or fewer modes.",
         run.id, 1.0 / (summary.samples_per_period * period_s), summary.samples_per_period,
         summary.sampling == response::Sampling::aliased
@@ -143,8 +150,8 @@ std::string settling_notes(const std::vector<report::SteppedSineRun>& runs) {
   for (const auto& run : runs) {
     const auto& summary = run.measured.summary;
     if (summary.unsettled == 0) continue;
-    notes += report::to_paragraph(
-        fmt::format("note: {}: at {} of {} frequencies the response changed by more than {:g} "
+    notes += screen_note(
+        fmt::format("{}: at {} of {} frequencies the response changed by more than {:g} "
                     "between the first and the last measured cycle (largest change {:.2g} at {} "
                     "Hz): remaining transient, or a motion that is not periodic with the sine",
                     run.id, summary.unsettled, run.measured.frequency_Hz.size(),
@@ -153,109 +160,99 @@ std::string settling_notes(const std::vector<report::SteppedSineRun>& runs) {
   return notes;
 }
 
-void print_runs_in_time(const std::vector<report::SimulatedRun>& runs, bool has_dry_friction) {
+/// The largest residual of the energy balances, relative to the work.
+std::string energy_line(const std::vector<report::SimulatedRun>& runs) {
+  double residual = 0.0;
+  for (const auto& run : runs) {
+    residual =
+        std::max(residual, std::abs(report::relative_energy_residual(run.simulation.energy)));
+  }
+  return screen_paragraph(
+      fmt::format("Energy balance: largest residual {:.1e} of the work of the torque.", residual));
+}
+
+/// A table whose last column says in a sentence what excites each run: the sentences below it.
+std::string with_sentences_below(report::Table table) {
+  std::string sentences;
+  for (auto& row : table.rows) {
+    sentences += screen_paragraph(fmt::format("{}: {}", std::get<std::string>(row.front()),
+                                              std::get<std::string>(row.back())),
+                                  2);
+    row.pop_back();
+  }
+  table.columns.pop_back();
+  return screen_table(table) + sentences + "\n";
+}
+
+void print_runs_in_time(const std::vector<report::SimulatedRun>& runs, bool has_dry_friction,
+                        bool verbose) {
   if (runs.empty()) return;
-  print(report::to_text(report::torque_table(runs)) + "\n");
-  print(report::to_text(report::reading_table(runs), {.key_columns = 2}) + "\n");
-  print(report::to_text(report::energy_table(runs)) + "\n");
-  if (has_dry_friction) print(report::to_text(report::hub_motion_table(runs)) + "\n");
+  print(screen_table(report::reading_table(runs), 2));
+  if (has_dry_friction) print(screen_table(report::hub_motion_table(runs)));
+  print(with_sentences_below(report::torque_table(runs)));
+  print(verbose ? screen_table(report::energy_table(runs)) : energy_line(runs) + "\n");
 }
 
 void print_stepped_runs(const std::vector<report::SteppedSineRun>& runs, bool has_dry_friction) {
   if (runs.empty()) return;
-  print(report::to_text(report::stepped_sine_table(runs)) + "\n");
-  print(report::to_text(report::stepped_response_table(runs), {.key_columns = 2}) + "\n");
-  if (has_dry_friction) print(report::to_text(report::stepped_hub_motion_table(runs)) + "\n");
+  print(screen_table(report::stepped_response_table(runs), 2));
+  if (has_dry_friction) print(screen_table(report::stepped_hub_motion_table(runs)));
+  print(with_sentences_below(report::stepped_sine_table(runs)));
 }
 
 void print_results(const SimulateArguments& arguments, const std::vector<PlannedRun>& plan,
-                   const SimulatedExperiment& experiment, bool has_dry_friction) {
+                   const experiment::SimulatedExperiment& experiment, bool has_dry_friction) {
   const auto& runs = experiment.runs;
-  const char* hold =
-      arguments.options.hold == response::TorqueHold::zero ? "zero-order hold" : "first-order hold";
-  print(fmt::format(
-      "by {}, {} flexible mode{}{}{}\n",
-      response::formulation_label(experiment.model, experiment.settings), experiment.modes,
-      experiment.modes == 1 ? "" : "s",
-      arguments.options.static_correction ? " and a residual mode" : "",
-      runs.empty() ? "" : fmt::format("; {} of the torque, initial state at rest", hold)));
-  if (experiment.modes < arguments.options.modes) {
-    print(fmt::format("{} of {} modes: {} has {} degrees of freedom\n", experiment.modes,
-                      arguments.options.modes, experiment.model, experiment.degrees_of_freedom));
-  }
-  print("\n");
-  print_runs_in_time(runs, has_dry_friction);
+  print_runs_in_time(runs, has_dry_friction, arguments.verbose);
   print_stepped_runs(experiment.stepped_runs, has_dry_friction);
   const std::string notes = rounding_notes(plan) + standing_notes(runs) +
                             sampling_notes(experiment) + settling_notes(experiment.stepped_runs);
   if (!notes.empty()) print(notes + "\n");
 }
 
-/// Throws unless the sensors that controllers read are simulated.
-void require_read_sensors(const std::vector<PlannedRun>& plan,
-                          const std::vector<ChosenSensor>& sensors) {
-  for (const auto& run : plan) {
-    if (!run.controller) continue;
-    for (const auto& sensor : run.controller->sensors) {
-      if (std::ranges::count(sensors, sensor, &ChosenSensor::sensor) > 0) continue;
-      throw arm::InputError(fmt::format("--controller: reads {}, which is not among --sensor",
-                                        arm::to_string(sensor)));
-    }
+/// The arm and the model that it was simulated with.
+void print_model(const SimulateArguments& arguments, const arm::Arm& arm,
+                 const experiment::SimulatedExperiment& experiment) {
+  const char* hold =
+      arguments.options.hold == response::TorqueHold::zero ? "zero-order hold" : "first-order hold";
+  print(describe(arm));
+  print(screen_paragraph(fmt::format(
+      "by {}, {} flexible mode{}{}{}",
+      response::formulation_label(experiment.model, experiment.settings), experiment.modes,
+      experiment.modes == 1 ? "" : "s",
+      arguments.options.static_correction ? " and a residual mode" : "",
+      experiment.runs.empty() ? ""
+                              : fmt::format("; {} of the torque, initial state at rest", hold))));
+  if (experiment.modes < arguments.options.modes) {
+    print(screen_note(fmt::format("{} of {} modes: {} has {} degrees of freedom", experiment.modes,
+                                  arguments.options.modes, experiment.model,
+                                  experiment.degrees_of_freedom)));
   }
-}
-
-/// Throws for options that a stepped sine has no use for.
-void require_fitting(const SimulateArguments& arguments, const std::vector<PlannedRun>& plan) {
-  const auto stepped =
-      std::ranges::find_if(plan, [](const auto& run) { return run.stepped_sine.has_value(); });
-  if (stepped == plan.end() || !arguments.options.check_step) return;
-  throw arm::InputError(
-      fmt::format("--check-step: only for time runs; {} is a stepped sine", stepped->id));
-}
-
-std::string json_text(const SimulateArguments& arguments, const arm::Arm& arm,
-                      const SimulatedExperiment& experiment) {
-  return report::json_document(
-      "flexarm.simulate/1", {{"arm", report::arm_json(arm)},
-                             {"model", experiment.model},
-                             {"settings", experiment.settings},
-                             {"modes", experiment.modes},
-                             {"static_correction", arguments.options.static_correction},
-                             {"torque_hold", arguments.hold},
-                             {"runs", report::runs_json(experiment.runs)},
-                             {"stepped_runs", report::stepped_runs_json(experiment.stepped_runs)}});
+  print("\n");
 }
 
 int run_simulate(SimulateArguments arguments) {
   auto& options = arguments.options;
-  if (options.modes < 1) throw arm::out_of_range("--modes", options.modes, "", "1 or more");
-  if (options.substeps < 0 || options.substeps > response::kMostSubsteps) {
-    throw arm::out_of_range("--substeps", options.substeps, "",
-                            fmt::format("from 0 to {}", response::kMostSubsteps));
-  }
   options.hold = read_hold(arguments.hold);
   options.noise_seed = arguments.runs.seed;
   const arm::Arm arm = base_arm(arguments.arm);
-  const arm::Arm written = without_effects(arm, arguments.hidden_effects);
+  const arm::Arm written =
+      experiment::with_hidden_effects(arm, arguments.hidden_effects, "--hide-effects");
   const auto sensors = arguments.sensors.sensors(arm);
   const auto plan = arguments.runs.runs(arm, arguments.arm.payload_masses_kg);
-  require_fitting(arguments, plan);
-  require_read_sensors(plan, sensors);
+  experiment::require_valid(options, plan, sensors, arm::on_command_line);
   prepare(arguments);
 
-  const auto experiment = simulate_experiment(arm, plan, sensors, options);
+  const auto experiment = simulate_with_progress(arm, plan, sensors, options);
   // Files first: a reader of standard output that goes away costs none of them.
   if (!arguments.folder.empty()) {
-    const std::string otherwise = arm.name.empty() ? "simulated" : arm.name + ", simulated";
-    const std::string name = arguments.name.empty() ? otherwise : arguments.name;
-    measured::write_folder_atomically(
-        arguments.folder, measurement_folder(name, written, plan, experiment, options.hold),
-        arguments.force ? measured::IfExists::replace : measured::IfExists::refuse);
+    const std::string name = arguments.name.empty() ? report::simulated_name(arm) : arguments.name;
+    write_folder(arguments.folder, arguments.force,
+                 report::measurement_folder(name, written, plan, experiment, options.hold,
+                                            arguments.figures.options()));
   }
-  if (!arguments.json_file.empty()) {
-    measured::write_atomically(arguments.json_file, json_text(arguments, arm, experiment));
-  }
-  print(describe(arm));
+  write_json(arguments.json_file, report::simulation_document(arm, experiment, options));
+  print_model(arguments, arm, experiment);
   print_results(arguments, plan, experiment, !response::take_apart(arm).hub.friction.empty());
   if (arguments.folder.empty()) {
     print(fmt::format("next: write it as a measurement with  flexarm simulate{} --out simulated\n",
@@ -303,13 +300,18 @@ Command add_simulate(CLI::App& program) {
                    "tests of a diagnosis")
       ->delimiter(',')
       ->allow_extra_args(false);
+  add_verbose(*parser, arguments->verbose,
+              "Print the parameters of each excitation and the energy balance");
   parser->add_option("--name", arguments->name, "Name of the measurement");
   parser
       ->add_option("--out", arguments->folder,
                    "Folder for measurement.toml, arm.toml, and a CSV file and figures for each run")
       ->check(not_empty());
   parser->add_flag("--force", arguments->force, "Overwrite the measurement in the folder");
-  parser->add_option("--json", arguments->json_file, "JSON file, full precision")
+  add_figure_choice(*parser, arguments->figures);
+  parser
+      ->add_option("--json", arguments->json_file,
+                   "JSON file, full precision; - for standard output")
       ->check(not_empty());
   parser->footer(
       example("flexarm simulate rig.toml --excitation bang-bang:amplitude=0.2,pulse=0.4 "

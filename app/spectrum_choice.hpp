@@ -1,10 +1,6 @@
 #pragma once
 
-#include "measured/modal/peaks.hpp"
-#include "measured/spectra/spectrum_settings.hpp"
-
-#include <optional>
-#include <string>
+#include "compare/identification_task.hpp"
 
 namespace CLI {
 class App;
@@ -12,22 +8,7 @@ class App;
 
 namespace flexarm::app {
 
-/// How spectra are estimated and their peaks read off; what is not given is chosen from the data.
-struct SpectrumChoice {
-  std::string window;
-  std::optional<double> resolution_Hz;
-  std::optional<double> overlap;
-  std::string detrend;
-  std::string peaks = "between";
-
-  /// A window, resolution, overlap or trend makes segments of a periodic torque, too. Throws
-  /// InputError.
-  measured::SpectrumSettings settings() const;
-  /// Throws InputError.
-  measured::PeakPlace place() const;
-};
-
 /// Adds `--window`, `--resolution`, `--overlap`, `--detrend` and `--peaks`.
-void add_spectrum_choice(CLI::App& parser, SpectrumChoice& choice);
+void add_spectrum_choice(CLI::App& parser, compare::SpectrumRequest& choice);
 
 }  // namespace flexarm::app

@@ -6,7 +6,22 @@
 
 namespace flexarm::app {
 
+namespace {
+
+/// Of the program, as standard output is.
+bool is_reserved = false;
+
+}  // namespace
+
+void reserve_standard_output() {
+  is_reserved = true;
+}
+
 void print(std::string_view text) {
+  if (!is_reserved) print_document(text);
+}
+
+void print_document(std::string_view text) {
   const bool written =
       std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
   if (written) return;

@@ -13,4 +13,10 @@ struct OutputClosed : std::exception {};
 /// failure (a full disk).
 void print(std::string_view text);
 
+/// From now on `print` writes nothing: standard output is for `print_document`.
+void reserve_standard_output();
+
+/// As `print`, whether it is reserved or not.
+void print_document(std::string_view document);
+
 }  // namespace flexarm::app

@@ -66,8 +66,7 @@ std::string effects_text() {
       "# Effect library:\n"
       "#\n";
   for (const auto& effect : effects::vocabulary()) {
-    out +=
-        fmt::format("# {}: {}\n#     {}\n", effect->name, keys_of(*effect), effect->meaning);
+    out += fmt::format("# {}: {}\n#     {}\n", effect->name, keys_of(*effect), effect->meaning);
   }
   return out;
 }
@@ -94,8 +93,7 @@ std::string unfilled_text() {
       if (key.table != table) continue;
       fmt::format_to(std::back_inserter(out), "{:<28} # [{}] {}{}; e.g. {}\n",
                      fmt::format("# {} =", key.leaf), key.unit, key.meaning,
-                     key.required ? "; required" : "",
-                     measured::toml_number(*key.get(example)));
+                     key.required ? "; required" : "", measured::toml_number(*key.get(example)));
     }
   }
   return out + effects_text();

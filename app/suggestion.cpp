@@ -1,5 +1,6 @@
 #include "app/suggestion.hpp"
 
+#include "arm/decimal_comma.hpp"
 #include "arm/input_error.hpp"
 #include "arm/nearest_name.hpp"
 
@@ -43,6 +44,9 @@ std::string explain(const CLI::App& program, const CLI::ParseError& error) {
     // Some of the library's messages run over several lines.
     std::string what = error.what();
     std::ranges::replace(what, '\n', ' ');
+    if (dynamic_cast<const CLI::ConversionError*>(&error) != nullptr) {
+      what += arm::decimal_comma_hint(what.substr(what.rfind(' ') + 1));
+    }
     return fmt::format("{}; see {}", what, help);
   }
   // "--name=value" was meant as "--name".

@@ -1,7 +1,11 @@
 #include "app/arm_choice.hpp"
 #include "app/command.hpp"
 #include "app/interruption.hpp"
+#include "app/json_file.hpp"
+#include "app/list_option.hpp"
 #include "app/output_choice.hpp"
+#include "app/report_choice.hpp"
+#include "app/screen.hpp"
 #include "app/standard_output.hpp"
 #include "app/version.hpp"
 #include "arm/input_error.hpp"
@@ -9,13 +13,12 @@
 #include "compare/paper/paper_sweeps.hpp"
 #include "compare/sweeps/sweep_result.hpp"
 #include "measured/files/atomic_file.hpp"
-#include "report/figures/svg.hpp"
 #include "report/figures/sweep_figures.hpp"
 #include "report/json/sweep_json.hpp"
+#include "report/page/sweep_page.hpp"
 #include "report/progress.hpp"
 #include "report/tables/csv.hpp"
 #include "report/tables/sweep_tables.hpp"
-#include "report/tables/text_table.hpp"
 #include "response/arm_parts.hpp"
 #include "response/formulation_maker.hpp"
 
@@ -56,7 +59,9 @@ struct SweepArguments {
   compare::SweepTolerances tolerances;
   int threads = 0;
   bool resume = false;
+  bool verbose = false;
   OutputChoice output;
+  ReportChoice report;
 };
 
 arm::Arm arm_of(const SweepArguments& arguments) {
@@ -146,11 +151,34 @@ compare::SweepTask task_of(const SweepArguments& arguments) {
   return task;
 }
 
+constexpr const char* kCheckpoint = "sweep.checkpoint";
+
+FolderKind sweep_folder_kind() {
+  return {"a sweep",
+          {"sweep.csv", "figure-18.csv", "figure-19.csv", kCheckpoint},
+          {".csv", ".svg", ".pdf", ".png", ".json", ".html", ".checkpoint"}};
+}
+
 /// Beside the output, or nowhere.
 fs::path checkpoint_of(const OutputChoice& output) {
-  if (!output.folder.empty()) return fs::path(output.folder) / "sweep.checkpoint";
-  if (!output.json_file.empty()) return output.json_file + ".checkpoint";
-  return {};
+  if (!output.folder.empty()) return fs::path(output.folder) / kCheckpoint;
+  const bool has_file = !output.json_file.empty() && !is_standard_output(output.json_file);
+  return has_file ? output.json_file + ".checkpoint" : "";
+}
+
+/// The folder of an interrupted sweep is continued with --resume, or begun anew with --force.
+void prepare(const OutputChoice& output, bool resume) {
+  OutputChoice chosen = output;
+  const bool is_interrupted = !output.folder.empty() && has_only(output.folder, kCheckpoint);
+  if (is_interrupted && !resume && !output.force) {
+    throw arm::InputError(
+        fmt::format("{}: has the checkpoint of an interrupted sweep; --resume continues it, "
+                    "--force begins anew",
+                    arm::shown(output.folder)));
+  }
+  if (is_interrupted) chosen.force = true;
+  chosen.prepare(sweep_folder_kind());
+  if (!output.folder.empty()) measured::make_folder(output.folder);  // for the checkpoint
 }
 
 compare::SweepResult run_task(const compare::SweepTask& task, const SweepArguments& arguments,
@@ -180,44 +208,48 @@ void say_interrupted(const compare::SweepInterrupted& interrupted, const fs::pat
   std::fwrite(line.data(), 1, line.size(), stderr);
 }
 
-void print_result(const compare::SweepResult& result, const arm::Arm& full_arm) {
-  print(describe(full_arm));
-  print(left_out_of_roots(full_arm));
-  print("\n" + report::sweep_axes_lines(result) + "\n");
-  print(report::to_text(report::sweep_models_table(result)) + "\n");
-  for (const auto& table : report::sweep_range_tables(result)) print(report::to_text(table) + "\n");
+std::string verdict_paragraph(const compare::SweepResult& result) {
+  const std::string text = screen_paragraph(report::sweep_verdict_line(result));
+  const std::string word = text.substr(0, text.find_first_of(": "));
+  return toned(text, word, result.agrees() ? Tone::good : Tone::bad) + "\n";
+}
+
+void print_result(const compare::SweepResult& result, const arm::Arm& full_arm, bool verbose) {
+  std::string text = result.agreement.empty() ? "" : verdict_paragraph(result);
+  if (!result.agrees() && !verbose) text += screen_table(report::sweep_agreement_table(result));
+  text += describe(full_arm) + left_out_of_roots(full_arm) + "\n";
+  text += screen_paragraph(report::sweep_axes_lines(result)) + "\n";
+  for (const auto& table : report::sweep_range_tables(result)) text += screen_table(table);
   if (!result.events.empty()) {
-    constexpr report::TextOptions kSensorAndTrack{.key_columns = 2};
-    print(report::to_text(report::sweep_events_table(result, kEventsPrinted), kSensorAndTrack));
-    if (result.events.size() > kEventsPrinted) {
-      print(fmt::format("... and {} more, in --out and --json\n",
-                        result.events.size() - kEventsPrinted));
-    }
-    print("\n");
+    text += screen_rows(report::sweep_events_table(result, result.events.size()),
+                        verbose ? kAllRows : kEventsPrinted, "--verbose, --out or --json", 2);
   }
-  if (result.agreement.empty()) return;
-  print(report::to_text(report::sweep_agreement_table(result)) + "\n");
-  print(report::sweep_verdict_line(result) + "\n");
+  if (verbose) {
+    for (const auto& table : report::sweep_mode_tables(result)) text += screen_table(table);
+    text += screen_table(report::sweep_models_table(result));
+    text += screen_table(report::sweep_agreement_table(result));
+  }
+  print(text);
 }
 
-void write_figure(const fs::path& folder, int number, const compare::PaperSweep& figure,
-                  const compare::SweepResult& result) {
-  const std::string name = fmt::format("figure-{}", number);
-  measured::write_atomically(folder / (name + ".csv"), report::sweep_csv(result));
-  measured::write_atomically(folder / (name + ".svg"),
-                             report::to_svg(report::paper_sweep_figure(figure, result)));
+std::vector<measured::NamedContent> paper_files(const SweepArguments& arguments,
+                                                const compare::PaperSweep& figure,
+                                                const compare::SweepResult& result) {
+  const std::string name = fmt::format("figure-{}", *arguments.figure);
+  std::vector<measured::NamedContent> files = {{name + ".csv", report::sweep_csv(result)}};
+  arguments.output.figures.add_to(files, "", {{name, report::paper_sweep_figure(figure, result)}});
+  return files;
 }
 
-void write_folder(const fs::path& folder, const compare::SweepResult& result) {
+std::vector<measured::NamedContent> sweep_files(const SweepArguments& arguments,
+                                                const compare::SweepResult& result) {
   constexpr auto kAll = std::numeric_limits<std::size_t>::max();
-  measured::write_atomically(folder / "sweep.csv", report::sweep_csv(result));
-  measured::write_atomically(folder / "events.csv",
-                             report::to_csv(report::sweep_events_table(result, kAll)));
-  measured::write_atomically(folder / "agreement.csv",
-                             report::to_csv(report::sweep_agreement_table(result)));
-  for (const auto& [file, svg] : report::sweep_plots(result)) {
-    measured::write_atomically(folder / file, svg);
-  }
+  std::vector<measured::NamedContent> files = {
+      {"sweep.csv", report::sweep_csv(result)},
+      {"events.csv", report::to_csv(report::sweep_events_table(result, kAll))},
+      {"agreement.csv", report::to_csv(report::sweep_agreement_table(result))}};
+  arguments.output.figures.add_to(files, "", report::sweep_plots(result));
+  return files;
 }
 
 std::string next_step(const SweepArguments& arguments) {
@@ -228,7 +260,7 @@ std::string next_step(const SweepArguments& arguments) {
   }
   if (arguments.figure) {
     return fmt::format(
-        "next: write the figure as SVG and CSV with  flexarm sweep{} --figure {} --out figures\n",
+        "next: write the figure and its values with  flexarm sweep{} --figure {} --out figures\n",
         arm, *arguments.figure);
   }
   return fmt::format(
@@ -255,8 +287,8 @@ int run_sweep(const SweepArguments& arguments) {
   const auto task = figure ? figure->task : task_of(arguments);
   refuse_swept(arguments.arm, task.axes);
   compare::require_valid(task);
-  if (!arguments.resume)
-    arguments.output.prepare();  // else a checkpoint is there, or it is refused
+  prepare(arguments.output, arguments.resume);
+  arguments.report.prepare(arguments.output.folder);
 
   const Interruption interruption;
   compare::SweepResult result;
@@ -266,19 +298,19 @@ int run_sweep(const SweepArguments& arguments) {
     say_interrupted(interrupted, checkpoint);
     interruption.end_program();
   }
-  if (!arguments.output.folder.empty()) {
-    if (figure) {
-      write_figure(arguments.output.folder, *arguments.figure, *figure, result);
-    } else {
-      write_folder(arguments.output.folder, result);
-    }
+  if (const auto& folder = arguments.output.folder; !folder.empty()) {
+    const bool is_begun = has_only(folder, kCheckpoint);
+    write_folder(folder, arguments.output.force || is_begun,
+                 figure ? paper_files(arguments, *figure, result) : sweep_files(arguments, result));
   }
-  if (!arguments.output.json_file.empty()) {
-    measured::write_atomically(arguments.output.json_file, report::sweep_json(result));
+  write_json(arguments.output.json_file, report::sweep_json(result));
+  if (arguments.report.is_given()) {
+    arguments.report.write(
+        report::page::sweep_page(result, page_origin(subject_of(arguments.arm))));
   }
   if (!checkpoint.empty()) fs::remove(checkpoint);
-  print_result(result, arguments.arm.arms().front());
-  print(next_step(arguments));
+  print_result(result, arguments.arm.arms().front(), arguments.verbose);
+  print(next_step(arguments) + arguments.report.last_line());
   return result.agrees() ? kSuccess : kFailure;
 }
 
@@ -305,11 +337,8 @@ Command add_sweep(CLI::App& program) {
   parser->add_option("--poles", arguments->poles, "Number of poles, modes and hub zeros [5]");
   parser->add_option("--zeros", arguments->zeros,
                      "Number of zeros of each non-collocated sensor [4]");
-  parser
-      ->add_option("--sensor", arguments->sensors,
-                   "Sensors whose zeros are tracked [hub_angle,tip_acceleration]")
-      ->delimiter(',')
-      ->allow_extra_args(false);
+  add_list_option(*parser, "--sensor", arguments->sensors,
+                  "Sensors whose zeros are tracked [hub_angle,tip_acceleration]");
   parser->add_flag("--roots-only", arguments->roots_only,
                    "Skip hub slopes, end-point values and damping");
   parser
@@ -318,9 +347,12 @@ Command add_sweep(CLI::App& program) {
       ->capture_default_str();
   parser->add_option("--threads", arguments->threads, "Maximum number of threads; 0: one per core")
       ->capture_default_str();
+  add_verbose(*parser, arguments->verbose,
+              "Print hub slopes, end-point values, models and the agreement of each quantity");
   parser->add_flag("--resume", arguments->resume,
                    "Resume an interrupted sweep from its checkpoint");
-  add_output_choice(*parser, arguments->output, "Folder for CSV tables and SVG plots");
+  add_output_choice(*parser, arguments->output, "Folder for CSV tables and figures");
+  add_report_choice(*parser, arguments->report);
   parser->footer("Exit status: 0 the formulations agree; 1 they do not; 2 unusable input.\n" +
                  example("flexarm sweep rig.toml --over payload.mass=0:0.5:50 --out swept"));
   return {parser, [arguments] { return run_sweep(*arguments); }};

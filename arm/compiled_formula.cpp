@@ -1,5 +1,6 @@
 #include "arm/compiled_formula.hpp"
 
+#include "arm/decimal_comma.hpp"
 #include "arm/formula_syntax.hpp"
 #include "arm/input_error.hpp"
 #include "arm/nearest_name.hpp"
@@ -218,7 +219,8 @@ CompiledFormula::CompiledFormula(const std::string& text, const std::vector<std:
   parsers_ = std::make_unique<Parsers>(Parsers{reader.read(), numbers});
   try {
     if (parsers_->mine().results() != 1) {
-      throw InputError("has several values between commas; must have one");
+      throw InputError("has several values between commas; must have one" +
+                       decimal_comma_hint(text));
     }
   } catch (const mu::ParserError& error) {
     // Errors of a token come with the place behind it or in front of it.

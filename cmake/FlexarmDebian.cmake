@@ -1,5 +1,6 @@
-# Debian packages by CPack, one for each component: `flexarm` (program) and `libflexarm-dev`
-# (development). scripts/package makes and checks them.
+# Debian packages by CPack, one for each component: `flexarm` (program), `libflexarm-dev`
+# (development) and, where the module is built, `python3-flexarm` (python). scripts/package makes and
+# checks them.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_CONTACT "The flexarm authors <flexarm@example.org>")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
@@ -22,11 +23,25 @@ experiments, and names the physical effects that a simulation lacks.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libflexarm-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-  "libeigen3-dev, libspectra-dev, libsuitesparse-dev, libmatio-dev, zlib1g-dev, libboost-dev, libflint-dev, libflint-arb-dev, libtomlplusplus-dev, nlohmann-json3-dev, libfmt-dev, libmuparser-dev, libtbb-dev, libnlopt-dev, libnlopt-cxx-dev")
+  "libeigen3-dev, libspectra-dev, libsuitesparse-dev, libmatio-dev, libzip-dev, zlib1g-dev, libboost-dev, libflint-dev, libflint-arb-dev, libtomlplusplus-dev, nlohmann-json3-dev, libfmt-dev, libmuparser-dev, libtbb-dev, libnlopt-dev, libnlopt-cxx-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION
   "The static libraries and headers behind the program flexarm: formulations,
 responses, identification and diagnosis, with a CMake package and a file for
 pkg-config.")
+
+if(TARGET _flexarm)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-flexarm)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+  # The extension is of one version of the interpreter.
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.11), python3 (<< 3.12), python3-numpy")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS gnuplot-nox)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-scipy, python3-xarray")
+  set(CPACK_DEBIAN_PYTHON_DESCRIPTION
+    "Arms, formulations, responses, simulation, identification, diagnosis and
+planning of flexarm from Python, with NumPy, SciPy and xarray.")
+endif()
 
 # What a Debian package has to say of itself.
 string(TIMESTAMP changed "%a, %d %b %Y %H:%M:%S +0000" UTC)
@@ -46,5 +61,8 @@ function(flexarm_debian_documents component package)
 endfunction()
 flexarm_debian_documents(program flexarm)
 flexarm_debian_documents(development libflexarm-dev)
+if(TARGET _flexarm)
+  flexarm_debian_documents(python python3-flexarm)
+endif()
 
 include(CPack)

@@ -28,6 +28,13 @@ add_library(flexarm_matio INTERFACE)
 target_include_directories(flexarm_matio SYSTEM INTERFACE "${MATIO_INCLUDE_DIR}")
 target_link_libraries(flexarm_matio INTERFACE "${MATIO_LIBRARY}")
 
+# Its own package file asks for programs that Debian has in packages of their own.
+find_path(ZIP_INCLUDE_DIR zip.h REQUIRED)
+find_library(ZIP_LIBRARY zip REQUIRED)
+add_library(flexarm_zip INTERFACE)
+target_include_directories(flexarm_zip SYSTEM INTERFACE "${ZIP_INCLUDE_DIR}")
+target_link_libraries(flexarm_zip INTERFACE "${ZIP_LIBRARY}")
+
 find_path(ARB_INCLUDE_DIR acb.h REQUIRED)
 find_path(FLINT_INCLUDE_DIR flint/flint.h REQUIRED)
 find_library(ARB_LIBRARY NAMES flint-arb arb REQUIRED)

@@ -1,12 +1,17 @@
-# flexarm_room(NAME USES ... LIBRARIES ... [SOURCES ...] [BRIEF])
+# flexarm_room(NAME USES ... LIBRARIES ... [SOURCES ...] [EXCEPT folder] [BRIEF])
 #   One static library `flexarm_NAME` (alias flexarm::NAME) of every source and header below the
 #   room's folder; SOURCES names generated ones. USES names other rooms, LIBRARIES outside
 #   libraries; both are visible to whoever links the room, here or from an installed flexarm.
+#   EXCEPT is a folder of the room that is another target.
 #   BRIEF is for a room that does not compute, and need not be optimised in full.
 function(flexarm_room name)
-  cmake_parse_arguments(ROOM "BRIEF" "" "SOURCES;USES;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(ROOM "BRIEF" "EXCEPT" "SOURCES;USES;LIBRARIES" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS *.cpp)
   file(GLOB_RECURSE headers CONFIGURE_DEPENDS *.hpp)
+  if(ROOM_EXCEPT)
+    list(FILTER sources EXCLUDE REGEX "/${ROOM_EXCEPT}/")
+    list(FILTER headers EXCLUDE REGEX "/${ROOM_EXCEPT}/")
+  endif()
   set(target flexarm_${name})
   add_library(${target} STATIC ${sources} ${ROOM_SOURCES})
   add_library(flexarm::${name} ALIAS ${target})

@@ -3,6 +3,7 @@
 #include "arm/input_error.hpp"
 #include "arm/linear_arm.hpp"
 #include "assumed_modes/basis_report.hpp"
+#include "compare/damped_roots.hpp"
 #include "compare/finding.hpp"
 #include "compare/standard_models.hpp"
 #include "response/arm_parts.hpp"
@@ -97,6 +98,25 @@ void add_roots(const std::vector<Subject>& subjects, const FeatureFamily& family
   }
 }
 
+void add_damped_roots(const std::vector<Subject>& subjects, const Options& options,
+                      Comparison& comparison) {
+  if (!arm::linear_arm(comparison.arm).is_damped()) return;
+  for (std::size_t k = 0; k < subjects.size(); ++k) {
+    const auto& formulation = subjects[k].formulation;
+    DampedRoots damped{poles_with_damping(formulation, options.poles), {}};
+    for (const auto& sensor : options.sensors) {
+      std::vector<std::complex<double>> undamped;
+      for (const auto& row : comparison.roots) {
+        if (row.family.zeros_of == sensor && row.s_rad_per_s[k]) {
+          undamped.push_back(*row.s_rad_per_s[k]);
+        }
+      }
+      damped.zeros_rad_per_s.push_back(zeros_with_damping(formulation, sensor, undamped));
+    }
+    comparison.damped.push_back(std::move(damped));
+  }
+}
+
 void add_shapes(const std::vector<Subject>& subjects, const Options& options,
                 Comparison& comparison, Steps& steps) {
   comparison.stations_m = shape_stations_m(arm::linear_arm(comparison.arm).length_m);
@@ -143,7 +163,8 @@ void add_response(const std::vector<Subject>& subjects, const arm::Sensor& senso
   std::vector<response::AnyFormulation> formulations;
   for (const auto& subject : subjects) formulations.push_back(subject.formulation);
   auto response = compare_responses(
-      formulations, sensor, response_grid_Hz(poles_Hz, options.response_points), features_Hz);
+      formulations, sensor, response_grid_Hz(poles_Hz, options.response_points, features_Hz),
+      features_Hz);
   for (std::size_t b = 1; b < subjects.size(); ++b) {
     comparison.findings.push_back({fmt::format("{} response at {:.4g} Hz", arm::to_string(sensor),
                                                response.largest_error_frequency_Hz[b]),
@@ -170,6 +191,7 @@ Comparison compare_subjects(const std::vector<Subject>& subjects, const Options&
   for (const auto& family : families(options)) {
     add_roots(subjects, family, options, comparison, steps);
   }
+  add_damped_roots(subjects, options, comparison);
   add_shapes(subjects, options, comparison, steps);
   for (const auto& sensor : options.sensors) {
     add_response(subjects, sensor, options, comparison, steps);

@@ -62,6 +62,12 @@ struct FamilyNote {
   arm::RootCount count;
 };
 
+/// Roots of the arm with its damping, both of each pair [rad/s].
+struct DampedRoots {
+  std::vector<std::complex<double>> poles_rad_per_s;
+  std::vector<std::vector<std::complex<double>>> zeros_rad_per_s;  ///< [sensor of the responses]
+};
+
 struct Comparison {
   arm::Arm arm;
   std::vector<std::string> subjects;
@@ -69,6 +75,7 @@ struct Comparison {
   std::vector<int> degrees_of_freedom;  ///< [subject]
   std::vector<RootRow> roots;           ///< family by family, ascending
   std::vector<FamilyNote> notes;
+  std::vector<DampedRoots> damped;  ///< [subject]; none of an arm without damping
   std::vector<double> stations_m;
   std::vector<std::vector<arm::Mode>> modes;  ///< [subject][order], displacements at stations_m
   std::vector<ShapeAgreement> shapes;         ///< of every subject but the first

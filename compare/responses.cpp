@@ -1,6 +1,9 @@
 #include "compare/responses.hpp"
 
+#include "response/frequency/frequency_grid.hpp"
+
 #include <cmath>
+#include <complex>
 #include <cstddef>
 #include <limits>
 #include <numbers>
@@ -18,14 +21,16 @@ bool is_off_resonance(double frequency_Hz, const std::vector<double>& features_H
 
 }  // namespace
 
-std::vector<double> response_grid_Hz(const std::vector<double>& pole_frequency_Hz, int points) {
-  const double first = std::log(0.1 * pole_frequency_Hz.front());
-  const double last = std::log((1.0 - kOffResonance) * pole_frequency_Hz.back());
-  std::vector<double> grid;
-  for (int i = 0; i < points; ++i) {
-    grid.push_back(std::exp(first + (last - first) * i / (points - 1)));
+std::vector<double> response_grid_Hz(const std::vector<double>& pole_frequency_Hz, int points,
+                                     const std::vector<double>& features_Hz) {
+  std::vector<std::complex<double>> features_rad_per_s;
+  for (const double feature_Hz : features_Hz) {
+    features_rad_per_s.emplace_back(0.0, 2.0 * std::numbers::pi * feature_Hz);
   }
-  return grid;
+  return response::refined_frequencies({.from_Hz = 0.1 * pole_frequency_Hz.front(),
+                                        .to_Hz = (1.0 - kOffResonance) * pole_frequency_Hz.back(),
+                                        .points = points},
+                                       features_rad_per_s);
 }
 
 ResponseComparison compare_responses(const std::vector<response::AnyFormulation>& formulations,

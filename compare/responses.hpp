@@ -30,8 +30,10 @@ struct ResponseComparison {
 inline constexpr double kOffResonance = 0.02;
 
 /// Log-spaced frequencies [Hz] from a tenth of the lowest pole to just below the highest one, where
-/// it is off resonance: the range that the poles compared speak for.
-std::vector<double> response_grid_Hz(const std::vector<double>& pole_frequency_Hz, int points);
+/// it is off resonance: the range that the poles compared speak for. Further ones on both sides of
+/// each of `features_Hz`, closer the nearer, so that peaks and notches are resolved.
+std::vector<double> response_grid_Hz(const std::vector<double>& pole_frequency_Hz, int points,
+                                     const std::vector<double>& features_Hz = {});
 
 /// `features_Hz`: the undamped poles and imaginary zeros of this sensor, for `kOffResonance`.
 ResponseComparison compare_responses(const std::vector<response::AnyFormulation>& formulations,

@@ -357,6 +357,7 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
   if (filtered.predictor().noise() && !is_over(options.deadline)) {
     made.prediction_errors = prediction_errors(filtered, experiment.arm, made.extended_arm);
   }
+  made.posterior = posterior_sets(predicted, options);
   made.formulations = check_formulations(made.extended_arm, scales_of(experiment).sensors);
   if (is_open && !is_over(options.deadline)) {
     made.near_misses = near_misses(predicted, judged);

@@ -3,6 +3,7 @@
 #include "diagnose/cause.hpp"
 #include "diagnose/formulation_check.hpp"
 #include "diagnose/planning/next_experiments.hpp"
+#include "diagnose/posterior_sets.hpp"
 #include "diagnose/prediction_errors.hpp"
 #include "diagnose/search/predictor_choice.hpp"
 #include "diagnose/symptoms/symptoms.hpp"
@@ -63,6 +64,8 @@ struct Overlay {
 struct Diagnosis {
   Verdict verdict = Verdict::adequate;
   std::vector<Cause> causes;  ///< in order of what each explains
+  /// What the extended arm may be by these data, with the joint distribution of the estimates.
+  std::vector<PosteriorSet> posterior = {};
   double something_else = 0.0;  ///< posterior probability of it, beside causes or by itself
   PredictorKind predictor = PredictorKind::output_error;  ///< that the causes were named by
   std::string predictor_reason;  ///< a sentence; empty without `time` runs

@@ -1,7 +1,10 @@
 #include "report/progress.hpp"
 
+#include "report/terminal.hpp"
+
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string_view>
 #include <unistd.h>
@@ -21,14 +24,31 @@ void write_all(int descriptor, std::string_view text) {
   }
 }
 
+/// Steps of work of which a fraction is known.
+constexpr std::int64_t kFractionSteps = 10000;
+constexpr std::int64_t kStepsPerCent = kFractionSteps / 100;
+
 }  // namespace
 
 Progress::Progress(std::string label, std::int64_t total, const ProgressOptions& options)
     : label_(std::move(label)),
       total_(total),
+      in_per_cent_(false),
       options_(options),
       on_terminal_(::isatty(options.descriptor) == 1),
-      next_(std::chrono::steady_clock::now() + options.quiet_for) {}
+      begun_(std::chrono::steady_clock::now()),
+      next_(begun_ + options.quiet_for),
+      time_left_(options.time_left) {}
+
+Progress::Progress(std::string label, const ProgressOptions& options)
+    : label_(std::move(label)),
+      total_(kFractionSteps),
+      in_per_cent_(true),
+      options_(options),
+      on_terminal_(::isatty(options.descriptor) == 1),
+      begun_(std::chrono::steady_clock::now()),
+      next_(begun_ + options.quiet_for),
+      time_left_(options.time_left) {}
 
 Progress::~Progress() {
   if (drawn_) write_all(options_.descriptor, kWipeLine);
@@ -56,8 +76,17 @@ void Progress::draw() {
   if (now < next_) return;
   next_ = now + options_.interval;
   drawn_ = true;
-  write_all(options_.descriptor,
-            fmt::format("{}{}  {} of {}", kWipeLine, label_, done_.load(), total_));
+  const std::int64_t done = done_.load();
+  const std::chrono::duration<double> elapsed = now - begun_;
+  time_left_.update(elapsed.count(), static_cast<double>(done) /
+                                         static_cast<double>(std::max<std::int64_t>(total_, 1)));
+  std::string line = in_per_cent_ ? fmt::format("{}  {} %", label_, done / kStepsPerCent)
+                                  : fmt::format("{}  {} of {}", label_, done, total_);
+  if (const auto seconds = time_left_.seconds()) line += ", " + time_left_text(*seconds);
+  // A line that is longer than the terminal could not be wiped.
+  if (line.size() >= output_width(options_.descriptor))
+    line.resize(output_width(options_.descriptor) - 1);
+  write_all(options_.descriptor, fmt::format("{}{}", kWipeLine, line));
 }
 
 }  // namespace flexarm::report

@@ -5,15 +5,25 @@
 namespace flexarm::response {
 
 ModalSummary summarise(const AnyFormulation& formulation, int count,
-                       std::span<const arm::Sensor> sensors, std::span<const double> stations_m) {
+                       std::span<const arm::Sensor> sensors, std::span<const double> stations_m,
+                       const SummaryProgress& tell) {
   for (const auto& sensor : sensors) arm::require_valid(sensor, arm_of(formulation));
+  // Three steps, and one for each sensor.
+  const double steps = 3.0 + static_cast<double>(sensors.size());
+  double done = 0.0;
+  const auto goes_on = [&](std::string_view what) { return !tell || tell(what, done++ / steps); };
+
   ModalSummary summary;
-  summary.poles = poles(formulation, count);
-  summary.damped_poles = damped_poles(formulation, count);
   summary.sensors.assign(sensors.begin(), sensors.end());
-  summary.modes = modes(formulation, count, sensors, stations_m);
   summary.stations_m.assign(stations_m.begin(), stations_m.end());
+  if (!goes_on("poles")) return summary;
+  summary.poles = poles(formulation, count);
+  if (!goes_on("damped poles")) return summary;
+  summary.damped_poles = damped_poles(formulation, count);
+  if (!goes_on("modes")) return summary;
+  summary.modes = modes(formulation, count, sensors, stations_m);
   for (const auto& sensor : sensors) {
+    if (!goes_on("zeros")) return summary;
     summary.zeros.push_back({sensor, zeros(formulation, sensor, count)});
   }
   return summary;

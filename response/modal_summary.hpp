@@ -2,7 +2,9 @@
 
 #include "response/any_formulation.hpp"
 
+#include <functional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 namespace flexarm::response {
@@ -23,9 +25,14 @@ struct ModalSummary {
   std::vector<SensorZeros> zeros;  ///< one a sensor
 };
 
+/// Called with what is done next and the fraction of the work done; false ends it, with what there
+/// is until then.
+using SummaryProgress = std::function<bool(std::string_view what, double fraction)>;
+
 /// `count` poles, modes and zeros each. Throws InputError for a sensor that the arm cannot carry.
 ModalSummary summarise(const AnyFormulation& formulation, int count,
-                       std::span<const arm::Sensor> sensors, std::span<const double> stations_m);
+                       std::span<const arm::Sensor> sensors, std::span<const double> stations_m,
+                       const SummaryProgress& tell = {});
 
 /// lambda = sqrt(omega/omega_scale), the root of the frequency equation.
 double lambda_of(const arm::Arm& arm, double omega_rad_per_s);

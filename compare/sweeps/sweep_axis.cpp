@@ -1,3 +1,4 @@
+#include "arm/decimal_comma.hpp"
 #include "arm/input_error.hpp"
 #include "arm/number.hpp"
 #include "compare/sweeps/sweep_parameter.hpp"
@@ -34,10 +35,20 @@ template <class Number>
 Number number_in(std::string_view whole, std::string_view part) {
   const auto value = arm::parse_number<Number>(part);
   if (!value) {
-    throw bad_axis(whole, fmt::format("\"{}\" is not a {}; {}", arm::shown(part),
-                                      std::is_integral_v<Number> ? "count" : "number", kForms));
+    const std::string hint = arm::decimal_comma_hint(part);
+    throw bad_axis(whole,
+                   fmt::format("\"{}\" is not a {}{}; {}", arm::shown(part),
+                               std::is_integral_v<Number> ? "count" : "number", hint, kForms));
   }
   return *value;
+}
+
+std::vector<std::string> items_of(std::string_view whole, std::string_view list) {
+  try {
+    return arm::list_items(list);
+  } catch (const arm::InputError& error) {
+    throw bad_axis(whole, error.what());
+  }
 }
 
 /// The value a part `t` of the way, 0 <= t <= 1.
@@ -96,7 +107,7 @@ SweepAxis parse_axis(std::string_view text) {
   if (parts.size() == 3) {
     fill_range(axis, text, parts);
   } else if (parts.size() == 1 && !axis.logarithmic) {
-    for (const auto part : split(parts.front(), ',')) {
+    for (const auto& part : items_of(text, parts.front())) {
       axis.values.push_back(number_in<double>(text, part));
     }
   } else {

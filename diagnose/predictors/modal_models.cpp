@@ -1,5 +1,6 @@
 #include "diagnose/predictors/modal_models.hpp"
 
+#include "arm/rigid_hub.hpp"
 #include "response/formulation_maker.hpp"
 #include "response/time/time_model.hpp"
 

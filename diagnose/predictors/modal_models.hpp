@@ -1,5 +1,6 @@
 #pragma once
 
+#include "arm/formulation.hpp"
 #include "arm/linear_arm.hpp"
 #include "arm/sensor.hpp"
 #include "diagnose/predictors/last_kept.hpp"

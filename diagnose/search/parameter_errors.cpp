@@ -175,4 +175,19 @@ std::vector<double> standard_errors(const Problem& problem, const Explanation& e
   return {errors.begin(), errors.end()};
 }
 
+Eigen::MatrixXd correlation_of_estimates(const Explanation& explanation) {
+  const Fit& fit = explanation.fit;
+  const Index n = fit.jacobian.cols();
+  if (n == 0) return Eigen::MatrixXd();
+  const Eigen::MatrixXd slopes = slopes_of(fit.candidate);
+  const Eigen::LDLT<Eigen::MatrixXd> information(fit.jacobian.transpose() * fit.jacobian);
+  const Eigen::MatrixXd covariance =
+      slopes * information.solve(Eigen::MatrixXd::Identity(n, n)) * slopes.transpose();
+  const Eigen::VectorXd scale = covariance.diagonal().cwiseSqrt().cwiseInverse();
+  Eigen::MatrixXd made = scale.asDiagonal() * covariance * scale.asDiagonal();
+  made = 0.5 * (made + made.transpose().eval());
+  made.diagonal().setOnes();
+  return made;
+}
+
 }  // namespace flexarm::diagnose

@@ -27,6 +27,9 @@ Eigen::VectorXd coordinate_errors(const Problem& problem, const Explanation& exp
 /// failed.
 std::vector<double> standard_errors(const Problem& problem, const Explanation& explanation,
                                     int further_modes);
+/// Correlation of the estimates of nuisances and parameters, by H^-1 alone; of their logarithms
+/// where the values are above 0. Empty for a fit that failed or has nothing to estimate.
+Eigen::MatrixXd correlation_of_estimates(const Explanation& explanation);
 /// Stretches of a run or channel that stand for independent ones.
 inline constexpr int kStretches = 10;
 

@@ -49,9 +49,14 @@ std::mutex& one_writer_at_a_time() {
 int create_folder(const fs::path& temporary, std::span<const NamedContent> files) {
   if (::mkdir(temporary.c_str(), 0777) != 0) return errno;
   for (const auto& file : files) {
+    const fs::path within = temporary / fs::path(file.name).parent_path();
+    if (::mkdir(within.c_str(), 0777) != 0 && errno != EEXIST) return errno;
     if (const int error = create_file(temporary / file.name, file.content); error != 0) {
       return error;
     }
+  }
+  for (const auto& entry : fs::directory_iterator(temporary)) {
+    if (entry.is_directory()) synchronise_folder(entry.path());
   }
   synchronise_folder(temporary);
   return 0;

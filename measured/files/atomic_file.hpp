@@ -21,7 +21,7 @@ void require_writable(const std::filesystem::path& path);
 
 /// A file of a folder.
 struct NamedContent {
-  std::string name;
+  std::string name;  ///< "roots.csv", or in a folder of the folder "payload-0kg/roots.csv"
   std::string content;
 };
 

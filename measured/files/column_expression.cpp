@@ -1,5 +1,6 @@
 #include "measured/files/column_expression.hpp"
 
+#include "arm/decimal_comma.hpp"
 #include "arm/formula_syntax.hpp"
 #include "arm/input_error.hpp"
 #include "arm/nearest_name.hpp"
@@ -223,7 +224,10 @@ void with_parser(const std::string& expression, const Rewritten& rewritten,
     parser.SetExpr(rewritten.text);
     int results = 0;
     parser.Eval(results);
-    if (results != 1) refuse_expression(expression, "has several values between commas");
+    if (results != 1) {
+      refuse_expression(expression,
+                        "has several values between commas" + arm::decimal_comma_hint(expression));
+    }
     use(parser);
   } catch (const mu::ParserError& error) {
     refuse_expression(expression, reason_of(error, rewritten, expression));

@@ -3,6 +3,7 @@
 #include "arm/input_error.hpp"
 #include "measured/files/column_lookup.hpp"
 #include "measured/files/column_name.hpp"
+#include "measured/files/column_words.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -19,44 +20,6 @@ namespace {
 
 using std::string_view;
 
-/// Names in use for a quantity, in lower case and without what is no letter.
-struct Aliases {
-  const char* quantity;
-  std::vector<string_view> names;
-};
-
-const std::vector<Aliases>& aliases() {
-  static const std::vector<Aliases> all = {
-      {"time", {"t", "time", "times", "timestamp", "elapsed", "elapsedtime", "zeit", "temps"}},
-      {"torque",
-       {"torque", "tau", "hubtorque", "motortorque", "appliedtorque", "inputtorque",
-        "commandedtorque", "torquecommand", "torquecmd", "moment", "drehmoment"}},
-      {"hub_angle",
-       {"hubangle", "theta", "angle", "motorangle", "shaftangle", "jointangle", "hub",
-        "hubposition", "motorposition", "encoder", "motorencoder", "shaftencoder", "linkangle",
-        "armangle", "loadangle", "winkel"}},
-      {"hub_velocity",
-       {"hubvelocity", "hubspeed", "omega", "thetadot", "dtheta", "angularvelocity",
-        "hubangularvelocity", "motorangularvelocity", "angularspeed", "angularrate", "hubrate",
-        "velocity", "speed", "motorspeed", "motorvelocity", "tacho", "tachometer"}},
-      {"tip_acceleration",
-       {"tipacceleration", "tipaccel", "tipacc", "acceleration", "accel", "acc", "accelerometer",
-        "endpointacceleration"}},
-      {"tip_displacement", {"tipdisplacement", "tipposition", "endpointposition", "displacement"}},
-      {"tip_deflection", {"tipdeflection", "tipdefl", "deflection", "defl"}},
-  };
-  return all;
-}
-
-std::string letters_of(string_view name) {
-  std::string out;
-  for (const char c : name) {
-    if (c >= 'A' && c <= 'Z') out += static_cast<char>(c - 'A' + 'a');
-    if (c >= 'a' && c <= 'z') out += c;
-  }
-  return out;
-}
-
 /// A column that may be a quantity.
 struct ColumnCandidate {
   std::string quantity;
@@ -72,24 +35,56 @@ std::optional<std::string> standard(string_view base) {
   }
 }
 
+/// The name without its unit, and without the structure that it is a field of.
+std::string base_of(const ColumnLabel& label) {
+  const std::string base = split_column_name(label.name).base;
+  const auto point = base.rfind('.');
+  // "Beschl." is no structure.
+  const bool is_field = point != std::string::npos && point + 1 < base.size() && !standard(base);
+  return is_field ? base.substr(point + 1) : base;
+}
+
 std::vector<ColumnCandidate> candidates_for(const ColumnLabel& label, std::size_t column) {
-  std::string base = split_column_name(label.name).base;
-  // A field of a structure.
-  if (const auto point = base.rfind('.'); point != std::string::npos && !standard(base)) {
-    base = base.substr(point + 1);
-  }
+  const std::string base = base_of(label);
   if (const auto quantity = standard(base)) {
     if (is_unit_of(*quantity, label.unit)) return {{*quantity, column, true}};
     return {};
   }
   std::vector<ColumnCandidate> found;
-  for (const auto& [quantity, names] : aliases()) {
-    if (std::ranges::count(names, string_view(letters_of(base))) == 0) continue;
+  const std::string letters = plain_letters(base);
+  for (const auto& [quantity, words] : quantity_words()) {
+    if (std::ranges::count(words, letters) == 0) continue;
     if (is_unit_of(quantity, label.unit)) {
-      found.push_back({quantity, column, false});
+      found.push_back({std::string(quantity), column, false});
     }
   }
   return found;
+}
+
+/// What is to be asked about a column whose name tells something, but not enough; nothing where
+/// it tells nothing.
+std::optional<ColumnQuestion> question_about(const ColumnLabel& label) {
+  const std::string letters = plain_letters(base_of(label));
+  const std::string name = split_column_name(label.name).base;
+  for (const auto& open : open_words()) {
+    const bool is_of_unit =
+        label.unit.empty() || std::ranges::count(open.units, string_view(label.unit)) > 0;
+    if (std::ranges::count(open.words, letters) == 0 || !is_of_unit) continue;
+    return ColumnQuestion{label.name,
+                          fmt::format("{} may be {}; state it with {}", label.name, open.meaning,
+                                      fmt::format(fmt::runtime(open.option), name)),
+                          open.may_be_torque};
+  }
+  for (const auto& [quantity, words] : quantity_words()) {
+    if (std::ranges::count(words, letters) == 0 || is_unit_of(quantity, label.unit)) continue;
+    return ColumnQuestion{
+        label.name,
+        fmt::format("{} may be {}, but {} is no unit of it; state it with --column "
+                    "'{}={}:UNIT:SCALE'",
+                    label.name, quantity, arm::shown(label.unit), quantity, name),
+        quantity == "torque"};
+  }
+  return std::nullopt;
 }
 
 /// The only column of a unit that nothing else has: a time, or a torque.
@@ -108,7 +103,8 @@ std::vector<ColumnCandidate> by_unit(std::span<const ColumnLabel> columns,
 }  // namespace
 
 ColumnGuess guess_columns(std::span<const ColumnLabel> columns, const ColumnMappings& given) {
-  ColumnGuess guess{given, {}};
+  ColumnGuess guess;
+  guess.mappings = given;
   std::vector<std::string> names;
   for (const auto& column : columns) names.push_back(column.name);
   std::vector<bool> is_given(columns.size(), false);
@@ -138,6 +134,7 @@ ColumnGuess guess_columns(std::span<const ColumnLabel> columns, const ColumnMapp
       for (const auto& entry : found) alike.push_back(columns[entry.column].name);
       guess.notes.push_back(fmt::format("{}: ambiguous ({}); choose with --column {}=NAME",
                                         quantity, fmt::join(alike, " or "), quantity));
+      guess.ambiguous[quantity] = alike;
       continue;
     }
     const ColumnLabel& label = columns[found.front().column];
@@ -147,6 +144,11 @@ ColumnGuess guess_columns(std::span<const ColumnLabel> columns, const ColumnMapp
     }
     guess.mappings[quantity] = {label.name, label.unit.empty() ? si_unit : label.unit,
                                 scale_of_unit(quantity, label.unit)};
+  }
+  const auto used = places_used(guess.mappings, names);
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    if (columns[i].is_text || std::ranges::count(used, i) > 0) continue;
+    if (auto question = question_about(columns[i])) guess.questions.push_back(std::move(*question));
   }
   return guess;
 }

@@ -2,6 +2,7 @@
 
 #include "measured/files/column_mapping.hpp"
 
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -15,17 +16,28 @@ struct ColumnLabel {
   bool is_text = false;  ///< holds no numbers, and is no quantity
 };
 
+/// A column whose name tells what was measured, but not as which quantity it is to be read.
+struct ColumnQuestion {
+  std::string column;
+  std::string sentence;  ///< what it may be, and the option that states it
+  bool may_be_torque = false;
+};
+
 /// What columns were taken for.
 struct ColumnGuess {
   ColumnMappings mappings;         ///< those given, and those guessed
   std::vector<std::string> notes;  ///< a sentence on each quantity that several columns may be, and
                                    ///< each unit that is assumed
+  /// The columns that may be a quantity, where several may.
+  std::map<std::string, std::vector<std::string>> ambiguous;
+  std::vector<ColumnQuestion> questions;  ///< on columns that are nothing yet
 };
 
 /// Guesses which of the columns that `given` leaves are time, torque and sensors, by their names
 /// without units (the standard names before others in use: t, tau, theta, omega, accelerometer,
-/// ...) and their units, which must be the quantity's; one that is not told is taken for SI.
-/// A quantity that several columns may be is left out, and noted.
+/// ..., and German and French ones: measured/files/column_words.hpp) and their units, which must be
+/// the quantity's; one that is not told is taken for SI. A quantity that several columns may be is
+/// left out, and noted.
 ColumnGuess guess_columns(std::span<const ColumnLabel> columns, const ColumnMappings& given);
 
 }  // namespace flexarm::measured

@@ -1,5 +1,6 @@
 #include "measured/files/key_values.hpp"
 
+#include "arm/decimal_comma.hpp"
 #include "arm/input_error.hpp"
 #include "measured/files/delimited_line.hpp"
 
@@ -17,6 +18,12 @@ KeyValues read_key_values(std::string_view text, std::string_view allowed) {
     text.remove_prefix(std::min(comma + 1, text.size()));
     const auto equals = part.find('=');
     if (equals == std::string_view::npos) {
+      if (!read.empty() && arm::may_be_decimals("=" + read.back().second, part)) {
+        const std::string pair =
+            fmt::format("{}={},{}", read.back().first, read.back().second, part);
+        throw arm::InputError(fmt::format("{}: the comma separates keys{}", arm::shown(pair),
+                                          arm::decimal_comma_hint(pair)));
+      }
       throw arm::InputError(fmt::format("{}: must be {}", arm::shown(part), allowed));
     }
     const std::string key(trimmed(part.substr(0, equals)));

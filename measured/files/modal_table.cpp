@@ -16,6 +16,7 @@
 #include <cmath>
 #include <cstddef>
 #include <map>
+#include <span>
 
 namespace flexarm::measured {
 
@@ -36,12 +37,17 @@ struct NumberColumn {
   std::optional<double> ModalEntry::*member;
 };
 
-constexpr std::array<NumberColumn, 4> kNumbers = {{
+constexpr std::array<NumberColumn, 6> kNumbers = {{
     {"frequency [Hz]", arm::kPositive, &ModalEntry::frequency_Hz},
     {"frequency_std [Hz]", arm::kNotNegative, &ModalEntry::frequency_std_Hz},
     {"damping_ratio", arm::kAnyFinite, &ModalEntry::damping_ratio},
     {"damping_ratio_std", arm::kNotNegative, &ModalEntry::damping_ratio_std},
+    {"shape_re", arm::kAnyFinite, &ModalEntry::shape_re},
+    {"shape_im", arm::kAnyFinite, &ModalEntry::shape_im},
 }};
+
+/// The last of them.
+constexpr std::size_t kShapeColumns = 2;
 
 const std::vector<std::string>& column_names() {
   static const std::vector<std::string> names = [] {
@@ -50,6 +56,13 @@ const std::vector<std::string>& column_names() {
     return all;
   }();
   return names;
+}
+
+/// The header line; most tables have no shapes.
+std::string header_line(bool has_shapes) {
+  const std::span names(column_names());
+  return fmt::format("{}",
+                     fmt::join(names.first(names.size() - (has_shapes ? 0 : kShapeColumns)), ","));
 }
 
 /// " (did you mean ...?)", also for a column without its unit.
@@ -80,8 +93,8 @@ ModalHeader read_modal_header(const CsvRow& row) {
   }
   for (const char* name : {kSensor, kFeature, kNumbers[0].name}) {
     if (!header.contains(name)) {
-      throw InputError(fmt::format("column {}: missing; the header is {}", name,
-                                   fmt::join(column_names(), ",")));
+      throw InputError(
+          fmt::format("column {}: missing; the header is {}", name, header_line(false)));
     }
   }
   return header;
@@ -107,6 +120,13 @@ Feature read_feature(const std::string& cell) {
   throw InputError(
       fmt::format("feature = {}: must be pole or zero{}", arm::shown(cell),
                   arm::did_you_mean(cell, std::array<std::string, 2>{"pole", "zero"})));
+}
+
+void require_shape_in_place(const ModalEntry& entry) {
+  if (!entry.shape_re && !entry.shape_im) return;
+  if (!entry.shape_re) throw InputError("shape_im: given without shape_re");
+  if (entry.feature == Feature::pole && entry.sensor) return;
+  throw InputError("shape_re: only for a pole with a sensor; it is the mode shape at that sensor");
 }
 
 ModalEntry read_entry(const CsvRow& row, const ModalHeader& header) {
@@ -139,6 +159,7 @@ ModalEntry read_entry(const CsvRow& row, const ModalHeader& header) {
     if (place == header.end() || row.cells[place->second].empty()) continue;
     entry.*column.member = read_value(column, row.cells[place->second]);
   }
+  require_shape_in_place(entry);
   return entry;
 }
 
@@ -157,7 +178,7 @@ ModalTable parse_modal_table(std::string_view csv, const std::string& file_name)
   int line = rows.empty() ? 1 : rows.front().line;
   try {
     if (rows.empty()) {
-      throw InputError(fmt::format("empty; the header is {}", fmt::join(column_names(), ",")));
+      throw InputError("empty; the header is " + header_line(false));
     }
     const ModalHeader header = read_modal_header(rows.front());
     ModalTable table;
@@ -185,11 +206,14 @@ ModalTable read_modal_table(const std::filesystem::path& path) {
 }
 
 std::string format_modal_table(const ModalTable& table) {
-  std::string out = fmt::format("{}\n", fmt::join(column_names(), ","));
+  const bool has_shapes = std::ranges::any_of(
+      table, [](const ModalEntry& entry) { return entry.shape_re.has_value(); });
+  std::string out = header_line(has_shapes) + "\n";
   for (const auto& entry : table) {
     out += fmt::format("{},{},{}", sensor_name(entry), to_string(entry.feature),
                        entry.order ? std::to_string(*entry.order) : "");
-    for (const auto& column : kNumbers) {
+    for (const auto& column :
+         std::span(kNumbers).first(kNumbers.size() - (has_shapes ? 0 : kShapeColumns))) {
       const auto value = entry.*column.member;
       out += value ? fmt::format(",{}", *value) : ",";
     }

@@ -26,6 +26,10 @@ struct ModalEntry {
   std::optional<double> frequency_std_Hz;
   std::optional<double> damping_ratio;  ///< -Re s/abs(s), -1 to 1; below 0 on the right half plane
   std::optional<double> damping_ratio_std;
+  /// Of a pole: value of its mode shape at the sensor, before time derivatives, in a scale that all
+  /// rows of the pole share. The imaginary part is 0 unless given.
+  std::optional<double> shape_re = {};
+  std::optional<double> shape_im = {};
 
   bool operator==(const ModalEntry&) const = default;
 };

@@ -1,5 +1,6 @@
 #include "measured/files/record_range.hpp"
 
+#include "arm/decimal_comma.hpp"
 #include "arm/input_error.hpp"
 #include "arm/number.hpp"
 
@@ -20,8 +21,9 @@ void read_bound(std::string_view text, bool by_rows, double& value) {
   const auto number = arm::parse_number<double>(text);
   const bool is_row = number && *number >= 1.0 && *number == std::floor(*number);
   if (!number || !std::isfinite(*number) || (by_rows && !is_row)) {
-    throw InputError(fmt::format("{}: must be {}", arm::shown(text),
-                                 by_rows ? "a row, a whole number from 1" : "a time in s"));
+    throw InputError(fmt::format("{}: must be {}{}", arm::shown(text),
+                                 by_rows ? "a row, a whole number from 1" : "a time in s",
+                                 arm::decimal_comma_hint(text)));
   }
   value = *number;
 }

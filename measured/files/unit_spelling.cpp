@@ -25,11 +25,14 @@ struct UnitWord {
 
 const std::vector<UnitWord>& unit_words() {
   static const std::vector<UnitWord> words = {
-      {"s", {"sec", "secs", "second", "seconds", "sek"}},
-      {"ms", {"msec", "msecs", "millisec", "millisecond", "milliseconds", "millis"}},
+      {"s",
+       {"sec", "secs", "second", "seconds", "sek", "sekunde", "sekunden", "seconde", "secondes"}},
+      {"ms",
+       {"msec", "msecs", "millisec", "millisecond", "milliseconds", "millis", "millisekunde",
+        "millisekunden", "milliseconde", "millisecondes"}},
       {"us", {"usec", "usecs", "microsec", "microsecond", "microseconds", "micros"}},
       {"ns", {"nsec", "nanosecond", "nanoseconds", "nanos"}},
-      {"min", {"minute", "minutes"}},
+      {"min", {"minute", "minutes", "minuten"}},
       {"m", {"meter", "meters", "metre", "metres"}},
       {"mm", {"millimeter", "millimeters", "millimetre", "millimetres"}},
       {"cm", {"centimeter", "centimeters", "centimetre", "centimetres"}},
@@ -37,8 +40,10 @@ const std::vector<UnitWord>& unit_words() {
       {"inch", {"inches"}},
       {"rad", {"rads", "radian", "radians"}},
       {"mrad", {"mrads", "milliradian", "milliradians"}},
-      {"deg", {"degs", "degree", "degrees"}},
-      {"rev", {"revs", "revolution", "revolutions", "turn", "turns"}},
+      {"deg", {"degs", "degree", "degrees", "grad", "degre", "degres"}},
+      {"rev",
+       {"revs", "revolution", "revolutions", "turn", "turns", "umdrehung", "umdrehungen", "umdr",
+        "tour", "tours", "tr"}},
       {"rpm", {}},
       {"g", {"gn", "gee"}},
       {"mg", {}},
@@ -69,7 +74,7 @@ struct CompoundUnit {
 
 const std::vector<CompoundUnit>& compound_units() {
   static const std::vector<CompoundUnit> units = {
-      {"N m", {{{"N", 1}, {"m", 1}}}, {"Nm"}},
+      {"N m", {{{"N", 1}, {"m", 1}}}, {"Nm", "newtonmeter", "newtonmeters"}},
       {"N mm", {{{"N", 1}, {"mm", 1}}, {{"mN", 1}, {"m", 1}}}, {"Nmm", "mNm"}},
       {"N cm", {{{"N", 1}, {"cm", 1}}}, {"Ncm"}},
       {"kN m", {{{"kN", 1}, {"m", 1}}}, {"kNm"}},
@@ -101,13 +106,14 @@ const std::vector<CompoundUnit>& compound_units() {
 }
 
 /// What is written with signs beyond ASCII, and with other words, in one way.
-constexpr std::array<std::pair<string_view, string_view>, 19> kSigns = {{
+constexpr std::array<std::pair<string_view, string_view>, 20> kSigns = {{
     {"\xc2\xb5\xce\xb5", "ue"},       // micro sign, epsilon
     {"\xce\xbc\xce\xb5", "ue"},       // mu, epsilon
     {"\xc2\xb5", "u"},                // micro sign
     {"\xce\xbc", "u"},                // mu
     {"\xc2\xb0", "deg"},              // degree sign
     {"\xc2\xba", "deg"},              // ordinal indicator
+    {"\xc3\xa9", "e"},                // of "degrés"
     {"\xc2\xb7", "*"},                // middle dot
     {"\xe2\x8b\x85", "*"},            // dot operator
     {"\xc3\x97", "*"},                // multiplication sign

@@ -59,6 +59,12 @@ class Peak {
         peak_(peak),
         shared_variance_(shared_variance) {}
 
+  /// Whether the fit is one of a peak that lies among its lines: one beyond is another's flank.
+  bool holds(const Fit& fit, const Lines& lines) const {
+    return fit.is_peak() && fit.place_Hz() >= frequency_Hz_[lines.first] &&
+           fit.place_Hz() <= frequency_Hz_[lines.last];
+  }
+
   Lines three() const { return {peak_ - 1, peak_ + 1}; }
 
   /// Lines around the peak to where two in a row have y above `factor` times its own there.
@@ -158,10 +164,10 @@ std::optional<ResonanceParabola> resonance_parabola(std::span<const double> freq
       lines = data.around(fit, widest);
       fit = data.fit(lines, fit);
     }
-    if (fit.is_peak()) return result_of(fit, lines.count());
+    if (data.holds(fit, lines)) return result_of(fit, lines.count());
   }
   const Fit fit = data.fit(data.three(), {});
-  if (!fit.is_peak()) return std::nullopt;
+  if (!data.holds(fit, data.three())) return std::nullopt;
   return result_of(fit, data.three().count());
 }
 

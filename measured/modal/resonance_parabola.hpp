@@ -24,7 +24,8 @@ struct ResonanceParabola {
 
 /// Weighted least squares through the lines within half a width of the place, three at least, found
 /// from those within a factor of 4, or 16, of line `peak`; through three at the peak where those
-/// make no parabola that opens upwards. Empty where these do not either. `relative_std` is each
+/// make no parabola that opens upwards with its place among them. Empty where these do not either.
+/// `relative_std` is each
 /// power's standard deviation relative to itself; standard errors take the scatter about the
 /// parabola where that is larger, times sqrt(`shared_variance`) for lines that are not independent
 /// (`shared_line_variance` of measured/spectra/window.hpp).

@@ -1,8 +1,9 @@
 #include "report/figures/autopower_figure.hpp"
 
 #include "report/figures/feature_marks.hpp"
-#include "report/figures/label_placement.hpp"
 #include "report/figures/measured_curve.hpp"
+#include "report/figures/sensor_label.hpp"
+#include "report/words.hpp"
 
 #include <fmt/format.h>
 
@@ -22,11 +23,11 @@ constexpr int kAutopowerPanel_px = 190;      // with the panel's title
 constexpr double kTorqueHeight = 0.75;
 constexpr double kLabelRoom = 0.2;  // for a line of labels above and below
 
-/// "rad^2/Hz", "(m/s^2)^2/Hz", "1/Hz".
+/// "rad²/Hz", "(m/s²)²/Hz", "1/Hz".
 std::string density_unit(std::string_view unit) {
   if (unit == "1") return "1/Hz";
   const bool single = unit.find_first_of(" /^") == std::string_view::npos;
-  return single ? fmt::format("{}^2/Hz", unit) : fmt::format("({})^2/Hz", unit);
+  return unit_text(single ? fmt::format("{}^2/Hz", unit) : fmt::format("({})^2/Hz", unit));
 }
 
 /// Lines above 0 Hz.
@@ -72,7 +73,7 @@ Figure autopower_figure(const measured::FrequencyResponseEstimate& estimate,
   }
   for (const auto& channel : estimate.channels) {
     if (!has_power(channel.autopower)) continue;
-    Panel panel = spectrum_panel(arm::to_string(channel.sensor), arm::unit(channel.sensor),
+    Panel panel = spectrum_panel(sensor_label(channel.sensor), arm::unit(channel.sensor),
                                  frequency_Hz, channel.autopower);
     fix_limits(panel, kLabelRoom);
     add_frequency_lines(panel, poles_Hz, "analytical pole", analytical_pole_style());
@@ -83,11 +84,13 @@ Figure autopower_figure(const measured::FrequencyResponseEstimate& estimate,
     }
     stack.panels.push_back(std::move(panel));
   }
+  if (stack.panels.empty()) {
+    throw std::invalid_argument(fmt::format("\"{}\": no spectrum to draw", plot.title));
+  }
   Figure figure{.title = plot.title, .width_px = kAutopowerWidth_px};
   figure.height_px =
       kAutopowerFurniture_px + kAutopowerPanel_px * static_cast<int>(stack.panels.size());
   figure.stacks.push_back(std::move(stack));
-  place_labels(figure);
   return figure;
 }
 

@@ -1,6 +1,8 @@
 #include "report/figures/bode_figure.hpp"
 
+#include "report/figures/meaning.hpp"
 #include "report/figures/overlay_style.hpp"
+#include "report/figures/phase.hpp"
 #include "report/figures/phase_panel.hpp"
 
 #include <fmt/format.h>
@@ -18,13 +20,13 @@ constexpr double kSmallestDrawnDifference = 0x1p-53;
 
 /// One curve alone needs no broad band below others.
 Style curve_style(const BodePlot& plot, std::size_t index) {
-  return plot.curves.size() == 1 ? Style{.colour = blue, .line_width_px = 1.6}
+  return plot.curves.size() == 1 ? Style{.colour = kBaselineColour, .line_width_px = 1.6}
                                  : overlay_style(index);
 }
 
 Style root_style(bool pole) {
   Style style;
-  style.colour = pole ? vermillion : green;
+  style.colour = pole ? kPoleColour : kZeroColour;
   style.line = Line::none;
   style.marker = pole ? Marker::cross : Marker::circle;
   style.marker_size = 0.9;
@@ -85,9 +87,11 @@ Panel phase_panel(const BodePlot& plot) {
   Panel panel;
   panel.height = 1.2;
   for (std::size_t c = 0; c < plot.curves.size(); ++c) {
-    panel.series.push_back(phase_series(plot.curves[c].name, plot.frequency_Hz,
-                                        phase_deg(plot.curves[c].response, plot.phase),
-                                        curve_style(plot, c)));
+    const BodeCurve& curve = plot.curves[c];
+    panel.series.push_back(phase_series(
+        curve.name, plot.frequency_Hz,
+        curve.phase_deg.empty() ? principal_phase_deg(curve.response) : curve.phase_deg,
+        curve_style(plot, c)));
   }
   panel.y = phase_axis(panel.series);
   return panel;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "report/figures/figure.hpp"
-#include "report/figures/phase.hpp"
 
 #include <complex>
 #include <string>
@@ -13,6 +12,7 @@ namespace flexarm::report {
 struct BodeCurve {
   std::string name;
   std::vector<std::complex<double>> response;  ///< one a frequency; NaN where there is none
+  std::vector<double> phase_deg = {};          ///< empty: the principal value
 };
 
 enum class Magnitude { logarithmic, decibel };
@@ -29,7 +29,6 @@ struct BodePlot {
   std::vector<double> poles_Hz = {};
   std::vector<double> zeros_Hz = {};
   Magnitude magnitude = Magnitude::logarithmic;
-  Phase phase = Phase::wrapped;
 };
 
 /// Magnitude and phase over frequency, and, for two curves and more, the relative difference

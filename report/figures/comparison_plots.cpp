@@ -2,14 +2,20 @@
 
 #include "report/figures/bode_figure.hpp"
 #include "report/figures/convergence_figure.hpp"
+#include "report/figures/frequency_response_figure.hpp"
+#include "report/figures/mac_figure.hpp"
 #include "report/figures/mode_shape_figure.hpp"
 #include "report/figures/pole_zero_figure.hpp"
-#include "report/figures/svg.hpp"
+#include "report/figures/sensor_label.hpp"
+#include "report/tables/response_tables.hpp"
+#include "report/words.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstddef>
 #include <numbers>
 #include <ranges>
 
@@ -26,7 +32,7 @@ std::string file_part(const compare::FeatureFamily& family) {
 }
 
 std::string plural(const compare::FeatureFamily& family) {
-  return family.zeros_of ? "zeros of torque to " + arm::to_string(*family.zeros_of) : "poles";
+  return family.zeros_of ? "zeros of torque to " + sensor_label(*family.zeros_of) : "poles";
 }
 
 bool is_shown(int order) {
@@ -34,7 +40,7 @@ bool is_shown(int order) {
 }
 
 ConvergenceCurve convergence_curve(const compare::RefinementCurve& curve) {
-  ConvergenceCurve drawn{curve.refinement,
+  ConvergenceCurve drawn{in_words(curve.refinement),
                          fmt::format("{} {}", curve.family.zeros_of ? "zero" : "pole", curve.order),
                          {},
                          {}};
@@ -54,7 +60,7 @@ bool has_a_point(const compare::RefinementCurve& curve) {
 /// One picture a family of the refinement curves that `choose` takes, where they have a point.
 template <class Choose>
 void add_convergence(const compare::Comparison& comparison, const std::string& prefix,
-                     const std::string& title, Choose choose, std::vector<NamedPlot>& plots) {
+                     const std::string& title, Choose choose, std::vector<NamedFigure>& plots) {
   std::vector<compare::FeatureFamily> drawn;
   for (const auto& first : comparison.refinements) {
     if (std::ranges::find(drawn, first.family) != drawn.end()) continue;
@@ -68,8 +74,7 @@ void add_convergence(const compare::Comparison& comparison, const std::string& p
       }
     }
     if (plot.curves.empty()) continue;
-    plots.push_back(
-        {prefix + "-" + file_part(first.family) + ".svg", to_svg(convergence_figure(plot))});
+    plots.push_back({prefix + "-" + file_part(first.family), convergence_figure(plot)});
   }
 }
 
@@ -85,31 +90,94 @@ std::vector<std::complex<double>> roots_of(const compare::Comparison& comparison
   return with_mirror_images(roots);
 }
 
-NamedPlot pole_zero_map(const compare::Comparison& comparison, const arm::Sensor& sensor) {
+/// A measured root and its conjugate; one without a damping ratio on the imaginary axis.
+void add_measured_root(const measured::ModalEntry& entry,
+                       std::vector<std::complex<double>>& roots) {
+  if (!entry.frequency_Hz) return;
+  const double omega_rad_per_s = 2.0 * std::numbers::pi * *entry.frequency_Hz;
+  const double damping_ratio = entry.damping_ratio.value_or(0.0);
+  const std::complex<double> s(
+      -damping_ratio * omega_rad_per_s,
+      omega_rad_per_s * std::sqrt(std::fmax(0.0, 1.0 - damping_ratio * damping_ratio)));
+  roots.push_back(s);
+  if (s.imag() != 0.0) roots.push_back(std::conj(s));
+}
+
+/// What was measured of the transfer function to a sensor. A pole is the same in all.
+PoleZeroSet measured_set(const std::vector<compare::MeasuredRow>& rows, const arm::Sensor& sensor) {
+  PoleZeroSet set{"measured", {}, {}};
+  for (const auto& row : rows) {
+    const auto& entry = row.measured;
+    if (entry.feature == measured::Feature::pole) {
+      add_measured_root(entry, set.poles_rad_per_s);
+    } else if (entry.sensor == sensor) {
+      add_measured_root(entry, set.zeros_rad_per_s);
+    }
+  }
+  return set;
+}
+
+/// Of the response of the i-th sensor, with the arm's damping.
+NamedFigure pole_zero_map(const compare::Comparison& comparison, std::size_t i,
+                          const std::vector<compare::MeasuredRow>& rows) {
+  const arm::Sensor& sensor = comparison.responses[i].sensor;
   PoleZeroPlot plot;
-  plot.title = "Poles and zeros of torque to " + arm::to_string(sensor);
+  plot.title = "Poles and zeros of torque to " + sensor_label(sensor);
   for (std::size_t k = 0; k < comparison.subjects.size(); ++k) {
-    plot.sets.push_back({comparison.subjects[k], roots_of(comparison, k, std::nullopt),
+    if (!comparison.damped.empty()) {
+      const compare::DampedRoots& damped = comparison.damped[k];
+      plot.sets.push_back(
+          {in_words(comparison.subjects[k]), damped.poles_rad_per_s, damped.zeros_rad_per_s[i]});
+      continue;
+    }
+    plot.sets.push_back({in_words(comparison.subjects[k]), roots_of(comparison, k, std::nullopt),
                          roots_of(comparison, k, sensor)});
   }
-  return {"pole-zero-" + arm::to_string(sensor) + ".svg", to_svg(pole_zero_figure(plot))};
+  if (auto set = measured_set(rows, sensor);
+      !set.poles_rad_per_s.empty() || !set.zeros_rad_per_s.empty()) {
+    plot.sets.push_back(std::move(set));
+  }
+  return {"pole-zero-" + arm::to_string(sensor), pole_zero_figure(plot)};
 }
 
-NamedPlot bode_diagram(const compare::Comparison& comparison,
-                       const compare::ResponseComparison& response) {
+NamedFigure bode_diagram(const compare::Comparison& comparison,
+                         const compare::ResponseComparison& response) {
   BodePlot plot;
-  plot.title = "Torque to " + arm::to_string(response.sensor);
-  const auto unit = arm::unit(response.sensor);
-  plot.unit = unit == "1" ? "1/(N m)" : fmt::format("{}/(N m)", unit);
+  plot.title = "Torque to " + sensor_label(response.sensor);
+  plot.unit = unit_text(response_unit(response.sensor));
   plot.frequency_Hz = response.frequency_Hz;
   for (std::size_t k = 0; k < comparison.subjects.size(); ++k) {
-    plot.curves.push_back({comparison.subjects[k], response.values[k]});
+    plot.curves.push_back({in_words(comparison.subjects[k]), response.values[k]});
   }
   plot.one_minus_coherence = response.one_minus_coherence;
-  return {"bode-" + arm::to_string(response.sensor) + ".svg", to_svg(bode_figure(plot))};
+  return {"bode-" + arm::to_string(response.sensor), bode_figure(plot)};
 }
 
-NamedPlot mode_shapes(const compare::Comparison& comparison) {
+NamedFigure measured_bode(const compare::MeasuredResponse& compared) {
+  const arm::Sensor& sensor = compared.measured.sensor;
+  FrequencyResponsePlot plot;
+  plot.title = compared.run.empty()
+                   ? fmt::format("Torque to {}, measured", sensor_label(sensor))
+                   : fmt::format("Torque to {}, measured: {}", sensor_label(sensor), compared.run);
+  for (std::size_t k = 0; k < compared.models.size(); ++k) {
+    const bool has_curve = !compared.curves.empty();
+    plot.analytical.push_back(
+        {in_words(compared.models[k]),
+         has_curve ? compared.curve_frequency_Hz : compared.measured.frequency_Hz,
+         has_curve ? compared.curves[k] : compared.values[k]});
+  }
+  const std::string run = compared.run.empty() ? "" : "-" + compared.run;
+  return {fmt::format("bode-measured-{}{}", arm::to_string(sensor), run),
+          frequency_response_figure(measured_response(compared.measured), plot)};
+}
+
+bool has_measured_values(const compare::MeasuredResponse& compared) {
+  return std::ranges::any_of(compared.measured.response, [](const std::complex<double> value) {
+    return std::isfinite(std::abs(value)) && value != 0.0;
+  });
+}
+
+NamedFigure mode_shapes(const compare::Comparison& comparison) {
   ModeShapePlot plot;
   plot.title = "Mode shapes, modal mass I_T";
   plot.station_m = comparison.stations_m;
@@ -120,28 +188,37 @@ NamedPlot mode_shapes(const compare::Comparison& comparison) {
                               reference[i].omega_rad_per_s / (2.0 * std::numbers::pi));
     for (std::size_t k = 0; k < comparison.subjects.size(); ++k) {
       if (i >= comparison.modes[k].size()) continue;
-      shape.curves.push_back({comparison.subjects[k], comparison.modes[k][i].displacement_m});
+      shape.curves.push_back(
+          {in_words(comparison.subjects[k]), comparison.modes[k][i].displacement_m});
     }
     plot.modes.push_back(std::move(shape));
   }
-  return {"mode-shapes.svg", to_svg(mode_shape_figure(plot))};
+  return {"mode-shapes", mode_shape_figure(plot)};
 }
 
 }  // namespace
 
-std::vector<NamedPlot> comparison_plots(const compare::Comparison& comparison) {
-  std::vector<NamedPlot> plots;
+std::vector<NamedFigure> comparison_plots(const compare::Comparison& comparison,
+                                          const compare::MeasuredComparison& measured) {
+  std::vector<NamedFigure> plots;
   add_convergence(
       comparison, "convergence", "Convergence of the relative error",
       [](const auto& curve) { return !curve.alternative; }, plots);
   add_convergence(
-      comparison, "bases", "Bases of assumed_modes",
+      comparison, "bases", "Bases of assumed modes",
       [](const auto& curve) { return curve.formulation == "assumed_modes"; }, plots);
-  for (const auto& response : comparison.responses) {
-    plots.push_back(pole_zero_map(comparison, response.sensor));
-    plots.push_back(bode_diagram(comparison, response));
+  for (std::size_t i = 0; i < comparison.responses.size(); ++i) {
+    plots.push_back(pole_zero_map(comparison, i, measured.rows));
+    plots.push_back(bode_diagram(comparison, comparison.responses[i]));
   }
   plots.push_back(mode_shapes(comparison));
+  for (const auto& response : measured.responses) {
+    if (has_measured_values(response)) plots.push_back(measured_bode(response));
+  }
+  for (std::size_t i = 0; i < measured.shapes.size(); ++i) {
+    plots.push_back(
+        {i == 0 ? "mac" : fmt::format("mac-{}", i + 1), mac_figure(measured.shapes[i])});
+  }
   return plots;
 }
 

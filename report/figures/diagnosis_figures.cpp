@@ -3,19 +3,17 @@
 #include "measured/spectra/robust.hpp"
 #include "report/figures/frequency_response_figure.hpp"
 #include "report/figures/hub_law_figure.hpp"
+#include "report/figures/meaning.hpp"
 #include "report/figures/missing_force_figure.hpp"
-#include "report/figures/sensor_label.hpp"
-#include "report/figures/svg.hpp"
+#include "report/figures/overlay_figure.hpp"
+#include "report/figures/residual_torque.hpp"
+#include "report/words.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 #include <complex>
-#include <functional>
-#include <numeric>
-#include <tbb/parallel_for.h>
 #include <utility>
 #include <variant>
 
@@ -25,7 +23,6 @@ namespace {
 
 using diagnose::Diagnosis;
 using diagnose::Experiment;
-using diagnose::HubTorqueKind;
 using diagnose::Overlay;
 
 const Overlay* overlay_of(const Diagnosis& diagnosis, std::size_t run, const arm::Sensor& sensor) {
@@ -34,95 +31,6 @@ const Overlay* overlay_of(const Diagnosis& diagnosis, std::size_t run, const arm
     return overlay.run == run && overlay.sensor == name;
   });
   return at == diagnosis.overlays.end() ? nullptr : &*at;
-}
-
-Style measured_style() {
-  return {.colour = black, .tint = 0.6, .line_width_px = 3.0};
-}
-Style before_style() {
-  return {.colour = blue, .line_width_px = 1.1};
-}
-Style after_style() {
-  return {.colour = vermillion, .line_width_px = 1.1};
-}
-
-const std::string kBefore = "baseline";
-const std::string kAfter = "extended arm";
-
-/// The first sensor of the record that is of one of these kinds, in their order.
-const arm::Sensor* first_of(const measured::TimeRecord& record,
-                            const std::vector<arm::SensorKind>& kinds) {
-  for (const arm::SensorKind kind : kinds) {
-    for (const auto& channel : record.channels) {
-      if (channel.sensor.kind == kind) return &channel.sensor;
-    }
-  }
-  return nullptr;
-}
-
-std::vector<const arm::Sensor*> drawn_sensors(const measured::TimeRecord& record) {
-  using enum arm::SensorKind;
-  std::vector<const arm::Sensor*> sensors;
-  const auto add = [&](const arm::Sensor* sensor) {
-    if (sensor != nullptr) sensors.push_back(sensor);
-  };
-  add(first_of(record, {hub_velocity, hub_angle}));
-  add(first_of(record, {tip_acceleration, tip_deflection, tip_displacement, strain}));
-  return sensors;
-}
-
-/// Where `kDrawnSamples` begin in which the overlays without causes are furthest off.
-std::size_t worst_stretch(const std::vector<const Overlay*>& overlays) {
-  const std::size_t n = overlays.front()->measured.size();
-  if (n <= kDrawnSamples) return 0;
-  std::vector<double> squares(n + 1);
-  for (const Overlay* overlay : overlays) {
-    const double scale = measured::standard_deviation(overlay->measured);
-    for (std::size_t k = 0; k < n; ++k) {
-      squares[k + 1] += std::pow((overlay->measured[k] - overlay->before[k]) / scale, 2);
-    }
-  }
-  std::partial_sum(squares.begin(), squares.end(), squares.begin());
-  std::size_t worst = 0;
-  for (std::size_t k = 0; k + kDrawnSamples <= n; ++k) {
-    if (squares[k + kDrawnSamples] - squares[k] > squares[worst + kDrawnSamples] - squares[worst]) {
-      worst = k;
-    }
-  }
-  return worst;
-}
-
-struct Stretch {
-  std::size_t from = 0;
-  std::size_t to = 0;
-
-  std::vector<double> of(const std::vector<double>& values) const {
-    return {values.begin() + static_cast<std::ptrdiff_t>(from),
-            values.begin() + static_cast<std::ptrdiff_t>(to)};
-  }
-};
-
-void add_panels(const Overlay& overlay, const arm::Sensor& sensor, const Stretch& stretch,
-                const std::vector<double>& time_s, bool has_causes, PanelStack& stack) {
-  const auto measured = stretch.of(overlay.measured);
-  const auto before = stretch.of(overlay.before);
-  const auto after = stretch.of(overlay.after);
-  const auto missed = [&](const std::vector<double>& simulated) {
-    std::vector<double> made = measured;
-    for (std::size_t k = 0; k < made.size(); ++k) made[k] -= simulated[k];
-    return made;
-  };
-  Panel signal{.y = {.label = sensor_label(sensor), .unit = axis_unit(sensor)}, .height = 1.4};
-  signal.series.push_back({"measured", time_s, measured, measured_style()});
-  signal.series.push_back({kBefore, time_s, before, before_style()});
-  Panel error{.y = {.label = "residual", .unit = axis_unit(sensor)}};
-  error.series.push_back({kBefore, time_s, missed(before), before_style()});
-  if (has_causes) {
-    signal.series.push_back({kAfter, time_s, after, after_style()});
-    error.series.push_back({kAfter, time_s, missed(after), after_style()});
-  }
-  stack.panels.push_back(std::move(signal));
-  stack.panels.push_back(std::move(error));
 }
 
 /// Real and imaginary parts, frequency by frequency.
@@ -136,68 +44,31 @@ std::vector<std::complex<double>> as_response(const std::vector<double>& parts) 
 Figure response_overlay(const Experiment& experiment, const Overlay& overlay,
                         const measured::FrequencyChannel& channel, bool has_causes) {
   FrequencyResponsePlot plot;
-  plot.title = fmt::format("{}: torque to {}", experiment.runs[overlay.run].run.id, overlay.sensor);
-  plot.analytical.push_back({kBefore, channel.frequency_Hz, as_response(overlay.before)});
+  plot.title = fmt::format("{}: torque to {}", experiment.runs[overlay.run].run.id,
+                           in_words(overlay.sensor));
+  plot.analytical.push_back({kBaselineName, channel.frequency_Hz, as_response(overlay.before)});
   if (has_causes) {
-    plot.analytical.push_back({kAfter, channel.frequency_Hz, as_response(overlay.after)});
+    plot.analytical.push_back({kExtendedName, channel.frequency_Hz, as_response(overlay.after)});
   }
   return frequency_response_figure(measured_response(channel), plot);
 }
 
-constexpr std::size_t kBins = 24;
-
-/// Means of equally many samples, in the order of what they are drawn against.
-struct Binned {
-  std::vector<double> x;
-  std::vector<double> mean;
-  std::vector<double> std_error;
-
-  /// Spread of the means over their errors.
-  double contrast() const {
-    const double middle = measured::mean(mean);
-    double sum = 0.0;
-    for (std::size_t b = 0; b < mean.size(); ++b) {
-      sum += std::pow((mean[b] - middle) / std_error[b], 2);
-    }
-    return sum / static_cast<double>(mean.size());
-  }
-};
-
-Binned binned(const std::vector<double>& x, const std::vector<double>& y) {
-  std::vector<std::size_t> order(x.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::ranges::sort(order, {}, [&](std::size_t k) { return x[k]; });
-  Binned made;
-  for (std::size_t b = 0; b < kBins; ++b) {
-    const std::size_t from = b * order.size() / kBins;
-    const std::size_t to = (b + 1) * order.size() / kBins;
-    std::vector<double> own_x;
-    std::vector<double> own_y;
-    for (std::size_t i = from; i < to; ++i) {
-      own_x.push_back(x[order[i]]);
-      own_y.push_back(y[order[i]]);
-    }
-    if (own_y.size() < 2) continue;
-    made.x.push_back(measured::mean(own_x));
-    made.mean.push_back(measured::mean(own_y));
-    made.std_error.push_back(measured::standard_deviation(own_y) /
-                             std::sqrt(static_cast<double>(own_y.size() - 1)));
-  }
-  return made;
-}
-
-/// What the accepted terms that depend on the velocity, or on the angle, say; of a ripple, whose
-/// phase they do not tell, nothing.
-double found_torque(const diagnose::HubTorque& torque, bool of_velocity, double x) {
-  double sum = 0.0;
-  for (const auto& term : torque.terms) {
-    if (of_velocity && term.kind == HubTorqueKind::coulomb_friction) {
-      sum -= std::copysign(term.coefficient, term.coefficient * x);
-    }
-    if (of_velocity && term.kind == HubTorqueKind::viscous_friction) sum -= term.coefficient * x;
-    if (!of_velocity && term.kind == HubTorqueKind::spring) sum -= term.coefficient * x;
-  }
-  return sum;
+/// Limits of an axis from most samples: the last ones say little of the torque
+/// (HubResponse::torque), and spikes would set the scale. The panel says how many lie outside.
+void limit_to_most(const std::vector<double>& torque_N_m, Panel& panel) {
+  constexpr double kAside = 0.05;  // of the samples, at each end
+  const double low = measured::quantile(torque_N_m, kAside);
+  const double high = measured::quantile(torque_N_m, 1.0 - kAside);
+  const auto [least, most] = std::ranges::minmax_element(torque_N_m);
+  const double margin = high - low;
+  if (!(margin > 0.0)) return;
+  panel.y.minimum = std::max(low - margin, *least - 0.05 * margin);
+  panel.y.maximum = std::min(high + margin, *most + 0.05 * margin);
+  const auto outside = std::ranges::count_if(torque_N_m, [&](double value) {
+    return value < *panel.y.minimum || value > *panel.y.maximum;
+  });
+  if (outside == 0) return;
+  panel.note = fmt::format("{} of {} samples outside", outside, torque_N_m.size());
 }
 
 Panel torque_panel(const diagnose::HubTorque& torque, const diagnose::HubTorqueTrace& trace,
@@ -206,13 +77,7 @@ Panel torque_panel(const diagnose::HubTorque& torque, const diagnose::HubTorqueT
   Panel panel{.y = {.label = "residual hub torque", .unit = "N m"}};
   panel.x = of_velocity ? Axis{.label = "hub velocity", .unit = "rad/s"}
                         : Axis{.label = "hub angle", .unit = "rad"};
-  // The last samples say little of the torque (HubResponse::torque), and a few spikes would set the
-  // scale.
-  constexpr double kShown = 0.01;
-  const double low = measured::quantile(trace.torque_N_m, kShown);
-  const double high = measured::quantile(trace.torque_N_m, 1.0 - kShown);
-  panel.y.minimum = low - 0.15 * (high - low);
-  panel.y.maximum = high + 0.15 * (high - low);
+  limit_to_most(trace.torque_N_m, panel);
   Series samples{"samples",
                  {},
                  {},
@@ -228,8 +93,9 @@ Panel torque_panel(const diagnose::HubTorque& torque, const diagnose::HubTorqueT
     samples.y.push_back(trace.torque_N_m[k]);
   }
   panel.series.push_back(std::move(samples));
-  const Binned bins = binned(x, trace.torque_N_m);
-  Series bars{"mean ± 2 standard errors", {}, {}, {.colour = blue, .line_width_px = 1.5}};
+  const TorqueMeans bins = torque_means(x, trace.torque_N_m);
+  Series bars{
+      "mean ± 2 standard errors", {}, {}, {.colour = kMeasuredColour, .line_width_px = 1.5}};
   for (std::size_t b = 0; b < bins.x.size(); ++b) {
     for (const double side : {-2.0, 2.0}) {
       bars.x.push_back(bins.x[b]);
@@ -239,66 +105,23 @@ Panel torque_panel(const diagnose::HubTorque& torque, const diagnose::HubTorqueT
     bars.y.push_back(kNotDrawn);
   }
   panel.series.push_back(std::move(bars));
-  panel.series.push_back(
-      {"mean",
-       bins.x,
-       bins.mean,
-       {.colour = blue, .line = Line::none, .marker = Marker::disc, .marker_size = 0.5}});
-  const auto [least, most] = std::ranges::minmax_element(x);
-  Series found{"identified terms", {}, {}, {.colour = vermillion, .line_width_px = 2.0}};
-  const double tiny = 1e-9 * (*most - *least);
-  for (const double at : {*least, -tiny, tiny, *most}) {
-    if (at < *least || at > *most) continue;
-    found.x.push_back(at);
-    found.y.push_back(found_torque(torque, of_velocity, at));
-  }
-  if (std::ranges::any_of(found.y, [](double value) { return value != 0.0; })) {
-    panel.series.push_back(std::move(found));
+  panel.series.push_back({"mean",
+                          bins.x,
+                          bins.mean,
+                          {.colour = kMeasuredColour,
+                           .line = Line::none,
+                           .marker = Marker::disc,
+                           .marker_size = 0.5}});
+  if (TorqueLine found = identified_torque(torque, of_velocity, x); !found.torque_N_m.empty()) {
+    panel.series.push_back({"identified terms",
+                            std::move(found.x),
+                            std::move(found.torque_N_m),
+                            {.colour = kIdentifiedColour, .line_width_px = 2.0}});
   }
   return panel;
 }
 
-bool depends_on_motion(const diagnose::HubTorque& torque) {
-  return std::ranges::any_of(torque.terms, [](const auto& term) {
-    return term.kind == HubTorqueKind::coulomb_friction ||
-           term.kind == HubTorqueKind::viscous_friction || term.kind == HubTorqueKind::spring ||
-           term.kind == HubTorqueKind::ripple;
-  });
-}
-
-/// The run whose residual torque shows most.
-const diagnose::HubTorqueTrace& clearest(const diagnose::HubTorque& torque) {
-  return *std::ranges::max_element(torque.traces, {}, [](const diagnose::HubTorqueTrace& trace) {
-    return std::max(binned(trace.velocity_rad_per_s, trace.torque_N_m).contrast(),
-                    binned(trace.angle_rad, trace.torque_N_m).contrast());
-  });
-}
-
 }  // namespace
-
-Figure overlay_figure(const Experiment& experiment, const Diagnosis& diagnosis, std::size_t run) {
-  const auto& record = std::get<measured::TimeRecord>(experiment.runs[run].data);
-  const auto sensors = drawn_sensors(record);
-  std::vector<const Overlay*> overlays;
-  for (const arm::Sensor* sensor : sensors) {
-    overlays.push_back(overlay_of(diagnosis, run, *sensor));
-  }
-  const std::size_t from = worst_stretch(overlays);
-  const Stretch stretch{from, std::min(record.time_s.size(), from + kDrawnSamples)};
-  constexpr int kPair_px = 330;
-  constexpr int kFurniture_px = 110;
-  Figure figure;
-  figure.title = experiment.runs[run].run.id;
-  figure.width_px = 1000;
-  figure.height_px = kFurniture_px + kPair_px * static_cast<int>(sensors.size());
-  PanelStack stack{.x = {.label = "time", .unit = "s"}};
-  for (std::size_t i = 0; i < sensors.size(); ++i) {
-    add_panels(*overlays[i], *sensors[i], stretch, stretch.of(record.time_s),
-               !diagnosis.causes.empty(), stack);
-  }
-  figure.stacks.push_back(std::move(stack));
-  return figure;
-}
 
 Figure hub_torque_figure(const diagnose::HubTorque& torque, const diagnose::HubTorqueTrace& trace) {
   Figure figure;
@@ -314,20 +137,24 @@ Figure hub_torque_figure(const diagnose::HubTorque& torque, const diagnose::HubT
 }
 
 DiagnosisPlots diagnosis_plots(const Experiment& experiment, const Diagnosis& diagnosis) {
-  std::vector<std::pair<std::string, std::function<Figure()>>> makers;
+  DiagnosisPlots made;
+  const auto add = [&](std::string name, Figure figure) {
+    made.plots.push_back({std::move(name), std::move(figure)});
+  };
   const bool has_causes = !diagnosis.causes.empty();
   std::vector<std::string> left_out;
   std::size_t runs_drawn = 0;
   std::size_t responses_drawn = 0;
   for (std::size_t r = 0; r < experiment.runs.size(); ++r) {
     const auto& [run, data] = experiment.runs[r];
-    if (const auto* record = std::get_if<measured::TimeRecord>(&data)) {
-      if (runs_drawn++ >= kMostDrawnRuns || drawn_sensors(*record).empty()) {
+    if (std::holds_alternative<measured::TimeRecord>(data)) {
+      auto figure = overlay_figure(experiment, diagnosis, r);
+      if (!figure) continue;
+      if (runs_drawn++ >= kMostDrawnRuns) {
         left_out.push_back(run.id);
         continue;
       }
-      makers.emplace_back(fmt::format("overlay-{}.svg", run.id),
-                          [&, r] { return overlay_figure(experiment, diagnosis, r); });
+      add(fmt::format("overlay-{}", run.id), std::move(*figure));
     } else if (const auto* responses = std::get_if<measured::FrequencyRecord>(&data)) {
       responses_drawn += responses->channels.size();
       if (responses_drawn > kMostDrawnResponses) {
@@ -336,28 +163,22 @@ DiagnosisPlots diagnosis_plots(const Experiment& experiment, const Diagnosis& di
       }
       for (const auto& channel : responses->channels) {
         const Overlay* overlay = overlay_of(diagnosis, r, channel.sensor);
-        makers.emplace_back(fmt::format("frf-{}-{}.svg", run.id, overlay->sensor), [&, overlay] {
-          return response_overlay(experiment, *overlay, channel, has_causes);
-        });
+        if (overlay == nullptr) continue;
+        add(fmt::format("frf-{}-{}", run.id, overlay->sensor),
+            response_overlay(experiment, *overlay, channel, has_causes));
       }
     }
   }
   const auto& torque = diagnosis.symptoms.hub_torque;
   if (depends_on_motion(torque)) {
-    makers.emplace_back("hub-torque.svg",
-                        [&] { return hub_torque_figure(torque, clearest(torque)); });
+    add("hub-torque", hub_torque_figure(torque, clearest(torque)));
   }
   if (const auto& law = diagnosis.empirical_law) {
-    makers.emplace_back("hub-law.svg", [&] { return hub_law_figure(*law); });
+    add("hub-law", hub_law_figure(*law));
   }
   if (const auto& force = diagnosis.missing_force; force && !force->ports.empty()) {
-    makers.emplace_back("missing-force.svg", [&] { return missing_force_figure(*force); });
+    add("missing-force", missing_force_figure(*force));
   }
-  DiagnosisPlots made;
-  made.plots.resize(makers.size());
-  tbb::parallel_for(std::size_t{0}, makers.size(), [&](std::size_t i) {
-    made.plots[i] = {makers[i].first, to_svg(makers[i].second())};
-  });
   if (!left_out.empty()) {
     made.left_out = fmt::format("no figures for runs {}: limit on the number of figures reached",
                                 fmt::join(left_out, ", "));

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "diagnose/diagnosis.hpp"
-#include "report/figures/comparison_plots.hpp"
 #include "report/figures/figure.hpp"
 
 #include <cstddef>
@@ -10,29 +9,22 @@
 
 namespace flexarm::report {
 
-/// Figures of a diagnosis: SVG documents with the names of their files, and what is not drawn.
+/// Figures of a diagnosis, and what is not drawn.
 struct DiagnosisPlots {
-  std::vector<NamedPlot> plots;
+  std::vector<NamedFigure> plots;
   std::string left_out;  ///< a sentence; empty where every run was drawn
 };
 
-/// Of each of the first `kMostDrawnRuns` runs in time "overlay-RUN.svg" (`overlay_figure`), of as
-/// many `frf` runs "frf-RUN-SENSOR.svg"; "hub-torque.svg" where a dependence of the residual torque
-/// on the hub's motion was found (`hub_torque_figure`); "hub-law.svg" with an empirical law
-/// (`hub_law_figure`); "missing-force.svg" where ports of a missing force were tested
+/// Of each of the first `kMostDrawnRuns` predicted runs in time "overlay-RUN" (`overlay_figure`),
+/// of as many `frf` runs "frf-RUN-SENSOR"; "hub-torque" where a dependence of the residual torque
+/// on the hub's motion was found (`hub_torque_figure`); "hub-law" with an empirical law
+/// (`hub_law_figure`); "missing-force" where ports of a missing force were tested
 /// (`missing_force_figure`).
 DiagnosisPlots diagnosis_plots(const diagnose::Experiment& experiment,
                                const diagnose::Diagnosis& diagnosis);
 inline constexpr std::size_t kMostDrawnRuns = 6;
 /// Of these each sensor has a figure of its own.
 inline constexpr std::size_t kMostDrawnResponses = 12;
-
-/// A signal of the hub and one of the tip (of those there are) of a run in time: measurement and
-/// simulation over the stretch of `kDrawnSamples` where the simulation without causes misses most,
-/// each with what is missed below it.
-Figure overlay_figure(const diagnose::Experiment& experiment, const diagnose::Diagnosis& diagnosis,
-                      std::size_t run);
-inline constexpr std::size_t kDrawnSamples = 500;
 
 /// Residual torque of one run against hub velocity and against hub angle: samples, means of equally
 /// many samples with two standard errors, and what the regression found.

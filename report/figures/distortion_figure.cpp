@@ -1,6 +1,7 @@
 #include "report/figures/distortion_figure.hpp"
 
 #include "report/figures/equal_axes.hpp"
+#include "report/figures/meaning.hpp"
 #include "report/figures/sensor_label.hpp"
 
 #include <fmt/format.h>
@@ -63,11 +64,12 @@ Figure distortion_figure(const arm::Sensor& sensor, const measured::ChannelDisto
     add(std::move(series), remark);
   };
   using measured::LineKind;
-  add_lines(LineKind::odd, "odd detection lines", marker_style(vermillion, Marker::triangle, 0.5),
+  add_lines(LineKind::odd, "odd detection lines", marker_style(orange, Marker::triangle, 0.5),
             verdict(channel.odd));
   add_lines(LineKind::even, "even detection lines", marker_style(green, Marker::square, 0.45),
             verdict(channel.even));
-  add_lines(LineKind::driven, "excited lines", marker_style(blue, Marker::disc, 0.5), "");
+  add_lines(LineKind::driven, "excited lines", marker_style(kMeasuredColour, Marker::disc, 0.5),
+            "");
 
   PanelStack stack;
   stack.x = {.label = "frequency", .unit = "Hz", .scale = frequency_scale};

@@ -8,23 +8,20 @@
 
 namespace flexarm::report {
 
-/// A square piece of a complex plane to scale, its numbers in a power of ten, a multiple of three,
-/// in which they have few digits.
+/// A square piece of a complex plane to scale.
 struct EqualAxes {
   std::string quantity;  ///< "G": the axes are Re G and Im G
   std::string unit;
   std::complex<double> centre;
   double half_side = 1.0;  ///< above 0
-  double largest = 1.0;    ///< size that numbers are to be short for
 
-  /// Both axes with their ticks, and the lines Re = 0 and Im = 0 where they cross the piece.
+  /// Both axes, and the lines Re = 0 and Im = 0 where they cross the piece.
   Panel panel(std::string title) const;
-  /// A value in the numbers of the axes.
-  std::complex<double> drawn(std::complex<double> value) const;
-  /// Values that are not finite are gaps.
-  Series series(std::string name, std::span<const std::complex<double>> values,
-                const Style& style) const;
 };
+
+/// Imaginary over real parts. Values that are not finite are gaps.
+Series complex_series(std::string name, std::span<const std::complex<double>> values,
+                      const Style& style);
 
 /// Lines along both coordinate axes across a panel.
 void add_coordinate_axes(Panel& panel, double left, double right, double bottom, double top);

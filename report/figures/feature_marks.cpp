@@ -2,6 +2,7 @@
 
 #include "report/figures/equal_axes.hpp"
 #include "report/figures/figure_layout.hpp"
+#include "report/figures/meaning.hpp"
 
 #include <fmt/format.h>
 
@@ -32,7 +33,7 @@ void add_feature_marks(Panel& panel, std::span<const measured::SpectralFeature> 
         peak ? "peak [Hz]" : "minimum [Hz]",
         {},
         {},
-        marker_style(peak ? vermillion : green, peak ? Marker::cross : Marker::circle, 0.8)};
+        marker_style(peak ? kPoleColour : kZeroColour, peak ? Marker::cross : Marker::circle, 0.8)};
     series.style.line_width_px = 1.8;
     for (const auto& feature : sorted) {
       if (feature.feature != kind) continue;
@@ -79,7 +80,7 @@ void add_frequency_lines(Panel& panel, std::span<const double> frequency_Hz,
 }
 
 Style analytical_pole_style() {
-  Style style = thin_line(blue, Line::dashed);
+  Style style = thin_line(kBaselineColour, Line::dashed);
   style.tint = 0.45;
   style.line_width_px = 1.0;
   return style;

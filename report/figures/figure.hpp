@@ -21,6 +21,7 @@ struct Axis {
   std::optional<double> minimum = {};  ///< empty: from the data, with a margin
   std::optional<double> maximum = {};
   std::vector<Tick> ticks = {};  ///< empty: chosen from the range
+  bool robust = false;  ///< outliers do not set the limits (report/figures/robust_range.hpp)
 };
 
 enum class Line { none, solid, dashed, dotted, dash_dotted };
@@ -73,8 +74,9 @@ struct Series {
   std::vector<double> y_to = {};  ///< of a filled area, one a point
 };
 
-/// Where a text stands, seen from its point.
-enum class TextPlace { upper_right, above, below, left, right, centre };
+/// Where a text stands, seen from its point. At the ends of curves it is moved up or down where
+/// curves end close to each other.
+enum class TextPlace { upper_right, above, below, left, right, centre, end };
 
 /// Text beside a point of a panel.
 struct Annotation {
@@ -90,7 +92,8 @@ struct Panel {
   Axis y = {};
   std::vector<Series> series = {};
   std::vector<Annotation> annotations = {};
-  double height = 1.0;  ///< relative to the other panels of its stack
+  double height = 1.0;    ///< relative to the other panels of its stack
+  std::string note = {};  ///< above the panel, at its right side
 };
 
 /// Panels one above the other, on one x axis unless they have their own.
@@ -108,6 +111,11 @@ struct LegendEntry {
   std::optional<Style> style = {};
 };
 
+/// The font of everything but titles, unless a figure has its own: 10 points.
+inline constexpr double kFontSize_px = 40.0 / 3.0;
+
+inline constexpr const char* kSansSerif = "sans-serif";
+
 /// A picture: stacks of panels side by side, with the legend to their right.
 struct Figure {
   std::string title = {};
@@ -115,6 +123,14 @@ struct Figure {
   std::vector<LegendEntry> legend = {};  ///< empty: every series name once
   int width_px = 900;
   int height_px = 600;
+  std::string font = kSansSerif;
+  double font_size_px = kFontSize_px;
+};
+
+/// A figure and its file name without extension.
+struct NamedFigure {
+  std::string name = {};
+  Figure figure = {};
 };
 
 }  // namespace flexarm::report

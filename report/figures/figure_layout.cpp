@@ -1,97 +1,69 @@
 #include "report/figures/figure_layout.hpp"
 
-#include "report/utf8_text.hpp"
+#include "report/figures/linear_ticks.hpp"
+#include "report/figures/logarithmic_ticks.hpp"
+#include "report/figures/panel_ranges.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace flexarm::report {
 namespace {
 
-constexpr double kCharacter_px = 0.6 * kFontSize_px;  // mean advance of a broad sans-serif face
-constexpr double kLine_px = 1.45 * kFontSize_px;
 constexpr double kEdge_px = 16.0;
-constexpr double kTitle_px = 44.0;
-constexpr double kPanelTitle_px = 24.0;
 constexpr double kPanelGap_px = 14.0;
-constexpr double kAxisLabel_px = 56.0;  // tick labels and axis label under a stack
-constexpr double kTickNumber_px = 7.0 * kCharacter_px;
-constexpr double kLegendSample_px = 54.0;
+constexpr double kTick_px = 12.0;  // from an axis to its labels, with some room behind them
 constexpr double kLegendGap_px = 14.0;
-constexpr double kDataMargin = 0.04;  // of an axis, so that no curve runs along its edge
+constexpr double kWidestLegend = 0.3;  // of the figure, samples included
+constexpr double kLegendRow = 1.2;     // lines from one entry to the next
 
-/// Values that differ by less, relatively, are one: the labels at an axis have six digits.
-constexpr double kOneValue = 1e-6;
+/// Lengths of a figure that follow from its font.
+struct Furniture {
+  TextSize text;
 
-/// The smallest range, on the axis' scale, that holds all that was taken in.
-struct Extent {
-  double low = std::numeric_limits<double>::infinity();
-  double high = -std::numeric_limits<double>::infinity();
-
-  void take_in(double value, const Axis& axis) {
-    low = std::min(low, on_scale(value, axis));
-    high = std::max(high, on_scale(value, axis));
+  double title_px(const std::string& title) const {
+    if (title.empty()) return kEdge_px;
+    return 26.0 + text.of_title().line_px() * line_count(title);
   }
+  double panel_title_px() const { return 1.8 * text.font_px; }
+  double axis_label_px() const {
+    return 4.2 * text.font_px;
+  }  // tick labels and label below a stack
 };
 
-Range range_of(const Extent& extent, const Axis& axis, double margin) {
-  double low = extent.low;
-  double high = extent.high;
-  const double size = std::max(std::abs(low), std::abs(high));
-  if (high - low <= kOneValue * size) {  // some room around it
-    const double room = size == 0.0 || axis.scale == Scale::logarithmic ? 0.5 : size / 2;
-    low -= room;
-    high += room;
-  }
-  const double margin_width = margin * (high - low);
-  const Range range{axis.minimum.value_or(from_scale(low - margin_width, axis)),
-                    axis.maximum.value_or(from_scale(high + margin_width, axis))};
-  if (!(range.from < range.to) || !is_drawable(range.from, axis) || !is_drawable(range.to, axis)) {
-    throw std::invalid_argument(
-        fmt::format("axis \"{}\": {} to {} is no range", axis.label, range.from, range.to));
-  }
-  return range;
+/// "label [unit]".
+std::string axis_text(const Axis& axis, int exponent) {
+  const std::string unit = scaled_unit(exponent, axis.unit);
+  if (unit.empty()) return axis.label;
+  return axis.label.empty() ? fmt::format("[{}]", unit) : fmt::format("{} [{}]", axis.label, unit);
 }
 
-/// Takes the drawable points of a panel into both extents.
-void take_in(const Panel& panel, const Axis& x_axis, Extent& x, Extent& y) {
-  bool anything = false;
-  for (const Series& series : panel.series) {
-    if (series.x.empty() || series.x.size() != series.y.size()) {
-      throw std::invalid_argument(fmt::format("series \"{}\": {} values of x and {} of y",
-                                              series.name, series.x.size(), series.y.size()));
-    }
-    if (series.style.filled && series.y_to.size() != series.y.size()) {
-      throw std::invalid_argument(fmt::format("series \"{}\": {} values of y and {} to fill up to",
-                                              series.name, series.y.size(), series.y_to.size()));
-    }
-    for (std::size_t i = 0; i < series.x.size(); ++i) {
-      if (!is_drawable(series, i, x_axis, panel.y)) continue;
-      x.take_in(series.x[i], x_axis);
-      y.take_in(series.y[i], panel.y);
-      if (series.style.filled) y.take_in(series.y_to[i], panel.y);
-      anything = true;
-    }
-  }
-  if (!anything) {
-    throw std::invalid_argument(
-        fmt::format("panel \"{}\": no series has a point to draw", panel.y.label));
-  }
+/// The label of a vertical axis in lines that are as long as the panel is high.
+std::string upright_text(const std::string& label, double height_px, const TextSize& text) {
+  constexpr double kReach = 1.05;  // beyond the panel, into the gaps
+  if (text.width_px(label) <= kReach * height_px) return label;
+  const std::size_t unit = label.rfind(" [");
+  if (unit == std::string::npos || unit == 0) return text.wrapped(label, kReach * height_px);
+  return text.wrapped(label.substr(0, unit), kReach * height_px) + "\n" + label.substr(unit + 1);
 }
 
-std::vector<LegendEntry> legend_of(const Figure& figure) {
+std::vector<LegendEntry> legend_of(const Figure& figure, const std::vector<StackRanges>& ranges) {
   if (!figure.legend.empty()) return figure.legend;
   std::vector<LegendEntry> legend;
-  for (const PanelStack& stack : figure.stacks) {
-    for (const Panel& panel : stack.panels) {
+  for (std::size_t s = 0; s < figure.stacks.size(); ++s) {
+    const PanelStack& stack = figure.stacks[s];
+    for (std::size_t p = 0; p < stack.panels.size(); ++p) {
+      const Panel& panel = stack.panels[p];
       for (const Series& series : panel.series) {
         const auto has_name = [&](const LegendEntry& e) { return e.text == series.name; };
-        if (!series.name.empty() && std::ranges::none_of(legend, has_name)) {
+        if (series.name.empty() || std::ranges::any_of(legend, has_name)) continue;
+        if (is_shown(series, panel.x ? *panel.x : stack.x, panel.y, ranges[s].x[p],
+                     ranges[s].y[p])) {
           legend.push_back({series.name, series.style});
         }
       }
@@ -100,24 +72,45 @@ std::vector<LegendEntry> legend_of(const Figure& figure) {
   return legend;
 }
 
-/// Room on the left of a stack for its axis labels and tick labels.
-double left_margin_px(const PanelStack& stack) {
-  double widest_tick = kTickNumber_px;
-  for (const Panel& panel : stack.panels) {
-    for (const Tick& tick : panel.y.ticks)
-      widest_tick = std::max(widest_tick, text_width_px(tick.label));
+/// Columns of legend entries from the top down. Returns the left side of the first.
+double place_legend(const std::vector<LegendEntry>& entries, const Figure& figure, double top_px,
+                    FigureLayout& layout) {
+  const TextSize text{figure.font_size_px};
+  const double most_px = kWidestLegend * figure.width_px - kLegendText_px;
+  double widest_px = 0.0;
+  for (const LegendEntry& entry : entries) {
+    layout.legend.push_back({text.wrapped(entry.text, most_px), entry.style});
+    widest_px = std::max(widest_px, text.width_px(layout.legend.back().text));
   }
-  return kEdge_px + kLine_px + widest_tick;
+  const double column_px = kLegendText_px + widest_px + kLegendGap_px;
+  const double first_px = top_px - 0.5 * text.line_px();
+  int column = 0;
+  double middle_px = first_px;
+  for (PlacedLegendEntry& entry : layout.legend) {
+    const double last_px = middle_px - (line_count(entry.text) - 1) * text.line_px();
+    if (last_px < kEdge_px && middle_px < first_px) {
+      ++column;
+      middle_px = first_px;
+    }
+    entry.left_px = column * column_px;
+    entry.middle_px = middle_px;
+    middle_px -= (line_count(entry.text) - 1 + kLegendRow) * text.line_px();
+  }
+  if (layout.legend.empty()) return figure.width_px - kEdge_px / 2;
+  const double left_px = figure.width_px - (column + 1) * column_px;
+  for (PlacedLegendEntry& entry : layout.legend) entry.left_px += left_px;
+  return left_px;
 }
 
 /// Shares the height between `bottom_px` and `top_px` out among the panels, the first on top.
-void stack_panels(const PanelStack& stack, double bottom_px, double top_px,
-                  std::vector<PanelBox>& boxes) {
+void stack_panels(const PanelStack& stack, const Furniture& furniture, double bottom_px,
+                  double top_px, std::vector<PanelBox>& boxes) {
   const auto title_px = [&](std::size_t i) {
-    return stack.panels[i].title.empty() ? 0.0 : kPanelTitle_px;
+    const bool has_text = !stack.panels[i].title.empty() || !boxes[i].note.empty();
+    return has_text ? furniture.panel_title_px() : 0.0;
   };
   const auto gap_below_px = [&](std::size_t i) {
-    return kPanelGap_px + (stack.panels[i].x ? kAxisLabel_px : 0.0);
+    return kPanelGap_px + (stack.panels[i].x ? furniture.axis_label_px() : 0.0);
   };
   const auto above_px = [&](std::size_t i) {
     return (i > 0 ? gap_below_px(i - 1) : 0.0) + title_px(i);
@@ -138,6 +131,53 @@ void stack_panels(const PanelStack& stack, double bottom_px, double top_px,
     boxes[i].top_px = top -= above_px(i);
     boxes[i].bottom_px = top -= room * stack.panels[i].height / total_height;
   }
+}
+
+/// Ticks of an axis, and what its label has.
+std::vector<Tick> ticks_of(const Axis& axis, const Range& range, double length_px,
+                           const TextSize& text, bool upright, int& exponent) {
+  exponent = 0;
+  if (!axis.ticks.empty()) return axis.ticks;
+  const double line_px = 1.7 * text.font_px;
+  if (axis.scale == Scale::logarithmic) {
+    const double label_px = upright ? line_px : 6.0 * text.character_px();
+    return logarithmic_ticks(range, std::max(1, static_cast<int>(length_px / label_px)));
+  }
+  auto made = linear_ticks(range, length_px, [&](const std::string& label) {
+    return upright ? line_px : text.width_px(label) + 2.0 * text.character_px();
+  });
+  exponent = made.exponent;
+  return std::move(made.ticks);
+}
+
+/// Ticks and label of the vertical axes; room on the left of the stack for both.
+double lay_out_upright(const PanelStack& stack, const TextSize& text,
+                       std::vector<PanelBox>& boxes) {
+  // Labels of a stack stand in one line, that of a panel with names as ticks by itself.
+  double widest_number_px = 4.0 * text.character_px();
+  std::vector<double> widest_px(boxes.size());
+  int most_lines = 1;
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    PanelBox& box = boxes[i];
+    const double height_px = box.top_px - box.bottom_px;
+    int exponent = 0;
+    box.y_ticks = ticks_of(stack.panels[i].y, box.y, height_px, text, true, exponent);
+    box.y_label = upright_text(axis_text(stack.panels[i].y, exponent), height_px, text);
+    most_lines = std::max(most_lines, line_count(box.y_label));
+    for (const Tick& tick : box.y_ticks) {
+      widest_px[i] = std::max(widest_px[i], text.width_px(tick.label));
+    }
+    if (stack.panels[i].y.ticks.empty())
+      widest_number_px = std::max(widest_number_px, widest_px[i]);
+  }
+  const double furniture_px = kEdge_px + most_lines * text.line_px() + kTick_px;
+  double margin_px = 0.0;
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    const double own_px = furniture_px + std::max(widest_px[i], widest_number_px);
+    boxes[i].label_px = own_px - kEdge_px / 2 - 0.5 * text.line_px();
+    margin_px = std::max(margin_px, own_px);
+  }
+  return margin_px;
 }
 
 /// Shortens the longer sides, from below and from the right.
@@ -166,10 +206,6 @@ double from_scale(double value, const Axis& axis) {
   return axis.scale == Scale::logarithmic ? std::pow(10.0, value) : value;
 }
 
-double text_width_px(const std::string& text) {
-  return kCharacter_px * static_cast<double>(display_width(text));
-}
-
 FigureLayout lay_out(const Figure& figure) {
   const bool has_panels =
       !figure.stacks.empty() &&
@@ -177,53 +213,52 @@ FigureLayout lay_out(const Figure& figure) {
   if (!has_panels) {
     throw std::invalid_argument(fmt::format("figure \"{}\" has no panels", figure.title));
   }
+  const Furniture furniture{{figure.font_size_px}};
+  const TextSize& text = furniture.text;
+  std::vector<StackRanges> ranges;
+  for (const PanelStack& stack : figure.stacks) ranges.push_back(ranges_of(stack));
 
   FigureLayout layout;
-  layout.legend = legend_of(figure);
-  const double top_px = figure.height_px - (figure.title.empty() ? kEdge_px : kTitle_px);
-  const double bottom_px = kAxisLabel_px;
+  layout.title = text.of_title().wrapped(figure.title, figure.width_px - 2.0 * kEdge_px);
+  layout.title_px = figure.height_px - kEdge_px - 0.5 * text.of_title().font_px;
+  const double top_px = figure.height_px - furniture.title_px(layout.title);
+  const double bottom_px = furniture.axis_label_px();
+  const double legend_px = place_legend(legend_of(figure, ranges), figure, top_px, layout);
 
-  layout.legend_rows = std::max(1, static_cast<int>((top_px - kEdge_px) / kLegendRow_px));
-  double widest_entry = 0.0;
-  for (const LegendEntry& entry : layout.legend) {
-    widest_entry = std::max(widest_entry, text_width_px(entry.text));
-  }
-  const auto entries = static_cast<int>(layout.legend.size());
-  const int legend_columns = (entries + layout.legend_rows - 1) / layout.legend_rows;
-  layout.legend_left_px =
-      figure.width_px - kEdge_px / 2 - legend_columns * (widest_entry + kLegendSample_px);
-  layout.legend_top_px = top_px;
-
-  double room = layout.legend_left_px - (entries > 0 ? kLegendGap_px : kEdge_px / 2);
+  double room = legend_px - (layout.legend.empty() ? 0.0 : kLegendGap_px);
   double total_width = 0.0;
-  for (const PanelStack& stack : figure.stacks) {
-    room -= left_margin_px(stack);
-    total_width += stack.width;
-  }
-  double right = 0.0;
-  for (const PanelStack& stack : figure.stacks) {
-    const double left = right + left_margin_px(stack);
-    right = left + room * stack.width / total_width;
-
-    Extent shared_x;
+  std::vector<double> margin_px;
+  for (std::size_t s = 0; s < figure.stacks.size(); ++s) {
+    const PanelStack& stack = figure.stacks[s];
     std::vector<PanelBox> boxes(stack.panels.size());
     for (std::size_t i = 0; i < boxes.size(); ++i) {
-      const Panel& panel = stack.panels[i];
-      Extent own_x;
-      Extent y;
-      take_in(panel, panel.x.value_or(stack.x), panel.x ? own_x : shared_x, y);
-      if (panel.x) boxes[i].x = range_of(own_x, *panel.x, kDataMargin / 2);
-      boxes[i].y = range_of(y, panel.y, kDataMargin);
-      boxes[i].left_px = left;
-      boxes[i].right_px = right;
-      boxes[i].label_px = left_margin_px(stack) - kLine_px;
+      boxes[i].text = text;
+      boxes[i].x = ranges[s].x[i];
+      boxes[i].y = ranges[s].y[i];
+      const bool both = !stack.panels[i].note.empty() && !ranges[s].notes[i].empty();
+      boxes[i].note = stack.panels[i].note + (both ? "; " : "") + ranges[s].notes[i];
     }
-    for (std::size_t i = 0; i < boxes.size(); ++i) {
-      if (!stack.panels[i].x) boxes[i].x = range_of(shared_x, stack.x, kDataMargin / 2);
-    }
-    stack_panels(stack, bottom_px, top_px, boxes);
-    if (stack.square) std::ranges::for_each(boxes, make_square);
+    stack_panels(stack, furniture, bottom_px, top_px, boxes);
+    margin_px.push_back(lay_out_upright(stack, text, boxes));
+    room -= margin_px.back();
+    total_width += stack.width;
     layout.boxes.push_back(std::move(boxes));
+  }
+  double right = 0.0;
+  for (std::size_t s = 0; s < figure.stacks.size(); ++s) {
+    const PanelStack& stack = figure.stacks[s];
+    const double left = right + margin_px[s];
+    right = left + room * stack.width / total_width;
+    for (std::size_t i = 0; i < layout.boxes[s].size(); ++i) {
+      PanelBox& box = layout.boxes[s][i];
+      box.left_px = left;
+      box.right_px = right;
+      if (stack.square) make_square(box);
+      const Axis& axis = stack.panels[i].x ? *stack.panels[i].x : stack.x;
+      int exponent = 0;
+      box.x_ticks = ticks_of(axis, box.x, box.right_px - box.left_px, text, false, exponent);
+      box.x_label = axis_text(axis, exponent);
+    }
   }
   return layout;
 }

@@ -1,13 +1,16 @@
 #include "report/figures/frequency_response_figure.hpp"
 
 #include "measured/spectra/frequency_response.hpp"
+#include "measured/spectra/robust.hpp"
 #include "report/figures/feature_marks.hpp"
-#include "report/figures/label_placement.hpp"
+#include "report/figures/figure_layout.hpp"
+#include "report/figures/meaning.hpp"
 #include "report/figures/measured_curve.hpp"
 #include "report/figures/phase.hpp"
 #include "report/figures/phase_panel.hpp"
 #include "report/figures/refined_curve.hpp"
 #include "report/tables/response_tables.hpp"
+#include "report/words.hpp"
 
 #include <boost/math/distributions/students_t.hpp>
 #include <fmt/format.h>
@@ -15,6 +18,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <iterator>
 #include <numbers>
 #include <stdexcept>
 #include <utility>
@@ -30,16 +35,21 @@ constexpr int kResponseWidth_px = 1000;
 constexpr int kResponseHeight_px = 780;
 constexpr int kCoherence_px = 140;
 constexpr double kMagnitudeRoom = 0.12;
-constexpr double kKnown = 0.3;                             // half a 95 % interval, relative
+constexpr double kModelAbove = 5.0;  // the largest measured value, as far as a model sets limits
+constexpr double kKnown = 0.3;       // half a 95 % interval, relative
 constexpr double kMostPhase_rad = std::numbers::pi / 4.0;  // half of one
 constexpr double kCoherenceRoom = 0.04;
+constexpr double kLeastPower = 1e-3;  // of the torque, relative to where it has its full power
+constexpr double kFullPower = 0.9;    // quantile of the powers of its lines
+constexpr std::size_t kLinesBeside = 5;
 constexpr const char* kMeasured = "measured";
 constexpr const char* kInterval = "95 % interval";
 
-/// A model's curve, broken so that what lies below shows where they agree.
+/// A model's curve, broken so that what lies below shows where they agree: the arm file, then the
+/// extended arm.
 Style model_style(std::size_t i) {
-  constexpr std::array kLines{Line::dotted, Line::dash_dotted};
-  constexpr std::array kModelColours{blue, green, purple};
+  constexpr std::array kLines{Line::dotted, Line::dashed};
+  constexpr std::array<int, 3> kModelColours{kBaselineColour, kIdentifiedColour, purple};
   Style style;
   style.colour = kModelColours[i % kModelColours.size()];
   style.line = kLines[i % kLines.size()];
@@ -47,7 +57,7 @@ Style model_style(std::size_t i) {
   return style;
 }
 
-const Style kFit{.colour = vermillion, .line = Line::dashed, .line_width_px = 1.8};
+const Style kFit{.colour = kIdentifiedColour, .line = Line::dashed, .line_width_px = 1.8};
 
 struct ModelCurve {
   std::string name;
@@ -75,30 +85,56 @@ void require_valid(const MeasuredResponse& m, const FrequencyResponsePlot& plot)
   }
 }
 
+/// The bands in which the response was measured.
+std::vector<Range> measured_bands(const MeasuredResponse& measured) {
+  std::vector<double> lines_Hz;
+  for (std::size_t k = 0; k < measured.frequency_Hz.size(); ++k) {
+    if (std::isfinite(std::abs(measured.response[k]))) lines_Hz.push_back(measured.frequency_Hz[k]);
+  }
+  std::vector<Range> bands;
+  for (std::size_t k = 0; k < lines_Hz.size(); ++k) {
+    if (bands.empty() || begins_band(lines_Hz, k)) bands.push_back({lines_Hz[k], lines_Hz[k]});
+    bands.back().to = lines_Hz[k];
+  }
+  return bands;
+}
+
+void add_gap(ModelCurve& curve) {
+  if (curve.frequency_Hz.empty()) return;
+  curve.frequency_Hz.push_back(curve.frequency_Hz.back());
+  curve.response.emplace_back(kNotDrawn, kNotDrawn);
+}
+
+/// Models where the response was measured.
 std::vector<ModelCurve> model_curves(const MeasuredResponse& measured,
                                      const FrequencyResponsePlot& plot) {
+  const std::vector<Range> bands = measured_bands(measured);
   std::vector<ModelCurve> curves;
   if (plot.fit) {
-    const auto positive = std::ranges::upper_bound(measured.frequency_Hz, 0.0);
-    if (positive != measured.frequency_Hz.end()) {
-      const auto value = [&](double f_Hz) {
-        return plot.fit->value(Complex(0.0, 2.0 * std::numbers::pi * f_Hz));
-      };
-      auto curve =
-          refined_curve(value, *positive, measured.frequency_Hz.back(), plot.frequency_scale);
-      curves.push_back({"fit", std::move(curve.frequency_Hz), std::move(curve.response), kFit});
+    const auto value = [&](double f_Hz) {
+      return plot.fit->value(Complex(0.0, 2.0 * std::numbers::pi * f_Hz));
+    };
+    ModelCurve curve{"fit", {}, {}, kFit};
+    for (const Range& band : bands) {
+      if (!(band.from < band.to)) continue;
+      add_gap(curve);
+      const auto refined = refined_curve(value, band.from, band.to, plot.frequency_scale);
+      std::ranges::copy(refined.frequency_Hz, std::back_inserter(curve.frequency_Hz));
+      std::ranges::copy(refined.response, std::back_inserter(curve.response));
     }
+    if (!curve.response.empty()) curves.push_back(std::move(curve));
   }
   for (std::size_t i = 0; i < plot.analytical.size(); ++i) {
     const auto& model = plot.analytical[i];
     ModelCurve curve{model.name, {}, {}, model_style(i)};
-    for (std::size_t k = 0; k < model.frequency_Hz.size(); ++k) {
-      if (model.frequency_Hz[k] < measured.frequency_Hz.front() ||
-          model.frequency_Hz[k] > measured.frequency_Hz.back()) {
-        continue;
+    std::size_t k = 0;
+    for (const Range& band : bands) {
+      while (k < model.frequency_Hz.size() && model.frequency_Hz[k] < band.from) ++k;
+      if (k < model.frequency_Hz.size() && model.frequency_Hz[k] <= band.to) add_gap(curve);
+      for (; k < model.frequency_Hz.size() && model.frequency_Hz[k] <= band.to; ++k) {
+        curve.frequency_Hz.push_back(model.frequency_Hz[k]);
+        curve.response.push_back(model.response[k]);
       }
-      curve.frequency_Hz.push_back(model.frequency_Hz[k]);
-      curve.response.push_back(model.response[k]);
     }
     if (!curve.response.empty()) curves.push_back(std::move(curve));
   }
@@ -123,19 +159,36 @@ std::vector<double> up_to_known(std::vector<double> sizes, const std::vector<dou
   return sizes;
 }
 
+/// 0 where none is above it.
+double largest_of(const std::vector<double>& values) {
+  double largest = 0.0;
+  for (const double value : values) largest = std::fmax(largest, value);
+  return largest;
+}
+
 Panel magnitude_panel(const MeasuredResponse& m, const std::vector<double>& interval,
                       const std::vector<ModelCurve>& models) {
   Panel panel;
-  panel.y = {.label = "magnitude", .unit = response_unit(m.sensor), .scale = Scale::logarithmic};
+  panel.y = {.label = "magnitude",
+             .unit = unit_text(response_unit(m.sensor)),
+             .scale = Scale::logarithmic};
   panel.height = 1.8;
   const auto sizes = magnitude(m.response);
   panel.series.push_back(measured_curve(kMeasured, m.frequency_Hz, up_to_known(sizes, interval)));
+  // A model's resonance between two lines has no bound: it does not set the limits.
+  const double highest = largest_of(panel.series.front().y);
   for (const auto& model : models) {
-    panel.series.push_back(
-        {model.name, model.frequency_Hz, magnitude(model.response), model.style});
+    auto limited = magnitude(model.response);
+    for (double& size : limited) {
+      if (highest > 0.0 && size > kModelAbove * highest) size = kModelAbove * highest;
+    }
+    panel.series.push_back({model.name, model.frequency_Hz, std::move(limited), model.style});
   }
   fix_limits(panel, kMagnitudeRoom);
   panel.series.front() = measured_curve(kMeasured, m.frequency_Hz, sizes);
+  for (std::size_t i = 0; i < models.size(); ++i) {
+    panel.series[i + 1].y = magnitude(models[i].response);
+  }
   if (!interval.empty() && panel.y.minimum) {
     std::vector<double> low;
     std::vector<double> high;
@@ -164,11 +217,11 @@ Panel phase_panel(const MeasuredResponse& m, const std::vector<double>& interval
                   const std::vector<ModelCurve>& models) {
   Panel panel;
   panel.height = 1.1;
-  const auto phase = phase_deg(m.response, Phase::wrapped);
+  const auto phase = principal_phase_deg(m.response);
   panel.series.push_back(measured_phase(m, phase, interval));
   for (const auto& model : models) {
     panel.series.push_back(phase_series(model.name, model.frequency_Hz,
-                                        phase_deg(model.response, Phase::wrapped), model.style));
+                                        principal_phase_deg(model.response), model.style));
   }
   panel.y = phase_axis(panel.series);
   if (!interval.empty()) {
@@ -194,12 +247,35 @@ Panel coherence_panel(const MeasuredResponse& m) {
   if (m.averages > 1.0) {
     const double chance = measured::coherence_of_chance(m.averages, 1.0 - kProbability);
     Style style{.colour = grey, .line = Line::dotted};
-    panel.series.push_back({"coherence threshold (no relation)",
+    panel.series.push_back({"coherence threshold",
                             {m.frequency_Hz.front(), m.frequency_Hz.back()},
                             {chance, chance},
                             style});
   }
   return panel;
+}
+
+/// Without values at lines where the torque has next to no power and the sensor no relation to it.
+void drop_unexcited(const std::vector<double>& input_autopower, MeasuredResponse& m) {
+  std::vector<double> powers;
+  for (const double power : input_autopower) {
+    if (std::isfinite(power)) powers.push_back(power);
+  }
+  if (powers.size() != m.frequency_Hz.size() || !(m.averages > 1.0)) return;
+  const double least = kLeastPower * measured::quantile(powers, kFullPower);
+  const double chance = measured::coherence_of_chance(m.averages, 1.0 - kProbability);
+  for (std::size_t k = 0; k < m.frequency_Hz.size(); ++k) {
+    if (input_autopower[k] >= least) continue;
+    const std::size_t from = k - std::min(k, kLinesBeside);
+    const std::size_t to = std::min(m.coherence.size(), k + kLinesBeside + 1);
+    std::vector<double> coherences;
+    for (std::size_t i = from; i < to; ++i) {
+      if (std::isfinite(m.coherence[i])) coherences.push_back(m.coherence[i]);
+    }
+    if (!coherences.empty() && measured::quantile(coherences, 0.5) > chance) continue;
+    m.response[k] = {kNotDrawn, kNotDrawn};
+    m.relative_std[k] = kNotDrawn;
+  }
 }
 
 /// Without line 0, which a logarithmic axis has not.
@@ -220,8 +296,10 @@ MeasuredResponse above_zero(MeasuredResponse m) {
 MeasuredResponse measured_response(const measured::FrequencyResponseEstimate& estimate,
                                    std::size_t channel) {
   const auto& found = estimate.channels.at(channel);
-  return {found.sensor,       estimate.frequency_Hz,      found.response,
-          found.relative_std, found.estimators.coherence, estimate.averages};
+  MeasuredResponse made{found.sensor,       estimate.frequency_Hz,      found.response,
+                        found.relative_std, found.estimators.coherence, estimate.averages};
+  drop_unexcited(estimate.input_autopower, made);
+  return made;
 }
 
 MeasuredResponse measured_response(const measured::FrequencyChannel& channel,
@@ -255,6 +333,13 @@ Figure frequency_response_figure(const MeasuredResponse& measured,
     throw std::invalid_argument(
         fmt::format("{}: no frequency above 0", arm::to_string(measured.sensor)));
   }
+  const bool has_value = std::ranges::any_of(shown.response, [](const Complex& value) {
+    return std::isfinite(std::abs(value)) && value != 0.0;
+  });
+  if (!has_value) {
+    throw std::invalid_argument(
+        fmt::format("{}: no response to draw", arm::to_string(measured.sensor)));
+  }
   const auto interval = interval_95(shown);
   const auto models = model_curves(shown, plot);
 
@@ -284,7 +369,6 @@ Figure frequency_response_figure(const MeasuredResponse& measured,
   }
   add_feature_marks(stack.panels.front(), plot.features, FeatureLevel::amplitude);
   figure.stacks.push_back(std::move(stack));
-  place_labels(figure);
   return figure;
 }
 

@@ -26,6 +26,8 @@ struct MeasuredResponse {
   double averages = 0.0;  ///< nd, effective ones; 0: unknown
 };
 
+/// Without values where nothing was measured: where the torque has less than a thousandth of its
+/// power, and the coherence around the line is that of unrelated signals.
 MeasuredResponse measured_response(const measured::FrequencyResponseEstimate& estimate,
                                    std::size_t channel);
 
@@ -57,10 +59,10 @@ struct FrequencyResponsePlot {
 std::vector<double> interval_95(const MeasuredResponse& measured);
 
 /// Magnitude with its 95 % interval, phase, and coherence below them on one frequency axis, with
-/// the fitted transfer function and models on top. An interval that reaches 0 goes on to the lower
-/// edge; the phase is left out where its interval is wider than an eighth turn to both sides, and
-/// its panel where it is everywhere. Below the dotted line the coherence of unrelated signals stays
-/// with 95 %. Without coherence that panel is left out.
+/// the fitted transfer function and models on top, in the bands that were measured. An interval
+/// that reaches 0 goes on to the lower edge; the phase is left out where its interval is wider than
+/// an eighth turn to both sides, and its panel where it is everywhere. Below the dotted line the
+/// coherence of unrelated signals stays with 95 %. Without coherence that panel is left out.
 ///
 /// Throws std::invalid_argument where no value is finite and not 0, and for vectors of unlike
 /// length.

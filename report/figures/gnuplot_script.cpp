@@ -1,6 +1,6 @@
 #include "report/figures/gnuplot_script.hpp"
 
-#include "report/figures/logarithmic_ticks.hpp"
+#include "report/figures/text_size.hpp"
 #include "report/figures/thinned_series.hpp"
 #include "report/utf8_text.hpp"
 
@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <iterator>
 #include <string_view>
+#include <utility>
 
 namespace flexarm::report {
 namespace {
@@ -30,8 +31,13 @@ constexpr std::array<Rgb, kColours> kPalette{{{0, 0, 0},
                                               {86, 180, 233},
                                               {128, 128, 128}}};
 
-constexpr double kLegendSpacing = kLegendRow_px / (1.5 * kFontSize_px);  // gnuplot's unit of rows
-constexpr double kPixelsPerTickLabel = 26.0;  // at least, along a vertical axis
+constexpr double kPixelsPerInch = 96.0;
+constexpr double kLeastLegendMarker = 0.5;  // of markers too small to be seen alone
+
+/// Of SVG in pixels, else in points.
+double font_size(double size_px, FigureFormat format) {
+  return format == FigureFormat::svg ? size_px : 0.75 * size_px;
+}
 
 std::string hex_colour(const Style& style) {
   const Rgb rgb = kPalette[static_cast<std::size_t>(style.colour) % kPalette.size()];
@@ -54,10 +60,6 @@ std::string in_quotes(std::string_view text) {
     }
   }
   return string + "'";
-}
-
-std::string axis_text(const Axis& axis) {
-  return axis.unit.empty() ? axis.label : fmt::format("{} [{}]", axis.label, axis.unit);
 }
 
 /// "with lines ..." for a series or a line of the legend.
@@ -116,17 +118,10 @@ bool append_data(std::string& script, std::size_t block, const Series& series, c
 }
 
 /// Ticks of one axis; `labelled` is false for the panels of a stack above the lowest.
-std::string tick_commands(char axis_name, const Axis& axis, const Range& range, double length_px,
+std::string tick_commands(char axis_name, const Axis& axis, const std::vector<Tick>& ticks,
                           bool labelled) {
-  const bool logarithmic = axis.scale == Scale::logarithmic;
-  std::string text = logarithmic ? fmt::format("set logscale {}\n", axis_name) : "";
-  if (axis.ticks.empty() && !logarithmic) {
-    return labelled ? text : text + fmt::format("set format {} ''\n", axis_name);
-  }
-  const std::vector<Tick> ticks =
-      axis.ticks.empty()
-          ? logarithmic_ticks(range, static_cast<int>(length_px / kPixelsPerTickLabel))
-          : axis.ticks;
+  std::string text =
+      axis.scale == Scale::logarithmic ? fmt::format("set logscale {}\n", axis_name) : "";
   text += fmt::format("set {}tics (", axis_name);
   for (const Tick& tick : ticks) {
     // Level 0 is a full tick with its grid line, level 1 a short one.
@@ -137,30 +132,43 @@ std::string tick_commands(char axis_name, const Axis& axis, const Range& range, 
   return text + ")\n";
 }
 
-/// Alignment and offset of a text, which gnuplot centres on its point in height. On white, so that
-/// no line runs through it; but for texts at the ends of curves.
-std::string placing(TextPlace place, const Figure& figure) {
-  const auto shifted = [&](const char* alignment, double right_px, double up_px) {
-    return fmt::format("{} offset screen {},{} boxed", alignment, right_px / figure.width_px,
-                       up_px / figure.height_px);
-  };
-  switch (place) {
-    case TextPlace::upper_right:
-      break;
-    case TextPlace::above:
-      return shifted("center", 0.0, kTextAbove_px);
-    case TextPlace::below:
-      return shifted("center", 0.0, -kTextAbove_px);
-    case TextPlace::centre:
-      return shifted("center", 0.0, 0.0);
-    case TextPlace::left:
-      return shifted("right", -kTextBeside_px, 0.0);
-    case TextPlace::right:
-      return shifted("left", kTextBeside_px, 0.0);
-  }
-  return "left offset 0.5,0.5";
+/// A label at `anchor`, moved by pixels to the right and up.
+std::string label_command(const Figure& figure, std::string_view text, std::string_view anchor,
+                          std::string_view alignment, double right_px, double up_px) {
+  return fmt::format("set label {} at {} {} offset screen {},{}\n", in_quotes(text), anchor,
+                     alignment, right_px / figure.width_px, up_px / figure.height_px);
 }
 
+/// Text beside a point, which gnuplot centres on it in height. On white, so that no line runs
+/// through it; but for texts at the ends of curves.
+std::string annotation_command(const Figure& figure, const Annotation& annotation,
+                               const TextSize& size) {
+  const auto label = [&](const char* alignment, double right_px, double up_px,
+                         const char* ground = "boxed front") {
+    return label_command(figure, annotation.text,
+                         fmt::format("first {},{}", annotation.x, annotation.y),
+                         fmt::format("{} {}", alignment, ground), right_px, up_px);
+  };
+  switch (annotation.place) {
+    case TextPlace::above:
+      return label("center", 0.0, size.above_px());
+    case TextPlace::below:
+      return label("center", 0.0, -size.above_px());
+    case TextPlace::centre:
+      return label("center", 0.0, 0.0);
+    case TextPlace::left:
+      return label("right", -size.beside_px(), 0.0);
+    case TextPlace::right:
+      return label("left", size.beside_px(), 0.0);
+    case TextPlace::end:
+      return label("left", size.beside_px(), 0.0, "front");
+    case TextPlace::upper_right:
+      break;
+  }
+  return label("left", 0.5 * size.font_px, 0.5 * size.font_px, "front");
+}
+
+/// Axes, ticks and texts of a panel.
 std::string panel_frame(const Figure& figure, const PanelStack& stack, const Panel& panel,
                         const PanelBox& box, bool lowest) {
   const double width = figure.width_px;
@@ -168,7 +176,6 @@ std::string panel_frame(const Figure& figure, const PanelStack& stack, const Pan
   std::string text = fmt::format(
       "reset\n"
       "unset key\n"
-      "set minussign\n"
       "set style textbox opaque noborder fillcolor rgb '#ffffff' margins 0.3,0.3\n"
       "set border 3 linecolor rgb '#555555' linewidth 0.8\n"
       "set tics nomirror out scale 0.5,0.25 textcolor rgb '#222222'\n"
@@ -180,49 +187,111 @@ std::string panel_frame(const Figure& figure, const PanelStack& stack, const Pan
       box.x.from, box.x.to, box.y.from, box.y.to);
   const Axis& x_axis = panel.x ? *panel.x : stack.x;
   const bool labelled = lowest || panel.x;
-  text += tick_commands('x', x_axis, box.x, box.right_px - box.left_px, labelled);
-  text += tick_commands('y', panel.y, box.y, box.top_px - box.bottom_px, true);
-  if (labelled) text += fmt::format("set xlabel {} offset 0,0.5\n", in_quotes(axis_text(x_axis)));
-  // A label in place of ylabel, which stands elsewhere in each panel with the width of its ticks.
-  text += fmt::format("set label {} at graph 0,0.5 center rotate offset screen {},0\n",
-                      in_quotes(axis_text(panel.y)), -box.label_px / width);
-  if (!panel.title.empty()) {
-    text += fmt::format("set title {} offset 0,-0.5\n", in_quotes(panel.title));
+  text += tick_commands('x', x_axis, box.x_ticks, labelled);
+  text += tick_commands('y', panel.y, box.y_ticks, true);
+  // Labels at places of our own: gnuplot's depend on the format and on the widths of ticks.
+  if (labelled && !box.x_label.empty()) {
+    text +=
+        label_command(figure, box.x_label, "graph 0.5,0", "center", 0.0, -3.2 * box.text.font_px);
   }
-  for (const Annotation& a : panel.annotations) {
-    text += fmt::format("set label {} at first {},{} {} front\n", in_quotes(a.text), a.x, a.y,
-                        placing(a.place, figure));
+  if (!box.y_label.empty()) {
+    text += label_command(figure, box.y_label, "graph 0,0.5", "center rotate", -box.label_px, 0.0);
+  }
+  if (!panel.title.empty()) {
+    text +=
+        label_command(figure, panel.title, "graph 0.5,1", "center", 0.0, 0.9 * box.text.font_px);
+  }
+  if (!box.note.empty()) {
+    text += label_command(figure, box.note, "graph 1,1", "right", 0.0, 0.9 * box.text.font_px);
+  }
+  for (const Annotation& annotation : panel.annotations) {
+    text += annotation_command(figure, annotation, box.text);
   }
   return text;
 }
 
-void append_legend(GnuplotScript& script, const Figure& figure, const FigureLayout& layout) {
-  script.text += fmt::format(
-      "reset\n"
-      "set margins 0,0,0,0\nunset border\nunset tics\nset xrange [0:1]\nset yrange [0:1]\n"
-      "set key at screen {},{} left top Left reverse vertical maxrows {} samplen 2.2 "
-      "spacing {}\n"
-      "plot NaN notitle",
-      layout.legend_left_px / figure.width_px, layout.legend_top_px / figure.height_px,
-      layout.legend_rows, kLegendSpacing);
-  script.group_names.emplace_back("legend");
-  for (const LegendEntry& entry : layout.legend) {
-    script.text += fmt::format(", keyentry {} title {}", entry.style ? drawing(*entry.style) : "",
-                               in_quotes(entry.text));
-    script.group_names.push_back(entry.text);
+/// A sample of the legend, in pixels of the figure.
+Series legend_sample(const PlacedLegendEntry& entry, const TextSize& size) {
+  const double left = entry.left_px;
+  const double right = left + kLegendSample_px;
+  const double middle = entry.middle_px;
+  Series sample{entry.text, {left, right}, {middle, middle}, *entry.style};
+  if (sample.style.filled) {
+    const double half = 0.3 * size.font_px;
+    sample.y = {middle - half, middle - half};
+    sample.y_to = {middle + half, middle + half};
+  } else if (sample.style.marker != Marker::none) {
+    sample.x = {left, 0.5 * (left + right), right};
+    sample.y = {middle, middle, middle};
+    if (sample.style.line == Line::none) sample.x = {sample.x[1]};
+    if (sample.style.line == Line::none) sample.y = {middle};
+    sample.style.marker_size = std::max(sample.style.marker_size, kLeastLegendMarker);
   }
-  script.text += "\n";
+  return sample;
+}
+
+/// Title and legend, drawn in pixels over the whole figure.
+void append_furniture(GnuplotScript& script, const Figure& figure, const FigureLayout& layout,
+                      FigureFormat format, std::size_t block) {
+  const TextSize size{figure.font_size_px};
+  script.text += fmt::format(
+      "reset\nunset key\nunset border\nunset tics\n"
+      "set lmargin at screen 0\nset rmargin at screen 1\n"
+      "set bmargin at screen 0\nset tmargin at screen 1\n"
+      "set xrange [0:{}]\nset yrange [0:{}]\n",
+      figure.width_px, figure.height_px);
+  if (!layout.title.empty()) {
+    script.text += fmt::format("set label {} at {},{} center font ',{}'\n", in_quotes(layout.title),
+                               0.5 * figure.width_px, layout.title_px,
+                               font_size(size.of_title().font_px, format));
+  }
+  std::string plot = "plot NaN notitle";
+  script.group_names.emplace_back("legend");
+  for (const PlacedLegendEntry& entry : layout.legend) {
+    const double left_px = entry.style ? entry.left_px + kLegendText_px : entry.left_px;
+    script.text += fmt::format("set label {} at {},{} left\n", in_quotes(entry.text), left_px,
+                               entry.middle_px);
+    if (!entry.style) continue;
+    const Series sample = legend_sample(entry, size);
+    ++block;
+    append_data(script.text, block, sample, {}, {});
+    plot += fmt::format(", $data{} using {} {} notitle", block,
+                        sample.style.filled ? "1:2:3" : "1:2", drawing(sample.style));
+    std::string name = entry.text;
+    std::ranges::replace(name, '\n', ' ');  // it is in lines
+    script.group_names.push_back(std::move(name));
+  }
+  script.text += plot + "\n";
+}
+
+/// Its sizes in pixels, of 96 an inch. PNG has two pixels for each. The factors of markers and
+/// dashes give the three formats one look.
+std::string terminal(const Figure& figure, FigureFormat format) {
+  const double size = font_size(figure.font_size_px, format);
+  switch (format) {
+    case FigureFormat::svg:
+      break;
+    case FigureFormat::pdf:
+      return fmt::format(
+          "set terminal pdfcairo size {}in,{}in noenhanced font '{},{}' fontscale 0.75 "
+          "linewidth 1.5 pointscale 1.25 dashlength 2 background '#ffffff'\n",
+          figure.width_px / kPixelsPerInch, figure.height_px / kPixelsPerInch, figure.font, size);
+    case FigureFormat::png:
+      return fmt::format(
+          "set terminal pngcairo size {},{} noenhanced font '{},{}' fontscale 2 linewidth 2 "
+          "pointscale 3.2 dashlength 2 background '#ffffff'\n",
+          2 * figure.width_px, 2 * figure.height_px, figure.font, size);
+  }
+  return fmt::format("set terminal svg size {},{} noenhanced font '{},{}' background '#ffffff'\n",
+                     figure.width_px, figure.height_px, figure.font, size);
 }
 
 }  // namespace
 
-GnuplotScript gnuplot_script(const Figure& figure, const FigureLayout& layout) {
+GnuplotScript gnuplot_script(const Figure& figure, const FigureLayout& layout,
+                             FigureFormat format) {
   GnuplotScript script;
-  script.text = fmt::format(
-      "set encoding utf8\n"
-      "set terminal svg size {},{} noenhanced font 'sans-serif,{}' background '#ffffff'\n"
-      "set multiplot title {} font ',{}'\n",
-      figure.width_px, figure.height_px, kFontSize_px, in_quotes(figure.title), kFontSize_px + 3);
+  script.text = "set encoding utf8\n" + terminal(figure, format) + "set multiplot\n";
   std::size_t block = 0;
   for (std::size_t s = 0; s < figure.stacks.size(); ++s) {
     const PanelStack& stack = figure.stacks[s];
@@ -244,7 +313,7 @@ GnuplotScript gnuplot_script(const Figure& figure, const FigureLayout& layout) {
       script.text += plot + "\n";
     }
   }
-  if (!layout.legend.empty()) append_legend(script, figure, layout);
+  append_furniture(script, figure, layout, format, block);
   script.text += "unset multiplot\n";
   return script;
 }

@@ -1,5 +1,7 @@
 #include "report/figures/hub_law_figure.hpp"
 
+#include "report/figures/meaning.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -39,16 +41,18 @@ Panel law_panel(const diagnose::EmpiricalLaw& law, std::size_t curve) {
   Series interval{"law ± 2 standard errors",
                   axis,
                   {},
-                  {.colour = vermillion, .tint = 0.7, .line = Line::none, .filled = true}};
+                  {.colour = kIdentifiedColour, .tint = 0.7, .line = Line::none, .filled = true}};
   for (std::size_t i = 0; i < axis.size(); ++i) {
     interval.y.push_back(torque_N_m[i] - kLawStdErrors * std_error_N_m[i]);
     interval.y_to.push_back(torque_N_m[i] + kLawStdErrors * std_error_N_m[i]);
   }
-  Series bars{"mean ± 2 standard errors", {}, {}, {.colour = blue, .line_width_px = 1.5}};
-  Series means{"mean residual hub torque",
-               {},
-               {},
-               {.colour = blue, .line = Line::none, .marker = Marker::disc, .marker_size = 0.5}};
+  Series bars{
+      "mean ± 2 standard errors", {}, {}, {.colour = kMeasuredColour, .line_width_px = 1.5}};
+  Series means{
+      "mean residual hub torque",
+      {},
+      {},
+      {.colour = kMeasuredColour, .line = Line::none, .marker = Marker::disc, .marker_size = 0.5}};
   for (const diagnose::TorqueMean& mean : law.means[curve]) {
     for (const double side : {-kLawStdErrors, kLawStdErrors}) {
       bars.x.push_back(mean.at);
@@ -61,7 +65,7 @@ Panel law_panel(const diagnose::EmpiricalLaw& law, std::size_t curve) {
   }
   panel.series.push_back(std::move(interval));
   panel.series.push_back(
-      {"empirical law", axis, torque_N_m, {.colour = vermillion, .line_width_px = 2.0}});
+      {"empirical law", axis, torque_N_m, {.colour = kIdentifiedColour, .line_width_px = 2.0}});
   if (!means.x.empty()) {
     panel.series.push_back(std::move(bars));
     panel.series.push_back(std::move(means));

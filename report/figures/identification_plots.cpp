@@ -4,14 +4,15 @@
 #include "report/figures/distortion_figure.hpp"
 #include "report/figures/frequency_response_figure.hpp"
 #include "report/figures/nyquist_circle_figure.hpp"
+#include "report/figures/sensor_label.hpp"
 #include "report/figures/stabilisation_figure.hpp"
-#include "report/figures/svg.hpp"
 #include "report/tables/identification_tables.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 namespace flexarm::report {
 
@@ -33,25 +34,13 @@ std::vector<double> poles_Hz(const compare::AnalyticalModes& analytical) {
   return poles;
 }
 
-/// What the fit of a run says of a sensor.
-std::optional<measured::FittedTransfer> fitted(const Identification& identification,
-                                               std::size_t run, const arm::Sensor& sensor) {
-  for (const auto& fit : identification.fits) {
-    if (!fit.refusal.empty() || std::ranges::find(fit.runs, run) == fit.runs.end()) continue;
-    const auto at = std::ranges::find(fit.fit.sensors, sensor, &measured::FittedSensor::sensor);
-    if (at == fit.fit.sensors.end()) return std::nullopt;
-    return fit.fit.transfers[static_cast<std::size_t>(at - fit.fit.sensors.begin())];
-  }
-  return std::nullopt;
-}
-
 Figure response_figure(const Identification& identification, std::size_t index, std::size_t k,
                        const compare::AnalyticalModes& analytical) {
   const RunIdentification& run = identification.runs[index];
   const auto& channel = run.response.channels[k];
   FrequencyResponsePlot plot;
-  plot.title = fmt::format("{}: torque to {}", run.run.id, arm::to_string(channel.sensor));
-  plot.fit = fitted(identification, index, channel.sensor);
+  plot.title = fmt::format("{}: torque to {}", run.run.id, sensor_label(channel.sensor));
+  plot.fit = fitted_transfer(identification, index, channel.sensor);
   plot.analytical_poles_Hz = poles_Hz(analytical);
   const auto& model = analytical.response;
   const auto sensor = std::ranges::find(model.sensors, channel.sensor);
@@ -71,11 +60,11 @@ Figure response_figure(const Identification& identification, std::size_t index, 
 }
 
 void add_run(const Identification& identification, std::size_t index,
-             const compare::AnalyticalModes& analytical, std::vector<NamedPlot>& plots) {
+             const compare::AnalyticalModes& analytical, std::vector<NamedFigure>& plots) {
   const RunIdentification& run = identification.runs[index];
   if (run.hub_held()) return;  // the analytical responses are those to the torque
-  const auto add = [&](const std::string& name, const Figure& figure) {
-    plots.push_back({name + ".svg", to_svg(figure)});
+  const auto add = [&](std::string name, Figure figure) {
+    plots.push_back({std::move(name), std::move(figure)});
   };
   if (run.estimate) {
     add("autopower-" + run.run.id, autopower_figure(*run.estimate, run.features,
@@ -92,23 +81,35 @@ void add_run(const Identification& identification, std::size_t index,
     add(fmt::format("circles-{}-{}", run.run.id, arm::to_string(sensor)),
         nyquist_circle_figure(
             sensor, set.circles,
-            fmt::format("{}: torque to {}, velocity form", run.run.id, arm::to_string(sensor))));
+            fmt::format("{}: torque to {}, velocity form", run.run.id, sensor_label(sensor))));
   }
   if (!run.distortion) return;
   for (std::size_t i = 0; i < run.distortion->channels.size(); ++i) {
     const auto& sensor = run.estimate->channels[i].sensor;
     add(fmt::format("distortion-{}-{}", run.run.id, arm::to_string(sensor)),
         distortion_figure(sensor, run.distortion->channels[i],
-                          fmt::format("{}: {}", run.run.id, arm::to_string(sensor))));
+                          fmt::format("{}: {}, spectral lines", run.run.id, sensor_label(sensor))));
   }
 }
 
 }  // namespace
 
-std::vector<NamedPlot> identification_plots(
+std::optional<measured::FittedTransfer> fitted_transfer(const Identification& identification,
+                                                        std::size_t run,
+                                                        const arm::Sensor& sensor) {
+  for (const auto& fit : identification.fits) {
+    if (!fit.refusal.empty() || std::ranges::find(fit.runs, run) == fit.runs.end()) continue;
+    const auto at = std::ranges::find(fit.fit.sensors, sensor, &measured::FittedSensor::sensor);
+    if (at == fit.fit.sensors.end()) return std::nullopt;
+    return fit.fit.transfers[static_cast<std::size_t>(at - fit.fit.sensors.begin())];
+  }
+  return std::nullopt;
+}
+
+std::vector<NamedFigure> identification_plots(
     const Identification& identification,
     const std::vector<compare::IdentifiedCondition>& conditions) {
-  std::vector<NamedPlot> plots;
+  std::vector<NamedFigure> plots;
   for (std::size_t r = 0; r < identification.runs.size(); ++r) {
     const auto condition = std::ranges::find_if(conditions, [&](const auto& candidate) {
       return std::ranges::find(candidate.runs, r) != candidate.runs.end();
@@ -124,8 +125,8 @@ std::vector<NamedPlot> identification_plots(
     for (const auto& pole : fit.fit.poles) {
       if (pole.is_mode) plot.fitted_poles_Hz.push_back(pole.frequency_Hz);
     }
-    plots.push_back({fmt::format("stabilisation-{}.svg", runs),
-                     to_svg(stabilisation_figure(fit.fit.chart, plot))});
+    plots.push_back(
+        {fmt::format("stabilisation-{}", runs), stabilisation_figure(fit.fit.chart, plot)});
   }
   return plots;
 }

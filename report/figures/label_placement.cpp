@@ -12,12 +12,12 @@
 namespace flexarm::report {
 namespace {
 
-constexpr double kTextHeight_px = kFontSize_px;
-constexpr double kRow_px = 1.15 * kFontSize_px;
+constexpr double kRow = 1.15;  // text heights
 constexpr int kMostRows = 5;
 constexpr double kAside_px = 6.0;
 constexpr double kLineStep_px = 4.0;
 constexpr double kMostLineSteps = 500.0;
+constexpr double kSameEnd_px = 40.0;  // curves that end closer to each other, along the axis
 
 struct Pixel {
   double x;
@@ -40,6 +40,7 @@ struct Map {
   }
   double width_px() const { return box.right_px - box.left_px; }
   double height_px() const { return box.top_px - box.bottom_px; }
+  double row_px() const { return kRow * box.text.font_px; }
   Pixel pixel(double x, double y) const {
     return {box.left_px + width_px() * part(x, box.x, x_axis),
             box.bottom_px + height_px() * part(y, box.y, y_axis)};
@@ -107,11 +108,11 @@ std::optional<Annotation> placed(const Annotation& label, const Map& map,
   std::ptrdiff_t fewest = 0;
   for (int row = 0; row < kMostRows; ++row) {
     for (const double side : {0.0, 1.0, -1.0}) {
-      const double up_px = direction * row * kRow_px;
+      const double up_px = direction * row * map.row_px();
       TextBox text = moved(start, side * aside_px, up_px);
       const double inwards = inwards_px(text, map.box);
       text = moved(text, inwards, 0.0);
-      if (text.bottom_px < map.box.bottom_px || text.top_px > map.box.top_px + 0.5 * kRow_px ||
+      if (text.bottom_px < map.box.bottom_px || text.top_px > map.box.top_px + 0.5 * map.row_px() ||
           std::ranges::any_of(taken, [&](const TextBox& other) { return other.overlaps(text); })) {
         continue;
       }
@@ -133,6 +134,57 @@ bool is_movable(const Annotation& annotation) {
   return annotation.place == TextPlace::above || annotation.place == TextPlace::below;
 }
 
+/// Moves the labels at the ends of curves apart, up and down, as little as that takes: groups of
+/// labels that would cover each other stand around the mean of their places.
+void spread_ends(Panel& panel, const Map& map) {
+  std::vector<Annotation*> ends;
+  for (Annotation& annotation : panel.annotations) {
+    if (annotation.place == TextPlace::end) ends.push_back(&annotation);
+  }
+  std::ranges::stable_sort(ends, {}, [&](const Annotation* end) {
+    const Pixel at = map.pixel(end->x, end->y);
+    return std::pair(std::round(at.x / kSameEnd_px), at.y);
+  });
+  struct Group {
+    double middle_px;
+    std::vector<Annotation*> labels;
+  };
+  std::vector<Group> groups;
+  double column = 0.0;
+  const auto half_px = [&](const Group& group) {
+    return 0.5 * map.row_px() * static_cast<double>(group.labels.size());
+  };
+  const auto settle = [&] {
+    for (const Group& group : groups) {
+      double y_px = group.middle_px - half_px(group) + 0.5 * map.row_px();
+      for (Annotation* label : group.labels) {
+        label->y = map.y(y_px);
+        y_px += map.row_px();
+      }
+    }
+    groups.clear();
+  };
+  for (Annotation* label : ends) {
+    const Pixel at = map.pixel(label->x, label->y);
+    if (const double own = std::round(at.x / kSameEnd_px); groups.empty() || own != column) {
+      settle();
+      column = own;
+    }
+    groups.push_back({at.y, {label}});
+    while (groups.size() > 1) {
+      Group& upper = groups.back();
+      Group& lower = groups[groups.size() - 2];
+      if (upper.middle_px - half_px(upper) >= lower.middle_px + half_px(lower)) break;
+      const auto n = static_cast<double>(lower.labels.size());
+      const auto m = static_cast<double>(upper.labels.size());
+      lower.middle_px = (n * lower.middle_px + m * upper.middle_px) / (n + m);
+      lower.labels.insert(lower.labels.end(), upper.labels.begin(), upper.labels.end());
+      groups.pop_back();
+    }
+  }
+  settle();
+}
+
 }  // namespace
 
 bool TextBox::overlaps(const TextBox& other) const {
@@ -142,23 +194,24 @@ bool TextBox::overlaps(const TextBox& other) const {
 
 TextBox text_box(const Annotation& annotation, const PanelBox& box, const Axis& x, const Axis& y) {
   const Pixel at = Map{box, x, y}.pixel(annotation.x, annotation.y);
-  const double width_px = text_width_px(annotation.text);
-  const double half_px = 0.5 * kTextHeight_px;
+  const double width_px = box.text.width_px(annotation.text);
+  const double half_px = 0.5 * box.text.font_px;
   const TextBox centred{at.x - 0.5 * width_px, at.x + 0.5 * width_px, at.y - half_px,
                         at.y + half_px};
   switch (annotation.place) {
     case TextPlace::upper_right:
       break;
     case TextPlace::above:
-      return moved(centred, 0.0, kTextAbove_px);
+      return moved(centred, 0.0, box.text.above_px());
     case TextPlace::below:
-      return moved(centred, 0.0, -kTextAbove_px);
+      return moved(centred, 0.0, -box.text.above_px());
     case TextPlace::centre:
       return centred;
     case TextPlace::left:
-      return moved(centred, -0.5 * width_px - kTextBeside_px, 0.0);
+      return moved(centred, -0.5 * width_px - box.text.beside_px(), 0.0);
     case TextPlace::right:
-      return moved(centred, 0.5 * width_px + kTextBeside_px, 0.0);
+    case TextPlace::end:
+      return moved(centred, 0.5 * width_px + box.text.beside_px(), 0.0);
   }
   return moved(centred, 0.5 * width_px + half_px, half_px);
 }
@@ -168,10 +221,11 @@ void place_labels(Figure& figure) {
   for (std::size_t s = 0; s < figure.stacks.size(); ++s) {
     for (std::size_t p = 0; p < figure.stacks[s].panels.size(); ++p) {
       Panel& panel = figure.stacks[s].panels[p];
-      if (std::ranges::none_of(panel.annotations, is_movable)) continue;
       const PanelBox& box = layout.boxes[s][p];
       const Axis& x_axis = panel.x ? *panel.x : figure.stacks[s].x;
       const Map map{box, x_axis, panel.y};
+      spread_ends(panel, map);
+      if (std::ranges::none_of(panel.annotations, is_movable)) continue;
       const auto points = obstacles(panel, map);
       std::vector<TextBox> taken;
       for (const Annotation& fixed : panel.annotations) {

@@ -9,9 +9,10 @@ namespace flexarm::report {
 /// annotation of its panel or leaves it: further above or below by whole lines, up to four of them,
 /// and to either side. Of such places it is the one that covers least of the panel's lines and
 /// markers, the nearest of equals. The first annotations of a panel choose first; one that
-/// has no place is taken away. Others stay where they are, and are kept clear of.
+/// has no place is taken away. Annotations at the ends of curves are moved up or down until none
+/// covers another. Others stay where they are, and are kept clear of.
 ///
-/// Text is taken to be as wide as `text_width_px` says. Throws as `lay_out` does.
+/// Text is taken to be as wide as `TextSize` says. Throws as `lay_out` does.
 void place_labels(Figure& figure);
 
 /// Where the text of an annotation stands, in pixels from the lower left corner of the figure.

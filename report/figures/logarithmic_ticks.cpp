@@ -1,11 +1,11 @@
 #include "report/figures/logarithmic_ticks.hpp"
 
+#include "report/words.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <string_view>
 
 namespace flexarm::report {
 namespace {
@@ -17,16 +17,10 @@ constexpr int kMostDecadesWithDigits = 12;  // ticks for the digits are noise be
 }  // namespace
 
 std::string decade_label(int exponent, bool plain) {
-  static constexpr std::array<std::string_view, 10> kSuperscripts{"⁰", "¹", "²", "³", "⁴",
-                                                                  "⁵", "⁶", "⁷", "⁸", "⁹"};
   if (plain) {
     return fmt::format("{:.{}f}", std::pow(10.0, exponent), std::max(0, -exponent));
   }
-  std::string label = exponent < 0 ? "10⁻" : "10";
-  for (const char digit : fmt::format("{}", std::abs(exponent))) {
-    label += kSuperscripts[static_cast<std::size_t>(digit - '0')];
-  }
-  return label;
+  return "10" + superscript(exponent);
 }
 
 std::vector<Tick> logarithmic_ticks(const Range& range, int most_labels) {
@@ -35,6 +29,9 @@ std::vector<Tick> logarithmic_ticks(const Range& range, int most_labels) {
   const int whole_decades = last - static_cast<int>(std::ceil(std::log10(range.from))) + 1;
   const int step = std::max(1, (whole_decades + most_labels - 1) / std::max(1, most_labels));
 
+  // Of 2 and 5 a narrow range has one or none: then every digit is labelled.
+  constexpr double kNarrow = 10.0;
+  const bool narrow = range.to < kNarrow * range.from && most_labels >= 9;
   const bool plain = first >= kSmallestPlainTick && last <= kLargestPlainExponent;
 
   std::vector<Tick> ticks;
@@ -46,7 +43,7 @@ std::vector<Tick> logarithmic_ticks(const Range& range, int most_labels) {
       if (position < range.from || position > range.to) continue;
       std::string label;
       if (digit == 1 && exponent % step == 0) label = decade_label(exponent, plain);
-      if (whole_decades < 2 && (digit == 2 || digit == 5)) {
+      if (whole_decades < 2 && (digit == 2 || digit == 5 || (narrow && digit > 1))) {
         label = plain ? fmt::format("{:g}", position)
                       : fmt::format("{}·{}", digit, decade_label(exponent, false));
       }

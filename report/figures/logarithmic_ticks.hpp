@@ -13,7 +13,7 @@ std::string decade_label(int exponent, bool plain);
 
 /// Ticks of a logarithmic axis: labelled decades, as many of them as `most_labels` allows, and
 /// unlabelled ones between (the digits 2 to 9, or the decades left out); where a range holds fewer
-/// than two decades, 2 and 5 are labelled too.
+/// than two decades, 2 and 5 are labelled too, within one decade every digit that has room.
 /// One axis writes its numbers in one way: plainly where its decades lie from 0.001 to 10000, else
 /// as "5·10⁻⁴".
 std::vector<Tick> logarithmic_ticks(const Range& range, int most_labels);

@@ -10,12 +10,6 @@ namespace {
 constexpr std::size_t kFewPoints = 200;
 constexpr double kGap = 10.0;
 
-/// Whether a gap lies between point i - 1 and point i.
-bool gap_before(const std::vector<double>& x, std::size_t i) {
-  return i >= 2 && i + 1 < x.size() &&
-         x[i] - x[i - 1] > kGap * std::max(x[i - 1] - x[i - 2], x[i + 1] - x[i]);
-}
-
 void add_point(Series& series, double x, double y, double y_to) {
   series.x.push_back(x);
   series.y.push_back(y);
@@ -28,6 +22,16 @@ void add_gap(Series& series, double x) {
 
 }  // namespace
 
+bool begins_band(const std::vector<double>& frequency_Hz, std::size_t i) {
+  if (i == 0 || frequency_Hz.size() < 3) return false;
+  double beside_Hz = 0.0;
+  if (i >= 2) beside_Hz = frequency_Hz[i - 1] - frequency_Hz[i - 2];
+  if (i + 1 < frequency_Hz.size()) {
+    beside_Hz = std::max(beside_Hz, frequency_Hz[i + 1] - frequency_Hz[i]);
+  }
+  return frequency_Hz[i] - frequency_Hz[i - 1] > kGap * beside_Hz;
+}
+
 Series measured_curve(std::string name, const std::vector<double>& frequency_Hz,
                       const std::vector<double>& values) {
   Series series{std::move(name), {}, {}, {.line_width_px = 1.1}};
@@ -37,7 +41,7 @@ Series measured_curve(std::string name, const std::vector<double>& frequency_Hz,
     series.style.marker_size = 0.35;
   }
   for (std::size_t i = 0; i < values.size(); ++i) {
-    if (gap_before(frequency_Hz, i)) add_gap(series, frequency_Hz[i]);
+    if (begins_band(frequency_Hz, i)) add_gap(series, frequency_Hz[i]);
     add_point(series, frequency_Hz[i], values[i], 0.0);
   }
   return series;
@@ -45,12 +49,12 @@ Series measured_curve(std::string name, const std::vector<double>& frequency_Hz,
 
 Series measured_interval(std::string name, const std::vector<double>& frequency_Hz,
                          const std::vector<double>& low, const std::vector<double>& high) {
-  Series series{std::move(name), {}, {}, {.colour = sky_blue, .tint = 0.55}};
+  Series series{std::move(name), {}, {}, {.colour = grey, .tint = 0.6}};
   series.style.filled = low.size() >= kFewPoints;
   series.style.line_width_px = 3.0;
   for (std::size_t i = 0; i < low.size(); ++i) {
     if (series.style.filled) {
-      if (gap_before(frequency_Hz, i)) add_gap(series, frequency_Hz[i]);
+      if (begins_band(frequency_Hz, i)) add_gap(series, frequency_Hz[i]);
       add_point(series, frequency_Hz[i], low[i], high[i]);
     } else {
       add_point(series, frequency_Hz[i], low[i], 0.0);

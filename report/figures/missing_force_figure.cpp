@@ -2,6 +2,7 @@
 
 #include "report/figures/equal_axes.hpp"
 #include "report/tables/missing_force_table.hpp"
+#include "report/words.hpp"
 
 #include <fmt/format.h>
 
@@ -22,11 +23,9 @@ constexpr int kPortRow_px = 26;
 
 /// A step a band: what is constant over it, and a gap where a band is left out.
 Panel force_spectrum_panel(const diagnose::PortShare& port, const diagnose::ForceSize& size) {
-  Panel panel{.title = fmt::format("{} ({})", port_name(port), port.place),
+  Panel panel{.title = fmt::format("{} ({})", in_words(port_name(port)), in_words(port.place)),
               .x = Axis{.label = "frequency", .unit = "Hz", .scale = Scale::logarithmic},
-              .y = {.label = "RMS in third octaves",
-                    .unit = size.unit == "1" ? "" : size.unit,
-                    .minimum = 0.0}};
+              .y = {.label = "RMS in third octaves", .unit = unit_text(size.unit), .minimum = 0.0}};
   Series interval{"± 2 standard errors",
                   {},
                   {},
@@ -72,7 +71,7 @@ Panel shares_panel(const diagnose::MissingForce& force) {
   for (std::size_t i = 0; i < force.ports.size(); ++i) {
     const diagnose::PortShare& port = force.ports[i];
     const double y = count - static_cast<double>(i);
-    panel.y.ticks.push_back({y, port_name(port)});
+    panel.y.ticks.push_back({y, in_words(port_name(port))});
     for (const double side : {-diagnose::kDistance, diagnose::kDistance}) {
       bars.x.push_back(100.0 * (port.share + side * port.std_error));
       bars.y.push_back(y);

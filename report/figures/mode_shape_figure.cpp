@@ -1,5 +1,6 @@
 #include "report/figures/mode_shape_figure.hpp"
 
+#include "report/figures/meaning.hpp"
 #include "report/figures/overlay_style.hpp"
 
 #include <fmt/format.h>
@@ -29,7 +30,8 @@ Panel mode_panel(const ModeShapePlot& plot, const ModeShape& mode) {
                                               plot.station_m.size()));
     }
     panel.series.push_back(
-        {curve.formulation, plot.station_m, curve.displacement, overlay_style(i)});
+        {curve.formulation, plot.station_m, curve.displacement,
+         mode.curves.size() > 1 ? overlay_style(i) : Style{.colour = kBaselineColour}});
   }
   return panel;
 }

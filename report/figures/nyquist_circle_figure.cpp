@@ -1,6 +1,7 @@
 #include "report/figures/nyquist_circle_figure.hpp"
 
 #include "report/figures/equal_axes.hpp"
+#include "report/figures/meaning.hpp"
 
 #include <fmt/format.h>
 
@@ -29,10 +30,10 @@ constexpr double kTextAway = 0.35;    // of the centre, in radii, on the far sid
 constexpr std::size_t kMostPoints = 500;
 constexpr int kCircleSteps = 180;
 
-const Style kPoints = marker_style(blue, Marker::disc, 0.45);
-const Style kCircle{.colour = vermillion, .line_width_px = 1.2};
-const Style kNatural = marker_style(black, Marker::filled_diamond, 0.8);
-const Style kHalfPower = marker_style(black, Marker::square, 0.8);
+const Style kPoints = marker_style(kMeasuredColour, Marker::disc, 0.45);
+const Style kCircle{.colour = kIdentifiedColour, .line_width_px = 1.2};
+const Style kNatural = marker_style(kIdentifiedColour, Marker::filled_diamond, 0.8);
+const Style kHalfPower = marker_style(kIdentifiedColour, Marker::square, 0.8);
 
 /// Of the velocity form: "rad/s/(N m)".
 std::string velocity_unit(const arm::Sensor& sensor) {
@@ -60,20 +61,20 @@ Panel circle_panel(const measured::NyquistCircle& resonance, const std::string& 
   if (!(radius > 0.0)) {
     throw std::invalid_argument(fmt::format("circle {}: a radius of {}", resonance.order, radius));
   }
-  const EqualAxes axes{"V", unit, centre, kCircleRoom * radius, std::abs(centre) + radius};
+  const EqualAxes axes{"V", unit, centre, kCircleRoom * radius};
   Panel panel = axes.panel(fmt::format("resonance at {:#.6g} Hz", resonance.natural_frequency_Hz));
 
   std::vector<Complex> around;
   for (int k = 0; k <= kCircleSteps; ++k) {
     around.push_back(centre + std::polar(radius, 2.0 * std::numbers::pi * k / kCircleSteps));
   }
-  panel.series.push_back(axes.series("fitted circle", around, kCircle));
+  panel.series.push_back(complex_series("fitted circle", around, kCircle));
   const std::size_t step = (resonance.velocity.size() + kMostPoints - 1) / kMostPoints;
   std::vector<Complex> points;
   for (std::size_t k = 0; k < resonance.velocity.size(); k += step) {
     points.push_back(resonance.velocity[k]);
   }
-  if (!points.empty()) panel.series.push_back(axes.series("measured", points, kPoints));
+  if (!points.empty()) panel.series.push_back(complex_series("measured", points, kPoints));
 
   // The angle at the centre from the resonance is -2 atan q: a quarter turn at half power.
   const double zeta = resonance.damping_ratio;
@@ -86,14 +87,15 @@ Panel circle_panel(const measured::NyquistCircle& resonance, const std::string& 
   std::vector<Complex> marks;
   for (std::size_t k = 0; k < directions.size(); ++k) {
     marks.push_back(centre + radius * directions[k]);
-    const Complex at = axes.drawn(marks.back());
+    const Complex at = marks.back();
     panel.annotations.push_back(
         {at.real(), at.imag(), fmt::format("{:#.5g}", frequencies_Hz[k]), inwards(directions[k])});
   }
-  panel.series.push_back(axes.series("natural frequency", std::span(marks).first(1), kNatural));
-  panel.series.push_back(axes.series("half-power points", std::span(marks).subspan(1), kHalfPower));
+  panel.series.push_back(complex_series("natural frequency", std::span(marks).first(1), kNatural));
+  panel.series.push_back(
+      complex_series("half-power points", std::span(marks).subspan(1), kHalfPower));
 
-  const Complex text = axes.drawn(centre - kTextAway * radius * natural);
+  const Complex text = centre - kTextAway * radius * natural;
   panel.annotations.push_back(
       {text.real(), text.imag(), fmt::format("ζ = {:#.4g}", zeta), TextPlace::centre});
   return panel;

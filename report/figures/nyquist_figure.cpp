@@ -2,6 +2,7 @@
 
 #include "report/figures/equal_axes.hpp"
 #include "report/figures/logarithmic_ticks.hpp"
+#include "report/figures/meaning.hpp"
 
 #include <fmt/format.h>
 
@@ -33,9 +34,9 @@ bool is_value_shown(const Complex& value) {
 constexpr const char* kPoleName = "pole frequency";
 constexpr const char* kHalfPowerName = "half-power points";
 constexpr double kTextLeft = 0.3;  // of the centre, in diameters
-const Style kLocus{.colour = blue, .line_width_px = 1.6};
-const Style kAtPole = marker_style(vermillion, Marker::disc, 0.9);
-const Style kAtHalfPower = marker_style(vermillion, Marker::circle, 0.9);
+const Style kLocus{.colour = kBaselineColour, .line_width_px = 1.6};
+const Style kAtPole = marker_style(kPoleColour, Marker::disc, 0.9);
+const Style kAtHalfPower = marker_style(kPoleColour, Marker::circle, 0.9);
 
 /// log10(1 + |G|/g0), with the angle of G.
 struct Compressed {
@@ -111,17 +112,15 @@ PanelStack whole_locus(const NyquistPlot& plot) {
 }
 
 Panel circle_panel(const NyquistPlot& plot, const NyquistCircle& circle) {
-  const double largest =
-      std::max({std::abs(circle.at_pole), std::abs(circle.below), std::abs(circle.above)});
   const Complex centre = (circle.below + circle.above) / 2.0;
   const double diameter = std::abs(circle.above - circle.below);
-  const EqualAxes axes{"G", plot.unit, centre, kRoomAroundCircle * diameter, largest};
+  const EqualAxes axes{"G", plot.unit, centre, kRoomAroundCircle * diameter};
   Panel panel = axes.panel(circle.label);
-  panel.series.push_back(axes.series("response", circle.values, kLocus));
-  panel.series.push_back(axes.series(kPoleName, {&circle.at_pole, 1}, kAtPole));
+  panel.series.push_back(complex_series("response", circle.values, kLocus));
+  panel.series.push_back(complex_series(kPoleName, {&circle.at_pole, 1}, kAtPole));
   const std::array half_power = {circle.below, circle.above};
-  panel.series.push_back(axes.series(kHalfPowerName, half_power, kAtHalfPower));
-  const Complex text = axes.drawn(centre - kTextLeft * diameter);
+  panel.series.push_back(complex_series(kHalfPowerName, half_power, kAtHalfPower));
+  const Complex text = centre - kTextLeft * diameter;
   panel.annotations.push_back({text.real(), text.imag(), circle.remark});
   return panel;
 }

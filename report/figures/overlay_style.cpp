@@ -6,7 +6,9 @@
 namespace flexarm::report {
 
 int formulation_colour(std::size_t i) {
-  return static_cast<int>(i % kColours);
+  constexpr std::array<int, 7> kFormulations{black,    green, purple,    orange,
+                                             sky_blue, blue,  vermillion};
+  return kFormulations[i % kFormulations.size()];
 }
 
 Style overlay_style(std::size_t i) {

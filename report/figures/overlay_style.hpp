@@ -6,7 +6,8 @@
 
 namespace flexarm::report {
 
-/// The colour of the i-th formulation in every figure: black for the first, the reference.
+/// The colour of the i-th formulation in every figure: black for the first, the reference (drawn
+/// pale, where a measurement is black).
 int formulation_colour(std::size_t i);
 
 /// The line of the i-th of several curves that may coincide: a broad pale band below, a full line

@@ -174,7 +174,12 @@ Figure pole_zero_figure(const PoleZeroPlot& plot) {
     if (!panel.series.empty()) strips.panels.push_back(std::move(panel));
   }
   figure.stacks.push_back(std::move(strips));
-  figure.legend = {{"pole", root_style(true, 0, 1.0)}, {"zero", root_style(false, 0, 1.0)}};
+  for (const bool pole : {true, false}) {
+    const bool is_there = std::ranges::any_of(plot.sets, [&](const PoleZeroSet& set) {
+      return std::ranges::any_of(pole ? set.poles_rad_per_s : set.zeros_rad_per_s, is_root_shown);
+    });
+    if (is_there) figure.legend.push_back({pole ? "pole" : "zero", root_style(pole, 0, 1.0)});
+  }
   for (std::size_t i = 0; i < plot.sets.size(); ++i) {
     Style style;
     style.colour = formulation_colour(i);

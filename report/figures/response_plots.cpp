@@ -2,8 +2,9 @@
 
 #include "report/figures/bode_figure.hpp"
 #include "report/figures/nyquist_figure.hpp"
-#include "report/figures/svg.hpp"
+#include "report/figures/sensor_label.hpp"
 #include "report/tables/response_tables.hpp"
+#include "report/words.hpp"
 
 #include <fmt/format.h>
 
@@ -18,19 +19,20 @@ namespace {
 
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
-NamedPlot bode(const std::string& formulation, const response::ResponseStudy& study,
-               std::size_t k) {
+NamedFigure bode(const std::string& formulation, const response::ResponseStudy& study,
+                 std::size_t k) {
   const auto& sensor = study.response.sensors[k];
   BodePlot plot;
-  plot.title = "Torque to " + arm::to_string(sensor);
-  plot.unit = response_unit(sensor);
+  plot.title = "Torque to " + sensor_label(sensor);
+  plot.unit = unit_text(response_unit(sensor));
   plot.frequency_Hz = study.response.frequency_Hz;
-  plot.curves.push_back({formulation, study.response.values[k]});
+  plot.curves.push_back(
+      {in_words(formulation), study.response.values[k], study.response.phase_deg[k]});
   if (study.state_space_response) {
-    plot.curves.push_back({"state space", study.state_space_response->values[k]});
+    plot.curves.push_back({"state space", study.state_space_response->values[k],
+                           study.state_space_response->phase_deg[k]});
   }
   plot.magnitude = Magnitude::decibel;
-  plot.phase = Phase::unwrapped;
   plot.poles_Hz.push_back(study.damped_poles.lowest.first_rad_per_s.imag() / kTwoPi);
   for (const auto& pole : study.damped_poles.flexible) {
     plot.poles_Hz.push_back(pole.first_rad_per_s.imag() / kTwoPi);
@@ -40,7 +42,7 @@ NamedPlot bode(const std::string& formulation, const response::ResponseStudy& st
   }
   Figure figure = bode_figure(plot);
   figure.height_px = study.state_space_response ? 760 : 640;  // room for the unit of a sensor
-  return {fmt::format("bode-{}.svg", arm::to_string(sensor)), to_svg(figure)};
+  return {fmt::format("bode-{}", arm::to_string(sensor)), std::move(figure)};
 }
 
 /// The response at all frequencies it is known at, those around the poles among them.
@@ -64,11 +66,11 @@ std::vector<std::complex<double>> values_in_order(const response::ResponseStudy&
   return values;
 }
 
-NamedPlot nyquist(const response::ResponseStudy& study, std::size_t k) {
+NamedFigure nyquist(const response::ResponseStudy& study, std::size_t k) {
   const auto& sensor = study.response.sensors[k];
   NyquistPlot plot;
-  plot.title = "Torque to " + arm::to_string(sensor);
-  plot.unit = response_unit(sensor);
+  plot.title = "Torque to " + sensor_label(sensor);
+  plot.unit = unit_text(response_unit(sensor));
   plot.response = values_in_order(study, k);
   for (const auto& resonance : study.resonances[k]) {
     const double damping_ratio =
@@ -78,14 +80,14 @@ NamedPlot nyquist(const response::ResponseStudy& study, std::size_t k) {
                             fmt::format("ζ = {:.3g}", damping_ratio), resonance.values,
                             resonance.at_pole, resonance.below, resonance.above});
   }
-  return {fmt::format("nyquist-{}.svg", arm::to_string(sensor)), to_svg(nyquist_figure(plot))};
+  return {fmt::format("nyquist-{}", arm::to_string(sensor)), nyquist_figure(plot)};
 }
 
 }  // namespace
 
-std::vector<NamedPlot> response_plots(const std::string& formulation,
-                                      const response::ResponseStudy& study) {
-  std::vector<NamedPlot> plots;
+std::vector<NamedFigure> response_plots(const std::string& formulation,
+                                        const response::ResponseStudy& study) {
+  std::vector<NamedFigure> plots;
   for (std::size_t k = 0; k < study.response.sensors.size(); ++k) {
     const auto& values = study.response.values[k];
     if (std::ranges::all_of(values, [](const auto value) { return value == 0.0; })) continue;

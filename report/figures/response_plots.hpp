@@ -1,6 +1,6 @@
 #pragma once
 
-#include "report/figures/comparison_plots.hpp"
+#include "report/figures/figure.hpp"
 #include "response/frequency/response_study.hpp"
 
 #include <string>
@@ -8,10 +8,10 @@
 
 namespace flexarm::report {
 
-/// SVG documents by file name: `bode-SENSOR.svg` of each sensor, with the state space and its error
-/// where there is one, and `nyquist-SENSOR.svg` where a damped pole lies in the range.
-/// `formulation` is the name of the reference curve. Throws as `to_svg` does.
-std::vector<NamedPlot> response_plots(const std::string& formulation,
-                                      const response::ResponseStudy& study);
+/// `bode-SENSOR` of each sensor, with the state space and its error where there is one, and
+/// `nyquist-SENSOR` where a damped pole lies in the range. `formulation` is the name of the
+/// reference curve.
+std::vector<NamedFigure> response_plots(const std::string& formulation,
+                                        const response::ResponseStudy& study);
 
 }  // namespace flexarm::report

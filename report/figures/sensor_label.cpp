@@ -1,30 +1,15 @@
 #include "report/figures/sensor_label.hpp"
 
-#include <fmt/format.h>
+#include "report/words.hpp"
 
 namespace flexarm::report {
 
 std::string sensor_label(const arm::Sensor& sensor) {
-  switch (sensor.kind) {
-    case arm::SensorKind::hub_angle:
-      return "hub angle";
-    case arm::SensorKind::hub_velocity:
-      return "hub velocity";
-    case arm::SensorKind::tip_acceleration:
-      return "tip acceleration";
-    case arm::SensorKind::tip_displacement:
-      return "tip displacement";
-    case arm::SensorKind::tip_deflection:
-      return "tip deflection";
-    case arm::SensorKind::strain:
-      break;
-  }
-  return fmt::format("strain at {} m", sensor.position_m);
+  return in_words(arm::to_string(sensor));
 }
 
 std::string axis_unit(const arm::Sensor& sensor) {
-  const auto unit = arm::unit(sensor);
-  return unit == "1" ? "" : std::string(unit);
+  return unit_text(arm::unit(sensor));
 }
 
 }  // namespace flexarm::report

@@ -2,6 +2,7 @@
 
 #include "report/figures/equal_axes.hpp"
 #include "report/tables/plan_tables.hpp"
+#include "report/words.hpp"
 
 #include <fmt/format.h>
 
@@ -32,15 +33,17 @@ Figure separation_figure(const diagnose::Plan& plan) {
   const std::size_t count = plan.effects.size();
   auto all = separation_series();
   Panel panel;
-  panel.title = "effect present (row), alternative effect (column)";
-  panel.x = Axis{.minimum = 0.0, .maximum = static_cast<double>(count) + 1.0};
-  panel.y = {.minimum = 0.0, .maximum = static_cast<double>(count) + 1.0};
+  panel.x = Axis{
+      .label = "alternative effect", .minimum = 0.0, .maximum = static_cast<double>(count) + 1.0};
+  panel.y = {
+      .label = "effect present", .minimum = 0.0, .maximum = static_cast<double>(count) + 1.0};
   for (std::size_t a = 0; a < count; ++a) {
     // The first effect is the uppermost row, as in the text.
     const double y = static_cast<double>(count - a);
     const std::string letter = effect_letter(a);
     panel.x->ticks.push_back({static_cast<double>(a) + 1.0, letter});
-    panel.y.ticks.push_back({y, fmt::format("{}  {}", plan.effects[a].hypothesis.label(), letter)});
+    panel.y.ticks.push_back(
+        {y, fmt::format("{}  {}", in_words(plan.effects[a].hypothesis.label()), letter)});
     for (std::size_t b = 0; b < count; ++b) {
       const auto& separation = plan.separations[a][b];
       if (!separation) continue;

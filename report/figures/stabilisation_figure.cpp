@@ -2,7 +2,7 @@
 
 #include "report/figures/equal_axes.hpp"
 #include "report/figures/feature_marks.hpp"
-#include "report/figures/label_placement.hpp"
+#include "report/figures/meaning.hpp"
 
 #include <fmt/format.h>
 
@@ -53,7 +53,7 @@ const std::array<Symbol, static_cast<std::size_t>(Stability::kCount)> kSymbols =
     {"new pole", marker_style(grey, Marker::plus, 0.6)},
     {"stable frequency", marker_style(orange, Marker::triangle, 0.7)},
     {"stable frequency and damping", marker_style(blue, Marker::square, 0.7)},
-    {"stable pole", marker_style(vermillion, Marker::disc, 0.8)},
+    {"stable pole", marker_style(kIdentifiedColour, Marker::disc, 0.8)},
 }};
 
 /// The course of the background between two heights.
@@ -133,7 +133,6 @@ Figure stabilisation_figure(const measured::StabilisationChart& chart,
                 .width_px = kStabilisationWidth_px,
                 .height_px = kStabilisationHeight_px};
   figure.stacks.push_back(std::move(stack));
-  place_labels(figure);
   return figure;
 }
 

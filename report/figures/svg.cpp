@@ -3,6 +3,7 @@
 #include "report/figures/figure_layout.hpp"
 #include "report/figures/gnuplot.hpp"
 #include "report/figures/gnuplot_script.hpp"
+#include "report/figures/label_placement.hpp"
 #include "report/utf8_text.hpp"
 
 #include <cstddef>
@@ -46,7 +47,8 @@ std::size_t replace_between(std::string& svg, std::string_view opening, std::str
 
 }  // namespace
 
-std::string to_svg(const Figure& figure) {
+std::string to_svg(Figure figure) {
+  place_labels(figure);
   const GnuplotScript script = gnuplot_script(figure, lay_out(figure));
   std::string svg = run_gnuplot(script.text);
   if (!svg.ends_with("</svg>\n\n")) throw std::runtime_error("gnuplot left its SVG unfinished");

@@ -1,7 +1,9 @@
 #include "report/figures/sweep_figures.hpp"
 
+#include "report/figures/meaning.hpp"
 #include "report/figures/overlay_style.hpp"
-#include "report/figures/svg.hpp"
+#include "report/figures/sensor_label.hpp"
+#include "report/words.hpp"
 
 #include <fmt/format.h>
 
@@ -35,11 +37,11 @@ using Values = std::vector<double>;
 using CurveValues = std::vector<Values>;
 
 std::string axis_unit(const compare::SweepAxis& axis) {
-  return axis.parameter.unit == "1" ? "" : axis.parameter.unit;
+  return unit_text(axis.parameter.unit);
 }
 
 Axis x_axis(const compare::SweepAxis& axis) {
-  return {.label = axis.parameter.name,
+  return {.label = in_words(axis.parameter.name),
           .unit = axis_unit(axis),
           .scale = axis.logarithmic ? Scale::logarithmic : Scale::linear};
 }
@@ -115,14 +117,14 @@ Panel panel_of(const SweepResult& result, const Group& group) {
     for (const CurveValues& curve : group.curves) {
       if (!has_a_value(curve[m])) continue;
       panel.series.push_back(
-          series_of(result.task.models[m].name, axis, curve[m], 0, overlay_style(m)));
+          series_of(in_words(result.task.models[m].name), axis, curve[m], 0, overlay_style(m)));
     }
   }
   for (std::size_t k = 0; k < group.curves.size(); ++k) {
     const Values& values = group.curves[k].front();
     for (std::size_t j = values.size(); j-- > 0;) {
       if (std::isnan(values[j])) continue;
-      panel.annotations.push_back({axis.values[j], values[j], group.names[k]});
+      panel.annotations.push_back({axis.values[j], values[j], group.names[k], TextPlace::end});
       break;
     }
   }
@@ -152,22 +154,6 @@ std::vector<std::size_t> spread(std::size_t count, std::size_t most) {
   return chosen;
 }
 
-/// A few round values: panels side by side have no room for more.
-std::vector<Tick> few_ticks(const compare::SweepAxis& axis) {
-  const double low = std::min(axis.values.front(), axis.values.back());
-  const double high = std::max(axis.values.front(), axis.values.back());
-  constexpr double kMost = 5.0;
-  double step = std::pow(10.0, std::floor(std::log10((high - low) / kMost)));
-  for (const double factor : {2.0, 2.5, 2.0}) {
-    if ((high - low) / step > kMost) step *= factor;
-  }
-  std::vector<Tick> ticks;
-  for (double i = std::ceil(low / step); i * step <= high * (1.0 + 1e-12); ++i) {
-    ticks.push_back({i * step, fmt::format("{:.6g}", i * step)});
-  }
-  return ticks;
-}
-
 /// A panel a curve; in it a colour a value of the first axis.
 Figure over_two(const SweepResult& result, const std::string& title, const Group& group) {
   const auto& first = result.task.axes.front();
@@ -181,6 +167,8 @@ Figure over_two(const SweepResult& result, const std::string& title, const Group
                      : title;
   figure.width_px = 1100;
   if (panels > 4) figure.height_px = 900;
+  std::vector<bool> row_is_drawn(rows.size());
+  std::vector<bool> model_is_drawn(result.task.models.size());
   const std::size_t in_a_stack = panels > 2 ? (panels + 1) / 2 : panels;
   for (std::size_t k = 0; k < panels; ++k) {
     Panel panel;
@@ -190,14 +178,18 @@ Figure over_two(const SweepResult& result, const std::string& title, const Group
       for (std::size_t i = 0; i < rows.size(); ++i) {
         Style style = overlay_style(m);
         style.colour = static_cast<int>(i);
-        panel.series.push_back(series_of(result.task.models[m].name, last, group.curves[k][m],
-                                         rows[i] * columns, style));
-        if (!has_a_value(panel.series.back().y)) panel.series.pop_back();
+        panel.series.push_back(series_of(in_words(result.task.models[m].name), last,
+                                         group.curves[k][m], rows[i] * columns, style));
+        if (!has_a_value(panel.series.back().y)) {
+          panel.series.pop_back();
+          continue;
+        }
+        row_is_drawn[i] = true;
+        model_is_drawn[m] = true;
       }
     }
     if (k % in_a_stack == 0) {
       figure.stacks.push_back({.x = x_axis(last)});
-      if (!last.logarithmic && columns > 1) figure.stacks.back().x.ticks = few_ticks(last);
     }
     figure.stacks.back().panels.push_back(std::move(panel));
   }
@@ -207,9 +199,9 @@ Figure over_two(const SweepResult& result, const std::string& title, const Group
   }
   const std::string unit = axis_unit(first);
   figure.legend.push_back(
-      {unit.empty() ? first.parameter.name : fmt::format("{} [{}]", first.parameter.name, unit),
-       {}});
+      {in_words(first.parameter.name) + (unit.empty() ? "" : fmt::format(" [{}]", unit)), {}});
   for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (!row_is_drawn[i]) continue;
     Style style;
     style.colour = static_cast<int>(i);
     style.line_width_px = 3.0;
@@ -217,17 +209,18 @@ Figure over_two(const SweepResult& result, const std::string& title, const Group
   }
   figure.legend.push_back({" ", {}});
   for (std::size_t m = 0; m < result.task.models.size(); ++m) {
-    figure.legend.push_back({result.task.models[m].name, overlay_style(m)});
+    if (!model_is_drawn[m]) continue;
+    figure.legend.push_back({in_words(result.task.models[m].name), overlay_style(m)});
     figure.legend.back().style->colour = black;
   }
   return figure;
 }
 
 void draw(const SweepResult& result, const std::string& file, const std::string& title,
-          const std::vector<Group>& groups, std::vector<NamedPlot>& plots) {
+          const std::vector<Group>& groups, std::vector<NamedFigure>& plots) {
   if (result.task.axes.size() == 1) {
     if (std::ranges::any_of(groups, [](const Group& group) { return !group.curves.empty(); })) {
-      plots.push_back({file + ".svg", to_svg(over_one(result, title, groups))});
+      plots.push_back({file, over_one(result, title, groups)});
     }
     return;
   }
@@ -235,8 +228,8 @@ void draw(const SweepResult& result, const std::string& file, const std::string&
   for (const Group& group : groups) {
     if (group.curves.empty()) continue;
     ++drawn;
-    plots.push_back({drawn == 1 ? file + ".svg" : fmt::format("{}-{}.svg", file, drawn),
-                     to_svg(over_two(result, title, group))});
+    plots.push_back(
+        {drawn == 1 ? file : fmt::format("{}-{}", file, drawn), over_two(result, title, group)});
   }
 }
 
@@ -251,7 +244,7 @@ Group poles_group(const SweepResult& result) {
 
 /// Modulus and damping ratio of the poles with damping.
 std::vector<Group> damped_groups(const SweepResult& result) {
-  Group modulus{"", "|s|/2 pi", "Hz", {}, {}};
+  Group modulus{"", "|s|/2π", "Hz", {}, {}};
   Group damping{"", "damping ratio", "", {}, {}};
   for (const SweepCurve& curve : result.curves) {
     if (!curve.family.damped) continue;
@@ -295,9 +288,9 @@ std::vector<Group> modes_groups(const SweepResult& result) {
 
 }  // namespace
 
-std::vector<NamedPlot> sweep_plots(const SweepResult& result) {
+std::vector<NamedFigure> sweep_plots(const SweepResult& result) {
   const bool two = result.task.axes.size() > 1;
-  std::vector<NamedPlot> plots;
+  std::vector<NamedFigure> plots;
   auto poles = poles_group(result);
   if (two) poles.title = "pole";
   draw(result, "poles", "Poles", {poles}, plots);
@@ -310,7 +303,7 @@ std::vector<NamedPlot> sweep_plots(const SweepResult& result) {
     auto groups = zeros_groups(result, sensor);
     if (two) groups[0].title = "zero";
     if (two) groups[1].title = "off the imaginary axis: zero";
-    draw(result, "zeros-" + arm::to_string(sensor), "Zeros of torque to " + arm::to_string(sensor),
+    draw(result, "zeros-" + arm::to_string(sensor), "Zeros of torque to " + sensor_label(sensor),
          groups, plots);
   }
   auto groups = modes_groups(result);
@@ -337,7 +330,7 @@ Figure paper_sweep_figure(const compare::PaperSweep& sweep, const SweepResult& r
         {limit.name, {axis.values.front(), axis.values.back()}, {limit.y, limit.y}, limit_style});
   }
   Style measured_style;
-  measured_style.colour = purple;
+  measured_style.colour = kMeasuredColour;
   measured_style.line = Line::none;
   measured_style.marker = Marker::filled_diamond;
   for (const auto& mark : sweep.measured) {

@@ -18,6 +18,7 @@ struct TimePanel {
   std::string label;
   std::string unit;
   std::vector<TimeCurve> curves;
+  bool robust = false;  ///< outliers do not set the limits
 };
 
 /// Signals over time, as in the paper's Figures 20 to 23.

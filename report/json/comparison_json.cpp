@@ -147,7 +147,8 @@ Json finding_json(const compare::Finding& finding) {
           {"tolerance", finding.tolerance}};
 }
 
-Json measured_json(const std::vector<compare::MeasuredRow>& rows) {
+Json measured_json(const std::vector<compare::MeasuredRow>& rows,
+                   const std::vector<std::string>& models) {
   Json measured = Json::array();
   for (const auto& row : rows) {
     measured.push_back({{"feature", measured::to_string(row.measured.feature)},
@@ -155,9 +156,81 @@ Json measured_json(const std::vector<compare::MeasuredRow>& rows) {
                         {"order", row.order ? Json(*row.order) : Json(nullptr)},
                         {"measured_Hz", optional_json(row.measured.frequency_Hz)},
                         {"model_Hz", optional_json(row.model_frequency_Hz)},
-                        {"error_percent", row.error_percent}});
+                        {"error_percent", row.error_percent},
+                        {"measured_std_Hz", optional_json(row.measured.frequency_std_Hz)},
+                        {"model_std_Hz", optional_json(row.model_std_Hz)},
+                        {"deviation_std", row.combined_deviation},
+                        {"models", Json::array()},
+                        {"damping_ratio", optional_json(row.measured.damping_ratio)},
+                        {"damping_ratio_std", optional_json(row.measured.damping_ratio_std)},
+                        {"model_damping_ratio", optional_json(row.model_damping_ratio)},
+                        {"damping_deviation_std", row.damping_deviation}});
+    for (std::size_t k = 0; k < row.frequencies_Hz.size() && k < models.size(); ++k) {
+      measured.back()["models"].push_back({{"model", models[k]},
+                                           {"frequency_Hz", optional_json(row.frequencies_Hz[k])},
+                                           {"deviation_std", row.deviations[k]}});
+    }
   }
   return measured;
+}
+
+void add_parts(const std::vector<std::complex<double>>& values, Json& entry) {
+  std::vector<double> re;
+  std::vector<double> im;
+  for (const auto value : values) {
+    re.push_back(value.real());
+    im.push_back(value.imag());
+  }
+  entry["re"] = re;
+  entry["im"] = im;
+}
+
+Json measured_responses_json(const std::vector<compare::MeasuredResponse>& responses) {
+  Json all = Json::array();
+  for (const auto& response : responses) {
+    Json entry = {{"run", response.run.empty() ? Json(nullptr) : Json(response.run)},
+                  {"sensor", arm::to_string(response.measured.sensor)},
+                  {"unit", arm::unit(response.measured.sensor)},
+                  {"frequency_Hz", response.measured.frequency_Hz}};
+    add_parts(response.measured.response, entry);
+    entry["coherence"] = response.measured.coherence;
+    entry["models"] = Json::array();
+    for (std::size_t k = 0; k < response.models.size(); ++k) {
+      Json model = {{"model", response.models[k]}};
+      add_parts(response.values[k], model);
+      model["relative_error_percent"] = response.relative_error_percent[k];
+      model["median_error_percent"] = response.median_error_percent[k];
+      entry["models"].push_back(std::move(model));
+    }
+    all.push_back(std::move(entry));
+  }
+  return all;
+}
+
+Json mac_json(const std::vector<compare::ShapeCorrelation>& shapes) {
+  Json all = Json::array();
+  for (const auto& one : shapes) {
+    Json entry = {{"computed_Hz", one.model_frequencies_Hz},
+                  {"largest_auto_mac", one.largest_auto_mac},
+                  {"measured", Json::array()},
+                  {"models", Json::array()}};
+    for (const auto& shape : one.measured) {
+      Json sensors = Json::array();
+      for (const auto& sensor : shape.sensors) sensors.push_back(arm::to_string(sensor));
+      entry["measured"].push_back({{"order", shape.order},
+                                   {"frequency_Hz", optional_json(shape.frequency_Hz)},
+                                   {"sensors", sensors}});
+    }
+    for (std::size_t k = 0; k < one.models.size(); ++k) {
+      Json rows = Json::array();
+      for (std::size_t i = 0; i < one.measured.size(); ++i) {
+        rows.push_back({{"order", one.measured[i].order}, {"mac", one.mac[k][i]}});
+      }
+      entry["models"].push_back({{"model", one.models[k]}, {"rows", rows}});
+    }
+    all.push_back(std::move(entry));
+  }
+  return all;
 }
 
 Json compared_json(const ComparedArm& compared) {
@@ -175,7 +248,9 @@ Json compared_json(const ComparedArm& compared) {
       {"basis_notes", comparison.basis_notes},
       {"shapes", shapes_json(comparison)},
       {"responses", responses_json(comparison)},
-      {"measured", measured_json(compared.measured)},
+      {"measured", measured_json(compared.measured.rows, comparison.subjects)},
+      {"measured_responses", measured_responses_json(compared.measured.responses)},
+      {"mac", mac_json(compared.measured.shapes)},
       {"findings", findings},
   };
 }

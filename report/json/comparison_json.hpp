@@ -1,7 +1,7 @@
 #pragma once
 
 #include "compare/comparison.hpp"
-#include "compare/measured.hpp"
+#include "compare/measured_responses.hpp"
 
 #include <string>
 #include <vector>
@@ -11,7 +11,7 @@ namespace flexarm::report {
 /// A comparison and the measurement beside it.
 struct ComparedArm {
   compare::Comparison comparison;
-  std::vector<compare::MeasuredRow> measured;
+  compare::MeasuredComparison measured = {};
 };
 
 /// The arms compared as a JSON document of schema `flexarm.compare/1` (docs/json.md).

@@ -166,6 +166,31 @@ Json accepted_json(const std::vector<diagnose::AcceptedFinding>& accepted) {
   return json;
 }
 
+Json posterior_json(const std::vector<diagnose::PosteriorSet>& sets) {
+  Json json = Json::array();
+  for (const diagnose::PosteriorSet& set : sets) {
+    Json& made = json.emplace_back(Json{{"effects", Json::array()},
+                                        {"probability", set.probability},
+                                        {"parameters", Json::array()},
+                                        {"correlation", Json::array()}});
+    for (const auto& effect : set.effects) {
+      Json& its = made["effects"].emplace_back(Json{{"effect", effect.name}});
+      if (!effect.sensor.empty()) its["sensor"] = effect.sensor;
+    }
+    for (const auto& parameter : set.parameters) {
+      made["parameters"].push_back({{"key", parameter.key},
+                                    {"value", parameter.value},
+                                    {"std_error", parameter.std_error},
+                                    {"unit", parameter.unit},
+                                    {"logarithmic", parameter.is_logarithmic}});
+    }
+    for (const auto& row : set.correlation.rowwise()) {
+      made["correlation"].push_back(std::vector<double>(row.begin(), row.end()));
+    }
+  }
+  return json;
+}
+
 }  // namespace
 
 Json diagnosis_json(const diagnose::Diagnosis& diagnosis, const std::string& extended_arm) {
@@ -206,6 +231,7 @@ Json diagnosis_json(const diagnose::Diagnosis& diagnosis, const std::string& ext
   return {{"verdict", to_string(diagnosis.verdict)},
           {"symptoms", statements_json(symptoms)},
           {"causes", causes},
+          {"posterior", posterior_json(diagnosis.posterior)},
           {"something_else", diagnosis.something_else},
           {"search", search_json(diagnosis)},
           {"prediction", prediction_json(diagnosis)},

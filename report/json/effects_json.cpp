@@ -34,8 +34,7 @@ Json stated_law_schema() {
   const Json number = {{"type", "number"}};
   const Json searched = object_schema(
       {{"value", number},
-       {"range",
-        {{"type", "array"}, {"items", number}, {"minItems", 2}, {"maxItems", 2}}},
+       {"range", {{"type", "array"}, {"items", number}, {"minItems", 2}, {"maxItems", 2}}},
        {"unit", {{"type", "string"}}}},
       Json::array());
   Json schema = object_schema(

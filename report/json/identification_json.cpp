@@ -1,6 +1,7 @@
 #include "report/json/identification_json.hpp"
 
 #include "report/json/arm_json.hpp"
+#include "report/json/json_document.hpp"
 #include "report/tables/identification_tables.hpp"
 
 #include <nlohmann/json.hpp>
@@ -298,6 +299,14 @@ Json identification_json(const measured::Identification& identification,
     }
   }
   return {{"runs", runs}, {"conditions", expected}, {"readings", readings}, {"fits", fits}};
+}
+
+std::string identification_document(const std::string& measurement, const arm::Arm& arm,
+                                    const measured::Identification& identification,
+                                    const std::vector<compare::IdentifiedCondition>& conditions) {
+  Json document = {{"measurement", measurement}, {"arm", arm_json(arm)}};
+  document.update(identification_json(identification, conditions));
+  return json_document("flexarm.identify/1", document);
 }
 
 }  // namespace flexarm::report

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <string>
 #include <vector>
 
 namespace flexarm::report {
@@ -14,5 +15,10 @@ namespace flexarm::report {
 nlohmann::ordered_json identification_json(
     const measured::Identification& identification,
     const std::vector<compare::IdentifiedCondition>& conditions);
+
+/// The document of `identify --json` (docs/json.md): of a measurement by its name, on an arm.
+std::string identification_document(const std::string& measurement, const arm::Arm& arm,
+                                    const measured::Identification& identification,
+                                    const std::vector<compare::IdentifiedCondition>& conditions);
 
 }  // namespace flexarm::report

@@ -1,5 +1,7 @@
 #include "report/json/plan_json.hpp"
 
+#include "report/json/json_document.hpp"
+
 #include <nlohmann/json.hpp>
 
 #include <optional>
@@ -95,6 +97,10 @@ Json plan_json(const diagnose::Plan& plan) {
           {"additional_runs", additional_runs_json(plan.further)},
           {"improved_plan_runs", additional_runs_json(plan.added)},
           {"notices", plan.notices}};
+}
+
+std::string plan_document(const diagnose::Plan& plan) {
+  return json_document("flexarm.plan/2", plan_json(plan));
 }
 
 }  // namespace flexarm::report

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <string>
 #include <vector>
 
 namespace flexarm::report {
@@ -13,5 +14,8 @@ nlohmann::ordered_json plan_json(const diagnose::Plan& plan);
 
 /// `additional_runs` of a plan, `next_experiments` of a diagnosis.
 nlohmann::ordered_json additional_runs_json(const std::vector<diagnose::NextExperiment>& runs);
+
+/// The document of `plan --json` (docs/json.md).
+std::string plan_document(const diagnose::Plan& plan);
 
 }  // namespace flexarm::report

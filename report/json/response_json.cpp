@@ -1,6 +1,5 @@
 #include "report/json/response_json.hpp"
 
-#include "report/figures/phase.hpp"
 #include "report/json/arm_json.hpp"
 
 #include <nlohmann/json.hpp>
@@ -70,13 +69,14 @@ Json fractions_json(const std::vector<response::PartialFraction>& fractions) {
   return terms;
 }
 
-Json values_json(const std::vector<std::complex<double>>& values) {
+Json values_json(const response::FrequencyResponse& response, std::size_t k) {
+  const auto& values = response.values[k];
   Json json = {{"re", Json::array()}, {"im", Json::array()}};
   for (const auto& value : values) {
     json["re"].push_back(value.real());
     json["im"].push_back(value.imag());
   }
-  json["phase_deg"] = phase_deg(values, Phase::unwrapped);
+  json["phase_deg"] = response.phase_deg[k];
   return json;
 }
 
@@ -91,7 +91,7 @@ Json response_json(const response::ResponseStudy& study) {
                        {"unit", std::string(arm::unit(sensor))},
                        {"product", product_json(study.products[k])},
                        {"partial_fractions", fractions_json(study.fractions[k])},
-                       {"response", values_json(study.response.values[k])},
+                       {"response", values_json(study.response, k)},
                        {"state_space", nullptr}});
     if (errors.empty()) continue;
     sensors.back()["state_space"] = {
@@ -99,7 +99,7 @@ Json response_json(const response::ResponseStudy& study) {
         {"largest_error", errors[k].largest},
         {"largest_error_frequency_Hz", errors[k].largest_at_Hz},
         {"median_error", errors[k].median},
-        {"response", values_json(study.state_space_response->values[k])}};
+        {"response", values_json(*study.state_space_response, k)}};
   }
   return {{"left_out", study.left_out},
           {"chain", chain_json(study.chain)},

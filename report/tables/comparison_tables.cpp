@@ -1,6 +1,5 @@
 #include "report/tables/comparison_tables.hpp"
 
-#include "report/tables/text_table.hpp"
 #include "report/tables/zero_kind.hpp"
 
 #include <fmt/format.h>
@@ -129,7 +128,9 @@ std::vector<Table> root_tables(const compare::Comparison& comparison) {
     }
     for (std::size_t k = 0; k < comparison.subjects.size(); ++k) {
       table.columns.push_back({comparison.subjects[k], "", kRootDigits});
-      if (k > 0) table.columns.push_back(error_column("relative difference"));
+      if (k == 0) continue;
+      table.columns.push_back(error_column("relative difference"));
+      table.columns.back().joined = true;
     }
     for (const auto& row : comparison.roots) {
       if (!(row.family == family)) continue;
@@ -227,31 +228,13 @@ Table responses_table(const compare::Comparison& comparison) {
   return table;
 }
 
-Table measured_table(const std::vector<compare::MeasuredRow>& rows) {
-  Table table{"Measured and exact_tf (zeros on the imaginary axis: antiresonances)",
-              {{"feature"},
-               {"no."},
-               {"sensor"},
-               {"measured", "Hz", 5},
-               {"model", "Hz", 6},
-               {"error", "%", 3}}};
-  for (const auto& row : rows) {
-    table.add_row({std::string(measured::to_string(row.measured.feature)),
-                   row.order ? Cell(std::int64_t{*row.order}) : Cell(),
-                   row.measured.sensor ? arm::to_string(*row.measured.sensor) : "",
-                   row.measured.frequency_Hz.value_or(kMissing),
-                   row.model_frequency_Hz.value_or(kMissing), row.error_percent});
-  }
-  return table;
-}
-
 std::string convergence_legend(const compare::Comparison& comparison) {
-  return to_paragraph(
-      fmt::format("Convergence with respect to {0}, over all roots of a family: range of the order "
-                  "p in error ~ setting^-p, or of decades per degree of freedom (dof); smallest "
-                  "error of the worst root; dof at which the first root reaches the rounding "
-                  "floor; dof from which all roots are accurate to {1:.0e}.",
-                  comparison.subjects.front(), comparison.wanted_accuracy));
+  return fmt::format(
+      "Convergence with respect to {0}, over all roots of a family: range of the order "
+      "p in error ~ setting^-p, or of decades per degree of freedom (dof); smallest "
+      "error of the worst root; dof at which the first root reaches the rounding "
+      "floor; dof from which all roots are accurate to {1:.0e}.",
+      comparison.subjects.front(), comparison.wanted_accuracy);
 }
 
 std::string verdict_line(const compare::Comparison& comparison) {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "compare/comparison.hpp"
-#include "compare/measured.hpp"
 #include "report/tables/table.hpp"
 
 #include <vector>
@@ -24,7 +23,7 @@ Table notes_table(const compare::Comparison& comparison);
 /// Per family, one row a refinement series: order of convergence, floor, cheapest setting.
 std::vector<Table> convergence_tables(const compare::Comparison& comparison);
 
-/// What the columns of `convergence_tables` say: a paragraph that ends in a new line.
+/// What the columns of `convergence_tables` say: a paragraph.
 std::string convergence_legend(const compare::Comparison& comparison);
 
 /// One row a root and series, for CSV and for `--full`.
@@ -44,9 +43,6 @@ Table responses_table(const compare::Comparison& comparison);
 
 /// Responses over frequency, for CSV.
 Table responses_listing(const compare::Comparison& comparison);
-
-/// Measured modal data beside the first model's.
-Table measured_table(const std::vector<compare::MeasuredRow>& rows);
 
 /// The verdict in one line.
 std::string verdict_line(const compare::Comparison& comparison);

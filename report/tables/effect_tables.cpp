@@ -1,6 +1,7 @@
 #include "report/tables/effect_tables.hpp"
 
 #include "report/tables/text_table.hpp"
+#include "report/wrapped_text.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -90,8 +91,8 @@ std::string section(const effects::Entry& entry) {
     text += fmt::format("- limiting case: `{}`\n", fmt::join(entry.contains, "`, `"));
   }
   if (!entry.same_as.empty()) {
-    text += fmt::format("- indistinguishable in any data: `{}`\n",
-                        fmt::join(entry.same_as, "`, `"));
+    text +=
+        fmt::format("- indistinguishable in any data: `{}`\n", fmt::join(entry.same_as, "`, `"));
   }
   text += fmt::format("- evidence for it: {}\n- evidence against it: {}\n", entry.speaks_for,
                       entry.refuted_by);
@@ -112,7 +113,7 @@ std::string parameters_of(const arm::EffectDefinition& definition, bool markdown
   return fmt::format("{}", fmt::join(parameters, "; "));
 }
 
-std::string effect_list(const std::vector<effects::Entry>& entries) {
+std::string effect_list(const std::vector<effects::Entry>& entries, std::size_t max_width) {
   std::string text;
   std::string_view port;
   for (const auto& entry : entries) {
@@ -122,14 +123,27 @@ std::string effect_list(const std::vector<effects::Entry>& entries) {
       port = to_string(first);
       text += fmt::format("{}{}: {}\n", text.empty() ? "" : "\n", port, meaning_of(first));
     }
-    text += fmt::format("  {:<25} {}\n", definition.name, parameters_of(definition, false));
+    // Parameters stand in a column of their own, or below the name where there is no room.
+    constexpr std::size_t kNames = 28;
+    const bool is_wide = max_width >= 2 * kNames;
+    const std::size_t indent = is_wide ? kNames : 4;
+    const std::size_t room = max_width - indent;
+    std::string line = fmt::format("{:<{}}", "  " + definition.name, is_wide ? kNames : 0);
+    bool beside = is_wide;
+    for (const auto& part : wrapped(parameters_of(definition, false), room, room)) {
+      if (!beside) line += "\n" + std::string(indent, ' ');
+      line += part;
+      beside = false;
+    }
+    text += line + "\n";
   }
   return text;
 }
 
-std::string effect_page(const effects::Entry& entry) {
+std::string effect_page(const effects::Entry& entry, std::size_t max_width) {
   const arm::EffectDefinition& definition = *entry.definition;
-  std::string text = to_paragraph(fmt::format("{}: {}.", definition.name, definition.meaning), 2);
+  std::string text =
+      to_paragraph(fmt::format("{}: {}.", definition.name, definition.meaning), 2, max_width);
   Table table{.caption = "",
               .columns = {{"parameter"}, {"unit"}, {"allowed"}, {"neutral value"}, {"meaning"}}};
   for (const auto& parameter : definition.parameters) {
@@ -137,7 +151,7 @@ std::string effect_page(const effects::Entry& entry) {
     table.add_row({parameter.name, parameter.unit, range.empty() ? "any" : range.substr(1),
                    neutral_of(parameter), parameter.meaning});
   }
-  text += "\n" + to_text(table) + "\n";
+  text += "\n" + to_text(table, {.max_width = max_width}) + "\n";
   text += fmt::format("port:          {}\ndetectable in: {}\n", ports_of(definition),
                       shown_in(entry.shows));
   if (!entry.contains.empty()) {
@@ -146,8 +160,8 @@ std::string effect_page(const effects::Entry& entry) {
   if (!entry.same_as.empty()) {
     text += fmt::format("indistinguishable in any data: {}\n", fmt::join(entry.same_as, ", "));
   }
-  text += to_paragraph(fmt::format("evidence for it: {}.", entry.speaks_for), 2);
-  text += to_paragraph(fmt::format("evidence against it: {}.", entry.refuted_by), 2);
+  text += to_paragraph(fmt::format("evidence for it: {}.", entry.speaks_for), 2, max_width);
+  text += to_paragraph(fmt::format("evidence against it: {}.", entry.refuted_by), 2, max_width);
   return text + "\n" + example_of(definition);
 }
 
@@ -171,9 +185,9 @@ std::string effects_document(const std::vector<effects::Entry>& entries) {
       "table, `measured_hub_torque` ([measured law](formats.md#measured-law)).\n\n"
       "| port | the effect is |\n"
       "| --- | --- |\n";
-  for (const Port port : {Port::arm_number, Port::linear_term, Port::sensor_place,
-                          Port::torque_path, Port::hub_torque, Port::beam_force,
-                          Port::sensor_path}) {
+  for (const Port port :
+       {Port::arm_number, Port::linear_term, Port::sensor_place, Port::torque_path,
+        Port::hub_torque, Port::beam_force, Port::sensor_path}) {
     text += fmt::format("| `{}` | {} |\n", to_string(port), meaning_of(port));
   }
   text += "\n## Overview\n\n| effect | parameters | meaning |\n| --- | --- | --- |\n";

@@ -83,7 +83,12 @@ std::vector<std::string> setting_lines(const measured::RunIdentification& run) {
 
 Table gain_table(const measured::RunsFit& fit, const compare::AnalyticalModes& analytical) {
   Table table{"Hub slopes and accelerometer gains, modal mass I_T",
-              {{"quantity"}, {"mode"}, {"unit"}, {"equation"}, {"measured", "", 5}, {"+-", "", 2}}};
+              {{"quantity"},
+               {"mode"},
+               {"unit"},
+               {"equation"},
+               {"measured", "", 5},
+               qualifying("+-", "", 2)}};
   for (const auto& gains : analytical.gains) table.columns.push_back({gains.model, "", 5});
   table.columns.push_back({"error", "%", 3});
   if (!fit.gains) return table;

@@ -219,8 +219,8 @@ Table pole_table(const IdentifiedData& data) {
   std::vector<Cell> analytical = {std::string("exact_tf"), std::string("analytical")};
   for (const int order : orders) {
     table.columns.push_back({fmt::format("pole {}", order), "Hz", 6});
-    table.columns.push_back({"+-", "Hz", 2});
-    table.columns.push_back({"error", "%", 3});
+    table.columns.push_back(qualifying("+-", "Hz", 2));
+    table.columns.push_back(qualifying("error", "%", 3));
     analytical.emplace_back(
         data.condition.analytical.poles[static_cast<std::size_t>(order - 1)].frequency_Hz);
     analytical.resize(analytical.size() + 2);
@@ -244,9 +244,9 @@ Table zero_table(const IdentifiedData& data) {
   Table table = table_of(data, "zeros of each sensor, undamped natural frequencies");
   for (const int order : orders) {
     table.columns.push_back({"analytical", "Hz", 6});
-    table.columns.push_back({fmt::format("zero {}", order), "Hz", 6});
-    table.columns.push_back({"+-", "Hz", 2});
-    table.columns.push_back({"error", "%", 3});
+    table.columns.push_back(qualifying(fmt::format("zero {}", order), "Hz", 6));
+    table.columns.push_back(qualifying("+-", "Hz", 2));
+    table.columns.push_back(qualifying("error", "%", 3));
   }
   for (const std::size_t i : readings) {
     const auto& reading = reading_of(data, i);
@@ -297,7 +297,7 @@ Table damping_table(const IdentifiedData& data) {
   std::vector<Cell> analytical = {std::string("exact_tf"), std::string("analytical")};
   for (const int order : orders) {
     table.columns.push_back({fmt::format("pole {}", order), "", 4});
-    table.columns.push_back({"+-", "", 2});
+    table.columns.push_back(qualifying("+-", "", 2));
     analytical.emplace_back(
         data.condition.analytical.poles[static_cast<std::size_t>(order - 1)].damping_ratio);
     analytical.emplace_back();

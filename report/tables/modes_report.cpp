@@ -1,9 +1,9 @@
 #include "report/tables/modes_report.hpp"
 
 #include "report/figures/mode_shape_figure.hpp"
-#include "report/figures/svg.hpp"
 #include "report/json/arm_json.hpp"
 #include "report/tables/zero_kind.hpp"
+#include "report/words.hpp"
 
 #include <fmt/format.h>
 
@@ -123,7 +123,7 @@ Table shapes_over_x_table(const response::ModalSummary& summary) {
   return table;
 }
 
-std::string shapes_svg(const std::string& formulation, const response::ModalSummary& summary) {
+Figure shapes_figure(const std::string& formulation, const response::ModalSummary& summary) {
   constexpr std::size_t kMostPanels = 8;
   ModeShapePlot plot;
   plot.title = "Mode shapes, modal mass I_T";
@@ -131,9 +131,9 @@ std::string shapes_svg(const std::string& formulation, const response::ModalSumm
   for (std::size_t i = 0; i < summary.modes.size() && i < kMostPanels; ++i) {
     plot.modes.push_back(
         {fmt::format("mode {}, {:.5g} Hz", i + 1, frequency_Hz(summary.modes[i].omega_rad_per_s)),
-         {{formulation, summary.modes[i].displacement_m}}});
+         {{in_words(formulation), summary.modes[i].displacement_m}}});
   }
-  return to_svg(mode_shape_figure(plot));
+  return mode_shape_figure(plot);
 }
 
 nlohmann::ordered_json modes_json(const arm::Arm& arm, const response::ModalSummary& summary) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "arm/arm.hpp"
+#include "report/figures/figure.hpp"
 #include "report/tables/table.hpp"
 #include "response/modal_summary.hpp"
 
@@ -27,8 +28,8 @@ Table zeros_table(const response::ModalSummary& summary);
 /// Displacements of the modes over x, one column a mode.
 Table shapes_over_x_table(const response::ModalSummary& summary);
 
-/// The shapes as one SVG document.
-std::string shapes_svg(const std::string& formulation, const response::ModalSummary& summary);
+/// The shapes of the first eight modes.
+Figure shapes_figure(const std::string& formulation, const response::ModalSummary& summary);
 
 /// Members `lowest_omega_squared_rad2_per_s2`, `damped_poles`, `stations_m`, `modes`, `zeros` of an
 /// arm in schema `flexarm.modes/1` (docs/json.md).

@@ -41,11 +41,6 @@ std::string values_text(const diagnose::Candidate& candidate) {
   return fmt::format("{}", fmt::join(words, ", "));
 }
 
-std::string shows_from(const diagnose::Detection& detection) {
-  if (!detection.shows) return "not detectable";
-  return detection.smallest ? values_text(*detection.smallest) : "detectable (no size parameter)";
-}
-
 /// A delta BIC that is nothing but rounding is 0.
 double shown_lead(double lead) {
   constexpr double kShownAsZero = 1e-3;
@@ -83,6 +78,11 @@ char mark(const Plan& plan, std::size_t truth, std::size_t rival) {
 
 }  // namespace
 
+std::string minimum_detectable(const diagnose::Detection& detection) {
+  if (!detection.shows) return "not detectable";
+  return detection.smallest ? values_text(*detection.smallest) : "detectable (no size parameter)";
+}
+
 std::string effect_letter(std::size_t effect) {
   return effect < kLetters.size() ? std::string(1, kLetters[effect]) : std::string("*");
 }
@@ -111,7 +111,7 @@ Table detection_table(const Plan& plan) {
                {.name = "indistinguishable from"},
                {.name = "closest distinguishable (delta BIC)"}}};
   for (std::size_t i = 0; i < plan.effects.size(); ++i) {
-    table.add_row({label_of(plan, i), shows_from(plan.effects[i]),
+    table.add_row({label_of(plan, i), minimum_detectable(plan.effects[i]),
                    fmt::format("{}", fmt::join(tied_with(plan, i), ", ")),
                    nearest_distinguishable(plan, i)});
   }

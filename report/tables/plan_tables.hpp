@@ -18,6 +18,10 @@ inline constexpr double kClearLead = 10.0 * diagnose::kToldLead;
 /// "a", "b", ... of the effects of a plan; "*" of those beyond the letters there are.
 std::string effect_letter(std::size_t effect);
 
+/// The smallest values of an effect that would be found: "stiffness 12.3 N m/rad"; "not
+/// detectable".
+std::string minimum_detectable(const diagnose::Detection& detection);
+
 /// Each effect: from which value on it is found, what it is tied with, and the nearest other.
 Table detection_table(const diagnose::Plan& plan);
 

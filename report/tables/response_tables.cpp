@@ -132,6 +132,16 @@ Table factors_table(const response::ResponseStudy& study, std::size_t index) {
   return table;
 }
 
+namespace {
+
+/// The continuous phase; the principal one of a response that has none.
+std::vector<double> phase_of(const response::FrequencyResponse& response, std::size_t k) {
+  return response.phase_deg.empty() ? principal_phase_deg(response.values[k])
+                                    : response.phase_deg[k];
+}
+
+}  // namespace
+
 Table response_table(const response::FrequencyResponse& response, std::size_t most) {
   Table table{"Response", {{"frequency", "Hz", 7}}};
   std::vector<std::vector<double>> phases;
@@ -140,7 +150,7 @@ Table response_table(const response::FrequencyResponse& response, std::size_t mo
         {arm::to_string(response.sensors[k]), response_unit(response.sensors[k]), 7});
     table.columns.push_back({"magnitude", "dB", 6});
     table.columns.push_back({"phase", "deg", 6});
-    phases.push_back(phase_deg(response.values[k], Phase::unwrapped));
+    phases.push_back(phase_of(response, k));
   }
   const auto add = [&](std::size_t i) {
     std::vector<Cell> row = {response.frequency_Hz[i]};
@@ -184,7 +194,7 @@ Table response_listing(const response::FrequencyResponse& response) {
     table.columns.push_back({name + " magnitude", unit});
     table.columns.push_back({name + " magnitude", "dB"});
     table.columns.push_back({name + " phase", "deg"});
-    phases.push_back(phase_deg(response.values[k], Phase::unwrapped));
+    phases.push_back(phase_of(response, k));
   }
   for (std::size_t i = 0; i < response.frequency_Hz.size(); ++i) {
     std::vector<Cell> row = {response.frequency_Hz[i]};

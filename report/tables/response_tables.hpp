@@ -23,8 +23,8 @@ std::vector<std::string> formulas(const response::ResponseStudy& study, std::siz
 /// omega_i, zero z_i, residue r_i and damping d_i of sensor `index`, a row an order i.
 Table factors_table(const response::ResponseStudy& study, std::size_t index);
 
-/// Frequency, and for each sensor magnitude, decibel and unwrapped phase of its response, at `most`
-/// frequencies or so, evenly picked; all of them when `most` is 0. The phase is unwrapped over all.
+/// Frequency, and for each sensor magnitude, decibel and continuous phase of its response, at
+/// `most` frequencies or so, evenly picked; all of them when `most` is 0.
 Table response_table(const response::FrequencyResponse& response, std::size_t most);
 
 /// The same with real and imaginary part, for a file.

@@ -2,7 +2,6 @@
 
 #include "measured/files/controller_keys.hpp"
 #include "report/figures/sensor_label.hpp"
-#include "report/figures/svg.hpp"
 #include "report/figures/time_figure.hpp"
 #include "response/excitation/excitation.hpp"
 
@@ -33,8 +32,8 @@ Peak peak_of(const std::vector<double>& values) {
 
 /// The excitation with its numbers, and how many lines it has.
 std::string excitation_text(const SimulatedRun& run) {
-  std::string text = (run.controller ? "reference " : "") +
-                     response::describe(run.excitation, run.keys);
+  std::string text =
+      (run.controller ? "reference " : "") + response::describe(run.excitation, run.keys);
   if (!run.lines_Hz.empty()) text += fmt::format(", {} lines", run.lines_Hz.size());
   if (!run.detection_Hz.empty())
     text += fmt::format(", {} detection line{}", run.detection_Hz.size(),
@@ -198,7 +197,7 @@ Table hub_motion_table(const std::vector<SimulatedRun>& runs) {
   return table;
 }
 
-std::string time_svg(const std::string& arm_name, const SimulatedRun& run) {
+Figure simulation_figure(const std::string& arm_name, const SimulatedRun& run) {
   TimePlot plot;
   plot.title = arm_name.empty() ? run.id : fmt::format("{}: {}", arm_name, run.id);
   plot.time_s = run.record.time_s;
@@ -211,14 +210,14 @@ std::string time_svg(const std::string& arm_name, const SimulatedRun& run) {
   }
   plot.panels.push_back(std::move(torque));
   for (const auto& channel : run.record.channels) {
-    TimePanel panel{sensor_label(channel.sensor), axis_unit(channel.sensor), {}};
+    TimePanel panel{sensor_label(channel.sensor), axis_unit(channel.sensor), {}, true};
     panel.curves = {{"", channel.values}};
     if (run.controller && channel.sensor == run.controller->sensors.front()) {
-      panel.curves = {{"measured", channel.values}, {"reference", run.record.reference.values}};
+      panel.curves = {{"simulated", channel.values}, {"reference", run.record.reference.values}};
     }
     plot.panels.push_back(std::move(panel));
   }
-  return to_svg(time_figure(plot));
+  return time_figure(plot);
 }
 
 nlohmann::ordered_json runs_json(const std::vector<SimulatedRun>& runs) {

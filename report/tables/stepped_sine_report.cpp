@@ -1,8 +1,8 @@
 #include "report/tables/stepped_sine_report.hpp"
 
 #include "report/figures/bode_figure.hpp"
-#include "report/figures/svg.hpp"
 #include "report/tables/response_tables.hpp"
+#include "report/words.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -36,7 +36,7 @@ bool begins_band(const std::vector<double>& frequency_Hz, std::size_t k) {
 BodePlot bode_plot(const SteppedSineRun& run, std::size_t sensor) {
   const auto& frequency_Hz = run.measured.frequency_Hz;
   BodePlot plot;
-  plot.unit = response_unit(run.sensors[sensor]);
+  plot.unit = unit_text(response_unit(run.sensors[sensor]));
   plot.curves = {{"", {}}};
   auto& curve = plot.curves.front().response;
   for (std::size_t k = 0; k < frequency_Hz.size(); ++k) {
@@ -132,18 +132,19 @@ Table stepped_hub_motion_table(const std::vector<SteppedSineRun>& runs) {
   return table;
 }
 
-std::vector<NamedPlot> stepped_sine_plots(const std::string& arm_name, const SteppedSineRun& run) {
-  std::vector<NamedPlot> plots;
+std::vector<NamedFigure> stepped_sine_plots(const std::string& arm_name,
+                                            const SteppedSineRun& run) {
+  std::vector<NamedFigure> plots;
   for (std::size_t j = 0; j < run.sensors.size(); ++j) {
     const auto& values = run.measured.values[j];
     if (std::ranges::all_of(values, [](const Complex& value) { return value == 0.0; })) continue;
     const std::string sensor = arm::to_string(run.sensors[j]);
     BodePlot plot = bode_plot(run, j);
     plot.title = fmt::format("{}{}: torque to {}, stepped sine",
-                             arm_name.empty() ? "" : arm_name + ", ", run.id, sensor);
+                             arm_name.empty() ? "" : arm_name + ", ", run.id, in_words(sensor));
     Figure figure = bode_figure(plot);
     figure.height_px = 640;  // as `flexarm response` draws it
-    plots.push_back({fmt::format("{}-{}.svg", run.id, sensor), to_svg(figure)});
+    plots.push_back({fmt::format("{}-{}", run.id, sensor), std::move(figure)});
   }
   return plots;
 }

@@ -2,10 +2,9 @@
 
 #include "arm/arm.hpp"
 #include "measured/files/frequency_record.hpp"
-#include "report/figures/comparison_plots.hpp"
+#include "report/figures/figure.hpp"
 #include "report/tables/table.hpp"
-#include "response/excitation/excitation_keys.hpp"
-#include "response/time/stepped_sine_response.hpp"
+#include "experiment/simulated_experiment.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -14,14 +13,7 @@
 
 namespace flexarm::report {
 
-/// A run of a simulated experiment that measured a frequency response sine by sine.
-struct SteppedSineRun {
-  std::string id;
-  std::vector<response::ExcitationKey> keys;
-  arm::Payload payload;
-  std::vector<arm::Sensor> sensors;
-  response::SteppedSineResponse measured;  ///< noise and all
-};
+using experiment::SteppedSineRun;
 
 /// The response as a frequency record has it.
 measured::FrequencyRecord frequency_record(const SteppedSineRun& run);
@@ -35,9 +27,9 @@ Table stepped_response_table(const std::vector<SteppedSineRun>& runs);
 /// Reversals, stops and rests of the hub in the measured cycles; for arms with dry friction.
 Table stepped_hub_motion_table(const std::vector<SteppedSineRun>& runs);
 
-/// A Bode diagram a sensor, `ID-SENSOR.svg`, with gaps between the bands; none of a sensor that
+/// A Bode diagram a sensor, `ID-SENSOR`, with gaps between the bands; none of a sensor that
 /// reads nothing, as a hub that friction holds.
-std::vector<NamedPlot> stepped_sine_plots(const std::string& arm_name, const SteppedSineRun& run);
+std::vector<NamedFigure> stepped_sine_plots(const std::string& arm_name, const SteppedSineRun& run);
 
 /// Member `stepped_runs` of schema `flexarm.simulate/1` (docs/json.md).
 nlohmann::ordered_json stepped_runs_json(const std::vector<SteppedSineRun>& runs);

@@ -218,14 +218,14 @@ std::vector<Table> sweep_range_tables(const SweepResult& result) {
     tables.push_back(curves_table(result, curve.family));
     if (curve.family.damped) tables.push_back(damping_table(result, curve.family));
   }
-  const auto& modes = result.modes;
-  if (!modes.hub_slope.empty()) {
-    tables.push_back(
-        modes_table(result, "Hub slope phi'(0) at modal mass I_T", "", modes.hub_slope));
-    tables.push_back(
-        modes_table(result, "End-point value phi(l) at modal mass I_T", "m", modes.tip_value_m));
-  }
   return tables;
+}
+
+std::vector<Table> sweep_mode_tables(const SweepResult& result) {
+  const auto& modes = result.modes;
+  if (modes.hub_slope.empty()) return {};
+  return {modes_table(result, "Hub slope phi'(0) at modal mass I_T", "", modes.hub_slope),
+          modes_table(result, "End-point value phi(l) at modal mass I_T", "m", modes.tip_value_m)};
 }
 
 Table sweep_events_table(const SweepResult& result, std::size_t most) {

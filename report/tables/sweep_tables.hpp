@@ -17,10 +17,12 @@ std::string sweep_axes_lines(const compare::SweepResult& result);
 Table sweep_models_table(const compare::SweepResult& result);
 
 /// One table for the poles, of a damped arm two for those with damping, one for each sensor's
-/// zeros, then hub slopes and end-point values; a row each: its first, last, lowest and highest
-/// value by the first model, and where. Poles and collocated zeros are frequencies [Hz]; other
-/// zeros |s| [rad/s].
+/// zeros; a row each: its first, last, lowest and highest value by the first model, and where.
+/// Poles and collocated zeros are frequencies [Hz]; other zeros |s| [rad/s].
 std::vector<Table> sweep_range_tables(const compare::SweepResult& result);
+
+/// The same of hub slopes and end-point values; empty where they were not asked for.
+std::vector<Table> sweep_mode_tables(const compare::SweepResult& result);
 
 /// What happens to tracks of zeros, and where: `most` rows at most.
 Table sweep_events_table(const compare::SweepResult& result, std::size_t most);

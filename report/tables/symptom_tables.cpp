@@ -47,12 +47,13 @@ std::vector<const Symptom*> told_first(const std::vector<Symptom>& statements) {
 
 }  // namespace
 
-std::string what_is_wrong_text(const Symptoms& symptoms, std::size_t most_lines) {
+std::string what_is_wrong_text(const Symptoms& symptoms, std::size_t most_lines,
+                               std::size_t max_width) {
   if (symptoms.statements.empty()) return "";
   std::vector<const Symptom*> told;
   std::size_t lines = 0;
   for (const Symptom* one : told_first(symptoms.statements)) {
-    const std::string paragraph = to_paragraph("- " + one->text, 2);
+    const std::string paragraph = to_paragraph("- " + one->text, 2, max_width);
     lines += static_cast<std::size_t>(std::ranges::count(paragraph, '\n'));
     if (lines > most_lines) break;
     told.push_back(one);
@@ -60,7 +61,7 @@ std::string what_is_wrong_text(const Symptoms& symptoms, std::size_t most_lines)
   std::string text = "Residual analysis of the baseline\n";
   for (const Symptom& one : symptoms.statements) {
     if (std::ranges::find(told, &one) == told.end()) continue;
-    text += to_paragraph("- " + one.text, 2);
+    text += to_paragraph("- " + one.text, 2, max_width);
   }
   return text;
 }

@@ -2,6 +2,7 @@
 
 #include "diagnose/symptoms/symptoms.hpp"
 #include "report/tables/table.hpp"
+#include "report/terminal.hpp"
 
 #include <cstddef>
 #include <string>
@@ -9,8 +10,10 @@
 namespace flexarm::report {
 
 /// The section "What is wrong" for a terminal: the most significant statement of each kind, then
-/// others by their significance, whole ones up to about `most_lines`. Empty without any statement.
-std::string what_is_wrong_text(const diagnose::Symptoms& symptoms, std::size_t most_lines = 14);
+/// others by their significance, whole ones up to about `most_lines` of `max_width` columns. Empty
+/// without any statement.
+std::string what_is_wrong_text(const diagnose::Symptoms& symptoms, std::size_t most_lines = 14,
+                               std::size_t max_width = kPipeWidth);
 
 /// All statements with their significance.
 Table symptom_table(const diagnose::Symptoms& symptoms);

@@ -12,6 +12,10 @@ Column error_column(std::string name, std::string unit) {
   return {std::move(name), std::move(unit), 2, Notation::scientific};
 }
 
+Column qualifying(std::string name, std::string unit, int significant_digits) {
+  return {std::move(name), std::move(unit), significant_digits, Notation::general, true};
+}
+
 void Table::add_row(std::vector<Cell> row) {
   if (row.size() != columns.size()) {
     throw std::invalid_argument(fmt::format("table \"{}\": a row of {} cells under {} columns",

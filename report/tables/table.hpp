@@ -25,10 +25,14 @@ struct Column {
   std::string unit = {};  ///< empty: none is shown
   int significant_digits = 6;
   Notation notation = Notation::general;
+  bool joined = false;  ///< qualifies the column before it: stays beside it on a narrow terminal
 };
 
 /// A column of errors: two digits, scientific notation.
 Column error_column(std::string name, std::string unit = "");
+
+/// A column that qualifies the one before it: a standard error, a deviation.
+Column qualifying(std::string name, std::string unit, int significant_digits);
 
 /// Rows of cells under named columns; `to_text` and `to_csv` are two views of one table.
 struct Table {

@@ -14,6 +14,9 @@ struct FrequencyResponse {
   std::vector<double> frequency_Hz;
   std::vector<arm::Sensor> sensors;
   std::vector<std::vector<std::complex<double>>> values;  ///< per sensor, one a frequency
+  /// Continuous phase [deg] of each value (response/frequency/continuous_phase.hpp); empty where it
+  /// was not asked for.
+  std::vector<std::vector<double>> phase_deg = {};
 };
 
 /// `transfer_function` of the formulation with the linear part of the actuator and of the sensors,

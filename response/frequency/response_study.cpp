@@ -3,6 +3,7 @@
 #include "arm/input_error.hpp"
 #include "arm/rigid_hub.hpp"
 #include "response/arm_parts.hpp"
+#include "response/frequency/continuous_phase.hpp"
 #include "response/frequency/modal_response.hpp"
 #include "response/residual_mode.hpp"
 
@@ -78,6 +79,25 @@ std::vector<double> frequencies(const AnyFormulation& formulation, const Respons
   return refined_frequencies(grid, features);
 }
 
+/// Gives both responses of a study their phases.
+void add_phases(const AnyFormulation& formulation, const ResponseOptions& options,
+                ResponseStudy& study) {
+  const auto& frequency_Hz = study.response.frequency_Hz;
+  int count = poles_up_to(formulation, options, frequency_Hz.back());
+  const auto known = static_cast<int>(poles(formulation, count).omega_rad_per_s.size());
+  if (known > 0) count = std::min(count, known);
+  for (std::size_t k = 0; k < options.sensors.size(); ++k) {
+    const auto reference = phase_reference(product_factors(formulation, options.sensors[k], count),
+                                           study.chain, arm_of(formulation).damping.kelvin_voigt_s);
+    for (auto* response :
+         {&study.response, study.state_space_response ? &*study.state_space_response : nullptr}) {
+      if (response == nullptr) continue;
+      response->phase_deg.push_back(
+          continuous_phase_deg(reference, frequency_Hz, response->values[k]));
+    }
+  }
+}
+
 FrequencyResponse response_of(const StateSpace& system, const std::vector<double>& frequency_Hz) {
   FrequencyResponse response;
   response.frequency_Hz = frequency_Hz;
@@ -135,7 +155,10 @@ ResponseStudy study_response(const arm::Arm& arm, const AnyFormulation& formulat
     study.resonances.push_back(resonances(formulation, study.chain, sensor, study.damped_poles,
                                           frequency_Hz.front(), frequency_Hz.back()));
   }
-  if (!options.state_space) return study;
+  if (!options.state_space) {
+    add_phases(formulation, options, study);
+    return study;
+  }
   auto model = study.modes;
   if (options.static_correction) {
     model = with_residual_mode(formulation, model, options.sensors);
@@ -143,6 +166,7 @@ ResponseStudy study_response(const arm::Arm& arm, const AnyFormulation& formulat
   }
   study.state_space = state_space(model, options.sensors, study.chain);
   study.state_space_response = response_of(*study.state_space, frequency_Hz);
+  add_phases(formulation, options, study);
   return study;
 }
 

@@ -21,7 +21,7 @@ namespace {
 using Eigen::Index;
 
 /// Samples between two looks at whether to go on.
-constexpr std::size_t kProgressInterval = 1 << 14;
+constexpr std::size_t kProgressInterval = 1 << 10;
 
 /// Of the forces of an inner step in a fit: far below any noise, and small enough that quotients of
 /// differences over 1e-5 of a parameter's range have four digits.

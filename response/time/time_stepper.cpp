@@ -1,5 +1,6 @@
 #include "response/time/time_stepper.hpp"
 
+#include "arm/input_error.hpp"
 #include "response/time/first_crossing.hpp"
 
 #include <fmt/format.h>
@@ -117,6 +118,40 @@ void TimeStepper::put(const Eigen::VectorXd& state, bool held) {
       motion_ = turning_like(speed);
     }
   }
+  forces_->update(state_);
+}
+
+Eigen::VectorXd TimeStepper::snapshot() const {
+  Eigen::VectorXd made(state_.x.size() + kSnapshotNumbers);
+  made << state_.x, static_cast<double>(motion_), static_cast<double>(start_), held_angle_rad_,
+      last_torque_N_m_, time_s_, static_cast<double>(events_at_once_);
+  return made;
+}
+
+void TimeStepper::restore(const Eigen::VectorXd& snapshot) {
+  const Eigen::Index n = arm_->size();
+  if (snapshot.size() != n + kSnapshotNumbers || !snapshot.allFinite()) {
+    throw arm::InputError("state: not of this arm");
+  }
+  const auto whole = [&](Eigen::Index i, int most) {
+    const double value = snapshot(n + i);
+    if (value != std::floor(value) || value < 0.0 || value > most) {
+      throw arm::InputError("state: not of this arm");
+    }
+    return static_cast<int>(value);
+  };
+  const int motion = whole(0, static_cast<int>(HubMotion::backward));
+  if ((motion == static_cast<int>(HubMotion::frictionless)) == forces_->has_friction()) {
+    throw arm::InputError("state: not of this arm");
+  }
+  state_.x = snapshot.head(n);
+  motion_ = static_cast<HubMotion>(motion);
+  start_ = static_cast<Start>(whole(1, static_cast<int>(Start::hub_acceleration_zero)));
+  held_angle_rad_ = snapshot(n + 2);
+  last_torque_N_m_ = snapshot(n + 3);
+  time_s_ = snapshot(n + 4);
+  events_at_once_ = whole(5, kMostEventsAtOnce + 1);
+  solver_.go_on_with(*arm_);
   forces_->update(state_);
 }
 

@@ -44,6 +44,15 @@ class TimeStepper {
   /// turns as its speed says.
   void put(const Eigen::VectorXd& state, bool held);
 
+  /// Numbers of a snapshot: those of the state, and these.
+  static constexpr Eigen::Index kSnapshotNumbers = 6;
+  /// What the motion goes on from. Where forces vary, what the solver has learned of them is not
+  /// part of it: the motion goes on within their tolerance.
+  Eigen::VectorXd snapshot() const;
+  /// Goes on from a snapshot of a stepper with the same plan. Throws InputError for one of another
+  /// size, and for numbers that are none.
+  void restore(const Eigen::VectorXd& snapshot);
+
   const Eigen::VectorXd& state() const { return state_.x; }
   HubMotion motion() const { return motion_; }
   double hub_angle() const;
@@ -56,6 +65,8 @@ class TimeStepper {
     return motion_ == HubMotion::held ? arm_->held : arm_->turning;
   }
   const SimulationSummary& summary() const { return summary_; }
+  /// Of the summary, their times: of a motion without end they would fill the memory.
+  void forget_event_times() { summary_.event_times_s.clear(); }
   int most_iterations() const { return solver_.most_iterations(); }
 
  private:

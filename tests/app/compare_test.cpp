@@ -18,6 +18,7 @@ using testing::ElementsAre;
 using testing::EndsWith;
 using testing::HasSubstr;
 using testing::IsSupersetOf;
+using testing::Not;
 using testing::StartsWith;
 
 using Compare = Flexarm;
@@ -40,12 +41,20 @@ TEST_F(Compare, WithoutArgumentsItIsThePapersArmAndAgrees) {
   const Ended ended = run({"compare", "--quick"});
   EXPECT_EQ(ended.status, 0) << ended.errors;
   EXPECT_EQ(ended.errors, "");
-  EXPECT_THAT(ended.output,
-              AllOf(StartsWith("aluminium link of the paper's Table 1\nl 0.96 m, "),
-                    HasSubstr("11.8618286445"), HasSubstr("2.87337494784"),
-                    HasSubstr("\nVerdict: agree. Largest difference relative to its tolerance: ")));
+  EXPECT_THAT(
+      ended.output,
+      AllOf(StartsWith("Verdict: agree. Largest difference relative to its tolerance: "),
+            HasSubstr("\naluminium link of the paper's Table 1\nl 0.96 m, "), HasSubstr("11.86183"),
+            HasSubstr("2.873375"), HasSubstr("assumed_modes"), Not(HasSubstr("11.8618286445"))));
+  EXPECT_LT(std::ranges::count(ended.output, '\n'), 40) << "an answer fits on a screen";
   EXPECT_THAT(ended.output, HasSubstr("\nnext: write plots and tables with  flexarm compare"));
   EXPECT_TRUE(names_in().empty());
+}
+
+TEST_F(Compare, VerboseShowsTheRootsOfEachFormulation) {
+  const Ended ended = run({"compare", "--quick", "--verbose", "--poles", "2"});
+  EXPECT_THAT(ended.output, AllOf(StartsWith("Verdict: agree."), HasSubstr("11.8618286445"),
+                                  HasSubstr("\nMode shapes compared with exact_tf\n")));
 }
 
 TEST_F(Compare, QuickTakesLessThanASecond) {
@@ -64,8 +73,7 @@ TEST_F(Compare, NoLineIsWiderThanATerminal) {
   EXPECT_EQ(ended.status, 0) << ended.errors;
   std::istringstream lines(ended.output);
   for (std::string line; std::getline(lines, line);) {
-    // The verdict is one line, however long.
-    EXPECT_TRUE(line.size() <= kColumns || line.starts_with("Verdict: ")) << line;
+    EXPECT_LE(line.size(), kColumns) << line;
   }
 }
 
@@ -75,7 +83,8 @@ TEST_F(Compare, FormulationsThatDisagreeGiveStatusOneAndTheWorstPair) {
   EXPECT_EQ(ended.status, 1);
   EXPECT_EQ(ended.errors, "");
   EXPECT_THAT(ended.output,
-              HasSubstr("\nVerdict: DISAGREE. Largest difference relative to its tolerance: "));
+              AllOf(StartsWith("Verdict: DISAGREE. Largest difference relative to its tolerance: "),
+                    HasSubstr("\nBeyond the tolerance\n")));
 }
 
 TEST_F(Compare, BadInputIsOneLineAndStatusTwo) {
@@ -190,7 +199,7 @@ TEST_F(Compare, SeveralPayloadsAreComparedOneByOne) {
   const Ended ended = run({"compare", "--quick", "--poles", "2", "--payload-mass", "0,0.06",
                            "--out", "out", "--json", "out.json"});
   EXPECT_EQ(ended.status, 0) << ended.errors;
-  EXPECT_THAT(ended.output, HasSubstr("\nAll 2 arms: agree.\n"));
+  EXPECT_THAT(ended.output, StartsWith("All 2 arms: agree.\n"));
   EXPECT_THAT(names_in("out"), ElementsAre("payload-0.06kg", "payload-0kg"));
   const auto document = Json::parse(text_of("out.json"));
   ASSERT_EQ(document["comparisons"].size(), 2U);
@@ -205,7 +214,7 @@ TEST_F(Compare, AnArmFileMayFollowAList) {
        {std::vector<std::string>{"--payload-mass", "0.06"}, {"--sensor", "tip_deflection"}}) {
     const Ended ended = run({"compare", "--quick", "--poles", "1", list[0], list[1], "rig.toml"});
     EXPECT_EQ(ended.status, 0) << ended.errors;
-    EXPECT_THAT(ended.output, StartsWith("rig\nl 0.8 m, "));
+    EXPECT_THAT(ended.output, HasSubstr("\nrig\nl 0.8 m, "));
   }
   EXPECT_EQ(run({"modes", "--sensor", "hub_angle", "rig.toml"}).status, 0);
 }
@@ -285,7 +294,7 @@ TEST_F(Compare, CtrlCLeavesNothingHalfWritten) {
                          (folder_ / "out.json").string()},
                         SIGINT);
   EXPECT_EQ(ended.status, 128 + SIGINT);
-  EXPECT_EQ(ended.errors, "");
+  EXPECT_EQ(ended.errors, "flexarm: interrupted\n");
   EXPECT_FALSE(fs::exists(folder_ / "out.json"));
   EXPECT_TRUE(!fs::exists(folder_ / "out") || names_in("out").empty());
 }

@@ -21,7 +21,16 @@ namespace flexarm::testing_app {
 inline std::vector<std::string> example_in(const std::string& help) {
   constexpr std::string_view kHeading = "Example:\n  flexarm ";
   const auto begin = help.find(kHeading) + kHeading.size();
-  std::istringstream words(help.substr(begin, help.find('\n', begin) - begin));
+  std::string line;
+  std::istringstream lines(help.substr(begin));
+  // A line that ends in a backslash is continued on the next.
+  std::string whole;
+  while (std::getline(lines, line)) {
+    const bool is_continued = line.ends_with('\\');
+    whole += line.substr(0, line.size() - (is_continued ? 1 : 0));
+    if (!is_continued) break;
+  }
+  std::istringstream words(whole);
   return {std::istream_iterator<std::string>(words), {}};
 }
 

@@ -138,7 +138,7 @@ TEST_F(Flexarm, CtrlCEndsItAsAShellExpects) {
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
   const Ended ended = interrupt_flexarm({"new", "--force", pipe}, SIGINT);
   EXPECT_EQ(ended.status, 130);
-  EXPECT_EQ(ended.errors, "");
+  EXPECT_EQ(ended.errors, "flexarm: interrupted\n");
 }
 
 }  // namespace

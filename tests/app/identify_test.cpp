@@ -42,7 +42,12 @@ class Identify : public Flexarm {
 
 TEST_F(Identify, PrintsTablesLikeThePapers) {
   simulate("sim");
-  const Ended ended = run({"identify", "sim/measurement.toml"});
+  const Ended brief = run({"identify", "sim/measurement.toml"});
+  EXPECT_THAT(brief.output, AllOf(testing::StartsWith("random: poles, undamped"),
+                                  HasSubstr("random: zeros, undamped"), HasSubstr("\nnext: "),
+                                  Not(HasSubstr("segment: ")), Not(HasSubstr("(48)"))));
+  EXPECT_LT(std::ranges::count(brief.output, '\n'), 45) << "an answer fits on a screen";
+  const Ended ended = run({"identify", "sim/measurement.toml", "--verbose"});
   EXPECT_EQ(ended.status, 0) << ended.errors;
   EXPECT_THAT(ended.output,
               AllOf(HasSubstr("random: spectra and frequency responses"), HasSubstr("segment: "),
@@ -122,9 +127,10 @@ TEST_F(Identify, NothingThatIsReadOrOthersWroteIsReplaced) {
     EXPECT_EQ(ended.status, 2) << ended.output;
     return ended.errors;
   };
-  EXPECT_THAT(refused({"--out", "sim"}), HasSubstr("--force replaces an identification"));
-  EXPECT_THAT(refused({"--out", "sim", "--force"}), HasSubstr("contains no identified.json"));
-  EXPECT_THAT(refused({"--json", "sim/random.csv"}), HasSubstr("file of the measurement"));
+  EXPECT_THAT(refused({"--out", "sim"}), HasSubstr("has the input sim/measurement.toml in it"));
+  EXPECT_THAT(refused({"--out", "sim", "--force"}), HasSubstr("has the input"));
+  EXPECT_THAT(refused({"--json", "sim/random.csv"}), HasSubstr("would overwrite the input"));
+  EXPECT_THAT(refused({"--out", ".", "--force"}), HasSubstr("has the input"));
   EXPECT_EQ(text_of("sim/random.csv"), data);
   EXPECT_EQ(run({"identify", "sim/measurement.toml", "--no-fit", "--out", "out"}).status, 0);
   EXPECT_EQ(run({"identify", "sim/measurement.toml", "--no-fit", "--out", "out"}).status, 2);
@@ -178,7 +184,7 @@ TEST_F(Identify, TheHubMotionAsInputGivesPolesWithTheHubHeld) {
                           "--excitation", "random:rms=0.05,to=60,id=random", "--out", "held"});
   ASSERT_EQ(made.status, 0) << made.errors;
   const Ended ended =
-      run({"identify", "held/measurement.toml", "--input", "hub_angle", "--out", "out"});
+      run({"identify", "held/measurement.toml", "--input", "hub_angle", "--out", "out", "-v"});
   EXPECT_EQ(ended.status, 0) << ended.errors;
   EXPECT_THAT(ended.output,
               AllOf(HasSubstr("estimator: hub_angle to sensors"), HasSubstr("pole 1, hub held"),

@@ -86,8 +86,8 @@ TEST_F(Import, WithoutAnArmAFileToFillInIsWritten) {
   EXPECT_THAT(ended.output, HasSubstr("arm.toml (its numbers are to be filled in)"));
   const Ended diagnosed = run({"diagnose", "bench/measurement.toml"});
   EXPECT_EQ(diagnosed.status, 2);
-  EXPECT_THAT(diagnosed.errors, AllOf(StartsWith("bench/arm.toml:"),
-                                      HasSubstr("beam.length: missing; must be")));
+  EXPECT_THAT(diagnosed.errors,
+              AllOf(StartsWith("bench/arm.toml:"), HasSubstr("beam.length: missing; must be")));
   EXPECT_THAT(import({"log.txt", "--out", "bench"}).errors, HasSubstr("--force replaces"));
   EXPECT_EQ(import({"log.txt", "--out", "bench", "--force"}).status, 0);
 }

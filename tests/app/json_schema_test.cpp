@@ -122,10 +122,22 @@ const char* const kSoftRoot =
 
 TEST_F(JsonSchema, WhatCompareWritesIsWhatTheDocumentSays) {
   write("soft.toml", kSoftRoot);
-  write("modal.csv", "sensor,feature,order,frequency [Hz]\n,pole,1,12.00\nhub_angle,zero,1,\n");
+  write("modal.csv",
+        "sensor,feature,order,frequency [Hz],frequency_std [Hz],damping_ratio,damping_ratio_std,"
+        "shape_re\n,pole,1,12.00,0.1,0.01,0.001,\nhub_angle,zero,1,,,,,\n"
+        "strain@0,pole,1,,,,,1\nstrain@0.3,pole,1,,,,,1.5\n");
+  write("frf.csv",
+        "sensor,frequency [Hz],re,im,coherence\nhub_angle,1,0.1,0,0.9\n"
+        "hub_angle,2,0.2,0,\n");
+  write("m.toml", "arm = \"a.toml\"\n[[run]]\nid = \"sine\"\nkind = \"frf\"\nfile = \"frf.csv\"\n");
+  write("uncertain.toml", std::string(kSoftRoot).replace(7, 0, "length_uncertainty = 0.01\n"));
   expect_as_documented(
       {written_by({"compare", "--poles", "2", "--zeros", "2", "--sensor", "strain@0.25",
                    "--measured", "modal.csv"}),
+       written_by({"compare", "uncertain.toml", "--quick", "--poles", "2", "--zeros", "2",
+                   "--measured", "modal.csv"}),
+       written_by({"compare", "--quick", "--poles", "2", "--zeros", "2", "--measured", "frf.csv"}),
+       written_by({"compare", "--quick", "--poles", "2", "--zeros", "2", "--measured", "m.toml"}),
        written_by({"compare", "soft.toml", "--quick", "--poles", "2", "--zeros", "2"})},
       "flexarm.compare/1");
 }
@@ -207,6 +219,10 @@ TEST_F(JsonSchema, WhatSimulateWritesIsWhatTheDocumentSays) {
       "flexarm.simulate/1");
 }
 
+TEST_F(JsonSchema, WhatDoctorWritesIsWhatTheDocumentSays) {
+  expect_as_documented({written_by({"doctor"})}, "flexarm.doctor/1");
+}
+
 TEST_F(JsonSchema, WhatPaperWritesIsWhatTheDocumentSays) {
   expect_as_documented({written_by({"paper"})}, "flexarm.paper/1");
 }
@@ -280,6 +296,18 @@ TEST_F(JsonSchema, WhatDiagnoseWritesIsWhatTheDocumentSays) {
         "file = \"modal.csv\"\n");
   diagnose("modal.toml", "payload_mass,flexural_rigidity,linear_density,root_compliance");
   expect_as_documented(documents, "flexarm.diagnosis/2");
+}
+
+TEST_F(JsonSchema, WhatExportWritesIsWhatTheDocumentSays) {
+  write("rig.toml",
+        "[beam]\nlength = 0.5\nflexural_rigidity = 3.7\nlinear_density = 0.165\n[hub]\n"
+        "inertia = 0.0006\ninertia_uncertainty = 0.02\n"
+        "[effects.coulomb_friction]\ntorque = 0.01\n");
+  const auto state_space =
+      written_by({"export", "rig.toml", "--state-space", "samples.json", "--samples", "3"});
+  const auto fmu = written_by({"export", "rig.toml", "--fmu"});
+  expect_as_documented({state_space, fmu}, "flexarm.export/1");
+  expect_as_documented({Json::parse(text_of("samples.json"))}, "flexarm.state_space_samples/1");
 }
 
 TEST_F(JsonSchema, WhatPlanWritesIsWhatTheDocumentSays) {

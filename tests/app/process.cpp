@@ -72,6 +72,8 @@ pid_t start(const std::vector<std::string>& arguments, const std::string& folder
   const pid_t child = ::fork();
   if (child < 0) throw std::runtime_error("no process");
   if (child == 0) {
+    // What the output looks like is not to depend on who runs the tests.
+    for (const char* variable : {"COLUMNS", "NO_COLOR"}) ::unsetenv(variable);
     ::dup2(output, STDOUT_FILENO);
     ::dup2(errors, STDERR_FILENO);
     if (::chdir(folder.c_str()) == 0) ::execv(argv[0], argv.data());

@@ -154,7 +154,7 @@ TEST_F(SimulateLimits, ModesThatAModelDoesNotHaveAreSaid) {
   auto arguments = fem;
   arguments.insert(arguments.end(), {"--json", "out.json"});
   EXPECT_THAT(run_short(arguments).output,
-              HasSubstr("\n2 of 5 modes: fem has 3 degrees of freedom\n"));
+              HasSubstr("\nnote: 2 of 5 modes: fem has 3 degrees of freedom\n"));
   EXPECT_EQ(Json::parse(text_of("out.json"))["modes"], 2);
   EXPECT_THAT(run_short({}).output, Not(HasSubstr("degrees of freedom")));
 }

@@ -49,9 +49,9 @@ TEST_F(SteppedSine, IsARunOfTheMeasurementBesideOthers) {
   EXPECT_EQ(ended.status, 0) << ended.errors;
   EXPECT_EQ(ended.errors, "");
   EXPECT_THAT(ended.output,
-              AllOf(HasSubstr("bands 2.8:2.9/11.8:11.9 Hz, step 0.05 Hz, settle steady, cycles 4"),
-                    HasSubstr("rad/(N m)"), HasSubstr("\nEnergy balance: "),
-                    Not(HasSubstr("note:")), HasSubstr("flexarm identify out/measurement.toml")));
+              AllOf(HasSubstr("2.8:2.9/11.8:11.9"), HasSubstr("step 0.05"), HasSubstr("rad/(N m)"),
+                    HasSubstr("\nEnergy balance: "), Not(HasSubstr("note:")),
+                    HasSubstr("flexarm identify out/measurement.toml")));
   EXPECT_THAT(names_in("out"),
               ElementsAre("arm.toml", "bang-bang.csv", "bang-bang.svg", "fine-hub_angle.svg",
                           "fine-tip_acceleration.svg", "fine.csv", "measurement.toml"));
@@ -147,11 +147,10 @@ TEST_F(SteppedSine, BadInputIsOneLineAndStatusTwo) {
   refused("from=3,from=4", "from: given twice");
   refused("bands=1:2/2:3",
           "stepped-sine.bands = 2 Hz: must be above 2, the end of the previous band");
-  expect_refused(
-      run({"simulate", "--excitation", "stepped-sin"}),
-      "--excitation stepped-sin: excitation stepped-sin: unknown (did you mean "
-      "stepped-sine?); allowed: bang-bang, step, random, multisine, chirp, staircase, "
-      "stepped-sine");
+  expect_refused(run({"simulate", "--excitation", "stepped-sin"}),
+                 "--excitation stepped-sin: excitation stepped-sin: unknown (did you mean "
+                 "stepped-sine?); allowed: bang-bang, step, random, multisine, chirp, staircase, "
+                 "stepped-sine");
   expect_refused(run({"simulate", "--excitation", "stepped-sine", "--duration", "3"}),
                  "--duration: not with a stepped sine");
   expect_refused(run({"simulate", "--excitation", "stepped-sine:id=a", "--check-step"}),

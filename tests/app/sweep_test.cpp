@@ -21,7 +21,7 @@ TEST_F(Sweep, ThreeFormulationsAgreeAndTheLastLineSaysWhatIsNext) {
   EXPECT_EQ(ended.status, 0) << ended.errors;
   EXPECT_EQ(ended.errors, "");
   EXPECT_THAT(ended.output,
-              AllOf(StartsWith("aluminium link"), HasSubstr("11.86183"), HasSubstr("\nAgree: ")));
+              AllOf(StartsWith("Agree: "), HasSubstr("\naluminium link"), HasSubstr("11.86183")));
   EXPECT_THAT(ended.output,
               testing::EndsWith("\nnext: write curves and all values with  flexarm sweep --over "
                                 "payload.mass=0:0.3:4 --out swept\n"));
@@ -53,7 +53,7 @@ TEST_F(Sweep, NoLineIsWiderThanATerminal) {
 TEST_F(Sweep, ThreadsDoNotChangeAByte) {
   const auto swept = [&](const std::string& threads) {
     EXPECT_EQ(run({"sweep", "--over", "payload.inertia=0:0.002:9", "--threads", threads, "--json",
-                   "out.json", "--out", "out"})
+                   "out.json", "--out", "out", "--force"})
                   .status,
               0);
     return text_of("out.json") + text_of("out/sweep.csv") + text_of("out/poles.svg");
@@ -65,19 +65,20 @@ TEST_F(Sweep, ThreadsDoNotChangeAByte) {
 TEST_F(Sweep, DisagreementIsStatusOne) {
   const Ended ended = run({"sweep", "--over", "payload.mass=0:0.3:3", "--tolerance", "1e-18"});
   EXPECT_EQ(ended.status, 1);
-  EXPECT_THAT(ended.output, HasSubstr("\nDISAGREE: "));
+  EXPECT_THAT(ended.output, StartsWith("DISAGREE: "));
 }
 
 TEST_F(Sweep, FiguresOfThePaperAreSvgAndCsv) {
   for (const std::string number : {"18", "19"}) {
-    EXPECT_EQ(run({"sweep", "--figure", number, "--out", "figures"}).status, 0);
-    EXPECT_THAT(names_in("figures"), Contains("figure-" + number + ".svg"));
-    EXPECT_THAT(text_of("figures/figure-" + number + ".csv"),
+    const std::string folder = "figure-" + number;
+    EXPECT_EQ(run({"sweep", "--figure", number, "--out", folder}).status, 0);
+    EXPECT_THAT(names_in(folder), Contains("figure-" + number + ".svg"));
+    EXPECT_THAT(text_of(folder + "/figure-" + number + ".csv"),
                 StartsWith("payload.mass [kg],model,feature,sensor,number,"));
   }
   expect_refused(run({"sweep", "--figure", "17"}),
                  "--figure = 17: must be 18 (poles) or 19 (zeros)");
-  expect_refused(run({"sweep", "--figure", "18", "--over", "payload.mass=0,1"}),
+  expect_refused(run({"sweep", "--figure", "18", "--over", "payload.mass=0.0,1"}),
                  "--over: --figure has its own");
 }
 
@@ -88,14 +89,14 @@ TEST_F(Sweep, BadInputIsOneLineAndStatusTwoBeforeAnyWork) {
               HasSubstr("(did you mean payload.mass?)"));
   expect_refused(run({"sweep", "--over", "payload.mass=-1:1:3", "--out", "out"}),
                  "payload.mass = -1 kg: must be a finite number, 0 or more");
-  expect_refused(run({"sweep", "--over", "payload.mass=0,1", "--formulation", "fme"}),
+  expect_refused(run({"sweep", "--over", "payload.mass=0.0,1", "--formulation", "fme"}),
                  "--formulation fme: unknown (did you mean fem?); allowed: exact_tf, fem, "
                  "assumed_modes");
-  expect_refused(run({"sweep", "--over", "payload.mass=0,1", "--threads", "-1"}),
+  expect_refused(run({"sweep", "--over", "payload.mass=0.0,1", "--threads", "-1"}),
                  "--threads = -1: must be from 1 to 1024, or 0 for one per core");
-  expect_refused(run({"sweep", "--over", "payload.mass=0,1", "--resume"}),
+  expect_refused(run({"sweep", "--over", "payload.mass=0.0,1", "--resume"}),
                  "--resume: give the --out or --json of the interrupted sweep");
-  expect_refused(run({"sweep", "--over", "payload.mass=0,1", "--resume", "--json", "out.json"}),
+  expect_refused(run({"sweep", "--over", "payload.mass=0.0,1", "--resume", "--json", "out.json"}),
                  "out.json.checkpoint: no checkpoint found; start without "
                  "--resume");
   EXPECT_TRUE(names_in().empty());
@@ -115,9 +116,9 @@ TEST_F(Sweep, CtrlCLeavesACheckpointFromWhichResumeMakesTheSameBytes) {
                                   HasSubstr("continue with the same command and --resume from ")));
   EXPECT_THAT(names_in(), ElementsAre("out.json.checkpoint"));
 
-  expect_refused(run({"sweep", "--over", "payload.mass=0,1", "--resume", "--json", "out.json"}),
+  expect_refused(run({"sweep", "--over", "payload.mass=0.0,1", "--resume", "--json", "out.json"}),
                  "out.json.checkpoint: checkpoint of another sweep: grid is \"" + grid +
-                     "\", not \"payload.mass=0,1\"");
+                     "\", not \"payload.mass=0.0,1\"");
   auto resumed = words("out.json");
   resumed.emplace_back("--resume");
   const Ended finished = run(resumed);

@@ -6,7 +6,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <functional>
 #include <stdexcept>
 
@@ -115,6 +117,42 @@ TEST(Comparison, OneModelIsNoComparison) {
   auto subjects = standard_subjects(arm::paper_arm(), 2);
   subjects.erase(subjects.begin() + 1, subjects.end());
   EXPECT_THROW(compare(subjects, quick()), std::invalid_argument);
+}
+
+TEST(DampedRoots, AreThoseOfTheCharacteristicEquation) {
+  arm::Arm arm = arm::paper_arm();
+  Options options;
+  options.poles = 3;
+  options.non_collocated_zeros = 2;
+  options.sensors = {arm::parse_sensor("hub_angle"), arm::parse_sensor("tip_acceleration")};
+  options.refinements = false;
+  options.response_points = 20;
+  EXPECT_TRUE(compare(arm, options).damped.empty());
+  // Damping that is proportional to stiffness makes s^2 + kv w^2 s + w^2 = 0 of s^2 + w^2 = 0.
+  constexpr double kKv_s = 1e-4;
+  arm.damping.kelvin_voigt_s = kKv_s;
+  const auto comparison = compare(arm, options);
+  ASSERT_EQ(comparison.damped.size(), comparison.subjects.size());
+  for (const DampedRoots& damped : comparison.damped) {
+    EXPECT_EQ(damped.poles_rad_per_s.size(), 6U);
+    ASSERT_EQ(damped.zeros_rad_per_s.size(), 2U);
+    std::size_t matched = 0;
+    for (const auto& row : comparison.roots) {
+      if (!row.family.zeros_of) continue;
+      const bool hub = *row.family.zeros_of == options.sensors[0];
+      const auto squared = -*row.s_rad_per_s.front() * *row.s_rad_per_s.front();  // w^2
+      const auto half = 0.5 * kKv_s * squared;
+      for (const auto root :
+           {-half + std::sqrt(half * half - squared), -half - std::sqrt(half * half - squared)}) {
+        const auto& zeros = damped.zeros_rad_per_s[hub ? 0 : 1];
+        EXPECT_TRUE(std::ranges::any_of(zeros, [&](const auto zero) {
+          return std::abs(zero - root) <= 1e-6 * std::abs(root);
+        })) << root;
+        ++matched;
+      }
+    }
+    EXPECT_EQ(matched, damped.zeros_rad_per_s[0].size() + damped.zeros_rad_per_s[1].size());
+  }
 }
 
 }  // namespace

@@ -88,6 +88,57 @@ TEST(Measured, WhatIsNotThereHasNoError) {
   EXPECT_TRUE(std::isnan(unknown.error_percent));
 }
 
+TEST(Measured, EveryModelIsOffBySoManyStandardDeviations) {
+  auto entry = measured_at(std::nullopt, Feature::pole, 1, 12.3);
+  entry.frequency_std_Hz = 0.1;
+  const auto row = row_of(entry);
+  ASSERT_EQ(row.deviations.size(), 2U);
+  EXPECT_DOUBLE_EQ(row.frequencies_Hz[1].value(), 18.0);
+  EXPECT_NEAR(row.deviations[0], 3.0, 1e-12);
+  EXPECT_NEAR(row.deviations[1], -57.0, 1e-12);
+  EXPECT_NEAR(row.combined_deviation, 3.0, 1e-12) << "the arm file states no uncertain number";
+  EXPECT_FALSE(row.model_std_Hz);
+  const auto without = row_of(measured_at(std::nullopt, Feature::pole, 1, 12.3));
+  EXPECT_TRUE(std::isnan(without.deviations[0]));
+  EXPECT_TRUE(std::isnan(without.combined_deviation));
+}
+
+TEST(Measured, DampingRatiosAreThoseOfTheMode) {
+  Comparison comparison = model();
+  comparison.modes.assign(1, std::vector<arm::Mode>(2));
+  comparison.modes[0][0].damping_ratio = 0.02;
+  comparison.modes[0][1].damping_ratio = 0.05;
+  auto entry = measured_at(std::nullopt, Feature::pole, 2, 32.0);
+  entry.damping_ratio = 0.06;
+  entry.damping_ratio_std = 0.005;
+  const auto row = beside_model({entry}, comparison).at(0);
+  EXPECT_EQ(row.model_damping_ratio, 0.05);
+  EXPECT_NEAR(row.damping_deviation, 2.0, 1e-12);
+}
+
+/// Frequencies are proportional to the root of the rigidity: of 4 % they have 2 %.
+TEST(Measured, UncertainNumbersOfTheArmMakeAStandardDeviation) {
+  arm::Arm arm = arm::paper_arm();
+  arm.relative_uncertainties = {{"beam.flexural_rigidity", 0.04}};
+  Options few = quick();
+  few.poles = 2;
+  few.non_collocated_zeros = 1;
+  few.response_points = 2;
+  const Comparison comparison = compare(arm, few);
+  auto pole = measured_at(std::nullopt, Feature::pole, 1, 12.0);
+  pole.frequency_std_Hz = 0.1;
+  const auto zero = measured_at(kHubAngle, Feature::zero, 2, 18.0);
+  const auto rows = beside_model({pole, zero}, comparison);
+  constexpr double kFirstOrder = 1e-4;  // sinh(0.002)/0.002 - 1 and rounding
+  for (const auto& row : rows) {
+    EXPECT_NEAR(row.model_std_Hz.value(), 0.02 * *row.model_frequency_Hz,
+                kFirstOrder * *row.model_frequency_Hz);
+  }
+  EXPECT_NEAR(rows[0].combined_deviation,
+              (12.0 - *rows[0].model_frequency_Hz) / std::hypot(0.1, *rows[0].model_std_Hz), 1e-12);
+  EXPECT_LT(std::abs(rows[0].combined_deviation), std::abs(rows[0].deviations[0]));
+}
+
 TEST(Measured, SensorsWithZerosAreNamedOnceInTheirOrder) {
   const measured::ModalTable table = {
       measured_at(std::nullopt, Feature::pole, 1, 12.0),

@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace flexarm::compare {
 namespace {
@@ -25,6 +27,18 @@ TEST(Responses, TheGridRunsFromATenthOfTheFirstPoleToJustBelowTheLast) {
   EXPECT_NEAR(grid.front(), 1.0, 1e-12);
   EXPECT_NEAR(grid.back(), (1.0 - kOffResonance) * 58.0, 1e-12);
   EXPECT_NEAR(grid[50] / grid[49], grid[1] / grid[0], 1e-12) << "even in the logarithm";
+}
+
+TEST(Responses, TheGridResolvesPeaksThatItsStepsWouldMiss) {
+  const std::vector<double> features = {20.0, 200.0};
+  const auto grid = response_grid_Hz({10.0, 250.0}, 100, features);
+  EXPECT_TRUE(std::ranges::is_sorted(grid));
+  for (const double feature_Hz : features) {
+    const auto above = std::ranges::upper_bound(grid, feature_Hz);
+    EXPECT_LT(*above / feature_Hz - 1.0, 2e-4);
+    EXPECT_LT(1.0 - *(above - 1) / feature_Hz, 2e-4);
+    EXPECT_EQ(std::ranges::count(grid, feature_Hz), 0) << "there a response has no bound";
+  }
 }
 
 TEST(Responses, AModelAgreesWithItself) {

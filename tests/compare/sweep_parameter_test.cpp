@@ -74,7 +74,7 @@ TEST(SweepAxis, WhatIsNoAxisIsRefused) {
   EXPECT_THAT(refusal_of_axis("payload.mass=0:1:9999999"), HasSubstr("must be from 2 to"));
   EXPECT_THAT(refusal_of_axis("payload.mass=log:0:1:5"), HasSubstr("above 0"));
   EXPECT_THAT(refusal_of_axis("payload.mass=0,2,1"), HasSubstr("must be monotonic"));
-  EXPECT_THAT(refusal_of_axis("payload.mass=0,0"), HasSubstr("must be monotonic"));
+  EXPECT_THAT(refusal_of_axis("payload.mass=0.0,0.0"), HasSubstr("must be monotonic"));
   EXPECT_THAT(refusal_of_axis("payload.mass=1:1:5"), HasSubstr("must be monotonic"));
   EXPECT_EQ(refusal_of_axis("payload.mass=-1:1:5"),
             "payload.mass = -1 kg: must be a finite number, 0 or more");
@@ -134,7 +134,7 @@ TEST(SweepParameter, TheBeamIsSetBeforeItsRatios) {
 TEST(SweepParameter, WhatTheArmGivesTwiceDoesNotContradictIt) {
   for (const std::string axis :
        {"beam.thickness=0.002,0.004", "beam.width=0.01,0.02", "beam.youngs_modulus=1e10,9e10",
-        "beam.flexural_rigidity=1,2", "beam.density=1000,3000", "beam.linear_density=0.1,0.2"}) {
+        "beam.flexural_rigidity=1.0,2.0", "beam.density=1000.0,3000.0", "beam.linear_density=0.1,0.2"}) {
     EXPECT_NO_THROW(require_valid(task_with_axes({axis}))) << axis;
   }
   const auto thin = task_with_axes({"beam.thickness=0.0016002,0.002"}).arm_of(0);
@@ -143,18 +143,18 @@ TEST(SweepParameter, WhatTheArmGivesTwiceDoesNotContradictIt) {
 }
 
 TEST(SweepTask, WhatCannotBeComputedIsRefusedWithItsPlace) {
-  EXPECT_THAT(refusal_of_task(task_with_axes({"payload.mass=0,1e12"})),
+  EXPECT_THAT(refusal_of_task(task_with_axes({"payload.mass=0.0,1e12"})),
               StartsWith("at payload.mass = 1e+12 kg: payload.mass/(m l) = "));
   EXPECT_THAT(refusal_of_task(task_with_axes({"effects.local_stiffness_loss.position=0.1,0.2"})),
               StartsWith("at effects.local_stiffness_loss.position = 0.1 m: "
                          "effects.local_stiffness_loss.stiffness: missing"));
   EXPECT_EQ(refusal_of_task(task_with_axes({"beam.shear_modulus=1e10,2e10"})),
             "--over beam.shear_modulus: no influence on this arm");
-  EXPECT_EQ(refusal_of_task(task_with_axes({"payload.mass=0,1", "payload.mass=0,2"})),
+  EXPECT_EQ(refusal_of_task(task_with_axes({"payload.mass=0.0,1.0", "payload.mass=0.0,2.0"})),
             "--over payload.mass: given twice");
   EXPECT_THAT(refusal_of_task(task_with_axes({"payload.mass=0:1:1000", "hub.inertia=0:1:1000"})),
               HasSubstr("the grid must have from 1 to"));
-  auto too_many = task_with_axes({"payload.mass=0,1"});
+  auto too_many = task_with_axes({"payload.mass=0.0,1.0"});
   too_many.questions.poles = 0;
   EXPECT_THAT(refusal_of_task(too_many), StartsWith("--poles = 0"));
   auto strain = task_with_axes({"beam.length=0.2,0.96"});
@@ -163,7 +163,7 @@ TEST(SweepTask, WhatCannotBeComputedIsRefusedWithItsPlace) {
 }
 
 TEST(SweepTask, TheRatioAndTheNumberItFollowsFromDoNotGoTogether) {
-  EXPECT_EQ(refusal_of_task(task_with_axes({"payload.mass=0,1", "eta=0,1"})),
+  EXPECT_EQ(refusal_of_task(task_with_axes({"payload.mass=0.0,1.0", "eta=0.0,1.0"})),
             "--over payload.mass: sets the same number as the other --over, payload_mass_ratio");
 }
 

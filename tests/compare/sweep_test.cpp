@@ -194,7 +194,7 @@ TEST_F(Sweep, AnUndampedSweepHasNoDampedPoles) {
     EXPECT_FALSE(curve.family.damped);
   }
   // One damped point is enough.
-  auto from_zero = task_over({"damping.kelvin_voigt=0,1e-4"});
+  auto from_zero = task_over({"damping.kelvin_voigt=0.0,1e-4"});
   const auto result = sweep(from_zero);
   const auto damped =
       std::ranges::count_if(result.curves, [](const auto& curve) { return curve.family.damped; });

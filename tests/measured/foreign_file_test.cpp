@@ -2,6 +2,7 @@
 
 #include "arm/input_error.hpp"
 #include "measured/files/column_guess.hpp"
+#include "measured/files/column_words.hpp"
 #include "measured/files/record_constants.hpp"
 #include "measured/files/record_export.hpp"
 #include "measured/files/text_file.hpp"
@@ -218,6 +219,29 @@ TEST(ColumnGuess, TheStandardNameGoesFirstAndTheUnitMustFit) {
   const ColumnGuess guess = guess_columns(
       std::vector<ColumnLabel>{{"hub_angle", "rad"}, {"theta", "rad"}, {"torque", "V"}}, {});
   EXPECT_EQ(guess.mappings, (ColumnMappings{{"hub_angle", {"hub_angle", "rad", 1.0}}}));
+}
+
+/// No word is two quantities, and each is as `plain_letters` has it.
+TEST(ColumnWords, AreSpelledPlainlyAndStandOnce) {
+  std::vector<std::string> all;
+  for (const auto& [quantity, words] : quantity_words()) {
+    all.insert(all.end(), words.begin(), words.end());
+  }
+  for (const auto& open : open_words()) all.insert(all.end(), open.words.begin(), open.words.end());
+  for (const auto& word : all) {
+    EXPECT_EQ(plain_letters(word), word);
+    EXPECT_EQ(std::ranges::count(all, word), 1) << word;
+  }
+}
+
+TEST(ColumnWords, LoseCaseAccentsAndWhatIsNoLetter) {
+  EXPECT_EQ(plain_letters("Pr\xc3\xbc"
+                          "fl\xc3\xa4nge 2"),
+            "prueflaenge");
+  EXPECT_EQ(plain_letters("D\xc3\xa9"
+                          "formation"),
+            "deformation");
+  EXPECT_EQ(plain_letters("\xcf\x84"), "tau");
 }
 
 }  // namespace

@@ -79,9 +79,25 @@ TEST(ModalTable, WhatIsWrittenReadsBackEqual) {
   EXPECT_EQ(parse_modal_table(format_modal_table({}), "m"), ModalTable{});
 }
 
+TEST(ModalTable, HoldsModeShapesInColumnsThatMostTablesDoNotHave) {
+  const ModalTable shapes = parse_modal_table(
+      "sensor,feature,order,frequency [Hz],shape_re,shape_im\nstrain@0.1,pole,1,11.9,1,\n"
+      "strain@0.2,pole,1,,0.7,-0.02\nhub_angle,zero,1,2.9,,\n",
+      "m");
+  ASSERT_EQ(shapes.size(), 3U);
+  EXPECT_EQ(shapes[0].shape_re, 1.0);
+  EXPECT_FALSE(shapes[0].shape_im);
+  EXPECT_EQ(shapes[1].shape_im, -0.02);
+  EXPECT_EQ(parse_modal_table(format_modal_table(shapes), "m"), shapes);
+  ModalTable plain = shapes;
+  for (auto& entry : plain) entry.shape_re = entry.shape_im = std::nullopt;
+  EXPECT_TRUE(format_modal_table(plain).starts_with(kHeader + "\n"))
+      << "older versions of the program read a table without shapes";
+}
+
 TEST(ModalTable, TheExampleOfTheFormatsDocumentIsRead) {
   const std::string text = measured::read_text_file(FLEXARM_SOURCE_DIR "/docs/formats.md", 1 << 20);
-  const auto begin = text.find('\n', text.find("```csv")) + 1;
+  const auto begin = text.find('\n', text.find("```", text.find("## Modal table"))) + 1;
   const ModalTable table =
       parse_modal_table(text.substr(begin, text.find("```", begin) - begin), "docs/formats.md");
   ASSERT_EQ(table.size(), 2U);
@@ -97,7 +113,7 @@ TEST(ModalTable, BytesAtRandomGiveATableOrOneLine) {
 
 const std::string kAllowed =
     "; allowed: sensor, feature, order, frequency [Hz], frequency_std [Hz], damping_ratio, "
-    "damping_ratio_std";
+    "damping_ratio_std, shape_re, shape_im";
 
 const std::vector<Mistake> kModalTableMistakes = {
     {"Empty", "\n", "1: empty; the header is " + kHeader},
@@ -147,6 +163,12 @@ const std::vector<Mistake> kModalTableMistakes = {
     {"Twice",
      kHeader + "\nhub_angle,pole,1,11.9,,,\nhub_angle,zero,1,2,,,\nhub_angle,pole,1,12,,,\n",
      "4: hub_angle pole 1: given twice; first on line 2"},
+    {"ShapeOfAZero", "sensor,feature,frequency [Hz],shape_re\nhub_angle,zero,2,1\n",
+     "2: shape_re: only for a pole with a sensor; it is the mode shape at that sensor"},
+    {"ShapeWithoutASensor", "sensor,feature,frequency [Hz],shape_re\n,pole,2,1\n",
+     "2: shape_re: only for a pole with a sensor; it is the mode shape at that sensor"},
+    {"ImaginaryShapeAlone", "sensor,feature,frequency [Hz],shape_im\nhub_angle,pole,2,1\n",
+     "2: shape_im: given without shape_re"},
     {"ControlCharacter", kHeader + "\nhub_angle,pole,\"1\n\",11.9,,,\n",
      "2: order = 1\\x0a: must be a whole number, 1 or more, or empty"},
 };

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 
 namespace flexarm::measured {
 namespace {
@@ -50,6 +51,19 @@ TEST(PeaksAndValleys, OnTheLineAreWithinHalfTheResolution) {
     EXPECT_LT(std::abs(feature.frequency_Hz - (feature.feature == Feature::pole ? 12.0 : 18.0)),
               feature.frequency_uncertainty_Hz);
   }
+}
+
+TEST(PeaksAndValleys, ALineOfAFlankIsNoFeatureOfAnotherPlace) {
+  // Noise makes a minimum at 258 Hz on the flank of a zero at 515 Hz.
+  const auto lines = even_lines(1.0, 300);
+  std::vector<double> power;
+  for (const double f_Hz : lines) power.push_back(std::pow((f_Hz * f_Hz - 515.0 * 515.0) / 1e5, 2));
+  power[257] *= 0.6;
+  const auto found = peaks_and_valleys(lines, power, std::vector<double>(lines.size(), 0.0), {});
+  ASSERT_EQ(found.size(), 2U) << "the minimum and the line above it";
+  EXPECT_EQ(found[0].line_Hz, 258.0);
+  EXPECT_EQ(found[1].line_Hz, 259.0);
+  for (const auto& feature : found) EXPECT_NEAR(feature.frequency_Hz, feature.line_Hz, 1.0);
 }
 
 TEST(PeaksAndValleys, BetweenLinesAreThoseOfTheParabola) {

@@ -48,10 +48,10 @@ TEST(AutopowerFigure, HasAPanelForTheTorqueAndEachSensorWithUnits) {
   const auto& panels = figure.stacks.at(0).panels;
   ASSERT_EQ(panels.size(), 3U);
   EXPECT_EQ(panels[0].title, "torque");
-  EXPECT_EQ(panels[0].y.unit, "(N m)^2/Hz");
-  EXPECT_EQ(panels[1].y.unit, "rad^2/Hz");
-  EXPECT_EQ(panels[2].title, "tip_acceleration");
-  EXPECT_EQ(panels[2].y.unit, "(m/s^2)^2/Hz");
+  EXPECT_EQ(panels[0].y.unit, "(N m)²/Hz");
+  EXPECT_EQ(panels[1].y.unit, "rad²/Hz");
+  EXPECT_EQ(panels[2].title, "tip acceleration");
+  EXPECT_EQ(panels[2].y.unit, "(m/s²)²/Hz");
   EXPECT_EQ(panels[2].series.at(0).x, (std::vector<double>{1, 2, 3, 4, 5}));  // no line 0
 }
 
@@ -134,7 +134,7 @@ TEST(AutopowerFigure, OfTheArmHasEveryLabelToItself) {
                             .analytical_poles_Hz = exact_poles_Hz(sample_case().arm, 3)});
       EXPECT_EQ(overlapping_labels(figure), 0);
       const std::string svg = to_svg(figure);
-      for (const char* text : {"frequency [Hz]", "density [(rad/s)^2/Hz]", "strain@0.05",
+      for (const char* text : {"frequency [Hz]", "density [(rad/s)²/Hz]", "strain at 0.05 m",
                                "analytical pole", "peak [Hz]", "minimum [Hz]"}) {
         EXPECT_THAT(svg, HasSubstr(std::string("<text>") + text + "</text>"));
       }

@@ -54,6 +54,11 @@ TEST(ComparisonJson, WhatIsMissingIsNull) {
   EXPECT_TRUE(compared["refinements"][2]["observed_order"].is_null());
   EXPECT_TRUE(compared["refinements"][2]["accurate_from"].is_null());
   EXPECT_TRUE(compared["measured"][0]["sensor"].is_null());
+  EXPECT_EQ(compared["measured"][0]["measured_std_Hz"], 0.1);
+  EXPECT_EQ(compared["measured"][0]["models"][0]["deviation_std"], 1.4);
+  EXPECT_TRUE(compared["measured"][0]["models"][1]["frequency_Hz"].is_null());
+  EXPECT_EQ(compared["measured_responses"][0]["models"][0]["relative_error_percent"], 4.5);
+  EXPECT_EQ(compared["mac"][0]["models"][0]["rows"][0]["mac"][0], 0.98);
   EXPECT_TRUE(compared["measured"][1]["model_Hz"].is_null());
   EXPECT_TRUE(compared["worst"]["distance"].is_null());
 }

@@ -1,5 +1,6 @@
 #include "report/figures/comparison_plots.hpp"
 
+#include "report/figures/svg.hpp"
 #include "report/tables/modes_report.hpp"
 #include "tests/report/comparison_sample.hpp"
 
@@ -8,7 +9,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <complex>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -25,20 +28,33 @@ void expect_well_formed(const std::string& svg, const std::string& name) {
   EXPECT_TRUE(tree.get_child_optional("svg")) << name;
 }
 
-std::vector<std::string> names_of(const std::vector<NamedPlot>& plots) {
+std::vector<std::string> names_of(const std::vector<NamedFigure>& plots) {
   std::vector<std::string> names;
-  for (const auto& plot : plots) names.push_back(plot.file_name);
+  for (const auto& plot : plots) names.push_back(plot.name);
   return names;
 }
 
 TEST(ComparisonPlots, AreWellFormedThoughRootsAndResponsesAreMissing) {
   const auto plots = comparison_plots(sample_comparison().comparison);
-  for (const auto& plot : plots) expect_well_formed(plot.svg, plot.file_name);
-  EXPECT_THAT(
-      names_of(plots),
-      UnorderedElementsAre("convergence-poles.svg", "pole-zero-hub_angle.svg", "bode-hub_angle.svg",
-                           "pole-zero-tip_acceleration.svg", "bode-tip_acceleration.svg",
-                           "pole-zero-strain@0.25.svg", "bode-strain@0.25.svg", "mode-shapes.svg"));
+  for (const auto& plot : plots) expect_well_formed(to_svg(plot.figure), plot.name);
+  EXPECT_THAT(names_of(plots),
+              UnorderedElementsAre("convergence-poles", "pole-zero-hub_angle", "bode-hub_angle",
+                                   "pole-zero-tip_acceleration", "bode-tip_acceleration",
+                                   "pole-zero-strain@0.25", "bode-strain@0.25", "mode-shapes"));
+}
+
+TEST(ComparisonPlots, WhatWasMeasuredIsDrawn) {
+  const auto sample = sample_comparison();
+  const auto plots = comparison_plots(sample.comparison, sample.measured);
+  for (const auto& plot : plots) expect_well_formed(to_svg(plot.figure), plot.name);
+  const auto names = names_of(plots);
+  EXPECT_THAT(names, testing::IsSupersetOf({"bode-measured-hub_angle-sine", "mac"}));
+  const auto without = comparison_plots(sample.comparison);
+  const auto map_of = [](const std::vector<NamedFigure>& all) {
+    return to_svg(std::ranges::find(all, "pole-zero-hub_angle", &NamedFigure::name)->figure);
+  };
+  EXPECT_THAT(map_of(plots), testing::HasSubstr("measured"));
+  EXPECT_THAT(map_of(without), testing::Not(testing::HasSubstr("measured")));
 }
 
 TEST(ComparisonPlots, AModelWithoutAnyRootOrNumberIsDrawnAllTheSame) {
@@ -53,7 +69,7 @@ TEST(ComparisonPlots, AModelWithoutAnyRootOrNumberIsDrawnAllTheSame) {
     for (auto& point : curve.points) point.relative_error = NAN;
   }
   for (const auto& plot : comparison_plots(comparison)) {
-    expect_well_formed(plot.svg, plot.file_name);
+    expect_well_formed(to_svg(plot.figure), plot.name);
   }
 }
 
@@ -67,8 +83,33 @@ TEST(ComparisonPlots, ExactAgreementIsDrawn) {
     for (auto& point : curve.points) point.relative_error = 0.0;
   }
   for (const auto& plot : comparison_plots(comparison)) {
-    expect_well_formed(plot.svg, plot.file_name);
+    expect_well_formed(to_svg(plot.figure), plot.name);
   }
+}
+
+TEST(ComparisonPlots, SpeakInWords) {
+  for (const auto& [name, figure] : comparison_plots(sample_comparison().comparison)) {
+    EXPECT_THAT(to_svg(figure),
+                testing::Not(testing::ContainsRegex("<text>[^<]*[a-z][_^][a-z0-9]")))
+        << name;
+  }
+}
+
+TEST(ComparisonPlots, ADampedArmHasItsDampedRoots) {
+  auto comparison = sample_comparison().comparison;
+  for (std::size_t k = 0; k < comparison.subjects.size(); ++k) {
+    comparison.damped.push_back({{{-1.0, 75.0}, {-1.0, -75.0}},
+                                 std::vector<std::vector<std::complex<double>>>(
+                                     comparison.responses.size(), {{-2.0, 18.0}})});
+  }
+  const auto plots = comparison_plots(comparison);
+  const auto map = std::ranges::find(plots, "pole-zero-hub_angle", &NamedFigure::name);
+  ASSERT_NE(map, plots.end());
+  const auto& series = map->figure.stacks[0].panels[0].series;
+  const auto zeros = std::ranges::find(series, "exact transfer function, zeros", &Series::name);
+  ASSERT_NE(zeros, series.end());
+  EXPECT_EQ(zeros->x.size(), 1U) << "no mirror images";
+  EXPECT_LT(zeros->x[0], 0.0);
 }
 
 TEST(ComparisonPlots, WithoutRefinementsThereAreNoConvergencePlots) {
@@ -81,7 +122,7 @@ TEST(ModesPlot, IsWellFormed) {
   response::ModalSummary summary;
   summary.stations_m = {0.0, 0.48, 0.96};
   summary.modes.assign(12, {75.0, 3.2, 0.0, {}, {0.0, 0.5, -1.0}});
-  expect_well_formed(shapes_svg("exact_tf", summary), "shapes");
+  expect_well_formed(to_svg(shapes_figure("exact_tf", summary)), "shapes");
 }
 
 }  // namespace

@@ -83,7 +83,32 @@ inline ComparedArm sample_comparison() {
   measured::ModalEntry zero;
   zero.sensor = tip;
   zero.feature = measured::Feature::zero;
-  return {c, {{pole, 11.86, 1.2}, {zero, std::nullopt, kNaN}}};
+  pole.frequency_std_Hz = 0.1;
+  pole.damping_ratio = 0.02;
+  compare::MeasuredComparison measured;
+  measured.rows.resize(2);
+  measured.rows[0].measured = pole;
+  measured.rows[0].order = 1;
+  measured.rows[0].model_frequency_Hz = 11.86;
+  measured.rows[0].error_percent = 1.2;
+  measured.rows[0].frequencies_Hz = {11.86, std::nullopt};
+  measured.rows[0].deviations = {1.4, kNaN};
+  measured.rows[0].combined_deviation = 1.4;
+  measured.rows[1].measured = zero;
+  measured.rows[1].frequencies_Hz = {std::nullopt, std::nullopt};
+  measured.rows[1].deviations = {kNaN, kNaN};
+  measured.responses = {{"sine",
+                         {hub, {1.0, 10.0}, {Complex(1, 0), Complex(0, 2)}, {0.9, kNaN}},
+                         {"exact_tf", "fem"},
+                         {{Complex(1.1, 0), Complex(0, 2)}, {Complex(1, 0), Complex(kNaN, kNaN)}},
+                         {4.5, 0.0},
+                         {10.0, 0.0}}};
+  measured.shapes = {{{{1, 12.0, {hub, gauge}, {1.0, Complex(0, 1)}}},
+                      {11.86, 32.0},
+                      {"exact_tf", "fem"},
+                      {{{0.98, 0.02}}, {{0.97, kNaN}}},
+                      0.3}};
+  return {c, measured};
 }
 
 }  // namespace flexarm::report

@@ -1,6 +1,7 @@
 #include "report/tables/comparison_tables.hpp"
 
 #include "report/tables/csv.hpp"
+#include "report/tables/measured_tables.hpp"
 #include "report/tables/text_table.hpp"
 #include "tests/report/comparison_sample.hpp"
 
@@ -55,8 +56,30 @@ TEST(ComparisonTables, ListingsHaveOneRowAValue) {
   EXPECT_EQ(shapes_listing(kComparison).rows.size(), 3U * 3U);
   EXPECT_EQ(responses_table(kComparison).rows.size(), 3U);
   EXPECT_EQ(responses_listing(kComparison).rows.size(), 3U * 2U * 3U);
-  EXPECT_EQ(measured_table(kSample.measured).rows.size(), 2U);
   EXPECT_EQ(subjects_table(kComparison).rows.size(), 2U);
+}
+
+TEST(MeasuredTables, HaveAColumnForEachModelsDeviation) {
+  const auto& measured = kSample.measured;
+  const auto table = measured_table(measured.rows, kComparison.subjects);
+  ASSERT_EQ(table.rows.size(), 2U);
+  ASSERT_EQ(table.columns.size(), 9U) << "no uncertain number, so no column for one";
+  EXPECT_EQ(table.columns[7].name, "exact_tf");
+  EXPECT_EQ(std::get<double>(table.rows[0][7]), 1.4);
+  EXPECT_TRUE(is_missing(table.rows[0][8]));
+  EXPECT_EQ(measured_damping_table(measured.rows).rows.size(), 1U);
+  EXPECT_EQ(measured_response_table(measured.responses).rows.size(), 2U);
+  EXPECT_EQ(mac_table(measured.shapes.front()).columns.size(), 3U + 2U);
+  EXPECT_EQ(mac_listing(measured.shapes).rows.size(), 2U * 2U);
+  EXPECT_THAT(measured_summary(measured.rows),
+              HasSubstr("1 of 1 measured frequencies are within 2 standard deviations"));
+  EXPECT_EQ(measured_summary({}), "");
+}
+
+TEST(MeasuredTables, WithoutStandardDeviationsAreAsNarrowAsTheyWere) {
+  auto rows = kSample.measured.rows;
+  for (auto& row : rows) row.measured.frequency_std_Hz.reset();
+  EXPECT_EQ(measured_table(rows, kComparison.subjects).columns.size(), 6U);
 }
 
 TEST(ComparisonTables, CsvHasTheBitsOfEveryRoot) {

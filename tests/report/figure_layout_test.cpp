@@ -1,10 +1,14 @@
 #include "report/figures/figure_layout.hpp"
 
+#include "report/figures/linear_ticks.hpp"
 #include "report/figures/logarithmic_ticks.hpp"
+#include "report/figures/robust_range.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstddef>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -118,9 +122,10 @@ TEST(FigureLayout, PanelsAndLegendDoNotOverlapAndStayInTheFigure) {
     EXPECT_NEAR(stack[0].top_px - stack[0].bottom_px, stack[1].top_px - stack[1].bottom_px, 1e-9);
   }
   EXPECT_GT(layout.boxes[1][1].bottom_px, layout.boxes[0][1].bottom_px);
-  EXPECT_GT(layout.legend_left_px, right_px);
-  EXPECT_LT(layout.legend_rows, 60);
-  EXPECT_LT(layout.legend_rows * kLegendRow_px, layout.legend_top_px);
+  ASSERT_EQ(layout.legend.size(), 60U);
+  EXPECT_GT(layout.legend.front().left_px, right_px);
+  EXPECT_GT(layout.legend.back().left_px, layout.legend.front().left_px) << "a second column";
+  for (const PlacedLegendEntry& entry : layout.legend) EXPECT_GT(entry.middle_px, 0.0);
 }
 
 TEST(FigureLayout, ASquarePanelHasEqualSides) {
@@ -141,6 +146,121 @@ TEST(FigureLayout, LegendHasEachNameOnce) {
   EXPECT_EQ(layout.legend[1].text, "b");
 }
 
+TEST(FigureLayout, LegendHasNothingThatDoesNotShow) {
+  Figure figure = one_panel();
+  Panel& panel = figure.stacks[0].panels[0];
+  panel.y.minimum = 0.0;
+  panel.y.maximum = 10.0;
+  panel.series.push_back({"above", {0, 1}, {20, 30}, {}});
+  panel.series.push_back({"through", {0, 1}, {-20, 30}, {}});
+  panel.series.push_back({"no number", {0, 1}, {kNotDrawn, kNotDrawn}, {}});
+  panel.series.push_back({"area above", {0, 1}, {11, 11}, {.filled = true}, {20, 20}});
+  panel.series.push_back({"area across", {0, 1}, {5, 5}, {.filled = true}, {20, 20}});
+  std::vector<std::string> names;
+  for (const auto& entry : lay_out(figure).legend) names.push_back(entry.text);
+  EXPECT_THAT(names, testing::ElementsAre("a", "through", "area across"));
+}
+
+TEST(FigureLayout, OutliersDoNotSetARobustAxisAndAreCounted) {
+  Figure figure = one_panel();
+  Panel& panel = figure.stacks[0].panels[0];
+  Series& series = panel.series[0];
+  series = {"a", {}, {}, {}};
+  for (int k = 0; k < 1000; ++k) {
+    series.x.push_back(k);
+    series.y.push_back(k == 500 ? 1000.0 : (k == 700 ? -300.0 : k % 10));
+  }
+  EXPECT_GT(lay_out(figure).boxes[0][0].y.to, 1000.0);
+  EXPECT_EQ(lay_out(figure).boxes[0][0].note, "");
+  panel.y.robust = true;
+  panel.note = "NRMSE 3 %";
+  const PanelBox box = lay_out(figure).boxes[0][0];
+  EXPECT_LT(box.y.to, 10.0);
+  EXPECT_GT(box.y.from, -1.0);
+  EXPECT_EQ(box.note, "NRMSE 3 %; 2 of 1000 points outside, up to −300 and 1e+03");
+}
+
+TEST(FigureLayout, LabelsOfTicksHaveThePowerOfTenInTheLabelOfTheAxis) {
+  Figure figure = one_panel();
+  Panel& panel = figure.stacks[0].panels[0];
+  panel.y = {.label = "residual", .unit = "rad"};
+  panel.series[0].y = {3.5e-5, 4e-5};
+  const PanelBox box = lay_out(figure).boxes[0][0];
+  EXPECT_EQ(box.y_label, "residual [10⁻⁶ rad]");
+  for (const Tick& tick : box.y_ticks) EXPECT_LT(tick.label.size(), 6U) << tick.label;
+}
+
+TEST(FigureLayout, AnAxisLabelLongerThanItsPanelHasLines) {
+  Figure figure = one_panel();
+  figure.height_px = 260;
+  figure.stacks[0].panels[0].y = {.label = "tip acceleration", .unit = "m/s²"};
+  const FigureLayout small = lay_out(figure);
+  EXPECT_EQ(small.boxes[0][0].y_label, "tip acceleration\n[m/s²]");
+  figure.height_px = 600;
+  const FigureLayout high = lay_out(figure);
+  EXPECT_EQ(high.boxes[0][0].y_label, "tip acceleration [m/s²]");
+  EXPECT_GT(small.boxes[0][0].left_px, high.boxes[0][0].left_px);
+}
+
+TEST(FigureLayout, ALabelStandsBesideTheNumbersOfItsPanel) {
+  Figure figure = one_panel();
+  Panel names = figure.stacks[0].panels[0];
+  names.y.ticks = {{5.0, "sensor hub angle, hub velocity"}};
+  figure.stacks[0].panels.push_back(names);
+  const auto boxes = lay_out(figure).boxes[0];
+  EXPECT_LT(boxes[0].label_px, 0.5 * boxes[0].left_px);
+  EXPECT_GT(boxes[1].label_px, 0.8 * boxes[1].left_px);
+}
+
+TEST(FigureLayout, LongLegendEntriesAndTitlesHaveLines) {
+  Figure figure = one_panel();
+  figure.title = std::string(40, 'a') + " " + std::string(40, 'b') + " " + std::string(40, 'c');
+  figure.stacks[0].panels[0].series[0].name = "finite elements, 5 elements of increasing degree";
+  const FigureLayout layout = lay_out(figure);
+  EXPECT_EQ(line_count(layout.title), 2);
+  EXPECT_GT(line_count(layout.legend[0].text), 1);
+  EXPECT_GT(layout.boxes[0][0].right_px, 0.5 * figure.width_px);
+}
+
+/// Room along a horizontal axis of a font of 10 px.
+double room_of(const std::string& label) {
+  return TextSize{10.0}.width_px(label) + 10.0;
+}
+
+TEST(LinearTicks, AreRoundNumbersThatHaveRoom) {
+  EXPECT_EQ(labels(linear_ticks({0.0, 10.0}, 400.0, room_of).ticks), "0 2 4 6 8 10");
+  EXPECT_EQ(labels(linear_ticks({0.0, 10.0}, 100.0, room_of).ticks), "0 5 10");
+  EXPECT_EQ(labels(linear_ticks({-0.3, 0.31}, 120.0, room_of).ticks), "−0.2 0 0.2");
+  EXPECT_EQ(labels(linear_ticks({345.0, 350.5}, 300.0, room_of).ticks), "345 346 347 348 349 350");
+}
+
+TEST(LinearTicks, HaveFewDigits) {
+  const LinearTicks small = linear_ticks({2e-5, 4.1e-5}, 250.0, room_of);
+  EXPECT_EQ(small.exponent, -6);
+  EXPECT_EQ(labels(small.ticks), "20 25 30 35 40");
+  EXPECT_NEAR(small.ticks[1].position, 2.5e-5, 1e-18);
+  const LinearTicks large = linear_ticks({0.0, 3e6}, 100.0, room_of);
+  EXPECT_EQ(large.exponent, 6);
+  EXPECT_EQ(labels(large.ticks), "0 1 2 3");
+  EXPECT_EQ(linear_ticks({-4.0, 0.02}, 200.0, room_of).exponent, 0);
+}
+
+TEST(RobustRange, LeavesOutFewValuesFarFromTheOthersAlone) {
+  std::vector<double> values;
+  for (int k = 0; k < 1000; ++k) values.push_back(std::sin(0.1 * k));
+  EXPECT_EQ(robust_range(values).outside, 0U);
+  values[10] = 50.0;
+  values[11] = 3.0;  // within twice the range of the others
+  const RobustRange range = robust_range(values);
+  EXPECT_EQ(range.outside, 1U);
+  EXPECT_EQ(range.high, 3.0);
+  // A pulse is no outlier: too many values.
+  for (int k = 0; k < 20; ++k) values[static_cast<std::size_t>(k)] = 50.0;
+  EXPECT_EQ(robust_range(values).outside, 0U);
+  EXPECT_EQ(robust_range({1.0, 1.0, 100.0}).outside, 0U);
+  EXPECT_EQ(robust_range(std::vector<double>(100, 2.0)).outside, 0U);
+}
+
 TEST(LogarithmicTicks, AreDecadesInOneNotation) {
   EXPECT_EQ(labels(logarithmic_ticks({0.5, 2000.0}, 10)), "1 10 100 1000");
   EXPECT_EQ(labels(logarithmic_ticks({5e-5, 20.0}, 10)), "10⁻⁴ 10⁻³ 10⁻² 10⁻¹ 10⁰ 10¹");
@@ -149,7 +269,8 @@ TEST(LogarithmicTicks, AreDecadesInOneNotation) {
 
 TEST(LogarithmicTicks, LabelTwoAndFiveWhereDecadesAreFew) {
   EXPECT_EQ(labels(logarithmic_ticks({1.5, 30.0}, 10)), "2 5 10 20");
-  EXPECT_EQ(labels(logarithmic_ticks({15.0, 80.0}, 10)), "20 50");
+  EXPECT_EQ(labels(logarithmic_ticks({15.0, 80.0}, 10)), "20 30 40 50 60 70 80");
+  EXPECT_EQ(labels(logarithmic_ticks({15.0, 80.0}, 5)), "20 50");
   EXPECT_EQ(labels(logarithmic_ticks({3e-4, 3e-3}, 10)), "5·10⁻⁴ 10⁻³ 2·10⁻³");
 }
 

@@ -2,6 +2,7 @@
 
 #include "report/figures/figure_layout.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -65,7 +66,7 @@ TEST(LabelPlacement, GoesOutOfTheWayOfALine) {
   Figure figure = with_labels({{50.0, 500.0, "50.00", TextPlace::above}});
   const PanelBox box = lay_out(figure).boxes[0][0];
   const double y_per_px = (box.y.to - box.y.from) / (box.top_px - box.bottom_px);
-  const double through = 500.0 + kTextAbove_px * y_per_px;
+  const double through = 500.0 + TextSize{}.above_px() * y_per_px;
   figure.stacks[0].panels[0].series.push_back({"b", {0.5, 100.0}, {through, through}, {}});
   place_labels(figure);
   ASSERT_EQ(boxes_of(figure).size(), 1U);
@@ -81,6 +82,21 @@ TEST(LabelPlacement, TakesAwayWhatHasNoPlace) {
   const std::size_t left = figure.stacks[0].panels[0].annotations.size();
   EXPECT_GE(left, 5U);
   EXPECT_LE(left, 15U);  // five rows of three
+}
+
+TEST(LabelPlacement, LabelsAtTheEndsOfCurvesStandApartInTheirOrder) {
+  std::vector<Annotation> ends;
+  for (const double y : {500.0, 501.0, 505.0, 900.0}) {
+    ends.push_back({99.0, y, fmt::format("{}", y), TextPlace::end});
+  }
+  Figure figure = with_labels(ends);
+  place_labels(figure);
+  const auto boxes = boxes_of(figure);
+  ASSERT_EQ(boxes.size(), 4U);
+  for (std::size_t i = 1; i < boxes.size(); ++i) {
+    EXPECT_GT(boxes[i].bottom_px, boxes[i - 1].top_px);
+  }
+  EXPECT_NEAR(figure.stacks[0].panels[0].annotations[3].y, 900.0, 1e-9);
 }
 
 TEST(LabelPlacement, KeepsClearOfLabelsThatStay) {

@@ -80,8 +80,9 @@ inline std::vector<double> many_values(std::uint64_t seed) {
 /// An SVG that a browser opens at once.
 inline constexpr std::size_t kMostBytes = 500'000;
 
-/// Pairs of annotations that cover each other.
-inline int overlapping_labels(const Figure& figure) {
+/// Pairs of annotations that cover each other in the drawing.
+inline int overlapping_labels(Figure figure) {
+  place_labels(figure);
   const FigureLayout layout = lay_out(figure);
   int pairs = 0;
   for (std::size_t s = 0; s < figure.stacks.size(); ++s) {

@@ -74,7 +74,7 @@ TEST(MissingForceFigure, HasTheSharesOfThePorts) {
   EXPECT_EQ(shares.x->unit, "%");
   ASSERT_EQ(shares.y.ticks.size(), 3U);
   EXPECT_EQ(shares.y.ticks[0].label, "hub");
-  EXPECT_EQ(shares.y.ticks[1].label, "sensor hub_angle");
+  EXPECT_EQ(shares.y.ticks[1].label, "sensor hub angle");
   EXPECT_THAT(find_series(shares, "port stated")->x, ElementsAre(DoubleEq(90.0)));
   EXPECT_THAT(find_series(shares, "port not stated")->x,
               ElementsAre(DoubleEq(30.0), DoubleEq(-10.0)));
@@ -98,7 +98,7 @@ TEST(MissingForceFigure, OfAPortThatIsNotDeterminedHasTheSharesAlone) {
 TEST(MissingForceFigure, NamesItsAxesInTheDocument) {
   const std::string svg = to_svg(missing_force_figure(at_hub()));
   for (const char* text : {"RMS in third octaves [N m]", "frequency [Hz]",
-                           "explained share of the excess residual [%]", "sensor hub_angle",
+                           "explained share of the excess residual [%]", "sensor hub angle",
                            "port stated", "missing force"}) {
     EXPECT_THAT(svg, HasSubstr(std::string("<text>") + text + "</text>")) << text;
   }

@@ -1,12 +1,14 @@
 #include "report/progress.hpp"
 
+#include "tests/report/pseudo_terminal.hpp"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
-#include <cstdlib>
-#include <fcntl.h>
+#include <cmath>
 #include <string>
 #include <thread>
 #include <unistd.h>
@@ -16,39 +18,6 @@ namespace flexarm::report {
 namespace {
 
 using namespace std::chrono_literals;
-
-/// What `write` sends into the far end of `read_from`, which must not block.
-std::string read_all(int read_from) {
-  fcntl(read_from, F_SETFL, O_NONBLOCK);
-  std::string text;
-  std::array<char, 4096> buffer{};
-  for (ssize_t n = 0; (n = ::read(read_from, buffer.data(), buffer.size())) > 0;) {
-    text.append(buffer.data(), static_cast<std::size_t>(n));
-  }
-  return text;
-}
-
-/// A terminal of the test's own.
-class PseudoTerminal {
- public:
-  PseudoTerminal() : master_(posix_openpt(O_RDWR | O_NOCTTY)) {
-    if (master_ < 0 || grantpt(master_) != 0 || unlockpt(master_) != 0) return;
-    slave_ = open(ptsname(master_), O_RDWR | O_NOCTTY);
-  }
-  ~PseudoTerminal() {
-    close(slave_);
-    close(master_);
-  }
-  PseudoTerminal(const PseudoTerminal&) = delete;
-  PseudoTerminal& operator=(const PseudoTerminal&) = delete;
-
-  int descriptor() const { return slave_; }
-  std::string output() const { return read_all(master_); }
-
- private:
-  int master_;
-  int slave_ = -1;
-};
 
 TEST(Progress, WritesNothingWhereThereIsNoTerminal) {
   std::array<int, 2> ends{};
@@ -84,6 +53,35 @@ TEST(Progress, CountsOnATerminalAndWipesItsLineAtTheEnd) {
   EXPECT_EQ(terminal.output(), "\r\x1b[Kgrid  1 of 40\r\x1b[Kgrid  12 of 40\r\x1b[K");
 }
 
+constexpr TimeLeftOptions kAtOnce{.quiet_for_s = 0.0, .least_fraction = 0.0};
+
+TEST(Progress, SaysHowMuchTimeIsLeft) {
+  const PseudoTerminal terminal;
+  ASSERT_GE(terminal.descriptor(), 0);
+  {
+    Progress progress("fitting", {.descriptor = terminal.descriptor(),
+                                  .quiet_for = 0s,
+                                  .interval = 0s,
+                                  .time_left = kAtOnce});
+    std::this_thread::sleep_for(2ms);
+    progress.reach(0.505);
+    progress.reach(0.3);  // less than is known
+  }
+  EXPECT_EQ(terminal.output(),
+            "\r\x1b[Kfitting  50 %, 1 s left\r\x1b[Kfitting  50 %, 1 s left\r\x1b[K");
+}
+
+TEST(Progress, FitsInANarrowTerminal) {
+  const PseudoTerminal terminal(30);
+  ASSERT_GE(terminal.descriptor(), 0);
+  {
+    Progress progress("a label that is quite long", 1000,
+                      {.descriptor = terminal.descriptor(), .quiet_for = 0s, .interval = 0s});
+    progress.advance();
+  }
+  EXPECT_EQ(terminal.output(), "\r\x1b[Ka label that is quite long  1\r\x1b[K");
+}
+
 TEST(Progress, ThreadsMayAdvanceTogether) {
   constexpr int kThreads = 4;
   constexpr int kSteps = 1000;
@@ -103,6 +101,53 @@ TEST(Progress, ThreadsMayAdvanceTogether) {
     progress.advance();
   }
   EXPECT_THAT(terminal.output(), testing::EndsWith("grid  4001 of 4001\r\x1b[K"));
+}
+
+TEST(TimeLeft, IsUnknownAtFirst) {
+  TimeLeft left;
+  EXPECT_FALSE(left.seconds());
+  left.update(1.9, 0.5);
+  EXPECT_FALSE(left.seconds());
+  left.update(2.5, 0.009);
+  EXPECT_FALSE(left.seconds());
+}
+
+TEST(TimeLeft, IsExactForAnEvenRate) {
+  TimeLeft left;
+  for (double elapsed_s = 0.0; elapsed_s < 40.0; elapsed_s += 0.1) {
+    left.update(elapsed_s, elapsed_s / 40.0);
+    if (left.seconds()) {
+      EXPECT_NEAR(*left.seconds(), 40.0 - elapsed_s, 1e-9);
+    }
+  }
+  ASSERT_TRUE(left.seconds());
+}
+
+TEST(TimeLeft, FollowsAChangeOfRateWithoutAJump) {
+  // 30 s of work that goes ten times slower from 10 s on.
+  TimeLeft left;
+  double before_s = 0.0;
+  for (double elapsed_s = 0.1; elapsed_s < 200.0; elapsed_s += 0.1) {
+    left.update(elapsed_s,
+                std::min(elapsed_s, 10.0) / 30.0 + std::max(elapsed_s - 10.0, 0.0) / 300.0);
+    if (!left.seconds()) continue;
+    if (before_s > 0.0) {
+      EXPECT_LT(std::abs(*left.seconds() - before_s), 1.5) << elapsed_s;
+    }
+    before_s = *left.seconds();
+  }
+  // 10 s are left. The mean rate is above that of the end: 6.9 s, and the estimate lags by 2 s.
+  EXPECT_NEAR(before_s, 5.0, 0.5);
+}
+
+TEST(TimeLeft, IsRoundedToWhatAReaderCanFollow) {
+  EXPECT_EQ(time_left_text(0.0), "1 s left");
+  EXPECT_EQ(time_left_text(8.2), "9 s left");
+  EXPECT_EQ(time_left_text(42.0), "45 s left");
+  EXPECT_EQ(time_left_text(89.0), "90 s left");
+  EXPECT_EQ(time_left_text(170.0), "3 min left");
+  EXPECT_EQ(time_left_text(7300.0), "2 h 10 min left");
+  EXPECT_EQ(time_left_text(1e12), "over 999 h left");
 }
 
 }  // namespace

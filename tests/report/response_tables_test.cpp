@@ -1,6 +1,7 @@
 #include "report/tables/response_tables.hpp"
 
 #include "report/figures/response_plots.hpp"
+#include "report/figures/svg.hpp"
 #include "report/tables/csv.hpp"
 #include "report/tables/text_table.hpp"
 #include "report/utf8_text.hpp"
@@ -87,19 +88,19 @@ TEST(ResponseTables, TheFrfListingHasTheColumnsOfAMeasurement) {
 TEST(ResponsePlots, AnArmWithoutDampingHasNoNyquistCircles) {
   std::vector<std::string> names;
   for (const auto& plot : response_plots("exact_tf", sample_study(arm::paper_arm()))) {
-    names.push_back(plot.file_name);
+    names.push_back(plot.name);
   }
-  EXPECT_THAT(names, ElementsAre("bode-hub_angle.svg", "bode-tip_acceleration.svg"));
+  EXPECT_THAT(names, ElementsAre("bode-hub_angle", "bode-tip_acceleration"));
 }
 
 TEST(ResponsePlots, ADampedArmHasBodeAndNyquistOfEachSensor) {
   std::vector<std::string> names;
   for (const auto& plot : response_plots("exact_tf", sample_study())) {
-    names.push_back(plot.file_name);
-    EXPECT_THAT(plot.svg, HasSubstr("</svg>"));
+    names.push_back(plot.name);
+    EXPECT_THAT(to_svg(plot.figure), HasSubstr("</svg>"));
   }
-  EXPECT_THAT(names, ElementsAre("bode-hub_angle.svg", "nyquist-hub_angle.svg",
-                                 "bode-tip_acceleration.svg", "nyquist-tip_acceleration.svg"));
+  EXPECT_THAT(names, ElementsAre("bode-hub_angle", "nyquist-hub_angle", "bode-tip_acceleration",
+                                 "nyquist-tip_acceleration"));
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "report/tables/simulation_report.hpp"
 
+#include "report/figures/svg.hpp"
+#include "report/tables/csv.hpp"
 #include "report/tables/text_table.hpp"
 
 #include <gmock/gmock.h>
@@ -68,7 +70,7 @@ TEST(SimulationReport, TorqueAndHubMotionAreTold) {
   SimulatedRun multisine = sample_run();
   multisine.lines_Hz = {1.0, 3.0, 7.0};
   multisine.detection_Hz = {5.0};
-  EXPECT_THAT(to_text(torque_table({multisine})), HasSubstr("3 lines, 1 detection line"));
+  EXPECT_THAT(to_csv(torque_table({multisine})), HasSubstr("3 lines, 1 detection line"));
   const Table hub = hub_motion_table({sample_run()});
   EXPECT_EQ(std::get<std::int64_t>(hub.rows[0][2]), 3);
   EXPECT_EQ(std::get<double>(hub.rows[0][4]), 0.25);
@@ -76,9 +78,9 @@ TEST(SimulationReport, TorqueAndHubMotionAreTold) {
 
 TEST(SimulationReport, TheFigureShowsTheTorqueAtTheHubWhereItIsAnother) {
   SimulatedRun run = sample_run();
-  EXPECT_THAT(time_svg("rig", run), HasSubstr("<text>at the hub</text>"));
+  EXPECT_THAT(to_svg(simulation_figure("rig", run)), HasSubstr("<text>at the hub</text>"));
   run.simulation.hub_torque_N_m = run.record.torque_N_m;
-  const std::string svg = time_svg("rig", run);
+  const std::string svg = to_svg(simulation_figure("rig", run));
   EXPECT_THAT(svg, testing::Not(HasSubstr("at the hub")));
   EXPECT_THAT(svg, HasSubstr("<text>rig: first</text>"));
   EXPECT_THAT(svg, HasSubstr("<text>hub angle [rad]</text>"));

@@ -48,8 +48,8 @@ TEST(SteppedSineReport, TellsWhereResponsesAreLargestAndSmallest) {
 TEST(SteppedSineReport, DrawsASensorUnlessItReadsNothing) {
   const auto plots = stepped_sine_plots("rig", sine_run());
   ASSERT_EQ(plots.size(), 1U);
-  EXPECT_EQ(plots[0].file_name, "fine-tip_acceleration.svg");
-  EXPECT_THAT(plots[0].svg, HasSubstr("rig, fine: torque to tip_acceleration, stepped sine"));
+  EXPECT_EQ(plots[0].name, "fine-tip_acceleration");
+  EXPECT_EQ(plots[0].figure.title, "rig, fine: torque to tip acceleration, stepped sine");
 }
 
 TEST(SteppedSineReport, IsAFrequencyRecordThatReadsBack) {

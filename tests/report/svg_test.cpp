@@ -86,6 +86,7 @@ TEST(Svg, TextIsShownAsItIsAndNeverInterpreted) {
   const std::string awkward = R"(<a> & "b" 'c' x_1^2 {d} \n @e `echo f` %g # λ²)";
   Figure figure = two_lines();
   figure.title = awkward;
+  figure.width_px = 2000;  // room for one line in the legend
   figure.stacks[0].x.label = awkward;
   figure.stacks[0].panels[0].title = awkward;
   figure.stacks[0].panels[0].y.label = awkward;
@@ -132,13 +133,13 @@ TEST(Svg, AnAreaIsAPolygonForEachStretchBetweenGaps) {
   EXPECT_THAT(texts(svg), Contains("band"));
 }
 
-TEST(Svg, ASeriesWithNothingToDrawStaysInTheLegend) {
+TEST(Svg, ASeriesWithNothingToDrawIsNotInTheLegend) {
   Figure figure = two_lines();
   figure.stacks[0].panels[0].series[0].y.assign(3, kNaN);
   const std::string svg = to_svg(figure);
-  EXPECT_THAT(texts(svg), Contains("hub_angle"));
+  EXPECT_THAT(texts(svg), Not(Contains("hub_angle")));
   EXPECT_THAT(texts(svg, "title"),
-              AllOf(Contains("hub_angle").Times(1), Contains("strain@0.05").Times(2)));
+              AllOf(Not(Contains("hub_angle")), Contains("strain@0.05").Times(2)));
 }
 
 TEST(Svg, PanelsOfOneStackShareTheLowestPanelsAxis) {

@@ -80,7 +80,7 @@ SweepResult sample_of_two() {
 
 TEST(SweepTables, ShowFirstLastAndExtremesNotEveryPoint) {
   const auto tables = sweep_range_tables(sample());
-  ASSERT_EQ(tables.size(), 6);
+  ASSERT_EQ(tables.size(), 4);
   EXPECT_EQ(to_csv(tables[1]),
             "track,axis,first [rad/s],last [rad/s],lowest [rad/s],at [kg m^2],highest [rad/s],"
             "at [kg m^2]\n"
@@ -89,13 +89,18 @@ TEST(SweepTables, ShowFirstLastAndExtremesNotEveryPoint) {
   EXPECT_EQ(to_csv(tables[3]),
             "track,first,last,lowest,at [kg m^2],highest,at [kg m^2]\n"
             "1,0.6,1,0.6,0,1,0.0002\n");
-  EXPECT_EQ(sweep_range_tables(sample(false)).size(), 4);
+  EXPECT_EQ(sweep_range_tables(sample(false)).size(), 2);
+  EXPECT_EQ(sweep_mode_tables(sample()).size(), 2);
+  SweepResult without_modes = sample();
+  without_modes.modes = {};
+  EXPECT_TRUE(sweep_mode_tables(without_modes).empty());
 }
 
 TEST(SweepTables, FitATerminal) {
   constexpr std::size_t kColumns = 100;
   for (const auto& result : {sample(), sample_of_two()}) {
     auto tables = sweep_range_tables(result);
+    for (auto& table : sweep_mode_tables(result)) tables.push_back(std::move(table));
     tables.push_back(sweep_agreement_table(result));
     tables.push_back(sweep_events_table(result, 10));
     tables.push_back(sweep_models_table(result));
@@ -153,9 +158,9 @@ TEST(SweepJson, HasNullWhereATrackHasNoRoot) {
 
 std::vector<std::string> drawn(const SweepResult& result) {
   std::vector<std::string> names;
-  for (const auto& [name, svg] : sweep_plots(result)) {
+  for (const auto& [name, figure] : sweep_plots(result)) {
     names.push_back(name);
-    std::istringstream stream(svg);
+    std::istringstream stream(to_svg(figure));
     boost::property_tree::ptree tree;
     EXPECT_NO_THROW(read_xml(stream, tree)) << name;
   }
@@ -163,12 +168,11 @@ std::vector<std::string> drawn(const SweepResult& result) {
 }
 
 TEST(SweepFigures, AreWellFormedOverOneParameterAndTwo) {
-  EXPECT_THAT(drawn(sample()), ElementsAre("poles.svg", "damped-poles.svg",
-                                           "zeros-tip_acceleration.svg", "modes.svg"));
+  EXPECT_THAT(drawn(sample()),
+              ElementsAre("poles", "damped-poles", "zeros-tip_acceleration", "modes"));
   EXPECT_THAT(drawn(sample_of_two()),
-              ElementsAre("poles.svg", "damped-poles.svg", "damped-poles-2.svg",
-                          "zeros-tip_acceleration.svg", "zeros-tip_acceleration-2.svg", "modes.svg",
-                          "modes-2.svg"));
+              ElementsAre("poles", "damped-poles", "damped-poles-2", "zeros-tip_acceleration",
+                          "zeros-tip_acceleration-2", "modes", "modes-2"));
 }
 
 TEST(SweepFigures, ASinglePointAndAModelWithoutRootsAreDrawn) {

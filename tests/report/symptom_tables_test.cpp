@@ -1,6 +1,8 @@
 #include "report/tables/symptom_tables.hpp"
 
 #include "report/figures/diagnosis_figures.hpp"
+#include "report/figures/figure_layout.hpp"
+#include "report/figures/overlay_figure.hpp"
 #include "report/figures/svg.hpp"
 #include "report/json/diagnosis_json.hpp"
 
@@ -10,7 +12,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace flexarm::report {
@@ -98,35 +102,75 @@ TEST(HubTorqueFigure, ShowsTheStepThatWasFound) {
   EXPECT_THAT(to_svg(figure), HasSubstr("hub velocity"));
 }
 
-TEST(OverlayFigure, ShowsHubAndTipWithWhatIsMissed) {
+/// A run of 2000 samples whose sensors are predicted with half their size in the middle.
+struct OverlayCase {
   diagnose::Experiment experiment;
-  measured::TimeRecord record;
-  std::vector<double> signal;
-  for (int k = 0; k < 2000; ++k) {
-    record.time_s.push_back(0.002 * k);
-    record.torque_N_m.push_back(0.01);
-    signal.push_back(std::sin(0.1 * k));
-  }
   diagnose::Diagnosis diagnosis;
-  for (const char* sensor : {"hub_angle", "hub_velocity", "tip_acceleration"}) {
-    record.channels.push_back({arm::parse_sensor(sensor), signal});
-    std::vector<double> simulated = signal;
-    for (std::size_t k = 1200; k < 1700; ++k) simulated[k] *= 0.5;
-    diagnosis.overlays.push_back({0, sensor, signal, simulated, signal});
+
+  explicit OverlayCase(const std::vector<std::pair<std::string, double>>& errors) {
+    measured::TimeRecord record;
+    std::vector<double> signal;
+    for (int k = 0; k < 2000; ++k) {
+      record.time_s.push_back(0.002 * k);
+      record.torque_N_m.push_back(0.01);
+      signal.push_back(std::sin(0.1 * k));
+    }
+    std::vector<double> before = signal;
+    std::vector<double> after = signal;
+    for (std::size_t k = 1200; k < 1700; ++k) before[k] *= 0.5;
+    for (double& value : after) value *= 1.001;
+    for (const auto& [sensor, error] : errors) {
+      record.channels.push_back({arm::parse_sensor(sensor), signal});
+      diagnosis.overlays.push_back({0, sensor, signal, before, after});
+      diagnosis.channels.push_back({"random", sensor, {error, 0.001, 0.0005}});
+    }
+    measured::MeasuredRun run;
+    run.run.id = "random";
+    run.data = record;
+    experiment.runs.push_back(run);
   }
-  measured::MeasuredRun run;
-  run.run.id = "random";
-  run.data = record;
-  experiment.runs.push_back(run);
-  const Figure figure = overlay_figure(experiment, diagnosis, 0);
-  ASSERT_EQ(figure.stacks.front().panels.size(), 4U);
-  const auto& first = figure.stacks.front().panels.front();
-  EXPECT_EQ(first.y.label, "hub velocity");
-  EXPECT_DOUBLE_EQ(first.series.front().x.front(), 0.002 * 1200);  // where it is furthest off
-  EXPECT_EQ(first.series.size(), 2U);                              // no causes, no second curve
-  diagnosis.causes.emplace_back();
-  EXPECT_EQ(overlay_figure(experiment, diagnosis, 0).stacks.front().panels.front().series.size(),
-            3U);
+  std::optional<Figure> figure() const { return overlay_figure(experiment, diagnosis, 0); }
+};
+
+TEST(OverlayFigure, ShowsTheWorstSignalOfHubAndTipFirst) {
+  const OverlayCase worse_angle(
+      {{"hub_velocity", 0.2}, {"hub_angle", 0.4}, {"tip_acceleration", 0.3}});
+  const auto panels = worse_angle.figure()->stacks.front().panels;
+  ASSERT_EQ(panels.size(), 4U);
+  EXPECT_EQ(panels[0].y.label, "hub angle");
+  EXPECT_EQ(panels[2].y.label, "tip acceleration");
+  EXPECT_DOUBLE_EQ(panels[0].series.front().x.front(), 0.002 * 1200);  // where it is furthest off
+  EXPECT_EQ(panels[0].series.size(), 2U);                              // no causes, no second curve
+  EXPECT_THAT(worse_angle.figure()->title, HasSubstr("random: 2.4 to 3.398 s of 0 to 3.998 s"));
+  const OverlayCase worse_tip(
+      {{"hub_velocity", 0.2}, {"hub_angle", 0.1}, {"tip_acceleration", 0.3}});
+  const auto others = worse_tip.figure()->stacks.front().panels;
+  EXPECT_EQ(others[0].y.label, "tip acceleration");
+  EXPECT_EQ(others[2].y.label, "hub velocity");
+}
+
+TEST(OverlayFigure, ResidualsBeforeAndAfterHaveScalesOfTheirOwn) {
+  OverlayCase explained({{"hub_angle", 0.4}, {"tip_acceleration", 0.3}});
+  explained.diagnosis.causes.emplace_back();
+  const Figure figure = *explained.figure();
+  const auto& panels = figure.stacks.front().panels;
+  ASSERT_EQ(panels.size(), 6U);
+  EXPECT_EQ(panels[0].series.size(), 3U);
+  EXPECT_THAT(panels[1].note, HasSubstr("residual of the baseline"));
+  EXPECT_THAT(panels[2].note, HasSubstr("residual of the extended arm"));
+  const auto boxes = lay_out(figure).boxes[0];
+  EXPECT_LT(boxes[2].y.to, 0.01 * boxes[1].y.to);
+  EXPECT_THAT(boxes[2].note, HasSubstr("NRMSE of the run 0.1 %"));
+}
+
+TEST(OverlayFigure, ASensorThatIsNotPredictedIsLeftOut) {
+  OverlayCase driven({{"hub_angle", 0.4}, {"strain@0.05", 0.3}});
+  driven.diagnosis.overlays.erase(driven.diagnosis.overlays.begin());
+  ASSERT_TRUE(driven.figure());
+  EXPECT_EQ(driven.figure()->stacks.front().panels[0].y.label, "strain at 0.05 m");
+  driven.diagnosis.overlays.clear();
+  EXPECT_FALSE(driven.figure());
+  EXPECT_TRUE(diagnosis_plots(driven.experiment, driven.diagnosis).plots.empty());
 }
 
 }  // namespace

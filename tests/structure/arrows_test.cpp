@@ -26,11 +26,14 @@ const std::map<std::string, Rooms>& allowed_arrows() {
     map["assumed_modes"] = {"arm"};
     map["measured"] = {"arm"};
     map["response"] = {"arm", "exact_tf", "fem", "assumed_modes"};
+    map["experiment"] = {"arm", "measured", "response"};
     map["compare"] = {"arm", "effects", "exact_tf", "fem", "assumed_modes", "response", "measured"};
     map["diagnose"] = {"arm", "effects", "exact_tf", "response", "compare", "measured"};
-    map["report"] = {"arm", "effects", "response", "compare", "measured", "diagnose"};
-    map["app"] = {"arm",      "effects",  "exact_tf", "fem",      "assumed_modes",
-                  "measured", "response", "compare",  "diagnose", "report"};
+    map["report"] = {"arm", "effects", "response", "experiment", "compare", "measured", "diagnose"};
+    map["export"] = {"arm", "effects", "response", "compare", "measured", "diagnose"};
+    map["app"] = {"arm",      "effects",    "exact_tf", "fem",      "assumed_modes", "measured",
+                  "response", "experiment", "compare",  "diagnose", "report",        "export"};
+    map["python"] = map["app"];
     return map;
   }();
   return arrows;
@@ -107,8 +110,8 @@ TEST(Structure, OneFormulationIncludingAnotherIsCaught) {
 }
 
 TEST(Structure, EverySourceFolderIsARoomOfTheHouse) {
-  const Rooms not_rooms = {"tests", "benchmarks", "docs",  "data", "scripts",
-                           "cmake", "python",     "build", "out"};
+  const Rooms not_rooms = {"tests",   "benchmarks", "docs",  "data",
+                           "scripts", "cmake",      "build", "out"};
   for (const auto& entry : fs::directory_iterator(FLEXARM_SOURCE_DIR)) {
     const std::string name = entry.path().filename().string();
     if (!entry.is_directory() || name.starts_with(".") || not_rooms.contains(name)) continue;

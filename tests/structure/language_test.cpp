@@ -26,7 +26,7 @@ const fs::path kRoot = FLEXARM_SOURCE_DIR;
 /// Rooms whose string literals a user reads.
 const std::vector<std::string> kRooms = {"app",      "arm",      "assumed_modes", "compare",
                                          "effects",  "diagnose", "exact_tf",      "fem",
-                                         "measured", "report",   "response"};
+                                         "measured", "python",   "report",        "response"};
 
 /// Not checked. Generated documents whose commands take long are checked by their templates.
 const std::set<std::string> kExempt = {"docs/glossary.md",   // lists the retired phrases

@@ -1,0 +1,50 @@
+#include "app/list_option.hpp"
+
+#include "app/command.hpp"
+#include "arm/decimal_comma.hpp"
+#include "arm/input_error.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <iterator>
+
+namespace flexarm::app {
+
+namespace {
+
+template <class Item, class Read>
+CLI::Option* add_list(CLI::App& parser, const std::string& name, std::vector<Item>& items,
+                      const std::string& help, Read read) {
+  const auto take = [name, &items, read](const std::vector<std::string>& typed) {
+    items.clear();
+    for (const auto& text : typed) {
+      try {
+        std::ranges::move(read(text), std::back_inserter(items));
+      } catch (const arm::InputError& error) {
+        throw arm::InputError(fmt::format("{} {}", name, error.what()));
+      }
+    }
+  };
+  return parser.add_option_function<std::vector<std::string>>(name, take, help)
+      ->check(not_empty())
+      ->allow_extra_args(false);
+}
+
+}  // namespace
+
+CLI::Option* add_list_option(CLI::App& parser, const std::string& name,
+                             std::vector<double>& numbers, const std::string& help) {
+  return add_list(parser, name, numbers, help, arm::number_list)->type_name("FLOAT");
+}
+
+CLI::Option* add_list_option(CLI::App& parser, const std::string& name,
+                             std::vector<std::string>& words, const std::string& help) {
+  CLI::Option* option = add_list(parser, name, words, help, arm::list_items);
+  if (!words.empty()) option->default_str(fmt::format("{}", fmt::join(words, ",")));
+  return option;
+}
+
+}  // namespace flexarm::app

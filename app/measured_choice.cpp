@@ -1,0 +1,108 @@
+#include "app/measured_choice.hpp"
+
+#include "arm/input_error.hpp"
+#include "measured/files/csv.hpp"
+#include "measured/files/foreign_file.hpp"
+#include "measured/files/text_file.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+#include <variant>
+
+namespace flexarm::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kLargestMeasuredFile_bytes = std::size_t{1} << 28U;
+
+bool is_frequency_record(const std::string& file) {
+  const auto rows = measured::parse_csv(measured::read_text_file(file, kLargestMeasuredFile_bytes),
+                                        arm::shown(file));
+  return !rows.empty() && std::ranges::count(rows.front().cells, "re") > 0;
+}
+
+MeasuredFile runs_of_measurement(const std::string& file) {
+  const auto measurement = measured::read_measurement(file);
+  MeasuredFile read;
+  read.files = measured::files_of(file, measurement);
+  std::vector<std::string> left_out;
+  for (const auto& run : measurement.runs) {
+    if (run.kind == measured::RunKind::time) {
+      left_out.push_back(run.id);
+      continue;
+    }
+    read.runs.push_back(run);
+    read.data.push_back(measured::read_run(file, run));
+  }
+  const std::string remedy = fmt::format(
+      "time runs {} are not compared; flexarm identify {} --out identified estimates their modal "
+      "tables and frequency responses",
+      fmt::join(left_out, ", "), arm::shown(file));
+  if (read.runs.empty()) throw arm::InputError(fmt::format("{}: {}", arm::shown(file), remedy));
+  if (!left_out.empty()) read.notes.push_back(remedy);
+  return read;
+}
+
+/// Whether the run is of this arm.
+bool has_payload_of(const measured::Run& run, const arm::Arm& arm) {
+  return !run.payload || *run.payload == arm.payload;
+}
+
+}  // namespace
+
+std::vector<arm::Sensor> MeasuredFile::sensors_with_zeros() const {
+  std::vector<arm::Sensor> sensors;
+  for (const auto& run : data) {
+    const auto* table = std::get_if<measured::ModalTable>(&run);
+    if (table == nullptr) continue;
+    for (const auto& sensor : compare::sensors_with_zeros(*table)) {
+      if (std::ranges::find(sensors, sensor) == sensors.end()) sensors.push_back(sensor);
+    }
+  }
+  return sensors;
+}
+
+MeasuredFile read_measured_file(const std::string& file) {
+  const std::string extension = fs::path(file).extension().string();
+  if (extension == ".toml") return runs_of_measurement(file);
+  MeasuredFile read;
+  read.runs.emplace_back();
+  read.files = {file};
+  if (std::ranges::count(std::vector<std::string>{".uff", ".unv", ".uf58", ".mat"}, extension) >
+      0) {
+    read.data.emplace_back(
+        measured::frequency_record_of(measured::read_foreign_file(file), {}, arm::shown(file)));
+  } else if (is_frequency_record(file)) {
+    read.data.emplace_back(measured::read_frequency_record(file));
+  } else {
+    read.data.emplace_back(measured::read_modal_table(file));
+  }
+  return read;
+}
+
+compare::MeasuredComparison beside_models(const MeasuredFile& measured, const arm::Arm& whole,
+                                          const compare::Comparison& comparison) {
+  compare::MeasuredComparison all;
+  for (std::size_t i = 0; i < measured.runs.size(); ++i) {
+    if (!has_payload_of(measured.runs[i], whole)) continue;
+    if (const auto* table = std::get_if<measured::ModalTable>(&measured.data[i])) {
+      auto rows = compare::beside_model(*table, comparison);
+      if (auto shapes = compare::correlate_shapes(rows, comparison)) {
+        all.shapes.push_back(std::move(*shapes));
+      }
+      std::ranges::move(rows, std::back_inserter(all.rows));
+    } else if (const auto* record = std::get_if<measured::FrequencyRecord>(&measured.data[i])) {
+      auto responses = compare::responses_beside_models(whole, measured.runs[i].id, *record);
+      std::ranges::move(responses, std::back_inserter(all.responses));
+    }
+  }
+  return all;
+}
+
+}  // namespace flexarm::app

@@ -1,0 +1,80 @@
+#include "diagnose/diagnosis_request.hpp"
+
+#include "arm/input_error.hpp"
+#include "arm/range.hpp"
+#include "diagnose/search/hypothesis_choice.hpp"
+
+#include <fmt/format.h>
+
+namespace flexarm::diagnose {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Limits beyond this are none: a clock counts no further.
+constexpr double kLongestLimit_s = 1e9;
+
+/// Empty: by evidence.
+std::optional<PredictorKind> chosen_predictor(const DiagnosisRequest& request) {
+  if (request.predictor == "auto") return std::nullopt;
+  for (const auto kind : kPredictors) {
+    if (request.predictor == to_string(kind)) return kind;
+  }
+  throw arm::InputError(
+      fmt::format("{} {}: must be auto, output_error, closed_loop, grey_box, torque_balance, "
+                  "driven_by_motion or frequency_response",
+                  request.spelled("predictor"), arm::shown(request.predictor)));
+}
+
+}  // namespace
+
+Deadline deadline_of(const DiagnosisRequest& request, Clock::time_point begun) {
+  if (!request.time_limit_s) return std::nullopt;
+  arm::require_in_range(request.spelled("time-limit"), *request.time_limit_s, "s", arm::kPositive);
+  if (*request.time_limit_s > kLongestLimit_s) return std::nullopt;
+  const std::chrono::duration<double> limit(*request.time_limit_s);
+  return begun + std::chrono::duration_cast<Clock::duration>(limit);
+}
+
+Experiment read_experiment(const std::filesystem::path& measurement_file,
+                           const DiagnosisRequest& request) {
+  std::vector<measured::Fault> faults;
+  for (const auto& check : request.accepted) {
+    try {
+      faults.push_back(measured::fault_of_check(check));
+    } catch (const arm::InputError& error) {
+      throw arm::InputError(fmt::format("{} {}", request.spelled("accept"), error.what()));
+    }
+  }
+  return read_experiment(measurement_file, faults);
+}
+
+void require_valid(const DiagnosisRequest& request) {
+  if (request.most_causes < 1) {
+    throw arm::out_of_range(request.spelled("max-causes"), request.most_causes, "", "1 or more");
+  }
+  chosen_predictor(request);
+}
+
+Diagnosis diagnose(const Experiment& experiment, const DiagnosisRequest& request,
+                   const Deadline& deadline, const DiagnosisProgress& progress) {
+  require_valid(request);
+  const auto hypotheses_left = without_excluded(
+      chosen_hypotheses(request.effects, hypotheses(experiment), request.spelled("effects")),
+      request.excluded, request.spelled("exclude"));
+  SelectionOptions options;
+  options.most_causes = request.most_causes;
+  options.predictor = chosen_predictor(request);
+  options.deadline = deadline;
+  Diagnosis diagnosis = diagnose(experiment, hypotheses_left, options, progress);
+  diagnosis.excluded = request.excluded;
+  diagnosis.time_limit_s = request.time_limit_s;
+  return diagnosis;
+}
+
+bool has_extended_arm(const Diagnosis& diagnosis) {
+  return !diagnosis.search_end || !diagnosis.causes.empty();
+}
+
+}  // namespace flexarm::diagnose

@@ -1,0 +1,44 @@
+#pragma once
+
+#include "arm/option_name.hpp"
+#include "diagnose/diagnosis.hpp"
+
+#include <chrono>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace flexarm::diagnose {
+
+/// What a user may say of a diagnosis, in words. Errors name an option as `spelled` does.
+struct DiagnosisRequest {
+  std::vector<std::string> effects = {};   ///< to test; empty: all of the library
+  std::vector<std::string> excluded = {};  ///< "sensor_gain", "sensor_gain on tip_acceleration"
+  std::vector<std::string> accepted = {};  ///< data checks whose faults count as none
+  std::optional<double> time_limit_s = {};
+  int most_causes = SelectionOptions{}.most_causes;
+  std::string predictor = "auto";  ///< or a PredictorKind
+  arm::OptionSpelling spelled = arm::on_command_line;
+};
+
+/// When a diagnosis that began then must end. Throws InputError for a limit that is not above 0.
+Deadline deadline_of(const DiagnosisRequest& request, std::chrono::steady_clock::time_point begun);
+
+/// The experiment with the accepted faults. Throws InputError for a check that there is not, and as
+/// `read_experiment(file, faults)`.
+Experiment read_experiment(const std::filesystem::path& measurement_file,
+                           const DiagnosisRequest& request);
+
+/// Throws InputError for a number of causes below 1 and an unknown predictor.
+void require_valid(const DiagnosisRequest& request);
+
+/// The diagnosis that is asked for. Throws InputError as `require_valid`, and for an effect that is
+/// unknown or that these runs do not show.
+Diagnosis diagnose(const Experiment& experiment, const DiagnosisRequest& request,
+                   const Deadline& deadline, const DiagnosisProgress& progress = {});
+
+/// Whether there is an extended arm to write: an incomplete search that names no cause has none.
+bool has_extended_arm(const Diagnosis& diagnosis);
+
+}  // namespace flexarm::diagnose

@@ -1,0 +1,220 @@
+#include "compare/identification.hpp"
+
+#include "arm/input_error.hpp"
+#include "compare/identification_task.hpp"
+#include "measured/files/atomic_file.hpp"
+#include "python/argument_names.hpp"
+#include "python/arrays.hpp"
+#include "python/long_call.hpp"
+#include "python/module.hpp"
+#include "python/records.hpp"
+#include "report/json/identification_json.hpp"
+#include "report/tables/identification_tables.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <optional>
+#include <pybind11/complex.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace flexarm::python {
+
+namespace py = pybind11;
+
+namespace {
+
+using Texts = std::vector<std::string>;
+
+/// An identification with what it is of.
+struct Identified {
+  std::string name;
+  arm::Arm arm;
+  measured::Identification identification;
+  std::vector<compare::IdentifiedCondition> conditions;
+};
+
+/// A measured root with where it comes from.
+struct Root {
+  compare::IdentifiedRoot root;
+  std::string method;
+  Texts runs;
+  std::optional<arm::Sensor> sensor;
+  double payload_mass_kg;
+  bool hub_held;
+};
+
+std::vector<Root> roots_of(const Identified& self, const std::optional<std::string>& feature,
+                           const std::optional<std::string>& method,
+                           const std::optional<std::string>& sensor) {
+  std::vector<Root> roots;
+  for (const auto& condition : self.conditions) {
+    for (std::size_t i = 0; i < condition.readings.size(); ++i) {
+      const auto& reading = self.identification.readings[condition.readings[i]];
+      for (const auto& root : condition.roots[i]) {
+        Root made{root,
+                  std::string(to_string(reading.method)),
+                  reading.runs,
+                  root.measured.sensor ? root.measured.sensor : reading.sensor,
+                  condition.payload.mass_kg,
+                  reading.hub_held};
+        if (feature && *feature != to_string(root.measured.feature)) continue;
+        if (method && *method != made.method) continue;
+        if (sensor && made.sensor != arm::parse_sensor(*sensor)) continue;
+        roots.push_back(std::move(made));
+      }
+    }
+  }
+  return roots;
+}
+
+Identified identify(const std::filesystem::path& path, const Texts& runs, const Texts& sensors,
+                    const std::string& window, std::optional<double> resolution_Hz,
+                    std::optional<double> overlap_percent, const std::string& detrend,
+                    const std::string& peaks, const std::string& input,
+                    std::optional<double> from_Hz, std::optional<double> to_Hz,
+                    std::optional<int> modes, int highest_order,
+                    std::optional<double> total_inertia_kg_m2, bool fit,
+                    const py::object& progress) {
+  const compare::IdentificationRequest request{
+      .runs = runs,
+      .sensors = sensors,
+      .spectrum = {window, resolution_Hz, overlap_percent, detrend, peaks},
+      .input = input,
+      .fit = fit,
+      .modes = modes,
+      .from_Hz = from_Hz,
+      .to_Hz = to_Hz,
+      .highest_order = highest_order,
+      .total_inertia_kg_m2 = total_inertia_kg_m2,
+      .spelled = as_argument};
+  return long_call("identification", progress, [&](CallState& state) {
+    auto task = compare::read_identification_task(path, request);
+    task.options.progress = [&](std::string_view, double fraction) {
+      return state.reach(fraction);
+    };
+    Identified identified{task.measurement.name, task.arm, {}, {}};
+    identified.identification = measured::identify(std::move(task.runs), task.options);
+    if (state.reach(1.0)) {
+      identified.conditions = compare::conditions_of(identified.identification, task.arm);
+    }
+    return identified;
+  });
+}
+
+void add_root(py::module_& module) {
+  const auto number = [](auto member) {
+    return [member](const Root& self) { return self.root.measured.*member; };
+  };
+  using measured::ModalEntry;
+  py::class_<Root>(module, "IdentifiedRoot",
+                   "An estimated pole or zero beside that of the arm file; None: not known.")
+      .def_property_readonly(
+          "feature",
+          [](const Root& self) { return std::string(to_string(self.root.measured.feature)); },
+          "'pole' or 'zero'.")
+      .def_readonly("method", &Root::method,
+                    "'fit' (rational fit), 'circle', 'response', 'autopower' or 'table'.")
+      .def_readonly("runs", &Root::runs, "Ids of the runs, a list.")
+      .def_property_readonly(
+          "sensor",
+          [](const Root& self) {
+            return self.sensor ? std::optional(arm::to_string(*self.sensor)) : std::nullopt;
+          },
+          "Name of the sensor; None: of all at once.")
+      .def_readonly("payload_mass_kg", &Root::payload_mass_kg, "Mass of the payload [kg].")
+      .def_readonly("hub_held", &Root::hub_held, "From responses to the hub motion.")
+      .def_property_readonly(
+          "order", [](const Root& self) { return self.root.order; },
+          "From 1, of the root of the arm file.")
+      .def_property_readonly("frequency_Hz", number(&ModalEntry::frequency_Hz),
+                             "Undamped natural frequency [Hz].")
+      .def_property_readonly("frequency_std_Hz", number(&ModalEntry::frequency_std_Hz),
+                             "Its standard error [Hz].")
+      .def_property_readonly("damping_ratio", number(&ModalEntry::damping_ratio),
+                             "Damping ratio [1].")
+      .def_property_readonly("damping_ratio_std", number(&ModalEntry::damping_ratio_std),
+                             "Its standard error [1].")
+      .def_property_readonly(
+          "analytical_Hz", [](const Root& self) { return self.root.analytical_Hz; },
+          "That of the arm file [Hz].")
+      .def_property_readonly(
+          "analytical_damping_ratio",
+          [](const Root& self) { return self.root.analytical_damping_ratio; },
+          "That of the arm file [1].")
+      .def_property_readonly(
+          "error_percent", [](const Root& self) { return self.root.error_percent(); },
+          "100 (measured - analytical)/analytical; NaN where either is unknown.")
+      .def("__repr__", [](const Root& self) {
+        const auto& measured = self.root.measured;
+        return fmt::format("<flexarm.IdentifiedRoot {} {}: {:.6g} +- {:.2g} Hz, by {}>",
+                           to_string(measured.feature),
+                           self.root.order ? fmt::to_string(*self.root.order) : "?",
+                           measured.frequency_Hz.value_or(0.0),
+                           measured.frequency_std_Hz.value_or(0.0), self.method);
+      });
+}
+
+}  // namespace
+
+void add_identification(py::module_& module) {
+  add_root(module);
+  py::class_<Identified>(module, "Identification",
+                         "Spectra, poles, zeros, damping and gains estimated from a measurement.")
+      .def_readonly("name", &Identified::name, "Name of the measurement.")
+      .def_readonly("arm", &Identified::arm, "The arm of its file.")
+      .def("roots", &roots_of, py::kw_only(), py::arg("feature") = py::none(),
+           py::arg("method") = py::none(), py::arg("sensor") = py::none(),
+           "The roots of all methods, or those of a feature ('pole', 'zero'), method ('fit') or "
+           "sensor: a list of IdentifiedRoot.")
+      .def_property_readonly(
+          "poles", [](const Identified& self) { return roots_of(self, "pole", "fit", {}); },
+          "Poles of the rational fits, a list of IdentifiedRoot.")
+      .def_property_readonly(
+          "zeros", [](const Identified& self) { return roots_of(self, "zero", "fit", {}); },
+          "Zeros of the rational fits, a list of IdentifiedRoot.")
+      .def_property_readonly(
+          "notes", [](const Identified& self) { return report::data_notes(self.identification); },
+          "What was found about the data, a list of sentences.")
+      .def(
+          "to_json",
+          [](const Identified& self) {
+            return report::identification_document(self.name, self.arm, self.identification,
+                                                   self.conditions);
+          },
+          "The text that `flexarm identify --json` writes (docs/json.md).")
+      .def(
+          "to_dict",
+          [](const py::object& self) {
+            return py::module_::import("json").attr("loads")(self.attr("to_json")());
+          },
+          "The same as a dict: spectra, responses, readings, fits, gains.")
+      .def("_repr_html_",
+           [](const py::object& self) {
+             return py::module_::import("flexarm._html").attr("identification_table")(self);
+           })
+      .def("__repr__", [](const Identified& self) {
+        return fmt::format("<flexarm.Identification of '{}': {} poles, {} zeros by fits>",
+                           self.name, roots_of(self, "pole", "fit", {}).size(),
+                           roots_of(self, "zero", "fit", {}).size());
+      });
+  module.def(
+      "identify", &identify, py::arg("path"), py::kw_only(), py::arg("runs") = Texts{},
+      py::arg("sensors") = Texts{}, py::arg("window") = "", py::arg("resolution_Hz") = py::none(),
+      py::arg("overlap_percent") = py::none(), py::arg("detrend") = "",
+      py::arg("peaks") = "between", py::arg("input") = "", py::arg("from_Hz") = py::none(),
+      py::arg("to_Hz") = py::none(), py::arg("modes") = py::none(),
+      py::arg("highest_order") = measured::ModalFitOptions{}.highest_order,
+      py::arg("total_inertia_kg_m2") = py::none(), py::arg("fit") = true,
+      py::arg("progress") = py::none(),
+      "Estimates poles, zeros, damping and gains of a measurement.toml, with the arguments of "
+      "`flexarm identify`; what is not given is chosen from the data: Identification. progress as "
+      "in simulate. Ctrl-C ends it. Raises InputError 'FILE:LINE: ...', and for an argument that "
+      "cannot be used.");
+}
+
+}  // namespace flexarm::python

@@ -1,0 +1,210 @@
+#include "report/page/identify_page.hpp"
+
+#include "report/page/identification_blocks.hpp"
+#include "report/page/page_table.hpp"
+#include "report/page/page_words.hpp"
+#include "report/tables/identification_tables.hpp"
+#include "report/tables/identified_root_tables.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+#include <utility>
+
+namespace flexarm::report::page {
+
+namespace {
+
+using measured::Identification;
+
+/// What is identified, each pole and zero once, and the one that is furthest from the arm file's.
+struct IdentifiedSummary {
+  std::size_t poles = 0;
+  std::size_t zeros = 0;
+  double largest_error_percent = 0.0;
+  std::string furthest;  ///< "pole 2"; empty where nothing has a place in the arm file
+};
+
+std::string name_of_root(const compare::IdentifiedRoot& root) {
+  const auto& entry = root.measured;
+  if (entry.feature == measured::Feature::pole) return fmt::format("pole {}", *root.order);
+  return fmt::format("zero {} of the {}", *root.order, in_words(arm::to_string(*entry.sensor)));
+}
+
+IdentifiedSummary summary_of(const IdentifiedRuns& runs) {
+  IdentifiedSummary summary;
+  for (const auto& condition : runs.conditions) {
+    std::set<std::string> seen;
+    for (std::size_t i = 0; i < condition.readings.size(); ++i) {
+      // A fit, where there is one, is the most accurate of the methods.
+      const bool has_fit = std::ranges::any_of(condition.readings, [&](std::size_t k) {
+        return runs.identification.readings[k].method == measured::Method::rational_fit;
+      });
+      const auto& reading = runs.identification.readings[condition.readings[i]];
+      if (has_fit && reading.method != measured::Method::rational_fit) continue;
+      for (const auto& root : condition.roots[i]) {
+        if (!root.order) continue;
+        const std::string name = name_of_root(root);
+        if (seen.insert(name).second) {
+          const bool is_pole = root.measured.feature == measured::Feature::pole;
+          ++(is_pole ? summary.poles : summary.zeros);
+        }
+        const double error = std::abs(root.error_percent());
+        if (std::isnan(error) || error <= summary.largest_error_percent) continue;
+        summary.largest_error_percent = error;
+        summary.furthest = name;
+      }
+    }
+  }
+  return summary;
+}
+
+std::size_t faults_of(const Identification& identification) {
+  std::size_t count = 0;
+  for (const auto& run : identification.runs) count += run.findings.size();
+  return count;
+}
+
+Verdict identification_verdict(const Identification& identification,
+                               const IdentifiedSummary& summary) {
+  const std::size_t faults = faults_of(identification);
+  const bool is_refused = std::ranges::any_of(identification.runs,
+                                              [](const auto& run) { return !run.refusal.empty(); });
+  Verdict verdict;
+  if (summary.poles + summary.zeros == 0) {
+    verdict = {Status::bad, "nothing identified",
+               "No pole or zero of the arm was identified in these data."};
+  } else {
+    verdict = {faults > 0 || is_refused ? Status::partial : Status::good, "identified",
+               fmt::format("{} poles and {} zeros of the arm are identified.", summary.poles,
+                           summary.zeros)};
+    if (!summary.furthest.empty()) {
+      verdict.sentence +=
+          fmt::format(" The largest difference from the arm file is {:.3g} %, in {}.",
+                      summary.largest_error_percent, summary.furthest);
+    }
+  }
+  if (faults > 0) {
+    verdict.sentence +=
+        fmt::format(" The recordings have {} fault{}.", faults, faults == 1 ? "" : "s");
+  }
+  return verdict;
+}
+
+Section roots_of_runs(const IdentifiedRuns& runs) {
+  Section section{"roots", "Poles and zeros"};
+  for (MapBlock& map : identified_maps(runs)) section.blocks.emplace_back(std::move(map));
+  for (const auto& condition : runs.conditions) {
+    for (const auto& name : sources(runs.identification, condition)) {
+      const IdentifiedData data{runs.identification, condition, name};
+      const std::array tables = {
+          std::pair(pole_table(data), "poles"), std::pair(held_pole_table(data), "held-poles"),
+          std::pair(zero_table(data), "zeros"), std::pair(damping_table(data), "damping"),
+          std::pair(real_zero_table(data), "real-zeros")};
+      for (const auto& [table, id] : tables) add_table(section, table, id);
+    }
+  }
+  return section;
+}
+
+Section fit_section(const IdentifiedRuns& runs) {
+  Section section{"fit", "Modal fit"};
+  if (auto charts = stabilisation_charts(runs); !charts.views.empty()) {
+    section.blocks.emplace_back(std::move(charts));
+  }
+  for (const auto& condition : runs.conditions) {
+    for (const std::size_t f : condition.fits) {
+      const auto& fit = runs.identification.fits[f];
+      if (!fit.refusal.empty()) continue;
+      const std::string name = joined(ids_of(fit, runs.identification));
+      section.text.push_back(
+          fmt::format("{}: {} to {} Hz, {} second-order sections, {} of them modes; {}{}.", name,
+                      number_of(fit.fit.band.from_Hz, 4), number_of(fit.fit.band.to_Hz, 4),
+                      fit.fit.poles.size(),
+                      std::ranges::count(fit.fit.poles, true, &measured::FittedPole::is_mode),
+                      in_words(fit.fit.order_reason), fit.fit.converged ? "" : "; not converged"));
+      add_table(section, residual_table(fit), "residuals");
+      add_table(section, gain_table(fit, condition.analytical), "gains");
+    }
+  }
+  return section;
+}
+
+Section spectra_section(const IdentifiedRuns& runs) {
+  Section section{"spectra", "Spectra"};
+  if (auto spectra = autopower_spectra(runs); !spectra.views.empty()) {
+    section.blocks.emplace_back(std::move(spectra));
+  }
+  TableBlock settings{{"settings", "Settings of the spectra", ""},
+                      {{"run"}, {"setting"}, {"value"}, {"reason"}},
+                      {}};
+  for (const auto& run : runs.identification.runs) {
+    if (!run.estimate) continue;
+    for (const auto& [name, value, reason] : run.estimate->settings.reports) {
+      settings.rows.push_back({run.run.id, in_words(name), in_words(value), in_words(reason)});
+    }
+  }
+  if (!settings.rows.empty()) section.blocks.emplace_back(std::move(settings));
+  for (const auto& run : runs.identification.runs) {
+    add_table(section, distortion_table(run), "distortion");
+  }
+  return section;
+}
+
+Section circles_section(const IdentifiedRuns& runs) {
+  Section section{"circles", "Nyquist circles"};
+  if (auto circles = nyquist_circles_block(runs); !circles.views.empty()) {
+    section.blocks.emplace_back(std::move(circles));
+  }
+  return section;
+}
+
+Section recordings_section(const IdentifiedRuns& runs) {
+  Section section{"recordings", "Recordings"};
+  const auto notes = data_notes(runs.identification);
+  for (const auto& note : notes) section.text.push_back(in_words(note));
+  if (notes.empty()) section.text.emplace_back("The checks of the recordings found no fault.");
+  if (auto signals = recorded_signals(runs); !signals.views.empty()) {
+    section.blocks.emplace_back(std::move(signals));
+  }
+  return section;
+}
+
+}  // namespace
+
+PageDocument identify_page(const Identification& identification,
+                           const std::vector<compare::IdentifiedCondition>& conditions,
+                           const std::vector<measured::MeasuredRun>& recorded,
+                           const PageOrigin& origin) {
+  const IdentifiedRuns runs{identification, conditions, recorded};
+  const IdentifiedSummary summary = summary_of(runs);
+  PageDocument document{origin.program,
+                        origin.command,
+                        "Identification of " + origin.subject,
+                        identification_verdict(identification, summary),
+                        {},
+                        {},
+                        {}};
+  document.facts = {{"runs", fmt::format("{}", identification.runs.size())},
+                    {"poles", fmt::format("{}", summary.poles)},
+                    {"zeros", fmt::format("{}", summary.zeros)},
+                    {"faults of the recordings", fmt::format("{}", faults_of(identification))}};
+  if (!summary.furthest.empty()) {
+    document.facts.push_back({"largest difference, " + summary.furthest,
+                              number_of(summary.largest_error_percent, 3) + " %"});
+  }
+  if (auto responses = identified_responses(runs); !responses.views.empty()) {
+    document.headline = std::move(responses);
+  }
+  document.add(roots_of_runs(runs));
+  document.add(fit_section(runs));
+  document.add(spectra_section(runs));
+  document.add(circles_section(runs));
+  document.add(recordings_section(runs));
+  return document;
+}
+
+}  // namespace flexarm::report::page

@@ -1,0 +1,87 @@
+#include "report/page/measured_blocks.hpp"
+
+#include "report/figures/frequency_response_figure.hpp"
+#include "report/figures/sensor_label.hpp"
+#include "report/page/page_curves.hpp"
+#include "report/page/page_table.hpp"
+#include "report/page/page_words.hpp"
+#include "report/tables/measured_tables.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <utility>
+
+namespace flexarm::report::page {
+
+namespace {
+
+/// Of a model from the measured response, relative; gaps where either is unknown.
+Series difference(const compare::MeasuredResponse& compared, std::size_t model) {
+  std::vector<double> values;
+  for (std::size_t i = 0; i < compared.measured.frequency_Hz.size(); ++i) {
+    const std::complex<double> measured = compared.measured.response[i];
+    const double apart = std::abs(compared.values[model][i] - measured) / std::abs(measured);
+    values.push_back(apart > 0.0 ? apart : std::numeric_limits<double>::quiet_NaN());
+  }
+  return curve(in_words(compared.models[model]), numbered_role(model + 1),
+               compared.measured.frequency_Hz, std::move(values), Draw::points);
+}
+
+std::vector<CurvesPanel> response_panels(const compare::MeasuredResponse& compared) {
+  const MeasuredResponse measured = measured_response(compared.measured);
+  std::vector<BodeCurve> curves = {{"measured", Role::measured, measured.frequency_Hz,
+                                    measured.response, measured.relative_std, measured.coherence}};
+  CurvesPanel apart{{"relative difference", "", AxisScale::logarithmic}, 0.9, {}};
+  const bool is_dense = !compared.curves.empty();
+  for (std::size_t k = 0; k < compared.models.size(); ++k) {
+    // The first role is drawn as what was measured is.
+    curves.push_back({in_words(compared.models[k]), numbered_role(k + 1),
+                      is_dense ? compared.curve_frequency_Hz : measured.frequency_Hz,
+                      is_dense ? compared.curves[k] : compared.values[k]});
+    apart.series.push_back(difference(compared, k));
+  }
+  auto panels = bode_panels(response_unit(compared.measured.sensor), curves);
+  if (!panels.empty()) panels.push_back(std::move(apart));
+  return panels;
+}
+
+}  // namespace
+
+CurvesBlock measured_responses(const std::vector<NamedArm>& arms) {
+  CurvesBlock block{{"measured-responses", "Measured frequency responses and the models",
+                     "The lowest panel has the difference of each model from the measured "
+                     "response, relative to it."},
+                    frequency_axis(),
+                    {"run", "sensor"},
+                    {}};
+  if (arms.size() > 1) block.choices.insert(block.choices.begin(), "arm");
+  for (const NamedArm& arm : arms) {
+    for (const auto& compared : arm.arm->measured.responses) {
+      auto panels = response_panels(compared);
+      if (panels.empty()) continue;
+      std::vector<std::string> labels = {compared.run.empty() ? "measured" : compared.run,
+                                         sensor_label(compared.measured.sensor)};
+      if (arms.size() > 1) labels.insert(labels.begin(), arm.name);
+      block.views.push_back({std::move(labels), {}, std::move(panels)});
+    }
+  }
+  return block;
+}
+
+void add_measured_tables(Section& section, const NamedArm& arm) {
+  const compare::MeasuredComparison& measured = arm.arm->measured;
+  add_table(section, measured_table(measured.rows, arm.arm->comparison.subjects), "measured");
+  add_table(section, measured_damping_table(measured.rows), "measured-damping");
+  add_table(section, measured_response_table(measured.responses), "measured-response-table");
+  for (std::size_t i = 0; i < measured.shapes.size(); ++i) {
+    add_table(section, mac_table(measured.shapes[i]), fmt::format("mac-{}", i + 1));
+  }
+  if (std::string summary = measured_summary(measured.rows); !summary.empty()) {
+    section.text.push_back(in_words(summary));
+  }
+}
+
+}  // namespace flexarm::report::page

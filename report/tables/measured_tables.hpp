@@ -1,0 +1,33 @@
+#pragma once
+
+#include "compare/measured_responses.hpp"
+#include "report/tables/table.hpp"
+
+#include <string>
+#include <vector>
+
+namespace flexarm::report {
+
+/// Measured poles and zeros beside the models: frequency, its standard deviation, the first model's
+/// frequency, and by how many standard deviations each model is off. `models` are the names.
+Table measured_table(const std::vector<compare::MeasuredRow>& rows,
+                     const std::vector<std::string>& models);
+
+/// Measured damping ratios of poles beside the projected ones of the first model; without rows
+/// where none was measured.
+Table measured_damping_table(const std::vector<compare::MeasuredRow>& rows);
+
+/// How many of the differences are within two standard deviations, and whether the uncertain
+/// numbers of the arm file are among these; empty where no standard deviation is known.
+std::string measured_summary(const std::vector<compare::MeasuredRow>& rows);
+
+/// Measured frequency responses against each model's, one row each.
+Table measured_response_table(const std::vector<compare::MeasuredResponse>& responses);
+
+/// The MAC matrix of the first model: measured modes down, computed ones across.
+Table mac_table(const compare::ShapeCorrelation& shapes);
+
+/// Every value of the matrices of all models, for CSV.
+Table mac_listing(const std::vector<compare::ShapeCorrelation>& shapes);
+
+}  // namespace flexarm::report

@@ -259,7 +259,7 @@ Command add_compare(CLI::App& program) {
               "Print every root of each formulation, convergence, mode shapes and responses");
   parser->add_flag("--full", arguments->full,
                    "As --verbose, with the convergence of every root and the root counts");
-  add_output_choice(*parser, arguments->output, "Folder for CSV tables and figures");
+  add_output_choice(*parser, arguments->output, {"Folder for CSV tables and figures"});
   add_report_choice(*parser, arguments->report);
   parser->footer("Exit status: 0 the formulations agree; 1 they do not; 2 unusable input.\n" +
                  example("flexarm compare rig.toml --poles 6 --out compared"));

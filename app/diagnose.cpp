@@ -1,10 +1,10 @@
 #include "app/command.hpp"
 #include "app/effect_choice.hpp"
-#include "app/figure_choice.hpp"
 #include "app/file_names.hpp"
 #include "app/folder_place.hpp"
 #include "app/json_file.hpp"
 #include "app/kept_inputs.hpp"
+#include "app/output_choice.hpp"
 #include "app/report_choice.hpp"
 #include "app/screen.hpp"
 #include "app/standard_output.hpp"
@@ -52,11 +52,8 @@ constexpr std::size_t kFindingLines = 14;
 struct DiagnoseArguments {
   std::string file;
   diagnose::DiagnosisRequest request;
-  std::string folder;
-  bool force = false;
-  FigureChoice figures;
+  OutputChoice output;
   bool verbose = false;
-  std::string json_file;
   ReportChoice report;
 };
 
@@ -77,21 +74,13 @@ FolderKind diagnosis_folder_kind() {
 /// Throws for an unknown predictor, and for outputs that could not be written, or would take the
 /// place of what is read: before the work, not after it.
 void prepare(const DiagnoseArguments& arguments, const diagnose::Experiment& experiment) {
-  if (arguments.force && arguments.folder.empty()) {
-    throw arm::InputError("--force: needs --out FOLDER");
-  }
   diagnose::require_valid(arguments.request);
-  if (!arguments.json_file.empty()) {
-    require_no_input("--json", arguments.json_file, experiment.files);
-    require_no_input("--json: extended arm", report::extended_arm_beside(arguments.json_file),
-                     experiment.files);
+  arguments.output.prepare(diagnosis_folder_kind(), experiment.files);
+  if (!arguments.output.json_file.empty()) {
+    require_no_input("--json: extended arm",
+                     report::extended_arm_beside(arguments.output.json_file), experiment.files);
   }
-  if (!arguments.folder.empty()) require_no_input("--out", arguments.folder, experiment.files);
-  arguments.figures.require_valid(arguments.folder);
-  require_json_place(arguments.json_file, arguments.folder);
-  arguments.report.prepare(arguments.folder, experiment.files);
-  if (arguments.folder.empty()) return;
-  require_place(arguments.folder, arguments.force, diagnosis_folder_kind());
+  arguments.report.prepare(arguments.output.folder, experiment.files);
 }
 
 diagnose::Diagnosis diagnose_with_progress(const DiagnoseArguments& arguments,
@@ -228,16 +217,16 @@ std::vector<measured::NamedContent> files_of(const diagnose::Diagnosis& diagnosi
 std::string write_files(const DiagnoseArguments& arguments, const diagnose::Experiment& experiment,
                         const diagnose::Diagnosis& diagnosis) {
   std::string left_out;
-  if (!arguments.folder.empty()) {
+  if (!arguments.output.folder.empty()) {
     const report::DiagnosisPlots plots = report::diagnosis_plots(experiment, diagnosis);
     left_out = plots.left_out;
-    write_folder(arguments.folder, arguments.force,
-                 files_of(diagnosis, plots.plots, arguments.figures.options()));
+    write_folder(arguments.output.folder, arguments.output.force,
+                 files_of(diagnosis, plots.plots, arguments.output.figures.options()));
   }
-  if (is_standard_output(arguments.json_file)) {
-    write_json(arguments.json_file, report::diagnosis_document(diagnosis, ""));
-  } else if (!arguments.json_file.empty()) {
-    report::write_diagnosis(diagnosis, arguments.json_file);
+  if (is_standard_output(arguments.output.json_file)) {
+    write_json(arguments.output.json_file, report::diagnosis_document(diagnosis, ""));
+  } else if (!arguments.output.json_file.empty()) {
+    report::write_diagnosis(diagnosis, arguments.output.json_file);
   }
   if (arguments.report.is_given()) {
     arguments.report.write(
@@ -263,14 +252,14 @@ int run_diagnose(const DiagnoseArguments& arguments) {
   }
   const std::string details =
       details_line(arguments.verbose, "evidence, residual analysis, channels, formulations");
-  if (arguments.folder.empty()) {
+  if (arguments.output.folder.empty()) {
     text += details;
     text +=
         fmt::format("next: the extended arm and tables with  flexarm diagnose {} --out diagnosis\n",
                     arm::shown(arguments.file));
   } else {
     if (!left_out.empty()) text += screen_note(left_out);
-    text += details + fmt::format("wrote {}\n", arguments.folder);
+    text += details + fmt::format("wrote {}\n", arguments.output.folder);
   }
   text += arguments.report.last_line();
   print(text);
@@ -310,16 +299,11 @@ Command add_diagnose(CLI::App& program) {
           "torque and hub are not judged), frequency_response (responses estimated of the runs) or "
           "auto")
       ->capture_default_str();
-  parser
-      ->add_option("--out", arguments->folder,
-                   "New folder for the extended arm, tables as CSV, figures and the JSON")
-      ->check(not_empty());
-  parser->add_flag("--force", arguments->force, "Replace what this command wrote in the folder");
-  add_figure_choice(*parser, arguments->figures);
-  parser
-      ->add_option("--json", arguments->json_file,
-                   "JSON file; the extended arm is written beside it; - for standard output")
-      ->check(not_empty());
+  add_output_choice(
+      *parser, arguments->output,
+      {.folder = "New folder for the extended arm, tables as CSV, figures and the JSON",
+       .force = "Replace what this command wrote in the folder",
+       .json_file = "JSON file; the extended arm is written beside it; - for standard output"});
   add_report_choice(*parser, arguments->report);
   parser->footer(verdict_definitions() +
                  example("flexarm diagnose simulated/measurement.toml --out diagnosis"));

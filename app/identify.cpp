@@ -1,10 +1,9 @@
 #include "app/arm_choice.hpp"
 #include "app/command.hpp"
-#include "app/figure_choice.hpp"
 #include "app/identified_files.hpp"
 #include "app/json_file.hpp"
-#include "app/kept_inputs.hpp"
 #include "app/list_option.hpp"
+#include "app/output_choice.hpp"
 #include "app/report_choice.hpp"
 #include "app/screen.hpp"
 #include "app/spectrum_choice.hpp"
@@ -38,11 +37,8 @@ struct IdentifyArguments {
   std::string file;
   compare::IdentificationRequest request;
   bool no_fit = false;
-  std::string folder;
-  bool force = false;
-  FigureChoice figures;
+  OutputChoice output;
   bool verbose = false;
-  std::string json_file;
   ReportChoice report;
 };
 
@@ -145,31 +141,23 @@ std::string results_text(const measured::Identification& identification,
 /// Throws for outputs that could not be written, or would take the place of what is read: before
 /// the work, not after it.
 void prepare(const IdentifyArguments& arguments, const measured::Measurement& measurement) {
-  if (arguments.force && arguments.folder.empty()) {
-    throw arm::InputError("--force: needs --out FOLDER");
-  }
   const auto inputs = measured::files_of(arguments.file, measurement);
-  if (!arguments.json_file.empty()) require_no_input("--json", arguments.json_file, inputs);
-  if (!arguments.folder.empty()) require_no_input("--out", arguments.folder, inputs);
-  arguments.figures.require_valid(arguments.folder);
-  require_json_place(arguments.json_file, arguments.folder);
-  arguments.report.prepare(arguments.folder, inputs);
-  if (arguments.folder.empty()) return;
-  require_place(arguments.folder, arguments.force, identified_folder_kind());
+  arguments.output.prepare(identified_folder_kind(), inputs);
+  arguments.report.prepare(arguments.output.folder, inputs);
 }
 
 void write_files(const IdentifyArguments& arguments, const std::string& measurement,
                  const arm::Arm& arm, const measured::Identification& identification,
                  const std::vector<compare::IdentifiedCondition>& conditions) {
-  if (arguments.folder.empty() && arguments.json_file.empty()) return;
+  if (arguments.output.folder.empty() && arguments.output.json_file.empty()) return;
   const std::string json =
       report::identification_document(measurement, arm, identification, conditions);
-  if (!arguments.folder.empty()) {
-    auto files = identified_files(identification, conditions, arguments.figures.options());
+  if (!arguments.output.folder.empty()) {
+    auto files = identified_files(identification, conditions, arguments.output.figures.options());
     files.push_back({kIdentifiedJson, json});
-    write_folder(arguments.folder, arguments.force, files);
+    write_folder(arguments.output.folder, arguments.output.force, files);
   }
-  write_json(arguments.json_file, json);
+  write_json(arguments.output.json_file, json);
 }
 
 int run_identify(const IdentifyArguments& arguments) {
@@ -197,12 +185,12 @@ int run_identify(const IdentifyArguments& arguments) {
   }
   text += details_line(arguments.verbose,
                        "settings with reasons, every method and sensor, gains, residuals");
-  if (arguments.folder.empty()) {
+  if (arguments.output.folder.empty()) {
     text += fmt::format(
         "next: write figures and modal tables with  flexarm identify {} --out identified\n",
         arm::shown(arguments.file));
   } else {
-    text += fmt::format("wrote {}\n", arguments.folder);
+    text += fmt::format("wrote {}\n", arguments.output.folder);
   }
   text += arguments.report.last_line();
   print(text);
@@ -241,16 +229,8 @@ Command add_identify(CLI::App& program) {
   parser->add_flag("--no-fit", arguments->no_fit, "Spectra, peaks and circle fits only");
   add_verbose(*parser, arguments->verbose,
               "Print settings with reasons, every method and sensor, gains and residuals");
-  parser
-      ->add_option("--out", arguments->folder,
-                   "New folder for modal tables, responses (CSV), figures and JSON")
-      ->check(not_empty());
-  parser->add_flag("--force", arguments->force, "Overwrite a folder written by this command");
-  add_figure_choice(*parser, arguments->figures);
-  parser
-      ->add_option("--json", arguments->json_file,
-                   "JSON file, full precision; - for standard output")
-      ->check(not_empty());
+  add_output_choice(*parser, arguments->output,
+                    {"New folder for modal tables, responses (CSV), figures and JSON"});
   add_report_choice(*parser, arguments->report);
   parser->footer(example("flexarm identify simulated/measurement.toml --out identified"));
   return {parser, [arguments] { return run_identify(*arguments); }};

@@ -234,7 +234,7 @@ Command add_modes(CLI::App& program) {
   parser->add_flag("--certificate", arguments->certificate,
                    "Certify the roots of exact_tf and their count by ball arithmetic");
   add_verbose(*parser, arguments->verbose, "Print all rows of long tables");
-  add_output_choice(*parser, arguments->output, "Folder for CSV tables and the mode shapes");
+  add_output_choice(*parser, arguments->output, {"Folder for CSV tables and the mode shapes"});
   parser->footer(example("flexarm modes rig.toml --sensor hub_angle,strain@0.05 --certificate"));
   return {parser, [arguments] { return run_modes(*arguments); }};
 }

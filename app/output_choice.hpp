@@ -3,7 +3,9 @@
 #include "app/figure_choice.hpp"
 #include "app/folder_place.hpp"
 
+#include <filesystem>
 #include <string>
+#include <vector>
 
 namespace CLI {
 class App;
@@ -19,11 +21,20 @@ struct OutputChoice {
   FigureChoice figures;
 
   /// Throws arm::InputError where the folder must not be written (`require_place`), its figures
-  /// could not be drawn, or the JSON not be written: before the work, not after it.
-  void prepare(const FolderKind& kind) const;
+  /// could not be drawn, the JSON not be written, or either would take the place of one of
+  /// `inputs`, which the command line does not name (app/kept_inputs.hpp has those that it does):
+  /// before the work, not after it.
+  void prepare(const FolderKind& kind, const std::vector<std::filesystem::path>& inputs = {}) const;
 };
 
-/// `--out`, `--force`, `--json` and the options of figures; `content` is what the folder is for.
-void add_output_choice(CLI::App& parser, OutputChoice& choice, const std::string& content);
+/// What the help says of a command's outputs.
+struct OutputHelp {
+  std::string folder;
+  std::string force = "Overwrite a folder written by this command";
+  std::string json_file = "JSON file, full precision; - for standard output";
+};
+
+/// `--out`, `--force`, `--json` and the options of figures.
+void add_output_choice(CLI::App& parser, OutputChoice& choice, const OutputHelp& help);
 
 }  // namespace flexarm::app

@@ -2,9 +2,9 @@
 
 #include "app/command.hpp"
 #include "app/effect_choice.hpp"
-#include "app/figure_choice.hpp"
 #include "app/folder_place.hpp"
 #include "app/json_file.hpp"
+#include "app/output_choice.hpp"
 #include "app/report_choice.hpp"
 #include "app/screen.hpp"
 #include "app/standard_output.hpp"
@@ -46,11 +46,8 @@ struct PlanArguments {
   std::vector<std::string> effects;
   std::vector<std::string> refitted;
   std::string better_file;
-  std::string folder;
-  bool force = false;
-  FigureChoice figures;
+  OutputChoice output;
   bool verbose = false;
-  std::string json_file;
   ReportChoice report;
 };
 
@@ -58,24 +55,13 @@ FolderKind plan_folder_kind() {
   return {"a plan", {kPlanJson}, {".json", ".toml", ".csv", ".svg", ".pdf", ".png", ".html"}};
 }
 
-/// Throws for outputs that could not be written.
-void prepare_outputs(const PlanArguments& arguments) {
-  if (arguments.force && arguments.folder.empty()) {
-    throw arm::InputError("--force: needs --out FOLDER");
-  }
-  arguments.figures.require_valid(arguments.folder);
-  require_json_place(arguments.json_file, arguments.folder);
-  arguments.report.prepare(arguments.folder);
-  if (arguments.folder.empty()) return;
-  require_place(arguments.folder, arguments.force, plan_folder_kind());
-}
-
 diagnose::Plan plan_with_progress(const PlanArguments& arguments) {
   const arm::Arm arm = measured::read_arm_file(arguments.arm_file, effects::vocabulary());
   const auto task =
       diagnose::plan_task(arm, diagnose::read_measurement_plan(arguments.plan_file),
                           {.effects = arguments.effects, .refitted = arguments.refitted});
-  prepare_outputs(arguments);
+  arguments.output.prepare(plan_folder_kind());
+  arguments.report.prepare(arguments.output.folder);
   report::Progress progress("planning");
   return diagnose::plan_experiment(task.arm, task.planned, task.hypotheses, task.options,
                                    [&](std::string_view, double fraction) {
@@ -114,18 +100,18 @@ std::string text_of_plan(const diagnose::Plan& plan, bool verbose) {
 void write_plan(const PlanArguments& arguments, const diagnose::Plan& plan) {
   const std::string better = diagnose::format_measurement_plan(plan.better);
   const std::string json = report::plan_document(plan);
-  if (!arguments.folder.empty()) {
+  if (!arguments.output.folder.empty()) {
     std::vector<measured::NamedContent> files = {
         {"effects.csv", report::to_csv(report::detection_table(plan))},
         {"separations.csv", report::to_csv(report::separation_table(plan))},
         {"leads.csv", report::to_csv(report::lead_table(plan))},
         {kBetterPlan, better},
         {kPlanJson, json}};
-    arguments.figures.add_to(files, "", {{"separations", report::separation_figure(plan)}});
-    write_folder(arguments.folder, arguments.force, files);
+    arguments.output.figures.add_to(files, "", {{"separations", report::separation_figure(plan)}});
+    write_folder(arguments.output.folder, arguments.output.force, files);
   }
   if (!arguments.better_file.empty()) measured::write_atomically(arguments.better_file, better);
-  write_json(arguments.json_file, json);
+  write_json(arguments.output.json_file, json);
   if (arguments.report.is_given()) {
     arguments.report.write(report::page::plan_page(plan, page_origin(arguments.plan_file)));
   }
@@ -141,8 +127,8 @@ int run_plan(const PlanArguments& arguments) {
     throw;
   }
   text += details_line(arguments.verbose, "separations, indistinguishable pairs, further runs");
-  if (!arguments.folder.empty()) {
-    text += fmt::format("wrote {}\n", arguments.folder);
+  if (!arguments.output.folder.empty()) {
+    text += fmt::format("wrote {}\n", arguments.output.folder);
   } else if (!arguments.better_file.empty()) {
     text += fmt::format("wrote {}\n", arguments.better_file);
   } else {
@@ -177,16 +163,8 @@ Command add_plan(CLI::App& program) {
               "of further runs");
   parser->add_option("--write", arguments->better_file, "File for the improved plan")
       ->check(not_empty());
-  parser
-      ->add_option("--out", arguments->folder,
-                   "New folder for the improved plan, CSV tables, a figure and JSON")
-      ->check(not_empty());
-  parser->add_flag("--force", arguments->force, "Overwrite a folder written by this command");
-  add_figure_choice(*parser, arguments->figures);
-  parser
-      ->add_option("--json", arguments->json_file,
-                   "JSON file, full precision; - for standard output")
-      ->check(not_empty());
+  add_output_choice(*parser, arguments->output,
+                    {"New folder for the improved plan, CSV tables, a figure and JSON"});
   add_report_choice(*parser, arguments->report);
   parser->footer(example("flexarm plan rig.toml measurement-plan.toml --write improved-plan.toml"));
   return {parser, [arguments] { return run_plan(*arguments); }};

@@ -274,7 +274,8 @@ Command add_response(CLI::App& program) {
                    "State space without static correction for omitted modes");
   add_verbose(*parser, arguments->verbose,
               "Print the response as a product over poles and zeros and as a sum over modes");
-  add_output_choice(*parser, arguments->output, "Folder for CSV tables, Bode and Nyquist diagrams");
+  add_output_choice(*parser, arguments->output,
+                    {"Folder for CSV tables, Bode and Nyquist diagrams"});
   parser->footer(example("flexarm response rig.toml --sensor hub_angle,strain@0.05 --to-Hz 200"));
   return {parser, [arguments] { return run_response(*arguments); }};
 }

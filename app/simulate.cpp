@@ -1,9 +1,9 @@
 #include "app/arm_choice.hpp"
 #include "app/command.hpp"
-#include "app/figure_choice.hpp"
 #include "app/folder_place.hpp"
 #include "app/formulation_choice.hpp"
 #include "app/json_file.hpp"
+#include "app/output_choice.hpp"
 #include "app/run_choice.hpp"
 #include "app/screen.hpp"
 #include "app/sensor_choice.hpp"
@@ -45,11 +45,8 @@ struct SimulateArguments {
   std::string hold = "zero";
   std::vector<std::string> hidden_effects;
   std::string name;
-  std::string folder;
-  FigureChoice figures;
-  bool force = false;
+  OutputChoice output;
   bool verbose = false;
-  std::string json_file;
 };
 
 response::TorqueHold read_hold(const std::string& word) {
@@ -72,15 +69,11 @@ void refuse_without_folder(const char* option, bool given) {
 
 /// Throws for outputs that could not be written: before the work, not after it.
 void prepare(const SimulateArguments& arguments) {
-  arguments.figures.require_valid(arguments.folder);
-  require_json_place(arguments.json_file, arguments.folder);
-  if (arguments.folder.empty()) {
-    refuse_without_folder("--force", arguments.force);
+  if (arguments.output.folder.empty()) {
     refuse_without_folder("--hide-effects", !arguments.hidden_effects.empty());
     refuse_without_folder("--name", !arguments.name.empty());
-    return;
   }
-  require_place(arguments.folder, arguments.force, measurement_folder_kind());
+  arguments.output.prepare(measurement_folder_kind());
 }
 
 /// With a line of progress on standard error for each run.
@@ -245,29 +238,29 @@ int run_simulate(SimulateArguments arguments) {
 
   const auto experiment = simulate_with_progress(arm, plan, sensors, options);
   // Files first: a reader of standard output that goes away costs none of them.
-  if (!arguments.folder.empty()) {
+  if (!arguments.output.folder.empty()) {
     const std::string name = arguments.name.empty() ? report::simulated_name(arm) : arguments.name;
-    write_folder(arguments.folder, arguments.force,
+    write_folder(arguments.output.folder, arguments.output.force,
                  report::measurement_folder(name, written, plan, experiment, options.hold,
-                                            arguments.figures.options()));
+                                            arguments.output.figures.options()));
   }
-  write_json(arguments.json_file, report::simulation_document(arm, experiment, options));
+  write_json(arguments.output.json_file, report::simulation_document(arm, experiment, options));
   print_model(arguments, arm, experiment);
   print_results(arguments, plan, experiment, !response::take_apart(arm).hub.friction.empty());
-  if (arguments.folder.empty()) {
+  if (arguments.output.folder.empty()) {
     print(fmt::format("next: write it as a measurement with  flexarm simulate{} --out simulated\n",
                       arguments.arm.file.empty() ? "" : " " + arguments.arm.file));
   } else {
     print(fmt::format(
         "wrote {}: measurement.toml, arm.toml, and a CSV file and figures for each run\n",
-        arguments.folder));
+        arguments.output.folder));
     print(experiment.stepped_runs.empty()
               ? fmt::format(
                     "next: frequency response of the same arm with  flexarm response {}/arm.toml\n",
-                    arguments.folder)
+                    arguments.output.folder)
               : fmt::format("next: estimate poles, zeros and damping with  flexarm identify "
                             "{}/measurement.toml\n",
-                            arguments.folder));
+                            arguments.output.folder));
   }
   return kSuccess;
 }
@@ -303,16 +296,10 @@ Command add_simulate(CLI::App& program) {
   add_verbose(*parser, arguments->verbose,
               "Print the parameters of each excitation and the energy balance");
   parser->add_option("--name", arguments->name, "Name of the measurement");
-  parser
-      ->add_option("--out", arguments->folder,
-                   "Folder for measurement.toml, arm.toml, and a CSV file and figures for each run")
-      ->check(not_empty());
-  parser->add_flag("--force", arguments->force, "Overwrite the measurement in the folder");
-  add_figure_choice(*parser, arguments->figures);
-  parser
-      ->add_option("--json", arguments->json_file,
-                   "JSON file, full precision; - for standard output")
-      ->check(not_empty());
+  add_output_choice(
+      *parser, arguments->output,
+      {.folder = "Folder for measurement.toml, arm.toml, and a CSV file and figures for each run",
+       .force = "Overwrite the measurement in the folder"});
   parser->footer(
       example("flexarm simulate rig.toml --excitation bang-bang:amplitude=0.2,pulse=0.4 "
               "--excitation multisine:rms=0.03,to=60 --noise 0.005 --out measured"));

@@ -351,7 +351,7 @@ Command add_sweep(CLI::App& program) {
               "Print hub slopes, end-point values, models and the agreement of each quantity");
   parser->add_flag("--resume", arguments->resume,
                    "Resume an interrupted sweep from its checkpoint");
-  add_output_choice(*parser, arguments->output, "Folder for CSV tables and figures");
+  add_output_choice(*parser, arguments->output, {"Folder for CSV tables and figures"});
   add_report_choice(*parser, arguments->report);
   parser->footer("Exit status: 0 the formulations agree; 1 they do not; 2 unusable input.\n" +
                  example("flexarm sweep rig.toml --over payload.mass=0:0.5:50 --out swept"));

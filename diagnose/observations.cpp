@@ -213,4 +213,12 @@ Observations observe(const Experiment& experiment) {
   return all.observations();
 }
 
+std::vector<std::complex<double>> response_of_parts(const std::vector<double>& parts) {
+  std::vector<std::complex<double>> response;
+  for (std::size_t k = 0; k + 1 < parts.size(); k += 2) {
+    response.emplace_back(parts[k], parts[k + 1]);
+  }
+  return response;
+}
+
 }  // namespace flexarm::diagnose

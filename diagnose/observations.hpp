@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include <cmath>
+#include <complex>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -100,5 +101,8 @@ std::vector<ModalGroup> modal_groups(const measured::ModalTable& table);
 /// Standard deviations are those that the data show by themselves, whatever the arm does:
 /// diagnose/noise_floor.hpp.
 Observations observe(const Experiment& experiment);
+
+/// The response whose real and imaginary parts these are, frequency by frequency.
+std::vector<std::complex<double>> response_of_parts(const std::vector<double>& parts);
 
 }  // namespace flexarm::diagnose

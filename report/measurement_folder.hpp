@@ -1,8 +1,8 @@
 #pragma once
 
+#include "experiment/simulated_experiment.hpp"
 #include "measured/files/atomic_file.hpp"
 #include "report/figures/figure_files.hpp"
-#include "experiment/simulated_experiment.hpp"
 
 #include <string>
 #include <vector>
@@ -14,8 +14,9 @@ namespace flexarm::report {
 /// sensor, drawn with `figures`.
 std::vector<measured::NamedContent> measurement_folder(
     const std::string& name, const arm::Arm& written_arm,
-    const std::vector<experiment::PlannedRun>& plan, const experiment::SimulatedExperiment& experiment,
-    response::TorqueHold hold, const FigureOptions& figures);
+    const std::vector<experiment::PlannedRun>& plan,
+    const experiment::SimulatedExperiment& experiment, response::TorqueHold hold,
+    const FigureOptions& figures);
 
 /// The name of the measurement where it is given none.
 std::string simulated_name(const arm::Arm& arm);

@@ -20,6 +20,7 @@ constexpr std::array kIds = {
     Spelling{"exact_tf", "exact transfer function"},
     Spelling{"back_emf", "back-EMF"},
     Spelling{"damping.kelvin_voigt", "Kelvin-Voigt damping"},
+    Spelling{"kelvin_voigt", "Kelvin-Voigt"},
 };
 
 /// Parts of ids that are names.
@@ -38,6 +39,12 @@ std::string_view spelt(const std::array<Spelling, n>& spellings, std::string_vie
   return found == spellings.end() ? id : found->second;
 }
 
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+
+}  // namespace
+
 std::string id_in_words(std::string_view id) {
   if (id.starts_with(kEffects)) {
     // "effects.back_emf.constant": the effect, then its parameter.
@@ -55,12 +62,6 @@ std::string id_in_words(std::string_view id) {
   }
   return words;
 }
-
-bool is_digit(char c) {
-  return c >= '0' && c <= '9';
-}
-
-}  // namespace
 
 std::string in_words(std::string_view text) {
   // Parts joined by "_" or ".", and the position of a sensor [m].

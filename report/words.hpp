@@ -12,6 +12,9 @@ namespace flexarm::report {
 /// transfer function". What is no id stays as it is.
 std::string in_words(std::string_view text);
 
+/// The same of a single id.
+std::string id_in_words(std::string_view id);
+
 /// A unit with superscripts: "m/s²" for "m/s^2"; empty for "1".
 std::string unit_text(std::string_view unit);
 

@@ -1,5 +1,6 @@
 #include "report/figures/diagnosis_figures.hpp"
 
+#include "diagnose/observations.hpp"
 #include "measured/spectra/robust.hpp"
 #include "report/figures/frequency_response_figure.hpp"
 #include "report/figures/hub_law_figure.hpp"
@@ -33,22 +34,16 @@ const Overlay* overlay_of(const Diagnosis& diagnosis, std::size_t run, const arm
   return at == diagnosis.overlays.end() ? nullptr : &*at;
 }
 
-/// Real and imaginary parts, frequency by frequency.
-std::vector<std::complex<double>> as_response(const std::vector<double>& parts) {
-  std::vector<std::complex<double>> response;
-  for (std::size_t k = 0; k + 1 < parts.size(); k += 2)
-    response.emplace_back(parts[k], parts[k + 1]);
-  return response;
-}
-
 Figure response_overlay(const Experiment& experiment, const Overlay& overlay,
                         const measured::FrequencyChannel& channel, bool has_causes) {
   FrequencyResponsePlot plot;
   plot.title = fmt::format("{}: torque to {}", experiment.runs[overlay.run].run.id,
                            in_words(overlay.sensor));
-  plot.analytical.push_back({kBaselineName, channel.frequency_Hz, as_response(overlay.before)});
+  plot.analytical.push_back(
+      {kBaselineName, channel.frequency_Hz, diagnose::response_of_parts(overlay.before)});
   if (has_causes) {
-    plot.analytical.push_back({kExtendedName, channel.frequency_Hz, as_response(overlay.after)});
+    plot.analytical.push_back(
+        {kExtendedName, channel.frequency_Hz, diagnose::response_of_parts(overlay.after)});
   }
   return frequency_response_figure(measured_response(channel), plot);
 }

@@ -4,13 +4,13 @@
 #include "measured/spectra/robust.hpp"
 #include "report/figures/meaning.hpp"
 #include "report/figures/sensor_label.hpp"
+#include "report/largest_stretch.hpp"
 #include "report/words.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <string>
 #include <utility>
 #include <variant>
@@ -68,24 +68,16 @@ std::vector<PredictedSignal> drawn_signals(const Diagnosis& diagnosis, std::size
 
 /// Where `kDrawnSamples` begin in which the residuals of the baseline are largest.
 std::size_t worst_stretch(const std::vector<PredictedSignal>& signals, std::size_t samples) {
-  if (samples <= kDrawnSamples) return 0;
-  std::vector<double> squares(samples + 1);
+  std::vector<double> squares(samples);
   for (const PredictedSignal& signal : signals) {
     const Overlay& overlay = *signal.overlay;
     const double scale = measured::standard_deviation(overlay.measured);
     if (!(scale > 0.0)) continue;
     for (std::size_t k = 0; k < samples; ++k) {
-      squares[k + 1] += std::pow((overlay.measured[k] - overlay.before[k]) / scale, 2);
+      squares[k] += std::pow((overlay.measured[k] - overlay.before[k]) / scale, 2);
     }
   }
-  std::partial_sum(squares.begin(), squares.end(), squares.begin());
-  std::size_t worst = 0;
-  for (std::size_t k = 0; k + kDrawnSamples <= samples; ++k) {
-    if (squares[k + kDrawnSamples] - squares[k] > squares[worst + kDrawnSamples] - squares[worst]) {
-      worst = k;
-    }
-  }
-  return worst;
+  return begin_of_largest_stretch(squares, kDrawnSamples);
 }
 
 struct Stretch {

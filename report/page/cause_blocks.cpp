@@ -3,6 +3,7 @@
 #include "report/page/page_curves.hpp"
 #include "report/page/page_words.hpp"
 #include "report/tables/missing_force_table.hpp"
+#include "report/words.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -22,13 +23,13 @@ std::string probability_text(double probability) {
 }
 
 std::string estimate_text(double value, double std_error, const std::string& unit) {
-  const std::string in_unit = printed_unit(unit).empty() ? "" : " " + printed_unit(unit);
+  const std::string in_unit = unit_text(unit).empty() ? "" : " " + unit_text(unit);
   return fmt::format("{} ± {}{}", number_of(value, 6), number_of(std_error, 2), in_unit);
 }
 
 std::string joined_words(const std::vector<std::string>& names) {
   std::vector<std::string> words;
-  for (const std::string& name : names) words.push_back(in_words(name));
+  for (const std::string& name : names) words.push_back(text_in_words(name));
   return fmt::format("{}", fmt::join(words, ", "));
 }
 
@@ -47,7 +48,7 @@ std::vector<double> column_of(const diagnose::EmpiricalLaw& law, const std::vect
 
 std::string cause_label(const diagnose::Cause& cause) {
   const std::string effect = sentence_of(cause.effect);
-  return cause.sensor.empty() ? effect : effect + " on " + in_words(cause.sensor);
+  return cause.sensor.empty() ? effect : effect + " on " + text_in_words(cause.sensor);
 }
 
 RankingBlock cause_ranking(const diagnose::Diagnosis& diagnosis) {
@@ -58,7 +59,7 @@ RankingBlock cause_ranking(const diagnose::Diagnosis& diagnosis) {
     RankingItem item{
         cause_label(cause), cause.confidence, probability_text(cause.confidence), true, {}};
     for (const auto& parameter : cause.parameters) {
-      item.details.push_back({in_words(parameter.name),
+      item.details.push_back({text_in_words(parameter.name),
                               estimate_text(parameter.value, parameter.std_error, parameter.unit)});
     }
     item.details.push_back({"explains of the excess residual", percent_of(cause.share)});
@@ -159,7 +160,7 @@ RankingBlock missing_force_ranking(const diagnose::MissingForce& force) {
                      fmt::format("{:.0f} ± {:.0f} %", 100.0 * port.share, 100.0 * port.std_error),
                      i < force.stated,
                      {}};
-    if (!port.place.empty()) item.details.push_back({"best place", in_words(port.place)});
+    if (!port.place.empty()) item.details.push_back({"best place", text_in_words(port.place)});
     block.items.push_back(std::move(item));
   }
   return block;

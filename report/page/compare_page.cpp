@@ -32,7 +32,7 @@ Verdict comparison_verdict(const std::vector<ComparedArm>& arms) {
   const bool agree = agreeing == std::ssize(arms);
   // "Verdict: agree. Largest difference relative to its tolerance: ..."
   const std::string line = verdict_line(worst_of(arms).comparison);
-  std::string sentence = in_words(line.substr(line.find(". ") + 2));
+  std::string sentence = text_in_words(line.substr(line.find(". ") + 2));
   if (arms.size() > 1) {
     sentence = fmt::format("{} of {} arms agree. {}", agreeing, arms.size(), sentence);
   }
@@ -132,7 +132,7 @@ void add_agreement(PageDocument& document, const NamedArm& arm) {
 void add_convergence(PageDocument& document, const std::vector<NamedArm>& arms) {
   Section section{"convergence", "Convergence"};
   if (auto block = comparison_convergence(arms); !block.views.empty()) {
-    section.text.push_back(in_words(convergence_legend(arms.front().arm->comparison)));
+    section.text.push_back(text_in_words(convergence_legend(arms.front().arm->comparison)));
     section.blocks.emplace_back(std::move(block));
   }
   for (const NamedArm& arm : arms) {

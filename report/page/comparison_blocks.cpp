@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -20,38 +19,18 @@ namespace {
 
 using compare::Comparison;
 
-constexpr double kNotOnLogAxis = std::numeric_limits<double>::quiet_NaN();
 /// Relative; roots that are nearer to each other are one point of a map.
 constexpr double kVisibleDistance = 1e-6;
 constexpr const char* kCoincide = "The other formulations have the same poles and zeros.";
 /// Enough roots to show the trend.
 constexpr std::array kConvergenceOrders = {1, 2, 3, 5, 10};
 
-std::vector<std::string> choices_of(const std::vector<NamedArm>& arms,
-                                    std::vector<std::string> others) {
-  if (arms.size() > 1) others.insert(others.begin(), "arm");
-  return others;
-}
-
-CurvesView view_of(const NamedArm& arm, std::vector<std::string> labels,
-                   std::vector<CurvesPanel> panels) {
-  if (!arm.name.empty()) labels.insert(labels.begin(), arm.name);
-  return {std::move(labels), {}, std::move(panels)};
-}
-
-std::vector<double> for_log_axis(std::vector<double> values) {
-  for (double& value : values) {
-    if (!(value > 0.0)) value = kNotOnLogAxis;
-  }
-  return values;
-}
-
 std::vector<CurvesPanel> response_comparison(const Comparison& comparison,
                                              const compare::ResponseComparison& response) {
   std::vector<BodeCurve> curves;
   CurvesPanel apart{{"relative difference", "", AxisScale::logarithmic}, 0.9, {}};
   for (std::size_t k = 0; k < comparison.subjects.size(); ++k) {
-    const std::string name = in_words(comparison.subjects[k]);
+    const std::string name = text_in_words(comparison.subjects[k]);
     curves.push_back({name, numbered_role(k), response.frequency_Hz, response.values[k]});
     if (k == 0) continue;
     auto differences = for_log_axis(response.relative_error[k]);
@@ -88,7 +67,7 @@ Series convergence_series(const compare::RefinementCurve& refined, std::size_t i
 void add_formulation(MapBlock& map, const Comparison& comparison, std::size_t k,
                      const arm::Sensor& sensor) {
   // The first role is drawn as what was measured is.
-  const MapSeries series{in_words(comparison.subjects[k]), numbered_role(k + 1)};
+  const MapSeries series{text_in_words(comparison.subjects[k]), numbered_role(k + 1)};
   std::vector<compare::AnalyticalPole> poles;
   std::vector<std::complex<double>> zeros;
   for (const auto& row : comparison.roots) {
@@ -105,6 +84,18 @@ void add_formulation(MapBlock& map, const Comparison& comparison, std::size_t k,
 }
 
 }  // namespace
+
+std::vector<std::string> choices_of(const std::vector<NamedArm>& arms,
+                                    std::vector<std::string> others) {
+  if (arms.size() > 1) others.insert(others.begin(), "arm");
+  return others;
+}
+
+CurvesView view_of(const NamedArm& arm, std::vector<std::string> labels,
+                   std::vector<CurvesPanel> panels) {
+  if (!arm.name.empty()) labels.insert(labels.begin(), arm.name);
+  return {std::move(labels), {}, std::move(panels)};
+}
 
 CurvesBlock comparison_responses(const std::vector<NamedArm>& arms) {
   CurvesBlock block{{"responses", "Frequency responses of the formulations",
@@ -136,7 +127,7 @@ CurvesBlock comparison_shapes(const std::vector<NamedArm>& arms) {
       CurvesPanel panel{{"displacement", "m"}, 1.0, {}};
       for (std::size_t k = 0; k < comparison.subjects.size(); ++k) {
         if (i >= comparison.modes[k].size()) continue;
-        panel.series.push_back(curve(in_words(comparison.subjects[k]), numbered_role(k),
+        panel.series.push_back(curve(text_in_words(comparison.subjects[k]), numbered_role(k),
                                      comparison.stations_m, comparison.modes[k][i].displacement_m));
       }
       const double f_Hz = comparison.modes.front()[i].omega_rad_per_s / (2.0 * std::numbers::pi);
@@ -168,8 +159,8 @@ CurvesBlock comparison_convergence(const std::vector<NamedArm>& arms) {
         panel.series.push_back(convergence_series(refined, panel.series.size()));
       }
       if (panel.series.empty()) continue;
-      block.views.push_back(view_of(arm, {family_name(first.family), in_words(first.refinement)},
-                                    {std::move(panel)}));
+      block.views.push_back(view_of(
+          arm, {family_name(first.family), text_in_words(first.refinement)}, {std::move(panel)}));
     }
   }
   return block;

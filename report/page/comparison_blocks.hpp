@@ -15,6 +15,14 @@ struct NamedArm {
   std::string name;
 };
 
+/// What the views of a block are chosen by: the arm, where there are several, and `others`.
+std::vector<std::string> choices_of(const std::vector<NamedArm>& arms,
+                                    std::vector<std::string> others);
+
+/// A view of one arm; `labels` are those of the other choices.
+CurvesView view_of(const NamedArm& arm, std::vector<std::string> labels,
+                   std::vector<CurvesPanel> panels);
+
 /// Frequency responses of every formulation, and the relative difference from the first one below;
 /// a view an arm and sensor.
 CurvesBlock comparison_responses(const std::vector<NamedArm>& arms);

@@ -14,6 +14,7 @@
 #include "report/tables/plan_tables.hpp"
 #include "report/tables/prediction_error_table.hpp"
 #include "report/tables/symptom_tables.hpp"
+#include "report/words.hpp"
 
 #include <fmt/format.h>
 
@@ -43,7 +44,7 @@ Status status_of(diagnose::Verdict verdict) {
 
 /// The verdict's first sentence, and the others.
 std::pair<std::string, std::string> verdict_sentences(const Diagnosis& diagnosis) {
-  const std::string text = in_words(verdict_text(diagnosis));
+  const std::string text = text_in_words(verdict_text(diagnosis));
   const std::size_t end = text.find(". ");
   if (end == std::string::npos) return {text, ""};
   return {text.substr(0, end + 1), text.substr(end + 2)};
@@ -62,21 +63,20 @@ std::vector<Fact> headline_facts(const Diagnosis& diagnosis) {
   }
   if (!diagnosis.causes.empty()) {
     const diagnose::Cause& leading = diagnosis.causes.front();
-    facts.push_back(
-        {"probability of " + in_words(leading.effect), fmt::format("{:.2f}", leading.confidence)});
+    facts.push_back({"probability of " + text_in_words(leading.effect),
+                     fmt::format("{:.2f}", leading.confidence)});
     if (!leading.parameters.empty()) {
       const auto& parameter = leading.parameters.front();
-      facts.push_back(
-          {in_words(leading.effect) + ": " + in_words(parameter.name),
-           fmt::format("{} ± {} {}", number_of(parameter.value, 5),
-                       number_of(parameter.std_error, 2), printed_unit(parameter.unit))});
+      facts.push_back({text_in_words(leading.effect) + ": " + text_in_words(parameter.name),
+                       fmt::format("{} ± {} {}", number_of(parameter.value, 5),
+                                   number_of(parameter.std_error, 2), unit_text(parameter.unit))});
     }
   }
   return facts;
 }
 
 void add_text(Section& section, const std::string& text) {
-  if (!text.empty()) section.text.push_back(in_words(text));
+  if (!text.empty()) section.text.push_back(text_in_words(text));
 }
 
 Section causes_section(const Diagnosis& diagnosis, const std::string& rest_of_verdict) {
@@ -262,14 +262,15 @@ PageDocument diagnose_page(const Experiment& experiment, const Diagnosis& diagno
   const auto frequency_channels = diagnosed_channels(experiment, diagnosis, measured::RunKind::frf);
   auto maps = diagnosed_maps(experiment, diagnosis);
   auto [sentence, rest] = verdict_sentences(diagnosis);
-  PageDocument document{origin.program,
-                        origin.command,
-                        "Diagnosis of " + origin.subject,
-                        {status_of(diagnosis.verdict),
-                         in_words(diagnose::to_string(diagnosis.verdict)), std::move(sentence)},
-                        {},
-                        headline_facts(diagnosis),
-                        {}};
+  PageDocument document{
+      origin.program,
+      origin.command,
+      "Diagnosis of " + origin.subject,
+      {status_of(diagnosis.verdict), text_in_words(diagnose::to_string(diagnosis.verdict)),
+       std::move(sentence)},
+      {},
+      headline_facts(diagnosis),
+      {}};
   document.headline = headline_of(time_channels, frequency_channels, maps, has_after(diagnosis));
   document.add(causes_section(diagnosis, rest));
   document.add(further_runs_section(diagnosis));

@@ -2,11 +2,11 @@
 
 #include "report/figures/sensor_label.hpp"
 #include "report/page/page_words.hpp"
+#include "report/words.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <variant>
 
 namespace flexarm::report::page {
@@ -14,7 +14,7 @@ namespace flexarm::report::page {
 namespace {
 
 std::vector<double> with_gaps(std::vector<double> values, const std::vector<std::size_t>& gaps) {
-  for (const std::size_t k : gaps) values[k] = std::numeric_limits<double>::quiet_NaN();
+  for (const std::size_t k : gaps) values[k] = kGapNumber;
   return values;
 }
 
@@ -24,7 +24,7 @@ std::string fit_text(double nrmse) {
 
 DiagnosedChannel channel_of(const measured::MeasuredRun& run, const diagnose::Overlay& overlay,
                             const diagnose::Gain& error) {
-  DiagnosedChannel channel{&run, &overlay, &error, in_words(overlay.sensor), ""};
+  DiagnosedChannel channel{&run, &overlay, &error, text_in_words(overlay.sensor), ""};
   if (run.run.kind == measured::RunKind::modal) return channel;
   if (overlay.sensor == diagnose::kTorqueChannel) {
     channel.unit = "N m";
@@ -32,7 +32,7 @@ DiagnosedChannel channel_of(const measured::MeasuredRun& run, const diagnose::Ov
   }
   const arm::Sensor sensor = arm::parse_sensor(overlay.sensor);
   channel.sensor = sensor_label(sensor);
-  channel.unit = printed_unit(arm::unit(sensor));
+  channel.unit = axis_unit(sensor);
   if (const auto* record = std::get_if<measured::TimeRecord>(&run.data)) {
     const auto at = std::ranges::find(record->channels, sensor, &measured::Channel::sensor);
     if (at != record->channels.end()) channel.left_out = at->left_out;

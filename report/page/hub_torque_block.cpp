@@ -4,14 +4,11 @@
 #include "report/figures/residual_torque.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 namespace flexarm::report::page {
 
 namespace {
-
-constexpr double kGapNumber = std::numeric_limits<double>::quiet_NaN();
 
 ScatterPanel torque_scatter(const diagnose::HubTorque& torque,
                             const diagnose::HubTorqueTrace& trace, bool of_velocity) {

@@ -9,6 +9,7 @@
 #include "report/page/page_words.hpp"
 #include "report/page/root_map.hpp"
 #include "report/tables/identification_tables.hpp"
+#include "report/words.hpp"
 
 #include <fmt/format.h>
 
@@ -16,7 +17,6 @@
 #include <array>
 #include <cmath>
 #include <complex>
-#include <limits>
 #include <numbers>
 #include <string_view>
 #include <utility>
@@ -27,7 +27,6 @@ namespace {
 
 using measured::RunIdentification;
 
-constexpr double kNotDrawnNumber = std::numeric_limits<double>::quiet_NaN();
 constexpr const char* kArmFile = "arm file";
 
 const compare::IdentifiedCondition* condition_of(const IdentifiedRuns& runs, std::size_t run) {
@@ -122,7 +121,7 @@ CurvesPanel spectrum_of(const std::string& label, const std::string& unit, Role 
   std::vector<float> y_std;
   for (const std::size_t k : thinned_lines(frequency_Hz, density, std::move(lines))) {
     x.push_back(static_cast<float>(frequency_Hz[k]));
-    y.push_back(static_cast<float>(density[k] > 0.0 ? density[k] : kNotDrawnNumber));
+    y.push_back(static_cast<float>(density[k] > 0.0 ? density[k] : kGapNumber));
     if (!relative_std.empty()) y_std.push_back(static_cast<float>(density[k] * relative_std[k]));
   }
   Samples samples{std::move(x), std::move(y)};
@@ -253,14 +252,15 @@ CurvesBlock autopower_spectra(const IdentifiedRuns& runs) {
     const auto input = estimate.settings.estimator.input;
     const bool is_torque = input == measured::RecordedSignal::torque;
     const std::string input_unit =
-        is_torque ? "N m" : printed_unit(arm::unit(arm::parse_sensor(measured::to_string(input))));
+        is_torque ? "N m" : axis_unit(arm::parse_sensor(measured::to_string(input)));
     CurvesView view{{run.run.id}, {}, {}};
-    view.panels.push_back(spectrum_of(in_words(measured::to_string(input)), input_unit, Role::first,
-                                      estimate.frequency_Hz, estimate.input_autopower, {}));
+    view.panels.push_back(spectrum_of(text_in_words(measured::to_string(input)), input_unit,
+                                      Role::first, estimate.frequency_Hz, estimate.input_autopower,
+                                      {}));
     for (const auto& channel : estimate.channels) {
-      view.panels.push_back(spectrum_of(
-          sensor_label(channel.sensor), printed_unit(arm::unit(channel.sensor)), Role::measured,
-          estimate.frequency_Hz, channel.autopower, channel.autopower_relative_std));
+      view.panels.push_back(spectrum_of(sensor_label(channel.sensor), axis_unit(channel.sensor),
+                                        Role::measured, estimate.frequency_Hz, channel.autopower,
+                                        channel.autopower_relative_std));
     }
     block.views.push_back(std::move(view));
   }
@@ -375,12 +375,10 @@ CurvesBlock recorded_signals(const IdentifiedRuns& runs) {
     };
     add("torque", "N m", Role::first, record->torque_N_m);
     if (!record->reference.values.empty()) {
-      add("reference", printed_unit(record->reference.unit), Role::second,
-          record->reference.values);
+      add("reference", unit_text(record->reference.unit), Role::second, record->reference.values);
     }
     for (const auto& channel : record->channels) {
-      add(sensor_label(channel.sensor), printed_unit(arm::unit(channel.sensor)), Role::measured,
-          channel.values);
+      add(sensor_label(channel.sensor), axis_unit(channel.sensor), Role::measured, channel.values);
     }
   }
   return block;

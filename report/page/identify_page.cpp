@@ -31,7 +31,8 @@ struct IdentifiedSummary {
 std::string name_of_root(const compare::IdentifiedRoot& root) {
   const auto& entry = root.measured;
   if (entry.feature == measured::Feature::pole) return fmt::format("pole {}", *root.order);
-  return fmt::format("zero {} of the {}", *root.order, in_words(arm::to_string(*entry.sensor)));
+  return fmt::format("zero {} of the {}", *root.order,
+                     text_in_words(arm::to_string(*entry.sensor)));
 }
 
 IdentifiedSummary summary_of(const IdentifiedRuns& runs) {
@@ -120,12 +121,12 @@ Section fit_section(const IdentifiedRuns& runs) {
       const auto& fit = runs.identification.fits[f];
       if (!fit.refusal.empty()) continue;
       const std::string name = joined(ids_of(fit, runs.identification));
-      section.text.push_back(
-          fmt::format("{}: {} to {} Hz, {} second-order sections, {} of them modes; {}{}.", name,
-                      number_of(fit.fit.band.from_Hz, 4), number_of(fit.fit.band.to_Hz, 4),
-                      fit.fit.poles.size(),
-                      std::ranges::count(fit.fit.poles, true, &measured::FittedPole::is_mode),
-                      in_words(fit.fit.order_reason), fit.fit.converged ? "" : "; not converged"));
+      section.text.push_back(fmt::format(
+          "{}: {} to {} Hz, {} second-order sections, {} of them modes; {}{}.", name,
+          number_of(fit.fit.band.from_Hz, 4), number_of(fit.fit.band.to_Hz, 4),
+          fit.fit.poles.size(),
+          std::ranges::count(fit.fit.poles, true, &measured::FittedPole::is_mode),
+          text_in_words(fit.fit.order_reason), fit.fit.converged ? "" : "; not converged"));
       add_table(section, residual_table(fit), "residuals");
       add_table(section, gain_table(fit, condition.analytical), "gains");
     }
@@ -144,7 +145,8 @@ Section spectra_section(const IdentifiedRuns& runs) {
   for (const auto& run : runs.identification.runs) {
     if (!run.estimate) continue;
     for (const auto& [name, value, reason] : run.estimate->settings.reports) {
-      settings.rows.push_back({run.run.id, in_words(name), in_words(value), in_words(reason)});
+      settings.rows.push_back(
+          {run.run.id, text_in_words(name), text_in_words(value), text_in_words(reason)});
     }
   }
   if (!settings.rows.empty()) section.blocks.emplace_back(std::move(settings));
@@ -165,7 +167,7 @@ Section circles_section(const IdentifiedRuns& runs) {
 Section recordings_section(const IdentifiedRuns& runs) {
   Section section{"recordings", "Recordings"};
   const auto notes = data_notes(runs.identification);
-  for (const auto& note : notes) section.text.push_back(in_words(note));
+  for (const auto& note : notes) section.text.push_back(text_in_words(note));
   if (notes.empty()) section.text.emplace_back("The checks of the recordings found no fault.");
   if (auto signals = recorded_signals(runs); !signals.views.empty()) {
     section.blocks.emplace_back(std::move(signals));

@@ -11,7 +11,6 @@
 
 #include <cmath>
 #include <complex>
-#include <limits>
 #include <utility>
 
 namespace flexarm::report::page {
@@ -23,11 +22,10 @@ Series difference(const compare::MeasuredResponse& compared, std::size_t model) 
   std::vector<double> values;
   for (std::size_t i = 0; i < compared.measured.frequency_Hz.size(); ++i) {
     const std::complex<double> measured = compared.measured.response[i];
-    const double apart = std::abs(compared.values[model][i] - measured) / std::abs(measured);
-    values.push_back(apart > 0.0 ? apart : std::numeric_limits<double>::quiet_NaN());
+    values.push_back(std::abs(compared.values[model][i] - measured) / std::abs(measured));
   }
-  return curve(in_words(compared.models[model]), numbered_role(model + 1),
-               compared.measured.frequency_Hz, std::move(values), Draw::points);
+  return curve(text_in_words(compared.models[model]), numbered_role(model + 1),
+               compared.measured.frequency_Hz, for_log_axis(std::move(values)), Draw::points);
 }
 
 std::vector<CurvesPanel> response_panels(const compare::MeasuredResponse& compared) {
@@ -38,7 +36,7 @@ std::vector<CurvesPanel> response_panels(const compare::MeasuredResponse& compar
   const bool is_dense = !compared.curves.empty();
   for (std::size_t k = 0; k < compared.models.size(); ++k) {
     // The first role is drawn as what was measured is.
-    curves.push_back({in_words(compared.models[k]), numbered_role(k + 1),
+    curves.push_back({text_in_words(compared.models[k]), numbered_role(k + 1),
                       is_dense ? compared.curve_frequency_Hz : measured.frequency_Hz,
                       is_dense ? compared.curves[k] : compared.values[k]});
     apart.series.push_back(difference(compared, k));
@@ -55,17 +53,16 @@ CurvesBlock measured_responses(const std::vector<NamedArm>& arms) {
                      "The lowest panel has the difference of each model from the measured "
                      "response, relative to it."},
                     frequency_axis(),
-                    {"run", "sensor"},
+                    choices_of(arms, {"run", "sensor"}),
                     {}};
-  if (arms.size() > 1) block.choices.insert(block.choices.begin(), "arm");
   for (const NamedArm& arm : arms) {
     for (const auto& compared : arm.arm->measured.responses) {
       auto panels = response_panels(compared);
       if (panels.empty()) continue;
-      std::vector<std::string> labels = {compared.run.empty() ? "measured" : compared.run,
-                                         sensor_label(compared.measured.sensor)};
-      if (arms.size() > 1) labels.insert(labels.begin(), arm.name);
-      block.views.push_back({std::move(labels), {}, std::move(panels)});
+      block.views.push_back(view_of(arm,
+                                    {compared.run.empty() ? "measured" : compared.run,
+                                     sensor_label(compared.measured.sensor)},
+                                    std::move(panels)));
     }
   }
   return block;
@@ -80,7 +77,7 @@ void add_measured_tables(Section& section, const NamedArm& arm) {
     add_table(section, mac_table(measured.shapes[i]), fmt::format("mac-{}", i + 1));
   }
   if (std::string summary = measured_summary(measured.rows); !summary.empty()) {
-    section.text.push_back(in_words(summary));
+    section.text.push_back(text_in_words(summary));
   }
 }
 

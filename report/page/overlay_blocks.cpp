@@ -2,6 +2,7 @@
 
 #include "measured/spectra/correlation.hpp"
 #include "measured/spectra/robust.hpp"
+#include "report/largest_stretch.hpp"
 #include "report/page/page_curves.hpp"
 #include "report/page/page_words.hpp"
 
@@ -54,15 +55,11 @@ std::vector<CurvesPanel> overlay_panels(const DiagnosedChannel& channel, bool ha
 
 /// Where `count` samples begin whose residuals without causes have the largest squares.
 std::size_t begin_of_worst(const std::vector<double>& residual, std::size_t count) {
-  std::vector<double> sums(residual.size() + 1, 0.0);
-  for (std::size_t k = 0; k < residual.size(); ++k) {
-    sums[k + 1] = sums[k] + (std::isfinite(residual[k]) ? residual[k] * residual[k] : 0.0);
+  std::vector<double> squares;
+  for (const double value : residual) {
+    squares.push_back(std::isfinite(value) ? value * value : 0.0);
   }
-  std::size_t worst = 0;
-  for (std::size_t k = 0; k + count < sums.size(); ++k) {
-    if (sums[k + count] - sums[k] > sums[worst + count] - sums[worst]) worst = k;
-  }
-  return worst;
+  return begin_of_largest_stretch(squares, count);
 }
 
 /// What drives the simulation of a run: the reference of a stated controller, else the torque.

@@ -13,7 +13,6 @@ namespace flexarm::report::page {
 
 namespace {
 
-constexpr double kMissingNumber = std::numeric_limits<double>::quiet_NaN();
 constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
 constexpr double kPhaseWrap_deg = 225.0;
 
@@ -70,14 +69,14 @@ template <class ValueAndStd>
 GappedCurve gapped(const BodeCurve& curve, const std::vector<std::size_t>& lines, double wrap,
                    const ValueAndStd& value_and_std) {
   GappedCurve made;
-  double before = kMissingNumber;
+  double before = kGapNumber;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const std::size_t line = lines[i];
     const auto [value, deviation] = value_and_std(i);
     const double f_Hz = curve.frequency_Hz[line];
     const bool wraps = std::abs(value - before) > wrap;
     if (wraps || has_gap(curve, lines, i)) {
-      made.add(f_Hz, kMissingNumber, kMissingNumber);
+      made.add(f_Hz, kGapNumber, kGapNumber);
     }
     made.add(f_Hz, value, deviation);
     before = value;
@@ -117,6 +116,13 @@ bool has_number(const std::vector<double>& values) {
   return std::ranges::any_of(values, [](double value) { return std::isfinite(value); });
 }
 
+std::vector<double> for_log_axis(std::vector<double> values) {
+  for (double& value : values) {
+    if (!(value > 0.0)) value = kGapNumber;
+  }
+  return values;
+}
+
 std::vector<float> as_singles(const std::vector<double>& values) {
   return {values.begin(), values.end()};
 }
@@ -146,7 +152,7 @@ std::vector<CurvesPanel> bode_panels(const std::string& unit,
     if (lines.empty()) continue;
     const bool has_std = !curve.relative_std.empty();
     const auto std_of = [&](std::size_t line) {
-      return has_std ? curve.relative_std[line] : kMissingNumber;
+      return has_std ? curve.relative_std[line] : kGapNumber;
     };
     constexpr double kNoWrap = std::numeric_limits<double>::infinity();
     auto sizes = gapped(curve, lines, kNoWrap, [&](std::size_t i) {
@@ -166,9 +172,9 @@ std::vector<CurvesPanel> bode_panels(const std::string& unit,
     GappedCurve squared;
     for (const std::size_t line : all_lines) {
       if (!squared.x.empty() && begins_band(curve.frequency_Hz, line)) {
-        squared.add(curve.frequency_Hz[line], kMissingNumber, kMissingNumber);
+        squared.add(curve.frequency_Hz[line], kGapNumber, kGapNumber);
       }
-      squared.add(curve.frequency_Hz[line], curve.coherence[line], kMissingNumber);
+      squared.add(curve.frequency_Hz[line], curve.coherence[line], kGapNumber);
     }
     if (std::ranges::none_of(squared.y, [](double value) { return std::isfinite(value); }))
       continue;

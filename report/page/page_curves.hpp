@@ -15,6 +15,9 @@ Record record_of(const std::vector<double>& time_s, const std::vector<double>& v
 /// Whether any of them is finite.
 bool has_number(const std::vector<double>& values);
 
+/// The values with gaps where a logarithmic axis has no place for them.
+std::vector<double> for_log_axis(std::vector<double> values);
+
 /// The numbers in single precision, which is enough to draw them.
 std::vector<float> as_singles(const std::vector<double>& values);
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <string>
 #include <variant>
@@ -13,6 +14,9 @@
 /// Words and units are those of an engineer ("hub angle", "m/s^2"). Numbers that stand in a text
 /// come formatted.
 namespace flexarm::report::page {
+
+/// Where a curve has a gap, and a number is not known.
+inline constexpr double kGapNumber = std::numeric_limits<double>::quiet_NaN();
 
 /// start + step * index.
 struct EvenRange {

@@ -9,19 +9,13 @@ namespace flexarm::report::page {
 
 /// A text with the words of an engineer in the place of identifiers: of effects
 /// ("Coulomb friction"), sensors ("hub angle", "strain at 0.05 m"), formulations ("finite
-/// elements") and other names with underscores ("static torque"). Keys of the arm file, which have
-/// a dot
-/// ("beam.youngs_modulus"), and names of files stay as they are.
-std::string in_words(std::string_view text);
+/// elements") and other names with underscores ("static torque"). Unlike with `in_words`
+/// (report/words.hpp), keys of the arm file, which have a dot ("beam.youngs_modulus"), and names of
+/// files stay as they are.
+std::string text_in_words(std::string_view text);
 
-/// "payload mass" of the key payload.mass, "root compliance stiffness" of an effect's parameter.
-std::string parameter_words(const std::string& key);
-
-/// `in_words` with a capital at its beginning.
+/// `text_in_words` with a capital at its beginning.
 std::string sentence_of(std::string_view text);
-
-/// A unit as it is printed: "m/s²", "N m s/rad"; empty for "1".
-std::string printed_unit(std::string_view unit);
 
 /// The unit of torque to that sensor, "(m/s²)/(N m)".
 std::string response_unit(const arm::Sensor& sensor);

@@ -3,6 +3,7 @@
 #include "report/page/page_table.hpp"
 #include "report/page/page_words.hpp"
 #include "report/tables/plan_tables.hpp"
+#include "report/words.hpp"
 
 #include <fmt/format.h>
 
@@ -66,7 +67,7 @@ RankingBlock distinguishability(const Plan& plan) {
       item.share = share_of(lead);
       item.value = nearest ? lead_words(lead) : "no alternative";
       item.details.push_back(
-          {"minimum detectable value", in_words(minimum_detectable(plan.effects[i]))});
+          {"minimum detectable value", text_in_words(minimum_detectable(plan.effects[i]))});
       if (nearest) {
         item.details.push_back({"nearest alternative", effect_words(plan, nearest->rival)});
       }
@@ -129,8 +130,8 @@ TableBlock standard_errors(const Plan& plan) {
     const double value =
         detection.compared->values[static_cast<std::size_t>(at - parameters.begin())];
     const double error = std::abs(value - at->neutral.value_or(0.0)) / detection.compared_change;
-    block.rows.push_back({effect_words(plan, i), in_words(at->name),
-                          printed_unit(detection.hypothesis.unit_of(*at)), number_of(value, 4),
+    block.rows.push_back({effect_words(plan, i), text_in_words(at->name),
+                          unit_text(detection.hypothesis.unit_of(*at)), number_of(value, 4),
                           number_of(error, 2)});
   }
   return block;
@@ -159,7 +160,7 @@ Section ties_section(const Plan& plan) {
   for (const auto& members : plan.classes) {
     std::string text = "Equivalence class: ";
     for (std::size_t i = 0; i < members.size(); ++i) {
-      text += (i > 0 ? ", " : "") + in_words(plan.effects[members[i]].hypothesis.label());
+      text += (i > 0 ? ", " : "") + text_in_words(plan.effects[members[i]].hypothesis.label());
     }
     section.text.push_back(text + ".");
   }

@@ -1,6 +1,7 @@
 #include "report/page/response_blocks.hpp"
 
 #include "arm/input_error.hpp"
+#include "diagnose/observations.hpp"
 #include "measured/spectra/estimator_choice.hpp"
 #include "measured/spectra/response_estimate.hpp"
 #include "report/figures/frequency_response_figure.hpp"
@@ -14,7 +15,6 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <limits>
 #include <span>
 #include <utility>
 
@@ -23,8 +23,6 @@ namespace flexarm::report::page {
 namespace {
 
 using Responses = std::vector<std::complex<double>>;
-
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 /// Measured beside simulated, on one grid.
 struct ResponsePair {
@@ -46,11 +44,11 @@ Series line_series(const std::string& label, Role role, const MeasuredResponse& 
     if (!(f_Hz > 0.0)) continue;
     if (begins_band(measured.frequency_Hz, k)) {
       x.push_back(f_Hz);
-      y.push_back(kUnknown);
+      y.push_back(kGapNumber);
     }
     const double value = value_of(k);
     x.push_back(f_Hz);
-    y.push_back(value > 0.0 && is_known(measured.relative_std, k) ? value : kUnknown);
+    y.push_back(value > 0.0 && is_known(measured.relative_std, k) ? value : kGapNumber);
   }
   return curve(label, role, std::move(x), std::move(y));
 }
@@ -79,7 +77,7 @@ std::vector<CurvesPanel> response_panels(const ResponsePair& pair, bool has_caus
   if (has_causes) curves.push_back({kAfterLabel, Role::after, f_Hz, pair.after});
   for (BodeCurve& simulated : std::span(curves).subspan(1)) {
     for (std::size_t k = 0; k < f_Hz.size(); ++k) {
-      if (!is_known(pair.measured.relative_std, k)) simulated.response[k] = kUnknown;
+      if (!is_known(pair.measured.relative_std, k)) simulated.response[k] = kGapNumber;
     }
   }
   auto panels = bode_panels(response_unit(pair.sensor), curves);
@@ -100,19 +98,12 @@ std::vector<CurvesPanel> response_panels(const ResponsePair& pair, bool has_caus
   return panels;
 }
 
-/// Real and imaginary parts, frequency by frequency.
-Responses response_of_parts(const std::vector<double>& parts) {
-  Responses made;
-  for (std::size_t k = 0; k + 1 < parts.size(); k += 2) made.emplace_back(parts[k], parts[k + 1]);
-  return made;
-}
-
 ResponsePair given(const DiagnosedChannel& channel) {
   const auto& record = std::get<measured::FrequencyRecord>(channel.run->data);
   const arm::Sensor sensor = arm::parse_sensor(channel.overlay->sensor);
   const auto at = std::ranges::find(record.channels, sensor, &measured::FrequencyChannel::sensor);
-  return {sensor, measured_response(*at), response_of_parts(channel.overlay->before),
-          response_of_parts(channel.overlay->after)};
+  return {sensor, measured_response(*at), diagnose::response_of_parts(channel.overlay->before),
+          diagnose::response_of_parts(channel.overlay->after)};
 }
 
 /// The settings that an estimate came to, as given ones.

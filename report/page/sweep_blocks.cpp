@@ -5,13 +5,13 @@
 #include "report/page/page_curves.hpp"
 #include "report/page/page_words.hpp"
 #include "report/tables/sweep_tables.hpp"
+#include "report/words.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <limits>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -24,7 +24,6 @@ using compare::SweepCurve;
 using compare::SweepFamily;
 using compare::SweepResult;
 
-constexpr double kNoRoot = std::numeric_limits<double>::quiet_NaN();
 constexpr double kOneTurn = 2.0 * std::numbers::pi;
 
 /// A line of the grid along the last parameter, in ascending order of its values.
@@ -43,7 +42,7 @@ class GridRow {
   std::string label() const {
     if (result_.task.axes.size() < 2) return "";
     const auto& first = result_.task.axes.front();
-    const std::string unit = printed_unit(first.parameter.unit);
+    const std::string unit = unit_text(first.parameter.unit);
     return number_of(first.values[row_], 5) + (unit.empty() ? "" : " " + unit);
   }
 
@@ -73,7 +72,7 @@ std::vector<GridRow> shown_rows(const SweepResult& result) {
 
 Axis parameter_axis(const SweepResult& result) {
   const auto& last = result.task.axes.back();
-  return {parameter_words(last.parameter.name), printed_unit(last.parameter.unit),
+  return {in_words(last.parameter.name), unit_text(last.parameter.unit),
           last.logarithmic ? AxisScale::logarithmic : AxisScale::linear};
 }
 
@@ -91,9 +90,9 @@ SweepTrack track_of(const SweepCurve& curve, const GridRow& row, std::size_t ind
                    {}};
   for (std::size_t k = 0; k < row.length(); ++k) {
     const auto& s = curve.s_rad_per_s.front()[row.point(k)];
-    track.real.push_back(s ? s->real() : kNoRoot);
-    track.imaginary.push_back(s ? s->imag() : kNoRoot);
-    track.frequency.push_back(s ? std::abs(*s) / kOneTurn : kNoRoot);
+    track.real.push_back(s ? s->real() : kGapNumber);
+    track.imaginary.push_back(s ? s->imag() : kGapNumber);
+    track.frequency.push_back(s ? std::abs(*s) / kOneTurn : kGapNumber);
   }
   return track;
 }
@@ -112,8 +111,7 @@ SweepBlock sweep_map(const SweepResult& result, const std::optional<arm::Sensor>
   const std::string name = sensor ? sensor_label(*sensor) : "";
   std::string title = sensor ? "Poles and zeros of torque to " + name : "Poles";
   if (!row.label().empty()) {
-    title += fmt::format(", {} {}", parameter_words(result.task.axes.front().parameter.name),
-                         row.label());
+    title += fmt::format(", {} {}", in_words(result.task.axes.front().parameter.name), row.label());
   }
   SweepBlock block{{"sweep-map-" + name, title,
                     "Upper half plane. Roots have their conjugates; zeros, which are those of the "
@@ -153,7 +151,7 @@ std::string family_words(const SweepFamily& family) {
 /// The largest relative difference from the first model at each point of a row.
 std::vector<double> largest_differences(const SweepResult& result, const SweepFamily& family,
                                         const GridRow& row, std::size_t model) {
-  std::vector<double> largest(row.length(), kNoRoot);
+  std::vector<double> largest(row.length(), kGapNumber);
   for (const SweepCurve& curve : result.curves) {
     if (curve.family != family) continue;
     for (std::size_t k = 0; k < row.length(); ++k) {
@@ -183,9 +181,9 @@ CurvesView family_view(const SweepResult& result, const SweepFamily& family, con
   for (std::size_t m = 1; m < result.task.models.size(); ++m) {
     auto differences = largest_differences(result, family, row, m);
     // Where all digits agree there is nothing to draw on a logarithmic axis.
-    for (double& value : differences) value = value > 0.0 ? value : kNoRoot;
+    for (double& value : differences) value = value > 0.0 ? value : kGapNumber;
     if (!has_number(differences)) continue;
-    apart.series.push_back(page::curve(in_words(result.task.models[m].name), numbered_role(m),
+    apart.series.push_back(page::curve(text_in_words(result.task.models[m].name), numbered_role(m),
                                        row.values(), std::move(differences)));
   }
   if (!apart.series.empty()) view.panels.push_back(std::move(apart));
@@ -230,10 +228,10 @@ CurvesBlock sweep_curves(const SweepResult& result) {
                     {"numbers"},
                     {}};
   if (has_rows) {
-    block.choices.push_back(parameter_words(result.task.axes.front().parameter.name));
+    block.choices.push_back(in_words(result.task.axes.front().parameter.name));
   }
   if (result.task.models.size() > 1) {
-    block.head.caption = "Curves are of the " + in_words(result.task.models.front().name) +
+    block.head.caption = "Curves are of the " + text_in_words(result.task.models.front().name) +
                          "; below them the largest difference of the other formulations from it.";
   }
   std::vector<SweepFamily> families;

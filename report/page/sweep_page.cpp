@@ -4,6 +4,7 @@
 #include "report/page/page_words.hpp"
 #include "report/page/sweep_blocks.hpp"
 #include "report/tables/sweep_tables.hpp"
+#include "report/words.hpp"
 
 #include <fmt/format.h>
 
@@ -22,16 +23,16 @@ Verdict sweep_verdict(const SweepResult& result) {
   if (result.agreement.empty()) {
     return {Status::neutral, "computed",
             fmt::format("{} points by {} alone.", result.task.points(),
-                        in_words(result.task.models.front().name))};
+                        text_in_words(result.task.models.front().name))};
   }
   std::string line = sweep_verdict_line(result);
   line.erase(line.find_last_not_of("\n ") + 1);
   // "Agree: largest relative difference ..."
-  std::string found = in_words(line.substr(line.find(": ") + 2));
+  std::string found = text_in_words(line.substr(line.find(": ") + 2));
   for (const auto& axis : result.task.axes) {
     const std::string& key = axis.parameter.name;
     if (const auto at = found.find(key); at != std::string::npos) {
-      found.replace(at, key.size(), parameter_words(key));
+      found.replace(at, key.size(), in_words(key));
     }
   }
   const bool agree = result.agrees();
@@ -42,9 +43,9 @@ Verdict sweep_verdict(const SweepResult& result) {
 std::vector<Fact> sweep_facts(const SweepResult& result) {
   std::vector<Fact> facts;
   for (const auto& axis : result.task.axes) {
-    const std::string unit = printed_unit(axis.parameter.unit);
+    const std::string unit = unit_text(axis.parameter.unit);
     facts.push_back(
-        {parameter_words(axis.parameter.name),
+        {in_words(axis.parameter.name),
          fmt::format("{} to {}{}", number_of(axis.values.front(), 4),
                      number_of(axis.values.back(), 4), unit.empty() ? "" : " " + unit)});
   }

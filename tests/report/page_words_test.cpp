@@ -1,6 +1,7 @@
 #include "report/page/page_words.hpp"
 
 #include "report/page/page_table.hpp"
+#include "report/words.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,27 +11,27 @@ namespace flexarm::report::page {
 namespace {
 
 TEST(PageWords, StandInThePlaceOfIdentifiers) {
-  EXPECT_EQ(in_words("coulomb_friction"), "Coulomb friction");
-  EXPECT_EQ(in_words("Explained by coulomb_friction + stribeck_friction."),
+  EXPECT_EQ(text_in_words("coulomb_friction"), "Coulomb friction");
+  EXPECT_EQ(text_in_words("Explained by coulomb_friction + stribeck_friction."),
             "Explained by Coulomb friction + Stribeck friction.");
-  EXPECT_EQ(in_words("hub_angle zero 3"), "hub angle zero 3");
-  EXPECT_EQ(in_words("strain@0.05, strain@1e-3"), "strain at 0.05 m, strain at 1e-3 m");
-  EXPECT_EQ(in_words("fem and exact_tf"), "finite elements and exact transfer function");
+  EXPECT_EQ(text_in_words("hub_angle zero 3"), "hub angle zero 3");
+  EXPECT_EQ(text_in_words("strain@0.05, strain@1e-3"), "strain at 0.05 m, strain at 1e-3 m");
+  EXPECT_EQ(text_in_words("fem and exact_tf"), "finite elements and exact transfer function");
 }
 
 TEST(PageWords, KeysAndFilesStayAsTheyAre) {
-  EXPECT_EQ(in_words("beam.youngs_modulus = 7e10"), "beam.youngs_modulus = 7e10");
-  EXPECT_EQ(in_words("in my_run/hub_angle.csv"), "in my_run/hub_angle.csv");
+  EXPECT_EQ(text_in_words("beam.youngs_modulus = 7e10"), "beam.youngs_modulus = 7e10");
+  EXPECT_EQ(text_in_words("in my_run/hub_angle.csv"), "in my_run/hub_angle.csv");
 }
 
 TEST(PageWords, UnitsArePrinted) {
-  EXPECT_EQ(printed_unit("m/s^2"), "m/s²");
-  EXPECT_EQ(printed_unit("1"), "");
+  EXPECT_EQ(unit_text("m/s^2"), "m/s²");
+  EXPECT_EQ(unit_text("1"), "");
   EXPECT_EQ(response_unit({arm::SensorKind::tip_acceleration, 0.0}), "(m/s²)/(N m)");
   EXPECT_EQ(response_unit({arm::SensorKind::hub_angle, 0.0}), "rad/(N m)");
   EXPECT_EQ(response_unit({arm::SensorKind::strain, 0.1}), "1/(N m)");
-  EXPECT_EQ(parameter_words("effects.root_compliance.stiffness"), "root compliance stiffness");
-  EXPECT_EQ(parameter_words("payload.mass"), "payload mass");
+  EXPECT_EQ(in_words("effects.root_compliance.stiffness"), "root compliance stiffness");
+  EXPECT_EQ(in_words("payload.mass"), "payload mass");
 }
 
 TEST(PageWords, WhatIsNoNumberIsADash) {
@@ -54,6 +55,14 @@ TEST(PageTable, HasTheDigitsOfTheTextAndNoEmptyColumn) {
   EXPECT_EQ(block.columns[1].unit, "m/s²");
   EXPECT_EQ(block.rows,
             (std::vector<std::vector<std::string>>{{"time delay", "1.23"}, {"hub inertia", "–"}}));
+}
+
+TEST(PageTable, AOneIsNothingWhereAUnitStandsAlone) {
+  Table table{"", {{.name = "pairs"}, {.name = "unit"}}};
+  table.add_row({std::string("1"), std::string("1")});
+  table.add_row({std::string("·"), std::string("m^2")});
+  EXPECT_EQ(table_block(table, "some").rows,
+            (std::vector<std::vector<std::string>>{{"1", ""}, {"·", "m²"}}));
 }
 
 }  // namespace

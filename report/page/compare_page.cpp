@@ -176,7 +176,7 @@ PageDocument compare_page(const std::vector<ComparedArm>& arms, const PageOrigin
   if (!measured.views.empty()) {
     document.headline = std::move(measured);
     Section section{"responses", "Frequency responses"};
-    if (!responses.views.empty()) section.blocks.emplace_back(std::move(responses));
+    section.add(std::move(responses));
     document.add(std::move(section));
   } else if (!responses.views.empty()) {
     document.headline = std::move(responses);
@@ -187,9 +187,7 @@ PageDocument compare_page(const std::vector<ComparedArm>& arms, const PageOrigin
   }
   document.add(payload_section(arms));
   Section shapes{"shapes", "Mode shapes"};
-  if (auto block = comparison_shapes(names); !block.views.empty()) {
-    shapes.blocks.emplace_back(std::move(block));
-  }
+  shapes.add(comparison_shapes(names));
   document.add(std::move(shapes));
   add_convergence(document, names);
   for (const NamedArm& arm : names) add_agreement(document, arm);

@@ -91,18 +91,14 @@ Section causes_section(const Diagnosis& diagnosis, const std::string& rest_of_ve
   Table parameters = cause_table(diagnosis);
   parameters.caption = "Estimated parameters";
   add_table(section, parameters, "cause-table");
-  if (auto evidence = evidence_table(diagnosis); !evidence.rows.empty()) {
-    section.blocks.emplace_back(std::move(evidence));
-  }
+  section.add(evidence_table(diagnosis));
   add_table(section, near_miss_table(diagnosis), "candidates");
   return section;
 }
 
 Section further_runs_section(const Diagnosis& diagnosis) {
   Section section{"further-runs", "What these data do not tell"};
-  if (auto table = indistinguishable_table(diagnosis); !table.rows.empty()) {
-    section.blocks.emplace_back(std::move(table));
-  }
+  section.add(indistinguishable_table(diagnosis));
   if (!diagnosis.next_experiments.empty()) {
     add_table(section,
               further_run_table(diagnosis.next_experiments, diagnosis.next_experiments.size(),
@@ -126,9 +122,7 @@ TableBlock finding_table(const diagnose::Symptoms& symptoms) {
 
 Section findings_section(const Diagnosis& diagnosis) {
   Section section{"findings", "Residual analysis of the arm file"};
-  if (auto table = finding_table(diagnosis.symptoms); !table.rows.empty()) {
-    section.blocks.emplace_back(std::move(table));
-  }
+  section.add(finding_table(diagnosis.symptoms));
   add_table(section, run_value_table(diagnosis.symptoms), "run-by-run");
   return section;
 }
@@ -178,7 +172,7 @@ Section responses_section(const Diagnosis& diagnosis,
                           const std::vector<DiagnosedChannel>& time_channels) {
   Section section{"responses", "Frequency responses"};
   auto block = diagnosed_responses(frequency_channels, time_channels, has_after(diagnosis));
-  if (!block.views.empty()) section.blocks.emplace_back(std::move(block));
+  section.add(std::move(block));
   return section;
 }
 
@@ -200,7 +194,7 @@ Section roots_section(const Diagnosis& diagnosis, std::vector<MapBlock> maps) {
 Section hub_torque_section(const Diagnosis& diagnosis) {
   Section section{"hub-torque", "Residual hub torque"};
   auto block = hub_torque_block(diagnosis.symptoms.hub_torque);
-  if (!block.views.empty()) section.blocks.emplace_back(std::move(block));
+  section.add(std::move(block));
   Table terms = hub_torque_table(diagnosis.symptoms);
   terms.caption = "Terms of the residual hub torque";
   add_table(section, terms, "hub-torque-terms");

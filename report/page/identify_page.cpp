@@ -113,9 +113,7 @@ Section roots_of_runs(const IdentifiedRuns& runs) {
 
 Section fit_section(const IdentifiedRuns& runs) {
   Section section{"fit", "Modal fit"};
-  if (auto charts = stabilisation_charts(runs); !charts.views.empty()) {
-    section.blocks.emplace_back(std::move(charts));
-  }
+  section.add(stabilisation_charts(runs));
   for (const auto& condition : runs.conditions) {
     for (const std::size_t f : condition.fits) {
       const auto& fit = runs.identification.fits[f];
@@ -136,9 +134,7 @@ Section fit_section(const IdentifiedRuns& runs) {
 
 Section spectra_section(const IdentifiedRuns& runs) {
   Section section{"spectra", "Spectra"};
-  if (auto spectra = autopower_spectra(runs); !spectra.views.empty()) {
-    section.blocks.emplace_back(std::move(spectra));
-  }
+  section.add(autopower_spectra(runs));
   TableBlock settings{{"settings", "Settings of the spectra", ""},
                       {{"run"}, {"setting"}, {"value"}, {"reason"}},
                       {}};
@@ -149,7 +145,7 @@ Section spectra_section(const IdentifiedRuns& runs) {
           {run.run.id, text_in_words(name), text_in_words(value), text_in_words(reason)});
     }
   }
-  if (!settings.rows.empty()) section.blocks.emplace_back(std::move(settings));
+  section.add(std::move(settings));
   for (const auto& run : runs.identification.runs) {
     add_table(section, distortion_table(run), "distortion");
   }
@@ -158,9 +154,7 @@ Section spectra_section(const IdentifiedRuns& runs) {
 
 Section circles_section(const IdentifiedRuns& runs) {
   Section section{"circles", "Nyquist circles"};
-  if (auto circles = nyquist_circles_block(runs); !circles.views.empty()) {
-    section.blocks.emplace_back(std::move(circles));
-  }
+  section.add(nyquist_circles_block(runs));
   return section;
 }
 
@@ -169,9 +163,7 @@ Section recordings_section(const IdentifiedRuns& runs) {
   const auto notes = data_notes(runs.identification);
   for (const auto& note : notes) section.text.push_back(text_in_words(note));
   if (notes.empty()) section.text.emplace_back("The checks of the recordings found no fault.");
-  if (auto signals = recorded_signals(runs); !signals.views.empty()) {
-    section.blocks.emplace_back(std::move(signals));
-  }
+  section.add(recorded_signals(runs));
   return section;
 }
 

@@ -47,6 +47,21 @@ BlockHead& head_of(Block& block) {
   return std::visit([](auto& any) -> BlockHead& { return any.head; }, block);
 }
 
+void Section::add(Block block) {
+  const bool is_shown = std::visit(
+      [](const auto& any) {
+        if constexpr (requires { any.views; }) {
+          return !any.views.empty();
+        } else if constexpr (requires { any.rows; }) {
+          return !any.rows.empty();
+        } else {
+          return true;
+        }
+      },
+      block);
+  if (is_shown) blocks.push_back(std::move(block));
+}
+
 void PageDocument::add(Section section) {
   if (!section.is_empty()) sections.push_back(std::move(section));
 }

@@ -248,6 +248,9 @@ struct Section {
   std::vector<Block> blocks = {};
 
   bool is_empty() const { return text.empty() && blocks.empty(); }
+
+  /// A block of views or rows only where it has any.
+  void add(Block block);
 };
 
 struct PageDocument {

@@ -46,7 +46,7 @@ TableBlock table_block(const Table& table, const std::string& id, const std::str
 
 void add_table(Section& section, const Table& table, const std::string& id,
                const std::string& caption) {
-  if (!table.rows.empty()) section.blocks.emplace_back(table_block(table, id, caption));
+  section.add(table_block(table, id, caption));
 }
 
 }  // namespace flexarm::report::page

@@ -197,9 +197,7 @@ PageDocument plan_page(const Plan& plan, const PageOrigin& origin) {
   Section detection{"detection", "Detection"};
   for (const auto& notice : plan.notices) detection.text.push_back(sentence_of(notice));
   add_table(detection, detection_table(plan), "effects");
-  if (auto errors = standard_errors(plan); !errors.rows.empty()) {
-    detection.blocks.emplace_back(std::move(errors));
-  }
+  detection.add(standard_errors(plan));
   document.add(std::move(detection));
   document.add(ties_section(plan));
   Section pairs{"pairs", "Pairs of effects"};

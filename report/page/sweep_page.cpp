@@ -80,9 +80,7 @@ PageDocument sweep_page(const SweepResult& result, const PageOrigin& origin) {
   }
   document.add(std::move(others));
   Section curves{"curves", "Curves"};
-  if (auto block = sweep_curves(result); !block.views.empty()) {
-    curves.blocks.emplace_back(std::move(block));
-  }
+  curves.add(sweep_curves(result));
   document.add(std::move(curves));
   Section ranges{"ranges", "Ranges"};
   std::size_t number = 0;

@@ -1,6 +1,7 @@
 #include "app/command.hpp"
 #include "app/exported_arm.hpp"
 #include "app/exported_files.hpp"
+#include "app/option_values.hpp"
 #include "app/sensor_choice.hpp"
 #include "app/standard_output.hpp"
 #include "arm/input_error.hpp"
@@ -179,6 +180,7 @@ Command add_export(CLI::App& program) {
   parser
       ->add_option("--out", arguments->out,
                    "File of the FMU; default: the name of FILE with .fmu, in the present folder")
+      ->type_name(kFileType)
       ->check(not_empty());
   parser->add_option("--fmi", arguments->fmi,
                      "Version of the FMI standard: 2 (2.0, default) or 3 (3.0)");

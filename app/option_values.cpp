@@ -87,10 +87,8 @@ OptionValues values_of(const OptionDescription& option) {
   if (const auto known = words.find(name); known != words.end()) {
     return {OptionValues::Kind::words, known->second};
   }
-  // That of `export` is a file.
-  if (name == "--out" && option.text.find("older") != std::string::npos) {
-    return {OptionValues::Kind::folder};
-  }
+  if (option.value == kFileType) return {OptionValues::Kind::file};
+  if (name == "--out") return {OptionValues::Kind::folder};
   const bool is_number = option.value == "FLOAT" || option.value == "INT" || option.value == "UINT";
   if (is_number || std::ranges::find(kOwnText, name) != std::ranges::end(kOwnText)) return {};
   return {OptionValues::Kind::file};

@@ -14,8 +14,11 @@ struct OptionValues {
   std::vector<std::string> words = {};
 };
 
-/// By the option's name: the words that it takes; a folder for `--out`; a file for any other text;
-/// nothing for a number, a flag, and text of the user's own.
+/// CLI11's type name of an option that takes a file, where its name says otherwise.
+inline constexpr const char* kFileType = "FILE";
+
+/// By the option's name: the words that it takes; a folder for `--out`, unless it is declared as a
+/// file; a file for any other text; nothing for a number, a flag, and text of the user's own.
 OptionValues values_of(const OptionDescription& option);
 
 }  // namespace flexarm::app

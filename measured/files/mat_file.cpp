@@ -26,7 +26,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kLargestMatFile_bytes = std::size_t{1} << 30;
 /// The library would put the time and the platform there.
 constexpr const char* kHeader = "MATLAB 5.0 MAT-file, written by flexarm";
 constexpr std::size_t kLongestName = 63;
@@ -83,9 +82,10 @@ void require_text(const std::string& name, const std::string& text) {
   }
 }
 
+template <std::size_t rank = 2>
 Variable created(const char* name, matio_classes kind, matio_types type,
-                 std::array<std::size_t, 2> size, void* data, int options = 0) {
-  Variable variable(Mat_VarCreate(name, kind, type, 2, size.data(), data, options));
+                 std::array<std::size_t, rank> size, void* data, int options = 0) {
+  Variable variable(Mat_VarCreate(name, kind, type, rank, size.data(), data, options));
   if (!variable) throw std::runtime_error(".mat file: out of memory");
   return variable;
 }
@@ -99,6 +99,14 @@ void require_size(const std::string& name, const MatArray<T>& matrix) {
   if (matrix.values.size() != matrix.rows * matrix.columns) {
     throw std::invalid_argument(fmt::format("{}: {} values for {} x {}", name, matrix.values.size(),
                                             matrix.rows, matrix.columns));
+  }
+}
+
+void require_size(const std::string& name, const MatPages& pages) {
+  if (pages.values.size() != pages.rows * pages.columns * pages.pages) {
+    throw std::invalid_argument(fmt::format("{}: {} values for {} x {} x {}", name,
+                                            pages.values.size(), pages.rows, pages.columns,
+                                            pages.pages));
   }
 }
 
@@ -123,6 +131,12 @@ struct ToLibrary {
     mat_complex_split_t parts{real.data(), imaginary.data()};
     return created(name.c_str(), MAT_C_DOUBLE, MAT_T_DOUBLE, {matrix.rows, matrix.columns}, &parts,
                    MAT_F_COMPLEX);
+  }
+  Variable operator()(const MatPages& pages) const {
+    require_size(name, pages);
+    std::vector<double> values = pages.values;
+    return created<3>(name.c_str(), MAT_C_DOUBLE, MAT_T_DOUBLE,
+                      {pages.rows, pages.columns, pages.pages}, values.data());
   }
   Variable operator()(const std::string& text) const {
     require_text(name, text);
@@ -265,27 +279,27 @@ void append(matvar_t& variable, const std::string& name, MatContents& contents) 
 
 }  // namespace
 
-void write_mat_file(const std::vector<MatVariable>& variables, const fs::path& path) {
-  std::vector<Variable> converted;
+void write_mat_file(const std::vector<MatVariable>& variables, const fs::path& path,
+                    std::size_t most_bytes) {
   std::set<std::string_view> names;
   for (const auto& variable : variables) {
     require_name(variable.name);
     if (!names.insert(variable.name).second) {
       throw std::invalid_argument(fmt::format(".mat variable {} is given twice", variable.name));
     }
-    converted.push_back(std::visit(ToLibrary{variable.name}, variable.value));
   }
   const TemporaryFile temporary;
   File file(Mat_CreateVer(temporary.path().c_str(), kHeader, MAT_FT_MAT5));
   if (!file) throw unusable(temporary.path(), "cannot be written");
-  for (const auto& variable : converted) {
-    if (Mat_VarWrite(file.get(), variable.get(), MAT_COMPRESSION_NONE) != 0) {
+  for (const auto& variable : variables) {
+    // One at a time: the library keeps a copy of the numbers.
+    const Variable converted = std::visit(ToLibrary{variable.name}, variable.value);
+    if (Mat_VarWrite(file.get(), converted.get(), MAT_COMPRESSION_NONE) != 0) {
       throw unusable(temporary.path(), "cannot be written");
     }
   }
   if (Mat_Close(file.release()) != 0) throw unusable(temporary.path(), "cannot be written");
-  measured::write_atomically(path,
-                             measured::read_text_file(temporary.path(), kLargestMatFile_bytes));
+  measured::write_atomically(path, measured::read_text_file(temporary.path(), most_bytes));
 }
 
 MatContents read_mat_contents(const fs::path& path) {

@@ -24,24 +24,39 @@ struct MatArray {
 
 using MatMatrix = MatArray<double>;
 using MatComplexMatrix = MatArray<std::complex<double>>;
+/// rows x columns x pages numbers, page after page, each column by column.
+struct MatPages {
+  std::size_t rows = 0;
+  std::size_t columns = 0;
+  std::size_t pages = 0;
+  std::vector<double> values;
+
+  bool operator==(const MatPages&) const = default;
+};
 /// A column of strings, in MATLAB a cell array.
 using MatStrings = std::vector<std::string>;
 
-/// A variable of a .mat file: a matrix (a scalar is 1 x 1), a text in ASCII, or a list of texts.
+/// A variable of a .mat file: a matrix (a scalar is 1 x 1) or several, a text in ASCII, or a list
+/// of texts. Pages are written alone: no file that is read has a use for them.
 struct MatVariable {
   std::string name;
-  std::variant<MatMatrix, MatComplexMatrix, std::string, MatStrings> value;
+  std::variant<MatMatrix, MatComplexMatrix, MatPages, std::string, MatStrings> value;
 
   bool operator==(const MatVariable&) const = default;
 };
 
+/// The largest file that is read.
+inline constexpr std::size_t kLargestMatFile_bytes = std::size_t{1} << 30U;
+
 /// Writes a MATLAB 5 file, uncompressed, whole or not at all (measured/files/atomic_file.hpp):
 /// MATLAB, GNU Octave and SciPy read it. The same variables give the same bytes.
 ///
-/// Throws InputError when the file cannot be written; std::invalid_argument for a name that is not
-/// one of MATLAB's (a letter, then letters, digits and _, 63 in all) or is given twice, a matrix
-/// whose number of values is not rows x columns, and a text that is not printable ASCII.
-void write_mat_file(const std::vector<MatVariable>& variables, const std::filesystem::path& path);
+/// Throws InputError when the file cannot be written, or would be larger than `most_bytes`;
+/// std::invalid_argument for a name that is not one of MATLAB's (a letter, then letters, digits and
+/// _, 63 in all) or is given twice, a matrix whose number of values is not rows x columns, and a
+/// text that is not printable ASCII.
+void write_mat_file(const std::vector<MatVariable>& variables, const std::filesystem::path& path,
+                    std::size_t most_bytes = kLargestMatFile_bytes);
 
 /// What a MATLAB 5 file holds.
 struct MatContents {

@@ -73,6 +73,20 @@ TEST_F(MatFile, ColumnsComeOneAfterTheOther) {
   EXPECT_EQ(matrix(0, 1), 3.0);
 }
 
+TEST_F(MatFile, PagesAreWrittenAndNotRead) {
+  write_mat_file({{"P", MatPages{1, 2, 2, {1.0, 2.0, 3.0, 4.0}}}, {"x", MatMatrix{1, 1, {5.0}}}},
+                 path());
+  const MatContents contents = read_mat_contents(path());
+  EXPECT_EQ(contents.left_out, std::vector<std::string>{"P"});
+  EXPECT_EQ(contents.variables, (std::vector<MatVariable>{{"x", MatMatrix{1, 1, {5.0}}}}));
+}
+
+TEST_F(MatFile, AFileOfMoreThanIsAllowedIsNotWritten) {
+  constexpr std::size_t kMost = 100;
+  EXPECT_THROW(write_mat_file({{"x", MatMatrix{1, 1, {5.0}}}}, path(), kMost), arm::InputError);
+  EXPECT_FALSE(std::filesystem::exists(path()));
+}
+
 TEST_F(MatFile, TheSameVariablesGiveTheSameBytes) {
   write_mat_file(every_kind(), path("a.mat"));
   write_mat_file(every_kind(), path("b.mat"));
@@ -90,6 +104,7 @@ TEST_F(MatFile, WhatMatlabCouldNotHoldIsRefused) {
   EXPECT_THROW(write({"a", std::string("\xce\xbb")}), std::invalid_argument);
   EXPECT_THROW(write({"a", MatStrings{"line\nend"}}), std::invalid_argument);
   EXPECT_THROW(write({"a", MatMatrix{2, 2, {1.0}}}), std::invalid_argument);
+  EXPECT_THROW(write({"a", MatPages{1, 2, 2, {1.0, 2.0}}}), std::invalid_argument);
   EXPECT_THROW(write_mat_file({{"a", std::string()}, {"a", std::string()}}, path()),
                std::invalid_argument);
   EXPECT_FALSE(std::filesystem::exists(path()));

@@ -5,6 +5,7 @@
 #include "report/figures/gnuplot_script.hpp"
 #include "report/figures/label_placement.hpp"
 #include "report/utf8_text.hpp"
+#include "report/xml_text.hpp"
 
 #include <cstddef>
 #include <stdexcept>
@@ -12,26 +13,6 @@
 
 namespace flexarm::report {
 namespace {
-
-std::string escaped(std::string_view text) {
-  std::string xml;
-  for (const char c : printable(text)) {
-    switch (c) {
-      case '<':
-        xml += "&lt;";
-        break;
-      case '>':
-        xml += "&gt;";
-        break;
-      case '&':
-        xml += "&amp;";
-        break;
-      default:
-        xml += c;
-    }
-  }
-  return xml;
-}
 
 /// Replaces what stands from the next `opening` after `from` up to `closing`; returns the place
 /// behind it, or npos when there is none.
@@ -56,11 +37,11 @@ std::string to_svg(Figure figure) {
 
   // gnuplot states its version, which would make the bytes depend on it.
   replace_between(svg, "<title>Gnuplot</title>", "</desc>",
-                  "<title>" + escaped(figure.title) + "</title>", 0);
+                  "<title>" + xml_escaped(printable(figure.title)) + "</title>", 0);
   std::size_t place = 0;
   for (const std::string& name : script.group_names) {
     place = replace_between(svg, "<title>gnuplot_plot_", "</title>",
-                            "<title>" + escaped(name) + "</title>", place);
+                            "<title>" + xml_escaped(printable(name)) + "</title>", place);
     if (place == std::string::npos) throw std::runtime_error("gnuplot left out " + name);
   }
   return svg;

@@ -1,6 +1,7 @@
 #include "report/page/page_file.hpp"
 
 #include "report/page/page_json.hpp"
+#include "report/xml_text.hpp"
 
 #include <fmt/format.h>
 
@@ -20,21 +21,6 @@ std::size_t inside_element(std::string_view html, std::string_view id) {
   return html.find('>', at) + 1;
 }
 
-/// What may stand between tags.
-std::string as_text(std::string_view text) {
-  std::string made;
-  for (const char c : text) {
-    if (c == '<') {
-      made += "&lt;";
-    } else if (c == '&') {
-      made += "&amp;";
-    } else {
-      made += c;
-    }
-  }
-  return made;
-}
-
 }  // namespace
 
 std::string page_html(PageDocument document) {
@@ -51,7 +37,7 @@ std::string page_html(PageDocument document) {
   constexpr std::string_view kTitle = "<title>";
   if (const std::size_t from = html.find(kTitle); from != std::string::npos) {
     const std::size_t begin = from + kTitle.size();
-    html.replace(begin, html.find("</title>", begin) - begin, as_text(document.title));
+    html.replace(begin, html.find("</title>", begin) - begin, xml_escaped(document.title));
   }
   return html;
 }

@@ -17,7 +17,7 @@ nitpicky = True
 
 # Equations by KaTeX, without a network: Sphinx loads `mathjax_path` where a page has equations.
 html_static_path = ["_static", "/usr/share/javascript/katex"]
-html_css_files = ["katex.min.css"]
+html_css_files = ["katex.min.css", "output.css"]
 html_js_files = [("katex.min.js", {"priority": 100}), ("contrib/auto-render.js", {"priority": 110})]
 mathjax_path = "render-equations.js"
 mathjax_options = {"defer": "defer"}

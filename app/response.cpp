@@ -14,6 +14,7 @@
 #include "report/json/arm_json.hpp"
 #include "report/json/json_document.hpp"
 #include "report/json/response_json.hpp"
+#include "report/progress.hpp"
 #include "report/tables/csv.hpp"
 #include "report/tables/modes_report.hpp"
 #include "report/tables/response_tables.hpp"
@@ -187,6 +188,14 @@ std::string next_step(const ResponseArguments& arguments) {
              arm);
 }
 
+response::ResponseStudy study_with_progress(const arm::Arm& arm,
+                                            const response::AnyFormulation& formulation,
+                                            response::ResponseOptions options) {
+  report::Progress progress("computing frequency response");
+  options.progress = [&progress](double fraction) { progress.reach(fraction); };
+  return response::study_response(arm, formulation, options);
+}
+
 int run_response(const ResponseArguments& arguments) {
   auto options = options_of(arguments);
   const auto arms = arguments.arm.arms();
@@ -211,7 +220,7 @@ int run_response(const ResponseArguments& arguments) {
   nlohmann::ordered_json documents = nlohmann::ordered_json::array();
   for (const auto& arm : arms) {
     const auto chosen = make_formulation(arguments, arm, options);
-    const auto study = response::study_response(arm, chosen.formulation, options);
+    const auto study = study_with_progress(arm, chosen.formulation, options);
     text += describe(arm);
     text += fmt::format("by {}\n\n", response::formulation_label(chosen.name, chosen.settings));
     text += study_text(study, options, arguments.verbose);

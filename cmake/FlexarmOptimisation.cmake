@@ -49,6 +49,7 @@ endif()
 # GCC needs for a template grows with the number of those it has met before.
 set(eigen_folder "${CMAKE_CURRENT_LIST_DIR}/eigen")
 add_library(flexarm_eigen STATIC
+  "${eigen_folder}/extended.cpp"
   "${eigen_folder}/factors.cpp"
   "${eigen_folder}/pencil.cpp"
   "${eigen_folder}/schur.cpp"

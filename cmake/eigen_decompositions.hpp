@@ -26,6 +26,8 @@ extern template class Eigen::GeneralizedEigenSolver<Eigen::MatrixXd>;
 extern template class Eigen::JacobiSVD<Eigen::MatrixXd>;
 extern template class Eigen::BDCSVD<Eigen::MatrixXd>;
 extern template class Eigen::PartialPivLU<Eigen::MatrixXcd>;
+extern template class Eigen::HouseholderQR<Eigen::MatrixX<long double>>;
+extern template class Eigen::PartialPivLU<Eigen::MatrixX<long double>>;
 
 // An instantiated class leaves out what is itself a template.
 extern template void Eigen::ColPivHouseholderQR<Eigen::MatrixXd>::_solve_impl(

@@ -11,7 +11,7 @@ inline constexpr int kIdentifiedColour = vermillion;  ///< the extended arm, a f
 inline constexpr int kPoleColour = purple;            ///< and peaks
 inline constexpr int kZeroColour = green;             ///< and minima
 
-inline constexpr const char* kBaselineName = "baseline";
+inline constexpr const char* kBaselineName = "arm file";
 inline constexpr const char* kExtendedName = "extended arm";
 
 }  // namespace flexarm::report

@@ -121,7 +121,7 @@ TableBlock finding_table(const diagnose::Symptoms& symptoms) {
 }
 
 Section findings_section(const Diagnosis& diagnosis) {
-  Section section{"findings", "Residual analysis of the arm file"};
+  Section section{"findings", "Residual analysis of the baseline"};
   section.add(finding_table(diagnosis.symptoms));
   add_table(section, run_value_table(diagnosis.symptoms), "run-by-run");
   return section;

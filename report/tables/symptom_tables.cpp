@@ -91,7 +91,7 @@ Table band_table(const Symptoms& symptoms) {
                {.name = "to", .unit = "Hz", .significant_digits = 3},
                {.name = "torque rms", .unit = "N m", .significant_digits = 3},
                {.name = "payload", .unit = "kg", .significant_digits = 3},
-               {.name = "baseline", .unit = "%", .significant_digits = 3},
+               {.name = "arm file", .unit = "%", .significant_digits = 3},
                {.name = "extended arm", .unit = "%", .significant_digits = 3},
                {.name = "noise floor", .unit = "%", .significant_digits = 3},
                probability_column()}};
@@ -114,7 +114,7 @@ Table root_shift_table(const Symptoms& symptoms) {
                {.name = "unit"},
                {.name = "measured"},
                {.name = "std error", .significant_digits = 2},
-               {.name = "baseline"},
+               {.name = "arm file"},
                {.name = "extended arm"},
                {.name = "shift", .unit = "%", .significant_digits = 3},
                {.name = "deviation", .unit = "sigma", .significant_digits = 3}}};

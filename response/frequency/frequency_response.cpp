@@ -8,13 +8,14 @@ namespace flexarm::response {
 
 FrequencyResponse frequency_response(const AnyFormulation& formulation, const LinearChain& chain,
                                      std::span<const arm::Sensor> sensors,
-                                     std::span<const double> frequency_Hz) {
-  return with_chain(arm_response(formulation, sensors, frequency_Hz), chain);
+                                     std::span<const double> frequency_Hz,
+                                     const FrequencyDone& done) {
+  return with_chain(arm_response(formulation, sensors, frequency_Hz, done), chain);
 }
 
 FrequencyResponse arm_response(const AnyFormulation& formulation,
                                std::span<const arm::Sensor> sensors,
-                               std::span<const double> frequency_Hz) {
+                               std::span<const double> frequency_Hz, const FrequencyDone& done) {
   for (const auto& sensor : sensors) arm::require_valid(sensor, arm_of(formulation));
   require_ascending(frequency_Hz, "frequency");
   FrequencyResponse response;
@@ -24,6 +25,7 @@ FrequencyResponse arm_response(const AnyFormulation& formulation,
   for (const double frequency : frequency_Hz) {
     const auto values = transfer_functions(formulation, sensors, on_imaginary_axis(frequency));
     for (std::size_t j = 0; j < sensors.size(); ++j) response.values[j].push_back(values[j]);
+    if (done) done();
   }
   return response;
 }

@@ -4,6 +4,7 @@
 #include "response/linear_chain.hpp"
 
 #include <complex>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -19,17 +20,22 @@ struct FrequencyResponse {
   std::vector<std::vector<double>> phase_deg = {};
 };
 
+/// Is called after each frequency.
+using FrequencyDone = std::function<void()>;
+
 /// `transfer_function` of the formulation with the linear part of the actuator and of the sensors,
 /// the same for every formulation. Not finite where a frequency is a pole of an undamped arm.
 /// Throws InputError for a sensor that the arm cannot carry, and unless `require_ascending`.
 FrequencyResponse frequency_response(const AnyFormulation& formulation, const LinearChain& chain,
                                      std::span<const arm::Sensor> sensors,
-                                     std::span<const double> frequency_Hz);
+                                     std::span<const double> frequency_Hz,
+                                     const FrequencyDone& done = {});
 
 /// Of the arm alone: readings per torque on the hub. Throws InputError as frequency_response.
 FrequencyResponse arm_response(const AnyFormulation& formulation,
                                std::span<const arm::Sensor> sensors,
-                               std::span<const double> frequency_Hz);
+                               std::span<const double> frequency_Hz,
+                               const FrequencyDone& done = {});
 /// Of the arm with that `of_arm`, behind and before a chain.
 FrequencyResponse with_chain(FrequencyResponse of_arm, const LinearChain& chain);
 

@@ -98,7 +98,8 @@ void add_phases(const AnyFormulation& formulation, const ResponseOptions& option
   }
 }
 
-FrequencyResponse response_of(const StateSpace& system, const std::vector<double>& frequency_Hz) {
+FrequencyResponse response_of(const StateSpace& system, const std::vector<double>& frequency_Hz,
+                              const FrequencyDone& done) {
   FrequencyResponse response;
   response.frequency_Hz = frequency_Hz;
   response.sensors = system.sensors;
@@ -106,6 +107,7 @@ FrequencyResponse response_of(const StateSpace& system, const std::vector<double
   for (const double frequency : frequency_Hz) {
     const auto outputs = frequency_response(system, on_imaginary_axis(frequency));
     for (std::size_t k = 0; k < outputs.size(); ++k) response.values[k].push_back(outputs[k]);
+    done();
   }
   return response;
 }
@@ -150,7 +152,14 @@ ResponseStudy study_response(const arm::Arm& arm, const AnyFormulation& formulat
     study.fractions.push_back(partial_fractions(study.modes, k));
   }
   const auto frequency_Hz = frequencies(formulation, options, study, grid);
-  study.response = frequency_response(formulation, study.chain, options.sensors, frequency_Hz);
+  const auto all = static_cast<double>((options.state_space ? 2 : 1) * frequency_Hz.size());
+  std::size_t computed = 0;
+  const FrequencyDone done = [&] {
+    ++computed;
+    if (options.progress) options.progress(static_cast<double>(computed) / all);
+  };
+  study.response =
+      frequency_response(formulation, study.chain, options.sensors, frequency_Hz, done);
   for (const auto& sensor : options.sensors) {
     study.resonances.push_back(resonances(formulation, study.chain, sensor, study.damped_poles,
                                           frequency_Hz.front(), frequency_Hz.back()));
@@ -165,7 +174,7 @@ ResponseStudy study_response(const arm::Arm& arm, const AnyFormulation& formulat
     study.residual_mode = model.modes.size() > study.modes.modes.size();
   }
   study.state_space = state_space(model, options.sensors, study.chain);
-  study.state_space_response = response_of(*study.state_space, frequency_Hz);
+  study.state_space_response = response_of(*study.state_space, frequency_Hz, done);
   add_phases(formulation, options, study);
   return study;
 }

@@ -6,6 +6,7 @@
 #include "response/frequency/transfer_forms.hpp"
 #include "response/state_space.hpp"
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -23,6 +24,8 @@ struct ResponseOptions {
   std::vector<double> frequency_Hz;  ///< in place of the grid unless empty
   bool state_space = false;
   bool static_correction = true;  ///< a residual mode in the state space
+  /// Is called with the fraction of the frequency responses that is computed, in (0, 1].
+  std::function<void(double fraction)> progress = {};
 };
 
 /// The linear response of an arm from commanded torque to its sensors' readings.

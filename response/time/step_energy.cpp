@@ -33,6 +33,18 @@ struct Integrands {
 template <class Scalar>
 using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
 
+// Each product of expressions is compiled by itself: of matrices that are formed, the file takes
+// the compiler half the time.
+template <class Scalar>
+Matrix<Scalar> product(const Matrix<Scalar>& a, const Matrix<Scalar>& b) {
+  return a * b;
+}
+
+template <class Scalar>
+Matrix<Scalar> transposed(const Matrix<Scalar>& a) {
+  return a.transpose();
+}
+
 /// The triangle of [upper; lower]: |R z|^2 = |upper z|^2 + |lower z|^2.
 template <class Scalar>
 Matrix<Scalar> stacked(const Matrix<Scalar>& upper, const Matrix<Scalar>& lower) {
@@ -71,9 +83,9 @@ Integrals integrals(const Integrands& integrands, const Eigen::MatrixXd& chain, 
     const Scalar weight = rule_weight * length_s / 2;
     const Matrix<Scalar> there = Matrix<Scalar>(part * r).exp();
     using std::sqrt;
-    work += weight * (torque * there).transpose() * (speed * there);
-    viscous = stacked<Scalar>(viscous, sqrt(weight) * viscous_rows * there);
-    material_air = stacked<Scalar>(material_air, sqrt(weight) * material_rows * there);
+    work += weight * product(transposed(product(torque, there)), product(speed, there));
+    viscous = stacked<Scalar>(viscous, sqrt(weight) * product(viscous_rows, there));
+    material_air = stacked<Scalar>(material_air, sqrt(weight) * product(material_rows, there));
   };
   const Scalar half = Scalar(1) / 2;
   add_point(half, Rule::weights()[0]);
@@ -83,10 +95,10 @@ Integrals integrals(const Integrands& integrands, const Eigen::MatrixXd& chain, 
   }
   Matrix<Scalar> over = part.exp();
   for (int i = 0; i < doublings; ++i) {
-    work += (over.transpose() * work * over).eval();
-    viscous = stacked<Scalar>(viscous, viscous * over);
-    material_air = stacked<Scalar>(material_air, material_air * over);
-    over = (over * over).eval();
+    work += product(transposed(over), product(work, over));
+    viscous = stacked<Scalar>(viscous, product(viscous, over));
+    material_air = stacked<Scalar>(material_air, product(material_air, over));
+    over = product(over, over);
   }
   return {work.template cast<double>(), viscous.template cast<double>(),
           material_air.template cast<double>()};

@@ -132,7 +132,7 @@ Experiment begun_later(Experiment experiment, std::size_t begin) {
 constexpr std::size_t kBegin = 300;
 
 TEST(UnknownState, OfAnArmAsItsFileHasItIsAdequate) {
-  Experiment experiment = begun_later(simulated_experiment({}), kBegin);
+  Experiment experiment = begun_later(simulated_experiment({}, {.duration_s = 2.0}), kBegin);
   EXPECT_EQ(diagnose(experiment, named(experiment, kCandidates)).verdict, Verdict::adequate);
   // Taken to be at rest it is far from that.
   for (auto& run : experiment.runs) run.run.initial = measured::InitialState::rest;
@@ -140,8 +140,10 @@ TEST(UnknownState, OfAnArmAsItsFileHasItIsAdequate) {
 }
 
 TEST(UnknownState, LeavesALinearCauseToBeFound) {
-  const Experiment experiment = begun_later(
-      simulated_experiment({effects::named("root_compliance", {{"stiffness", 60.0}})}), kBegin);
+  const Experiment experiment =
+      begun_later(simulated_experiment({effects::named("root_compliance", {{"stiffness", 60.0}})},
+                                       {.duration_s = 2.0}),
+                  kBegin);
   const Diagnosis made = diagnose(experiment, named(experiment, kCandidates));
   EXPECT_EQ(made.verdict, Verdict::explained);
   ASSERT_EQ(made.causes.size(), 1U);
@@ -149,10 +151,10 @@ TEST(UnknownState, LeavesALinearCauseToBeFound) {
 }
 
 TEST(UnknownState, LeavesFrictionToBeFound) {
-  const Experiment experiment = begun_later(
-      simulated_experiment({effects::named("coulomb_friction", {{"torque", 0.008}})},
-                           {.duration_s = 2.0}),
-      kBegin);
+  const Experiment experiment =
+      begun_later(simulated_experiment({effects::named("coulomb_friction", {{"torque", 0.008}})},
+                                       {.duration_s = 2.0}),
+                  kBegin);
   const Diagnosis made =
       diagnose(experiment, named(experiment, {"coulomb_friction", "hub_viscous_friction"}));
   ASSERT_EQ(made.causes.size(), 1U);
@@ -163,7 +165,8 @@ TEST(UnknownState, LeavesFrictionToBeFound) {
 
 TEST(UnknownHold, IsTakenFromTheData) {
   // The simulated runs hold the torque from sample to sample.
-  Experiment experiment = simulated_experiment({effects::named("payload_mass", {{"mass", 0.01}})});
+  Experiment experiment =
+      simulated_experiment({effects::named("payload_mass", {{"mass", 0.01}})}, {.duration_s = 2.0});
   for (auto& [run, data] : experiment.runs) {
     run.torque_hold = measured::TorqueHold::first;
     run.torque_hold_is_known = false;

@@ -68,5 +68,36 @@ class Pages(unittest.TestCase):
         self.assertNotEqual(self.check("```console\n$ true\n").returncode, 0)
 
 
+class CommandsOfTheText(unittest.TestCase):
+    """Of a program that knows `compare` and its --measured."""
+
+    def check(self, text: str) -> str:
+        with tempfile.TemporaryDirectory() as folder:
+            for name, content in [("data/a.toml", ""), ("scripts/run", "# Usage: scripts/run [--fast]")]:
+                (Path(folder) / name).parent.mkdir(exist_ok=True)
+                (Path(folder) / name).write_text(content, encoding="utf-8")
+            program = Path(folder) / "program"
+            program.write_text('#!/bin/sh\n[ "$1" = --help ] && exit\n'
+                               '[ "$1" = compare ] && echo "--measured FILE"\n', encoding="utf-8")
+            program.chmod(0o755)
+            page = Path(folder) / "page.md"
+            page.write_text(text, encoding="utf-8")
+            return subprocess.run(
+                [sys.executable, HERE / "check_commands.py", "--program", program, "--source", folder, page],
+                capture_output=True, text=True, check=False).stdout
+
+    def test_what_there_is(self):
+        page = "`flexarm compare data/NAME.toml --measured=m.csv`, `scripts/run --fast`, `flexarm compare --help`"
+        self.assertEqual(self.check(page), "3 commands of 1 pages\n")
+
+    def test_what_there_is_not(self):
+        for code, fault in [("flexarm compute", "flexarm has no command compute"),
+                            ("flexarm compare --out", "flexarm compare has no option --out"),
+                            ("flexarm compare data/b.toml", "no data/b.toml in the repository"),
+                            ("scripts/walk", "no scripts/walk in the repository"),
+                            ("scripts/run --slow", "scripts/run has no option --slow")]:
+            self.assertIn(f"page.md:1: {fault}: {code}\n", self.check(f"Use `{code}`."))
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -2,9 +2,9 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";
 
-import type { Locator, Page } from "playwright-core";
+import type { Page } from "playwright-core";
 
-import { opened } from "./opened.js";
+import { drawn, opened } from "./opened.js";
 import { diagnosisSample } from "./samples/diagnosis_document.js";
 import { channels, kSamples, kStep_s } from "./samples/sample_runs.js";
 import { written } from "./samples/written_page.js";
@@ -12,7 +12,8 @@ import { written } from "./samples/written_page.js";
 const sample = diagnosisSample(2);
 const diagnosis = written("diagnosis", sample);
 
-async function csvOf(page: Page, link: Locator): Promise<{ name: string; rows: string[][] }> {
+async function csvOf(page: Page, id: string, label = "CSV"): Promise<{ name: string; rows: string[][] }> {
+  const link = (await drawn(page, id)).getByText(label, { exact: true });
   const [download] = await Promise.all([page.waitForEvent("download"), link.click()]);
   const text = readFileSync(await download.path(), "utf8");
   assert.ok(text.endsWith("\r\n"));
@@ -26,8 +27,7 @@ function fields(line: string): string[] {
 
 test("the CSV file of a view has its samples", () =>
   opened(diagnosis, async (page) => {
-    const block = page.locator("#overlay");
-    const { name, rows } = await csvOf(page, block.getByText("CSV", { exact: true }));
+    const { name, rows } = await csvOf(page, "overlay");
     const overlay = sample.document.sections[0]?.blocks[0];
     assert.ok(overlay?.kind === "curves");
     const [run, sensor] = overlay.views[0]!.labels;
@@ -46,7 +46,7 @@ test("the CSV file of a view has its samples", () =>
 
 test("the CSV file of all views names the view of each row", () =>
   opened(diagnosis, async (page) => {
-    const { name, rows } = await csvOf(page, page.locator("#overlay").getByText("CSV of all views"));
+    const { name, rows } = await csvOf(page, "overlay", "CSV of all views");
     assert.equal(name, "overlay-all.csv");
     assert.deepEqual(rows[0]?.slice(0, 3), ["run", "sensor", "time [s]"]);
     assert.equal(rows.length, 4 * kSamples + 1);
@@ -55,7 +55,7 @@ test("the CSV file of all views names the view of each row", () =>
 
 test("frequencies of several grids are one column; gaps are empty cells", () =>
   opened(diagnosis, async (page) => {
-    const { name, rows } = await csvOf(page, page.locator("#bode").getByText("CSV", { exact: true }));
+    const { name, rows } = await csvOf(page, "bode");
     assert.equal(name, "bode.csv");
     const frequencies = rows.slice(1).map((row) => Number(row[0]));
     assert.ok(frequencies.every((f, i) => i === 0 || f > frequencies[i - 1]!));
@@ -72,9 +72,7 @@ test("each kind of block has its CSV file", () =>
       ranking: ["name", 4],
     };
     for (const [id, [title, count]] of Object.entries(expected)) {
-      const block = page.locator(`#${id}`);
-      await block.scrollIntoViewIfNeeded();
-      const { name, rows } = await csvOf(page, block.getByText("CSV", { exact: true }));
+      const { name, rows } = await csvOf(page, id);
       assert.equal(name, `${id}.csv`);
       assert.equal(rows[0]?.[0], title);
       assert.equal(rows.length, count);

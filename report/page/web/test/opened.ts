@@ -46,6 +46,14 @@ async function newContext(options: BrowserContextOptions): Promise<BrowserContex
   return browser.newContext({ viewport: { width: 1280, height: 900 }, ...options });
 }
 
+/** A block in view and drawn: drawing moves what is below and renews its links. */
+export async function drawn(page: Page, id: string): Promise<Locator> {
+  const block = page.locator(`#${id}`);
+  await block.scrollIntoViewIfNeeded();
+  await block.locator(':scope > [style*="min-height"]').waitFor({ state: "detached" });
+  return block;
+}
+
 /** Number of pixels of a block's canvases with about this colour of the style sheet. */
 export function pixelsOf(block: Locator, colourName: string): Promise<number> {
   return block.evaluate((element, name) => {

@@ -123,7 +123,7 @@ TEST(ReferencePictures, TheComparisonSeesWhatAReaderWouldSee) {
   EXPECT_THAT(
       after("overlay",
             [](Figure& figure) { figure.stacks[0].panels[0].series[1].style.colour = green; }),
-      Contains(HasSubstr("\"baseline\" rgb(  0, 158, 115)")));
+      Contains(HasSubstr("\"arm file\" rgb(  0, 158, 115)")));
   EXPECT_THAT(after("overlay",
                     [](Figure& figure) {
                       figure.stacks[0].x.ticks = {{1.0, "one"}};

@@ -156,7 +156,7 @@ TEST(OverlayFigure, ResidualsBeforeAndAfterHaveScalesOfTheirOwn) {
   const auto& panels = figure.stacks.front().panels;
   ASSERT_EQ(panels.size(), 6U);
   EXPECT_EQ(panels[0].series.size(), 3U);
-  EXPECT_THAT(panels[1].note, HasSubstr("residual of the baseline"));
+  EXPECT_THAT(panels[1].note, HasSubstr("residual of the arm file"));
   EXPECT_THAT(panels[2].note, HasSubstr("residual of the extended arm"));
   const auto boxes = lay_out(figure).boxes[0];
   EXPECT_LT(boxes[2].y.to, 0.01 * boxes[1].y.to);

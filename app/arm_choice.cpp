@@ -39,6 +39,22 @@ std::string describe_effect(const std::string& name, const arm::Effect& effect) 
   return fmt::format("with {}{}{}", name, parts.empty() ? "" : ": ", fmt::join(parts, ", "));
 }
 
+/// "--payload-mass 0.05 kg": what the command line has changed in the arm of the file, which was
+/// usable by itself.
+std::vector<std::string> changed_numbers(const ArmChoice& choice, const arm::Arm& arm) {
+  std::vector<std::string> changes;
+  if (!choice.payload_masses_kg.empty()) {
+    changes.push_back(fmt::format("--payload-mass {} kg", arm.payload.mass_kg));
+  }
+  if (choice.payload_inertia_kg_m2) {
+    changes.push_back(fmt::format("--payload-inertia {} kg m^2", *choice.payload_inertia_kg_m2));
+  }
+  if (choice.hub_inertia_kg_m2) {
+    changes.push_back(fmt::format("--hub-inertia {} kg m^2", *choice.hub_inertia_kg_m2));
+  }
+  return changes;
+}
+
 }  // namespace
 
 std::vector<arm::Arm> ArmChoice::arms() const {
@@ -55,7 +71,14 @@ std::vector<arm::Arm> ArmChoice::arms() const {
     arms.push_back(base);
     arms.back().payload.mass_kg = mass;
   }
-  for (const auto& arm : arms) measured::require_usable(arm);
+  for (const auto& arm : arms) {
+    try {
+      measured::require_usable(arm);
+    } catch (const arm::InputError& error) {
+      throw arm::InputError(
+          fmt::format("{}: {}", fmt::join(changed_numbers(*this, arm), ", "), error.what()));
+    }
+  }
   return arms;
 }
 

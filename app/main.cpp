@@ -17,8 +17,10 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <new>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -123,6 +125,12 @@ int main(int argc, char** argv) {
     return app::kOutputClosed;
   } catch (const arm::InputError& error) {
     app::complain(error.what());
+    return app::kInputError;
+  } catch (const std::bad_alloc&) {
+    app::complain("flexarm: out of memory: ask for fewer samples, frequencies or modes");
+    return app::kInputError;
+  } catch (const std::system_error& error) {
+    app::complain(fmt::format("flexarm: {}", error.what()));
     return app::kInputError;
   } catch (const std::exception& error) {
     app::complain(fmt::format("flexarm: {}", error.what()));

@@ -34,7 +34,8 @@ constexpr std::string_view kIdCharacters =
     "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_.";
 
 /// A day at a microsecond would be 86 times this.
-constexpr double kMostSamples = 1e9;
+/// A run is kept in memory with its text, some 100 bytes a sample.
+constexpr double kMostSamples = 2e7;
 
 /// An excitation as it was typed, and what else a run may be told.
 struct TypedRun {

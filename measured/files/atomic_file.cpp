@@ -45,9 +45,28 @@ std::mutex& one_writer_at_a_time() {
   return mutex;
 }
 
-/// Makes and fills the folder `temporary`; 0, or the errno of the step that failed.
-int create_folder(const fs::path& temporary, std::span<const NamedContent> files) {
-  if (::mkdir(temporary.c_str(), 0777) != 0) return errno;
+/// A file or folder of a random name, and how making it ended.
+struct Temporary {
+  fs::path path;
+  int error = 0;  ///< 0, or the errno of the step that failed
+};
+
+/// Makes what `make(path)` makes under a name in `folder` that is not taken; what has been made is
+/// there, whole or in part.
+template <class Make>
+Temporary make_temporary(const fs::path& folder, const Make& make) {
+  sweep_temporaries(folder);
+  Temporary made;
+  for (int i = 0; i < kMostNames; ++i) {
+    made.path = temporary_name(folder);
+    made.error = make(made.path);
+    if (made.error != EEXIST) break;
+  }
+  return made;
+}
+
+/// Fills the folder; 0, or the errno of the step that failed.
+int fill_folder(const fs::path& temporary, std::span<const NamedContent> files) {
   for (const auto& file : files) {
     const fs::path within = temporary / fs::path(file.name).parent_path();
     if (::mkdir(within.c_str(), 0777) != 0 && errno != EEXIST) return errno;
@@ -110,10 +129,11 @@ void write_atomically(const fs::path& path, std::string_view content) {
 
   const fs::path target = target_of(path);
   const fs::path folder = folder_of(target);
-  const fs::path temporary = temporary_name(folder);
 
   const SignalsHeldOff held_off;
-  int error = create_file(temporary, content, exists ? &status : nullptr);
+  auto [temporary, error] = make_temporary(folder, [&](const fs::path& name) {
+    return create_file(name, content, exists ? &status : nullptr);
+  });
   if (error == 0 && ::rename(temporary.c_str(), target.c_str()) != 0) error = errno;
   if (error != 0) {
     if (error != EEXIST) ::unlink(temporary.c_str());
@@ -149,10 +169,13 @@ void write_folder_atomically(const fs::path& path, std::span<const NamedContent>
   if (if_exists == IfExists::refuse) require_new_folder(folder);
   const bool exists = has_files(folder);
   make_folder(folder_of(folder));
-  const fs::path temporary = temporary_name(folder_of(folder));
 
   const SignalsHeldOff held_off;
-  int error = create_folder(temporary, files);
+  auto [temporary, error] = make_temporary(folder_of(folder), [](const fs::path& name) {
+    return ::mkdir(name.c_str(), 0777) == 0 ? 0 : errno;
+  });
+  if (error != 0) throw not_written(path, reason_of(error));
+  error = fill_folder(temporary, files);
   if (error == 0) {
     error = exists                                             ? exchange_folders(temporary, folder)
             : ::rename(temporary.c_str(), folder.c_str()) == 0 ? 0
@@ -160,6 +183,7 @@ void write_folder_atomically(const fs::path& path, std::span<const NamedContent>
   }
   std::error_code ignored;
   fs::remove_all(temporary, ignored);  // what was left of the new folder, or the old one
+  if (error == ENOTEMPTY) throw not_written(path, "another process has written files there");
   if (error != 0) throw not_written(path, reason_of(error));
   synchronise_folder(folder_of(folder));
 }

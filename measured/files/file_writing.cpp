@@ -4,17 +4,25 @@
 
 #include <atomic>
 #include <cerrno>
+#include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <fcntl.h>
+#include <set>
 #include <system_error>
 #include <unistd.h>
+#include <vector>
 
 namespace flexarm::measured {
 
 namespace {
 
+namespace fs = std::filesystem;
+
 std::atomic<int> pending_signal = 0;
 static_assert(std::atomic<int>::is_always_lock_free, "a signal handler may not take a lock");
+
+constexpr std::string_view kTemporaryPrefix = ".flexarm-";
 
 constexpr std::array<int, 3> kSignals = {SIGINT, SIGTERM, SIGHUP};
 
@@ -58,8 +66,7 @@ int write_all(int descriptor, std::string_view content) {
   return 0;
 }
 
-int create_file(const std::filesystem::path& path, std::string_view content,
-                const struct stat* like) {
+int create_file(const fs::path& path, std::string_view content, const struct stat* like) {
   Descriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
   if (!file.is_open()) return errno;
   if (like != nullptr && ::fchmod(file.get(), like->st_mode & 07777U) != 0) return errno;
@@ -68,18 +75,38 @@ int create_file(const std::filesystem::path& path, std::string_view content,
   return file.close();
 }
 
-void synchronise_folder(const std::filesystem::path& folder) {
+void synchronise_folder(const fs::path& folder) {
   const Descriptor descriptor(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (descriptor.is_open()) ::fsync(descriptor.get());
 }
 
-std::filesystem::path temporary_name(const std::filesystem::path& folder) {
-  static std::atomic<unsigned> serial = 0;
-  return folder / fmt::format(".flexarm-{}-{}", ::getpid(), serial++);
+fs::path temporary_name(const fs::path& folder) {
+  std::uint64_t number = 0;
+  if (::getentropy(&number, sizeof number) != 0) {
+    throw std::system_error(errno, std::generic_category(), "random numbers of the system");
+  }
+  return folder / fmt::format("{}{:016x}", kTemporaryPrefix, number);
 }
 
-std::filesystem::path folder_of(const std::filesystem::path& path) {
-  return path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
+void sweep_temporaries(const fs::path& folder) {
+  constexpr auto kStale = std::chrono::hours(24);
+  static std::set<fs::path> swept;  // under the lock of the writer
+  std::error_code ignored;
+  if (!swept.insert(fs::absolute(folder, ignored)).second) return;
+  const auto begun = fs::file_time_type::clock::now() - kStale;
+  std::vector<fs::path> stale;
+  for (fs::directory_iterator entry(folder, ignored), end; !ignored && entry != end;
+       entry.increment(ignored)) {
+    if (!entry->path().filename().string().starts_with(kTemporaryPrefix)) continue;
+    std::error_code gone;
+    const auto changed = entry->last_write_time(gone);
+    if (!gone && changed < begun) stale.push_back(entry->path());
+  }
+  for (const fs::path& path : stale) fs::remove_all(path, ignored);
+}
+
+fs::path folder_of(const fs::path& path) {
+  return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
 std::string reason_of(int error) {

@@ -53,8 +53,16 @@ int create_file(const std::filesystem::path& path, std::string_view content,
 /// without.
 void synchronise_folder(const std::filesystem::path& folder);
 
-/// A name in `folder` that no other call gives and that `ls` does not show.
+/// A random name in `folder`, that `ls` does not show. Other processes, of other machines too, may
+/// write there: what is made under it must be new (O_EXCL, mkdir), or another name be taken.
 std::filesystem::path temporary_name(const std::filesystem::path& folder);
+
+/// How often a new name is tried where one is taken.
+inline constexpr int kMostNames = 100;
+
+/// Removes temporary files and folders that a killed process left in `folder` more than a day ago.
+/// Of each folder once a process; what cannot be removed stays.
+void sweep_temporaries(const std::filesystem::path& folder);
 
 /// The folder that a file or folder of that name lies in.
 std::filesystem::path folder_of(const std::filesystem::path& path);

@@ -3,6 +3,7 @@
 #include "arm/input_error.hpp"
 #include "measured/files/atomic_file.hpp"
 #include "measured/files/mat_elements.hpp"
+#include "measured/files/memory_file.hpp"
 #include "measured/files/text_file.hpp"
 
 #include <fmt/format.h>
@@ -10,15 +11,13 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <cstdlib>
-#include <fstream>
 #include <matio.h>
 #include <memory>
+#include <new>
 #include <optional>
 #include <set>
 #include <stdexcept>
 #include <string_view>
-#include <unistd.h>
 
 namespace flexarm::measured {
 
@@ -38,30 +37,6 @@ struct FreeVariable {
 };
 using File = std::unique_ptr<mat_t, CloseFile>;
 using Variable = std::unique_ptr<matvar_t, FreeVariable>;
-
-/// An empty file of its own, removed in the end.
-class TemporaryFile {
- public:
-  TemporaryFile() {
-    std::string name = (fs::temp_directory_path() / "flexarm-mat-XXXXXX").string();
-    const int descriptor = ::mkstemp(name.data());
-    if (descriptor < 0) {
-      throw arm::InputError(fmt::format("{}: cannot be written", arm::shown(name)));
-    }
-    ::close(descriptor);
-    path_ = name;
-  }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-  ~TemporaryFile() {
-    std::error_code ignored;
-    fs::remove(path_, ignored);
-  }
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
 
 bool is_letter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
@@ -86,7 +61,7 @@ template <std::size_t rank = 2>
 Variable created(const char* name, matio_classes kind, matio_types type,
                  std::array<std::size_t, rank> size, void* data, int options = 0) {
   Variable variable(Mat_VarCreate(name, kind, type, rank, size.data(), data, options));
-  if (!variable) throw std::runtime_error(".mat file: out of memory");
+  if (!variable) throw std::bad_alloc();
   return variable;
 }
 
@@ -277,6 +252,19 @@ void append(matvar_t& variable, const std::string& name, MatContents& contents) 
   contents.variables.push_back(std::move(read));
 }
 
+/// The library does not check its writes: so many whole variables have come about.
+bool holds(const MemoryFile& memory, std::size_t variables) {
+  try {
+    sound_elements(memory.content());
+  } catch (const arm::InputError&) {
+    return false;
+  }
+  const File file(Mat_Open(memory.path().c_str(), MAT_ACC_RDONLY));
+  std::size_t found = 0;
+  while (file && Variable(Mat_VarReadNextInfo(file.get()))) ++found;
+  return found == variables;
+}
+
 }  // namespace
 
 void write_mat_file(const std::vector<MatVariable>& variables, const fs::path& path,
@@ -288,22 +276,28 @@ void write_mat_file(const std::vector<MatVariable>& variables, const fs::path& p
       throw std::invalid_argument(fmt::format(".mat variable {} is given twice", variable.name));
     }
   }
-  const TemporaryFile temporary;
-  File file(Mat_CreateVer(temporary.path().c_str(), kHeader, MAT_FT_MAT5));
-  if (!file) throw unusable(temporary.path(), "cannot be written");
+  const MemoryFile memory;
+  File file(Mat_CreateVer(memory.path().c_str(), kHeader, MAT_FT_MAT5));
+  bool written = file != nullptr;
   for (const auto& variable : variables) {
     // One at a time: the library keeps a copy of the numbers.
     const Variable converted = std::visit(ToLibrary{variable.name}, variable.value);
-    if (Mat_VarWrite(file.get(), converted.get(), MAT_COMPRESSION_NONE) != 0) {
-      throw unusable(temporary.path(), "cannot be written");
-    }
+    written = written && Mat_VarWrite(file.get(), converted.get(), MAT_COMPRESSION_NONE) == 0;
   }
-  if (Mat_Close(file.release()) != 0) throw unusable(temporary.path(), "cannot be written");
-  measured::write_atomically(path, measured::read_text_file(temporary.path(), most_bytes));
+  written = file != nullptr && Mat_Close(file.release()) == 0 && written;
+  if (!written || !holds(memory, variables.size())) {
+    throw unusable(path, "cannot be written: out of memory");
+  }
+  const std::string bytes = memory.content();
+  if (bytes.size() > most_bytes) {
+    throw unusable(path, fmt::format("cannot be written: would have {} bytes; at most {}",
+                                     bytes.size(), most_bytes));
+  }
+  write_atomically(path, bytes);
 }
 
 MatContents read_mat_contents(const fs::path& path) {
-  const std::string bytes = measured::read_text_file(path, kLargestMatFile_bytes);
+  const std::string bytes = read_text_file(path, kLargestMatFile_bytes);
   constexpr std::string_view kMagic = "MATLAB 5.0 MAT-file";
   if (!bytes.starts_with(kMagic)) {
     throw unusable(path, "not a MATLAB 5 file; save with -v6 or -v7");
@@ -314,9 +308,8 @@ MatContents read_mat_contents(const fs::path& path) {
   } catch (const arm::InputError& error) {
     throw unusable(path, error.what());
   }
-  const TemporaryFile temporary;
-  std::ofstream(temporary.path(), std::ios::binary) << sound.file;
-  File file(Mat_Open(temporary.path().c_str(), MAT_ACC_RDONLY));
+  const MemoryFile memory(sound.file);
+  File file(Mat_Open(memory.path().c_str(), MAT_ACC_RDONLY));
   if (!file || Mat_GetVersion(file.get()) != MAT_FT_MAT5) {
     throw unusable(path, "not a MATLAB 5 file; save with -v6 or -v7");
   }

@@ -30,6 +30,10 @@ constexpr const char* kSensor = "sensor";
 constexpr const char* kFeature = "feature";
 constexpr const char* kOrder = "order";
 
+/// Work and memory grow with the modes up to the largest of these.
+constexpr int kMostOrder = 1000;
+constexpr double kMostFrequency_Hz = 1e6;
+
 /// A column of numbers; cells may be empty.
 struct NumberColumn {
   const char* name;
@@ -148,9 +152,9 @@ ModalEntry read_entry(const CsvRow& row, const ModalHeader& header) {
   if (order != header.end() && !row.cells[order->second].empty()) {
     const std::string& cell = row.cells[order->second];
     entry.order = number_cell<int>(cell).value_or(0);
-    if (*entry.order < 1) {
-      throw InputError(
-          fmt::format("order = {}: must be a whole number, 1 or more, or empty", arm::shown(cell)));
+    if (*entry.order < 1 || *entry.order > kMostOrder) {
+      throw InputError(fmt::format("order = {}: must be a whole number from 1 to {}, or empty",
+                                   arm::shown(cell), kMostOrder));
     }
   }
 
@@ -158,6 +162,11 @@ ModalEntry read_entry(const CsvRow& row, const ModalHeader& header) {
     const auto place = header.find(column.name);
     if (place == header.end() || row.cells[place->second].empty()) continue;
     entry.*column.member = read_value(column, row.cells[place->second]);
+  }
+  if (entry.frequency_Hz.value_or(0.0) > kMostFrequency_Hz) {
+    throw InputError(fmt::format("frequency [Hz] = {}: must be at most {:g} Hz",
+                                 arm::shown(row.cells[header.at(kNumbers[0].name)]),
+                                 kMostFrequency_Hz));
   }
   require_shape_in_place(entry);
   return entry;

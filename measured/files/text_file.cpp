@@ -47,6 +47,10 @@ std::string read_text_file(const fs::path& path, std::size_t largest_bytes) {
   }
   if (error) throw unreadable(path, "cannot be read: " + error.message());
   if (fs::is_directory(status)) throw unreadable(path, "is a folder; must be a file");
+  // A pipe may wait for ever, a device may have no end.
+  if (!fs::is_regular_file(status)) {
+    throw unreadable(path, "is a pipe or a device; must be a regular file");
+  }
 
   errno = 0;
   std::ifstream file(path, std::ios::binary);

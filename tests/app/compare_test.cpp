@@ -104,7 +104,7 @@ TEST_F(Compare, BadInputIsOneLineAndStatusTwo) {
   expect_refused(run({"compare", "--poles", "0"}), "poles = 0: must be 1 or more");
   expect_refused(run({"compare", "--poles", "1000000"}), "poles = 1000000: must be 90 or less");
   expect_refused(run({"compare", "--payload-mass", "-1"}),
-                 "payload.mass = -1 kg: must be a finite number, 0 or more");
+                 "--payload-mass -1 kg: payload.mass = -1 kg: must be a finite number, 0 or more");
   EXPECT_EQ(names_in(), (std::vector<std::string>{"bad.toml"}));
 }
 

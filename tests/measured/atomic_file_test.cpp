@@ -1,6 +1,7 @@
 #include "measured/files/atomic_file.hpp"
 
 #include "arm/input_error.hpp"
+#include "measured/files/file_writing.hpp"
 #include "measured/files/text_file.hpp"
 
 #include <gmock/gmock.h>
@@ -28,6 +29,10 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 
 constexpr std::size_t kAnySize = 1 << 26;
+
+std::string text_of(const fs::path& path) {
+  return read_text_file(path, kAnySize);
+}
 
 class AtomicFile : public testing::Test {
  protected:
@@ -154,6 +159,46 @@ TEST_F(AtomicFile, ASignalDuringTheWriteLeavesAWholeFileAndEndsTheProgram) {
   }
 }
 
+/// Names of the numbers of processes were taken by the next process of that number.
+TEST_F(AtomicFile, WhatAKilledProcessLeftIsNotInTheWayAndIsRemovedAfterADay) {
+  const fs::path recent = folder_ / ".flexarm-1-0";
+  const fs::path stale = folder_ / ".flexarm-0123456789abcdef";
+  // Not by write_atomically: a folder is swept once a process, and a child has its parent's list.
+  std::ofstream(recent) << "of a process that may still write";
+  fs::create_directories(stale / "sub");
+  const std::chrono::hours kOld(25);
+  fs::last_write_time(stale, fs::file_time_type::clock::now() - kOld);
+  const fs::path user = folder_ / "flexarm-old.txt";
+  std::ofstream(user) << "not ours";
+  fs::last_write_time(user, fs::file_time_type::clock::now() - kOld);
+  const pid_t child = ::fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    write_atomically(folder_ / "a.txt", "new");
+    ::_exit(0);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+  EXPECT_TRUE(fs::exists(folder_ / "a.txt"));
+  EXPECT_TRUE(fs::exists(recent));
+  EXPECT_TRUE(fs::exists(user));
+  EXPECT_FALSE(fs::exists(stale));
+}
+
+TEST_F(AtomicFile, TemporaryNamesOfTwoProcessesDiffer) {
+  EXPECT_NE(temporary_name(folder_), temporary_name(folder_));
+  const pid_t child = ::fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    std::ofstream(folder_ / "name") << temporary_name(folder_).string();
+    ::_exit(0);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  EXPECT_NE(text_of(folder_ / "name"), temporary_name(folder_).string());
+}
+
 TEST_F(AtomicFile, FoldersAreMadeWithTheirParents) {
   make_folder(folder_ / "a" / "b" / "c");
   EXPECT_TRUE(fs::is_directory(folder_ / "a" / "b" / "c"));
@@ -168,7 +213,13 @@ TEST_F(AtomicFile, AFileThatCannotBeReadSaysWhy) {
   EXPECT_EQ(error_of([&] { read_text_file(folder_, kAnySize); }),
             folder + ": is a folder; must be a file");
   EXPECT_EQ(error_of([] { read_text_file("/dev/zero", 1000); }),
-            "/dev/zero: too large; at most 1000 bytes are read");
+            "/dev/zero: is a pipe or a device; must be a regular file");
+  ASSERT_EQ(::mkfifo((folder_ / "pipe").c_str(), 0600), 0);
+  EXPECT_EQ(error_of([&] { read_text_file(folder_ / "pipe", 1000); }),
+            folder + "/pipe: is a pipe or a device; must be a regular file");
+  write_atomically(folder_ / "long", std::string(1001, 'x'));
+  EXPECT_EQ(error_of([&] { read_text_file(folder_ / "long", 1000); }),
+            folder + "/long: too large; at most 1000 bytes are read");
   EXPECT_EQ(error_of([] { read_text_file("", 1000); }), "the name of a file is empty");
   if (::geteuid() != 0) {
     ::chmod((folder_ / "rig.toml").c_str(), 0);
@@ -178,10 +229,6 @@ TEST_F(AtomicFile, AFileThatCannotBeReadSaysWhy) {
 }
 
 using AtomicFolder = AtomicFile;
-
-std::string text_of(const fs::path& path) {
-  return read_text_file(path, kAnySize);
-}
 
 const std::vector<NamedContent> kTwoFiles = {{"a.txt", "first"}, {"b.txt", "second"}};
 

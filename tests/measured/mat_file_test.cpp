@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cmath>
+#include <csignal>
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
@@ -18,6 +19,8 @@
 #include <random>
 #include <stdexcept>
 #include <string>
+#include <sys/resource.h>
+#include <vector>
 
 namespace flexarm::measured {
 namespace {
@@ -207,6 +210,38 @@ TEST_F(MatFile, AFileCutOffAnywhereIsRefusedOrHoldsWholeVariables) {
     } catch (const arm::InputError&) {
     }
   }
+}
+
+TEST_F(MatFile, NeedsNoTemporaryFolder) {
+  const char* before = std::getenv("TMPDIR");
+  const std::string kept = before == nullptr ? "" : before;
+  ::setenv("TMPDIR", path("none").c_str(), 1);
+  write_mat_file(every_kind(), path());
+  EXPECT_EQ(read_mat_file(path()), every_kind());
+  before == nullptr ? ::unsetenv("TMPDIR") : ::setenv("TMPDIR", kept.c_str(), 1);
+}
+
+/// The library does not say that a write of its own has failed.
+TEST_F(MatFile, WithoutRoomNothingIsWritten) {
+  rlimit before = {};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+  const auto previous = std::signal(SIGXFSZ, SIG_IGN);
+  const MatVariable numbers{"numbers", MatMatrix{1000, 1, std::vector<double>(1000, 1.0)}};
+  // Within the header, within the numbers, and between two variables.
+  for (const rlim_t limit : {100U, 4000U, 8192U}) {
+    const rlimit small = {limit, before.rlim_max};
+    ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
+    std::string error;
+    try {
+      write_mat_file({numbers, {"more", MatMatrix{1, 1, {2.0}}}}, path());
+    } catch (const arm::InputError& refused) {
+      error = refused.what();
+    }
+    ::setrlimit(RLIMIT_FSIZE, &before);
+    EXPECT_THAT(error, HasSubstr(path().string() + ": cannot be written")) << limit;
+    EXPECT_FALSE(std::filesystem::exists(path()));
+  }
+  std::signal(SIGXFSZ, previous);
 }
 
 }  // namespace

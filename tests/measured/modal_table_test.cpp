@@ -155,11 +155,11 @@ const std::vector<Mistake> kModalTableMistakes = {
      "2: feature = ploe: must be pole or zero (did you mean pole?)"},
     {"FeatureEmpty", kHeader + "\nhub_angle,,1,11.9,,,\n", "2: feature = : must be pole or zero"},
     {"OrderZero", kHeader + "\nhub_angle,pole,0,11.9,,,\n",
-     "2: order = 0: must be a whole number, 1 or more, or empty"},
+     "2: order = 0: must be a whole number from 1 to 1000, or empty"},
     {"OrderFractional", kHeader + "\nhub_angle,pole,1.5,11.9,,,\n",
-     "2: order = 1.5: must be a whole number, 1 or more, or empty"},
+     "2: order = 1.5: must be a whole number from 1 to 1000, or empty"},
     {"OrderTooLarge", kHeader + "\nhub_angle,pole,99999999999,11.9,,,\n",
-     "2: order = 99999999999: must be a whole number, 1 or more, or empty"},
+     "2: order = 99999999999: must be a whole number from 1 to 1000, or empty"},
     {"Twice",
      kHeader + "\nhub_angle,pole,1,11.9,,,\nhub_angle,zero,1,2,,,\nhub_angle,pole,1,12,,,\n",
      "4: hub_angle pole 1: given twice; first on line 2"},
@@ -170,7 +170,7 @@ const std::vector<Mistake> kModalTableMistakes = {
     {"ImaginaryShapeAlone", "sensor,feature,frequency [Hz],shape_im\nhub_angle,pole,2,1\n",
      "2: shape_im: given without shape_re"},
     {"ControlCharacter", kHeader + "\nhub_angle,pole,\"1\n\",11.9,,,\n",
-     "2: order = 1\\x0a: must be a whole number, 1 or more, or empty"},
+     "2: order = 1\\x0a: must be a whole number from 1 to 1000, or empty"},
 };
 
 class ModalTableMistake : public testing::TestWithParam<Mistake> {};

@@ -23,6 +23,7 @@ MemoryFile::MemoryFile(std::string_view content)
     : descriptor_(::memfd_create("flexarm", MFD_CLOEXEC)) {
   if (!descriptor_.is_open()) throw failure(errno);
   if (const int error = write_all(descriptor_.get(), content); error != 0) throw failure(error);
+  if (::lseek(descriptor_.get(), 0, SEEK_SET) != 0) throw failure(errno);
 }
 
 std::filesystem::path MemoryFile::path() const {

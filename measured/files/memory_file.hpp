@@ -8,16 +8,17 @@
 
 namespace flexarm::measured {
 
-/// A file in memory, for libraries that read or write files by their name: no folder has to have
+/// A file in memory, for libraries and programs that read or write files: no folder has to have
 /// room for it, and nothing of it is left behind.
 class MemoryFile {
  public:
-  /// Throws std::system_error where there is no memory for it.
+  /// Stands at its beginning. Throws std::system_error where there is no memory for it.
   explicit MemoryFile(std::string_view content = {});
 
-  /// Its name, as long as it exists.
+  /// Its name within this process, as long as it exists.
   std::filesystem::path path() const;
-  /// What has been written into it by that name. Throws std::system_error.
+  int descriptor() const { return descriptor_.get(); }
+  /// What has been written into it, by whomever. Throws std::system_error.
   std::string content() const;
 
  private:

@@ -1,14 +1,18 @@
 #include "report/figures/gnuplot.hpp"
 
 #include "arm/input_error.hpp"
+#include "measured/files/file_writing.hpp"
+#include "measured/files/memory_file.hpp"
 
 #include <fmt/format.h>
 
 #include <array>
 #include <cerrno>
+#include <csignal>
+#include <poll.h>
 #include <spawn.h>
 #include <stdexcept>
-#include <sys/mman.h>
+#include <sys/pidfd.h>
 #include <sys/wait.h>
 #include <system_error>
 #include <unistd.h>
@@ -16,53 +20,36 @@
 namespace flexarm::report {
 namespace {
 
+using measured::MemoryFile;
+
 [[noreturn]] void fail(int error, const char* what) {
   throw std::system_error(error, std::generic_category(), what);
 }
 
-/// A file in memory that has no name in the file system. The child's three streams are such files
-/// rather than pipes, so that neither side ever waits for the other to read.
-class MemoryFile {
- public:
-  MemoryFile() : descriptor_(memfd_create("flexarm-gnuplot", MFD_CLOEXEC)) {
-    if (descriptor_ < 0) fail(errno, "memfd_create");
+/// Waits for the child's end; returns its wait status. One that takes longer is ended.
+int end_of(pid_t child, std::chrono::milliseconds longest) {
+  const measured::Descriptor handle(::pidfd_open(child, 0));
+  if (!handle.is_open()) fail(errno, "pidfd_open");
+  pollfd ended{handle.get(), POLLIN, 0};
+  int ready = 0;
+  do {
+    ready = ::poll(&ended, 1, static_cast<int>(longest.count()));
+  } while (ready < 0 && errno == EINTR);
+  if (ready == 0) ::kill(child, SIGKILL);
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0) {
+    if (errno != EINTR) fail(errno, "waitpid");
   }
-  ~MemoryFile() { close(descriptor_); }
-  MemoryFile(const MemoryFile&) = delete;
-  MemoryFile& operator=(const MemoryFile&) = delete;
-
-  [[nodiscard]] int descriptor() const { return descriptor_; }
-
-  void fill(std::string_view text) {
-    while (!text.empty()) {
-      const ssize_t written = write(descriptor_, text.data(), text.size());
-      if (written < 0) fail(errno, "write");
-      text.remove_prefix(static_cast<std::size_t>(written));
-    }
-    rewind();
+  if (ready == 0) {
+    throw std::runtime_error(
+        fmt::format("gnuplot did not end within {} s", static_cast<double>(longest.count()) / 1e3));
   }
+  return status;
+}
 
-  std::string content() {
-    rewind();
-    std::string text;
-    std::array<char, 65536> buffer{};
-    ssize_t count = 0;
-    while ((count = read(descriptor_, buffer.data(), buffer.size())) > 0) {
-      text.append(buffer.data(), static_cast<std::size_t>(count));
-    }
-    if (count < 0) fail(errno, "read");
-    return text;
-  }
-
- private:
-  void rewind() const {
-    if (lseek(descriptor_, 0, SEEK_SET) != 0) fail(errno, "lseek");
-  }
-  int descriptor_;
-};
-
-/// Starts gnuplot on the three streams and waits for its end; returns its wait status.
-int run(const MemoryFile& in, const MemoryFile& out, const MemoryFile& err) {
+/// The three streams are files rather than pipes, so that neither side ever waits for the other to
+/// read.
+pid_t started(const MemoryFile& in, const MemoryFile& out, const MemoryFile& err) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, in.descriptor(), STDIN_FILENO);
@@ -81,22 +68,16 @@ int run(const MemoryFile& in, const MemoryFile& out, const MemoryFile& err) {
         "figures need gnuplot, which is not on PATH (Debian package gnuplot-nox)");
   }
   if (error != 0) fail(error, "cannot start gnuplot");
-
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0) {
-    if (errno != EINTR) fail(errno, "waitpid");
-  }
-  return status;
+  return child;
 }
 
 }  // namespace
 
-std::string run_gnuplot(std::string_view script) {
-  MemoryFile in;
-  MemoryFile out;
-  MemoryFile err;
-  in.fill(script);
-  const int status = run(in, out, err);
+std::string run_gnuplot(std::string_view script, std::chrono::milliseconds longest) {
+  const MemoryFile in(script);
+  const MemoryFile out;
+  const MemoryFile err;
+  const int status = end_of(started(in, out, err), longest);
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
     throw std::runtime_error(
         fmt::format("gnuplot failed (wait status {}): {}", status, err.content()));

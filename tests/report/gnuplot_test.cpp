@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <stdexcept>
 #include <string>
@@ -34,6 +35,16 @@ TEST(Gnuplot, LongOutputDoesNotBlock) {
 
 TEST(Gnuplot, AnErrorInTheScriptCarriesGnuplotsMessage) {
   EXPECT_THAT(failure("plot no_such_variable\n"), HasSubstr("undefined variable"));
+}
+
+TEST(Gnuplot, OneThatHangsIsEnded) {
+  constexpr std::chrono::milliseconds kShort(200);
+  try {
+    run_gnuplot("pause 30\n", kShort);
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_STREQ(error.what(), "gnuplot did not end within 0.2 s");
+  }
 }
 
 TEST(Gnuplot, NamesThePackageWhenItIsNotInstalled) {

@@ -1,5 +1,7 @@
 #include "arm/nearest_name.hpp"
 
+#include "arm/input_error.hpp"
+
 #include <algorithm>
 #include <cstddef>
 #include <vector>
@@ -60,7 +62,7 @@ std::optional<std::string> nearest_name(std::string_view typed,
 
 std::string did_you_mean(std::string_view typed, std::span<const std::string> names) {
   const auto nearest = nearest_name(typed, names);
-  return nearest ? " (did you mean " + *nearest + "?)" : "";
+  return nearest ? " (did you mean " + shown(*nearest) + "?)" : "";
 }
 
 }  // namespace flexarm::arm

@@ -166,8 +166,10 @@ void add_response(const std::vector<Subject>& subjects, const arm::Sensor& senso
       formulations, sensor, response_grid_Hz(poles_Hz, options.response_points, features_Hz),
       features_Hz);
   for (std::size_t b = 1; b < subjects.size(); ++b) {
-    comparison.findings.push_back({fmt::format("{} response at {:.4g} Hz", arm::to_string(sensor),
-                                               response.largest_error_frequency_Hz[b]),
+    const double largest_at_Hz = response.largest_error_frequency_Hz[b];
+    const std::string place =
+        std::isfinite(largest_at_Hz) ? fmt::format(" at {:.4g} Hz", largest_at_Hz) : "";
+    comparison.findings.push_back({fmt::format("{} response{}", arm::to_string(sensor), place),
                                    subjects.front().name, subjects[b].name,
                                    response.largest_error[b], options.response_tolerance});
   }

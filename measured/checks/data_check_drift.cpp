@@ -92,10 +92,11 @@ Trend trend_beside_torque(const CheckedSignal& signal, const CheckedSignal& torq
 
 std::optional<DataFinding> drift_finding(const CheckedSignal& signal, const Trend& trend,
                                          const char* beside, const DataCheckOptions& options) {
-  if (std::abs(trend.size) <= options.least_drift * signal.deviation ||
-      std::abs(trend.size) <= options.drift_errors * trend.error) {
-    return std::nullopt;
-  }
+  // Not finite: of readings near the largest double.
+  const double size = std::abs(trend.size);
+  const bool is_drift =
+      size > options.least_drift * signal.deviation && size > options.drift_errors * trend.error;
+  if (!is_drift || !std::isfinite(size)) return std::nullopt;
   return DataFinding{Fault::drift,
                      signal.name,
                      0,
@@ -104,7 +105,7 @@ std::optional<DataFinding> drift_finding(const CheckedSignal& signal, const Tren
                      fmt::format("{} drifts by {:.4g} {} over the record relative to {} ({:.2g} of "
                                  "its standard deviation)",
                                  signal.name, trend.size, arm::unit(*signal.sensor), beside,
-                                 std::abs(trend.size) / signal.deviation)};
+                                 size / signal.deviation)};
 }
 
 }  // namespace

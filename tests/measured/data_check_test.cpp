@@ -311,5 +311,16 @@ TEST(DataCheckRates, DISABLED_OfManyFiles) {
   }
 }
 
+TEST(DataCheck, SaysNoNanOfReadingsNearTheLargestDouble) {
+  response::RandomNumbers random(1);
+  TimeRecord record = sampled(draw_run(1), random);
+  for (Channel& channel : record.channels) {
+    for (double& value : channel.values) value *= 1e300;
+  }
+  for (const DataFinding& finding : check_data(record, {})) {
+    EXPECT_EQ(finding.text.find("nan"), std::string::npos) << finding.text;
+  }
+}
+
 }  // namespace
 }  // namespace flexarm::measured

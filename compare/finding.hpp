@@ -23,6 +23,9 @@ struct Finding {
 struct Verdict {
   bool agree = true;
   Finding worst;  ///< the finding with the largest distance/tolerance; one without a value is worst
+  /// The formulation that differs from all others in the quantity of `worst`, while the others
+  /// agree in it: two against one. Empty where there is none.
+  std::string alone = {};
 };
 
 /// Throws std::invalid_argument when there is nothing to judge.

@@ -237,9 +237,11 @@ Json compared_json(const ComparedArm& compared) {
   const auto& comparison = compared.comparison;
   Json findings = Json::array();
   for (const auto& finding : comparison.findings) findings.push_back(finding_json(finding));
+  const std::string& alone = comparison.verdict.alone;
   return {
       {"verdict", comparison.verdict.agree ? "agree" : "disagree"},
       {"worst", finding_json(comparison.verdict.worst)},
+      {"alone", alone.empty() ? Json() : Json(alone)},
       {"arm", arm_json(comparison.arm)},
       {"models", models_json(comparison)},
       {"roots", roots_json(comparison)},

@@ -3,6 +3,7 @@
 #include "report/tables/zero_kind.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -244,8 +245,15 @@ std::string verdict_line(const compare::Comparison& comparison) {
           ? fmt::format("{}: missing in {} or {}", worst.quantity, worst.first, worst.second)
           : fmt::format("{}: relative difference of {} and {} {:.1e}, tolerance {:.0e}",
                         worst.quantity, worst.first, worst.second, worst.distance, worst.tolerance);
-  return fmt::format("Verdict: {}. Largest difference relative to its tolerance: {}.",
-                     comparison.verdict.agree ? "agree" : "DISAGREE", where);
+  std::string line = fmt::format("Verdict: {}. Largest difference relative to its tolerance: {}.",
+                                 comparison.verdict.agree ? "agree" : "DISAGREE", where);
+  const std::string& alone = comparison.verdict.alone;
+  if (!alone.empty()) {
+    auto others = comparison.subjects;
+    std::erase(others, alone);
+    line += fmt::format(" {} alone differs: {} agree.", alone, fmt::join(others, " and "));
+  }
+  return line;
 }
 
 }  // namespace flexarm::report

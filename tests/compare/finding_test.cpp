@@ -52,6 +52,34 @@ TEST(Judge, OfEqualsTheFirstIsNamed) {
   EXPECT_EQ(verdict.worst.quantity, "first");
 }
 
+TEST(Judge, NamesTheOneThatDiffersFromTwoThatAgree) {
+  const std::vector<Finding> zeros = {{"zero 4", "x", "y", 1e-13, 1e-9},
+                                      {"zero 4", "x", "z", kNaN, 1e-9},
+                                      {"zero 4", "y", "z", kNaN, 1e-9},
+                                      {"pole 1", "x", "y", 1e-3, 1e-9}};
+  EXPECT_EQ(judge(zeros).alone, "z");
+  // Each pair of responses is worst somewhere else.
+  EXPECT_EQ(judge(std::vector<Finding>{{"hub_angle response at 3 Hz", "x", "y", 1e-4, 1e-7},
+                                       {"hub_angle response at 4 Hz", "x", "z", 1e-9, 1e-7},
+                                       {"hub_angle response at 4 Hz", "y", "z", 1e-4, 1e-7}})
+                .alone,
+            "y");
+}
+
+TEST(Judge, NamesNoneWhereAllDifferOrTwoAreCompared) {
+  EXPECT_EQ(judge(std::vector<Finding>{{"zero 4", "x", "y", 1e-3, 1e-9}}).alone, "");
+  EXPECT_EQ(judge(std::vector<Finding>{{"zero 4", "x", "y", 1e-3, 1e-9},
+                                       {"zero 4", "x", "z", 1e-3, 1e-9},
+                                       {"zero 4", "y", "z", 1e-3, 1e-9}})
+                .alone,
+            "");
+  EXPECT_EQ(judge(std::vector<Finding>{{"zero 4", "x", "y", 1e-13, 1e-9},
+                                       {"zero 4", "x", "z", 1e-13, 1e-9},
+                                       {"zero 4", "y", "z", 1e-13, 1e-9}})
+                .alone,
+            "");
+}
+
 TEST(Judge, NothingToJudgeIsAMistakeOfTheCaller) {
   EXPECT_THROW(judge({}), std::invalid_argument);
 }

@@ -8,6 +8,7 @@
 
 #include <bit>
 #include <cstdint>
+#include <limits>
 #include <random>
 
 namespace flexarm::measured {
@@ -56,11 +57,12 @@ TEST(ModalTable, MayStateNoOrders) {
 TEST(ModalTable, WhatIsWrittenReadsBackEqual) {
   std::mt19937_64 random(20261120);
   const auto chance = [&] { return random() % 2 == 0; };
-  const auto positive = [&]() -> std::optional<double> {
-    constexpr std::uint64_t kPositiveInfinity = 0x7ff0000000000000;
+  /// Any double above 0 up to `most`.
+  const auto positive = [&](double most) -> std::optional<double> {
     if (chance()) return std::nullopt;
-    return std::bit_cast<double>(1 + random() % (kPositiveInfinity - 1));
+    return std::bit_cast<double>(1 + random() % std::bit_cast<std::uint64_t>(most));
   };
+  constexpr double kLargest = std::numeric_limits<double>::max();
   ModalTable table;
   for (int order = 1; order <= 500; ++order) {
     ModalEntry entry;
@@ -69,10 +71,10 @@ TEST(ModalTable, WhatIsWrittenReadsBackEqual) {
       entry.sensor = {SensorKind::strain, static_cast<double>(random()) * 0x1p-64};
     }
     entry.order = order;
-    entry.frequency_Hz = positive();
-    entry.frequency_std_Hz = positive();
+    entry.frequency_Hz = positive(1e6);
+    entry.frequency_std_Hz = positive(kLargest);
     if (chance()) entry.damping_ratio = static_cast<double>(random()) * 0x1p-63 - 1.0;
-    entry.damping_ratio_std = positive();
+    entry.damping_ratio_std = positive(kLargest);
     table.push_back(entry);
   }
   EXPECT_EQ(parse_modal_table(format_modal_table(table), "m"), table);
@@ -160,6 +162,8 @@ const std::vector<Mistake> kModalTableMistakes = {
      "2: order = 1.5: must be a whole number from 1 to 1000, or empty"},
     {"OrderTooLarge", kHeader + "\nhub_angle,pole,99999999999,11.9,,,\n",
      "2: order = 99999999999: must be a whole number from 1 to 1000, or empty"},
+    {"FrequencyTooLarge", kHeader + "\nhub_angle,pole,1,2147483648,,,\n",
+     "2: frequency [Hz] = 2147483648: must be at most 1e+06 Hz"},
     {"Twice",
      kHeader + "\nhub_angle,pole,1,11.9,,,\nhub_angle,zero,1,2,,,\nhub_angle,pole,1,12,,,\n",
      "4: hub_angle pole 1: given twice; first on line 2"},

@@ -193,6 +193,8 @@ def main() -> int:
     parser.add_argument("--moments", type=int, default=100)
     parser.add_argument("--only", type=lambda text: text.split(","), default=[])
     arguments = parser.parse_args()
+    # A shell starts what runs in the background with SIGINT ignored, which commands would inherit.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     with tempfile.TemporaryDirectory(prefix="faults-") as folder:
         bench = Bench(arguments.program, Path(folder) / "base", Path(folder))
         bench.base.mkdir()

@@ -1,5 +1,7 @@
 #include "arm/nearest_name.hpp"
 
+#include "arm/input_error.hpp"
+
 #include <algorithm>
 #include <cstddef>
 #include <vector>
@@ -7,6 +9,9 @@
 namespace flexarm::arm {
 
 namespace {
+
+/// A longer name is not looked for: the distance takes time and memory of the product of lengths.
+constexpr std::size_t kLongestName_bytes = 256;
 
 /// Optimal string alignment distance (Damerau-Levenshtein without overlapping swaps).
 std::size_t edit_distance(std::string_view a, std::string_view b) {
@@ -41,7 +46,7 @@ std::optional<std::string> nearest_name(std::string_view typed,
   for (const auto& name : names) {
     // The distance is at least the difference in length, which spares the table for long input.
     const auto [shorter, longer] = std::minmax({typed.size(), name.size()});
-    if (3 * (longer - shorter) > longer) continue;
+    if (3 * (longer - shorter) > longer || longer > kLongestName_bytes) continue;
     const std::size_t distance = edit_distance(typed, name);
     if (3 * distance > longer) continue;
     if (!nearest || distance < smallest) {
@@ -60,7 +65,7 @@ std::optional<std::string> nearest_name(std::string_view typed,
 
 std::string did_you_mean(std::string_view typed, std::span<const std::string> names) {
   const auto nearest = nearest_name(typed, names);
-  return nearest ? " (did you mean " + *nearest + "?)" : "";
+  return nearest ? " (did you mean " + shown(*nearest) + "?)" : "";
 }
 
 }  // namespace flexarm::arm

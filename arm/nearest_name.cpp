@@ -10,6 +10,9 @@ namespace flexarm::arm {
 
 namespace {
 
+/// A longer name is not looked for: the distance takes time and memory of the product of lengths.
+constexpr std::size_t kLongestName_bytes = 256;
+
 /// Optimal string alignment distance (Damerau-Levenshtein without overlapping swaps).
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
@@ -43,7 +46,7 @@ std::optional<std::string> nearest_name(std::string_view typed,
   for (const auto& name : names) {
     // The distance is at least the difference in length, which spares the table for long input.
     const auto [shorter, longer] = std::minmax({typed.size(), name.size()});
-    if (3 * (longer - shorter) > longer) continue;
+    if (3 * (longer - shorter) > longer || longer > kLongestName_bytes) continue;
     const std::size_t distance = edit_distance(typed, name);
     if (3 * distance > longer) continue;
     if (!nearest || distance < smallest) {

@@ -12,3 +12,10 @@ if(FLEXARM_COVERAGE)
   add_compile_options(--coverage)
   add_link_options(--coverage)
 endif()
+if(FLEXARM_FUZZ)
+  # float-cast-overflow is undefined as well, but not among those of `undefined`.
+  add_compile_options(-fsanitize=fuzzer-no-link,address,undefined,float-cast-overflow
+                      -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  add_compile_definitions(_GLIBCXX_ASSERTIONS)
+  add_link_options(-fsanitize=address,undefined)
+endif()

@@ -2,6 +2,9 @@
 
 #include "arm/input_error.hpp"
 #include "measured/files/delimited_line.hpp"
+#include "measured/files/record_constants.hpp"
+
+#include <fmt/format.h>
 
 namespace flexarm::measured {
 
@@ -27,6 +30,10 @@ bool CsvReader::next() {
     pass_blanks();
     const bool is_quoted = at_ < text_.size() && text_[at_] == '"';
     cells_.push_back(is_quoted ? quoted_cell() : plain_cell());
+    if (cells_.size() > kMostRecordColumns) {
+      throw arm::InputError(
+          fmt::format("more than {0} cells; a table has at most {0} columns", kMostRecordColumns));
+    }
     if (at_ == text_.size() || text_[at_] != ',') break;
     ++at_;
   }

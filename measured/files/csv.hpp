@@ -18,7 +18,8 @@ class CsvReader {
   explicit CsvReader(std::string_view text);
 
   /// Goes to the next row; false when there is none. Throws InputError, to be located at `line()`,
-  /// for a quote that is not closed, or text after a closed one.
+  /// for a quote that is not closed, or text after a closed one, and for more cells than
+  /// `kMostRecordColumns`.
   bool next();
   /// The line on which the row begins, from 1; after an error, the line that it is about.
   int line() const { return row_line_; }

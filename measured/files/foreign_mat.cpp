@@ -185,6 +185,10 @@ ForeignFile mat_contents(const std::filesystem::path& path) {
     } else {
       read_other_variables(contents.variables, file);
     }
+    const std::size_t signals = file.table.columns.size() + file.responses.size();
+    if (signals > kMostRecordColumns) {
+      throw InputError(fmt::format("{} signals; at most {} are read", signals, kMostRecordColumns));
+    }
   } catch (const InputError& error) {
     throw arm::located(error, arm::shown(path.string()), 0);
   }

@@ -156,6 +156,7 @@ class TableReader {
   ForeignTable read() {
     if (text_.empty()) throw InputError("empty");
     find_first_row();
+    require_columns();
     read_names();
     read_rows();
     drop_empty_last_columns();
@@ -187,6 +188,13 @@ class TableReader {
     throw InputError(
         "no two rows of two numbers or more; must be rows of numbers between commas, semicolons, "
         "tabs or blanks, without thousands separators");
+  }
+
+  void require_columns() {
+    if (reading_.cells <= kMostRecordColumns) return;
+    line_ = sample_[first_].number;
+    throw InputError(fmt::format("{} cells; a table has at most {} columns", reading_.cells,
+                                 kMostRecordColumns));
   }
 
   std::optional<std::vector<std::string>> names_in(string_view line) {

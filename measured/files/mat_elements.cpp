@@ -20,6 +20,12 @@ using std::string_view;
 constexpr std::size_t kHeaderSize = 128;
 constexpr std::size_t kTagSize = 8;
 constexpr std::size_t kLargest_bytes = std::size_t{1} << 30U;
+/// What a file may expand to in all: eight times its size, from this to `kLargest_bytes`. A
+/// constant signal shrinks a thousandfold, so that a small file could fill the memory.
+constexpr std::size_t kLeastBound_bytes = std::size_t{1} << 28U;
+constexpr std::size_t kMostExpansion = 8;
+/// Arrays in all, cells and fields of structures included, each of which the library keeps apart.
+constexpr std::size_t kMostArrays = std::size_t{1} << 18U;
 /// Structures within structures and cells, which a reader follows.
 constexpr int kDeepest = 16;
 
@@ -118,14 +124,24 @@ class Walker {
   std::size_t at_ = 0;
 };
 
-/// Checks an array and what it holds.
+/// What a file of that size may hold when it is expanded.
+std::size_t most_bytes(std::size_t file_bytes) {
+  return std::clamp(kMostExpansion * file_bytes, kLeastBound_bytes, kLargest_bytes);
+}
+
+/// Checks arrays and what they hold, and counts that of all of them.
 class ArrayCheck {
  public:
-  explicit ArrayCheck(bool little_endian) : little_endian_(little_endian) {}
+  ArrayCheck(bool little_endian, std::size_t file_bytes)
+      : little_endian_(little_endian),
+        most_numbers_(std::max(most_bytes(file_bytes) / sizeof(double), file_bytes)) {}
 
   /// Throws InputError for one that is damaged, LeftOut for one of a class that is left out.
   /// `name` is told as soon as it is known.
-  void check(string_view array, std::string& name, int depth = 0) const {
+  void check(string_view array, std::string& name, int depth = 0) {
+    if (++arrays_ > kMostArrays) {
+      throw InputError(fmt::format("holds more than {} arrays, cells and fields", kMostArrays));
+    }
     if (array.empty()) return;  // an empty cell
     if (depth > kDeepest) damaged("structures within structures without end");
     Walker walker(array, little_endian_);
@@ -171,14 +187,14 @@ class ArrayCheck {
     return product;
   }
 
-  void check_nested(Walker& walker, int depth) const {
+  void check_nested(Walker& walker, int depth) {
     const Element element = walker.next();
     if (element.type != kMatrix) damaged("a cell that holds no array");
     std::string ignored;
     check(element.data, ignored, depth + 1);
   }
 
-  void check_struct(Walker& walker, std::size_t count, int depth) const {
+  void check_struct(Walker& walker, std::size_t count, int depth) {
     const Element length = walker.next();
     if (length.type != kInt32 || length.data.size() != 4) damaged("names of fields");
     const std::size_t size = walker.number(length.data, 0);
@@ -196,8 +212,12 @@ class ArrayCheck {
     for (std::size_t i = 0; i < count * fields; ++i) check_nested(walker, depth);
   }
 
-  static void check_numbers(Walker& walker, std::size_t count) {
+  void check_numbers(Walker& walker, std::size_t count) {
     if (count == 0 && walker.at_end()) return;
+    numbers_ += count;
+    if (numbers_ > most_numbers_) {
+      throw InputError(fmt::format("holds more than {} numbers", most_numbers_));
+    }
     const Element numbers = walker.next();
     const std::size_t size = size_of(numbers.type);
     // UTF-8 has a byte or more a letter.
@@ -207,13 +227,24 @@ class ArrayCheck {
   }
 
   bool little_endian_;
+  std::size_t most_numbers_;
+  std::size_t numbers_ = 0;
+  std::size_t arrays_ = 0;
 };
 
 struct EndInflation {
   void operator()(z_stream* stream) const { inflateEnd(stream); }
 };
 
-std::string inflated(string_view bytes) {
+/// A compressed element, which says its size at its beginning; `room` bytes are left for it.
+std::string inflated(string_view bytes, bool little_endian, std::size_t room) {
+  const auto require_room = [room](std::size_t size) {
+    if (size <= room) return;
+    throw InputError(
+        fmt::format("expands to {} bytes or more where {} may be; save it without compression, "
+                    "with -v6",
+                    size, room));
+  };
   z_stream stream{};
   if (inflateInit(&stream) != Z_OK) throw InputError("cannot be expanded: out of memory");
   const std::unique_ptr<z_stream, EndInflation> end(&stream);
@@ -228,7 +259,12 @@ std::string inflated(string_view bytes) {
     stream.avail_out = static_cast<uInt>(block.size());
     state = inflate(&stream, Z_NO_FLUSH);
     out.append(block, 0, block.size() - stream.avail_out);
-    if (out.size() > kLargest_bytes) damaged("more than 1 GiB when expanded");
+    if (out.size() >= kTagSize && out.size() <= block.size()) {
+      const std::size_t size = Walker(out, little_endian).number(4) + kTagSize;
+      require_room(size);
+      out.reserve(size);
+    }
+    require_room(out.size());
   }
   if (state != Z_STREAM_END) damaged("a compressed variable that does not expand");
   return out;
@@ -241,7 +277,8 @@ MatElements sound_elements(string_view bytes) {
   const string_view order = bytes.substr(kHeaderSize - 2, 2);
   if (order != "IM" && order != "MI") damaged("no byte order");
   const bool little_endian = order == "IM";
-  const ArrayCheck checker(little_endian);
+  ArrayCheck checker(little_endian, bytes.size());
+  std::size_t room = most_bytes(bytes.size());
   MatElements sound{std::string(bytes.substr(0, kHeaderSize)), {}};
   Walker walker(bytes.substr(kHeaderSize), little_endian);
   while (!walker.at_end()) {
@@ -250,10 +287,11 @@ MatElements sound_elements(string_view bytes) {
     std::string expanded;
     string_view whole = bytes.substr(kHeaderSize + begin, walker.place() - begin);
     if (element.type == kCompressed) {
-      expanded = inflated(element.data);
+      expanded = inflated(element.data, little_endian, room);
       Walker inner(expanded, little_endian);
       element = inner.next();
       expanded.resize(inner.place());
+      room -= expanded.size();
       whole = expanded;
     }
     if (element.type != kMatrix) damaged("a variable that is no array");

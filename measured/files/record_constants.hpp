@@ -16,4 +16,7 @@ inline constexpr std::string_view kTorque = "torque";
 /// Records are read whole.
 inline constexpr std::size_t kLargestRecord_bytes = std::size_t{1} << 32U;
 
+/// Columns of a table or signals of a file, which are compared with each other.
+inline constexpr std::size_t kMostRecordColumns = 4096;
+
 }  // namespace flexarm::measured

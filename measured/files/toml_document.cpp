@@ -1,6 +1,7 @@
 #include "measured/files/toml_document.hpp"
 
 #include "arm/input_error.hpp"
+#include "measured/files/toml_depth.hpp"
 
 #include <fmt/format.h>
 
@@ -93,6 +94,12 @@ std::string complaint_of(const toml::parse_error& error) {
 }  // namespace
 
 toml::table parse_toml(std::string_view text, const std::string& file_name) {
+  if (const auto line = line_too_deep(text)) {
+    throw located(arm::InputError(fmt::format("keys within keys of more than {0} levels; at most "
+                                              "{0} are read",
+                                              kDeepestToml)),
+                  file_name, *line);
+  }
   try {
     return toml::parse(text, std::string_view(file_name));
   } catch (const toml::parse_error& error) {

@@ -330,6 +330,9 @@ UniversalFile parse_universal_file(string_view bytes, const std::string& file_na
       if (!cursor.next(line)) throw InputError("file incomplete");
       const string_view number = trimmed_line(line.substr(0, 6));
       if (number == "58") {
+        if (file.functions.size() == kMostRecordColumns) {
+          throw InputError(fmt::format("more than {} data sets 58", kMostRecordColumns));
+        }
         file.functions.push_back(FunctionReader(cursor, line).read());
       } else {
         if (!number_cell<int>(number)) {

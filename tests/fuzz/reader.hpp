@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace flexarm::fuzz {
+
+/// A reader of files or texts of other people, fed with bytes of any kind.
+struct Reader {
+  std::string name;
+  /// Reads the bytes as the program would. Throws Finding (tests/fuzz/contract.hpp), or whatever
+  /// the reader throws beyond its contract.
+  void (*read)(std::string_view bytes) = nullptr;
+};
+
+/// What the function of each file tests/fuzz/readers/NAME.cpp returns; CMakeLists.txt writes it.
+std::vector<Reader> every_reader();
+
+}  // namespace flexarm::fuzz

@@ -1,6 +1,6 @@
 #include "arm/formula_syntax.hpp"
 
-#include "arm/nearest_name.hpp"
+#include "arm/input_error.hpp"
 
 #include <fmt/format.h>
 

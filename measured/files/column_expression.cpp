@@ -283,8 +283,7 @@ std::vector<std::size_t> columns_in(const std::string& expression,
                                     const std::vector<std::string>& names) {
   auto places = places_of(expression, read_expression(expression), names);
   std::ranges::sort(places);
-  const auto again = std::ranges::unique(places);
-  places.erase(again.begin(), again.end());
+  places.erase(std::unique(places.begin(), places.end()), places.end());
   return places;
 }
 

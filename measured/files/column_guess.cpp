@@ -65,13 +65,14 @@ std::vector<ColumnCandidate> candidates_for(const ColumnLabel& label, std::size_
 /// it tells nothing.
 std::optional<ColumnQuestion> question_about(const ColumnLabel& label) {
   const std::string letters = plain_letters(base_of(label));
-  const std::string name = split_column_name(label.name).base;
+  const std::string name = arm::shown(split_column_name(label.name).base);
+  const std::string column = arm::shown(label.name);
   for (const auto& open : open_words()) {
     const bool is_of_unit =
         label.unit.empty() || std::ranges::count(open.units, string_view(label.unit)) > 0;
     if (std::ranges::count(open.words, letters) == 0 || !is_of_unit) continue;
     return ColumnQuestion{label.name,
-                          fmt::format("{} may be {}; state it with {}", label.name, open.meaning,
+                          fmt::format("{} may be {}; state it with {}", column, open.meaning,
                                       fmt::format(fmt::runtime(open.option), name)),
                           open.may_be_torque};
   }
@@ -81,7 +82,7 @@ std::optional<ColumnQuestion> question_about(const ColumnLabel& label) {
         label.name,
         fmt::format("{} may be {}, but {} is no unit of it; state it with --column "
                     "'{}={}:UNIT:SCALE'",
-                    label.name, quantity, arm::shown(label.unit), quantity, name),
+                    column, quantity, arm::shown(label.unit), quantity, name),
         quantity == "torque"};
   }
   return std::nullopt;
@@ -132,15 +133,17 @@ ColumnGuess guess_columns(std::span<const ColumnLabel> columns, const ColumnMapp
     if (found.size() > 1) {
       std::vector<std::string> alike;
       for (const auto& entry : found) alike.push_back(columns[entry.column].name);
-      guess.notes.push_back(fmt::format("{}: ambiguous ({}); choose with --column {}=NAME",
-                                        quantity, fmt::join(alike, " or "), quantity));
+      guess.notes.push_back(
+          fmt::format("{}: ambiguous ({}); choose with --column {}=NAME", quantity,
+                      arm::shown(fmt::format("{}", fmt::join(alike, " or ")), 400), quantity));
       guess.ambiguous[quantity] = alike;
       continue;
     }
     const ColumnLabel& label = columns[found.front().column];
     const std::string si_unit(si_unit_of(quantity));
     if (label.unit.empty()) {
-      guess.notes.push_back(fmt::format("unit of {} not given; {} assumed", label.name, si_unit));
+      guess.notes.push_back(
+          fmt::format("unit of {} not given; {} assumed", arm::shown(label.name), si_unit));
     }
     guess.mappings[quantity] = {label.name, label.unit.empty() ? si_unit : label.unit,
                                 scale_of_unit(quantity, label.unit)};

@@ -49,7 +49,7 @@ arm::InputError unknown_column(std::span<const std::string> names, std::string_v
   const auto bases = names_without_units(names);
   if (const auto base = arm::nearest_name(typed, bases); meant.empty() && base) {
     const auto place = std::ranges::find(bases, *base) - bases.begin();
-    meant = fmt::format(" (did you mean {}?)", names[static_cast<std::size_t>(place)]);
+    meant = fmt::format(" (did you mean {}?)", arm::shown(names[static_cast<std::size_t>(place)]));
   }
   return arm::InputError(fmt::format("column {}: not in the file{}; it has {}", arm::shown(typed),
                                      meant,

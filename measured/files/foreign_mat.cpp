@@ -83,7 +83,7 @@ void read_frequency_variables(const std::vector<MatVariable>& variables, Foreign
                              require<MatMatrix>(variables, numbered("coherence")).values};
     if (response.response.size() != response.frequency_Hz.size() ||
         response.coherence.size() != response.frequency_Hz.size()) {
-      throw InputError(fmt::format("{}: vectors of unlike length", headers[k]));
+      throw InputError(fmt::format("{}: vectors of unlike length", arm::shown(headers[k])));
     }
     file.responses.push_back(std::move(response));
   }
@@ -141,8 +141,8 @@ void read_other_variables(const std::vector<MatVariable>& variables, ForeignFile
     if (factor == 0.0 || std::min(matrix->rows, matrix->columns) != 1) continue;
     frequency_Hz = matrix->values;
     for (auto& value : frequency_Hz) value *= factor;
-    file.table.assumptions.push_back(
-        fmt::format("{} holds frequencies in {}", variable.name, factor == 1.0 ? "Hz" : "rad/s"));
+    file.table.assumptions.push_back(fmt::format(
+        "{} holds frequencies in {}", arm::shown(variable.name), factor == 1.0 ? "Hz" : "rad/s"));
     break;
   }
   for (const auto& variable : variables) {

@@ -37,8 +37,8 @@ void require_writable(const UniversalFunction& function) {
     const auto bad =
         std::ranges::find_if(*values, [](double value) { return !std::isfinite(value); });
     if (bad == values->end()) continue;
-    throw InputError(fmt::format("{} = {} in point {}: must be a finite number", function.id[0],
-                                 *bad, bad - values->begin() + 1));
+    throw InputError(fmt::format("{} = {} in point {}: must be a finite number",
+                                 arm::shown(function.id[0]), *bad, bad - values->begin() + 1));
   }
 }
 
@@ -117,8 +117,8 @@ class Writer {
   void write_head(const UniversalFunction& function) {
     const std::size_t points = function.abscissa.size();
     if (points > static_cast<std::size_t>(std::numeric_limits<int>::max())) {
-      throw InputError(
-          fmt::format("{}: {} points; a universal file has fewer", function.id[0], points));
+      throw InputError(fmt::format("{}: {} points; a universal file has fewer",
+                                   arm::shown(function.id[0]), points));
     }
     out_ += "    -1\n    58";
     if (options_.binary) {
@@ -158,8 +158,8 @@ class Writer {
         if (!layout_.is_double) {
           const auto rounded = static_cast<float>(value);
           if (!std::isfinite(rounded)) {
-            throw InputError(
-                fmt::format("{} = {}: does not fit single precision", function.id[0], value));
+            throw InputError(fmt::format("{} = {}: does not fit single precision",
+                                         arm::shown(function.id[0]), value));
           }
           bits = std::bit_cast<std::uint32_t>(rounded);
         }

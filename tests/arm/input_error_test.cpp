@@ -12,6 +12,10 @@ namespace {
 TEST(Shown, ControlCharactersAndStrayBytesAreEscaped) {
   EXPECT_EQ(shown("plain 1.5 \"m\""), "plain 1.5 \"m\"");
   EXPECT_EQ(shown("a\nb\tc\x7f"), "a\\x0ab\\x09c\\x7f");
+  EXPECT_EQ(shown("\xc2\x9b"
+                  "2J\xc2\xa0"),
+            "\\xc2\\x9b"
+            "2J\xc2\xa0");  // a terminal's CSI
   EXPECT_EQ(shown("μ 梁 \xe9"), "μ 梁 \\xe9");
   EXPECT_EQ(shown(std::string(100, 'x'), 5), "xxxxx...");
   EXPECT_EQ(shown("xxxxx", 5), "xxxxx");

@@ -39,5 +39,15 @@ TEST(NearestName, LongInputCostsNothing) {
   EXPECT_EQ(nearest_name(std::string(kLong, 'x'), kNames), std::nullopt);
 }
 
+TEST(NearestName, LongNamesOfAFileCostNothing) {
+  const std::vector<std::string> names(100, std::string(100000, 'x'));
+  EXPECT_EQ(nearest_name(std::string(100000, 'y'), names), std::nullopt);
+}
+
+TEST(NearestName, ANameOfAFileIsShownWithoutControlCharacters) {
+  const std::vector<std::string> names = {"angle\n"};
+  EXPECT_EQ(did_you_mean("angle", names), " (did you mean angle\\x0a?)");
+}
+
 }  // namespace
 }  // namespace flexarm::arm

@@ -26,8 +26,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A second or two a reader.
-constexpr int kMutatedInputs = 2000;
+/// A second a reader or less.
+constexpr int kMutatedInputs = 5000;
 constexpr std::uint64_t kRandomSeed = 20261127;
 
 std::vector<fs::path> files_in(const char* folder, const std::string& reader) {

@@ -54,5 +54,17 @@ TEST(Csv, QuotesThatDoNotMatchAreLocated) {
             "f.csv:2: text after a closing quote; write a quote within quotes twice, as \"\"");
 }
 
+TEST(Csv, MoreColumnsThanATableHasAreRefusedWithTheirLine) {
+  constexpr std::size_t kCells = 300000;  // of which each would be compared with all
+  const std::string wide = "a,b\n" + std::string(kCells - 1, ',') + "\n";
+  try {
+    parse_csv(wide, "f.csv");
+    FAIL() << "accepted";
+  } catch (const arm::InputError& error) {
+    EXPECT_STREQ(error.what(), "f.csv:2: more than 4096 cells; a table has at most 4096 columns");
+  }
+  EXPECT_EQ(parse_csv(std::string(4095, ','), "f.csv")[0].cells.size(), 4096U);
+}
+
 }  // namespace
 }  // namespace flexarm::measured

@@ -251,5 +251,28 @@ TEST(ForeignTable, WhatIsNoTextIsRefused) {
   }
 }
 
+TEST(ForeignTable, MoreColumnsThanATableHasAreRefusedWithTheirLine) {
+  constexpr std::size_t kCells = 300000;  // of which each would be compared with all
+  std::string row;
+  for (std::size_t i = 0; i < kCells; ++i) row += "1;";
+  row.back() = '\n';
+  try {
+    parse_foreign_table("bench\n" + row + row, "log.txt");
+    FAIL() << "accepted";
+  } catch (const arm::InputError& error) {
+    EXPECT_STREQ(error.what(), "log.txt:2: 300000 cells; a table has at most 4096 columns");
+  }
+}
+
+TEST(ForeignTable, AnotherNameForAColumnIsShownWithoutControlCharacters) {
+  const auto table = parse_foreign_table("time\xc2\x9b,u\n0,1\n1,2\n", "log.txt");
+  try {
+    find_column(table, "time\xc2\x9c");
+    FAIL() << "found";
+  } catch (const arm::InputError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("did you mean time\\xc2\\x9b?"));
+  }
+}
+
 }  // namespace
 }  // namespace flexarm::measured

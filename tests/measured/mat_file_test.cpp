@@ -21,6 +21,7 @@
 #include <string>
 #include <sys/resource.h>
 #include <vector>
+#include <zlib.h>
 
 namespace flexarm::measured {
 namespace {
@@ -242,6 +243,67 @@ TEST_F(MatFile, WithoutRoomNothingIsWritten) {
     EXPECT_FALSE(std::filesystem::exists(path()));
   }
   std::signal(SIGXFSZ, previous);
+}
+
+std::string compressed(const std::string& bytes) {
+  std::string out(compressBound(bytes.size()), '\0');
+  uLongf size = out.size();
+  compress(reinterpret_cast<Bytef*>(out.data()), &size,
+           reinterpret_cast<const Bytef*>(bytes.data()), bytes.size());
+  out.resize(size);
+  return out;
+}
+
+/// Four bytes, little endian.
+std::string word(std::size_t value) {
+  std::string out;
+  for (unsigned shift = 0; shift < 32; shift += 8)
+    out += static_cast<char>((value >> shift) & 0xffU);
+  return out;
+}
+
+/// A file of one compressed row of `numbers` zeros of 8 bits; `stated` bytes are stated in all.
+std::string zeros_file(std::size_t numbers, std::size_t stated) {
+  constexpr std::size_t kHeads = 48;  // tags, flags, size and name in front of the numbers
+  std::string matrix = word(14) + word(stated) + word(6) + word(8) + word(8) + word(0);
+  matrix +=
+      word(5) + word(8) + word(1) + word(numbers) + word(0x00010001) + "a" + std::string(3, '\0');
+  matrix += word(1) + word(numbers);
+  EXPECT_EQ(matrix.size(), kHeads + 8);
+  const std::string data = compressed(matrix + std::string(numbers, '\0'));
+  std::string head = "MATLAB 5.0 MAT-file";
+  head.resize(124, ' ');
+  return head + std::string("\x00\x01IM", 4) + word(15) + word(data.size()) + data;
+}
+
+TEST_F(MatFile, ASmallFileThatExpandsToAHugeOneIsRefusedFromItsFirstBytes) {
+  constexpr std::size_t kNumbers = 1 << 20;
+  constexpr std::size_t kStated = std::size_t{1} << 31U;
+  std::ofstream(path(), std::ios::binary) << zeros_file(kNumbers, kStated);
+  EXPECT_THAT(refusal(), HasSubstr("expands to 2147483656 bytes or more where 268435456 may be"));
+}
+
+TEST_F(MatFile, SeveralVariablesShareTheRoom) {
+  // Each is below the bound.
+  constexpr std::size_t kNumbers = std::size_t{7} << 20U;
+  const std::string one = zeros_file(kNumbers, kNumbers + 48);
+  std::string all = one;
+  for (int i = 0; i < 5; ++i) all += one.substr(128);
+  std::ofstream(path(), std::ios::binary) << all;
+  EXPECT_THAT(refusal(), HasSubstr("holds more than 33554432 numbers"));
+}
+
+TEST_F(MatFile, ManyEmptyCellsAreRefused) {
+  constexpr std::size_t kCells = 300000;
+  std::string cell = word(6) + word(8) + word(1) + word(0);
+  cell +=
+      word(5) + word(8) + word(1) + word(kCells) + word(0x00010001) + "c" + std::string(3, '\0');
+  for (std::size_t i = 0; i < kCells; ++i) cell += word(14) + word(0);
+  std::string head = "MATLAB 5.0 MAT-file";
+  head.resize(124, ' ');
+  std::ofstream(path(), std::ios::binary)
+      << head << std::string("\x00\x01IM", 4) << word(14) << word(cell.size()) << cell;
+  EXPECT_THAT(refusal(), HasSubstr("holds more than 262144 arrays, cells and fields"));
 }
 
 }  // namespace

@@ -12,32 +12,28 @@ namespace flexarm::fuzz {
 
 namespace {
 
-/// Without numbers of its own, with one, and with two, which must stand in the text.
-const std::vector<std::vector<std::string>>& number_names() {
-  static const std::vector<std::vector<std::string>> names = {{}, {"k"}, {"c", "k"}};
-  return names;
-}
+/// Numbers of its own that a formula may have; those that it does have must stand in it.
+constexpr std::array<const char*, 2> kNumbers = {"c", "k"};
+constexpr double kValue = 0.5;
 
 void read_formula(std::string_view bytes) {
-  const std::string text(bytes);
-  for (const auto& names : number_names()) {
-    returns_or_refuses([&] {
-      const arm::CompiledFormula formula(text, names);
-      const std::vector<double> numbers(names.size(), 0.5);
-      for (const double direction : {-1.0, 1.0}) {
-        formula({0.1, 2.0 * direction, 0.3, 4.0}, direction, numbers);
-      }
-    });
-    returns_or_refuses([&] {
-      arm::HubTorqueFormula stated{text};
-      std::map<std::string, double> typical;
-      for (const auto& name : names) {
-        stated.numbers.push_back({name});
-        typical[name] = 0.5;
-      }
-      arm::define_effect("law", stated, typical);
-    });
+  arm::HubTorqueFormula stated{std::string(bytes)};
+  std::vector<std::string> names;
+  std::map<std::string, double> typical;
+  for (const char* name : kNumbers) {
+    if (bytes.find(name) == std::string_view::npos) continue;
+    names.emplace_back(name);
+    stated.numbers.push_back({name});
+    typical[name] = kValue;
   }
+  returns_or_refuses([&] {
+    const arm::CompiledFormula formula(stated.text, names);
+    const std::vector<double> numbers(names.size(), kValue);
+    for (const double direction : {-1.0, 1.0}) {
+      formula({0.1, 2.0 * direction, 0.3, 4.0}, direction, numbers);
+    }
+  });
+  returns_or_refuses([&] { arm::define_effect("law", stated, typical); });
 }
 
 }  // namespace

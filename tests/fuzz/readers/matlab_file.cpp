@@ -1,8 +1,8 @@
 #include "measured/files/foreign_mat.hpp"
 #include "measured/files/mat_file.hpp"
+#include "measured/files/memory_file.hpp"
 #include "tests/fuzz/contract.hpp"
 #include "tests/fuzz/imported.hpp"
-#include "tests/fuzz/memory_file.hpp"
 #include "tests/fuzz/reader.hpp"
 
 namespace flexarm::fuzz {
@@ -11,15 +11,15 @@ namespace {
 
 void read_matlab(std::string_view bytes) {
   returns_or_refuses([&] {
-    const auto path = file_with(bytes);
-    const measured::MatContents contents = measured::read_mat_contents(path);
+    const measured::MemoryFile file(bytes);
+    const measured::MatContents contents = measured::read_mat_contents(file.path());
     for (const auto& variable : contents.variables) {
       if (const auto* matrix = std::get_if<measured::MatMatrix>(&variable.value)) {
         require(matrix->values.size() == matrix->rows * matrix->columns,
                 "a matrix has not as many numbers as its size says");
       }
     }
-    import_contents(measured::mat_contents(path));
+    import_contents(measured::mat_contents(file.path()));
   });
 }
 

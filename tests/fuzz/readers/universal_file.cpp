@@ -1,9 +1,9 @@
 #include "measured/files/universal_file.hpp"
 
 #include "measured/files/foreign_file.hpp"
+#include "measured/files/memory_file.hpp"
 #include "tests/fuzz/contract.hpp"
 #include "tests/fuzz/imported.hpp"
-#include "tests/fuzz/memory_file.hpp"
 #include "tests/fuzz/reader.hpp"
 
 #include <algorithm>
@@ -27,7 +27,8 @@ void read_universal(std::string_view bytes) {
       require(std::ranges::equal(again, read, has_same_numbers),
               "functions are not read back as they were written");
     });
-    import_contents(measured::read_foreign_file(file_with(bytes)));
+    const measured::MemoryFile file(bytes);
+    import_contents(measured::read_foreign_file(file.path()));
   });
 }
 

@@ -23,6 +23,8 @@ namespace {
 /// As a variable of the parser; no name of a user begins with an underscore.
 constexpr std::string_view kDirection = "_direction";
 constexpr std::string_view kPi = "pi";
+/// Numbers of a formula's own, each of which is compared with all.
+constexpr std::size_t kMostNumbers = 100;
 
 mu::Parser plain_parser() {
   mu::Parser parser;
@@ -215,6 +217,10 @@ struct CompiledFormula::Parsers {
 };
 
 CompiledFormula::CompiledFormula(const std::string& text, const std::vector<std::string>& numbers) {
+  if (numbers.size() > kMostNumbers) {
+    throw InputError(fmt::format("has {} numbers of its own; must be {} or fewer", numbers.size(),
+                                 kMostNumbers));
+  }
   FormulaReader reader(text, numbers);
   parsers_ = std::make_unique<Parsers>(Parsers{reader.read(), numbers});
   try {

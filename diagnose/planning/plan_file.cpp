@@ -25,6 +25,7 @@ constexpr std::size_t kLargestPlan_bytes = 1 << 20;
 /// More of a planned run is a slip of the pen: a run is predicted some thousand times.
 constexpr double kMostPlannedSamples = 1e5;
 constexpr double kMostPlannedFrequencies = 1e5;
+constexpr std::size_t kMostPlannedSensors = 100;
 /// Poles, or zeros of a sensor, of a modal table.
 constexpr double kMostPlannedRoots = 50;
 
@@ -141,6 +142,11 @@ class PlanReader : measured::TomlFaults {
     const auto* list = node->as_array();
     if (list == nullptr || list->empty() || !list->is_homogeneous<std::string>()) {
       wrong("run.sensors", *node, "a list of quoted names");
+      return;
+    }
+    if (list->size() > kMostPlannedSensors) {
+      fault(line_of(*node), fmt::format("run.sensors: {} names; must be {} or fewer", list->size(),
+                                        kMostPlannedSensors));
       return;
     }
     for (const auto& entry : *list) {

@@ -43,6 +43,10 @@ std::vector<std::string> headers_of(const std::vector<MatVariable>& variables) {
   const auto& sensors = require<MatStrings>(variables, "sensors");
   const auto& units = require<MatStrings>(variables, "units");
   if (units.size() != sensors.size()) throw InputError("variable units: not as many as sensors");
+  if (sensors.size() > kMostRecordColumns) {
+    throw InputError(
+        fmt::format("{} sensors; at most {} are read", sensors.size(), kMostRecordColumns));
+  }
   std::vector<std::string> headers;
   for (std::size_t i = 0; i < sensors.size(); ++i) {
     headers.push_back(fmt::format("{} [{}]", sensors[i], units[i]));

@@ -130,6 +130,9 @@ class Builder {
     auto& channels = record_.channels;
     const auto place = static_cast<std::size_t>(
         std::ranges::find(channels, read, &FrequencyChannel::sensor) - channels.begin());
+    if (place == kMostRecordColumns) {
+      throw InputError(fmt::format("more than {} sensors", kMostRecordColumns));
+    }
     if (place == channels.size()) channels.push_back({read, {}, {}, {}});
     channel_of_name_.emplace(name, place);
     return channels[place];

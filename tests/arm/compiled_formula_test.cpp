@@ -172,5 +172,20 @@ TEST(CompiledFormula, AnUnknownFunctionIsNamedWithWhatWasMeant) {
   }
 }
 
+TEST(CompiledFormula, MoreNumbersThanALawHasAreRefused) {
+  std::string text = "theta";
+  std::vector<std::string> numbers;
+  for (int i = 0; i < 101; ++i) {
+    numbers.push_back("a" + std::to_string(i));
+    text += "+" + numbers.back();
+  }
+  try {
+    const CompiledFormula formula(text, numbers);
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(), "has 101 numbers of its own; must be 100 or fewer");
+  }
+}
+
 }  // namespace
 }  // namespace flexarm::arm

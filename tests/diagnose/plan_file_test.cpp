@@ -132,6 +132,12 @@ TEST(MeasurementPlanFile, RefusesWhatCannotBe) {
   EXPECT_THAT(refusal_of_plan("[[run]]\nid = \"a\"\nkind = \"frf\"\nsensors = [\"hub_angle\"]\n"
                               "frequencies = [2.0, 1.0]\n"),
               StartsWith("plan.toml:5: run.frequencies: must be one or more, ascending"));
+  std::string many = "\"strain@0\"";
+  for (int i = 1; i < 101; ++i) many += fmt::format(", \"strain@{}\"", 1e-4 * i);
+  EXPECT_THAT(refusal_of_plan(fmt::format("[[run]]\nid = \"a\"\nkind = \"frf\"\nsensors = [{}]\n"
+                                          "frequencies = [1.0]\n",
+                                          many)),
+              StartsWith("plan.toml:4: run.sensors: 101 names; must be 100 or fewer"));
 }
 
 }  // namespace

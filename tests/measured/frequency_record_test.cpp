@@ -5,6 +5,7 @@
 #include "tests/measured/any_finite.hpp"
 #include "tests/measured/mistake.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -148,6 +149,17 @@ TEST_P(FrequencyRecordMistake, GivesOneLineWithPlaceReasonAndRemedy) {
 
 INSTANTIATE_TEST_SUITE_P(, FrequencyRecordMistake, testing::ValuesIn(kFrequencyRecordMistakes),
                          name_of_mistake);
+
+TEST(FrequencyRecord, MoreSensorsThanATableHasColumnsAreRefusedWithTheirLine) {
+  std::string csv = "frequency [Hz],sensor,re,im\n";
+  for (int i = 0; i < 4097; ++i) csv += fmt::format("1,strain@{},1,0\n", 1e-6 * i);
+  try {
+    parse_frequency_record(csv, "run.csv");
+    FAIL() << "accepted";
+  } catch (const arm::InputError& error) {
+    EXPECT_STREQ(error.what(), "run.csv:4098: more than 4096 sensors");
+  }
+}
 
 }  // namespace
 }  // namespace flexarm::measured

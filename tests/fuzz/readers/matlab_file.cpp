@@ -19,7 +19,7 @@ void read_matlab(std::string_view bytes) {
                 "a matrix has not as many numbers as its size says");
       }
     }
-    import_contents(measured::mat_contents(path));
+    import_contents(measured::mat_contents(file.path()));
   });
 }
 

@@ -70,12 +70,12 @@ class DepthScan {
     begins_line_ = false;
   }
 
-  /// Keys stand below the last header; an array may go on.
+  /// Keys stand below the last header; an array may go on, but no key does.
   void end_line() {
     ++line_;
     if (is_header_) header_levels_ = levels_;
     is_header_ = false;
-    if (open_.empty()) levels_ = header_levels_;
+    levels_ = open_.empty() ? header_levels_ : open_.back() + 1;
     begins_line_ = open_.empty();
   }
 

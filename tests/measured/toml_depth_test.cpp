@@ -59,6 +59,8 @@ TEST(TomlDepth, WhatStandsBesideOrInTextsAndCommentsIsNotCounted) {
   std::string headers;
   for (int i = 0; i < 1000; ++i) headers += fmt::format("[a{0}.b]\nc.d = 1\n", i);
   EXPECT_EQ(refusal(headers), "");
+  // A bracket that is left open is an error of another kind.
+  EXPECT_TRUE(refusal("x = [\n" + repeated("y = 1.5\n", 1000)).starts_with("f.toml:2: not TOML"));
 }
 
 TEST(TomlDepth, TheLineIsThatOfTheFileAlsoBehindLongTexts) {

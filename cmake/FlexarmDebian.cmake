@@ -37,10 +37,12 @@ if(TARGET _flexarm)
   # The extension is of one version of the interpreter.
   set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.11), python3 (<< 3.12), python3-numpy")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS gnuplot-nox)
-  set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-scipy, python3-xarray")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS
+    "python3-scipy, python3-xarray, python3-distributed, python3-h5py")
   set(CPACK_DEBIAN_PYTHON_DESCRIPTION
     "Arms, formulations, responses, simulation, identification, diagnosis and
-planning of flexarm from Python, with NumPy, SciPy and xarray.")
+planning of flexarm from Python, with NumPy, SciPy and xarray. The program
+flexarm-campaign runs many of these tasks on many machines, with dask.")
 endif()
 
 # What a Debian package has to say of itself.

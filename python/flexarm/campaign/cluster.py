@@ -1,0 +1,202 @@
+"""Where tasks run: a cluster of this machine, or the scheduler of an address.
+
+Both have the same members:
+
+    client          the distributed.Client
+    workers()       how many workers there are
+    is_lost()       the scheduler is gone
+    tend()          starts workers anew where some died
+    close()         ends what was started
+"""
+
+import asyncio
+import contextlib
+import logging
+import multiprocessing
+import multiprocessing.connection
+import os
+import shutil
+import signal
+import tempfile
+import threading
+import time
+import warnings
+
+import dask
+import distributed
+
+from .errors import CampaignError
+
+CONNECT_S = 10.0
+# Of the scheduler that is started here: blame is counted by the attempts of a task (task_files.py),
+# and what it remembers is bounded.
+_SETTINGS = {
+    "distributed.scheduler.allowed-failures": 1_000_000,
+    "distributed.scheduler.worker-saturation": 1.0,
+    "distributed.scheduler.transition-log-length": 100,
+    "distributed.scheduler.events-log-length": 100,
+    "distributed.scheduler.events-cleanup-delay": "1s",
+    "distributed.worker.profile.enabled": False,
+    "distributed.admin.tick.limit": "60s",
+    "distributed.comm.timeouts.connect": f"{CONNECT_S}s",
+}
+
+
+def quiet():
+    """The library's own messages do not stand among those of the campaign."""
+    logging.disable(logging.CRITICAL)
+    warnings.filterwarnings("ignore", category=DeprecationWarning, module="tornado|distributed")
+
+
+def _as_child():
+    """Of a process that is started here: Ctrl-C is its parent's, and it ends with its parent."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)
+    quiet()
+    dask.config.set(_SETTINGS)
+    parent = multiprocessing.parent_process().sentinel
+
+    def watch():
+        multiprocessing.connection.wait([parent])
+        os._exit(1)
+
+    threading.Thread(target=watch, daemon=True).start()
+
+
+def _serve_scheduler(said):
+    _as_child()
+
+    async def serve():
+        async with distributed.Scheduler(host="127.0.0.1", port=0, dashboard=False) as scheduler:
+            said.send(scheduler.address)
+            await scheduler.finished()
+
+    asyncio.run(serve())
+
+
+def _serve_worker(address, core, memory_bytes, folder):
+    _as_child()
+    # The libraries make as many threads as the process has cores: one.
+    os.sched_setaffinity(0, {core})
+    from . import work  # noqa: F401  what tasks need is there before the first of them
+
+    async def serve():
+        worker = distributed.Worker(
+            address,
+            nthreads=1,
+            memory_limit=memory_bytes,
+            local_directory=folder,
+            dashboard=False,
+            host="127.0.0.1",
+        )
+        async with worker:
+            await worker.finished()
+
+    asyncio.run(serve())
+    os._exit(0)
+
+
+class LocalCluster:
+    """A scheduler and workers, a process each, forked from one that has all modules loaded."""
+
+    def __init__(self, count):
+        self._start = multiprocessing.get_context("forkserver")
+        self._start.set_forkserver_preload(["flexarm.campaign.cluster", "flexarm.campaign.work"])
+        self._folder = tempfile.mkdtemp(prefix="flexarm-campaign-")
+        self._cores = sorted(os.sched_getaffinity(0))
+        pages = os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
+        self._memory_bytes = pages // count
+        self._processes = [None] * count
+        heard, said = self._start.Pipe(duplex=False)
+        self._scheduler = self._start.Process(
+            target=_serve_scheduler, args=(said,), daemon=True, name="campaign-scheduler"
+        )
+        self._scheduler.start()
+        said.close()
+        self.client = None
+        try:
+            self._address = heard.recv()
+            self.tend()
+            self.client = distributed.Client(
+                self._address, timeout=CONNECT_S, set_as_default=False
+            )
+        except (EOFError, OSError):
+            self.close()
+            raise CampaignError("the scheduler of this machine does not start") from None
+
+    def workers(self):
+        return len(self._processes)
+
+    def is_lost(self):
+        return not self._scheduler.is_alive() or self.client.status != "running"
+
+    def tend(self):
+        """Starts a worker for each that has ended; returns how many had."""
+        ended = 0
+        for number, process in enumerate(self._processes):
+            if process is not None:
+                if process.is_alive():
+                    continue
+                process.close()
+                ended += 1
+            core = self._cores[number % len(self._cores)]
+            fresh = self._start.Process(
+                target=_serve_worker,
+                args=(self._address, core, self._memory_bytes, self._folder),
+                daemon=True,
+                name=f"campaign-worker-{number}",
+            )
+            fresh.start()
+            self._processes[number] = fresh
+        return ended
+
+    def close(self):
+        _close_client(self.client)
+        for process in [*self._processes, self._scheduler]:
+            if process is not None:
+                process.kill()
+        for process in [*self._processes, self._scheduler]:
+            if process is not None:
+                process.join()
+        shutil.rmtree(self._folder, ignore_errors=True)
+
+
+class RemoteCluster:
+    """The scheduler of `address`; its workers are its owner's."""
+
+    _LOOKS_EVERY_S = 2.0
+
+    def __init__(self, address):
+        self.client = None
+        try:
+            self.client = distributed.Client(address, timeout=CONNECT_S, set_as_default=False)
+        except (OSError, ValueError, TypeError) as error:
+            raise CampaignError(
+                f"--scheduler {address}: no scheduler answers ({type(error).__name__})"
+            ) from None
+        self._looked = -self._LOOKS_EVERY_S
+        self._workers = 0
+
+    def workers(self):
+        now = time.monotonic()
+        if now - self._looked >= self._LOOKS_EVERY_S:
+            self._looked = now
+            with contextlib.suppress(OSError, asyncio.TimeoutError):
+                self._workers = len(self.client.scheduler_info()["workers"])
+        return self._workers
+
+    def is_lost(self):
+        return self.client.status != "running"
+
+    def tend(self):
+        return 0
+
+    def close(self):
+        _close_client(self.client)
+
+
+def _close_client(client):
+    """Without waiting for a scheduler that may be gone."""
+    if client is not None:
+        with contextlib.suppress(Exception):
+            client.close(timeout=1)

@@ -1,0 +1,264 @@
+"""Campaigns: files, bytes of the results, deaths of workers and of the scheduler, Ctrl-C."""
+
+import contextlib
+import csv
+import io
+import json
+import multiprocessing
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+
+import flexarm
+from flexarm.campaign import command
+
+SWEEP = """
+kind = "sweep"
+[sweep]
+poles = 2
+zeros = { tip_acceleration = 1 }
+formulations = ["exact_tf", "fem"]
+[[sweep.parameter]]
+key = "payload.mass"
+from = 0.0
+to = 0.1
+count = 3
+[[sweep.parameter]]
+key = "effects.root_compliance.stiffness"
+values = [100, 200.0]
+"""
+RESULTS = ("results.csv", "results.json", "failures.json")
+WAITS_S = 20.0
+
+
+class Folder(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def write(self, text, name="c.toml"):
+        path = self.folder / name
+        path.write_text(text)
+        return path
+
+    def run_command(self, *arguments):
+        """Exit status, standard output, standard error."""
+        output, errors = io.StringIO(), io.StringIO()
+        with contextlib.redirect_stdout(output), contextlib.redirect_stderr(errors):
+            status = command.main([str(one) for one in arguments])
+        return status, output.getvalue(), errors.getvalue()
+
+    def wait_for(self, condition):
+        begun = time.monotonic()
+        while not condition():
+            self.assertLess(time.monotonic() - begun, WAITS_S)
+            time.sleep(0.02)
+
+    def results(self, out):
+        return [(out / name).read_bytes() for name in RESULTS]
+
+    def rows(self, out):
+        with open(out / "results.csv", newline="") as stream:
+            return list(csv.DictReader(stream))
+
+    def begun(self):
+        """How often each task of a probe began."""
+        lines = (self.folder / "begun").read_text().split()
+        return {number: lines.count(number) for number in lines}
+
+
+class File(Folder):
+    def refused(self, text, *arguments):
+        path = self.write(text)
+        status, output, errors = self.run_command(path, *arguments)
+        self.assertEqual((status, output), (2, ""))
+        self.assertEqual(errors.count("\n"), 1, errors)
+        self.assertFalse((self.folder / "c-results").exists())
+        return errors.removeprefix("flexarm-campaign: ").removeprefix(f"{path}: ").rstrip("\n")
+
+    def test_a_fault_is_one_line_with_key_value_and_what_is_allowed(self):
+        count = 'key = "payload.mass"\nfrom = 0.0\nto = 0.1\ncount = 3'
+        for old, new, line in (
+            ('kind = "sweep"', 'kind = "swep"', 'kind = "swep": must be one of'),
+            ('kind = "sweep"', 'kind = "no_such.swep"', 'kind = "no_such.swep": must be one of'),
+            ('kind = "sweep"', "kind = 3", "kind = 3: must be a text"),
+            ('kind = "sweep"', "", "kind: missing; must be a text"),
+            ('kind = "sweep"', 'kind = "sweep"\nnaem = "x"', "unknown key (did you mean name?)"),
+            ("poles = 2", "poels = 2", "sweep.poels = 2: unknown key (did you mean poles?)"),
+            ("poles = 2", "poles = -1", "sweep.poles = -1: must be a whole number from 0 to"),
+            ("poles = 2", "poles = true", "sweep.poles = true: must be a whole number"),
+            ("poles = 2", "poles = 2 2", "not TOML: "),
+            ("payload.mass", "payload.mas", "must be a number of the arm file (did you mean pay"),
+            ("to = 0.1", "to = nan", "sweep.parameter[1].to = nan: must be a finite number"),
+            ("to = 0.1", 'to = 0.1\nspacing = "logarithmic"', "sweep.parameter[1].from = 0.0: must"),
+            (count, 'key = "payload.mass"\nvalues = []', "[1].values = []: must be a list of"),
+            ("values =", "from = 1.0\nvalues =", "[2].from = 1.0: must not stand beside values"),
+            ("effects.root_compliance.stiffness", "payload.mass", "[2].key = \"payload.mass\": is"),
+            ("tip_acceleration", "tip_acc", "sweep.zeros = { tip_acc = 1 }: sensor tip_acc: unk"),
+            ('"fem"', '"fme"', "assumed_modes (did you mean fem?)"),
+            ("[sweep]", '[sweep]\narm = "absent.toml"', "absent.toml: "),
+        ):
+            with self.subTest(new):
+                self.assertIn(old, SWEEP)
+                self.assertIn(line, self.refused(SWEEP.replace(old, new, 1)))
+
+    def test_a_key_of_control_characters_reaches_no_terminal(self):
+        self.assertNotIn("\x1b", self.refused(SWEEP + '"\\u001b[2J" = 1\n'))
+
+    def test_options_are_checked(self):
+        self.assertIn("--workers: 0: must be", self.refused(SWEEP, "--workers", "0"))
+        self.assertIn("--wrokers", self.refused(SWEEP, "--wrokers", "1"))
+        line = self.refused(SWEEP, "--scheduler", "tcp://127.0.0.1:9", "--workers", "1")
+        self.assertIn("--workers: ", line)
+
+    def test_a_foreign_folder_and_a_second_writer_are_refused(self):
+        path = self.write(SWEEP)
+        foreign = self.folder / "foreign"
+        foreign.mkdir()
+        (foreign / "thesis.txt").touch()
+        status, _, errors = self.run_command(path, "--out", foreign)
+        self.assertEqual(status, 2)
+        self.assertIn("no campaign wrote", errors)
+        from flexarm.campaign.task_files import output_folder
+
+        with output_folder(self.folder / "taken"):
+            status, _, errors = self.run_command(path, "--out", self.folder / "taken")
+        self.assertEqual(status, 2)
+        self.assertIn("another campaign writes here", errors)
+
+    def test_without_dask_flexarm_is_imported_and_one_line_says_what_to_install(self):
+        script = (
+            "import sys; sys.modules['distributed'] = None; sys.modules['dask'] = None\n"
+            "import flexarm, runpy\n"
+            "runpy.run_module('flexarm.campaign', run_name='__main__')"
+        )
+        ended = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True)
+        self.assertEqual(ended.returncode, 2)
+        self.assertEqual(ended.stderr.count("\n"), 1, ended.stderr)
+        self.assertIn("apt-get install python3-distributed", ended.stderr)
+
+
+class Sweep(Folder):
+    def test_bytes_are_the_same_for_one_and_two_workers_and_a_resume(self):
+        path = self.write(SWEEP)
+        one, two = self.folder / "one", self.folder / "two"
+        self.assertEqual(self.run_command(path, "--out", one, "--workers", 1)[0], 0)
+        self.assertEqual(self.run_command(path, "--out", two, "--workers", 2)[0], 0)
+        self.assertEqual(self.results(one), self.results(two))
+        # What has a result is not run again; what has none is.
+        tasks = sorted(two.glob("tasks/*/*.json"))
+        self.assertEqual(len(tasks), 12)
+        tasks[5].unlink()
+        before = {one: one.stat().st_mtime_ns for one in tasks if one != tasks[5]}
+        status, output, _ = self.run_command(path, "--out", two)
+        self.assertEqual(status, 0)
+        self.assertIn("11 of them from before", output)
+        self.assertEqual(before, {one: one.stat().st_mtime_ns for one in before})
+        self.assertEqual(self.results(one), self.results(two))
+        self.numbers_are_those_of_the_module(self.rows(one))
+
+    def numbers_are_those_of_the_module(self, rows):
+        self.assertEqual([int(row["index"]) for row in rows], list(range(12)))
+        row = rows[11]
+        self.assertEqual((row["formulation"], row["state"], row["message"]), ("fem", "done", ""))
+        arm = flexarm.Arm.paper().with_(payload_mass_kg=0.1)
+        arm = arm.with_effect("root_compliance", stiffness=200.0)
+        model = flexarm.FiniteElements(arm, roots=2)
+        self.assertEqual(float(row["pole_2_Hz"]), model.poles(2).frequency_Hz[1])
+        zero = model.zeros("tip_acceleration", 1).s_rad_per_s[0]
+        self.assertEqual(float(row["zero_1_tip_acceleration_real_rad_per_s"]), zero.real)
+
+    def test_an_arm_that_is_not_allowed_is_a_failed_task(self):
+        path = self.write(SWEEP.replace("from = 0.0", "from = -0.1"))
+        status, output, _ = self.run_command(path, "--workers", 2)
+        self.assertEqual(status, 1)
+        self.assertTrue(output.startswith("task 0 failed: payload.mass = -0.1 kg: must"), output)
+        failures = json.loads((self.folder / "c-results" / "failures.json").read_text())
+        self.assertEqual([one["index"] for one in failures["failures"]], [0, 1, 2, 3])
+        self.assertEqual(failures["failures"][0]["input"]["parameters"]["payload.mass"], -0.1)
+
+
+def probe(count, rest=""):
+    return f'kind = "campaign_kinds.probe"\n[probe]\ncount = {count}\n{rest}'
+
+
+class Deaths(Folder):
+    def test_workers_that_die_cost_their_task_another_run_and_a_third_ends_it(self):
+        """Task 2 ends two workers, task 4 any number."""
+        path = self.write(probe(8, "2.kills = 2\n4.kills = 3\n6.fails = true"))
+        status, output, errors = self.run_command(path, "--workers", 2)
+        self.assertEqual(status, 1, errors)
+        rows = self.rows(self.folder / "c-results")
+        states = [row["state"] for row in rows]
+        self.assertEqual(states, ["done"] * 4 + ["gave up", "done", "failed", "done"])
+        self.assertEqual([row["square"] for row in rows[:4]], ["0", "1", "4", "9"])
+        self.assertEqual(rows[4]["message"], "3 workers died while they ran it")
+        self.assertTrue(output.startswith("task 4 gave up: 3 workers died while"), output)
+        begun = self.begun()
+        self.assertEqual((begun["2"], begun["4"], begun["0"]), (3, 3, 1))
+        # A resume gives a task its three attempts again, and leaves alone what has a result.
+        status, output, _ = self.run_command(path, "--workers", 2)
+        self.assertEqual(status, 1)
+        self.assertEqual(self.rows(self.folder / "c-results")[4]["square"], "16")
+        again = self.begun()
+        self.assertEqual((again["4"], again["6"]), (4, 2))
+        self.assertEqual(again["0"], begun["0"])
+
+    def test_another_scheduler_goes_on_where_one_died(self):
+        path = self.write(probe(6, "each_s = 0.3"))
+        reference = self.folder / "reference"
+        self.assertEqual(self.run_command(path, "--out", reference)[0], 0)
+
+        def kill():
+            self.wait_for(lambda: list((self.folder / "c-results").glob("tasks/*/*.json")))
+            for process in multiprocessing.active_children():
+                if process.name == "campaign-scheduler":
+                    os.kill(process.pid, signal.SIGKILL)
+
+        killer = threading.Thread(target=kill)
+        killer.start()
+        status, _, errors = self.run_command(path, "--workers", 2)
+        killer.join()
+        self.assertEqual(status, 0)
+        self.assertEqual(errors, "flexarm-campaign: the scheduler died; a new one goes on\n")
+        self.assertEqual(self.results(reference), self.results(self.folder / "c-results"))
+
+
+class Interrupt(Folder):
+    def of_group(self, group):
+        """Processes of a group that are no zombies."""
+        found = []
+        for stat in pathlib.Path("/proc").glob("[0-9]*/stat"):
+            with contextlib.suppress(OSError):
+                state, _, of = stat.read_text().rpartition(")")[2].split()[:3]
+                if int(of) == group and state != "Z":
+                    found.append(stat.parent.name)
+        return found
+
+    def test_ctrl_c_stops_with_one_line_and_the_same_command_goes_on(self):
+        path = self.write(probe(40, "each_s = 0.1"))
+        process = subprocess.Popen(
+            [sys.executable, "-m", "flexarm.campaign", path, "--workers", "2"],
+            stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True,
+        )
+        out = self.folder / "c-results"
+        self.wait_for(lambda: len(list(out.glob("tasks/*/*.json"))) > 2)
+        os.killpg(process.pid, signal.SIGINT)  # as a terminal does
+        output, errors = process.communicate(timeout=WAITS_S)
+        self.assertEqual((process.returncode, output), (130, ""), errors)
+        self.assertRegex(
+            errors, r"^flexarm-campaign: stopped with \d+ of 40 tasks done;"
+            r" the same command goes on from there\n$"
+        )
+        self.assertFalse((out / "results.csv").exists())
+        self.wait_for(lambda: not self.of_group(process.pid))
+
+if __name__ == "__main__":
+    unittest.main()

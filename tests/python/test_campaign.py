@@ -1,8 +1,6 @@
 """Campaigns: files, bytes of the results, deaths of workers and of the scheduler, Ctrl-C."""
 
 import contextlib
-import csv
-import io
 import json
 import multiprocessing
 import os
@@ -10,13 +8,12 @@ import pathlib
 import signal
 import subprocess
 import sys
-import tempfile
 import threading
-import time
 import unittest
 
 import flexarm
-from flexarm.campaign import command
+
+from campaign_case import WAITS_S, CampaignCase
 
 SWEEP = """
 kind = "sweep"
@@ -33,48 +30,9 @@ count = 3
 key = "effects.root_compliance.stiffness"
 values = [100, 200.0]
 """
-RESULTS = ("results.csv", "results.json", "failures.json")
-WAITS_S = 20.0
 
 
-class Folder(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-
-    def write(self, text, name="c.toml"):
-        path = self.folder / name
-        path.write_text(text)
-        return path
-
-    def run_command(self, *arguments):
-        """Exit status, standard output, standard error."""
-        output, errors = io.StringIO(), io.StringIO()
-        with contextlib.redirect_stdout(output), contextlib.redirect_stderr(errors):
-            status = command.main([str(one) for one in arguments])
-        return status, output.getvalue(), errors.getvalue()
-
-    def wait_for(self, condition):
-        begun = time.monotonic()
-        while not condition():
-            self.assertLess(time.monotonic() - begun, WAITS_S)
-            time.sleep(0.02)
-
-    def results(self, out):
-        return [(out / name).read_bytes() for name in RESULTS]
-
-    def rows(self, out):
-        with open(out / "results.csv", newline="") as stream:
-            return list(csv.DictReader(stream))
-
-    def begun(self):
-        """How often each task of a probe began."""
-        lines = (self.folder / "begun").read_text().split()
-        return {number: lines.count(number) for number in lines}
-
-
-class File(Folder):
+class File(CampaignCase):
     def refused(self, text, *arguments):
         path = self.write(text)
         status, output, errors = self.run_command(path, *arguments)
@@ -145,7 +103,7 @@ class File(Folder):
         self.assertIn("apt-get install python3-distributed", ended.stderr)
 
 
-class Sweep(Folder):
+class Sweep(CampaignCase):
     def test_bytes_are_the_same_for_one_and_two_workers_and_a_resume(self):
         path = self.write(SWEEP)
         one, two = self.folder / "one", self.folder / "two"
@@ -189,7 +147,7 @@ def probe(count, rest=""):
     return f'kind = "campaign_kinds.probe"\n[probe]\ncount = {count}\n{rest}'
 
 
-class Deaths(Folder):
+class Deaths(CampaignCase):
     def test_workers_that_die_cost_their_task_another_run_and_a_third_ends_it(self):
         """Task 2 ends two workers, task 4 any number."""
         path = self.write(probe(8, "2.kills = 2\n4.kills = 3\n6.fails = true"))
@@ -231,7 +189,7 @@ class Deaths(Folder):
         self.assertEqual(self.results(reference), self.results(self.folder / "c-results"))
 
 
-class Interrupt(Folder):
+class Interrupt(CampaignCase):
     def of_group(self, group):
         """Processes of a group that are no zombies."""
         found = []

@@ -1,0 +1,76 @@
+"""Kinds of campaigns beside the sweep, which test_campaign.py has."""
+
+import json
+import unittest
+
+import flexarm
+
+from campaign_case import CampaignCase
+
+EFFECTS = ["time_delay", "coulomb_friction"]
+DIAGNOSE = """
+kind = "diagnose"
+[diagnose]
+folder = "recordings"
+effects = ["time_delay", "coulomb_friction"]
+"""
+
+
+class Diagnose(CampaignCase):
+    def record(self, name, delay_s):
+        experiment = flexarm.simulate_experiment(
+            flexarm.Arm.paper().with_effect("time_delay", delay=delay_s),
+            ["multisine:rms=0.05,from=0.5,to=40"], duration_s=2.0, sample_time_s=0.004, noise=0.005,
+            sensors=["hub_angle", "hub_velocity"],
+        )
+        experiment.write(self.folder / "recordings" / name, hide_effects=["all"])
+
+    def test_a_folder_of_measurements(self):
+        for name, delay_s in (("b", 0.01), ("a", 0.02), ("c", 0.03)):
+            self.record(name, delay_s)
+        (self.folder / "recordings" / "c" / "multisine.csv").unlink()
+        path = self.write(DIAGNOSE)
+        out = self.folder / "c-results"
+        status, output, _ = self.run_command(path, "--workers", 1)
+        self.assertEqual(status, 1)
+        rows = self.rows(out)
+        self.assertEqual(
+            [row["measurement"] for row in rows],
+            [f"recordings/{name}/measurement.toml" for name in "abc"],
+        )
+        self.assertEqual([row["state"] for row in rows], ["done", "done", "failed"], output)
+        self.assertIn("multisine.csv", rows[2]["message"])
+        self.assertEqual([row["cause_1"] for row in rows], ["time_delay", "time_delay", ""])
+        # The file of the task is the document of `flexarm diagnose --json`.
+        task = json.loads((out / "tasks" / rows[0]["task"][:2] / f"{rows[0]['task']}.json").read_text())
+        direct = flexarm.diagnose(
+            self.folder / "recordings/a/measurement.toml", effects=EFFECTS, progress=False
+        )
+        self.assertEqual(task["result"], direct.to_dict())
+        # Bytes of a file that it reads are part of a task: a changed record is a new one.
+        record = self.folder / "recordings/b/multisine.csv"
+        record.write_text(record.read_text().replace("\n0,0,", "\n0,0.0,", 1) + "\n")
+        status, output, _ = self.run_command(path, "--workers", 1)
+        self.assertIn("1 of them from before", output)
+        again = self.rows(out)
+        self.assertEqual(again[0], rows[0])
+        self.assertNotEqual(again[1]["task"], rows[1]["task"])
+
+    def test_what_is_to_be_diagnosed_is_checked_first(self):
+        (self.folder / "recordings").mkdir()
+        for old, new, line in (
+            ('"recordings"', '"recordings"', "has no measurement.toml"),
+            ('"recordings"', '"absent"', "must be a folder"),
+            ('folder = "recordings"', "", "give either folder or measurements"),
+            ('folder = "recordings"', 'measurements = ["x.toml"]', "x.toml: no such file"),
+            ("coulomb_friction", "coulomb_frictoin", "(did you mean coulomb_friction?)"),
+            ('"recordings"', '"recordings"\npredictor = "best"', "must be one of auto, output_"),
+        ):
+            with self.subTest(new):
+                status, _, errors = self.run_command(self.write(DIAGNOSE.replace(old, new, 1)))
+                self.assertEqual((status, errors.count("\n")), (2, 1))
+                self.assertIn(line, errors)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,6 +1,9 @@
 """Kinds of campaigns beside the sweep, which test_campaign.py has."""
 
 import json
+import os
+import pathlib
+import re
 import unittest
 
 import flexarm
@@ -14,6 +17,16 @@ kind = "diagnose"
 folder = "recordings"
 effects = ["time_delay", "coulomb_friction"]
 """
+
+
+class Manual(CampaignCase):
+    def test_the_first_campaign_prints_what_it_says(self):
+        text = (pathlib.Path(os.environ["FLEXARM_SOURCE_DIR"]) / "docs" / "campaign.md").read_text()
+        campaign = re.search(r"^```toml\n(.*?)^```$", text, re.MULTILINE | re.DOTALL).group(1)
+        shown = re.search(r"^```text\n\$ .*?\n(.*?)^```$", text, re.MULTILINE | re.DOTALL).group(1)
+        path = self.write(campaign, "campaign.toml")
+        status, output, _ = self.run_command(path, "--workers", 1)
+        self.assertEqual((status, output.replace(f"{self.folder}/", "")), (0, shown))
 
 
 class Diagnose(CampaignCase):

@@ -171,8 +171,6 @@ class Deaths(CampaignCase):
 
     def test_another_scheduler_goes_on_where_one_died(self):
         path = self.write(probe(6, "each_s = 0.3"))
-        reference = self.folder / "reference"
-        self.assertEqual(self.run_command(path, "--out", reference)[0], 0)
 
         def kill():
             self.wait_for(lambda: list((self.folder / "c-results").glob("tasks/*/*.json")))
@@ -184,9 +182,10 @@ class Deaths(CampaignCase):
         killer.start()
         status, _, errors = self.run_command(path, "--workers", 2)
         killer.join()
-        self.assertEqual(status, 0)
+        self.assertEqual(status, 0, errors)
         self.assertEqual(errors, "flexarm-campaign: the scheduler died; a new one goes on\n")
-        self.assertEqual(self.results(reference), self.results(self.folder / "c-results"))
+        rows = self.rows(self.folder / "c-results")
+        self.assertEqual([int(row["square"]) for row in rows], [0, 1, 4, 9, 16, 25])
 
 
 class Interrupt(CampaignCase):

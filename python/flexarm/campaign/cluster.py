@@ -27,7 +27,7 @@ import distributed
 
 from .errors import CampaignError
 
-CONNECT_S = 10.0
+CONNECT_S = 30.0
 # Of the scheduler that is started here: blame is counted by the attempts of a task (task_files.py),
 # and what it remembers is bounded.
 _SETTINGS = {
@@ -36,6 +36,8 @@ _SETTINGS = {
     "distributed.scheduler.transition-log-length": 100,
     "distributed.scheduler.events-log-length": 100,
     "distributed.scheduler.events-cleanup-delay": "1s",
+    "distributed.scheduler.http.routes": [],
+    "distributed.worker.http.routes": [],
     "distributed.worker.profile.enabled": False,
     "distributed.admin.tick.limit": "60s",
     "distributed.comm.timeouts.connect": f"{CONNECT_S}s",
@@ -67,7 +69,9 @@ def _serve_scheduler(said):
     _as_child()
 
     async def serve():
-        async with distributed.Scheduler(host="127.0.0.1", port=0, dashboard=False) as scheduler:
+        async with distributed.Scheduler(
+            host="127.0.0.1", port=0, dashboard=False, dashboard_address="127.0.0.1:0"
+        ) as scheduler:
             said.send(scheduler.address)
             await scheduler.finished()
 

@@ -14,15 +14,25 @@ from .cluster import LocalCluster, RemoteCluster
 from .errors import CampaignError
 from .program import program_digest
 from .task_files import file_digest, finished, task_digest
-from .work import Order, run_task
+from .work import Shared, run_order
 
-# So many tasks a worker are with the scheduler: enough that none waits for the next, few enough
+# So many orders a worker are with the scheduler: enough that none waits for the next, few enough
 # that its memory does not grow with the campaign.
 _IN_FLIGHT_PER_WORKER = 4
+# Short tasks go out together, so many that an order takes some time, as long as there are orders for
+# all workers.
+_ORDER_TAKES_S = 0.05
+_MOST_IN_AN_ORDER = 32
+_WEIGHT_OF_THE_LAST = 0.1
 _LOOKS_EVERY_S = 0.2
 _CONNECTS_EVERY_S = 2.0
 # So many workers may die in a row, for each of them, without any task ending.
 _DEATHS_IN_A_ROW = 20
+_LOSSES_IN_A_ROW = 20
+# What calls of a client raise when its scheduler goes.
+_OF_A_LOST_CONNECTION = (
+    OSError, RuntimeError, asyncio.CancelledError, concurrent.futures.CancelledError,
+)
 
 
 @dataclasses.dataclass
@@ -55,10 +65,12 @@ class Runner:
         self._generation = 0
         self._serial = 0
         self._program = program_digest(campaign.kind)
-        self._in_flight = {}  # key of a future: (future, index, digest, task)
+        self._in_flight = {}  # key of a future: (future, [(index, digest, task), ...])
         self._again = []  # (index, digest, task) that a lost scheduler had
         self._ended = queue.SimpleQueue()
-        self._deaths = 0
+        self._mean_s = None  # duration of the last tasks
+        self._deaths = 0  # of workers, since a task ended
+        self._losses = 0  # of schedulers, likewise
         self._cluster = None
         self.outcome = Outcome()
 
@@ -77,8 +89,8 @@ class Runner:
                 self._durations.writerow(["index", "task", "duration [s]"])
             try:
                 self._connect()
-                while self._fill():
-                    self._turn()
+                while self._turn():
+                    pass
             finally:
                 if self._cluster is not None:
                     self._cluster.close()
@@ -112,23 +124,40 @@ class Runner:
             self._cluster = RemoteCluster(self._address)
 
     def _fill(self):
-        """Submits as many tasks as may be in flight; whether some are."""
-        room = _IN_FLIGHT_PER_WORKER * max(self._cluster.workers(), 1) - len(self._in_flight)
+        """Submits as many orders as may be in flight; whether some are."""
+        workers = max(self._cluster.workers(), 1)
         fresh = []
-        while len(fresh) < room:
+        while len(self._in_flight) + len(fresh) < _IN_FLIGHT_PER_WORKER * workers:
+            tasks = self._next_order(workers)
+            if not tasks:
+                break
+            fresh.append(tasks)
+        if fresh:
+            self._submit(fresh)
+        return bool(self._in_flight)
+
+    def _next_order(self, workers):
+        size = 1
+        if self._mean_s is not None:
+            left = len(self.outcome.digests) - self.outcome.before - self.outcome.ended
+            size = min(
+                _ORDER_TAKES_S / max(self._mean_s, 1e-6),
+                left / (2 * _IN_FLIGHT_PER_WORKER * workers),
+                _MOST_IN_AN_ORDER,
+            )
+        tasks = []
+        while len(tasks) < max(size, 1):
             if self._again:
-                fresh.append(self._again.pop())
+                tasks.append(self._again.pop())
             elif self._next_task is not None:
-                fresh.append(self._next_task)
+                tasks.append(self._next_task)
                 self._next_task = next(self._waiting, None)
             else:
                 break
-        if fresh:
-            self._submit(fresh)
-        return bool(self._in_flight or self._again)
+        return tasks
 
     def _submit(self, fresh):
-        order = Order(
+        shared = Shared(
             self._campaign.kind_name, str(self._campaign.folder), str(self._out.resolve()),
             self._run, self._generation, self._program,
         )
@@ -139,35 +168,45 @@ class Runner:
             for i in range(len(fresh))
         ]
         self._serial += len(fresh)
-        futures = self._cluster.client.map(
-            functools.partial(run_task, order), [one[1] for one in fresh],
-            [one[2] for one in fresh], key=keys, pure=False,
-        )
-        for future, one in zip(futures, fresh):
-            self._in_flight[future.key] = (future, *one)
+        orders = [[one[1:] for one in tasks] for tasks in fresh]
+        try:
+            futures = self._cluster.client.map(
+                functools.partial(run_order, shared), orders, key=keys, pure=False
+            )
+        except _OF_A_LOST_CONNECTION as error:
+            self._again += [one for tasks in fresh for one in tasks]
+            raise _Lost from error
+        for future, tasks in zip(futures, fresh):
+            self._in_flight[future.key] = (future, tasks)
             future.add_done_callback(lambda ended: self._ended.put(ended.key))
 
     def _turn(self):
-        """Waits for tasks to end, and notes them."""
+        """Submits, waits for orders to end, and notes them; whether there is more to do."""
         try:
+            if not self._fill():
+                return False
             keys = self._some_ended()
             results = self._results_of([self._in_flight[key][0] for key in keys])
         except _Lost:
             self._begin_again()
-            return
+            return True
         for key in keys:
-            _, index, digest, task = self._in_flight.pop(key)
+            _, tasks = self._in_flight.pop(key)
             if key not in results:
                 # Cancelled, or given up by a scheduler that blames tasks beside the one that ended
                 # the worker: the attempts of the task say when it is enough.
-                self._again.append((index, digest, task))
+                self._again += tasks
                 continue
-            self._note(index, digest, *results[key])
+            for (index, digest, _), result in zip(tasks, results[key]):
+                self._note(index, digest, *result)
         self._show()
+        return True
 
     def _note(self, index, digest, state, seconds, message):
-        self._deaths = 0
+        self._deaths = self._losses = 0
         self.outcome.ended += 1
+        before_s = seconds if self._mean_s is None else self._mean_s
+        self._mean_s = before_s + _WEIGHT_OF_THE_LAST * (seconds - before_s)
         self._durations.writerow([index, digest, f"{seconds:.6f}"])
         if state != "done":
             self.outcome.failures[index] = (state, message)
@@ -198,15 +237,15 @@ class Runner:
         while True:
             try:
                 values = gathered.result(timeout=_LOOKS_EVERY_S)
-            except concurrent.futures.TimeoutError:
+            except TimeoutError as error:
+                if gathered.done():
+                    raise _Lost from error
                 self._tend()
                 continue
-            except (concurrent.futures.CancelledError, asyncio.CancelledError):
-                return {}
-            # Those skipped are missing in the list: it is as long as the futures, or asked singly.
-            if len(values) == len(whole):
-                return {one.key: value for one, value in zip(whole, values)}
-            return {one.key: one.result() for one in whole if one.status == "finished"}
+            except _OF_A_LOST_CONNECTION as error:
+                raise _Lost from error
+            # A future that was cancelled meanwhile is skipped, and the list says not which.
+            return dict(zip((one.key for one in whole), values)) if len(values) == len(whole) else {}
 
     def _tend(self):
         if self._cluster.is_lost():
@@ -221,11 +260,14 @@ class Runner:
 
     def _begin_again(self):
         """After the death of a scheduler: all that was in flight, with a new one."""
-        self._again += [one[1:] for one in self._in_flight.values()]
+        self._again += [one for _, tasks in self._in_flight.values() for one in tasks]
         self._in_flight.clear()
         self._ended = queue.SimpleQueue()
         self._generation += 1
+        self._losses += 1
         self._cluster.close()
+        if self._losses > _LOSSES_IN_A_ROW:
+            raise CampaignError(f"{self._losses} schedulers were lost and no task ended meanwhile")
         if self._address is None:
             _say("the scheduler died; a new one goes on")
             self._connect()

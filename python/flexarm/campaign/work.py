@@ -1,4 +1,4 @@
-"""What a worker does: one task, its file, and a line of what became of it."""
+"""What a worker does: tasks, a file of each, and a line of what became of it."""
 
 import dataclasses
 import functools
@@ -15,8 +15,8 @@ MOST_DEATHS = 3
 
 
 @dataclasses.dataclass(frozen=True)
-class Order:
-    """What all tasks of a campaign share. It is sent with each task and is small."""
+class Shared:
+    """What all orders of a campaign share. It is sent with each and is small."""
 
     kind: str
     folder: str  # of the campaign file
@@ -31,7 +31,12 @@ def _kind(name):
     return kinds.find(name)
 
 
-def run_task(order, digest, task):
+def run_order(shared, tasks):
+    """Runs tasks, (digest, input) each, one after the other; what `run_task` returns of each."""
+    return [run_task(shared, digest, task) for digest, task in tasks]
+
+
+def run_task(shared, digest, task):
     """Runs a task and writes its file.
 
     Returns (state, seconds, message). The state is `done`, `failed`: the task raised, or
@@ -42,28 +47,28 @@ def run_task(order, digest, task):
     def ended(state, message=""):
         return state, time.monotonic() - begun, message
 
-    kind = _kind(order.kind)
+    kind = _kind(shared.kind)
     if kind is None:
-        return ended("failed", f"{socket.gethostname()}: has no kind of campaign {order.kind}")
+        return ended("failed", f"{socket.gethostname()}: has no kind of campaign {shared.kind}")
     own = program_digest(kind)
-    if own != order.program:
+    if own != shared.program:
         return ended(
             "failed",
             f"{socket.gethostname()}: another flexarm ({shown_program(own)};"
-            f" the campaign has {shown_program(order.program)})",
+            f" the campaign has {shown_program(shared.program)})",
         )
-    if not pathlib.Path(order.out).is_dir():
-        return ended("failed", f"{socket.gethostname()}: {order.out}: no such folder")
-    if os.path.exists(result_path(order.out, digest)):
+    if not pathlib.Path(shared.out).is_dir():
+        return ended("failed", f"{socket.gethostname()}: {shared.out}: no such folder")
+    if os.path.exists(result_path(shared.out, digest)):
         # A worker ended between its file and its answer, or under a scheduler that died.
         return ended("done")
-    attempts = Attempts(order.out, digest, order.run, order.generation)
+    attempts = Attempts(shared.out, digest, shared.run, shared.generation)
     deaths = attempts.begin()
     if deaths >= MOST_DEATHS:
         attempts.end()
         return ended("gave up", f"{deaths} workers died while they ran it")
     try:
-        write_result(order.out, digest, task, kind.run(task, pathlib.Path(order.folder)))
+        write_result(shared.out, digest, task, kind.run(task, pathlib.Path(shared.folder)))
     except Exception as error:
         attempts.end()
         text = str(error).split("\n")[0] or type(error).__name__

@@ -44,8 +44,10 @@ class Diagnose(CampaignCase):
         (self.folder / "recordings" / "c" / "multisine.csv").unlink()
         path = self.write(DIAGNOSE)
         out = self.folder / "c-results"
-        status, output, _ = self.run_command(path, "--workers", 1)
+        report = self.folder / "report.html"
+        status, output, _ = self.run_command(path, "--workers", 1, "--report", report)
         self.assertEqual(status, 1)
+        self.page_is_whole(report.read_text())
         rows = self.rows(out)
         self.assertEqual(
             [row["measurement"] for row in rows],
@@ -68,6 +70,27 @@ class Diagnose(CampaignCase):
         again = self.rows(out)
         self.assertEqual(again[0], rows[0])
         self.assertNotEqual(again[1]["task"], rows[1]["task"])
+
+    def page_is_whole(self, page):
+        self.assertIn("<strong>2</strong> of 3 tasks have a result", page)
+        headings = re.findall(r"<h2>(.*?)</h2>", page)
+        self.assertEqual(headings, [
+            "Without a result", "Worst: largest estimation_nrmse_after", "Count of verdict",
+            "Slowest", "All tasks",
+        ])
+        self.assertLess(page.index("recordings/c/"), page.index("recordings/a/"))
+        # It opens without a network, and marks are closed.
+        self.assertNotIn("http", page)
+        for mark in ("table", "section", "tr", "td"):
+            self.assertEqual(len(re.findall(f"<{mark}[ >]", page)), page.count(f"</{mark}>"), mark)
+
+    def test_a_report_that_cannot_be_written_is_refused_first(self):
+        path = self.write(DIAGNOSE)
+        self.record("a", 0.01)
+        for report, line in (("absent/x.html", "no such folder"), ("c.toml", "must end in .html")):
+            status, _, errors = self.run_command(path, "--report", self.folder / report)
+            self.assertEqual(status, 2)
+            self.assertIn(line, errors)
 
     def test_what_is_to_be_diagnosed_is_checked_first(self):
         (self.folder / "recordings").mkdir()

@@ -58,6 +58,10 @@ def _parser():
         "--scheduler", metavar="ADDRESS",
         help="tcp://HOST:PORT of a dask scheduler that runs, in place of this machine",
     )
+    parser.add_argument(
+        "--report", metavar="FILE", type=pathlib.Path,
+        help="HTML file with a summary: failed, unexplained, worst and slowest tasks",
+    )
     parser.add_argument("--version", action="version", version=f"flexarm {flexarm.__version__}")
     return parser
 
@@ -105,10 +109,25 @@ def _print_summary(campaign, outcome, failures, out):
         print(f"inputs of those without: {out / 'failures.json'}")
 
 
+def _require_report(report, campaign_file):
+    """What would fail hours later, or overwrite an input."""
+    if report is None:
+        return
+    if not report.parent.is_dir():
+        raise CampaignError(f"--report {report}: no such folder")
+    if report.is_dir():
+        raise CampaignError(f"--report {report}: is a folder")
+    if report.suffix not in (".html", ".htm"):
+        raise CampaignError(f"--report {report}: must end in .html")
+    if report.exists() and report.samefile(campaign_file):
+        raise CampaignError(f"--report {report}: is the campaign file")
+
+
 def _run(arguments):
     from .campaign_file import read_campaign
     from .cluster import quiet
     from .merge import merge
+    from .page import Page
     from .runner import Runner
     from .task_files import output_folder
 
@@ -116,6 +135,7 @@ def _run(arguments):
     if arguments.scheduler is not None and arguments.workers is not None:
         raise CampaignError("--workers: the scheduler of --scheduler has its own")
     campaign = read_campaign(arguments.file)
+    _require_report(arguments.report, campaign.file)
     out = arguments.out or campaign.file.with_name(campaign.file.stem + "-results")
     line = _Line()
     with output_folder(out):
@@ -138,7 +158,10 @@ def _run(arguments):
             )
             raise
         line.close()
-        failures = merge(campaign, outcome, out)
+        page = Page(campaign)
+        failures = merge(campaign, outcome, out, page.see)
+        if arguments.report is not None:
+            page.write(arguments.report, out / "durations.csv")
     _print_summary(campaign, outcome, failures, out)
     return _FAILED if failures else 0
 

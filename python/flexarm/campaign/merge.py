@@ -63,8 +63,9 @@ def _text(value):
     return json.dumps(value, ensure_ascii=False, allow_nan=False)
 
 
-def merge(campaign, outcome, out):
-    """Writes the files; returns the rows without result, as dicts of failures.json."""
+def merge(campaign, outcome, out, see=lambda columns, row: None):
+    """Writes the files; returns the rows without result, as dicts of failures.json. `see` is called
+    with each row."""
     columns = columns_of(campaign)
     names = ("results.csv", "results.json", "failures.json")
     failures = []
@@ -83,6 +84,7 @@ def merge(campaign, outcome, out):
         document.write(_text(head)[:-1] + ',\n"rows": [')
         for task, row in rows_of(campaign, outcome, out):
             rows.writerow(row)
+            see(columns, row)
             document.write(("," if row[0] else "") + "\n" + _text(row))
             if row[2] != "done":
                 failure = {

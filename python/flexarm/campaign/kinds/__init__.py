@@ -13,6 +13,9 @@ A kind has four functions:
 Optional:
 
     files(task, folder)     paths of the files that `run` reads; their bytes are part of the hash
+    WORST                   a column: the summary page lists the tasks with its largest numbers
+    FLAGGED                 (column, texts): the page lists the tasks that have one of these texts
+    TALLY                   a column: the page counts its texts
 
 Relative paths are relative to `folder`, that of the campaign file. A kind of one's own is a module
 that Python finds, named with its points: `kind = "my_lab.my_kind"`, with the table `[my_kind]`.

@@ -8,6 +8,11 @@ import flexarm
 from ..named_files import named_files
 from ..tables import suggestion
 
+# Of the summary page.
+WORST = "estimation_nrmse_after"
+FLAGGED = ("verdict", ["unexplained", "partly_explained"])
+TALLY = "verdict"
+
 _CAUSES_IN_TABLE = 3
 _PREDICTORS = [
     "auto", "output_error", "closed_loop", "grey_box", "torque_balance", "driven_by_motion",

@@ -108,5 +108,48 @@ class Diagnose(CampaignCase):
                 self.assertIn(line, errors)
 
 
+PLAN = """
+kind = "plan"
+[plan]
+arm = "arm.toml"
+plan = "plan.toml"
+effects = ["hub_inertia", "payload_mass"]
+draws = 3
+"""
+
+
+class Plan(CampaignCase):
+    def test_monte_carlo_of_the_uncertain_numbers(self):
+        arm = flexarm.Arm.paper().with_uncertainties({"beam.flexural_rigidity": 0.05})
+        arm.write(self.folder / "arm.toml")
+        self.write('[[run]]\nid = "modal"\nkind = "modal"\npoles = 3\n', "plan.toml")
+        self.assertEqual(self.run_command(self.write(PLAN), "--workers", 1)[0], 0)
+        rows = self.rows(self.folder / "c-results")
+        self.assertEqual([row["draw"] for row in rows], ["0", "1", "2", "3"])
+        rigidity = [float(row["beam.flexural_rigidity"]) for row in rows]
+        self.assertEqual(rigidity[0], arm.beam_flexural_rigidity_N_m2)
+        self.assertEqual(len(set(rigidity)), 4)
+        for drawn in rigidity[1:]:
+            self.assertLess(abs(drawn / rigidity[0] - 1.0), 0.25)  # five standard deviations
+        changed = arm.with_(
+            beam_flexural_rigidity_N_m2=rigidity[2],
+            beam_youngs_modulus_Pa=arm.beam_youngs_modulus_Pa * (rigidity[2] / rigidity[0]),
+        )
+        direct = flexarm.plan(
+            changed, self.folder / "plan.toml",
+            effects=["hub_inertia", "payload_mass"], progress=False,
+        )
+        for effect in direct.effects:
+            self.assertEqual(rows[2][f"{effect.effect}.detectable"], "yes")
+            (parameter, value), = effect.minimum_detectable_value.items()
+            self.assertEqual(float(rows[2][f"{effect.effect}.{parameter}"]), value)
+
+    def test_an_arm_without_uncertain_numbers_is_refused(self):
+        flexarm.Arm.paper().write(self.folder / "arm.toml")
+        status, _, errors = self.run_command(self.write(PLAN))
+        self.assertEqual(status, 2)
+        self.assertIn('plan.arm = "arm.toml": has no uncertain number', errors)
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -5,8 +5,8 @@ import os
 
 import flexarm
 
+from ..effect_names import effects_in
 from ..named_files import named_files
-from ..tables import suggestion
 
 # Of the summary page.
 WORST = "estimation_nrmse_after"
@@ -53,20 +53,10 @@ def _names(table, folder):
     return names
 
 
-def _effects(table, key):
-    known = [effect.name for effect in flexarm.effects()]
-    stated = table.texts(key, [])
-    for one in stated:
-        effect = one.split(" on ")[0]
-        if effect not in known:
-            table.fail(key, f"{effect}: unknown effect{suggestion(effect, known)}")
-    return stated
-
-
 def expand(table, folder):
     options = {
-        "effects": _effects(table, "effects"),
-        "exclude": _effects(table, "exclude"),
+        "effects": effects_in(table, "effects", []),
+        "exclude": effects_in(table, "exclude", []),
         "accept": table.texts("accept", []),
         "max_causes": table.whole("max_causes", 1, 100, 4),
         "predictor": table.choice("predictor", _PREDICTORS, "auto"),

@@ -11,7 +11,10 @@ import sys
 import threading
 import unittest
 
+import dask
+
 import flexarm
+from flexarm.campaign import open_results
 
 from campaign_case import WAITS_S, CampaignCase
 
@@ -121,6 +124,18 @@ class Sweep(CampaignCase):
         self.assertEqual(before, {one: one.stat().st_mtime_ns for one in before})
         self.assertEqual(self.results(one), self.results(two))
         self.numbers_are_those_of_the_module(self.rows(one))
+        # What a resume writes again is read back lazily.
+        for out in (one, two):
+            self.assertEqual(self.run_command(path, "--out", out, "--hdf5")[0], 0)
+        self.assertEqual((one / "results.h5").read_bytes(), (two / "results.h5").read_bytes())
+        with open_results(one) as data:
+            self.assertEqual(data.sizes, {"row": 12})
+            poles = data["pole_2_Hz"]
+            self.assertTrue(dask.is_dask_collection(poles.data))
+            self.assertEqual(
+                poles.values.tolist(), [float(row["pole_2_Hz"]) for row in self.rows(one)]
+            )
+            self.assertEqual(data["formulation"][1:3].values.tolist(), ["fem", "exact_tf"])
 
     def numbers_are_those_of_the_module(self, rows):
         self.assertEqual([int(row["index"]) for row in rows], list(range(12)))

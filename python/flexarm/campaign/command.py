@@ -59,6 +59,9 @@ def _parser():
         help="tcp://HOST:PORT of a dask scheduler that runs, in place of this machine",
     )
     parser.add_argument(
+        "--hdf5", action="store_true", help="write results.h5 too, for tables larger than memory"
+    )
+    parser.add_argument(
         "--report", metavar="FILE", type=pathlib.Path,
         help="HTML file with a summary: failed, unexplained, worst and slowest tasks",
     )
@@ -126,6 +129,7 @@ def _require_report(report, campaign_file):
 def _run(arguments):
     from .campaign_file import read_campaign
     from .cluster import quiet
+    from .hdf5 import ColumnTypes, write_hdf5
     from .merge import merge
     from .page import Page
     from .runner import Runner
@@ -134,6 +138,8 @@ def _run(arguments):
     quiet()
     if arguments.scheduler is not None and arguments.workers is not None:
         raise CampaignError("--workers: the scheduler of --scheduler has its own")
+    if arguments.hdf5 and not importlib.util.find_spec("h5py"):
+        raise CampaignError("--hdf5: the Python module h5py is missing: apt-get install python3-h5py")
     campaign = read_campaign(arguments.file)
     _require_report(arguments.report, campaign.file)
     out = arguments.out or campaign.file.with_name(campaign.file.stem + "-results")
@@ -158,8 +164,15 @@ def _run(arguments):
             )
             raise
         line.close()
-        page = Page(campaign)
-        failures = merge(campaign, outcome, out, page.see)
+        page, types = Page(campaign), ColumnTypes()
+
+        def see(columns, row):
+            page.see(columns, row)
+            types.see(columns, row)
+
+        failures = merge(campaign, outcome, out, see)
+        if arguments.hdf5:
+            write_hdf5(campaign, outcome, out, types)
         if arguments.report is not None:
             page.write(arguments.report, out / "durations.csv")
     _print_summary(campaign, outcome, failures, out)

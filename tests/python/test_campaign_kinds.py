@@ -29,7 +29,7 @@ class Manual(CampaignCase):
         self.assertEqual((status, output.replace(f"{self.folder}/", "")), (0, shown))
 
 
-class Diagnose(CampaignCase):
+class Recordings(CampaignCase):
     def record(self, name, delay_s):
         experiment = flexarm.simulate_experiment(
             flexarm.Arm.paper().with_effect("time_delay", delay=delay_s),
@@ -38,6 +38,8 @@ class Diagnose(CampaignCase):
         )
         experiment.write(self.folder / "recordings" / name, hide_effects=["all"])
 
+
+class Diagnose(Recordings):
     def test_a_folder_of_measurements(self):
         for name, delay_s in (("b", 0.01), ("a", 0.02), ("c", 0.03)):
             self.record(name, delay_s)
@@ -149,6 +151,50 @@ class Plan(CampaignCase):
         status, _, errors = self.run_command(self.write(PLAN))
         self.assertEqual(status, 2)
         self.assertIn('plan.arm = "arm.toml": has no uncertain number', errors)
+
+
+class Bootstrap(Recordings):
+    CAMPAIGN = """
+kind = "bootstrap"
+[bootstrap]
+measurement = "recordings/a/measurement.toml"
+diagnosis = "a.json"
+effects = ["time_delay", "coulomb_friction"]
+draws = 3
+"""
+
+    def test_estimates_scatter_as_their_standard_errors_say(self):
+        self.record("a", 0.013)
+        diagnosis = flexarm.diagnose(
+            self.folder / "recordings/a/measurement.toml", effects=EFFECTS, progress=False
+        )
+        diagnosis.write_json(self.folder / "a.json")
+        status, output, errors = self.run_command(self.write(self.CAMPAIGN), "--workers", 2)
+        self.assertEqual(status, 0, output + errors)
+        rows = self.rows(self.folder / "c-results")
+        self.assertEqual([row["time_delay.named"] for row in rows], ["yes"] * 4)
+        delays_s = [float(row["time_delay.delay"]) for row in rows]
+        estimate = diagnosis.causes[0].parameters["delay"]
+        self.assertEqual(delays_s[0], estimate.value)
+        self.assertEqual(len(set(delays_s)), 4)
+        for delay_s in delays_s:
+            self.assertLess(abs(delay_s - estimate.value), 6.0 * estimate.std_error)
+        # The noise is as large as that of the measurement, within what 500 samples leave open.
+        for row in rows[1:]:
+            ratio = float(row["estimation_nrmse_after"]) / float(rows[0]["estimation_nrmse_after"])
+            self.assertLess(abs(ratio - 1.0), 0.2)
+
+    def test_what_cannot_be_simulated_is_refused(self):
+        self.record("a", 0.01)
+        path = self.write(self.CAMPAIGN)
+        status, _, errors = self.run_command(path)
+        self.assertEqual(status, 2)
+        self.assertIn('bootstrap.diagnosis = "a.json": must be a file of flexarm diagnose', errors)
+        measurement = self.folder / "recordings/a/measurement.toml"
+        measurement.write_text(measurement.read_text() + 'initial = "free"\n')
+        status, _, errors = self.run_command(path)
+        self.assertEqual(status, 2)
+        self.assertIn("run multisine: must be an open-loop time run from rest", errors)
 
 
 if __name__ == "__main__":

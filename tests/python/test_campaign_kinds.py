@@ -7,6 +7,7 @@ import re
 import unittest
 
 import flexarm
+from flexarm.campaign.kinds import trials
 
 from campaign_case import CampaignCase
 
@@ -195,6 +196,67 @@ draws = 3
         status, _, errors = self.run_command(path)
         self.assertEqual(status, 2)
         self.assertIn("run multisine: must be an open-loop time run from rest", errors)
+
+
+# Takes the options of the program `trials`; "slow 2" cannot be made.
+TRIALS = """#!/usr/bin/python3
+import pathlib, sys
+options = dict(zip(sys.argv[1::2], sys.argv[2::2]))
+if sys.argv[1] != "--trials" or not options["--trials"].isdecimal():
+    sys.exit("--trials: needs a number")
+names = [f"slow {k}" for k in range(int(options["--trials"]))]
+if "--list" in sys.argv:
+    print("\\n".join(f"{one} folder" for one in names))
+    sys.exit()
+if options["--only"] not in names or options["--only"] == "slow 2":
+    sys.exit(options["--only"] + ": could not be made")
+results = pathlib.Path(options["--results"])
+columns = "COLUMNS".split(",")
+if not results.exists():
+    line = [options["--only"] if one == "id" else one.upper() for one in columns]
+    results.write_text(",".join(columns) + "\\n" + ",".join(line) + "\\n")
+if "--scorecard" in options:
+    pathlib.Path(options["--scorecard"]).write_text(results.read_text())
+"""
+
+
+class Trials(CampaignCase):
+    CAMPAIGN = """
+kind = "trials"
+[trials]
+program = "trials"
+flexarm = "trials"
+built_from = "v1"
+[[trials.set]]
+options = "--trials 2"
+[[trials.set]]
+options = "--trials 3"
+"""
+
+    def program(self):
+        columns = ",".join([*trials.columns(None), "time [s]"])
+        self.write(TRIALS.replace("COLUMNS", columns), "trials").chmod(0o755)
+
+    def test_each_trial_is_a_task_and_the_program_makes_the_scorecard(self):
+        self.program()
+        status, output, _ = self.run_command(self.write(self.CAMPAIGN), "--workers", 1)
+        self.assertEqual(status, 1)
+        self.assertTrue(output.startswith("task 2 failed: slow 2: could not be made\n"), output)
+        out = self.folder / "c-results"
+        self.assertEqual([row["id"] for row in self.rows(out)], ["slow 0", "slow 1", "slow 2"])
+        self.assertEqual(self.rows(out)[0]["verdict"], "VERDICT")
+        self.assertNotIn("time [s]", self.rows(out)[0])
+        card = (out / "scorecard.md").read_text()
+        self.assertEqual(card, (out / "trials.csv").read_text())
+        self.assertEqual([line.split(",")[0] for line in card.splitlines()],
+                         ["id", "slow 0", "slow 1"])
+
+    def test_options_that_the_program_refuses_are_refused(self):
+        self.program()
+        text = self.CAMPAIGN.replace("--trials 3", "--trials x")
+        status, _, errors = self.run_command(self.write(text))
+        self.assertEqual((status, errors.count("\n")), (2, 1))
+        self.assertIn("--trials: needs a number", errors)
 
 
 if __name__ == "__main__":

@@ -33,6 +33,7 @@ struct TrialOptions {
   double time_limit_s = 240.0;
   int jobs = 1;
   bool list = false;
+  std::string only;
 };
 
 TrialOptions parse_options(CLI::App& app, int argc, char** argv) {
@@ -79,6 +80,7 @@ TrialOptions parse_options(CLI::App& app, int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--jobs", options.jobs, "Number of parallel trials")->capture_default_str();
   app.add_flag("--list", options.list, "List the trials without running them");
+  app.add_option("--only", options.only, "Of these trials the one with this id, as --list has it");
   app.parse(argc, argv);
   return options;
 }
@@ -161,6 +163,10 @@ int make_trials(const std::vector<TrialKey>& keys, const TrialOptions& options,
 
 int run(const TrialOptions& options) {
   std::vector<TrialKey> keys = list_trials(options.choice);
+  if (!options.only.empty()) {
+    std::erase_if(keys, [&](const TrialKey& key) { return key.id() != options.only; });
+    if (keys.empty()) throw arm::InputError("--only " + options.only + ": is none of these trials");
+  }
   if (options.list) {
     for (const auto& key : keys) fmt::print("{} {}\n", key.id(), key.folder_name());
     return 0;

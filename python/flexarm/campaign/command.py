@@ -130,7 +130,7 @@ def _run(arguments):
     from .campaign_file import read_campaign
     from .cluster import quiet
     from .hdf5 import ColumnTypes, write_hdf5
-    from .merge import merge
+    from .merge import merge, results_of
     from .page import Page
     from .runner import Runner
     from .task_files import output_folder
@@ -171,6 +171,8 @@ def _run(arguments):
             types.see(columns, row)
 
         failures = merge(campaign, outcome, out, see)
+        if hasattr(campaign.kind, "finish"):
+            campaign.kind.finish(results_of(campaign, outcome, out), campaign.folder, out)
         if arguments.hdf5:
             write_hdf5(campaign, outcome, out, types)
         if arguments.report is not None:

@@ -24,17 +24,21 @@ def columns_of(campaign):
     return [*_FIRST_COLUMNS, *campaign.kind.columns(campaign.tasks), _LAST_COLUMN]
 
 
+def results_of(campaign, outcome, out):
+    """For each task its input and its result or None; one at a time."""
+    for digest, task in zip(outcome.digests, campaign.tasks):
+        yield task, read_result(out, digest.hex())
+
+
 def rows_of(campaign, outcome, out):
     """For each task its input and its row, a list as `columns_of` has it; one at a time."""
     own = campaign.kind.columns(campaign.tasks)
-    for index, (digest, task) in enumerate(zip(outcome.digests, campaign.tasks)):
-        digest = digest.hex()
-        result = read_result(out, digest)
+    for index, (task, result) in enumerate(results_of(campaign, outcome, out)):
         state, message = "done", ""
         if result is None:
             state, message = outcome.failures.get(index, ("missing", "no whole file of this task"))
         cells = campaign.kind.row(task, result)
-        yield task, [index, digest, state, *(cells.get(name) for name in own), message]
+        yield task, [index, outcome.digests[index].hex(), state, *(cells.get(name) for name in own), message]
 
 
 @contextlib.contextmanager

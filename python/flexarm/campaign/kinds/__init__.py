@@ -13,6 +13,8 @@ A kind has four functions:
 Optional:
 
     files(task, folder)     paths of the files that `run` reads; their bytes are part of the hash
+    finish(pairs, folder, out)   called when the tables are written, with (input, result or None) of
+                            each task; it may write further files to the folder `out`
     WORST                   a column: the summary page lists the tasks with its largest numbers
     FLAGGED                 (column, texts): the page lists the tasks that have one of these texts
     TALLY                   a column: the page counts its texts

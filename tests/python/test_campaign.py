@@ -10,11 +10,12 @@ import subprocess
 import sys
 import threading
 import unittest
+from unittest import mock
 
 import dask
 
 import flexarm
-from flexarm.campaign import open_results
+from flexarm.campaign import cluster, open_results
 
 from campaign_case import WAITS_S, CampaignCase
 
@@ -201,6 +202,39 @@ class Deaths(CampaignCase):
         self.assertEqual(errors, "flexarm-campaign: the scheduler died; a new one goes on\n")
         rows = self.rows(self.folder / "c-results")
         self.assertEqual([int(row["square"]) for row in rows], [0, 1, 4, 9, 16, 25])
+
+
+class Scheduler(CampaignCase):
+    def test_one_that_runs_does_the_work_and_stays(self):
+        path = self.write(probe(5, "3.kills = 1"))
+        local = cluster.LocalCluster(1)
+        self.addCleanup(local.close)
+        address = local.client.scheduler.address
+        kept_alive = threading.Event()
+
+        def tend():
+            while not kept_alive.wait(0.1):
+                local.tend()
+
+        owner = threading.Thread(target=tend)
+        owner.start()
+        try:
+            status, output, errors = self.run_command(path, "--scheduler", address)
+        finally:
+            kept_alive.set()
+            owner.join()
+        self.assertEqual(status, 0, output + errors)
+        self.assertEqual([row["square"] for row in self.rows(self.folder / "c-results")],
+                         ["0", "1", "4", "9", "16"])
+        self.assertFalse(local.is_lost())
+
+    def test_an_address_where_nothing_answers_is_refused(self):
+        path = self.write(probe(1))
+        with mock.patch.object(cluster, "_CONNECT_S", 0.3):
+            for address in ("tcp://127.0.0.1:9", "nonsense"):
+                status, _, errors = self.run_command(path, "--scheduler", address)
+                self.assertEqual((status, errors.count("\n")), (2, 1), errors)
+                self.assertIn(f"--scheduler {address}: no scheduler answers", errors)
 
 
 class Interrupt(CampaignCase):

@@ -27,7 +27,8 @@ import distributed
 
 from .errors import CampaignError
 
-CONNECT_S = 30.0
+_START_S = 30.0  # of the processes of this machine, which may have other work
+_CONNECT_S = 10.0
 # Of the scheduler that is started here: blame is counted by the attempts of a task (task_files.py),
 # and what it remembers is bounded.
 _SETTINGS = {
@@ -40,7 +41,7 @@ _SETTINGS = {
     "distributed.worker.http.routes": [],
     "distributed.worker.profile.enabled": False,
     "distributed.admin.tick.limit": "60s",
-    "distributed.comm.timeouts.connect": f"{CONNECT_S}s",
+    "distributed.comm.timeouts.connect": f"{_START_S}s",
 }
 
 
@@ -122,7 +123,7 @@ class LocalCluster:
             self._address = heard.recv()
             self.tend()
             self.client = distributed.Client(
-                self._address, timeout=CONNECT_S, set_as_default=False
+                self._address, timeout=_START_S, set_as_default=False
             )
         except (EOFError, OSError):
             self.close()
@@ -173,7 +174,7 @@ class RemoteCluster:
     def __init__(self, address):
         self.client = None
         try:
-            self.client = distributed.Client(address, timeout=CONNECT_S, set_as_default=False)
+            self.client = distributed.Client(address, timeout=_CONNECT_S, set_as_default=False)
         except (OSError, ValueError, TypeError) as error:
             raise CampaignError(
                 f"--scheduler {address}: no scheduler answers ({type(error).__name__})"

@@ -26,6 +26,7 @@ _MOST_IN_AN_ORDER = 32
 _WEIGHT_OF_THE_LAST = 0.1
 _LOOKS_EVERY_S = 0.2
 _CONNECTS_EVERY_S = 2.0
+_WITHOUT_WORKERS_S = 5.0
 # So many workers may die in a row, for each of them, without any task ending.
 _DEATHS_IN_A_ROW = 20
 _LOSSES_IN_A_ROW = 20
@@ -68,6 +69,7 @@ class Runner:
         self._in_flight = {}  # key of a future: (future, [(index, digest, task), ...])
         self._again = []  # (index, digest, task) that a lost scheduler had
         self._ended = queue.SimpleQueue()
+        self._nobody_since = None  # since when the scheduler has no worker
         self._mean_s = None  # duration of the last tasks
         self._deaths = 0  # of workers, since a task ended
         self._losses = 0  # of schedulers, likewise
@@ -251,6 +253,7 @@ class Runner:
         if self._cluster.is_lost():
             raise _Lost
         self._deaths += self._cluster.tend()
+        self._say_if_nobody_works()
         if self._deaths > _DEATHS_IN_A_ROW * self._workers:
             raise CampaignError(
                 f"{self._deaths} workers died one after another and no task ended;"
@@ -258,28 +261,37 @@ class Runner:
             )
         self._show()
 
+    def _say_if_nobody_works(self):
+        if self._cluster.workers() > 0:
+            self._nobody_since = None
+        elif self._nobody_since is None:
+            self._nobody_since = time.monotonic()
+        elif time.monotonic() - self._nobody_since > _WITHOUT_WORKERS_S:
+            self._nobody_since = float("inf")
+            _say(f"scheduler {self._address}: has no worker; waiting for one, Ctrl-C stops")
+
     def _begin_again(self):
         """After the death of a scheduler: all that was in flight, with a new one."""
         self._again += [one for _, tasks in self._in_flight.values() for one in tasks]
         self._in_flight.clear()
         self._ended = queue.SimpleQueue()
-        self._generation += 1
-        self._losses += 1
         self._cluster.close()
-        if self._losses > _LOSSES_IN_A_ROW:
-            raise CampaignError(f"{self._losses} schedulers were lost and no task ended meanwhile")
-        if self._address is None:
-            _say("the scheduler died; a new one goes on")
-            self._connect()
-            return
-        _say(f"scheduler {self._address}: connection lost; trying again, Ctrl-C stops")
+        where = f"scheduler {self._address}: connection lost; trying again, Ctrl-C stops"
+        _say("the scheduler died; a new one goes on" if self._address is None else where)
         while True:
+            self._generation += 1
+            self._losses += 1
+            if self._address is None and self._losses > _LOSSES_IN_A_ROW:
+                raise CampaignError(f"{self._losses} schedulers died and no task ended meanwhile")
             try:
                 self._connect()
-                _say(f"scheduler {self._address}: connected again")
-                return
+                break
             except CampaignError:
-                time.sleep(_CONNECTS_EVERY_S)
+                # One here died as it started; one elsewhere may be started again in hours.
+                if self._address is not None:
+                    time.sleep(_CONNECTS_EVERY_S)
+        if self._address is not None:
+            _say(f"scheduler {self._address}: connected again")
 
     def _show(self):
         outcome = self.outcome

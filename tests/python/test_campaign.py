@@ -150,12 +150,15 @@ class Sweep(CampaignCase):
         self.assertEqual(float(row["zero_1_tip_acceleration_real_rad_per_s"]), zero.real)
 
     def test_an_arm_that_is_not_allowed_is_a_failed_task(self):
-        path = self.write(SWEEP.replace("from = 0.0", "from = -0.1"))
+        # Equal points are one task, and fail as one.
+        text = SWEEP.replace("from = 0.0", "from = -0.1").replace("[100, 200.0]", "[100, 100.0]")
+        path = self.write(text)
         status, output, _ = self.run_command(path, "--workers", 2)
         self.assertEqual(status, 1)
         self.assertTrue(output.startswith("task 0 failed: payload.mass = -0.1 kg: must"), output)
         failures = json.loads((self.folder / "c-results" / "failures.json").read_text())
         self.assertEqual([one["index"] for one in failures["failures"]], [0, 1, 2, 3])
+        self.assertEqual(len({one["message"] for one in failures["failures"]}), 1)
         self.assertEqual(failures["failures"][0]["input"]["parameters"]["payload.mass"], -0.1)
 
 

@@ -60,7 +60,8 @@ class Diagnose(Recordings):
         self.assertIn("multisine.csv", rows[2]["message"])
         self.assertEqual([row["cause_1"] for row in rows], ["time_delay", "time_delay", ""])
         # The file of the task is the document of `flexarm diagnose --json`.
-        task = json.loads((out / "tasks" / rows[0]["task"][:2] / f"{rows[0]['task']}.json").read_text())
+        name = rows[0]["task"]
+        task = json.loads((out / "tasks" / name[:2] / f"{name}.json").read_text())
         direct = flexarm.diagnose(
             self.folder / "recordings/a/measurement.toml", effects=EFFECTS, progress=False
         )

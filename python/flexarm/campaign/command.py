@@ -139,7 +139,9 @@ def _run(arguments):
     if arguments.scheduler is not None and arguments.workers is not None:
         raise CampaignError("--workers: the scheduler of --scheduler has its own")
     if arguments.hdf5 and not importlib.util.find_spec("h5py"):
-        raise CampaignError("--hdf5: the Python module h5py is missing: apt-get install python3-h5py")
+        raise CampaignError(
+            "--hdf5: the Python module h5py is missing: apt-get install python3-h5py"
+        )
     campaign = read_campaign(arguments.file)
     _require_report(arguments.report, campaign.file)
     out = arguments.out or campaign.file.with_name(campaign.file.stem + "-results")

@@ -36,9 +36,12 @@ def rows_of(campaign, outcome, out):
     for index, (task, result) in enumerate(results_of(campaign, outcome, out)):
         state, message = "done", ""
         if result is None:
-            state, message = outcome.failures.get(index, ("missing", "no whole file of this task"))
+            state, message = outcome.failures.get(
+                outcome.digests[index], ("missing", "no whole file of this task")
+            )
         cells = campaign.kind.row(task, result)
-        yield task, [index, outcome.digests[index].hex(), state, *(cells.get(name) for name in own), message]
+        first = [index, outcome.digests[index].hex(), state]
+        yield task, [*first, *(cells.get(name) for name in own), message]
 
 
 @contextlib.contextmanager

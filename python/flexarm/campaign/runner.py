@@ -7,6 +7,7 @@ import dataclasses
 import functools
 import queue
 import secrets
+import shutil
 import sys
 import time
 
@@ -19,8 +20,8 @@ from .work import Shared, run_order
 # So many orders a worker are with the scheduler: enough that none waits for the next, few enough
 # that its memory does not grow with the campaign.
 _IN_FLIGHT_PER_WORKER = 4
-# Short tasks go out together, so many that an order takes some time, as long as there are orders for
-# all workers.
+# Short tasks go out together, so many that an order takes some time, as long as there are orders
+# for all workers.
 _ORDER_TAKES_S = 0.05
 _MOST_IN_AN_ORDER = 32
 _WEIGHT_OF_THE_LAST = 0.1
@@ -38,7 +39,8 @@ _OF_A_LOST_CONNECTION = (
 
 @dataclasses.dataclass
 class Outcome:
-    """What became of the tasks. `digests[i]` is of task i; a failure is (state, message)."""
+    """What became of the tasks. `digests[i]` is of task i; `failures` has (state, message) by
+    digest."""
 
     digests: list = dataclasses.field(default_factory=list)
     failures: dict = dataclasses.field(default_factory=dict)
@@ -78,6 +80,7 @@ class Runner:
 
     def run(self):
         """Returns the outcome. KeyboardInterrupt passes through; `outcome` has what there is."""
+        shutil.rmtree(self._out / "attempts", ignore_errors=True)  # of runs that were interrupted
         done = self._known()
         self._waiting = self._without_result(done)
         self._begun = time.monotonic()
@@ -211,7 +214,7 @@ class Runner:
         self._mean_s = before_s + _WEIGHT_OF_THE_LAST * (seconds - before_s)
         self._durations.writerow([index, digest, f"{seconds:.6f}"])
         if state != "done":
-            self.outcome.failures[index] = (state, message)
+            self.outcome.failures[bytes.fromhex(digest)] = (state, message)
 
     def _some_ended(self):
         """Keys of futures that ended, as they come within a look; raises _Lost."""
@@ -247,7 +250,9 @@ class Runner:
             except _OF_A_LOST_CONNECTION as error:
                 raise _Lost from error
             # A future that was cancelled meanwhile is skipped, and the list says not which.
-            return dict(zip((one.key for one in whole), values)) if len(values) == len(whole) else {}
+            if len(values) != len(whole):
+                return {}
+            return {one.key: value for one, value in zip(whole, values)}
 
     def _tend(self):
         if self._cluster.is_lost():

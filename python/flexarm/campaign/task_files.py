@@ -99,7 +99,8 @@ class Attempts:
     """How often workers began a task and did not end it.
 
     A line is `RUN GENERATION`: RUN is one start of the campaign's program, GENERATION counts the
-    schedulers that it had. The last attempt under a scheduler that has died is no fault of the task.
+    schedulers that it had. The last attempt under a scheduler that has died is no fault of the
+    task.
     """
 
     def __init__(self, folder, digest, run, generation):

@@ -3,7 +3,8 @@
 A kind has four functions:
 
     expand(table, folder)   the tasks of its table of the campaign file (`tables.Table`): an object
-                            with a length, whose iteration gives JSON-able inputs, the same each time
+                            with a length, whose iteration gives JSON-able inputs, each time the
+                            same
     run(task, folder)       the JSON-able result of one input. It runs in a worker. An exception
                             makes the task a failed one, with the text of the exception
     columns(tasks)          names of the columns of the merged table, in order

@@ -100,7 +100,8 @@ def _simulated(task, arm, stated, recorded, noise):
     payload = stated.get("payload")
     if payload is not None:
         arm = arm.with_(
-            payload_mass_kg=payload.get("mass", 0.0), payload_inertia_kg_m2=payload.get("inertia", 0.0)
+            payload_mass_kg=payload.get("mass", 0.0),
+            payload_inertia_kg_m2=payload.get("inertia", 0.0),
         )
     seed = random.Random(f"{task['seed']} {task['draw']} {recorded.id}").getrandbits(31)
     count = len(recorded.time_s)

@@ -35,7 +35,8 @@ class Draws:
 
     def __iter__(self):
         attributes = {number.key: number.attribute for number in flexarm.arm_numbers()}
-        nominal = {key: getattr(self.arm, attributes[key]) for key in sorted(self.arm.uncertainties)}
+        uncertain = sorted(self.arm.uncertainties)
+        nominal = {key: getattr(self.arm, attributes[key]) for key in uncertain}
         for draw in range(self.count + 1):
             deviates = random.Random(f"{self.seed} {draw}")
             numbers = dict(nominal)

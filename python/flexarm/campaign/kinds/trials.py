@@ -114,7 +114,7 @@ def row(task, result):
 
 
 def finish(pairs, folder, out):
-    """`trials.csv`, a line for each trial that has a result, and the program's scorecard of them."""
+    """`trials.csv`, a line for each trial with a result, and the program's scorecard of them."""
     text = io.StringIO()
     rows = csv.writer(text, lineterminator="\n")
     last = None
@@ -129,7 +129,8 @@ def finish(pairs, folder, out):
         return
     write_whole(out / "trials.csv", text.getvalue().encode())
     # All trials are in the file: none is made, the scorecard is of all.
-    command = [*_command(last, folder, out / "trials.csv"), "--scorecard", str(out / "scorecard.md")]
+    command = _command(last, folder, out / "trials.csv")
+    command += ["--scorecard", str(out / "scorecard.md")]
     ended = subprocess.run(command, capture_output=True, text=True)
     if ended.returncode != 0:
         raise CampaignError(f"scorecard: {_said(ended)}")

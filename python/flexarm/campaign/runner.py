@@ -93,7 +93,7 @@ class Runner:
             if stream.tell() == 0:
                 self._durations.writerow(["index", "task", "duration [s]"])
             try:
-                self._connect()
+                self._connect_first()
                 while self._turn():
                     pass
             finally:
@@ -121,6 +121,15 @@ class Runner:
             if digest not in done:
                 done.add(digest)
                 yield index, digest.hex(), task
+
+    def _connect_first(self):
+        """An address where nothing answers is an error at once."""
+        try:
+            self._connect()
+        except CampaignError:
+            if self._address is not None:
+                raise
+            self._connect_again()
 
     def _connect(self):
         if self._address is None:
@@ -283,6 +292,11 @@ class Runner:
         self._cluster.close()
         where = f"scheduler {self._address}: connection lost; trying again, Ctrl-C stops"
         _say("the scheduler died; a new one goes on" if self._address is None else where)
+        self._connect_again()
+        if self._address is not None:
+            _say(f"scheduler {self._address}: connected again")
+
+    def _connect_again(self):
         while True:
             self._generation += 1
             self._losses += 1
@@ -290,13 +304,11 @@ class Runner:
                 raise CampaignError(f"{self._losses} schedulers died and no task ended meanwhile")
             try:
                 self._connect()
-                break
+                return
             except CampaignError:
                 # One here died as it started; one elsewhere may be started again in hours.
                 if self._address is not None:
                     time.sleep(_CONNECTS_EVERY_S)
-        if self._address is not None:
-            _say(f"scheduler {self._address}: connected again")
 
     def _show(self):
         outcome = self.outcome

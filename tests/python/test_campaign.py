@@ -234,7 +234,7 @@ class Scheduler(CampaignCase):
     def test_an_address_where_nothing_answers_is_refused(self):
         path = self.write(probe(1))
         with mock.patch.object(cluster, "_CONNECT_S", 0.3):
-            for address in ("tcp://127.0.0.1:9", "nonsense"):
+            for address in ("tcp://127.0.0.1:9", "tcp://127.0.0.1:port"):
                 status, _, errors = self.run_command(path, "--scheduler", address)
                 self.assertEqual((status, errors.count("\n")), (2, 1), errors)
                 self.assertIn(f"--scheduler {address}: no scheduler answers", errors)

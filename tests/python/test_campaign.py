@@ -185,7 +185,8 @@ class Deaths(CampaignCase):
         self.assertEqual(status, 1)
         self.assertEqual(self.rows(self.folder / "c-results")[4]["square"], "16")
         again = self.begun()
-        self.assertEqual((again["4"], again["6"]), (4, 2))
+        self.assertEqual(again["4"], 4)
+        self.assertGreater(again["6"], begun["6"])  # whose answer may have died with a worker
         self.assertEqual(again["0"], begun["0"])
 
     def test_another_scheduler_goes_on_where_one_died(self):

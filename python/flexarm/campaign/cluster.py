@@ -83,7 +83,7 @@ def _serve_worker(address, core, memory_bytes, folder):
     _as_child()
     # The libraries make as many threads as the process has cores: one.
     os.sched_setaffinity(0, {core})
-    from . import work  # noqa: F401  what tasks need is there before the first of them
+    from . import work  # noqa: F401  tasks have their modules before the first of them
 
     async def serve():
         worker = distributed.Worker(
@@ -142,7 +142,8 @@ class LocalCluster:
             if process is not None:
                 if process.is_alive():
                     continue
-                process.close()
+                process.join()
+                self._processes[number] = None
                 ended += 1
             core = self._cores[number % len(self._cores)]
             fresh = self._start.Process(

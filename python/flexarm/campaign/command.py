@@ -197,7 +197,7 @@ def main(arguments=None):
             file=sys.stderr,
         )
         return _UNUSABLE
-    signal.signal(signal.SIGTERM, _terminate)
+    before = signal.signal(signal.SIGTERM, _terminate)
     try:
         return _run(_parser().parse_args(arguments))
     except CampaignError as error:
@@ -210,6 +210,8 @@ def main(arguments=None):
         return _INTERRUPTED
     except _Terminated:
         return _TERMINATED
+    finally:
+        signal.signal(signal.SIGTERM, before)
 
 
 def console_script():

@@ -28,6 +28,7 @@ _WEIGHT_OF_THE_LAST = 0.1
 _LOOKS_EVERY_S = 0.2
 _CONNECTS_EVERY_S = 2.0
 _WITHOUT_WORKERS_S = 5.0
+_GATHERS_S = 5.0
 # So many workers may die in a row, for each of them, without any task ending.
 _DEATHS_IN_A_ROW = 20
 _LOSSES_IN_A_ROW = 20
@@ -248,7 +249,13 @@ class Runner:
         gathered = asyncio.run_coroutine_threadsafe(
             client._gather(whole, errors="skip"), client.loop.asyncio_loop
         )
+        deadline = time.monotonic() + _GATHERS_S
         while True:
+            if time.monotonic() > deadline:
+                # The library may wait for ever for what a dead worker had. Run again, a task that
+                # has its file ends at once.
+                gathered.cancel()
+                return {}
             try:
                 values = gathered.result(timeout=_LOOKS_EVERY_S)
             except TimeoutError as error:

@@ -128,7 +128,7 @@ TEST_F(Flexarm, AClosedPipeEndsItWithoutAWord) {
 
 TEST_F(Flexarm, AFullDiskUnderStandardOutputIsReported) {
   const Ended ended = run_flexarm({"--help"}, ".", Output::full_disk);
-  EXPECT_EQ(ended.status, 1);
+  EXPECT_EQ(ended.status, 2);
   EXPECT_EQ(ended.errors, "flexarm: standard output: No space left on device\n");
 }
 

@@ -12,11 +12,11 @@ class Command:
     arguments: tuple[str, ...]
     outputs: tuple[str, ...]  # files and folders that it writes
     draws: bool = False       # needs gnuplot
-    resumes: bool = False     # goes on from its checkpoint with --resume
+    checkpoint: str = ""      # file of its folder from which it goes on with --resume
 
     def again(self) -> tuple[str, ...]:
         """The arguments of a run after one that was killed."""
-        return (*self.arguments, "--resume") if self.resumes else self.arguments
+        return (*self.arguments, "--resume") if self.checkpoint else self.arguments
 
 
 COMMANDS = (
@@ -32,7 +32,7 @@ COMMANDS = (
     Command("compare", ("compare", "data/paper/arm.toml", "--quick", "--out", "compared", "--report", "compared.html"),
             ("compared", "compared.html"), draws=True),
     Command("sweep", ("sweep", "data/paper/arm.toml", "--over", "payload.mass=0:0.5:200", "--out", "swept"),
-            ("swept",), draws=True, resumes=True),
+            ("swept",), draws=True, checkpoint="sweep.checkpoint"),
     Command("import", ("import", "data/ruler/random-low.csv", "--arm", "data/plans/arm.toml", "--out", "bench"), ("bench",)),
     Command("save-as-mat", ("import", "data/ruler/random-low.csv", "--save-as", "run.mat"), ("run.mat",)),
     Command("save-as-uff", ("import", "data/ruler/random-low.csv", "--save-as", "run.uff"), ("run.uff",)),

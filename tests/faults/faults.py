@@ -80,6 +80,9 @@ def check_whole(bench: Bench, command: Command, place: Path, whole: Undisturbed,
     there = 0
     for output, content in whole.contents.items():
         found = bytes_of(place / output)
+        if found is not None and command.checkpoint:
+            found.pop(command.checkpoint, None)
+            found = found or None  # an interrupted run has made its folder, perhaps its checkpoint
         there += found is not None
         if found is not None and found != content:
             bench.fault(command, f"{when}: {output} is neither whole nor absent")
@@ -115,12 +118,12 @@ def end_at(bench: Bench, command: Command, whole: Undisturbed, moments: int, how
 
 
 def go_on(bench: Bench, command: Command, place: Path, whole: Undisturbed, when: str) -> None:
-    for output in command.outputs:  # what is there already is refused as it should be
+    for output in () if command.checkpoint else command.outputs:  # what is there is refused
         target = place / output
         shutil.rmtree(target, ignore_errors=True) if target.is_dir() else target.unlink(missing_ok=True)
     status, complaint = bench.run(command.again(), place)
     if status != 0:
-        status, complaint = bench.run(command.arguments, place)  # no checkpoint yet
+        status, complaint = bench.run((*command.arguments, "--force"), place)  # no checkpoint yet
     if status != 0:
         return bench.fault(command, f"{when}, run again: status {status}, {complaint.strip()}")
     if check_whole(bench, command, place, whole, f"{when}, run again") < len(command.outputs):

@@ -4,13 +4,10 @@ Numbers are float64, NaN where a task has none; texts are of variable length, UT
 `columns` has the order. Memory is that of a chunk.
 """
 
-import contextlib
-import os
-import secrets
-
 import flexarm
 
 from .merge import columns_of, rows_of
+from .task_files import whole_files
 
 ROWS_IN_A_CHUNK = 4096
 
@@ -59,28 +56,22 @@ def write_hdf5(campaign, outcome, out, types):
     import h5py
 
     columns = columns_of(campaign)
-    path = out / "results.h5"
-    temporary = out / f".results.h5.{secrets.token_hex(8)}"
-    try:
-        # Headers of the earliest version have no times of day.
-        with h5py.File(temporary, "x", libver="earliest") as file:
-            file.attrs["schema"] = "flexarm.campaign/1"
-            file.attrs["name"] = campaign.name
-            file.attrs["kind"] = campaign.kind_name
-            file.attrs["version"] = flexarm.__version__
-            file.attrs["columns"] = columns
-            datasets = _make(file, columns, types, len(outcome.digests))
-            batch, first = [], 0
-            for _, row in rows_of(campaign, outcome, out):
-                batch.append(row)
-                if len(batch) == ROWS_IN_A_CHUNK:
-                    _write_batch(datasets, types, columns, first, batch)
-                    batch, first = [], first + len(batch)
-            if batch:
+    # Headers of the earliest version have no times of day.
+    with (
+        whole_files(out / "results.h5") as (temporary,),
+        h5py.File(temporary, "x", libver="earliest") as file,
+    ):
+        file.attrs["schema"] = "flexarm.campaign/1"
+        file.attrs["name"] = campaign.name
+        file.attrs["kind"] = campaign.kind_name
+        file.attrs["version"] = flexarm.__version__
+        file.attrs["columns"] = columns
+        datasets = _make(file, columns, types, len(outcome.digests))
+        batch, first = [], 0
+        for _, row in rows_of(campaign, outcome, out):
+            batch.append(row)
+            if len(batch) == ROWS_IN_A_CHUNK:
                 _write_batch(datasets, types, columns, first, batch)
-        with open(temporary, "rb") as stream:
-            os.fsync(stream.fileno())
-        os.replace(temporary, path)
-    finally:
-        with contextlib.suppress(OSError):
-            os.unlink(temporary)
+                batch, first = [], first + len(batch)
+        if batch:
+            _write_batch(datasets, types, columns, first, batch)

@@ -8,13 +8,11 @@
 import contextlib
 import csv
 import json
-import os
-import secrets
 
 import flexarm
 
 from .program import program_digest
-from .task_files import read_result
+from .task_files import read_result, whole_files
 
 _FIRST_COLUMNS = ["index", "task", "state"]
 _LAST_COLUMN = "message"
@@ -44,28 +42,6 @@ def rows_of(campaign, outcome, out):
         yield task, [*first, *(cells.get(name) for name in own), message]
 
 
-@contextlib.contextmanager
-def _whole_files(paths):
-    """Texts that are renamed to `paths` together at the end, or removed."""
-    temporary = [path.with_name(f".{path.name}.{secrets.token_hex(8)}") for path in paths]
-    try:
-        with contextlib.ExitStack() as stack:
-            files = [
-                stack.enter_context(open(one, "x", newline="", encoding="utf-8"))
-                for one in temporary
-            ]
-            yield files
-            for file in files:
-                file.flush()
-                os.fsync(file.fileno())
-        for one, path in zip(temporary, paths):
-            os.replace(one, path)
-    finally:
-        for one in temporary:
-            with contextlib.suppress(OSError):
-                os.unlink(one)
-
-
 def _text(value):
     return json.dumps(value, ensure_ascii=False, allow_nan=False)
 
@@ -76,7 +52,13 @@ def merge(campaign, outcome, out, see=lambda columns, row: None):
     columns = columns_of(campaign)
     names = ("results.csv", "results.json", "failures.json")
     failures = []
-    with _whole_files([out / name for name in names]) as (table, document, failed):
+    with (
+        whole_files(*(out / name for name in names)) as temporary,
+        contextlib.ExitStack() as stack,
+    ):
+        table, document, failed = (
+            stack.enter_context(open(one, "x", newline="", encoding="utf-8")) for one in temporary
+        )
         rows = csv.writer(table, lineterminator="\n")
         rows.writerow(columns)
         head = {

@@ -91,7 +91,9 @@ class Page:
         seconds = {}
         if os.path.exists(durations):
             with open(durations, newline="", encoding="utf-8") as stream:
-                for row in list(csv.reader(stream))[1:]:
+                rows = csv.reader(stream)
+                next(rows, None)  # the titles
+                for row in rows:
                     if len(row) == 3:
                         seconds[row[1]] = (float(row[2]), int(row[0]))
         longest = heapq.nlargest(_IN_A_LIST, ((value, key) for key, value in seconds.items()))

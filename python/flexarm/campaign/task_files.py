@@ -40,21 +40,31 @@ def task_digest(kind_name, kind, task, folder, program, digest_of_file=file_dige
     return hashlib.sha256(text.encode()).hexdigest()
 
 
-def write_whole(path, data):
-    """Writes bytes by a temporary file of a random name in the same folder, synchronised and
-    renamed: at any moment `path` is whole, old or absent."""
-    path = pathlib.Path(path)
-    temporary = path.with_name(f".{path.name}.{secrets.token_hex(8)}")
+@contextlib.contextmanager
+def whole_files(*paths):
+    """Random names, in the folders of `paths`, for files that the block writes and closes. At its
+    end they are synchronised and renamed to `paths`, after an exception removed: at any moment each
+    of `paths` is whole, old or absent."""
+    paths = [pathlib.Path(path) for path in paths]
+    temporary = [path.with_name(f".{path.name}.{secrets.token_hex(8)}") for path in paths]
     try:
-        with open(temporary, "xb") as stream:
-            stream.write(data)
-            stream.flush()
-            os.fsync(stream.fileno())
-        os.replace(temporary, path)
+        yield temporary
+        for one in temporary:
+            with open(one, "rb") as stream:
+                os.fsync(stream.fileno())
+        for one, path in zip(temporary, paths):
+            os.replace(one, path)
     except BaseException:
-        with contextlib.suppress(OSError):
-            os.unlink(temporary)
+        for one in temporary:
+            with contextlib.suppress(OSError):
+                os.unlink(one)
         raise
+
+
+def write_whole(path, data):
+    """Writes bytes as `whole_files` does."""
+    with whole_files(path) as (temporary,), open(temporary, "xb") as stream:
+        stream.write(data)
 
 
 def result_path(folder, digest):

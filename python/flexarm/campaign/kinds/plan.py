@@ -12,8 +12,8 @@ from pathlib import Path
 
 import flexarm
 
+from ..arms import attributes, read_arm
 from ..effect_names import effect_of, effects_in
-from ..errors import CampaignError
 
 _MOST_DRAWS = 10_000_000
 # Where both are given they are of one beam, and change together.
@@ -34,9 +34,8 @@ class Draws:
         return self.count + 1
 
     def __iter__(self):
-        attributes = {number.key: number.attribute for number in flexarm.arm_numbers()}
         uncertain = sorted(self.arm.uncertainties)
-        nominal = {key: getattr(self.arm, attributes[key]) for key in uncertain}
+        nominal = {key: getattr(self.arm, attributes()[key]) for key in uncertain}
         for draw in range(self.count + 1):
             deviates = random.Random(f"{self.seed} {draw}")
             numbers = dict(nominal)
@@ -48,10 +47,7 @@ class Draws:
 
 
 def expand(table, folder):
-    try:
-        arm = flexarm.read_arm(folder / table.text("arm"))
-    except flexarm.InputError as error:
-        raise CampaignError(str(error)) from None
+    arm = read_arm(folder / table.text("arm"))
     if not arm.uncertainties:
         table.fail("arm", "has no uncertain number, such as youngs_modulus_uncertainty = 0.03")
     plan_file = folder / table.text("plan")
@@ -68,14 +64,13 @@ def expand(table, folder):
 
 
 def _arm_of(task):
-    attributes = {number.key: number.attribute for number in flexarm.arm_numbers()}
     arm = flexarm.Arm.from_toml(task["arm"])
     numbers = {}
     for key, value in task["numbers"].items():
-        numbers[attributes[key]] = value
+        numbers[attributes()[key]] = value
         other = getattr(arm, _SAME.get(key, ""), None)
         if other is not None:
-            numbers[_SAME[key]] = other * (value / getattr(arm, attributes[key]))
+            numbers[_SAME[key]] = other * (value / getattr(arm, attributes()[key]))
     return arm.with_(**numbers)
 
 

@@ -5,7 +5,7 @@ import math
 
 import flexarm
 
-from ..errors import CampaignError
+from ..arms import attributes, read_arm
 from ..tables import suggestion
 
 _FORMULATIONS = {
@@ -19,7 +19,7 @@ _MOST_POINTS = 10_000_000
 
 def _parameters():
     """Keys of the arm file that may be swept."""
-    keys = [number.key for number in flexarm.arm_numbers()]
+    keys = list(attributes())
     for effect in flexarm.effects():
         keys += [f"effects.{effect.name}.{one.name}" for one in effect.parameters]
     return keys
@@ -66,10 +66,7 @@ class Grid:
 def expand(table, folder):
     allowed = _parameters()
     if table.has("arm"):
-        try:
-            arm = flexarm.read_arm(folder / table.text("arm"))
-        except flexarm.InputError as error:
-            raise CampaignError(str(error)) from None
+        arm = read_arm(folder / table.text("arm"))
     else:
         table.text("arm", "of the paper")
         arm = flexarm.Arm.paper()
@@ -109,11 +106,10 @@ def expand(table, folder):
 
 def _arm_of(task):
     arm = flexarm.Arm.from_toml(task["arm"])
-    attributes = {number.key: number.attribute for number in flexarm.arm_numbers()}
     numbers, effects = {}, {}
     for key, value in task["parameters"].items():
-        if key in attributes:
-            numbers[attributes[key]] = value
+        if key in attributes():
+            numbers[attributes()[key]] = value
         else:
             _, effect, parameter = key.split(".")
             effects.setdefault(effect, {})[parameter] = value

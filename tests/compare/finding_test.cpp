@@ -6,6 +6,7 @@
 
 #include <limits>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace flexarm::compare {
@@ -52,12 +53,24 @@ TEST(Judge, OfEqualsTheFirstIsNamed) {
   EXPECT_EQ(verdict.worst.quantity, "first");
 }
 
+/// What `alone` is of three models whose pairs are so far apart in a zero.
+std::string alone_of(double x_y, double x_z, double y_z) {
+  return judge(std::vector<Finding>{{"zero 4", "x", "y", x_y, 1e-9},
+                                    {"zero 4", "x", "z", x_z, 1e-9},
+                                    {"zero 4", "y", "z", y_z, 1e-9}})
+      .alone;
+}
+
 TEST(Judge, NamesTheOneThatDiffersFromTwoThatAgree) {
-  const std::vector<Finding> zeros = {{"zero 4", "x", "y", 1e-13, 1e-9},
-                                      {"zero 4", "x", "z", kNaN, 1e-9},
-                                      {"zero 4", "y", "z", kNaN, 1e-9},
-                                      {"pole 1", "x", "y", 1e-3, 1e-9}};
-  EXPECT_EQ(judge(zeros).alone, "z");
+  EXPECT_EQ(alone_of(1e-13, kNaN, kNaN), "z");
+  EXPECT_EQ(alone_of(1e-3, 1e-13, 1e-3), "y");
+  // What differs elsewhere by less says nothing.
+  EXPECT_EQ(judge(std::vector<Finding>{{"zero 4", "x", "y", 1e-13, 1e-9},
+                                       {"zero 4", "x", "z", kNaN, 1e-9},
+                                       {"zero 4", "y", "z", kNaN, 1e-9},
+                                       {"pole 1", "x", "y", 1e-3, 1e-9}})
+                .alone,
+            "z");
   // Each pair of responses is worst somewhere else.
   EXPECT_EQ(judge(std::vector<Finding>{{"hub_angle response at 3 Hz", "x", "y", 1e-4, 1e-7},
                                        {"hub_angle response at 4 Hz", "x", "z", 1e-9, 1e-7},
@@ -68,16 +81,8 @@ TEST(Judge, NamesTheOneThatDiffersFromTwoThatAgree) {
 
 TEST(Judge, NamesNoneWhereAllDifferOrTwoAreCompared) {
   EXPECT_EQ(judge(std::vector<Finding>{{"zero 4", "x", "y", 1e-3, 1e-9}}).alone, "");
-  EXPECT_EQ(judge(std::vector<Finding>{{"zero 4", "x", "y", 1e-3, 1e-9},
-                                       {"zero 4", "x", "z", 1e-3, 1e-9},
-                                       {"zero 4", "y", "z", 1e-3, 1e-9}})
-                .alone,
-            "");
-  EXPECT_EQ(judge(std::vector<Finding>{{"zero 4", "x", "y", 1e-13, 1e-9},
-                                       {"zero 4", "x", "z", 1e-13, 1e-9},
-                                       {"zero 4", "y", "z", 1e-13, 1e-9}})
-                .alone,
-            "");
+  EXPECT_EQ(alone_of(1e-3, 1e-3, 1e-3), "");
+  EXPECT_EQ(alone_of(1e-13, 1e-13, 1e-13), "");
 }
 
 TEST(Judge, NothingToJudgeIsAMistakeOfTheCaller) {

@@ -32,6 +32,15 @@ class CampaignCase(unittest.TestCase):
             status = command.main([str(one) for one in arguments])
         return status, output.getvalue(), errors.getvalue()
 
+    def refused(self, text, *arguments):
+        """The one line of a campaign that is refused, and leaves nothing."""
+        path = self.write(text)
+        status, output, errors = self.run_command(path, *arguments)
+        self.assertEqual((status, output), (2, ""))
+        self.assertEqual(errors.count("\n"), 1, errors)
+        self.assertFalse((self.folder / "c-results").exists())
+        return errors.removeprefix("flexarm-campaign: ").removeprefix(f"{path}: ").rstrip("\n")
+
     def wait_for(self, condition):
         begun = time.monotonic()
         while not condition():

@@ -37,14 +37,6 @@ values = [100, 200.0]
 
 
 class File(CampaignCase):
-    def refused(self, text, *arguments):
-        path = self.write(text)
-        status, output, errors = self.run_command(path, *arguments)
-        self.assertEqual((status, output), (2, ""))
-        self.assertEqual(errors.count("\n"), 1, errors)
-        self.assertFalse((self.folder / "c-results").exists())
-        return errors.removeprefix("flexarm-campaign: ").removeprefix(f"{path}: ").rstrip("\n")
-
     def test_a_fault_is_one_line_with_key_value_and_what_is_allowed(self):
         count = 'key = "payload.mass"\nfrom = 0.0\nto = 0.1\ncount = 3'
         for old, new, line in (

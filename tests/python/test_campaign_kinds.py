@@ -69,8 +69,11 @@ class Diagnose(Recordings):
         # Bytes of a file that it reads are part of a task: a changed record is a new one.
         record = self.folder / "recordings/b/multisine.csv"
         record.write_text(record.read_text().replace("\n0,0,", "\n0,0.0,", 1) + "\n")
-        status, output, _ = self.run_command(path, "--workers", 1)
+        status, output, _ = self.run_command(path, "--workers", 1, "--report", report)
         self.assertIn("1 of them from before", output)
+        page = report.read_text()
+        slowest = page[page.index("<h2>Slowest"):page.index("<h2>All tasks")]
+        self.assertEqual(slowest.count("<tr>"), 1 + 3, "without the task of the former record")
         again = self.rows(out)
         self.assertEqual(again[0], rows[0])
         self.assertNotEqual(again[1]["task"], rows[1]["task"])
@@ -83,6 +86,9 @@ class Diagnose(Recordings):
             "Slowest", "All tasks",
         ])
         self.assertLess(page.index("recordings/c/"), page.index("recordings/a/"))
+        failed = page[page.index("Without a result"):page.index("Worst:")]
+        self.assertEqual(re.findall(r'<th scope="col">(.*?)</th>', failed),
+                         ["index", "state", "message", "measurement"])
         # It opens without a network, and marks are closed.
         self.assertNotIn("http", page)
         for mark in ("table", "section", "tr", "td"):

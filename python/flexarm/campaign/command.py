@@ -178,7 +178,7 @@ def _run(arguments):
         if arguments.hdf5:
             write_hdf5(campaign, outcome, out, types)
         if arguments.report is not None:
-            page.write(arguments.report, out / "durations.csv")
+            page.write(arguments.report, out / "durations.csv", outcome.digests)
     _print_summary(campaign, outcome, failures, out)
     return _FAILED if failures else 0
 

@@ -86,16 +86,18 @@ class Page:
             if len(self._worst) > _IN_A_LIST:
                 heapq.heappop(self._worst)
 
-    def _slowest(self, durations):
-        """Rows of the tasks that took longest, the last run of each."""
+    def _slowest(self, durations, digests):
+        """Rows of the tasks that took longest, the last run of each. The file may have tasks of an
+        earlier campaign, too."""
         seconds = {}
         if os.path.exists(durations):
             with open(durations, newline="", encoding="utf-8") as stream:
                 rows = csv.reader(stream)
                 next(rows, None)  # the titles
                 for row in rows:
-                    if len(row) == 3:
-                        seconds[row[1]] = (float(row[2]), int(row[0]))
+                    if len(row) == 3 and int(row[0]) < len(digests):
+                        if digests[int(row[0])].hex() == row[1]:
+                            seconds[row[1]] = (float(row[2]), int(row[0]))
         longest = heapq.nlargest(_IN_A_LIST, ((value, key) for key, value in seconds.items()))
         total_s = sum(value for value, _ in seconds.values())
         return [[index, f"{key[:12]}…", value] for (value, index), key in longest], total_s
@@ -112,15 +114,20 @@ class Page:
         parts.append(f"{total_s:.3g} s of work")
         return '<p class="counts">' + "; ".join(parts) + ".</p>"
 
-    def write(self, path, durations):
+    def _shown(self, rows):
+        """Columns and rows as the page has them: the message beside the state, without the hashes
+        and what is empty in all rows."""
+        order = [one for one in self._columns if one not in ("task", "message")]
+        if order:
+            order.insert(order.index("state") + 1, "message")
+        places = [self._columns.index(one) for one in order]
+        places = [one for one in places if any(row[one] not in (None, "") for row in rows)]
+        return [self._columns[one] for one in places], [[row[one] for one in places] for row in rows]
+
+    def write(self, path, durations, digests):
+        """`digests` are those of the tasks, in their order."""
         campaign = self._campaign
-        slowest, total_s = self._slowest(durations)
-        columns = [one for one in self._columns if one != "task"]
-        place = self._columns.index("task") if self._columns else 0
-
-        def short(rows):
-            return [row[:place] + row[place + 1 :] for row in rows]
-
+        slowest, total_s = self._slowest(durations, digests)
         worst = [row for _, _, row in sorted(self._worst, reverse=True)]
         total = sum(self._states.values())
         more = f"The first {len(self._rows)} of {total}; results.csv has all." * (
@@ -128,15 +135,15 @@ class Page:
         )
         flagged = self._flagged_by[1] if self._flagged_by else []
         sections = [
-            _section("Without a result", columns, short(self._failed),
+            _section("Without a result", *self._shown(self._failed),
                      "Inputs are in failures.json."),
-            _section(" and ".join(flagged).replace("_", " ").capitalize(), columns,
-                     short(self._flagged)),
-            _section(f"Worst: largest {self._worst_by}", columns, short(worst)),
+            _section(" and ".join(flagged).replace("_", " ").capitalize(),
+                     *self._shown(self._flagged)),
+            _section(f"Worst: largest {self._worst_by}", *self._shown(worst)),
             _section(f"Count of {self._tally_of}", [self._tally_of or "", "tasks"],
                      [[name, count] for name, count in self._tally.most_common()]),
             _section("Slowest", ["index", "task", "duration [s]"], slowest),
-            _section("All tasks", columns, short(self._rows), more),
+            _section("All tasks", *self._shown(self._rows), more),
         ]
         title = html.escape(f"Campaign {campaign.name}")
         text = (

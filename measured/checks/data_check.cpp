@@ -3,12 +3,17 @@
 #include "arm/input_error.hpp"
 #include "arm/nearest_name.hpp"
 #include "measured/checks/data_check_clock.hpp"
+#include "measured/checks/data_check_clock_rate.hpp"
+#include "measured/checks/data_check_delay.hpp"
+#include "measured/checks/data_check_described.hpp"
 #include "measured/checks/data_check_drift.hpp"
 #include "measured/checks/data_check_kinematics.hpp"
+#include "measured/checks/data_check_offset.hpp"
 #include "measured/checks/data_check_outliers.hpp"
 #include "measured/checks/data_check_response.hpp"
 #include "measured/checks/data_check_sign.hpp"
 #include "measured/checks/data_check_signal.hpp"
+#include "measured/checks/data_check_torque_offset.hpp"
 #include "measured/checks/data_check_transform.hpp"
 #include "measured/checks/data_check_unit.hpp"
 #include "measured/checks/data_check_values.hpp"
@@ -83,9 +88,12 @@ std::vector<DataFinding> check_answers(std::span<const CheckedSignal> signals,
 std::vector<DataFinding> compare(std::span<const CheckedSignal> signals, std::vector<bool> usable,
                                  const std::vector<bool>& active, const ClockCheck& clock,
                                  bool from_rest, const DataCheckOptions& options) {
-  const double period_s = clock.period_s;
   std::vector<DataFinding> findings;
+  const auto rate = check_clock_rate(signals, usable, clock.period_s, from_rest, options);
+  append(findings, rate);
+  const double period_s = clock.period_s / (rate.empty() ? 1.0 : rate.front().value);
   const Transforms transforms = transform(signals, period_s, from_rest);
+  const DescribedStretch described(signals, transforms, options.described);
   std::vector<double> floor_power;
   for (const auto& transform : transforms.of) floor_power.push_back(transform.floor_power);
   const auto note = [&](const std::vector<DataFinding>& found) {
@@ -93,7 +101,9 @@ std::vector<DataFinding> compare(std::span<const CheckedSignal> signals, std::ve
     exclude(usable, signals, found);
     return !found.empty();
   };
-  const auto comparison = [&] { return Comparison{signals, transforms, usable, options}; };
+  const auto comparison = [&] {
+    return Comparison{signals, transforms, usable, options, described.relations};
+  };
 
   const auto coarse = check_quantisation(signals, floor_power, options);
   append(findings, coarse);
@@ -107,6 +117,10 @@ std::vector<DataFinding> compare(std::span<const CheckedSignal> signals, std::ve
   note(check_signs(comparison()));
   note(check_units(comparison()));
   note(check_delay(comparison()));
+  if (from_rest) {
+    note(check_offsets(comparison(), described.values));
+    if (options.described) note(check_torque_offset(comparison(), options.described));
+  }
   note(check_angle_drift(signals, usable, floor_power, period_s, options));
   return findings;
 }
@@ -117,6 +131,8 @@ std::string_view to_string(Fault fault) {
   switch (fault) {
     case Fault::clock_jitter:
       return "clock jitter";
+    case Fault::clock_rate:
+      return "wrong clock rate";
     case Fault::missing_samples:
       return "missing samples";
     case Fault::backward_time:
@@ -133,12 +149,16 @@ std::string_view to_string(Fault fault) {
       return "spikes";
     case Fault::drift:
       return "drift";
+    case Fault::offset:
+      return "offset";
     case Fault::swapped_channels:
       return "swapped channels";
     case Fault::sign_flipped:
       return "sign inverted";
     case Fault::wrong_unit:
       return "wrong unit";
+    case Fault::wrong_scale:
+      return "wrong scale";
     case Fault::delay:
       return "delay";
     case Fault::zero_torque:

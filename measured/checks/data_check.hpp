@@ -1,5 +1,6 @@
 #pragma once
 
+#include "measured/checks/described_arm.hpp"
 #include "measured/files/time_record.hpp"
 
 #include <array>
@@ -14,6 +15,7 @@ namespace flexarm::measured {
 /// What can be wrong with recorded data, whatever the arm does.
 enum class Fault {
   clock_jitter,      ///< times off the even grid
+  clock_rate,        ///< times that run too fast or too slow
   missing_samples,   ///< gaps in the times
   backward_time,     ///< times that repeat or go back
   saturation,        ///< a channel that its range clips
@@ -22,18 +24,21 @@ enum class Fault {
   quantisation,      ///< a step that is coarse for the signal
   spikes,            ///< single samples far off
   drift,             ///< a slow trend that no other channel explains
+  offset,            ///< a reading at rest that is not zero; a torque that moves nothing
   swapped_channels,  ///< two columns exchanged
   sign_flipped,
   wrong_unit,   ///< off by a power of ten, degrees for radians and the like
-  delay,        ///< later than the channel that it is the derivative of
+  wrong_scale,  ///< off by another factor
+  delay,        ///< later than the other channels
   zero_torque,  ///< a torque that says nothing of what moves the arm
 };
 
 inline constexpr std::array kFaults = {
-    Fault::clock_jitter, Fault::missing_samples,  Fault::backward_time, Fault::saturation,
-    Fault::dead_channel, Fault::stuck_values,     Fault::quantisation,  Fault::spikes,
-    Fault::drift,        Fault::swapped_channels, Fault::sign_flipped,  Fault::wrong_unit,
-    Fault::delay,        Fault::zero_torque};
+    Fault::clock_jitter,     Fault::clock_rate,   Fault::missing_samples, Fault::backward_time,
+    Fault::saturation,       Fault::dead_channel, Fault::stuck_values,    Fault::quantisation,
+    Fault::spikes,           Fault::drift,        Fault::offset,          Fault::swapped_channels,
+    Fault::sign_flipped,     Fault::wrong_unit,   Fault::wrong_scale,     Fault::delay,
+    Fault::zero_torque};
 
 /// "clock jitter", "missing samples": as in a sentence.
 std::string_view to_string(Fault fault);
@@ -67,6 +72,7 @@ struct DataCheckOptions {
   std::optional<double> length_m;             ///< from the motor axis to the tip
   std::optional<double> total_inertia_kg_m2;  ///< of the rigid arm, payload included
   bool starts_at_rest = true;                 ///< the arm is at rest at the first sample
+  DescribedArm described = {};                ///< empty: no arm is described
 
   /// Jitter: |t_k - (a + period k)| > this period, with a, period by least squares and gaps
   /// counted.
@@ -92,11 +98,20 @@ struct DataCheckOptions {
   double drift_errors = 5.0;
   /// Delay: |delay| > this, and > `delay_errors` standard errors.
   double least_delay_periods = 0.3;
+  double least_described_delay_periods = 1.2;  ///< by the described arm
   double delay_errors = 5.0;
   /// Unit: gain of a relation that is exact off by a factor > this; of one that holds roughly, off
   /// by > `rough_unit_factor`.
   double unit_factor = 2.0;
   double rough_unit_factor = 4.0;
+  /// Scale: no unit, and off by a factor > this; > `least_torque_scale` by the described arm's
+  /// answer to the torque, on which friction has an influence.
+  double least_scale = 1.15;
+  double least_torque_scale = 1.2;
+  /// Offset: at rest > `least_offset` deviations of the channel, and > this many standard errors.
+  double least_offset = 0.1;
+  double least_torque_offset = 0.1;
+  double offset_errors = 8.0;
 };
 
 /// Checks a run for faults of the recording, by what holds for any arm of this kind whatever its

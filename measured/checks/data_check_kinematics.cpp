@@ -131,6 +131,16 @@ std::optional<std::size_t> Comparison::find(SensorKind kind) const {
   return std::nullopt;
 }
 
+std::vector<DescribedRelation> Comparison::described_and_held() const {
+  std::vector<DescribedRelation> relations;
+  for (const auto& relation : described) {
+    const bool counts = usable[relation.a] && usable[relation.b] && holds(relation.fit) &&
+                        relation.fit.blocks >= kFewestBlocks;
+    if (counts) relations.push_back(relation);
+  }
+  return relations;
+}
+
 std::vector<Identity> identities_of(const Comparison& comparison) {
   std::vector<Identity> identities;
   const auto angle = comparison.find(SensorKind::hub_angle);
@@ -250,25 +260,6 @@ std::vector<DataFinding> check_swaps(const Comparison& comparison) {
   }
   if (!found) found = implausible_pair(comparison);
   return found ? std::vector{*found} : std::vector<DataFinding>{};
-}
-
-std::vector<DataFinding> check_delay(const Comparison& comparison) {
-  const auto angle = comparison.find(SensorKind::hub_angle);
-  const auto velocity = comparison.find(SensorKind::hub_velocity);
-  if (!angle || !velocity) return {};
-  const GainFit fit = fit_gain(comparison.transforms, {*velocity, 0}, {*angle, 1});
-  const double period_s = comparison.transforms.period_s;
-  if (!holds(fit) || std::abs(fit.delay_s) <= comparison.options.least_delay_periods * period_s ||
-      std::abs(fit.delay_s) <= comparison.options.delay_errors * fit.delay_error_s) {
-    return {};
-  }
-  const auto& late = comparison.signals[fit.delay_s > 0.0 ? *velocity : *angle];
-  const auto& other = comparison.signals[fit.delay_s > 0.0 ? *angle : *velocity];
-  return {{Fault::delay, late.name, 0, 0.0, std::abs(fit.delay_s),
-           fmt::format("{} is delayed by {:.3g} s relative to {} (standard error {:.1g} s, {:.2f} "
-                       "sampling periods)",
-                       late.name, std::abs(fit.delay_s), other.name, fit.delay_error_s,
-                       std::abs(fit.delay_s) / period_s)}};
 }
 
 }  // namespace flexarm::measured

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "measured/checks/data_check.hpp"
+#include "measured/checks/data_check_described.hpp"
 #include "measured/checks/data_check_relation.hpp"
 #include "measured/checks/data_check_signal.hpp"
 
@@ -17,9 +18,13 @@ struct Comparison {
   const Transforms& transforms;
   std::vector<bool> usable;  ///< a signal whose own values are in order
   const DataCheckOptions& options;
+  /// By what the described arm reads; empty where no arm is described.
+  std::span<const DescribedRelation> described = {};
 
   /// The first usable signal of a kind.
   std::optional<std::size_t> find(arm::SensorKind kind) const;
+  /// The relations to the described arm that hold between usable signals, over two blocks or more.
+  std::vector<DescribedRelation> described_and_held() const;
 };
 
 /// x = y for any arm: hub_velocity = d/dt hub_angle, tip_acceleration = d^2/dt^2 tip_displacement.
@@ -69,8 +74,5 @@ double implausibility(const CheckedSignal& signal, double deviation);
 /// Two channels whose columns are exchanged: an identity that does not hold, and that holds with
 /// gain 1 when they are exchanged; or two that are each implausible and would both be plausible.
 std::vector<DataFinding> check_swaps(const Comparison& comparison);
-
-/// hub_velocity against the derivative of hub_angle: the slope of the cross-spectrum's phase.
-std::vector<DataFinding> check_delay(const Comparison& comparison);
 
 }  // namespace flexarm::measured

@@ -24,7 +24,8 @@ struct Block {
   double coherence() const { return xx > 0.0 && yy > 0.0 ? std::norm(xy) / (xx * yy) : 0.0; }
 };
 
-std::vector<Block> blocks_of(const Transforms& transforms, Quantity x, Quantity y,
+/// Blocks of two series of values, x(bin) and y(bin).
+std::vector<Block> blocks_of(const Transforms& transforms, const LineValues& x, const LineValues& y,
                              double highest_share) {
   const auto width = static_cast<std::size_t>(std::ceil(kLinesInBlock * transforms.bins_per_line));
   const std::size_t end =
@@ -37,8 +38,8 @@ std::vector<Block> blocks_of(const Transforms& transforms, Quantity x, Quantity 
     double power = 0.0;
     double moment = 0.0;
     for (std::size_t bin = from; bin < from + width; ++bin) {
-      const auto a = transforms.derivative(x.signal, x.order, bin);
-      const auto b = transforms.derivative(y.signal, y.order, bin);
+      const auto a = x(bin);
+      const auto b = y(bin);
       block.xx += std::norm(a);
       block.yy += std::norm(b);
       block.xy += a * std::conj(b);
@@ -49,6 +50,12 @@ std::vector<Block> blocks_of(const Transforms& transforms, Quantity x, Quantity 
     blocks.push_back(block);
   }
   return blocks;
+}
+
+LineValues values_of(const Transforms& transforms, Quantity quantity) {
+  return [&transforms, quantity](std::size_t bin) {
+    return transforms.derivative(quantity.signal, quantity.order, bin);
+  };
 }
 
 struct Weighted {
@@ -119,15 +126,26 @@ void fit_delay(const std::vector<Block>& blocks, double period_s, GainFit& fit) 
 }  // namespace
 
 GainFit fit_gain(const Transforms& transforms, Quantity x, Quantity y) {
+  return fit_gain(transforms, values_of(transforms, x), values_of(transforms, y));
+}
+
+GainFit fit_gain(const Transforms& transforms, const LineValues& x, const LineValues& y) {
   std::vector<Block> blocks = blocks_of(transforms, x, y, kHighestShare);
   std::erase_if(blocks, [](const Block& block) { return block.coherence() < kLeastCoherence; });
   GainFit fit;
   fit.blocks = blocks.size();
   if (blocks.empty()) return fit;
   std::vector<Weighted> gains;
+  std::vector<Weighted> h1;
+  std::vector<Weighted> h2;
   for (const auto& block : blocks) {
-    gains.push_back({0.5 * std::log10(block.xx / block.yy), phase_weight(block)});
+    const double weight = phase_weight(block);
+    gains.push_back({0.5 * std::log10(block.xx / block.yy), weight});
+    h1.push_back({std::log10(std::abs(block.xy) / block.yy), weight});
+    h2.push_back({std::log10(block.xx / std::abs(block.xy)), weight});
   }
+  fit.log10_h1 = weighted_median(std::move(h1));
+  fit.log10_h2 = weighted_median(std::move(h2));
   fit.log10_gain = weighted_median(gains);
   for (auto& gain : gains) gain.value = std::abs(gain.value - fit.log10_gain);
   fit.spread = weighted_median(std::move(gains));
@@ -165,8 +183,9 @@ LowFrequencyFit fit_low_frequencies(const Transforms& transforms, Quantity x, Qu
 double mean_coherence(const Transforms& transforms, Quantity x, Quantity y) {
   double sum = 0.0;
   double power = 0.0;
-  const auto related = blocks_of(transforms, x, y, 0.5);
-  const auto own = blocks_of(transforms, {x.signal, 0}, {x.signal, 0}, 0.5);
+  const auto related = blocks_of(transforms, values_of(transforms, x), values_of(transforms, y), 0.5);
+  const auto plain = values_of(transforms, {x.signal, 0});
+  const auto own = blocks_of(transforms, plain, plain, 0.5);
   for (std::size_t i = 0; i < related.size(); ++i) {
     sum += related[i].coherence() * own[i].xx;
     power += own[i].xx;

@@ -2,7 +2,9 @@
 
 #include "measured/checks/data_check_transform.hpp"
 
+#include <complex>
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 namespace flexarm::measured {
@@ -19,6 +21,8 @@ struct GainFit {
   std::size_t blocks = 0;   ///< with coherence squared of kLeastCoherence or more
   double log10_gain = 0.0;  ///< weighted median of log10 sqrt(Sxx/Syy)
   double spread = 0.0;      ///< weighted median of the blocks' distances from it
+  double log10_h1 = 0.0;    ///< as log10_gain, of |Sxy|/Syy: all noise is in x
+  double log10_h2 = 0.0;    ///< of Sxx/|Sxy|: all noise is in y
   int sign = 1;
   double delay_s = 0.0;        ///< x later than y
   double delay_error_s = 0.0;  ///< standard error
@@ -28,6 +32,11 @@ inline constexpr double kLeastCoherence = 0.8;
 
 /// Blocks are eight lines (1/duration) wide, from the lowest up to 0.3 of the sampling frequency.
 GainFit fit_gain(const Transforms& transforms, Quantity x, Quantity y);
+
+/// A value a bin, of whatever the transforms give.
+using LineValues = std::function<std::complex<double>(std::size_t bin)>;
+/// The same of x(bin) = gain y(bin) exp(-i omega delay).
+GainFit fit_gain(const Transforms& transforms, const LineValues& x, const LineValues& y);
 
 /// x against y over the lines below a frequency.
 struct LowFrequencyFit {

@@ -25,6 +25,7 @@ constexpr double kIdentityWeight = 10.0;
 constexpr double kRigidWeight = 3.0;
 constexpr double kEnergyWeight = 4.0;
 constexpr double kTorqueWeight = 1.5;
+constexpr double kDescribedWeight = 5.0;  // to the torque; between sensors as an identity
 constexpr double kLeastScore = 8.0;         // standard deviations
 constexpr double kLeastCorrelation = 0.85;  // of what moves as if rigid
 constexpr double kClearly = 4.0;            // more than one relation of rigid motion
@@ -123,6 +124,12 @@ void add_tip(const Comparison& comparison, std::vector<Vote>& votes) {
   }
 }
 
+void add_described(const Comparison& comparison, std::vector<Vote>& votes) {
+  for (const auto& [a, b, fit] : comparison.described_and_held()) {
+    votes.push_back({a, b, fit.sign, b == 0 ? kDescribedWeight : kIdentityWeight});
+  }
+}
+
 double cost(const std::vector<Vote>& votes, unsigned flipped) {
   double sum = kFlipCost * std::popcount(flipped);
   for (const auto& vote : votes) {
@@ -148,6 +155,7 @@ std::vector<DataFinding> check_signs(const Comparison& comparison) {
   add_tip(comparison, votes);
   if (shows_rigid_motion(comparison.transforms)) add_rigid_motion(comparison, votes);
   add_energy(comparison, votes);
+  add_described(comparison, votes);
   std::erase_if(votes, [](const Vote& vote) { return std::max(vote.a, vote.b) >= kMostSignals; });
 
   const auto signals = std::min(comparison.signals.size(), kMostSignals);

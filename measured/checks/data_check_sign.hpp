@@ -14,7 +14,8 @@ namespace flexarm::measured {
 /// - at frequencies far below the first clamped one the arm moves as if rigid: the tip accelerates
 ///   with the hub; inertia bends it back, so that deflection and strain oppose that acceleration;
 /// - torque and hub velocity: an arm that starts at rest has taken up energy at every later
-///   instant, int tau theta' dt >= 0, whatever its friction.
+///   instant, int tau theta' dt >= 0, whatever its friction;
+/// - with the described arm: any two signals as it reads them for the same torque.
 std::vector<DataFinding> check_signs(const Comparison& comparison);
 
 }  // namespace flexarm::measured

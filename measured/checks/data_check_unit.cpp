@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <utility>
 
 namespace flexarm::measured {
 
@@ -16,18 +18,38 @@ using arm::SensorKind;
 constexpr double kLeastUnitScore = 8.0;
 constexpr double kLeastUnitCorrelation = 0.7;
 
+/// log10 that the gains of half of the blocks are from their median, at most, where a scale is read
+/// from them.
+constexpr double kNarrow = 0.03;
+constexpr std::size_t kFewestScaleBlocks = 3;
+
 /// Scale of a over scale of b, as recorded over what it must be.
 struct Ratio {
   std::size_t a = 0;
   std::size_t b = 0;
   double log10_off = 0.0;
   bool rough = false;
+  bool narrow = false;      ///< says more than the unit
+  double log10_noise = 0.0; ///< how far noise may move it
 };
+
+Ratio ratio_of(std::size_t a, std::size_t b, const GainFit& fit) {
+  return {a, b, fit.log10_gain, false,
+          fit.blocks >= kFewestScaleBlocks && fit.spread <= kNarrow,
+          0.5 * std::abs(fit.log10_h2 - fit.log10_h1)};
+}
 
 void add_identities(const Comparison& comparison, std::vector<Ratio>& ratios) {
   for (const auto& [x, y] : identities_of(comparison)) {
     const GainFit fit = fit_gain(comparison.transforms, x, y);
-    if (holds(fit)) ratios.push_back({x.signal, y.signal, fit.log10_gain, false});
+    if (!holds(fit)) continue;
+    ratios.push_back(ratio_of(x.signal, y.signal, fit));
+  }
+}
+
+void add_described(const Comparison& comparison, std::vector<Ratio>& ratios) {
+  for (const auto& [a, b, fit] : comparison.described_and_held()) {
+    ratios.push_back(ratio_of(a, b, fit));
   }
 }
 
@@ -82,12 +104,17 @@ struct Suspect {
   bool is_known_slip = false;
 };
 
-double tolerance(const Ratio& ratio, const DataCheckOptions& options) {
-  return std::log10(ratio.rough ? options.rough_unit_factor : options.unit_factor);
+/// log10 of the factor off that counts.
+using Tolerance = std::function<double(const Ratio&)>;
+
+double count_off(const std::vector<Ratio>& ratios, const Tolerance& tolerance) {
+  return static_cast<double>(std::ranges::count_if(ratios, [&](const Ratio& ratio) {
+    return std::abs(ratio.log10_off) > tolerance(ratio);
+  }));
 }
 
 Suspect suspect_of(const Comparison& comparison, const std::vector<Ratio>& ratios,
-                   std::size_t signal) {
+                   const Tolerance& tolerance, std::size_t signal) {
   std::vector<double> exact;
   std::vector<double> rough;
   for (const auto& ratio : ratios) {
@@ -104,7 +131,7 @@ Suspect suspect_of(const Comparison& comparison, const std::vector<Ratio>& ratio
     double off = ratio.log10_off;
     if (ratio.a == signal) off -= suspect.log10_scale;
     if (ratio.b == signal) off += suspect.log10_scale;
-    if (std::abs(off) > tolerance(ratio, comparison.options)) suspect.unexplained += 1.0;
+    if (std::abs(off) > tolerance(ratio)) suspect.unexplained += 1.0;
   }
   const auto& it = comparison.signals[signal];
   suspect.relief = implausibility(it, it.deviation) -
@@ -112,17 +139,60 @@ Suspect suspect_of(const Comparison& comparison, const std::vector<Ratio>& ratio
   return suspect;
 }
 
-DataFinding unit_finding(const Comparison& comparison, const Suspect& suspect,
-                         const std::string& alternatives) {
-  const auto& name = comparison.signals[suspect.signal].name;
-  const double factor = std::pow(10.0, suspect.log10_scale);
-  return {Fault::wrong_unit,
-          name,
-          0,
-          0.0,
-          factor,
-          fmt::format("{}: scale {:.3g} times the value implied by the other channels: {}{}", name,
-                      factor, unit_slip(suspect.log10_scale), alternatives)};
+/// Those whose scale leaves the fewest ratios off, the least plausible as recorded first; only
+/// `known_slips` among them where a unit is asked for.
+std::vector<Suspect> suspects_of(const Comparison& comparison, const std::vector<Ratio>& ratios,
+                                 const Tolerance& tolerance, bool known_slips) {
+  const double off = count_off(ratios, tolerance);
+  std::vector<Suspect> suspects;
+  if (off == 0.0) return suspects;
+  for (std::size_t i = 0; i < comparison.signals.size(); ++i) {
+    const bool compared = std::ranges::any_of(
+        ratios, [&](const Ratio& ratio) { return ratio.a == i || ratio.b == i; });
+    if (!compared) continue;
+    const Suspect suspect = suspect_of(comparison, ratios, tolerance, i);
+    if ((suspect.is_known_slip || !known_slips) && suspect.unexplained < off) {
+      suspects.push_back(suspect);
+    }
+  }
+  std::ranges::stable_sort(suspects, [](const Suspect& a, const Suspect& b) {
+    return a.unexplained != b.unexplained ? a.unexplained < b.unexplained : a.relief > b.relief;
+  });
+  std::erase_if(suspects, [least = suspects.empty() ? 0.0 : suspects.front().unexplained](
+                              const Suspect& suspect) { return suspect.unexplained > least; });
+  return suspects;
+}
+
+/// The first of the suspects; the others are alternatives.
+DataFinding scale_finding(const Comparison& comparison, Fault fault,
+                          const std::vector<Suspect>& suspects) {
+  const Suspect& first = suspects.front();
+  const auto& name = comparison.signals[first.signal].name;
+  const double factor = std::pow(10.0, first.log10_scale);
+  std::string text =
+      fmt::format("{}: scale {:.3g} times the value implied by the other channels", name, factor);
+  if (fault == Fault::wrong_unit) text += ": " + unit_slip(first.log10_scale);
+  for (std::size_t i = 1; i < suspects.size(); ++i) {
+    text += fmt::format(", or {} {:.3g} times", comparison.signals[suspects[i].signal].name,
+                        std::pow(10.0, suspects[i].log10_scale));
+  }
+  return {fault, name, 0, 0.0, factor, text};
+}
+
+/// A scale that is no unit, by the ratios that say so much.
+std::vector<DataFinding> check_scale(const Comparison& comparison, std::vector<Ratio> ratios) {
+  std::erase_if(ratios, [](const Ratio& ratio) { return !ratio.narrow; });
+  const auto tolerance = [&options = comparison.options](const Ratio& ratio) {
+    return ratio.log10_noise +
+           std::log10(ratio.b == 0 ? options.least_torque_scale : options.least_scale);
+  };
+  auto suspects = suspects_of(comparison, ratios, tolerance, false);
+  std::erase_if(suspects, [&options = comparison.options](const Suspect& suspect) {
+    const double least = suspect.signal == 0 ? options.least_torque_scale : options.least_scale;
+    return std::abs(suspect.log10_scale) < std::log10(least) || suspect.unexplained > 0.0;
+  });
+  if (suspects.empty()) return {};
+  return {scale_finding(comparison, Fault::wrong_scale, suspects)};
 }
 
 }  // namespace
@@ -133,37 +203,25 @@ std::vector<DataFinding> check_units(const Comparison& comparison) {
   add_tip(comparison, ratios);
   if (shows_rigid_motion(comparison.transforms)) add_rigid_motion(comparison, ratios);
 
+  add_described(comparison, ratios);
+
+  const auto tolerance = [&options = comparison.options](const Ratio& ratio) {
+    return std::log10(ratio.rough ? options.rough_unit_factor : options.unit_factor);
+  };
+  const auto suspects = suspects_of(comparison, ratios, tolerance, true);
   std::vector<DataFinding> findings;
-  const auto off = static_cast<double>(std::ranges::count_if(ratios, [&](const Ratio& ratio) {
-    return std::abs(ratio.log10_off) > tolerance(ratio, comparison.options);
-  }));
-  std::vector<Suspect> suspects;
-  if (off > 0.0) {
-    for (std::size_t i = 0; i < comparison.signals.size(); ++i) {
-      const bool compared = std::ranges::any_of(
-          ratios, [&](const Ratio& ratio) { return ratio.a == i || ratio.b == i; });
-      if (!compared) continue;
-      const Suspect suspect = suspect_of(comparison, ratios, i);
-      if (suspect.is_known_slip && suspect.unexplained < off) suspects.push_back(suspect);
-    }
-  }
   if (!suspects.empty()) {
-    std::ranges::stable_sort(suspects, [](const Suspect& a, const Suspect& b) {
-      return a.unexplained != b.unexplained ? a.unexplained < b.unexplained : a.relief > b.relief;
-    });
-    std::string alternatives;
-    for (std::size_t i = 1; i < suspects.size(); ++i) {
-      if (suspects[i].unexplained > suspects[0].unexplained) break;
-      alternatives +=
-          fmt::format(", or {} {:.3g} times", comparison.signals[suspects[i].signal].name,
-                      std::pow(10.0, suspects[i].log10_scale));
-    }
-    findings.push_back(unit_finding(comparison, suspects[0], alternatives));
+    findings.push_back(scale_finding(comparison, Fault::wrong_unit, suspects));
+  } else {
+    findings = check_scale(comparison, std::move(ratios));
   }
   for (std::size_t i = 1; i < comparison.signals.size(); ++i) {
     const auto& signal = comparison.signals[i];
     constexpr double kBreaks = 0.02;
-    if (!comparison.usable[i] || !signal.is(SensorKind::strain) || signal.deviation <= kBreaks) {
+    const bool is_told =
+        std::ranges::find(findings, signal.name, &DataFinding::channel) != findings.end();
+    if (!comparison.usable[i] || is_told || !signal.is(SensorKind::strain) ||
+        signal.deviation <= kBreaks) {
       continue;
     }
     findings.push_back(

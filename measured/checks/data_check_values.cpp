@@ -224,7 +224,9 @@ std::optional<DataFinding> stuck(const CheckedSignal& signal,
     if (run.count < static_cast<std::size_t>(options.least_stuck_samples)) continue;
     const bool rests_at_zero =
         x[run.first] == 0.0 && (run.first == 0 || signal.is(arm::SensorKind::hub_velocity));
-    if (rests_at_zero || is_restful(x, run) || is_held(signals, signal, run) ||
+    // What goes on from its first reading without a jump has not begun to move, or shows it late.
+    const bool begins = run.first == 0 && !catches_up(x, run);
+    if (rests_at_zero || begins || is_restful(x, run) || is_held(signals, signal, run) ||
         !another_moves(signals, signal, run) || !is_long(run, x, pairs, step)) {
       continue;
     }

@@ -1,6 +1,7 @@
 #include "tests/measured/data_check_cases.hpp"
 
 #include "arm/linear_arm.hpp"
+#include "compare/described_arm.hpp"
 #include "effects/registry/vocabulary.hpp"
 #include "response/excitation/excitation.hpp"
 #include "response/formulation_maker.hpp"
@@ -169,10 +170,30 @@ DrawnRun draw_run(std::uint64_t seed, const CaseNeeds& needs) {
   std::string with;
   for (const auto& [effect, parameters] : arm.effects) with += " " + effect;
   for (const auto& sensor : sensors) with += " " + arm::to_string(sensor);
+  run.arm = arm;
   run.description = fmt::format("seed {}: {} {} Hz {} s, noise {:.4f}, l {:.2f}, payload {:.3f}{}",
                                 seed, response::name(excitation), rate_Hz, duration_s, run.noise,
                                 run.length_m, arm.payload.mass_kg, with);
   return run;
+}
+
+DataCheckOptions known_arm(const DrawnRun& run, std::uint64_t seed) {
+  constexpr double kError = 0.01;
+  DataCheckOptions options;
+  options.length_m = run.length_m;
+  options.total_inertia_kg_m2 = run.total_inertia_kg_m2;
+  RandomNumbers random(seed, 3);
+  const double size = chance(random, 0.5) ? kError : 0.0;
+  const auto wrong = [&](double value) { return value * (1.0 + size * random.normal()); };
+  arm::Arm arm = run.arm;
+  arm.effects.clear();
+  const arm::Beam& beam = run.arm.beam;
+  arm.beam = arm::Beam::from_rigidity(beam.length_m, wrong(beam.flexural_rigidity_N_m2()),
+                                      wrong(beam.linear_density_kg_per_m()));
+  arm.beam.thickness_m = beam.thickness_m;
+  arm.hub.inertia_kg_m2 = wrong(arm.hub.inertia_kg_m2);
+  options.described = compare::described_arm(arm);
+  return options;
 }
 
 void finish(TimeRecord& record, const DrawnRun& run, RandomNumbers& random) {

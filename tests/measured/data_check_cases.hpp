@@ -29,6 +29,7 @@ struct CaseNeeds {
 /// A run of an arm drawn at random: arm, friction, payload, torque, sampling and sensors.
 struct DrawnRun {
   TimeRecord fine;        ///< without noise, `refinement` samples for one
+  arm::Arm arm;
   double length_m = 0.0;  ///< from axis to tip
   double total_inertia_kg_m2 = 0.0;
   double noise = 0.0;      ///< standard deviation over the signal's own
@@ -53,6 +54,11 @@ void finish(TimeRecord& record, const DrawnRun& run, response::RandomNumbers& ra
 /// Standard deviation.
 double deviation(const std::vector<double>& values);
 
+/// What `check_data` may know of a run's arm: length, inertia and the arm as a file describes it,
+/// by another formulation than the run's, without friction, and for half of the seeds with errors
+/// of 1 % (standard deviation) in rigidity, density and hub inertia.
+DataCheckOptions known_arm(const DrawnRun& run, std::uint64_t seed);
+
 /// A record with a fault in it.
 struct PlantedFault {
   TimeRecord record;
@@ -61,10 +67,17 @@ struct PlantedFault {
   std::size_t first_sample = 0;
   std::size_t last_sample = 0;  ///< the first sample of the finding lies between these
   std::string description;
+  double value = 0.0;  ///< its size, of faults that the described arm shows
 };
 
 /// A fault of random size in a run of its own; the ranges of sizes are in docs/measured-data.md.
 PlantedFault plant(Fault fault, std::uint64_t seed);
+
+/// Those that the described arm shows.
+PlantedFault plant_clock_rate(std::uint64_t seed, response::RandomNumbers& random);
+PlantedFault plant_late_sensor(std::uint64_t seed, response::RandomNumbers& random);
+PlantedFault plant_offset(std::uint64_t seed, response::RandomNumbers& random);
+PlantedFault plant_wrong_scale(std::uint64_t seed, response::RandomNumbers& random);
 
 /// A run without fault; half of them with the arm's length and inertia at hand.
 PlantedFault clean(std::uint64_t seed);

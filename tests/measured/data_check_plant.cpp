@@ -53,11 +53,6 @@ PlantedFault planted(const DrawnRun& run, TimeRecord record) {
   return result;
 }
 
-void know_the_arm(PlantedFault& result, const DrawnRun& run) {
-  result.options.length_m = run.length_m;
-  result.options.total_inertia_kg_m2 = run.total_inertia_kg_m2;
-}
-
 void in(PlantedFault& result, const Channel& channel) {
   result.channel = arm::to_string(channel.sensor);
 }
@@ -276,6 +271,7 @@ PlantedFault swapped_channels(std::uint64_t seed, RandomNumbers& random) {
 }
 
 PlantedFault sign_flipped(std::uint64_t seed, RandomNumbers& random) {
+  // The last two are told by the described arm alone.
   const std::vector<std::vector<SensorKind>> needs = {
       {kAngle, kVelocity},
       {kVelocity, kAngle},
@@ -283,10 +279,13 @@ PlantedFault sign_flipped(std::uint64_t seed, RandomNumbers& random) {
       {kAcceleration, kAngle, kVelocity, kDisplacement},
       {kDisplacement, kAcceleration, kAngle},
       {kDeflection, kDisplacement, kAngle},
-      {kStrain, kAcceleration, kDeflection, kAngle}};
+      {kStrain, kAcceleration, kDeflection, kAngle},
+      {kAcceleration, kVelocity},
+      {kAcceleration, kAngle}};
   const std::size_t which = random.below(needs.size());
   const auto run = draw_run(seed, {needs[which]});
   auto result = planted(run, sampled(run, random));
+  if (which + 2 >= needs.size()) result.options = known_arm(run, seed);
   auto& values =
       which == 2 ? result.record.torque_N_m : channel_of(result.record, needs[which][0]).values;
   result.channel =
@@ -310,13 +309,14 @@ PlantedFault wrong_unit(std::uint64_t seed, RandomNumbers& random) {
                                    {{kDisplacement, kAcceleration, kAngle}, 100.0},
                                    {{kAcceleration, kDisplacement, kAngle}, 1.0 / 9.80665},
                                    {{kAcceleration, kDisplacement, kAngle}, 10.0},
+                                   {{kAcceleration, kAngle}, 1.0 / 9.80665},
                                    {{kDeflection, kDisplacement, kAngle}, 1000.0},
                                    {{kStrain}, 1e6},
                                    {{kAngle, kVelocity}, 1000.0}};  // the torque, below
   const std::size_t which = random.below(slips.size());
   const auto run = draw_run(seed, {slips[which].sensors});
   auto result = planted(run, sampled(run, random));
-  know_the_arm(result, run);
+  result.options = known_arm(run, seed);
   const bool is_torque = which + 1 == slips.size();
   auto& channel = channel_of(result.record, slips[which].sensors[0]);
   for (auto& value : is_torque ? result.record.torque_N_m : channel.values) {
@@ -338,6 +338,7 @@ int least_delay(DrawnRun& run) {
 }
 
 PlantedFault delay(std::uint64_t seed, RandomNumbers& random) {
+  if (chance(random, 0.5)) return plant_late_sensor(seed, random);
   constexpr int kRefinement = 4;
   constexpr int kMost = 20;  // five periods
   const auto kind = chance(random, 0.5) ? kAngle : kVelocity;
@@ -373,6 +374,8 @@ PlantedFault plant(Fault fault, std::uint64_t seed) {
   switch (fault) {
     case Fault::clock_jitter:
       return clock_jitter(seed, random);
+    case Fault::clock_rate:
+      return plant_clock_rate(seed, random);
     case Fault::missing_samples:
       return missing_samples(seed, random);
     case Fault::backward_time:
@@ -389,12 +392,16 @@ PlantedFault plant(Fault fault, std::uint64_t seed) {
       return spikes(seed, random);
     case Fault::drift:
       return drift(seed, random);
+    case Fault::offset:
+      return plant_offset(seed, random);
     case Fault::swapped_channels:
       return swapped_channels(seed, random);
     case Fault::sign_flipped:
       return sign_flipped(seed, random);
     case Fault::wrong_unit:
       return wrong_unit(seed, random);
+    case Fault::wrong_scale:
+      return plant_wrong_scale(seed, random);
     case Fault::delay:
       return delay(seed, random);
     case Fault::zero_torque:
@@ -407,7 +414,7 @@ PlantedFault clean(std::uint64_t seed) {
   RandomNumbers random(seed, 2);
   const auto run = draw_run(seed);
   auto result = planted(run, sampled(run, random));
-  if (chance(random, 0.5)) know_the_arm(result, run);
+  if (chance(random, 0.75)) result.options = known_arm(run, seed);
   return result;
 }
 

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "arm/arm.hpp"
+#include "measured/checks/described_arm.hpp"
+
+namespace flexarm::compare {
+
+/// The readings of an arm with its linear effects alone, by simulation of its fem model: what the
+/// data checks compare a record with (measured::DataCheckOptions::described). Friction and the
+/// other laws are left out: the checks ask for what holds with and without them.
+///
+/// Throws InputError for an arm that `fem` refuses.
+measured::DescribedArm described_arm(const arm::Arm& arm);
+
+}  // namespace flexarm::compare

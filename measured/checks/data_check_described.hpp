@@ -1,0 +1,45 @@
+#pragma once
+
+#include "measured/checks/data_check_relation.hpp"
+#include "measured/checks/data_check_signal.hpp"
+#include "measured/checks/described_arm.hpp"
+
+#include <span>
+#include <vector>
+
+namespace flexarm::measured {
+
+/// Scale, sign and delay of signal `a` over those of signal `b`, each over what it must be by what
+/// the described arm reads for the same torque.
+struct DescribedRelation {
+  std::size_t a = 0;
+  std::size_t b = 0;  ///< below a; 0: the torque
+  GainFit fit;
+};
+
+/// What the described arm reads in the place of an even stretch of signals, the torque first, and
+/// how these are related to it. Empty where no arm is described.
+struct DescribedStretch {
+  std::vector<std::vector<double>> values;  ///< one a signal, the torque first
+  std::vector<DescribedRelation> relations;
+
+  /// `recorded` are the transforms of `signals`.
+  DescribedStretch(std::span<const CheckedSignal> signals, const Transforms& recorded,
+                   const DescribedArm& arm);
+};
+
+/// The relations of all pairs, over an even stretch. With X recorded and Y described
+///
+///     X_a/X_b = gain exp(-i omega delay) Y_a/Y_b,  so  X_a Y_b = gain exp(-i omega delay) X_b Y_a.
+///
+/// Between two sensors this holds whatever turns the hub: neither friction, a wrong torque nor what
+/// the file says of the hub has an influence. Between a sensor and the torque they have one.
+/// Displacements are taken in their second derivatives, velocities in their first.
+///
+/// `recorded` are the transforms of `signals`, the torque first; `described` those of the torque
+/// and of what is described in the place of the others.
+std::vector<DescribedRelation> described_relations(std::span<const CheckedSignal> signals,
+                                                   const Transforms& recorded,
+                                                   const Transforms& described);
+
+}  // namespace flexarm::measured

@@ -2,6 +2,7 @@
 
 #include "arm/arm.hpp"
 #include "measured/checks/described_arm.hpp"
+#include "measured/checks/run_check.hpp"
 
 namespace flexarm::compare {
 
@@ -11,5 +12,9 @@ namespace flexarm::compare {
 ///
 /// Throws InputError for an arm that `fem` refuses.
 measured::DescribedArm described_arm(const arm::Arm& arm);
+
+/// What the data checks may know of the arm with any payload: length, inertia and readings. The
+/// last are left out where `fem` refuses the arm.
+measured::DescribedArms described_arms(const arm::Arm& arm);
 
 }  // namespace flexarm::compare

@@ -5,7 +5,7 @@
 #include "arm/nearest_name.hpp"
 #include "arm/range.hpp"
 #include "arm/read_word.hpp"
-#include "arm/rigid_hub.hpp"
+#include "compare/described_arm.hpp"
 #include "effects/registry/vocabulary.hpp"
 #include "measured/files/arm_file.hpp"
 
@@ -123,8 +123,7 @@ measured::IdentificationOptions options_of(const IdentificationRequest& request,
     options.input =
         arm::read_word(request.spelled("input"), request.input, measured::kResponseInputs);
   }
-  if (arm::has_beam(arm)) options.check.length_m = arm::linear_arm(arm).length_m;
-  options.check.total_inertia_kg_m2 = arm::total_inertia_kg_m2(arm);
+  options.arms = described_arms(arm);
   options.fit = request.fit;
   if (request.modes && *request.modes < 1) {
     throw arm::out_of_range(request.spelled("modes"), *request.modes, "", "1 or more");

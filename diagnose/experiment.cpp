@@ -1,12 +1,12 @@
 #include "diagnose/experiment.hpp"
 
 #include "arm/input_error.hpp"
-#include "arm/linear_arm.hpp"
 #include "arm/plausibility.hpp"
-#include "arm/rigid_hub.hpp"
+#include "compare/described_arm.hpp"
 #include "diagnose/long_runs.hpp"
 #include "diagnose/modal_orders.hpp"
 #include "effects/registry/vocabulary.hpp"
+#include "measured/checks/run_check.hpp"
 #include "measured/files/arm_file.hpp"
 
 #include <fmt/format.h>
@@ -32,18 +32,14 @@ bool is_constant(const measured::TimeRecord& record, const std::string& name) {
          });
 }
 
-/// Leaves dead channels and outliers out; throws InputError where nothing usable is left.
+/// Leaves dead channels and outliers that were `found` out; throws InputError where nothing usable
+/// is left.
 void keep_usable(Experiment& experiment, measured::MeasuredRun& run, const std::string& file,
+                 std::vector<measured::DataFinding> found,
                  const std::vector<measured::Fault>& accepted) {
   auto& record = std::get<measured::TimeRecord>(run.data);
-  const arm::Arm arm = arm_in(experiment, run.run);
-  measured::DataCheckOptions options;
-  const arm::LinearArm linear = arm::linear_arm(arm);
-  if (arm::has_beam(arm)) options.length_m = linear.length_m;
-  options.total_inertia_kg_m2 = arm::total_inertia_kg_m2(linear);
-  options.starts_at_rest = run.run.initial == measured::InitialState::rest;
   std::vector<measured::DataFinding> findings;
-  for (measured::DataFinding& finding : measured::check_data(record, options)) {
+  for (measured::DataFinding& finding : found) {
     const bool must_go =
         finding.fault == measured::Fault::dead_channel && is_constant(record, finding.channel);
     if (must_go || std::ranges::find(accepted, finding.fault) == accepted.end()) {
@@ -133,21 +129,24 @@ Experiment read_experiment(const fs::path& measurement_file,
       arm::require_beam(experiment.arm, fmt::format("{}: run {}: a modal table",
                                                     measurement_file.string(), run.id));
     }
-    measured::MeasuredRun read{run, measured::read_run(measurement_file, run)};
-    if (run.kind == measured::RunKind::time) {
-      keep_usable(experiment, read, measured::beside(measurement_file, run.file).string(),
-                  accepted);
+    experiment.runs.push_back({run, measured::read_run(measurement_file, run)});
+  }
+  auto findings = measured::check_records(experiment.runs, compare::described_arms(experiment.arm));
+  for (std::size_t r = 0; r < experiment.runs.size(); ++r) {
+    measured::MeasuredRun& read = experiment.runs[r];
+    const std::string file = measured::beside(measurement_file, read.run.file).string();
+    if (read.run.kind == measured::RunKind::time) {
+      keep_usable(experiment, read, file, std::move(findings[r]), accepted);
     } else if (auto* table = std::get_if<measured::ModalTable>(&read.data)) {
-      for (const std::string& notice : put_orders(arm_in(experiment, run), *table)) {
-        experiment.notices.push_back(fmt::format("run {}: {}", run.id, notice));
+      for (const std::string& notice : put_orders(arm_in(experiment, read.run), *table)) {
+        experiment.notices.push_back(fmt::format("run {}: {}", read.run.id, notice));
       }
       if (table->empty()) {
         throw arm::InputError(fmt::format(
-            "{}: run {}: no pole or zero can be assigned to one of the arm; state the orders",
-            measured::beside(measurement_file, run.file).string(), run.id));
+            "{}: run {}: no pole or zero can be assigned to one of the arm; state the orders", file,
+            read.run.id));
       }
     }
-    experiment.runs.push_back(std::move(read));
   }
   const auto split = [&experiment] {
     const std::string done = split_purposes(experiment.runs);

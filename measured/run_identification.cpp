@@ -61,9 +61,6 @@ PeakSettings driven_peaks(PeakSettings peaks, const TimeRecord& record,
 
 void study_time_run(TimeRecord& record, const IdentificationOptions& options,
                     RunIdentification& made) {
-  DataCheckOptions check = options.check;
-  check.starts_at_rest = made.run.initial == InitialState::rest;
-  made.findings = check_data(record, check);
   made.left_out = leave_out_dead_channels(record, made.findings);
   const auto no_torque = std::ranges::find(made.findings, Fault::zero_torque, &DataFinding::fault);
   if (record.channels.empty()) {
@@ -268,6 +265,7 @@ std::string_view to_string(Method method) {
 
 Identification identify(std::vector<MeasuredRun> runs, const IdentificationOptions& options) {
   Identification made;
+  const auto findings = check_records(runs, options.arms);
   const auto count = static_cast<double>(runs.size());
   const double spectra_share = options.fit ? kSpectraShare : 1.0;
   const auto go_on = [&](const std::string& what, double fraction) {
@@ -276,7 +274,7 @@ Identification identify(std::vector<MeasuredRun> runs, const IdentificationOptio
   for (MeasuredRun& run : runs) {
     const double done = static_cast<double>(made.runs.size()) / count;
     if (!go_on("spectra of " + run.run.id, spectra_share * done)) return made;
-    RunIdentification studied{.run = run.run};
+    RunIdentification studied{.run = run.run, .findings = findings[made.runs.size()]};
     try {
       if (auto* time = std::get_if<TimeRecord>(&run.data)) {
         study_time_run(*time, options, studied);

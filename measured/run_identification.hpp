@@ -1,6 +1,7 @@
 #pragma once
 
 #include "measured/checks/data_check.hpp"
+#include "measured/checks/run_check.hpp"
 #include "measured/files/run_data.hpp"
 #include "measured/modal/modal_fit.hpp"
 #include "measured/modal/modal_gains.hpp"
@@ -17,12 +18,6 @@
 #include <vector>
 
 namespace flexarm::measured {
-
-/// A run of an experiment with what its file holds.
-struct MeasuredRun {
-  Run run;
-  RunData data;
-};
 
 /// How poles and zeros are read off.
 enum class Method {
@@ -96,7 +91,7 @@ struct IdentificationOptions {
   std::optional<RecordedSignal> input = {};  ///< of responses of `time` runs; empty: by evidence
   PeakSettings peaks = {};
   CircleSettings circles = {};
-  DataCheckOptions check = {};  ///< `starts_at_rest` is each run's own
+  DescribedArms arms = {};  ///< what the data checks may know
   bool fit = true;
   ModalFitOptions modal_fit = {};  ///< `torque_hold` and `initial` are each run's own
   /// For hub slopes and gains; empty: as the rigid body's motion has it.

@@ -119,7 +119,7 @@ std::vector<DataFinding> compare(std::span<const CheckedSignal> signals, std::ve
   note(check_delay(comparison()));
   if (from_rest) {
     note(check_offsets(comparison(), described.values));
-    if (options.described) note(check_torque_offset(comparison(), options.described));
+    if (!described.values.empty()) note(check_torque_offset(comparison(), options.described));
   }
   note(check_angle_drift(signals, usable, floor_power, period_s, options));
   return findings;
@@ -163,6 +163,8 @@ std::string_view to_string(Fault fault) {
       return "delay";
     case Fault::zero_torque:
       return "zero torque";
+    case Fault::wrong_payload:
+      return "wrong payload";
   }
   throw std::invalid_argument("no such fault");
 }

@@ -31,6 +31,7 @@ enum class Fault {
   wrong_scale,  ///< off by another factor
   delay,        ///< later than the other channels
   zero_torque,  ///< a torque that says nothing of what moves the arm
+  wrong_payload,  ///< another than the run states, by comparison with other runs
 };
 
 inline constexpr std::array kFaults = {
@@ -38,7 +39,7 @@ inline constexpr std::array kFaults = {
     Fault::saturation,       Fault::dead_channel, Fault::stuck_values,    Fault::quantisation,
     Fault::spikes,           Fault::drift,        Fault::offset,          Fault::swapped_channels,
     Fault::sign_flipped,     Fault::wrong_unit,   Fault::wrong_scale,     Fault::delay,
-    Fault::zero_torque};
+    Fault::zero_torque,      Fault::wrong_payload};
 
 /// "clock jitter", "missing samples": as in a sentence.
 std::string_view to_string(Fault fault);

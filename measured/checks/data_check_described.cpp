@@ -28,38 +28,74 @@ std::vector<Lines> all_lines(std::span<const CheckedSignal> signals, const Trans
   return all;
 }
 
-}  // namespace
-
-DescribedStretch::DescribedStretch(std::span<const CheckedSignal> signals,
-                                   const Transforms& recorded, const DescribedArm& arm) {
-  if (!arm) return;
+/// What the arm reads in the place of the signals, the torque first; nothing where it cannot.
+std::vector<std::vector<double>> readings_of(std::span<const CheckedSignal> signals,
+                                             double period_s, const DescribedArm& arm) {
   std::vector<arm::Sensor> sensors;
   for (const auto& signal : signals.subspan(1)) sensors.push_back(*signal.sensor);
-  values = arm(signals[0].values, recorded.period_s, sensors);
+  auto values = arm(signals[0].values, period_s, sensors);
+  if (values.empty()) return values;
   values.insert(values.begin(), {signals[0].values.begin(), signals[0].values.end()});
+  return values;
+}
+
+Transforms transforms_of(std::span<const CheckedSignal> signals,
+                        const std::vector<std::vector<double>>& values,
+                        const Transforms& recorded) {
   std::vector<CheckedSignal> described(signals.begin(), signals.end());
   for (std::size_t i = 1; i < described.size(); ++i) {
     described[i].values = values[i];
     described[i].deviation = standard_deviation(values[i]);
   }
-  relations = described_relations(
-      signals, recorded, transform(described, recorded.period_s, recorded.from_rest));
+  return transform(described, recorded.period_s, recorded.from_rest);
 }
 
-std::vector<DescribedRelation> described_relations(std::span<const CheckedSignal> signals,
-                                                   const Transforms& recorded,
-                                                   const Transforms& described) {
+/// X_a Y_b and X_b Y_a.
+struct Sides {
+  LineValues left;
+  LineValues right;
+};
+
+Sides sides(const std::vector<Lines>& x, const std::vector<Lines>& y, std::size_t a,
+            std::size_t b) {
+  return {[&x, &y, a, b](std::size_t bin) { return x[a][bin] * y[b][bin]; },
+          [&x, &y, a, b](std::size_t bin) { return x[b][bin] * y[a][bin]; }};
+}
+
+}  // namespace
+
+DescribedStretch::DescribedStretch(std::span<const CheckedSignal> signals,
+                                   const Transforms& recorded, const DescribedArm& arm) {
+  if (!arm) return;
+  values = readings_of(signals, recorded.period_s, arm);
+  if (values.empty()) return;
   const auto x = all_lines(signals, recorded);
-  const auto y = all_lines(signals, described);
-  std::vector<DescribedRelation> relations;
+  const auto y = all_lines(signals, transforms_of(signals, values, recorded));
   for (std::size_t a = 1; a < signals.size(); ++a) {
     for (std::size_t b = 0; b < a; ++b) {
-      const auto left = [&](std::size_t bin) { return x[a][bin] * y[b][bin]; };
-      const auto right = [&](std::size_t bin) { return x[b][bin] * y[a][bin]; };
+      const auto [left, right] = sides(x, y, a, b);
       relations.push_back({a, b, fit_gain(recorded, left, right)});
     }
   }
-  return relations;
+}
+
+double described_distance(std::span<const CheckedSignal> signals, const std::vector<bool>& usable,
+                          const Transforms& recorded, const DescribedArm& arm) {
+  const auto values = readings_of(signals, recorded.period_s, arm);
+  if (values.empty()) return 1.0;
+  const auto x = all_lines(signals, recorded);
+  const auto y = all_lines(signals, transforms_of(signals, values, recorded));
+  double sum = 0.0;
+  double count = 0.0;
+  for (std::size_t a = 1; a < signals.size(); ++a) {
+    for (std::size_t b = 0; b < a; ++b) {
+      if (!usable[a] || !usable[b]) continue;
+      const auto [left, right] = sides(x, y, a, b);
+      sum += distance(recorded, left, right);
+      count += 1.0;
+    }
+  }
+  return count > 0.0 ? sum / count : 1.0;
 }
 
 }  // namespace flexarm::measured

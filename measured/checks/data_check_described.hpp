@@ -18,7 +18,14 @@ struct DescribedRelation {
 };
 
 /// What the described arm reads in the place of an even stretch of signals, the torque first, and
-/// how these are related to it. Empty where no arm is described.
+/// how all pairs of them are related to it. With X recorded and Y described
+///
+///     X_a/X_b = gain exp(-i omega delay) Y_a/Y_b,  so  X_a Y_b = gain exp(-i omega delay) X_b Y_a.
+///
+/// Between two sensors this holds whatever turns the hub: neither friction, a wrong torque nor what
+/// the file says of the hub has an influence. Between a sensor and the torque they have one.
+/// Displacements are taken in their second derivatives, velocities in their first. Empty where no
+/// arm is described.
 struct DescribedStretch {
   std::vector<std::vector<double>> values;  ///< one a signal, the torque first
   std::vector<DescribedRelation> relations;
@@ -28,18 +35,8 @@ struct DescribedStretch {
                    const DescribedArm& arm);
 };
 
-/// The relations of all pairs, over an even stretch. With X recorded and Y described
-///
-///     X_a/X_b = gain exp(-i omega delay) Y_a/Y_b,  so  X_a Y_b = gain exp(-i omega delay) X_b Y_a.
-///
-/// Between two sensors this holds whatever turns the hub: neither friction, a wrong torque nor what
-/// the file says of the hub has an influence. Between a sensor and the torque they have one.
-/// Displacements are taken in their second derivatives, velocities in their first.
-///
-/// `recorded` are the transforms of `signals`, the torque first; `described` those of the torque
-/// and of what is described in the place of the others.
-std::vector<DescribedRelation> described_relations(std::span<const CheckedSignal> signals,
-                                                   const Transforms& recorded,
-                                                   const Transforms& described);
+/// The mean `distance` of both sides of these relations of all usable pairs.
+double described_distance(std::span<const CheckedSignal> signals, const std::vector<bool>& usable,
+                          const Transforms& recorded, const DescribedArm& arm);
 
 }  // namespace flexarm::measured

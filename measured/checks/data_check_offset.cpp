@@ -9,7 +9,7 @@ namespace flexarm::measured {
 
 namespace {
 
-constexpr std::size_t kMostSamples = 200;
+constexpr std::size_t kMostRestSamples = 200;
 
 struct Offset {
   double size = 0.0;
@@ -42,7 +42,7 @@ std::vector<DataFinding> check_offsets(const Comparison& comparison,
     const bool answers_at_once = signal.is(arm::SensorKind::tip_acceleration);
     if (!comparison.usable[i] || (!is_described && answers_at_once)) continue;
     std::span<const double> y = is_described ? std::span(described[i]) : std::span(&rest, 1);
-    y = y.first(std::min({y.size(), signal.values.size(), kMostSamples}));
+    y = y.first(std::min({y.size(), signal.values.size(), kMostRestSamples}));
     const Offset offset =
         offset_of(signal.values, y, comparison.transforms.of[i].floor_power);
     const double size = std::abs(offset.size);

@@ -42,9 +42,11 @@ std::vector<Block> blocks_of(const Transforms& transforms, const LineValues& x, 
       const auto b = y(bin);
       block.xx += std::norm(a);
       block.yy += std::norm(b);
-      block.xy += a * std::conj(b);
-      power += std::abs(a * std::conj(b));
-      moment += std::abs(a * std::conj(b)) * transforms.omega_rad_per_s(bin);
+      const std::complex<double> cross = a * std::conj(b);
+      block.xy += cross;
+      const double size = std::sqrt(std::norm(cross));  // std::abs guards against overflow, slowly
+      power += size;
+      moment += size * transforms.omega_rad_per_s(bin);
     }
     if (power > 0.0) block.omega_rad_per_s = moment / power;
     blocks.push_back(block);
@@ -151,6 +153,16 @@ GainFit fit_gain(const Transforms& transforms, const LineValues& x, const LineVa
   fit.spread = weighted_median(std::move(gains));
   fit_delay(blocks, transforms.period_s, fit);
   return fit;
+}
+
+double distance(const Transforms& transforms, const LineValues& x, const LineValues& y) {
+  const auto blocks = blocks_of(transforms, x, y, kHighestShare);
+  double sum = 0.0;
+  for (const auto& block : blocks) {
+    const double power = block.xx + block.yy;
+    sum += power > 0.0 ? 1.0 - 2.0 * block.xy.real() / power : 1.0;
+  }
+  return blocks.empty() ? 1.0 : sum / static_cast<double>(blocks.size());
 }
 
 LowFrequencyFit fit_low_frequencies(const Transforms& transforms, Quantity x, Quantity y,

@@ -38,6 +38,10 @@ using LineValues = std::function<std::complex<double>(std::size_t bin)>;
 /// The same of x(bin) = gain y(bin) exp(-i omega delay).
 GainFit fit_gain(const Transforms& transforms, const LineValues& x, const LineValues& y);
 
+/// How far x(bin) is from y(bin): the mean over the blocks of |x - y|^2/(|x|^2 + |y|^2), 0 to 2,
+/// 1 for what is unrelated.
+double distance(const Transforms& transforms, const LineValues& x, const LineValues& y);
+
 /// x against y over the lines below a frequency.
 struct LowFrequencyFit {
   double score = 0.0;        ///< sum Re(X conj Y) over its standard deviation, were X and Y white

@@ -44,7 +44,7 @@ std::vector<double> directions(const std::vector<double>& velocity) {
 }
 
 /// Real parts, then imaginary ones, of the hub's acceleration over the lines that are asked.
-Eigen::VectorXd lines_of(const CheckedSignal& hub, std::span<const double> values, double period_s) {
+Eigen::VectorXd slow_acceleration(const CheckedSignal& hub, std::span<const double> values, double period_s) {
   CheckedSignal signal = hub;
   signal.values = values;
   signal.deviation = standard_deviation(values);
@@ -75,10 +75,10 @@ std::vector<DataFinding> check_torque_offset(const Comparison& comparison,
   const CheckedSignal& torque = comparison.signals[0];
   const double period_s = comparison.transforms.period_s;
   const auto answer = [&](std::span<const double> torque_N_m) {
-    return lines_of(hub, arm(torque_N_m, period_s, std::span(&*hub.sensor, 1)).front(), period_s);
+    return slow_acceleration(hub, arm(torque_N_m, period_s, std::span(&*hub.sensor, 1)).front(), period_s);
   };
   const std::vector<double> velocity = velocity_of(hub, period_s);
-  const Eigen::VectorXd target = lines_of(hub, hub.values, period_s);
+  const Eigen::VectorXd target = slow_acceleration(hub, hub.values, period_s);
   Eigen::MatrixXd columns(target.size(), 4);
   columns.col(0) = answer(torque.values);
   columns.col(1) = -answer(std::vector<double>(hub.values.size(), 1.0));

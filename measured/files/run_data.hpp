@@ -19,4 +19,10 @@ using RunData = std::variant<TimeRecord, FrequencyRecord, ModalTable>;
 /// Throws InputError `FILE:LINE: ...` where the reader of that file does.
 RunData read_run(const std::filesystem::path& measurement_file, const Run& run);
 
+/// A run of an experiment with what its file holds.
+struct MeasuredRun {
+  Run run;
+  RunData data;
+};
+
 }  // namespace flexarm::measured

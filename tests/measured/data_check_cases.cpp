@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <numeric>
 
 namespace flexarm::measured {
@@ -21,24 +22,6 @@ namespace {
 using arm::Sensor;
 using arm::SensorKind;
 using response::RandomNumbers;
-
-arm::Arm draw_arm(RandomNumbers& random) {
-  arm::Arm arm = arm::paper_arm();
-  if (chance(random, 0.6)) {
-    const bool steel = chance(random, 0.3);
-    arm.beam = arm::Beam::from_section(between(random, 0.5, 1.2), between(random, 0.015, 0.04),
-                                       between(random, 0.0025, 0.005), steel ? 7800.0 : 2710.0,
-                                       steel ? 2.0e11 : 7.11e10);
-    arm.hub.inertia_kg_m2 = log_between(random, 3e-4, 5e-3);
-  } else {
-    arm.beam.thickness_m = 0.0032004;
-  }
-  arm.damping.kelvin_voigt_s = log_between(random, 5e-5, 3e-4);
-  arm.hub.viscous_friction_N_m_s_per_rad = log_between(random, 5e-4, 1e-2);
-  const double beam_kg = arm.beam.linear_density_kg_per_m() * arm.beam.length_m;
-  if (chance(random, 0.5)) arm.payload.mass_kg = beam_kg * log_between(random, 0.05, 0.8);
-  return arm;
-}
 
 response::Excitation draw_excitation(RandomNumbers& random, double rms_N_m, double rate_Hz,
                                      double duration_s) {
@@ -123,11 +106,34 @@ double deviation(const std::vector<double>& values) {
   return std::sqrt(sum / count);
 }
 
+arm::Arm draw_arm(RandomNumbers& random) {
+  arm::Arm arm = arm::paper_arm();
+  if (chance(random, 0.6)) {
+    const bool steel = chance(random, 0.3);
+    arm.beam = arm::Beam::from_section(between(random, 0.5, 1.2), between(random, 0.015, 0.04),
+                                       between(random, 0.0025, 0.005), steel ? 7800.0 : 2710.0,
+                                       steel ? 2.0e11 : 7.11e10);
+    arm.hub.inertia_kg_m2 = log_between(random, 3e-4, 5e-3);
+  } else {
+    arm.beam.thickness_m = 0.0032004;
+  }
+  arm.damping.kelvin_voigt_s = log_between(random, 5e-5, 3e-4);
+  arm.hub.viscous_friction_N_m_s_per_rad = log_between(random, 5e-4, 1e-2);
+  const double beam_kg = arm.beam.linear_density_kg_per_m() * arm.beam.length_m;
+  if (chance(random, 0.5)) arm.payload.mass_kg = beam_kg * log_between(random, 0.05, 0.8);
+  return arm;
+}
+
+int setting(const char* name, int otherwise) {
+  const char* text = std::getenv(name);
+  return text == nullptr ? otherwise : std::atoi(text);
+}
+
 DrawnRun draw_run(std::uint64_t seed, const CaseNeeds& needs) {
   constexpr int kModes = 6;
   constexpr double kMostSamples = 16000.0;
   RandomNumbers random(seed, 1);
-  arm::Arm arm = draw_arm(random);
+  arm::Arm arm = needs.arm ? *needs.arm : draw_arm(random);
   DrawnRun run;
   run.length_m = arm.beam.length_m;
   run.total_inertia_kg_m2 = arm::total_inertia_kg_m2(arm);
@@ -178,10 +184,11 @@ DrawnRun draw_run(std::uint64_t seed, const CaseNeeds& needs) {
 }
 
 DataCheckOptions known_arm(const DrawnRun& run, std::uint64_t seed) {
+  return known_arms(run, seed).with(run.arm.payload);
+}
+
+DescribedArms known_arms(const DrawnRun& run, std::uint64_t seed) {
   constexpr double kError = 0.01;
-  DataCheckOptions options;
-  options.length_m = run.length_m;
-  options.total_inertia_kg_m2 = run.total_inertia_kg_m2;
   RandomNumbers random(seed, 3);
   const double size = chance(random, 0.5) ? kError : 0.0;
   const auto wrong = [&](double value) { return value * (1.0 + size * random.normal()); };
@@ -192,8 +199,7 @@ DataCheckOptions known_arm(const DrawnRun& run, std::uint64_t seed) {
                                       wrong(beam.linear_density_kg_per_m()));
   arm.beam.thickness_m = beam.thickness_m;
   arm.hub.inertia_kg_m2 = wrong(arm.hub.inertia_kg_m2);
-  options.described = compare::described_arm(arm);
-  return options;
+  return compare::described_arms(arm);
 }
 
 void finish(TimeRecord& record, const DrawnRun& run, RandomNumbers& random) {

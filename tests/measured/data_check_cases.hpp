@@ -2,6 +2,7 @@
 
 #include "arm/arm.hpp"
 #include "measured/checks/data_check.hpp"
+#include "measured/checks/run_check.hpp"
 #include "measured/files/time_record.hpp"
 #include "response/time/random_numbers.hpp"
 
@@ -17,6 +18,9 @@ double between(response::RandomNumbers& random, double low, double high);
 double log_between(response::RandomNumbers& random, double low, double high);
 bool chance(response::RandomNumbers& random, double probability);
 
+/// A whole number from the environment, for tests that print rates.
+int setting(const char* name, int otherwise);
+
 /// What a drawn run must have, so that a fault can be planted in it.
 struct CaseNeeds {
   std::vector<arm::SensorKind> sensors;  ///< among others
@@ -24,6 +28,7 @@ struct CaseNeeds {
   double least_samples = 400;
   double most_noise = 0.03;
   double least_rate_Hz = 200.0;
+  std::optional<arm::Arm> arm = {};  ///< this one, with friction of its own
 };
 
 /// A run of an arm drawn at random: arm, friction, payload, torque, sampling and sensors.
@@ -58,6 +63,11 @@ double deviation(const std::vector<double>& values);
 /// by another formulation than the run's, without friction, and for half of the seeds with errors
 /// of 1 % (standard deviation) in rigidity, density and hub inertia.
 DataCheckOptions known_arm(const DrawnRun& run, std::uint64_t seed);
+/// The same with any payload.
+DescribedArms known_arms(const DrawnRun& run, std::uint64_t seed);
+
+/// An arm without effects.
+arm::Arm draw_arm(response::RandomNumbers& random);
 
 /// A record with a fault in it.
 struct PlantedFault {

@@ -31,8 +31,13 @@ std::uint64_t seed_of(Fault fault, int file) {
   return kSeedStep * (1 + static_cast<std::uint64_t>(fault)) + static_cast<std::uint64_t>(file);
 }
 
+/// Of the planted size, where the size of a fault can be told.
+constexpr double kSizeError = 0.15;
+
 bool is_found(const PlantedFault& planted, Fault fault, const DataFinding& finding) {
-  return finding.fault == fault && finding.channel == planted.channel &&
+  const bool is_of_its_size = planted.value == 0.0 || std::abs(finding.value - planted.value) <=
+                                                          kSizeError * std::abs(planted.value);
+  return is_of_its_size && finding.fault == fault && finding.channel == planted.channel &&
          finding.first_sample >= planted.first_sample &&
          finding.first_sample <= planted.last_sample;
 }
@@ -86,11 +91,15 @@ TEST(DataCheck, IsFoundByItsName) {
   EXPECT_THROW(fault_of_check("dead channel"), arm::InputError);
 }
 
-INSTANTIATE_TEST_SUITE_P(, PlantedFaults, testing::ValuesIn(kFaults), [](const auto& entry) {
-  std::string name(to_string(entry.param));
-  std::ranges::replace(name, ' ', '_');
-  return name;
-});
+/// Those that one record shows.
+std::vector<Fault> faults_of_a_record() {
+  std::vector<Fault> faults(kFaults.begin(), kFaults.end());
+  std::erase(faults, Fault::wrong_payload);
+  return faults;
+}
+
+INSTANTIATE_TEST_SUITE_P(, PlantedFaults, testing::ValuesIn(faults_of_a_record()),
+                         [](const auto& entry) { return check_name(entry.param); });
 
 TEST(CleanData, ShowNoFault) {
   for (int file = 0; file < kFiles; ++file) {
@@ -268,11 +277,6 @@ TEST(DataCheck, TakesAShortRecord) {
   EXPECT_TRUE(check_data(record).empty());
 }
 
-int setting(const char* name, int otherwise) {
-  const char* text = std::getenv(name);
-  return text == nullptr ? otherwise : std::atoi(text);
-}
-
 /// Prints the rates of docs/measured-data.md: FILES of each kind, from seed FIRST on; VERBOSE=1
 /// prints every file that fails.
 TEST(DataCheckRates, DISABLED_OfManyFiles) {
@@ -293,7 +297,7 @@ TEST(DataCheckRates, DISABLED_OfManyFiles) {
   };
   print_clean("clean", clean);
   print_clean("clean, without noise", clean_without_noise);
-  for (const auto fault : kFaults) {
+  for (const auto fault : faults_of_a_record()) {
     const int only = setting("ONLY", -1);
     if (only >= 0 && only != static_cast<int>(fault)) continue;
     int found = 0;

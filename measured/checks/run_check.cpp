@@ -1,0 +1,192 @@
+#include "measured/checks/run_check.hpp"
+
+#include "measured/checks/data_check_described.hpp"
+#include "measured/checks/data_check_signal.hpp"
+#include "measured/spectra/robust.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+#include <variant>
+
+namespace flexarm::measured {
+
+namespace {
+
+/// Of a long run the first samples say enough.
+constexpr std::size_t kMostComparedSamples = 4096;
+constexpr std::size_t kFewestComparedSamples = 128;
+/// Payloads are compared by this share of the beam's mass plus their own: a beam hardly feels less.
+constexpr double kFelt = 0.1;
+constexpr double kFirstStep = 1.15;
+constexpr double kGridStep = 1.25;
+constexpr int kGridReach = 12;  // 1.25^12 = 14.6
+constexpr int kRefinements = 8;
+/// Factor between payloads that counts as another, and one that does not.
+constexpr double kOther = 1.3;
+constexpr double kSame = 1.12;
+/// Of what the described arm explains, the least share that a payload must add to be believed, and
+/// the most that the stated one may lack.
+constexpr double kBetter = 0.02;
+constexpr double kAsGood = 0.01;
+
+/// A run beside the described arm with any payload.
+class PayloadSearch {
+ public:
+  PayloadSearch(const CheckedRun& run, const DescribedArms& arms)
+      : run_(run), arms_(arms), felt_kg_(kFelt * arms.beam_mass_kg) {
+    const auto& record = *run.record;
+    const std::size_t count = std::min(record.time_s.size(), kMostComparedSamples);
+    signals_ = signals_of(record, 0, count);
+    for (const auto& signal : signals_) {
+      usable_.push_back(signal.deviation > 0.0 && std::ranges::count(run.findings, signal.name,
+                                                                     &DataFinding::channel) == 0);
+    }
+    const double period_s =
+        (record.time_s[count - 1] - record.time_s[0]) / static_cast<double>(count - 1);
+    transforms_ = transform(signals_, period_s, run.starts_at_rest);
+  }
+
+  double distance_at(double factor) const {
+    return described_distance(signals_, usable_, transforms_,
+                              arms_.with(payload_at(factor)).described);
+  }
+
+  /// The payload whose mass is felt as `factor` times the stated one.
+  arm::Payload payload_at(double factor) const {
+    const double stated_kg = run_.payload.mass_kg;
+    const double mass_kg = std::max(0.0, factor * (stated_kg + felt_kg_) - felt_kg_);
+    const double share = stated_kg > 0.0 ? mass_kg / stated_kg : 0.0;
+    return {mass_kg, share * run_.payload.inertia_kg_m2};
+  }
+
+ private:
+  const CheckedRun& run_;
+  const DescribedArms& arms_;
+  double felt_kg_ = 0.0;
+  std::vector<CheckedSignal> signals_;
+  std::vector<bool> usable_;
+  Transforms transforms_;
+};
+
+/// The factor of the payload with which the described arm is nearest.
+struct Nearest {
+  double factor = 1.0;
+  double distance = 0.0;
+  double stated_distance = 0.0;
+
+  /// The share of what is explained that the stated payload does not explain.
+  double gain() const {
+    return (stated_distance - distance) / std::max(1.0 - distance, 1e-12);
+  }
+};
+
+bool is_nearest_as_stated(const PayloadSearch& search) {
+  const double stated = search.distance_at(1.0);
+  return stated <= search.distance_at(kFirstStep) && stated <= search.distance_at(1.0 / kFirstStep);
+}
+
+Nearest nearest(const PayloadSearch& search) {
+  Nearest found;
+  found.stated_distance = search.distance_at(1.0);
+  found.distance = found.stated_distance;
+  const auto take = [&](double factor) {
+    const double distance = search.distance_at(factor);
+    if (distance >= found.distance) return;
+    found.distance = distance;
+    found.factor = factor;
+  };
+  for (int i = -kGridReach; i <= kGridReach; ++i) take(std::pow(kGridStep, i));
+  double step = kGridStep;
+  for (int i = 0; i < kRefinements; ++i) {
+    step = std::sqrt(step);
+    const double around = found.factor;
+    take(around * step);
+    take(around / step);
+  }
+  return found;
+}
+
+/// The run whose payload is another where those of all others are as stated: empty, or one. What
+/// the arm file has wrong is wrong for all.
+std::optional<std::size_t> odd_one(const std::vector<Nearest>& found) {
+  std::vector<double> logs;
+  for (const auto& one : found) logs.push_back(std::log(one.factor));
+  // Of two runs the one that is as stated says what is usual.
+  const double usual = found.size() > 2 ? median(logs)
+                       : std::abs(logs[0]) < std::abs(logs[1]) ? logs[0]
+                                                               : logs[1];
+  std::optional<std::size_t> odd;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const double off = std::abs(logs[i] - usual);
+    if (off <= std::log(kSame) || found[i].gain() <= kAsGood) continue;
+    if (odd || off < std::log(kOther) || found[i].gain() < kBetter) return std::nullopt;
+    odd = i;
+  }
+  return odd;
+}
+
+bool is_comparable(const CheckedRun& run) {
+  const bool is_sound = std::ranges::none_of(run.findings, [](const DataFinding& finding) {
+    return finding.channel == "time" || finding.channel == "torque";
+  });
+  return is_sound && run.record->time_s.size() >= kFewestComparedSamples;
+}
+
+std::vector<RunFinding> check_payloads(const std::vector<CheckedRun>& runs,
+                                       const DescribedArms& arms) {
+  std::vector<std::size_t> compared;
+  std::vector<PayloadSearch> searches;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    if (!is_comparable(runs[i])) continue;
+    compared.push_back(i);
+    searches.emplace_back(runs[i], arms);
+  }
+  if (compared.size() < 2 || std::ranges::all_of(searches, is_nearest_as_stated)) return {};
+  std::vector<Nearest> found;
+  for (const auto& search : searches) found.push_back(nearest(search));
+  const auto odd = odd_one(found);
+  if (!odd) return {};
+  const CheckedRun& run = runs[compared[*odd]];
+  const double mass_kg = searches[*odd].payload_at(found[*odd].factor).mass_kg;
+  return {{compared[*odd],
+           {Fault::wrong_payload, "payload", 0, run.record->time_s.front(), mass_kg,
+            fmt::format("the payload is {:.3g} kg by the response to the torque, not {:.4g} kg as "
+                        "stated; the other runs agree with theirs",
+                        mass_kg, run.payload.mass_kg)}}};
+}
+
+}  // namespace
+
+std::vector<RunFinding> check_runs(const std::vector<CheckedRun>& runs, const DescribedArms& arms) {
+  if (!arms.with || arms.beam_mass_kg == 0.0) return {};
+  return check_payloads(runs, arms);
+}
+
+std::vector<std::vector<DataFinding>> check_records(std::span<const MeasuredRun> runs,
+                                                    const DescribedArms& arms) {
+  std::vector<CheckedRun> checked;
+  std::vector<std::size_t> at;  // of each in `runs`
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    const auto* record = std::get_if<TimeRecord>(&runs[r].data);
+    if (record == nullptr) continue;
+    const Run& run = runs[r].run;
+    CheckedRun one{run.id, record, run.payload.value_or(arms.payload),
+                   run.initial == InitialState::rest};
+    DataCheckOptions options = arms.with ? arms.with(one.payload) : DataCheckOptions{};
+    options.starts_at_rest = one.starts_at_rest;
+    one.findings = check_data(*record, options);
+    checked.push_back(std::move(one));
+    at.push_back(r);
+  }
+  std::vector<std::vector<DataFinding>> findings(runs.size());
+  const auto compared = check_runs(checked, arms);
+  for (std::size_t i = 0; i < checked.size(); ++i) findings[at[i]] = std::move(checked[i].findings);
+  for (const auto& [run, finding] : compared) findings[at[run]].push_back(finding);
+  return findings;
+}
+
+}  // namespace flexarm::measured

@@ -61,6 +61,7 @@ struct PlantedFault {
   std::size_t first_sample = 0;
   std::size_t last_sample = 0;  ///< the first sample of the finding lies between these
   std::string description;
+  std::vector<Fault> beside = {};  ///< planted with it, to be found or not
 };
 
 /// A fault of random size in a run of its own; the ranges of sizes are in docs/measured-data.md.

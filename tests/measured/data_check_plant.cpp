@@ -77,9 +77,14 @@ PlantedFault clock_jitter(std::uint64_t seed, RandomNumbers& random) {
   auto result = planted(run, sampled(run, random));
   auto& times = result.record.time_s;
   const double period_s = times[1] - times[0];
-  if (chance(random, 0.7)) {
+  const double how = random.uniform();
+  if (how < 0.4) {
     const double most = log_between(random, 0.08, 0.45);
     for (auto& time : times) time += most * period_s * between(random, -1.0, 1.0);
+  } else if (how < 0.75) {  // times may change places
+    const double rms = log_between(random, 0.3, 1.0);
+    for (auto& time : times) time += rms * period_s * random.normal();
+    result.description += fmt::format(", jitter of {} periods rms", rms);
   } else {
     const double share = log_between(random, 0.15, 3.0) * 8.0 / static_cast<double>(times.size());
     const std::size_t from = times.size() / 2;
@@ -106,6 +111,16 @@ PlantedFault missing_samples(std::uint64_t seed, RandomNumbers& random) {
   result.channel = "time";
   result.first_sample = first;
   result.last_sample = first;
+  if (chance(random, 0.5)) {
+    constexpr std::size_t kUncertain = 10;  // samples by which jitter hides the place of a gap
+    const double rms = log_between(random, 0.05, 0.3);
+    const double period_s = record.time_s[1] - record.time_s[0];
+    for (auto& time : record.time_s) time += rms * period_s * random.normal();
+    result.beside = {Fault::clock_jitter};
+    result.first_sample -= std::min(first, kUncertain);
+    result.last_sample += kUncertain;
+    result.description += fmt::format(", {} gaps beside jitter of {} periods rms", places, rms);
+  }
   return result;
 }
 

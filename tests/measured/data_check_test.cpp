@@ -59,7 +59,7 @@ Outcome check_planted(Fault fault, std::uint64_t seed) {
   for (const auto& finding : findings) {
     if (is_found(planted, fault, finding)) {
       outcome.found = true;
-    } else {
+    } else if (std::ranges::count(planted.beside, finding.fault) == 0) {
       ++outcome.further;
     }
   }

@@ -4,6 +4,7 @@
 #include "arm/nearest_name.hpp"
 #include "measured/checks/data_check_clock.hpp"
 #include "measured/checks/data_check_drift.hpp"
+#include "measured/checks/data_check_duplicates.hpp"
 #include "measured/checks/data_check_kinematics.hpp"
 #include "measured/checks/data_check_outliers.hpp"
 #include "measured/checks/data_check_response.hpp"
@@ -50,6 +51,16 @@ void append(std::vector<DataFinding>& all, const std::vector<DataFinding>& more,
     for (PredictedReading& reading : finding.predicted) reading.sample += first_sample;
     all.push_back(std::move(finding));
   }
+}
+
+/// Findings in shortened signals, at the samples of the whole ones.
+std::vector<DataFinding> at_samples(std::vector<DataFinding> findings,
+                                    const std::vector<std::size_t>& sample_of) {
+  for (auto& finding : findings) {
+    finding.first_sample = sample_of[finding.first_sample];
+    for (PredictedReading& reading : finding.predicted) reading.sample = sample_of[reading.sample];
+  }
+  return findings;
 }
 
 void exclude(std::vector<bool>& usable, std::span<const CheckedSignal> signals,
@@ -143,6 +154,12 @@ std::string_view to_string(Fault fault) {
       return "delay";
     case Fault::zero_torque:
       return "zero torque";
+    case Fault::duplicated_samples:
+      return "duplicated samples";
+    case Fault::sampling_jitter:
+      return "sampling jitter";
+    case Fault::hum:
+      return "hum";
   }
   throw std::invalid_argument("no such fault");
 }
@@ -174,7 +191,11 @@ std::vector<DataFinding> check_data(const TimeRecord& record, const DataCheckOpt
   append(findings, faulty);
 
   if (clock.count >= kFewestCompared) {
-    const auto stretch = signals_of(record, clock.first, clock.count);
+    const auto recorded = signals_of(record, clock.first, clock.count);
+    const Duplicates duplicates = check_duplicates(recorded);
+    append(findings, duplicates.findings, clock.first);
+    const ShortenedSignals shortened(recorded, duplicates.rows);
+    const auto stretch = shortened.signals();
     std::vector<bool> usable;
     for (const auto& signal : stretch) usable.push_back(signal.deviation > 0.0);
     exclude(usable, stretch, faulty);
@@ -185,8 +206,9 @@ std::vector<DataFinding> check_data(const TimeRecord& record, const DataCheckOpt
       active.push_back(stretch[i].deviation >= kResting * all[i].deviation);
     }
     append(findings,
-           compare(stretch, usable, active, clock, options.starts_at_rest && clock.first == 0,
-                   options),
+           at_samples(compare(stretch, usable, active, clock,
+                              options.starts_at_rest && clock.first == 0, options),
+                      shortened.sample_of()),
            clock.first);
   }
   for (auto& finding : findings) finding.time_s = record.time_s[finding.first_sample];

@@ -27,13 +27,17 @@ enum class Fault {
   wrong_unit,   ///< off by a power of ten, degrees for radians and the like
   delay,        ///< later than the channel that it is the derivative of
   zero_torque,  ///< a torque that says nothing of what moves the arm
+  duplicated_samples,  ///< rows written twice while the time goes on
+  sampling_jitter,     ///< instants of sampling off the even times that are written
+  hum,                 ///< a line of the mains frequency that is none of the arm's
 };
 
 inline constexpr std::array kFaults = {
     Fault::clock_jitter, Fault::missing_samples,  Fault::backward_time, Fault::saturation,
     Fault::dead_channel, Fault::stuck_values,     Fault::quantisation,  Fault::spikes,
     Fault::drift,        Fault::swapped_channels, Fault::sign_flipped,  Fault::wrong_unit,
-    Fault::delay,        Fault::zero_torque};
+    Fault::delay,        Fault::zero_torque,      Fault::duplicated_samples,
+    Fault::sampling_jitter, Fault::hum};
 
 /// "clock jitter", "missing samples": as in a sentence.
 std::string_view to_string(Fault fault);

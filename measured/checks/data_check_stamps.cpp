@@ -81,6 +81,20 @@ BestShift best_shift(const ShiftFit& fit) {
   return best;
 }
 
+/// Looks for the place of each shift again beside all others: a first one takes the place between
+/// two.
+ShiftFit relocate(const Eigen::VectorXd& values, std::vector<std::size_t>& shifts) {
+  for (std::size_t& shift : shifts) {
+    std::vector<std::size_t> others;
+    for (const std::size_t other : shifts) {
+      if (other != shift) others.push_back(other);
+    }
+    const BestShift again = best_shift(fit_shifts(values, others));
+    if (again.at != 0 && std::ranges::find(others, again.at) == others.end()) shift = again.at;
+  }
+  return fit_shifts(values, shifts);
+}
+
 }  // namespace
 
 std::optional<ClockSteps> jittered_steps(std::span<const double> times_s, double period_s) {
@@ -98,7 +112,7 @@ std::optional<ClockSteps> jittered_steps(std::span<const double> times_s, double
        next = best_shift(fit)) {
     if (shifts.size() == kMostShifts) return std::nullopt;
     shifts.push_back(next.at);
-    fit = fit_shifts(values, shifts);
+    fit = relocate(values, shifts);
     if (std::abs(fit.shares[fit.shares.size() - 1]) < kLeastShift_periods) return std::nullopt;
   }
   const double rms = fit.residual.norm() / std::sqrt(static_cast<double>(samples));

@@ -33,19 +33,6 @@ bool fades(const Change& at) {
          std::abs(at(3)) <= 0.9 * std::abs(at(4));
 }
 
-/// Whether a run is entered and left as a hub comes to rest and leaves it; the ends of the record
-/// say nothing against it.
-bool is_restful(std::span<const double> x, const EqualRun& run) {
-  constexpr std::size_t kChanges = 4;
-  const std::size_t last = run.first + run.count - 1;
-  const bool fades_in = run.first < kChanges || fades([&](std::size_t j) {
-                          return x[run.first - j + 1] - x[run.first - j];
-                        });
-  const bool fades_out = last + kChanges >= x.size() ||
-                         fades([&](std::size_t j) { return x[last + j] - x[last + j - 1]; });
-  return fades_in && fades_out;
-}
-
 std::size_t distinct_values(std::span<const double> x) {
   std::vector<double> sorted(x.begin(), x.end());
   std::ranges::sort(sorted);
@@ -243,6 +230,17 @@ std::optional<DataFinding> stuck(const CheckedSignal& signal,
 }
 
 }  // namespace
+
+bool is_restful(std::span<const double> x, const EqualRun& run) {
+  constexpr std::size_t kChanges = 4;
+  const std::size_t last = run.first + run.count - 1;
+  const bool fades_in = run.first < kChanges || fades([&](std::size_t j) {
+                          return x[run.first - j + 1] - x[run.first - j];
+                        });
+  const bool fades_out = last + kChanges >= x.size() ||
+                         fades([&](std::size_t j) { return x[last + j] - x[last + j - 1]; });
+  return fades_in && fades_out;
+}
 
 std::vector<DataFinding> check_values(std::span<const CheckedSignal> signals,
                                       const DataCheckOptions& options) {

@@ -381,6 +381,38 @@ PlantedFault zero_torque(std::uint64_t seed, RandomNumbers& random) {
   return result;
 }
 
+/// Rows written again behind themselves, and even times for them all: single rows, or a block of
+/// them.
+PlantedFault duplicated_samples(std::uint64_t seed, RandomNumbers& random) {
+  const auto run = draw_run(seed);
+  auto result = planted(run, sampled(run, random));
+  auto& record = result.record;
+  const double period_s = record.time_s[1] - record.time_s[0];
+  const std::size_t count = 1 + random.below(20);
+  const std::size_t block = chance(random, 0.5) ? 1 : count;
+  std::size_t first = record.time_s.size();
+  for (std::size_t done = 0; done < count; done += block) {
+    const std::size_t at = 20 + random.below(record.time_s.size() - 80);
+    const auto repeat = [&](std::vector<double>& x) {
+      const std::vector<double> copy(x.begin() + static_cast<std::ptrdiff_t>(at),
+                                     x.begin() + static_cast<std::ptrdiff_t>(at + block));
+      x.insert(x.begin() + static_cast<std::ptrdiff_t>(at + block), copy.begin(), copy.end());
+    };
+    repeat(record.torque_N_m);
+    for (auto& channel : record.channels) repeat(channel.values);
+    record.time_s.resize(record.torque_N_m.size());
+    first = std::min(first + (first > at ? block : 0), at + block);
+  }
+  for (std::size_t k = 0; k < record.time_s.size(); ++k) {
+    record.time_s[k] = period_s * static_cast<double>(k);
+  }
+  result.channel = "time";
+  result.first_sample = first;
+  result.last_sample = first;
+  result.description += fmt::format(", {} rows written twice in blocks of {}", count, block);
+  return result;
+}
+
 }  // namespace
 
 PlantedFault plant(Fault fault, std::uint64_t seed) {
@@ -413,6 +445,11 @@ PlantedFault plant(Fault fault, std::uint64_t seed) {
     case Fault::delay:
       return delay(seed, random);
     case Fault::zero_torque:
+      return zero_torque(seed, random);
+    case Fault::duplicated_samples:
+      return duplicated_samples(seed, random);
+    case Fault::sampling_jitter:
+    case Fault::hum:
       return zero_torque(seed, random);
   }
   throw std::logic_error("no such fault");

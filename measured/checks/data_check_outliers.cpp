@@ -27,8 +27,9 @@ constexpr double kAlone = 0.4;
 constexpr double kTwoNear = 0.2;
 constexpr int kMostPasses = 6;
 constexpr int kRepairRounds = 3;
-/// Where more of the samples stand out, the residual is no noise with a few outliers.
-constexpr double kMostSpikes = 0.01;
+/// A channel with so many spikes that stand alone has others that do not.
+constexpr std::size_t kMany = 8;
+constexpr int kDensePasses = 12;
 /// Keeps the normal equations solvable where columns are alike; far below any noise.
 constexpr double kRidge = 1e-12;
 
@@ -299,6 +300,27 @@ std::vector<Outlier> leaders(const std::vector<Outlier>& all) {
   return chosen;
 }
 
+/// Of a channel that is known to have many spikes: every sample that deviates most within kOwnReach
+/// of it, whatever else is near.
+std::vector<Outlier> dense_outliers_of(const std::vector<Eigen::VectorXd>& values,
+                                       std::size_t signal, const std::vector<bool>& usable,
+                                       const std::vector<bool>& shaken,
+                                       const DataCheckOptions& options) {
+  const Prediction prediction = predict(values, signal, usable);
+  const double scale = robust_deviation(prediction.left);
+  const double least = std::max(options.least_spike, options.spike_deviations * scale);
+  std::vector<Outlier> all;
+  for (std::size_t k = 0; k < prediction.left.size(); ++k) {
+    const double size = std::abs(prediction.left[k]);
+    if (size <= (shaken[k + kOwnReach] ? std::max(least, options.least_shaken_spike) : least)) {
+      continue;
+    }
+    all.push_back({signal, k + kOwnReach, prediction.left[k], size});
+  }
+  std::ranges::sort(all, std::ranges::greater(), &Outlier::score);
+  return leaders(all);
+}
+
 /// Sets each of these samples to its prediction. The others help to predict it: a few rounds.
 void repair(std::vector<Eigen::VectorXd>& values, const std::vector<std::set<std::size_t>>& spikes,
             const std::vector<bool>& usable) {
@@ -334,6 +356,11 @@ DataFinding finding_of(const CheckedSignal& signal, const std::set<std::size_t>&
   finding.text =
       fmt::format("{} has a spike of {:.4g} {} at sample {}{}", signal.name, size(first),
                   arm::unit(*signal.sensor), first.sample + 1, more_places(spikes.size()));
+  const double share =
+      static_cast<double>(spikes.size()) / static_cast<double>(signal.values.size());
+  if (share > kMostLeftOut) {
+    finding.text += fmt::format(": {:.2g} % of its samples, too many to leave out", 100.0 * share);
+  }
   return finding;
 }
 
@@ -354,20 +381,30 @@ std::vector<DataFinding> check_spikes(std::span<const CheckedSignal> signals,
   const auto shaken = usable[0] ? shaken_samples(values[0]) : std::vector<bool>(samples, true);
   std::vector<std::set<std::size_t>> found(signals.size());
   if (ends_are_sound) repair_ends(values, usable, shaken, options, found);
-  for (int pass = 0; pass < kMostPasses; ++pass) {
-    const auto chosen = leaders(outliers_of(values, usable, shaken, options));
-    if (chosen.empty()) break;
+  const auto take = [&](const std::vector<Outlier>& chosen) {
     for (const auto& outlier : chosen) {
       values[outlier.signal][static_cast<Eigen::Index>(outlier.sample)] -= outlier.size;
       found[outlier.signal].insert(outlier.sample);
+    }
+  };
+  for (int pass = 0; pass < kMostPasses; ++pass) {
+    const auto chosen = leaders(outliers_of(values, usable, shaken, options));
+    if (chosen.empty()) break;
+    take(chosen);
+  }
+  for (std::size_t i = 1; i < values.size(); ++i) {
+    if (found[i].size() < kMany) continue;
+    for (int pass = 0; pass < kDensePasses; ++pass) {
+      const auto chosen = dense_outliers_of(values, i, usable, shaken, options);
+      if (chosen.empty()) break;
+      take(chosen);
     }
   }
   repair(values, found, usable);
   if (ends_are_sound) repair_ends(values, usable, shaken, options, found);
   std::vector<DataFinding> findings;
   for (std::size_t i = 1; i < signals.size(); ++i) {
-    const auto most = std::max(10.0, kMostSpikes * static_cast<double>(samples));
-    if (found[i].empty() || static_cast<double>(found[i].size()) > most) continue;
+    if (found[i].empty()) continue;
     findings.push_back(finding_of(signals[i], found[i], values[i]));
   }
   return findings;

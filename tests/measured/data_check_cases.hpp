@@ -62,6 +62,7 @@ struct PlantedFault {
   std::size_t last_sample = 0;  ///< the first sample of the finding lies between these
   std::string description;
   std::vector<Fault> beside = {};  ///< planted with it, to be found or not
+  std::size_t least_readings = 0;  ///< that the finding predicts
 };
 
 /// A fault of random size in a run of its own; the ranges of sizes are in docs/measured-data.md.

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <set>
 #include <stdexcept>
 
 namespace flexarm::measured {
@@ -232,17 +233,26 @@ PlantedFault spikes(std::uint64_t seed, RandomNumbers& random) {
   auto& channel = any_channel(result.record, random);
   in(result, channel);
   const double size = deviation(channel.values);
-  const std::size_t count = 1 + random.below(6);
+  const bool many = chance(random, 0.4);
+  const double share = many ? log_between(random, 0.01, 0.045) : 0.0;
+  const std::size_t count =
+      many ? static_cast<std::size_t>(share * static_cast<double>(channel.values.size()))
+           : 1 + random.below(6);
+  constexpr double kFound = 0.8;  // of many
+  if (many) result.least_readings = static_cast<std::size_t>(kFound * static_cast<double>(count));
   result.first_sample = channel.values.size();
   result.last_sample = 0;
-  for (std::size_t i = 0; i < count; ++i) {
+  std::set<std::size_t> places;
+  while (places.size() < count) {
     const std::size_t at = 5 + random.below(channel.values.size() - 10);
-    channel.values[at] +=
-        (chance(random, 0.5) ? 1.0 : -1.0) * size * log_between(random, 0.8, 10.0);
+    if (!places.insert(at).second) continue;
+    channel.values[at] += (chance(random, 0.5) ? 1.0 : -1.0) * size *
+                          (many ? between(random, 2.0, 4.0) : log_between(random, 0.8, 10.0));
     result.first_sample = std::min(result.first_sample, at);
     result.last_sample = std::max(result.last_sample, at);
   }
-  result.description += fmt::format(", {} spikes in {}", count, result.channel);
+  result.description += fmt::format(", {} spikes of {} samples in {}", count,
+                                    channel.values.size(), result.channel);
   return result;
 }
 

@@ -34,7 +34,8 @@ std::uint64_t seed_of(Fault fault, int file) {
 bool is_found(const PlantedFault& planted, Fault fault, const DataFinding& finding) {
   return finding.fault == fault && finding.channel == planted.channel &&
          finding.first_sample >= planted.first_sample &&
-         finding.first_sample <= planted.last_sample;
+         finding.first_sample <= planted.last_sample &&
+         finding.predicted.size() >= planted.least_readings;
 }
 
 std::string report(const PlantedFault& planted, const std::vector<DataFinding>& findings) {

@@ -10,6 +10,7 @@
 #include "measured/checks/data_check_response.hpp"
 #include "measured/checks/data_check_sign.hpp"
 #include "measured/checks/data_check_signal.hpp"
+#include "measured/checks/data_check_torque_spikes.hpp"
 #include "measured/checks/data_check_transform.hpp"
 #include "measured/checks/data_check_unit.hpp"
 #include "measured/checks/data_check_values.hpp"
@@ -88,6 +89,36 @@ std::vector<DataFinding> check_answers(std::span<const CheckedSignal> signals,
   return check_response({quiet, transforms, asked, options});
 }
 
+/// Spikes of the torque, and of the channels beside a torque without them. Where both have one at a
+/// time, a controller may have given the torque for the reading: it is the channel's.
+std::vector<DataFinding> check_all_spikes(std::span<const CheckedSignal> signals,
+                                          const std::vector<bool>& usable,
+                                          const DataCheckOptions& options, bool ends_are_sound) {
+  constexpr std::size_t kSameTime = 2;  // samples
+  auto findings = check_torque_spikes(signals, usable, options);
+  std::vector<CheckedSignal> repaired(signals.begin(), signals.end());
+  std::vector<double> torque(signals[0].values.begin(), signals[0].values.end());
+  for (const auto& finding : findings) {
+    for (const auto& [sample, value] : finding.predicted) torque[sample] = value;
+  }
+  repaired[0].values = torque;
+  repaired[0].deviation = standard_deviation(torque);
+  const auto others = check_spikes(repaired, usable, options, ends_are_sound);
+  for (const auto& other : others) {
+    for (auto& finding : findings) {
+      std::erase_if(finding.predicted, [&](const PredictedReading& given) {
+        return std::ranges::any_of(other.predicted, [&](const PredictedReading& reading) {
+          return reading.sample <= given.sample + kSameTime &&
+                 given.sample <= reading.sample + kSameTime;
+        });
+      });
+    }
+  }
+  std::erase_if(findings, [](const DataFinding& finding) { return finding.predicted.empty(); });
+  append(findings, others);
+  return findings;
+}
+
 /// What channels say of each other over an even stretch; none of `usable` has a fault in its
 /// values. A fault takes its channel out of what is asked next. A stretch that does not begin at
 /// rest may hold an arm at rest, which answers nothing.
@@ -112,7 +143,7 @@ std::vector<DataFinding> compare(std::span<const CheckedSignal> signals, std::ve
   if (note(check_swaps(comparison()))) return findings;
   std::vector<bool> fine = usable;
   exclude(fine, signals, coarse);
-  note(check_spikes(signals, fine, options, clock.findings.empty()));
+  note(check_all_spikes(signals, fine, options, clock.findings.empty()));
   note(check_trends(signals, usable, options));
   if (from_rest) note(check_answers(signals, usable, active, period_s, options));
   note(check_signs(comparison()));
@@ -233,10 +264,15 @@ std::vector<arm::Sensor> leave_out_dead_channels(TimeRecord& record,
 std::size_t leave_out_spikes(TimeRecord& record, const DataFinding& finding) {
   const auto& spikes = finding.predicted;
   const double most = kMostLeftOut * static_cast<double>(record.time_s.size());
+  if (static_cast<double>(spikes.size()) > most) return 0;
+  if (finding.channel == "torque") {
+    for (const auto& [sample, value] : spikes) record.torque_N_m[sample] = value;
+    return spikes.size();
+  }
   const auto channel = std::ranges::find(record.channels, finding.channel, [](const Channel& one) {
     return arm::to_string(one.sensor);
   });
-  if (channel == record.channels.end() || static_cast<double>(spikes.size()) > most) return 0;
+  if (channel == record.channels.end()) return 0;
   for (const auto& [sample, value] : spikes) {
     channel->values[sample] = value;
     channel->left_out.push_back(sample);

@@ -121,7 +121,8 @@ std::vector<arm::Sensor> leave_out_dead_channels(TimeRecord& record,
                                                  const std::vector<DataFinding>& findings);
 
 /// Leaves the spikes of a finding out of its channel (Channel::left_out) and puts what is predicted
-/// in their place; the number of them. Where they are more than `kMostLeftOut` of the samples they
+/// in their place; the number of them. The torque gets the prediction alone: a simulation needs one
+/// at every sample, and an error of the prediction acts for one sample only. Where they are more than `kMostLeftOut` of the samples they
 /// are no outliers of a channel but its noise: nothing is done then, and for other findings.
 std::size_t leave_out_spikes(TimeRecord& record, const DataFinding& finding);
 /// Estimates lose 1 - sqrt(0.95) = 2.5 % of their precision by as many. A sensor that is wrong more

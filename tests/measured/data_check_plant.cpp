@@ -227,9 +227,29 @@ PlantedFault quantisation(std::uint64_t seed, RandomNumbers& random) {
   return result;
 }
 
+/// Single samples of the torque that the arm knows nothing of.
+PlantedFault torque_spikes(PlantedFault result, RandomNumbers& random) {
+  auto& torque = result.record.torque_N_m;
+  const double size = deviation(torque);
+  const std::size_t count = 1 + random.below(6);
+  result.first_sample = torque.size();
+  result.last_sample = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t at = 10 + random.below(torque.size() - 20);
+    const double spike = (chance(random, 0.5) ? 1.0 : -1.0) * log_between(random, 0.8, 10.0);
+    torque[at] += size * spike;
+    result.first_sample = std::min(result.first_sample, at);
+    result.last_sample = std::max(result.last_sample, at);
+    result.description += fmt::format(", spike of {:.2g} at {}", spike, at + 1);
+  }
+  result.channel = "torque";
+  return result;
+}
+
 PlantedFault spikes(std::uint64_t seed, RandomNumbers& random) {
   const auto run = draw_run(seed);
   auto result = planted(run, sampled(run, random));
+  if (chance(random, 0.3)) return torque_spikes(std::move(result), random);
   auto& channel = any_channel(result.record, random);
   in(result, channel);
   const double size = deviation(channel.values);
@@ -238,7 +258,7 @@ PlantedFault spikes(std::uint64_t seed, RandomNumbers& random) {
   const std::size_t count =
       many ? static_cast<std::size_t>(share * static_cast<double>(channel.values.size()))
            : 1 + random.below(6);
-  constexpr double kFound = 0.8;  // of many
+  constexpr double kFound = 0.9;  // of many
   if (many) result.least_readings = static_cast<std::size_t>(kFound * static_cast<double>(count));
   result.first_sample = channel.values.size();
   result.last_sample = 0;
@@ -246,8 +266,10 @@ PlantedFault spikes(std::uint64_t seed, RandomNumbers& random) {
   while (places.size() < count) {
     const std::size_t at = 5 + random.below(channel.values.size() - 10);
     if (!places.insert(at).second) continue;
-    channel.values[at] += (chance(random, 0.5) ? 1.0 : -1.0) * size *
-                          (many ? between(random, 2.0, 4.0) : log_between(random, 0.8, 10.0));
+    const double spike = (chance(random, 0.5) ? 1.0 : -1.0) *
+                         (many ? between(random, 2.0, 4.0) : log_between(random, 0.8, 10.0));
+    channel.values[at] += size * spike;
+    if (!many) result.description += fmt::format(", spike of {:.2g} at {}", spike, at + 1);
     result.first_sample = std::min(result.first_sample, at);
     result.last_sample = std::max(result.last_sample, at);
   }

@@ -5,6 +5,7 @@
 #include "measured/checks/data_check_clock.hpp"
 #include "measured/checks/data_check_drift.hpp"
 #include "measured/checks/data_check_duplicates.hpp"
+#include "measured/checks/data_check_hum.hpp"
 #include "measured/checks/data_check_kinematics.hpp"
 #include "measured/checks/data_check_outliers.hpp"
 #include "measured/checks/data_check_response.hpp"
@@ -117,6 +118,19 @@ std::vector<DataFinding> check_all_spikes(std::span<const CheckedSignal> signals
   std::erase_if(findings, [](const DataFinding& finding) { return finding.predicted.empty(); });
   append(findings, others);
   return findings;
+}
+
+/// Takes hum out of the signals, and returns it.
+Hum remove_hum(std::vector<CheckedSignal>& signals, const std::vector<bool>& usable,
+               double period_s) {
+  Hum hum = check_hum(signals, usable, period_s);
+  for (const auto& finding : hum.findings) {
+    const auto i = static_cast<std::size_t>(
+        std::ranges::find(signals, finding.channel, &CheckedSignal::name) - signals.begin());
+    signals[i].values = hum.values[i];
+    signals[i].deviation = standard_deviation(hum.values[i]);
+  }
+  return hum;
 }
 
 /// What channels say of each other over an even stretch; none of `usable` has a fault in its
@@ -236,12 +250,21 @@ std::vector<DataFinding> check_data(const TimeRecord& record, const DataCheckOpt
     for (std::size_t i = 0; i < all.size(); ++i) {
       active.push_back(stretch[i].deviation >= kResting * all[i].deviation);
     }
+    std::vector<CheckedSignal> quiet(stretch.begin(), stretch.end());
+    const Hum hum = remove_hum(quiet, usable, clock.period_s);
+    append(findings, hum.findings, clock.first);
     append(findings,
-           at_samples(compare(stretch, usable, active, clock,
+           at_samples(compare(quiet, usable, active, clock,
                               options.starts_at_rest && clock.first == 0, options),
                       shortened.sample_of()),
            clock.first);
   }
+  // The hum of a channel that shows nothing else says nothing more.
+  std::erase_if(findings, [&](const DataFinding& one) {
+    return one.fault == Fault::hum && std::ranges::any_of(findings, [&](const DataFinding& other) {
+             return other.fault == Fault::dead_channel && other.channel == one.channel;
+           });
+  });
   for (auto& finding : findings) finding.time_s = record.time_s[finding.first_sample];
   std::ranges::stable_sort(findings, {}, &DataFinding::fault);
   return findings;

@@ -149,7 +149,7 @@ std::optional<DataFinding> saturation(const CheckedSignal& signal,
                                       std::span<const CheckedSignal> signals, double step,
                                       const DataCheckOptions& options) {
   const auto x = signal.values;
-  if (signal.is_torque() && distinct_values(x) < kFewestTorqueLevels) return std::nullopt;
+  if (signal.is_torque() && has_few_levels(x)) return std::nullopt;
   const auto [low, high] = std::ranges::minmax(x);
   std::optional<DataFinding> found;
   std::size_t samples = 0;
@@ -231,6 +231,10 @@ std::optional<DataFinding> stuck(const CheckedSignal& signal,
 
 }  // namespace
 
+bool has_few_levels(std::span<const double> torque) {
+  return distinct_values(torque) < kFewestTorqueLevels;
+}
+
 bool is_restful(std::span<const double> x, const EqualRun& run) {
   constexpr std::size_t kChanges = 4;
   const std::size_t last = run.first + run.count - 1;
@@ -267,7 +271,7 @@ std::vector<DataFinding> check_quantisation(std::span<const CheckedSignal> signa
   std::vector<DataFinding> findings;
   for (std::size_t i = 0; i < signals.size(); ++i) {
     const auto& signal = signals[i];
-    if (signal.is_torque() && distinct_values(signal.values) < kFewestTorqueLevels) continue;
+    if (signal.is_torque() && has_few_levels(signal.values)) continue;
     const auto step = lattice_step(signal.values, options.fine_step * signal.deviation);
     if (!step) continue;
     const double error_power = *step * *step / 12.0;

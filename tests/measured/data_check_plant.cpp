@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <functional>
 #include <numbers>
 #include <set>
@@ -445,6 +446,65 @@ PlantedFault duplicated_samples(std::uint64_t seed, RandomNumbers& random) {
   return result;
 }
 
+/// Amplitude of the line of a signal at a frequency, rms of those beside it: what a line of hum
+/// must exceed.
+double amplitude_beside(const std::vector<double>& values, double period_s, double frequency_Hz) {
+  const auto samples = static_cast<double>(values.size());
+  double power = 0.0;
+  int lines = 0;
+  for (int side = 2; side <= 12; ++side) {
+    for (const int line : {-side, side}) {
+      const double omega = 2.0 * std::numbers::pi * (frequency_Hz * period_s + line / samples);
+      std::complex<double> sum;
+      for (std::size_t k = 0; k < values.size(); ++k) {
+        const double at = static_cast<double>(k);
+        const double window = 1.0 - std::cos(2.0 * std::numbers::pi * (at + 0.5) / samples);
+        sum += window * values[k] * std::polar(2.0 / samples, -omega * at);
+      }
+      power += std::norm(sum);
+      ++lines;
+    }
+  }
+  return std::sqrt(power / lines);
+}
+
+PlantedFault hum(std::uint64_t seed, RandomNumbers& random) {
+  constexpr double kDetectable = 20.0;
+  while (true) {
+    const auto run = draw_run(seed);
+    auto result = planted(run, sampled(run, random));
+    auto& record = result.record;
+    const double period_s = record.time_s[1] - record.time_s[0];
+    const double mains_Hz = chance(random, 0.5) ? 50.0 : 60.0;
+    const double frequency_Hz = mains_Hz + between(random, -0.05, 0.05);
+    const bool in_torque = chance(random, 0.15);
+    auto& channel = any_channel(record, random);
+    if (in_torque) {
+      result.channel = "torque";
+    } else {
+      in(result, channel);
+    }
+    auto& values = in_torque ? record.torque_N_m : channel.values;
+    const double size = deviation(values);
+    const double noise = (in_torque ? 0.0 : 2.0 * run.noise) /
+                         std::sqrt(static_cast<double>(values.size()));
+    const double beside =
+        in_torque ? amplitude_beside(values, period_s, frequency_Hz) / size : 0.0;
+    const double least = std::max({0.05, kDetectable * noise, kDetectable * beside});
+    seed += 10'000;  // another run
+    if (least > 1.0) continue;
+    const double amplitude = size * log_between(random, least, 1.0);
+    const double phase = between(random, 0.0, 2.0 * std::numbers::pi);
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      values[k] += amplitude * std::cos(2.0 * std::numbers::pi * frequency_Hz * period_s *
+                                            static_cast<double>(k) + phase);
+    }
+    result.description += fmt::format(", hum of {:.2f} Hz in {}, {:.3f} deviations", frequency_Hz,
+                                      result.channel, amplitude / size);
+    return result;
+  }
+}
+
 }  // namespace
 
 PlantedFault plant(Fault fault, std::uint64_t seed) {
@@ -480,8 +540,9 @@ PlantedFault plant(Fault fault, std::uint64_t seed) {
       return zero_torque(seed, random);
     case Fault::duplicated_samples:
       return duplicated_samples(seed, random);
-    case Fault::sampling_jitter:
     case Fault::hum:
+      return hum(seed, random);
+    case Fault::sampling_jitter:
       return zero_torque(seed, random);
   }
   throw std::logic_error("no such fault");

@@ -9,6 +9,7 @@
 #include "measured/checks/data_check_kinematics.hpp"
 #include "measured/checks/data_check_outliers.hpp"
 #include "measured/checks/data_check_response.hpp"
+#include "measured/checks/data_check_sampling_jitter.hpp"
 #include "measured/checks/data_check_sign.hpp"
 #include "measured/checks/data_check_signal.hpp"
 #include "measured/checks/data_check_torque_spikes.hpp"
@@ -157,7 +158,10 @@ std::vector<DataFinding> compare(std::span<const CheckedSignal> signals, std::ve
   if (note(check_swaps(comparison()))) return findings;
   std::vector<bool> fine = usable;
   exclude(fine, signals, coarse);
-  note(check_all_spikes(signals, fine, options, clock.findings.empty()));
+  const auto spikes = check_all_spikes(signals, fine, options, clock.findings.empty());
+  note(spikes);
+  exclude(fine, signals, spikes);
+  append(findings, check_sampling_jitter(signals, fine, period_s));
   note(check_trends(signals, usable, options));
   if (from_rest) note(check_answers(signals, usable, active, period_s, options));
   note(check_signs(comparison()));

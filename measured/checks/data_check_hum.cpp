@@ -28,8 +28,9 @@ constexpr double kMainsTolerance_Hz = 0.1;
 constexpr Index kSide = 12;        // lines on either side
 constexpr Index kFewestSide = 8;
 constexpr double kGridLines = 0.5;  // by which frequencies are tried
-constexpr int kDegree = 2;          // of gain and transient
-constexpr double kLeastScore = 10.0;
+constexpr int kGainDegree = 3;
+constexpr int kTransientDegree = 2;
+constexpr double kLeastScore = 8.0;
 constexpr double kCandidateScore = 6.0;
 constexpr double kLeastAmplitude = 0.03;  // standard deviations
 constexpr double kMostChange = 0.25;      // of the amplitude, over half the record
@@ -89,11 +90,11 @@ class Band {
   }
 
   /// Columns of a polynomial in the line times `factor`.
-  void add_polynomial(const Eigen::VectorXcd& factor, Lines& columns) const {
+  void add_polynomial(int degree, const Eigen::VectorXcd& factor, Lines& columns) const {
     const Eigen::ArrayXcd at =
         Eigen::ArrayXd::LinSpaced(lines(), -1.0, 1.0).cast<Complex>();
     Eigen::ArrayXcd column = factor.array();
-    for (int power = 0; power <= kDegree; ++power) {
+    for (int power = 0; power <= degree; ++power) {
       columns.conservativeResize(lines(), columns.cols() + 1);
       columns.col(columns.cols() - 1) = column;
       column *= at;
@@ -176,8 +177,8 @@ std::optional<Line> line_in(const Band& band, const Eigen::VectorXcd& target,
   return best;
 }
 
-/// Whether the torque is made of lines: another one, away from the mains, stands out of twelve
-/// lines on either side and is of this amplitude or more.
+/// Whether the torque is made of lines: another one, away from the mains, stands out of the twelve
+/// lines on either side and is of 0.3 of this amplitude or more.
 bool is_of_lines(const CheckedSignal& torque, double amplitude, double period_s) {
   constexpr double kStandsOut = 8.0;
   constexpr Index kPeak = 2;  // lines of the window's lobe
@@ -198,11 +199,14 @@ bool is_of_lines(const CheckedSignal& torque, double amplitude, double period_s)
              static_cast<double>(kPeak + 1) / transforms.duration_s + kMainsTolerance_Hz;
     });
     if (is_mains) continue;
-    std::vector<double> beside;
-    for (std::size_t j = bin - width; j <= bin + width; ++j) {
-      if (j + lobe < bin || j > bin + lobe) beside.push_back(std::abs(spectrum[j]));
+    // A band's edge stands out on one side.
+    std::vector<double> below;
+    std::vector<double> above;
+    for (std::size_t j = lobe + 1; j <= width; ++j) {
+      below.push_back(std::abs(spectrum[bin - j]));
+      above.push_back(std::abs(spectrum[bin + j]));
     }
-    if (here > kStandsOut * median(std::move(beside))) return true;
+    if (here > kStandsOut * std::max(median(std::move(below)), median(std::move(above)))) return true;
   }
   return false;
 }
@@ -237,15 +241,24 @@ class HumSearch {
   void search(Hum& hum) {
     if (!band_.is_usable()) return;
     transform_all();
-    std::vector<std::optional<Line>> found(signals_.size());
-    for (std::size_t i = 0; i < signals_.size(); ++i) {
-      if (usable_[i] && signals_[i].deviation > 0.0) found[i] = line_of(i);
+    const Eigen::VectorXcd torque = lines_.col(0);
+    const auto torque_line = line_of(0, torque);
+    // Friction answers a torque with a line here by others.
+    if (torque_line && !may_hum(*torque_line)) return;
+    auto found = lines_of_channels(torque);
+    if (torque_line) {
+      // Channels that the line explains answer it: the torque was given.
+      const auto without = lines_of_channels(
+          torque - torque_line->amplitude * band_.of_wave(torque_line->frequency_Hz, 0));
+      bool is_answered = false;
+      for (std::size_t i = 1; i < found.size(); ++i) is_answered |= without[i] && !found[i];
+      if (!is_answered) {
+        found = without;
+        found[0] = torque_line;
+      }
     }
-    const bool answered = std::any_of(found.begin() + 1, found.end(),
-                                      [](const auto& line) { return line.has_value(); });
     for (std::size_t i = 0; i < signals_.size(); ++i) {
-      if (!found[i] || !is_hum(i, *found[i])) continue;
-      if (i == 0 && (answered || !may_hum(*found[i]))) continue;
+      if (!found[i]) continue;
       hum.findings.push_back(finding_of(signals_[i], *found[i], mains_Hz_, band_.centre_Hz()));
       subtract(*found[i], hum.values[i]);
     }
@@ -269,15 +282,25 @@ class HumSearch {
     }
   }
 
-  std::optional<Line> line_of(std::size_t signal) const {
+  /// The hum of a signal beside a torque of these lines, which is none of its own.
+  std::optional<Line> line_of(std::size_t signal, const Eigen::VectorXcd& torque) const {
+    if (!usable_[signal] || signals_[signal].deviation == 0.0) return std::nullopt;
     Lines others(band_.lines(), 0);
-    band_.add_polynomial(Eigen::VectorXcd::Ones(band_.lines()), others);
+    band_.add_polynomial(kTransientDegree, Eigen::VectorXcd::Ones(band_.lines()), others);
     const double torque_power =
         signals_[0].deviation * static_cast<double>(signals_[0].values.size());
-    if (signal != 0 && lines_.col(0).cwiseAbs().maxCoeff() > kNoTorque * torque_power) {
-      band_.add_polynomial(lines_.col(0), others);
+    if (signal != 0 && torque.cwiseAbs().maxCoeff() > kNoTorque * torque_power) {
+      band_.add_polynomial(kGainDegree, torque, others);
     }
-    return line_in(band_, lines_.col(static_cast<Index>(signal)), others, grid_Hz_, waves_);
+    const auto line = line_in(band_, lines_.col(static_cast<Index>(signal)), others, grid_Hz_,
+                              waves_);
+    return line && is_hum(signal, *line) ? line : std::nullopt;
+  }
+
+  std::vector<std::optional<Line>> lines_of_channels(const Eigen::VectorXcd& torque) const {
+    std::vector<std::optional<Line>> found(signals_.size());
+    for (std::size_t i = 1; i < signals_.size(); ++i) found[i] = line_of(i, torque);
+    return found;
   }
 
   bool is_hum(std::size_t signal, const Line& line) const {

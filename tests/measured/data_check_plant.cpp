@@ -469,7 +469,8 @@ double amplitude_beside(const std::vector<double>& values, double period_s, doub
 }
 
 PlantedFault hum(std::uint64_t seed, RandomNumbers& random) {
-  constexpr double kDetectable = 20.0;
+  constexpr double kDetectable = 16.0;  // standard deviations of a line of noise
+  constexpr double kBeside = 3.0;       // lines beside it
   while (true) {
     const auto run = draw_run(seed);
     auto result = planted(run, sampled(run, random));
@@ -477,7 +478,10 @@ PlantedFault hum(std::uint64_t seed, RandomNumbers& random) {
     const double period_s = record.time_s[1] - record.time_s[0];
     const double mains_Hz = chance(random, 0.5) ? 50.0 : 60.0;
     const double frequency_Hz = mains_Hz + between(random, -0.05, 0.05);
-    const bool in_torque = chance(random, 0.15);
+    // Of a torque that is made of lines one more tells nothing.
+    const bool has_lines = run.description.find("multisine") != std::string::npos ||
+                           run.description.find("bang-bang") != std::string::npos;
+    const bool in_torque = chance(random, 0.3) && !has_lines;
     auto& channel = any_channel(record, random);
     if (in_torque) {
       result.channel = "torque";
@@ -486,11 +490,9 @@ PlantedFault hum(std::uint64_t seed, RandomNumbers& random) {
     }
     auto& values = in_torque ? record.torque_N_m : channel.values;
     const double size = deviation(values);
-    const double noise = (in_torque ? 0.0 : 2.0 * run.noise) /
-                         std::sqrt(static_cast<double>(values.size()));
-    const double beside =
-        in_torque ? amplitude_beside(values, period_s, frequency_Hz) / size : 0.0;
-    const double least = std::max({0.05, kDetectable * noise, kDetectable * beside});
+    const double noise = 2.0 * run.noise / std::sqrt(static_cast<double>(values.size()));
+    const double beside = amplitude_beside(values, period_s, frequency_Hz) / size;
+    const double least = std::max({0.05, kDetectable * noise, kBeside * beside});
     seed += 10'000;  // another run
     if (least > 1.0) continue;
     const double amplitude = size * log_between(random, least, 1.0);
@@ -501,6 +503,60 @@ PlantedFault hum(std::uint64_t seed, RandomNumbers& random) {
     }
     result.description += fmt::format(", hum of {:.2f} Hz in {}, {:.3f} deviations", frequency_Hz,
                                       result.channel, amplitude / size);
+    return result;
+  }
+}
+
+/// A run at instants off its even times; `off_periods` one a sample.
+TimeRecord sampled_off_time(const DrawnRun& run, const std::vector<double>& off_periods) {
+  const auto stride = static_cast<double>(run.refinement);
+  const auto last = static_cast<double>(run.fine.time_s.size() - 2);
+  TimeRecord record;
+  for (const auto& channel : run.fine.channels) record.channels.push_back({channel.sensor, {}});
+  for (std::size_t k = 0; k < off_periods.size(); ++k) {
+    const auto even = k * static_cast<std::size_t>(run.refinement);
+    record.time_s.push_back(run.fine.time_s[even]);
+    record.torque_N_m.push_back(run.fine.torque_N_m[even]);
+    const double at =
+        std::clamp(stride * (static_cast<double>(k) + off_periods[k]), 0.0, last);
+    const auto before = static_cast<std::size_t>(at);
+    for (std::size_t i = 0; i < record.channels.size(); ++i) {
+      const auto& values = run.fine.channels[i].values;
+      record.channels[i].values.push_back(
+          std::lerp(values[before], values[before + 1], at - static_cast<double>(before)));
+    }
+  }
+  return record;
+}
+
+/// The largest error over noise of a channel, both rms, that instants off their times make.
+double error_over_noise(const TimeRecord& even, const TimeRecord& off, double noise) {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < even.channels.size(); ++i) {
+    std::vector<double> error = off.channels[i].values;
+    for (std::size_t k = 0; k < error.size(); ++k) error[k] -= even.channels[i].values[k];
+    largest = std::max(largest, deviation(error) / (noise * deviation(even.channels[i].values)));
+  }
+  return largest;
+}
+
+PlantedFault sampling_jitter(std::uint64_t seed, RandomNumbers& random) {
+  constexpr int kRefinement = 8;
+  constexpr double kLeastError = 0.5;  // of the noise of a channel
+  while (true) {
+    const auto run = draw_run(seed, {{}, kRefinement});
+    const bool pulses = run.description.find("bang-bang") != std::string::npos;
+    const double rms = log_between(random, pulses ? 0.15 : 0.07, 0.3);
+    std::vector<double> off_periods(run.fine.time_s.size() / kRefinement);
+    const TimeRecord even = sampled_off_time(run, off_periods);
+    for (auto& off : off_periods) off = rms * random.normal();
+    TimeRecord record = sampled_off_time(run, off_periods);
+    seed += 10'000;  // another run
+    if (error_over_noise(even, record, run.noise) < kLeastError) continue;
+    finish(record, run, random);
+    auto result = planted(run, std::move(record));
+    result.channel = "time";
+    result.description += fmt::format(", instants off by {:.3f} periods rms", rms);
     return result;
   }
 }
@@ -543,7 +599,7 @@ PlantedFault plant(Fault fault, std::uint64_t seed) {
     case Fault::hum:
       return hum(seed, random);
     case Fault::sampling_jitter:
-      return zero_torque(seed, random);
+      return sampling_jitter(seed, random);
   }
   throw std::logic_error("no such fault");
 }

@@ -91,6 +91,28 @@ std::vector<DataFinding> check_answers(std::span<const CheckedSignal> signals,
   return check_response({quiet, transforms, asked, options});
 }
 
+/// Signals with what is predicted in the place of spikes.
+class Repaired {
+ public:
+  Repaired(std::span<const CheckedSignal> signals, const std::vector<DataFinding>& spikes)
+      : signals_(signals.begin(), signals.end()), values_(signals.size()) {
+    for (const auto& finding : spikes) {
+      const auto i = static_cast<std::size_t>(
+          std::ranges::find(signals_, finding.channel, &CheckedSignal::name) - signals_.begin());
+      values_[i].assign(signals[i].values.begin(), signals[i].values.end());
+      for (const auto& [sample, value] : finding.predicted) values_[i][sample] = value;
+      signals_[i].values = values_[i];
+      signals_[i].deviation = standard_deviation(values_[i]);
+    }
+  }
+
+  std::span<const CheckedSignal> signals() const { return signals_; }
+
+ private:
+  std::vector<CheckedSignal> signals_;
+  std::vector<std::vector<double>> values_;
+};
+
 /// Spikes of the torque, and of the channels beside a torque without them. Where both have one at a
 /// time, a controller may have given the torque for the reading: it is the channel's.
 std::vector<DataFinding> check_all_spikes(std::span<const CheckedSignal> signals,
@@ -98,14 +120,8 @@ std::vector<DataFinding> check_all_spikes(std::span<const CheckedSignal> signals
                                           const DataCheckOptions& options, bool ends_are_sound) {
   constexpr std::size_t kSameTime = 2;  // samples
   auto findings = check_torque_spikes(signals, usable, options);
-  std::vector<CheckedSignal> repaired(signals.begin(), signals.end());
-  std::vector<double> torque(signals[0].values.begin(), signals[0].values.end());
-  for (const auto& finding : findings) {
-    for (const auto& [sample, value] : finding.predicted) torque[sample] = value;
-  }
-  repaired[0].values = torque;
-  repaired[0].deviation = standard_deviation(torque);
-  const auto others = check_spikes(repaired, usable, options, ends_are_sound);
+  const Repaired repaired(signals, findings);
+  const auto others = check_spikes(repaired.signals(), usable, options, ends_are_sound);
   for (const auto& other : others) {
     for (auto& finding : findings) {
       std::erase_if(finding.predicted, [&](const PredictedReading& given) {
@@ -160,8 +176,8 @@ std::vector<DataFinding> compare(std::span<const CheckedSignal> signals, std::ve
   exclude(fine, signals, coarse);
   const auto spikes = check_all_spikes(signals, fine, options, clock.findings.empty());
   note(spikes);
-  exclude(fine, signals, spikes);
-  append(findings, check_sampling_jitter(signals, fine, period_s));
+  const Repaired repaired(signals, spikes);
+  append(findings, check_sampling_jitter(repaired.signals(), fine, period_s));
   note(check_trends(signals, usable, options));
   if (from_rest) note(check_answers(signals, usable, active, period_s, options));
   note(check_signs(comparison()));

@@ -31,8 +31,9 @@ constexpr double kGridLines = 0.5;  // by which frequencies are tried
 constexpr int kGainDegree = 3;
 constexpr int kTransientDegree = 2;
 constexpr double kLeastScore = 8.0;
-constexpr double kCandidateScore = 6.0;
+constexpr double kCandidateScore = 4.0;
 constexpr double kLeastAmplitude = 0.03;  // standard deviations
+constexpr double kLeastAlone = 0.15;      // of the only channel, beside pulses
 constexpr double kMostChange = 0.25;      // of the amplitude, over half the record
 constexpr double kChangeErrors = 3.0;
 constexpr int kRefinements = 4;
@@ -242,21 +243,30 @@ class HumSearch {
     if (!band_.is_usable()) return;
     transform_all();
     const Eigen::VectorXcd torque = lines_.col(0);
-    const auto torque_line = line_of(0, torque);
+    const auto torque_line = candidate_of(0, torque);
     // Friction answers a torque with a line here by others.
     if (torque_line && !may_hum(*torque_line)) return;
     auto found = lines_of_channels(torque);
     if (torque_line) {
-      // Channels that the line explains answer it: the torque was given.
       const auto without = lines_of_channels(
           torque - torque_line->amplitude * band_.of_wave(torque_line->frequency_Hz, 0));
       bool is_answered = false;
-      for (std::size_t i = 1; i < found.size(); ++i) is_answered |= without[i] && !found[i];
-      if (!is_answered) {
+      bool is_missed = false;
+      bool is_other = false;
+      for (std::size_t i = 1; i < found.size(); ++i) {
+        is_answered |= without[i] && !found[i];
+        is_missed |= found[i] && !without[i];
+        is_other |= found[i] && without[i];
+      }
+      // Channels that the line explains answer it: the torque was given. Where they all miss it,
+      // it need not stand out of the torque.
+      const bool is_there = is_hum(0, *torque_line) || (is_missed && !is_other);
+      if (is_there && !is_answered) {
         found = without;
         found[0] = torque_line;
       }
     }
+    if (has_few_levels(signals_[0].values) && is_shared(found)) return;
     for (std::size_t i = 0; i < signals_.size(); ++i) {
       if (!found[i]) continue;
       hum.findings.push_back(finding_of(signals_[i], *found[i], mains_Hz_, band_.centre_Hz()));
@@ -282,8 +292,8 @@ class HumSearch {
     }
   }
 
-  /// The hum of a signal beside a torque of these lines, which is none of its own.
-  std::optional<Line> line_of(std::size_t signal, const Eigen::VectorXcd& torque) const {
+  /// A line of a signal beside a torque of these lines, which is none of its own.
+  std::optional<Line> candidate_of(std::size_t signal, const Eigen::VectorXcd& torque) const {
     if (!usable_[signal] || signals_[signal].deviation == 0.0) return std::nullopt;
     Lines others(band_.lines(), 0);
     band_.add_polynomial(kTransientDegree, Eigen::VectorXcd::Ones(band_.lines()), others);
@@ -292,14 +302,15 @@ class HumSearch {
     if (signal != 0 && torque.cwiseAbs().maxCoeff() > kNoTorque * torque_power) {
       band_.add_polynomial(kGainDegree, torque, others);
     }
-    const auto line = line_in(band_, lines_.col(static_cast<Index>(signal)), others, grid_Hz_,
-                              waves_);
-    return line && is_hum(signal, *line) ? line : std::nullopt;
+    return line_in(band_, lines_.col(static_cast<Index>(signal)), others, grid_Hz_, waves_);
   }
 
   std::vector<std::optional<Line>> lines_of_channels(const Eigen::VectorXcd& torque) const {
     std::vector<std::optional<Line>> found(signals_.size());
-    for (std::size_t i = 1; i < signals_.size(); ++i) found[i] = line_of(i, torque);
+    for (std::size_t i = 1; i < signals_.size(); ++i) {
+      found[i] = candidate_of(i, torque);
+      if (found[i] && !is_hum(i, *found[i])) found[i].reset();
+    }
     return found;
   }
 
@@ -308,6 +319,21 @@ class HumSearch {
     return line.score() > kLeastScore &&
            std::abs(line.amplitude) > kLeastAmplitude * signals_[signal].deviation &&
            std::abs(line.frequency_Hz - band_.centre_Hz()) <= reach_Hz && line.is_constant();
+  }
+
+  /// Whether several channels have the line, or a small one in the only channel: pulses that repeat
+  /// have lines, and what they excite is shared.
+  bool is_shared(const std::vector<std::optional<Line>>& found) const {
+    const auto lines = std::count_if(found.begin() + 1, found.end(),
+                                     [](const auto& line) { return line.has_value(); });
+    if (lines > 1) return true;
+    if (std::count(usable_.begin() + 1, usable_.end(), true) > 1) return false;
+    for (std::size_t i = 1; i < found.size(); ++i) {
+      if (found[i] && std::abs(found[i]->amplitude) < kLeastAlone * signals_[i].deviation) {
+        return true;
+      }
+    }
+    return false;
   }
 
   bool may_hum(const Line& line) const {

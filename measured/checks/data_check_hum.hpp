@@ -24,7 +24,7 @@ struct Hum {
 /// below 0.25 beside their own errors, so that a resonance that rings or is driven is none. Im(b/a)
 /// corrects f. The torque has no first term. Hum of a torque is claimed only where it is not made
 /// of few levels or of other lines, and where no channel has a line that this one explains; where
-/// such a torque has a line, none is claimed.
+/// such a torque has a line, none is claimed. Beside pulses it is claimed of one channel alone.
 Hum check_hum(std::span<const CheckedSignal> signals, const std::vector<bool>& usable,
               double period_s);
 

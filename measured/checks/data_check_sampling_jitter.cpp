@@ -26,6 +26,7 @@ constexpr double kMostResidual = 4.0;  // robust deviations; larger ones are tak
 constexpr double kMostSquare = 12.0;   // as u
 constexpr double kSingular = 1e-3;     // of the mean variance, on the diagonal of the covariance
 constexpr int kReweightings = 8;
+constexpr Index kBlocks = 3;
 constexpr double kLeastEvidence = 5.0;  // standard errors
 constexpr double kLeastRms_periods = 0.045;
 constexpr double kLeastRmsBesidePulses_periods = 0.1;
@@ -81,32 +82,36 @@ Eigen::VectorXd derivative_of(const Eigen::VectorXd& x) {
   return 0.75 * apart(1) - 0.15 * apart(2) + apart(3) / 60.0;
 }
 
-/// u = level + slope g by least squares with weights 1/(1 + slope g)^2.
+/// Values less their weighted mean in each of kBlocks blocks of time.
+Eigen::ArrayXd centred(const Eigen::ArrayXd& values, const Eigen::ArrayXd& weight) {
+  Eigen::ArrayXd left = values;
+  for (Index block = 0; block < kBlocks; ++block) {
+    const Index from = block * values.size() / kBlocks;
+    const Index count = (block + 1) * values.size() / kBlocks - from;
+    const auto part = weight.segment(from, count);
+    left.segment(from, count) -= (part * values.segment(from, count)).sum() / part.sum();
+  }
+  return left;
+}
+
+/// u = level + slope g with a level for each block of time, by least squares with weights
+/// 1/(1 + slope g)^2.
 struct Growth {
   double slope = 0.0;
   double error = 0.0;
 };
 
 Growth growth_of(const Eigen::ArrayXd& u, const Eigen::ArrayXd& g) {
-  constexpr double kLeastLevel = 0.3;
-  Eigen::Matrix2d inverse;
-  Eigen::Vector2d fit;
-  Eigen::ArrayXd weight;
-  double relative = 0.0;
+  Growth growth;
   for (int i = 0; i < kReweightings; ++i) {
-    weight = (1.0 + relative * g).square().inverse();
-    Eigen::Matrix2d normal;
-    normal << weight.sum(), (weight * g).sum(), (weight * g).sum(), (weight * g * g).sum();
-    inverse = normal.inverse();
-    fit = inverse * Eigen::Vector2d((weight * u).sum(), (weight * g * u).sum());
-    relative = std::max(0.0, fit[1]) / std::max(kLeastLevel, fit[0]);
+    const Eigen::ArrayXd weight = (1.0 + std::max(0.0, growth.slope) * g).square().inverse();
+    const Eigen::ArrayXd across = centred(g, weight);
+    const Eigen::ArrayXd up = centred(u, weight);
+    const double power = (weight * across.square()).sum();
+    growth.slope = (weight * across * up).sum() / power;
+    growth.error = (weight * across * (up - growth.slope * across)).matrix().norm() / power;
   }
-  const Eigen::ArrayXd score = weight * (u - fit[0] - fit[1] * g);
-  Eigen::Matrix2d scatter;
-  scatter << score.square().sum(), (score.square() * g).sum(), (score.square() * g).sum(),
-      (score.square() * g * g).sum();
-  const Eigen::Matrix2d covariance = inverse * scatter * inverse;
-  return {fit[1], std::sqrt(covariance(1, 1))};
+  return growth;
 }
 
 }  // namespace

@@ -546,7 +546,7 @@ PlantedFault sampling_jitter(std::uint64_t seed, RandomNumbers& random) {
   while (true) {
     const auto run = draw_run(seed, {{}, kRefinement});
     const bool pulses = run.description.find("bang-bang") != std::string::npos;
-    const double rms = log_between(random, pulses ? 0.15 : 0.07, 0.3);
+    const double rms = log_between(random, pulses ? 0.2 : 0.07, 0.3);
     std::vector<double> off_periods(run.fine.time_s.size() / kRefinement);
     const TimeRecord even = sampled_off_time(run, off_periods);
     for (auto& off : off_periods) off = rms * random.normal();

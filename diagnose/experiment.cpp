@@ -64,8 +64,12 @@ void keep_usable(Experiment& experiment, measured::MeasuredRun& run, const std::
     const std::size_t outliers = measured::leave_out_spikes(record, finding);
     if (outliers == 0) continue;
     experiment.notices.push_back(
-        fmt::format("{} of {} readings of {} in run {} are outliers and are left out", outliers,
-                    record.time_s.size(), finding.channel, run.run.id));
+        finding.channel == "torque"
+            ? fmt::format("{} of {} samples of the torque in run {} are outliers; their prediction "
+                          "takes their place",
+                          outliers, record.time_s.size(), run.run.id)
+            : fmt::format("{} of {} readings of {} in run {} are outliers and are left out",
+                          outliers, record.time_s.size(), finding.channel, run.run.id));
   }
   measured::leave_out_dead_channels(record, findings);
   if (record.channels.empty()) {

@@ -7,13 +7,17 @@
 #include "measured/checks/data_check_delay.hpp"
 #include "measured/checks/data_check_described.hpp"
 #include "measured/checks/data_check_drift.hpp"
+#include "measured/checks/data_check_duplicates.hpp"
+#include "measured/checks/data_check_hum.hpp"
 #include "measured/checks/data_check_kinematics.hpp"
 #include "measured/checks/data_check_offset.hpp"
 #include "measured/checks/data_check_outliers.hpp"
 #include "measured/checks/data_check_response.hpp"
+#include "measured/checks/data_check_sampling_jitter.hpp"
 #include "measured/checks/data_check_sign.hpp"
 #include "measured/checks/data_check_signal.hpp"
 #include "measured/checks/data_check_torque_offset.hpp"
+#include "measured/checks/data_check_torque_spikes.hpp"
 #include "measured/checks/data_check_transform.hpp"
 #include "measured/checks/data_check_unit.hpp"
 #include "measured/checks/data_check_values.hpp"
@@ -57,6 +61,16 @@ void append(std::vector<DataFinding>& all, const std::vector<DataFinding>& more,
   }
 }
 
+/// Findings in shortened signals, at the samples of the whole ones.
+std::vector<DataFinding> at_samples(std::vector<DataFinding> findings,
+                                    const std::vector<std::size_t>& sample_of) {
+  for (auto& finding : findings) {
+    finding.first_sample = sample_of[finding.first_sample];
+    for (PredictedReading& reading : finding.predicted) reading.sample = sample_of[reading.sample];
+  }
+  return findings;
+}
+
 void exclude(std::vector<bool>& usable, std::span<const CheckedSignal> signals,
              const std::vector<DataFinding>& findings) {
   for (std::size_t i = 0; i < signals.size(); ++i) {
@@ -80,6 +94,65 @@ std::vector<DataFinding> check_answers(std::span<const CheckedSignal> signals,
   }
   const Transforms transforms = transform(quiet, period_s, true);
   return check_response({quiet, transforms, asked, options});
+}
+
+/// Signals with what is predicted in the place of spikes.
+class Repaired {
+ public:
+  Repaired(std::span<const CheckedSignal> signals, const std::vector<DataFinding>& spikes)
+      : signals_(signals.begin(), signals.end()), values_(signals.size()) {
+    for (const auto& finding : spikes) {
+      const auto i = static_cast<std::size_t>(
+          std::ranges::find(signals_, finding.channel, &CheckedSignal::name) - signals_.begin());
+      values_[i].assign(signals[i].values.begin(), signals[i].values.end());
+      for (const auto& [sample, value] : finding.predicted) values_[i][sample] = value;
+      signals_[i].values = values_[i];
+      signals_[i].deviation = standard_deviation(values_[i]);
+    }
+  }
+
+  std::span<const CheckedSignal> signals() const { return signals_; }
+
+ private:
+  std::vector<CheckedSignal> signals_;
+  std::vector<std::vector<double>> values_;
+};
+
+/// Spikes of the torque, and of the channels beside a torque without them. Where both have one at a
+/// time, a controller may have given the torque for the reading: it is the channel's.
+std::vector<DataFinding> check_all_spikes(std::span<const CheckedSignal> signals,
+                                          const std::vector<bool>& usable,
+                                          const DataCheckOptions& options, bool ends_are_sound) {
+  constexpr std::size_t kSameTime = 2;  // samples
+  auto findings = check_torque_spikes(signals, usable, options);
+  const Repaired repaired(signals, findings);
+  const auto others = check_spikes(repaired.signals(), usable, options, ends_are_sound);
+  for (const auto& other : others) {
+    for (auto& finding : findings) {
+      std::erase_if(finding.predicted, [&](const PredictedReading& given) {
+        return std::ranges::any_of(other.predicted, [&](const PredictedReading& reading) {
+          return reading.sample <= given.sample + kSameTime &&
+                 given.sample <= reading.sample + kSameTime;
+        });
+      });
+    }
+  }
+  std::erase_if(findings, [](const DataFinding& finding) { return finding.predicted.empty(); });
+  append(findings, others);
+  return findings;
+}
+
+/// Takes hum out of the signals, and returns it.
+Hum remove_hum(std::vector<CheckedSignal>& signals, const std::vector<bool>& usable,
+               double period_s) {
+  Hum hum = check_hum(signals, usable, period_s);
+  for (const auto& finding : hum.findings) {
+    const auto i = static_cast<std::size_t>(
+        std::ranges::find(signals, finding.channel, &CheckedSignal::name) - signals.begin());
+    signals[i].values = hum.values[i];
+    signals[i].deviation = standard_deviation(hum.values[i]);
+  }
+  return hum;
 }
 
 /// What channels say of each other over an even stretch; none of `usable` has a fault in its
@@ -111,7 +184,10 @@ std::vector<DataFinding> compare(std::span<const CheckedSignal> signals, std::ve
   if (note(check_swaps(comparison()))) return findings;
   std::vector<bool> fine = usable;
   exclude(fine, signals, coarse);
-  note(check_spikes(signals, fine, options, clock.findings.empty()));
+  const auto spikes = check_all_spikes(signals, fine, options, clock.findings.empty());
+  note(spikes);
+  const Repaired repaired(signals, spikes);
+  append(findings, check_sampling_jitter(repaired.signals(), fine, period_s));
   note(check_trends(signals, usable, options));
   if (from_rest) note(check_answers(signals, usable, active, period_s, options));
   note(check_signs(comparison()));
@@ -165,6 +241,12 @@ std::string_view to_string(Fault fault) {
       return "zero torque";
     case Fault::wrong_payload:
       return "wrong payload";
+    case Fault::duplicated_samples:
+      return "duplicated samples";
+    case Fault::sampling_jitter:
+      return "sampling jitter";
+    case Fault::hum:
+      return "hum";
   }
   throw std::invalid_argument("no such fault");
 }
@@ -196,7 +278,11 @@ std::vector<DataFinding> check_data(const TimeRecord& record, const DataCheckOpt
   append(findings, faulty);
 
   if (clock.count >= kFewestCompared) {
-    const auto stretch = signals_of(record, clock.first, clock.count);
+    const auto recorded = signals_of(record, clock.first, clock.count);
+    const Duplicates duplicates = check_duplicates(recorded);
+    append(findings, duplicates.findings, clock.first);
+    const ShortenedSignals shortened(recorded, duplicates.rows);
+    const auto stretch = shortened.signals();
     std::vector<bool> usable;
     for (const auto& signal : stretch) usable.push_back(signal.deviation > 0.0);
     exclude(usable, stretch, faulty);
@@ -206,11 +292,21 @@ std::vector<DataFinding> check_data(const TimeRecord& record, const DataCheckOpt
     for (std::size_t i = 0; i < all.size(); ++i) {
       active.push_back(stretch[i].deviation >= kResting * all[i].deviation);
     }
+    std::vector<CheckedSignal> quiet(stretch.begin(), stretch.end());
+    const Hum hum = remove_hum(quiet, usable, clock.period_s);
+    append(findings, hum.findings, clock.first);
     append(findings,
-           compare(stretch, usable, active, clock, options.starts_at_rest && clock.first == 0,
-                   options),
+           at_samples(compare(quiet, usable, active, clock,
+                              options.starts_at_rest && clock.first == 0, options),
+                      shortened.sample_of()),
            clock.first);
   }
+  // The hum of a channel that shows nothing else says nothing more.
+  std::erase_if(findings, [&](const DataFinding& one) {
+    return one.fault == Fault::hum && std::ranges::any_of(findings, [&](const DataFinding& other) {
+             return other.fault == Fault::dead_channel && other.channel == one.channel;
+           });
+  });
   for (auto& finding : findings) finding.time_s = record.time_s[finding.first_sample];
   std::ranges::stable_sort(findings, {}, &DataFinding::fault);
   return findings;
@@ -233,10 +329,15 @@ std::vector<arm::Sensor> leave_out_dead_channels(TimeRecord& record,
 std::size_t leave_out_spikes(TimeRecord& record, const DataFinding& finding) {
   const auto& spikes = finding.predicted;
   const double most = kMostLeftOut * static_cast<double>(record.time_s.size());
+  if (static_cast<double>(spikes.size()) > most) return 0;
+  if (finding.channel == "torque") {
+    for (const auto& [sample, value] : spikes) record.torque_N_m[sample] = value;
+    return spikes.size();
+  }
   const auto channel = std::ranges::find(record.channels, finding.channel, [](const Channel& one) {
     return arm::to_string(one.sensor);
   });
-  if (channel == record.channels.end() || static_cast<double>(spikes.size()) > most) return 0;
+  if (channel == record.channels.end()) return 0;
   for (const auto& [sample, value] : spikes) {
     channel->values[sample] = value;
     channel->left_out.push_back(sample);

@@ -1,5 +1,6 @@
 #include "measured/checks/data_check_clock.hpp"
 
+#include "measured/checks/data_check_stamps.hpp"
 #include "measured/files/sample_clock.hpp"
 #include "measured/spectra/robust.hpp"
 
@@ -7,6 +8,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 namespace flexarm::measured {
 
@@ -18,15 +20,17 @@ constexpr std::size_t kFewest = 10;  // samples for a line through times
 DataFinding backward_finding(std::span<const double> times_s, const ClockSteps& steps) {
   const std::size_t k = steps.backward.front();
   const double back_s = times_s[k - 1] - times_s[k];
+  std::string what = fmt::format("decreases by {:.3g} s", back_s);
+  if (back_s == 0.0) what = "repeats";
+  // Beside jitter, which may hide it in this one step.
+  if (back_s < 0.0) what = "falls back";
   return {Fault::backward_time,
           "time",
           k,
           times_s[k],
           back_s,
-          fmt::format(
-              "time {} at sample {}, after {:.9g} s{}",
-              back_s == 0.0 ? std::string("repeats") : fmt::format("decreases by {:.3g} s", back_s),
-              k + 1, times_s[k - 1], more_places(steps.backward.size()))};
+          fmt::format("time {} at sample {}, after {:.9g} s{}", what, k + 1, times_s[k - 1],
+                      more_places(steps.backward.size()))};
 }
 
 DataFinding gap_finding(std::span<const double> times_s, const ClockSteps& steps) {
@@ -76,7 +80,8 @@ void add_jitter(std::span<const double> times_s, const ClockSteps& steps,
 
 ClockCheck check_clock(std::span<const double> times_s, const DataCheckOptions& options) {
   ClockCheck check;
-  const ClockSteps steps = clock_steps(times_s);
+  ClockSteps steps = clock_steps(times_s);
+  if (auto jittered = jittered_steps(times_s, steps.period_s)) steps = *std::move(jittered);
   check.period_s = steps.period_s;
   if (steps.period_s > 0.0) add_jitter(times_s, steps, options, check.findings);
   if (!steps.gaps.empty()) check.findings.push_back(gap_finding(times_s, steps));

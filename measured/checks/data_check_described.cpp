@@ -8,20 +8,20 @@ namespace flexarm::measured {
 
 namespace {
 
-using Lines = std::vector<std::complex<double>>;
+using AccelerationLines = std::vector<std::complex<double>>;
 
 /// A signal's transform, of the acceleration of what moves.
-Lines lines_of(const CheckedSignal& signal, const Transforms& transforms, std::size_t at) {
+AccelerationLines lines_of(const CheckedSignal& signal, const Transforms& transforms, std::size_t at) {
   const int order = signal.is_torque() ? 0 : 2 - arm::derivative_order(*signal.sensor);
-  Lines lines;
+  AccelerationLines lines;
   for (std::size_t bin = 0; bin < transforms.bins(); ++bin) {
     lines.push_back(transforms.derivative(at, order, bin));
   }
   return lines;
 }
 
-std::vector<Lines> all_lines(std::span<const CheckedSignal> signals, const Transforms& transforms) {
-  std::vector<Lines> all;
+std::vector<AccelerationLines> all_lines(std::span<const CheckedSignal> signals, const Transforms& transforms) {
+  std::vector<AccelerationLines> all;
   for (std::size_t i = 0; i < signals.size(); ++i) {
     all.push_back(lines_of(signals[i], transforms, i));
   }
@@ -56,7 +56,7 @@ struct Sides {
   LineValues right;
 };
 
-Sides sides(const std::vector<Lines>& x, const std::vector<Lines>& y, std::size_t a,
+Sides sides(const std::vector<AccelerationLines>& x, const std::vector<AccelerationLines>& y, std::size_t a,
             std::size_t b) {
   return {[&x, &y, a, b](std::size_t bin) { return x[a][bin] * y[b][bin]; },
           [&x, &y, a, b](std::size_t bin) { return x[b][bin] * y[a][bin]; }};

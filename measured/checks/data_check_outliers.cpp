@@ -1,8 +1,8 @@
 #include "measured/checks/data_check_outliers.hpp"
 
+#include "measured/checks/data_check_prediction.hpp"
 #include "measured/spectra/robust.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <fmt/format.h>
 
@@ -27,15 +27,9 @@ constexpr double kAlone = 0.4;
 constexpr double kTwoNear = 0.2;
 constexpr int kMostPasses = 6;
 constexpr int kRepairRounds = 3;
-/// Where more of the samples stand out, the residual is no noise with a few outliers.
-constexpr double kMostSpikes = 0.01;
-/// Keeps the normal equations solvable where columns are alike; far below any noise.
-constexpr double kRidge = 1e-12;
-
-struct Lagged {
-  std::size_t signal = 0;
-  int lag = 0;
-};
+/// A channel with so many spikes that stand alone has others that do not.
+constexpr std::size_t kMany = 5;
+constexpr int kDensePasses = 12;
 
 struct Outlier {
   std::size_t signal = 0;
@@ -54,31 +48,6 @@ std::vector<Lagged> regressors_of(std::size_t self, const std::vector<bool>& usa
     }
   }
   return regressors;
-}
-
-/// Least squares over samples [first, first + rows): reading less prediction, and the share of each
-/// regressor.
-struct Regression {
-  Eigen::VectorXd left;
-  Eigen::VectorXd shares;
-};
-
-Regression regress(const std::vector<Eigen::VectorXd>& values, std::size_t self,
-                   const std::vector<Lagged>& regressors, Eigen::Index first, Eigen::Index rows) {
-  const auto columns = static_cast<Eigen::Index>(regressors.size());
-  Eigen::MatrixXd matrix(rows, columns);
-  for (Eigen::Index j = 0; j < columns; ++j) {
-    const auto& [signal, lag] = regressors[static_cast<std::size_t>(j)];
-    matrix.col(j) = values[signal].segment(first + lag, rows);
-  }
-  const Eigen::VectorXd target = values[self].segment(first, rows);
-  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(columns, columns);
-  normal.selfadjointView<Eigen::Lower>().rankUpdate(matrix.transpose());
-  normal.diagonal().array() += kRidge * normal.diagonal().maxCoeff();
-  Regression made;
-  made.shares = normal.selfadjointView<Eigen::Lower>().ldlt().solve(matrix.transpose() * target);
-  made.left = target - matrix * made.shares;
-  return made;
 }
 
 /// Reading less prediction for samples [kOwnReach, count - kOwnReach), and the share in the
@@ -199,8 +168,18 @@ std::optional<double> size_of_spike(const Prediction& prediction, std::size_t at
   return std::nullopt;
 }
 
+/// What jumps of the torque do to the residuals.
+struct Shaking {
+  std::vector<bool> samples;  ///< shaken ones
+  std::vector<double> least;  ///< size of a spike there, by signal
+
+  double least_at(std::size_t signal, std::size_t sample) const {
+    return samples[sample] ? least[signal] : 0.0;
+  }
+};
+
 /// Samples that a jump of the torque shakes: it changes by half its standard deviation and by eight
-/// times its median change, as in a series of pulses.
+/// times its median change, in the record and around, as in a series of pulses.
 std::vector<bool> shaken_samples(const Eigen::VectorXd& torque) {
   constexpr double kJump = 0.5;
   constexpr double kUnusual = 8.0;
@@ -215,7 +194,11 @@ std::vector<bool> shaken_samples(const Eigen::VectorXd& torque) {
     }
   };
   for (Eigen::Index k = 0; k < change.size(); ++k) {
-    if (change[k] > std::max(kJump, kUnusual * usual)) shake(k + 1);
+    if (change[k] <= std::max(kJump, kUnusual * usual)) continue;
+    constexpr auto kSide = static_cast<Eigen::Index>(kAround);
+    const Eigen::Index from = std::max<Eigen::Index>(0, k - kSide);
+    const Eigen::Index to = std::min(change.size(), k + kSide + 1);
+    if (change[k] > kUnusual * median({change.data() + from, change.data() + to})) shake(k + 1);
   }
   shake(0);  // the record may begin with a jump
   return shaken;
@@ -225,7 +208,7 @@ std::vector<bool> shaken_samples(const Eigen::VectorXd& torque) {
 /// puts them into `found`. They stand alone if no residual of the kAround samples behind is kAlone
 /// of their size.
 void repair_begin(std::vector<Eigen::VectorXd>& values, const std::vector<bool>& usable,
-                  const std::vector<bool>& shaken, const DataCheckOptions& options,
+                  const Shaking& shaking, const DataCheckOptions& options,
                   std::vector<std::set<std::size_t>>& found) {
   for (std::size_t i = 1; i < values.size(); ++i) {
     if (!usable[i]) continue;
@@ -234,7 +217,7 @@ void repair_begin(std::vector<Eigen::VectorXd>& values, const std::vector<bool>&
       const double size = std::abs(left[k]);
       const double least =
           std::max({options.least_spike, options.spike_deviations * robust_deviation(left),
-                    shaken[k] ? options.least_shaken_spike : 0.0});
+                    shaking.least_at(i, k)});
       const bool is_alone =
           std::ranges::all_of(std::span(left).subspan(k + 1, kAround),
                               [size](double beside) { return std::abs(beside) <= kAlone * size; });
@@ -247,24 +230,24 @@ void repair_begin(std::vector<Eigen::VectorXd>& values, const std::vector<bool>&
 
 /// As `repair_begin` at both ends; the end is the begin of the reversed record.
 void repair_ends(std::vector<Eigen::VectorXd>& values, const std::vector<bool>& usable,
-                 std::vector<bool> shaken, const DataCheckOptions& options,
+                 Shaking shaking, const DataCheckOptions& options,
                  std::vector<std::set<std::size_t>>& found) {
   const auto reverse = [&] {
     for (auto& signal : values) signal.reverseInPlace();
-    std::reverse(shaken.begin(), shaken.end());
+    std::reverse(shaking.samples.begin(), shaking.samples.end());
   };
-  repair_begin(values, usable, shaken, options, found);
+  repair_begin(values, usable, shaking, options, found);
   reverse();
   std::vector<std::set<std::size_t>> at_end(found.size());
-  repair_begin(values, usable, shaken, options, at_end);
+  repair_begin(values, usable, shaking, options, at_end);
   reverse();
   for (std::size_t i = 0; i < found.size(); ++i) {
-    for (const std::size_t k : at_end[i]) found[i].insert(shaken.size() - 1 - k);
+    for (const std::size_t k : at_end[i]) found[i].insert(shaking.samples.size() - 1 - k);
   }
 }
 
 std::vector<Outlier> outliers_of(const std::vector<Eigen::VectorXd>& values,
-                                 const std::vector<bool>& usable, const std::vector<bool>& shaken,
+                                 const std::vector<bool>& usable, const Shaking& shaking,
                                  const DataCheckOptions& options) {
   std::vector<Outlier> all;
   for (std::size_t i = 1; i < values.size(); ++i) {
@@ -275,9 +258,9 @@ std::vector<Outlier> outliers_of(const std::vector<Eigen::VectorXd>& values,
     const double least = std::max(options.least_spike, options.spike_deviations * scale);
     for (std::size_t k = 0; k < prediction.left.size(); ++k) {
       if (std::abs(prediction.left[k]) <= least) continue;
-      const auto size = size_of_spike(prediction, k, shaken[k + kOwnReach]);
+      const auto size = size_of_spike(prediction, k, shaking.samples[k + kOwnReach]);
       if (!size || std::abs(*size) <= least) continue;
-      if (shaken[k + kOwnReach] && std::abs(*size) <= options.least_shaken_spike) continue;
+      if (std::abs(*size) <= shaking.least_at(i, k + kOwnReach)) continue;
       all.push_back({i, k + kOwnReach, *size, std::abs(*size) / std::max(scale, 1e-12)});
     }
   }
@@ -297,6 +280,24 @@ std::vector<Outlier> leaders(const std::vector<Outlier>& all) {
     chosen.push_back(outlier);
   }
   return chosen;
+}
+
+/// Of a channel that is known to have many spikes: every sample that deviates most within kOwnReach
+/// of it, whatever else is near.
+std::vector<Outlier> dense_outliers_of(const std::vector<Eigen::VectorXd>& values,
+                                       std::size_t signal, const std::vector<bool>& usable,
+                                       const DataCheckOptions& options) {
+  const Prediction prediction = predict(values, signal, usable);
+  const double scale = robust_deviation(prediction.left);
+  const double least = std::max(options.least_spike, options.spike_deviations * scale);
+  std::vector<Outlier> all;
+  for (std::size_t k = 0; k < prediction.left.size(); ++k) {
+    const double size = std::abs(prediction.left[k]);
+    if (size <= least) continue;
+    all.push_back({signal, k + kOwnReach, prediction.left[k], size});
+  }
+  std::ranges::sort(all, std::ranges::greater(), &Outlier::score);
+  return leaders(all);
 }
 
 /// Sets each of these samples to its prediction. The others help to predict it: a few rounds.
@@ -334,6 +335,11 @@ DataFinding finding_of(const CheckedSignal& signal, const std::set<std::size_t>&
   finding.text =
       fmt::format("{} has a spike of {:.4g} {} at sample {}{}", signal.name, size(first),
                   arm::unit(*signal.sensor), first.sample + 1, more_places(spikes.size()));
+  const double share =
+      static_cast<double>(spikes.size()) / static_cast<double>(signal.values.size());
+  if (share > kMostLeftOut) {
+    finding.text += fmt::format(": {:.2g} % of its samples, too many to leave out", 100.0 * share);
+  }
   return finding;
 }
 
@@ -343,31 +349,41 @@ std::vector<DataFinding> check_spikes(std::span<const CheckedSignal> signals,
                                       const std::vector<bool>& usable,
                                       const DataCheckOptions& options, bool ends_are_sound) {
   const std::size_t samples = signals[0].values.size();
-  std::vector<Eigen::VectorXd> values;
-  for (const auto& signal : signals) {
-    const auto map =
-        Eigen::Map<const Eigen::VectorXd>(signal.values.data(), static_cast<Eigen::Index>(samples));
-    const double scale = signal.deviation > 0.0 ? signal.deviation : 1.0;
-    values.emplace_back((map.array() - mean(signal.values)) / scale);
-  }
+  std::vector<Eigen::VectorXd> values = standardised(signals);
   // A torque that is not known may jump anywhere.
-  const auto shaken = usable[0] ? shaken_samples(values[0]) : std::vector<bool>(samples, true);
+  Shaking shaking{usable[0] ? shaken_samples(values[0]) : std::vector<bool>(samples, true), {}};
+  for (const auto& signal : signals) {
+    // An angle and a displacement do not jump.
+    const bool is_smooth = signal.is(arm::SensorKind::hub_angle) ||
+                           signal.is(arm::SensorKind::tip_displacement);
+    shaking.least.push_back(is_smooth ? 0.0 : options.least_shaken_spike);
+  }
   std::vector<std::set<std::size_t>> found(signals.size());
-  if (ends_are_sound) repair_ends(values, usable, shaken, options, found);
-  for (int pass = 0; pass < kMostPasses; ++pass) {
-    const auto chosen = leaders(outliers_of(values, usable, shaken, options));
-    if (chosen.empty()) break;
+  if (ends_are_sound) repair_ends(values, usable, shaking, options, found);
+  const auto take = [&](const std::vector<Outlier>& chosen) {
     for (const auto& outlier : chosen) {
       values[outlier.signal][static_cast<Eigen::Index>(outlier.sample)] -= outlier.size;
       found[outlier.signal].insert(outlier.sample);
     }
+  };
+  for (int pass = 0; pass < kMostPasses; ++pass) {
+    const auto chosen = leaders(outliers_of(values, usable, shaking, options));
+    if (chosen.empty()) break;
+    take(chosen);
+  }
+  for (std::size_t i = 1; i < values.size(); ++i) {
+    if (found[i].size() < kMany) continue;
+    for (int pass = 0; pass < kDensePasses; ++pass) {
+      const auto chosen = dense_outliers_of(values, i, usable, options);
+      if (chosen.empty()) break;
+      take(chosen);
+    }
   }
   repair(values, found, usable);
-  if (ends_are_sound) repair_ends(values, usable, shaken, options, found);
+  if (ends_are_sound) repair_ends(values, usable, shaking, options, found);
   std::vector<DataFinding> findings;
   for (std::size_t i = 1; i < signals.size(); ++i) {
-    const auto most = std::max(10.0, kMostSpikes * static_cast<double>(samples));
-    if (found[i].empty() || static_cast<double>(found[i].size()) > most) continue;
+    if (found[i].empty()) continue;
     findings.push_back(finding_of(signals[i], found[i], values[i]));
   }
   return findings;

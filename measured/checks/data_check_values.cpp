@@ -33,19 +33,6 @@ bool fades(const Change& at) {
          std::abs(at(3)) <= 0.9 * std::abs(at(4));
 }
 
-/// Whether a run is entered and left as a hub comes to rest and leaves it; the ends of the record
-/// say nothing against it.
-bool is_restful(std::span<const double> x, const EqualRun& run) {
-  constexpr std::size_t kChanges = 4;
-  const std::size_t last = run.first + run.count - 1;
-  const bool fades_in = run.first < kChanges || fades([&](std::size_t j) {
-                          return x[run.first - j + 1] - x[run.first - j];
-                        });
-  const bool fades_out = last + kChanges >= x.size() ||
-                         fades([&](std::size_t j) { return x[last + j] - x[last + j - 1]; });
-  return fades_in && fades_out;
-}
-
 std::size_t distinct_values(std::span<const double> x) {
   std::vector<double> sorted(x.begin(), x.end());
   std::ranges::sort(sorted);
@@ -162,7 +149,7 @@ std::optional<DataFinding> saturation(const CheckedSignal& signal,
                                       std::span<const CheckedSignal> signals, double step,
                                       const DataCheckOptions& options) {
   const auto x = signal.values;
-  if (signal.is_torque() && distinct_values(x) < kFewestTorqueLevels) return std::nullopt;
+  if (signal.is_torque() && has_few_levels(x)) return std::nullopt;
   const auto [low, high] = std::ranges::minmax(x);
   std::optional<DataFinding> found;
   std::size_t samples = 0;
@@ -246,6 +233,21 @@ std::optional<DataFinding> stuck(const CheckedSignal& signal,
 
 }  // namespace
 
+bool has_few_levels(std::span<const double> torque) {
+  return distinct_values(torque) < kFewestTorqueLevels;
+}
+
+bool is_restful(std::span<const double> x, const EqualRun& run) {
+  constexpr std::size_t kChanges = 4;
+  const std::size_t last = run.first + run.count - 1;
+  const bool fades_in = run.first < kChanges || fades([&](std::size_t j) {
+                          return x[run.first - j + 1] - x[run.first - j];
+                        });
+  const bool fades_out = last + kChanges >= x.size() ||
+                         fades([&](std::size_t j) { return x[last + j] - x[last + j - 1]; });
+  return fades_in && fades_out;
+}
+
 std::vector<DataFinding> check_values(std::span<const CheckedSignal> signals,
                                       const DataCheckOptions& options) {
   std::vector<DataFinding> findings;
@@ -271,7 +273,7 @@ std::vector<DataFinding> check_quantisation(std::span<const CheckedSignal> signa
   std::vector<DataFinding> findings;
   for (std::size_t i = 0; i < signals.size(); ++i) {
     const auto& signal = signals[i];
-    if (signal.is_torque() && distinct_values(signal.values) < kFewestTorqueLevels) continue;
+    if (signal.is_torque() && has_few_levels(signal.values)) continue;
     const auto step = lattice_step(signal.values, options.fine_step * signal.deviation);
     if (!step) continue;
     const double error_power = *step * *step / 12.0;

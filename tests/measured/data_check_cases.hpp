@@ -78,6 +78,8 @@ struct PlantedFault {
   std::size_t last_sample = 0;  ///< the first sample of the finding lies between these
   std::string description;
   double value = 0.0;  ///< its size, of faults that the described arm shows
+  std::vector<Fault> beside = {};  ///< planted with it, to be found or not
+  std::size_t least_readings = 0;  ///< that the finding predicts
 };
 
 /// A fault of random size in a run of its own; the ranges of sizes are in docs/measured-data.md.

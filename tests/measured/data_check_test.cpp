@@ -39,7 +39,8 @@ bool is_found(const PlantedFault& planted, Fault fault, const DataFinding& findi
                                                           kSizeError * std::abs(planted.value);
   return is_of_its_size && finding.fault == fault && finding.channel == planted.channel &&
          finding.first_sample >= planted.first_sample &&
-         finding.first_sample <= planted.last_sample;
+         finding.first_sample <= planted.last_sample &&
+         finding.predicted.size() >= planted.least_readings;
 }
 
 std::string report(const PlantedFault& planted, const std::vector<DataFinding>& findings) {
@@ -64,7 +65,7 @@ Outcome check_planted(Fault fault, std::uint64_t seed) {
   for (const auto& finding : findings) {
     if (is_found(planted, fault, finding)) {
       outcome.found = true;
-    } else {
+    } else if (std::ranges::count(planted.beside, finding.fault) == 0) {
       ++outcome.further;
     }
   }

@@ -1,0 +1,156 @@
+#include "measured/checks/data_check_sampling_jitter.hpp"
+
+#include "measured/checks/data_check_prediction.hpp"
+#include "measured/checks/data_check_values.hpp"
+#include "measured/spectra/robust.hpp"
+
+#include <Eigen/LU>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace flexarm::measured {
+
+namespace {
+
+using Eigen::Index;
+
+constexpr int kJitterReach = 4;  // samples of its own that predict one of a channel
+constexpr std::size_t kFewestRows = 200;
+constexpr Index kShakenFor = 24;  // samples after a jump of the torque
+constexpr double kJumpOfTorque = 0.5;
+constexpr double kUnusualJump = 8.0;
+constexpr Index kJumpSide = 12;
+constexpr double kMostResidual = 4.0;  // robust deviations; larger ones are taken for this
+constexpr double kMostSquare = 12.0;   // as u
+constexpr double kSingular = 1e-3;     // of the mean variance, on the diagonal of the covariance
+constexpr int kReweightings = 8;
+constexpr Index kBlocks = 3;
+constexpr double kLeastEvidence = 5.0;  // standard errors
+constexpr double kLeastRms_periods = 0.045;
+constexpr double kLeastRmsBesidePulses_periods = 0.1;
+
+/// Samples that no jump of the torque shakes, over [kJitterReach, samples - kJitterReach).
+std::vector<Index> calm_rows(const Eigen::VectorXd& torque, bool torque_is_known) {
+  const Index samples = torque.size();
+  std::vector<bool> is_shaken(static_cast<std::size_t>(samples), false);
+  const auto shake = [&](Index from, Index to) {
+    for (Index k = std::max<Index>(0, from); k < std::min(samples, to); ++k) {
+      is_shaken[static_cast<std::size_t>(k)] = true;
+    }
+  };
+  shake(0, kShakenFor);  // the record may begin with a jump
+  if (torque_is_known) {
+    const Eigen::VectorXd change = (torque.tail(samples - 1) - torque.head(samples - 1)).cwiseAbs();
+    const double usual = median({change.data(), change.data() + change.size()});
+    for (Index k = 0; k < change.size(); ++k) {
+      if (change[k] <= std::max(kJumpOfTorque, kUnusualJump * usual)) continue;
+      const Index from = std::max<Index>(0, k - kJumpSide);
+      const Index to = std::min(change.size(), k + kJumpSide + 1);
+      if (change[k] > kUnusualJump * median({change.data() + from, change.data() + to})) {
+        shake(k - kJitterReach + 1, k + 1 + kShakenFor);
+      }
+    }
+  }
+  std::vector<Index> rows;
+  for (Index k = kJitterReach; k < samples - kJitterReach; ++k) {
+    if (!is_shaken[static_cast<std::size_t>(k)]) rows.push_back(k - kJitterReach);
+  }
+  return rows;
+}
+
+Eigen::VectorXd residual_of(const std::vector<Eigen::VectorXd>& values, std::size_t self,
+                            const std::vector<bool>& usable) {
+  std::vector<Lagged> regressors;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (!usable[i]) continue;
+    const int reach = i == self ? kJitterReach : 2;
+    for (int lag = -reach; lag <= reach; ++lag) {
+      if (i == 0 || lag != 0) regressors.push_back({i, lag});
+    }
+  }
+  return regress(values, self, regressors, kJitterReach, values[0].size() - 2 * kJitterReach).left;
+}
+
+/// Of the sixth order, per sample.
+Eigen::VectorXd derivative_of(const Eigen::VectorXd& x) {
+  const Index rows = x.size() - 2 * kJitterReach;
+  const auto apart = [&](Index lag) {
+    return x.segment(kJitterReach + lag, rows) - x.segment(kJitterReach - lag, rows);
+  };
+  return 0.75 * apart(1) - 0.15 * apart(2) + apart(3) / 60.0;
+}
+
+/// Values less their weighted mean in each of kBlocks blocks of time.
+Eigen::ArrayXd centred(const Eigen::ArrayXd& values, const Eigen::ArrayXd& weight) {
+  Eigen::ArrayXd left = values;
+  for (Index block = 0; block < kBlocks; ++block) {
+    const Index from = block * values.size() / kBlocks;
+    const Index count = (block + 1) * values.size() / kBlocks - from;
+    const auto part = weight.segment(from, count);
+    left.segment(from, count) -= (part * values.segment(from, count)).sum() / part.sum();
+  }
+  return left;
+}
+
+/// u = level + slope g with a level for each block of time, by least squares with weights
+/// 1/(1 + slope g)^2.
+struct Growth {
+  double slope = 0.0;
+  double error = 0.0;
+};
+
+Growth growth_of(const Eigen::ArrayXd& u, const Eigen::ArrayXd& g) {
+  Growth growth;
+  for (int i = 0; i < kReweightings; ++i) {
+    const Eigen::ArrayXd weight = (1.0 + std::max(0.0, growth.slope) * g).square().inverse();
+    const Eigen::ArrayXd across = centred(g, weight);
+    const Eigen::ArrayXd up = centred(u, weight);
+    const double power = (weight * across.square()).sum();
+    growth.slope = (weight * across * up).sum() / power;
+    growth.error = (weight * across * (up - growth.slope * across)).matrix().norm() / power;
+  }
+  return growth;
+}
+
+}  // namespace
+
+std::vector<DataFinding> check_sampling_jitter(std::span<const CheckedSignal> signals,
+                                               const std::vector<bool>& usable, double period_s) {
+  const auto values = standardised(signals);
+  if (values[0].size() <= 2 * kJitterReach) return {};
+  const auto rows = calm_rows(values[0], usable[0]);
+  if (rows.size() < kFewestRows) return {};
+  const auto channels = std::count(usable.begin() + 1, usable.end(), true);
+  if (channels == 0) return {};
+  Eigen::MatrixXd residuals(channels, std::ssize(rows));
+  Eigen::MatrixXd derivatives(channels, std::ssize(rows));
+  Index row = 0;
+  for (std::size_t i = 1; i < values.size(); ++i) {
+    if (!usable[i]) continue;
+    const Eigen::VectorXd left = residual_of(values, i, usable)(rows);
+    const double scale = robust_deviation({left.data(), static_cast<std::size_t>(left.size())});
+    if (scale <= 0.0) return {};
+    residuals.row(row) = (left / scale).cwiseMin(kMostResidual).cwiseMax(-kMostResidual);
+    derivatives.row(row) = derivative_of(values[i])(rows) / scale;
+    ++row;
+  }
+  Eigen::MatrixXd covariance =
+      residuals * residuals.transpose() / static_cast<double>(rows.size());
+  covariance.diagonal().array() += kSingular * covariance.trace() / static_cast<double>(channels);
+  const Eigen::MatrixXd seen = covariance.inverse() * derivatives;
+  const Eigen::ArrayXd g = seen.cwiseProduct(derivatives).colwise().sum().transpose();
+  const Eigen::ArrayXd along = seen.cwiseProduct(residuals).colwise().sum().transpose();
+  const Growth growth = growth_of((along.square() / g.max(1e-300)).min(kMostSquare), g);
+  const double rms = std::sqrt(std::max(0.0, growth.slope));
+  const double least =
+      has_few_levels(signals[0].values) ? kLeastRmsBesidePulses_periods : kLeastRms_periods;
+  if (!(growth.slope > kLeastEvidence * growth.error) || rms <= least) return {};
+  return {{Fault::sampling_jitter, "time", 0, 0.0, rms * period_s,
+           fmt::format("sampling instants jitter by about {:.2g} of the period (rms {:.2g} s) while "
+                       "the times are even: errors grow with the rate of change of all channels",
+                       rms, rms * period_s)}};
+}
+
+}  // namespace flexarm::measured

@@ -194,8 +194,8 @@ std::vector<DataFinding> compare(std::span<const CheckedSignal> signals, std::ve
   note(check_units(comparison()));
   note(check_delay(comparison()));
   if (from_rest) {
-    note(check_offsets(comparison(), described.values));
     if (!described.values.empty()) note(check_torque_offset(comparison(), options.described));
+    note(check_offsets(comparison(), described.values));
   }
   note(check_angle_drift(signals, usable, floor_power, period_s, options));
   return findings;

@@ -111,12 +111,12 @@ struct DataCheckOptions {
   double rough_unit_factor = 4.0;
   /// Scale: no unit, and off by a factor > this; > `least_torque_scale` by the described arm's
   /// answer to the torque, on which friction has an influence.
-  double least_scale = 1.15;
-  double least_torque_scale = 1.2;
+  double least_scale = 1.2;
+  double least_torque_scale = 1.16;
   /// Offset: at rest > `least_offset` deviations of the channel, and > this many standard errors.
   double least_offset = 0.1;
   double least_torque_offset = 0.1;
-  double offset_errors = 8.0;
+  double offset_errors = 5.0;
 };
 
 /// Checks a run for faults of the recording, by what holds for any arm of this kind whatever its

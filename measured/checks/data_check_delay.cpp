@@ -18,6 +18,7 @@ using arm::SensorKind;
 /// Cosine of the phase that the delay leaves, by the described arm: where it leaves more, the arm
 /// is not as described.
 constexpr double kDescribedAgreement = 0.97;
+constexpr std::size_t kFewestLagBlocks = 3;
 
 /// Signal a is `delay_s` later than signal b.
 struct Lag {
@@ -47,7 +48,9 @@ std::vector<Lag> lags_of(const Comparison& comparison) {
   for (const auto& [a, b, fit] : comparison.described_and_held()) {
     const bool is_told = angle && velocity && (a == *velocity || b == *velocity) &&
                          (a == *angle || b == *angle);
-    if (b != 0 && !is_told && fit.agreement >= kDescribedAgreement) add(a, b, fit, options.least_described_delay_periods);
+    const bool is_clear = fit.sign > 0 && fit.blocks >= kFewestLagBlocks &&
+                          fit.agreement >= kDescribedAgreement;
+    if (b != 0 && !is_told && is_clear) add(a, b, fit, options.least_described_delay_periods);
   }
   return lags;
 }

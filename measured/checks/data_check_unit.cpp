@@ -22,6 +22,8 @@ constexpr double kLeastUnitCorrelation = 0.7;
 /// from them.
 constexpr double kNarrow = 0.03;
 constexpr std::size_t kFewestScaleBlocks = 3;
+/// log10 that noise may add where there are fewer.
+constexpr double kNoiseOfFewBlocks = 0.01;
 
 /// Scale of a over scale of b, as recorded over what it must be.
 struct Ratio {
@@ -34,9 +36,9 @@ struct Ratio {
 };
 
 Ratio ratio_of(std::size_t a, std::size_t b, const GainFit& fit) {
-  return {a, b, fit.log10_gain, false,
-          fit.blocks >= kFewestScaleBlocks && fit.spread <= kNarrow,
-          0.5 * std::abs(fit.log10_h2 - fit.log10_h1)};
+  const double noise = 0.5 * std::abs(fit.log10_h2 - fit.log10_h1);
+  const bool is_seen = fit.blocks >= kFewestScaleBlocks || noise <= kNoiseOfFewBlocks;
+  return {a, b, fit.log10_gain, false, is_seen && fit.spread <= kNarrow, noise};
 }
 
 void add_identities(const Comparison& comparison, std::vector<Ratio>& ratios) {

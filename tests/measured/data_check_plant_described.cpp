@@ -85,7 +85,7 @@ PlantedFault plant_wrong_scale(std::uint64_t seed, RandomNumbers& random) {
   } else {
     auto& channels = result.record.channels;
     Channel& channel = channels[random.below(channels.size())];
-    result.value = log_between(random, 1.25, 2.5);
+    result.value = log_between(random, 1.3, 2.5);
     if (chance(random, 0.5)) result.value = 1.0 / result.value;
     for (double& value : channel.values) value *= result.value;
     result.channel = arm::to_string(channel.sensor);

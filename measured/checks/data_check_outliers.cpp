@@ -354,8 +354,8 @@ std::vector<DataFinding> check_spikes(std::span<const CheckedSignal> signals,
   Shaking shaking{usable[0] ? shaken_samples(values[0]) : std::vector<bool>(samples, true), {}};
   for (const auto& signal : signals) {
     // An angle and a displacement do not jump.
-    const bool is_smooth = signal.is(arm::SensorKind::hub_angle) ||
-                           signal.is(arm::SensorKind::tip_displacement);
+    const bool is_smooth =
+        signal.is(arm::SensorKind::hub_angle) || signal.is(arm::SensorKind::tip_displacement);
     shaking.least.push_back(is_smooth ? 0.0 : options.least_shaken_spike);
   }
   std::vector<std::set<std::size_t>> found(signals.size());

@@ -25,8 +25,8 @@ constexpr Index kJumpSide = 12;
 constexpr double kMostResidual = 4.0;  // robust deviations; larger ones are taken for this
 constexpr double kMostSquare = 12.0;   // as u
 constexpr double kSingular = 1e-3;     // of the mean variance, on the diagonal of the covariance
-constexpr int kReweightings = 8;
-constexpr Index kBlocks = 3;
+constexpr int kJitterReweightings = 8;
+constexpr Index kTimeBlocks = 3;
 constexpr double kLeastEvidence = 5.0;  // standard errors
 constexpr double kLeastRms_periods = 0.045;
 constexpr double kLeastRmsBesidePulses_periods = 0.1;
@@ -82,12 +82,12 @@ Eigen::VectorXd derivative_of(const Eigen::VectorXd& x) {
   return 0.75 * apart(1) - 0.15 * apart(2) + apart(3) / 60.0;
 }
 
-/// Values less their weighted mean in each of kBlocks blocks of time.
-Eigen::ArrayXd centred(const Eigen::ArrayXd& values, const Eigen::ArrayXd& weight) {
+/// Values less their weighted mean in each of kTimeBlocks blocks of time.
+Eigen::ArrayXd less_block_means(const Eigen::ArrayXd& values, const Eigen::ArrayXd& weight) {
   Eigen::ArrayXd left = values;
-  for (Index block = 0; block < kBlocks; ++block) {
-    const Index from = block * values.size() / kBlocks;
-    const Index count = (block + 1) * values.size() / kBlocks - from;
+  for (Index block = 0; block < kTimeBlocks; ++block) {
+    const Index from = block * values.size() / kTimeBlocks;
+    const Index count = (block + 1) * values.size() / kTimeBlocks - from;
     const auto part = weight.segment(from, count);
     left.segment(from, count) -= (part * values.segment(from, count)).sum() / part.sum();
   }
@@ -103,10 +103,10 @@ struct Growth {
 
 Growth growth_of(const Eigen::ArrayXd& u, const Eigen::ArrayXd& g) {
   Growth growth;
-  for (int i = 0; i < kReweightings; ++i) {
+  for (int i = 0; i < kJitterReweightings; ++i) {
     const Eigen::ArrayXd weight = (1.0 + std::max(0.0, growth.slope) * g).square().inverse();
-    const Eigen::ArrayXd across = centred(g, weight);
-    const Eigen::ArrayXd up = centred(u, weight);
+    const Eigen::ArrayXd across = less_block_means(g, weight);
+    const Eigen::ArrayXd up = less_block_means(u, weight);
     const double power = (weight * across.square()).sum();
     growth.slope = (weight * across * up).sum() / power;
     growth.error = (weight * across * (up - growth.slope * across)).matrix().norm() / power;
@@ -136,8 +136,7 @@ std::vector<DataFinding> check_sampling_jitter(std::span<const CheckedSignal> si
     derivatives.row(row) = derivative_of(values[i])(rows) / scale;
     ++row;
   }
-  Eigen::MatrixXd covariance =
-      residuals * residuals.transpose() / static_cast<double>(rows.size());
+  Eigen::MatrixXd covariance = residuals * residuals.transpose() / static_cast<double>(rows.size());
   covariance.diagonal().array() += kSingular * covariance.trace() / static_cast<double>(channels);
   const Eigen::MatrixXd seen = covariance.inverse() * derivatives;
   const Eigen::ArrayXd g = seen.cwiseProduct(derivatives).colwise().sum().transpose();
@@ -147,10 +146,11 @@ std::vector<DataFinding> check_sampling_jitter(std::span<const CheckedSignal> si
   const double least =
       has_few_levels(signals[0].values) ? kLeastRmsBesidePulses_periods : kLeastRms_periods;
   if (!(growth.slope > kLeastEvidence * growth.error) || rms <= least) return {};
-  return {{Fault::sampling_jitter, "time", 0, 0.0, rms * period_s,
-           fmt::format("sampling instants jitter by about {:.2g} of the period (rms {:.2g} s) while "
-                       "the times are even: errors grow with the rate of change of all channels",
-                       rms, rms * period_s)}};
+  return {
+      {Fault::sampling_jitter, "time", 0, 0.0, rms * period_s,
+       fmt::format("sampling instants jitter by about {:.2g} of the period (rms {:.2g} s) while "
+                   "the times are even: errors grow with the rate of change of all channels",
+                   rms, rms * period_s)}};
 }
 
 }  // namespace flexarm::measured

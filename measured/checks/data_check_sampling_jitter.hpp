@@ -18,8 +18,8 @@ namespace flexarm::measured {
 /// periods rms. s^2 is fitted by weighted least squares over the samples that no jump of the torque
 /// shakes, with a level for each third of the record; its error allows for any distribution of u.
 ///
-/// Jitter: s^2 of 5 standard errors or more, and s of 0.045 periods, of 0.1 where the torque is made
-/// of pulses or steps: what the arm does after them is predicted less well.
+/// Jitter: s^2 of 5 standard errors or more, and s of 0.045 periods, of 0.1 where the torque is
+/// made of pulses or steps: what the arm does after them is predicted less well.
 std::vector<DataFinding> check_sampling_jitter(std::span<const CheckedSignal> signals,
                                                const std::vector<bool>& usable, double period_s);
 

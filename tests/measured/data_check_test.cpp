@@ -24,6 +24,9 @@ constexpr int kFiles = 50;
 /// Files of a kind in which something beside the planted fault may be found: the rates measured
 /// over 500 files (docs/measured-data.md) are below 1 in 50 for most kinds.
 constexpr int kMostFurther = 3;
+constexpr int kFewFiles = 25;
+/// Of the kinds that are found in 96 to 99 % of many files (docs/measured-data.md).
+constexpr int kMostMissed = 2;
 
 /// Seeds of the files of a kind; those of the clean ones are below kSeedStep.
 constexpr std::uint64_t kSeedStep = 1'000'000;
@@ -70,13 +73,23 @@ Outcome check_planted(Fault fault, std::uint64_t seed) {
 
 class PlantedFaults : public testing::TestWithParam<Fault> {};
 
-TEST_P(PlantedFaults, AreFoundInEveryFile) {
+TEST_P(PlantedFaults, AreFound) {
+  const Fault fault = GetParam();
+  const bool is_subtle = fault == Fault::hum || fault == Fault::sampling_jitter;
+  // Drawn at several times the samples, or tried for detectability.
+  const int files = is_subtle || fault == Fault::duplicated_samples ? kFewFiles : kFiles;
   int with_further = 0;
-  for (int file = 0; file < kFiles; ++file) {
-    const Outcome outcome = check_planted(GetParam(), seed_of(GetParam(), file));
-    EXPECT_TRUE(outcome.found) << outcome.text;
+  int missed = 0;
+  std::string text;
+  for (int file = 0; file < files; ++file) {
+    const Outcome outcome = check_planted(fault, seed_of(fault, file));
+    if (!outcome.found) {
+      ++missed;
+      text += outcome.text;
+    }
     if (outcome.further > 0) ++with_further;
   }
+  EXPECT_LE(missed, is_subtle || fault == Fault::spikes ? kMostMissed : 0) << text;
   RecordProperty("files_with_further_findings", with_further);
   EXPECT_LE(with_further, kMostFurther);
 }

@@ -195,9 +195,9 @@ std::vector<bool> shaken_samples(const Eigen::VectorXd& torque) {
   };
   for (Eigen::Index k = 0; k < change.size(); ++k) {
     if (change[k] <= std::max(kJump, kUnusual * usual)) continue;
-    constexpr auto kSide = static_cast<Eigen::Index>(kAround);
-    const Eigen::Index from = std::max<Eigen::Index>(0, k - kSide);
-    const Eigen::Index to = std::min(change.size(), k + kSide + 1);
+    constexpr auto kBeside = static_cast<Eigen::Index>(kAround);
+    const Eigen::Index from = std::max<Eigen::Index>(0, k - kBeside);
+    const Eigen::Index to = std::min(change.size(), k + kBeside + 1);
     if (change[k] > kUnusual * median({change.data() + from, change.data() + to})) shake(k + 1);
   }
   shake(0);  // the record may begin with a jump

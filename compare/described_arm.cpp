@@ -42,7 +42,8 @@ measured::DescribedArm described_arm(const arm::Arm& arm) {
 measured::DescribedArms described_arms(const arm::Arm& arm) {
   measured::DescribedArms arms;
   arms.payload = arm.payload;
-  if (arm::has_beam(arm)) arms.beam_mass_kg = arm.beam.linear_density_kg_per_m() * arm.beam.length_m;
+  if (arm::has_beam(arm))
+    arms.beam_mass_kg = arm.beam.linear_density_kg_per_m() * arm.beam.length_m;
   arms.with = [arm](const arm::Payload& payload) {
     arm::Arm loaded = arm;
     loaded.payload = payload;

@@ -27,10 +27,10 @@ enum class Fault {
   offset,            ///< a reading at rest that is not zero; a torque that moves nothing
   swapped_channels,  ///< two columns exchanged
   sign_flipped,
-  wrong_unit,   ///< off by a power of ten, degrees for radians and the like
-  wrong_scale,  ///< off by another factor
-  delay,        ///< later than the other channels
-  zero_torque,  ///< a torque that says nothing of what moves the arm
+  wrong_unit,          ///< off by a power of ten, degrees for radians and the like
+  wrong_scale,         ///< off by another factor
+  delay,               ///< later than the other channels
+  zero_torque,         ///< a torque that says nothing of what moves the arm
   duplicated_samples,  ///< rows written twice while the time goes on
   sampling_jitter,     ///< instants of sampling off the even times that are written
   hum,                 ///< a line of the mains frequency that is none of the arm's
@@ -38,12 +38,13 @@ enum class Fault {
 };
 
 inline constexpr std::array kFaults = {
-    Fault::clock_jitter,       Fault::clock_rate,      Fault::missing_samples, Fault::backward_time,
-    Fault::saturation,         Fault::dead_channel,    Fault::stuck_values,    Fault::quantisation,
-    Fault::spikes,             Fault::drift,           Fault::offset,          Fault::swapped_channels,
-    Fault::sign_flipped,       Fault::wrong_unit,      Fault::wrong_scale,     Fault::delay,
-    Fault::zero_torque,        Fault::duplicated_samples, Fault::sampling_jitter, Fault::hum,
-    Fault::wrong_payload};
+    Fault::clock_jitter,    Fault::clock_rate,   Fault::missing_samples,
+    Fault::backward_time,   Fault::saturation,   Fault::dead_channel,
+    Fault::stuck_values,    Fault::quantisation, Fault::spikes,
+    Fault::drift,           Fault::offset,       Fault::swapped_channels,
+    Fault::sign_flipped,    Fault::wrong_unit,   Fault::wrong_scale,
+    Fault::delay,           Fault::zero_torque,  Fault::duplicated_samples,
+    Fault::sampling_jitter, Fault::hum,          Fault::wrong_payload};
 
 /// "clock jitter", "missing samples": as in a sentence.
 std::string_view to_string(Fault fault);
@@ -138,8 +139,9 @@ std::vector<arm::Sensor> leave_out_dead_channels(TimeRecord& record,
 
 /// Leaves the spikes of a finding out of its channel (Channel::left_out) and puts what is predicted
 /// in their place; the number of them. The torque gets the prediction alone: a simulation needs one
-/// at every sample, and an error of the prediction acts for one sample only. Where they are more than `kMostLeftOut` of the samples they
-/// are no outliers of a channel but its noise: nothing is done then, and for other findings.
+/// at every sample, and an error of the prediction acts for one sample only. Where they are more
+/// than `kMostLeftOut` of the samples they are no outliers of a channel but its noise: nothing is
+/// done then, and for other findings.
 std::size_t leave_out_spikes(TimeRecord& record, const DataFinding& finding);
 /// Estimates lose 1 - sqrt(0.95) = 2.5 % of their precision by as many. A sensor that is wrong more
 /// often has noise of another distribution, which its good readings show as well.

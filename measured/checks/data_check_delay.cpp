@@ -46,10 +46,10 @@ std::vector<Lag> lags_of(const Comparison& comparison) {
     if (holds(fit)) add(*velocity, *angle, fit, options.least_delay_periods);
   }
   for (const auto& [a, b, fit] : comparison.described_and_held()) {
-    const bool is_told = angle && velocity && (a == *velocity || b == *velocity) &&
-                         (a == *angle || b == *angle);
-    const bool is_clear = fit.sign > 0 && fit.blocks >= kFewestLagBlocks &&
-                          fit.agreement >= kDescribedAgreement;
+    const bool is_told =
+        angle && velocity && (a == *velocity || b == *velocity) && (a == *angle || b == *angle);
+    const bool is_clear =
+        fit.sign > 0 && fit.blocks >= kFewestLagBlocks && fit.agreement >= kDescribedAgreement;
     if (b != 0 && !is_told && is_clear) add(a, b, fit, options.least_described_delay_periods);
   }
   return lags;
@@ -60,8 +60,8 @@ struct LateSensor {
   std::size_t signal = 0;
   double delay_s = 0.0;
   double error_s = 0.0;
-  std::size_t other = 0;        ///< the one that tells most narrowly
-  bool is_one = true;           ///< by each of its lags
+  std::size_t other = 0;  ///< the one that tells most narrowly
+  bool is_one = true;     ///< by each of its lags
   std::size_t lags = 0;
   std::size_t unexplained = 0;  ///< delays that are there all the same
 };
@@ -99,8 +99,8 @@ std::vector<DataFinding> check_delay(const Comparison& comparison) {
   std::optional<LateSensor> found;
   for (std::size_t i = 1; i < comparison.signals.size() && !found; ++i) {
     const auto sensor = late(lags, i);
-    const bool is_late = sensor && sensor->is_one && sensor->lags >= least_lags &&
-                         sensor->unexplained == 0;
+    const bool is_late =
+        sensor && sensor->is_one && sensor->lags >= least_lags && sensor->unexplained == 0;
     if (is_late) found = sensor;
   }
   if (!found) return {};

@@ -11,7 +11,8 @@ namespace {
 using AccelerationLines = std::vector<std::complex<double>>;
 
 /// A signal's transform, of the acceleration of what moves.
-AccelerationLines lines_of(const CheckedSignal& signal, const Transforms& transforms, std::size_t at) {
+AccelerationLines lines_of(const CheckedSignal& signal, const Transforms& transforms,
+                           std::size_t at) {
   const int order = signal.is_torque() ? 0 : 2 - arm::derivative_order(*signal.sensor);
   AccelerationLines lines;
   for (std::size_t bin = 0; bin < transforms.bins(); ++bin) {
@@ -20,7 +21,8 @@ AccelerationLines lines_of(const CheckedSignal& signal, const Transforms& transf
   return lines;
 }
 
-std::vector<AccelerationLines> all_lines(std::span<const CheckedSignal> signals, const Transforms& transforms) {
+std::vector<AccelerationLines> all_lines(std::span<const CheckedSignal> signals,
+                                         const Transforms& transforms) {
   std::vector<AccelerationLines> all;
   for (std::size_t i = 0; i < signals.size(); ++i) {
     all.push_back(lines_of(signals[i], transforms, i));
@@ -40,8 +42,8 @@ std::vector<std::vector<double>> readings_of(std::span<const CheckedSignal> sign
 }
 
 Transforms transforms_of(std::span<const CheckedSignal> signals,
-                        const std::vector<std::vector<double>>& values,
-                        const Transforms& recorded) {
+                         const std::vector<std::vector<double>>& values,
+                         const Transforms& recorded) {
   std::vector<CheckedSignal> described(signals.begin(), signals.end());
   for (std::size_t i = 1; i < described.size(); ++i) {
     described[i].values = values[i];
@@ -56,8 +58,8 @@ struct Sides {
   LineValues right;
 };
 
-Sides sides(const std::vector<AccelerationLines>& x, const std::vector<AccelerationLines>& y, std::size_t a,
-            std::size_t b) {
+Sides sides(const std::vector<AccelerationLines>& x, const std::vector<AccelerationLines>& y,
+            std::size_t a, std::size_t b) {
   return {[&x, &y, a, b](std::size_t bin) { return x[a][bin] * y[b][bin]; },
           [&x, &y, a, b](std::size_t bin) { return x[b][bin] * y[a][bin]; }};
 }

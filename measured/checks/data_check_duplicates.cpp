@@ -20,7 +20,7 @@ constexpr double kMostByChance = 1e-3;     // of the blocks of a length
 constexpr double kDensity = 1.0 / 3.5449;
 
 /// `count` rows from `first` on are those right before them.
-struct Block {
+struct RepeatedBlock {
   std::size_t first = 0;
   std::size_t count = 0;
 };
@@ -32,9 +32,9 @@ bool is_repeated(std::span<const CheckedSignal> signals, std::size_t k, std::siz
 }
 
 /// Blocks by their length, then in order.
-std::vector<Block> repeated_blocks(std::span<const CheckedSignal> signals) {
+std::vector<RepeatedBlock> repeated_blocks(std::span<const CheckedSignal> signals) {
   const std::size_t samples = signals.front().values.size();
-  std::vector<Block> blocks;
+  std::vector<RepeatedBlock> blocks;
   for (std::size_t lag = 1; lag <= kLongestBlock && 2 * lag < samples; ++lag) {
     std::size_t run = 0;
     for (std::size_t k = lag; k <= samples; ++k) {
@@ -42,7 +42,7 @@ std::vector<Block> repeated_blocks(std::span<const CheckedSignal> signals) {
         ++run;
         continue;
       }
-      const Block block{k - run, lag};
+      const RepeatedBlock block{k - run, lag};
       const bool rests = lag > 1 && run >= lag && is_repeated(signals, block.first + 1, 1);
       if (run >= lag && run < 2 * lag && !rests) blocks.push_back(block);
       run = 0;
@@ -62,7 +62,7 @@ double smallest_gap(std::span<const double> values) {
   return gap;
 }
 
-bool may_rest(const CheckedSignal& signal, const Block& block) {
+bool may_rest(const CheckedSignal& signal, const RepeatedBlock& block) {
   if (signal.is(arm::SensorKind::hub_velocity)) return signal.values[block.first] == 0.0;
   return signal.is(arm::SensorKind::hub_angle) && block.count == 1 &&
          is_restful(signal.values, {block.first - 1, 2});
@@ -70,7 +70,7 @@ bool may_rest(const CheckedSignal& signal, const Block& block) {
 
 /// Probability that a signal repeats a reading of the block by chance; 1 where it may rest.
 double chance_of_repeat(std::span<const CheckedSignal> signals, const CheckedSignal& signal,
-                        const Block& block, double step) {
+                        const RepeatedBlock& block, double step) {
   if (may_rest(signal, block)) return 1.0;
   const auto x = signal.values;
   const std::size_t reach = kSurroundings + 2 * block.count;
@@ -84,8 +84,8 @@ double chance_of_repeat(std::span<const CheckedSignal> signals, const CheckedSig
   }
   const double noise = robust_deviation(bends) / std::sqrt(6.0);
   if (noise <= 0.0) return 1.0;
-  return std::min(1.0, std::max(kDensity * step / noise, static_cast<double>(repeats) /
-                                                             static_cast<double>(to - from)));
+  return std::min(1.0, std::max(kDensity * step / noise,
+                                static_cast<double>(repeats) / static_cast<double>(to - from)));
 }
 
 }  // namespace
@@ -100,8 +100,8 @@ Duplicates check_duplicates(std::span<const CheckedSignal> signals) {
   Duplicates found;
   std::size_t places = 0;
   std::vector<bool> is_copy(samples, false);
-  for (const Block& block : candidates) {
-    const auto alike = std::ranges::count(candidates, block.count, &Block::count);
+  for (const RepeatedBlock& block : candidates) {
+    const auto alike = std::ranges::count(candidates, block.count, &RepeatedBlock::count);
     double log_chance = std::log(static_cast<double>(samples) / static_cast<double>(alike));
     for (std::size_t i = 0; i < signals.size(); ++i) {
       log_chance += static_cast<double>(block.count) *
@@ -120,13 +120,13 @@ Duplicates check_duplicates(std::span<const CheckedSignal> signals) {
   const std::size_t rows = found.rows.size();
   found.findings.push_back(
       {Fault::duplicated_samples, "time", found.rows.front(), 0.0, static_cast<double>(rows),
-       fmt::format("{} written twice, first at sample {}{}: all columns repeat while the time goes "
-                   "on, so that what follows is late by as many periods",
-                   rows == 1 ? "1 row is" : fmt::format("{} rows are", rows),
-                   found.rows.front() + 1,
-                   places == 1 ? ""
-                               : fmt::format(", and at {} more place{}", places - 1,
-                                             places == 2 ? "" : "s"))});
+       fmt::format(
+           "{} written twice, first at sample {}{}: all columns repeat while the time goes "
+           "on, so that what follows is late by as many periods",
+           rows == 1 ? "1 row is" : fmt::format("{} rows are", rows), found.rows.front() + 1,
+           places == 1
+               ? ""
+               : fmt::format(", and at {} more place{}", places - 1, places == 2 ? "" : "s"))});
   return found;
 }
 
@@ -140,8 +140,8 @@ ShortenedSignals::ShortenedSignals(std::span<const CheckedSignal> signals,
     for (const std::size_t k : sample_of_) kept.push_back(signal.values[k]);
   }
   for (std::size_t i = 0; i < signals.size(); ++i) {
-    signals_.push_back({signals[i].name, signals[i].sensor, values_[i],
-                        standard_deviation(values_[i])});
+    signals_.push_back(
+        {signals[i].name, signals[i].sensor, values_[i], standard_deviation(values_[i])});
   }
 }
 

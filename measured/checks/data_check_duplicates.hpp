@@ -16,10 +16,10 @@ struct Duplicates {
 };
 
 /// Seeks L rows, 1 <= L <= 64, that equal the L before them in all columns. Equal rows are a fault
-/// only where chance makes less than 1e-3 of those of their length in the record. A signal repeats a value
-/// by chance with a probability of step/(3.5 s), with the step of its readings and s = robust
-/// deviation of its second differences around / sqrt(6), for noise and for a turning point alike;
-/// or as often as it does without the others. Of L values it is that to the power L.
+/// only where chance makes less than 1e-3 of those of their length in the record. A signal repeats
+/// a value by chance with a probability of step/(3.5 s), with the step of its readings and s =
+/// robust deviation of its second differences around / sqrt(6), for noise and for a turning point
+/// alike; or as often as it does without the others. Of L values it is that to the power L.
 ///
 /// No such rows are rest (equal rows in a row, an angle that comes to rest and leaves, a velocity
 /// of zero) and periods (L rows that equal those before for longer than 2 L).

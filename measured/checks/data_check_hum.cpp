@@ -20,17 +20,17 @@ namespace {
 
 using Complex = std::complex<double>;
 using Eigen::Index;
-using Lines = Eigen::MatrixXcd;  // a row a line of the band
+using BandLines = Eigen::MatrixXcd;  // a row a line of the band
 
-constexpr double kTwoPi = 2.0 * std::numbers::pi;
+constexpr double kTurn_rad = 2.0 * std::numbers::pi;
 constexpr double kMains_Hz[] = {50.0, 60.0};
 constexpr double kMainsTolerance_Hz = 0.1;
-constexpr Index kSideLines = 12;        // lines on either side
-constexpr Index kFewestSide = 8;
+constexpr Index kBandSide = 12;  // lines on either side
+constexpr Index kFewestBandSide = 8;
 constexpr double kGridLines = 0.5;  // by which frequencies are tried
 constexpr int kGainDegree = 3;
 constexpr int kTransientDegree = 2;
-constexpr double kLeastScore = 8.0;
+constexpr double kLeastHumScore = 8.0;
 constexpr double kCandidateScore = 4.0;
 constexpr double kLeastAmplitude = 0.03;  // standard deviations
 constexpr double kLeastAlone = 0.15;      // of the only channel, beside pulses
@@ -38,29 +38,29 @@ constexpr double kMostChange = 0.25;      // of the amplitude, over half the rec
 constexpr double kChangeErrors = 3.0;
 constexpr int kRefinements = 4;
 constexpr double kNoTorque = 1e-9;  // of its power, in a line
-/// Lines of a torque that stand out as much as its hum does; it is made of lines then.
+/// BandLines of a torque that stand out as much as its hum does; it is made of lines then.
 constexpr double kOtherLine = 0.3;
 
 /// The lines about a frequency, and what makes them.
-class Band {
+class HumBand {
  public:
-  Band(std::size_t samples, double period_s, double centre_Hz)
+  HumBand(std::size_t samples, double period_s, double centre_Hz)
       : samples_(static_cast<Index>(samples)), period_s_(period_s), centre_Hz_(centre_Hz) {
     const double duration_s = static_cast<double>(samples) * period_s;
     const double room = std::min(centre_Hz, 0.5 / period_s - centre_Hz) * duration_s - 2.0;
-    side_ = std::min(kSideLines, static_cast<Index>(std::max(0.0, room)));
+    side_ = std::min(kBandSide, static_cast<Index>(std::max(0.0, room)));
     if (!is_usable()) return;
-    const Eigen::ArrayXd at = Eigen::ArrayXd::LinSpaced(samples_, 0.0,
-                                                        static_cast<double>(samples_ - 1));
+    const Eigen::ArrayXd at =
+        Eigen::ArrayXd::LinSpaced(samples_, 0.0, static_cast<double>(samples_ - 1));
     const Eigen::ArrayXd window =
-        0.5 - 0.5 * (kTwoPi * (at + 0.5) / static_cast<double>(samples_)).cos();
+        0.5 - 0.5 * (kTurn_rad * (at + 0.5) / static_cast<double>(samples_)).cos();
     exponentials_.resize(2 * side_ + 1, samples_);
     for (Index k = 0; k < samples_; ++k) {
       const auto time = static_cast<double>(k);
-      Complex turn = std::polar(window[k], -kTwoPi * (centre_Hz * period_s * time -
-                                                      static_cast<double>(side_) * time /
-                                                          static_cast<double>(samples_)));
-      const Complex next = std::polar(1.0, -kTwoPi * time / static_cast<double>(samples_));
+      Complex turn = std::polar(window[k], -kTurn_rad * (centre_Hz * period_s * time -
+                                                         static_cast<double>(side_) * time /
+                                                             static_cast<double>(samples_)));
+      const Complex next = std::polar(1.0, -kTurn_rad * time / static_cast<double>(samples_));
       for (Index line = 0; line < exponentials_.rows(); ++line) {
         exponentials_(line, k) = turn;
         turn *= next;
@@ -68,20 +68,20 @@ class Band {
     }
   }
 
-  bool is_usable() const { return side_ >= kFewestSide; }
+  bool is_usable() const { return side_ >= kFewestBandSide; }
   Index lines() const { return 2 * side_ + 1; }
   double centre_Hz() const { return centre_Hz_; }
   double duration_s() const { return static_cast<double>(samples_) * period_s_; }
 
-  Lines of(const Eigen::MatrixXd& values) const { return exponentials_ * values; }
+  BandLines of(const Eigen::MatrixXd& values) const { return exponentials_ * values; }
 
-  /// Lines of half of t^p exp(i 2 pi f t), p = 0 to `most`, with t from -1 to 1 over the record.
-  Lines of_wave(double frequency_Hz, int most) const {
-    Lines waves(samples_, most + 1);
+  /// BandLines of half of t^p exp(i 2 pi f t), p = 0 to `most`, with t from -1 to 1 over the
+  /// record.
+  BandLines of_wave(double frequency_Hz, int most) const {
+    BandLines waves(samples_, most + 1);
     for (Index k = 0; k < samples_; ++k) {
       const double t = 2.0 * (static_cast<double>(k) + 0.5) / static_cast<double>(samples_) - 1.0;
-      Complex wave =
-          std::polar(0.5, kTwoPi * frequency_Hz * period_s_ * static_cast<double>(k));
+      Complex wave = std::polar(0.5, kTurn_rad * frequency_Hz * period_s_ * static_cast<double>(k));
       for (int power = 0; power <= most; ++power) {
         waves(k, power) = wave;
         wave *= t;
@@ -91,9 +91,8 @@ class Band {
   }
 
   /// Columns of a polynomial in the line times `factor`.
-  void add_polynomial(int degree, const Eigen::VectorXcd& factor, Lines& columns) const {
-    const Eigen::ArrayXcd at =
-        Eigen::ArrayXd::LinSpaced(lines(), -1.0, 1.0).cast<Complex>();
+  void add_polynomial(int degree, const Eigen::VectorXcd& factor, BandLines& columns) const {
+    const Eigen::ArrayXcd at = Eigen::ArrayXd::LinSpaced(lines(), -1.0, 1.0).cast<Complex>();
     Eigen::ArrayXcd column = factor.array();
     for (int power = 0; power <= degree; ++power) {
       columns.conservativeResize(lines(), columns.cols() + 1);
@@ -107,11 +106,11 @@ class Band {
   double period_s_;
   double centre_Hz_;
   Index side_ = 0;
-  Lines exponentials_;
+  BandLines exponentials_;
 };
 
 /// A line in a signal.
-struct Line {
+struct HumLine {
   double frequency_Hz = 0.0;
   Complex amplitude;
   double error = 0.0;  ///< standard error of the amplitude
@@ -121,29 +120,28 @@ struct Line {
 
   double score() const { return error > 0.0 ? std::abs(amplitude) / error : 0.0; }
   bool is_constant() const {
-    const double most =
-        kMostChange * std::abs(amplitude) + kChangeErrors * change_error;
+    const double most = kMostChange * std::abs(amplitude) + kChangeErrors * change_error;
     return std::abs((slope / amplitude).real()) * std::abs(amplitude) <= most &&
            std::abs(bend) <= most;
   }
 };
 
-Line fit_line(const Eigen::VectorXcd& target, const Lines& others, const Lines& wave,
-              double frequency_Hz) {
-  Lines columns(target.size(), others.cols() + wave.cols());
+HumLine fit_line(const Eigen::VectorXcd& target, const BandLines& others, const BandLines& wave,
+                 double frequency_Hz) {
+  BandLines columns(target.size(), others.cols() + wave.cols());
   columns << wave, others;
   const Eigen::VectorXd scale = columns.colwise().norm().cwiseMax(1e-300);
   for (Index j = 0; j < columns.cols(); ++j) columns.col(j) /= scale[j];
-  const Eigen::ColPivHouseholderQR<Lines> factors(columns);
+  const Eigen::ColPivHouseholderQR<BandLines> factors(columns);
   const Eigen::VectorXcd shares = factors.solve(target);
   const auto freedom = static_cast<double>(target.size() - columns.cols());
   const double variance = (target - columns * shares).squaredNorm() / freedom;
-  const Lines gram = columns.adjoint() * columns;
-  const Lines inverse = gram.completeOrthogonalDecomposition().pseudoInverse();
+  const BandLines gram = columns.adjoint() * columns;
+  const BandLines inverse = gram.completeOrthogonalDecomposition().pseudoInverse();
   const auto error = [&](Index j) {
     return std::sqrt(variance * std::abs(inverse(j, j))) / scale[j];
   };
-  Line line{frequency_Hz, shares[0] / scale[0], error(0), {}, {}, 0.0};
+  HumLine line{frequency_Hz, shares[0] / scale[0], error(0), {}, {}, 0.0};
   if (wave.cols() == 3) {
     line.slope = shares[1] / scale[1];
     line.bend = shares[2] / scale[2];
@@ -159,12 +157,12 @@ double alias_Hz(double frequency_Hz, double period_s) {
 }
 
 /// The line of most evidence near the band's centre; its amplitude may change over the record.
-std::optional<Line> line_in(const Band& band, const Eigen::VectorXcd& target,
-                            const Lines& others, const std::vector<double>& grid_Hz,
-                            const std::vector<Lines>& waves) {
-  Line best;
+std::optional<HumLine> strongest_line(const HumBand& band, const Eigen::VectorXcd& target,
+                                      const BandLines& others, const std::vector<double>& grid_Hz,
+                                      const std::vector<BandLines>& waves) {
+  HumLine best;
   for (std::size_t i = 0; i < grid_Hz.size(); ++i) {
-    const Line line = fit_line(target, others, waves[i], grid_Hz[i]);
+    const HumLine line = fit_line(target, others, waves[i], grid_Hz[i]);
     if (line.score() > best.score()) best = line;
   }
   if (best.score() < kCandidateScore) return std::nullopt;
@@ -187,14 +185,14 @@ bool is_of_lines(const CheckedSignal& torque, double amplitude, double period_s)
   const Transforms transforms = transform(std::span(&torque, 1), period_s, false);
   const auto& spectrum = transforms.of[0].plain;
   const auto width = static_cast<std::size_t>(
-      std::ceil(static_cast<double>(kSideLines) * transforms.bins_per_line));
-  const auto lobe = static_cast<std::size_t>(
-      std::ceil(static_cast<double>(kPeak) * transforms.bins_per_line));
+      std::ceil(static_cast<double>(kBandSide) * transforms.bins_per_line));
+  const auto lobe =
+      static_cast<std::size_t>(std::ceil(static_cast<double>(kPeak) * transforms.bins_per_line));
   const double full = 0.5 * amplitude * static_cast<double>(samples);
   for (std::size_t bin = width; bin + width < spectrum.size(); ++bin) {
     const double here = std::abs(spectrum[bin]);
     if (here < kOtherLine * full) continue;
-    const double frequency_Hz = transforms.omega_rad_per_s(bin) / kTwoPi;
+    const double frequency_Hz = transforms.omega_rad_per_s(bin) / kTurn_rad;
     const bool is_mains = std::ranges::any_of(kMains_Hz, [&](double mains_Hz) {
       return std::abs(frequency_Hz - alias_Hz(mains_Hz, period_s)) <
              static_cast<double>(kPeak + 1) / transforms.duration_s + kMainsTolerance_Hz;
@@ -207,13 +205,14 @@ bool is_of_lines(const CheckedSignal& torque, double amplitude, double period_s)
       below.push_back(std::abs(spectrum[bin - j]));
       above.push_back(std::abs(spectrum[bin + j]));
     }
-    if (here > kStandsOut * std::max(median(std::move(below)), median(std::move(above)))) return true;
+    if (here > kStandsOut * std::max(median(std::move(below)), median(std::move(above))))
+      return true;
   }
   return false;
 }
 
-DataFinding finding_of(const CheckedSignal& signal, const Line& line, double mains_Hz,
-                       double alias) {
+DataFinding hum_finding(const CheckedSignal& signal, const HumLine& line, double mains_Hz,
+                        double alias) {
   const double amplitude = std::abs(line.amplitude);
   const std::string_view unit = signal.sensor ? arm::unit(*signal.sensor) : "N m";
   const std::string shown =
@@ -269,7 +268,7 @@ class HumSearch {
     if (has_few_levels(signals_[0].values) && is_shared(found)) return;
     for (std::size_t i = 0; i < signals_.size(); ++i) {
       if (!found[i]) continue;
-      hum.findings.push_back(finding_of(signals_[i], *found[i], mains_Hz_, band_.centre_Hz()));
+      hum.findings.push_back(hum_finding(signals_[i], *found[i], mains_Hz_, band_.centre_Hz()));
       subtract(*found[i], hum.values[i]);
     }
   }
@@ -284,8 +283,7 @@ class HumSearch {
     }
     lines_ = band_.of(values);
     const double reach_Hz = std::max(kMainsTolerance_Hz, kGridLines / band_.duration_s());
-    const auto steps =
-        static_cast<int>(std::ceil(reach_Hz * band_.duration_s() / kGridLines));
+    const auto steps = static_cast<int>(std::ceil(reach_Hz * band_.duration_s() / kGridLines));
     for (int i = -steps; i <= steps; ++i) {
       grid_Hz_.push_back(band_.centre_Hz() + reach_Hz * i / steps);
       waves_.push_back(band_.of_wave(grid_Hz_.back(), 0));
@@ -293,20 +291,20 @@ class HumSearch {
   }
 
   /// A line of a signal beside a torque of these lines, which is none of its own.
-  std::optional<Line> candidate_of(std::size_t signal, const Eigen::VectorXcd& torque) const {
+  std::optional<HumLine> candidate_of(std::size_t signal, const Eigen::VectorXcd& torque) const {
     if (!usable_[signal] || signals_[signal].deviation == 0.0) return std::nullopt;
-    Lines others(band_.lines(), 0);
+    BandLines others(band_.lines(), 0);
     band_.add_polynomial(kTransientDegree, Eigen::VectorXcd::Ones(band_.lines()), others);
     const double torque_power =
         signals_[0].deviation * static_cast<double>(signals_[0].values.size());
     if (signal != 0 && torque.cwiseAbs().maxCoeff() > kNoTorque * torque_power) {
       band_.add_polynomial(kGainDegree, torque, others);
     }
-    return line_in(band_, lines_.col(static_cast<Index>(signal)), others, grid_Hz_, waves_);
+    return strongest_line(band_, lines_.col(static_cast<Index>(signal)), others, grid_Hz_, waves_);
   }
 
-  std::vector<std::optional<Line>> lines_of_channels(const Eigen::VectorXcd& torque) const {
-    std::vector<std::optional<Line>> found(signals_.size());
+  std::vector<std::optional<HumLine>> lines_of_channels(const Eigen::VectorXcd& torque) const {
+    std::vector<std::optional<HumLine>> found(signals_.size());
     for (std::size_t i = 1; i < signals_.size(); ++i) {
       found[i] = candidate_of(i, torque);
       if (found[i] && !is_hum(i, *found[i])) found[i].reset();
@@ -314,16 +312,16 @@ class HumSearch {
     return found;
   }
 
-  bool is_hum(std::size_t signal, const Line& line) const {
+  bool is_hum(std::size_t signal, const HumLine& line) const {
     const double reach_Hz = std::max(kMainsTolerance_Hz, kGridLines / band_.duration_s());
-    return line.score() > kLeastScore &&
+    return line.score() > kLeastHumScore &&
            std::abs(line.amplitude) > kLeastAmplitude * signals_[signal].deviation &&
            std::abs(line.frequency_Hz - band_.centre_Hz()) <= reach_Hz && line.is_constant();
   }
 
   /// Whether several channels have the line, or a small one in the only channel: pulses that repeat
   /// have lines, and what they excite is shared.
-  bool is_shared(const std::vector<std::optional<Line>>& found) const {
+  bool is_shared(const std::vector<std::optional<HumLine>>& found) const {
     const auto lines = std::count_if(found.begin() + 1, found.end(),
                                      [](const auto& line) { return line.has_value(); });
     if (lines > 1) return true;
@@ -336,14 +334,14 @@ class HumSearch {
     return false;
   }
 
-  bool may_hum(const Line& line) const {
+  bool may_hum(const HumLine& line) const {
     return !has_few_levels(signals_[0].values) &&
            !is_of_lines(signals_[0], std::abs(line.amplitude), period_s_);
   }
 
-  void subtract(const Line& line, std::vector<double>& values) const {
+  void subtract(const HumLine& line, std::vector<double>& values) const {
     for (std::size_t k = 0; k < values.size(); ++k) {
-      const double phase = kTwoPi * line.frequency_Hz * period_s_ * static_cast<double>(k);
+      const double phase = kTurn_rad * line.frequency_Hz * period_s_ * static_cast<double>(k);
       values[k] -= (line.amplitude * std::polar(1.0, phase)).real();
     }
   }
@@ -352,10 +350,10 @@ class HumSearch {
   const std::vector<bool>& usable_;
   double period_s_;
   double mains_Hz_;
-  Band band_;
-  Lines lines_;
+  HumBand band_;
+  BandLines lines_;
   std::vector<double> grid_Hz_;
-  std::vector<Lines> waves_;
+  std::vector<BandLines> waves_;
 };
 
 }  // namespace

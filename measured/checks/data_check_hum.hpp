@@ -10,8 +10,8 @@ namespace flexarm::measured {
 
 /// Hum of the mains, 50 or 60 Hz within 0.1 Hz, or its alias below half the sampling frequency.
 struct Hum {
-  std::vector<DataFinding> findings;       ///< one a signal and frequency
-  std::vector<std::vector<double>> values; ///< of every signal, without the hum that was found
+  std::vector<DataFinding> findings;        ///< one a signal and frequency
+  std::vector<std::vector<double>> values;  ///< of every signal, without the hum that was found
 };
 
 /// In the lines f + L/duration, |L| <= 12, of the transforms under Hann's window a channel X is

@@ -43,8 +43,7 @@ std::vector<DataFinding> check_offsets(const Comparison& comparison,
     if (!comparison.usable[i] || (!is_described && answers_at_once)) continue;
     std::span<const double> y = is_described ? std::span(described[i]) : std::span(&rest, 1);
     y = y.first(std::min({y.size(), signal.values.size(), kMostRestSamples}));
-    const Offset offset =
-        offset_of(signal.values, y, comparison.transforms.of[i].floor_power);
+    const Offset offset = offset_of(signal.values, y, comparison.transforms.of[i].floor_power);
     const double size = std::abs(offset.size);
     if (!(size > options.least_offset * signal.deviation) ||
         !(size > options.offset_errors * offset.error)) {

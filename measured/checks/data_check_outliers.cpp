@@ -195,9 +195,9 @@ std::vector<bool> shaken_samples(const Eigen::VectorXd& torque) {
   };
   for (Eigen::Index k = 0; k < change.size(); ++k) {
     if (change[k] <= std::max(kJump, kUnusual * usual)) continue;
-    constexpr auto kSide = static_cast<Eigen::Index>(kAround);
-    const Eigen::Index from = std::max<Eigen::Index>(0, k - kSide);
-    const Eigen::Index to = std::min(change.size(), k + kSide + 1);
+    constexpr auto kBeside = static_cast<Eigen::Index>(kAround);
+    const Eigen::Index from = std::max<Eigen::Index>(0, k - kBeside);
+    const Eigen::Index to = std::min(change.size(), k + kBeside + 1);
     if (change[k] > kUnusual * median({change.data() + from, change.data() + to})) shake(k + 1);
   }
   shake(0);  // the record may begin with a jump
@@ -354,8 +354,8 @@ std::vector<DataFinding> check_spikes(std::span<const CheckedSignal> signals,
   Shaking shaking{usable[0] ? shaken_samples(values[0]) : std::vector<bool>(samples, true), {}};
   for (const auto& signal : signals) {
     // An angle and a displacement do not jump.
-    const bool is_smooth = signal.is(arm::SensorKind::hub_angle) ||
-                           signal.is(arm::SensorKind::tip_displacement);
+    const bool is_smooth =
+        signal.is(arm::SensorKind::hub_angle) || signal.is(arm::SensorKind::tip_displacement);
     shaking.least.push_back(is_smooth ? 0.0 : options.least_shaken_spike);
   }
   std::vector<std::set<std::size_t>> found(signals.size());

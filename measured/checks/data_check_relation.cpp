@@ -195,7 +195,8 @@ LowFrequencyFit fit_low_frequencies(const Transforms& transforms, Quantity x, Qu
 double mean_coherence(const Transforms& transforms, Quantity x, Quantity y) {
   double sum = 0.0;
   double power = 0.0;
-  const auto related = blocks_of(transforms, values_of(transforms, x), values_of(transforms, y), 0.5);
+  const auto related =
+      blocks_of(transforms, values_of(transforms, x), values_of(transforms, y), 0.5);
   const auto plain = values_of(transforms, {x.signal, 0});
   const auto own = blocks_of(transforms, plain, plain, 0.5);
   for (std::size_t i = 0; i < related.size(); ++i) {

@@ -25,9 +25,11 @@ constexpr Index kJumpSide = 12;
 constexpr double kMostResidual = 4.0;  // robust deviations; larger ones are taken for this
 constexpr double kMostSquare = 12.0;   // as u
 constexpr double kSingular = 1e-3;     // of the mean variance, on the diagonal of the covariance
-constexpr int kReweightings = 8;
-constexpr Index kBlocks = 3;
-constexpr double kLeastEvidence = 5.0;  // standard errors
+constexpr int kJitterReweightings = 8;
+constexpr Index kTimeBlocks = 12;
+constexpr double kLeastEvidenceInBlocks = 2.0;  // standard errors
+constexpr double kLeastShareInBlocks = 0.5;     // of the rms of the whole
+constexpr double kLeastEvidence = 5.0;          // standard errors
 constexpr double kLeastRms_periods = 0.045;
 constexpr double kLeastRmsBesidePulses_periods = 0.1;
 
@@ -82,12 +84,13 @@ Eigen::VectorXd derivative_of(const Eigen::VectorXd& x) {
   return 0.75 * apart(1) - 0.15 * apart(2) + apart(3) / 60.0;
 }
 
-/// Values less their weighted mean in each of kBlocks blocks of time.
-Eigen::ArrayXd centred(const Eigen::ArrayXd& values, const Eigen::ArrayXd& weight) {
+/// Values less their weighted mean in each of some blocks of time.
+Eigen::ArrayXd less_block_means(const Eigen::ArrayXd& values, const Eigen::ArrayXd& weight,
+                                Index blocks) {
   Eigen::ArrayXd left = values;
-  for (Index block = 0; block < kBlocks; ++block) {
-    const Index from = block * values.size() / kBlocks;
-    const Index count = (block + 1) * values.size() / kBlocks - from;
+  for (Index block = 0; block < blocks; ++block) {
+    const Index from = block * values.size() / blocks;
+    const Index count = (block + 1) * values.size() / blocks - from;
     const auto part = weight.segment(from, count);
     left.segment(from, count) -= (part * values.segment(from, count)).sum() / part.sum();
   }
@@ -99,14 +102,16 @@ Eigen::ArrayXd centred(const Eigen::ArrayXd& values, const Eigen::ArrayXd& weigh
 struct Growth {
   double slope = 0.0;
   double error = 0.0;
+
+  double rms() const { return std::sqrt(std::max(0.0, slope)); }
 };
 
-Growth growth_of(const Eigen::ArrayXd& u, const Eigen::ArrayXd& g) {
+Growth growth_of(const Eigen::ArrayXd& u, const Eigen::ArrayXd& g, Index blocks) {
   Growth growth;
-  for (int i = 0; i < kReweightings; ++i) {
+  for (int i = 0; i < kJitterReweightings; ++i) {
     const Eigen::ArrayXd weight = (1.0 + std::max(0.0, growth.slope) * g).square().inverse();
-    const Eigen::ArrayXd across = centred(g, weight);
-    const Eigen::ArrayXd up = centred(u, weight);
+    const Eigen::ArrayXd across = less_block_means(g, weight, blocks);
+    const Eigen::ArrayXd up = less_block_means(u, weight, blocks);
     const double power = (weight * across.square()).sum();
     growth.slope = (weight * across * up).sum() / power;
     growth.error = (weight * across * (up - growth.slope * across)).matrix().norm() / power;
@@ -136,21 +141,28 @@ std::vector<DataFinding> check_sampling_jitter(std::span<const CheckedSignal> si
     derivatives.row(row) = derivative_of(values[i])(rows) / scale;
     ++row;
   }
-  Eigen::MatrixXd covariance =
-      residuals * residuals.transpose() / static_cast<double>(rows.size());
+  Eigen::MatrixXd covariance = residuals * residuals.transpose() / static_cast<double>(rows.size());
   covariance.diagonal().array() += kSingular * covariance.trace() / static_cast<double>(channels);
   const Eigen::MatrixXd seen = covariance.inverse() * derivatives;
   const Eigen::ArrayXd g = seen.cwiseProduct(derivatives).colwise().sum().transpose();
   const Eigen::ArrayXd along = seen.cwiseProduct(residuals).colwise().sum().transpose();
-  const Growth growth = growth_of((along.square() / g.max(1e-300)).min(kMostSquare), g);
-  const double rms = std::sqrt(std::max(0.0, growth.slope));
+  const Eigen::ArrayXd u = (along.square() / g.max(1e-300)).min(kMostSquare);
+  const Growth growth = growth_of(u, g, 1);
+  const double rms = growth.rms();
   const double least =
       has_few_levels(signals[0].values) ? kLeastRmsBesidePulses_periods : kLeastRms_periods;
   if (!(growth.slope > kLeastEvidence * growth.error) || rms <= least) return {};
-  return {{Fault::sampling_jitter, "time", 0, 0.0, rms * period_s,
-           fmt::format("sampling instants jitter by about {:.2g} of the period (rms {:.2g} s) while "
-                       "the times are even: errors grow with the rate of change of all channels",
-                       rms, rms * period_s)}};
+  // Noise may change with the motion over the record, as under a chirp.
+  const Growth within = growth_of(u, g, kTimeBlocks);
+  if (!(within.slope > kLeastEvidenceInBlocks * within.error) ||
+      within.rms() < kLeastShareInBlocks * rms) {
+    return {};
+  }
+  return {
+      {Fault::sampling_jitter, "time", 0, 0.0, rms * period_s,
+       fmt::format("sampling instants jitter by about {:.2g} of the period (rms {:.2g} s) while "
+                   "the times are even: errors grow with the rate of change of all channels",
+                   rms, rms * period_s)}};
 }
 
 }  // namespace flexarm::measured

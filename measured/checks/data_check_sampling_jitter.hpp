@@ -16,10 +16,11 @@ namespace flexarm::measured {
 /// none of them. With the residuals q, the derivatives x' per period and the covariance S of the
 /// residuals, g = x'^T S^-1 x' and u = (x'^T S^-1 q)^2/g, whose mean is 1 + s^2 g with jitter of s
 /// periods rms. s^2 is fitted by weighted least squares over the samples that no jump of the torque
-/// shakes, with a level for each third of the record; its error allows for any distribution of u.
+/// shakes; its error allows for any distribution of u.
 ///
-/// Jitter: s^2 of 5 standard errors or more, and s of 0.045 periods, of 0.1 where the torque is made
-/// of pulses or steps: what the arm does after them is predicted less well.
+/// Jitter: s^2 of 5 standard errors or more, and s of 0.045 periods, of 0.1 where the torque is
+/// made of pulses or steps: what the arm does after them is predicted less well. With a level of
+/// its own for each twelfth of the record, s^2 must be 2 standard errors and s half as large.
 std::vector<DataFinding> check_sampling_jitter(std::span<const CheckedSignal> signals,
                                                const std::vector<bool>& usable, double period_s);
 

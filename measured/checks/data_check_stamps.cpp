@@ -3,6 +3,7 @@
 #include "measured/spectra/robust.hpp"
 
 #include <Eigen/QR>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -51,8 +52,7 @@ ShiftFit fit_shifts(const Eigen::VectorXd& values, const std::vector<std::size_t
   ShiftFit fit;
   fit.shares = factors.solve(values);
   fit.residual = values - regressors * fit.shares;
-  fit.basis =
-      factors.householderQ() * Eigen::MatrixXd::Identity(samples, regressors.cols());
+  fit.basis = factors.householderQ() * Eigen::MatrixXd::Identity(samples, regressors.cols());
   return fit;
 }
 

@@ -44,7 +44,8 @@ std::vector<double> directions(const std::vector<double>& velocity) {
 }
 
 /// Real parts, then imaginary ones, of the hub's acceleration over the lines that are asked.
-Eigen::VectorXd slow_acceleration(const CheckedSignal& hub, std::span<const double> values, double period_s) {
+Eigen::VectorXd slow_acceleration(const CheckedSignal& hub, std::span<const double> values,
+                                  double period_s) {
   CheckedSignal signal = hub;
   signal.values = values;
   signal.deviation = standard_deviation(values);
@@ -75,7 +76,8 @@ std::vector<DataFinding> check_torque_offset(const Comparison& comparison,
   const CheckedSignal& torque = comparison.signals[0];
   const double period_s = comparison.transforms.period_s;
   const auto answer = [&](std::span<const double> torque_N_m) {
-    return slow_acceleration(hub, arm(torque_N_m, period_s, std::span(&*hub.sensor, 1)).front(), period_s);
+    return slow_acceleration(hub, arm(torque_N_m, period_s, std::span(&*hub.sensor, 1)).front(),
+                             period_s);
   };
   const std::vector<double> velocity = velocity_of(hub, period_s);
   const Eigen::VectorXd target = slow_acceleration(hub, hub.values, period_s);
@@ -100,11 +102,12 @@ std::vector<DataFinding> check_torque_offset(const Comparison& comparison,
       !(size > comparison.options.offset_errors * error)) {
     return {};
   }
-  return {{Fault::offset, torque.name, 0, 0.0, offset,
-           fmt::format("torque has an offset of {:.4g} N m by the motion of the hub (standard error "
-                       "{:.1g} N m, {:.2g} of its standard deviation), or a constant torque is "
-                       "not recorded",
-                       offset, error, size / torque.deviation)}};
+  return {
+      {Fault::offset, torque.name, 0, 0.0, offset,
+       fmt::format("torque has an offset of {:.4g} N m by the motion of the hub (standard error "
+                   "{:.1g} N m, {:.2g} of its standard deviation), or a constant torque is "
+                   "not recorded",
+                   offset, error, size / torque.deviation)}};
 }
 
 }  // namespace flexarm::measured

@@ -16,13 +16,13 @@ namespace {
 using Eigen::Index;
 using Values = std::vector<Eigen::VectorXd>;
 
-constexpr int kTorqueSide = 8;     // samples of the torque that predict one of it
-constexpr int kChannelSide = 2;    // samples of a channel
-constexpr Index kNear = 12;        // samples in which a spike stands alone
-constexpr double kNearShare = 0.4; // of its size
-constexpr double kReturn = 0.5;    // of its size, by which the torque goes and comes back
+constexpr int kTorqueSide = 8;      // samples of the torque that predict one of it
+constexpr int kChannelSide = 2;     // samples of a channel
+constexpr Index kNear = 12;         // samples in which a spike stands alone
+constexpr double kNearShare = 0.4;  // of its size
+constexpr double kReturn = 0.5;     // of its size, by which the torque goes and comes back
 constexpr int kRounds = 6;
-constexpr std::size_t kFewestSamples = 128;
+constexpr std::size_t kFewestTorqueSamples = 128;
 constexpr double kMostPower = 0.9;  // of the torque, in its spikes
 /// Squares of the channels' residuals, in variances, by which a torque that was given beats one
 /// that was not. Shares of a smooth torque are uncertain and fit a spike by up to half of it.
@@ -60,8 +60,7 @@ struct TorqueResidual {
 TorqueResidual torque_residual(const Values& values, const std::vector<bool>& usable) {
   const auto regressors = torque_regressors(usable);
   const Index samples = values[0].size();
-  const Regression made =
-      regress(values, 0, regressors, kTorqueSide, samples - 2 * kTorqueSide);
+  const Regression made = regress(values, 0, regressors, kTorqueSide, samples - 2 * kTorqueSide);
   TorqueResidual residual{Eigen::VectorXd::Zero(samples), {}};
   residual.left.segment(kTorqueSide, made.left.size()) = made.left;
   for (std::size_t j = 0; j < regressors.size(); ++j) {
@@ -87,10 +86,9 @@ std::map<Index, double> spikes_in(const Values& values, const std::vector<bool>&
   const Index samples = residual.left.size();
   const double least =
       std::max(options.least_spike,
-               options.spike_deviations * robust_deviation({residual.left.data(),
-                                                            static_cast<std::size_t>(samples)}));
-  const auto most =
-      static_cast<std::size_t>(kMostLeftOut * static_cast<double>(samples));
+               options.spike_deviations *
+                   robust_deviation({residual.left.data(), static_cast<std::size_t>(samples)}));
+  const auto most = static_cast<std::size_t>(kMostLeftOut * static_cast<double>(samples));
   std::map<Index, double> sizes;
   while (sizes.size() <= most) {
     Index at = 0;
@@ -148,7 +146,7 @@ std::vector<DataFinding> check_torque_spikes(std::span<const CheckedSignal> sign
                                              const std::vector<bool>& usable,
                                              const DataCheckOptions& options) {
   const CheckedSignal& torque = signals[0];
-  if (!usable[0] || torque.values.size() < kFewestSamples) return {};
+  if (!usable[0] || torque.values.size() < kFewestTorqueSamples) return {};
   Values values = standardised(signals);
   const Eigen::VectorXd recorded = values[0];
   std::map<Index, double> found;
@@ -181,10 +179,11 @@ std::vector<DataFinding> check_torque_spikes(std::span<const CheckedSignal> sign
     if (std::abs(size_N_m) > std::abs(finding.value)) finding.value = size_N_m;
   }
   finding.first_sample = finding.predicted.front().sample;
-  finding.text = fmt::format("torque has a spike of {:.4g} N m at sample {}{}, without an answer of "
-                             "the arm",
-                             torque.values[finding.first_sample] - finding.predicted.front().value,
-                             finding.first_sample + 1, more_places(found.size()));
+  finding.text = fmt::format(
+      "torque has a spike of {:.4g} N m at sample {}{}, without an answer of "
+      "the arm",
+      torque.values[finding.first_sample] - finding.predicted.front().value,
+      finding.first_sample + 1, more_places(found.size()));
   return {finding};
 }
 

@@ -31,8 +31,8 @@ struct Ratio {
   std::size_t b = 0;
   double log10_off = 0.0;
   bool rough = false;
-  bool narrow = false;      ///< says more than the unit
-  double log10_noise = 0.0; ///< how far noise may move it
+  bool narrow = false;       ///< says more than the unit
+  double log10_noise = 0.0;  ///< how far noise may move it
 };
 
 Ratio ratio_of(std::size_t a, std::size_t b, const GainFit& fit) {
@@ -110,9 +110,8 @@ struct Suspect {
 using Tolerance = std::function<double(const Ratio&)>;
 
 double count_off(const std::vector<Ratio>& ratios, const Tolerance& tolerance) {
-  return static_cast<double>(std::ranges::count_if(ratios, [&](const Ratio& ratio) {
-    return std::abs(ratio.log10_off) > tolerance(ratio);
-  }));
+  return static_cast<double>(std::ranges::count_if(
+      ratios, [&](const Ratio& ratio) { return std::abs(ratio.log10_off) > tolerance(ratio); }));
 }
 
 Suspect suspect_of(const Comparison& comparison, const std::vector<Ratio>& ratios,

@@ -42,8 +42,8 @@ class PayloadSearch {
     const std::size_t count = std::min(record.time_s.size(), kMostComparedSamples);
     signals_ = signals_of(record, 0, count);
     for (const auto& signal : signals_) {
-      usable_.push_back(signal.deviation > 0.0 && std::ranges::count(run.findings, signal.name,
-                                                                     &DataFinding::channel) == 0);
+      usable_.push_back(signal.deviation > 0.0 &&
+                        std::ranges::count(run.findings, signal.name, &DataFinding::channel) == 0);
     }
     const double period_s =
         (record.time_s[count - 1] - record.time_s[0]) / static_cast<double>(count - 1);
@@ -79,9 +79,7 @@ struct Nearest {
   double stated_distance = 0.0;
 
   /// The share of what is explained that the stated payload does not explain.
-  double gain() const {
-    return (stated_distance - distance) / std::max(1.0 - distance, 1e-12);
-  }
+  double gain() const { return (stated_distance - distance) / std::max(1.0 - distance, 1e-12); }
 };
 
 bool is_nearest_as_stated(const PayloadSearch& search) {
@@ -116,7 +114,7 @@ std::optional<std::size_t> odd_one(const std::vector<Nearest>& found) {
   std::vector<double> logs;
   for (const auto& one : found) logs.push_back(std::log(one.factor));
   // Of two runs the one that is as stated says what is usual.
-  const double usual = found.size() > 2 ? median(logs)
+  const double usual = found.size() > 2                        ? median(logs)
                        : std::abs(logs[0]) < std::abs(logs[1]) ? logs[0]
                                                                : logs[1];
   std::optional<std::size_t> odd;

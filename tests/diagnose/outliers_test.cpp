@@ -198,6 +198,47 @@ TEST(Outliers, WithNothingHiddenAreAdequate) {
   EXPECT_LT(made.estimation.before, 0.01);
 }
 
+/// 4 % of three standard deviations in one sensor: as readings they would be noise of 60 %.
+TEST(Outliers, OfATwentyFifthOfTheReadingsAreLeftOut) {
+  constexpr double kShare = 0.04;
+  constexpr double kFound = 0.9;
+  Experiment experiment = simulated_experiment({});
+  measured::TimeRecord& record = record_of(experiment.runs.front());
+  measured::Channel& angle = record.channels.front();
+  const measured::TimeRecord sound = record;
+  const double size = 3.0 * measured::standard_deviation(angle.values);
+  response::RandomNumbers random(8);
+  std::size_t planted = 0;
+  for (double& value : angle.values) {
+    if (random.uniform() >= kShare) continue;
+    value += random.uniform() < 0.5 ? size : -size;
+    ++planted;
+  }
+  for (const measured::DataFinding& finding : measured::check_data(record)) {
+    measured::leave_out_spikes(record, finding);
+  }
+  EXPECT_GE(static_cast<double>(angle.left_out.size()), kFound * static_cast<double>(planted));
+  for (const std::size_t k : angle.left_out) {
+    EXPECT_NEAR(angle.values[k], sound.channels.front().values[k], 0.1 * size);
+  }
+}
+
+TEST(Outliers, OfTheTorqueAreReplaced) {
+  Experiment experiment = simulated_experiment({});
+  measured::TimeRecord& record = record_of(experiment.runs.front());
+  const measured::TimeRecord sound = record;
+  const double unit = measured::standard_deviation(record.torque_N_m);
+  record.torque_N_m[record.torque_N_m.size() / 2] += 8.0 * unit;
+  std::size_t replaced = 0;
+  for (const measured::DataFinding& finding : measured::check_data(record)) {
+    if (finding.channel == "torque") replaced += measured::leave_out_spikes(record, finding);
+  }
+  EXPECT_EQ(replaced, 1U);
+  const std::size_t k = record.torque_N_m.size() / 2;
+  EXPECT_NEAR(record.torque_N_m[k], sound.torque_N_m[k], 0.5 * unit);
+  EXPECT_EQ(record.channels, sound.channels);
+}
+
 TEST(Outliers, HideNoCause) {
   constexpr double kHidden_N_m = 0.02;
   const Experiment experiment = with_outliers(

@@ -33,7 +33,7 @@ struct CaseNeeds {
 
 /// A run of an arm drawn at random: arm, friction, payload, torque, sampling and sensors.
 struct DrawnRun {
-  TimeRecord fine;        ///< without noise, `refinement` samples for one
+  TimeRecord fine;  ///< without noise, `refinement` samples for one
   arm::Arm arm;
   double length_m = 0.0;  ///< from axis to tip
   double total_inertia_kg_m2 = 0.0;
@@ -77,7 +77,7 @@ struct PlantedFault {
   std::size_t first_sample = 0;
   std::size_t last_sample = 0;  ///< the first sample of the finding lies between these
   std::string description;
-  double value = 0.0;  ///< its size, of faults that the described arm shows
+  double value = 0.0;              ///< its size, of faults that the described arm shows
   std::vector<Fault> beside = {};  ///< planted with it, to be found or not
   std::size_t least_readings = 0;  ///< that the finding predicts
 };

@@ -1,14 +1,12 @@
+#include "tests/measured/data_check_plant.hpp"
+
 #include "measured/spectra/robust.hpp"
-#include "tests/measured/data_check_cases.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
-#include <functional>
 #include <numbers>
-#include <set>
 #include <stdexcept>
 
 namespace flexarm::measured {
@@ -41,112 +39,6 @@ Channel& channel_of(TimeRecord& record, SensorKind kind) {
                                        [](const Channel& channel) { return channel.sensor.kind; });
   if (found == record.channels.end()) throw std::logic_error("a sensor that was not asked for");
   return *found;
-}
-
-Channel& any_channel(TimeRecord& record, RandomNumbers& random) {
-  return record.channels[random.below(record.channels.size())];
-}
-
-PlantedFault planted(const DrawnRun& run, TimeRecord record) {
-  PlantedFault result;
-  result.last_sample = record.time_s.size() - 1;
-  result.record = std::move(record);
-  result.description = run.description;
-  return result;
-}
-
-void in(PlantedFault& result, const Channel& channel) {
-  result.channel = arm::to_string(channel.sensor);
-}
-
-void remove_rows(TimeRecord& record, std::size_t first, std::size_t count) {
-  const auto cut = [&](std::vector<double>& values) {
-    values.erase(values.begin() + static_cast<std::ptrdiff_t>(first),
-                 values.begin() + static_cast<std::ptrdiff_t>(first + count));
-  };
-  cut(record.time_s);
-  cut(record.torque_N_m);
-  for (auto& channel : record.channels) cut(channel.values);
-}
-
-PlantedFault clock_jitter(std::uint64_t seed, RandomNumbers& random) {
-  const auto run = draw_run(seed);
-  auto result = planted(run, sampled(run, random));
-  auto& times = result.record.time_s;
-  const double period_s = times[1] - times[0];
-  const double how = random.uniform();
-  if (how < 0.4) {
-    const double most = log_between(random, 0.08, 0.45);
-    for (auto& time : times) time += most * period_s * between(random, -1.0, 1.0);
-  } else if (how < 0.75) {  // times may change places
-    const double rms = log_between(random, 0.3, 1.0);
-    for (auto& time : times) time += rms * period_s * random.normal();
-    result.description += fmt::format(", jitter of {} periods rms", rms);
-  } else {
-    const double share = log_between(random, 0.15, 3.0) * 8.0 / static_cast<double>(times.size());
-    const std::size_t from = times.size() / 2;
-    for (std::size_t k = from; k < times.size(); ++k) {
-      times[k] += share * period_s * static_cast<double>(k - from);
-    }
-  }
-  result.channel = "time";
-  return result;
-}
-
-PlantedFault missing_samples(std::uint64_t seed, RandomNumbers& random) {
-  const auto run = draw_run(seed);
-  auto result = planted(run, sampled(run, random));
-  auto& record = result.record;
-  const std::size_t places = 1 + random.below(5);
-  std::size_t first = record.time_s.size();
-  for (std::size_t i = 0; i < places; ++i) {
-    const std::size_t count = 1 + random.below(30);
-    const std::size_t at = 10 + random.below(record.time_s.size() - count - 20);
-    remove_rows(record, at, count);
-    first = std::min(first, at);
-  }
-  result.channel = "time";
-  result.first_sample = first;
-  result.last_sample = first;
-  if (chance(random, 0.5)) {
-    constexpr std::size_t kUncertain = 10;  // samples by which jitter hides the place of a gap
-    const double rms = log_between(random, 0.05, 0.3);
-    const double period_s = record.time_s[1] - record.time_s[0];
-    for (auto& time : record.time_s) time += rms * period_s * random.normal();
-    result.beside = {Fault::clock_jitter};
-    result.first_sample -= std::min(first, kUncertain);
-    result.last_sample += kUncertain;
-    result.description += fmt::format(", {} gaps beside jitter of {} periods rms", places, rms);
-  }
-  return result;
-}
-
-PlantedFault backward_time(std::uint64_t seed, RandomNumbers& random) {
-  const auto run = draw_run(seed);
-  auto result = planted(run, sampled(run, random));
-  auto& record = result.record;
-  const std::size_t at = 20 + random.below(record.time_s.size() - 40);
-  const std::size_t how = random.below(3);
-  const auto each = [&](const std::function<void(std::vector<double>&)>& change) {
-    change(record.time_s);
-    change(record.torque_N_m);
-    for (auto& channel : record.channels) change(channel.values);
-  };
-  if (how == 0) {  // a row written twice
-    each([&](std::vector<double>& x) {
-      x.insert(x.begin() + static_cast<std::ptrdiff_t>(at), x[at - 1]);
-    });
-  } else if (how == 1) {  // two rows exchanged
-    each([&](std::vector<double>& x) { std::swap(x[at - 1], x[at]); });
-  } else {
-    const double back_s =
-        std::max(2.0 * (record.time_s[1] - record.time_s[0]), log_between(random, 0.01, 1.0));
-    for (std::size_t k = at; k < record.time_s.size(); ++k) record.time_s[k] -= back_s;
-  }
-  result.channel = "time";
-  result.first_sample = at;
-  result.last_sample = at;
-  return result;
 }
 
 PlantedFault saturation(std::uint64_t seed, RandomNumbers& random) {
@@ -220,57 +112,6 @@ PlantedFault quantisation(std::uint64_t seed, RandomNumbers& random) {
   const double step = deviation(channel.values) * log_between(random, 0.06, 0.6);
   for (auto& value : channel.values) value = step * std::round(value / step);
   result.description += fmt::format(", {} in steps of {}", result.channel, step);
-  return result;
-}
-
-/// Single samples of the torque that the arm knows nothing of.
-PlantedFault torque_spikes(PlantedFault result, RandomNumbers& random) {
-  auto& torque = result.record.torque_N_m;
-  const double size = deviation(torque);
-  const std::size_t count = 1 + random.below(6);
-  result.first_sample = torque.size();
-  result.last_sample = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t at = 10 + random.below(torque.size() - 20);
-    const double spike = (chance(random, 0.5) ? 1.0 : -1.0) * log_between(random, 0.8, 10.0);
-    torque[at] += size * spike;
-    result.first_sample = std::min(result.first_sample, at);
-    result.last_sample = std::max(result.last_sample, at);
-    result.description += fmt::format(", spike of {:.2g} at {}", spike, at + 1);
-  }
-  result.channel = "torque";
-  return result;
-}
-
-PlantedFault spikes(std::uint64_t seed, RandomNumbers& random) {
-  const auto run = draw_run(seed);
-  auto result = planted(run, sampled(run, random));
-  if (chance(random, 0.3)) return torque_spikes(std::move(result), random);
-  auto& channel = any_channel(result.record, random);
-  in(result, channel);
-  const double size = deviation(channel.values);
-  const bool many = chance(random, 0.4);
-  const double share = many ? log_between(random, 0.01, 0.045) : 0.0;
-  const std::size_t count =
-      many ? static_cast<std::size_t>(share * static_cast<double>(channel.values.size()))
-           : 1 + random.below(6);
-  constexpr double kFound = 0.9;  // of many
-  if (many) result.least_readings = static_cast<std::size_t>(kFound * static_cast<double>(count));
-  result.first_sample = channel.values.size();
-  result.last_sample = 0;
-  std::set<std::size_t> places;
-  while (places.size() < count) {
-    const std::size_t at = 5 + random.below(channel.values.size() - 10);
-    if (!places.insert(at).second) continue;
-    const double spike = (chance(random, 0.5) ? 1.0 : -1.0) *
-                         (many ? between(random, 2.0, 4.0) : log_between(random, 0.8, 10.0));
-    channel.values[at] += size * spike;
-    if (!many) result.description += fmt::format(", spike of {:.2g} at {}", spike, at + 1);
-    result.first_sample = std::min(result.first_sample, at);
-    result.last_sample = std::max(result.last_sample, at);
-  }
-  result.description += fmt::format(", {} spikes of {} samples in {}", count,
-                                    channel.values.size(), result.channel);
   return result;
 }
 
@@ -415,154 +256,23 @@ PlantedFault zero_torque(std::uint64_t seed, RandomNumbers& random) {
   return result;
 }
 
-/// Rows written again behind themselves, and even times for them all: single rows, or a block of
-/// them.
-PlantedFault duplicated_samples(std::uint64_t seed, RandomNumbers& random) {
-  const auto run = draw_run(seed);
-  auto result = planted(run, sampled(run, random));
-  auto& record = result.record;
-  const double period_s = record.time_s[1] - record.time_s[0];
-  const std::size_t count = 1 + random.below(20);
-  const std::size_t block = chance(random, 0.5) ? 1 : count;
-  std::size_t first = record.time_s.size();
-  for (std::size_t done = 0; done < count; done += block) {
-    const std::size_t at = 20 + random.below(record.time_s.size() - 80);
-    const auto repeat = [&](std::vector<double>& x) {
-      const std::vector<double> copy(x.begin() + static_cast<std::ptrdiff_t>(at),
-                                     x.begin() + static_cast<std::ptrdiff_t>(at + block));
-      x.insert(x.begin() + static_cast<std::ptrdiff_t>(at + block), copy.begin(), copy.end());
-    };
-    repeat(record.torque_N_m);
-    for (auto& channel : record.channels) repeat(channel.values);
-    record.time_s.resize(record.torque_N_m.size());
-    first = std::min(first + (first > at ? block : 0), at + block);
-  }
-  for (std::size_t k = 0; k < record.time_s.size(); ++k) {
-    record.time_s[k] = period_s * static_cast<double>(k);
-  }
-  result.channel = "time";
-  result.first_sample = first;
-  result.last_sample = first;
-  result.description += fmt::format(", {} rows written twice in blocks of {}", count, block);
+}  // namespace
+
+Channel& any_channel(TimeRecord& record, RandomNumbers& random) {
+  return record.channels[random.below(record.channels.size())];
+}
+
+PlantedFault planted(const DrawnRun& run, TimeRecord record) {
+  PlantedFault result;
+  result.last_sample = record.time_s.size() - 1;
+  result.record = std::move(record);
+  result.description = run.description;
   return result;
 }
 
-/// Amplitude of the line of a signal at a frequency, rms of those beside it: what a line of hum
-/// must exceed.
-double amplitude_beside(const std::vector<double>& values, double period_s, double frequency_Hz) {
-  const auto samples = static_cast<double>(values.size());
-  double power = 0.0;
-  int lines = 0;
-  for (int side = 2; side <= 12; ++side) {
-    for (const int line : {-side, side}) {
-      const double omega = 2.0 * std::numbers::pi * (frequency_Hz * period_s + line / samples);
-      std::complex<double> sum;
-      for (std::size_t k = 0; k < values.size(); ++k) {
-        const double at = static_cast<double>(k);
-        const double window = 1.0 - std::cos(2.0 * std::numbers::pi * (at + 0.5) / samples);
-        sum += window * values[k] * std::polar(2.0 / samples, -omega * at);
-      }
-      power += std::norm(sum);
-      ++lines;
-    }
-  }
-  return std::sqrt(power / lines);
+void in(PlantedFault& result, const Channel& channel) {
+  result.channel = arm::to_string(channel.sensor);
 }
-
-PlantedFault hum(std::uint64_t seed, RandomNumbers& random) {
-  constexpr double kDetectable = 16.0;  // standard deviations of a line of noise
-  constexpr double kBeside = 3.0;       // lines beside it
-  while (true) {
-    const auto run = draw_run(seed);
-    auto result = planted(run, sampled(run, random));
-    auto& record = result.record;
-    const double period_s = record.time_s[1] - record.time_s[0];
-    const double mains_Hz = chance(random, 0.5) ? 50.0 : 60.0;
-    const double frequency_Hz = mains_Hz + between(random, -0.05, 0.05);
-    // Of a torque that is made of lines one more tells nothing.
-    const bool has_lines = run.description.find("multisine") != std::string::npos ||
-                           run.description.find("bang-bang") != std::string::npos;
-    const bool in_torque = chance(random, 0.3) && !has_lines;
-    auto& channel = any_channel(record, random);
-    if (in_torque) {
-      result.channel = "torque";
-    } else {
-      in(result, channel);
-    }
-    auto& values = in_torque ? record.torque_N_m : channel.values;
-    const double size = deviation(values);
-    const double noise = 2.0 * run.noise / std::sqrt(static_cast<double>(values.size()));
-    const double beside = amplitude_beside(values, period_s, frequency_Hz) / size;
-    const double least = std::max({0.05, kDetectable * noise, kBeside * beside});
-    seed += 10'000;  // another run
-    if (least > 1.0) continue;
-    const double amplitude = size * log_between(random, least, 1.0);
-    const double phase = between(random, 0.0, 2.0 * std::numbers::pi);
-    for (std::size_t k = 0; k < values.size(); ++k) {
-      values[k] += amplitude * std::cos(2.0 * std::numbers::pi * frequency_Hz * period_s *
-                                            static_cast<double>(k) + phase);
-    }
-    result.description += fmt::format(", hum of {:.2f} Hz in {}, {:.3f} deviations", frequency_Hz,
-                                      result.channel, amplitude / size);
-    return result;
-  }
-}
-
-/// A run at instants off its even times; `off_periods` one a sample.
-TimeRecord sampled_off_time(const DrawnRun& run, const std::vector<double>& off_periods) {
-  const auto stride = static_cast<double>(run.refinement);
-  const auto last = static_cast<double>(run.fine.time_s.size() - 2);
-  TimeRecord record;
-  for (const auto& channel : run.fine.channels) record.channels.push_back({channel.sensor, {}});
-  for (std::size_t k = 0; k < off_periods.size(); ++k) {
-    const auto even = k * static_cast<std::size_t>(run.refinement);
-    record.time_s.push_back(run.fine.time_s[even]);
-    record.torque_N_m.push_back(run.fine.torque_N_m[even]);
-    const double at =
-        std::clamp(stride * (static_cast<double>(k) + off_periods[k]), 0.0, last);
-    const auto before = static_cast<std::size_t>(at);
-    for (std::size_t i = 0; i < record.channels.size(); ++i) {
-      const auto& values = run.fine.channels[i].values;
-      record.channels[i].values.push_back(
-          std::lerp(values[before], values[before + 1], at - static_cast<double>(before)));
-    }
-  }
-  return record;
-}
-
-/// The largest error over noise of a channel, both rms, that instants off their times make.
-double error_over_noise(const TimeRecord& even, const TimeRecord& off, double noise) {
-  double largest = 0.0;
-  for (std::size_t i = 0; i < even.channels.size(); ++i) {
-    std::vector<double> error = off.channels[i].values;
-    for (std::size_t k = 0; k < error.size(); ++k) error[k] -= even.channels[i].values[k];
-    largest = std::max(largest, deviation(error) / (noise * deviation(even.channels[i].values)));
-  }
-  return largest;
-}
-
-PlantedFault sampling_jitter(std::uint64_t seed, RandomNumbers& random) {
-  constexpr int kRefinement = 8;
-  constexpr double kLeastError = 0.5;  // of the noise of a channel
-  while (true) {
-    const auto run = draw_run(seed, {{}, kRefinement});
-    const bool pulses = run.description.find("bang-bang") != std::string::npos;
-    const double rms = log_between(random, pulses ? 0.2 : 0.07, 0.3);
-    std::vector<double> off_periods(run.fine.time_s.size() / kRefinement);
-    const TimeRecord even = sampled_off_time(run, off_periods);
-    for (auto& off : off_periods) off = rms * random.normal();
-    TimeRecord record = sampled_off_time(run, off_periods);
-    seed += 10'000;  // another run
-    if (error_over_noise(even, record, run.noise) < kLeastError) continue;
-    finish(record, run, random);
-    auto result = planted(run, std::move(record));
-    result.channel = "time";
-    result.description += fmt::format(", instants off by {:.3f} periods rms", rms);
-    return result;
-  }
-}
-
-}  // namespace
 
 PlantedFault plant(Fault fault, std::uint64_t seed) {
   RandomNumbers random(seed, 2);

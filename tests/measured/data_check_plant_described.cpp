@@ -39,7 +39,8 @@ PlantedFault plant_offset(std::uint64_t seed, RandomNumbers& random) {
   // A sensor, or the torque beside a sensor of the hub.
   const bool is_torque = chance(random, 0.3);
   PlantedFault result = described_run(
-      seed, random, {is_torque ? std::vector{arm::SensorKind::hub_angle} : std::vector<arm::SensorKind>{}});
+      seed, random,
+      {is_torque ? std::vector{arm::SensorKind::hub_angle} : std::vector<arm::SensorKind>{}});
   if (is_torque) {
     auto& torque_N_m = result.record.torque_N_m;
     result.value =
@@ -59,7 +60,8 @@ PlantedFault plant_offset(std::uint64_t seed, RandomNumbers& random) {
 }
 
 PlantedFault plant_late_sensor(std::uint64_t seed, RandomNumbers& random) {
-  PlantedFault result = described_run(seed, random, {{arm::SensorKind::tip_acceleration, arm::SensorKind::hub_angle}});
+  PlantedFault result = described_run(
+      seed, random, {{arm::SensorKind::tip_acceleration, arm::SensorKind::hub_angle}});
   auto& channels = result.record.channels;
   Channel& channel = *std::ranges::find(channels, arm::SensorKind::tip_acceleration,
                                         [](const Channel& one) { return one.sensor.kind; });

@@ -29,7 +29,8 @@ std::string report(const RecordedRuns& recorded, const std::vector<RunFinding>& 
   return text;
 }
 
-/// Whether the odd run alone is named, with its payload to a fifth or to a tenth of the beam's mass.
+/// Whether the odd run alone is named, with its payload to a fifth or to a tenth of the beam's
+/// mass.
 bool is_named(const RecordedRuns& recorded, const std::vector<RunFinding>& findings) {
   constexpr double kShare = 0.2;
   constexpr double kOfBeam = 0.1;
@@ -71,7 +72,8 @@ TEST(RunCheckRates, DISABLED_OfManyMeasurements) {
     const auto recorded = plant_wrong_payload(static_cast<std::uint64_t>(i), true);
     const auto findings = check_runs(checked(recorded), recorded.arms);
     if (is_named(recorded, findings)) ++named;
-    if (!is_named(recorded, findings) && verbose) fmt::print("  MISS {}", report(recorded, findings));
+    if (!is_named(recorded, findings) && verbose)
+      fmt::print("  MISS {}", report(recorded, findings));
   }
   fmt::print("| wrong payload | {} | {} | {} |\n", files, named, claimed);
 }

@@ -24,7 +24,7 @@ constexpr double kFelt = 0.1;
 constexpr double kFirstStep = 1.15;
 constexpr double kGridStep = 1.25;
 constexpr int kGridReach = 12;  // 1.25^12 = 14.6
-constexpr int kRefinements = 8;
+constexpr int kPayloadRefinements = 8;
 /// Factor between payloads that counts as another, and one that does not.
 constexpr double kOther = 1.3;
 constexpr double kSame = 1.12;
@@ -99,7 +99,7 @@ Nearest nearest(const PayloadSearch& search) {
   };
   for (int i = -kGridReach; i <= kGridReach; ++i) take(std::pow(kGridStep, i));
   double step = kGridStep;
-  for (int i = 0; i < kRefinements; ++i) {
+  for (int i = 0; i < kPayloadRefinements; ++i) {
     step = std::sqrt(step);
     const double around = found.factor;
     take(around * step);

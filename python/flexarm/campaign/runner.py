@@ -2,6 +2,7 @@
 
 import asyncio
 import concurrent.futures
+import contextlib
 import csv
 import dataclasses
 import functools
@@ -13,8 +14,9 @@ import time
 
 from .cluster import LocalCluster, RemoteCluster
 from .errors import CampaignError
+from .file_digests import FileDigests
 from .program import program_digest
-from .task_files import file_digest, finished, task_digest
+from .task_files import finished, task_digest
 from .work import Shared, run_order
 
 # So many orders a worker are with the scheduler: enough that none waits for the next, few enough
@@ -56,15 +58,20 @@ class _Lost(Exception):
 class Runner:
     """Runs what has no result yet. `address` is that of a scheduler, or None for `workers` here.
 
-    `progress` is called with (ended, total, failed, seconds left or None).
+    `progress` is called with (ended, total, failed, seconds left or None), before that `starting`
+    with the number of tasks whose files have been hashed.
     """
 
-    def __init__(self, campaign, out, *, address=None, workers=1, progress=lambda *_: None):
+    def __init__(
+        self, campaign, out, *, address=None, workers=1, progress=lambda *_: None,
+        starting=lambda hashed: None,
+    ):
         self._campaign = campaign
         self._out = out
         self._address = address
         self._workers = workers
         self._progress = progress
+        self._starting = starting
         self._run = secrets.token_hex(8)
         self._generation = 0
         self._serial = 0
@@ -105,14 +112,16 @@ class Runner:
     def _known(self):
         """Finds the digest of each task, and which have a result."""
         done = finished(self._out)
-        digest_of_file = functools.lru_cache(maxsize=100_000)(file_digest)
         campaign = self._campaign
-        for task in campaign.tasks:
-            text = task_digest(
-                campaign.kind_name, campaign.kind, task, campaign.folder, self._program,
-                digest_of_file,
-            )
-            self.outcome.digests.append(bytes.fromhex(text))
+        with contextlib.closing(FileDigests(self._out / "file-digests.sqlite")) as digests:
+            digest_of_file = functools.lru_cache(maxsize=100_000)(digests)
+            for task in campaign.tasks:
+                text = task_digest(
+                    campaign.kind_name, campaign.kind, task, campaign.folder, self._program,
+                    digest_of_file,
+                )
+                self.outcome.digests.append(bytes.fromhex(text))
+                self._starting(len(self.outcome.digests))
         self.outcome.before = sum(one in done for one in self.outcome.digests)
         return done
 

@@ -15,7 +15,7 @@ from unittest import mock
 import dask
 
 import flexarm
-from flexarm.campaign import cluster, file_digests, open_results, task_files
+from flexarm.campaign import cluster, file_digests, open_results, runner, task_files
 
 from campaign_case import WAITS_S, CampaignCase
 
@@ -212,6 +212,18 @@ class KeptHashes(CampaignCase):
         self.assertEqual(self.digest(), first)
         self.assertEqual(self.digest(), first)
         self.assertEqual(len(self.read), 2)
+
+
+class Orders(unittest.TestCase):
+    def test_are_as_large_as_the_scheduler_needs_and_all_workers_allow(self):
+        self.assertEqual(runner.order_size(1.0, 1000, 2), 1)
+        self.assertEqual(runner.order_size(0.001, 10**6, 2), 32)
+        self.assertEqual(runner.order_size(0.005, 10**6, 2), 10)
+        self.assertEqual(runner.order_size(0.001, 80, 2), 5)  # each worker gets some
+        # Ten thousand workers and tasks of 2 s: 25 in an order, 50 s; at the end one by one.
+        self.assertEqual(runner.order_size(2.0, 10**7, 10_000), 25)
+        self.assertEqual(runner.order_size(2.0, 10**4, 10_000), 1)
+        self.assertEqual(runner.order_size(1e-5, 10**9, 10_000), 1000)
 
 
 class Deaths(CampaignCase):

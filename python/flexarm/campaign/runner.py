@@ -25,7 +25,11 @@ _IN_FLIGHT_PER_WORKER = 4
 # Short tasks go out together, so many that an order takes some time, as long as there are orders
 # for all workers.
 _ORDER_TAKES_S = 0.05
+# Command and scheduler spend some 2.5 ms on an order (docs/scale.md). With so many workers that they
+# could not keep up, orders are larger: half of the time of both is left.
+_ORDER_COSTS_S = 0.005
 _MOST_IN_AN_ORDER = 32
+_MOST_PER_WORKER = 0.1
 _WEIGHT_OF_THE_LAST = 0.1
 _LOOKS_EVERY_S = 0.2
 _CONNECTS_EVERY_S = 2.0
@@ -49,6 +53,19 @@ class Outcome:
     failures: dict = dataclasses.field(default_factory=dict)
     before: int = 0  # had a result when the run began
     ended: int = 0  # in this run, failures included
+
+
+def order_size(mean_s, left, workers):
+    """How many tasks of `mean_s` seconds go out as one order, of `left` for `workers`; 1 or more."""
+    takes_s = max(_ORDER_TAKES_S, _ORDER_COSTS_S * workers)
+    return max(
+        min(
+            takes_s / max(mean_s, 1e-6),
+            left / (2 * _IN_FLIGHT_PER_WORKER * workers),
+            max(_MOST_IN_AN_ORDER, _MOST_PER_WORKER * workers),
+        ),
+        1,
+    )
 
 
 class _Lost(Exception):
@@ -161,16 +178,10 @@ class Runner:
         return bool(self._in_flight)
 
     def _next_order(self, workers):
-        size = 1
-        if self._mean_s is not None:
-            left = len(self.outcome.digests) - self.outcome.before - self.outcome.ended
-            size = min(
-                _ORDER_TAKES_S / max(self._mean_s, 1e-6),
-                left / (2 * _IN_FLIGHT_PER_WORKER * workers),
-                _MOST_IN_AN_ORDER,
-            )
+        left = len(self.outcome.digests) - self.outcome.before - self.outcome.ended
+        size = 1 if self._mean_s is None else order_size(self._mean_s, left, workers)
         tasks = []
-        while len(tasks) < max(size, 1):
+        while len(tasks) < size:
             if self._again:
                 tasks.append(self._again.pop())
             elif self._next_task is not None:

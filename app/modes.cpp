@@ -227,8 +227,10 @@ int run_modes(const ModesArguments& arguments) {
   {
     const report::Progress writing("writing files");
     if (!files.empty()) write_folder(arguments.output.folder, arguments.output.force, files);
-    write_json(arguments.output.json_file,
-               report::json_document("flexarm.modes/1", {{"arms", documents}}));
+    if (!arguments.output.json_file.empty()) {
+      write_json(arguments.output.json_file,
+                 report::json_document("flexarm.modes/1", {{"arms", documents}}));
+    }
   }
   if (!arguments.output.folder.empty()) text += fmt::format("wrote {}\n", arguments.output.folder);
   text += fmt::format("next: compare the three formulations with  flexarm compare{}\n",

@@ -247,8 +247,10 @@ int run_response(const ResponseArguments& arguments) {
     const report::Progress writing("writing files");
     if (!files.empty()) write_folder(arguments.output.folder, arguments.output.force, files);
     if (with_state_space) write_state_space(*with_state_space, arguments.state_space_file);
-    write_json(arguments.output.json_file,
-               report::json_document("flexarm.response/1", {{"arms", documents}}));
+    if (!arguments.output.json_file.empty()) {
+      write_json(arguments.output.json_file,
+                 report::json_document("flexarm.response/1", {{"arms", documents}}));
+    }
   }
   text += next_step(arguments);
   print(text);

@@ -249,6 +249,7 @@ void write_files(const SimulateArguments& arguments, const arm::Arm& arm, const 
                  report::measurement_folder(name, written, plan, experiment, arguments.options.hold,
                                             arguments.output.figures.options()));
   }
+  if (arguments.output.json_file.empty()) return;
   write_json(arguments.output.json_file,
              report::simulation_document(arm, experiment, arguments.options));
 }

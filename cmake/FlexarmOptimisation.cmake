@@ -93,9 +93,9 @@ function(flexarm_optimised_libraries target out)
 endfunction()
 
 # Of a template that several objects instantiate the linker takes the first: Eigen's kernels would be
-# those of a program that is hardly optimised, and what computes would be half as fast. So the
-# libraries come before the objects of the program, whole, since nothing asks for them yet. Which
-# they are is known when all targets are.
+# those of a test that is not optimised, and what computes would be half as fast. So the libraries
+# come before the objects of the program, whole, since nothing asks for them yet. Which they are is
+# known when all targets are.
 function(flexarm_libraries_first target)
   cmake_language(EVAL CODE "cmake_language(DEFER DIRECTORY \"${PROJECT_SOURCE_DIR}\"
                               CALL flexarm_link_first ${target})")
@@ -111,10 +111,9 @@ endfunction()
 # flexarm_optimise(TARGET full|brief|test)
 function(flexarm_optimise target how)
   target_compile_options(${target} PRIVATE ${${how}_option})
-  get_target_property(type ${target} TYPE)
   if(how STREQUAL "full")
     set_target_properties(${target} PROPERTIES FLEXARM_FULL TRUE)
-  elseif(type STREQUAL "EXECUTABLE")
+  elseif(how STREQUAL "test")
     flexarm_libraries_first(${target})
   endif()
   if(FLEXARM_PRECOMPILED_HEADERS)

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <regex>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace flexarm::testing_app {
@@ -92,10 +93,12 @@ TEST_F(WrongValues, AreNamedByOptionOrFileWithWhatIsAllowed) {
   run({"new", "rig.toml"});
   write("log.csv", "t,tau,theta\n0,0.1,0\n0.01,0.1,0.2\n0.02,0.1,0.3\n");
   write("soft.toml", text_of("rig.toml") + "\n[effects.root_compliance]\nstiffness = 30\n");
-  ASSERT_EQ(run({"simulate", "--duration", "0.1", "--period", "0.01", "--excitation",
-                 "random:rms=0.01,to=20", "--out", "short"})
-                .status,
-            0);
+  for (const auto& [folder, duration_s] : {std::pair{"short", "0.1"}, std::pair{"long", "2"}}) {
+    ASSERT_EQ(run({"simulate", "--duration", duration_s, "--period", "0.01", "--excitation",
+                   "random:rms=0.01,to=20", "--out", folder})
+                  .status,
+              0);
+  }
   const std::vector<Case> cases = {
       // Numbers and words that a library names by its key.
       {{"compare", "--poles", "0"}, "--poles = 0: must be 1 or more"},
@@ -139,8 +142,8 @@ TEST_F(WrongValues, AreNamedByOptionOrFileWithWhatIsAllowed) {
       // Runs of a measurement.
       {{"identify", "short/measurement.toml"},
        "short/measurement.toml: run random: 10 samples: a spectrum needs at least "},
-      {{"identify", "short/measurement.toml", "--resolution", "1e9"},
-       "short/measurement.toml: run random: --resolution = 1000000000 Hz: must be from "},
+      {{"identify", "long/measurement.toml", "--resolution", "1e9"},
+       "long/measurement.toml: run random: --resolution = 1000000000 Hz: must be from "},
       // What would not fit into memory.
       {{"modes", "--modes", "10000001"}, "--modes = 10000001: "},
       {{"simulate", "--modes", "10000000"}, "--modes = 10000000: needs at least 9.6e+06 GB"},
